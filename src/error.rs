@@ -1,0 +1,70 @@
+//! The one error type of the library.
+
+use std::path::PathBuf;
+
+/// The result of every fallible call of this crate.
+pub type Result<T> = std::result::Result<T, Error>;
+
+/// Why a call was refused or could not be finished.
+///
+/// Every message names the argument (or the file) and its value, so that it can be shown to a user as it is.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// An argument is outside its documented range.
+    #[error("{argument}: {reason}")]
+    InvalidArgument {
+        /// The name of the argument, as the caller wrote it.
+        argument: &'static str,
+        /// Its value and the range that it misses.
+        reason: String,
+    },
+    /// The call would make more samples than can be indexed or held; refused before memory is taken.
+    #[error("{argument}: {reason}")]
+    TooLarge {
+        /// The name of the argument that asks for too much.
+        argument: &'static str,
+        /// The estimate and the limit.
+        reason: String,
+    },
+    /// A file could not be read or written.
+    #[error("{}: {source}", path.display())]
+    Io {
+        /// The file.
+        path: PathBuf,
+        /// What the operating system said.
+        source: std::io::Error,
+    },
+    /// A file was read, but is not what it should be.
+    #[error("{}: {reason}", path.display())]
+    Format {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it, with the line where the reader knows it.
+        reason: String,
+    },
+    /// The progress callback asked to stop.
+    #[error("cancelled by the progress callback")]
+    Cancelled,
+    /// Embree refused: no device, no memory, or a scene that it cannot build.
+    #[error("Embree: {0}")]
+    Embree(String),
+    /// Threads could not be started.
+    #[error("cannot start {threads} threads: {reason}")]
+    Threads {
+        /// How many were asked for.
+        threads: usize,
+        /// What the thread pool said.
+        reason: String,
+    },
+}
+
+impl Error {
+    pub(crate) fn invalid(argument: &'static str, reason: impl Into<String>) -> Self {
+        Self::InvalidArgument { argument, reason: reason.into() }
+    }
+
+    pub(crate) fn too_large(argument: &'static str, reason: impl Into<String>) -> Self {
+        Self::TooLarge { argument, reason: reason.into() }
+    }
+}

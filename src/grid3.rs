@@ -1,0 +1,126 @@
+//! Hash grid over points in space that grows: the neighbour search in 3D.
+
+/// Points in cells of one side, chained in a hash table. Insertion takes a short serial moment between parallel,
+/// read-only searches. Answers are sets: they do not depend on the order of insertion.
+pub(crate) struct Grid3 {
+    cell_size: f64,
+    origin: [f64; 3],
+    /// Head of the chain of each bucket, `NONE` if empty; a power of two, at least as many as points.
+    heads: Vec<u32>,
+    /// The next point in the chain of each point.
+    next: Vec<u32>,
+    points: Vec<[f32; 3]>,
+}
+
+const NONE: u32 = u32::MAX;
+
+impl Grid3 {
+    /// An empty grid. `cell_size` is the radius of the usual search; cells count from `origin`.
+    pub(crate) fn new(origin: [f64; 3], cell_size: f64) -> Self {
+        Self { cell_size, origin, heads: vec![NONE; 64], next: Vec::new(), points: Vec::new() }
+    }
+
+    /// The points, in the order of insertion; a point's index is its id.
+    pub(crate) fn points(&self) -> &[[f32; 3]] {
+        &self.points
+    }
+
+    fn cell(&self, point: [f64; 3]) -> [i64; 3] {
+        std::array::from_fn(|axis| ((point[axis] - self.origin[axis]) / self.cell_size).floor() as i64)
+    }
+
+    fn bucket(&self, [x, y, z]: [i64; 3]) -> usize {
+        // Large primes of Teschner et al. 2003; the multiply brings the mixed bits to the top.
+        let mixed = (x as u64).wrapping_mul(73_856_093)
+            ^ (y as u64).wrapping_mul(19_349_663)
+            ^ (z as u64).wrapping_mul(83_492_791);
+        (mixed.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> (64 - self.heads.len().ilog2())) as usize
+    }
+
+    /// Adds a point and returns its id.
+    pub(crate) fn insert(&mut self, point: [f32; 3]) -> u32 {
+        let id = self.points.len() as u32;
+        self.points.push(point);
+        self.next.push(NONE);
+        if self.points.len() > self.heads.len() {
+            self.heads = vec![NONE; 2 * self.heads.len()];
+            (0..=id).for_each(|id| self.link(id));
+        } else {
+            self.link(id);
+        }
+        id
+    }
+
+    fn link(&mut self, id: u32) {
+        let bucket = self.bucket(self.cell(self.points[id as usize].map(f64::from)));
+        self.next[id as usize] = self.heads[bucket];
+        self.heads[bucket] = id;
+    }
+
+    /// The ids of all points in the cells that a ball touches, and of some others: the caller tests the distance.
+    /// An id can come twice when two of the cells share a bucket.
+    pub(crate) fn candidates(&self, centre: [f64; 3], radius: f64) -> impl Iterator<Item = u32> {
+        // Cell borders are compared in f64 as computed on insertion; the margin covers the rounding of `centre`.
+        let reach = radius * (1.0 + 1e-9);
+        let low = self.cell(centre.map(|x| x - reach));
+        let high = self.cell(centre.map(|x| x + reach));
+        (low[2]..=high[2])
+            .flat_map(move |z| (low[1]..=high[1]).flat_map(move |y| (low[0]..=high[0]).map(move |x| [x, y, z])))
+            .flat_map(|cell| {
+                let head = self.heads[self.bucket(cell)];
+                std::iter::successors((head != NONE).then_some(head), |&id| {
+                    let next = self.next[id as usize];
+                    (next != NONE).then_some(next)
+                })
+            })
+    }
+
+    /// Whether a point other than `except` is closer to `centre` than `radius`: in f64 from the stored floats,
+    /// without tolerance (squared distances are compared, with `radius` as it is).
+    pub(crate) fn any_closer(&self, centre: [f32; 3], radius: f64, except: Option<u32>) -> bool {
+        self.candidates(centre.map(f64::from), radius)
+            .any(|id| Some(id) != except && distance_squared(centre, self.points[id as usize]) < radius * radius)
+    }
+}
+
+/// The squared distance in f64.
+pub(crate) fn distance_squared(a: [f32; 3], b: [f32; 3]) -> f64 {
+    (0..3).map(|axis| (a[axis] as f64 - b[axis] as f64).powi(2)).sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::rng::{Draw, Rng};
+
+    #[test]
+    fn finds_what_a_loop_over_all_points_finds() {
+        for cell_size in [0.02, 0.1, 3.0] {
+            let mut rng = Rng::at(9, Draw::Probe, &[]);
+            let mut grid = Grid3::new([-5.0, 0.0, 0.5], cell_size);
+            let mut points = Vec::new();
+            for id in 0..500u32 {
+                let point: [f32; 3] = std::array::from_fn(|_| rng.unit() as f32);
+                points.push(point);
+                assert_eq!(grid.insert(point), id);
+                let centre: [f32; 3] = std::array::from_fn(|_| rng.unit() as f32);
+                for radius in [0.05, 0.1] {
+                    let mut found: Vec<_> = grid
+                        .candidates(centre.map(f64::from), radius)
+                        .filter(|&id| distance_squared(centre, points[id as usize]) <= radius * radius)
+                        .collect();
+                    found.sort();
+                    found.dedup();
+                    let expected: Vec<_> = (0..=id)
+                        .filter(|&id| distance_squared(centre, points[id as usize]) <= radius * radius)
+                        .collect();
+                    assert_eq!(found, expected);
+                    assert_eq!(grid.any_closer(centre, radius, None), !expected.is_empty());
+                    let alone = !points[..id as usize].iter().any(|&p| distance_squared(p, point) < radius * radius);
+                    assert_eq!(grid.any_closer(point, radius, Some(id)), !alone);
+                }
+            }
+            assert_eq!(grid.points(), points);
+        }
+    }
+}

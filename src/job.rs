@@ -1,0 +1,233 @@
+//! A job: on which threads a long call runs, whom it tells how far it is, and who may stop it.
+//!
+//! All parallel code of the crate goes through [`Job::map`]: tasks that share nothing, results in the order of the
+//! tasks. That is what makes every result independent of the number of threads.
+
+use std::ops::ControlFlow;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::mpsc::{self, RecvTimeoutError};
+use std::time::Duration;
+
+use rayon::prelude::*;
+
+use crate::error::{Error, Result};
+
+/// How often the calling thread looks up from waiting to report progress.
+const REPORT_INTERVAL: Duration = Duration::from_millis(20);
+
+/// Called on the thread that made the call, with the finished share, which grows from 0 to 1; `Break` cancels.
+pub type Progress<'a> = dyn Fn(f64) -> ControlFlow<()> + 'a;
+
+/// The threads of the library: a rayon pool of its own, never the global one.
+///
+/// With one thread no thread is made and all work happens in the caller's. Can be shared freely between threads.
+#[derive(Debug)]
+pub struct Context {
+    pool: Option<rayon::ThreadPool>,
+}
+
+impl Context {
+    /// A context with `num_threads` threads, or one per core for 0.
+    ///
+    /// # Errors
+    /// [`Error::InvalidArgument`] above 4096 threads, [`Error::Threads`] if they cannot be started.
+    pub fn new(num_threads: usize) -> Result<Self> {
+        if num_threads > 4096 {
+            return Err(Error::invalid("num_threads", format!("{num_threads} is above 4096")));
+        }
+        let threads = match num_threads {
+            0 => std::thread::available_parallelism().map_or(1, usize::from),
+            n => n,
+        };
+        if threads == 1 {
+            return Ok(Self { pool: None });
+        }
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .thread_name(|i| format!("azulejo-{i}"))
+            .build()
+            .map_err(|error| Error::Threads { threads, reason: error.to_string() })?;
+        Ok(Self { pool: Some(pool) })
+    }
+
+    /// How many threads work on a call.
+    pub fn num_threads(&self) -> usize {
+        self.pool.as_ref().map_or(1, rayon::ThreadPool::current_num_threads)
+    }
+
+    /// Runs a call to its end and reports the last `1.0`.
+    pub(crate) fn run<T>(&self, progress: Option<&Progress>, call: impl FnOnce(&Job) -> Result<T>) -> Result<T> {
+        let job = Job { context: self, progress, from: 0.0, to: 1.0 };
+        job.report(0.0)?;
+        let result = call(&job)?;
+        job.report(1.0)?;
+        Ok(result)
+    }
+}
+
+/// A call in progress, or a part of one.
+#[derive(Clone, Copy)]
+pub(crate) struct Job<'a> {
+    context: &'a Context,
+    progress: Option<&'a Progress<'a>>,
+    from: f64,
+    to: f64,
+}
+
+impl<'a> Job<'a> {
+    /// The part of this job that lies between two shares of it. Parts follow each other; they do not overlap.
+    pub(crate) fn part(&self, from: f64, to: f64) -> Job<'a> {
+        let at = |share: f64| self.from + (self.to - self.from) * share;
+        Job { from: at(from), to: at(to), ..*self }
+    }
+
+    /// The threads that the job runs on.
+    pub(crate) fn context(&self) -> &'a Context {
+        self.context
+    }
+
+    /// Tells the caller that `share` of this part is done.
+    pub(crate) fn report(&self, share: f64) -> Result<()> {
+        let Some(progress) = self.progress else { return Ok(()) };
+        match progress(self.from + (self.to - self.from) * share) {
+            ControlFlow::Continue(()) => Ok(()),
+            ControlFlow::Break(()) => Err(Error::Cancelled),
+        }
+    }
+
+    /// `[task(0), .., task(count - 1)]`, in parallel; the order of the result never depends on the threads.
+    pub(crate) fn map<T: Send>(&self, count: usize, task: impl Fn(usize) -> T + Sync) -> Result<Vec<T>> {
+        let share = |finished: usize| finished as f64 / count.max(1) as f64;
+        match (&self.context.pool, self.progress) {
+            (None, _) => (0..count)
+                .map(|i| {
+                    let result = task(i);
+                    self.report(share(i + 1)).map(|()| result)
+                })
+                .collect(),
+            (Some(pool), None) => Ok(pool.install(|| (0..count).into_par_iter().map(|i| task(i)).collect())),
+            (Some(pool), Some(_)) => self.map_watched(pool, count, &share, task),
+        }
+    }
+
+    /// The tasks run on the pool while the calling thread reports how many are finished.
+    fn map_watched<T: Send>(
+        &self,
+        pool: &rayon::ThreadPool,
+        count: usize,
+        share: &dyn Fn(usize) -> f64,
+        task: impl Fn(usize) -> T + Sync,
+    ) -> Result<Vec<T>> {
+        let (finished, cancelled) = (AtomicUsize::new(0), AtomicBool::new(false));
+        let mut results = None;
+        // Dropping the sender, at the end or by a panic, is what ends the calling thread's watch.
+        let (running, watch) = mpsc::channel::<()>();
+        let mut verdict = Ok(());
+        pool.in_place_scope(|scope| {
+            scope.spawn(|_| {
+                let _running = running;
+                let attempt = |i| {
+                    if cancelled.load(Ordering::Relaxed) {
+                        return None;
+                    }
+                    let result = task(i);
+                    finished.fetch_add(1, Ordering::Relaxed);
+                    Some(result)
+                };
+                results = (0..count).into_par_iter().map(attempt).collect::<Option<Vec<T>>>();
+            });
+            while let Err(RecvTimeoutError::Timeout) = watch.recv_timeout(REPORT_INTERVAL) {
+                if verdict.is_ok() {
+                    verdict = self.report(share(finished.load(Ordering::Relaxed)));
+                    cancelled.store(verdict.is_err(), Ordering::Relaxed);
+                }
+            }
+        });
+        verdict?;
+        self.report(1.0)?;
+        results.ok_or(Error::Cancelled)
+    }
+
+    /// [`Job::map`] for tasks that give any number of results each, concatenated in the order of the tasks.
+    pub(crate) fn flat_map<T: Send>(&self, count: usize, task: impl Fn(usize) -> Vec<T> + Sync) -> Result<Vec<T>> {
+        let parts = self.map(count, task)?;
+        let mut all = Vec::with_capacity(parts.iter().map(Vec::len).sum());
+        parts.into_iter().for_each(|part| all.extend(part));
+        Ok(all)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::cell::{Cell, RefCell};
+    use std::thread::{self, ThreadId};
+
+    fn squares(context: &Context, progress: Option<&Progress>) -> Result<Vec<usize>> {
+        context.run(progress, |job| {
+            let first = job.part(0.0, 0.5).map(100, |i| i * i)?;
+            let second = job.part(0.5, 1.0).flat_map(100, |i| {
+                thread::sleep(Duration::from_millis(1));
+                vec![i * i; i % 3]
+            })?;
+            Ok(first.into_iter().chain(second).collect())
+        })
+    }
+
+    #[test]
+    fn results_do_not_depend_on_the_threads() {
+        let expected = squares(&Context::new(1).unwrap(), None).unwrap();
+        for threads in [2, 3, 8] {
+            let context = Context::new(threads).unwrap();
+            assert_eq!(context.num_threads(), threads);
+            assert_eq!(squares(&context, None).unwrap(), expected);
+            assert_eq!(squares(&context, Some(&|_| ControlFlow::Continue(()))).unwrap(), expected);
+        }
+    }
+
+    #[test]
+    fn progress_is_told_on_the_calling_thread_and_grows_from_zero_to_one() {
+        for threads in [1, 3] {
+            let told: RefCell<Vec<(f64, ThreadId)>> = RefCell::default();
+            let progress = |share| {
+                told.borrow_mut().push((share, thread::current().id()));
+                ControlFlow::Continue(())
+            };
+            squares(&Context::new(threads).unwrap(), Some(&progress)).unwrap();
+            let told = told.into_inner();
+            assert!(told.iter().all(|&(_, id)| id == thread::current().id()));
+            assert!(told.windows(2).all(|pair| pair[0].0 <= pair[1].0));
+            assert_eq!((told[0].0, told[told.len() - 1].0), (0.0, 1.0));
+        }
+    }
+
+    #[test]
+    fn a_call_can_be_cancelled_at_its_start_in_its_middle_and_at_its_end() {
+        for threads in [1, 3] {
+            for limit in [0.0, 0.4, 0.8, 1.0] {
+                let stopped = Cell::new(false);
+                let progress = |share| {
+                    assert!(!stopped.get(), "told after it was cancelled");
+                    stopped.set(share >= limit);
+                    if stopped.get() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+                };
+                let result = squares(&Context::new(threads).unwrap(), Some(&progress));
+                assert!(matches!(result, Err(Error::Cancelled)), "{threads} threads, limit {limit}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_panic_in_a_task_reaches_the_caller() {
+        for progress in [None, Some(&(|_| ControlFlow::Continue(())) as &Progress)] {
+            let context = Context::new(2).unwrap();
+            let call = || context.run(progress, |job| job.map(10, |i| assert_ne!(i, 5)));
+            assert!(std::panic::catch_unwind(std::panic::AssertUnwindSafe(call)).is_err());
+        }
+    }
+
+    #[test]
+    fn too_many_threads_are_refused() {
+        assert!(matches!(Context::new(5000), Err(Error::InvalidArgument { argument: "num_threads", .. })));
+    }
+}

@@ -1,0 +1,16 @@
+//! # azulejo
+//!
+//! Blue-noise sampling: maximal Poisson-disk sets in the plane and on triangle meshes, and their relaxation.
+
+#![deny(unsafe_code)]
+
+mod error;
+mod grid2;
+mod grid3;
+mod job;
+mod points;
+mod rng;
+
+pub use error::{Error, Result};
+pub use job::{Context, Progress};
+pub use points::{Boundary, Domain, SurfaceSamples};

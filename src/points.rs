@@ -1,0 +1,103 @@
+//! Domains and point containers.
+
+use crate::error::{Error, Result};
+
+/// What lies beyond the border of a domain.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Boundary {
+    /// The domain is a torus: distances wrap with the period `max - min`.
+    Periodic,
+    /// Nothing: only points inside the domain count, and they alone cover it.
+    Bounded,
+}
+
+/// An axis-aligned rectangle of the plane; its samples lie in `min <= x < max`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Domain {
+    /// The lower corner.
+    pub min: [f64; 2],
+    /// The upper corner, above `min` on both axes.
+    pub max: [f64; 2],
+    /// What lies beyond the border.
+    pub boundary: Boundary,
+}
+
+impl Domain {
+    /// The unit square.
+    pub fn unit(boundary: Boundary) -> Self {
+        Self { min: [0.0; 2], max: [1.0; 2], boundary }
+    }
+
+    /// Width and height.
+    pub fn extent(&self) -> [f64; 2] {
+        [self.max[0] - self.min[0], self.max[1] - self.min[1]]
+    }
+
+    /// The area.
+    pub fn area(&self) -> f64 {
+        let [width, height] = self.extent();
+        width * height
+    }
+
+    /// The vector from `from` to `to`; on a torus the shortest of its images.
+    pub fn offset(&self, from: [f64; 2], to: [f64; 2]) -> [f64; 2] {
+        let extent = self.extent();
+        std::array::from_fn(|axis| {
+            let d = to[axis] - from[axis];
+            match self.boundary {
+                Boundary::Bounded => d,
+                Boundary::Periodic => d - extent[axis] * (d / extent[axis]).round(),
+            }
+        })
+    }
+
+    /// Refuses what is not a rectangle of finite `f32` coordinates.
+    pub(crate) fn check(&self) -> Result<()> {
+        for axis in 0..2 {
+            let (min, max) = (self.min[axis], self.max[axis]);
+            for (argument, value) in [("domain_min", min), ("domain_max", max)] {
+                if !(value.abs() <= f32::MAX as f64) {
+                    return Err(Error::invalid(argument, format!("[{axis}] is {value}, not a finite float")));
+                }
+            }
+            if min >= max {
+                return Err(Error::invalid("domain_max", format!("[{axis}] is {max}, not above domain_min {min}")));
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Samples on a triangle mesh; all vectors have the same length, entry `i` belongs to sample `i`.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct SurfaceSamples {
+    /// Positions, recomputed from the barycentrics in `f64` and rounded once.
+    pub positions: Vec<[f32; 3]>,
+    /// Unit normals of the triangles, counter-clockwise front.
+    pub normals: Vec<[f32; 3]>,
+    /// The triangle that each sample lies on.
+    pub triangles: Vec<u32>,
+    /// `(u, v)`: the position is `(1 - u - v) * a + u * b + v * c` of the triangle's vertices, as in Embree.
+    pub barycentrics: Vec<[f32; 2]>,
+}
+
+impl SurfaceSamples {
+    /// The number of samples.
+    pub fn len(&self) -> usize {
+        self.positions.len()
+    }
+
+    /// Whether there is no sample.
+    pub fn is_empty(&self) -> bool {
+        self.positions.is_empty()
+    }
+}
+
+/// Refuses a radius that is not a positive finite number.
+pub(crate) fn check_radius(radius: f64) -> Result<()> {
+    if radius > 0.0 && radius.is_finite() {
+        Ok(())
+    } else {
+        Err(Error::invalid("radius", format!("{radius} is not a positive finite number")))
+    }
+}
