@@ -177,7 +177,7 @@ fn errors_come_with_their_text() {
     }
     let world = World::new();
     let mut text = String::new();
-    // SAFETY: the string outlives the device's use of it; Embree refuses a scene that is NULL.
+    // SAFETY: the string outlives the device's use of it; Embree refuses a type of geometry that does not exist.
     let code = unsafe {
         rtcSetDeviceErrorFunction(world.device, Some(note), ptr::from_mut(&mut text).cast());
         rtcNewGeometry(world.device, RTCGeometryType::MAX);
