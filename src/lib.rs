@@ -10,6 +10,8 @@ mod grid3;
 mod job;
 mod points;
 mod rng;
+#[allow(unsafe_code)]
+pub mod trace;
 
 pub use error::{Error, Result};
 pub use job::{Context, Progress};
