@@ -22,6 +22,8 @@ pub fn hard_domains(boundary: Boundary) -> Vec<Domain> {
         domain([2.0, -7.0], [2.03, -4.0], boundary),
         domain([-1e-30; 2], [3.3e-30, 2e-30], boundary),
         domain([-1e37, 1e36], [1e38, 2e38], boundary),
+        // About 7000 floats wide: a radius of a 109th is hardly above 64 of them.
+        domain([1.0; 2], [1.000835; 2], boundary),
     ]
 }
 
