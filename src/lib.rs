@@ -8,6 +8,10 @@ mod error;
 mod grid2;
 mod grid3;
 mod job;
+pub mod kdrt;
+mod lattice;
+pub mod maximal;
+mod memory;
 mod points;
 mod rng;
 #[allow(unsafe_code)]

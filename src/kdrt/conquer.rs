@@ -1,0 +1,94 @@
+//! Conquer, first half (thesis §2.3.3): where clips meet, conflicts are eliminated.
+//!
+//! Departure: which point of a conflict goes does not depend on the order of work. Leaves are ranked by hash, and a
+//! point survives if and only if no *surviving* point of a leaf of higher rank conflicts with it. Going through the
+//! leaves by rank, a point that conflicts with nothing inserted before it survives and is never taken back.
+//!
+//! # How far away a decision can come from
+//! Whether p0 survives depends on the points p1 in conflict with it, of higher rank, whether these do on p2, and so
+//! on: a chain whose leaves rise in rank, so that all differ. A chain of five points lies in a square of side 4·reach,
+//! which is less than 6 radii, the shortest side of a leaf. On each axis a leaf that meets this square is longer than
+//! the square, so it holds one of the two ends of the square's side; it thus holds a corner of the square. Leaves are
+//! disjoint, so there are at most four of them and no chain of five points. (A leaf as long as a bounded domain holds
+//! the square's side as far as there is one.) Chains end after three hops: knowing all points within 3·reach of p0 is
+//! enough.
+
+use crate::lattice::Rect;
+use crate::maximal::CellGrid;
+
+use super::clip::Pattern;
+use super::divide::Leaf;
+
+/// How many radii (in lattice units: reaches) around a region decide which points survive in it.
+pub(super) const LONGEST_CHAIN: i32 = 3;
+
+/// Clips the leaves, which are sorted by falling rank, inserts what survives in `window`, the grid's rectangle, and
+/// gives the points that do not.
+pub(super) fn merge(
+    grid: &mut CellGrid,
+    pattern: &Pattern,
+    leaves: &[Leaf],
+    window: &Rect,
+    reach: i32,
+) -> Vec<[i32; 2]> {
+    let mut eliminated = Vec::new();
+    for leaf in leaves {
+        // Deeper inside than this no other leaf's point conflicts.
+        let inside = leaf.rect.grown(-reach);
+        for point in pattern.clip(leaf, &leaf.rect.intersection(window)) {
+            let cell = grid.cell(point);
+            if inside.contains(point) || !grid.conflicts(cell, point) {
+                grid.insert(cell, point);
+            } else {
+                eliminated.push(point);
+            }
+        }
+    }
+    eliminated
+}
+
+/// The cells of a window in which a lattice point may be uncovered after elimination.
+///
+/// In the pattern every point is covered, by a sample at most a reach away. If that is missing from the plane, it lay
+/// outside the leaf, so the point is within a reach of the leaf's border, or it was eliminated. Both are the same for
+/// all windows that know what survives around the cell, so they agree on it.
+pub(super) struct SeamCells {
+    width: i32,
+    seam: Vec<bool>,
+}
+
+impl SeamCells {
+    pub fn new(grid: &CellGrid, leaves: &[Leaf], eliminated: &[[i32; 2]], reach: i32) -> Self {
+        let [width, height] = grid.counts();
+        let mut cells = Self { width, seam: vec![false; width as usize * height as usize] };
+        for leaf in leaves {
+            let all = grid.cells_of(&leaf.rect);
+            // A cell that the border of the inner rectangle cuts is not inside of it.
+            let inside = grid.cells_of(&leaf.rect.grown(-reach)).grown(-1);
+            if inside.is_empty() {
+                cells.mark(&all);
+                continue;
+            }
+            cells.mark(&Rect { max: [all.max[0], inside.min[1]], ..all });
+            cells.mark(&Rect { min: [all.min[0], inside.max[1]], ..all });
+            cells.mark(&Rect { max: [inside.min[0], all.max[1]], ..all });
+            cells.mark(&Rect { min: [inside.max[0], all.min[1]], ..all });
+        }
+        for &[x, y] in eliminated {
+            let disk = Rect { min: [x, y], max: [x + 1, y + 1] }.grown(reach);
+            cells.mark(&grid.cells_of(&disk));
+        }
+        cells
+    }
+
+    fn mark(&mut self, cells: &Rect) {
+        for y in cells.min[1]..cells.max[1] {
+            let row = (y * self.width) as usize;
+            self.seam[row + cells.min[0] as usize..row + cells.max[0] as usize].fill(true);
+        }
+    }
+
+    pub fn contains(&self, [x, y]: [i32; 2]) -> bool {
+        self.seam[(y * self.width + x) as usize]
+    }
+}
