@@ -11,6 +11,8 @@ mod job;
 pub mod mesh;
 mod points;
 mod rng;
+#[allow(unsafe_code)]
+pub mod trace;
 
 pub use error::{Error, Result};
 pub use job::{Context, Progress};
