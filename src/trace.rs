@@ -144,11 +144,12 @@ fn chunks(rays: &[Ray], width: usize) -> impl Iterator<Item = (u32, &[Ray])> {
     (0..).step_by(width).zip(rays.chunks(width))
 }
 
-/// Orders the hits of one packet by lane, `t` and triangle, and drops repetitions of a triangle on a ray.
+/// Orders the hits of one packet by lane, `t` and triangle, and drops repetitions: a triangle that is met twice is met
+/// at the same `t`.
 fn settle(hits: &mut Vec<Hit>) {
-    hits.sort_unstable_by(|a, b| (a.ray, a.triangle).cmp(&(b.ray, b.triangle)).then(a.t.total_cmp(&b.t)));
+    // The bits of floats above zero are in the order of the floats.
+    hits.sort_unstable_by_key(|hit| ((hit.ray as u64) << 32 | hit.t.to_bits() as u64, hit.triangle));
     hits.dedup_by_key(|hit| (hit.ray, hit.triangle));
-    hits.sort_unstable_by(|a, b| a.ray.cmp(&b.ray).then(a.t.total_cmp(&b.t)).then(a.triangle.cmp(&b.triangle)));
 }
 
 /// Embree drops bad triangles silently; here they are refused.
