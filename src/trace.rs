@@ -80,8 +80,10 @@ impl Scene {
     /// Appends every hit with `t > 0` on every ray, sorted by ray, `t` and triangle; no triangle comes twice on a ray.
     ///
     /// The rays, fewer than 2^32, are traced in packets of [`packet_width`](Self::packet_width), in their order. A ray
-    /// that has no direction, is not finite or starts beyond 1e18 hits nothing. A ray through an edge hits at least one
-    /// of the triangles that share it.
+    /// that has no direction, is not finite or starts beyond 1e18 hits nothing. A triangle without area is never hit.
+    ///
+    /// A ray through an edge hits one of the triangles that share it, or several. Which ones, and whether a ray that
+    /// only touches a triangle hits it, may depend on the other rays of its packet; nothing else does.
     pub fn all_hits(&self, rays: &[Ray], hits: &mut Vec<Hit>) {
         self.all_hits_in_packets(self.packet_width, rays, hits);
     }
