@@ -12,7 +12,9 @@ pub mod kdrt;
 mod lattice;
 pub mod maximal;
 mod memory;
+pub mod mesh;
 mod points;
+pub mod psp;
 mod rng;
 #[allow(unsafe_code)]
 pub mod trace;
