@@ -4,6 +4,8 @@
 
 #![deny(unsafe_code)]
 
+pub mod analysis;
+pub mod dcr;
 mod error;
 mod grid2;
 mod grid3;
