@@ -1,0 +1,3 @@
+//! Analysis: what a set of samples is like.
+
+pub mod spectrum;
