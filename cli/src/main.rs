@@ -4,6 +4,7 @@ mod domain;
 mod draw;
 mod output;
 mod ply;
+mod procedural;
 mod progress;
 mod text;
 
@@ -25,6 +26,8 @@ struct Cli {
 
 #[derive(Subcommand)]
 enum Command {
+    /// Write a mesh that needs no download.
+    Mesh(procedural::Procedural),
     /// Draw samples as a PNG picture.
     #[command(subcommand)]
     Draw(draw::Draw),
@@ -33,6 +36,7 @@ enum Command {
 fn run(cli: &Cli) -> Result<()> {
     let context = Context::new(cli.threads)?;
     match &cli.command {
+        Command::Mesh(procedural) => procedural.run(),
         Command::Draw(draw) => draw.run(&context),
     }
 }
