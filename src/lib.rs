@@ -9,8 +9,11 @@ mod error;
 mod grid2;
 mod grid3;
 mod job;
+pub mod mesh;
 mod points;
 mod rng;
+#[allow(unsafe_code)]
+pub mod trace;
 
 pub use error::{Error, Result};
 pub use job::{Context, Progress};
