@@ -21,32 +21,36 @@ const SKY_RAYS: usize = 4;
 /// Where the lamp is and how wide; how much of the light is its, and how much the sky's.
 const LAMP: Vec3 = Vec3::new(-0.48, 0.74, 0.47);
 const LAMP_WIDTH: f32 = 0.22;
-const LAMP_SHARE: f32 = 0.62;
-const SKY_SHARE: f32 = 0.62;
+const LAMP_SHARE: f32 = 0.66;
+const SKY_SHARE: f32 = 0.68;
 
-/// How dark the object makes the page that it stands on, and within which distance of it.
+/// How dark the object makes the page that it stands on, within which distance of it, and in which outer part of the
+/// whole view the shadow fades out: the page has no edge.
 const SHADOW: f32 = 0.5;
 const SHADOW_REACH: f32 = 1.1;
+const FADE: f32 = 0.3;
 
 /// Secondary rays start this far from the surface.
 const OFFSET: f32 = 2e-4;
 
-/// The picture of a window, row by row from the top.
+/// The picture of a `window` inside of the `whole` view, row by row from the top.
 pub fn render(
     stage: &Stage,
+    whole: &Window,
     window: &Window,
     [columns, rows]: [usize; 2],
     num_threads: usize,
     progress: &Progress,
 ) -> Result<Vec<Colour>> {
     let floor = stage.floor();
-    let row = |row| Row { stage, window, size: [columns, rows], row, floor }.render();
+    let row = |row| Row { stage, whole, window, size: [columns, rows], row, floor }.render();
     Ok(rows::in_parallel(num_threads, rows, progress, row)?.concat())
 }
 
 /// One row of pixels in the making.
 struct Row<'a> {
     stage: &'a Stage,
+    whole: &'a Window,
     window: &'a Window,
     size: [usize; 2],
     row: usize,
@@ -123,8 +127,10 @@ impl Row<'_> {
         let [origin, direction] = [ray.origin, ray.direction].map(Vec3::from);
         let t = (self.floor - origin.y) / direction.y;
         let point = origin + t * direction;
-        let fade = 1.0 - Vec2::new(point.x, point.z).length() / SHADOW_REACH;
-        (t > 0.0 && fade > 0.0).then_some((point, SHADOW * fade.min(0.5) * 2.0))
+        let far = Vec2::new(point.x, point.z).length() / SHADOW_REACH;
+        let seen_at = (self.stage.camera.project(point) - self.whole.centre).abs() / self.whole.half;
+        let fade = (2.0 * (1.0 - far)).min((1.0 - seen_at.max_element()) / FADE).min(1.0);
+        (t > 0.0 && fade > 0.0).then_some((point, SHADOW * fade * fade * (3.0 - 2.0 * fade)))
     }
 
     /// The ray to the lamp, then those to the sky.

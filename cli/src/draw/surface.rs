@@ -91,7 +91,7 @@ fn draw_views(
     for ((rect, window), area) in views.into_iter().zip(windows).zip(areas) {
         let share = area / areas.iter().sum::<f64>();
         let pixels = [rect.width, rect.height].map(|length| (length * canvas.scale()).round().max(1.0) as usize);
-        let image = render(stage, window, pixels, num_threads, &|part| progress(done + share * part))?;
+        let image = render(stage, &windows[0], window, pixels, num_threads, &|part| progress(done + share * part))?;
         canvas.image(&image, pixels[0], rect);
         done += share;
     }
