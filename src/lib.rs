@@ -10,6 +10,10 @@ mod grid2;
 mod grid3;
 mod job;
 pub mod mesh;
+pub mod kdrt;
+mod lattice;
+pub mod maximal;
+mod memory;
 mod points;
 mod rng;
 #[allow(unsafe_code)]
