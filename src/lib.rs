@@ -5,15 +5,16 @@
 #![deny(unsafe_code)]
 
 pub mod analysis;
+pub mod dcr;
 mod error;
 mod grid2;
 mod grid3;
 mod job;
-pub mod mesh;
 pub mod kdrt;
 mod lattice;
 pub mod maximal;
 mod memory;
+pub mod mesh;
 mod points;
 mod rng;
 #[allow(unsafe_code)]
