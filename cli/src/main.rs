@@ -2,6 +2,7 @@
 
 mod domain;
 mod draw;
+mod generate;
 mod output;
 mod ply;
 mod procedural;
@@ -26,6 +27,10 @@ struct Cli {
 
 #[derive(Subcommand)]
 enum Command {
+    /// Fill a rectangle with a maximal Poisson-disk set (KDRT).
+    Plane(generate::Plane),
+    /// Relax a set of the plane by distance constraints (DCR).
+    Relax(generate::Relax),
     /// Write a mesh that needs no download.
     Mesh(procedural::Procedural),
     /// Draw samples as a PNG picture.
@@ -36,6 +41,8 @@ enum Command {
 fn run(cli: &Cli) -> Result<()> {
     let context = Context::new(cli.threads)?;
     match &cli.command {
+        Command::Plane(plane) => plane.run(&context),
+        Command::Relax(relax) => relax.run(&context),
         Command::Mesh(procedural) => procedural.run(),
         Command::Draw(draw) => draw.run(&context),
     }

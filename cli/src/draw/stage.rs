@@ -7,9 +7,7 @@ use glam::Vec3;
 
 use super::camera::Camera;
 use super::discs::Discs;
-
-/// N·r²/A of a maximal Poisson-disk set: the jamming limit of random sequential placement (Zhang and Torquato 2013).
-const MAXIMAL_DENSITY: f64 = 0.69656;
+use crate::generate::MAXIMAL_DENSITY;
 
 /// The radius of a painted disc in parts of the radius of a maximal set of as many samples: discs stay apart.
 const DISC: f64 = 0.36;
