@@ -21,10 +21,6 @@ pub struct Rect {
 }
 
 impl Rect {
-    pub fn new(x: f32, y: f32, width: f32, height: f32) -> Self {
-        Self { x, y, width, height }
-    }
-
     pub fn right(&self) -> f32 {
         self.x + self.width
     }

@@ -113,7 +113,7 @@ mod tests {
     #[test]
     fn a_panel_places_values_upwards() {
         let axis = |high| Axis { label: "", range: [0.0, high], ticks: 2 };
-        let panel = Panel { rect: Rect::new(10.0, 20.0, 100.0, 50.0), x: axis(1.0), y: axis(5.0) };
+        let panel = Panel { rect: Rect { x: 10.0, y: 20.0, width: 100.0, height: 50.0 }, x: axis(1.0), y: axis(5.0) };
         assert_eq!(panel.place([0.0, 0.0]), [10.0, 70.0]);
         assert_eq!(panel.place([0.5, 5.0]), [60.0, 20.0]);
     }

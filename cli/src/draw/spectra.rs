@@ -87,7 +87,7 @@ mod tests {
     #[test]
     fn windows_of_a_large_set_are_apart_and_within_the_domain() {
         let domain = Domain { min: [-3.0, 1.0], max: [5.0, 4.0], boundary: Boundary::Periodic };
-        for (count, expected) in [(10_001, 2), (50_000, 5), (100_000, 16), (1_000_000, 16)] {
+        for (count, expected) in [(10_001, 2), (50_000, 5), (100_000, 14), (1_000_000, 16)] {
             let windows = Windows::of(&domain, count);
             assert_eq!(windows.domains.len(), expected);
             for (i, a) in windows.domains.iter().enumerate() {
