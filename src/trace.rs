@@ -80,8 +80,10 @@ impl Scene {
     /// Appends every hit with `t > 0` on every ray, sorted by ray, `t` and triangle; no triangle comes twice on a ray.
     ///
     /// The rays, fewer than 2^32, are traced in packets of [`packet_width`](Self::packet_width), in their order. A ray
-    /// that has no direction, is not finite or starts beyond 1e18 hits nothing. A ray through an edge hits at least one
-    /// of the triangles that share it.
+    /// that has no direction, is not finite or starts beyond 1e18 hits nothing. A triangle without area is never hit.
+    ///
+    /// A ray through an edge hits one of the triangles that share it, or several. Which ones, and whether a ray that
+    /// only touches a triangle hits it, may depend on the other rays of its packet; nothing else does.
     pub fn all_hits(&self, rays: &[Ray], hits: &mut Vec<Hit>) {
         self.all_hits_in_packets(self.packet_width, rays, hits);
     }
@@ -144,11 +146,12 @@ fn chunks(rays: &[Ray], width: usize) -> impl Iterator<Item = (u32, &[Ray])> {
     (0..).step_by(width).zip(rays.chunks(width))
 }
 
-/// Orders the hits of one packet by lane, `t` and triangle, and drops repetitions of a triangle on a ray.
+/// Orders the hits of one packet by lane, `t` and triangle, and drops repetitions: a triangle that is met twice is met
+/// at the same `t`.
 fn settle(hits: &mut Vec<Hit>) {
-    hits.sort_unstable_by(|a, b| (a.ray, a.triangle).cmp(&(b.ray, b.triangle)).then(a.t.total_cmp(&b.t)));
+    // The bits of floats above zero are in the order of the floats.
+    hits.sort_unstable_by_key(|hit| ((hit.ray as u64) << 32 | hit.t.to_bits() as u64, hit.triangle));
     hits.dedup_by_key(|hit| (hit.ray, hit.triangle));
-    hits.sort_unstable_by(|a, b| a.ray.cmp(&b.ray).then(a.t.total_cmp(&b.t)).then(a.triangle.cmp(&b.triangle)));
 }
 
 /// Embree drops bad triangles silently; here they are refused.
