@@ -1,10 +1,12 @@
 //! `azulejo plane`, `surface` and `relax`: the samplers of the library, from files and into files.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::time::Instant;
 
 use azulejo::dcr::{self, Neighbourhood};
-use azulejo::{Context, Error, Result, kdrt};
+use azulejo::mesh::Mesh;
+use azulejo::{Context, Error, Result, kdrt, psp};
 use clap::{Args, ValueEnum};
 
 use crate::domain::DomainArgs;
@@ -70,6 +72,37 @@ impl Plane {
         let seconds = start.elapsed().as_secs_f64();
         ply::write_plane(&output, &domain, &points)?;
         report(&self.common.output, points.len(), &format!("radius {}", rounded(radius, 4)), seconds);
+        Ok(())
+    }
+}
+
+#[derive(Args)]
+pub struct Surface {
+    /// The mesh: OBJ or PLY.
+    #[arg(value_name = "MESH")]
+    mesh: PathBuf,
+    #[command(flatten)]
+    density: Density,
+    #[command(flatten)]
+    common: Common,
+    /// How often to project patterns from three directions.
+    #[arg(long, value_name = "N", default_value_t = psp::DEFAULT_ITERATIONS)]
+    iterations: u32,
+    /// Leave uncovered what the projections leave uncovered.
+    #[arg(long)]
+    no_fill: bool,
+}
+
+impl Surface {
+    pub fn run(&self, context: &Context) -> Result<()> {
+        let output = Output::at(&self.common.output)?;
+        let mesh = Arc::new(Mesh::load(&self.mesh)?);
+        let radius = self.density.radius(mesh.area());
+        let options =
+            psp::Options { radius, iterations: self.iterations, maximal: !self.no_fill, seed: self.common.seed };
+        let (samples, done) = watched("surface", |progress| psp::sample(context, &mesh, &options, Some(progress)))?;
+        ply::write_surface(&output, &samples)?;
+        report(&self.common.output, samples.len(), &format!("radius {}", rounded(radius, 4)), done.seconds);
         Ok(())
     }
 }

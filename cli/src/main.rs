@@ -29,6 +29,8 @@ struct Cli {
 enum Command {
     /// Fill a rectangle with a maximal Poisson-disk set (KDRT).
     Plane(generate::Plane),
+    /// Cover a triangle mesh with a maximal Poisson-disk set (PSP).
+    Surface(generate::Surface),
     /// Relax a set of the plane by distance constraints (DCR).
     Relax(generate::Relax),
     /// Write a mesh that needs no download.
@@ -42,6 +44,7 @@ fn run(cli: &Cli) -> Result<()> {
     let context = Context::new(cli.threads)?;
     match &cli.command {
         Command::Plane(plane) => plane.run(&context),
+        Command::Surface(surface) => surface.run(&context),
         Command::Relax(relax) => relax.run(&context),
         Command::Mesh(procedural) => procedural.run(),
         Command::Draw(draw) => draw.run(&context),

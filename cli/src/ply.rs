@@ -8,7 +8,7 @@ use std::io::{self, BufReader, Write};
 use std::path::Path;
 
 use azulejo::{Boundary, Domain, Error, Result, SurfaceSamples};
-use ply_rs_bw::parser::{Parser, Reader};
+use ply_rs_bw::parser::{ParseError, Parser, Reader};
 use ply_rs_bw::ply::{Header, PropertyAccess, PropertyAccessResult};
 
 use crate::output::Output;
@@ -76,20 +76,22 @@ impl PropertyAccess for Position {
 pub fn read(path: &Path) -> Result<PointSet> {
     let read_error = |source| Error::Io { path: path.into(), source };
     let format_error = |reason: String| Error::Format { path: path.into(), reason };
+    // The reader's messages go on with what it had hoped for, line after line.
+    let parse_error = |error: ParseError| {
+        format_error(error.to_string().lines().next().unwrap_or_default().trim_end_matches('.').to_owned())
+    };
     let file = File::open(path).map_err(read_error)?;
     if file.metadata().map_err(read_error)?.is_dir() {
         return Err(read_error(io::ErrorKind::IsADirectory.into()));
     }
     let mut reader = Reader::new(BufReader::with_capacity(1 << 18, file));
     let parser = Parser::<Position>::new();
-    let header = parser.read_header(&mut reader).map_err(|error| format_error(error.to_string()))?;
+    let header = parser.read_header(&mut reader).map_err(parse_error)?;
     let (first, vertex) = header.elements.first().ok_or_else(|| format_error("no element in the header".to_owned()))?;
     if first != "vertex" || !["x", "y"].iter().all(|&axis| vertex.properties.contains_key(axis)) {
         return Err(format_error("the first element is not a vertex with x and y".to_owned()));
     }
-    let vertices = parser
-        .read_payload_for_element(&mut reader, vertex, &header)
-        .map_err(|error| format_error(error.to_string()))?;
+    let vertices = parser.read_payload_for_element(&mut reader, vertex, &header).map_err(parse_error)?;
     if let Some(i) = vertices.iter().position(|vertex| !vertex.0.iter().all(|x| x.is_finite())) {
         return Err(format_error(format!("vertex {i} is {:?}, not finite", vertices[i].0)));
     }

@@ -171,3 +171,29 @@ fn points_in_text_with_other_properties_are_read() {
     assert!(header.contains("comment domain 0 0 4 4 bounded\n"), "{header}");
     assert_eq!((points.len(), &points[6][..]), (16, &[2.0, 1.25][..]));
 }
+
+#[test]
+fn surface_writes_samples_with_normals_triangles_and_barycentrics() {
+    let workshop = Workshop::new();
+    workshop.write("roof.obj", "v 0 0 0\nv 2 0 0\nv 0 2 0\nv 0 0 2\nf 1 2 3\nf 1 4 2\n");
+    let said = workshop.succeed(&["surface", "roof.obj", "--radius", "0.1", "-o", "a.ply"]);
+    assert!(said.contains(" samples, radius 0.1, "), "{said}");
+    let (header, samples) = floats(&fs::read(workshop.path("a.ply")).unwrap(), 9);
+    let names = ["x", "y", "z", "nx", "ny", "nz", "triangle", "u", "v"];
+    let lines = names.map(|name| if name == "triangle" { "uint triangle".into() } else { format!("float {name}") });
+    assert!(header.ends_with(&format!("property {}\nend_header\n", lines.join("\nproperty "))), "{header}");
+    assert!((200..400).contains(&samples.len()), "{}", samples.len());
+    for sample in &samples {
+        let (triangle, [u, v]) = (sample[6].to_bits(), [sample[7], sample[8]]);
+        let [expected, normal] = match triangle {
+            0 => [[2.0 * u, 2.0 * v, 0.0], [0.0, 0.0, 1.0]],
+            _ => [[2.0 * v, 0.0, 2.0 * u], [0.0, 1.0, 0.0]],
+        };
+        assert!((0..3).all(|i| (sample[i] - expected[i]).abs() < 1e-6 && sample[3 + i] == normal[i]), "{sample:?}");
+    }
+    let few = ["surface", "roof.obj", "--count", "300", "--iterations", "1", "--no-fill", "-o", "b.ply"];
+    workshop.succeed(&few);
+    let (_, fewer) = floats(&fs::read(workshop.path("b.ply")).unwrap(), 9);
+    assert!((150..300).contains(&fewer.len()), "{}", fewer.len());
+    workshop.succeed(&["draw", "surface", "roof.obj", "a.ply", "-o", "a.png", "--size", "200"]);
+}
