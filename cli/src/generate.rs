@@ -1,5 +1,6 @@
 //! `azulejo plane`, `surface` and `relax`: the samplers of the library, from files and into files.
 
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Instant;
@@ -158,7 +159,8 @@ impl Relax {
     }
 }
 
-/// One line that says what was written.
+/// One line that says what was written. Nobody may be listening.
 fn report(path: &Path, count: usize, about: &str, seconds: f64) {
-    println!("{}: {} samples, {about}, {seconds:.2} s", path.display(), grouped(count));
+    let line = format!("{}: {} samples, {about}, {seconds:.2} s", path.display(), grouped(count));
+    _ = writeln!(io::stdout(), "{line}");
 }

@@ -217,3 +217,45 @@ fn linear(colour: Colour) -> Vec3 {
 fn encoded(light: Vec3) -> Colour {
     light.to_array().map(|part| (part.clamp(0.0, 1.0).powf(1.0 / 2.2) * 255.0).round() as u8)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::draw::stage;
+    use std::ops::ControlFlow;
+
+    #[test]
+    fn a_square_shows_glaze_paint_and_the_page_around_it() {
+        let stage = stage::tests::square([10.5, 5.5, 7.0]);
+        let window = stage.camera.window_on(stage.positions(), 1.0, 0.5);
+        let picture = render(&stage, &window, &window, [60, 60], 2, &|_| ControlFlow::Continue(())).unwrap();
+        let at = |x: f32, y: f32| {
+            let place = (stage.camera.project(Vec3::new(x, y, 0.0)) - window.centre) / window.half;
+            let [column, row] = [1.0 + place.x, 1.0 - place.y].map(|share| (share * 30.0) as usize);
+            picture[row * 60 + column]
+        };
+        let (paint, glaze) = (at(0.25, 0.25), at(-0.35, -0.25));
+        assert!(paint[2] > paint[0] + 60, "{paint:?}");
+        assert!(glaze.iter().all(|&part| part > 150) && glaze[2] < glaze[0] + 12, "{glaze:?}");
+        assert_eq!(picture[0], PAPER);
+        // The square throws a shadow on the page behind it.
+        assert!(picture.iter().any(|colour| colour[0] < PAPER[0] - 10 && colour[2] < colour[0]));
+    }
+
+    #[test]
+    fn directions_follow_the_cosine() {
+        let normal = Vec3::new(0.6, 0.0, 0.8);
+        let count = 4096;
+        let directions = (0..count).map(|i| sky_direction(normal, spread(Vec2::splat(0.3), i)));
+        let mean = directions.inspect(|d| assert!((d.length() - 1.0).abs() < 1e-5 && d.dot(normal) >= 0.0));
+        let mean = mean.sum::<Vec3>() / count as f32;
+        assert!(mean.distance(normal * 2.0 / 3.0) < 0.01, "{mean}");
+    }
+
+    #[test]
+    fn colours_survive_the_way_to_light_and_back() {
+        for colour in [PAPER, COBALT, [0, 128, 255]] {
+            assert_eq!(encoded(linear(colour)), colour);
+        }
+    }
+}

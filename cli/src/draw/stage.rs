@@ -97,3 +97,47 @@ fn vertex_normals(positions: &[Vec3], triangles: &[[u32; 3]]) -> Vec<Vec3> {
     }
     normals.iter().map(|normal| normal.normalize_or_zero()).collect()
 }
+
+#[cfg(test)]
+pub mod tests {
+    use super::*;
+
+    /// A square of side 2 upright before the camera, its two triangles wound in opposite ways, with one sample.
+    pub fn square(sample: [f32; 3]) -> Stage {
+        let positions = vec![[9.0, 4.0, 7.0], [11.0, 4.0, 7.0], [11.0, 6.0, 7.0], [9.0, 6.0, 7.0]];
+        let mesh = Mesh::new(positions, vec![[0, 1, 2], [0, 3, 2]]).unwrap();
+        Stage::new(&Context::new(1).unwrap(), &mesh, &[sample]).unwrap()
+    }
+
+    #[test]
+    fn a_mesh_is_brought_to_unit_size_and_seen_from_its_front() {
+        let stage = square([10.0, 5.0, 7.0]);
+        assert_eq!(stage.floor(), -0.5);
+        assert!((stage.radius as f64 - (MAXIMAL_DENSITY * 4.0).sqrt() / 2.0).abs() < 1e-6);
+        assert!(stage.discs.cover(Vec3::ZERO) && !stage.discs.cover(Vec3::new(0.5, 0.5, 0.0)));
+        let ray = |x, y| Ray {
+            origin: stage.camera.eye.to_array(),
+            direction: (Vec3::new(x, y, 0.0) - stage.camera.eye).to_array(),
+        };
+        let rays = [ray(0.4, -0.3), ray(-0.4, 0.3), ray(0.6, 0.0)];
+        let seen = stage.look(&rays);
+        for (seen, place) in seen.iter().zip([Vec3::new(0.4, -0.3, 0.0), Vec3::new(-0.4, 0.3, 0.0)]) {
+            let seen = seen.unwrap();
+            assert!(seen.point.distance(place) < 1e-5 && seen.normal.distance(Vec3::Z) < 1e-5);
+        }
+        assert!(seen[2].is_none());
+        assert_eq!(stage.meet(&rays), [true, true, false]);
+    }
+
+    #[test]
+    fn normals_are_smooth_across_the_edges_of_a_mesh() {
+        let positions = vec![[0.0, 0.0, 0.0], [0.0, 1.0, 0.0], [1.0, 0.0, -0.5], [-1.0, 0.0, -0.5]];
+        let mesh = Mesh::new(positions, vec![[0, 2, 1], [0, 1, 3]]).unwrap();
+        let stage = Stage::new(&Context::new(1).unwrap(), &mesh, &[[0.0; 3]]).unwrap();
+        // Just beside the common edge, half way up, the mean of the two triangles' normals looks forward.
+        let target = stage.positions[0].lerp(stage.positions[1], 0.5) + Vec3::new(1e-4, 0.0, -5e-5);
+        let ray = Ray { origin: stage.camera.eye.to_array(), direction: (target - stage.camera.eye).to_array() };
+        let seen = stage.look(&[ray])[0].unwrap();
+        assert!(seen.normal.distance(Vec3::Z) < 0.01, "{}", seen.normal);
+    }
+}

@@ -111,3 +111,26 @@ fn place(window: &Window, outer: &Window, view: Rect) -> Rect {
     let [width, height] = (window.half / outer.half * size).to_array();
     Rect { x: view.x + offset.x, y: view.y + offset.y, width, height }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_detail_lies_where_its_window_does() {
+        let outer = Window { centre: Vec2::new(1.0, 2.0), half: Vec2::new(4.0, 2.0) };
+        let view = Rect { x: 100.0, y: 50.0, width: 800.0, height: 400.0 };
+        assert_eq!(place(&outer, &outer, view), view);
+        let upper_right = Window { centre: Vec2::new(4.0, 3.0), half: Vec2::ONE };
+        assert_eq!(place(&upper_right, &outer, view), Rect { x: 700.0, y: 50.0, width: 200.0, height: 200.0 });
+    }
+
+    #[test]
+    fn each_window_lies_within_the_one_before() {
+        let [whole, middle, close] = windows(&crate::draw::stage::tests::square([10.0, 5.0, 7.0]));
+        for (inner, outer) in [(middle, whole), (close, middle)] {
+            assert!(((inner.centre - outer.centre).abs() + inner.half).cmple(outer.half).all());
+        }
+        assert_eq!(close.half.x, close.half.y);
+    }
+}
