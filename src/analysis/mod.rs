@@ -5,6 +5,7 @@
 
 pub mod coverage;
 pub mod spacing;
+pub mod spectrum;
 pub mod triangles;
 
 use crate::error::{Error, Result};

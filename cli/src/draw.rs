@@ -1,0 +1,38 @@
+//! `azulejo draw`: pictures of samples.
+
+mod camera;
+mod canvas;
+mod detail;
+mod discs;
+mod palette;
+mod plot;
+mod points;
+mod render;
+mod rows;
+mod spectra;
+mod stage;
+mod surface;
+
+use azulejo::{Context, Result};
+use clap::Subcommand;
+
+/// Widths of pictures, in pixels.
+pub const PICTURE_WIDTHS: std::ops::RangeInclusive<i64> = 200..=10_000;
+
+/// What to draw.
+#[derive(Subcommand)]
+pub enum Draw {
+    /// Draw a set of the plane, or a part of a large one, beside its power spectrum.
+    Points(points::Points),
+    /// Draw samples as discs on their mesh, with two details.
+    Surface(surface::Surface),
+}
+
+impl Draw {
+    pub fn run(&self, context: &Context) -> Result<()> {
+        match self {
+            Self::Points(points) => points.run(context),
+            Self::Surface(surface) => surface.run(context),
+        }
+    }
+}

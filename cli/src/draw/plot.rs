@@ -1,0 +1,120 @@
+//! Panels with axes.
+
+use super::canvas::{Align, Canvas, Rect, Style};
+use super::palette::{GLAZE, INK, MIST, SLATE};
+use crate::text::rounded;
+
+/// The size of tick labels; axis labels and titles are larger.
+const TICK_SIZE: f32 = 17.0;
+const LABEL_SIZE: f32 = 19.0;
+const TITLE_SIZE: f32 = 27.0;
+
+/// One direction of a panel: what it shows, from where to where, in which unit.
+pub struct Axis<'a> {
+    pub label: &'a str,
+    pub range: [f64; 2],
+    /// How many ticks there are about.
+    pub ticks: usize,
+}
+
+impl Axis<'_> {
+    /// Round numbers in the range.
+    fn tick_values(&self) -> Vec<f64> {
+        let [low, high] = self.range;
+        let step = round_step((high - low) / self.ticks as f64);
+        let (first, last) = ((low / step - 1e-6).ceil() as i64, (high / step + 1e-6).floor() as i64);
+        (first..=last).map(|k| k as f64 * step).collect()
+    }
+
+    fn share(&self, value: f64) -> f32 {
+        ((value - self.range[0]) / (self.range[1] - self.range[0])) as f32
+    }
+}
+
+/// The nearest of 1, 2, 2.5 and 5 times a power of ten that is not below `step`.
+fn round_step(step: f64) -> f64 {
+    let power = 10f64.powf(step.log10().floor());
+    let fits = |factor: &&f64| *factor * power >= step * (1.0 - 1e-9);
+    [1.0, 2.0, 2.5, 5.0].iter().find(fits).unwrap_or(&10.0) * power
+}
+
+/// A rectangle of the page with two axes.
+pub struct Panel<'a> {
+    pub rect: Rect,
+    pub x: Axis<'a>,
+    pub y: Axis<'a>,
+}
+
+impl Panel<'_> {
+    /// Where a value is on the page.
+    pub fn place(&self, [x, y]: [f64; 2]) -> [f32; 2] {
+        [self.rect.x + self.x.share(x) * self.rect.width, self.rect.bottom() - self.y.share(y) * self.rect.height]
+    }
+
+    /// The ground, before anything is drawn in the panel, with lines at the ticks of y if `ruled`.
+    pub fn ground(&self, canvas: &mut Canvas, ruled: bool) {
+        canvas.fill(self.rect, GLAZE);
+        for value in self.y.tick_values().into_iter().filter(|_| ruled) {
+            let [_, y] = self.place([self.x.range[0], value]);
+            canvas.line([[self.rect.x, y], [self.rect.right(), y]], 1.0, MIST);
+        }
+    }
+
+    /// The frame, the ticks and their labels, over what was drawn.
+    pub fn axes(&self, canvas: &mut Canvas) {
+        let Rect { x: left, .. } = self.rect;
+        let bottom = self.rect.bottom();
+        canvas.frame(self.rect, 1.5, SLATE);
+        let label = |align, upwards| Style { size: LABEL_SIZE, colour: SLATE, align, upwards };
+        let tick = |align| Style { size: TICK_SIZE, ..label(align, false) };
+        for value in self.x.tick_values() {
+            let [x, _] = self.place([value, self.y.range[0]]);
+            canvas.line([[x, bottom], [x, bottom + 7.0]], 1.5, SLATE);
+            canvas.text(&tick_label(value), [x, bottom + 25.0], tick(Align::Centre));
+        }
+        for value in self.y.tick_values() {
+            let [_, y] = self.place([self.x.range[0], value]);
+            canvas.line([[left - 7.0, y], [left, y]], 1.5, SLATE);
+            canvas.text(&tick_label(value), [left - 12.0, y + 6.0], tick(Align::Right));
+        }
+        let [x, y] = self.rect.centre();
+        canvas.text(self.x.label, [x, bottom + 51.0], label(Align::Centre, false));
+        canvas.text(self.y.label, [left - 58.0, y], label(Align::Centre, true));
+    }
+
+    /// A title above the panel, and a remark at the right end of its line.
+    pub fn title(&self, canvas: &mut Canvas, title: &str, remark: &str) {
+        let y = self.rect.y - 16.0;
+        let style = Style { size: TITLE_SIZE, colour: INK, align: Align::Left, upwards: false };
+        canvas.text(title, [self.rect.x, y], style);
+        let style = Style { size: LABEL_SIZE, colour: SLATE, align: Align::Right, ..style };
+        canvas.text(remark, [self.rect.right(), y], style);
+    }
+}
+
+fn tick_label(value: f64) -> String {
+    rounded(value, 6).replace('-', "\u{2212}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ticks_are_round_and_within_the_range() {
+        let ticks = |low, high, ticks| Axis { label: "", range: [low, high], ticks }.tick_values();
+        assert_eq!(ticks(0.0, 1.0, 5), [0.0, 0.2, 0.4, 0.6000000000000001, 0.8, 1.0]);
+        assert_eq!(ticks(-2.5, 2.5, 5), [-2.0, -1.0, 0.0, 1.0, 2.0]);
+        assert_eq!(ticks(103.0, 117.0, 3), [105.0, 110.0, 115.0]);
+        assert_eq!(ticks(0.0, 0.03, 3), [0.0, 0.01, 0.02, 0.03]);
+        assert_eq!(tick_label(-0.5), "−0.5");
+    }
+
+    #[test]
+    fn a_panel_places_values_upwards() {
+        let axis = |high| Axis { label: "", range: [0.0, high], ticks: 2 };
+        let panel = Panel { rect: Rect { x: 10.0, y: 20.0, width: 100.0, height: 50.0 }, x: axis(1.0), y: axis(5.0) };
+        assert_eq!(panel.place([0.0, 0.0]), [10.0, 70.0]);
+        assert_eq!(panel.place([0.5, 5.0]), [60.0, 20.0]);
+    }
+}

@@ -1,0 +1,166 @@
+//! `azulejo plane`, `surface` and `relax`: the samplers of the library, from files and into files.
+
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::time::Instant;
+
+use azulejo::dcr::{self, Neighbourhood};
+use azulejo::mesh::Mesh;
+use azulejo::{Context, Error, Result, kdrt, psp};
+use clap::{Args, ValueEnum};
+
+use crate::domain::DomainArgs;
+use crate::output::Output;
+use crate::ply;
+use crate::progress::watched;
+use crate::text::{grouped, rounded};
+
+/// N·r²/A of a maximal Poisson-disk set: the jamming limit of random sequential placement (Zhang and Torquato 2013).
+pub const MAXIMAL_DENSITY: f64 = 0.69656;
+
+/// How dense a set shall be.
+#[derive(Args)]
+#[group(required = true, multiple = false)]
+struct Density {
+    /// The smallest distance between samples.
+    #[arg(long, value_name = "R", allow_negative_numbers = true)]
+    radius: Option<f64>,
+    /// About how many samples there shall be.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
+    count: Option<u64>,
+}
+
+impl Density {
+    fn radius(&self, area: f64) -> f64 {
+        let of_count = |count: u64| (MAXIMAL_DENSITY * area / count as f64).sqrt();
+        self.radius.or(self.count.map(of_count)).unwrap_or(f64::NAN)
+    }
+}
+
+/// Where samples come from and go to.
+#[derive(Args)]
+struct Common {
+    /// The samples: a binary PLY file.
+    #[arg(short, long, value_name = "FILE.ply")]
+    output: PathBuf,
+    /// Another seed gives another set of the same kind.
+    #[arg(long, value_name = "SEED", default_value_t = 0)]
+    seed: u64,
+}
+
+#[derive(Args)]
+pub struct Plane {
+    #[command(flatten)]
+    density: Density,
+    #[command(flatten)]
+    common: Common,
+    #[command(flatten)]
+    domain: DomainArgs,
+    /// The size of the tiles of which the plane is made, in radii.
+    #[arg(long, value_name = "RADII", default_value_t = kdrt::DEFAULT_LEAF_SIZE, allow_negative_numbers = true)]
+    leaf_size: f64,
+}
+
+impl Plane {
+    pub fn run(&self, context: &Context) -> Result<()> {
+        let output = Output::at(&self.common.output)?;
+        let domain = self.domain.or_unit();
+        let radius = self.density.radius(domain.area());
+        let options = kdrt::Options { radius, domain, leaf_size: self.leaf_size, seed: self.common.seed };
+        let start = Instant::now();
+        let points = watched("plane", |progress| kdrt::sample(context, &options, Some(progress)))?;
+        let seconds = start.elapsed().as_secs_f64();
+        ply::write_plane(&output, &domain, &points)?;
+        report(&self.common.output, points.len(), &format!("radius {}", rounded(radius, 4)), seconds);
+        Ok(())
+    }
+}
+
+#[derive(Args)]
+pub struct Surface {
+    /// The mesh: OBJ or PLY.
+    #[arg(value_name = "MESH")]
+    mesh: PathBuf,
+    #[command(flatten)]
+    density: Density,
+    #[command(flatten)]
+    common: Common,
+    /// How often to project patterns from three directions.
+    #[arg(long, value_name = "N", default_value_t = psp::DEFAULT_ITERATIONS)]
+    iterations: u32,
+    /// Leave uncovered what the projections leave uncovered.
+    #[arg(long)]
+    no_fill: bool,
+}
+
+impl Surface {
+    pub fn run(&self, context: &Context) -> Result<()> {
+        let output = Output::at(&self.common.output)?;
+        let mesh = Arc::new(Mesh::load(&self.mesh)?);
+        let radius = self.density.radius(mesh.area());
+        let options =
+            psp::Options { radius, iterations: self.iterations, maximal: !self.no_fill, seed: self.common.seed };
+        let (samples, done) = watched("surface", |progress| psp::sample(context, &mesh, &options, Some(progress)))?;
+        ply::write_surface(&output, &samples)?;
+        report(&self.common.output, samples.len(), &format!("radius {}", rounded(radius, 4)), done.seconds);
+        Ok(())
+    }
+}
+
+#[derive(Args)]
+pub struct Relax {
+    /// The set: a PLY file with x and y.
+    #[arg(value_name = "POINTS.ply")]
+    input: PathBuf,
+    #[command(flatten)]
+    common: Common,
+    #[command(flatten)]
+    domain: DomainArgs,
+    /// Which points keep each other at a distance.
+    #[arg(long, value_enum, default_value = "delaunay")]
+    neighbourhood: Neighbours,
+    /// The largest number of steps [default: as many as the library takes].
+    #[arg(long, value_name = "STEPS")]
+    iterations: Option<u32>,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum Neighbours {
+    /// Those of the Delaunay triangulation.
+    Delaunay,
+    /// The nearest few.
+    Nearest,
+}
+
+impl Relax {
+    pub fn run(&self, context: &Context) -> Result<()> {
+        let output = Output::at(&self.common.output)?;
+        let set = ply::read(&self.input)?;
+        let domain = self.domain.of(&set).ok_or_else(|| Error::Format {
+            path: self.input.clone(),
+            reason: "does not name its domain, and does not fill the unit square: give --domain".to_owned(),
+        })?;
+        let neighbourhood = match self.neighbourhood {
+            Neighbours::Delaunay => Neighbourhood::Delaunay,
+            Neighbours::Nearest => Neighbourhood::Nearest,
+        };
+        let mut options = dcr::Options::new(domain, neighbourhood);
+        options.seed = self.common.seed;
+        options.max_iterations = self.iterations.unwrap_or(options.max_iterations);
+        let points = set.plane_positions();
+        let start = Instant::now();
+        let (relaxed, done) = watched("relax", |progress| dcr::relax(context, &options, &points, Some(progress)))?;
+        let seconds = start.elapsed().as_secs_f64();
+        ply::write_plane(&output, &domain, &relaxed)?;
+        let about = format!("{} steps, smallest distance {}", done.iterations, rounded(done.smallest_distance, 4));
+        report(&self.common.output, relaxed.len(), &about, seconds);
+        Ok(())
+    }
+}
+
+/// One line that says what was written. Nobody may be listening.
+fn report(path: &Path, count: usize, about: &str, seconds: f64) {
+    let line = format!("{}: {} samples, {about}, {seconds:.2} s", path.display(), grouped(count));
+    _ = writeln!(io::stdout(), "{line}");
+}

@@ -1,0 +1,199 @@
+//! `azulejo plane`, `relax` and `mesh`, from outside.
+
+mod common;
+
+use std::fs;
+
+use common::Workshop;
+
+/// The numbers of a binary PLY file with `width` four-byte floats per vertex, and its header.
+fn floats(file: &[u8], width: usize) -> (String, Vec<Vec<f32>>) {
+    const END: &[u8] = b"end_header\n";
+    let end = file.windows(END.len()).position(|window| window == END).unwrap() + END.len();
+    let header = String::from_utf8(file[..end].to_vec()).unwrap();
+    assert_eq!((file.len() - end) % (4 * width), 0);
+    let numbers = file[end..].chunks(4).map(|bytes| f32::from_le_bytes(bytes.try_into().unwrap()));
+    let numbers: Vec<_> = numbers.collect();
+    (header, numbers.chunks(width).map(<[f32]>::to_vec).collect())
+}
+
+#[test]
+fn plane_writes_a_conflict_free_set_and_its_domain() {
+    let workshop = Workshop::new();
+    let said = workshop.succeed(&["plane", "--radius", "0.05", "-o", "a.ply"]);
+    let (header, points) = floats(&fs::read(workshop.path("a.ply")).unwrap(), 2);
+    assert!(header.contains("comment domain 0 0 1 1 periodic\n"), "{header}");
+    assert!(header.contains(&format!("element vertex {}\n", points.len())));
+    assert!((230..330).contains(&points.len()), "{}", points.len());
+    assert!(said.starts_with(&format!("a.ply: {} samples, radius 0.05, ", points.len())), "{said}");
+    for (i, a) in points.iter().enumerate() {
+        assert!(a.iter().all(|x| (0.0..1.0).contains(x)));
+        for b in &points[..i] {
+            let offset = [0, 1].map(|axis| (a[axis] as f64 - b[axis] as f64).abs()).map(|d| d.min(1.0 - d));
+            assert!(offset[0].hypot(offset[1]) >= 0.05, "{a:?} {b:?}");
+        }
+    }
+    assert_eq!(workshop.files(), ["a.ply"]);
+}
+
+#[test]
+fn plane_depends_on_the_seed_and_not_on_the_threads() {
+    let workshop = Workshop::new();
+    let made = |seed, threads| {
+        let arguments = ["plane", "--count", "3000", "--seed", seed, "--threads", threads, "-o", "a.ply"];
+        workshop.succeed(&arguments);
+        fs::read(workshop.path("a.ply")).unwrap()
+    };
+    assert!(made("1", "1") == made("1", "3"));
+    assert!(made("1", "2") != made("2", "2"));
+}
+
+#[test]
+fn plane_fills_the_rectangle_that_it_is_given() {
+    let workshop = Workshop::new();
+    let arguments = ["plane", "--count", "500", "--domain", "-3", "2", "-1", "3", "--bounded", "--leaf-size", "8"];
+    workshop.succeed(&[&arguments[..], &["-o", "a.ply"]].concat());
+    let (header, points) = floats(&fs::read(workshop.path("a.ply")).unwrap(), 2);
+    assert!(header.contains("comment domain -3 2 -1 3 bounded\n"), "{header}");
+    assert!((400..650).contains(&points.len()), "{}", points.len());
+    assert!(points.iter().all(|p| (-3.0..-1.0).contains(&p[0]) && (2.0..3.0).contains(&p[1])));
+}
+
+#[test]
+fn relax_moves_points_apart_and_keeps_their_number_and_domain() {
+    let workshop = Workshop::new();
+    workshop.succeed(&["plane", "--count", "400", "-o", "a.ply"]);
+    for neighbourhood in ["delaunay", "nearest"] {
+        let arguments = ["relax", "a.ply", "--neighbourhood", neighbourhood, "--iterations", "30", "-o", "b.ply"];
+        let said = workshop.succeed(&arguments);
+        assert!(said.contains(" steps, smallest distance 0.0"), "{said}");
+        let [(before, old), (after, new)] =
+            ["a.ply", "b.ply"].map(|name| floats(&fs::read(workshop.path(name)).unwrap(), 2));
+        assert_eq!(before, after);
+        assert_ne!(old, new);
+    }
+    workshop.succeed(&["relax", "a.ply", "--iterations", "0", "-o", "b.ply"]);
+    assert!(fs::read(workshop.path("a.ply")).unwrap() == fs::read(workshop.path("b.ply")).unwrap());
+}
+
+#[test]
+fn mesh_writes_a_closed_mesh() {
+    let workshop = Workshop::new();
+    assert!(workshop.succeed(&["mesh", "knot", "--detail", "64", "-o", "knot.ply"]).is_empty());
+    let file = fs::read(workshop.path("knot.ply")).unwrap();
+    let header = b"element face 2048\nproperty list uchar uint vertex_indices\nend_header\n";
+    let end = file.windows(header.len()).position(|window| window == header).unwrap() + header.len();
+    // 64 rings of 16 vertices, and two triangles to a vertex.
+    assert_eq!(file.len() - end, 1024 * 12 + 2048 * 13);
+}
+
+#[test]
+fn numbers_out_of_range_are_refused_with_their_name() {
+    let workshop = Workshop::new();
+    for radius in ["0", "-1", "nan", "inf", "1e-30"] {
+        let said = workshop.refuse(&["plane", "--radius", radius, "-o", "a.ply"], 1);
+        assert!(said.starts_with("error: radius: "), "{said}");
+    }
+    let said = workshop.refuse(&["plane", "--count", "100", "--leaf-size", "2", "-o", "a.ply"], 1);
+    assert!(said.starts_with("error: leaf_size: "), "{said}");
+    let said = workshop.refuse(&["plane", "--count", "100", "--domain", "0", "0", "0", "1", "-o", "a.ply"], 1);
+    assert!(said.starts_with("error: domain_max: ") || said.starts_with("error: radius: "), "{said}");
+    let said = workshop.refuse(&["plane", "--count", "100", "--threads", "99999", "-o", "a.ply"], 1);
+    assert!(said.starts_with("error: num_threads: "), "{said}");
+}
+
+#[test]
+fn wrong_usage_has_a_code_of_its_own() {
+    let workshop = Workshop::new();
+    for arguments in [
+        &["plane", "-o", "a.ply"][..],
+        &["plane", "--count", "0", "-o", "a.ply"],
+        &["plane", "--count", "x", "-o", "a.ply"],
+        &["plane", "--count", "9", "--radius", "1", "-o", "a.ply"],
+        &["plane", "--count", "9"],
+        &["plane", "--count", "9", "--domain", "0", "1", "-o", "a.ply"],
+        &["mesh", "cube", "-o", "a.ply"],
+        &["mesh", "knot", "--detail", "1", "-o", "a.ply"],
+        &["relax", "-o", "a.ply"],
+        &["paint"],
+        &[],
+    ] {
+        assert!(!workshop.refuse(arguments, 2).is_empty());
+    }
+}
+
+#[test]
+fn files_that_cannot_be_read_are_named_with_the_reason() {
+    let workshop = Workshop::new();
+    let header = "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\nend_header\n";
+    fs::create_dir(workshop.path("folder")).unwrap();
+    for (name, content) in [
+        ("empty.ply", String::new()),
+        ("garbage.ply", "no ply at all".to_owned()),
+        ("short.ply", format!("{header}0 0\n")),
+        ("word.ply", format!("{header}0 0\n1 one\n")),
+        ("infinite.ply", format!("{header}0 0\n1 1e99\n")),
+        ("none.ply", header.replace("vertex 2", "vertex 0")),
+        ("huge.ply", header.replace("ascii", "binary_little_endian").replace("vertex 2", "vertex 99999999999999")),
+        ("flat.ply", header.replace("float y", "float z") + "0 0\n1 1\n"),
+        ("anywhere.ply", format!("{header}5 5\n7 7\n")),
+    ] {
+        workshop.write(name, content);
+        let said = workshop.refuse(&["relax", name, "-o", "out.ply"], 1);
+        assert!(said.starts_with(&format!("error: {name}: ")), "{said}");
+    }
+    for name in ["missing.ply", "folder"] {
+        let said = workshop.refuse(&["relax", name, "-o", "out.ply"], 1);
+        assert!(said.starts_with(&format!("error: {name}: ")), "{said}");
+    }
+}
+
+#[test]
+fn places_that_cannot_be_written_are_refused_before_the_work() {
+    let workshop = Workshop::new();
+    fs::create_dir(workshop.path("folder")).unwrap();
+    for place in ["folder", "missing/a.ply"] {
+        let said = workshop.refuse(&["plane", "--count", "1000000000", "-o", place], 1);
+        assert!(said.starts_with(&format!("error: {place}: ")), "{said}");
+    }
+}
+
+#[test]
+fn points_in_text_with_other_properties_are_read() {
+    let workshop = Workshop::new();
+    let mut text = "ply\nformat ascii 1.0\ncomment domain 0 0 4 4 bounded\nelement vertex 16\nproperty uchar red\n\
+                    property double y\nproperty int x\nproperty list uchar int near\nend_header\n"
+        .to_owned();
+    (0..16).for_each(|i| text += &format!("255 {}.25 {} 2 7 8\n", i / 4, i % 4));
+    workshop.write("text.ply", text);
+    workshop.succeed(&["relax", "text.ply", "--iterations", "0", "-o", "a.ply"]);
+    let (header, points) = floats(&fs::read(workshop.path("a.ply")).unwrap(), 2);
+    assert!(header.contains("comment domain 0 0 4 4 bounded\n"), "{header}");
+    assert_eq!((points.len(), &points[6][..]), (16, &[2.0, 1.25][..]));
+}
+
+#[test]
+fn surface_writes_samples_with_normals_triangles_and_barycentrics() {
+    let workshop = Workshop::new();
+    workshop.write("roof.obj", "v 0 0 0\nv 2 0 0\nv 0 2 0\nv 0 0 2\nf 1 2 3\nf 1 4 2\n");
+    let said = workshop.succeed(&["surface", "roof.obj", "--radius", "0.1", "-o", "a.ply"]);
+    assert!(said.contains(" samples, radius 0.1, "), "{said}");
+    let (header, samples) = floats(&fs::read(workshop.path("a.ply")).unwrap(), 9);
+    let names = ["x", "y", "z", "nx", "ny", "nz", "triangle", "u", "v"];
+    let lines = names.map(|name| if name == "triangle" { "uint triangle".into() } else { format!("float {name}") });
+    assert!(header.ends_with(&format!("property {}\nend_header\n", lines.join("\nproperty "))), "{header}");
+    assert!((200..400).contains(&samples.len()), "{}", samples.len());
+    for sample in &samples {
+        let (triangle, [u, v]) = (sample[6].to_bits(), [sample[7], sample[8]]);
+        let [expected, normal] = match triangle {
+            0 => [[2.0 * u, 2.0 * v, 0.0], [0.0, 0.0, 1.0]],
+            _ => [[2.0 * v, 0.0, 2.0 * u], [0.0, 1.0, 0.0]],
+        };
+        assert!((0..3).all(|i| (sample[i] - expected[i]).abs() < 1e-6 && sample[3 + i] == normal[i]), "{sample:?}");
+    }
+    let few = ["surface", "roof.obj", "--count", "300", "--iterations", "1", "--no-fill", "-o", "b.ply"];
+    workshop.succeed(&few);
+    let (_, fewer) = floats(&fs::read(workshop.path("b.ply")).unwrap(), 9);
+    assert!((150..300).contains(&fewer.len()), "{}", fewer.len());
+    workshop.succeed(&["draw", "surface", "roof.obj", "a.ply", "-o", "a.png", "--size", "200"]);
+}
