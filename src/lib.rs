@@ -8,6 +8,7 @@ mod error;
 mod grid2;
 mod grid3;
 mod job;
+pub mod mesh;
 mod points;
 mod rng;
 #[allow(unsafe_code)]

@@ -1,0 +1,101 @@
+//! Procedural triangle soups for the tests.
+
+use std::f64::consts::TAU;
+
+/// Vertices and triangles.
+pub type Soup = (Vec<[f32; 3]>, Vec<[u32; 3]>);
+
+/// A grid of `columns` x `rows` quads over the unit square of parameters, each cut in two.
+fn patch(columns: u32, rows: u32, place: impl Fn(f64, f64) -> [f64; 3]) -> Soup {
+    let mut soup = Soup::default();
+    for row in 0..=rows {
+        for column in 0..=columns {
+            soup.0.push(place(column as f64 / columns as f64, row as f64 / rows as f64).map(|x| x as f32));
+        }
+    }
+    for row in 0..rows {
+        for column in 0..columns {
+            let a = row * (columns + 1) + column;
+            let (b, c, d) = (a + 1, a + columns + 2, a + columns + 1);
+            soup.1.extend([[a, b, c], [a, c, d]]);
+        }
+    }
+    soup
+}
+
+/// The unit square at height 0, as two triangles.
+pub fn plane() -> Soup {
+    patch(1, 1, |x, y| [x, y, 0.0])
+}
+
+/// A sphere of radius 1; the triangles at the poles have no area.
+pub fn sphere() -> Soup {
+    patch(48, 24, |u, v| {
+        let ((sin, cos), (height, width)) = ((TAU * u).sin_cos(), (TAU / 2.0 * (v - 0.5)).sin_cos());
+        [width * cos, width * sin, height]
+    })
+}
+
+/// A torus of radii 1 and 0.4.
+pub fn torus() -> Soup {
+    patch(40, 20, |u, v| {
+        let ((sin, cos), (height, width)) = ((TAU * u).sin_cos(), (TAU * v).sin_cos());
+        [(1.0 + 0.4 * width) * cos, (1.0 + 0.4 * width) * sin, 0.4 * height]
+    })
+}
+
+/// Two parallel unit squares, this far apart.
+pub fn sheets(distance: f32) -> Soup {
+    let (low, mut high) = (plane(), plane());
+    high.0.iter_mut().for_each(|position| position[2] = distance);
+    join([low, high])
+}
+
+/// A triangle of length 1 and width `aspect`, askew in space, and a second one across it.
+pub fn needles(aspect: f32) -> Soup {
+    let positions = vec![
+        [0.0, 0.0, 0.0],
+        [0.6, 0.64, 0.48],
+        [0.3 + aspect, 0.32, 0.24 - aspect],
+        [0.5, 0.0, 0.1],
+        [0.1, 0.7, 0.4],
+        [0.1, 0.7 + aspect, 0.4],
+    ];
+    (positions, vec![[0, 1, 2], [3, 4, 5]])
+}
+
+/// Triangles of random corners in the unit cube: they cross each other, and nothing is closed.
+pub fn random_soup(seed: u64, triangles: u32) -> Soup {
+    let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1;
+    let mut random = || {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 40) as f32 / (1u64 << 24) as f32
+    };
+    let positions = (0..3 * triangles).map(|_| [random(), random(), random()]).collect();
+    (positions, (0..triangles).map(|t| [3 * t, 3 * t + 1, 3 * t + 2]).collect())
+}
+
+/// All of several soups.
+pub fn join(soups: impl IntoIterator<Item = Soup>) -> Soup {
+    let mut all = Soup::default();
+    for (positions, triangles) in soups {
+        let first = all.0.len() as u32;
+        all.0.extend(positions);
+        all.1.extend(triangles.iter().map(|triangle| triangle.map(|index| first + index)));
+    }
+    all
+}
+
+/// Every face twice more, once of them turned over.
+pub fn duplicated((positions, mut triangles): Soup) -> Soup {
+    let turned: Vec<_> = triangles.iter().map(|&[a, b, c]| [a, c, b]).collect();
+    triangles.extend(triangles.clone());
+    triangles.extend(turned);
+    (positions, triangles)
+}
+
+/// Scaled, then moved along all axes.
+pub fn placed((mut positions, triangles): Soup, scale: f64, offset: f64) -> Soup {
+    positions.iter_mut().for_each(|position| *position = position.map(|x| (x as f64 * scale + offset) as f32));
+    (positions, triangles)
+}
