@@ -82,6 +82,25 @@ impl Grid2 {
             }
         }
     }
+
+    /// The squared distance from `point` to the nearest point of the grid other than `except`; infinite if there is
+    /// none. On a torus the shortest images count.
+    pub(crate) fn nearest_squared(&self, point: [f64; 2], except: Option<u32>) -> f64 {
+        let [width, height] = self.domain.extent();
+        let mut radius = 1.0 / self.scale[0].max(self.scale[1]);
+        loop {
+            let mut nearest = f64::INFINITY;
+            self.for_each_within(point, radius, |id, _, d2| {
+                if Some(id) != except {
+                    nearest = nearest.min(d2);
+                }
+            });
+            if nearest < f64::INFINITY || radius > width + height {
+                return nearest;
+            }
+            radius *= 2.0;
+        }
+    }
 }
 
 #[cfg(test)]
@@ -111,6 +130,14 @@ mod tests {
                             .map(|id| (id, squared(points[id as usize])))
                             .filter(|&(_, d2)| d2 <= radius * radius)
                             .collect();
+                        let nearest = expected.iter().map(|&(_, d2)| d2).min_by(f64::total_cmp);
+                        if let Some(nearest) = nearest {
+                            assert_eq!(grid.nearest_squared(point, None), nearest);
+                        }
+                        let others = |&id: &u32| points[id as usize] != point;
+                        let nearest = (0..points.len() as u32).filter(others).map(|id| squared(points[id as usize]));
+                        let id = points.iter().position(|&other| other == point).map(|id| id as u32);
+                        assert_eq!(grid.nearest_squared(point, id), nearest.min_by(f64::total_cmp).unwrap());
                         assert_eq!(found, expected);
                     }
                 }

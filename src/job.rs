@@ -65,6 +65,32 @@ impl Context {
     }
 }
 
+/// A range of items cut into the tasks of [`Job::map`]: thousands of items each, the same for any number of threads.
+#[derive(Clone, Copy)]
+pub(crate) struct Chunks {
+    items: usize,
+}
+
+/// Cuts `0..items` into chunks.
+pub(crate) fn chunks(items: usize) -> Chunks {
+    Chunks { items }
+}
+
+impl Chunks {
+    const SIZE: usize = 2048;
+
+    /// The number of chunks.
+    pub(crate) fn len(self) -> usize {
+        self.items.div_ceil(Self::SIZE)
+    }
+
+    /// The items of one chunk.
+    pub(crate) fn range(self, chunk: usize) -> std::ops::Range<usize> {
+        let start = chunk * Self::SIZE;
+        start..(start + Self::SIZE).min(self.items)
+    }
+}
+
 /// A call in progress, or a part of one.
 #[derive(Clone, Copy)]
 pub(crate) struct Job<'a> {

@@ -1,0 +1,168 @@
+//! The domain in units of the reference spacing, and the copies of points that stand beyond its border.
+
+use glam::DVec2;
+
+use crate::points::{Boundary, Domain};
+use crate::rng::{Draw, Rng};
+
+/// How far coincident points are parted, in spacings: far above the rounding of `f64`, far below any constraint.
+const PARTING: f64 = 1e-6;
+
+/// Points of a bounded domain keep this distance from its border, in spacings, so that none falls on its mirror image.
+const INSET: f64 = 1e-6;
+
+/// A domain whose lower corner is the origin and whose unit of length is the reference spacing.
+///
+/// The reference spacing is `d_max = sqrt(2 A / (sqrt(3) N))`, the distance of `N` points in hexagonal arrangement on
+/// the area `A`; in a strip narrower than that it is the width of the strip, which no set on the torus can exceed.
+#[derive(Clone, Copy)]
+pub(crate) struct Frame {
+    domain: Domain,
+    spacing: f64,
+    size: DVec2,
+}
+
+/// A point, or a copy of one beyond the border.
+#[derive(Clone, Copy)]
+pub(crate) struct Site {
+    pub(crate) position: DVec2,
+    /// The point.
+    pub(crate) source: u32,
+    /// Per axis: 0 for the point itself, -1 and 1 for its copy beyond the lower and the upper border.
+    pub(crate) side: [i8; 2],
+}
+
+impl Site {
+    /// Whether this is a point of the domain and not a copy.
+    pub(crate) fn is_original(&self) -> bool {
+        self.side == [0, 0]
+    }
+}
+
+impl Frame {
+    /// The frame of `count` points.
+    pub(crate) fn new(domain: Domain, count: usize) -> Self {
+        let extent = DVec2::from_array(domain.extent());
+        let spacing = hexagonal_distance(&domain, count).min(extent.min_element());
+        Self { domain, spacing, size: extent / spacing }
+    }
+
+    pub(crate) fn boundary(&self) -> Boundary {
+        self.domain.boundary
+    }
+
+    /// Width and height, at least 1 each.
+    pub(crate) fn size(&self) -> DVec2 {
+        self.size
+    }
+
+    /// Brings points of the domain into the frame.
+    pub(crate) fn enter(&self, points: &[[f32; 2]]) -> Vec<DVec2> {
+        let min = DVec2::from_array(self.domain.min);
+        points.iter().map(|&[x, y]| self.fold((DVec2::new(x.into(), y.into()) - min) / self.spacing)).collect()
+    }
+
+    /// Moves all but the first of coincident points a little, each in a direction of its own.
+    pub(crate) fn part_coincident(&self, positions: &mut [DVec2], seed: u64) {
+        let mut order: Vec<u32> = (0..positions.len() as u32).collect();
+        let at = |i: u32| positions[i as usize];
+        order.sort_unstable_by(|&i, &j| at(i).x.total_cmp(&at(j).x).then(at(i).y.total_cmp(&at(j).y)).then(i.cmp(&j)));
+        let repeated: Vec<u32> =
+            order.windows(2).filter(|pair| at(pair[0]) == at(pair[1])).map(|pair| pair[1]).collect();
+        for i in repeated {
+            let mut rng = Rng::at(seed, Draw::Part, &[i.into()]);
+            let (angle, length) = (std::f64::consts::TAU * rng.unit(), PARTING * (1.0 + rng.unit()));
+            positions[i as usize] = self.fold(positions[i as usize] + length * DVec2::from_angle(angle));
+        }
+    }
+
+    /// Brings a point that has left the domain back: around the torus, or reflected by the border.
+    pub(crate) fn fold(&self, position: DVec2) -> DVec2 {
+        let axis = |x: f64, length: f64| match self.domain.boundary {
+            // Rounding can turn a small negative remainder into the length itself.
+            Boundary::Periodic => Some(x.rem_euclid(length)).filter(|&x| x < length).unwrap_or(0.0),
+            Boundary::Bounded => {
+                let x = x.rem_euclid(2.0 * length);
+                x.min(2.0 * length - x).clamp(INSET, length - INSET)
+            }
+        };
+        DVec2::new(axis(position.x, self.size.x), axis(position.y, self.size.y))
+    }
+
+    /// The way from one point to another, the shortest on a torus.
+    pub(crate) fn offset(&self, from: DVec2, to: DVec2) -> DVec2 {
+        match self.domain.boundary {
+            Boundary::Bounded => to - from,
+            Boundary::Periodic => {
+                let offset = to - from;
+                offset - self.size * (offset / self.size).round()
+            }
+        }
+    }
+
+    /// The points, in their order, and after them every copy that lies within `margin` of the domain.
+    ///
+    /// Copies are translated by a period, or mirrored by the border (thesis, Fig. 4.12 (b)). The margin is cut to the
+    /// size of the domain, so there is at most one ring of copies.
+    pub(crate) fn sites(&self, positions: impl Iterator<Item = DVec2> + Clone, margin: f64) -> Vec<Site> {
+        let copy = |axis: usize, x: f64, side: i8| {
+            let (length, margin) = (self.size[axis], margin.min(self.size[axis]));
+            let x = match self.domain.boundary {
+                Boundary::Periodic => x + f64::from(side) * length,
+                Boundary::Bounded if side == 0 => x,
+                Boundary::Bounded => f64::from(1 + side) * length - x,
+            };
+            (-margin..=length + margin).contains(&x).then_some(x)
+        };
+        let site = |(source, position)| Site { position, source, side: [0, 0] };
+        let originals = (0..).zip(positions).map(site);
+        let mut sites: Vec<Site> = originals.clone().collect();
+        for Site { position, source, .. } in originals {
+            for side in [[-1, -1], [0, -1], [1, -1], [-1, 0], [1, 0], [-1, 1], [0, 1], [1, 1]] {
+                if let (Some(x), Some(y)) = (copy(0, position.x, side[0]), copy(1, position.y, side[1])) {
+                    sites.push(Site { position: DVec2::new(x, y), source, side });
+                }
+            }
+        }
+        sites
+    }
+
+    /// Brings a point back to the user's domain, where it keeps `min <= x < max` whatever the rounding does.
+    pub(crate) fn leave(&self, position: DVec2) -> [f32; 2] {
+        std::array::from_fn(|axis| {
+            let (min, max) = (self.domain.min[axis], self.domain.max[axis]);
+            let x = (min + position[axis] * self.spacing) as f32;
+            let (first, last) = (first_float_from(min), last_float_below(max));
+            match self.domain.boundary {
+                // What rounds up to the upper border is, on the torus, at the lower one.
+                Boundary::Periodic if x > last => first,
+                _ => x.clamp(first, last),
+            }
+        })
+    }
+}
+
+/// The distance of neighbours when `count` points stand in hexagonal arrangement on the domain's area:
+/// `d_max = sqrt(2 A / (sqrt(3) N))`, twice the disk radius that the thesis calls `r_max` in §1.4.
+pub(crate) fn hexagonal_distance(domain: &Domain, count: usize) -> f64 {
+    (2.0 * domain.area() / (3f64.sqrt() * count as f64)).sqrt()
+}
+
+fn first_float_from(min: f64) -> f32 {
+    let nearest = min as f32;
+    if f64::from(nearest) < min { float_after(nearest) } else { nearest }
+}
+
+fn last_float_below(max: f64) -> f32 {
+    let nearest = max as f32;
+    if f64::from(nearest) >= max { -float_after(-nearest) } else { nearest }
+}
+
+/// The next larger float; `f32::next_up` is younger than the compiler that this crate promises to build with.
+fn float_after(x: f32) -> f32 {
+    match x.to_bits() {
+        _ if x == 0.0 => f32::from_bits(1),
+        bits if x > 0.0 => f32::from_bits(bits + 1),
+        bits => f32::from_bits(bits - 1),
+    }
+}
