@@ -1,0 +1,147 @@
+//! Fill blocks: the jittered grid in whose blocks the gaps are filled, in four phases (thesis §2.4.3, after Wei 2008).
+//!
+//! A block is filled with regard to everything within r of it: the samples that elimination left, and those of blocks
+//! of earlier phases. Blocks of one phase are farther than r apart, so each depends only on a few others and the plane
+//! needs no order beyond that of the phases.
+//!
+//! Regular borders would leave peaks in the spectrum, so each is moved by up to 3/8 of the regular width.
+
+use crate::lattice::{Lattice, Rect};
+use crate::points::Boundary;
+use crate::rng::{Draw, Rng, hash};
+
+/// The width of a block in radii, before jitter: eight cells.
+const WIDTH: f64 = 4.0 * std::f64::consts::SQRT_2;
+
+/// The phases: the parity of their blocks' column and row, and how many columns and rows around a window of blocks
+/// must be filled in this phase, so that the window's own blocks come out right.
+///
+/// A block depends on the blocks of earlier phases that touch it, at most one column and one row away (the narrowest
+/// block is wider than r). Parities change one at a time from phase to phase, so (0, 1) depends on (1, 1) in the next
+/// columns, this on (1, 0) in the next rows, this on (0, 0) in the next columns; and (0, 1) on (1, 0) and (1, 1) on
+/// (0, 0) at the corners.
+pub(super) const PHASES: [([i32; 2], [i32; 2]); 4] =
+    [([0, 0], [2, 1]), ([1, 0], [1, 1]), ([1, 1], [1, 0]), ([0, 1], [0, 0])];
+
+/// The blocks of a plane. Columns and rows count from 0; on a torus they go on beyond its borders.
+#[derive(Clone, Debug)]
+pub(super) struct Blocks {
+    size: [i32; 2],
+    counts: [i32; 2],
+    boundary: Boundary,
+    seed: u64,
+}
+
+impl Blocks {
+    /// The blocks of a lattice that is at least two of them wide and high.
+    pub fn new(lattice: &Lattice, seed: u64) -> Self {
+        let counts = lattice.size.map(|size| {
+            let count = (f64::from(size) / (WIDTH * lattice.radius)) as i32;
+            // The parities of the phases must go on across the seam of a torus.
+            if lattice.boundary == Boundary::Periodic { count / 2 * 2 } else { count }
+        });
+        Self { size: lattice.size, counts, boundary: lattice.boundary, seed }
+    }
+
+    /// Columns and rows of the domain.
+    pub fn counts(&self) -> [i32; 2] {
+        self.counts
+    }
+
+    /// Where a column (axis 0) or row (axis 1) begins.
+    fn border(&self, axis: usize, index: i32) -> i32 {
+        let (turn, index) = (index.div_euclid(self.counts[axis]), index.rem_euclid(self.counts[axis]));
+        let (size, count) = (i64::from(self.size[axis]), i64::from(self.counts[axis]));
+        let regular = (size * i64::from(index) / count) as i32;
+        let jitter = if index == 0 {
+            0
+        } else {
+            let limit = (size / count * 3 / 8) as i32;
+            Rng::at(self.seed, Draw::Block, &[axis as u64, index as u64]).below(2 * limit as u64 + 1) as i32 - limit
+        };
+        turn * self.size[axis] + regular + jitter
+    }
+
+    /// The lattice points of a rectangle of blocks, given by its first and the end of its columns and rows.
+    pub fn rect(&self, blocks: &Rect) -> Rect {
+        Rect {
+            min: std::array::from_fn(|axis| self.border(axis, blocks.min[axis])),
+            max: std::array::from_fn(|axis| self.border(axis, blocks.max[axis])),
+        }
+    }
+
+    /// A rectangle of blocks with more columns and rows around it, as far as there are any.
+    pub fn grown(&self, blocks: &Rect, [columns, rows]: [i32; 2]) -> Rect {
+        let grown = Rect {
+            min: [blocks.min[0] - columns, blocks.min[1] - rows],
+            max: [blocks.max[0] + columns, blocks.max[1] + rows],
+        };
+        match self.boundary {
+            Boundary::Periodic => grown,
+            Boundary::Bounded => grown.intersection(&Rect { min: [0; 2], max: self.counts }),
+        }
+    }
+
+    /// The random numbers of a block: the same for all its images.
+    pub fn rng(&self, block: [i32; 2]) -> Rng {
+        let [column, row] = [0, 1].map(|axis: usize| block[axis].rem_euclid(self.counts[axis]) as u64);
+        Rng::at(hash(self.seed, Draw::Block, &[]), Draw::Darts, &[column, row])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::points::Domain;
+
+    fn blocks(boundary: Boundary, seed: u64) -> (Lattice, Blocks) {
+        let domain = Domain { min: [0.0, 1.0], max: [3.0, 2.0], boundary };
+        let lattice = Lattice::new(&domain, 0.0123).unwrap();
+        let blocks = Blocks::new(&lattice, seed);
+        (lattice, blocks)
+    }
+
+    #[test]
+    fn blocks_are_wider_than_the_radius_and_fill_the_domain() {
+        for boundary in [Boundary::Periodic, Boundary::Bounded] {
+            for seed in 0..50 {
+                let (lattice, blocks) = blocks(boundary, seed);
+                for axis in 0..2 {
+                    let borders: Vec<_> = (0..=blocks.counts[axis]).map(|index| blocks.border(axis, index)).collect();
+                    assert!(borders.windows(2).all(|pair| pair[1] - pair[0] > lattice.reach));
+                    assert_eq!((borders[0], borders[borders.len() - 1]), (0, lattice.size[axis]));
+                    assert!(boundary == Boundary::Bounded || blocks.counts[axis] % 2 == 0);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_torus_of_blocks_goes_on_beyond_its_borders() {
+        let (lattice, blocks) = blocks(Boundary::Periodic, 4);
+        for index in -3..10 {
+            for axis in 0..2 {
+                let image = index + 2 * blocks.counts[axis];
+                assert_eq!(blocks.border(axis, image), blocks.border(axis, index) + 2 * lattice.size[axis]);
+            }
+            let image = [index - blocks.counts[0], index + blocks.counts[1]];
+            assert_eq!(blocks.rng(image).bits(), blocks.rng([index; 2]).bits());
+        }
+    }
+
+    /// Walks all dependencies from one block: what the margins of the phases promise is what is needed.
+    #[test]
+    fn the_margins_of_the_phases_are_exactly_what_a_block_depends_on() {
+        let phase = |[x, y]: [i32; 2]| PHASES.iter().position(|&(parity, _)| parity == [x & 1, y & 1]).unwrap();
+        let mut reached = [[0; 2]; 4];
+        let mut pending: Vec<[i32; 2]> = (0..2).flat_map(|y| (0..2).map(move |x| [x, y])).collect();
+        while let Some(block) = pending.pop() {
+            let beyond = block.map(|index: i32| (-index).max(index - 1));
+            let margin = &mut reached[phase(block)];
+            *margin = std::array::from_fn(|axis| margin[axis].max(beyond[axis]));
+            let around = (-1..=1).flat_map(|y| (-1..=1).map(move |x| [block[0] + x, block[1] + y]));
+            pending.extend(around.filter(|&other| phase(other) < phase(block)));
+        }
+        assert_eq!(reached, PHASES.map(|(_, margin)| margin));
+    }
+}

@@ -1,0 +1,111 @@
+//! Divide (thesis §2.3.1): the random kd-tree that cuts the plane into leaves.
+//!
+//! Departures: a node's random numbers are keyed by its path from the root, so that whoever needs a part of the plane
+//! descends only the nodes that meet it and finds the same leaves; and a node is split across its longer side instead
+//! of in turns, so that leaves do not become slivers.
+
+use crate::lattice::Rect;
+use crate::rng::{Draw, Rng, hash};
+
+/// A leaf of the tree.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Leaf {
+    pub rect: Rect,
+    /// The key of all random numbers of this leaf: the hash of its path.
+    pub key: u64,
+}
+
+impl Leaf {
+    /// Where leaves meet, the one of higher rank keeps its points. No two leaves have the same rank.
+    pub fn rank(&self) -> (u64, [i32; 2]) {
+        (hash(self.key, Draw::Priority, &[]), self.rect.min)
+    }
+}
+
+/// The tree, which is nowhere stored.
+#[derive(Clone, Debug)]
+pub(super) struct Tree {
+    root: Leaf,
+    /// The smallest side of a leaf, per axis: sides lie between it and its double.
+    shortest: [i32; 2],
+}
+
+impl Tree {
+    /// A tree over `rect`, whose sides are at least `shortest`.
+    pub fn new(rect: Rect, shortest: [i32; 2], seed: u64) -> Self {
+        Self { root: Leaf { rect, key: hash(seed, Draw::Split, &[]) }, shortest }
+    }
+
+    /// All leaves that meet `window`, which lies in the domain. O(leaves met + depth).
+    pub fn leaves(&self, window: &Rect) -> Vec<Leaf> {
+        let mut leaves = Vec::new();
+        self.descend(self.root, window, &mut leaves);
+        leaves
+    }
+
+    fn descend(&self, node: Leaf, window: &Rect, leaves: &mut Vec<Leaf>) {
+        if node.rect.intersection(window).is_empty() {
+            return;
+        }
+        match self.split(node) {
+            Some(halves) => halves.into_iter().for_each(|half| self.descend(half, window, leaves)),
+            None => leaves.push(node),
+        }
+    }
+
+    /// The children of a node, none if it is a leaf: as long as both parts of a split are long enough it is not.
+    fn split(&self, node: Leaf) -> Option<[Leaf; 2]> {
+        let axis = (0..2)
+            .filter(|&axis| node.rect.length(axis) / 2 >= self.shortest[axis])
+            .max_by_key(|&axis| node.rect.length(axis))?;
+        let choices = node.rect.length(axis) - 2 * self.shortest[axis] + 1;
+        let border = node.rect.min[axis]
+            + self.shortest[axis]
+            + Rng::at(node.key, Draw::Split, &[]).below(choices as u64) as i32;
+        let mut rects = [node.rect; 2];
+        rects[0].max[axis] = border;
+        rects[1].min[axis] = border;
+        Some([0, 1].map(|half| Leaf { rect: rects[half], key: hash(node.key, Draw::Split, &[half as u64]) }))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const DOMAIN: Rect = Rect { min: [0; 2], max: [10_000, 3_000] };
+
+    #[test]
+    fn leaves_tile_the_domain_with_sides_within_bounds() {
+        for seed in 0..20 {
+            let shortest = [100 + 10 * seed as i32, 250];
+            let leaves = Tree::new(DOMAIN, shortest, seed).leaves(&DOMAIN);
+            let area = |rect: &Rect| i64::from(rect.length(0)) * i64::from(rect.length(1));
+            assert_eq!(leaves.iter().map(|leaf| area(&leaf.rect)).sum::<i64>(), area(&DOMAIN));
+            for (i, leaf) in leaves.iter().enumerate() {
+                assert!((0..2).all(|axis| (shortest[axis]..2 * shortest[axis]).contains(&leaf.rect.length(axis))));
+                assert!(leaves[..i].iter().all(|other| other.rect.intersection(&leaf.rect).is_empty()));
+                assert!(leaves[..i].iter().all(|other| other.rank() != leaf.rank() && other.key != leaf.key));
+            }
+        }
+    }
+
+    #[test]
+    fn a_window_meets_the_same_leaves_as_the_whole() {
+        let tree = Tree::new(DOMAIN, [90, 90], 3);
+        let all = tree.leaves(&DOMAIN);
+        let mut rng = Rng::at(1, Draw::Probe, &[]);
+        for _ in 0..200 {
+            let min = [rng.below(9_000) as i32, rng.below(2_000) as i32];
+            let window = Rect { min, max: [min[0] + 1 + rng.below(900) as i32, min[1] + 1 + rng.below(900) as i32] };
+            let met: Vec<_> = all.iter().copied().filter(|leaf| !leaf.rect.intersection(&window).is_empty()).collect();
+            assert_eq!(tree.leaves(&window), met);
+        }
+    }
+
+    #[test]
+    fn a_side_of_twice_the_shortest_is_split_in_its_middle() {
+        let leaves = Tree::new(DOMAIN, [5_000, 3_000], 0).leaves(&DOMAIN);
+        assert_eq!(leaves.iter().map(|leaf| leaf.rect.max[0]).collect::<Vec<_>>(), [5_000, 10_000]);
+    }
+}

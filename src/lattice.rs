@@ -1,0 +1,272 @@
+//! The exact integer lattice on which all sampling of the plane happens.
+//!
+//! Rounding is where Poisson-disk samplers lose their promise: a set that keeps its radius in `f64` does not keep it
+//! once its points are stored as `f32`. Here nothing is rounded. The lattice consists of the multiples of one power
+//! of two, `unit`, the float spacing at the domain's largest coordinate, so every lattice point *is* an `f32`, and
+//! squared distances between lattice points are integers.
+//!
+//! # What is guaranteed
+//! Two points *conflict* when their squared distance is below `threshold` = ceil(r² / unit²), so points without
+//! conflict are at least r apart, in `f64`, computed from the returned floats in any way that rounds each operation
+//! correctly. A set is *maximal* when every lattice point of the domain conflicts with one of its points. A point of
+//! the domain between lattice points is at most one unit per axis from one of them, and on a torus the distance
+//! over the seam is at most one unit per axis longer than on the lattice (see [`Lattice::new`]): no point of the
+//! domain is farther than r + 2·sqrt(2)·unit, below **r + 3 float spacings** at the largest coordinate, from all
+//! samples.
+
+use crate::error::{Error, Result};
+use crate::points::{Boundary, Domain, check_radius};
+
+/// N·r² of an unbiased maximal set of N samples in the unit square: the jamming limit of random sequential
+/// placement of disks, 0.5470735, is the share of the area that disks of *diameter* r cover.
+pub(crate) const MAXIMAL_DENSITY: f64 = 0.5470735 * 4.0 / std::f64::consts::PI;
+
+/// The smallest radius in lattice units.
+const FINEST_RADIUS: f64 = 64.0;
+
+/// More samples are never made in one call.
+const MAX_SAMPLES: f64 = u32::MAX as f64;
+
+/// A rectangle of lattice points, `min` inclusive, `max` exclusive.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Rect {
+    pub min: [i32; 2],
+    pub max: [i32; 2],
+}
+
+impl Rect {
+    pub fn contains(&self, point: [i32; 2]) -> bool {
+        (0..2).all(|axis| self.min[axis] <= point[axis] && point[axis] < self.max[axis])
+    }
+
+    pub fn intersection(&self, other: &Self) -> Self {
+        Self {
+            min: std::array::from_fn(|axis| self.min[axis].max(other.min[axis])),
+            max: std::array::from_fn(|axis| self.max[axis].min(other.max[axis])),
+        }
+    }
+
+    pub fn is_empty(&self) -> bool {
+        (0..2).any(|axis| self.min[axis] >= self.max[axis])
+    }
+
+    /// The rectangle with its borders moved outwards, or inwards by a negative margin.
+    pub fn grown(&self, margin: i32) -> Self {
+        Self { min: self.min.map(|x| x - margin), max: self.max.map(|x| x + margin) }
+    }
+
+    pub fn translated(&self, by: [i32; 2]) -> Self {
+        let shift = |corner: [i32; 2]| std::array::from_fn(|axis| corner[axis] + by[axis]);
+        Self { min: shift(self.min), max: shift(self.max) }
+    }
+
+    pub fn length(&self, axis: usize) -> i32 {
+        self.max[axis] - self.min[axis]
+    }
+}
+
+/// The lattice of a domain, with the radius in its units.
+#[derive(Clone, Debug)]
+pub(crate) struct Lattice {
+    unit: f64,
+    /// The lattice point `j` of an axis stands for the coordinate `(first + j) * unit`.
+    first: [i64; 2],
+    /// Lattice points per axis; on a torus also the period.
+    pub size: [i32; 2],
+    pub boundary: Boundary,
+    /// The radius in lattice units.
+    pub radius: f64,
+    /// Points whose squared distance is below this conflict.
+    pub threshold: i64,
+    /// The largest distance along one axis at which points can conflict.
+    pub reach: i32,
+}
+
+impl Lattice {
+    /// The lattice of `domain` for `radius`.
+    ///
+    /// A torus has an integer period, the user's rounded down: distances in the user's period are never smaller,
+    /// and less than one unit per axis larger. In the user's own `f64` arithmetic this holds as well, because
+    /// rounding is monotone and the distances on the lattice are floats.
+    ///
+    /// # Errors
+    /// [`Error::InvalidArgument`] for a domain or radius out of range, when no float lies in the domain, and when
+    /// floats are too coarse for the radius; [`Error::TooLarge`] for more than about 2^32 samples.
+    pub fn new(domain: &Domain, radius: f64) -> Result<Self> {
+        domain.check()?;
+        check_radius(radius)?;
+        let extent = domain.extent();
+        let samples = MAXIMAL_DENSITY * (extent[0] / radius) * (extent[1] / radius);
+        if samples > MAX_SAMPLES {
+            let reason =
+                format!("{radius:?} asks for about {samples:.2e} samples, above the limit of {MAX_SAMPLES:.2e}");
+            return Err(Error::too_large("radius", reason));
+        }
+        let unit = float_spacing(domain);
+        if radius < FINEST_RADIUS * unit {
+            let finest = FINEST_RADIUS * unit;
+            let reason = format!(
+                "{radius:?} is below {finest:?}, {FINEST_RADIUS} times the float spacing {unit:?} at the domain's largest coordinate"
+            );
+            return Err(Error::invalid("radius", reason));
+        }
+
+        let (mut first, mut size) = ([0; 2], [0; 2]);
+        for axis in 0..2 {
+            (first[axis], size[axis]) = lattice_points(domain, axis, unit)?;
+        }
+        // No two lattice points are as far apart as 2^26, so a longer radius means the same and only overflows.
+        let radius = (radius / unit).min((1 << 26) as f64);
+        // The guard covers the rounding of the squares here and in the user's own check.
+        let threshold = (radius * radius * (1.0 + 1e-14)).ceil() as i64;
+        let reach = (threshold - 1).isqrt() as i32;
+        Ok(Self { unit, first, size, boundary: domain.boundary, radius, threshold, reach })
+    }
+
+    /// A square torus of points of this lattice, with the same radius.
+    pub fn square_torus(&self, side: i32) -> Self {
+        Self { size: [side; 2], boundary: Boundary::Periodic, ..self.clone() }
+    }
+
+    /// The domain in lattice points.
+    pub fn rect(&self) -> Rect {
+        Rect { min: [0; 2], max: self.size }
+    }
+
+    /// About how many samples a maximal set has; at least one. On a bounded domain, part of whose disks lie outside,
+    /// this is what a domain wider by half a radius on each side would have.
+    pub fn expected_samples(&self) -> f64 {
+        let beyond = if self.boundary == Boundary::Bounded { 1.0 } else { 0.0 };
+        let [width, height] = self.size.map(|size| f64::from(size) / self.radius + beyond);
+        (MAXIMAL_DENSITY * width * height).max(1.0)
+    }
+
+    /// The coordinates of a lattice point of the domain: exact.
+    pub fn position(&self, point: [i32; 2]) -> [f32; 2] {
+        std::array::from_fn(|axis| ((self.first[axis] + i64::from(point[axis])) as f64 * self.unit) as f32)
+    }
+}
+
+/// The spacing of floats at the domain's largest coordinate: a power of two whose multiples in the domain are `f32`.
+fn float_spacing(domain: &Domain) -> f64 {
+    let largest = domain.min.iter().chain(&domain.max).fold(0.0, |largest: f64, x| largest.max(x.abs()));
+    // The smallest power of two that is not below the largest coordinate bounds 24 bits of mantissa.
+    let mut exponent = -149 + 24;
+    while 2f64.powi(exponent) < largest {
+        exponent += 1;
+    }
+    2f64.powi(exponent - 24)
+}
+
+/// The first lattice point of an axis and how many there are.
+fn lattice_points(domain: &Domain, axis: usize, unit: f64) -> Result<(i64, i32)> {
+    let (min, max) = (domain.min[axis], domain.max[axis]);
+    // The quotients are exact, unless they underflow; then the comparison puts the first point right.
+    let mut first = (min / unit).ceil();
+    if first * unit < min {
+        first += 1.0;
+    }
+    let end = (max / unit).ceil();
+    if first >= end {
+        let reason = format!("[{axis}] is {max}: no multiple of the float spacing {unit:?} lies between it and {min}");
+        return Err(Error::invalid("domain_max", reason));
+    }
+    let inside = end - first;
+    let size = match domain.boundary {
+        Boundary::Bounded => inside,
+        // An axis shorter than a unit has one lattice point, which is at distance zero from its images.
+        Boundary::Periodic => (domain.extent()[axis] / unit).floor().clamp(1.0, inside),
+    };
+    Ok((first as i64, size as i32))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn lattice(min: [f64; 2], max: [f64; 2], boundary: Boundary, radius: f64) -> Result<Lattice> {
+        Lattice::new(&Domain { min, max, boundary }, radius)
+    }
+
+    /// The corners of odd domains: every lattice point is a float of the domain and no lattice point is missing.
+    #[test]
+    fn lattice_points_are_exactly_the_floats_of_the_domain_at_one_spacing() {
+        let tiny = f64::from(f32::from_bits(1));
+        let intervals = [
+            (0.0, 1.0),
+            (-1.0, 1.0),
+            (0.1, 0.7),
+            (-3.3, -1.1),
+            (1e6, 1e6 + 3.0),
+            (1e-20, 1.0),
+            (-1e-300, 1e-3),
+            (1e-300, 3e38),
+            (-(f32::MAX as f64), f32::MAX as f64),
+            (0.0, 1e-40),
+            (-5.0 * tiny, 6.0 * tiny),
+        ];
+        for (min, max) in intervals {
+            for boundary in [Boundary::Periodic, Boundary::Bounded] {
+                let extent = max - min;
+                let radius = min.abs().max(max.abs()).max(64.0 * tiny);
+                let lattice = lattice([min; 2], [max; 2], boundary, radius).unwrap();
+                for point in [0, 1, lattice.size[0] / 2, lattice.size[0] - 2, lattice.size[0] - 1] {
+                    let exact = (lattice.first[0] + i64::from(point)) as f64 * lattice.unit;
+                    assert_eq!(f64::from(lattice.position([point, 0])[0]), exact, "{min} {max}");
+                    assert!(min <= exact && exact < max, "{min} <= {exact} < {max}");
+                }
+                let [below, above] = [-1, lattice.size[0]].map(|j| (lattice.first[0] + i64::from(j)) as f64);
+                assert!(below * lattice.unit < min);
+                match boundary {
+                    Boundary::Bounded => assert!(above * lattice.unit >= max),
+                    Boundary::Periodic => {
+                        let lost = extent - f64::from(lattice.size[0]) * lattice.unit;
+                        assert!((-1e-15 * extent..lattice.unit * 1.001).contains(&lost), "{min} {max}: {lost}");
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn the_threshold_is_the_first_square_that_keeps_the_radius() {
+        for radius in [0.013, 0.25, 2e-5, 3.0 / 7.0, 0.5f64.powi(9)] {
+            let lattice = lattice([0.0; 2], [1.0; 2], Boundary::Bounded, radius).unwrap();
+            let length = |d2: i64| (d2 as f64).sqrt() * lattice.unit;
+            assert!(length(lattice.threshold) >= radius);
+            assert!(length(lattice.threshold - 2) < radius);
+            assert!(i64::from(lattice.reach).pow(2) < lattice.threshold);
+            assert!(i64::from(lattice.reach + 1).pow(2) >= lattice.threshold);
+        }
+    }
+
+    #[test]
+    fn a_radius_beyond_every_distance_makes_everything_conflict() {
+        let lattice = lattice([-1.0; 2], [1.0; 2], Boundary::Bounded, 1e300).unwrap();
+        let diagonal: i64 = lattice.size.iter().map(|&size| i64::from(size).pow(2)).sum();
+        assert!(lattice.threshold > diagonal);
+    }
+
+    #[test]
+    fn refusals_name_the_argument_and_the_values() {
+        let refusal = |min: f64, max: f64, radius: f64| {
+            lattice([min, 0.0], [max, 1.0], Boundary::Bounded, radius).unwrap_err().to_string()
+        };
+        assert_eq!(refusal(0.0, 1.0, f64::NAN), "radius: NaN is not a positive finite number");
+        assert!(refusal(0.0, 1.0, 8.346e-7).contains("about 1.00e12 samples"));
+        let spacing = refusal(1e6, 1e6 + 1.0, 0.01);
+        assert!(spacing.starts_with("radius: 0.01 is below 4.0, 64 times the float spacing 0.0625"), "{spacing}");
+        assert!(refusal(1.00000001, 1.00000002, 0.1).starts_with("domain_max: [0] is 1.00000002"));
+        assert!(refusal(1.0, 1.0, 0.1).starts_with("domain_max: [0] is 1, not above"));
+        // An area and a square of the radius that underflow are no estimate of infinitely many samples.
+        assert!(matches!(
+            lattice([0.0; 2], [1e-300; 2], Boundary::Bounded, 1e-200),
+            Err(Error::InvalidArgument { argument: "radius", .. })
+        ));
+    }
+
+    #[test]
+    fn the_density_is_the_one_of_the_jamming_limit() {
+        assert!((MAXIMAL_DENSITY - 0.69656).abs() < 1e-5);
+    }
+}

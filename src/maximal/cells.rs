@@ -1,0 +1,227 @@
+//! Cells of one sample at most: the exact conflict and coverage tests of everything that happens in the plane.
+
+use crate::lattice::Rect;
+
+/// How one axis of a plane is cut into cells. Cell `i` holds the lattice points from `border(i)` to before
+/// `border(i + 1)`; on a torus `i` may be any integer.
+#[derive(Clone, Debug)]
+pub(crate) struct CellAxis {
+    size: i32,
+    count: i32,
+    side: f64,
+}
+
+impl CellAxis {
+    /// Cells so small that any two points of one of them conflict at `radius`.
+    pub fn new(size: i32, radius: f64) -> Self {
+        let widest = radius * std::f64::consts::FRAC_1_SQRT_2 * (1.0 - 1e-9);
+        let count = (f64::from(size) / widest).ceil().max(1.0);
+        // Rounded upwards, so that the last border is `size` and not one below it.
+        let side = f64::from(size) / count * (1.0 + 2.0 * f64::EPSILON);
+        Self { size, count: count as i32, side }
+    }
+
+    /// The number of cells in the domain.
+    pub fn count(&self) -> i32 {
+        self.count
+    }
+
+    /// The first lattice point of a cell. Borders repeat exactly with the period of the torus.
+    pub fn border(&self, cell: i32) -> i32 {
+        let (turn, cell) = (cell.div_euclid(self.count), cell.rem_euclid(self.count));
+        turn * self.size + (f64::from(cell) * self.side) as i32
+    }
+
+    /// The cell that a lattice point lies in.
+    pub fn cell(&self, point: i32) -> i32 {
+        let (turn, point) = (point.div_euclid(self.size), point.rem_euclid(self.size));
+        let mut cell = (f64::from(point) / self.side) as i32;
+        while self.border(cell) > point {
+            cell -= 1;
+        }
+        while self.border(cell + 1) <= point {
+            cell += 1;
+        }
+        turn * self.count + cell
+    }
+
+    /// How many cells away a conflict can be, when points conflict up to `reach` apart.
+    fn cells_within(&self, reach: i32) -> i32 {
+        (1..self.count).find(|&cells| self.gap(cells) > f64::from(reach)).map_or(self.count, |cells| cells - 1)
+    }
+
+    /// A lower bound of the distance between points of two cells that are `cells` apart.
+    fn gap(&self, cells: i32) -> f64 {
+        if cells == 0 { 0.0 } else { (f64::from(cells - 1) * self.side * (1.0 - 1e-9)).floor() + 1.0 }
+    }
+}
+
+/// The place of a cell without a sample: far beyond every threshold.
+const NOWHERE: [i32; 2] = [-(1 << 29); 2];
+
+/// A rectangle of cells with the samples in them, which never conflict.
+///
+/// Around the cells lies a margin as wide as conflicts reach, so that neighbours are at fixed offsets. It is empty,
+/// or on a whole torus holds the images of samples on the other side.
+pub(crate) struct CellGrid {
+    /// Borders of the cells of each axis, one more than cells.
+    borders: [Vec<i32>; 2],
+    cells_per_unit: [f64; 2],
+    margin: [i32; 2],
+    samples: Vec<[i32; 2]>,
+    /// Offsets in `samples` of all cells that can hold a conflict, the nearest first: the cell itself.
+    neighbours: Vec<isize>,
+    /// On a whole torus its cells and its size.
+    torus: Option<[[i32; 2]; 2]>,
+    threshold: i64,
+}
+
+impl CellGrid {
+    /// The empty cells that hold the lattice points of `rect`. `threshold` and `reach` are those of the lattice.
+    pub fn new(axes: &[CellAxis; 2], rect: &Rect, threshold: i64, reach: i32) -> Self {
+        let borders: [Vec<i32>; 2] = std::array::from_fn(|axis| {
+            let last = axes[axis].cell(rect.max[axis] - 1);
+            (axes[axis].cell(rect.min[axis])..=last + 1).map(|cell| axes[axis].border(cell)).collect()
+        });
+        // The images in a torus of few cells fill at most one period on each side: the nearest image is nearer.
+        let margin = [0, 1].map(|axis| axes[axis].cells_within(reach));
+        let [width, height] = [0, 1].map(|axis| borders[axis].len() - 1 + 2 * margin[axis] as usize);
+        Self {
+            neighbours: neighbours(axes, margin, threshold, width as isize),
+            cells_per_unit: [0, 1].map(|axis: usize| 1.0 / axes[axis].side),
+            samples: vec![NOWHERE; width * height],
+            borders,
+            margin,
+            torus: None,
+            threshold,
+        }
+    }
+
+    /// The empty cells of a whole torus of the size of `axes`.
+    pub fn torus(axes: &[CellAxis; 2], threshold: i64, reach: i32) -> Self {
+        let size = [0, 1].map(|axis: usize| axes[axis].size);
+        let torus = Some([[0, 1].map(|axis: usize| axes[axis].count), size]);
+        Self { torus, ..Self::new(axes, &Rect { min: [0; 2], max: size }, threshold, reach) }
+    }
+
+    /// Cells per axis.
+    pub fn counts(&self) -> [i32; 2] {
+        [0, 1].map(|axis: usize| self.borders[axis].len() as i32 - 1)
+    }
+
+    /// The lattice points of a cell.
+    pub fn rect(&self, cell: [i32; 2]) -> Rect {
+        let border = |shift| std::array::from_fn(|axis| self.borders[axis][(cell[axis] + shift) as usize]);
+        Rect { min: border(0), max: border(1) }
+    }
+
+    /// The cell of a lattice point of the grid.
+    pub fn cell(&self, point: [i32; 2]) -> [i32; 2] {
+        std::array::from_fn(|axis| {
+            let borders = &self.borders[axis];
+            let mut cell = (f64::from(point[axis] - borders[0]) * self.cells_per_unit[axis]) as usize;
+            // The quotient ignores that the first border is rounded: it may be one off.
+            cell = cell.min(borders.len() - 2);
+            cell -= usize::from(borders[cell] > point[axis]);
+            cell += usize::from(borders[cell + 1] <= point[axis]);
+            cell as i32
+        })
+    }
+
+    /// The cells that hold the lattice points of `rect`, as far as there are such cells.
+    pub fn cells_of(&self, rect: &Rect) -> Rect {
+        let all =
+            Rect { min: self.rect([0; 2]).min, max: [0, 1].map(|axis: usize| *self.borders[axis].last().unwrap()) };
+        let rect = rect.intersection(&all);
+        if rect.is_empty() {
+            return Rect { min: [0; 2], max: [0; 2] };
+        }
+        Rect { min: self.cell(rect.min), max: self.cell(rect.max.map(|x| x - 1)).map(|cell| cell + 1) }
+    }
+
+    /// The place of a cell in `samples`; cells of the margin have one too.
+    fn index(&self, cell: [i32; 2]) -> usize {
+        let width = self.borders[0].len() - 1 + 2 * self.margin[0] as usize;
+        (cell[1] + self.margin[1]) as usize * width + (cell[0] + self.margin[0]) as usize
+    }
+
+    /// The sample in a cell.
+    pub fn sample(&self, cell: [i32; 2]) -> Option<[i32; 2]> {
+        let sample = self.samples[self.index(cell)];
+        (sample != NOWHERE).then_some(sample)
+    }
+
+    /// Whether a sample conflicts with `point`, which lies in `cell`.
+    pub fn conflicts(&self, cell: [i32; 2], point: [i32; 2]) -> bool {
+        let index = self.index(cell) as isize;
+        self.neighbours.iter().any(|offset| {
+            let sample = self.samples[(index + offset) as usize];
+            let [dx, dy] = [0, 1].map(|axis: usize| i64::from(sample[axis]) - i64::from(point[axis]));
+            dx * dx + dy * dy < self.threshold
+        })
+    }
+
+    /// Whether one sample alone conflicts with every lattice point of `rect`, a part of `cell`, or `rect` is empty.
+    pub fn covers(&self, cell: [i32; 2], rect: &Rect) -> bool {
+        // Twice the distance to the farthest corner is twice the distance to the centre and the extent.
+        let [centre_x, centre_y] = [0, 1].map(|axis: usize| i64::from(rect.min[axis]) + i64::from(rect.max[axis]) - 1);
+        let [width, height] = [0, 1].map(|axis: usize| i64::from(rect.length(axis)) - 1);
+        let index = self.index(cell) as isize;
+        rect.is_empty()
+            || self.neighbours.iter().any(|offset| {
+                let sample = self.samples[(index + offset) as usize];
+                let dx = (2 * i64::from(sample[0]) - centre_x).abs() + width;
+                let dy = (2 * i64::from(sample[1]) - centre_y).abs() + height;
+                dx * dx + dy * dy < 4 * self.threshold
+            })
+    }
+
+    /// Adds a sample without conflict to `cell`.
+    pub fn insert(&mut self, cell: [i32; 2], point: [i32; 2]) {
+        debug_assert!(self.rect(cell).contains(point) && self.sample(cell).is_none());
+        let index = self.index(cell);
+        self.samples[index] = point;
+        if let Some([cells, size]) = self.torus {
+            self.insert_images(cell, point, cells, size);
+        }
+    }
+
+    /// Adds the images of a sample of a torus that lie in the margin.
+    fn insert_images(&mut self, cell: [i32; 2], point: [i32; 2], cells: [i32; 2], size: [i32; 2]) {
+        let inside = (0..2).all(|axis| (self.margin[axis]..cells[axis] - self.margin[axis]).contains(&cell[axis]));
+        if inside {
+            return;
+        }
+        for turns in (-1..=1).flat_map(|y| (-1..=1).map(move |x| [x, y])) {
+            let image = [0, 1].map(|axis: usize| cell[axis] + turns[axis] * cells[axis]);
+            if (0..2).all(|axis| (-self.margin[axis]..cells[axis] + self.margin[axis]).contains(&image[axis])) {
+                let index = self.index(image);
+                self.samples[index] = [0, 1].map(|axis: usize| point[axis] + turns[axis] * size[axis]);
+            }
+        }
+    }
+
+    /// The samples in `rect`, by rows of cells.
+    pub fn samples_in(&self, rect: &Rect) -> impl Iterator<Item = [i32; 2]> {
+        let (cells, rect) = (self.cells_of(rect), *rect);
+        (cells.min[1]..cells.max[1])
+            .flat_map(move |y| {
+                let [first, end] = [cells.min[0], cells.max[0]].map(|x| self.index([x, y]));
+                &self.samples[first..end]
+            })
+            .copied()
+            .filter(move |&sample| rect.contains(sample))
+    }
+}
+
+/// The offsets of the cells that can hold a conflict with a point of the cell at 0, the nearest first.
+fn neighbours(axes: &[CellAxis; 2], margin: [i32; 2], threshold: i64, width: isize) -> Vec<isize> {
+    let mut cells: Vec<[i32; 2]> =
+        (-margin[1]..=margin[1]).flat_map(|y| (-margin[0]..=margin[0]).map(move |x| [x, y])).collect();
+    cells.retain(|cell| {
+        let [dx, dy] = [0, 1].map(|axis: usize| axes[axis].gap(cell[axis].abs()));
+        dx * dx + dy * dy < threshold as f64
+    });
+    cells.sort_by_key(|[x, y]| (x * x + y * y, *y, *x));
+    cells.into_iter().map(|[x, y]| y as isize * width + x as isize).collect()
+}
