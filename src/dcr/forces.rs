@@ -21,9 +21,9 @@ const OSCILLATION_COSINE: f64 = 0.95;
 pub(super) struct Particle {
     pub(super) position: DVec2,
     /// The inverse of the activeness.
-    yielding: f64,
+    pub(super) yielding: f64,
     /// The sum of the tensions in the step before.
-    tension: DVec2,
+    pub(super) tension: DVec2,
 }
 
 impl Particle {
