@@ -15,6 +15,7 @@ pub mod maximal;
 mod memory;
 pub mod mesh;
 mod points;
+pub mod psp;
 mod rng;
 #[allow(unsafe_code)]
 pub mod trace;

@@ -12,6 +12,9 @@ use crate::error::{Error, Result};
 mod obj;
 mod ply;
 
+/// Vertices and triangles of a file that is not yet checked, or what is wrong with it.
+type Soup = std::result::Result<(Vec<[f32; 3]>, Vec<[u32; 3]>), String>;
+
 /// A triangle soup: finite positions, indices in range, and some surface.
 ///
 /// Triangles without area (repeated or collinear vertices) are allowed and keep their number; they have no surface,
@@ -165,6 +168,11 @@ pub(crate) fn exact(position: [f32; 3]) -> DVec3 {
     DVec3::from_array(position.map(f64::from))
 }
 
+/// The largest float below a positive one.
+pub(crate) fn next_below(x: f32) -> f32 {
+    f32::from_bits(x.to_bits() - 1)
+}
+
 /// Barycentrics rounded to floats that name a point of the triangle: not negative, and their sum (in `f64`) not above 1.
 pub(crate) fn round_barycentrics([u, v]: [f64; 2]) -> [f32; 2] {
     let [mut u, mut v] = [u, v].map(|x| x.clamp(0.0, 1.0) as f32);
@@ -173,7 +181,7 @@ pub(crate) fn round_barycentrics([u, v]: [f64; 2]) -> [f32; 2] {
         let rest = 1.0 - f64::from(smaller);
         *larger = rest as f32;
         if f64::from(*larger) > rest {
-            *larger = larger.next_down();
+            *larger = next_below(*larger);
         }
     }
     [u, v]

@@ -6,8 +6,10 @@
 
 use std::io::{BufRead, Read, Result as IoResult};
 
+use super::Soup;
+
 /// Vertices and triangles, or what is wrong with the file.
-pub(super) fn parse(bytes: &[u8]) -> Result<(Vec<[f32; 3]>, Vec<[u32; 3]>), String> {
+pub(super) fn parse(bytes: &[u8]) -> Soup {
     let options =
         tobj::LoadOptions { triangulate: true, ignore_points: true, ignore_lines: true, ..Default::default() };
     let mut lines = GeometryLines { rest: bytes, line: Vec::new(), given: 0, number: 0 };

@@ -8,8 +8,10 @@ use ply_rs_bw::ply::{
     ScalarType,
 };
 
+use super::Soup;
+
 /// Vertices and triangles, or what is wrong with the file.
-pub(super) fn parse(bytes: &[u8]) -> Result<(Vec<[f32; 3]>, Vec<[u32; 3]>), String> {
+pub(super) fn parse(bytes: &[u8]) -> Soup {
     let mut reader = Reader::new(bytes);
     let header = Parser::<DefaultElement>::new().read_header(&mut reader).map_err(explain)?;
     let (mut positions, mut triangles) = (Vec::new(), Vec::new());

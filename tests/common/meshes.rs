@@ -38,7 +38,12 @@ pub fn sphere() -> Soup {
 
 /// A torus of radii 1 and 0.4.
 pub fn torus() -> Soup {
-    patch(40, 20, |u, v| {
+    fine_torus(40, 20)
+}
+
+/// The torus, of as many quads around the hole and around the tube.
+pub fn fine_torus(around_hole: u32, around_tube: u32) -> Soup {
+    patch(around_hole, around_tube, |u, v| {
         let ((sin, cos), (height, width)) = ((TAU * u).sin_cos(), (TAU * v).sin_cos());
         [(1.0 + 0.4 * width) * cos, (1.0 + 0.4 * width) * sin, 0.4 * height]
     })

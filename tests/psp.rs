@@ -1,0 +1,260 @@
+//! Samples on meshes, held against the definitions by plain checkers.
+
+#[path = "common/meshes.rs"]
+mod meshes;
+#[path = "common/surface_oracle.rs"]
+mod oracle;
+
+use std::cell::Cell;
+use std::ops::ControlFlow;
+use std::sync::Arc;
+
+use azulejo::mesh::Mesh;
+use azulejo::psp::{self, Options, Psp};
+use azulejo::{Context, Error, SurfaceSamples};
+use meshes::Soup;
+use proptest::prelude::*;
+
+fn mesh((positions, triangles): Soup) -> Arc<Mesh> {
+    Arc::new(Mesh::new(positions, triangles).unwrap())
+}
+
+/// The documented tolerance of a maximal set.
+fn tolerance(mesh: &Mesh) -> f64 {
+    let (low, high) = mesh.bounds();
+    let largest = low.into_iter().chain(high).fold(0.0f32, |largest, x| largest.max(x.abs()));
+    psp::TOLERANCE * (f64::from(largest) - f64::from(f32::from_bits(largest.to_bits() - 1)))
+}
+
+/// Everything that a set owes.
+fn check(mesh: &Mesh, samples: &SurfaceSamples, radius: f64, maximal: bool) {
+    assert!(!maximal || !samples.is_empty());
+    assert_eq!(oracle::misplaced(mesh, samples), None);
+    assert_eq!(oracle::conflict(samples, radius), None);
+    if maximal {
+        assert_eq!(oracle::gap(mesh, samples, radius, tolerance(mesh)), None);
+    }
+}
+
+/// Samples a mesh with and without iterations and filling, on one thread and on four, and checks all sets.
+fn check_all(mesh: &Arc<Mesh>, radius: f64) {
+    for (iterations, maximal) in [(0, true), (2, false), (2, true)] {
+        let options = Options { iterations, maximal, ..Options::new(radius) };
+        let [(samples, report), (again, _)] =
+            [1, 4].map(|threads| psp::sample(&Context::new(threads).unwrap(), mesh, &options, None).unwrap());
+        check(mesh, &samples, radius, maximal);
+        assert_eq!(samples, again, "depends on the number of threads");
+        assert_eq!(report.samples, samples.len() as u64);
+        assert_eq!(report.accepted, report.samples);
+        assert_eq!(report.iterations, iterations);
+        assert_eq!(report.hits + report.darts, report.accepted + report.conflicts + report.restart_conflicts);
+    }
+}
+
+#[test]
+fn closed_surfaces() {
+    check_all(&mesh(meshes::sphere()), 0.12);
+    check_all(&mesh(meshes::torus()), 0.15);
+}
+
+#[test]
+fn open_surfaces() {
+    check_all(&mesh(meshes::plane()), 0.03);
+}
+
+#[test]
+fn vertices_of_no_triangle_do_not_matter() {
+    let (mut positions, triangles) = meshes::sphere();
+    let expected =
+        psp::sample(&Context::new(1).unwrap(), &mesh((positions.clone(), triangles.clone())), &Options::new(0.2), None);
+    positions.push([1e30, -1e30, 3e38]);
+    let samples = psp::sample(&Context::new(1).unwrap(), &mesh((positions, triangles)), &Options::new(0.2), None);
+    assert_eq!(samples.unwrap().0, expected.unwrap().0);
+}
+
+#[test]
+fn sheets_closer_than_the_radius_share_their_samples() {
+    let mesh = mesh(meshes::sheets(0.02));
+    check_all(&mesh, 0.05);
+}
+
+#[test]
+fn crossing_and_duplicated_faces() {
+    check_all(&mesh(meshes::random_soup(3, 12)), 0.08);
+    check_all(&mesh(meshes::duplicated(meshes::random_soup(4, 3))), 0.08);
+}
+
+#[test]
+fn needles() {
+    for aspect in [1e-2, 1e-6] {
+        check_all(&mesh(meshes::needles(aspect)), 0.01);
+    }
+}
+
+#[test]
+fn parts_smaller_than_the_radius_get_a_sample_unless_one_reaches_them() {
+    let part = |offset| meshes::placed(meshes::random_soup(8, 1), 0.01, offset);
+    let mesh = mesh(meshes::join([part(0.0), part(0.005), part(1.0), part(3.0)]));
+    check_all(&mesh, 0.2);
+    let (samples, _) = psp::sample(&Context::new(1).unwrap(), &mesh, &Options::new(0.2), None).unwrap();
+    assert_eq!(samples.len(), 3);
+}
+
+#[test]
+fn a_radius_larger_than_the_mesh_gives_one_sample() {
+    for radius in [10.0, 1e10, 1e200] {
+        let mesh = mesh(meshes::sphere());
+        check_all(&mesh, radius);
+        let (samples, _) = psp::sample(&Context::new(1).unwrap(), &mesh, &Options::new(radius), None).unwrap();
+        assert_eq!(samples.len(), 1);
+    }
+}
+
+#[test]
+fn any_size_and_any_distance_from_the_origin() {
+    for (scale, offset) in [(1e-6, 0.0), (1e6, 0.0), (1.0, 1000.0), (1e-30, 0.0), (1e30, 3e31)] {
+        check_all(&mesh(meshes::placed(meshes::torus(), scale, offset)), 0.2 * scale);
+    }
+}
+
+/// The jamming limit of random sequential placement is 0.69656 / radius² ; the border of the plane adds to it.
+#[test]
+fn a_maximal_set_is_as_dense_as_darts_become() {
+    let context = Context::new(2).unwrap();
+    let sphere = mesh(meshes::sphere());
+    for (mesh, radius, border) in [(mesh(meshes::plane()), 0.005, 4.0), (sphere, 0.02, 0.0)] {
+        for iterations in [0, 3] {
+            let options = Options { iterations, ..Options::new(radius) };
+            let (samples, _) = psp::sample(&context, &mesh, &options, None).unwrap();
+            let expected = 0.69656 * (mesh.area() + 0.5 * border * radius) / (radius * radius);
+            let ratio = samples.len() as f64 / expected;
+            assert!((ratio - 1.0).abs() < 0.02, "{iterations} iterations: {ratio}");
+        }
+    }
+}
+
+#[test]
+fn iterations_only_add_and_can_be_made_in_pieces() {
+    let context = Context::new(2).unwrap();
+    let mesh = mesh(meshes::torus());
+    let options = Options { seed: 7, ..Options::new(0.05) };
+    let mut whole = Psp::new(&mesh, &options).unwrap();
+    let mut pieces = Psp::new(&mesh, &options).unwrap();
+    whole.advance(&context, 4, None).unwrap();
+    let mut before = SurfaceSamples::default();
+    for iterations in [1, 0, 2, 1] {
+        let report = pieces.advance(&context, iterations, None).unwrap();
+        let samples = pieces.samples();
+        assert_eq!(report.accepted, (samples.len() - before.len()) as u64);
+        assert_eq!(samples.positions[..before.len()], before.positions);
+        before = samples;
+    }
+    assert_eq!(before, whole.samples());
+    whole.fill(&context, None).unwrap();
+    assert_eq!(whole.samples().positions[..before.len()], before.positions);
+    assert!(whole.samples().len() > before.len());
+
+    // Nothing fits into a maximal set.
+    assert_eq!(whole.advance(&context, 1, None).unwrap().accepted, 0);
+    assert_eq!(whole.fill(&context, None).unwrap().accepted, 0);
+    let other = psp::sample(&context, &mesh, &Options { seed: 8, ..options }, None).unwrap().0;
+    assert_ne!(other.positions[..20], before.positions[..20], "another seed gives another set");
+}
+
+#[test]
+fn a_cancelled_call_leaves_a_valid_set_that_can_be_used_on() {
+    let mesh = mesh(meshes::torus());
+    let options = Options::new(0.08);
+    for threads in [1, 3] {
+        let context = Context::new(threads).unwrap();
+        let expected = psp::sample(&context, &mesh, &options, None).unwrap().0;
+        for limit in [0.0, 0.2, 0.5, 0.95, 1.0] {
+            let stop = |share: f64| if share >= limit { ControlFlow::Break(()) } else { ControlFlow::Continue(()) };
+            assert!(matches!(psp::sample(&context, &mesh, &options, Some(&stop)), Err(Error::Cancelled)));
+            let mut psp = Psp::new(&mesh, &options).unwrap();
+            assert!(matches!(psp.advance(&context, options.iterations, Some(&stop)), Err(Error::Cancelled)));
+            check(&mesh, &psp.samples(), options.radius, false);
+            assert_eq!(psp.samples().positions[..], expected.positions[..psp.len()]);
+            assert!(matches!(psp.fill(&context, Some(&stop)), Err(Error::Cancelled)));
+            check(&mesh, &psp.samples(), options.radius, false);
+            psp.advance(&context, 1, None).unwrap();
+            psp.fill(&context, None).unwrap();
+            check(&mesh, &psp.samples(), options.radius, true);
+        }
+    }
+}
+
+#[test]
+fn progress_grows_from_zero_to_one() {
+    for threads in [1, 2] {
+        let last = Cell::new(None);
+        let watch = |share: f64| {
+            assert!(share >= last.get().unwrap_or(0.0) && (last.get().is_some() || share == 0.0));
+            last.set(Some(share));
+            ControlFlow::Continue(())
+        };
+        let context = Context::new(threads).unwrap();
+        psp::sample(&context, &mesh(meshes::sphere()), &Options::new(0.1), Some(&watch)).unwrap();
+        assert_eq!(last.get(), Some(1.0));
+    }
+}
+
+#[test]
+fn bad_radii_are_refused_before_work_starts() {
+    let near = mesh(meshes::plane());
+    for radius in [0.0, -1.0, f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+        let refused = Psp::new(&near, &Options::new(radius)).err();
+        assert!(matches!(refused, Some(Error::InvalidArgument { argument: "radius", .. })), "{radius}");
+    }
+    // Floats cannot carry it: the plane is 1000 away from the origin, where they are 6e-5 apart.
+    let far = mesh(meshes::placed(meshes::plane(), 1.0, 1000.0));
+    assert!(Psp::new(&far, &Options::new(0.004)).is_ok());
+    match Psp::new(&far, &Options::new(0.0038)).err() {
+        Some(Error::InvalidArgument { argument: "radius", reason }) => assert!(reason.contains("spacing"), "{reason}"),
+        other => panic!("{other:?}"),
+    }
+    // 10^10 samples: a thousand large sheets.
+    let large = mesh(meshes::join((0..1000).map(|_| meshes::plane())));
+    match Psp::new(&large, &Options::new(1e-5)).err() {
+        Some(Error::TooLarge { argument: "radius", reason }) => assert!(reason.contains("7.000e12"), "{reason}"),
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn the_checkers_see_what_is_wrong() {
+    let mesh = mesh(meshes::torus());
+    let radius = 0.15;
+    let (good, _) = psp::sample(&Context::new(1).unwrap(), &mesh, &Options::new(radius), None).unwrap();
+    for removed in (0..good.len()).step_by(50) {
+        let mut bad = good.clone();
+        bad.positions.remove(removed);
+        assert!(oracle::gap(&mesh, &bad, radius, tolerance(&mesh)).is_some(), "sample {removed} is missing");
+    }
+    let closest = (0..good.len()).map(|i| {
+        let apart =
+            |j: usize| (0..3).map(|axis| (good.positions[i][axis] - good.positions[j][axis]).powi(2)).sum::<f32>();
+        (0..i).map(apart).fold(f32::INFINITY, f32::min)
+    });
+    let closest = closest.fold(f32::INFINITY, f32::min).sqrt();
+    assert!(oracle::conflict(&good, f64::from(closest) * 1.001).is_some());
+    let mut bad = good.clone();
+    bad.positions[3][1] *= 1.0 + f32::EPSILON;
+    assert_eq!(oracle::misplaced(&mesh, &bad), Some(3));
+    let mut bad = good;
+    bad.normals[4] = bad.normals[4].map(|x| -x);
+    assert_eq!(oracle::misplaced(&mesh, &bad), Some(4));
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(24))]
+
+    #[test]
+    fn random_soups(seed: u64, triangles in 1u32..8, size in -3.0f64..0.5, iterations in 0u32..3, offset in 0.0f64..30.0) {
+        let mesh = mesh(meshes::placed(meshes::random_soup(seed, triangles), 1.0, offset));
+        let radius = (mesh.area().sqrt() * 10f64.powf(size)).max(0.01);
+        let options = Options { iterations, seed, ..Options::new(radius) };
+        let (samples, _) = psp::sample(&Context::new(2).unwrap(), &mesh, &options, None).unwrap();
+        check(&mesh, &samples, radius, true);
+    }
+}
