@@ -161,17 +161,29 @@ impl CellGrid {
         })
     }
 
-    /// Whether one sample alone conflicts with every lattice point of `rect`, a part of `cell`, or `rect` is empty.
-    pub fn covers(&self, cell: [i32; 2], rect: &Rect) -> bool {
-        // Twice the distance to the farthest corner is twice the distance to the centre and the extent.
-        let [centre_x, centre_y] = [0, 1].map(|axis: usize| i64::from(rect.min[axis]) + i64::from(rect.max[axis]) - 1);
-        let [width, height] = [0, 1].map(|axis: usize| i64::from(rect.length(axis)) - 1);
+    /// The samples that can conflict with points of a cell, the nearest first. `near` is the memory for them.
+    pub fn samples_near<'a>(&self, cell: [i32; 2], near: &'a mut Vec<[i32; 2]>) -> &'a [[i32; 2]] {
         let index = self.index(cell) as isize;
+        near.resize(self.neighbours.len(), NOWHERE);
+        let mut count = 0;
+        for offset in &self.neighbours {
+            // Written in any case and counted only if it is one: two cells of three are empty, but not predictably so.
+            let sample = self.samples[(index + offset) as usize];
+            near[count] = sample;
+            count += usize::from(sample != NOWHERE);
+        }
+        &near[..count]
+    }
+
+    /// Whether one sample of `near` alone conflicts with every lattice point of `rect`, or `rect` is empty.
+    pub fn covers(&self, near: &[[i32; 2]], rect: &Rect) -> bool {
+        // Twice the distance to the farthest corner is twice the distance to the centre and the extent.
+        let centre: [i64; 2] = std::array::from_fn(|axis| i64::from(rect.min[axis]) + i64::from(rect.max[axis]) - 1);
+        let extent: [i64; 2] = std::array::from_fn(|axis| i64::from(rect.length(axis)) - 1);
         rect.is_empty()
-            || self.neighbours.iter().any(|offset| {
-                let sample = self.samples[(index + offset) as usize];
-                let dx = (2 * i64::from(sample[0]) - centre_x).abs() + width;
-                let dy = (2 * i64::from(sample[1]) - centre_y).abs() + height;
+            || near.iter().any(|sample| {
+                let dx = (2 * i64::from(sample[0]) - centre[0]).abs() + extent[0];
+                let dy = (2 * i64::from(sample[1]) - centre[1]).abs() + extent[1];
                 dx * dx + dy * dy < 4 * self.threshold
             })
     }

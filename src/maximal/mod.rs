@@ -91,7 +91,6 @@ pub(crate) fn sample_points(job: &Job, lattice: &Lattice, seed: u64) -> Result<V
             darts = darts.saturating_sub(DARTS_PER_REPORT);
             job.report((count as f64 / expected).min(0.99))?;
         }
-        quadtree.prune(&grid);
         quadtree.refine(&grid);
     }
     Ok(grid.samples_in(&rect).collect())
