@@ -4,6 +4,7 @@
 
 #![deny(unsafe_code)]
 
+pub mod analysis;
 pub mod dcr;
 mod error;
 mod grid2;

@@ -51,6 +51,27 @@ impl Domain {
         })
     }
 
+    /// The distance of neighbours if `count` points stood in hexagonal arrangement on the area:
+    /// `d_max = sqrt(2 A / (sqrt(3) N))`. (The thesis's `r_max` of §1.4 is a disk radius, half of it.)
+    pub fn hexagonal_distance(&self, count: usize) -> f64 {
+        (2.0 * self.area() / (3f64.sqrt() * count as f64)).sqrt()
+    }
+
+    /// Refuses points (`xy`) that do not lie in `min <= x < max`, and more of them than can be indexed.
+    pub(crate) fn check_points(&self, points: &[[f32; 2]]) -> Result<()> {
+        if points.len() > u32::MAX as usize {
+            return Err(Error::too_large("xy", format!("{} points; the limit is {}", points.len(), u32::MAX)));
+        }
+        let contains = |axis: usize, x: f32| (self.min[axis]..self.max[axis]).contains(&f64::from(x));
+        match points.iter().position(|&[x, y]| !(contains(0, x) && contains(1, y))) {
+            None => Ok(()),
+            Some(index) => {
+                let ([x, y], Self { min, max, .. }) = (points[index], self);
+                Err(Error::invalid("xy", format!("point {index} is ({x}, {y}), outside the domain {min:?} to {max:?}")))
+            }
+        }
+    }
+
     /// Refuses what is not a rectangle of finite `f32` coordinates.
     pub(crate) fn check(&self) -> Result<()> {
         for axis in 0..2 {

@@ -120,3 +120,86 @@ impl Links for Delaunay {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::job::Context;
+    use crate::points::Domain;
+    use crate::rng::{Draw, Rng};
+
+    /// Sets that are easy, clustered, thin, and so small that a point is a neighbour of its own copies.
+    fn cases(boundary: Boundary) -> Vec<(Frame, Vec<DVec2>)> {
+        let mut cases = Vec::new();
+        for (count, width, cluster) in [
+            (200, 1.0, 1.0),
+            (60, 30.0, 1.0),
+            (60, 1.0, 0.05),
+            (60, 20.0, 0.02),
+            (1, 1.0, 1.0),
+            (2, 1.0, 1.0),
+            (3, 5.0, 1.0),
+        ] {
+            let domain = Domain { min: [0.0; 2], max: [width, 1.0], boundary };
+            let frame = Frame::new(domain, count);
+            let mut rng = Rng::at(1, Draw::Probe, &[count as u64]);
+            let points = (0..count).map(|_| frame.fold(cluster * frame.size() * DVec2::new(rng.unit(), rng.unit())));
+            cases.push((frame, points.collect()));
+        }
+        cases
+    }
+
+    fn build(frame: &Frame, points: &[DVec2]) -> Delaunay {
+        Context::new(1).unwrap().run(None, |job| Delaunay::new(job, frame, points.iter().copied())).unwrap()
+    }
+
+    /// Every copy of the points in two rings around the domain.
+    fn two_rings(frame: &Frame, points: &[DVec2]) -> Vec<DVec2> {
+        let along = |axis: usize, x: f64, ring: i32| match (frame.boundary(), ring % 2 == 0) {
+            (Boundary::Bounded, false) => f64::from(ring + 1) * frame.size()[axis] - x,
+            _ => f64::from(ring) * frame.size()[axis] + x,
+        };
+        let rings = || (-2..=2).flat_map(|i| (-2..=2).map(move |j| (i, j)));
+        points.iter().flat_map(|p| rings().map(|(i, j)| DVec2::new(along(0, p.x, i), along(1, p.y, j)))).collect()
+    }
+
+    #[test]
+    fn no_copy_lies_in_a_circumcircle() {
+        for boundary in [Boundary::Periodic, Boundary::Bounded] {
+            for (frame, points) in cases(boundary) {
+                let copies = two_rings(&frame, &points);
+                for corners in build(&frame, &points).triangles() {
+                    let [a, b, c] = corners.map(|corner| corner.position);
+                    let area = (b - a).perp_dot(c - a);
+                    assert!(area > 0.0);
+                    for &p in &copies {
+                        let [a, b, c] = [a - p, b - p, c - p];
+                        let lifted = a.length_squared() * b.perp_dot(c)
+                            + b.length_squared() * c.perp_dot(a)
+                            + c.length_squared() * a.perp_dot(b);
+                        let size = a.length_squared().max(b.length_squared()).max(c.length_squared());
+                        assert!(lifted <= 1e-11 * size * size, "{p} in the circle of {corners:?}", corners = [a, b, c]);
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn stars_close_and_links_are_mutual() {
+        // The copies of a single point form rectangles, of which either diagonal may be an edge, or none at the point.
+        for (frame, points) in cases(Boundary::Periodic).into_iter().filter(|(_, points)| points.len() > 1) {
+            let delaunay = build(&frame, &points);
+            let mut links = Vec::new();
+            for point in 0..points.len() {
+                delaunay.for_each(point, |link| links.push((point as u32, link.other, link.offset)));
+            }
+            // Euler on the torus: three edges per point, each seen from both ends.
+            assert_eq!(links.len(), 6 * points.len());
+            for &(from, to, offset) in &links {
+                let back = |&(f, t, o): &(u32, u32, DVec2)| (f, t) == (to, from) && (o + offset).length() < 1e-9;
+                assert_eq!(links.iter().filter(|link| back(link)).count(), 1);
+            }
+        }
+    }
+}

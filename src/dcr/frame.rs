@@ -5,8 +5,9 @@ use glam::DVec2;
 use crate::points::{Boundary, Domain};
 use crate::rng::{Draw, Rng};
 
-/// How far coincident points are parted, in spacings: far above the rounding of `f64`, far below any constraint.
-const PARTING: f64 = 1e-6;
+/// How far points are moved out of a degenerate arrangement, in spacings: enough for the forces to find their way out
+/// before the motion seems to end, too little to be seen.
+const PARTING: f64 = 1e-3;
 
 /// Points of a bounded domain keep this distance from its border, in spacings, so that none falls on its mirror image.
 const INSET: f64 = 1e-6;
@@ -43,12 +44,17 @@ impl Frame {
     /// The frame of `count` points.
     pub(crate) fn new(domain: Domain, count: usize) -> Self {
         let extent = DVec2::from_array(domain.extent());
-        let spacing = hexagonal_distance(&domain, count).min(extent.min_element());
+        let spacing = domain.hexagonal_distance(count).min(extent.min_element());
         Self { domain, spacing, size: extent / spacing }
     }
 
     pub(crate) fn boundary(&self) -> Boundary {
         self.domain.boundary
+    }
+
+    /// The unit of length.
+    pub(crate) fn spacing(&self) -> f64 {
+        self.spacing
     }
 
     /// Width and height, at least 1 each.
@@ -62,14 +68,11 @@ impl Frame {
         points.iter().map(|&[x, y]| self.fold((DVec2::new(x.into(), y.into()) - min) / self.spacing)).collect()
     }
 
-    /// Moves all but the first of coincident points a little, each in a direction of its own.
-    pub(crate) fn part_coincident(&self, positions: &mut [DVec2], seed: u64) {
-        let mut order: Vec<u32> = (0..positions.len() as u32).collect();
-        let at = |i: u32| positions[i as usize];
-        order.sort_unstable_by(|&i, &j| at(i).x.total_cmp(&at(j).x).then(at(i).y.total_cmp(&at(j).y)).then(i.cmp(&j)));
-        let repeated: Vec<u32> =
-            order.windows(2).filter(|pair| at(pair[0]) == at(pair[1])).map(|pair| pair[1]).collect();
-        for i in repeated {
+    /// Breaks the balance of degenerate arrangements, whose forces have no direction or none that leads out of a line:
+    /// moves all but the first of coincident points, and all points of a set that lies on one line.
+    pub(crate) fn part(&self, positions: &mut [DVec2], seed: u64) {
+        let parted = if lie_on_a_line(positions) { (0..positions.len() as u32).collect() } else { repeated(positions) };
+        for i in parted {
             let mut rng = Rng::at(seed, Draw::Part, &[i.into()]);
             let (angle, length) = (std::f64::consts::TAU * rng.unit(), PARTING * (1.0 + rng.unit()));
             positions[i as usize] = self.fold(positions[i as usize] + length * DVec2::from_angle(angle));
@@ -142,10 +145,19 @@ impl Frame {
     }
 }
 
-/// The distance of neighbours when `count` points stand in hexagonal arrangement on the domain's area:
-/// `d_max = sqrt(2 A / (sqrt(3) N))`, twice the disk radius that the thesis calls `r_max` in §1.4.
-pub(crate) fn hexagonal_distance(domain: &Domain, count: usize) -> f64 {
-    (2.0 * domain.area() / (3f64.sqrt() * count as f64)).sqrt()
+/// The points that coincide with one before them.
+fn repeated(positions: &[DVec2]) -> Vec<u32> {
+    let mut order: Vec<u32> = (0..positions.len() as u32).collect();
+    let at = |i: u32| positions[i as usize];
+    order.sort_unstable_by(|&i, &j| at(i).x.total_cmp(&at(j).x).then(at(i).y.total_cmp(&at(j).y)).then(i.cmp(&j)));
+    order.windows(2).filter(|pair| at(pair[0]) == at(pair[1])).map(|pair| pair[1]).collect()
+}
+
+/// Whether no point is farther from some line than points are parted.
+fn lie_on_a_line(positions: &[DVec2]) -> bool {
+    let offsets = || positions.iter().map(|&position| position - positions[0]);
+    let Some(end) = offsets().max_by(|a, b| a.length_squared().total_cmp(&b.length_squared())) else { return true };
+    offsets().all(|offset| end.perp_dot(offset).abs() <= PARTING * end.length())
 }
 
 fn first_float_from(min: f64) -> f32 {

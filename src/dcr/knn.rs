@@ -17,8 +17,8 @@ pub(super) struct Nearest {
     sites: Vec<Site>,
     grid: Grid2,
     radius: f64,
-    /// The squared distance of each point's `K`-th nearest neighbour; infinite if that is beyond `radius`. Who is as
-    /// far as the `K`-th belongs to the neighbourhood: ties do not depend on the order of the points.
+    /// The squared distance of each point's `K`-th nearest neighbour, a little more, and infinite if that is beyond
+    /// `radius`. Who is as far as the `K`-th belongs to the neighbourhood too: ties are not broken.
     reach: Vec<f64>,
 }
 
@@ -45,7 +45,11 @@ impl Nearest {
     }
 }
 
-/// The squared distance of the `count`-th nearest site; `nearest` is memory to work in.
+/// What distances that would be equal without rounding may differ by, in spacings: those from a point to the copy of
+/// another, and from the other to the copy of the point.
+const ROUNDING: f64 = 1e-9;
+
+/// The squared reach of a neighbourhood; `nearest` is memory to work in.
 fn reach(grid: &Grid2, sites: &[Site], point: usize, radius: f64, count: usize, nearest: &mut Vec<f64>) -> f64 {
     nearest.clear();
     grid.for_each_within(sites[point].position.to_array(), radius, |site, _, squared| {
@@ -56,7 +60,7 @@ fn reach(grid: &Grid2, sites: &[Site], point: usize, radius: f64, count: usize, 
     if nearest.len() < count {
         return f64::INFINITY;
     }
-    *nearest.select_nth_unstable_by(count - 1, f64::total_cmp).1
+    (nearest.select_nth_unstable_by(count - 1, f64::total_cmp).1.sqrt() + ROUNDING).powi(2)
 }
 
 impl Links for Nearest {

@@ -18,9 +18,9 @@
 //! depends on the step size and fires early. [`Report::motion`] is how far points got over the last steps whose λ add
 //! up to 2 (40 steps of 0.05), per unit of λ: the same for small and large steps at the same state.
 
-mod delaunay;
+pub(crate) mod delaunay;
 mod forces;
-mod frame;
+pub(crate) mod frame;
 mod knn;
 mod links;
 mod motion;
@@ -75,7 +75,7 @@ pub struct Options {
     pub neighbourhood: Neighbourhood,
     /// The largest number of steps. 0 returns the points as they are.
     pub max_iterations: u32,
-    /// Parts points that coincide; used for nothing else.
+    /// Where points of degenerate sets are moved; used for nothing else.
     pub seed: u64,
     /// Neighbours closer than this repel each other; above 0, at most 1. The thesis: 0.8 to 0.99.
     pub conflict_radius: f64,
@@ -126,14 +126,14 @@ impl Options {
         };
         within("conflict_radius", self.conflict_radius, 0.0, 1.0, "is not above 0 and at most 1")?;
         within("step", self.step, 0.0, 1.0, "is not above 0 and at most 1")?;
-        if !(self.attraction_radius >= self.conflict_radius) {
+        if !(self.conflict_radius..).contains(&self.attraction_radius) {
             let reason = format!("{} is below conflict_radius {}", self.attraction_radius, self.conflict_radius);
             return Err(Error::invalid("attraction_radius", reason));
         }
         if self.neighbours == 0 {
             return Err(Error::invalid("neighbours", "0 is not at least 1"));
         }
-        if !(self.tolerance >= 0.0) {
+        if !(0.0..).contains(&self.tolerance) {
             return Err(Error::invalid("tolerance", format!("{} is not at least 0", self.tolerance)));
         }
         Ok(())
@@ -161,7 +161,8 @@ pub struct Report {
 ///
 /// The result is the same for every number of threads and every order of calls; the points stay in
 /// `min <= x < max`, around the torus or held back by the border. An empty set and a single point are returned as they
-/// are. Coincident points are parted first, by about 1e-6 spacings in a direction keyed by `seed` and index.
+/// are. Coincident points, and all points of a set on one line, are first moved by 0.001 to 0.002 `d_max` in
+/// directions keyed by `seed` and index: the forces alone would not lead them apart.
 ///
 /// A step takes O(n log n) on the Delaunay neighbourhood, O(n) on the nearest one; memory is O(n).
 ///
@@ -175,14 +176,14 @@ pub fn relax(
     progress: Option<&Progress>,
 ) -> Result<(Vec<[f32; 2]>, Report)> {
     options.check()?;
-    check_points(&options.domain, points)?;
+    options.domain.check_points(points)?;
     context.run(progress, |job| {
         let (mut relaxed, mut run) = (points.to_vec(), Run { iterations: 0, converged: points.len() < 2, motion: 0.0 });
         if !run.converged && options.max_iterations > 0 {
             (relaxed, run) = run_steps(&job.part(0.0, 0.99), options, points)?;
         }
         let smallest_distance = smallest_distance(&job.part(0.99, 1.0), &options.domain, &relaxed)?;
-        let rho = smallest_distance / frame::hexagonal_distance(&options.domain, points.len());
+        let rho = smallest_distance / options.domain.hexagonal_distance(points.len());
         let Run { iterations, converged, motion } = run;
         Ok((relaxed, Report { iterations, converged, motion, smallest_distance, rho }))
     })
@@ -199,7 +200,7 @@ struct Run {
 fn run_steps(job: &Job, options: &Options, points: &[[f32; 2]]) -> Result<(Vec<[f32; 2]>, Run)> {
     let frame = Frame::new(options.domain, points.len());
     let mut positions = frame.enter(points);
-    frame.part_coincident(&mut positions, options.seed);
+    frame.part(&mut positions, options.seed);
     let mut particles: Vec<Particle> = positions.into_iter().map(Particle::new).collect();
 
     let mut motion = Motion::new(options.step, &particles);
@@ -248,26 +249,10 @@ fn gather_forces(
     })
 }
 
-/// Refuses points that are not in the domain.
-fn check_points(domain: &Domain, points: &[[f32; 2]]) -> Result<()> {
-    if points.len() > u32::MAX as usize {
-        return Err(Error::too_large("xy", format!("{} points; at most {} can be indexed", points.len(), u32::MAX)));
-    }
-    let inside =
-        |point: &[f32; 2]| (0..2).all(|axis| (domain.min[axis]..domain.max[axis]).contains(&f64::from(point[axis])));
-    match points.iter().position(|point| !inside(point)) {
-        None => Ok(()),
-        Some(index) => {
-            let ([x, y], Domain { min, max, .. }) = (points[index], domain);
-            Err(Error::invalid("xy", format!("point {index} is ({x}, {y}), outside the domain {min:?} to {max:?}")))
-        }
-    }
-}
-
 /// The smallest distance between two points, in `f64` from the floats.
 fn smallest_distance(job: &Job, domain: &Domain, points: &[[f32; 2]]) -> Result<f64> {
     let position = |point: &[f32; 2]| point.map(f64::from);
-    let grid = Grid2::new(*domain, points.iter().map(position), frame::hexagonal_distance(domain, points.len()));
+    let grid = Grid2::new(*domain, points.iter().map(position), domain.hexagonal_distance(points.len()));
     let chunks = chunks(points.len());
     let nearest = job.map(chunks.len(), |chunk| {
         let squared = |i: usize| grid.nearest_squared(position(&points[i]), Some(i as u32));

@@ -1,0 +1,162 @@
+//! Coverage: how far the domain or the surface is from the samples.
+
+use crate::error::Result;
+use crate::grid2::Grid2;
+use crate::grid3::{Grid3, distance_squared};
+use crate::job::{Context, chunks};
+use crate::mesh::Mesh;
+use crate::points::{Domain, check_radius};
+use crate::rng::{Draw, Rng};
+
+/// The relative precision of [`covering_radius_2d`].
+pub const PRECISION: f64 = 1e-9;
+
+/// The covering radius of a set in the plane: the distance from the samples of the point of the domain that is farthest
+/// from all of them. A set is maximal for a radius if this is not above it. Infinite for an empty set.
+///
+/// Only the domain has to be covered, with the samples of the other side of a torus helping. Found by branch and bound:
+/// a cell whose centre is at distance `d` has no point farther than `d` + half its diagonal; cells that could hold
+/// more than the largest `d` so far are divided. The result is too small by at most the factor 1 + [`PRECISION`].
+///
+/// Takes O(n) for sets that leave no large holes.
+///
+/// # Errors
+/// [`Error::InvalidArgument`](crate::Error::InvalidArgument) for a domain that is none and for points outside it (`xy`).
+pub fn covering_radius_2d(context: &Context, domain: &Domain, points: &[[f32; 2]]) -> Result<f64> {
+    domain.check()?;
+    domain.check_points(points)?;
+    if points.is_empty() {
+        return Ok(f64::INFINITY);
+    }
+    let spacing = (domain.area() / points.len() as f64).sqrt();
+    let grid = Grid2::new(*domain, points.iter().map(|point| point.map(f64::from)), spacing);
+    let cells = Cells::about(domain, points.len());
+    let chunks = chunks(cells.len());
+    let farthest = context.run(None, |job| {
+        job.map(chunks.len(), |chunk| farthest(&grid, chunks.range(chunk).map(|cell| cells.get(cell)).collect()))
+    })?;
+    Ok(farthest.into_iter().fold(0.0, f64::max))
+}
+
+/// A rectangle of the domain.
+#[derive(Clone, Copy)]
+struct Cell {
+    centre: [f64; 2],
+    half: [f64; 2],
+}
+
+/// The domain divided into equal cells.
+struct Cells {
+    min: [f64; 2],
+    half: [f64; 2],
+    columns: usize,
+    rows: usize,
+}
+
+impl Cells {
+    /// At least `count` cells, about square where the domain is not too thin for it, and not many times more.
+    fn about(domain: &Domain, count: usize) -> Self {
+        let extent = domain.extent();
+        let side = (domain.area() / count as f64).sqrt();
+        let [columns, rows] = extent.map(|length| (length / side).ceil().min(count as f64).max(1.0));
+        let half = [extent[0] / columns / 2.0, extent[1] / rows / 2.0];
+        Self { min: domain.min, half, columns: columns as usize, rows: rows as usize }
+    }
+
+    fn len(&self) -> usize {
+        self.columns * self.rows
+    }
+
+    fn get(&self, cell: usize) -> Cell {
+        let place = [cell % self.columns, cell / self.columns];
+        let centre = std::array::from_fn(|axis| self.min[axis] + (2 * place[axis] + 1) as f64 * self.half[axis]);
+        Cell { centre, half: self.half }
+    }
+}
+
+/// The largest distance of a point in the cells from the points of the grid.
+fn farthest(grid: &Grid2, mut cells: Vec<Cell>) -> f64 {
+    let mut farthest: f64 = 0.0;
+    while !cells.is_empty() {
+        let distances: Vec<f64> = cells.iter().map(|cell| grid.nearest_squared(cell.centre, None).sqrt()).collect();
+        farthest = distances.iter().copied().fold(farthest, f64::max);
+        let could_exceed =
+            |cell: &Cell, distance: f64| distance + cell.half[0].hypot(cell.half[1]) > farthest * (1.0 + PRECISION);
+        cells = std::iter::zip(&cells, distances)
+            .filter(|&(cell, distance)| could_exceed(cell, distance))
+            .flat_map(|(cell, _)| quarters(cell))
+            .collect();
+    }
+    farthest
+}
+
+fn quarters(cell: &Cell) -> [Cell; 4] {
+    let half = cell.half.map(|half| half / 2.0);
+    [[-1.0, -1.0], [1.0, -1.0], [-1.0, 1.0], [1.0, 1.0]]
+        .map(|side| Cell { centre: std::array::from_fn(|axis| cell.centre[axis] + side[axis] * half[axis]), half })
+}
+
+/// The share of random points of the surface that are farther than `radius` from every sample (Euclidean distance, in
+/// `f64`): an estimate of the uncovered part of its area, with a standard error of at most 0.5 / sqrt(`probes`).
+/// 0 without probes.
+///
+/// Probes are uniform by area and keyed by `seed` and their number. Small gaps escape them: this estimates a share, it
+/// proves nothing.
+///
+/// # Errors
+/// [`Error::InvalidArgument`](crate::Error::InvalidArgument) for a radius that is not positive and finite and for
+/// positions that are not finite.
+pub fn surface_uncovered_fraction(
+    context: &Context,
+    mesh: &Mesh,
+    positions: &[[f32; 3]],
+    radius: f64,
+    probes: u64,
+    seed: u64,
+) -> Result<f64> {
+    check_radius(radius)?;
+    super::check_positions(positions)?;
+    let mut grid = Grid3::new(mesh.bounds().0.map(f64::from), radius);
+    positions.iter().for_each(|&position| {
+        grid.insert(position);
+    });
+    let surface = Surface::new(mesh);
+    let chunks = chunks(probes as usize);
+    let uncovered = context.run(None, |job| {
+        job.map(chunks.len(), |chunk| {
+            let probe = |index: &usize| surface.point(&mut Rng::at(seed, Draw::Probe, &[*index as u64]));
+            let is_covered = |index: &usize| {
+                let probe = probe(index);
+                let mut near = grid.candidates(probe.map(f64::from), radius);
+                near.any(|sample| distance_squared(positions[sample as usize], probe) <= radius * radius)
+            };
+            chunks.range(chunk).filter(|index| !is_covered(index)).count()
+        })
+    })?;
+    Ok(uncovered.into_iter().sum::<usize>() as f64 / probes.max(1) as f64)
+}
+
+/// A mesh from which points are drawn uniformly by area.
+struct Surface<'a> {
+    mesh: &'a Mesh,
+    /// The area of the triangles up to and with each.
+    areas: Vec<f64>,
+}
+
+impl<'a> Surface<'a> {
+    fn new(mesh: &'a Mesh) -> Self {
+        let add = |sum: &mut f64, triangle| {
+            *sum += mesh.triangle_area(triangle);
+            Some(*sum)
+        };
+        Self { mesh, areas: (0..mesh.triangles().len() as u32).scan(0.0, add).collect() }
+    }
+
+    fn point(&self, rng: &mut Rng) -> [f32; 3] {
+        let area = rng.unit() * self.areas[self.areas.len() - 1];
+        let triangle = self.areas.partition_point(|&sum| sum <= area).min(self.areas.len() - 1);
+        // The square root makes the triangle's tip as dense as its base (Turk 1990).
+        let (along, across) = (rng.unit().sqrt(), rng.unit());
+        self.mesh.point(triangle as u32, [(along * (1.0 - across)) as f32, (along * across) as f32])
+    }
+}

@@ -1,0 +1,94 @@
+//! Spacing: the distances between samples, in `f64` from the floats, around the torus on a periodic domain.
+
+use crate::error::Result;
+use crate::grid2::Grid2;
+use crate::grid3::{Grid3, distance_squared};
+use crate::job::{Context, chunks};
+use crate::points::Domain;
+
+/// The distance of each point of the plane to its nearest neighbour; infinite for a point that is alone.
+///
+/// Takes O(n) for sets without large clusters.
+///
+/// # Errors
+/// [`Error::InvalidArgument`](crate::Error::InvalidArgument) for a domain that is none and for points outside it (`xy`).
+pub fn nearest_distances_2d(context: &Context, domain: &Domain, points: &[[f32; 2]]) -> Result<Vec<f64>> {
+    domain.check()?;
+    domain.check_points(points)?;
+    let position = |point: &[f32; 2]| point.map(f64::from);
+    let cell_size = (domain.area() / points.len() as f64).sqrt();
+    let grid = Grid2::new(*domain, points.iter().map(position), cell_size);
+    let chunks = chunks(points.len());
+    context.run(None, |job| {
+        job.flat_map(chunks.len(), |chunk| {
+            let nearest = |i: usize| grid.nearest_squared(position(&points[i]), Some(i as u32)).sqrt();
+            chunks.range(chunk).map(nearest).collect()
+        })
+    })
+}
+
+/// The smallest distance between two points of the plane; infinite for less than two points.
+///
+/// # Errors
+/// As [`nearest_distances_2d`].
+pub fn smallest_distance_2d(context: &Context, domain: &Domain, points: &[[f32; 2]]) -> Result<f64> {
+    Ok(nearest_distances_2d(context, domain, points)?.into_iter().fold(f64::INFINITY, f64::min))
+}
+
+/// The smallest distance in units of `d_max = sqrt(2 A / (sqrt(3) N))`, the distance of neighbours in the hexagonal
+/// arrangement of as many points: 1 at most on a torus, about 0.77 for maximal Poisson-disk sets.
+///
+/// # Errors
+/// As [`nearest_distances_2d`].
+pub fn rho(context: &Context, domain: &Domain, points: &[[f32; 2]]) -> Result<f64> {
+    let smallest = smallest_distance_2d(context, domain, points)?;
+    Ok(smallest / domain.hexagonal_distance(points.len()))
+}
+
+/// The smallest distance between two points of space; infinite for less than two points.
+///
+/// Takes O(n log n) for sets that are neither clustered in space nor lined up in planes across their longest extent.
+///
+/// # Errors
+/// [`Error::InvalidArgument`](crate::Error::InvalidArgument) for positions that are not finite (`positions`).
+pub fn smallest_distance_3d(context: &Context, positions: &[[f32; 3]]) -> Result<f64> {
+    super::check_positions(positions)?;
+    let bound = neighbours_in_order(positions);
+    if bound == 0.0 || bound == f64::INFINITY {
+        return Ok(bound);
+    }
+    // Of n points there is a pair in order about as close as n points are on a surface, so cells hold few points.
+    let mut grid = Grid3::new([0.0; 3], bound);
+    positions.iter().for_each(|&position| {
+        grid.insert(position);
+    });
+    let chunks = chunks(positions.len());
+    let nearest = context.run(None, |job| {
+        job.map(chunks.len(), |chunk| {
+            let squared = |i: usize| {
+                grid.candidates(positions[i].map(f64::from), bound)
+                    .filter(|&other| other as usize != i)
+                    .map(|other| distance_squared(positions[i], positions[other as usize]))
+                    .fold(f64::INFINITY, f64::min)
+            };
+            chunks.range(chunk).map(squared).fold(f64::INFINITY, f64::min)
+        })
+    })?;
+    Ok(nearest.into_iter().fold(f64::INFINITY, f64::min).sqrt())
+}
+
+/// A first bound: the smallest distance of points that follow each other along the longest extent.
+fn neighbours_in_order(positions: &[[f32; 3]]) -> f64 {
+    let extent = |axis: usize| {
+        let (low, high) = positions
+            .iter()
+            .map(|position| f64::from(position[axis]))
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
+        high - low
+    };
+    let axis = (0..3).max_by(|&a, &b| extent(a).total_cmp(&extent(b))).unwrap_or(0);
+    let mut ordered = positions.to_vec();
+    ordered.sort_unstable_by(|a, b| a[axis].total_cmp(&b[axis]));
+    let squared = ordered.windows(2).map(|pair| distance_squared(pair[0], pair[1]));
+    squared.fold(f64::INFINITY, f64::min).sqrt()
+}

@@ -1,0 +1,296 @@
+//! DCR: what relaxation promises, for both neighbourhoods and both boundaries.
+
+#[path = "common/sets.rs"]
+mod sets;
+
+use std::cell::Cell;
+use std::ops::ControlFlow;
+
+use azulejo::dcr::{Distribution, Neighbourhood, Options, Report, relax};
+use azulejo::{Boundary, Context, Domain, Error};
+use sets::{darts, distance, nearest_distances, random_points, unit_square};
+
+const NEIGHBOURHOODS: [Neighbourhood; 2] = [Neighbourhood::Delaunay, Neighbourhood::Nearest];
+const BOUNDARIES: [Boundary; 2] = [Boundary::Periodic, Boundary::Bounded];
+
+/// The thesis's options for each neighbourhood on the unit square with each boundary.
+fn all_cases() -> impl Iterator<Item = Options> {
+    let pairs = NEIGHBOURHOODS.into_iter().flat_map(|n| BOUNDARIES.map(|boundary| (n, boundary)));
+    pairs.map(|(neighbourhood, boundary)| Options::new(unit_square(boundary), neighbourhood))
+}
+
+fn run(options: &Options, points: &[[f32; 2]]) -> (Vec<[f32; 2]>, Report) {
+    let (relaxed, report) = relax(&Context::new(1).unwrap(), options, points, None).unwrap();
+    assert_eq!(relaxed.len(), points.len());
+    for point in &relaxed {
+        for axis in 0..2 {
+            let Domain { min, max, .. } = options.domain;
+            assert!((min[axis]..max[axis]).contains(&f64::from(point[axis])), "{point:?} left the domain");
+        }
+    }
+    (relaxed, report)
+}
+
+fn smallest(distances: &[f64]) -> f64 {
+    distances.iter().copied().fold(f64::INFINITY, f64::min)
+}
+
+/// Variance over squared mean.
+fn variation(distances: &[f64]) -> f64 {
+    let mean = distances.iter().sum::<f64>() / distances.len() as f64;
+    distances.iter().map(|d| (d / mean - 1.0).powi(2)).sum::<f64>() / distances.len() as f64
+}
+
+#[test]
+fn random_sets_are_spread_and_the_report_says_so() {
+    let start = random_points(1000, 1);
+    for options in all_cases() {
+        let (relaxed, report) = run(&options, &start);
+        let (before, after) =
+            (nearest_distances(&options.domain, &start), nearest_distances(&options.domain, &relaxed));
+        let d_max = (2.0 / (3f64.sqrt() * 1000.0)).sqrt();
+        assert!((report.smallest_distance / smallest(&after) - 1.0).abs() < 1e-12);
+        assert!((report.rho / (smallest(&after) / d_max) - 1.0).abs() < 1e-12);
+        assert!(report.converged && report.iterations < options.max_iterations, "{report:?}");
+        assert!(report.motion > 0.0 && report.motion <= options.tolerance, "{report:?}");
+        assert!(smallest(&before) / d_max < 0.1);
+        assert!(report.rho > if options.neighbourhood == Neighbourhood::Delaunay { 0.5 } else { 0.75 }, "{report:?}");
+        assert!(variation(&after) < 0.03 * variation(&before), "{} {}", variation(&before), variation(&after));
+    }
+}
+
+#[test]
+fn nearest_neighbours_raise_rho_of_thrown_darts() {
+    let start = darts(1000, 2);
+    for boundary in BOUNDARIES {
+        let options = Options { tolerance: 0.003, ..Options::new(unit_square(boundary), Neighbourhood::Nearest) };
+        let (_, report) = run(&options, &start);
+        assert!(report.rho >= 0.85, "{report:?}");
+    }
+}
+
+#[test]
+fn the_result_does_not_depend_on_the_threads() {
+    let start = random_points(6000, 3);
+    for options in all_cases() {
+        let options = Options { max_iterations: 6, ..options };
+        let expected = run(&options, &start);
+        let four = Context::new(4).unwrap();
+        assert_eq!(relax(&four, &options, &start, None).unwrap(), expected);
+        assert_eq!(relax(&four, &options, &start, Some(&|_| ControlFlow::Continue(()))).unwrap(), expected);
+    }
+}
+
+#[test]
+fn the_verdict_does_not_depend_on_the_step() {
+    let start = random_points(1500, 4);
+    for neighbourhood in NEIGHBOURHOODS {
+        let path = |step| {
+            let options = Options { step, ..Options::new(unit_square(Boundary::Periodic), neighbourhood) };
+            f64::from(run(&options, &start).1.iterations) * step
+        };
+        let ratio = path(0.05) / path(0.1);
+        assert!((0.7..1.4).contains(&ratio), "{neighbourhood:?}: {ratio}");
+    }
+}
+
+#[test]
+fn average_forces_balance_and_constant_distributions_coincide_on_delaunay_edges() {
+    let start = random_points(400, 5);
+    let domain = unit_square(Boundary::Periodic);
+    let constant = [Distribution::Average, Distribution::Dominant, Distribution::Zero, Distribution::EightyTwenty];
+    for neighbourhood in NEIGHBOURHOODS {
+        let relaxed_by = |distribution| {
+            run(&Options { distribution, max_iterations: 4, ..Options::new(domain, neighbourhood) }, &start).0
+        };
+        let same = |a: &[[f32; 2]], b: &[[f32; 2]]| a.iter().zip(b).all(|(&a, &b)| distance(&domain, a, b) < 1e-6);
+        let average = relaxed_by(Distribution::Average);
+        assert!(!same(&average, &start) && !same(&average, &relaxed_by(Distribution::Activeness)));
+        for axis in 0..2 {
+            let moves = start.iter().zip(&average).map(|(from, to)| f64::from(to[axis] - from[axis]));
+            let sum: f64 = moves.map(|d| d - d.round()).sum();
+            assert!(sum.abs() < 1e-4, "{neighbourhood:?}: {sum}");
+        }
+        // Both ends of a Delaunay edge visit it.
+        for distribution in constant {
+            let coincides = neighbourhood == Neighbourhood::Delaunay || distribution == Distribution::Average;
+            assert_eq!(same(&average, &relaxed_by(distribution)), coincides, "{neighbourhood:?} {distribution:?}");
+        }
+    }
+}
+
+#[test]
+fn a_shift_of_the_torus_shifts_the_result() {
+    let domain = unit_square(Boundary::Periodic);
+    // Coordinates and shift are multiples of 2^-12: the shift is exact.
+    let start: Vec<_> = random_points(500, 6).iter().map(|p| p.map(|x| (x * 4096.0).floor() / 4096.0)).collect();
+    let shift = |p: &[f32; 2]| [(p[0] + 0.375).fract(), (p[1] + 0.8125).fract()];
+    for neighbourhood in NEIGHBOURHOODS {
+        let options = Options { max_iterations: 10, ..Options::new(domain, neighbourhood) };
+        let (stayed, _) = run(&options, &start);
+        let (shifted, _) = run(&options, &start.iter().map(shift).collect::<Vec<_>>());
+        for (stayed, &shifted) in stayed.iter().zip(&shifted) {
+            assert!(distance(&domain, shift(stayed), shifted) < 1e-5, "{neighbourhood:?}");
+        }
+    }
+}
+
+#[test]
+fn a_hexagonal_lattice_rests() {
+    let row = 0.75f64.sqrt();
+    let domain = Domain { min: [-3.0, 5.0], max: [7.0, 5.0 + 12.0 * row], boundary: Boundary::Periodic };
+    let at = |i: usize, j: usize| [-3.0 + i as f64 + 0.5 * (j % 2) as f64, 5.0 + (j as f64 + 0.25) * row];
+    let lattice: Vec<_> = (0..120).map(|k| at(k % 10, k / 10).map(|x| x as f32)).collect();
+    for neighbourhood in NEIGHBOURHOODS {
+        let (relaxed, report) = run(&Options::new(domain, neighbourhood), &lattice);
+        assert_eq!(relaxed, lattice);
+        assert!(report.converged && report.motion == 0.0, "{report:?}");
+        assert!((report.rho - 1.0).abs() < 1e-5, "{report:?}");
+    }
+}
+
+#[test]
+fn empty_sets_single_points_and_no_iterations_change_nothing() {
+    for options in all_cases() {
+        for points in [vec![], vec![[0.3, 0.9999]]] {
+            let (relaxed, report) = run(&options, &points);
+            assert_eq!(relaxed, points);
+            assert!(report.converged && report.iterations == 0 && report.motion == 0.0);
+            assert_eq!(report.smallest_distance, f64::INFINITY);
+        }
+        let points = [[0.1, 0.1], [0.1, 0.1], [1e-30, 0.3]];
+        let (relaxed, report) = run(&Options { max_iterations: 0, ..options }, &points);
+        assert_eq!(relaxed, points);
+        assert!(!report.converged && report.iterations == 0 && report.smallest_distance == 0.0);
+    }
+}
+
+#[test]
+fn few_coincident_and_collinear_points_are_spread() {
+    let line = |n: usize, dx: f32, dy: f32| (0..n).map(|i| [dx * i as f32, dy * i as f32]).collect::<Vec<_>>();
+    let sets = [
+        vec![[0.5, 0.5]; 2],
+        vec![[0.0, 0.0]; 3],
+        vec![[0.2, 0.2], [0.2, 0.2], [0.8, 0.2]],
+        vec![[0.999_999_9, 0.5]; 60],
+        line(40, 0.0, 0.01),
+        line(40, 0.02, 0.0),
+        line(40, 0.002, 0.002),
+        [line(20, 0.01, 0.0), line(20, 0.01, 0.0)].concat(),
+    ];
+    for options in all_cases() {
+        for (number, set) in sets.iter().enumerate() {
+            let (_, report) = run(&Options { max_iterations: 3000, ..options }, set);
+            assert!(report.rho > 0.45, "set {number}, {:?}: {report:?}", options);
+        }
+    }
+}
+
+#[test]
+fn the_border_of_a_bounded_square_is_neither_crowded_nor_empty() {
+    let count = 1500;
+    let domain = unit_square(Boundary::Bounded);
+    let strip = 4.0 * domain.hexagonal_distance(count);
+    for neighbourhood in NEIGHBOURHOODS {
+        // Points are counted the less the deeper they lie, lest the rows along the border show.
+        let (mut counted, mut spacing) = (0.0, [(0.0, 0); 2]);
+        for seed in 0..3 {
+            let (relaxed, _) = run(&Options::new(domain, neighbourhood), &random_points(count, 70 + seed));
+            for (point, nearest) in relaxed.iter().zip(nearest_distances(&domain, &relaxed)) {
+                let depth = point.iter().map(|&x| f64::from(x.min(1.0 - x))).fold(1.0, f64::min);
+                counted += (1.0 - depth / strip).max(0.0) / (3.0 * count as f64);
+                let (sum, number) = &mut spacing[usize::from(depth < strip / 4.0)];
+                (*sum, *number) = (*sum + nearest, *number + 1);
+            }
+        }
+        // The same count of a constant density, from the integral of (1 - t / strip) 4 (1 - 2 t).
+        let density = counted / (2.0 * strip - 4.0 / 3.0 * strip * strip);
+        let mean = spacing.map(|(sum, number)| sum / f64::from(number));
+        println!("{neighbourhood:?}: density along the border {density:.3}, spacing {:.3}", mean[1] / mean[0]);
+        assert!((0.95..1.05).contains(&density), "{neighbourhood:?}: density {density}");
+        assert!((0.95..1.05).contains(&(mean[1] / mean[0])), "{neighbourhood:?}: spacing {mean:?}");
+    }
+}
+
+#[test]
+fn points_stay_inside_domains_that_floats_can_hardly_resolve() {
+    let unit = random_points(300, 8);
+    for [min, max] in [[1000.1, 1000.4], [-1e30, 1e30], [-2e-40, 3e-39], [16777215.0, 16777230.0]] {
+        for (boundary, neighbourhood) in [(BOUNDARIES[0], NEIGHBOURHOODS[0]), (BOUNDARIES[1], NEIGHBOURHOODS[1])] {
+            let domain = Domain { min: [min; 2], max: [max; 2], boundary };
+            let place = |x: f32| ((min + f64::from(x) * (max - min)) as f32).max(min as f32);
+            let inside = |p: &[f32; 2]| p.iter().all(|&x| (min..max).contains(&f64::from(x)));
+            let points: Vec<_> = unit.iter().map(|p| p.map(place)).filter(inside).collect();
+            run(&Options { max_iterations: 30, ..Options::new(domain, neighbourhood) }, &points);
+        }
+    }
+}
+
+#[test]
+fn strips_narrower_than_the_hexagonal_distance_are_relaxed() {
+    for boundary in BOUNDARIES {
+        for neighbourhood in NEIGHBOURHOODS {
+            let domain = Domain { min: [0.0; 2], max: [200.0, 1.0], boundary };
+            let points: Vec<_> = random_points(120, 9).iter().map(|p| [p[0] * 200.0, p[1]]).collect();
+            let (relaxed, _) = run(&Options { max_iterations: 400, ..Options::new(domain, neighbourhood) }, &points);
+            let smallest = smallest(&nearest_distances(&domain, &relaxed));
+            assert!(smallest > 0.6, "{boundary:?} {neighbourhood:?}: {smallest}");
+        }
+    }
+}
+
+#[test]
+fn progress_grows_and_a_call_can_be_cancelled() {
+    let start = random_points(300, 10);
+    for threads in [1, 2] {
+        let context = Context::new(threads).unwrap();
+        for options in all_cases() {
+            let options = Options { max_iterations: 20, ..options };
+            let last = Cell::new(0.0);
+            let watch = |share: f64| {
+                assert!(share >= last.replace(share));
+                ControlFlow::Continue(())
+            };
+            relax(&context, &options, &start, Some(&watch)).unwrap();
+            assert_eq!(last.get(), 1.0);
+            for limit in [0.0, 0.5, 1.0] {
+                let stop = |share| if share >= limit { ControlFlow::Break(()) } else { ControlFlow::Continue(()) };
+                assert!(matches!(relax(&context, &options, &start, Some(&stop)), Err(Error::Cancelled)));
+            }
+        }
+    }
+}
+
+#[test]
+fn bad_arguments_are_refused_by_name() {
+    let good = Options::new(unit_square(Boundary::Periodic), Neighbourhood::Delaunay);
+    let start = random_points(10, 11);
+    let refusal = |options: Options, points: &[[f32; 2]]| match relax(&Context::new(1).unwrap(), &options, points, None)
+    {
+        Err(Error::InvalidArgument { argument, reason }) => (argument, reason),
+        other => panic!("not refused: {other:?}"),
+    };
+    for bad in [[1.0, 0.5], [0.5, -1e-30], [f32::NAN, 0.5], [0.5, f32::INFINITY]] {
+        let (argument, reason) = refusal(good, &[start[0], start[1], bad]);
+        assert_eq!(argument, "xy");
+        assert!(reason.contains("point 2") && reason.contains(&format!("({}, {})", bad[0], bad[1])), "{reason}");
+    }
+    let nan = f64::NAN;
+    let max = |max| Domain { max: [1.0, max], ..good.domain };
+    for (argument, options) in [
+        ("domain_max", Options { domain: max(0.0), ..good }),
+        ("domain_max", Options { domain: max(nan), ..good }),
+        ("conflict_radius", Options { conflict_radius: 0.0, ..good }),
+        ("conflict_radius", Options { conflict_radius: 1.01, ..good }),
+        ("conflict_radius", Options { conflict_radius: nan, ..good }),
+        ("attraction_radius", Options { attraction_radius: 0.9, ..good }),
+        ("attraction_radius", Options { attraction_radius: nan, ..good }),
+        ("step", Options { step: 0.0, ..good }),
+        ("step", Options { step: 1.5, ..good }),
+        ("neighbours", Options { neighbours: 0, ..good }),
+        ("tolerance", Options { tolerance: -0.1, ..good }),
+        ("tolerance", Options { tolerance: nan, ..good }),
+    ] {
+        assert_eq!(refusal(options, &start).0, argument);
+    }
+}
