@@ -110,19 +110,19 @@ impl Psp {
     pub fn new(mesh: &Arc<Mesh>, options: &Options) -> Result<Self> {
         let radius = options.radius;
         check_radius(radius)?;
+        let estimate = DENSITY * mesh.area() / (radius * radius);
+        if estimate > u32::MAX as f64 {
+            let reason = format!("{radius:?} asks for about {estimate:.3e} samples; the limit is {}", u32::MAX);
+            return Err(Error::too_large("radius", reason));
+        }
         let spacing = fill::float_spacing(mesh);
         if radius < 64.0 * spacing {
             let largest = mesh.largest_coordinate();
             let reason = format!(
-                "{radius} is below 64 float spacings ({:e}) at the largest coordinate of the mesh, {largest}",
+                "{radius:?} is below 64 float spacings ({:e}) at the largest coordinate of the mesh, {largest}",
                 64.0 * spacing
             );
             return Err(Error::invalid("radius", reason));
-        }
-        let estimate = DENSITY * mesh.area() / (radius * radius);
-        if estimate > u32::MAX as f64 {
-            let reason = format!("{radius} asks for about {estimate:.3e} samples; the limit is {}", u32::MAX);
-            return Err(Error::too_large("radius", reason));
         }
         crate::memory::require(estimate * BYTES_PER_SAMPLE, "radius", &format!("about {estimate:.3e} samples"))?;
         Ok(Self {

@@ -1,1 +1,71 @@
-//! The C ABI of azulejo.
+//! azulejo: blue-noise sampling of planes and triangle meshes, and the relaxation of point sets.
+//!
+//! This header is generated from ffi/azulejo-c by cbindgen; do not edit it. It is C99; C++ programs may prefer
+//! azulejo.hpp, which wraps it.
+//!
+//! Conventions, which hold for every function unless its own text says otherwise:
+//!
+//! Status. A call that can fail returns an azulejo_status: AZULEJO_OK (0) or one of the negative AZULEJO_ERROR_ codes.
+//!   azulejo_last_error_message then says which argument is wrong, its value and its range. Arguments are checked before
+//!   any work starts. Outputs are written on success only. Nothing is thrown or unwound into C, and nothing is printed
+//!   to stdout; a panic inside the library, which is a bug, prints to stderr and becomes AZULEJO_ERROR_INTERNAL.
+//!
+//! Handles. azulejo_context, azulejo_mesh, azulejo_psp and azulejo_points are made by the library and given back with
+//!   their own _free, which allows NULL. They may be freed in any order: what a handle needs of another one, it keeps.
+//!   Accessors allow NULL too and answer 0 or NULL. Pointers into a handle live until it is freed.
+//!
+//! Pointers. An argument may be NULL only where that is said. Arrays are packed and read during the call only; the
+//!   pointer of an empty array may be NULL, with the count 0. A pointer that is not aligned for its type is refused.
+//!   Beyond that no library can tell a wrong pointer or a wrong count from a right one.
+//!
+//! Options. Every options struct begins with struct_size and is filled with defaults by its _options_init, which must
+//!   be called first: azulejo_kdrt_options o; azulejo_kdrt_options_init(&o, sizeof o); o.radius = 0.01; ...
+//!   A field exists for the library iff struct_size reaches its end, so that structs can grow: a program built against
+//!   an older header goes on working, and one built against a newer header works as long as what the library does not
+//!   know is zero. A struct with a non-zero tail, an unknown constant or a flag other than 0 and 1 is refused. Reports
+//!   are written by the library and need no preparation; they never grow, their reserved fields are zero.
+//!
+//! Progress. The callback in the options is called on the thread that makes the call, with the finished share, which
+//!   never falls, from 0 to 1 (the 1 comes if the call succeeds). Any return value but 0 cancels the call, which then
+//!   returns AZULEJO_ERROR_CANCELLED. The callback may call the library, also with the same context. It must return:
+//!   no exception and no longjmp may leave it.
+//!
+//! Threads. Every function may be called from any thread at any time. A context can be used by several threads at
+//!   once; a psp handle serves one changing call at a time and refuses a second one. The last error belongs to the
+//!   thread that made the call.
+//!
+//! Results. The same options and seed give the same bytes, for every number of threads and whatever was called before.
+//!   A radius is always the smallest distance allowed between the centres of two samples. Conflict-free: no two samples
+//!   are closer than the radius, in double arithmetic on the returned floats, without tolerance. Maximal: no place of
+//!   the domain or surface is farther than the radius from every sample, up to the rounding of the returned floats.
+//!
+//! Memory. Sizes that cannot be held are refused with AZULEJO_ERROR_TOO_LARGE before memory is taken. When the system
+//!   has no memory left in the middle of a call, the process is aborted, as by every Rust library.
+//!
+//! The algorithms are those of T. Wang, Techniques on Mining Effective Parallelism For High-Performance Blue-Noise
+//! Sampling, University of Tokyo, 2019 ("thesis" below).
+
+#![allow(non_camel_case_types)]
+// What a caller owes to make a call safe stands once, in the conventions above, and is not repeated per function.
+#![allow(clippy::missing_safety_doc)]
+
+mod boundary;
+mod options;
+
+// In the order of the header.
+pub mod status;
+pub mod version;
+
+pub mod context;
+pub mod domain;
+pub mod points;
+
+pub mod kdrt;
+pub mod maximal;
+
+pub mod mesh;
+pub mod psp;
+
+pub mod dcr;
+
+pub mod analysis;

@@ -1,0 +1,40 @@
+//! The threads that calls run on.
+
+use std::mem::MaybeUninit;
+use std::sync::Arc;
+
+use azulejo_core::Context;
+
+use crate::boundary;
+use crate::status::azulejo_status;
+
+/// A pool of threads of its own; give it to every call that works for long. One context for a whole program is usual.
+/// It can be used by several threads at once.
+pub struct azulejo_context {
+    pub(crate) shared: Arc<Context>,
+}
+
+/// Starts the threads.
+///
+/// num_threads: 1 to 4096, or 0 for one per core. With 1 no thread is made: all work happens in the caller's.
+///
+/// out: the context, to be freed with azulejo_context_free.
+#[unsafe(no_mangle)]
+pub extern "C" fn azulejo_context_create(
+    num_threads: u32,
+    out: Option<&mut MaybeUninit<Box<azulejo_context>>>,
+) -> azulejo_status {
+    boundary::create(out, || Ok(azulejo_context { shared: Arc::new(Context::new(num_threads as usize)?) }))
+}
+
+/// The number of threads that work on a call; 0 for NULL.
+#[unsafe(no_mangle)]
+pub extern "C" fn azulejo_context_num_threads(context: Option<&azulejo_context>) -> u32 {
+    context.map_or(0, |context| context.shared.num_threads() as u32)
+}
+
+/// Ends the threads, once no call and no psp handle uses them any more. NULL is allowed.
+#[unsafe(no_mangle)]
+pub extern "C" fn azulejo_context_free(context: Option<Box<azulejo_context>>) {
+    boundary::free(context);
+}

@@ -1,0 +1,81 @@
+//! The unbiased reference: maximal Poisson-disk sampling by dart throwing.
+
+use std::ffi::c_void;
+use std::mem::MaybeUninit;
+
+use azulejo_core::maximal;
+
+use crate::boundary::{self, required};
+use crate::context::azulejo_context;
+use crate::domain::{AZULEJO_BOUNDARY_PERIODIC, domain};
+use crate::options::{self, Watch, azulejo_progress_fn, options};
+use crate::points::azulejo_points;
+use crate::status::azulejo_status;
+
+/// Options of azulejo_maximal_sample.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct azulejo_maximal_options {
+    /// The size of the caller's struct in bytes; set by the init function.
+    pub struct_size: u32,
+    /// An AZULEJO_BOUNDARY_ constant; periodic by default.
+    pub boundary: i32,
+    /// The smallest distance between two samples, in the units of the domain. Above 0; there is no default.
+    pub radius: f64,
+    /// The lower corner of the domain, x y; 0 0 by default.
+    pub domain_min: [f64; 2],
+    /// The upper corner of the domain, above the lower one on both axes; 1 1 by default.
+    pub domain_max: [f64; 2],
+    /// Any number; another seed gives another set.
+    pub seed: u64,
+    /// Called during the call, unless NULL, which is the default.
+    pub progress: azulejo_progress_fn,
+    /// Handed to the progress callback.
+    pub progress_user: *mut c_void,
+}
+
+options!(azulejo_maximal_options requires radius {
+    boundary: AZULEJO_BOUNDARY_PERIODIC,
+    radius: 0.0,
+    domain_min: [0.0; 2],
+    domain_max: [1.0; 2],
+    seed: 0,
+    progress: None,
+    progress_user: std::ptr::null_mut(),
+});
+
+/// Writes the defaults. `struct_size` is sizeof *options.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_maximal_options_init(
+    options: *mut azulejo_maximal_options,
+    struct_size: usize,
+) -> azulejo_status {
+    // SAFETY: handed on from the caller.
+    unsafe { options::init(options, struct_size) }
+}
+
+/// Makes a maximal, conflict-free set of samples of a rectangle by throwing darts into what is still uncovered, one
+/// after the other: without any bias, much slower than azulejo_kdrt_sample and on one thread. It is the reference that
+/// other sets are compared with, about 0.6966 * area / radius^2 samples, in O(samples) time.
+///
+/// out: the samples, x y each, to be freed with azulejo_points_free.
+///
+/// Errors: as azulejo_kdrt_sample.
+///
+/// Source: M. S. Ebeida et al., A Simple Algorithm for Maximal Poisson-Disk Sampling in High Dimensions, 2012.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_maximal_sample(
+    context: Option<&azulejo_context>,
+    options: *const azulejo_maximal_options,
+    out: Option<&mut MaybeUninit<Box<azulejo_points>>>,
+) -> azulejo_status {
+    boundary::create(out, || {
+        let context = required("context", context)?.shared.clone();
+        // SAFETY: handed on from the caller.
+        let options = unsafe { options::read(options) }?;
+        let domain = domain(options.domain_min, options.domain_max, options.boundary)?;
+        let request = maximal::Options { radius: options.radius, domain, seed: options.seed };
+        let watch = Watch { function: options.progress, user: options.progress_user };
+        Ok(azulejo_points::plane(watch.run(|progress| maximal::sample(&context, &request, progress))?))
+    })
+}

@@ -1,0 +1,93 @@
+//! Results: samples of the plane or of a mesh.
+
+use azulejo_core::SurfaceSamples;
+
+use crate::boundary::{self, array};
+
+/// The samples that a call made: immutable, may be read by several threads at once. All arrays of a set have one entry
+/// per sample, in the same order, and live until azulejo_points_free.
+pub struct azulejo_points {
+    pub(crate) samples: Samples,
+}
+
+pub(crate) enum Samples {
+    Plane(Vec<[f32; 2]>),
+    Surface(SurfaceSamples),
+}
+
+impl azulejo_points {
+    pub(crate) fn plane(samples: Vec<[f32; 2]>) -> Self {
+        Self { samples: Samples::Plane(samples) }
+    }
+
+    pub(crate) fn surface(samples: SurfaceSamples) -> Self {
+        Self { samples: Samples::Surface(samples) }
+    }
+}
+
+fn surface(points: Option<&azulejo_points>) -> Option<&SurfaceSamples> {
+    match points.map(|points| &points.samples) {
+        Some(Samples::Surface(samples)) => Some(samples),
+        _ => None,
+    }
+}
+
+/// The number of samples; 0 for NULL.
+#[unsafe(no_mangle)]
+pub extern "C" fn azulejo_points_count(points: Option<&azulejo_points>) -> usize {
+    match points.map(|points| &points.samples) {
+        Some(Samples::Plane(samples)) => samples.len(),
+        Some(Samples::Surface(samples)) => samples.len(),
+        None => 0,
+    }
+}
+
+/// The number of coordinates of each position: 2 for samples of the plane, 3 for samples of a mesh; 0 for NULL.
+#[unsafe(no_mangle)]
+pub extern "C" fn azulejo_points_dimension(points: Option<&azulejo_points>) -> u32 {
+    match points.map(|points| &points.samples) {
+        Some(Samples::Plane(_)) => 2,
+        Some(Samples::Surface(_)) => 3,
+        None => 0,
+    }
+}
+
+/// The positions, x y or x y z of each sample, interleaved; NULL for NULL and for an empty set.
+///
+/// Samples of the plane lie in domain_min <= x < domain_max. Samples of a mesh lie on their triangle, up to the rounding
+/// of the floats: they are computed from the barycentrics in double arithmetic and rounded once.
+#[unsafe(no_mangle)]
+pub extern "C" fn azulejo_points_positions(points: Option<&azulejo_points>) -> *const f32 {
+    match points.map(|points| &points.samples) {
+        Some(Samples::Plane(samples)) => array(samples),
+        Some(Samples::Surface(samples)) => array(&samples.positions),
+        None => std::ptr::null(),
+    }
+}
+
+/// The unit normals of the samples' triangles, x y z each, seen from where their vertices run counter-clockwise;
+/// NULL for NULL, an empty set and samples of the plane.
+#[unsafe(no_mangle)]
+pub extern "C" fn azulejo_points_normals(points: Option<&azulejo_points>) -> *const f32 {
+    surface(points).map_or(std::ptr::null(), |samples| array(&samples.normals))
+}
+
+/// The index of the triangle that each sample lies on; NULL for NULL, an empty set and samples of the plane.
+#[unsafe(no_mangle)]
+pub extern "C" fn azulejo_points_triangles(points: Option<&azulejo_points>) -> *const u32 {
+    surface(points).map_or(std::ptr::null(), |samples| array(&samples.triangles))
+}
+
+/// The barycentric coordinates u v of each sample in its triangle (a, b, c), as in Embree: the position is
+/// (1 - u - v) * a + u * b + v * c, and so is every other attribute of the vertices.
+/// NULL for NULL, an empty set and samples of the plane.
+#[unsafe(no_mangle)]
+pub extern "C" fn azulejo_points_barycentrics(points: Option<&azulejo_points>) -> *const f32 {
+    surface(points).map_or(std::ptr::null(), |samples| array(&samples.barycentrics))
+}
+
+/// Frees the set with all its arrays. NULL is allowed.
+#[unsafe(no_mangle)]
+pub extern "C" fn azulejo_points_free(points: Option<Box<azulejo_points>>) {
+    boundary::free(points);
+}

@@ -1,0 +1,130 @@
+//! Status codes, and the last error of each thread.
+
+use std::cell::RefCell;
+use std::ffi::c_char;
+
+use azulejo_core::Error;
+
+/// What a call answers: AZULEJO_OK or a negative AZULEJO_ERROR_ code. Codes are never reused; new ones may come.
+pub type azulejo_status = i32;
+
+/// The call did what it says.
+pub const AZULEJO_OK: i32 = 0;
+/// An argument or an option is outside its documented range.
+pub const AZULEJO_ERROR_INVALID_ARGUMENT: i32 = -1;
+/// The call asks for more than can be indexed or held; refused before memory was taken, with the estimate.
+pub const AZULEJO_ERROR_TOO_LARGE: i32 = -2;
+/// A file could not be read.
+pub const AZULEJO_ERROR_IO: i32 = -3;
+/// A file was read, but is not what it should be.
+pub const AZULEJO_ERROR_FORMAT: i32 = -4;
+/// The progress callback cancelled the call.
+pub const AZULEJO_ERROR_CANCELLED: i32 = -5;
+/// Memory for a copy of the caller's arrays could not be had.
+pub const AZULEJO_ERROR_OUT_OF_MEMORY: i32 = -6;
+/// Embree refused: no device, no memory, or a scene that it cannot build.
+pub const AZULEJO_ERROR_EMBREE: i32 = -7;
+/// Threads could not be started.
+pub const AZULEJO_ERROR_THREADS: i32 = -8;
+/// A bug of the library, please report it. Handles that took part in the call can only be freed.
+pub const AZULEJO_ERROR_INTERNAL: i32 = -100;
+
+/// A call that was refused or could not be finished: its status and what to tell the caller.
+#[derive(Debug)]
+pub(crate) struct Failure {
+    status: azulejo_status,
+    message: String,
+}
+
+impl Failure {
+    pub(crate) fn new(status: azulejo_status, message: impl Into<String>) -> Self {
+        Self { status, message: message.into() }
+    }
+
+    pub(crate) fn invalid(argument: &str, reason: impl std::fmt::Display) -> Self {
+        Self::new(AZULEJO_ERROR_INVALID_ARGUMENT, format!("{argument}: {reason}"))
+    }
+
+    pub(crate) fn too_large(argument: &str, reason: impl std::fmt::Display) -> Self {
+        Self::new(AZULEJO_ERROR_TOO_LARGE, format!("{argument}: {reason}"))
+    }
+
+    /// Keeps the message as this thread's last error and gives the status.
+    pub(crate) fn record(self) -> azulejo_status {
+        // A thread that is being torn down has no last error any more, but still gets the status.
+        let _ = LAST_ERROR.try_with(|last| last.replace(self.message));
+        self.status
+    }
+}
+
+impl From<Error> for Failure {
+    fn from(error: Error) -> Self {
+        let status = match error {
+            Error::InvalidArgument { .. } => AZULEJO_ERROR_INVALID_ARGUMENT,
+            Error::TooLarge { .. } => AZULEJO_ERROR_TOO_LARGE,
+            Error::Io { .. } => AZULEJO_ERROR_IO,
+            Error::Format { .. } => AZULEJO_ERROR_FORMAT,
+            Error::Cancelled => AZULEJO_ERROR_CANCELLED,
+            Error::Embree(_) => AZULEJO_ERROR_EMBREE,
+            Error::Threads { .. } => AZULEJO_ERROR_THREADS,
+            // The enum may grow inside the workspace; an error without a code of its own is a bug of this crate.
+            _ => AZULEJO_ERROR_INTERNAL,
+        };
+        Self::new(status, error.to_string())
+    }
+}
+
+thread_local! {
+    static LAST_ERROR: RefCell<String> = const { RefCell::new(String::new()) };
+}
+
+/// Copies the message of this thread's last failed call: one line of UTF-8, ended by a NUL, empty if none failed.
+///
+/// Calls that succeed leave the message as it is: ask right after the call that failed.
+///
+/// buffer: where to write at most `capacity` bytes, the NUL among them; a longer message is cut between two
+/// characters. May be NULL if `capacity` is 0.
+///
+/// Returns the bytes that the whole message needs, the NUL among them.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_last_error_message(buffer: *mut c_char, capacity: usize) -> usize {
+    let copy = |message: &RefCell<String>| {
+        let message = message.borrow();
+        if !buffer.is_null() && capacity > 0 {
+            let length = (0..capacity).rev().find(|&end| message.is_char_boundary(end)).unwrap_or(0);
+            // SAFETY: the caller owns `capacity` bytes at `buffer`, and `length` is below `capacity`.
+            unsafe {
+                buffer.copy_from_nonoverlapping(message.as_ptr().cast(), length);
+                buffer.add(length).write(0);
+            }
+        }
+        message.len() + 1
+    };
+    LAST_ERROR.try_with(copy).unwrap_or(0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn last_error(capacity: usize) -> (usize, String) {
+        let mut buffer = vec![b'x' as c_char; 64];
+        // SAFETY: the buffer has at least `capacity` bytes.
+        let needed = unsafe { azulejo_last_error_message(buffer.as_mut_ptr(), capacity) };
+        let text = buffer.iter().map(|&byte| byte as u8).take_while(|&byte| byte != 0).collect();
+        (needed, String::from_utf8(text).unwrap())
+    }
+
+    #[test]
+    fn the_message_is_cut_between_characters_and_its_size_is_told() {
+        assert_eq!(last_error(64), (1, String::new()));
+        assert_eq!(Failure::invalid("path", "é").record(), AZULEJO_ERROR_INVALID_ARGUMENT);
+        assert_eq!(last_error(64), (9, "path: é".into()));
+        assert_eq!(last_error(9), (9, "path: é".into()));
+        assert_eq!(last_error(8), (9, "path: ".into()));
+        assert_eq!(last_error(1), (9, String::new()));
+        // SAFETY: nothing is written to NULL, or with a capacity of 0.
+        assert_eq!(unsafe { azulejo_last_error_message(std::ptr::null_mut(), 0) }, 9);
+        assert_eq!(std::thread::spawn(|| last_error(64)).join().unwrap(), (1, String::new()));
+    }
+}

@@ -1,0 +1,27 @@
+//! The version of the library.
+
+/// The major version of this header. It changes when programs must be changed.
+pub const AZULEJO_VERSION_MAJOR: u32 = 0;
+/// The minor version of this header. It changes when something is added; before 1.0 also when programs must be changed.
+pub const AZULEJO_VERSION_MINOR: u32 = 1;
+/// The patch level of this header.
+pub const AZULEJO_VERSION_PATCH: u32 = 0;
+/// The version of this header as one number: major * 10000 + minor * 100 + patch.
+pub const AZULEJO_VERSION: u32 = AZULEJO_VERSION_MAJOR * 10000 + AZULEJO_VERSION_MINOR * 100 + AZULEJO_VERSION_PATCH;
+
+/// The version of the library that the program runs with, to compare with AZULEJO_VERSION.
+#[unsafe(no_mangle)]
+pub extern "C" fn azulejo_version() -> u32 {
+    AZULEJO_VERSION
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_constants_are_the_version_of_the_crate() {
+        let constants = format!("{AZULEJO_VERSION_MAJOR}.{AZULEJO_VERSION_MINOR}.{AZULEJO_VERSION_PATCH}");
+        assert_eq!(constants, env!("CARGO_PKG_VERSION"));
+    }
+}

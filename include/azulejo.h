@@ -1,0 +1,589 @@
+/*
+ * azulejo: blue-noise sampling of planes and triangle meshes, and the relaxation of point sets.
+ *
+ * This header is generated from ffi/azulejo-c by cbindgen; do not edit it. It is C99; C++ programs may prefer
+ * azulejo.hpp, which wraps it.
+ *
+ * Conventions, which hold for every function unless its own text says otherwise:
+ *
+ * Status. A call that can fail returns an azulejo_status: AZULEJO_OK (0) or one of the negative AZULEJO_ERROR_ codes.
+ *   azulejo_last_error_message then says which argument is wrong, its value and its range. Arguments are checked before
+ *   any work starts. Outputs are written on success only. Nothing is thrown or unwound into C, and nothing is printed
+ *   to stdout; a panic inside the library, which is a bug, prints to stderr and becomes AZULEJO_ERROR_INTERNAL.
+ *
+ * Handles. azulejo_context, azulejo_mesh, azulejo_psp and azulejo_points are made by the library and given back with
+ *   their own _free, which allows NULL. They may be freed in any order: what a handle needs of another one, it keeps.
+ *   Accessors allow NULL too and answer 0 or NULL. Pointers into a handle live until it is freed.
+ *
+ * Pointers. An argument may be NULL only where that is said. Arrays are packed and read during the call only; the
+ *   pointer of an empty array may be NULL, with the count 0. A pointer that is not aligned for its type is refused.
+ *   Beyond that no library can tell a wrong pointer or a wrong count from a right one.
+ *
+ * Options. Every options struct begins with struct_size and is filled with defaults by its _options_init, which must
+ *   be called first: azulejo_kdrt_options o; azulejo_kdrt_options_init(&o, sizeof o); o.radius = 0.01; ...
+ *   A field exists for the library iff struct_size reaches its end, so that structs can grow: a program built against
+ *   an older header goes on working, and one built against a newer header works as long as what the library does not
+ *   know is zero. A struct with a non-zero tail, an unknown constant or a flag other than 0 and 1 is refused. Reports
+ *   are written by the library and need no preparation; they never grow, their reserved fields are zero.
+ *
+ * Progress. The callback in the options is called on the thread that makes the call, with the finished share, which
+ *   never falls, from 0 to 1 (the 1 comes if the call succeeds). Any return value but 0 cancels the call, which then
+ *   returns AZULEJO_ERROR_CANCELLED. The callback may call the library, also with the same context. It must return:
+ *   no exception and no longjmp may leave it.
+ *
+ * Threads. Every function may be called from any thread at any time. A context can be used by several threads at
+ *   once; a psp handle serves one changing call at a time and refuses a second one. The last error belongs to the
+ *   thread that made the call.
+ *
+ * Results. The same options and seed give the same bytes, for every number of threads and whatever was called before.
+ *   A radius is always the smallest distance allowed between the centres of two samples. Conflict-free: no two samples
+ *   are closer than the radius, in double arithmetic on the returned floats, without tolerance. Maximal: no place of
+ *   the domain or surface is farther than the radius from every sample, up to the rounding of the returned floats.
+ *
+ * Memory. Sizes that cannot be held are refused with AZULEJO_ERROR_TOO_LARGE before memory is taken. When the system
+ *   has no memory left in the middle of a call, the process is aborted, as by every Rust library.
+ *
+ * The algorithms are those of T. Wang, Techniques on Mining Effective Parallelism For High-Performance Blue-Noise
+ * Sampling, University of Tokyo, 2019 ("thesis" below).
+ */
+
+#ifndef AZULEJO_H
+#define AZULEJO_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+/// The call did what it says.
+#define AZULEJO_OK 0
+
+/// An argument or an option is outside its documented range.
+#define AZULEJO_ERROR_INVALID_ARGUMENT -1
+
+/// The call asks for more than can be indexed or held; refused before memory was taken, with the estimate.
+#define AZULEJO_ERROR_TOO_LARGE -2
+
+/// A file could not be read.
+#define AZULEJO_ERROR_IO -3
+
+/// A file was read, but is not what it should be.
+#define AZULEJO_ERROR_FORMAT -4
+
+/// The progress callback cancelled the call.
+#define AZULEJO_ERROR_CANCELLED -5
+
+/// Memory for a copy of the caller's arrays could not be had.
+#define AZULEJO_ERROR_OUT_OF_MEMORY -6
+
+/// Embree refused: no device, no memory, or a scene that it cannot build.
+#define AZULEJO_ERROR_EMBREE -7
+
+/// Threads could not be started.
+#define AZULEJO_ERROR_THREADS -8
+
+/// A bug of the library, please report it. Handles that took part in the call can only be freed.
+#define AZULEJO_ERROR_INTERNAL -100
+
+/// The major version of this header. It changes when programs must be changed.
+#define AZULEJO_VERSION_MAJOR 0
+
+/// The minor version of this header. It changes when something is added; before 1.0 also when programs must be changed.
+#define AZULEJO_VERSION_MINOR 1
+
+/// The patch level of this header.
+#define AZULEJO_VERSION_PATCH 0
+
+/// The version of this header as one number: major * 10000 + minor * 100 + patch.
+#define AZULEJO_VERSION (((AZULEJO_VERSION_MAJOR * 10000) + (AZULEJO_VERSION_MINOR * 100)) + AZULEJO_VERSION_PATCH)
+
+/// The domain is a torus: distances wrap with the period domain_max - domain_min.
+#define AZULEJO_BOUNDARY_PERIODIC 0
+
+/// Nothing lies beyond the domain: only its own samples count, and they alone cover it.
+#define AZULEJO_BOUNDARY_BOUNDED 1
+
+/// A point's neighbours are those of the Delaunay triangulation: they repel and attract.
+#define AZULEJO_NEIGHBOURHOOD_DELAUNAY 0
+
+/// A point's neighbours are its nearest points: they repel only.
+#define AZULEJO_NEIGHBOURHOOD_NEAREST 1
+
+/// The tension of an edge is divided between its ends by their activeness: the default.
+#define AZULEJO_DISTRIBUTION_ACTIVENESS 0
+
+/// Half of the tension to each end.
+#define AZULEJO_DISTRIBUTION_AVERAGE 1
+
+/// All of the tension to the neighbour.
+#define AZULEJO_DISTRIBUTION_DOMINANT 2
+
+/// All of the tension to the point itself.
+#define AZULEJO_DISTRIBUTION_ZERO 3
+
+/// 80 per cent of the tension to the point itself, 20 to the neighbour.
+#define AZULEJO_DISTRIBUTION_EIGHTY_TWENTY 4
+
+/// A pool of threads of its own; give it to every call that works for long. One context for a whole program is usual.
+/// It can be used by several threads at once.
+typedef struct azulejo_context azulejo_context;
+
+/// A checked triangle mesh: immutable, may be used by several threads at once. Any soup of triangles will do: open,
+/// non-manifold, of many parts and mixed winding.
+typedef struct azulejo_mesh azulejo_mesh;
+
+/// The samples that a call made: immutable, may be read by several threads at once. All arrays of a set have one entry
+/// per sample, in the same order, and live until azulejo_points_free.
+typedef struct azulejo_points azulejo_points;
+
+/// A set of samples on a mesh that grows. It keeps its context and its mesh, which may be freed before it.
+///
+/// One call at a time may change it; a call that comes in between, from another thread or from the progress callback,
+/// is refused. Several threads at once may take its points.
+typedef struct azulejo_psp azulejo_psp;
+
+/// What a call answers: AZULEJO_OK or a negative AZULEJO_ERROR_ code. Codes are never reused; new ones may come.
+typedef int32_t azulejo_status;
+
+/// Called now and then during a long call, on the thread that made it. See "Progress" in the conventions.
+///
+/// user: the progress_user of the options.
+///
+/// done: the finished share of the call, from 0 to 1; it never falls.
+///
+/// Returns 0 to go on, anything else to cancel.
+typedef int32_t (*azulejo_progress_fn)(void *user, double done);
+
+/// Options of azulejo_kdrt_sample.
+typedef struct azulejo_kdrt_options {
+    /// The size of the caller's struct in bytes; set by the init function.
+    uint32_t struct_size;
+    /// An AZULEJO_BOUNDARY_ constant; periodic by default.
+    int32_t boundary;
+    /// The smallest distance between two samples, in the units of the domain. Above 0; there is no default.
+    double radius;
+    /// The lower corner of the domain, x y; 0 0 by default.
+    double domain_min[2];
+    /// The upper corner of the domain, above the lower one on both axes; 1 1 by default.
+    double domain_max[2];
+    /// The size of the pieces of pattern that tile the domain, in radii: at least 6, by default 20. Larger pieces are
+    /// faster and have fewer seams, but repeat the pattern more visibly. A domain smaller than a piece is one piece.
+    double leaf_size;
+    /// Any number; another seed gives another set.
+    uint64_t seed;
+    /// Called during the call, unless NULL, which is the default.
+    azulejo_progress_fn progress;
+    /// Handed to the progress callback.
+    void *progress_user;
+} azulejo_kdrt_options;
+
+/// Options of azulejo_maximal_sample.
+typedef struct azulejo_maximal_options {
+    /// The size of the caller's struct in bytes; set by the init function.
+    uint32_t struct_size;
+    /// An AZULEJO_BOUNDARY_ constant; periodic by default.
+    int32_t boundary;
+    /// The smallest distance between two samples, in the units of the domain. Above 0; there is no default.
+    double radius;
+    /// The lower corner of the domain, x y; 0 0 by default.
+    double domain_min[2];
+    /// The upper corner of the domain, above the lower one on both axes; 1 1 by default.
+    double domain_max[2];
+    /// Any number; another seed gives another set.
+    uint64_t seed;
+    /// Called during the call, unless NULL, which is the default.
+    azulejo_progress_fn progress;
+    /// Handed to the progress callback.
+    void *progress_user;
+} azulejo_maximal_options;
+
+/// Options of azulejo_psp_create and azulejo_psp_sample.
+typedef struct azulejo_psp_options {
+    /// The size of the caller's struct in bytes; set by the init function.
+    uint32_t struct_size;
+    /// How often azulejo_psp_sample projects its patterns before it fills the gaps, 3 directions each time. More
+    /// iterations leave less to the filling, which costs more per sample. The default is the fastest.
+    uint32_t iterations;
+    /// The smallest straight distance between two samples, in the units of the mesh. Above 0; there is no default.
+    double radius;
+    /// Any number; another seed gives another set.
+    uint64_t seed;
+    /// 1, the default: azulejo_psp_sample fills all gaps. 0: it stops after the iterations, as the thesis does, with
+    /// some per cent of the surface uncovered.
+    int32_t maximal;
+    /// Must be 0.
+    uint32_t reserved;
+    /// Called during the calls, unless NULL, which is the default. A psp handle keeps it for all its calls.
+    azulejo_progress_fn progress;
+    /// Handed to the progress callback.
+    void *progress_user;
+} azulejo_psp_options;
+
+/// What a call did.
+typedef struct azulejo_psp_report {
+    /// The samples of the set after the call.
+    uint64_t samples;
+    /// The samples that the call added.
+    uint64_t accepted;
+    /// The rays that it traced: those that meet the mesh's box.
+    uint64_t rays;
+    /// The places where they met the mesh.
+    uint64_t hits;
+    /// The hits that were lost to an earlier one on the same ray.
+    uint64_t restart_conflicts;
+    /// The darts that it threw into uncovered surface.
+    uint64_t darts;
+    /// The hits and darts that were lost to other samples.
+    uint64_t conflicts;
+    /// Wall time.
+    double seconds;
+    /// The iterations of projection that it made.
+    uint32_t iterations;
+    /// Zeros, for later versions.
+    uint32_t reserved[15];
+} azulejo_psp_report;
+
+/// Options of azulejo_dcr_relax. Radii are in units of d_max = sqrt(2 * area / (sqrt(3) * count)), the distance of
+/// neighbours if the same number of points stood in hexagonal arrangement.
+typedef struct azulejo_dcr_options {
+    /// The size of the caller's struct in bytes; set by the init function.
+    uint32_t struct_size;
+    /// An AZULEJO_BOUNDARY_ constant; periodic by default.
+    int32_t boundary;
+    /// The lower corner of the domain, x y; 0 0 by default.
+    double domain_min[2];
+    /// The upper corner of the domain, above the lower one on both axes; 1 1 by default.
+    double domain_max[2];
+    /// An AZULEJO_NEIGHBOURHOOD_ constant; Delaunay by default.
+    int32_t neighbourhood;
+    /// The largest number of steps, 1000 by default; 0 returns the points as they are. Fewer are made where the motion
+    /// ends before.
+    uint32_t max_iterations;
+    /// Parts points that coincide; used for nothing else.
+    uint64_t seed;
+    /// Neighbours closer than this repel each other; above 0, at most 1; 0.95 by default.
+    double conflict_radius;
+    /// Delaunay neighbours farther apart than this attract each other; at least conflict_radius; 1.05 by default.
+    double attraction_radius;
+    /// The displacement by a tension of 1; above 0, at most 1; 0.05 by default.
+    double step;
+    /// The motion (see the report) at which the set has converged. 0 makes all steps; a negative number, the default,
+    /// takes 0.02 for Delaunay and 0.005 for nearest neighbours.
+    double tolerance;
+    /// How many neighbours AZULEJO_NEIGHBOURHOOD_NEAREST takes; at least 1; 6 by default.
+    uint32_t neighbours;
+    /// An AZULEJO_DISTRIBUTION_ constant (thesis figure 4.19); by activeness by default.
+    int32_t distribution;
+    /// Called during the call, unless NULL, which is the default.
+    azulejo_progress_fn progress;
+    /// Handed to the progress callback.
+    void *progress_user;
+} azulejo_dcr_options;
+
+/// What a relaxation did.
+typedef struct azulejo_dcr_report {
+    /// The steps made.
+    uint32_t iterations;
+    /// 1 if the motion came to its end before the steps did, else 0.
+    int32_t converged;
+    /// The root mean square displacement in the last step, in units of d_max and divided by the step size.
+    double motion;
+    /// The smallest distance between two of the points, in the units of the domain; infinite for less than two points.
+    double smallest_distance;
+    /// The smallest distance in units of d_max: 0.77 for a maximal set, at most 1 on a periodic domain.
+    double rho;
+    /// Zeros, for later versions.
+    uint32_t reserved[8];
+} azulejo_dcr_report;
+
+#ifdef __cplusplus
+extern "C" {
+#endif // __cplusplus
+
+/// Copies the message of this thread's last failed call: one line of UTF-8, ended by a NUL, empty if none failed.
+///
+/// Calls that succeed leave the message as it is: ask right after the call that failed.
+///
+/// buffer: where to write at most `capacity` bytes, the NUL among them; a longer message is cut between two
+/// characters. May be NULL if `capacity` is 0.
+///
+/// Returns the bytes that the whole message needs, the NUL among them.
+size_t azulejo_last_error_message(char *buffer, size_t capacity);
+
+/// The version of the library that the program runs with, to compare with AZULEJO_VERSION.
+uint32_t azulejo_version(void);
+
+/// Starts the threads.
+///
+/// num_threads: 1 to 4096, or 0 for one per core. With 1 no thread is made: all work happens in the caller's.
+///
+/// out: the context, to be freed with azulejo_context_free.
+azulejo_status azulejo_context_create(uint32_t num_threads, struct azulejo_context **out);
+
+/// The number of threads that work on a call; 0 for NULL.
+uint32_t azulejo_context_num_threads(const struct azulejo_context *context);
+
+/// Ends the threads, once no call and no psp handle uses them any more. NULL is allowed.
+void azulejo_context_free(struct azulejo_context *context);
+
+/// The number of samples; 0 for NULL.
+size_t azulejo_points_count(const struct azulejo_points *points);
+
+/// The number of coordinates of each position: 2 for samples of the plane, 3 for samples of a mesh; 0 for NULL.
+uint32_t azulejo_points_dimension(const struct azulejo_points *points);
+
+/// The positions, x y or x y z of each sample, interleaved; NULL for NULL and for an empty set.
+///
+/// Samples of the plane lie in domain_min <= x < domain_max. Samples of a mesh lie on their triangle, up to the rounding
+/// of the floats: they are computed from the barycentrics in double arithmetic and rounded once.
+const float *azulejo_points_positions(const struct azulejo_points *points);
+
+/// The unit normals of the samples' triangles, x y z each, seen from where their vertices run counter-clockwise;
+/// NULL for NULL, an empty set and samples of the plane.
+const float *azulejo_points_normals(const struct azulejo_points *points);
+
+/// The index of the triangle that each sample lies on; NULL for NULL, an empty set and samples of the plane.
+const uint32_t *azulejo_points_triangles(const struct azulejo_points *points);
+
+/// The barycentric coordinates u v of each sample in its triangle (a, b, c), as in Embree: the position is
+/// (1 - u - v) * a + u * b + v * c, and so is every other attribute of the vertices.
+/// NULL for NULL, an empty set and samples of the plane.
+const float *azulejo_points_barycentrics(const struct azulejo_points *points);
+
+/// Frees the set with all its arrays. NULL is allowed.
+void azulejo_points_free(struct azulejo_points *points);
+
+/// Writes the defaults. `struct_size` is sizeof *options.
+azulejo_status azulejo_kdrt_options_init(struct azulejo_kdrt_options *options, size_t struct_size);
+
+/// Makes a maximal, conflict-free set of samples of a rectangle, about 0.7 * area / radius^2 of them.
+///
+/// Tiles clips of one small pattern over a random kd-tree and repairs the seams (thesis chapter 2): O(samples) time,
+/// and about 16 bytes per sample at the peak. Every thread of the context works.
+///
+/// out: the samples, x y each, to be freed with azulejo_points_free.
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also where floats are too coarse to carry the radius (their spacing at the
+/// largest coordinate is above radius / 64); AZULEJO_ERROR_TOO_LARGE with the estimated count; AZULEJO_ERROR_CANCELLED.
+azulejo_status azulejo_kdrt_sample(const struct azulejo_context *context,
+                                   const struct azulejo_kdrt_options *options,
+                                   struct azulejo_points **out);
+
+/// Writes the defaults. `struct_size` is sizeof *options.
+azulejo_status azulejo_maximal_options_init(struct azulejo_maximal_options *options, size_t struct_size);
+
+/// Makes a maximal, conflict-free set of samples of a rectangle by throwing darts into what is still uncovered, one
+/// after the other: without any bias, much slower than azulejo_kdrt_sample and on one thread. It is the reference that
+/// other sets are compared with, about 0.6966 * area / radius^2 samples, in O(samples) time.
+///
+/// out: the samples, x y each, to be freed with azulejo_points_free.
+///
+/// Errors: as azulejo_kdrt_sample.
+///
+/// Source: M. S. Ebeida et al., A Simple Algorithm for Maximal Poisson-Disk Sampling in High Dimensions, 2012.
+azulejo_status azulejo_maximal_sample(const struct azulejo_context *context,
+                                      const struct azulejo_maximal_options *options,
+                                      struct azulejo_points **out);
+
+/// Copies a mesh of the caller's.
+///
+/// positions: the vertices; the x y z of each begin `stride_bytes` after those of the one before.
+///
+/// stride_bytes: at least 12, a multiple of 4. What lies between the positions is not read.
+///
+/// indices: three for each triangle, below `vertex_count`; triangles keep their order. Triangles without area are
+/// allowed and get no samples.
+///
+/// out: the mesh, to be freed with azulejo_mesh_free.
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT for positions that are not finite, indices out of range, no triangle at all
+/// and triangles without any area; AZULEJO_ERROR_TOO_LARGE for 2^32 - 1 vertices or triangles or more, and for sizes
+/// that overflow; AZULEJO_ERROR_OUT_OF_MEMORY.
+azulejo_status azulejo_mesh_create(const float *positions,
+                                   size_t vertex_count,
+                                   size_t stride_bytes,
+                                   const uint32_t *indices,
+                                   size_t triangle_count,
+                                   struct azulejo_mesh **out);
+
+/// Loads a mesh from a file: Wavefront OBJ or PLY (text and binary), told apart by the extension .obj or .ply, otherwise
+/// by what the file begins with. Polygons become fans of triangles, in the order of the faces; points, lines, materials,
+/// texture coordinates and normals are left aside.
+///
+/// path: the name of the file as the operating system wants it.
+///
+/// out: the mesh, to be freed with azulejo_mesh_free.
+///
+/// Errors: AZULEJO_ERROR_IO if the file cannot be read, AZULEJO_ERROR_FORMAT if it is broken, or what it holds would be
+/// refused by azulejo_mesh_create.
+azulejo_status azulejo_mesh_load(const char *path,
+                                 struct azulejo_mesh **out);
+
+/// The number of vertices; 0 for NULL.
+size_t azulejo_mesh_vertex_count(const struct azulejo_mesh *mesh);
+
+/// The number of triangles; 0 for NULL.
+size_t azulejo_mesh_triangle_count(const struct azulejo_mesh *mesh);
+
+/// The vertices, x y z each, packed; they live until azulejo_mesh_free. NULL for NULL.
+const float *azulejo_mesh_positions(const struct azulejo_mesh *mesh);
+
+/// The three vertices of each triangle, counter-clockwise seen from the front; they live until azulejo_mesh_free. NULL for NULL.
+const uint32_t *azulejo_mesh_indices(const struct azulejo_mesh *mesh);
+
+/// The area of all triangles together, in squared units of the positions; 0 for NULL. A maximal set of N samples has a
+/// radius of about sqrt(0.69656 * area / N), as long as that is small against the features of the surface.
+double azulejo_mesh_area(const struct azulejo_mesh *mesh);
+
+/// Frees the mesh, once no psp handle uses it any more. NULL is allowed.
+void azulejo_mesh_free(struct azulejo_mesh *mesh);
+
+/// Writes the defaults. `struct_size` is sizeof *options.
+azulejo_status azulejo_psp_options_init(struct azulejo_psp_options *options, size_t struct_size);
+
+/// Makes an empty set on a mesh.
+///
+/// options: `iterations` and `maximal` play no part here, but are checked.
+///
+/// out: the handle, to be freed with azulejo_psp_free.
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also where floats are too coarse to carry the radius (their spacing at the
+/// largest coordinate is above radius / 64); AZULEJO_ERROR_TOO_LARGE with the estimated count.
+azulejo_status azulejo_psp_create(const struct azulejo_context *context,
+                                  const struct azulejo_mesh *mesh,
+                                  const struct azulejo_psp_options *options,
+                                  struct azulejo_psp **out);
+
+/// Adds samples: projects patterns of samples onto the mesh, each iteration in three orthogonal directions of a random
+/// frame, and keeps what is in no conflict with the set (thesis chapter 3). Samples are only ever added, in time that
+/// grows with the hits and with the squared diagonal of the mesh over the squared radius. The first call prepares the
+/// mesh for Embree. Two calls add what one call with the sum of their iterations adds.
+///
+/// iterations: how often; 0 does nothing.
+///
+/// report: what this call did, or NULL.
+///
+/// Errors: AZULEJO_ERROR_EMBREE; AZULEJO_ERROR_CANCELLED: the set then holds what was finished, and can grow on.
+azulejo_status azulejo_psp_advance(struct azulejo_psp *psp, uint32_t iterations, struct azulejo_psp_report *report);
+
+/// Makes the set maximal: finds the parts of the surface that are farther than the radius from every sample and throws
+/// darts into them until none is left.
+///
+/// report: what this call did, or NULL.
+///
+/// Errors: AZULEJO_ERROR_CANCELLED: the set then holds what was finished, and can grow on.
+azulejo_status azulejo_psp_fill(struct azulejo_psp *psp, struct azulejo_psp_report *report);
+
+/// Copies the set as it is now.
+///
+/// out: the samples with normals, triangles and barycentrics, to be freed with azulejo_points_free.
+azulejo_status azulejo_psp_points(const struct azulejo_psp *psp, struct azulejo_points **out);
+
+/// Frees the set, but not the points taken from it. Not to be called from its own progress callback. NULL is allowed.
+void azulejo_psp_free(struct azulejo_psp *psp);
+
+/// Samples a mesh in one call: azulejo_psp_create, azulejo_psp_advance by `iterations` and, if `maximal` is 1,
+/// azulejo_psp_fill, with one progress for all.
+///
+/// out: the samples with normals, triangles and barycentrics, to be freed with azulejo_points_free.
+///
+/// report: what the call did, or NULL.
+///
+/// Errors: those of the three.
+azulejo_status azulejo_psp_sample(const struct azulejo_context *context,
+                                  const struct azulejo_mesh *mesh,
+                                  const struct azulejo_psp_options *options,
+                                  struct azulejo_points **out,
+                                  struct azulejo_psp_report *report);
+
+/// Writes the defaults. `struct_size` is sizeof *options.
+azulejo_status azulejo_dcr_options_init(struct azulejo_dcr_options *options, size_t struct_size);
+
+/// Relaxes a set of points: neighbours that are too close repel, those too far apart attract each other, until the
+/// motion ends or the steps do (thesis chapter 4). O(count log count) time for each step.
+///
+/// xy: the points, x y each, in domain_min <= x < domain_max; `count` of them.
+///
+/// out: the points after the last step, in the same order, to be freed with azulejo_points_free.
+///
+/// report: what the call did, or NULL.
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_TOO_LARGE, AZULEJO_ERROR_CANCELLED.
+azulejo_status azulejo_dcr_relax(const struct azulejo_context *context,
+                                 const struct azulejo_dcr_options *options,
+                                 const float *xy,
+                                 size_t count,
+                                 struct azulejo_points **out,
+                                 struct azulejo_dcr_report *report);
+
+/// The smallest distance between two points of the plane, in double arithmetic; on a periodic domain around the torus.
+///
+/// xy: the points, x y each, in the domain; `count` of them.
+///
+/// domain_min, domain_max, boundary: two numbers, two numbers and a constant, as in the options.
+///
+/// out: the distance; infinite for less than two points.
+///
+/// O(count) time for points that are spread evenly.
+azulejo_status azulejo_plane_smallest_distance(const struct azulejo_context *context,
+                                               const float *xy,
+                                               size_t count,
+                                               const double *domain_min,
+                                               const double *domain_max,
+                                               int32_t boundary,
+                                               double *out);
+
+/// The covering radius of points of the plane: how far the place of the domain that is farthest from all of them is. A
+/// set is maximal for a radius that is not smaller. On a periodic domain points cover around the torus.
+///
+/// xy: the points, x y each, in the domain; `count` of them.
+///
+/// domain_min, domain_max, boundary: two numbers, two numbers and a constant, as in the options.
+///
+/// out: the covering radius, by less than a billionth of it too small; infinite for no point.
+///
+/// Found exactly, by subdividing the domain: O(count) time for points that leave no large holes.
+azulejo_status azulejo_plane_covering_radius(const struct azulejo_context *context,
+                                             const float *xy,
+                                             size_t count,
+                                             const double *domain_min,
+                                             const double *domain_max,
+                                             int32_t boundary,
+                                             double *out);
+
+/// The smallest straight distance between two points in space, in double arithmetic.
+///
+/// positions: the points, x y z each; `count` of them.
+///
+/// out: the distance; infinite for less than two points.
+///
+/// O(count) time for points that are spread evenly.
+azulejo_status azulejo_space_smallest_distance(const struct azulejo_context *context,
+                                               const float *positions,
+                                               size_t count,
+                                               double *out);
+
+/// The part of a surface that is farther than a radius from every one of some points, seen by random probes.
+///
+/// positions: the points, x y z each; `count` of them.
+///
+/// radius: above 0, in the units of the mesh.
+///
+/// probes, seed: how many random places of the surface are looked at, spread evenly over its area, and which.
+///
+/// out: the share of probes that are not covered, 0 to 1.
+///
+/// O(probes + count) time. Probes do not prove coverage: they find a gap of a millionth of the area with two million of
+/// them most of the time, and miss smaller ones.
+azulejo_status azulejo_mesh_uncovered_fraction(const struct azulejo_context *context,
+                                               const struct azulejo_mesh *mesh,
+                                               const float *positions,
+                                               size_t count,
+                                               double radius,
+                                               uint64_t probes,
+                                               uint64_t seed,
+                                               double *out);
+
+#ifdef __cplusplus
+}  // extern "C"
+#endif  // __cplusplus
+
+#endif  /* AZULEJO_H */

@@ -1,0 +1,351 @@
+// azulejo for C++17: the C interface of azulejo.h with owners instead of handles, exceptions instead of status codes,
+// and options that start with their defaults. Header only. What the calls do, their units, ranges and thread rules
+// stand in azulejo.h, under the names of the C functions.
+
+#ifndef AZULEJO_HPP
+#define AZULEJO_HPP
+
+#include <cstddef>
+#include <cstdint>
+#include <exception>
+#include <functional>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "azulejo.h"
+
+namespace azulejo {
+
+/// A call that failed: what() is the library's message, which names the argument, its value and its range.
+class Error : public std::runtime_error {
+public:
+    Error(azulejo_status status, const std::string &message) : std::runtime_error(message), status_(status) {}
+
+    /// One of the AZULEJO_ERROR_ codes.
+    azulejo_status status() const noexcept { return status_; }
+
+private:
+    azulejo_status status_;
+};
+
+/// Throws the last error of this thread, unless the status is AZULEJO_OK.
+inline void check(azulejo_status status) {
+    if (status == AZULEJO_OK) {
+        return;
+    }
+    std::string message(azulejo_last_error_message(nullptr, 0), '\0');
+    azulejo_last_error_message(message.data(), message.size());
+    message.resize(message.empty() ? 0 : message.size() - 1); // the NUL
+    throw Error(status, message);
+}
+
+/// The version of the library that the program runs with; see AZULEJO_VERSION.
+inline std::uint32_t version() noexcept { return azulejo_version(); }
+
+/// An array that belongs to someone else: a pointer and a size. What the accessors below return lives as long as the
+/// object that they were called on.
+template <class T>
+class Span {
+public:
+    constexpr Span() noexcept = default;
+    constexpr Span(T *data, std::size_t size) noexcept : data_(data), size_(size) {}
+    /// Any container with data() and size(), such as std::vector and std::array.
+    template <class C, class = decltype(static_cast<T *>(std::declval<C &>().data()))>
+    constexpr Span(C &&container) noexcept : data_(container.data()), size_(container.size()) {}
+
+    constexpr T *data() const noexcept { return data_; }
+    constexpr std::size_t size() const noexcept { return size_; }
+    constexpr bool empty() const noexcept { return size_ == 0; }
+    constexpr T *begin() const noexcept { return data_; }
+    constexpr T *end() const noexcept { return data_ + size_; }
+    constexpr T &operator[](std::size_t index) const { return data_[index]; }
+
+private:
+    T *data_ = nullptr;
+    std::size_t size_ = 0;
+};
+
+/// Called on the calling thread with the finished share, from 0 to 1; returns whether to go on. A call that is stopped
+/// throws an Error with AZULEJO_ERROR_CANCELLED. What the function itself throws stops the call too and leaves it.
+using Progress = std::function<bool(double done)>;
+
+/// The options of a call: the fields of the C struct, filled with their defaults, and a progress function.
+template <class C, azulejo_status (*init)(C *, std::size_t)>
+struct Options : C {
+    Options() { check(init(this, sizeof(C))); }
+
+    /// Takes the place of the C struct's two fields.
+    Progress progress;
+};
+
+/// See azulejo_kdrt_options; `radius` has no default.
+using KdrtOptions = Options<azulejo_kdrt_options, azulejo_kdrt_options_init>;
+/// See azulejo_maximal_options; `radius` has no default.
+using MaximalOptions = Options<azulejo_maximal_options, azulejo_maximal_options_init>;
+/// See azulejo_psp_options; `radius` has no default.
+using PspOptions = Options<azulejo_psp_options, azulejo_psp_options_init>;
+/// See azulejo_dcr_options.
+using DcrOptions = Options<azulejo_dcr_options, azulejo_dcr_options_init>;
+
+using PspReport = azulejo_psp_report;
+using DcrReport = azulejo_dcr_report;
+
+namespace detail {
+
+template <class T, void (*free)(T *)>
+struct Free {
+    void operator()(T *handle) const noexcept { free(handle); }
+};
+
+template <class T, void (*free)(T *)>
+using Handle = std::unique_ptr<T, Free<T, free>>;
+
+/// A progress function where C can call it: exceptions wait here until the call is over.
+class Watch {
+public:
+    explicit Watch(Progress progress) : progress_(std::move(progress)) {}
+    Watch(const Watch &) = delete;
+    Watch &operator=(const Watch &) = delete;
+
+    /// Makes the options tell this object.
+    template <class C>
+    void attach(C &options) {
+        options.progress = progress_ ? &Watch::call : nullptr;
+        options.progress_user = this;
+    }
+
+    /// To be called with what the call returned.
+    void finish(azulejo_status status) {
+        if (thrown_) {
+            std::rethrow_exception(std::exchange(thrown_, nullptr));
+        }
+        check(status);
+    }
+
+private:
+    static std::int32_t call(void *user, double done) noexcept {
+        auto *watch = static_cast<Watch *>(user);
+        try {
+            return watch->progress_(done) ? 0 : 1;
+        } catch (...) {
+            watch->thrown_ = std::current_exception();
+            return 1;
+        }
+    }
+
+    Progress progress_;
+    std::exception_ptr thrown_;
+};
+
+/// Runs a C call with the C struct of these options, whose progress is told to the caller's function.
+template <class C, azulejo_status (*init)(C *, std::size_t), class Call>
+void watched(const Options<C, init> &options, Call call) {
+    Watch watch(options.progress);
+    C c_options = options;
+    watch.attach(c_options);
+    watch.finish(call(&c_options));
+}
+
+} // namespace detail
+
+/// The threads that calls run on; see azulejo_context. Like all owners here it can be moved, not copied; an object that
+/// was moved from holds NULL.
+class Context {
+public:
+    /// 0 takes one thread per core.
+    explicit Context(std::uint32_t num_threads = 0) {
+        azulejo_context *handle = nullptr;
+        check(azulejo_context_create(num_threads, &handle));
+        handle_.reset(handle);
+    }
+
+    std::uint32_t num_threads() const noexcept { return azulejo_context_num_threads(get()); }
+    /// The C handle, which stays this object's.
+    const azulejo_context *get() const noexcept { return handle_.get(); }
+
+private:
+    detail::Handle<azulejo_context, azulejo_context_free> handle_;
+};
+
+/// Samples of the plane or of a mesh; see azulejo_points.
+class Points {
+public:
+    /// Takes a C handle over.
+    explicit Points(azulejo_points *handle) noexcept : handle_(handle) {}
+
+    /// The number of samples.
+    std::size_t size() const noexcept { return azulejo_points_count(get()); }
+    /// 2 for samples of the plane, 3 for samples of a mesh.
+    std::uint32_t dimension() const noexcept { return azulejo_points_dimension(get()); }
+    /// dimension() coordinates for each sample.
+    Span<const float> positions() const noexcept { return {azulejo_points_positions(get()), size() * dimension()}; }
+    /// Three coordinates for each sample of a mesh; empty for the plane, as are the next two.
+    Span<const float> normals() const noexcept { return surface(azulejo_points_normals(get()), 3); }
+    /// The triangle of each sample.
+    Span<const std::uint32_t> triangles() const noexcept { return surface(azulejo_points_triangles(get()), 1); }
+    /// u v of each sample: its position is (1 - u - v) * a + u * b + v * c.
+    Span<const float> barycentrics() const noexcept { return surface(azulejo_points_barycentrics(get()), 2); }
+    /// The C handle, which stays this object's.
+    const azulejo_points *get() const noexcept { return handle_.get(); }
+
+private:
+    template <class T>
+    Span<const T> surface(const T *data, std::size_t width) const noexcept {
+        return {data, data ? width * size() : 0};
+    }
+
+    detail::Handle<azulejo_points, azulejo_points_free> handle_;
+};
+
+/// A checked triangle mesh; see azulejo_mesh.
+class Mesh {
+public:
+    /// Packed arrays: x y z of each vertex, three indices for each triangle. Numbers left over at an end are left out.
+    Mesh(Span<const float> positions, Span<const std::uint32_t> indices)
+        : Mesh(positions.data(), positions.size() / 3, 3 * sizeof(float), indices.data(), indices.size() / 3) {}
+
+    /// See azulejo_mesh_create.
+    Mesh(const float *positions, std::size_t vertex_count, std::size_t stride_bytes, const std::uint32_t *indices,
+         std::size_t triangle_count) {
+        azulejo_mesh *handle = nullptr;
+        check(azulejo_mesh_create(positions, vertex_count, stride_bytes, indices, triangle_count, &handle));
+        handle_.reset(handle);
+    }
+
+    /// An OBJ or PLY file; see azulejo_mesh_load.
+    static Mesh load(const std::string &path) {
+        azulejo_mesh *handle = nullptr;
+        check(azulejo_mesh_load(path.c_str(), &handle));
+        return Mesh(handle);
+    }
+
+    std::size_t vertex_count() const noexcept { return azulejo_mesh_vertex_count(get()); }
+    std::size_t triangle_count() const noexcept { return azulejo_mesh_triangle_count(get()); }
+    /// x y z of each vertex.
+    Span<const float> positions() const noexcept { return {azulejo_mesh_positions(get()), 3 * vertex_count()}; }
+    /// Three vertices for each triangle.
+    Span<const std::uint32_t> indices() const noexcept { return {azulejo_mesh_indices(get()), 3 * triangle_count()}; }
+    /// The area of all triangles.
+    double area() const noexcept { return azulejo_mesh_area(get()); }
+    /// The C handle, which stays this object's.
+    const azulejo_mesh *get() const noexcept { return handle_.get(); }
+
+private:
+    explicit Mesh(azulejo_mesh *handle) noexcept : handle_(handle) {}
+
+    detail::Handle<azulejo_mesh, azulejo_mesh_free> handle_;
+};
+
+/// A set of samples on a mesh that grows; see azulejo_psp. It keeps what it needs of the context and the mesh.
+class Psp {
+public:
+    Psp(const Context &context, const Mesh &mesh, const PspOptions &options)
+        : watch_(std::make_unique<detail::Watch>(options.progress)) {
+        azulejo_psp_options c_options = options;
+        watch_->attach(c_options);
+        azulejo_psp *handle = nullptr;
+        watch_->finish(azulejo_psp_create(context.get(), mesh.get(), &c_options, &handle));
+        handle_.reset(handle);
+    }
+
+    /// Adds samples by projection.
+    PspReport advance(std::uint32_t iterations) {
+        PspReport report;
+        finish(azulejo_psp_advance(handle_.get(), iterations, &report));
+        return report;
+    }
+
+    /// Makes the set maximal.
+    PspReport fill() {
+        PspReport report;
+        finish(azulejo_psp_fill(handle_.get(), &report));
+        return report;
+    }
+
+    /// A copy of the set as it is now.
+    Points points() const {
+        azulejo_points *points = nullptr;
+        check(azulejo_psp_points(handle_.get(), &points));
+        return Points(points);
+    }
+
+private:
+    // An object that was moved from has no watch.
+    void finish(azulejo_status status) { watch_ ? watch_->finish(status) : check(status); }
+
+    std::unique_ptr<detail::Watch> watch_; // where the handle's callback finds it, wherever this object moves
+    detail::Handle<azulejo_psp, azulejo_psp_free> handle_;
+};
+
+/// A maximal set of samples of a rectangle; see azulejo_kdrt_sample.
+inline Points kdrt_sample(const Context &context, const KdrtOptions &options) {
+    azulejo_points *points = nullptr;
+    detail::watched(options, [&](auto *o) { return azulejo_kdrt_sample(context.get(), o, &points); });
+    return Points(points);
+}
+
+/// The unbiased reference, slowly; see azulejo_maximal_sample.
+inline Points maximal_sample(const Context &context, const MaximalOptions &options) {
+    azulejo_points *points = nullptr;
+    detail::watched(options, [&](auto *o) { return azulejo_maximal_sample(context.get(), o, &points); });
+    return Points(points);
+}
+
+/// Samples of a mesh in one call; see azulejo_psp_sample. `report` may be null.
+inline Points psp_sample(const Context &context, const Mesh &mesh, const PspOptions &options,
+                         PspReport *report = nullptr) {
+    azulejo_points *points = nullptr;
+    detail::watched(options,
+                    [&](auto *o) { return azulejo_psp_sample(context.get(), mesh.get(), o, &points, report); });
+    return Points(points);
+}
+
+/// Relaxes points of the plane, x y each; see azulejo_dcr_relax. `report` may be null.
+inline Points dcr_relax(const Context &context, const DcrOptions &options, Span<const float> xy,
+                        DcrReport *report = nullptr) {
+    azulejo_points *points = nullptr;
+    detail::watched(options, [&](auto *o) {
+        return azulejo_dcr_relax(context.get(), o, xy.data(), xy.size() / 2, &points, report);
+    });
+    return Points(points);
+}
+
+/// See azulejo_plane_smallest_distance; the domain as in the options.
+inline double plane_smallest_distance(const Context &context, Span<const float> xy, const double (&domain_min)[2],
+                                      const double (&domain_max)[2], std::int32_t boundary) {
+    double distance = 0;
+    check(azulejo_plane_smallest_distance(context.get(), xy.data(), xy.size() / 2, domain_min, domain_max, boundary,
+                                          &distance));
+    return distance;
+}
+
+/// See azulejo_plane_covering_radius; the domain as in the options.
+inline double plane_covering_radius(const Context &context, Span<const float> xy, const double (&domain_min)[2],
+                                    const double (&domain_max)[2], std::int32_t boundary) {
+    double radius = 0;
+    check(azulejo_plane_covering_radius(context.get(), xy.data(), xy.size() / 2, domain_min, domain_max, boundary,
+                                        &radius));
+    return radius;
+}
+
+/// See azulejo_space_smallest_distance.
+inline double space_smallest_distance(const Context &context, Span<const float> positions) {
+    double distance = 0;
+    check(azulejo_space_smallest_distance(context.get(), positions.data(), positions.size() / 3, &distance));
+    return distance;
+}
+
+/// See azulejo_mesh_uncovered_fraction.
+inline double mesh_uncovered_fraction(const Context &context, const Mesh &mesh, Span<const float> positions, double radius,
+                                      std::uint64_t probes, std::uint64_t seed = 0) {
+    double fraction = 0;
+    check(azulejo_mesh_uncovered_fraction(context.get(), mesh.get(), positions.data(), positions.size() / 3, radius, probes, seed,
+                                          &fraction));
+    return fraction;
+}
+
+} // namespace azulejo
+
+#endif // AZULEJO_HPP

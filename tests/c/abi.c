@@ -1,0 +1,129 @@
+/* The ABI of version 0.1 on LP64: constants, struct sizes and offsets. A change here needs another SONAME. */
+
+#include <stddef.h>
+
+#include "samples.h"
+
+#define SIZE(type, size) _Static_assert(sizeof(type) == (size), "the size of " #type)
+#define FIELD(type, field, offset) _Static_assert(offsetof(type, field) == (offset), "the offset of " #type "." #field)
+#define CONSTANT(name, value) _Static_assert((name) == (value), #name)
+
+SIZE(azulejo_status, 4);
+SIZE(azulejo_progress_fn, 8);
+
+SIZE(azulejo_kdrt_options, 80);
+FIELD(azulejo_kdrt_options, struct_size, 0);
+FIELD(azulejo_kdrt_options, boundary, 4);
+FIELD(azulejo_kdrt_options, radius, 8);
+FIELD(azulejo_kdrt_options, domain_min, 16);
+FIELD(azulejo_kdrt_options, domain_max, 32);
+FIELD(azulejo_kdrt_options, leaf_size, 48);
+FIELD(azulejo_kdrt_options, seed, 56);
+FIELD(azulejo_kdrt_options, progress, 64);
+FIELD(azulejo_kdrt_options, progress_user, 72);
+
+SIZE(azulejo_maximal_options, 72);
+FIELD(azulejo_maximal_options, struct_size, 0);
+FIELD(azulejo_maximal_options, boundary, 4);
+FIELD(azulejo_maximal_options, radius, 8);
+FIELD(azulejo_maximal_options, domain_min, 16);
+FIELD(azulejo_maximal_options, domain_max, 32);
+FIELD(azulejo_maximal_options, seed, 48);
+FIELD(azulejo_maximal_options, progress, 56);
+FIELD(azulejo_maximal_options, progress_user, 64);
+
+SIZE(azulejo_psp_options, 48);
+FIELD(azulejo_psp_options, struct_size, 0);
+FIELD(azulejo_psp_options, iterations, 4);
+FIELD(azulejo_psp_options, radius, 8);
+FIELD(azulejo_psp_options, seed, 16);
+FIELD(azulejo_psp_options, maximal, 24);
+FIELD(azulejo_psp_options, reserved, 28);
+FIELD(azulejo_psp_options, progress, 32);
+FIELD(azulejo_psp_options, progress_user, 40);
+
+SIZE(azulejo_psp_report, 128);
+FIELD(azulejo_psp_report, samples, 0);
+FIELD(azulejo_psp_report, accepted, 8);
+FIELD(azulejo_psp_report, rays, 16);
+FIELD(azulejo_psp_report, hits, 24);
+FIELD(azulejo_psp_report, restart_conflicts, 32);
+FIELD(azulejo_psp_report, darts, 40);
+FIELD(azulejo_psp_report, conflicts, 48);
+FIELD(azulejo_psp_report, seconds, 56);
+FIELD(azulejo_psp_report, iterations, 64);
+FIELD(azulejo_psp_report, reserved, 68);
+
+SIZE(azulejo_dcr_options, 112);
+FIELD(azulejo_dcr_options, struct_size, 0);
+FIELD(azulejo_dcr_options, boundary, 4);
+FIELD(azulejo_dcr_options, domain_min, 8);
+FIELD(azulejo_dcr_options, domain_max, 24);
+FIELD(azulejo_dcr_options, neighbourhood, 40);
+FIELD(azulejo_dcr_options, max_iterations, 44);
+FIELD(azulejo_dcr_options, seed, 48);
+FIELD(azulejo_dcr_options, conflict_radius, 56);
+FIELD(azulejo_dcr_options, attraction_radius, 64);
+FIELD(azulejo_dcr_options, step, 72);
+FIELD(azulejo_dcr_options, tolerance, 80);
+FIELD(azulejo_dcr_options, neighbours, 88);
+FIELD(azulejo_dcr_options, distribution, 92);
+FIELD(azulejo_dcr_options, progress, 96);
+FIELD(azulejo_dcr_options, progress_user, 104);
+
+SIZE(azulejo_dcr_report, 64);
+FIELD(azulejo_dcr_report, iterations, 0);
+FIELD(azulejo_dcr_report, converged, 4);
+FIELD(azulejo_dcr_report, motion, 8);
+FIELD(azulejo_dcr_report, smallest_distance, 16);
+FIELD(azulejo_dcr_report, rho, 24);
+FIELD(azulejo_dcr_report, reserved, 32);
+
+CONSTANT(AZULEJO_OK, 0);
+CONSTANT(AZULEJO_ERROR_INVALID_ARGUMENT, -1);
+CONSTANT(AZULEJO_ERROR_TOO_LARGE, -2);
+CONSTANT(AZULEJO_ERROR_IO, -3);
+CONSTANT(AZULEJO_ERROR_FORMAT, -4);
+CONSTANT(AZULEJO_ERROR_CANCELLED, -5);
+CONSTANT(AZULEJO_ERROR_OUT_OF_MEMORY, -6);
+CONSTANT(AZULEJO_ERROR_EMBREE, -7);
+CONSTANT(AZULEJO_ERROR_THREADS, -8);
+CONSTANT(AZULEJO_ERROR_INTERNAL, -100);
+CONSTANT(AZULEJO_BOUNDARY_PERIODIC, 0);
+CONSTANT(AZULEJO_BOUNDARY_BOUNDED, 1);
+CONSTANT(AZULEJO_NEIGHBOURHOOD_DELAUNAY, 0);
+CONSTANT(AZULEJO_NEIGHBOURHOOD_NEAREST, 1);
+CONSTANT(AZULEJO_DISTRIBUTION_ACTIVENESS, 0);
+CONSTANT(AZULEJO_DISTRIBUTION_AVERAGE, 1);
+CONSTANT(AZULEJO_DISTRIBUTION_DOMINANT, 2);
+CONSTANT(AZULEJO_DISTRIBUTION_ZERO, 3);
+CONSTANT(AZULEJO_DISTRIBUTION_EIGHTY_TWENTY, 4);
+
+/* The fixed signatures: assignments that compile only if they are these. */
+static void signatures(void) {
+    azulejo_status (*context_create)(uint32_t, azulejo_context **) = azulejo_context_create;
+    azulejo_status (*kdrt_sample)(const azulejo_context *, const azulejo_kdrt_options *, azulejo_points **) =
+        azulejo_kdrt_sample;
+    azulejo_status (*mesh_create)(const float *, size_t, size_t, const uint32_t *, size_t, azulejo_mesh **) =
+        azulejo_mesh_create;
+    azulejo_status (*mesh_load)(const char *, azulejo_mesh **) = azulejo_mesh_load;
+    azulejo_status (*psp_create)(const azulejo_context *, const azulejo_mesh *, const azulejo_psp_options *,
+                                 azulejo_psp **) = azulejo_psp_create;
+    azulejo_status (*psp_advance)(azulejo_psp *, uint32_t, azulejo_psp_report *) = azulejo_psp_advance;
+    azulejo_status (*psp_fill)(azulejo_psp *, azulejo_psp_report *) = azulejo_psp_fill;
+    azulejo_status (*psp_points)(const azulejo_psp *, azulejo_points **) = azulejo_psp_points;
+    azulejo_status (*psp_sample)(const azulejo_context *, const azulejo_mesh *, const azulejo_psp_options *,
+                                 azulejo_points **, azulejo_psp_report *) = azulejo_psp_sample;
+    azulejo_status (*dcr_relax)(const azulejo_context *, const azulejo_dcr_options *, const float *, size_t,
+                                azulejo_points **, azulejo_dcr_report *) = azulejo_dcr_relax;
+    size_t (*last_error_message)(char *, size_t) = azulejo_last_error_message;
+    CHECK(context_create && kdrt_sample && mesh_create && mesh_load && psp_create && psp_advance && psp_fill);
+    CHECK(psp_points && psp_sample && dcr_relax && last_error_message);
+}
+
+int main(void) {
+    signatures();
+    CHECK(AZULEJO_VERSION_MAJOR == 0); /* the number in the SONAME */
+    CHECK(AZULEJO_VERSION == AZULEJO_VERSION_MAJOR * 10000 + AZULEJO_VERSION_MINOR * 100 + AZULEJO_VERSION_PATCH);
+    return finish();
+}

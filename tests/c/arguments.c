@@ -1,0 +1,319 @@
+/* Bad arguments: every pointer NULL, numbers outside their range, sizes that overflow. Each is refused with a message
+   that names the argument, and leaves the outputs alone. */
+
+#include <math.h>
+
+#include "samples.h"
+
+#define INVALID AZULEJO_ERROR_INVALID_ARGUMENT
+
+static azulejo_context *context;
+static azulejo_mesh *cube;
+
+/* Puts the option into options that are in order; the call that samples with them is refused. */
+#define REFUSED_OPTION(make, status, part, change, call)      \
+    do {                                                      \
+        make;                                                 \
+        azulejo_points *points = UNTOUCHED;                   \
+        (void)(change);                                       \
+        REFUSED(status, part, call);                          \
+        CHECK(points == UNTOUCHED);                           \
+    } while (0)
+
+/* The largest number in a text. */
+static double largest_number(const char *text) {
+    double largest = 0;
+    while (*text) {
+        char *end;
+        const double number = (*text >= '0' && *text <= '9') ? strtod(text, &end) : (end = (char *)text + 1, 0.0);
+        if (number > largest) largest = number;
+        text = end;
+    }
+    return largest;
+}
+
+static void contexts(void) {
+    azulejo_context *out = UNTOUCHED;
+    REFUSED(INVALID, "out", azulejo_context_create(1, NULL));
+    REFUSED(INVALID, "num_threads: 4097", azulejo_context_create(4097, &out));
+    REFUSED(INVALID, "num_threads", azulejo_context_create(UINT32_MAX, &out));
+    CHECK(out == UNTOUCHED);
+    CHECK(azulejo_context_num_threads(NULL) == 0);
+    CHECK(azulejo_context_num_threads(context) == 2);
+    azulejo_context_free(NULL);
+}
+
+static void kdrt(void) {
+    azulejo_kdrt_options good = kdrt_options(0.1);
+    azulejo_points *out = UNTOUCHED;
+    REFUSED(INVALID, "context", azulejo_kdrt_sample(NULL, &good, &out));
+    REFUSED(INVALID, "options", azulejo_kdrt_sample(context, NULL, &out));
+    REFUSED(INVALID, "options", azulejo_kdrt_sample(context, (azulejo_kdrt_options *)((char *)&good + 1), &out));
+    REFUSED(INVALID, "out", azulejo_kdrt_sample(context, &good, NULL));
+    CHECK(out == UNTOUCHED);
+
+#define KDRT(status, part, change) \
+    REFUSED_OPTION(azulejo_kdrt_options o = good, status, part, change, azulejo_kdrt_sample(context, &o, &points))
+    KDRT(INVALID, "radius", o.radius = 0);
+    KDRT(INVALID, "radius", o.radius = -0.1);
+    KDRT(INVALID, "radius", o.radius = NAN);
+    KDRT(INVALID, "radius", o.radius = INFINITY);
+    KDRT(INVALID, "radius", o.radius = -INFINITY);
+    KDRT(INVALID, "domain_min", o.domain_min[0] = NAN);
+    KDRT(INVALID, "domain_min", o.domain_min[1] = -INFINITY);
+    KDRT(INVALID, "domain_max", o.domain_max[0] = INFINITY);
+    KDRT(INVALID, "domain_max", o.domain_max[1] = 1e39);
+    KDRT(INVALID, "domain_max", o.domain_max[0] = 0);
+    KDRT(INVALID, "domain_max", o.domain_max[1] = -1);
+    KDRT(INVALID, "boundary", o.boundary = 2);
+    KDRT(INVALID, "boundary", o.boundary = -1);
+    KDRT(INVALID, "boundary", o.boundary = INT32_MIN);
+    KDRT(INVALID, "leaf_size", o.leaf_size = 0);
+    KDRT(INVALID, "leaf_size", o.leaf_size = 5.99);
+    KDRT(INVALID, "leaf_size", o.leaf_size = -20);
+    KDRT(INVALID, "leaf_size", o.leaf_size = NAN);
+    /* Floats around a million are 1/16 apart. */
+    KDRT(INVALID, "radius", (o.domain_min[0] = 1e6, o.domain_max[0] = 1e6 + 1));
+    KDRT(AZULEJO_ERROR_TOO_LARGE, "radius", o.radius = 8.3461e-7);
+    CHECK(largest_number(last_error()) > 0.9e12 && largest_number(last_error()) < 1.1e12);
+    KDRT(AZULEJO_ERROR_TOO_LARGE, "radius", o.radius = 1e-300);
+#undef KDRT
+}
+
+static void maximal(void) {
+    azulejo_maximal_options good = maximal_options(0.1);
+    azulejo_points *out = UNTOUCHED;
+    REFUSED(INVALID, "context", azulejo_maximal_sample(NULL, &good, &out));
+    REFUSED(INVALID, "options", azulejo_maximal_sample(context, NULL, &out));
+    REFUSED(INVALID, "out", azulejo_maximal_sample(context, &good, NULL));
+    CHECK(out == UNTOUCHED);
+
+#define MAXIMAL(status, part, change)                                              \
+    REFUSED_OPTION(azulejo_maximal_options o = good, status, part, change, \
+                   azulejo_maximal_sample(context, &o, &points))
+    MAXIMAL(INVALID, "radius", o.radius = 0);
+    MAXIMAL(INVALID, "radius", o.radius = NAN);
+    MAXIMAL(INVALID, "domain_min", o.domain_min[0] = NAN);
+    MAXIMAL(INVALID, "domain_max", o.domain_max[1] = 0);
+    MAXIMAL(INVALID, "boundary", o.boundary = 7);
+    MAXIMAL(AZULEJO_ERROR_TOO_LARGE, "radius", o.radius = 8.3461e-7);
+    CHECK(largest_number(last_error()) > 0.9e12 && largest_number(last_error()) < 1.1e12);
+#undef MAXIMAL
+}
+
+static void meshes(void) {
+    const float *positions = &cube_positions[0][0];
+    const uint32_t *indices = &cube_indices[0][0];
+    const size_t stride = 12;
+    azulejo_mesh *out = UNTOUCHED;
+    float bad_positions[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+    uint32_t bad_indices[6] = {0, 1, 2, 0, 1, 3};
+    const uint32_t flat[6] = {0, 1, 1, 2, 2, 2};
+    int i;
+
+    REFUSED(INVALID, "positions", azulejo_mesh_create(NULL, 8, stride, indices, 12, &out));
+    REFUSED(INVALID, "indices", azulejo_mesh_create(positions, 8, stride, NULL, 12, &out));
+    REFUSED(INVALID, "out", azulejo_mesh_create(positions, 8, stride, indices, 12, NULL));
+    REFUSED(INVALID, "positions",
+            azulejo_mesh_create((const float *)((const char *)positions + 1), 4, stride, indices, 1, &out));
+    REFUSED(INVALID, "indices",
+            azulejo_mesh_create(positions, 8, stride, (const uint32_t *)((const char *)indices + 2), 4, &out));
+
+    REFUSED(INVALID, "stride_bytes: 0", azulejo_mesh_create(positions, 8, 0, indices, 12, &out));
+    REFUSED(INVALID, "stride_bytes: 8", azulejo_mesh_create(positions, 8, 8, indices, 12, &out));
+    REFUSED(INVALID, "stride_bytes: 11", azulejo_mesh_create(positions, 8, 11, indices, 12, &out));
+    REFUSED(INVALID, "stride_bytes: 13", azulejo_mesh_create(positions, 4, 13, indices, 1, &out));
+
+    REFUSED(INVALID, "indices", azulejo_mesh_create(positions, 8, stride, NULL, 0, &out));
+    REFUSED(INVALID, "indices", azulejo_mesh_create(NULL, 0, stride, NULL, 0, &out));
+    REFUSED(INVALID, "indices", azulejo_mesh_create(NULL, 0, stride, indices, 12, &out));
+    REFUSED(INVALID, "indices", azulejo_mesh_create(positions, 7, stride, indices, 12, &out));
+    REFUSED(INVALID, "indices", azulejo_mesh_create(bad_positions, 3, stride, bad_indices, 2, &out));
+    bad_indices[5] = UINT32_MAX;
+    REFUSED(INVALID, "indices", azulejo_mesh_create(bad_positions, 3, stride, bad_indices, 2, &out));
+    REFUSED(INVALID, "area", azulejo_mesh_create(positions, 8, stride, flat, 2, &out));
+
+    for (i = 0; i < 9; i++) {
+        const float good = bad_positions[i];
+        bad_positions[i] = i % 3 == 0 ? NAN : i % 3 == 1 ? INFINITY : -INFINITY;
+        REFUSED(INVALID, "positions", azulejo_mesh_create(bad_positions, 3, stride, bad_indices, 1, &out));
+        bad_positions[i] = good;
+    }
+
+    REFUSED(AZULEJO_ERROR_TOO_LARGE, "vertex_count", azulejo_mesh_create(positions, SIZE_MAX, 12, indices, 12, &out));
+    REFUSED(AZULEJO_ERROR_TOO_LARGE, "vertex_count", azulejo_mesh_create(positions, 3, SIZE_MAX / 4 * 4, indices, 1, &out));
+    REFUSED(AZULEJO_ERROR_TOO_LARGE, "vertex_count",
+            azulejo_mesh_create(positions, SIZE_MAX / 8, 16, indices, 12, &out));
+    REFUSED(AZULEJO_ERROR_TOO_LARGE, "triangle_count", azulejo_mesh_create(positions, 8, 12, indices, SIZE_MAX, &out));
+    REFUSED(AZULEJO_ERROR_TOO_LARGE, "triangle_count",
+            azulejo_mesh_create(positions, 8, 12, indices, SIZE_MAX / 12 + 2, &out));
+
+    REFUSED(INVALID, "path", azulejo_mesh_load(NULL, &out));
+    REFUSED(INVALID, "out", azulejo_mesh_load("cube.obj", NULL));
+    CHECK(out == UNTOUCHED);
+    azulejo_mesh_free(NULL);
+    CHECK(azulejo_mesh_area(NULL) == 0);
+    CHECK(azulejo_mesh_vertex_count(NULL) == 0 && azulejo_mesh_triangle_count(NULL) == 0);
+    CHECK(azulejo_mesh_positions(NULL) == NULL && azulejo_mesh_indices(NULL) == NULL);
+}
+
+static void psp(void) {
+    azulejo_psp_options good = psp_options(0.2);
+    azulejo_points *points = UNTOUCHED;
+    azulejo_psp *out = UNTOUCHED;
+    azulejo_psp_report report, before;
+    memset(&report, 0x55, sizeof report);
+    before = report;
+
+    REFUSED(INVALID, "context", azulejo_psp_create(NULL, cube, &good, &out));
+    REFUSED(INVALID, "mesh", azulejo_psp_create(context, NULL, &good, &out));
+    REFUSED(INVALID, "options", azulejo_psp_create(context, cube, NULL, &out));
+    REFUSED(INVALID, "out", azulejo_psp_create(context, cube, &good, NULL));
+    REFUSED(INVALID, "context", azulejo_psp_sample(NULL, cube, &good, &points, &report));
+    REFUSED(INVALID, "mesh", azulejo_psp_sample(context, NULL, &good, &points, &report));
+    REFUSED(INVALID, "options", azulejo_psp_sample(context, cube, NULL, &points, &report));
+    REFUSED(INVALID, "out", azulejo_psp_sample(context, cube, &good, NULL, &report));
+    REFUSED(INVALID, "psp", azulejo_psp_advance(NULL, 1, &report));
+    REFUSED(INVALID, "psp", azulejo_psp_fill(NULL, &report));
+    REFUSED(INVALID, "psp", azulejo_psp_points(NULL, &points));
+
+#define PSP(status, part, change)                                                                                \
+    do {                                                                                                         \
+        azulejo_psp_options o = good;                                                                            \
+        (void)(change);                                                                                          \
+        REFUSED(status, part, azulejo_psp_sample(context, cube, &o, &points, &report));                          \
+        REFUSED(status, part, azulejo_psp_create(context, cube, &o, &out));                                      \
+    } while (0)
+    PSP(INVALID, "radius", o.radius = 0);
+    PSP(INVALID, "radius", o.radius = -1);
+    PSP(INVALID, "radius", o.radius = NAN);
+    PSP(INVALID, "radius", o.radius = INFINITY);
+    PSP(INVALID, "maximal", o.maximal = 2);
+    PSP(INVALID, "maximal", o.maximal = -1);
+    PSP(INVALID, "reserved", o.reserved = 1);
+    PSP(AZULEJO_ERROR_TOO_LARGE, "radius", o.radius = 2.0443e-6);
+    CHECK(largest_number(last_error()) > 0.9e12 && largest_number(last_error()) < 1.1e12);
+    PSP(AZULEJO_ERROR_TOO_LARGE, "radius", o.radius = 1e-300);
+#undef PSP
+    CHECK(out == UNTOUCHED && points == UNTOUCHED);
+    CHECK(memcmp(&report, &before, sizeof report) == 0);
+
+    CHECK(azulejo_psp_create(context, cube, &good, &out) == AZULEJO_OK);
+    REFUSED(INVALID, "out", azulejo_psp_points(out, NULL));
+    azulejo_psp_free(out);
+    azulejo_psp_free(NULL);
+}
+
+static void dcr(void) {
+    azulejo_dcr_options good = dcr_options(5);
+    float xy[8] = {0.1f, 0.1f, 0.6f, 0.2f, 0.3f, 0.8f, 0.9f, 0.9f};
+    azulejo_points *out = UNTOUCHED;
+    azulejo_dcr_report report, before;
+    memset(&report, 0x55, sizeof report);
+    before = report;
+
+    REFUSED(INVALID, "context", azulejo_dcr_relax(NULL, &good, xy, 4, &out, &report));
+    REFUSED(INVALID, "options", azulejo_dcr_relax(context, NULL, xy, 4, &out, &report));
+    REFUSED(INVALID, "xy", azulejo_dcr_relax(context, &good, NULL, 4, &out, &report));
+    REFUSED(INVALID, "xy", azulejo_dcr_relax(context, &good, (float *)((char *)xy + 2), 2, &out, &report));
+    REFUSED(INVALID, "out", azulejo_dcr_relax(context, &good, xy, 4, NULL, &report));
+    REFUSED(AZULEJO_ERROR_TOO_LARGE, "count", azulejo_dcr_relax(context, &good, xy, SIZE_MAX, &out, &report));
+    REFUSED(AZULEJO_ERROR_TOO_LARGE, "count", azulejo_dcr_relax(context, &good, xy, SIZE_MAX / 8 + 2, &out, &report));
+
+#define DCR(part, change) \
+    REFUSED_OPTION(azulejo_dcr_options o = good, INVALID, part, change, \
+                   azulejo_dcr_relax(context, &o, xy, 4, &points, &report))
+    DCR("domain_min", o.domain_min[0] = NAN);
+    DCR("domain_max", o.domain_max[1] = 0);
+    DCR("boundary", o.boundary = 2);
+    DCR("neighbourhood", o.neighbourhood = 2);
+    DCR("neighbourhood", o.neighbourhood = -1);
+    DCR("distribution", o.distribution = 5);
+    DCR("distribution", o.distribution = -1);
+    DCR("conflict_radius", o.conflict_radius = 0);
+    DCR("conflict_radius", o.conflict_radius = 1.01);
+    DCR("conflict_radius", o.conflict_radius = NAN);
+    DCR("attraction_radius", o.attraction_radius = 0.9);
+    DCR("attraction_radius", o.attraction_radius = NAN);
+    DCR("step", o.step = 0);
+    DCR("step", o.step = 1.5);
+    DCR("step", o.step = NAN);
+    DCR("neighbours", o.neighbours = 0);
+    DCR("tolerance", o.tolerance = NAN);
+    DCR("xy", xy[3] = NAN);
+    DCR("xy", xy[3] = INFINITY);
+    DCR("xy", xy[3] = 1); /* the upper border belongs to the next period */
+    DCR("xy", xy[3] = -1e-6f);
+#undef DCR
+    CHECK(out == UNTOUCHED);
+    CHECK(memcmp(&report, &before, sizeof report) == 0);
+}
+
+static void analysis(void) {
+    float xyz[6] = {0.1f, 0.1f, 0.5f, 0.6f, 0.2f, 0.5f};
+    const double low[2] = {0, 0}, high[2] = {1, 1}, bad[2] = {NAN, 1};
+    double out = 7;
+
+    REFUSED(INVALID, "context", azulejo_plane_smallest_distance(NULL, xyz, 3, low, high, 0, &out));
+    REFUSED(INVALID, "xy", azulejo_plane_smallest_distance(context, NULL, 3, low, high, 0, &out));
+    REFUSED(INVALID, "domain_min", azulejo_plane_smallest_distance(context, xyz, 3, NULL, high, 0, &out));
+    REFUSED(INVALID, "domain_max", azulejo_plane_smallest_distance(context, xyz, 3, low, NULL, 0, &out));
+    REFUSED(INVALID, "domain_min", azulejo_plane_smallest_distance(context, xyz, 3, bad, high, 0, &out));
+    REFUSED(INVALID, "boundary", azulejo_plane_smallest_distance(context, xyz, 3, low, high, 3, &out));
+    REFUSED(INVALID, "out", azulejo_plane_smallest_distance(context, xyz, 3, low, high, 0, NULL));
+    REFUSED(AZULEJO_ERROR_TOO_LARGE, "count",
+            azulejo_plane_smallest_distance(context, xyz, SIZE_MAX / 2, low, high, 0, &out));
+
+    REFUSED(INVALID, "context", azulejo_plane_covering_radius(NULL, xyz, 3, low, high, 0, &out));
+    REFUSED(INVALID, "xy", azulejo_plane_covering_radius(context, NULL, 3, low, high, 0, &out));
+    REFUSED(INVALID, "domain_min", azulejo_plane_covering_radius(context, xyz, 3, NULL, high, 0, &out));
+    REFUSED(INVALID, "domain_max", azulejo_plane_covering_radius(context, xyz, 3, high, low, 0, &out));
+    REFUSED(INVALID, "boundary", azulejo_plane_covering_radius(context, xyz, 3, low, high, -1, &out));
+    REFUSED(INVALID, "out", azulejo_plane_covering_radius(context, xyz, 3, low, high, 0, NULL));
+
+    REFUSED(INVALID, "context", azulejo_space_smallest_distance(NULL, xyz, 2, &out));
+    REFUSED(INVALID, "positions", azulejo_space_smallest_distance(context, NULL, 2, &out));
+    REFUSED(INVALID, "out", azulejo_space_smallest_distance(context, xyz, 2, NULL));
+    REFUSED(AZULEJO_ERROR_TOO_LARGE, "count", azulejo_space_smallest_distance(context, xyz, SIZE_MAX / 3, &out));
+
+    REFUSED(INVALID, "context", azulejo_mesh_uncovered_fraction(NULL, cube, xyz, 2, 0.1, 10, 0, &out));
+    REFUSED(INVALID, "mesh", azulejo_mesh_uncovered_fraction(context, NULL, xyz, 2, 0.1, 10, 0, &out));
+    REFUSED(INVALID, "positions", azulejo_mesh_uncovered_fraction(context, cube, NULL, 2, 0.1, 10, 0, &out));
+    REFUSED(INVALID, "out", azulejo_mesh_uncovered_fraction(context, cube, xyz, 2, 0.1, 10, 0, NULL));
+    REFUSED(INVALID, "radius", azulejo_mesh_uncovered_fraction(context, cube, xyz, 2, NAN, 10, 0, &out));
+    REFUSED(INVALID, "radius", azulejo_mesh_uncovered_fraction(context, cube, xyz, 2, -1, 10, 0, &out));
+    REFUSED(INVALID, "probes", azulejo_mesh_uncovered_fraction(context, cube, xyz, 2, 0.1, 0, 0, &out));
+
+    xyz[2] = NAN;
+    REFUSED(INVALID, "xy", azulejo_plane_smallest_distance(context, xyz, 3, low, high, 0, &out));
+    REFUSED(INVALID, "positions", azulejo_space_smallest_distance(context, xyz, 2, &out));
+    REFUSED(INVALID, "positions", azulejo_mesh_uncovered_fraction(context, cube, xyz, 2, 0.1, 10, 0, &out));
+    CHECK(out == 7);
+}
+
+static void points(void) {
+    CHECK(azulejo_points_count(NULL) == 0 && azulejo_points_dimension(NULL) == 0);
+    CHECK(azulejo_points_positions(NULL) == NULL && azulejo_points_normals(NULL) == NULL);
+    CHECK(azulejo_points_triangles(NULL) == NULL && azulejo_points_barycentrics(NULL) == NULL);
+    azulejo_points_free(NULL);
+}
+
+int main(void) {
+    char message[8] = "xxxxxxx";
+    CHECK(azulejo_last_error_message(NULL, 0) == 1);
+    CHECK(azulejo_last_error_message(message, sizeof message) == 1 && message[0] == '\0');
+
+    context = make_context(2);
+    cube = make_cube();
+    contexts();
+    kdrt();
+    maximal();
+    meshes();
+    psp();
+    dcr();
+    analysis();
+    points();
+    azulejo_mesh_free(cube);
+    azulejo_context_free(context);
+    return finish();
+}

@@ -1,0 +1,161 @@
+/* Options structs of other versions: shorter ones, longer ones with a zero or non-zero tail, sizes that cannot be. */
+
+#include <stddef.h>
+
+#include "samples.h"
+
+#define INVALID AZULEJO_ERROR_INVALID_ARGUMENT
+
+static azulejo_context *context;
+
+/* A program built against a later header, whose struct has two fields more. */
+typedef struct {
+    azulejo_kdrt_options known;
+    double later;
+    uint64_t last;
+} later_options;
+
+static azulejo_points *sample(const azulejo_kdrt_options *options) {
+    azulejo_points *points = NULL;
+    ACCEPTED(azulejo_kdrt_sample(context, options, &points));
+    return points;
+}
+
+static void defaults(void) {
+    azulejo_kdrt_options kdrt;
+    azulejo_maximal_options maximal;
+    azulejo_psp_options psp;
+    azulejo_dcr_options dcr;
+    memset(&kdrt, 0x55, sizeof kdrt);
+    memset(&maximal, 0x55, sizeof maximal);
+    memset(&psp, 0x55, sizeof psp);
+    memset(&dcr, 0x55, sizeof dcr);
+    ACCEPTED(azulejo_kdrt_options_init(&kdrt, sizeof kdrt));
+    ACCEPTED(azulejo_maximal_options_init(&maximal, sizeof maximal));
+    ACCEPTED(azulejo_psp_options_init(&psp, sizeof psp));
+    ACCEPTED(azulejo_dcr_options_init(&dcr, sizeof dcr));
+
+    CHECK(kdrt.struct_size == sizeof kdrt && maximal.struct_size == sizeof maximal);
+    CHECK(psp.struct_size == sizeof psp && dcr.struct_size == sizeof dcr);
+    CHECK(kdrt.radius == 0 && maximal.radius == 0 && psp.radius == 0);
+    CHECK(kdrt.domain_min[0] == 0 && kdrt.domain_min[1] == 0 && kdrt.domain_max[0] == 1 && kdrt.domain_max[1] == 1);
+    CHECK(dcr.domain_min[0] == 0 && dcr.domain_min[1] == 0 && dcr.domain_max[0] == 1 && dcr.domain_max[1] == 1);
+    CHECK(kdrt.boundary == AZULEJO_BOUNDARY_PERIODIC && dcr.boundary == AZULEJO_BOUNDARY_PERIODIC);
+    CHECK(kdrt.leaf_size == 20 && kdrt.seed == 0 && kdrt.progress == NULL && kdrt.progress_user == NULL);
+    CHECK(psp.maximal == 1 && psp.iterations > 0 && psp.seed == 0 && psp.progress == NULL);
+    CHECK(dcr.neighbourhood == AZULEJO_NEIGHBOURHOOD_DELAUNAY && dcr.max_iterations > 0 && dcr.progress == NULL);
+}
+
+static void refused_inits(void) {
+    azulejo_kdrt_options options, before;
+    memset(&options, 0x55, sizeof options);
+    before = options;
+    REFUSED(INVALID, "options", azulejo_kdrt_options_init(NULL, sizeof options));
+    REFUSED(INVALID, "options", azulejo_maximal_options_init(NULL, sizeof options));
+    REFUSED(INVALID, "options", azulejo_psp_options_init(NULL, sizeof options));
+    REFUSED(INVALID, "options", azulejo_dcr_options_init(NULL, sizeof options));
+    REFUSED(INVALID, "struct_size", azulejo_kdrt_options_init(&options, 0));
+    REFUSED(INVALID, "struct_size", azulejo_kdrt_options_init(&options, 4));
+    REFUSED(INVALID, "struct_size", azulejo_kdrt_options_init(&options, 4097));
+    REFUSED(INVALID, "struct_size", azulejo_kdrt_options_init(&options, SIZE_MAX));
+    CHECK(memcmp(&options, &before, sizeof options) == 0);
+}
+
+/* Every size that stands in a struct and cannot be its size. */
+static void refused_sizes(void) {
+    const uint32_t sizes[] = {0, 1, 4, 8, 4097, 0x80000000u, UINT32_MAX};
+    azulejo_kdrt_options kdrt = kdrt_options(0.1);
+    azulejo_maximal_options maximal = maximal_options(0.1);
+    azulejo_psp_options psp = psp_options(0.1);
+    azulejo_dcr_options dcr = dcr_options(1);
+    azulejo_mesh *mesh = make_cube();
+    const float xy[2] = {0, 0};
+    azulejo_points *out = UNTOUCHED;
+    size_t i;
+    for (i = 0; i < COUNT_OF(sizes); i++) {
+        kdrt.struct_size = maximal.struct_size = psp.struct_size = dcr.struct_size = sizes[i];
+        REFUSED(INVALID, "struct_size", azulejo_kdrt_sample(context, &kdrt, &out));
+        REFUSED(INVALID, "azulejo_maximal_options_init", azulejo_maximal_sample(context, &maximal, &out));
+        REFUSED(INVALID, "struct_size", azulejo_psp_sample(context, mesh, &psp, &out, NULL));
+        REFUSED(INVALID, "struct_size", azulejo_dcr_relax(context, &dcr, xy, 1, &out, NULL));
+    }
+    CHECK(out == UNTOUCHED);
+    azulejo_mesh_free(mesh);
+}
+
+/* A shorter struct: the fields that it does not have take their defaults, whatever stands in that memory. */
+static void older_structs(void) {
+    azulejo_kdrt_options plain = kdrt_options(0.1), other = plain, older;
+    azulejo_points *with_default, *with_other, *points;
+
+    other.seed = 7;
+    with_default = sample(&plain);
+    with_other = sample(&other);
+    CHECK(!same_points(with_default, with_other));
+
+    older = other;
+    older.progress = (azulejo_progress_fn)NULL;
+    older.struct_size = offsetof(azulejo_kdrt_options, progress); /* has the seed, but no progress */
+    memset(&older.progress, 0x55, sizeof older.progress);
+    points = sample(&older);
+    CHECK(same_points(points, with_other));
+    azulejo_points_free(points);
+
+    older.struct_size = offsetof(azulejo_kdrt_options, seed);
+    points = sample(&older);
+    CHECK(same_points(points, with_default));
+    azulejo_points_free(points);
+
+    older.struct_size = offsetof(azulejo_kdrt_options, seed) + 7; /* most of a field is none */
+    points = sample(&older);
+    CHECK(same_points(points, with_default));
+    azulejo_points_free(points);
+
+    older.struct_size = offsetof(azulejo_kdrt_options, domain_min); /* the shortest */
+    memset(older.domain_min, 0xff, sizeof older.domain_min);
+    points = sample(&older);
+    CHECK(same_points(points, with_default));
+    azulejo_points_free(points);
+
+    memset(&older, 0x55, sizeof older);
+    ACCEPTED(azulejo_kdrt_options_init(&older, offsetof(azulejo_kdrt_options, seed)));
+    CHECK(older.struct_size == offsetof(azulejo_kdrt_options, seed));
+    CHECK(older.leaf_size == 20 && older.seed == 0x5555555555555555u);
+
+    azulejo_points_free(with_default);
+    azulejo_points_free(with_other);
+}
+
+static void later_structs(void) {
+    azulejo_kdrt_options plain = kdrt_options(0.1);
+    azulejo_points *expected = sample(&plain), *points = UNTOUCHED;
+    later_options later;
+
+    memset(&later, 0x55, sizeof later);
+    ACCEPTED(azulejo_kdrt_options_init((azulejo_kdrt_options *)&later, sizeof later));
+    CHECK(later.known.struct_size == sizeof later && later.later == 0 && later.last == 0);
+    later.known.radius = 0.1;
+    points = sample((azulejo_kdrt_options *)&later);
+    CHECK(same_points(points, expected));
+    azulejo_points_free(points);
+
+    points = UNTOUCHED;
+    later.last = (uint64_t)1 << 63;
+    REFUSED(INVALID, "struct_size", azulejo_kdrt_sample(context, (azulejo_kdrt_options *)&later, &points));
+    later.last = 0;
+    later.later = 1;
+    REFUSED(INVALID, "struct_size", azulejo_kdrt_sample(context, (azulejo_kdrt_options *)&later, &points));
+    CHECK(points == UNTOUCHED);
+    azulejo_points_free(expected);
+}
+
+int main(void) {
+    context = make_context(1);
+    defaults();
+    refused_inits();
+    refused_sizes();
+    older_structs();
+    later_structs();
+    azulejo_context_free(context);
+    return finish();
+}

@@ -1,0 +1,182 @@
+/* Progress: on the calling thread, growing from 0 to 1; cancelling at the start, in the middle and at the end; callbacks
+   that call the library. */
+
+#include <pthread.h>
+
+#include "samples.h"
+
+/* What a callback saw, and when it is to cancel. */
+typedef struct {
+    double limit; /* cancels from here on; above 1: never */
+    double first, last;
+    int calls, falls, late, strangers;
+    pthread_t thread;
+} watch;
+
+static int32_t tell(void *user, double done) {
+    watch *w = user;
+    if (w->calls++ == 0) w->first = done;
+    w->falls += done < w->last;
+    w->late += w->last >= w->limit;
+    w->strangers += !pthread_equal(w->thread, pthread_self());
+    w->last = done;
+    return done >= w->limit ? 42 : 0;
+}
+
+static watch make_watch(double limit) {
+    watch w = {limit, -1, -1, 0, 0, 0, 0, pthread_self()};
+    return w;
+}
+
+static azulejo_context *context;
+static azulejo_mesh *cube;
+static float random_xy[400];
+
+/* The calls with progress, each made with a watch. */
+typedef azulejo_status (*watched_call)(watch *, azulejo_points **);
+
+static azulejo_status kdrt(watch *w, azulejo_points **out) {
+    azulejo_kdrt_options o = kdrt_options(0.02);
+    o.progress = tell;
+    o.progress_user = w;
+    return azulejo_kdrt_sample(context, &o, out);
+}
+
+static azulejo_status maximal(watch *w, azulejo_points **out) {
+    azulejo_maximal_options o = maximal_options(0.05);
+    o.progress = tell;
+    o.progress_user = w;
+    return azulejo_maximal_sample(context, &o, out);
+}
+
+static azulejo_status psp(watch *w, azulejo_points **out) {
+    azulejo_psp_options o = psp_options(0.1);
+    o.progress = tell;
+    o.progress_user = w;
+    return azulejo_psp_sample(context, cube, &o, out, NULL);
+}
+
+static azulejo_status dcr(watch *w, azulejo_points **out) {
+    azulejo_dcr_options o = dcr_options(20);
+    o.progress = tell;
+    o.progress_user = w;
+    return azulejo_dcr_relax(context, &o, random_xy, COUNT_OF(random_xy) / 2, out, NULL);
+}
+
+static void tells_and_stops(watched_call call) {
+    const double limits[] = {0, 0.3, 0.6, 1};
+    azulejo_points *points = NULL;
+    watch w = make_watch(2);
+    size_t i;
+    ACCEPTED(call(&w, &points));
+    CHECK(azulejo_points_count(points) > 0);
+    CHECK(w.first == 0 && w.last == 1 && w.falls == 0 && w.strangers == 0);
+    azulejo_points_free(points);
+
+    for (i = 0; i < COUNT_OF(limits); i++) {
+        points = UNTOUCHED;
+        w = make_watch(limits[i]);
+        REFUSED(AZULEJO_ERROR_CANCELLED, "cancelled", call(&w, &points));
+        CHECK(points == UNTOUCHED);
+        CHECK(w.late == 0 && w.strangers == 0);
+    }
+}
+
+/* A handle whose calls are cancelled goes on growing, to the same guarantees. */
+static void a_psp_handle_survives_cancelling(void) {
+    azulejo_psp_options o = psp_options(0.1);
+    azulejo_psp *set = NULL;
+    azulejo_psp_report report;
+    azulejo_points *points = NULL;
+    double smallest = 0, uncovered = 1;
+    watch w = make_watch(2);
+    o.progress = tell;
+    o.progress_user = &w;
+    ACCEPTED(azulejo_psp_create(context, cube, &o, &set));
+
+    w = make_watch(0);
+    REFUSED(AZULEJO_ERROR_CANCELLED, "cancelled", azulejo_psp_advance(set, 1, NULL));
+    w = make_watch(0.4);
+    REFUSED(AZULEJO_ERROR_CANCELLED, "cancelled", azulejo_psp_advance(set, 3, NULL));
+    w = make_watch(1);
+    REFUSED(AZULEJO_ERROR_CANCELLED, "cancelled", azulejo_psp_fill(set, NULL));
+    w = make_watch(2);
+    ACCEPTED(azulejo_psp_advance(set, 1, &report));
+    CHECK(w.first == 0 && w.last == 1 && w.falls == 0 && w.strangers == 0);
+    CHECK(report.iterations == 1);
+    w = make_watch(2);
+    ACCEPTED(azulejo_psp_fill(set, &report));
+    CHECK(w.first == 0 && w.last == 1 && w.falls == 0 && w.strangers == 0);
+
+    ACCEPTED(azulejo_psp_points(set, &points));
+    CHECK(report.samples == azulejo_points_count(points));
+    ACCEPTED(azulejo_space_smallest_distance(context, azulejo_points_positions(points), azulejo_points_count(points),
+                                             &smallest));
+    ACCEPTED(azulejo_mesh_uncovered_fraction(context, cube, azulejo_points_positions(points),
+                                             azulejo_points_count(points), 0.1, 20000, 1, &uncovered));
+    CHECK(smallest >= 0.1);
+    CHECK(uncovered == 0);
+    azulejo_points_free(points);
+    azulejo_psp_free(set);
+}
+
+/* A callback that samples with the context of the call that it watches. */
+static int32_t sample_too(void *user, double done) {
+    azulejo_kdrt_options o = kdrt_options(0.2);
+    azulejo_points *points = NULL;
+    (void)done;
+    ACCEPTED(azulejo_kdrt_sample(context, &o, &points));
+    *(size_t *)user += azulejo_points_count(points);
+    azulejo_points_free(points);
+    return 0;
+}
+
+/* A callback that wants more of the handle that is calling it. */
+static int32_t advance_too(void *user, double done) {
+    azulejo_psp *set = *(azulejo_psp **)user;
+    azulejo_points *points = UNTOUCHED;
+    (void)done;
+    REFUSED(AZULEJO_ERROR_INVALID_ARGUMENT, "psp", azulejo_psp_advance(set, 1, NULL));
+    REFUSED(AZULEJO_ERROR_INVALID_ARGUMENT, "psp", azulejo_psp_fill(set, NULL));
+    REFUSED(AZULEJO_ERROR_INVALID_ARGUMENT, "psp", azulejo_psp_points(set, &points));
+    CHECK(points == UNTOUCHED);
+    return 0;
+}
+
+static void callbacks_that_call_back(void) {
+    azulejo_kdrt_options kdrt = kdrt_options(0.1);
+    azulejo_psp_options o = psp_options(0.2);
+    azulejo_points *points = NULL;
+    azulejo_psp *set = NULL;
+    size_t inner = 0;
+
+    kdrt.progress = sample_too;
+    kdrt.progress_user = &inner;
+    ACCEPTED(azulejo_kdrt_sample(context, &kdrt, &points));
+    CHECK(inner > 0);
+    azulejo_points_free(points);
+
+    o.progress = advance_too;
+    o.progress_user = &set;
+    ACCEPTED(azulejo_psp_create(context, cube, &o, &set));
+    ACCEPTED(azulejo_psp_advance(set, 1, NULL));
+    azulejo_psp_free(set);
+}
+
+int main(void) {
+    uint32_t threads;
+    random_points(random_xy, COUNT_OF(random_xy) / 2);
+    cube = make_cube();
+    for (threads = 1; threads <= 3; threads += 2) {
+        context = make_context(threads);
+        tells_and_stops(kdrt);
+        tells_and_stops(maximal);
+        tells_and_stops(psp);
+        tells_and_stops(dcr);
+        a_psp_handle_survives_cancelling();
+        callbacks_that_call_back();
+        azulejo_context_free(context);
+    }
+    azulejo_mesh_free(cube);
+    return finish();
+}

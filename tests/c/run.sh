@@ -1,0 +1,108 @@
+#!/usr/bin/env bash
+# Tests the C and C++ interface of an installed azulejo.
+#
+#   tests/c/run.sh PREFIX [--asan] [--valgrind]
+#
+# The headers compile without a warning in every standard; the shared library exports what symbols.txt says and has its
+# SONAME; the test programs pass: plainly, with --asan also compiled with the address and undefined-behaviour
+# sanitizers, with --valgrind also under valgrind.
+set -euo pipefail
+
+here=$(cd "$(dirname "$0")" && pwd)
+usage() {
+    sed -n '4s/^# *//p' "$0" >&2
+    exit 2
+}
+[ $# -ge 1 ] && [ -d "$1" ] || usage
+prefix=$(cd "$1" && pwd)
+shift
+modes=(plain)
+for option; do
+    case $option in
+        --asan) modes+=(asan) ;;
+        --valgrind) modes+=(valgrind) ;;
+        *) usage ;;
+    esac
+done
+
+cc=${CC:-cc}
+cxx=${CXX:-c++}
+library=$(find "$prefix" -name libazulejo.so | head -n 1)
+[ -n "$library" ] || { echo "run.sh: no libazulejo.so below $prefix" >&2; exit 1; }
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+warnings=(-Wall -Wextra -Wpedantic -Werror)
+include=(-I "$prefix/include")
+link=(-L "$(dirname "$library")" -Wl,-rpath,"$(dirname "$library")" -lazulejo -lpthread -lm)
+failed=0
+
+# Says how a step went, with its output where that matters: step NAME COMMAND...
+step() {
+    local name=$1 log=$work/log
+    shift
+    if "$@" >"$log" 2>&1; then
+        printf '%-34s %s\n' "$name" "$(tail -n 1 "$log" | grep -E '[0-9]+ passed' || echo ok)"
+    else
+        printf '%-34s FAILED\n' "$name"
+        sed 's/^/    /' "$log"
+        failed=1
+    fi
+}
+
+header_compiles() { # LANGUAGE STANDARD FILE
+    local strict=() compiler=$cc
+    case $1 in
+        c) strict=(-Wstrict-prototypes) ;;
+        c++) compiler=$cxx ;;
+    esac
+    "$compiler" -x "$1" "-std=$2" "${warnings[@]}" "${strict[@]}" -fsyntax-only "$prefix/include/$3"
+}
+
+exports() { nm --dynamic --defined-only --format=posix "$library" | awk '{ print $1 }' | LC_ALL=C sort; }
+
+has_soname() { readelf --dynamic "$library" | grep -F "Library soname: [libazulejo.so.0]"; }
+
+needs_nothing_else() { # libraries that are neither the C runtime nor Embree
+    local others
+    others=$(readelf --dynamic "$library" | sed -n 's/.*(NEEDED).*\[\(.*\)\]/\1/p' |
+        grep -vE '^(libc|libm|libgcc_s|libpthread|libdl|ld-linux.*|libembree[34])\.so\.[0-9]+$' || true)
+    [ -z "$others" ] || { echo "$others"; return 1; }
+}
+
+build() { # SOURCE OUTPUT FLAG...
+    local source=$1 output=$2
+    shift 2
+    case $source in
+        *.c) "$cc" -std=gnu11 -Wstrict-prototypes "$@" "${warnings[@]}" "${include[@]}" "$source" -o "$output" "${link[@]}" ;;
+        *) "$cxx" -std=c++17 "$@" "${warnings[@]}" "${include[@]}" "$source" -o "$output" "${link[@]}" ;;
+    esac
+}
+
+run_program() { # SOURCE MODE
+    local program flags=(-O1 -g) runner=()
+    program=$work/$(basename "${1%.*}")-$2
+    case $2 in
+        asan) flags+=(-fsanitize=address,undefined -fno-sanitize-recover=all) ;;
+        valgrind)
+            runner=(valgrind --quiet --error-exitcode=1 --leak-check=full --errors-for-leak-kinds=definite,indirect
+                --show-leak-kinds=definite,indirect "--suppressions=$here/valgrind.supp")
+            ;;
+    esac
+    build "$1" "$program" "${flags[@]}" && "${runner[@]}" "$program"
+}
+
+step "azulejo.h as C99" header_compiles c c99 azulejo.h
+step "azulejo.h as C11" header_compiles c c11 azulejo.h
+step "azulejo.h as C++17" header_compiles c++ c++17 azulejo.h
+step "azulejo.hpp as C++17" header_compiles c++ c++17 azulejo.hpp
+exports >"$work/symbols.txt"
+step "exported symbols" diff "$here/symbols.txt" "$work/symbols.txt"
+step "SONAME" has_soname
+step "needed libraries" needs_nothing_else
+for mode in "${modes[@]}"; do
+    for source in "$here"/*.c "$here"/*.cpp; do
+        step "$(basename "$source") ($mode)" run_program "$source" "$mode"
+    done
+done
+exit $failed

@@ -1,0 +1,77 @@
+/* What several test programs start from: contexts, options that are in order, a small mesh. */
+
+#ifndef AZULEJO_TESTS_SAMPLES_H
+#define AZULEJO_TESTS_SAMPLES_H
+
+#include "check.h"
+
+/* The unit cube, wound outwards. */
+static const float cube_positions[8][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0},
+                                           {0, 0, 1}, {1, 0, 1}, {0, 1, 1}, {1, 1, 1}};
+static const uint32_t cube_indices[12][3] = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
+                                             {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+
+static inline azulejo_context *make_context(uint32_t num_threads) {
+    azulejo_context *context = NULL;
+    if (!ACCEPTED(azulejo_context_create(num_threads, &context))) exit(finish());
+    return context;
+}
+
+static inline azulejo_mesh *make_cube(void) {
+    azulejo_mesh *mesh = NULL;
+    if (!ACCEPTED(azulejo_mesh_create(&cube_positions[0][0], 8, sizeof *cube_positions, &cube_indices[0][0], 12, &mesh)))
+        exit(finish());
+    return mesh;
+}
+
+static inline azulejo_kdrt_options kdrt_options(double radius) {
+    azulejo_kdrt_options options;
+    ACCEPTED(azulejo_kdrt_options_init(&options, sizeof options));
+    options.radius = radius;
+    return options;
+}
+
+static inline azulejo_maximal_options maximal_options(double radius) {
+    azulejo_maximal_options options;
+    ACCEPTED(azulejo_maximal_options_init(&options, sizeof options));
+    options.radius = radius;
+    return options;
+}
+
+static inline azulejo_psp_options psp_options(double radius) {
+    azulejo_psp_options options;
+    ACCEPTED(azulejo_psp_options_init(&options, sizeof options));
+    options.radius = radius;
+    return options;
+}
+
+static inline azulejo_dcr_options dcr_options(uint32_t max_iterations) {
+    azulejo_dcr_options options;
+    ACCEPTED(azulejo_dcr_options_init(&options, sizeof options));
+    options.max_iterations = max_iterations;
+    return options;
+}
+
+/* Random points of the unit square, the same ones on every machine. */
+static inline void random_points(float *xy, size_t count) {
+    uint32_t state = 1;
+    size_t i;
+    for (i = 0; i < 2 * count; i++) {
+        state = state * 1664525u + 1013904223u;
+        xy[i] = (float)(state >> 8) / (1 << 24);
+    }
+}
+
+/* Whether two sets are the same, byte for byte. */
+static inline int same_points(const azulejo_points *a, const azulejo_points *b) {
+    const size_t count = azulejo_points_count(a), dimension = azulejo_points_dimension(a);
+    if (count != azulejo_points_count(b) || dimension != azulejo_points_dimension(b)) return 0;
+    if (count == 0) return 1;
+    if (memcmp(azulejo_points_positions(a), azulejo_points_positions(b), 4 * dimension * count) != 0) return 0;
+    return dimension == 2 ||
+           (memcmp(azulejo_points_normals(a), azulejo_points_normals(b), 12 * count) == 0 &&
+            memcmp(azulejo_points_triangles(a), azulejo_points_triangles(b), 4 * count) == 0 &&
+            memcmp(azulejo_points_barycentrics(a), azulejo_points_barycentrics(b), 8 * count) == 0);
+}
+
+#endif

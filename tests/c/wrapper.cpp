@@ -1,0 +1,203 @@
+// azulejo.hpp: owners, moves, exceptions, options, progress.
+
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <type_traits>
+#include <vector>
+
+#include <azulejo.hpp>
+
+#include "check.h"
+
+namespace {
+
+const std::array<float, 12> positions = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
+const std::vector<std::uint32_t> indices = {0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3};
+
+template <class Call>
+bool throws(azulejo_status status, const char *part, Call call) {
+    try {
+        call();
+        return false;
+    } catch (const azulejo::Error &error) {
+        return error.status() == status && std::strstr(error.what(), part) != nullptr;
+    }
+}
+
+template <class T>
+constexpr bool move_only = std::is_nothrow_move_constructible_v<T> && std::is_nothrow_move_assignable_v<T> &&
+                           !std::is_copy_constructible_v<T> && !std::is_copy_assignable_v<T>;
+static_assert(move_only<azulejo::Context> && move_only<azulejo::Points>);
+static_assert(move_only<azulejo::Mesh> && move_only<azulejo::Psp>);
+
+void spans() {
+    std::vector<float> values = {1, 2, 3};
+    const azulejo::Span<float> span(values);
+    const azulejo::Span<const float> constant(values), none;
+    span[1] = 5;
+    CHECK(constant.size() == 3 && constant[1] == 5 && !constant.empty());
+    CHECK(none.empty() && none.begin() == none.end());
+    float sum = 0;
+    for (float x : constant) sum += x;
+    CHECK(sum == 9);
+}
+
+void errors() {
+    const azulejo::Context context(1);
+    CHECK(throws(AZULEJO_ERROR_INVALID_ARGUMENT, "num_threads", [] { azulejo::Context too_many(5000); }));
+    CHECK(throws(AZULEJO_ERROR_IO, "missing.ply", [] { azulejo::Mesh::load("missing.ply"); }));
+    CHECK(throws(AZULEJO_ERROR_INVALID_ARGUMENT, "indices", [] { azulejo::Mesh mesh(positions, {}); }));
+    CHECK(throws(AZULEJO_ERROR_INVALID_ARGUMENT, "radius",
+                 [&] { azulejo::kdrt_sample(context, azulejo::KdrtOptions()); }));
+    try {
+        azulejo::maximal_sample(context, {});
+        CHECK(!"reached");
+    } catch (const std::runtime_error &error) {
+        CHECK(std::strstr(error.what(), "radius") != nullptr);
+    }
+    CHECK(azulejo::version() == AZULEJO_VERSION);
+}
+
+void owners() {
+    azulejo::Context first(2);
+    CHECK(first.num_threads() == 2);
+    azulejo::Context second = std::move(first);
+    CHECK(first.get() == nullptr && first.num_threads() == 0 && second.num_threads() == 2);
+
+    azulejo::KdrtOptions options;
+    options.radius = 0.1;
+    CHECK(throws(AZULEJO_ERROR_INVALID_ARGUMENT, "context", [&] { azulejo::kdrt_sample(first, options); }));
+    azulejo::Points points = azulejo::kdrt_sample(second, options);
+    CHECK(points.size() > 50 && points.dimension() == 2 && points.positions().size() == 2 * points.size());
+    CHECK(points.normals().empty() && points.triangles().empty() && points.barycentrics().empty());
+    const float *data = points.positions().data();
+    azulejo::Points moved(std::move(points));
+    CHECK(moved.positions().data() == data && points.size() == 0 && points.positions().empty());
+    points = std::move(moved);
+    CHECK(points.positions().data() == data && moved.get() == nullptr);
+    points = azulejo::maximal_sample(second, [] {
+        azulejo::MaximalOptions o;
+        o.radius = 0.1;
+        return o;
+    }());
+    CHECK(azulejo::plane_smallest_distance(second, points.positions(), options.domain_min, options.domain_max,
+                                           options.boundary) >= 0.1);
+}
+
+void surfaces() {
+    const azulejo::Context context(2);
+    azulejo::PspOptions options;
+    options.radius = 0.1;
+    auto mesh = std::make_unique<azulejo::Mesh>(positions, indices);
+    CHECK(mesh->vertex_count() == 4 && mesh->triangle_count() == 4);
+    CHECK(mesh->positions()[3] == 1 && mesh->indices()[1] == 2);
+    CHECK(std::abs(mesh->area() - (1.5 + std::sqrt(3.0) / 2)) < 1e-6);
+
+    azulejo::PspReport report;
+    const auto whole = azulejo::psp_sample(context, *mesh, options, &report);
+    CHECK(report.samples == whole.size() && whole.dimension() == 3);
+    CHECK(whole.normals().size() == 3 * whole.size() && whole.triangles().size() == whole.size());
+    CHECK(whole.barycentrics().size() == 2 * whole.size());
+    CHECK(azulejo::space_smallest_distance(context, whole.positions()) >= 0.1);
+    CHECK(azulejo::mesh_uncovered_fraction(context, *mesh, whole.positions(), 0.1, 10000) == 0);
+
+    azulejo::Psp psp(context, *mesh, options);
+    mesh.reset();
+    const auto first = psp.advance(1);
+    azulejo::Psp moved = std::move(psp);
+    const auto second = moved.fill();
+    CHECK(first.samples > 0 && second.samples == first.samples + second.accepted);
+    CHECK(moved.points().size() == second.samples);
+    CHECK(throws(AZULEJO_ERROR_INVALID_ARGUMENT, "psp", [&] { psp.fill(); }));
+    CHECK(throws(AZULEJO_ERROR_INVALID_ARGUMENT, "psp", [&] { psp.points(); }));
+}
+
+void progress() {
+    const azulejo::Context context(2);
+    azulejo::KdrtOptions options;
+    options.radius = 0.02;
+    double last = -1;
+    options.progress = [&](double done) {
+        CHECK(done >= last);
+        last = done;
+        return true;
+    };
+    CHECK(azulejo::kdrt_sample(context, options).size() > 1000);
+    CHECK(last == 1);
+
+    options.progress = [](double done) { return done < 0.5; };
+    CHECK(throws(AZULEJO_ERROR_CANCELLED, "cancelled", [&] { azulejo::kdrt_sample(context, options); }));
+
+    for (double limit : {0.0, 0.5, 1.0}) {
+        int calls_after = -1;
+        options.progress = [&](double done) {
+            if (calls_after >= 0 || done >= limit) calls_after++;
+            if (done >= limit) throw limit;
+            return true;
+        };
+        try {
+            azulejo::kdrt_sample(context, options);
+            CHECK(!"reached");
+        } catch (double thrown) {
+            CHECK(thrown == limit && calls_after == 0);
+        }
+    }
+}
+
+// A handle keeps its progress function through moves and through exceptions.
+void progress_of_a_handle() {
+    const azulejo::Context context(1);
+    const azulejo::Mesh mesh(positions, indices);
+    bool throwing = true;
+    int calls = 0;
+    azulejo::PspOptions options;
+    options.radius = 0.1;
+    options.progress = [&](double) {
+        calls++;
+        if (throwing) throw std::logic_error("no");
+        return true;
+    };
+    azulejo::Psp psp(context, mesh, options);
+    options.progress = nullptr;
+    azulejo::Psp moved = std::move(psp);
+    try {
+        moved.advance(1);
+        CHECK(!"reached");
+    } catch (const std::logic_error &error) {
+        CHECK(std::strcmp(error.what(), "no") == 0);
+    }
+    throwing = false;
+    CHECK(moved.fill().samples > 0);
+    CHECK(calls > 2);
+}
+
+void relaxing() {
+    const azulejo::Context context(1);
+    azulejo::DcrOptions options;
+    azulejo::DcrReport report;
+    options.max_iterations = 30;
+    std::vector<float> xy;
+    for (int i = 0; i < 64; i++) {
+        xy.push_back(static_cast<float>(i % 8) / 8 + 0.01f * static_cast<float>(i % 3));
+        xy.push_back(static_cast<float>(i / 8) / 8 + 0.01f * static_cast<float>(i % 5));
+    }
+    const auto points = azulejo::dcr_relax(context, options, xy, &report);
+    CHECK(points.size() == 64 && report.iterations <= 30 && report.rho > 0);
+    const double smallest = azulejo::plane_smallest_distance(context, points.positions(), options.domain_min,
+                                                             options.domain_max, options.boundary);
+    CHECK(std::abs(smallest - report.smallest_distance) < 1e-12);
+}
+
+} // namespace
+
+int main() {
+    spans();
+    errors();
+    owners();
+    surfaces();
+    progress();
+    progress_of_a_handle();
+    relaxing();
+    return finish();
+}
