@@ -39,7 +39,7 @@ pub struct Hit {
     /// Barycentrics: the hit is `(1 - u - v) * a + u * b + v * c` of the triangle's vertices. They are rounded, and may
     /// lie outside the triangle by a few float spacings.
     pub uv: [f32; 2],
-    /// The hit is `origin + t * direction`, and `t` is above zero.
+    /// The hit is `origin + t * direction`, and `t` is above zero (infinite, if a float cannot hold it).
     pub t: f32,
 }
 
@@ -169,5 +169,20 @@ fn check(positions: &[[f32; 3]], triangles: &[[u32; 3]]) -> Result<()> {
             Err(Error::invalid("triangles", format!("[{index}] is {triangle:?}, but there are {count} positions")))
         }
         None => Ok(()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn hits_are_ordered_and_repetitions_dropped() {
+        let hit = |ray, t, triangle| Hit { ray, triangle, uv: [0.0; 2], t };
+        let expected =
+            [hit(0, 0.5, 9), hit(0, 0.5, 10), hit(0, 2.0, 1), hit(1, f32::MIN_POSITIVE, 1), hit(1, 30.0, 10)];
+        let mut hits: Vec<_> = [3, 1, 4, 0, 1, 2, 0, 3].map(|i| expected[i]).into();
+        settle(&mut hits);
+        assert_eq!(hits, expected);
     }
 }
