@@ -22,8 +22,16 @@ use super::divide::Leaf;
 /// How many radii (in lattice units: reaches) around a region decide which points survive in it.
 pub(super) const LONGEST_CHAIN: i32 = 3;
 
-/// Clips the leaves, which are sorted by falling rank, and inserts what survives in `window`, the grid's rectangle.
-pub(super) fn merge(grid: &mut CellGrid, pattern: &Pattern, leaves: &[Leaf], window: &Rect, reach: i32) {
+/// Clips the leaves, which are sorted by falling rank, inserts what survives in `window`, the grid's rectangle, and
+/// gives the points that do not.
+pub(super) fn merge(
+    grid: &mut CellGrid,
+    pattern: &Pattern,
+    leaves: &[Leaf],
+    window: &Rect,
+    reach: i32,
+) -> Vec<[i32; 2]> {
+    let mut eliminated = Vec::new();
     for leaf in leaves {
         // Deeper inside than this no other leaf's point conflicts.
         let inside = leaf.rect.grown(-reach);
@@ -31,36 +39,53 @@ pub(super) fn merge(grid: &mut CellGrid, pattern: &Pattern, leaves: &[Leaf], win
             let cell = grid.cell(point);
             if inside.contains(point) || !grid.conflicts(cell, point) {
                 grid.insert(cell, point);
+            } else {
+                eliminated.push(point);
             }
         }
     }
+    eliminated
 }
 
 /// The cells of a window in which a lattice point may be uncovered after elimination.
 ///
 /// In the pattern every point is covered, by a sample at most a reach away. If that is missing from the plane, it lay
-/// outside the leaf or was eliminated within a reach of the leaf's border: the point is within two of it. This depends
-/// on the leaves alone, so every window that holds a cell agrees on it.
+/// outside the leaf, so the point is within a reach of the leaf's border, or it was eliminated. Both are the same for
+/// all windows that know what survives around the cell, so they agree on it.
 pub(super) struct SeamCells {
     width: i32,
     seam: Vec<bool>,
 }
 
 impl SeamCells {
-    pub fn new(grid: &CellGrid, leaves: &[Leaf], reach: i32) -> Self {
+    pub fn new(grid: &CellGrid, leaves: &[Leaf], eliminated: &[[i32; 2]], reach: i32) -> Self {
         let [width, height] = grid.counts();
-        let mut seam = vec![false; width as usize * height as usize];
+        let mut cells = Self { width, seam: vec![false; width as usize * height as usize] };
         for leaf in leaves {
-            let cells = grid.cells_of(&leaf.rect);
+            let all = grid.cells_of(&leaf.rect);
             // A cell that the border of the inner rectangle cuts is not inside of it.
-            let inside = grid.cells_of(&leaf.rect.grown(-2 * reach)).grown(-1);
-            for y in cells.min[1]..cells.max[1] {
-                for x in cells.min[0]..cells.max[0] {
-                    seam[(y * width + x) as usize] |= !inside.contains([x, y]);
-                }
+            let inside = grid.cells_of(&leaf.rect.grown(-reach)).grown(-1);
+            if inside.is_empty() {
+                cells.mark(&all);
+                continue;
             }
+            cells.mark(&Rect { max: [all.max[0], inside.min[1]], ..all });
+            cells.mark(&Rect { min: [all.min[0], inside.max[1]], ..all });
+            cells.mark(&Rect { max: [inside.min[0], all.max[1]], ..all });
+            cells.mark(&Rect { min: [inside.max[0], all.min[1]], ..all });
         }
-        Self { width, seam }
+        for &[x, y] in eliminated {
+            let disk = Rect { min: [x, y], max: [x + 1, y + 1] }.grown(reach);
+            cells.mark(&grid.cells_of(&disk));
+        }
+        cells
+    }
+
+    fn mark(&mut self, cells: &Rect) {
+        for y in cells.min[1]..cells.max[1] {
+            let row = (y * self.width) as usize;
+            self.seam[row + cells.min[0] as usize..row + cells.max[0] as usize].fill(true);
+        }
     }
 
     pub fn contains(&self, [x, y]: [i32; 2]) -> bool {

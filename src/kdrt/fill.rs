@@ -19,10 +19,7 @@ pub(super) fn fill(grid: &mut CellGrid, seams: &SeamCells, block: &Rect, mut rng
         quadtree.refine(grid);
     }
     while !quadtree.is_empty() {
-        let darts = quadtree.len();
-        if quadtree.throw(grid, &mut rng, darts) > 0 {
-            quadtree.prune(grid);
-        }
+        quadtree.throw(grid, &mut rng, quadtree.len());
         quadtree.refine(grid);
     }
 }

@@ -74,9 +74,9 @@ impl Plane {
         let known = self.inside(&filled.grown((1 + LONGEST_CHAIN) * reach));
         let leaves = self.leaves(&known);
         let mut grid = CellGrid::new(&self.axes, &known, threshold, reach);
-        merge(&mut grid, &self.pattern, &leaves, &known, reach);
+        let eliminated = merge(&mut grid, &self.pattern, &leaves, &known, reach);
+        let seams = SeamCells::new(&grid, &leaves, &eliminated, reach);
 
-        let seams = SeamCells::new(&grid, &leaves, reach);
         for (parity, margin) in PHASES {
             let blocks = self.blocks.grown(window, margin);
             let first = std::array::from_fn(|axis: usize| blocks.min[axis] + ((blocks.min[axis] ^ parity[axis]) & 1));

@@ -10,15 +10,47 @@ use super::cells::CellGrid;
 use crate::lattice::Rect;
 use crate::rng::Rng;
 
-/// The voxels of a rectangle of lattice points that may be uncovered.
-pub(crate) struct Quadtree {
-    rect: Rect,
-    /// Voxels are the cells of a grid, halved this many times per axis.
-    level: u32,
-    /// Column and row at this level.
-    voxels: Vec<[i32; 2]>,
-    /// The widest voxel of this level, in lattice points.
+/// One level of voxels: the cells of a grid, halved `depth` times per axis.
+#[derive(Clone, Copy)]
+struct Level {
+    depth: u32,
+    /// The widest voxel, in lattice points.
     widest: [i32; 2],
+    /// What voxels are clipped to.
+    clip: Rect,
+}
+
+impl Level {
+    fn is_finest(&self) -> bool {
+        self.widest == [1; 2]
+    }
+
+    fn next(&self) -> Self {
+        Self { depth: self.depth + 1, widest: self.widest.map(|width| (width + 1) / 2), ..*self }
+    }
+
+    fn cell(&self, voxel: [i32; 2]) -> [i32; 2] {
+        voxel.map(|index| index >> self.depth)
+    }
+
+    /// The lattice points of a voxel, given those of its cell. Integer bisection: the halves of a voxel are exactly its
+    /// points.
+    fn rect(&self, cell: &Rect, voxel: [i32; 2]) -> Rect {
+        let within = voxel.map(|index| i64::from(index & ((1 << self.depth) - 1)));
+        let border =
+            |axis: usize, index: i64| cell.min[axis] + ((i64::from(cell.length(axis)) * index) >> self.depth) as i32;
+        let unclipped = Rect {
+            min: std::array::from_fn(|axis| border(axis, within[axis])),
+            max: std::array::from_fn(|axis| border(axis, within[axis] + 1)),
+        };
+        unclipped.intersection(&self.clip)
+    }
+}
+
+/// The voxels of a rectangle of lattice points that may be uncovered, by column and row at their level.
+pub(crate) struct Quadtree {
+    level: Level,
+    voxels: Vec<[i32; 2]>,
 }
 
 impl Quadtree {
@@ -28,7 +60,7 @@ impl Quadtree {
             let rect = grid.rect(cell);
             std::array::from_fn(|axis| rect.length(axis).max(widest[axis]))
         });
-        Self { rect, level: 0, voxels: cells, widest }
+        Self { level: Level { depth: 0, widest, clip: rect }, voxels: cells }
     }
 
     /// How many voxels are left.
@@ -41,26 +73,9 @@ impl Quadtree {
         self.voxels.is_empty()
     }
 
-    fn cell(&self, voxel: [i32; 2]) -> [i32; 2] {
-        voxel.map(|index| index >> self.level)
-    }
-
-    /// The lattice points of a voxel. Integer bisection of the cell: the halves of a voxel are exactly its points.
-    fn rect(&self, grid: &CellGrid, voxel: [i32; 2]) -> Rect {
-        let cell = grid.rect(self.cell(voxel));
-        let border = |axis: usize, index: i64| {
-            let within = index - (i64::from(voxel[axis] >> self.level) << self.level);
-            cell.min[axis] + ((i64::from(cell.length(axis)) * within) >> self.level) as i32
-        };
-        let unclipped = Rect {
-            min: std::array::from_fn(|axis| border(axis, i64::from(voxel[axis]))),
-            max: std::array::from_fn(|axis| border(axis, i64::from(voxel[axis]) + 1)),
-        };
-        unclipped.intersection(&self.rect)
-    }
-
     /// Throws darts and gives how many became samples.
     pub fn throw(&mut self, grid: &mut CellGrid, rng: &mut Rng, darts: usize) -> usize {
+        let level = self.level;
         let mut accepted = 0;
         for _ in 0..darts {
             if self.voxels.is_empty() {
@@ -68,14 +83,14 @@ impl Quadtree {
             }
             let pick = rng.below(self.voxels.len() as u64) as usize;
             let voxel = self.voxels[pick];
-            let cell = self.cell(voxel);
+            let cell = level.cell(voxel);
             if grid.sample(cell).is_some() {
                 self.voxels.swap_remove(pick);
                 continue;
             }
             // Every voxel gets the widest one's share of darts; those beyond its own end are void.
-            let rect = self.rect(grid, voxel);
-            let point = std::array::from_fn(|axis| rect.min[axis] + rng.below(self.widest[axis] as u64) as i32);
+            let rect = level.rect(&grid.rect(cell), voxel);
+            let point = std::array::from_fn(|axis| rect.min[axis] + rng.below(level.widest[axis] as u64) as i32);
             if rect.contains(point) && !grid.conflicts(cell, point) {
                 grid.insert(cell, point);
                 self.voxels.swap_remove(pick);
@@ -85,27 +100,92 @@ impl Quadtree {
         accepted
     }
 
-    /// Drops the voxels that one sample covers.
-    pub fn prune(&mut self, grid: &CellGrid) {
-        let mut voxels = std::mem::take(&mut self.voxels);
-        voxels.retain(|&voxel| !grid.covers(self.cell(voxel), &self.rect(grid, voxel)));
-        self.voxels = voxels;
+    /// Drops the voxels that one sample covers, cuts the others in four and drops those of the quarters that one sample
+    /// covers. Single lattice points are not cut.
+    pub fn refine(&mut self, grid: &CellGrid) {
+        let level = self.level;
+        let next = if level.is_finest() { level } else { level.next() };
+        let mut open = Vec::new();
+        let mut memory = Vec::new();
+        // Voxels of one cell mostly follow each other and have their neighbours in common.
+        for voxels in self.voxels.chunk_by(|&a, &b| level.cell(a) == level.cell(b)) {
+            let cell = level.cell(voxels[0]);
+            let near = grid.samples_near(cell, &mut memory);
+            let cell = grid.rect(cell);
+            for &voxel in voxels.iter().filter(|&&voxel| !grid.covers(near, &level.rect(&cell, voxel))) {
+                if level.is_finest() {
+                    open.push(voxel);
+                    continue;
+                }
+                let quarters = [[0, 0], [1, 0], [0, 1], [1, 1]].map(|[x, y]| [2 * voxel[0] + x, 2 * voxel[1] + y]);
+                open.extend(quarters.into_iter().filter(|&quarter| !grid.covers(near, &next.rect(&cell, quarter))));
+            }
+        }
+        self.level = next;
+        self.voxels = open;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::maximal::CellAxis;
+    use crate::rng::Draw;
+
+    fn grid(size: [i32; 2]) -> CellGrid {
+        let axes = size.map(|size| CellAxis::new(size, 70.0));
+        CellGrid::new(&axes, &Rect { min: [0; 2], max: size }, 4900, 69)
     }
 
-    /// Cuts every voxel in four and drops those of the quarters that one sample covers. Single lattice points stay.
-    pub fn refine(&mut self, grid: &CellGrid) {
-        if self.widest == [1; 2] {
-            return;
-        }
-        let parents = std::mem::take(&mut self.voxels);
-        self.level += 1;
-        self.widest = self.widest.map(|width| (width + 1) / 2);
-        for [x, y] in parents {
-            for voxel in [[2 * x, 2 * y], [2 * x + 1, 2 * y], [2 * x, 2 * y + 1], [2 * x + 1, 2 * y + 1]] {
-                if !grid.covers(self.cell(voxel), &self.rect(grid, voxel)) {
-                    self.voxels.push(voxel);
+    fn all_cells(grid: &CellGrid) -> Vec<[i32; 2]> {
+        let [columns, rows] = grid.counts();
+        (0..rows).flat_map(|y| (0..columns).map(move |x| [x, y])).collect()
+    }
+
+    /// In an empty grid nothing is dropped: at every level each lattice point is in exactly one voxel.
+    #[test]
+    fn voxels_of_every_level_hold_each_lattice_point_once() {
+        let grid = grid([211, 130]);
+        let clip = Rect { min: [13, 20], max: [200, 101] };
+        let mut quadtree = Quadtree::new(&grid, clip, all_cells(&grid));
+        loop {
+            let mut held = vec![0; 211 * 130];
+            for &voxel in &quadtree.voxels {
+                let rect = quadtree.level.rect(&grid.rect(quadtree.level.cell(voxel)), voxel);
+                assert!((0..2).all(|axis| rect.length(axis) <= quadtree.level.widest[axis]));
+                for (y, x) in (rect.min[1]..rect.max[1]).flat_map(|y| (rect.min[0]..rect.max[0]).map(move |x| (y, x))) {
+                    held[(y * 211 + x) as usize] += 1;
                 }
             }
+            for (place, held) in held.into_iter().enumerate() {
+                let inside = clip.contains([place as i32 % 211, place as i32 / 211]);
+                assert_eq!(held, i32::from(inside));
+            }
+            if quadtree.level.is_finest() {
+                break;
+            }
+            quadtree.refine(&grid);
+        }
+    }
+
+    #[test]
+    fn first_darts_are_uniform_at_every_level() {
+        let size = [57, 61];
+        for level in 0..4 {
+            let mut histogram = vec![0u32; 57 * 61];
+            let mut rng = Rng::at(level, Draw::Probe, &[]);
+            for _ in 0..100_000 {
+                let mut grid = grid(size);
+                let mut quadtree = Quadtree::new(&grid, Rect { min: [0; 2], max: size }, all_cells(&grid));
+                (0..level).for_each(|_| quadtree.refine(&grid));
+                while quadtree.throw(&mut grid, &mut rng, 1) == 0 {}
+                let [x, y] = grid.samples_in(&Rect { min: [0; 2], max: size }).next().unwrap();
+                histogram[(y * 57 + x) as usize] += 1;
+            }
+            let expected = 100_000.0 / histogram.len() as f64;
+            let chi2: f64 = histogram.iter().map(|&count| (f64::from(count) - expected).powi(2) / expected).sum();
+            let freedom = histogram.len() as f64 - 1.0;
+            assert!((chi2 - freedom).abs() < 5.0 * (2.0 * freedom).sqrt(), "chi2 {chi2} of {freedom} at level {level}");
         }
     }
 }
