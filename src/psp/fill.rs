@@ -8,7 +8,7 @@
 //! A dart's priority is that time: a weighted random order without a shared draw (Efraimidis and Spirakis 2006).
 //!
 //! *The end.* Floats cannot tell points apart that are closer than the float spacing at the mesh's largest coordinate.
-//! Fragments no longer than that get a last dart in their centre. If it is rejected the fragment is covered up to
+//! The darts of fragments no longer than that go to their centre. If it is rejected the fragment is covered up to
 //! rounding: that of the position (0.9 spacings), of the barycentrics (below 4.4, on a triangle that spans a mesh around
 //! the origin) and the size of the fragment (0.7). So no point of the surface is farther from all samples than the
 //! radius and [`TOLERANCE`] float spacings.
@@ -48,7 +48,7 @@ pub(super) fn fill(job: &Job, mesh: &Mesh, samples: &mut SampleSet, seed: u64) -
     let radius = samples.radius();
     let mut filled = Filled::default();
     let mut open = fragments(mesh, PIECE * radius);
-    open = search(&job.part(0.0, 0.4), mesh, samples, &open, |_| (FIRST * radius).max(spacing))?;
+    open = search(&job.part(0.0, 0.4), mesh, samples, &open, |_| FIRST * radius)?;
 
     let mut rest = job.part(0.4, 1.0);
     for round in 0.. {
@@ -66,8 +66,7 @@ pub(super) fn fill(job: &Job, mesh: &Mesh, samples: &mut SampleSet, seed: u64) -
         filled.darts += open.len() as u64;
         filled.accepted += samples.merge(&rest.part(0.1, 0.2), &first_of_each_cell(mesh, radius, darts))? as u64;
 
-        open.retain(|fragment| fragment.shape(mesh).longest > spacing);
-        open = search(&rest.part(0.2, 0.4), mesh, samples, &open, |longest| (SHRINK * longest).max(spacing))?;
+        open = search(&rest.part(0.2, 0.4), mesh, samples, &open, |longest| SHRINK * longest)?;
         rest = rest.part(0.4, 1.0);
     }
     Ok(filled)
@@ -80,6 +79,8 @@ pub(super) fn float_spacing(mesh: &Mesh) -> f64 {
 }
 
 /// The uncovered parts of fragments, in order; `finest` says how small they become, from the length of the fragment.
+///
+/// A fragment no longer than the float spacing counts as covered once a dart in its centre would be rejected.
 fn search(
     job: &Job,
     mesh: &Mesh,
@@ -87,25 +88,35 @@ fn search(
     fragments: &[Fragment],
     finest: impl Fn(f64) -> f64 + Sync,
 ) -> Result<Vec<Fragment>> {
+    let spacing = float_spacing(mesh);
     job.flat_map(fragments.len().div_ceil(CHUNK), |chunk| {
         let (mut coverage, mut uncovered) = (Coverage::new(mesh, samples), Vec::new());
         for fragment in &fragments[chunk * CHUNK..fragments.len().min((chunk + 1) * CHUNK)] {
-            coverage.uncovered(fragment, finest(fragment.shape(mesh).longest), &mut uncovered);
+            let longest = fragment.shape(mesh).longest;
+            if longest > spacing || !samples.rejects(&centre(mesh, fragment)) {
+                coverage.uncovered(fragment, finest(longest).max(spacing), &mut uncovered);
+            }
         }
         uncovered
     })
 }
 
-/// A fragment's dart of a round, uniform in the fragment, and the time at which it arrives.
+/// The sample in the centre of a fragment.
+fn centre(mesh: &Mesh, fragment: &Fragment) -> Sample {
+    Sample::new(mesh, fragment.triangle, round_barycentrics(fragment.at(1.0 / 3.0, 1.0 / 3.0)))
+}
+
+/// A fragment's dart of a round, uniform in the fragment (in its centre, if it is no longer than `spacing`), and the time
+/// at which it arrives.
 fn dart(mesh: &Mesh, fragment: &Fragment, spacing: f64, seed: u64, round: u64) -> (f64, Sample) {
     let mut rng = Rng::at(seed, Draw::Fill, &[fragment.triangle.into(), fragment.path, round]);
     let arrival = -(1.0 - rng.unit()).ln() / fragment.area(mesh);
+    if fragment.shape(mesh).longest <= spacing {
+        return (arrival, centre(mesh, fragment));
+    }
     let [mut s, mut t] = [rng.unit(), rng.unit()];
     if s + t > 1.0 {
         (s, t) = (1.0 - s, 1.0 - t);
-    }
-    if fragment.shape(mesh).longest <= spacing {
-        (s, t) = (1.0 / 3.0, 1.0 / 3.0);
     }
     (arrival, Sample::new(mesh, fragment.triangle, round_barycentrics(fragment.at(s, t))))
 }
