@@ -7,8 +7,10 @@
 # Debian mirror is the one that this machine's apt uses, or $AZULEJO_DEBIAN_MIRROR. Needs root, or asks sudo for it.
 #
 # All mounts are made in a mount namespace of this process: they cannot be seen outside, and the kernel drops them
-# when the process ends, however it ends. So nothing is left to unmount, and target/ can be deleted at any time.
+# when the process ends, however it ends. So nothing is left to unmount, and the root (which belongs to root) can be
+# deleted at any time. Inside, the project is at /azulejo, read-only; what cargo builds goes to /var/cache/azulejo.
 set -euo pipefail
+PATH=$PATH:/usr/sbin:/sbin
 
 suite=trixie
 packages=(libembree-dev libclang-dev g++ cmake make pkg-config)
@@ -18,22 +20,30 @@ die() {
     exit 1
 }
 
+# NAME=value for each of these variables that is set: what sudo and the root are told of the environment.
+settings() {
+    local name
+    for name in TERM http_proxy https_proxy CARGO_BUILD_JOBS RUST_BACKTRACE "$@"; do
+        [ -z "${!name:-}" ] || printf '%s=%s\n' "$name" "${!name}"
+    done
+}
+
 # --- Outside: as the user, who knows where the Rust toolchain is and who owns cargo's registry ---
 
 outside() {
-    local source cache sysroot sudo=()
+    local source cache sysroot tool settings sudo=()
     source=$(cd "$(dirname "$0")/.." && pwd)
     cache=${AZULEJO_DEBIAN13_DIR:-$source/target/debian13}
     command -v cargo >/dev/null || die "cargo is not installed; scripts/setup.sh says what to do"
     for tool in debootstrap unshare flock; do
-        PATH=$PATH:/usr/sbin:/sbin command -v $tool >/dev/null ||
-            die "$tool is not installed; run scripts/setup.sh --tests"
+        command -v "$tool" >/dev/null || die "$tool is not installed; run scripts/setup.sh --tests"
     done
     cargo fetch --quiet --locked --manifest-path "$source/Cargo.toml"
     sysroot=$(rustc --print sysroot)
     mkdir -p "$cache"
     [ "$(id -u)" = 0 ] || sudo=(sudo)
-    exec "${sudo[@]}" unshare --mount --propagation private bash "$0" --inside \
+    mapfile -t settings < <(settings AZULEJO_DEBIAN_MIRROR)
+    exec "${sudo[@]}" env "${settings[@]}" unshare --mount --propagation private bash "$0" --inside \
         "$source" "$(cd "$cache" && pwd)" "$sysroot" "${CARGO_HOME:-$HOME/.cargo}" "$@"
 }
 
@@ -64,12 +74,16 @@ bootstrap() {
     [ -z "${proxy:-}" ] || export http_proxy=${http_proxy:-$proxy}
 
     echo "debian13.sh: making a Debian 13 root in $root (about a minute, 1 GB)" >&2
-    rm -rf "$root" "$cache/root.partial"
+    rm -rf "$cache/root.partial"
     mkdir -p "$cache/packages"
     debootstrap --variant=minbase --keyring="$keyring" --cache-dir="$cache/packages" \
         "$suite" "$cache/root.partial" "$mirror" >"$cache/bootstrap.log" 2>&1 ||
         die "debootstrap failed; $cache/bootstrap.log ends with: $(tail -n 3 "$cache/bootstrap.log")"
     apt_settings >"$cache/root.partial/etc/apt/apt.conf.d/90machine"
+    # For a mirror behind https: the small root has no certificates.
+    mkdir -p "$cache/root.partial/etc/ssl/certs"
+    local certificates=/etc/ssl/certs/ca-certificates.crt
+    [ ! -e "$certificates" ] || cp -L "$certificates" "$cache/root.partial$certificates"
     # The name root stands for a finished one.
     mv "$cache/root.partial" "$root"
 }
@@ -84,12 +98,13 @@ mount_system() {
     cp -L /etc/hosts "$root/etc/hosts"
 }
 
-# Installs the packages, once for each version of the list above.
+# Installs the packages, once for each version of their list, also after an attempt that was broken off.
 install_packages() {
     local cache=$1 root=$2 stamp=$2/etc/azulejo-packages
     [ "$(cat "$stamp" 2>/dev/null)" != "${packages[*]}" ] || return 0
     echo "debian13.sh: installing in the root: ${packages[*]}" >&2
     chroot "$root" env DEBIAN_FRONTEND=noninteractive LC_ALL=C PATH=/usr/sbin:/usr/bin:/sbin:/bin sh -ec '
+        dpkg --configure -a
         apt-get update -qq
         apt-get install -qq --no-install-recommends "$@"
         apt-get clean' sh "${packages[@]}" >"$cache/install.log" 2>&1 ||
@@ -105,19 +120,15 @@ show() {
 }
 
 inside() {
-    local source=$1 cache=$2 sysroot=$3 cargo_home=$4 root=$2/root
+    local source=$1 cache=$2 sysroot=$3 cargo_home=$4 root=$2/root part settings
     shift 4
     [ $# -gt 0 ] || set -- cargo test --offline --workspace
     # Children inherit the lock: a second run waits until the command of the first one has ended.
     exec 9>"$cache/lock"
     flock 9
 
-    local rust=(/usr/bin)
-    if [ "$sysroot" = /usr ]; then
-        packages+=(cargo rustc) # the distribution's own toolchain cannot be moved: take that of the root
-    else
-        rust=("/opt/rust/bin")
-    fi
+    # A toolchain of the distribution's own cannot be moved: then the root gets its own, too.
+    [ "$sysroot" != /usr ] || packages+=(cargo rustc)
     [ -d "$root" ] || bootstrap "$cache" "$root"
     mount_system "$root"
     install_packages "$cache" "$root"
@@ -129,9 +140,10 @@ inside() {
     for part in registry git config.toml; do
         [ ! -e "$cargo_home/$part" ] || show "$cargo_home/$part" "$root/opt/cargo/$part"
     done
-    exec chroot "$root" env -i HOME=/root LC_ALL=C.UTF-8 TERM="${TERM:-dumb}" PATH="${rust[0]}:/usr/sbin:/usr/bin:/sbin:/bin" \
+    mapfile -t settings < <(settings)
+    exec chroot "$root" env -i "${settings[@]}" HOME=/root LC_ALL=C.UTF-8 \
+        PATH=/opt/rust/bin:/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin \
         CARGO_HOME=/opt/cargo CARGO_TARGET_DIR=/var/cache/azulejo CARGO_NET_OFFLINE=true \
-        ${CARGO_BUILD_JOBS:+CARGO_BUILD_JOBS="$CARGO_BUILD_JOBS"} ${RUST_BACKTRACE:+RUST_BACKTRACE="$RUST_BACKTRACE"} \
         sh -c 'cd /azulejo && exec "$@"' sh "$@"
 }
 

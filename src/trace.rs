@@ -39,7 +39,7 @@ pub struct Hit {
     /// Barycentrics: the hit is `(1 - u - v) * a + u * b + v * c` of the triangle's vertices. They are rounded, and may
     /// lie outside the triangle by a few float spacings.
     pub uv: [f32; 2],
-    /// The hit is `origin + t * direction`, and `t` is above zero.
+    /// The hit is `origin + t * direction`, and `t` is above zero (infinite, if a float cannot hold it).
     pub t: f32,
 }
 
@@ -80,8 +80,10 @@ impl Scene {
     /// Appends every hit with `t > 0` on every ray, sorted by ray, `t` and triangle; no triangle comes twice on a ray.
     ///
     /// The rays, fewer than 2^32, are traced in packets of [`packet_width`](Self::packet_width), in their order. A ray
-    /// that has no direction, is not finite or starts beyond 1e18 hits nothing. A ray through an edge hits at least one
-    /// of the triangles that share it.
+    /// that has no direction, is not finite or starts beyond 1e18 hits nothing. A triangle without area is never hit.
+    ///
+    /// A ray through an edge hits one of the triangles that share it, or several. Which ones, and whether a ray that
+    /// only touches a triangle hits it, may depend on the other rays of its packet; nothing else does.
     pub fn all_hits(&self, rays: &[Ray], hits: &mut Vec<Hit>) {
         self.all_hits_in_packets(self.packet_width, rays, hits);
     }
@@ -167,5 +169,20 @@ fn check(positions: &[[f32; 3]], triangles: &[[u32; 3]]) -> Result<()> {
             Err(Error::invalid("triangles", format!("[{index}] is {triangle:?}, but there are {count} positions")))
         }
         None => Ok(()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn hits_are_ordered_and_repetitions_dropped() {
+        let hit = |ray, t, triangle| Hit { ray, triangle, uv: [0.0; 2], t };
+        let expected =
+            [hit(0, 0.5, 9), hit(0, 0.5, 10), hit(0, 2.0, 1), hit(1, f32::MIN_POSITIVE, 1), hit(1, 30.0, 10)];
+        let mut hits: Vec<_> = [3, 1, 4, 0, 1, 2, 0, 3].map(|i| expected[i]).into();
+        settle(&mut hits);
+        assert_eq!(hits, expected);
     }
 }

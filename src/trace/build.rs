@@ -6,6 +6,7 @@ use std::ptr;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use embree4_sys::*;
+use glam::DVec3;
 
 use crate::error::{Error, Result};
 
@@ -134,7 +135,8 @@ impl Device {
         // SAFETY: the device is alive.
         let geometry = self.own(unsafe { rtcNewGeometry(self.raw, RTC_GEOMETRY_TYPE_TRIANGLE) }, rtcReleaseGeometry)?;
         self.fill(&geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, positions)?;
-        self.fill(&geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, triangles)?;
+        let triangles: Vec<_> = triangles.iter().map(|&triangle| collapse_without_area(positions, triangle)).collect();
+        self.fill(&geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, &triangles)?;
         // SAFETY: the geometry is alive, and no other thread knows it.
         unsafe { rtcCommitGeometry(geometry.raw) };
         self.verdict()?;
@@ -158,6 +160,13 @@ impl Device {
         unsafe { ptr::copy_nonoverlapping(items.as_ptr(), data, items.len()) };
         Ok(())
     }
+}
+
+/// The triangle, or one of its corners if it has no area: Embree's rounding can give one to a triangle on a line, and
+/// then hits it with barycentrics that mean nothing. It never hits a point.
+fn collapse_without_area(positions: &[[f32; 3]], triangle: [u32; 3]) -> [u32; 3] {
+    let [a, b, c] = triangle.map(|vertex| DVec3::from_array(positions[vertex as usize].map(f64::from)));
+    if (b - a).cross(c - a) == DVec3::ZERO { [triangle[0]; 3] } else { triangle }
 }
 
 #[cfg(test)]

@@ -105,7 +105,10 @@ impl<P: RayHits> Packet<P> {
                 set(field::DIRECTION + axis, ray.direction[axis].to_bits());
             }
             set(field::TNEAR, 0f32.to_bits());
-            set(field::TFAR, f32::INFINITY.to_bits());
+            // Embree 3.13 overlooks the mask where it emulates wider packets than the machine's own: an idle ray ends
+            // before it begins.
+            let tfar = if aimed.is_some() { f32::INFINITY } else { f32::NEG_INFINITY };
+            set(field::TFAR, tfar.to_bits());
             set(field::MASK, !0);
             set(field::ID, lane as u32);
             set(field::GEOMETRY, RTC_INVALID_GEOMETRY_ID);

@@ -62,6 +62,11 @@ fn the_loaded_library_is_the_bound_one() {
     assert_eq!(verdict, Ok(()));
 }
 
+/// Embree divides by an approximate reciprocal: the last bits depend on the processor.
+fn rounded(x: f32) -> f32 {
+    (x * 1024.0).round() / 1024.0
+}
+
 /// What a filter sees of a query: the context that the query was given, with more behind it.
 #[repr(C)]
 struct Seen {
@@ -80,7 +85,7 @@ unsafe extern "C" fn record(arguments: *const RTCFilterFunctionNArguments) {
         for lane in 0..n {
             if *arguments.valid.add(lane) == -1 {
                 let id = *arguments.ray.cast::<u32>().add(10 * n + lane);
-                seen.hits.push((id, *arguments.ray.cast::<f32>().add(8 * n + lane)));
+                seen.hits.push((id, rounded(*arguments.ray.cast::<f32>().add(8 * n + lane))));
                 *arguments.valid.add(lane) = 0;
             }
         }
@@ -120,7 +125,8 @@ fn a_single_ray_meets_both_triangles() {
         rayhit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
         // SAFETY: the scene is committed; the structs are valid for the call.
         unsafe { rtcIntersect1(world.scene, &mut rayhit, arguments) };
-        closest.push((rayhit.hit.geomID, rayhit.ray.tfar, rayhit.hit.u, rayhit.hit.v));
+        let [t, u, v] = [rayhit.ray.tfar, rayhit.hit.u, rayhit.hit.v].map(rounded);
+        closest.push((rayhit.hit.geomID, t, u, v));
     };
     // SAFETY: the query passes the arguments on to Embree.
     let all = unsafe { closest_and_all(&mut query) };
@@ -137,7 +143,8 @@ macro_rules! packet_test {
 
             let world = World::new();
             let mut closest = Vec::new();
-            // The last lane is idle.
+            // The last lane is idle, and its ray ends before it begins: where Embree 3.13 emulates wider packets than
+            // the machine's own, it looks only at that.
             let mut valid = Valid([-1; $width]);
             valid.0[$width - 1] = 0;
             let mut query = |arguments| {
@@ -146,12 +153,14 @@ macro_rules! packet_test {
                 packet.ray.org_y = std::array::from_fn(|lane| 0.5 + lane as f32 / 64.0);
                 packet.ray.dir_z = [1.0; $width];
                 packet.ray.tfar = [f32::INFINITY; $width];
+                packet.ray.tfar[$width - 1] = f32::NEG_INFINITY;
                 packet.ray.mask = [!0; $width];
                 packet.ray.id = std::array::from_fn(|lane| lane as u32);
                 packet.hit.geomID = [RTC_INVALID_GEOMETRY_ID; $width];
                 // SAFETY: the scene is committed; the structs are valid and aligned for the call.
                 unsafe { $intersect(valid.0.as_ptr(), world.scene, &mut packet, arguments) };
-                closest.push((packet.hit.geomID[0], packet.ray.tfar[0], packet.hit.u[0], packet.hit.v[0]));
+                let [t, u, v] = [packet.ray.tfar[0], packet.hit.u[0], packet.hit.v[0]].map(rounded);
+                closest.push((packet.hit.geomID[0], t, u, v));
                 assert_eq!(packet.hit.geomID[$width - 1], RTC_INVALID_GEOMETRY_ID);
             };
             // SAFETY: the query passes the arguments on to Embree.
@@ -177,7 +186,7 @@ fn errors_come_with_their_text() {
     }
     let world = World::new();
     let mut text = String::new();
-    // SAFETY: the string outlives the device's use of it; Embree refuses a scene that is NULL.
+    // SAFETY: the string outlives the device's use of it; Embree refuses a type of geometry that does not exist.
     let code = unsafe {
         rtcSetDeviceErrorFunction(world.device, Some(note), ptr::from_mut(&mut text).cast());
         rtcNewGeometry(world.device, RTCGeometryType::MAX);

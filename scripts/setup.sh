@@ -1,0 +1,59 @@
+#!/usr/bin/env bash
+# Installs what azulejo needs to be built on Debian 12 or 13 and Ubuntu 24.04, and only what is missing.
+#
+#   scripts/setup.sh            to build it
+#   scripts/setup.sh --tests    to run all of its tests, too
+#
+# Says what it installs, and nothing if there is nothing to install. Needs root, or asks sudo for it. Rust is checked,
+# not installed.
+set -euo pipefail
+
+packages=(libembree-dev libclang-dev g++ make cmake pkg-config)
+test_packages=(valgrind debootstrap debian-archive-keyring)
+
+die() {
+    echo "setup.sh: $*" >&2
+    exit 1
+}
+
+# The Rust version of Cargo.toml or later: what distributions ship is often too old.
+check_rust() {
+    local wanted found advice
+    wanted=$(sed -n 's/^rust-version = "\(.*\)"$/\1/p' "$(dirname "$0")/../Cargo.toml")
+    advice="install it with rustup (https://rustup.rs), or, on Debian 13, with 'apt-get install cargo'"
+    command -v cargo >/dev/null || die "Rust $wanted or later is needed, and cargo is not on the PATH: $advice"
+    found=$(cargo --version | cut -d ' ' -f 2)
+    # The smaller of both versions is the wanted one.
+    [ "$(printf '%s\n' "$wanted" "$found" | sort -V | head -n 1)" = "$wanted" ] ||
+        die "Rust $wanted or later is needed, and cargo is of version $found: $advice"
+}
+
+is_installed() {
+    [ "$(dpkg-query -W -f '${db:Status-Status}' "$1" 2>/dev/null)" = installed ]
+}
+
+install_missing() {
+    local missing=() sudo=() output
+    for package in "$@"; do
+        is_installed "$package" || missing+=("$package")
+    done
+    [ ${#missing[@]} -gt 0 ] || return 0
+    echo "setup.sh: installing ${missing[*]}" >&2
+    if [ "$(id -u)" != 0 ]; then
+        command -v sudo >/dev/null || die "not root, and there is no sudo: have root install ${missing[*]}"
+        sudo=(sudo)
+    fi
+    output=$({
+        "${sudo[@]}" apt-get update -qq &&
+            "${sudo[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -qq --no-install-recommends "${missing[@]}"
+    } 2>&1) || die "apt-get could not install ${missing[*]}: $(tail -n 20 <<<"$output")"
+}
+
+case "${1:-}" in
+"") ;;
+--tests) packages+=("${test_packages[@]}") ;;
+*) die "unknown argument $1; the only one is --tests" ;;
+esac
+command -v apt-get >/dev/null || die "no apt-get here: install Embree (4, or 3.13), libclang, a C++ compiler and CMake"
+check_rust
+install_missing "${packages[@]}"
