@@ -69,8 +69,8 @@ impl Rect {
 #[derive(Clone, Debug)]
 pub(crate) struct Lattice {
     unit: f64,
-    /// The lattice point `j` of an axis stands for the coordinate `(first + j) * unit`.
-    first: [i64; 2],
+    /// The coordinates of the first lattice point; the sum `origin + j * unit` is exact for every lattice point `j`.
+    origin: [f64; 2],
     /// Lattice points per axis; on a torus also the period.
     pub size: [i32; 2],
     pub boundary: Boundary,
@@ -102,7 +102,7 @@ impl Lattice {
                 format!("{radius:?} asks for about {samples:.2e} samples, above the limit of {MAX_SAMPLES:.2e}");
             return Err(Error::too_large("radius", reason));
         }
-        let unit = float_spacing(domain);
+        let unit = float_spacing(domain.min.iter().chain(&domain.max));
         if radius < FINEST_RADIUS * unit {
             let finest = FINEST_RADIUS * unit;
             let reason = format!(
@@ -111,16 +111,16 @@ impl Lattice {
             return Err(Error::invalid("radius", reason));
         }
 
-        let (mut first, mut size) = ([0; 2], [0; 2]);
+        let (mut origin, mut size) = ([0.0; 2], [0; 2]);
         for axis in 0..2 {
-            (first[axis], size[axis]) = lattice_points(domain, axis, unit)?;
+            (origin[axis], size[axis]) = axis_points(domain, axis, unit)?;
         }
         // No two lattice points are as far apart as 2^26, so a longer radius means the same and only overflows.
         let radius = (radius / unit).min((1 << 26) as f64);
         // The guard covers the rounding of the squares here and in the user's own check.
         let threshold = (radius * radius * (1.0 + 1e-14)).ceil() as i64;
         let reach = (threshold - 1).isqrt() as i32;
-        Ok(Self { unit, first, size, boundary: domain.boundary, radius, threshold, reach })
+        Ok(Self { unit, origin, size, boundary: domain.boundary, radius, threshold, reach })
     }
 
     /// A square torus of points of this lattice, with the same radius.
@@ -143,14 +143,14 @@ impl Lattice {
 
     /// The coordinates of a lattice point of the domain: exact.
     pub fn position(&self, point: [i32; 2]) -> [f32; 2] {
-        std::array::from_fn(|axis| ((self.first[axis] + i64::from(point[axis])) as f64 * self.unit) as f32)
+        std::array::from_fn(|axis| (self.origin[axis] + f64::from(point[axis]) * self.unit) as f32)
     }
 }
 
-/// The spacing of floats at the domain's largest coordinate: a power of two whose multiples in the domain are `f32`.
-fn float_spacing(domain: &Domain) -> f64 {
-    let largest = domain.min.iter().chain(&domain.max).fold(0.0, |largest: f64, x| largest.max(x.abs()));
-    // The smallest power of two that is not below the largest coordinate bounds 24 bits of mantissa.
+/// The spacing of floats at the largest of the coordinates: a power of two whose multiples up to there are `f32`.
+fn float_spacing<'a>(coordinates: impl Iterator<Item = &'a f64>) -> f64 {
+    let largest = coordinates.fold(0.0, |largest: f64, x| largest.max(x.abs()));
+    // A float has 24 bits of mantissa; the finest is 2^-149.
     let mut exponent = -149 + 24;
     while 2f64.powi(exponent) < largest {
         exponent += 1;
@@ -158,26 +158,36 @@ fn float_spacing(domain: &Domain) -> f64 {
     2f64.powi(exponent - 24)
 }
 
-/// The first lattice point of an axis and how many there are.
-fn lattice_points(domain: &Domain, axis: usize, unit: f64) -> Result<(i64, i32)> {
+/// The coordinate of an axis's first lattice point, and how many points there are.
+fn axis_points(domain: &Domain, axis: usize, unit: f64) -> Result<(f64, i32)> {
     let (min, max) = (domain.min[axis], domain.max[axis]);
-    // The quotients are exact, unless they underflow; then the comparison puts the first point right.
+    if let (first, Some(inside)) = multiples(min, max, unit) {
+        let count = match domain.boundary {
+            Boundary::Bounded => inside,
+            // An axis shorter than a unit has one lattice point, which is at distance zero from its images.
+            Boundary::Periodic => (domain.extent()[axis] / unit).floor().clamp(1.0, inside),
+        };
+        return Ok((first, count as i32));
+    }
+    // An axis that lies between two multiples of the unit of the longer axis: any float in it will do.
+    match multiples(min, max, float_spacing([min, max].iter())) {
+        (first, Some(_)) => Ok((first, 1)),
+        (_, None) => {
+            let reason = format!("[{axis}] is {max:?}: no float lies between it and domain_min {min:?}");
+            Err(Error::invalid("domain_max", reason))
+        }
+    }
+}
+
+/// The first multiple of `unit` that is not below `min` and the number of them below `max`, if there are any.
+fn multiples(min: f64, max: f64, unit: f64) -> (f64, Option<f64>) {
+    // The quotients are exact, unless they underflow; then the comparison puts the first multiple right.
     let mut first = (min / unit).ceil();
     if first * unit < min {
         first += 1.0;
     }
-    let end = (max / unit).ceil();
-    if first >= end {
-        let reason = format!("[{axis}] is {max}: no multiple of the float spacing {unit:?} lies between it and {min}");
-        return Err(Error::invalid("domain_max", reason));
-    }
-    let inside = end - first;
-    let size = match domain.boundary {
-        Boundary::Bounded => inside,
-        // An axis shorter than a unit has one lattice point, which is at distance zero from its images.
-        Boundary::Periodic => (domain.extent()[axis] / unit).floor().clamp(1.0, inside),
-    };
-    Ok((first as i64, size as i32))
+    let count = (max / unit).ceil() - first;
+    (first * unit, (count > 0.0).then_some(count))
 }
 
 #[cfg(test)]
@@ -211,14 +221,14 @@ mod tests {
                 let radius = min.abs().max(max.abs()).max(64.0 * tiny);
                 let lattice = lattice([min; 2], [max; 2], boundary, radius).unwrap();
                 for point in [0, 1, lattice.size[0] / 2, lattice.size[0] - 2, lattice.size[0] - 1] {
-                    let exact = (lattice.first[0] + i64::from(point)) as f64 * lattice.unit;
+                    let exact = lattice.origin[0] + f64::from(point) * lattice.unit;
                     assert_eq!(f64::from(lattice.position([point, 0])[0]), exact, "{min} {max}");
                     assert!(min <= exact && exact < max, "{min} <= {exact} < {max}");
                 }
-                let [below, above] = [-1, lattice.size[0]].map(|j| (lattice.first[0] + i64::from(j)) as f64);
-                assert!(below * lattice.unit < min);
+                let [below, above] = [-1, lattice.size[0]].map(|j| lattice.origin[0] + f64::from(j) * lattice.unit);
+                assert!(below < min);
                 match boundary {
-                    Boundary::Bounded => assert!(above * lattice.unit >= max),
+                    Boundary::Bounded => assert!(above >= max),
                     Boundary::Periodic => {
                         let lost = extent - f64::from(lattice.size[0]) * lattice.unit;
                         assert!((-1e-15 * extent..lattice.unit * 1.001).contains(&lost), "{min} {max}: {lost}");
@@ -247,6 +257,17 @@ mod tests {
         assert!(lattice.threshold > diagonal);
     }
 
+    /// A thin domain far from the long axis's multiples: its own floats count.
+    #[test]
+    fn an_axis_between_two_lattice_points_has_one_of_its_floats() {
+        for boundary in [Boundary::Periodic, Boundary::Bounded] {
+            let lattice = lattice([0.1, 0.0], [0.10000002, 20.0], boundary, 0.3).unwrap();
+            assert_eq!(lattice.size[0], 1);
+            let [x, y] = lattice.position([0, 5]);
+            assert_eq!((x, f64::from(y)), (0.1f32, 5.0 * lattice.unit));
+        }
+    }
+
     #[test]
     fn refusals_name_the_argument_and_the_values() {
         let refusal = |min: f64, max: f64, radius: f64| {
@@ -256,7 +277,8 @@ mod tests {
         assert!(refusal(0.0, 1.0, 8.346e-7).contains("about 1.00e12 samples"));
         let spacing = refusal(1e6, 1e6 + 1.0, 0.01);
         assert!(spacing.starts_with("radius: 0.01 is below 4.0, 64 times the float spacing 0.0625"), "{spacing}");
-        assert!(refusal(1.00000001, 1.00000002, 0.1).starts_with("domain_max: [0] is 1.00000002"));
+        let narrow = refusal(1.00000001, 1.00000002, 0.1);
+        assert_eq!(narrow, "domain_max: [0] is 1.00000002: no float lies between it and domain_min 1.00000001");
         assert!(refusal(1.0, 1.0, 0.1).starts_with("domain_max: [0] is 1, not above"));
         // An area and a square of the radius that underflow are no estimate of infinitely many samples.
         assert!(matches!(

@@ -121,6 +121,7 @@ mod tests {
     use super::*;
     use crate::job::Context;
     use crate::points::Domain;
+    use crate::rng::{Draw, Rng};
 
     /// The plane of a domain, made by windows of one size.
     fn samples(plane: &Plane, window_blocks: i32) -> Vec<[f32; 2]> {
@@ -162,35 +163,45 @@ mod tests {
         assert!(samples(&plane, 1) == samples(&plane, 1000));
     }
 
-    /// The elimination of a window against its definition, on all points of the plane.
+    /// The elimination of small windows around the leaves' corners, where chains are longest, against its definition on
+    /// all points of the plane.
     #[test]
     fn survivors_are_those_that_no_survivor_of_a_higher_leaf_conflicts_with() {
         let domain = Domain { min: [0.0; 2], max: [1.2, 1.0], boundary: Boundary::Bounded };
-        let plane = plane(domain, 0.01, 6.0, 6);
-        let Lattice { threshold, reach, .. } = plane.lattice;
-        let all = plane.lattice.rect();
-        let mut expected: Vec<[i32; 2]> = Vec::new();
-        for leaf in plane.leaves(&all) {
-            let higher = expected.clone();
-            let survives = |point: &[i32; 2]| {
-                higher.iter().all(|other| {
-                    let [dx, dy] = [0, 1].map(|axis: usize| i64::from(other[axis] - point[axis]));
-                    dx * dx + dy * dy >= threshold
-                })
-            };
-            expected.extend(plane.pattern.clip(&leaf, &leaf.rect).into_iter().filter(survives));
-        }
-        for centre in [[0.2, 0.3], [0.7, 0.7], [0.9, 0.5], [0.0, 1.0]] {
-            let corner: [i32; 2] = std::array::from_fn(|axis| (centre[axis] * f64::from(all.max[axis])) as i32);
-            let core = Rect { min: corner, max: corner }.grown(20 * reach).intersection(&all);
-            let window = core.grown(LONGEST_CHAIN * reach).intersection(&all);
-            let mut grid = CellGrid::new(&plane.axes, &window, threshold, reach);
-            merge(&mut grid, &plane.pattern, &plane.leaves(&window), &window, reach);
-            let mut found: Vec<_> = grid.samples_in(&core).collect();
-            let mut expected: Vec<_> = expected.iter().copied().filter(|&point| core.contains(point)).collect();
-            found.sort_unstable();
-            expected.sort_unstable();
-            assert_eq!(found, expected);
+        for seed in 0..4 {
+            let plane = plane(domain, 0.009, 6.0, seed);
+            let Lattice { threshold, reach, .. } = plane.lattice;
+            let all = plane.lattice.rect();
+            let leaves = plane.leaves(&all);
+            let mut survivors: Vec<[i32; 2]> = Vec::new();
+            for leaf in &leaves {
+                let higher = survivors.len();
+                for point in plane.pattern.clip(leaf, &leaf.rect) {
+                    let conflicts = |other: &[i32; 2]| {
+                        let [dx, dy] = [0, 1].map(|axis: usize| i64::from(other[axis] - point[axis]));
+                        dx * dx + dy * dy < threshold
+                    };
+                    if !survivors[..higher].iter().any(conflicts) {
+                        survivors.push(point);
+                    }
+                }
+            }
+            let mut rng = Rng::at(seed, Draw::Probe, &[]);
+            for corner in leaves.iter().flat_map(|leaf| [leaf.rect.min; 50]) {
+                let near = corner.map(|x| x - reach + rng.below(2 * reach as u64) as i32);
+                let core = Rect { min: near, max: near.map(|x| x + reach) }.intersection(&all);
+                if core.is_empty() {
+                    continue;
+                }
+                let window = core.grown(LONGEST_CHAIN * reach).intersection(&all);
+                let mut grid = CellGrid::new(&plane.axes, &window, threshold, reach);
+                merge(&mut grid, &plane.pattern, &plane.leaves(&window), &window, reach);
+                let mut found: Vec<_> = grid.samples_in(&core).collect();
+                let mut expected: Vec<_> = survivors.iter().copied().filter(|&point| core.contains(point)).collect();
+                found.sort_unstable();
+                expected.sort_unstable();
+                assert_eq!(found, expected);
+            }
         }
     }
 }

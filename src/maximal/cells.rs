@@ -237,3 +237,90 @@ fn neighbours(axes: &[CellAxis; 2], margin: [i32; 2], threshold: i64, width: isi
     cells.sort_by_key(|[x, y]| (x * x + y * y, *y, *x));
     cells.into_iter().map(|[x, y]| y as isize * width + x as isize).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::rng::{Draw, Rng};
+
+    const SIZES: [i32; 7] = [1, 2, 63, 64, 1000, 99_991, 1 << 25];
+    const RADII: [f64; 5] = [64.0, 64.5, 100.1, 12_345.6, (1 << 26) as f64];
+
+    #[test]
+    fn cells_fill_an_axis_and_two_points_of_one_conflict() {
+        for (size, radius) in SIZES.into_iter().flat_map(|size| RADII.map(|radius| (size, radius))) {
+            let axis = CellAxis::new(size, radius);
+            assert_eq!((axis.border(0), axis.border(axis.count)), (0, size));
+            for cell in (-3..axis.count.min(3)).chain(axis.count - 3..axis.count + 3) {
+                let (first, end) = (axis.border(cell), axis.border(cell + 1));
+                assert!(first < end && 2.0 * f64::from(end - 1 - first).powi(2) < radius * radius);
+                assert_eq!((axis.cell(first), axis.cell(end - 1)), (cell, cell));
+                assert_eq!(axis.border(cell + axis.count), first + size);
+            }
+        }
+    }
+
+    /// Samples that do not conflict, thrown one after the other, and every test of the grid against a loop over them.
+    #[test]
+    fn the_grid_says_what_a_loop_over_all_samples_says() {
+        let mut rng = Rng::at(0, Draw::Probe, &[]);
+        for (size, radius) in [([700, 900], 64.3), ([90, 1500], 90.0), ([30, 20], 70.0), ([200, 100], 150.0)] {
+            for torus in [false, true] {
+                let axes = size.map(|size| CellAxis::new(size, radius));
+                let (threshold, reach) = ((radius * radius).ceil() as i64, radius as i32);
+                let all = Rect { min: [0; 2], max: size };
+                let mut grid = match torus {
+                    true => CellGrid::torus(&axes, threshold, reach),
+                    false => CellGrid::new(&axes, &all, threshold, reach),
+                };
+                let distance = |a: [i32; 2], b: [i32; 2]| -> i64 {
+                    let along = |axis: usize| {
+                        let along = (a[axis] - b[axis]).abs();
+                        i64::from(if torus { along.min(size[axis] - along) } else { along })
+                    };
+                    along(0).pow(2) + along(1).pow(2)
+                };
+                let mut samples: Vec<[i32; 2]> = Vec::new();
+                let mut memory = Vec::new();
+                for _ in 0..2000 {
+                    let point: [i32; 2] = std::array::from_fn(|axis| rng.below(size[axis] as u64) as i32);
+                    let cell = grid.cell(point);
+                    let part = Rect { min: point, max: point.map(|x| x + 20) }.intersection(&grid.rect(cell));
+                    let near = grid.samples_near(cell, &mut memory);
+                    if grid.covers(near, &part) {
+                        let corners = [part.min, [part.min[0], part.max[1] - 1], [part.max[0] - 1, part.min[1]]];
+                        let corners = corners.into_iter().chain([part.max.map(|x| x - 1)]);
+                        assert!(corners.into_iter().all(|p| samples.iter().any(|&s| distance(s, p) < threshold)));
+                    }
+                    let single = Rect { min: point, max: point.map(|x| x + 1) };
+                    let conflict = samples.iter().any(|&sample| distance(sample, point) < threshold);
+                    assert_eq!(grid.covers(near, &single), conflict);
+                    assert_eq!(grid.conflicts(cell, point), conflict);
+                    if !conflict {
+                        grid.insert(cell, point);
+                        samples.push(point);
+                    }
+                }
+                samples.sort_unstable();
+                let mut found: Vec<_> = grid.samples_in(&all).collect();
+                found.sort_unstable();
+                assert_eq!(found, samples);
+            }
+        }
+    }
+
+    #[test]
+    fn one_sample_covers_exactly_what_lies_in_its_disk() {
+        let axes = [CellAxis::new(500, 100.0), CellAxis::new(500, 100.0)];
+        let mut grid = CellGrid::new(&axes, &Rect { min: [0; 2], max: [500; 2] }, 10_000, 99);
+        grid.insert(grid.cell([250, 250]), [250, 250]);
+        let mut memory = Vec::new();
+        let near = grid.samples_near(grid.cell([260, 260]), &mut memory);
+        let covers = |min, max| grid.covers(near, &Rect { min, max });
+        // 60² + 79² < 100² < 61² + 80² = 101.1²; `max` is exclusive.
+        assert!(covers([200, 200], [311, 330]));
+        assert!(!covers([200, 200], [312, 331]));
+        assert!(!covers([169, 189], [311, 311]));
+        assert!(covers([300, 300], [300, 400]), "the empty rectangle");
+    }
+}

@@ -95,3 +95,40 @@ pub(crate) fn sample_points(job: &Job, lattice: &Lattice, seed: u64) -> Result<V
     }
     Ok(grid.samples_in(&rect).collect())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A domain of few floats, in which every lattice point can be asked.
+    #[test]
+    fn every_lattice_point_is_covered_and_no_two_samples_conflict() {
+        let spacing = f64::from(f32::EPSILON);
+        for boundary in [Boundary::Periodic, Boundary::Bounded] {
+            for (extent, radius) in [([500.0, 400.0], 64.0), ([300.0, 30.0], 70.7), ([50.0, 60.0], 99.0)] {
+                for seed in 0..20 {
+                    let domain = Domain { min: [1.0; 2], max: extent.map(|x: f64| 1.0 + x * spacing), boundary };
+                    let lattice = Lattice::new(&domain, radius * spacing).unwrap();
+                    assert_eq!(lattice.size.map(f64::from), extent);
+                    let context = Context::new(1).unwrap();
+                    let samples = context.run(None, |job| sample_points(job, &lattice, seed)).unwrap();
+                    let nearest = |[x, y]: [i32; 2]| {
+                        let distance = |sample: &[i32; 2]| {
+                            let [dx, dy] = [(x - sample[0]).abs(), (y - sample[1]).abs()];
+                            match boundary {
+                                Boundary::Periodic => [dx.min(lattice.size[0] - dx), dy.min(lattice.size[1] - dy)],
+                                Boundary::Bounded => [dx, dy],
+                            }
+                        };
+                        let squares = samples.iter().map(distance).map(|[dx, dy]| i64::from(dx * dx + dy * dy));
+                        squares.filter(|&d2| d2 > 0 || !samples.contains(&[x, y])).min().unwrap_or(i64::MAX)
+                    };
+                    for (y, x) in (0..lattice.size[1]).flat_map(|y| (0..lattice.size[0]).map(move |x| (y, x))) {
+                        let conflicts = nearest([x, y]) < lattice.threshold;
+                        assert_eq!(conflicts, !samples.contains(&[x, y]), "at {x}, {y}");
+                    }
+                }
+            }
+        }
+    }
+}

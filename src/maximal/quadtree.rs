@@ -125,3 +125,67 @@ impl Quadtree {
         self.voxels = open;
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::maximal::CellAxis;
+    use crate::rng::Draw;
+
+    fn grid(size: [i32; 2]) -> CellGrid {
+        let axes = size.map(|size| CellAxis::new(size, 70.0));
+        CellGrid::new(&axes, &Rect { min: [0; 2], max: size }, 4900, 69)
+    }
+
+    fn all_cells(grid: &CellGrid) -> Vec<[i32; 2]> {
+        let [columns, rows] = grid.counts();
+        (0..rows).flat_map(|y| (0..columns).map(move |x| [x, y])).collect()
+    }
+
+    /// In an empty grid nothing is dropped: at every level each lattice point is in exactly one voxel.
+    #[test]
+    fn voxels_of_every_level_hold_each_lattice_point_once() {
+        let grid = grid([211, 130]);
+        let clip = Rect { min: [13, 20], max: [200, 101] };
+        let mut quadtree = Quadtree::new(&grid, clip, all_cells(&grid));
+        loop {
+            let mut held = vec![0; 211 * 130];
+            for &voxel in &quadtree.voxels {
+                let rect = quadtree.level.rect(&grid.rect(quadtree.level.cell(voxel)), voxel);
+                assert!((0..2).all(|axis| rect.length(axis) <= quadtree.level.widest[axis]));
+                for (y, x) in (rect.min[1]..rect.max[1]).flat_map(|y| (rect.min[0]..rect.max[0]).map(move |x| (y, x))) {
+                    held[(y * 211 + x) as usize] += 1;
+                }
+            }
+            for (place, held) in held.into_iter().enumerate() {
+                let inside = clip.contains([place as i32 % 211, place as i32 / 211]);
+                assert_eq!(held, i32::from(inside));
+            }
+            if quadtree.level.is_finest() {
+                break;
+            }
+            quadtree.refine(&grid);
+        }
+    }
+
+    #[test]
+    fn first_darts_are_uniform_at_every_level() {
+        let size = [57, 61];
+        for level in 0..4 {
+            let mut histogram = vec![0u32; 57 * 61];
+            let mut rng = Rng::at(level, Draw::Probe, &[]);
+            for _ in 0..100_000 {
+                let mut grid = grid(size);
+                let mut quadtree = Quadtree::new(&grid, Rect { min: [0; 2], max: size }, all_cells(&grid));
+                (0..level).for_each(|_| quadtree.refine(&grid));
+                while quadtree.throw(&mut grid, &mut rng, 1) == 0 {}
+                let [x, y] = grid.samples_in(&Rect { min: [0; 2], max: size }).next().unwrap();
+                histogram[(y * 57 + x) as usize] += 1;
+            }
+            let expected = 100_000.0 / histogram.len() as f64;
+            let chi2: f64 = histogram.iter().map(|&count| (f64::from(count) - expected).powi(2) / expected).sum();
+            let freedom = histogram.len() as f64 - 1.0;
+            assert!((chi2 - freedom).abs() < 5.0 * (2.0 * freedom).sqrt(), "chi2 {chi2} of {freedom} at level {level}");
+        }
+    }
+}

@@ -1,0 +1,154 @@
+//! `kdrt` against naive oracles.
+
+mod common;
+
+use azulejo::kdrt::{DEFAULT_LEAF_SIZE, Options, sample};
+use azulejo::{Boundary, Context, Domain, Error, maximal};
+use common::{BOUNDARIES, check, domain, hard_domains};
+use proptest::prelude::*;
+use std::ops::ControlFlow;
+
+fn samples(domain: Domain, radius: f64, leaf_size: f64, seed: u64) -> Vec<[f32; 2]> {
+    sample(&Context::new(2).unwrap(), &Options { radius, domain, leaf_size, seed }, None).unwrap()
+}
+
+/// The side of the smallest square that is tiled, in radii: that of the pattern.
+const TILED: f64 = 109.0;
+
+#[test]
+fn hard_domains_are_sampled_without_conflict_or_gap() {
+    for boundary in BOUNDARIES {
+        for domain in hard_domains(boundary) {
+            // 100:1 rectangles have to be longer for their width to hold two leaves.
+            let [width, height] = domain.extent();
+            let radius = (domain.area().sqrt() / TILED).min(width.min(height) / 13.1);
+            for (seed, leaf_size) in [(0, 6.0), (1, 9.5), (2, DEFAULT_LEAF_SIZE)] {
+                let samples = samples(domain, radius, leaf_size, seed);
+                assert_ne!(samples.len(), maximal_count(domain, radius, seed), "not tiled: {domain:?}");
+                check(&domain, radius, &samples);
+            }
+        }
+    }
+}
+
+fn maximal_count(domain: Domain, radius: f64, seed: u64) -> usize {
+    maximal::sample(&Context::new(1).unwrap(), &maximal::Options { radius, domain, seed }, None).unwrap().len()
+}
+
+#[test]
+fn large_leaves_are_sampled_without_conflict_or_gap() {
+    for boundary in BOUNDARIES {
+        for (leaf_size, side) in [(40.0, 170.0), (80.0, 330.0)] {
+            let domain = domain([-0.2, 0.0], [1.1, 0.9], boundary);
+            let radius = domain.area().sqrt() / side;
+            check(&domain, radius, &samples(domain, radius, leaf_size, 7));
+        }
+    }
+}
+
+#[test]
+fn small_leaves_keep_the_promise_on_many_seeds() {
+    for boundary in BOUNDARIES {
+        let domain = domain([0.0; 2], [1.0, 1.3], boundary);
+        for seed in 0..20 {
+            check(&domain, 0.0093, &samples(domain, 0.0093, 6.0, seed));
+        }
+    }
+}
+
+#[test]
+fn domains_that_are_too_small_to_tile_are_sampled_like_maximal() {
+    for boundary in BOUNDARIES {
+        for (extent, radius) in [([1.0, 1.0], 0.3), ([1.0, 1.0], 5.0), ([1.0, 0.01], 0.02), ([1.0, 1.0], 0.01)] {
+            let domain = domain([0.0; 2], extent, boundary);
+            let context = Context::new(1).unwrap();
+            let expected = maximal::sample(&context, &maximal::Options { radius, domain, seed: 3 }, None).unwrap();
+            assert_eq!(samples(domain, radius, DEFAULT_LEAF_SIZE, 3), expected);
+        }
+        let domain = domain([0.0; 2], [1.0; 2], boundary);
+        check(&domain, 0.008, &samples(domain, 0.008, f64::MAX, 3));
+    }
+}
+
+/// Elimination and filling add samples at the seams, a known share.
+#[test]
+fn the_density_is_near_that_of_an_unbiased_set() {
+    for (leaf_size, side, excess) in [(6.0, 150.0, 0.014), (20.0, 250.0, 0.005), (40.0, 250.0, 0.0025)] {
+        let radius = 1.0 / side;
+        let domain = Domain::unit(Boundary::Periodic);
+        let counts = (0..10).map(|seed| samples(domain, radius, leaf_size, seed).len()).sum::<usize>();
+        let density = counts as f64 / 10.0 * radius * radius;
+        let relative = density / 0.69656 - 1.0;
+        assert!((relative - excess).abs() < 0.0025, "{density} at {leaf_size}r");
+    }
+}
+
+#[test]
+fn seeds_and_not_threads_or_earlier_calls_decide() {
+    for boundary in BOUNDARIES {
+        let options = Options { radius: 0.0025, domain: Domain::unit(boundary), leaf_size: 20.0, seed: 1 };
+        let [one, four] = [1, 4].map(|threads| sample(&Context::new(threads).unwrap(), &options, None).unwrap());
+        assert!(one == four);
+        let context = Context::new(3).unwrap();
+        assert!(one != sample(&context, &Options { seed: 2, ..options }, None).unwrap());
+        assert!(one != sample(&context, &Options { leaf_size: 21.0, ..options }, None).unwrap());
+        assert!(one == sample(&context, &options, Some(&|_| ControlFlow::Continue(()))).unwrap());
+    }
+}
+
+#[test]
+fn a_call_can_be_cancelled_at_any_time() {
+    let options = Options { radius: 0.001, domain: Domain::unit(Boundary::Periodic), leaf_size: 20.0, seed: 0 };
+    for threads in [1, 4] {
+        for limit in [0.0, 0.02, 0.3, 1.0] {
+            let stop = |share| if share >= limit { ControlFlow::Break(()) } else { ControlFlow::Continue(()) };
+            let result = sample(&Context::new(threads).unwrap(), &options, Some(&stop));
+            assert!(matches!(result, Err(Error::Cancelled)), "{limit}");
+        }
+    }
+}
+
+#[test]
+fn bad_arguments_are_refused_by_name() {
+    let good =
+        Options { radius: 0.01, domain: Domain::unit(Boundary::Periodic), leaf_size: DEFAULT_LEAF_SIZE, seed: 0 };
+    let refuse = |options: Options| sample(&Context::new(1).unwrap(), &options, None).unwrap_err();
+    for leaf_size in [5.999, 0.0, -20.0, f64::NAN, f64::INFINITY] {
+        let error = refuse(Options { leaf_size, ..good });
+        assert!(matches!(error, Error::InvalidArgument { argument: "leaf_size", .. }), "{error}");
+    }
+    for radius in [f64::NAN, 0.0, -1.0, f64::INFINITY] {
+        let error = refuse(Options { radius, ..good });
+        assert!(matches!(error, Error::InvalidArgument { argument: "radius", .. }), "{error}");
+    }
+    let swapped = domain([1.0; 2], [0.0; 2], Boundary::Periodic);
+    let error = refuse(Options { domain: swapped, ..good });
+    assert!(matches!(error, Error::InvalidArgument { argument: "domain_max", .. }), "{error}");
+    let error = refuse(Options { radius: 8.346e-7, ..good });
+    assert!(matches!(error, Error::TooLarge { argument: "radius", .. }));
+    assert!(error.to_string().contains("about 1.00e12 samples"), "{error}");
+    let coarse = domain([1e7; 2], [1e7 + 1e4; 2], Boundary::Periodic);
+    let error = refuse(Options { radius: 10.0, domain: coarse, ..good });
+    assert!(matches!(error, Error::InvalidArgument { argument: "radius", .. }), "{error}");
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 24, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn any_rectangle_radius_and_leaf_size(
+        corner in prop::array::uniform2(-10.0..10.0f64),
+        height in -3.0..3.0f64,
+        aspect in -3.0..3.0f64,
+        factor in -5.2..-3.0f64,
+        leaf_size in 6.0..30.0f64,
+        periodic: bool,
+        seed: u64,
+    ) {
+        let (height, aspect) = (height.exp(), aspect.exp());
+        let boundary = BOUNDARIES[usize::from(!periodic)];
+        let domain = domain(corner, [corner[0] + height * aspect, corner[1] + height], boundary);
+        let radius = factor.exp() * domain.area().sqrt();
+        check(&domain, radius, &samples(domain, radius, leaf_size, seed));
+    }
+}
