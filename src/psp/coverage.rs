@@ -10,6 +10,10 @@ use glam::DVec3;
 use crate::mesh::Mesh;
 use crate::psp::samples::SampleSet;
 
+/// A part that no sample reaches is not bisected below this length, in radii: it is wholly uncovered, and a first dart
+/// will change more than a closer look.
+const UNREACHED: f64 = 2.0;
+
 /// A part of a triangle, made by bisecting the longest edge any number of times.
 #[derive(Clone, Copy)]
 pub(super) struct Fragment {
@@ -91,13 +95,12 @@ impl<'a> Coverage<'a> {
 
     /// Appends the uncovered parts of a fragment that is not much larger than the radius, in fixed order.
     ///
-    /// Parts are bisected until no longer than `finest`, or until no sample reaches them and they are no longer than the
-    /// radius: what is wholly uncovered does not get clearer.
+    /// Parts are bisected until no longer than `finest`, or where no sample reaches them than [`UNREACHED`].
     pub fn uncovered(&mut self, fragment: &Fragment, finest: f64, uncovered: &mut Vec<Fragment>) {
         let shape = fragment.shape(self.mesh);
         let reach = self.samples.radius() + shape.extent();
         self.nearby.clear();
-        self.nearby.extend(self.samples.near(shape.centre(), reach));
+        self.samples.near(shape.centre(), reach).for_each(|sample| self.nearby.push(sample));
         self.descend(fragment, &shape, 0, finest, uncovered);
     }
 
@@ -109,7 +112,7 @@ impl<'a> Coverage<'a> {
             return;
         }
         let unreached = self.nearby.len() == from;
-        if shape.longest <= finest || (unreached && shape.longest <= radius) {
+        if shape.longest <= finest || (unreached && shape.longest <= UNREACHED * radius) {
             uncovered.push(*fragment);
             return;
         }

@@ -32,15 +32,15 @@ pub use fill::TOLERANCE;
 use projector::Projection;
 use samples::SampleSet;
 
-/// The number of iterations that takes the least time to a maximal set: more directions find little, and the rest is
-/// cheaper to fill.
+/// The largest number of iterations that costs no time on the way to a maximal set: what the projectors do not find is
+/// filled. (Processor cycles to the end, bunny with 200,000 samples: 13.6, 11.4, 11.1, 11.7, 13.7 billion for 0, 1, 2, 3, 5.)
 pub const DEFAULT_ITERATIONS: u32 = 3;
 
 /// Samples of a maximal set on an area of radius²: the jamming limit of disks that arrive at random covers 0.547 of the
 /// plane, which is 0.6966 samples (Feder 1980). Rounded up.
 const DENSITY: f64 = 0.7;
-/// Working memory per sample, at the peak of an iteration.
-const BYTES_PER_SAMPLE: f64 = 400.0;
+/// Memory per sample at the peak, which is when a fill starts from nothing. After iterations it is less.
+const BYTES_PER_SAMPLE: f64 = 800.0;
 
 /// What to sample.
 #[derive(Clone, Copy, Debug, PartialEq)]
