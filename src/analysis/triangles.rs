@@ -11,7 +11,8 @@ use crate::points::{Boundary, Domain};
 /// What the triangles of a set are like. On a torus there are twice as many as points; on a bounded domain those count
 /// that do not cross the border when the set is mirrored by it, so there are no slivers along the convex hull.
 ///
-/// Shares and variations of nothing are 0.
+/// Shares and variations of nothing are 0. Lattices with more than three points on an empty circle have more than one
+/// triangulation, which need not be the same on both sides of the torus: there the figures are of a mixture.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct TriangleStatistics {
     /// The number of triangles.

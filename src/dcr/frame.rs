@@ -178,3 +178,86 @@ fn float_after(x: f32) -> f32 {
         bits => f32::from_bits(bits - 1),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn frame(boundary: Boundary) -> Frame {
+        Frame::new(Domain { min: [-2.0, 1.0], max: [1.0, 3.0], boundary }, 24)
+    }
+
+    #[test]
+    fn points_that_leave_come_back() {
+        let size = frame(Boundary::Periodic).size();
+        let out = DVec2::new(-0.25, size.y + 0.5);
+        assert!(frame(Boundary::Periodic).fold(out).distance(DVec2::new(size.x - 0.25, 0.5)) < 1e-12);
+        assert!(frame(Boundary::Bounded).fold(out).distance(DVec2::new(0.25, size.y - 0.5)) < 1e-12);
+        for boundary in [Boundary::Periodic, Boundary::Bounded] {
+            for x in [-1e-300, -1e-17, 0.0, 1e-17, size.x, -size.x, 1e9, -1e9] {
+                let folded = frame(boundary).fold(DVec2::new(x, x));
+                assert!(folded.cmpge(DVec2::ZERO).all() && folded.cmplt(size).all(), "{x}: {folded}");
+            }
+        }
+    }
+
+    #[test]
+    fn points_return_to_where_they_came_from() {
+        for boundary in [Boundary::Periodic, Boundary::Bounded] {
+            let points = [[-1.9, 1.1], [0.3, 2.9999], [0.99, 1.5]];
+            let entered = frame(boundary).enter(&points);
+            assert_eq!(entered.iter().map(|&position| frame(boundary).leave(position)).collect::<Vec<_>>(), points);
+        }
+    }
+
+    #[test]
+    fn what_rounds_to_the_border_stays_inside() {
+        for [min, max] in [[0.0, 1.0], [0.1, 0.7], [-1.0, 0.0], [-1e-45, 1e-45], [100.3, 100.4]] {
+            for boundary in [Boundary::Periodic, Boundary::Bounded] {
+                let frame = Frame::new(Domain { min: [min; 2], max: [max; 2], boundary }, 3);
+                for position in [DVec2::ZERO, frame.size(), frame.size() * (1.0 - 1e-12)] {
+                    let left = frame.leave(position);
+                    assert!(left.iter().all(|&x| (min..max).contains(&f64::from(x))), "{left:?} of {min} to {max}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_whole_ring_has_eight_copies_of_each_point() {
+        for boundary in [Boundary::Periodic, Boundary::Bounded] {
+            let frame = frame(boundary);
+            let point = DVec2::new(0.5, 0.75);
+            let sites = frame.sites([point].into_iter(), f64::INFINITY);
+            assert_eq!(sites.len(), 9);
+            assert!(sites[0].is_original() && sites[0].position == point);
+            assert!(sites[1..].iter().all(|site| !site.is_original() && site.source == 0));
+            let left = sites.iter().find(|site| site.side == [-1, 0]).unwrap();
+            let expected = if boundary == Boundary::Periodic { point.x - frame.size().x } else { -point.x };
+            assert_eq!(left.position, DVec2::new(expected, point.y));
+            // The only copy within 0.6 is the one beyond a vertical border.
+            assert_eq!(frame.sites([point].into_iter(), 0.6).len(), 2);
+            assert_eq!(frame.sites([point].into_iter(), 0.4).len(), 1);
+        }
+    }
+
+    #[test]
+    fn coincident_points_and_lines_are_parted_and_nothing_else() {
+        let frame = frame(Boundary::Bounded);
+        let corner = [DVec2::new(1.0, 1.0), DVec2::new(2.0, 1.0), DVec2::new(1.0, 2.0)];
+        let mut positions = corner;
+        frame.part(&mut positions, 1);
+        assert_eq!(positions, corner);
+
+        let mut doubled = [corner[0], corner[1], corner[0], corner[2], corner[0]];
+        frame.part(&mut doubled, 1);
+        assert_eq!([doubled[0], doubled[1], doubled[3]], corner);
+        let apart = [doubled[2].distance(corner[0]), doubled[4].distance(corner[0]), doubled[2].distance(doubled[4])];
+        assert!(apart[..2].iter().all(|distance| (PARTING..2.0 * PARTING).contains(distance)) && apart[2] > 0.0);
+
+        let line = [DVec2::new(1.0, 1.0), DVec2::new(1.5, 1.5), DVec2::new(2.0, 2.0)];
+        let mut parted = line;
+        frame.part(&mut parted, 1);
+        assert!(std::iter::zip(line, parted).all(|(before, after)| before != after));
+    }
+}

@@ -74,3 +74,55 @@ impl Links for Nearest {
         });
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::job::Context;
+    use crate::rng::{Draw, Rng};
+
+    /// All sites by distance, then the definition of the neighbourhood.
+    #[test]
+    fn links_are_those_of_the_nearest_sites() {
+        for (count, width, boundary) in [
+            (80, 1.0, Boundary::Periodic),
+            (80, 1.0, Boundary::Bounded),
+            (30, 12.0, Boundary::Periodic),
+            (2, 1.0, Boundary::Bounded),
+        ] {
+            let domain = Domain { min: [0.0; 2], max: [width, 1.0], boundary };
+            let frame = Frame::new(domain, count);
+            let mut rng = Rng::at(2, Draw::Probe, &[]);
+            let points: Vec<_> =
+                (0..count).map(|_| frame.fold(frame.size() * DVec2::new(rng.unit(), rng.unit()))).collect();
+            let sites = frame.sites(points.iter().copied(), 1.0);
+            for (neighbours, radius) in [(1, 0.95), (3, 0.95), (6, 0.5), (6, 1.0), (1000, 1.0)] {
+                let around = |point: usize| {
+                    let distance = |site: &Site| site.position.distance(points[point]);
+                    let others = sites.iter().filter(|site| !(site.is_original() && site.source as usize == point));
+                    let mut around: Vec<_> = others.map(|site| (distance(site), site.source)).collect();
+                    around.sort_by(|a, b| a.0.total_cmp(&b.0));
+                    around.into_iter().filter(|&(distance, _)| distance <= radius).collect::<Vec<_>>()
+                };
+                let reach = |point: usize| around(point).get(neighbours - 1).map_or(f64::INFINITY, |&(d, _)| d + 1e-9);
+                let run = |job: &Job| Nearest::new(job, &frame, points.iter().copied(), radius, neighbours);
+                let nearest = Context::new(1).unwrap().run(None, run).unwrap();
+                for point in 0..count {
+                    let mut found = Vec::new();
+                    nearest.for_each(point, |link| {
+                        found.push((link.offset.length(), link.other, link.outgoing, link.incoming));
+                    });
+                    found.sort_by(|a, b| a.0.total_cmp(&b.0));
+                    let mut expected = around(point)
+                        .into_iter()
+                        .map(|(distance, other)| (other, distance <= reach(point), distance <= reach(other as usize)));
+                    let expected: Vec<_> =
+                        expected.by_ref().filter(|&(_, outgoing, incoming)| outgoing || incoming).collect();
+                    let found: Vec<_> =
+                        found.into_iter().map(|(_, other, outgoing, incoming)| (other, outgoing, incoming)).collect();
+                    assert_eq!(found, expected);
+                }
+            }
+        }
+    }
+}
