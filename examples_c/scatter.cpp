@@ -98,21 +98,30 @@ auto timed(double &seconds, Call call) {
 }
 
 void print_head() {
-    std::printf("%-8s %10s %9s %11s  %-17s %s\n", "set", "count", "seconds", "samples/s", "smallest distance",
+    std::printf("%-8s %9s %9s %11s  %-17s  %s\n", "set", "count", "seconds", "samples/s", "smallest distance",
                 "uncovered");
 }
 
-void print_row(const char *set, std::size_t count, double seconds, const char *unit, double smallest,
+// Distances are told in a unit: r, the radius asked for, or d_max, the spacing of a hexagonal arrangement.
+void print_row(const char *set, std::size_t count, double seconds, double smallest, const char *unit,
                const std::string &uncovered) {
-    std::printf("%-8s %10zu %9.3f %11.0f  %-10.6f %-6s %s\n", set, count, seconds,
-                static_cast<double>(count) / seconds, smallest, unit, uncovered.c_str());
+    std::printf("%-8s %9zu %9.3f %11.0f  %9.6f %-7s  %s\n", set, count, seconds, static_cast<double>(count) / seconds,
+                smallest, unit, uncovered.c_str());
     std::fflush(stdout);
 }
 
-std::string fraction(double uncovered) {
+// The share of random places that no sample covers.
+std::string probed(double uncovered) {
+    const auto count = static_cast<double>(probes);
     char text[64];
-    std::snprintf(text, sizeof text, "%.0f of %.0f probes", uncovered * static_cast<double>(probes),
-                  static_cast<double>(probes));
+    std::snprintf(text, sizeof text, "%.0f of %.0f places", uncovered * count, count);
+    return text;
+}
+
+// The place that is farthest from all samples, where it can be found exactly.
+std::string farthest(double distance, const char *unit) {
+    char text[64];
+    std::snprintf(text, sizeof text, "farthest place %.4f %s", distance, unit);
     return text;
 }
 
@@ -178,8 +187,7 @@ void write_surface(const std::filesystem::path &path, const azulejo::Points &poi
     file.finish();
 }
 
-void surface(const azulejo::Context &context, const Arguments &arguments) {
-    const auto mesh = azulejo::Mesh::load(arguments.mesh);
+void surface(const azulejo::Context &context, const azulejo::Mesh &mesh, const Arguments &arguments) {
     azulejo::PspOptions options;
     options.radius = std::sqrt(density * mesh.area() / static_cast<double>(arguments.samples));
     options.progress = bar("surface");
@@ -189,7 +197,7 @@ void surface(const azulejo::Context &context, const Arguments &arguments) {
     const double smallest = azulejo::space_smallest_distance(context, points.positions());
     const double uncovered =
         azulejo::mesh_uncovered_fraction(context, mesh, points.positions(), options.radius, probes);
-    print_row("surface", points.size(), seconds, "r", smallest / options.radius, fraction(uncovered));
+    print_row("surface", points.size(), seconds, smallest / options.radius, "r", probed(uncovered));
     write_surface(arguments.out / "surface.ply", points);
 }
 
@@ -202,7 +210,9 @@ void plane(const azulejo::Context &context, const Arguments &arguments) {
 
     const double smallest = azulejo::plane_smallest_distance(context, points.positions(), options.domain_min,
                                                              options.domain_max, options.boundary);
-    print_row("plane", points.size(), seconds, "r", smallest / options.radius, "");
+    const double covering = azulejo::plane_covering_radius(context, points.positions(), options.domain_min,
+                                                           options.domain_max, options.boundary);
+    print_row("plane", points.size(), seconds, smallest / options.radius, "r", farthest(covering / options.radius, "r"));
     write_plane(arguments.out / "plane.ply", points);
 }
 
@@ -216,7 +226,10 @@ void relax(const azulejo::Context &context, const Arguments &arguments) {
     azulejo::DcrReport report;
     double seconds;
     const auto points = timed(seconds, [&] { return azulejo::dcr_relax(context, options, start, &report); });
-    print_row("relaxed", points.size(), seconds, "d_max", report.rho, "");
+    const double covering = azulejo::plane_covering_radius(context, points.positions(), options.domain_min,
+                                                           options.domain_max, options.boundary);
+    const double d_max = report.smallest_distance / report.rho;
+    print_row("relaxed", points.size(), seconds, report.rho, "d_max", farthest(covering / d_max, "d_max"));
     write_plane(arguments.out / "relaxed.ply", points);
 }
 
@@ -225,10 +238,11 @@ void relax(const azulejo::Context &context, const Arguments &arguments) {
 int main(int argc, char **argv) {
     try {
         const Arguments arguments = parse(argc, argv);
+        const auto mesh = azulejo::Mesh::load(arguments.mesh);
         std::filesystem::create_directories(arguments.out);
         const azulejo::Context context(arguments.threads);
         print_head();
-        surface(context, arguments);
+        surface(context, mesh, arguments);
         plane(context, arguments);
         relax(context, arguments);
         return EXIT_SUCCESS;

@@ -38,7 +38,8 @@
  * Results. The same options and seed give the same bytes, for every number of threads and whatever was called before.
  *   A radius is always the smallest distance allowed between the centres of two samples. Conflict-free: no two samples
  *   are closer than the radius, in double arithmetic on the returned floats, without tolerance. Maximal: no place of
- *   the domain or surface is farther than the radius from every sample, up to the rounding of the returned floats.
+ *   the domain or surface is farther than the radius from every sample, up to the rounding of the returned floats:
+ *   3 times the spacing of floats at the largest coordinate in the plane, 6 times on a mesh.
  *
  * Memory. Sizes that cannot be held are refused with AZULEJO_ERROR_TOO_LARGE before memory is taken. When the system
  *   has no memory left in the middle of a call, the process is aborted, as by every Rust library.
@@ -164,8 +165,8 @@ typedef struct azulejo_kdrt_options {
     double domain_min[2];
     /// The upper corner of the domain, above the lower one on both axes; 1 1 by default.
     double domain_max[2];
-    /// The size of the pieces of pattern that tile the domain, in radii: at least 6, by default 20. Larger pieces are
-    /// faster and have fewer seams, but repeat the pattern more visibly. A domain smaller than a piece is one piece.
+    /// The shortest side of the leaves that tile the domain, in radii: at least 6, by default 20; sides are random, up
+    /// to twice this. Larger leaves are faster and have fewer seams, but need a larger pattern.
     double leaf_size;
     /// Any number; another seed gives another set.
     uint64_t seed;
@@ -356,13 +357,16 @@ azulejo_status azulejo_kdrt_options_init(struct azulejo_kdrt_options *options, s
 
 /// Makes a maximal, conflict-free set of samples of a rectangle, about 0.7 * area / radius^2 of them.
 ///
-/// Tiles clips of one small pattern over a random kd-tree and repairs the seams (thesis chapter 2): O(samples) time,
-/// and about 16 bytes per sample at the peak. Every thread of the context works.
+/// Tiles clips of one small pattern over a random kd-tree and repairs the seams (thesis chapter 2) with all threads of
+/// the context: O(samples) time and 24 bytes per sample. Its only bias is at the seams. A domain of less area than the
+/// pattern, or narrower than 13 radii, is not tiled: it gets what azulejo_maximal_sample makes. A radius longer than
+/// the diagonal of the domain gives one sample.
 ///
 /// out: the samples, x y each, to be freed with azulejo_points_free.
 ///
 /// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also where floats are too coarse to carry the radius (their spacing at the
-/// largest coordinate is above radius / 64); AZULEJO_ERROR_TOO_LARGE with the estimated count; AZULEJO_ERROR_CANCELLED.
+/// largest coordinate is above radius / 64); AZULEJO_ERROR_TOO_LARGE, with the estimate, above 2^32 samples or the
+/// memory that is available; AZULEJO_ERROR_CANCELLED.
 azulejo_status azulejo_kdrt_sample(const struct azulejo_context *context,
                                    const struct azulejo_kdrt_options *options,
                                    struct azulejo_points **out);

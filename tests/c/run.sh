@@ -86,7 +86,7 @@ run_program() { # SOURCE MODE
         asan) flags+=(-fsanitize=address,undefined -fno-sanitize-recover=all) ;;
         valgrind)
             runner=(valgrind --quiet --error-exitcode=1 --leak-check=full --errors-for-leak-kinds=definite,indirect
-                --show-leak-kinds=definite,indirect "--suppressions=$here/valgrind.supp")
+                --show-leak-kinds=definite,indirect)
             ;;
     esac
     build "$1" "$program" "${flags[@]}" && "${runner[@]}" "$program"

@@ -26,8 +26,8 @@ pub struct azulejo_kdrt_options {
     pub domain_min: [f64; 2],
     /// The upper corner of the domain, above the lower one on both axes; 1 1 by default.
     pub domain_max: [f64; 2],
-    /// The size of the pieces of pattern that tile the domain, in radii: at least 6, by default 20. Larger pieces are
-    /// faster and have fewer seams, but repeat the pattern more visibly. A domain smaller than a piece is one piece.
+    /// The shortest side of the leaves that tile the domain, in radii: at least 6, by default 20; sides are random, up
+    /// to twice this. Larger leaves are faster and have fewer seams, but need a larger pattern.
     pub leaf_size: f64,
     /// Any number; another seed gives another set.
     pub seed: u64,
@@ -60,13 +60,16 @@ pub unsafe extern "C" fn azulejo_kdrt_options_init(
 
 /// Makes a maximal, conflict-free set of samples of a rectangle, about 0.7 * area / radius^2 of them.
 ///
-/// Tiles clips of one small pattern over a random kd-tree and repairs the seams (thesis chapter 2): O(samples) time,
-/// and about 16 bytes per sample at the peak. Every thread of the context works.
+/// Tiles clips of one small pattern over a random kd-tree and repairs the seams (thesis chapter 2) with all threads of
+/// the context: O(samples) time and 24 bytes per sample. Its only bias is at the seams. A domain of less area than the
+/// pattern, or narrower than 13 radii, is not tiled: it gets what azulejo_maximal_sample makes. A radius longer than
+/// the diagonal of the domain gives one sample.
 ///
 /// out: the samples, x y each, to be freed with azulejo_points_free.
 ///
 /// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also where floats are too coarse to carry the radius (their spacing at the
-/// largest coordinate is above radius / 64); AZULEJO_ERROR_TOO_LARGE with the estimated count; AZULEJO_ERROR_CANCELLED.
+/// largest coordinate is above radius / 64); AZULEJO_ERROR_TOO_LARGE, with the estimate, above 2^32 samples or the
+/// memory that is available; AZULEJO_ERROR_CANCELLED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_kdrt_sample(
     context: Option<&azulejo_context>,

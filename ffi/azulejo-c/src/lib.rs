@@ -37,7 +37,8 @@
 //! Results. The same options and seed give the same bytes, for every number of threads and whatever was called before.
 //!   A radius is always the smallest distance allowed between the centres of two samples. Conflict-free: no two samples
 //!   are closer than the radius, in double arithmetic on the returned floats, without tolerance. Maximal: no place of
-//!   the domain or surface is farther than the radius from every sample, up to the rounding of the returned floats.
+//!   the domain or surface is farther than the radius from every sample, up to the rounding of the returned floats:
+//!   3 times the spacing of floats at the largest coordinate in the plane, 6 times on a mesh.
 //!
 //! Memory. Sizes that cannot be held are refused with AZULEJO_ERROR_TOO_LARGE before memory is taken. When the system
 //!   has no memory left in the middle of a call, the process is aborted, as by every Rust library.
@@ -69,3 +70,12 @@ pub mod psp;
 pub mod dcr;
 
 pub mod analysis;
+
+// What the conventions let several threads use at once.
+const _: () = {
+    const fn shared<T: Send + Sync>() {}
+    shared::<context::azulejo_context>();
+    shared::<mesh::azulejo_mesh>();
+    shared::<points::azulejo_points>();
+    shared::<std::sync::RwLock<azulejo_core::psp::Psp>>();
+};
