@@ -131,7 +131,7 @@ impl<'a> Job<'a> {
                     self.report(share(i + 1)).map(|()| result)
                 })
                 .collect(),
-            (Some(pool), None) => Ok(pool.install(|| (0..count).into_par_iter().map(|i| task(i)).collect())),
+            (Some(pool), None) => Ok(pool.install(|| (0..count).into_par_iter().map(&task).collect())),
             (Some(pool), Some(_)) => self.map_watched(pool, count, &share, task),
         }
     }

@@ -1,6 +1,38 @@
-//! # azulejo
-//!
 //! Blue-noise sampling: maximal Poisson-disk sets in the plane and on triangle meshes, and their relaxation.
+//!
+//! | module | what it makes | source |
+//! |---|---|---|
+//! | [`kdrt`] | massive maximal Poisson-disk sets in the plane | thesis ch. 2 |
+//! | [`psp`] | Poisson-disk samples on triangle meshes, maximal if wanted | thesis ch. 3 |
+//! | [`dcr`] | a point set, relaxed by distance constraints | thesis ch. 4 |
+//! | [`maximal`] | the unbiased set that the others are measured by | Ebeida et al. 2012 |
+//! | [`analysis`] | spacing, coverage, spectra and triangles of any set | |
+//!
+//! The thesis is Wang Tong, *Techniques on Mining Effective Parallelism For High-Performance Blue-Noise Sampling*,
+//! University of Tokyo, 2019. Each file says which section it is and where it departs.
+//!
+//! # Guarantees
+//! * *Conflict-free*: no two samples are closer than the radius, in `f64` from the returned floats, without tolerance.
+//! * *Maximal*: no point of the domain is farther from every sample than the radius and a few float spacings at the
+//!   largest coordinate; each sampler says how many.
+//! * *Deterministic*: the same options and seed give the same bytes, for any number of threads and order of calls.
+//!
+//! # Conventions
+//! * The *radius* is the smallest distance from centre to centre, everywhere.
+//! * Every long call takes a [`Context`], the threads that it may use, and an optional [`Progress`] callback, which
+//!   can cancel it. It runs to its end before it returns, and can be made from several threads at once.
+//! * Arguments are checked before work starts; an [`Error`] names the argument and its value.
+//!
+//! ```
+//! use azulejo::{Boundary, Context, Domain, kdrt};
+//!
+//! let context = Context::new(0)?;
+//! let domain = Domain::unit(Boundary::Periodic);
+//! let options = kdrt::Options { radius: 0.01, domain, leaf_size: kdrt::DEFAULT_LEAF_SIZE, seed: 7 };
+//! let samples = kdrt::sample(&context, &options, None)?;
+//! assert!(samples.len() > 6_800);
+//! # Ok::<(), azulejo::Error>(())
+//! ```
 
 #![deny(unsafe_code)]
 
@@ -24,3 +56,8 @@ pub mod trace;
 pub use error::{Error, Result};
 pub use job::{Context, Progress};
 pub use points::{Boundary, Domain, SurfaceSamples};
+
+/// The code blocks of the README are compiled with the documentation tests.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

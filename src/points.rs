@@ -77,7 +77,7 @@ impl Domain {
         for axis in 0..2 {
             let (min, max) = (self.min[axis], self.max[axis]);
             for (argument, value) in [("domain_min", min), ("domain_max", max)] {
-                if !(value.abs() <= f32::MAX as f64) {
+                if value.is_nan() || value.abs() > f32::MAX as f64 {
                     return Err(Error::invalid(argument, format!("[{axis}] is {value}, not a finite float")));
                 }
             }

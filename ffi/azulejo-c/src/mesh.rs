@@ -120,7 +120,7 @@ pub extern "C" fn azulejo_mesh_free(mesh: Option<Box<azulejo_mesh>>) {
 /// # Safety
 /// Unless the checks fail, `positions` leads to as many vertices, so far apart.
 unsafe fn strided_positions(positions: *const f32, count: usize, stride: usize) -> Result<Vec<[f32; 3]>, Failure> {
-    if stride < POSITION_SIZE || stride % align_of::<f32>() != 0 {
+    if stride < POSITION_SIZE || !stride.is_multiple_of(align_of::<f32>()) {
         let reason = format!("{stride} is not a multiple of 4 from {POSITION_SIZE} on");
         return Err(Failure::invalid("stride_bytes", reason));
     }
