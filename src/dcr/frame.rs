@@ -9,6 +9,9 @@ use crate::rng::{Draw, Rng};
 /// before the motion seems to end, too little to be seen.
 const PARTING: f64 = 1e-3;
 
+/// The width, in spacings, of the strips along which points are put in order.
+const STRIP: f64 = 4.0;
+
 /// Points of a bounded domain keep this distance from its border, in spacings, so that none falls on its mirror image.
 const INSET: f64 = 1e-6;
 
@@ -143,6 +146,17 @@ impl Frame {
             }
         })
     }
+}
+
+/// An order in which points that follow each other lie close together, so that neighbours share cache lines.
+pub(crate) fn along_strips(positions: &[DVec2]) -> Vec<u32> {
+    let mut order: Vec<u32> = (0..positions.len() as u32).collect();
+    let key = |i: u32| ((positions[i as usize].y / STRIP).floor(), positions[i as usize].x);
+    order.sort_unstable_by(|&i, &j| {
+        let ((strip_i, x_i), (strip_j, x_j)) = (key(i), key(j));
+        strip_i.total_cmp(&strip_j).then(x_i.total_cmp(&x_j)).then(i.cmp(&j))
+    });
+    order
 }
 
 /// The points that coincide with one before them.

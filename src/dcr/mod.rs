@@ -17,6 +17,20 @@
 //! Convergence is judged by motion and not by the thesis's test on the variance of nearest distances (§4.4.2), which
 //! depends on the step size and fires early. [`Report::motion`] is how far points got over the last steps whose λ add
 //! up to 2 (40 steps of 0.05), per unit of λ: the same for small and large steps at the same state.
+//!
+//! What to expect, measured on 4,096 points of a torus with the settings of the thesis. rho is the smallest distance,
+//! cover the largest distance from the set, both in `d_max`; the variance is that of nearest distances.
+//!
+//! | start | neighbourhood | steps (thesis) | rho | variance | cover |
+//! |---|---|---|---|---|---|
+//! | random | Delaunay | 240 (276) | 0.005 → 0.62 | 6.0e-2 → 4.4e-3 | 1.73 → 0.81 |
+//! | darts | Delaunay | 120 (132) | 0.766 → 0.72 | 2.4e-3 → 3.0e-3 | 0.80 → 0.73 |
+//! | random | nearest | 680 | 0.005 → 0.83 | 6.0e-2 → 2.4e-4 | 1.73 → 1.18 |
+//! | darts | nearest | 400 | 0.766 → 0.88 | 2.4e-3 → 1.2e-4 | 0.80 → 0.87 |
+//!
+//! So the thesis's radii cost Delaunay neighbours some of the spacing that thrown darts have, as an attraction radius
+//! of 1.05 cannot be met everywhere; what they gain is coverage and triangles of good shape. Nearest neighbours gain
+//! spacing at the price of holes, as nothing pulls.
 
 pub(crate) mod delaunay;
 mod forces;
@@ -27,7 +41,7 @@ mod motion;
 
 use delaunay::Delaunay;
 use forces::{Forces, Particle};
-use frame::Frame;
+use frame::{Frame, along_strips};
 use knn::Nearest;
 use links::Links;
 use motion::Motion;
@@ -201,7 +215,8 @@ fn run_steps(job: &Job, options: &Options, points: &[[f32; 2]]) -> Result<(Vec<[
     let frame = Frame::new(options.domain, points.len());
     let mut positions = frame.enter(points);
     frame.part(&mut positions, options.seed);
-    let mut particles: Vec<Particle> = positions.into_iter().map(Particle::new).collect();
+    let order = along_strips(&positions);
+    let mut particles: Vec<Particle> = order.iter().map(|&i| Particle::new(positions[i as usize])).collect();
 
     let mut motion = Motion::new(options.step, &particles);
     let share = |iteration: u32| f64::from(iteration) / f64::from(options.max_iterations);
@@ -211,7 +226,10 @@ fn run_steps(job: &Job, options: &Options, points: &[[f32; 2]]) -> Result<(Vec<[
         iterations += 1;
         converged = motion.after_step(&frame, &particles).is_some_and(|motion| motion <= options.tolerance);
     }
-    let relaxed = particles.iter().map(|particle| frame.leave(particle.position)).collect();
+    let mut relaxed = points.to_vec();
+    for (&i, particle) in order.iter().zip(&particles) {
+        relaxed[i as usize] = frame.leave(particle.position);
+    }
     Ok((relaxed, Run { iterations, converged, motion: motion.last(&frame, &particles) }))
 }
 
