@@ -40,6 +40,7 @@ outside() {
     done
     cargo fetch --quiet --locked --manifest-path "$source/Cargo.toml"
     sysroot=$(rustc --print sysroot)
+    [ "$sysroot" != /usr ] || die "a distribution's Rust toolchain cannot be shown in the root; use one of rustup"
     mkdir -p "$cache"
     [ "$(id -u)" = 0 ] || sudo=(sudo)
     mapfile -t settings < <(settings AZULEJO_DEBIAN_MIRROR)
@@ -127,14 +128,12 @@ inside() {
     exec 9>"$cache/lock"
     flock 9
 
-    # A toolchain of the distribution's own cannot be moved: then the root gets its own, too.
-    [ "$sysroot" != /usr ] || packages+=(cargo rustc)
     [ -d "$root" ] || bootstrap "$cache" "$root"
     mount_system "$root"
     install_packages "$cache" "$root"
 
     show "$source" "$root/azulejo"
-    [ "$sysroot" = /usr ] || show "$sysroot" "$root/opt/rust"
+    show "$sysroot" "$root/opt/rust"
     # Of cargo's home only what holds packages and says where they are from: never its credentials.
     mkdir -p "$root/opt/cargo"
     for part in registry git config.toml; do

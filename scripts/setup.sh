@@ -18,9 +18,8 @@ die() {
 
 # The Rust version of Cargo.toml or later: what distributions ship is often too old.
 check_rust() {
-    local wanted found advice
+    local wanted found advice="install it with rustup"
     wanted=$(sed -n 's/^rust-version = "\(.*\)"$/\1/p' "$(dirname "$0")/../Cargo.toml")
-    advice="install it with rustup (https://rustup.rs), or, on Debian 13, with 'apt-get install cargo'"
     command -v cargo >/dev/null || die "Rust $wanted or later is needed, and cargo is not on the PATH: $advice"
     found=$(cargo --version | cut -d ' ' -f 2)
     # The smaller of both versions is the wanted one.

@@ -156,7 +156,7 @@ fn empty_sets_single_points_and_no_iterations_change_nothing() {
             let (relaxed, report) = run(&options, &points);
             assert_eq!(relaxed, points);
             assert!(report.converged && report.iterations == 0 && report.motion == 0.0);
-            assert_eq!(report.smallest_distance, f64::INFINITY);
+            assert_eq!((report.smallest_distance, report.rho), (f64::INFINITY, f64::INFINITY));
         }
         let points = [[0.1, 0.1], [0.1, 0.1], [1e-30, 0.3]];
         let (relaxed, report) = run(&Options { max_iterations: 0, ..options }, &points);

@@ -36,13 +36,14 @@ pub fn smallest_distance_2d(context: &Context, domain: &Domain, points: &[[f32; 
 }
 
 /// The smallest distance in units of `d_max = sqrt(2 A / (sqrt(3) N))`, the distance of neighbours in the hexagonal
-/// arrangement of as many points: 1 at most on a torus, about 0.77 for maximal Poisson-disk sets.
+/// arrangement of as many points: 1 at most on a torus, about 0.77 for maximal Poisson-disk sets, infinite for less than
+/// two points.
 ///
 /// # Errors
 /// As [`nearest_distances_2d`].
 pub fn rho(context: &Context, domain: &Domain, points: &[[f32; 2]]) -> Result<f64> {
     let smallest = smallest_distance_2d(context, domain, points)?;
-    Ok(smallest / domain.hexagonal_distance(points.len()))
+    Ok(smallest / domain.hexagonal_distance(points.len().max(1)))
 }
 
 /// The smallest distance between two points of space; infinite for less than two points.

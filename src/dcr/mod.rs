@@ -167,7 +167,7 @@ pub struct Report {
     /// The smallest distance between two of the returned points, in the units of the domain, around the torus on a
     /// periodic domain; infinite for less than two points.
     pub smallest_distance: f64,
-    /// The smallest distance in units of `d_max`; at most 1 on a torus.
+    /// The smallest distance in units of `d_max`; at most 1 on a torus; infinite for less than two points.
     pub rho: f64,
 }
 
@@ -197,7 +197,7 @@ pub fn relax(
             (relaxed, run) = run_steps(&job.part(0.0, 0.99), options, points)?;
         }
         let smallest_distance = smallest_distance(&job.part(0.99, 1.0), &options.domain, &relaxed)?;
-        let rho = smallest_distance / options.domain.hexagonal_distance(points.len());
+        let rho = smallest_distance / options.domain.hexagonal_distance(points.len().max(1));
         let Run { iterations, converged, motion } = run;
         Ok((relaxed, Report { iterations, converged, motion, smallest_distance, rho }))
     })

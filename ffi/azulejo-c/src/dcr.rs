@@ -131,7 +131,8 @@ pub struct azulejo_dcr_report {
     pub iterations: u32,
     /// 1 if the motion came to its end before the steps did, else 0.
     pub converged: i32,
-    /// The root mean square displacement in the last step, in units of d_max and divided by the step size.
+    /// How far points got, root mean square: in units of d_max and per unit of step size, over the last steps whose sizes
+    /// add up to 2. It is the same for small and large steps.
     pub motion: f64,
     /// The smallest distance between two of the points, in the units of the domain; infinite for less than two points.
     pub smallest_distance: f64,
