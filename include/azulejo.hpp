@@ -94,6 +94,15 @@ using DcrReport = azulejo_dcr_report;
 
 namespace detail {
 
+/// How many groups of `width` numbers an array holds; a rest is refused.
+inline std::size_t groups(std::size_t size, std::size_t width, const char *argument) {
+    if (size % width != 0) {
+        throw Error(AZULEJO_ERROR_INVALID_ARGUMENT, std::string(argument) + ": " + std::to_string(size) +
+                                                        " numbers are not a multiple of " + std::to_string(width));
+    }
+    return size / width;
+}
+
 template <class T, void (*free)(T *)>
 struct Free {
     void operator()(T *handle) const noexcept { free(handle); }
@@ -202,9 +211,10 @@ private:
 /// A checked triangle mesh; see azulejo_mesh.
 class Mesh {
 public:
-    /// Packed arrays: x y z of each vertex, three indices for each triangle. Numbers left over at an end are left out.
+    /// Packed arrays: x y z of each vertex, three indices for each triangle.
     Mesh(Span<const float> positions, Span<const std::uint32_t> indices)
-        : Mesh(positions.data(), positions.size() / 3, 3 * sizeof(float), indices.data(), indices.size() / 3) {}
+        : Mesh(positions.data(), detail::groups(positions.size(), 3, "positions"), 3 * sizeof(float), indices.data(),
+               detail::groups(indices.size(), 3, "indices")) {}
 
     /// See azulejo_mesh_create.
     Mesh(const float *positions, std::size_t vertex_count, std::size_t stride_bytes, const std::uint32_t *indices,
@@ -306,9 +316,9 @@ inline Points psp_sample(const Context &context, const Mesh &mesh, const PspOpti
 inline Points dcr_relax(const Context &context, const DcrOptions &options, Span<const float> xy,
                         DcrReport *report = nullptr) {
     azulejo_points *points = nullptr;
-    detail::watched(options, [&](auto *o) {
-        return azulejo_dcr_relax(context.get(), o, xy.data(), xy.size() / 2, &points, report);
-    });
+    const std::size_t count = detail::groups(xy.size(), 2, "xy");
+    detail::watched(options,
+                    [&](auto *o) { return azulejo_dcr_relax(context.get(), o, xy.data(), count, &points, report); });
     return Points(points);
 }
 
@@ -316,8 +326,8 @@ inline Points dcr_relax(const Context &context, const DcrOptions &options, Span<
 inline double plane_smallest_distance(const Context &context, Span<const float> xy, const double (&domain_min)[2],
                                       const double (&domain_max)[2], std::int32_t boundary) {
     double distance = 0;
-    check(azulejo_plane_smallest_distance(context.get(), xy.data(), xy.size() / 2, domain_min, domain_max, boundary,
-                                          &distance));
+    check(azulejo_plane_smallest_distance(context.get(), xy.data(), detail::groups(xy.size(), 2, "xy"), domain_min,
+                                          domain_max, boundary, &distance));
     return distance;
 }
 
@@ -325,15 +335,16 @@ inline double plane_smallest_distance(const Context &context, Span<const float> 
 inline double plane_covering_radius(const Context &context, Span<const float> xy, const double (&domain_min)[2],
                                     const double (&domain_max)[2], std::int32_t boundary) {
     double radius = 0;
-    check(azulejo_plane_covering_radius(context.get(), xy.data(), xy.size() / 2, domain_min, domain_max, boundary,
-                                        &radius));
+    check(azulejo_plane_covering_radius(context.get(), xy.data(), detail::groups(xy.size(), 2, "xy"), domain_min,
+                                        domain_max, boundary, &radius));
     return radius;
 }
 
 /// See azulejo_space_smallest_distance.
 inline double space_smallest_distance(const Context &context, Span<const float> positions) {
     double distance = 0;
-    check(azulejo_space_smallest_distance(context.get(), positions.data(), positions.size() / 3, &distance));
+    check(azulejo_space_smallest_distance(context.get(), positions.data(),
+                                          detail::groups(positions.size(), 3, "positions"), &distance));
     return distance;
 }
 
@@ -341,7 +352,8 @@ inline double space_smallest_distance(const Context &context, Span<const float> 
 inline double mesh_uncovered_fraction(const Context &context, const Mesh &mesh, Span<const float> positions, double radius,
                                       std::uint64_t probes, std::uint64_t seed = 0) {
     double fraction = 0;
-    check(azulejo_mesh_uncovered_fraction(context.get(), mesh.get(), positions.data(), positions.size() / 3, radius, probes, seed,
+    check(azulejo_mesh_uncovered_fraction(context.get(), mesh.get(), positions.data(),
+                                          detail::groups(positions.size(), 3, "positions"), radius, probes, seed,
                                           &fraction));
     return fraction;
 }

