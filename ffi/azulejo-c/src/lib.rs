@@ -15,7 +15,8 @@
 //!   Accessors allow NULL too and answer 0 or NULL. Pointers into a handle live until it is freed.
 //!
 //! Pointers. An argument may be NULL only where that is said. Arrays are packed and read during the call only; the
-//!   pointer of an empty array may be NULL, with the count 0. A pointer that is not aligned for its type is refused.
+//!   pointer of an empty array may be NULL, with the count 0. Arrays and options that are not aligned for their type are
+//!   refused.
 //!   Beyond that no library can tell a wrong pointer or a wrong count from a right one.
 //!
 //! Options. Every options struct begins with struct_size and is filled with defaults by its _options_init, which must
