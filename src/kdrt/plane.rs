@@ -88,6 +88,8 @@ impl Plane {
                 }
             }
         }
+        #[cfg(test)]
+        grid.sanity_check();
         grid.samples_in(&self.blocks.rect(window)).map(|sample| self.lattice.position(sample)).collect()
     }
 

@@ -224,6 +224,22 @@ impl CellGrid {
             .copied()
             .filter(move |&sample| rect.contains(sample))
     }
+
+    /// The invariants: every sample lies in its cell, and conflicts with nothing but itself and its own images.
+    #[cfg(test)]
+    pub fn sanity_check(&self) {
+        let ([columns, rows], mut memory) = (self.counts(), Vec::new());
+        let size = self.torus.map_or([i32::MAX; 2], |[_, size]| size);
+        for cell in (0..rows).flat_map(|y| (0..columns).map(move |x| [x, y])) {
+            let Some(sample) = self.sample(cell) else { continue };
+            assert!(self.rect(cell).contains(sample), "{sample:?} is not in its cell {cell:?}");
+            for other in self.samples_near(cell, &mut memory) {
+                let [dx, dy] = [0, 1].map(|axis: usize| i64::from(other[axis]) - i64::from(sample[axis]));
+                let same = dx % i64::from(size[0]) == 0 && dy % i64::from(size[1]) == 0;
+                assert!(same || dx * dx + dy * dy >= self.threshold, "{sample:?} conflicts with {other:?}");
+            }
+        }
+    }
 }
 
 /// The offsets of the cells that can hold a conflict with a point of the cell at 0, the nearest first.

@@ -93,6 +93,8 @@ pub(crate) fn sample_points(job: &Job, lattice: &Lattice, seed: u64) -> Result<V
         }
         quadtree.refine(&grid);
     }
+    #[cfg(test)]
+    grid.sanity_check();
     Ok(grid.samples_in(&rect).collect())
 }
 

@@ -92,4 +92,44 @@ impl SampleSet {
             barycentrics: self.barycentrics.clone(),
         }
     }
+
+    /// The invariants: one entry per sample everywhere, each sample at its barycentrics, no two in conflict.
+    #[cfg(test)]
+    fn sanity_check(&self, mesh: &Mesh) {
+        let positions = self.grid.points();
+        assert_eq!((positions.len(), self.barycentrics.len()), (self.len(), self.len()));
+        for (i, &position) in positions.iter().enumerate() {
+            assert_eq!(position, mesh.point(self.triangles[i], self.barycentrics[i]));
+            assert!(!self.grid.any_closer(position, self.radius, Some(i as u32)));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::job::Context;
+    use crate::rng::{Draw, Rng};
+
+    #[test]
+    fn a_set_that_grows_stays_sane_and_takes_whom_it_has_room_for() {
+        let corners = vec![[3.0, 0.0, 0.1], [4.0, 0.0, 0.0], [4.0, 1.0, 0.0], [3.0, 1.0, 0.3]];
+        let mesh = Mesh::new(corners, vec![[0, 1, 2], [0, 2, 3]]).unwrap();
+        let context = Context::new(2).unwrap();
+        let mut samples = SampleSet::new(&mesh, 0.05);
+        for round in 0..4 {
+            let mut rng = Rng::at(1, Draw::Probe, &[round]);
+            let mut candidate = |_| {
+                let (u, v) = (rng.unit() as f32, rng.unit() as f32);
+                Sample::new(&mesh, rng.below(2) as u32, if u + v < 1.0 { [u, v] } else { [0.5 * u, 0.5 * v] })
+            };
+            let candidates: Vec<_> = (0..500).map(&mut candidate).collect();
+            let welcome: Vec<_> = candidates.iter().copied().filter(|sample| !samples.rejects(sample)).collect();
+            let before = samples.len();
+            let accepted = context.run(None, |job| samples.merge(job, &welcome)).unwrap();
+            assert_eq!(samples.len(), before + accepted);
+            assert!(candidates.iter().all(|candidate| samples.rejects(candidate)), "room is left for a candidate");
+            samples.sanity_check(&mesh);
+        }
+    }
 }
