@@ -43,7 +43,6 @@ tests/c/run.sh target/package/prefix --asan --valgrind
 if [ $debian13 = yes ]; then
     stage "Rust tests, package, C and C++ programs on Embree 4.3, in a Debian 13 root"
     scripts/debian13.sh bash -ec '
-        export AZULEJO_CARGO_FLAGS="--locked --offline"
         cargo test --offline --locked --workspace
         tests/c/package.sh --keep /var/cache/package
         tests/c/run.sh /var/cache/package/prefix'
