@@ -100,6 +100,17 @@ fn parts_smaller_than_the_radius_get_a_sample_unless_one_reaches_them() {
     assert_eq!(samples.len(), 3);
 }
 
+/// A box of 10^5 radii along each side with next to nothing in it: projecting patterns through it would take hours.
+#[test]
+fn small_parts_far_apart_are_filled_without_projection() {
+    let triangle = |x: f32| vec![[x, x, -x], [x + 1.0, x, -x], [x, x + 1.0, 1.0 - x]];
+    let positions = [triangle(0.0), triangle(1e3), triangle(2e3)].concat();
+    let mesh = mesh((positions, vec![[0, 1, 2], [3, 4, 5], [6, 7, 8]]));
+    let (samples, report) = psp::sample(&Context::new(2).unwrap(), &mesh, &Options::new(0.02), None).unwrap();
+    check(&mesh, &samples, 0.02, true);
+    assert_eq!((report.iterations, report.rays), (0, 0));
+}
+
 #[test]
 fn a_radius_larger_than_the_mesh_gives_one_sample() {
     for radius in [10.0, 1e10, 1e200] {

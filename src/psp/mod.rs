@@ -18,7 +18,7 @@ use glam::DMat3;
 
 use crate::error::{Error, Result};
 use crate::job::{Context, Job, Progress};
-use crate::mesh::Mesh;
+use crate::mesh::{Mesh, exact};
 use crate::points::{SurfaceSamples, check_radius};
 
 mod coverage;
@@ -41,6 +41,11 @@ pub const DEFAULT_ITERATIONS: u32 = 3;
 const DENSITY: f64 = 0.7;
 /// Memory per sample at the peak, which is when a fill starts from nothing. After iterations it is less.
 const BYTES_PER_SAMPLE: f64 = 800.0;
+
+/// An iteration is left out where it would trace more rays than this for each sample that there is room for ...
+const RAYS_PER_SAMPLE: f64 = 1000.0;
+/// ... and more than this at all. Parts far apart in a large box are hit so rarely that filling them is faster by far.
+const RAYS_ALWAYS: f64 = 1e7;
 
 /// What to sample.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -93,6 +98,8 @@ pub struct Psp {
     radius: f64,
     seed: u64,
     samples: SampleSet,
+    /// Whether iterations are worth their rays.
+    projects: bool,
     /// Made by the first iteration.
     projection: Option<Projection>,
     iterations: u32,
@@ -110,7 +117,7 @@ impl Psp {
     pub fn new(mesh: &Arc<Mesh>, options: &Options) -> Result<Self> {
         let radius = options.radius;
         check_radius(radius)?;
-        let estimate = DENSITY * mesh.area() / (radius * radius);
+        let estimate = expected_samples(mesh, radius);
         if estimate > u32::MAX as f64 {
             let reason = format!("{radius:?} asks for about {estimate:.3e} samples; the limit is {}", u32::MAX);
             return Err(Error::too_large("radius", reason));
@@ -130,6 +137,7 @@ impl Psp {
             radius,
             seed: options.seed,
             samples: SampleSet::new(mesh, radius),
+            projects: expected_rays(mesh, radius) <= RAYS_ALWAYS.max(RAYS_PER_SAMPLE * estimate),
             projection: None,
             iterations: 0,
             frame: None,
@@ -138,7 +146,9 @@ impl Psp {
 
     /// Makes more iterations. Samples are only added; two calls add what one call with the sum of their iterations adds.
     ///
-    /// Time grows with the area of the mesh's box over the squared radius, and with the hits.
+    /// Time grows with the area of the mesh's box over the squared radius, and with the hits. Where that is out of all
+    /// proportion to the surface, as for small parts far apart (more than 1000 rays for each sample that there is room
+    /// for, and 10 million rays at all), nothing is done and the report counts no iteration: [`Psp::fill`] is the way.
     ///
     /// # Errors
     /// [`Error::Cancelled`] by the progress callback: the interrupted iteration adds nothing and is made anew by the next
@@ -177,6 +187,7 @@ impl Psp {
     }
 
     fn iterate(&mut self, job: &Job, iterations: u32, report: &mut Report) -> Result<()> {
+        let iterations = if self.projects { iterations } else { 0 };
         for step in 0..iterations {
             let share = |step: u32| f64::from(step) / f64::from(iterations);
             let job = job.part(share(step), share(step + 1));
@@ -213,6 +224,26 @@ impl Psp {
     fn finish(&self, report: Report, start: Instant) -> Report {
         Report { samples: self.len() as u64, seconds: start.elapsed().as_secs_f64(), ..report }
     }
+}
+
+/// How many samples a maximal set has, rather too many: those of the area, and those along triangles that are longer
+/// than the radius, since a needle has length and hardly any area.
+fn expected_samples(mesh: &Mesh, radius: f64) -> f64 {
+    let along = |triangle: u32| {
+        let [a, b, c] = mesh.corners(triangle).map(exact);
+        let longest = (b - a).length().max((c - b).length()).max((a - c).length());
+        if longest > radius { longest / radius } else { 0.0 }
+    };
+    let lengths: f64 = (0..mesh.triangles().len() as u32).map(along).sum();
+    DENSITY * mesh.area() / (radius * radius) + lengths
+}
+
+/// How many rays an iteration traces at most: one for each pattern point in the shadow of the mesh's box. The shadows on
+/// three orthogonal planes are largest along the diagonals of a cube, sqrt(3) times its three sides.
+fn expected_rays(mesh: &Mesh, radius: f64) -> f64 {
+    let (low, high) = mesh.bounds();
+    let [a, b, c] = (exact(high) - exact(low)).to_array();
+    DENSITY * 3f64.sqrt() * (a * b + b * c + c * a) / (radius * radius)
 }
 
 /// Samples a mesh in one call: [`Psp::new`], [`Psp::advance`] and, if `maximal`, [`Psp::fill`].
