@@ -14,24 +14,26 @@ use crate::psp::samples::SampleSet;
 /// will change more than a closer look.
 const UNREACHED: f64 = 2.0;
 
-/// A part of a triangle, made by bisecting the longest edge any number of times.
+/// A part of a triangle: a slice of it or all of it, its longest edge bisected any number of times.
 #[derive(Clone, Copy)]
 pub(super) struct Fragment {
     pub triangle: u32,
-    /// 1, then a bit for each bisection: which half was taken. With the triangle it is the name of the fragment.
+    /// 1, the number of the slice, then a bit for each bisection: which half was taken. With the triangle it is the name
+    /// of the fragment.
     pub path: u64,
-    /// Barycentrics `(u, v)` of the corners: halves of halves, exact in `f64` for more bisections than floats carry.
+    /// Barycentrics `(u, v)` of the corners.
     pub corners: [[f64; 2]; 3],
 }
 
 impl Fragment {
-    fn whole(triangle: u32) -> Self {
+    pub fn whole(triangle: u32) -> Self {
         Self { triangle, path: 1, corners: [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]] }
     }
 
-    /// The area; each bisection halves it.
+    /// The area: the whole triangle's, by the share of its barycentrics.
     pub fn area(&self, mesh: &Mesh) -> f64 {
-        mesh.triangle_area(self.triangle) * (-(self.path.ilog2() as f64)).exp2()
+        let [a, b, c] = self.corners.map(glam::DVec2::from_array);
+        mesh.triangle_area(self.triangle) * (b - a).perp_dot(c - a).abs()
     }
 
     /// The barycentrics of the point with barycentrics `(s, t)` in the fragment.
@@ -48,7 +50,7 @@ impl Fragment {
     }
 
     /// The two halves on either side of the line from the corner `apex` to the middle of the edge opposite.
-    fn bisect(&self, apex: usize) -> [Self; 2] {
+    pub fn bisect(&self, apex: usize) -> [Self; 2] {
         let (b, c) = ((apex + 1) % 3, (apex + 2) % 3);
         let middle = std::array::from_fn(|axis| 0.5 * (self.corners[b][axis] + self.corners[c][axis]));
         [(c, 0), (b, 1)].map(|(moved, bit)| {
@@ -61,9 +63,9 @@ impl Fragment {
 
 /// Where a fragment lies in space.
 pub(super) struct Shape {
-    corners: [DVec3; 3],
+    pub corners: [DVec3; 3],
     /// The corner opposite the longest edge.
-    apex: usize,
+    pub apex: usize,
     /// The length of the longest edge.
     pub longest: f64,
 }
@@ -130,22 +132,4 @@ impl<'a> Coverage<'a> {
             self.nearby.truncate(end);
         }
     }
-}
-
-/// The whole surface, in fragments no longer than `longest`: the pieces of work of the first search.
-pub(super) fn fragments(mesh: &Mesh, longest: f64) -> Vec<Fragment> {
-    let mut fragments = Vec::with_capacity(mesh.triangles().len());
-    let mut rest = Vec::new();
-    for triangle in (0..mesh.triangles().len() as u32).filter(|&triangle| mesh.triangle_area(triangle) > 0.0) {
-        rest.push(Fragment::whole(triangle));
-        while let Some(fragment) = rest.pop() {
-            let shape = fragment.shape(mesh);
-            if shape.longest <= longest {
-                fragments.push(fragment);
-            } else {
-                rest.extend(fragment.bisect(shape.apex));
-            }
-        }
-    }
-    fragments
 }

@@ -18,7 +18,8 @@ use std::collections::HashSet;
 use crate::error::Result;
 use crate::job::Job;
 use crate::mesh::{Mesh, next_below, round_barycentrics};
-use crate::psp::coverage::{Coverage, Fragment, fragments};
+use crate::psp::coverage::{Coverage, Fragment};
+use crate::psp::pieces::pieces;
 use crate::psp::samples::{Sample, SampleSet};
 use crate::rng::{Draw, Rng};
 
@@ -47,7 +48,7 @@ pub(super) fn fill(job: &Job, mesh: &Mesh, samples: &mut SampleSet, seed: u64) -
     let spacing = float_spacing(mesh);
     let radius = samples.radius();
     let mut filled = Filled::default();
-    let mut open = fragments(mesh, PIECE * radius);
+    let mut open = pieces(mesh, PIECE * radius);
     open = search(&job.part(0.0, 0.4), mesh, samples, &open, |_| FIRST * radius)?;
 
     let mut rest = job.part(0.4, 1.0);

@@ -25,6 +25,7 @@ mod coverage;
 mod fill;
 mod merge;
 mod pattern;
+mod pieces;
 mod projector;
 mod samples;
 
@@ -42,9 +43,10 @@ const DENSITY: f64 = 0.7;
 /// Memory per sample at the peak, which is when a fill starts from nothing. After iterations it is less.
 const BYTES_PER_SAMPLE: f64 = 800.0;
 
-/// An iteration is left out where it would trace more rays than this for each sample that there is room for ...
-const RAYS_PER_SAMPLE: f64 = 1000.0;
-/// ... and more than this at all. Parts far apart in a large box are hit so rarely that filling them is faster by far.
+/// An iteration is left out where it would trace more rays than this for each sample that there is room for: as many as
+/// can be traced in the time that filling takes for a sample. Parts far apart in a large box are hit that rarely ...
+const RAYS_PER_SAMPLE: f64 = 200.0;
+/// ... unless it has no more rays than this, a moment's work.
 const RAYS_ALWAYS: f64 = 1e7;
 
 /// What to sample.
@@ -147,7 +149,7 @@ impl Psp {
     /// Makes more iterations. Samples are only added; two calls add what one call with the sum of their iterations adds.
     ///
     /// Time grows with the area of the mesh's box over the squared radius, and with the hits. Where that is out of all
-    /// proportion to the surface, as for small parts far apart (more than 1000 rays for each sample that there is room
+    /// proportion to the surface, as for small parts far apart (more than 200 rays for each sample that there is room
     /// for, and 10 million rays at all), nothing is done and the report counts no iteration: [`Psp::fill`] is the way.
     ///
     /// # Errors
@@ -238,12 +240,16 @@ fn expected_samples(mesh: &Mesh, radius: f64) -> f64 {
     DENSITY * mesh.area() / (radius * radius) + lengths
 }
 
-/// How many rays an iteration traces at most: one for each pattern point in the shadow of the mesh's box. The shadows on
-/// three orthogonal planes are largest along the diagonals of a cube, sqrt(3) times its three sides.
+/// What an iteration costs, counted in rays: one for each pattern point in the shadow of the mesh's box, and a sixteenth
+/// for each point that has to be looked at on the way.
+///
+/// The shadows on three orthogonal planes are largest along the diagonals of a cube, sqrt(3) times its three sides.
 fn expected_rays(mesh: &Mesh, radius: f64) -> f64 {
     let (low, high) = mesh.bounds();
-    let [a, b, c] = (exact(high) - exact(low)).to_array();
-    DENSITY * 3f64.sqrt() * (a * b + b * c + c * a) / (radius * radius)
+    let diagonal = exact(high) - exact(low);
+    let [a, b, c] = diagonal.to_array();
+    let (shadows, projectors) = (3f64.sqrt() * (a * b + b * c + c * a), 3.0 * diagonal.length_squared());
+    DENSITY * (shadows + projectors / 16.0) / (radius * radius)
 }
 
 /// Samples a mesh in one call: [`Psp::new`], [`Psp::advance`] and, if `maximal`, [`Psp::fill`].
