@@ -83,6 +83,16 @@ pub(crate) struct Lattice {
 }
 
 impl Lattice {
+    /// The lattice of `domain` for `radius`, if the whole of it can be sampled in one call.
+    ///
+    /// # Errors
+    /// Those of [`Lattice::of_any_size`] and [`estimate`].
+    pub fn new(domain: &Domain, radius: f64) -> Result<Self> {
+        domain.check()?;
+        estimate(domain.extent(), radius)?;
+        Self::of_any_size(domain, radius)
+    }
+
     /// The lattice of `domain` for `radius`.
     ///
     /// A torus has an integer period, the user's rounded down: distances in the user's period are never smaller,
@@ -91,17 +101,10 @@ impl Lattice {
     ///
     /// # Errors
     /// [`Error::InvalidArgument`] for a domain or radius out of range, when no float lies in the domain, and when
-    /// floats are too coarse for the radius; [`Error::TooLarge`] for more than about 2^32 samples.
-    pub fn new(domain: &Domain, radius: f64) -> Result<Self> {
+    /// floats are too coarse for the radius.
+    pub fn of_any_size(domain: &Domain, radius: f64) -> Result<Self> {
         domain.check()?;
         check_radius(radius)?;
-        let extent = domain.extent();
-        let samples = MAXIMAL_DENSITY * (extent[0] / radius) * (extent[1] / radius);
-        if samples > MAX_SAMPLES {
-            let reason =
-                format!("{radius:?} asks for about {samples:.2e} samples, above the limit of {MAX_SAMPLES:.2e}");
-            return Err(Error::too_large("radius", reason));
-        }
         let unit = float_spacing(domain.min.iter().chain(&domain.max));
         if radius < FINEST_RADIUS * unit {
             let finest = FINEST_RADIUS * unit;
@@ -141,10 +144,36 @@ impl Lattice {
         (MAXIMAL_DENSITY * width * height).max(1.0)
     }
 
+    /// The lattice points of a part of the domain, and at its upper borders perhaps one row and column more.
+    pub fn points_in(&self, part: &Domain) -> Rect {
+        // The quotients are rounded, but not across an integer: the first lattice point from `x` on is the integer
+        // below them or the next one.
+        let point = |axis: usize, x: [f64; 2]| ((x[axis] - self.origin[axis]) / self.unit).floor() as i32;
+        let rect = Rect {
+            min: std::array::from_fn(|axis| point(axis, part.min)),
+            max: std::array::from_fn(|axis| point(axis, part.max) + 1),
+        };
+        rect.intersection(&self.rect())
+    }
+
     /// The coordinates of a lattice point of the domain: exact.
     pub fn position(&self, point: [i32; 2]) -> [f32; 2] {
         std::array::from_fn(|axis| (self.origin[axis] + f64::from(point[axis]) * self.unit) as f32)
     }
+}
+
+/// About how many samples a part of a maximal set has, given its width and height.
+///
+/// # Errors
+/// [`Error::InvalidArgument`] for a radius out of range, [`Error::TooLarge`] for more than about 2^32 samples.
+pub(crate) fn estimate([width, height]: [f64; 2], radius: f64) -> Result<f64> {
+    check_radius(radius)?;
+    let samples = MAXIMAL_DENSITY * (width / radius) * (height / radius);
+    if samples > MAX_SAMPLES {
+        let reason = format!("{radius:?} asks for about {samples:.2e} samples, above the limit of {MAX_SAMPLES:.2e}");
+        return Err(Error::too_large("radius", reason));
+    }
+    Ok(samples)
 }
 
 /// The spacing of floats at the largest of the coordinates: a power of two whose multiples up to there are `f32`.

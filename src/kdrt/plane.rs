@@ -3,7 +3,7 @@
 //! A window is a rectangle of fill blocks. Its samples are a function of the plane's options and the window's place
 //! alone: it is made from the leaves that meet it and a margin around it, in memory of its own, whatever else is made
 //! or not. The margin is at most 2 blocks (20 radii) to the left and right and 1 (10 radii) above and below for the
-//! phases of filling, and 4 radii for the chains of elimination around what the filling sees.
+//! phases of filling, and 5 radii for the chains of elimination around what the filling sees.
 
 use crate::error::Result;
 use crate::job::Job;
@@ -59,19 +59,22 @@ impl Plane {
         self.windows_of(WINDOW_BLOCKS)
     }
 
+    /// What of [`Plane::windows`] is needed for some lattice points, in the same order.
+    pub fn windows_holding(&self, points: &Rect) -> Vec<Rect> {
+        cut(&self.blocks.holding(points), WINDOW_BLOCKS)
+    }
+
     fn windows_of(&self, side: i32) -> Vec<Rect> {
-        let all = Rect { min: [0; 2], max: self.blocks.counts() };
-        let starts = |axis: usize| (0..all.max[axis]).step_by(side as usize);
-        starts(1)
-            .flat_map(|y| starts(0).map(move |x| Rect { min: [x, y], max: [x + side, y + side] }.intersection(&all)))
-            .collect()
+        cut(&Rect { min: [0; 2], max: self.blocks.counts() }, side)
     }
 
     /// The samples in a rectangle of fill blocks, by rows of cells.
     pub fn window(&self, window: &Rect) -> Vec<[f32; 2]> {
         let Lattice { threshold, reach, .. } = self.lattice;
         let filled = self.blocks.rect(&self.blocks.grown(window, PHASES[0].1));
-        let known = self.inside(&filled.grown((1 + LONGEST_CHAIN) * reach));
+        // The fill looks for samples within a reach, and for eliminated points within a reach of its cells, which
+        // go less than another beyond it.
+        let known = self.inside(&filled.grown((2 + LONGEST_CHAIN) * reach));
         let leaves = self.leaves(&known);
         let mut grid = CellGrid::new(&self.axes, &known, threshold, reach);
         let eliminated = merge(&mut grid, &self.pattern, &leaves, &known, reach);
@@ -116,6 +119,13 @@ impl Plane {
         ranked.sort_unstable_by(|a, b| b.0.cmp(&a.0).then(a.1.rect.min.cmp(&b.1.rect.min)));
         ranked.into_iter().map(|(_, leaf)| leaf).collect()
     }
+}
+
+/// A rectangle of blocks, cut at the multiples of `side`.
+fn cut(blocks: &Rect, side: i32) -> Vec<Rect> {
+    let starts = |axis: usize| (blocks.min[axis] / side * side..blocks.max[axis]).step_by(side as usize);
+    let cells = starts(1).flat_map(|y| starts(0).map(move |x| Rect { min: [x, y], max: [x + side, y + side] }));
+    cells.map(|cell| cell.intersection(blocks)).collect()
 }
 
 #[cfg(test)]
