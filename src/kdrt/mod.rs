@@ -6,8 +6,8 @@
 //! eliminated (`conquer.rs`) and gaps filled (`fill.rs`). Most samples are copies that nothing needs to look at.
 //!
 //! The thesis goes through the seams in an order of work. Here every step is a function of the place alone, so that a
-//! window of the plane (`plane.rs`) can be made without the rest; this is how threads share the work. Each file says
-//! where it departs from the thesis.
+//! window of the plane (`plane.rs`) can be made without the rest; this is how threads share the work, and how any part
+//! of a plane can be had alone (`window.rs`). Each file says where it departs from the thesis.
 
 mod blocks;
 mod clip;
