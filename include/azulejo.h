@@ -30,7 +30,7 @@
  * Progress. The callback in the options is called on the thread that makes the call, with the finished share, which
  *   never falls, from 0 to 1 (the 1 comes if the call succeeds). Any return value but 0 cancels the call, which then
  *   returns AZULEJO_ERROR_CANCELLED. The callback may call the library, also with the same context. It must return:
- *   no exception and no longjmp may leave it.
+ *   no exception and no longjmp may leave it. The same holds for the callback of azulejo_kdrt_stream.
  *
  * Threads. Every function may be called from any thread at any time. A context can be used by several threads at
  *   once; a psp handle serves one changing call at a time and refuses a second one. The last error belongs to the
@@ -70,7 +70,7 @@
 /// A file was read, but is not what it should be.
 #define AZULEJO_ERROR_FORMAT -4
 
-/// The progress callback cancelled the call.
+/// A callback of the caller cancelled the call.
 #define AZULEJO_ERROR_CANCELLED -5
 
 /// Memory for a copy of the caller's arrays could not be had.
@@ -154,7 +154,7 @@ typedef int32_t azulejo_status;
 /// Returns 0 to go on, anything else to cancel.
 typedef int32_t (*azulejo_progress_fn)(void *user, double done);
 
-/// Options of azulejo_kdrt_sample.
+/// Options of azulejo_kdrt_sample, azulejo_kdrt_sample_window and azulejo_kdrt_stream.
 typedef struct azulejo_kdrt_options {
     /// The size of the caller's struct in bytes; set by the init function.
     uint32_t struct_size;
@@ -176,6 +176,16 @@ typedef struct azulejo_kdrt_options {
     /// Handed to the progress callback.
     void *progress_user;
 } azulejo_kdrt_options;
+
+/// Called with a part of a set of samples, on the thread that made the call. What holds for progress callbacks holds
+/// for it too: it may call the library, and must return.
+///
+/// user: what was given to the call.
+///
+/// xy: the samples, x y each, until the callback returns; `count` of them, at least one.
+///
+/// Returns 0 to go on, anything else to cancel.
+typedef int32_t (*azulejo_kdrt_window_fn)(void *user, const float *xy, size_t count);
 
 /// Options of azulejo_maximal_sample.
 typedef struct azulejo_maximal_options {
@@ -372,6 +382,47 @@ azulejo_status azulejo_kdrt_options_init(struct azulejo_kdrt_options *options, s
 azulejo_status azulejo_kdrt_sample(const struct azulejo_context *context,
                                    const struct azulejo_kdrt_options *options,
                                    struct azulejo_points **out);
+
+/// Makes the part of azulejo_kdrt_sample's set that lies in a window of the domain, without making the rest: the same
+/// floats in the same order.
+///
+/// So windows that cut the domain in any way have every sample once, and can be made in any order, by threads,
+/// processes and machines that know nothing of each other. What lies in a window depends on nothing farther from it
+/// than 37 radii along x and 29 along y, on domains of more than 200 radii not farther than 28 and 22.
+///
+/// window_min, window_max: two numbers each, domain_min <= window_min < window_max <= domain_max; the window has the
+/// samples with window_min <= x < window_max. It may be smaller than the radius, and may turn out to have no sample.
+///
+/// out: the samples, x y each, to be freed with azulejo_points_free.
+///
+/// O(samples of the window and around it) time and memory, after the making of the pattern (about 8000 samples with the
+/// default leaves), which every call repeats. A domain that is not tiled is made as a whole.
+///
+/// Errors: as azulejo_kdrt_sample, but AZULEJO_ERROR_TOO_LARGE for the samples of the window: the domain may have as
+/// many as floats can carry, up to about 10^11.
+azulejo_status azulejo_kdrt_sample_window(const struct azulejo_context *context,
+                                          const struct azulejo_kdrt_options *options,
+                                          const double *window_min,
+                                          const double *window_max,
+                                          struct azulejo_points **out);
+
+/// Makes the set of azulejo_kdrt_sample and hands it out part by part, in its order, instead of keeping it: for sets that
+/// are written or used up, of any size.
+///
+/// visit: gets the parts, windows of at most about 270 radii (50000 samples), the same ones for every number of threads.
+/// While it works on the calling thread, the threads of the context make the next parts.
+///
+/// user: handed to it.
+///
+/// O(samples) time; memory for the pattern and at most 8 parts per thread. A domain that is not tiled is made as a whole
+/// and is one part.
+///
+/// Errors: as azulejo_kdrt_sample, but a domain that is tiled may have as many samples as floats can carry, up to about
+/// 10^11; AZULEJO_ERROR_CANCELLED also when `visit` cancels.
+azulejo_status azulejo_kdrt_stream(const struct azulejo_context *context,
+                                   const struct azulejo_kdrt_options *options,
+                                   azulejo_kdrt_window_fn visit,
+                                   void *user);
 
 /// Writes the defaults. `struct_size` is sizeof *options.
 azulejo_status azulejo_maximal_options_init(struct azulejo_maximal_options *options, size_t struct_size);

@@ -71,6 +71,10 @@ private:
 /// throws an Error with AZULEJO_ERROR_CANCELLED. What the function itself throws stops the call too and leaves it.
 using Progress = std::function<bool(double done)>;
 
+/// Called on the calling thread with a part of the samples, x y each, which live until it returns; returns whether to go
+/// on. A call that is stopped throws an Error with AZULEJO_ERROR_CANCELLED, or what the function threw.
+using WindowVisitor = std::function<bool(Span<const float> xy)>;
+
 /// The options of a call: the fields of the C struct, filled with their defaults, and a progress function.
 template <class C, azulejo_status (*init)(C *, std::size_t)>
 struct Options : C {
@@ -111,6 +115,17 @@ struct Free {
 template <class T, void (*free)(T *)>
 using Handle = std::unique_ptr<T, Free<T, free>>;
 
+/// Runs a function of the caller's where C called it: 0 to go on, 1 to stop. An exception waits in `thrown`.
+template <class Function>
+std::int32_t guarded(std::exception_ptr &thrown, Function function) noexcept {
+    try {
+        return function() ? 0 : 1;
+    } catch (...) {
+        thrown = std::current_exception();
+        return 1;
+    }
+}
+
 /// A progress function where C can call it: exceptions wait here until the call is over.
 class Watch {
 public:
@@ -136,12 +151,7 @@ public:
 private:
     static std::int32_t call(void *user, double done) noexcept {
         auto *watch = static_cast<Watch *>(user);
-        try {
-            return watch->progress_(done) ? 0 : 1;
-        } catch (...) {
-            watch->thrown_ = std::current_exception();
-            return 1;
-        }
+        return guarded(watch->thrown_, [&] { return watch->progress_(done); });
     }
 
     Progress progress_;
@@ -294,6 +304,36 @@ inline Points kdrt_sample(const Context &context, const KdrtOptions &options) {
     azulejo_points *points = nullptr;
     detail::watched(options, [&](auto *o) { return azulejo_kdrt_sample(context.get(), o, &points); });
     return Points(points);
+}
+
+/// The part of kdrt_sample's set that lies in a window of the domain; see azulejo_kdrt_sample_window.
+inline Points kdrt_sample_window(const Context &context, const KdrtOptions &options, const double (&window_min)[2],
+                                 const double (&window_max)[2]) {
+    azulejo_points *points = nullptr;
+    detail::watched(options, [&](auto *o) {
+        return azulejo_kdrt_sample_window(context.get(), o, window_min, window_max, &points);
+    });
+    return Points(points);
+}
+
+/// Hands the samples of kdrt_sample out part by part instead of keeping them; see azulejo_kdrt_stream.
+inline void kdrt_stream(const Context &context, const KdrtOptions &options, const WindowVisitor &visit) {
+    struct Guest {
+        const WindowVisitor &visit;
+        std::exception_ptr thrown;
+
+        static std::int32_t call(void *user, const float *xy, std::size_t count) noexcept {
+            auto *guest = static_cast<Guest *>(user);
+            return detail::guarded(guest->thrown, [&] { return guest->visit({xy, 2 * count}); });
+        }
+    } guest{visit, nullptr};
+    detail::watched(options, [&](auto *o) {
+        const auto status = azulejo_kdrt_stream(context.get(), o, visit ? &Guest::call : nullptr, &guest);
+        if (guest.thrown) {
+            std::rethrow_exception(guest.thrown);
+        }
+        return status;
+    });
 }
 
 /// The unbiased reference, slowly; see azulejo_maximal_sample.

@@ -43,8 +43,8 @@ pub enum Error {
         /// What is wrong with it, with the line where the reader knows it.
         reason: String,
     },
-    /// The progress callback asked to stop.
-    #[error("cancelled by the progress callback")]
+    /// A callback of the caller asked to stop.
+    #[error("cancelled by the callback")]
     Cancelled,
     /// Embree refused: no device, no memory, or a scene that it cannot build.
     #[error("Embree: {0}")]

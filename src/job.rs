@@ -15,6 +15,9 @@ use crate::error::{Error, Result};
 /// How often the calling thread looks up from waiting to report progress.
 const REPORT_INTERVAL: Duration = Duration::from_millis(20);
 
+/// How many results of [`Job::stream`] each thread makes while those before them are visited.
+const TASKS_AHEAD: usize = 4;
+
 /// Called on the thread that made the call, with the finished share, which grows from 0 to 1; `Break` cancels.
 pub type Progress<'a> = dyn Fn(f64) -> ControlFlow<()> + 'a;
 
@@ -174,6 +177,37 @@ impl<'a> Job<'a> {
         results.ok_or(Error::Cancelled)
     }
 
+    /// Hands `task(0), .., task(count - 1)` to `visit`, in this order and on the calling thread, while the pool makes the
+    /// next ones. Whatever the count, at most 2 · [`TASKS_AHEAD`] results per thread exist at a time.
+    pub(crate) fn stream<T: Send>(
+        &self,
+        count: usize,
+        task: impl Fn(usize) -> T + Sync,
+        mut visit: impl FnMut(T) -> Result<()>,
+    ) -> Result<()> {
+        let mut visited = 0;
+        let mut visit = |result| {
+            visit(result)?;
+            visited += 1;
+            self.report(visited as f64 / count as f64)
+        };
+        let Some(pool) = &self.context.pool else {
+            return (0..count).try_for_each(|i| visit(task(i)));
+        };
+        let size = TASKS_AHEAD * pool.current_num_threads();
+        let mut ready = Vec::new();
+        // One round more than there are batches: the first has nothing to visit yet, the last nothing to make.
+        for start in (0..count + size).step_by(size) {
+            let batch = start..(start + size).min(count);
+            let waiting = std::mem::take(&mut ready);
+            pool.in_place_scope(|scope| {
+                scope.spawn(|_| ready = batch.into_par_iter().map(&task).collect());
+                waiting.into_iter().try_for_each(&mut visit)
+            })?;
+        }
+        Ok(())
+    }
+
     /// [`Job::map`] for tasks that give any number of results each, concatenated in the order of the tasks.
     pub(crate) fn flat_map<T: Send>(&self, count: usize, task: impl Fn(usize) -> Vec<T> + Sync) -> Result<Vec<T>> {
         let parts = self.map(count, task)?;
@@ -239,6 +273,52 @@ mod tests {
                 };
                 let result = squares(&Context::new(threads).unwrap(), Some(&progress));
                 assert!(matches!(result, Err(Error::Cancelled)), "{threads} threads, limit {limit}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_stream_is_visited_in_order_on_the_calling_thread_and_never_far_behind() {
+        for threads in [1, 3] {
+            let context = Context::new(threads).unwrap();
+            for count in [0, 1, 11, 12, 13, 100] {
+                let (made, mut visited) = (AtomicUsize::new(0), 0);
+                let (caller, told) = (thread::current().id(), Cell::new(0.0));
+                let progress = |share| {
+                    assert!(share >= told.replace(share) && thread::current().id() == caller);
+                    ControlFlow::Continue(())
+                };
+                let task = |i| {
+                    made.fetch_add(1, Ordering::Relaxed);
+                    i
+                };
+                let visit = |i| {
+                    assert!(i == visited && thread::current().id() == caller);
+                    assert!(made.load(Ordering::Relaxed) - visited <= 2 * TASKS_AHEAD * threads);
+                    visited += 1;
+                    Ok(())
+                };
+                context.run(Some(&progress), |job| job.stream(count, task, visit)).unwrap();
+                assert_eq!((visited, told.get()), (count, 1.0));
+            }
+        }
+    }
+
+    #[test]
+    fn a_stream_ends_where_a_visit_fails_or_panics() {
+        for threads in [1, 3] {
+            let context = Context::new(threads).unwrap();
+            for last in [0, 40, 99] {
+                let mut seen = 0;
+                let failing = |i| {
+                    seen += 1;
+                    if i == last { Err(Error::Cancelled) } else { Ok(()) }
+                };
+                let result = context.run(None, |job| job.stream(100, |i| i, failing));
+                assert!(matches!(result, Err(Error::Cancelled)) && seen == last + 1);
+                let panicking = |i| if i == last { panic!("on purpose") } else { Ok(()) };
+                let panicking = || context.run(None, |job| job.stream(100, |i| i, panicking));
+                assert!(std::panic::catch_unwind(std::panic::AssertUnwindSafe(panicking)).is_err());
             }
         }
     }

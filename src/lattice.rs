@@ -83,6 +83,16 @@ pub(crate) struct Lattice {
 }
 
 impl Lattice {
+    /// The lattice of `domain` for `radius`, if the whole of it can be sampled in one call.
+    ///
+    /// # Errors
+    /// Those of [`Lattice::of_any_size`] and [`estimate`].
+    pub fn new(domain: &Domain, radius: f64) -> Result<Self> {
+        domain.check()?;
+        estimate(domain.extent(), radius)?;
+        Self::of_any_size(domain, radius)
+    }
+
     /// The lattice of `domain` for `radius`.
     ///
     /// A torus has an integer period, the user's rounded down: distances in the user's period are never smaller,
@@ -91,17 +101,10 @@ impl Lattice {
     ///
     /// # Errors
     /// [`Error::InvalidArgument`] for a domain or radius out of range, when no float lies in the domain, and when
-    /// floats are too coarse for the radius; [`Error::TooLarge`] for more than about 2^32 samples.
-    pub fn new(domain: &Domain, radius: f64) -> Result<Self> {
+    /// floats are too coarse for the radius.
+    pub fn of_any_size(domain: &Domain, radius: f64) -> Result<Self> {
         domain.check()?;
         check_radius(radius)?;
-        let extent = domain.extent();
-        let samples = MAXIMAL_DENSITY * (extent[0] / radius) * (extent[1] / radius);
-        if samples > MAX_SAMPLES {
-            let reason =
-                format!("{radius:?} asks for about {samples:.2e} samples, above the limit of {MAX_SAMPLES:.2e}");
-            return Err(Error::too_large("radius", reason));
-        }
         let unit = float_spacing(domain.min.iter().chain(&domain.max));
         if radius < FINEST_RADIUS * unit {
             let finest = FINEST_RADIUS * unit;
@@ -141,10 +144,36 @@ impl Lattice {
         (MAXIMAL_DENSITY * width * height).max(1.0)
     }
 
+    /// The lattice points of a part of the domain, and perhaps the next ones beyond its borders.
+    pub fn points_in(&self, part: &Domain) -> Rect {
+        // The quotients are rounded, but not across an integer: the first lattice point from `x` on is the integer
+        // below them or the next one.
+        let point = |axis: usize, x: [f64; 2]| ((x[axis] - self.origin[axis]) / self.unit).floor() as i32;
+        let rect = Rect {
+            min: std::array::from_fn(|axis| point(axis, part.min)),
+            max: std::array::from_fn(|axis| point(axis, part.max) + 1),
+        };
+        rect.intersection(&self.rect())
+    }
+
     /// The coordinates of a lattice point of the domain: exact.
     pub fn position(&self, point: [i32; 2]) -> [f32; 2] {
         std::array::from_fn(|axis| (self.origin[axis] + f64::from(point[axis]) * self.unit) as f32)
     }
+}
+
+/// About how many samples a part of a maximal set has, given its width and height.
+///
+/// # Errors
+/// [`Error::InvalidArgument`] for a radius out of range, [`Error::TooLarge`] for more than about 2^32 samples.
+pub(crate) fn estimate([width, height]: [f64; 2], radius: f64) -> Result<f64> {
+    check_radius(radius)?;
+    let samples = MAXIMAL_DENSITY * (width / radius) * (height / radius);
+    if samples > MAX_SAMPLES {
+        let reason = format!("{radius:?} asks for about {samples:.2e} samples, above the limit of {MAX_SAMPLES:.2e}");
+        return Err(Error::too_large("radius", reason));
+    }
+    Ok(samples)
 }
 
 /// The spacing of floats at the largest of the coordinates: a power of two whose multiples up to there are `f32`.
@@ -193,6 +222,7 @@ fn multiples(min: f64, max: f64, unit: f64) -> (f64, Option<f64>) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::rng::{Draw, Rng};
 
     fn lattice(min: [f64; 2], max: [f64; 2], boundary: Boundary, radius: f64) -> Result<Lattice> {
         Lattice::new(&Domain { min, max, boundary }, radius)
@@ -265,6 +295,34 @@ mod tests {
             assert_eq!(lattice.size[0], 1);
             let [x, y] = lattice.position([0, 5]);
             assert_eq!((x, f64::from(y)), (0.1f32, 5.0 * lattice.unit));
+        }
+    }
+
+    /// Parts whose borders are on a lattice point, next to it, or anywhere.
+    #[test]
+    fn the_points_of_a_part_are_those_that_lie_in_it() {
+        let mut rng = Rng::at(1, Draw::Probe, &[]);
+        for (min, size) in [([1.0, -0.3], [40.0, 29.3]), ([-16.7, 3.0], [31.9, 0.4]), ([0.0, -1.0], [25.5, 30.0])] {
+            let unit = f64::from(f32::EPSILON);
+            let max = [0, 1].map(|axis: usize| min[axis] + size[axis] * unit);
+            let lattice = lattice(min, max, Boundary::Bounded, 100.0).unwrap();
+            for _ in 0..300 {
+                let mut border = |axis: usize| {
+                    let x = min[axis] + rng.unit() * size[axis] * unit;
+                    let on = (x / unit).round() * unit;
+                    [x, on, on.next_up(), on.next_down()][rng.below(4) as usize].clamp(min[axis], max[axis])
+                };
+                let corners = [0, 1].map(|_| [border(0), border(1)]);
+                let [min, max] =
+                    [f64::min, f64::max].map(|pick| [0, 1].map(|axis| pick(corners[0][axis], corners[1][axis])));
+                let part = Domain { min, max, boundary: Boundary::Bounded };
+                let found = lattice.points_in(&part);
+                for point in (0..lattice.size[1]).flat_map(|y| (0..lattice.size[0]).map(move |x| [x, y])) {
+                    let inside = part.contains(lattice.position(point));
+                    assert!(!inside || found.contains(point), "{part:?}: {point:?} is missing");
+                    assert!(inside || !found.grown(-1).contains(point), "{part:?}: {point:?} is too far outside");
+                }
+            }
         }
     }
 

@@ -39,6 +39,11 @@ impl Domain {
         width * height
     }
 
+    /// Whether a sample lies in `min <= x < max`.
+    pub(crate) fn contains(&self, sample: [f32; 2]) -> bool {
+        (0..2).all(|axis| (self.min[axis]..self.max[axis]).contains(&f64::from(sample[axis])))
+    }
+
     /// The vector from `from` to `to`; on a torus the shortest of its images.
     pub fn offset(&self, from: [f64; 2], to: [f64; 2]) -> [f64; 2] {
         let extent = self.extent();
@@ -62,8 +67,7 @@ impl Domain {
         if points.len() > u32::MAX as usize {
             return Err(Error::too_large("xy", format!("{} points; the limit is {}", points.len(), u32::MAX)));
         }
-        let contains = |axis: usize, x: f32| (self.min[axis]..self.max[axis]).contains(&f64::from(x));
-        match points.iter().position(|&[x, y]| !(contains(0, x) && contains(1, y))) {
+        match points.iter().position(|&point| !self.contains(point)) {
             None => Ok(()),
             Some(index) => {
                 let ([x, y], Self { min, max, .. }) = (points[index], self);

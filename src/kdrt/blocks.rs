@@ -70,6 +70,27 @@ impl Blocks {
         }
     }
 
+    /// The blocks that hold the lattice points of `rect`, which lies in the domain.
+    pub fn holding(&self, rect: &Rect) -> Rect {
+        Rect {
+            min: std::array::from_fn(|axis| self.index(axis, rect.min[axis])),
+            max: std::array::from_fn(|axis| self.index(axis, rect.max[axis] - 1) + 1),
+        }
+    }
+
+    /// The column (axis 0) or row (axis 1) that holds a lattice point of the domain.
+    fn index(&self, axis: usize, point: i32) -> i32 {
+        let regular = i64::from(point) * i64::from(self.counts[axis]) / i64::from(self.size[axis]);
+        let mut index = regular as i32;
+        while self.border(axis, index) > point {
+            index -= 1;
+        }
+        while self.border(axis, index + 1) <= point {
+            index += 1;
+        }
+        index
+    }
+
     /// A rectangle of blocks with more columns and rows around it, as far as there are any.
     pub fn grown(&self, blocks: &Rect, [columns, rows]: [i32; 2]) -> Rect {
         let grown = Rect {
@@ -126,6 +147,23 @@ mod tests {
             }
             let image = [index - blocks.counts[0], index + blocks.counts[1]];
             assert_eq!(blocks.rng(image).bits(), blocks.rng([index; 2]).bits());
+        }
+    }
+
+    #[test]
+    fn every_lattice_point_is_held_by_the_block_around_it() {
+        for boundary in [Boundary::Periodic, Boundary::Bounded] {
+            let (lattice, blocks) = blocks(boundary, 9);
+            let mut rng = Rng::at(9, Draw::Probe, &[]);
+            for _ in 0..1000 {
+                let index = [0, 1].map(|axis: usize| rng.below(blocks.counts[axis] as u64) as i32);
+                let block = Rect { min: index, max: index.map(|index| index + 1) };
+                assert_eq!(blocks.holding(&blocks.rect(&block)), block);
+                let corner = blocks.rect(&block).min.map(|x| (x - 1).max(0));
+                let point = Rect { min: corner, max: corner.map(|x| x + 1) };
+                assert!(blocks.rect(&blocks.holding(&point)).contains(corner));
+                assert_eq!(blocks.holding(&lattice.rect()), Rect { min: [0; 2], max: blocks.counts });
+            }
         }
     }
 

@@ -6,8 +6,8 @@
 //! eliminated (`conquer.rs`) and gaps filled (`fill.rs`). Most samples are copies that nothing needs to look at.
 //!
 //! The thesis goes through the seams in an order of work. Here every step is a function of the place alone, so that a
-//! window of the plane (`plane.rs`) can be made without the rest; this is how threads share the work. Each file says
-//! where it departs from the thesis.
+//! window of the plane (`plane.rs`) can be made without the rest; this is how threads share the work, and how any part
+//! of a plane can be had alone (`window.rs`). Each file says where it departs from the thesis.
 
 mod blocks;
 mod clip;
@@ -15,6 +15,7 @@ mod conquer;
 mod divide;
 mod fill;
 mod plane;
+mod window;
 
 use crate::error::{Error, Result};
 use crate::job::{Context, Progress};
@@ -23,6 +24,8 @@ use crate::points::Domain;
 use crate::{maximal, memory};
 
 use plane::Plane;
+
+pub use window::{sample_stream, sample_window};
 
 /// The leaf size, in radii, that balances speed and spectrum.
 pub const DEFAULT_LEAF_SIZE: f64 = 20.0;
@@ -71,10 +74,7 @@ pub struct Options {
 /// above 2^32 samples or the available memory, both before any work; [`Error::Cancelled`].
 pub fn sample(context: &Context, options: &Options, progress: Option<&Progress>) -> Result<Vec<[f32; 2]>> {
     let &Options { radius, domain, leaf_size, seed } = options;
-    if !(leaf_size.is_finite() && leaf_size >= MIN_LEAF_SIZE) {
-        let reason = format!("{leaf_size:?} is not a finite number of at least {MIN_LEAF_SIZE} (radii)");
-        return Err(Error::invalid("leaf_size", reason));
-    }
+    check_leaf_size(leaf_size)?;
     let lattice = Lattice::new(&domain, radius)?;
     if !Plane::is_worthwhile(&lattice, leaf_size) {
         return context.run(progress, |job| maximal::sample_lattice(job, &lattice, seed));
@@ -86,4 +86,12 @@ pub fn sample(context: &Context, options: &Options, progress: Option<&Progress>)
         let windows = plane.windows();
         job.part(PATTERN_SHARE, 1.0).flat_map(windows.len(), |i| plane.window(&windows[i]))
     })
+}
+
+fn check_leaf_size(leaf_size: f64) -> Result<()> {
+    if leaf_size.is_finite() && leaf_size >= MIN_LEAF_SIZE {
+        return Ok(());
+    }
+    let reason = format!("{leaf_size:?} is not a finite number of at least {MIN_LEAF_SIZE} (radii)");
+    Err(Error::invalid("leaf_size", reason))
 }

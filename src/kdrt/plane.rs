@@ -3,7 +3,7 @@
 //! A window is a rectangle of fill blocks. Its samples are a function of the plane's options and the window's place
 //! alone: it is made from the leaves that meet it and a margin around it, in memory of its own, whatever else is made
 //! or not. The margin is at most 2 blocks (20 radii) to the left and right and 1 (10 radii) above and below for the
-//! phases of filling, and 4 radii for the chains of elimination around what the filling sees.
+//! phases of filling, and 5 radii for the chains of elimination around what the filling sees.
 
 use crate::error::Result;
 use crate::job::Job;
@@ -59,22 +59,26 @@ impl Plane {
         self.windows_of(WINDOW_BLOCKS)
     }
 
+    /// What of [`Plane::windows`] is needed for some lattice points, in the same order.
+    pub fn windows_holding(&self, points: &Rect) -> Vec<Rect> {
+        cut(&self.blocks.holding(points), WINDOW_BLOCKS)
+    }
+
     fn windows_of(&self, side: i32) -> Vec<Rect> {
-        let all = Rect { min: [0; 2], max: self.blocks.counts() };
-        let starts = |axis: usize| (0..all.max[axis]).step_by(side as usize);
-        starts(1)
-            .flat_map(|y| starts(0).map(move |x| Rect { min: [x, y], max: [x + side, y + side] }.intersection(&all)))
-            .collect()
+        cut(&Rect { min: [0; 2], max: self.blocks.counts() }, side)
     }
 
     /// The samples in a rectangle of fill blocks, by rows of cells.
     pub fn window(&self, window: &Rect) -> Vec<[f32; 2]> {
+        self.window_within(&self.surroundings(window), window)
+    }
+
+    /// A window, given what is to be known around it.
+    fn window_within(&self, known: &Rect, window: &Rect) -> Vec<[f32; 2]> {
         let Lattice { threshold, reach, .. } = self.lattice;
-        let filled = self.blocks.rect(&self.blocks.grown(window, PHASES[0].1));
-        let known = self.inside(&filled.grown((1 + LONGEST_CHAIN) * reach));
-        let leaves = self.leaves(&known);
-        let mut grid = CellGrid::new(&self.axes, &known, threshold, reach);
-        let eliminated = merge(&mut grid, &self.pattern, &leaves, &known, reach);
+        let leaves = self.leaves(known);
+        let mut grid = CellGrid::new(&self.axes, known, threshold, reach);
+        let eliminated = merge(&mut grid, &self.pattern, &leaves, known, reach);
         let seams = SeamCells::new(&grid, &leaves, &eliminated, reach);
 
         for (parity, margin) in PHASES {
@@ -91,6 +95,14 @@ impl Plane {
         #[cfg(test)]
         grid.sanity_check();
         grid.samples_in(&self.blocks.rect(window)).map(|sample| self.lattice.position(sample)).collect()
+    }
+
+    /// The lattice points on whose leaves the samples of a window depend.
+    fn surroundings(&self, window: &Rect) -> Rect {
+        let filled = self.blocks.rect(&self.blocks.grown(window, PHASES[0].1));
+        // The fill looks for samples within a reach, and for eliminated points within a reach of its cells, which
+        // go less than another beyond it.
+        self.inside(&filled.grown((2 + LONGEST_CHAIN) * self.lattice.reach))
     }
 
     /// A rectangle without what lies beyond the border of a bounded domain.
@@ -116,6 +128,13 @@ impl Plane {
         ranked.sort_unstable_by(|a, b| b.0.cmp(&a.0).then(a.1.rect.min.cmp(&b.1.rect.min)));
         ranked.into_iter().map(|(_, leaf)| leaf).collect()
     }
+}
+
+/// A rectangle of blocks, cut at the multiples of `side`.
+fn cut(blocks: &Rect, side: i32) -> Vec<Rect> {
+    let starts = |axis: usize| (blocks.min[axis] / side * side..blocks.max[axis]).step_by(side as usize);
+    let cells = starts(1).flat_map(|y| starts(0).map(move |x| Rect { min: [x, y], max: [x + side, y + side] }));
+    cells.map(|cell| cell.intersection(blocks)).collect()
 }
 
 #[cfg(test)]
@@ -205,5 +224,60 @@ mod tests {
                 assert_eq!(found, expected);
             }
         }
+    }
+
+    /// A sample may be anywhere in its block, and knows nothing of what is outside of the block's surroundings.
+    #[test]
+    fn surroundings_reach_as_far_as_documented() {
+        for boundary in [Boundary::Periodic, Boundary::Bounded] {
+            let widths = [13.1, 17.0, 22.6, 33.9, 34.0, 50.0, 110.0, 199.0, 201.0, 205.0, 500.0];
+            for (seed, width) in widths.into_iter().enumerate() {
+                let domain = Domain { min: [0.0; 2], max: [width, 12_000.0 / width], boundary };
+                let plane = plane(domain, 1.0, 6.0, seed as u64);
+                for block in plane.windows_of(1) {
+                    let (held, known) = (plane.blocks.rect(&block), plane.surroundings(&block));
+                    for axis in 0..2 {
+                        let radii = |length: i32| f64::from(length) / plane.lattice.radius;
+                        let size = radii(plane.lattice.size[axis]);
+                        let documented = if size > 200.0 { [28.0, 22.0] } else { [37.0, 29.0] }[axis];
+                        let farthest = (held.max[axis] - known.min[axis]).max(known.max[axis] - held.min[axis]);
+                        // Around a torus nothing is farther away than half of it.
+                        let limit = if boundary == Boundary::Periodic { size / 2.0 } else { size };
+                        let distance = radii(farthest).min(limit);
+                        assert!(distance <= documented, "{distance} of {size} on axis {axis}");
+                    }
+                }
+            }
+        }
+    }
+
+    /// The smallest windows with the smallest leaves, where chains of elimination are as long as they get. The listed
+    /// seeds, of 0 to 200, are those on which two reaches of the longest chain would be too few for some window.
+    #[test]
+    fn surroundings_are_enough_and_much_less_is_not() {
+        let mut wrong = 0;
+        for seed in (0..10).chain([23, 65, 111, 178, 198]) {
+            let boundary = if seed % 2 == 0 { Boundary::Periodic } else { Boundary::Bounded };
+            let plane = plane(Domain::unit(boundary), 1.0 / 110.0, 6.0, seed);
+            let whole = samples(&plane, WINDOW_BLOCKS);
+            for block in plane.windows_of(1) {
+                let held = plane.blocks.rect(&block);
+                let (first, last) = (plane.lattice.position(held.min), plane.lattice.position(held.max.map(|x| x - 1)));
+                let inside = |sample: &&[f32; 2]| (0..2).all(|axis| (first[axis]..=last[axis]).contains(&sample[axis]));
+                let expected: Vec<_> = whole.iter().filter(inside).copied().collect();
+                let is_right = |known: &Rect| {
+                    let mut found = plane.window_within(known, &block);
+                    found.sort_unstable_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
+                    found == expected
+                };
+                let known = plane.surroundings(&block);
+                assert!(is_right(&known), "seed {seed}, {block:?}");
+                // A border of the domain is not to be moved inwards.
+                if boundary == Boundary::Periodic {
+                    wrong += usize::from(!is_right(&known.grown(-4 * plane.lattice.reach)));
+                }
+            }
+        }
+        assert!(wrong > 0, "windows that know too little come out right");
     }
 }

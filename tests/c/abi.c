@@ -10,6 +10,7 @@
 
 SIZE(azulejo_status, 4);
 SIZE(azulejo_progress_fn, 8);
+SIZE(azulejo_kdrt_window_fn, 8);
 
 SIZE(azulejo_kdrt_options, 80);
 FIELD(azulejo_kdrt_options, struct_size, 0);
@@ -104,6 +105,10 @@ static void signatures(void) {
     azulejo_status (*context_create)(uint32_t, azulejo_context **) = azulejo_context_create;
     azulejo_status (*kdrt_sample)(const azulejo_context *, const azulejo_kdrt_options *, azulejo_points **) =
         azulejo_kdrt_sample;
+    azulejo_status (*kdrt_sample_window)(const azulejo_context *, const azulejo_kdrt_options *, const double *,
+                                         const double *, azulejo_points **) = azulejo_kdrt_sample_window;
+    azulejo_status (*kdrt_stream)(const azulejo_context *, const azulejo_kdrt_options *,
+                                  int32_t (*)(void *, const float *, size_t), void *) = azulejo_kdrt_stream;
     azulejo_status (*mesh_create)(const float *, size_t, size_t, const uint32_t *, size_t, azulejo_mesh **) =
         azulejo_mesh_create;
     azulejo_status (*mesh_load)(const char *, azulejo_mesh **) = azulejo_mesh_load;
@@ -118,7 +123,7 @@ static void signatures(void) {
                                 azulejo_points **, azulejo_dcr_report *) = azulejo_dcr_relax;
     size_t (*last_error_message)(char *, size_t) = azulejo_last_error_message;
     CHECK(context_create && kdrt_sample && mesh_create && mesh_load && psp_create && psp_advance && psp_fill);
-    CHECK(psp_points && psp_sample && dcr_relax && last_error_message);
+    CHECK(psp_points && psp_sample && dcr_relax && last_error_message && kdrt_sample_window && kdrt_stream);
 }
 
 int main(void) {

@@ -80,6 +80,78 @@ static void kdrt(void) {
 #undef KDRT
 }
 
+static int32_t never_visited(void *user, const float *xy, size_t count) {
+    (void)xy, (void)count;
+    ++*(int *)user;
+    return 0;
+}
+
+static void kdrt_windows(void) {
+    const double low[2] = {0.25, 0.5}, high[2] = {0.75, 1}, flat[2] = {0.75, 0.5}, *misaligned;
+    azulejo_kdrt_options good = kdrt_options(0.1);
+    azulejo_points *out = UNTOUCHED;
+    misaligned = (const double *)((const char *)low + 1);
+    REFUSED(INVALID, "context", azulejo_kdrt_sample_window(NULL, &good, low, high, &out));
+    REFUSED(INVALID, "options", azulejo_kdrt_sample_window(context, NULL, low, high, &out));
+    REFUSED(INVALID, "window_min: is NULL", azulejo_kdrt_sample_window(context, &good, NULL, high, &out));
+    REFUSED(INVALID, "window_max: is NULL", azulejo_kdrt_sample_window(context, &good, low, NULL, &out));
+    REFUSED(INVALID, "window_min", azulejo_kdrt_sample_window(context, &good, misaligned, high, &out));
+    REFUSED(INVALID, "window_max", azulejo_kdrt_sample_window(context, &good, low, misaligned, &out));
+    REFUSED(INVALID, "out", azulejo_kdrt_sample_window(context, &good, low, high, NULL));
+    REFUSED(INVALID, "window_max", azulejo_kdrt_sample_window(context, &good, low, low, &out));
+    REFUSED(INVALID, "window_max: [1] is 0.5", azulejo_kdrt_sample_window(context, &good, low, flat, &out));
+    REFUSED(INVALID, "window_max: [0] is 0.25", azulejo_kdrt_sample_window(context, &good, high, low, &out));
+
+#define WINDOW(status, part, change)                                                 \
+    do {                                                                             \
+        azulejo_kdrt_options o = good;                                               \
+        double min[2] = {0.25, 0.5}, max[2] = {0.75, 1};                             \
+        (void)(change);                                                              \
+        REFUSED(status, part, azulejo_kdrt_sample_window(context, &o, min, max, &out)); \
+    } while (0)
+    WINDOW(INVALID, "window_min: [0]", min[0] = NAN);
+    WINDOW(INVALID, "window_min: [1]", min[1] = NAN);
+    WINDOW(INVALID, "window_min: [0]", min[0] = -1e-9);
+    WINDOW(INVALID, "window_min: [1]", min[1] = -INFINITY);
+    WINDOW(INVALID, "window_min: [0]", min[0] = 2);
+    WINDOW(INVALID, "window_max: [0]", max[0] = NAN);
+    WINDOW(INVALID, "window_max: [1]", max[1] = NAN);
+    WINDOW(INVALID, "window_max: [1]", max[1] = 1.000001);
+    WINDOW(INVALID, "window_max: [0]", max[0] = INFINITY);
+    WINDOW(INVALID, "window_max: [0]", max[0] = -1);
+    WINDOW(INVALID, "window_max: [1]", (o.domain_max[1] = 0.75));
+    WINDOW(INVALID, "domain_max", o.domain_max[0] = 0);
+    WINDOW(INVALID, "radius", o.radius = NAN);
+    WINDOW(INVALID, "boundary", o.boundary = 2);
+    WINDOW(INVALID, "leaf_size", o.leaf_size = 5);
+    WINDOW(AZULEJO_ERROR_TOO_LARGE, "radius", o.radius = 4e-6);
+    CHECK(largest_number(last_error()) > 1.0e10 && largest_number(last_error()) < 1.2e10);
+#undef WINDOW
+    CHECK(out == UNTOUCHED);
+}
+
+static void kdrt_streams(void) {
+    azulejo_kdrt_options good = kdrt_options(0.1);
+    int visits = 0;
+    REFUSED(INVALID, "context", azulejo_kdrt_stream(NULL, &good, never_visited, &visits));
+    REFUSED(INVALID, "options", azulejo_kdrt_stream(context, NULL, never_visited, &visits));
+    REFUSED(INVALID, "visit: is NULL", azulejo_kdrt_stream(context, &good, NULL, &visits));
+#define STREAM(status, part, change)                                                   \
+    do {                                                                               \
+        azulejo_kdrt_options o = good;                                                 \
+        (void)(change);                                                                \
+        REFUSED(status, part, azulejo_kdrt_stream(context, &o, never_visited, &visits)); \
+    } while (0)
+    STREAM(INVALID, "radius", o.radius = 0);
+    STREAM(INVALID, "radius: 1e-7 is below", o.radius = 1e-7);
+    STREAM(INVALID, "domain_min", o.domain_min[0] = NAN);
+    STREAM(INVALID, "boundary", o.boundary = -1);
+    STREAM(INVALID, "leaf_size", o.leaf_size = NAN);
+    STREAM(AZULEJO_ERROR_TOO_LARGE, "radius", (o.radius = 4e-6, o.leaf_size = 1e9)); /* not tiled */
+#undef STREAM
+    CHECK(visits == 0);
+}
+
 static void maximal(void) {
     azulejo_maximal_options good = maximal_options(0.1);
     azulejo_points *out = UNTOUCHED;
@@ -307,6 +379,8 @@ int main(void) {
     cube = make_cube();
     contexts();
     kdrt();
+    kdrt_windows();
+    kdrt_streams();
     maximal();
     meshes();
     psp();

@@ -1,5 +1,6 @@
 // azulejo.hpp: owners, moves, exceptions, options, progress.
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
@@ -149,6 +150,75 @@ void progress() {
     }
 }
 
+void windows() {
+    const azulejo::Context context(2);
+    azulejo::KdrtOptions options;
+    options.radius = 0.005;
+    const auto whole = azulejo::kdrt_sample(context, options);
+    const double middle[] = {0.3, 0.5};
+    std::vector<float> expected;
+    for (std::size_t i = 0; i < whole.size(); i++) {
+        const float *xy = whole.positions().data() + 2 * i;
+        if (xy[0] >= middle[0] && xy[1] >= middle[1]) expected.insert(expected.end(), xy, xy + 2);
+    }
+    const auto window = azulejo::kdrt_sample_window(context, options, middle, options.domain_max);
+    CHECK(window.positions().size() == expected.size());
+    CHECK(std::equal(expected.begin(), expected.end(), window.positions().begin()));
+    CHECK(throws(AZULEJO_ERROR_INVALID_ARGUMENT, "window_max",
+                 [&] { azulejo::kdrt_sample_window(context, options, middle, middle); }));
+    options.progress = [](double done) -> bool { throw done; };
+    try {
+        azulejo::kdrt_sample_window(context, options, middle, options.domain_max);
+        CHECK(!"reached");
+    } catch (double thrown) {
+        CHECK(thrown == 0);
+    }
+}
+
+void streams() {
+    const azulejo::Context context(2);
+    azulejo::KdrtOptions options;
+    options.radius = 0.003;
+    const auto whole = azulejo::kdrt_sample(context, options);
+    std::vector<float> streamed;
+    int parts = 0;
+    azulejo::kdrt_stream(context, options, [&](azulejo::Span<const float> xy) {
+        streamed.insert(streamed.end(), xy.begin(), xy.end());
+        parts++;
+        return true;
+    });
+    CHECK(parts > 2 && streamed.size() == whole.positions().size());
+    CHECK(std::equal(streamed.begin(), streamed.end(), whole.positions().begin()));
+
+    int visits = 0;
+    CHECK(throws(AZULEJO_ERROR_CANCELLED, "cancelled",
+                 [&] { azulejo::kdrt_stream(context, options, [&](auto) { return ++visits < 2; }); }));
+    CHECK(visits == 2);
+    CHECK(throws(AZULEJO_ERROR_INVALID_ARGUMENT, "visit", [&] { azulejo::kdrt_stream(context, options, nullptr); }));
+    for (int last : {1, parts}) {
+        visits = 0;
+        try {
+            azulejo::kdrt_stream(context, options, [&](auto) {
+                if (++visits == last) throw std::logic_error("enough");
+                return true;
+            });
+            CHECK(!"reached");
+        } catch (const std::logic_error &error) {
+            CHECK(std::strcmp(error.what(), "enough") == 0 && visits == last);
+        }
+    }
+    options.progress = [](double done) {
+        if (done > 0.5) throw std::logic_error("progress");
+        return true;
+    };
+    try {
+        azulejo::kdrt_stream(context, options, [](auto) { return true; });
+        CHECK(!"reached");
+    } catch (const std::logic_error &error) {
+        CHECK(std::strcmp(error.what(), "progress") == 0);
+    }
+}
+
 // A handle keeps its progress function through moves and through exceptions.
 void progress_of_a_handle() {
     const azulejo::Context context(1);
@@ -202,6 +272,8 @@ int main() {
     surfaces();
     progress();
     progress_of_a_handle();
+    windows();
+    streams();
     relaxing();
     return finish();
 }

@@ -2,17 +2,18 @@
 
 use std::ffi::c_void;
 use std::mem::MaybeUninit;
+use std::ops::ControlFlow;
 
 use azulejo_core::kdrt;
 
-use crate::boundary::{self, required};
+use crate::boundary::{self, pair, required};
 use crate::context::azulejo_context;
 use crate::domain::{AZULEJO_BOUNDARY_PERIODIC, domain};
 use crate::options::{self, Watch, azulejo_progress_fn, options};
 use crate::points::azulejo_points;
-use crate::status::azulejo_status;
+use crate::status::{Failure, azulejo_status};
 
-/// Options of azulejo_kdrt_sample.
+/// Options of azulejo_kdrt_sample, azulejo_kdrt_sample_window and azulejo_kdrt_stream.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct azulejo_kdrt_options {
@@ -79,11 +80,100 @@ pub unsafe extern "C" fn azulejo_kdrt_sample(
     boundary::create(out, || {
         let context = required("context", context)?.shared.clone();
         // SAFETY: handed on from the caller.
-        let options = unsafe { options::read(options) }?;
-        let domain = domain(options.domain_min, options.domain_max, options.boundary)?;
-        let request =
-            kdrt::Options { radius: options.radius, domain, leaf_size: options.leaf_size, seed: options.seed };
-        let watch = Watch { function: options.progress, user: options.progress_user };
+        let (request, watch) = unsafe { read(options) }?;
         Ok(azulejo_points::plane(watch.run(|progress| kdrt::sample(&context, &request, progress))?))
     })
+}
+
+/// Makes the part of azulejo_kdrt_sample's set that lies in a window of the domain, without making the rest: the same
+/// floats in the same order.
+///
+/// So windows that cut the domain in any way have every sample once, and can be made in any order, by threads,
+/// processes and machines that know nothing of each other. What lies in a window depends on nothing farther from it
+/// than 37 radii along x and 29 along y, on domains of more than 200 radii not farther than 28 and 22.
+///
+/// window_min, window_max: two numbers each, domain_min <= window_min < window_max <= domain_max; the window has the
+/// samples with window_min <= x < window_max. It may be smaller than the radius, and may turn out to have no sample.
+///
+/// out: the samples, x y each, to be freed with azulejo_points_free.
+///
+/// O(samples of the window and around it) time and memory, after the making of the pattern (about 8000 samples with the
+/// default leaves), which every call repeats. A domain that is not tiled is made as a whole.
+///
+/// Errors: as azulejo_kdrt_sample, but AZULEJO_ERROR_TOO_LARGE for the samples of the window: the domain may have as
+/// many as floats can carry, up to about 10^11.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_kdrt_sample_window(
+    context: Option<&azulejo_context>,
+    options: *const azulejo_kdrt_options,
+    window_min: *const f64,
+    window_max: *const f64,
+    out: Option<&mut MaybeUninit<Box<azulejo_points>>>,
+) -> azulejo_status {
+    boundary::create(out, || {
+        let context = required("context", context)?.shared.clone();
+        // SAFETY: handed on from the caller.
+        let ((request, watch), min, max) =
+            unsafe { (read(options)?, pair("window_min", window_min)?, pair("window_max", window_max)?) };
+        let samples = watch.run(|progress| kdrt::sample_window(&context, &request, min, max, progress))?;
+        Ok(azulejo_points::plane(samples))
+    })
+}
+
+/// Called with a part of a set of samples, on the thread that made the call. What holds for progress callbacks holds
+/// for it too: it may call the library, and must return.
+///
+/// user: what was given to the call.
+///
+/// xy: the samples, x y each, until the callback returns; `count` of them, at least one.
+///
+/// Returns 0 to go on, anything else to cancel.
+pub type azulejo_kdrt_window_fn = Option<unsafe extern "C" fn(user: *mut c_void, xy: *const f32, count: usize) -> i32>;
+
+/// Makes the set of azulejo_kdrt_sample and hands it out part by part, in its order, instead of keeping it: for sets that
+/// are written or used up, of any size.
+///
+/// visit: gets the parts, windows of at most about 270 radii (50000 samples), the same ones for every number of threads.
+/// While it works on the calling thread, the threads of the context make the next parts.
+///
+/// user: handed to it.
+///
+/// O(samples) time; memory for the pattern and at most 8 parts per thread. A domain that is not tiled is made as a whole
+/// and is one part.
+///
+/// Errors: as azulejo_kdrt_sample, but a domain that is tiled may have as many samples as floats can carry, up to about
+/// 10^11; AZULEJO_ERROR_CANCELLED also when `visit` cancels.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_kdrt_stream(
+    context: Option<&azulejo_context>,
+    options: *const azulejo_kdrt_options,
+    visit: azulejo_kdrt_window_fn,
+    user: *mut c_void,
+) -> azulejo_status {
+    boundary::call(|| {
+        let context = required("context", context)?.shared.clone();
+        // SAFETY: handed on from the caller.
+        let (request, watch) = unsafe { read(options) }?;
+        let visit = required("visit", visit)?;
+        let visit = |samples: &[[f32; 2]]| {
+            // SAFETY: the caller gave the two for each other, to be called on this thread during this call.
+            match unsafe { visit(user, samples.as_ptr().cast(), samples.len()) } {
+                0 => ControlFlow::Continue(()),
+                _ => ControlFlow::Break(()),
+            }
+        };
+        Ok(watch.run(|progress| kdrt::sample_stream(&context, &request, visit, progress))?)
+    })
+}
+
+/// The caller's options as the core wants them, and the progress callback in them.
+///
+/// # Safety
+/// As [`options::read`].
+unsafe fn read(options: *const azulejo_kdrt_options) -> Result<(kdrt::Options, Watch), Failure> {
+    // SAFETY: handed on from the caller.
+    let options = unsafe { options::read(options) }?;
+    let domain = domain(options.domain_min, options.domain_max, options.boundary)?;
+    let request = kdrt::Options { radius: options.radius, domain, leaf_size: options.leaf_size, seed: options.seed };
+    Ok((request, Watch { function: options.progress, user: options.progress_user }))
 }

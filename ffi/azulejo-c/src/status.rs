@@ -18,7 +18,7 @@ pub const AZULEJO_ERROR_TOO_LARGE: i32 = -2;
 pub const AZULEJO_ERROR_IO: i32 = -3;
 /// A file was read, but is not what it should be.
 pub const AZULEJO_ERROR_FORMAT: i32 = -4;
-/// The progress callback cancelled the call.
+/// A callback of the caller cancelled the call.
 pub const AZULEJO_ERROR_CANCELLED: i32 = -5;
 /// Memory for a copy of the caller's arrays could not be had.
 pub const AZULEJO_ERROR_OUT_OF_MEMORY: i32 = -6;
