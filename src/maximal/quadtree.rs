@@ -47,10 +47,17 @@ impl Level {
     }
 }
 
+/// The depth of [`Quadtree::push_gaps`].
+const GAP_DEPTH: u32 = 2;
+
 /// The voxels of a rectangle of lattice points that may be uncovered, by column and row at their level.
 pub(crate) struct Quadtree {
     level: Level,
     voxels: Vec<[i32; 2]>,
+    /// The memory of the next level's voxels.
+    next: Vec<[i32; 2]>,
+    /// The memory of the samples near a voxel.
+    near: Vec<[i32; 2]>,
 }
 
 impl Quadtree {
@@ -60,7 +67,28 @@ impl Quadtree {
             let rect = grid.rect(cell);
             std::array::from_fn(|axis| rect.length(axis).max(widest[axis]))
         });
-        Self { level: Level { depth: 0, widest, clip: rect }, voxels: cells }
+        let level = Level { depth: 0, widest, clip: rect };
+        Self { level, voxels: cells, next: Vec::new(), near: Vec::new() }
+    }
+
+    /// Drops all voxels and takes those that [`Quadtree::push_gaps`] will add, as far as they lie in `rect`.
+    pub fn restart(&mut self, rect: Rect) {
+        self.voxels.clear();
+        self.level = Level { depth: GAP_DEPTH, widest: [1; 2], clip: rect };
+    }
+
+    /// Adds the sixteenths of an empty cell that may have uncovered points. Voxels must not have been cut since the
+    /// restart.
+    pub fn push_gaps(&mut self, grid: &CellGrid, cell: [i32; 2]) {
+        let rect = grid.rect(cell);
+        let gaps = grid.gaps(&rect, grid.samples_near(cell, &mut self.near));
+        if gaps == 0 {
+            return;
+        }
+        let [width, height] = [0, 1].map(|axis: usize| (rect.length(axis) + 3) / 4);
+        self.level.widest = [self.level.widest[0].max(width), self.level.widest[1].max(height)];
+        let sixteenths = (0..16).filter(|i| gaps >> i & 1 == 1);
+        self.voxels.extend(sixteenths.map(|i| [4 * cell[0] + i % 4, 4 * cell[1] + i / 4]));
     }
 
     /// How many voxels are left.
@@ -73,10 +101,9 @@ impl Quadtree {
         self.voxels.is_empty()
     }
 
-    /// Throws darts and gives how many became samples.
-    pub fn throw(&mut self, grid: &mut CellGrid, rng: &mut Rng, darts: usize) -> usize {
+    /// Throws darts and shows those that became samples to `accepted`.
+    pub fn throw(&mut self, grid: &mut CellGrid, rng: &mut Rng, darts: usize, mut accepted: impl FnMut([i32; 2])) {
         let level = self.level;
-        let mut accepted = 0;
         for _ in 0..darts {
             if self.voxels.is_empty() {
                 break;
@@ -94,10 +121,9 @@ impl Quadtree {
             if rect.contains(point) && !grid.conflicts(cell, point) {
                 grid.insert(cell, point);
                 self.voxels.swap_remove(pick);
-                accepted += 1;
+                accepted(point);
             }
         }
-        accepted
     }
 
     /// Drops the voxels that one sample covers, cuts the others in four and drops those of the quarters that one sample
@@ -105,24 +131,24 @@ impl Quadtree {
     pub fn refine(&mut self, grid: &CellGrid) {
         let level = self.level;
         let next = if level.is_finest() { level } else { level.next() };
-        let mut open = Vec::new();
-        let mut memory = Vec::new();
+        self.next.clear();
         // Voxels of one cell mostly follow each other and have their neighbours in common.
         for voxels in self.voxels.chunk_by(|&a, &b| level.cell(a) == level.cell(b)) {
             let cell = level.cell(voxels[0]);
-            let near = grid.samples_near(cell, &mut memory);
+            let near = grid.samples_near(cell, &mut self.near);
             let cell = grid.rect(cell);
             for &voxel in voxels.iter().filter(|&&voxel| !grid.covers(near, &level.rect(&cell, voxel))) {
                 if level.is_finest() {
-                    open.push(voxel);
+                    self.next.push(voxel);
                     continue;
                 }
                 let quarters = [[0, 0], [1, 0], [0, 1], [1, 1]].map(|[x, y]| [2 * voxel[0] + x, 2 * voxel[1] + y]);
-                open.extend(quarters.into_iter().filter(|&quarter| !grid.covers(near, &next.rect(&cell, quarter))));
+                self.next
+                    .extend(quarters.into_iter().filter(|&quarter| !grid.covers(near, &next.rect(&cell, quarter))));
             }
         }
         self.level = next;
-        self.voxels = open;
+        std::mem::swap(&mut self.voxels, &mut self.next);
     }
 }
 
@@ -178,8 +204,11 @@ mod tests {
                 let mut grid = grid(size);
                 let mut quadtree = Quadtree::new(&grid, Rect { min: [0; 2], max: size }, all_cells(&grid));
                 (0..level).for_each(|_| quadtree.refine(&grid));
-                while quadtree.throw(&mut grid, &mut rng, 1) == 0 {}
-                let [x, y] = grid.samples_in(&Rect { min: [0; 2], max: size }).next().unwrap();
+                let mut first = None;
+                while first.is_none() {
+                    quadtree.throw(&mut grid, &mut rng, 1, |sample| first = Some(sample));
+                }
+                let [x, y] = first.unwrap();
                 histogram[(y * 57 + x) as usize] += 1;
             }
             let expected = 100_000.0 / histogram.len() as f64;
