@@ -73,7 +73,8 @@ pub(crate) struct CellGrid {
     neighbours: Vec<isize>,
     /// On a whole torus its cells and its size.
     torus: Option<[[i32; 2]; 2]>,
-    threshold: i64,
+    /// Points whose squared distance is below this conflict.
+    pub(super) threshold: i64,
 }
 
 impl CellGrid {
@@ -191,39 +192,6 @@ impl CellGrid {
                 let dy = (2 * i64::from(sample[1]) - centre[1]).abs() + extent[1];
                 dx * dx + dy * dy < 4 * self.threshold
             })
-    }
-
-    /// Which sixteenths of a cell's `rect` no sample of `near` covers alone: bit `4·row + column`, with borders at the
-    /// quarters of its sides, rounded down. Coarse: what is barely covered may count as not covered.
-    pub fn gaps(&self, rect: &Rect, near: &[[i32; 2]]) -> u16 {
-        // Coordinates are below 4 radii and each operation is off by at most 2^-24 of its result, so the sum of the
-        // squares is off by less than 5e-6 of the squared radius.
-        let limit = self.threshold as f32 * (1.0 - 1e-5);
-        // The distance to a farthest corner along an axis is the distance to the centre and half the extent.
-        let quarters = [0, 1].map(|axis: usize| {
-            let border = |i: usize| ((i64::from(rect.length(axis)) * i as i64) >> 2) as f32;
-            let centres: [f32; 4] = std::array::from_fn(|i| 0.5 * (border(i) + border(i + 1) - 1.0));
-            let extents: [f32; 4] = std::array::from_fn(|i| 0.5 * (border(i + 1) - border(i) - 1.0));
-            (centres, extents)
-        });
-        let mut nearest = [[f32::MAX; 4]; 4];
-        for sample in near {
-            let [dx2, dy2] = [0, 1].map(|axis: usize| {
-                let (centres, extents) = quarters[axis];
-                let place = (sample[axis] - rect.min[axis]) as f32;
-                std::array::from_fn::<f32, 4, _>(|i| {
-                    let farthest = (place - centres[i]).abs() + extents[i];
-                    farthest * farthest
-                })
-            });
-            for (row, dy2) in nearest.iter_mut().zip(dy2) {
-                for (nearest, dx2) in row.iter_mut().zip(dx2) {
-                    let d2 = dx2 + dy2;
-                    *nearest = if d2 < *nearest { d2 } else { *nearest };
-                }
-            }
-        }
-        nearest.as_flattened().iter().rev().fold(0, |gaps, &d2| gaps << 1 | u16::from(d2 >= limit))
     }
 
     /// Adds a sample without conflict to `cell`.

@@ -8,6 +8,7 @@
 
 mod cells;
 mod quadtree;
+mod sixteenths;
 
 pub(crate) use cells::{CellAxis, CellGrid};
 pub(crate) use quadtree::Quadtree;
@@ -20,7 +21,7 @@ use crate::points::{Boundary, Domain};
 use crate::rng::{Draw, Rng};
 
 /// Darts per voxel and round.
-const DARTS_PER_VOXEL: f64 = 0.7;
+const DARTS_PER_VOXEL: f64 = 2.0;
 
 /// Darts between two looks at the progress callback.
 const DARTS_PER_REPORT: usize = 1 << 16;
