@@ -3,8 +3,10 @@
 //!
 //! The list of *voxels*, squares of one level, always holds every lattice point that no sample covers. Darts fall
 //! exactly uniformly on the voxels' lattice points, so an accepted dart is uniform on what is uncovered. Between
-//! rounds of darts voxels that one sample covers are dropped and the others are cut in four. Where the paper ends at
-//! the precision of floats, the voxels here end as single lattice points: an empty list *proves* maximality.
+//! rounds of darts voxels are cut and the parts that one sample covers are dropped. Where the paper ends at the
+//! precision of floats, the voxels here end as single lattice points: an empty list *proves* maximality.
+//!
+//! Voxels are cut in sixteen by a coarse test (`sixteenths.rs`) while they are wide, and exactly in four after that.
 
 use super::cells::CellGrid;
 use super::sixteenths;
