@@ -1,26 +1,82 @@
-//! The samplers of the plane side by side, in samples per second.
+//! The samplers of the plane side by side in one run: times by criterion, then a table of ratios to `maximal`.
+//!
+//! 10^8 samples are added when the environment variable `AZULEJO_BENCH_LARGE` is set.
+
+use std::hint::black_box;
+use std::time::{Duration, Instant};
 
 use azulejo::{Boundary, Context, Domain, kdrt, maximal};
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 
-fn plane(criterion: &mut Criterion) {
+const LEAF_SIZES: [f64; 4] = [6.0, 20.0, 40.0, 80.0];
+
+/// `maximal` is not run above this many samples: it takes seconds per million.
+const MOST_MAXIMAL: u32 = 1_000_000;
+
+/// The radius at which a maximal set of the unit square has about `count` samples.
+fn radius(count: u32) -> f64 {
+    (0.69656 / f64::from(count)).sqrt()
+}
+
+fn kdrt(context: &Context, count: u32, leaf_size: f64) -> usize {
     let domain = Domain::unit(Boundary::Periodic);
-    for count in [100_000, 1_000_000] {
-        let radius = (0.69656 / f64::from(count)).sqrt();
+    let options = kdrt::Options { radius: radius(count), domain, leaf_size, seed: 1 };
+    kdrt::sample(context, &options, None).expect("a good domain").len()
+}
+
+fn maximal(context: &Context, count: u32) -> usize {
+    let options = maximal::Options { radius: radius(count), domain: Domain::unit(Boundary::Periodic), seed: 1 };
+    maximal::sample(context, &options, None).expect("a good domain").len()
+}
+
+/// What a call takes per sample at least, in a few attempts: noise only adds.
+fn least_time_per_sample(call: impl Fn() -> usize) -> Duration {
+    let attempt = |_| {
+        let start = Instant::now();
+        let samples = black_box(call());
+        start.elapsed().div_f64(samples as f64)
+    };
+    (0..3).map(attempt).min().expect("three attempts")
+}
+
+fn plane(criterion: &mut Criterion) {
+    let contexts = [1, 0].map(|threads| Context::new(threads).expect("threads"));
+    let mut counts = vec![100_000, 1_000_000, 10_000_000];
+    counts.extend(std::env::var_os("AZULEJO_BENCH_LARGE").map(|_| 100_000_000));
+    for &count in &counts {
         let mut group = criterion.benchmark_group(format!("plane/{count}"));
-        group.throughput(Throughput::Elements(count as u64)).sample_size(10);
-        let context = Context::new(1).expect("one thread");
-        let options = maximal::Options { radius, domain, seed: 1 };
-        group.bench_function("maximal", |bencher| bencher.iter(|| maximal::sample(&context, &options, None)));
-        for leaf_size in [6.0, 20.0, 40.0] {
-            for threads in [1, 4] {
-                let context = Context::new(threads).expect("a few threads");
-                let options = kdrt::Options { radius, domain, leaf_size, seed: 1 };
-                let id = BenchmarkId::new(format!("kdrt/{leaf_size}r"), format!("{threads} threads"));
-                group.bench_function(id, |bencher| bencher.iter(|| kdrt::sample(&context, &options, None)));
+        group.throughput(Throughput::Elements(u64::from(count))).sample_size(10);
+        if count <= MOST_MAXIMAL {
+            group.bench_function("maximal", |bencher| bencher.iter(|| maximal(&contexts[0], count)));
+        }
+        for leaf_size in LEAF_SIZES {
+            for context in &contexts {
+                let id = BenchmarkId::new(format!("kdrt/{leaf_size}r"), format!("{} threads", context.num_threads()));
+                group.bench_function(id, |bencher| bencher.iter(|| kdrt(context, count, leaf_size)));
             }
         }
         group.finish();
+    }
+    print_ratios(&contexts, &counts);
+}
+
+fn print_ratios(contexts: &[Context; 2], counts: &[u32]) {
+    let threads = contexts[1].num_threads();
+    println!("{:>10} {:>8} {:>10} {:>14} {:>10}", "samples", "leaf", "ns/sample", "times maximal", "threads");
+    for &count in counts {
+        let reference = least_time_per_sample(|| maximal(&contexts[0], count.min(MOST_MAXIMAL)));
+        println!("{:>10} {:>8} {:>10.1}", count.min(MOST_MAXIMAL), "maximal", reference.as_secs_f64() * 1e9);
+        for leaf_size in LEAF_SIZES {
+            let [one, all] = [0, 1].map(|i: usize| least_time_per_sample(|| kdrt(&contexts[i], count, leaf_size)));
+            let ratio = |slow: Duration, fast: Duration| slow.as_secs_f64() / fast.as_secs_f64();
+            println!(
+                "{count:>10} {:>8} {:>10.1} {:>14.1} {:>10}",
+                format!("{leaf_size}r"),
+                one.as_secs_f64() * 1e9,
+                ratio(reference, one),
+                format!("{threads}: x{:.2}", ratio(one, all)),
+            );
+        }
     }
 }
 

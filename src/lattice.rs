@@ -156,6 +156,11 @@ impl Lattice {
         rect.intersection(&self.rect())
     }
 
+    /// About how many samples of a maximal set lie in `rect`.
+    pub fn samples_in(&self, rect: &Rect) -> f64 {
+        MAXIMAL_DENSITY * (f64::from(rect.length(0)) / self.radius) * (f64::from(rect.length(1)) / self.radius)
+    }
+
     /// The coordinates of a lattice point of the domain: exact.
     pub fn position(&self, point: [i32; 2]) -> [f32; 2] {
         std::array::from_fn(|axis| (self.origin[axis] + f64::from(point[axis]) * self.unit) as f32)

@@ -56,10 +56,12 @@ fn random_window(random: &mut Random, domain: &Domain) -> Rect {
 /// Cuts a rectangle across, again and again.
 fn random_partition(random: &mut Random, (min, max): Rect, cuts: u32, samples: &[[f32; 2]]) -> Vec<Rect> {
     let axis = usize::from(random.unit() < 0.5);
-    // Half of the cuts go through a sample, which must be in one of the two windows.
-    let through = samples[(random.unit() * samples.len() as f32) as usize][axis];
-    let cut = if cuts.is_multiple_of(2) { f64::from(through) } else { between(random, min[axis], max[axis]) };
-    if cuts == 0 || !(min[axis] < cut && cut < max[axis]) {
+    // Half of the cuts go through a sample, if one can be had, which must be in one of the two windows.
+    let through = f64::from(samples[(random.unit() * samples.len() as f32) as usize][axis]);
+    let is_inside = |cut: f64| min[axis] < cut && cut < max[axis];
+    let cut =
+        if cuts.is_multiple_of(2) && is_inside(through) { through } else { between(random, min[axis], max[axis]) };
+    if cuts == 0 || !is_inside(cut) {
         return vec![(min, max)];
     }
     let (mut end, mut start) = (max, min);

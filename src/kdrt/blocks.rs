@@ -91,6 +91,19 @@ impl Blocks {
         index
     }
 
+    /// The blocks of a rectangle of them whose column and row have the given parity, each with its lattice points.
+    pub fn of_parity(&self, blocks: &Rect, parity: [i32; 2]) -> impl Iterator<Item = ([i32; 2], Rect)> + use<> {
+        // Borders are hashed: once per column and row, not once per block.
+        let [columns, rows] = [0, 1].map(|axis: usize| {
+            let indices = (blocks.min[axis]..blocks.max[axis]).filter(move |index| index & 1 == parity[axis]);
+            indices.map(|index| (index, self.border(axis, index), self.border(axis, index + 1))).collect::<Vec<_>>()
+        });
+        rows.into_iter().flat_map(move |(row, bottom, top)| {
+            let block = move |(column, left, right)| ([column, row], Rect { min: [left, bottom], max: [right, top] });
+            columns.clone().into_iter().map(block)
+        })
+    }
+
     /// A rectangle of blocks with more columns and rows around it, as far as there are any.
     pub fn grown(&self, blocks: &Rect, [columns, rows]: [i32; 2]) -> Rect {
         let grown = Rect {

@@ -34,6 +34,43 @@ pub(super) struct Pattern {
     points: Vec<[i32; 2]>,
 }
 
+/// A run of points of one row of the pattern, from left to right, where it is laid on the plane.
+pub(super) struct Row<'a> {
+    points: &'a [[i32; 2]],
+    shift: [i32; 2],
+    /// The part of the plane that the run stands for.
+    pub part: Rect,
+    /// Whether all points lie in `part`: some may lie below or above it otherwise.
+    pub is_whole: bool,
+}
+
+impl<'a> Row<'a> {
+    /// The points on the plane.
+    pub fn points(&self) -> impl ExactSizeIterator<Item = [i32; 2]> + use<'a> {
+        let [along, up] = self.shift;
+        self.points.iter().map(move |&[x, y]| [x + along, y + up])
+    }
+
+    /// The points left of `left`, those from there to before `right`, and the others.
+    pub fn split(&self, left: i32, right: i32) -> [Self; 3] {
+        let [left, right] = [left, right].map(|x| x.clamp(self.part.min[0], self.part.max[0]));
+        // The outer runs are short: a few steps from the ends.
+        let start = self.points().position(|point| point[0] >= left).unwrap_or(self.points.len());
+        let end =
+            start + self.points[start..].iter().rposition(|&[x, _]| x + self.shift[0] < right).map_or(0, |i| i + 1);
+        let run = |points, from, to| Self {
+            points,
+            part: Rect { min: [from, self.part.min[1]], max: [to, self.part.max[1]] },
+            ..*self
+        };
+        [
+            run(&self.points[..start], self.part.min[0], left),
+            run(&self.points[start..end], left, right),
+            run(&self.points[end..], right, self.part.max[0]),
+        ]
+    }
+}
+
 impl Pattern {
     /// A pattern for a plane on `plane`, with a side in lattice points.
     pub fn new(job: &Job, plane: &Lattice, side: i32, seed: u64) -> Result<Self> {
@@ -54,20 +91,37 @@ impl Pattern {
         std::array::from_fn(|_| rng.below(self.side as u64) as i32)
     }
 
-    /// The points of the leaf's clip that lie in `part`, a part of its rectangle; in the coordinates of the plane.
-    pub fn clip(&self, leaf: &Leaf, part: &Rect) -> Vec<[i32; 2]> {
+    /// Visits the leaf's clip in `part`, a part of its rectangle, by rows.
+    pub fn rows(&self, leaf: &Leaf, part: &Rect, mut visit: impl FnMut(Row)) {
         let offset = self.offset(leaf);
         let pieces: [_; 2] = std::array::from_fn(|axis| {
             let start = (part.min[axis] - leaf.rect.min[axis] + offset[axis]) % self.side;
             self.pieces(start, part.length(axis), part.min[axis])
         });
-        let mut points = Vec::new();
         for &(bottom, top, up) in pieces[1].iter().filter(|(bottom, top, _)| bottom < top) {
-            for &(left, right, along) in pieces[0].iter().filter(|(left, right, _)| left < right) {
-                let piece = Rect { min: [left, bottom], max: [right, top] };
-                points.extend(self.points_in(&piece).map(|[x, y]| [x + along, y + up]));
+            for row in bottom / self.height..=(top - 1) / self.height {
+                let points = &self.points[self.starts[row as usize]..self.starts[row as usize + 1]];
+                let (row_bottom, row_top) = (row * self.height, ((row + 1) * self.height).min(self.side));
+                let (bottom, top) = (bottom.max(row_bottom), top.min(row_top));
+                for &(left, right, along) in pieces[0].iter().filter(|(left, right, _)| left < right) {
+                    let first = points.partition_point(|point| point[0] < left);
+                    let count = points[first..].partition_point(|point| point[0] < right);
+                    visit(Row {
+                        points: &points[first..first + count],
+                        shift: [along, up],
+                        part: Rect { min: [left, bottom], max: [right, top] }.translated([along, up]),
+                        is_whole: (bottom, top) == (row_bottom, row_top),
+                    });
+                }
             }
         }
+    }
+
+    /// The points of the leaf's clip that lie in `part`.
+    #[cfg(test)]
+    pub fn clip(&self, leaf: &Leaf, part: &Rect) -> Vec<[i32; 2]> {
+        let mut points = Vec::new();
+        self.rows(leaf, part, |row| points.extend(row.points().filter(|&point| row.part.contains(point))));
         points
     }
 
@@ -77,16 +131,6 @@ impl Pattern {
         debug_assert!((0..self.side).contains(&start) && length <= self.side);
         let first = length.min(self.side - start);
         [(start, start + first, target - start), (0, length - first, target + first)]
-    }
-
-    fn points_in(&self, rect: &Rect) -> impl Iterator<Item = [i32; 2]> {
-        let rect = *rect;
-        (rect.min[1] / self.height..=(rect.max[1] - 1) / self.height).flat_map(move |row| {
-            let row = &self.points[self.starts[row as usize]..self.starts[row as usize + 1]];
-            let first = row.partition_point(|point| point[0] < rect.min[0]);
-            let end = first + row[first..].partition_point(|point| point[0] < rect.max[0]);
-            row[first..end].iter().copied().filter(move |point| rect.contains(*point))
-        })
     }
 }
 

@@ -16,33 +16,58 @@
 use crate::lattice::Rect;
 use crate::maximal::CellGrid;
 
-use super::clip::Pattern;
+use super::clip::{Pattern, Row};
 use super::divide::Leaf;
+use super::output::Output;
 
 /// How many radii (in lattice units: reaches) around a region decide which points survive in it.
 pub(super) const LONGEST_CHAIN: i32 = 3;
 
-/// Clips the leaves, which are sorted by falling rank, inserts what survives in `window`, the grid's rectangle, and
-/// gives the points that do not.
+/// How far inside its leaf, per axis, a point has no part in any test: gaps lie within 2 reaches of a border (see
+/// [`SeamCells`]), in cells that may go a cell farther, and what conflicts with a point there is a reach away.
+pub(super) fn seam_depth(grid: &CellGrid, reach: i32) -> i32 {
+    3 * reach + grid.widest_cell()
+}
+
+/// Clips the leaves, which are sorted by falling rank. What survives in `window`, the grid's rectangle, goes to
+/// `output`, and into the grid if it is near a seam; what does not is returned.
 pub(super) fn merge(
     grid: &mut CellGrid,
     pattern: &Pattern,
     leaves: &[Leaf],
     window: &Rect,
     reach: i32,
+    output: &mut Output,
 ) -> Vec<[i32; 2]> {
     let mut eliminated = Vec::new();
+    let depth = seam_depth(grid, reach);
     for leaf in leaves {
+        let deep = leaf.rect.grown(-depth);
         // Deeper inside than this no other leaf's point conflicts.
         let inside = leaf.rect.grown(-reach);
-        for point in pattern.clip(leaf, &leaf.rect.intersection(window)) {
-            let cell = grid.cell(point);
-            if inside.contains(point) || !grid.conflicts(cell, point) {
-                grid.insert(cell, point);
-            } else {
-                eliminated.push(point);
+        let mut place = |row: &Row, output: &mut Output| {
+            for point in row.points().filter(|&point| row.part.contains(point)) {
+                if !deep.contains(point) {
+                    let cell = grid.cell(point);
+                    if !inside.contains(point) && grid.conflicts(cell, point) {
+                        eliminated.push(point);
+                        continue;
+                    }
+                    grid.insert(cell, point);
+                }
+                output.push(point);
             }
-        }
+        };
+        pattern.rows(leaf, &leaf.rect.intersection(window), |row| {
+            if row.is_whole && deep.min[1] <= row.part.min[1] && row.part.max[1] <= deep.max[1] {
+                let [left, middle, right] = row.split(deep.min[0], deep.max[0]);
+                place(&left, output);
+                output.copy(&middle);
+                place(&right, output);
+            } else {
+                place(&row, output);
+            }
+        });
     }
     eliminated
 }
@@ -88,7 +113,9 @@ impl SeamCells {
         }
     }
 
-    pub fn contains(&self, [x, y]: [i32; 2]) -> bool {
-        self.seam[(y * self.width + x) as usize]
+    /// The marked cells of a row, from column `first` to before `end`.
+    pub fn in_row(&self, row: i32, first: i32, end: i32) -> impl Iterator<Item = [i32; 2]> {
+        let cells = &self.seam[(row * self.width + first) as usize..(row * self.width + end) as usize];
+        cells.iter().zip(first..).filter(|(seam, _)| **seam).map(move |(_, column)| [column, row])
     }
 }

@@ -8,27 +8,29 @@ use crate::maximal::{CellGrid, Quadtree};
 use crate::rng::Rng;
 
 use super::conquer::SeamCells;
+use super::output::Output;
 
-/// Gaps are small: voxels are cut to a quarter of a cell's side before the first dart is thrown.
-const FIRST_LEVEL: u32 = 2;
-
-/// Makes the samples of the grid maximal in `block`, a rectangle of lattice points.
-pub(super) fn fill(grid: &mut CellGrid, seams: &SeamCells, block: &Rect, mut rng: Rng) {
-    let mut quadtree = Quadtree::new(grid, *block, empty_cells(grid, seams, block));
-    for _ in 0..FIRST_LEVEL {
-        quadtree.refine(grid);
+/// Makes the samples of the grid maximal in `block`, a rectangle of lattice points, and gives the new ones to `output`.
+/// `quadtree` is the memory for the work.
+pub(super) fn fill(
+    grid: &mut CellGrid,
+    quadtree: &mut Quadtree,
+    seams: &SeamCells,
+    block: &Rect,
+    mut rng: Rng,
+    output: &mut Output,
+) {
+    quadtree.restart(*block);
+    let cells = grid.cells_of(block);
+    for y in cells.min[1]..cells.max[1] {
+        for cell in seams.in_row(y, cells.min[0], cells.max[0]) {
+            if grid.sample(cell).is_none() {
+                quadtree.push_gaps(grid, cell);
+            }
+        }
     }
     while !quadtree.is_empty() {
-        quadtree.throw(grid, &mut rng, quadtree.len());
+        quadtree.throw(grid, &mut rng, quadtree.len(), |sample| output.push(sample));
         quadtree.refine(grid);
     }
-}
-
-/// The cells of a block that can have gaps: those without a sample near a seam.
-fn empty_cells(grid: &CellGrid, seams: &SeamCells, block: &Rect) -> Vec<[i32; 2]> {
-    let cells = grid.cells_of(block);
-    (cells.min[1]..cells.max[1])
-        .flat_map(|y| (cells.min[0]..cells.max[0]).map(move |x| [x, y]))
-        .filter(|&cell| seams.contains(cell) && grid.sample(cell).is_none())
-        .collect()
 }

@@ -14,6 +14,7 @@ mod clip;
 mod conquer;
 mod divide;
 mod fill;
+mod output;
 mod plane;
 mod window;
 
@@ -61,7 +62,7 @@ pub struct Options {
 ///   they wrap with the period `domain.max - domain.min`.
 /// * Maximal: no point of the domain is farther from all samples than `radius` + 3 float spacings at the domain's
 ///   largest coordinate.
-/// * `domain.min <= x < domain.max`; the samples come by windows of about 270 radii and in these by rows.
+/// * `domain.min <= x < domain.max`; the samples come by windows of about 270 radii, in these by leaves.
 /// * The same for every number of threads.
 /// * Its only bias is at the seams: somewhat more samples than an unbiased set, the fewer the larger the leaves.
 ///

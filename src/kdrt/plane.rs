@@ -8,13 +8,14 @@
 use crate::error::Result;
 use crate::job::Job;
 use crate::lattice::{Lattice, Rect};
-use crate::maximal::{CellAxis, CellGrid};
+use crate::maximal::{CellAxis, CellGrid, Quadtree};
 use crate::points::Boundary;
 
 use super::blocks::{Blocks, PHASES};
 use super::clip::{Pattern, pattern_side};
 use super::conquer::{LONGEST_CHAIN, SeamCells, merge};
 use super::divide::{Leaf, Tree};
+use super::output::Output;
 use super::{MIN_LEAF_SIZE, fill};
 
 /// Fill blocks along the side of a window: about 50,000 samples, which fit a core's own cache.
@@ -68,7 +69,7 @@ impl Plane {
         cut(&Rect { min: [0; 2], max: self.blocks.counts() }, side)
     }
 
-    /// The samples in a rectangle of fill blocks, by rows of cells.
+    /// The samples in a rectangle of fill blocks.
     pub fn window(&self, window: &Rect) -> Vec<[f32; 2]> {
         self.window_within(&self.surroundings(window), window)
     }
@@ -78,23 +79,19 @@ impl Plane {
         let Lattice { threshold, reach, .. } = self.lattice;
         let leaves = self.leaves(known);
         let mut grid = CellGrid::new(&self.axes, known, threshold, reach);
-        let eliminated = merge(&mut grid, &self.pattern, &leaves, known, reach);
+        let mut output = Output::new(&self.lattice, self.blocks.rect(window));
+        let eliminated = merge(&mut grid, &self.pattern, &leaves, known, reach, &mut output);
         let seams = SeamCells::new(&grid, &leaves, &eliminated, reach);
 
+        let mut quadtree = Quadtree::new(&grid, *known, Vec::new());
         for (parity, margin) in PHASES {
-            let blocks = self.blocks.grown(window, margin);
-            let first = std::array::from_fn(|axis: usize| blocks.min[axis] + ((blocks.min[axis] ^ parity[axis]) & 1));
-            let [first_column, first_row]: [i32; 2] = first;
-            for row in (first_row..blocks.max[1]).step_by(2) {
-                for column in (first_column..blocks.max[0]).step_by(2) {
-                    let block = Rect { min: [column, row], max: [column + 1, row + 1] };
-                    fill::fill(&mut grid, &seams, &self.blocks.rect(&block), self.blocks.rng(block.min));
-                }
+            for (block, rect) in self.blocks.of_parity(&self.blocks.grown(window, margin), parity) {
+                fill::fill(&mut grid, &mut quadtree, &seams, &rect, self.blocks.rng(block), &mut output);
             }
         }
         #[cfg(test)]
         grid.sanity_check();
-        grid.samples_in(&self.blocks.rect(window)).map(|sample| self.lattice.position(sample)).collect()
+        output.finish()
     }
 
     /// The lattice points on whose leaves the samples of a window depend.
@@ -216,12 +213,18 @@ mod tests {
                 }
                 let window = core.grown(LONGEST_CHAIN * reach).intersection(&all);
                 let mut grid = CellGrid::new(&plane.axes, &window, threshold, reach);
-                merge(&mut grid, &plane.pattern, &plane.leaves(&window), &window, reach);
+                let mut output = Output::new(&plane.lattice, core);
+                merge(&mut grid, &plane.pattern, &plane.leaves(&window), &window, reach, &mut output);
+                let mut positions = output.finish();
                 let mut found: Vec<_> = grid.samples_in(&core).collect();
                 let mut expected: Vec<_> = survivors.iter().copied().filter(|&point| core.contains(point)).collect();
                 found.sort_unstable();
                 expected.sort_unstable();
                 assert_eq!(found, expected);
+                let mut expected: Vec<_> = expected.into_iter().map(|point| plane.lattice.position(point)).collect();
+                positions.sort_unstable_by(|a, b| a.partial_cmp(b).unwrap());
+                expected.sort_unstable_by(|a, b| a.partial_cmp(b).unwrap());
+                assert_eq!(positions, expected);
             }
         }
     }

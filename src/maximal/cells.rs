@@ -73,7 +73,8 @@ pub(crate) struct CellGrid {
     neighbours: Vec<isize>,
     /// On a whole torus its cells and its size.
     torus: Option<[[i32; 2]; 2]>,
-    threshold: i64,
+    /// Points whose squared distance is below this conflict.
+    pub(super) threshold: i64,
 }
 
 impl CellGrid {
@@ -107,6 +108,11 @@ impl CellGrid {
     /// Cells per axis.
     pub fn counts(&self) -> [i32; 2] {
         [0, 1].map(|axis: usize| self.borders[axis].len() as i32 - 1)
+    }
+
+    /// The widest cell's side, in lattice points.
+    pub fn widest_cell(&self) -> i32 {
+        self.borders.iter().flat_map(|borders| borders.windows(2).map(|pair| pair[1] - pair[0])).max().unwrap_or(1)
     }
 
     /// The lattice points of a cell.

@@ -8,6 +8,7 @@
 
 mod cells;
 mod quadtree;
+mod sixteenths;
 
 pub(crate) use cells::{CellAxis, CellGrid};
 pub(crate) use quadtree::Quadtree;
@@ -20,7 +21,7 @@ use crate::points::{Boundary, Domain};
 use crate::rng::{Draw, Rng};
 
 /// Darts per voxel and round.
-const DARTS_PER_VOXEL: f64 = 0.7;
+const DARTS_PER_VOXEL: f64 = 2.0;
 
 /// Darts between two looks at the progress callback.
 const DARTS_PER_REPORT: usize = 1 << 16;
@@ -83,11 +84,11 @@ pub(crate) fn sample_points(job: &Job, lattice: &Lattice, seed: u64) -> Result<V
     let all = (0..rows).flat_map(|y| (0..columns).map(move |x| [x, y])).collect();
     let mut quadtree = Quadtree::new(&grid, rect, all);
     let mut rng = Rng::at(seed, Draw::Darts, &[]);
-    let mut count = 0;
+    let mut count = 0u64;
     while !quadtree.is_empty() {
         let mut darts = (quadtree.len() as f64 * DARTS_PER_VOXEL).ceil() as usize;
         while darts > 0 {
-            count += quadtree.throw(&mut grid, &mut rng, darts.min(DARTS_PER_REPORT));
+            quadtree.throw(&mut grid, &mut rng, darts.min(DARTS_PER_REPORT), |_| count += 1);
             darts = darts.saturating_sub(DARTS_PER_REPORT);
             job.report((count as f64 / expected).min(0.99))?;
         }
