@@ -518,12 +518,17 @@ azulejo_status azulejo_psp_create(const struct azulejo_context *context,
 /// for each sample that there is room for, and 10 million rays at all), the call does nothing and reports no iteration:
 /// azulejo_psp_fill is much faster there.
 ///
+/// The same calls give the same bytes on one machine; with another version of Embree or another instruction set the last
+/// bits of a hit may differ, and with them which of two candidates is taken.
+///
 /// iterations: how often; 0 does nothing.
 ///
 /// report: what this call did, or NULL.
 ///
 /// Errors: AZULEJO_ERROR_EMBREE; AZULEJO_ERROR_CANCELLED: the set then holds what was finished, and can grow on.
-azulejo_status azulejo_psp_advance(struct azulejo_psp *psp, uint32_t iterations, struct azulejo_psp_report *report);
+azulejo_status azulejo_psp_advance(struct azulejo_psp *psp,
+                                   uint32_t iterations,
+                                   struct azulejo_psp_report *report);
 
 /// Makes the set maximal: finds the parts of the surface that are farther than the radius from every sample and throws
 /// darts into them until none is left.

@@ -161,6 +161,9 @@ pub unsafe extern "C" fn azulejo_psp_create(
 /// for each sample that there is room for, and 10 million rays at all), the call does nothing and reports no iteration:
 /// azulejo_psp_fill is much faster there.
 ///
+/// The same calls give the same bytes on one machine; with another version of Embree or another instruction set the last
+/// bits of a hit may differ, and with them which of two candidates is taken.
+///
 /// iterations: how often; 0 does nothing.
 ///
 /// report: what this call did, or NULL.
