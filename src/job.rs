@@ -68,29 +68,33 @@ impl Context {
     }
 }
 
-/// A range of items cut into the tasks of [`Job::map`]: thousands of items each, the same for any number of threads.
+/// A range of items cut into the tasks of [`Job::map`]: many items each, the same for any number of threads.
 #[derive(Clone, Copy)]
 pub(crate) struct Chunks {
     items: usize,
+    size: usize,
 }
 
-/// Cuts `0..items` into chunks.
+/// Cuts `0..items` into chunks of the usual size.
 pub(crate) fn chunks(items: usize) -> Chunks {
-    Chunks { items }
+    chunks_of(items, 2048)
+}
+
+/// Cuts `0..items` into chunks of `size` items.
+pub(crate) fn chunks_of(items: usize, size: usize) -> Chunks {
+    Chunks { items, size }
 }
 
 impl Chunks {
-    const SIZE: usize = 2048;
-
     /// The number of chunks.
     pub(crate) fn len(self) -> usize {
-        self.items.div_ceil(Self::SIZE)
+        self.items.div_ceil(self.size)
     }
 
     /// The items of one chunk.
     pub(crate) fn range(self, chunk: usize) -> std::ops::Range<usize> {
-        let start = chunk * Self::SIZE;
-        start..(start + Self::SIZE).min(self.items)
+        let start = chunk * self.size;
+        start..(start + self.size).min(self.items)
     }
 }
 

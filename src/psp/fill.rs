@@ -16,7 +16,7 @@
 use std::collections::HashSet;
 
 use crate::error::Result;
-use crate::job::Job;
+use crate::job::{Job, chunks_of};
 use crate::mesh::{Mesh, next_below, round_barycentrics};
 use crate::psp::coverage::{Coverage, Fragment};
 use crate::psp::pieces::pieces;
@@ -60,10 +60,10 @@ pub(super) fn fill(job: &Job, mesh: &Mesh, samples: &mut SampleSet, seed: u64) -
             let sample = dart(mesh, fragment, spacing, seed, round);
             (!samples.rejects(&sample.1)).then_some(sample)
         };
-        let darts = rest.part(0.0, 0.1).flat_map(open.len().div_ceil(CHUNK), |chunk| {
-            let fragments = &open[chunk * CHUNK..open.len().min((chunk + 1) * CHUNK)];
-            fragments.iter().filter_map(throw).collect()
-        })?;
+        let chunks = chunks_of(open.len(), CHUNK);
+        let darts = rest
+            .part(0.0, 0.1)
+            .flat_map(chunks.len(), |chunk| open[chunks.range(chunk)].iter().filter_map(throw).collect())?;
         filled.darts += open.len() as u64;
         filled.accepted += samples.merge(&rest.part(0.1, 0.2), &first_of_each_cell(mesh, radius, darts))? as u64;
 
@@ -90,9 +90,10 @@ fn search(
     finest: impl Fn(f64) -> f64 + Sync,
 ) -> Result<Vec<Fragment>> {
     let spacing = float_spacing(mesh);
-    job.flat_map(fragments.len().div_ceil(CHUNK), |chunk| {
+    let chunks = chunks_of(fragments.len(), CHUNK);
+    job.flat_map(chunks.len(), |chunk| {
         let (mut coverage, mut uncovered) = (Coverage::new(mesh, samples), Vec::new());
-        for fragment in &fragments[chunk * CHUNK..fragments.len().min((chunk + 1) * CHUNK)] {
+        for fragment in &fragments[chunks.range(chunk)] {
             let longest = fragment.shape(mesh).longest;
             if longest > spacing || !samples.rejects(&centre(mesh, fragment)) {
                 coverage.uncovered(fragment, finest(longest).max(spacing), &mut uncovered);

@@ -11,7 +11,7 @@
 
 use crate::error::Result;
 use crate::grid3::{Grid3, distance_squared};
-use crate::job::Job;
+use crate::job::{Job, chunks_of};
 
 /// Candidates per task.
 const CHUNK: usize = 4096;
@@ -31,17 +31,16 @@ pub(super) fn greedy(job: &Job, candidates: &[[f32; 3]], radius: f64, origin: [f
     for &candidate in candidates {
         grid.insert(candidate);
     }
-    let rivals = job.part(0.0, 0.8).map(candidates.len().div_ceil(CHUNK), |chunk| {
-        let first = chunk * CHUNK;
-        Rivals::of(&grid, radius, first..candidates.len().min(first + CHUNK))
-    })?;
+    let chunks = chunks_of(candidates.len(), CHUNK);
+    let rivals = job.part(0.0, 0.8).map(chunks.len(), |chunk| Rivals::of(&grid, radius, chunks.range(chunk)))?;
 
     let mut verdicts = vec![Verdict::Open; candidates.len()];
     let mut open: Vec<u32> = (0..candidates.len() as u32).collect();
     let mut rest = job.part(0.8, 1.0);
     while !open.is_empty() {
-        let decided = rest.part(0.0, 0.5).flat_map(open.len().div_ceil(CHUNK), |chunk| {
-            let candidates = &open[chunk * CHUNK..open.len().min((chunk + 1) * CHUNK)];
+        let chunks = chunks_of(open.len(), CHUNK);
+        let decided = rest.part(0.0, 0.5).flat_map(chunks.len(), |chunk| {
+            let candidates = &open[chunks.range(chunk)];
             candidates.iter().map(|&index| decide(rivals_of(&rivals, index), &verdicts)).collect()
         })?;
         open.iter().zip(decided).for_each(|(&index, verdict)| verdicts[index as usize] = verdict);
