@@ -73,6 +73,12 @@ impl Rng {
     pub(crate) fn below(&mut self, bound: u64) -> u64 {
         ((self.bits() as u128 * bound as u128) >> 64) as u64
     }
+
+    /// Two numbers uniform in `0..bound`, at the price of one; the bias is below `bound` / 2^32.
+    pub(crate) fn pair_below(&mut self, bound: u32) -> [u32; 2] {
+        let bits = self.bits();
+        [bits >> 32, bits & 0xffff_ffff].map(|half| ((half * u64::from(bound)) >> 32) as u32)
+    }
 }
 
 #[cfg(test)]

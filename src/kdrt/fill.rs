@@ -10,6 +10,8 @@ use crate::rng::Rng;
 use super::conquer::SeamCells;
 use super::output::Output;
 
+const DARTS: (usize, usize) = (1, 2);
+
 /// Makes the samples of the grid maximal in `block`, a rectangle of lattice points, and gives the new ones to `output`.
 /// `quadtree` is the memory for the work.
 pub(super) fn fill(
@@ -20,7 +22,7 @@ pub(super) fn fill(
     mut rng: Rng,
     output: &mut Output,
 ) {
-    quadtree.restart(*block);
+    quadtree.restart(*block, grid);
     let cells = grid.cells_of(block);
     for y in cells.min[1]..cells.max[1] {
         for cell in seams.in_row(y, cells.min[0], cells.max[0]) {
@@ -30,7 +32,15 @@ pub(super) fn fill(
         }
     }
     while !quadtree.is_empty() {
-        quadtree.throw(grid, &mut rng, quadtree.len(), |sample| output.push(sample));
+        for _ in 0..(quadtree.len() * DARTS.0).div_ceil(DARTS.1) {
+            if quadtree.is_empty() {
+                break;
+            }
+            if let Some(sample) = quadtree.throw(grid, &mut rng) {
+                quadtree.prune(grid, sample);
+                output.push(sample);
+            }
+        }
         quadtree.refine(grid);
     }
 }

@@ -2,6 +2,9 @@
 
 use crate::lattice::Rect;
 
+use super::near::{LANES, Near, Rows, SLACK};
+use super::vectors::Vectors;
+
 /// How one axis of a plane is cut into cells. Cell `i` holds the lattice points from `border(i)` to before
 /// `border(i + 1)`; on a torus `i` may be any integer.
 #[derive(Clone, Debug)]
@@ -57,7 +60,10 @@ impl CellAxis {
 }
 
 /// The place of a cell without a sample: far beyond every threshold.
-const NOWHERE: [i32; 2] = [-(1 << 29); 2];
+const NOWHERE: i32 = -(1 << 29);
+
+/// The most cells away that a conflict can be: cells are narrower than r / sqrt(2) by half at most.
+const MAX_MARGIN: i32 = 3;
 
 /// A rectangle of cells with the samples in them, which never conflict.
 ///
@@ -67,12 +73,17 @@ pub(crate) struct CellGrid {
     /// Borders of the cells of each axis, one more than cells.
     borders: [Vec<i32>; 2],
     cells_per_unit: [f64; 2],
+    /// The longest side of a cell.
+    widest_cell: i32,
     margin: [i32; 2],
-    samples: Vec<[i32; 2]>,
-    /// Offsets in `samples` of all cells that can hold a conflict, the nearest first: the cell itself.
-    neighbours: Vec<isize>,
+    /// Cells of a row, with its margins.
+    stride: usize,
+    /// The coordinates of the samples by rows of cells, margins included, and as many cells more as a row is read over
+    /// its end.
+    samples: [Vec<i32>; 2],
     /// On a whole torus its cells and its size.
     torus: Option<[[i32; 2]; 2]>,
+    vectors: Vectors,
     /// Points whose squared distance is below this conflict.
     pub(super) threshold: i64,
 }
@@ -86,14 +97,18 @@ impl CellGrid {
         });
         // The images in a torus of few cells fill at most one period on each side: the nearest image is nearer.
         let margin = [0, 1].map(|axis| axes[axis].cells_within(reach));
+        debug_assert!(margin.into_iter().all(|cells| cells <= MAX_MARGIN));
         let [width, height] = [0, 1].map(|axis| borders[axis].len() - 1 + 2 * margin[axis] as usize);
+        let sides = borders.iter().flat_map(|borders| borders.windows(2).map(|pair| pair[1] - pair[0]));
         Self {
-            neighbours: neighbours(axes, margin, threshold, width as isize),
+            widest_cell: sides.max().unwrap_or(1),
             cells_per_unit: [0, 1].map(|axis: usize| 1.0 / axes[axis].side),
-            samples: vec![NOWHERE; width * height],
+            samples: [0, 1].map(|_| vec![NOWHERE; width * height + LANES]),
+            stride: width,
             borders,
             margin,
             torus: None,
+            vectors: Vectors::widest(),
             threshold,
         }
     }
@@ -110,18 +125,25 @@ impl CellGrid {
         [0, 1].map(|axis: usize| self.borders[axis].len() as i32 - 1)
     }
 
-    /// The widest cell's side, in lattice points.
+    /// The longest side of a cell, in lattice points.
     pub fn widest_cell(&self) -> i32 {
-        self.borders.iter().flat_map(|borders| borders.windows(2).map(|pair| pair[1] - pair[0])).max().unwrap_or(1)
+        self.widest_cell
+    }
+
+    /// Squared distances below this are below the threshold, also when they are computed in `f32`.
+    pub(super) fn certain(&self) -> f32 {
+        self.threshold as f32 * (1.0 - SLACK)
     }
 
     /// The lattice points of a cell.
+    #[inline(always)]
     pub fn rect(&self, cell: [i32; 2]) -> Rect {
         let border = |shift| std::array::from_fn(|axis| self.borders[axis][(cell[axis] + shift) as usize]);
         Rect { min: border(0), max: border(1) }
     }
 
     /// The cell of a lattice point of the grid.
+    #[inline(always)]
     pub fn cell(&self, point: [i32; 2]) -> [i32; 2] {
         std::array::from_fn(|axis| {
             let borders = &self.borders[axis];
@@ -146,39 +168,72 @@ impl CellGrid {
     }
 
     /// The place of a cell in `samples`; cells of the margin have one too.
+    #[inline(always)]
     fn index(&self, cell: [i32; 2]) -> usize {
-        let width = self.borders[0].len() - 1 + 2 * self.margin[0] as usize;
-        (cell[1] + self.margin[1]) as usize * width + (cell[0] + self.margin[0]) as usize
+        (cell[1] + self.margin[1]) as usize * self.stride + (cell[0] + self.margin[0]) as usize
     }
 
     /// The sample in a cell.
+    #[inline(always)]
     pub fn sample(&self, cell: [i32; 2]) -> Option<[i32; 2]> {
-        let sample = self.samples[self.index(cell)];
-        (sample != NOWHERE).then_some(sample)
+        let index = self.index(cell);
+        (self.samples[0][index] != NOWHERE).then(|| [0, 1].map(|axis: usize| self.samples[axis][index]))
+    }
+
+    /// The rows of cells around a cell in which samples can conflict with points of it.
+    #[inline(always)]
+    fn rows_near(&self, cell: [i32; 2]) -> Rows<'_> {
+        let before = self.margin[1] as usize * self.stride + self.margin[0] as usize;
+        Rows {
+            samples: [&self.samples[0], &self.samples[1]],
+            first: self.index(cell) - before,
+            stride: self.stride,
+            count: 2 * self.margin[1] as usize + 1,
+        }
+    }
+
+    /// Gathers the samples that cover something of a cell, for the coarse tests.
+    #[inline(always)]
+    pub(super) fn gather(&self, cell: [i32; 2], near: &mut Near) {
+        let rect = self.rect(cell);
+        (near.origin, near.count, near.limit) = (rect.min, 0, self.certain());
+        self.vectors.gather(near, &self.rows_near(cell), &rect, self.threshold as f32);
+    }
+
+    /// [`Near::uncovered`].
+    #[inline(always)]
+    pub(super) fn uncovered(&self, near: &Near, voxel: &Rect, width: i32) -> u16 {
+        self.vectors.uncovered(near, voxel, width)
     }
 
     /// Whether a sample conflicts with `point`, which lies in `cell`.
+    #[inline(always)]
     pub fn conflicts(&self, cell: [i32; 2], point: [i32; 2]) -> bool {
-        let index = self.index(cell) as isize;
-        self.neighbours.iter().any(|offset| {
-            let sample = self.samples[(index + offset) as usize];
-            let [dx, dy] = [0, 1].map(|axis: usize| i64::from(sample[axis]) - i64::from(point[axis]));
-            dx * dx + dy * dy < self.threshold
+        let nearest = self.vectors.nearest(&self.rows_near(cell), point);
+        if nearest >= self.threshold as f32 * (1.0 + SLACK) {
+            return false;
+        }
+        nearest < self.certain() || self.conflicts_exactly(cell, point)
+    }
+
+    /// [`CellGrid::conflicts`] where rounding could decide.
+    #[cold]
+    fn conflicts_exactly(&self, cell: [i32; 2], point: [i32; 2]) -> bool {
+        self.rows_near(cell).iter().any(|[xs, ys]| {
+            (0..LANES).any(|lane| {
+                let [dx, dy] = [(xs[lane], 0), (ys[lane], 1)].map(|(x, axis)| i64::from(x) - i64::from(point[axis]));
+                dx * dx + dy * dy < self.threshold
+            })
         })
     }
 
-    /// The samples that can conflict with points of a cell, the nearest first. `near` is the memory for them.
+    /// The samples that can conflict with points of a cell, and perhaps some more. `near` is the memory for them.
     pub fn samples_near<'a>(&self, cell: [i32; 2], near: &'a mut Vec<[i32; 2]>) -> &'a [[i32; 2]] {
-        let index = self.index(cell) as isize;
-        near.resize(self.neighbours.len(), NOWHERE);
-        let mut count = 0;
-        for offset in &self.neighbours {
-            // Written in any case and counted only if it is one: two cells of three are empty, but not predictably so.
-            let sample = self.samples[(index + offset) as usize];
-            near[count] = sample;
-            count += usize::from(sample != NOWHERE);
+        near.clear();
+        for [xs, ys] in self.rows_near(cell).iter() {
+            near.extend(xs.iter().zip(ys).filter(|(x, _)| **x != NOWHERE).map(|(&x, &y)| [x, y]));
         }
-        &near[..count]
+        near
     }
 
     /// Whether one sample of `near` alone conflicts with every lattice point of `rect`, or `rect` is empty.
@@ -195,13 +250,20 @@ impl CellGrid {
     }
 
     /// Adds a sample without conflict to `cell`.
+    #[inline(always)]
     pub fn insert(&mut self, cell: [i32; 2], point: [i32; 2]) {
         debug_assert!(self.rect(cell).contains(point) && self.sample(cell).is_none());
-        let index = self.index(cell);
-        self.samples[index] = point;
+        self.place(cell, point);
         if let Some([cells, size]) = self.torus {
             self.insert_images(cell, point, cells, size);
         }
+    }
+
+    #[inline(always)]
+    fn place(&mut self, cell: [i32; 2], point: [i32; 2]) {
+        let index = self.index(cell);
+        self.samples[0][index] = point[0];
+        self.samples[1][index] = point[1];
     }
 
     /// Adds the images of a sample of a torus that lie in the margin.
@@ -213,8 +275,7 @@ impl CellGrid {
         for turns in (-1..=1).flat_map(|y| (-1..=1).map(move |x| [x, y])) {
             let image = [0, 1].map(|axis: usize| cell[axis] + turns[axis] * cells[axis]);
             if (0..2).all(|axis| (-self.margin[axis]..cells[axis] + self.margin[axis]).contains(&image[axis])) {
-                let index = self.index(image);
-                self.samples[index] = [0, 1].map(|axis: usize| point[axis] + turns[axis] * size[axis]);
+                self.place(image, [0, 1].map(|axis: usize| point[axis] + turns[axis] * size[axis]));
             }
         }
     }
@@ -225,9 +286,9 @@ impl CellGrid {
         (cells.min[1]..cells.max[1])
             .flat_map(move |y| {
                 let [first, end] = [cells.min[0], cells.max[0]].map(|x| self.index([x, y]));
-                &self.samples[first..end]
+                self.samples[0][first..end].iter().zip(&self.samples[1][first..end])
             })
-            .copied()
+            .map(|(&x, &y)| [x, y])
             .filter(move |&sample| rect.contains(sample))
     }
 
@@ -246,18 +307,6 @@ impl CellGrid {
             }
         }
     }
-}
-
-/// The offsets of the cells that can hold a conflict with a point of the cell at 0, the nearest first.
-fn neighbours(axes: &[CellAxis; 2], margin: [i32; 2], threshold: i64, width: isize) -> Vec<isize> {
-    let mut cells: Vec<[i32; 2]> =
-        (-margin[1]..=margin[1]).flat_map(|y| (-margin[0]..=margin[0]).map(move |x| [x, y])).collect();
-    cells.retain(|cell| {
-        let [dx, dy] = [0, 1].map(|axis: usize| axes[axis].gap(cell[axis].abs()));
-        dx * dx + dy * dy < threshold as f64
-    });
-    cells.sort_by_key(|[x, y]| (x * x + y * y, *y, *x));
-    cells.into_iter().map(|[x, y]| y as isize * width + x as isize).collect()
 }
 
 #[cfg(test)]

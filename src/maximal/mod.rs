@@ -7,8 +7,10 @@
 //! floats (see `lattice.rs`), and a round throws its darts and prunes by them *before* it refines.
 
 mod cells;
+mod near;
 mod quadtree;
-mod sixteenths;
+#[allow(unsafe_code)] // Vector instructions.
+mod vectors;
 
 pub(crate) use cells::{CellAxis, CellGrid};
 pub(crate) use quadtree::Quadtree;
@@ -81,14 +83,16 @@ pub(crate) fn sample_points(job: &Job, lattice: &Lattice, seed: u64) -> Result<V
         Boundary::Periodic => CellGrid::torus(&axes, lattice.threshold, lattice.reach),
         Boundary::Bounded => CellGrid::new(&axes, &rect, lattice.threshold, lattice.reach),
     };
-    let all = (0..rows).flat_map(|y| (0..columns).map(move |x| [x, y])).collect();
+    let all = (0..rows).flat_map(|y| (0..columns).map(move |x| [x, y]));
     let mut quadtree = Quadtree::new(&grid, rect, all);
     let mut rng = Rng::at(seed, Draw::Darts, &[]);
     let mut count = 0u64;
     while !quadtree.is_empty() {
         let mut darts = (quadtree.len() as f64 * DARTS_PER_VOXEL).ceil() as usize;
         while darts > 0 {
-            quadtree.throw(&mut grid, &mut rng, darts.min(DARTS_PER_REPORT), |_| count += 1);
+            for _ in 0..darts.min(DARTS_PER_REPORT) {
+                count += u64::from(quadtree.throw(&mut grid, &mut rng).is_some());
+            }
             darts = darts.saturating_sub(DARTS_PER_REPORT);
             job.report((count as f64 / expected).min(0.99))?;
         }

@@ -6,114 +6,76 @@
 //! rounds of darts voxels are cut and the parts that one sample covers are dropped. Where the paper ends at the
 //! precision of floats, the voxels here end as single lattice points: an empty list *proves* maximality.
 //!
-//! Voxels are cut in sixteen by a coarse test (`sixteenths.rs`) while they are wide, and exactly in four after that.
+//! Voxels are cut in sixteen by a coarse test (`near.rs`) while they are wide, and exactly in four after that.
 
 use super::cells::CellGrid;
-use super::sixteenths;
+use super::near::Near;
 use crate::lattice::Rect;
 use crate::rng::Rng;
 
-/// One level of voxels: the cells of a grid, halved `depth` times per axis.
-#[derive(Clone, Copy)]
-struct Level {
-    depth: u32,
-    /// The widest voxel, in lattice points.
-    widest: [i32; 2],
-    /// What voxels are clipped to.
-    clip: Rect,
-}
-
-impl Level {
-    fn is_finest(&self) -> bool {
-        self.widest == [1; 2]
-    }
-
-    fn next(&self) -> Self {
-        Self { depth: self.depth + 1, widest: self.widest.map(|width| (width + 1) / 2), ..*self }
-    }
-
-    /// Whether its voxels are cut in sixteen, which are two levels deeper, by the coarse test; otherwise exactly in four.
-    fn is_coarse(&self) -> bool {
-        self.depth < COARSE_DEPTH && self.widest.into_iter().min() > Some(NARROWEST)
-    }
-
-    fn cell(&self, voxel: [i32; 2]) -> [i32; 2] {
-        voxel.map(|index| index >> self.depth)
-    }
-
-    /// The borders of the sixteenths of a voxel: those of the level two deeper, clipped.
-    #[inline(always)] // Small arrays that pass through memory would cost as much as the test that they are for.
-    fn quarters(&self, cell: &Rect, voxel: [i32; 2]) -> [[i32; 5]; 2] {
-        let mut borders = [[0; 5]; 2];
-        for axis in 0..2 {
-            let within = 4 * i64::from(voxel[axis] & ((1 << self.depth) - 1));
-            let length = i64::from(cell.length(axis));
-            for (border, index) in borders[axis].iter_mut().zip(within..) {
-                let unclipped = cell.min[axis] + ((length * index) >> (self.depth + 2)) as i32;
-                *border = unclipped.max(self.clip.min[axis]).min(self.clip.max[axis]);
-            }
-        }
-        borders
-    }
-
-    /// The lattice points of a voxel, given those of its cell. Integer bisection: the halves of a voxel are exactly its
-    /// points.
-    fn rect(&self, cell: &Rect, voxel: [i32; 2]) -> Rect {
-        let within = voxel.map(|index| i64::from(index & ((1 << self.depth) - 1)));
-        let border =
-            |axis: usize, index: i64| cell.min[axis] + ((i64::from(cell.length(axis)) * index) >> self.depth) as i32;
-        let unclipped = Rect {
-            min: std::array::from_fn(|axis| border(axis, within[axis])),
-            max: std::array::from_fn(|axis| border(axis, within[axis] + 1)),
-        };
-        unclipped.intersection(&self.clip)
-    }
-}
-
-/// Voxels shallower than this and wider than [`NARROWEST`] are much wider than the slack of the coarse test.
-const COARSE_DEPTH: u32 = 9;
-
-/// The narrowest voxel that is cut in sixteen.
+/// Voxels wider than this are cut in sixteen by the coarse test, which has no slack to speak of at this size; others
+/// exactly in four.
 const NARROWEST: i32 = 8;
 
-/// The voxels of a rectangle of lattice points that may be uncovered, by column and row at their level.
+/// The deepest voxels that are cut by the coarse test, as a share of the cell: much wider than its slack.
+const DEEPEST: i32 = 1 << 9;
+
+/// A rectangle of lattice points of a cell, some of which may be uncovered.
+#[derive(Clone, Copy)]
+struct Voxel {
+    rect: Rect,
+    cell: [i32; 2],
+}
+
+/// The voxels of a rectangle of lattice points that may be uncovered. Those of one cell follow each other.
 pub(crate) struct Quadtree {
-    level: Level,
-    voxels: Vec<[i32; 2]>,
+    clip: Rect,
+    /// The widest voxel of this level.
+    width: i32,
+    /// The narrowest voxel that the coarse test may cut.
+    narrowest: i32,
+    voxels: Vec<Voxel>,
     /// The memory of the next level's voxels.
-    next: Vec<[i32; 2]>,
-    /// The memory of the samples near a voxel.
-    near: Vec<[i32; 2]>,
+    next: Vec<Voxel>,
+    /// The memory of the samples near a cell, for the coarse test.
+    near: Box<Near>,
+    /// The same for the exact test.
+    exactly_near: Vec<[i32; 2]>,
 }
 
 impl Quadtree {
     /// The given cells of the grid, as far as they lie in `rect`.
-    pub fn new(grid: &CellGrid, rect: Rect, cells: Vec<[i32; 2]>) -> Self {
-        let widest = cells.iter().fold([1; 2], |widest, &cell| {
-            let rect = grid.rect(cell);
-            std::array::from_fn(|axis| rect.length(axis).max(widest[axis]))
-        });
-        let level = Level { depth: 0, widest, clip: rect };
-        Self { level, voxels: cells, next: Vec::new(), near: Vec::new() }
+    pub fn new(grid: &CellGrid, rect: Rect, cells: impl IntoIterator<Item = [i32; 2]>) -> Self {
+        let width = grid.widest_cell();
+        let voxels = cells.into_iter().map(|cell| Voxel { rect: grid.rect(cell).intersection(&rect), cell });
+        Self {
+            clip: rect,
+            width,
+            narrowest: NARROWEST.max(width / DEEPEST),
+            voxels: voxels.filter(|voxel| !voxel.rect.is_empty()).collect(),
+            next: Vec::new(),
+            near: Box::new(Near::new()),
+            exactly_near: Vec::new(),
+        }
     }
 
     /// Drops all voxels and takes those that [`Quadtree::push_gaps`] will add, as far as they lie in `rect`.
-    pub fn restart(&mut self, rect: Rect) {
+    #[inline(always)]
+    pub fn restart(&mut self, rect: Rect, grid: &CellGrid) {
         self.voxels.clear();
-        self.level = Level { depth: 2, widest: [1; 2], clip: rect };
+        self.clip = rect;
+        self.width = part(grid.widest_cell());
     }
 
-    /// Adds the sixteenths of an empty cell that may have uncovered points. Voxels must not have been cut since the
-    /// restart.
+    /// Adds the parts of an empty cell that may have uncovered points, cut in sixteen.
+    #[inline(always)]
     pub fn push_gaps(&mut self, grid: &CellGrid, cell: [i32; 2]) {
         let rect = grid.rect(cell);
-        let whole = Level { depth: 0, ..self.level };
-        let near = grid.samples_near(cell, &mut self.near);
-        let open = sixteenths::uncovered(&whole.quarters(&rect, cell), near, grid.threshold);
-        push_sixteenths(&mut self.voxels, cell, open);
-        if open != 0 {
-            self.level.widest = [0, 1].map(|axis: usize| self.level.widest[axis].max((rect.length(axis) + 3) / 4));
-        }
+        grid.gather(cell, &mut self.near);
+        let rect = rect.intersection(&self.clip);
+        let width = part(grid.widest_cell());
+        let open = parts(rect, width, grid.uncovered(&self.near, &rect, width));
+        self.voxels.extend(open.map(|rect| Voxel { rect, cell }));
     }
 
     /// How many voxels are left.
@@ -126,84 +88,91 @@ impl Quadtree {
         self.voxels.is_empty()
     }
 
-    /// Throws darts and shows those that became samples to `accepted`.
-    pub fn throw(&mut self, grid: &mut CellGrid, rng: &mut Rng, darts: usize, mut accepted: impl FnMut([i32; 2])) {
-        let level = self.level;
-        for _ in 0..darts {
-            if self.voxels.is_empty() {
-                break;
-            }
-            let pick = rng.below(self.voxels.len() as u64) as usize;
-            let voxel = self.voxels[pick];
-            let cell = level.cell(voxel);
-            if grid.sample(cell).is_some() {
-                self.voxels.swap_remove(pick);
-                continue;
-            }
-            // Every voxel gets the widest one's share of darts; those beyond its own end are void.
-            let rect = level.rect(&grid.rect(cell), voxel);
-            let point = std::array::from_fn(|axis| rect.min[axis] + rng.below(level.widest[axis] as u64) as i32);
-            if rect.contains(point) && !grid.conflicts(cell, point) {
-                grid.insert(cell, point);
-                self.voxels.swap_remove(pick);
-                accepted(point);
-            }
+    /// Throws a dart and adds it to the grid if it becomes a sample. There must be voxels left.
+    #[inline(always)]
+    pub fn throw(&mut self, grid: &mut CellGrid, rng: &mut Rng) -> Option<[i32; 2]> {
+        let pick = rng.below(self.voxels.len() as u64) as usize;
+        let Voxel { rect, cell } = self.voxels[pick];
+        // Every voxel gets the widest one's share of darts; those beyond its own end are void.
+        let [x, y] = rng.pair_below(self.width as u32);
+        let point = [rect.min[0] + x as i32, rect.min[1] + y as i32];
+        if !rect.contains(point) || grid.conflicts(cell, point) {
+            return None;
         }
+        grid.insert(cell, point);
+        Some(point)
+    }
+
+    /// Drops the voxels that a new sample covers, as far as this is certain without a second look.
+    #[inline(always)]
+    pub fn prune(&mut self, grid: &CellGrid, sample: [i32; 2]) {
+        let limit = grid.certain();
+        let mut left = 0;
+        for i in 0..self.voxels.len() {
+            let voxel = self.voxels[i];
+            let [dx, dy] = [0, 1].map(|axis: usize| {
+                let ends = [sample[axis] - voxel.rect.min[axis], voxel.rect.max[axis] - 1 - sample[axis]];
+                ends[0].max(ends[1]) as f32
+            });
+            // Written in any case, kept only if it is open: which are is not predictable.
+            self.voxels[left] = voxel;
+            left += usize::from(dx * dx + dy * dy >= limit);
+        }
+        self.voxels.truncate(left);
     }
 
     /// Cuts the voxels in parts and drops those that one sample covers. Single lattice points are not cut.
+    #[inline(always)]
     pub fn refine(&mut self, grid: &CellGrid) {
-        let level = self.level;
+        let is_coarse = self.width > self.narrowest;
+        let width = if is_coarse { part(self.width) } else { (self.width + 1) / 2 };
         self.next.clear();
-        // Voxels of one cell mostly follow each other and have their neighbours in common.
-        for voxels in self.voxels.chunk_by(|&a, &b| level.cell(a) == level.cell(b)) {
-            let cell = level.cell(voxels[0]);
-            let near = grid.samples_near(cell, &mut self.near);
-            let cell = grid.rect(cell);
-            if level.is_coarse() {
-                for &voxel in voxels {
-                    let open = sixteenths::uncovered(&level.quarters(&cell, voxel), near, grid.threshold);
-                    push_sixteenths(&mut self.next, voxel, open);
+        for voxels in self.voxels.chunk_by(|a, b| a.cell == b.cell) {
+            let cell = voxels[0].cell;
+            if grid.sample(cell).is_some() {
+                continue;
+            }
+            if is_coarse {
+                grid.gather(cell, &mut self.near);
+                for &Voxel { rect, .. } in voxels {
+                    let open = parts(rect, width, grid.uncovered(&self.near, &rect, width));
+                    self.next.extend(open.map(|rect| Voxel { rect, cell }));
                 }
             } else {
-                refine_exactly(grid, near, &level, &cell, voxels, &mut self.next);
+                let near = grid.samples_near(cell, &mut self.exactly_near);
+                let quarters = voxels.iter().flat_map(|voxel| quarters(voxel.rect, width));
+                let open = quarters.filter(|rect| !grid.covers(near, rect));
+                self.next.extend(open.map(|rect| Voxel { rect, cell }));
             }
         }
-        self.level = match level {
-            _ if level.is_coarse() => level.next().next(),
-            _ if level.is_finest() => level,
-            _ => level.next(),
-        };
+        self.width = width;
         std::mem::swap(&mut self.voxels, &mut self.next);
     }
 }
 
-/// Adds the sixteenths of a voxel whose bit is set in `open`.
-fn push_sixteenths(voxels: &mut Vec<[i32; 2]>, voxel: [i32; 2], mut open: u16) {
-    while open != 0 {
-        let i = open.trailing_zeros() as i32;
-        voxels.push([4 * voxel[0] + i % 4, 4 * voxel[1] + i / 4]);
-        open &= open - 1;
-    }
+/// The width of the parts when a voxel is cut in four along each axis.
+fn part(width: i32) -> i32 {
+    (width + 3) / 4
 }
 
-/// Adds the quarters of the voxels of one cell that no single sample covers; at the finest level the voxels.
-fn refine_exactly(
-    grid: &CellGrid,
-    near: &[[i32; 2]],
-    level: &Level,
-    cell: &Rect,
-    voxels: &[[i32; 2]],
-    open: &mut Vec<[i32; 2]>,
-) {
-    for &voxel in voxels.iter().filter(|&&voxel| !grid.covers(near, &level.rect(cell, voxel))) {
-        if level.is_finest() {
-            open.push(voxel);
-            continue;
-        }
-        let quarters = [[0, 0], [1, 0], [0, 1], [1, 1]].map(|[x, y]| [2 * voxel[0] + x, 2 * voxel[1] + y]);
-        open.extend(quarters.into_iter().filter(|&quarter| !grid.covers(near, &level.next().rect(cell, quarter))));
-    }
+/// The sixteenths of a voxel, as wide as given, whose bit is set in `open`.
+#[inline(always)]
+fn parts(voxel: Rect, width: i32, mut open: u16) -> impl Iterator<Item = Rect> {
+    std::iter::from_fn(move || {
+        (open != 0).then(|| {
+            let i = open.trailing_zeros() as i32;
+            open &= open - 1;
+            let min = [voxel.min[0] + i % 4 * width, voxel.min[1] + i / 4 * width];
+            Rect { min, max: [0, 1].map(|axis: usize| (min[axis] + width).min(voxel.max[axis])) }
+        })
+    })
+}
+
+/// The quarters of a voxel, as wide as given; of one that is no wider, itself.
+fn quarters(voxel: Rect, width: i32) -> impl Iterator<Item = Rect> {
+    let corners = [[0, 0], [1, 0], [0, 1], [1, 1]].map(|[x, y]| [voxel.min[0] + x * width, voxel.min[1] + y * width]);
+    let rects = corners.map(|min| Rect { min, max: min.map(|x| x + width) }.intersection(&voxel));
+    rects.into_iter().filter(|rect| !rect.is_empty())
 }
 
 #[cfg(test)]
@@ -230,9 +199,9 @@ mod tests {
         let mut quadtree = Quadtree::new(&grid, clip, all_cells(&grid));
         loop {
             let mut held = vec![0; 211 * 130];
-            for &voxel in &quadtree.voxels {
-                let rect = quadtree.level.rect(&grid.rect(quadtree.level.cell(voxel)), voxel);
-                assert!((0..2).all(|axis| rect.length(axis) <= quadtree.level.widest[axis]));
+            for &Voxel { rect, cell } in &quadtree.voxels {
+                assert!((0..2).all(|axis| rect.length(axis) <= quadtree.width));
+                assert_eq!(rect.intersection(&grid.rect(cell)), rect);
                 for (y, x) in (rect.min[1]..rect.max[1]).flat_map(|y| (rect.min[0]..rect.max[0]).map(move |x| (y, x))) {
                     held[(y * 211 + x) as usize] += 1;
                 }
@@ -241,7 +210,7 @@ mod tests {
                 let inside = clip.contains([place as i32 % 211, place as i32 / 211]);
                 assert_eq!(held, i32::from(inside));
             }
-            if quadtree.level.is_finest() {
+            if quadtree.width == 1 {
                 break;
             }
             quadtree.refine(&grid);
@@ -260,7 +229,7 @@ mod tests {
                 (0..level).for_each(|_| quadtree.refine(&grid));
                 let mut first = None;
                 while first.is_none() {
-                    quadtree.throw(&mut grid, &mut rng, 1, |sample| first = Some(sample));
+                    first = quadtree.throw(&mut grid, &mut rng);
                 }
                 let [x, y] = first.unwrap();
                 histogram[(y * 57 + x) as usize] += 1;
