@@ -17,6 +17,9 @@ pub(super) const LANES: usize = 8;
 /// side r / sqrt(2)), a few more where a torus is so narrow that images of one sample do. Any more are left out.
 pub(super) const MOST_NEAR: usize = 16;
 
+/// A coordinate of no sample. Its square is a float.
+pub(super) const FAR: f32 = 1e18;
+
 /// The rows of cells around a place in which samples can conflict with its points. What lies in a row beyond the reach
 /// of conflicts is read too; it is what it is, and cannot conflict. The place of a cell without sample is far away.
 pub(super) struct Rows<'a> {
@@ -55,7 +58,8 @@ impl<'a> Rows<'a> {
 /// The samples that cover something of a cell, as seen from its corner.
 pub(super) struct Near {
     pub origin: [i32; 2],
-    /// The first `count` are samples; a row's worth beyond the most there can be is room to write.
+    /// The first `count` are samples; the eight after them are [`FAR`], so that a few can be tested whether they are there
+    /// or not. How many there are is not predictable.
     pub x: [f32; MOST_NEAR + LANES],
     pub y: [f32; MOST_NEAR + LANES],
     pub count: usize,
@@ -66,7 +70,7 @@ pub(super) struct Near {
 impl Near {
     /// Memory for what is near a cell.
     pub fn new() -> Self {
-        Self { origin: [0; 2], x: [0.0; MOST_NEAR + LANES], y: [0.0; MOST_NEAR + LANES], count: 0, limit: 0.0 }
+        Self { origin: [0; 2], x: [FAR; MOST_NEAR + LANES], y: [FAR; MOST_NEAR + LANES], count: 0, limit: 0.0 }
     }
 
     /// Adds the samples of the rows that are closer than the square root of `threshold` to the lattice points of `cell`.
@@ -83,6 +87,8 @@ impl Near {
                 }
             }
         }
+        self.x[self.count..self.count + LANES].fill(FAR);
+        self.y[self.count..self.count + LANES].fill(FAR);
     }
 
     /// The sixteenths of a voxel, four by four of the given width from its corner on: bit `4·row + column` of the result

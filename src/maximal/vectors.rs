@@ -5,7 +5,7 @@ use std::arch::x86_64::*;
 
 use crate::lattice::Rect;
 
-use super::near::{LANES, MOST_NEAR, Near, Rows};
+use super::near::{FAR, LANES, MOST_NEAR, Near, Rows};
 
 /// Which vectors the processor has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -77,6 +77,10 @@ impl Vectors {
     }
 }
 
+/// As many samples near a cell are tested in any case; seldom are there more.
+#[cfg(target_arch = "x86_64")]
+const ALWAYS: usize = 6;
+
 /// A row of cells: coordinates along one axis.
 #[cfg(target_arch = "x86_64")]
 #[inline]
@@ -141,9 +145,13 @@ fn gather_avx2(near: &mut Near, rows: &Rows, cell: &Rect, threshold: f32) {
     for row in rows.iter() {
         let (positions, covers) = covering(row, near.origin, end, threshold);
         let covers = _mm256_movemask_ps(covers) as u32;
-        let order = _mm256_cvtepu8_epi32(_mm_cvtsi64_si128(LANES_TO_FRONT[covers as usize]));
+        let order = _mm256_cvtepi8_epi32(_mm_cvtsi64_si128(LANES_TO_FRONT[covers as usize]));
         let [x, y] = positions;
-        push(near, [_mm256_permutevar8x32_ps(x, order), _mm256_permutevar8x32_ps(y, order)], covers.count_ones());
+        let (x, y) = (_mm256_permutevar8x32_ps(x, order), _mm256_permutevar8x32_ps(y, order));
+        // The sign of an unused lane's number is set.
+        let (far, unused) = (_mm256_set1_ps(FAR), _mm256_castsi256_ps(order));
+        let lanes = [_mm256_blendv_ps(x, far, unused), _mm256_blendv_ps(y, far, unused)];
+        push(near, lanes, covers.count_ones());
     }
 }
 
@@ -155,21 +163,23 @@ fn gather_avx512(near: &mut Near, rows: &Rows, cell: &Rect, threshold: f32) {
         let (positions, covers) = covering(row, near.origin, end, threshold);
         let covers = _mm256_movemask_ps(covers) as u8;
         let [x, y] = positions;
-        let lanes = [_mm256_maskz_compress_ps(covers, x), _mm256_maskz_compress_ps(covers, y)];
+        let far = _mm256_set1_ps(FAR);
+        let lanes = [_mm256_mask_compress_ps(far, covers, x), _mm256_mask_compress_ps(far, covers, y)];
         push(near, lanes, covers.count_ones());
     }
 }
 
-/// For each choice of lanes, one per bit: the numbers of these lanes, in order, in the bytes from the lowest on.
+/// For each choice of lanes, one per bit: the numbers of these lanes, in order, in the bytes from the lowest on; -1 in
+/// the others.
 #[cfg(target_arch = "x86_64")]
 const LANES_TO_FRONT: [i64; 256] = {
-    let mut table = [0; 256];
+    let mut table = [-1; 256];
     let mut choice = 0;
     while choice < 256 {
         let (mut lane, mut byte) = (0, 0);
         while lane < 8 {
             if choice >> lane & 1 == 1 {
-                table[choice] |= lane << (8 * byte);
+                table[choice] &= !(0xff << (8 * byte)) | lane << (8 * byte);
                 byte += 1;
             }
             lane += 1;
@@ -211,7 +221,8 @@ fn uncovered_avx2(near: &Near, voxel: &Rect, width: i32) -> u16 {
     let upper = parts_avx2(min[1], max[1], width, _mm256_setr_epi32(2, 2, 2, 2, 3, 3, 3, 3));
     let lower = parts_avx2(min[1], max[1], width, _mm256_setr_epi32(0, 0, 0, 0, 1, 1, 1, 1));
     let mut nearest = [_mm256_set1_ps(f32::MAX); 2];
-    for (&x, &y) in near.x[..near.count].iter().zip(&near.y[..near.count]) {
+    let count = near.count.max(ALWAYS);
+    for (&x, &y) in near.x[..count].iter().zip(&near.y[..count]) {
         let along = farthest_avx2(x, columns);
         nearest[0] = _mm256_min_ps(nearest[0], _mm256_add_ps(along, farthest_avx2(y, lower)));
         nearest[1] = _mm256_min_ps(nearest[1], _mm256_add_ps(along, farthest_avx2(y, upper)));
@@ -258,7 +269,8 @@ fn uncovered_avx512(near: &Near, voxel: &Rect, width: i32) -> u16 {
     let columns = parts_avx512(min[0], max[0], width, columns);
     let rows = parts_avx512(min[1], max[1], width, rows);
     let mut nearest = _mm512_set1_ps(f32::MAX);
-    for (&x, &y) in near.x[..near.count].iter().zip(&near.y[..near.count]) {
+    let count = near.count.max(ALWAYS);
+    for (&x, &y) in near.x[..count].iter().zip(&near.y[..count]) {
         nearest = _mm512_min_ps(nearest, _mm512_add_ps(farthest_avx512(x, columns), farthest_avx512(y, rows)));
     }
     let zero = _mm512_setzero_ps();
