@@ -4,14 +4,18 @@
 //! of earlier phases. Blocks of one phase are farther than r apart, so each depends only on a few others and the plane
 //! needs no order beyond that of the phases.
 //!
-//! Regular borders would leave peaks in the spectrum, so each is moved by up to 3/8 of the regular width.
+//! Regular borders would leave peaks in the spectrum, so each is moved by up to a quarter of the regular width.
 
 use crate::lattice::{Lattice, Rect};
 use crate::points::Boundary;
 use crate::rng::{Draw, Rng, hash};
 
-/// The width of a block in radii, before jitter: eight cells.
-const WIDTH: f64 = 4.0 * std::f64::consts::SQRT_2;
+/// The most that a block is wide, in radii, before jitter. With jitter it touches [`MOST_CELLS`](super::stamp::MOST_CELLS)
+/// cells at most, since a domain worth tiling has cells of at least 0.67 radii.
+const WIDTH: f64 = 4.8;
+
+/// How far a border is moved at most, as a share of the width.
+const JITTER: f64 = 0.25;
 
 /// The phases: the parity of their blocks' column and row, and how many columns and rows around a window of blocks
 /// must be filled in this phase, so that the window's own blocks come out right.
@@ -36,9 +40,9 @@ impl Blocks {
     /// The blocks of a lattice that is at least two of them wide and high.
     pub fn new(lattice: &Lattice, seed: u64) -> Self {
         let counts = lattice.size.map(|size| {
-            let count = (f64::from(size) / (WIDTH * lattice.radius)) as i32;
+            let widths = f64::from(size) / (WIDTH * lattice.radius);
             // The parities of the phases must go on across the seam of a torus.
-            if lattice.boundary == Boundary::Periodic { count / 2 * 2 } else { count }
+            if lattice.boundary == Boundary::Periodic { 2 * (widths / 2.0).ceil() as i32 } else { widths.ceil() as i32 }
         });
         Self { size: lattice.size, counts, boundary: lattice.boundary, seed }
     }
@@ -56,7 +60,7 @@ impl Blocks {
         let jitter = if index == 0 {
             0
         } else {
-            let limit = (size / count * 3 / 8) as i32;
+            let limit = (size as f64 / count as f64 * JITTER) as i32;
             Rng::at(self.seed, Draw::Block, &[axis as u64, index as u64]).below(2 * limit as u64 + 1) as i32 - limit
         };
         turn * self.size[axis] + regular + jitter

@@ -78,14 +78,16 @@ pub(super) fn merge(
 /// outside the leaf, so the point is within a reach of the leaf's border, or it was eliminated. Both are the same for
 /// all windows that know what survives around the cell, so they agree on it.
 pub(super) struct SeamCells {
-    width: i32,
-    seam: Vec<bool>,
+    /// Words of a row of cells, each with a bit per cell, and one more.
+    stride: usize,
+    seam: Vec<u64>,
 }
 
 impl SeamCells {
     pub fn new(grid: &CellGrid, leaves: &[Leaf], eliminated: &[[i32; 2]], reach: i32) -> Self {
         let [width, height] = grid.counts();
-        let mut cells = Self { width, seam: vec![false; width as usize * height as usize] };
+        let stride = width as usize / 64 + 2;
+        let mut cells = Self { stride, seam: vec![0; stride * height as usize] };
         for leaf in leaves {
             let all = grid.cells_of(&leaf.rect);
             // A cell that the border of the inner rectangle cuts is not inside of it.
@@ -107,15 +109,22 @@ impl SeamCells {
     }
 
     fn mark(&mut self, cells: &Rect) {
-        for y in cells.min[1]..cells.max[1] {
-            let row = (y * self.width) as usize;
-            self.seam[row + cells.min[0] as usize..row + cells.max[0] as usize].fill(true);
+        let mut first = cells.min[0];
+        while first < cells.max[0] {
+            let (word, bit) = (first as usize / 64, first % 64);
+            let count = (64 - bit).min(cells.max[0] - first);
+            let bits = u64::MAX >> (64 - count) << bit;
+            for y in cells.min[1]..cells.max[1] {
+                self.seam[y as usize * self.stride + word] |= bits;
+            }
+            first += count;
         }
     }
 
-    /// The marked cells of a row, from column `first` to before `end`.
-    pub fn in_row(&self, row: i32, first: i32, end: i32) -> impl Iterator<Item = [i32; 2]> {
-        let cells = &self.seam[(row * self.width + first) as usize..(row * self.width + end) as usize];
-        cells.iter().zip(first..).filter(|(seam, _)| **seam).map(move |(_, column)| [column, row])
+    /// The marks of a row from column `first` to before `end`, less than 64 of them, one per bit.
+    pub fn in_row(&self, row: i32, first: i32, end: i32) -> u64 {
+        let (word, bit) = (row as usize * self.stride + first as usize / 64, first % 64);
+        let bits = self.seam[word] >> bit | self.seam[word + 1] << 1 << (63 - bit);
+        bits & !(u64::MAX << (end - first))
     }
 }

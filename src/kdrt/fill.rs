@@ -1,7 +1,8 @@
 //! Conquer, second half (thesis §2.3.3): the gaps that elimination leaves are filled.
 //!
 //! Departure: the thesis puts a sample at a circumcentre in each gap, again and again, and so prefers the middle of
-//! gaps; here a gap is filled by the flat quadtree, uniformly on what is uncovered and until nothing is.
+//! gaps; here a gap is filled by a flat quadtree, uniformly on what is uncovered and until nothing is. Its first level
+//! is a bitmap (`stamp.rs`), in which nearly all gaps are found and closed.
 
 use crate::lattice::Rect;
 use crate::maximal::{CellGrid, Quadtree};
@@ -9,38 +10,76 @@ use crate::rng::Rng;
 
 use super::conquer::SeamCells;
 use super::output::Output;
+use super::stamp::{Bitmap, Place, Stamps};
 
-const DARTS: (usize, usize) = (1, 2);
+/// The filling of the blocks of a window, one after the other.
+pub(super) struct Filling<'a> {
+    stamps: &'a Stamps,
+    seams: SeamCells,
+    /// The largest distance along an axis at which samples conflict.
+    reach: i32,
+    quadtree: Quadtree,
+    /// The memory of the samples around a block.
+    near: Vec<[i32; 2]>,
+    /// The memory of its open voxels.
+    open: Vec<Place>,
+}
 
-/// Makes the samples of the grid maximal in `block`, a rectangle of lattice points, and gives the new ones to `output`.
-/// `quadtree` is the memory for the work.
-pub(super) fn fill(
-    grid: &mut CellGrid,
-    quadtree: &mut Quadtree,
-    seams: &SeamCells,
-    block: &Rect,
-    mut rng: Rng,
-    output: &mut Output,
-) {
-    quadtree.restart(*block, grid);
-    let cells = grid.cells_of(block);
-    for y in cells.min[1]..cells.max[1] {
-        for cell in seams.in_row(y, cells.min[0], cells.max[0]) {
-            if grid.sample(cell).is_none() {
-                quadtree.push_gaps(grid, cell);
-            }
-        }
+impl<'a> Filling<'a> {
+    pub fn new(stamps: &'a Stamps, seams: SeamCells, reach: i32) -> Self {
+        Self { stamps, seams, reach, quadtree: Quadtree::empty(), near: Vec::new(), open: Vec::new() }
     }
-    while !quadtree.is_empty() {
-        for _ in 0..(quadtree.len() * DARTS.0).div_ceil(DARTS.1) {
-            if quadtree.is_empty() {
+
+    /// Makes the samples of the grid maximal in `block`, a rectangle of lattice points, and gives the new ones to `output`.
+    pub fn fill(&mut self, grid: &mut CellGrid, block: &Rect, mut rng: Rng, output: &mut Output) {
+        let Some(mut bitmap) = Bitmap::of_seams(self.stamps, grid, &self.seams, *block) else { return };
+        grid.collect(&block.grown(self.reach), &mut self.near);
+        self.near.iter().for_each(|&sample| bitmap.stamp(sample));
+        bitmap.list(&mut self.open);
+
+        let width = Bitmap::widest(grid);
+        for _ in 0..darts(self.open.len()) {
+            if self.open.is_empty() {
                 break;
             }
-            if let Some(sample) = quadtree.throw(grid, &mut rng) {
-                quadtree.prune(grid, sample);
+            let pick = rng.below(self.open.len() as u64) as usize;
+            let place = self.open[pick];
+            if !bitmap.is_open(place) {
+                self.open.swap_remove(pick);
+                continue;
+            }
+            let (cell, rect) = bitmap.voxel(grid, place);
+            if let Some(sample) = grid.throw(cell, &rect, width, &mut rng) {
+                bitmap.stamp(sample);
                 output.push(sample);
             }
         }
-        quadtree.refine(grid);
+
+        self.open.retain(|&place| bitmap.is_open(place));
+        if self.open.is_empty() {
+            return;
+        }
+        self.quadtree.restart(grid, width, self.open.iter().map(|&place| bitmap.voxel(grid, place)));
+        loop {
+            self.quadtree.refine(grid);
+            for _ in 0..darts(self.quadtree.len()) {
+                if self.quadtree.is_empty() {
+                    return;
+                }
+                if let Some(sample) = self.quadtree.throw(grid, &mut rng) {
+                    self.quadtree.prune(grid, sample);
+                    output.push(sample);
+                }
+            }
+            if self.quadtree.is_empty() {
+                return;
+            }
+        }
     }
+}
+
+/// How many darts are thrown at so many voxels before these are cut: most of what they hit becomes a sample, and most
+/// samples close a gap.
+fn darts(voxels: usize) -> usize {
+    voxels.div_ceil(2)
 }

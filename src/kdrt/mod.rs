@@ -16,6 +16,7 @@ mod divide;
 mod fill;
 mod output;
 mod plane;
+mod stamp;
 mod window;
 
 use crate::error::{Error, Result};

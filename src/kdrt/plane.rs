@@ -8,18 +8,20 @@
 use crate::error::Result;
 use crate::job::Job;
 use crate::lattice::{Lattice, Rect};
-use crate::maximal::{CellAxis, CellGrid, Quadtree};
+use crate::maximal::{CellAxis, CellGrid};
 use crate::points::Boundary;
 
 use super::blocks::{Blocks, PHASES};
 use super::clip::{Pattern, pattern_side};
 use super::conquer::{LONGEST_CHAIN, SeamCells, merge};
 use super::divide::{Leaf, Tree};
+use super::fill::Filling;
 use super::output::Output;
-use super::{MIN_LEAF_SIZE, fill};
+use super::stamp::Stamps;
+use super::MIN_LEAF_SIZE;
 
 /// Fill blocks along the side of a window: about 50,000 samples, which fit a core's own cache.
-const WINDOW_BLOCKS: i32 = 48;
+const WINDOW_BLOCKS: i32 = 56;
 
 /// A maximal set of a whole domain, of which any window can be made.
 pub(super) struct Plane {
@@ -28,6 +30,7 @@ pub(super) struct Plane {
     tree: Tree,
     pattern: Pattern,
     blocks: Blocks,
+    stamps: Stamps,
 }
 
 impl Plane {
@@ -46,8 +49,10 @@ impl Plane {
             Boundary::Periodic => units(leaf_size).min(f64::from(size / 2)) as i32,
             Boundary::Bounded => units(leaf_size) as i32,
         });
+        let axes = lattice.size.map(|size| CellAxis::new(size, lattice.radius));
         Ok(Self {
-            axes: lattice.size.map(|size| CellAxis::new(size, lattice.radius)),
+            stamps: Stamps::new(lattice.radius, [0, 1].map(|axis: usize| axes[axis].side())),
+            axes,
             tree: Tree::new(lattice.rect(), shortest, seed),
             blocks: Blocks::new(&lattice, seed),
             pattern,
@@ -83,10 +88,10 @@ impl Plane {
         let eliminated = merge(&mut grid, &self.pattern, &leaves, known, reach, &mut output);
         let seams = SeamCells::new(&grid, &leaves, &eliminated, reach);
 
-        let mut quadtree = Quadtree::new(&grid, *known, Vec::new());
+        let mut filling = Filling::new(&self.stamps, seams, reach);
         for (parity, margin) in PHASES {
             for (block, rect) in self.blocks.of_parity(&self.blocks.grown(window, margin), parity) {
-                fill::fill(&mut grid, &mut quadtree, &seams, &rect, self.blocks.rng(block), &mut output);
+                filling.fill(&mut grid, &rect, self.blocks.rng(block), &mut output);
             }
         }
         #[cfg(test)]

@@ -1,6 +1,7 @@
 //! Cells of one sample at most: the exact conflict and coverage tests of everything that happens in the plane.
 
 use crate::lattice::Rect;
+use crate::rng::Rng;
 
 use super::near::{LANES, Near, Rows, SLACK};
 use super::vectors::Vectors;
@@ -22,6 +23,11 @@ impl CellAxis {
         // Rounded upwards, so that the last border is `size` and not one below it.
         let side = f64::from(size) / count * (1.0 + 2.0 * f64::EPSILON);
         Self { size, count: count as i32, side }
+    }
+
+    /// The side of a cell, in lattice points; borders are rounded.
+    pub fn side(&self) -> f64 {
+        self.side
     }
 
     /// The number of cells in the domain.
@@ -142,6 +148,13 @@ impl CellGrid {
         Rect { min: border(0), max: border(1) }
     }
 
+    /// The border before a part of a column (axis 0) or row (axis 1) of cells that is cut in `parts`.
+    #[inline(always)]
+    pub fn border(&self, axis: usize, cell: i32, part: i32, parts: i32) -> i32 {
+        let [first, end] = [self.borders[axis][cell as usize], self.borders[axis][cell as usize + 1]];
+        first + (end - first) * part / parts
+    }
+
     /// The cell of a lattice point of the grid.
     #[inline(always)]
     pub fn cell(&self, point: [i32; 2]) -> [i32; 2] {
@@ -216,6 +229,19 @@ impl CellGrid {
         nearest < self.certain() || self.conflicts_exactly(cell, point)
     }
 
+    /// Throws a dart at a voxel of a cell and adds it if it becomes a sample. Every voxel gets the share of darts of one
+    /// as wide as `width`; those beyond its own end are void.
+    #[inline(always)]
+    pub fn throw(&mut self, cell: [i32; 2], voxel: &Rect, width: i32, rng: &mut Rng) -> Option<[i32; 2]> {
+        let [x, y] = rng.pair_below(width as u32);
+        let point = [voxel.min[0] + x as i32, voxel.min[1] + y as i32];
+        if !voxel.contains(point) || self.conflicts(cell, point) {
+            return None;
+        }
+        self.insert(cell, point);
+        Some(point)
+    }
+
     /// [`CellGrid::conflicts`] where rounding could decide.
     #[cold]
     fn conflicts_exactly(&self, cell: [i32; 2], point: [i32; 2]) -> bool {
@@ -278,6 +304,24 @@ impl CellGrid {
                 self.place(image, [0, 1].map(|axis: usize| point[axis] + turns[axis] * size[axis]));
             }
         }
+    }
+
+    /// Writes the samples in `rect` to `samples`, by rows of cells.
+    #[inline(always)]
+    pub fn collect(&self, rect: &Rect, samples: &mut Vec<[i32; 2]>) {
+        let cells = self.cells_of(rect);
+        samples.clear();
+        samples.resize((cells.length(0) * cells.length(1)) as usize, [0; 2]);
+        let mut count = 0;
+        for y in cells.min[1]..cells.max[1] {
+            let [first, end] = [cells.min[0], cells.max[0]].map(|x| self.index([x, y]));
+            for (&x, &y) in self.samples[0][first..end].iter().zip(&self.samples[1][first..end]) {
+                // Written in any case and counted only if it is one: which cells have one is not predictable.
+                samples[count] = [x, y];
+                count += usize::from(rect.contains([x, y]));
+            }
+        }
+        samples.truncate(count);
     }
 
     /// The samples in `rect`, by rows of cells.

@@ -29,7 +29,6 @@ struct Voxel {
 
 /// The voxels of a rectangle of lattice points that may be uncovered. Those of one cell follow each other.
 pub(crate) struct Quadtree {
-    clip: Rect,
     /// The widest voxel of this level.
     width: i32,
     /// The narrowest voxel that the coarse test may cut.
@@ -46,36 +45,30 @@ pub(crate) struct Quadtree {
 impl Quadtree {
     /// The given cells of the grid, as far as they lie in `rect`.
     pub fn new(grid: &CellGrid, rect: Rect, cells: impl IntoIterator<Item = [i32; 2]>) -> Self {
-        let width = grid.widest_cell();
-        let voxels = cells.into_iter().map(|cell| Voxel { rect: grid.rect(cell).intersection(&rect), cell });
+        let voxels = cells.into_iter().map(|cell| (cell, grid.rect(cell).intersection(&rect)));
+        let mut quadtree = Self::empty();
+        quadtree.restart(grid, grid.widest_cell(), voxels.filter(|(_, rect)| !rect.is_empty()));
+        quadtree
+    }
+
+    /// No voxels.
+    pub fn empty() -> Self {
         Self {
-            clip: rect,
-            width,
-            narrowest: NARROWEST.max(width / DEEPEST),
-            voxels: voxels.filter(|voxel| !voxel.rect.is_empty()).collect(),
+            width: 1,
+            narrowest: NARROWEST,
+            voxels: Vec::new(),
             next: Vec::new(),
             near: Box::new(Near::new()),
             exactly_near: Vec::new(),
         }
     }
 
-    /// Drops all voxels and takes those that [`Quadtree::push_gaps`] will add, as far as they lie in `rect`.
-    #[inline(always)]
-    pub fn restart(&mut self, rect: Rect, grid: &CellGrid) {
+    /// Drops all voxels and takes the given ones, no wider than `width`, each with its cell.
+    pub fn restart(&mut self, grid: &CellGrid, width: i32, voxels: impl Iterator<Item = ([i32; 2], Rect)>) {
+        self.width = width;
+        self.narrowest = NARROWEST.max(grid.widest_cell() / DEEPEST);
         self.voxels.clear();
-        self.clip = rect;
-        self.width = part(grid.widest_cell());
-    }
-
-    /// Adds the parts of an empty cell that may have uncovered points, cut in sixteen.
-    #[inline(always)]
-    pub fn push_gaps(&mut self, grid: &CellGrid, cell: [i32; 2]) {
-        let rect = grid.rect(cell);
-        grid.gather(cell, &mut self.near);
-        let rect = rect.intersection(&self.clip);
-        let width = part(grid.widest_cell());
-        let open = parts(rect, width, grid.uncovered(&self.near, &rect, width));
-        self.voxels.extend(open.map(|rect| Voxel { rect, cell }));
+        self.voxels.extend(voxels.map(|(cell, rect)| Voxel { rect, cell }));
     }
 
     /// How many voxels are left.
@@ -93,14 +86,7 @@ impl Quadtree {
     pub fn throw(&mut self, grid: &mut CellGrid, rng: &mut Rng) -> Option<[i32; 2]> {
         let pick = rng.below(self.voxels.len() as u64) as usize;
         let Voxel { rect, cell } = self.voxels[pick];
-        // Every voxel gets the widest one's share of darts; those beyond its own end are void.
-        let [x, y] = rng.pair_below(self.width as u32);
-        let point = [rect.min[0] + x as i32, rect.min[1] + y as i32];
-        if !rect.contains(point) || grid.conflicts(cell, point) {
-            return None;
-        }
-        grid.insert(cell, point);
-        Some(point)
+        grid.throw(cell, &rect, self.width, rng)
     }
 
     /// Drops the voxels that a new sample covers, as far as this is certain without a second look.

@@ -1,0 +1,193 @@
+//! Which parts of a fill block are covered, as a bitmap of voxels that samples are stamped out of.
+//!
+//! A voxel is a quarter of a cell wide, so a row of a block is one word, and a sample clears, in a dozen words, the
+//! voxels that lie in its disk. Which these are depends only on where in its voxel the sample lies; to a sixteenth of a
+//! voxel that is looked up in a table. The table holds what is covered for certain: the bitmap may keep voxels that are
+//! covered, never the other way round.
+
+use crate::lattice::Rect;
+use crate::maximal::CellGrid;
+
+use super::conquer::SeamCells;
+
+/// Voxels along a cell's side.
+const PER_CELL: i32 = 4;
+
+/// Places in a voxel that the table tells apart, per axis.
+const PLACES: i32 = 16;
+
+/// Voxels on each side of a sample's own that its disk can cover: r is at most 6 voxels (see [`Stamps::new`]).
+const REACH: i32 = 6;
+
+/// Voxels of a block's bitmap before its first one, so that every stamp begins in the bitmap.
+const MARGIN: i32 = 2 * REACH;
+
+/// Voxels along the side of the largest block.
+const LONGEST: i32 = u64::BITS as i32 - MARGIN;
+
+/// The most cells along the side of a block.
+pub(super) const MOST_CELLS: i32 = LONGEST / PER_CELL;
+
+/// Rows of a stamp, some of them empty.
+const STAMP_ROWS: usize = 16;
+
+/// Rows of a bitmap: those of the longest block with the margin before it, and a stamp that begins in the last one.
+const ROWS: usize = (MARGIN + LONGEST) as usize + STAMP_ROWS;
+
+/// The stamps of a plane.
+pub(super) struct Stamps {
+    /// Places per lattice point, per axis.
+    places: [f32; 2],
+    /// By the row and the column of the place in the voxel. Bit 0 of row 0 is the voxel [`REACH`] columns and rows before
+    /// that of the sample.
+    table: Vec<[u16; STAMP_ROWS]>,
+}
+
+impl Stamps {
+    /// The stamps of disks of the given radius on cells with the given sides, in lattice points: a little less than
+    /// radius / sqrt(2), and not below radius / (6/4).
+    pub fn new(radius: f64, sides: [f64; 2]) -> Self {
+        let voxels = sides.map(|side| side / f64::from(PER_CELL));
+        let squares = (0..2).map(|axis| Self::squares(radius, voxels[axis])).collect::<Vec<_>>();
+        let table = (0..PLACES * PLACES).map(|place| {
+            let [x, y] = [place % PLACES, place / PLACES].map(|place| place as usize);
+            std::array::from_fn(|row| {
+                let covered = |column: &usize| {
+                    row <= 2 * REACH as usize && squares[0][x][*column] + squares[1][y][row] < 1.0
+                };
+                (0..=2 * REACH as usize).filter(covered).map(|column| 1 << column).sum()
+            })
+        });
+        Self { places: voxels.map(|voxel| (f64::from(PLACES) / voxel) as f32), table: table.collect() }
+    }
+
+    /// For each place along an axis and each voxel: the squared distance to the voxel's farthest point, in units of the
+    /// squared radius, with all that rounding can add to it.
+    fn squares(radius: f64, voxel: f64) -> Vec<Vec<f64>> {
+        let places = f64::from(PLACES);
+        // Borders are rounded to the lattice; the place is found in `f32`.
+        let (border, rounding) = (3.0 / voxel, 0.01 / places);
+        let square = |place: i32, column: i32| {
+            let (first, last) = (f64::from(place) / places - rounding, f64::from(place + 1) / places + rounding);
+            let column = f64::from(column);
+            let farthest = (column + 1.0 + border - first).max(last - column + border);
+            (farthest * voxel / radius).powi(2) * (1.0 + 1e-9)
+        };
+        (0..PLACES).map(|place| (-REACH..=REACH).map(|column| square(place, column)).collect()).collect()
+    }
+}
+
+/// The voxels of a block that may be uncovered.
+pub(super) struct Bitmap<'a> {
+    stamps: &'a Stamps,
+    block: Rect,
+    /// The cells that hold the block, and the first of their lattice points.
+    cells: Rect,
+    origin: [i32; 2],
+    rows: [u64; ROWS],
+}
+
+/// The column and row of a voxel in the bitmap.
+pub(super) type Place = [u8; 2];
+
+impl<'a> Bitmap<'a> {
+    /// The voxels of the block in cells at seams, as if nothing covered them; `None` if there are none.
+    #[inline(always)]
+    pub fn of_seams(stamps: &'a Stamps, grid: &CellGrid, seams: &SeamCells, block: Rect) -> Option<Self> {
+        let cells = grid.cells_of(&block);
+        let mut bitmap = Self { stamps, block, cells, origin: grid.rect(cells.min).min, rows: [0; ROWS] };
+        debug_assert!((0..2).all(|axis| cells.length(axis) <= MOST_CELLS));
+        let mut any = 0;
+        for (row, y) in (0..).zip(cells.min[1]..cells.max[1]) {
+            let voxels = spread(seams.in_row(y, cells.min[0], cells.max[0])) << MARGIN;
+            let first = (MARGIN + row * PER_CELL) as usize;
+            bitmap.rows[first..first + PER_CELL as usize].fill(voxels);
+            any |= voxels;
+        }
+        if any == 0 {
+            return None;
+        }
+        bitmap.clip(grid);
+        Some(bitmap)
+    }
+
+    /// Takes out what lies in the block's cells but not in the block.
+    #[inline(always)]
+    fn clip(&mut self, grid: &CellGrid) {
+        let [columns, rows] = [self.inside(grid, 0), self.inside(grid, 1)];
+        for (index, row) in self.rows.iter_mut().enumerate().take(u64::BITS as usize) {
+            *row &= columns & (rows >> index & 1).wrapping_neg();
+        }
+    }
+
+    /// The columns (axis 0) or rows (axis 1) of voxels that have lattice points of the block, one per bit.
+    #[inline(always)]
+    fn inside(&self, grid: &CellGrid, axis: usize) -> u64 {
+        let last = self.cells.max[axis] - 1;
+        let (mut first_inside, mut end_inside) = (0, PER_CELL * (last - self.cells.min[axis]));
+        for part in 1..=PER_CELL {
+            first_inside += i32::from(grid.border(axis, self.cells.min[axis], part, PER_CELL) <= self.block.min[axis]);
+            end_inside += i32::from(grid.border(axis, last, part - 1, PER_CELL) < self.block.max[axis]);
+        }
+        u64::MAX >> (64 - (end_inside - first_inside)) << (MARGIN + first_inside)
+    }
+
+    /// Takes out what a sample covers; it may lie up to the radius outside of the block.
+    #[inline(always)]
+    pub fn stamp(&mut self, sample: [i32; 2]) {
+        let [x, y] = [0, 1].map(|axis: usize| {
+            let places = (sample[axis] - self.origin[axis]) as f32 * self.stamps.places[axis];
+            // The conversion rounds towards zero.
+            (places + (PLACES * (MARGIN - REACH)) as f32) as i32
+        });
+        let stamp = &self.stamps.table[(y % PLACES * PLACES + x % PLACES) as usize];
+        let (column, row) = (x / PLACES, y / PLACES);
+        let rows = &mut self.rows[row as usize..row as usize + STAMP_ROWS];
+        for (row, stamp) in rows.iter_mut().zip(stamp) {
+            *row &= !(u64::from(*stamp) << (column & 63));
+        }
+    }
+
+    /// Whether a voxel may be uncovered.
+    pub fn is_open(&self, [column, row]: Place) -> bool {
+        self.rows[usize::from(row)] >> column & 1 == 1
+    }
+
+    /// All voxels that may be uncovered.
+    #[inline(always)]
+    pub fn list(&self, places: &mut Vec<Place>) {
+        places.clear();
+        let rows = MARGIN as usize..(MARGIN + PER_CELL * self.cells.length(1)) as usize;
+        for row in rows {
+            let mut open = self.rows[row];
+            while open != 0 {
+                places.push([open.trailing_zeros() as u8, row as u8]);
+                open &= open - 1;
+            }
+        }
+    }
+
+    /// The cell of a voxel and its lattice points in the block.
+    #[inline(always)]
+    pub fn voxel(&self, grid: &CellGrid, place: Place) -> ([i32; 2], Rect) {
+        let place = place.map(|index| i32::from(index) - MARGIN);
+        let cell = [0, 1].map(|axis: usize| self.cells.min[axis] + place[axis] / PER_CELL);
+        let border = |axis: usize, index: i32| grid.border(axis, cell[axis], place[axis] % PER_CELL + index, PER_CELL);
+        let voxel = Rect { min: [border(0, 0), border(1, 0)], max: [border(0, 1), border(1, 1)] };
+        (cell, voxel.intersection(&self.block))
+    }
+
+    /// The longest side of a voxel.
+    pub fn widest(grid: &CellGrid) -> i32 {
+        (grid.widest_cell() + PER_CELL - 1) / PER_CELL
+    }
+}
+
+/// Each of the lowest sixteen bits, four times.
+fn spread(bits: u64) -> u64 {
+    let bits = (bits | bits << 24) & 0x0000_00ff_0000_00ff;
+    let bits = (bits | bits << 12) & 0x000f_000f_000f_000f;
+    let bits = (bits | bits << 6) & 0x0303_0303_0303_0303;
+    let bits = (bits | bits << 3) & 0x1111_1111_1111_1111;
+    bits * 0xf
+}
