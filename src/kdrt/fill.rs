@@ -33,8 +33,7 @@ impl<'a> Filling<'a> {
     /// Makes the samples of the grid maximal in `block`, a rectangle of lattice points, and gives the new ones to `output`.
     pub fn fill(&mut self, grid: &mut CellGrid, block: &Rect, mut rng: Rng, output: &mut Output) {
         let Some(mut bitmap) = Bitmap::of_seams(self.stamps, grid, &self.seams, *block) else { return };
-        grid.collect(&block.grown(self.reach), &mut self.near);
-        self.near.iter().for_each(|&sample| bitmap.stamp(sample));
+        bitmap.stamp_all(grid.vectors(), grid.collect(&block.grown(self.reach), &mut self.near));
         bitmap.list(&mut self.open);
 
         let width = Bitmap::widest(grid);

@@ -16,6 +16,7 @@ mod divide;
 mod fill;
 mod output;
 mod plane;
+#[allow(unsafe_code)] // Vector instructions.
 mod stamp;
 mod window;
 

@@ -6,7 +6,7 @@
 //! covered, never the other way round.
 
 use crate::lattice::Rect;
-use crate::maximal::CellGrid;
+use crate::maximal::{CellGrid, Vectors};
 
 use super::conquer::SeamCells;
 
@@ -14,7 +14,7 @@ use super::conquer::SeamCells;
 const PER_CELL: i32 = 4;
 
 /// Places in a voxel that the table tells apart, per axis.
-const PLACES: i32 = 16;
+const PLACES: u32 = 16;
 
 /// Voxels on each side of a sample's own that its disk can cover: r is at most 6 voxels (see [`Stamps::new`]).
 const REACH: i32 = 6;
@@ -67,7 +67,7 @@ impl Stamps {
         let places = f64::from(PLACES);
         // Borders are rounded to the lattice; the place is found in `f32`.
         let (border, rounding) = (3.0 / voxel, 0.01 / places);
-        let square = |place: i32, column: i32| {
+        let square = |place: u32, column: i32| {
             let (first, last) = (f64::from(place) / places - rounding, f64::from(place + 1) / places + rounding);
             let column = f64::from(column);
             let farthest = (column + 1.0 + border - first).max(last - column + border);
@@ -132,20 +132,54 @@ impl<'a> Bitmap<'a> {
         u64::MAX >> (64 - (end_inside - first_inside)) << (MARGIN + first_inside)
     }
 
+    /// [`Bitmap::stamp`] of many samples.
+    pub fn stamp_all(&mut self, vectors: Vectors, samples: &[[i32; 2]]) {
+        match vectors {
+            // SAFETY: the variants say that the processor has the vectors.
+            #[cfg(target_arch = "x86_64")]
+            Vectors::Avx512 => unsafe { self.stamp_all_avx512(samples) },
+            #[cfg(target_arch = "x86_64")]
+            Vectors::Avx2 => unsafe { self.stamp_all_avx2(samples) },
+            Vectors::Portable => samples.iter().for_each(|&sample| self.stamp(sample)),
+        }
+    }
+
+    /// The portable code, compiled for AVX-512.
+    #[cfg(target_arch = "x86_64")]
+    #[target_feature(enable = "avx512f,avx512vl,avx512dq,avx512bw")]
+    fn stamp_all_avx512(&mut self, samples: &[[i32; 2]]) {
+        for &sample in samples {
+            self.stamp(sample);
+        }
+    }
+
+    /// The portable code, compiled for AVX2.
+    #[cfg(target_arch = "x86_64")]
+    #[target_feature(enable = "avx2")]
+    fn stamp_all_avx2(&mut self, samples: &[[i32; 2]]) {
+        for &sample in samples {
+            self.stamp(sample);
+        }
+    }
+
     /// Takes out what a sample covers; it may lie up to the radius outside of the block.
     #[inline(always)]
     pub fn stamp(&mut self, sample: [i32; 2]) {
-        let [x, y] = [0, 1].map(|axis: usize| {
-            let places = (sample[axis] - self.origin[axis]) as f32 * self.stamps.places[axis];
-            // The conversion rounds towards zero.
-            (places + (PLACES * (MARGIN - REACH)) as f32) as i32
-        });
-        let stamp = &self.stamps.table[(y % PLACES * PLACES + x % PLACES) as usize];
-        let (column, row) = (x / PLACES, y / PLACES);
-        let rows = &mut self.rows[row as usize..row as usize + STAMP_ROWS];
-        for (row, stamp) in rows.iter_mut().zip(stamp) {
-            *row &= !(u64::from(*stamp) << (column & 63));
+        let (mut column, mut row) = (self.place(sample, 0), self.place(sample, 1));
+        let stamp = &self.stamps.table[(row % PLACES * PLACES + column % PLACES) as usize];
+        (column, row) = (column / PLACES, row / PLACES);
+        let rows: &mut [u64; STAMP_ROWS] = (&mut self.rows[row as usize..][..STAMP_ROWS]).try_into().expect("its rows");
+        for i in 0..STAMP_ROWS {
+            rows[i] &= !(u64::from(stamp[i]) << (column & 63));
         }
+    }
+
+    /// Where along an axis the stamp of a sample begins, in places.
+    #[inline(always)]
+    fn place(&self, sample: [i32; 2], axis: usize) -> u32 {
+        let places = (sample[axis] - self.origin[axis]) as f32 * self.stamps.places[axis];
+        // It is not negative, and far below 2^31; the conversion rounds towards zero.
+        (places + (PLACES * (MARGIN - REACH) as u32) as f32) as i32 as u32
     }
 
     /// Whether a voxel may be uncovered.

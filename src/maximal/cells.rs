@@ -169,6 +169,11 @@ impl CellGrid {
         })
     }
 
+    /// The vectors that the grid works with.
+    pub fn vectors(&self) -> Vectors {
+        self.vectors
+    }
+
     /// The cells that hold the lattice points of `rect`, as far as there are such cells.
     pub fn cells_of(&self, rect: &Rect) -> Rect {
         let all =
@@ -306,22 +311,21 @@ impl CellGrid {
         }
     }
 
-    /// Writes the samples in `rect` to `samples`, by rows of cells.
+    /// The samples in `rect`, by rows of cells; `samples` is the memory for them.
     #[inline(always)]
-    pub fn collect(&self, rect: &Rect, samples: &mut Vec<[i32; 2]>) {
+    pub fn collect<'a>(&self, rect: &Rect, samples: &'a mut Vec<[i32; 2]>) -> &'a [[i32; 2]] {
         let cells = self.cells_of(rect);
-        samples.clear();
-        samples.resize((cells.length(0) * cells.length(1)) as usize, [0; 2]);
+        let room = (cells.length(0) * cells.length(1)) as usize;
+        if samples.len() < room {
+            samples.resize(room, [0; 2]);
+        }
         let mut count = 0;
         for y in cells.min[1]..cells.max[1] {
             let [first, end] = [cells.min[0], cells.max[0]].map(|x| self.index([x, y]));
-            for (&x, &y) in self.samples[0][first..end].iter().zip(&self.samples[1][first..end]) {
-                // Written in any case and counted only if it is one: which cells have one is not predictable.
-                samples[count] = [x, y];
-                count += usize::from(rect.contains([x, y]));
-            }
+            let row = [&self.samples[0][first..end], &self.samples[1][first..end]];
+            count += self.vectors.collect(row, rect, &mut samples[count..]);
         }
-        samples.truncate(count);
+        &samples[..count]
     }
 
     /// The samples in `rect`, by rows of cells.

@@ -14,6 +14,7 @@ mod vectors;
 
 pub(crate) use cells::{CellAxis, CellGrid};
 pub(crate) use quadtree::Quadtree;
+pub(crate) use vectors::Vectors;
 
 use crate::error::Result;
 use crate::job::{Context, Job, Progress};

@@ -31,7 +31,9 @@ impl Vectors {
         {
             if is_x86_feature_detected!("avx2") {
                 available.push(Self::Avx2);
-                if is_x86_feature_detected!("avx512f") && is_x86_feature_detected!("avx512vl") {
+                if is_x86_feature_detected!("avx512f")
+                    && is_x86_feature_detected!("avx512vl")
+                    && is_x86_feature_detected!("avx512dq") {
                     available.push(Self::Avx512);
                 }
             }
@@ -63,6 +65,19 @@ impl Vectors {
         }
     }
 
+    /// [`collect`].
+    #[inline]
+    pub fn collect(self, row: [&[i32]; 2], rect: &Rect, samples: &mut [[i32; 2]]) -> usize {
+        match self {
+            Self::Portable => collect(row, rect, samples),
+            #[cfg(target_arch = "x86_64")]
+            Self::Avx2 => collect(row, rect, samples),
+            // SAFETY: the variant says that the processor has the vectors.
+            #[cfg(target_arch = "x86_64")]
+            Self::Avx512 => unsafe { collect_avx512(row, rect, samples) },
+        }
+    }
+
     /// [`Near::uncovered`].
     #[inline]
     pub fn uncovered(self, near: &Near, voxel: &Rect, width: i32) -> u16 {
@@ -75,6 +90,45 @@ impl Vectors {
             Self::Avx512 => unsafe { uncovered_avx512(near, voxel, width) },
         }
     }
+}
+
+/// Writes the samples of a row that lie in a rectangle to the front of `samples`, which has room for the whole row, and
+/// says how many there are.
+fn collect([xs, ys]: [&[i32]; 2], rect: &Rect, samples: &mut [[i32; 2]]) -> usize {
+    let mut count = 0;
+    for (&x, &y) in xs.iter().zip(ys) {
+        // Written in any case and counted only if it is one: which cells have one is not predictable.
+        samples[count] = [x, y];
+        count += usize::from(rect.contains([x, y]));
+    }
+    count
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx512f,avx512vl,avx512dq,popcnt")]
+fn collect_avx512([xs, ys]: [&[i32]; 2], rect: &Rect, samples: &mut [[i32; 2]]) -> usize {
+    let mut count = 0;
+    let (xs, ys) = (xs.chunks(LANES), ys.chunks(LANES));
+    for (xs, ys) in xs.zip(ys) {
+        let lanes = u8::MAX >> (LANES - xs.len());
+        // SAFETY: as many integers are read as there are in the slices.
+        let (x, y) = unsafe {
+            (_mm256_maskz_loadu_epi32(lanes, xs.as_ptr()), _mm256_maskz_loadu_epi32(lanes, ys.as_ptr()))
+        };
+        let inside = _mm256_mask_cmpge_epi32_mask(lanes, x, _mm256_set1_epi32(rect.min[0]))
+            & _mm256_cmplt_epi32_mask(x, _mm256_set1_epi32(rect.max[0]))
+            & _mm256_cmpge_epi32_mask(y, _mm256_set1_epi32(rect.min[1]))
+            & _mm256_cmplt_epi32_mask(y, _mm256_set1_epi32(rect.max[1]));
+        // Pairs of x and y, the first of them in the lower half of a 64-bit lane.
+        let pairs = _mm512_or_si512(_mm512_cvtepu32_epi64(x), _mm512_slli_epi64::<32>(_mm512_cvtepi32_epi64(y)));
+        let pairs = _mm512_maskz_compress_epi64(inside, pairs);
+        let found = inside.count_ones() as usize;
+        let target = &mut samples[count..count + found];
+        // SAFETY: as many pairs are written as there are in the slice; a pair of integers has the layout of the lane.
+        unsafe { _mm512_mask_storeu_epi64(target.as_mut_ptr().cast(), ((1u32 << found) - 1) as u8, pairs) };
+        count += found;
+    }
+    count
 }
 
 /// As many samples near a cell are tested in any case; seldom are there more.
