@@ -219,6 +219,33 @@ impl<'a> Job<'a> {
         parts.into_iter().for_each(|part| all.extend(part));
         Ok(all)
     }
+
+    /// [`Job::flat_map`] where there are so many results that the copy counts, and the first use of memory as much: one
+    /// thread copies each part while it is in the cache, several share the copy.
+    pub(crate) fn concat<T: Copy + Default + Send + Sync>(
+        &self,
+        count: usize,
+        task: impl Fn(usize) -> Vec<T> + Sync,
+    ) -> Result<Vec<T>> {
+        let Some(pool) = &self.context.pool else {
+            let mut all = Vec::new();
+            self.stream(count, task, |part| {
+                all.extend_from_slice(&part);
+                Ok(())
+            })?;
+            return Ok(all);
+        };
+        let parts = self.map(count, task)?;
+        let mut all = vec![T::default(); parts.iter().map(Vec::len).sum()];
+        let (mut rest, mut places) = (all.as_mut_slice(), Vec::with_capacity(parts.len()));
+        for part in &parts {
+            let (place, behind) = rest.split_at_mut(part.len());
+            places.push(place);
+            rest = behind;
+        }
+        pool.install(|| places.into_par_iter().zip(parts).for_each(|(place, part)| place.copy_from_slice(&part)));
+        Ok(all)
+    }
 }
 
 #[cfg(test)]

@@ -1,8 +1,8 @@
 //! Clip (thesis §2.3.1 and 2.3.2): the pattern and the parts of it that are laid into the leaves.
 //!
 //! Departures: the pattern is periodic, so every offset can be clipped; it lies on the lattice of the plane and has the
-//! plane's radius, so translations are exact and nothing is scaled; and a clip is what lies *inside* the leaf, without
-//! the thesis's margin of 2r, because the gaps along its border are filled anyway.
+//! plane's radius, so translations are exact and nothing is scaled; a clip is turned at random as well as shifted; and it
+//! is what lies *inside* the leaf, without the thesis's margin of 2r, because the gaps along its border are filled anyway.
 
 use crate::error::Result;
 use crate::job::Job;
@@ -12,16 +12,21 @@ use crate::rng::{Draw, Rng};
 
 use super::divide::Leaf;
 
-/// The pattern's side in radii, at least: about 8,000 samples.
-const SHORTEST_SIDE: f64 = 108.0;
+/// The pattern's side in leaf sizes and its bounds in radii, if leaves are not very large: about 28,000 samples with the
+/// leaves of the default size.
+///
+/// A set shows its pattern: at every frequency the expected power is the pattern's own, smoothed over 1 / leaf size. So
+/// the periodogram varies more than that of an unbiased set, by about 0.35 (leaf size / side)² of its mean squared, and
+/// with the side chosen here by no more than unbiased sets do among each other (docs/kdrt.md).
+const LEAF_SIZES: f64 = 10.0;
+const SIDES: [f64; 2] = [108.0, 200.0];
 
-/// The pattern's side in leaf sizes, at least. The larger the pattern, the fewer parts of it are seen twice: its size
-/// decides how much repetition the spectrum shows, more than that of the leaves.
-const LEAF_SIZES: f64 = 4.0;
+/// The side of the pattern in leaf sizes, at least: very large leaves trade the spectrum for speed.
+const FEWEST_LEAF_SIZES: f64 = 4.0;
 
 /// The side of the pattern for leaves of at least `leaf_size`, both in radii.
 pub(super) fn pattern_side(leaf_size: f64) -> f64 {
-    SHORTEST_SIDE.max(LEAF_SIZES * leaf_size)
+    (LEAF_SIZES * leaf_size).clamp(SIDES[0], SIDES[1]).max(FEWEST_LEAF_SIZES * leaf_size)
 }
 
 /// A maximal set on a square torus of lattice points, with its points in rows that can be clipped.
@@ -29,6 +34,13 @@ pub(super) struct Pattern {
     side: i32,
     /// The height of a row.
     height: i32,
+    /// The pattern as it is, mirrored, transposed, and both. Sets of real numbers have the same power at opposite
+    /// frequencies, so the other four symmetries of the square would add nothing.
+    turned: [Rows; 4],
+}
+
+/// The points of a pattern by rows.
+struct Rows {
     /// Row `i` holds the points `starts[i]..starts[i + 1]`, from left to right.
     starts: Vec<usize>,
     points: Vec<[i32; 2]>,
@@ -78,29 +90,34 @@ impl Pattern {
         Ok(Self::from_points(maximal::sample_points(job, &lattice, seed)?, side, lattice.reach))
     }
 
-    fn from_points(mut points: Vec<[i32; 2]>, side: i32, height: i32) -> Self {
-        points.sort_unstable_by_key(|&[x, y]| (y / height, x, y));
-        let rows = (side - 1) / height + 1;
-        let starts = (0..=rows).map(|row| points.partition_point(|point| point[1] / height < row)).collect();
-        Self { side, height, starts, points }
+    fn from_points(points: Vec<[i32; 2]>, side: i32, height: i32) -> Self {
+        let turned = std::array::from_fn(|turn| {
+            let mut points: Vec<_> = points.iter().map(|&point| turned(point, side, turn)).collect();
+            points.sort_unstable_by_key(|&[x, y]| (y / height, x, y));
+            let rows = (side - 1) / height + 1;
+            let starts = (0..=rows).map(|row| points.partition_point(|point| point[1] / height < row)).collect();
+            Rows { starts, points }
+        });
+        Self { side, height, turned }
     }
 
-    /// The point of the torus that is laid on a leaf's lower corner.
-    fn offset(&self, leaf: &Leaf) -> [i32; 2] {
+    /// The point of the torus that is laid on a leaf's lower corner, and how the torus is turned before.
+    fn place(&self, leaf: &Leaf) -> ([i32; 2], usize) {
         let mut rng = Rng::at(leaf.key, Draw::Clip, &[]);
-        std::array::from_fn(|_| rng.below(self.side as u64) as i32)
+        (std::array::from_fn(|_| rng.below(self.side as u64) as i32), rng.below(4) as usize)
     }
 
     /// Visits the leaf's clip in `part`, a part of its rectangle, by rows.
     pub fn rows(&self, leaf: &Leaf, part: &Rect, mut visit: impl FnMut(Row)) {
-        let offset = self.offset(leaf);
+        let (offset, turn) = self.place(leaf);
+        let Rows { starts, points } = &self.turned[turn];
         let pieces: [_; 2] = std::array::from_fn(|axis| {
             let start = (part.min[axis] - leaf.rect.min[axis] + offset[axis]) % self.side;
             self.pieces(start, part.length(axis), part.min[axis])
         });
         for &(bottom, top, up) in pieces[1].iter().filter(|(bottom, top, _)| bottom < top) {
             for row in bottom / self.height..=(top - 1) / self.height {
-                let points = &self.points[self.starts[row as usize]..self.starts[row as usize + 1]];
+                let points = &points[starts[row as usize]..starts[row as usize + 1]];
                 let (row_bottom, row_top) = (row * self.height, ((row + 1) * self.height).min(self.side));
                 let (bottom, top) = (bottom.max(row_bottom), top.min(row_top));
                 for &(left, right, along) in pieces[0].iter().filter(|(left, right, _)| left < right) {
@@ -134,9 +151,35 @@ impl Pattern {
     }
 }
 
+/// A point of a square torus after one of four turns.
+fn turned([x, y]: [i32; 2], side: i32, turn: usize) -> [i32; 2] {
+    match turn {
+        0 => [x, y],
+        1 => [side - 1 - x, y],
+        2 => [y, x],
+        _ => [side - 1 - y, x],
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Turns keep all distances on the torus, and no two are the same or each other's opposite.
+    #[test]
+    fn turns_are_symmetries_of_the_torus() {
+        let (a, b, side) = ([3, 17], [95, 40], 100);
+        let offset = |turn| {
+            let [a, b] = [a, b].map(|point| turned(point, side, turn));
+            [0, 1].map(|axis: usize| (b[axis] - a[axis]).rem_euclid(side))
+        };
+        let length = |[x, y]: [i32; 2]| x.min(side - x).pow(2) + y.min(side - y).pow(2);
+        let opposite = |[x, y]: [i32; 2]| [side - x, side - y];
+        for turn in 0..4 {
+            assert_eq!(length(offset(turn)), length(offset(0)));
+            assert!((0..turn).all(|other| offset(other) != offset(turn) && offset(other) != opposite(offset(turn))));
+        }
+    }
 
     /// Every clip against a loop over all points and their images.
     #[test]
@@ -153,9 +196,10 @@ mod tests {
             let mut clip = pattern.clip(&leaf, &part);
             clip.sort_unstable();
 
-            let offset = pattern.offset(&leaf);
+            let (offset, turn) = pattern.place(&leaf);
             let mut expected: Vec<[i32; 2]> = points
                 .iter()
+                .map(|&point| turned(point, side, turn))
                 .map(|point| [0, 1].map(|axis: usize| min[axis] + (point[axis] - offset[axis]).rem_euclid(side)))
                 .filter(|&point| part.contains(point))
                 .collect();

@@ -87,7 +87,7 @@ pub fn sample(context: &Context, options: &Options, progress: Option<&Progress>)
     context.run(progress, |job| {
         let plane = Plane::new(&job.part(0.0, PATTERN_SHARE), lattice, leaf_size, seed)?;
         let windows = plane.windows();
-        job.part(PATTERN_SHARE, 1.0).flat_map(windows.len(), |i| plane.window(&windows[i]))
+        job.part(PATTERN_SHARE, 1.0).concat(windows.len(), |i| plane.window(&windows[i]))
     })
 }
 

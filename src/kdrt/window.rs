@@ -61,7 +61,7 @@ pub fn sample_window(
     context.run(progress, |job| {
         let plane = Plane::new(&job.part(0.0, PATTERN_SHARE), lattice, leaf_size, seed)?;
         let windows = plane.windows_holding(&points);
-        job.part(PATTERN_SHARE, 1.0).flat_map(windows.len(), |i| inside(plane.window(&windows[i])))
+        job.part(PATTERN_SHARE, 1.0).concat(windows.len(), |i| inside(plane.window(&windows[i])))
     })
 }
 
