@@ -7,7 +7,7 @@ mod sets;
 
 use azulejo::kdrt::{DEFAULT_LEAF_SIZE, Options, sample, sample_stream, sample_window};
 use azulejo::{Boundary, Context, Domain, Error};
-use common::{BOUNDARIES, check, domain, find_conflict, find_gap, float_spacing, hard_domains};
+use common::{BOUNDARIES, check, domain, find_conflict, find_gap, float_spacing, hard_domains, tiled_radius};
 use proptest::prelude::*;
 use sets::Random;
 use std::cell::Cell;
@@ -30,12 +30,6 @@ fn window(options: &Options, (min, max): Rect) -> Vec<[f32; 2]> {
 
 fn whole(options: &Options) -> Vec<[f32; 2]> {
     sample(&Context::new(2).unwrap(), options, None).unwrap()
-}
-
-/// The radius with which a domain is the smallest that is tiled with small leaves, or nearly.
-fn tiled_radius(domain: &Domain) -> f64 {
-    let [width, height] = domain.extent();
-    (domain.area().sqrt() / 109.0).min(width.min(height) / 13.1)
 }
 
 fn between(random: &mut Random, from: f64, to: f64) -> f64 {
@@ -77,8 +71,8 @@ fn windows_of_hard_domains_are_parts_of_the_whole() {
     let mut random = Random::new(1);
     for boundary in BOUNDARIES {
         for domain in hard_domains(boundary) {
-            let radius = tiled_radius(&domain);
             for (seed, leaf_size) in [(0, 6.0), (1, 9.5), (2, DEFAULT_LEAF_SIZE)] {
+                let radius = tiled_radius(&domain, leaf_size).max(64.0 * float_spacing(&domain));
                 let options = Options { radius, domain, leaf_size, seed };
                 let whole = whole(&options);
                 assert!(window(&options, (domain.min, domain.max)) == whole);
@@ -95,7 +89,7 @@ fn windows_of_hard_domains_are_parts_of_the_whole() {
 fn windows_of_large_leaves_are_parts_of_the_whole() {
     let mut random = Random::new(2);
     for boundary in BOUNDARIES {
-        for (leaf_size, side) in [(40.0, 170.0), (80.0, 330.0)] {
+        for (leaf_size, side) in [(40.0, 210.0), (80.0, 330.0)] {
             let domain = domain([-0.2, 0.0], [1.1, 0.9], boundary);
             let options = Options { radius: domain.area().sqrt() / side, domain, leaf_size, seed: 7 };
             let whole = whole(&options);
@@ -113,7 +107,7 @@ fn a_partition_into_windows_has_every_sample_once() {
     for boundary in BOUNDARIES {
         for (seed, extent) in [[1.0, 1.2], [12.0, 0.13], [0.15, 9.0]].into_iter().enumerate() {
             let domain = domain([0.3, -0.7], [0.3 + extent[0], -0.7 + extent[1]], boundary);
-            let options = Options { radius: tiled_radius(&domain), domain, leaf_size: 6.0, seed: seed as u64 };
+            let options = Options { radius: tiled_radius(&domain, 6.0), domain, leaf_size: 6.0, seed: seed as u64 };
             let mut whole = whole(&options);
             let parts = random_partition(&mut random, (domain.min, domain.max), 6, &whole);
             assert!(parts.len() > 8);
@@ -132,7 +126,7 @@ fn a_partition_into_windows_has_every_sample_once() {
 fn windows_at_the_edge_of_what_there_is() {
     for boundary in BOUNDARIES {
         let domain = domain([-3.3, 1.7], [-1.1, 3.3], boundary);
-        let options = Options { radius: tiled_radius(&domain), domain, leaf_size: 6.0, seed: 4 };
+        let options = Options { radius: tiled_radius(&domain, 6.0), domain, leaf_size: 6.0, seed: 4 };
         let (whole, r, Domain { min, max, .. }) = (whole(&options), options.radius, domain);
         let spacing = float_spacing(&domain);
         let mut rects = vec![
@@ -359,8 +353,8 @@ proptest! {
         corner in prop::array::uniform2(-10.0..10.0f64),
         height in -3.0..3.0f64,
         aspect in -3.0..3.0f64,
-        factor in -5.2..-3.0f64,
-        leaf_size in 6.0..80.0f64,
+        factor in -5.6..-3.0f64,
+        leaf_size in 6.0..60.0f64,
         periodic: bool,
         seed: u64,
     ) {

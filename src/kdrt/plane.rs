@@ -11,6 +11,7 @@ use crate::lattice::{Lattice, Rect};
 use crate::maximal::{CellAxis, CellGrid};
 use crate::points::Boundary;
 
+use super::MIN_LEAF_SIZE;
 use super::blocks::{Blocks, PHASES};
 use super::clip::{Pattern, pattern_side};
 use super::conquer::{LONGEST_CHAIN, SeamCells, merge};
@@ -18,7 +19,6 @@ use super::divide::{Leaf, Tree};
 use super::fill::Filling;
 use super::output::Output;
 use super::stamp::Stamps;
-use super::MIN_LEAF_SIZE;
 
 /// Fill blocks along the side of a window: about 50,000 samples, which fit a core's own cache.
 const WINDOW_BLOCKS: i32 = 56;
@@ -164,10 +164,11 @@ mod tests {
     #[test]
     fn every_partition_into_windows_gives_the_same_samples() {
         for boundary in [Boundary::Periodic, Boundary::Bounded] {
-            for (seed, leaf_size) in [(0, 6.0), (1, 6.0), (2, 20.0), (3, 26.0)] {
+            for (seed, leaf_size, radius) in [(0, 6.0, 0.0079), (1, 6.0, 0.0079), (2, 20.0, 0.0054), (3, 26.0, 0.0054)]
+            {
                 for extent in [[1.3, 1.0], [11.0, 0.11]] {
                     let domain = Domain { min: [0.3, -0.4], max: [0.3 + extent[0], -0.4 + extent[1]], boundary };
-                    let plane = plane(domain, 0.0079, leaf_size, seed);
+                    let plane = plane(domain, radius, leaf_size, seed);
                     let whole = samples(&plane, WINDOW_BLOCKS);
                     for window_blocks in [1, 2, 5, 16] {
                         assert!(samples(&plane, window_blocks) == whole, "{window_blocks} blocks, seed {seed}");
@@ -182,7 +183,7 @@ mod tests {
     fn the_smallest_torus_is_its_own_neighbour() {
         let domain = Domain { min: [0.0; 2], max: [0.131, 12.0], boundary: Boundary::Periodic };
         let plane = plane(domain, 0.01, 6.0, 5);
-        assert_eq!(plane.blocks.counts()[0], 2);
+        assert_eq!(plane.blocks.counts()[0], 4);
         assert!(samples(&plane, 1) == samples(&plane, 1000));
     }
 

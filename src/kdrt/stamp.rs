@@ -52,9 +52,8 @@ impl Stamps {
         let table = (0..PLACES * PLACES).map(|place| {
             let [x, y] = [place % PLACES, place / PLACES].map(|place| place as usize);
             std::array::from_fn(|row| {
-                let covered = |column: &usize| {
-                    row <= 2 * REACH as usize && squares[0][x][*column] + squares[1][y][row] < 1.0
-                };
+                let covered =
+                    |column: &usize| row <= 2 * REACH as usize && squares[0][x][*column] + squares[1][y][row] < 1.0;
                 (0..=2 * REACH as usize).filter(covered).map(|column| 1 << column).sum()
             })
         });

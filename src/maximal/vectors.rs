@@ -33,7 +33,8 @@ impl Vectors {
                 available.push(Self::Avx2);
                 if is_x86_feature_detected!("avx512f")
                     && is_x86_feature_detected!("avx512vl")
-                    && is_x86_feature_detected!("avx512dq") {
+                    && is_x86_feature_detected!("avx512dq")
+                {
                     available.push(Self::Avx512);
                 }
             }
@@ -112,9 +113,8 @@ fn collect_avx512([xs, ys]: [&[i32]; 2], rect: &Rect, samples: &mut [[i32; 2]]) 
     for (xs, ys) in xs.zip(ys) {
         let lanes = u8::MAX >> (LANES - xs.len());
         // SAFETY: as many integers are read as there are in the slices.
-        let (x, y) = unsafe {
-            (_mm256_maskz_loadu_epi32(lanes, xs.as_ptr()), _mm256_maskz_loadu_epi32(lanes, ys.as_ptr()))
-        };
+        let (x, y) =
+            unsafe { (_mm256_maskz_loadu_epi32(lanes, xs.as_ptr()), _mm256_maskz_loadu_epi32(lanes, ys.as_ptr())) };
         let inside = _mm256_mask_cmpge_epi32_mask(lanes, x, _mm256_set1_epi32(rect.min[0]))
             & _mm256_cmplt_epi32_mask(x, _mm256_set1_epi32(rect.max[0]))
             & _mm256_cmpge_epi32_mask(y, _mm256_set1_epi32(rect.min[1]))
@@ -250,8 +250,7 @@ const LANES_TO_FRONT: [i64; 256] = {
 fn parts_avx2(min: i32, max: i32, width: i32, parts: __m256i) -> (__m256, __m256) {
     let first = _mm256_add_epi32(_mm256_set1_epi32(min), _mm256_mullo_epi32(parts, _mm256_set1_epi32(width)));
     let end = _mm256_min_epi32(_mm256_add_epi32(first, _mm256_set1_epi32(width)), _mm256_set1_epi32(max));
-    let (first, last) =
-        (_mm256_cvtepi32_ps(first), _mm256_cvtepi32_ps(_mm256_sub_epi32(end, _mm256_set1_epi32(1))));
+    let (first, last) = (_mm256_cvtepi32_ps(first), _mm256_cvtepi32_ps(_mm256_sub_epi32(end, _mm256_set1_epi32(1))));
     let half = _mm256_set1_ps(0.5);
     (_mm256_mul_ps(half, _mm256_add_ps(first, last)), _mm256_mul_ps(half, _mm256_sub_ps(last, first)))
 }
@@ -298,8 +297,7 @@ fn uncovered_avx2(near: &Near, voxel: &Rect, width: i32) -> u16 {
 fn parts_avx512(min: i32, max: i32, width: i32, parts: __m512i) -> (__m512, __m512) {
     let first = _mm512_add_epi32(_mm512_set1_epi32(min), _mm512_mullo_epi32(parts, _mm512_set1_epi32(width)));
     let end = _mm512_min_epi32(_mm512_add_epi32(first, _mm512_set1_epi32(width)), _mm512_set1_epi32(max));
-    let (first, last) =
-        (_mm512_cvtepi32_ps(first), _mm512_cvtepi32_ps(_mm512_sub_epi32(end, _mm512_set1_epi32(1))));
+    let (first, last) = (_mm512_cvtepi32_ps(first), _mm512_cvtepi32_ps(_mm512_sub_epi32(end, _mm512_set1_epi32(1))));
     let half = _mm512_set1_ps(0.5);
     (_mm512_mul_ps(half, _mm512_add_ps(first, last)), _mm512_mul_ps(half, _mm512_sub_ps(last, first)))
 }
