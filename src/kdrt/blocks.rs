@@ -32,6 +32,8 @@ pub(super) const PHASES: [([i32; 2], [i32; 2]); 4] =
 pub(super) struct Blocks {
     size: [i32; 2],
     counts: [i32; 2],
+    /// Where the columns (axis 0) and rows (axis 1) of the domain begin, and where the last ends.
+    borders: [Vec<i32>; 2],
     boundary: Boundary,
     seed: u64,
 }
@@ -44,7 +46,16 @@ impl Blocks {
             // The parities of the phases must go on across the seam of a torus.
             if lattice.boundary == Boundary::Periodic { 2 * (widths / 2.0).ceil() as i32 } else { widths.ceil() as i32 }
         });
-        Self { size: lattice.size, counts, boundary: lattice.boundary, seed }
+        let borders = std::array::from_fn(|axis| {
+            let (size, count) = (i64::from(lattice.size[axis]), i64::from(counts[axis]));
+            let limit = (size as f64 / count as f64 * JITTER) as i64;
+            let jitter = |index: i64| {
+                Rng::at(seed, Draw::Block, &[axis as u64, index as u64]).below(2 * limit as u64 + 1) as i64 - limit
+            };
+            let border = |index| size * index / count + if index % count == 0 { 0 } else { jitter(index) };
+            (0..=count).map(|index| border(index) as i32).collect()
+        });
+        Self { size: lattice.size, counts, borders, boundary: lattice.boundary, seed }
     }
 
     /// Columns and rows of the domain.
@@ -55,15 +66,7 @@ impl Blocks {
     /// Where a column (axis 0) or row (axis 1) begins.
     fn border(&self, axis: usize, index: i32) -> i32 {
         let (turn, index) = (index.div_euclid(self.counts[axis]), index.rem_euclid(self.counts[axis]));
-        let (size, count) = (i64::from(self.size[axis]), i64::from(self.counts[axis]));
-        let regular = (size * i64::from(index) / count) as i32;
-        let jitter = if index == 0 {
-            0
-        } else {
-            let limit = (size as f64 / count as f64 * JITTER) as i32;
-            Rng::at(self.seed, Draw::Block, &[axis as u64, index as u64]).below(2 * limit as u64 + 1) as i32 - limit
-        };
-        turn * self.size[axis] + regular + jitter
+        turn * self.size[axis] + self.borders[axis][index as usize]
     }
 
     /// The lattice points of a rectangle of blocks, given by its first and the end of its columns and rows.
@@ -97,7 +100,6 @@ impl Blocks {
 
     /// The blocks of a rectangle of them whose column and row have the given parity, each with its lattice points.
     pub fn of_parity(&self, blocks: &Rect, parity: [i32; 2]) -> impl Iterator<Item = ([i32; 2], Rect)> + use<> {
-        // Borders are hashed: once per column and row, not once per block.
         let [columns, rows] = [0, 1].map(|axis: usize| {
             let indices = (blocks.min[axis]..blocks.max[axis]).filter(move |index| index & 1 == parity[axis]);
             indices.map(|index| (index, self.border(axis, index), self.border(axis, index + 1))).collect::<Vec<_>>()

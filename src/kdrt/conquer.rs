@@ -121,6 +121,11 @@ impl SeamCells {
         }
     }
 
+    /// Whether any cell of a rectangle, less than 64 cells wide, is marked.
+    pub fn any_in(&self, cells: &Rect) -> bool {
+        (cells.min[1]..cells.max[1]).any(|row| self.in_row(row, cells.min[0], cells.max[0]) != 0)
+    }
+
     /// The marks of a row from column `first` to before `end`, less than 64 of them, one per bit.
     pub fn in_row(&self, row: i32, first: i32, end: i32) -> u64 {
         let (word, bit) = (row as usize * self.stride + first as usize / 64, first % 64);

@@ -31,8 +31,14 @@ impl<'a> Filling<'a> {
     }
 
     /// Makes the samples of the grid maximal in `block`, a rectangle of lattice points, and gives the new ones to `output`.
-    pub fn fill(&mut self, grid: &mut CellGrid, block: &Rect, mut rng: Rng, output: &mut Output) {
-        let Some(mut bitmap) = Bitmap::of_seams(self.stamps, grid, &self.seams, *block) else { return };
+    /// `rng` makes the random numbers of the block.
+    pub fn fill(&mut self, grid: &mut CellGrid, block: &Rect, rng: impl Fn() -> Rng, output: &mut Output) {
+        let cells = grid.cells_of(block);
+        if !self.seams.any_in(&cells) {
+            return;
+        }
+        let mut rng = rng();
+        let mut bitmap = Bitmap::of_seams(self.stamps, grid, &self.seams, *block, cells);
         bitmap.stamp_all(grid.vectors(), grid.collect(&block.grown(self.reach), &mut self.near));
         bitmap.list(&mut self.open);
 

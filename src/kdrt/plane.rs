@@ -91,7 +91,7 @@ impl Plane {
         let mut filling = Filling::new(&self.stamps, seams, reach);
         for (parity, margin) in PHASES {
             for (block, rect) in self.blocks.of_parity(&self.blocks.grown(window, margin), parity) {
-                filling.fill(&mut grid, &rect, self.blocks.rng(block), &mut output);
+                filling.fill(&mut grid, &rect, || self.blocks.rng(block), &mut output);
             }
         }
         #[cfg(test)]

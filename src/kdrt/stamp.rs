@@ -90,33 +90,19 @@ pub(super) struct Bitmap<'a> {
 pub(super) type Place = [u8; 2];
 
 impl<'a> Bitmap<'a> {
-    /// The voxels of the block in cells at seams, as if nothing covered them; `None` if there are none.
+    /// The voxels of the block in cells at seams, as if nothing covered them. `cells` hold the block.
     #[inline(always)]
-    pub fn of_seams(stamps: &'a Stamps, grid: &CellGrid, seams: &SeamCells, block: Rect) -> Option<Self> {
-        let cells = grid.cells_of(&block);
-        let mut bitmap = Self { stamps, block, cells, origin: grid.rect(cells.min).min, rows: [0; ROWS] };
+    pub fn of_seams(stamps: &'a Stamps, grid: &CellGrid, seams: &SeamCells, block: Rect, cells: Rect) -> Self {
         debug_assert!((0..2).all(|axis| cells.length(axis) <= MOST_CELLS));
-        let mut any = 0;
-        for (row, y) in (0..).zip(cells.min[1]..cells.max[1]) {
-            let voxels = spread(seams.in_row(y, cells.min[0], cells.max[0])) << MARGIN;
-            let first = (MARGIN + row * PER_CELL) as usize;
-            bitmap.rows[first..first + PER_CELL as usize].fill(voxels);
-            any |= voxels;
+        let mut bitmap = Self { stamps, block, cells, origin: grid.rect(cells.min).min, rows: [0; ROWS] };
+        let [columns, rows] = [bitmap.inside(grid, 0), bitmap.inside(grid, 1)];
+        for (index, row) in bitmap.rows.iter_mut().enumerate().take(u64::BITS as usize).skip(MARGIN as usize) {
+            let cell = (index as i32 - MARGIN) / PER_CELL;
+            if rows >> index & 1 == 1 {
+                *row = columns & spread(seams.in_row(cells.min[1] + cell, cells.min[0], cells.max[0])) << MARGIN;
+            }
         }
-        if any == 0 {
-            return None;
-        }
-        bitmap.clip(grid);
-        Some(bitmap)
-    }
-
-    /// Takes out what lies in the block's cells but not in the block.
-    #[inline(always)]
-    fn clip(&mut self, grid: &CellGrid) {
-        let [columns, rows] = [self.inside(grid, 0), self.inside(grid, 1)];
-        for (index, row) in self.rows.iter_mut().enumerate().take(u64::BITS as usize) {
-            *row &= columns & (rows >> index & 1).wrapping_neg();
-        }
+        bitmap
     }
 
     /// The columns (axis 0) or rows (axis 1) of voxels that have lattice points of the block, one per bit.
