@@ -1,6 +1,7 @@
 //! The plots of the report.
 
 use azulejo::Result;
+use azulejo::analysis::spectrum::Annulus;
 use azulejo::kdrt::Stages;
 
 use super::statistics::Statistics;
@@ -12,11 +13,11 @@ use crate::draw::spectra::{FREQUENCY_LIMIT, power_at};
 use crate::output::Output;
 
 /// Power that gets all the ink, and how many inks there are: few, for the picture's size.
-const FULL_INK: f64 = 4.0;
+const FULL_INK: f64 = 2.5;
 const INKS: f64 = 16.0;
 
 /// The annuli of the radial curves, in units of sqrt(density).
-const CURVE_ANNULUS: f64 = 0.025;
+const CURVE_ANNULUS: f64 = 0.0125;
 
 /// The stages of a sample, as bars are divided.
 pub const STAGES: [&str; 6] = ["pattern", "divide", "clip", "eliminate", "fill", "output"];
@@ -34,14 +35,10 @@ fn label(size: f32, align: Align) -> Style {
 /// Seconds against samples on one thread (thesis fig. 2.11).
 pub fn draw_times(times: &Times, output: &Output) -> Result<()> {
     let mut canvas = Canvas::new(900.0, 560.0, 900);
-    let ends = |i: usize, decade: fn(f64) -> f64| {
-        let values = times.leaves.iter().flat_map(|leaf| leaf.one_thread.iter().map(|point| point[i].log10()));
-        let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
-        [decade(10f64.powf(low)), high]
-    };
     let range = |i: usize| {
-        let [low, high] = ends(i, |low| 10f64.powf((low * 1.2).log10().floor()));
-        [low, 10f64.powf(high + 0.1)]
+        let values = times.leaves.iter().flat_map(|leaf| leaf.one_thread.iter().map(|point| point[i]));
+        let (low, high) = values.fold((f64::INFINITY, 0.0), |(low, high): (f64, f64), x| (low.min(x), high.max(x)));
+        [0.7 * low, 1.4 * high]
     };
     let panel = Panel {
         rect: Rect { x: 110.0, y: 60.0, width: 750.0, height: 410.0 },
@@ -101,6 +98,28 @@ pub fn draw_stages(times: &Times, output: &Output) -> Result<()> {
 /// Spectrum, radial mean and anisotropy (thesis fig. 2.15 to 2.19), over those of the reference.
 pub fn draw_spectrum(of: &Statistics, reference: &Statistics, output: &Output) -> Result<()> {
     let mut canvas = Canvas::new(1000.0, 440.0, 1000);
+    draw_power(&mut canvas, of);
+    let isotropic = -10.0 * (of.sets as f64).log10();
+    let mean = Panel {
+        rect: Rect { x: 500.0, y: 56.0, width: 460.0, height: 104.0 },
+        x: Axis::linear("", [0.0, FREQUENCY_LIMIT], 5),
+        y: Axis::linear("power", [0.0, 2.4], 3),
+    };
+    let anisotropy = Panel {
+        rect: Rect { y: 240.0, height: 116.0, ..mean.rect },
+        x: Axis::linear("frequency / √density", [0.0, FREQUENCY_LIMIT], 5),
+        y: Axis::linear("anisotropy / dB", [isotropic - 6.0, isotropic + 6.0], 4),
+    };
+    let [own, others] = [of, reference].map(|one| one.spectrum.radial(CURVE_ANNULUS));
+    let curves = [(others?, 4.5, SERIES[1]), (own?, 2.0, COBALT)];
+    draw_curves(&mut canvas, &mean, &curves, |annulus| annulus.power);
+    draw_curves(&mut canvas, &anisotropy, &curves, |annulus| 10.0 * annulus.anisotropy.max(1e-9).log10());
+    mean.title(&mut canvas, "Radial mean", "reference in ochre");
+    anisotropy.title(&mut canvas, "Anisotropy", &format!("isotropic: {isotropic:.0} dB").replace('-', "\u{2212}"));
+    canvas.write(output)
+}
+
+fn draw_power(canvas: &mut Canvas, of: &Statistics) {
     let square = Rect { x: 90.0, y: 56.0, width: 300.0, height: 300.0 };
     let range = [-FREQUENCY_LIMIT, FREQUENCY_LIMIT];
     let panel = Panel {
@@ -115,34 +134,20 @@ pub fn draw_spectrum(of: &Statistics, reference: &Statistics, output: &Output) -
         .map(|i| glaze_to_cobalt(ink(power_at(&of.spectrum, [frequency(i % pixels), -frequency(i / pixels)]))))
         .collect();
     canvas.image(&image, pixels, square);
-    panel.axes(&mut canvas);
-    panel.title(&mut canvas, &of.sampler.name(), &format!("mean of {} sets", of.sets));
+    panel.axes(canvas);
+    panel.title(canvas, &of.sampler.name(), &format!("mean of {} sets", of.sets));
+}
 
-    let isotropic = -10.0 * (of.sets as f64).log10();
-    let curves = [of, reference].map(|statistics| statistics.spectrum.radial(CURVE_ANNULUS));
-    let [own, others] = curves.map(|curve| curve.unwrap_or_default());
-    let mean = Panel {
-        rect: Rect { x: 500.0, y: 56.0, width: 460.0, height: 120.0 },
-        x: Axis::linear("", [0.0, FREQUENCY_LIMIT], 5),
-        y: Axis::linear("power", [0.0, 2.4], 3),
-    };
-    let anisotropy = Panel {
-        rect: Rect { y: 236.0, ..mean.rect },
-        x: Axis::linear("frequency / √density", [0.0, FREQUENCY_LIMIT], 5),
-        y: Axis::linear("anisotropy / dB", [isotropic - 6.0, isotropic + 6.0], 4),
-    };
-    for (panel, title, remark) in [(&mean, "Radial mean", "reference in ochre"), (&anisotropy, "Anisotropy", "")] {
-        panel.ground(&mut canvas, true);
-        for (curve, width, colour) in [(&others, 4.5, SERIES[1]), (&own, 2.0, COBALT)] {
-            let value = |annulus: &azulejo::analysis::spectrum::Annulus| match title {
-                "Radial mean" => annulus.power,
-                _ => 10.0 * annulus.anisotropy.max(1e-9).log10(),
-            };
-            let places = curve.iter().map(|annulus| panel.place([annulus.frequency, value(annulus)]));
-            canvas.clipped_line(places, width, colour, Some(panel.rect));
-        }
-        panel.axes(&mut canvas);
-        panel.title(&mut canvas, title, remark);
+fn draw_curves(
+    canvas: &mut Canvas,
+    panel: &Panel,
+    curves: &[(Vec<Annulus>, f32, Colour)],
+    value: impl Fn(&Annulus) -> f64,
+) {
+    panel.ground(canvas, true);
+    for (curve, width, colour) in curves {
+        let places = curve.iter().map(|annulus| panel.place([annulus.frequency, value(annulus)]));
+        canvas.clipped_line(places, *width, *colour, Some(panel.rect));
     }
-    canvas.write(output)
+    panel.axes(canvas);
 }

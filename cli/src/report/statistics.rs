@@ -40,6 +40,14 @@ impl Summary {
     }
 }
 
+/// The largest of some frequencies.
+pub struct Peak {
+    /// By power.
+    pub power: Summary,
+    /// By power over the mean of the annulus.
+    pub over_mean: Summary,
+}
+
 /// What the sets of one sampler are like.
 pub struct Statistics {
     pub sampler: Sampler,
@@ -49,9 +57,8 @@ pub struct Statistics {
     pub density: Summary,
     /// The contrast of the periodogram, of all sets.
     pub contrast: Summary,
-    /// The largest peak over the axes, the harmonics of the fill blocks and those of the cells, of the mean periodograms
-    /// of the groups.
-    pub peaks: [Summary; 3],
+    /// The peaks of the mean periodograms of the groups on the axes, the harmonics of the fill blocks and of the cells.
+    pub peaks: [Peak; 3],
     /// The mean periodogram of all sets.
     pub spectrum: Periodogram,
     pub sets: u64,
@@ -63,7 +70,7 @@ impl Statistics {
         let half = (FREQUENCY_LIMIT * effort.count.sqrt()) as i64 + 3;
         let harmonics = harmonics(radius, half);
         let sets = GROUPS * effort.sets_per_group;
-        let (mut densities, mut contrasts, mut peaks, mut means) = (vec![], vec![], [vec![], vec![], vec![]], vec![]);
+        let (mut densities, mut contrasts, mut means) = (vec![], vec![], vec![]);
         for group in 0..GROUPS {
             let mut spectra = Vec::new();
             for seed in group * effort.sets_per_group..(group + 1) * effort.sets_per_group {
@@ -74,23 +81,34 @@ impl Statistics {
                 spectra.push(spectrum);
                 _ = progress((seed + 1) as f64 / sets as f64);
             }
-            let mean = Periodogram::mean(&spectra)?;
-            for (peaks, waves) in peaks.iter_mut().zip(&harmonics) {
-                peaks.push(mean.peak(ANNULUS, waves.iter().copied())?);
-            }
-            means.push(mean);
+            means.push(Periodogram::mean(&spectra)?);
         }
+        let peaks = harmonics.map(|waves| {
+            let over_mean = means.iter().map(|mean| mean.peak(ANNULUS, waves.iter().copied()));
+            let power = |mean: &Periodogram| waves.iter().map(|&wave| power_of(mean, wave)).fold(0.0, f64::max);
+            Ok(Peak {
+                power: Summary::of(&means.iter().map(power).collect::<Vec<_>>()),
+                over_mean: Summary::of(&over_mean.collect::<Result<Vec<_>>>()?),
+            })
+        });
+        let [axes, blocks, cells] = peaks;
         Ok(Self {
             sampler,
             // What is not tiled is given to the reference as it is.
             is_tiled: sampler.sample(context, effort.count, 0)? != Sampler::Maximal.sample(context, effort.count, 0)?,
             density: Summary::of(&densities),
             contrast: Summary::of(&contrasts),
-            peaks: peaks.map(|peaks| Summary::of(&peaks)),
+            peaks: [axes?, blocks?, cells?],
             spectrum: Periodogram::mean(&means)?,
             sets,
         })
     }
+}
+
+/// The power at a frequency of the grid, in waves per period.
+fn power_of(spectrum: &Periodogram, [column, row]: [i64; 2]) -> f64 {
+    let (size, half) = (spectrum.size(), (spectrum.size() / 2) as i64);
+    f64::from(spectrum.power()[(row + half) as usize * size + (column + half) as usize])
 }
 
 /// The frequencies where the regular parts of KDRT would show, in waves per period: all on the axes, the multiples of

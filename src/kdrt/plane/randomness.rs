@@ -61,7 +61,7 @@ fn with_both_randomnesses_a_plane_is_like_the_unbiased_reference() {
     let reference = figures(maximal::sample_lattice);
     assert!((reference.contrast - 1.0).abs() < 0.02, "{reference:?}");
     let plane = figures_of_planes(Fixed::Nothing);
-    assert!(plane.contrast < reference.contrast + 0.1 && plane.peak < 1.4 * reference.peak, "{plane:?} {reference:?}");
+    assert!(plane.contrast < reference.contrast + 0.1 && plane.peak < 1.6 * reference.peak, "{plane:?} {reference:?}");
 }
 
 #[test]
