@@ -1,4 +1,4 @@
-//! Power spectra of point sets: periodogram, radial mean and anisotropy (thesis §1.4.1).
+//! Power spectra of point sets: periodogram, radial mean, anisotropy, contrast and peaks (thesis §1.4.1).
 //!
 //! The periodogram of N points is P(f) = |Σ exp(-2πi f·x)|² / N: 1 on average for a Poisson process, at every frequency
 //! but 0 (Ulichney 1988, "Dithering with blue noise"; Lagae and Dutré 2008, "A comparison of methods for generating
@@ -43,7 +43,10 @@ pub struct Periodogram {
 /// The periodogram of `points`, `size` by `size` frequencies with frequency 0 in row and column `size / 2`.
 ///
 /// On a periodic domain all points count, on a bounded one those inside it (see the [module](self)). The power at
-/// frequency 0, which only tells the number of points, is 0. O(points + size² log size) in time and memory.
+/// frequency 0, which only tells the number of points, is 0.
+///
+/// O(points + size² log size) in time, 100,000 points at size 1,600 take about 0.2 s on one core; in memory about 40
+/// bytes per point and as many per frequency.
 ///
 /// # Errors
 /// [`Error::InvalidArgument`] for a malformed domain, a `size` outside of 2 to [`MAX_SIZE`], `positions` that are not

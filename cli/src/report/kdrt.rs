@@ -4,7 +4,7 @@ use std::fs;
 use std::io::Write;
 use std::path::PathBuf;
 
-use azulejo::{Boundary, Context, Domain, Error, Result, kdrt, maximal};
+use azulejo::{Boundary, Context, Domain, Error, Progress, Result, kdrt, maximal};
 use clap::Args;
 
 use super::statistics::Statistics;
@@ -38,7 +38,7 @@ pub struct Effort {
 }
 
 const FULL: Effort = Effort { count: 1e5, sets_per_group: 20, timed: 1e6, largest: 1e7 };
-const QUICK: Effort = Effort { count: 1.5e4, sets_per_group: 1, timed: 3e4, largest: 3e4 };
+const QUICK: Effort = Effort { count: 2e4, sets_per_group: 1, timed: 3e4, largest: 3e4 };
 
 /// Who makes a set.
 #[derive(Clone, Copy, PartialEq)]
@@ -83,7 +83,9 @@ impl Kdrt {
         let samplers = [Sampler::Maximal].into_iter().chain(LEAF_SIZES.map(Sampler::Leaves));
         let mut statistics = Vec::new();
         for sampler in samplers {
-            statistics.push(watched("spectra", |progress| Statistics::measure(context, sampler, &effort, progress))?);
+            let reference = statistics.first().map(|reference: &Statistics| &reference.spectrum);
+            let measure = |progress: &Progress| Statistics::measure(context, sampler, &effort, reference, progress);
+            statistics.push(watched("spectra", measure)?);
         }
         pictures::draw_times(&times, &Output::at(&pictures.join("times.png"))?)?;
         pictures::draw_stages(&times, &Output::at(&pictures.join("stages.png"))?)?;

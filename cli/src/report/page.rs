@@ -63,6 +63,10 @@ fn excess(density: f64) -> f64 {
     100.0 * (density / MAXIMAL_DENSITY - 1.0)
 }
 
+fn decibels(ratio: f64) -> f64 {
+    10.0 * ratio.log10()
+}
+
 fn verdict(is_met: bool) -> &'static str {
     if is_met { "met" } else { "**not met**" }
 }
@@ -96,6 +100,12 @@ fn goals(statistics: &[Statistics]) -> String {
             _ = writeln!(text, "| {goal} | {name} | {own:.2} | {} |", verdict(own <= largest));
         }
     }
+    text.push_str(
+        "\nWhat is behind them. Density: where two leaves meet, what elimination leaves and filling adds is denser than an \
+         unbiased set; the excess falls as 1 / leaf size. Contrast: parts of the pattern are seen again; its excess falls as \
+         (leaf side / pattern side)². Peaks over their annulus: all seams lie along the axes, which leaves a faint cross, most \
+         at 0.5 to 0.7 √density, where there is little power.\n",
+    );
     for one in statistics[1..].iter().filter(|one| !one.is_tiled) {
         _ = writeln!(text, "\nLeaves of {} need a larger pattern than this plane: not tiled.", one.sampler.name());
     }
@@ -109,18 +119,21 @@ fn bias(effort: &Effort, statistics: &[Statistics]) -> String {
          set is N·r² = {MAXIMAL_DENSITY} (the jamming limit of random sequential placement, 0.5470735 · 4/π; ± is the \
          standard error of the mean). *Contrast* is the variance of a set's periodogram over its squared mean, in annuli \
          of {ANNULUS}, averaged over all frequencies from {} to {}: 1 without order over long distances, more where parts \
-         repeat; its excess grows with the square of the leaf's side over the pattern's. It is the mean of all sets, with \
-         their range.\n\n| leaves | N·r² | over unbiased | contrast |\n|---|---|---|---|\n",
+         repeat. It is the mean of all sets, with their range. Of the mean spectrum of all sets: how far its radial mean is \
+         from the reference's at most (the first ring has a power of about 1.75), and its anisotropy over the same \
+         frequencies ({:.1} dB without any).\n\n\
+         | leaves | N·r² | over unbiased | contrast | radial mean | anisotropy |\n|---|---|---|---|---|---|\n",
         grouped(effort.count as usize),
         GROUPS * effort.sets_per_group,
         CONTRAST_RANGE.start,
         CONTRAST_RANGE.end,
+        decibels(1.0 / (GROUPS * effort.sets_per_group) as f64),
     );
     for one in statistics {
         let Statistics { density, contrast, .. } = one;
         _ = writeln!(
             text,
-            "| {} | {:.5} ± {:.5} | {:+.2} % | {:.4} ({:.4} to {:.4}) |",
+            "| {} | {:.5} ± {:.5} | {:+.2} % | {:.4} ({:.4} to {:.4}) | {:.3} | {:.2} dB |",
             name(one),
             density.mean,
             density.error,
@@ -128,6 +141,8 @@ fn bias(effort: &Effort, statistics: &[Statistics]) -> String {
             contrast.mean,
             contrast.low,
             contrast.high,
+            one.difference,
+            decibels(one.anisotropy),
         );
     }
     _ = write!(
@@ -202,7 +217,7 @@ fn time_against_samples(times: &Times) -> String {
     times.leaves.iter().for_each(|leaf| _ = write!(text, " | {}r", leaf.leaf_size));
     _ = writeln!(text, " |\n|---{}|", "|---".repeat(times.leaves.len()));
     for (row, [samples, _]) in times.leaves[0].one_thread.iter().enumerate() {
-        _ = write!(text, "| {}", rounded(*samples, 2));
+        _ = write!(text, "| {}", grouped(*samples as usize));
         times.leaves.iter().for_each(|leaf| _ = write!(text, " | {}", rounded(1e3 * leaf.one_thread[row][1], 3)));
         text.push_str(" |\n");
     }

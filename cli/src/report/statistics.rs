@@ -48,6 +48,17 @@ pub struct Peak {
     pub over_mean: Summary,
 }
 
+impl Peak {
+    fn of(spectra: &[Periodogram], waves: &[[i64; 2]]) -> Result<Self> {
+        let power = |spectrum: &Periodogram| waves.iter().map(|&wave| power_of(spectrum, wave)).fold(0.0, f64::max);
+        let over_mean = spectra.iter().map(|spectrum| spectrum.peak(ANNULUS, waves.iter().copied()));
+        Ok(Self {
+            power: Summary::of(&spectra.iter().map(power).collect::<Vec<_>>()),
+            over_mean: Summary::of(&over_mean.collect::<Result<Vec<_>>>()?),
+        })
+    }
+}
+
 /// What the sets of one sampler are like.
 pub struct Statistics {
     pub sampler: Sampler,
@@ -59,13 +70,23 @@ pub struct Statistics {
     pub contrast: Summary,
     /// The peaks of the mean periodograms of the groups on the axes, the harmonics of the fill blocks and of the cells.
     pub peaks: [Peak; 3],
-    /// The mean periodogram of all sets.
+    /// The mean periodogram of all sets, and its anisotropy.
     pub spectrum: Periodogram,
+    pub anisotropy: f64,
+    /// How far the radial mean is from that of the reference at most, in units of power.
+    pub difference: f64,
     pub sets: u64,
 }
 
 impl Statistics {
-    pub fn measure(context: &Context, sampler: Sampler, effort: &Effort, progress: &Progress) -> Result<Self> {
+    /// Makes and measures the sets. There is no `reference` for the reference itself.
+    pub fn measure(
+        context: &Context,
+        sampler: Sampler,
+        effort: &Effort,
+        reference: Option<&Periodogram>,
+        progress: &Progress,
+    ) -> Result<Self> {
         let (domain, radius) = (Domain::unit(Boundary::Periodic), radius(effort.count));
         let half = (FREQUENCY_LIMIT * effort.count.sqrt()) as i64 + 3;
         let harmonics = harmonics(radius, half);
@@ -83,15 +104,8 @@ impl Statistics {
             }
             means.push(Periodogram::mean(&spectra)?);
         }
-        let peaks = harmonics.map(|waves| {
-            let over_mean = means.iter().map(|mean| mean.peak(ANNULUS, waves.iter().copied()));
-            let power = |mean: &Periodogram| waves.iter().map(|&wave| power_of(mean, wave)).fold(0.0, f64::max);
-            Ok(Peak {
-                power: Summary::of(&means.iter().map(power).collect::<Vec<_>>()),
-                over_mean: Summary::of(&over_mean.collect::<Result<Vec<_>>>()?),
-            })
-        });
-        let [axes, blocks, cells] = peaks;
+        let [axes, blocks, cells] = harmonics.map(|waves| Peak::of(&means, &waves));
+        let spectrum = Periodogram::mean(&means)?;
         Ok(Self {
             sampler,
             // What is not tiled is given to the reference as it is.
@@ -99,10 +113,18 @@ impl Statistics {
             density: Summary::of(&densities),
             contrast: Summary::of(&contrasts),
             peaks: [axes?, blocks?, cells?],
-            spectrum: Periodogram::mean(&means)?,
+            anisotropy: spectrum.contrast(ANNULUS, CONTRAST_RANGE)?,
+            difference: difference(&spectrum, reference.unwrap_or(&spectrum))?,
+            spectrum,
             sets,
         })
     }
+}
+
+/// How far two radial means are apart at most.
+fn difference(a: &Periodogram, b: &Periodogram) -> Result<f64> {
+    let [a, b] = [a.radial(ANNULUS)?, b.radial(ANNULUS)?];
+    Ok(a.iter().zip(&b).map(|(a, b)| (a.power - b.power).abs()).fold(0.0, f64::max))
 }
 
 /// The power at a frequency of the grid, in waves per period.
