@@ -1,15 +1,15 @@
 //! `azulejo draw`: pictures of samples.
 
 mod camera;
-mod canvas;
+pub mod canvas;
 mod detail;
 mod discs;
-mod palette;
-mod plot;
+pub mod palette;
+pub mod plot;
 mod points;
 mod render;
 mod rows;
-mod spectra;
+pub mod spectra;
 mod stage;
 mod surface;
 

@@ -7,6 +7,7 @@ mod output;
 mod ply;
 mod procedural;
 mod progress;
+mod report;
 mod text;
 
 use std::process::ExitCode;
@@ -38,6 +39,9 @@ enum Command {
     /// Draw samples as a PNG picture.
     #[command(subcommand)]
     Draw(draw::Draw),
+    /// Measure the library and write a page with plots.
+    #[command(subcommand)]
+    Report(report::Report),
 }
 
 fn run(cli: &Cli) -> Result<()> {
@@ -48,6 +52,7 @@ fn run(cli: &Cli) -> Result<()> {
         Command::Relax(relax) => relax.run(&context),
         Command::Mesh(procedural) => procedural.run(),
         Command::Draw(draw) => draw.run(&context),
+        Command::Report(report) => report.run(&context),
     }
 }
 

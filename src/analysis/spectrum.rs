@@ -1,4 +1,4 @@
-//! Power spectra of point sets: periodogram, radial mean and anisotropy (thesis §1.4.1).
+//! Power spectra of point sets: periodogram, radial mean, anisotropy, contrast and peaks (thesis §1.4.1).
 //!
 //! The periodogram of N points is P(f) = |Σ exp(-2πi f·x)|² / N: 1 on average for a Poisson process, at every frequency
 //! but 0 (Ulichney 1988, "Dithering with blue noise"; Lagae and Dutré 2008, "A comparison of methods for generating
@@ -9,22 +9,22 @@
 //! taper (1 - ρ²)², ρ being 0 at the centre and 1 on the inscribed ellipse, and the transform of the taper alone, which
 //! a set without any structure would leave around frequency 0, is subtracted.
 
+mod fft;
 mod radial;
+mod transform;
 
 use std::f64::consts::PI;
 
 use crate::error::{Error, Result};
-use crate::job::{Context, Job, Progress};
+use crate::job::{Context, Progress};
 use crate::points::{Boundary, Domain};
+
+use transform::{Weighted, transform};
 
 pub use radial::Annulus;
 
 /// The largest side of a periodogram.
 pub const MAX_SIZE: usize = 4096;
-
-/// Rows of frequencies that one task sums, and points whose waves it keeps at hand meanwhile (64 KB at size 512).
-const ROWS: usize = 16;
-const BLOCK: usize = 16;
 
 /// Beyond this argument the taper's transform, about 38 / s^3.5, is below 4e-7 of its peak.
 const TAPER_REACH: f64 = 200.0;
@@ -42,9 +42,11 @@ pub struct Periodogram {
 
 /// The periodogram of `points`, `size` by `size` frequencies with frequency 0 in row and column `size / 2`.
 ///
-/// On a periodic domain all points count, on a bounded one those inside it (see the [module](self)). Direct sums:
-/// O(points · size²), 4,096 points at size 512 take about 0.3 s on one core. The power at frequency 0, which
-/// only tells the number of points, is set to 0.
+/// On a periodic domain all points count, on a bounded one those inside it (see the [module](self)). The power at
+/// frequency 0, which only tells the number of points, is 0.
+///
+/// O(points + size² log size) in time, 100,000 points at size 1,600 take about 0.2 s on one core; in memory about 40
+/// bytes per point and as many per frequency.
 ///
 /// # Errors
 /// [`Error::InvalidArgument`] for a malformed domain, a `size` outside of 2 to [`MAX_SIZE`], `positions` that are not
@@ -75,22 +77,14 @@ pub fn periodogram(
     };
     let mean = Mean { weight: weighted.iter().map(|point| point.weight).sum(), boundary: domain.boundary };
     let half = size / 2;
-    let rows = context.run(progress, |job| quadrant_rows(job, &weighted, half))?;
+    let waves = context.run(progress, |job| transform(job, &weighted, half))?;
     let power = (0..size * size).map(|i| {
         let [row, column] = [i / size, i % size].map(|k| k as i64 - half as i64);
-        let [row, column] = if row < 0 { [-row, -column] } else { [row, column] };
-        let sums = &rows[row as usize][column.unsigned_abs() as usize];
-        let expected = mean.transform(row as f64, column as f64);
-        (sums.power(column < 0, expected) / energy) as f32
+        let [real, imaginary] = waves.at(column, row);
+        ((real - mean.transform(row as f64, column as f64)).hypot(imaginary).powi(2) / energy) as f32
     });
     let frequency_step = domain.extent().map(|length| 1.0 / (length * density.sqrt()));
     Ok(Periodogram { size, frequency_step, power: power.collect() })
-}
-
-/// A point as a source of waves: its place in periods from the centre of the domain, and its weight.
-struct Weighted {
-    turns: [f64; 2],
-    weight: f64,
 }
 
 fn weigh(domain: &Domain, points: &[[f32; 2]]) -> Vec<Weighted> {
@@ -140,70 +134,6 @@ fn taper_transform(s: f64) -> f64 {
         (wave + weight * (s * angle.cos()).cos(), all + weight)
     });
     wave / all
-}
-
-/// The four real sums that make up the transform at (column, row) and at (-column, row).
-#[derive(Clone, Copy, Default)]
-struct Sums {
-    cos_cos: f64,
-    sin_sin: f64,
-    cos_sin: f64,
-    sin_cos: f64,
-}
-
-impl Sums {
-    fn power(&self, mirrored: bool, mean: f64) -> f64 {
-        let side = if mirrored { -1.0 } else { 1.0 };
-        let real = self.cos_cos - side * self.sin_sin - mean;
-        let imaginary = self.sin_cos + side * self.cos_sin;
-        real * real + imaginary * imaginary
-    }
-}
-
-/// cos and sin of 2π·k·turns for k = 0 ... count - 1. Doubling keeps the rounding at O(log k) ulp.
-fn waves(turns: f64, cos: &mut [f64], sin: &mut [f64]) {
-    (cos[0], sin[0]) = (1.0, 0.0);
-    let mut done = 1;
-    while done < cos.len() {
-        let cycles = turns * done as f64;
-        let (s, c) = (2.0 * PI * (cycles - cycles.round())).sin_cos();
-        for k in 0..done.min(cos.len() - done) {
-            cos[done + k] = cos[k] * c - sin[k] * s;
-            sin[done + k] = sin[k] * c + cos[k] * s;
-        }
-        done *= 2;
-    }
-}
-
-/// Rows 0 to `half` of the quadrant of frequencies that are not negative.
-fn quadrant_rows(job: &Job, points: &[Weighted], half: usize) -> Result<Vec<Vec<Sums>>> {
-    job.flat_map((half + 1).div_ceil(ROWS), |task| {
-        let first = task * ROWS;
-        let mut rows = vec![vec![Sums::default(); half + 1]; ROWS.min(half + 1 - first)];
-        let mut tables = vec![[vec![0.0; half + 1], vec![0.0; half + 1]]; BLOCK];
-        for block in points.chunks(BLOCK) {
-            for (point, [cos, sin]) in block.iter().zip(&mut tables) {
-                waves(point.turns[0], cos, sin);
-            }
-            for (k, row) in rows.iter_mut().enumerate() {
-                for (point, [cos, sin]) in block.iter().zip(&tables) {
-                    let cycles = point.turns[1] * (first + k) as f64;
-                    let (s, c) = (2.0 * PI * (cycles - cycles.round())).sin_cos();
-                    add_wave(row, point.weight * c, point.weight * s, cos, sin);
-                }
-            }
-        }
-        rows
-    })
-}
-
-fn add_wave(row: &mut [Sums], c: f64, s: f64, cos: &[f64], sin: &[f64]) {
-    for ((sums, &cos), &sin) in row.iter_mut().zip(cos).zip(sin) {
-        sums.cos_cos += c * cos;
-        sums.sin_sin += s * sin;
-        sums.cos_sin += c * sin;
-        sums.sin_cos += s * cos;
-    }
 }
 
 impl Periodogram {

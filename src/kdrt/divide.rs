@@ -28,12 +28,31 @@ pub(super) struct Tree {
     root: Leaf,
     /// The smallest side of a leaf, per axis: sides lie between it and its double.
     shortest: [i32; 2],
+    #[cfg(test)]
+    pub fixed: Fixed,
+}
+
+/// What tests take the randomness from, to see what it is good for (thesis §2.5.2).
+#[cfg(test)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) enum Fixed {
+    #[default]
+    Nothing,
+    /// Every node is split in its middle.
+    Splits,
+    /// Every leaf is given the same part of the pattern.
+    Clips,
 }
 
 impl Tree {
     /// A tree over `rect`, whose sides are at least `shortest`.
     pub fn new(rect: Rect, shortest: [i32; 2], seed: u64) -> Self {
-        Self { root: Leaf { rect, key: hash(seed, Draw::Split, &[]) }, shortest }
+        Self {
+            root: Leaf { rect, key: hash(seed, Draw::Split, &[]) },
+            shortest,
+            #[cfg(test)]
+            fixed: Fixed::Nothing,
+        }
     }
 
     /// All leaves that meet `window`, which lies in the domain. O(leaves met + depth).
@@ -49,6 +68,8 @@ impl Tree {
         }
         match self.split(node) {
             Some(halves) => halves.into_iter().for_each(|half| self.descend(half, window, leaves)),
+            #[cfg(test)]
+            None if self.fixed == Fixed::Clips => leaves.push(Leaf { key: self.root.key, ..node }),
             None => leaves.push(node),
         }
     }
@@ -59,9 +80,10 @@ impl Tree {
             .filter(|&axis| node.rect.length(axis) / 2 >= self.shortest[axis])
             .max_by_key(|&axis| node.rect.length(axis))?;
         let choices = node.rect.length(axis) - 2 * self.shortest[axis] + 1;
-        let border = node.rect.min[axis]
-            + self.shortest[axis]
-            + Rng::at(node.key, Draw::Split, &[]).below(choices as u64) as i32;
+        let choice = Rng::at(node.key, Draw::Split, &[]).below(choices as u64) as i32;
+        #[cfg(test)]
+        let choice = if self.fixed == Fixed::Splits { choices / 2 } else { choice };
+        let border = node.rect.min[axis] + self.shortest[axis] + choice;
         let mut rects = [node.rect; 2];
         rects[0].max[axis] = border;
         rects[1].min[axis] = border;

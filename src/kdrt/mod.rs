@@ -14,6 +14,7 @@ mod clip;
 mod conquer;
 mod divide;
 mod fill;
+mod measure;
 mod output;
 mod plane;
 #[allow(unsafe_code)] // Vector instructions.
@@ -28,6 +29,7 @@ use crate::{maximal, memory};
 
 use plane::Plane;
 
+pub use measure::{Stages, measure};
 pub use window::{sample_stream, sample_window};
 
 /// The leaf size, in radii, that balances speed and spectrum.

@@ -5,6 +5,9 @@
 //! or not. The margin is at most 2 blocks (20 radii) to the left and right and 1 (10 radii) above and below for the
 //! phases of filling, and 5 radii for the chains of elimination around what the filling sees.
 
+#[cfg(test)]
+mod randomness;
+
 use crate::error::Result;
 use crate::job::Job;
 use crate::lattice::{Lattice, Rect};

@@ -2,7 +2,10 @@
 
 use ab_glyph::{Font, FontRef, OutlineCurve, Point};
 use azulejo::Result;
-use image::{ExtendedColorType, ImageEncoder, codecs::png::PngEncoder};
+use image::{
+    ExtendedColorType, ImageEncoder,
+    codecs::png::{CompressionType, FilterType, PngEncoder},
+};
 use tiny_skia::{
     Color, FillRule, FilterQuality, IntSize, LineCap, LineJoin, Mask, Paint, Path, PathBuilder, Pixmap, PixmapPaint,
     Stroke, Transform,
@@ -180,7 +183,7 @@ impl Canvas {
     pub fn write(&self, output: &Output) -> Result<()> {
         let rgb: Vec<u8> = self.pixmap.pixels().iter().flat_map(|p| [p.red(), p.green(), p.blue()]).collect();
         output.write(|writer| {
-            PngEncoder::new(writer)
+            PngEncoder::new_with_quality(writer, CompressionType::Best, FilterType::NoFilter)
                 .write_image(&rgb, self.pixmap.width(), self.pixmap.height(), ExtendedColorType::Rgb8)
                 .map_err(std::io::Error::other)
         })

@@ -16,6 +16,9 @@ pub const MIST: Colour = [223, 228, 235];
 /// The one accent.
 pub const COBALT: Colour = [24, 72, 160];
 
+/// Curves and bars beside each other, told apart by lightness too: cobalt, ochre, copper green, manganese, sky, iron.
+pub const SERIES: [Colour; 6] = [COBALT, [217, 152, 35], [46, 125, 90], [122, 62, 130], [112, 164, 216], [170, 70, 48]];
+
 /// From white glaze over cobalt to nearly black, evenly in lightness; `ink` in 0 to 1.
 pub fn glaze_to_cobalt(ink: f64) -> Colour {
     const STOPS: [[f64; 3]; 5] =

@@ -13,21 +13,64 @@ const TITLE_SIZE: f32 = 27.0;
 pub struct Axis<'a> {
     pub label: &'a str,
     pub range: [f64; 2],
-    /// How many ticks there are about.
+    /// How many ticks there are about, where the scale leaves it open; 0 for none.
     pub ticks: usize,
+    pub scale: Scale,
 }
 
-impl Axis<'_> {
+/// How values lie along an axis.
+#[derive(Clone, Copy, PartialEq)]
+pub enum Scale {
+    Linear,
+    /// Powers of ten at equal distances, with a tick at each.
+    Logarithmic,
+}
+
+impl Scale {
+    fn place(self, value: f64) -> f64 {
+        match self {
+            Self::Linear => value,
+            Self::Logarithmic => value.log10(),
+        }
+    }
+
+    fn label(self, value: f64) -> String {
+        match self {
+            Self::Linear => tick_label(value),
+            Self::Logarithmic => format!("10{}", superscript(value.log10().round() as i32)),
+        }
+    }
+}
+
+impl<'a> Axis<'a> {
+    /// An axis of equal steps.
+    pub fn linear(label: &'a str, range: [f64; 2], ticks: usize) -> Self {
+        Self { label, range, ticks, scale: Scale::Linear }
+    }
+
+    /// An axis of powers of ten.
+    pub fn logarithmic(label: &'a str, range: [f64; 2]) -> Self {
+        Self { label, range, ticks: 0, scale: Scale::Logarithmic }
+    }
+
     /// Round numbers in the range.
     fn tick_values(&self) -> Vec<f64> {
         let [low, high] = self.range;
+        if self.scale == Scale::Logarithmic {
+            let [first, last] = [(low.log10() - 1e-9).ceil(), (high.log10() + 1e-9).floor()].map(|power| power as i32);
+            return (first..=last).map(|power| 10f64.powi(power)).collect();
+        }
+        if self.ticks == 0 {
+            return Vec::new();
+        }
         let step = round_step((high - low) / self.ticks as f64);
         let (first, last) = ((low / step - 1e-6).ceil() as i64, (high / step + 1e-6).floor() as i64);
         (first..=last).map(|k| k as f64 * step).collect()
     }
 
     fn share(&self, value: f64) -> f32 {
-        ((value - self.range[0]) / (self.range[1] - self.range[0])) as f32
+        let [value, low, high] = [value, self.range[0], self.range[1]].map(|value| self.scale.place(value));
+        ((value - low) / (high - low)) as f32
     }
 }
 
@@ -70,12 +113,12 @@ impl Panel<'_> {
         for value in self.x.tick_values() {
             let [x, _] = self.place([value, self.y.range[0]]);
             canvas.line([[x, bottom], [x, bottom + 7.0]], 1.5, SLATE);
-            canvas.text(&tick_label(value), [x, bottom + 25.0], tick(Align::Centre));
+            canvas.text(&self.x.scale.label(value), [x, bottom + 25.0], tick(Align::Centre));
         }
         for value in self.y.tick_values() {
             let [_, y] = self.place([self.x.range[0], value]);
             canvas.line([[left - 7.0, y], [left, y]], 1.5, SLATE);
-            canvas.text(&tick_label(value), [left - 12.0, y + 6.0], tick(Align::Right));
+            canvas.text(&self.y.scale.label(value), [left - 12.0, y + 6.0], tick(Align::Right));
         }
         let [x, y] = self.rect.centre();
         canvas.text(self.x.label, [x, bottom + 51.0], label(Align::Centre, false));
@@ -96,13 +139,19 @@ fn tick_label(value: f64) -> String {
     rounded(value, 6).replace('-', "\u{2212}")
 }
 
+fn superscript(number: i32) -> String {
+    const DIGITS: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
+    let raised = |sign: char| sign.to_digit(10).map_or('⁻', |digit| DIGITS[digit as usize]);
+    number.to_string().chars().map(raised).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
     fn ticks_are_round_and_within_the_range() {
-        let ticks = |low, high, ticks| Axis { label: "", range: [low, high], ticks }.tick_values();
+        let ticks = |low, high, ticks| Axis::linear("", [low, high], ticks).tick_values();
         assert_eq!(ticks(0.0, 1.0, 5), [0.0, 0.2, 0.4, 0.6000000000000001, 0.8, 1.0]);
         assert_eq!(ticks(-2.5, 2.5, 5), [-2.0, -1.0, 0.0, 1.0, 2.0]);
         assert_eq!(ticks(103.0, 117.0, 3), [105.0, 110.0, 115.0]);
@@ -111,8 +160,17 @@ mod tests {
     }
 
     #[test]
+    fn a_logarithmic_axis_has_its_ticks_at_powers_of_ten() {
+        let axis = Axis::logarithmic("", [0.001, 20.0]);
+        let labels: Vec<_> = axis.tick_values().iter().map(|&value| axis.scale.label(value)).collect();
+        assert_eq!(labels, ["10⁻³", "10⁻²", "10⁻¹", "10⁰", "10¹"]);
+        let axis = Axis::logarithmic("", [1e3, 1e7]);
+        assert_eq!([1e3, 1e5, 1e7].map(|value| axis.share(value)), [0.0, 0.5, 1.0]);
+    }
+
+    #[test]
     fn a_panel_places_values_upwards() {
-        let axis = |high| Axis { label: "", range: [0.0, high], ticks: 2 };
+        let axis = |high| Axis::linear("", [0.0, high], 2);
         let panel = Panel { rect: Rect { x: 10.0, y: 20.0, width: 100.0, height: 50.0 }, x: axis(1.0), y: axis(5.0) };
         assert_eq!(panel.place([0.0, 0.0]), [10.0, 70.0]);
         assert_eq!(panel.place([0.5, 5.0]), [60.0, 20.0]);

@@ -78,8 +78,8 @@ fn draw_samples(canvas: &mut Canvas, windows: &Windows, points: &[[f32; 2]]) {
             width: SAMPLES.width * across,
             height: SAMPLES.height * down,
         },
-        x: Axis { label: "x", range: [shown.min[0], shown.max[0]], ticks: 5 },
-        y: Axis { label: "y", range: [shown.min[1], shown.max[1]], ticks: 5 },
+        x: Axis::linear("x", [shown.min[0], shown.max[0]], 5),
+        y: Axis::linear("y", [shown.min[1], shown.max[1]], 5),
     };
     let count = grouped(inside(&shown, points).len());
     let remark = match points.len() {
@@ -109,7 +109,7 @@ fn images(domain: &Domain, points: &[[f32; 2]], radius: f64) -> impl Iterator<It
 }
 
 fn frequency_axis(label: &str, range: [f64; 2]) -> Axis<'_> {
-    Axis { label, range, ticks: 5 }
+    Axis::linear(label, range, 5)
 }
 
 fn ink(power: f64) -> Colour {
@@ -155,7 +155,7 @@ fn draw_radial_mean(canvas: &mut Canvas, annuli: &[Annulus]) {
     let panel = Panel {
         rect: RADIAL,
         x: frequency_axis("frequency / √density", [0.0, FREQUENCY_LIMIT]),
-        y: Axis { label: "power", range: [0.0, (peak * 1.1).min(100.0)], ticks: 4 },
+        y: Axis::linear("power", [0.0, (peak * 1.1).min(100.0)], 4),
     };
     let curve = annuli.iter().map(|annulus| [annulus.frequency, annulus.power]);
     draw_curve(canvas, &panel, curve, 1.0);
@@ -167,7 +167,7 @@ fn draw_anisotropy(canvas: &mut Canvas, annuli: &[Annulus], windows: usize) {
     let panel = Panel {
         rect: ANISOTROPY,
         x: frequency_axis("frequency / √density", [0.0, FREQUENCY_LIMIT]),
-        y: Axis { label: "anisotropy / dB", range: [isotropic - 10.0, isotropic + 10.0], ticks: 4 },
+        y: Axis::linear("anisotropy / dB", [isotropic - 10.0, isotropic + 10.0], 4),
     };
     let curve = annuli.iter().map(|annulus| [annulus.frequency, 10.0 * annulus.anisotropy.max(1e-9).log10()]);
     draw_curve(canvas, &panel, curve, isotropic);

@@ -1,4 +1,4 @@
-//! Radial mean and anisotropy of a periodogram (Ulichney 1988; thesis fig. 1.10).
+//! Radial mean, anisotropy, contrast and peaks of a periodogram (Ulichney 1988; thesis fig. 1.10).
 
 use super::Periodogram;
 use crate::error::{Error, Result};
@@ -6,6 +6,8 @@ use crate::error::{Error, Result};
 /// The frequencies of about one length: a point of the radial curves.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Annulus {
+    /// The number of its frequencies, not counting a frequency and its opposite twice.
+    pub count: usize,
     /// The mean length of its frequencies, in units of sqrt(density).
     pub frequency: f64,
     /// The mean power; 1 for a Poisson process.
@@ -15,40 +17,161 @@ pub struct Annulus {
     pub anisotropy: f64,
 }
 
+/// Annuli of one width, which hold all frequencies out to the largest circle of the grid.
+struct Annuli {
+    width: f64,
+    last: f64,
+    /// The count of frequencies and the sums of their lengths, powers and squared powers.
+    sums: Vec<[f64; 4]>,
+}
+
+impl Annuli {
+    fn index(&self, frequency: f64) -> Option<usize> {
+        let index = (frequency / self.width) as usize;
+        (frequency <= self.last && index < self.sums.len()).then_some(index)
+    }
+}
+
 impl Periodogram {
     /// The radial curves in annuli of `width`, in units of sqrt(density), out to the largest circle of the grid.
-    /// Annuli of fewer than two frequencies, not counting a frequency and its opposite twice, are left out.
+    /// Annuli of fewer than two frequencies are left out.
     ///
     /// # Errors
     /// [`Error::InvalidArgument`] if `width` is not a positive finite number.
     pub fn radial(&self, width: f64) -> Result<Vec<Annulus>> {
+        let annuli = self.annuli(width)?;
+        let curve = annuli.sums.iter().filter(|sums| sums[0] >= 2.0).map(|&[count, frequency, power, square]| {
+            let mean = power / count;
+            let variance = (square - power * mean).max(0.0) / (count - 1.0);
+            let anisotropy = if mean > 0.0 { variance / (mean * mean) } else { 0.0 };
+            Annulus { count: count as usize, frequency: frequency / count, power: mean, anisotropy }
+        });
+        Ok(curve.collect())
+    }
+
+    /// How much the power scatters about its radial mean: the mean of the anisotropy over all frequencies with a length
+    /// in `range`, in units of sqrt(density), found in annuli of `width`. 0 if there are none.
+    ///
+    /// The power of a large set without order over long distances is exponentially distributed about its mean, as that of
+    /// a Poisson process is, so a single periodogram has a contrast of 1, up to sqrt(8 / frequencies) by chance. A set in
+    /// which parts are repeated has more, though its radial mean may show nothing.
+    ///
+    /// # Errors
+    /// As [`Periodogram::radial`].
+    pub fn contrast(&self, width: f64, range: std::ops::Range<f64>) -> Result<f64> {
+        let annuli = self.radial(width)?.into_iter().filter(|annulus| range.contains(&annulus.frequency));
+        let (count, sum) = annuli.fold((0.0, 0.0), |(count, sum), annulus| {
+            let frequencies = annulus.count as f64;
+            (count + frequencies, sum + frequencies * annulus.anisotropy)
+        });
+        Ok(if count > 0.0 { sum / count } else { 0.0 })
+    }
+
+    /// The largest power at some frequencies, each over the mean power of its annulus of `width`, in units of
+    /// sqrt(density). 0 if none of them is in the grid.
+    ///
+    /// `waves` are counted in columns and rows from frequency 0; those beyond the largest circle of the grid are passed
+    /// over. By chance alone the largest of n frequencies of a single periodogram is about ln n.
+    ///
+    /// # Errors
+    /// As [`Periodogram::radial`].
+    pub fn peak(&self, width: f64, waves: impl IntoIterator<Item = [i64; 2]>) -> Result<f64> {
+        let annuli = self.annuli(width)?;
+        let half = (self.size / 2) as i64;
+        let over_mean = |[column, row]: [i64; 2]| {
+            let [count, _, power, _] = annuli.sums[annuli.index(self.frequency(column, row))?];
+            let mean = power / count;
+            (mean > 0.0).then(|| self.power[((row + half) * self.size as i64 + column + half) as usize] as f64 / mean)
+        };
+        Ok(waves.into_iter().filter_map(over_mean).fold(0.0, f64::max))
+    }
+
+    /// The length of a frequency, in units of sqrt(density).
+    fn frequency(&self, column: i64, row: i64) -> f64 {
+        (column as f64 * self.frequency_step[0]).hypot(row as f64 * self.frequency_step[1])
+    }
+
+    fn annuli(&self, width: f64) -> Result<Annuli> {
         if !(width > 0.0 && width.is_finite()) {
             return Err(Error::invalid("width", format!("{width} is not a positive finite number")));
         }
         let half = (self.size / 2) as i64;
-        let last = (self.size as i64 - 1 - half) as f64 * self.frequency_step[0].min(self.frequency_step[1]);
-        let annulus = |frequency: f64| (frequency / width) as usize;
-        let mut annuli = vec![[0.0; 4]; annulus(last.min(width * 1e6)) + 1];
-        for row in 0..(self.size as i64 - half) {
-            for column in -half..(self.size as i64 - half) {
-                let [x, y] = [column as f64 * self.frequency_step[0], row as f64 * self.frequency_step[1]];
-                let frequency = x.hypot(y);
-                if frequency > last || (row == 0 && column <= 0) {
-                    continue;
-                }
+        let end = self.size as i64 - half;
+        let last = (end - 1) as f64 * self.frequency_step[0].min(self.frequency_step[1]);
+        let count = (last.min(width * 1e6) / width) as usize + 1;
+        let mut annuli = Annuli { width, last, sums: vec![[0.0; 4]; count] };
+        // Half of the plane: the power at the opposite frequencies is the same.
+        for (row, column) in (0..end).flat_map(|row| (-half..end).map(move |column| (row, column))) {
+            let frequency = self.frequency(column, row);
+            if let Some(index) = annuli.index(frequency).filter(|_| row > 0 || column > 0) {
                 let power = self.power[((row + half) * self.size as i64 + column + half) as usize] as f64;
                 let terms = [1.0, frequency, power, power * power];
-                if let Some(sums) = annuli.get_mut(annulus(frequency)) {
-                    (0..4).for_each(|i| sums[i] += terms[i]);
-                }
+                (0..4).for_each(|i| annuli.sums[index][i] += terms[i]);
             }
         }
-        let curve = annuli.iter().filter(|sums| sums[0] >= 2.0).map(|&[count, frequency, power, square]| {
-            let mean = power / count;
-            let variance = (square - power * mean).max(0.0) / (count - 1.0);
-            let anisotropy = if mean > 0.0 { variance / (mean * mean) } else { 0.0 };
-            Annulus { frequency: frequency / count, power: mean, anisotropy }
-        });
-        Ok(curve.collect())
+        Ok(annuli)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::periodogram;
+    use super::*;
+    use crate::job::Context;
+    use crate::points::{Boundary, Domain};
+    use crate::rng::{Draw, Rng};
+
+    fn spectrum(points: &[[f32; 2]], size: usize) -> Periodogram {
+        periodogram(&Context::new(1).unwrap(), &Domain::unit(Boundary::Periodic), points, size, None).unwrap()
+    }
+
+    fn random_points(seed: u64, count: usize) -> Vec<[f32; 2]> {
+        let mut rng = Rng::at(seed, Draw::Probe, &[]);
+        (0..count).map(|_| [rng.unit() as f32, rng.unit() as f32]).collect()
+    }
+
+    #[test]
+    fn a_poisson_process_has_contrast_one_and_repeated_parts_of_one_have_more() {
+        let poisson = spectrum(&random_points(1, 5000), 200);
+        let contrast = poisson.contrast(0.02, 0.2..1.3).unwrap();
+        assert!((contrast - 1.0).abs() < 0.06, "{contrast}");
+        // Laid at random 50 times, the same part scales the exponential distribution by an exponential one:
+        // the mean of its square is 2 · 2, its variance 3.
+        let part = random_points(2, 100);
+        let places = random_points(3, 50);
+        let image = |place: &[f32; 2]| {
+            let place = *place;
+            part.iter()
+                .map(move |point| [0, 1].map(|axis| (place[axis] + 0.1 * point[axis]).fract()))
+                .collect::<Vec<_>>()
+        };
+        let repeated = spectrum(&places.iter().flat_map(image).collect::<Vec<_>>(), 200);
+        let contrast = repeated.contrast(0.02, 0.2..1.3).unwrap();
+        assert!((2.2..4.0).contains(&contrast), "{contrast}");
+        assert_eq!(poisson.contrast(0.02, 7.0..9.0).unwrap(), 0.0);
+    }
+
+    #[test]
+    fn the_mean_of_n_periodograms_has_the_contrast_of_one_over_n() {
+        let spectra: Vec<_> = (0..8).map(|seed| spectrum(&random_points(seed, 2000), 120)).collect();
+        let contrast = Periodogram::mean(&spectra).unwrap().contrast(0.02, 0.2..1.3).unwrap();
+        assert!((contrast * 8.0 - 1.0).abs() < 0.1, "{contrast}");
+    }
+
+    /// Columns of points at regular places, each at random in its column's height.
+    #[test]
+    fn columns_are_peaks_on_their_axis_and_nowhere_else() {
+        let mut points = random_points(5, 4000);
+        points.iter_mut().enumerate().for_each(|(i, point)| point[0] = (i % 40) as f32 / 40.0);
+        let spectrum = spectrum(&points, 160);
+        let multiples = |step: i64| (1..80 / step).map(move |k| k * step);
+        let columns = spectrum.peak(0.05, multiples(40).map(|column| [column, 0])).unwrap();
+        let mean = 1.0 + 4000.0 / std::f64::consts::PI / (0.632 * 0.05 * 4000.0);
+        assert!(columns > 0.5 * 4000.0 / mean, "{columns}");
+        let rows = spectrum.peak(0.05, multiples(1).map(|row| [0, row])).unwrap();
+        assert!((2.0..12.0).contains(&rows), "{rows}");
+        assert_eq!(spectrum.peak(0.05, [[3, 0], [500, 0], [70, 70]]).unwrap(), spectrum.peak(0.05, [[-3, 0]]).unwrap());
+        assert_eq!(spectrum.peak(0.05, []).unwrap(), 0.0);
+        assert!(spectrum.peak(0.0, []).is_err() && spectrum.contrast(f64::NAN, 0.0..1.0).is_err());
     }
 }

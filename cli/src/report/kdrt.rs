@@ -1,0 +1,99 @@
+//! `azulejo report kdrt`: the tables and figures of thesis chapter 2, measured again.
+
+use std::fs;
+use std::io::Write;
+use std::path::PathBuf;
+
+use azulejo::{Boundary, Context, Domain, Error, Progress, Result, kdrt, maximal};
+use clap::Args;
+
+use super::statistics::Statistics;
+use super::times::Times;
+use super::{page, pictures};
+use crate::generate::MAXIMAL_DENSITY;
+use crate::output::Output;
+use crate::progress::watched;
+
+/// The leaf sizes of the thesis, in radii.
+pub const LEAF_SIZES: [f64; 4] = [6.0, 20.0, 40.0, 80.0];
+
+#[derive(Args)]
+pub struct Kdrt {
+    /// The directory of the page `kdrt.md` and its pictures.
+    #[arg(long, value_name = "DIRECTORY", default_value = "docs")]
+    out: PathBuf,
+    /// Measure few and small sets: to see the page, not to believe it.
+    #[arg(long)]
+    quick: bool,
+}
+
+/// How much is measured.
+pub struct Effort {
+    /// Samples of a set whose statistics are measured, and sets in each of the groups.
+    pub count: f64,
+    pub sets_per_group: u64,
+    /// Samples of the sets whose stages are measured, and of the largest that is timed.
+    pub timed: f64,
+    pub largest: f64,
+}
+
+const FULL: Effort = Effort { count: 1e5, sets_per_group: 20, timed: 1e6, largest: 1e7 };
+const QUICK: Effort = Effort { count: 2e4, sets_per_group: 1, timed: 3e4, largest: 3e4 };
+
+/// Who makes a set.
+#[derive(Clone, Copy, PartialEq)]
+pub enum Sampler {
+    /// The unbiased reference.
+    Maximal,
+    /// KDRT with a leaf size in radii.
+    Leaves(f64),
+}
+
+impl Sampler {
+    pub fn name(self) -> String {
+        match self {
+            Self::Maximal => "reference".to_owned(),
+            Self::Leaves(size) => format!("{size}r"),
+        }
+    }
+
+    /// A set of about `count` samples on the unit torus.
+    pub fn sample(self, context: &Context, count: f64, seed: u64) -> Result<Vec<[f32; 2]>> {
+        let (radius, domain) = (radius(count), Domain::unit(Boundary::Periodic));
+        match self {
+            Self::Maximal => maximal::sample(context, &maximal::Options { radius, domain, seed }, None),
+            Self::Leaves(leaf_size) => kdrt::sample(context, &kdrt::Options { radius, domain, leaf_size, seed }, None),
+        }
+    }
+}
+
+/// The radius at which a maximal set of the unit torus has about `count` samples.
+pub fn radius(count: f64) -> f64 {
+    (MAXIMAL_DENSITY / count).sqrt()
+}
+
+impl Kdrt {
+    pub fn run(&self, context: &Context) -> Result<()> {
+        let effort = if self.quick { QUICK } else { FULL };
+        let pictures = self.out.join("kdrt");
+        fs::create_dir_all(&pictures).map_err(|source| Error::Io { path: pictures.clone(), source })?;
+        let page = Output::at(&self.out.join("kdrt.md"))?;
+
+        let times = watched("times", |progress| Times::measure(context, &effort, progress))?;
+        let samplers = [Sampler::Maximal].into_iter().chain(LEAF_SIZES.map(Sampler::Leaves));
+        let mut statistics = Vec::new();
+        for sampler in samplers {
+            let reference = statistics.first().map(|reference: &Statistics| &reference.spectrum);
+            let measure = |progress: &Progress| Statistics::measure(context, sampler, &effort, reference, progress);
+            statistics.push(watched("spectra", measure)?);
+        }
+        pictures::draw_times(&times, &Output::at(&pictures.join("times.png"))?)?;
+        pictures::draw_stages(&times, &Output::at(&pictures.join("stages.png"))?)?;
+        for one in &statistics {
+            let output = Output::at(&pictures.join(format!("spectrum-{}.png", one.sampler.name())))?;
+            pictures::draw_spectrum(one, &statistics[0], &output)?;
+        }
+        let text = page::text(&effort, &statistics, &times, self.quick);
+        page.write(|writer| writer.write_all(text.as_bytes()))
+    }
+}

@@ -1,0 +1,35 @@
+//! `azulejo report`, from outside.
+
+mod common;
+
+use common::Workshop;
+
+#[test]
+fn a_quick_report_has_every_table_and_picture_that_it_shows() {
+    let workshop = Workshop::new();
+    let said = workshop.succeed(&["report", "kdrt", "--quick", "--out", "pages/docs", "--threads", "2"]);
+    assert!(said.is_empty(), "{said}");
+    let page = std::fs::read_to_string(workshop.path("pages/docs/kdrt.md")).unwrap();
+    for figure in ["table 2.2", "fig. 2.11", "fig. 2.13", "fig. 2.15 to 2.19"] {
+        assert!(page.contains(figure), "{figure}");
+    }
+    for name in ["reference", "6r", "20r", "40r", "80r"] {
+        assert!(page.contains(&format!("\n| {name} ")), "{name}");
+    }
+    let pictures = page.split("](").skip(1).map(|rest| rest.split(')').next().unwrap());
+    let mut count = 0;
+    for picture in pictures {
+        let picture = image::open(workshop.path("pages/docs").join(picture)).unwrap().to_rgb8();
+        assert!(picture.width() >= 900 && picture.pixels().any(|pixel| pixel[2] > pixel[0].saturating_add(25)));
+        count += 1;
+    }
+    assert_eq!(count, 7);
+}
+
+#[test]
+fn a_report_is_refused_where_it_cannot_be_written() {
+    let workshop = Workshop::new();
+    workshop.write("file", "");
+    let said = workshop.refuse(&["report", "kdrt", "--quick", "--out", "file"], 1);
+    assert!(said.starts_with("error: file"), "{said}");
+}
