@@ -20,6 +20,10 @@ pub(crate) enum Draw {
     Priority,
     /// KDRT: the jitter of the fill blocks.
     Block,
+    /// KDRT: another attempt at an exact count.
+    Attempt,
+    /// KDRT: where and how a set is changed to have an exact count.
+    Tune,
     /// PSP: the rotation of the projectors.
     Rotation,
     /// PSP: the shift of a projector's pattern.

@@ -1,0 +1,143 @@
+//! Exactly N samples (thesis §2.5.3), and still a maximal set.
+//!
+//! Departure: the thesis makes about N samples and then inserts the rest into the largest triangles, which brings samples
+//! closer together than the radius, or eliminates those that are too many, which leaves gaps. Here a set of about N
+//! samples is changed in small places only (`tune.rs`): the samples of a place are taken out and it is filled again, as
+//! KDRT fills its gaps, until it holds as many more or fewer as wanted. The radius is kept, and so is the coverage.
+
+mod plots;
+mod search;
+mod thin;
+mod tune;
+
+use crate::error::{Error, Result};
+use crate::job::{Context, Job, Progress};
+use crate::lattice::Lattice;
+use crate::points::Domain;
+use crate::rng::{Draw, hash};
+
+use super::{check_leaf_size, sample_lattice};
+use search::Search;
+
+/// Radii that are tried before a set is accepted that is not maximal. Only few samples, to which chance and the shape
+/// of the domain leave hardly any choice, need more than two or three.
+const ATTEMPTS: u64 = 64;
+
+/// The share of the remaining progress that the attempt at work takes.
+const ATTEMPT_SHARE: f64 = 0.9;
+
+/// The share of an attempt that making the set takes; the rest is for tuning it.
+const SAMPLING_SHARE: f64 = 0.7;
+
+/// What to sample, by number.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CountOptions {
+    /// How many samples: at least 1.
+    pub count: u64,
+    /// Where to sample, as in [`Options`](super::Options).
+    pub domain: Domain,
+    /// The shortest side of a leaf in radii, as in [`Options`](super::Options).
+    pub leaf_size: f64,
+    /// The same options and seed give the same samples.
+    pub seed: u64,
+}
+
+/// What [`sample_count`] achieved.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct CountReport {
+    /// The radius: no two samples are closer.
+    pub radius: f64,
+    /// Whether the set is maximal for this radius. Always true where a maximal set of so many samples was found.
+    pub is_maximal: bool,
+}
+
+/// Samples, and what holds for them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Counted {
+    /// The samples: as many as asked for.
+    pub samples: Vec<[f32; 2]>,
+    /// Their radius.
+    pub report: CountReport,
+}
+
+/// A maximal Poisson-disk set of exactly `count` samples, in parallel.
+///
+/// The radius follows from the density of maximal sets and is corrected when the set made with it is off by more than
+/// chance. What still differs, a few samples of a thousand at most, is set right by making small places anew. The result
+/// keeps what [`sample`](super::sample) promises, for the radius in the report: conflict-free, and maximal within the
+/// same tolerance. Of the radii at which `count` samples can be maximal it is the first that is found; they differ by
+/// about 1 / `count`, and a lot where samples are few. A single sample gets a radius with which it covers the domain.
+///
+/// Where no maximal set is found, as can be with a handful of samples only, the most crowded samples of a larger set are
+/// dropped, and the report says that the set is not maximal. How far the domain is from the samples then, and exactly in
+/// any case, says [`covering_radius_2d`](crate::analysis::coverage::covering_radius_2d).
+///
+/// The samples are in the order of [`sample`](super::sample), with those made anew in the places of others. The same for
+/// every number of threads. O(n) like [`sample`](super::sample), which is called once or a few times.
+///
+/// # Errors
+/// [`Error::InvalidArgument`] for an argument out of range, and for `count` where floats are too coarse for the radius of
+/// so many samples; [`Error::TooLarge`] above 2^32 samples or the available memory, both before any work;
+/// [`Error::Cancelled`].
+pub fn sample_count(context: &Context, options: &CountOptions, progress: Option<&Progress>) -> Result<Counted> {
+    let &CountOptions { count, domain, leaf_size, .. } = options;
+    check_leaf_size(leaf_size)?;
+    domain.check()?;
+    if count == 0 {
+        return Err(Error::invalid("count", "0 is not at least 1"));
+    }
+    let search = Search::new(&domain, leaf_size, count);
+    lattice(options, search.radius())?;
+    context.run(progress, |job| attempts(job, options, search))
+}
+
+/// Makes sets of several radii until one can be tuned.
+fn attempts(job: &Job, options: &CountOptions, mut search: Search) -> Result<Counted> {
+    let &CountOptions { count, leaf_size, seed, .. } = options;
+    let mut remaining = 1.0;
+    let mut closest: Option<(f64, Vec<[f32; 2]>)> = None;
+    for attempt in 0.. {
+        let job = job.part(1.0 - remaining, 1.0 - remaining * (1.0 - ATTEMPT_SHARE));
+        remaining *= 1.0 - ATTEMPT_SHARE;
+        let seed = if attempt == 0 { seed } else { hash(seed, Draw::Attempt, &[attempt]) };
+        let radius = search.radius();
+        let lattice = lattice(options, radius)?;
+        let mut samples = sample_lattice(&job.part(0.0, SAMPLING_SHARE), &lattice, leaf_size, seed)
+            .map_err(|error| of_count(error, count))?;
+        let made = samples.len() as u64;
+        if search.is_near(made) {
+            tune::tune(&job.part(SAMPLING_SHARE, 1.0), &lattice, &mut samples, count, seed)?;
+        }
+        if samples.len() as u64 == count {
+            return Ok(Counted { samples, report: CountReport { radius, is_maximal: true } });
+        }
+        search.correct(made);
+        let most = closest.as_ref().map_or(usize::MAX, |(_, samples)| samples.len());
+        if (count..most as u64).contains(&(samples.len() as u64)) {
+            closest = Some((radius, samples));
+        }
+        if attempt + 1 >= ATTEMPTS
+            && let Some((radius, samples)) = closest.take()
+        {
+            let samples = thin::thin(&options.domain, samples, count as usize);
+            return Ok(Counted { samples, report: CountReport { radius, is_maximal: false } });
+        }
+    }
+    unreachable!("attempts go on until one has enough samples")
+}
+
+/// The lattice for a radius that follows from the count.
+fn lattice(options: &CountOptions, radius: f64) -> Result<Lattice> {
+    Lattice::new(&options.domain, radius).map_err(|error| of_count(error, options.count))
+}
+
+/// An error about the radius as one about the count that it follows from.
+fn of_count(error: Error, count: u64) -> Error {
+    let reason = |reason| format!("{count} asks for a radius that is refused: {reason}");
+    match error {
+        Error::InvalidArgument { argument: "radius", reason: why } => Error::invalid("count", reason(why)),
+        Error::TooLarge { argument: "radius", reason: why } => Error::too_large("count", reason(why)),
+        other => other,
+    }
+}
