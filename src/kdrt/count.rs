@@ -18,9 +18,11 @@ use crate::rng::{Draw, hash};
 
 use super::{check_leaf_size, sample_lattice};
 use search::Search;
+use thin::thin;
+use tune::tune;
 
-/// Radii that are tried before a set is accepted that is not maximal. Only few samples, to which chance and the shape
-/// of the domain leave hardly any choice, need more than two or three.
+/// Radii that are tried before a set is accepted that is not maximal. A maximal set of any number of samples exists: put
+/// each where the domain is farthest from those before it. More than a dozen attempts at one were never seen.
 const ATTEMPTS: u64 = 64;
 
 /// The share of the remaining progress that the attempt at work takes.
@@ -66,20 +68,20 @@ pub struct Counted {
 /// The radius follows from the density of maximal sets and is corrected when the set made with it is off by more than
 /// chance. What still differs, a few samples of a thousand at most, is set right by making small places anew. The result
 /// keeps what [`sample`](super::sample) promises, for the radius in the report: conflict-free, and maximal within the
-/// same tolerance. Of the radii at which `count` samples can be maximal it is the first that is found; they differ by
-/// about 1 / `count`, and a lot where samples are few. A single sample gets a radius with which it covers the domain.
+/// same tolerance. Many radii would do, the more different ones the fewer the samples; it is the first that is found. The
+/// radius of a single sample is one with which it covers the domain.
 ///
-/// Where no maximal set is found, as can be with a handful of samples only, the most crowded samples of a larger set are
-/// dropped, and the report says that the set is not maximal. How far the domain is from the samples then, and exactly in
-/// any case, says [`covering_radius_2d`](crate::analysis::coverage::covering_radius_2d).
+/// If no maximal set is found, which has not been seen and can only be with a handful of samples, the most crowded samples
+/// of a larger set are dropped and the report says that the set is not maximal. How far the domain is from the samples
+/// exactly says [`covering_radius_2d`](crate::analysis::coverage::covering_radius_2d).
 ///
 /// The samples are in the order of [`sample`](super::sample), with those made anew in the places of others. The same for
 /// every number of threads. O(n) like [`sample`](super::sample), which is called once or a few times.
 ///
 /// # Errors
 /// [`Error::InvalidArgument`] for an argument out of range, and for `count` where floats are too coarse for the radius of
-/// so many samples; [`Error::TooLarge`] above 2^32 samples or the available memory, both before any work;
-/// [`Error::Cancelled`].
+/// so many samples; [`Error::TooLarge`] above 2^32 samples or the available memory; both before any work, unless the
+/// expected radius is hardly above the limit; [`Error::Cancelled`].
 pub fn sample_count(context: &Context, options: &CountOptions, progress: Option<&Progress>) -> Result<Counted> {
     let &CountOptions { count, domain, leaf_size, .. } = options;
     check_leaf_size(leaf_size)?;
@@ -89,42 +91,43 @@ pub fn sample_count(context: &Context, options: &CountOptions, progress: Option<
     }
     let search = Search::new(&domain, leaf_size, count);
     lattice(options, search.radius())?;
-    context.run(progress, |job| attempts(job, options, search))
+    context.run(progress, |job| attempt(job, options, search, ATTEMPTS))
 }
 
-/// Makes sets of several radii until one can be tuned.
-fn attempts(job: &Job, options: &CountOptions, mut search: Search) -> Result<Counted> {
+/// Makes sets of several radii until one can be tuned; after `limit` of them a larger one will do.
+fn attempt(job: &Job, options: &CountOptions, mut search: Search, limit: u64) -> Result<Counted> {
     let &CountOptions { count, leaf_size, seed, .. } = options;
     let mut remaining = 1.0;
+    let mut attempts = 0;
     let mut closest: Option<(f64, Vec<[f32; 2]>)> = None;
-    for attempt in 0.. {
+    loop {
         let job = job.part(1.0 - remaining, 1.0 - remaining * (1.0 - ATTEMPT_SHARE));
         remaining *= 1.0 - ATTEMPT_SHARE;
-        let seed = if attempt == 0 { seed } else { hash(seed, Draw::Attempt, &[attempt]) };
+        let seed = if attempts == 0 { seed } else { hash(seed, Draw::Attempt, &[attempts]) };
+        attempts += 1;
         let radius = search.radius();
         let lattice = lattice(options, radius)?;
         let mut samples = sample_lattice(&job.part(0.0, SAMPLING_SHARE), &lattice, leaf_size, seed)
             .map_err(|error| of_count(error, count))?;
         let made = samples.len() as u64;
         if search.is_near(made) {
-            tune::tune(&job.part(SAMPLING_SHARE, 1.0), &lattice, &mut samples, count, seed)?;
+            tune(&job.part(SAMPLING_SHARE, 1.0), &lattice, &mut samples, count, seed)?;
         }
-        if samples.len() as u64 == count {
+        let difference = samples.len() as i64 - count as i64;
+        if difference == 0 {
             return Ok(Counted { samples, report: CountReport { radius, is_maximal: true } });
         }
         search.correct(made);
-        let most = closest.as_ref().map_or(usize::MAX, |(_, samples)| samples.len());
-        if (count..most as u64).contains(&(samples.len() as u64)) {
+        if difference > 0 && closest.as_ref().is_none_or(|(_, closest)| samples.len() < closest.len()) {
             closest = Some((radius, samples));
         }
-        if attempt + 1 >= ATTEMPTS
+        if attempts >= limit
             && let Some((radius, samples)) = closest.take()
         {
-            let samples = thin::thin(&options.domain, samples, count as usize);
+            let samples = thin(&options.domain, samples, count as usize);
             return Ok(Counted { samples, report: CountReport { radius, is_maximal: false } });
         }
     }
-    unreachable!("attempts go on until one has enough samples")
 }
 
 /// The lattice for a radius that follows from the count.
@@ -139,5 +142,51 @@ fn of_count(error: Error, count: u64) -> Error {
         Error::InvalidArgument { argument: "radius", reason: why } => Error::invalid("count", reason(why)),
         Error::TooLarge { argument: "radius", reason: why } => Error::too_large("count", reason(why)),
         other => other,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::points::Boundary;
+
+    /// One attempt at few samples often fails. What then is returned keeps the radius, but has a gap where a sample was.
+    #[test]
+    fn a_set_that_could_not_be_tuned_is_thinned_and_called_not_maximal() {
+        let context = Context::new(1).unwrap();
+        let domain = Domain::unit(Boundary::Periodic);
+        let mut thinned = 0;
+        for (count, seed) in (2..12).flat_map(|count| (0..30).map(move |seed| (count, seed))) {
+            let options = CountOptions { count, domain, leaf_size: 20.0, seed };
+            let search = Search::new(&domain, options.leaf_size, count);
+            let Counted { samples, report } = context.run(None, |job| attempt(job, &options, search, 1)).unwrap();
+            assert_eq!(samples.len() as u64, count);
+            let smallest = crate::analysis::spacing::smallest_distance_2d(&context, &domain, &samples).unwrap();
+            let farthest = crate::analysis::coverage::covering_radius_2d(&context, &domain, &samples).unwrap();
+            assert!(smallest >= report.radius);
+            assert_eq!(report.is_maximal, farthest < report.radius * (1.0 + 1e-6), "{farthest} {report:?}");
+            thinned += u32::from(!report.is_maximal);
+        }
+        assert!(thinned > 0);
+    }
+
+    #[test]
+    fn errors_name_the_count() {
+        let context = Context::new(1).unwrap();
+        let refuse = |count, max: [f64; 2], leaf_size| {
+            let domain = Domain { min: [1.0; 2], max, boundary: Boundary::Bounded };
+            sample_count(&context, &CountOptions { count, domain, leaf_size, seed: 0 }, None).unwrap_err()
+        };
+        let invalid =
+            |error: &Error, name| matches!(error, Error::InvalidArgument { argument, .. } if *argument == name);
+        assert!(invalid(&refuse(0, [2.0; 2], 20.0), "count"));
+        assert!(invalid(&refuse(10, [2.0; 2], 5.0), "leaf_size"));
+        assert!(invalid(&refuse(10, [0.0; 2], 20.0), "domain_max"));
+        let coarse = refuse(10_000, [1.0008; 2], 20.0);
+        assert!(invalid(&coarse, "count") && coarse.to_string().contains("10000 asks for a radius"), "{coarse}");
+        for count in [5_000_000_000, u64::MAX] {
+            let large = refuse(count, [2.0; 2], 20.0);
+            assert!(matches!(large, Error::TooLarge { argument: "count", .. }), "{large}");
+        }
     }
 }

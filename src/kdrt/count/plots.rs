@@ -7,8 +7,8 @@ use crate::lattice::{Lattice, Rect};
 use crate::points::Boundary;
 use crate::rng::Rng;
 
-/// The shortest side of a plot between two cuts in reaches: a hole of 3 and the 2 around it.
-const SIDE: i32 = 7;
+/// The shortest side of a plot between two cuts in reaches: a hole of 2 and the 2 on each side of it.
+const SIDE: i32 = 6;
 
 /// How one axis is cut, from a random place on.
 struct Cuts {
@@ -135,5 +135,85 @@ impl Plot {
     /// A lattice point of the plot as one of the domain.
     pub fn outward(&self, point: [i32; 2]) -> [i32; 2] {
         std::array::from_fn(|axis| (point[axis] + self.axes[axis].start).rem_euclid(self.size[axis]))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::points::Domain;
+    use crate::rng::Draw;
+
+    fn lattices() -> Vec<Lattice> {
+        let extents = [[1.0, 1.0], [0.3, 12.0], [0.05, 40.0], [0.59, 0.61], [0.6, 0.02]];
+        let lattice = |(boundary, extent): (Boundary, [f64; 2])| {
+            let domain = Domain { min: [16.0, -3.0], max: [16.0 + extent[0], extent[1] - 3.0], boundary };
+            Lattice::new(&domain, 0.1).unwrap()
+        };
+        let boundaries = [Boundary::Periodic, Boundary::Bounded];
+        boundaries.into_iter().flat_map(|boundary| extents.map(|extent| (boundary, extent))).map(lattice).collect()
+    }
+
+    #[test]
+    fn every_lattice_point_lies_in_one_plot_and_comes_back() {
+        for lattice in lattices() {
+            for round in 0..20 {
+                let plots = Plots::new(&lattice, Rng::at(0, Draw::Probe, &[round]));
+                let inside = |plot: &Plot| Rect { min: [0; 2], max: plot.axes.map(|axis| axis.length) };
+                let area = |rect: Rect| i64::from(rect.length(0)) * i64::from(rect.length(1));
+                let areas: i64 = (0..plots.len()).map(|plot| area(inside(&plots.get(plot)))).sum();
+                assert_eq!(areas, area(lattice.rect()));
+                let mut rng = Rng::at(1, Draw::Probe, &[round]);
+                for _ in 0..200 {
+                    let point = lattice.size.map(|size| rng.below(size as u64) as i32);
+                    let plot = plots.get(plots.holding(point));
+                    assert!(inside(&plot).contains(plot.inward(point)));
+                    assert_eq!(plot.outward(plot.inward(point)), point);
+                }
+                for plot in (0..plots.len()).filter(|&plot| !inside(&plots.get(plot)).is_empty()) {
+                    let [first, last] = [[0; 2], plots.get(plot).axes.map(|axis| axis.length - 1)];
+                    let held = [first, last].map(|corner| plots.holding(plots.get(plot).outward(corner)));
+                    assert_eq!(held, [plot; 2]);
+                }
+            }
+        }
+    }
+
+    /// From the definition: whatever of the domain is within two reaches of the hole lies in the plot. On a circle that is
+    /// not cut the plot is everything.
+    #[test]
+    fn holes_are_two_reaches_away_from_other_plots() {
+        for lattice in lattices() {
+            for round in 0..20 {
+                let plots = Plots::new(&lattice, Rng::at(0, Draw::Probe, &[round]));
+                for plot in (0..plots.len()).map(|plot| plots.get(plot)).filter(|plot| !plot.hole().is_empty()) {
+                    for (span, size) in std::iter::zip(plot.axes, lattice.size) {
+                        let decides = [span.hole[0] - 2 * lattice.reach, span.hole[1] + 2 * lattice.reach];
+                        let begins = decides[0] >= 0 || lattice.boundary == Boundary::Bounded && span.start == 0;
+                        let ends = decides[1] <= span.length
+                            || lattice.boundary == Boundary::Bounded && span.start + span.length == size;
+                        let is_all = span.is_circle && span.length == size && span.hole == [0, size];
+                        assert!(is_all || begins && ends, "{span:?} of {size}");
+                    }
+                }
+            }
+        }
+    }
+
+    /// Places that no round could change would have to stay as they are.
+    #[test]
+    fn every_place_is_in_some_hole() {
+        for lattice in lattices() {
+            let mut rng = Rng::at(2, Draw::Probe, &[]);
+            for _ in 0..50 {
+                let point = lattice.size.map(|size| rng.below(size as u64) as i32);
+                let in_a_hole = (0..200).any(|round| {
+                    let plots = Plots::new(&lattice, Rng::at(3, Draw::Probe, &[round]));
+                    let plot = plots.get(plots.holding(point));
+                    plot.hole().contains(plot.inward(point))
+                });
+                assert!(in_a_hole, "{point:?} of {:?}, {:?}", lattice.size, lattice.boundary);
+            }
+        }
     }
 }

@@ -70,3 +70,39 @@ fn expected(domain: &Domain, leaf_size: f64, radius: f64) -> f64 {
     let [width, height] = domain.extent().map(|side| (side / radius + beyond).max(LINE_DENSITY / MAXIMAL_DENSITY));
     MAXIMAL_DENSITY * (1.0 + SEAM_DENSITY / leaf_size) * width * height
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_first_radius_is_that_of_the_expected_number() {
+        for boundary in [Boundary::Periodic, Boundary::Bounded] {
+            for extent in [[1.0, 1.0], [30.0, 1.0], [1e38, 2e38], [3e-30, 1e-30], [1e-3, 5.0]] {
+                let domain = Domain { min: [0.0; 2], max: extent, boundary };
+                for count in [3, 10, 1000, 1_000_000_000] {
+                    let radius = Search::new(&domain, 20.0, count).radius();
+                    let found = expected(&domain, 20.0, radius);
+                    assert!((found / count as f64 - 1.0).abs() < 1e-9, "{found} of {count} in {extent:?}");
+                }
+                let one = Search::new(&domain, 20.0, 1).radius();
+                assert!(one > 0.0 && one <= extent[0].hypot(extent[1]));
+            }
+        }
+    }
+
+    /// Sets whose numbers follow other laws than the expected one.
+    #[test]
+    fn corrections_end_near_the_count() {
+        let laws: [fn(f64) -> f64; 3] = [|r| 0.7 / (r * r), |r| 3.0 / r, |r| 0.6 / (r * r) + 5.0 / r];
+        for law in laws {
+            let mut search = Search::new(&Domain::unit(Boundary::Periodic), 20.0, 100_000);
+            let near = (0..8).any(|_| {
+                let made = law(search.radius()) as u64;
+                search.correct(made);
+                search.is_near(made)
+            });
+            assert!(near);
+        }
+    }
+}

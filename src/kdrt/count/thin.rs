@@ -17,3 +17,19 @@ pub(super) fn thin(domain: &Domain, mut samples: Vec<[f32; 2]>, count: usize) ->
     }
     samples
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::points::Boundary;
+
+    #[test]
+    fn the_most_crowded_samples_go_also_across_the_seam() {
+        let samples = vec![[0.02, 0.5], [0.3, 0.5], [0.55, 0.5], [0.99, 0.5]];
+        let rest = |boundary, count| thin(&Domain::unit(boundary), samples.clone(), count);
+        assert_eq!(rest(Boundary::Bounded, 4), samples);
+        assert_eq!(rest(Boundary::Bounded, 3), [samples[0], samples[2], samples[3]]);
+        assert_eq!(rest(Boundary::Periodic, 3), [samples[1], samples[2], samples[3]]);
+        assert_eq!(rest(Boundary::Periodic, 2).len(), 2);
+    }
+}

@@ -20,7 +20,7 @@ use super::plots::{Plot, Plots};
 const ROUNDS: u64 = 24;
 
 /// How often a plot is made anew until its number of samples changes as wanted.
-const TRIES: u64 = 8;
+const TRIES: u64 = 6;
 
 /// Plots that are made anew for a sample that is missing or too many, and some more.
 const PLOTS_PER_SAMPLE: f64 = 2.0;
