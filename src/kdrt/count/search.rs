@@ -6,7 +6,8 @@ use crate::points::{Boundary, Domain};
 /// Samples per radius on a line: Rényi's parking constant.
 const LINE_DENSITY: f64 = 0.7475979;
 
-/// The share of additional samples at the seams, times the leaf size: 1.4 % for leaves of 6 radii, 0.5 % for 20.
+/// The share of additional samples at the seams, times the leaf size: 1.4 % for leaves of 6 radii, 0.5 % for 20. Small
+/// domains, which have no seams, get it too: there it is less than chance.
 const SEAM_DENSITY: f64 = 0.09;
 
 /// A set is near its count if it differs by less than this share of it, three times what patterns differ by.
