@@ -111,11 +111,11 @@ pub unsafe extern "C" fn azulejo_kdrt_sample(
 
 /// azulejo_kdrt_sample, and what it achieved.
 ///
-/// With a count the radius follows from the density of maximal sets; the few samples of a thousand by which the set then
-/// differs from the count are set right by making small places anew, so that it is still conflict-free and maximal. Many
-/// radii would do for a few samples, nearly one for many. If no maximal set of so many samples is found, which has not
-/// been seen and can only be with a handful of samples, the most crowded samples of a larger set are dropped; then
-/// `is_maximal` is 0.
+/// With a count the radius follows from the density of maximal sets. The samples by which the set then differs from the
+/// count, mostly a few of a thousand, are set right by making small places anew, so that it is still conflict-free and
+/// maximal. Many radii would do for a few samples, nearly one for many. If no maximal set of so many samples is found, which
+/// has not been seen in 100000 sets of few samples, the most crowded samples of a larger set are dropped; then `is_maximal`
+/// is 0.
 ///
 /// out: the samples, x y each, to be freed with azulejo_points_free. With a count the order is that of the set that was
 /// begun with, with the samples made anew in the places of others.
