@@ -1,10 +1,11 @@
 //! Exactly N samples: `kdrt::sample_count` beside the two ways of thesis §2.5.3, as a table.
 //!
-//! *Insertion* (after Kanamori et al. 2011) starts with too few samples and puts the others at the centres of the largest
-//! Delaunay circles. *Elimination* (after Yuksel 2015) starts with too many and drops those of the largest weight. Both
-//! start from KDRT sets of the same radius as tuning; by chance these have some samples too few or too many.
-//! Lengths are in units of d_max, the distance in the hexagonal arrangement of as many samples: rho is the smallest
-//! distance of two samples, cover the largest distance of the torus from them. A set is maximal if cover <= rho.
+//! *Insertion* (after Kanamori et al. 2011) starts with too few samples and puts the others at the centres of the
+//! largest Delaunay circles. *Elimination* (after Yuksel 2015) starts with too many and drops those of the largest
+//! weight. Both start from KDRT sets of the same radius as tuning; by chance these have some samples too few or too
+//! many. Lengths are in units of d_max, the distance in the hexagonal arrangement of as many samples: rho is the
+//! smallest distance of two samples, cover the largest distance of the torus from them. A set is maximal if cover <=
+//! rho.
 
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;

@@ -160,8 +160,8 @@ typedef struct azulejo_kdrt_options {
     uint32_t struct_size;
     /// An AZULEJO_BOUNDARY_ constant; periodic by default.
     int32_t boundary;
-    /// The smallest distance between two samples, in the units of the domain. Above 0; there is no default. With a count
-    /// it must be 0: the radius follows.
+    /// The smallest distance between two samples, in the units of the domain. Above 0; there is no default. With a
+    /// count it must be 0: the radius follows.
     double radius;
     /// The lower corner of the domain, x y; 0 0 by default.
     double domain_min[2];
@@ -388,8 +388,8 @@ void azulejo_points_free(struct azulejo_points *points);
 /// Writes the defaults. `struct_size` is sizeof *options.
 azulejo_status azulejo_kdrt_options_init(struct azulejo_kdrt_options *options, size_t struct_size);
 
-/// Makes a maximal, conflict-free set of samples of a rectangle: about 0.7 * area / radius^2 of them, or exactly as many
-/// as the count in the options says (then see azulejo_kdrt_sample_with_report, which tells the radius).
+/// Makes a maximal, conflict-free set of samples of a rectangle: about 0.7 * area / radius^2 of them, or exactly as
+/// many as the count in the options says (then see azulejo_kdrt_sample_with_report, which tells the radius).
 ///
 /// Tiles clips of one small pattern over a random kd-tree and repairs the seams (thesis chapter 2) with all threads of
 /// the context: O(samples) time and 24 bytes per sample. Its only bias is at the seams. A domain of less area than the
@@ -409,20 +409,20 @@ azulejo_status azulejo_kdrt_sample(const struct azulejo_context *context,
 ///
 /// With a count the radius follows from the density of maximal sets. The samples by which the set then differs from the
 /// count, mostly a few of a thousand, are set right by making small places anew, so that it is still conflict-free and
-/// maximal. Many radii would do for a few samples, nearly one for many. If no maximal set of so many samples is found, which
-/// has not been seen in 100000 sets of few samples, the most crowded samples of a larger set are dropped; then `is_maximal`
-/// is 0.
+/// maximal. Many radii would do for a few samples, nearly one for many. If no maximal set of so many samples is found,
+/// which has not been seen in 100000 sets of few samples, the most crowded samples of a larger set are dropped; then
+/// `is_maximal` is 0.
 ///
 /// out: the samples, x y each, to be freed with azulejo_points_free. With a count the order is that of the set that was
 /// begun with, with the samples made anew in the places of others.
 ///
-/// report: what the call achieved, or NULL. Measuring `coverage` for it takes some microseconds per sample, more than the
-/// sampling; the progress callback has seen the 1 by then.
+/// report: what the call achieved, or NULL. Measuring `coverage` for it takes some microseconds per sample, more than
+/// the sampling; the progress callback has seen the 1 by then.
 ///
 /// O(samples) time and memory, with a count about twice as much.
 ///
-/// Errors: as azulejo_kdrt_sample, in terms of the count if there is one; AZULEJO_ERROR_INVALID_ARGUMENT for a count and a
-/// radius at once.
+/// Errors: as azulejo_kdrt_sample, in terms of the count if there is one; AZULEJO_ERROR_INVALID_ARGUMENT for a count
+/// and a radius at once.
 azulejo_status azulejo_kdrt_sample_with_report(const struct azulejo_context *context,
                                                const struct azulejo_kdrt_options *options,
                                                struct azulejo_points **out,

@@ -1,9 +1,10 @@
 //! Exactly N samples (thesis §2.5.3), and still a maximal set.
 //!
-//! Departure: the thesis makes about N samples and then inserts the rest into the largest triangles, which brings samples
-//! closer together than the radius, or eliminates those that are too many, which leaves gaps. Here a set of about N
-//! samples is changed in small places only (`tune.rs`): the samples of a place are taken out and it is filled again, as
-//! KDRT fills its gaps, until it holds as many more or fewer as wanted. The radius is kept, and so is the coverage.
+//! Departure: the thesis makes about N samples and then inserts the rest into the largest triangles, which brings
+//! samples closer together than the radius, or eliminates those that are too many, which leaves gaps. Here a set of
+//! about N samples is changed in small places only (`tune.rs`): the samples of a place are taken out and it is filled
+//! again, as KDRT fills its gaps, until it holds as many more or fewer as wanted. The radius is kept, and so is the
+//! coverage.
 
 mod plots;
 mod search;
@@ -21,8 +22,8 @@ use search::Search;
 use thin::thin;
 use tune::tune;
 
-/// Radii that are tried before a set is accepted that is not maximal. A maximal set of any number of samples exists: put
-/// each where the domain is farthest from those before it. More than a dozen attempts at one were never seen.
+/// Radii that are tried before a set is accepted that is not maximal. A maximal set of any number of samples exists:
+/// put each where the domain is farthest from those before it. More than a dozen attempts at one were never seen.
 const ATTEMPTS: u64 = 64;
 
 /// The share of the remaining progress that the attempt at work takes.
@@ -66,22 +67,22 @@ pub struct Counted {
 /// A maximal Poisson-disk set of exactly `count` samples, in parallel.
 ///
 /// The radius follows from the density of maximal sets and is corrected when the set made with it is off by more than
-/// chance. What still differs, mostly up to 0.3 % and with less than 10,000 samples up to half of their square root, is set
-/// right by making small places anew. The result keeps what [`sample`](super::sample) promises, for the radius in the report: conflict-free, and maximal within the
-/// same tolerance. Many radii would do, the more different ones the fewer the samples; it is the first that is found. The
-/// radius of a single sample is one with which it covers the domain.
+/// chance. What still differs, mostly up to 0.3 % and with less than 10,000 samples up to half of their square root, is
+/// set right by making small places anew. The result keeps what [`sample`](super::sample) promises, for the radius in
+/// the report: conflict-free, and maximal within the same tolerance. Many radii would do, the more different ones the
+/// fewer the samples; it is the first that is found. The radius of a single sample is one with which it covers the
+/// domain.
 ///
-/// If no maximal set is found, which has not been seen in 100,000 sets of few samples, the most crowded samples of a larger
-/// set are dropped and the report says that the set is not maximal. How far the domain is from the samples
+/// If no maximal set is found, which has not been seen in 100,000 sets of few samples, the most crowded samples of a
+/// larger set are dropped and the report says that the set is not maximal. How far the domain is from the samples
 /// exactly says [`covering_radius_2d`](crate::analysis::coverage::covering_radius_2d).
 ///
-/// The samples are in the order of [`sample`](super::sample), with those made anew in the places of others. The same for
-/// every number of threads. O(n) like [`sample`](super::sample), which is called once or a few times.
+/// The samples are in the order of [`sample`](super::sample), with those made anew in the places of others. The same
+/// for every number of threads. O(n) like [`sample`](super::sample), which is called once or a few times.
 ///
-/// # Errors
-/// [`Error::InvalidArgument`] for an argument out of range, and for `count` where floats are too coarse for the radius of
-/// so many samples; [`Error::TooLarge`] above 2^32 samples or the available memory; both before any work, unless the
-/// expected radius is hardly above the limit; [`Error::Cancelled`].
+/// # Errors [`Error::InvalidArgument`] for an argument out of range, and for `count` where floats are too coarse for
+/// the radius of so many samples; [`Error::TooLarge`] above 2^32 samples or the available memory; both before any work,
+/// unless the expected radius is hardly above the limit; [`Error::Cancelled`].
 pub fn sample_count(context: &Context, options: &CountOptions, progress: Option<&Progress>) -> Result<Counted> {
     let &CountOptions { count, domain, leaf_size, .. } = options;
     check_leaf_size(leaf_size)?;
@@ -150,7 +151,8 @@ mod tests {
     use super::*;
     use crate::points::Boundary;
 
-    /// One attempt at few samples often fails. What then is returned keeps the radius, but has a gap where a sample was.
+    /// One attempt at few samples often fails. What then is returned keeps the radius, but has a gap where a sample
+    /// was.
     #[test]
     fn a_set_that_could_not_be_tuned_is_thinned_and_called_not_maximal() {
         let context = Context::new(1).unwrap();

@@ -1,7 +1,8 @@
 //! Plots: the domain cut into rectangles of which each can be changed without regard to the others.
 //!
-//! The samples in the *hole* of a plot are taken out and others put in. What is uncovered then lies within r of the hole,
-//! and what decides about it within 2r: the hole is that far from the borders of its plot, unless nothing lies beyond.
+//! The samples in the *hole* of a plot are taken out and others put in. What is uncovered then lies within r of the
+//! hole, and what decides about it within 2r: the hole is that far from the borders of its plot, unless nothing lies
+//! beyond.
 
 use crate::lattice::{Lattice, Rect};
 use crate::points::Boundary;
@@ -179,8 +180,8 @@ mod tests {
         }
     }
 
-    /// From the definition: whatever of the domain is within two reaches of the hole lies in the plot. On a circle that is
-    /// not cut the plot is everything.
+    /// From the definition: whatever of the domain is within two reaches of the hole lies in the plot. On a circle that
+    /// is not cut the plot is everything.
     #[test]
     fn holes_are_two_reaches_away_from_other_plots() {
         for lattice in lattices() {

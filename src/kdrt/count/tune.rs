@@ -1,7 +1,7 @@
 //! Tuning: small places of a maximal set are made anew until it has the wanted number of samples.
 //!
-//! After the idea of disk tuning (Ebeida et al. 2016), which the thesis leaves as future work: what is taken out and put
-//! back keeps the set conflict-free and maximal, and changes its size by chance.
+//! After the idea of disk tuning (Ebeida et al. 2016), which the thesis leaves as future work: what is taken out and
+//! put back keeps the set conflict-free and maximal, and changes its size by chance.
 //!
 //! A round cuts the domain into plots (`plots.rs`), makes some of them anew, each alone, and takes over what brings the
 //! number of samples nearer to the wanted one.
