@@ -67,7 +67,7 @@ pub struct Counted {
 /// A maximal Poisson-disk set of exactly `count` samples, in parallel.
 ///
 /// The radius follows from the density of maximal sets and is corrected when the set made with it is off by more than
-/// chance. What still differs, mostly up to 0.3 % and with less than 10,000 samples up to half of their square root, is
+/// chance. What still differs, mostly up to 0.3 % and with less than 10,000 samples up to about their square root, is
 /// set right by making small places anew. The result keeps what [`sample`](super::sample) promises, for the radius in
 /// the report: conflict-free, and maximal within the same tolerance. Many radii would do, the more different ones the
 /// fewer the samples; it is the first that is found. The radius of a single sample is one with which it covers the
@@ -80,9 +80,10 @@ pub struct Counted {
 /// The samples are in the order of [`sample`](super::sample), with those made anew in the places of others. The same
 /// for every number of threads. O(n) like [`sample`](super::sample), which is called once or a few times.
 ///
-/// # Errors [`Error::InvalidArgument`] for an argument out of range, and for `count` where floats are too coarse for
-/// the radius of so many samples; [`Error::TooLarge`] above 2^32 samples or the available memory; both before any work,
-/// unless the expected radius is hardly above the limit; [`Error::Cancelled`].
+/// # Errors
+/// [`Error::InvalidArgument`] for an argument out of range, and for `count` where floats are too coarse for the radius
+/// of so many samples; [`Error::TooLarge`] above 2^32 samples or the available memory; both before any work, unless the
+/// expected radius is hardly above the limit; [`Error::Cancelled`].
 pub fn sample_count(context: &Context, options: &CountOptions, progress: Option<&Progress>) -> Result<Counted> {
     let &CountOptions { count, domain, leaf_size, .. } = options;
     check_leaf_size(leaf_size)?;
