@@ -154,13 +154,14 @@ typedef int32_t azulejo_status;
 /// Returns 0 to go on, anything else to cancel.
 typedef int32_t (*azulejo_progress_fn)(void *user, double done);
 
-/// Options of azulejo_kdrt_sample, azulejo_kdrt_sample_window and azulejo_kdrt_stream.
+/// Options of azulejo_kdrt_sample, azulejo_kdrt_sample_with_report, azulejo_kdrt_sample_window and azulejo_kdrt_stream.
 typedef struct azulejo_kdrt_options {
     /// The size of the caller's struct in bytes; set by the init function.
     uint32_t struct_size;
     /// An AZULEJO_BOUNDARY_ constant; periodic by default.
     int32_t boundary;
-    /// The smallest distance between two samples, in the units of the domain. Above 0; there is no default.
+    /// The smallest distance between two samples, in the units of the domain. Above 0; there is no default. With a
+    /// count it must be 0: the radius follows.
     double radius;
     /// The lower corner of the domain, x y; 0 0 by default.
     double domain_min[2];
@@ -175,7 +176,27 @@ typedef struct azulejo_kdrt_options {
     azulejo_progress_fn progress;
     /// Handed to the progress callback.
     void *progress_user;
+    /// How many samples there shall be, exactly; 0, the default, takes as many as the radius gives. Windows and streams
+    /// need a radius.
+    uint64_t count;
 } azulejo_kdrt_options;
+
+/// What a call achieved.
+typedef struct azulejo_kdrt_report {
+    /// The number of samples: the count, if there was one.
+    uint64_t samples;
+    /// The radius: that of the options, or the one that was found for the count. No two samples are closer.
+    double radius;
+    /// The covering radius: the farthest that any place of the domain is from all samples, as
+    /// azulejo_plane_covering_radius measures it.
+    double coverage;
+    /// Wall time, without the measuring of `coverage`.
+    double seconds;
+    /// 1 if the set is maximal for `radius`, else 0.
+    int32_t is_maximal;
+    /// Zeros, for later versions.
+    uint32_t reserved[7];
+} azulejo_kdrt_report;
 
 /// Called with a part of a set of samples, on the thread that made the call. What holds for progress callbacks holds
 /// for it too: it may call the library, and must return.
@@ -367,7 +388,8 @@ void azulejo_points_free(struct azulejo_points *points);
 /// Writes the defaults. `struct_size` is sizeof *options.
 azulejo_status azulejo_kdrt_options_init(struct azulejo_kdrt_options *options, size_t struct_size);
 
-/// Makes a maximal, conflict-free set of samples of a rectangle, about 0.7 * area / radius^2 of them.
+/// Makes a maximal, conflict-free set of samples of a rectangle: about 0.7 * area / radius^2 of them, or exactly as
+/// many as the count in the options says (then see azulejo_kdrt_sample_with_report, which tells the radius).
 ///
 /// Tiles clips of one small pattern over a random kd-tree and repairs the seams (thesis chapter 2) with all threads of
 /// the context: O(samples) time and 24 bytes per sample. Its only bias is at the seams. A domain of less area than the
@@ -382,6 +404,29 @@ azulejo_status azulejo_kdrt_options_init(struct azulejo_kdrt_options *options, s
 azulejo_status azulejo_kdrt_sample(const struct azulejo_context *context,
                                    const struct azulejo_kdrt_options *options,
                                    struct azulejo_points **out);
+
+/// azulejo_kdrt_sample, and what it achieved.
+///
+/// With a count the radius follows from the density of maximal sets. The samples by which the set then differs from the
+/// count, mostly a few of a thousand, are set right by making small places anew, so that it is still conflict-free and
+/// maximal. Many radii would do for a few samples, nearly one for many. If no maximal set of so many samples is found,
+/// which has not been seen in 100000 sets of few samples, the most crowded samples of a larger set are dropped; then
+/// `is_maximal` is 0.
+///
+/// out: the samples, x y each, to be freed with azulejo_points_free. With a count the order is that of the set that was
+/// begun with, with the samples made anew in the places of others.
+///
+/// report: what the call achieved, or NULL. Measuring `coverage` for it takes some microseconds per sample, more than
+/// the sampling; the progress callback has seen the 1 by then.
+///
+/// O(samples) time and memory, with a count about twice as much.
+///
+/// Errors: as azulejo_kdrt_sample, in terms of the count if there is one; AZULEJO_ERROR_INVALID_ARGUMENT for a count
+/// and a radius at once.
+azulejo_status azulejo_kdrt_sample_with_report(const struct azulejo_context *context,
+                                               const struct azulejo_kdrt_options *options,
+                                               struct azulejo_points **out,
+                                               struct azulejo_kdrt_report *report);
 
 /// Makes the part of azulejo_kdrt_sample's set that lies in a window of the domain, without making the rest: the same
 /// floats in the same order.

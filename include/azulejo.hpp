@@ -84,7 +84,7 @@ struct Options : C {
     Progress progress;
 };
 
-/// See azulejo_kdrt_options; `radius` has no default.
+/// See azulejo_kdrt_options; `radius` or `count` is to be set.
 using KdrtOptions = Options<azulejo_kdrt_options, azulejo_kdrt_options_init>;
 /// See azulejo_maximal_options; `radius` has no default.
 using MaximalOptions = Options<azulejo_maximal_options, azulejo_maximal_options_init>;
@@ -93,6 +93,7 @@ using PspOptions = Options<azulejo_psp_options, azulejo_psp_options_init>;
 /// See azulejo_dcr_options.
 using DcrOptions = Options<azulejo_dcr_options, azulejo_dcr_options_init>;
 
+using KdrtReport = azulejo_kdrt_report;
 using PspReport = azulejo_psp_report;
 using DcrReport = azulejo_dcr_report;
 
@@ -299,10 +300,11 @@ private:
     detail::Handle<azulejo_psp, azulejo_psp_free> handle_;
 };
 
-/// A maximal set of samples of a rectangle; see azulejo_kdrt_sample.
-inline Points kdrt_sample(const Context &context, const KdrtOptions &options) {
+/// A maximal set of samples of a rectangle; see azulejo_kdrt_sample_with_report. `report` may be null.
+inline Points kdrt_sample(const Context &context, const KdrtOptions &options, KdrtReport *report = nullptr) {
     azulejo_points *points = nullptr;
-    detail::watched(options, [&](auto *o) { return azulejo_kdrt_sample(context.get(), o, &points); });
+    detail::watched(options,
+                    [&](auto *o) { return azulejo_kdrt_sample_with_report(context.get(), o, &points, report); });
     return Points(points);
 }
 

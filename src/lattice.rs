@@ -165,6 +165,11 @@ impl Lattice {
     pub fn position(&self, point: [i32; 2]) -> [f32; 2] {
         std::array::from_fn(|axis| (self.origin[axis] + f64::from(point[axis]) * self.unit) as f32)
     }
+
+    /// The lattice point with these coordinates, which are those of one: the inverse of [`Lattice::position`].
+    pub fn point(&self, position: [f32; 2]) -> [i32; 2] {
+        std::array::from_fn(|axis| ((f64::from(position[axis]) - self.origin[axis]) / self.unit) as i32)
+    }
 }
 
 /// About how many samples a part of a maximal set has, given its width and height.
@@ -259,6 +264,7 @@ mod tests {
                     let exact = lattice.origin[0] + f64::from(point) * lattice.unit;
                     assert_eq!(f64::from(lattice.position([point, 0])[0]), exact, "{min} {max}");
                     assert!(min <= exact && exact < max, "{min} <= {exact} < {max}");
+                    assert_eq!(lattice.point(lattice.position([point, 0])), [point, 0]);
                 }
                 let [below, above] = [-1, lattice.size[0]].map(|j| lattice.origin[0] + f64::from(j) * lattice.unit);
                 assert!(below < min);

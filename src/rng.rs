@@ -30,6 +30,10 @@ pub(crate) enum Draw {
     Part,
     /// Random points on a surface (analysis).
     Probe,
+    /// KDRT: another attempt at an exact count.
+    Attempt,
+    /// KDRT: where and how a set is changed to have an exact count.
+    Tune,
 }
 
 /// The stream of random numbers of one place.

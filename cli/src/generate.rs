@@ -6,8 +6,9 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use azulejo::dcr::{self, Neighbourhood};
+use azulejo::kdrt::{self, CountOptions};
 use azulejo::mesh::Mesh;
-use azulejo::{Context, Error, Result, kdrt, psp};
+use azulejo::{Context, Domain, Error, Result, psp};
 use clap::{Args, ValueEnum};
 
 use crate::domain::DomainArgs;
@@ -19,7 +20,19 @@ use crate::text::{grouped, rounded};
 /// N·r²/A of a maximal Poisson-disk set: the jamming limit of random sequential placement (Zhang and Torquato 2013).
 pub const MAXIMAL_DENSITY: f64 = 0.69656;
 
-/// How dense a set shall be.
+/// How dense a set of the plane shall be.
+#[derive(Args)]
+#[group(required = true, multiple = false)]
+struct RadiusOrCount {
+    /// The smallest distance between samples.
+    #[arg(long, value_name = "R", allow_negative_numbers = true)]
+    radius: Option<f64>,
+    /// Exactly how many samples there shall be.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
+    count: Option<u64>,
+}
+
+/// How dense a set of a surface shall be.
 #[derive(Args)]
 #[group(required = true, multiple = false)]
 struct Density {
@@ -52,7 +65,7 @@ struct Common {
 #[derive(Args)]
 pub struct Plane {
     #[command(flatten)]
-    density: Density,
+    density: RadiusOrCount,
     #[command(flatten)]
     common: Common,
     #[command(flatten)]
@@ -66,14 +79,30 @@ impl Plane {
     pub fn run(&self, context: &Context) -> Result<()> {
         let output = Output::at(&self.common.output)?;
         let domain = self.domain.or_unit();
-        let radius = self.density.radius(domain.area());
-        let options = kdrt::Options { radius, domain, leaf_size: self.leaf_size, seed: self.common.seed };
         let start = Instant::now();
-        let points = watched("plane", |progress| kdrt::sample(context, &options, Some(progress)))?;
+        let (points, about) = match self.density.count {
+            Some(count) => self.exactly(count, context, domain)?,
+            None => self.at(self.density.radius.unwrap_or(f64::NAN), context, domain)?,
+        };
         let seconds = start.elapsed().as_secs_f64();
         ply::write_plane(&output, &domain, &points)?;
-        report(&self.common.output, points.len(), &format!("radius {}", rounded(radius, 4)), seconds);
+        report(&self.common.output, points.len(), &about, seconds);
         Ok(())
+    }
+
+    /// A set of this radius, and what is to be said of it.
+    fn at(&self, radius: f64, context: &Context, domain: Domain) -> Result<(Vec<[f32; 2]>, String)> {
+        let options = kdrt::Options { radius, domain, leaf_size: self.leaf_size, seed: self.common.seed };
+        let points = watched("plane", |progress| kdrt::sample(context, &options, Some(progress)))?;
+        Ok((points, format!("radius {}", rounded(radius, 4))))
+    }
+
+    /// A set of this many samples, and what is to be said of it.
+    fn exactly(&self, count: u64, context: &Context, domain: Domain) -> Result<(Vec<[f32; 2]>, String)> {
+        let options = CountOptions { count, domain, leaf_size: self.leaf_size, seed: self.common.seed };
+        let made = watched("plane", |progress| kdrt::sample_count(context, &options, Some(progress)))?;
+        let maximal = if made.report.is_maximal { "" } else { ", not maximal" };
+        Ok((made.samples, format!("radius {}{maximal}", rounded(made.report.radius, 4))))
     }
 }
 

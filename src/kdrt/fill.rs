@@ -5,7 +5,7 @@
 //! is a bitmap (`stamp.rs`), in which nearly all gaps are found and closed.
 
 use crate::lattice::Rect;
-use crate::maximal::{CellGrid, Quadtree};
+use crate::maximal::{CellGrid, Quadtree, darts};
 use crate::rng::Rng;
 
 use super::conquer::SeamCells;
@@ -43,6 +43,19 @@ impl<'a> Filling<'a> {
         bitmap.list(&mut self.open);
 
         let width = Bitmap::widest(grid);
+        self.throw(grid, &mut bitmap, width, &mut rng, output);
+        self.open.retain(|&place| bitmap.is_open(place));
+        if self.open.is_empty() {
+            return;
+        }
+        self.quadtree.restart(grid, width, self.open.iter().map(|&place| bitmap.voxel(grid, place)));
+        self.quadtree.refine(grid);
+        self.quadtree.fill(grid, &mut rng, |sample| output.push(sample));
+    }
+
+    /// The darts of the first level: at voxels of the bitmap, picked from the open ones.
+    #[inline(always)]
+    fn throw(&mut self, grid: &mut CellGrid, bitmap: &mut Bitmap, width: i32, rng: &mut Rng, output: &mut Output) {
         for _ in 0..darts(self.open.len()) {
             if self.open.is_empty() {
                 break;
@@ -54,37 +67,10 @@ impl<'a> Filling<'a> {
                 continue;
             }
             let (cell, rect) = bitmap.voxel(grid, place);
-            if let Some(sample) = grid.throw(cell, &rect, width, &mut rng) {
+            if let Some(sample) = grid.throw(cell, &rect, width, rng) {
                 bitmap.stamp(sample);
                 output.push(sample);
             }
         }
-
-        self.open.retain(|&place| bitmap.is_open(place));
-        if self.open.is_empty() {
-            return;
-        }
-        self.quadtree.restart(grid, width, self.open.iter().map(|&place| bitmap.voxel(grid, place)));
-        loop {
-            self.quadtree.refine(grid);
-            for _ in 0..darts(self.quadtree.len()) {
-                if self.quadtree.is_empty() {
-                    return;
-                }
-                if let Some(sample) = self.quadtree.throw(grid, &mut rng) {
-                    self.quadtree.prune(grid, sample);
-                    output.push(sample);
-                }
-            }
-            if self.quadtree.is_empty() {
-                return;
-            }
-        }
     }
-}
-
-/// How many darts are thrown at so many voxels before these are cut: most of what they hit becomes a sample, and most
-/// samples close a gap.
-fn darts(voxels: usize) -> usize {
-    voxels.div_ceil(2)
 }

@@ -7,11 +7,12 @@
 //!
 //! The thesis goes through the seams in an order of work. Here every step is a function of the place alone, so that a
 //! window of the plane (`plane.rs`) can be made without the rest; this is how threads share the work, and how any part
-//! of a plane can be had alone (`window.rs`). Each file says where it departs from the thesis.
+//! of a plane can be had alone (`window.rs`). A number of samples instead of a radius is `count.rs`. Each file says where it departs from the thesis.
 
 mod blocks;
 mod clip;
 mod conquer;
+mod count;
 mod divide;
 mod fill;
 mod measure;
@@ -22,13 +23,14 @@ mod stamp;
 mod window;
 
 use crate::error::{Error, Result};
-use crate::job::{Context, Progress};
+use crate::job::{Context, Job, Progress};
 use crate::lattice::Lattice;
 use crate::points::Domain;
 use crate::{maximal, memory};
 
 use plane::Plane;
 
+pub use count::{CountOptions, CountReport, Counted, sample_count};
 pub use measure::{Stages, measure};
 pub use window::{sample_stream, sample_window};
 
@@ -81,16 +83,19 @@ pub fn sample(context: &Context, options: &Options, progress: Option<&Progress>)
     let &Options { radius, domain, leaf_size, seed } = options;
     check_leaf_size(leaf_size)?;
     let lattice = Lattice::new(&domain, radius)?;
-    if !Plane::is_worthwhile(&lattice, leaf_size) {
-        return context.run(progress, |job| maximal::sample_lattice(job, &lattice, seed));
+    context.run(progress, |job| sample_lattice(job, &lattice, leaf_size, seed))
+}
+
+/// [`sample`] on a lattice that is at hand.
+fn sample_lattice(job: &Job, lattice: &Lattice, leaf_size: f64, seed: u64) -> Result<Vec<[f32; 2]>> {
+    if !Plane::is_worthwhile(lattice, leaf_size) {
+        return maximal::sample_lattice(job, lattice, seed);
     }
     let expected = lattice.expected_samples();
     memory::require(expected * BYTES_PER_SAMPLE, "radius", &format!("about {expected:.0} samples"))?;
-    context.run(progress, |job| {
-        let plane = Plane::new(&job.part(0.0, PATTERN_SHARE), lattice, leaf_size, seed)?;
-        let windows = plane.windows();
-        job.part(PATTERN_SHARE, 1.0).concat(windows.len(), |i| plane.window(&windows[i]))
-    })
+    let plane = Plane::new(&job.part(0.0, PATTERN_SHARE), lattice.clone(), leaf_size, seed)?;
+    let windows = plane.windows();
+    job.part(PATTERN_SHARE, 1.0).concat(windows.len(), |i| plane.window(&windows[i]))
 }
 
 fn check_leaf_size(leaf_size: f64) -> Result<()> {

@@ -36,6 +36,11 @@ impl<'a> Output<'a> {
         }
     }
 
+    /// How many samples there are so far.
+    pub fn len(&self) -> usize {
+        self.samples.len()
+    }
+
     /// The samples.
     pub fn finish(self) -> Vec<[f32; 2]> {
         self.samples

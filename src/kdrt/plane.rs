@@ -26,6 +26,15 @@ use super::stamp::Stamps;
 /// Fill blocks along the side of a window: about 50,000 samples, which fit a core's own cache.
 const WINDOW_BLOCKS: i32 = 56;
 
+/// A window between elimination and filling.
+pub(super) struct Merged<'a> {
+    /// Everything that survived near seams.
+    pub grid: CellGrid,
+    pub eliminated: Vec<[i32; 2]>,
+    /// What survived in the window.
+    pub output: Output<'a>,
+}
+
 /// A maximal set of a whole domain, of which any window can be made.
 pub(super) struct Plane {
     lattice: Lattice,
@@ -63,6 +72,22 @@ impl Plane {
         })
     }
 
+    /// The lattice points of a window.
+    pub fn rect(&self, window: &Rect) -> Rect {
+        self.blocks.rect(window)
+    }
+
+    /// Lays the pattern in the leaves and does nothing with it. Returns how many points it has in the rectangle.
+    pub fn clip(&self, rect: &Rect, leaves: &[Leaf]) -> usize {
+        let mut points = 0;
+        for leaf in leaves {
+            self.pattern.rows(leaf, &leaf.rect.intersection(rect), |row| {
+                points += row.points().filter(|&point| row.part.contains(point)).count();
+            });
+        }
+        points
+    }
+
     /// The plane cut into windows for [`Plane::window`].
     pub fn windows(&self) -> Vec<Rect> {
         self.windows_of(WINDOW_BLOCKS)
@@ -84,13 +109,25 @@ impl Plane {
 
     /// A window, given what is to be known around it.
     fn window_within(&self, known: &Rect, window: &Rect) -> Vec<[f32; 2]> {
-        let Lattice { threshold, reach, .. } = self.lattice;
         let leaves = self.leaves(known);
+        let merged = self.merge(known, window, &leaves);
+        self.fill(window, &leaves, merged)
+    }
+
+    /// Clips the leaves and eliminates conflicts.
+    pub fn merge(&self, known: &Rect, window: &Rect, leaves: &[Leaf]) -> Merged<'_> {
+        let Lattice { threshold, reach, .. } = self.lattice;
         let mut grid = CellGrid::new(&self.axes, known, threshold, reach);
         let mut output = Output::new(&self.lattice, self.blocks.rect(window));
-        let eliminated = merge(&mut grid, &self.pattern, &leaves, known, reach, &mut output);
-        let seams = SeamCells::new(&grid, &leaves, &eliminated, reach);
+        let eliminated = merge(&mut grid, &self.pattern, leaves, known, reach, &mut output);
+        Merged { grid, eliminated, output }
+    }
 
+    /// Fills the gaps: the samples of the window.
+    pub fn fill(&self, window: &Rect, leaves: &[Leaf], merged: Merged) -> Vec<[f32; 2]> {
+        let Merged { mut grid, eliminated, mut output } = merged;
+        let reach = self.lattice.reach;
+        let seams = SeamCells::new(&grid, leaves, &eliminated, reach);
         let mut filling = Filling::new(&self.stamps, seams, reach);
         for (parity, margin) in PHASES {
             for (block, rect) in self.blocks.of_parity(&self.blocks.grown(window, margin), parity) {
@@ -103,7 +140,7 @@ impl Plane {
     }
 
     /// The lattice points on whose leaves the samples of a window depend.
-    fn surroundings(&self, window: &Rect) -> Rect {
+    pub fn surroundings(&self, window: &Rect) -> Rect {
         let filled = self.blocks.rect(&self.blocks.grown(window, PHASES[0].1));
         // The fill looks for samples within a reach, and for eliminated points within a reach of its cells, which
         // go less than another beyond it.
@@ -119,7 +156,7 @@ impl Plane {
     }
 
     /// The leaves that meet `rect` by falling rank; on a torus all their images that do.
-    fn leaves(&self, rect: &Rect) -> Vec<Leaf> {
+    pub fn leaves(&self, rect: &Rect) -> Vec<Leaf> {
         let turns = |axis: usize| {
             let size = self.lattice.size[axis];
             (rect.min[axis].div_euclid(size)..=(rect.max[axis] - 1).div_euclid(size)).map(move |turn| turn * size)

@@ -210,3 +210,102 @@ fn spread(bits: u64) -> u64 {
     let bits = (bits | bits << 3) & 0x1111_1111_1111_1111;
     bits * 0xf
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::maximal::CellAxis;
+    use crate::rng::{Draw, Rng};
+
+    /// A grid of cells, all of them seams.
+    fn everything(size: i32, radius: f64) -> (CellGrid, SeamCells, Stamps) {
+        let axes = [size, size - 17].map(|size| CellAxis::new(size, radius));
+        let all = Rect { min: [0; 2], max: [size, size - 17] };
+        let (threshold, reach) = ((radius * radius).ceil() as i64, radius as i32);
+        let grid = CellGrid::new(&axes, &all, threshold, reach);
+        let leaf = crate::kdrt::divide::Leaf { rect: all, key: 0 };
+        let seams = SeamCells::new(&grid, &[leaf], &[], size);
+        (grid, seams, Stamps::new(radius, [0, 1].map(|axis: usize| axes[axis].side())))
+    }
+
+    /// Every voxel of random blocks against the exact distances to one sample, anywhere around.
+    #[test]
+    fn a_stamp_takes_out_what_is_covered_and_nothing_else() {
+        let mut rng = Rng::at(5, Draw::Probe, &[]);
+        let mut covered = 0;
+        for (radius, size) in [(64.5, 1_100), (1_000.3, 17_000), (70_000.0, 1_400_000), (2_000_000.0, 30_000_000)] {
+            let (grid, seams, stamps) = everything(size, radius);
+            let threshold = (radius * radius).ceil() as i64;
+            for _ in 0..300 {
+                let length = (radius * 7.2) as i32;
+                let min = [0, 1].map(|_| rng.below((size - 17 - length) as u64) as i32);
+                let max = min.map(|x| x + 1 + rng.below(length as u64) as i32);
+                let block = Rect { min, max };
+                let reach = radius as u64;
+                let sample = [0, 1].map(|axis: usize| {
+                    let around = rng.below((block.length(axis) as u64) + 2 * reach) as i32;
+                    block.min[axis] + around - reach as i32
+                });
+                let cells = grid.cells_of(&block);
+                let mut bitmap = Bitmap::of_seams(&stamps, &grid, &seams, block, cells);
+                let mut places = Vec::new();
+                bitmap.list(&mut places);
+                let area: i64 = places.iter().map(|&place| area(&bitmap.voxel(&grid, place).1)).sum();
+                assert_eq!(area, self::area(&block), "the voxels are the block");
+
+                bitmap.stamp(sample);
+                for place in places {
+                    let (cell, rect) = bitmap.voxel(&grid, place);
+                    assert_eq!(rect.intersection(&grid.rect(cell)), rect);
+                    let farthest: i64 = [0, 1]
+                        .map(|axis: usize| {
+                            let ends = [rect.min[axis], rect.max[axis] - 1];
+                            ends.map(|end| i64::from(end - sample[axis]).pow(2)).into_iter().max().unwrap()
+                        })
+                        .iter()
+                        .sum();
+                    assert!(bitmap.is_open(place) || farthest < threshold);
+                    covered += u32::from(!bitmap.is_open(place));
+                    // A voxel that the block cuts is judged by all of it.
+                    let is_whole =
+                        (0..2).all(|axis| block.min[axis] < rect.min[axis] && rect.max[axis] < block.max[axis]);
+                    // Two sixteenths of a voxel, and a few lattice points.
+                    let room = 0.03 * radius + 8.0;
+                    assert!(!(bitmap.is_open(place) && is_whole) || (farthest as f64).sqrt() > radius - room);
+                }
+            }
+        }
+        assert!(covered > 10_000);
+    }
+
+    fn area(rect: &Rect) -> i64 {
+        i64::from(rect.length(0)) * i64::from(rect.length(1))
+    }
+
+    #[test]
+    fn all_vectors_stamp_the_same() {
+        let (grid, seams, stamps) = everything(17_000, 1_000.3);
+        let mut rng = Rng::at(6, Draw::Probe, &[]);
+        let block = Rect { min: [3_000, 4_321], max: [9_000, 10_000] };
+        for _ in 0..50 {
+            let samples: Vec<_> = (0..9)
+                .map(|_| {
+                    [0, 1].map(|axis: usize| {
+                        block.min[axis] - 1_000 + rng.below(block.length(axis) as u64 + 2_000) as i32
+                    })
+                })
+                .collect();
+            let stamped = |vectors| {
+                let mut bitmap = Bitmap::of_seams(&stamps, &grid, &seams, block, grid.cells_of(&block));
+                bitmap.stamp_all(vectors, &samples);
+                bitmap.rows
+            };
+            assert!(Vectors::available().into_iter().all(|vectors| stamped(vectors) == stamped(Vectors::Portable)));
+        }
+    }
+
+    #[test]
+    fn bits_are_spread_four_times_each() {
+        assert_eq!(spread(0b1000_0000_0000_0101), 0xf000_0000_0000_0f0f);
+    }
+}

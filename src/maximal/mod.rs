@@ -6,14 +6,16 @@
 //! Source: Ebeida et al. 2012 (see `quadtree.rs`). Departures: all arithmetic is exact on the integer lattice of the
 //! floats (see `lattice.rs`), and a round throws its darts and prunes by them *before* it refines.
 
+mod axis;
 mod cells;
 mod near;
 mod quadtree;
 #[allow(unsafe_code)] // Vector instructions.
 mod vectors;
 
-pub(crate) use cells::{CellAxis, CellGrid};
-pub(crate) use quadtree::Quadtree;
+pub(crate) use axis::CellAxis;
+pub(crate) use cells::CellGrid;
+pub(crate) use quadtree::{Quadtree, darts};
 pub(crate) use vectors::Vectors;
 
 use crate::error::Result;

@@ -17,6 +17,9 @@ pub(super) const LANES: usize = 8;
 /// side r / sqrt(2)), a few more where a torus is so narrow that images of one sample do. Any more are left out.
 pub(super) const MOST_NEAR: usize = 16;
 
+/// As many samples near a cell are tested whether they are there or not; seldom are there more.
+pub(super) const ALWAYS: usize = 6;
+
 /// A coordinate of no sample. Its square is a float.
 pub(super) const FAR: f32 = 1e18;
 
@@ -114,5 +117,141 @@ impl Near {
             open |= u16::from(is_open) << i;
         }
         open
+    }
+}
+
+/// Writes the samples of a row that lie in a rectangle to the front of `samples`, which has room for the whole row, and
+/// says how many there are.
+pub(super) fn collect([xs, ys]: [&[i32]; 2], rect: &Rect, samples: &mut [[i32; 2]]) -> usize {
+    let mut count = 0;
+    for (&x, &y) in xs.iter().zip(ys) {
+        // Written in any case and counted only if it is one: which cells have one is not predictable.
+        samples[count] = [x, y];
+        count += usize::from(rect.contains([x, y]));
+    }
+    count
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::array::from_fn;
+
+    use crate::maximal::Vectors;
+    use crate::rng::{Draw, Rng};
+
+    const RADII: [i32; 4] = [64, 1000, 1 << 16, 1 << 22];
+
+    /// Five rows of cells with a sample in every third, and somewhere beyond them.
+    fn random_rows(rng: &mut Rng, radius: i32) -> [Vec<i32>; 2] {
+        let mut rows = [vec![], vec![]];
+        for _ in 0..5 * LANES {
+            let is_sample = rng.below(3) == 0;
+            for row in &mut rows {
+                row.push(if is_sample { rng.below(6 * radius as u64) as i32 - 3 * radius } else { -(1 << 29) });
+            }
+        }
+        rows
+    }
+
+    fn rows(samples: &[Vec<i32>; 2]) -> Rows<'_> {
+        Rows { samples: [&samples[0], &samples[1]], first: 0, stride: LANES, count: 5 }
+    }
+
+    fn square([x, y]: [i32; 2]) -> i64 {
+        i64::from(x).pow(2) + i64::from(y).pow(2)
+    }
+
+    /// A part of a cell at the origin, and the width of its sixteenths.
+    fn random_voxel(rng: &mut Rng, cell: i32) -> (Rect, i32) {
+        let min = from_fn(|_| rng.below(cell as u64) as i32);
+        let max = from_fn(|axis| min[axis] + 1 + rng.below((cell - min[axis]) as u64) as i32);
+        let width = (max[0] - min[0]).max(max[1] - min[1]) + rng.below(4) as i32;
+        (Rect { min, max }, (width + 3) / 4)
+    }
+
+    /// Against exact distances: what is certainly uncovered is kept, what is covered with some room is dropped.
+    #[test]
+    fn the_coarse_tests_say_what_exact_distances_say_except_at_the_very_border() {
+        let mut rng = Rng::at(0, Draw::Probe, &[]);
+        let mut dropped = 0;
+        for radius in RADII {
+            let (threshold, side) = (i64::from(radius).pow(2), radius / 2);
+            let cell = Rect { min: [0; 2], max: [side; 2] };
+            for _ in 0..2000 {
+                let samples = random_rows(&mut rng, radius);
+                let all: Vec<[i32; 2]> = (0..5 * LANES).map(|i| [samples[0][i], samples[1][i]]).collect();
+
+                let point = from_fn(|_| rng.below(side as u64) as i32);
+                let exact = all.iter().map(|&[x, y]| square([x - point[0], y - point[1]])).min().unwrap();
+                assert!((f64::from(rows(&samples).nearest(point)) / exact as f64 - 1.0).abs() < 1e-6);
+
+                let mut near = Near::new();
+                near.limit = threshold as f32 * (1.0 - SLACK);
+                near.gather(&rows(&samples), &cell, threshold as f32);
+                if near.count == MOST_NEAR {
+                    continue; // Random points stand closer than samples do.
+                }
+                let (voxel, width) = random_voxel(&mut rng, side);
+                let open = near.uncovered(&voxel, width);
+                for (column, row) in (0..4).flat_map(|row| (0..4).map(move |column| (column, row))) {
+                    let min = [voxel.min[0] + column * width, voxel.min[1] + row * width];
+                    let part = Rect { min, max: min.map(|x| x + width) }.intersection(&voxel);
+                    let is_open = open >> (4 * row + column) & 1 == 1;
+                    if part.is_empty() {
+                        assert!(!is_open);
+                        continue;
+                    }
+                    let farthest = |&sample: &[i32; 2]| {
+                        let along = |axis: usize| {
+                            (sample[axis] - part.min[axis]).abs().max((part.max[axis] - 1 - sample[axis]).abs())
+                        };
+                        square([along(0), along(1)])
+                    };
+                    let nearest = all.iter().map(farthest).min().unwrap();
+                    assert!(is_open || nearest < threshold);
+                    assert!(!is_open || nearest as f64 > threshold as f64 * (1.0 - 3e-5));
+                    dropped += u32::from(!is_open);
+                }
+            }
+        }
+        assert!(dropped > 10_000);
+    }
+
+    #[test]
+    fn all_vectors_give_the_same_bits() {
+        let mut rng = Rng::at(1, Draw::Probe, &[]);
+        for vectors in Vectors::available() {
+            for radius in RADII {
+                let (threshold, side) = ((radius as f32).powi(2), radius / 2);
+                let cell = Rect { min: [0; 2], max: [side, side - 3] };
+                for _ in 0..2000 {
+                    let samples = random_rows(&mut rng, radius);
+                    let rows = rows(&samples);
+                    let point = from_fn(|_| rng.below(2 * radius as u64) as i32 - radius);
+                    assert_eq!(vectors.nearest(&rows, point), rows.nearest(point));
+
+                    let [mut found, mut expected] = [Near::new(), Near::new()];
+                    (found.limit, expected.limit) = (threshold, threshold);
+                    vectors.gather(&mut found, &rows, &cell, threshold);
+                    expected.gather(&rows, &cell, threshold);
+                    assert_eq!(found.count, expected.count);
+                    let (voxel, width) = random_voxel(&mut rng, side);
+                    assert_eq!(vectors.uncovered(&found, &voxel, width), expected.uncovered(&voxel, width));
+                    let (count, filled) = (expected.count, expected.count.max(ALWAYS));
+                    assert_eq!(found.x[..count], expected.x[..count]);
+                    assert_eq!(found.y[..count], expected.y[..count]);
+                    assert!(count == MOST_NEAR || found.x[count..filled].iter().all(|&x| x == FAR));
+
+                    let rect = Rect { min: [-radius; 2], max: [point[0].max(0), radius] };
+                    let length = rng.below(20) as usize;
+                    let row = [&samples[0][..length], &samples[1][..length]];
+                    let [mut found, mut expected] = [[[0; 2]; 20]; 2];
+                    let count = collect(row, &rect, &mut expected);
+                    assert_eq!(vectors.collect(row, &rect, &mut found), count);
+                    assert_eq!(found[..count], expected[..count]);
+                }
+            }
+        }
     }
 }

@@ -91,7 +91,7 @@ impl Quadtree {
 
     /// Drops the voxels that a new sample covers, as far as this is certain without a second look.
     #[inline(always)]
-    pub fn prune(&mut self, grid: &CellGrid, sample: [i32; 2]) {
+    fn prune(&mut self, grid: &CellGrid, sample: [i32; 2]) {
         let limit = grid.certain();
         let mut left = 0;
         for i in 0..self.voxels.len() {
@@ -105,6 +105,24 @@ impl Quadtree {
             left += usize::from(dx * dx + dy * dy >= limit);
         }
         self.voxels.truncate(left);
+    }
+
+    /// Throws darts and cuts voxels until every lattice point is covered, and shows the new samples to `accepted`. Each is
+    /// compared with all voxels: this is for few of them.
+    #[inline(always)]
+    pub fn fill(&mut self, grid: &mut CellGrid, rng: &mut Rng, mut accepted: impl FnMut([i32; 2])) {
+        while !self.is_empty() {
+            for _ in 0..darts(self.len()) {
+                if self.is_empty() {
+                    return;
+                }
+                if let Some(sample) = self.throw(grid, rng) {
+                    self.prune(grid, sample);
+                    accepted(sample);
+                }
+            }
+            self.refine(grid);
+        }
     }
 
     /// Cuts the voxels in parts and drops those that one sample covers. Single lattice points are not cut.
@@ -134,6 +152,12 @@ impl Quadtree {
         self.width = width;
         std::mem::swap(&mut self.voxels, &mut self.next);
     }
+}
+
+/// How many darts are thrown at so many voxels, if these are pruned by every new sample, before they are cut: in a gap
+/// most darts become samples, and most samples close it.
+pub(crate) fn darts(voxels: usize) -> usize {
+    voxels.div_ceil(2)
 }
 
 /// The width of the parts when a voxel is cut in four along each axis.

@@ -12,7 +12,7 @@ SIZE(azulejo_status, 4);
 SIZE(azulejo_progress_fn, 8);
 SIZE(azulejo_kdrt_window_fn, 8);
 
-SIZE(azulejo_kdrt_options, 80);
+SIZE(azulejo_kdrt_options, 88);
 FIELD(azulejo_kdrt_options, struct_size, 0);
 FIELD(azulejo_kdrt_options, boundary, 4);
 FIELD(azulejo_kdrt_options, radius, 8);
@@ -22,6 +22,15 @@ FIELD(azulejo_kdrt_options, leaf_size, 48);
 FIELD(azulejo_kdrt_options, seed, 56);
 FIELD(azulejo_kdrt_options, progress, 64);
 FIELD(azulejo_kdrt_options, progress_user, 72);
+FIELD(azulejo_kdrt_options, count, 80);
+
+SIZE(azulejo_kdrt_report, 64);
+FIELD(azulejo_kdrt_report, samples, 0);
+FIELD(azulejo_kdrt_report, radius, 8);
+FIELD(azulejo_kdrt_report, coverage, 16);
+FIELD(azulejo_kdrt_report, seconds, 24);
+FIELD(azulejo_kdrt_report, is_maximal, 32);
+FIELD(azulejo_kdrt_report, reserved, 36);
 
 SIZE(azulejo_maximal_options, 72);
 FIELD(azulejo_maximal_options, struct_size, 0);
@@ -105,6 +114,8 @@ static void signatures(void) {
     azulejo_status (*context_create)(uint32_t, azulejo_context **) = azulejo_context_create;
     azulejo_status (*kdrt_sample)(const azulejo_context *, const azulejo_kdrt_options *, azulejo_points **) =
         azulejo_kdrt_sample;
+    azulejo_status (*kdrt_sample_with_report)(const azulejo_context *, const azulejo_kdrt_options *, azulejo_points **,
+                                              azulejo_kdrt_report *) = azulejo_kdrt_sample_with_report;
     azulejo_status (*kdrt_sample_window)(const azulejo_context *, const azulejo_kdrt_options *, const double *,
                                          const double *, azulejo_points **) = azulejo_kdrt_sample_window;
     azulejo_status (*kdrt_stream)(const azulejo_context *, const azulejo_kdrt_options *,
@@ -124,6 +135,7 @@ static void signatures(void) {
     size_t (*last_error_message)(char *, size_t) = azulejo_last_error_message;
     CHECK(context_create && kdrt_sample && mesh_create && mesh_load && psp_create && psp_advance && psp_fill);
     CHECK(psp_points && psp_sample && dcr_relax && last_error_message && kdrt_sample_window && kdrt_stream);
+    CHECK(kdrt_sample_with_report);
 }
 
 int main(void) {

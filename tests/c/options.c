@@ -42,6 +42,7 @@ static void defaults(void) {
     CHECK(dcr.domain_min[0] == 0 && dcr.domain_min[1] == 0 && dcr.domain_max[0] == 1 && dcr.domain_max[1] == 1);
     CHECK(kdrt.boundary == AZULEJO_BOUNDARY_PERIODIC && dcr.boundary == AZULEJO_BOUNDARY_PERIODIC);
     CHECK(kdrt.leaf_size == 20 && kdrt.seed == 0 && kdrt.progress == NULL && kdrt.progress_user == NULL);
+    CHECK(kdrt.count == 0);
     CHECK(psp.maximal == 1 && psp.iterations > 0 && psp.seed == 0 && psp.progress == NULL);
     CHECK(dcr.neighbourhood == AZULEJO_NEIGHBOURHOOD_DELAUNAY && dcr.max_iterations > 0 && dcr.progress == NULL);
 }
@@ -97,6 +98,13 @@ static void older_structs(void) {
     older.progress = (azulejo_progress_fn)NULL;
     older.struct_size = offsetof(azulejo_kdrt_options, progress); /* has the seed, but no progress */
     memset(&older.progress, 0x55, sizeof older.progress);
+    points = sample(&older);
+    CHECK(same_points(points, with_other));
+    azulejo_points_free(points);
+
+    older = other;
+    older.struct_size = offsetof(azulejo_kdrt_options, count); /* from before there were counts */
+    older.count = 12345;
     points = sample(&older);
     CHECK(same_points(points, with_other));
     azulejo_points_free(points);

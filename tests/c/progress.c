@@ -42,6 +42,15 @@ static azulejo_status kdrt(watch *w, azulejo_points **out) {
     return azulejo_kdrt_sample(context, &o, out);
 }
 
+static azulejo_status counted(watch *w, azulejo_points **out) {
+    azulejo_kdrt_options o = kdrt_options(0);
+    azulejo_kdrt_report report;
+    o.count = 20000;
+    o.progress = tell;
+    o.progress_user = w;
+    return azulejo_kdrt_sample_with_report(context, &o, out, &report);
+}
+
 static azulejo_status maximal(watch *w, azulejo_points **out) {
     azulejo_maximal_options o = maximal_options(0.05);
     o.progress = tell;
@@ -170,6 +179,7 @@ int main(void) {
     for (threads = 1; threads <= 3; threads += 2) {
         context = make_context(threads);
         tells_and_stops(kdrt);
+        tells_and_stops(counted);
         tells_and_stops(maximal);
         tells_and_stops(psp);
         tells_and_stops(dcr);

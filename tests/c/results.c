@@ -91,6 +91,51 @@ static void planes(void) {
         }
 }
 
+/* Exactly as many as asked for, with the radius, the coverage and the maximality that the report says. */
+static void counts(void) {
+    const uint64_t numbers[] = {1, 2, 3, 7, 50, 299, 1000, 3001};
+    const int32_t boundaries[] = {AZULEJO_BOUNDARY_PERIODIC, AZULEJO_BOUNDARY_BOUNDED};
+    size_t i, j;
+    for (i = 0; i < COUNT_OF(numbers); i++)
+        for (j = 0; j < 2; j++) {
+            azulejo_kdrt_options options = kdrt_options(0);
+            azulejo_kdrt_report report;
+            azulejo_points *points = NULL, *without_report = NULL;
+            double covering = 0;
+            size_t word;
+            options.count = numbers[i];
+            options.boundary = boundaries[j];
+            options.domain_min[0] = -0.25;
+            options.domain_max[1] = 0.7;
+            memset(&report, 0x55, sizeof report);
+            if (!ACCEPTED(azulejo_kdrt_sample_with_report(context, &options, &points, &report))) continue;
+            CHECK(azulejo_points_count(points) == numbers[i] && report.samples == numbers[i]);
+            CHECK(report.is_maximal == 1 && report.seconds >= 0 && report.seconds < 100);
+            for (word = 0; word < COUNT_OF(report.reserved); word++) CHECK(report.reserved[word] == 0);
+            ACCEPTED(azulejo_plane_covering_radius(context, azulejo_points_positions(points), numbers[i],
+                                                   options.domain_min, options.domain_max, boundaries[j], &covering));
+            CHECK(report.coverage == covering);
+            ACCEPTED(azulejo_kdrt_sample(context, &options, &without_report));
+            CHECK(same_points(points, without_report));
+            azulejo_points_free(without_report);
+            check_plane(points, report.radius, options.domain_min, options.domain_max, boundaries[j]);
+        }
+}
+
+/* A report can be had for a radius too. */
+static void report_of_a_radius(void) {
+    azulejo_kdrt_options options = kdrt_options(0.05);
+    azulejo_kdrt_report report;
+    azulejo_points *points = NULL, *same = NULL;
+    ACCEPTED(azulejo_kdrt_sample_with_report(context, &options, &points, &report));
+    ACCEPTED(azulejo_kdrt_sample(context, &options, &same));
+    CHECK(same_points(points, same));
+    CHECK(report.samples == azulejo_points_count(points) && report.radius == 0.05 && report.is_maximal == 1);
+    CHECK(report.coverage > 0.04 && report.coverage <= 0.05 * (1 + 1e-6));
+    azulejo_points_free(points);
+    azulejo_points_free(same);
+}
+
 /* Samples lie where their barycentrics say, with the normal of their triangle. */
 static void check_surface(const azulejo_points *points, const azulejo_mesh *mesh) {
     const float *vertices = azulejo_mesh_positions(mesh), *positions = azulejo_points_positions(points);
@@ -256,6 +301,8 @@ int main(void) {
     CHECK(azulejo_version() == AZULEJO_VERSION);
     context = make_context(2);
     planes();
+    counts();
+    report_of_a_radius();
     surfaces();
     growing_sets();
     relaxations();

@@ -150,6 +150,19 @@ void progress() {
     }
 }
 
+void counts() {
+    const azulejo::Context context(2);
+    azulejo::KdrtOptions options;
+    options.count = 777;
+    azulejo::KdrtReport report;
+    const auto points = azulejo::kdrt_sample(context, options, &report);
+    CHECK(points.size() == 777 && report.samples == 777 && report.is_maximal == 1);
+    CHECK(azulejo::plane_smallest_distance(context, points.positions(), options.domain_min, options.domain_max,
+                                           options.boundary) >= report.radius);
+    options.radius = 0.1;
+    CHECK(throws(AZULEJO_ERROR_INVALID_ARGUMENT, "count: 777", [&] { azulejo::kdrt_sample(context, options); }));
+}
+
 void windows() {
     const azulejo::Context context(2);
     azulejo::KdrtOptions options;
@@ -272,6 +285,7 @@ int main() {
     surfaces();
     progress();
     progress_of_a_handle();
+    counts();
     windows();
     streams();
     relaxing();

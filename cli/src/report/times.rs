@@ -41,7 +41,7 @@ impl Times {
                 leaf_size,
                 one_thread,
                 rates: [rate(&one)?, rate(context)?],
-                stages: kdrt::measure(&one, &options)?,
+                stages: kdrt::measure(&options)?,
             });
             _ = progress((i + 1) as f64 / LEAF_SIZES.len() as f64);
         }

@@ -1,10 +1,13 @@
-//! KDRT: massive maximal Poisson-disk sets in the plane.
+//! KDRT: massive maximal Poisson-disk sets in the plane, by radius or by number.
 
 use std::ffi::c_void;
 use std::mem::MaybeUninit;
 use std::ops::ControlFlow;
+use std::time::Instant;
 
-use azulejo_core::kdrt;
+use azulejo_core::analysis::coverage::covering_radius_2d;
+use azulejo_core::kdrt::{self, CountOptions, Counted};
+use azulejo_core::{Context, Domain};
 
 use crate::boundary::{self, pair, required};
 use crate::context::azulejo_context;
@@ -13,7 +16,7 @@ use crate::options::{self, Watch, azulejo_progress_fn, options};
 use crate::points::azulejo_points;
 use crate::status::{Failure, azulejo_status};
 
-/// Options of azulejo_kdrt_sample, azulejo_kdrt_sample_window and azulejo_kdrt_stream.
+/// Options of azulejo_kdrt_sample, azulejo_kdrt_sample_with_report, azulejo_kdrt_sample_window and azulejo_kdrt_stream.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct azulejo_kdrt_options {
@@ -21,7 +24,8 @@ pub struct azulejo_kdrt_options {
     pub struct_size: u32,
     /// An AZULEJO_BOUNDARY_ constant; periodic by default.
     pub boundary: i32,
-    /// The smallest distance between two samples, in the units of the domain. Above 0; there is no default.
+    /// The smallest distance between two samples, in the units of the domain. Above 0; there is no default. With a
+    /// count it must be 0: the radius follows.
     pub radius: f64,
     /// The lower corner of the domain, x y; 0 0 by default.
     pub domain_min: [f64; 2],
@@ -36,6 +40,9 @@ pub struct azulejo_kdrt_options {
     pub progress: azulejo_progress_fn,
     /// Handed to the progress callback.
     pub progress_user: *mut c_void,
+    /// How many samples there shall be, exactly; 0, the default, takes as many as the radius gives. Windows and streams
+    /// need a radius.
+    pub count: u64,
 }
 
 options!(azulejo_kdrt_options requires radius {
@@ -47,7 +54,27 @@ options!(azulejo_kdrt_options requires radius {
     seed: 0,
     progress: None,
     progress_user: std::ptr::null_mut(),
+    count: 0,
 });
+
+/// What a call achieved.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct azulejo_kdrt_report {
+    /// The number of samples: the count, if there was one.
+    pub samples: u64,
+    /// The radius: that of the options, or the one that was found for the count. No two samples are closer.
+    pub radius: f64,
+    /// The covering radius: the farthest that any place of the domain is from all samples, as
+    /// azulejo_plane_covering_radius measures it.
+    pub coverage: f64,
+    /// Wall time, without the measuring of `coverage`.
+    pub seconds: f64,
+    /// 1 if the set is maximal for `radius`, else 0.
+    pub is_maximal: i32,
+    /// Zeros, for later versions.
+    pub reserved: [u32; 7],
+}
 
 /// Writes the defaults. `struct_size` is sizeof *options.
 #[unsafe(no_mangle)]
@@ -59,7 +86,8 @@ pub unsafe extern "C" fn azulejo_kdrt_options_init(
     unsafe { options::init(options, struct_size) }
 }
 
-/// Makes a maximal, conflict-free set of samples of a rectangle, about 0.7 * area / radius^2 of them.
+/// Makes a maximal, conflict-free set of samples of a rectangle: about 0.7 * area / radius^2 of them, or exactly as
+/// many as the count in the options says (then see azulejo_kdrt_sample_with_report, which tells the radius).
 ///
 /// Tiles clips of one small pattern over a random kd-tree and repairs the seams (thesis chapter 2) with all threads of
 /// the context: O(samples) time and 24 bytes per sample. Its only bias is at the seams. A domain of less area than the
@@ -77,11 +105,53 @@ pub unsafe extern "C" fn azulejo_kdrt_sample(
     options: *const azulejo_kdrt_options,
     out: Option<&mut MaybeUninit<Box<azulejo_points>>>,
 ) -> azulejo_status {
+    // SAFETY: handed on from the caller.
+    unsafe { azulejo_kdrt_sample_with_report(context, options, out, None) }
+}
+
+/// azulejo_kdrt_sample, and what it achieved.
+///
+/// With a count the radius follows from the density of maximal sets. The samples by which the set then differs from the
+/// count, mostly a few of a thousand, are set right by making small places anew, so that it is still conflict-free and
+/// maximal. Many radii would do for a few samples, nearly one for many. If no maximal set of so many samples is found,
+/// which has not been seen in 100000 sets of few samples, the most crowded samples of a larger set are dropped; then
+/// `is_maximal` is 0.
+///
+/// out: the samples, x y each, to be freed with azulejo_points_free. With a count the order is that of the set that was
+/// begun with, with the samples made anew in the places of others.
+///
+/// report: what the call achieved, or NULL. Measuring `coverage` for it takes some microseconds per sample, more than
+/// the sampling; the progress callback has seen the 1 by then.
+///
+/// O(samples) time and memory, with a count about twice as much.
+///
+/// Errors: as azulejo_kdrt_sample, in terms of the count if there is one; AZULEJO_ERROR_INVALID_ARGUMENT for a count
+/// and a radius at once.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_kdrt_sample_with_report(
+    context: Option<&azulejo_context>,
+    options: *const azulejo_kdrt_options,
+    out: Option<&mut MaybeUninit<Box<azulejo_points>>>,
+    report: Option<&mut MaybeUninit<azulejo_kdrt_report>>,
+) -> azulejo_status {
     boundary::create(out, || {
         let context = required("context", context)?.shared.clone();
         // SAFETY: handed on from the caller.
-        let (request, watch) = unsafe { read(options) }?;
-        Ok(azulejo_points::plane(watch.run(|progress| kdrt::sample(&context, &request, progress))?))
+        let options = unsafe { options::read(options) }?;
+        let start = Instant::now();
+        let (samples, radius, is_maximal) = options.sample(&context)?;
+        if let Some(report) = report {
+            let seconds = start.elapsed().as_secs_f64();
+            report.write(azulejo_kdrt_report {
+                samples: samples.len() as u64,
+                radius,
+                coverage: covering_radius_2d(&context, &options.domain()?, &samples)?,
+                seconds,
+                is_maximal: is_maximal.into(),
+                reserved: [0; 7],
+            });
+        }
+        Ok(azulejo_points::plane(samples))
     })
 }
 
@@ -113,9 +183,10 @@ pub unsafe extern "C" fn azulejo_kdrt_sample_window(
     boundary::create(out, || {
         let context = required("context", context)?.shared.clone();
         // SAFETY: handed on from the caller.
-        let ((request, watch), min, max) =
-            unsafe { (read(options)?, pair("window_min", window_min)?, pair("window_max", window_max)?) };
-        let samples = watch.run(|progress| kdrt::sample_window(&context, &request, min, max, progress))?;
+        let (options, min, max) =
+            unsafe { (options::read(options)?, pair("window_min", window_min)?, pair("window_max", window_max)?) };
+        let request = options.by_radius_only()?;
+        let samples = options.watch().run(|progress| kdrt::sample_window(&context, &request, min, max, progress))?;
         Ok(azulejo_points::plane(samples))
     })
 }
@@ -153,7 +224,8 @@ pub unsafe extern "C" fn azulejo_kdrt_stream(
     boundary::call(|| {
         let context = required("context", context)?.shared.clone();
         // SAFETY: handed on from the caller.
-        let (request, watch) = unsafe { read(options) }?;
+        let options = unsafe { options::read(options) }?;
+        let request = options.by_radius_only()?;
         let visit = required("visit", visit)?;
         let visit = |samples: &[[f32; 2]]| {
             // SAFETY: the caller gave the two for each other, to be called on this thread during this call.
@@ -162,18 +234,48 @@ pub unsafe extern "C" fn azulejo_kdrt_stream(
                 _ => ControlFlow::Break(()),
             }
         };
-        Ok(watch.run(|progress| kdrt::sample_stream(&context, &request, visit, progress))?)
+        Ok(options.watch().run(|progress| kdrt::sample_stream(&context, &request, visit, progress))?)
     })
 }
 
-/// The caller's options as the core wants them, and the progress callback in them.
-///
-/// # Safety
-/// As [`options::read`].
-unsafe fn read(options: *const azulejo_kdrt_options) -> Result<(kdrt::Options, Watch), Failure> {
-    // SAFETY: handed on from the caller.
-    let options = unsafe { options::read(options) }?;
-    let domain = domain(options.domain_min, options.domain_max, options.boundary)?;
-    let request = kdrt::Options { radius: options.radius, domain, leaf_size: options.leaf_size, seed: options.seed };
-    Ok((request, Watch { function: options.progress, user: options.progress_user }))
+impl azulejo_kdrt_options {
+    /// The samples, their radius and whether they are maximal for it.
+    fn sample(&self, context: &Context) -> Result<(Vec<[f32; 2]>, f64, bool), Failure> {
+        let &Self { radius, leaf_size, seed, count, .. } = self;
+        if count == 0 {
+            let request = self.by_radius()?;
+            let samples = self.watch().run(|progress| kdrt::sample(context, &request, progress))?;
+            return Ok((samples, radius, true));
+        }
+        if radius != 0.0 {
+            let reason = format!("{count} samples and radius {radius:?} are asked for at once; one of them must be 0");
+            return Err(Failure::invalid("count", reason));
+        }
+        let request = CountOptions { count, domain: self.domain()?, leaf_size, seed };
+        let Counted { samples, report, .. } =
+            self.watch().run(|progress| kdrt::sample_count(context, &request, progress))?;
+        Ok((samples, report.radius, report.is_maximal))
+    }
+
+    /// The options of calls that cannot have a count.
+    fn by_radius_only(&self) -> Result<kdrt::Options, Failure> {
+        if self.count != 0 {
+            let reason = format!("{} is not 0; windows and streams are made by radius, not by number", self.count);
+            return Err(Failure::invalid("count", reason));
+        }
+        self.by_radius()
+    }
+
+    fn by_radius(&self) -> Result<kdrt::Options, Failure> {
+        let &Self { radius, leaf_size, seed, .. } = self;
+        Ok(kdrt::Options { radius, domain: self.domain()?, leaf_size, seed })
+    }
+
+    fn domain(&self) -> Result<Domain, Failure> {
+        domain(self.domain_min, self.domain_max, self.boundary)
+    }
+
+    fn watch(&self) -> Watch {
+        Watch { function: self.progress, user: self.progress_user }
+    }
 }

@@ -1,0 +1,107 @@
+/* Bad input to sets of exactly N samples, and where there is no such thing. */
+
+#include <math.h>
+
+#include "samples.h"
+
+#define INVALID AZULEJO_ERROR_INVALID_ARGUMENT
+
+static azulejo_context *context;
+
+static azulejo_kdrt_options of_count(uint64_t count) {
+    azulejo_kdrt_options options = kdrt_options(0);
+    options.count = count;
+    return options;
+}
+
+/* A call that fails writes neither of its outputs. */
+static void refused(const azulejo_kdrt_options *options, azulejo_status status, const char *part) {
+    azulejo_points *out = UNTOUCHED;
+    azulejo_kdrt_report report, before;
+    memset(&report, 0x55, sizeof report);
+    before = report;
+    REFUSED(status, part, azulejo_kdrt_sample_with_report(context, options, &out, &report));
+    CHECK(out == UNTOUCHED && memcmp(&report, &before, sizeof report) == 0);
+    REFUSED(status, part, azulejo_kdrt_sample(context, options, &out));
+    CHECK(out == UNTOUCHED);
+}
+
+static void pointers(void) {
+    const azulejo_kdrt_options good = of_count(100);
+    azulejo_points *out = UNTOUCHED;
+    azulejo_kdrt_report report;
+    REFUSED(INVALID, "context", azulejo_kdrt_sample_with_report(NULL, &good, &out, &report));
+    REFUSED(INVALID, "options", azulejo_kdrt_sample_with_report(context, NULL, &out, &report));
+    REFUSED(INVALID, "out", azulejo_kdrt_sample_with_report(context, &good, NULL, &report));
+    CHECK(out == UNTOUCHED);
+    ACCEPTED(azulejo_kdrt_sample_with_report(context, &good, &out, NULL));
+    CHECK(azulejo_points_count(out) == 100);
+    azulejo_points_free(out);
+}
+
+static void options(void) {
+    azulejo_kdrt_options o;
+#define COUNTED(status, part, change) (o = of_count(100), (void)(change), refused(&o, status, part))
+    COUNTED(INVALID, "radius", o.count = 0); /* neither */
+    COUNTED(INVALID, "count: 100 samples and radius 0.1 are asked for at once", o.radius = 0.1);
+    COUNTED(INVALID, "count", o.radius = -0.1);
+    COUNTED(INVALID, "count", o.radius = NAN);
+    COUNTED(INVALID, "domain_min", o.domain_min[0] = NAN);
+    COUNTED(INVALID, "domain_max", o.domain_max[1] = -1);
+    COUNTED(INVALID, "boundary", o.boundary = 2);
+    COUNTED(INVALID, "leaf_size", o.leaf_size = 5.99);
+    /* Floats around a million are 1/16 apart. */
+    COUNTED(INVALID, "count: 100 asks for a radius", (o.domain_min[0] = 1e6, o.domain_max[0] = 1e6 + 1));
+    COUNTED(AZULEJO_ERROR_TOO_LARGE, "count", o.count = UINT64_MAX);
+    COUNTED(AZULEJO_ERROR_TOO_LARGE, "count", o.count = (uint64_t)1 << 40);
+#undef COUNTED
+}
+
+static int32_t never_visited(void *user, const float *xy, size_t count) {
+    (void)xy, (void)count;
+    ++*(int *)user;
+    return 0;
+}
+
+/* Parts of a set are made without the rest, so nobody can know how many samples there are. */
+static void windows_and_streams(void) {
+    const double low[2] = {0.25, 0.5}, high[2] = {0.75, 1};
+    azulejo_kdrt_options counted = of_count(100), both = kdrt_options(0.1);
+    azulejo_points *out = UNTOUCHED;
+    int visits = 0;
+    both.count = 100;
+    REFUSED(INVALID, "count: 100 is not 0", azulejo_kdrt_sample_window(context, &counted, low, high, &out));
+    REFUSED(INVALID, "count: 100 is not 0", azulejo_kdrt_sample_window(context, &both, low, high, &out));
+    REFUSED(INVALID, "count: 100 is not 0", azulejo_kdrt_stream(context, &counted, never_visited, &visits));
+    REFUSED(INVALID, "count: 100 is not 0", azulejo_kdrt_stream(context, &both, never_visited, &visits));
+    CHECK(out == UNTOUCHED && visits == 0);
+}
+
+/* Awkward numbers, of sets that are tiled and that are not. */
+static void exactness(void) {
+    const uint64_t numbers[] = {1, 2, 3, 5, 8, 13, 31, 97, 1009, 8190, 12345, 65537};
+    size_t i;
+    for (i = 0; i < COUNT_OF(numbers); i++) {
+        azulejo_kdrt_options o = of_count(numbers[i]);
+        azulejo_points *points = NULL, *again = NULL;
+        azulejo_kdrt_report report;
+        o.seed = i;
+        ACCEPTED(azulejo_kdrt_sample_with_report(context, &o, &points, &report));
+        ACCEPTED(azulejo_kdrt_sample(context, &o, &again));
+        CHECK(azulejo_points_count(points) == numbers[i] && same_points(points, again));
+        CHECK(report.samples == numbers[i] && report.radius > 0 && report.is_maximal == 1);
+        CHECK(report.coverage <= report.radius * (1 + 1e-4));
+        azulejo_points_free(points);
+        azulejo_points_free(again);
+    }
+}
+
+int main(void) {
+    context = make_context(2);
+    pointers();
+    options();
+    windows_and_streams();
+    exactness();
+    azulejo_context_free(context);
+    return finish();
+}
