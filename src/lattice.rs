@@ -120,10 +120,17 @@ impl Lattice {
         }
         // No two lattice points are as far apart as 2^26, so a longer radius means the same and only overflows.
         let radius = (radius / unit).min((1 << 26) as f64);
+        let lattice = Self { unit, origin, size, boundary: domain.boundary, radius, threshold: 0, reach: 0 };
+        Ok(lattice.widened(0.0))
+    }
+
+    /// The same lattice with a radius that is longer by so many units.
+    pub fn widened(&self, units: f64) -> Self {
+        let radius = self.radius + units;
         // The guard covers the rounding of the squares here and in the user's own check.
         let threshold = (radius * radius * (1.0 + 1e-14)).ceil() as i64;
         let reach = (threshold - 1).isqrt() as i32;
-        Ok(Self { unit, origin, size, boundary: domain.boundary, radius, threshold, reach })
+        Self { radius, threshold, reach, ..self.clone() }
     }
 
     /// A square torus of points of this lattice, with the same radius.
@@ -161,9 +168,33 @@ impl Lattice {
         MAXIMAL_DENSITY * (f64::from(rect.length(0)) / self.radius) * (f64::from(rect.length(1)) / self.radius)
     }
 
+    /// A lattice point at most one unit per axis away from any point of `domain`, which is this lattice's; on a torus
+    /// perhaps over the seam. Away from the domain's border it is half a unit.
+    pub fn nearest(&self, domain: &Domain, point: [f32; 2]) -> [i32; 2] {
+        std::array::from_fn(|axis| {
+            let place = (f64::from(point[axis]) - self.origin[axis]) / self.unit;
+            let period = (self.boundary == Boundary::Periodic).then(|| domain.extent()[axis] / self.unit);
+            nearest_on_axis(place, self.size[axis], period)
+        })
+    }
+
     /// The coordinates of a lattice point of the domain: exact.
     pub fn position(&self, point: [i32; 2]) -> [f32; 2] {
         std::array::from_fn(|axis| (self.origin[axis] + f64::from(point[axis]) * self.unit) as f32)
+    }
+}
+
+/// The index of the lattice point nearest to `place`, which lies in an axis of `size` lattice points. Both `place` and
+/// `period`, of a torus, are in units; the first lattice point is at 0.
+fn nearest_on_axis(place: f64, size: i32, period: Option<f64>) -> i32 {
+    let last = f64::from(size - 1);
+    match period {
+        // Over the seam, between the last lattice point and the first one's image.
+        Some(period) if place < 0.0 || place > last => {
+            let place = if place < 0.0 { place + period } else { place };
+            if place - last < period - place { size - 1 } else { 0 }
+        }
+        _ => place.round().clamp(0.0, last) as i32,
     }
 }
 

@@ -30,6 +30,8 @@ pub(crate) enum Draw {
     Part,
     /// Random points on a surface (analysis).
     Probe,
+    /// KDRT: the ranks and the filling of merged pieces.
+    Merge,
 }
 
 /// The stream of random numbers of one place.

@@ -33,12 +33,18 @@ pub(super) struct Blocks {
 }
 
 impl Blocks {
-    /// The blocks of a lattice that is at least two of them wide and high.
+    /// Whether a lattice can be cut into blocks: a torus must be at least two of them wide and high.
+    pub fn fit(lattice: &Lattice) -> bool {
+        let fits = |size: i32| f64::from(size) >= 2.0 * WIDTH * lattice.radius;
+        lattice.boundary == Boundary::Bounded || lattice.size.into_iter().all(fits)
+    }
+
+    /// The blocks of a lattice that they fit.
     pub fn new(lattice: &Lattice, seed: u64) -> Self {
         let counts = lattice.size.map(|size| {
             let count = (f64::from(size) / (WIDTH * lattice.radius)) as i32;
             // The parities of the phases must go on across the seam of a torus.
-            if lattice.boundary == Boundary::Periodic { count / 2 * 2 } else { count }
+            if lattice.boundary == Boundary::Periodic { count / 2 * 2 } else { count.max(1) }
         });
         Self { size: lattice.size, counts, boundary: lattice.boundary, seed }
     }

@@ -14,6 +14,7 @@ mod clip;
 mod conquer;
 mod divide;
 mod fill;
+mod merge;
 mod output;
 mod plane;
 mod window;
@@ -26,6 +27,7 @@ use crate::{maximal, memory};
 
 use plane::Plane;
 
+pub use merge::{MergeOptions, MergeReport, Piece, merge};
 pub use window::{sample_stream, sample_window};
 
 /// The leaf size, in radii, that balances speed and spectrum.

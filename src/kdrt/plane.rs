@@ -19,7 +19,7 @@ use super::output::Output;
 use super::{MIN_LEAF_SIZE, fill};
 
 /// Fill blocks along the side of a window: about 50,000 samples, which fit a core's own cache.
-const WINDOW_BLOCKS: i32 = 48;
+pub(super) const WINDOW_BLOCKS: i32 = 48;
 
 /// A maximal set of a whole domain, of which any window can be made.
 pub(super) struct Plane {
@@ -128,7 +128,7 @@ impl Plane {
 }
 
 /// A rectangle of blocks, cut at the multiples of `side`.
-fn cut(blocks: &Rect, side: i32) -> Vec<Rect> {
+pub(super) fn cut(blocks: &Rect, side: i32) -> Vec<Rect> {
     let starts = |axis: usize| (blocks.min[axis] / side * side..blocks.max[axis]).step_by(side as usize);
     let cells = starts(1).flat_map(|y| starts(0).map(move |x| Rect { min: [x, y], max: [x + side, y + side] }));
     cells.map(|cell| cell.intersection(blocks)).collect()

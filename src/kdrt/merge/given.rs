@@ -1,0 +1,201 @@
+//! The points that are given, sorted by cells that hold at most one survivor, with the exact test of their conflicts.
+
+use std::ops::Range;
+
+use crate::error::{Error, Result};
+use crate::lattice::{Lattice, Rect};
+use crate::maximal::CellAxis;
+use crate::points::{Boundary, Domain};
+
+use super::NARROWING;
+
+/// A point of a set, and which one it is.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Site {
+    pub position: [f32; 2],
+    /// 0 for the fixed points; piece `i` is set `i + 1`.
+    pub set: u32,
+    index: u32,
+}
+
+/// All points of all sets, sorted by cell and in it by set. No two of one set are in the same cell.
+pub(super) struct Given {
+    domain: Domain,
+    radius: f64,
+    lattice: Lattice,
+    /// The cells of the domain's lattice points: small enough that two points of one conflict.
+    pub axes: [CellAxis; 2],
+    /// For each column and each row those that can hold a conflict with it, each once.
+    near: [Vec<[Range<usize>; 2]>; 2],
+    /// Cell `c` holds the sites `starts[c]..starts[c + 1]`.
+    starts: Vec<u32>,
+    pub sites: Vec<Site>,
+    /// The sizes of the sets.
+    lengths: Vec<usize>,
+}
+
+impl Given {
+    /// Sorts the sets, whose points lie in the domain.
+    ///
+    /// # Errors
+    /// [`Error::InvalidArgument`] for two points of a set that fall in the same cell: they conflict. (What comes later
+    /// would find them too, but could be kept busy by very many.)
+    pub fn new(domain: Domain, lattice: &Lattice, radius: f64, sets: &[&[[f32; 2]]]) -> Result<Self> {
+        let axes = lattice.size.map(|size| CellAxis::new(size, lattice.radius - NARROWING));
+        // Distances of given points are at most two units shorter per axis than those of their lattice points.
+        let near = axes.each_ref().map(|axis| near_on_axis(axis, lattice.reach + 3, domain.boundary));
+        let lengths: Vec<usize> = sets.iter().map(|set| set.len()).collect();
+        let sites = vec![Site::default(); lengths.iter().sum()];
+        let cells = axes.each_ref().map(|axis| axis.count() as usize);
+        let starts = vec![0; cells[0] * cells[1] + 1];
+        let mut given = Self { domain, radius, lattice: lattice.clone(), axes, near, starts, sites, lengths };
+
+        for &point in sets.iter().copied().flatten() {
+            let cell = given.cell(point);
+            given.starts[cell + 1] += 1;
+        }
+        for cell in 1..given.starts.len() {
+            given.starts[cell] += given.starts[cell - 1];
+        }
+        let mut next = given.starts.clone();
+        for (set, points) in sets.iter().enumerate() {
+            for (index, &position) in points.iter().enumerate() {
+                let slot = &mut next[given.cell(position)];
+                given.sites[*slot as usize] = Site { position, set: set as u32, index: index as u32 };
+                *slot += 1;
+            }
+        }
+        given.check_cells()?;
+        Ok(given)
+    }
+
+    fn check_cells(&self) -> Result<()> {
+        let crowded = |pair: &&[Site]| pair[0].set == pair[1].set && self.conflict(&pair[0], &pair[1]);
+        match self.sites.windows(2).find(crowded) {
+            Some(pair) => Err(self.refusal(&pair[0], &pair[1])),
+            None => Ok(()),
+        }
+    }
+
+    fn cell(&self, point: [f32; 2]) -> usize {
+        let point = self.lattice_point(point);
+        let [column, row] = [0, 1].map(|axis: usize| self.axes[axis].cell(point[axis]) as usize);
+        row * self.columns() + column
+    }
+
+    fn columns(&self) -> usize {
+        self.axes[0].count() as usize
+    }
+
+    /// The number of sets, empty ones too.
+    pub fn set_count(&self) -> usize {
+        self.lengths.len()
+    }
+
+    /// The number of cells.
+    pub fn cells(&self) -> usize {
+        self.starts.len() - 1
+    }
+
+    /// The lattice point that stands for a given one.
+    pub fn lattice_point(&self, point: [f32; 2]) -> [i32; 2] {
+        self.lattice.nearest(&self.domain, point)
+    }
+
+    /// Whether two points are closer than the radius: as the user's own check in `f64` says, whether that takes the
+    /// root or not. (The root of a rounded square is the number itself, and rounding is monotone.)
+    fn conflict(&self, a: &Site, b: &Site) -> bool {
+        self.squared_distance(a, b) < self.radius * self.radius
+    }
+
+    fn squared_distance(&self, a: &Site, b: &Site) -> f64 {
+        let extent = self.domain.extent();
+        let [dx, dy] = [0, 1].map(|axis: usize| {
+            let along = (f64::from(a.position[axis]) - f64::from(b.position[axis])).abs();
+            match self.domain.boundary {
+                Boundary::Periodic => along.min(extent[axis] - along),
+                Boundary::Bounded => along,
+            }
+        });
+        dx * dx + dy * dy
+    }
+
+    /// Visits all conflicts of the sites of a cell, by their places in `sites`.
+    ///
+    /// # Errors
+    /// [`Error::InvalidArgument`] for a conflict in one set.
+    pub fn conflicts(&self, cell: usize, mut visit: impl FnMut(usize, usize)) -> Result<()> {
+        let sites = self.starts[cell] as usize..self.starts[cell + 1] as usize;
+        if sites.is_empty() {
+            return Ok(());
+        }
+        let (row, column) = (cell / self.columns(), cell % self.columns());
+        for row in self.near[1][row].iter().cloned().flatten() {
+            for columns in &self.near[0][column] {
+                for other in self.places(row, columns) {
+                    for site in sites.clone().filter(|&site| site != other) {
+                        let (a, b) = (&self.sites[site], &self.sites[other]);
+                        if !self.conflict(a, b) {
+                            continue;
+                        }
+                        if a.set == b.set {
+                            return Err(self.refusal(a, b));
+                        }
+                        visit(site, other);
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// The places in `sites` of the points in a run of cells of one row.
+    fn places(&self, row: usize, columns: &Range<usize>) -> Range<usize> {
+        let first = row * self.columns();
+        self.starts[first + columns.start] as usize..self.starts[first + columns.end] as usize
+    }
+
+    /// The places in `sites` of all points in the cells that hold the lattice points of `rect`, a part of the domain.
+    pub fn places_in(&self, rect: &Rect) -> impl Iterator<Item = usize> {
+        let [columns, rows] = [0, 1].map(|axis: usize| {
+            let [first, last] = [rect.min[axis], rect.max[axis] - 1].map(|x| self.axes[axis].cell(x) as usize);
+            if rect.is_empty() { 0..0 } else { first..last + 1 }
+        });
+        rows.flat_map(move |row| self.places(row, &columns))
+    }
+
+    /// The surviving points in the order in which they were given.
+    pub fn in_order(&self, survives: &[bool]) -> Vec<[f32; 2]> {
+        let mut sets: Vec<Vec<Option<[f32; 2]>>> = self.lengths.iter().map(|&length| vec![None; length]).collect();
+        for (site, _) in self.sites.iter().zip(survives).filter(|(_, survives)| **survives) {
+            sets[site.set as usize][site.index as usize] = Some(site.position);
+        }
+        sets.into_iter().flatten().flatten().collect()
+    }
+
+    fn refusal(&self, a: &Site, b: &Site) -> Error {
+        let [i, j] = [a.index.min(b.index), a.index.max(b.index)];
+        let (distance, radius) = (self.squared_distance(a, b).sqrt(), self.radius);
+        let apart = format!("{i} and {j} are {distance:?} apart, closer than the radius {radius:?}");
+        match a.set {
+            0 => Error::invalid("fixed", format!("points {apart}")),
+            set => Error::invalid("pieces", format!("[{}]: samples {apart}", set - 1)),
+        }
+    }
+}
+
+/// For each cell of an axis the cells that hold points within `reach` of its own, as two runs that may be empty.
+fn near_on_axis(axis: &CellAxis, reach: i32, boundary: Boundary) -> Vec<[Range<usize>; 2]> {
+    let count = axis.count();
+    let run = |first: i32, end: i32| first as usize..end as usize;
+    let near = |cell: i32| {
+        let (first, end) = (axis.cell(axis.border(cell) - reach), axis.cell(axis.border(cell + 1) - 1 + reach) + 1);
+        match boundary {
+            Boundary::Bounded => [run(first.max(0), end.min(count)), 0..0],
+            Boundary::Periodic if end - first >= count => [run(0, count), 0..0],
+            Boundary::Periodic if first < 0 => [run(0, end), run(first + count, count)],
+            Boundary::Periodic => [run(first, end.min(count)), run(0, (end - count).max(0))],
+        }
+    };
+    (0..count).map(near).collect()
+}

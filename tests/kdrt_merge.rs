@@ -1,0 +1,518 @@
+//! `kdrt::merge` against naive oracles.
+
+mod common;
+#[path = "common/sets.rs"]
+mod sets;
+
+use std::ops::ControlFlow;
+
+use azulejo::kdrt::{self, MergeOptions, MergeReport, Piece, merge};
+use azulejo::{Boundary, Context, Domain, Error};
+use common::{BOUNDARIES, distance, domain, find_conflict, find_gap, float_spacing, hard_domains};
+use proptest::prelude::*;
+use sets::Random;
+
+/// A piece that owns its samples.
+#[derive(Clone, Debug)]
+struct Part {
+    samples: Vec<[f32; 2]>,
+    rectangle: Domain,
+}
+
+/// A maximal set of a rectangle with a border.
+fn part(min: [f64; 2], max: [f64; 2], radius: f64, seed: u64) -> Part {
+    let rectangle = domain(min, max, Boundary::Bounded);
+    let options = kdrt::Options { radius, domain: rectangle, leaf_size: 6.0, seed };
+    Part { samples: kdrt::sample(&Context::new(1).unwrap(), &options, None).unwrap(), rectangle }
+}
+
+/// The rectangles between given shares of the domain's extent, each with a set of its own.
+fn parts(domain: &Domain, radius: f64, shares: &[[[f64; 2]; 2]], seed: u64) -> Vec<Part> {
+    let corner = |share: [f64; 2]| {
+        [0, 1].map(|axis: usize| match share[axis] {
+            1.0 => domain.max[axis],
+            share => domain.min[axis] + share * domain.extent()[axis],
+        })
+    };
+    let part =
+        |(i, [min, max]): (usize, &[[f64; 2]; 2])| part(corner(*min), corner(*max), radius, 1000 * seed + i as u64);
+    shares.iter().enumerate().map(part).collect()
+}
+
+/// Columns and rows of rectangles of the same size.
+fn tiles(columns: usize, rows: usize) -> Vec<[[f64; 2]; 2]> {
+    let share = |i: usize, of: usize| i as f64 / of as f64;
+    let tile = |x, y| [[share(x, columns), share(y, rows)], [share(x + 1, columns), share(y + 1, rows)]];
+    (0..rows).flat_map(|y| (0..columns).map(move |x| tile(x, y))).collect()
+}
+
+/// Four rectangles around a fifth: every corner of the inner one is a T-junction.
+const PINWHEEL: [[[f64; 2]; 2]; 5] = [
+    [[0.0, 0.0], [0.7, 0.3]],
+    [[0.7, 0.0], [1.0, 0.7]],
+    [[0.3, 0.7], [1.0, 1.0]],
+    [[0.0, 0.3], [0.3, 1.0]],
+    [[0.3, 0.3], [0.7, 0.7]],
+];
+
+/// Two rectangles, a hole in the shape of a cross and more.
+const HOLES: [[[f64; 2]; 2]; 2] = [[[0.0, 0.0], [0.45, 0.4]], [[0.5, 0.55], [0.9, 1.0]]];
+
+fn pieces(parts: &[Part]) -> Vec<Piece<'_>> {
+    let pieces = parts.iter();
+    pieces.map(|Part { samples, rectangle }| Piece { samples, min: rectangle.min, max: rectangle.max }).collect()
+}
+
+fn merged(options: &MergeOptions, parts: &[Part], fixed: &[[f32; 2]]) -> Result<(Vec<[f32; 2]>, MergeReport), Error> {
+    // Not the pool's size decides; see also the test of threads.
+    let context = Context::new(1 + options.seed as usize % 2)?;
+    merge(&context, options, &pieces(parts), fixed, None)
+}
+
+/// Merges and checks everything that is promised whatever is given. Gives the result and how many samples of each piece
+/// went.
+fn check(options: &MergeOptions, parts: &[Part], fixed: &[[f32; 2]]) -> (Vec<[f32; 2]>, Vec<usize>) {
+    let MergeOptions { radius, domain, .. } = *options;
+    let (samples, report) = merged(options, parts, fixed).unwrap();
+    let inside =
+        |sample: &[f32; 2]| (0..2).all(|axis| (domain.min[axis]..domain.max[axis]).contains(&f64::from(sample[axis])));
+    assert!(samples.iter().all(inside), "a sample outside of {domain:?}");
+    assert_eq!(find_conflict(&domain, radius, &samples), None, "conflict: {options:?}");
+    assert_eq!(find_gap(&domain, radius + 6.0 * float_spacing(&domain), &samples), None, "uncovered: {options:?}");
+
+    let bits = |samples: &[[f32; 2]]| samples.iter().map(|sample| sample.map(f32::to_bits)).collect::<Vec<_>>();
+    assert_eq!(bits(&samples[..fixed.len()]), bits(fixed));
+    let given: usize = parts.iter().map(|part| part.samples.len()).sum();
+    let inserted = samples.len() - fixed.len() - report.kept;
+    assert_eq!(report, MergeReport { kept: report.kept, eliminated: given - report.kept, inserted });
+
+    // Those kept follow each other as they were given. Those that went stand against one that is kept, not of their own
+    // piece, and no two pieces stand against each other both ways.
+    let mut kept = samples[fixed.len()..fixed.len() + report.kept].iter().peekable();
+    let mut owners = vec![None; fixed.len()];
+    let mut eliminated = Vec::new();
+    for (i, part) in parts.iter().enumerate() {
+        for sample in &part.samples {
+            match kept.next_if(|kept| kept.map(f32::to_bits) == sample.map(f32::to_bits)) {
+                Some(_) => owners.push(Some(i)),
+                None => eliminated.push((i, *sample)),
+            }
+        }
+    }
+    assert_eq!((kept.next(), eliminated.len()), (None, report.eliminated));
+    let mut wins = vec![vec![false; parts.len()]; parts.len()];
+    for &(loser, sample) in &eliminated {
+        let rivals = owners.iter().zip(&samples).filter(|(_, other)| distance(&domain, sample, **other) < radius);
+        let winners: Vec<_> = rivals.map(|(owner, _)| *owner).collect();
+        assert!(!winners.is_empty() && !winners.contains(&Some(loser)), "{sample:?} went without need");
+        // If a fixed point is among them, it alone may be the reason.
+        if !winners.contains(&None) {
+            let strict = winners.len() == 1;
+            winners.into_iter().flatten().filter(|_| strict).for_each(|winner| wins[winner][loser] = true);
+        }
+    }
+    for (i, j) in (0..parts.len()).flat_map(|i| (0..i).map(move |j| (i, j))) {
+        assert!(!(wins[i][j] && wins[j][i]), "{i} and {j} eliminate each other's samples");
+    }
+    let went = |i| eliminated.iter().filter(|(owner, _)| *owner == i).count();
+    (samples, (0..parts.len()).map(went).collect())
+}
+
+/// The pieces are maximal: only the seams may change.
+fn check_seams(options: &MergeOptions, parts: &[Part], fixed: &[[f32; 2]]) -> Vec<[f32; 2]> {
+    let MergeOptions { radius, domain, .. } = *options;
+    let (samples, _) = check(options, parts, fixed);
+    let kept: Vec<[u32; 2]> = samples.iter().map(|sample| sample.map(f32::to_bits)).collect();
+    let is_kept = |sample: &[f32; 2]| kept.contains(&sample.map(f32::to_bits));
+    let border = |part: &Part, sample: [f32; 2]| {
+        let Domain { min, max, .. } = part.rectangle;
+        let sides = (0..2).flat_map(|axis| [f64::from(sample[axis]) - min[axis], max[axis] - f64::from(sample[axis])]);
+        sides.fold(f64::INFINITY, f64::min)
+    };
+    let given: Vec<[f32; 2]> = parts.iter().flat_map(|part| part.samples.iter().copied()).collect();
+    let mut gone = Vec::new();
+    for part in parts {
+        for &sample in part.samples.iter().filter(|sample| !is_kept(sample)) {
+            let near_fixed = fixed.iter().any(|&fixed| distance(&domain, sample, fixed) < radius);
+            assert!(near_fixed || border(part, sample) < radius, "{sample:?} of the interior went");
+            gone.push(sample);
+        }
+    }
+    let new = samples.iter().filter(|sample| !given.contains(sample) && !fixed.contains(sample));
+    for &sample in new {
+        let inside = parts.iter().find(|part| border(part, sample) > 0.0);
+        let is_seam = inside.is_none_or(|part| border(part, sample) < radius)
+            || gone.iter().any(|&gone| distance(&domain, sample, gone) < radius);
+        assert!(is_seam, "{sample:?} is new in the interior");
+    }
+    samples
+}
+
+#[test]
+fn pieces_of_hard_domains_become_one_set() {
+    for boundary in BOUNDARIES {
+        for domain in hard_domains(boundary) {
+            for (seed, (radii, shares)) in
+                [(7.0, tiles(2, 1)), (25.0, tiles(2, 2)), (40.0, PINWHEEL.to_vec()), (40.0, tiles(4, 4))]
+                    .into_iter()
+                    .enumerate()
+            {
+                let (radius, seed) = (domain.area().sqrt() / radii, seed as u64);
+                let parts = parts(&domain, radius, &shares, seed);
+                check_seams(&MergeOptions { radius, domain, seed }, &parts, &[]);
+            }
+        }
+    }
+}
+
+#[test]
+fn the_coarsest_floats_that_carry_a_radius_are_enough() {
+    for boundary in BOUNDARIES {
+        // 64 float spacings below 2; the left half of the second domain is finer.
+        for min in [1.0, 0.5] {
+            let domain = domain([min; 2], [min + 0.0003; 2].map(|x| x * 1.0), boundary);
+            let radius = 64.0 * float_spacing(&domain);
+            for seed in 0..4 {
+                let parts = parts(&domain, radius, &PINWHEEL, seed);
+                check_seams(&MergeOptions { radius, domain, seed }, &parts, &[]);
+            }
+        }
+        let domain = domain([-1e-4, -1e-4], [2.5e-4, 1e-4], boundary);
+        let radius = 100.0 * float_spacing(&domain);
+        let wide = common::domain([-1e-4, -1e-4], [2.5e-4, 1e-4], boundary);
+        for seed in 0..4 {
+            check_seams(
+                &MergeOptions { radius: 40.0 * radius, domain: wide, seed },
+                &parts(&wide, 40.0 * radius, &PINWHEEL, seed),
+                &[],
+            );
+        }
+    }
+}
+
+#[test]
+fn many_seeds_keep_the_promise() {
+    for boundary in BOUNDARIES {
+        let domain = domain([0.0; 2], [1.0, 0.8], boundary);
+        for seed in 0..30 {
+            let parts = parts(&domain, 0.03, &PINWHEEL, seed);
+            check_seams(&MergeOptions { radius: 0.03, domain, seed }, &parts, &[]);
+        }
+    }
+}
+
+/// Windows of two planes, large enough for several windows of fill blocks, and the same plane cut in two.
+#[test]
+fn windows_of_planes_are_zipped() {
+    let context = Context::new(2).unwrap();
+    for boundary in BOUNDARIES {
+        let domain = domain([-1.0, 0.0], [1.0, 0.7], boundary);
+        let window = |seed, min, max| {
+            let options = kdrt::Options { radius: 0.006, domain, leaf_size: 20.0, seed };
+            let samples = kdrt::sample_window(&context, &options, min, max, None).unwrap();
+            Part { samples, rectangle: Domain { min, max, boundary: Boundary::Bounded } }
+        };
+        let options = MergeOptions { radius: 0.006, domain, seed: 5 };
+        let halves = |seed| [window(1, [-1.0, 0.0], [0.1, 0.7]), window(seed, [0.1, 0.0], [1.0, 0.7])];
+        // A window of a plane is not maximal at its border, but with the rest of its plane it is.
+        let same = halves(1);
+        let (samples, _) = merged(&options, &same, &[]).unwrap();
+        assert!(samples.iter().eq(same.iter().flat_map(|half| &half.samples)));
+        let (samples, went) = check(&options, &halves(2), &[]);
+        assert!(went.iter().sum::<usize>() > 0);
+        let given: usize = halves(2).iter().map(|half| half.samples.len()).sum();
+        assert!(samples.len().abs_diff(given) * 100 < given);
+    }
+}
+
+#[test]
+fn strips_narrower_than_the_radius_are_merged() {
+    for boundary in BOUNDARIES {
+        for (count, radius) in [(40, 0.06), (90, 0.04), (7, 0.5), (60, 0.1)] {
+            let domain = domain([0.3, -0.2], [1.3, 0.8], boundary);
+            for (seed, shares) in [tiles(count, 1), tiles(1, count), tiles(count, 3)].into_iter().enumerate() {
+                let seed = seed as u64;
+                check(&MergeOptions { radius, domain, seed }, &parts(&domain, radius, &shares, seed), &[]);
+            }
+        }
+    }
+}
+
+#[test]
+fn what_no_piece_covers_is_filled() {
+    for boundary in BOUNDARIES {
+        for domain in hard_domains(boundary) {
+            for (radii, seed) in [(0.3, 0), (3.0, 1), (9.0, 2), (30.0, 3)] {
+                let radius = domain.area().sqrt() / radii;
+                let options = MergeOptions { radius, domain, seed };
+                check_seams(&options, &parts(&domain, radius, &HOLES, seed), &[]);
+                check(&options, &[], &[]);
+            }
+        }
+    }
+}
+
+/// Every second sample and more is taken out, at random or all of a region.
+#[test]
+fn pieces_that_are_not_maximal_are_filled() {
+    for boundary in BOUNDARIES {
+        let domain = domain([0.0; 2], [1.0; 2], boundary);
+        for seed in 0..10 {
+            let mut parts = parts(&domain, 0.04, &tiles(2, 2), seed);
+            let mut random = Random::new(seed);
+            parts[0].samples.retain(|_| random.unit() < 0.4);
+            parts[1].samples.retain(|sample| sample[1] < 0.1);
+            parts[2].samples.clear();
+            let (samples, _) = check(&MergeOptions { radius: 0.04, domain, seed }, &parts, &[]);
+            assert!(samples.len() as f64 * 0.04 * 0.04 > 0.65);
+        }
+    }
+}
+
+/// Points of the outline of a polygon, `radius` apart and a bit more at its last corner.
+fn outline(corners: &[[f64; 2]], radius: f64) -> Vec<[f32; 2]> {
+    let mut points: Vec<[f32; 2]> = Vec::new();
+    for (i, from) in corners.iter().enumerate() {
+        let to = corners[(i + 1) % corners.len()];
+        let length = (to[0] - from[0]).hypot(to[1] - from[1]);
+        let steps = (length / (1.0001 * radius)).floor();
+        for step in 0..steps as usize {
+            let share = step as f64 / steps;
+            points.push([0, 1].map(|axis: usize| (from[axis] + share * (to[axis] - from[axis])) as f32));
+        }
+    }
+    points
+}
+
+/// Random points, those left out that conflict with one before.
+fn darts(domain: &Domain, radius: f64, count: usize, seed: u64) -> Vec<[f32; 2]> {
+    let mut random = Random::new(seed);
+    let mut points: Vec<[f32; 2]> = Vec::new();
+    for _ in 0..count {
+        let dart =
+            [0, 1].map(|axis: usize| (domain.min[axis] + f64::from(random.unit()) * domain.extent()[axis]) as f32);
+        let inside = (0..2).all(|axis| (domain.min[axis]..domain.max[axis]).contains(&f64::from(dart[axis])));
+        if inside && points.iter().all(|&point| distance(domain, point, dart) >= radius) {
+            points.push(dart);
+        }
+    }
+    points
+}
+
+#[test]
+fn fixed_points_stay() {
+    for boundary in BOUNDARIES {
+        let domain = domain([-0.1, 0.2], [0.9, 1.2], boundary);
+        let radius = 0.03;
+        let star = [[0.4, 0.3], [0.6, 0.6], [0.85, 0.7], [0.6, 0.8], [0.4, 1.15], [0.2, 0.8], [-0.05, 0.7], [0.2, 0.6]];
+        let frame = [[-0.1, 0.2], [0.89, 0.2], [0.89, 1.19], [-0.1, 1.19]];
+        let whole = part(domain.min, domain.max, radius, 9).samples;
+        let whole_torus = kdrt::Options { radius, domain, leaf_size: 6.0, seed: 9 };
+        let whole_torus = kdrt::sample(&Context::new(1).unwrap(), &whole_torus, None).unwrap();
+        let sets = [
+            outline(&star, radius),
+            if boundary == Boundary::Bounded { outline(&frame, radius) } else { Vec::new() },
+            vec![[0.25, 0.5]],
+            vec![domain.min.map(|x| (x as f32).next_up())],
+            darts(&domain, radius, 60, 1),
+            darts(&domain, radius, 5000, 2),
+            if boundary == Boundary::Bounded { whole } else { whole_torus.clone() },
+        ];
+        for (seed, fixed) in sets.iter().enumerate() {
+            assert!(seed == 1 || !fixed.is_empty());
+            let seed = seed as u64;
+            let options = MergeOptions { radius, domain, seed };
+            for shares in [&PINWHEEL[..], &HOLES[..], &[]] {
+                check_seams(&options, &parts(&domain, radius, shares, seed), fixed);
+            }
+        }
+        // Nothing fits between the points of a maximal set.
+        let (samples, report) =
+            merged(&MergeOptions { radius, domain, seed: 0 }, &parts(&domain, radius, &PINWHEEL, 0), &sets[6]).unwrap();
+        assert!(samples == sets[6] && report.kept == 0 && report.inserted == 0 && report.eliminated > 700);
+    }
+}
+
+/// A square grid with the radius as its width, to the bit: as close as points may be.
+#[test]
+fn points_exactly_a_radius_apart_do_not_conflict() {
+    let domain = domain([0.0; 2], [1.0; 2], Boundary::Periodic);
+    let fixed: Vec<[f32; 2]> = (0..256).map(|i| [(i % 16) as f32 / 16.0, (i / 16) as f32 / 16.0]).collect();
+    let (samples, _) = check(&MergeOptions { radius: 1.0 / 16.0, domain, seed: 0 }, &[], &fixed);
+    assert_eq!(samples, fixed);
+    let error = merged(&MergeOptions { radius: (1.0f64 / 16.0).next_up(), domain, seed: 0 }, &[], &fixed).unwrap_err();
+    assert!(error.to_string().starts_with("fixed: points 0 and"), "{error}");
+}
+
+/// Subnormal and other floats between the points of the domain's lattice come back as they are.
+#[test]
+fn floats_finer_than_the_lattice_come_back_bit_by_bit() {
+    for boundary in BOUNDARIES {
+        let domain = domain([-1e5, -3.0], [1e5, 1e5], boundary);
+        let fixed = [[1e-40, -0.0], [-3e4 - 0.001, 7.7e-12], [-99_999.99, -2.9999998], [12_345.678, 99_999.99]];
+        check(&MergeOptions { radius: 1500.0, domain, seed: 3 }, &[], &fixed);
+        check(&MergeOptions { radius: 1.0e4, domain, seed: 3 }, &parts(&domain, 1.0e4, &PINWHEEL, 1), &fixed);
+    }
+}
+
+#[test]
+fn both_of_two_pieces_can_win() {
+    let domain = Domain::unit(Boundary::Bounded);
+    let parts = parts(&domain, 0.03, &tiles(2, 1), 0);
+    let mut won = [0; 2];
+    for seed in 0..40 {
+        let (_, went) = check(&MergeOptions { radius: 0.03, domain, seed }, &parts, &[]);
+        assert!(went.contains(&0) && went != [0, 0]);
+        won[went.iter().position(|&count| count == 0).unwrap()] += 1;
+    }
+    assert!(won.iter().all(|&count| count > 8), "{won:?}");
+}
+
+#[test]
+fn seeds_and_not_threads_decide() {
+    for boundary in BOUNDARIES {
+        let domain = Domain::unit(boundary);
+        let options = MergeOptions { radius: 0.003, domain, seed: 1 };
+        let mut parts = parts(&domain, 0.003, &HOLES, 0);
+        parts[0].samples.retain(|sample| sample[0] > 0.2);
+        let fixed = darts(&domain, 0.003, 300, 0);
+        let merged = |threads, options: MergeOptions| {
+            merge(&Context::new(threads).unwrap(), &options, &pieces(&parts), &fixed, None).unwrap()
+        };
+        let one = merged(1, options);
+        assert!(one == merged(4, options) && one == merged(3, options));
+        assert!(one != merged(1, MergeOptions { seed: 2, ..options }));
+    }
+}
+
+#[test]
+fn a_call_can_be_cancelled_at_any_time() {
+    // Wide enough for blocks, and a torus that is not.
+    for (extent, radius) in [([1.0, 1.0], 0.003), ([1.0, 0.01], 0.001)] {
+        let options = MergeOptions { radius, domain: domain([0.0; 2], extent, Boundary::Periodic), seed: 0 };
+        for threads in [1, 4] {
+            for limit in [0.0, 0.02, 0.3, 0.6, 1.0] {
+                let stop = |share| if share >= limit { ControlFlow::Break(()) } else { ControlFlow::Continue(()) };
+                let result = merge(&Context::new(threads).unwrap(), &options, &[], &[[0.5, 0.005]], Some(&stop));
+                assert!(matches!(result, Err(Error::Cancelled)), "{limit}");
+            }
+        }
+    }
+}
+
+fn refusal(options: MergeOptions, parts: &[Part], fixed: &[[f32; 2]]) -> String {
+    let error = merged(&options, parts, fixed).unwrap_err();
+    assert!(matches!(error, Error::InvalidArgument { .. }), "{error}");
+    error.to_string()
+}
+
+#[test]
+fn bad_options_are_refused_by_name() {
+    let good = MergeOptions { radius: 0.1, domain: Domain::unit(Boundary::Periodic), seed: 0 };
+    for radius in [f64::NAN, 0.0, -1.0, f64::INFINITY, 1e-6] {
+        assert!(refusal(MergeOptions { radius, ..good }, &[], &[]).starts_with("radius: "));
+    }
+    let swapped = domain([1.0; 2], [0.0; 2], Boundary::Periodic);
+    assert!(refusal(MergeOptions { domain: swapped, ..good }, &[], &[]).starts_with("domain_max: "));
+    let error = merged(&MergeOptions { radius: 8.346e-7, ..good }, &[], &[]).unwrap_err();
+    assert!(matches!(error, Error::TooLarge { argument: "radius", .. }), "{error}");
+}
+
+#[test]
+fn bad_fixed_points_are_refused_by_index() {
+    for boundary in BOUNDARIES {
+        let options = MergeOptions { radius: 0.1, domain: Domain::unit(boundary), seed: 0 };
+        for bad in [[f32::NAN, 0.5], [0.5, f32::INFINITY], [-1e-45, 0.5], [0.5, 1.0], [0.5, -f32::MAX]] {
+            let message = refusal(options, &[], &[[0.2, 0.2], bad]);
+            assert!(message.starts_with("fixed: point 1 is ("), "{message}");
+        }
+        let message = refusal(options, &[], &[[0.2, 0.2], [0.7, 0.7], [0.25, 0.25]]);
+        assert!(message.starts_with("fixed: points 0 and 2 are 0.0707"), "{message}");
+        let message = refusal(options, &[], &[[0.3, 0.3], [0.3, 0.3]]);
+        assert_eq!(message, "fixed: points 0 and 1 are 0.0 apart, closer than the radius 0.1");
+        // A million points that all conflict are refused without looking at all pairs.
+        assert!(refusal(options, &[], &[[0.3; 2]; 1 << 20]).starts_with("fixed: points 0 and 1 are 0.0 apart"));
+        let over_the_seam = merged(&options, &[], &[[0.99, 0.5], [0.01, 0.5]]);
+        assert_eq!(over_the_seam.is_ok(), boundary == Boundary::Bounded);
+    }
+}
+
+#[test]
+fn bad_pieces_are_refused_by_index() {
+    let options = MergeOptions { radius: 0.1, domain: Domain::unit(Boundary::Periodic), seed: 0 };
+    let empty = |min, max| Part { samples: Vec::new(), rectangle: domain(min, max, Boundary::Bounded) };
+    let good = part([0.0; 2], [0.5, 1.0], 0.1, 0);
+    for (min, max) in [
+        ([0.5, 0.0], [0.5, 1.0]),
+        ([0.6, 0.9], [0.7, 0.8]),
+        ([0.6, -1e-300], [0.7, 0.8]),
+        ([0.6, 0.0], [1.0f64.next_up(), 0.8]),
+        ([f64::NAN, 0.0], [0.7, 0.8]),
+        ([0.6, 0.0], [0.7, f64::NAN]),
+        ([0.6, f64::NEG_INFINITY], [0.7, 1.0]),
+    ] {
+        let message = refusal(options, &[good.clone(), empty(min, max)], &[]);
+        assert!(message.starts_with("pieces: [1] reaches on axis "), "{message}");
+    }
+    for (min, max) in [([0.4, 0.4], [0.6, 0.6]), ([0.0; 2], [1.0; 2]), ([0.1; 2], [0.2; 2]), ([0.0; 2], [0.5, 1.0])] {
+        let message = refusal(options, &[good.clone(), empty([0.5, 0.0], [0.6, 0.2]), empty(min, max)], &[]);
+        assert!(message == "pieces: the rectangles of [0] and [2] overlap" || min == [0.0; 2], "{message}");
+        assert!(message.starts_with("pieces: the rectangles of [") && message.ends_with("] overlap"), "{message}");
+    }
+    for bad in [[0.5, 0.5], [0.2, 1.0], [f32::NAN, 0.1], [-0.1, 0.1]] {
+        let mut part = good.clone();
+        part.samples.insert(3, bad);
+        let message = refusal(options, &[empty([0.5, 0.0], [1.0, 1.0]), part], &[]);
+        assert!(message.starts_with("pieces: [1]: sample 3 is ("), "{message}");
+    }
+    let mut conflict = good.clone();
+    let [x, y] = conflict.samples[4];
+    conflict.samples.push([x, if y < 0.5 { y + 0.05 } else { y - 0.05 }]);
+    let message = refusal(options, &[empty([0.5, 0.0], [1.0, 1.0]), conflict], &[]);
+    assert!(
+        message.starts_with("pieces: [1]: samples ") && message.contains(" apart, closer than the radius 0.1"),
+        "{message}"
+    );
+
+    // A bounded set on a whole torus meets itself over the seam.
+    let whole =
+        Part { samples: vec![[0.5, 0.01], [0.5, 0.95]], rectangle: domain([0.0; 2], [1.0; 2], Boundary::Bounded) };
+    let message = refusal(options, std::slice::from_ref(&whole), &[]);
+    assert!(message.starts_with("pieces: [0]: samples 0 and 1 are 0.06"), "{message}");
+    let bounded = MergeOptions { domain: Domain::unit(Boundary::Bounded), ..options };
+    assert!(merged(&bounded, &[whole], &[]).is_ok());
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 32, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn any_rectangle_cut_anywhere(
+        corner in prop::array::uniform2(-10.0..10.0f64),
+        height in -3.0..3.0f64,
+        aspect in -3.0..3.0f64,
+        radii in 0.0..3.6f64,
+        cuts in prop::array::uniform3(0.001..0.999f64),
+        thin in 0.0..1.0f32,
+        points in 0..40usize,
+        periodic: bool,
+        seed: u64,
+    ) {
+        let (height, aspect) = (height.exp(), aspect.exp());
+        let boundary = BOUNDARIES[usize::from(!periodic)];
+        let domain = domain(corner, [corner[0] + height * aspect, corner[1] + height], boundary);
+        let radius = domain.area().sqrt() / radii.exp();
+        let [x, low, high] = cuts;
+        let shares = [
+            [[0.0, 0.0], [x, low]],
+            [[0.0, low], [x, 1.0]],
+            [[x, 0.0], [1.0, high]],
+            [[x, high], [1.0, 1.0]],
+        ];
+        let mut parts = parts(&domain, radius, &shares, seed % 1000);
+        let mut random = Random::new(seed);
+        parts[0].samples.retain(|_| random.unit() < thin);
+        let fixed = darts(&domain, radius, points, seed);
+        check(&MergeOptions { radius, domain, seed }, &parts, &fixed);
+    }
+}
