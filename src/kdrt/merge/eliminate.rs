@@ -1,8 +1,9 @@
 //! Elimination: of two given points in conflict one goes.
 //!
-//! The sets are ranked by hash, the fixed points before all. A point survives if and only if no *surviving* point of a
-//! set of higher rank conflicts with it, as in `conquer.rs`. Rectangles may be thin, so chains of such decisions have
-//! no bound; they are followed for all of the domain, but they have links only where sets meet.
+//! The sets are ranked by hash, the fixed points before all; in a set, which can meet itself over the seam of a torus,
+//! points are ranked as they come. A point survives if and only if no *surviving* point of higher rank conflicts with
+//! it, as in `conquer.rs`. Rectangles may be thin, so chains of such decisions have no bound; they are followed through
+//! all of the domain, but they have links only where sets meet.
 
 use crate::error::Result;
 use crate::job::{Job, chunks_of};
@@ -16,7 +17,7 @@ const CELLS: usize = 1 << 14;
 /// For each of the given points, in the order of its sites, whether it survives.
 pub(super) fn survivors(job: &Job, given: &Given, seed: u64) -> Result<Vec<bool>> {
     let ranks = ranks(given.set_count(), seed);
-    let rank = |site: usize| ranks[given.sites[site].set as usize];
+    let rank = |site: usize| (ranks[given.sites[site].set as usize], given.sites[site].index);
     let chunks = chunks_of(given.cells(), CELLS);
     let links = job.map(chunks.len(), |i| {
         let mut links = Vec::new();

@@ -9,13 +9,16 @@ use crate::points::{Boundary, Domain};
 
 use super::NARROWING;
 
+/// The set of the points that must stay.
+pub(super) const FIXED: u32 = 0;
+
 /// A point of a set, and which one it is.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Site {
     pub position: [f32; 2],
-    /// 0 for the fixed points; piece `i` is set `i + 1`.
+    /// [`FIXED`], or `i + 1` for piece `i`.
     pub set: u32,
-    index: u32,
+    pub index: u32,
 }
 
 /// All points of all sets, sorted by cell and in it by set. No two of one set are in the same cell.
@@ -70,7 +73,7 @@ impl Given {
     }
 
     fn check_cells(&self) -> Result<()> {
-        let crowded = |pair: &&[Site]| pair[0].set == pair[1].set && self.conflict(&pair[0], &pair[1]);
+        let crowded = |pair: &&[Site]| self.conflict(&pair[0], &pair[1]) && self.is_fault(&pair[0], &pair[1]);
         match self.sites.windows(2).find(crowded) {
             Some(pair) => Err(self.refusal(&pair[0], &pair[1])),
             None => Ok(()),
@@ -110,20 +113,25 @@ impl Given {
 
     fn squared_distance(&self, a: &Site, b: &Site) -> f64 {
         let extent = self.domain.extent();
-        let [dx, dy] = [0, 1].map(|axis: usize| {
-            let along = (f64::from(a.position[axis]) - f64::from(b.position[axis])).abs();
-            match self.domain.boundary {
-                Boundary::Periodic => along.min(extent[axis] - along),
-                Boundary::Bounded => along,
-            }
-        });
+        let [dx, dy] = offset(a, b).map(f64::abs);
+        let [dx, dy] = match self.domain.boundary {
+            Boundary::Periodic => [dx.min(extent[0] - dx), dy.min(extent[1] - dy)],
+            Boundary::Bounded => [dx, dy],
+        };
         dx * dx + dy * dy
+    }
+
+    /// Whether a conflict must not be: neither of two fixed points can go, and a piece conflicts with itself over the
+    /// seam of a torus only.
+    fn is_fault(&self, a: &Site, b: &Site) -> bool {
+        let [dx, dy] = offset(a, b);
+        a.set == b.set && (a.set == FIXED || dx * dx + dy * dy < self.radius * self.radius)
     }
 
     /// Visits all conflicts of the sites of a cell, by their places in `sites`.
     ///
     /// # Errors
-    /// [`Error::InvalidArgument`] for a conflict in one set.
+    /// [`Error::InvalidArgument`] for a conflict in one set, unless it can be resolved.
     pub fn conflicts(&self, cell: usize, mut visit: impl FnMut(usize, usize)) -> Result<()> {
         let sites = self.starts[cell] as usize..self.starts[cell + 1] as usize;
         if sites.is_empty() {
@@ -138,7 +146,7 @@ impl Given {
                         if !self.conflict(a, b) {
                             continue;
                         }
-                        if a.set == b.set {
+                        if self.is_fault(a, b) {
                             return Err(self.refusal(a, b));
                         }
                         visit(site, other);
@@ -178,10 +186,14 @@ impl Given {
         let (distance, radius) = (self.squared_distance(a, b).sqrt(), self.radius);
         let apart = format!("{i} and {j} are {distance:?} apart, closer than the radius {radius:?}");
         match a.set {
-            0 => Error::invalid("fixed", format!("points {apart}")),
+            FIXED => Error::invalid("fixed", format!("points {apart}")),
             set => Error::invalid("pieces", format!("[{}]: samples {apart}", set - 1)),
         }
     }
+}
+
+fn offset(a: &Site, b: &Site) -> [f64; 2] {
+    std::array::from_fn(|axis| f64::from(a.position[axis]) - f64::from(b.position[axis]))
 }
 
 /// For each cell of an axis the cells that hold points within `reach` of its own, as two runs that may be empty.

@@ -100,8 +100,8 @@ pub struct MergeReport {
 /// * Maximal: no point of the domain is farther from all samples than `radius` + 6 float spacings at the domain's
 ///   largest coordinate, whatever the pieces covered: pieces that are thinned, holes between them, and no piece at all
 ///   are filled.
-/// * Only the seams change. A sample of a piece goes only if it is closer than `radius` to a fixed point or to a sample
-///   of another piece that stays. If the pieces are maximal as [`sample`](super::sample) makes them, new samples lie
+/// * Only the seams change. A sample of a piece goes only if it is closer than `radius` to a fixed point, or to a sample
+///   that stays of another piece, or of its own over the seam of a torus. If the pieces are maximal as [`sample`](super::sample) makes them, new samples lie
 ///   within `radius` of a sample that went or of the border of a piece's rectangle.
 /// * Which of two pieces loses samples to the other depends on `seed` and their places in `pieces`.
 /// * The same for every number of threads.
@@ -111,8 +111,7 @@ pub struct MergeReport {
 ///
 /// # Errors
 /// [`Error::InvalidArgument`] for an option out of range; for `pieces`, by index, if a rectangle is empty, leaves the
-/// domain or overlaps another one, a sample lies outside its rectangle, or two samples of a piece are in conflict (on a
-/// torus also over its seam); for `fixed`, by index, if a point lies outside the domain or two of them are in conflict,
+/// domain or overlaps another one, a sample lies outside its rectangle, or two samples of a piece are in conflict; for `fixed`, by index, if a point lies outside the domain or two of them are in conflict,
 /// because then no set that has both is conflict-free. [`Error::TooLarge`] for more than 2^32 samples or the available
 /// memory. All of them before any sample is made. [`Error::Cancelled`].
 pub fn merge(
