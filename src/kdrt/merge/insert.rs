@@ -115,7 +115,5 @@ impl Gaps<'_> {
 fn uncovered(grid: &CellGrid, rect: &Rect) -> Quadtree {
     let cells = grid.cells_of(rect);
     let cells = (cells.min[1]..cells.max[1]).flat_map(|y| (cells.min[0]..cells.max[0]).map(move |x| [x, y]));
-    let mut quadtree = Quadtree::new(grid, *rect, cells.filter(|&cell| grid.sample(cell).is_none()).collect());
-    quadtree.refine(grid);
-    quadtree
+    Quadtree::new(grid, *rect, cells.filter(|&cell| grid.sample(cell).is_none()).collect())
 }
