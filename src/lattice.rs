@@ -362,6 +362,46 @@ mod tests {
         }
     }
 
+    /// Any floats of odd domains, those next to the borders among them.
+    #[test]
+    fn the_nearest_lattice_point_is_at_most_a_unit_away_per_axis() {
+        let mut rng = Rng::at(2, Draw::Probe, &[]);
+        let intervals = [
+            (0.0, 1.0),
+            (-0.3, 0.7),
+            (0.1, 0.100001),
+            (1e-30, 3.0),
+            (0.1, 0.10000002),
+            (-5e-324, 1e-45),
+            (-3e38, 2e38),
+        ];
+        for ((min, max), boundary) in
+            intervals.into_iter().flat_map(|i| [(i, Boundary::Periodic), (i, Boundary::Bounded)])
+        {
+            // The second axis is one unit and a half wide, so that it loses the most on a torus.
+            let unit = float_spacing([min, max].iter());
+            let domain = Domain { min: [min; 2], max: [max, min + 1.5 * unit], boundary };
+            let radius = 1e3 * (unit + min.abs() + max.abs());
+            let lattice = Lattice::of_any_size(&domain, radius).unwrap();
+            let edges = [min as f32, max as f32].map(|x| [x.next_down(), x, x.next_up()]).concat();
+            let inner = (0..500).map(|_| (min + rng.unit() * (max - min)) as f32).collect::<Vec<_>>();
+            let xs = edges.iter().chain(&inner);
+            for point in xs.flat_map(|&x| edges.iter().map(move |&y| [x, y])).filter(|&point| domain.contains(point)) {
+                let nearest = lattice.nearest(&domain, point);
+                assert!(lattice.rect().contains(nearest));
+                let position = lattice.position(nearest);
+                for axis in 0..2 {
+                    let along = (f64::from(point[axis]) - f64::from(position[axis])).abs();
+                    let around = if boundary == Boundary::Periodic { domain.extent()[axis] - along } else { along };
+                    assert!(
+                        along.min(around) <= unit * (1.0 + 1e-9),
+                        "{point:?} of {domain:?} is far from {position:?}"
+                    );
+                }
+            }
+        }
+    }
+
     #[test]
     fn refusals_name_the_argument_and_the_values() {
         let refusal = |min: f64, max: f64, radius: f64| {

@@ -169,7 +169,7 @@ static void values(void) {
     MERGE(INVALID, "pieces: [1] reaches on axis 0 from 0.5 to 1.5", pieces[1].max[0] = 1.5);
     MERGE(INVALID, "pieces: [1] reaches on axis 1", pieces[1].min[1] = NAN);
     MERGE(INVALID, "pieces: [1] reaches on axis 1", pieces[1].max[1] = 0);
-    MERGE(INVALID, "pieces: [1] reaches on axis 1", o.domain_max[1] = 0.95);
+    MERGE(INVALID, "pieces: [0] reaches on axis 1 from 0 to 1, which", o.domain_max[1] = 0.95);
     MERGE(INVALID, "pieces: the rectangles of [0] and [1] overlap", pieces[1].min[0] = 0.4999999);
 #undef MERGE
     CHECK(out == UNTOUCHED && memcmp(&report, &before, sizeof report) == 0);

@@ -117,3 +117,39 @@ fn uncovered(grid: &CellGrid, rect: &Rect) -> Quadtree {
     let cells = (cells.min[1]..cells.max[1]).flat_map(|y| (cells.min[0]..cells.max[0]).map(move |x| [x, y]));
     Quadtree::new(grid, *rect, cells.filter(|&cell| grid.sample(cell).is_none()).collect())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::points::Domain;
+
+    /// Gaps of all sizes: the survivors are thinned more and more from left to right.
+    #[test]
+    fn every_partition_into_windows_inserts_the_same_samples() {
+        for (seed, boundary) in [Boundary::Periodic, Boundary::Bounded, Boundary::Periodic].into_iter().enumerate() {
+            let domain = Domain { min: [0.3, -0.4], max: [1.3, 0.8], boundary };
+            let lattice = Lattice::new(&domain, 0.0137).unwrap();
+            let context = crate::job::Context::new(1).unwrap();
+            let mut samples = context.run(None, |job| crate::maximal::sample_lattice(job, &lattice, 1)).unwrap();
+            let mut rng = Rng::at(seed as u64, Draw::Probe, &[]);
+            samples.retain(|sample| rng.unit() > 1.1 * (f64::from(sample[0]) - 0.3));
+            let given = Given::new(domain, &lattice, 0.0137, &[&samples]).unwrap();
+
+            let lattice = lattice.widened(WIDENING);
+            let gaps = Gaps { given: &given, survives: &vec![true; samples.len()], lattice: &lattice };
+            let blocks = Blocks::new(&lattice, seed as u64);
+            let inserted = |side| {
+                let windows = cut(&Rect { min: [0; 2], max: blocks.counts() }, side);
+                let mut inserted: Vec<_> =
+                    windows.iter().flat_map(|window| gaps.fill_window(&blocks, window)).collect();
+                inserted.sort_unstable_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
+                inserted
+            };
+            let whole = inserted(WINDOW_BLOCKS);
+            assert!(whole.len() > 1000);
+            for side in [1, 2, 5] {
+                assert!(inserted(side) == whole, "{side} blocks, seed {seed}");
+            }
+        }
+    }
+}
