@@ -351,6 +351,24 @@ fn floats_finer_than_the_lattice_come_back_bit_by_bit() {
     }
 }
 
+/// The spacing of floats is a 64th of the radius along x, and next to nothing along y, where few of the fixed points are
+/// on the domain's lattice.
+#[test]
+fn new_samples_keep_the_radius_from_floats_finer_than_the_lattice() {
+    let unit = f64::from(f32::EPSILON) / 2.0;
+    for boundary in BOUNDARIES {
+        for seed in 0..10 {
+            let domain = domain([1.0 - 1000.4 * unit, -700.7 * unit], [1.0, 800.3 * unit], boundary);
+            let radius = 64.0 * unit;
+            assert_eq!(float_spacing(&domain), unit);
+            let fixed = darts(&domain, radius, 60, seed);
+            assert!(fixed.len() > 40);
+            check_seams(&MergeOptions { radius, domain, seed }, &[], &fixed);
+            check_seams(&MergeOptions { radius, domain, seed }, &parts(&domain, radius, &PINWHEEL, seed), &fixed);
+        }
+    }
+}
+
 #[test]
 fn both_of_two_pieces_can_win() {
     let domain = Domain::unit(Boundary::Bounded);

@@ -157,6 +157,18 @@ mod tests {
     }
 
     #[test]
+    fn what_is_narrower_than_two_blocks_is_one_block_or_none() {
+        let fits = |width: f64, boundary| {
+            let lattice = Lattice::new(&Domain { min: [0.0; 2], max: [width, 40.0], boundary }, 1.0).unwrap();
+            Blocks::fit(&lattice).then(|| Blocks::new(&lattice, 3).counts())
+        };
+        assert_eq!(fits(0.1, Boundary::Bounded), Some([1, 7]));
+        assert_eq!(fits(11.3, Boundary::Bounded), Some([1, 7]));
+        assert_eq!((fits(0.1, Boundary::Periodic), fits(11.3, Boundary::Periodic)), (None, None));
+        assert_eq!(fits(11.4, Boundary::Periodic), Some([2, 6]));
+    }
+
+    #[test]
     fn a_torus_of_blocks_goes_on_beyond_its_borders() {
         let (lattice, blocks) = blocks(Boundary::Periodic, 4);
         for index in -3..10 {
