@@ -3,11 +3,15 @@
 use std::ops::Range;
 
 use crate::error::{Error, Result};
+use crate::job::Job;
 use crate::lattice::{Lattice, Rect};
 use crate::maximal::CellAxis;
 use crate::points::{Boundary, Domain};
 
 use super::NARROWING;
+
+/// Points per task.
+const POINTS: usize = 1 << 14;
 
 /// The set of the points that must stay.
 pub(super) const FIXED: u32 = 0;
@@ -22,7 +26,7 @@ pub(super) struct Site {
 }
 
 /// All points of all sets, sorted by cell and in it by set. No two of one set are in the same cell.
-pub(super) struct Given {
+pub(super) struct Given<'a> {
     domain: Domain,
     radius: f64,
     lattice: Lattice,
@@ -33,43 +37,47 @@ pub(super) struct Given {
     /// Cell `c` holds the sites `starts[c]..starts[c + 1]`.
     starts: Vec<u32>,
     pub sites: Vec<Site>,
-    /// The sizes of the sets.
-    lengths: Vec<usize>,
+    sets: &'a [&'a [[f32; 2]]],
 }
 
-impl Given {
+impl<'a> Given<'a> {
     /// Sorts the sets, whose points lie in the domain.
     ///
     /// # Errors
     /// [`Error::InvalidArgument`] for two points of a set that fall in the same cell: they conflict. (What comes later
     /// would find them too, but could be kept busy by very many.)
-    pub fn new(domain: Domain, lattice: &Lattice, radius: f64, sets: &[&[[f32; 2]]]) -> Result<Self> {
+    pub fn new(job: &Job, domain: Domain, lattice: &Lattice, radius: f64, sets: &'a [&'a [[f32; 2]]]) -> Result<Self> {
         let axes = lattice.size.map(|size| CellAxis::new(size, lattice.radius - NARROWING));
         // Distances of given points are at most two units shorter per axis than those of their lattice points.
         let near = axes.each_ref().map(|axis| near_on_axis(axis, lattice.reach + 3, domain.boundary));
-        let lengths: Vec<usize> = sets.iter().map(|set| set.len()).collect();
-        let sites = vec![Site::default(); lengths.iter().sum()];
-        let cells = axes.each_ref().map(|axis| axis.count() as usize);
-        let starts = vec![0; cells[0] * cells[1] + 1];
-        let mut given = Self { domain, radius, lattice: lattice.clone(), axes, near, starts, sites, lengths };
-
-        for &point in sets.iter().copied().flatten() {
-            let cell = given.cell(point);
-            given.starts[cell + 1] += 1;
-        }
-        for cell in 1..given.starts.len() {
-            given.starts[cell] += given.starts[cell - 1];
-        }
-        let mut next = given.starts.clone();
-        for (set, points) in sets.iter().enumerate() {
-            for (index, &position) in points.iter().enumerate() {
-                let slot = &mut next[given.cell(position)];
-                given.sites[*slot as usize] = Site { position, set: set as u32, index: index as u32 };
-                *slot += 1;
-            }
-        }
+        let (lattice, starts, sites) = (lattice.clone(), Vec::new(), Vec::new());
+        let mut given = Self { domain, radius, lattice, axes, near, starts, sites, sets };
+        given.sort(job)?;
         given.check_cells()?;
         Ok(given)
+    }
+
+    /// Fills `starts` and `sites`. Which cells the points lie in is most of the work, and is shared.
+    fn sort(&mut self, job: &Job) -> Result<()> {
+        let chunks: Vec<&[[f32; 2]]> = self.sets.iter().flat_map(|set| set.chunks(POINTS)).collect();
+        let cells = job.map(chunks.len(), |i| chunks[i].iter().map(|&point| self.cell(point)).collect::<Vec<_>>())?;
+        self.starts = vec![0; self.axes.iter().map(|axis| axis.count() as usize).product::<usize>() + 1];
+        for &cell in cells.iter().flatten() {
+            self.starts[cell + 1] += 1;
+        }
+        for cell in 1..self.starts.len() {
+            self.starts[cell] += self.starts[cell - 1];
+        }
+        let mut next = self.starts.clone();
+        let mut cells = cells.iter().flatten();
+        self.sites = vec![Site::default(); self.sets.iter().map(|set| set.len()).sum()];
+        for (set, points) in (0..).zip(self.sets) {
+            for ((index, &position), &cell) in (0..).zip(*points).zip(&mut cells) {
+                self.sites[next[cell] as usize] = Site { position, set, index };
+                next[cell] += 1;
+            }
+        }
+        Ok(())
     }
 
     fn check_cells(&self) -> Result<()> {
@@ -92,7 +100,7 @@ impl Given {
 
     /// The number of sets, empty ones too.
     pub fn set_count(&self) -> usize {
-        self.lengths.len()
+        self.sets.len()
     }
 
     /// The number of cells.
@@ -174,11 +182,12 @@ impl Given {
 
     /// The surviving points in the order in which they were given.
     pub fn in_order(&self, survives: &[bool]) -> Vec<[f32; 2]> {
-        let mut sets: Vec<Vec<Option<[f32; 2]>>> = self.lengths.iter().map(|&length| vec![None; length]).collect();
-        for (site, _) in self.sites.iter().zip(survives).filter(|(_, survives)| **survives) {
-            sets[site.set as usize][site.index as usize] = Some(site.position);
+        let mut stays: Vec<Vec<bool>> = self.sets.iter().map(|set| vec![true; set.len()]).collect();
+        for (site, _) in self.sites.iter().zip(survives).filter(|(_, survives)| !**survives) {
+            stays[site.set as usize][site.index as usize] = false;
         }
-        sets.into_iter().flatten().flatten().collect()
+        let points = self.sets.iter().copied().flatten().zip(stays.iter().flatten());
+        points.filter(|(_, stays)| **stays).map(|(point, _)| *point).collect()
     }
 
     fn refusal(&self, a: &Site, b: &Site) -> Error {

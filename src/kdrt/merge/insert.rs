@@ -38,7 +38,7 @@ pub(super) fn insert(
 }
 
 struct Gaps<'a> {
-    given: &'a Given,
+    given: &'a Given<'a>,
     survives: &'a [bool],
     /// With the radius that new samples keep.
     lattice: &'a Lattice,
@@ -133,7 +133,8 @@ mod tests {
             let mut samples = context.run(None, |job| crate::maximal::sample_lattice(job, &lattice, 1)).unwrap();
             let mut rng = Rng::at(seed as u64, Draw::Probe, &[]);
             samples.retain(|sample| rng.unit() > 1.1 * (f64::from(sample[0]) - 0.3));
-            let given = Given::new(domain, &lattice, 0.0137, &[&samples]).unwrap();
+            let sets = [&samples[..]];
+            let given = context.run(None, |job| Given::new(job, domain, &lattice, 0.0137, &sets)).unwrap();
 
             let lattice = lattice.widened(WIDENING);
             let gaps = Gaps { given: &given, survives: &vec![true; samples.len()], lattice: &lattice };

@@ -49,9 +49,10 @@ const NARROWING: f64 = 3.0;
 
 /// The most bytes that a sample of the result takes, three cells among them, and those of a given point.
 const BYTES_PER_SAMPLE: f64 = 40.0;
-const BYTES_PER_GIVEN: f64 = 32.0;
+const BYTES_PER_GIVEN: f64 = 40.0;
 
-/// The share of the progress that finding the conflicts takes.
+/// The share of the progress until the given points are sorted, and until their conflicts are found.
+const SORT_SHARE: f64 = 0.15;
 const ELIMINATE_SHARE: f64 = 0.3;
 
 /// How to merge.
@@ -136,8 +137,8 @@ pub fn merge(
 
     let seed = hash(seed, Draw::Merge, &[]);
     context.run(progress, |job| {
-        let given = Given::new(domain, &lattice, radius, &sets)?;
-        let survives = survivors(&job.part(0.0, ELIMINATE_SHARE), &given, seed)?;
+        let given = Given::new(&job.part(0.0, SORT_SHARE), domain, &lattice, radius, &sets)?;
+        let survives = survivors(&job.part(SORT_SHARE, ELIMINATE_SHARE), &given, seed)?;
         let inserted = insert(&job.part(ELIMINATE_SHARE, 1.0), &given, &survives, &lattice, seed)?;
         let mut samples = given.in_order(&survives);
         let kept = samples.len() - fixed.len();
