@@ -7,7 +7,8 @@
 //!
 //! The thesis goes through the seams in an order of work. Here every step is a function of the place alone, so that a
 //! window of the plane (`plane.rs`) can be made without the rest; this is how threads share the work, and how any part
-//! of a plane can be had alone (`window.rs`). Each file says where it departs from the thesis.
+//! of a plane can be had alone (`window.rs`). Sets that were made apart are glued into one by the same two steps
+//! (`merge/`). Each file says where it departs from the thesis.
 
 mod blocks;
 mod clip;

@@ -25,7 +25,7 @@ pub(super) struct Site {
     pub index: u32,
 }
 
-/// All points of all sets, sorted by cell and in it by set. No two of one set are in the same cell.
+/// All points of all sets, sorted by cell and in it by set.
 pub(super) struct Given<'a> {
     domain: Domain,
     radius: f64,
@@ -44,8 +44,8 @@ impl<'a> Given<'a> {
     /// Sorts the sets, whose points lie in the domain.
     ///
     /// # Errors
-    /// [`Error::InvalidArgument`] for two points of a set that fall in the same cell: they conflict. (What comes later
-    /// would find them too, but could be kept busy by very many.)
+    /// [`Error::InvalidArgument`] for two points of a set that fall in the same cell, unless they are there over the seam
+    /// of a torus: they conflict. (What comes later would find them too, but could be kept busy by very many.)
     pub fn new(job: &Job, domain: Domain, lattice: &Lattice, radius: f64, sets: &'a [&'a [[f32; 2]]]) -> Result<Self> {
         let axes = lattice.size.map(|size| CellAxis::new(size, lattice.radius - NARROWING));
         // Distances of given points are at most two units shorter per axis than those of their lattice points.
@@ -146,20 +146,18 @@ impl<'a> Given<'a> {
             return Ok(());
         }
         let (row, column) = (cell / self.columns(), cell % self.columns());
-        for row in self.near[1][row].iter().cloned().flatten() {
-            for columns in &self.near[0][column] {
-                for other in self.places(row, columns) {
-                    for site in sites.clone().filter(|&site| site != other) {
-                        let (a, b) = (&self.sites[site], &self.sites[other]);
-                        if !self.conflict(a, b) {
-                            continue;
-                        }
-                        if self.is_fault(a, b) {
-                            return Err(self.refusal(a, b));
-                        }
-                        visit(site, other);
-                    }
+        let rows = self.near[1][row].iter().cloned().flatten();
+        let runs = rows.flat_map(|row| self.near[0][column].iter().map(move |columns| self.places(row, columns)));
+        for other in runs.flatten() {
+            for site in sites.clone().filter(|&site| site != other) {
+                let (a, b) = (&self.sites[site], &self.sites[other]);
+                if !self.conflict(a, b) {
+                    continue;
                 }
+                if self.is_fault(a, b) {
+                    return Err(self.refusal(a, b));
+                }
+                visit(site, other);
             }
         }
         Ok(())
