@@ -115,6 +115,26 @@ pub struct MergeReport {
 /// domain or overlaps another one, a sample lies outside its rectangle, or two samples of a piece are in conflict; for `fixed`, by index, if a point lies outside the domain or two of them are in conflict,
 /// because then no set that has both is conflict-free. [`Error::TooLarge`] for more than 2^32 samples or the available
 /// memory. All of them before any sample is made. [`Error::Cancelled`].
+///
+/// ```
+/// use azulejo::{Boundary, Context, Domain, kdrt};
+///
+/// let context = Context::new(0)?;
+/// let half = |min: [f64; 2], max: [f64; 2], seed| {
+///     let domain = Domain { min, max, boundary: Boundary::Bounded };
+///     kdrt::sample(&context, &kdrt::Options { radius: 0.01, domain, leaf_size: kdrt::DEFAULT_LEAF_SIZE, seed }, None)
+/// };
+/// let (left, right) = (half([0.0, 0.0], [0.5, 1.0], 1)?, half([0.5, 0.0], [1.0, 1.0], 2)?);
+/// let pieces = [
+///     kdrt::Piece { samples: &left, min: [0.0, 0.0], max: [0.5, 1.0] },
+///     kdrt::Piece { samples: &right, min: [0.5, 0.0], max: [1.0, 1.0] },
+/// ];
+/// let options = kdrt::MergeOptions { radius: 0.01, domain: Domain::unit(Boundary::Periodic), seed: 7 };
+/// let (samples, report) = kdrt::merge(&context, &options, &pieces, &[[0.25, 0.75]], None)?;
+/// assert_eq!(samples[0], [0.25, 0.75]);
+/// assert_eq!(samples.len(), 1 + report.kept + report.inserted);
+/// # Ok::<(), azulejo::Error>(())
+/// ```
 pub fn merge(
     context: &Context,
     options: &MergeOptions,
