@@ -1,66 +1,19 @@
 //! `kdrt::merge` against naive oracles.
 
 mod common;
+#[path = "common/pieces.rs"]
+mod pieces;
 #[path = "common/random.rs"]
 mod random;
-
-use std::ops::ControlFlow;
 
 use azulejo::kdrt::{self, MergeOptions, MergeReport, Piece, merge};
 use azulejo::{Boundary, Context, Domain, Error};
 use common::{BOUNDARIES, distance, domain, find_conflict, find_gap, float_spacing, hard_domains};
+use pieces::{HOLES, PINWHEEL, Part, darts, outline, part, parts, tiles};
 use proptest::prelude::*;
 use random::Random;
 
-/// A piece that owns its samples.
-#[derive(Clone, Debug)]
-struct Part {
-    samples: Vec<[f32; 2]>,
-    rectangle: Domain,
-}
-
-/// A maximal set of a rectangle with a border.
-fn part(min: [f64; 2], max: [f64; 2], radius: f64, seed: u64) -> Part {
-    let rectangle = domain(min, max, Boundary::Bounded);
-    let options = kdrt::Options { radius, domain: rectangle, leaf_size: 6.0, seed };
-    let samples = kdrt::sample(&Context::new(1).unwrap(), &options, None).unwrap();
-    common::check(&rectangle, radius, &samples);
-    Part { samples, rectangle }
-}
-
-/// The rectangles between given shares of the domain's extent, each with a set of its own.
-fn parts(domain: &Domain, radius: f64, shares: &[[[f64; 2]; 2]], seed: u64) -> Vec<Part> {
-    let corner = |share: [f64; 2]| {
-        [0, 1].map(|axis: usize| match share[axis] {
-            1.0 => domain.max[axis],
-            share => domain.min[axis] + share * domain.extent()[axis],
-        })
-    };
-    let part =
-        |(i, [min, max]): (usize, &[[f64; 2]; 2])| part(corner(*min), corner(*max), radius, 1000 * seed + i as u64);
-    shares.iter().enumerate().map(part).collect()
-}
-
-/// Columns and rows of rectangles of the same size.
-fn tiles(columns: usize, rows: usize) -> Vec<[[f64; 2]; 2]> {
-    let share = |i: usize, of: usize| i as f64 / of as f64;
-    let tile = |x, y| [[share(x, columns), share(y, rows)], [share(x + 1, columns), share(y + 1, rows)]];
-    (0..rows).flat_map(|y| (0..columns).map(move |x| tile(x, y))).collect()
-}
-
-/// Four rectangles around a fifth: every corner of the inner one is a T-junction.
-const PINWHEEL: [[[f64; 2]; 2]; 5] = [
-    [[0.0, 0.0], [0.7, 0.3]],
-    [[0.7, 0.0], [1.0, 0.7]],
-    [[0.3, 0.7], [1.0, 1.0]],
-    [[0.0, 0.3], [0.3, 1.0]],
-    [[0.3, 0.3], [0.7, 0.7]],
-];
-
-/// Two rectangles, a hole in the shape of a cross and more.
-const HOLES: [[[f64; 2]; 2]; 2] = [[[0.0, 0.0], [0.45, 0.4]], [[0.5, 0.55], [0.9, 1.0]]];
-
-fn pieces(parts: &[Part]) -> Vec<Piece<'_>> {
+fn as_pieces(parts: &[Part]) -> Vec<Piece<'_>> {
     let pieces = parts.iter();
     pieces.map(|Part { samples, rectangle }| Piece { samples, min: rectangle.min, max: rectangle.max }).collect()
 }
@@ -68,7 +21,7 @@ fn pieces(parts: &[Part]) -> Vec<Piece<'_>> {
 fn merged(options: &MergeOptions, parts: &[Part], fixed: &[[f32; 2]]) -> Result<(Vec<[f32; 2]>, MergeReport), Error> {
     // Not the pool's size decides; see also the test of threads.
     let context = Context::new(1 + options.seed as usize % 2)?;
-    merge(&context, options, &pieces(parts), fixed, None)
+    merge(&context, options, &as_pieces(parts), fixed, None)
 }
 
 /// Merges and checks everything that is promised whatever is given. Gives the result and how many samples of each piece
@@ -265,36 +218,6 @@ fn pieces_that_are_not_maximal_are_filled() {
     }
 }
 
-/// Points of the outline of a polygon, `radius` apart and a bit more at its last corner.
-fn outline(corners: &[[f64; 2]], radius: f64) -> Vec<[f32; 2]> {
-    let mut points: Vec<[f32; 2]> = Vec::new();
-    for (i, from) in corners.iter().enumerate() {
-        let to = corners[(i + 1) % corners.len()];
-        let length = (to[0] - from[0]).hypot(to[1] - from[1]);
-        let steps = (length / (1.0001 * radius)).floor();
-        for step in 0..steps as usize {
-            let share = step as f64 / steps;
-            points.push([0, 1].map(|axis: usize| (from[axis] + share * (to[axis] - from[axis])) as f32));
-        }
-    }
-    points
-}
-
-/// Random points, those left out that conflict with one before.
-fn darts(domain: &Domain, radius: f64, count: usize, seed: u64) -> Vec<[f32; 2]> {
-    let mut random = Random::new(seed);
-    let mut points: Vec<[f32; 2]> = Vec::new();
-    for _ in 0..count {
-        let dart =
-            [0, 1].map(|axis: usize| (domain.min[axis] + f64::from(random.unit()) * domain.extent()[axis]) as f32);
-        let inside = (0..2).all(|axis| (domain.min[axis]..domain.max[axis]).contains(&f64::from(dart[axis])));
-        if inside && points.iter().all(|&point| distance(domain, point, dart) >= radius) {
-            points.push(dart);
-        }
-    }
-    points
-}
-
 #[test]
 fn fixed_points_stay() {
     for boundary in BOUNDARIES {
@@ -391,106 +314,12 @@ fn seeds_and_not_threads_decide() {
         parts[0].samples.retain(|sample| sample[0] > 0.2);
         let fixed = darts(&domain, 0.003, 300, 0);
         let merged = |threads, options: MergeOptions| {
-            merge(&Context::new(threads).unwrap(), &options, &pieces(&parts), &fixed, None).unwrap()
+            merge(&Context::new(threads).unwrap(), &options, &as_pieces(&parts), &fixed, None).unwrap()
         };
         let one = merged(1, options);
         assert!(one == merged(4, options) && one == merged(3, options));
         assert!(one != merged(1, MergeOptions { seed: 2, ..options }));
     }
-}
-
-#[test]
-fn a_call_can_be_cancelled_at_any_time() {
-    // Wide enough for blocks, and a torus that is not.
-    for (extent, radius) in [([1.0, 1.0], 0.003), ([1.0, 0.01], 0.001)] {
-        let options = MergeOptions { radius, domain: domain([0.0; 2], extent, Boundary::Periodic), seed: 0 };
-        for threads in [1, 4] {
-            for limit in [0.0, 0.02, 0.3, 0.6, 1.0] {
-                let stop = |share| if share >= limit { ControlFlow::Break(()) } else { ControlFlow::Continue(()) };
-                let result = merge(&Context::new(threads).unwrap(), &options, &[], &[[0.5, 0.005]], Some(&stop));
-                assert!(matches!(result, Err(Error::Cancelled)), "{limit}");
-            }
-        }
-    }
-}
-
-fn refusal(options: MergeOptions, parts: &[Part], fixed: &[[f32; 2]]) -> String {
-    let error = merged(&options, parts, fixed).unwrap_err();
-    assert!(matches!(error, Error::InvalidArgument { .. }), "{error}");
-    error.to_string()
-}
-
-#[test]
-fn bad_options_are_refused_by_name() {
-    let good = MergeOptions { radius: 0.1, domain: Domain::unit(Boundary::Periodic), seed: 0 };
-    for radius in [f64::NAN, 0.0, -1.0, f64::INFINITY] {
-        assert!(refusal(MergeOptions { radius, ..good }, &[], &[]).starts_with("radius: "));
-    }
-    let swapped = domain([1.0; 2], [0.0; 2], Boundary::Periodic);
-    assert!(refusal(MergeOptions { domain: swapped, ..good }, &[], &[]).starts_with("domain_max: "));
-    let error = merged(&MergeOptions { radius: 8.346e-7, ..good }, &[], &[]).unwrap_err();
-    assert!(matches!(error, Error::TooLarge { argument: "radius", .. }), "{error}");
-}
-
-#[test]
-fn bad_fixed_points_are_refused_by_index() {
-    for boundary in BOUNDARIES {
-        let options = MergeOptions { radius: 0.1, domain: Domain::unit(boundary), seed: 0 };
-        for bad in [[f32::NAN, 0.5], [0.5, f32::INFINITY], [-1e-45, 0.5], [0.5, 1.0], [0.5, -f32::MAX]] {
-            let message = refusal(options, &[], &[[0.2, 0.2], bad]);
-            assert!(message.starts_with("fixed: point 1 is ("), "{message}");
-        }
-        let message = refusal(options, &[], &[[0.2, 0.2], [0.7, 0.7], [0.25, 0.25]]);
-        assert!(message.starts_with("fixed: points 0 and 2 are 0.0707"), "{message}");
-        let message = refusal(options, &[], &[[0.3, 0.3], [0.3, 0.3]]);
-        assert_eq!(message, "fixed: points 0 and 1 are 0.0 apart, closer than the radius 0.1");
-        // A million points that all conflict are refused without looking at all pairs.
-        assert!(refusal(options, &[], &[[0.3; 2]; 1 << 20]).starts_with("fixed: points 0 and 1 are 0.0 apart"));
-        let over_the_seam = merged(&options, &[], &[[0.99, 0.5], [0.01, 0.5]]);
-        assert_eq!(over_the_seam.is_ok(), boundary == Boundary::Bounded);
-    }
-}
-
-#[test]
-fn bad_pieces_are_refused_by_index() {
-    let options = MergeOptions { radius: 0.1, domain: Domain::unit(Boundary::Periodic), seed: 0 };
-    let empty = |min, max| Part { samples: Vec::new(), rectangle: domain(min, max, Boundary::Bounded) };
-    let good = part([0.0; 2], [0.5, 1.0], 0.1, 0);
-    for (min, max) in [
-        ([0.5, 0.0], [0.5, 1.0]),
-        ([0.6, 0.9], [0.7, 0.8]),
-        ([0.6, -1e-300], [0.7, 0.8]),
-        ([0.6, 0.0], [1.0f64.next_up(), 0.8]),
-        ([f64::NAN, 0.0], [0.7, 0.8]),
-        ([0.6, 0.0], [0.7, f64::NAN]),
-        ([0.6, f64::NEG_INFINITY], [0.7, 1.0]),
-    ] {
-        let message = refusal(options, &[good.clone(), empty(min, max)], &[]);
-        assert!(message.starts_with("pieces: [1] reaches on axis "), "{message}");
-    }
-    for (min, max) in [([0.4, 0.4], [0.6, 0.6]), ([0.0; 2], [1.0; 2]), ([0.1; 2], [0.2; 2]), ([0.0; 2], [0.5, 1.0])] {
-        let message = refusal(options, &[good.clone(), empty([0.5, 0.0], [0.6, 0.2]), empty(min, max)], &[]);
-        assert!(message == "pieces: the rectangles of [0] and [2] overlap" || min == [0.0; 2], "{message}");
-        assert!(message.starts_with("pieces: the rectangles of [") && message.ends_with("] overlap"), "{message}");
-    }
-    for bad in [[0.5, 0.5], [0.2, 1.0], [f32::NAN, 0.1], [-0.1, 0.1]] {
-        let mut part = good.clone();
-        part.samples.insert(3, bad);
-        let message = refusal(options, &[empty([0.5, 0.0], [1.0, 1.0]), part], &[]);
-        assert!(message.starts_with("pieces: [1]: sample 3 is ("), "{message}");
-    }
-    let mut conflict = good.clone();
-    let [x, y] = conflict.samples[4];
-    conflict.samples.push([x, if y < 0.5 { y + 0.05 } else { y - 0.05 }]);
-    let message = refusal(options, &[empty([0.5, 0.0], [1.0, 1.0]), conflict], &[]);
-    assert!(
-        message.starts_with("pieces: [1]: samples ") && message.contains(" apart, closer than the radius 0.1"),
-        "{message}"
-    );
-
-    // Over the seam of a torus, points that must stay have no way out.
-    let message = refusal(options, &[], &[[0.5, 0.01], [0.5, 0.95]]);
-    assert!(message.starts_with("fixed: points 0 and 1 are 0.06"), "{message}");
 }
 
 /// A set with a border becomes one without: its own opposite sides meet over the seam.
