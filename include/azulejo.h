@@ -40,7 +40,7 @@
  *   A radius is always the smallest distance allowed between the centres of two samples. Conflict-free: no two samples
  *   are closer than the radius, in double arithmetic on the returned floats, without tolerance. Maximal: no place of
  *   the domain or surface is farther than the radius from every sample, up to the rounding of the returned floats:
- *   3 times the spacing of floats at the largest coordinate in the plane, 6 times on a mesh.
+ *   3 times the spacing of floats at the largest coordinate in the plane, 6 times where sets are merged and on a mesh.
  *
  * Memory. Sizes that cannot be held are refused with AZULEJO_ERROR_TOO_LARGE before memory is taken. When the system
  *   has no memory left in the middle of a call, the process is aborted, as by every Rust library.
@@ -227,6 +227,53 @@ typedef struct azulejo_maximal_options {
     /// Handed to the progress callback.
     void *progress_user;
 } azulejo_maximal_options;
+
+/// Options of azulejo_kdrt_merge.
+typedef struct azulejo_merge_options {
+    /// The size of the caller's struct in bytes; set by the init function.
+    uint32_t struct_size;
+    /// An AZULEJO_BOUNDARY_ constant; periodic by default.
+    int32_t boundary;
+    /// The smallest distance between two samples, that of the pieces. Above 0; there is no default.
+    double radius;
+    /// The lower corner of the domain, x y; 0 0 by default.
+    double domain_min[2];
+    /// The upper corner of the domain, above the lower one on both axes; 1 1 by default.
+    double domain_max[2];
+    /// Any number; another seed gives another set.
+    uint64_t seed;
+    /// Called during the call, unless NULL, which is the default.
+    azulejo_progress_fn progress;
+    /// Handed to the progress callback.
+    void *progress_user;
+} azulejo_merge_options;
+
+/// A set of samples that was made by itself, such as by azulejo_kdrt_sample on a bounded domain or by
+/// azulejo_kdrt_sample_window. It has no struct_size and never grows.
+typedef struct azulejo_merge_piece {
+    /// The samples, x y each, in min <= x < max, no two of them closer than the radius; read during the call only. Any
+    /// floats will do, and they need not be maximal. NULL if there are none.
+    const float *xy;
+    /// How many there are.
+    size_t count;
+    /// The lower corner of the piece's rectangle, x y.
+    double min[2];
+    /// The upper corner, above the lower one on both axes.
+    double max[2];
+} azulejo_merge_piece;
+
+/// What became of the samples of the pieces. The result has first the fixed points, then those kept, then the inserted
+/// ones.
+typedef struct azulejo_merge_report {
+    /// Samples of the pieces that are in the result.
+    uint64_t kept;
+    /// Samples of the pieces that are not.
+    uint64_t eliminated;
+    /// New samples.
+    uint64_t inserted;
+    /// Zeros, for later versions.
+    uint32_t reserved[10];
+} azulejo_merge_report;
 
 /// Options of azulejo_psp_create and azulejo_psp_sample.
 typedef struct azulejo_psp_options {
@@ -484,6 +531,44 @@ azulejo_status azulejo_maximal_options_init(struct azulejo_maximal_options *opti
 azulejo_status azulejo_maximal_sample(const struct azulejo_context *context,
                                       const struct azulejo_maximal_options *options,
                                       struct azulejo_points **out);
+
+/// Writes the defaults. `struct_size` is sizeof *options.
+azulejo_status azulejo_merge_options_init(struct azulejo_merge_options *options, size_t struct_size);
+
+/// Glues sets of samples on rectangles that do not overlap, and points that must stay, into one maximal, conflict-free
+/// set of the domain (thesis section 2.4.4). Only the seams change.
+///
+/// Conflict-free and maximal as in the conventions, but maximal up to 6 times the spacing of floats; whatever no sample
+/// covers is filled, also where a piece is not maximal, where there is no piece, and the whole domain if there is
+/// nothing. A sample of a piece goes only if it is closer than the radius to a fixed point, or to a sample that stays of
+/// another piece or, over the seam of a periodic domain, of its own; which one goes depends on the seed and the places of
+/// the pieces in the array. If the pieces are maximal as azulejo_kdrt_sample makes them, new samples lie within the radius
+/// of a sample that went or of the border of a piece's rectangle.
+///
+/// pieces: `piece_count` of them, in the domain; NULL if there are none.
+///
+/// fixed: the points that must stay, x y each, in domain_min <= x < domain_max, no two of them closer than the radius;
+/// `fixed_count` of them; NULL if there are none.
+///
+/// out: the samples, x y each, to be freed with azulejo_points_free: first all fixed points, then the samples of the
+/// pieces that are kept, piece by piece, both in the order and with the bits that they were given; then new ones.
+///
+/// report: what became of the pieces, or NULL.
+///
+/// O(samples) time with all threads of the context, and O(piece_count^2) at most. A periodic domain narrower than about
+/// 11 radii is filled on one thread.
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for rectangles that overlap or leave the domain, samples outside of
+/// their rectangle, two samples of one piece or two fixed points that are closer than the radius (the message has their
+/// indices), and where floats are too coarse to carry the radius; AZULEJO_ERROR_TOO_LARGE; AZULEJO_ERROR_CANCELLED.
+azulejo_status azulejo_kdrt_merge(const struct azulejo_context *context,
+                                  const struct azulejo_merge_options *options,
+                                  const struct azulejo_merge_piece *pieces,
+                                  size_t piece_count,
+                                  const float *fixed,
+                                  size_t fixed_count,
+                                  struct azulejo_points **out,
+                                  struct azulejo_merge_report *report);
 
 /// Copies a mesh of the caller's.
 ///

@@ -13,6 +13,7 @@
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "azulejo.h"
 
@@ -88,12 +89,15 @@ struct Options : C {
 using KdrtOptions = Options<azulejo_kdrt_options, azulejo_kdrt_options_init>;
 /// See azulejo_maximal_options; `radius` has no default.
 using MaximalOptions = Options<azulejo_maximal_options, azulejo_maximal_options_init>;
+/// See azulejo_merge_options; `radius` has no default.
+using MergeOptions = Options<azulejo_merge_options, azulejo_merge_options_init>;
 /// See azulejo_psp_options; `radius` has no default.
 using PspOptions = Options<azulejo_psp_options, azulejo_psp_options_init>;
 /// See azulejo_dcr_options.
 using DcrOptions = Options<azulejo_dcr_options, azulejo_dcr_options_init>;
 
 using KdrtReport = azulejo_kdrt_report;
+using MergeReport = azulejo_merge_report;
 using PspReport = azulejo_psp_report;
 using DcrReport = azulejo_dcr_report;
 
@@ -336,6 +340,30 @@ inline void kdrt_stream(const Context &context, const KdrtOptions &options, cons
         }
         return status;
     });
+}
+
+/// A set of samples, x y each, with its rectangle; see azulejo_merge_piece. The samples stay the caller's.
+struct MergePiece {
+    Span<const float> xy;
+    double min[2];
+    double max[2];
+};
+
+/// Glues sets on rectangles that do not overlap, and points that must stay, into one maximal set; see azulejo_kdrt_merge.
+/// `report` may be null.
+inline Points kdrt_merge(const Context &context, const MergeOptions &options, Span<const MergePiece> pieces,
+                         Span<const float> fixed = {}, MergeReport *report = nullptr) {
+    std::vector<azulejo_merge_piece> c_pieces;
+    for (const auto &[xy, min, max] : pieces) {
+        c_pieces.push_back({xy.data(), detail::groups(xy.size(), 2, "xy"), {min[0], min[1]}, {max[0], max[1]}});
+    }
+    azulejo_points *points = nullptr;
+    const std::size_t count = detail::groups(fixed.size(), 2, "fixed");
+    detail::watched(options, [&](auto *o) {
+        return azulejo_kdrt_merge(context.get(), o, c_pieces.data(), c_pieces.size(), fixed.data(), count, &points,
+                                  report);
+    });
+    return Points(points);
 }
 
 /// The unbiased reference, slowly; see azulejo_maximal_sample.

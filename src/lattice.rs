@@ -120,10 +120,17 @@ impl Lattice {
         }
         // No two lattice points are as far apart as 2^26, so a longer radius means the same and only overflows.
         let radius = (radius / unit).min((1 << 26) as f64);
+        let lattice = Self { unit, origin, size, boundary: domain.boundary, radius, threshold: 0, reach: 0 };
+        Ok(lattice.widened(0.0))
+    }
+
+    /// The same lattice with a radius that is longer by so many units.
+    pub fn widened(&self, units: f64) -> Self {
+        let radius = self.radius + units;
         // The guard covers the rounding of the squares here and in the user's own check.
         let threshold = (radius * radius * (1.0 + 1e-14)).ceil() as i64;
         let reach = (threshold - 1).isqrt() as i32;
-        Ok(Self { unit, origin, size, boundary: domain.boundary, radius, threshold, reach })
+        Self { radius, threshold, reach, ..self.clone() }
     }
 
     /// A square torus of points of this lattice, with the same radius.
@@ -161,6 +168,16 @@ impl Lattice {
         MAXIMAL_DENSITY * (f64::from(rect.length(0)) / self.radius) * (f64::from(rect.length(1)) / self.radius)
     }
 
+    /// A lattice point at most one unit per axis away from any point of `domain`, which is this lattice's; on a torus
+    /// perhaps over the seam. Away from the domain's border it is half a unit.
+    pub fn nearest(&self, domain: &Domain, point: [f32; 2]) -> [i32; 2] {
+        std::array::from_fn(|axis| {
+            let place = (f64::from(point[axis]) - self.origin[axis]) / self.unit;
+            let period = (self.boundary == Boundary::Periodic).then(|| domain.extent()[axis] / self.unit);
+            nearest_on_axis(place, self.size[axis], period)
+        })
+    }
+
     /// The coordinates of a lattice point of the domain: exact.
     pub fn position(&self, point: [i32; 2]) -> [f32; 2] {
         std::array::from_fn(|axis| (self.origin[axis] + f64::from(point[axis]) * self.unit) as f32)
@@ -169,6 +186,20 @@ impl Lattice {
     /// The lattice point with these coordinates, which are those of one: the inverse of [`Lattice::position`].
     pub fn point(&self, position: [f32; 2]) -> [i32; 2] {
         std::array::from_fn(|axis| ((f64::from(position[axis]) - self.origin[axis]) / self.unit) as i32)
+    }
+}
+
+/// The index of the lattice point nearest to `place`, which lies in an axis of `size` lattice points. Both `place` and
+/// `period`, of a torus, are in units; the first lattice point is at 0.
+fn nearest_on_axis(place: f64, size: i32, period: Option<f64>) -> i32 {
+    let last = f64::from(size - 1);
+    match period {
+        // Over the seam, between the last lattice point and the first one's image.
+        Some(period) if place < 0.0 || place > last => {
+            let place = if place < 0.0 { place + period } else { place };
+            if place - last < period - place { size - 1 } else { 0 }
+        }
+        _ => place.round().clamp(0.0, last) as i32,
     }
 }
 
@@ -332,6 +363,46 @@ mod tests {
                     let inside = part.contains(lattice.position(point));
                     assert!(!inside || found.contains(point), "{part:?}: {point:?} is missing");
                     assert!(inside || !found.grown(-1).contains(point), "{part:?}: {point:?} is too far outside");
+                }
+            }
+        }
+    }
+
+    /// Any floats of odd domains, those next to the borders among them.
+    #[test]
+    fn the_nearest_lattice_point_is_at_most_a_unit_away_per_axis() {
+        let mut rng = Rng::at(2, Draw::Probe, &[]);
+        let intervals = [
+            (0.0, 1.0),
+            (-0.3, 0.7),
+            (0.1, 0.100001),
+            (1e-30, 3.0),
+            (0.1, 0.10000002),
+            (-5e-324, 1e-45),
+            (-3e38, 2e38),
+        ];
+        for ((min, max), boundary) in
+            intervals.into_iter().flat_map(|i| [(i, Boundary::Periodic), (i, Boundary::Bounded)])
+        {
+            // The second axis is one unit and a half wide, so that it loses the most on a torus.
+            let unit = float_spacing([min, max].iter());
+            let domain = Domain { min: [min; 2], max: [max, min + 1.5 * unit], boundary };
+            let radius = 1e3 * (unit + min.abs() + max.abs());
+            let lattice = Lattice::of_any_size(&domain, radius).unwrap();
+            let edges = [min as f32, max as f32].map(|x| [x.next_down(), x, x.next_up()]).concat();
+            let inner = (0..500).map(|_| (min + rng.unit() * (max - min)) as f32).collect::<Vec<_>>();
+            let xs = edges.iter().chain(&inner);
+            for point in xs.flat_map(|&x| edges.iter().map(move |&y| [x, y])).filter(|&point| domain.contains(point)) {
+                let nearest = lattice.nearest(&domain, point);
+                assert!(lattice.rect().contains(nearest));
+                let position = lattice.position(nearest);
+                for axis in 0..2 {
+                    let along = (f64::from(point[axis]) - f64::from(position[axis])).abs();
+                    let around = if boundary == Boundary::Periodic { domain.extent()[axis] - along } else { along };
+                    assert!(
+                        along.min(around) <= unit * (1.0 + 1e-9),
+                        "{point:?} of {domain:?} is far from {position:?}"
+                    );
                 }
             }
         }

@@ -34,6 +34,8 @@ pub(crate) enum Draw {
     Attempt,
     /// KDRT: where and how a set is changed to have an exact count.
     Tune,
+    /// KDRT: the ranks and the filling of merged pieces.
+    Merge,
 }
 
 /// The stream of random numbers of one place.

@@ -39,7 +39,13 @@ pub(super) struct Blocks {
 }
 
 impl Blocks {
-    /// The blocks of a lattice that is at least two of them wide and high.
+    /// Whether a lattice can be cut into blocks: a torus must be at least two of them wide and high.
+    pub fn fit(lattice: &Lattice) -> bool {
+        let fits = |size: i32| f64::from(size) >= 2.0 * WIDTH * lattice.radius;
+        lattice.boundary == Boundary::Bounded || lattice.size.into_iter().all(fits)
+    }
+
+    /// The blocks of a lattice that they fit.
     pub fn new(lattice: &Lattice, seed: u64) -> Self {
         let counts = lattice.size.map(|size| {
             let widths = f64::from(size) / (WIDTH * lattice.radius);
@@ -154,6 +160,18 @@ mod tests {
                 }
             }
         }
+    }
+
+    #[test]
+    fn what_is_narrower_than_two_blocks_is_one_block_or_none() {
+        let fits = |width: f64, boundary| {
+            let lattice = Lattice::new(&Domain { min: [0.0; 2], max: [width, 40.0], boundary }, 1.0).unwrap();
+            Blocks::fit(&lattice).then(|| Blocks::new(&lattice, 3).counts())
+        };
+        assert_eq!(fits(0.1, Boundary::Bounded), Some([1, 7]));
+        assert_eq!(fits(11.3, Boundary::Bounded), Some([1, 7]));
+        assert_eq!((fits(0.1, Boundary::Periodic), fits(11.3, Boundary::Periodic)), (None, None));
+        assert_eq!(fits(11.4, Boundary::Periodic), Some([2, 6]));
     }
 
     #[test]

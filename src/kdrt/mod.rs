@@ -7,7 +7,8 @@
 //!
 //! The thesis goes through the seams in an order of work. Here every step is a function of the place alone, so that a
 //! window of the plane (`plane.rs`) can be made without the rest; this is how threads share the work, and how any part
-//! of a plane can be had alone (`window.rs`). A number of samples instead of a radius is `count.rs`. Each file says where it departs from the thesis.
+//! of a plane can be had alone (`window.rs`). A number of samples instead of a radius is `count.rs`; sets that were made
+//! apart are glued into one by the same two steps (`merge/`). Each file says where it departs from the thesis.
 
 mod blocks;
 mod clip;
@@ -16,6 +17,7 @@ mod count;
 mod divide;
 mod fill;
 mod measure;
+mod merge;
 mod output;
 mod plane;
 #[allow(unsafe_code)] // Vector instructions.
@@ -32,6 +34,7 @@ use plane::Plane;
 
 pub use count::{CountOptions, CountReport, Counted, sample_count};
 pub use measure::{Stages, measure};
+pub use merge::{MergeOptions, MergeReport, Piece, merge};
 pub use window::{sample_stream, sample_window};
 
 /// The leaf size, in radii, that balances speed and spectrum.

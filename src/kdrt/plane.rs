@@ -24,7 +24,7 @@ use super::output::Output;
 use super::stamp::Stamps;
 
 /// Fill blocks along the side of a window: about 50,000 samples, which fit a core's own cache.
-const WINDOW_BLOCKS: i32 = 56;
+pub(super) const WINDOW_BLOCKS: i32 = 56;
 
 /// A window between elimination and filling.
 pub(super) struct Merged<'a> {
@@ -173,7 +173,7 @@ impl Plane {
 }
 
 /// A rectangle of blocks, cut at the multiples of `side`.
-fn cut(blocks: &Rect, side: i32) -> Vec<Rect> {
+pub(super) fn cut(blocks: &Rect, side: i32) -> Vec<Rect> {
     let starts = |axis: usize| (blocks.min[axis] / side * side..blocks.max[axis]).step_by(side as usize);
     let cells = starts(1).flat_map(|y| starts(0).map(move |x| Rect { min: [x, y], max: [x + side, y + side] }));
     cells.map(|cell| cell.intersection(blocks)).collect()

@@ -42,6 +42,28 @@ FIELD(azulejo_maximal_options, seed, 48);
 FIELD(azulejo_maximal_options, progress, 56);
 FIELD(azulejo_maximal_options, progress_user, 64);
 
+SIZE(azulejo_merge_options, 72);
+FIELD(azulejo_merge_options, struct_size, 0);
+FIELD(azulejo_merge_options, boundary, 4);
+FIELD(azulejo_merge_options, radius, 8);
+FIELD(azulejo_merge_options, domain_min, 16);
+FIELD(azulejo_merge_options, domain_max, 32);
+FIELD(azulejo_merge_options, seed, 48);
+FIELD(azulejo_merge_options, progress, 56);
+FIELD(azulejo_merge_options, progress_user, 64);
+
+SIZE(azulejo_merge_piece, 48);
+FIELD(azulejo_merge_piece, xy, 0);
+FIELD(azulejo_merge_piece, count, 8);
+FIELD(azulejo_merge_piece, min, 16);
+FIELD(azulejo_merge_piece, max, 32);
+
+SIZE(azulejo_merge_report, 64);
+FIELD(azulejo_merge_report, kept, 0);
+FIELD(azulejo_merge_report, eliminated, 8);
+FIELD(azulejo_merge_report, inserted, 16);
+FIELD(azulejo_merge_report, reserved, 24);
+
 SIZE(azulejo_psp_options, 48);
 FIELD(azulejo_psp_options, struct_size, 0);
 FIELD(azulejo_psp_options, iterations, 4);
@@ -120,6 +142,9 @@ static void signatures(void) {
                                          const double *, azulejo_points **) = azulejo_kdrt_sample_window;
     azulejo_status (*kdrt_stream)(const azulejo_context *, const azulejo_kdrt_options *,
                                   int32_t (*)(void *, const float *, size_t), void *) = azulejo_kdrt_stream;
+    azulejo_status (*kdrt_merge)(const azulejo_context *, const azulejo_merge_options *, const azulejo_merge_piece *,
+                                 size_t, const float *, size_t, azulejo_points **, azulejo_merge_report *) =
+        azulejo_kdrt_merge;
     azulejo_status (*mesh_create)(const float *, size_t, size_t, const uint32_t *, size_t, azulejo_mesh **) =
         azulejo_mesh_create;
     azulejo_status (*mesh_load)(const char *, azulejo_mesh **) = azulejo_mesh_load;
@@ -136,6 +161,7 @@ static void signatures(void) {
     CHECK(context_create && kdrt_sample && mesh_create && mesh_load && psp_create && psp_advance && psp_fill);
     CHECK(psp_points && psp_sample && dcr_relax && last_error_message && kdrt_sample_window && kdrt_stream);
     CHECK(kdrt_sample_with_report);
+    CHECK(kdrt_merge);
 }
 
 int main(void) {

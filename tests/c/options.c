@@ -24,14 +24,17 @@ static azulejo_points *sample(const azulejo_kdrt_options *options) {
 static void defaults(void) {
     azulejo_kdrt_options kdrt;
     azulejo_maximal_options maximal;
+    azulejo_merge_options merge;
     azulejo_psp_options psp;
     azulejo_dcr_options dcr;
     memset(&kdrt, 0x55, sizeof kdrt);
     memset(&maximal, 0x55, sizeof maximal);
+    memset(&merge, 0x55, sizeof merge);
     memset(&psp, 0x55, sizeof psp);
     memset(&dcr, 0x55, sizeof dcr);
     ACCEPTED(azulejo_kdrt_options_init(&kdrt, sizeof kdrt));
     ACCEPTED(azulejo_maximal_options_init(&maximal, sizeof maximal));
+    ACCEPTED(azulejo_merge_options_init(&merge, sizeof merge));
     ACCEPTED(azulejo_psp_options_init(&psp, sizeof psp));
     ACCEPTED(azulejo_dcr_options_init(&dcr, sizeof dcr));
 
@@ -43,6 +46,9 @@ static void defaults(void) {
     CHECK(kdrt.boundary == AZULEJO_BOUNDARY_PERIODIC && dcr.boundary == AZULEJO_BOUNDARY_PERIODIC);
     CHECK(kdrt.leaf_size == 20 && kdrt.seed == 0 && kdrt.progress == NULL && kdrt.progress_user == NULL);
     CHECK(kdrt.count == 0);
+    CHECK(merge.struct_size == sizeof merge && merge.radius == 0 && merge.seed == 0 && merge.progress == NULL);
+    CHECK(merge.domain_min[0] == 0 && merge.domain_min[1] == 0 && merge.domain_max[0] == 1 && merge.domain_max[1] == 1);
+    CHECK(merge.boundary == AZULEJO_BOUNDARY_PERIODIC && merge.progress_user == NULL);
     CHECK(psp.maximal == 1 && psp.iterations > 0 && psp.seed == 0 && psp.progress == NULL);
     CHECK(dcr.neighbourhood == AZULEJO_NEIGHBOURHOOD_DELAUNAY && dcr.max_iterations > 0 && dcr.progress == NULL);
 }
@@ -53,6 +59,7 @@ static void refused_inits(void) {
     before = options;
     REFUSED(INVALID, "options", azulejo_kdrt_options_init(NULL, sizeof options));
     REFUSED(INVALID, "options", azulejo_maximal_options_init(NULL, sizeof options));
+    REFUSED(INVALID, "options", azulejo_merge_options_init(NULL, sizeof options));
     REFUSED(INVALID, "options", azulejo_psp_options_init(NULL, sizeof options));
     REFUSED(INVALID, "options", azulejo_dcr_options_init(NULL, sizeof options));
     REFUSED(INVALID, "struct_size", azulejo_kdrt_options_init(&options, 0));
@@ -67,6 +74,7 @@ static void refused_sizes(void) {
     const uint32_t sizes[] = {0, 1, 4, 8, 4097, 0x80000000u, UINT32_MAX};
     azulejo_kdrt_options kdrt = kdrt_options(0.1);
     azulejo_maximal_options maximal = maximal_options(0.1);
+    azulejo_merge_options merge = merge_options(0.1);
     azulejo_psp_options psp = psp_options(0.1);
     azulejo_dcr_options dcr = dcr_options(1);
     azulejo_mesh *mesh = make_cube();
@@ -74,9 +82,10 @@ static void refused_sizes(void) {
     azulejo_points *out = UNTOUCHED;
     size_t i;
     for (i = 0; i < COUNT_OF(sizes); i++) {
-        kdrt.struct_size = maximal.struct_size = psp.struct_size = dcr.struct_size = sizes[i];
+        kdrt.struct_size = maximal.struct_size = merge.struct_size = psp.struct_size = dcr.struct_size = sizes[i];
         REFUSED(INVALID, "struct_size", azulejo_kdrt_sample(context, &kdrt, &out));
         REFUSED(INVALID, "azulejo_maximal_options_init", azulejo_maximal_sample(context, &maximal, &out));
+        REFUSED(INVALID, "struct_size", azulejo_kdrt_merge(context, &merge, NULL, 0, NULL, 0, &out, NULL));
         REFUSED(INVALID, "struct_size", azulejo_psp_sample(context, mesh, &psp, &out, NULL));
         REFUSED(INVALID, "struct_size", azulejo_dcr_relax(context, &dcr, xy, 1, &out, NULL));
     }

@@ -38,6 +38,13 @@ static inline azulejo_maximal_options maximal_options(double radius) {
     return options;
 }
 
+static inline azulejo_merge_options merge_options(double radius) {
+    azulejo_merge_options options;
+    ACCEPTED(azulejo_merge_options_init(&options, sizeof options));
+    options.radius = radius;
+    return options;
+}
+
 static inline azulejo_psp_options psp_options(double radius) {
     azulejo_psp_options options;
     ACCEPTED(azulejo_psp_options_init(&options, sizeof options));

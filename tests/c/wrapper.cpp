@@ -232,6 +232,39 @@ void streams() {
     }
 }
 
+void merging() {
+    const azulejo::Context context(2);
+    azulejo::KdrtOptions left, right;
+    left.radius = right.radius = 0.02;
+    left.boundary = right.boundary = AZULEJO_BOUNDARY_BOUNDED;
+    left.domain_max[0] = right.domain_min[0] = 0.6;
+    right.seed = 1;
+    const auto first = azulejo::kdrt_sample(context, left), second = azulejo::kdrt_sample(context, right);
+    const std::vector<azulejo::MergePiece> pieces = {{first.positions(), {0, 0}, {0.6, 1}},
+                                                     {second.positions(), {0.6, 0}, {1, 1}}};
+    const std::array<float, 4> fixed = {0.25f, 0.5f, 0.75f, 0.5f};
+    azulejo::MergeOptions options;
+    options.radius = 0.02;
+    azulejo::MergeReport report;
+    const auto merged = azulejo::kdrt_merge(context, options, pieces, fixed, &report);
+    CHECK(merged.size() == 2 + report.kept + report.inserted);
+    CHECK(report.kept + report.eliminated == first.size() + second.size() && report.eliminated > 0);
+    CHECK(std::equal(fixed.begin(), fixed.end(), merged.positions().begin()));
+    CHECK(azulejo::plane_smallest_distance(context, merged.positions(), options.domain_min, options.domain_max,
+                                           options.boundary) >= 0.02);
+    CHECK(azulejo::kdrt_merge(context, options, {}).size() > 1500);
+
+    const std::vector<float> seven(7);
+    CHECK(throws(AZULEJO_ERROR_INVALID_ARGUMENT, "fixed: 7",
+                 [&] { azulejo::kdrt_merge(context, options, {}, seven); }));
+    const std::array<azulejo::MergePiece, 1> odd = {{{seven, {0, 0}, {1, 1}}}};
+    CHECK(throws(AZULEJO_ERROR_INVALID_ARGUMENT, "xy: 7", [&] { azulejo::kdrt_merge(context, options, odd); }));
+    const std::array<azulejo::MergePiece, 2> twice = {pieces[0], pieces[0]};
+    CHECK(throws(AZULEJO_ERROR_INVALID_ARGUMENT, "overlap", [&] { azulejo::kdrt_merge(context, options, twice); }));
+    options.progress = [](double) { return false; };
+    CHECK(throws(AZULEJO_ERROR_CANCELLED, "cancelled", [&] { azulejo::kdrt_merge(context, options, pieces); }));
+}
+
 // A handle keeps its progress function through moves and through exceptions.
 void progress_of_a_handle() {
     const azulejo::Context context(1);
@@ -288,6 +321,7 @@ int main() {
     counts();
     windows();
     streams();
+    merging();
     relaxing();
     return finish();
 }

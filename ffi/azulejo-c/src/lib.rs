@@ -39,7 +39,7 @@
 //!   A radius is always the smallest distance allowed between the centres of two samples. Conflict-free: no two samples
 //!   are closer than the radius, in double arithmetic on the returned floats, without tolerance. Maximal: no place of
 //!   the domain or surface is farther than the radius from every sample, up to the rounding of the returned floats:
-//!   3 times the spacing of floats at the largest coordinate in the plane, 6 times on a mesh.
+//!   3 times the spacing of floats at the largest coordinate in the plane, 6 times where sets are merged and on a mesh.
 //!
 //! Memory. Sizes that cannot be held are refused with AZULEJO_ERROR_TOO_LARGE before memory is taken. When the system
 //!   has no memory left in the middle of a call, the process is aborted, as by every Rust library.
@@ -64,6 +64,7 @@ pub mod points;
 
 pub mod kdrt;
 pub mod maximal;
+pub mod merge;
 
 pub mod mesh;
 pub mod psp;

@@ -1,0 +1,207 @@
+/* Merging: windows of planes of different seeds become one set, fixed points stay, and each bad input is refused with a
+   message that names it, leaving the outputs alone. */
+
+#include <math.h>
+
+#include "samples.h"
+
+#define INVALID AZULEJO_ERROR_INVALID_ARGUMENT
+#define RADIUS 0.01
+
+static azulejo_context *one, *four;
+
+static const double corners[4][2][2] = {
+    {{0, 0}, {0.5, 0.4}}, {{0.5, 0}, {1, 0.7}}, {{0, 0.4}, {0.5, 1}}, {{0.5, 0.7}, {1, 1}}};
+
+/* The part of a plane of its own that lies in one of four rectangles. */
+static azulejo_points *make_window(int32_t boundary, int i) {
+    azulejo_kdrt_options options = kdrt_options(RADIUS);
+    azulejo_points *points = NULL;
+    options.boundary = boundary;
+    options.seed = (uint64_t)i;
+    if (!ACCEPTED(azulejo_kdrt_sample_window(four, &options, corners[i][0], corners[i][1], &points))) exit(finish());
+    return points;
+}
+
+static azulejo_merge_piece piece_of(const azulejo_points *points, const double (*rectangle)[2]) {
+    azulejo_merge_piece piece;
+    piece.xy = azulejo_points_positions(points);
+    piece.count = azulejo_points_count(points);
+    memcpy(piece.min, rectangle[0], sizeof piece.min);
+    memcpy(piece.max, rectangle[1], sizeof piece.max);
+    return piece;
+}
+
+static int is_zero(const uint32_t *numbers, size_t count) {
+    while (count > 0 && numbers[count - 1] == 0) count--;
+    return count == 0;
+}
+
+static void is_maximal(const azulejo_points *points, const azulejo_merge_options *o) {
+    const float *xy = azulejo_points_positions(points);
+    const size_t count = azulejo_points_count(points);
+    double distance = 0, covering = 0;
+    ACCEPTED(azulejo_plane_smallest_distance(four, xy, count, o->domain_min, o->domain_max, o->boundary, &distance));
+    ACCEPTED(azulejo_plane_covering_radius(four, xy, count, o->domain_min, o->domain_max, o->boundary, &covering));
+    CHECK(distance >= RADIUS);
+    CHECK(covering <= RADIUS + 6.0 / (1 << 24));
+}
+
+static void four_windows(int32_t boundary) {
+    const float fixed[3][2] = {{0.5f, 0.5f}, {1e-30f, 0.25f}, {0.7f, 0.1f}};
+    azulejo_points *windows[4], *points = NULL, *same = NULL;
+    azulejo_merge_piece pieces[4];
+    azulejo_merge_options options = merge_options(RADIUS);
+    azulejo_merge_report report;
+    size_t given = 0;
+    int i;
+    options.boundary = boundary;
+    for (i = 0; i < 4; i++) {
+        windows[i] = make_window(boundary, i);
+        pieces[i] = piece_of(windows[i], corners[i]);
+        given += pieces[i].count;
+    }
+    memset(&report, 0x55, sizeof report);
+    ACCEPTED(azulejo_kdrt_merge(one, &options, pieces, 4, fixed[0], 3, &points, &report));
+    ACCEPTED(azulejo_kdrt_merge(four, &options, pieces, 4, fixed[0], 3, &same, NULL));
+    CHECK(same_points(points, same));
+    CHECK(report.kept + report.eliminated == given && is_zero(report.reserved, COUNT_OF(report.reserved)));
+    CHECK(azulejo_points_count(points) == 3 + report.kept + report.inserted);
+    CHECK(report.eliminated > 20 && report.inserted > 20 && report.kept > given * 9 / 10);
+    CHECK(memcmp(azulejo_points_positions(points), fixed, sizeof fixed) == 0);
+    is_maximal(points, &options);
+    azulejo_points_free(same);
+
+    same = NULL;
+    options.seed = 1;
+    ACCEPTED(azulejo_kdrt_merge(four, &options, pieces, 4, fixed[0], 3, &same, NULL));
+    CHECK(!same_points(points, same));
+    azulejo_points_free(points);
+    azulejo_points_free(same);
+    for (i = 0; i < 4; i++) azulejo_points_free(windows[i]);
+}
+
+/* What was made once is kept as it is, and nothing fits in between. */
+static void all_fixed(void) {
+    azulejo_kdrt_options kdrt = kdrt_options(RADIUS);
+    azulejo_merge_options options = merge_options(RADIUS);
+    azulejo_points *points = NULL, *merged = NULL;
+    azulejo_merge_report report;
+    ACCEPTED(azulejo_kdrt_sample(four, &kdrt, &points));
+    ACCEPTED(azulejo_kdrt_merge(four, &options, NULL, 0, azulejo_points_positions(points), azulejo_points_count(points),
+                                &merged, &report));
+    CHECK(same_points(points, merged));
+    CHECK(report.kept == 0 && report.eliminated == 0 && report.inserted == 0);
+    azulejo_points_free(points);
+    azulejo_points_free(merged);
+}
+
+static void nothing_given(void) {
+    azulejo_merge_options options = merge_options(RADIUS);
+    azulejo_merge_piece empty = {NULL, 0, {0.25, 0.25}, {0.5, 0.5}};
+    azulejo_points *points = NULL, *same = NULL;
+    azulejo_merge_report report;
+    ACCEPTED(azulejo_kdrt_merge(one, &options, NULL, 0, NULL, 0, &points, &report));
+    CHECK(report.inserted == azulejo_points_count(points) && report.kept == 0);
+    is_maximal(points, &options);
+    ACCEPTED(azulejo_kdrt_merge(four, &options, &empty, 1, NULL, 0, &same, NULL));
+    CHECK(same_points(points, same));
+    azulejo_points_free(points);
+    azulejo_points_free(same);
+}
+
+static void pointers(void) {
+    const float xy[4] = {0.1f, 0.1f, 0.2f, 0.2f}, *misaligned = (const float *)((const char *)xy + 2);
+    azulejo_merge_options good = merge_options(0.1);
+    azulejo_merge_piece piece = {NULL, 2, {0, 0}, {1, 1}};
+    azulejo_points *out = UNTOUCHED;
+    azulejo_merge_report report, before;
+    memset(&report, 0x55, sizeof report);
+    before = report;
+    REFUSED(INVALID, "context", azulejo_kdrt_merge(NULL, &good, NULL, 0, xy, 2, &out, &report));
+    REFUSED(INVALID, "options", azulejo_kdrt_merge(one, NULL, NULL, 0, xy, 2, &out, &report));
+    REFUSED(INVALID, "pieces: is NULL", azulejo_kdrt_merge(one, &good, NULL, 1, xy, 2, &out, &report));
+    REFUSED(INVALID, "pieces: ", azulejo_kdrt_merge(one, &good, (void *)misaligned, 1, xy, 2, &out, &report));
+    REFUSED(INVALID, "fixed: is NULL", azulejo_kdrt_merge(one, &good, NULL, 0, NULL, 1, &out, &report));
+    REFUSED(INVALID, "fixed: ", azulejo_kdrt_merge(one, &good, NULL, 0, misaligned, 1, &out, &report));
+    REFUSED(INVALID, "out", azulejo_kdrt_merge(one, &good, NULL, 0, xy, 2, NULL, &report));
+    REFUSED(INVALID, "pieces: [0].xy: is NULL", azulejo_kdrt_merge(one, &good, &piece, 1, xy, 2, &out, &report));
+    piece.xy = misaligned;
+    REFUSED(INVALID, "pieces: [0].xy: ", azulejo_kdrt_merge(one, &good, &piece, 1, xy, 2, &out, &report));
+    piece.xy = xy;
+    piece.count = SIZE_MAX / 8 + 2;
+    REFUSED(AZULEJO_ERROR_TOO_LARGE, "pieces: [0].count", azulejo_kdrt_merge(one, &good, &piece, 1, xy, 2, &out, &report));
+    REFUSED(AZULEJO_ERROR_TOO_LARGE, "piece_count", azulejo_kdrt_merge(one, &good, &piece, SIZE_MAX, xy, 2, &out, &report));
+    REFUSED(AZULEJO_ERROR_TOO_LARGE, "fixed_count", azulejo_kdrt_merge(one, &good, NULL, 0, xy, SIZE_MAX, &out, &report));
+    CHECK(out == UNTOUCHED && memcmp(&report, &before, sizeof report) == 0);
+}
+
+static void values(void) {
+    azulejo_points *out = UNTOUCHED;
+    azulejo_merge_report report, before;
+    memset(&report, 0x55, sizeof report);
+    before = report;
+#define MERGE(status, part, change)                                                         \
+    do {                                                                                    \
+        azulejo_merge_options o = merge_options(0.1);                                       \
+        float xy[3][2] = {{0.1f, 0.1f}, {0.3f, 0.3f}, {0.1f, 0.9f}};                        \
+        float fixed[2][2] = {{0.5f, 0.5f}, {0.75f, 0.5f}};                                  \
+        azulejo_merge_piece pieces[2] = {{xy[0], 3, {0, 0}, {0.5, 1}}, {NULL, 0, {0.5, 0}, {1, 1}}}; \
+        (void)(change);                                                                     \
+        REFUSED(status, part, azulejo_kdrt_merge(one, &o, pieces, 2, fixed[0], 2, &out, &report)); \
+    } while (0)
+    MERGE(INVALID, "radius", o.radius = 0);
+    MERGE(INVALID, "radius", o.radius = NAN);
+    MERGE(INVALID, "radius", (o.domain_min[0] = -1e6, o.domain_max[0] = 1e6)); /* floats are too coarse there */
+    MERGE(INVALID, "domain_min", o.domain_min[1] = NAN);
+    MERGE(INVALID, "domain_max", o.domain_max[0] = 0);
+    MERGE(INVALID, "boundary", o.boundary = 2);
+    MERGE(AZULEJO_ERROR_TOO_LARGE, "radius", o.radius = 8.3461e-7);
+    MERGE(INVALID, "fixed: point 1 is (NaN", fixed[1][0] = NAN);
+    MERGE(INVALID, "fixed: point 0 is (", fixed[0][1] = 1);
+    MERGE(INVALID, "fixed: point 1 is (", fixed[1][1] = -INFINITY);
+    MERGE(INVALID, "fixed: points 0 and 1 are 0.0", fixed[1][0] = 0.5f);
+    MERGE(INVALID, "fixed: points 0 and 1 are 0.0625 apart", fixed[1][0] = 0.5625f);
+    MERGE(INVALID, "fixed: points 0 and 1 are 0.0", (fixed[0][0] = 0.01f, fixed[1][0] = 0.95f)); /* over the seam */
+    MERGE(INVALID, "pieces: [0]: sample 2 is (", xy[2][1] = NAN);
+    MERGE(INVALID, "pieces: [0]: sample 1 is (", xy[1][0] = 0.5f);
+    MERGE(INVALID, "pieces: [0]: samples 0 and 2 are ", xy[2][1] = 0.15f);
+    MERGE(INVALID, "pieces: [1] reaches on axis 0 from 0.5 to 1.5", pieces[1].max[0] = 1.5);
+    MERGE(INVALID, "pieces: [1] reaches on axis 1", pieces[1].min[1] = NAN);
+    MERGE(INVALID, "pieces: [1] reaches on axis 1", pieces[1].max[1] = 0);
+    MERGE(INVALID, "pieces: [0] reaches on axis 1 from 0 to 1, which", o.domain_max[1] = 0.95);
+    MERGE(INVALID, "pieces: the rectangles of [0] and [1] overlap", pieces[1].min[0] = 0.4999999);
+#undef MERGE
+    CHECK(out == UNTOUCHED && memcmp(&report, &before, sizeof report) == 0);
+}
+
+static int32_t stop_at(void *user, double done) { return done >= *(const double *)user; }
+
+static void cancelled(const azulejo_context *context) {
+    double limits[] = {0, 0.2, 0.5, 1};
+    azulejo_points *out = UNTOUCHED;
+    size_t i;
+    for (i = 0; i < COUNT_OF(limits); i++) {
+        azulejo_merge_options options = merge_options(0.002);
+        options.progress = stop_at;
+        options.progress_user = &limits[i];
+        REFUSED(AZULEJO_ERROR_CANCELLED, "cancelled", azulejo_kdrt_merge(context, &options, NULL, 0, NULL, 0, &out, NULL));
+    }
+    CHECK(out == UNTOUCHED);
+}
+
+int main(void) {
+    one = make_context(1);
+    four = make_context(4);
+    four_windows(AZULEJO_BOUNDARY_PERIODIC);
+    four_windows(AZULEJO_BOUNDARY_BOUNDED);
+    all_fixed();
+    nothing_given();
+    pointers();
+    values();
+    cancelled(one);
+    cancelled(four);
+    azulejo_context_free(one);
+    azulejo_context_free(four);
+    return finish();
+}
