@@ -1,12 +1,15 @@
 //! `kdrt` against naive oracles.
 
 mod common;
+#[path = "common/tiled.rs"]
+mod tiled;
 
 use azulejo::kdrt::{DEFAULT_LEAF_SIZE, Options, sample};
 use azulejo::{Boundary, Context, Domain, Error, maximal};
-use common::{BOUNDARIES, check, domain, float_spacing, hard_domains, tiled_radius};
+use common::{BOUNDARIES, check, domain, float_spacing, hard_domains};
 use proptest::prelude::*;
 use std::ops::ControlFlow;
+use tiled::tiled_radius;
 
 fn samples(domain: Domain, radius: f64, leaf_size: f64, seed: u64) -> Vec<[f32; 2]> {
     sample(&Context::new(2).unwrap(), &Options { radius, domain, leaf_size, seed }, None).unwrap()

@@ -4,15 +4,18 @@ mod common;
 #[path = "common/sets.rs"]
 #[allow(dead_code)]
 mod sets;
+#[path = "common/tiled.rs"]
+mod tiled;
 
 use azulejo::kdrt::{DEFAULT_LEAF_SIZE, Options, sample, sample_stream, sample_window};
 use azulejo::{Boundary, Context, Domain, Error};
-use common::{BOUNDARIES, check, domain, find_conflict, find_gap, float_spacing, hard_domains, tiled_radius};
+use common::{BOUNDARIES, check, domain, find_conflict, find_gap, float_spacing, hard_domains};
 use proptest::prelude::*;
 use sets::Random;
 use std::cell::Cell;
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
+use tiled::tiled_radius;
 
 type Rect = ([f64; 2], [f64; 2]);
 

@@ -138,6 +138,8 @@ impl Blocks {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::kdrt::stamp::MOST_CELLS;
+    use crate::maximal::CellAxis;
     use crate::points::Domain;
 
     fn blocks(boundary: Boundary, seed: u64) -> (Lattice, Blocks) {
@@ -168,10 +170,26 @@ mod tests {
             let lattice = Lattice::new(&Domain { min: [0.0; 2], max: [width, 40.0], boundary }, 1.0).unwrap();
             Blocks::fit(&lattice).then(|| Blocks::new(&lattice, 3).counts())
         };
-        assert_eq!(fits(0.1, Boundary::Bounded), Some([1, 7]));
-        assert_eq!(fits(11.3, Boundary::Bounded), Some([1, 7]));
-        assert_eq!((fits(0.1, Boundary::Periodic), fits(11.3, Boundary::Periodic)), (None, None));
-        assert_eq!(fits(11.4, Boundary::Periodic), Some([2, 6]));
+        assert_eq!(fits(0.1, Boundary::Bounded), Some([1, 9]));
+        assert_eq!(fits(4.7, Boundary::Bounded), Some([1, 9]));
+        assert_eq!((fits(0.1, Boundary::Periodic), fits(9.5, Boundary::Periodic)), (None, None));
+        assert_eq!(fits(9.7, Boundary::Periodic), Some([4, 10]));
+    }
+
+    #[test]
+    fn blocks_of_a_plane_touch_no_more_cells_than_a_bitmap_has() {
+        for tenths in (131..400).chain([1000, 3333]) {
+            for boundary in [Boundary::Periodic, Boundary::Bounded] {
+                let (width, seed) = (f64::from(tenths) / 10.0, tenths as u64);
+                let lattice = Lattice::new(&Domain { min: [0.0; 2], max: [width; 2], boundary }, 1.0).unwrap();
+                let (blocks, cells) = (Blocks::new(&lattice, seed), CellAxis::new(lattice.size[0], lattice.radius));
+                for index in 0..blocks.counts[0] {
+                    let (first, end) = (blocks.border(0, index), blocks.border(0, index + 1));
+                    let touched = cells.cell(end - 1) + 1 - cells.cell(first);
+                    assert!(touched <= MOST_CELLS, "{touched} cells of a plane {width} wide");
+                }
+            }
+        }
     }
 
     #[test]
