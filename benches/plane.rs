@@ -1,4 +1,5 @@
-//! The samplers of the plane side by side in one run: times by criterion, then a table of ratios to `maximal`.
+//! The samplers of the plane side by side in one run: times by criterion, then a table of ratios to
+//! `maximal` and one of the stages.
 //!
 //! 10^8 samples are added when the environment variable `AZULEJO_BENCH_LARGE` is set.
 
@@ -18,10 +19,12 @@ fn radius(count: u32) -> f64 {
     (0.69656 / f64::from(count)).sqrt()
 }
 
+fn options(count: u32, leaf_size: f64) -> kdrt::Options {
+    kdrt::Options { radius: radius(count), domain: Domain::unit(Boundary::Periodic), leaf_size, seed: 1 }
+}
+
 fn kdrt(context: &Context, count: u32, leaf_size: f64) -> usize {
-    let domain = Domain::unit(Boundary::Periodic);
-    let options = kdrt::Options { radius: radius(count), domain, leaf_size, seed: 1 };
-    kdrt::sample(context, &options, None).expect("a good domain").len()
+    kdrt::sample(context, &options(count, leaf_size), None).expect("a good domain").len()
 }
 
 fn maximal(context: &Context, count: u32) -> usize {
@@ -29,14 +32,15 @@ fn maximal(context: &Context, count: u32) -> usize {
     maximal::sample(context, &options, None).expect("a good domain").len()
 }
 
-/// What a call takes per sample at least, in a few attempts: noise only adds.
-fn least_time_per_sample(call: impl Fn() -> usize) -> Duration {
+/// What a call takes per sample at least, in ns, in a few attempts: noise only adds.
+fn least_time_per_sample(mut call: impl FnMut() -> usize) -> f64 {
     let attempt = |_| {
         let start = Instant::now();
         let samples = black_box(call());
-        start.elapsed().div_f64(samples as f64)
+        // A duration has whole nanoseconds, which are too coarse for a sample.
+        start.elapsed().as_secs_f64() * 1e9 / samples as f64
     };
-    (0..3).map(attempt).min().expect("three attempts")
+    (0..3).map(attempt).fold(f64::INFINITY, f64::min)
 }
 
 fn plane(criterion: &mut Criterion) {
@@ -58,6 +62,7 @@ fn plane(criterion: &mut Criterion) {
         group.finish();
     }
     print_ratios(&contexts, &counts);
+    print_stages(&counts);
 }
 
 fn print_ratios(contexts: &[Context; 2], counts: &[u32]) {
@@ -65,18 +70,41 @@ fn print_ratios(contexts: &[Context; 2], counts: &[u32]) {
     println!("{:>10} {:>8} {:>10} {:>14} {:>10}", "samples", "leaf", "ns/sample", "times maximal", "threads");
     for &count in counts {
         let reference = least_time_per_sample(|| maximal(&contexts[0], count.min(MOST_MAXIMAL)));
-        println!("{:>10} {:>8} {:>10.1}", count.min(MOST_MAXIMAL), "maximal", reference.as_secs_f64() * 1e9);
+        println!("{:>10} {:>8} {:>10.1}", count.min(MOST_MAXIMAL), "maximal", reference);
         for leaf_size in LEAF_SIZES {
             let [one, all] = [0, 1].map(|i: usize| least_time_per_sample(|| kdrt(&contexts[i], count, leaf_size)));
-            let ratio = |slow: Duration, fast: Duration| slow.as_secs_f64() / fast.as_secs_f64();
             println!(
                 "{count:>10} {:>8} {:>10.1} {:>14.1} {:>10}",
                 format!("{leaf_size}r"),
-                one.as_secs_f64() * 1e9,
-                ratio(reference, one),
-                format!("{threads}: x{:.2}", ratio(one, all)),
+                one,
+                reference / one,
+                format!("{threads}: x{:.2}", one / all),
             );
         }
+    }
+}
+
+/// Where the time of one thread goes, in ns per sample, and what copying the samples takes.
+fn print_stages(counts: &[u32]) {
+    let stages = ["pattern", "divide", "clip", "eliminate", "fill", "output", "memcpy", "sum / memcpy"];
+    print!("{:>10} {:>8}", "samples", "leaf");
+    stages.iter().for_each(|stage| print!(" {stage:>12}"));
+    println!();
+    for (&count, leaf_size) in counts.iter().flat_map(|count| LEAF_SIZES.map(|leaf_size| (count, leaf_size))) {
+        let stages = kdrt::measure(&options(count, leaf_size)).expect("a good domain");
+        let per_sample = |time: Duration| time.as_secs_f64() * 1e9 / stages.samples as f64;
+        let kdrt::Stages { pattern, divide, clip, eliminate, fill, output, .. } = stages;
+        let times = [pattern, divide, clip, eliminate, fill, output].map(per_sample);
+        let source = vec![[0.5f32; 2]; stages.samples as usize];
+        let mut target = source.clone();
+        let copy = least_time_per_sample(|| {
+            target.copy_from_slice(black_box(&source));
+            target.len()
+        });
+        print!("{count:>10} {:>8}", format!("{leaf_size}r"));
+        times.iter().for_each(|time| print!(" {time:>12.2}"));
+        println!(" {copy:>12.2} {:>12.0}", times.iter().sum::<f64>() / copy);
+        black_box(&target);
     }
 }
 

@@ -46,6 +46,24 @@ struct Rows {
     points: Vec<[i32; 2]>,
 }
 
+impl Rows {
+    fn new(points: &[[i32; 2]], rows: usize, height: i32) -> Self {
+        let row = |point: &[i32; 2]| (point[1] / height) as usize;
+        let mut starts = vec![0; rows + 1];
+        points.iter().for_each(|point| starts[row(point) + 1] += 1);
+        (0..rows).for_each(|row| starts[row + 1] += starts[row]);
+        let (mut ends, mut by_row) = (starts.clone(), vec![[0; 2]; points.len()]);
+        for point in points {
+            by_row[ends[row(point)]] = *point;
+            ends[row(point)] += 1;
+        }
+        for bounds in starts.windows(2) {
+            by_row[bounds[0]..bounds[1]].sort_unstable_by_key(|&[x, y]| i64::from(x) << 32 | i64::from(y));
+        }
+        Self { starts, points: by_row }
+    }
+}
+
 /// A run of points of one row of the pattern, from left to right, where it is laid on the plane.
 pub(super) struct Row<'a> {
     points: &'a [[i32; 2]],
@@ -92,11 +110,8 @@ impl Pattern {
 
     fn from_points(points: Vec<[i32; 2]>, side: i32, height: i32) -> Self {
         let turned = std::array::from_fn(|turn| {
-            let mut points: Vec<_> = points.iter().map(|&point| turned(point, side, turn)).collect();
-            points.sort_unstable_by_key(|&[x, y]| (y / height, x, y));
-            let rows = (side - 1) / height + 1;
-            let starts = (0..=rows).map(|row| points.partition_point(|point| point[1] / height < row)).collect();
-            Rows { starts, points }
+            let turned: Vec<_> = points.iter().map(|&point| turned(point, side, turn)).collect();
+            Rows::new(&turned, ((side - 1) / height + 1) as usize, height)
         });
         Self { side, height, turned }
     }
