@@ -136,10 +136,9 @@ impl Pattern {
                 let (row_bottom, row_top) = (row * self.height, ((row + 1) * self.height).min(self.side));
                 let (bottom, top) = (bottom.max(row_bottom), top.min(row_top));
                 for &(left, right, along) in pieces[0].iter().filter(|(left, right, _)| left < right) {
-                    let first = points.partition_point(|point| point[0] < left);
-                    let count = points[first..].partition_point(|point| point[0] < right);
+                    let [first, end] = [left, right].map(|x| self.first_from(points, x));
                     visit(Row {
-                        points: &points[first..first + count],
+                        points: &points[first..end],
                         shift: [along, up],
                         part: Rect { min: [left, bottom], max: [right, top] }.translated([along, up]),
                         is_whole: (bottom, top) == (row_bottom, row_top),
@@ -147,6 +146,19 @@ impl Pattern {
                 }
             }
         }
+    }
+
+    /// The first point of a row that does not lie left of `x`. Points of a row are so even that it is near where it would
+    /// be if they were equidistant: quicker found than by bisection.
+    fn first_from(&self, row: &[[i32; 2]], x: i32) -> usize {
+        let mut index = (x as u64 * row.len() as u64 / self.side as u64) as usize;
+        while index > 0 && row[index - 1][0] >= x {
+            index -= 1;
+        }
+        while index < row.len() && row[index][0] < x {
+            index += 1;
+        }
+        index
     }
 
     /// The points of the leaf's clip that lie in `part`.
