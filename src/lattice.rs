@@ -41,8 +41,8 @@ impl Rect {
 
     pub fn intersection(&self, other: &Self) -> Self {
         Self {
-            min: std::array::from_fn(|axis| self.min[axis].max(other.min[axis])),
-            max: std::array::from_fn(|axis| self.max[axis].min(other.max[axis])),
+            min: [self.min[0].max(other.min[0]), self.min[1].max(other.min[1])],
+            max: [self.max[0].min(other.max[0]), self.max[1].min(other.max[1])],
         }
     }
 
@@ -180,7 +180,8 @@ impl Lattice {
 
     /// The coordinates of a lattice point of the domain: exact.
     pub fn position(&self, point: [i32; 2]) -> [f32; 2] {
-        std::array::from_fn(|axis| (self.origin[axis] + f64::from(point[axis]) * self.unit) as f32)
+        let along = |axis: usize| (self.origin[axis] + f64::from(point[axis]) * self.unit) as f32;
+        [along(0), along(1)]
     }
 
     /// The lattice point with these coordinates, which are those of one: the inverse of [`Lattice::position`].

@@ -85,9 +85,10 @@ impl CellGrid {
 
     /// The lattice points of a cell.
     #[inline(always)]
-    pub fn rect(&self, cell: [i32; 2]) -> Rect {
-        let border = |shift| std::array::from_fn(|axis| self.borders[axis][(cell[axis] + shift) as usize]);
-        Rect { min: border(0), max: border(1) }
+    pub fn rect(&self, [x, y]: [i32; 2]) -> Rect {
+        let [columns, rows] = &self.borders;
+        let (x, y) = (x as usize, y as usize);
+        Rect { min: [columns[x], rows[y]], max: [columns[x + 1], rows[y + 1]] }
     }
 
     /// The border before a part of a column (axis 0) or row (axis 1) of cells that is cut in `parts`.
@@ -99,16 +100,20 @@ impl CellGrid {
 
     /// The cell of a lattice point of the grid.
     #[inline(always)]
-    pub fn cell(&self, point: [i32; 2]) -> [i32; 2] {
-        std::array::from_fn(|axis| {
-            let borders = &self.borders[axis];
-            let mut cell = (f64::from(point[axis] - borders[0]) * self.cells_per_unit[axis]) as usize;
-            // The quotient ignores that the first border is rounded: it may be one off.
-            cell = cell.min(borders.len() - 2);
-            cell -= usize::from(borders[cell] > point[axis]);
-            cell += usize::from(borders[cell + 1] <= point[axis]);
-            cell as i32
-        })
+    pub fn cell(&self, [x, y]: [i32; 2]) -> [i32; 2] {
+        [self.cell_along(0, x), self.cell_along(1, y)]
+    }
+
+    /// The column (axis 0) or row (axis 1) of cells that holds a coordinate.
+    #[inline(always)]
+    fn cell_along(&self, axis: usize, x: i32) -> i32 {
+        let borders = &self.borders[axis];
+        let mut cell = (f64::from(x - borders[0]) * self.cells_per_unit[axis]) as usize;
+        // The quotient ignores that the first border is rounded: it may be one off.
+        cell = cell.min(borders.len() - 2);
+        cell -= usize::from(borders[cell] > x);
+        cell += usize::from(borders[cell + 1] <= x);
+        cell as i32
     }
 
     /// The vectors that the grid works with.
