@@ -480,14 +480,14 @@ azulejo_status azulejo_kdrt_sample_with_report(const struct azulejo_context *con
 ///
 /// So windows that cut the domain in any way have every sample once, and can be made in any order, by threads,
 /// processes and machines that know nothing of each other. What lies in a window depends on nothing farther from it
-/// than 37 radii along x and 29 along y, on domains of more than 200 radii not farther than 28 and 22.
+/// than 22 radii along x and 18 along y.
 ///
 /// window_min, window_max: two numbers each, domain_min <= window_min < window_max <= domain_max; the window has the
 /// samples with window_min <= x < window_max. It may be smaller than the radius, and may turn out to have no sample.
 ///
 /// out: the samples, x y each, to be freed with azulejo_points_free.
 ///
-/// O(samples of the window and around it) time and memory, after the making of the pattern (about 8000 samples with the
+/// O(samples of the window and around it) time and memory, after the making of the pattern (about 28000 samples with the
 /// default leaves), which every call repeats. A domain that is not tiled is made as a whole.
 ///
 /// Errors: as azulejo_kdrt_sample, but AZULEJO_ERROR_TOO_LARGE for the samples of the window: the domain may have as

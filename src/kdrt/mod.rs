@@ -75,7 +75,8 @@ pub struct Options {
 /// * The same for every number of threads.
 /// * Its only bias is at the seams: somewhat more samples than an unbiased set, the fewer the larger the leaves.
 ///
-/// O(n) for n samples, after the making of a pattern of 108 radii or 4 leaf sizes, whichever is longer. A domain of
+/// O(n) for n samples, after the making of a pattern, whose side is 10 leaf sizes, but at least 108 radii and at most 200
+/// radii or 4 leaf sizes, whichever is longer: about 28,000 samples with leaves of the default size. A domain of
 /// less area than the pattern, or narrower than about two of the smallest leaves (13 radii), is not tiled: it is
 /// given to [`crate::maximal`], on one thread.
 ///

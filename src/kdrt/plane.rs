@@ -2,7 +2,7 @@
 //!
 //! A window is a rectangle of fill blocks. Its samples are a function of the plane's options and the window's place
 //! alone: it is made from the leaves that meet it and a margin around it, in memory of its own, whatever else is made
-//! or not. The margin is at most 2 blocks (20 radii) to the left and right and 1 (10 radii) above and below for the
+//! or not. The margin is 2 blocks (at most 11 radii) to the left and right and 1 (6 radii) above and below for the
 //! phases of filling, and 5 radii for the chains of elimination around what the filling sees.
 
 #[cfg(test)]
@@ -288,7 +288,7 @@ mod tests {
                     for axis in 0..2 {
                         let radii = |length: i32| f64::from(length) / plane.lattice.radius;
                         let size = radii(plane.lattice.size[axis]);
-                        let documented = if size > 200.0 { [28.0, 22.0] } else { [37.0, 29.0] }[axis];
+                        let documented = [22.0, 18.0][axis];
                         let farthest = (held.max[axis] - known.min[axis]).max(known.max[axis] - held.min[axis]);
                         // Around a torus nothing is farther away than half of it.
                         let limit = if boundary == Boundary::Periodic { size / 2.0 } else { size };

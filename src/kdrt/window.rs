@@ -22,12 +22,12 @@ use super::{BYTES_PER_SAMPLE, Options, PATTERN_SHARE, check_leaf_size};
 ///
 /// # What a window depends on
 /// Beyond its options a window depends only on its surroundings, as tiled: whether and where a sample lies is decided
-/// by the leaves' points within 37 radii along x and 29 along y, on domains of more than 200 radii within 28 and 22.
+/// by the leaves' points within 22 radii along x and 18 along y.
 /// These are its fill block with two more along x and one along y, for the phases of filling, and 5 radii for the
 /// chains of elimination.
 ///
 /// O(n) in time and memory for the n samples of the window and those around it, after the making of the pattern, which
-/// is the same for every window (about 8,000 samples with leaves of up to 27 radii). The domain may have any number
+/// is the same for every window (about 28,000 samples with leaves of the default size). The domain may have any number
 /// of samples that floats can carry: up to about 10^11 around the origin. One that is not tiled is made as a whole.
 ///
 /// # Errors
