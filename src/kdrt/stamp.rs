@@ -124,6 +124,7 @@ impl<'a> Bitmap<'a> {
             #[cfg(target_arch = "x86_64")]
             Vectors::Avx512 => unsafe { self.stamp_all_avx512(samples) },
             #[cfg(target_arch = "x86_64")]
+            // SAFETY: the same.
             Vectors::Avx2 => unsafe { self.stamp_all_avx2(samples) },
             Vectors::Portable => samples.iter().for_each(|&sample| self.stamp(sample)),
         }
