@@ -160,9 +160,8 @@ impl CellGrid {
     /// Gathers the samples that cover something of a cell, for the coarse tests.
     #[inline(always)]
     pub(super) fn gather(&self, cell: [i32; 2], near: &mut Near) {
-        let rect = self.rect(cell);
-        (near.origin, near.count, near.limit) = (rect.min, 0, self.certain());
-        self.vectors.gather(near, &self.rows_near(cell), &rect, self.threshold as f32);
+        near.limit = self.certain();
+        self.vectors.gather(near, &self.rows_near(cell), self.rect(cell), self.threshold as f32);
     }
 
     /// [`Near::uncovered`].

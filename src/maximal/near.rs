@@ -76,8 +76,9 @@ impl Near {
         Self { origin: [0; 2], x: [FAR; MOST_NEAR + LANES], y: [FAR; MOST_NEAR + LANES], count: 0, limit: 0.0 }
     }
 
-    /// Adds the samples of the rows that are closer than the square root of `threshold` to the lattice points of `cell`.
-    pub fn gather(&mut self, rows: &Rows, cell: &Rect, threshold: f32) {
+    /// Takes the samples of the rows that are closer than the square root of `threshold` to the lattice points of `cell`.
+    pub fn gather(&mut self, rows: &Rows, cell: Rect, threshold: f32) {
+        (self.origin, self.count) = (cell.min, 0);
         let [width, height] = [0, 1].map(|axis| (cell.length(axis) - 1) as f32);
         for [xs, ys] in rows.iter() {
             for (x, y) in xs.iter().zip(ys) {
@@ -188,7 +189,7 @@ mod tests {
 
                 let mut near = Near::new();
                 near.limit = threshold as f32 * (1.0 - SLACK);
-                near.gather(&rows(&samples), &cell, threshold as f32);
+                near.gather(&rows(&samples), cell, threshold as f32);
                 if near.count == MOST_NEAR {
                     continue; // Random points stand closer than samples do.
                 }
@@ -233,8 +234,8 @@ mod tests {
 
                     let [mut found, mut expected] = [Near::new(), Near::new()];
                     (found.limit, expected.limit) = (threshold, threshold);
-                    vectors.gather(&mut found, &rows, &cell, threshold);
-                    expected.gather(&rows, &cell, threshold);
+                    vectors.gather(&mut found, &rows, cell, threshold);
+                    expected.gather(&rows, cell, threshold);
                     assert_eq!(found.count, expected.count);
                     let (voxel, width) = random_voxel(&mut rng, side);
                     assert_eq!(vectors.uncovered(&found, &voxel, width), expected.uncovered(&voxel, width));

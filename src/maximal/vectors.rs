@@ -60,7 +60,7 @@ impl Vectors {
 
     /// [`Near::gather`].
     #[inline]
-    pub(super) fn gather(self, near: &mut Near, rows: &Rows, cell: &Rect, threshold: f32) {
+    pub(super) fn gather(self, near: &mut Near, rows: &Rows, cell: Rect, threshold: f32) {
         match self {
             Self::Portable => near.gather(rows, cell, threshold),
             // SAFETY: the variant says that the processor has the vectors.

@@ -66,10 +66,11 @@ pub(super) fn push(near: &mut Near, lanes: [__m256; 2], count: u32) {
 
 /// [`Near::gather`].
 #[target_feature(enable = "avx2,popcnt")]
-pub fn gather(near: &mut Near, rows: &Rows, cell: &Rect, threshold: f32) {
+pub fn gather(near: &mut Near, rows: &Rows, cell: Rect, threshold: f32) {
+    (near.origin, near.count) = (cell.min, 0);
     let end = [(cell.length(0) - 1) as f32, (cell.length(1) - 1) as f32];
     for row in rows.iter() {
-        let (positions, covers) = covering(row, near.origin, end, threshold);
+        let (positions, covers) = covering(row, cell.min, end, threshold);
         let covers = _mm256_movemask_ps(covers) as u32;
         let order = _mm256_cvtepi8_epi32(_mm_cvtsi64_si128(LANES_TO_FRONT[covers as usize]));
         let [x, y] = positions;

@@ -9,10 +9,11 @@ use super::avx2::{covering, push};
 
 /// [`Near::gather`].
 #[target_feature(enable = "avx2,avx512f,avx512vl,popcnt")]
-pub fn gather(near: &mut Near, rows: &Rows, cell: &Rect, threshold: f32) {
+pub fn gather(near: &mut Near, rows: &Rows, cell: Rect, threshold: f32) {
+    (near.origin, near.count) = (cell.min, 0);
     let end = [(cell.length(0) - 1) as f32, (cell.length(1) - 1) as f32];
     for row in rows.iter() {
-        let (positions, covers) = covering(row, near.origin, end, threshold);
+        let (positions, covers) = covering(row, cell.min, end, threshold);
         let covers = _mm256_movemask_ps(covers) as u8;
         let [x, y] = positions;
         let far = _mm256_set1_ps(FAR);
