@@ -88,6 +88,18 @@ fn windows_of_hard_domains_are_parts_of_the_whole() {
     }
 }
 
+/// Cells are as wide as the lattice allows, so a few are a lattice point wider than the others: a window need not have any.
+#[test]
+fn windows_without_the_widest_cells_are_parts_of_the_whole() {
+    let domain = domain([0.0; 2], [0.44543627703057015, 0.024653297013654124], Boundary::Bounded);
+    let options = Options { radius: 0.0008558173968672642, domain, leaf_size: 6.0, seed: 379135351191757 };
+    let (whole, mut random) = (whole(&options), Random::new(6));
+    for _ in 0..40 {
+        let rect = random_window(&mut random, &domain);
+        assert!(window(&options, rect) == part_of(&whole, rect), "{rect:?}");
+    }
+}
+
 #[test]
 fn windows_of_large_leaves_are_parts_of_the_whole() {
     let mut random = Random::new(2);

@@ -21,7 +21,7 @@ pub(crate) struct CellGrid {
     /// Borders of the cells of each axis, one more than cells.
     borders: [Vec<i32>; 2],
     cells_per_unit: [f64; 2],
-    /// The longest side of a cell.
+    /// The longest side of a cell of the plane.
     widest_cell: i32,
     margin: [i32; 2],
     /// Cells of a row, with its margins.
@@ -47,9 +47,9 @@ impl CellGrid {
         let margin = [0, 1].map(|axis| axes[axis].cells_within(reach));
         debug_assert!(margin.into_iter().all(|cells| cells <= MAX_MARGIN));
         let [width, height] = [0, 1].map(|axis| borders[axis].len() - 1 + 2 * margin[axis] as usize);
-        let sides = borders.iter().flat_map(|borders| borders.windows(2).map(|pair| pair[1] - pair[0]));
         Self {
-            widest_cell: sides.max().unwrap_or(1),
+            // That of the plane, whether this grid has such a cell or not: what is thrown must not depend on the window.
+            widest_cell: axes[0].side().max(axes[1].side()).ceil() as i32,
             cells_per_unit: [0, 1].map(|axis: usize| 1.0 / axes[axis].side()),
             samples: [0, 1].map(|_| vec![NOWHERE; width * height + LANES]),
             stride: width,
@@ -73,7 +73,7 @@ impl CellGrid {
         [0, 1].map(|axis: usize| self.borders[axis].len() as i32 - 1)
     }
 
-    /// The longest side of a cell, in lattice points.
+    /// The longest side of a cell of the plane, in lattice points.
     pub fn widest_cell(&self) -> i32 {
         self.widest_cell
     }
