@@ -21,12 +21,14 @@ use crate::job::{Context, Job, Progress};
 use crate::mesh::{Mesh, exact};
 use crate::points::{SurfaceSamples, check_radius};
 
+mod blocks;
 mod coverage;
 mod fill;
 mod merge;
 mod pattern;
 mod pieces;
 mod projector;
+mod room;
 mod samples;
 
 pub use fill::TOLERANCE;
@@ -200,8 +202,9 @@ impl Psp {
             let (seed, iteration) = (self.seed, self.iterations);
             let frame = projector::frame(seed, iteration, self.frame);
             let shift = |axis| projector::shift(seed, iteration, axis);
-            let projected = projection.project(&job.part(0.0, 0.7), frame, &self.mesh, &self.samples, shift)?;
-            let accepted = self.samples.merge(&job.part(0.7, 1.0), &projected.candidates)? as u64;
+            let (candidates, projected) =
+                projection.project(&job.part(0.0, 0.7), frame, &self.mesh, &self.samples, shift)?;
+            let accepted = merge::merge(&job.part(0.7, 1.0), &mut self.samples, &candidates)?;
             self.iterations += 1;
             self.frame = Some(frame);
 
