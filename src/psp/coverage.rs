@@ -6,12 +6,12 @@
 //! asked in `f32`, of all sixteen at once, in a form that compilers vectorise; its slack only delays a decision, since
 //! what it keeps is looked at again in smaller parts, down to the exact test of a single point (`fill.rs`).
 
-use glam::{DVec2, DVec3};
+use glam::{DVec2, DVec3, Vec3};
 
 use crate::mesh::Mesh;
 use crate::psp::room::Room;
 
-/// How much, in radii, rounding can add to a distance, and some more: sums of a few terms below 9, each of them off by
+/// How much, in radii, rounding can add to a distance, and some more: sums of a few terms below 20, each of them off by
 /// 2^-24 of its size.
 const SLACK: f64 = 1e-5;
 
@@ -147,38 +147,58 @@ const CENTRES: [[f32; 16]; 2] = {
     centres
 };
 
-/// A search for uncovered surface in one room.
+/// How much farther, in radii, samples are gathered than a fragment needs: its neighbours will need them too.
+const SPARE: f64 = 1.0;
+
+/// A search for uncovered surface in one room, to which nothing is added meanwhile.
 pub(super) struct Coverage<'a> {
     mesh: &'a Mesh,
+    room: &'a Room,
     radius: f64,
     /// Patches with some sixteenths covered are cut up until these are no longer than this ...
     fine: f64,
     /// ... or the patch is no longer than this.
     finest: f64,
-    /// Samples that can reach the fragment in question, behind those of the fragments that it is a part of.
-    nearby: Vec<DVec3>,
+    /// Where samples were gathered, and how far around.
+    centre: DVec3,
+    reach: f64,
+    /// The samples gathered, as seen from the centre, in radii. Behind them, for each fragment that contains the one in
+    /// question, those that can reach it.
+    nearby: Vec<Vec3>,
 }
 
 impl<'a> Coverage<'a> {
-    pub fn new(mesh: &'a Mesh, radius: f64, fine: f64, finest: f64) -> Self {
-        Self { mesh, radius, fine, finest, nearby: Vec::new() }
+    pub fn new(mesh: &'a Mesh, room: &'a Room, fine: f64, finest: f64) -> Self {
+        let (radius, centre, reach) = (room.radius(), DVec3::ZERO, f64::NEG_INFINITY);
+        Self { mesh, room, radius, fine, finest, centre, reach, nearby: Vec::new() }
     }
 
     /// Appends the uncovered parts of a fragment, in fixed order.
-    pub fn search(&mut self, room: &Room, fragment: &Fragment, uncovered: &mut Vec<Patch>) {
+    pub fn search(&mut self, fragment: &Fragment, uncovered: &mut Vec<Patch>) {
         let shape = fragment.shape(self.mesh);
-        self.nearby.clear();
-        room.near(shape.centre, self.radius + shape.extent, &mut self.nearby);
+        self.gather(&shape);
         self.descend(fragment, &shape, 0, uncovered);
     }
 
     /// Appends the parts of a patch that are still uncovered.
-    pub fn refine(&mut self, room: &Room, patch: &Patch, uncovered: &mut Vec<Patch>) {
+    pub fn refine(&mut self, patch: &Patch, uncovered: &mut Vec<Patch>) {
         let shape = patch.fragment.shape(self.mesh);
-        self.nearby.clear();
-        room.near(shape.centre, self.radius + shape.extent, &mut self.nearby);
+        self.gather(&shape);
+        let start = self.nearby.len();
         let open = patch.open & self.open_sixteenths(&shape, 0);
-        self.descend_into(&patch.fragment, &shape, open, 0, uncovered);
+        self.descend_into(&patch.fragment, &shape, open, start, uncovered);
+        self.nearby.truncate(start);
+    }
+
+    /// Sees to it that `nearby` holds the samples that can reach a fragment, and others.
+    fn gather(&mut self, shape: &Shape) {
+        let reach = self.radius + shape.extent;
+        if self.reach < reach + self.centre.distance(shape.centre) {
+            (self.centre, self.reach) = (shape.centre, reach + SPARE * self.radius);
+            self.nearby.clear();
+            let (nearby, per_radius) = (&mut self.nearby, 1.0 / self.radius);
+            self.room.near(self.centre, self.reach, |offset| nearby.push((offset * per_radius).as_vec3()));
+        }
     }
 
     /// `nearby[from..]` holds the samples that can reach the fragment, and others.
@@ -203,19 +223,24 @@ impl<'a> Coverage<'a> {
     /// The sixteenths that no single sample in `nearby[from..]` certainly covers. Appends those that can reach them.
     fn open_sixteenths(&mut self, shape: &Shape, from: usize) -> u16 {
         let per_radius = 1.0 / self.radius;
-        let (centre, extent) = (shape.centre, shape.extent * per_radius);
-        let [e, f] = [1, 2].map(|i| (shape.corners[i] - shape.corners[0]) * per_radius).map(|edge| edge.as_vec3());
+        let extent = shape.extent * per_radius;
+        let in_radii = |vector: DVec3| (vector * per_radius).as_vec3();
+        let centre = in_radii(shape.centre - self.centre);
+        let [e, f] = [1, 2].map(|i| in_radii(shape.corners[i] - shape.corners[0]));
         let reach = ((1.0 + extent) * (1.0 + extent) + SLACK) as f32;
-        let mut nearest = [f32::INFINITY; 16];
-        for index in from..self.nearby.len() {
+        // All are copied, and those that reach it overwrite the others: a branch would be a guess.
+        let (start, mut end) = (self.nearby.len(), self.nearby.len());
+        self.nearby.resize(2 * start - from, Vec3::ZERO);
+        for index in from..start {
             let sample = self.nearby[index];
-            let offset = ((sample - centre) * per_radius).as_vec3();
-            let squared = offset.length_squared();
-            if squared > reach {
-                continue;
-            }
-            self.nearby.push(sample);
-            let [a, b] = [e, f].map(|edge| -2.0 * offset.dot(edge));
+            self.nearby[end] = sample;
+            end += usize::from((sample - centre).length_squared() <= reach);
+        }
+        self.nearby.truncate(end);
+        let mut nearest = [f32::INFINITY; 16];
+        for &sample in &self.nearby[start..] {
+            let offset = sample - centre;
+            let (squared, a, b) = (offset.length_squared(), -2.0 * offset.dot(e), -2.0 * offset.dot(f));
             for i in 0..16 {
                 let d2 = squared + (a * CENTRES[0][i] + b * CENTRES[1][i]);
                 nearest[i] = if d2 < nearest[i] { d2 } else { nearest[i] };
@@ -223,10 +248,12 @@ impl<'a> Coverage<'a> {
         }
         let limit = (1.0 - 0.25 * extent - SLACK).max(0.0);
         let limit = (limit * limit) as f32;
+        let (ee, ef, ff) = (e.length_squared(), 2.0 * e.dot(f), f.length_squared());
         let mut open = 0;
         for i in 0..16 {
-            let centre = CENTRES[0][i] * e + CENTRES[1][i] * f;
-            open |= u16::from(nearest[i] + centre.length_squared() >= limit) << i;
+            let (s, t) = (CENTRES[0][i], CENTRES[1][i]);
+            let d2 = nearest[i] + (s * s * ee + s * t * ef + t * t * ff);
+            open |= u16::from(d2 >= limit) << i;
         }
         open
     }

@@ -59,9 +59,9 @@ fn fill_block(
     pieces: &mut dyn Iterator<Item = &Fragment>,
 ) -> (Vec<Sample>, u64) {
     let spacing = float_spacing(mesh);
-    let mut coverage = Coverage::new(mesh, radius, FINE * radius, spacing);
     let (mut open, mut next) = (Vec::new(), Vec::new());
-    pieces.for_each(|piece| coverage.search(room, piece, &mut open));
+    let mut coverage = Coverage::new(mesh, room, FINE * radius, spacing);
+    pieces.for_each(|piece| coverage.search(piece, &mut open));
     let (mut accepted, mut darts) = (Vec::new(), 0);
     while !open.is_empty() {
         darts += open.len() as u64;
@@ -73,7 +73,8 @@ fn fill_block(
             }
         }
         // A dart into the centre of a patch decides about all of it.
-        open.iter().filter(|patch| patch.longest > spacing).for_each(|patch| coverage.refine(room, patch, &mut next));
+        let mut coverage = Coverage::new(mesh, room, FINE * radius, spacing);
+        open.iter().filter(|patch| patch.longest > spacing).for_each(|patch| coverage.refine(patch, &mut next));
         std::mem::swap(&mut open, &mut next);
         next.clear();
     }

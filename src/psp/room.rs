@@ -3,11 +3,12 @@
 use glam::DVec3;
 
 use crate::grid3::distance_squared;
+use crate::mesh::exact;
 use crate::psp::blocks::{Block, SIDE};
 
-/// How far a room reaches beyond its block, in radii. Whatever a block looks at is within a radius of a fragment whose
-/// centre is in the block: no farther than 1 + 4/3 radii from it.
-const HALO: u32 = 3;
+/// How far a room reaches beyond its block, in radii. A block looks at what is near to fragments whose centre is in it:
+/// within a radius, the extent of the fragment, at most 4/3, and one more for its neighbours.
+const HALO: u32 = 4;
 /// The side of a cell in radii.
 const CELL: u32 = 2;
 /// Cells along an axis.
@@ -42,6 +43,10 @@ impl Room {
         }
     }
 
+    pub fn radius(&self) -> f64 {
+        self.radius
+    }
+
     /// The cell along an axis, too low or too high outside the room.
     fn cell(&self, axis: usize, x: f64) -> i32 {
         let cells = (x - self.origin[axis]) * self.per_unit;
@@ -67,12 +72,12 @@ impl Room {
         self.any_in_reach(point.map(f64::from), self.radius, |other| distance_squared(point, other) < squared)
     }
 
-    /// Appends the points within a distance of a point.
-    pub fn near(&self, centre: DVec3, distance: f64, found: &mut Vec<DVec3>) {
+    /// Visits the points within a distance of a point, as seen from there.
+    pub fn near(&self, centre: DVec3, distance: f64, mut visit: impl FnMut(DVec3)) {
         self.any_in_reach(centre.to_array(), distance, |point| {
-            let point = DVec3::from_array(point.map(f64::from));
-            if point.distance_squared(centre) <= distance * distance {
-                found.push(point);
+            let offset = exact(point) - centre;
+            if offset.length_squared() <= distance * distance {
+                visit(offset);
             }
             false
         });
@@ -114,24 +119,24 @@ mod tests {
             let side = f64::from(SIDE) * radius;
             let corner: [f64; 3] = std::array::from_fn(|axis| origin[axis] + f64::from(block.0[axis]) * side);
             let mut rng = Rng::at(5, Draw::Probe, &[]);
-            // Up to three radii outside the block, and some farther out.
+            // In the room and outside.
             let mut point = |margin: f64| -> [f32; 3] {
                 corner.map(|x| (x - margin * radius + (side + 2.0 * margin * radius) * rng.unit()) as f32)
             };
             let mut room = Room::new(block, origin, radius);
             let mut points: Vec<[f32; 3]> = Vec::new();
             for _ in 0..4000 {
-                let new = point(3.5);
+                let new = point(4.5);
                 room.add(new);
                 points.push(new);
-                let centre = point(1.33);
+                let centre = point(1.05);
                 let close = |other: &&[f32; 3]| distance_squared(centre, **other) < radius * radius;
                 assert_eq!(room.rejects(centre), points.iter().any(|other| close(&other)));
-                let (exact, reach) = (DVec3::from_array(centre.map(f64::from)), 1.6 * radius);
+                let (around, reach) = (exact(centre), 2.9 * radius);
                 let mut found = Vec::new();
-                room.near(exact, reach, &mut found);
-                let expected = points.iter().map(|other| DVec3::from_array(other.map(f64::from)));
-                let mut expected: Vec<_> = expected.filter(|p| p.distance_squared(exact) <= reach * reach).collect();
+                room.near(around, reach, |offset| found.push(offset));
+                let expected = points.iter().map(|&other| exact(other) - around);
+                let mut expected: Vec<_> = expected.filter(|p| p.length_squared() <= reach * reach).collect();
                 let by_place = |a: &DVec3, b: &DVec3| a.to_array().partial_cmp(&b.to_array()).unwrap();
                 found.sort_by(by_place);
                 expected.sort_by(by_place);
