@@ -258,3 +258,50 @@ impl<'a> Coverage<'a> {
         open
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::psp::blocks::Block;
+    use crate::rng::{Draw, Rng};
+
+    /// Against exact distances to the corners of every sixteenth: what is covered by no single sample is kept, and what
+    /// is covered with room for its extent is dropped. The sixteenths together are the fragment.
+    #[test]
+    fn only_covered_sixteenths_are_dropped_and_all_that_are_well_covered() {
+        let mut rng = Rng::at(2, Draw::Probe, &[]);
+        let (mut kept, mut dropped) = (0, 0);
+        for round in 0..3000 {
+            let size = [1.0, 0.1, 1e-3][round % 3];
+            let mut corner = || std::array::from_fn(|_| (8.0 + size * rng.unit()) as f32);
+            let mesh = Mesh::new(vec![corner(), corner(), corner()], vec![[0, 1, 2]]).unwrap();
+            let mut room = Room::new(Block([0; 3]), [0.0; 3], 1.0);
+            for _ in 0..6 {
+                let sample: [f32; 3] = std::array::from_fn(|_| (8.0 - 1.2 + 2.4 * rng.unit()) as f32);
+                room.add(sample);
+            }
+            let (whole, mut samples) = (Fragment::whole(0), Vec::new());
+            let shape = whole.shape(&mesh);
+            room.near(shape.centre, 5.0, |offset| samples.push(shape.centre + offset));
+            let mut coverage = Coverage::new(&mesh, &room, 0.1, 0.0);
+            coverage.gather(&shape);
+            let open = coverage.open_sixteenths(&shape, 0);
+            for index in 0..16 {
+                let part = whole.sixteenth(index).shape(&mesh);
+                assert!(part.centre.distance(shape.sixteenth(index).centre) < 1e-12);
+                assert!((part.extent / shape.sixteenth(index).extent - 1.0).abs() < 1e-9);
+                assert!((16.0 * whole.sixteenth(index).area(&mesh) / mesh.area() - 1.0).abs() < 1e-9);
+                let farthest =
+                    |sample: &DVec3| part.corners.map(|c| c.distance(*sample)).into_iter().fold(0.0, f64::max);
+                let is_covered = samples.iter().any(|sample| farthest(sample) < 1.0);
+                let well = samples.iter().any(|sample| sample.distance(part.centre) + part.extent < 1.0 - 3.0 * SLACK);
+                let is_open = open >> index & 1 == 1;
+                assert!(is_open || is_covered);
+                assert!(!(is_open && well));
+                kept += u32::from(is_open);
+                dropped += u32::from(!is_open);
+            }
+        }
+        assert!(kept > 5000 && dropped > 5000, "{kept} {dropped}");
+    }
+}
