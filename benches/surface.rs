@@ -1,7 +1,7 @@
 //! PSP on meshes: times by criterion on a torus, then a table of stages and rates in one run.
 //!
-//! The table takes the bunny and the dragon (`AZULEJO_BENCH_DRAGON`, or out/dragon.ply, which the demo fetches) where they
-//! are found. 10^7 samples are added when the environment variable `AZULEJO_BENCH_LARGE` is set.
+//! The table takes a hall, and the bunny and the dragon (`AZULEJO_BENCH_DRAGON`, or out/dragon.ply, which the demo fetches)
+//! where they are found. 10^7 samples are added when the environment variable `AZULEJO_BENCH_LARGE` is set.
 
 #[path = "../tests/common/meshes.rs"]
 #[allow(dead_code)]
@@ -20,13 +20,12 @@ fn radius(mesh: &Mesh, count: f64) -> f64 {
     (0.69656 * mesh.area() / count).sqrt()
 }
 
-fn torus() -> Arc<Mesh> {
-    let (positions, triangles) = meshes::fine_torus(500, 200);
+fn mesh((positions, triangles): meshes::Soup) -> Arc<Mesh> {
     Arc::new(Mesh::new(positions, triangles).expect("a good mesh"))
 }
 
 fn surface(criterion: &mut Criterion) {
-    let mesh = torus();
+    let mesh = mesh(meshes::fine_torus(500, 200));
     let options = Options::new(radius(&mesh, 1e5));
     let cases = [
         ("one iteration", Options { iterations: 1, maximal: false, ..options }),
@@ -54,7 +53,7 @@ fn table_meshes() -> Vec<(&'static str, Arc<Mesh>)> {
     let dragon = std::env::var_os("AZULEJO_BENCH_DRAGON").map_or(root.join("out/dragon.ply"), PathBuf::from);
     let files = [("bunny", root.join("../shared/meshes/bunny.obj")), ("dragon", dragon)];
     let loaded = files.into_iter().filter_map(|(name, path)| Some((name, Arc::new(Mesh::load(path).ok()?))));
-    std::iter::once(("torus", torus())).chain(loaded).collect()
+    std::iter::once(("hall", mesh(meshes::hall(48)))).chain(loaded).collect()
 }
 
 /// Wall times in seconds on the way to a maximal set.
