@@ -20,11 +20,6 @@ impl Grid3 {
         Self { cell_size, origin, heads: vec![NONE; 64], next: Vec::new(), points: Vec::new() }
     }
 
-    /// The points, in the order of insertion; a point's index is its id.
-    pub(crate) fn points(&self) -> &[[f32; 3]] {
-        &self.points
-    }
-
     fn cell(&self, point: [f64; 3]) -> [i64; 3] {
         std::array::from_fn(|axis| ((point[axis] - self.origin[axis]) / self.cell_size).floor() as i64)
     }
@@ -74,13 +69,6 @@ impl Grid3 {
                 })
             })
     }
-
-    /// Whether a point other than `except` is closer to `centre` than `radius`: in f64 from the stored floats,
-    /// without tolerance (squared distances are compared, with `radius` as it is).
-    pub(crate) fn any_closer(&self, centre: [f32; 3], radius: f64, except: Option<u32>) -> bool {
-        self.candidates(centre.map(f64::from), radius)
-            .any(|id| Some(id) != except && distance_squared(centre, self.points[id as usize]) < radius * radius)
-    }
 }
 
 /// The squared distance in f64.
@@ -115,12 +103,9 @@ mod tests {
                         .filter(|&id| distance_squared(centre, points[id as usize]) <= radius * radius)
                         .collect();
                     assert_eq!(found, expected);
-                    assert_eq!(grid.any_closer(centre, radius, None), !expected.is_empty());
-                    let alone = !points[..id as usize].iter().any(|&p| distance_squared(p, point) < radius * radius);
-                    assert_eq!(grid.any_closer(point, radius, Some(id)), !alone);
                 }
             }
-            assert_eq!(grid.points(), points);
+            assert_eq!(grid.points, points);
         }
     }
 }

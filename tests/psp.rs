@@ -63,6 +63,11 @@ fn open_surfaces() {
 }
 
 #[test]
+fn a_hall_of_many_surfaces_behind_one_another() {
+    check_all(&mesh(meshes::hall(6)), 0.12);
+}
+
+#[test]
 fn vertices_of_no_triangle_do_not_matter() {
     let (mut positions, triangles) = meshes::sphere();
     let expected =

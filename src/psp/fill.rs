@@ -1,25 +1,25 @@
 //! Filling what the projectors left uncovered, until the set is maximal (departs from the thesis, which has no such step).
 //!
 //! Rounds of darts, as in the flat quadtree of Ebeida et al. 2012 ("A simple algorithm for maximal Poisson-disk sampling
-//! in high dimensions") with fragments of triangles for squares: one dart into each uncovered fragment, the greedy choice
-//! among the darts, and a new look at the fragments, in which covered ones go and the others become smaller.
+//! in high dimensions") with patches of triangles for squares: one dart into each uncovered patch, the greedy choice
+//! among the darts, and a new look at the patches, in which covered ones go and the others become smaller. Each block
+//! of space does so for itself, in the colours of `blocks.rs`.
 //!
-//! *Order of the darts.* Darts that rain uniformly on the surface hit a fragment of area a after a waiting time Exp(1) / a.
-//! A dart's priority is that time: a weighted random order without a shared draw (Efraimidis and Spirakis 2006).
+//! *Order of the darts.* Darts that rain uniformly on the surface hit a patch of area a after a waiting time Exp(1) / a.
+//! A patch's priority is that time: a weighted random order (Efraimidis and Spirakis 2006).
 //!
 //! *The end.* Floats cannot tell points apart that are closer than the float spacing at the mesh's largest coordinate.
-//! The darts of fragments no longer than that go to their centre. If it is rejected the fragment is covered up to
+//! The darts of patches no longer than that go to their centre. If it is rejected the patch is covered up to
 //! rounding: that of the position (0.9 spacings), of the barycentrics (below 4.4, on a triangle that spans a mesh around
-//! the origin) and the size of the fragment (0.7). So no point of the surface is farther from all samples than the
+//! the origin) and the size of the patch (0.7). So no point of the surface is farther from all samples than the
 //! radius and [`TOLERANCE`] float spacings.
 
-use std::collections::HashSet;
-
 use crate::error::Result;
-use crate::job::{Job, chunks_of};
+use crate::job::Job;
 use crate::mesh::{Mesh, next_below, round_barycentrics};
-use crate::psp::coverage::{Coverage, Fragment};
+use crate::psp::coverage::{Coverage, Fragment, Patch};
 use crate::psp::pieces::pieces;
+use crate::psp::room::Room;
 use crate::psp::samples::{Sample, SampleSet};
 use crate::rng::{Draw, Rng};
 
@@ -27,14 +27,10 @@ use crate::rng::{Draw, Rng};
 /// the largest absolute coordinate of the mesh.
 pub const TOLERANCE: f64 = 6.0;
 
-/// Fragments per task.
-const CHUNK: usize = 512;
-/// The pieces of the first search, in radii: large enough to share their samples, small enough to share the work.
-const PIECE: f64 = 4.0;
-/// How small, in radii, a partly covered fragment is when the first dart is thrown into it.
-const FIRST: f64 = 0.5;
-/// By how much a fragment becomes smaller when its dart was no success.
-const SHRINK: f64 = 0.5;
+/// The pieces that the search begins with, in radii: large enough to share their samples, small enough for a room.
+const PIECE: f64 = 2.0;
+/// How long, in radii, the sixteenths of a partly covered patch are when the first dart is thrown into them.
+const FINE: f64 = 0.15;
 
 /// Counts of a fill.
 #[derive(Default)]
@@ -45,32 +41,44 @@ pub(super) struct Filled {
 
 /// Adds samples until the set is maximal.
 pub(super) fn fill(job: &Job, mesh: &Mesh, samples: &mut SampleSet, seed: u64) -> Result<Filled> {
-    let spacing = float_spacing(mesh);
     let radius = samples.radius();
-    let mut filled = Filled::default();
-    let mut open = pieces(mesh, PIECE * radius);
-    open = search(&job.part(0.0, 0.4), mesh, samples, &open, |_| FIRST * radius)?;
+    let pieces = pieces(&job.part(0.0, 0.2), mesh, PIECE * radius, |centre| samples.block(centre.to_array()))?;
+    let before = samples.len();
+    let darts = samples.grow(&job.part(0.2, 1.0), &pieces, |block, room, pieces| {
+        fill_block(mesh, radius, Rng::at(seed, Draw::Fill, &block.key()), room, pieces)
+    })?;
+    Ok(Filled { darts, accepted: (samples.len() - before) as u64 })
+}
 
-    let mut rest = job.part(0.4, 1.0);
-    for round in 0.. {
-        if open.is_empty() {
-            break;
+/// The samples that a block needs to be covered, and how many darts that took.
+fn fill_block(
+    mesh: &Mesh,
+    radius: f64,
+    mut rng: Rng,
+    room: &mut Room,
+    pieces: &mut dyn Iterator<Item = &Fragment>,
+) -> (Vec<Sample>, u64) {
+    let spacing = float_spacing(mesh);
+    let (mut open, mut next) = (Vec::new(), Vec::new());
+    let mut coverage = Coverage::new(mesh, room, FINE * radius, spacing);
+    pieces.for_each(|piece| coverage.search(piece, &mut open));
+    let (mut accepted, mut darts) = (Vec::new(), 0);
+    while !open.is_empty() {
+        darts += open.len() as u64;
+        for patch in in_order_of_arrival(mesh, &open, &mut rng) {
+            let sample = dart(mesh, patch, spacing, &mut rng);
+            if !room.rejects(sample.position) {
+                room.add(sample.position);
+                accepted.push(sample);
+            }
         }
-        let throw = |fragment: &Fragment| {
-            let sample = dart(mesh, fragment, spacing, seed, round);
-            (!samples.rejects(&sample.1)).then_some(sample)
-        };
-        let chunks = chunks_of(open.len(), CHUNK);
-        let darts = rest
-            .part(0.0, 0.1)
-            .flat_map(chunks.len(), |chunk| open[chunks.range(chunk)].iter().filter_map(throw).collect())?;
-        filled.darts += open.len() as u64;
-        filled.accepted += samples.merge(&rest.part(0.1, 0.2), &first_of_each_cell(mesh, radius, darts))? as u64;
-
-        open = search(&rest.part(0.2, 0.4), mesh, samples, &open, |longest| SHRINK * longest)?;
-        rest = rest.part(0.4, 1.0);
+        // A dart into the centre of a patch decides about all of it.
+        let mut coverage = Coverage::new(mesh, room, FINE * radius, spacing);
+        open.iter().filter(|patch| patch.longest > spacing).for_each(|patch| coverage.refine(patch, &mut next));
+        std::mem::swap(&mut open, &mut next);
+        next.clear();
     }
-    Ok(filled)
+    (accepted, darts)
 }
 
 /// The spacing of floats at the largest absolute coordinate of a mesh.
@@ -79,61 +87,28 @@ pub(super) fn float_spacing(mesh: &Mesh) -> f64 {
     f64::from(largest) - f64::from(next_below(largest))
 }
 
-/// The uncovered parts of fragments, in order; `finest` says how small they become, from the length of the fragment.
-///
-/// A fragment no longer than the float spacing counts as covered once a dart in its centre would be rejected.
-fn search(
-    job: &Job,
-    mesh: &Mesh,
-    samples: &SampleSet,
-    fragments: &[Fragment],
-    finest: impl Fn(f64) -> f64 + Sync,
-) -> Result<Vec<Fragment>> {
-    let spacing = float_spacing(mesh);
-    let chunks = chunks_of(fragments.len(), CHUNK);
-    job.flat_map(chunks.len(), |chunk| {
-        let (mut coverage, mut uncovered) = (Coverage::new(mesh, samples), Vec::new());
-        for fragment in &fragments[chunks.range(chunk)] {
-            let longest = fragment.shape(mesh).longest;
-            if longest > spacing || !samples.rejects(&centre(mesh, fragment)) {
-                coverage.uncovered(fragment, finest(longest).max(spacing), &mut uncovered);
-            }
-        }
-        uncovered
-    })
-}
-
-/// The sample in the centre of a fragment.
-fn centre(mesh: &Mesh, fragment: &Fragment) -> Sample {
-    Sample::new(mesh, fragment.triangle, round_barycentrics(fragment.at(1.0 / 3.0, 1.0 / 3.0)))
-}
-
-/// A fragment's dart of a round, uniform in the fragment (in its centre, if it is no longer than `spacing`), and the time
-/// at which it arrives.
-fn dart(mesh: &Mesh, fragment: &Fragment, spacing: f64, seed: u64, round: u64) -> (f64, Sample) {
-    let mut rng = Rng::at(seed, Draw::Fill, &[fragment.triangle.into(), fragment.path, round]);
-    let arrival = -(1.0 - rng.unit()).ln() / fragment.area(mesh);
-    if fragment.shape(mesh).longest <= spacing {
-        return (arrival, centre(mesh, fragment));
-    }
-    let [mut s, mut t] = [rng.unit(), rng.unit()];
-    if s + t > 1.0 {
-        (s, t) = (1.0 - s, 1.0 - t);
-    }
-    (arrival, Sample::new(mesh, fragment.triangle, round_barycentrics(fragment.at(s, t))))
-}
-
-/// The first dart of each cell of a grid in which two darts of a cell always conflict, in order of arrival.
-///
-/// That bounds the rivals of a dart however many triangles share a small space. The others have another round.
-fn first_of_each_cell(mesh: &Mesh, radius: f64, mut darts: Vec<(f64, Sample)>) -> Vec<Sample> {
-    darts.sort_by(|(a, _), (b, _)| a.total_cmp(b));
-    let origin = mesh.bounds().0;
-    // A little less than the side of a cube whose diagonal is the radius.
-    let side = radius / 1.7321;
-    let cell = |position: [f32; 3]| -> [i64; 3] {
-        std::array::from_fn(|axis| ((f64::from(position[axis]) - f64::from(origin[axis])) / side).floor() as i64)
+fn in_order_of_arrival<'a>(mesh: &Mesh, open: &'a [Patch], rng: &mut Rng) -> Vec<&'a Patch> {
+    let arrival = |patch: &Patch, rng: &mut Rng| {
+        let area = patch.fragment.area(mesh) * f64::from(patch.open.count_ones());
+        -(1.0 - rng.unit()).ln() / area
     };
-    let mut taken = HashSet::with_capacity(darts.len());
-    darts.into_iter().map(|(_, sample)| sample).filter(|sample| taken.insert(cell(sample.position))).collect()
+    let mut order: Vec<_> = open.iter().map(|patch| (arrival(patch, rng), patch)).collect();
+    order.sort_by(|(a, _), (b, _)| a.total_cmp(b));
+    order.into_iter().map(|(_, patch)| patch).collect()
+}
+
+/// A patch's dart, uniform in its open sixteenths (in its centre, if it is no longer than `spacing`).
+fn dart(mesh: &Mesh, patch: &Patch, spacing: f64, rng: &mut Rng) -> Sample {
+    let place = if patch.longest <= spacing {
+        patch.fragment.at([1.0 / 3.0; 2])
+    } else {
+        let skipped = rng.below(patch.open.count_ones().into());
+        let rest = (0..skipped).fold(patch.open, |open, _| open & (open - 1));
+        let [mut s, mut t] = [rng.unit(), rng.unit()];
+        if s + t > 1.0 {
+            (s, t) = (1.0 - s, 1.0 - t);
+        }
+        patch.fragment.sixteenth(rest.trailing_zeros() as usize).at([s, t])
+    };
+    Sample::new(mesh, patch.fragment.triangle, round_barycentrics(place))
 }

@@ -1,130 +1,131 @@
-//! Conflict resolution: the greedy choice among candidates, in parallel (thesis §3.3.2, "Compaction").
+//! Conflict resolution: the greedy choice among candidates (thesis §3.3.2, "Compaction").
 //!
-//! The *greedy choice* goes through the candidates in order of priority and takes each one that no candidate taken before
-//! is too close to. It is one well-defined set, and it can be found without going in order: a candidate is out as soon as
-//! one rival of higher priority is in, and in as soon as all of them are out. Rounds of this rule, each reading only the
-//! verdicts of the round before, end at the greedy choice for any schedule of the tasks.
-//!
-//! The thesis unrolls the same rule for its three priorities (algorithm 6) and tests the winners against the existing
-//! samples afterwards. Here candidates that conflict with existing samples do not come this far: a candidate that is
-//! doomed anyway must not eliminate others, which costs about a tenth of the samples of an iteration.
+//! The candidates of a block are taken in order of priority, each one unless a sample is too close that stood there
+//! before or was taken before. The thesis goes by the number of the projector, and tests the winners against the
+//! existing samples afterwards. Here existing samples come first: a candidate that is doomed anyway must not eliminate
+//! others. Among the candidates those come first that their projector faces most squarely: there its pattern, which is
+//! maximal in the plane, is stretched least.
 
 use crate::error::Result;
-use crate::grid3::{Grid3, distance_squared};
-use crate::job::{Job, chunks_of};
+use crate::job::Job;
+use crate::psp::blocks::{Block, Groups};
+use crate::psp::samples::{Sample, SampleSet};
 
-/// Candidates per task.
-const CHUNK: usize = 4096;
-
-#[derive(Clone, Copy, PartialEq)]
-enum Verdict {
-    Open,
-    In,
-    Out,
+/// A point that a projector found.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Candidate {
+    pub sample: Sample,
+    /// Low comes first; among equals, the one that was found first.
+    pub rank: u32,
 }
 
-/// The indices of the greedy choice, ascending. A lower index is a higher priority; closer than `radius` is too close.
+/// Adds the greedy choice among the candidates, and returns how many samples that are.
 ///
-/// Work and memory are linear while each candidate has a bounded number of rivals.
-pub(super) fn greedy(job: &Job, candidates: &[[f32; 3]], radius: f64, origin: [f64; 3]) -> Result<Vec<u32>> {
-    let mut grid = Grid3::new(origin, radius);
-    for &candidate in candidates {
-        grid.insert(candidate);
-    }
-    let chunks = chunks_of(candidates.len(), CHUNK);
-    let rivals = job.part(0.0, 0.8).map(chunks.len(), |chunk| Rivals::of(&grid, radius, chunks.range(chunk)))?;
-
-    let mut verdicts = vec![Verdict::Open; candidates.len()];
-    let mut open: Vec<u32> = (0..candidates.len() as u32).collect();
-    let mut rest = job.part(0.8, 1.0);
-    while !open.is_empty() {
-        let chunks = chunks_of(open.len(), CHUNK);
-        let decided = rest.part(0.0, 0.5).flat_map(chunks.len(), |chunk| {
-            let candidates = &open[chunks.range(chunk)];
-            candidates.iter().map(|&index| decide(rivals_of(&rivals, index), &verdicts)).collect()
-        })?;
-        open.iter().zip(decided).for_each(|(&index, verdict)| verdicts[index as usize] = verdict);
-        open.retain(|&index| verdicts[index as usize] == Verdict::Open);
-        rest = rest.part(0.5, 1.0);
-    }
-    Ok((0..candidates.len() as u32).filter(|&index| verdicts[index as usize] == Verdict::In).collect())
-}
-
-fn decide(rivals: &[u32], verdicts: &[Verdict]) -> Verdict {
-    let mut verdict = Verdict::In;
-    for &rival in rivals {
-        match verdicts[rival as usize] {
-            Verdict::In => return Verdict::Out,
-            Verdict::Open => verdict = Verdict::Open,
-            Verdict::Out => {}
+/// A failed or cancelled job adds nothing.
+pub(super) fn merge(job: &Job, samples: &mut SampleSet, candidates: &Groups<Block, Candidate>) -> Result<u64> {
+    let before = samples.len();
+    let merged = samples.grow(job, candidates, |_, room, candidates| {
+        let candidates: Vec<_> = candidates.collect();
+        let mut order: Vec<u64> = (0..).zip(&candidates).map(|(i, c)| u64::from(c.rank) << 32 | i).collect();
+        order.sort_unstable();
+        let mut accepted = Vec::with_capacity(candidates.len());
+        for index in order {
+            let sample = candidates[index as u32 as usize].sample;
+            if !room.rejects(sample.position) {
+                room.add(sample.position);
+                accepted.push(sample);
+            }
         }
+        let count = accepted.len() as u64;
+        (accepted, count)
+    });
+    if merged.is_err() {
+        samples.truncate(before);
     }
-    verdict
-}
-
-/// The rivals of a range of candidates: those too close and of higher priority.
-struct Rivals {
-    /// The rivals of the k-th candidate of the range end at `ends[k]` in `indices`.
-    ends: Vec<u32>,
-    indices: Vec<u32>,
-}
-
-impl Rivals {
-    fn of(grid: &Grid3, radius: f64, range: std::ops::Range<usize>) -> Self {
-        let mut rivals = Self { ends: Vec::with_capacity(range.len()), indices: Vec::new() };
-        for index in range {
-            let position = grid.points()[index];
-            let higher = grid.candidates(position.map(f64::from), radius).filter(|&rival| (rival as usize) < index);
-            let close = |&rival: &u32| distance_squared(position, grid.points()[rival as usize]) < radius * radius;
-            rivals.indices.extend(higher.filter(close));
-            rivals.ends.push(rivals.indices.len() as u32);
-        }
-        rivals
-    }
-}
-
-fn rivals_of(chunks: &[Rivals], index: u32) -> &[u32] {
-    let (chunk, k) = (&chunks[index as usize / CHUNK], index as usize % CHUNK);
-    let start = if k == 0 { 0 } else { chunk.ends[k - 1] };
-    &chunk.indices[start as usize..chunk.ends[k] as usize]
+    merged
 }
 
 #[cfg(test)]
 mod tests {
+    use std::sync::Arc;
+
     use super::*;
     use crate::job::Context;
+    use crate::mesh::Mesh;
     use crate::rng::{Draw, Rng};
 
-    /// The definition, word by word.
-    fn one_after_the_other(candidates: &[[f32; 3]], radius: f64) -> Vec<u32> {
-        let mut chosen: Vec<u32> = Vec::new();
-        for (index, &candidate) in candidates.iter().enumerate() {
-            if !chosen.iter().any(|&c| distance_squared(candidates[c as usize], candidate) < radius * radius) {
-                chosen.push(index as u32);
-            }
-        }
-        chosen
+    /// A hundred sheets above each other: candidates everywhere in space.
+    fn sheets() -> Arc<Mesh> {
+        let sheet = |z: u32| [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]].map(|[x, y]| [x, y, z as f32 * 0.01]);
+        let triangles = (0..100).map(|z| [3 * z, 3 * z + 1, 3 * z + 2]).collect();
+        Arc::new(Mesh::new((0..100).flat_map(sheet).collect(), triangles).unwrap())
+    }
+
+    fn candidate(mesh: &Mesh, rng: &mut Rng) -> Candidate {
+        let (u, v) = (rng.unit() as f32, rng.unit() as f32);
+        let barycentrics = if u + v < 1.0 { [u, v] } else { [0.5 * u, 0.5 * v] };
+        Candidate { sample: Sample::new(mesh, rng.below(100) as u32, barycentrics), rank: rng.below(5) as u32 }
+    }
+
+    /// The set after each of a few merges.
+    fn grown(mesh: &Mesh, radius: f64, threads: usize) -> Vec<Vec<Sample>> {
+        let mut samples = SampleSet::new(mesh, radius);
+        let context = Context::new(threads).unwrap();
+        let merge_round = |round: u64| {
+            context.run(None, |job| {
+                let place = |sample: &Sample| samples.block(sample.position.map(f64::from));
+                let (candidates, _) = Groups::collect(job, 10, |task, add| {
+                    let mut rng = Rng::at(1, Draw::Probe, &[round, task as u64]);
+                    (0..300).map(|_| candidate(mesh, &mut rng)).for_each(|new| add(place(&new.sample), new));
+                })?;
+                let before = samples.len() as u64;
+                let added = merge(job, &mut samples, &candidates)?;
+                assert_eq!(samples.len() as u64, before + added);
+                // The greedy choice leaves no candidate that has room.
+                for new in (0..candidates.len()).flat_map(|group| candidates.items(group)) {
+                    let place = new.sample.position;
+                    assert!(samples.all().iter().any(|sample| samples.conflict(sample.position, place)));
+                }
+                Ok(samples.all().to_vec())
+            })
+        };
+        (0..3).map(merge_round).collect::<Result<_>>().unwrap()
     }
 
     #[test]
-    fn finds_the_greedy_choice_on_any_number_of_threads() {
-        for (count, radius) in [(0, 0.1), (1, 0.1), (6000, 0.05), (3000, 0.4), (300, 3.0)] {
-            let mut rng = Rng::at(4, Draw::Probe, &[count]);
-            let point = |_| -> [f32; 3] { std::array::from_fn(|_| rng.unit() as f32) };
-            let candidates: Vec<_> = (0..count).map(point).collect();
-            for threads in [1, 3] {
-                let context = Context::new(threads).unwrap();
-                let chosen = context.run(None, |job| greedy(job, &candidates, radius, [0.0; 3])).unwrap();
-                assert_eq!(chosen, one_after_the_other(&candidates, radius));
+    fn a_set_grows_free_of_conflicts_until_no_candidate_has_room_on_any_number_of_threads() {
+        let mesh = sheets();
+        for radius in [0.01, 0.03, 0.2, 3.0] {
+            let (one, three) = (grown(&mesh, radius, 1), grown(&mesh, radius, 3));
+            let last = SampleSet::new(&mesh, radius);
+            for (sets, others) in one.windows(2).zip(&three[1..]) {
+                let positions = |set: &[Sample]| set.iter().map(|sample| sample.position).collect::<Vec<_>>();
+                let (before, after) = (positions(&sets[0]), positions(&sets[1]));
+                assert_eq!(after[..before.len()], before);
+                assert_eq!(after, positions(others), "depends on the threads");
+                for (i, &a) in after.iter().enumerate() {
+                    assert!(!after[..i].iter().any(|&b| last.conflict(a, b)));
+                }
             }
         }
     }
 
-    /// A chain in which each candidate's fate hangs on the one before: as many rounds as candidates.
     #[test]
-    fn follows_a_chain_of_rivals_to_its_end() {
-        let candidates: Vec<_> = (0..1000).map(|i| [0.9 * i as f32, 0.0, 0.0]).collect();
-        let chosen = Context::new(2).unwrap().run(None, |job| greedy(job, &candidates, 1.0, [0.0; 3])).unwrap();
-        assert_eq!(chosen, (0..1000).step_by(2).collect::<Vec<_>>());
+    fn a_lower_rank_comes_first_then_the_older_then_the_earlier() {
+        let mesh = sheets();
+        let mut samples = SampleSet::new(&mesh, 0.1);
+        let at = |u: f32, rank| Candidate { sample: Sample::new(&mesh, 0, [u, 0.0]), rank };
+        let mut merge_these = |candidates: &[Candidate]| -> Vec<f32> {
+            let merged = Context::new(1).unwrap().run(None, |job| {
+                let add_all = |_, add: &mut dyn FnMut(Block, Candidate)| {
+                    candidates.iter().for_each(|&candidate| add(Block([0; 3]), candidate));
+                };
+                merge(job, &mut samples, &Groups::collect(job, 1, add_all)?.0)
+            });
+            merged.unwrap();
+            samples.all().iter().map(|sample| sample.position[0]).collect()
+        };
+        assert_eq!(merge_these(&[at(0.30, 2), at(0.35, 1), at(0.42, 1)]), [0.35]);
+        assert_eq!(merge_these(&[at(0.44, 0), at(0.70, 1), at(0.75, 1)]), [0.35, 0.70]);
     }
 }

@@ -5,9 +5,10 @@
 //! the period leaves no trace.
 
 use crate::error::Result;
-use crate::job::Context;
+use crate::job::{Context, Job, chunks_of};
 use crate::kdrt;
 use crate::points::{Boundary, Domain};
+use crate::psp::blocks::Groups;
 
 /// Points per chunk: enough rays to keep a task busy, few enough to stay together on the surface.
 const CHUNK: usize = 4096;
@@ -31,8 +32,9 @@ impl Pattern {
         let side = extent.clamp(SMALLEST_SIDE, LARGEST_SIDE);
         let domain = Domain { min: [0.0; 2], max: [side; 2], boundary: Boundary::Periodic };
         let options = kdrt::Options { radius: 1.0, domain, leaf_size: kdrt::DEFAULT_LEAF_SIZE, seed };
-        let mut points = kdrt::sample(context, &options, None)?;
-        points.sort_by_cached_key(|point| morton(point.map(|x| (f64::from(x) / side * 65536.0) as u16)));
+        let points = kdrt::sample(context, &options, None)?;
+        let key = |point: &[f32; 2]| morton(point.map(|x| (f64::from(x) / side * 65536.0) as u16));
+        let points = context.run(None, |job| sorted(job, &points, key))?;
         let bounds = points.chunks(CHUNK).map(|chunk| {
             let bound = |start: f32, pick: fn(f32, f32) -> f32| {
                 [0, 1].map(|axis| chunk.iter().fold(start, |bound, point| pick(bound, point[axis])))
@@ -60,6 +62,19 @@ impl Pattern {
     }
 }
 
+/// The points sorted by a key: into 256 parts by its upper bits, then each part.
+fn sorted(job: &Job, points: &[[f32; 2]], key: impl Fn(&[f32; 2]) -> u32 + Sync) -> Result<Vec<[f32; 2]>> {
+    let chunks = chunks_of(points.len(), 16 * CHUNK);
+    let (parts, _) = Groups::collect(job, chunks.len(), |chunk, add| {
+        points[chunks.range(chunk)].iter().for_each(|point| add(key(point) >> 24, *point));
+    })?;
+    job.flat_map(parts.len(), |part| {
+        let mut points: Vec<_> = parts.items(part).copied().collect();
+        points.sort_by_cached_key(&key);
+        points
+    })
+}
+
 /// The bits of two coordinates, interleaved: near points are mostly near in this order (Morton 1966).
 fn morton([x, y]: [u16; 2]) -> u32 {
     let spread = |bits: u16| {
@@ -74,6 +89,15 @@ fn morton([x, y]: [u16; 2]) -> u32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn sorting_in_parts_sorts() {
+        let points: Vec<_> = (0..100_000u32).map(|i| [i.wrapping_mul(2_654_435_769) as f32, i as f32]).collect();
+        let key = |point: &[f32; 2]| point[0] as u32;
+        let mut expected = points.clone();
+        expected.sort_by_key(key);
+        assert_eq!(Context::new(2).unwrap().run(None, |job| sorted(job, &points, key)).unwrap(), expected);
+    }
 
     #[test]
     fn morton_interleaves_the_bits() {

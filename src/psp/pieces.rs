@@ -1,29 +1,51 @@
-//! The pieces that the first search for uncovered surface begins with: all triangles, cut until none is much longer than
-//! the radius.
+//! The pieces that the search for uncovered surface begins with: all triangles, cut until none is much longer than the
+//! radius, and sorted by blocks.
 //!
 //! Bisection alone would do for well-shaped triangles. A needle, though, becomes three needles of half its length, two of
 //! them side by side: n^1.58 pieces where n are enough. So a triangle that is longer than high is sliced first, across
 //! its longest edge, into slices that are about as long as they are high.
 
-use crate::mesh::{Mesh, exact};
-use crate::psp::coverage::Fragment;
+use glam::DVec3;
 
-/// The whole surface, in fragments no longer than `longest`.
-pub(super) fn pieces(mesh: &Mesh, longest: f64) -> Vec<Fragment> {
-    let mut pieces = Vec::with_capacity(mesh.triangles().len());
-    let mut rest = Vec::new();
-    for triangle in (0..mesh.triangles().len() as u32).filter(|&triangle| mesh.triangle_area(triangle) > 0.0) {
-        slice(mesh, triangle, longest, &mut rest);
-        while let Some(fragment) = rest.pop() {
-            let shape = fragment.shape(mesh);
-            if shape.longest <= longest {
-                pieces.push(fragment);
-            } else {
-                rest.extend(fragment.bisect(shape.apex));
+use crate::error::Result;
+use crate::job::{Job, chunks_of};
+use crate::mesh::{Mesh, exact};
+use crate::psp::blocks::{Block, Groups};
+use crate::psp::coverage::{Fragment, Shape};
+
+/// Triangles per task.
+const CHUNK: usize = 1024;
+
+/// The whole surface, in fragments no longer than `longest`, each at its place.
+pub(super) fn pieces(
+    job: &Job,
+    mesh: &Mesh,
+    longest: f64,
+    place: impl Fn(DVec3) -> Block + Sync,
+) -> Result<Groups<Block, Fragment>> {
+    let chunks = chunks_of(mesh.triangles().len(), CHUNK);
+    let (pieces, _) = Groups::collect(job, chunks.len(), |chunk, add| {
+        let mut slices = Vec::new();
+        for triangle in chunks.range(chunk).map(|triangle| triangle as u32) {
+            if mesh.triangle_area(triangle) > 0.0 {
+                slice(mesh, triangle, longest, &mut slices);
+                for slice in slices.drain(..) {
+                    cut(&slice, &slice.shape(mesh), longest, &mut |piece, shape| add(place(shape.centre), piece));
+                }
             }
         }
+    })?;
+    Ok(pieces)
+}
+
+/// Bisects a fragment into pieces no longer than `longest`.
+fn cut(fragment: &Fragment, shape: &Shape, longest: f64, add: &mut dyn FnMut(Fragment, &Shape)) {
+    if shape.longest <= longest {
+        return add(*fragment, shape);
     }
-    pieces
+    for (half, shape) in fragment.bisect(shape.apex).iter().zip(&shape.bisect()) {
+        cut(half, shape, longest, add);
+    }
 }
 
 /// Appends a triangle in slices no shorter than `shortest`, or as a whole if it is not much longer than that or high.
@@ -42,7 +64,6 @@ fn slice(mesh: &Mesh, triangle: u32, shortest: f64, slices: &mut Vec<Fragment>) 
     let [top, start, end] = [apex, p, q].map(|corner| exact(mesh.corners(triangle)[corner]));
     let foot = ((top - start).dot(end - start) / (end - start).length_squared()).clamp(0.0, 1.0);
 
-    let first = slices.len();
     let top = whole.corners[apex];
     let foot_point = between(whole.corners[p], whole.corners[q], foot);
     for (tip, share) in [(whole.corners[p], foot), (whole.corners[q], 1.0 - foot)] {
@@ -57,9 +78,6 @@ fn slice(mesh: &Mesh, triangle: u32, shortest: f64, slices: &mut Vec<Fragment>) 
             }
         }
     }
-    let slices = &mut slices[first..];
-    let names = slices.len().next_power_of_two() as u64;
-    slices.iter_mut().enumerate().for_each(|(number, slice)| slice.path = names | number as u64);
 }
 
 /// The point at a share of the way; exact at both ends.
@@ -69,9 +87,8 @@ fn between(from: [f64; 2], to: [f64; 2], share: f64) -> [f64; 2] {
 
 #[cfg(test)]
 mod tests {
-    use std::collections::HashSet;
-
     use super::*;
+    use crate::job::Context;
 
     /// Well-shaped triangles and needles of every kind: flat, acute, right.
     fn triangles() -> Vec<Mesh> {
@@ -80,14 +97,18 @@ mod tests {
         third.into_iter().map(mesh).collect()
     }
 
+    fn all_pieces(mesh: &Mesh, longest: f64) -> Vec<Fragment> {
+        let groups = |job: &Job| pieces(job, mesh, longest, |centre| Block([(4.0 * centre.x) as i32, 0, 0]));
+        let groups = Context::new(2).unwrap().run(None, groups).unwrap();
+        (0..groups.len()).flat_map(|group| groups.items(group)).copied().collect()
+    }
+
     #[test]
-    fn pieces_are_short_have_names_of_their_own_and_make_up_the_triangle() {
+    fn pieces_are_short_and_make_up_the_triangle() {
         for mesh in triangles() {
             for longest in [2.0, 0.3, 0.01] {
-                let pieces = pieces(&mesh, longest);
+                let pieces = all_pieces(&mesh, longest);
                 assert!(pieces.iter().all(|piece| piece.shape(&mesh).longest <= longest));
-                let names: HashSet<_> = pieces.iter().map(|piece| piece.path).collect();
-                assert_eq!(names.len(), pieces.len());
                 let area: f64 = pieces.iter().map(|piece| piece.area(&mesh)).sum();
                 assert!((area / mesh.area() - 1.0).abs() < 1e-9, "{area} of {}", mesh.area());
             }
@@ -99,7 +120,7 @@ mod tests {
         for mesh in &triangles()[1..] {
             for longest in [1e-2, 1e-3, 1e-4] {
                 let expected = 1.0 / longest + mesh.area() / (longest * longest);
-                let count = pieces(mesh, longest).len() as f64;
+                let count = all_pieces(mesh, longest).len() as f64;
                 assert!((0.5..12.0).contains(&(count / expected)), "{count} of about {expected}");
             }
         }

@@ -13,6 +13,8 @@ use glam::{DMat3, DQuat, DVec3};
 use crate::error::Result;
 use crate::job::{Context, Job};
 use crate::mesh::{Mesh, exact, round_barycentrics};
+use crate::psp::blocks::{Block, Groups};
+use crate::psp::merge::Candidate;
 use crate::psp::pattern::Pattern;
 use crate::psp::samples::{Sample, SampleSet};
 use crate::rng::{Draw, Rng};
@@ -24,6 +26,8 @@ const NEAREST_AXES: f64 = 0.94;
 const BOX_MARGIN: f64 = 1e-6;
 /// Distance of the projectors from the centre (trace space), outside the mesh.
 const DISTANCE: f64 = 1.0;
+/// How finely the squareness of a hit is told.
+const RANKS: f64 = 1e6;
 /// No more tasks than this, however many repetitions of the pattern a projector needs.
 const MAX_TASKS: u64 = 1 << 16;
 
@@ -37,11 +41,9 @@ pub(super) struct Projection {
     radius: f64,
 }
 
-/// The hits of some rays that are candidates for samples, with counts of the others.
+/// Counts of what some rays met.
 #[derive(Default)]
 pub(super) struct Projected {
-    /// In order of priority: by projector, then along the pattern, then along the ray.
-    pub candidates: Vec<Sample>,
     pub rays: u64,
     pub hits: u64,
     pub restart_conflicts: u64,
@@ -80,7 +82,7 @@ impl Projection {
         })
     }
 
-    /// Traces the three projectors of an iteration and collects what could join the samples.
+    /// Traces the three projectors of an iteration and collects all hits, by blocks.
     pub fn project(
         &self,
         job: &Job,
@@ -88,7 +90,7 @@ impl Projection {
         mesh: &Mesh,
         samples: &SampleSet,
         mut shift: impl FnMut(usize) -> [f64; 2],
-    ) -> Result<Projected> {
+    ) -> Result<(Groups<Block, Candidate>, Projected)> {
         let projectors = [0, 1, 2].map(|axis| self.projector(frame, axis, shift(axis)));
         // A unit is one chunk of one repetition of the pattern on one projector.
         let chunks = self.pattern.chunks() as u64;
@@ -99,7 +101,8 @@ impl Projection {
         let ends: Vec<u64> = ends.collect();
         let units = ends[2];
         let units_per_task = units.div_ceil(MAX_TASKS).max(1);
-        let parts = job.map(units.div_ceil(units_per_task) as usize, |task| {
+        let tasks = units.div_ceil(units_per_task) as usize;
+        let (candidates, parts) = Groups::collect(job, tasks, |task, add| {
             let mut projected = Projected::default();
             let first = task as u64 * units_per_task;
             for unit in first..units.min(first + units_per_task) {
@@ -107,19 +110,18 @@ impl Projection {
                 let start = if axis == 0 { 0 } else { ends[axis - 1] };
                 let (repetition, chunk) = ((unit - start) / chunks, (unit - start) % chunks);
                 let rays = self.rays(&projectors[axis], repetition, chunk as usize);
-                self.trace(&rays, mesh, samples, &mut projected);
+                self.trace(&rays, mesh, samples, add, &mut projected);
             }
             projected
         })?;
 
         let mut all = Projected::default();
         for part in parts {
-            all.candidates.extend(part.candidates);
             all.rays += part.rays;
             all.hits += part.hits;
             all.restart_conflicts += part.restart_conflicts;
         }
-        Ok(all)
+        Ok((candidates, all))
     }
 
     /// The projector along an axis of the frame. `shift` is a share of the pattern's side.
@@ -155,25 +157,33 @@ impl Projection {
         meets_box.map(ray).collect()
     }
 
-    /// Adds the hits of rays that conflict neither with a sample nor with an earlier hit of their ray.
-    fn trace(&self, rays: &[Ray], mesh: &Mesh, samples: &SampleSet, projected: &mut Projected) {
+    /// Traces rays, adds their hits to the candidates and counts them.
+    fn trace(
+        &self,
+        rays: &[Ray],
+        mesh: &Mesh,
+        samples: &SampleSet,
+        add: &mut dyn FnMut(Block, Candidate),
+        projected: &mut Projected,
+    ) {
         let mut hits: Vec<Hit> = Vec::with_capacity(2 * rays.len());
         self.scene.all_hits(rays, &mut hits);
         projected.rays += rays.len() as u64;
         projected.hits += hits.len() as u64;
-        for ray in hits.chunk_by(|a, b| a.ray == b.ray) {
-            let first = projected.candidates.len();
-            for hit in ray {
-                let candidate = Sample::new(mesh, hit.triangle, round_barycentrics(hit.uv.map(f64::from)));
-                if samples.rejects(&candidate) {
-                    continue;
-                }
-                let earlier = &projected.candidates[first..];
-                if earlier.iter().any(|other| samples.conflict(other.position, candidate.position)) {
+        let mut kept: Vec<[f32; 3]> = Vec::new();
+        for on_ray in hits.chunk_by(|a, b| a.ray == b.ray) {
+            kept.clear();
+            let direction = rays[on_ray[0].ray as usize].direction;
+            for hit in on_ray {
+                let sample = Sample::new(mesh, hit.triangle, round_barycentrics(hit.uv.map(f64::from)));
+                if kept.iter().any(|&earlier| samples.conflict(earlier, sample.position)) {
                     projected.restart_conflicts += 1;
                 } else {
-                    projected.candidates.push(candidate);
+                    kept.push(sample.position);
                 }
+                let squareness = exact(mesh.normal(hit.triangle)).dot(exact(direction)).abs();
+                let rank = ((1.0 - squareness) * RANKS) as u32;
+                add(samples.block(sample.position.map(f64::from)), Candidate { sample, rank });
             }
         }
     }

@@ -1,11 +1,15 @@
-//! The samples accepted so far, and candidates that want to join them.
+//! The samples accepted so far, and how a set grows: block by block.
+
+use std::collections::HashMap;
+use std::ops::Range;
 
 use crate::error::Result;
-use crate::grid3::{Grid3, distance_squared};
+use crate::grid3::distance_squared;
 use crate::job::Job;
-use crate::mesh::{Mesh, exact};
+use crate::mesh::Mesh;
 use crate::points::SurfaceSamples;
-use crate::psp::merge;
+use crate::psp::blocks::{Block, Groups, SIDE};
+use crate::psp::room::Room;
 
 /// A point of the surface.
 #[derive(Clone, Copy, Debug)]
@@ -26,9 +30,10 @@ impl Sample {
 pub(super) struct SampleSet {
     radius: f64,
     origin: [f64; 3],
-    grid: Grid3,
-    triangles: Vec<u32>,
-    barycentrics: Vec<[f32; 2]>,
+    /// In the order in which they were accepted.
+    samples: Vec<Sample>,
+    /// Which samples each block accepted. They lie in it, or not much outside.
+    blocks: HashMap<Block, Vec<Range<u32>>>,
 }
 
 impl SampleSet {
@@ -37,13 +42,18 @@ impl SampleSet {
     /// Distances are compared as squares in `f64`. The radius used is larger by 1e-14, dozens of units in the last place:
     /// the samples keep `radius` in whatever order a caller evaluates their distances.
     pub fn new(mesh: &Mesh, radius: f64) -> Self {
-        let radius = radius * (1.0 + 1e-14);
         let origin = mesh.bounds().0.map(f64::from);
-        Self { radius, origin, grid: Grid3::new(origin, radius), triangles: Vec::new(), barycentrics: Vec::new() }
+        Self { radius: radius * (1.0 + 1e-14), origin, samples: Vec::new(), blocks: HashMap::new() }
     }
 
     pub fn len(&self) -> usize {
-        self.triangles.len()
+        self.samples.len()
+    }
+
+    /// The samples in the order in which they were accepted.
+    #[cfg(test)]
+    pub fn all(&self) -> &[Sample] {
+        &self.samples
     }
 
     /// Whether two points are too close to both be samples; equally, whether a sample covers a point.
@@ -51,85 +61,78 @@ impl SampleSet {
         distance_squared(a, b) < self.radius * self.radius
     }
 
-    /// Whether the set has no room for a candidate.
-    pub fn rejects(&self, candidate: &Sample) -> bool {
-        self.grid.any_closer(candidate.position, self.radius, None)
-    }
-
     /// The radius in use, a little above the one asked for.
     pub fn radius(&self) -> f64 {
         self.radius
     }
 
-    /// The positions within a distance of a point, in any order.
-    pub fn near(&self, centre: glam::DVec3, distance: f64) -> impl Iterator<Item = glam::DVec3> {
-        let positions =
-            self.grid.candidates(centre.to_array(), distance).map(|id| exact(self.grid.points()[id as usize]));
-        positions.filter(move |position| position.distance_squared(centre) <= distance * distance)
+    /// The block that a point is in.
+    pub fn block(&self, point: [f64; 3]) -> Block {
+        let side = f64::from(SIDE) * self.radius;
+        // The origin is the lowest point of the surface, up to rounding, which truncation ignores.
+        Block([0, 1, 2].map(|axis| ((point[axis] - self.origin[axis]) / side) as i32))
     }
 
-    /// Adds those of the candidates that the greedy choice in their order takes, and returns how many that are.
+    /// Adds what `task` makes of each block's items, given the room of the block, and returns the sum of its counts.
     ///
-    /// The candidates must not be rejected by the set. Where the job is cancelled nothing is added.
-    pub fn merge(&mut self, job: &Job, candidates: &[Sample]) -> Result<usize> {
-        let positions: Vec<_> = candidates.iter().map(|candidate| candidate.position).collect();
-        let accepted = merge::greedy(job, &positions, self.radius, self.origin)?;
-        for &index in &accepted {
-            let Sample { position, triangle, barycentrics } = candidates[index as usize];
-            self.grid.insert(position);
-            self.triangles.push(triangle);
-            self.barycentrics.push(barycentrics);
+    /// The task returns samples that conflict neither with each other nor with anything in the room, no farther than
+    /// 4/3 radii from the block. A failed or cancelled job leaves what complete colours have added.
+    pub fn grow<T: Send + Sync>(
+        &mut self,
+        job: &Job,
+        groups: &Groups<Block, T>,
+        task: impl Fn(Block, &mut Room, &mut dyn Iterator<Item = &T>) -> (Vec<Sample>, u64) + Sync,
+    ) -> Result<u64> {
+        let mut colours: [Vec<usize>; 8] = Default::default();
+        (0..groups.len()).for_each(|group| colours[groups.place(group).colour()].push(group));
+        let (mut done, mut total) = (0, 0);
+        for members in colours {
+            let share = |done: usize| done as f64 / groups.len().max(1) as f64;
+            let part = job.part(share(done), share(done + members.len()));
+            let grown = part.map(members.len(), |member| {
+                let block = groups.place(members[member]);
+                task(block, &mut self.room(block), &mut groups.items(members[member]))
+            })?;
+            done += members.len();
+            for (&group, (samples, count)) in members.iter().zip(grown) {
+                total += count;
+                if !samples.is_empty() {
+                    let start = self.len() as u32;
+                    self.samples.extend(samples);
+                    let run = start..self.len() as u32;
+                    self.blocks.entry(groups.place(group)).or_default().push(run);
+                }
+            }
         }
-        Ok(accepted.len())
+        Ok(total)
     }
 
-    /// The samples in the order in which they were accepted.
+    /// What stands in and around a block.
+    fn room(&self, block: Block) -> Room {
+        let mut room = Room::new(block, self.origin, self.radius);
+        for runs in block.around().filter_map(|block| self.blocks.get(&block)) {
+            for run in runs {
+                self.samples[run.start as usize..run.end as usize].iter().for_each(|sample| room.add(sample.position));
+            }
+        }
+        room
+    }
+
+    /// Takes back all but the first samples.
+    pub fn truncate(&mut self, len: usize) {
+        self.samples.truncate(len);
+        for runs in self.blocks.values_mut() {
+            runs.retain(|run| run.end as usize <= len);
+        }
+    }
+
+    /// The samples in the order in which they were accepted, with their normals.
     pub fn to_surface_samples(&self, mesh: &Mesh) -> SurfaceSamples {
         SurfaceSamples {
-            positions: self.grid.points().to_vec(),
-            normals: self.triangles.iter().map(|&triangle| mesh.normal(triangle)).collect(),
-            triangles: self.triangles.clone(),
-            barycentrics: self.barycentrics.clone(),
-        }
-    }
-
-    /// The invariants: one entry per sample everywhere, each sample at its barycentrics, no two in conflict.
-    #[cfg(test)]
-    fn sanity_check(&self, mesh: &Mesh) {
-        let positions = self.grid.points();
-        assert_eq!((positions.len(), self.barycentrics.len()), (self.len(), self.len()));
-        for (i, &position) in positions.iter().enumerate() {
-            assert_eq!(position, mesh.point(self.triangles[i], self.barycentrics[i]));
-            assert!(!self.grid.any_closer(position, self.radius, Some(i as u32)));
-        }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::job::Context;
-    use crate::rng::{Draw, Rng};
-
-    #[test]
-    fn a_set_that_grows_stays_sane_and_takes_whom_it_has_room_for() {
-        let corners = vec![[3.0, 0.0, 0.1], [4.0, 0.0, 0.0], [4.0, 1.0, 0.0], [3.0, 1.0, 0.3]];
-        let mesh = Mesh::new(corners, vec![[0, 1, 2], [0, 2, 3]]).unwrap();
-        let context = Context::new(2).unwrap();
-        let mut samples = SampleSet::new(&mesh, 0.05);
-        for round in 0..4 {
-            let mut rng = Rng::at(1, Draw::Probe, &[round]);
-            let mut candidate = |_| {
-                let (u, v) = (rng.unit() as f32, rng.unit() as f32);
-                Sample::new(&mesh, rng.below(2) as u32, if u + v < 1.0 { [u, v] } else { [0.5 * u, 0.5 * v] })
-            };
-            let candidates: Vec<_> = (0..500).map(&mut candidate).collect();
-            let welcome: Vec<_> = candidates.iter().copied().filter(|sample| !samples.rejects(sample)).collect();
-            let before = samples.len();
-            let accepted = context.run(None, |job| samples.merge(job, &welcome)).unwrap();
-            assert_eq!(samples.len(), before + accepted);
-            assert!(candidates.iter().all(|candidate| samples.rejects(candidate)), "room is left for a candidate");
-            samples.sanity_check(&mesh);
+            positions: self.samples.iter().map(|sample| sample.position).collect(),
+            normals: self.samples.iter().map(|sample| mesh.normal(sample.triangle)).collect(),
+            triangles: self.samples.iter().map(|sample| sample.triangle).collect(),
+            barycentrics: self.samples.iter().map(|sample| sample.barycentrics).collect(),
         }
     }
 }

@@ -49,6 +49,40 @@ pub fn fine_torus(around_hole: u32, around_tube: u32) -> Soup {
     })
 }
 
+/// A closed hall, 4 by 2 and 1 high, with two rows of columns, arches between them and drapes along the walls: many
+/// surfaces behind one another, whichever way one looks. `detail` is the number of quads around a column.
+pub fn hall(detail: u32) -> Soup {
+    let plain = |origin: [f64; 3], u: [f64; 3], v: [f64; 3]| {
+        patch(detail, detail, move |s, t| std::array::from_fn(|axis| origin[axis] + s * u[axis] + t * v[axis]))
+    };
+    let (length, width, height) = ([4.0, 0.0, 0.0], [0.0, 2.0, 0.0], [0.0, 0.0, 1.0]);
+    let mut parts = Vec::new();
+    for (u, v, w) in [(length, width, height), (width, height, length), (height, length, width)] {
+        parts.extend([plain([0.0; 3], u, v), plain(w, v, u)]);
+    }
+    for y in [0.6, 1.4] {
+        for x in (1..8).map(|i| 0.5 * f64::from(i)) {
+            parts.push(patch(detail, 2 * detail, |u, v| {
+                let ((sin, cos), radius) = ((TAU * u).sin_cos(), 0.06 + 0.02 * (TAU * v).cos().powi(4));
+                [x + radius * cos, y + radius * sin, 0.6 * v]
+            }));
+        }
+        for x in (1..7).map(|i| 0.5 * f64::from(i) + 0.25) {
+            parts.push(patch(detail, detail, |u, v| {
+                let ((sin, cos), (side, out)) = ((TAU / 2.0 * u).sin_cos(), (TAU * v).sin_cos());
+                let radius = 0.25 + 0.04 * out;
+                [x + radius * cos, y + 0.04 * side, 0.6 + radius * sin]
+            }));
+        }
+    }
+    for (y, x) in [0.1, 1.9].into_iter().flat_map(|y| (0..5).map(move |i| (y, 0.2 + 0.75 * f64::from(i)))) {
+        parts.push(patch(4 * detail, detail, |u, v| {
+            [x + 0.6 * u, y + 0.03 * (1.5 - v) * (8.0 * TAU * u).sin(), 0.9 * v]
+        }));
+    }
+    join(parts)
+}
+
 /// Two parallel unit squares, this far apart.
 pub fn sheets(distance: f32) -> Soup {
     let (low, mut high) = (plane(), plane());
