@@ -104,16 +104,11 @@ impl Blocks {
         index
     }
 
-    /// The blocks of a rectangle of them whose column and row have the given parity, each with its lattice points.
-    pub fn of_parity(&self, blocks: &Rect, parity: [i32; 2]) -> impl Iterator<Item = ([i32; 2], Rect)> + use<> {
-        let [columns, rows] = [0, 1].map(|axis: usize| {
-            let indices = (blocks.min[axis]..blocks.max[axis]).filter(move |index| index & 1 == parity[axis]);
-            indices.map(|index| (index, self.border(axis, index), self.border(axis, index + 1))).collect::<Vec<_>>()
-        });
-        rows.into_iter().flat_map(move |(row, bottom, top)| {
-            let block = move |(column, left, right)| ([column, row], Rect { min: [left, bottom], max: [right, top] });
-            columns.clone().into_iter().map(block)
-        })
+    /// The columns (axis 0) or rows (axis 1) of a rectangle of blocks that have the given parity, from left to right, each
+    /// with its first lattice point and the one after its last.
+    pub fn of_parity(&self, blocks: &Rect, axis: usize, parity: i32) -> impl Iterator<Item = (i32, [i32; 2])> {
+        let indices = (blocks.min[axis]..blocks.max[axis]).filter(move |index| index & 1 == parity);
+        indices.map(move |index| (index, [self.border(axis, index), self.border(axis, index + 1)]))
     }
 
     /// A rectangle of blocks with more columns and rows around it, as far as there are any.

@@ -12,6 +12,12 @@ use super::conquer::SeamCells;
 use super::output::Output;
 use super::stamp::{Bitmap, Place, Stamps};
 
+/// A fill block: its lattice points, and the cells that hold them.
+pub(super) struct Block {
+    pub rect: Rect,
+    pub cells: Rect,
+}
+
 /// The filling of the blocks of a window, one after the other.
 pub(super) struct Filling<'a> {
     stamps: &'a Stamps,
@@ -30,16 +36,15 @@ impl<'a> Filling<'a> {
         Self { stamps, seams, reach, quadtree: Quadtree::empty(), near: Vec::new(), open: Vec::new() }
     }
 
-    /// Makes the samples of the grid maximal in `block`, a rectangle of lattice points, and gives the new ones to `output`.
+    /// Makes the samples of the grid maximal in `block` and gives the new ones to `output`.
     /// `rng` makes the random numbers of the block.
-    pub fn fill(&mut self, grid: &mut CellGrid, block: &Rect, rng: impl Fn() -> Rng, output: &mut Output) {
-        let cells = grid.cells_of(block);
-        if !self.seams.any_in(&cells) {
+    pub fn fill(&mut self, grid: &mut CellGrid, block: &Block, rng: impl Fn() -> Rng, output: &mut Output) {
+        if !self.seams.any_in(&block.cells) {
             return;
         }
         let mut rng = rng();
-        let mut bitmap = Bitmap::of_seams(self.stamps, grid, &self.seams, *block, cells);
-        bitmap.stamp_all(grid.vectors(), grid.collect(&block.grown(self.reach), &mut self.near));
+        let mut bitmap = Bitmap::of_seams(self.stamps, grid, &self.seams, block);
+        bitmap.stamp_all(grid.vectors(), grid.collect(&block.cells, &block.rect.grown(self.reach), &mut self.near));
         bitmap.list(&mut self.open);
 
         let width = Bitmap::widest(grid);

@@ -19,7 +19,7 @@ use super::blocks::{Blocks, PHASES};
 use super::clip::{Pattern, pattern_side};
 use super::conquer::{LONGEST_CHAIN, SeamCells, merge};
 use super::divide::{Leaf, Tree};
-use super::fill::Filling;
+use super::fill::{Block, Filling};
 use super::output::Output;
 use super::stamp::Stamps;
 
@@ -130,8 +130,18 @@ impl Plane {
         let seams = SeamCells::new(&grid, leaves, &eliminated, reach);
         let mut filling = Filling::new(&self.stamps, seams, reach);
         for (parity, margin) in PHASES {
-            for (block, rect) in self.blocks.of_parity(&self.blocks.grown(window, margin), parity) {
-                filling.fill(&mut grid, &rect, || self.blocks.rng(block), &mut output);
+            let blocks = self.blocks.grown(window, margin);
+            // Cells are found once per column and row, not once per block.
+            let [columns, rows] = [0, 1].map(|axis: usize| {
+                let spans = self.blocks.of_parity(&blocks, axis, parity[axis]);
+                spans.map(|(index, points)| (index, points, grid.cells_between(axis, points))).collect::<Vec<_>>()
+            });
+            for (row, y, rows) in rows {
+                for &(column, x, columns) in &columns {
+                    let rect = |x: [i32; 2], y: [i32; 2]| Rect { min: [x[0], y[0]], max: [x[1], y[1]] };
+                    let block = Block { rect: rect(x, y), cells: rect(columns, rows) };
+                    filling.fill(&mut grid, &block, || self.blocks.rng([column, row]), &mut output);
+                }
             }
         }
         #[cfg(test)]

@@ -9,6 +9,7 @@ use crate::lattice::Rect;
 use crate::maximal::{CellGrid, Vectors};
 
 use super::conquer::SeamCells;
+use super::fill::Block;
 
 /// Voxels along a cell's side.
 const PER_CELL: i32 = 4;
@@ -90,16 +91,19 @@ pub(super) struct Bitmap<'a> {
 pub(super) type Place = [u8; 2];
 
 impl<'a> Bitmap<'a> {
-    /// The voxels of the block in cells at seams, as if nothing covered them. `cells` hold the block.
+    /// The voxels of the block in cells at seams, as if nothing covered them.
     #[inline(always)]
-    pub fn of_seams(stamps: &'a Stamps, grid: &CellGrid, seams: &SeamCells, block: Rect, cells: Rect) -> Self {
+    pub fn of_seams(stamps: &'a Stamps, grid: &CellGrid, seams: &SeamCells, block: &Block) -> Self {
+        let &Block { rect, cells } = block;
         debug_assert!((0..2).all(|axis| cells.length(axis) <= MOST_CELLS));
-        let mut bitmap = Self { stamps, block, cells, origin: grid.rect(cells.min).min, rows: [0; ROWS] };
+        let mut bitmap = Self { stamps, block: rect, cells, origin: grid.rect(cells.min).min, rows: [0; ROWS] };
         let [columns, rows] = [bitmap.inside(grid, 0), bitmap.inside(grid, 1)];
-        for (index, row) in bitmap.rows.iter_mut().enumerate().take(u64::BITS as usize).skip(MARGIN as usize) {
-            let cell = (index as i32 - MARGIN) / PER_CELL;
-            if rows >> index & 1 == 1 {
-                *row = columns & spread(seams.in_row(cells.min[1] + cell, cells.min[0], cells.max[0])) << MARGIN;
+        let cell_rows = bitmap.rows[MARGIN as usize..].chunks_exact_mut(PER_CELL as usize);
+        for (y, voxel_rows) in (cells.min[1]..cells.max[1]).zip(cell_rows) {
+            let voxels = columns & spread(seams.in_row(y, cells.min[0], cells.max[0])) << MARGIN;
+            let inside = rows >> (MARGIN + PER_CELL * (y - cells.min[1]));
+            for (part, row) in voxel_rows.iter_mut().enumerate() {
+                *row = voxels & (inside >> part & 1).wrapping_neg();
             }
         }
         bitmap
@@ -247,8 +251,8 @@ mod tests {
                     let around = rng.below((block.length(axis) as u64) + 2 * reach) as i32;
                     block.min[axis] + around - reach as i32
                 });
-                let cells = grid.cells_of(&block);
-                let mut bitmap = Bitmap::of_seams(&stamps, &grid, &seams, block, cells);
+                let mut bitmap =
+                    Bitmap::of_seams(&stamps, &grid, &seams, &Block { rect: block, cells: grid.cells_of(&block) });
                 let mut places = Vec::new();
                 bitmap.list(&mut places);
                 let area: i64 = places.iter().map(|&place| area(&bitmap.voxel(&grid, place).1)).sum();
@@ -297,7 +301,8 @@ mod tests {
                 })
                 .collect();
             let stamped = |vectors| {
-                let mut bitmap = Bitmap::of_seams(&stamps, &grid, &seams, block, grid.cells_of(&block));
+                let cells = grid.cells_of(&block);
+                let mut bitmap = Bitmap::of_seams(&stamps, &grid, &seams, &Block { rect: block, cells });
                 bitmap.stamp_all(vectors, &samples);
                 bitmap.rows
             };

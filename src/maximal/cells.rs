@@ -116,6 +116,12 @@ impl CellGrid {
         cell as i32
     }
 
+    /// The columns (axis 0) or rows (axis 1) of cells that hold the coordinates between two, the first and the one after
+    /// the last.
+    pub fn cells_between(&self, axis: usize, [from, end]: [i32; 2]) -> [i32; 2] {
+        [self.cell_along(axis, from), self.cell_along(axis, end - 1) + 1]
+    }
+
     /// The vectors that the grid works with.
     pub fn vectors(&self) -> Vectors {
         self.vectors
@@ -257,10 +263,12 @@ impl CellGrid {
         }
     }
 
-    /// The samples in `rect`, by rows of cells; `samples` is the memory for them.
+    /// The samples in `rect`, which reaches no farther beyond the given cells than conflicts do; by rows of cells, the margin
+    /// included. `samples` is the memory for them.
     #[inline(always)]
-    pub fn collect<'a>(&self, rect: &Rect, samples: &'a mut Vec<[i32; 2]>) -> &'a [[i32; 2]] {
-        let cells = self.cells_of(rect);
+    pub fn collect<'a>(&self, cells: &Rect, rect: &Rect, samples: &'a mut Vec<[i32; 2]>) -> &'a [[i32; 2]] {
+        let [x, y] = self.margin;
+        let cells = Rect { min: [cells.min[0] - x, cells.min[1] - y], max: [cells.max[0] + x, cells.max[1] + y] };
         let room = (cells.length(0) * cells.length(1)) as usize;
         if samples.len() < room {
             samples.resize(room, [0; 2]);

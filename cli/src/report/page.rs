@@ -148,7 +148,7 @@ fn bias(effort: &Effort, statistics: &[Statistics]) -> String {
     _ = write!(
         text,
         "\n*Peaks* are the largest power on the axes, where seams are, and on the harmonics of what is regular: the fill \
-         blocks, 4√2 r wide before jitter, and the cells, r/√2. Of the mean spectrum of {} sets; the mean of {GROUPS} such \
+         blocks, at most 4.8 r wide before jitter, and the cells, at most r/√2. Of the mean spectrum of {} sets; the mean of {GROUPS} such \
          groups, with their range.\n",
         effort.sets_per_group,
     );

@@ -13,8 +13,8 @@ pub const GROUPS: u64 = 5;
 pub const ANNULUS: f64 = 0.01;
 pub const CONTRAST_RANGE: std::ops::Range<f64> = 0.5..2.0;
 
-/// The width of a fill block of KDRT and that of a cell of the quadtree, in radii.
-const BLOCK: f64 = 4.0 * std::f64::consts::SQRT_2;
+/// The largest width of a fill block of KDRT and of a cell of the quadtree, in radii.
+const BLOCK: f64 = 4.8;
 const CELL: f64 = std::f64::consts::FRAC_1_SQRT_2;
 
 /// What is known of a quantity from some measurements of it.
@@ -136,7 +136,7 @@ fn power_of(spectrum: &Periodogram, [column, row]: [i64; 2]) -> f64 {
 /// The frequencies where the regular parts of KDRT would show, in waves per period: all on the axes, the multiples of
 /// the number of fill blocks per side, and of the number of cells.
 fn harmonics(radius: f64, half: i64) -> [Vec<[i64; 2]>; 3] {
-    let blocks = (1.0 / (BLOCK * radius)) as i64 / 2 * 2;
+    let blocks = 2 * (0.5 / (BLOCK * radius)).ceil() as i64;
     let cells = (1.0 / (CELL * radius)).ceil() as i64;
     let multiples = |step: i64| {
         let limit = half / step;
@@ -162,9 +162,9 @@ mod tests {
     fn harmonics_are_multiples_of_what_is_regular_in_half_of_the_plane() {
         let [axes, blocks, cells] = harmonics(0.02, 20);
         assert_eq!((axes.len(), axes[0], axes[39]), (40, [1, 0], [0, 20]));
-        // 8.8 blocks per side, of which there are 8: an even number.
-        assert_eq!(blocks.len(), 2 + 2 * 5);
-        assert!(blocks.contains(&[-16, 8]) && !blocks.contains(&[0, 0]) && !blocks.contains(&[-8, 0]));
+        // At least 10.4 blocks per side, of which there are 12: an even number.
+        assert_eq!(blocks.len(), 1 + 3);
+        assert!(blocks.contains(&[-12, 12]) && !blocks.contains(&[0, 0]) && !blocks.contains(&[-12, 0]));
         assert!(cells.is_empty());
         assert!(harmonics(0.02, 71)[2].contains(&[-71, 71]));
     }

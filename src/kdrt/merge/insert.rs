@@ -58,8 +58,12 @@ impl Gaps<'_> {
 
         let (inside, mut samples) = (blocks.rect(window), Vec::new());
         for (parity, margin) in PHASES {
-            for (block, rect) in blocks.of_parity(&blocks.grown(window, margin), parity) {
-                let (mut quadtree, mut rng) = (uncovered(&grid, &rect), blocks.rng(block));
+            let phase = blocks.grown(window, margin);
+            let columns: Vec<_> = blocks.of_parity(&phase, 0, parity[0]).collect();
+            let rows = blocks.of_parity(&phase, 1, parity[1]);
+            for ((row, y), &(column, x)) in rows.flat_map(|row| columns.iter().map(move |column| (row, column))) {
+                let rect = Rect { min: [x[0], y[0]], max: [x[1], y[1]] };
+                let (mut quadtree, mut rng) = (uncovered(&grid, &rect), blocks.rng([column, row]));
                 quadtree.fill(&mut grid, &mut rng, |sample| {
                     if inside.contains(sample) {
                         samples.push(self.lattice.position(sample));
