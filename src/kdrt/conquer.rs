@@ -121,9 +121,17 @@ impl SeamCells {
         }
     }
 
-    /// Whether any cell of a rectangle, less than 64 cells wide, is marked.
-    pub fn any_in(&self, cells: &Rect) -> bool {
-        (cells.min[1]..cells.max[1]).any(|row| self.in_row(row, cells.min[0], cells.max[0]) != 0)
+    /// The marked cells of a rectangle, less than 64 cells wide, and what lies between them: a rectangle, if there are any.
+    pub fn marked_in(&self, cells: &Rect) -> Option<Rect> {
+        let (mut columns, mut rows) = (0, [i32::MAX, 0]);
+        for row in cells.min[1]..cells.max[1] {
+            let marks = self.in_row(row, cells.min[0], cells.max[0]);
+            if marks != 0 {
+                (columns, rows) = (columns | marks, [rows[0].min(row), row + 1]);
+            }
+        }
+        let (first, end) = (columns.trailing_zeros() as i32, 64 - columns.leading_zeros() as i32);
+        (columns != 0).then(|| Rect { min: [cells.min[0] + first, rows[0]], max: [cells.min[0] + end, rows[1]] })
     }
 
     /// The marks of a row from column `first` to before `end`, less than 64 of them, one per bit.

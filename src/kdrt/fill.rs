@@ -39,12 +39,11 @@ impl<'a> Filling<'a> {
     /// Makes the samples of the grid maximal in `block` and gives the new ones to `output`.
     /// `rng` makes the random numbers of the block.
     pub fn fill(&mut self, grid: &mut CellGrid, block: &Block, rng: impl Fn() -> Rng, output: &mut Output) {
-        if !self.seams.any_in(&block.cells) {
-            return;
-        }
+        let Some(marked) = self.seams.marked_in(&block.cells) else { return };
         let mut rng = rng();
         let mut bitmap = Bitmap::of_seams(self.stamps, grid, &self.seams, block);
-        bitmap.stamp_all(grid.vectors(), grid.collect(&block.cells, &block.rect.grown(self.reach), &mut self.near));
+        let around = grid.points_of(&marked).grown(self.reach);
+        bitmap.stamp_all(grid.vectors(), grid.collect(&marked, &around, &mut self.near));
         bitmap.list(&mut self.open);
 
         let width = Bitmap::widest(grid);

@@ -152,7 +152,7 @@ impl<'a> Bitmap<'a> {
         }
     }
 
-    /// Takes out what a sample covers; it may lie up to the radius outside of the block.
+    /// Takes out what a sample covers; it may lie up to the radius outside of the block's cells.
     #[inline(always)]
     pub fn stamp(&mut self, sample: [i32; 2]) {
         let (mut column, mut row) = (self.place(sample, 0), self.place(sample, 1));

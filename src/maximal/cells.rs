@@ -91,6 +91,11 @@ impl CellGrid {
         Rect { min: [columns[x], rows[y]], max: [columns[x + 1], rows[y + 1]] }
     }
 
+    /// The lattice points of a rectangle of cells.
+    pub fn points_of(&self, cells: &Rect) -> Rect {
+        Rect { min: self.rect(cells.min).min, max: self.rect([cells.max[0] - 1, cells.max[1] - 1]).max }
+    }
+
     /// The border before a part of a column (axis 0) or row (axis 1) of cells that is cut in `parts`.
     #[inline(always)]
     pub fn border(&self, axis: usize, cell: i32, part: i32, parts: i32) -> i32 {
