@@ -17,6 +17,8 @@
 use crate::error::{Error, Result};
 use crate::points::{Boundary, Domain, check_radius};
 
+pub(crate) use crate::rect::Rect;
+
 /// N·r² of an unbiased maximal set of N samples in the unit square: the jamming limit of random sequential
 /// placement of disks, 0.5470735, is the share of the area that disks of *diameter* r cover.
 pub(crate) const MAXIMAL_DENSITY: f64 = 0.5470735 * 4.0 / std::f64::consts::PI;
@@ -26,44 +28,6 @@ const FINEST_RADIUS: f64 = 64.0;
 
 /// More samples are never made in one call.
 const MAX_SAMPLES: f64 = u32::MAX as f64;
-
-/// A rectangle of lattice points, `min` inclusive, `max` exclusive.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Rect {
-    pub min: [i32; 2],
-    pub max: [i32; 2],
-}
-
-impl Rect {
-    pub fn contains(&self, point: [i32; 2]) -> bool {
-        (0..2).all(|axis| self.min[axis] <= point[axis] && point[axis] < self.max[axis])
-    }
-
-    pub fn intersection(&self, other: &Self) -> Self {
-        Self {
-            min: [self.min[0].max(other.min[0]), self.min[1].max(other.min[1])],
-            max: [self.max[0].min(other.max[0]), self.max[1].min(other.max[1])],
-        }
-    }
-
-    pub fn is_empty(&self) -> bool {
-        (0..2).any(|axis| self.min[axis] >= self.max[axis])
-    }
-
-    /// The rectangle with its borders moved outwards, or inwards by a negative margin.
-    pub fn grown(&self, margin: i32) -> Self {
-        Self { min: self.min.map(|x| x - margin), max: self.max.map(|x| x + margin) }
-    }
-
-    pub fn translated(&self, by: [i32; 2]) -> Self {
-        let shift = |corner: [i32; 2]| std::array::from_fn(|axis| corner[axis] + by[axis]);
-        Self { min: shift(self.min), max: shift(self.max) }
-    }
-
-    pub fn length(&self, axis: usize) -> i32 {
-        self.max[axis] - self.min[axis]
-    }
-}
 
 /// The lattice of a domain, with the radius in its units.
 #[derive(Clone, Debug)]

@@ -49,6 +49,7 @@ mod memory;
 pub mod mesh;
 mod points;
 pub mod psp;
+mod rect;
 mod rng;
 #[allow(unsafe_code)]
 pub mod trace;

@@ -10,7 +10,7 @@ use crate::lattice::{Lattice, Rect};
 use crate::points::Boundary;
 use crate::rng::{Draw, Rng, hash};
 
-/// The most that a block is wide, in radii, before jitter. With jitter it touches [`MOST_CELLS`](super::stamp::MOST_CELLS)
+/// The most that a block is wide, in radii, before jitter. With jitter it touches [`MOST_CELLS`](super::bitmap::MOST_CELLS)
 /// cells at most, since a domain worth tiling has cells of at least 0.67 radii.
 const WIDTH: f64 = 4.8;
 
@@ -133,7 +133,7 @@ impl Blocks {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::kdrt::stamp::MOST_CELLS;
+    use crate::kdrt::bitmap::MOST_CELLS;
     use crate::maximal::CellAxis;
     use crate::points::Domain;
 

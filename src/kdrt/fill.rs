@@ -2,15 +2,16 @@
 //!
 //! Departure: the thesis puts a sample at a circumcentre in each gap, again and again, and so prefers the middle of
 //! gaps; here a gap is filled by a flat quadtree, uniformly on what is uncovered and until nothing is. Its first level
-//! is a bitmap (`stamp.rs`), in which nearly all gaps are found and closed.
+//! is a bitmap (`bitmap.rs`), in which nearly all gaps are found and closed.
 
 use crate::lattice::Rect;
 use crate::maximal::{CellGrid, Quadtree, darts};
 use crate::rng::Rng;
 
+use super::bitmap::{Bitmap, Place};
 use super::conquer::SeamCells;
 use super::output::Output;
-use super::stamp::{Bitmap, Place, Stamps};
+use super::stamp::Stamps;
 
 /// A fill block: its lattice points, and the cells that hold them.
 pub(super) struct Block {

@@ -10,6 +10,8 @@
 //! of a plane can be had alone (`window.rs`). A number of samples instead of a radius is `count.rs`; sets that were made
 //! apart are glued into one by the same two steps (`merge/`). Each file says where it departs from the thesis.
 
+#[allow(unsafe_code)] // Vector instructions.
+mod bitmap;
 mod blocks;
 mod clip;
 mod conquer;
@@ -20,7 +22,6 @@ mod measure;
 mod merge;
 mod output;
 mod plane;
-#[allow(unsafe_code)] // Vector instructions.
 mod stamp;
 mod window;
 

@@ -1,0 +1,263 @@
+//! Which parts of a fill block are covered, as a bitmap of voxels that samples are stamped out of.
+//!
+//! A row of a block is one word, and a sample clears, in a dozen words, the voxels that lie in its disk (`stamp.rs`). The
+//! bitmap may keep voxels that are covered, never the other way round.
+
+use crate::lattice::Rect;
+use crate::maximal::{CellGrid, Vectors};
+
+use super::conquer::SeamCells;
+use super::fill::Block;
+use super::stamp::{self, PER_CELL, PLACES, REACH, Stamps};
+
+/// Voxels of a block's bitmap before its first one, so that every stamp begins in the bitmap.
+const MARGIN: i32 = 2 * REACH;
+
+/// Voxels along the side of the largest block.
+const LONGEST: i32 = u64::BITS as i32 - MARGIN;
+
+/// The most cells along the side of a block.
+pub(super) const MOST_CELLS: i32 = LONGEST / PER_CELL;
+
+/// Rows of a bitmap: those of the longest block with the margin before it, and a stamp that begins in the last one.
+const ROWS: usize = (MARGIN + LONGEST) as usize + stamp::ROWS;
+
+/// The voxels of a block that may be uncovered.
+pub(super) struct Bitmap<'a> {
+    stamps: &'a Stamps,
+    block: Rect,
+    /// The cells that hold the block, and the first of their lattice points.
+    cells: Rect,
+    origin: [i32; 2],
+    rows: [u64; ROWS],
+}
+
+/// The column and row of a voxel in the bitmap.
+pub(super) type Place = [u8; 2];
+
+impl<'a> Bitmap<'a> {
+    /// The voxels of the block in cells at seams, as if nothing covered them.
+    #[inline(always)]
+    pub fn of_seams(stamps: &'a Stamps, grid: &CellGrid, seams: &SeamCells, block: &Block) -> Self {
+        let &Block { rect, cells } = block;
+        debug_assert!((0..2).all(|axis| cells.length(axis) <= MOST_CELLS));
+        let mut bitmap = Self { stamps, block: rect, cells, origin: grid.rect(cells.min).min, rows: [0; ROWS] };
+        let [columns, rows] = [bitmap.inside(grid, 0), bitmap.inside(grid, 1)];
+        let cell_rows = bitmap.rows[MARGIN as usize..].chunks_exact_mut(PER_CELL as usize);
+        for (y, voxel_rows) in (cells.min[1]..cells.max[1]).zip(cell_rows) {
+            let voxels = columns & spread(seams.in_row(y, cells.min[0], cells.max[0])) << MARGIN;
+            let inside = rows >> (MARGIN + PER_CELL * (y - cells.min[1]));
+            for (part, row) in voxel_rows.iter_mut().enumerate() {
+                *row = voxels & (inside >> part & 1).wrapping_neg();
+            }
+        }
+        bitmap
+    }
+
+    /// The columns (axis 0) or rows (axis 1) of voxels that have lattice points of the block, one per bit.
+    #[inline(always)]
+    fn inside(&self, grid: &CellGrid, axis: usize) -> u64 {
+        let last = self.cells.max[axis] - 1;
+        let (mut first_inside, mut end_inside) = (0, PER_CELL * (last - self.cells.min[axis]));
+        for part in 1..=PER_CELL {
+            first_inside += i32::from(grid.border(axis, self.cells.min[axis], part, PER_CELL) <= self.block.min[axis]);
+            end_inside += i32::from(grid.border(axis, last, part - 1, PER_CELL) < self.block.max[axis]);
+        }
+        u64::MAX >> (64 - (end_inside - first_inside)) << (MARGIN + first_inside)
+    }
+
+    /// [`Bitmap::stamp`] of many samples.
+    pub fn stamp_all(&mut self, vectors: Vectors, samples: &[[i32; 2]]) {
+        match vectors {
+            // SAFETY: the variants say that the processor has the vectors.
+            #[cfg(target_arch = "x86_64")]
+            Vectors::Avx512 => unsafe { self.stamp_all_avx512(samples) },
+            #[cfg(target_arch = "x86_64")]
+            // SAFETY: the same.
+            Vectors::Avx2 => unsafe { self.stamp_all_avx2(samples) },
+            Vectors::Portable => samples.iter().for_each(|&sample| self.stamp(sample)),
+        }
+    }
+
+    /// The portable code, compiled for AVX-512.
+    #[cfg(target_arch = "x86_64")]
+    #[target_feature(enable = "avx512f,avx512vl,avx512dq,avx512bw")]
+    fn stamp_all_avx512(&mut self, samples: &[[i32; 2]]) {
+        for &sample in samples {
+            self.stamp(sample);
+        }
+    }
+
+    /// The portable code, compiled for AVX2.
+    #[cfg(target_arch = "x86_64")]
+    #[target_feature(enable = "avx2")]
+    fn stamp_all_avx2(&mut self, samples: &[[i32; 2]]) {
+        for &sample in samples {
+            self.stamp(sample);
+        }
+    }
+
+    /// Takes out what a sample covers; it may lie up to the radius outside of the block's cells.
+    #[inline(always)]
+    pub fn stamp(&mut self, sample: [i32; 2]) {
+        let place = [self.place(sample, 0), self.place(sample, 1)];
+        let stamp = self.stamps.at(place);
+        let (column, row) = (place[0] / PLACES, place[1] / PLACES);
+        let rows: &mut [u64; stamp::ROWS] =
+            (&mut self.rows[row as usize..][..stamp::ROWS]).try_into().expect("its rows");
+        for i in 0..stamp::ROWS {
+            rows[i] &= !(u64::from(stamp[i]) << (column & 63));
+        }
+    }
+
+    /// Where along an axis the stamp of a sample begins, in places.
+    #[inline(always)]
+    fn place(&self, sample: [i32; 2], axis: usize) -> u32 {
+        let place = self.stamps.place(axis, sample[axis] - self.origin[axis]);
+        // It is not negative, and far below 2^31; the conversion rounds towards zero.
+        (place + ((MARGIN - REACH) as u32 * PLACES) as f32) as i32 as u32
+    }
+
+    /// Whether a voxel may be uncovered.
+    pub fn is_open(&self, [column, row]: Place) -> bool {
+        self.rows[usize::from(row)] >> column & 1 == 1
+    }
+
+    /// All voxels that may be uncovered.
+    #[inline(always)]
+    pub fn list(&self, places: &mut Vec<Place>) {
+        places.clear();
+        let rows = MARGIN as usize..(MARGIN + PER_CELL * self.cells.length(1)) as usize;
+        for row in rows {
+            let mut open = self.rows[row];
+            while open != 0 {
+                places.push([open.trailing_zeros() as u8, row as u8]);
+                open &= open - 1;
+            }
+        }
+    }
+
+    /// The cell of a voxel and its lattice points in the block.
+    #[inline(always)]
+    pub fn voxel(&self, grid: &CellGrid, place: Place) -> ([i32; 2], Rect) {
+        let place = place.map(|index| i32::from(index) - MARGIN);
+        let cell = [0, 1].map(|axis: usize| self.cells.min[axis] + place[axis] / PER_CELL);
+        let border = |axis: usize, index: i32| grid.border(axis, cell[axis], place[axis] % PER_CELL + index, PER_CELL);
+        let voxel = Rect { min: [border(0, 0), border(1, 0)], max: [border(0, 1), border(1, 1)] };
+        (cell, voxel.intersection(&self.block))
+    }
+
+    /// The longest side of a voxel.
+    pub fn widest(grid: &CellGrid) -> i32 {
+        (grid.widest_cell() + PER_CELL - 1) / PER_CELL
+    }
+}
+
+/// Each of the lowest sixteen bits, four times.
+fn spread(bits: u64) -> u64 {
+    let bits = (bits | bits << 24) & 0x0000_00ff_0000_00ff;
+    let bits = (bits | bits << 12) & 0x000f_000f_000f_000f;
+    let bits = (bits | bits << 6) & 0x0303_0303_0303_0303;
+    let bits = (bits | bits << 3) & 0x1111_1111_1111_1111;
+    bits * 0xf
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::maximal::CellAxis;
+    use crate::rng::{Draw, Rng};
+
+    /// A grid of cells, all of them seams.
+    fn everything(size: i32, radius: f64) -> (CellGrid, SeamCells, Stamps) {
+        let axes = [size, size - 17].map(|size| CellAxis::new(size, radius));
+        let all = Rect { min: [0; 2], max: [size, size - 17] };
+        let (threshold, reach) = ((radius * radius).ceil() as i64, radius as i32);
+        let grid = CellGrid::new(&axes, &all, threshold, reach);
+        let leaf = crate::kdrt::divide::Leaf { rect: all, key: 0 };
+        let seams = SeamCells::new(&grid, &[leaf], &[], size);
+        (grid, seams, Stamps::new(radius, [0, 1].map(|axis: usize| axes[axis].side())))
+    }
+
+    /// Every voxel of random blocks against the exact distances to one sample, anywhere around.
+    #[test]
+    fn a_stamp_takes_out_what_is_covered_and_nothing_else() {
+        let mut rng = Rng::at(5, Draw::Probe, &[]);
+        let mut covered = 0;
+        for (radius, size) in [(64.5, 1_100), (1_000.3, 17_000), (70_000.0, 1_400_000), (2_000_000.0, 30_000_000)] {
+            let (grid, seams, stamps) = everything(size, radius);
+            let threshold = (radius * radius).ceil() as i64;
+            for _ in 0..300 {
+                let length = (radius * 7.2) as i32;
+                let min = [0, 1].map(|_| rng.below((size - 17 - length) as u64) as i32);
+                let max = min.map(|x| x + 1 + rng.below(length as u64) as i32);
+                let block = Rect { min, max };
+                let reach = radius as u64;
+                let sample = [0, 1].map(|axis: usize| {
+                    let around = rng.below((block.length(axis) as u64) + 2 * reach) as i32;
+                    block.min[axis] + around - reach as i32
+                });
+                let mut bitmap =
+                    Bitmap::of_seams(&stamps, &grid, &seams, &Block { rect: block, cells: grid.cells_of(&block) });
+                let mut places = Vec::new();
+                bitmap.list(&mut places);
+                let area: i64 = places.iter().map(|&place| area(&bitmap.voxel(&grid, place).1)).sum();
+                assert_eq!(area, self::area(&block), "the voxels are the block");
+
+                bitmap.stamp(sample);
+                for place in places {
+                    let (cell, rect) = bitmap.voxel(&grid, place);
+                    assert_eq!(rect.intersection(&grid.rect(cell)), rect);
+                    let farthest: i64 = [0, 1]
+                        .map(|axis: usize| {
+                            let ends = [rect.min[axis], rect.max[axis] - 1];
+                            ends.map(|end| i64::from(end - sample[axis]).pow(2)).into_iter().max().unwrap()
+                        })
+                        .iter()
+                        .sum();
+                    assert!(bitmap.is_open(place) || farthest < threshold);
+                    covered += u32::from(!bitmap.is_open(place));
+                    // A voxel that the block cuts is judged by all of it.
+                    let is_whole =
+                        (0..2).all(|axis| block.min[axis] < rect.min[axis] && rect.max[axis] < block.max[axis]);
+                    // Two sixteenths of a voxel, and a few lattice points.
+                    let room = 0.03 * radius + 8.0;
+                    assert!(!(bitmap.is_open(place) && is_whole) || (farthest as f64).sqrt() > radius - room);
+                }
+            }
+        }
+        assert!(covered > 10_000);
+    }
+
+    fn area(rect: &Rect) -> i64 {
+        i64::from(rect.length(0)) * i64::from(rect.length(1))
+    }
+
+    #[test]
+    fn all_vectors_stamp_the_same() {
+        let (grid, seams, stamps) = everything(17_000, 1_000.3);
+        let mut rng = Rng::at(6, Draw::Probe, &[]);
+        let block = Rect { min: [3_000, 4_321], max: [9_000, 10_000] };
+        for _ in 0..50 {
+            let samples: Vec<_> = (0..9)
+                .map(|_| {
+                    [0, 1].map(|axis: usize| {
+                        block.min[axis] - 1_000 + rng.below(block.length(axis) as u64 + 2_000) as i32
+                    })
+                })
+                .collect();
+            let stamped = |vectors| {
+                let cells = grid.cells_of(&block);
+                let mut bitmap = Bitmap::of_seams(&stamps, &grid, &seams, &Block { rect: block, cells });
+                bitmap.stamp_all(vectors, &samples);
+                bitmap.rows
+            };
+            assert!(Vectors::available().into_iter().all(|vectors| stamped(vectors) == stamped(Vectors::Portable)));
+        }
+    }
+
+    #[test]
+    fn bits_are_spread_four_times_each() {
+        assert_eq!(spread(0b1000_0000_0000_0101), 0xf000_0000_0000_0f0f);
+    }
+}
