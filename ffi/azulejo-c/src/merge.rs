@@ -113,7 +113,7 @@ impl From<MergeReport> for azulejo_merge_report {
 /// report: what became of the pieces, or NULL.
 ///
 /// O(samples) time with all threads of the context, and O(piece_count^2) at most. A periodic domain narrower than about
-/// 11 radii is filled on one thread.
+/// 10 radii is filled on one thread.
 ///
 /// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for rectangles that overlap or leave the domain, samples outside of
 /// their rectangle, two samples of one piece or two fixed points that are closer than the radius (the message has their

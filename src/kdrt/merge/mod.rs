@@ -102,19 +102,21 @@ pub struct MergeReport {
 ///   largest coordinate, whatever the pieces covered: pieces that are thinned, holes between them, and no piece at all
 ///   are filled.
 /// * Only the seams change. A sample of a piece goes only if it is closer than `radius` to a fixed point, or to a sample
-///   that stays of another piece, or of its own over the seam of a torus. If the pieces are maximal as [`sample`](super::sample) makes them, new samples lie
-///   within `radius` of a sample that went or of the border of a piece's rectangle.
+///   that stays of another piece, or of its own over the seam of a torus. If the pieces are maximal as
+///   [`sample`](super::sample) makes them, new samples lie within `radius` of a sample that went or of the border of a
+///   piece's rectangle.
 /// * Which of two pieces loses samples to the other depends on `seed` and their places in `pieces`.
 /// * The same for every number of threads.
 ///
-/// O(n) for the n samples given and made, and O(p²) at most for p pieces. A torus narrower than about 11 radii is filled
+/// O(n) for the n samples given and made, and O(p²) at most for p pieces. A torus narrower than about 10 radii is filled
 /// on one thread.
 ///
 /// # Errors
 /// [`Error::InvalidArgument`] for an option out of range; for `pieces`, by index, if a rectangle is empty, leaves the
-/// domain or overlaps another one, a sample lies outside its rectangle, or two samples of a piece are in conflict; for `fixed`, by index, if a point lies outside the domain or two of them are in conflict,
-/// because then no set that has both is conflict-free. [`Error::TooLarge`] for more than 2^32 samples or the available
-/// memory. All of them before any sample is made. [`Error::Cancelled`].
+/// domain or overlaps another one, a sample lies outside its rectangle, or two samples of a piece are in conflict; for
+/// `fixed`, by index, if a point lies outside the domain or two of them are in conflict, because then no set that has
+/// both is conflict-free. [`Error::TooLarge`] for more than 2^32 samples or the available memory. All of them before any
+/// sample is made. [`Error::Cancelled`].
 ///
 /// ```
 /// use azulejo::{Boundary, Context, Domain, kdrt};
