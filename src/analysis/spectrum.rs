@@ -9,7 +9,6 @@
 //! taper (1 - ρ²)², ρ being 0 at the centre and 1 on the inscribed ellipse, and the transform of the taper alone, which
 //! a set without any structure would leave around frequency 0, is subtracted.
 
-mod fft;
 mod radial;
 mod transform;
 
@@ -80,8 +79,8 @@ pub fn periodogram(
     let waves = context.run(progress, |job| transform(job, &weighted, half))?;
     let power = (0..size * size).map(|i| {
         let [row, column] = [i / size, i % size].map(|k| k as i64 - half as i64);
-        let [real, imaginary] = waves.at(column, row);
-        ((real - mean.transform(row as f64, column as f64)).hypot(imaginary).powi(2) / energy) as f32
+        let wave = waves.at(column, row);
+        ((wave.re - mean.transform(row as f64, column as f64)).hypot(wave.im).powi(2) / energy) as f32
     });
     let frequency_step = domain.extent().map(|length| 1.0 / (length * density.sqrt()));
     Ok(Periodogram { size, frequency_step, power: power.collect() })

@@ -1,4 +1,5 @@
-//! Which parts of a fill block are covered, as a bitmap of voxels that samples are stamped out of.
+//! Which parts of a fill block are covered, as a bitmap of voxels that samples are stamped out of: the first level of the
+//! quadtree of `fill.rs`.
 //!
 //! A row of a block is one word, and a sample clears, in a dozen words, the voxels that lie in its disk (`stamp.rs`). The
 //! bitmap may keep voxels that are covered, never the other way round.

@@ -1,4 +1,4 @@
-//! Stamps: the voxels that the disk of a sample covers.
+//! Stamps: the voxels that the disk of a sample covers, for the filling of gaps (`fill.rs`; not in the thesis).
 //!
 //! A voxel is a quarter of a cell wide. Which of those around a sample lie in its disk depends only on where in its own
 //! voxel the sample lies; to a sixteenth of a voxel that is looked up in a table. The table holds what is covered for

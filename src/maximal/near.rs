@@ -1,8 +1,8 @@
 //! What is near a place of the grid: the coarse tests, in `f32`, that nearly all work of the plane goes through.
 //!
 //! They say what is certain; what they leave open is decided in integers by `cells.rs`. The code here is plain and
-//! portable. [`Vectors`](super::vectors::Vectors) picks, once for a grid, the same functions in the widest vectors of the processor (`vectors.rs`),
-//! whose results are the same to the bit: no sum has another order, no rounding is left out.
+//! portable. [`Vectors`](super::vectors::Vectors) picks, once for a grid, the same functions in the widest vectors of the
+//! processor, whose results are the same to the bit: no sum has another order, no rounding is left out.
 
 use crate::lattice::Rect;
 

@@ -9,7 +9,7 @@ mod avx2;
 #[cfg(target_arch = "x86_64")]
 mod avx512;
 
-/// Vectors that the processor has.
+/// Vectors that the processor has: whoever holds a variant, which only [`Vectors::widest`] hands out, may run its code.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Vectors {
     Portable,

@@ -8,10 +8,11 @@
 
 use std::f64::consts::PI;
 
+use rustfft::FftPlanner;
+use rustfft::num_complex::Complex;
+
 use crate::error::Result;
 use crate::job::{Job, chunks_of};
-
-use super::fft::{Complex, Fft, times};
 
 /// The bump's width in grid points, and its β.
 const WIDTH: usize = 12;
@@ -30,18 +31,17 @@ pub(super) struct Weighted {
 pub(super) struct Waves {
     half: usize,
     /// By columns from 0 to `half`, in each by rows from -`half` to `half`.
-    columns: Vec<Vec<Complex>>,
+    columns: Vec<Vec<Complex<f64>>>,
 }
 
 impl Waves {
     /// The sum at a frequency of at most `half` periods in columns and rows.
-    pub fn at(&self, column: i64, row: i64) -> Complex {
+    pub fn at(&self, column: i64, row: i64) -> Complex<f64> {
         let place = |row: i64| (row + self.half as i64) as usize;
         if column >= 0 {
             self.columns[column as usize][place(row)]
         } else {
-            let [real, imaginary] = self.columns[column.unsigned_abs() as usize][place(-row)];
-            [real, -imaginary]
+            self.columns[column.unsigned_abs() as usize][place(-row)].conj()
         }
     }
 }
@@ -49,13 +49,14 @@ impl Waves {
 /// The sums up to `half` periods. O(points + half² log half).
 pub(super) fn transform(job: &Job, points: &[Weighted], half: usize) -> Result<Waves> {
     let side = (4 * half).max(2 * WIDTH).next_power_of_two();
-    let fft = Fft::new(side);
+    let fft = FftPlanner::new().plan_fft_forward(side);
+    let scratch = || vec![Complex::default(); fft.get_inplace_scratch_len()];
     let grid = Grid::new(side, points);
     let chunks = chunks_of(side, LINES);
     let rows = job.part(0.0, 0.8).flat_map(chunks.len(), |chunk| {
-        let mut scratch = vec![[0.0; 2]; side];
+        let mut scratch = scratch();
         let transformed = grid.rows(chunks.range(chunk)).into_iter().map(|mut row| {
-            fft.run(&mut row, &mut scratch);
+            fft.process_with_scratch(&mut row, &mut scratch);
             row[..=half].to_vec()
         });
         transformed.collect()
@@ -63,14 +64,14 @@ pub(super) fn transform(job: &Job, points: &[Weighted], half: usize) -> Result<W
     let smoothing: Vec<f64> = (0..=half).map(|k| bump_transform(k as f64 / side as f64)).collect();
     let chunks = chunks_of(half + 1, LINES);
     let columns = job.part(0.8, 1.0).flat_map(chunks.len(), |chunk| {
-        let mut scratch = vec![[0.0; 2]; side];
+        let mut scratch = scratch();
         let transformed = chunks.range(chunk).map(|column| {
-            let mut sums: Vec<Complex> = rows.iter().map(|row| row[column]).collect();
-            fft.run(&mut sums, &mut scratch);
+            let mut sums: Vec<_> = rows.iter().map(|row| row[column]).collect();
+            fft.process_with_scratch(&mut sums, &mut scratch);
             let half = half as i64;
             let sum = |row: i64| {
-                let share = smoothing[column] * smoothing[row.unsigned_abs() as usize];
-                times(sums[row.rem_euclid(side as i64) as usize], [1.0 / share, 0.0])
+                sums[row.rem_euclid(side as i64) as usize]
+                    / (smoothing[column] * smoothing[row.unsigned_abs() as usize])
             };
             (-half..=half).map(sum).collect()
         });
@@ -96,8 +97,8 @@ impl<'a> Grid<'a> {
     }
 
     /// Rows of the grid, with the bumps of all points.
-    fn rows(&self, range: std::ops::Range<usize>) -> Vec<Vec<Complex>> {
-        let mut rows = vec![vec![[0.0; 2]; self.side]; range.len()];
+    fn rows(&self, range: std::ops::Range<usize>) -> Vec<Vec<Complex<f64>>> {
+        let mut rows = vec![vec![Complex::default(); self.side]; range.len()];
         for start in range.start + self.side + 1 - WIDTH..range.end + self.side {
             for point in &self.rows[start % self.side] {
                 let [across, up] = point.turns.map(|turns| Bump::new(self.side, turns));
@@ -133,10 +134,10 @@ impl Bump {
     }
 
     /// Adds the bump to the real parts of a row.
-    fn add(&self, weight: f64, row: &mut [Complex]) {
+    fn add(&self, weight: f64, row: &mut [Complex<f64>]) {
         let (begin, end) = row.split_at_mut(self.first);
         for (cell, value) in end.iter_mut().chain(begin).zip(self.values) {
-            cell[0] += weight * value;
+            cell.re += weight * value;
         }
     }
 }
@@ -178,7 +179,7 @@ mod tests {
                     [sum[0] + point.weight * cos, sum[1] + point.weight * sin]
                 });
                 let found = waves.at(column, row);
-                let error = (found[0] - sum[0]).hypot(found[1] - sum[1]);
+                let error = (found.re - sum[0]).hypot(found.im - sum[1]);
                 assert!(error < 1e-10 * weight, "{half}: {error} at {column}, {row}");
             }
         }
