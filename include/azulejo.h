@@ -103,6 +103,13 @@
 /// Nothing lies beyond the domain: only its own samples count, and they alone cover it.
 #define AZULEJO_BOUNDARY_BOUNDED 1
 
+/// Where two candidates of an iteration are too close, that one comes first that its projector faces more squarely: the
+/// default, which finds more samples. Existing samples come before all candidates.
+#define AZULEJO_ORDER_SQUARENESS 0
+
+/// The candidate of the earlier projector comes first, as in the thesis (§3.3.2). Existing samples come before all.
+#define AZULEJO_ORDER_PROJECTOR 1
+
 /// A point's neighbours are those of the Delaunay triangulation: they repel and attract.
 #define AZULEJO_NEIGHBOURHOOD_DELAUNAY 0
 
@@ -295,6 +302,10 @@ typedef struct azulejo_psp_options {
     azulejo_progress_fn progress;
     /// Handed to the progress callback.
     void *progress_user;
+    /// An AZULEJO_ORDER_ constant; by squareness by default.
+    int32_t order;
+    /// Must be 0.
+    uint32_t reserved2;
 } azulejo_psp_options;
 
 /// What a call did.

@@ -51,6 +51,16 @@ const RAYS_PER_SAMPLE: f64 = 200.0;
 /// ... unless it has no more rays than this, a moment's work.
 const RAYS_ALWAYS: f64 = 1e7;
 
+/// Which of an iteration's candidates comes first where two of them are too close. Existing samples come before all.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Order {
+    /// That which its projector faces more squarely: there the pattern is stretched less. Finds more samples.
+    #[default]
+    Squareness,
+    /// That of the projector with the lower number (thesis §3.3.2).
+    Projector,
+}
+
 /// What to sample.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Options {
@@ -62,12 +72,14 @@ pub struct Options {
     pub maximal: bool,
     /// Selects one of 2^64 sets.
     pub seed: u64,
+    /// Which candidates come first.
+    pub order: Order,
 }
 
 impl Options {
     /// A maximal set, by the default number of iterations.
     pub fn new(radius: f64) -> Self {
-        Self { radius, iterations: DEFAULT_ITERATIONS, maximal: true, seed: 0 }
+        Self { radius, iterations: DEFAULT_ITERATIONS, maximal: true, seed: 0, order: Order::default() }
     }
 }
 
@@ -101,6 +113,7 @@ pub struct Psp {
     mesh: Arc<Mesh>,
     radius: f64,
     seed: u64,
+    order: Order,
     samples: SampleSet,
     /// Whether iterations are worth their rays.
     projects: bool,
@@ -140,6 +153,7 @@ impl Psp {
             mesh: mesh.clone(),
             radius,
             seed: options.seed,
+            order: options.order,
             samples: SampleSet::new(mesh, radius),
             projects: expected_rays(mesh, radius) <= RAYS_ALWAYS.max(RAYS_PER_SAMPLE * estimate),
             projection: None,
@@ -197,7 +211,7 @@ impl Psp {
             let job = job.part(share(step), share(step + 1));
             let projection = match &mut self.projection {
                 Some(projection) => projection,
-                none => none.insert(Projection::new(job.context(), &self.mesh, self.radius, self.seed)?),
+                none => none.insert(Projection::new(job.context(), &self.mesh, self.radius, self.seed, self.order)?),
             };
             let (seed, iteration) = (self.seed, self.iterations);
             let frame = projector::frame(seed, iteration, self.frame);

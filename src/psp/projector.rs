@@ -13,6 +13,7 @@ use glam::{DMat3, DQuat, DVec3};
 use crate::error::Result;
 use crate::job::{Context, Job};
 use crate::mesh::{Mesh, exact, round_barycentrics};
+use crate::psp::Order;
 use crate::psp::blocks::{Block, Groups};
 use crate::psp::merge::Candidate;
 use crate::psp::pattern::Pattern;
@@ -35,6 +36,7 @@ const MAX_TASKS: u64 = 1 << 16;
 pub(super) struct Projection {
     scene: Scene,
     pattern: Pattern,
+    order: Order,
     /// Half the size of the mesh's box (trace space).
     half_box: DVec3,
     /// The radius (trace space).
@@ -65,7 +67,7 @@ struct Projector {
 
 impl Projection {
     /// Builds the scene and the pattern.
-    pub fn new(context: &Context, mesh: &Mesh, radius: f64, seed: u64) -> Result<Self> {
+    pub fn new(context: &Context, mesh: &Mesh, radius: f64, seed: u64, order: Order) -> Result<Self> {
         let (low, high) = mesh.bounds();
         let (low, high) = (exact(low), exact(high));
         let (centre, scale) = (0.5 * (low + high), (high - low).length().recip());
@@ -77,6 +79,7 @@ impl Projection {
         Ok(Self {
             scene: Scene::new(&normalised, mesh.triangles(), context.num_threads())?,
             pattern: Pattern::new(context, 1.0 / (radius * scale), seed)?,
+            order,
             half_box: 0.5 * scale * (high - low) + BOX_MARGIN,
             radius: radius * scale,
         })
@@ -110,7 +113,7 @@ impl Projection {
                 let start = if axis == 0 { 0 } else { ends[axis - 1] };
                 let (repetition, chunk) = ((unit - start) / chunks, (unit - start) % chunks);
                 let rays = self.rays(&projectors[axis], repetition, chunk as usize);
-                self.trace(&rays, mesh, samples, add, &mut projected);
+                self.trace(&rays, axis as u32, mesh, samples, add, &mut projected);
             }
             projected
         })?;
@@ -161,6 +164,7 @@ impl Projection {
     fn trace(
         &self,
         rays: &[Ray],
+        projector: u32,
         mesh: &Mesh,
         samples: &SampleSet,
         add: &mut dyn FnMut(Block, Candidate),
@@ -181,8 +185,11 @@ impl Projection {
                 } else {
                     kept.push(sample.position);
                 }
-                let squareness = exact(mesh.normal(hit.triangle)).dot(exact(direction)).abs();
-                let rank = ((1.0 - squareness) * RANKS) as u32;
+                let squareness = || exact(mesh.normal(hit.triangle)).dot(exact(direction)).abs();
+                let rank = match self.order {
+                    Order::Squareness => ((1.0 - squareness()) * RANKS) as u32,
+                    Order::Projector => projector,
+                };
                 add(samples.block(sample.position.map(f64::from)), Candidate { sample, rank });
             }
         }

@@ -209,6 +209,11 @@ static void surfaces(void) {
     azulejo_points_free(same);
     azulejo_mesh_free(strided);
 
+    options.order = AZULEJO_ORDER_PROJECTOR;
+    ACCEPTED(azulejo_psp_sample(context, cube, &options, &same, NULL));
+    CHECK(!same_points(points, same));
+    azulejo_points_free(same);
+
     options.radius = 1000; /* larger than the mesh: one sample is enough, and not more fit */
     ACCEPTED(azulejo_psp_sample(context, cube, &options, &same, NULL));
     CHECK(azulejo_points_count(same) == 1);

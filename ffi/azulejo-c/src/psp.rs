@@ -5,7 +5,7 @@ use std::mem::MaybeUninit;
 use std::ptr::NonNull;
 use std::sync::{Arc, RwLock, TryLockError};
 
-use azulejo_core::psp::{self, Psp, Report};
+use azulejo_core::psp::{self, Order, Psp, Report};
 use azulejo_core::{Context, Progress};
 
 use crate::boundary::{self, flag, required};
@@ -24,6 +24,12 @@ pub struct azulejo_psp {
     watch: Watch,
     state: RwLock<Psp>,
 }
+
+/// Where two candidates of an iteration are too close, that one comes first that its projector faces more squarely: the
+/// default, which finds more samples. Existing samples come before all candidates.
+pub const AZULEJO_ORDER_SQUARENESS: i32 = 0;
+/// The candidate of the earlier projector comes first, as in the thesis (§3.3.2). Existing samples come before all.
+pub const AZULEJO_ORDER_PROJECTOR: i32 = 1;
 
 /// Options of azulejo_psp_create and azulejo_psp_sample.
 #[repr(C)]
@@ -47,6 +53,10 @@ pub struct azulejo_psp_options {
     pub progress: azulejo_progress_fn,
     /// Handed to the progress callback.
     pub progress_user: *mut c_void,
+    /// An AZULEJO_ORDER_ constant; by squareness by default.
+    pub order: i32,
+    /// Must be 0.
+    pub reserved2: u32,
 }
 
 options!(azulejo_psp_options requires radius {
@@ -57,19 +67,36 @@ options!(azulejo_psp_options requires radius {
     reserved: 0,
     progress: None,
     progress_user: std::ptr::null_mut(),
+    order: AZULEJO_ORDER_SQUARENESS,
+    reserved2: 0,
 });
 
 impl azulejo_psp_options {
     fn request(&self) -> Result<psp::Options, Failure> {
-        if self.reserved != 0 {
-            return Err(Failure::invalid("reserved", format!("{} is not 0", self.reserved)));
+        for (name, value) in [("reserved", self.reserved), ("reserved2", self.reserved2)] {
+            if value != 0 {
+                return Err(Failure::invalid(name, format!("{value} is not 0")));
+            }
         }
-        let maximal = flag("maximal", self.maximal)?;
-        Ok(psp::Options { radius: self.radius, iterations: self.iterations, maximal, seed: self.seed })
+        Ok(psp::Options {
+            radius: self.radius,
+            iterations: self.iterations,
+            maximal: flag("maximal", self.maximal)?,
+            seed: self.seed,
+            order: order(self.order)?,
+        })
     }
 
     fn watch(&self) -> Watch {
         Watch { function: self.progress, user: self.progress_user }
+    }
+}
+
+fn order(value: i32) -> Result<Order, Failure> {
+    match value {
+        AZULEJO_ORDER_SQUARENESS => Ok(Order::Squareness),
+        AZULEJO_ORDER_PROJECTOR => Ok(Order::Projector),
+        other => Err(Failure::invalid("order", format!("{other} is no AZULEJO_ORDER_ constant"))),
     }
 }
 
