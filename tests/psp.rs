@@ -10,7 +10,7 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use azulejo::mesh::Mesh;
-use azulejo::psp::{self, Options, Order, Psp};
+use azulejo::psp::{self, Engine, Options, Order, Psp};
 use azulejo::{Context, Error, SurfaceSamples};
 use meshes::Soup;
 use proptest::prelude::*;
@@ -38,8 +38,15 @@ fn check(mesh: &Mesh, samples: &SurfaceSamples, radius: f64, maximal: bool) {
 
 /// Samples a mesh with and without iterations and filling, on one thread and on four, and checks all sets.
 fn check_all(mesh: &Arc<Mesh>, radius: f64) {
-    for (iterations, maximal) in [(0, true), (2, false), (2, true)] {
-        let options = Options { iterations, maximal, ..Options::new(radius) };
+    let cases = [
+        (0, true, Engine::Embree),
+        (2, false, Engine::Embree),
+        (2, true, Engine::Embree),
+        (2, false, Engine::Rasteriser),
+        (2, true, Engine::Rasteriser),
+    ];
+    for (iterations, maximal, engine) in cases {
+        let options = Options { iterations, maximal, engine, ..Options::new(radius) };
         let [(samples, report), (again, _)] =
             [1, 4].map(|threads| psp::sample(&Context::new(threads).unwrap(), mesh, &options, None).unwrap());
         check(mesh, &samples, radius, maximal);

@@ -74,7 +74,7 @@ FIELD(azulejo_psp_options, reserved, 28);
 FIELD(azulejo_psp_options, progress, 32);
 FIELD(azulejo_psp_options, progress_user, 40);
 FIELD(azulejo_psp_options, order, 48);
-FIELD(azulejo_psp_options, reserved2, 52);
+FIELD(azulejo_psp_options, engine, 52);
 
 SIZE(azulejo_psp_report, 128);
 FIELD(azulejo_psp_report, samples, 0);
