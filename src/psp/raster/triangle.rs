@@ -100,7 +100,7 @@ mod tests {
         let quads = (0..5).flat_map(|y| (0..5).map(move |x| (x, y)));
         let halves = quads.flat_map(|(x, y): (usize, usize)| {
             let [a, b, c, d] = [corners[y][x], corners[y][x + 1], corners[y + 1][x + 1], corners[y + 1][x]];
-            let mut cuts = [[[a, b, c], [c, a, d]], [[b, a, d], [d, c, b]]];
+            let mut cuts = [[[a, b, c], [a, c, d]], [[b, a, d], [d, c, b]]];
             cuts.rotate_left(rng.below(2) as usize);
             // One of the two cuts lies inside the quad.
             if cuts[0].map(turn).iter().product::<i64>() < 0 { cuts[1] } else { cuts[0] }
