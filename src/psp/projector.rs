@@ -33,7 +33,10 @@ const MAX_TASKS: u64 = 1 << 16;
 
 /// A mesh in trace space and the pattern that is projected onto it.
 pub(super) struct Projection {
+    /// The triangles that are to be sampled, and no others.
     scene: Scene,
+    /// Their numbers in the mesh.
+    numbers: Vec<u32>,
     pattern: Pattern,
     /// Half the size of the mesh's box (trace space).
     half_box: DVec3,
@@ -74,8 +77,11 @@ impl Projection {
             ((exact(position) - centre) * scale).clamp(DVec3::NEG_ONE, DVec3::ONE).as_vec3().to_array()
         };
         let normalised: Vec<_> = mesh.positions().iter().map(normalise).collect();
+        let numbers: Vec<_> = mesh.sampled_triangles().collect();
+        let triangles: Vec<_> = numbers.iter().map(|&number| mesh.triangles()[number as usize]).collect();
         Ok(Self {
-            scene: Scene::new(&normalised, mesh.triangles(), context.num_threads())?,
+            scene: Scene::new(&normalised, &triangles, context.num_threads())?,
+            numbers,
             pattern: Pattern::new(context, 1.0 / (radius * scale), seed)?,
             half_box: 0.5 * scale * (high - low) + BOX_MARGIN,
             radius: radius * scale,
@@ -175,13 +181,14 @@ impl Projection {
             kept.clear();
             let direction = rays[on_ray[0].ray as usize].direction;
             for hit in on_ray {
-                let sample = Sample::new(mesh, hit.triangle, round_barycentrics(hit.uv.map(f64::from)));
+                let triangle = self.numbers[hit.triangle as usize];
+                let sample = Sample::new(mesh, triangle, round_barycentrics(hit.uv.map(f64::from)));
                 if kept.iter().any(|&earlier| samples.conflict(earlier, sample.position)) {
                     projected.restart_conflicts += 1;
                 } else {
                     kept.push(sample.position);
                 }
-                let squareness = exact(mesh.normal(hit.triangle)).dot(exact(direction)).abs();
+                let squareness = exact(mesh.normal(triangle)).dot(exact(direction)).abs();
                 let rank = ((1.0 - squareness) * RANKS) as u32;
                 add(samples.block(sample.position.map(f64::from)), Candidate { sample, rank });
             }
