@@ -147,7 +147,8 @@ fn masked_triangles_are_as_if_they_were_not_there() {
     // Parts of a hall, a far part that makes the box large, faces that lie on others, needles, and single triangles.
     let far = meshes::join([meshes::torus(), meshes::placed(meshes::sphere(), 1.0, 1000.0)]);
     let torus = meshes::torus().1.len();
-    let cases: [(Soup, f64, &dyn Fn(usize) -> bool); 5] = [
+    type Case<'a> = (Soup, f64, &'a dyn Fn(usize) -> bool);
+    let cases: [Case; 5] = [
         (meshes::hall(6), 0.12, &|triangle| triangle % 7 < 4),
         (far, 0.2, &|triangle| triangle < torus),
         (meshes::duplicated(meshes::random_soup(4, 4)), 0.08, &|triangle| triangle >= 5),
