@@ -3,7 +3,7 @@
 #[path = "../../cli/src/procedural/shapes.rs"]
 mod shapes;
 
-pub use shapes::{Soup, hall, join};
+pub use shapes::*;
 
 /// The unit square at height 0, as two triangles.
 pub fn plane() -> Soup {
