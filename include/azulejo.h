@@ -144,7 +144,8 @@
 typedef struct azulejo_context azulejo_context;
 
 /// A checked triangle mesh: immutable, may be used by several threads at once. Any soup of triangles will do: open,
-/// non-manifold, of many parts and mixed winding.
+/// non-manifold, of many parts and mixed winding. It may carry normals and a mask; meshes that are made of one another
+/// share what they have in common.
 typedef struct azulejo_mesh azulejo_mesh;
 
 /// The samples that a call made: immutable, may be read by several threads at once. All arrays of a set have one entry
@@ -454,9 +455,14 @@ uint32_t azulejo_points_dimension(const struct azulejo_points *points);
 /// of the floats: they are computed from the barycentrics in double arithmetic and rounded once.
 const float *azulejo_points_positions(const struct azulejo_points *points);
 
-/// The unit normals of the samples' triangles, x y z each, seen from where their vertices run counter-clockwise;
-/// NULL for NULL, an empty set and samples of the plane.
+/// The unit normals of the samples' triangles, x y z each, seen from where their vertices run counter-clockwise, whether
+/// or not the mesh carries normals of its own; NULL for NULL, an empty set and samples of the plane.
 const float *azulejo_points_normals(const struct azulejo_points *points);
+
+/// The normals that the mesh carries, from azulejo_mesh_with_normals or from its file, interpolated to the samples with
+/// their barycentrics, of length 1, x y z each; that of the triangle where they add up to nothing. NULL for a mesh that
+/// carries none, NULL, an empty set and samples of the plane.
+const float *azulejo_points_interpolated_normals(const struct azulejo_points *points);
 
 /// The index of the triangle that each sample lies on; NULL for NULL, an empty set and samples of the plane.
 const uint32_t *azulejo_points_triangles(const struct azulejo_points *points);
@@ -628,9 +634,13 @@ azulejo_status azulejo_mesh_create(const float *positions,
                                    size_t triangle_count,
                                    struct azulejo_mesh **out);
 
-/// Loads a mesh from a file: Wavefront OBJ or PLY (text and binary), told apart by the extension .obj or .ply, otherwise
-/// by what the file begins with. Polygons become fans of triangles, in the order of the faces; points, lines, materials,
-/// texture coordinates and normals are left aside.
+/// Loads a mesh from a file: Wavefront OBJ, PLY or STL (text and binary), told apart by the extension .obj, .ply or .stl,
+/// otherwise by what the file begins with. Polygons become fans of triangles, in the order of the faces. Vertices keep
+/// the order of the file; those of STL facets are three for each, not merged.
+///
+/// Normals of OBJ corners (vn) and of PLY vertices (nx ny nz) are read; a corner without, or with one that is not finite,
+/// in a file that has some, counts as one with a zero normal: see azulejo_mesh_with_normals. Points, lines, materials,
+/// texture coordinates, colours and normals of STL facets are left aside.
 ///
 /// path: the name of the file as the operating system wants it.
 ///
@@ -641,10 +651,65 @@ azulejo_status azulejo_mesh_create(const float *positions,
 azulejo_status azulejo_mesh_load(const char *path,
                                  struct azulejo_mesh **out);
 
+/// A mesh with normals of the caller's, in place of those that it may carry, such as the smooth ones of a shaded surface.
+/// The samples are the same; azulejo_points_interpolated_normals gives the normals at them.
+///
+/// mesh: the mesh, which stays as it is.
+///
+/// normals: of any length; the x y z of each begin `stride_bytes` after those of the one before. Where the three of a
+/// triangle add up to nothing at a sample, as zeros do, the sample gets the normal of the triangle.
+///
+/// normal_count: the number of vertices, where there are no indices.
+///
+/// stride_bytes: at least 12, a multiple of 4.
+///
+/// normal_indices: three for each triangle, below `normal_count`, where corners that share a vertex differ in their
+/// normals; NULL for one normal for each vertex.
+///
+/// triangle_count: the number of triangles of the mesh; 0 for NULL.
+///
+/// out: the new mesh, to be freed with azulejo_mesh_free. It shares vertices, triangles and mask with `mesh`; the two
+/// are freed in any order.
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT for normals that are not finite or not as many as there are vertices, and for
+/// indices out of range; AZULEJO_ERROR_TOO_LARGE for 2^32 - 1 normals or more, and for sizes that overflow;
+/// AZULEJO_ERROR_OUT_OF_MEMORY.
+azulejo_status azulejo_mesh_with_normals(const struct azulejo_mesh *mesh,
+                                         const float *normals,
+                                         size_t normal_count,
+                                         size_t stride_bytes,
+                                         const uint32_t *normal_indices,
+                                         size_t triangle_count,
+                                         struct azulejo_mesh **out);
+
+/// A mesh with a mask, in place of the one that it may have: triangles whose entry is 0 are left out. They keep their
+/// number. The rest is sampled as if they were not there, to the bit: they get no samples, add nothing to the area, and
+/// need not be covered; nor do they hide or divide anything, so samples on both sides of them keep their distance through
+/// space. A mask may leave out everything: then a maximal set is empty.
+///
+/// mesh: the mesh, which stays as it is.
+///
+/// mask: one byte for each triangle: 0 leaves it out, any other value samples it.
+///
+/// triangle_count: the number of triangles of the mesh.
+///
+/// out: the new mesh, to be freed with azulejo_mesh_free. It shares vertices, triangles and normals with `mesh`; the two
+/// are freed in any order.
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT for a mask that is not as long as there are triangles;
+/// AZULEJO_ERROR_OUT_OF_MEMORY.
+azulejo_status azulejo_mesh_with_mask(const struct azulejo_mesh *mesh,
+                                      const uint8_t *mask,
+                                      size_t triangle_count,
+                                      struct azulejo_mesh **out);
+
+/// Whether the mesh carries normals besides those of its triangles: 1 or 0; 0 for NULL.
+int32_t azulejo_mesh_has_normals(const struct azulejo_mesh *mesh);
+
 /// The number of vertices; 0 for NULL.
 size_t azulejo_mesh_vertex_count(const struct azulejo_mesh *mesh);
 
-/// The number of triangles; 0 for NULL.
+/// The number of triangles, those that a mask leaves out among them; 0 for NULL.
 size_t azulejo_mesh_triangle_count(const struct azulejo_mesh *mesh);
 
 /// The vertices, x y z each, packed; they live until azulejo_mesh_free. NULL for NULL.
@@ -653,7 +718,7 @@ const float *azulejo_mesh_positions(const struct azulejo_mesh *mesh);
 /// The three vertices of each triangle, counter-clockwise seen from the front; they live until azulejo_mesh_free. NULL for NULL.
 const uint32_t *azulejo_mesh_indices(const struct azulejo_mesh *mesh);
 
-/// The area of all triangles together, in squared units of the positions; 0 for NULL. A maximal set of N samples has a
+/// The area of all triangles together that no mask leaves out, in squared units of the positions; 0 for NULL. A maximal set of N samples has a
 /// radius of about sqrt(0.69656 * area / N), as long as that is small against the features of the surface.
 double azulejo_mesh_area(const struct azulejo_mesh *mesh);
 

@@ -205,8 +205,12 @@ public:
     std::uint32_t dimension() const noexcept { return azulejo_points_dimension(get()); }
     /// dimension() coordinates for each sample.
     Span<const float> positions() const noexcept { return {azulejo_points_positions(get()), size() * dimension()}; }
-    /// Three coordinates for each sample of a mesh; empty for the plane, as are the next two.
+    /// Three coordinates for each sample of a mesh; empty for the plane, as are the next three.
     Span<const float> normals() const noexcept { return surface(azulejo_points_normals(get()), 3); }
+    /// The normals that the mesh carries, interpolated; empty if it carries none. See azulejo_points_interpolated_normals.
+    Span<const float> interpolated_normals() const noexcept {
+        return surface(azulejo_points_interpolated_normals(get()), 3);
+    }
     /// The triangle of each sample.
     Span<const std::uint32_t> triangles() const noexcept { return surface(azulejo_points_triangles(get()), 1); }
     /// u v of each sample: its position is (1 - u - v) * a + u * b + v * c.
@@ -239,20 +243,44 @@ public:
         handle_.reset(handle);
     }
 
-    /// An OBJ or PLY file; see azulejo_mesh_load.
+    /// An OBJ, PLY or STL file; see azulejo_mesh_load.
     static Mesh load(const std::string &path) {
         azulejo_mesh *handle = nullptr;
         check(azulejo_mesh_load(path.c_str(), &handle));
         return Mesh(handle);
     }
 
+    /// This mesh with normals: packed, one for each vertex, or named by three indices for each triangle; see
+    /// azulejo_mesh_with_normals.
+    Mesh with_normals(Span<const float> normals, Span<const std::uint32_t> normal_indices = {}) const {
+        return with_normals(normals.data(), detail::groups(normals.size(), 3, "normals"), 3 * sizeof(float), normal_indices);
+    }
+
+    /// See azulejo_mesh_with_normals.
+    Mesh with_normals(const float *normals, std::size_t normal_count, std::size_t stride_bytes,
+                      Span<const std::uint32_t> normal_indices = {}) const {
+        azulejo_mesh *handle = nullptr;
+        check(azulejo_mesh_with_normals(get(), normals, normal_count, stride_bytes, normal_indices.data(),
+                                        detail::groups(normal_indices.size(), 3, "normal_indices"), &handle));
+        return Mesh(handle);
+    }
+
+    /// This mesh without the triangles whose entry is 0; see azulejo_mesh_with_mask.
+    Mesh with_mask(Span<const std::uint8_t> mask) const {
+        azulejo_mesh *handle = nullptr;
+        check(azulejo_mesh_with_mask(get(), mask.data(), mask.size(), &handle));
+        return Mesh(handle);
+    }
+
+    /// Whether the mesh carries normals besides those of its triangles.
+    bool has_normals() const noexcept { return azulejo_mesh_has_normals(get()) != 0; }
     std::size_t vertex_count() const noexcept { return azulejo_mesh_vertex_count(get()); }
     std::size_t triangle_count() const noexcept { return azulejo_mesh_triangle_count(get()); }
     /// x y z of each vertex.
     Span<const float> positions() const noexcept { return {azulejo_mesh_positions(get()), 3 * vertex_count()}; }
     /// Three vertices for each triangle.
     Span<const std::uint32_t> indices() const noexcept { return {azulejo_mesh_indices(get()), 3 * triangle_count()}; }
-    /// The area of all triangles.
+    /// The area of all triangles that no mask leaves out.
     double area() const noexcept { return azulejo_mesh_area(get()); }
     /// The C handle, which stays this object's.
     const azulejo_mesh *get() const noexcept { return handle_.get(); }

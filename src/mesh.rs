@@ -4,25 +4,58 @@
 //! all welcome. What is asked is checked once, here, so that no later stage meets a bad number or index.
 
 use std::path::Path;
+use std::sync::Arc;
 
 use glam::DVec3;
 
 use crate::error::{Error, Result};
 
+mod normals;
 mod obj;
 mod ply;
+mod stl;
+mod text;
 
-/// Vertices and triangles of a file that is not yet checked, or what is wrong with it.
-type Soup = std::result::Result<(Vec<[f32; 3]>, Vec<[u32; 3]>), String>;
+use normals::Normals;
+
+/// What a file holds, not yet checked.
+#[derive(Default)]
+struct Soup {
+    positions: Vec<[f32; 3]>,
+    triangles: Vec<[u32; 3]>,
+    /// Normals, as [`Mesh::with_normals`] takes them, except that they need not be finite; none at all if it is empty.
+    normals: Vec<[f32; 3]>,
+    normal_indices: Option<Vec<[u32; 3]>>,
+}
+
+impl Soup {
+    fn into_mesh(mut self) -> Result<Mesh> {
+        let mesh = Mesh::new(self.positions, self.triangles)?;
+        if self.normals.is_empty() {
+            return Ok(mesh);
+        }
+        for normal in &mut self.normals {
+            if normal.iter().any(|x| !x.is_finite()) {
+                *normal = [0.0; 3];
+            }
+        }
+        mesh.with_normals(self.normals, self.normal_indices)
+    }
+}
 
 /// A triangle soup: finite positions, indices in range, and some surface.
 ///
 /// Triangles without area (repeated or collinear vertices) are allowed and keep their number; they have no surface,
-/// carry no samples and need no cover.
+/// carry no samples and need no cover. The same goes for triangles that a mask leaves out ([`Mesh::with_mask`]).
+///
+/// Immutable. A clone shares vertices, triangles, normals and mask.
 #[derive(Clone, Debug)]
 pub struct Mesh {
-    positions: Vec<[f32; 3]>,
-    triangles: Vec<[u32; 3]>,
+    positions: Arc<Vec<[f32; 3]>>,
+    triangles: Arc<Vec<[u32; 3]>>,
+    normals: Option<Arc<Normals>>,
+    /// Which triangles count; all of them without a mask.
+    mask: Option<Arc<Vec<bool>>>,
     area: f64,
     bounds: ([f32; 3], [f32; 3]),
 }
@@ -40,41 +73,76 @@ impl Mesh {
                 return Err(Error::too_large(argument, format!("{count} entries; the limit is {}", u32::MAX - 1)));
             }
         }
-        if let Some(vertex) = positions.iter().position(|position| position.iter().any(|x| !x.is_finite())) {
-            let [x, y, z] = positions[vertex];
-            return Err(Error::invalid("positions", format!("vertex {vertex} is ({x}, {y}, {z}), not finite")));
-        }
-        for (number, triangle) in triangles.iter().enumerate() {
-            if let Some(index) = triangle.iter().find(|&&index| index as usize >= positions.len()) {
-                let count = positions.len();
-                let reason = format!("triangle {number} names vertex {index}, but there are {count} vertices");
-                return Err(Error::invalid("indices", reason));
-            }
-        }
+        check_finite("positions", "vertex", &positions)?;
+        check_indices("indices", "vertex", "vertices", &triangles, positions.len())?;
         if triangles.is_empty() {
             return Err(Error::invalid("indices", "0 triangles; at least one is needed"));
         }
-
-        let mut mesh = Self { positions, triangles, area: 0.0, bounds: ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]) };
-        for triangle in 0..mesh.triangles.len() as u32 {
-            mesh.area += mesh.triangle_area(triangle);
-            for corner in mesh.corners(triangle) {
-                for (axis, x) in corner.into_iter().enumerate() {
-                    mesh.bounds.0[axis] = mesh.bounds.0[axis].min(x);
-                    mesh.bounds.1[axis] = mesh.bounds.1[axis].max(x);
-                }
-            }
-        }
+        let (positions, triangles) = (Arc::new(positions), Arc::new(triangles));
+        let mesh = Self { positions, triangles, normals: None, mask: None, area: 0.0, bounds: Default::default() };
+        let mesh = mesh.measured();
         if mesh.area <= 0.0 {
             return Err(Error::invalid("indices", "the triangles have no area"));
         }
         Ok(mesh)
     }
 
-    /// Reads an OBJ or PLY file: by the extension `.obj` or `.ply`, otherwise by what it begins with.
+    /// The mesh with normals of the caller's, in place of those that it may carry: of any length, one for each vertex, or
+    /// named by `indices`, three for each triangle, where corners that share a vertex differ in their normals. O(n).
     ///
-    /// Polygons are cut into fans, in the order of the faces; points, lines, materials, normals, texture coordinates
-    /// and groups are ignored. Memory stays proportional to the size of the file, whatever its header claims.
+    /// A zero vector stands for a corner without a normal; see [`Mesh::interpolated_normal`]. Sampling does not depend on
+    /// normals.
+    ///
+    /// # Errors
+    /// [`Error::InvalidArgument`] for `normals` that are not finite, or are not one for each vertex where there are no
+    /// indices; for `normal_indices` that are not three for each triangle, or name no normal. [`Error::TooLarge`] for
+    /// 2^32 - 1 `normals` and more.
+    pub fn with_normals(mut self, normals: Vec<[f32; 3]>, indices: Option<Vec<[u32; 3]>>) -> Result<Self> {
+        self.normals = Some(Arc::new(Normals::new(&self, normals, indices)?));
+        Ok(self)
+    }
+
+    /// The mesh with a mask, in place of the one that it may have: triangles whose entry is false are left out. They keep
+    /// their number. O(n).
+    ///
+    /// The rest is sampled as if they were not there, to the bit: they get no samples, add nothing to area and bounds,
+    /// and need not be covered; nor do they hide or divide anything. So samples on both sides of a masked part keep their
+    /// distance through space. A mask may leave out everything: then a maximal set is empty.
+    ///
+    /// # Errors
+    /// [`Error::InvalidArgument`] for a `mask` that does not have one entry for each triangle.
+    pub fn with_mask(mut self, mask: Vec<bool>) -> Result<Self> {
+        if mask.len() != self.triangles.len() {
+            let reason = format!("{} entries, but there are {} triangles", mask.len(), self.triangles.len());
+            return Err(Error::invalid("mask", reason));
+        }
+        self.mask = Some(Arc::new(mask));
+        Ok(self.measured())
+    }
+
+    /// The mesh with its area and bounds.
+    fn measured(mut self) -> Self {
+        let all = 0..self.triangles.len() as u32;
+        self.area = all.clone().map(|triangle| self.triangle_area(triangle)).sum();
+        // A box that is not a point has to be there even where nothing is to be sampled.
+        let counts = |triangle: &u32| self.area == 0.0 || self.is_sampled(*triangle);
+        let mut bounds = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
+        for corner in all.filter(counts).flat_map(|triangle| self.corners(triangle)) {
+            for (axis, x) in corner.into_iter().enumerate() {
+                bounds.0[axis] = bounds.0[axis].min(x);
+                bounds.1[axis] = bounds.1[axis].max(x);
+            }
+        }
+        self.bounds = bounds;
+        self
+    }
+
+    /// Reads an OBJ, PLY or STL file: by the extension `.obj`, `.ply` or `.stl`, otherwise by what it begins with.
+    ///
+    /// Polygons are cut into fans, in the order of the faces. Normals of corners (OBJ `vn`) and vertices (PLY `nx ny nz`)
+    /// are read; where a file has some, a corner without, or with one that is not finite, has the normal zero. Points,
+    /// lines, materials, texture coordinates, colours and groups are ignored, as are the normals of STL facets, and STL
+    /// vertices are not merged. Memory stays proportional to the size of the file, whatever its header claims.
     ///
     /// # Errors
     /// [`Error::Io`] where the file cannot be read (or is not a regular file), [`Error::Format`] where it is broken or
@@ -93,12 +161,13 @@ impl Mesh {
         let soup = match extension.as_deref() {
             Some("obj") => obj::parse(&bytes),
             Some("ply") => ply::parse(&bytes),
+            Some("stl") => stl::parse(&bytes),
             _ if bytes.starts_with(b"ply") => ply::parse(&bytes),
+            _ if stl::is_likely(&bytes) => stl::parse(&bytes),
             _ => obj::parse(&bytes),
         };
         let format_error = |reason| Error::Format { path: path.to_owned(), reason };
-        let (positions, triangles) = soup.map_err(format_error)?;
-        Self::new(positions, triangles).map_err(|error| format_error(error.to_string()))
+        soup.map_err(format_error)?.into_mesh().map_err(|error| format_error(error.to_string()))
     }
 
     /// The vertices.
@@ -111,12 +180,13 @@ impl Mesh {
         &self.triangles
     }
 
-    /// The area of all triangles; greater than zero.
+    /// The area of all triangles that the mask does not leave out. Zero only if it leaves nothing that has area.
     pub fn area(&self) -> f64 {
         self.area
     }
 
-    /// The lower and upper corner of the box around all triangles. Vertices that no triangle uses do not count.
+    /// The lower and upper corner of the box around all triangles that the mask does not leave out; around all of them
+    /// if these have no area. Vertices that no triangle uses do not count.
     pub fn bounds(&self) -> ([f32; 3], [f32; 3]) {
         self.bounds
     }
@@ -129,14 +199,38 @@ impl Mesh {
         self.triangles[triangle as usize].map(|vertex| self.positions[vertex as usize])
     }
 
-    /// The area of a triangle.
+    /// Whether a triangle is to be sampled: whether there is no mask, or it does not leave the triangle out.
+    pub fn is_sampled(&self, triangle: u32) -> bool {
+        self.mask.as_ref().is_none_or(|mask| mask[triangle as usize])
+    }
+
+    /// The numbers of the triangles that are to be sampled, in order.
+    pub(crate) fn sampled_triangles(&self) -> impl Iterator<Item = u32> {
+        (0..self.triangles.len() as u32).filter(|&triangle| self.is_sampled(triangle))
+    }
+
+    /// The area of a triangle that is to be sampled; zero for one that the mask leaves out.
     pub fn triangle_area(&self, triangle: u32) -> f64 {
-        self.cross(triangle).length() / 2.0
+        if self.is_sampled(triangle) { self.cross(triangle).length() / 2.0 } else { 0.0 }
     }
 
     /// The unit normal of a triangle, counter-clockwise front; zero where it has no area.
     pub fn normal(&self, triangle: u32) -> [f32; 3] {
         self.cross(triangle).normalize_or_zero().as_vec3().to_array()
+    }
+
+    /// Whether the mesh carries normals besides those of its triangles: given by the caller, or read from its file.
+    pub fn has_normals(&self) -> bool {
+        self.normals.is_some()
+    }
+
+    /// The mesh's normals at the corners of a triangle, interpolated to the point `(u, v)` of it in `f64` and normalised;
+    /// `None` if the mesh carries none. Where they add up to nothing, as zero and opposite normals do (less than a
+    /// millionth of the longest of the three), it is the normal of the triangle.
+    pub fn interpolated_normal(&self, triangle: u32, uv: [f32; 2]) -> Option<[f32; 3]> {
+        let normals = self.normals.as_ref()?;
+        let interpolated = normals.interpolated(self, triangle, uv).map(|normal| normal.as_vec3().to_array());
+        Some(interpolated.unwrap_or_else(|| self.normal(triangle)))
     }
 
     /// The point `(1 - u - v) * a + u * b + v * c` of a triangle, computed in `f64` and rounded once.
@@ -161,6 +255,28 @@ impl Mesh {
         let [a, b, c] = self.corners(triangle).map(exact);
         (b - a).cross(c - a)
     }
+}
+
+/// Refuses vectors that are not finite. `item` is what one of them belongs to.
+fn check_finite(argument: &'static str, item: &str, vectors: &[[f32; 3]]) -> Result<()> {
+    match vectors.iter().position(|vector| vector.iter().any(|x| !x.is_finite())) {
+        None => Ok(()),
+        Some(index) => {
+            let [x, y, z] = vectors[index];
+            Err(Error::invalid(argument, format!("{item} {index} is ({x}, {y}, {z}), not finite")))
+        }
+    }
+}
+
+/// Refuses triangles that name what is not there.
+fn check_indices(argument: &'static str, item: &str, items: &str, triangles: &[[u32; 3]], count: usize) -> Result<()> {
+    for (number, triangle) in triangles.iter().enumerate() {
+        if let Some(index) = triangle.iter().find(|&&index| index as usize >= count) {
+            let reason = format!("triangle {number} names {item} {index}, but there are {count} {items}");
+            return Err(Error::invalid(argument, reason));
+        }
+    }
+    Ok(())
 }
 
 /// A position in `f64`.

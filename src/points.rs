@@ -93,7 +93,8 @@ impl Domain {
     }
 }
 
-/// Samples on a triangle mesh; all vectors have the same length, entry `i` belongs to sample `i`.
+/// Samples on a triangle mesh; entry `i` of each vector belongs to sample `i`. All vectors have the same length, except
+/// that `interpolated_normals` can be empty.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SurfaceSamples {
     /// Positions, recomputed from the barycentrics in `f64` and rounded once.
@@ -104,6 +105,9 @@ pub struct SurfaceSamples {
     pub triangles: Vec<u32>,
     /// `(u, v)`: the position is `(1 - u - v) * a + u * b + v * c` of the triangle's vertices, as in Embree.
     pub barycentrics: Vec<[f32; 2]>,
+    /// The mesh's own normals, given with it or read from its file, interpolated to the samples
+    /// ([`Mesh::interpolated_normal`](crate::mesh::Mesh::interpolated_normal)). Empty if the mesh carries none.
+    pub interpolated_normals: Vec<[f32; 3]>,
 }
 
 impl SurfaceSamples {

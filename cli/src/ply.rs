@@ -132,14 +132,14 @@ pub fn write_plane(output: &Output, domain: &Domain, points: &[[f32; 2]]) -> Res
     })
 }
 
-/// Writes samples of a surface with all that is known of them.
-pub fn write_surface(output: &Output, samples: &SurfaceSamples) -> Result<()> {
+/// Writes samples of a surface with all that is known of them, and with these of their normals.
+pub fn write_surface(output: &Output, samples: &SurfaceSamples, normals: &[[f32; 3]]) -> Result<()> {
     const PROPERTIES: [&str; 9] =
         ["float x", "float y", "float z", "float nx", "float ny", "float nz", "uint triangle", "float u", "float v"];
     output.write(|writer| {
         write_header(writer, "", samples.len(), &PROPERTIES)?;
         (0..samples.len()).try_for_each(|i| {
-            let vector = samples.positions[i].into_iter().chain(samples.normals[i]);
+            let vector = samples.positions[i].into_iter().chain(normals[i]);
             vector.into_iter().try_for_each(|x| writer.write_all(&x.to_le_bytes()))?;
             writer.write_all(&samples.triangles[i].to_le_bytes())?;
             samples.barycentrics[i].iter().try_for_each(|x| writer.write_all(&x.to_le_bytes()))

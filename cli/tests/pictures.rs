@@ -73,6 +73,25 @@ fn samples_are_painted_on_their_mesh() {
 }
 
 #[test]
+fn one_looks_into_a_hall_that_is_cut_away() {
+    let workshop = Workshop::new();
+    workshop.succeed(&["mesh", "hall", "--detail", "16", "-o", "hall.ply"]);
+    // Samples on the back wall only, behind everything.
+    let mut samples =
+        "ply\nformat ascii 1.0\nelement vertex 100\nproperty float x\nproperty float y\nproperty float z\n\
+        end_header\n"
+            .to_owned();
+    (0..100).for_each(|i| samples += &format!("{} {} -2\n", 0.2 * f64::from(i / 5), 0.1 + 0.2 * f64::from(i % 5)));
+    workshop.write("samples.ply", samples);
+    let [closed, open] = [&[][..], &["--cutaway"]].map(|flags| {
+        let arguments = ["draw", "surface", "hall.ply", "samples.ply", "-o", "a.png", "--size", "400"];
+        workshop.succeed(&[&arguments[..], flags].concat());
+        blue(&picture(&workshop, "a.png"), [0.05, 0.2, 0.69, 0.9])
+    });
+    assert!(closed < 0.03 && open > closed + 0.02, "{closed} {open}");
+}
+
+#[test]
 fn what_cannot_be_drawn_is_refused() {
     let workshop = Workshop::new();
     workshop.succeed(&["mesh", "knot", "--detail", "16", "-o", "knot.ply"]);

@@ -98,7 +98,7 @@ fn quarters(cell: &Cell) -> [Cell; 4] {
 
 /// The share of random points of the surface that are farther than `radius` from every sample (Euclidean distance, in
 /// `f64`): an estimate of the uncovered part of its area, with a standard error of at most 0.5 / sqrt(`probes`).
-/// 0 without probes.
+/// 0 without probes, and where the mesh's mask leaves no area.
 ///
 /// Probes are uniform by area and keyed by `seed` and their number. Small gaps escape them: this estimates a share, it
 /// proves nothing.
@@ -116,6 +116,9 @@ pub fn surface_uncovered_fraction(
 ) -> Result<f64> {
     check_radius(radius)?;
     super::check_positions(positions)?;
+    if mesh.area() == 0.0 {
+        return Ok(0.0);
+    }
     let mut grid = Grid3::new(mesh.bounds().0.map(f64::from), radius);
     positions.iter().for_each(|&position| {
         grid.insert(position);

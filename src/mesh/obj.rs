@@ -1,87 +1,111 @@
-//! OBJ files, by the crate tobj.
+//! OBJ files: vertices, normals and faces. All other lines are passed over, in whatever encoding they are, and no file
+//! that they name is opened. Vertices keep the order of the file, faces too, across groups and objects.
 //!
-//! tobj is shown vertices and faces only. That keeps the vertices of all groups in one list and the faces in their
-//! order, follows no `mtllib` to other files, admits comments in any encoding, and spares tobj's handling of texture
-//! coordinates and normals, which panics on some broken files.
-
-use std::io::{BufRead, Read, Result as IoResult};
+//! Not by a crate. What is wanted of tobj 4 is three kinds of lines, and it had to be shown these alone, with all indices
+//! written anew: it panics on some broken ones, gives a corner without a normal that of its neighbour, numbers vertices
+//! by first use, and does not say in which line an index is out of range. That was more code than this.
 
 use super::Soup;
+use super::text::{lines, number, shown, vector, words};
 
-/// Vertices and triangles, or what is wrong with the file.
-pub(super) fn parse(bytes: &[u8]) -> Soup {
-    let options =
-        tobj::LoadOptions { triangulate: true, ignore_points: true, ignore_lines: true, ..Default::default() };
-    let mut lines = GeometryLines { rest: bytes, line: Vec::new(), given: 0, number: 0 };
-    let parsed = tobj::load_obj_buf(&mut lines, &options, |_| Err(tobj::LoadError::MaterialParseError));
-    let (models, _) = parsed.map_err(|error| {
-        use tobj::LoadError::{FaceVertexOutOfBounds, InvalidPolygon};
-        match error {
-            // These are found at the end, when the faces are put together.
-            FaceVertexOutOfBounds | InvalidPolygon => error.to_string(),
-            _ => format!("line {}: {error}", lines.number),
+/// Vertices, triangles and normals, or what is wrong with the file.
+pub(super) fn parse(bytes: &[u8]) -> Result<Soup, String> {
+    if bytes.starts_with(b"\xff\xfe") || bytes.starts_with(b"\xfe\xff") {
+        return Err("is encoded in UTF-16; save it as UTF-8".to_owned());
+    }
+    let mut content = Content::default();
+    let mut joined = Vec::new();
+    for (line, part) in lines(bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes)) {
+        let part = part.split(|&byte| byte == b'#').next().unwrap_or_default().trim_ascii();
+        // A line that ends with a backslash goes on in the next one.
+        let (part, goes_on) = part.strip_suffix(b"\\").map_or((part, false), |part| (part, true));
+        if goes_on || !joined.is_empty() {
+            joined.extend_from_slice(part);
+            joined.push(b' ');
         }
-    })?;
-    let Some(model) = models.into_iter().next() else { return Err("no faces".to_owned()) };
-    let positions = model.mesh.positions.chunks_exact(3).map(|p| [p[0], p[1], p[2]]).collect();
-    let triangles = model.mesh.indices.chunks_exact(3).map(|t| [t[0], t[1], t[2]]).collect();
-    Ok((positions, triangles))
+        if !goes_on {
+            let whole = if joined.is_empty() { part } else { &joined };
+            content.read(whole, line).map_err(|problem| format!("line {line}: {problem}"))?;
+            joined.clear();
+        }
+    }
+    content.into_soup()
 }
 
-/// The lines of a file that hold vertices and faces.
-struct GeometryLines<'a> {
-    rest: &'a [u8],
-    /// The line that is being given, of which the first `given` bytes are gone.
-    line: Vec<u8>,
-    given: usize,
-    /// The number of that line, counted from 1.
-    number: usize,
+#[derive(Default)]
+struct Content {
+    positions: Vec<[f32; 3]>,
+    normals: Vec<[f32; 3]>,
+    /// The corners of each triangle: numbers of vertices and of normals, from 1 on; no normal is 0.
+    triangles: Vec<[[u32; 2]; 3]>,
+    /// The largest of both that a face has named, and in which line: items may stand behind the faces that name them.
+    largest: [(u32, usize); 2],
 }
 
-impl GeometryLines<'_> {
-    /// Moves on to the next line of geometry; past the last one the line is empty.
-    fn advance(&mut self) {
-        self.line.clear();
-        self.given = 0;
-        while self.line.is_empty() && !self.rest.is_empty() {
-            let end = self.rest.iter().position(|&byte| byte == b'\n').map_or(self.rest.len(), |at| at + 1);
-            let (line, rest) = self.rest.split_at(end);
-            self.rest = rest;
-            self.number += 1;
-            let mut words = line.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty());
-            let kept = match words.next() {
-                // x, y, z, and a weight if that is all there is: what follows are colours.
-                Some(b"v") if words.clone().count() > 4 => 3,
-                Some(b"v" | b"f") => usize::MAX,
-                _ => continue,
-            };
-            self.line.push(line.trim_ascii_start()[0]);
-            for word in words.take(kept) {
-                self.line.push(b' ');
-                self.line.extend(word);
+impl Content {
+    fn read(&mut self, content: &[u8], line: usize) -> Result<(), String> {
+        let mut words = words(content);
+        match words.next() {
+            Some(b"v") => self.positions.push(vector(words)?),
+            Some(b"vn") => self.normals.push(vector(words)?),
+            Some(b"f") => {
+                let first = words.next().ok_or("a face without corners")?;
+                let first = self.corner(first, line)?;
+                let mut last = None;
+                for word in words {
+                    let corner = self.corner(word, line)?;
+                    self.triangles.extend(last.replace(corner).map(|last| [first, last, corner]));
+                }
             }
-            self.line.push(b'\n');
+            _ => {}
         }
+        Ok(())
+    }
+
+    /// A corner: `vertex`, `vertex/texture`, `vertex//normal` or `vertex/texture/normal`.
+    fn corner(&mut self, word: &[u8], line: usize) -> Result<[u32; 2], String> {
+        let mut parts = word.split(|&byte| byte == b'/');
+        let (vertex, _texture, normal) = (parts.next().unwrap_or_default(), parts.next(), parts.next());
+        if parts.next().is_some() {
+            return Err(format!("{} is not the corner of a face", shown(word)));
+        }
+        let vertex = resolve(vertex, self.positions.len(), "vertex")?;
+        let normal = match normal.unwrap_or_default() {
+            b"" | b"0" => 0,
+            normal => resolve(normal, self.normals.len(), "normal")?,
+        };
+        for (largest, number) in self.largest.iter_mut().zip([vertex, normal]) {
+            *largest = (*largest).max((number, line));
+        }
+        Ok([vertex, normal])
+    }
+
+    fn into_soup(mut self) -> Result<Soup, String> {
+        let found = [("vertex", "vertices", self.positions.len()), ("normal", "normals", self.normals.len())];
+        for ((largest, line), (name, names, count)) in self.largest.into_iter().zip(found) {
+            if largest as usize > count {
+                return Err(format!("line {line}: a face names {name} {largest}, but there are {count} {names}"));
+            }
+        }
+        let numbers = |item: usize| self.triangles.iter().map(move |corners| corners.map(|corner| corner[item]));
+        let triangles = numbers(0).map(|corners| corners.map(|vertex| vertex - 1)).collect();
+        if self.largest[1].0 == 0 {
+            return Ok(Soup { positions: self.positions, triangles, ..Default::default() });
+        }
+        // The last normal stands for those that are missing.
+        let missing = self.normals.len() as u32;
+        self.normals.push([0.0; 3]);
+        let normal_indices = numbers(1).map(|corners| corners.map(|normal| normal.checked_sub(1).unwrap_or(missing)));
+        let normal_indices = Some(normal_indices.collect());
+        Ok(Soup { positions: self.positions, triangles, normals: self.normals, normal_indices })
     }
 }
 
-impl BufRead for GeometryLines<'_> {
-    fn fill_buf(&mut self) -> IoResult<&[u8]> {
-        if self.given == self.line.len() {
-            self.advance();
-        }
-        Ok(&self.line[self.given..])
-    }
-
-    fn consume(&mut self, count: usize) {
-        self.given += count;
-    }
-}
-
-impl Read for GeometryLines<'_> {
-    fn read(&mut self, buffer: &mut [u8]) -> IoResult<usize> {
-        let count = self.fill_buf()?.read(buffer)?;
-        self.consume(count);
-        Ok(count)
-    }
+/// The number, from 1 on, of an item that an index names: from 1 on, or negative and back from the last of the `count`
+/// items so far.
+fn resolve(index: &[u8], count: usize, name: &str) -> Result<u32, String> {
+    let value: i64 = number(index).ok_or_else(|| format!("{} is not the index of a {name}", shown(index)))?;
+    let resolved = if value < 0 { value.saturating_add(count as i64 + 1) } else { value };
+    let resolved = u32::try_from(resolved).ok().filter(|&resolved| resolved > 0);
+    resolved.ok_or_else(|| format!("a face names {name} {value}, but there are {count} so far"))
 }

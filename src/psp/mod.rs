@@ -193,7 +193,7 @@ impl Psp {
             mesh: mesh.clone(),
             options: *options,
             samples: SampleSet::new(mesh, radius),
-            projects: expected_rays(mesh, radius) <= RAYS_ALWAYS.max(RAYS_PER_SAMPLE * estimate),
+            projects: mesh.area() > 0.0 && expected_rays(mesh, radius) <= RAYS_ALWAYS.max(RAYS_PER_SAMPLE * estimate),
             projection: None,
             iterations: 0,
             frame: None,
@@ -322,7 +322,7 @@ fn expected_samples(mesh: &Mesh, radius: f64) -> f64 {
         let longest = (b - a).length().max((c - b).length()).max((a - c).length());
         if longest > radius { longest / radius } else { 0.0 }
     };
-    let lengths: f64 = (0..mesh.triangles().len() as u32).map(along).sum();
+    let lengths: f64 = mesh.sampled_triangles().map(along).sum();
     DENSITY * mesh.area() / (radius * radius) + lengths
 }
 

@@ -25,7 +25,10 @@ const MAX_TASKS: u64 = 1 << 16;
 
 /// A mesh in trace space and the pattern that is projected onto it.
 pub(super) struct Rays {
+    /// The triangles that are to be sampled, and no others.
     scene: Scene,
+    /// Their numbers in the mesh.
+    numbers: Vec<u32>,
     pattern: Pattern,
     /// Half the size of the mesh's box (trace space).
     half_box: DVec3,
@@ -53,9 +56,12 @@ impl Rays {
             ((exact(position) - centre) * scale).clamp(DVec3::NEG_ONE, DVec3::ONE).as_vec3().to_array()
         };
         let normalised: Vec<_> = mesh.positions().iter().map(normalise).collect();
-        let scene = Scene::new(&normalised, mesh.triangles(), job.context().num_threads())?;
+        let numbers: Vec<_> = mesh.sampled_triangles().collect();
+        let triangles: Vec<_> = numbers.iter().map(|&number| mesh.triangles()[number as usize]).collect();
+        let scene = Scene::new(&normalised, &triangles, job.context().num_threads())?;
         Ok(Self {
             scene,
+            numbers,
             pattern: Pattern::new(job, 1.0 / (radius * scale), seed)?,
             half_box: 0.5 * scale * (high - low) + BOX_MARGIN,
             radius: radius * scale,
@@ -85,6 +91,7 @@ impl Rays {
                 let rays = self.rays(&projectors[axis], &repetitions[axis], repetition, chunk as usize);
                 hits.clear();
                 self.scene.all_hits(&rays, &mut hits);
+                hits.iter_mut().for_each(|hit| hit.triangle = self.numbers[hit.triangle as usize]);
                 take(axis, rays.len(), &hits);
             }
         })

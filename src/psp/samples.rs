@@ -133,6 +133,12 @@ impl SampleSet {
             normals: self.samples.iter().map(|sample| mesh.normal(sample.triangle)).collect(),
             triangles: self.samples.iter().map(|sample| sample.triangle).collect(),
             barycentrics: self.samples.iter().map(|sample| sample.barycentrics).collect(),
+            // All of them, or none if the mesh carries no normals.
+            interpolated_normals: self
+                .samples
+                .iter()
+                .filter_map(|sample| mesh.interpolated_normal(sample.triangle, sample.barycentrics))
+                .collect(),
         }
     }
 }

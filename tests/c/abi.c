@@ -156,6 +156,10 @@ static void signatures(void) {
         azulejo_kdrt_merge;
     azulejo_status (*mesh_create)(const float *, size_t, size_t, const uint32_t *, size_t, azulejo_mesh **) =
         azulejo_mesh_create;
+    azulejo_status (*mesh_with_normals)(const azulejo_mesh *, const float *, size_t, size_t, const uint32_t *, size_t,
+                                        azulejo_mesh **) = azulejo_mesh_with_normals;
+    azulejo_status (*mesh_with_mask)(const azulejo_mesh *, const uint8_t *, size_t, azulejo_mesh **) =
+        azulejo_mesh_with_mask;
     azulejo_status (*mesh_load)(const char *, azulejo_mesh **) = azulejo_mesh_load;
     azulejo_status (*psp_create)(const azulejo_context *, const azulejo_mesh *, const azulejo_psp_options *,
                                  azulejo_psp **) = azulejo_psp_create;
@@ -171,6 +175,7 @@ static void signatures(void) {
     CHECK(psp_points && psp_sample && dcr_relax && last_error_message && kdrt_sample_window && kdrt_stream);
     CHECK(kdrt_sample_with_report);
     CHECK(kdrt_merge);
+    CHECK(mesh_with_normals && mesh_with_mask);
 }
 
 int main(void) {

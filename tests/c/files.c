@@ -48,12 +48,16 @@ static void fails_text(const char *name, const char *text) { fails(name, text, s
 #define VERTICES "element vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
 #define FACES "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
 
+#define FACET "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n"
+
 static void good_files(void) {
     loads("triangle.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", 3, 1);
     loads("quad.OBJ", "# a square\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvn 0 0 1\nf 1//1 2//1 3//1 4//1\n", 4, 2);
     loads("relative.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf -3 -2 -1", 3, 1);
+    loads("unused.obj", "v 9 9 9\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 2 3 4\n", 4, 1);
     loads("triangle.ply", PLY VERTICES FACES "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", 3, 1);
     loads("no_extension", PLY VERTICES FACES "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", 3, 1);
+    loads("triangle.stl", "solid\n" FACET "endsolid\nsolid\n" FACET "endsolid\n", 6, 2);
 }
 
 static void bad_obj_files(void) {
@@ -97,6 +101,19 @@ static void bad_ply_files(void) {
     fails("truncated_binary.ply", BINARY VERTICES FACES "\0\0\0\0\0", sizeof(BINARY VERTICES FACES) - 1 + 5);
 }
 
+static void bad_stl_files(void) {
+    char binary[84 + 50] = {0};
+    fails_text("empty.stl", "");
+    fails_text("not.stl", "v 0 0 0\n");
+    fails_text("no_facets.stl", "solid\nendsolid\n");
+    fails_text("words.stl", "solid\nfacet\nvertex zero one two\n");
+    fails_text("truncated.stl", "solid\nfacet\nvertex 0 0 0\nvertex 1 0 0\n");
+    binary[80] = 2;
+    fails("truncated_binary.stl", binary, sizeof binary);
+    memset(binary + 80, 0xff, 4);
+    fails("huge_count.stl", binary, sizeof binary);
+}
+
 static void not_files(void) {
     azulejo_mesh *mesh = UNTOUCHED;
     REFUSED(AZULEJO_ERROR_IO, "missing.obj", azulejo_mesh_load(path_of("missing.obj"), &mesh));
@@ -117,6 +134,7 @@ int main(void) {
     good_files();
     bad_obj_files();
     bad_ply_files();
+    bad_stl_files();
     not_files();
     CHECK(rmdir(directory) == 0);
     return finish();

@@ -33,7 +33,9 @@ pub struct Seen {
 }
 
 impl Stage {
-    pub fn new(context: &Context, mesh: &Mesh, samples: &[[f32; 3]]) -> Result<Self> {
+    /// With `cutaway` the faces that are turned away from the camera are left out, and one looks into rooms whose walls
+    /// face inwards.
+    pub fn new(context: &Context, mesh: &Mesh, samples: &[[f32; 3]], cutaway: bool) -> Result<Self> {
         let (low, high) = mesh.bounds();
         let [low, high] = [low, high].map(|corner| glam::DVec3::from(corner.map(f64::from)));
         let (centre, size) = (0.5 * (low + high), (high - low).max_element());
@@ -43,12 +45,20 @@ impl Stage {
         let place = |point: &[f32; 3]| ((glam::DVec3::from(point.map(f64::from)) - centre) / size).as_vec3();
         let positions: Vec<_> = mesh.positions().iter().map(place).collect();
         let plain: Vec<_> = positions.iter().map(Vec3::to_array).collect();
-        let triangles = mesh.triangles().to_vec();
+        let camera = Camera::in_front();
+        let mut triangles = mesh.triangles().to_vec();
+        if cutaway {
+            triangles.retain(|triangle| faces(camera.eye, triangle.map(|vertex| positions[vertex as usize])));
+        }
+        if triangles.is_empty() {
+            let reason = "has no face that is turned to the camera".to_owned();
+            return Err(Error::InvalidArgument { argument: "MESH", reason });
+        }
         let scene = Scene::new(&plain, &triangles, context.num_threads())?;
         let radius = (MAXIMAL_DENSITY * mesh.area() / samples.len() as f64).sqrt() / size;
         let discs = Discs::new(samples.iter().map(place), (DISC * radius) as f32);
         let normals = vertex_normals(&positions, &triangles);
-        Ok(Self { scene, triangles, positions, normals, discs, radius: radius as f32, camera: Camera::in_front() })
+        Ok(Self { scene, triangles, positions, normals, discs, radius: radius as f32, camera })
     }
 
     pub fn positions(&self) -> impl Iterator<Item = Vec3> {
@@ -87,6 +97,11 @@ impl Stage {
     }
 }
 
+/// Whether a triangle is seen from its front.
+fn faces(eye: Vec3, [a, b, c]: [Vec3; 3]) -> bool {
+    (b - a).cross(c - a).dot(eye - a) > 0.0
+}
+
 /// Normals of the triangles, weighted by area and summed at the vertices.
 fn vertex_normals(positions: &[Vec3], triangles: &[[u32; 3]]) -> Vec<Vec3> {
     let mut normals = vec![Vec3::ZERO; positions.len()];
@@ -106,7 +121,7 @@ pub mod tests {
     pub fn square(sample: [f32; 3]) -> Stage {
         let positions = vec![[9.0, 4.0, 7.0], [11.0, 4.0, 7.0], [11.0, 6.0, 7.0], [9.0, 6.0, 7.0]];
         let mesh = Mesh::new(positions, vec![[0, 1, 2], [0, 3, 2]]).unwrap();
-        Stage::new(&Context::new(1).unwrap(), &mesh, &[sample]).unwrap()
+        Stage::new(&Context::new(1).unwrap(), &mesh, &[sample], false).unwrap()
     }
 
     #[test]
@@ -130,10 +145,23 @@ pub mod tests {
     }
 
     #[test]
+    fn a_cutaway_leaves_out_what_is_turned_away() {
+        let positions = vec![[9.0, 4.0, 7.0], [11.0, 4.0, 7.0], [11.0, 6.0, 7.0], [9.0, 6.0, 7.0]];
+        let context = Context::new(1).unwrap();
+        let cut = |triangles: &[[u32; 3]]| {
+            let mesh = Mesh::new(positions.clone(), triangles.to_vec()).unwrap();
+            Stage::new(&context, &mesh, &[[10.0, 5.0, 7.0]], true)
+        };
+        let (front, back) = ([0, 1, 2], [0, 3, 2]);
+        assert_eq!(cut(&[back, front, back]).unwrap().triangles, [front]);
+        assert!(cut(&[back]).err().unwrap().to_string().contains("turned to the camera"));
+    }
+
+    #[test]
     fn normals_are_smooth_across_the_edges_of_a_mesh() {
         let positions = vec![[0.0, 0.0, 0.0], [0.0, 1.0, 0.0], [1.0, 0.0, -0.5], [-1.0, 0.0, -0.5]];
         let mesh = Mesh::new(positions, vec![[0, 2, 1], [0, 1, 3]]).unwrap();
-        let stage = Stage::new(&Context::new(1).unwrap(), &mesh, &[[0.0; 3]]).unwrap();
+        let stage = Stage::new(&Context::new(1).unwrap(), &mesh, &[[0.0; 3]], false).unwrap();
         // Just beside the common edge, half way up, the mean of the two triangles' normals looks forward.
         let target = stage.positions[0].lerp(stage.positions[1], 0.5) + Vec3::new(1e-4, 0.0, -5e-5);
         let ray = Ray { origin: stage.camera.eye.to_array(), direction: (target - stage.camera.eye).to_array() };

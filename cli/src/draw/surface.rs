@@ -31,7 +31,7 @@ const CLOSE: f32 = 13.0;
 
 #[derive(Args)]
 pub struct Surface {
-    /// The mesh: OBJ or PLY.
+    /// The mesh: OBJ, PLY or STL.
     #[arg(value_name = "MESH")]
     mesh: PathBuf,
     /// The samples: a PLY file with x, y and z.
@@ -43,6 +43,9 @@ pub struct Surface {
     /// Width of the picture in pixels.
     #[arg(long, value_name = "PIXELS", default_value_t = 1600, value_parser = clap::value_parser!(u32).range(super::PICTURE_WIDTHS))]
     size: u32,
+    /// Leave out faces that are turned away from the camera: one looks into a hall whose walls face inwards.
+    #[arg(long)]
+    cutaway: bool,
 }
 
 impl Surface {
@@ -50,7 +53,7 @@ impl Surface {
         let output = Output::at(&self.output)?;
         let mesh = Mesh::load(&self.mesh)?;
         let samples = ply::read(&self.samples)?.positions;
-        let stage = Stage::new(context, &mesh, &samples)?;
+        let stage = Stage::new(context, &mesh, &samples, self.cutaway)?;
         let windows = windows(&stage);
 
         let mut canvas = Canvas::new(PAGE[0], PAGE[1], self.size);

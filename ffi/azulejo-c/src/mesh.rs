@@ -8,16 +8,17 @@ use std::sync::Arc;
 
 use azulejo_core::mesh::Mesh;
 
-use crate::boundary::{self, array, check_pointer, check_size, rows};
+use crate::boundary::{self, array, check_pointer, check_size, required, rows};
 use crate::status::{AZULEJO_ERROR_OUT_OF_MEMORY, Failure, azulejo_status};
 
 /// A checked triangle mesh: immutable, may be used by several threads at once. Any soup of triangles will do: open,
-/// non-manifold, of many parts and mixed winding.
+/// non-manifold, of many parts and mixed winding. It may carry normals and a mask; meshes that are made of one another
+/// share what they have in common.
 pub struct azulejo_mesh {
     pub(crate) shared: Arc<Mesh>,
 }
 
-const POSITION_SIZE: usize = size_of::<[f32; 3]>();
+const VECTOR_SIZE: usize = size_of::<[f32; 3]>();
 
 /// Copies a mesh of the caller's.
 ///
@@ -46,7 +47,7 @@ pub unsafe extern "C" fn azulejo_mesh_create(
         // SAFETY: handed on from the caller.
         let (vertices, triangles) = unsafe {
             (
-                strided_positions(positions, vertex_count, stride_bytes)?,
+                strided("positions", positions, "vertex_count", vertex_count, stride_bytes)?,
                 rows::<u32, 3>("indices", indices, "triangle_count", triangle_count)?,
             )
         };
@@ -55,9 +56,13 @@ pub unsafe extern "C" fn azulejo_mesh_create(
     })
 }
 
-/// Loads a mesh from a file: Wavefront OBJ or PLY (text and binary), told apart by the extension .obj or .ply, otherwise
-/// by what the file begins with. Polygons become fans of triangles, in the order of the faces; points, lines, materials,
-/// texture coordinates and normals are left aside.
+/// Loads a mesh from a file: Wavefront OBJ, PLY or STL (text and binary), told apart by the extension .obj, .ply or .stl,
+/// otherwise by what the file begins with. Polygons become fans of triangles, in the order of the faces. Vertices keep
+/// the order of the file; those of STL facets are three for each, not merged.
+///
+/// Normals of OBJ corners (vn) and of PLY vertices (nx ny nz) are read; a corner without, or with one that is not finite,
+/// in a file that has some, counts as one with a zero normal: see azulejo_mesh_with_normals. Points, lines, materials,
+/// texture coordinates, colours and normals of STL facets are left aside.
 ///
 /// path: the name of the file as the operating system wants it.
 ///
@@ -78,13 +83,102 @@ pub unsafe extern "C" fn azulejo_mesh_load(
     })
 }
 
+/// A mesh with normals of the caller's, in place of those that it may carry, such as the smooth ones of a shaded surface.
+/// The samples are the same; azulejo_points_interpolated_normals gives the normals at them.
+///
+/// mesh: the mesh, which stays as it is.
+///
+/// normals: of any length; the x y z of each begin `stride_bytes` after those of the one before. Where the three of a
+/// triangle add up to nothing at a sample, as zeros do, the sample gets the normal of the triangle.
+///
+/// normal_count: the number of vertices, where there are no indices.
+///
+/// stride_bytes: at least 12, a multiple of 4.
+///
+/// normal_indices: three for each triangle, below `normal_count`, where corners that share a vertex differ in their
+/// normals; NULL for one normal for each vertex.
+///
+/// triangle_count: the number of triangles of the mesh; 0 for NULL.
+///
+/// out: the new mesh, to be freed with azulejo_mesh_free. It shares vertices, triangles and mask with `mesh`; the two
+/// are freed in any order.
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT for normals that are not finite or not as many as there are vertices, and for
+/// indices out of range; AZULEJO_ERROR_TOO_LARGE for 2^32 - 1 normals or more, and for sizes that overflow;
+/// AZULEJO_ERROR_OUT_OF_MEMORY.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_mesh_with_normals(
+    mesh: Option<&azulejo_mesh>,
+    normals: *const f32,
+    normal_count: usize,
+    stride_bytes: usize,
+    normal_indices: *const u32,
+    triangle_count: usize,
+    out: Option<&mut MaybeUninit<Box<azulejo_mesh>>>,
+) -> azulejo_status {
+    boundary::create(out, || {
+        let mesh = &required("mesh", mesh)?.shared;
+        // SAFETY: handed on from the caller.
+        let vectors = unsafe { strided("normals", normals, "normal_count", normal_count, stride_bytes)? };
+        let indices = if normal_indices.is_null() && triangle_count == 0 {
+            None
+        } else {
+            check_triangle_count(mesh, triangle_count)?;
+            // SAFETY: handed on from the caller.
+            let indices =
+                unsafe { rows::<u32, 3>("normal_indices", normal_indices, "triangle_count", triangle_count)? };
+            Some(collect("normal_indices", indices.iter().copied())?)
+        };
+        Ok(azulejo_mesh { shared: Arc::new(Mesh::clone(mesh).with_normals(vectors, indices)?) })
+    })
+}
+
+/// A mesh with a mask, in place of the one that it may have: triangles whose entry is 0 are left out. They keep their
+/// number. The rest is sampled as if they were not there, to the bit: they get no samples, add nothing to the area, and
+/// need not be covered; nor do they hide or divide anything, so samples on both sides of them keep their distance through
+/// space. A mask may leave out everything: then a maximal set is empty.
+///
+/// mesh: the mesh, which stays as it is.
+///
+/// mask: one byte for each triangle: 0 leaves it out, any other value samples it.
+///
+/// triangle_count: the number of triangles of the mesh.
+///
+/// out: the new mesh, to be freed with azulejo_mesh_free. It shares vertices, triangles and normals with `mesh`; the two
+/// are freed in any order.
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT for a mask that is not as long as there are triangles;
+/// AZULEJO_ERROR_OUT_OF_MEMORY.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_mesh_with_mask(
+    mesh: Option<&azulejo_mesh>,
+    mask: *const u8,
+    triangle_count: usize,
+    out: Option<&mut MaybeUninit<Box<azulejo_mesh>>>,
+) -> azulejo_status {
+    boundary::create(out, || {
+        let mesh = &required("mesh", mesh)?.shared;
+        check_triangle_count(mesh, triangle_count)?;
+        // SAFETY: handed on from the caller.
+        let mask = unsafe { rows::<u8, 1>("mask", mask, "triangle_count", triangle_count)? };
+        let mask = collect("mask", mask.iter().map(|&[entry]| entry != 0))?;
+        Ok(azulejo_mesh { shared: Arc::new(Mesh::clone(mesh).with_mask(mask)?) })
+    })
+}
+
+/// Whether the mesh carries normals besides those of its triangles: 1 or 0; 0 for NULL.
+#[unsafe(no_mangle)]
+pub extern "C" fn azulejo_mesh_has_normals(mesh: Option<&azulejo_mesh>) -> i32 {
+    mesh.is_some_and(|mesh| mesh.shared.has_normals()).into()
+}
+
 /// The number of vertices; 0 for NULL.
 #[unsafe(no_mangle)]
 pub extern "C" fn azulejo_mesh_vertex_count(mesh: Option<&azulejo_mesh>) -> usize {
     mesh.map_or(0, |mesh| mesh.shared.positions().len())
 }
 
-/// The number of triangles; 0 for NULL.
+/// The number of triangles, those that a mask leaves out among them; 0 for NULL.
 #[unsafe(no_mangle)]
 pub extern "C" fn azulejo_mesh_triangle_count(mesh: Option<&azulejo_mesh>) -> usize {
     mesh.map_or(0, |mesh| mesh.shared.triangles().len())
@@ -102,7 +196,7 @@ pub extern "C" fn azulejo_mesh_indices(mesh: Option<&azulejo_mesh>) -> *const u3
     mesh.map_or(std::ptr::null(), |mesh| array(mesh.shared.triangles()))
 }
 
-/// The area of all triangles together, in squared units of the positions; 0 for NULL. A maximal set of N samples has a
+/// The area of all triangles together that no mask leaves out, in squared units of the positions; 0 for NULL. A maximal set of N samples has a
 /// radius of about sqrt(0.69656 * area / N), as long as that is small against the features of the surface.
 #[unsafe(no_mangle)]
 pub extern "C" fn azulejo_mesh_area(mesh: Option<&azulejo_mesh>) -> f64 {
@@ -115,22 +209,38 @@ pub extern "C" fn azulejo_mesh_free(mesh: Option<Box<azulejo_mesh>>) {
     boundary::free(mesh);
 }
 
-/// The caller's vertices, packed.
+/// Refuses an array that is not as long as a mesh has triangles.
+fn check_triangle_count(mesh: &Mesh, count: usize) -> Result<(), Failure> {
+    let expected = mesh.triangles().len();
+    if count == expected {
+        Ok(())
+    } else {
+        Err(Failure::invalid("triangle_count", format!("{count}, but the mesh has {expected} triangles")))
+    }
+}
+
+/// Vectors of the caller's, packed.
 ///
 /// # Safety
-/// Unless the checks fail, `positions` leads to as many vertices, so far apart.
-unsafe fn strided_positions(positions: *const f32, count: usize, stride: usize) -> Result<Vec<[f32; 3]>, Failure> {
-    if stride < POSITION_SIZE || !stride.is_multiple_of(align_of::<f32>()) {
-        let reason = format!("{stride} is not a multiple of 4 from {POSITION_SIZE} on");
+/// Unless the checks fail, `vectors` leads to as many of them, so far apart.
+unsafe fn strided(
+    argument: &str,
+    vectors: *const f32,
+    count_argument: &str,
+    count: usize,
+    stride: usize,
+) -> Result<Vec<[f32; 3]>, Failure> {
+    if stride < VECTOR_SIZE || !stride.is_multiple_of(align_of::<f32>()) {
+        let reason = format!("{stride} is not a multiple of 4 from {VECTOR_SIZE} on");
         return Err(Failure::invalid("stride_bytes", reason));
     }
     if count > 0 {
-        check_pointer("positions", positions)?;
+        check_pointer(argument, vectors)?;
     }
-    check_size("vertex_count", count, count.checked_mul(stride))?;
+    check_size(count_argument, count, count.checked_mul(stride))?;
     // SAFETY: the offsets lie inside the caller's array, whose size an object can have.
-    let position = |vertex| unsafe { positions.byte_add(vertex * stride).cast::<[f32; 3]>().read() };
-    collect("positions", (0..count).map(position))
+    let vector = |index| unsafe { vectors.byte_add(index * stride).cast::<[f32; 3]>().read() };
+    collect(argument, (0..count).map(vector))
 }
 
 /// A vector of the caller's data, for whose size the caller's word has to be taken.

@@ -65,11 +65,19 @@ pub extern "C" fn azulejo_points_positions(points: Option<&azulejo_points>) -> *
     }
 }
 
-/// The unit normals of the samples' triangles, x y z each, seen from where their vertices run counter-clockwise;
-/// NULL for NULL, an empty set and samples of the plane.
+/// The unit normals of the samples' triangles, x y z each, seen from where their vertices run counter-clockwise, whether
+/// or not the mesh carries normals of its own; NULL for NULL, an empty set and samples of the plane.
 #[unsafe(no_mangle)]
 pub extern "C" fn azulejo_points_normals(points: Option<&azulejo_points>) -> *const f32 {
     surface(points).map_or(std::ptr::null(), |samples| array(&samples.normals))
+}
+
+/// The normals that the mesh carries, from azulejo_mesh_with_normals or from its file, interpolated to the samples with
+/// their barycentrics, of length 1, x y z each; that of the triangle where they add up to nothing. NULL for a mesh that
+/// carries none, NULL, an empty set and samples of the plane.
+#[unsafe(no_mangle)]
+pub extern "C" fn azulejo_points_interpolated_normals(points: Option<&azulejo_points>) -> *const f32 {
+    surface(points).map_or(std::ptr::null(), |samples| array(&samples.interpolated_normals))
 }
 
 /// The index of the triangle that each sample lies on; NULL for NULL, an empty set and samples of the plane.

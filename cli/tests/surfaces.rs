@@ -1,0 +1,87 @@
+//! `azulejo mesh` and `surface`, from outside.
+
+mod common;
+
+use std::fs;
+
+use common::Workshop;
+
+/// The nine properties of each sample in a file of `surface`, as floats; triangles are none.
+fn samples(workshop: &Workshop, name: &str) -> Vec<[f32; 9]> {
+    let file = fs::read(workshop.path(name)).unwrap();
+    let end = file.windows(11).position(|window| window == b"end_header\n").unwrap() + 11;
+    let float = |bytes: &[u8]| f32::from_le_bytes(bytes.try_into().unwrap());
+    let sample = |bytes: &[u8]| std::array::from_fn(|i| float(&bytes[4 * i..][..4]));
+    file[end..].chunks_exact(36).map(sample).collect()
+}
+
+#[test]
+fn every_shape_can_be_made_and_sampled() {
+    let workshop = Workshop::new();
+    for (shape, faces, count) in [("sphere", 256, 60), ("torus", 256, 60), ("hall", 172 * 256, 500), ("knot", 128, 60)]
+    {
+        assert!(workshop.succeed(&["mesh", shape, "--detail", "16", "-o", "mesh.ply"]).is_empty());
+        let file = fs::read(workshop.path("mesh.ply")).unwrap();
+        assert!(String::from_utf8_lossy(&file[..300]).contains(&format!("\nelement face {faces}\n")), "{shape}");
+        let count_text = count.to_string();
+        workshop.succeed(&["surface", "mesh.ply", "--count", &count_text, "-o", "samples.ply"]);
+        let made = samples(&workshop, "samples.ply");
+        assert!((count / 2..count * 6 / 5).contains(&made.len()), "{} samples of a {shape}", made.len());
+        // All of them stand on y, as pictures have it: wider than high, or round.
+        let extent = |axis: usize| {
+            let ends =
+                made.iter().map(|sample| sample[axis]).fold([f32::MAX, f32::MIN], |[a, b], x| [a.min(x), b.max(x)]);
+            ends[1] - ends[0]
+        };
+        assert!(extent(1) < 1.1 * extent(0), "{shape}");
+    }
+    let said = workshop.refuse(&["mesh", "hall", "--detail", "1001", "-o", "a.ply"], 1);
+    assert_eq!(said, "error: --detail: 1001 is too fine for this shape; the limit is 1000\n");
+}
+
+#[test]
+fn surface_says_how_near_the_count_is() {
+    let workshop = Workshop::new();
+    workshop.succeed(&["mesh", "sphere", "--detail", "64", "-o", "mesh.ply"]);
+    let said = workshop.succeed(&["surface", "mesh.ply", "--count", "4000", "-o", "a.ply"]);
+    let made = samples(&workshop, "a.ply").len();
+    let count = format!("a.ply: {},{:03} samples, ", made / 1000, made % 1000);
+    let rest = said.strip_prefix(&count).unwrap_or_else(|| panic!("{said}"));
+    let (percent, rest) = rest.split_once(' ').unwrap();
+    let told: f64 = percent.parse().unwrap();
+    assert!((told - 100.0 * (made as f64 / 4000.0 - 1.0).abs()).abs() < 0.1 && told < 5.0, "{said}");
+    let how = if made < 4000 { "fewer" } else { "more" };
+    assert!(rest.starts_with(&format!("% {how} than asked for, radius 0.0467")), "{said}");
+    // Two triangles apart, far below the radius: half of what the area lets expect.
+    let square = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 .001\nv 1 0 .001\nv 0 1 .001\nf 1 2 3\nf 4 5 6\n";
+    workshop.write("pair.obj", square);
+    let said = workshop.succeed(&["surface", "pair.obj", "--count", "1000", "-o", "a.ply"]);
+    assert!(said.contains(" % fewer than asked for, radius "), "{said}");
+    let said = workshop.succeed(&["surface", "mesh.ply", "--radius", "0.5", "-o", "a.ply"]);
+    assert!(said.contains(" samples, radius 0.5, "), "{said}");
+}
+
+#[test]
+fn normals_of_samples_are_those_that_are_asked_for() {
+    let workshop = Workshop::new();
+    let up = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 3 0 4\nf 1//1 2//1 3//1\n";
+    workshop.write("slanted.obj", up);
+    workshop.write("plain.obj", up.replace("//1", ""));
+    let normals = |mesh: &str, kind: &str| {
+        workshop.succeed(&["surface", mesh, "--radius", "0.1", "--normals", kind, "-o", "a.ply"]);
+        let made = samples(&workshop, "a.ply");
+        assert!(made.len() > 30);
+        made.iter().map(|sample| [sample[3], sample[4], sample[5]]).collect::<Vec<_>>()
+    };
+    for (mesh, kind, expected) in [
+        ("slanted.obj", "interpolated", [0.6, 0.0, 0.8]),
+        ("slanted.obj", "geometric", [0.0, 0.0, 1.0]),
+        ("plain.obj", "geometric", [0.0, 0.0, 1.0]),
+    ] {
+        assert!(normals(mesh, kind).iter().all(|normal| *normal == expected), "{mesh} {kind}");
+    }
+    let arguments = ["surface", "plain.obj", "--radius", "0.1", "--normals", "interpolated", "-o", "b.ply"];
+    let said = workshop.refuse(&arguments, 1);
+    assert_eq!(said, "error: --normals: plain.obj has none to be interpolated\n");
+    workshop.refuse(&["surface", "plain.obj", "--radius", "0.1", "--normals", "smooth", "-o", "b.ply"], 2);
+}
