@@ -36,6 +36,10 @@ pub(crate) enum Draw {
     Tune,
     /// KDRT: the ranks and the filling of merged pieces.
     Merge,
+    /// PSP: darts where the radius varies.
+    Adaptive,
+    /// PSP: which pieces of the surface are filled with those of larger radii.
+    Octave,
 }
 
 /// The stream of random numbers of one place.

@@ -36,14 +36,14 @@ pub(super) struct Patch {
 /// Where a fragment lies in space.
 #[derive(Clone, Copy)]
 pub(super) struct Shape {
-    corners: [DVec3; 3],
+    pub corners: [DVec3; 3],
     pub centre: DVec3,
     /// The corner opposite the longest edge.
     pub apex: usize,
     /// The length of the longest edge.
     pub longest: f64,
     /// All of the fragment is this near to its centre.
-    extent: f64,
+    pub extent: f64,
 }
 
 impl Fragment {
@@ -104,7 +104,7 @@ impl Shape {
     }
 
     /// One of the sixteen parts.
-    fn sixteenth(&self, index: usize) -> Self {
+    pub fn sixteenth(&self, index: usize) -> Self {
         let [a, e, f] = [self.corners[0], self.corners[1] - self.corners[0], self.corners[2] - self.corners[0]];
         let corners = SIXTEENTHS[index].map(|[x, y]| a + 0.25 * x * e + 0.25 * y * f);
         let centre = (corners[0] + corners[1] + corners[2]) / 3.0;
@@ -135,7 +135,7 @@ const SIXTEENTHS: [[[f64; 2]; 3]; 16] = {
 };
 
 /// The centres of the sixteenths as seen from the centre of the fragment, in edges, one axis after the other.
-const CENTRES: [[f32; 16]; 2] = {
+pub(super) const CENTRES: [[f32; 16]; 2] = {
     let mut centres = [[0.0; 16]; 2];
     let mut index = 0;
     while index < 16 {

@@ -19,7 +19,7 @@ use std::ops::AddAssign;
 use crate::error::Result;
 use crate::job::Job;
 use crate::mesh::{Mesh, next_below, round_barycentrics};
-use crate::psp::coverage::{Coverage, Fragment, Patch};
+use crate::psp::coverage::{Coverage, Fragment, Patch, Shape};
 use crate::psp::pieces::pieces;
 use crate::psp::room::Room;
 use crate::psp::samples::{Sample, SampleSet};
@@ -52,7 +52,8 @@ impl AddAssign for Filled {
 /// Adds samples until the set is maximal.
 pub(super) fn fill(job: &Job, mesh: &Mesh, samples: &mut SampleSet, seed: u64) -> Result<Filled> {
     let radius = samples.radius();
-    let pieces = pieces(&job.part(0.0, 0.2), mesh, PIECE * radius, |centre| samples.block(centre.to_array()))?;
+    let place = |_: &Fragment, shape: &Shape| samples.block(shape.centre.to_array());
+    let pieces = pieces(&job.part(0.0, 0.2), mesh, |_, _| PIECE * radius, place)?;
     samples.grow(&job.part(0.2, 1.0), &pieces, |block, room, pieces| {
         fill_block(mesh, radius, Rng::at(seed, Draw::Fill, &block.key()), room, pieces)
     })
@@ -111,7 +112,7 @@ fn in_order_of_arrival<'a>(mesh: &Mesh, open: &'a [Patch], rng: &mut Rng) -> Vec
 }
 
 /// A patch's dart, uniform in its open sixteenths (in its centre, if it is no longer than `spacing`).
-fn dart(mesh: &Mesh, patch: &Patch, spacing: f64, rng: &mut Rng) -> Sample {
+pub(super) fn dart(mesh: &Mesh, patch: &Patch, spacing: f64, rng: &mut Rng) -> Sample {
     let place = if patch.longest <= spacing {
         patch.fragment.at([1.0 / 3.0; 2])
     } else {

@@ -21,6 +21,7 @@ use crate::job::{Context, Job, Progress};
 use crate::mesh::{Mesh, exact};
 use crate::points::{SurfaceSamples, check_radius};
 
+pub mod adaptive;
 mod blocks;
 mod coverage;
 mod fill;

@@ -5,32 +5,32 @@
 //! them side by side: n^1.58 pieces where n are enough. So a triangle that is longer than high is sliced first, across
 //! its longest edge, into slices that are about as long as they are high.
 
-use glam::DVec3;
-
 use crate::error::Result;
 use crate::job::{Job, chunks_of};
 use crate::mesh::{Mesh, exact};
-use crate::psp::blocks::{Block, Groups};
+use crate::psp::blocks::Groups;
 use crate::psp::coverage::{Fragment, Shape};
 
 /// Triangles per task.
 const CHUNK: usize = 1024;
 
-/// The whole surface, in fragments no longer than `longest`, each at its place.
-pub(super) fn pieces(
+/// The whole surface, in fragments that are no longer than `longest` says of them, each at its place.
+pub(super) fn pieces<K: Copy + Ord + Send>(
     job: &Job,
     mesh: &Mesh,
-    longest: f64,
-    place: impl Fn(DVec3) -> Block + Sync,
-) -> Result<Groups<Block, Fragment>> {
+    longest: impl Fn(&Fragment, &Shape) -> f64 + Sync,
+    place: impl Fn(&Fragment, &Shape) -> K + Sync,
+) -> Result<Groups<K, Fragment>> {
     let chunks = chunks_of(mesh.triangles().len(), CHUNK);
     let (pieces, _) = Groups::collect(job, chunks.len(), |chunk, add| {
         let mut slices = Vec::new();
         for triangle in chunks.range(chunk).map(|triangle| triangle as u32) {
             if mesh.triangle_area(triangle) > 0.0 {
-                slice(mesh, triangle, longest, &mut slices);
+                let whole = Fragment::whole(triangle);
+                slice(mesh, triangle, longest(&whole, &whole.shape(mesh)), &mut slices);
                 for slice in slices.drain(..) {
-                    cut(&slice, &slice.shape(mesh), longest, &mut |piece, shape| add(place(shape.centre), piece));
+                    let mut add = |piece: Fragment, shape: &Shape| add(place(&piece, shape), piece);
+                    cut(&slice, &slice.shape(mesh), &longest, &mut add);
                 }
             }
         }
@@ -39,8 +39,13 @@ pub(super) fn pieces(
 }
 
 /// Bisects a fragment into pieces no longer than `longest`.
-fn cut(fragment: &Fragment, shape: &Shape, longest: f64, add: &mut dyn FnMut(Fragment, &Shape)) {
-    if shape.longest <= longest {
+fn cut(
+    fragment: &Fragment,
+    shape: &Shape,
+    longest: &impl Fn(&Fragment, &Shape) -> f64,
+    add: &mut dyn FnMut(Fragment, &Shape),
+) {
+    if shape.longest <= longest(fragment, shape) {
         return add(*fragment, shape);
     }
     for (half, shape) in fragment.bisect(shape.apex).iter().zip(&shape.bisect()) {
@@ -89,6 +94,7 @@ fn between(from: [f64; 2], to: [f64; 2], share: f64) -> [f64; 2] {
 mod tests {
     use super::*;
     use crate::job::Context;
+    use crate::psp::blocks::Block;
 
     /// Well-shaped triangles and needles of every kind: flat, acute, right.
     fn triangles() -> Vec<Mesh> {
@@ -98,7 +104,8 @@ mod tests {
     }
 
     fn all_pieces(mesh: &Mesh, longest: f64) -> Vec<Fragment> {
-        let groups = |job: &Job| pieces(job, mesh, longest, |centre| Block([(4.0 * centre.x) as i32, 0, 0]));
+        let groups =
+            |job: &Job| pieces(job, mesh, |_, _| longest, |_, shape| Block([(4.0 * shape.centre.x) as i32, 0, 0]));
         let groups = Context::new(2).unwrap().run(None, groups).unwrap();
         (0..groups.len()).flat_map(|group| groups.items(group)).copied().collect()
     }

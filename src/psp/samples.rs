@@ -128,17 +128,19 @@ impl SampleSet {
 
     /// The samples in the order in which they were accepted, with their normals.
     pub fn to_surface_samples(&self, mesh: &Mesh) -> SurfaceSamples {
-        SurfaceSamples {
-            positions: self.samples.iter().map(|sample| sample.position).collect(),
-            normals: self.samples.iter().map(|sample| mesh.normal(sample.triangle)).collect(),
-            triangles: self.samples.iter().map(|sample| sample.triangle).collect(),
-            barycentrics: self.samples.iter().map(|sample| sample.barycentrics).collect(),
-            // All of them, or none if the mesh carries no normals.
-            interpolated_normals: self
-                .samples
-                .iter()
-                .filter_map(|sample| mesh.interpolated_normal(sample.triangle, sample.barycentrics))
-                .collect(),
-        }
+        surface_samples(mesh, &self.samples)
+    }
+}
+
+/// Samples with their normals.
+pub(super) fn surface_samples(mesh: &Mesh, samples: &[Sample]) -> SurfaceSamples {
+    // None if the mesh carries no normals.
+    let interpolated = |sample: &Sample| mesh.interpolated_normal(sample.triangle, sample.barycentrics);
+    SurfaceSamples {
+        positions: samples.iter().map(|sample| sample.position).collect(),
+        normals: samples.iter().map(|sample| mesh.normal(sample.triangle)).collect(),
+        triangles: samples.iter().map(|sample| sample.triangle).collect(),
+        barycentrics: samples.iter().map(|sample| sample.barycentrics).collect(),
+        interpolated_normals: samples.iter().filter_map(interpolated).collect(),
     }
 }

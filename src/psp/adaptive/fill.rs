@@ -1,0 +1,78 @@
+//! Rounds of darts into what is uncovered, as in `psp/fill.rs`, where the radius varies.
+
+use super::coverage::{Coverage, Open};
+use super::radius::Field;
+use super::room::{Dot, Room, Rule, end_of_octave};
+use super::set::{Place, Set};
+use crate::error::Result;
+use crate::job::Job;
+use crate::mesh::Mesh;
+use crate::psp::coverage::{Fragment, Shape};
+use crate::psp::fill::{dart, float_spacing};
+use crate::psp::pieces::pieces;
+use crate::psp::samples::Sample;
+use crate::rng::{Draw, Rng};
+
+/// The pieces that the search begins with, in local radii.
+const PIECE: f64 = 2.0;
+
+/// A maximal set, and how many darts it took.
+pub(super) fn fill(job: &Job, mesh: &Mesh, field: &Field, rule: Rule, seed: u64) -> Result<(Set, u64)> {
+    let mut set = Set::new(mesh, seed);
+    let bounds = |fragment: &Fragment, shape: &Shape| field.bounds(fragment, shape, field.all());
+    let longest = |fragment: &Fragment, shape: &Shape| PIECE * bounds(fragment, shape).scale();
+    let place = |fragment: &Fragment, shape: &Shape| set.place(shape.centre, bounds(fragment, shape).largest);
+    let pieces = pieces(&job.part(0.05, 0.2), mesh, longest, place)?;
+    field.check()?;
+    let darts = set.grow(&job.part(0.2, 1.0), mesh, rule, &pieces, |place, room, pieces| {
+        let filled = fill_block(mesh, field, seed, place, room, pieces);
+        field.check().map(|()| filled)
+    })?;
+    Ok((set, darts))
+}
+
+/// The samples that a block needs to be covered, with their radii, and how many darts that took.
+fn fill_block(
+    mesh: &Mesh,
+    field: &Field,
+    seed: u64,
+    place: Place,
+    room: &mut Room,
+    pieces: &mut dyn Iterator<Item = &Fragment>,
+) -> (Vec<(Sample, f64)>, u64) {
+    let mut rng = Rng::at(seed, Draw::Adaptive, &place.key());
+    let (unit, spacing) = (end_of_octave(place.octave), float_spacing(mesh));
+    let (mut open, mut next) = (Vec::new(), Vec::new());
+    let mut coverage = Coverage::new(mesh, field, room, unit, spacing);
+    pieces.for_each(|piece| coverage.search(piece, &mut open));
+    let (mut accepted, mut darts) = (Vec::new(), 0);
+    while !open.is_empty() && !field.has_failed() {
+        darts += open.len() as u64;
+        for Open { patch, bounds } in in_order_of_arrival(mesh, &open, &mut rng) {
+            let sample = dart(mesh, patch, spacing, &mut rng);
+            let radius = field.at_within(&sample, *bounds);
+            let dot = Dot { position: sample.position, radius, normal: mesh.normal(sample.triangle) };
+            if !room.rejects(&dot) {
+                room.add(dot);
+                accepted.push((sample, radius));
+            }
+        }
+        // A dart into the centre of a patch decides about all of it.
+        let mut coverage = Coverage::new(mesh, field, room, unit, spacing);
+        open.iter().filter(|open| open.patch.longest > spacing).for_each(|open| coverage.refine(open, &mut next));
+        std::mem::swap(&mut open, &mut next);
+        next.clear();
+    }
+    (accepted, darts)
+}
+
+/// Darts that rain on the surface as densely as samples will stand hit a patch after a waiting time Exp(1) / (area / r²).
+fn in_order_of_arrival<'a>(mesh: &Mesh, open: &'a [Open], rng: &mut Rng) -> Vec<&'a Open> {
+    let arrival = |Open { patch, bounds }: &Open, rng: &mut Rng| {
+        let area = patch.fragment.area(mesh) * f64::from(patch.open.count_ones());
+        -(1.0 - rng.unit()).ln() / area * (bounds.scale() * bounds.scale())
+    };
+    let mut order: Vec<_> = open.iter().map(|open| (arrival(open, rng), open)).collect();
+    order.sort_by(|(a, _), (b, _)| a.total_cmp(b));
+    order.into_iter().map(|(_, open)| open).collect()
+}

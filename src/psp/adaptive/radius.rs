@@ -1,0 +1,226 @@
+//! The radius as a function on the surface: its value at a sample, and its bounds on a fragment.
+
+use std::sync::OnceLock;
+
+use glam::DVec3;
+
+use crate::error::{Error, Result};
+use crate::mesh::{Mesh, exact};
+use crate::psp::coverage::{Fragment, Shape};
+use crate::psp::fill::float_spacing;
+use crate::psp::samples::Sample;
+
+/// A radius for every place of space; called from several threads at once, unless the context has only one.
+pub type RadiusFunction<'a> = dyn Fn([f64; 3]) -> f64 + Sync + 'a;
+
+/// How far samples are apart from place to place.
+#[derive(Clone, Copy)]
+pub enum Radius<'a> {
+    /// A radius for each vertex of the mesh, positive and finite, interpolated on the triangles: at the barycentrics
+    /// `(u, v)` of a sample it is `(1 - u - v) * a + u * b + v * c` in `f64`. Edges may be as steep as they like.
+    PerVertex(&'a [f32]),
+    /// A radius for each position.
+    Function {
+        /// Gives the radius at a position; for a sample, at the floats that are returned.
+        at: &'a RadiusFunction<'a>,
+        /// The least that it gives.
+        smallest: f64,
+        /// The largest that it gives.
+        largest: f64,
+        /// How much the radius changes at most per unit of distance between two positions on a triangle: 0 and up. What
+        /// is covered is proved with it, so it must hold; where a violation is seen, the call fails. The work grows
+        /// with its square from about 1 on.
+        slope: f64,
+    },
+}
+
+/// Between which values the radius is on a fragment.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Bounds {
+    pub least: f64,
+    pub largest: f64,
+}
+
+impl Bounds {
+    /// The radius as far as it is known: what fragments are measured by. Where the bounds are far apart the least may
+    /// be due to a distant corner, or to a bad bound; fragments become smaller then, but not by so much.
+    pub fn scale(&self) -> f64 {
+        self.least.max(self.largest / 8.0)
+    }
+}
+
+/// How much, as a share, rounding can add to a radius.
+const ROUNDING: f64 = 1e-9;
+
+/// The radius on a mesh.
+pub(super) struct Field<'a> {
+    mesh: &'a Mesh,
+    radius: Radius<'a>,
+    /// Bounds for the whole surface.
+    all: Bounds,
+    /// A sample of twice this radius excludes all others, so larger radii are taken as this.
+    limit: f64,
+    /// How far rounding moves a sample at most.
+    rounding: f64,
+    /// What is wrong with the caller's function.
+    failure: OnceLock<String>,
+}
+
+impl<'a> Field<'a> {
+    /// Checks the radii of the caller.
+    pub fn new(mesh: &'a Mesh, radius: Radius<'a>) -> Result<Self> {
+        let (low, high) = mesh.bounds();
+        let limit = 4.0 * (exact(high) - exact(low)).length();
+        let all = match radius {
+            Radius::PerVertex(radii) => bounds_of_vertices(mesh, radii)?,
+            Radius::Function { smallest, largest, slope, .. } => bounds_of_function(smallest, largest, slope)?,
+        };
+        let spacing = float_spacing(mesh);
+        if all.least < 64.0 * spacing {
+            let argument = match radius {
+                Radius::PerVertex(_) => "vertex_radii",
+                Radius::Function { .. } => "smallest",
+            };
+            let (least, coordinate) = (all.least, mesh.largest_coordinate());
+            let finest = 64.0 * spacing;
+            let reason = format!(
+                "{least:?} is below 64 float spacings ({finest:e}) at the largest coordinate of the mesh, {coordinate}"
+            );
+            return Err(Error::invalid(argument, reason));
+        }
+        let all = Bounds { least: all.least.min(limit), largest: all.largest.min(limit) };
+        let rounding = crate::psp::TOLERANCE * spacing;
+        Ok(Self { mesh, radius, all, limit, rounding, failure: OnceLock::new() })
+    }
+
+    /// The argument that asks for too many samples where there are too many.
+    pub fn argument(&self) -> &'static str {
+        match self.radius {
+            Radius::PerVertex(_) => "vertex_radii",
+            Radius::Function { .. } => "radius",
+        }
+    }
+
+    /// Bounds for the whole surface.
+    pub fn all(&self) -> Bounds {
+        self.all
+    }
+
+    /// The radius at a sample.
+    pub fn at(&self, sample: &Sample) -> f64 {
+        match self.radius {
+            Radius::PerVertex(radii) => {
+                self.interpolate(radii, sample.triangle, sample.barycentrics.map(f64::from)).min(self.limit)
+            }
+            Radius::Function { at, .. } => self.call(at, sample.position.map(f64::from)),
+        }
+    }
+
+    /// [`Field::at`] for a sample of a fragment with these bounds, which are tested on the way.
+    pub fn at_within(&self, sample: &Sample, bounds: Bounds) -> f64 {
+        let radius = self.at(sample);
+        self.test_slope(exact(sample.position), radius, bounds);
+        radius
+    }
+
+    /// Bounds on a fragment that is part of one with bounds `within`.
+    pub fn bounds(&self, fragment: &Fragment, shape: &Shape, within: Bounds) -> Bounds {
+        match self.radius {
+            Radius::PerVertex(radii) => {
+                let corners = fragment.corners.map(|corner| self.interpolate(radii, fragment.triangle, corner));
+                let [a, b, c] = corners.map(|radius| radius.min(self.limit));
+                Bounds { least: a.min(b).min(c), largest: a.max(b).max(c) }
+            }
+            Radius::Function { at, slope, .. } => {
+                let radius = self.call(at, shape.centre.to_array());
+                self.test_slope(shape.centre, radius, within);
+                let change = slope * shape.extent;
+                let [least, largest] =
+                    [radius - change, radius + change].map(|x| x.clamp(within.least, within.largest));
+                Bounds { least, largest }
+            }
+        }
+    }
+
+    /// The radius at the centre of a fragment.
+    pub fn centre(&self, fragment: &Fragment, shape: &Shape) -> f64 {
+        match self.radius {
+            Radius::PerVertex(radii) => {
+                self.interpolate(radii, fragment.triangle, fragment.at([1.0 / 3.0; 2])).min(self.limit)
+            }
+            Radius::Function { at, .. } => self.call(at, shape.centre.to_array()),
+        }
+    }
+
+    /// Fails where the caller's function has failed.
+    pub fn check(&self) -> Result<()> {
+        match self.failure.get() {
+            None => Ok(()),
+            Some(reason) => Err(Error::invalid("radius", reason.clone())),
+        }
+    }
+
+    /// Whether the caller's function has failed: the rest of the work is in vain.
+    pub fn has_failed(&self) -> bool {
+        self.failure.get().is_some()
+    }
+
+    fn interpolate(&self, radii: &[f32], triangle: u32, [u, v]: [f64; 2]) -> f64 {
+        let corners = self.mesh.triangles()[triangle as usize];
+        let [a, b, c] = corners.map(|vertex| f64::from(radii[vertex as usize]));
+        (1.0 - u - v) * a + u * b + v * c
+    }
+
+    /// What the caller's function gives, or the least it may give if that is nothing good.
+    fn call(&self, at: &RadiusFunction, position: [f64; 3]) -> f64 {
+        let Radius::Function { smallest, largest, .. } = self.radius else { return self.all.least };
+        let radius = at(position);
+        if !(smallest..=largest).contains(&radius) {
+            self.fail(|| format!("{radius:?} at {position:?} is not in {smallest:?}..={largest:?}"));
+            return self.all.least;
+        }
+        radius.min(self.limit)
+    }
+
+    fn test_slope(&self, position: DVec3, radius: f64, Bounds { least, largest }: Bounds) {
+        let Radius::Function { slope, .. } = self.radius else { return };
+        let slack = ROUNDING * radius + slope * self.rounding;
+        if !(least - slack..=largest + slack).contains(&radius) {
+            let place = position.to_array();
+            self.fail(|| {
+                format!("{radius:?} at {place:?} is farther than slope {slope:?} allows from the values around")
+            });
+        }
+    }
+
+    fn fail(&self, reason: impl FnOnce() -> String) {
+        self.failure.get_or_init(reason);
+    }
+}
+
+fn bounds_of_vertices(mesh: &Mesh, radii: &[f32]) -> Result<Bounds> {
+    let count = mesh.positions().len();
+    if radii.len() != count {
+        return Err(Error::invalid("vertex_count", format!("{} radii for {count} vertices", radii.len())));
+    }
+    if let Some(vertex) = radii.iter().position(|radius| !(radius.is_finite() && *radius > 0.0)) {
+        let reason = format!("vertex {vertex} has {:?}, not a positive finite number", radii[vertex]);
+        return Err(Error::invalid("vertex_radii", reason));
+    }
+    let used = mesh.triangles().iter().flatten().map(|&vertex| f64::from(radii[vertex as usize]));
+    let start = Bounds { least: f64::INFINITY, largest: 0.0 };
+    Ok(used.fold(start, |all, x| Bounds { least: all.least.min(x), largest: all.largest.max(x) }))
+}
+
+fn bounds_of_function(smallest: f64, largest: f64, slope: f64) -> Result<Bounds> {
+    if !(smallest > 0.0 && smallest.is_finite()) {
+        return Err(Error::invalid("smallest", format!("{smallest:?} is not a positive finite number")));
+    }
+    if !(largest >= smallest && largest.is_finite()) {
+        return Err(Error::invalid("largest", format!("{largest:?} is not a finite number from {smallest:?} on")));
+    }
+    if !(slope >= 0.0 && slope.is_finite()) {
+        return Err(Error::invalid("slope", format!("{slope:?} is not a finite number from 0 on")));
+    }
+    Ok(Bounds { least: smallest, largest })
+}

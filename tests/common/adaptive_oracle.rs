@@ -1,0 +1,156 @@
+//! What a set with its own radius for each sample owes, checked in the plainest way. Slow: O(n²) and more.
+
+use azulejo::SurfaceSamples;
+use azulejo::mesh::Mesh;
+
+type Point = [f64; 3];
+
+/// The radius on a mesh, as the caller knows it.
+pub enum Field<'a> {
+    PerVertex(&'a [f32]),
+    /// With the slope that is promised.
+    Function(&'a dyn Fn(Point) -> f64, f64),
+}
+
+/// A part of a triangle: its corners and their barycentrics.
+#[derive(Clone, Copy)]
+struct Part {
+    triangle: u32,
+    corners: [(Point, [f64; 2]); 3],
+}
+
+fn exact(position: [f32; 3]) -> Point {
+    position.map(f64::from)
+}
+
+fn distance(a: Point, b: Point) -> f64 {
+    ((a[0] - b[0]).powi(2) + (a[1] - b[1]).powi(2) + (a[2] - b[2]).powi(2)).sqrt()
+}
+
+fn dot(a: [f32; 3], b: [f32; 3]) -> f64 {
+    let ([a, b, c], [d, e, f]) = (exact(a), exact(b));
+    a * d + b * e + c * f
+}
+
+fn middle((a, s): (Point, [f64; 2]), (b, t): (Point, [f64; 2])) -> (Point, [f64; 2]) {
+    (std::array::from_fn(|axis| (a[axis] + b[axis]) / 2.0), std::array::from_fn(|i| (s[i] + t[i]) / 2.0))
+}
+
+impl Field<'_> {
+    fn at(&self, mesh: &Mesh, triangle: u32, position: Point, [u, v]: [f64; 2]) -> f64 {
+        match self {
+            Self::PerVertex(radii) => {
+                let [a, b, c] = mesh.triangles()[triangle as usize].map(|vertex| f64::from(radii[vertex as usize]));
+                (1.0 - u - v) * a + u * b + v * c
+            }
+            Self::Function(at, _) => at(position),
+        }
+    }
+
+    /// No radius on the part is less.
+    fn least(&self, mesh: &Mesh, part: &Part) -> f64 {
+        let corners = part.corners.map(|(position, uv)| self.at(mesh, part.triangle, position, uv));
+        let least = corners.into_iter().fold(f64::INFINITY, f64::min);
+        match self {
+            Self::PerVertex(_) => least,
+            Self::Function(_, slope) => least - slope * part.longest(),
+        }
+    }
+}
+
+impl Part {
+    fn sides(&self) -> [f64; 3] {
+        let [a, b, c] = self.corners.map(|corner| corner.0);
+        [distance(b, c), distance(c, a), distance(a, b)]
+    }
+
+    fn longest(&self) -> f64 {
+        self.sides().into_iter().fold(0.0, f64::max)
+    }
+
+    /// Four quarters, or two halves where it is much longer than wide.
+    fn parts(&self) -> Vec<Self> {
+        let ([a, b, c], sides, longest) = (self.corners, self.sides(), self.longest());
+        let [d, e, f] = [middle(b, c), middle(c, a), middle(a, b)];
+        let shortest = sides.into_iter().fold(longest, f64::min);
+        let corners = if 3.0 * shortest > longest {
+            vec![[a, f, e], [f, b, d], [e, d, c], [d, e, f]]
+        } else if sides[0] == longest {
+            vec![[a, b, d], [a, d, c]]
+        } else if sides[1] == longest {
+            vec![[b, c, e], [b, e, a]]
+        } else {
+            vec![[c, a, f], [c, f, b]]
+        };
+        corners.into_iter().map(|corners| Self { corners, ..*self }).collect()
+    }
+}
+
+/// A sample whose radius is not what the field says.
+pub fn wrong_radius(mesh: &Mesh, field: &Field, samples: &SurfaceSamples, radii: &[f64]) -> Option<usize> {
+    assert_eq!(samples.len(), radii.len());
+    (0..radii.len()).find(|&i| {
+        let uv = samples.barycentrics[i].map(f64::from);
+        radii[i] != field.at(mesh, samples.triangles[i], exact(samples.positions[i]), uv)
+    })
+}
+
+/// The first two samples found that are closer than the mean of their radii, unless their normals are too different.
+pub fn conflict(samples: &SurfaceSamples, radii: &[f64], cosine: f64) -> Option<(usize, usize)> {
+    let points: Vec<_> = samples.positions.iter().map(|&position| exact(position)).collect();
+    let normals = &samples.normals;
+    (0..points.len()).find_map(|i| {
+        let conflicts = |&j: &usize| {
+            distance(points[i], points[j]) < (radii[i] + radii[j]) / 2.0
+                && (cosine <= -1.0 || dot(normals[i], normals[j]) >= cosine)
+        };
+        (0..i).find(conflicts).map(|j| (j, i))
+    })
+}
+
+/// A point of the surface for which it could not be proved that a sample is nearer than the mean of the two radii, up to
+/// a tolerance.
+pub fn gap(
+    mesh: &Mesh,
+    field: &Field,
+    samples: &SurfaceSamples,
+    radii: &[f64],
+    cosine: f64,
+    tolerance: f64,
+) -> Option<Point> {
+    (0..mesh.triangles().len() as u32).filter(|&triangle| mesh.triangle_area(triangle) > 0.0).find_map(|triangle| {
+        let normal = mesh.normal(triangle);
+        let seen = |&i: &usize| cosine <= -1.0 || dot(samples.normals[i], normal) >= cosine;
+        let balls = (0..radii.len()).filter(seen).map(|i| (exact(samples.positions[i]), radii[i])).collect::<Vec<_>>();
+        let [a, b, c] = mesh.corners(triangle).map(exact);
+        let whole = Part { triangle, corners: [(a, [0.0, 0.0]), (b, [1.0, 0.0]), (c, [0.0, 1.0])] };
+        gap_in_part(mesh, field, &whole, &balls, tolerance)
+    })
+}
+
+/// A part is covered when its corners are near enough to one sample; otherwise its parts must be.
+fn gap_in_part(mesh: &Mesh, field: &Field, part: &Part, balls: &[(Point, f64)], tolerance: f64) -> Option<Point> {
+    let least = field.least(mesh, part);
+    let covers = |&(centre, radius): &(Point, f64)| {
+        part.corners.iter().all(|&(corner, _)| distance(corner, centre) <= (least + radius) / 2.0 + tolerance)
+    };
+    if balls.iter().any(covers) {
+        return None;
+    }
+    let (corner, longest) = (part.corners[0].0, part.longest());
+    if longest < tolerance / 100.0 {
+        return Some(corner);
+    }
+    // A sample reaches a point whose radius is at most that of a corner and what it changes on the way.
+    let largest = match field {
+        Field::PerVertex(_) => {
+            let radius = |(position, uv)| field.at(mesh, part.triangle, position, uv);
+            part.corners.map(radius).into_iter().fold(0.0, f64::max)
+        }
+        Field::Function(_, slope) => least + 3.0 * slope * longest,
+    };
+    let near =
+        |&&(centre, radius): &&(Point, f64)| distance(corner, centre) <= (largest + radius) / 2.0 + longest + tolerance;
+    let near: Vec<_> = balls.iter().filter(near).copied().collect();
+    part.parts().iter().find_map(|part| gap_in_part(mesh, field, part, &near, tolerance))
+}
