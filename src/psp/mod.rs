@@ -284,7 +284,8 @@ impl Psp {
         report.accepted += accepted;
         report.darts += filled.darts;
         report.conflicts += filled.darts - accepted;
-        report.uncovered_before = Some(filled.open_area / self.mesh.area());
+        let area = self.mesh.area();
+        report.uncovered_before = Some(if area > 0.0 { filled.open_area / area } else { 0.0 });
         report.uncovered_after = Some(0.0);
         Ok(())
     }
@@ -294,7 +295,7 @@ impl Psp {
         Report {
             samples: self.len() as u64,
             seconds: start.elapsed().as_secs_f64(),
-            rho: self.options.radius / hexagonal,
+            rho: if self.is_empty() { 0.0 } else { self.options.radius / hexagonal },
             ..report
         }
     }
