@@ -27,7 +27,10 @@ impl Files {
     /// Why a file is refused as malformed. The message begins with its path.
     fn reason(&self, name: &str, content: impl AsRef<[u8]>) -> String {
         let path = self.write(name, content);
-        match Mesh::load(&path) {
+        let loaded = Mesh::load(&path);
+        // A new file each time: some file systems wait for the disk when one is overwritten.
+        std::fs::remove_file(&path).unwrap();
+        match loaded {
             Err(error @ Error::Format { .. }) => {
                 let message = error.to_string();
                 let reason = message.strip_prefix(&format!("{}: ", path.display())).expect("begins with the path");
