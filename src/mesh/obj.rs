@@ -15,10 +15,11 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Soup, String> {
     }
     let mut content = Content::default();
     let mut joined = Vec::new();
-    for (line, part) in lines(bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes)) {
+    let mut lines = lines(bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes)).peekable();
+    while let Some((line, part)) = lines.next() {
         let part = part.split(|&byte| byte == b'#').next().unwrap_or_default().trim_ascii();
         // A line that ends with a backslash goes on in the next one.
-        let (part, goes_on) = part.strip_suffix(b"\\").map_or((part, false), |part| (part, true));
+        let (part, goes_on) = part.strip_suffix(b"\\").map_or((part, false), |part| (part, lines.peek().is_some()));
         if goes_on || !joined.is_empty() {
             joined.extend_from_slice(part);
             joined.push(b' ');
@@ -75,7 +76,9 @@ impl Content {
             normal => resolve(normal, self.normals.len(), "normal")?,
         };
         for (largest, number) in self.largest.iter_mut().zip([vertex, normal]) {
-            *largest = (*largest).max((number, line));
+            if number > largest.0 {
+                *largest = (number, line);
+            }
         }
         Ok([vertex, normal])
     }
