@@ -67,7 +67,7 @@ fn broken_obj_files_are_refused_with_the_line() {
     }
     assert_eq!(line("f"), "line 4: a face without corners");
     assert_eq!(line("f 1 2 /1/1"), "line 4: a face names vertex 0, but there are 3");
-    assert_eq!(line("f 1 2 4\n#"), "line 4: a face names vertex 4, but there are 3");
+    assert_eq!(line("f 1 2 4\nf 4 4 4"), "line 4: a face names vertex 4, but there are 3");
     assert_eq!(line("f 1//3 2//1 3//2\nvn 0 0 1"), "line 4: a face names normal 3, but there are 1");
     for index in ["0", "-4", "4294967296", "9223372036854775807", "-9223372036854775808"] {
         let so_far = if index.starts_with('-') { " so far" } else { "" };
@@ -115,7 +115,7 @@ fn what_obj_files_look_like() {
         "  v  +0. 0\t0 1\n v 1. .0 0e0\nv 1E0 10e-1 -0 .5 .5 .5\nv 0 1 0 1 1 1 1\nv -1 .5 0\ng a b\ns off\n f 1 2  3 4 5 ",
         "f 1 2 3 4 5\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv -1 0.5 0",
         "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv -1 0.5 0\nf -5 -4/1 -3/2/ -2//\\\n -1 # f 1",
-        "v 0 0 0\nv 1 0 0\nv \\\r\n1 1\\\n  0\nv 0 1 0\nv -1 0.5 0\nf 1 2 3 4 \\\n\\\n5\\\n",
+        "v 0 0 0\nv 1 0 0\nv \\\r\n1 1\\\n  0\nv 0 1 0\nv -1 0.5 0\nf 1 2 3 4 \\\n\\\n5\\",
         "# C:\\\nv 0 0 0#\nv 1 0 0 # one\nv 1 1 0\nv 0 1 0\nv -1 0.5 0\n#f\nf 1 2 3 4 5 #6\n",
         "v 0 0 0\nv 1 0 0\nv 1 1 0\no one\nf 1 2 3\no two\nv 0 1 0\ng\nf 1 3 4\nv -1 0.5 0\nusemtl x\nf 1 4 5\nf 1 2\nf 1",
     ] {

@@ -18,22 +18,26 @@ fn samples(workshop: &Workshop, name: &str) -> Vec<[f32; 9]> {
 #[test]
 fn every_shape_can_be_made_and_sampled() {
     let workshop = Workshop::new();
-    for (shape, faces, count) in [("sphere", 256, 60), ("torus", 256, 60), ("hall", 172 * 256, 500), ("knot", 128, 60)]
-    {
-        assert!(workshop.succeed(&["mesh", shape, "--detail", "16", "-o", "mesh.ply"]).is_empty());
+    for (shape, faces, count, extent) in [
+        ("sphere", 1024, 200, [2.0, 2.0, 2.0]),
+        ("torus", 1024, 200, [2.8, 2.8, 0.8]),
+        ("knot", 512, 200, [1.8, 1.75, 0.75]),
+        // It stands on y, as pictures have it.
+        ("hall", 172 * 1024, 1000, [4.0, 1.0, 2.0]),
+    ] {
+        assert!(workshop.succeed(&["mesh", shape, "--detail", "32", "-o", "mesh.ply"]).is_empty());
         let file = fs::read(workshop.path("mesh.ply")).unwrap();
         assert!(String::from_utf8_lossy(&file[..300]).contains(&format!("\nelement face {faces}\n")), "{shape}");
         let count_text = count.to_string();
         workshop.succeed(&["surface", "mesh.ply", "--count", &count_text, "-o", "samples.ply"]);
         let made = samples(&workshop, "samples.ply");
         assert!((count / 2..count * 6 / 5).contains(&made.len()), "{} samples of a {shape}", made.len());
-        // All of them stand on y, as pictures have it: wider than high, or round.
-        let extent = |axis: usize| {
+        for axis in 0..3 {
             let ends =
                 made.iter().map(|sample| sample[axis]).fold([f32::MAX, f32::MIN], |[a, b], x| [a.min(x), b.max(x)]);
-            ends[1] - ends[0]
-        };
-        assert!(extent(1) < 1.1 * extent(0), "{shape}");
+            let difference = ends[1] - ends[0] - extent[axis];
+            assert!(difference.abs() < 0.1 * extent[axis], "{shape} is {difference} too long on axis {axis}");
+        }
     }
     let said = workshop.refuse(&["mesh", "hall", "--detail", "1001", "-o", "a.ply"], 1);
     assert_eq!(said, "error: --detail: 1001 is too fine for this shape; the limit is 1000\n");

@@ -6,8 +6,8 @@
 //!
 //! * *Conflict-free*: no two samples are closer than the radius, in `f64` from the returned floats, in straight lines
 //!   through space (not along the surface).
-//! * *Maximal*: no point of the surface is farther from every sample than the radius and [`TOLERANCE`] float spacings
-//!   at the largest coordinate of the mesh.
+//! * *Maximal*: no point of the surface, but for what the mesh's mask leaves out, is farther from every sample than the
+//!   radius and [`TOLERANCE`] float spacings at the largest coordinate of the mesh.
 //! * *Deterministic*: the samples and their order depend on mesh, radius, seed and the sequence of calls, not on the
 //!   number of threads. Between machines whose Embree traces packets of another width the last bits of a hit can differ.
 

@@ -90,7 +90,7 @@ pub unsafe extern "C" fn azulejo_space_smallest_distance(
 ///
 /// probes, seed: how many random places of the surface are looked at, spread evenly over its area, and which.
 ///
-/// out: the share of probes that are not covered, 0 to 1.
+/// out: the share of probes that are not covered, 0 to 1; 0 if the mask of the mesh leaves nothing to be looked at.
 ///
 /// O(probes + count) time. Probes do not prove coverage: they find a gap of a millionth of the area with two million of
 /// them most of the time, and miss smaller ones.
