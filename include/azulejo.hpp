@@ -250,6 +250,13 @@ public:
         return Mesh(handle);
     }
 
+    /// Triangles of an RTCScene of the caller's; see azulejo_mesh_create_from_embree.
+    static Mesh from_embree(void *scene, Span<const azulejo_embree_geometry> geometries) {
+        azulejo_mesh *handle = nullptr;
+        check(azulejo_mesh_create_from_embree(scene, geometries.data(), geometries.size(), &handle));
+        return Mesh(handle);
+    }
+
     /// This mesh with normals: packed, one for each vertex, or named by three indices for each triangle; see
     /// azulejo_mesh_with_normals.
     Mesh with_normals(Span<const float> normals, Span<const std::uint32_t> normal_indices = {}) const {
@@ -274,6 +281,7 @@ public:
 
     /// Whether the mesh carries normals besides those of its triangles.
     bool has_normals() const noexcept { return azulejo_mesh_has_normals(get()) != 0; }
+
     std::size_t vertex_count() const noexcept { return azulejo_mesh_vertex_count(get()); }
     std::size_t triangle_count() const noexcept { return azulejo_mesh_triangle_count(get()); }
     /// x y z of each vertex.

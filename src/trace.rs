@@ -9,12 +9,16 @@
 //! vertices or indices without a word.
 
 mod build;
+mod host;
 mod packet;
+mod watch;
 
 use embree4_sys::{RTCRayHit, RTCRayHit4, RTCRayHit8, RTCRayHit16};
 
 use crate::error::{Error, Result};
+use crate::job::{Context, Job};
 use build::Built;
+pub use host::{HostBuffers, host_buffers};
 use packet::{Packet, RayHits, Recorder};
 
 /// Embree leaves out what is farther from the origin (its `FLT_LARGE` is 1.844e18).
@@ -57,6 +61,10 @@ impl Scene {
     /// Copies the triangles into Embree and builds the hierarchy with `num_threads` threads (0: one per core; 1: none
     /// but the caller's), in O(n log n).
     ///
+    /// Embree knows one bound for the threads of a process, the largest that one of its devices has, and sets it for all
+    /// that uses TBB. A scene has a device of its own, with `num_threads`. So a build beside a device with more threads can
+    /// use as many, and a device with fewer can use `num_threads` while this scene lives, but not after it.
+    ///
     /// Embree calculates in `f32` with fixed thresholds: scale a mesh to about the unit box before.
     ///
     /// # Errors
@@ -64,8 +72,13 @@ impl Scene {
     /// beyond the positions; [`Error::Embree`] if the library that was loaded is not the version that this crate was
     /// built for, or if Embree refuses, for want of memory or another reason that it gives.
     pub fn new(positions: &[[f32; 3]], triangles: &[[u32; 3]], num_threads: usize) -> Result<Self> {
+        Context::new(1)?.run(None, |job| Self::build(job, positions, triangles, num_threads))
+    }
+
+    /// [`Scene::new`] as a part of a job, which can be cancelled.
+    pub(crate) fn build(job: &Job, positions: &[[f32; 3]], triangles: &[[u32; 3]], num_threads: usize) -> Result<Self> {
         check(positions, triangles)?;
-        let built = Built::new(positions, triangles, num_threads)?;
+        let built = Built::new(positions, triangles, num_threads, job)?;
         let packet_width = built.packet_width();
         Ok(Self { built, packet_width })
     }

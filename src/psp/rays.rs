@@ -58,11 +58,11 @@ impl Rays {
         let normalised: Vec<_> = mesh.positions().iter().map(normalise).collect();
         let numbers: Vec<_> = mesh.sampled_triangles().collect();
         let triangles: Vec<_> = numbers.iter().map(|&number| mesh.triangles()[number as usize]).collect();
-        let scene = Scene::new(&normalised, &triangles, job.context().num_threads())?;
+        let scene = Scene::build(&job.part(0.0, 0.5), &normalised, &triangles, job.context().num_threads())?;
         Ok(Self {
             scene,
             numbers,
-            pattern: Pattern::new(job, 1.0 / (radius * scale), seed)?,
+            pattern: Pattern::new(&job.part(0.5, 1.0), 1.0 / (radius * scale), seed)?,
             half_box: 0.5 * scale * (high - low) + BOX_MARGIN,
             radius: radius * scale,
         })
