@@ -67,7 +67,7 @@ fn knot_surface(along: f64, around: f64) -> DVec3 {
 }
 
 /// A grid around the tube, closed in both directions, counter-clockwise from outside.
-fn knot(columns: u32) -> (Vec<[f32; 3]>, Vec<[u32; 3]>) {
+pub fn knot(columns: u32) -> (Vec<[f32; 3]>, Vec<[u32; 3]>) {
     let rows = columns / 4;
     let turn = |i: u32, count: u32| TAU * i as f64 / count as f64;
     let vertices = (0..columns)
