@@ -30,17 +30,19 @@
  * Progress. The callback in the options is called on the thread that makes the call, with the finished share, which
  *   never falls, from 0 to 1 (the 1 comes if the call succeeds). Any return value but 0 cancels the call, which then
  *   returns AZULEJO_ERROR_CANCELLED. The callback may call the library, also with the same context. It must return:
- *   no exception and no longjmp may leave it. The same holds for the callback of azulejo_kdrt_stream.
+ *   no exception and no longjmp may leave it. The same holds for the callback of azulejo_kdrt_stream. Only an
+ *   azulejo_radius_fn is called on other threads, and several at once.
  *
  * Threads. Every function may be called from any thread at any time. A context can be used by several threads at
  *   once; a psp handle serves one changing call at a time and refuses a second one. The last error belongs to the
  *   thread that made the call.
  *
  * Results. The same options and seed give the same bytes, for every number of threads and whatever was called before.
- *   A radius is always the smallest distance allowed between the centres of two samples. Conflict-free: no two samples
- *   are closer than the radius, in double arithmetic on the returned floats, without tolerance. Maximal: no place of
- *   the domain or surface is farther than the radius from every sample, up to the rounding of the returned floats:
- *   3 times the spacing of floats at the largest coordinate in the plane, 6 times where sets are merged and on a mesh.
+ *   A radius is always the smallest distance allowed between the centres of two samples; where it varies, the mean of
+ *   their two radii is. Conflict-free: no two samples are closer than the radius, in double arithmetic on the returned
+ *   floats, without tolerance. Maximal: no place of the domain or surface is farther than the radius from every sample,
+ *   up to the rounding of the returned floats: 3 times the spacing of floats at the largest coordinate in the plane, 6
+ *   times where sets are merged and on a mesh.
  *
  * Memory. Sizes that cannot be held are refused with AZULEJO_ERROR_TOO_LARGE before memory is taken. When the system
  *   has no memory left in the middle of a call, the process is aborted, as by every Rust library.
@@ -291,47 +293,55 @@ typedef struct azulejo_merge_report {
     uint32_t reserved[10];
 } azulejo_merge_report;
 
-/// A geometry of triangles in a scene of the caller's. Embree does not tell the sizes of its buffers: the caller does.
-typedef struct azulejo_embree_geometry {
-    /// Its number in the scene.
-    uint32_t geometry_id;
-    /// Bytes from one vertex to the next: a multiple of 4 from 12 on.
-    uint32_t vertex_stride;
-    /// Bytes from one triangle to the next: a multiple of 4 from 12 on.
-    uint32_t index_stride;
-    /// Must be 0.
-    uint32_t reserved;
-    /// Vertices in its buffer of type RTC_BUFFER_TYPE_VERTEX, slot 0, of format RTC_FORMAT_FLOAT3.
-    size_t vertex_count;
-    /// Triangles in its buffer of type RTC_BUFFER_TYPE_INDEX, of format RTC_FORMAT_UINT3.
-    size_t triangle_count;
-} azulejo_embree_geometry;
+/// Gives the radius at a place.
+///
+/// It is called from several threads at once, the library's own; only where the context has one thread it is called on
+/// the thread that made the call. It must give the same radius for the same place, must return (no exception and no
+/// longjmp may leave it), and must not call the library with the same context.
+///
+/// user: the radius_user of the options.
+///
+/// position: x y z of a place on the mesh; for a sample, the floats that are returned.
+///
+/// Returns the radius, from `smallest` to `largest`.
+typedef double (*azulejo_radius_fn)(void *user, const double *position);
 
-/// Options of azulejo_psp_create and azulejo_psp_sample.
-typedef struct azulejo_psp_options {
+/// Options of azulejo_psp_sample_adaptive. Either `vertex_radii` or `radius` is to be set.
+typedef struct azulejo_adaptive_options {
     /// The size of the caller's struct in bytes; set by the init function.
     uint32_t struct_size;
-    /// How often azulejo_psp_sample projects its patterns before it fills the gaps, 3 directions each time. More
-    /// iterations leave less to the filling, which costs more per sample. The default is the fastest.
-    uint32_t iterations;
-    /// The smallest straight distance between two samples, in the units of the mesh. Above 0; there is no default.
-    double radius;
-    /// Any number; another seed gives another set.
-    uint64_t seed;
-    /// 1, the default: azulejo_psp_sample fills all gaps. 0: it stops after the iterations, as the thesis does, with
-    /// some per cent of the surface uncovered.
-    int32_t maximal;
     /// Must be 0.
     uint32_t reserved;
-    /// Called during the calls, unless NULL, which is the default. A psp handle keeps it for all its calls.
+    /// A radius for each vertex of the mesh, above 0. At the barycentrics u v of a sample on the triangle (a, b, c) the
+    /// radius is (1 - u - v) * a + u * b + v * c, in double arithmetic. It may change as steeply as it likes. NULL, the
+    /// default, where `radius` is set.
+    const float *vertex_radii;
+    /// How many vertex_radii there are: as many as vertices of the mesh.
+    size_t vertex_count;
+    /// Gives the radius at a place, unless NULL, which is the default.
+    azulejo_radius_fn radius;
+    /// Handed to `radius`.
+    void *radius_user;
+    /// The least that `radius` gives, above 0. There is no default; not used with vertex_radii.
+    double smallest;
+    /// The largest that `radius` gives. There is no default; not used with vertex_radii.
+    double largest;
+    /// How much `radius` changes at most per unit of distance between two places of a triangle; 0, the default, says
+    /// that it is constant there. What is covered is proved with it, so it must hold: a violation that is seen makes the
+    /// call fail, one that is not can leave gaps. From about 1 on the work grows with its square; vertex_radii, which
+    /// carry their own slopes, are the better choice for images and other data with edges. Not used with vertex_radii.
+    double slope;
+    /// Samples on triangles whose normals have a smaller cosine than this ignore each other, so that the two sides of a
+    /// thin wall are sampled as if they were far apart; the triangles must be wound consistently. From -1, the default,
+    /// which is off, to 1.
+    double cosine;
+    /// Any number; another seed gives another set.
+    uint64_t seed;
+    /// Called during the call, unless NULL, which is the default.
     azulejo_progress_fn progress;
     /// Handed to the progress callback.
     void *progress_user;
-    /// An AZULEJO_ORDER_ constant; by squareness by default.
-    int32_t order;
-    /// An AZULEJO_ENGINE_ constant; Embree by default.
-    int32_t engine;
-} azulejo_psp_options;
+} azulejo_adaptive_options;
 
 /// What a call did.
 typedef struct azulejo_psp_report {
@@ -374,6 +384,48 @@ typedef struct azulejo_psp_report {
     /// If the call filled, the share of the area that is uncovered after, which is 0, else -1.
     double uncovered_after;
 } azulejo_psp_report;
+
+/// A geometry of triangles in a scene of the caller's. Embree does not tell the sizes of its buffers: the caller does.
+typedef struct azulejo_embree_geometry {
+    /// Its number in the scene.
+    uint32_t geometry_id;
+    /// Bytes from one vertex to the next: a multiple of 4 from 12 on.
+    uint32_t vertex_stride;
+    /// Bytes from one triangle to the next: a multiple of 4 from 12 on.
+    uint32_t index_stride;
+    /// Must be 0.
+    uint32_t reserved;
+    /// Vertices in its buffer of type RTC_BUFFER_TYPE_VERTEX, slot 0, of format RTC_FORMAT_FLOAT3.
+    size_t vertex_count;
+    /// Triangles in its buffer of type RTC_BUFFER_TYPE_INDEX, of format RTC_FORMAT_UINT3.
+    size_t triangle_count;
+} azulejo_embree_geometry;
+
+/// Options of azulejo_psp_create and azulejo_psp_sample.
+typedef struct azulejo_psp_options {
+    /// The size of the caller's struct in bytes; set by the init function.
+    uint32_t struct_size;
+    /// How often azulejo_psp_sample projects its patterns before it fills the gaps, 3 directions each time. More
+    /// iterations leave less to the filling, which costs more per sample. The default is the fastest.
+    uint32_t iterations;
+    /// The smallest straight distance between two samples, in the units of the mesh. Above 0; there is no default.
+    double radius;
+    /// Any number; another seed gives another set.
+    uint64_t seed;
+    /// 1, the default: azulejo_psp_sample fills all gaps. 0: it stops after the iterations, as the thesis does, with
+    /// some per cent of the surface uncovered.
+    int32_t maximal;
+    /// Must be 0.
+    uint32_t reserved;
+    /// Called during the calls, unless NULL, which is the default. A psp handle keeps it for all its calls.
+    azulejo_progress_fn progress;
+    /// Handed to the progress callback.
+    void *progress_user;
+    /// An AZULEJO_ORDER_ constant; by squareness by default.
+    int32_t order;
+    /// An AZULEJO_ENGINE_ constant; Embree by default.
+    int32_t engine;
+} azulejo_psp_options;
 
 /// Options of azulejo_dcr_relax. Radii are in units of d_max = sqrt(2 * area / (sqrt(3) * count)), the distance of
 /// neighbours if the same number of points stood in hexagonal arrangement.
@@ -492,6 +544,10 @@ const uint32_t *azulejo_points_triangles(const struct azulejo_points *points);
 /// (1 - u - v) * a + u * b + v * c, and so is every other attribute of the vertices.
 /// NULL for NULL, an empty set and samples of the plane.
 const float *azulejo_points_barycentrics(const struct azulejo_points *points);
+
+/// The radius of each sample of azulejo_psp_sample_adaptive; NULL for NULL, an empty set and all other sets, whose radius
+/// is the one that was asked for.
+const double *azulejo_points_radii(const struct azulejo_points *points);
 
 /// Frees the set with all its arrays. NULL is allowed.
 void azulejo_points_free(struct azulejo_points *points);
@@ -633,6 +689,33 @@ azulejo_status azulejo_kdrt_merge(const struct azulejo_context *context,
                                   size_t fixed_count,
                                   struct azulejo_points **out,
                                   struct azulejo_merge_report *report);
+
+/// Writes the defaults. `struct_size` is sizeof *options.
+azulejo_status azulejo_adaptive_options_init(struct azulejo_adaptive_options *options, size_t struct_size);
+
+/// Makes a maximal set of samples on a mesh, each with a radius of its own (thesis section 3.4.4).
+///
+/// Conflict-free: two samples are no closer than the mean of their radii, in double arithmetic on the returned positions
+/// and radii. Maximal: no place of the surface is farther from every sample than the mean of the two radii, up to 6
+/// times the spacing of floats at the largest coordinate and what the radius changes on that way; with vertex_radii also
+/// 2^-22 of the largest difference of two radii on a triangle. Where the radius changes little from sample to sample
+/// there are 0.6966 / radius^2 samples on an area of 1. Radii above four times the diagonal of the mesh's box are taken
+/// as that.
+///
+/// The same options give the same bytes. Embree is not used. Time grows with samples and triangles.
+///
+/// out: the samples with normals, triangles, barycentrics and radii, to be freed with azulejo_points_free.
+///
+/// report: what the call did, or NULL; iterations, rays and hits are 0.
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for radii that are not positive and finite or below 64 times the spacing
+/// of floats at the largest coordinate, and where `radius` gives what is not in `smallest` to `largest` or changes
+/// faster than `slope`; AZULEJO_ERROR_TOO_LARGE with the estimated count; AZULEJO_ERROR_CANCELLED.
+azulejo_status azulejo_psp_sample_adaptive(const struct azulejo_context *context,
+                                           const struct azulejo_mesh *mesh,
+                                           const struct azulejo_adaptive_options *options,
+                                           struct azulejo_points **out,
+                                           struct azulejo_psp_report *report);
 
 /// Copies the triangles of a scene that the caller has made with Embree. Nothing of the scene and of its device is
 /// changed: flags, error function, thread count (as far as that is the device's alone: see azulejo_context_create). The

@@ -5,11 +5,14 @@
 #ifndef AZULEJO_HPP
 #define AZULEJO_HPP
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <exception>
 #include <functional>
+#include <limits>
 #include <memory>
+#include <mutex>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -93,6 +96,17 @@ using MaximalOptions = Options<azulejo_maximal_options, azulejo_maximal_options_
 using MergeOptions = Options<azulejo_merge_options, azulejo_merge_options_init>;
 /// See azulejo_psp_options; `radius` has no default.
 using PspOptions = Options<azulejo_psp_options, azulejo_psp_options_init>;
+/// Gives the radius at a place of a mesh. Called from several threads at once, the library's own; see azulejo_radius_fn.
+/// What it throws fails the call and leaves it.
+using RadiusFunction = std::function<double(const std::array<double, 3> &position)>;
+
+/// See azulejo_adaptive_options; `vertex_radii` or `radius` is to be set.
+struct AdaptiveOptions : Options<azulejo_adaptive_options, azulejo_adaptive_options_init> {
+    /// Takes the place of the C struct's pointer and count; the radii stay the caller's.
+    Span<const float> vertex_radii;
+    /// Takes the place of the C struct's two fields.
+    RadiusFunction radius;
+};
 /// See azulejo_dcr_options.
 using DcrOptions = Options<azulejo_dcr_options, azulejo_dcr_options_init>;
 
@@ -215,6 +229,11 @@ public:
     Span<const std::uint32_t> triangles() const noexcept { return surface(azulejo_points_triangles(get()), 1); }
     /// u v of each sample: its position is (1 - u - v) * a + u * b + v * c.
     Span<const float> barycentrics() const noexcept { return surface(azulejo_points_barycentrics(get()), 2); }
+    /// The radius of each sample of psp_sample_adaptive; empty for all other sets.
+    Span<const double> radii() const noexcept {
+        const double *data = azulejo_points_radii(get());
+        return {data, data ? size() : 0};
+    }
     /// The C handle, which stays this object's.
     const azulejo_points *get() const noexcept { return handle_.get(); }
 
@@ -415,6 +434,40 @@ inline Points psp_sample(const Context &context, const Mesh &mesh, const PspOpti
     azulejo_points *points = nullptr;
     detail::watched(options,
                     [&](auto *o) { return azulejo_psp_sample(context.get(), mesh.get(), o, &points, report); });
+    return Points(points);
+}
+
+/// Samples of a mesh, each with a radius of its own; see azulejo_psp_sample_adaptive. `report` may be null.
+inline Points psp_sample_adaptive(const Context &context, const Mesh &mesh, const AdaptiveOptions &options,
+                                  PspReport *report = nullptr) {
+    struct Guest {
+        const RadiusFunction &radius;
+        std::mutex lock;
+        std::exception_ptr thrown;
+
+        static double call(void *user, const double *position) noexcept {
+            auto *guest = static_cast<Guest *>(user);
+            try {
+                return guest->radius({position[0], position[1], position[2]});
+            } catch (...) {
+                const std::lock_guard<std::mutex> guard(guest->lock);
+                guest->thrown = std::current_exception();
+                return std::numeric_limits<double>::quiet_NaN(); // which fails the call
+            }
+        }
+    } guest{options.radius, {}, nullptr};
+    azulejo_points *points = nullptr;
+    detail::watched(options, [&](auto *o) {
+        o->vertex_radii = options.vertex_radii.data();
+        o->vertex_count = options.vertex_radii.size();
+        o->radius = options.radius ? &Guest::call : nullptr;
+        o->radius_user = &guest;
+        const auto status = azulejo_psp_sample_adaptive(context.get(), mesh.get(), o, &points, report);
+        if (guest.thrown) {
+            std::rethrow_exception(guest.thrown);
+        }
+        return status;
+    });
     return Points(points);
 }
 

@@ -7,10 +7,10 @@ mod discs;
 pub mod palette;
 pub mod plot;
 mod points;
-mod render;
+pub mod render;
 mod rows;
 pub mod spectra;
-mod stage;
+pub mod stage;
 mod surface;
 
 use azulejo::{Context, Result};

@@ -1,6 +1,6 @@
 //! `azulejo mesh`: meshes that are made, not downloaded.
 
-mod knot;
+pub mod knot;
 mod shapes;
 
 use std::path::PathBuf;

@@ -27,6 +27,25 @@ fn a_quick_report_has_every_table_and_picture_that_it_shows() {
 }
 
 #[test]
+fn a_quick_report_on_adaptive_sampling_has_its_pictures_and_every_band() {
+    let workshop = Workshop::new();
+    let said = workshop.succeed(&["report", "adaptive", "--quick", "--out", "docs", "--threads", "2"]);
+    assert!(said.is_empty(), "{said}");
+    let page = std::fs::read_to_string(workshop.path("docs/adaptive.md")).unwrap();
+    for figure in ["fig. 3.19", "fig. 3.20", "fig. 3.21"] {
+        assert!(page.contains(figure), "{figure}");
+    }
+    let pictures = page.split("](").skip(1).map(|rest| rest.split(')').next().unwrap());
+    let pictures: Vec<_> = pictures.map(|path| image::open(workshop.path("docs").join(path)).unwrap()).collect();
+    assert_eq!(pictures.len(), 3);
+    assert!(pictures.iter().all(|picture| picture.width() >= 900));
+    let errors = page.lines().filter_map(|line| line.strip_suffix(" % |")?.rsplit("| ").next()?.parse::<f64>().ok());
+    let errors: Vec<_> = errors.collect();
+    assert_eq!(errors.len(), 16);
+    assert!(errors.iter().all(|error| error.abs() < 20.0), "{errors:?}");
+}
+
+#[test]
 fn a_report_is_refused_where_it_cannot_be_written() {
     let workshop = Workshop::new();
     workshop.write("file", "");

@@ -103,6 +103,23 @@ FIELD(azulejo_psp_report, rho, 104);
 FIELD(azulejo_psp_report, uncovered_before, 112);
 FIELD(azulejo_psp_report, uncovered_after, 120);
 
+SIZE(azulejo_radius_fn, 8);
+
+SIZE(azulejo_adaptive_options, 96);
+FIELD(azulejo_adaptive_options, struct_size, 0);
+FIELD(azulejo_adaptive_options, reserved, 4);
+FIELD(azulejo_adaptive_options, vertex_radii, 8);
+FIELD(azulejo_adaptive_options, vertex_count, 16);
+FIELD(azulejo_adaptive_options, radius, 24);
+FIELD(azulejo_adaptive_options, radius_user, 32);
+FIELD(azulejo_adaptive_options, smallest, 40);
+FIELD(azulejo_adaptive_options, largest, 48);
+FIELD(azulejo_adaptive_options, slope, 56);
+FIELD(azulejo_adaptive_options, cosine, 64);
+FIELD(azulejo_adaptive_options, seed, 72);
+FIELD(azulejo_adaptive_options, progress, 80);
+FIELD(azulejo_adaptive_options, progress_user, 88);
+
 SIZE(azulejo_dcr_options, 112);
 FIELD(azulejo_dcr_options, struct_size, 0);
 FIELD(azulejo_dcr_options, boundary, 4);
@@ -176,6 +193,9 @@ static void signatures(void) {
     azulejo_status (*psp_points)(const azulejo_psp *, azulejo_points **) = azulejo_psp_points;
     azulejo_status (*psp_sample)(const azulejo_context *, const azulejo_mesh *, const azulejo_psp_options *,
                                  azulejo_points **, azulejo_psp_report *) = azulejo_psp_sample;
+    azulejo_status (*psp_sample_adaptive)(const azulejo_context *, const azulejo_mesh *,
+                                          const azulejo_adaptive_options *, azulejo_points **, azulejo_psp_report *) =
+        azulejo_psp_sample_adaptive;
     azulejo_status (*dcr_relax)(const azulejo_context *, const azulejo_dcr_options *, const float *, size_t,
                                 azulejo_points **, azulejo_dcr_report *) = azulejo_dcr_relax;
     size_t (*last_error_message)(char *, size_t) = azulejo_last_error_message;
@@ -184,6 +204,7 @@ static void signatures(void) {
     CHECK(kdrt_sample_with_report);
     CHECK(kdrt_merge);
     CHECK(mesh_with_normals && mesh_with_mask);
+    CHECK(psp_sample_adaptive);
 }
 
 int main(void) {

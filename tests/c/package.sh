@@ -69,6 +69,15 @@ run_scatter() { # BUILD
         [ "$(ls "$work/out" | wc -l)" = 3 ] && fails "$1/scatter" && fails "$1/scatter" "$work/missing.obj"
 }
 
+run_stipple() { # BUILD: a disk that fades from black to white
+    awk 'BEGIN { print "P2 60 40\n# a disk\n255"; for (y = 0; y < 40; y++) for (x = 0; x < 60; x++) {
+        d = ((x - 30) ^ 2 + (y - 20) ^ 2) / 225; print d < 1 ? int(255 * d) : 255 } }' >"$work/disk.pgm"
+    local dots
+    dots=$("$1/stipple" "$work/disk.pgm" "$work/disk.svg" 5000 | cut -d ' ' -f 1)
+    [ "$dots" -gt 4500 ] && [ "$dots" -lt 6000 ] && [ "$(grep -c '^M' "$work/disk.svg")" = "$dots" ] &&
+        fails "$1/stipple" && fails "$1/stipple" "$work/roof.obj" "$work/roof.svg"
+}
+
 has_vertices() { # FILE BYTES-PER-VERTEX: the file is as long as its header says
     local file=$work/out/$1 count header
     count=$(grep -a -m 1 '^element vertex ' "$file" | cut -d ' ' -f 3)
@@ -118,6 +127,7 @@ step "build and install" install_library
 step "examples, shared" examples "$work/shared" "$prefix"
 step "they run" run_examples "$work/shared"
 step "scatter" run_scatter "$work/shared"
+step "stipple" run_stipple "$work/shared"
 step "examples, static" examples "$work/static" "$prefix" -DAZULEJO_EXAMPLES_STATIC=ON
 step "they do not need libazulejo.so" is_static "$work/static/plane"
 step "they run" run_examples "$work/static"

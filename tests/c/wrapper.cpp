@@ -307,6 +307,47 @@ void progress_of_a_handle() {
     CHECK(calls > 2);
 }
 
+void adaptive() {
+    const azulejo::Context context(3);
+    const azulejo::Mesh mesh(positions, indices);
+    azulejo::AdaptiveOptions options;
+    CHECK(throws(AZULEJO_ERROR_INVALID_ARGUMENT, "radius",
+                 [&] { azulejo::psp_sample_adaptive(context, mesh, options); }));
+    const std::vector<float> radii = {0.05f, 0.1f, 0.2f, 0.1f};
+    options.vertex_radii = radii;
+    azulejo::PspReport report;
+    const auto points = azulejo::psp_sample_adaptive(context, mesh, options, &report);
+    CHECK(points.size() > 100 && points.size() == report.samples && points.radii().size() == points.size());
+    for (double radius : points.radii()) CHECK(radius >= 0.05f && radius <= 0.2f);
+    CHECK(azulejo::Points(nullptr).radii().empty());
+
+    options.vertex_radii = {};
+    options.smallest = 0.05;
+    options.largest = 0.15;
+    options.slope = 0.1;
+    options.radius = [](const std::array<double, 3> &position) { return 0.05 + 0.1 * position[0]; };
+    const auto faded = azulejo::psp_sample_adaptive(context, mesh, options);
+    CHECK(faded.size() > 100 && faded.radii()[0] == 0.05 + 0.1 * static_cast<double>(faded.positions()[0]));
+
+    struct Mishap {};
+    options.radius = [](const std::array<double, 3> &position) -> double {
+        if (position[0] > 0.5) throw Mishap();
+        return 0.05 + 0.1 * position[0];
+    };
+    for (std::uint32_t threads : {1, 3}) {
+        bool caught = false;
+        try {
+            azulejo::psp_sample_adaptive(azulejo::Context(threads), mesh, options);
+        } catch (const Mishap &) {
+            caught = true;
+        }
+        CHECK(caught);
+    }
+    options.radius = [](const std::array<double, 3> &position) { return 0.05 + 0.1 * position[0]; };
+    options.progress = [](double) { return false; };
+    CHECK(throws(AZULEJO_ERROR_CANCELLED, "cancelled", [&] { azulejo::psp_sample_adaptive(context, mesh, options); }));
+}
+
 void relaxing() {
     const azulejo::Context context(1);
     azulejo::DcrOptions options;
@@ -337,6 +378,7 @@ int main() {
     windows();
     streams();
     merging();
+    adaptive();
     relaxing();
     return finish();
 }

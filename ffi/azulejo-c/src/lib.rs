@@ -29,17 +29,19 @@
 //! Progress. The callback in the options is called on the thread that makes the call, with the finished share, which
 //!   never falls, from 0 to 1 (the 1 comes if the call succeeds). Any return value but 0 cancels the call, which then
 //!   returns AZULEJO_ERROR_CANCELLED. The callback may call the library, also with the same context. It must return:
-//!   no exception and no longjmp may leave it. The same holds for the callback of azulejo_kdrt_stream.
+//!   no exception and no longjmp may leave it. The same holds for the callback of azulejo_kdrt_stream. Only an
+//!   azulejo_radius_fn is called on other threads, and several at once.
 //!
 //! Threads. Every function may be called from any thread at any time. A context can be used by several threads at
 //!   once; a psp handle serves one changing call at a time and refuses a second one. The last error belongs to the
 //!   thread that made the call.
 //!
 //! Results. The same options and seed give the same bytes, for every number of threads and whatever was called before.
-//!   A radius is always the smallest distance allowed between the centres of two samples. Conflict-free: no two samples
-//!   are closer than the radius, in double arithmetic on the returned floats, without tolerance. Maximal: no place of
-//!   the domain or surface is farther than the radius from every sample, up to the rounding of the returned floats:
-//!   3 times the spacing of floats at the largest coordinate in the plane, 6 times where sets are merged and on a mesh.
+//!   A radius is always the smallest distance allowed between the centres of two samples; where it varies, the mean of
+//!   their two radii is. Conflict-free: no two samples are closer than the radius, in double arithmetic on the returned
+//!   floats, without tolerance. Maximal: no place of the domain or surface is farther than the radius from every sample,
+//!   up to the rounding of the returned floats: 3 times the spacing of floats at the largest coordinate in the plane, 6
+//!   times where sets are merged and on a mesh.
 //!
 //! Memory. Sizes that cannot be held are refused with AZULEJO_ERROR_TOO_LARGE before memory is taken. When the system
 //!   has no memory left in the middle of a call, the process is aborted, as by every Rust library.
@@ -66,6 +68,7 @@ pub mod kdrt;
 pub mod maximal;
 pub mod merge;
 
+pub mod adaptive;
 pub mod embree;
 pub mod mesh;
 pub mod psp;

@@ -1,6 +1,7 @@
 //! Results: samples of the plane or of a mesh.
 
 use azulejo_core::SurfaceSamples;
+use azulejo_core::psp::adaptive::AdaptiveSamples;
 
 use crate::boundary::{self, array};
 
@@ -8,6 +9,8 @@ use crate::boundary::{self, array};
 /// per sample, in the same order, and live until azulejo_points_free.
 pub struct azulejo_points {
     pub(crate) samples: Samples,
+    /// The radius of each sample, where it varies.
+    radii: Vec<f64>,
 }
 
 pub(crate) enum Samples {
@@ -17,11 +20,15 @@ pub(crate) enum Samples {
 
 impl azulejo_points {
     pub(crate) fn plane(samples: Vec<[f32; 2]>) -> Self {
-        Self { samples: Samples::Plane(samples) }
+        Self { samples: Samples::Plane(samples), radii: Vec::new() }
     }
 
     pub(crate) fn surface(samples: SurfaceSamples) -> Self {
-        Self { samples: Samples::Surface(samples) }
+        Self { samples: Samples::Surface(samples), radii: Vec::new() }
+    }
+
+    pub(crate) fn adaptive(AdaptiveSamples { samples, radii }: AdaptiveSamples) -> Self {
+        Self { samples: Samples::Surface(samples), radii }
     }
 }
 
@@ -92,6 +99,13 @@ pub extern "C" fn azulejo_points_triangles(points: Option<&azulejo_points>) -> *
 #[unsafe(no_mangle)]
 pub extern "C" fn azulejo_points_barycentrics(points: Option<&azulejo_points>) -> *const f32 {
     surface(points).map_or(std::ptr::null(), |samples| array(&samples.barycentrics))
+}
+
+/// The radius of each sample of azulejo_psp_sample_adaptive; NULL for NULL, an empty set and all other sets, whose radius
+/// is the one that was asked for.
+#[unsafe(no_mangle)]
+pub extern "C" fn azulejo_points_radii(points: Option<&azulejo_points>) -> *const f64 {
+    points.map_or(std::ptr::null(), |points| array(&points.radii))
 }
 
 /// Frees the set with all its arrays. NULL is allowed.
