@@ -103,6 +103,21 @@
 /// Nothing lies beyond the domain: only its own samples count, and they alone cover it.
 #define AZULEJO_BOUNDARY_BOUNDED 1
 
+/// Where two candidates of an iteration are too close, that one comes first that its projector faces more squarely: the
+/// default, which finds more samples. Existing samples come before all candidates.
+#define AZULEJO_ORDER_SQUARENESS 0
+
+/// The candidate of the earlier projector comes first, as in the thesis (§3.3.2). Existing samples come before all.
+#define AZULEJO_ORDER_PROJECTOR 1
+
+/// Embree's ray packets find where patterns meet the mesh: the default.
+#define AZULEJO_ENGINE_EMBREE 0
+
+/// Triangles are drawn over the patterns in exact integer arithmetic (thesis §3.4.3): other machines and other Embrees
+/// find the same. The hits are those of Embree but for rounding, which moves points and edges against each other by up
+/// to 2e-7 of the mesh's diagonal: a point that near to an edge may hit the triangle on its other side.
+#define AZULEJO_ENGINE_RASTERISER 1
+
 /// A point's neighbours are those of the Delaunay triangulation: they repel and attract.
 #define AZULEJO_NEIGHBOURHOOD_DELAUNAY 0
 
@@ -295,6 +310,10 @@ typedef struct azulejo_psp_options {
     azulejo_progress_fn progress;
     /// Handed to the progress callback.
     void *progress_user;
+    /// An AZULEJO_ORDER_ constant; by squareness by default.
+    int32_t order;
+    /// An AZULEJO_ENGINE_ constant; Embree by default.
+    int32_t engine;
 } azulejo_psp_options;
 
 /// What a call did.
@@ -303,7 +322,8 @@ typedef struct azulejo_psp_report {
     uint64_t samples;
     /// The samples that the call added.
     uint64_t accepted;
-    /// The rays that it traced: those that meet the mesh's box.
+    /// The rays that it traced: those that meet the mesh's box. With the rasteriser, the points of its tiles (at most 48
+    /// radii wide) that have triangles near them.
     uint64_t rays;
     /// The places where they met the mesh.
     uint64_t hits;
@@ -642,7 +662,7 @@ azulejo_status azulejo_psp_create(const struct azulejo_context *context,
 /// Adds samples: projects patterns of samples onto the mesh, each iteration in three orthogonal directions of a random
 /// frame, and keeps what is in no conflict with the set (thesis chapter 3). Samples are only ever added, in time that
 /// grows with the hits and with the squared diagonal of the mesh over the squared radius. The first call prepares the
-/// mesh for Embree. Two calls add what one call with the sum of their iterations adds.
+/// mesh for the engine. Two calls add what one call with the sum of their iterations adds.
 ///
 /// Where the box of the mesh is out of all proportion to its surface, as for small parts far apart (more than 200 rays
 /// for each sample that there is room for, and 10 million rays at all), the call does nothing and reports no iteration:

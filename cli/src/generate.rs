@@ -128,8 +128,12 @@ impl Surface {
         let output = Output::at(&self.common.output)?;
         let mesh = Arc::new(Mesh::load(&self.mesh)?);
         let radius = self.density.radius(mesh.area());
-        let options =
-            psp::Options { radius, iterations: self.iterations, maximal: !self.no_fill, seed: self.common.seed };
+        let options = psp::Options {
+            iterations: self.iterations,
+            maximal: !self.no_fill,
+            seed: self.common.seed,
+            ..psp::Options::new(radius)
+        };
         let (samples, done) = watched("surface", |progress| psp::sample(context, &mesh, &options, Some(progress)))?;
         ply::write_surface(&output, &samples)?;
         report(&self.common.output, samples.len(), &format!("radius {}", rounded(radius, 4)), done.seconds);

@@ -4,7 +4,7 @@
 //! before or was taken before. The thesis goes by the number of the projector, and tests the winners against the
 //! existing samples afterwards. Here existing samples come first: a candidate that is doomed anyway must not eliminate
 //! others. Among the candidates those come first that their projector faces most squarely: there its pattern, which is
-//! maximal in the plane, is stretched least.
+//! maximal in the plane, is stretched least. (Or, by option, those of the lower projector, as in the thesis.)
 
 use crate::error::Result;
 use crate::job::Job;

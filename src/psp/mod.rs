@@ -28,11 +28,13 @@ mod merge;
 mod pattern;
 mod pieces;
 mod projector;
+mod raster;
+mod rays;
 mod room;
 mod samples;
 
 pub use fill::TOLERANCE;
-use projector::Projection;
+use projector::{Collector, Projection, Projector};
 use samples::SampleSet;
 
 /// The number of iterations after which a maximal set is finished soonest: what the projectors do not find is filled.
@@ -51,6 +53,29 @@ const RAYS_PER_SAMPLE: f64 = 200.0;
 /// ... unless it has no more rays than this, a moment's work.
 const RAYS_ALWAYS: f64 = 1e7;
 
+/// Which of an iteration's candidates comes first where two of them are too close. Existing samples come before all.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Order {
+    /// That which its projector faces more squarely: there the pattern is stretched less. Finds more samples.
+    #[default]
+    Squareness,
+    /// That of the projector with the lower number (thesis §3.3.2).
+    Projector,
+}
+
+/// What finds the hits of the projectors. Both find the same ones, up to rounding: points and edges move against each
+/// other by up to 2e-7 of the mesh's diagonal, as their projector sees them. A point that near to an edge may fall on
+/// the other side, and barycentrics differ by up to this over the height of their triangle.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Engine {
+    /// Packets of rays through the hierarchy of Embree: it takes the longer the more rays there are.
+    #[default]
+    Embree,
+    /// Triangles drawn over the pattern in exact integer arithmetic (thesis §3.4.3): it takes the longer the more triangles
+    /// there are. A point on an edge that triangles share hits one of them on either side, never none or both.
+    Rasteriser,
+}
+
 /// What to sample.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Options {
@@ -62,12 +87,23 @@ pub struct Options {
     pub maximal: bool,
     /// Selects one of 2^64 sets.
     pub seed: u64,
+    /// Which candidates come first.
+    pub order: Order,
+    /// What finds the hits.
+    pub engine: Engine,
 }
 
 impl Options {
     /// A maximal set, by the default number of iterations.
     pub fn new(radius: f64) -> Self {
-        Self { radius, iterations: DEFAULT_ITERATIONS, maximal: true, seed: 0 }
+        Self {
+            radius,
+            iterations: DEFAULT_ITERATIONS,
+            maximal: true,
+            seed: 0,
+            order: Order::default(),
+            engine: Engine::default(),
+        }
     }
 }
 
@@ -80,7 +116,8 @@ pub struct Report {
     pub accepted: u64,
     /// Iterations that the call made.
     pub iterations: u32,
-    /// Rays traced: those that meet the mesh's box.
+    /// Rays traced: those that meet the mesh's box. With the rasteriser, the points of its tiles (at most 48 radii wide)
+    /// that have triangles near them.
     pub rays: u64,
     /// Hits on the rays.
     pub hits: u64,
@@ -99,8 +136,7 @@ pub struct Report {
 /// After a cancelled or failed call it holds what was accepted until then, which is a valid set, and can be used on.
 pub struct Psp {
     mesh: Arc<Mesh>,
-    radius: f64,
-    seed: u64,
+    options: Options,
     samples: SampleSet,
     /// Whether iterations are worth their rays.
     projects: bool,
@@ -138,8 +174,7 @@ impl Psp {
         crate::memory::require(estimate * BYTES_PER_SAMPLE, "radius", &format!("about {estimate:.3e} samples"))?;
         Ok(Self {
             mesh: mesh.clone(),
-            radius,
-            seed: options.seed,
+            options: *options,
             samples: SampleSet::new(mesh, radius),
             projects: expected_rays(mesh, radius) <= RAYS_ALWAYS.max(RAYS_PER_SAMPLE * estimate),
             projection: None,
@@ -197,13 +232,13 @@ impl Psp {
             let job = job.part(share(step), share(step + 1));
             let projection = match &mut self.projection {
                 Some(projection) => projection,
-                none => none.insert(Projection::new(job.context(), &self.mesh, self.radius, self.seed)?),
+                none => none.insert(Projection::new(&job.part(0.0, 0.3), &self.mesh, &self.options)?),
             };
-            let (seed, iteration) = (self.seed, self.iterations);
-            let frame = projector::frame(seed, iteration, self.frame);
-            let shift = |axis| projector::shift(seed, iteration, axis);
-            let (candidates, projected) =
-                projection.project(&job.part(0.0, 0.7), frame, &self.mesh, &self.samples, shift)?;
+            let Options { seed, order, .. } = self.options;
+            let frame = projector::frame(seed, self.iterations, self.frame);
+            let projectors = &Projector::all(frame, seed, self.iterations);
+            let collector = Collector { mesh: &self.mesh, samples: &self.samples, order, projectors };
+            let (candidates, projected) = projection.project(&job.part(0.3, 0.7), projectors, &collector)?;
             let accepted = merge::merge(&job.part(0.7, 1.0), &mut self.samples, &candidates)?;
             self.iterations += 1;
             self.frame = Some(frame);
@@ -219,7 +254,7 @@ impl Psp {
     }
 
     fn complete(&mut self, job: &Job, report: &mut Report) -> Result<()> {
-        let filled = fill::fill(job, &self.mesh, &mut self.samples, self.seed)?;
+        let filled = fill::fill(job, &self.mesh, &mut self.samples, self.options.seed)?;
         report.accepted += filled.accepted;
         report.darts += filled.darts;
         report.conflicts += filled.darts - filled.accepted;

@@ -4,8 +4,10 @@
 //! where the projector is larger: memory stays bounded, and the surface is curved and every iteration is turned, so that
 //! the period leaves no trace.
 
+use std::ops::ControlFlow;
+
 use crate::error::Result;
-use crate::job::{Context, Job, chunks_of};
+use crate::job::{Job, chunks_of};
 use crate::kdrt;
 use crate::points::{Boundary, Domain};
 use crate::psp::blocks::Groups;
@@ -16,6 +18,15 @@ const CHUNK: usize = 4096;
 const LARGEST_SIDE: f64 = 2390.0;
 /// Side of the smallest, in radii: no point is its own neighbour around the torus.
 const SMALLEST_SIDE: f64 = 8.0;
+
+/// Points for a square of side `extent` that repeat with a side, which is returned with them; in radii.
+pub(super) fn torus(job: &Job, extent: f64, seed: u64) -> Result<(f64, Vec<[f32; 2]>)> {
+    let side = extent.clamp(SMALLEST_SIDE, LARGEST_SIDE);
+    let domain = Domain { min: [0.0; 2], max: [side; 2], boundary: Boundary::Periodic };
+    let options = kdrt::Options { radius: 1.0, domain, leaf_size: kdrt::DEFAULT_LEAF_SIZE, seed };
+    let progress = |share| job.report(share).map_or(ControlFlow::Break(()), ControlFlow::Continue);
+    Ok((side, kdrt::sample(job.context(), &options, Some(&progress))?))
+}
 
 /// A set of points on the torus of a given side, in units of the radius.
 pub(super) struct Pattern {
@@ -28,13 +39,10 @@ pub(super) struct Pattern {
 
 impl Pattern {
     /// A pattern for a square of side `extent`, in radii.
-    pub fn new(context: &Context, extent: f64, seed: u64) -> Result<Self> {
-        let side = extent.clamp(SMALLEST_SIDE, LARGEST_SIDE);
-        let domain = Domain { min: [0.0; 2], max: [side; 2], boundary: Boundary::Periodic };
-        let options = kdrt::Options { radius: 1.0, domain, leaf_size: kdrt::DEFAULT_LEAF_SIZE, seed };
-        let points = kdrt::sample(context, &options, None)?;
+    pub fn new(job: &Job, extent: f64, seed: u64) -> Result<Self> {
+        let (side, points) = torus(&job.part(0.0, 0.7), extent, seed)?;
         let key = |point: &[f32; 2]| morton(point.map(|x| (f64::from(x) / side * 65536.0) as u16));
-        let points = context.run(None, |job| sorted(job, &points, key))?;
+        let points = sorted(&job.part(0.7, 1.0), &points, key)?;
         let bounds = points.chunks(CHUNK).map(|chunk| {
             let bound = |start: f32, pick: fn(f32, f32) -> f32| {
                 [0, 1].map(|axis| chunk.iter().fold(start, |bound, point| pick(bound, point[axis])))
@@ -65,10 +73,10 @@ impl Pattern {
 /// The points sorted by a key: into 256 parts by its upper bits, then each part.
 fn sorted(job: &Job, points: &[[f32; 2]], key: impl Fn(&[f32; 2]) -> u32 + Sync) -> Result<Vec<[f32; 2]>> {
     let chunks = chunks_of(points.len(), 16 * CHUNK);
-    let (parts, _) = Groups::collect(job, chunks.len(), |chunk, add| {
+    let (parts, _) = Groups::collect(&job.part(0.0, 0.3), chunks.len(), |chunk, add| {
         points[chunks.range(chunk)].iter().for_each(|point| add(key(point) >> 24, *point));
     })?;
-    job.flat_map(parts.len(), |part| {
+    job.part(0.3, 1.0).flat_map(parts.len(), |part| {
         let mut points: Vec<_> = parts.items(part).copied().collect();
         points.sort_by_cached_key(&key);
         points
@@ -89,6 +97,7 @@ fn morton([x, y]: [u16; 2]) -> u32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::job::Context;
 
     #[test]
     fn sorting_in_parts_sorts() {
@@ -109,7 +118,7 @@ mod tests {
     /// Copies of the pattern side by side: every point of a window comes from exactly one chunk of one copy.
     #[test]
     fn chunks_are_cut_to_a_window_and_repeat_around_the_torus() {
-        let pattern = Pattern::new(&Context::new(1).unwrap(), 100.0, 5).unwrap();
+        let pattern = Context::new(1).unwrap().run(None, |job| Pattern::new(job, 100.0, 5)).unwrap();
         assert_eq!(pattern.side, 100.0);
         let window = |offset: [f64; 2]| -> usize {
             let tiles = [-2, -1, 0, 1].map(f64::from);

@@ -1,191 +1,145 @@
-//! Projectors: three orthogonal planes of parallel rays, turned at random from iteration to iteration (thesis §3.3.1 and
-//! §3.3.3), filtered by the bounding box (§3.4.3) and traced through the whole mesh.
+//! Projectors: three orthogonal planes that carry the pattern, turned at random from iteration to iteration (thesis §3.3.1
+//! and §3.3.3), and what becomes of their hits on the mesh.
 //!
-//! Departs from the thesis in how a ray goes on behind its first hit: one traversal that collects all hits, instead of
-//! restarted rays. It finds the same hits, without an epsilon. The conflicts among the hits of a ray keep their name,
-//! *restart conflicts*.
-//!
-//! Rays live in *trace space*, where the mesh's box is centred at the origin and has a diagonal of 1: Embree's precision
-//! depends on the size of the scene. Only triangle and barycentrics come back from there.
+//! The hits are found by one of two engines: Embree's ray packets (`rays.rs`) or a rasteriser (`raster/`). All hits of all
+//! points are candidates. The conflicts among those of a point keep the name of the thesis, *restart conflicts*.
 
 use glam::{DMat3, DQuat, DVec3};
 
 use crate::error::Result;
-use crate::job::{Context, Job};
+use crate::job::Job;
 use crate::mesh::{Mesh, exact, round_barycentrics};
 use crate::psp::blocks::{Block, Groups};
 use crate::psp::merge::Candidate;
-use crate::psp::pattern::Pattern;
+use crate::psp::raster::Rasteriser;
+use crate::psp::rays::Rays;
 use crate::psp::samples::{Sample, SampleSet};
+use crate::psp::{Engine, Options, Order};
 use crate::rng::{Draw, Rng};
-use crate::trace::{Hit, Ray, Scene};
+use crate::trace::Hit;
 
 /// Two axes of successive iterations are too near each other above this cosine: 20 degrees.
 const NEAREST_AXES: f64 = 0.94;
-/// The box is widened by this (trace space), so that a rounded ray along its side is not lost.
-const BOX_MARGIN: f64 = 1e-6;
-/// Distance of the projectors from the centre (trace space), outside the mesh.
-const DISTANCE: f64 = 1.0;
 /// How finely the squareness of a hit is told.
 const RANKS: f64 = 1e6;
-/// No more tasks than this, however many repetitions of the pattern a projector needs.
-const MAX_TASKS: u64 = 1 << 16;
 
-/// A mesh in trace space and the pattern that is projected onto it.
-pub(super) struct Projection {
-    scene: Scene,
-    pattern: Pattern,
-    /// Half the size of the mesh's box (trace space).
-    half_box: DVec3,
-    /// The radius (trace space).
-    radius: f64,
+/// A pattern, and what finds its hits on a mesh.
+pub(super) enum Projection {
+    Embree(Rays),
+    Rasteriser(Rasteriser),
 }
 
-/// Counts of what some rays met.
-#[derive(Default)]
+impl Projection {
+    /// Makes the pattern, and prepares the mesh for the engine.
+    pub fn new(job: &Job, mesh: &Mesh, options: &Options) -> Result<Self> {
+        let Options { radius, seed, .. } = *options;
+        Ok(match options.engine {
+            Engine::Embree => Self::Embree(Rays::new(job, mesh, radius, seed)?),
+            Engine::Rasteriser => Self::Rasteriser(Rasteriser::new(job, mesh, radius, seed)?),
+        })
+    }
+
+    /// Collects all hits of three projectors, by blocks.
+    pub fn project(&self, job: &Job, projectors: &[Projector; 3], collector: &Collector) -> Result<Found> {
+        match self {
+            Self::Embree(rays) => rays.project(job, projectors, collector),
+            Self::Rasteriser(rasteriser) => rasteriser.project(job, projectors, collector),
+        }
+    }
+}
+
+/// A plane through the centre of the mesh that carries the pattern along its normal.
+pub(super) struct Projector {
+    pub right: DVec3,
+    pub up: DVec3,
+    pub forward: DVec3,
+    /// How far the pattern is shifted on the torus, as a share of its side.
+    shift: [f64; 2],
+}
+
+impl Projector {
+    /// The three projectors of an iteration.
+    pub fn all(frame: DMat3, seed: u64, iteration: u32) -> [Self; 3] {
+        [0, 1, 2].map(|axis| {
+            let [right, up, forward] = [1, 2, 0].map(|step| frame.col((axis + step) % 3));
+            let mut rng = Rng::at(seed, Draw::Shift, &[iteration.into(), axis as u64]);
+            Self { right, up, forward, shift: [rng.unit(), rng.unit()] }
+        })
+    }
+
+    /// Where the corner of the pattern lies that has this side.
+    pub fn shift(&self, side: f64) -> [f64; 2] {
+        self.shift.map(|share| share * side)
+    }
+}
+
+/// Counts of what some projectors met.
+#[derive(Clone, Copy, Default)]
 pub(super) struct Projected {
     pub rays: u64,
     pub hits: u64,
     pub restart_conflicts: u64,
 }
 
-/// A plane of parallel rays.
-struct Projector {
-    right: DVec3,
-    up: DVec3,
-    forward: DVec3,
-    /// How far the pattern is shifted on the torus, in radii.
-    shift: [f64; 2],
-    /// Half the size of the box's shadow on the plane, in radii.
-    half: [f64; 2],
-    /// The repetitions of the pattern that meet the shadow: the lowest on each axis, and how many.
-    first: [i64; 2],
-    repetitions: [u64; 2],
+/// Candidates by blocks, and counts.
+pub(super) type Found = (Groups<Block, Candidate>, Projected);
+
+/// Makes candidates of hits.
+pub(super) struct Collector<'a> {
+    pub mesh: &'a Mesh,
+    pub samples: &'a SampleSet,
+    pub order: Order,
+    pub projectors: &'a [Projector; 3],
 }
 
-impl Projection {
-    /// Builds the scene and the pattern.
-    pub fn new(context: &Context, mesh: &Mesh, radius: f64, seed: u64) -> Result<Self> {
-        let (low, high) = mesh.bounds();
-        let (low, high) = (exact(low), exact(high));
-        let (centre, scale) = (0.5 * (low + high), (high - low).length().recip());
-        // Vertices that no triangle uses can be anywhere; a clamp keeps them from upsetting Embree.
-        let normalise = |&position: &[f32; 3]| {
-            ((exact(position) - centre) * scale).clamp(DVec3::NEG_ONE, DVec3::ONE).as_vec3().to_array()
-        };
-        let normalised: Vec<_> = mesh.positions().iter().map(normalise).collect();
-        Ok(Self {
-            scene: Scene::new(&normalised, mesh.triangles(), context.num_threads())?,
-            pattern: Pattern::new(context, 1.0 / (radius * scale), seed)?,
-            half_box: 0.5 * scale * (high - low) + BOX_MARGIN,
-            radius: radius * scale,
-        })
-    }
-
-    /// Traces the three projectors of an iteration and collects all hits, by blocks.
-    pub fn project(
+impl Collector<'_> {
+    /// Runs tasks that hand over what they find: the number of a projector, of its rays, and their hits in the order of
+    /// [`Scene::all_hits`](crate::trace::Scene::all_hits), all those of a ray at once.
+    pub fn collect(
         &self,
         job: &Job,
-        frame: DMat3,
-        mesh: &Mesh,
-        samples: &SampleSet,
-        mut shift: impl FnMut(usize) -> [f64; 2],
-    ) -> Result<(Groups<Block, Candidate>, Projected)> {
-        let projectors = [0, 1, 2].map(|axis| self.projector(frame, axis, shift(axis)));
-        // A unit is one chunk of one repetition of the pattern on one projector.
-        let chunks = self.pattern.chunks() as u64;
-        let ends = projectors.iter().scan(0, |end, projector| {
-            *end += projector.repetitions[0] * projector.repetitions[1] * chunks;
-            Some(*end)
-        });
-        let ends: Vec<u64> = ends.collect();
-        let units = ends[2];
-        let units_per_task = units.div_ceil(MAX_TASKS).max(1);
-        let tasks = units.div_ceil(units_per_task) as usize;
-        let (candidates, parts) = Groups::collect(job, tasks, |task, add| {
+        tasks: usize,
+        task: impl Fn(usize, &mut dyn FnMut(usize, usize, &[Hit])) + Sync,
+    ) -> Result<Found> {
+        let (candidates, parts) = Groups::collect(job, tasks, |index, add| {
             let mut projected = Projected::default();
-            let first = task as u64 * units_per_task;
-            for unit in first..units.min(first + units_per_task) {
-                let axis = ends.partition_point(|&end| end <= unit);
-                let start = if axis == 0 { 0 } else { ends[axis - 1] };
-                let (repetition, chunk) = ((unit - start) / chunks, (unit - start) % chunks);
-                let rays = self.rays(&projectors[axis], repetition, chunk as usize);
-                self.trace(&rays, mesh, samples, add, &mut projected);
-            }
+            task(index, &mut |projector, rays, hits| {
+                projected.rays += rays as u64;
+                projected.hits += hits.len() as u64;
+                projected.restart_conflicts += self.add_all(projector, hits, add);
+            });
             projected
         })?;
-
-        let mut all = Projected::default();
-        for part in parts {
-            all.rays += part.rays;
-            all.hits += part.hits;
-            all.restart_conflicts += part.restart_conflicts;
-        }
+        let all = parts.iter().fold(Projected::default(), |all, part| Projected {
+            rays: all.rays + part.rays,
+            hits: all.hits + part.hits,
+            restart_conflicts: all.restart_conflicts + part.restart_conflicts,
+        });
         Ok((candidates, all))
     }
 
-    /// The projector along an axis of the frame. `shift` is a share of the pattern's side.
-    fn projector(&self, frame: DMat3, axis: usize, shift: [f64; 2]) -> Projector {
-        let [right, up, forward] = [1, 2, 0].map(|step| frame.col((axis + step) % 3));
-        let side = self.pattern.side;
-        let shift = shift.map(|share| share * side);
-        let half = [right, up].map(|direction| self.half_box.dot(direction.abs()) / self.radius);
-        let repetition = |x: f64, axis: usize| ((x - shift[axis]) / side).floor() as i64;
-        let first = [0, 1].map(|axis| repetition(-half[axis], axis));
-        let repetitions = [0, 1].map(|axis| (repetition(half[axis], axis) - first[axis] + 1) as u64);
-        Projector { right, up, forward, shift, half, first, repetitions }
-    }
-
-    /// The rays of a chunk of the pattern that meet the box.
-    fn rays(&self, projector: &Projector, repetition: u64, chunk: usize) -> Vec<Ray> {
-        let (column, row) = (repetition % projector.repetitions[0], repetition / projector.repetitions[0]);
-        let offset = [(0, column), (1, row)].map(|(axis, step)| {
-            projector.shift[axis] + (projector.first[axis] + step as i64) as f64 * self.pattern.side
-        });
-        let inverse = projector.forward.recip();
-        let points = self.pattern.chunk(chunk, offset, projector.half);
-        let on_plane = points.map(|[x, y]| self.radius * (x * projector.right + y * projector.up));
-        let meets_box = on_plane.filter(|&point| {
-            // Where the ray enters and leaves the three pairs of planes (Kay and Kajiya 1986).
-            let (a, b) = ((-self.half_box - point) * inverse, (self.half_box - point) * inverse);
-            a.min(b).max_element() <= a.max(b).min_element()
-        });
-        let ray = |point: DVec3| Ray {
-            origin: (point - DISTANCE * projector.forward).as_vec3().to_array(),
-            direction: projector.forward.as_vec3().to_array(),
-        };
-        meets_box.map(ray).collect()
-    }
-
-    /// Traces rays, adds their hits to the candidates and counts them.
-    fn trace(
-        &self,
-        rays: &[Ray],
-        mesh: &Mesh,
-        samples: &SampleSet,
-        add: &mut dyn FnMut(Block, Candidate),
-        projected: &mut Projected,
-    ) {
-        let mut hits: Vec<Hit> = Vec::with_capacity(2 * rays.len());
-        self.scene.all_hits(rays, &mut hits);
-        projected.rays += rays.len() as u64;
-        projected.hits += hits.len() as u64;
-        let mut kept: Vec<[f32; 3]> = Vec::new();
+    /// Adds all hits to the candidates, and counts those that conflict with an earlier one on the same ray.
+    fn add_all(&self, projector: usize, hits: &[Hit], add: &mut dyn FnMut(Block, Candidate)) -> u64 {
+        let direction = self.projectors[projector].forward;
+        let (mut kept, mut restart_conflicts): (Vec<[f32; 3]>, _) = (Vec::new(), 0);
         for on_ray in hits.chunk_by(|a, b| a.ray == b.ray) {
             kept.clear();
-            let direction = rays[on_ray[0].ray as usize].direction;
             for hit in on_ray {
-                let sample = Sample::new(mesh, hit.triangle, round_barycentrics(hit.uv.map(f64::from)));
-                if kept.iter().any(|&earlier| samples.conflict(earlier, sample.position)) {
-                    projected.restart_conflicts += 1;
+                let sample = Sample::new(self.mesh, hit.triangle, round_barycentrics(hit.uv.map(f64::from)));
+                if kept.iter().any(|&earlier| self.samples.conflict(earlier, sample.position)) {
+                    restart_conflicts += 1;
                 } else {
                     kept.push(sample.position);
                 }
-                let squareness = exact(mesh.normal(hit.triangle)).dot(exact(direction)).abs();
-                let rank = ((1.0 - squareness) * RANKS) as u32;
-                add(samples.block(sample.position.map(f64::from)), Candidate { sample, rank });
+                let squareness = || exact(self.mesh.normal(hit.triangle)).dot(direction).abs();
+                let rank = match self.order {
+                    Order::Squareness => ((1.0 - squareness()) * RANKS) as u32,
+                    Order::Projector => projector as u32,
+                };
+                add(self.samples.block(sample.position.map(f64::from)), Candidate { sample, rank });
             }
         }
+        restart_conflicts
     }
 }
 
@@ -210,12 +164,6 @@ fn rotation(mut rng: Rng) -> DMat3 {
     let (sin2, cos2) = (std::f64::consts::TAU * rng.unit()).sin_cos();
     let (a, b) = ((1.0 - share).sqrt(), share.sqrt());
     DMat3::from_quat(DQuat::from_xyzw(a * sin1, a * cos1, b * sin2, b * cos2).normalize())
-}
-
-/// The shift of a projector's pattern, as a share of its side on both axes.
-pub(super) fn shift(seed: u64, iteration: u32, projector: usize) -> [f64; 2] {
-    let mut rng = Rng::at(seed, Draw::Shift, &[iteration.into(), projector as u64]);
-    [rng.unit(), rng.unit()]
 }
 
 #[cfg(test)]

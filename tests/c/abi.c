@@ -64,7 +64,7 @@ FIELD(azulejo_merge_report, eliminated, 8);
 FIELD(azulejo_merge_report, inserted, 16);
 FIELD(azulejo_merge_report, reserved, 24);
 
-SIZE(azulejo_psp_options, 48);
+SIZE(azulejo_psp_options, 56);
 FIELD(azulejo_psp_options, struct_size, 0);
 FIELD(azulejo_psp_options, iterations, 4);
 FIELD(azulejo_psp_options, radius, 8);
@@ -73,6 +73,8 @@ FIELD(azulejo_psp_options, maximal, 24);
 FIELD(azulejo_psp_options, reserved, 28);
 FIELD(azulejo_psp_options, progress, 32);
 FIELD(azulejo_psp_options, progress_user, 40);
+FIELD(azulejo_psp_options, order, 48);
+FIELD(azulejo_psp_options, engine, 52);
 
 SIZE(azulejo_psp_report, 128);
 FIELD(azulejo_psp_report, samples, 0);

@@ -263,6 +263,10 @@ static void psp(void) {
     PSP(INVALID, "maximal", o.maximal = 2);
     PSP(INVALID, "maximal", o.maximal = -1);
     PSP(INVALID, "reserved", o.reserved = 1);
+    PSP(INVALID, "order", o.order = 2);
+    PSP(INVALID, "order", o.order = -1);
+    PSP(INVALID, "engine", o.engine = 2);
+    PSP(INVALID, "engine", o.engine = -1);
     PSP(AZULEJO_ERROR_TOO_LARGE, "radius", o.radius = 2.0443e-6);
     CHECK(largest_number(last_error()) > 0.9e12 && largest_number(last_error()) < 1.1e12);
     PSP(AZULEJO_ERROR_TOO_LARGE, "radius", o.radius = 1e-300);

@@ -209,6 +209,21 @@ static void surfaces(void) {
     azulejo_points_free(same);
     azulejo_mesh_free(strided);
 
+    options.order = AZULEJO_ORDER_PROJECTOR;
+    ACCEPTED(azulejo_psp_sample(context, cube, &options, &same, NULL));
+    CHECK(!same_points(points, same));
+    azulejo_points_free(same);
+
+    options.order = AZULEJO_ORDER_SQUARENESS;
+
+    options.engine = AZULEJO_ENGINE_RASTERISER;
+    ACCEPTED(azulejo_psp_sample(context, cube, &options, &same, &report));
+    check_surface(same, cube);
+    CHECK(report.iterations > 0 && report.rays > 0 && report.hits > 0);
+    CHECK(!same_points(points, same));
+    azulejo_points_free(same);
+    options.engine = AZULEJO_ENGINE_EMBREE;
+
     options.radius = 1000; /* larger than the mesh: one sample is enough, and not more fit */
     ACCEPTED(azulejo_psp_sample(context, cube, &options, &same, NULL));
     CHECK(azulejo_points_count(same) == 1);

@@ -5,7 +5,7 @@ use std::mem::MaybeUninit;
 use std::ptr::NonNull;
 use std::sync::{Arc, RwLock, TryLockError};
 
-use azulejo_core::psp::{self, Psp, Report};
+use azulejo_core::psp::{self, Engine, Order, Psp, Report};
 use azulejo_core::{Context, Progress};
 
 use crate::boundary::{self, flag, required};
@@ -24,6 +24,19 @@ pub struct azulejo_psp {
     watch: Watch,
     state: RwLock<Psp>,
 }
+
+/// Where two candidates of an iteration are too close, that one comes first that its projector faces more squarely: the
+/// default, which finds more samples. Existing samples come before all candidates.
+pub const AZULEJO_ORDER_SQUARENESS: i32 = 0;
+/// The candidate of the earlier projector comes first, as in the thesis (§3.3.2). Existing samples come before all.
+pub const AZULEJO_ORDER_PROJECTOR: i32 = 1;
+
+/// Embree's ray packets find where patterns meet the mesh: the default.
+pub const AZULEJO_ENGINE_EMBREE: i32 = 0;
+/// Triangles are drawn over the patterns in exact integer arithmetic (thesis §3.4.3): other machines and other Embrees
+/// find the same. The hits are those of Embree but for rounding, which moves points and edges against each other by up
+/// to 2e-7 of the mesh's diagonal: a point that near to an edge may hit the triangle on its other side.
+pub const AZULEJO_ENGINE_RASTERISER: i32 = 1;
 
 /// Options of azulejo_psp_create and azulejo_psp_sample.
 #[repr(C)]
@@ -47,6 +60,10 @@ pub struct azulejo_psp_options {
     pub progress: azulejo_progress_fn,
     /// Handed to the progress callback.
     pub progress_user: *mut c_void,
+    /// An AZULEJO_ORDER_ constant; by squareness by default.
+    pub order: i32,
+    /// An AZULEJO_ENGINE_ constant; Embree by default.
+    pub engine: i32,
 }
 
 options!(azulejo_psp_options requires radius {
@@ -57,6 +74,8 @@ options!(azulejo_psp_options requires radius {
     reserved: 0,
     progress: None,
     progress_user: std::ptr::null_mut(),
+    order: AZULEJO_ORDER_SQUARENESS,
+    engine: AZULEJO_ENGINE_EMBREE,
 });
 
 impl azulejo_psp_options {
@@ -64,12 +83,34 @@ impl azulejo_psp_options {
         if self.reserved != 0 {
             return Err(Failure::invalid("reserved", format!("{} is not 0", self.reserved)));
         }
-        let maximal = flag("maximal", self.maximal)?;
-        Ok(psp::Options { radius: self.radius, iterations: self.iterations, maximal, seed: self.seed })
+        Ok(psp::Options {
+            radius: self.radius,
+            iterations: self.iterations,
+            maximal: flag("maximal", self.maximal)?,
+            seed: self.seed,
+            order: order(self.order)?,
+            engine: engine(self.engine)?,
+        })
     }
 
     fn watch(&self) -> Watch {
         Watch { function: self.progress, user: self.progress_user }
+    }
+}
+
+fn order(value: i32) -> Result<Order, Failure> {
+    match value {
+        AZULEJO_ORDER_SQUARENESS => Ok(Order::Squareness),
+        AZULEJO_ORDER_PROJECTOR => Ok(Order::Projector),
+        other => Err(Failure::invalid("order", format!("{other} is no AZULEJO_ORDER_ constant"))),
+    }
+}
+
+fn engine(value: i32) -> Result<Engine, Failure> {
+    match value {
+        AZULEJO_ENGINE_EMBREE => Ok(Engine::Embree),
+        AZULEJO_ENGINE_RASTERISER => Ok(Engine::Rasteriser),
+        other => Err(Failure::invalid("engine", format!("{other} is no AZULEJO_ENGINE_ constant"))),
     }
 }
 
@@ -81,7 +122,8 @@ pub struct azulejo_psp_report {
     pub samples: u64,
     /// The samples that the call added.
     pub accepted: u64,
-    /// The rays that it traced: those that meet the mesh's box.
+    /// The rays that it traced: those that meet the mesh's box. With the rasteriser, the points of its tiles (at most 48
+    /// radii wide) that have triangles near them.
     pub rays: u64,
     /// The places where they met the mesh.
     pub hits: u64,
@@ -155,7 +197,7 @@ pub unsafe extern "C" fn azulejo_psp_create(
 /// Adds samples: projects patterns of samples onto the mesh, each iteration in three orthogonal directions of a random
 /// frame, and keeps what is in no conflict with the set (thesis chapter 3). Samples are only ever added, in time that
 /// grows with the hits and with the squared diagonal of the mesh over the squared radius. The first call prepares the
-/// mesh for Embree. Two calls add what one call with the sum of their iterations adds.
+/// mesh for the engine. Two calls add what one call with the sum of their iterations adds.
 ///
 /// Where the box of the mesh is out of all proportion to its surface, as for small parts far apart (more than 200 rays
 /// for each sample that there is room for, and 10 million rays at all), the call does nothing and reports no iteration:

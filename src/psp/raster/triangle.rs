@@ -1,0 +1,166 @@
+//! Triangles on a projector, in integers: which points are inside, and where (Pineda 1988, "A parallel algorithm for
+//! polygon rasterization").
+//!
+//! A point on an edge counts as if it were moved to the right by next to nothing, and up by much less still. So of all
+//! triangles that meet along an edge, or around a corner, and do not overlap there, exactly one has it.
+
+/// No coordinate is this large: products of coordinates, and sums of a few of them, are `i64`.
+pub(super) const END: i64 = 1 << 30;
+
+/// A point on a projector, in units of its lattice.
+pub(super) type Place = [i64; 2];
+
+/// An edge of a triangle: positive on its inner side, and where a point on it counts as inside.
+#[derive(Clone, Copy)]
+struct Edge {
+    slope: Place,
+    constant: i64,
+    /// 0 if points on the edge are inside, else 1.
+    bias: i64,
+}
+
+/// A triangle on a projector.
+pub(super) struct Triangle {
+    corners: [Place; 3],
+    /// Each opposite the corner of its number.
+    edges: [Edge; 3],
+    /// Twice the area; above zero.
+    area: i64,
+}
+
+impl Triangle {
+    /// None if the triangle is seen without area.
+    pub fn new(corners: [Place; 3]) -> Option<Self> {
+        let [a, b, c] = corners;
+        let area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+        let sign = area.signum();
+        let edge = |from: Place, to: Place| {
+            let slope = [sign * (from[1] - to[1]), sign * (to[0] - from[0])];
+            let inside = slope[0] > 0 || (slope[0] == 0 && slope[1] > 0);
+            Edge { slope, constant: -(slope[0] * from[0] + slope[1] * from[1]), bias: i64::from(!inside) }
+        };
+        let edges = [edge(b, c), edge(c, a), edge(a, b)];
+        (area != 0).then_some(Self { corners, edges, area: area.abs() })
+    }
+
+    /// The shares of the second and third corner in a point; none for points outside.
+    pub fn barycentrics(&self, [x, y]: Place) -> Option<[f64; 2]> {
+        let [a, b, c] = self.edges.map(|edge| edge.slope[0] * x + edge.slope[1] * y + edge.constant - edge.bias);
+        // One of them is negative, and with it their union, for points outside.
+        let weight = |value: i64, edge: usize| (value + self.edges[edge].bias) as f64 / self.area as f64;
+        (a | b | c >= 0).then(|| [weight(b, 1), weight(c, 2)])
+    }
+
+    /// The least and the largest coordinate on an axis.
+    pub fn extent(&self, axis: usize) -> [i64; 2] {
+        let [a, b, c] = self.corners.map(|corner| corner[axis]);
+        [a.min(b).min(c), a.max(b).max(c)]
+    }
+
+    /// The least and the largest x of the part between two heights, of which there is some.
+    pub fn extent_between(&self, low: f64, high: f64) -> [f64; 2] {
+        let corners = self.corners.map(|corner| corner.map(|x| x as f64));
+        let mut extent = [f64::INFINITY, f64::NEG_INFINITY];
+        for i in 0..3 {
+            let ([p, q], [r, s]) = (corners[i], corners[(i + 1) % 3]);
+            let ends = [low, high].map(|y| y.clamp(q.min(s), q.max(s)));
+            if ends[0] <= high && ends[1] >= low {
+                for y in ends {
+                    let x = if q == s { p } else { p + (r - p) * ((y - q) / (s - q)) };
+                    extent = [extent[0].min(x), extent[1].max(x)];
+                }
+                if q == s {
+                    extent = [extent[0].min(r), extent[1].max(r)];
+                }
+            }
+        }
+        extent
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::rng::{Draw, Rng};
+
+    const SIDE: i64 = 24;
+
+    /// A mesh of 5 by 5 quads, each cut in two, whose inner corners are anywhere near their place: some have no area.
+    fn quads(rng: &mut Rng) -> Vec<[Place; 3]> {
+        let mut corner = |x: i64, y: i64| {
+            [x, y].map(
+                |i| if (1..5).contains(&x) && (1..5).contains(&y) { 4 * i + rng.below(4) as i64 } else { 5 * i - 1 },
+            )
+        };
+        let corners: Vec<Vec<_>> = (0..=5).map(|y| (0..=5).map(|x| corner(x, y)).collect()).collect();
+        let quads = (0..5).flat_map(|y| (0..5).map(move |x| (x, y)));
+        let halves = quads.flat_map(|(x, y): (usize, usize)| {
+            let [a, b, c, d] = [corners[y][x], corners[y][x + 1], corners[y + 1][x + 1], corners[y + 1][x]];
+            if rng.below(2) == 0 { [[a, b, c], [c, a, d]] } else { [[b, a, d], [d, c, b]] }
+        });
+        halves.collect()
+    }
+
+    #[test]
+    fn a_mesh_has_every_point_once() {
+        let mut rng = Rng::at(1, Draw::Probe, &[]);
+        for _ in 0..300 {
+            let triangles = quads(&mut rng);
+            // Where quads fold over, one half lies on the wrong side and takes away what the other has twice.
+            let turns = |t: &[Place; 3]| {
+                let [a, b, c] = *t;
+                ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])).signum()
+            };
+            if triangles
+                .iter()
+                .step_by(2)
+                .zip(triangles.iter().skip(1).step_by(2))
+                .any(|(a, b)| turns(a) * turns(b) < 0)
+            {
+                continue;
+            }
+            for point in (0..SIDE).flat_map(|y| (0..SIDE).map(move |x| [x, y])) {
+                let hits = triangles.iter().filter_map(|t| Triangle::new(*t)?.barycentrics(point)).count();
+                assert_eq!(hits, 1, "{point:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn barycentrics_lead_back_to_the_point_at_any_size() {
+        let mut rng = Rng::at(2, Draw::Probe, &[]);
+        let mut inside = 0;
+        for round in 0..20_000 {
+            let size = [10, 1000, END as u64][round % 3];
+            let mut place = || [rng.below(size) as i64, rng.below(size) as i64];
+            let (corners, point) = ([place(), place(), place()], place());
+            let Some([u, v]) = Triangle::new(corners).and_then(|triangle| triangle.barycentrics(point)) else {
+                continue;
+            };
+            inside += 1;
+            assert!(u >= 0.0 && v >= 0.0 && u + v <= 1.0 + 1e-15);
+            for axis in 0..2 {
+                let [a, b, c] = corners.map(|corner| corner[axis] as f64);
+                assert!((a + u * (b - a) + v * (c - a) - point[axis] as f64).abs() < 1e-14 * size as f64 + 1e-12);
+            }
+        }
+        assert!(inside > 1000, "{inside}");
+    }
+
+    #[test]
+    fn the_extent_of_a_row_holds_all_its_points() {
+        let mut rng = Rng::at(3, Draw::Probe, &[]);
+        for _ in 0..2000 {
+            let mut place = || [rng.below(SIDE as u64) as i64, rng.below(SIDE as u64) as i64];
+            let Some(triangle) = Triangle::new([place(), place(), place()]) else { continue };
+            let (left, right) = (triangle.extent(0), triangle.extent(1));
+            for y in right[0]..=right[1] {
+                let [low, high] = triangle.extent_between(y as f64 - 0.5, y as f64 + 0.5);
+                assert!(left[0] as f64 <= low && high <= left[1] as f64, "wider than the triangle");
+                for x in (0..SIDE).filter(|&x| triangle.barycentrics([x, y]).is_some()) {
+                    assert!((low - 1e-9..=high + 1e-9).contains(&(x as f64)));
+                }
+            }
+        }
+    }
+}
