@@ -8,10 +8,10 @@ pub mod palette;
 pub mod plot;
 mod points;
 mod render;
-mod rows;
+pub mod rows;
 pub mod spectra;
 mod stage;
-mod surface;
+pub mod surface;
 
 use azulejo::{Context, Result};
 use clap::Subcommand;

@@ -1,8 +1,10 @@
 //! `azulejo report`: measurements of the library as pages with plots.
 
+mod head;
 mod kdrt;
 mod page;
 mod pictures;
+mod psp;
 mod statistics;
 mod times;
 
@@ -14,12 +16,15 @@ use clap::Subcommand;
 pub enum Report {
     /// Measure bias, spectra and times of KDRT against the thesis and the unbiased reference; takes some minutes.
     Kdrt(kdrt::Kdrt),
+    /// Measure rates, density and bias of PSP on meshes against the thesis; takes some minutes.
+    Psp(psp::Psp),
 }
 
 impl Report {
     pub fn run(&self, context: &Context) -> Result<()> {
         match self {
             Self::Kdrt(kdrt) => kdrt.run(context),
+            Self::Psp(psp) => psp.run(context),
         }
     }
 }
