@@ -56,6 +56,8 @@ pub struct Effort {
     pub marks: &'static [u32],
     /// Rays along each axis.
     pub rays: f64,
+    /// The detail of the hall.
+    pub detail: u32,
     /// Samples and width of the pictures.
     pub pictured: f64,
     pub pixels: u32,
@@ -71,6 +73,7 @@ const FULL: Effort = Effort {
     growth: 3e5,
     marks: &[1, 2, 3, 5, 10, 20, 30, 50],
     rays: 1e6,
+    detail: 48,
     pictured: 8e4,
     pixels: 1200,
 };
@@ -85,6 +88,7 @@ const QUICK: Effort = Effort {
     growth: 3e3,
     marks: &[1, 2, 3],
     rays: 5e3,
+    detail: 8,
     pictured: 5e3,
     pixels: 400,
 };
@@ -114,7 +118,7 @@ impl Psp {
         let page = Output::at(&self.out.join("psp.md"))?;
         let picture = |name: &str| Output::at(&pictures.join(format!("{name}.png")));
 
-        let (found, missing) = scenes(self.bunny.as_deref(), self.dragon.as_deref())?;
+        let (found, missing) = scenes(self.bunny.as_deref(), self.dragon.as_deref(), effort.detail)?;
         let mut measured = Vec::new();
         for scene in found {
             let name = scene.name;

@@ -7,7 +7,7 @@ use azulejo::analysis::differential::{Differences, surface_differences};
 use azulejo::analysis::facing::density_by_facing;
 use azulejo::mesh::Mesh;
 use azulejo::psp::{Options, Psp};
-use azulejo::{Context, Progress, Result};
+use azulejo::{Context, Progress, Result, SurfaceSamples};
 use glam::DVec3;
 
 use super::Effort;
@@ -68,11 +68,14 @@ impl Bias {
 
     /// The bias of each of the ways; the first of them is the reference.
     pub fn measure(context: &Context, effort: &Effort, progress: &Progress) -> Result<Vec<Self>> {
-        let ways = Way::COMPARED;
+        let (ways, sphere) = (Way::COMPARED, sphere()?);
+        let directions =
+            (0..effort.seeds).map(|seed| directions(context, &sphere, seed)).collect::<Result<Vec<_>>>()?;
+        let measure = Measure { context, effort, sphere, directions };
         let mut references = None;
         let mut all = Vec::new();
         for (i, way) in ways.into_iter().enumerate() {
-            let raw = Raw::measure(context, way, effort, &|done| progress((i as f64 + done) / ways.len() as f64))?;
+            let raw = measure.of(way, &|done| progress((i as f64 + done) / ways.len() as f64))?;
             let reference = references.get_or_insert_with(|| raw.densities());
             all.push(raw.over(reference)?);
         }
@@ -97,39 +100,42 @@ struct Reference {
     planes: Vec<f64>,
 }
 
-impl Raw {
-    fn measure(context: &Context, way: Way, effort: &Effort, progress: &Progress) -> Result<Self> {
-        let mesh = sphere()?;
-        let radius = radius(&mesh, effort.bias);
+/// What all measurements share.
+struct Measure<'a> {
+    context: &'a Context,
+    effort: &'a Effort,
+    sphere: Arc<Mesh>,
+    /// Where the projectors of each seed's first iteration look.
+    directions: Vec<[[f64; 3]; 3]>,
+}
+
+impl Measure<'_> {
+    fn of(&self, way: Way, progress: &Progress) -> Result<Raw> {
+        let Self { context, effort, sphere: mesh, .. } = self;
+        let radius = radius(mesh, effort.bias);
         let mut facing = vec![[0.0; 2]; FACING_BINS];
-        let (mut counts, mut differences) = (Vec::new(), Vec::new());
+        let (mut counts, mut differences, mut uncovered) = (Vec::new(), Vec::new(), 0.0);
         let mut planes: Vec<_> = TILTS.iter().map(|_| (0.0, Vec::new())).collect();
-        let mut uncovered = 0.0;
-        for seed in 0..effort.seeds {
-            let directions = directions(context, &mesh, seed)?;
-            let samples = way.sample(context, &mesh, radius, seed)?;
+        for (directions, seed) in self.directions.iter().zip(0..) {
+            let samples = way.sample(context, mesh, radius, seed)?;
             counts.push(samples.len() as f64);
             let bins = (90.0 / FACING_BIN) as usize;
-            let facings = density_by_facing(&mesh, &samples.triangles, &directions, bins)?;
+            let facings = density_by_facing(mesh, &samples.triangles, directions, bins)?;
             for (sum, one) in facing.iter_mut().zip(facings) {
                 *sum = [sum[0] + one.samples as f64, sum[1] + one.area];
             }
-            let probes = effort.probes;
-            uncovered += surface_uncovered_fraction(context, &mesh, &samples.positions, radius, probes, seed)?;
-            let up = [0.0, 0.0, 1.0];
-            let (positions, normals) = (&samples.positions, &samples.normals);
-            differences.push(surface_differences(context, &mesh, positions, normals, up, seed, None)?);
+            uncovered += surface_uncovered_fraction(context, mesh, &samples.positions, radius, effort.probes, seed)?;
+            differences.push(self.differences(mesh, &samples, [0.0, 0.0, 1.0], seed)?);
             for (tilt, (count, differences)) in TILTS.into_iter().zip(&mut planes) {
                 let (mesh, towards) = plane(directions, (seed % 3) as usize, tilt.to_radians())?;
                 let samples = way.sample(context, &mesh, self::radius(&mesh, effort.planes), seed)?;
-                let (positions, normals) = (&samples.positions, &samples.normals);
-                differences.push(surface_differences(context, &mesh, positions, normals, towards, seed, None)?);
                 *count += samples.len() as f64;
+                differences.push(self.differences(&mesh, &samples, towards, seed)?);
             }
             _ = progress((seed + 1) as f64 / effort.seeds as f64);
         }
         let together = |(count, differences): (f64, Vec<_>)| Ok((count, Differences::together(&differences)?));
-        Ok(Self {
+        Ok(Raw {
             way,
             counts,
             uncovered: uncovered / effort.seeds as f64,
@@ -139,6 +145,12 @@ impl Raw {
         })
     }
 
+    fn differences(&self, mesh: &Mesh, of: &SurfaceSamples, towards: [f64; 3], seed: u64) -> Result<Differences> {
+        surface_differences(self.context, mesh, &of.positions, &of.normals, towards, seed, None)
+    }
+}
+
+impl Raw {
     fn densities(&self) -> Reference {
         let planes = self.planes.iter().map(|plane| plane.0).collect();
         Reference { counts: self.counts.clone(), facing: self.facing.clone(), planes }
@@ -169,7 +181,7 @@ fn directions(context: &Context, mesh: &Arc<Mesh>, seed: u64) -> Result<[[f64; 3
 
 /// A square at an angle to the `nearest` of three orthogonal directions, equally far from the other two; and the
 /// direction in which that one's pattern is stretched on it.
-fn plane(directions: [[f64; 3]; 3], nearest: usize, tilt: f64) -> Result<(Arc<Mesh>, [f64; 3])> {
+fn plane(directions: &[[f64; 3]; 3], nearest: usize, tilt: f64) -> Result<(Arc<Mesh>, [f64; 3])> {
     let [along, a, b] = [0, 1, 2].map(|i| DVec3::from(directions[(nearest + i) % 3]));
     let aside = (a + b).normalize();
     let towards = aside * tilt.cos() - along * tilt.sin();
@@ -187,7 +199,7 @@ mod tests {
     fn a_plane_is_tilted_from_the_nearest_direction() {
         let directions = [[0.0, 0.6, 0.8], [1.0, 0.0, 0.0], [0.0, 0.8, -0.6]];
         for (nearest, tilt) in [(0, 0.0), (1, 0.3), (2, 0.9)] {
-            let (mesh, towards) = plane(directions, nearest, tilt).unwrap();
+            let (mesh, towards) = plane(&directions, nearest, tilt).unwrap();
             let cosine = |i: usize| {
                 let normal = DVec3::from(mesh.normal(0).map(f64::from));
                 normal.dot(DVec3::from(directions[i])).abs()

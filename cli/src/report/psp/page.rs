@@ -45,8 +45,11 @@ pub fn text(
     parts.join("\n")
 }
 
+/// What a cell of a table says of a scene.
+type Cell<'a> = &'a dyn Fn(&Measured) -> String;
+
 /// A table with a column for each scene.
-fn table(corner: &str, measured: &[Measured], rows: &[(String, &dyn Fn(&Measured) -> String)]) -> String {
+fn table(corner: &str, measured: &[Measured], rows: &[(String, Cell)]) -> String {
     let names: Vec<_> = measured.iter().map(|one| one.scene.name).collect();
     let mut text = format!("| {corner} | {} |\n|---{}|\n", names.join(" | "), "|---".repeat(names.len()));
     for (name, cell) in rows {
@@ -62,7 +65,7 @@ fn millions(rate: f64) -> String {
 
 fn goals(effort: &Effort, measured: &[Measured], threads: usize) -> String {
     let usual = |one: &Measured| one.rates.by_iterations[1];
-    let rows: [(String, &dyn Fn(&Measured) -> String); 6] = [
+    let rows: [(String, Cell); 6] = [
         ("first iteration, M samples/s".to_owned(), &|one| millions(usual(one).iterated_rate())),
         ("maximal, M samples/s".to_owned(), &|one| millions(usual(one).rate())),
         (format!("{threads} threads over one"), &|one| {
@@ -184,10 +187,8 @@ fn directions(effort: &Effort, measured: &[Measured]) -> String {
             }
         })
         .collect();
-    let rows: Vec<_> = ITERATIONS
-        .zip(&cells)
-        .map(|(iterations, cell)| (format!("{}", 3 * iterations), cell as &dyn Fn(&Measured) -> String))
-        .collect();
+    let rows: Vec<_> =
+        ITERATIONS.zip(&cells).map(|(iterations, cell)| (format!("{}", 3 * iterations), cell as Cell)).collect();
     format!(
         "## Directions before filling\n\nSeconds to a maximal set of about {} samples, by the number of directions from \
          which patterns are projected before the rest is filled: all (iterations + fill).\n\n{}",

@@ -1,5 +1,6 @@
 //! The plots and pictures of the report.
 
+use azulejo::analysis::differential::{GRID_REACH, GRID_SIZE};
 use azulejo::psp::{self, Options};
 use azulejo::{Context, Result};
 
@@ -12,11 +13,14 @@ use crate::draw::palette::{Colour, INK, SERIES, SLATE, glaze_to_cobalt};
 use crate::draw::plot::{Axis, Panel};
 use crate::draw::surface;
 use crate::output::Output;
-use azulejo::analysis::differential::{GRID_REACH, GRID_SIZE};
 
 /// The density that gets all the ink, and how many inks there are: few, for the picture's size.
 const FULL_INK: f64 = 2.5;
 const INKS: f64 = 16.0;
+
+/// The part of the differences that is shown: cells per side, and how far it reaches, in mean spacings.
+const SHOWN: usize = GRID_SIZE / 2;
+const SHOWN_REACH: f64 = GRID_REACH / 2.0;
 
 fn label(text: &str, place: [f32; 2], canvas: &mut Canvas) {
     canvas.text(text, place, Style { size: 18.0, colour: SLATE, align: Align::Left, upwards: false });
@@ -120,14 +124,14 @@ pub fn draw_facing(bias: &[Bias], output: &Output) -> Result<()> {
     let panel = Panel {
         rect: Rect { x: 110.0, y: 60.0, width: 750.0, height: 410.0 },
         x: Axis::linear("angle between normal and nearest projector / degrees", [0.0, 55.0], 11),
-        y: Axis::linear("density / that of the reference", [0.6, 1.05], 9),
+        y: Axis::linear("density / that of the reference", [0.45, 1.05], 6),
     };
     panel.ground(&mut canvas, true);
     for ((one, colour), row) in bias.iter().zip(SERIES).zip(0..) {
         let width = if one.way.maximal { 3.6 } else { 1.6 };
         let angles = (0..).map(|bin| (f64::from(bin) + 0.5) * FACING_BIN);
         curve(&mut canvas, &panel, angles.zip(&one.facing).map(|(x, &y)| [x, y]), width, colour);
-        legend(&mut canvas, [136.0, 318.0 + 26.0 * row as f32], &one.way.name(), width, colour);
+        legend(&mut canvas, [136.0, 348.0 + 22.0 * row as f32], &one.way.name(), width, colour);
     }
     panel.axes(&mut canvas);
     panel.title(&mut canvas, "Density by facing angle", "sphere");
@@ -147,7 +151,7 @@ pub fn draw_spectra(bias: &[Bias], output: &Output) -> Result<()> {
         let width = if row == 0 { 5.0 } else { 2.0 };
         let points = frequencies().into_iter().zip(&one.power).map(|(x, &y)| [x, y]);
         curve(&mut canvas, &panel, points, width, colour);
-        legend(&mut canvas, [560.0, 310.0 + 26.0 * row as f32], &one.way.name(), width, colour);
+        legend(&mut canvas, [560.0, 88.0 + 24.0 * row as f32], &one.way.name(), width, colour);
     }
     panel.axes(&mut canvas);
     panel.title(&mut canvas, "Radial mean of the power", "sphere");
@@ -157,39 +161,41 @@ pub fn draw_spectra(bias: &[Bias], output: &Output) -> Result<()> {
 /// Differences on planes: a row for each way, a column for each tilt.
 pub fn draw_differences(bias: &[Bias], output: &Output) -> Result<()> {
     const SIDE: f32 = 256.0;
+    const STEP: [f32; 2] = [SIDE + 50.0, SIDE + 70.0];
     let maximal: Vec<_> = bias.iter().filter(|one| one.way.maximal).collect();
-    let (columns, rows) = (TILTS.len() as f32, maximal.len() as f32);
-    let step = [SIDE + 90.0, SIDE + 110.0];
-    let mut canvas = Canvas::new(60.0 + columns * step[0], 80.0 + rows * step[1], 60 + (columns * step[0]) as u32);
+    let size = [80.0 + TILTS.len() as f32 * STEP[0], 110.0 + maximal.len() as f32 * STEP[1]];
+    let mut canvas = Canvas::new(size[0], size[1], size[0] as u32);
+    let range = [-SHOWN_REACH, SHOWN_REACH];
     for (row, one) in maximal.iter().enumerate() {
         for (column, (tilted, tilt)) in one.planes.iter().zip(TILTS).enumerate() {
-            let corner = [110.0 + column as f32 * step[0], 70.0 + row as f32 * step[1]];
+            let place = [100.0 + column as f32 * STEP[0], 100.0 + row as f32 * STEP[1]];
+            let [is_first, is_last] = [column == 0, row + 1 == maximal.len()];
             let panel = Panel {
-                rect: Rect { x: corner[0], y: corner[1], width: SIDE, height: SIDE },
-                x: Axis::linear(
-                    if row + 1 == maximal.len() { "along / mean spacing" } else { "" },
-                    [-GRID_REACH, GRID_REACH],
-                    4,
-                ),
-                y: Axis::linear(if column == 0 { "across / mean spacing" } else { "" }, [-GRID_REACH, GRID_REACH], 4),
+                rect: Rect { x: place[0], y: place[1], width: SIDE, height: SIDE },
+                x: Axis::linear(if is_last { "along / mean spacing" } else { "" }, range, 4),
+                y: Axis::linear(if is_first { "across / mean spacing" } else { "" }, range, 4),
             };
-            canvas.image(&inked(&tilted.differences.density()), GRID_SIZE, panel.rect);
+            canvas.image(&inked(&tilted.differences.density()), SHOWN, panel.rect);
             panel.axes(&mut canvas);
-            let style = Style { size: 18.0, colour: SLATE, align: Align::Right, upwards: false };
-            canvas.text(&format!("{tilt}°"), [panel.rect.right(), corner[1] - 12.0], style);
-            if column == 0 {
-                let style = Style { size: 22.0, colour: INK, align: Align::Left, upwards: false };
-                canvas.text(&one.way.name(), [corner[0], corner[1] - 12.0], style);
+            if row == 0 {
+                let style = Style { size: 20.0, colour: SLATE, align: Align::Centre, upwards: false };
+                canvas.text(&format!("tilted by {tilt}°"), [panel.rect.centre()[0], 44.0], style);
+            }
+            if is_first {
+                let style = Style { size: 20.0, colour: INK, align: Align::Left, upwards: false };
+                canvas.text(&one.way.name(), [place[0], place[1] - 12.0], style);
             }
         }
     }
     canvas.write(output)
 }
 
-/// Pixels from the top, of a density from the lowest row.
+/// The pixels of the middle of a density, from the top.
 fn inked(density: &[f64]) -> Vec<Colour> {
-    let rows = density.chunks(GRID_SIZE).rev().flatten();
-    rows.map(|density| glaze_to_cobalt((density / FULL_INK * INKS).round() / INKS)).collect()
+    let margin = (GRID_SIZE - SHOWN) / 2;
+    let rows = density.chunks(GRID_SIZE).skip(margin).take(SHOWN).rev();
+    let shown = rows.flat_map(|row| &row[margin..margin + SHOWN]);
+    shown.map(|density| glaze_to_cobalt((density / FULL_INK * INKS).round() / INKS)).collect()
 }
 
 /// A scene with its samples (thesis fig. 3.7 to 3.9).

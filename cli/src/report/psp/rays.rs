@@ -93,7 +93,7 @@ mod tests {
 
     #[test]
     fn rays_through_a_box_are_counted_with_all_their_hits() {
-        let scene = super::super::scenes::scenes(None, None).unwrap().0.remove(0);
+        let scene = super::super::scenes::scenes(None, None, 8).unwrap().0.remove(0);
         let rays = Rays::measure(&Context::new(2).unwrap(), &scene, 3000.0).unwrap();
         assert!((8000..10_000).contains(&rays.rays), "{}", rays.rays);
         // Each ray meets at least the two walls of the hall.
