@@ -100,7 +100,8 @@ mod tests {
         let outwards = |triangle: u32| {
             let (normal, corner) =
                 (glam::Vec3::from(mesh.normal(triangle)), glam::Vec3::from(mesh.corners(triangle)[0]));
-            normal == glam::Vec3::ZERO || normal.dot(corner) > 0.99
+            // At the poles there are triangles that are not even rounding errors wide.
+            mesh.triangle_area(triangle) < 1e-8 || normal.dot(corner) > 0.99
         };
         assert!((0..mesh.triangles().len() as u32).all(outwards));
     }
