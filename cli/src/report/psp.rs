@@ -74,8 +74,8 @@ const FULL: Effort = Effort {
     marks: &[1, 2, 3, 5, 10, 20, 30, 50],
     rays: 1e6,
     detail: 48,
-    pictured: 8e4,
-    pixels: 1200,
+    pictured: 4e4,
+    pixels: 1000,
 };
 
 const QUICK: Effort = Effort {

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use azulejo::Context;
+use azulejo::{Context, psp};
 
 use super::bias::{Bias, NEIGHBOURS, TILTS};
 use super::growth::Moment;
@@ -39,7 +39,8 @@ pub fn text(
         rates(measured),
         growth(effort, measured),
         directions(effort, measured),
-        order(effort, bias),
+        order(effort, measured),
+        bias_by_order(effort, bias),
         rays(measured),
     ];
     parts.join("\n")
@@ -197,15 +198,40 @@ fn directions(effort: &Effort, measured: &[Measured]) -> String {
     )
 }
 
-fn order(effort: &Effort, bias: &[Bias]) -> String {
+fn order(effort: &Effort, measured: &[Measured]) -> String {
+    let mut text = format!(
+        "## Order of the candidates\n\nWhere candidates of an iteration conflict, the *squarer* one wins, that which its \
+         projector faces most squarely, or that of the *projector* with the lower number, as in the thesis. Of about {} samples: \
+         what one iteration finds and what there is when the rest is filled, over the samples of the reference, in brackets \
+         the square root, which is the relative radius; and the seconds to the end.\n\n\
+         | scene, order | one iteration | filled | seconds |\n|---|---|---|---|\n",
+        grouped(effort.samples as usize)
+    );
+    for Measured { scene, rates, .. } in measured {
+        let share = |report: psp::Report| {
+            let share = report.samples as f64 / rates.by_iterations[0].filled.samples as f64;
+            format!("{share:.3} ({:.3})", share.sqrt())
+        };
+        let ways = [("squareness", rates.by_iterations[1]), ("projector", rates.by_projector)];
+        for (order, stages) in ways.into_iter().chain([("reference", rates.by_iterations[0])]) {
+            let (found, filled) = (share(stages.iterated), share(stages.filled));
+            _ = writeln!(text, "| {}, {order} | {found} | {filled} | {:.3} |", scene.name, stages.seconds());
+        }
+    }
+    text + "\nBy squareness is the default: an iteration finds more, leaves less uncovered and less to fill, so that a maximal \
+            set is done sooner and a set that is not filled is worth several iterations more. By projector is the way to a set \
+            that is nearer to the reference, and no iteration at all the way to the reference itself.\n"
+}
+
+fn bias_by_order(effort: &Effort, bias: &[Bias]) -> String {
     let reference = &bias[0];
     let mut text = format!(
-        "## Order and bias (thesis fig. 3.10 and 3.11)\n\nWhere candidates of an iteration conflict, the *squarer* one \
-         wins, or that of the *projector* with the lower number, as in the thesis. On a sphere, {} sets of about {} \
+        "## Bias (thesis fig. 3.10 and 3.11)\n\nOn a sphere, {} sets of about {} \
          samples of each kind: samples over those of the reference (± standard error), their square root, the uncovered part \
          of the surface; from the lowest to the highest density by facing angle, the angle between the normal and the \
-         nearest projector, over the reference's; the first ring of the spectrum and how far the spectrum is from the \
-         reference's at most.\n\n\
+         nearest projector of the first iteration, over the reference's; the first ring of the spectrum and how far the \
+         spectrum is from the reference's at most. The spectrum is that of the differences of the samples (Wei and Wang \
+         2011): the Hankel transform of their radial distribution function.\n\n\
          | way | samples | relative radius | uncovered | density by angle | first ring | spectrum |\n|---|---|---|---|---|---|---|\n",
         effort.seeds,
         grouped(effort.bias as usize),
@@ -215,7 +241,7 @@ fn order(effort: &Effort, bias: &[Bias]) -> String {
         let [frequency, power] = one.peak();
         _ = writeln!(
             text,
-            "| {} | {:.4} ± {:.4} | {:.4} | {:.3} % | {low:.3} to {high:.3} | {power:.3} at {frequency:.2} | {:.3} |",
+            "| {} | {:.4} ± {:.4} | {:.4} | {:.2} % | {low:.3} to {high:.3} | {power:.3} at {frequency:.2} | {:.3} |",
             one.way.name(),
             one.count.mean,
             one.count.error,
@@ -244,7 +270,8 @@ fn order(effort: &Effort, bias: &[Bias]) -> String {
         text.push_str(" |\n");
     }
     text + "\nThe differences of all pairs of those that are maximal: white where there is none, the full colour at 2.5 \
-            times the mean density.\n\n![Differences on planes](psp/differences.png)\n"
+            times the mean density. An ellipse is the hole of a pattern that is stretched; filling puts samples into it, but \
+            the samples of the pattern still avoid it.\n\n![Differences on planes](psp/differences.png)\n"
 }
 
 fn rays(measured: &[Measured]) -> String {

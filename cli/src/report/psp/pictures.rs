@@ -175,7 +175,7 @@ pub fn draw_differences(bias: &[Bias], output: &Output) -> Result<()> {
                 x: Axis::linear(if is_last { "along / mean spacing" } else { "" }, range, 4),
                 y: Axis::linear(if is_first { "across / mean spacing" } else { "" }, range, 4),
             };
-            canvas.image(&inked(&tilted.differences.density()), SHOWN, panel.rect);
+            canvas.image(&inked(&tilted.differences.density(), SIDE as usize), SIDE as usize, panel.rect);
             panel.axes(&mut canvas);
             if row == 0 {
                 let style = Style { size: 20.0, colour: SLATE, align: Align::Centre, upwards: false };
@@ -190,12 +190,12 @@ pub fn draw_differences(bias: &[Bias], output: &Output) -> Result<()> {
     canvas.write(output)
 }
 
-/// The pixels of the middle of a density, from the top.
-fn inked(density: &[f64]) -> Vec<Colour> {
-    let margin = (GRID_SIZE - SHOWN) / 2;
-    let rows = density.chunks(GRID_SIZE).skip(margin).take(SHOWN).rev();
-    let shown = rows.flat_map(|row| &row[margin..margin + SHOWN]);
-    shown.map(|density| glaze_to_cobalt((density / FULL_INK * INKS).round() / INKS)).collect()
+/// The pixels of the middle of a density, from the top; each cell has as many as the picture, so that none is blurred.
+fn inked(density: &[f64], side: usize) -> Vec<Colour> {
+    let cell = |i: usize| (GRID_SIZE - SHOWN) / 2 + i * SHOWN / side;
+    let ink = |density: f64| (density / FULL_INK * INKS).round() / INKS;
+    let pixels = (0..side * side).map(|i| density[cell(side - 1 - i / side) * GRID_SIZE + cell(i % side)]);
+    pixels.map(|density| glaze_to_cobalt(ink(density))).collect()
 }
 
 /// A scene with its samples (thesis fig. 3.7 to 3.9).

@@ -1,6 +1,6 @@
 //! How fast sets are made: by radius, by iterations before filling, on one thread and on all.
 
-use azulejo::psp::{Options, Psp, Report};
+use azulejo::psp::{Options, Order, Psp, Report};
 use azulejo::{Context, Progress, Result};
 
 use super::Effort;
@@ -18,17 +18,16 @@ pub struct Stages {
 }
 
 impl Stages {
-    fn of(context: &Context, scene: &Scene, count: f64, iterations: u32) -> Result<Self> {
+    fn of(context: &Context, scene: &Scene, count: f64, order: Order, iterations: u32) -> Result<Self> {
         let radius = radius(&scene.mesh, count);
-        let mut psp = Psp::new(&scene.mesh, &Options::new(radius))?;
+        let mut psp = Psp::new(&scene.mesh, &Options { order, ..Options::new(radius) })?;
         let iterated = psp.advance(context, iterations, None)?;
         Ok(Self { radius, iterated, filled: psp.fill(context, None)? })
     }
 
     /// The faster of two attempts: noise only adds.
-    fn least(context: &Context, scene: &Scene, count: f64, iterations: u32) -> Result<Self> {
-        let attempts = [(); 2].map(|()| Self::of(context, scene, count, iterations));
-        let [first, second] = attempts;
+    fn least(context: &Context, scene: &Scene, count: f64, order: Order, iterations: u32) -> Result<Self> {
+        let [first, second] = [(); 2].map(|()| Self::of(context, scene, count, order, iterations));
         let (first, second) = (first?, second?);
         Ok(if first.seconds() < second.seconds() { first } else { second })
     }
@@ -52,8 +51,10 @@ impl Stages {
 pub struct Rates {
     /// One iteration and a fill, from few samples to many.
     pub by_count: Vec<Stages>,
-    /// By [`ITERATIONS`].
+    /// By [`ITERATIONS`], in order of squareness.
     pub by_iterations: Vec<Stages>,
+    /// One iteration and a fill, in order of projectors.
+    pub by_projector: Stages,
     /// One iteration and a fill on one thread.
     pub one_thread: Stages,
     /// Darts of a second fill, and samples that it added: none if the first one left nothing.
@@ -62,17 +63,19 @@ pub struct Rates {
 
 impl Rates {
     pub fn measure(context: &Context, scene: &Scene, effort: &Effort, progress: &Progress) -> Result<Self> {
-        let counts = effort.counts.iter();
-        let by_count = counts.map(|&count| Stages::least(context, scene, count, 1)).collect::<Result<_>>()?;
-        _ = progress(0.4);
-        let stages = |iterations| Stages::least(context, scene, effort.samples, iterations);
-        let by_iterations = ITERATIONS.map(stages).collect::<Result<_>>()?;
+        let stages = |count, order, iterations| Stages::least(context, scene, count, order, iterations);
+        let by_count = effort.counts.iter().map(|&count| stages(count, Order::Squareness, 1));
+        let by_count = by_count.collect::<Result<_>>()?;
+        _ = progress(0.35);
+        let by_iterations = ITERATIONS.map(|iterations| stages(effort.samples, Order::Squareness, iterations));
+        let by_iterations = by_iterations.collect::<Result<_>>()?;
         _ = progress(0.7);
-        let one_thread = Stages::of(&Context::new(1)?, scene, effort.samples, 1)?;
+        let by_projector = stages(effort.samples, Order::Projector, 1)?;
+        let one_thread = Stages::of(&Context::new(1)?, scene, effort.samples, Order::Squareness, 1)?;
         _ = progress(0.9);
         let mut psp = Psp::new(&scene.mesh, &Options::new(radius(&scene.mesh, effort.samples)))?;
         psp.advance(context, 1, None)?;
         psp.fill(context, None)?;
-        Ok(Self { by_count, by_iterations, one_thread, again: psp.fill(context, None)? })
+        Ok(Self { by_count, by_iterations, by_projector, one_thread, again: psp.fill(context, None)? })
     }
 }
