@@ -37,15 +37,19 @@ fn densities(order: Order) -> [Vec<f64>; 2] {
     sums.map(|bins| bins.into_iter().map(|[samples, area]| samples * radius * radius / area).collect())
 }
 
+/// The density of an unbiased maximal set.
+const MAXIMAL: f64 = 0.69656;
+
 /// What one iteration finds depends on the angle; what is filled makes up for all of it but a few percent.
 #[test]
 fn filling_evens_out_what_the_projectors_miss() {
-    for (order, missed, left) in [(Order::Squareness, 0.1, 0.045), (Order::Projector, 0.03, 0.03)] {
+    for (order, left) in [(Order::Squareness, 0.045), (Order::Projector, 0.03)] {
         let [found, filled] = densities(order);
-        let last = found.len() - 1;
-        assert!(found[last] < (1.0 - missed) * found[0], "{order:?} {found:?}");
+        assert!(found[found.len() - 1] < 0.8 * found[0], "{order:?} {found:?}");
+        // Where a projector looks squarely its pattern is as it was, but for what candidates of others displace.
+        assert_eq!(found[0] > 0.98 * MAXIMAL, order == Order::Squareness, "{order:?} {found:?}");
         for density in filled {
-            assert!((density / 0.69656 - 1.0).abs() < left, "{order:?} {density}");
+            assert!((density / MAXIMAL - 1.0).abs() < left, "{order:?} {density}");
         }
     }
 }
