@@ -8,10 +8,10 @@ pub mod palette;
 pub mod plot;
 mod points;
 pub mod render;
-mod rows;
+pub mod rows;
 pub mod spectra;
 pub mod stage;
-mod surface;
+pub mod surface;
 
 use azulejo::{Context, Result};
 use clap::Subcommand;

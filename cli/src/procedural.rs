@@ -1,7 +1,7 @@
 //! `azulejo mesh`: meshes that are made, not downloaded.
 
 pub mod knot;
-mod shapes;
+pub mod shapes;
 
 use std::path::PathBuf;
 
@@ -54,7 +54,7 @@ impl Shape {
             Self::Knot => knot::knot(detail),
             Self::Sphere => shapes::sphere(detail),
             Self::Torus => shapes::torus(detail, detail / 2),
-            Self::Hall => upright(shapes::hall(detail)),
+            Self::Hall => hall(detail),
         }
     }
 }
@@ -73,8 +73,9 @@ impl Procedural {
     }
 }
 
-/// What stands on z, turned to stand on y, as pictures have it.
-fn upright((mut positions, triangles): Soup) -> Soup {
+/// The hall, which stands on z, turned to stand on y, as pictures have it.
+pub fn hall(detail: u32) -> Soup {
+    let (mut positions, triangles) = shapes::hall(detail);
     positions.iter_mut().for_each(|position| *position = [position[0], position[2], -position[1]]);
     (positions, triangles)
 }

@@ -1,9 +1,11 @@
 //! `azulejo report`: measurements of the library as pages with plots.
 
 mod adaptive;
+mod head;
 mod kdrt;
 mod page;
 mod pictures;
+mod psp;
 mod statistics;
 mod times;
 
@@ -15,15 +17,15 @@ use clap::Subcommand;
 pub enum Report {
     /// Measure bias, spectra and times of KDRT against the thesis and the unbiased reference; takes some minutes.
     Kdrt(kdrt::Kdrt),
-    /// Draw and measure samples whose radius varies: a fading, an image in dots, a ramp of density.
-    Adaptive(adaptive::Adaptive),
+    /// Measure rates, density and bias of PSP on meshes against the thesis; takes some minutes.
+    Psp(psp::Psp),
 }
 
 impl Report {
     pub fn run(&self, context: &Context) -> Result<()> {
         match self {
             Self::Kdrt(kdrt) => kdrt.run(context),
-            Self::Adaptive(adaptive) => adaptive.run(context),
+            Self::Psp(psp) => psp.run(context),
         }
     }
 }

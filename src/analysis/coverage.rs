@@ -1,12 +1,12 @@
 //! Coverage: how far the domain or the surface is from the samples.
 
+use crate::analysis::probes::Surface;
 use crate::error::Result;
 use crate::grid2::Grid2;
 use crate::grid3::{Grid3, distance_squared};
 use crate::job::{Context, chunks};
 use crate::mesh::Mesh;
 use crate::points::{Domain, check_radius};
-use crate::rng::{Draw, Rng};
 
 /// The relative precision of [`covering_radius_2d`].
 pub const PRECISION: f64 = 1e-9;
@@ -127,7 +127,7 @@ pub fn surface_uncovered_fraction(
     let chunks = chunks(probes as usize);
     let uncovered = context.run(None, |job| {
         job.map(chunks.len(), |chunk| {
-            let probe = |index: &usize| surface.point(&mut Rng::at(seed, Draw::Probe, &[*index as u64]));
+            let probe = |index: &usize| surface.probe(seed, *index as u64);
             let is_covered = |index: &usize| {
                 let probe = probe(index);
                 let mut near = grid.candidates(probe.map(f64::from), radius);
@@ -137,29 +137,4 @@ pub fn surface_uncovered_fraction(
         })
     })?;
     Ok(uncovered.into_iter().sum::<usize>() as f64 / probes.max(1) as f64)
-}
-
-/// A mesh from which points are drawn uniformly by area.
-struct Surface<'a> {
-    mesh: &'a Mesh,
-    /// The area of the triangles up to and with each.
-    areas: Vec<f64>,
-}
-
-impl<'a> Surface<'a> {
-    fn new(mesh: &'a Mesh) -> Self {
-        let add = |sum: &mut f64, triangle| {
-            *sum += mesh.triangle_area(triangle);
-            Some(*sum)
-        };
-        Self { mesh, areas: (0..mesh.triangles().len() as u32).scan(0.0, add).collect() }
-    }
-
-    fn point(&self, rng: &mut Rng) -> [f32; 3] {
-        let area = rng.unit() * self.areas[self.areas.len() - 1];
-        let triangle = self.areas.partition_point(|&sum| sum <= area).min(self.areas.len() - 1);
-        // The square root makes the triangle's tip as dense as its base (Turk 1990).
-        let (along, across) = (rng.unit().sqrt(), rng.unit());
-        self.mesh.point(triangle as u32, [(along * (1.0 - across)) as f32, (along * across) as f32])
-    }
 }

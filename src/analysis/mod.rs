@@ -4,6 +4,9 @@
 //! are written for clarity and tested against brute force.
 
 pub mod coverage;
+pub mod differential;
+pub mod facing;
+mod probes;
 pub mod spacing;
 pub mod spectrum;
 pub mod triangles;

@@ -243,6 +243,13 @@ impl Psp {
         self.len() == 0
     }
 
+    /// The directions in which the projectors of the last iteration looked: orthogonal unit vectors, by the number of the
+    /// projector. They depend on the seed and the iterations, not on the mesh. For measurements.
+    #[doc(hidden)]
+    pub fn directions(&self) -> Option<[[f64; 3]; 3]> {
+        self.frame.map(|frame| frame.to_cols_array_2d())
+    }
+
     fn iterate(&mut self, job: &Job, iterations: u32, report: &mut Report) -> Result<()> {
         let iterations = if self.projects { iterations } else { 0 };
         for step in 0..iterations {

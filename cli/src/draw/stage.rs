@@ -22,6 +22,8 @@ pub struct Stage {
     /// The radius of a maximal set of as many samples.
     pub radius: f32,
     pub camera: Camera,
+    /// How many samples there are, and triangles, seen or not.
+    pub counts: [usize; 2],
 }
 
 /// A place on the mesh that was seen.
@@ -58,7 +60,8 @@ impl Stage {
         let radius = (MAXIMAL_DENSITY * mesh.area() / samples.len() as f64).sqrt() / size;
         let discs = Discs::new(samples.iter().map(place), (DISC * radius) as f32);
         let normals = vertex_normals(&positions, &triangles);
-        Ok(Self { scene, triangles, positions, normals, discs, radius: radius as f32, camera })
+        let counts = [samples.len(), mesh.triangles().len()];
+        Ok(Self { scene, triangles, positions, normals, discs, radius: radius as f32, camera, counts })
     }
 
     pub fn positions(&self) -> impl Iterator<Item = Vec3> {

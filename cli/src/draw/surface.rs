@@ -53,22 +53,24 @@ impl Surface {
         let output = Output::at(&self.output)?;
         let mesh = Mesh::load(&self.mesh)?;
         let samples = ply::read(&self.samples)?.positions;
-        let stage = Stage::new(context, &mesh, &samples, self.cutaway)?;
-        let windows = windows(&stage);
-
-        let mut canvas = Canvas::new(PAGE[0], PAGE[1], self.size);
-        watched("light", |progress| draw_views(&mut canvas, &stage, &windows, context.num_threads(), progress))?;
         let name = self.mesh.file_stem().unwrap_or_default().to_string_lossy();
-        let style = Style { size: 30.0, colour: INK, align: Align::Left, upwards: false };
-        canvas.text(&name, [WHOLE.x, 58.0], style);
-        let counts = format!("{} samples on {} triangles", grouped(samples.len()), grouped(mesh.triangles().len()));
-        canvas.text(
-            &counts,
-            [PAGE[0] - WHOLE.x, 58.0],
-            Style { size: 22.0, colour: SLATE, align: Align::Right, ..style },
-        );
-        canvas.write(&output)
+        let stage = Stage::new(context, &mesh, &samples, self.cutaway)?;
+        picture(context, &name, &stage, self.size, &output)
     }
+}
+
+/// Draws a mesh with its samples, `pixels` wide.
+pub fn picture(context: &Context, name: &str, stage: &Stage, pixels: u32, output: &Output) -> Result<()> {
+    let windows = windows(stage);
+    let mut canvas = Canvas::new(PAGE[0], PAGE[1], pixels);
+    watched("light", |progress| draw_views(&mut canvas, stage, &windows, context.num_threads(), progress))?;
+    let style = Style { size: 30.0, colour: INK, align: Align::Left, upwards: false };
+    canvas.text(name, [WHOLE.x, 58.0], style);
+    let [samples, triangles] = stage.counts.map(grouped);
+    let counts = format!("{samples} samples on {triangles} triangles");
+    let style = Style { size: 22.0, colour: SLATE, align: Align::Right, ..style };
+    canvas.text(&counts, [PAGE[0] - WHOLE.x, 58.0], style);
+    canvas.write(output)
 }
 
 /// The whole object, a detail of it, and a detail of that: each step closer by about the same factor.

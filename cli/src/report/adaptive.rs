@@ -1,15 +1,12 @@
-//! `azulejo report adaptive`: thesis §3.4.4 (fig. 3.19 to 3.21), measured and drawn: a fading radius on a surface, an
+//! What the page of `azulejo report psp` says of adaptive sampling: thesis §3.4.4 (fig. 3.19 to 3.21), measured and drawn: a fading radius on a surface, an
 //! image in dots, and dots against a ramp of density.
 
 use std::fmt::Write as _;
-use std::fs;
-use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use azulejo::mesh::Mesh;
 use azulejo::psp::adaptive::{self, AdaptiveSamples, Options, Radius};
-use azulejo::{Context, Error, Progress, Result};
-use clap::Args;
+use azulejo::{Context, Progress, Result};
 
 use crate::draw::canvas::{Canvas, Rect};
 use crate::draw::palette::{COBALT, INK, SERIES};
@@ -21,16 +18,6 @@ use crate::output::Output;
 use crate::procedural::knot::knot;
 use crate::progress::watched;
 use crate::text::grouped;
-
-#[derive(Args)]
-pub struct Adaptive {
-    /// The directory of the page `adaptive.md` and its pictures.
-    #[arg(long, value_name = "DIRECTORY", default_value = "docs")]
-    out: PathBuf,
-    /// Measure few and small sets: to see the page, not to believe it.
-    #[arg(long)]
-    quick: bool,
-}
 
 /// How much is drawn and measured.
 struct Effort {
@@ -47,16 +34,6 @@ struct Effort {
 const FULL: Effort = Effort { samples: 3e4, dots: 6e4, detail: 1280, ramp: 2e4, sets: 20 };
 const QUICK: Effort = Effort { samples: 2e3, dots: 5e3, detail: 160, ramp: 5e3, sets: 2 };
 
-impl Adaptive {
-    pub fn run(&self, context: &Context) -> Result<()> {
-        let folder = self.out.join("adaptive");
-        fs::create_dir_all(&folder).map_err(|source| Error::Io { path: folder.clone(), source })?;
-        let page = Output::at(&self.out.join("adaptive.md"))?;
-        let text = section(context, &folder, self.quick)?;
-        page.write(|writer| write!(writer, "# Adaptive sampling, measured\n\n{text}"))
-    }
-}
-
 /// Writes the pictures into a folder and gives the text of the section, for a page that stands beside the folder.
 pub fn section(context: &Context, folder: &Path, quick: bool) -> Result<String> {
     let effort = if quick { QUICK } else { FULL };
@@ -67,12 +44,12 @@ pub fn section(context: &Context, folder: &Path, quick: bool) -> Result<String> 
     let ramp = watched("ramp", |progress| Ramp::measure(context, &effort, progress)?.draw(&ramp))?;
     let place = folder.file_name().unwrap_or_default().to_string_lossy();
     Ok(format!(
-        "Each sample has its own radius; two samples are no closer than the mean of theirs, and the set is maximal under \
+        "## Adaptive sampling\n\nEach sample has its own radius; two samples are no closer than the mean of theirs, and the set is maximal under \
          that rule. The radius that gives a density of N samples on an area of 1 is √({MAXIMAL_DENSITY} / N).\n\n\
-         ## A fading radius (thesis fig. 3.20)\n\n\
+         ### A fading radius (thesis fig. 3.20)\n\n\
          {} samples on a knot, with a radius for each vertex that grows six-fold from below to above.\n\n\
          ![Samples on a knot that fade upwards]({place}/fading.png)\n\n\
-         ## An image in dots (thesis fig. 3.21)\n\n\
+         ### An image in dots (thesis fig. 3.21)\n\n\
          {} dots, all of one size, as dense as a rendered image is dark. The image is a flat mesh with a vertex for each \
          pixel; where it is white there is no mesh.\n\n\
          ![A knot in dots]({place}/stipple.png)\n\n{}\n\
@@ -221,7 +198,7 @@ impl Ramp {
         let absolute = errors.iter().map(|error| error.abs()).sum::<f64>() / BANDS as f64;
         let largest = errors.iter().map(|error| error.abs()).fold(0.0, f64::max);
         let mut text = format!(
-            "## Dots against a ramp of density (thesis fig. 3.19)\n\n\
+            "### Dots against a ramp of density (thesis fig. 3.19)\n\n\
              A ramp from white to black in {BANDS} bands; the mean of {} sets of about {} dots. Error of a band: {:+.2} % in \
              the mean, {:.2} % in the mean of the absolute values, {:.2} % at most.\n\n\
              | band | dots that the ramp asks for | found | error |\n|---|---|---|---|\n",

@@ -1,14 +1,14 @@
 //! The page of the report, in Markdown.
 
 use std::fmt::Write;
-use std::time::{SystemTime, UNIX_EPOCH};
 
+use super::head::verdict;
 use super::kdrt::{Effort, Sampler};
 use super::pictures::{STAGES, stage_times};
 use super::statistics::{ANNULUS, CONTRAST_RANGE, GROUPS, Peak, Statistics, Summary};
 use super::times::{LeafTimes, Times};
 use crate::generate::MAXIMAL_DENSITY;
-use crate::text::{date, grouped, rounded};
+use crate::text::{grouped, rounded};
 
 /// The thesis's figures for its leaf sizes: table 2.2 in percent, and million samples per second on its CPU (Core
 /// i7-4930K) and GPU (GTX 1080) from the captions of fig. 2.16 to 2.19.
@@ -38,24 +38,10 @@ pub fn text(effort: &Effort, statistics: &[Statistics], times: &Times, quick: bo
 }
 
 fn head(times: &Times, quick: bool) -> String {
-    let seconds = SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |since| since.as_secs());
     let option = if quick { " --quick" } else { "" };
-    format!(
-        "# KDRT, measured\n\n\
-         Written by `azulejo report kdrt{option}` on {}, on {} threads of {}. Thesis: Wang 2019, chapter 2. `r` is the \
-         radius, the smallest distance; frequencies are in units of √density. Times are the least of three, on a machine \
-         that may have had other work.\n",
-        date(seconds),
-        times.threads,
-        processor(),
-    )
-}
-
-/// The name of the processor, where the system tells it.
-fn processor() -> String {
-    let about = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
-    let name = about.lines().find_map(|line| line.strip_prefix("model name")?.split_once(": "));
-    name.map_or("an unknown processor", |(_, name)| name).to_owned()
+    super::head::head("KDRT, measured", &format!("kdrt{option}"), times.threads)
+        + " Thesis: Wang 2019, chapter 2. `r` is the radius, the smallest distance; frequencies are in units of √density. \
+           Times are the least of three, on a machine that may have had other work.\n"
 }
 
 /// By how many percent a set is denser than an unbiased one.
@@ -65,10 +51,6 @@ fn excess(density: f64) -> f64 {
 
 fn decibels(ratio: f64) -> f64 {
     10.0 * ratio.log10()
-}
-
-fn verdict(is_met: bool) -> &'static str {
-    if is_met { "met" } else { "**not met**" }
 }
 
 fn goals(statistics: &[Statistics]) -> String {
