@@ -3,7 +3,8 @@
 #
 #   scripts/test.sh [--no-debian13]
 #
-# --no-debian13 leaves out the run against Embree 4.3 in a Debian 13 root, for people without root.
+# --no-debian13 leaves out the run against Embree 4.3 in a Debian 13 root, and the clean roots in which the Debian packages
+# are installed, for people without root.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -40,12 +41,29 @@ tests/c/readme.sh target/package/prefix
 stage "C and C++ programs: plain, under sanitizers, under valgrind"
 tests/c/run.sh target/package/prefix --asan --valgrind
 
+stage "Debian packages: what they hold and depend on"
+tests/c/debs.sh target/package
+
+release=$(. /etc/os-release && [ "$ID" = debian ] && echo "$VERSION_ID" || true)
+if [ $debian13 = no ]; then
+    stage "SKIPPED by --no-debian13: Debian packages installed in a clean root"
+elif [ -z "$release" ]; then
+    stage "SKIPPED, since this is not Debian: Debian packages installed in a clean root of this machine's release"
+else
+    stage "Debian packages: installed, used and removed in a clean Debian $release root"
+    scripts/clean-root.sh "$release" target/package/debs tests/c/installed.sh
+fi
+
 if [ $debian13 = yes ]; then
     stage "Rust tests, package, C and C++ programs on Embree 4.3, in a Debian 13 root"
     scripts/debian13.sh bash -ec '
         cargo test --offline --locked --workspace
         tests/c/package.sh --keep /var/cache/package
-        tests/c/run.sh /var/cache/package/prefix'
+        tests/c/run.sh /var/cache/package/prefix
+        tests/c/debs.sh /var/cache/package'
+
+    stage "Debian packages: installed, used and removed in a clean Debian 13 root"
+    scripts/clean-root.sh 13 "${AZULEJO_DEBIAN13_DIR:-target/debian13}/root/var/cache/package/debs" tests/c/installed.sh
 else
     stage "SKIPPED by --no-debian13: everything on Embree 4.3"
 fi
