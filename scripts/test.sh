@@ -32,11 +32,11 @@ RUSTDOCFLAGS='-D warnings' cargo doc --quiet --locked --workspace --no-deps
 stage "Rust tests on this machine's Embree"
 cargo test --locked --workspace
 
-stage "Package: install, find_package, pkg-config, add_subdirectory, shared and static"
+stage "Package: install, find_package, pkg-config, add_subdirectory, shared and static, MPI ranks"
 tests/c/package.sh --keep target/package
 
-stage "README: its C and C++ programs"
-tests/c/readme.sh target/package/prefix
+stage "README and guides: their programs and commands"
+tests/c/pages.sh target/package/prefix README.md docs/integrating.md docs/porting.md
 
 stage "C and C++ programs: plain, under sanitizers, under valgrind"
 tests/c/run.sh target/package/prefix --asan --valgrind
