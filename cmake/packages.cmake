@@ -42,6 +42,10 @@ set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION "blue-noise sampling of planes and mesh
 This package has the C and C++ headers, the static library, the CMake package
 and the pkg-config file.")
 
+# cpack's own call of ldconfig comes on top, and cannot be turned off.
+file(WRITE ${PROJECT_BINARY_DIR}/debian/triggers "activate-noawait ldconfig\n")
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_CONTROL_EXTRA ${PROJECT_BINARY_DIR}/debian/triggers)
+
 # What Debian wants in share/doc of each package: the licences, also of the crates inside, and a changelog.
 execute_process(COMMAND ${AZULEJO_CARGO} tree --locked --package azulejo-c --edges normal,no-proc-macro
                         --prefix none --format "{p}|{l}|{r}"

@@ -73,6 +73,8 @@ bootstrap() { # SUITE CACHE ROOT
         "$suite" "$root" "$mirror" >"$cache/bootstrap.log" 2>&1 ||
         die "debootstrap failed; $cache/bootstrap.log ends with: $(tail -n 3 "$cache/bootstrap.log")"
     apt_settings >"$root/etc/apt/apt.conf.d/90machine"
+    # A root that can be made anew need not wait for the disk.
+    echo force-unsafe-io >"$root/etc/dpkg/dpkg.cfg.d/unsafe-io"
     # For a mirror behind https: the small root has no certificates.
     mkdir -p "$root/etc/ssl/certs"
     local certificates=/etc/ssl/certs/ca-certificates.crt
