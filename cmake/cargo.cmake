@@ -22,6 +22,11 @@ set(cargo_target_dir ${PROJECT_BINARY_DIR}/cargo)
 string(REGEX REPLACE "^dev$" "debug" cargo_output_dir "${AZULEJO_CARGO_PROFILE}")
 set(cargo_output_dir ${cargo_target_dir}/$ENV{CARGO_BUILD_TARGET}/${cargo_output_dir})
 
+# GNU's linker, whatever the compiler prefers: LLVM's lacks what static.cmake needs.
+find_program(AZULEJO_LINKER NAMES ${CMAKE_LIBRARY_ARCHITECTURE}-ld.bfd ld.bfd REQUIRED
+             DOC "The linker that makes the static library")
+mark_as_advanced(AZULEJO_LINKER)
+
 file(MAKE_DIRECTORY ${AZULEJO_OUTPUT_DIR})
 add_custom_target(azulejo_cargo ALL
   COMMAND ${AZULEJO_CARGO} build --package azulejo-c --profile ${AZULEJO_CARGO_PROFILE}
@@ -32,7 +37,7 @@ add_custom_target(azulejo_cargo ALL
           ${AZULEJO_OUTPUT_DIR}/libazulejo.so.${PROJECT_VERSION_MAJOR}
   COMMAND ${CMAKE_COMMAND} -E create_symlink libazulejo.so.${PROJECT_VERSION_MAJOR} ${AZULEJO_OUTPUT_DIR}/libazulejo.so
   COMMAND ${CMAKE_COMMAND} -D FROM=${cargo_output_dir}/libazulejo.a -D EXPORTS_OF=${cargo_output_dir}/libazulejo.so
-          -D TO=${AZULEJO_OUTPUT_DIR}/libazulejo.a -D LINKER=${CMAKE_LINKER} -D NM=${CMAKE_NM}
+          -D TO=${AZULEJO_OUTPUT_DIR}/libazulejo.a -D LINKER=${AZULEJO_LINKER} -D NM=${CMAKE_NM}
           -D OBJCOPY=${CMAKE_OBJCOPY} -D AR=${CMAKE_AR} -P ${CMAKE_CURRENT_LIST_DIR}/static.cmake
   BYPRODUCTS ${AZULEJO_RUNTIME_LIBRARIES} ${AZULEJO_DEVELOPMENT_LIBRARIES}
   WORKING_DIRECTORY ${PROJECT_SOURCE_DIR}
