@@ -1,6 +1,6 @@
 # The target azulejo_cargo: runs cargo, which knows best what is out of date, and lays its libraries out in
-# AZULEJO_OUTPUT_DIR as they are installed (AZULEJO_LIBRARIES). Cargo heeds its own variables: RUSTFLAGS,
-# CARGO_BUILD_JOBS, CARGO_BUILD_TARGET and so on; CARGO names another cargo.
+# AZULEJO_OUTPUT_DIR as they are installed: AZULEJO_RUNTIME_LIBRARIES and AZULEJO_DEVELOPMENT_LIBRARIES. Cargo heeds
+# its own variables: RUSTFLAGS, CARGO_BUILD_JOBS, CARGO_BUILD_TARGET and so on; CARGO names another cargo.
 if(DEFINED ENV{CARGO})
   set(AZULEJO_CARGO "$ENV{CARGO}" CACHE FILEPATH "The cargo to build with")
 else()
@@ -13,14 +13,19 @@ endif()
 
 set(AZULEJO_OUTPUT_DIR ${PROJECT_BINARY_DIR}/lib)
 set(AZULEJO_SHARED_LIBRARY libazulejo.so.${PROJECT_VERSION})
-set(AZULEJO_LIBRARIES ${AZULEJO_OUTPUT_DIR}/${AZULEJO_SHARED_LIBRARY}
-                      ${AZULEJO_OUTPUT_DIR}/libazulejo.so.${PROJECT_VERSION_MAJOR} ${AZULEJO_OUTPUT_DIR}/libazulejo.so
-                      ${AZULEJO_OUTPUT_DIR}/libazulejo.a)
+set(AZULEJO_RUNTIME_LIBRARIES ${AZULEJO_OUTPUT_DIR}/${AZULEJO_SHARED_LIBRARY}
+                              ${AZULEJO_OUTPUT_DIR}/libazulejo.so.${PROJECT_VERSION_MAJOR})
+set(AZULEJO_DEVELOPMENT_LIBRARIES ${AZULEJO_OUTPUT_DIR}/libazulejo.so ${AZULEJO_OUTPUT_DIR}/libazulejo.a)
 
 # Where cargo puts the libraries: below a folder of the target's, if there is one; the profile dev is called debug.
 set(cargo_target_dir ${PROJECT_BINARY_DIR}/cargo)
 string(REGEX REPLACE "^dev$" "debug" cargo_output_dir "${AZULEJO_CARGO_PROFILE}")
 set(cargo_output_dir ${cargo_target_dir}/$ENV{CARGO_BUILD_TARGET}/${cargo_output_dir})
+
+# GNU's linker, whatever the compiler prefers: LLVM's lacks what static.cmake needs.
+find_program(AZULEJO_LINKER NAMES ${CMAKE_LIBRARY_ARCHITECTURE}-ld.bfd ld.bfd REQUIRED
+             DOC "The linker that makes the static library")
+mark_as_advanced(AZULEJO_LINKER)
 
 file(MAKE_DIRECTORY ${AZULEJO_OUTPUT_DIR})
 add_custom_target(azulejo_cargo ALL
@@ -31,8 +36,10 @@ add_custom_target(azulejo_cargo ALL
   COMMAND ${CMAKE_COMMAND} -E create_symlink ${AZULEJO_SHARED_LIBRARY}
           ${AZULEJO_OUTPUT_DIR}/libazulejo.so.${PROJECT_VERSION_MAJOR}
   COMMAND ${CMAKE_COMMAND} -E create_symlink libazulejo.so.${PROJECT_VERSION_MAJOR} ${AZULEJO_OUTPUT_DIR}/libazulejo.so
-  COMMAND ${CMAKE_COMMAND} -E copy_if_different ${cargo_output_dir}/libazulejo.a ${AZULEJO_OUTPUT_DIR}/libazulejo.a
-  BYPRODUCTS ${AZULEJO_LIBRARIES}
+  COMMAND ${CMAKE_COMMAND} -D FROM=${cargo_output_dir}/libazulejo.a -D EXPORTS_OF=${cargo_output_dir}/libazulejo.so
+          -D TO=${AZULEJO_OUTPUT_DIR}/libazulejo.a -D LINKER=${AZULEJO_LINKER} -D NM=${CMAKE_NM}
+          -D OBJCOPY=${CMAKE_OBJCOPY} -D AR=${CMAKE_AR} -P ${CMAKE_CURRENT_LIST_DIR}/static.cmake
+  BYPRODUCTS ${AZULEJO_RUNTIME_LIBRARIES} ${AZULEJO_DEVELOPMENT_LIBRARIES}
   WORKING_DIRECTORY ${PROJECT_SOURCE_DIR}
   COMMENT "Building libazulejo with cargo"
   USES_TERMINAL VERBATIM)

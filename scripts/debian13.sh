@@ -3,41 +3,24 @@
 #
 #   scripts/debian13.sh [command [argument]...]
 #
-# The root is made once by debootstrap (about a minute) in target/debian13, or in $AZULEJO_DEBIAN13_DIR, and kept. The
-# Debian mirror is the one that this machine's apt uses, or $AZULEJO_DEBIAN_MIRROR. Needs root, or asks sudo for it.
-#
-# All mounts are made in a mount namespace of this process: they cannot be seen outside, and the kernel drops them
-# when the process ends, however it ends. So nothing is left to unmount, and the root (which belongs to root) can be
-# deleted at any time. Inside, the project is at /azulejo, read-only; what cargo builds goes to /var/cache/azulejo.
+# The root is made once (debian-root.sh) in target/debian13, or in $AZULEJO_DEBIAN13_DIR, and kept. Needs root, or asks
+# sudo for it. Inside, the project is at /azulejo, read-only; what cargo builds goes to /var/cache/azulejo.
 set -euo pipefail
 PATH=$PATH:/usr/sbin:/sbin
 
-suite=trixie
-packages=(libembree-dev libclang-dev g++ cmake make pkg-config)
+. "$(dirname "$0")/debian-root.sh"
 
-die() {
-    echo "debian13.sh: $*" >&2
-    exit 1
-}
-
-# NAME=value for each of these variables that is set: what sudo and the root are told of the environment.
-settings() {
-    local name
-    for name in TERM http_proxy https_proxy CARGO_BUILD_JOBS RUST_BACKTRACE "$@"; do
-        [ -z "${!name:-}" ] || printf '%s=%s\n' "$name" "${!name}"
-    done
-}
+# Beside those of every root; dpkg-dev and file are what cpack makes Debian packages with.
+packages=(libembree-dev libclang-dev dpkg-dev file)
 
 # --- Outside: as the user, who knows where the Rust toolchain is and who owns cargo's registry ---
 
 outside() {
-    local source cache sysroot tool settings sudo=()
+    local source cache sysroot settings sudo=()
     source=$(cd "$(dirname "$0")/.." && pwd)
-    cache=${AZULEJO_DEBIAN13_DIR:-$source/target/debian13}
+    cache=$(cache_of "$source" 13)
     command -v cargo >/dev/null || die "cargo is not installed; scripts/setup.sh says what to do"
-    for tool in debootstrap unshare flock; do
-        command -v "$tool" >/dev/null || die "$tool is not installed; run scripts/setup.sh --tests"
-    done
+    needs_tools
     cargo fetch --quiet --locked --manifest-path "$source/Cargo.toml"
     sysroot=$(rustc --print sysroot)
     [ "$sysroot" != /usr ] || die "a distribution's Rust toolchain cannot be shown in the root; use one of rustup"
@@ -50,74 +33,15 @@ outside() {
 
 # --- Inside the mount namespace: as root ---
 
-# The first Debian archive among apt's own sources, known by its suite. Apt parses both formats of source files better
-# than a script would, but lists only what it has fetched once.
-find_mirror() {
-    local suites='(bullseye|bookworm|trixie|forky|sid|stable|oldstable|testing|unstable)'
-    apt-get indextargets --format '$(REPO_URI) $(RELEASE)' 'Created-By: Packages' 'Component: main' |
-        sed -nE "s/^((http|https|file):[^ ]*) $suites\$/\1/p" | sed -n 1p
-}
-
-# What this machine's apt was told about proxies, certificates and clocks holds in the root too.
-apt_settings() {
-    apt-config dump | grep -iE '^Acquire::(http|https|Retries|Check-Date|Check-Valid-Until)\b.* ".+";$' || true
-}
-
-bootstrap() {
-    local cache=$1 root=$2 mirror keyring proxy
-    mirror=${AZULEJO_DEBIAN_MIRROR:-$(find_mirror)}
-    [ -n "$mirror" ] || { apt-get update -qq >&2 && mirror=$(find_mirror); }
-    [ -n "$mirror" ] || die "no Debian mirror among apt's sources; set AZULEJO_DEBIAN_MIRROR to one"
-    keyring=/usr/share/keyrings/debian-archive-keyring.gpg
-    [ -r "$keyring" ] || die "$keyring is missing; apt-get install debian-archive-keyring"
-    proxy=$(apt-config shell proxy Acquire::http::Proxy)
-    eval "$proxy" # apt-config prints proxy='...', or nothing
-    [ -z "${proxy:-}" ] || export http_proxy=${http_proxy:-$proxy}
-
-    echo "debian13.sh: making a Debian 13 root in $root (about a minute, 1 GB)" >&2
-    rm -rf "$cache/root.partial"
-    mkdir -p "$cache/packages"
-    debootstrap --variant=minbase --keyring="$keyring" --cache-dir="$cache/packages" \
-        "$suite" "$cache/root.partial" "$mirror" >"$cache/bootstrap.log" 2>&1 ||
-        die "debootstrap failed; $cache/bootstrap.log ends with: $(tail -n 3 "$cache/bootstrap.log")"
-    apt_settings >"$cache/root.partial/etc/apt/apt.conf.d/90machine"
-    # For a mirror behind https: the small root has no certificates.
-    mkdir -p "$cache/root.partial/etc/ssl/certs"
-    local certificates=/etc/ssl/certs/ca-certificates.crt
-    [ ! -e "$certificates" ] || cp -L "$certificates" "$cache/root.partial$certificates"
-    # The name root stands for a finished one.
-    mv "$cache/root.partial" "$root"
-}
-
-# Mounts what the system needs; all of it vanishes with the namespace.
-mount_system() {
-    local root=$1
-    mount -t proc proc "$root/proc"
-    mount --rbind /sys "$root/sys"
-    mount --rbind /dev "$root/dev"
-    cp -L /etc/resolv.conf "$root/etc/resolv.conf"
-    cp -L /etc/hosts "$root/etc/hosts"
-}
-
-# Installs the packages, once for each version of their list, also after an attempt that was broken off.
-install_packages() {
-    local cache=$1 root=$2 stamp=$2/etc/azulejo-packages
-    [ "$(cat "$stamp" 2>/dev/null)" != "${packages[*]}" ] || return 0
-    echo "debian13.sh: installing in the root: ${packages[*]}" >&2
-    chroot "$root" env DEBIAN_FRONTEND=noninteractive LC_ALL=C PATH=/usr/sbin:/usr/bin:/sbin:/bin sh -ec '
-        dpkg --configure -a
-        apt-get update -qq
-        apt-get install -qq --no-install-recommends "$@"
-        apt-get clean' sh "${packages[@]}" >"$cache/install.log" 2>&1 ||
-        die "apt-get failed in the root; $cache/install.log ends with: $(tail -n 3 "$cache/install.log")"
-    echo "${packages[*]}" >"$stamp"
-}
-
-# Mounts a folder or file of the machine read-only in the root.
-show() {
-    if [ -d "$1" ]; then mkdir -p "$2"; else touch "$2"; fi
-    mount --bind "$1" "$2"
-    mount -o remount,bind,ro "$2"
+# The base and the packages, made anew when either changes, also after an attempt that was broken off.
+make_root() { # CACHE
+    local cache=$1 root=$1/root stamp="${base_packages[*]} ${packages[*]}"
+    [ "$(cat "$root/etc/azulejo-packages" 2>/dev/null)" != "$stamp" ] || return 0
+    base_root 13 "$cache"
+    rm -rf "$root"
+    cp -a "$cache/base" "$root"
+    install_packages "$cache" "$root" "${packages[@]}"
+    echo "$stamp" >"$root/etc/azulejo-packages"
 }
 
 inside() {
@@ -128,10 +52,9 @@ inside() {
     exec 9>"$cache/lock"
     flock 9
 
-    [ -d "$root" ] || bootstrap "$cache" "$root"
+    make_root "$cache"
+    network "$root"
     mount_system "$root"
-    install_packages "$cache" "$root"
-
     show "$source" "$root/azulejo"
     show "$sysroot" "$root/opt/rust"
     # Of cargo's home only what holds packages and says where they are from: never its credentials.

@@ -9,7 +9,8 @@
 set -euo pipefail
 
 packages=(libembree-dev libclang-dev g++ make cmake pkg-config)
-test_packages=(valgrind debootstrap debian-archive-keyring assimp-testmodels)
+test_packages=(valgrind debootstrap debian-archive-keyring dpkg-dev file openmpi-bin libopenmpi-dev
+               assimp-testmodels)
 
 die() {
     echo "setup.sh: $*" >&2

@@ -3,7 +3,8 @@
 #
 #   scripts/test.sh [--no-debian13]
 #
-# --no-debian13 leaves out the run against Embree 4.3 in a Debian 13 root, for people without root.
+# --no-debian13 leaves out the run against Embree 4.3 in a Debian 13 root, and the clean roots in which the Debian packages
+# are installed, for people without root.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -31,21 +32,38 @@ RUSTDOCFLAGS='-D warnings' cargo doc --quiet --locked --workspace --no-deps
 stage "Rust tests on this machine's Embree"
 cargo test --locked --workspace
 
-stage "Package: install, find_package, pkg-config, add_subdirectory, shared and static"
+stage "Package: install, find_package, pkg-config, add_subdirectory, shared and static, MPI ranks"
 tests/c/package.sh --keep target/package
 
-stage "README: its C and C++ programs"
-tests/c/readme.sh target/package/prefix
+stage "README and guides: their programs and commands"
+tests/c/pages.sh target/package/prefix README.md docs/integrating.md docs/porting.md
 
 stage "C and C++ programs: plain, under sanitizers, under valgrind"
 tests/c/run.sh target/package/prefix --asan --valgrind
+
+stage "Debian packages: what they hold and depend on"
+tests/c/debs.sh target/package
+
+release=$(. /etc/os-release && echo "$ID ${VERSION_ID:-}")
+if [ $debian13 = no ]; then
+    stage "SKIPPED by --no-debian13: Debian packages installed in a clean root"
+elif [ "$release" = "debian 12" ] || [ "$release" = "debian 13" ]; then
+    stage "Debian packages: installed, used and removed in a clean root of $release"
+    scripts/clean-root.sh "${release#debian }" target/package/debs tests/c/installed.sh
+else
+    stage "SKIPPED on $release: Debian packages installed in a clean root"
+fi
 
 if [ $debian13 = yes ]; then
     stage "Rust tests, package, C and C++ programs on Embree 4.3, in a Debian 13 root"
     scripts/debian13.sh bash -ec '
         cargo test --offline --locked --workspace
         tests/c/package.sh --keep /var/cache/package
-        tests/c/run.sh /var/cache/package/prefix'
+        tests/c/run.sh /var/cache/package/prefix
+        tests/c/debs.sh /var/cache/package'
+
+    stage "Debian packages: installed, used and removed in a clean Debian 13 root"
+    scripts/clean-root.sh 13 "${AZULEJO_DEBIAN13_DIR:-target/debian13}/root/var/cache/package/debs" tests/c/installed.sh
 else
     stage "SKIPPED by --no-debian13: everything on Embree 4.3"
 fi

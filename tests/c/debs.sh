@@ -1,0 +1,68 @@
+#!/usr/bin/env bash
+# Makes the Debian packages of this machine's release and tests what they hold and depend on.
+#
+#   tests/c/debs.sh DIR      DIR is that of package.sh --keep, whose cargo has built the library; makes DIR/debs
+#
+# That they can be installed, used and removed is tested by installed.sh, in a clean root.
+set -euo pipefail
+
+root=$(cd "$(dirname "$0")/../.." && pwd)
+base=$(cd "${1:?usage: tests/c/debs.sh DIR}" && pwd)
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+. "$root/tests/c/examples.sh"
+
+make_packages() {
+    rm -rf "$base/debs"
+    mkdir -p "$base/debs-build"
+    ln -sfn ../build/cargo "$base/debs-build/cargo"
+    cmake -S "$root" -B "$base/debs-build" -DCMAKE_INSTALL_PREFIX=/usr \
+        -DAZULEJO_CARGO_FLAGS="${AZULEJO_CARGO_FLAGS:---locked}" && cmake --build "$base/debs-build" &&
+        cpack -G DEB --config "$base/debs-build/CPackConfig.cmake" -B "$base/debs" && rm -r "$base/debs/_CPack_Packages" &&
+        runtime=$(ls "$base"/debs/libazulejo0_*.deb) && development=$(ls "$base"/debs/libazulejo-dev_*.deb) &&
+        [ "$(ls "$base/debs" | wc -l)" = 2 ]
+}
+
+depend() { # the library on the Embree it is linked with, at run time; programs on that very library
+    local version
+    version=$(dpkg-deb --field "$runtime" Version)
+    dpkg-deb --field "$runtime" Depends
+    dpkg-deb --field "$runtime" Depends | grep -qE '(^|, )libembree(3-3|4-4) ' &&
+        dpkg-deb --field "$runtime" Depends | grep -qE '(^|, )libc6 ' &&
+        [ "$(dpkg-deb --field "$development" Depends)" = "libazulejo0 (= $version), libembree-dev" ]
+}
+
+hold() { # each file is in the package that it belongs to
+    local libraries
+    libraries=usr/lib/$(dpkg-architecture -qDEB_HOST_MULTIARCH)
+    dpkg-deb --extract "$runtime" "$work/runtime" && dpkg-deb --extract "$development" "$work/development" &&
+        diff - <(cd "$work/runtime" && find . ! -type d | LC_ALL=C sort) <<END &&
+./$libraries/libazulejo.so.0
+./$libraries/libazulejo.so.$(version)
+./usr/share/doc/libazulejo0/changelog.Debian.gz
+./usr/share/doc/libazulejo0/copyright
+END
+        diff - <(cd "$work/development" && find . ! -type d | LC_ALL=C sort) <<END
+./usr/include/azulejo.h
+./usr/include/azulejo.hpp
+./$libraries/cmake/azulejo/azulejo-config-version.cmake
+./$libraries/cmake/azulejo/azulejo-config.cmake
+./$libraries/cmake/azulejo/azulejo-targets.cmake
+./$libraries/libazulejo.a
+./$libraries/libazulejo.so
+./$libraries/pkgconfig/azulejo.pc
+./usr/share/doc/libazulejo-dev/changelog.Debian.gz
+./usr/share/doc/libazulejo-dev/copyright
+END
+}
+
+version() { sed -n 's/^version = "\(.*\)"/\1/p' "$root/Cargo.toml" | head -n 1; }
+
+is_stripped() { fails grep -q debug_info <(readelf --section-headers --wide "$1"); }
+
+step "debs: built" make_packages
+step "debs: their dependences" depend
+step "debs: their files" hold
+step "debs: the shared library is stripped" is_stripped "$(find "$work/runtime" -name 'libazulejo.so.*.*')"
+step "debs: the static library is stripped" is_stripped "$(find "$work/development" -name libazulejo.a)"

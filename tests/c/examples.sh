@@ -1,0 +1,89 @@
+# Sourced by tests/c/package.sh and tests/c/installed.sh: how examples_c is built against an installed azulejo, and what
+# its programs must print. They set root, the project's folder, and work, a scratch folder, before.
+
+step() { # NAME COMMAND...
+    local name=$1
+    shift
+    if "$@" >"$work/log" 2>&1; then
+        printf '%-44s ok\n' "$name"
+    else
+        printf '%-44s FAILED\n' "$name"
+        tail -n 40 "$work/log" | sed 's/^/    /'
+        exit 1
+    fi
+}
+
+fails() { ! "$@"; }
+
+make_mesh() {
+    printf 'v 0 0 0\nv 2 0 0\nv 2 1 0\nv 0 1 0\nv 1 0.5 1\nf 4 3 2 1\nf 1 2 5\nf 2 3 5\nf 3 4 5\nf 4 1 5\n' >"$work/roof.obj"
+}
+
+# BUILD PREFIX CMAKE-ARGUMENT...: outside the tree, from a copy that knows nothing of it; PREFIX is empty for the system's
+examples() {
+    local build=$1
+    rm -rf "$work/examples" && cp -r "$root/examples_c" "$work/examples"
+    cmake -S "$work/examples" -B "$build" -DCMAKE_PREFIX_PATH="$2" "${@:3}" &&
+        cmake --build "$build" -j "${CARGO_BUILD_JOBS:-$(nproc)}"
+}
+
+run_examples() { # BUILD: each prints lines of finite numbers
+    local build=$1
+    "$build/plane" 0.05 >"$work/plane.txt" && check_numbers "$work/plane.txt" 2 200 &&
+        "$build/surface" "$work/roof.obj" >"$work/surface.txt" && check_numbers "$work/surface.txt" 6 9000 &&
+        "$build/relax" >"$work/relax.txt" && check_numbers "$work/relax.txt" 2 1024 &&
+        fails "$build/surface" "$work/missing.obj"
+}
+
+check_numbers() { # FILE COLUMNS AT-LEAST
+    awk -v columns="$2" -v least="$3" '
+        NF != columns { exit bad = 1 }
+        { for (i = 1; i <= NF; i++) if ($i !~ /^-?[0-9.]+(e-?[0-9]+)?$/) exit bad = 1 }
+        END { exit bad || NR < least }' "$1"
+}
+
+run_scatter() { # BUILD
+    "$1/scatter" "$work/roof.obj" --samples 5000 --out "$work/out" --threads 2 >"$work/table.txt" &&
+        cat "$work/table.txt" && [ "$(wc -l <"$work/table.txt")" = 4 ] &&
+        has_vertices surface.ply 36 && has_vertices plane.ply 8 && has_vertices relaxed.ply 8 &&
+        [ "$(ls "$work/out" | wc -l)" = 3 ] && fails "$1/scatter" && fails "$1/scatter" "$work/missing.obj"
+}
+
+run_stipple() { # BUILD: a disk that fades from black to white
+    awk 'BEGIN { print "P2 60 40\n# a disk\n255"; for (y = 0; y < 40; y++) for (x = 0; x < 60; x++) {
+        d = ((x - 30) ^ 2 + (y - 20) ^ 2) / 225; print d < 1 ? int(255 * d) : 255 } }' >"$work/disk.pgm"
+    local dots
+    dots=$("$1/stipple" "$work/disk.pgm" "$work/disk.svg" 5000 | cut -d ' ' -f 1)
+    [ "$dots" -gt 4500 ] && [ "$dots" -lt 6000 ] && [ "$(grep -c '^M' "$work/disk.svg")" = "$dots" ] &&
+        fails "$1/stipple" && fails "$1/stipple" "$work/roof.obj" "$work/roof.svg"
+}
+
+run_ranks() { # BUILD: four processes that do not talk make the plane that one makes, and three do, too
+    export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
+    mpirun --oversubscribe -n 4 "$1/ranks" --check 0.002 "$work/plane.xy" >"$work/ranks.txt" &&
+        mpirun --oversubscribe -n 3 "$1/ranks" --check 0.005 && cat "$work/ranks.txt" &&
+        [ "$(stat -c %s "$work/plane.xy")" = $((8 * $(cut -d ' ' -f 1 "$work/ranks.txt"))) ] &&
+        fails mpirun --oversubscribe -n 4 "$1/ranks" -1
+}
+
+has_vertices() { # FILE BYTES-PER-VERTEX: the file is as long as its header says
+    local file=$work/out/$1 count header
+    count=$(grep -a -m 1 '^element vertex ' "$file" | cut -d ' ' -f 3)
+    header=$(grep -a -b -m 1 '^end_header$' "$file" | cut -d : -f 1)
+    [ "$count" -gt 0 ] && [ "$(stat -c %s "$file")" = $((header + 11 + count * $2)) ]
+}
+
+is_static() { fails grep -q azulejo <(readelf --dynamic "$1"); }
+
+# PREFIX FLAG...: plane.c with the flags of pkg-config; PREFIX is empty for the system's.
+pkg_config() {
+    local flags modules=
+    [ -z "$1" ] || modules=$(dirname "$(find "$1" -name azulejo.pc)")
+    flags=$(PKG_CONFIG_PATH=$modules pkg-config "${@:2}" --cflags --libs azulejo)
+    if [ "${2:-}" = --static ]; then
+        flags=${flags/-lazulejo/-l:libazulejo.a}
+    fi
+    # shellcheck disable=SC2086
+    cc "$root/examples_c/plane.c" -o "$work/plane" $flags ${modules:+-Wl,-rpath,"$(dirname "$modules")"} &&
+        "$work/plane" 0.1 >"$work/plane.txt" && check_numbers "$work/plane.txt" 2 50
+}
