@@ -71,7 +71,7 @@ impl Cells {
             for columns in &columns {
                 let cell = |column| self.starts[row * self.counts[0] + column] as usize;
                 for &other in &self.places[cell(columns.start)..cell(columns.end)] {
-                    let offset = self.torus.offset(place, other).as_vec2();
+                    let offset = self.torus.way(place, other);
                     sum += constraints.push(offset, offset.length_squared());
                 }
             }

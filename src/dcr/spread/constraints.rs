@@ -24,24 +24,31 @@ pub(super) struct Constraints {
 /// The sum of forces on a point, and the room that it has.
 pub(super) struct Force {
     pub(super) sum: Vec2,
-    /// The least height of the triangles around the point. If no corner of a triangle moves by more than half of its least
-    /// height, the triangle cannot turn over: three points within that distance of a line are no triangle of that height.
+    /// No more than the least height of the triangles around the point. If no corner of a triangle moves by more than half
+    /// of its least height, it cannot turn over: three points that near to a line are no triangle of that height.
     pub(super) room: f32,
 }
 
 impl Constraints {
     /// The force by the neighbours on a ring around the point, in counter-clockwise order.
     pub(super) fn force(&self, ring: &[Vec2]) -> Force {
-        let (mut sum, mut room) = (Vec2::ZERO, f32::INFINITY);
+        let (mut sum, mut least_area, mut longest) = (Vec2::ZERO, f32::INFINITY, 0f32);
         let mut before = *ring.last().unwrap_or(&Vec2::ZERO);
+        let mut before_squared = before.length_squared();
         for &offset in ring {
-            let squares = [before.length_squared(), offset.length_squared(), (offset - before).length_squared()];
+            let (squared, opposite) = (offset.length_squared(), (offset - before).length_squared());
+            // Twice the area of the triangle.
             let area = before.perp_dot(offset);
-            room = room.min(area / squares[0].max(squares[1]).max(squares[2]).sqrt());
-            sum += self.push(offset, squares[1]) + self.pull(before, offset, area);
-            before = offset;
+            least_area = least_area.min(area);
+            longest = longest.max(squared).max(opposite);
+            sum += self.push(offset, squared);
+            // The circumradius is the product of the edges over four times the area.
+            if before_squared * squared * opposite > (2.0 * self.coverage_radius * area).powi(2) {
+                sum += self.pull(before, offset, area);
+            }
+            (before, before_squared) = (offset, squared);
         }
-        Force { sum, room: room.max(0.0) }
+        Force { sum, room: (least_area / longest.sqrt()).max(0.0) }
     }
 
     /// The force by one neighbour.
@@ -53,15 +60,14 @@ impl Constraints {
         -self.push * (1.0 - distance / self.conflict_radius) / distance * offset
     }
 
-    /// The force by the triangle between two neighbours of twice this area.
+    /// The force by a hole: the triangle between two neighbours, of twice this area.
     fn pull(&self, a: Vec2, b: Vec2, area: f32) -> Vec2 {
         let centre = (b.length_squared() * a.perp() - a.length_squared() * b.perp()) / (2.0 * area);
-        let squared = centre.length_squared();
-        // NaN or infinite for triangles without area.
-        if squared > self.coverage_radius.powi(2) && squared.is_finite() {
-            let radius = squared.sqrt();
-            return self.pull * (radius / self.coverage_radius - 1.0).min(STRONGEST_PULL) / radius * centre;
+        let radius = centre.length();
+        // Infinite or NaN for triangles without area.
+        if !radius.is_finite() {
+            return Vec2::ZERO;
         }
-        Vec2::ZERO
+        self.pull * (radius / self.coverage_radius - 1.0).min(STRONGEST_PULL) / radius * centre
     }
 }

@@ -6,6 +6,8 @@
 //!
 //! Half-edges are numbered `4 t + k`: the edge from corner `k` to the next of triangle `t`, counter-clockwise.
 
+use std::sync::atomic::{AtomicBool, Ordering};
+
 use glam::{DVec2, Vec2};
 
 use super::torus::{Place, Torus};
@@ -15,6 +17,9 @@ use crate::job::{Job, chunks, chunks_of};
 
 /// The sum of two cotangents that counts as negative: below the rounding of `f64`, flips could go on for ever.
 const NEGATIVE: f64 = -1e-7;
+
+/// The sum of two cotangents that may be negative for all that `f32` can tell.
+const SUSPECT: f32 = 1e-3;
 
 /// The longest edge, in 2^-32 of a period: a flip can double it, and half a period is the longest that is unambiguous.
 const LONGEST: u32 = (1 << 30) - 1;
@@ -61,7 +66,8 @@ impl Mesh {
         }
         let triangles = corners.into_iter().map(|corners| Triangle { corners, twins: [u32::MAX; 3] }).collect();
         let mut mesh = Self { torus: *torus, triangles, first: vec![u32::MAX; places.len()] };
-        (mesh.find_twins() && mesh.triangles.iter().all(|triangle| mesh.is_sound(triangle, places))).then_some(mesh)
+        (mesh.find_twins() && mesh.triangles.iter().all(|triangle| mesh.cotangents(triangle, places).is_some()))
+            .then_some(mesh)
     }
 
     /// Matches the half-edges; whether all could be.
@@ -112,16 +118,17 @@ impl Mesh {
         self.triangles[(twin >> 2) as usize].twins[(twin & 3) as usize] = edge;
     }
 
-    /// Whether a triangle is counter-clockwise and has short edges.
-    fn is_sound(&self, triangle: &Triangle, places: &[Place]) -> bool {
+    /// The cotangents of the angles that face the edges of a triangle; none unless it is counter-clockwise and has short
+    /// edges.
+    fn cotangents(&self, triangle: &Triangle, places: &[Place]) -> Option<[f32; 3]> {
         let [p, q, r] = triangle.corners.map(|corner| places[corner as usize]);
         let is_short = |from: Place, to: Place| {
             (0..2).all(|axis| to[axis].wrapping_sub(from[axis]).wrapping_add(LONGEST) <= 2 * LONGEST)
         };
-        is_short(p, q) && is_short(q, r) && is_short(r, p) && {
-            let offset = |to| self.torus.offset(p, to);
-            offset(q).perp_dot(offset(r)) > 0.0
-        }
+        let [a, b, c] = [self.torus.way(p, q), self.torus.way(q, r), self.torus.way(r, p)];
+        let area = a.perp_dot(b);
+        let sound = area > 0.0 && is_short(p, q) && is_short(q, r) && is_short(r, p);
+        sound.then(|| [b.dot(c), c.dot(a), a.dot(b)].map(|cosine| -cosine / area))
     }
 
     /// Whether the angles that face an edge sum up to more than 180 degrees: the sum of their cotangents is negative.
@@ -156,20 +163,28 @@ impl Mesh {
     /// Makes the mesh the Delaunay triangulation of points that have moved; false if a triangle has turned over.
     pub(super) fn repair(&mut self, job: &Job, places: &[Place]) -> Result<bool> {
         let chunks = chunks_of(self.triangles.len(), 4096);
-        let found = job.map(chunks.len(), |chunk| {
-            let mut wrong = Vec::new();
-            for (index, triangle) in chunks.range(chunk).zip(&self.triangles[chunks.range(chunk)]) {
-                if !self.is_sound(triangle, places) {
-                    return None;
-                }
-                let edges = (0..3).map(|k| 4 * index as u32 + k).zip(triangle.twins);
-                wrong.extend(
-                    edges.filter(|&(edge, twin)| edge < twin && self.must_flip(edge, places)).map(|pair| pair.0),
-                );
-            }
-            Some(wrong)
+        let sound = AtomicBool::new(true);
+        let cotangents = job.part(0.0, 0.5).concat(chunks.len(), |chunk| {
+            let cotangents = |triangle| {
+                self.cotangents(triangle, places).unwrap_or_else(|| {
+                    sound.store(false, Ordering::Relaxed);
+                    [0.0; 3]
+                })
+            };
+            self.triangles[chunks.range(chunk)].iter().map(cotangents).collect()
         })?;
-        let Some(found) = found.into_iter().collect::<Option<Vec<_>>>() else { return Ok(false) };
+        if !sound.into_inner() {
+            return Ok(false);
+        }
+        let found = job.part(0.5, 1.0).map(chunks.len(), |chunk| {
+            let edges = chunks.range(chunk).flat_map(|triangle| (0..3).map(move |k| (triangle, k)));
+            let suspects = edges.filter_map(|(triangle, k)| {
+                let (edge, twin) = (4 * triangle as u32 + k as u32, self.triangles[triangle].twins[k]);
+                let other = || cotangents[(twin >> 2) as usize][(twin & 3) as usize];
+                (edge < twin && cotangents[triangle][k] + other() < SUSPECT).then_some(edge)
+            });
+            suspects.filter(|&edge| self.must_flip(edge, places)).collect::<Vec<u32>>()
+        })?;
         let mut wrong = found.concat();
         while let Some(edge) = wrong.pop() {
             if self.must_flip(edge, places) {
@@ -203,7 +218,7 @@ impl Mesh {
         loop {
             let triangle = &self.triangles[(edge >> 2) as usize];
             let other = triangle.corners[(next(edge) & 3) as usize];
-            ring.push(self.torus.offset(places[point], places[other as usize]).as_vec2());
+            ring.push(self.torus.way(places[point], places[other as usize]));
             edge = triangle.twins[(previous(edge) & 3) as usize];
             if edge == start {
                 return;

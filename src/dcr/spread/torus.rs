@@ -119,9 +119,15 @@ impl Torus {
         DVec2::new(along(0), along(1)) * self.unit
     }
 
+    /// [`Torus::offset`], sooner than exactly: to seven digits.
+    pub(super) fn way(&self, from: Place, to: Place) -> Vec2 {
+        let along = |axis: usize| to[axis].wrapping_sub(from[axis]).cast_signed() as f32;
+        Vec2::new(along(0), along(1)) * self.unit.as_vec2()
+    }
+
     /// Where a point of the domain gets by a displacement.
     pub(super) fn moved(&self, place: Place, displacement: Vec2) -> Place {
-        let by = (displacement.as_dvec2() / self.unit).round().to_array();
+        let by = (displacement.as_dvec2() / self.unit).to_array();
         self.inside(std::array::from_fn(|axis| place[axis].wrapping_add(by[axis] as i64 as u32)))
     }
 }

@@ -38,7 +38,7 @@ impl Waves {
     /// The grid for `count` points; on a strip that is thinner than their distance it has no more columns than points.
     pub(super) fn new(torus: &Torus, count: usize) -> Self {
         let limit = (count + 8) as f64;
-        let cells = torus.frame.size().to_array().map(|length| (length / CELL).ceil().min(limit) as usize);
+        let cells = torus.frame.size().to_array().map(|length| smooth((length / CELL).ceil().min(limit) as usize));
         let mut planner = FftPlanner::new();
         let forward = cells.map(|count| planner.plan_fft_forward(count));
         Self { torus: *torus, cells, forward, back: cells.map(|count| planner.plan_fft_inverse(count)) }
@@ -115,6 +115,20 @@ impl Waves {
             }
         }
     }
+}
+
+/// The least number from `count` on that has only the factors 2, 3 and 5, for which transforms are fast.
+fn smooth(count: usize) -> usize {
+    let rest = |number: usize| {
+        [2, 3, 5].iter().fold(number, |rest, factor| {
+            let mut rest = rest;
+            while rest % factor == 0 {
+                rest /= factor;
+            }
+            rest
+        })
+    };
+    (count.max(1)..).find(|&number| rest(number) == 1).expect("powers of two have no end")
 }
 
 /// Transforms every row of a field, and turns rows into columns.
