@@ -24,23 +24,24 @@ pub(super) struct Constraints {
 /// The sum of forces on a point, and the room that it has.
 pub(super) struct Force {
     pub(super) sum: Vec2,
-    /// No more than the least height of the triangles around the point. If no corner of a triangle moves by more than half
-    /// of its least height, it cannot turn over: three points that near to a line are no triangle of that height.
+    /// The least height of the triangles around the point. If no corner of a triangle moves by more than half of its least
+    /// height, it cannot turn over: three points that near to a line are no triangle of that height.
     pub(super) room: f32,
 }
 
 impl Constraints {
     /// The force by the neighbours on a ring around the point, in counter-clockwise order.
     pub(super) fn force(&self, ring: &[Vec2]) -> Force {
-        let (mut sum, mut least_area, mut longest) = (Vec2::ZERO, f32::INFINITY, 0f32);
+        // The square of the least height is a fraction: one division is enough for all.
+        let (mut sum, mut least) = (Vec2::ZERO, (f32::INFINITY, 1f32));
         let mut before = *ring.last().unwrap_or(&Vec2::ZERO);
         let mut before_squared = before.length_squared();
         for &offset in ring {
             let (squared, opposite) = (offset.length_squared(), (offset - before).length_squared());
             // Twice the area of the triangle.
             let area = before.perp_dot(offset);
-            least_area = least_area.min(area);
-            longest = longest.max(squared).max(opposite);
+            let height = (area.max(0.0) * area, before_squared.max(squared).max(opposite));
+            least = if height.0 * least.1 < least.0 * height.1 { height } else { least };
             sum += self.push(offset, squared);
             // The circumradius is the product of the edges over four times the area.
             if before_squared * squared * opposite > (2.0 * self.coverage_radius * area).powi(2) {
@@ -48,7 +49,7 @@ impl Constraints {
             }
             (before, before_squared) = (offset, squared);
         }
-        Force { sum, room: (least_area / longest.sqrt()).max(0.0) }
+        Force { sum, room: (least.0 / least.1).sqrt() }
     }
 
     /// The force by one neighbour.

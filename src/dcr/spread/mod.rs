@@ -43,7 +43,7 @@ const ROOM: f32 = 0.45;
 const WIDE: f32 = 1.0;
 
 /// The steps over which constraints grow stiffer.
-const STIFFENING: u32 = 100;
+const STIFFENING: u32 = 60;
 
 /// The step size by which motion is measured: a span is 10 steps, in which long waves are removed twice.
 const STEP: f64 = 0.2;
