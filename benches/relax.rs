@@ -1,17 +1,18 @@
-//! DCR: time per step on one thread; divide by the number of points for the time per point and step.
+//! DCR: time per point and step, on one thread and on four, and how the two compare.
+//!
+//! Wall times of a shared machine vary; what is printed is the best of several runs, and ratios of one program.
 
 use std::hint::black_box;
-use std::time::Duration;
+use std::time::Instant;
 
-use azulejo::dcr::{Neighbourhood, Options, relax};
+use azulejo::dcr::{Method, Neighbourhood, Options, Thesis, relax};
 use azulejo::{Boundary, Context, Domain};
-use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 
-/// Steps per measured call.
-const STEPS: u32 = 4;
+/// Steps of the short and of the long run: their difference is free of what a call costs before its first step.
+const STEPS: [u32; 2] = [10, 40];
 
 /// A jittered grid, relaxed a little: what sets look like during most steps.
-fn start(side: usize, options: &Options) -> Vec<[f32; 2]> {
+fn start(side: usize, domain: Domain) -> Vec<[f32; 2]> {
     // The fractions of multiples of the golden ratio and of the root of 2 scatter well enough.
     let jitter = |k: usize, ratio: f64| 0.9 * (k as f64 * ratio).fract();
     let at = |k: usize| {
@@ -19,26 +20,43 @@ fn start(side: usize, options: &Options) -> Vec<[f32; 2]> {
         [(x as f64 + jitter(k, 0.618_033_988_749_895)) as f32, (y as f64 + jitter(k, 0.414_213_562_373_095)) as f32]
     };
     let grid: Vec<_> = (0..side * side).map(|k| at(k).map(|x| x / side as f32)).collect();
-    relax(&Context::new(0).unwrap(), &Options { max_iterations: 10, ..*options }, &grid, None).unwrap().0
+    let options = Options { max_iterations: 10, ..Options::new(domain, Neighbourhood::Delaunay) };
+    relax(&Context::new(0).unwrap(), &options, &grid, None).unwrap().0
 }
 
-fn steps(criterion: &mut Criterion) {
-    let context = Context::new(1).unwrap();
-    let mut group = criterion.benchmark_group("dcr");
-    group.sample_size(10).warm_up_time(Duration::from_millis(300)).measurement_time(Duration::from_secs(2));
-    for (name, neighbourhood) in [("delaunay", Neighbourhood::Delaunay), ("nearest", Neighbourhood::Nearest)] {
-        for side in [64, 256] {
-            let domain = Domain { min: [0.0; 2], max: [1.0; 2], boundary: Boundary::Periodic };
-            let options = Options { max_iterations: STEPS, tolerance: 0.0, ..Options::new(domain, neighbourhood) };
-            let points = start(side, &options);
-            group.throughput(Throughput::Elements(u64::from(STEPS) * points.len() as u64));
-            group.bench_function(BenchmarkId::new(name, points.len()), |bencher| {
-                bencher.iter(|| relax(&context, &options, black_box(&points), None).unwrap());
-            });
+/// Nanoseconds per point and step; the steps of a run are scaled down for methods that are slow.
+fn nanoseconds(context: &Context, options: &Options, points: &[[f32; 2]], share: u32) -> f64 {
+    let steps = STEPS.map(|steps| steps / share);
+    let seconds = |max_iterations| {
+        let options = Options { max_iterations, tolerance: 0.0, ..*options };
+        let run = || {
+            let start = Instant::now();
+            relax(context, &options, black_box(points), None).unwrap();
+            start.elapsed().as_secs_f64()
+        };
+        (0..3).map(|_| run()).fold(f64::INFINITY, f64::min)
+    };
+    let [short, long] = steps.map(seconds);
+    1e9 * (long - short) / (f64::from(steps[1] - steps[0]) * points.len() as f64)
+}
+
+fn main() {
+    let domain = Domain::unit(Boundary::Periodic);
+    let (one, four) = (Context::new(1).unwrap(), Context::new(4).unwrap());
+    println!("{:<28} {:>9} {:>12} {:>12} {:>7}", "ns per point and step", "points", "1 thread", "4 threads", "ratio");
+    for side in [256, 1000] {
+        let points = start(side, domain);
+        for (name, neighbourhood) in [("Delaunay", Neighbourhood::Delaunay), ("nearest", Neighbourhood::Nearest)] {
+            let best = Options::new(domain, neighbourhood);
+            let thesis = Options { method: Method::Thesis(Thesis::default()), ..best };
+            for (method, options, share) in [("best", best, 1), ("thesis", thesis, 10)] {
+                if side > 256 && method == "thesis" {
+                    continue;
+                }
+                let [alone, together] = [&one, &four].map(|context| nanoseconds(context, &options, &points, share));
+                let name = format!("{method}, {name}");
+                println!("{name:<28} {:>9} {alone:>12.1} {together:>12.1} {:>7.2}", points.len(), alone / together);
+            }
         }
     }
-    group.finish();
 }
-
-criterion_group!(benches, steps);
-criterion_main!(benches);

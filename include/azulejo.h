@@ -29,9 +29,10 @@
  *
  * Progress. The callback in the options is called on the thread that makes the call, with the finished share, which
  *   never falls, from 0 to 1 (the 1 comes if the call succeeds). Any return value but 0 cancels the call, which then
- *   returns AZULEJO_ERROR_CANCELLED. The callback may call the library, also with the same context. It must return:
- *   no exception and no longjmp may leave it. The same holds for the callback of azulejo_kdrt_stream. Only an
- *   azulejo_radius_fn is called on other threads, and several at once.
+ *   returns AZULEJO_ERROR_CANCELLED; only azulejo_dcr_relax returns what it has, as its report says. The callback may
+ *   call the library, also with the same context. It must return: no exception and no longjmp may leave it. The same
+ *   holds for the callback of azulejo_kdrt_stream. Only an azulejo_radius_fn is called on other threads, and several at
+ *   once.
  *
  * Threads. Every function may be called from any thread at any time. A context can be used by several threads at
  *   once; a psp handle serves one changing call at a time and refuses a second one. The last error belongs to the
@@ -120,11 +121,18 @@
 /// to 2e-7 of the mesh's diagonal: a point that near to an edge may hit the triangle on its other side.
 #define AZULEJO_ENGINE_RASTERISER 1
 
-/// A point's neighbours are those of the Delaunay triangulation: they repel and attract.
+/// A point's neighbours are those of the Delaunay triangulation: they keep their distance and close holes.
 #define AZULEJO_NEIGHBOURHOOD_DELAUNAY 0
 
 /// A point's neighbours are its nearest points: they repel only.
 #define AZULEJO_NEIGHBOURHOOD_NEAREST 1
+
+/// Neighbours in conflict push each other away, holes pull their borders in, points have momentum, and long waves of the
+/// density are removed: the default.
+#define AZULEJO_METHOD_BEST 0
+
+/// The algorithm of thesis chapter 4.
+#define AZULEJO_METHOD_THESIS 1
 
 /// The tension of an edge is divided between its ends by their activeness: the default.
 #define AZULEJO_DISTRIBUTION_ACTIVENESS 0
@@ -140,6 +148,15 @@
 
 /// 80 per cent of the tension to the point itself, 20 to the neighbour.
 #define AZULEJO_DISTRIBUTION_EIGHTY_TWENTY 4
+
+/// The motion came to its end, or there was nothing to move.
+#define AZULEJO_STOPPED_CONVERGED 0
+
+/// All steps were made.
+#define AZULEJO_STOPPED_STEPS 1
+
+/// The progress callback cancelled the call.
+#define AZULEJO_STOPPED_CANCELLED 2
 
 /// A pool of threads of its own; give it to every call that works for long. One context for a whole program is usual.
 /// It can be used by several threads at once.
@@ -440,19 +457,20 @@ typedef struct azulejo_dcr_options {
     double domain_max[2];
     /// An AZULEJO_NEIGHBOURHOOD_ constant; Delaunay by default.
     int32_t neighbourhood;
-    /// The largest number of steps, 1000 by default; 0 returns the points as they are. Fewer are made where the motion
-    /// ends before.
+    /// The largest number of steps, 100 by default, which is what AZULEJO_METHOD_BEST takes; AZULEJO_METHOD_THESIS may
+    /// take 1000. 0 returns the points as they are. Fewer are made where the motion ends before.
     uint32_t max_iterations;
     /// Parts points that coincide; used for nothing else.
     uint64_t seed;
-    /// Neighbours closer than this repel each other; above 0, at most 1; 0.95 by default.
+    /// Neighbours closer than this repel each other; above 0, at most 1; 0.95 by default. Plays a part in
+    /// AZULEJO_METHOD_THESIS only, as all fields from here to `distribution` but for `tolerance`.
     double conflict_radius;
     /// Delaunay neighbours farther apart than this attract each other; at least conflict_radius; 1.05 by default.
     double attraction_radius;
     /// The displacement by a tension of 1; above 0, at most 1; 0.05 by default.
     double step;
     /// The motion (see the report) at which the set has converged. 0 makes all steps; a negative number, the default,
-    /// takes 0.02 for Delaunay and 0.005 for nearest neighbours.
+    /// takes 0.0005, or with AZULEJO_METHOD_THESIS 0.02 for Delaunay and 0.005 for nearest neighbours.
     double tolerance;
     /// How many neighbours AZULEJO_NEIGHBOURHOOD_NEAREST takes; at least 1; 6 by default.
     uint32_t neighbours;
@@ -462,6 +480,10 @@ typedef struct azulejo_dcr_options {
     azulejo_progress_fn progress;
     /// Handed to the progress callback.
     void *progress_user;
+    /// An AZULEJO_METHOD_ constant; the best by default.
+    int32_t method;
+    /// 0.
+    uint32_t reserved;
 } azulejo_dcr_options;
 
 /// What a relaxation did.
@@ -470,15 +492,19 @@ typedef struct azulejo_dcr_report {
     uint32_t iterations;
     /// 1 if the motion came to its end before the steps did, else 0.
     int32_t converged;
-    /// How far points got, root mean square: in units of d_max and per unit of step size, over the last steps whose sizes
-    /// add up to 2. It is the same for small and large steps.
+    /// Half of how far points got, root mean square, in units of d_max: over the last 10 steps, or with
+    /// AZULEJO_METHOD_THESIS over the last steps whose sizes add up to 2, which is the same for small and large steps.
     double motion;
     /// The smallest distance between two of the points, in the units of the domain; infinite for less than two points.
     double smallest_distance;
     /// The smallest distance in units of d_max: 0.77 for a maximal set, at most 1 on a periodic domain.
     double rho;
+    /// The largest distance of a place in the domain from the points, in units of d_max; infinite for no point.
+    double coverage;
+    /// Why no more steps were made: an AZULEJO_STOPPED_ constant.
+    int32_t stopped;
     /// Zeros, for later versions.
-    uint32_t reserved[8];
+    uint32_t reserved[5];
 } azulejo_dcr_report;
 
 #ifdef __cplusplus
@@ -921,8 +947,11 @@ azulejo_status azulejo_psp_sample(const struct azulejo_context *context,
 /// Writes the defaults. `struct_size` is sizeof *options.
 azulejo_status azulejo_dcr_options_init(struct azulejo_dcr_options *options, size_t struct_size);
 
-/// Relaxes a set of points: neighbours that are too close repel, those too far apart attract each other, until the
-/// motion ends or the steps do (thesis chapter 4). O(count log count) time for each step.
+/// Relaxes a set of points: neighbours that are too close repel, holes close, until the motion ends or the steps do (thesis
+/// chapter 4). O(count) time for each step, O(count log count) with AZULEJO_METHOD_THESIS.
+///
+/// A call that its progress callback cancels succeeds: it returns the points after the last whole step, and
+/// AZULEJO_STOPPED_CANCELLED in the report.
 ///
 /// xy: the points, x y each, in domain_min <= x < domain_max; `count` of them.
 ///
@@ -930,7 +959,7 @@ azulejo_status azulejo_dcr_options_init(struct azulejo_dcr_options *options, siz
 ///
 /// report: what the call did, or NULL.
 ///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_TOO_LARGE, AZULEJO_ERROR_CANCELLED.
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_TOO_LARGE.
 azulejo_status azulejo_dcr_relax(const struct azulejo_context *context,
                                  const struct azulejo_dcr_options *options,
                                  const float *xy,

@@ -474,11 +474,16 @@ inline Points psp_sample_adaptive(const Context &context, const Mesh &mesh, cons
 /// Relaxes points of the plane, x y each; see azulejo_dcr_relax. `report` may be null.
 inline Points dcr_relax(const Context &context, const DcrOptions &options, Span<const float> xy,
                         DcrReport *report = nullptr) {
-    azulejo_points *points = nullptr;
+    Points points(nullptr);
     const std::size_t count = detail::groups(xy.size(), 2, "xy");
-    detail::watched(options,
-                    [&](auto *o) { return azulejo_dcr_relax(context.get(), o, xy.data(), count, &points, report); });
-    return Points(points);
+    // A call that is cancelled succeeds: its points need an owner before the callback's exception goes on.
+    detail::watched(options, [&](auto *o) {
+        azulejo_points *relaxed = nullptr;
+        const auto status = azulejo_dcr_relax(context.get(), o, xy.data(), count, &relaxed, report);
+        points = Points(relaxed);
+        return status;
+    });
+    return points;
 }
 
 /// See azulejo_plane_smallest_distance; the domain as in the options.

@@ -94,6 +94,22 @@ impl Delaunay {
         self.vertices[point].map(|vertex| self.triangulation.vertex(vertex))
     }
 
+    /// The ways from a point to its neighbours, among them copies, counter-clockwise.
+    pub(super) fn ring(&self, point: usize) -> impl Iterator<Item = DVec2> {
+        let edges = self.vertex(point).into_iter().flat_map(|star| star.out_edges());
+        edges.map(|edge| edge.to().data().position - edge.from().data().position)
+    }
+
+    /// The largest distance from the points: the largest circumradius of the triangles that touch one.
+    pub(super) fn coverage(&self) -> f64 {
+        let radius = |corners: [Site; 3]| {
+            let [a, b, c] = corners.map(|corner| corner.position);
+            let lengths = a.distance_squared(b) * b.distance_squared(c) * c.distance_squared(a);
+            (lengths / (4.0 * (b - a).perp_dot(c - a).powi(2))).sqrt()
+        };
+        self.triangles().map(radius).fold(0.0, f64::max)
+    }
+
     /// The triangles that touch a point of the domain.
     pub(crate) fn triangles(&self) -> impl Iterator<Item = [Site; 3]> {
         self.triangulation

@@ -11,7 +11,7 @@
 use glam::DVec2;
 
 use super::links::{Link, Links};
-use super::{Distribution, Options};
+use super::{Distribution, Neighbourhood, Thesis};
 
 /// A force within this cosine of the reverse of the one before: the point oscillates (δ of §4.4.2; §4.3.5 says 0.9).
 const OSCILLATION_COSINE: f64 = 0.95;
@@ -43,15 +43,15 @@ pub(super) struct Forces {
 }
 
 impl Forces {
-    pub(super) fn new(options: &Options) -> Self {
+    pub(super) fn new(neighbourhood: Neighbourhood, thesis: &Thesis) -> Self {
         Self {
-            conflict_radius: options.conflict_radius,
-            attraction_radius: match options.neighbourhood {
-                super::Neighbourhood::Delaunay => options.attraction_radius,
-                super::Neighbourhood::Nearest => f64::INFINITY,
+            conflict_radius: thesis.conflict_radius,
+            attraction_radius: match neighbourhood {
+                Neighbourhood::Delaunay => thesis.attraction_radius,
+                Neighbourhood::Nearest => f64::INFINITY,
             },
-            step: options.step,
-            distribution: options.distribution,
+            step: thesis.step,
+            distribution: thesis.distribution,
         }
     }
 

@@ -10,7 +10,6 @@
 
 use glam::DVec2;
 
-use super::forces::Particle;
 use super::frame::Frame;
 
 /// The sum of the step sizes in one span.
@@ -27,37 +26,36 @@ pub(super) struct Motion {
 
 impl Motion {
     /// Begins the first span.
-    pub(super) fn new(step: f64, particles: &[Particle]) -> Self {
-        Self { step, start: positions(particles), steps: 0, last: None }
+    pub(super) fn new(step: f64, positions: Vec<DVec2>) -> Self {
+        Self { step, start: positions, steps: 0, last: None }
     }
 
-    /// Counts a step; the motion if a span ends with it.
-    pub(super) fn after_step(&mut self, frame: &Frame, particles: &[Particle]) -> Option<f64> {
+    /// Counts a step.
+    pub(super) fn after_step<P: Iterator<Item = DVec2>>(&mut self, frame: &Frame, positions: impl Fn() -> P) {
         self.steps += 1;
-        if f64::from(self.steps) * self.step < SPAN {
-            return None;
+        if f64::from(self.steps) * self.step >= SPAN {
+            self.last = Some(self.since_start(frame, positions()));
+            self.start = positions().collect();
+            self.steps = 0;
         }
-        self.last = Some(self.since_start(frame, particles));
-        self.start = positions(particles);
-        self.steps = 0;
-        self.last
+    }
+
+    /// Whether there was a whole span, and no more motion in the last than this.
+    pub(super) fn has_settled(&self, tolerance: f64) -> bool {
+        self.last.is_some_and(|motion| motion <= tolerance)
     }
 
     /// The motion over the last whole span, or over all steps if there were fewer.
-    pub(super) fn last(&self, frame: &Frame, particles: &[Particle]) -> f64 {
-        self.last.unwrap_or_else(|| self.since_start(frame, particles))
+    pub(super) fn last(&self, frame: &Frame, positions: impl Iterator<Item = DVec2>) -> f64 {
+        self.last.unwrap_or_else(|| self.since_start(frame, positions))
     }
 
-    fn since_start(&self, frame: &Frame, particles: &[Particle]) -> f64 {
+    fn since_start(&self, frame: &Frame, positions: impl Iterator<Item = DVec2>) -> f64 {
         if self.steps == 0 {
             return 0.0;
         }
-        let way = |(start, particle): (&DVec2, &Particle)| frame.offset(*start, particle.position).length_squared();
-        let squares: f64 = self.start.iter().zip(particles).map(way).sum();
-        (squares / particles.len() as f64).sqrt() / (f64::from(self.steps) * self.step)
+        let squares: f64 =
+            self.start.iter().zip(positions).map(|(&from, to)| frame.offset(from, to).length_squared()).sum();
+        (squares / self.start.len() as f64).sqrt() / (f64::from(self.steps) * self.step)
     }
-}
-
-fn positions(particles: &[Particle]) -> Vec<DVec2> {
-    particles.iter().map(|particle| particle.position).collect()
 }

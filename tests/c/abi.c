@@ -120,7 +120,7 @@ FIELD(azulejo_adaptive_options, seed, 72);
 FIELD(azulejo_adaptive_options, progress, 80);
 FIELD(azulejo_adaptive_options, progress_user, 88);
 
-SIZE(azulejo_dcr_options, 112);
+SIZE(azulejo_dcr_options, 120);
 FIELD(azulejo_dcr_options, struct_size, 0);
 FIELD(azulejo_dcr_options, boundary, 4);
 FIELD(azulejo_dcr_options, domain_min, 8);
@@ -136,6 +136,8 @@ FIELD(azulejo_dcr_options, neighbours, 88);
 FIELD(azulejo_dcr_options, distribution, 92);
 FIELD(azulejo_dcr_options, progress, 96);
 FIELD(azulejo_dcr_options, progress_user, 104);
+FIELD(azulejo_dcr_options, method, 112);
+FIELD(azulejo_dcr_options, reserved, 116);
 
 SIZE(azulejo_dcr_report, 64);
 FIELD(azulejo_dcr_report, iterations, 0);
@@ -143,7 +145,9 @@ FIELD(azulejo_dcr_report, converged, 4);
 FIELD(azulejo_dcr_report, motion, 8);
 FIELD(azulejo_dcr_report, smallest_distance, 16);
 FIELD(azulejo_dcr_report, rho, 24);
-FIELD(azulejo_dcr_report, reserved, 32);
+FIELD(azulejo_dcr_report, coverage, 32);
+FIELD(azulejo_dcr_report, stopped, 40);
+FIELD(azulejo_dcr_report, reserved, 44);
 
 CONSTANT(AZULEJO_OK, 0);
 CONSTANT(AZULEJO_ERROR_INVALID_ARGUMENT, -1);

@@ -315,6 +315,9 @@ static void dcr(void) {
     DCR("step", o.step = 1.5);
     DCR("step", o.step = NAN);
     DCR("neighbours", o.neighbours = 0);
+    DCR("method", o.method = 2);
+    DCR("method", o.method = -1);
+    DCR("reserved", o.reserved = 1);
     DCR("tolerance", o.tolerance = NAN);
     DCR("xy", xy[3] = NAN);
     DCR("xy", xy[3] = INFINITY);

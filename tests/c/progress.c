@@ -91,6 +91,34 @@ static void tells_and_stops(watched_call call) {
     }
 }
 
+/* A relaxation that is cancelled succeeds, with what it has. */
+static void a_relaxation_returns_what_it_has(void) {
+    const double limits[] = {0, 0.3, 0.6, 1};
+    azulejo_dcr_options o = dcr_options(20);
+    azulejo_dcr_report report;
+    azulejo_points *points = NULL;
+    watch w = make_watch(2);
+    uint32_t before = 0;
+    size_t i;
+    ACCEPTED(dcr(&w, &points));
+    CHECK(w.first == 0 && w.last == 1 && w.falls == 0 && w.strangers == 0);
+    azulejo_points_free(points);
+
+    o.progress = tell;
+    o.progress_user = &w;
+    for (i = 0; i < COUNT_OF(limits); i++) {
+        const size_t count = COUNT_OF(random_xy) / 2;
+        w = make_watch(limits[i]);
+        if (!ACCEPTED(azulejo_dcr_relax(context, &o, random_xy, count, &points, &report))) continue;
+        CHECK(azulejo_points_count(points) == count && w.late == 0 && w.strangers == 0);
+        CHECK(report.stopped == AZULEJO_STOPPED_CANCELLED && report.converged == 0);
+        CHECK(report.iterations >= before && report.iterations <= 20 && (i > 0 || report.iterations == 0));
+        before = report.iterations;
+        azulejo_points_free(points);
+    }
+    CHECK(before == 20);
+}
+
 /* A handle whose calls are cancelled goes on growing, to the same guarantees. */
 static void a_psp_handle_survives_cancelling(void) {
     azulejo_psp_options o = psp_options(0.1);
@@ -182,7 +210,7 @@ int main(void) {
         tells_and_stops(counted);
         tells_and_stops(maximal);
         tells_and_stops(psp);
-        tells_and_stops(dcr);
+        a_relaxation_returns_what_it_has();
         a_psp_handle_survives_cancelling();
         callbacks_that_call_back();
         azulejo_context_free(context);

@@ -286,9 +286,10 @@ static void relaxations(void) {
     size_t i, j;
 
     random_points(xy, COUNT);
-    for (j = 0; j < 4; j++) {
+    for (j = 0; j < 8; j++) {
         double smallest;
-        options.neighbourhood = neighbourhoods[j / 2];
+        options.method = j < 4 ? AZULEJO_METHOD_BEST : AZULEJO_METHOD_THESIS;
+        options.neighbourhood = neighbourhoods[j / 2 % 2];
         options.boundary = j % 2 ? AZULEJO_BOUNDARY_BOUNDED : AZULEJO_BOUNDARY_PERIODIC;
         memset(&report, 0x55, sizeof report);
         if (!ACCEPTED(azulejo_dcr_relax(context, &options, xy, COUNT, &points, &report))) continue;
@@ -296,8 +297,11 @@ static void relaxations(void) {
         smallest = smallest_distance(azulejo_points_positions(points), COUNT, 2, j % 2 ? NULL : period);
         CHECK(fabs(smallest - report.smallest_distance) <= 1e-12);
         CHECK(fabs(report.rho * sqrt(2 / (sqrt(3) * COUNT)) - smallest) <= 1e-9);
-        CHECK(report.rho > 0.4 && report.rho <= 1);
-        CHECK(report.iterations > 0 && report.iterations <= 300 && (report.converged == 0 || report.converged == 1));
+        CHECK(report.rho > (j < 4 ? 0.8 : 0.4) && report.rho <= 1);
+        CHECK(report.coverage > 0.577 && report.coverage < 1.5);
+        CHECK(report.iterations > 0 && report.iterations <= 300);
+        CHECK(report.stopped == (report.converged ? AZULEJO_STOPPED_CONVERGED : AZULEJO_STOPPED_STEPS));
+        CHECK(report.converged == 1 || (report.converged == 0 && report.iterations == 300));
         for (i = 0; i < COUNT_OF(report.reserved); i++) CHECK(report.reserved[i] == 0);
         for (i = 0; i < 2 * COUNT; i++)
             if (!(azulejo_points_positions(points)[i] >= 0 && azulejo_points_positions(points)[i] < 1)) break;
@@ -311,6 +315,7 @@ static void relaxations(void) {
     azulejo_points_free(points);
 
     options.max_iterations = 50;
+    options.method = AZULEJO_METHOD_BEST;
     for (j = 0; j <= 3; j++) { /* no point at all, and few points at one place */
         ACCEPTED(azulejo_dcr_relax(context, &options, j ? same_place : NULL, j, &points, &report));
         CHECK(azulejo_points_count(points) == j);

@@ -363,6 +363,18 @@ void relaxing() {
     const double smallest = azulejo::plane_smallest_distance(context, points.positions(), options.domain_min,
                                                              options.domain_max, options.boundary);
     CHECK(std::abs(smallest - report.smallest_distance) < 1e-12);
+
+    options.progress = [](double done) { return done < 0.5; };
+    const auto half = azulejo::dcr_relax(context, options, xy, &report);
+    CHECK(half.size() == 64 && report.stopped == AZULEJO_STOPPED_CANCELLED && report.iterations < 30);
+    options.progress = [](double) -> bool { throw 7; };
+    int thrown = 0;
+    try {
+        azulejo::dcr_relax(context, options, xy);
+    } catch (int number) {
+        thrown = number;
+    }
+    CHECK(thrown == 7);
 }
 
 } // namespace

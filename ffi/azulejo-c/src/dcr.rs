@@ -3,7 +3,7 @@
 use std::ffi::c_void;
 use std::mem::MaybeUninit;
 
-use azulejo_core::dcr::{self, Distribution, Neighbourhood, Report};
+use azulejo_core::dcr::{self, Distribution, Method, Neighbourhood, Report, Stopped, Thesis};
 
 use crate::boundary::{self, required, rows};
 use crate::context::azulejo_context;
@@ -12,10 +12,16 @@ use crate::options::{self, Watch, azulejo_progress_fn, options};
 use crate::points::azulejo_points;
 use crate::status::{Failure, azulejo_status};
 
-/// A point's neighbours are those of the Delaunay triangulation: they repel and attract.
+/// A point's neighbours are those of the Delaunay triangulation: they keep their distance and close holes.
 pub const AZULEJO_NEIGHBOURHOOD_DELAUNAY: i32 = 0;
 /// A point's neighbours are its nearest points: they repel only.
 pub const AZULEJO_NEIGHBOURHOOD_NEAREST: i32 = 1;
+
+/// Neighbours in conflict push each other away, holes pull their borders in, points have momentum, and long waves of the
+/// density are removed: the default.
+pub const AZULEJO_METHOD_BEST: i32 = 0;
+/// The algorithm of thesis chapter 4.
+pub const AZULEJO_METHOD_THESIS: i32 = 1;
 
 /// The tension of an edge is divided between its ends by their activeness: the default.
 pub const AZULEJO_DISTRIBUTION_ACTIVENESS: i32 = 0;
@@ -43,19 +49,20 @@ pub struct azulejo_dcr_options {
     pub domain_max: [f64; 2],
     /// An AZULEJO_NEIGHBOURHOOD_ constant; Delaunay by default.
     pub neighbourhood: i32,
-    /// The largest number of steps, 1000 by default; 0 returns the points as they are. Fewer are made where the motion
-    /// ends before.
+    /// The largest number of steps, 100 by default, which is what AZULEJO_METHOD_BEST takes; AZULEJO_METHOD_THESIS may
+    /// take 1000. 0 returns the points as they are. Fewer are made where the motion ends before.
     pub max_iterations: u32,
     /// Parts points that coincide; used for nothing else.
     pub seed: u64,
-    /// Neighbours closer than this repel each other; above 0, at most 1; 0.95 by default.
+    /// Neighbours closer than this repel each other; above 0, at most 1; 0.95 by default. Plays a part in
+    /// AZULEJO_METHOD_THESIS only, as all fields from here to `distribution` but for `tolerance`.
     pub conflict_radius: f64,
     /// Delaunay neighbours farther apart than this attract each other; at least conflict_radius; 1.05 by default.
     pub attraction_radius: f64,
     /// The displacement by a tension of 1; above 0, at most 1; 0.05 by default.
     pub step: f64,
     /// The motion (see the report) at which the set has converged. 0 makes all steps; a negative number, the default,
-    /// takes 0.02 for Delaunay and 0.005 for nearest neighbours.
+    /// takes 0.0005, or with AZULEJO_METHOD_THESIS 0.02 for Delaunay and 0.005 for nearest neighbours.
     pub tolerance: f64,
     /// How many neighbours AZULEJO_NEIGHBOURHOOD_NEAREST takes; at least 1; 6 by default.
     pub neighbours: u32,
@@ -65,6 +72,10 @@ pub struct azulejo_dcr_options {
     pub progress: azulejo_progress_fn,
     /// Handed to the progress callback.
     pub progress_user: *mut c_void,
+    /// An AZULEJO_METHOD_ constant; the best by default.
+    pub method: i32,
+    /// 0.
+    pub reserved: u32,
 }
 
 options!(azulejo_dcr_options requires domain_max {
@@ -72,7 +83,7 @@ options!(azulejo_dcr_options requires domain_max {
     domain_min: [0.0; 2],
     domain_max: [1.0; 2],
     neighbourhood: AZULEJO_NEIGHBOURHOOD_DELAUNAY,
-    max_iterations: 1000,
+    max_iterations: 100,
     seed: 0,
     conflict_radius: 0.95,
     attraction_radius: 1.05,
@@ -82,24 +93,36 @@ options!(azulejo_dcr_options requires domain_max {
     distribution: AZULEJO_DISTRIBUTION_ACTIVENESS,
     progress: None,
     progress_user: std::ptr::null_mut(),
+    method: AZULEJO_METHOD_BEST,
+    reserved: 0,
 });
 
 impl azulejo_dcr_options {
     fn request(&self) -> Result<dcr::Options, Failure> {
         let domain = domain(self.domain_min, self.domain_max, self.boundary)?;
         let neighbourhood = neighbourhood(self.neighbourhood)?;
-        let default = dcr::Options::new(domain, neighbourhood);
-        Ok(dcr::Options {
-            domain,
-            neighbourhood,
-            max_iterations: self.max_iterations,
-            seed: self.seed,
+        if self.reserved != 0 {
+            return Err(Failure::invalid("reserved", format!("{} is not 0", self.reserved)));
+        }
+        let thesis = Thesis {
             conflict_radius: self.conflict_radius,
             attraction_radius: self.attraction_radius,
             step: self.step,
             neighbours: self.neighbours,
             distribution: distribution(self.distribution)?,
+        };
+        thesis.check()?;
+        let (default, method) = match self.method {
+            AZULEJO_METHOD_BEST => (dcr::Options::new(domain, neighbourhood), Method::Best),
+            AZULEJO_METHOD_THESIS => (dcr::Options::thesis(domain, neighbourhood), Method::Thesis(thesis)),
+            other => return Err(Failure::invalid("method", format!("{other} is no AZULEJO_METHOD_ constant"))),
+        };
+        Ok(dcr::Options {
+            method,
+            max_iterations: self.max_iterations,
+            seed: self.seed,
             tolerance: if self.tolerance < 0.0 { default.tolerance } else { self.tolerance },
+            ..default
         })
     }
 }
@@ -123,6 +146,13 @@ fn distribution(value: i32) -> Result<Distribution, Failure> {
     }
 }
 
+/// The motion came to its end, or there was nothing to move.
+pub const AZULEJO_STOPPED_CONVERGED: i32 = 0;
+/// All steps were made.
+pub const AZULEJO_STOPPED_STEPS: i32 = 1;
+/// The progress callback cancelled the call.
+pub const AZULEJO_STOPPED_CANCELLED: i32 = 2;
+
 /// What a relaxation did.
 #[repr(C)]
 #[derive(Clone, Copy)]
@@ -131,21 +161,39 @@ pub struct azulejo_dcr_report {
     pub iterations: u32,
     /// 1 if the motion came to its end before the steps did, else 0.
     pub converged: i32,
-    /// How far points got, root mean square: in units of d_max and per unit of step size, over the last steps whose sizes
-    /// add up to 2. It is the same for small and large steps.
+    /// Half of how far points got, root mean square, in units of d_max: over the last 10 steps, or with
+    /// AZULEJO_METHOD_THESIS over the last steps whose sizes add up to 2, which is the same for small and large steps.
     pub motion: f64,
     /// The smallest distance between two of the points, in the units of the domain; infinite for less than two points.
     pub smallest_distance: f64,
     /// The smallest distance in units of d_max: 0.77 for a maximal set, at most 1 on a periodic domain.
     pub rho: f64,
+    /// The largest distance of a place in the domain from the points, in units of d_max; infinite for no point.
+    pub coverage: f64,
+    /// Why no more steps were made: an AZULEJO_STOPPED_ constant.
+    pub stopped: i32,
     /// Zeros, for later versions.
-    pub reserved: [u32; 8],
+    pub reserved: [u32; 5],
 }
 
 impl From<Report> for azulejo_dcr_report {
     fn from(report: Report) -> Self {
-        let Report { iterations, converged, motion, smallest_distance, rho, .. } = report;
-        Self { iterations, converged: converged.into(), motion, smallest_distance, rho, reserved: [0; 8] }
+        let Report { iterations, stopped, motion, smallest_distance, rho, coverage } = report;
+        let reason = match stopped {
+            Stopped::Converged => AZULEJO_STOPPED_CONVERGED,
+            Stopped::Steps => AZULEJO_STOPPED_STEPS,
+            Stopped::Cancelled => AZULEJO_STOPPED_CANCELLED,
+        };
+        Self {
+            iterations,
+            converged: (stopped == Stopped::Converged).into(),
+            motion,
+            smallest_distance,
+            rho,
+            coverage,
+            stopped: reason,
+            reserved: [0; 5],
+        }
     }
 }
 
@@ -159,8 +207,11 @@ pub unsafe extern "C" fn azulejo_dcr_options_init(
     unsafe { options::init(options, struct_size) }
 }
 
-/// Relaxes a set of points: neighbours that are too close repel, those too far apart attract each other, until the
-/// motion ends or the steps do (thesis chapter 4). O(count log count) time for each step.
+/// Relaxes a set of points: neighbours that are too close repel, holes close, until the motion ends or the steps do (thesis
+/// chapter 4). O(count) time for each step, O(count log count) with AZULEJO_METHOD_THESIS.
+///
+/// A call that its progress callback cancels succeeds: it returns the points after the last whole step, and
+/// AZULEJO_STOPPED_CANCELLED in the report.
 ///
 /// xy: the points, x y each, in domain_min <= x < domain_max; `count` of them.
 ///
@@ -168,7 +219,7 @@ pub unsafe extern "C" fn azulejo_dcr_options_init(
 ///
 /// report: what the call did, or NULL.
 ///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_TOO_LARGE, AZULEJO_ERROR_CANCELLED.
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_TOO_LARGE.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_dcr_relax(
     context: Option<&azulejo_context>,
@@ -200,6 +251,11 @@ mod tests {
         for neighbourhood in [AZULEJO_NEIGHBOURHOOD_DELAUNAY, AZULEJO_NEIGHBOURHOOD_NEAREST] {
             let request = azulejo_dcr_options { neighbourhood, ..azulejo_dcr_options::DEFAULT }.request().unwrap();
             assert_eq!(request, dcr::Options::new(request.domain, request.neighbourhood));
+            let method = AZULEJO_METHOD_THESIS;
+            let options = azulejo_dcr_options { neighbourhood, method, ..azulejo_dcr_options::DEFAULT };
+            let request = options.request().unwrap();
+            let thesis = dcr::Options::thesis(request.domain, request.neighbourhood);
+            assert_eq!(request, dcr::Options { max_iterations: 100, ..thesis });
         }
     }
 }

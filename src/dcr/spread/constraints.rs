@@ -1,0 +1,74 @@
+//! What neighbours do to a point: two constraints, each of which is still when it is met.
+//!
+//! * *Conflict*: neighbours closer than the conflict radius push the point away, as in the thesis (eq. 4.10).
+//! * *Coverage*: triangles with a circumradius above the coverage radius pull the point towards their circumcentre, which
+//!   is the farthest place from all points. The thesis attracts along long edges instead, but a long edge need not mean a
+//!   hole, nor a hole a long edge (Ahmed et al. 2016, "A simple push-pull algorithm for blue-noise sampling").
+
+use glam::Vec2;
+
+/// The tension at which a pull stops growing: wide holes of random sets would tear their borders in.
+const STRONGEST_PULL: f32 = 1.0;
+
+/// The constraints and how stiff they are, in spacings.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Constraints {
+    pub(super) conflict_radius: f32,
+    pub(super) coverage_radius: f32,
+    /// The displacement by a conflict of tension 1.
+    pub(super) push: f32,
+    /// The displacement by a hole of tension 1.
+    pub(super) pull: f32,
+}
+
+/// The sum of forces on a point, and the room that it has.
+pub(super) struct Force {
+    pub(super) sum: Vec2,
+    /// The least height of the triangles around the point. If no corner of a triangle moves by more than half of its least
+    /// height, it cannot turn over: three points that near to a line are no triangle of that height.
+    pub(super) room: f32,
+}
+
+impl Constraints {
+    /// The force by the neighbours on a ring around the point, in counter-clockwise order.
+    pub(super) fn force(&self, ring: &[Vec2]) -> Force {
+        // The square of the least height is a fraction: one division is enough for all.
+        let (mut sum, mut least) = (Vec2::ZERO, (f32::INFINITY, 1f32));
+        let mut before = *ring.last().unwrap_or(&Vec2::ZERO);
+        let mut before_squared = before.length_squared();
+        for &offset in ring {
+            let (squared, opposite) = (offset.length_squared(), (offset - before).length_squared());
+            // Twice the area of the triangle.
+            let area = before.perp_dot(offset);
+            let height = (area.max(0.0) * area, before_squared.max(squared).max(opposite));
+            least = if height.0 * least.1 < least.0 * height.1 { height } else { least };
+            sum += self.push(offset, squared);
+            // The circumradius is the product of the edges over four times the area.
+            if before_squared * squared * opposite > (2.0 * self.coverage_radius * area).powi(2) {
+                sum += self.pull(before, offset, area);
+            }
+            (before, before_squared) = (offset, squared);
+        }
+        Force { sum, room: (least.0 / least.1).sqrt() }
+    }
+
+    /// The force by one neighbour.
+    pub(super) fn push(&self, offset: Vec2, squared: f32) -> Vec2 {
+        if squared >= self.conflict_radius * self.conflict_radius || squared == 0.0 {
+            return Vec2::ZERO;
+        }
+        let distance = squared.sqrt();
+        -self.push * (1.0 - distance / self.conflict_radius) / distance * offset
+    }
+
+    /// The force by a hole: the triangle between two neighbours, of twice this area.
+    fn pull(&self, a: Vec2, b: Vec2, area: f32) -> Vec2 {
+        let centre = (b.length_squared() * a.perp() - a.length_squared() * b.perp()) / (2.0 * area);
+        let radius = centre.length();
+        // Infinite or NaN for triangles without area.
+        if !radius.is_finite() {
+            return Vec2::ZERO;
+        }
+        self.pull * (radius / self.coverage_radius - 1.0).min(STRONGEST_PULL) / radius * centre
+    }
+}

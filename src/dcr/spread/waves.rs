@@ -1,0 +1,183 @@
+//! Long waves of the density, removed at once.
+//!
+//! Constraints between neighbours do not feel that a wide region is a little denser than another, which is why no force
+//! that depends on distances alone clears the low frequencies. Here the density is drawn on a grid, and the displacement
+//! `u` whose divergence is its relative excess `δ` is found by Fourier transform, `u = -i k δ / k²`, as particle-mesh codes
+//! find gravity (Hockney and Eastwood 1981). To first order, points that follow it leave a constant density.
+
+use std::f64::consts::{PI, TAU};
+use std::sync::Arc;
+
+use glam::{DVec2, Vec2};
+use rustfft::num_complex::Complex;
+use rustfft::{Fft, FftPlanner};
+
+use super::torus::{Place, Torus};
+use crate::error::Result;
+use crate::job::{Job, chunks, chunks_of};
+
+/// The frequency up to which waves are removed, in units of sqrt(density).
+const HIGHEST: f64 = 0.25;
+
+/// The width of the grid's cells in spacings: the highest frequency has three cells to a wave.
+const CELL: f64 = 1.25;
+
+type Field = Vec<Complex<f64>>;
+
+/// The grid of a torus.
+pub(super) struct Waves {
+    torus: Torus,
+    /// Columns and rows.
+    cells: [usize; 2],
+    /// Along rows and along columns, forward and back.
+    forward: [Arc<dyn Fft<f64>>; 2],
+    back: [Arc<dyn Fft<f64>>; 2],
+}
+
+impl Waves {
+    /// The grid for `count` points; on a strip that is thinner than their distance it has no more columns than points.
+    pub(super) fn new(torus: &Torus, count: usize) -> Self {
+        let limit = (count + 8) as f64;
+        let cells = torus.frame.size().to_array().map(|length| smooth((length / CELL).ceil().min(limit) as usize));
+        let mut planner = FftPlanner::new();
+        let forward = cells.map(|count| planner.plan_fft_forward(count));
+        Self { torus: *torus, cells, forward, back: cells.map(|count| planner.plan_fft_inverse(count)) }
+    }
+
+    /// The displacements, in spacings, of the first `count` points.
+    pub(super) fn drift(&self, job: &Job, places: &[Place], count: usize) -> Result<Vec<Vec2>> {
+        let density = self.draw(places);
+        let (row, column) = (self.cells[0], self.cells[1]);
+        let columns = transform(&job.part(0.0, 0.2), density, row, &self.forward[0])?;
+        let mut waves = transform(&job.part(0.2, 0.4), columns, column, &self.forward[1])?;
+        self.integrate(&mut waves, places.len());
+        let columns = transform(&job.part(0.4, 0.6), waves, row, &self.back[0])?;
+        let field = transform(&job.part(0.6, 0.8), columns, column, &self.back[1])?;
+        let chunks = chunks(count);
+        job.part(0.8, 1.0).concat(chunks.len(), |chunk| {
+            let drift = |&place: &Place| {
+                let mut sum = Complex::<f64>::default();
+                self.for_each_cell(place, |cell, weight| sum += field[cell] * weight);
+                Vec2::new(sum.re as f32, sum.im as f32)
+            };
+            places[chunks.range(chunk)].iter().map(drift).collect()
+        })
+    }
+
+    /// Cells around a place and their weights: the cubic B-spline along each axis.
+    fn for_each_cell(&self, place: Place, mut visit: impl FnMut(usize, f64)) {
+        let along = |axis: usize| {
+            let scaled = u64::from(place[axis]) * self.cells[axis] as u64;
+            let t = (scaled & 0xffff_ffff) as f64 / 2f64.powi(32);
+            let u = 1.0 - t;
+            let inner = |x: f64| ((3.0 * x - 6.0) * x * x + 4.0) / 6.0;
+            ((scaled >> 32) as usize + self.cells[axis] - 1, [u * u * u / 6.0, inner(t), inner(u), t * t * t / 6.0])
+        };
+        let ((left, across), (bottom, up)) = (along(0), along(1));
+        let columns: [usize; 4] = std::array::from_fn(|i| (left + i) % self.cells[0]);
+        for (j, weight) in up.into_iter().enumerate() {
+            let row = (bottom + j) % self.cells[1] * self.cells[0];
+            for (column, across) in columns.into_iter().zip(across) {
+                visit(row + column, weight * across);
+            }
+        }
+    }
+
+    fn draw(&self, places: &[Place]) -> Field {
+        let mut density = vec![Complex::default(); self.cells[0] * self.cells[1]];
+        for &place in places {
+            self.for_each_cell(place, |cell, weight| density[cell].re += weight);
+        }
+        density
+    }
+
+    /// From the waves of the density of `count` points to those of the displacement, `x` in the real and `y` in the
+    /// imaginary part: both are real, so one transform carries both.
+    fn integrate(&self, waves: &mut Field, count: usize) {
+        let size = self.torus.frame.size();
+        let area = size.x * size.y / count as f64;
+        // Per axis, the wave numbers of the bins, and what the spline does to them when drawing and when reading.
+        let axis = |axis: usize| {
+            let cells = self.cells[axis] as i64;
+            (0..cells).map(move |bin| {
+                let turns = if 2 * bin > cells { bin - cells } else { bin } as f64;
+                let half = PI * turns / cells as f64;
+                (TAU * turns / size[axis], if bin == 0 { 1.0 } else { (half.sin() / half).powi(8) })
+            })
+        };
+        for (row, (ky, spline_y)) in waves.chunks_mut(self.cells[0]).zip(axis(1)) {
+            for (wave, (kx, spline_x)) in row.iter_mut().zip(axis(0)) {
+                let k = DVec2::new(kx, ky);
+                let relative = k.length() / (TAU * HIGHEST) * area.sqrt();
+                let share = (-relative.powi(4)).exp() / (spline_x * spline_y).max(0.01) / count as f64;
+                let potential = if k == DVec2::ZERO { 0.0 } else { share / k.length_squared() };
+                *wave *= Complex::new(k.y, -k.x) * potential;
+            }
+        }
+    }
+}
+
+/// The least number from `count` on that has only the factors 2, 3 and 5, for which transforms are fast.
+fn smooth(count: usize) -> usize {
+    let rest = |number: usize| {
+        [2, 3, 5].iter().fold(number, |rest, factor| {
+            let mut rest = rest;
+            while rest % factor == 0 {
+                rest /= factor;
+            }
+            rest
+        })
+    };
+    (count.max(1)..).find(|&number| rest(number) == 1).expect("powers of two have no end")
+}
+
+/// Transforms every row of a field, and turns rows into columns.
+fn transform(job: &Job, field: Field, width: usize, fft: &Arc<dyn Fft<f64>>) -> Result<Field> {
+    let height = field.len() / width;
+    let rows = chunks_of(height, 1 + 8192 / width);
+    let field = job.part(0.0, 0.7).concat(rows.len(), |chunk| {
+        let range = rows.range(chunk);
+        let mut rows = field[range.start * width..range.end * width].to_vec();
+        fft.process(&mut rows);
+        rows
+    })?;
+    let columns = chunks_of(width, 1 + 8192 / height);
+    job.part(0.7, 1.0).concat(columns.len(), |chunk| {
+        columns.range(chunk).flat_map(|column| field[column..].iter().step_by(width).copied()).collect()
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::job::Context;
+    use crate::points::{Boundary, Domain};
+
+    /// A lattice displaced by a long wave along both axes, on a domain that is not square.
+    fn wavy(torus: &Torus, side: [u32; 2], height: f64) -> Vec<(Place, DVec2)> {
+        let cells = (0..side[1]).flat_map(|j| (0..side[0]).map(move |i| [i, j]));
+        let at = |[i, j]: [u32; 2]| {
+            let turns = DVec2::new(f64::from(i) / f64::from(side[0]), f64::from(j) / f64::from(side[1]));
+            let wave = DVec2::new((TAU * 2.0 * turns.x).sin(), (TAU * turns.y).cos()) * height;
+            let place = turns.to_array().map(|x| (x * 2f64.powi(32)) as u32);
+            (torus.moved(place, wave.as_vec2()), wave)
+        };
+        cells.map(at).collect()
+    }
+
+    #[test]
+    fn a_long_wave_is_undone() {
+        let domain = Domain { min: [0.0; 2], max: [2.0, 1.0], boundary: Boundary::Periodic };
+        let side = [60, 30];
+        let torus = Torus::new(domain, 1800);
+        let (places, displaced): (Vec<_>, Vec<_>) = wavy(&torus, side, 0.1).into_iter().unzip();
+        let waves = Waves::new(&torus, places.len());
+        for threads in [1, 3] {
+            let context = Context::new(threads).unwrap();
+            let drift = context.run(None, |job| waves.drift(job, &places, places.len())).unwrap();
+            for (drift, displaced) in drift.iter().zip(&displaced) {
+                assert!((drift.as_dvec2() + *displaced).length() < 0.01, "{drift} undoes {displaced}");
+            }
+        }
+    }
+}
