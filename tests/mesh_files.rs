@@ -62,9 +62,9 @@ fn broken_obj_files_are_refused_with_the_line() {
     let vertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
     let line = |line: &str| files.reason("line.obj", format!("{vertices}{line}\n"));
     assert_eq!(files.reason("word.obj", "# one\nv 0 zero 0\n"), "line 2: \"zero\" is not a number");
-    assert_eq!(files.reason("short.obj", "v 0 0 0\n\nv 1 2"), "line 3: less than three numbers");
+    assert_eq!(files.reason("short.obj", "v 0 0 0\n\nv 1 2"), "line 3: fewer than three numbers");
     assert_eq!(files.reason("latin.obj", b"v 0 0 0\nv 1 0 \xff\n"), "line 2: \"\u{fffd}\" is not a number");
-    assert_eq!(line("vn 0 1"), "line 4: less than three numbers");
+    assert_eq!(line("vn 0 1"), "line 4: fewer than three numbers");
     assert_eq!(line("f 1 2 x"), "line 4: \"x\" is not the index of a vertex");
     assert_eq!(line("f 1 2 /1/1"), "line 4: \"\" is not the index of a vertex");
     assert_eq!(line("f 1/1/1/1 2 3"), "line 4: \"1/1/1/1\" is not the corner of a face");
@@ -218,7 +218,7 @@ fn what_ply_files_look_like() {
     let text = file("uchar int vertex_index", body);
     assert_eq!(
         files.reason("short.ply", text.replace("3 2 1 0 nan", "3 2 1 0")),
-        "line 20: less numbers than the header announces"
+        "line 20: fewer numbers than the header announces"
     );
     assert_eq!(
         files.reason("word.ply", text.replace("0 .5 1", "0 half 1")),
