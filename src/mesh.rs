@@ -51,11 +51,11 @@ impl Soup {
 /// Immutable. A clone shares vertices, triangles, normals and mask.
 #[derive(Clone, Debug)]
 pub struct Mesh {
-    positions: Arc<Vec<[f32; 3]>>,
-    triangles: Arc<Vec<[u32; 3]>>,
+    positions: Arc<[[f32; 3]]>,
+    triangles: Arc<[[u32; 3]]>,
     normals: Option<Arc<Normals>>,
     /// Which triangles count; all of them without a mask.
-    mask: Option<Arc<Vec<bool>>>,
+    mask: Option<Arc<[bool]>>,
     area: f64,
     bounds: ([f32; 3], [f32; 3]),
 }
@@ -78,7 +78,7 @@ impl Mesh {
         if triangles.is_empty() {
             return Err(Error::invalid("indices", "0 triangles; at least one is needed"));
         }
-        let (positions, triangles) = (Arc::new(positions), Arc::new(triangles));
+        let (positions, triangles) = (positions.into(), triangles.into());
         let mesh = Self { positions, triangles, normals: None, mask: None, area: 0.0, bounds: Default::default() };
         let mesh = mesh.measured();
         if mesh.area <= 0.0 {
@@ -116,7 +116,7 @@ impl Mesh {
             let reason = format!("{} entries, but there are {} triangles", mask.len(), self.triangles.len());
             return Err(Error::invalid("mask", reason));
         }
-        self.mask = Some(Arc::new(mask));
+        self.mask = Some(mask.into());
         Ok(self.measured())
     }
 

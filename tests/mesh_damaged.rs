@@ -71,7 +71,7 @@ fn a_file_with_any_byte_changed_lost_or_doubled_is_loaded_or_refused() {
         let whole = load(&file).unwrap();
         let (mut loaded, mut refused) = (0, 0);
         for at in 0..file.len() {
-            let changed = [0, b'\n', b'-', b'9', 0xff].map(|byte| {
+            let changed = [0, b'\n', b'-', b'0', b'9', 0xff].map(|byte| {
                 let mut changed = file.clone();
                 changed[at] = byte;
                 changed

@@ -155,7 +155,7 @@ impl<'a> Body<'a> {
 /// The value of a property, from the words of a line.
 fn property_of<'a>(words: &mut impl Iterator<Item = &'a [u8]>, data_type: &PropertyType) -> Result<Property, String> {
     fn next<'a, T: FromStr>(words: &mut impl Iterator<Item = &'a [u8]>) -> Result<T, String> {
-        let word = words.next().ok_or("less numbers than the header announces")?;
+        let word = words.next().ok_or("fewer numbers than the header announces")?;
         number(word).ok_or_else(|| format!("{} is not a number that fits the header", shown(word)))
     }
     let PropertyType::List(_, items) = data_type else { return next(words).map(Property::Float) };

@@ -19,7 +19,7 @@ pub(super) fn number<T: std::str::FromStr>(word: &[u8]) -> Option<T> {
 pub(super) fn vector<'a>(mut words: impl Iterator<Item = &'a [u8]>) -> Result<[f32; 3], String> {
     let mut vector = [0.0; 3];
     for x in &mut vector {
-        let word = words.next().ok_or("less than three numbers")?;
+        let word = words.next().ok_or("fewer than three numbers")?;
         *x = number(word).ok_or_else(|| format!("{} is not a number", shown(word)))?;
     }
     Ok(vector)
