@@ -131,10 +131,15 @@ fn radii_larger_than_the_mesh_give_one_sample() {
         assert_eq!(set.samples.len(), 1);
         assert!(set.radii[0] <= f64::from(large) * 4.0);
     }
-    // One large radius among small ones, too.
-    let radii = radii(&torus, |[x, ..]| if x > 1.2 { 1e38 } else { 0.2 });
-    let set = sample(&torus, &Options::new(Radius::PerVertex(&radii)));
+    // Large radii among small ones, cut at four diagonals.
+    let (low, high) = torus.bounds();
+    let diagonal = (0..3).map(|axis| f64::from(high[axis] - low[axis]).powi(2)).sum::<f64>().sqrt();
+    let [large, cut] = [1e38, 3.999 * diagonal].map(|large| radii(&torus, |[x, ..]| if x > 1.2 { large } else { 0.2 }));
+    let set = check_vertices(&torus, &cut);
+    assert!(set.samples.len() > 100);
+    let set = sample(&torus, &Options::new(Radius::PerVertex(&large)));
     assert_eq!(oracle::conflict(&set.samples, &set.radii, -1.0), None);
+    assert!(set.samples.len() > 100 && set.radii.iter().all(|&radius| radius <= 4.001 * diagonal));
 }
 
 #[test]
@@ -266,6 +271,7 @@ fn bad_functions_and_cosines_are_refused() {
         assert_eq!(of(good, 0.1, 0.1, bad).0, "slope");
     }
     assert_eq!(of(|_| 1e-7, 1e-7, 0.1, 0.0).0, "smallest");
+    assert_eq!(of(good, 0.1, 0.1, 1e5).0, "slope");
     // Wrong everywhere, and in a corner only.
     let bad: [At; 6] = [
         |_| f64::NAN,

@@ -51,7 +51,8 @@ pub struct azulejo_adaptive_options {
     /// How much `radius` changes at most per unit of distance between two places of a triangle; 0, the default, says
     /// that it is constant there. What is covered is proved with it, so it must hold: a violation that is seen makes the
     /// call fail, one that is not can leave gaps. From about 1 on the work grows with its square; vertex_radii, which
-    /// carry their own slopes, are the better choice for images and other data with edges. Not used with vertex_radii.
+    /// carry their own slopes, are the better choice for images and other data with edges. At most `smallest` / 24 per
+    /// float spacing at the largest coordinate of the mesh. Not used with vertex_radii.
     pub slope: f64,
     /// Samples on triangles whose normals have a smaller cosine than this ignore each other, so that the two sides of a
     /// thin wall are sampled as if they were far apart; the triangles must be wound consistently. From -1, the default,
@@ -113,7 +114,7 @@ pub unsafe extern "C" fn azulejo_adaptive_options_init(
 /// times the spacing of floats at the largest coordinate and what the radius changes on that way; with vertex_radii also
 /// 2^-22 of the largest difference of two radii on a triangle. Where the radius changes little from sample to sample
 /// there are 0.6966 / radius^2 samples on an area of 1. Radii above four times the diagonal of the mesh's box are taken
-/// as that.
+/// as that, those of vertices before they are interpolated.
 ///
 /// The same options give the same bytes. Embree is not used. Time grows with samples and triangles.
 ///

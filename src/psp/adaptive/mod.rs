@@ -38,7 +38,8 @@ use room::Rule;
 /// What to sample.
 #[derive(Clone, Copy)]
 pub struct Options<'a> {
-    /// The radius on the surface. Radii larger than four times the diagonal of the mesh's box are taken as that.
+    /// The radius on the surface. Radii larger than four times the diagonal of the mesh's box are taken as that, those of
+    /// vertices before they are interpolated.
     pub radius: Radius<'a>,
     /// Samples on triangles whose normals have a smaller cosine ignore each other, and so do samples and uncovered
     /// surface: the sides of a thin wall are sampled as if they were far apart. From -1, which is off, to 1. The

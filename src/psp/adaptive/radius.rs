@@ -1,4 +1,9 @@
 //! The radius as a function on the surface: its value at a sample, and its bounds on a fragment.
+//!
+//! A sample is not exactly where its dart fell: its position and its barycentrics are rounded. This can bring its radius
+//! out of the bounds of its fragment, but by no more than a quarter of the least radius. Of a function the slope is
+//! limited for this. Of vertices, the barycentrics change the radius by 2^-24 of the difference of two corners, at most
+//! four diagonals; these are at most 14 float spacings, and no radius is below 64.
 
 use std::sync::OnceLock;
 
@@ -17,7 +22,7 @@ pub type RadiusFunction<'a> = dyn Fn([f64; 3]) -> f64 + Sync + 'a;
 #[derive(Clone, Copy)]
 pub enum Radius<'a> {
     /// A radius for each vertex of the mesh, positive and finite, interpolated on the triangles: at the barycentrics
-    /// `(u, v)` of a sample it is `(1 - u - v) * a + u * b + v * c` in `f64`. Edges may be as steep as they like.
+    /// `(u, v)` of a sample it is `(1 - u - v) * a + u * b + v * c` in `f64`. It may change as steeply as it likes.
     PerVertex(&'a [f32]),
     /// A radius for each position.
     Function {
@@ -29,7 +34,8 @@ pub enum Radius<'a> {
         largest: f64,
         /// How much the radius changes at most per unit of distance between two positions on a triangle: 0 and up. What
         /// is covered is proved with it, so it must hold; where a violation is seen, the call fails. The work grows
-        /// with its square from about 1 on.
+        /// with its square from about 1 on. At most `smallest` / 24 per float spacing at the largest coordinate of the
+        /// mesh.
         slope: f64,
     },
 }
@@ -88,8 +94,16 @@ impl<'a> Field<'a> {
             );
             return Err(Error::invalid(argument, reason));
         }
-        let all = Bounds { least: all.least.min(limit), largest: all.largest.min(limit) };
         let rounding = crate::psp::TOLERANCE * spacing;
+        if let Radius::Function { smallest, slope, .. } = radius
+            && 4.0 * slope * rounding > smallest
+        {
+            let steepest = smallest / (4.0 * rounding);
+            let reason =
+                format!("{slope:?} is above {steepest:e}: the radius would change between neighbouring floats");
+            return Err(Error::invalid("slope", reason));
+        }
+        let all = Bounds { least: all.least.min(limit), largest: all.largest.min(limit) };
         Ok(Self { mesh, radius, all, limit, rounding, failure: OnceLock::new() })
     }
 
@@ -109,9 +123,7 @@ impl<'a> Field<'a> {
     /// The radius at a sample.
     pub fn at(&self, sample: &Sample) -> f64 {
         match self.radius {
-            Radius::PerVertex(radii) => {
-                self.interpolate(radii, sample.triangle, sample.barycentrics.map(f64::from)).min(self.limit)
-            }
+            Radius::PerVertex(radii) => self.interpolate(radii, sample.triangle, sample.barycentrics.map(f64::from)),
             Radius::Function { at, .. } => self.call(at, sample.position.map(f64::from)),
         }
     }
@@ -127,8 +139,7 @@ impl<'a> Field<'a> {
     pub fn bounds(&self, fragment: &Fragment, shape: &Shape, within: Bounds) -> Bounds {
         match self.radius {
             Radius::PerVertex(radii) => {
-                let corners = fragment.corners.map(|corner| self.interpolate(radii, fragment.triangle, corner));
-                let [a, b, c] = corners.map(|radius| radius.min(self.limit));
+                let [a, b, c] = fragment.corners.map(|corner| self.interpolate(radii, fragment.triangle, corner));
                 Bounds { least: a.min(b).min(c), largest: a.max(b).max(c) }
             }
             Radius::Function { at, slope, .. } => {
@@ -145,9 +156,7 @@ impl<'a> Field<'a> {
     /// The radius at the centre of a fragment.
     pub fn centre(&self, fragment: &Fragment, shape: &Shape) -> f64 {
         match self.radius {
-            Radius::PerVertex(radii) => {
-                self.interpolate(radii, fragment.triangle, fragment.at([1.0 / 3.0; 2])).min(self.limit)
-            }
+            Radius::PerVertex(radii) => self.interpolate(radii, fragment.triangle, fragment.at([1.0 / 3.0; 2])),
             Radius::Function { at, .. } => self.call(at, shape.centre.to_array()),
         }
     }
@@ -167,7 +176,7 @@ impl<'a> Field<'a> {
 
     fn interpolate(&self, radii: &[f32], triangle: u32, [u, v]: [f64; 2]) -> f64 {
         let corners = self.mesh.triangles()[triangle as usize];
-        let [a, b, c] = corners.map(|vertex| f64::from(radii[vertex as usize]));
+        let [a, b, c] = corners.map(|vertex| f64::from(radii[vertex as usize]).min(self.limit));
         (1.0 - u - v) * a + u * b + v * c
     }
 

@@ -24,6 +24,9 @@ use crate::rng::{Draw, Rng};
 const SIDE: f64 = 16.0;
 /// How far samples and what they cover can lie outside of their block, in the same unit: pieces are no longer than two.
 const OVERHANG: f64 = 4.0 / 3.0;
+/// Half of the radius of a sample, in the same unit, and some more: rounding can bring it above the radii of its piece by
+/// at most a quarter of these (see `radius.rs`).
+const HALF: f64 = 0.64;
 
 /// A block of an octave.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -81,7 +84,7 @@ impl Set {
     /// Adds what `task` makes of each block's pieces, given its room, and returns the sum of its counts.
     ///
     /// The task returns samples that conflict neither with each other nor with anything in the room, whose radii are
-    /// below the end of the octave, no farther than [`OVERHANG`] from the block.
+    /// at most a quarter above the end of the octave, no farther than [`OVERHANG`] from the block.
     pub fn grow(
         &mut self,
         job: &Job,
@@ -127,10 +130,10 @@ impl Set {
         let end = end_of_octave(place.octave);
         let low = self.origin + SIDE * end * (DVec3::from_array(place.block.0.map(f64::from)) - self.shift);
         // Where points of the block's pieces are, and half of their radius around.
-        let margin = DVec3::splat((OVERHANG + 0.51) * end);
+        let margin = DVec3::splat((OVERHANG + HALF) * end);
         let (low, high) = (low - margin, low + SIDE * end + margin);
         for (&octave, blocks) in self.octaves.range(place.octave..) {
-            let reach = DVec3::splat((OVERHANG + 0.51) * end_of_octave(octave));
+            let reach = DVec3::splat((OVERHANG + HALF) * end_of_octave(octave));
             let [first, last] = [low - reach, high + reach].map(|corner| self.block(octave, corner).0);
             let all = (first[2]..=last[2]).flat_map(move |z| {
                 (first[1]..=last[1]).flat_map(move |y| (first[0]..=last[0]).map(move |x| Block([x, y, z])))
