@@ -192,8 +192,9 @@ fn directions(effort: &Effort, measured: &[Measured]) -> String {
         ITERATIONS.zip(&cells).map(|(iterations, cell)| (format!("{}", 3 * iterations), cell as Cell)).collect();
     format!(
         "## Directions before filling\n\nSeconds to a maximal set of about {} samples, by the number of directions from \
-         which patterns are projected before the rest is filled: all (iterations + fill).\n\n{}",
+         which patterns are projected before the rest is filled: all (iterations + fill). The default is {}.\n\n{}",
         grouped(effort.samples as usize),
+        3 * psp::DEFAULT_ITERATIONS,
         table("directions", measured, &rows),
     )
 }
@@ -219,7 +220,7 @@ fn order(effort: &Effort, measured: &[Measured]) -> String {
         }
     }
     text + "\nBy squareness is the default: an iteration finds more, leaves less uncovered and less to fill, so that a maximal \
-            set is done sooner and a set that is not filled is worth several iterations more. By projector is the way to a set \
+            set takes less work and a set that is not filled is worth several iterations more. By projector is the way to a set \
             that is nearer to the reference, and no iteration at all the way to the reference itself.\n"
 }
 

@@ -145,14 +145,14 @@ pub fn draw_spectra(bias: &[Bias], output: &Output) -> Result<()> {
     let panel = Panel {
         rect: Rect { x: 110.0, y: 60.0, width: 750.0, height: 410.0 },
         x: Axis::linear("frequency / √density", [0.0, 2.5], 5),
-        y: Axis::linear("power", [0.0, 2.0], 4),
+        y: Axis::linear("power", [0.0, 2.2], 4),
     };
     panel.ground(&mut canvas, true);
     for ((one, colour), row) in bias.iter().zip(SERIES).zip(0..) {
         let width = if row == 0 { 5.0 } else { 2.0 };
         let points = frequencies().into_iter().zip(&one.power).map(|(x, &y)| [x, y]);
         curve(&mut canvas, &panel, points, width, colour);
-        legend(&mut canvas, [560.0, 88.0 + 24.0 * row as f32], &one.way.name(), width, colour);
+        legend(&mut canvas, [560.0, 86.0 + 23.0 * row as f32], &one.way.name(), width, colour);
     }
     panel.axes(&mut canvas);
     panel.title(&mut canvas, "Radial mean of the power", "sphere");
