@@ -22,14 +22,18 @@ use crate::mesh::{Mesh, exact};
 use crate::points::{SurfaceSamples, check_radius};
 
 mod blocks;
+mod cover;
 mod coverage;
 mod fill;
 mod merge;
+mod near;
 mod pattern;
 mod pieces;
 mod projector;
 mod room;
 mod samples;
+#[allow(unsafe_code)] // Vector instructions.
+mod vectors;
 
 pub use fill::TOLERANCE;
 use projector::Projection;
