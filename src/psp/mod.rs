@@ -25,6 +25,7 @@ mod blocks;
 mod cover;
 mod coverage;
 mod fill;
+mod measure;
 mod merge;
 mod near;
 mod pattern;
@@ -36,6 +37,8 @@ mod samples;
 mod vectors;
 
 pub use fill::TOLERANCE;
+#[doc(hidden)]
+pub use measure::{Stages, measure};
 use projector::Projection;
 use samples::SampleSet;
 
