@@ -80,8 +80,7 @@ impl Fragment {
     }
 
     pub fn shape(&self, mesh: &Mesh) -> Shape {
-        let [a, b, c] = mesh.corners(self.triangle);
-        let (a, b, c) = (exact(a), exact(b), exact(c));
+        let [a, b, c] = mesh.exact_corners(self.triangle);
         let at = |[u, v]: [f64; 2]| (1.0 - u - v) * a + u * b + v * c;
         let [p, q, r] = self.corners;
         Shape::of([at(p), at(q), at(r)])
