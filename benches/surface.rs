@@ -1,18 +1,24 @@
 //! PSP on meshes: times by criterion on a torus, then a table of stages and rates in one run.
 //!
 //! The table takes a hall, and the bunny and the dragon (`AZULEJO_BENCH_DRAGON`, or out/dragon.ply, which the demo fetches)
-//! where they are found. 10^7 samples are added when the environment variable `AZULEJO_BENCH_LARGE` is set.
+//! where they are found, at 10^5, 10^6 and 10^7 samples. The last takes a minute or two; with `--test` it is left out
+//! unless the environment variable `AZULEJO_BENCH_LARGE` is set.
 
+#[path = "surface/bare.rs"]
+mod bare;
 #[path = "../tests/common/meshes.rs"]
 #[allow(dead_code)]
 mod meshes;
+#[path = "surface/tracing.rs"]
+mod tracing;
 
 use std::path::PathBuf;
 use std::sync::Arc;
+use std::time::Duration;
 
 use azulejo::Context;
 use azulejo::mesh::Mesh;
-use azulejo::psp::{self, DEFAULT_ITERATIONS, Options, Psp};
+use azulejo::psp::{self, DEFAULT_ITERATIONS, Options, Stages};
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 
 /// The radius at which a maximal set has about `count` samples.
@@ -44,76 +50,88 @@ fn surface(criterion: &mut Criterion) {
         }
     }
     group.finish();
-    print_stages(&contexts);
+    print_table(&contexts);
 }
 
 /// The meshes of the table that can be had here.
 fn table_meshes() -> Vec<(&'static str, Arc<Mesh>)> {
     let root = PathBuf::from(env!("CARGO_MANIFEST_DIR"));
-    let dragon = std::env::var_os("AZULEJO_BENCH_DRAGON").map_or(root.join("out/dragon.ply"), PathBuf::from);
-    let files = [("bunny", root.join("../shared/meshes/bunny.obj")), ("dragon", dragon)];
+    let file = |variable: &str, path: &str| std::env::var_os(variable).map_or(root.join(path), PathBuf::from);
+    let files = [
+        ("bunny", file("AZULEJO_BENCH_BUNNY", "../shared/meshes/bunny.obj")),
+        ("dragon", file("AZULEJO_BENCH_DRAGON", "out/dragon.ply")),
+    ];
     let loaded = files.into_iter().filter_map(|(name, path)| Some((name, Arc::new(Mesh::load(path).ok()?))));
     std::iter::once(("hall", mesh(meshes::hall(48)))).chain(loaded).collect()
 }
 
-/// Wall times in seconds on the way to a maximal set.
-#[derive(Clone, Copy)]
-struct Stages {
-    /// Scene, pattern and the first iteration.
-    first: f64,
-    /// An iteration of which scene and pattern are there: on an empty set it would take as long.
-    iteration: f64,
-    fill: f64,
-    found: f64,
-    samples: f64,
-}
+/// Wall times of a maximal set by one iteration, in seconds.
+struct Times(Stages);
 
-impl Stages {
-    /// Two iterations and a fill of one set; a fill after one of another.
-    fn of(context: &Context, mesh: &Arc<Mesh>, radius: f64) -> Self {
-        let new = || Psp::new(mesh, &Options::new(radius)).expect("a good radius");
-        let mut psp = new();
-        let first = psp.advance(context, 1, None).expect("an iteration");
-        let iteration = psp.advance(context, 1, None).expect("an iteration").seconds;
-        let mut psp = new();
-        psp.advance(context, 1, None).expect("an iteration");
-        let fill = psp.fill(context, None).expect("a fill");
-        let [found, samples] = [first.accepted, fill.samples].map(|count| count as f64);
-        Self { first: first.seconds, iteration, fill: fill.seconds, found, samples }
+impl Times {
+    /// The least of a few attempts: noise only adds.
+    fn least(context: &Context, mesh: &Arc<Mesh>, radius: f64, attempts: usize) -> Self {
+        let attempt = |_| Self(psp::measure(context, mesh, &Options::new(radius)).expect("a set").1);
+        let attempts = (0..attempts).map(attempt);
+        attempts.min_by(|a, b| a.total().total_cmp(&b.total())).expect("an attempt")
+    }
+
+    fn first(&self) -> f64 {
+        let Stages { pattern, scene, project, merge, .. } = self.0;
+        (pattern + scene + project + merge).as_secs_f64()
     }
 
     fn total(&self) -> f64 {
-        self.first + self.fill
-    }
-
-    /// The least of a few attempts: noise only adds.
-    fn least(context: &Context, mesh: &Arc<Mesh>, radius: f64) -> Self {
-        let attempts = (0..3).map(|_| Self::of(context, mesh, radius));
-        attempts.min_by(|a, b| a.total().total_cmp(&b.total())).expect("three attempts")
+        self.first() + self.0.fill.as_secs_f64()
     }
 }
 
-/// Stages in ns per sample of the maximal set on all threads, and rates in million samples per second.
-fn print_stages(contexts: &[Context; 2]) {
+/// Stages in ns per sample of the maximal set on all threads, rates in million samples and million rays per second.
+fn print_table(contexts: &[Context; 2]) {
     let threads = contexts[1].num_threads();
     println!(
-        "{:>8} {:>9} {:>8} {:>8} {:>6} {:>10} {:>9} {:>8}",
-        "mesh", "samples", "prepare", "iterate", "fill", "first M/s", "all M/s", "threads"
+        "{:>7} {:>9} | {:>7} {:>5} {:>7} {:>5} {:>5} {:>6} | {:>5} {:>5} {:>10} {:>10} | {:>9} {:>10} {:>5}",
+        "mesh",
+        "samples",
+        "pattern",
+        "scene",
+        "project",
+        "merge",
+        "fill",
+        "output",
+        "first",
+        "all",
+        "fill/first",
+        "threads",
+        "trace M/s",
+        "Embree M/s",
+        "ratio"
     );
-    let large = std::env::var_os("AZULEJO_BENCH_LARGE").map(|_| 1e7);
+    let is_test = std::env::args().any(|argument| argument == "--test");
+    let large = (!is_test || std::env::var_os("AZULEJO_BENCH_LARGE").is_some()).then_some(1e7);
     for (name, mesh) in table_meshes() {
         for count in [1e5, 1e6].into_iter().chain(large) {
-            let [one, all] = [0, 1].map(|i: usize| Stages::least(&contexts[i], &mesh, radius(&mesh, count)));
-            let ns = |seconds: f64| seconds / all.samples * 1e9;
+            let (radius, attempts) = (radius(&mesh, count), if count < 1e7 { 3 } else { 1 });
+            let [one, all] = [0, 1].map(|i: usize| Times::least(&contexts[i], &mesh, radius, attempts));
+            let [traced, bare] = tracing::rates(&contexts[1], &mesh, radius);
+            let stages = all.0;
+            let samples = stages.samples as f64;
+            let ns = |time: Duration| time.as_secs_f64() / samples * 1e9;
             println!(
-                "{name:>8} {:>9} {:>8.0} {:>8.0} {:>6.0} {:>10.2} {:>9.2} {:>8}",
-                all.samples,
-                ns(all.first - all.iteration),
-                ns(all.iteration),
-                ns(all.fill),
-                all.found / all.first / 1e6,
-                all.samples / all.total() / 1e6,
+                "{name:>7} {samples:>9} | {:>7.0} {:>5.0} {:>7.0} {:>5.0} {:>5.0} {:>6.0} | {:>5.2} {:>5.2} {:>10.2} {:>10} | {:>9.1} {:>10.1} {:>5.2}",
+                ns(stages.pattern),
+                ns(stages.scene),
+                ns(stages.project),
+                ns(stages.merge),
+                ns(stages.fill),
+                ns(stages.output),
+                stages.found as f64 / all.first() / 1e6,
+                samples / all.total() / 1e6,
+                stages.fill.as_secs_f64() / all.first(),
                 format!("{threads}: x{:.2}", one.total() / all.total()),
+                traced / 1e6,
+                bare / 1e6,
+                traced / bare,
             );
         }
     }

@@ -899,7 +899,7 @@ azulejo_status azulejo_psp_create(const struct azulejo_context *context,
 /// grows with the hits and with the squared diagonal of the mesh over the squared radius. The first call prepares the
 /// mesh for the engine. Two calls add what one call with the sum of their iterations adds.
 ///
-/// Where the box of the mesh is out of all proportion to its surface, as for small parts far apart (more than 200 rays
+/// Where the box of the mesh is out of all proportion to its surface, as for small parts far apart (more than 20 rays
 /// for each sample that there is room for, and 10 million rays at all), the call does nothing and reports no iteration:
 /// azulejo_psp_fill is much faster there.
 ///

@@ -196,7 +196,8 @@ impl Mesh {
     /// # Panics
     /// Like the other queries of a triangle, where there is no triangle of this number.
     pub fn corners(&self, triangle: u32) -> [[f32; 3]; 3] {
-        self.triangles[triangle as usize].map(|vertex| self.positions[vertex as usize])
+        let [a, b, c] = self.triangles[triangle as usize];
+        [self.positions[a as usize], self.positions[b as usize], self.positions[c as usize]]
     }
 
     /// Whether a triangle is to be sampled: whether there is no mask, or it does not leave the triangle out.
@@ -240,7 +241,7 @@ impl Mesh {
 
     /// [`Mesh::point`] before it is rounded.
     pub(crate) fn point_exact(&self, triangle: u32, [u, v]: [f64; 2]) -> DVec3 {
-        let [a, b, c] = self.corners(triangle).map(exact);
+        let [a, b, c] = self.exact_corners(triangle);
         (1.0 - u - v) * a + u * b + v * c
     }
 
@@ -252,8 +253,15 @@ impl Mesh {
 
     /// The cross product of two edges: twice the area, along the normal.
     fn cross(&self, triangle: u32) -> DVec3 {
-        let [a, b, c] = self.corners(triangle).map(exact);
+        let [a, b, c] = self.exact_corners(triangle);
         (b - a).cross(c - a)
+    }
+
+    /// The corners of a triangle in `f64`. (Spelt out, since `map` on arrays is a call for each.)
+    #[inline]
+    pub(crate) fn exact_corners(&self, triangle: u32) -> [DVec3; 3] {
+        let [a, b, c] = self.corners(triangle);
+        [exact(a), exact(b), exact(c)]
     }
 }
 
@@ -281,7 +289,8 @@ fn check_indices(argument: &'static str, item: &str, items: &str, triangles: &[[
 
 /// A position in `f64`.
 pub(crate) fn exact(position: [f32; 3]) -> DVec3 {
-    DVec3::from_array(position.map(f64::from))
+    let [x, y, z] = position;
+    DVec3::new(x.into(), y.into(), z.into())
 }
 
 /// The largest float below a positive one.

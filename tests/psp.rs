@@ -113,6 +113,34 @@ fn parts_smaller_than_the_radius_get_a_sample_unless_one_reaches_them() {
     assert_eq!(samples.len(), 3);
 }
 
+/// After iterations and fill, and after fill alone, on several seeds: the checker subdivides the surface until each part
+/// lies in one ball.
+#[test]
+fn nothing_is_left_uncovered_on_any_kind_of_mesh() {
+    let small = |seed, offset| meshes::placed(meshes::random_soup(seed, 2), 0.02, offset);
+    let kinds = [
+        ("closed", meshes::torus(), 0.15),
+        ("open", meshes::plane(), 0.04),
+        ("non-manifold", meshes::book(7), 0.09),
+        ("self-intersecting", meshes::random_soup(11, 9), 0.1),
+        ("slivers", meshes::slivers(), 0.02),
+        ("needles", meshes::needles(1e-6), 0.004),
+        ("duplicated faces", meshes::duplicated(meshes::book(3)), 0.09),
+        ("parts smaller than the radius", meshes::join((0..40).map(|i| small(i, 0.013 * i as f64))), 0.06),
+    ];
+    let context = Context::new(2).unwrap();
+    for (kind, soup, radius) in kinds {
+        let mesh = mesh(soup);
+        for (seed, iterations) in (0..6).flat_map(|seed| [(seed, 0), (seed, 1), (seed, 3)]) {
+            println!("{kind}, seed {seed}, {iterations} iterations");
+            let options = Options { iterations, seed, ..Options::new(radius) };
+            let (samples, report) = psp::sample(&context, &mesh, &options, None).unwrap();
+            assert_eq!(report.iterations, iterations);
+            check(&mesh, &samples, radius, true);
+        }
+    }
+}
+
 /// A box of 10^5 radii along each side with next to nothing in it: projecting patterns through it would take hours.
 #[test]
 fn small_parts_far_apart_are_filled_without_projection() {

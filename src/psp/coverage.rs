@@ -1,19 +1,21 @@
 //! What is still uncovered: the surface in patches, of which each knows the sixteenths that are not proved covered.
 //! The thesis has no such search; its loop goes on until it is told to stop.
 //!
-//! A fragment of a triangle is cut into four by four congruent ones of its own shape. Such a sixteenth is covered if its
-//! centre is nearer to a sample than the radius less the sixteenth's extent: then all of it is inside one ball. This is
-//! asked in `f32`, of all sixteen at once, in a form that compilers vectorise; its slack only delays a decision, since
-//! what it keeps is looked at again in smaller parts, down to the exact test of a single point (`fill.rs`).
+//! A fragment of a triangle is cut into four by four congruent ones of its own shape (`cover.rs`). Such a sixteenth is
+//! covered if its three corners are nearer to one sample than the radius: then all of it is inside one ball. This is
+//! asked in `f32`, of all sixteen at once, in the vectors of the processor (`near.rs`); its slack only delays a decision,
+//! since what it keeps is looked at again in smaller parts, down to the exact test of a single point (`fill.rs`).
+//!
+//! A patch knows the sixteenths of its sixteenths: large enough to be few, and yet with hardly any area that is covered.
 
 use glam::{DVec2, DVec3, Vec3};
 
-use crate::mesh::Mesh;
+use crate::maximal::Vectors;
+use crate::mesh::{Mesh, exact};
+use crate::psp::cover::SIXTEENTHS;
+use crate::psp::near::{FAR, LANES, Local, Near, Places, SLACK};
 use crate::psp::room::Room;
-
-/// How much, in radii, rounding can add to a distance, and some more: sums of a few terms below 20, each of them off by
-/// 2^-24 of its size.
-const SLACK: f64 = 1e-5;
+use crate::psp::vectors;
 
 /// A part of a triangle.
 #[derive(Clone, Copy)]
@@ -27,10 +29,12 @@ pub(super) struct Fragment {
 #[derive(Clone, Copy)]
 pub(super) struct Patch {
     pub fragment: Fragment,
-    /// A bit for each sixteenth that may be uncovered; at least one.
-    pub open: u16,
+    /// For each sixteenth, a bit for each sixteenth of it that may be uncovered; at least one.
+    pub open: [u16; 16],
     /// The length of the longest edge.
     pub longest: f64,
+    /// How many of the samples added since the search began are accounted for.
+    seen: usize,
 }
 
 /// Where a fragment lies in space.
@@ -44,6 +48,18 @@ pub(super) struct Shape {
     pub longest: f64,
     /// All of the fragment is this near to its centre.
     pub extent: f64,
+}
+
+impl Patch {
+    /// The number of open sixteenths of sixteenths.
+    pub fn open_parts(&self) -> u32 {
+        self.open.iter().map(|open| open.count_ones()).sum()
+    }
+
+    /// The area that may be uncovered.
+    pub fn open_area(&self, mesh: &Mesh) -> f64 {
+        self.fragment.area(mesh) * f64::from(self.open_parts()) / 256.0
+    }
 }
 
 impl Fragment {
@@ -64,7 +80,10 @@ impl Fragment {
     }
 
     pub fn shape(&self, mesh: &Mesh) -> Shape {
-        Shape::of(self.corners.map(|corner| mesh.point_exact(self.triangle, corner)))
+        let [a, b, c] = mesh.exact_corners(self.triangle);
+        let at = |[u, v]: [f64; 2]| (1.0 - u - v) * a + u * b + v * c;
+        let [p, q, r] = self.corners;
+        Shape::of([at(p), at(q), at(r)])
     }
 
     /// The two halves on either side of the line from the corner `apex` to the middle of the edge opposite.
@@ -80,17 +99,20 @@ impl Fragment {
 
     /// One of the sixteen parts.
     pub fn sixteenth(&self, index: usize) -> Self {
-        Self { corners: SIXTEENTHS[index].map(|corner| self.at(corner.map(|x| 0.25 * x))), ..*self }
+        let [a, b, c] = SIXTEENTHS[index];
+        let at = |[s, t]: [f64; 2]| self.at([0.25 * s, 0.25 * t]);
+        Self { corners: [at(a), at(b), at(c)], ..*self }
     }
 }
 
 impl Shape {
     fn of(corners: [DVec3; 3]) -> Self {
-        let opposite = |i: usize| corners[(i + 1) % 3].distance_squared(corners[(i + 2) % 3]);
-        let apex = (1..3).fold(0, |best, i| if opposite(i) > opposite(best) { i } else { best });
-        let centre = (corners[0] + corners[1] + corners[2]) / 3.0;
-        let extent = corners.iter().fold(0.0, |most: f64, corner| most.max(centre.distance_squared(*corner))).sqrt();
-        Self { corners, centre, apex, longest: opposite(apex).sqrt(), extent }
+        let [a, b, c] = corners;
+        let opposite = [b.distance_squared(c), c.distance_squared(a), a.distance_squared(b)];
+        let apex = (1..3).fold(0, |best, i| if opposite[i] > opposite[best] { i } else { best });
+        let centre = (a + b + c) / 3.0;
+        let squared = centre.distance_squared(a).max(centre.distance_squared(b)).max(centre.distance_squared(c));
+        Self { corners, centre, apex, longest: opposite[apex].sqrt(), extent: squared.sqrt() }
     }
 
     pub fn bisect(&self) -> [Self; 2] {
@@ -112,150 +134,163 @@ impl Shape {
     }
 }
 
-/// The corners of the sixteenths in quarters of the fragment's edges: ten that stand as it does, then six turned over.
-const SIXTEENTHS: [[[f64; 2]; 3]; 16] = {
-    let mut corners = [[[0.0; 2]; 3]; 16];
-    let (mut index, mut turned) = (0, 10);
-    let mut row = 0;
-    while row < 4 {
-        let mut column = 0;
-        while column + row < 4 {
-            let (x, y) = (column as f64, row as f64);
-            corners[index] = [[x, y], [x + 1.0, y], [x, y + 1.0]];
-            index += 1;
-            if column + row < 3 {
-                corners[turned] = [[x + 1.0, y + 1.0], [x, y + 1.0], [x + 1.0, y]];
-                turned += 1;
-            }
-            column += 1;
-        }
-        row += 1;
-    }
-    corners
-};
+/// How far around a fragment samples are gathered, in radii, even if it needs less: its neighbours will need them too.
+const REACH: f32 = 2.5;
 
-/// The centres of the sixteenths as seen from the centre of the fragment, in edges, one axis after the other.
-pub(super) const CENTRES: [[f32; 16]; 2] = {
-    let mut centres = [[0.0; 16]; 2];
-    let mut index = 0;
-    while index < 16 {
-        let [a, b, c] = SIXTEENTHS[index];
-        centres[0][index] = ((a[0] + b[0] + c[0]) / 12.0 - 1.0 / 3.0) as f32;
-        centres[1][index] = ((a[1] + b[1] + c[1]) / 12.0 - 1.0 / 3.0) as f32;
-        index += 1;
-    }
-    centres
-};
-
-/// How much farther, in radii, samples are gathered than a fragment needs: its neighbours will need them too.
-const SPARE: f64 = 1.0;
-
-/// A search for uncovered surface in one room, to which nothing is added meanwhile.
+/// A search for uncovered surface in one room.
 pub(super) struct Coverage<'a> {
     mesh: &'a Mesh,
-    room: &'a Room,
-    radius: f64,
+    room: &'a mut Room,
+    vectors: Vectors,
     /// Patches with some sixteenths covered are cut up until these are no longer than this ...
     fine: f64,
     /// ... or the patch is no longer than this.
     finest: f64,
-    /// Where samples were gathered, and how far around.
-    centre: DVec3,
-    reach: f64,
-    /// The samples gathered, as seen from the centre, in radii. Behind them, for each fragment that contains the one in
-    /// question, those that can reach it.
-    nearby: Vec<Vec3>,
+    /// The places of the samples added since the search began, and how many.
+    added: Vec<Places>,
+    count: usize,
+    /// Where samples were gathered, how far around, in radii, and how many were added before.
+    centre: [f32; 3],
+    reach: f32,
+    seen: usize,
+    /// The samples gathered, as seen from the centre. Behind them, for each fragment that contains the one in question,
+    /// those that can reach it.
+    near: Near,
 }
 
 impl<'a> Coverage<'a> {
-    pub fn new(mesh: &'a Mesh, room: &'a Room, fine: f64, finest: f64) -> Self {
-        let (radius, centre, reach) = (room.radius(), DVec3::ZERO, f64::NEG_INFINITY);
-        Self { mesh, room, radius, fine, finest, centre, reach, nearby: Vec::new() }
+    pub fn new(mesh: &'a Mesh, room: &'a mut Room, fine: f64, finest: f64) -> Self {
+        let (vectors, near) = (Vectors::widest(), Near::new());
+        let (centre, reach) = ([0.0; 3], f32::NEG_INFINITY);
+        Self { mesh, room, vectors, fine, finest, added: Vec::new(), count: 0, centre, reach, seen: 0, near }
+    }
+
+    /// Adds a sample, unless it conflicts with another one.
+    pub fn add(&mut self, sample: [f32; 3]) -> bool {
+        if self.room.rejects(sample) {
+            return false;
+        }
+        self.room.add(sample);
+        let place = self.room.place(exact(sample));
+        let lane = self.count % LANES;
+        if lane == 0 {
+            self.added.push([[FAR; LANES]; 3]);
+        }
+        (0..3).for_each(|axis| self.added[self.count / LANES][axis][lane] = place[axis]);
+        self.count += 1;
+        true
     }
 
     /// Appends the uncovered parts of a fragment, in fixed order.
     pub fn search(&mut self, fragment: &Fragment, uncovered: &mut Vec<Patch>) {
         let shape = fragment.shape(self.mesh);
-        self.gather(&shape);
-        self.descend(fragment, &shape, 0, uncovered);
+        let (local, gathered) = self.locate(&shape);
+        let open = self.open_sixteenths(&local, 0);
+        self.keep(fragment, shape.longest, &local, open, gathered, uncovered);
+        self.near.len = gathered;
     }
 
-    /// Appends the parts of a patch that are still uncovered.
-    pub fn refine(&mut self, patch: &Patch, uncovered: &mut Vec<Patch>) {
+    /// Takes from a patch what samples cover that were added since it was looked at.
+    pub fn update(&mut self, patch: &mut Patch) {
+        if patch.seen == self.count {
+            return;
+        }
         let shape = patch.fragment.shape(self.mesh);
-        self.gather(&shape);
-        let start = self.nearby.len();
-        let open = patch.open & self.open_sixteenths(&shape, 0);
-        self.descend_into(&patch.fragment, &shape, open, start, uncovered);
-        self.nearby.truncate(start);
-    }
-
-    /// Sees to it that `nearby` holds the samples that can reach a fragment, and others.
-    fn gather(&mut self, shape: &Shape) {
-        let reach = self.radius + shape.extent;
-        if self.reach < reach + self.centre.distance(shape.centre) {
-            (self.centre, self.reach) = (shape.centre, reach + SPARE * self.radius);
-            self.nearby.clear();
-            let (nearby, per_radius) = (&mut self.nearby, 1.0 / self.radius);
-            self.room.near(self.centre, self.reach, |offset| nearby.push((offset * per_radius).as_vec3()));
+        let (gathered, centre) = (self.near.len, self.room.place(shape.centre));
+        let local = self.local(&shape, centre);
+        let reach = 1.0 + local.extent;
+        for places in &self.added[patch.seen / LANES..] {
+            self.near.reserve(LANES);
+            vectors::append(self.vectors, &mut self.near, places, centre, reach * reach + SLACK);
         }
-    }
-
-    /// `nearby[from..]` holds the samples that can reach the fragment, and others.
-    fn descend(&mut self, fragment: &Fragment, shape: &Shape, from: usize, uncovered: &mut Vec<Patch>) {
-        let start = self.nearby.len();
-        let open = self.open_sixteenths(shape, from);
-        let longest = shape.longest;
-        if open == u16::MAX || (open != 0 && (longest <= 4.0 * self.fine || longest <= self.finest)) {
-            uncovered.push(Patch { fragment: *fragment, open, longest });
-        } else {
-            self.descend_into(fragment, shape, open, start, uncovered);
-        }
-        self.nearby.truncate(start);
-    }
-
-    fn descend_into(&mut self, fragment: &Fragment, shape: &Shape, open: u16, from: usize, uncovered: &mut Vec<Patch>) {
-        for index in (0..16).filter(|index| open >> index & 1 == 1) {
-            self.descend(&fragment.sixteenth(index), &shape.sixteenth(index), from, uncovered);
-        }
-    }
-
-    /// The sixteenths that no single sample in `nearby[from..]` certainly covers. Appends those that can reach them.
-    fn open_sixteenths(&mut self, shape: &Shape, from: usize) -> u16 {
-        let per_radius = 1.0 / self.radius;
-        let extent = shape.extent * per_radius;
-        let in_radii = |vector: DVec3| (vector * per_radius).as_vec3();
-        let centre = in_radii(shape.centre - self.centre);
-        let [e, f] = [1, 2].map(|i| in_radii(shape.corners[i] - shape.corners[0]));
-        let reach = ((1.0 + extent) * (1.0 + extent) + SLACK) as f32;
-        // All are copied, and those that reach it overwrite the others: a branch would be a guess.
-        let (start, mut end) = (self.nearby.len(), self.nearby.len());
-        self.nearby.resize(2 * start - from, Vec3::ZERO);
-        for index in from..start {
-            let sample = self.nearby[index];
-            self.nearby[end] = sample;
-            end += usize::from((sample - centre).length_squared() <= reach);
-        }
-        self.nearby.truncate(end);
-        let mut nearest = [f32::INFINITY; 16];
-        for &sample in &self.nearby[start..] {
-            let offset = sample - centre;
-            let (squared, a, b) = (offset.length_squared(), -2.0 * offset.dot(e), -2.0 * offset.dot(f));
-            for i in 0..16 {
-                let d2 = squared + (a * CENTRES[0][i] + b * CENTRES[1][i]);
-                nearest[i] = if d2 < nearest[i] { d2 } else { nearest[i] };
+        patch.seen = self.count;
+        if self.near.len > gathered {
+            for (index, open) in patch.open.iter_mut().enumerate().filter(|(_, open)| **open != 0) {
+                *open &= !vectors::covered(self.vectors, &self.near, gathered, &local.sixteenth(index));
             }
         }
-        let limit = (1.0 - 0.25 * extent - SLACK).max(0.0);
-        let limit = (limit * limit) as f32;
-        let (ee, ef, ff) = (e.length_squared(), 2.0 * e.dot(f), f.length_squared());
-        let mut open = 0;
-        for i in 0..16 {
-            let (s, t) = (CENTRES[0][i], CENTRES[1][i]);
-            let d2 = nearest[i] + (s * s * ee + s * t * ef + t * t * ff);
-            open |= u16::from(d2 >= limit) << i;
+        self.near.len = gathered;
+    }
+
+    /// Appends the parts of a patch that are uncovered when they are looked at more closely.
+    pub fn refine(&mut self, patch: &Patch, uncovered: &mut Vec<Patch>) {
+        let (local, gathered) = self.locate(&patch.fragment.shape(self.mesh));
+        for index in (0..16).filter(|&index| patch.open[index] != 0) {
+            let (fragment, part) = (patch.fragment.sixteenth(index), local.sixteenth(index));
+            self.keep(&fragment, 0.25 * patch.longest, &part, patch.open[index], 0, uncovered);
+            self.near.len = gathered;
         }
-        open
+    }
+
+    /// Where a fragment lies. Sees to it that `near` holds the samples that can reach it, and others, and counts them.
+    fn locate(&mut self, shape: &Shape) -> (Local, usize) {
+        let extent = (shape.extent / self.room.radius()) as f32;
+        let place = self.room.place(shape.centre);
+        let apart = Vec3::from_array(place).distance(Vec3::from_array(self.centre));
+        if self.reach < 1.0 + extent + apart + SLACK {
+            (self.centre, self.reach) = (place, (1.0 + extent).max(REACH));
+            (self.near.len, self.seen) = (0, self.count);
+            self.room.gather(place, self.reach, &mut self.near);
+        }
+        (self.local(shape, self.centre), self.near.len)
+    }
+
+    /// Where a fragment lies as seen from a place.
+    fn local(&self, shape: &Shape, from: [f32; 3]) -> Local {
+        let per_radius = 1.0 / self.room.radius();
+        let in_radii = |vector: DVec3| (vector * per_radius).as_vec3a();
+        let [a, b, c] = shape.corners;
+        Local {
+            corner: in_radii(a - self.room.at(from)),
+            edges: [in_radii(b - a), in_radii(c - a)],
+            extent: (shape.extent * per_radius) as f32,
+        }
+    }
+
+    /// Keeps a fragment as a patch, or in parts. `near[from..]` holds the samples that can reach it.
+    fn keep(
+        &mut self,
+        fragment: &Fragment,
+        longest: f64,
+        local: &Local,
+        open: u16,
+        from: usize,
+        uncovered: &mut Vec<Patch>,
+    ) {
+        let mut patch = Patch { fragment: *fragment, open: [0; 16], longest, seen: self.seen };
+        let (is_fine, is_finest) = (longest <= 4.0 * self.fine, longest <= self.finest);
+        for index in (0..16).filter(|index| open >> index & 1 == 1) {
+            if open == u16::MAX && !is_fine || is_finest {
+                patch.open[index] = u16::MAX;
+                continue;
+            }
+            let (part, start) = (local.sixteenth(index), self.near.len);
+            let open = self.open_sixteenths(&part, from);
+            if is_fine {
+                patch.open[index] = open;
+            } else if open != 0 {
+                self.keep(&fragment.sixteenth(index), 0.25 * longest, &part, open, start, uncovered);
+            }
+            self.near.len = start;
+        }
+        if patch.open != [0; 16] {
+            uncovered.push(patch);
+        }
+    }
+
+    /// The sixteenths that no single sample in `near[from..]` certainly covers. Appends those that can reach the fragment.
+    fn open_sixteenths(&mut self, local: &Local, from: usize) -> u16 {
+        let (start, reach) = (self.near.len, 1.0 + local.extent);
+        self.near.reserve(start - from);
+        vectors::append_reaching(
+            self.vectors,
+            &mut self.near,
+            from,
+            start,
+            local.at([1.0 / 3.0; 2]).to_array(),
+            reach * reach + SLACK,
+        );
+        !vectors::covered(self.vectors, &self.near, start, local)
     }
 }
 
@@ -266,7 +301,7 @@ mod tests {
     use crate::rng::{Draw, Rng};
 
     /// Against exact distances to the corners of every sixteenth: what is covered by no single sample is kept, and what
-    /// is covered with room for its extent is dropped. The sixteenths together are the fragment.
+    /// one covers is dropped. The sixteenths together are the fragment. Both for a search and for an update.
     #[test]
     fn only_covered_sixteenths_are_dropped_and_all_that_are_well_covered() {
         let mut rng = Rng::at(2, Draw::Probe, &[]);
@@ -276,27 +311,34 @@ mod tests {
             let mut corner = || std::array::from_fn(|_| (8.0 + size * rng.unit()) as f32);
             let mesh = Mesh::new(vec![corner(), corner(), corner()], vec![[0, 1, 2]]).unwrap();
             let mut room = Room::new(Block([0; 3]), [0.0; 3], 1.0);
-            for _ in 0..6 {
-                let sample: [f32; 3] = std::array::from_fn(|_| (8.0 - 1.2 + 2.4 * rng.unit()) as f32);
-                room.add(sample);
-            }
-            let (whole, mut samples) = (Fragment::whole(0), Vec::new());
+            let whole = Fragment::whole(0);
             let shape = whole.shape(&mesh);
-            room.near(shape.centre, 5.0, |offset| samples.push(shape.centre + offset));
-            let mut coverage = Coverage::new(&mesh, &room, 0.1, 0.0);
-            coverage.gather(&shape);
-            let open = coverage.open_sixteenths(&shape, 0);
+            let mut coverage = Coverage::new(&mesh, &mut room, 0.1, 0.0);
+            let mut samples = Vec::new();
+            for _ in 0..6 {
+                let sample = std::array::from_fn(|_| (8.0 - 1.2 + 2.4 * rng.unit()) as f32);
+                if coverage.add(sample) {
+                    samples.push(exact(sample));
+                }
+            }
+            let open = if round % 2 == 0 {
+                let (local, _) = coverage.locate(&shape);
+                coverage.open_sixteenths(&local, 0)
+            } else {
+                let mut patch = Patch { fragment: whole, open: [u16::MAX; 16], longest: shape.longest, seen: 0 };
+                coverage.update(&mut patch);
+                (0..16).fold(0, |open, index| open | u16::from(patch.open[index] != 0) << index)
+            };
             for index in 0..16 {
                 let part = whole.sixteenth(index).shape(&mesh);
-                assert!(part.centre.distance(shape.sixteenth(index).centre) < 1e-12);
-                assert!((part.extent / shape.sixteenth(index).extent - 1.0).abs() < 1e-9);
                 assert!((16.0 * whole.sixteenth(index).area(&mesh) / mesh.area() - 1.0).abs() < 1e-9);
                 let farthest =
                     |sample: &DVec3| part.corners.map(|c| c.distance(*sample)).into_iter().fold(0.0, f64::max);
                 let is_covered = samples.iter().any(|sample| farthest(sample) < 1.0);
-                let well = samples.iter().any(|sample| sample.distance(part.centre) + part.extent < 1.0 - 3.0 * SLACK);
+                let well = samples.iter().any(|sample| farthest(sample) < 1.0 - 3.0 * f64::from(SLACK));
                 let is_open = open >> index & 1 == 1;
-                assert!(is_open || is_covered);
+                // One that is looked at in sixteen parts can be covered by several samples.
+                assert!(is_open || is_covered || round % 2 == 1);
                 assert!(!(is_open && well));
                 kept += u32::from(is_open);
                 dropped += u32::from(!is_open);

@@ -1,12 +1,13 @@
 //! Filling what the projectors left uncovered, until the set is maximal (departs from the thesis, which has no such step).
 //!
-//! Rounds of darts, as in the flat quadtree of Ebeida et al. 2012 ("A simple algorithm for maximal Poisson-disk sampling
-//! in high dimensions") with patches of triangles for squares: one dart into each uncovered patch, the greedy choice
-//! among the darts, and a new look at the patches, in which covered ones go and the others become smaller. Each block
-//! of space does so for itself, in the colours of `blocks.rs`.
+//! A dart into each uncovered patch, a new look at the patch, and so on, as in the flat quadtree of Ebeida et al. 2012
+//! ("A simple algorithm for maximal Poisson-disk sampling in high dimensions") with patches of triangles for squares. Each
+//! block of space does so for itself, in the colours of `blocks.rs`.
 //!
-//! *Order of the darts.* Darts that rain uniformly on the surface hit a patch of area a after a waiting time Exp(1) / a.
-//! A patch's priority is that time: a weighted random order (Efraimidis and Spirakis 2006).
+//! *Order of the darts.* There are no rounds: darts rain uniformly on the surface. The next one that hits a patch of area
+//! a comes after a waiting time Exp(1) / a, and darts are thrown in the order in which they arrive. So the accepted ones
+//! are distributed as if all of the surface had been rained on, however it is cut. A patch of which other samples have
+//! covered something since waits anew, for what is left of it; one that is still as it was is cut up.
 //!
 //! *The end.* Floats cannot tell points apart that are closer than the float spacing at the mesh's largest coordinate.
 //! The darts of patches no longer than that go to their centre. If it is rejected the patch is covered up to
@@ -14,6 +15,8 @@
 //! the origin) and the size of the patch (0.7). So no point of the surface is farther from all samples than the
 //! radius and [`TOLERANCE`] float spacings.
 
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
 use std::ops::AddAssign;
 
 use crate::error::Result;
@@ -30,9 +33,9 @@ use crate::rng::{Draw, Rng};
 pub const TOLERANCE: f64 = 6.0;
 
 /// The pieces that the search begins with, in radii: large enough to share their samples, small enough for a room.
-const PIECE: f64 = 2.0;
-/// How long, in radii, the sixteenths of a partly covered patch are when the first dart is thrown into them.
-const FINE: f64 = 0.15;
+const PIECE: f64 = 4.0;
+/// How long, in radii, the sixteenths of a partly covered patch are, whose sixteenths in turn it tells apart.
+const FINE: f64 = 0.25;
 
 /// Counts of a fill, or of a part of it.
 #[derive(Default)]
@@ -59,70 +62,102 @@ pub(super) fn fill(job: &Job, mesh: &Mesh, samples: &mut SampleSet, seed: u64) -
     })
 }
 
+/// Darts on their way to the patches of a block, in the order in which they arrive: a patch of area a waits Exp(1) / a.
+struct Rain<'a> {
+    mesh: &'a Mesh,
+    rng: Rng,
+    /// When the next dart arrives (the bits of floats that are not negative are in the order of the floats), and where.
+    darts: BinaryHeap<Reverse<(u64, usize)>>,
+}
+
+impl Rain<'_> {
+    /// Sends the next dart to a patch that has been waiting since `time`.
+    fn send(&mut self, time: f64, number: usize, patch: &Patch) {
+        let arrival = time - (1.0 - self.rng.unit()).ln() / patch.open_area(self.mesh);
+        self.darts.push(Reverse((arrival.to_bits(), number)));
+    }
+
+    /// The next dart to arrive: when, and at which patch.
+    fn next(&mut self) -> Option<(f64, usize)> {
+        self.darts.pop().map(|Reverse((arrival, number))| (f64::from_bits(arrival), number))
+    }
+
+    /// One of the open parts of a patch: a sixteenth, and a sixteenth of it.
+    fn open_part(&mut self, patch: &Patch) -> [usize; 2] {
+        let mut skipped = self.rng.below(patch.open_parts().into()) as u32;
+        let mut part = 0;
+        while skipped >= patch.open[part].count_ones() {
+            skipped -= patch.open[part].count_ones();
+            part += 1;
+        }
+        let rest = (0..skipped).fold(patch.open[part], |open, _| open & (open - 1));
+        [part, rest.trailing_zeros() as usize]
+    }
+
+    /// A point of a fragment.
+    fn point(&mut self, fragment: &Fragment) -> Sample {
+        let [mut s, mut t] = [self.rng.unit(), self.rng.unit()];
+        if s + t > 1.0 {
+            (s, t) = (1.0 - s, 1.0 - t);
+        }
+        self.sample(fragment, [s, t])
+    }
+
+    fn sample(&self, fragment: &Fragment, place: [f64; 2]) -> Sample {
+        Sample::new(self.mesh, fragment.triangle, round_barycentrics(fragment.at(place)))
+    }
+}
+
 /// The samples that a block needs to be covered, and what that took.
 fn fill_block(
     mesh: &Mesh,
     radius: f64,
-    mut rng: Rng,
+    rng: Rng,
     room: &mut Room,
     pieces: &mut dyn Iterator<Item = &Fragment>,
 ) -> (Vec<Sample>, Filled) {
     let spacing = float_spacing(mesh);
-    let (mut open, mut next) = (Vec::new(), Vec::new());
     let mut coverage = Coverage::new(mesh, room, FINE * radius, spacing);
-    pieces.for_each(|piece| coverage.search(piece, &mut open));
-    let open_area = open.iter().map(|patch| patch.open_area(mesh)).sum();
+    let mut patches = Vec::new();
+    pieces.for_each(|piece| coverage.search(piece, &mut patches));
+    let open_area = patches.iter().map(|patch| patch.open_area(mesh)).sum();
+    let mut rain = Rain { mesh, rng, darts: BinaryHeap::new() };
+    patches.iter().enumerate().for_each(|(number, patch)| rain.send(0.0, number, patch));
     let (mut accepted, mut darts) = (Vec::new(), 0);
-    while !open.is_empty() {
-        darts += open.len() as u64;
-        for patch in in_order_of_arrival(mesh, &open, &mut rng) {
-            let sample = dart(mesh, patch, spacing, &mut rng);
-            if !room.rejects(sample.position) {
-                room.add(sample.position);
-                accepted.push(sample);
-            }
+    while let Some((time, number)) = rain.next() {
+        let before = patches[number];
+        let [part, of_part] = rain.open_part(&before);
+        let patch = &mut patches[number];
+        coverage.update(patch);
+        let is_last = patch.longest <= spacing;
+        let dart = if is_last && patch.open_parts() > 0 {
+            Some(rain.sample(&patch.fragment, [1.0 / 3.0; 2]))
+        } else if patch.open[part] >> of_part & 1 == 1 {
+            Some(rain.point(&patch.fragment.sixteenth(part).sixteenth(of_part)))
+        } else {
+            None
+        };
+        darts += u64::from(dart.is_some());
+        if let Some(sample) = dart.filter(|sample| coverage.add(sample.position)) {
+            accepted.push(sample);
+            coverage.update(patch);
         }
-        // A dart into the centre of a patch decides about all of it.
-        let mut coverage = Coverage::new(mesh, room, FINE * radius, spacing);
-        open.iter().filter(|patch| patch.longest > spacing).for_each(|patch| coverage.refine(patch, &mut next));
-        std::mem::swap(&mut open, &mut next);
-        next.clear();
+        if is_last || patch.open_parts() == 0 {
+            continue;
+        }
+        if patch.open != before.open {
+            rain.send(time, number, patch);
+        } else {
+            let first = patches.len();
+            coverage.refine(&before, &mut patches);
+            (first..patches.len()).for_each(|number| rain.send(time, number, &patches[number]));
+        }
     }
     (accepted, Filled { darts, open_area })
-}
-
-impl Patch {
-    /// The area of the open sixteenths.
-    fn open_area(&self, mesh: &Mesh) -> f64 {
-        self.fragment.area(mesh) * f64::from(self.open.count_ones()) / 16.0
-    }
 }
 
 /// The spacing of floats at the largest absolute coordinate of a mesh.
 pub(super) fn float_spacing(mesh: &Mesh) -> f64 {
     let largest = mesh.largest_coordinate();
     f64::from(largest) - f64::from(next_below(largest))
-}
-
-fn in_order_of_arrival<'a>(mesh: &Mesh, open: &'a [Patch], rng: &mut Rng) -> Vec<&'a Patch> {
-    let arrival = |patch: &Patch, rng: &mut Rng| -(1.0 - rng.unit()).ln() / patch.open_area(mesh);
-    let mut order: Vec<_> = open.iter().map(|patch| (arrival(patch, rng), patch)).collect();
-    order.sort_by(|(a, _), (b, _)| a.total_cmp(b));
-    order.into_iter().map(|(_, patch)| patch).collect()
-}
-
-/// A patch's dart, uniform in its open sixteenths (in its centre, if it is no longer than `spacing`).
-pub(super) fn dart(mesh: &Mesh, patch: &Patch, spacing: f64, rng: &mut Rng) -> Sample {
-    let place = if patch.longest <= spacing {
-        patch.fragment.at([1.0 / 3.0; 2])
-    } else {
-        let skipped = rng.below(patch.open.count_ones().into());
-        let rest = (0..skipped).fold(patch.open, |open, _| open & (open - 1));
-        let [mut s, mut t] = [rng.unit(), rng.unit()];
-        if s + t > 1.0 {
-            (s, t) = (1.0 - s, 1.0 - t);
-        }
-        patch.fragment.sixteenth(rest.trailing_zeros() as usize).at([s, t])
-    };
-    Sample::new(mesh, patch.fragment.triangle, round_barycentrics(place))
 }

@@ -1,44 +1,67 @@
 //! The neighbour search inside one block: what stands in it and around it, in a small dense grid.
 
-use glam::DVec3;
+use glam::{DVec3, Vec3A};
 
 use crate::grid3::distance_squared;
+use crate::maximal::Vectors;
 use crate::mesh::exact;
 use crate::psp::blocks::{Block, SIDE};
+use crate::psp::near::{FAR, LANES, Near, Places};
+use crate::psp::vectors;
 
 /// How far a room reaches beyond its block, in radii. A block looks at what is near to fragments whose centre is in it:
-/// within a radius, the extent of the fragment, at most 4/3, and one more for its neighbours.
+/// within a radius and the extent of the fragment, at most 8/3.
 const HALO: u32 = 4;
 /// The side of a cell in radii.
-const CELL: u32 = 2;
+const CELL: f32 = 2.0;
+/// Half the side of the room in radii.
+const HALF: f32 = (SIDE / 2 + HALO) as f32;
 /// Cells along an axis.
-const CELLS: usize = ((SIDE + 2 * HALO) / CELL) as usize;
+const CELLS: usize = (2.0 * HALF / CELL) as usize;
+/// The cells that a ball touches are found with this margin, in radii, for the rounding of places.
+const MARGIN: f32 = 1e-4;
 
 const NONE: u16 = u16::MAX;
 
-/// Conflict-free points in and around a block. There are at most sqrt(2) for each cell, the densest packing, and some
-/// along the border: a `u16` counts them.
+/// Conflict-free points in and around a block. There are at most sqrt(2) for each cube of a radius, the densest packing,
+/// and some along the border: a `u16` counts them.
 pub(super) struct Room {
     radius: f64,
-    origin: [f64; 3],
-    per_unit: f64,
-    /// The first point of the chain in each cell.
+    centre: DVec3,
+    per_radius: f64,
+    /// The lower and upper corner, and a rounding more.
+    bounds: [Vec3A; 2],
+    vectors: Vectors,
+    /// The first page of each cell.
     heads: Vec<u16>,
-    next: Vec<u16>,
+    pages: Vec<Page>,
     points: Vec<[f32; 3]>,
+}
+
+/// Some of the points in a cell.
+#[repr(align(64))]
+struct Page {
+    /// As seen from the centre of the room, in radii.
+    places: Places,
+    points: [u16; LANES],
+    count: u16,
+    /// The next page of the cell.
+    next: u16,
 }
 
 impl Room {
     /// An empty room. Blocks count from `origin`.
     pub fn new(block: Block, origin: [f64; 3], radius: f64) -> Self {
-        let corner =
-            |axis: usize| origin[axis] + (f64::from(block.0[axis]) * f64::from(SIDE) - f64::from(HALO)) * radius;
+        let centre = [0, 1, 2].map(|axis| origin[axis] + (f64::from(block.0[axis]) + 0.5) * f64::from(SIDE) * radius);
+        let (centre, half) = (DVec3::from_array(centre), f64::from(HALF) * radius * 1.01);
         Self {
             radius,
-            origin: [0, 1, 2].map(corner),
-            per_unit: 1.0 / (f64::from(CELL) * radius),
+            centre,
+            bounds: [(centre - half).as_vec3a(), (centre + half).as_vec3a()],
+            per_radius: 1.0 / radius,
+            vectors: Vectors::widest(),
             heads: vec![NONE; CELLS * CELLS * CELLS],
-            next: Vec::new(),
+            pages: Vec::new(),
             points: Vec::new(),
         }
     }
@@ -47,58 +70,86 @@ impl Room {
         self.radius
     }
 
-    /// The cell along an axis, too low or too high outside the room.
-    fn cell(&self, axis: usize, x: f64) -> i32 {
-        let cells = (x - self.origin[axis]) * self.per_unit;
-        // Towards minus infinity, as far as it matters.
-        if cells < 0.0 { -1 } else { cells as i32 }
+    /// A point as seen from the centre of the room, in radii.
+    pub fn place(&self, point: DVec3) -> [f32; 3] {
+        ((point - self.centre) * self.per_radius).as_vec3().to_array()
+    }
+
+    /// The point at a place.
+    pub fn at(&self, place: [f32; 3]) -> DVec3 {
+        self.centre + exact(place) * self.radius
+    }
+
+    /// Whether a point may be inside: the quick test of the many that are not.
+    pub fn may_hold(&self, point: [f32; 3]) -> bool {
+        let ([low, high], point) = (self.bounds, Vec3A::from_array(point));
+        (point.cmpge(low) & point.cmple(high)).all()
     }
 
     /// Adds a point, or leaves it out if it is outside.
     pub fn add(&mut self, point: [f32; 3]) {
-        let cell = [0, 1, 2].map(|axis| self.cell(axis, f64::from(point[axis])));
-        if cell.iter().all(|x| (0..CELLS as i32).contains(x)) {
-            let [x, y, z] = cell.map(|x| x as usize);
-            let head = &mut self.heads[(z * CELLS + y) * CELLS + x];
-            self.next.push(*head);
-            *head = self.points.len() as u16;
-            self.points.push(point);
+        let place = self.place(exact(point));
+        if place.iter().any(|x| x.abs() >= HALF) {
+            return;
         }
+        // A sum can be rounded up to the very border.
+        let [x, y, z] = place.map(|x| (((x + HALF) / CELL) as usize).min(CELLS - 1));
+        let head = &mut self.heads[(z * CELLS + y) * CELLS + x];
+        if *head == NONE || usize::from(self.pages[usize::from(*head)].count) == LANES {
+            self.pages.push(Page { places: [[FAR; LANES]; 3], points: [0; LANES], count: 0, next: *head });
+            *head = (self.pages.len() - 1) as u16;
+        }
+        let page = &mut self.pages[usize::from(*head)];
+        let lane = usize::from(page.count);
+        (0..3).for_each(|axis| page.places[axis][lane] = place[axis]);
+        page.points[lane] = self.points.len() as u16;
+        page.count += 1;
+        self.points.push(point);
     }
 
     /// Whether a point is closer to another one than the radius: in `f64` from the floats, without tolerance.
     pub fn rejects(&self, point: [f32; 3]) -> bool {
+        let place = self.place(exact(point));
         let squared = self.radius * self.radius;
-        self.any_in_reach(point.map(f64::from), self.radius, |other| distance_squared(point, other) < squared)
+        self.any_page(place, 1.0, |page| {
+            let mut close = vectors::close(self.vectors, &page.places, place);
+            while close != 0 {
+                let other = page.points[close.trailing_zeros() as usize];
+                if distance_squared(point, self.points[usize::from(other)]) < squared {
+                    return true;
+                }
+                close &= close - 1;
+            }
+            false
+        })
     }
 
-    /// Visits the points within a distance of a point, as seen from there.
-    pub fn near(&self, centre: DVec3, distance: f64, mut visit: impl FnMut(DVec3)) {
-        self.any_in_reach(centre.to_array(), distance, |point| {
-            let offset = exact(point) - centre;
-            if offset.length_squared() <= distance * distance {
-                visit(offset);
-            }
+    /// Appends the points within `reach` radii of a place, as seen from there.
+    pub fn gather(&self, centre: [f32; 3], reach: f32, near: &mut Near) {
+        self.any_page(centre, reach, |page| {
+            near.reserve(LANES);
+            vectors::append(self.vectors, near, &page.places, centre, reach * reach);
             false
         });
     }
 
-    /// Whether the test holds for a point in one of the cells that a ball touches.
-    fn any_in_reach(&self, centre: [f64; 3], distance: f64, mut test: impl FnMut([f32; 3]) -> bool) -> bool {
-        // The margin covers the rounding of the sums.
-        let reach = distance * (1.0 + 1e-9);
-        let low = [0, 1, 2].map(|axis| self.cell(axis, centre[axis] - reach).max(0) as usize);
-        let high = [0, 1, 2].map(|axis| (self.cell(axis, centre[axis] + reach) + 1).clamp(0, CELLS as i32) as usize);
+    /// Whether the test holds for a page of the cells that a ball touches.
+    #[inline(always)]
+    fn any_page(&self, centre: [f32; 3], reach: f32, mut test: impl FnMut(&Page) -> bool) -> bool {
+        let cell = |x: f32| ((x + HALF) / CELL).clamp(0.0, CELLS as f32) as usize;
+        let low = centre.map(|x| cell(x - reach - MARGIN));
+        let high = centre.map(|x| (cell(x + reach + MARGIN) + 1).min(CELLS));
         for z in low[2]..high[2] {
             for y in low[1]..high[1] {
                 let row = (z * CELLS + y) * CELLS;
                 for &head in &self.heads[row + low[0].min(high[0])..row + high[0]] {
                     let mut id = head;
                     while id != NONE {
-                        if test(self.points[id as usize]) {
+                        let page = &self.pages[usize::from(id)];
+                        if test(page) {
                             return true;
                         }
-                        id = self.next[id as usize];
+                        id = page.next;
                     }
                 }
             }
@@ -132,15 +183,18 @@ mod tests {
                 let centre = point(1.05);
                 let close = |other: &&[f32; 3]| distance_squared(centre, **other) < radius * radius;
                 assert_eq!(room.rejects(centre), points.iter().any(|other| close(&other)));
-                let (around, reach) = (exact(centre), 2.9 * radius);
-                let mut found = Vec::new();
-                room.near(around, reach, |offset| found.push(offset));
-                let expected = points.iter().map(|&other| exact(other) - around);
-                let mut expected: Vec<_> = expected.filter(|p| p.length_squared() <= reach * reach).collect();
-                let by_place = |a: &DVec3, b: &DVec3| a.to_array().partial_cmp(&b.to_array()).unwrap();
-                found.sort_by(by_place);
-                expected.sort_by(by_place);
-                assert_eq!(found, expected);
+                let (place, mut near) = (room.place(exact(centre)), Near::new());
+                room.gather(place, 2.9, &mut near);
+                let found: Vec<_> = (0..near.len).map(|i| exact(near.point(i))).collect();
+                let around = room.at(place);
+                let distances = points.iter().map(|&other| ((exact(other) - around) / radius, other));
+                let reached = distances.filter(|(offset, _)| offset.length() < 2.9 + 1e-5);
+                let reached: Vec<_> = reached.collect();
+                assert!(found.len() <= reached.len());
+                for (offset, other) in reached.into_iter().filter(|(offset, _)| offset.length() < 2.9 - 1e-5) {
+                    assert!(room.may_hold(other));
+                    assert!(found.iter().any(|found| found.distance(offset) < 2e-6), "{offset}");
+                }
             }
         }
     }

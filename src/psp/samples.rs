@@ -76,7 +76,7 @@ impl SampleSet {
     /// Adds what `task` makes of each block's items, given the room of the block, and returns the sum of its counts.
     ///
     /// The task returns samples that conflict neither with each other nor with anything in the room, no farther than
-    /// 4/3 radii from the block. A failed or cancelled job leaves what complete colours have added.
+    /// 8/3 radii from the block. A failed or cancelled job leaves what complete colours have added.
     pub fn grow<T: Send + Sync, C: AddAssign + Default + Send>(
         &mut self,
         job: &Job,
@@ -112,7 +112,11 @@ impl SampleSet {
         let mut room = Room::new(block, self.origin, self.radius);
         for runs in block.around().filter_map(|block| self.blocks.get(&block)) {
             for run in runs {
-                self.samples[run.start as usize..run.end as usize].iter().for_each(|sample| room.add(sample.position));
+                for sample in &self.samples[run.start as usize..run.end as usize] {
+                    if room.may_hold(sample.position) {
+                        room.add(sample.position);
+                    }
+                }
             }
         }
         room

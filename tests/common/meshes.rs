@@ -45,6 +45,29 @@ pub fn needles(aspect: f32) -> Soup {
     (positions, vec![[0, 1, 2], [3, 4, 5]])
 }
 
+/// A book: so many pages on one edge, and as many leaves that touch its end with a corner.
+pub fn book(pages: u32) -> Soup {
+    let mut soup: Soup = (vec![[0.0, 0.0, 0.0], [0.0, 0.0, 1.0]], vec![]);
+    for page in 0..pages {
+        let (sin, cos) = (page as f32 * 0.9).sin_cos();
+        let first = soup.0.len() as u32;
+        soup.0.extend([[cos, sin, 0.4], [0.5 * cos, 0.5 * sin, 1.6], [0.4 * sin, -0.4 * cos, 1.5]]);
+        soup.1.extend([[0, first, 1], [1, first + 1, first + 2]]);
+    }
+    soup
+}
+
+/// A strip of slivers: triangles of length 1 whose third corner is near the middle of the longest edge (a cap) or near one
+/// of its ends (a blade), from a tenth down to 10^-7 of the length in height.
+pub fn slivers() -> Soup {
+    let sliver = |i: i32| {
+        let (height, y) = (10f32.powi(-1 - i / 2), 0.015 * i as f32);
+        let foot = if i % 2 == 0 { 0.47 } else { height };
+        (vec![[0.0, y, 0.0], [1.0, y, 0.3], [foot, y + 0.7 * height, 0.3 * foot + height]], vec![[0, 1, 2]])
+    };
+    join((0..14).map(sliver))
+}
+
 /// Triangles of random corners in the unit cube: they cross each other, and nothing is closed.
 pub fn random_soup(seed: u64, triangles: u32) -> Soup {
     let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1;

@@ -9,7 +9,8 @@ use glam::{DVec3, Vec3};
 use super::radius::{Bounds, Field};
 use super::room::Room;
 use crate::mesh::Mesh;
-use crate::psp::coverage::{CENTRES, Fragment, Patch, Shape};
+use crate::psp::cover::SIXTEENTHS;
+use crate::psp::coverage::{Fragment, Shape};
 
 /// How much, as a share of the distances at hand, rounding can add to a distance, and some more.
 const SLACK: f64 = 1e-5;
@@ -18,10 +19,27 @@ const FINE: f64 = 0.15;
 /// How much farther, in local radii, samples are gathered than a fragment needs: its neighbours will need them too.
 const SPARE: f64 = 1.0;
 
+/// The centres of the sixteenths as seen from the centre of the fragment, in edges, one axis after the other.
+const CENTRES: [[f32; 16]; 2] = {
+    let mut centres = [[0.0; 16]; 2];
+    let mut index = 0;
+    while index < 16 {
+        let [a, b, c] = SIXTEENTHS[index];
+        centres[0][index] = ((a[0] + b[0] + c[0]) / 12.0 - 1.0 / 3.0) as f32;
+        centres[1][index] = ((a[1] + b[1] + c[1]) / 12.0 - 1.0 / 3.0) as f32;
+        index += 1;
+    }
+    centres
+};
+
 /// A fragment that is not covered, and the radius on it.
 #[derive(Clone, Copy)]
 pub(super) struct Open {
-    pub patch: Patch,
+    pub fragment: Fragment,
+    /// A bit for each sixteenth that may be uncovered; at least one.
+    pub parts: u16,
+    /// The length of the longest edge.
+    pub longest: f64,
     pub bounds: Bounds,
 }
 
@@ -75,12 +93,12 @@ impl<'a> Coverage<'a> {
     }
 
     /// Appends the parts of a patch that are still uncovered.
-    pub fn refine(&mut self, Open { patch, bounds }: &Open, uncovered: &mut Vec<Open>) {
-        let shape = patch.fragment.shape(self.mesh);
-        self.gather(&patch.fragment, &shape, *bounds);
+    pub fn refine(&mut self, &Open { fragment, parts, bounds, .. }: &Open, uncovered: &mut Vec<Open>) {
+        let shape = fragment.shape(self.mesh);
+        self.gather(&fragment, &shape, bounds);
         let start = self.nearby.len();
-        let open = patch.open & self.open_sixteenths(&shape, *bounds, 0);
-        self.descend_into(&patch.fragment, &shape, *bounds, open, start, uncovered);
+        let parts = parts & self.open_sixteenths(&shape, bounds, 0);
+        self.descend_into(&fragment, &shape, bounds, parts, start, uncovered);
         self.nearby.truncate(start);
     }
 
@@ -108,7 +126,7 @@ impl<'a> Coverage<'a> {
         let longest = shape.longest;
         let is_fine = longest <= 4.0 * FINE * bounds.scale() || longest <= self.finest;
         if open == u16::MAX || (open != 0 && is_fine) {
-            uncovered.push(Open { patch: Patch { fragment: *fragment, open, longest }, bounds });
+            uncovered.push(Open { fragment: *fragment, parts: open, longest, bounds });
         } else {
             self.descend_into(fragment, shape, bounds, open, start, uncovered);
         }

@@ -6,9 +6,9 @@ use super::room::{Dot, Room, Rule, end_of_octave};
 use super::set::{Place, Set};
 use crate::error::Result;
 use crate::job::Job;
-use crate::mesh::Mesh;
+use crate::mesh::{Mesh, round_barycentrics};
 use crate::psp::coverage::{Fragment, Shape};
-use crate::psp::fill::{dart, float_spacing};
+use crate::psp::fill::float_spacing;
 use crate::psp::pieces::pieces;
 use crate::psp::samples::Sample;
 use crate::rng::{Draw, Rng};
@@ -48,9 +48,9 @@ fn fill_block(
     let (mut accepted, mut darts) = (Vec::new(), 0);
     while !open.is_empty() && !field.has_failed() {
         darts += open.len() as u64;
-        for Open { patch, bounds } in in_order_of_arrival(mesh, &open, &mut rng) {
+        for patch in in_order_of_arrival(mesh, &open, &mut rng) {
             let sample = dart(mesh, patch, spacing, &mut rng);
-            let radius = field.at_within(&sample, *bounds);
+            let radius = field.at_within(&sample, patch.bounds);
             let dot = Dot { position: sample.position, radius, normal: mesh.normal(sample.triangle) };
             if !room.rejects(&dot) {
                 room.add(dot);
@@ -59,7 +59,7 @@ fn fill_block(
         }
         // A dart into the centre of a patch decides about all of it.
         let mut coverage = Coverage::new(mesh, field, room, unit, spacing);
-        open.iter().filter(|open| open.patch.longest > spacing).for_each(|open| coverage.refine(open, &mut next));
+        open.iter().filter(|patch| patch.longest > spacing).for_each(|patch| coverage.refine(patch, &mut next));
         std::mem::swap(&mut open, &mut next);
         next.clear();
     }
@@ -68,11 +68,27 @@ fn fill_block(
 
 /// Darts that rain on the surface as densely as samples will stand hit a patch after a waiting time Exp(1) / (area / r²).
 fn in_order_of_arrival<'a>(mesh: &Mesh, open: &'a [Open], rng: &mut Rng) -> Vec<&'a Open> {
-    let arrival = |Open { patch, bounds }: &Open, rng: &mut Rng| {
-        let area = patch.fragment.area(mesh) * f64::from(patch.open.count_ones());
+    let arrival = |Open { fragment, parts, bounds, .. }: &Open, rng: &mut Rng| {
+        let area = fragment.area(mesh) * f64::from(parts.count_ones());
         -(1.0 - rng.unit()).ln() / area * (bounds.scale() * bounds.scale())
     };
     let mut order: Vec<_> = open.iter().map(|open| (arrival(open, rng), open)).collect();
     order.sort_by(|(a, _), (b, _)| a.total_cmp(b));
     order.into_iter().map(|(_, open)| open).collect()
+}
+
+/// A patch's dart, uniform in its open sixteenths (in its centre, if it is no longer than `spacing`).
+fn dart(mesh: &Mesh, patch: &Open, spacing: f64, rng: &mut Rng) -> Sample {
+    let place = if patch.longest <= spacing {
+        patch.fragment.at([1.0 / 3.0; 2])
+    } else {
+        let skipped = rng.below(patch.parts.count_ones().into());
+        let rest = (0..skipped).fold(patch.parts, |parts, _| parts & (parts - 1));
+        let [mut s, mut t] = [rng.unit(), rng.unit()];
+        if s + t > 1.0 {
+            (s, t) = (1.0 - s, 1.0 - t);
+        }
+        patch.fragment.sixteenth(rest.trailing_zeros() as usize).at([s, t])
+    };
+    Sample::new(mesh, patch.fragment.triangle, round_barycentrics(place))
 }

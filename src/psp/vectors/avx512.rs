@@ -1,0 +1,85 @@
+//! The functions of `near.rs` in AVX-512.
+
+use std::arch::x86_64::*;
+
+use crate::psp::cover::{CORNERS, Cover};
+use crate::psp::near::{LANES, Local, Near, Places, SLACK};
+
+use super::avx2;
+
+/// Lanes of a whole vector.
+const WIDE: usize = 16;
+
+#[inline]
+#[target_feature(enable = "avx512f")]
+fn load(places: &[f32]) -> __m512 {
+    let places = &places[..WIDE];
+    // SAFETY: sixteen floats are read, from a slice of sixteen; no alignment is asked for.
+    unsafe { _mm512_loadu_ps(places.as_ptr()) }
+}
+
+/// The squared distances of sixteen places from a point.
+#[inline]
+#[target_feature(enable = "avx512f")]
+fn squares([x, y, z]: [__m512; 3], from: [f32; 3]) -> __m512 {
+    let x = _mm512_sub_ps(x, _mm512_set1_ps(from[0]));
+    let y = _mm512_sub_ps(y, _mm512_set1_ps(from[1]));
+    let z = _mm512_sub_ps(z, _mm512_set1_ps(from[2]));
+    _mm512_add_ps(_mm512_add_ps(_mm512_mul_ps(x, x), _mm512_mul_ps(y, y)), _mm512_mul_ps(z, z))
+}
+
+/// [`Near::append`].
+#[target_feature(enable = "avx2,avx512f,avx512vl,popcnt")]
+pub fn append(near: &mut Near, [x, y, z]: &Places, centre: [f32; 3], reach2: f32) {
+    let offsets = avx2::offsets([x, y, z], centre);
+    let reaching = _mm256_cmp_ps_mask::<_CMP_LE_OQ>(avx2::square(offsets), _mm256_set1_ps(reach2));
+    for (axis, lanes) in near.axes.iter_mut().zip(offsets) {
+        let target = &mut axis[near.len..near.len + LANES];
+        // SAFETY: eight floats are written, to a slice of eight; no alignment is asked for.
+        unsafe { _mm256_storeu_ps(target.as_mut_ptr(), _mm256_maskz_compress_ps(reaching, lanes)) };
+    }
+    near.len += reaching.count_ones() as usize;
+}
+
+/// [`Near::append_reaching`].
+#[target_feature(enable = "avx512f,popcnt")]
+pub fn append_reaching(near: &mut Near, from: usize, to: usize, centre: [f32; 3], reach2: f32) {
+    for start in (from..to).step_by(WIDE) {
+        let [x, y, z] = &near.axes;
+        let points = [load(&x[start..]), load(&y[start..]), load(&z[start..])];
+        let there = ((1u32 << (to - start).min(WIDE)) - 1) as u16;
+        let squares = squares(points, centre);
+        let reaching = _mm512_mask_cmp_ps_mask::<_CMP_LE_OQ>(there, squares, _mm512_set1_ps(reach2));
+        for (axis, points) in near.axes.iter_mut().zip(points) {
+            let target = &mut axis[near.len..near.len + WIDE];
+            // SAFETY: sixteen floats are written, to a slice of sixteen; no alignment is asked for.
+            unsafe { _mm512_storeu_ps(target.as_mut_ptr(), _mm512_maskz_compress_ps(reaching, points)) };
+        }
+        near.len += reaching.count_ones() as usize;
+    }
+}
+
+/// The corners of the sixteenths.
+#[inline]
+#[target_feature(enable = "avx512f")]
+fn corners(fragment: &Local) -> [__m512; 3] {
+    let (s, t) = (load(&CORNERS[0]), load(&CORNERS[1]));
+    let (corner, [e, f]) = (fragment.corner.to_array(), fragment.edges.map(|edge| edge.to_array()));
+    let along = |axis: usize| {
+        let (e, f) = (_mm512_mul_ps(s, _mm512_set1_ps(e[axis])), _mm512_mul_ps(t, _mm512_set1_ps(f[axis])));
+        _mm512_add_ps(_mm512_set1_ps(corner[axis]), _mm512_add_ps(e, f))
+    };
+    [along(0), along(1), along(2)]
+}
+
+/// [`Near::covered`].
+#[target_feature(enable = "avx512f")]
+pub fn covered(near: &Near, from: usize, fragment: &Local) -> u16 {
+    let mut cover = Cover::default();
+    let corners = corners(fragment);
+    for index in from..near.len {
+        let squares = squares(corners, near.point(index));
+        cover.add(_mm512_cmp_ps_mask::<_CMP_LT_OQ>(squares, _mm512_set1_ps(1.0 - SLACK)));
+    }
+    cover.sixteenths()
+}
