@@ -3,7 +3,7 @@
 use crate::lattice::Rect;
 use crate::rng::Rng;
 
-use super::axis::CellAxis;
+use super::axis::{CellAxis, Finder};
 use super::near::{LANES, Near, Rows, SLACK};
 use super::vectors::Vectors;
 
@@ -20,7 +20,7 @@ const MAX_MARGIN: i32 = 3;
 pub(crate) struct CellGrid {
     /// Borders of the cells of each axis, one more than cells.
     borders: [Vec<i32>; 2],
-    cells_per_unit: [f64; 2],
+    finders: [Finder; 2],
     /// The longest side of a cell of the plane.
     widest_cell: i32,
     margin: [i32; 2],
@@ -50,7 +50,7 @@ impl CellGrid {
         Self {
             // That of the plane, whether this grid has such a cell or not: what is thrown must not depend on the window.
             widest_cell: axes[0].side().max(axes[1].side()).ceil() as i32,
-            cells_per_unit: [0, 1].map(|axis: usize| 1.0 / axes[axis].side()),
+            finders: [0, 1].map(|axis: usize| axes[axis].finder(rect.min[axis])),
             samples: [0, 1].map(|_| vec![NOWHERE; width * height + LANES]),
             stride: width,
             borders,
@@ -106,25 +106,13 @@ impl CellGrid {
     /// The cell of a lattice point of the grid.
     #[inline(always)]
     pub fn cell(&self, [x, y]: [i32; 2]) -> [i32; 2] {
-        [self.cell_along(0, x), self.cell_along(1, y)]
-    }
-
-    /// The column (axis 0) or row (axis 1) of cells that holds a coordinate.
-    #[inline(always)]
-    fn cell_along(&self, axis: usize, x: i32) -> i32 {
-        let borders = &self.borders[axis];
-        let mut cell = (f64::from(x - borders[0]) * self.cells_per_unit[axis]) as usize;
-        // The quotient ignores that the first border is rounded: it may be one off.
-        cell = cell.min(borders.len() - 2);
-        cell -= usize::from(borders[cell] > x);
-        cell += usize::from(borders[cell + 1] <= x);
-        cell as i32
+        [self.finders[0].cell(x), self.finders[1].cell(y)]
     }
 
     /// The columns (axis 0) or rows (axis 1) of cells that hold the coordinates between two, the first and the one after
     /// the last.
     pub fn cells_between(&self, axis: usize, [from, end]: [i32; 2]) -> [i32; 2] {
-        [self.cell_along(axis, from), self.cell_along(axis, end - 1) + 1]
+        [self.finders[axis].cell(from), self.finders[axis].cell(end - 1) + 1]
     }
 
     /// The vectors that the grid works with.
