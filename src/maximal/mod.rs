@@ -8,6 +8,8 @@
 
 mod axis;
 mod cells;
+mod darts;
+mod list;
 mod near;
 mod quadtree;
 #[allow(unsafe_code)] // Vector instructions.
@@ -15,6 +17,7 @@ mod vectors;
 
 pub(crate) use axis::CellAxis;
 pub(crate) use cells::CellGrid;
+pub(crate) use list::List;
 pub(crate) use quadtree::{Quadtree, darts};
 pub(crate) use vectors::Vectors;
 
