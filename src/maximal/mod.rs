@@ -28,7 +28,7 @@ use crate::memory;
 use crate::points::{Boundary, Domain};
 use crate::rng::{Draw, Rng};
 
-/// Darts per cell, before any is cut. After that [`darts`] says how many.
+/// Darts per cell, before any is cut. After that [`darts()`] says how many.
 const DARTS_PER_CELL: usize = 2;
 
 /// Darts between two looks at the progress callback.
