@@ -5,7 +5,7 @@
 //! bitmap may keep voxels that are covered, never the other way round.
 
 use crate::lattice::Rect;
-use crate::maximal::{CellGrid, Vectors};
+use crate::maximal::{CellGrid, List};
 
 use super::conquer::SeamCells;
 use super::fill::Block;
@@ -23,6 +23,10 @@ pub(super) const MOST_CELLS: i32 = LONGEST / PER_CELL;
 /// Rows of a bitmap: those of the longest block with the margin before it, and a stamp that begins in the last one.
 const ROWS: usize = (MARGIN + LONGEST) as usize + stamp::ROWS;
 
+/// A word per row of voxels.
+#[repr(align(64))]
+struct Rows([u64; ROWS]);
+
 /// The voxels of a block that may be uncovered.
 pub(super) struct Bitmap<'a> {
     stamps: &'a Stamps,
@@ -30,7 +34,7 @@ pub(super) struct Bitmap<'a> {
     /// The cells that hold the block, and the first of their lattice points.
     cells: Rect,
     origin: [i32; 2],
-    rows: [u64; ROWS],
+    rows: Rows,
 }
 
 /// The column and row of a voxel in the bitmap.
@@ -42,9 +46,9 @@ impl<'a> Bitmap<'a> {
     pub fn of_seams(stamps: &'a Stamps, grid: &CellGrid, seams: &SeamCells, block: &Block) -> Self {
         let &Block { rect, cells } = block;
         debug_assert!((0..2).all(|axis| cells.length(axis) <= MOST_CELLS));
-        let mut bitmap = Self { stamps, block: rect, cells, origin: grid.rect(cells.min).min, rows: [0; ROWS] };
+        let mut bitmap = Self { stamps, block: rect, cells, origin: grid.rect(cells.min).min, rows: Rows([0; ROWS]) };
         let [columns, rows] = [bitmap.inside(grid, 0), bitmap.inside(grid, 1)];
-        let cell_rows = bitmap.rows[MARGIN as usize..].chunks_exact_mut(PER_CELL as usize);
+        let cell_rows = bitmap.rows.0[MARGIN as usize..].chunks_exact_mut(PER_CELL as usize);
         for (y, voxel_rows) in (cells.min[1]..cells.max[1]).zip(cell_rows) {
             let voxels = columns & spread(seams.in_row(y, cells.min[0], cells.max[0])) << MARGIN;
             let inside = rows >> (MARGIN + PER_CELL * (y - cells.min[1]));
@@ -58,54 +62,45 @@ impl<'a> Bitmap<'a> {
     /// The columns (axis 0) or rows (axis 1) of voxels that have lattice points of the block, one per bit.
     #[inline(always)]
     fn inside(&self, grid: &CellGrid, axis: usize) -> u64 {
-        let last = self.cells.max[axis] - 1;
-        let (mut first_inside, mut end_inside) = (0, PER_CELL * (last - self.cells.min[axis]));
-        for part in 1..=PER_CELL {
-            first_inside += i32::from(grid.border(axis, self.cells.min[axis], part, PER_CELL) <= self.block.min[axis]);
-            end_inside += i32::from(grid.border(axis, last, part - 1, PER_CELL) < self.block.max[axis]);
-        }
-        u64::MAX >> (64 - (end_inside - first_inside)) << (MARGIN + first_inside)
+        let [first, last] = [self.cells.min[axis], self.cells.max[axis] - 1];
+        let first_inside = grid.part_of(axis, first, self.block.min[axis], PER_CELL);
+        let last_inside = PER_CELL * (last - first) + grid.part_of(axis, last, self.block.max[axis] - 1, PER_CELL);
+        u64::MAX >> (63 - (last_inside - first_inside)) << (MARGIN + first_inside)
     }
 
     /// [`Bitmap::stamp`] of many samples.
-    pub fn stamp_all(&mut self, vectors: Vectors, samples: &[[i32; 2]]) {
-        match vectors {
-            // SAFETY: the variants say that the processor has the vectors.
-            #[cfg(target_arch = "x86_64")]
-            Vectors::Avx512 => unsafe { self.stamp_all_avx512(samples) },
-            #[cfg(target_arch = "x86_64")]
-            // SAFETY: the same.
-            Vectors::Avx2 => unsafe { self.stamp_all_avx2(samples) },
-            Vectors::Portable => samples.iter().for_each(|&sample| self.stamp(sample)),
-        }
-    }
-
-    /// The portable code, compiled for AVX-512.
-    #[cfg(target_arch = "x86_64")]
-    #[target_feature(enable = "avx512f,avx512vl,avx512dq,avx512bw")]
-    fn stamp_all_avx512(&mut self, samples: &[[i32; 2]]) {
-        for &sample in samples {
-            self.stamp(sample);
-        }
-    }
-
-    /// The portable code, compiled for AVX2.
-    #[cfg(target_arch = "x86_64")]
-    #[target_feature(enable = "avx2")]
-    fn stamp_all_avx2(&mut self, samples: &[[i32; 2]]) {
-        for &sample in samples {
-            self.stamp(sample);
+    #[inline(always)]
+    pub fn stamp_all(&mut self, samples: &List) {
+        for [xs, ys] in samples.eights() {
+            // The places of eight at once, also of those that are none at the end.
+            let mut places = [[0; 2]; 8];
+            for i in 0..8 {
+                places[i] = [self.place(xs[i], 0), self.place(ys[i], 1)];
+            }
+            for [column, row] in places {
+                if column < 0 {
+                    return;
+                }
+                self.stamp_at([column as u32, row as u32]);
+            }
         }
     }
 
     /// Takes out what a sample covers; it may lie up to the radius outside of the block's cells.
     #[inline(always)]
     pub fn stamp(&mut self, sample: [i32; 2]) {
-        let place = [self.place(sample, 0), self.place(sample, 1)];
-        let stamp = self.stamps.at(place);
-        let (column, row) = (place[0] / PLACES, place[1] / PLACES);
-        let rows: &mut [u64; stamp::ROWS] =
-            (&mut self.rows[row as usize..][..stamp::ROWS]).try_into().expect("its rows");
+        self.stamp_at([0, 1].map(|axis: usize| self.place(sample[axis], axis) as u32));
+    }
+
+    /// Lays a stamp from a place on.
+    #[inline(always)]
+    fn stamp_at(&mut self, place: [u32; 2]) {
+        let (column, row) = (place[0] / PLACES, (place[1] / PLACES) as usize);
+        // By whole eights of rows: what one stamp has written is at once read by the next, which processors do quickly
+        // only if both are the same bytes.
+        let (first, before) = (row & !7, row & 7);
+        let stamp = &self.stamps.at(place)[8 - before..][..stamp::ROWS];
+        let rows = &mut self.rows.0[first..][..stamp::ROWS];
         for i in 0..stamp::ROWS {
             rows[i] &= !(u64::from(stamp[i]) << (column & 63));
         }
@@ -113,26 +108,40 @@ impl<'a> Bitmap<'a> {
 
     /// Where along an axis the stamp of a sample begins, in places.
     #[inline(always)]
-    fn place(&self, sample: [i32; 2], axis: usize) -> u32 {
-        let place = self.stamps.place(axis, sample[axis] - self.origin[axis]);
-        // It is not negative, and far below 2^31; the conversion rounds towards zero.
-        (place + ((MARGIN - REACH) as u32 * PLACES) as f32) as i32 as u32
+    fn place(&self, x: i32, axis: usize) -> i32 {
+        self.stamps.place(axis, x - self.origin[axis]) + (MARGIN - REACH) * PLACES as i32
     }
 
     /// Whether a voxel may be uncovered.
     pub fn is_open(&self, [column, row]: Place) -> bool {
-        self.rows[usize::from(row)] >> column & 1 == 1
+        self.rows.0[usize::from(row)] >> column & 1 == 1
+    }
+
+    /// Drops those of some voxels that are covered for certain.
+    #[inline(always)]
+    pub fn keep_open(&self, places: &mut Vec<Place>) {
+        let mut left = 0;
+        for i in 0..places.len() {
+            // Written in any case, kept only if it is open: which are is not predictable.
+            places[left] = places[i];
+            left += usize::from(self.is_open(places[left]));
+        }
+        places.truncate(left);
     }
 
     /// All voxels that may be uncovered.
     #[inline(always)]
     pub fn list(&self, places: &mut Vec<Place>) {
-        places.clear();
         let rows = MARGIN as usize..(MARGIN + PER_CELL * self.cells.length(1)) as usize;
+        let count: u32 = self.rows.0[rows.clone()].iter().map(|open| open.count_ones()).sum();
+        places.resize(count as usize, [0; 2]);
+        let mut places = places.iter_mut();
         for row in rows {
-            let mut open = self.rows[row];
+            let mut open = self.rows.0[row];
             while open != 0 {
-                places.push([open.trailing_zeros() as u8, row as u8]);
+                if let Some(place) = places.next() {
+                    *place = [open.trailing_zeros() as u8, row as u8];
+                }
                 open &= open - 1;
             }
         }
@@ -143,8 +152,9 @@ impl<'a> Bitmap<'a> {
     pub fn voxel(&self, grid: &CellGrid, place: Place) -> ([i32; 2], Rect) {
         let place = place.map(|index| i32::from(index) - MARGIN);
         let cell = [0, 1].map(|axis: usize| self.cells.min[axis] + place[axis] / PER_CELL);
-        let border = |axis: usize, index: i32| grid.border(axis, cell[axis], place[axis] % PER_CELL + index, PER_CELL);
-        let voxel = Rect { min: [border(0, 0), border(1, 0)], max: [border(0, 1), border(1, 1)] };
+        let part = |axis: usize| grid.part(axis, cell[axis], place[axis] % PER_CELL, PER_CELL);
+        let (x, y) = (part(0), part(1));
+        let voxel = Rect { min: [x[0], y[0]], max: [x[1], y[1]] };
         (cell, voxel.intersection(&self.block))
     }
 
@@ -235,25 +245,33 @@ mod tests {
     }
 
     #[test]
-    fn all_vectors_stamp_the_same() {
-        let (grid, seams, stamps) = everything(17_000, 1_000.3);
+    fn all_samples_of_a_list_are_stamped() {
+        let (mut grid, seams, stamps) = everything(17_000, 1_000.3);
         let mut rng = Rng::at(6, Draw::Probe, &[]);
-        let block = Rect { min: [3_000, 4_321], max: [9_000, 10_000] };
+        for _ in 0..3_000 {
+            let point = [rng.below(17_000) as i32, rng.below(16_983) as i32];
+            if !grid.conflicts(grid.cell(point), point) {
+                grid.insert(grid.cell(point), point);
+            }
+        }
         for _ in 0..50 {
-            let samples: Vec<_> = (0..9)
-                .map(|_| {
-                    [0, 1].map(|axis: usize| {
-                        block.min[axis] - 1_000 + rng.below(block.length(axis) as u64 + 2_000) as i32
-                    })
-                })
-                .collect();
-            let stamped = |vectors| {
-                let cells = grid.cells_of(&block);
-                let mut bitmap = Bitmap::of_seams(&stamps, &grid, &seams, &Block { rect: block, cells });
-                bitmap.stamp_all(vectors, &samples);
-                bitmap.rows
-            };
-            assert!(Vectors::available().into_iter().all(|vectors| stamped(vectors) == stamped(Vectors::Portable)));
+            let rect = Rect { min: [2_000; 2], max: [2_000; 2].map(|x| x + 1 + rng.below(7_200) as i32) };
+            let cells = grid.cells_of(&rect);
+            let around = grid.points_of(&cells).grown(1_000);
+            let (mut list, block) = (List::default(), Block { rect, cells });
+            grid.collect(&cells, &around, &mut list);
+            let [mut together, mut alone] = [0; 2].map(|_| Bitmap::of_seams(&stamps, &grid, &seams, &block));
+            together.stamp_all(&list);
+            grid.samples_in(&around).for_each(|sample| alone.stamp(sample));
+            assert_eq!(together.rows.0, alone.rows.0);
+            let mut places = Vec::new();
+            together.list(&mut places);
+            let open: u32 = together.rows.0.iter().map(|row| row.count_ones()).sum();
+            assert_eq!(places.len(), open as usize);
+            together.rows.0[20..].fill(0);
+            together.keep_open(&mut places);
+            assert!(places.iter().all(|&place| place[1] < 20 && together.is_open(place)));
+            assert_eq!(places.len(), together.rows.0.iter().map(|row| row.count_ones() as usize).sum());
         }
     }
 

@@ -136,7 +136,7 @@ impl Pattern {
                 let (row_bottom, row_top) = (row * self.height, ((row + 1) * self.height).min(self.side));
                 let (bottom, top) = (bottom.max(row_bottom), top.min(row_top));
                 for &(left, right, along) in pieces[0].iter().filter(|(left, right, _)| left < right) {
-                    let [first, end] = [left, right].map(|x| self.first_from(points, x));
+                    let (first, end) = (self.first_from(points, left), self.first_from(points, right));
                     visit(Row {
                         points: &points[first..end],
                         shift: [along, up],

@@ -5,7 +5,7 @@
 //! is a bitmap (`bitmap.rs`), in which nearly all gaps are found and closed.
 
 use crate::lattice::Rect;
-use crate::maximal::{CellGrid, Quadtree, darts};
+use crate::maximal::{CellGrid, List, Quadtree, darts};
 use crate::rng::Rng;
 
 use super::bitmap::{Bitmap, Place};
@@ -27,54 +27,53 @@ pub(super) struct Filling<'a> {
     reach: i32,
     quadtree: Quadtree,
     /// The memory of the samples around a block.
-    near: Vec<[i32; 2]>,
+    near: List,
     /// The memory of its open voxels.
     open: Vec<Place>,
 }
 
 impl<'a> Filling<'a> {
     pub fn new(stamps: &'a Stamps, seams: SeamCells, reach: i32) -> Self {
-        Self { stamps, seams, reach, quadtree: Quadtree::empty(), near: Vec::new(), open: Vec::new() }
+        Self { stamps, seams, reach, quadtree: Quadtree::empty(), near: List::default(), open: Vec::new() }
     }
 
-    /// Makes the samples of the grid maximal in `block` and gives the new ones to `output`.
-    /// `rng` makes the random numbers of the block.
-    pub fn fill(&mut self, grid: &mut CellGrid, block: &Block, rng: impl Fn() -> Rng, output: &mut Output) {
+    /// [`Filling::fill`] in any vectors.
+    #[inline(always)]
+    pub fn fill_portable(&mut self, grid: &mut CellGrid, block: &Block, rng: impl Fn() -> Rng, output: &mut Output) {
         let Some(marked) = self.seams.marked_in(&block.cells) else { return };
         let mut rng = rng();
         let mut bitmap = Bitmap::of_seams(self.stamps, grid, &self.seams, block);
         let around = grid.points_of(&marked).grown(self.reach);
-        bitmap.stamp_all(grid.vectors(), grid.collect(&marked, &around, &mut self.near));
+        grid.collect(&marked, &around, &mut self.near);
+        bitmap.stamp_all(&self.near);
         bitmap.list(&mut self.open);
 
         let width = Bitmap::widest(grid);
         self.throw(grid, &mut bitmap, width, &mut rng, output);
-        self.open.retain(|&place| bitmap.is_open(place));
         if self.open.is_empty() {
             return;
         }
-        self.quadtree.restart(grid, width, self.open.iter().map(|&place| bitmap.voxel(grid, place)));
-        self.quadtree.refine(grid);
+        self.quadtree.restart_cut(grid, width);
+        for &place in &self.open {
+            let (cell, voxel) = bitmap.voxel(grid, place);
+            self.quadtree.add_sixteenths(grid, &self.near, cell, voxel);
+        }
         self.quadtree.fill(grid, &mut rng, |sample| output.push(sample));
     }
 
     /// The darts of the first level: at voxels of the bitmap, picked from the open ones.
     #[inline(always)]
     fn throw(&mut self, grid: &mut CellGrid, bitmap: &mut Bitmap, width: i32, rng: &mut Rng, output: &mut Output) {
-        for _ in 0..darts(self.open.len()) {
-            if self.open.is_empty() {
-                break;
-            }
+        let mut misses = darts(self.open.len());
+        while misses > 0 {
+            misses -= 1;
             let pick = rng.below(self.open.len() as u64) as usize;
-            let place = self.open[pick];
-            if !bitmap.is_open(place) {
-                self.open.swap_remove(pick);
-                continue;
-            }
-            let (cell, rect) = bitmap.voxel(grid, place);
-            if let Some(sample) = grid.throw(cell, &rect, width, rng) {
+            let (cell, rect) = bitmap.voxel(grid, self.open[pick]);
+            if let Some(sample) = grid.throw_among(&mut self.near, cell, &rect, width, rng) {
                 bitmap.stamp(sample);
                 output.push(sample);
+                bitmap.keep_open(&mut self.open);
+                misses = darts(self.open.len());
             }
         }
     }

@@ -10,7 +10,6 @@
 //! of a plane can be had alone (`window.rs`). A number of samples instead of a radius is `count.rs`; sets that were made
 //! apart are glued into one by the same two steps (`merge/`). Each file says where it departs from the thesis.
 
-#[allow(unsafe_code)] // Vector instructions.
 mod bitmap;
 mod blocks;
 mod clip;
@@ -23,6 +22,8 @@ mod merge;
 mod output;
 mod plane;
 mod stamp;
+#[allow(unsafe_code)] // Vector instructions.
+mod vectors;
 mod window;
 
 use crate::error::{Error, Result};

@@ -193,6 +193,7 @@ pub(super) fn cut(blocks: &Rect, side: i32) -> Vec<Rect> {
 mod tests {
     use super::*;
     use crate::job::Context;
+    use crate::maximal::Vectors;
     use crate::points::Domain;
     use crate::rng::{Draw, Rng};
 
@@ -281,6 +282,24 @@ mod tests {
                 positions.sort_unstable_by(|a, b| a.partial_cmp(b).unwrap());
                 expected.sort_unstable_by(|a, b| a.partial_cmp(b).unwrap());
                 assert_eq!(positions, expected);
+            }
+        }
+    }
+
+    #[test]
+    fn all_vectors_fill_the_same() {
+        for seed in 0..3 {
+            let plane = plane(Domain::unit(Boundary::Periodic), 1.0 / 110.0, 6.0, seed);
+            for window in plane.windows_of(8) {
+                let known = plane.surroundings(&window);
+                let leaves = plane.leaves(&known);
+                let filled = |vectors| {
+                    let mut merged = plane.merge(&known, &window, &leaves);
+                    merged.grid.set_vectors(vectors);
+                    plane.fill(&window, &leaves, merged)
+                };
+                let expected = filled(Vectors::Portable);
+                assert!(Vectors::available().into_iter().all(|vectors| filled(vectors) == expected));
             }
         }
     }

@@ -13,18 +13,19 @@ pub(super) const PLACES: u32 = 16;
 /// Voxels on each side of a sample's own that its disk can cover: r is at most 6 voxels (see [`Stamps::new`]).
 pub(super) const REACH: i32 = 6;
 
-/// Rows of a stamp, some of them empty.
-pub(super) const ROWS: usize = 16;
+/// Rows that a stamp is laid on: it begins in one of the first eight, and some are empty.
+pub(super) const ROWS: usize = 24;
 
-/// Voxels around a sample, one per bit, by rows: bit 0 of row 0 is [`REACH`] columns and rows before the sample's own.
-pub(super) type Stamp = [u16; ROWS];
+/// Voxels around a sample, one per bit, by rows: bit 0 of row 8 is [`REACH`] columns and rows before the sample's own.
+/// The rows before are empty.
+pub(super) type Stamp = [u16; 8 + ROWS];
 
 /// The stamps of a plane.
 pub(super) struct Stamps {
-    /// Places per lattice point, per axis.
-    places: [f32; 2],
+    /// Places per lattice point, per axis, in units of 2^-32.
+    places: [i64; 2],
     /// By the row and the column of the place in the voxel.
-    table: Vec<Stamp>,
+    table: Box<[Stamp; (PLACES * PLACES) as usize]>,
 }
 
 impl Stamps {
@@ -33,22 +34,22 @@ impl Stamps {
     pub fn new(radius: f64, sides: [f64; 2]) -> Self {
         let voxels = sides.map(|side| side / f64::from(PER_CELL));
         let squares = (0..2).map(|axis| Self::squares(radius, voxels[axis])).collect::<Vec<_>>();
-        let table = (0..PLACES * PLACES).map(|place| {
-            let [x, y] = [place % PLACES, place / PLACES].map(|place| place as usize);
+        let table = Box::new(std::array::from_fn(|place| {
+            let [x, y] = [place % PLACES as usize, place / PLACES as usize];
             std::array::from_fn(|row| {
-                let covered =
-                    |column: &usize| row <= 2 * REACH as usize && squares[0][x][*column] + squares[1][y][row] < 1.0;
+                let Some(up) = row.checked_sub(8).and_then(|row| squares[1][y].get(row)) else { return 0 };
+                let covered = |column: &usize| squares[0][x][*column] + up < 1.0;
                 (0..=2 * REACH as usize).filter(covered).map(|column| 1 << column).sum()
             })
-        });
-        Self { places: voxels.map(|voxel| (f64::from(PLACES) / voxel) as f32), table: table.collect() }
+        }));
+        Self { places: voxels.map(|voxel| (f64::from(PLACES) / voxel * 32f64.exp2()) as i64), table }
     }
 
     /// For each place along an axis and each voxel: the squared distance to the voxel's farthest point, in units of the
     /// squared radius, with all that rounding can add to it.
     fn squares(radius: f64, voxel: f64) -> Vec<Vec<f64>> {
         let places = f64::from(PLACES);
-        // Borders are rounded to the lattice; the place is found in `f32`.
+        // Borders are rounded to the lattice; the place is found with a rounded factor.
         let (border, rounding) = (3.0 / voxel, 0.01 / places);
         let square = |place: u32, column: i32| {
             let (first, last) = (f64::from(place) / places - rounding, f64::from(place + 1) / places + rounding);
@@ -61,8 +62,8 @@ impl Stamps {
 
     /// Where a sample lies after the border of a voxel, along an axis, in places.
     #[inline(always)]
-    pub fn place(&self, axis: usize, after: i32) -> f32 {
-        after as f32 * self.places[axis]
+    pub fn place(&self, axis: usize, after: i32) -> i32 {
+        ((i64::from(after) * self.places[axis]) >> 32) as i32
     }
 
     /// The stamp of a sample whose place counts from any voxel's border.

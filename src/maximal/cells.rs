@@ -1,14 +1,14 @@
 //! Cells of one sample at most: the exact conflict and coverage tests of everything that happens in the plane.
 
 use crate::lattice::Rect;
-use crate::rng::Rng;
 
-use super::axis::CellAxis;
+use super::axis::{CellAxis, Finder};
+use super::list::List;
 use super::near::{LANES, Near, Rows, SLACK};
 use super::vectors::Vectors;
 
 /// The place of a cell without a sample: far beyond every threshold.
-const NOWHERE: i32 = -(1 << 29);
+pub(super) const NOWHERE: i32 = -(1 << 29);
 
 /// The most cells away that a conflict can be: cells are narrower than r / sqrt(2) by half at most.
 const MAX_MARGIN: i32 = 3;
@@ -20,7 +20,7 @@ const MAX_MARGIN: i32 = 3;
 pub(crate) struct CellGrid {
     /// Borders of the cells of each axis, one more than cells.
     borders: [Vec<i32>; 2],
-    cells_per_unit: [f64; 2],
+    finders: [Finder; 2],
     /// The longest side of a cell of the plane.
     widest_cell: i32,
     margin: [i32; 2],
@@ -50,7 +50,7 @@ impl CellGrid {
         Self {
             // That of the plane, whether this grid has such a cell or not: what is thrown must not depend on the window.
             widest_cell: axes[0].side().max(axes[1].side()).ceil() as i32,
-            cells_per_unit: [0, 1].map(|axis: usize| 1.0 / axes[axis].side()),
+            finders: [0, 1].map(|axis: usize| axes[axis].finder(rect.min[axis])),
             samples: [0, 1].map(|_| vec![NOWHERE; width * height + LANES]),
             stride: width,
             borders,
@@ -96,35 +96,45 @@ impl CellGrid {
         Rect { min: self.rect(cells.min).min, max: self.rect([cells.max[0] - 1, cells.max[1] - 1]).max }
     }
 
-    /// The border before a part of a column (axis 0) or row (axis 1) of cells that is cut in `parts`.
+    /// Where a part of a column (axis 0) or row (axis 1) of cells that is cut in `parts` begins and ends.
     #[inline(always)]
-    pub fn border(&self, axis: usize, cell: i32, part: i32, parts: i32) -> i32 {
-        let [first, end] = [self.borders[axis][cell as usize], self.borders[axis][cell as usize + 1]];
-        first + (end - first) * part / parts
+    pub fn part(&self, axis: usize, cell: i32, part: i32, parts: i32) -> [i32; 2] {
+        let (first, length) = self.span(axis, cell);
+        let border = |part: i32| first + (length * part as u32 / parts as u32) as i32;
+        [border(part), border(part + 1)]
+    }
+
+    /// The part of a column (axis 0) or row (axis 1) of cells that holds a coordinate.
+    #[inline(always)]
+    pub fn part_of(&self, axis: usize, cell: i32, x: i32, parts: i32) -> i32 {
+        let (first, length) = self.span(axis, cell);
+        // The last one with length * part / parts < x - first + 1, without rounding.
+        (((x - first + 1) * parts - 1) as u32 / length) as i32
+    }
+
+    /// Where a column (axis 0) or row (axis 1) of cells begins, and how long it is.
+    #[inline(always)]
+    fn span(&self, axis: usize, cell: i32) -> (i32, u32) {
+        let borders = &self.borders[axis][cell as usize..][..2];
+        (borders[0], (borders[1] - borders[0]) as u32)
     }
 
     /// The cell of a lattice point of the grid.
     #[inline(always)]
     pub fn cell(&self, [x, y]: [i32; 2]) -> [i32; 2] {
-        [self.cell_along(0, x), self.cell_along(1, y)]
-    }
-
-    /// The column (axis 0) or row (axis 1) of cells that holds a coordinate.
-    #[inline(always)]
-    fn cell_along(&self, axis: usize, x: i32) -> i32 {
-        let borders = &self.borders[axis];
-        let mut cell = (f64::from(x - borders[0]) * self.cells_per_unit[axis]) as usize;
-        // The quotient ignores that the first border is rounded: it may be one off.
-        cell = cell.min(borders.len() - 2);
-        cell -= usize::from(borders[cell] > x);
-        cell += usize::from(borders[cell + 1] <= x);
-        cell as i32
+        [self.finders[0].cell(x), self.finders[1].cell(y)]
     }
 
     /// The columns (axis 0) or rows (axis 1) of cells that hold the coordinates between two, the first and the one after
     /// the last.
     pub fn cells_between(&self, axis: usize, [from, end]: [i32; 2]) -> [i32; 2] {
-        [self.cell_along(axis, from), self.cell_along(axis, end - 1) + 1]
+        [self.finders[axis].cell(from), self.finders[axis].cell(end - 1) + 1]
+    }
+
+    /// Works with other vectors than the widest.
+    #[cfg(test)]
+    pub fn set_vectors(&mut self, vectors: Vectors) {
+        self.vectors = vectors;
     }
 
     /// The vectors that the grid works with.
@@ -175,6 +185,13 @@ impl CellGrid {
         self.vectors.gather(near, &self.rows_near(cell), self.rect(cell), self.threshold as f32);
     }
 
+    /// Gathers from a list the samples that cover something of a voxel.
+    #[inline(always)]
+    pub(super) fn gather_among(&self, list: &List, voxel: Rect, near: &mut Near) {
+        near.limit = self.certain();
+        self.vectors.gather(near, &list.rows(), voxel, self.threshold as f32);
+    }
+
     /// [`Near::uncovered`].
     #[inline(always)]
     pub(super) fn uncovered(&self, near: &Near, voxel: &Rect, width: i32) -> u16 {
@@ -184,30 +201,23 @@ impl CellGrid {
     /// Whether a sample conflicts with `point`, which lies in `cell`.
     #[inline(always)]
     pub fn conflicts(&self, cell: [i32; 2], point: [i32; 2]) -> bool {
-        let nearest = self.vectors.nearest(&self.rows_near(cell), point);
+        self.conflicts_among(&self.rows_near(cell), point)
+    }
+
+    /// Whether one of the samples of some rows conflicts with `point`.
+    #[inline(always)]
+    pub(super) fn conflicts_among(&self, rows: &Rows, point: [i32; 2]) -> bool {
+        let nearest = self.vectors.nearest(rows, point);
         if nearest >= self.threshold as f32 * (1.0 + SLACK) {
             return false;
         }
-        nearest < self.certain() || self.conflicts_exactly(cell, point)
+        nearest < self.certain() || self.conflicts_exactly(rows, point)
     }
 
-    /// Throws a dart at a voxel of a cell and adds it if it becomes a sample. Every voxel gets the share of darts of one
-    /// as wide as `width`; those beyond its own end are void.
-    #[inline(always)]
-    pub fn throw(&mut self, cell: [i32; 2], voxel: &Rect, width: i32, rng: &mut Rng) -> Option<[i32; 2]> {
-        let [x, y] = rng.pair_below(width as u32);
-        let point = [voxel.min[0] + x as i32, voxel.min[1] + y as i32];
-        if !voxel.contains(point) || self.conflicts(cell, point) {
-            return None;
-        }
-        self.insert(cell, point);
-        Some(point)
-    }
-
-    /// [`CellGrid::conflicts`] where rounding could decide.
+    /// [`CellGrid::conflicts_among`] where rounding could decide.
     #[cold]
-    fn conflicts_exactly(&self, cell: [i32; 2], point: [i32; 2]) -> bool {
-        self.rows_near(cell).iter().any(|[xs, ys]| {
+    fn conflicts_exactly(&self, rows: &Rows, point: [i32; 2]) -> bool {
+        rows.iter().any(|[xs, ys]| {
             (0..LANES).any(|lane| {
                 let [dx, dy] = [(xs[lane], 0), (ys[lane], 1)].map(|(x, axis)| i64::from(x) - i64::from(point[axis]));
                 dx * dx + dy * dy < self.threshold
@@ -268,23 +278,17 @@ impl CellGrid {
         }
     }
 
-    /// The samples in `rect`, which reaches no farther beyond the given cells than conflicts do; by rows of cells, the margin
-    /// included. `samples` is the memory for them.
+    /// Lists the samples in `rect`, which reaches no farther beyond the given cells than conflicts do; by rows of cells, the
+    /// margin included.
     #[inline(always)]
-    pub fn collect<'a>(&self, cells: &Rect, rect: &Rect, samples: &'a mut Vec<[i32; 2]>) -> &'a [[i32; 2]] {
+    pub fn collect(&self, cells: &Rect, rect: &Rect, list: &mut List) {
         let [x, y] = self.margin;
-        let cells = Rect { min: [cells.min[0] - x, cells.min[1] - y], max: [cells.max[0] + x, cells.max[1] + y] };
-        let room = (cells.length(0) * cells.length(1)) as usize;
-        if samples.len() < room {
-            samples.resize(room, [0; 2]);
-        }
-        let mut count = 0;
-        for y in cells.min[1]..cells.max[1] {
-            let [first, end] = [cells.min[0], cells.max[0]].map(|x| self.index([x, y]));
-            let row = [&self.samples[0][first..end], &self.samples[1][first..end]];
-            count += self.vectors.collect(row, rect, &mut samples[count..]);
-        }
-        &samples[..count]
+        let (width, height) = ((cells.length(0) + 2 * x) as usize, (cells.length(1) + 2 * y) as usize);
+        let first = self.index([cells.min[0] - x, cells.min[1] - y]);
+        list.clear(width * height);
+        let rows = Rows { samples: [&self.samples[0], &self.samples[1]], first, stride: self.stride, count: height };
+        self.vectors.collect(&rows, width, rect, list);
+        list.end();
     }
 
     /// The samples in `rect`, by rows of cells.

@@ -8,6 +8,8 @@
 
 mod axis;
 mod cells;
+mod darts;
+mod list;
 mod near;
 mod quadtree;
 #[allow(unsafe_code)] // Vector instructions.
@@ -15,6 +17,7 @@ mod vectors;
 
 pub(crate) use axis::CellAxis;
 pub(crate) use cells::CellGrid;
+pub(crate) use list::List;
 pub(crate) use quadtree::{Quadtree, darts};
 pub(crate) use vectors::Vectors;
 
@@ -25,8 +28,8 @@ use crate::memory;
 use crate::points::{Boundary, Domain};
 use crate::rng::{Draw, Rng};
 
-/// Darts per voxel and round.
-const DARTS_PER_VOXEL: f64 = 2.0;
+/// Darts per cell, before any is cut. After that [`darts()`] says how many.
+const DARTS_PER_CELL: usize = 2;
 
 /// Darts between two looks at the progress callback.
 const DARTS_PER_REPORT: usize = 1 << 16;
@@ -90,8 +93,8 @@ pub(crate) fn sample_points(job: &Job, lattice: &Lattice, seed: u64) -> Result<V
     let mut quadtree = Quadtree::new(&grid, rect, all);
     let mut rng = Rng::at(seed, Draw::Darts, &[]);
     let mut count = 0u64;
+    let mut darts = DARTS_PER_CELL * quadtree.len();
     while !quadtree.is_empty() {
-        let mut darts = (quadtree.len() as f64 * DARTS_PER_VOXEL).ceil() as usize;
         while darts > 0 {
             for _ in 0..darts.min(DARTS_PER_REPORT) {
                 count += u64::from(quadtree.throw(&mut grid, &mut rng).is_some());
@@ -100,6 +103,7 @@ pub(crate) fn sample_points(job: &Job, lattice: &Lattice, seed: u64) -> Result<V
             job.report((count as f64 / expected).min(0.99))?;
         }
         quadtree.refine(&grid);
+        darts = quadtree::darts(quadtree.len());
     }
     #[cfg(test)]
     grid.sanity_check();

@@ -6,6 +6,8 @@
 
 use crate::lattice::Rect;
 
+use super::list::List;
+
 /// The share of the squared radius that rounding can add up to, and some more: coordinates are below 5 radii, and each
 /// of a handful of operations is off by at most 2^-24 of its result.
 pub(super) const SLACK: f32 = 1e-5;
@@ -18,7 +20,7 @@ pub(super) const LANES: usize = 8;
 pub(super) const MOST_NEAR: usize = 16;
 
 /// As many samples near a cell are tested whether they are there or not; seldom are there more.
-pub(super) const ALWAYS: usize = 6;
+pub(super) const ALWAYS: usize = 4;
 
 /// A coordinate of no sample. Its square is a float.
 pub(super) const FAR: f32 = 1e18;
@@ -32,7 +34,7 @@ pub(super) struct Rows<'a> {
     pub first: usize,
     /// From one row to the next.
     pub stride: usize,
-    /// How many rows.
+    /// How many rows; there is one at least.
     pub count: usize,
 }
 
@@ -61,10 +63,10 @@ impl<'a> Rows<'a> {
 /// The samples that cover something of a cell, as seen from its corner.
 pub(super) struct Near {
     pub origin: [i32; 2],
-    /// The first `count` are samples; the eight after them are [`FAR`], so that a few can be tested whether they are there
-    /// or not. How many there are is not predictable.
-    pub x: [f32; MOST_NEAR + LANES],
-    pub y: [f32; MOST_NEAR + LANES],
+    /// The first `count` are samples; [`ALWAYS`] and more after them are [`FAR`], so that a few can be tested whether they
+    /// are there or not. How many there are is not predictable. (Vectors of sixteen are written from any place on.)
+    pub x: [f32; MOST_NEAR + 2 * LANES],
+    pub y: [f32; MOST_NEAR + 2 * LANES],
     pub count: usize,
     /// Squared distances below it are certainly below the threshold.
     pub limit: f32,
@@ -73,7 +75,7 @@ pub(super) struct Near {
 impl Near {
     /// Memory for what is near a cell.
     pub fn new() -> Self {
-        Self { origin: [0; 2], x: [FAR; MOST_NEAR + LANES], y: [FAR; MOST_NEAR + LANES], count: 0, limit: 0.0 }
+        Self { origin: [0; 2], x: [FAR; MOST_NEAR + 2 * LANES], y: [FAR; MOST_NEAR + 2 * LANES], count: 0, limit: 0.0 }
     }
 
     /// Takes the samples of the rows that are closer than the square root of `threshold` to the lattice points of `cell`.
@@ -121,16 +123,17 @@ impl Near {
     }
 }
 
-/// Writes the samples of a row that lie in a rectangle to the front of `samples`, which has room for the whole row, and
-/// says how many there are.
-pub(super) fn collect([xs, ys]: [&[i32]; 2], rect: &Rect, samples: &mut [[i32; 2]]) -> usize {
-    let mut count = 0;
-    for (&x, &y) in xs.iter().zip(ys) {
-        // Written in any case and counted only if it is one: which cells have one is not predictable.
-        samples[count] = [x, y];
-        count += usize::from(rect.contains([x, y]));
+/// Appends the samples in the first `width` cells of each row that lie in a rectangle to a list, which has room for all.
+pub(super) fn collect(rows: &Rows, width: usize, rect: &Rect, list: &mut List) {
+    let [xs, ys] = rows.samples;
+    for row in 0..rows.count {
+        let cells = rows.first + row * rows.stride..rows.first + row * rows.stride + width;
+        for (&x, &y) in xs[cells.clone()].iter().zip(&ys[cells]) {
+            // Written in any case and counted only if it is one: which cells have one is not predictable.
+            (list.x[list.count], list.y[list.count]) = (x, y);
+            list.count += usize::from(rect.contains([x, y]));
+        }
     }
-    count
 }
 
 #[cfg(test)]
@@ -219,6 +222,24 @@ mod tests {
         assert!(dropped > 10_000);
     }
 
+    /// Also not what was gathered before.
+    #[test]
+    fn where_no_sample_is_nothing_is_covered() {
+        let cell = Rect { min: [0; 2], max: [500; 2] };
+        let mut empty = List::default();
+        empty.clear(0);
+        empty.end();
+        for vectors in Vectors::available() {
+            let (mut near, limit) = (Near::new(), 1e6);
+            near.limit = limit;
+            let everywhere = [vec![250; 5 * LANES], vec![250; 5 * LANES]];
+            vectors.gather(&mut near, &rows(&everywhere), cell, limit);
+            assert_eq!(vectors.uncovered(&near, &cell, 125), 0);
+            vectors.gather(&mut near, &empty.rows(), cell, limit);
+            assert_eq!((near.count, vectors.uncovered(&near, &cell, 125)), (0, u16::MAX));
+        }
+    }
+
     #[test]
     fn all_vectors_give_the_same_bits() {
         let mut rng = Rng::at(1, Draw::Probe, &[]);
@@ -245,12 +266,14 @@ mod tests {
                     assert!(count == MOST_NEAR || found.x[count..filled].iter().all(|&x| x == FAR));
 
                     let rect = Rect { min: [-radius; 2], max: [point[0].max(0), radius] };
-                    let length = rng.below(20) as usize;
-                    let row = [&samples[0][..length], &samples[1][..length]];
-                    let [mut found, mut expected] = [[[0; 2]; 20]; 2];
-                    let count = collect(row, &rect, &mut expected);
-                    assert_eq!(vectors.collect(row, &rect, &mut found), count);
-                    assert_eq!(found[..count], expected[..count]);
+                    let (rows, width) = (Rows { count: 2, ..rows }, rng.below(20) as usize);
+                    let [found, expected] = [vectors, Vectors::Portable].map(|vectors| {
+                        let mut list = List::default();
+                        list.clear(40);
+                        vectors.collect(&rows, width, &rect, &mut list);
+                        [list.x[..list.count].to_vec(), list.y[..list.count].to_vec()]
+                    });
+                    assert_eq!(found, expected);
                 }
             }
         }

@@ -9,6 +9,7 @@
 //! Voxels are cut in sixteen by a coarse test (`near.rs`) while they are wide, and exactly in four after that.
 
 use super::cells::CellGrid;
+use super::list::List;
 use super::near::Near;
 use crate::lattice::Rect;
 use crate::rng::Rng;
@@ -71,6 +72,21 @@ impl Quadtree {
         self.voxels.extend(voxels.map(|(cell, rect)| Voxel { rect, cell }));
     }
 
+    /// Drops all voxels, for sixteenths of voxels no wider than `width` ([`Quadtree::add_sixteenths`]).
+    #[inline(always)]
+    pub fn restart_cut(&mut self, grid: &CellGrid, width: i32) {
+        self.restart(grid, part(width), std::iter::empty());
+        debug_assert!(width > self.narrowest);
+    }
+
+    /// Takes the sixteenths of a voxel of a cell that no sample covers. All samples that could are listed.
+    #[inline(always)]
+    pub fn add_sixteenths(&mut self, grid: &CellGrid, list: &List, cell: [i32; 2], voxel: Rect) {
+        grid.gather_among(list, voxel, &mut self.near);
+        let open = grid.uncovered(&self.near, &voxel, self.width);
+        self.voxels.extend(parts(voxel, self.width, open).map(|rect| Voxel { rect, cell }));
+    }
+
     /// How many voxels are left.
     pub fn len(&self) -> usize {
         self.voxels.len()
@@ -112,13 +128,13 @@ impl Quadtree {
     #[inline(always)]
     pub fn fill(&mut self, grid: &mut CellGrid, rng: &mut Rng, mut accepted: impl FnMut([i32; 2])) {
         while !self.is_empty() {
-            for _ in 0..darts(self.len()) {
-                if self.is_empty() {
-                    return;
-                }
+            let mut misses = darts(self.len());
+            while misses > 0 {
+                misses -= 1;
                 if let Some(sample) = self.throw(grid, rng) {
                     self.prune(grid, sample);
                     accepted(sample);
+                    misses = darts(self.len());
                 }
             }
             self.refine(grid);
@@ -154,8 +170,8 @@ impl Quadtree {
     }
 }
 
-/// How many darts are thrown at so many voxels, if these are pruned by every new sample, before they are cut: in a gap
-/// most darts become samples, and most samples close it.
+/// How many darts are thrown at so many voxels before they are cut. Where voxels are pruned by every new sample: how many
+/// miss in a row; in a gap most darts become samples, and most samples close it.
 pub(crate) fn darts(voxels: usize) -> usize {
     voxels.div_ceil(2)
 }

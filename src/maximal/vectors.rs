@@ -2,6 +2,7 @@
 
 use crate::lattice::Rect;
 
+use super::list::List;
 use super::near::{self, Near, Rows};
 
 #[cfg(target_arch = "x86_64")]
@@ -23,7 +24,11 @@ impl Vectors {
     /// The widest there are.
     pub fn widest() -> Self {
         #[cfg(target_arch = "x86_64")]
-        if is_x86_feature_detected!("avx2") && is_x86_feature_detected!("popcnt") {
+        if is_x86_feature_detected!("avx2")
+            && is_x86_feature_detected!("popcnt")
+            && is_x86_feature_detected!("bmi1")
+            && is_x86_feature_detected!("bmi2")
+        {
             let is_wide = is_x86_feature_detected!("avx512f")
                 && is_x86_feature_detected!("avx512vl")
                 && is_x86_feature_detected!("avx512dq")
@@ -54,7 +59,10 @@ impl Vectors {
             Self::Portable => rows.nearest(point),
             // SAFETY: the variant says that the processor has the vectors.
             #[cfg(target_arch = "x86_64")]
-            Self::Avx2 | Self::Avx512 => unsafe { avx2::nearest(rows, point) },
+            Self::Avx2 => unsafe { avx2::nearest(rows, point) },
+            // SAFETY: the same.
+            #[cfg(target_arch = "x86_64")]
+            Self::Avx512 => unsafe { avx512::nearest(rows, point) },
         }
     }
 
@@ -88,12 +96,12 @@ impl Vectors {
 
     /// [`near::collect`].
     #[inline]
-    pub(super) fn collect(self, row: [&[i32]; 2], rect: &Rect, samples: &mut [[i32; 2]]) -> usize {
+    pub(super) fn collect(self, rows: &Rows, width: usize, rect: &Rect, list: &mut List) {
         match self {
             // SAFETY: the variant says that the processor has the vectors.
             #[cfg(target_arch = "x86_64")]
-            Self::Avx512 => unsafe { avx512::collect(row, rect, samples) },
-            _ => near::collect(row, rect, samples),
+            Self::Avx512 => unsafe { avx512::collect(rows, width, rect, list) },
+            _ => near::collect(rows, width, rect, list),
         }
     }
 }

@@ -14,6 +14,7 @@ fn load(row: &[i32; LANES]) -> __m256i {
 }
 
 /// [`Rows::nearest`].
+#[inline]
 #[target_feature(enable = "avx2")]
 pub fn nearest(rows: &Rows, point: [i32; 2]) -> f32 {
     let (px, py) = (_mm256_set1_epi32(point[0]), _mm256_set1_epi32(point[1]));
@@ -32,12 +33,7 @@ pub fn nearest(rows: &Rows, point: [i32; 2]) -> f32 {
 /// goes from there to `end`.
 #[inline]
 #[target_feature(enable = "avx2")]
-pub(super) fn covering(
-    row: [&[i32; LANES]; 2],
-    origin: [i32; 2],
-    end: [f32; 2],
-    threshold: f32,
-) -> ([__m256; 2], __m256) {
+fn covering(row: [&[i32; LANES]; 2], origin: [i32; 2], end: [f32; 2], threshold: f32) -> ([__m256; 2], __m256) {
     let mut positions = [_mm256_setzero_ps(); 2];
     let mut squares = [_mm256_setzero_ps(); 2];
     for axis in 0..2 {
@@ -53,7 +49,7 @@ pub(super) fn covering(
 /// Adds the lanes of a row in front of those beyond, which the next ones overwrite.
 #[inline]
 #[target_feature(enable = "avx2")]
-pub(super) fn push(near: &mut Near, lanes: [__m256; 2], count: u32) {
+fn push(near: &mut Near, lanes: [__m256; 2], count: u32) {
     let places = near.count..near.count + LANES;
     let (x, y) = (&mut near.x[places.clone()], &mut near.y[places]);
     // SAFETY: eight floats are written, to slices of eight; no alignment is asked for.
@@ -65,6 +61,7 @@ pub(super) fn push(near: &mut Near, lanes: [__m256; 2], count: u32) {
 }
 
 /// [`Near::gather`].
+#[inline]
 #[target_feature(enable = "avx2,popcnt")]
 pub fn gather(near: &mut Near, rows: &Rows, cell: Rect, threshold: f32) {
     (near.origin, near.count) = (cell.min, 0);
@@ -122,6 +119,7 @@ fn farthest(x: f32, (centres, extents): (__m256, __m256)) -> __m256 {
 }
 
 /// [`Near::uncovered`].
+#[inline]
 #[target_feature(enable = "avx2")]
 pub fn uncovered(near: &Near, voxel: &Rect, width: i32) -> u16 {
     let min = [voxel.min[0] - near.origin[0], voxel.min[1] - near.origin[1]];

@@ -1,0 +1,38 @@
+//! The filling of a block (`fill.rs`) once more for each kind of vectors, the same to the bit: compiled for them, so that the
+//! small functions in these vectors (`maximal/vectors.rs`) become a part of it, and its loops over bits and stamps use them.
+
+use crate::maximal::{CellGrid, Vectors};
+use crate::rng::Rng;
+
+use super::fill::{Block, Filling};
+use super::output::Output;
+
+impl Filling<'_> {
+    /// Makes the samples of the grid maximal in `block` and gives the new ones to `output`.
+    /// `rng` makes the random numbers of the block.
+    pub fn fill(&mut self, grid: &mut CellGrid, block: &Block, rng: impl Fn() -> Rng, output: &mut Output) {
+        match grid.vectors() {
+            // SAFETY: the variants say that the processor has the vectors.
+            #[cfg(target_arch = "x86_64")]
+            Vectors::Avx512 => unsafe { self.fill_avx512(grid, block, rng, output) },
+            // SAFETY: the same.
+            #[cfg(target_arch = "x86_64")]
+            Vectors::Avx2 => unsafe { self.fill_avx2(grid, block, rng, output) },
+            Vectors::Portable => self.fill_portable(grid, block, rng, output),
+        }
+    }
+
+    /// The portable code, compiled for AVX-512.
+    #[cfg(target_arch = "x86_64")]
+    #[target_feature(enable = "avx2,popcnt,bmi1,bmi2,avx512f,avx512vl,avx512dq,avx512bw")]
+    fn fill_avx512(&mut self, grid: &mut CellGrid, block: &Block, rng: impl Fn() -> Rng, output: &mut Output) {
+        self.fill_portable(grid, block, rng, output);
+    }
+
+    /// The portable code, compiled for AVX2.
+    #[cfg(target_arch = "x86_64")]
+    #[target_feature(enable = "avx2,popcnt,bmi1,bmi2")]
+    fn fill_avx2(&mut self, grid: &mut CellGrid, block: &Block, rng: impl Fn() -> Rng, output: &mut Output) {
+        self.fill_portable(grid, block, rng, output);
+    }
+}
