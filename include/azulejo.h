@@ -337,8 +337,25 @@ typedef struct azulejo_psp_report {
     double seconds;
     /// The iterations of projection that it made.
     uint32_t iterations;
-    /// Zeros, for later versions.
-    uint32_t reserved[15];
+    /// Zero, for later versions.
+    uint32_t reserved;
+    /// The part of the time in which patterns and, for Embree, the scene were made: in the first iteration of a set.
+    double prepare_seconds;
+    /// The part of the time in which the hits were found.
+    double project_seconds;
+    /// The part of the time in which samples were chosen among the hits.
+    double merge_seconds;
+    /// The part of the time in which uncovered surface was searched and filled.
+    double fill_seconds;
+    /// The relative radius of the set after the call, radius / d_max: d_max = sqrt(2 A / (sqrt(3) N)) would be the distance
+    /// of N neighbours in hexagonal order on the area A. 0.78 for a maximal set; 0 for no samples. The smallest distance
+    /// is taken to be the radius; that of a large set is less than a millionth above.
+    double rho;
+    /// If the call filled, the share of the area that was uncovered before, else -1. It is an estimate from above, two or
+    /// three times too large: the area of the small fragments that no single sample covers when the search comes to them.
+    double uncovered_before;
+    /// If the call filled, the share of the area that is uncovered after, which is 0, else -1.
+    double uncovered_after;
 } azulejo_psp_report;
 
 /// Options of azulejo_dcr_relax. Radii are in units of d_max = sqrt(2 * area / (sqrt(3) * count)), the distance of

@@ -9,6 +9,7 @@ use std::cell::Cell;
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
+use azulejo::analysis::{coverage, spacing};
 use azulejo::mesh::Mesh;
 use azulejo::psp::{self, Engine, Options, Order, Psp};
 use azulejo::{Context, Error, SurfaceSamples};
@@ -201,6 +202,47 @@ fn candidates_can_come_in_the_order_of_the_thesis_which_finds_fewer() {
         found as f64
     });
     assert!(found[0] > 1.05 * found[1], "{found:?}");
+}
+
+#[test]
+fn a_report_says_where_the_time_went_and_how_good_the_set_is() {
+    let context = Context::new(2).unwrap();
+    let mesh = mesh(meshes::fine_torus(100, 50));
+    for engine in [Engine::Embree, Engine::Rasteriser] {
+        let options = Options { engine, ..Options::new(0.01) };
+        let mut psp = Psp::new(&mesh, &options).unwrap();
+        let first = psp.advance(&context, 1, None).unwrap();
+        let second = psp.advance(&context, 1, None).unwrap();
+        let positions = psp.samples().positions;
+        let uncovered = coverage::surface_uncovered_fraction(&context, &mesh, &positions, 0.01, 100_000, 1).unwrap();
+        let filled = psp.fill(&context, None).unwrap();
+        let again = psp.fill(&context, None).unwrap();
+
+        let stages = |report: &psp::Report| {
+            [report.prepare_seconds, report.project_seconds, report.merge_seconds, report.fill_seconds]
+        };
+        for (report, used) in [(first, [1, 1, 1, 0]), (second, [0, 1, 1, 0]), (filled, [0, 0, 0, 1])] {
+            assert!(
+                stages(&report).iter().zip(used).all(|(&seconds, used)| (seconds > 1e-4) == (used == 1)),
+                "{report:?}"
+            );
+            let sum: f64 = stages(&report).iter().sum();
+            assert!(sum <= report.seconds && sum > 0.8 * report.seconds, "{report:?}");
+        }
+        assert_eq!([first.uncovered_before, second.uncovered_before], [None; 2]);
+        assert_eq!([filled.uncovered_after, again.uncovered_after], [Some(0.0); 2]);
+        let before = filled.uncovered_before.unwrap();
+        assert!((1.0..4.0).contains(&(before / uncovered)), "{before} for {uncovered}");
+        assert!(again.uncovered_before.unwrap() < 0.1 * before);
+        let smallest = spacing::smallest_distance_3d(&context, &psp.samples().positions).unwrap();
+        let hexagonal = (2.0 * mesh.area() / (3f64.sqrt() * psp.len() as f64)).sqrt();
+        assert!(
+            (filled.rho - smallest / hexagonal).abs() < 1e-5 && filled.rho > first.rho,
+            "{} {}",
+            first.rho,
+            filled.rho
+        );
+    }
 }
 
 #[test]

@@ -14,6 +14,8 @@
 //! the origin) and the size of the patch (0.7). So no point of the surface is farther from all samples than the
 //! radius and [`TOLERANCE`] float spacings.
 
+use std::ops::AddAssign;
+
 use crate::error::Result;
 use crate::job::Job;
 use crate::mesh::{Mesh, next_below, round_barycentrics};
@@ -32,36 +34,43 @@ const PIECE: f64 = 2.0;
 /// How long, in radii, the sixteenths of a partly covered patch are when the first dart is thrown into them.
 const FINE: f64 = 0.15;
 
-/// Counts of a fill.
+/// Counts of a fill, or of a part of it.
 #[derive(Default)]
 pub(super) struct Filled {
     pub darts: u64,
-    pub accepted: u64,
+    /// The area of the sixteenths that were open at first.
+    pub open_area: f64,
+}
+
+impl AddAssign for Filled {
+    fn add_assign(&mut self, part: Self) {
+        self.darts += part.darts;
+        self.open_area += part.open_area;
+    }
 }
 
 /// Adds samples until the set is maximal.
 pub(super) fn fill(job: &Job, mesh: &Mesh, samples: &mut SampleSet, seed: u64) -> Result<Filled> {
     let radius = samples.radius();
     let pieces = pieces(&job.part(0.0, 0.2), mesh, PIECE * radius, |centre| samples.block(centre.to_array()))?;
-    let before = samples.len();
-    let darts = samples.grow(&job.part(0.2, 1.0), &pieces, |block, room, pieces| {
+    samples.grow(&job.part(0.2, 1.0), &pieces, |block, room, pieces| {
         fill_block(mesh, radius, Rng::at(seed, Draw::Fill, &block.key()), room, pieces)
-    })?;
-    Ok(Filled { darts, accepted: (samples.len() - before) as u64 })
+    })
 }
 
-/// The samples that a block needs to be covered, and how many darts that took.
+/// The samples that a block needs to be covered, and what that took.
 fn fill_block(
     mesh: &Mesh,
     radius: f64,
     mut rng: Rng,
     room: &mut Room,
     pieces: &mut dyn Iterator<Item = &Fragment>,
-) -> (Vec<Sample>, u64) {
+) -> (Vec<Sample>, Filled) {
     let spacing = float_spacing(mesh);
     let (mut open, mut next) = (Vec::new(), Vec::new());
     let mut coverage = Coverage::new(mesh, room, FINE * radius, spacing);
     pieces.for_each(|piece| coverage.search(piece, &mut open));
+    let open_area = open.iter().map(|patch| patch.open_area(mesh)).sum();
     let (mut accepted, mut darts) = (Vec::new(), 0);
     while !open.is_empty() {
         darts += open.len() as u64;
@@ -78,7 +87,14 @@ fn fill_block(
         std::mem::swap(&mut open, &mut next);
         next.clear();
     }
-    (accepted, darts)
+    (accepted, Filled { darts, open_area })
+}
+
+impl Patch {
+    /// The area of the open sixteenths.
+    fn open_area(&self, mesh: &Mesh) -> f64 {
+        self.fragment.area(mesh) * f64::from(self.open.count_ones()) / 16.0
+    }
 }
 
 /// The spacing of floats at the largest absolute coordinate of a mesh.
@@ -88,10 +104,7 @@ pub(super) fn float_spacing(mesh: &Mesh) -> f64 {
 }
 
 fn in_order_of_arrival<'a>(mesh: &Mesh, open: &'a [Patch], rng: &mut Rng) -> Vec<&'a Patch> {
-    let arrival = |patch: &Patch, rng: &mut Rng| {
-        let area = patch.fragment.area(mesh) * f64::from(patch.open.count_ones());
-        -(1.0 - rng.unit()).ln() / area
-    };
+    let arrival = |patch: &Patch, rng: &mut Rng| -(1.0 - rng.unit()).ln() / patch.open_area(mesh);
     let mut order: Vec<_> = open.iter().map(|patch| (arrival(patch, rng), patch)).collect();
     order.sort_by(|(a, _), (b, _)| a.total_cmp(b));
     order.into_iter().map(|(_, patch)| patch).collect()

@@ -129,6 +129,23 @@ pub struct Report {
     pub conflicts: u64,
     /// Wall time of the call.
     pub seconds: f64,
+    /// The part of it in which the pattern and, for Embree, the scene were made: in the first iteration only.
+    pub prepare_seconds: f64,
+    /// The part of it in which the hits were found.
+    pub project_seconds: f64,
+    /// The part of it in which samples were chosen among the hits.
+    pub merge_seconds: f64,
+    /// The part of it in which uncovered surface was searched and filled.
+    pub fill_seconds: f64,
+    /// The relative radius of the set after the call, `radius / d_max`: `d_max = sqrt(2 A / (sqrt(3) N))` would be the
+    /// distance of N neighbours in hexagonal order on the area A. 0.78 for darts until nothing fits (thesis §1.4); 0 for
+    /// no samples. The smallest distance is taken to be the radius; that of a large set is less than a millionth above.
+    pub rho: f64,
+    /// For a fill, the share of the mesh's area that was uncovered before it. It is an estimate from above, two or three
+    /// times too large: the area of the small fragments that no single sample covers when the search comes to them.
+    pub uncovered_before: Option<f64>,
+    /// For a fill, the share of the area that is uncovered after it: 0, up to [`TOLERANCE`].
+    pub uncovered_after: Option<f64>,
 }
 
 /// A set of samples on a mesh that grows, call by call.
@@ -230,16 +247,21 @@ impl Psp {
         for step in 0..iterations {
             let share = |step: u32| f64::from(step) / f64::from(iterations);
             let job = job.part(share(step), share(step + 1));
+            let mut stage = Stopwatch::start();
+            let prepared = if self.projection.is_some() { 0.0 } else { 0.3 };
             let projection = match &mut self.projection {
                 Some(projection) => projection,
-                none => none.insert(Projection::new(&job.part(0.0, 0.3), &self.mesh, &self.options)?),
+                none => none.insert(Projection::new(&job.part(0.0, prepared), &self.mesh, &self.options)?),
             };
+            report.prepare_seconds += stage.lap();
             let Options { seed, order, .. } = self.options;
             let frame = projector::frame(seed, self.iterations, self.frame);
             let projectors = &Projector::all(frame, seed, self.iterations);
             let collector = Collector { mesh: &self.mesh, samples: &self.samples, order, projectors };
-            let (candidates, projected) = projection.project(&job.part(0.3, 0.7), projectors, &collector)?;
+            let (candidates, projected) = projection.project(&job.part(prepared, 0.7), projectors, &collector)?;
+            report.project_seconds += stage.lap();
             let accepted = merge::merge(&job.part(0.7, 1.0), &mut self.samples, &candidates)?;
+            report.merge_seconds += stage.lap();
             self.iterations += 1;
             self.frame = Some(frame);
 
@@ -254,15 +276,41 @@ impl Psp {
     }
 
     fn complete(&mut self, job: &Job, report: &mut Report) -> Result<()> {
+        let (mut stage, before) = (Stopwatch::start(), self.len());
         let filled = fill::fill(job, &self.mesh, &mut self.samples, self.options.seed)?;
-        report.accepted += filled.accepted;
+        let accepted = (self.len() - before) as u64;
+        report.fill_seconds += stage.lap();
+        report.accepted += accepted;
         report.darts += filled.darts;
-        report.conflicts += filled.darts - filled.accepted;
+        report.conflicts += filled.darts - accepted;
+        report.uncovered_before = Some(filled.open_area / self.mesh.area());
+        report.uncovered_after = Some(0.0);
         Ok(())
     }
 
     fn finish(&self, report: Report, start: Instant) -> Report {
-        Report { samples: self.len() as u64, seconds: start.elapsed().as_secs_f64(), ..report }
+        let hexagonal = (2.0 * self.mesh.area() / (3f64.sqrt() * self.len() as f64)).sqrt();
+        Report {
+            samples: self.len() as u64,
+            seconds: start.elapsed().as_secs_f64(),
+            rho: self.options.radius / hexagonal,
+            ..report
+        }
+    }
+}
+
+/// Wall times of stages that follow each other.
+struct Stopwatch(Instant);
+
+impl Stopwatch {
+    fn start() -> Self {
+        Self(Instant::now())
+    }
+
+    /// The seconds since the start or the last lap.
+    fn lap(&mut self) -> f64 {
+        let start = std::mem::replace(&mut self.0, Instant::now());
+        (self.0 - start).as_secs_f64()
     }
 }
 

@@ -1,7 +1,7 @@
 //! The samples accepted so far, and how a set grows: block by block.
 
 use std::collections::HashMap;
-use std::ops::Range;
+use std::ops::{AddAssign, Range};
 
 use crate::error::Result;
 use crate::grid3::distance_squared;
@@ -77,15 +77,15 @@ impl SampleSet {
     ///
     /// The task returns samples that conflict neither with each other nor with anything in the room, no farther than
     /// 4/3 radii from the block. A failed or cancelled job leaves what complete colours have added.
-    pub fn grow<T: Send + Sync>(
+    pub fn grow<T: Send + Sync, C: AddAssign + Default + Send>(
         &mut self,
         job: &Job,
         groups: &Groups<Block, T>,
-        task: impl Fn(Block, &mut Room, &mut dyn Iterator<Item = &T>) -> (Vec<Sample>, u64) + Sync,
-    ) -> Result<u64> {
+        task: impl Fn(Block, &mut Room, &mut dyn Iterator<Item = &T>) -> (Vec<Sample>, C) + Sync,
+    ) -> Result<C> {
         let mut colours: [Vec<usize>; 8] = Default::default();
         (0..groups.len()).for_each(|group| colours[groups.place(group).colour()].push(group));
-        let (mut done, mut total) = (0, 0);
+        let (mut done, mut total) = (0, C::default());
         for members in colours {
             let share = |done: usize| done as f64 / groups.len().max(1) as f64;
             let part = job.part(share(done), share(done + members.len()));

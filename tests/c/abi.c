@@ -87,6 +87,13 @@ FIELD(azulejo_psp_report, conflicts, 48);
 FIELD(azulejo_psp_report, seconds, 56);
 FIELD(azulejo_psp_report, iterations, 64);
 FIELD(azulejo_psp_report, reserved, 68);
+FIELD(azulejo_psp_report, prepare_seconds, 72);
+FIELD(azulejo_psp_report, project_seconds, 80);
+FIELD(azulejo_psp_report, merge_seconds, 88);
+FIELD(azulejo_psp_report, fill_seconds, 96);
+FIELD(azulejo_psp_report, rho, 104);
+FIELD(azulejo_psp_report, uncovered_before, 112);
+FIELD(azulejo_psp_report, uncovered_after, 120);
 
 SIZE(azulejo_dcr_options, 112);
 FIELD(azulejo_dcr_options, struct_size, 0);

@@ -182,7 +182,11 @@ static void surfaces(void) {
     CHECK(azulejo_points_dimension(points) == 3);
     CHECK(count > 300 && count < 600); /* 0.69656 * 6 / 0.1^2 = 418 */
     CHECK(report.samples == count && report.accepted == count && report.seconds >= 0 && report.rays > 0);
-    for (i = 0; i < COUNT_OF(report.reserved); i++) CHECK(report.reserved[i] == 0);
+    CHECK(report.reserved == 0);
+    CHECK(report.prepare_seconds > 0 && report.project_seconds > 0 && report.merge_seconds > 0 && report.fill_seconds > 0);
+    CHECK(report.prepare_seconds + report.project_seconds + report.merge_seconds + report.fill_seconds <= report.seconds);
+    CHECK(fabs(report.rho - options.radius / sqrt(2 * 6 / (sqrt(3) * (double)count))) < 1e-12);
+    CHECK(report.uncovered_before > 0 && report.uncovered_before < 0.5 && report.uncovered_after == 0);
     check_surface(points, cube);
 
     smallest = smallest_distance(azulejo_points_positions(points), count, 3, NULL);
@@ -252,10 +256,13 @@ static void growing_sets(void) {
     CHECK(azulejo_points_dimension(empty) == 3 && azulejo_points_normals(empty) == NULL);
     ACCEPTED(azulejo_psp_advance(set, 0, &report));
     CHECK(report.samples == 0 && report.accepted == 0 && report.iterations == 0);
+    CHECK(report.rho == 0 && report.uncovered_before == -1 && report.uncovered_after == -1);
     ACCEPTED(azulejo_psp_advance(set, 1, &report));
+    CHECK(report.rho > 0.6 && report.fill_seconds == 0 && report.uncovered_before == -1);
     ACCEPTED(azulejo_psp_points(set, &first));
     CHECK(report.samples == azulejo_points_count(first) && report.samples == report.accepted);
     ACCEPTED(azulejo_psp_fill(set, &report));
+    CHECK(report.uncovered_before > 0 && report.uncovered_after == 0 && report.project_seconds == 0);
     ACCEPTED(azulejo_psp_points(set, &second));
     azulejo_psp_free(set);
 

@@ -137,24 +137,47 @@ pub struct azulejo_psp_report {
     pub seconds: f64,
     /// The iterations of projection that it made.
     pub iterations: u32,
-    /// Zeros, for later versions.
-    pub reserved: [u32; 15],
+    /// Zero, for later versions.
+    pub reserved: u32,
+    /// The part of the time in which patterns and, for Embree, the scene were made: in the first iteration of a set.
+    pub prepare_seconds: f64,
+    /// The part of the time in which the hits were found.
+    pub project_seconds: f64,
+    /// The part of the time in which samples were chosen among the hits.
+    pub merge_seconds: f64,
+    /// The part of the time in which uncovered surface was searched and filled.
+    pub fill_seconds: f64,
+    /// The relative radius of the set after the call, radius / d_max: d_max = sqrt(2 A / (sqrt(3) N)) would be the distance
+    /// of N neighbours in hexagonal order on the area A. 0.78 for a maximal set; 0 for no samples. The smallest distance
+    /// is taken to be the radius; that of a large set is less than a millionth above.
+    pub rho: f64,
+    /// If the call filled, the share of the area that was uncovered before, else -1. It is an estimate from above, two or
+    /// three times too large: the area of the small fragments that no single sample covers when the search comes to them.
+    pub uncovered_before: f64,
+    /// If the call filled, the share of the area that is uncovered after, which is 0, else -1.
+    pub uncovered_after: f64,
 }
 
 impl From<Report> for azulejo_psp_report {
     fn from(report: Report) -> Self {
-        let Report { samples, accepted, rays, hits, restart_conflicts, darts, conflicts, seconds, iterations } = report;
         Self {
-            samples,
-            accepted,
-            rays,
-            hits,
-            restart_conflicts,
-            darts,
-            conflicts,
-            seconds,
-            iterations,
-            reserved: [0; 15],
+            samples: report.samples,
+            accepted: report.accepted,
+            rays: report.rays,
+            hits: report.hits,
+            restart_conflicts: report.restart_conflicts,
+            darts: report.darts,
+            conflicts: report.conflicts,
+            seconds: report.seconds,
+            iterations: report.iterations,
+            reserved: 0,
+            prepare_seconds: report.prepare_seconds,
+            project_seconds: report.project_seconds,
+            merge_seconds: report.merge_seconds,
+            fill_seconds: report.fill_seconds,
+            rho: report.rho,
+            uncovered_before: report.uncovered_before.unwrap_or(-1.0),
+            uncovered_after: report.uncovered_after.unwrap_or(-1.0),
         }
     }
 }
