@@ -10,10 +10,12 @@
 
 mod build;
 mod packet;
+mod watch;
 
 use embree4_sys::{RTCRayHit, RTCRayHit4, RTCRayHit8, RTCRayHit16};
 
 use crate::error::{Error, Result};
+use crate::job::{Context, Job};
 use build::Built;
 use packet::{Packet, RayHits, Recorder};
 
@@ -64,8 +66,13 @@ impl Scene {
     /// beyond the positions; [`Error::Embree`] if the library that was loaded is not the version that this crate was
     /// built for, or if Embree refuses, for want of memory or another reason that it gives.
     pub fn new(positions: &[[f32; 3]], triangles: &[[u32; 3]], num_threads: usize) -> Result<Self> {
+        Context::new(1)?.run(None, |job| Self::build(job, positions, triangles, num_threads))
+    }
+
+    /// [`Scene::new`] as a part of a job, which can be cancelled.
+    pub(crate) fn build(job: &Job, positions: &[[f32; 3]], triangles: &[[u32; 3]], num_threads: usize) -> Result<Self> {
         check(positions, triangles)?;
-        let built = Built::new(positions, triangles, num_threads)?;
+        let built = Built::new(positions, triangles, num_threads, job)?;
         let packet_width = built.packet_width();
         Ok(Self { built, packet_width })
     }

@@ -268,6 +268,40 @@ fn a_cancelled_call_leaves_a_valid_set_that_can_be_used_on() {
     }
 }
 
+/// At every single call of the callback: while patterns and scene are made, in every stage of iterations and of the fill.
+#[test]
+fn whenever_it_is_cancelled_a_set_stays_valid_and_can_go_on() {
+    let mesh = mesh(meshes::torus());
+    let context = Context::new(1).unwrap();
+    for engine in [Engine::Embree, Engine::Rasteriser] {
+        let options = Options { engine, ..Options::new(0.13) };
+        let expected = psp::sample(&context, &mesh, &options, None).unwrap().0;
+        let mut lengths = vec![];
+        for limit in 1.. {
+            let calls = Cell::new(0);
+            let stop = |_| {
+                calls.set(calls.get() + 1);
+                if calls.get() == limit { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+            };
+            let mut psp = Psp::new(&mesh, &options).unwrap();
+            let cancelled = psp.advance(&context, 1, Some(&stop)).and_then(|_| psp.fill(&context, Some(&stop)));
+            check(&mesh, &psp.samples(), options.radius, cancelled.is_ok());
+            assert_eq!(psp.samples().positions[..], expected.positions[..psp.len()]);
+            if calls.get() < limit {
+                break;
+            }
+            assert!(matches!(cancelled, Err(Error::Cancelled)), "at call {limit}");
+            lengths.push(psp.len());
+            psp.advance(&context, 1, None).unwrap();
+            psp.fill(&context, None).unwrap();
+            check(&mesh, &psp.samples(), options.radius, true);
+        }
+        assert!(lengths.len() > 20 && lengths.is_sorted(), "{}", lengths.len());
+        lengths.dedup();
+        assert!(lengths.len() > 2 && lengths[0] == 0, "{lengths:?}");
+    }
+}
+
 #[test]
 fn progress_grows_from_zero_to_one() {
     for threads in [1, 2] {

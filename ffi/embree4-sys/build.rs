@@ -11,7 +11,8 @@ const SYSTEM_PREFIXES: [&str; 2] = ["/usr/local", "/usr"];
 
 /// Everything of Embree's that the crate exports, as regular expressions.
 const FUNCTIONS: &str = "azulejo_(rtc.*|sizes)|rtc(New|Release)(Device|Scene|Geometry)|rtc(Commit|Attach)(Geometry|Scene)|\
-    rtc(Get|Set)Device(Property|Error|ErrorFunction)|rtcSetScene(Flags|BuildQuality)|rtcSetNewGeometryBuffer";
+    rtc(Get|Set)Device(Property|Error|ErrorFunction)|rtcSetScene(Flags|BuildQuality|ProgressMonitorFunction)|\
+    rtcSetNewGeometryBuffer|rtcGetGeometry(BufferData)?|rtcGetSceneDevice";
 const TYPES: &str = "AzulejoSceneFlags|RTC(RayHit(|4|8|16)|FilterFunctionNArguments|RayQueryFlags)";
 const VALUES: &str = "RTC_(VERSION_(MAJOR|MINOR|PATCH)|(SCENE|RAY_QUERY)_FLAG_.*|ERROR_.*|\
     DEVICE_PROPERTY_.*|(GEOMETRY|BUFFER)_TYPE_.*|FORMAT_(FLOAT|UINT)3|BUILD_QUALITY_.*)";

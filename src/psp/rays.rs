@@ -53,10 +53,10 @@ impl Rays {
             ((exact(position) - centre) * scale).clamp(DVec3::NEG_ONE, DVec3::ONE).as_vec3().to_array()
         };
         let normalised: Vec<_> = mesh.positions().iter().map(normalise).collect();
-        let scene = Scene::new(&normalised, mesh.triangles(), job.context().num_threads())?;
+        let scene = Scene::build(&job.part(0.0, 0.5), &normalised, mesh.triangles(), job.context().num_threads())?;
         Ok(Self {
             scene,
-            pattern: Pattern::new(job, 1.0 / (radius * scale), seed)?,
+            pattern: Pattern::new(&job.part(0.5, 1.0), 1.0 / (radius * scale), seed)?,
             half_box: 0.5 * scale * (high - low) + BOX_MARGIN,
             radius: radius * scale,
         })

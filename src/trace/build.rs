@@ -9,6 +9,8 @@ use embree4_sys::*;
 use glam::DVec3;
 
 use crate::error::{Error, Result};
+use crate::job::Job;
+use crate::trace::watch::Watch;
 
 /// A scene that has been committed, with its device.
 pub(super) struct Built {
@@ -25,7 +27,7 @@ unsafe impl Sync for Built {}
 
 impl Built {
     /// A scene of triangles that have been checked, built with `num_threads` threads (0: one per core).
-    pub(super) fn new(positions: &[[f32; 3]], triangles: &[[u32; 3]], num_threads: usize) -> Result<Self> {
+    pub(super) fn new(positions: &[[f32; 3]], triangles: &[[u32; 3]], num_threads: usize, job: &Job) -> Result<Self> {
         let device = Device::new(num_threads)?;
         // SAFETY: the device is alive.
         let scene = device.own(unsafe { rtcNewScene(device.raw) }, rtcReleaseScene)?;
@@ -41,7 +43,7 @@ impl Built {
             unsafe { rtcAttachGeometry(scene.raw, geometry.raw) };
         }
         // SAFETY: the scene is alive, and no other thread knows it yet.
-        unsafe { rtcCommitScene(scene.raw) };
+        Watch::new(job).during(scene.raw, || unsafe { rtcCommitScene(scene.raw) })?;
         device.verdict()?;
         Ok(Self { scene, device })
     }
