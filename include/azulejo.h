@@ -290,6 +290,22 @@ typedef struct azulejo_merge_report {
     uint32_t reserved[10];
 } azulejo_merge_report;
 
+/// A geometry of triangles in a scene of the caller's. Embree does not tell the sizes of its buffers: the caller does.
+typedef struct azulejo_embree_geometry {
+    /// Its number in the scene.
+    uint32_t geometry_id;
+    /// Bytes from one vertex to the next: a multiple of 4 from 12 on.
+    uint32_t vertex_stride;
+    /// Bytes from one triangle to the next: a multiple of 4 from 12 on.
+    uint32_t index_stride;
+    /// Must be 0.
+    uint32_t reserved;
+    /// Vertices in its buffer of type RTC_BUFFER_TYPE_VERTEX, slot 0, of format RTC_FORMAT_FLOAT3.
+    size_t vertex_count;
+    /// Triangles in its buffer of type RTC_BUFFER_TYPE_INDEX, of format RTC_FORMAT_UINT3.
+    size_t triangle_count;
+} azulejo_embree_geometry;
+
 /// Options of azulejo_psp_create and azulejo_psp_sample.
 typedef struct azulejo_psp_options {
     /// The size of the caller's struct in bytes; set by the init function.
@@ -431,10 +447,15 @@ uint32_t azulejo_version(void);
 
 /// Starts the threads.
 ///
-/// num_threads: 1 to 4096, or 0 for one per core. With 1 no thread is made: all work happens in the caller's.
+/// num_threads: 1 to 4096, or 0 for one per core. With 1 no thread is made: all work happens in the caller's. This bounds
+/// Embree's threads, too; but Embree knows one bound for a process, the largest that one of its devices has, and sets it
+/// for all that uses TBB. Beside a device of the program's that has more threads, a build of this library can use as many;
+/// a device with fewer can use `num_threads` while a psp handle that has made iterations lives, and has its own number
+/// again after that. AZULEJO_ENGINE_RASTERISER makes no device.
 ///
 /// out: the context, to be freed with azulejo_context_free.
-azulejo_status azulejo_context_create(uint32_t num_threads, struct azulejo_context **out);
+azulejo_status azulejo_context_create(uint32_t num_threads,
+                                      struct azulejo_context **out);
 
 /// The number of threads that work on a call; 0 for NULL.
 uint32_t azulejo_context_num_threads(const struct azulejo_context *context);
@@ -606,6 +627,28 @@ azulejo_status azulejo_kdrt_merge(const struct azulejo_context *context,
                                   size_t fixed_count,
                                   struct azulejo_points **out,
                                   struct azulejo_merge_report *report);
+
+/// Copies the triangles of a scene that the caller has made with Embree. Nothing of the scene and of its device is
+/// changed: flags, error function, thread count (as far as that is the device's alone: see azulejo_context_create). The
+/// mesh does not need them any more once it is made; what is sampled on it is traced in a scene and on a device of its own.
+///
+/// Triangles are numbered in the order of `geometries`: triangle i of the mesh is primitive i of the first one, those of
+/// the second follow, and so on. The same for vertices.
+///
+/// scene: a committed RTCScene that no thread changes during the call. It must come from the same libembree that
+/// libazulejo has loaded: what happens otherwise is undefined, though another version is refused in most cases. Instances
+/// in it are not followed.
+///
+/// geometries: `geometry_count` of them, at least one, each attached to the scene as RTC_GEOMETRY_TYPE_TRIANGLE. Where an
+/// id, a size or a type is not that of the scene, what happens is undefined.
+///
+/// out: the mesh, to be freed with azulejo_mesh_free.
+///
+/// Errors: those of azulejo_mesh_create; AZULEJO_ERROR_EMBREE for a scene of another version of Embree.
+azulejo_status azulejo_mesh_create_from_embree(void *scene,
+                                               const struct azulejo_embree_geometry *geometries,
+                                               size_t geometry_count,
+                                               struct azulejo_mesh **out);
 
 /// Copies a mesh of the caller's.
 ///

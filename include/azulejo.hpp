@@ -246,6 +246,13 @@ public:
         return Mesh(handle);
     }
 
+    /// Triangles of an RTCScene of the caller's; see azulejo_mesh_create_from_embree.
+    static Mesh from_embree(void *scene, Span<const azulejo_embree_geometry> geometries) {
+        azulejo_mesh *handle = nullptr;
+        check(azulejo_mesh_create_from_embree(scene, geometries.data(), geometries.size(), &handle));
+        return Mesh(handle);
+    }
+
     std::size_t vertex_count() const noexcept { return azulejo_mesh_vertex_count(get()); }
     std::size_t triangle_count() const noexcept { return azulejo_mesh_triangle_count(get()); }
     /// x y z of each vertex.

@@ -9,6 +9,7 @@
 //! vertices or indices without a word.
 
 mod build;
+mod host;
 mod packet;
 mod watch;
 
@@ -17,6 +18,7 @@ use embree4_sys::{RTCRayHit, RTCRayHit4, RTCRayHit8, RTCRayHit16};
 use crate::error::{Error, Result};
 use crate::job::{Context, Job};
 use build::Built;
+pub use host::{HostBuffers, host_buffers};
 use packet::{Packet, RayHits, Recorder};
 
 /// Embree leaves out what is farther from the origin (its `FLT_LARGE` is 1.844e18).
@@ -58,6 +60,10 @@ pub struct Scene {
 impl Scene {
     /// Copies the triangles into Embree and builds the hierarchy with `num_threads` threads (0: one per core; 1: none
     /// but the caller's), in O(n log n).
+    ///
+    /// Embree knows one bound for the threads of a process, the largest that one of its devices has, and sets it for all
+    /// that uses TBB. A scene has a device of its own, with `num_threads`. So a build beside a device with more threads can
+    /// use as many, and a device with fewer can use `num_threads` while this scene lives, but not after it.
     ///
     /// Embree calculates in `f32` with fixed thresholds: scale a mesh to about the unit box before.
     ///

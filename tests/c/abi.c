@@ -76,6 +76,14 @@ FIELD(azulejo_psp_options, progress_user, 40);
 FIELD(azulejo_psp_options, order, 48);
 FIELD(azulejo_psp_options, engine, 52);
 
+SIZE(azulejo_embree_geometry, 32);
+FIELD(azulejo_embree_geometry, geometry_id, 0);
+FIELD(azulejo_embree_geometry, vertex_stride, 4);
+FIELD(azulejo_embree_geometry, index_stride, 8);
+FIELD(azulejo_embree_geometry, reserved, 12);
+FIELD(azulejo_embree_geometry, vertex_count, 16);
+FIELD(azulejo_embree_geometry, triangle_count, 24);
+
 SIZE(azulejo_psp_report, 128);
 FIELD(azulejo_psp_report, samples, 0);
 FIELD(azulejo_psp_report, accepted, 8);

@@ -35,6 +35,14 @@ trap 'rm -rf "$work"' EXIT
 warnings=(-Wall -Wextra -Wpedantic -Werror)
 include=(-I "$prefix/include")
 link=(-L "$(dirname "$library")" -Wl,-rpath,"$(dirname "$library")" -lazulejo -lpthread -lm)
+# The Embree that the library was built for, for programs that have a scene of their own.
+embree=$(readelf --dynamic "$library" | sed -n 's/.*\[libembree\([34]\)\.so.*/\1/p')
+link+=(-Wl,--as-needed "-lembree$embree")
+include+=("-DEMBREE_MAJOR=$embree")
+if [ -n "${EMBREE_DIR:-}" ]; then
+    include+=(-isystem "$EMBREE_DIR/include")
+    link=(-L "$EMBREE_DIR/lib" -L "$EMBREE_DIR/lib64" "-Wl,-rpath,$EMBREE_DIR/lib" "${link[@]}")
+fi
 failed=0
 
 # Says how a step went, with its output where that matters: step NAME COMMAND...

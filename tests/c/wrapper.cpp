@@ -99,6 +99,8 @@ void surfaces() {
     CHECK(mesh->positions()[3] == 1 && mesh->indices()[1] == 2);
     CHECK(std::abs(mesh->area() - (1.5 + std::sqrt(3.0) / 2)) < 1e-6);
 
+    CHECK(throws(AZULEJO_ERROR_INVALID_ARGUMENT, "scene", [] { azulejo::Mesh::from_embree(nullptr, {}); }));
+
     azulejo::PspReport report;
     const auto whole = azulejo::psp_sample(context, *mesh, options, &report);
     CHECK(report.samples == whole.size() && whole.dimension() == 3);

@@ -16,7 +16,11 @@ pub struct azulejo_context {
 
 /// Starts the threads.
 ///
-/// num_threads: 1 to 4096, or 0 for one per core. With 1 no thread is made: all work happens in the caller's.
+/// num_threads: 1 to 4096, or 0 for one per core. With 1 no thread is made: all work happens in the caller's. This bounds
+/// Embree's threads, too; but Embree knows one bound for a process, the largest that one of its devices has, and sets it
+/// for all that uses TBB. Beside a device of the program's that has more threads, a build of this library can use as many;
+/// a device with fewer can use `num_threads` while a psp handle that has made iterations lives, and has its own number
+/// again after that. AZULEJO_ENGINE_RASTERISER makes no device.
 ///
 /// out: the context, to be freed with azulejo_context_free.
 #[unsafe(no_mangle)]

@@ -66,6 +66,7 @@ pub mod kdrt;
 pub mod maximal;
 pub mod merge;
 
+pub mod embree;
 pub mod mesh;
 pub mod psp;
 

@@ -134,7 +134,7 @@ unsafe fn strided_positions(positions: *const f32, count: usize, stride: usize) 
 }
 
 /// A vector of the caller's data, for whose size the caller's word has to be taken.
-fn collect<T>(argument: &str, rows: impl ExactSizeIterator<Item = T>) -> Result<Vec<T>, Failure> {
+pub(crate) fn collect<T>(argument: &str, rows: impl ExactSizeIterator<Item = T>) -> Result<Vec<T>, Failure> {
     let mut vector = Vec::new();
     vector.try_reserve_exact(rows.len()).map_err(|_| {
         Failure::new(AZULEJO_ERROR_OUT_OF_MEMORY, format!("{argument}: no memory for {} elements", rows.len()))

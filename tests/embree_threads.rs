@@ -1,0 +1,126 @@
+//! Whose threads build a scene, and that a build can be watched and cancelled. All in one test of a process of its own, where
+//! nothing else uses Embree: its tasks run in one pool for all of the process.
+
+#[path = "common/meshes.rs"]
+#[allow(dead_code)]
+mod meshes;
+
+use std::cell::Cell;
+use std::collections::HashMap;
+use std::fs;
+use std::ops::ControlFlow;
+use std::sync::Arc;
+
+use azulejo::mesh::Mesh;
+use azulejo::psp::{Options, Psp};
+use azulejo::trace::Scene;
+use azulejo::{Context, Error};
+use embree4_sys::*;
+use meshes::Soup;
+
+/// The nanoseconds that each thread of this process has worked.
+fn work() -> HashMap<String, u64> {
+    let tasks = fs::read_dir("/proc/self/task").unwrap().map(|task| task.unwrap().path());
+    let work = tasks.filter_map(|task| {
+        let times = fs::read_to_string(task.join("schedstat")).ok()?;
+        Some((task.file_name()?.to_string_lossy().into_owned(), times.split(' ').next()?.parse().ok()?))
+    });
+    work.collect()
+}
+
+/// How many threads work on a call: for 2 ms at least.
+fn threads_of(call: impl FnOnce()) -> usize {
+    let before = work();
+    call();
+    work().iter().filter(|(task, time)| **time > before.get(*task).unwrap_or(&0) + 2_000_000).count()
+}
+
+fn build((positions, triangles): &Soup, num_threads: usize) -> Scene {
+    Scene::new(positions, triangles, num_threads).unwrap()
+}
+
+/// A device of another part of the program.
+struct Host(RTCDevice);
+
+impl Host {
+    fn new(threads: usize) -> Self {
+        let config = std::ffi::CString::new(format!("threads={threads}")).unwrap();
+        // SAFETY: the string ends with a NUL.
+        Self(unsafe { rtcNewDevice(config.as_ptr()) })
+    }
+
+    /// Builds a scene of its own.
+    fn build(&self, (positions, triangles): &Soup) {
+        // SAFETY: all objects are alive; the buffers are of the sizes that are filled.
+        unsafe {
+            let scene = rtcNewScene(self.0);
+            let geometry = rtcNewGeometry(self.0, RTC_GEOMETRY_TYPE_TRIANGLE);
+            let buffer = |kind, format, count| rtcSetNewGeometryBuffer(geometry, kind, 0, format, 12, count);
+            let vertices = buffer(RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, positions.len());
+            vertices.cast::<[f32; 3]>().copy_from_nonoverlapping(positions.as_ptr(), positions.len());
+            let indices = buffer(RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, triangles.len());
+            indices.cast::<[u32; 3]>().copy_from_nonoverlapping(triangles.as_ptr(), triangles.len());
+            rtcCommitGeometry(geometry);
+            rtcAttachGeometry(scene, geometry);
+            rtcCommitScene(scene);
+            rtcReleaseGeometry(geometry);
+            rtcReleaseScene(scene);
+        }
+    }
+}
+
+impl Drop for Host {
+    fn drop(&mut self) {
+        // SAFETY: it is this struct's.
+        unsafe { rtcReleaseDevice(self.0) };
+    }
+}
+
+#[test]
+fn builds_keep_to_their_threads_and_can_be_watched() {
+    let soup = meshes::fine_torus(1200, 600);
+    for threads in [1, 2, 3] {
+        let worked = threads_of(|| drop(build(&soup, threads)));
+        assert!(worked <= threads, "{worked} threads for a build with {threads}");
+    }
+
+    // One bound for the process, the largest of all devices: documented, and Embree's doing.
+    let host = Host::new(2);
+    let scene = build(&soup, 3);
+    let worked = threads_of(|| host.build(&soup));
+    assert!(worked <= 3, "{worked} threads for a host with 2 beside a scene with 3");
+    drop(scene);
+    let worked = threads_of(|| host.build(&soup));
+    assert!(worked <= 2, "{worked} threads for a host with 2, after the scene");
+    let worked = threads_of(|| drop(build(&soup, 1)));
+    assert!(worked <= 2, "{worked} threads for a build with 1 beside a host with 2");
+    drop(host);
+    assert_eq!(threads_of(|| drop(build(&soup, 1))), 1, "after the host");
+
+    watched(&Arc::new(Mesh::new(soup.0, soup.1).unwrap()));
+}
+
+/// The scene is the first half of what an iteration begins with.
+fn watched(mesh: &Arc<Mesh>) {
+    let context = Context::new(1).unwrap();
+    let options = Options::new(0.05);
+    let told = Cell::new(0);
+    let watch = |share: f64| {
+        told.set(told.get() + usize::from(share > 0.0 && share < 0.1));
+        ControlFlow::Continue(())
+    };
+    Psp::new(mesh, &options).unwrap().advance(&context, 1, Some(&watch)).unwrap();
+    assert!(told.get() > 10, "told {} times", told.get());
+
+    let last = Cell::new(0.0);
+    let stop = |share: f64| {
+        last.set(share);
+        if share > 0.0 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    };
+    let mut psp = Psp::new(mesh, &options).unwrap();
+    assert!(matches!(psp.advance(&context, 1, Some(&stop)), Err(Error::Cancelled)));
+    assert!(last.get() < 0.1, "the build went on to {}", last.get());
+    assert!(psp.is_empty());
+    psp.advance(&context, 1, None).unwrap();
+    assert!(!psp.is_empty());
+}
