@@ -5,6 +5,8 @@
 //! triangles have no gap and no overlap, and a hit does not depend on the machine's vectors or on an Embree. All triangles
 //! of a tile of the projector are drawn by one task; so no counters are shared, which the thesis finds irregular.
 
+use std::ops::Range;
+
 use glam::DVec3;
 
 use crate::error::Result;
@@ -15,7 +17,7 @@ use crate::psp::pattern;
 use crate::psp::projector::{Collector, Found, Projector};
 use crate::trace::Hit;
 use tiles::{Tile, Tiles};
-use triangle::{END, Place, Triangle};
+use triangle::{END, Place, Triangle, extent, extent_between};
 
 #[cfg(test)]
 mod tests;
@@ -24,14 +26,14 @@ mod triangle;
 
 /// Triangles per task.
 const CHUNK: usize = 1024;
-/// By how much rounding can move a point against the border of its cell, in units of the lattice, and some more.
+/// By how much rounding can move a point against the border of its cell or tile, in units of the lattice, and some more.
 const MARGIN: f64 = 2.0;
 
 /// The pattern, and how a mesh is seen on a projector.
 pub(super) struct Rasteriser {
     tiles: Tiles,
     centre: DVec3,
-    radius: f64,
+    per_radius: f64,
     /// Half the width of a projector, in radii.
     reach: f64,
     /// Units of the lattice in a radius.
@@ -54,7 +56,7 @@ impl Rasteriser {
         let tiles = Tiles::new(&job.part(0.7, 1.0), side, &points)?;
         // Some points of a tile that meets the mesh can be beyond it.
         let reach = 0.5 * diagonal + side / f64::from(tiles.count) + 1.0;
-        Ok(Self { tiles, centre: 0.5 * (low + high), radius, reach, units: 0.5 * END as f64 / reach })
+        Ok(Self { tiles, centre: 0.5 * (low + high), per_radius: 1.0 / radius, reach, units: 0.5 * END as f64 / reach })
     }
 
     /// Draws the mesh over three projectors and collects all hits. As rays count the points of tiles near triangles.
@@ -75,20 +77,28 @@ impl Rasteriser {
     fn sort(&self, job: &Job, mesh: &Mesh, projectors: &[Projector; 3]) -> Result<Bins> {
         let chunks = chunks_of(mesh.triangles().len(), CHUNK);
         let side = self.tiles.side / f64::from(self.tiles.count) * self.units;
+        let shifts = projectors
+            .each_ref()
+            .map(|projector| projector.shift(self.tiles.side).map(|shift| (shift + self.reach) * self.units));
         let (bins, _) = Groups::collect(job, chunks.len(), |chunk, add| {
             let with_area = |&triangle: &u32| mesh.triangle_area(triangle) > 0.0;
             for triangle in chunks.range(chunk).map(|triangle| triangle as u32).filter(with_area) {
-                for (number, projector) in projectors.iter().enumerate() {
-                    let shift = projector.shift(self.tiles.side).map(|shift| (shift + self.reach) * self.units);
-                    let tile = |x: f64, axis: usize| ((x - shift[axis]) / side).floor() as i32;
-                    let Some((seen, _)) = self.see(projector, mesh, triangle) else { continue };
-                    let [low, high] = seen.extent(1).map(|y| y as f64);
-                    for row in tile(low - MARGIN, 1)..=tile(high + MARGIN, 1) {
-                        let [bottom, top] = [row, row + 1].map(|row| shift[1] + f64::from(row) * side);
-                        let [left, right] = seen.extent_between(bottom - MARGIN, top + MARGIN);
-                        for column in tile(left - MARGIN, 0)..=tile(right + MARGIN, 0) {
-                            add([number as i32, row, column], triangle);
-                        }
+                let corners = self.corners(mesh, triangle);
+                for (number, (projector, shift)) in (0..).zip(projectors.iter().zip(&shifts)) {
+                    let seen = self.see(projector, &corners);
+                    let tiles = |[from, to]: [f64; 2], axis: usize| {
+                        let [from, to] = [from - MARGIN, to + MARGIN].map(|x| floor((x - shift[axis]) / side));
+                        from..=to
+                    };
+                    let columns = tiles(extent(&seen, 0), 0);
+                    for row in tiles(extent(&seen, 1), 1) {
+                        let columns = if columns.start() == columns.end() {
+                            columns.clone()
+                        } else {
+                            let [bottom, top] = [row, row + 1].map(|row| shift[1] + f64::from(row) * side);
+                            tiles(extent_between(&seen, bottom - MARGIN, top + MARGIN), 0)
+                        };
+                        columns.for_each(|column| add([number, row, column], triangle));
                     }
                 }
             }
@@ -96,11 +106,14 @@ impl Rasteriser {
         Ok(bins)
     }
 
-    /// A triangle on a projector, and how far in front of it each corner is: above zero, in radii.
-    fn see(&self, projector: &Projector, mesh: &Mesh, triangle: u32) -> Option<(Triangle, [f64; 3])> {
-        let corners = mesh.corners(triangle).map(|corner| (exact(corner) - self.centre) / self.radius);
-        let place = |corner: DVec3| self.round([projector.right.dot(corner), projector.up.dot(corner)]);
-        Some((Triangle::new(corners.map(place))?, corners.map(|corner| projector.forward.dot(corner) + self.reach)))
+    /// The corners of a triangle as seen from the centre of the mesh, in radii.
+    fn corners(&self, mesh: &Mesh, triangle: u32) -> [DVec3; 3] {
+        mesh.corners(triangle).map(|corner| (exact(corner) - self.centre) * self.per_radius)
+    }
+
+    /// Corners on a projector.
+    fn see(&self, projector: &Projector, corners: &[DVec3; 3]) -> [Place; 3] {
+        corners.map(|corner| self.round([projector.right.dot(corner), projector.up.dot(corner)]))
     }
 
     /// The place on the lattice of a point on a projector, in radii from its centre.
@@ -108,6 +121,11 @@ impl Rasteriser {
         // None is below zero, where truncation would round the other way.
         point.map(|x| ((x + self.reach) * self.units) as i64)
     }
+}
+
+/// The integer below; or one lower, for integers below zero, which `MARGIN` allows for.
+fn floor(x: f64) -> i32 {
+    x as i32 - i32::from(x < 0.0)
 }
 
 /// The end of a chain.
@@ -151,7 +169,7 @@ impl<'a> Drawing<'a> {
     }
 
     /// The cells along an axis from one coordinate to another, as far as there are some.
-    fn cells(&self, axis: usize, from: f64, to: f64) -> std::ops::Range<usize> {
+    fn cells(&self, axis: usize, [from, to]: [f64; 2]) -> Range<usize> {
         let cell = |x: f64| (x - self.corner[axis]) * self.per_unit;
         let end = self.rasteriser.tiles.cells;
         // Casts end at zero.
@@ -160,32 +178,42 @@ impl<'a> Drawing<'a> {
 
     /// Notes the points that a triangle covers.
     fn draw(&mut self, triangle: u32, mesh: &Mesh) {
-        let Some((seen, depths)) = self.rasteriser.see(self.projector, mesh, triangle) else { return };
-        let [low, high] = seen.extent(1).map(|y| y as f64);
-        let [left, right] = seen.extent(0).map(|x| x as f64);
-        let width = self.cells(0, left, right);
-        for row in self.cells(1, low, high) {
+        let corners = self.rasteriser.corners(mesh, triangle);
+        let seen = self.rasteriser.see(self.projector, &corners);
+        let width = self.cells(0, extent(&seen, 0));
+        let mut edges = None;
+        for row in self.cells(1, extent(&seen, 1)) {
             let columns = if width.len() <= 3 {
                 width.clone()
             } else {
                 let [bottom, top] = [row, row + 1].map(|row| self.corner[1] + row as f64 / self.per_unit);
-                let [left, right] = seen.extent_between(bottom - MARGIN, top + MARGIN);
-                self.cells(0, left, right)
+                self.cells(0, extent_between(&seen, bottom - MARGIN, top + MARGIN))
             };
-            if columns.is_empty() {
+            let points = self.points_in(row, columns);
+            if points.is_empty() {
                 continue;
             }
-            let first = row * self.rasteriser.tiles.cells;
-            let [start, end] = [columns.start, columns.end].map(|column| usize::from(self.tile.starts[first + column]));
-            for point in start..end {
-                if let Some([u, v]) = seen.barycentrics(self.points[point]) {
-                    let t = (1.0 - u - v) * depths[0] + u * depths[1] + v * depths[2];
+            let Some(inside) = edges.get_or_insert_with(|| Triangle::new(seen)) else { return };
+            for point in points {
+                if let Some([u, v]) = inside.barycentrics(self.points[point]) {
+                    let [a, b, c] = corners.map(|corner| self.projector.forward.dot(corner) + self.rasteriser.reach);
+                    let t = (1.0 - u - v) * a + u * b + v * c;
                     let hit = Hit { ray: point as u32, triangle, uv: [u as f32, v as f32], t: t as f32 };
                     let before = std::mem::replace(&mut self.last[point], self.found.len() as u32);
                     self.found.push((hit, before));
                 }
             }
         }
+    }
+
+    /// The points in some cells of a row.
+    fn points_in(&self, row: usize, columns: Range<usize>) -> Range<usize> {
+        let first = row * self.rasteriser.tiles.cells;
+        if columns.is_empty() {
+            return 0..0;
+        }
+        let [start, end] = [columns.start, columns.end].map(|column| usize::from(self.tile.starts[first + column]));
+        start..end
     }
 
     /// The hits by ray, `t` and triangle.

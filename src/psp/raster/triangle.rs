@@ -21,7 +21,6 @@ struct Edge {
 
 /// A triangle on a projector.
 pub(super) struct Triangle {
-    corners: [Place; 3],
     /// Each opposite the corner of its number.
     edges: [Edge; 3],
     /// Twice the area; above zero.
@@ -40,7 +39,7 @@ impl Triangle {
             Edge { slope, constant: -(slope[0] * from[0] + slope[1] * from[1]), bias: i64::from(!inside) }
         };
         let edges = [edge(b, c), edge(c, a), edge(a, b)];
-        (area != 0).then_some(Self { corners, edges, area: area.abs() })
+        (area != 0).then_some(Self { edges, area: area.abs() })
     }
 
     /// The shares of the second and third corner in a point; none for points outside.
@@ -50,32 +49,32 @@ impl Triangle {
         let weight = |value: i64, edge: usize| (value + self.edges[edge].bias) as f64 / self.area as f64;
         (a | b | c >= 0).then(|| [weight(b, 1), weight(c, 2)])
     }
+}
 
-    /// The least and the largest coordinate on an axis.
-    pub fn extent(&self, axis: usize) -> [i64; 2] {
-        let [a, b, c] = self.corners.map(|corner| corner[axis]);
-        [a.min(b).min(c), a.max(b).max(c)]
-    }
+/// The least and the largest coordinate of a triangle on an axis.
+pub(super) fn extent(corners: &[Place; 3], axis: usize) -> [f64; 2] {
+    let [a, b, c] = corners.map(|corner| corner[axis]);
+    [a.min(b).min(c), a.max(b).max(c)].map(|x| x as f64)
+}
 
-    /// The least and the largest x of the part between two heights, of which there is some.
-    pub fn extent_between(&self, low: f64, high: f64) -> [f64; 2] {
-        let corners = self.corners.map(|corner| corner.map(|x| x as f64));
-        let mut extent = [f64::INFINITY, f64::NEG_INFINITY];
-        for i in 0..3 {
-            let ([p, q], [r, s]) = (corners[i], corners[(i + 1) % 3]);
-            let ends = [low, high].map(|y| y.clamp(q.min(s), q.max(s)));
-            if ends[0] <= high && ends[1] >= low {
-                for y in ends {
-                    let x = if q == s { p } else { p + (r - p) * ((y - q) / (s - q)) };
-                    extent = [extent[0].min(x), extent[1].max(x)];
-                }
-                if q == s {
-                    extent = [extent[0].min(r), extent[1].max(r)];
-                }
+/// The least and the largest x of the part of a triangle between two heights, of which there is some.
+pub(super) fn extent_between(corners: &[Place; 3], low: f64, high: f64) -> [f64; 2] {
+    let corners = corners.map(|corner| corner.map(|x| x as f64));
+    let mut extent = [f64::INFINITY, f64::NEG_INFINITY];
+    for i in 0..3 {
+        let ([p, q], [r, s]) = (corners[i], corners[(i + 1) % 3]);
+        let ends = [low, high].map(|y| y.clamp(q.min(s), q.max(s)));
+        if ends[0] <= high && ends[1] >= low {
+            for y in ends {
+                let x = if q == s { p } else { p + (r - p) * ((y - q) / (s - q)) };
+                extent = [extent[0].min(x), extent[1].max(x)];
+            }
+            if q == s {
+                extent = [extent[0].min(r), extent[1].max(r)];
             }
         }
-        extent
     }
+    extent
 }
 
 #[cfg(test)]
@@ -146,11 +145,12 @@ mod tests {
         let mut rng = Rng::at(3, Draw::Probe, &[]);
         for _ in 0..2000 {
             let mut place = || [rng.below(SIDE as u64) as i64, rng.below(SIDE as u64) as i64];
-            let Some(triangle) = Triangle::new([place(), place(), place()]) else { continue };
-            let (left, right) = (triangle.extent(0), triangle.extent(1));
-            for y in right[0]..=right[1] {
-                let [low, high] = triangle.extent_between(y as f64 - 0.5, y as f64 + 0.5);
-                assert!(left[0] as f64 <= low && high <= left[1] as f64, "wider than the triangle");
+            let corners = [place(), place(), place()];
+            let Some(triangle) = Triangle::new(corners) else { continue };
+            let ([left, right], [bottom, top]) = (extent(&corners, 0), extent(&corners, 1));
+            for y in bottom as i64..=top as i64 {
+                let [low, high] = extent_between(&corners, y as f64 - 0.5, y as f64 + 0.5);
+                assert!(left <= low && high <= right, "wider than the triangle");
                 for x in (0..SIDE).filter(|&x| triangle.barycentrics([x, y]).is_some()) {
                     assert!((low - 1e-9..=high + 1e-9).contains(&(x as f64)));
                 }
