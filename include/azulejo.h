@@ -277,6 +277,52 @@ typedef struct azulejo_merge_report {
     uint32_t reserved[10];
 } azulejo_merge_report;
 
+/// Options of azulejo_psp_create and azulejo_psp_sample.
+typedef struct azulejo_psp_options {
+    /// The size of the caller's struct in bytes; set by the init function.
+    uint32_t struct_size;
+    /// How often azulejo_psp_sample projects its patterns before it fills the gaps, 3 directions each time. More
+    /// iterations leave less to the filling, which costs more per sample. The default is the fastest.
+    uint32_t iterations;
+    /// The smallest straight distance between two samples, in the units of the mesh. Above 0; there is no default.
+    double radius;
+    /// Any number; another seed gives another set.
+    uint64_t seed;
+    /// 1, the default: azulejo_psp_sample fills all gaps. 0: it stops after the iterations, as the thesis does, with
+    /// some per cent of the surface uncovered.
+    int32_t maximal;
+    /// Must be 0.
+    uint32_t reserved;
+    /// Called during the calls, unless NULL, which is the default. A psp handle keeps it for all its calls.
+    azulejo_progress_fn progress;
+    /// Handed to the progress callback.
+    void *progress_user;
+} azulejo_psp_options;
+
+/// What a call did.
+typedef struct azulejo_psp_report {
+    /// The samples of the set after the call.
+    uint64_t samples;
+    /// The samples that the call added.
+    uint64_t accepted;
+    /// The rays that it traced: those that meet the mesh's box.
+    uint64_t rays;
+    /// The places where they met the mesh.
+    uint64_t hits;
+    /// The hits that were lost to an earlier one on the same ray.
+    uint64_t restart_conflicts;
+    /// The darts that it threw into uncovered surface.
+    uint64_t darts;
+    /// The hits and darts that were lost to other samples.
+    uint64_t conflicts;
+    /// Wall time.
+    double seconds;
+    /// The iterations of projection that it made.
+    uint32_t iterations;
+    /// Zeros, for later versions.
+    uint32_t reserved[15];
+} azulejo_psp_report;
+
 /// Gives the radius at a place.
 ///
 /// It is called from several threads at once, the library's own; only where the context has one thread it is called on
@@ -327,52 +373,6 @@ typedef struct azulejo_adaptive_options {
     /// Handed to the progress callback.
     void *progress_user;
 } azulejo_adaptive_options;
-
-/// What a call did.
-typedef struct azulejo_psp_report {
-    /// The samples of the set after the call.
-    uint64_t samples;
-    /// The samples that the call added.
-    uint64_t accepted;
-    /// The rays that it traced: those that meet the mesh's box.
-    uint64_t rays;
-    /// The places where they met the mesh.
-    uint64_t hits;
-    /// The hits that were lost to an earlier one on the same ray.
-    uint64_t restart_conflicts;
-    /// The darts that it threw into uncovered surface.
-    uint64_t darts;
-    /// The hits and darts that were lost to other samples.
-    uint64_t conflicts;
-    /// Wall time.
-    double seconds;
-    /// The iterations of projection that it made.
-    uint32_t iterations;
-    /// Zeros, for later versions.
-    uint32_t reserved[15];
-} azulejo_psp_report;
-
-/// Options of azulejo_psp_create and azulejo_psp_sample.
-typedef struct azulejo_psp_options {
-    /// The size of the caller's struct in bytes; set by the init function.
-    uint32_t struct_size;
-    /// How often azulejo_psp_sample projects its patterns before it fills the gaps, 3 directions each time. More
-    /// iterations leave less to the filling, which costs more per sample. The default is the fastest.
-    uint32_t iterations;
-    /// The smallest straight distance between two samples, in the units of the mesh. Above 0; there is no default.
-    double radius;
-    /// Any number; another seed gives another set.
-    uint64_t seed;
-    /// 1, the default: azulejo_psp_sample fills all gaps. 0: it stops after the iterations, as the thesis does, with
-    /// some per cent of the surface uncovered.
-    int32_t maximal;
-    /// Must be 0.
-    uint32_t reserved;
-    /// Called during the calls, unless NULL, which is the default. A psp handle keeps it for all its calls.
-    azulejo_progress_fn progress;
-    /// Handed to the progress callback.
-    void *progress_user;
-} azulejo_psp_options;
 
 /// Options of azulejo_dcr_relax. Radii are in units of d_max = sqrt(2 * area / (sqrt(3) * count)), the distance of
 /// neighbours if the same number of points stood in hexagonal arrangement.
@@ -627,33 +627,6 @@ azulejo_status azulejo_kdrt_merge(const struct azulejo_context *context,
                                   struct azulejo_points **out,
                                   struct azulejo_merge_report *report);
 
-/// Writes the defaults. `struct_size` is sizeof *options.
-azulejo_status azulejo_adaptive_options_init(struct azulejo_adaptive_options *options, size_t struct_size);
-
-/// Makes a maximal set of samples on a mesh, each with a radius of its own (thesis section 3.4.4).
-///
-/// Conflict-free: two samples are no closer than the mean of their radii, in double arithmetic on the returned positions
-/// and radii. Maximal: no place of the surface is farther from every sample than the mean of the two radii, up to 6
-/// times the spacing of floats at the largest coordinate and what the radius changes on that way; with vertex_radii also
-/// 2^-22 of the largest difference of two radii on a triangle. Where the radius changes little from sample to sample
-/// there are 0.6966 / radius^2 samples on an area of 1. Radii above four times the diagonal of the mesh's box are taken
-/// as that, those of vertices before they are interpolated.
-///
-/// The same options give the same bytes. Embree is not used. Time grows with samples and triangles.
-///
-/// out: the samples with normals, triangles, barycentrics and radii, to be freed with azulejo_points_free.
-///
-/// report: what the call did, or NULL; iterations, rays and hits are 0.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for radii that are not positive and finite or below 64 times the spacing
-/// of floats at the largest coordinate, and where `radius` gives what is not in `smallest` to `largest` or changes
-/// faster than `slope`; AZULEJO_ERROR_TOO_LARGE with the estimated count; AZULEJO_ERROR_CANCELLED.
-azulejo_status azulejo_psp_sample_adaptive(const struct azulejo_context *context,
-                                           const struct azulejo_mesh *mesh,
-                                           const struct azulejo_adaptive_options *options,
-                                           struct azulejo_points **out,
-                                           struct azulejo_psp_report *report);
-
 /// Copies a mesh of the caller's.
 ///
 /// positions: the vertices; the x y z of each begin `stride_bytes` after those of the one before.
@@ -773,6 +746,33 @@ azulejo_status azulejo_psp_sample(const struct azulejo_context *context,
                                   const struct azulejo_psp_options *options,
                                   struct azulejo_points **out,
                                   struct azulejo_psp_report *report);
+
+/// Writes the defaults. `struct_size` is sizeof *options.
+azulejo_status azulejo_adaptive_options_init(struct azulejo_adaptive_options *options, size_t struct_size);
+
+/// Makes a maximal set of samples on a mesh, each with a radius of its own (thesis section 3.4.4).
+///
+/// Conflict-free: two samples are no closer than the mean of their radii, in double arithmetic on the returned positions
+/// and radii. Maximal: no place of the surface is farther from every sample than the mean of the two radii, up to 6
+/// times the spacing of floats at the largest coordinate and what the radius changes on that way; with vertex_radii also
+/// 2^-22 of the largest difference of two radii on a triangle. Where the radius changes little from sample to sample
+/// there are 0.6966 / radius^2 samples on an area of 1. Radii above four times the diagonal of the mesh's box are taken
+/// as that, those of vertices before they are interpolated.
+///
+/// The same options give the same bytes. Embree is not used. Time grows with samples and triangles.
+///
+/// out: the samples with normals, triangles, barycentrics and radii, to be freed with azulejo_points_free.
+///
+/// report: what the call did, or NULL; iterations, rays and hits are 0.
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for radii that are not positive and finite or below 64 times the spacing
+/// of floats at the largest coordinate, and where `radius` gives what is not in `smallest` to `largest` or changes
+/// faster than `slope`; AZULEJO_ERROR_TOO_LARGE with the estimated count; AZULEJO_ERROR_CANCELLED.
+azulejo_status azulejo_psp_sample_adaptive(const struct azulejo_context *context,
+                                           const struct azulejo_mesh *mesh,
+                                           const struct azulejo_adaptive_options *options,
+                                           struct azulejo_points **out,
+                                           struct azulejo_psp_report *report);
 
 /// Writes the defaults. `struct_size` is sizeof *options.
 azulejo_status azulejo_dcr_options_init(struct azulejo_dcr_options *options, size_t struct_size);

@@ -68,9 +68,10 @@ pub mod kdrt;
 pub mod maximal;
 pub mod merge;
 
-pub mod adaptive;
 pub mod mesh;
 pub mod psp;
+
+pub mod adaptive;
 
 pub mod dcr;
 
