@@ -310,6 +310,90 @@ typedef struct azulejo_merge_report {
     uint32_t reserved[10];
 } azulejo_merge_report;
 
+/// A geometry of triangles in a scene of the caller's. Embree does not tell the sizes of its buffers: the caller does.
+typedef struct azulejo_embree_geometry {
+    /// Its number in the scene.
+    uint32_t geometry_id;
+    /// Bytes from one vertex to the next: a multiple of 4 from 12 on.
+    uint32_t vertex_stride;
+    /// Bytes from one triangle to the next: a multiple of 4 from 12 on.
+    uint32_t index_stride;
+    /// Must be 0.
+    uint32_t reserved;
+    /// Vertices in its buffer of type RTC_BUFFER_TYPE_VERTEX, slot 0, of format RTC_FORMAT_FLOAT3.
+    size_t vertex_count;
+    /// Triangles in its buffer of type RTC_BUFFER_TYPE_INDEX, of format RTC_FORMAT_UINT3.
+    size_t triangle_count;
+} azulejo_embree_geometry;
+
+/// Options of azulejo_psp_create and azulejo_psp_sample.
+typedef struct azulejo_psp_options {
+    /// The size of the caller's struct in bytes; set by the init function.
+    uint32_t struct_size;
+    /// How often azulejo_psp_sample projects its patterns before it fills the gaps, 3 directions each time. More
+    /// iterations leave less to the filling, which costs more per sample. The default is the fastest.
+    uint32_t iterations;
+    /// The smallest straight distance between two samples, in the units of the mesh. Above 0; there is no default.
+    double radius;
+    /// Any number; another seed gives another set.
+    uint64_t seed;
+    /// 1, the default: azulejo_psp_sample fills all gaps. 0: it stops after the iterations, as the thesis does, with
+    /// some per cent of the surface uncovered.
+    int32_t maximal;
+    /// Must be 0.
+    uint32_t reserved;
+    /// Called during the calls, unless NULL, which is the default. A psp handle keeps it for all its calls.
+    azulejo_progress_fn progress;
+    /// Handed to the progress callback.
+    void *progress_user;
+    /// An AZULEJO_ORDER_ constant; by squareness by default.
+    int32_t order;
+    /// An AZULEJO_ENGINE_ constant; Embree by default.
+    int32_t engine;
+} azulejo_psp_options;
+
+/// What a call did.
+typedef struct azulejo_psp_report {
+    /// The samples of the set after the call.
+    uint64_t samples;
+    /// The samples that the call added.
+    uint64_t accepted;
+    /// The rays that it traced: those that meet the mesh's box. With the rasteriser, the points of its tiles (at most 48
+    /// radii wide) that have triangles near them.
+    uint64_t rays;
+    /// The places where they met the mesh.
+    uint64_t hits;
+    /// The hits that were lost to an earlier one on the same ray.
+    uint64_t restart_conflicts;
+    /// The darts that it threw into uncovered surface.
+    uint64_t darts;
+    /// The hits and darts that were lost to other samples.
+    uint64_t conflicts;
+    /// Wall time.
+    double seconds;
+    /// The iterations of projection that it made.
+    uint32_t iterations;
+    /// Zero, for later versions.
+    uint32_t reserved;
+    /// The part of the time in which patterns and, for Embree, the scene were made: in the first iteration of a set.
+    double prepare_seconds;
+    /// The part of the time in which the hits were found.
+    double project_seconds;
+    /// The part of the time in which samples were chosen among the hits.
+    double merge_seconds;
+    /// The part of the time in which uncovered surface was searched and filled.
+    double fill_seconds;
+    /// The relative radius of the set after the call, radius / d_max: d_max = sqrt(2 A / (sqrt(3) N)) would be the distance
+    /// of N neighbours in hexagonal order on the area A. 0.78 for a maximal set; 0 for no samples. The smallest distance
+    /// is taken to be the radius; that of a large set is less than a millionth above.
+    double rho;
+    /// If the call filled, the share of the area that was uncovered before, else -1. It is an estimate from above, two or
+    /// three times too large: the area of the small fragments that no single sample covers when the search comes to them.
+    double uncovered_before;
+    /// If the call filled, the share of the area that is uncovered after, which is 0, else -1.
+    double uncovered_after;
+} azulejo_psp_report;
+
 /// Gives the radius at a place.
 ///
 /// It is called from several threads at once, the library's own; only where the context has one thread it is called on
@@ -360,90 +444,6 @@ typedef struct azulejo_adaptive_options {
     /// Handed to the progress callback.
     void *progress_user;
 } azulejo_adaptive_options;
-
-/// What a call did.
-typedef struct azulejo_psp_report {
-    /// The samples of the set after the call.
-    uint64_t samples;
-    /// The samples that the call added.
-    uint64_t accepted;
-    /// The rays that it traced: those that meet the mesh's box. With the rasteriser, the points of its tiles (at most 48
-    /// radii wide) that have triangles near them.
-    uint64_t rays;
-    /// The places where they met the mesh.
-    uint64_t hits;
-    /// The hits that were lost to an earlier one on the same ray.
-    uint64_t restart_conflicts;
-    /// The darts that it threw into uncovered surface.
-    uint64_t darts;
-    /// The hits and darts that were lost to other samples.
-    uint64_t conflicts;
-    /// Wall time.
-    double seconds;
-    /// The iterations of projection that it made.
-    uint32_t iterations;
-    /// Zero, for later versions.
-    uint32_t reserved;
-    /// The part of the time in which patterns and, for Embree, the scene were made: in the first iteration of a set.
-    double prepare_seconds;
-    /// The part of the time in which the hits were found.
-    double project_seconds;
-    /// The part of the time in which samples were chosen among the hits.
-    double merge_seconds;
-    /// The part of the time in which uncovered surface was searched and filled.
-    double fill_seconds;
-    /// The relative radius of the set after the call, radius / d_max: d_max = sqrt(2 A / (sqrt(3) N)) would be the distance
-    /// of N neighbours in hexagonal order on the area A. 0.78 for a maximal set; 0 for no samples. The smallest distance
-    /// is taken to be the radius; that of a large set is less than a millionth above.
-    double rho;
-    /// If the call filled, the share of the area that was uncovered before, else -1. It is an estimate from above, two or
-    /// three times too large: the area of the small fragments that no single sample covers when the search comes to them.
-    double uncovered_before;
-    /// If the call filled, the share of the area that is uncovered after, which is 0, else -1.
-    double uncovered_after;
-} azulejo_psp_report;
-
-/// A geometry of triangles in a scene of the caller's. Embree does not tell the sizes of its buffers: the caller does.
-typedef struct azulejo_embree_geometry {
-    /// Its number in the scene.
-    uint32_t geometry_id;
-    /// Bytes from one vertex to the next: a multiple of 4 from 12 on.
-    uint32_t vertex_stride;
-    /// Bytes from one triangle to the next: a multiple of 4 from 12 on.
-    uint32_t index_stride;
-    /// Must be 0.
-    uint32_t reserved;
-    /// Vertices in its buffer of type RTC_BUFFER_TYPE_VERTEX, slot 0, of format RTC_FORMAT_FLOAT3.
-    size_t vertex_count;
-    /// Triangles in its buffer of type RTC_BUFFER_TYPE_INDEX, of format RTC_FORMAT_UINT3.
-    size_t triangle_count;
-} azulejo_embree_geometry;
-
-/// Options of azulejo_psp_create and azulejo_psp_sample.
-typedef struct azulejo_psp_options {
-    /// The size of the caller's struct in bytes; set by the init function.
-    uint32_t struct_size;
-    /// How often azulejo_psp_sample projects its patterns before it fills the gaps, 3 directions each time. More
-    /// iterations leave less to the filling, which costs more per sample. The default is the fastest.
-    uint32_t iterations;
-    /// The smallest straight distance between two samples, in the units of the mesh. Above 0; there is no default.
-    double radius;
-    /// Any number; another seed gives another set.
-    uint64_t seed;
-    /// 1, the default: azulejo_psp_sample fills all gaps. 0: it stops after the iterations, as the thesis does, with
-    /// some per cent of the surface uncovered.
-    int32_t maximal;
-    /// Must be 0.
-    uint32_t reserved;
-    /// Called during the calls, unless NULL, which is the default. A psp handle keeps it for all its calls.
-    azulejo_progress_fn progress;
-    /// Handed to the progress callback.
-    void *progress_user;
-    /// An AZULEJO_ORDER_ constant; by squareness by default.
-    int32_t order;
-    /// An AZULEJO_ENGINE_ constant; Embree by default.
-    int32_t engine;
-} azulejo_psp_options;
 
 /// Options of azulejo_dcr_relax. Radii are in units of d_max = sqrt(2 * area / (sqrt(3) * count)), the distance of
 /// neighbours if the same number of points stood in hexagonal arrangement.
@@ -717,33 +717,6 @@ azulejo_status azulejo_kdrt_merge(const struct azulejo_context *context,
                                   struct azulejo_points **out,
                                   struct azulejo_merge_report *report);
 
-/// Writes the defaults. `struct_size` is sizeof *options.
-azulejo_status azulejo_adaptive_options_init(struct azulejo_adaptive_options *options, size_t struct_size);
-
-/// Makes a maximal set of samples on a mesh, each with a radius of its own (thesis section 3.4.4).
-///
-/// Conflict-free: two samples are no closer than the mean of their radii, in double arithmetic on the returned positions
-/// and radii. Maximal: no place of the surface is farther from every sample than the mean of the two radii, up to 6
-/// times the spacing of floats at the largest coordinate and what the radius changes on that way; with vertex_radii also
-/// 2^-22 of the largest difference of two radii on a triangle. Where the radius changes little from sample to sample
-/// there are 0.6966 / radius^2 samples on an area of 1. Radii above four times the diagonal of the mesh's box are taken
-/// as that, those of vertices before they are interpolated.
-///
-/// The same options give the same bytes. Embree is not used. Time grows with samples and triangles.
-///
-/// out: the samples with normals, triangles, barycentrics and radii, to be freed with azulejo_points_free.
-///
-/// report: what the call did, or NULL; iterations, rays and hits are 0.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for radii that are not positive and finite or below 64 times the spacing
-/// of floats at the largest coordinate, and where `radius` gives what is not in `smallest` to `largest` or changes
-/// faster than `slope`; AZULEJO_ERROR_TOO_LARGE with the estimated count; AZULEJO_ERROR_CANCELLED.
-azulejo_status azulejo_psp_sample_adaptive(const struct azulejo_context *context,
-                                           const struct azulejo_mesh *mesh,
-                                           const struct azulejo_adaptive_options *options,
-                                           struct azulejo_points **out,
-                                           struct azulejo_psp_report *report);
-
 /// Copies the triangles of a scene that the caller has made with Embree. Nothing of the scene and of its device is
 /// changed: flags, error function, thread count (as far as that is the device's alone: see azulejo_context_create). The
 /// mesh does not need them any more once it is made; what is sampled on it is traced in a scene and on a device of its own.
@@ -944,6 +917,33 @@ azulejo_status azulejo_psp_sample(const struct azulejo_context *context,
                                   const struct azulejo_psp_options *options,
                                   struct azulejo_points **out,
                                   struct azulejo_psp_report *report);
+
+/// Writes the defaults. `struct_size` is sizeof *options.
+azulejo_status azulejo_adaptive_options_init(struct azulejo_adaptive_options *options, size_t struct_size);
+
+/// Makes a maximal set of samples on a mesh, each with a radius of its own (thesis section 3.4.4).
+///
+/// Conflict-free: two samples are no closer than the mean of their radii, in double arithmetic on the returned positions
+/// and radii. Maximal: no place of the surface is farther from every sample than the mean of the two radii, up to 6
+/// times the spacing of floats at the largest coordinate and what the radius changes on that way; with vertex_radii also
+/// 2^-22 of the largest difference of two radii on a triangle. Where the radius changes little from sample to sample
+/// there are 0.6966 / radius^2 samples on an area of 1. Radii above four times the diagonal of the mesh's box are taken
+/// as that, those of vertices before they are interpolated.
+///
+/// The same options give the same bytes. Embree is not used. Time grows with samples and triangles.
+///
+/// out: the samples with normals, triangles, barycentrics and radii, to be freed with azulejo_points_free.
+///
+/// report: what the call did, or NULL; iterations, rays and hits are 0.
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for radii that are not positive and finite or below 64 times the spacing
+/// of floats at the largest coordinate, and where `radius` gives what is not in `smallest` to `largest` or changes
+/// faster than `slope`; AZULEJO_ERROR_TOO_LARGE with the estimated count; AZULEJO_ERROR_CANCELLED.
+azulejo_status azulejo_psp_sample_adaptive(const struct azulejo_context *context,
+                                           const struct azulejo_mesh *mesh,
+                                           const struct azulejo_adaptive_options *options,
+                                           struct azulejo_points **out,
+                                           struct azulejo_psp_report *report);
 
 /// Writes the defaults. `struct_size` is sizeof *options.
 azulejo_status azulejo_dcr_options_init(struct azulejo_dcr_options *options, size_t struct_size);

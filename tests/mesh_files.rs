@@ -214,7 +214,7 @@ fn what_ply_files_look_like() {
     let text = file("uchar int vertex_index", body);
     assert_eq!(
         files.reason("short.ply", text.replace("3 2 1 0 nan", "3 2 1 0")),
-        "line 20: less numbers than the header announces"
+        "line 20: fewer numbers than the header announces"
     );
     assert_eq!(
         files.reason("word.ply", text.replace("0 .5 1", "0 half 1")),

@@ -69,10 +69,11 @@ pub mod kdrt;
 pub mod maximal;
 pub mod merge;
 
-pub mod adaptive;
 pub mod embree;
 pub mod mesh;
 pub mod psp;
+
+pub mod adaptive;
 
 pub mod dcr;
 
