@@ -67,12 +67,12 @@ fn millions(rate: f64) -> String {
 fn goals(effort: &Effort, measured: &[Measured], threads: usize) -> String {
     let usual = |one: &Measured| one.rates.by_iterations[1];
     let rows: [(String, Cell); 6] = [
-        ("first iteration, M samples/s".to_owned(), &|one| millions(usual(one).iterated_rate())),
-        ("maximal, M samples/s".to_owned(), &|one| millions(usual(one).rate())),
-        (format!("{threads} threads over one"), &|one| {
+        ("first iteration, M samples/s; goal on the bunny: 5".to_owned(), &|one| millions(usual(one).iterated_rate())),
+        ("maximal, M samples/s; goal on the bunny: 1.5".to_owned(), &|one| millions(usual(one).rate())),
+        (format!("{threads} threads over one; goal: 3"), &|one| {
             format!("{:.2} ×", one.rates.one_thread.seconds() / usual(one).seconds())
         }),
-        ("fill over first iteration, in time".to_owned(), &|one| {
+        ("fill over first iteration, in time; goal: 1".to_owned(), &|one| {
             format!("{:.2}", usual(one).filled.seconds / usual(one).iterated.seconds)
         }),
         ("samples that a second fill adds".to_owned(), &|one| {
