@@ -74,7 +74,10 @@ impl View {
         let mut text = Vec::with_capacity(bytes.len());
         let mut write = |keyword: &[u8], words: &mut dyn Iterator<Item = Cow<[u8]>>| {
             text.extend(keyword);
-            words.for_each(|word| text.extend([b" ", &*word].concat()));
+            for word in words {
+                text.push(b' ');
+                text.extend_from_slice(&word);
+            }
             text.push(b'\n');
         };
         let decimal = |number: usize| Cow::from(number.to_string().into_bytes());
