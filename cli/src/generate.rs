@@ -126,6 +126,46 @@ pub struct Surface {
     /// The normals of the samples.
     #[arg(long, value_enum, default_value = "geometric")]
     normals: Normals,
+    /// Which candidates come first where two are too close.
+    #[arg(long, value_enum, default_value = "squareness")]
+    order: Order,
+    /// What finds the places that the patterns are projected to.
+    #[arg(long, value_enum, default_value = "embree")]
+    engine: Engine,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum Order {
+    /// Those that their projector faces more squarely: the faster.
+    Squareness,
+    /// Those of the projector with the lower number, as in the thesis: half the bias.
+    Projector,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum Engine {
+    /// Ray packets.
+    Embree,
+    /// Triangles drawn over the patterns.
+    Rasteriser,
+}
+
+impl From<Order> for psp::Order {
+    fn from(order: Order) -> Self {
+        match order {
+            Order::Squareness => Self::Squareness,
+            Order::Projector => Self::Projector,
+        }
+    }
+}
+
+impl From<Engine> for psp::Engine {
+    fn from(engine: Engine) -> Self {
+        match engine {
+            Engine::Embree => Self::Embree,
+            Engine::Rasteriser => Self::Rasteriser,
+        }
+    }
 }
 
 #[derive(Clone, Copy, PartialEq, ValueEnum)]
@@ -149,6 +189,8 @@ impl Surface {
             iterations: self.iterations,
             maximal: !self.no_fill,
             seed: self.common.seed,
+            order: self.order.into(),
+            engine: self.engine.into(),
             ..psp::Options::new(radius)
         };
         let (samples, done) = watched("surface", |progress| psp::sample(context, &mesh, &options, Some(progress)))?;
