@@ -7,6 +7,24 @@
 //!   momentum, and long waves of the density are removed by Fourier transform. It ends after 100 steps.
 //! * [`Method::Thesis`]: what the thesis's algorithm says, with all that it can be varied by.
 //!
+//! What the best method makes of sets of the unit torus in 100 steps, measured on seeds that it was not tuned on (8, 4, 2
+//! and 1 of each size; means). rho is the smallest, cover the largest distance in `d_max`; ψ6 is the regularity of the
+//! neighbours' directions, 1 in a lattice and 0.36 in random sets; P is the mean power below a quarter of sqrt(density).
+//!
+//! | points | start | rho | cover | ψ6 | P | obtuse | edge CV² |
+//! |---|---|---|---|---|---|---|---|
+//! | 1,000 | random | 0.861 | 0.661 | 0.472 | 1.2e-5 | 5.4 % | 0.0183 |
+//! | 1,000 | KDRT | 0.861 | 0.661 | 0.470 | 1.4e-5 | 5.5 % | 0.0186 |
+//! | 4,096 | random | 0.861 | 0.661 | 0.473 | 1.6e-5 | 5.5 % | 0.0183 |
+//! | 4,096 | KDRT | 0.860 | 0.662 | 0.472 | 1.7e-5 | 5.8 % | 0.0186 |
+//! | 65,536 | random | 0.858 | 0.663 | 0.470 | 2.0e-5 | 5.5 % | 0.0183 |
+//! | 65,536 | KDRT | 0.858 | 0.663 | 0.470 | 1.8e-5 | 5.6 % | 0.0186 |
+//! | 1,000,000 | random | 0.845 | 0.683 | 0.471 | 1.9e-5 | 5.5 % | 0.0183 |
+//! | 1,000,000 | KDRT | 0.845 | 0.682 | 0.470 | 1.9e-5 | 5.6 % | 0.0186 |
+//! | | push-pull (Ahmed et al. 2016) | 0.850 | 0.670 | 0.475 | 2.2e-3 | 5.9 % | 0.019 |
+//!
+//! On bounded domains a row of points forms along the border, and 100 steps leave rho at about 0.8 and cover at 0.77.
+//!
 //! Convergence is judged by motion ([`Report::motion`]) and not by the thesis's test on the variance of nearest distances
 //! (§4.4.2), which depends on the step size and fires early.
 
