@@ -3,6 +3,7 @@
 #[path = "common/sets.rs"]
 mod sets;
 
+use azulejo::analysis::bonds::bond_order;
 use azulejo::analysis::coverage::{covering_radius_2d, surface_uncovered_fraction};
 use azulejo::analysis::spacing::{nearest_distances_2d, rho, smallest_distance_2d, smallest_distance_3d};
 use azulejo::analysis::triangles::triangle_statistics;
@@ -92,6 +93,23 @@ fn a_hexagonal_lattice_has_its_known_values() {
     assert_eq!((statistics.obtuse, statistics.below_30_degrees), (0.0, 0.0));
     assert!(near(statistics.edge_mean, 1.0) && near(statistics.edge_variation, 0.0));
     assert!(near(statistics.area_variation, 0.0));
+}
+
+#[test]
+fn bonds_of_a_hexagonal_lattice_agree_and_those_of_random_points_do_not() {
+    let order = |domain: &Domain, points: &[[f32; 2]]| bond_order(&context(), domain, points).unwrap();
+    let (domain, points) = hexagonal_lattice();
+    assert!((order(&domain, &points) - 1.0).abs() < 1e-5);
+    for boundary in BOUNDARIES {
+        let random = order(&unit_square(boundary), &random_points(20_000, 5));
+        assert!((random - 0.365).abs() < 0.01, "{boundary:?}: {random}");
+        assert_eq!(order(&unit_square(boundary), &[]), 0.0);
+    }
+    // Six neighbours, in the directions 0, α, π - α and their opposites.
+    let domain = Domain { min: [0.0; 2], max: [6.0, 12.0], boundary: Boundary::Periodic };
+    let points: Vec<_> = (0..24).map(|k| [(k % 6) as f32 + 0.5 * (k / 6 % 2) as f32, 3.0 * (k / 6) as f32]).collect();
+    let expected = (2.0 + 4.0 * (6.0 * 6f64.atan()).cos()).abs() / 6.0;
+    assert!((order(&domain, &points) - expected).abs() < 1e-9);
 }
 
 #[test]

@@ -6,7 +6,7 @@ mod detail;
 mod discs;
 pub mod palette;
 pub mod plot;
-mod points;
+pub mod points;
 pub mod render;
 pub mod rows;
 pub mod spectra;

@@ -1,6 +1,7 @@
 //! `azulejo report`: measurements of the library as pages with plots.
 
 mod adaptive;
+mod dcr;
 mod head;
 mod kdrt;
 mod page;
@@ -19,6 +20,8 @@ pub enum Report {
     Kdrt(kdrt::Kdrt),
     /// Measure rates, density and bias of PSP on meshes against the thesis; takes some minutes.
     Psp(psp::Psp),
+    /// Measure what DCR makes of random and of KDRT's sets, against others' methods; takes some minutes.
+    Dcr(dcr::Dcr),
 }
 
 impl Report {
@@ -26,6 +29,7 @@ impl Report {
         match self {
             Self::Kdrt(kdrt) => kdrt.run(context),
             Self::Psp(psp) => psp.run(context),
+            Self::Dcr(dcr) => dcr.run(context),
         }
     }
 }

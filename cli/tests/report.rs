@@ -64,10 +64,40 @@ fn a_quick_report_of_surfaces_says_what_is_left_out_and_shows_the_rest() {
 }
 
 #[test]
+fn a_quick_report_of_relaxation_has_every_method_and_plausible_figures() {
+    let workshop = Workshop::new();
+    let said = workshop.succeed(&["report", "dcr", "--quick", "--out", "pages/docs", "--threads", "2"]);
+    assert!(said.is_empty(), "{said}");
+    let page = std::fs::read_to_string(workshop.path("pages/docs/dcr.md")).unwrap();
+    let pictures = ["best-delaunay", "best-nearest", "thesis-delaunay", "thesis-nearest"];
+    assert_eq!(page.matches("](").count(), pictures.len());
+    for name in pictures {
+        assert!(page.contains(&format!("](dcr/{name}.png)")), "{name}");
+        let picture = image::open(workshop.path(&format!("pages/docs/dcr/{name}.png"))).unwrap().to_rgb8();
+        assert!(picture.width() >= 900 && picture.pixels().any(|pixel| pixel[0] < 128));
+    }
+    let rows = page.lines().map(|line| line.split('|').map(str::trim).collect::<Vec<_>>());
+    let rows: Vec<_> = rows.filter(|cells| cells.len() == 15 && ["random", "KDRT"].contains(&cells[3])).collect();
+    // Two sizes of the best methods, one of the thesis's, from two starts each.
+    assert_eq!(rows.len(), 2 * 2 * 2 + 2 * 2);
+    for row in rows {
+        let number = |cell: usize| row[cell].trim_end_matches(" %").parse::<f64>().unwrap();
+        let [rho, least, nearest, cover, order, power, obtuse, edges] = [4, 5, 6, 7, 8, 9, 10, 11].map(number);
+        assert!(0.5 < least && least <= rho && rho < nearest && nearest < 1.0, "{row:?}");
+        assert!((0.577..1.5).contains(&cover) && (0.4..0.75).contains(&order), "{row:?}");
+        assert!(
+            0.0 < power && power < 0.1 && (0.5..15.0).contains(&obtuse) && (0.01..0.03).contains(&edges),
+            "{row:?}"
+        );
+    }
+    assert!(page.contains("Sets of 1,000 points and more are left out") && !page.contains("NaN"));
+}
+
+#[test]
 fn a_report_is_refused_where_it_cannot_be_written() {
     let workshop = Workshop::new();
     workshop.write("file", "");
-    for page in ["kdrt", "psp"] {
+    for page in ["kdrt", "psp", "dcr"] {
         let said = workshop.refuse(&["report", page, "--quick", "--out", "file"], 1);
         assert!(said.starts_with("error: file"), "{said}");
     }

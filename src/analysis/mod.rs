@@ -3,6 +3,7 @@
 //! Nothing else in the library depends on these modules; they are here so that every guarantee can be checked. They
 //! are written for clarity and tested against brute force.
 
+pub mod bonds;
 pub mod coverage;
 pub mod differential;
 pub mod facing;

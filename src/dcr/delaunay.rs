@@ -95,7 +95,7 @@ impl Delaunay {
     }
 
     /// The ways from a point to its neighbours, among them copies, counter-clockwise.
-    pub(super) fn ring(&self, point: usize) -> impl Iterator<Item = DVec2> {
+    pub(crate) fn ring(&self, point: usize) -> impl Iterator<Item = DVec2> {
         let edges = self.vertex(point).into_iter().flat_map(|star| star.out_edges());
         edges.map(|edge| edge.to().data().position - edge.from().data().position)
     }

@@ -7,6 +7,27 @@
 //!   momentum, and long waves of the density are removed by Fourier transform. It ends after 100 steps.
 //! * [`Method::Thesis`]: what the thesis's algorithm says, with all that it can be varied by.
 //!
+//! What the best method makes of sets of the unit torus in 100 steps, with Delaunay neighbours (means of 64, 16, 2 and 1 sets;
+//! `azulejo report dcr` writes `docs/dcr.md`, where there is more). The seeds, from 31,000 on, had not been looked at when
+//! the settings were chosen. rho is the smallest, cover the largest distance in `d_max`; ψ6 is the
+//! [bond order](crate::analysis::bonds), 0.36 in random sets; P is the mean power below a quarter of sqrt(density).
+//!
+//! | points | start | rho | cover | ψ6 | P | obtuse | edge CV² |
+//! |---|---|---|---|---|---|---|---|
+//! | 1,000 | random | 0.861 | 0.661 | 0.471 | 1.6e-5 | 5.6 % | 0.0184 |
+//! | 1,000 | KDRT | 0.861 | 0.661 | 0.469 | 1.6e-5 | 5.7 % | 0.0187 |
+//! | 4,096 | random | 0.860 | 0.662 | 0.472 | 1.8e-5 | 5.6 % | 0.0184 |
+//! | 4,096 | KDRT | 0.860 | 0.662 | 0.470 | 1.7e-5 | 5.6 % | 0.0186 |
+//! | 65,536 | random | 0.857 | 0.664 | 0.472 | 1.8e-5 | 5.5 % | 0.0183 |
+//! | 65,536 | KDRT | 0.857 | 0.664 | 0.470 | 1.9e-5 | 5.7 % | 0.0187 |
+//! | 1,000,000 | random | 0.843 | 0.686 | 0.472 | 1.9e-5 | 5.5 % | 0.0183 |
+//! | 1,000,000 | KDRT | 0.856 | 0.666 | 0.470 | 1.9e-5 | 5.6 % | 0.0186 |
+//! | | push-pull (Ahmed et al. 2016) | 0.850 | 0.670 | 0.475 | 2.2e-3 | 5.9 % | 0.019 |
+//!
+//! These are means: single sets of 1,000 points may have more obtuse triangles than push-pull's.
+//!
+//! On bounded domains a row of points forms along the border, and 100 steps leave rho at about 0.8 and cover at 0.77.
+//!
 //! Convergence is judged by motion ([`Report::motion`]) and not by the thesis's test on the variance of nearest distances
 //! (§4.4.2), which depends on the step size and fires early.
 

@@ -51,19 +51,24 @@ impl Points {
         let set = ply::read(&self.input)?;
         let domain = self.domain.of_or_around(&set);
         let points = set.plane_positions();
-        let windows = Windows::of(&domain, points.len());
-        let spectrum = watched("spectrum", |progress| windows.spectrum(context, &points, progress))?;
-
-        let mut canvas = Canvas::new(PAGE[0], PAGE[1], self.size);
-        draw_samples(&mut canvas, &windows, &points);
-        draw_spectrum(&mut canvas, &spectrum, windows.domains.len());
-        let [x, y] = spectrum.frequency_step();
-        let annuli = spectrum.radial(x.max(y))?;
-        let annuli: Vec<_> = annuli.into_iter().filter(|annulus| annulus.frequency <= FREQUENCY_LIMIT).collect();
-        draw_radial_mean(&mut canvas, &annuli);
-        draw_anisotropy(&mut canvas, &annuli, windows.domains.len());
-        canvas.write(&output)
+        draw(context, &domain, &points, self.size, &output)
     }
+}
+
+/// Draws the page of a set, so many pixels wide.
+pub fn draw(context: &Context, domain: &Domain, points: &[[f32; 2]], pixels: u32, output: &Output) -> Result<()> {
+    let windows = Windows::of(domain, points.len());
+    let spectrum = watched("spectrum", |progress| windows.spectrum(context, points, progress))?;
+
+    let mut canvas = Canvas::new(PAGE[0], PAGE[1], pixels);
+    draw_samples(&mut canvas, &windows, points);
+    draw_spectrum(&mut canvas, &spectrum, windows.domains.len());
+    let [x, y] = spectrum.frequency_step();
+    let annuli = spectrum.radial(x.max(y))?;
+    let annuli: Vec<_> = annuli.into_iter().filter(|annulus| annulus.frequency <= FREQUENCY_LIMIT).collect();
+    draw_radial_mean(&mut canvas, &annuli);
+    draw_anisotropy(&mut canvas, &annuli, windows.domains.len());
+    canvas.write(output)
 }
 
 fn draw_samples(canvas: &mut Canvas, windows: &Windows, points: &[[f32; 2]]) {

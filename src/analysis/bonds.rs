@@ -1,0 +1,46 @@
+//! Bond order: how far the directions to the neighbours of a point agree on a hexagonal lattice.
+
+use glam::DVec2;
+
+use crate::dcr::delaunay::Delaunay;
+use crate::dcr::frame::Frame;
+use crate::error::Result;
+use crate::job::{Context, chunks};
+use crate::points::Domain;
+
+/// The bond order ψ6 of a set (Nelson and Halperin 1979, "Dislocation-mediated melting in two dimensions"): the mean over
+/// all points of |Σ exp(6iθ)| / n, θ being the directions of the n edges of a point in the Delaunay triangulation.
+///
+/// 1 in a hexagonal lattice, turned as it may be, about 0.36 in a Poisson process. The mean is one of local orders: many
+/// small crystals are as regular as one. A bounded domain is mirrored by its border, and mirror images are neighbours.
+/// Points without neighbours, as all but one of coincident points are, do not count; 0 if there are no others. Lattices
+/// with more than three points on an empty circle have more than one triangulation, and the result is that of one.
+///
+/// Takes O(n log n).
+///
+/// # Errors
+/// [`Error::InvalidArgument`](crate::Error::InvalidArgument) for a domain that is none and for points outside it (`xy`).
+pub fn bond_order(context: &Context, domain: &Domain, points: &[[f32; 2]]) -> Result<f64> {
+    domain.check()?;
+    domain.check_points(points)?;
+    if points.is_empty() {
+        return Ok(0.0);
+    }
+    let frame = Frame::new(*domain, points.len());
+    let positions = frame.enter(points);
+    let chunks = chunks(points.len());
+    let orders: Vec<f64> = context.run(None, |job| {
+        let delaunay = Delaunay::new(job, &frame, positions.iter().copied())?;
+        job.flat_map(chunks.len(), |chunk| {
+            chunks.range(chunk).filter_map(|point| order(delaunay.ring(point))).collect()
+        })
+    })?;
+    Ok(orders.iter().sum::<f64>() / orders.len().max(1) as f64)
+}
+
+/// The order of a point by the ways to its neighbours.
+fn order(ring: impl Iterator<Item = DVec2>) -> Option<f64> {
+    let add = |(sum, count): (DVec2, f64), way: DVec2| (sum + DVec2::from_angle(6.0 * way.to_angle()), count + 1.0);
+    let (sum, count) = ring.fold((DVec2::ZERO, 0.0), add);
+    (count > 0.0).then(|| sum.length() / count)
+}
