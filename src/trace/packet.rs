@@ -149,14 +149,15 @@ impl<P: RayHits> Packet<P> {
             // Beyond the last ray comes its direction again.
             let direction = rays.get(lane).or(rays.last()).map(|ray| ray.direction);
             let aimed = direction.and_then(aim);
-            let Aimed { direction: turned, scale } = aimed.unwrap_or(Aimed { direction: [1.0; 3], scale: 1.0 });
-            if aimed.is_none() || direction != self.common {
+            let bits = |direction: [f32; 3]| direction.map(f32::to_bits);
+            if aimed.is_none() || direction.map(bits) != self.common.map(bits) {
                 self.common = None;
             }
+            let Aimed { direction, scale } = aimed.unwrap_or(Aimed { direction: [1.0; 3], scale: 1.0 });
             self.aimed[lane] = -c_int::from(aimed.is_some());
             self.scales[lane] = scale;
-            for axis in 0..3 {
-                self.field_mut(field::DIRECTION + axis)[lane] = turned[axis].to_bits();
+            for (axis, x) in direction.into_iter().enumerate() {
+                self.field_mut(field::DIRECTION + axis)[lane] = x.to_bits();
             }
         }
     }
