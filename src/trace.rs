@@ -24,6 +24,10 @@ use packet::{Packet, RayHits, Recorder};
 /// Embree leaves out what is farther from the origin (its `FLT_LARGE` is 1.844e18).
 const LARGEST_COORDINATE: f32 = 1e18;
 
+/// How many packets are filled before they are traced: Embree reads whole vectors, and the processor makes it wait for
+/// what was stored lane by lane a moment ago.
+const PACKETS_AHEAD: usize = 4;
+
 /// A ray that starts at a point and has no end.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ray {
@@ -133,18 +137,19 @@ impl Scene {
 
     fn all<P: RayHits>(&self, rays: &[Ray], hits: &mut Vec<Hit>) {
         let mut recorder = Recorder::new();
-        let mut packet = Packet::<P>::default();
-        for (first, rays) in chunks(rays, P::WIDTH) {
-            packet.load(rays);
-            packet.all_hits(&self.built, &mut recorder);
-            settle(&mut recorder.hits);
-            hits.extend(recorder.hits.iter().map(|hit| Hit { ray: first + hit.ray, ..*hit }));
+        let mut packets: [Packet<P>; PACKETS_AHEAD] = std::array::from_fn(|_| Packet::new());
+        for (first, rays) in chunks(rays, PACKETS_AHEAD * P::WIDTH) {
+            let packets = &mut packets[..rays.len().div_ceil(P::WIDTH)];
+            packets.iter_mut().zip(rays.chunks(P::WIDTH)).for_each(|(packet, rays)| packet.load(rays));
+            for (packet, first) in packets.iter_mut().zip((first..).step_by(P::WIDTH)) {
+                packet.all_hits(&self.built, &mut recorder, first, hits);
+            }
         }
     }
 
     fn closest<P: RayHits>(&self, rays: &[Ray]) -> Vec<Option<Hit>> {
         let mut closest = Vec::with_capacity(rays.len());
-        let mut packet = Packet::<P>::default();
+        let mut packet = Packet::<P>::new();
         for (first, rays) in chunks(rays, P::WIDTH) {
             packet.load(rays);
             let hits = packet.closest_hits(&self.built).take(rays.len());
@@ -157,14 +162,6 @@ impl Scene {
 /// Runs of `width` rays, each with the index of its first one.
 fn chunks(rays: &[Ray], width: usize) -> impl Iterator<Item = (u32, &[Ray])> {
     (0..).step_by(width).zip(rays.chunks(width))
-}
-
-/// Orders the hits of one packet by lane, `t` and triangle, and drops repetitions: a triangle that is met twice is met
-/// at the same `t`.
-fn settle(hits: &mut Vec<Hit>) {
-    // The bits of floats above zero are in the order of the floats.
-    hits.sort_unstable_by_key(|hit| ((hit.ray as u64) << 32 | hit.t.to_bits() as u64, hit.triangle));
-    hits.dedup_by_key(|hit| (hit.ray, hit.triangle));
 }
 
 /// Embree drops bad triangles silently; here they are refused.
@@ -182,20 +179,5 @@ fn check(positions: &[[f32; 3]], triangles: &[[u32; 3]]) -> Result<()> {
             Err(Error::invalid("triangles", format!("[{index}] is {triangle:?}, but there are {count} positions")))
         }
         None => Ok(()),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn hits_are_ordered_and_repetitions_dropped() {
-        let hit = |ray, t, triangle| Hit { ray, triangle, uv: [0.0; 2], t };
-        let expected =
-            [hit(0, 0.5, 9), hit(0, 0.5, 10), hit(0, 2.0, 1), hit(1, f32::MIN_POSITIVE, 1), hit(1, 30.0, 10)];
-        let mut hits: Vec<_> = [3, 1, 4, 0, 1, 2, 0, 3].map(|i| expected[i]).into();
-        settle(&mut hits);
-        assert_eq!(hits, expected);
     }
 }
