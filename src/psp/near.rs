@@ -207,6 +207,9 @@ mod tests {
             open += expected.3.iter().map(|open| open.count_ones()).sum::<u32>();
             closer += expected.4.count_ones();
         }
-        assert!(reaching > 10_000 && covered > 3000 && closer > 1000, "{reaching} {covered} {closer}");
+        assert!(
+            reaching > 10_000 && covered > 3000 && open > 10_000 && closer > 1000,
+            "{reaching} {covered} {open} {closer}"
+        );
     }
 }
