@@ -7,8 +7,9 @@
 use crate::error::Result;
 use crate::job::Job;
 
-/// The side of a block in radii.
-pub(super) const SIDE: u32 = 16;
+/// The side of a block in radii: large beside the samples around it that its room holds too, small enough for many
+/// blocks and for the `u16` that counts the points of a room.
+pub(super) const SIDE: u32 = 24;
 
 /// A block, by its number on each axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]

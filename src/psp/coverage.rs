@@ -205,9 +205,7 @@ impl<'a> Coverage<'a> {
         }
         patch.seen = self.count;
         if self.near.len > gathered {
-            for (index, open) in patch.open.iter_mut().enumerate().filter(|(_, open)| **open != 0) {
-                *open &= !vectors::covered(self.vectors, &self.near, gathered, &local.sixteenth(index));
-            }
+            vectors::take_covered(self.vectors, &self.near, gathered, &local, &mut patch.open);
         }
         self.near.len = gathered;
     }
@@ -257,18 +255,17 @@ impl<'a> Coverage<'a> {
         from: usize,
         uncovered: &mut Vec<Patch>,
     ) {
-        let mut patch = Patch { fragment: *fragment, open: [0; 16], longest, seen: self.seen };
         let (is_fine, is_finest) = (longest <= 4.0 * self.fine, longest <= self.finest);
-        for index in (0..16).filter(|index| open >> index & 1 == 1) {
-            if open == u16::MAX && !is_fine || is_finest {
-                patch.open[index] = u16::MAX;
-                continue;
-            }
+        let is_kept = |index: usize| open >> index & 1 == 1 && (is_fine || is_finest || open == u16::MAX);
+        let parts = std::array::from_fn(|index| if is_kept(index) { u16::MAX } else { 0 });
+        let mut patch = Patch { fragment: *fragment, open: parts, longest, seen: self.seen };
+        if is_fine && !is_finest {
+            vectors::take_covered(self.vectors, &self.near, from, local, &mut patch.open);
+        }
+        for index in (0..16).filter(|&index| open >> index & 1 == 1 && !is_kept(index)) {
             let (part, start) = (local.sixteenth(index), self.near.len);
             let open = self.open_sixteenths(&part, from);
-            if is_fine {
-                patch.open[index] = open;
-            } else if open != 0 {
+            if open != 0 {
                 self.keep(&fragment.sixteenth(index), 0.25 * longest, &part, open, start, uncovered);
             }
             self.near.len = start;
@@ -280,16 +277,9 @@ impl<'a> Coverage<'a> {
 
     /// The sixteenths that no single sample in `near[from..]` certainly covers. Appends those that can reach the fragment.
     fn open_sixteenths(&mut self, local: &Local, from: usize) -> u16 {
-        let (start, reach) = (self.near.len, 1.0 + local.extent);
+        let (start, (centre, reach2)) = (self.near.len, local.reach());
         self.near.reserve(start - from);
-        vectors::append_reaching(
-            self.vectors,
-            &mut self.near,
-            from,
-            start,
-            local.at([1.0 / 3.0; 2]).to_array(),
-            reach * reach + SLACK,
-        );
+        vectors::append_reaching(self.vectors, &mut self.near, from, start, centre, reach2);
         !vectors::covered(self.vectors, &self.near, start, local)
     }
 }

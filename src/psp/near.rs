@@ -33,11 +33,20 @@ pub(super) struct Local {
 
 impl Local {
     /// A place of the fragment, by shares of its edges.
+    #[inline(always)]
     pub fn at(&self, [s, t]: [f32; 2]) -> Vec3A {
         self.corner + (s * self.edges[0] + t * self.edges[1])
     }
 
+    /// The centre, and the square of how far from it a ball of radius 1 can be that touches the fragment.
+    #[inline(always)]
+    pub fn reach(&self) -> ([f32; 3], f32) {
+        let reach = 1.0 + self.extent;
+        (self.at([1.0 / 3.0; 2]).to_array(), reach * reach + SLACK)
+    }
+
     /// One of the sixteen parts.
+    #[inline(always)]
     pub fn sixteenth(&self, index: usize) -> Self {
         let [[s, t], ..] = SIXTEENTHS[index];
         let share = if index < STANDING { 0.25 } else { -0.25 };
@@ -102,9 +111,26 @@ impl Near {
 
     /// The sixteenths that one of the points `from..` certainly covers: all their corners are inside its ball.
     pub fn covered(&self, from: usize, fragment: &Local) -> u16 {
+        self.covered_by(from..self.len, fragment)
+    }
+
+    /// Of the sixteenths of each sixteenth, a bit for each, takes those that one of the points `from..` certainly covers.
+    pub fn take_covered(&self, from: usize, fragment: &Local, open: &mut [u16; 16]) {
+        for (index, open) in open.iter_mut().enumerate().filter(|(_, open)| **open != 0) {
+            let part = fragment.sixteenth(index);
+            let (centre, reach2) = part.reach();
+            let reaches = |&index: &usize| {
+                let point = self.point(index);
+                square([0, 1, 2].map(|axis| point[axis] - centre[axis])) <= reach2
+            };
+            *open &= !self.covered_by((from..self.len).filter(reaches), &part);
+        }
+    }
+
+    fn covered_by(&self, points: impl Iterator<Item = usize>, fragment: &Local) -> u16 {
         let corners: [_; 16] = std::array::from_fn(|i| fragment.at([CORNERS[0][i], CORNERS[1][i]]).to_array());
         let mut cover = Cover::default();
-        for index in from..self.len {
+        for index in points {
             let point = self.point(index);
             let mut inside = 0;
             for (lane, corner) in corners.iter().enumerate() {
@@ -150,7 +176,7 @@ mod tests {
     #[test]
     fn all_vectors_give_the_same_bits() {
         let mut rng = Rng::at(3, Draw::Probe, &[]);
-        let (mut reaching, mut covered, mut closer) = (0, 0, 0);
+        let (mut reaching, mut covered, mut open, mut closer) = (0, 0, 0, 0);
         for round in 0..3000 {
             let mut coordinate = |size: f64| (size * (2.0 * rng.unit() - 1.0)) as f32;
             let pages: Vec<Places> = (0..5)
@@ -170,14 +196,20 @@ mod tests {
                 let end = near.len;
                 vectors::append_reaching(vectors, &mut near, end / 3, end, centre, 1.5);
                 let covered = vectors::covered(vectors, &near, end, &fragment);
-                (points(&near), end, covered, vectors::close(vectors, &pages[0], centre))
+                let mut open = std::array::from_fn(|index| [u16::MAX, 0, 0x1234][(index + round) % 3]);
+                vectors::take_covered(vectors, &near, end / 2, &fragment, &mut open);
+                (points(&near), end, covered, open, vectors::close(vectors, &pages[0], centre))
             };
             let expected = all(Vectors::Portable);
             assert!(Vectors::available().into_iter().all(|vectors| all(vectors) == expected));
             reaching += expected.0.len() - expected.1;
             covered += expected.2.count_ones();
-            closer += expected.3.count_ones();
+            open += expected.3.iter().map(|open| open.count_ones()).sum::<u32>();
+            closer += expected.4.count_ones();
         }
-        assert!(reaching > 10_000 && covered > 3000 && closer > 1000, "{reaching} {covered} {closer}");
+        assert!(
+            reaching > 10_000 && covered > 3000 && open > 10_000 && closer > 1000,
+            "{reaching} {covered} {open} {closer}"
+        );
     }
 }

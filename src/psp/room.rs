@@ -12,8 +12,8 @@ use crate::psp::vectors;
 /// How far a room reaches beyond its block, in radii. A block looks at what is near to fragments whose centre is in it:
 /// within a radius and the extent of the fragment, at most 8/3.
 const HALO: u32 = 4;
-/// The side of a cell in radii.
-const CELL: f32 = 2.0;
+/// The side of a cell in radii: a page or two of a surface.
+const CELL: f32 = 4.0;
 /// Half the side of the room in radii.
 const HALF: f32 = (SIDE / 2 + HALO) as f32;
 /// Cells along an axis.

@@ -57,6 +57,20 @@ pub(super) fn covered(vectors: Vectors, near: &Near, from: usize, fragment: &Loc
     }
 }
 
+/// [`Near::take_covered`].
+#[inline]
+pub(super) fn take_covered(vectors: Vectors, near: &Near, from: usize, fragment: &Local, open: &mut [u16; 16]) {
+    match vectors {
+        Vectors::Portable => near.take_covered(from, fragment, open),
+        // SAFETY: the variant says that the processor has the vectors.
+        #[cfg(target_arch = "x86_64")]
+        Vectors::Avx2 => unsafe { avx2::take_covered(near, from, fragment, open) },
+        // SAFETY: the same.
+        #[cfg(target_arch = "x86_64")]
+        Vectors::Avx512 => unsafe { avx512::take_covered(near, from, fragment, open) },
+    }
+}
+
 /// [`near::close`].
 #[inline]
 pub(super) fn close(vectors: Vectors, places: &Places, point: [f32; 3]) -> u8 {

@@ -96,23 +96,50 @@ fn corners(fragment: &Local, first: usize) -> [__m256; 3] {
     [along(0), along(1), along(2)]
 }
 
+/// Adds the sixteenths whose corners are in the ball around a point.
+#[inline]
+#[target_feature(enable = "avx2")]
+fn add(cover: &mut Cover, corners: &[[__m256; 3]; 2], point: [f32; 3]) {
+    let limit = _mm256_set1_ps(1.0 - SLACK);
+    let [low, high] = corners.map(|[x, y, z]| {
+        let x = _mm256_sub_ps(x, _mm256_set1_ps(point[0]));
+        let y = _mm256_sub_ps(y, _mm256_set1_ps(point[1]));
+        let z = _mm256_sub_ps(z, _mm256_set1_ps(point[2]));
+        _mm256_movemask_ps(_mm256_cmp_ps::<_CMP_LT_OQ>(square([x, y, z]), limit)) as u16
+    });
+    cover.add(low | high << LANES);
+}
+
 /// [`Near::covered`].
 #[target_feature(enable = "avx2")]
 pub fn covered(near: &Near, from: usize, fragment: &Local) -> u16 {
     let corners = [corners(fragment, 0), corners(fragment, LANES)];
     let mut cover = Cover::default();
-    let limit = _mm256_set1_ps(1.0 - SLACK);
-    let inside = |[x, y, z]: [__m256; 3], point: [f32; 3]| {
-        let x = _mm256_sub_ps(x, _mm256_set1_ps(point[0]));
-        let y = _mm256_sub_ps(y, _mm256_set1_ps(point[1]));
-        let z = _mm256_sub_ps(z, _mm256_set1_ps(point[2]));
-        _mm256_movemask_ps(_mm256_cmp_ps::<_CMP_LT_OQ>(square([x, y, z]), limit)) as u16
-    };
-    for index in from..near.len {
-        let point = near.point(index);
-        cover.add(inside(corners[0], point) | inside(corners[1], point) << LANES);
-    }
+    (from..near.len).for_each(|index| add(&mut cover, &corners, near.point(index)));
     cover.sixteenths()
+}
+
+/// [`Near::take_covered`].
+#[target_feature(enable = "avx2,bmi1")]
+pub fn take_covered(near: &Near, from: usize, fragment: &Local, open: &mut [u16; 16]) {
+    let [x, y, z] = &near.axes;
+    for (index, open) in open.iter_mut().enumerate().filter(|(_, open)| **open != 0) {
+        let part = fragment.sixteenth(index);
+        let (centre, reach2) = part.reach();
+        let corners = [corners(&part, 0), corners(&part, LANES)];
+        let mut cover = Cover::default();
+        for start in (from..near.len).step_by(LANES) {
+            let squares = square(offsets([&x[start..], &y[start..], &z[start..]], centre));
+            let reaching = _mm256_cmp_ps::<_CMP_LE_OQ>(squares, _mm256_set1_ps(reach2));
+            let there = (1u32 << (near.len - start).min(LANES)) - 1;
+            let mut reaching = _mm256_movemask_ps(reaching) as u32 & there;
+            while reaching != 0 {
+                add(&mut cover, &corners, near.point(start + reaching.trailing_zeros() as usize));
+                reaching &= reaching - 1;
+            }
+        }
+        *open &= !cover.sixteenths();
+    }
 }
 
 /// [`near::close`](crate::psp::near::close).

@@ -2,8 +2,10 @@
 
 use std::arch::x86_64::*;
 
-use crate::psp::cover::{CORNERS, Cover};
-use crate::psp::near::{LANES, Local, Near, Places, SLACK};
+use glam::Vec3A;
+
+use crate::psp::cover::{CORNERS, CORNERS_OF_SIXTEENTHS, STANDING, STARTS};
+use crate::psp::near::{FAR, LANES, Local, Near, Places, SLACK};
 
 use super::avx2;
 
@@ -16,6 +18,13 @@ fn load(places: &[f32]) -> __m512 {
     let places = &places[..WIDE];
     // SAFETY: sixteen floats are read, from a slice of sixteen; no alignment is asked for.
     unsafe { _mm512_loadu_ps(places.as_ptr()) }
+}
+
+#[inline]
+#[target_feature(enable = "avx512f")]
+fn numbers(numbers: &[i32; WIDE]) -> __m512i {
+    // SAFETY: as above.
+    unsafe { _mm512_loadu_si512(numbers.as_ptr().cast()) }
 }
 
 /// The squared distances of sixteen places from a point.
@@ -63,7 +72,14 @@ pub fn append_reaching(near: &mut Near, from: usize, to: usize, centre: [f32; 3]
 #[inline]
 #[target_feature(enable = "avx512f")]
 fn corners(fragment: &Local) -> [__m512; 3] {
-    let (s, t) = (load(&CORNERS[0]), load(&CORNERS[1]));
+    places(fragment, &CORNERS)
+}
+
+/// Places of a fragment, by shares of its edges.
+#[inline]
+#[target_feature(enable = "avx512f")]
+fn places(fragment: &Local, shares: &[[f32; WIDE]; 2]) -> [__m512; 3] {
+    let (s, t) = (load(&shares[0]), load(&shares[1]));
     let (corner, [e, f]) = (fragment.corner.to_array(), fragment.edges.map(|edge| edge.to_array()));
     let along = |axis: usize| {
         let (e, f) = (_mm512_mul_ps(s, _mm512_set1_ps(e[axis])), _mm512_mul_ps(t, _mm512_set1_ps(f[axis])));
@@ -72,14 +88,72 @@ fn corners(fragment: &Local) -> [__m512; 3] {
     [along(0), along(1), along(2)]
 }
 
+/// For each sixteenth, the squared distance from a point to its farthest corner.
+#[inline]
+#[target_feature(enable = "avx512f")]
+fn farthest(corners: [__m512; 3], point: [f32; 3]) -> __m512 {
+    let squares = squares(corners, point);
+    let [a, b, c] = [0, 1, 2].map(|corner| _mm512_permutexvar_ps(numbers(&CORNERS_OF_SIXTEENTHS[corner]), squares));
+    _mm512_max_ps(_mm512_max_ps(a, b), c)
+}
+
+/// The sixteenths that are covered, given the least of these.
+#[inline]
+#[target_feature(enable = "avx512f")]
+fn inside(farthest: __m512) -> u16 {
+    _mm512_cmp_ps_mask::<_CMP_LT_OQ>(farthest, _mm512_set1_ps(1.0 - SLACK))
+}
+
 /// [`Near::covered`].
 #[target_feature(enable = "avx512f")]
 pub fn covered(near: &Near, from: usize, fragment: &Local) -> u16 {
-    let mut cover = Cover::default();
     let corners = corners(fragment);
+    let mut least = _mm512_set1_ps(FAR);
     for index in from..near.len {
-        let squares = squares(corners, near.point(index));
-        cover.add(_mm512_cmp_ps_mask::<_CMP_LT_OQ>(squares, _mm512_set1_ps(1.0 - SLACK)));
+        least = _mm512_min_ps(least, farthest(corners, near.point(index)));
     }
-    cover.sixteenths()
+    inside(least)
+}
+
+/// [`Near::take_covered`].
+#[target_feature(enable = "avx512f,bmi1")]
+pub fn take_covered(near: &Near, from: usize, fragment: &Local, open: &mut [u16; 16]) {
+    let [x, y, z] = &near.axes;
+    let part = fragment.sixteenth(0);
+    let around = corners(&Local { corner: Vec3A::ZERO, ..part });
+    let starts = stored(places(fragment, &STARTS));
+    let (to_centre, reach2) = Local { corner: Vec3A::ZERO, ..part }.reach();
+    for (index, open) in open.iter_mut().enumerate().filter(|(_, open)| **open != 0) {
+        let start = [starts[0][index], starts[1][index], starts[2][index]];
+        let is_standing = index < STANDING;
+        let centre = [0, 1, 2]
+            .map(|axis| if is_standing { start[axis] + to_centre[axis] } else { start[axis] - to_centre[axis] });
+        let corners = [0, 1, 2].map(|axis| {
+            let start = _mm512_set1_ps(start[axis]);
+            if is_standing { _mm512_add_ps(start, around[axis]) } else { _mm512_sub_ps(start, around[axis]) }
+        });
+        let mut least = _mm512_set1_ps(FAR);
+        for first in (from..near.len).step_by(WIDE) {
+            let squares = squares([load(&x[first..]), load(&y[first..]), load(&z[first..])], centre);
+            let there = ((1u32 << (near.len - first).min(WIDE)) - 1) as u16;
+            let mut reaching = _mm512_mask_cmp_ps_mask::<_CMP_LE_OQ>(there, squares, _mm512_set1_ps(reach2));
+            while reaching != 0 {
+                let point = near.point(first + reaching.trailing_zeros() as usize);
+                least = _mm512_min_ps(least, farthest(corners, point));
+                reaching &= reaching - 1;
+            }
+        }
+        *open &= !inside(least);
+    }
+}
+
+#[inline]
+#[target_feature(enable = "avx512f")]
+fn stored(axes: [__m512; 3]) -> [[f32; WIDE]; 3] {
+    axes.map(|lanes| {
+        let mut stored = [0.0; WIDE];
+        // SAFETY: sixteen floats are written, to an array of sixteen; no alignment is asked for.
+        unsafe { _mm512_storeu_ps(stored.as_mut_ptr(), lanes) };
+        stored
+    })
 }
