@@ -12,6 +12,8 @@ mod build;
 mod host;
 mod packet;
 mod watch;
+#[cfg(target_arch = "x86_64")]
+mod wide;
 
 use embree4_sys::{RTCRayHit, RTCRayHit4, RTCRayHit8, RTCRayHit16};
 

@@ -7,13 +7,15 @@ use std::{ptr, slice};
 use embree4_sys::*;
 
 use super::build::Built;
+#[cfg(target_arch = "x86_64")]
+use super::wide;
 use super::{Hit, LARGEST_COORDINATE, Ray};
 
 /// The widest packet.
 const MAX_WIDTH: usize = 16;
 
 /// Which array of a struct of N rays and their hits is which: word `field * N + lane`.
-mod field {
+pub(super) mod field {
     pub const ORIGIN: usize = 0;
     pub const DIRECTION: usize = 4;
     pub const TFAR: usize = 8;
@@ -302,25 +304,37 @@ unsafe extern "C" fn record(arguments: *const RTCFilterFunctionNArguments) {
     unsafe {
         let arguments = &*arguments;
         let recorder = &mut *arguments.context.cast::<Recorder>();
-        let width = arguments.N as usize;
-        let valid = slice::from_raw_parts_mut(arguments.valid, width);
+        let (width, hits) = (arguments.N as usize, &mut recorder.hits);
+        let (valid, ray, hit) = (arguments.valid, arguments.ray.cast(), arguments.hit.cast());
+        #[cfg(target_arch = "x86_64")]
+        if width == 16 && wide::available() {
+            return wide::note(valid, ray, hit, hits);
+        }
+        note(valid, ray, hit, width, hits);
+    }
+}
+
+/// Appends the hits of the valid lanes, and makes no lane valid.
+///
+/// # Safety
+/// The pointers lead to `width` lanes, 16 at most, of masks, of the fields of rays and of those of hits.
+pub(super) unsafe fn note(valid: *mut c_int, ray: *const u32, hit: *const u32, width: usize, hits: &mut Vec<Hit>) {
+    // SAFETY: by the contract.
+    unsafe {
+        let valid = slice::from_raw_parts_mut(valid, width);
         let mut lanes = valid.iter().zip(&BITS).fold(0, |lanes, (&valid, bit)| lanes | (valid as u32 & bit));
         valid.fill(0);
-        recorder.hits.reserve(width);
-        let (rays, found) = (arguments.ray.cast::<u32>(), arguments.hit.cast::<u32>());
         while lanes != 0 {
             let lane = lanes.trailing_zeros() as usize;
             lanes &= lanes - 1;
-            let ray = |field: usize| *rays.add(field * width + lane);
-            let hit = |field: usize| *found.add((field - field::HIT) * width + lane);
-            let len = recorder.hits.len();
-            recorder.hits.as_mut_ptr().add(len).write(Hit {
+            let ray = |field: usize| *ray.add(field * width + lane);
+            let hit = |field: usize| *hit.add((field - field::HIT) * width + lane);
+            hits.push(Hit {
                 ray: ray(field::ID),
                 triangle: hit(field::TRIANGLE),
                 uv: [hit(field::U), hit(field::V)].map(f32::from_bits),
                 t: f32::from_bits(ray(field::TFAR)),
             });
-            recorder.hits.set_len(len + 1);
         }
     }
 }
