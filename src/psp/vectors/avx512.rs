@@ -27,6 +27,15 @@ fn numbers(numbers: &[i32; WIDE]) -> __m512i {
     unsafe { _mm512_loadu_si512(numbers.as_ptr().cast()) }
 }
 
+#[inline]
+#[target_feature(enable = "avx512f")]
+fn stored(lanes: __m512) -> [f32; WIDE] {
+    let mut stored = [0.0; WIDE];
+    // SAFETY: sixteen floats are written, to an array of sixteen; no alignment is asked for.
+    unsafe { _mm512_storeu_ps(stored.as_mut_ptr(), lanes) };
+    stored
+}
+
 /// The squared distances of sixteen places from a point.
 #[inline]
 #[target_feature(enable = "avx512f")]
@@ -119,19 +128,16 @@ pub fn covered(near: &Near, from: usize, fragment: &Local) -> u16 {
 #[target_feature(enable = "avx512f,bmi1")]
 pub fn take_covered(near: &Near, from: usize, fragment: &Local, open: &mut [u16; 16]) {
     let [x, y, z] = &near.axes;
-    let part = fragment.sixteenth(0);
-    let around = corners(&Local { corner: Vec3A::ZERO, ..part });
-    let starts = stored(places(fragment, &STARTS));
-    let (to_centre, reach2) = Local { corner: Vec3A::ZERO, ..part }.reach();
+    // All parts are the first one, moved to where they start, and some of them turned over.
+    let first = Local { corner: Vec3A::ZERO, ..fragment.sixteenth(0) };
+    let (around, (to_centre, reach2)) = (corners(&first), first.reach());
+    let starts = places(fragment, &STARTS).map(|lanes| stored(lanes));
     for (index, open) in open.iter_mut().enumerate().filter(|(_, open)| **open != 0) {
-        let start = [starts[0][index], starts[1][index], starts[2][index]];
-        let is_standing = index < STANDING;
-        let centre = [0, 1, 2]
-            .map(|axis| if is_standing { start[axis] + to_centre[axis] } else { start[axis] - to_centre[axis] });
-        let corners = [0, 1, 2].map(|axis| {
-            let start = _mm512_set1_ps(start[axis]);
-            if is_standing { _mm512_add_ps(start, around[axis]) } else { _mm512_sub_ps(start, around[axis]) }
-        });
+        let sign = if index < STANDING { 1.0 } else { -1.0 };
+        let start = [0, 1, 2].map(|axis| starts[axis][index]);
+        let centre = [0, 1, 2].map(|axis| start[axis] + sign * to_centre[axis]);
+        let corners = [0, 1, 2]
+            .map(|axis| _mm512_add_ps(_mm512_set1_ps(start[axis]), _mm512_mul_ps(_mm512_set1_ps(sign), around[axis])));
         let mut least = _mm512_set1_ps(FAR);
         for first in (from..near.len).step_by(WIDE) {
             let squares = squares([load(&x[first..]), load(&y[first..]), load(&z[first..])], centre);
@@ -145,15 +151,4 @@ pub fn take_covered(near: &Near, from: usize, fragment: &Local, open: &mut [u16;
         }
         *open &= !inside(least);
     }
-}
-
-#[inline]
-#[target_feature(enable = "avx512f")]
-fn stored(axes: [__m512; 3]) -> [[f32; WIDE]; 3] {
-    axes.map(|lanes| {
-        let mut stored = [0.0; WIDE];
-        // SAFETY: sixteen floats are written, to an array of sixteen; no alignment is asked for.
-        unsafe { _mm512_storeu_ps(stored.as_mut_ptr(), lanes) };
-        stored
-    })
 }
