@@ -11,6 +11,7 @@
 mod build;
 mod host;
 mod packet;
+mod settle;
 mod watch;
 #[cfg(target_arch = "x86_64")]
 mod wide;

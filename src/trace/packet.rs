@@ -7,6 +7,7 @@ use std::{ptr, slice};
 use embree4_sys::*;
 
 use super::build::Built;
+use super::settle::settle;
 #[cfg(target_arch = "x86_64")]
 use super::wide;
 use super::{Hit, LARGEST_COORDINATE, Ray};
@@ -188,7 +189,7 @@ impl<P: RayHits> Packet<P> {
         self.intersect(scene, arguments);
         let scales = &self.scales;
         let settled = |hit: &Hit| Hit { ray: first + hit.ray, t: rescaled(hit, scales), ..*hit };
-        settle(&recorder.hits, settled, hits);
+        settle::<MAX_WIDTH>(&recorder.hits, settled, hits);
     }
 
     /// The first hit of each lane.
@@ -239,33 +240,6 @@ fn aim(direction: [f32; 3]) -> Option<Aimed> {
     let traceable = length > 0.0 && direction.iter().all(|x| x.is_finite());
     let scale = 1.0 / f64::from_bits((length as f64).to_bits() & EXPONENT);
     traceable.then(|| Aimed { direction: direction.map(|x| (x as f64 * scale) as f32), scale })
-}
-
-/// Appends what `finish` makes of the hits of one packet, ordered by lane, `t` and triangle and without repetitions: a
-/// triangle that is met twice is met at the same `t`.
-fn settle(found: &[Hit], finish: impl Fn(&Hit) -> Hit, hits: &mut Vec<Hit>) {
-    // By lanes first. Then most packets are in order, since Embree goes from near to far.
-    let mut places = [0; MAX_WIDTH];
-    found.iter().for_each(|hit| places[hit.ray as usize % MAX_WIDTH] += 1);
-    let start = hits.len();
-    let mut end = start;
-    for place in &mut places {
-        end += std::mem::replace(place, end);
-    }
-    hits.resize(end, NO_HIT);
-    for hit in found {
-        let place = &mut places[hit.ray as usize % MAX_WIDTH];
-        hits[*place] = finish(hit);
-        *place += 1;
-    }
-    // The bits of floats above zero are in the order of the floats.
-    let key = |hit: &Hit| ((hit.ray as u64) << 32 | hit.t.to_bits() as u64, hit.triangle);
-    if !hits[start..].is_sorted_by(|a, b| key(a) < key(b)) {
-        let mut unsettled = hits.split_off(start);
-        unsettled.sort_unstable_by_key(key);
-        unsettled.dedup_by_key(|hit| (hit.ray, hit.triangle));
-        hits.append(&mut unsettled);
-    }
 }
 
 /// The arguments of a query without filter.
@@ -349,27 +323,9 @@ const BITS: [u32; MAX_WIDTH] = {
     bits
 };
 
-/// A place for a hit.
-const NO_HIT: Hit = Hit { ray: 0, triangle: 0, uv: [0.0; 2], t: 0.0 };
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn hits_are_ordered_and_repetitions_dropped() {
-        let hit = |ray, t, triangle| Hit { ray, triangle, uv: [0.0; 2], t };
-        let expected =
-            [hit(0, 0.5, 9), hit(0, 0.5, 10), hit(0, 2.0, 1), hit(1, f32::MIN_POSITIVE, 1), hit(1, 30.0, 10)];
-        for order in [&[3, 1, 4, 0, 1, 2, 0, 3], &[0, 1, 2, 3, 3, 3, 4, 4], &[3, 0, 4, 0, 1, 1, 1, 2]] {
-            let found = order.map(|i: usize| expected[i]);
-            let before = hit(7, 1.0, 1);
-            let mut hits = vec![before];
-            settle(&found, |hit| Hit { t: 2.0 * hit.t, ..*hit }, &mut hits);
-            assert_eq!(hits[0], before);
-            assert_eq!(hits[1..], expected.map(|hit| Hit { t: 2.0 * hit.t, ..hit }));
-        }
-    }
 
     #[test]
     fn a_packet_forgets_the_rays_before() {
