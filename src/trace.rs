@@ -4,9 +4,8 @@
 //! hit; here a filter records every hit and rejects it, so that one traversal finds them all. That is 1.5 to 1.9 times
 //! faster, and a restart loses hits that lie within its epsilon of the last one.
 //!
-//! It is the only part of the core with unsafe code, and all that can go wrong in Embree is kept out here. Debian
-//! builds Embree 3.13 with assertions: a ray that is not finite ends the process. All versions drop triangles with bad
-//! vertices or indices without a word.
+//! All that can go wrong in Embree is kept out here. Debian builds Embree 3.13 with assertions: a ray that is not finite
+//! ends the process. All versions drop triangles with bad vertices or indices without a word.
 
 mod build;
 mod host;
