@@ -1,14 +1,14 @@
 //! How long each stage of PSP takes, for the benchmark.
 
 use std::sync::Arc;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use crate::error::Result;
 use crate::job::Context;
 use crate::mesh::{Mesh, exact};
 use crate::points::SurfaceSamples;
 use crate::psp::pattern::Pattern;
-use crate::psp::{Options, Psp};
+use crate::psp::{Options, Psp, Stopwatch};
 
 /// What the stages of a maximal set by one iteration did and took.
 #[derive(Clone, Copy, Debug, Default)]
@@ -43,25 +43,20 @@ pub fn measure(context: &Context, mesh: &Arc<Mesh>, options: &Options) -> Result
     let (mut psp, mut stages) = (Psp::new(mesh, options)?, Stages::default());
     let (low, high) = mesh.bounds();
     let extent = (exact(high) - exact(low)).length() / options.radius;
-    timed(&mut stages.pattern, || context.run(None, |job| Pattern::new(job, extent, options.seed).map(|_| ())))?;
+    let (mut watch, seconds) = (Stopwatch::start(), Duration::from_secs_f64);
+    context.run(None, |job| Pattern::new(job, extent, options.seed).map(drop))?;
+    stages.pattern = seconds(watch.lap());
     let report = psp.advance(context, 1, None)?;
-    let seconds = Duration::from_secs_f64;
     stages.scene = seconds(report.prepare_seconds).saturating_sub(stages.pattern);
     stages.project = seconds(report.project_seconds);
     stages.merge = seconds(report.merge_seconds);
     (stages.rays, stages.found) = (report.rays, report.accepted);
     stages.fill = seconds(psp.fill(context, None)?.fill_seconds);
     stages.samples = psp.len() as u64;
-    let samples = timed(&mut stages.output, || psp.samples());
+    watch.lap();
+    let samples = psp.samples();
+    stages.output = seconds(watch.lap());
     Ok((samples, stages))
-}
-
-/// Sets `time` to that of a piece of work.
-fn timed<T>(time: &mut Duration, work: impl FnOnce() -> T) -> T {
-    let start = Instant::now();
-    let result = work();
-    *time = start.elapsed();
-    result
 }
 
 #[cfg(test)]
