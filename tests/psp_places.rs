@@ -118,6 +118,29 @@ fn what_floats_cannot_carry_is_refused() {
 }
 
 #[test]
+fn bad_radii_are_refused_before_work_starts() {
+    let mesh = |soup| placed(soup, [1.0; 3], [0.0; 3]);
+    let near = mesh(meshes::plane());
+    for radius in [0.0, -1.0, f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+        let refused = Psp::new(&near, &Options::new(radius)).err();
+        assert!(matches!(refused, Some(Error::InvalidArgument { argument: "radius", .. })), "{radius}");
+    }
+    // Floats cannot carry it: the plane is 1000 away from the origin, where they are 6e-5 apart.
+    let far = placed(meshes::plane(), [1.0; 3], [1000.0; 3]);
+    assert!(Psp::new(&far, &Options::new(0.004)).is_ok());
+    match Psp::new(&far, &Options::new(0.0038)).err() {
+        Some(Error::InvalidArgument { argument: "radius", reason }) => assert!(reason.contains("spacing"), "{reason}"),
+        other => panic!("{other:?}"),
+    }
+    // 10^10 samples: a thousand large sheets.
+    let large = mesh(meshes::join((0..1000).map(|_| meshes::plane())));
+    match Psp::new(&large, &Options::new(1e-5)).err() {
+        Some(Error::TooLarge { argument: "radius", reason }) => assert!(reason.contains("7.000e12"), "{reason}"),
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
 fn any_proportions() {
     for scale in [[1.0, 1e-3, 1.0], [1e3, 1.0, 1e-3], [1e-4, 1e-4, 1.0], [1.0, 1e7, 1e7]] {
         for offset in [[0.0; 3], [1.0, -2.0, 3.0]] {

@@ -1,5 +1,8 @@
 //! What a set with its own radius for each sample owes, checked in the plainest way. Slow: O(n²) and more.
 
+#[path = "parts.rs"]
+mod parts;
+
 use azulejo::SurfaceSamples;
 use azulejo::mesh::Mesh;
 
@@ -70,18 +73,7 @@ impl Part {
 
     /// Four quarters, or two halves where it is much longer than wide.
     fn parts(&self) -> Vec<Self> {
-        let ([a, b, c], sides, longest) = (self.corners, self.sides(), self.longest());
-        let [d, e, f] = [middle(b, c), middle(c, a), middle(a, b)];
-        let shortest = sides.into_iter().fold(longest, f64::min);
-        let corners = if 3.0 * shortest > longest {
-            vec![[a, f, e], [f, b, d], [e, d, c], [d, e, f]]
-        } else if sides[0] == longest {
-            vec![[a, b, d], [a, d, c]]
-        } else if sides[1] == longest {
-            vec![[b, c, e], [b, e, a]]
-        } else {
-            vec![[c, a, f], [c, f, b]]
-        };
+        let corners = parts::parts(self.corners, self.sides(), middle);
         corners.into_iter().map(|corners| Self { corners, ..*self }).collect()
     }
 }

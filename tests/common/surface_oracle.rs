@@ -1,7 +1,11 @@
 //! What a set of samples on a mesh owes, checked in the plainest way. Slow: O(n²) and more.
 
+#[path = "parts.rs"]
+mod parts;
+
 use azulejo::SurfaceSamples;
 use azulejo::mesh::Mesh;
+use parts::parts;
 
 type Point = [f64; 3];
 
@@ -44,18 +48,7 @@ fn gap_in_part(part: [Point; 3], samples: &[Point], reach: f64, smallest: f64) -
         return Some(a);
     }
     let near: Vec<_> = samples.iter().copied().filter(|&sample| distance(a, sample) <= reach + longest).collect();
-    let [d, e, f] = [middle(b, c), middle(c, a), middle(a, b)];
-    let shortest = sides.into_iter().fold(longest, f64::min);
-    let parts = if 3.0 * shortest > longest {
-        vec![[a, f, e], [f, b, d], [e, d, c], [d, e, f]]
-    } else if sides[0] == longest {
-        vec![[a, b, d], [a, d, c]]
-    } else if sides[1] == longest {
-        vec![[b, c, e], [b, e, a]]
-    } else {
-        vec![[c, a, f], [c, f, b]]
-    };
-    parts.into_iter().find_map(|part| gap_in_part(part, &near, reach, smallest))
+    parts(part, sides, middle).into_iter().find_map(|part| gap_in_part(part, &near, reach, smallest))
 }
 
 /// A sample that is not where its triangle and barycentrics say, or whose normal is not its triangle's.
