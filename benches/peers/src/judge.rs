@@ -9,8 +9,9 @@ use azulejo::analysis::{bonds, coverage};
 use azulejo::mesh::Mesh;
 use azulejo::{Boundary, Context, Domain};
 
-/// A set that may have been rounded to `f32` covers with disks that are so much larger.
-const ROUNDING: f64 = 1.0 + 1e-6;
+/// A set whose samples are floats, or are made such for azulejo's coverage, is taken to cover with disks that are larger by
+/// so many spacings of floats at the largest coordinate: azulejo promises no more.
+const ROUNDING: f64 = 6.0;
 
 /// What a set is worth.
 pub struct Verdict {
@@ -51,7 +52,7 @@ fn plane(points: &[[f64; 2]], radius: f64) -> Result<Verdict, Box<dyn Error>> {
     // Some return 1, or what becomes 1 as a float.
     let rounded: Vec<[f32; 2]> =
         points.iter().map(|point| point.map(|x| (x as f32).clamp(0.0, 1.0f32.next_down()))).collect();
-    let covered = coverage::coverage_2d(&context, &domain, &rounded, radius * ROUNDING)?;
+    let covered = coverage::coverage_2d(&context, &domain, &rounded, radius + rounding(&rounded))?;
     let (conflicts, smallest) = pairs(points, radius);
     Ok(Verdict {
         samples: points.len(),
@@ -67,7 +68,7 @@ fn plane(points: &[[f64; 2]], radius: f64) -> Result<Verdict, Box<dyn Error>> {
 fn surface(mesh: &Mesh, points: &[[f64; 3]], radius: f64) -> Result<Verdict, Box<dyn Error>> {
     let context = Context::new(0)?;
     let rounded: Vec<[f32; 3]> = points.iter().map(|point| point.map(|x| x as f32)).collect();
-    let covered = coverage::surface_coverage(&context, mesh, &rounded, radius * ROUNDING)?;
+    let covered = coverage::surface_coverage(&context, mesh, &rounded, radius + rounding(&rounded))?;
     let (conflicts, smallest) = pairs(points, radius);
     Ok(Verdict {
         samples: points.len(),
@@ -78,6 +79,11 @@ fn surface(mesh: &Mesh, points: &[[f64; 3]], radius: f64) -> Result<Verdict, Box
         hexagonal: (2.0 * mesh.area() / (3.0f64.sqrt() * points.len() as f64)).sqrt(),
         bond_order: None,
     })
+}
+
+fn rounding<const N: usize>(points: &[[f32; N]]) -> f64 {
+    let largest = points.iter().flatten().fold(0.0f32, |largest, x| largest.max(x.abs()));
+    ROUNDING * f64::from(largest.next_up() - largest)
 }
 
 /// The pairs closer than `radius`, and the smallest distance, as far as it is below two radii.

@@ -16,8 +16,8 @@ processors over that time. *MB* is what memory grew by at most. What was returne
 
 * *N / ref*: samples over those of azulejo's set at the same radius; more is denser.
 * *Conflicts*: pairs of samples closer than the radius.
-* *Gaps*: connected places farther than the radius from every sample; *farthest* is the worst place, in radii. A set is maximal \
-if there is none.
+* *Gaps*: connected places farther than the radius from every sample, by more than 6 times the spacing of floats at the largest \
+coordinate; *farthest* is the worst place, in radii. A set is maximal if there is no gap.
 * *ρ*: the smallest distance over that of the hexagonal arrangement of as many samples.
 ";
 
@@ -161,7 +161,10 @@ fn won(table: &Table) -> Vec<String> {
         verdict.farthest / verdict.hexagonal
     }));
     if table.kind != Kind::Relaxation {
-        lines.extend(better("samples", "", &|(_, verdict)| -(verdict.samples as f64)));
+        lines.extend(better("samples without conflict", "", &|(_, verdict)| match verdict.conflicts {
+            0 => -(verdict.samples as f64),
+            _ => f64::INFINITY,
+        }));
     }
     lines
 }
