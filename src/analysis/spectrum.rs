@@ -21,7 +21,7 @@ use crate::points::{Boundary, Domain};
 
 use transform::{Waves, Weighted, transform};
 
-pub use radial::Annulus;
+pub use radial::{Annulus, Peak};
 
 /// The largest side of a periodogram.
 pub const MAX_SIZE: usize = 4096;
@@ -52,8 +52,8 @@ pub struct Periodogram {
 /// bytes per point and as many per frequency.
 ///
 /// # Errors
-/// [`Error::InvalidArgument`] for a malformed domain, a `size` outside of 2 to [`MAX_SIZE`], `positions` that are not
-/// finite, or no point in the domain; [`Error::Cancelled`].
+/// [`Error::InvalidArgument`] for a malformed domain, a `size` outside of 2 to [`MAX_SIZE`], points that are not
+/// finite, or none in the domain (`xy`); [`Error::Cancelled`].
 pub fn periodogram(
     context: &Context,
     domain: &Domain,
@@ -86,12 +86,12 @@ pub fn sparse_periodogram(
         return Err(Error::invalid("size", format!("{size} is not in 2..={MAX_SIZE}")));
     }
     if let Some(i) = points.iter().position(|point| !point.iter().all(|x| x.is_finite())) {
-        return Err(Error::invalid("positions", format!("[{i}] is {:?}, not finite", points[i])));
+        return Err(Error::invalid("xy", format!("[{i}] is {:?}, not finite", points[i])));
     }
     let weighted = weigh(domain, points, stride as f64);
     let energy: f64 = weighted.iter().map(|point| point.weight * point.weight).sum();
     if energy == 0.0 {
-        return Err(Error::invalid("positions", "no point in the domain".to_owned()));
+        return Err(Error::invalid("xy", "no point in the domain".to_owned()));
     }
     let density = match domain.boundary {
         Boundary::Periodic => points.len() as f64 / domain.area(),
@@ -338,8 +338,8 @@ mod tests {
         assert!(refused(&Domain { max: [0.0, 1.0], ..unit }, &point, 8).starts_with("domain_max: [0] is 0"));
         assert!(refused(&unit, &point, 1).starts_with("size: 1 is not in 2..=4096"));
         assert!(refused(&unit, &point, 5000).starts_with("size: 5000"));
-        assert!(refused(&unit, &[[0.5, f32::NAN]], 8).starts_with("positions: [0]"));
-        assert!(refused(&unit, &[[1.5, 0.5]], 8).starts_with("positions: no point"));
+        assert!(refused(&unit, &[[0.5, f32::NAN]], 8).starts_with("xy: [0]"));
+        assert!(refused(&unit, &[[1.5, 0.5]], 8).starts_with("xy: no point"));
         let small = periodogram(&context, &unit, &point, 8, None).unwrap();
         let large = periodogram(&context, &unit, &point, 9, None).unwrap();
         assert!(small.radial(0.0).is_err() && small.radial(f64::NAN).is_err());
