@@ -101,12 +101,13 @@ pub fn sparse_periodogram(
     let mean = Mean { weight: weighted.iter().map(|point| point.weight).sum(), boundary: domain.boundary };
     let half = size / 2;
     let power = |waves: &Waves, row: usize| {
-        let row = row as i64 - half as i64;
-        let power = (0..size).map(|column| {
-            let column = column as i64 - half as i64;
-            let (wave, mean) =
-                (waves.at(column, row), mean.transform((stride as i64 * row) as f64, (stride as i64 * column) as f64));
-            ((wave.re - mean).hypot(wave.im).powi(2) / energy) as f32
+        let power = (0..size).map(|column| match [column, row].map(|k| k as i64 - half as i64) {
+            [0, 0] => 0.0,
+            [column, row] => {
+                let [x, y] = [column, row].map(|k| (stride as i64 * k) as f64);
+                let wave = waves.at(column, row);
+                ((wave.re - mean.transform(y, x)).hypot(wave.im).powi(2) / energy) as f32
+            }
         });
         power.collect()
     };

@@ -7,12 +7,12 @@ use azulejo_core::analysis::coverage::covering_radius_2d;
 use azulejo_core::analysis::distribution::radial_distribution;
 use azulejo_core::analysis::spacing::{nearest_distances_2d, nearest_histogram_2d, spacing_2d};
 use azulejo_core::analysis::triangles::triangle_statistics;
-use azulejo_core::{Context, Domain, Result};
+use azulejo_core::{Context, Domain};
 
 use crate::boundary::{self, check_pointer, required};
 use crate::context::azulejo_context;
 use crate::domain::points_in_domain;
-use crate::status::azulejo_status;
+use crate::status::{Failure, azulejo_status};
 
 /// The figures of a set of the plane. The unit d_max is sqrt(2 area / (sqrt(3) count)), the distance of neighbours if as
 /// many points stood in hexagonal arrangement.
@@ -81,7 +81,7 @@ pub unsafe extern "C" fn azulejo_plane_measure(
     })
 }
 
-fn measure(context: &Context, domain: &Domain, points: &[[f32; 2]]) -> Result<azulejo_plane_report> {
+fn measure(context: &Context, domain: &Domain, points: &[[f32; 2]]) -> azulejo_core::Result<azulejo_plane_report> {
     let spacing = spacing_2d(domain, &nearest_distances_2d(context, domain, points)?);
     let triangles = triangle_statistics(context, domain, points)?;
     Ok(azulejo_plane_report {
@@ -129,7 +129,7 @@ pub unsafe extern "C" fn azulejo_plane_nearest_histogram(
     out: *mut u64,
 ) -> azulejo_status {
     boundary::call(|| {
-        check_pointer("out", out.cast_const())?;
+        check_bins(out, bins)?;
         let context = required("context", context)?.shared.clone();
         // SAFETY: handed on from the caller.
         let (points, domain) = unsafe { points_in_domain(xy, count, [domain_min, domain_max], boundary) }?;
@@ -173,7 +173,7 @@ pub unsafe extern "C" fn azulejo_plane_radial_distribution(
     out: *mut f64,
 ) -> azulejo_status {
     boundary::call(|| {
-        check_pointer("out", out.cast_const())?;
+        check_bins(out, bins)?;
         let context = required("context", context)?.shared.clone();
         // SAFETY: handed on from the caller.
         let (points, domain) = unsafe { points_in_domain(xy, count, [domain_min, domain_max], boundary) }?;
@@ -182,4 +182,9 @@ pub unsafe extern "C" fn azulejo_plane_radial_distribution(
         unsafe { boundary::write(out, &distribution.density()) };
         Ok(())
     })
+}
+
+/// The caller's array, one element for each bin; no bins at all are refused as such.
+fn check_bins<T>(out: *mut T, bins: usize) -> Result<(), Failure> {
+    if bins > 0 { check_pointer("out", out.cast_const()) } else { Ok(()) }
 }
