@@ -3,11 +3,11 @@
 use azulejo::{Boundary, Domain};
 use clap::Args;
 
-use crate::ply::PointSet;
+use crate::formats::PointSet;
 
 #[derive(Args)]
 pub struct DomainArgs {
-    /// The corners of the rectangle [default: that of the input file, or the unit square].
+    /// The corners of the rectangle [default: that of the input, or the unit square].
     #[arg(long, num_args = 4, value_names = ["X0", "Y0", "X1", "Y1"], allow_negative_numbers = true)]
     domain: Option<Vec<f64>>,
     /// Let the rectangle end at its border; otherwise it is periodic.
@@ -70,7 +70,7 @@ mod tests {
     use super::*;
 
     fn set(corners: [[f32; 2]; 2], domain: Option<Domain>) -> PointSet {
-        PointSet { positions: corners.map(|[x, y]| [x, y, 0.0]).to_vec(), domain }
+        PointSet { positions: corners.map(|[x, y]| [x, y, 0.0]).to_vec(), domain, ..PointSet::default() }
     }
 
     #[test]

@@ -2,6 +2,7 @@
 
 mod domain;
 mod draw;
+mod formats;
 mod generate;
 mod output;
 mod ply;

@@ -11,8 +11,8 @@ use super::palette::{COBALT, Colour, SLATE, glaze_to_cobalt};
 use super::plot::{Axis, Panel};
 use super::spectra::{FREQUENCY_LIMIT, Windows, inside, power_at};
 use crate::domain::DomainArgs;
+use crate::formats::{Coordinates, Input};
 use crate::output::Output;
-use crate::ply;
 use crate::progress::watched;
 use crate::text::grouped;
 
@@ -32,9 +32,11 @@ const DOT: f64 = 0.26;
 
 #[derive(Args)]
 pub struct Points {
-    /// The samples: a PLY file with x and y.
-    #[arg(value_name = "POINTS.ply")]
+    /// The samples: a .ply, .npy, .csv, .xyz or .raw file.
+    #[arg(value_name = "SAMPLES")]
     input: PathBuf,
+    #[command(flatten)]
+    format: Input,
     /// The picture.
     #[arg(short, long, value_name = "FILE.png")]
     output: PathBuf,
@@ -48,7 +50,7 @@ pub struct Points {
 impl Points {
     pub fn run(&self, context: &Context) -> Result<()> {
         let output = Output::at(&self.output)?;
-        let set = ply::read(&self.input)?;
+        let set = self.format.read(&self.input, Coordinates::Plane)?;
         let domain = self.domain.of_or_around(&set);
         let points = set.plane_positions();
         draw(context, &domain, &points, self.size, &output)
