@@ -25,6 +25,17 @@ impl DomainArgs {
         self.asked().unwrap_or(Domain::unit(self.boundary()))
     }
 
+    /// The domain asked for, or the smallest around some rectangles, or the unit square.
+    pub fn or_box_of(&self, rectangles: &[Domain]) -> Domain {
+        let around = rectangles.iter().copied().reduce(|a, b| Domain {
+            min: [0, 1].map(|axis: usize| a.min[axis].min(b.min[axis])),
+            max: [0, 1].map(|axis: usize| a.max[axis].max(b.max[axis])),
+            ..a
+        });
+        let around = around.map(|around| Domain { boundary: self.boundary(), ..around });
+        self.asked().or(around).unwrap_or(Domain::unit(self.boundary()))
+    }
+
     fn asked(&self) -> Option<Domain> {
         let [x0, y0, x1, y1] = self.domain.as_deref()?.try_into().ok()?;
         Some(Domain { min: [x0, y0], max: [x1, y1], boundary: self.boundary() })

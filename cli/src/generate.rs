@@ -54,12 +54,12 @@ impl Density {
 
 /// What all samplers have.
 #[derive(Args)]
-struct Common {
+pub struct Common {
     #[command(flatten)]
-    destination: Destination,
+    pub destination: Destination,
     /// Another seed gives another set of the same kind.
     #[arg(long, value_name = "SEED", default_value_t = 0)]
-    seed: u64,
+    pub seed: u64,
 }
 
 #[derive(Args)]
@@ -265,7 +265,7 @@ fn compared(count: usize, asked: u64) -> String {
 }
 
 /// One line that says what was written. Nobody may be listening.
-fn report(path: &Path, count: usize, about: &str, seconds: f64) {
+pub fn report(path: &Path, count: usize, about: &str, seconds: f64) {
     let line = format!("{}: {} samples, {about}, {seconds:.2} s", path.display(), grouped(count));
     _ = writeln!(io::stdout(), "{line}");
 }

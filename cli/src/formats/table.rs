@@ -180,10 +180,10 @@ mod tests {
     #[test]
     fn what_is_written_is_read_again_bit_by_bit() {
         let points = [[0.1f32, 1.0 / 3.0], [1e-30, -7e20]];
-        let writers: [fn(&mut Vec<u8>, &[[f32; 2]]) -> io::Result<()>; 2] = [write_csv_plane, write_xyz_plane];
-        for write in writers {
-            let mut text = Vec::new();
-            write(&mut text, &points).unwrap();
+        let (mut csv, mut xyz) = (Vec::new(), Vec::new());
+        write_csv_plane(&mut csv, &points).unwrap();
+        write_xyz_plane(&mut xyz, &points).unwrap();
+        for text in [csv, xyz] {
             assert_eq!(parse(&text, Coordinates::Plane).unwrap().plane_positions(), points);
         }
     }
