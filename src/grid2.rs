@@ -41,6 +41,11 @@ impl Grid2 {
         grid
     }
 
+    /// The points with their ids, those of a cell together.
+    pub(crate) fn entries(&self) -> &[(u32, [f64; 2])] {
+        &self.entries
+    }
+
     fn cell(&self, point: [f64; 2]) -> usize {
         let [x, y] = std::array::from_fn(|axis| {
             let cell = (point[axis] - self.domain.min[axis]) * self.scale[axis];

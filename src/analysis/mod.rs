@@ -6,6 +6,7 @@
 pub mod bonds;
 pub mod coverage;
 pub mod differential;
+pub mod distribution;
 pub mod facing;
 mod probes;
 pub mod spacing;

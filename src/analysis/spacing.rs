@@ -1,5 +1,6 @@
 //! Spacing: the distances between samples, in `f64` from the floats, around the torus on a periodic domain.
 
+use super::distribution::check_bins;
 use crate::error::Result;
 use crate::grid2::Grid2;
 use crate::grid3::{Grid3, distance_squared};
@@ -44,6 +45,44 @@ pub fn smallest_distance_2d(context: &Context, domain: &Domain, points: &[[f32; 
 pub fn rho(context: &Context, domain: &Domain, points: &[[f32; 2]]) -> Result<f64> {
     let smallest = smallest_distance_2d(context, domain, points)?;
     Ok(smallest / domain.hexagonal_distance(points.len().max(1)))
+}
+
+/// The distances of the points of a set to their nearest neighbours, in three numbers.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Spacing {
+    /// The smallest; infinite for less than two points.
+    pub smallest: f64,
+    /// The mean; infinite for less than two points.
+    pub mean: f64,
+    /// `d_max = sqrt(2 A / (sqrt(3) N))`, the distance of neighbours in the hexagonal arrangement of as many points:
+    /// [`rho`] is `smallest / hexagonal`. Infinite for no point.
+    pub hexagonal: f64,
+}
+
+/// Sums up the [`nearest_distances_2d`] of a set. A Poisson process has a mean of 0.465 `hexagonal`, a hexagonal lattice 1.
+pub fn spacing_2d(domain: &Domain, nearest: &[f64]) -> Spacing {
+    let mean = if nearest.is_empty() { f64::INFINITY } else { nearest.iter().sum::<f64>() / nearest.len() as f64 };
+    let smallest = nearest.iter().copied().fold(f64::INFINITY, f64::min);
+    Spacing { smallest, mean, hexagonal: domain.hexagonal_distance(nearest.len()) }
+}
+
+/// The histogram of the [`nearest_distances_2d`] of a set: how many fall into each of `bins` bins of equal width from 0 to
+/// `reach`, in units of `d_max`. What is as far as that or farther is in no bin. Histograms of several sets add up.
+///
+/// # Errors
+/// [`Error::InvalidArgument`](crate::Error::InvalidArgument) for `bins` outside of 1 to
+/// [`MAX_BINS`](super::distribution::MAX_BINS), and for a `reach` that is not a positive finite number.
+pub fn nearest_histogram_2d(domain: &Domain, nearest: &[f64], reach: f64, bins: usize) -> Result<Vec<u64>> {
+    check_bins(reach, bins)?;
+    let per_length = bins as f64 / (reach * domain.hexagonal_distance(nearest.len().max(1)));
+    let mut histogram = vec![0; bins];
+    for distance in nearest {
+        let bin = distance * per_length;
+        if bin < bins as f64 {
+            histogram[bin as usize] += 1;
+        }
+    }
+    Ok(histogram)
 }
 
 /// The smallest distance between two points of space; infinite for less than two points.

@@ -9,6 +9,7 @@
 //! taper (1 - ρ²)², ρ being 0 at the centre and 1 on the inscribed ellipse, and the transform of the taper alone, which
 //! a set without any structure would leave around frequency 0, is subtracted.
 
+mod aliasing;
 mod radial;
 mod transform;
 
@@ -18,12 +19,15 @@ use crate::error::{Error, Result};
 use crate::job::{Context, Progress};
 use crate::points::{Boundary, Domain};
 
-use transform::{Weighted, transform};
+use transform::{Waves, Weighted, transform};
 
 pub use radial::Annulus;
 
 /// The largest side of a periodogram.
 pub const MAX_SIZE: usize = 4096;
+
+/// The largest stride between the frequencies of a periodogram.
+pub const MAX_STRIDE: usize = 4096;
 
 /// Beyond this argument the taper's transform, about 38 / s^3.5, is below 4e-7 of its peak.
 const TAPER_REACH: f64 = 200.0;
@@ -57,14 +61,34 @@ pub fn periodogram(
     size: usize,
     progress: Option<&Progress>,
 ) -> Result<Periodogram> {
+    sparse_periodogram(context, domain, points, size, 1, progress)
+}
+
+/// A periodogram that takes only every `stride`-th frequency along both axes, exactly: the Fourier sums at multiples of a
+/// frequency are those of the points laid over each other in a period of it. With it the radial curves of large sets
+/// reach as far as those of small ones, in the same time.
+///
+/// # Errors
+/// As [`periodogram`]; and [`Error::InvalidArgument`] for a `stride` outside of 1 to [`MAX_STRIDE`].
+pub fn sparse_periodogram(
+    context: &Context,
+    domain: &Domain,
+    points: &[[f32; 2]],
+    size: usize,
+    stride: usize,
+    progress: Option<&Progress>,
+) -> Result<Periodogram> {
     domain.check()?;
+    if !(1..=MAX_STRIDE).contains(&stride) {
+        return Err(Error::invalid("stride", format!("{stride} is not in 1..={MAX_STRIDE}")));
+    }
     if !(2..=MAX_SIZE).contains(&size) {
         return Err(Error::invalid("size", format!("{size} is not in 2..={MAX_SIZE}")));
     }
     if let Some(i) = points.iter().position(|point| !point.iter().all(|x| x.is_finite())) {
         return Err(Error::invalid("positions", format!("[{i}] is {:?}, not finite", points[i])));
     }
-    let weighted = weigh(domain, points);
+    let weighted = weigh(domain, points, stride as f64);
     let energy: f64 = weighted.iter().map(|point| point.weight * point.weight).sum();
     if energy == 0.0 {
         return Err(Error::invalid("positions", "no point in the domain".to_owned()));
@@ -76,17 +100,26 @@ pub fn periodogram(
     };
     let mean = Mean { weight: weighted.iter().map(|point| point.weight).sum(), boundary: domain.boundary };
     let half = size / 2;
-    let waves = context.run(progress, |job| transform(job, &weighted, half))?;
-    let power = (0..size * size).map(|i| {
-        let [row, column] = [i / size, i % size].map(|k| k as i64 - half as i64);
-        let wave = waves.at(column, row);
-        ((wave.re - mean.transform(row as f64, column as f64)).hypot(wave.im).powi(2) / energy) as f32
-    });
-    let frequency_step = domain.extent().map(|length| 1.0 / (length * density.sqrt()));
-    Ok(Periodogram { size, frequency_step, power: power.collect() })
+    let power = |waves: &Waves, row: usize| {
+        let row = row as i64 - half as i64;
+        let power = (0..size).map(|column| {
+            let column = column as i64 - half as i64;
+            let (wave, mean) =
+                (waves.at(column, row), mean.transform((stride as i64 * row) as f64, (stride as i64 * column) as f64));
+            ((wave.re - mean).hypot(wave.im).powi(2) / energy) as f32
+        });
+        power.collect()
+    };
+    let power = context.run(progress, |job| {
+        let waves = transform(&job.part(0.0, 0.9), &weighted, half)?;
+        job.part(0.9, 1.0).flat_map(size, |row| power(&waves, row))
+    })?;
+    let frequency_step = domain.extent().map(|length| stride as f64 / (length * density.sqrt()));
+    Ok(Periodogram { size, frequency_step, power })
 }
 
-fn weigh(domain: &Domain, points: &[[f32; 2]]) -> Vec<Weighted> {
+/// The points with their weights, their places in periods of the lowest frequency.
+fn weigh(domain: &Domain, points: &[[f32; 2]], stride: f64) -> Vec<Weighted> {
     let extent = domain.extent();
     let weighted = points.iter().map(|point| {
         let turns: [f64; 2] = std::array::from_fn(|axis| {
@@ -97,7 +130,7 @@ fn weigh(domain: &Domain, points: &[[f32; 2]]) -> Vec<Weighted> {
             Boundary::Periodic => 1.0,
             Boundary::Bounded => (1.0 - 4.0 * (turns[0] * turns[0] + turns[1] * turns[1])).max(0.0).powi(2),
         };
-        Weighted { turns, weight }
+        Weighted { turns: turns.map(|turns| stride * turns), weight }
     });
     weighted.filter(|point| point.weight > 0.0).collect()
 }

@@ -18,11 +18,12 @@ pub struct Annulus {
 }
 
 /// Annuli of one width, which hold all frequencies out to the largest circle of the grid.
-struct Annuli {
+pub(super) struct Annuli {
     width: f64,
-    last: f64,
+    /// The radius of the largest circle.
+    pub last: f64,
     /// The count of frequencies and the sums of their lengths, powers and squared powers.
-    sums: Vec<[f64; 4]>,
+    pub sums: Vec<[f64; 4]>,
 }
 
 impl Annuli {
@@ -91,7 +92,8 @@ impl Periodogram {
         (column as f64 * self.frequency_step[0]).hypot(row as f64 * self.frequency_step[1])
     }
 
-    fn annuli(&self, width: f64) -> Result<Annuli> {
+    /// Sums up the power in annuli.
+    pub(super) fn annuli(&self, width: f64) -> Result<Annuli> {
         if !(width > 0.0 && width.is_finite()) {
             return Err(Error::invalid("width", format!("{width} is not a positive finite number")));
         }
