@@ -11,6 +11,7 @@ mod procedural;
 mod progress;
 mod report;
 mod shell;
+mod summary;
 mod text;
 
 use std::process::ExitCode;

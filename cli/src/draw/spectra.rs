@@ -45,6 +45,12 @@ impl Windows {
         Self { domains: (0..windows).map(window).collect(), density }
     }
 
+    /// What is to be said of a spectrum of these windows.
+    pub fn remark(&self) -> String {
+        let count = self.domains.len();
+        if count > 1 { format!("mean of {count} windows") } else { String::new() }
+    }
+
     /// The mean of the periodograms of all windows, out to the [`FREQUENCY_LIMIT`].
     pub fn spectrum(&self, context: &Context, points: &[[f32; 2]], progress: &Progress) -> Result<Periodogram> {
         let count = self.domains.len() as f64;

@@ -9,7 +9,7 @@ use super::Effort;
 use super::quality::{Measured, Quality};
 use super::sets::{FIRST_SEED, METHODS};
 use crate::report::head::{head, verdict};
-use crate::report::statistics::Summary;
+use crate::summary::Summary;
 use crate::text::{grouped, rounded};
 
 /// A figure, and which way is better for a set that shall have even distances and no more order than that takes.

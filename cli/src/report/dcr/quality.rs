@@ -11,7 +11,7 @@ use azulejo::{Boundary, Context, Domain, Progress, Result};
 
 use super::Effort;
 use super::sets::{FIRST_SEED, Method, STARTS, Start};
-use crate::report::statistics::Summary;
+use crate::summary::Summary;
 
 /// Power below this frequency, in units of sqrt(density), is low.
 pub const LOW: f64 = 0.25;
