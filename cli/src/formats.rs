@@ -92,6 +92,14 @@ fn format_error(path: &Path, reason: impl Into<String>) -> Error {
     Error::Format { path: path.into(), reason: reason.into() }
 }
 
+/// An error about points, with the file that they come from.
+pub fn blame(path: &Path, error: Error) -> Error {
+    match error {
+        Error::InvalidArgument { argument: "xy" | "positions" | "normals", reason } => format_error(path, reason),
+        other => other,
+    }
+}
+
 /// In which format points are read.
 #[derive(Args)]
 pub struct Input {

@@ -1,5 +1,6 @@
 //! The command-line tool of azulejo: samples into files, and pictures of them.
 
+mod analyze;
 mod domain;
 mod draw;
 mod formats;
@@ -9,6 +10,7 @@ mod output;
 mod ply;
 mod procedural;
 mod progress;
+mod quality;
 mod report;
 mod shell;
 mod summary;
@@ -48,6 +50,8 @@ enum Command {
     Relax(generate::Relax),
     /// Glue sets that were made apart into one maximal set (KDRT).
     Merge(merge::Merge),
+    /// Measure sets of the plane or samples of a mesh: a table, JSON, plots.
+    Analyze(analyze::Analyze),
     /// Write a mesh that needs no download.
     Mesh(procedural::Procedural),
     /// Draw samples as a PNG picture.
@@ -69,6 +73,7 @@ fn run(cli: &Cli) -> Result<()> {
         Command::Surface(surface) => surface.run(&context),
         Command::Relax(relax) => relax.run(&context),
         Command::Merge(merge) => merge.run(&context),
+        Command::Analyze(analyze) => analyze.run(&context),
         Command::Mesh(procedural) => procedural.run(),
         Command::Draw(draw) => draw.run(&context),
         Command::Report(report) => report.run(&context),

@@ -96,16 +96,20 @@ pub fn power(canvas: &mut Canvas, square: Rect, spectrum: &Periodogram) {
 
 /// What the ink of the spectrum means, from no power at the bottom.
 pub fn power_scale(canvas: &mut Canvas, bar: Rect) {
+    scale(canvas, bar, &[0.0, 0.25, 1.0, 2.0, FULL_INK], |power| (power / FULL_INK).sqrt());
+}
+
+/// What shares of ink mean, from none at the bottom, with labels at some values.
+pub fn scale(canvas: &mut Canvas, bar: Rect, values: &[f64], share: impl Fn(f64) -> f64) {
     const ROWS: usize = 256;
-    let share = |power: f64| (power / FULL_INK).sqrt() as f32;
     let gradient: Vec<_> = (0..ROWS).rev().map(|i| glaze_to_cobalt(i as f64 / (ROWS - 1) as f64)).collect();
     canvas.image(&gradient, 1, bar);
     canvas.frame(bar, 1.5, SLATE);
     let style = Style { size: 17.0, colour: SLATE, align: Align::Left, upwards: false };
-    for power in [0.0, 0.25, 1.0, 2.0, FULL_INK] {
-        let y = bar.bottom() - bar.height * share(power);
+    for value in values {
+        let y = bar.bottom() - bar.height * share(*value) as f32;
         canvas.line([[bar.right(), y], [bar.right() + 6.0, y]], 1.5, SLATE);
-        canvas.text(&power.to_string(), [bar.right() + 10.0, y + 6.0], style);
+        canvas.text(&value.to_string(), [bar.right() + 10.0, y + 6.0], style);
     }
 }
 

@@ -1,6 +1,6 @@
 //! Which part of a set is shown, and the power spectrum of it or of many such parts.
 
-use azulejo::analysis::spectrum::{Periodogram, periodogram};
+use azulejo::analysis::spectrum::{Periodogram, periodogram, sparse_periodogram};
 use azulejo::{Boundary, Context, Domain, Progress, Result};
 
 /// Frequencies are shown up to this many sqrt(density).
@@ -62,6 +62,23 @@ impl Windows {
         });
         Periodogram::mean(&spectra.collect::<Result<Vec<_>>>()?)
     }
+}
+
+/// The power of `points` up to `limit`, in units of sqrt(density), on a grid of no more than about `most` frequencies per
+/// side: of a large set only every so many of them are taken. Sets of `count` points have the same grid.
+pub fn spectrum_up_to(
+    context: &Context,
+    domain: &Domain,
+    points: &[[f32; 2]],
+    count: usize,
+    limit: f64,
+    most: usize,
+) -> Result<Periodogram> {
+    let [width, height] = domain.extent();
+    let waves = limit * width.max(height) * (count as f64 / domain.area()).sqrt();
+    let stride = (2.0 * waves / most as f64).ceil().max(1.0);
+    let half = (waves / stride).ceil() as usize;
+    sparse_periodogram(context, domain, points, 2 * half + 1, stride as usize, None)
 }
 
 /// The points of a window; on a torus all points.

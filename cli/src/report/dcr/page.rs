@@ -6,8 +6,9 @@ use azulejo::Context;
 use azulejo::dcr::Neighbourhood;
 
 use super::Effort;
-use super::quality::{Measured, Quality};
+use super::measured::Measured;
 use super::sets::{FIRST_SEED, METHODS};
+use crate::quality::Quality;
 use crate::report::head::{head, verdict};
 use crate::summary::Summary;
 use crate::text::{grouped, rounded};
