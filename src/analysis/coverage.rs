@@ -1,5 +1,10 @@
 //! Coverage: how far the domain or the surface is from the samples.
 
+mod gaps;
+mod groups;
+mod surface;
+mod tree;
+
 use crate::analysis::probes::Surface;
 use crate::error::Result;
 use crate::grid2::Grid2;
@@ -8,8 +13,39 @@ use crate::job::{Context, chunks};
 use crate::mesh::Mesh;
 use crate::points::{Domain, check_radius};
 
-/// The relative precision of [`covering_radius_2d`].
+pub use surface::{surface_coverage, surface_covering_radius};
+
+/// The relative precision of a covering radius.
 pub const PRECISION: f64 = 1e-9;
+
+/// How a set covers a domain or a surface with disks of a radius.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Coverage {
+    /// The covering radius: the worst distance of a place from the samples.
+    pub farthest: f64,
+    /// The number of gaps; 0 for a maximal set.
+    pub gaps: usize,
+}
+
+/// How a set in the plane covers its domain with disks of `radius`. A *gap* is a connected part of the domain, or of the
+/// torus, that is farther than `radius` from all points; the whole domain is one for an empty set.
+///
+/// Gaps are counted by the Voronoi diagram, however small they are; those shallower than 1e-6 of the mean spacing may be
+/// missed, unless they are all there is. Takes O(n log n), and O(n) for a set without gaps.
+///
+/// # Errors
+/// As [`covering_radius_2d`]; and [`Error::InvalidArgument`](crate::Error::InvalidArgument) for a radius that is not
+/// positive and finite.
+pub fn coverage_2d(context: &Context, domain: &Domain, points: &[[f32; 2]], radius: f64) -> Result<Coverage> {
+    check_radius(radius)?;
+    let farthest = covering_radius_2d(context, domain, points)?;
+    let gaps = match points {
+        _ if farthest <= radius => 0,
+        [] => 1,
+        _ => gaps::count(context, domain, points, radius)?.max(1),
+    };
+    Ok(Coverage { farthest, gaps })
+}
 
 /// The covering radius of a set in the plane: the distance from the samples of the point of the domain that is farthest
 /// from all of them. A set is maximal for a radius if this is not above it. Infinite for an empty set.

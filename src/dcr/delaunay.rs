@@ -10,7 +10,7 @@
 //! longer than a period and contain another copy of its point. On mirrored domains the mirror images take that part.
 
 use glam::DVec2;
-use spade::handles::{FixedVertexHandle, VertexHandle};
+use spade::handles::{FaceHandle, FixedVertexHandle, PossiblyOuterTag, VertexHandle};
 use spade::{DelaunayTriangulation, HasPosition, Point2, Triangulation};
 
 use super::frame::{Frame, Site};
@@ -110,6 +110,19 @@ impl Delaunay {
         self.triangles().map(radius).fold(0.0, f64::max)
     }
 
+    /// The edges from a point of the domain with their duals; those to copies come once from each end.
+    pub(crate) fn duals(&self) -> impl Iterator<Item = Dual> {
+        let edges = self.triangulation.undirected_edges().map(|edge| edge.as_directed());
+        edges.filter(|edge| edge.from().data().is_original() || edge.to().data().is_original()).filter_map(|edge| {
+            let circle = |face: FaceHandle<'_, PossiblyOuterTag, Site, (), (), ()>| {
+                let (centre, radius_squared) = face.as_inner()?.circumcircle();
+                Some((DVec2::new(centre.x, centre.y), radius_squared.sqrt()))
+            };
+            let circles = [circle(edge.face())?, circle(edge.rev().face())?];
+            Some(Dual { ends: [edge.from(), edge.to()].map(|end| end.data().position), circles })
+        })
+    }
+
     /// The triangles that touch a point of the domain.
     pub(crate) fn triangles(&self) -> impl Iterator<Item = [Site; 3]> {
         self.triangulation
@@ -117,6 +130,14 @@ impl Delaunay {
             .map(|face| face.vertices().map(|vertex| *vertex.data()))
             .filter(|corners| corners.iter().any(Site::is_original))
     }
+}
+
+/// An edge of the triangulation and its dual edge of the Voronoi diagram.
+pub(crate) struct Dual {
+    /// The ends of the edge.
+    pub(crate) ends: [DVec2; 2],
+    /// The circumcircles, centre and radius, of the triangles on its sides: their centres are the ends of the dual edge.
+    pub(crate) circles: [(DVec2, f64); 2],
 }
 
 impl Links for Delaunay {

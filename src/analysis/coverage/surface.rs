@@ -1,0 +1,210 @@
+//! Coverage of a surface, by cutting it into fragments: a place of a fragment is no farther from the samples than its
+//! centre is and a corner is from that.
+
+use glam::DVec3;
+
+use super::groups::Groups;
+use super::tree::Tree;
+use super::{Coverage, PRECISION};
+use crate::error::{Error, Result};
+use crate::grid3::{Grid3, distance_squared};
+use crate::job::{Context, Job, chunks_of};
+use crate::mesh::Mesh;
+use crate::points::check_radius;
+
+/// Meshes of fewer triangles are cut into as many fragments before work on them is shared.
+const FRAGMENTS: usize = 4096;
+/// The fragments of one task.
+const TASK: usize = 64;
+
+/// Uncovered places within this share of the radius are of one gap; fragments are cut until none is half as long.
+const LINK: f64 = 0.5;
+/// Gaps are seen if they are deeper than this share of the radius.
+const DEPTH: f64 = 1e-6;
+/// No more uncovered fragments than this are kept.
+const MAX_UNCOVERED: usize = 1 << 26;
+
+/// The covering radius of samples on a mesh: the straight distance from the samples of the place of the surface that is
+/// farthest from all of them. A set is maximal for a radius if this is not above it. Infinite for an empty set, 0 where
+/// the mesh's mask leaves no area.
+///
+/// Found by branch and bound in `f64`, as [`covering_radius_2d`](super::covering_radius_2d): too small by at most the
+/// factor 1 + [`PRECISION`]. Triangles without area do not count.
+///
+/// Takes O((n + triangles) log n) for samples that are spread about evenly.
+///
+/// # Errors
+/// [`Error::InvalidArgument`] for positions that are not finite.
+pub fn surface_covering_radius(context: &Context, mesh: &Mesh, positions: &[[f32; 3]]) -> Result<f64> {
+    crate::analysis::check_positions(positions)?;
+    context.run(None, |job| farthest(job, &Tree::of(positions), &Fragment::of(mesh)))
+}
+
+/// How samples on a mesh cover it with disks of `radius`, by straight distance.
+///
+/// A *gap* here is a group of uncovered places in which each is within half of the radius of another one, so that hardly
+/// more than a sample is missing in a small one: a connected part of what is uncovered, or several that are so near to
+/// each other. Surfaces may touch and cross, so that places in space tell more than triangles that share an edge. Each gap
+/// deeper than a millionth of the radius is found, however narrow.
+///
+/// Takes what [`surface_covering_radius`] takes, and about 100 fragments for each square of the radius that is uncovered.
+///
+/// # Errors
+/// [`Error::InvalidArgument`] for a radius that is not positive and finite and for positions that are not finite;
+/// [`Error::TooLarge`] for a `radius` that leaves uncovered more than some 600,000 times its square.
+pub fn surface_coverage(context: &Context, mesh: &Mesh, positions: &[[f32; 3]], radius: f64) -> Result<Coverage> {
+    check_radius(radius)?;
+    crate::analysis::check_positions(positions)?;
+    let (tree, fragments) = (Tree::of(positions), Fragment::of(mesh));
+    let farthest = context.run(None, |job| farthest(job, &tree, &fragments))?;
+    if farthest <= radius {
+        return Ok(Coverage { farthest, gaps: 0 });
+    }
+    let tasks = chunks_of(fragments.len(), TASK);
+    let mut uncovered = Vec::new();
+    let task = |task: usize| {
+        let mut found = Vec::new();
+        fragments[tasks.range(task)].iter().try_for_each(|fragment| fragment.gather(&tree, radius, &mut found))?;
+        Ok(found)
+    };
+    let keep = |found: Result<Vec<[f32; 3]>>| {
+        uncovered.extend(found?);
+        check_count(uncovered.len())
+    };
+    context.run(None, |job| job.stream(tasks.len(), task, keep))?;
+    Ok(Coverage { farthest, gaps: count(&uncovered, LINK * radius).max(1) })
+}
+
+fn check_count(uncovered: usize) -> Result<()> {
+    if uncovered < MAX_UNCOVERED {
+        Ok(())
+    } else {
+        Err(Error::too_large("radius", format!("leaves more than {MAX_UNCOVERED} fragments of the surface uncovered")))
+    }
+}
+
+/// The groups of places of which each is within `reach` of another one.
+fn count(places: &[[f32; 3]], reach: f64) -> usize {
+    let mut grid = Grid3::new([0.0; 3], reach);
+    let mut groups = Groups::new(places.len());
+    for &place in places {
+        let near: Vec<_> = grid
+            .candidates(place.map(f64::from), reach)
+            .filter(|&other| distance_squared(places[other as usize], place) <= reach * reach)
+            .collect();
+        let id = grid.insert(place);
+        near.into_iter().for_each(|other| groups.link(id, other));
+    }
+    groups.count()
+}
+
+/// The largest distance of a place of the fragments; infinite without samples.
+fn farthest(job: &Job, tree: &Tree, fragments: &[Fragment]) -> Result<f64> {
+    let tasks = chunks_of(fragments.len(), TASK);
+    let distance = |fragment: &Fragment| tree.nearest(fragment.centre);
+    let known = job
+        .part(0.0, 0.2)
+        .map(tasks.len(), |task| fragments[tasks.range(task)].iter().map(distance).fold(0.0, f64::max))?;
+    let known = known.into_iter().fold(0.0, f64::max);
+    if known == f64::INFINITY {
+        return Ok(known);
+    }
+    let found = job.part(0.2, 1.0).map(tasks.len(), |task| {
+        let mut farthest: f64 = known;
+        let mut fragments = fragments[tasks.range(task)].to_vec();
+        while !fragments.is_empty() {
+            let distances: Vec<f64> = fragments.iter().map(distance).collect();
+            farthest = distances.iter().copied().fold(farthest, f64::max);
+            let could_exceed =
+                |fragment: &Fragment, distance: f64| distance + fragment.reach > farthest * (1.0 + PRECISION);
+            fragments = std::iter::zip(&fragments, distances)
+                .filter(|&(fragment, distance)| could_exceed(fragment, distance))
+                .flat_map(|(fragment, _)| fragment.halves())
+                .collect();
+        }
+        farthest
+    })?;
+    Ok(found.into_iter().fold(known, f64::max))
+}
+
+/// A part of a triangle.
+#[derive(Clone, Copy)]
+struct Fragment {
+    corners: [DVec3; 3],
+    centre: DVec3,
+    /// The distance of the farthest corner from the centre.
+    reach: f64,
+}
+
+impl Fragment {
+    /// The triangles that have an area and that the mask does not leave out, cut if they are few.
+    fn of(mesh: &Mesh) -> Vec<Self> {
+        let triangles = mesh.sampled_triangles().filter(|&triangle| mesh.triangle_area(triangle) > 0.0);
+        let mut fragments: Vec<_> = triangles.map(|triangle| Self::new(mesh.exact_corners(triangle))).collect();
+        while !fragments.is_empty() && fragments.len() < FRAGMENTS {
+            fragments = fragments.iter().flat_map(Self::halves).collect();
+        }
+        fragments
+    }
+
+    fn new(corners: [DVec3; 3]) -> Self {
+        let centre = (corners[0] + corners[1] + corners[2]) / 3.0;
+        let reach = corners.iter().map(|corner| corner.distance(centre)).fold(0.0, f64::max);
+        Self { corners, centre, reach }
+    }
+
+    /// Its two parts on either side of the middle of its longest side.
+    fn halves(&self) -> [Self; 2] {
+        let side = |i: usize| self.corners[(i + 1) % 3].distance_squared(self.corners[(i + 2) % 3]);
+        let opposite = (1..3).fold(0, |longest, i| if side(i) > side(longest) { i } else { longest });
+        let [tip, a, b] = [0, 1, 2].map(|i| self.corners[(opposite + i) % 3]);
+        let middle = 0.5 * (a + b);
+        [Self::new([tip, a, middle]), Self::new([tip, middle, b])]
+    }
+
+    /// Puts down a place of each uncovered part of it that is small enough to be of one gap.
+    fn gather(&self, tree: &Tree, radius: f64, uncovered: &mut Vec<[f32; 3]>) -> Result<()> {
+        check_count(uncovered.len())?;
+        let distance = tree.nearest(self.centre);
+        if distance + self.reach <= radius * (1.0 + DEPTH) {
+            Ok(())
+        } else if distance - self.reach > radius {
+            self.gather_all(radius, uncovered)
+        } else if self.reach <= 0.25 * LINK * radius {
+            uncovered.extend(self.uncovered(tree, radius).map(|place| place.as_vec3().to_array()));
+            Ok(())
+        } else {
+            self.halves().iter().try_for_each(|half| half.gather(tree, radius, uncovered))
+        }
+    }
+
+    /// Puts down all of it, of which nothing is covered.
+    fn gather_all(&self, radius: f64, uncovered: &mut Vec<[f32; 3]>) -> Result<()> {
+        let smallest = 0.25 * LINK * radius;
+        // Halves are not larger than a right triangle of that reach is, which has 0.9 of its square.
+        let least = self.area() / (smallest * smallest);
+        check_count(uncovered.len() + least as usize)?;
+        if self.reach <= smallest {
+            uncovered.push(self.centre.as_vec3().to_array());
+            return Ok(());
+        }
+        self.halves().iter().try_for_each(|half| half.gather_all(radius, uncovered))
+    }
+
+    fn area(&self) -> f64 {
+        let [a, b, c] = self.corners;
+        0.5 * (b - a).cross(c - a).length()
+    }
+
+    /// A place of it that is farther from the samples than `radius`.
+    fn uncovered(&self, tree: &Tree, radius: f64) -> Option<DVec3> {
+        let distance = tree.nearest(self.centre);
+        if distance > radius {
+            Some(self.centre)
+        } else if distance + self.reach <= radius * (1.0 + DEPTH) {
+            None
+        } else {
+            self.halves().iter().find_map(|half| half.uncovered(tree, radius))
+        }
+    }
+}

@@ -1,0 +1,88 @@
+//! Nearest neighbours in space, however the points are spread (Bentley 1975, "Multidimensional binary search trees used for
+//! associative searching").
+
+use glam::DVec3;
+
+use crate::mesh::exact;
+
+/// Points in a binary tree without pointers: the middle one of a range divides the others along an axis.
+pub(super) struct Tree {
+    points: Vec<DVec3>,
+    /// The axis along which the middle of a range divides it.
+    axes: Vec<u8>,
+}
+
+/// Ranges of no more points are not divided.
+const LEAF: usize = 8;
+
+impl Tree {
+    /// The tree of positions as they are given by callers.
+    pub fn of(positions: &[[f32; 3]]) -> Self {
+        Self::new(positions.iter().map(|&position| exact(position)).collect())
+    }
+
+    /// Takes O(n log n).
+    fn new(mut points: Vec<DVec3>) -> Self {
+        let mut axes = vec![0; points.len()];
+        divide(&mut points, &mut axes);
+        Self { points, axes }
+    }
+
+    /// The distance of the nearest point; infinite if there is none. Takes O(log n).
+    pub fn nearest(&self, place: DVec3) -> f64 {
+        let mut nearest = f64::INFINITY;
+        search(&self.points, &self.axes, place, &mut nearest);
+        nearest.sqrt()
+    }
+}
+
+fn divide(points: &mut [DVec3], axes: &mut [u8]) {
+    if points.len() <= LEAF {
+        return;
+    }
+    let corner = |choose: fn(DVec3, DVec3) -> DVec3| points.iter().copied().reduce(choose).unwrap_or_default();
+    let axis = (corner(DVec3::max) - corner(DVec3::min)).max_position();
+    let middle = points.len() / 2;
+    points.select_nth_unstable_by(middle, |a, b| a[axis].total_cmp(&b[axis]));
+    axes[middle] = axis as u8;
+    divide(&mut points[..middle], &mut axes[..middle]);
+    divide(&mut points[middle + 1..], &mut axes[middle + 1..]);
+}
+
+/// Lowers `nearest`, a squared distance, to that of the nearest of a range.
+fn search(points: &[DVec3], axes: &[u8], place: DVec3, nearest: &mut f64) {
+    if points.len() <= LEAF {
+        *nearest = points.iter().map(|point| point.distance_squared(place)).fold(*nearest, f64::min);
+        return;
+    }
+    let middle = points.len() / 2;
+    let axis = usize::from(axes[middle]);
+    let beyond = place[axis] - points[middle][axis];
+    let [low, high] = [0..middle, middle + 1..points.len()].map(|range| (&points[range.clone()], &axes[range]));
+    let [near, far] = if beyond < 0.0 { [low, high] } else { [high, low] };
+    *nearest = nearest.min(points[middle].distance_squared(place));
+    search(near.0, near.1, place, nearest);
+    if beyond * beyond < *nearest {
+        search(far.0, far.1, place, nearest);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::rng::{Draw, Rng};
+
+    #[test]
+    fn the_nearest_is_that_of_a_loop_over_all_points() {
+        for (case, (count, flat)) in [(0, 0), (1, 0), (9, 0), (1000, 0), (1000, 2), (500, 3)].into_iter().enumerate() {
+            let mut rng = Rng::at(1, Draw::Probe, &[case as u64]);
+            let mut place = || DVec3::from_array(std::array::from_fn(|axis| rng.unit() * f64::from(axis >= flat)));
+            let points: Vec<_> = (0..count).map(|_| place()).collect();
+            let tree = Tree::new(points.clone());
+            for probe in (0..100).map(|_| 3.0 * place() - 1.0) {
+                let expected = points.iter().map(|point| point.distance(probe)).fold(f64::INFINITY, f64::min);
+                assert!(tree.nearest(probe) == expected || (tree.nearest(probe) - expected).abs() < 1e-15);
+            }
+        }
+    }
+}
