@@ -1,6 +1,6 @@
 //! Sets of the plane, measured.
 
-use azulejo::analysis::coverage::covering_radius_2d;
+use azulejo::analysis::coverage::{coverage_2d, covering_radius_2d};
 use azulejo::analysis::distribution::{RadialDistribution, radial_distribution};
 use azulejo::analysis::spacing::{nearest_distances_2d, nearest_histogram_2d};
 use azulejo::analysis::spectrum::{Annulus, Periodogram};
@@ -46,10 +46,14 @@ const FIGURES: [Figure; 12] = [
     Figure::new("low_power", "power below 0.25 √density", ""),
     Figure::new("contrast", "contrast of the spectrum", ""),
 ];
-const RADIUS_FIGURES: [Figure; 2] = [
+pub const RADIUS_FIGURES: [Figure; 3] = [
     Figure::new("smallest_over_radius", "smallest distance / radius", ""),
     Figure::new("covering_over_radius", "covering radius / radius", ""),
+    Figure::new("gaps", "gaps", ""),
 ];
+
+/// A gap that is not deeper, in radii, is one of rounding: the library's maximal sets may have such.
+pub const SHALLOW: f64 = 1e-6;
 const SPECTRAL_FIGURES: [Figure; 2] = [
     Figure::new("effective_nyquist", "effective Nyquist frequency", "√density"),
     Figure::new("oscillation", "oscillation Ω", ""),
@@ -138,7 +142,10 @@ impl One {
             quality.low_power,
             spectrum.contrast(ANNULUS, CONTRAST_RANGE)?,
         ];
-        figures.extend(radius.into_iter().flat_map(|radius| [smallest / radius, covering / radius]));
+        if let Some(radius) = radius {
+            let gaps = coverage_2d(context, domain, &points, radius * (1.0 + SHALLOW))?.gaps;
+            figures.extend([smallest / radius, covering / radius, gaps as f64]);
+        }
         // Larger distances than half the domain are not all there.
         let reach = PAIR_REACH * unit <= 0.5 * domain.extent().into_iter().fold(f64::INFINITY, f64::min);
         let pairs = || radial_distribution(context, domain, &points, PAIR_REACH, PAIR_BINS, None);

@@ -1,21 +1,19 @@
 //! Samples of a mesh, measured.
 
-use azulejo::analysis::coverage::surface_uncovered_fraction;
+use azulejo::analysis::coverage::{surface_coverage, surface_covering_radius};
 use azulejo::analysis::differential::{Differences, surface_differences};
 use azulejo::analysis::spacing::smallest_distance_3d;
 use azulejo::mesh::Mesh;
-use azulejo::{Context, Progress, Result};
+use azulejo::{Context, Error, Progress, Result};
 
 use super::Set;
 use super::figures::{Figure, Row};
+use super::plane::{RADIUS_FIGURES, SHALLOW};
 use crate::formats::blame;
 use crate::generate::MAXIMAL_DENSITY;
 use crate::progress::watched;
 
-/// Random places at which coverage is tested.
-const PROBES: u64 = 1_000_000;
-
-/// The direction that angles are counted from, and the seed of all random places.
+/// The direction that angles are counted from, and the seed of the random places that pairs are compared with.
 const DIRECTION: [f64; 3] = [1.0, 0.0, 0.0];
 const SEED: u64 = 0;
 
@@ -26,14 +24,12 @@ const NEIGHBOURS: std::ops::Range<f64> = 0.5..1.5;
 const FREQUENCIES: usize = 250;
 const FREQUENCY_STEP: f64 = 0.01;
 
-const FIGURES: [Figure; 3] = [
+const FIGURES: [Figure; 5] = [
     Figure::new("samples", "samples", ""),
     Figure::new("smallest_distance", "smallest distance", ""),
-    Figure::new("smallest_relative", "smallest distance, relative", "maximal radius"),
-];
-const RADIUS_FIGURES: [Figure; 2] = [
-    Figure::new("smallest_over_radius", "smallest distance / radius", ""),
-    Figure::new("uncovered", "uncovered share of the area", ""),
+    Figure::new("smallest_relative", "smallest distance, relative", "radius of a maximal set"),
+    Figure::new("covering_radius", "covering radius", ""),
+    Figure::new("covering_relative", "covering radius, relative", "radius of a maximal set"),
 ];
 const ELONGATION: Figure = Figure::new("elongation", "elongation of p(d) along x", "");
 
@@ -78,11 +74,17 @@ impl Measured {
 fn measure(context: &Context, mesh: &Mesh, set: &Set, radius: Option<f64>) -> Result<Vec<f64>> {
     let positions = &set.points.positions;
     let smallest = smallest_distance_3d(context, positions)?;
+    let covering = surface_covering_radius(context, mesh, positions)?;
     let maximal = (MAXIMAL_DENSITY * mesh.area() / positions.len() as f64).sqrt();
-    let mut figures = vec![positions.len() as f64, smallest, smallest / maximal];
+    let mut figures = vec![positions.len() as f64, smallest, smallest / maximal, covering, covering / maximal];
     if let Some(radius) = radius {
-        let uncovered = surface_uncovered_fraction(context, mesh, positions, radius, PROBES, SEED)?;
-        figures.extend([smallest / radius, uncovered]);
+        let gaps = match surface_coverage(context, mesh, positions, radius * (1.0 + SHALLOW)) {
+            Ok(coverage) => coverage.gaps as f64,
+            // Where nearly nothing is covered nobody counts gaps.
+            Err(Error::TooLarge { .. }) => f64::NAN,
+            Err(error) => return Err(error),
+        };
+        figures.extend([smallest / radius, covering / radius, gaps]);
     }
     Ok(figures)
 }
