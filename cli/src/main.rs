@@ -11,6 +11,7 @@ mod ply;
 mod procedural;
 mod progress;
 mod quality;
+mod reference;
 mod report;
 mod shell;
 mod summary;

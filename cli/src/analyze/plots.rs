@@ -24,7 +24,7 @@ use crate::text::rounded;
 const SCALE: f32 = 1.5;
 
 /// Width of the picture of a mesh.
-const VIEW_PIXELS: u32 = 1600;
+const VIEW_PIXELS: u32 = 1000;
 
 /// Sets whose spectra are drawn as one.
 const DRAWN_SPECTRA: usize = 16;

@@ -6,7 +6,7 @@ use azulejo::{Boundary, Domain};
 use super::canvas::{Align, Canvas, Rect, Style};
 use super::palette::{COBALT, Colour, SLATE, glaze_to_cobalt};
 use super::plot::{Axis, Panel};
-use super::spectra::{FREQUENCY_LIMIT, Windows, inside, power_at};
+use super::spectra::{FREQUENCY_LIMIT, Windows, inside, mean_power};
 use crate::text::grouped;
 
 /// Power that gets all the ink.
@@ -84,13 +84,13 @@ pub fn spectrum(canvas: &mut Canvas, square: Rect, spectrum: &Periodogram, remar
     panel.title(canvas, "Power spectrum", remark);
 }
 
-/// The power at all frequencies up to the limit, as ink.
+/// The power at all frequencies up to the limit, as ink: the mean of those in each pixel.
 pub fn power(canvas: &mut Canvas, square: Rect, spectrum: &Periodogram) {
     let pixels = (square.width * canvas.scale()).round() as usize;
-    let frequency = |i: usize| ((i as f64 + 0.5) / pixels as f64 * 2.0 - 1.0) * FREQUENCY_LIMIT;
-    let image: Vec<Colour> = (0..pixels * pixels)
-        .map(|i| ink(power_at(spectrum, [frequency(i % pixels), -frequency(i / pixels)])))
-        .collect();
+    let frequency = |i: usize| (i as f64 / pixels as f64 * 2.0 - 1.0) * FREQUENCY_LIMIT;
+    let span = |i: usize| frequency(i)..frequency(i + 1);
+    let pixel = |i: usize| ink(mean_power(spectrum, span(i % pixels), span(pixels - 1 - i / pixels)));
+    let image: Vec<Colour> = (0..pixels * pixels).map(pixel).collect();
     canvas.image(&image, pixels, square);
 }
 

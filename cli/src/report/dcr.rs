@@ -2,7 +2,7 @@
 
 mod measured;
 mod page;
-mod sets;
+pub mod sets;
 
 use std::fs;
 use std::io::Write;
