@@ -37,7 +37,7 @@ pub struct Effort {
     pub slow_sets: u64,
 }
 
-const FULL: Effort = Effort { side: 256, sets: 10, slow_sets: 4 };
+const FULL: Effort = Effort { side: 256, sets: 10, slow_sets: 2 };
 const QUICK: Effort = Effort { side: 32, sets: 2, slow_sets: 1 };
 
 impl Gallery {

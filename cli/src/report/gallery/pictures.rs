@@ -11,7 +11,6 @@ use crate::draw::panels;
 use crate::draw::plot::{Axis, Panel};
 use crate::draw::spectra::FREQUENCY_LIMIT;
 use crate::output::Output;
-use crate::text::rounded;
 
 /// A column and the space between two of them.
 const COLUMN: f32 = 300.0;
@@ -33,7 +32,7 @@ const SHOWN: f64 = 1024.0;
 const ANNULUS: f64 = 0.0125;
 
 /// The highest power and the range of the anisotropy, over that of an isotropic set, that are shown.
-const HIGHEST_POWER: f64 = 4.5;
+const HIGHEST_POWER: f64 = 6.0;
 const DECIBELS: [f64; 2] = [-10.0, 20.0];
 
 /// A zone plate, as many units as it has pixels, and how plates are set.
@@ -90,7 +89,7 @@ fn draw_spectrum(canvas: &mut Canvas, rect: Rect, set: &Measured, is_first: bool
 
 fn draw_curves(canvas: &mut Canvas, rects: [Rect; 2], annuli: &[Annulus], sets: f64, is_first: bool) {
     let frequency = |label| Axis::linear(label, [0.0, FREQUENCY_LIMIT], 5);
-    let power = Axis::linear(once("power", is_first), [0.0, HIGHEST_POWER], 4);
+    let power = Axis::linear(once("power", is_first), [0.0, HIGHEST_POWER], 3);
     let decibels = Axis::linear(once("anisotropy / dB", is_first), DECIBELS, 3);
     let [upper, lower] = rects;
     let line = annuli.iter().map(|annulus| [annulus.frequency, annulus.power]);
@@ -108,10 +107,10 @@ pub fn draw_plates(sets: &[Measured], side: usize, output: &Output) -> Result<()
         [PLATES_PER_ROW as f32 * PLATE_PITCH[0] + 2.0 * MARGIN - PLATE_GAP, rows as f32 * PLATE_PITCH[1] + MARGIN];
     let mut canvas = Canvas::new(width, height, width as u32);
     let errors = |set: &Measured| {
-        let [low, high] = [set.error(|errors| errors.low), set.error(|errors| errors.high)].map(|x| rounded(x, 3));
-        format!("error {low} and {high}")
+        let [low, high] = [set.error(|errors| errors.low), set.error(|errors| errors.high)];
+        format!("error {low:.3} low, {high:.3} high")
     };
-    let exact = ("exact".to_owned(), "low and high frequencies".to_owned(), zone_plate::reference(side));
+    let exact = ("exact".to_owned(), "errors: of low and high frequencies".to_owned(), zone_plate::reference(side));
     let plates = sets.iter().map(|set| (set.sampler.name(), errors(set), set.plate.clone()));
     for (i, (name, remark, plate)) in std::iter::once(exact).chain(plates).enumerate() {
         let [column, row] = [i % PLATES_PER_ROW, i / PLATES_PER_ROW].map(|k| k as f32);
