@@ -11,8 +11,8 @@
  *   any work starts. Outputs are written on success only. Nothing is thrown or unwound into C, and nothing is printed
  *   to stdout; a panic inside the library, which is a bug, prints to stderr and becomes AZULEJO_ERROR_INTERNAL.
  *
- * Handles. azulejo_context, azulejo_mesh, azulejo_psp and azulejo_points are made by the library and given back with
- *   their own _free, which allows NULL. They may be freed in any order: what a handle needs of another one, it keeps.
+ * Handles. azulejo_context, azulejo_mesh, azulejo_psp, azulejo_points, azulejo_spectrum and azulejo_differences are made
+ *   by the library and given back with their own _free, which allows NULL. They may be freed in any order: what a handle needs of another one, it keeps.
  *   Accessors allow NULL too and answer 0 or NULL. Pointers into a handle live until it is freed.
  *
  * Pointers. An argument may be NULL only where that is said. Arrays are packed and read during the call only; the
@@ -158,9 +158,30 @@
 /// The progress callback cancelled the call.
 #define AZULEJO_STOPPED_CANCELLED 2
 
+/// The grid of azulejo_differences_density has so many cells per side ...
+#define AZULEJO_DIFFERENCES_SIZE 128
+
+/// ... and reaches so far from the difference 0 along both axes, in mean spacings.
+#define AZULEJO_DIFFERENCES_GRID_REACH 4
+
+/// azulejo_differences_radial has so many shells of equal width ...
+#define AZULEJO_DIFFERENCES_SHELLS 512
+
+/// ... out to this distance, in mean spacings.
+#define AZULEJO_DIFFERENCES_REACH 8
+
 /// A pool of threads of its own; give it to every call that works for long. One context for a whole program is usual.
 /// It can be used by several threads at once.
 typedef struct azulejo_context azulejo_context;
+
+/// The distribution p(d) of the differences d of all pairs of samples on a mesh, or of several sets (Wei and Wang 2011,
+/// "Differential domain analysis for non-uniform sampling"): the density of other samples at an offset from a sample, over
+/// the mean density. 1 for a Poisson process. Its Fourier transform is the power spectrum, which a surface has no other
+/// way to have. Never changes.
+///
+/// The offset of a pair is projected onto the tangent plane of its first sample and keeps its straight length. Lengths are
+/// in mean spacings, sqrt(area / count), and frequencies in units of one over it.
+typedef struct azulejo_differences azulejo_differences;
 
 /// A checked triangle mesh: immutable, may be used by several threads at once. Any soup of triangles will do: open,
 /// non-manifold, of many parts and mixed winding. It may carry normals and a mask; meshes that are made of one another
@@ -176,6 +197,13 @@ typedef struct azulejo_points azulejo_points;
 /// One call at a time may change it; a call that comes in between, from another thread or from the progress callback,
 /// is refused. Several threads at once may take its points.
 typedef struct azulejo_psp azulejo_psp;
+
+/// The power spectrum of a set of the plane, or the mean of several: |sum of exp(-2 pi i f x)|^2 / count on a square grid of
+/// frequencies f. 1 on average for a Poisson process (Ulichney 1988; Lagae and Dutre 2008). Never changes.
+///
+/// Frequencies are in units of sqrt(density), the density being count / area: sets of different size can be compared, and
+/// the first ring of blue noise lies near 1.
+typedef struct azulejo_spectrum azulejo_spectrum;
 
 /// What a call answers: AZULEJO_OK or a negative AZULEJO_ERROR_ code. Codes are never reused; new ones may come.
 typedef int32_t azulejo_status;
@@ -507,6 +535,90 @@ typedef struct azulejo_dcr_report {
     /// Zeros, for later versions.
     uint32_t reserved[5];
 } azulejo_dcr_report;
+
+/// How a set covers a domain or a surface with disks of a radius. See azulejo_plane_coverage, azulejo_mesh_coverage.
+typedef struct azulejo_coverage {
+    /// The covering radius: the distance from the samples of the place that is farthest from all of them. Infinite for no
+    /// sample.
+    double covering_radius;
+    /// The number of gaps; 0 for a set that is maximal for the radius.
+    uint64_t gaps;
+    /// Zeros, for later versions.
+    uint64_t reserved[2];
+} azulejo_coverage;
+
+/// The figures of a set of the plane. The unit d_max is sqrt(2 area / (sqrt(3) count)), the distance of neighbours if as
+/// many points stood in hexagonal arrangement.
+typedef struct azulejo_plane_report {
+    /// The number of points.
+    uint64_t count;
+    /// The smallest distance between two points, in the units of the domain; infinite for less than two, as the mean is.
+    double smallest_distance;
+    /// The mean distance from a point to its nearest neighbour, in the units of the domain.
+    double mean_distance;
+    /// d_max, in the units of the domain; infinite for no point.
+    double hexagonal_distance;
+    /// The smallest distance in units of d_max: at most 1 on a periodic domain, about 0.77 for maximal Poisson-disk sets.
+    double rho;
+    /// The covering radius, in the units of the domain: see azulejo_plane_covering_radius. d_max / sqrt(3) for a hexagonal
+    /// lattice; infinite for no point.
+    double covering_radius;
+    /// The bond order psi6, 0 to 1: the mean over the points of |sum of exp(6 i angle)| / n for the n directions of their
+    /// Delaunay neighbours (Nelson and Halperin 1979). 1 for a hexagonal lattice, 0.36 for a Poisson process.
+    double bond_order;
+    /// The number of Delaunay triangles; in a bounded domain those that do not cross the border when the set is mirrored
+    /// by it.
+    uint64_t triangles;
+    /// The share of triangles with an angle above 90 degrees, 0 to 1.
+    double obtuse;
+    /// The share of triangles with an angle below 30 degrees, 0 to 1.
+    double below_30_degrees;
+    /// The mean length of the edges of the triangles, in the units of the domain.
+    double edge_mean;
+    /// The variance of the lengths of the edges over the square of their mean.
+    double edge_variation;
+    /// The variance of the areas of the triangles over the square of their mean.
+    double area_variation;
+    /// Zeros, for later versions.
+    uint64_t reserved[11];
+} azulejo_plane_report;
+
+/// The frequencies of about one length: a point of the radial curves.
+typedef struct azulejo_annulus {
+    /// The mean length of its frequencies, in units of sqrt(density).
+    double frequency;
+    /// The mean power: the radial mean; 1 for a Poisson process.
+    double power;
+    /// The variance of the power over its squared mean. The spectrum of one isotropic set has 1 (0 dB), the mean of n has
+    /// 1/n; directions that stand out give more.
+    double anisotropy;
+    /// The number of its frequencies, not counting a frequency and its opposite twice; at least 2.
+    uint64_t count;
+} azulejo_annulus;
+
+/// The figures of a spectrum.
+typedef struct azulejo_spectrum_report {
+    /// The distance of neighbouring columns and rows, in units of sqrt(density).
+    double frequency_step[2];
+    /// The effective Nyquist frequency, in units of sqrt(density): half of the largest frequency up to which the mean power
+    /// is below 0.1 (Heck et al. 2013). 0.5 for a square lattice, 0.537 for a hexagonal one, 0 for a Poisson process; the
+    /// tables of the literature divide it by 0.5. -1 if the spectrum ends too early: frequencies up to 1.5 mostly do.
+    double effective_nyquist;
+    /// The oscillation, without unit: ten times the root mean square of the power's deviation from 1, by area, from where it
+    /// first is 0.98 to 5 sqrt(density) above (Heck et al. 2013). 0 for a Poisson process. -1 if the spectrum ends too
+    /// early: frequencies up to 6.5 mostly do.
+    double oscillation;
+    /// How much the power scatters about its radial mean, over the frequencies from `low` to `high`: 1 for one set without
+    /// order over long distances, 1/n for the mean of n, more where parts are repeated. 0 if there are none.
+    double contrast;
+    /// The largest power of a frequency from `low` to `high`, over the radial mean there. By chance alone it is about ln n
+    /// for n frequencies of one set. 0 if there are none.
+    double peak;
+    /// Where that is, along x and y, in units of sqrt(density); its opposite is as high.
+    double peak_frequency[2];
+    /// Zeros, for later versions.
+    uint64_t reserved[4];
+} azulejo_spectrum_report;
 
 #ifdef __cplusplus
 extern "C" {
@@ -1035,6 +1147,264 @@ azulejo_status azulejo_mesh_uncovered_fraction(const struct azulejo_context *con
                                                uint64_t probes,
                                                uint64_t seed,
                                                double *out);
+
+/// The gaps that points of the plane leave: the connected parts of the domain, or of the torus, that are farther than a
+/// radius from all of them. With no gap the set is maximal for the radius.
+///
+/// xy: the points, x y each, in the domain; `count` of them.
+///
+/// domain_min, domain_max, boundary: two numbers, two numbers and a constant, as in the options.
+///
+/// radius: above 0, in the units of the domain.
+///
+/// out: the covering radius, as azulejo_plane_covering_radius finds it, and the number of gaps. Every gap deeper than a
+/// millionth of the mean spacing is found, however small, and the deepest in any case. An empty set has one.
+///
+/// Found exactly, by the Voronoi diagram: O(count log count) time.
+azulejo_status azulejo_plane_coverage(const struct azulejo_context *context,
+                                      const float *xy,
+                                      size_t count,
+                                      const double *domain_min,
+                                      const double *domain_max,
+                                      int32_t boundary,
+                                      double radius,
+                                      struct azulejo_coverage *out);
+
+/// The gaps that samples leave on a mesh, by straight distance: groups of places that are farther than a radius from all of
+/// them, in which each place is within half of the radius of another one. With no gap the set is maximal for the radius.
+///
+/// positions: the samples, x y z each; `count` of them. They need not lie on the mesh.
+///
+/// radius: above 0, in the units of the mesh.
+///
+/// out: the covering radius, by less than a billionth of it too small, and the number of gaps. Every gap deeper than a
+/// millionth of the radius is found, however small, and the deepest in any case. An empty set has infinity and 1 at least;
+/// a mesh without area, or whose mask leaves none, has 0 and 0.
+///
+/// Found exactly, by subdividing the triangles: O((count + triangles) log count) time for samples that are spread evenly,
+/// and about 100 pieces for each square of the radius that is uncovered.
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, and AZULEJO_ERROR_TOO_LARGE where more than about 600,000 times the square of the
+/// radius is uncovered.
+azulejo_status azulejo_mesh_coverage(const struct azulejo_context *context,
+                                     const struct azulejo_mesh *mesh,
+                                     const float *positions,
+                                     size_t count,
+                                     double radius,
+                                     struct azulejo_coverage *out);
+
+/// Measures points of the plane: spacing, covering radius, bond order and Delaunay triangles.
+///
+/// xy: the points, x y each, in the domain; `count` of them.
+///
+/// domain_min, domain_max, boundary: two numbers, two numbers and a constant, as in the options.
+///
+/// out: the figures.
+///
+/// O(count log count) time for points that leave no large holes and are not clustered: some seconds for a million.
+azulejo_status azulejo_plane_measure(const struct azulejo_context *context,
+                                     const float *xy,
+                                     size_t count,
+                                     const double *domain_min,
+                                     const double *domain_max,
+                                     int32_t boundary,
+                                     struct azulejo_plane_report *out);
+
+/// The histogram of the distances from points of the plane to their nearest neighbours.
+///
+/// xy: the points, x y each, in the domain; `count` of them.
+///
+/// domain_min, domain_max, boundary: two numbers, two numbers and a constant, as in the options.
+///
+/// reach: where the last bin ends, above 0, in units of d_max (see azulejo_plane_report).
+///
+/// bins: how many bins of equal width there are from 0 to `reach`, 1 to 65536.
+///
+/// out: an array of `bins` numbers, how many points have their nearest neighbour at such a distance. Those at `reach` or
+/// farther, and a point that is alone, are in none. Histograms of several sets add up.
+///
+/// O(count) time for points that are spread evenly.
+azulejo_status azulejo_plane_nearest_histogram(const struct azulejo_context *context,
+                                               const float *xy,
+                                               size_t count,
+                                               const double *domain_min,
+                                               const double *domain_max,
+                                               int32_t boundary,
+                                               double reach,
+                                               size_t bins,
+                                               uint64_t *out);
+
+/// The radial distribution function g of points of the plane, also called pair correlation: the density of other points at
+/// a distance from a point, over the mean density. 1 for a Poisson process; a hexagonal lattice has peaks at 1, sqrt(3),
+/// 2, ... d_max.
+///
+/// In a bounded domain each pair counts by one over the share of the domain that stays in it when it is moved by their
+/// difference, which makes up for the border (Ohser and Stoyan 1981).
+///
+/// xy: the points, x y each, in the domain; `count` of them, at least 2.
+///
+/// domain_min, domain_max, boundary: two numbers, two numbers and a constant, as in the options.
+///
+/// reach: where the last bin ends, in units of d_max (see azulejo_plane_report): above 0, and at most half the width or
+/// height of the domain.
+///
+/// bins: how many bins of equal width there are from 0 to `reach`, 1 to 65536.
+///
+/// out: an array of `bins` numbers, the mean of g in each bin. The mean over sets of one kind and count is their g.
+///
+/// O(count * (1 + reach^2)) time for points that are spread evenly.
+azulejo_status azulejo_plane_radial_distribution(const struct azulejo_context *context,
+                                                 const float *xy,
+                                                 size_t count,
+                                                 const double *domain_min,
+                                                 const double *domain_max,
+                                                 int32_t boundary,
+                                                 double reach,
+                                                 size_t bins,
+                                                 double *out);
+
+/// Makes the spectrum of points of the plane, by nonuniform fast Fourier transform in double arithmetic: the power differs
+/// from that of the sum itself by no more than its rounding to float.
+///
+/// A periodic domain has exact frequencies, whole numbers of waves per period. A bounded one is taken for a window onto a
+/// larger set: its points are weighted by a taper that falls to 0 towards the ellipse inside it, so that the spectrum does
+/// not show the border.
+///
+/// xy: the points, x y each, finite; `count` of them. In a bounded domain at least one must lie inside the ellipse.
+///
+/// domain_min, domain_max, boundary: two numbers, two numbers and a constant, as in the options.
+///
+/// size: the frequencies per side, 2 to 4096. The lowest are -(size / 2) steps of 1 / width and 1 / height.
+///
+/// stride: 1 takes all frequencies; n, up to 4096, only every n-th along both axes, so that the spectra of large sets reach
+/// as far as those of small ones. For all figures, size * stride of about 13 sqrt(count) is enough on a square.
+///
+/// out: the spectrum, to be freed with azulejo_spectrum_free.
+///
+/// O(count + size^2 log size) time, and about 40 bytes of memory for each point and each frequency while it runs.
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
+azulejo_status azulejo_spectrum_create(const struct azulejo_context *context,
+                                       const float *xy,
+                                       size_t count,
+                                       const double *domain_min,
+                                       const double *domain_max,
+                                       int32_t boundary,
+                                       uint32_t size,
+                                       uint32_t stride,
+                                       struct azulejo_spectrum **out);
+
+/// Makes the mean of the spectra of sets of one kind. The speckle of a single one fades with the square root of their
+/// number.
+///
+/// spectra: `count` spectra, at least 1, all of one size.
+///
+/// out: the mean, to be freed with azulejo_spectrum_free; the spectra stay the caller's.
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
+azulejo_status azulejo_spectrum_mean(const struct azulejo_spectrum *const *spectra,
+                                     size_t count,
+                                     struct azulejo_spectrum **out);
+
+/// The frequencies per side; 0 for NULL.
+uint32_t azulejo_spectrum_size(const struct azulejo_spectrum *spectrum);
+
+/// The power, size * size numbers, row by row from the lowest frequency; frequency 0, where it is 0, stands in row and column
+/// size / 2. NULL for NULL.
+const float *azulejo_spectrum_power(const struct azulejo_spectrum *spectrum);
+
+/// The radial curves of a spectrum, mean and anisotropy, out to its largest circle.
+///
+/// width: the width of an annulus, above 0, in units of sqrt(density). Annuli of fewer than two frequencies are left out.
+///
+/// annuli: where to write at most `capacity` of them, from the lowest frequency; may be NULL if `capacity` is 0.
+///
+/// out_count: how many there are, whatever the capacity.
+///
+/// O(size^2) time.
+azulejo_status azulejo_spectrum_radial(const struct azulejo_spectrum *spectrum,
+                                       double width,
+                                       struct azulejo_annulus *annuli,
+                                       size_t capacity,
+                                       size_t *out_count);
+
+/// Measures a spectrum: aliasing, contrast and the highest peak.
+///
+/// width: the width of the annuli of which the radial mean is made, above 0, in units of sqrt(density). 0.05 is good for
+/// sets of some thousand points.
+///
+/// low, high: the range of frequencies for contrast and peak, in units of sqrt(density).
+///
+/// out: the figures.
+///
+/// O(size^2) time.
+azulejo_status azulejo_spectrum_measure(const struct azulejo_spectrum *spectrum,
+                                        double width,
+                                        double low,
+                                        double high,
+                                        struct azulejo_spectrum_report *out);
+
+/// Frees the spectrum. NULL is allowed.
+void azulejo_spectrum_free(struct azulejo_spectrum *spectrum);
+
+/// Measures the differences of samples on a mesh. They are divided by those with random points of the mesh, so that
+/// borders, curvature and other sheets near by cancel (Davis and Peebles 1983).
+///
+/// positions: the samples, x y z each; `count` of them, at least 2.
+///
+/// normals: the normal of the triangle of each sample, x y z each, as azulejo_points_normals gives them; `count` of them.
+///
+/// direction: three numbers, not all 0: along its projection onto the tangent plane points the x axis of the offsets.
+///
+/// seed: selects the random points, two for each sample.
+///
+/// out: the differences, to be freed with azulejo_differences_free.
+///
+/// O(count) time for samples that are spread evenly, about 600 pairs for each.
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
+azulejo_status azulejo_differences_create(const struct azulejo_context *context,
+                                          const struct azulejo_mesh *mesh,
+                                          const float *positions,
+                                          const float *normals,
+                                          size_t count,
+                                          const double *direction,
+                                          uint64_t seed,
+                                          struct azulejo_differences **out);
+
+/// Takes the differences of sets of one kind together. Noise fades with the square root of their number.
+///
+/// differences: `count` of them, at least 1.
+///
+/// out: all of them, to be freed with azulejo_differences_free; those given stay the caller's.
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
+azulejo_status azulejo_differences_mean(const struct azulejo_differences *const *differences,
+                                        size_t count,
+                                        struct azulejo_differences **out);
+
+/// p(d), AZULEJO_DIFFERENCES_SIZE squared numbers, row by row from the lowest offset; 0 where not even random points have a
+/// pair. The offset 0 is in the middle, where four cells meet. NULL for NULL.
+const double *azulejo_differences_density(const struct azulejo_differences *differences);
+
+/// The radial mean of p(d), the radial distribution function: AZULEJO_DIFFERENCES_SHELLS numbers. NULL for NULL.
+const double *azulejo_differences_radial(const struct azulejo_differences *differences);
+
+/// The radial mean of the power spectrum, by Hankel transform of the radial mean of p(d) - 1; 1 for a Poisson process. Seen
+/// through a blur of one over AZULEJO_DIFFERENCES_REACH.
+///
+/// frequencies: `count` frequencies of at most 32, in units of one over the mean spacing; may be NULL if there is none.
+///
+/// out: the power at each, `count` numbers; may be NULL if there is none.
+///
+/// O(count) time.
+azulejo_status azulejo_differences_power(const struct azulejo_differences *differences,
+                                         const double *frequencies,
+                                         size_t count,
+                                         double *out);
+
+/// Frees the differences. NULL is allowed.
+void azulejo_differences_free(struct azulejo_differences *differences);
 
 #ifdef __cplusplus
 }  // extern "C"

@@ -114,6 +114,10 @@ using KdrtReport = azulejo_kdrt_report;
 using MergeReport = azulejo_merge_report;
 using PspReport = azulejo_psp_report;
 using DcrReport = azulejo_dcr_report;
+using PlaneReport = azulejo_plane_report;
+using SpectrumReport = azulejo_spectrum_report;
+using Coverage = azulejo_coverage;
+using Annulus = azulejo_annulus;
 
 namespace detail {
 
@@ -133,6 +137,16 @@ struct Free {
 
 template <class T, void (*free)(T *)>
 using Handle = std::unique_ptr<T, Free<T, free>>;
+
+/// The C handles of several owners.
+template <class C, class Owner>
+std::vector<const C *> handles(Span<const Owner> owners) {
+    std::vector<const C *> handles;
+    for (const Owner &owner : owners) {
+        handles.push_back(owner.get());
+    }
+    return handles;
+}
 
 /// Runs a function of the caller's where C called it: 0 to go on, 1 to stop. An exception waits in `thrown`.
 template <class Function>
@@ -521,6 +535,150 @@ inline double mesh_uncovered_fraction(const Context &context, const Mesh &mesh, 
                                           &fraction));
     return fraction;
 }
+
+/// See azulejo_mesh_coverage.
+inline Coverage mesh_coverage(const Context &context, const Mesh &mesh, Span<const float> positions, double radius) {
+    Coverage coverage;
+    check(azulejo_mesh_coverage(context.get(), mesh.get(), positions.data(),
+                                detail::groups(positions.size(), 3, "positions"), radius, &coverage));
+    return coverage;
+}
+
+/// See azulejo_plane_coverage; the domain as in the options.
+inline Coverage plane_coverage(const Context &context, Span<const float> xy, const double (&domain_min)[2],
+                               const double (&domain_max)[2], std::int32_t boundary, double radius) {
+    Coverage coverage;
+    check(azulejo_plane_coverage(context.get(), xy.data(), detail::groups(xy.size(), 2, "xy"), domain_min, domain_max,
+                                 boundary, radius, &coverage));
+    return coverage;
+}
+
+/// See azulejo_plane_measure; the domain as in the options.
+inline PlaneReport plane_measure(const Context &context, Span<const float> xy, const double (&domain_min)[2],
+                                 const double (&domain_max)[2], std::int32_t boundary) {
+    PlaneReport report;
+    check(azulejo_plane_measure(context.get(), xy.data(), detail::groups(xy.size(), 2, "xy"), domain_min, domain_max,
+                                boundary, &report));
+    return report;
+}
+
+/// See azulejo_plane_nearest_histogram; the domain as in the options.
+inline std::vector<std::uint64_t> plane_nearest_histogram(const Context &context, Span<const float> xy,
+                                                          const double (&domain_min)[2], const double (&domain_max)[2],
+                                                          std::int32_t boundary, double reach, std::size_t bins) {
+    std::vector<std::uint64_t> histogram(bins);
+    check(azulejo_plane_nearest_histogram(context.get(), xy.data(), detail::groups(xy.size(), 2, "xy"), domain_min,
+                                          domain_max, boundary, reach, bins, histogram.data()));
+    return histogram;
+}
+
+/// See azulejo_plane_radial_distribution; the domain as in the options.
+inline std::vector<double> plane_radial_distribution(const Context &context, Span<const float> xy,
+                                                     const double (&domain_min)[2], const double (&domain_max)[2],
+                                                     std::int32_t boundary, double reach, std::size_t bins) {
+    std::vector<double> density(bins);
+    check(azulejo_plane_radial_distribution(context.get(), xy.data(), detail::groups(xy.size(), 2, "xy"), domain_min,
+                                            domain_max, boundary, reach, bins, density.data()));
+    return density;
+}
+
+/// The power spectrum of a set of the plane, or the mean of several; see azulejo_spectrum.
+class Spectrum {
+public:
+    /// See azulejo_spectrum_create; the domain as in the options.
+    Spectrum(const Context &context, Span<const float> xy, const double (&domain_min)[2],
+             const double (&domain_max)[2], std::int32_t boundary, std::uint32_t size, std::uint32_t stride = 1) {
+        azulejo_spectrum *handle = nullptr;
+        check(azulejo_spectrum_create(context.get(), xy.data(), detail::groups(xy.size(), 2, "xy"), domain_min,
+                                      domain_max, boundary, size, stride, &handle));
+        handle_.reset(handle);
+    }
+
+    /// See azulejo_spectrum_mean.
+    static Spectrum mean(Span<const Spectrum> spectra) {
+        const std::vector<const azulejo_spectrum *> handles = detail::handles<azulejo_spectrum>(spectra);
+        azulejo_spectrum *handle = nullptr;
+        check(azulejo_spectrum_mean(handles.data(), handles.size(), &handle));
+        return Spectrum(handle);
+    }
+
+    /// The frequencies per side.
+    std::uint32_t size() const noexcept { return azulejo_spectrum_size(get()); }
+    /// size() * size() numbers, row by row.
+    Span<const float> power() const noexcept {
+        return {azulejo_spectrum_power(get()), std::size_t(size()) * size()};
+    }
+    /// See azulejo_spectrum_radial.
+    std::vector<Annulus> radial(double width) const {
+        std::size_t count = 0;
+        check(azulejo_spectrum_radial(get(), width, nullptr, 0, &count));
+        std::vector<Annulus> annuli(count);
+        check(azulejo_spectrum_radial(get(), width, annuli.data(), count, &count));
+        return annuli;
+    }
+    /// See azulejo_spectrum_measure.
+    SpectrumReport measure(double width, double low, double high) const {
+        SpectrumReport report;
+        check(azulejo_spectrum_measure(get(), width, low, high, &report));
+        return report;
+    }
+    /// The C handle, which stays this object's.
+    const azulejo_spectrum *get() const noexcept { return handle_.get(); }
+
+private:
+    explicit Spectrum(azulejo_spectrum *handle) noexcept : handle_(handle) {}
+
+    detail::Handle<azulejo_spectrum, azulejo_spectrum_free> handle_;
+};
+
+/// The differences of samples on a mesh, or of several sets; see azulejo_differences.
+class Differences {
+public:
+    /// See azulejo_differences_create.
+    Differences(const Context &context, const Mesh &mesh, Span<const float> positions, Span<const float> normals,
+                const double (&direction)[3], std::uint64_t seed = 0) {
+        if (normals.size() != positions.size()) {
+            throw Error(AZULEJO_ERROR_INVALID_ARGUMENT, "normals: " + std::to_string(normals.size()) +
+                                                            " numbers, not as many as positions");
+        }
+        azulejo_differences *handle = nullptr;
+        check(azulejo_differences_create(context.get(), mesh.get(), positions.data(), normals.data(),
+                                         detail::groups(positions.size(), 3, "positions"), direction, seed, &handle));
+        handle_.reset(handle);
+    }
+
+    /// See azulejo_differences_mean.
+    static Differences mean(Span<const Differences> differences) {
+        const std::vector<const azulejo_differences *> handles = detail::handles<azulejo_differences>(differences);
+        azulejo_differences *handle = nullptr;
+        check(azulejo_differences_mean(handles.data(), handles.size(), &handle));
+        return Differences(handle);
+    }
+
+    /// See azulejo_differences_density.
+    Span<const double> density() const noexcept {
+        const double *data = azulejo_differences_density(get());
+        return {data, data ? std::size_t(AZULEJO_DIFFERENCES_SIZE) * AZULEJO_DIFFERENCES_SIZE : 0};
+    }
+    /// See azulejo_differences_radial.
+    Span<const double> radial() const noexcept {
+        const double *data = azulejo_differences_radial(get());
+        return {data, data ? std::size_t(AZULEJO_DIFFERENCES_SHELLS) : 0};
+    }
+    /// See azulejo_differences_power.
+    std::vector<double> power(Span<const double> frequencies) const {
+        std::vector<double> power(frequencies.size());
+        check(azulejo_differences_power(get(), frequencies.data(), frequencies.size(), power.data()));
+        return power;
+    }
+    /// The C handle, which stays this object's.
+    const azulejo_differences *get() const noexcept { return handle_.get(); }
+
+private:
+    explicit Differences(azulejo_differences *handle) noexcept : handle_(handle) {}
+
+    detail::Handle<azulejo_differences, azulejo_differences_free> handle_;
+};
 
 } // namespace azulejo
 

@@ -10,7 +10,7 @@ set -euo pipefail
 
 packages=(libembree-dev libclang-dev g++ make cmake pkg-config)
 test_packages=(valgrind debootstrap debian-archive-keyring dpkg-dev file openmpi-bin libopenmpi-dev
-               assimp-testmodels)
+               assimp-testmodels doxygen)
 
 die() {
     echo "setup.sh: $*" >&2

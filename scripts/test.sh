@@ -27,7 +27,7 @@ scripts/setup.sh --tests
 stage "Format, lints, documentation"
 cargo fmt --all --check
 cargo clippy --quiet --locked --workspace --all-targets -- -D warnings
-RUSTDOCFLAGS='-D warnings' cargo doc --quiet --locked --workspace --no-deps
+scripts/docs.sh
 
 stage "Rust tests on this machine's Embree"
 cargo test --locked --workspace

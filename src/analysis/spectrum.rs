@@ -21,7 +21,7 @@ use crate::points::{Boundary, Domain};
 
 use transform::{Waves, Weighted, transform};
 
-pub use radial::Annulus;
+pub use radial::{Annulus, Peak};
 
 /// The largest side of a periodogram.
 pub const MAX_SIZE: usize = 4096;
@@ -52,8 +52,8 @@ pub struct Periodogram {
 /// bytes per point and as many per frequency.
 ///
 /// # Errors
-/// [`Error::InvalidArgument`] for a malformed domain, a `size` outside of 2 to [`MAX_SIZE`], `positions` that are not
-/// finite, or no point in the domain; [`Error::Cancelled`].
+/// [`Error::InvalidArgument`] for a malformed domain, a `size` outside of 2 to [`MAX_SIZE`], points that are not
+/// finite, or none in the domain (`xy`); [`Error::Cancelled`].
 pub fn periodogram(
     context: &Context,
     domain: &Domain,
@@ -86,12 +86,12 @@ pub fn sparse_periodogram(
         return Err(Error::invalid("size", format!("{size} is not in 2..={MAX_SIZE}")));
     }
     if let Some(i) = points.iter().position(|point| !point.iter().all(|x| x.is_finite())) {
-        return Err(Error::invalid("positions", format!("[{i}] is {:?}, not finite", points[i])));
+        return Err(Error::invalid("xy", format!("[{i}] is {:?}, not finite", points[i])));
     }
     let weighted = weigh(domain, points, stride as f64);
     let energy: f64 = weighted.iter().map(|point| point.weight * point.weight).sum();
     if energy == 0.0 {
-        return Err(Error::invalid("positions", "no point in the domain".to_owned()));
+        return Err(Error::invalid("xy", "no point in the domain".to_owned()));
     }
     let density = match domain.boundary {
         Boundary::Periodic => points.len() as f64 / domain.area(),
@@ -101,12 +101,13 @@ pub fn sparse_periodogram(
     let mean = Mean { weight: weighted.iter().map(|point| point.weight).sum(), boundary: domain.boundary };
     let half = size / 2;
     let power = |waves: &Waves, row: usize| {
-        let row = row as i64 - half as i64;
-        let power = (0..size).map(|column| {
-            let column = column as i64 - half as i64;
-            let (wave, mean) =
-                (waves.at(column, row), mean.transform((stride as i64 * row) as f64, (stride as i64 * column) as f64));
-            ((wave.re - mean).hypot(wave.im).powi(2) / energy) as f32
+        let power = (0..size).map(|column| match [column, row].map(|k| k as i64 - half as i64) {
+            [0, 0] => 0.0,
+            [column, row] => {
+                let [x, y] = [column, row].map(|k| (stride as i64 * k) as f64);
+                let wave = waves.at(column, row);
+                ((wave.re - mean.transform(y, x)).hypot(wave.im).powi(2) / energy) as f32
+            }
         });
         power.collect()
     };
@@ -338,8 +339,8 @@ mod tests {
         assert!(refused(&Domain { max: [0.0, 1.0], ..unit }, &point, 8).starts_with("domain_max: [0] is 0"));
         assert!(refused(&unit, &point, 1).starts_with("size: 1 is not in 2..=4096"));
         assert!(refused(&unit, &point, 5000).starts_with("size: 5000"));
-        assert!(refused(&unit, &[[0.5, f32::NAN]], 8).starts_with("positions: [0]"));
-        assert!(refused(&unit, &[[1.5, 0.5]], 8).starts_with("positions: no point"));
+        assert!(refused(&unit, &[[0.5, f32::NAN]], 8).starts_with("xy: [0]"));
+        assert!(refused(&unit, &[[1.5, 0.5]], 8).starts_with("xy: no point"));
         let small = periodogram(&context, &unit, &point, 8, None).unwrap();
         let large = periodogram(&context, &unit, &point, 9, None).unwrap();
         assert!(small.radial(0.0).is_err() && small.radial(f64::NAN).is_err());

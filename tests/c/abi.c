@@ -149,6 +149,42 @@ FIELD(azulejo_dcr_report, coverage, 32);
 FIELD(azulejo_dcr_report, stopped, 40);
 FIELD(azulejo_dcr_report, reserved, 44);
 
+SIZE(azulejo_coverage, 32);
+FIELD(azulejo_coverage, covering_radius, 0);
+FIELD(azulejo_coverage, gaps, 8);
+FIELD(azulejo_coverage, reserved, 16);
+
+SIZE(azulejo_plane_report, 192);
+FIELD(azulejo_plane_report, count, 0);
+FIELD(azulejo_plane_report, smallest_distance, 8);
+FIELD(azulejo_plane_report, mean_distance, 16);
+FIELD(azulejo_plane_report, hexagonal_distance, 24);
+FIELD(azulejo_plane_report, rho, 32);
+FIELD(azulejo_plane_report, covering_radius, 40);
+FIELD(azulejo_plane_report, bond_order, 48);
+FIELD(azulejo_plane_report, triangles, 56);
+FIELD(azulejo_plane_report, obtuse, 64);
+FIELD(azulejo_plane_report, below_30_degrees, 72);
+FIELD(azulejo_plane_report, edge_mean, 80);
+FIELD(azulejo_plane_report, edge_variation, 88);
+FIELD(azulejo_plane_report, area_variation, 96);
+FIELD(azulejo_plane_report, reserved, 104);
+
+SIZE(azulejo_annulus, 32);
+FIELD(azulejo_annulus, frequency, 0);
+FIELD(azulejo_annulus, power, 8);
+FIELD(azulejo_annulus, anisotropy, 16);
+FIELD(azulejo_annulus, count, 24);
+
+SIZE(azulejo_spectrum_report, 96);
+FIELD(azulejo_spectrum_report, frequency_step, 0);
+FIELD(azulejo_spectrum_report, effective_nyquist, 16);
+FIELD(azulejo_spectrum_report, oscillation, 24);
+FIELD(azulejo_spectrum_report, contrast, 32);
+FIELD(azulejo_spectrum_report, peak, 40);
+FIELD(azulejo_spectrum_report, peak_frequency, 48);
+FIELD(azulejo_spectrum_report, reserved, 64);
+
 CONSTANT(AZULEJO_OK, 0);
 CONSTANT(AZULEJO_ERROR_INVALID_ARGUMENT, -1);
 CONSTANT(AZULEJO_ERROR_TOO_LARGE, -2);
@@ -168,6 +204,10 @@ CONSTANT(AZULEJO_DISTRIBUTION_AVERAGE, 1);
 CONSTANT(AZULEJO_DISTRIBUTION_DOMINANT, 2);
 CONSTANT(AZULEJO_DISTRIBUTION_ZERO, 3);
 CONSTANT(AZULEJO_DISTRIBUTION_EIGHTY_TWENTY, 4);
+CONSTANT(AZULEJO_DIFFERENCES_SIZE, 128);
+CONSTANT(AZULEJO_DIFFERENCES_GRID_REACH, 4);
+CONSTANT(AZULEJO_DIFFERENCES_SHELLS, 512);
+CONSTANT(AZULEJO_DIFFERENCES_REACH, 8);
 
 /* The fixed signatures: assignments that compile only if they are these. */
 static void signatures(void) {

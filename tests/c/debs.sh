@@ -57,6 +57,14 @@ END
 END
 }
 
+# Each crate inside is named, and the texts of licences other than Apache's are there.
+credit() {
+    local copyright=$work/runtime/usr/share/doc/libazulejo0/copyright
+    cmp "$copyright" "$work/development/usr/share/doc/libazulejo-dev/copyright" &&
+        grep -q '^  rayon [0-9.]* (MIT OR Apache-2.0)$' "$copyright" &&
+        grep -A 2 '^--- rayon-[0-9.]*' "$copyright" | grep -q '^Copyright (c) .*Rust Project'
+}
+
 version() { sed -n 's/^version = "\(.*\)"/\1/p' "$root/Cargo.toml" | head -n 1; }
 
 is_stripped() { fails grep -q debug_info <(readelf --section-headers --wide "$1"); }
@@ -64,5 +72,6 @@ is_stripped() { fails grep -q debug_info <(readelf --section-headers --wide "$1"
 step "debs: built" make_packages
 step "debs: their dependences" depend
 step "debs: their files" hold
+step "debs: their licences" credit
 step "debs: the shared library is stripped" is_stripped "$(find "$work/runtime" -name 'libazulejo.so.*.*')"
 step "debs: the static library is stripped" is_stripped "$(find "$work/development" -name libazulejo.a)"

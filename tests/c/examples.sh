@@ -58,6 +58,13 @@ run_stipple() { # BUILD: a disk that fades from black to white
         fails "$1/stipple" && fails "$1/stipple" "$work/roof.obj" "$work/roof.svg"
 }
 
+run_tufts() { # BUILD: a picture of as many bytes as its pixels take, with fur on a light ground
+    "$1/tufts" "$work/roof.obj" "$work/roof.ppm" 500 64 &&
+        [ "$(stat -c %s "$work/roof.ppm")" = $((13 + 3 * 64 * 64)) ] &&
+        [ "$(tail -c +14 "$work/roof.ppm" | od -An -v -tu1 -w3 | sort -u | wc -l)" -gt 200 ] &&
+        fails "$1/tufts" && fails "$1/tufts" "$work/missing.obj" "$work/missing.ppm" && [ ! -e "$work/missing.ppm" ]
+}
+
 run_ranks() { # BUILD: four processes that do not talk make the plane that one makes, and three do, too
     export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
     mpirun --oversubscribe -n 4 "$1/ranks" --check 0.002 "$work/plane.xy" >"$work/ranks.txt" &&

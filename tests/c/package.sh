@@ -54,6 +54,7 @@ step "examples, shared" examples "$work/shared" "$prefix"
 step "they run" run_examples "$work/shared"
 step "scatter" run_scatter "$work/shared"
 step "stipple" run_stipple "$work/shared"
+step "tufts" run_tufts "$work/shared"
 if [ -x "$work/shared/ranks" ]; then
     step "ranks" run_ranks "$work/shared"
 else

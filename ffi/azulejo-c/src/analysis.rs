@@ -1,13 +1,13 @@
-//! The guarantees, for the user to check.
+//! The guarantees, for the user to check: spacing and coverage.
 
 use std::mem::MaybeUninit;
 
 use azulejo_core::analysis::{coverage, spacing};
 use azulejo_core::{Context, Domain};
 
-use crate::boundary::{self, pair, required, rows};
+use crate::boundary::{self, required, rows};
 use crate::context::azulejo_context;
-use crate::domain::domain;
+use crate::domain::points_in_domain;
 use crate::mesh::azulejo_mesh;
 use crate::status::{Failure, azulejo_status};
 
@@ -119,6 +119,95 @@ pub unsafe extern "C" fn azulejo_mesh_uncovered_fraction(
     })
 }
 
+/// How a set covers a domain or a surface with disks of a radius. See azulejo_plane_coverage, azulejo_mesh_coverage.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct azulejo_coverage {
+    /// The covering radius: the distance from the samples of the place that is farthest from all of them. Infinite for no
+    /// sample.
+    pub covering_radius: f64,
+    /// The number of gaps; 0 for a set that is maximal for the radius.
+    pub gaps: u64,
+    /// Zeros, for later versions.
+    pub reserved: [u64; 2],
+}
+
+impl From<coverage::Coverage> for azulejo_coverage {
+    fn from(coverage::Coverage { farthest, gaps }: coverage::Coverage) -> Self {
+        Self { covering_radius: farthest, gaps: gaps as u64, reserved: [0; 2] }
+    }
+}
+
+/// The gaps that points of the plane leave: the connected parts of the domain, or of the torus, that are farther than a
+/// radius from all of them. With no gap the set is maximal for the radius.
+///
+/// xy: the points, x y each, in the domain; `count` of them.
+///
+/// domain_min, domain_max, boundary: two numbers, two numbers and a constant, as in the options.
+///
+/// radius: above 0, in the units of the domain.
+///
+/// out: the covering radius, as azulejo_plane_covering_radius finds it, and the number of gaps. Every gap deeper than a
+/// millionth of the mean spacing is found, however small, and the deepest in any case. An empty set has one.
+///
+/// Found exactly, by the Voronoi diagram: O(count log count) time.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_plane_coverage(
+    context: Option<&azulejo_context>,
+    xy: *const f32,
+    count: usize,
+    domain_min: *const f64,
+    domain_max: *const f64,
+    boundary: i32,
+    radius: f64,
+    out: Option<&mut MaybeUninit<azulejo_coverage>>,
+) -> azulejo_status {
+    boundary::call(|| {
+        let out = required("out", out)?;
+        let context = required("context", context)?.shared.clone();
+        // SAFETY: handed on from the caller.
+        let (points, domain) = unsafe { points_in_domain(xy, count, [domain_min, domain_max], boundary) }?;
+        out.write(coverage::coverage_2d(&context, &domain, points, radius)?.into());
+        Ok(())
+    })
+}
+
+/// The gaps that samples leave on a mesh, by straight distance: groups of places that are farther than a radius from all of
+/// them, in which each place is within half of the radius of another one. With no gap the set is maximal for the radius.
+///
+/// positions: the samples, x y z each; `count` of them. They need not lie on the mesh.
+///
+/// radius: above 0, in the units of the mesh.
+///
+/// out: the covering radius, by less than a billionth of it too small, and the number of gaps. Every gap deeper than a
+/// millionth of the radius is found, however small, and the deepest in any case. An empty set has infinity and 1 at least;
+/// a mesh without area, or whose mask leaves none, has 0 and 0.
+///
+/// Found exactly, by subdividing the triangles: O((count + triangles) log count) time for samples that are spread evenly,
+/// and about 100 pieces for each square of the radius that is uncovered.
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, and AZULEJO_ERROR_TOO_LARGE where more than about 600,000 times the square of the
+/// radius is uncovered.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_mesh_coverage(
+    context: Option<&azulejo_context>,
+    mesh: Option<&azulejo_mesh>,
+    positions: *const f32,
+    count: usize,
+    radius: f64,
+    out: Option<&mut MaybeUninit<azulejo_coverage>>,
+) -> azulejo_status {
+    boundary::call(|| {
+        let out = required("out", out)?;
+        let context = required("context", context)?.shared.clone();
+        let mesh = required("mesh", mesh)?.shared.clone();
+        // SAFETY: handed on from the caller.
+        let points = unsafe { rows::<f32, 3>("positions", positions, "count", count) }?;
+        out.write(coverage::surface_coverage(&context, &mesh, points, radius)?.into());
+        Ok(())
+    })
+}
+
 /// A figure of points of the plane.
 ///
 /// # Safety
@@ -127,7 +216,7 @@ unsafe fn measure_plane(
     context: Option<&azulejo_context>,
     xy: *const f32,
     count: usize,
-    [domain_min, domain_max]: [*const f64; 2],
+    corners: [*const f64; 2],
     boundary: i32,
     out: Option<&mut MaybeUninit<f64>>,
     measure: fn(&Context, &Domain, &[[f32; 2]]) -> azulejo_core::Result<f64>,
@@ -136,14 +225,8 @@ unsafe fn measure_plane(
         let out = required("out", out)?;
         let context = required("context", context)?.shared.clone();
         // SAFETY: handed on from the caller.
-        let (points, min, max) = unsafe {
-            (
-                rows::<f32, 2>("xy", xy, "count", count)?,
-                pair("domain_min", domain_min)?,
-                pair("domain_max", domain_max)?,
-            )
-        };
-        out.write(measure(&context, &domain(min, max, boundary)?, points)?);
+        let (points, domain) = unsafe { points_in_domain(xy, count, corners, boundary) }?;
+        out.write(measure(&context, &domain, points)?);
         Ok(())
     })
 }

@@ -83,6 +83,33 @@ pub(crate) unsafe fn rows<'a, T, const N: usize>(
     Ok(unsafe { std::slice::from_raw_parts(rows.cast(), count) })
 }
 
+/// The handles in the caller's array of `count` pointers, none of which may be NULL.
+///
+/// # Safety
+/// Unless the checks fail, `pointers` leads to `count` pointers to handles that live during `'a`.
+pub(crate) unsafe fn handles<'a, T>(
+    argument: &str,
+    pointers: *const *const T,
+    count: usize,
+) -> Result<Vec<&'a T>, Failure> {
+    // SAFETY: handed on from the caller.
+    let pointers = unsafe { rows::<*const T, 1>(argument, pointers, "count", count) }?;
+    let handle = |(i, &[pointer]): (usize, &[*const T; 1])| {
+        // SAFETY: NULL, or a handle of the caller's.
+        unsafe { pointer.as_ref() }.ok_or_else(|| Failure::invalid(argument, format!("[{i}] is NULL")))
+    };
+    pointers.iter().enumerate().map(handle).collect()
+}
+
+/// Writes a result into the caller's array, which was checked before work began.
+///
+/// # Safety
+/// `out` leads to at least as many elements as there are values.
+pub(crate) unsafe fn write<T: Copy>(out: *mut T, values: &[T]) {
+    // SAFETY: the caller's word; the library's own arrays do not overlap the caller's.
+    unsafe { out.copy_from_nonoverlapping(values.as_ptr(), values.len()) };
+}
+
 /// The pair of numbers at `pointer`.
 ///
 /// # Safety

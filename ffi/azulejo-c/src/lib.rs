@@ -10,8 +10,8 @@
 //!   any work starts. Outputs are written on success only. Nothing is thrown or unwound into C, and nothing is printed
 //!   to stdout; a panic inside the library, which is a bug, prints to stderr and becomes AZULEJO_ERROR_INTERNAL.
 //!
-//! Handles. azulejo_context, azulejo_mesh, azulejo_psp and azulejo_points are made by the library and given back with
-//!   their own _free, which allows NULL. They may be freed in any order: what a handle needs of another one, it keeps.
+//! Handles. azulejo_context, azulejo_mesh, azulejo_psp, azulejo_points, azulejo_spectrum and azulejo_differences are made
+//!   by the library and given back with their own _free, which allows NULL. They may be freed in any order: what a handle needs of another one, it keeps.
 //!   Accessors allow NULL too and answer 0 or NULL. Pointers into a handle live until it is freed.
 //!
 //! Pointers. An argument may be NULL only where that is said. Arrays are packed and read during the call only; the
@@ -78,6 +78,11 @@ pub mod adaptive;
 pub mod dcr;
 
 pub mod analysis;
+pub mod statistics;
+
+pub mod spectrum;
+
+pub mod differences;
 
 // What the conventions let several threads use at once.
 const _: () = {
@@ -85,5 +90,7 @@ const _: () = {
     shared::<context::azulejo_context>();
     shared::<mesh::azulejo_mesh>();
     shared::<points::azulejo_points>();
+    shared::<spectrum::azulejo_spectrum>();
+    shared::<differences::azulejo_differences>();
     shared::<std::sync::RwLock<azulejo_core::psp::Psp>>();
 };

@@ -17,6 +17,16 @@ pub struct Annulus {
     pub anisotropy: f64,
 }
 
+/// A frequency at which a spectrum stands out.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Peak {
+    /// The frequency along x and y, in units of sqrt(density); its opposite is as high.
+    pub frequency: [f64; 2],
+    /// Its power over the mean of its annulus. By chance alone the largest of n frequencies of a single periodogram is
+    /// about ln n.
+    pub over_mean: f64,
+}
+
 /// Annuli of one width, which hold all frequencies out to the largest circle of the grid.
 pub(super) struct Annuli {
     width: f64,
@@ -78,13 +88,43 @@ impl Periodogram {
     /// As [`Periodogram::radial`].
     pub fn peak(&self, width: f64, waves: impl IntoIterator<Item = [i64; 2]>) -> Result<f64> {
         let annuli = self.annuli(width)?;
-        let half = (self.size / 2) as i64;
         let over_mean = |[column, row]: [i64; 2]| {
             let [count, _, power, _] = annuli.sums[annuli.index(self.frequency(column, row))?];
             let mean = power / count;
-            (mean > 0.0).then(|| self.power[((row + half) * self.size as i64 + column + half) as usize] as f64 / mean)
+            (mean > 0.0).then(|| self.at(column, row) / mean)
         };
         Ok(waves.into_iter().filter_map(over_mean).fold(0.0, f64::max))
+    }
+
+    /// Searches the frequencies with a length in `range`, in units of sqrt(density), for the one whose power exceeds the mean
+    /// of its annulus of `width` the most: repeated parts and lattices show there. None if all power there is 0.
+    ///
+    /// # Errors
+    /// As [`Periodogram::radial`].
+    pub fn highest_peak(&self, width: f64, range: std::ops::Range<f64>) -> Result<Option<Peak>> {
+        let annuli = self.annuli(width)?;
+        let peaks = self.half_plane().filter_map(|[column, row]| {
+            let frequency = self.frequency(column, row);
+            let sums = annuli.sums[annuli.index(frequency).filter(|_| range.contains(&frequency))?];
+            let mean = sums[2] / sums[0];
+            let along = [column as f64 * self.frequency_step[0], row as f64 * self.frequency_step[1]];
+            (mean > 0.0).then(|| Peak { frequency: along, over_mean: self.at(column, row) / mean })
+        });
+        Ok(peaks.reduce(|highest, peak| if peak.over_mean > highest.over_mean { peak } else { highest }))
+    }
+
+    /// The frequencies but 0, in columns and rows from it: of each and its opposite, whose power is the same, one.
+    fn half_plane(&self) -> impl Iterator<Item = [i64; 2]> + use<> {
+        let half = (self.size / 2) as i64;
+        let end = self.size as i64 - half;
+        let rows = (0..end).flat_map(move |row| (-half..end).map(move |column| [column, row]));
+        rows.filter(|&[column, row]| row > 0 || column > 0)
+    }
+
+    /// The power at a frequency of the grid, in columns and rows from frequency 0.
+    fn at(&self, column: i64, row: i64) -> f64 {
+        let half = (self.size / 2) as i64;
+        f64::from(self.power[((row + half) * self.size as i64 + column + half) as usize])
     }
 
     /// The length of a frequency, in units of sqrt(density).
@@ -102,11 +142,10 @@ impl Periodogram {
         let last = (end - 1) as f64 * self.frequency_step[0].min(self.frequency_step[1]);
         let count = (last.min(width * 1e6) / width) as usize + 1;
         let mut annuli = Annuli { width, last, sums: vec![[0.0; 4]; count] };
-        // Half of the plane: the power at the opposite frequencies is the same.
-        for (row, column) in (0..end).flat_map(|row| (-half..end).map(move |column| (row, column))) {
+        for [column, row] in self.half_plane() {
             let frequency = self.frequency(column, row);
-            if let Some(index) = annuli.index(frequency).filter(|_| row > 0 || column > 0) {
-                let power = self.power[((row + half) * self.size as i64 + column + half) as usize] as f64;
+            if let Some(index) = annuli.index(frequency) {
+                let power = self.at(column, row);
                 let terms = [1.0, frequency, power, power * power];
                 (0..4).for_each(|i| annuli.sums[index][i] += terms[i]);
             }
@@ -174,6 +213,11 @@ mod tests {
         assert!((2.0..12.0).contains(&rows), "{rows}");
         assert_eq!(spectrum.peak(0.05, [[3, 0], [500, 0], [70, 70]]).unwrap(), spectrum.peak(0.05, [[-3, 0]]).unwrap());
         assert_eq!(spectrum.peak(0.05, []).unwrap(), 0.0);
+        let highest = spectrum.highest_peak(0.05, 0.1..1.2).unwrap().unwrap();
+        assert_eq!(highest.over_mean, spectrum.peak(0.05, [[40, 0]]).unwrap());
+        assert!((highest.frequency[0].abs() - 40.0 / 4000f64.sqrt()).abs() < 1e-9 && highest.frequency[1] == 0.0);
+        let low = spectrum.highest_peak(0.05, 0.1..0.5).unwrap().unwrap();
+        assert!((5.0..20.0).contains(&low.over_mean) && spectrum.highest_peak(0.05, 7.0..9.0).unwrap().is_none());
         assert!(spectrum.peak(0.0, []).is_err() && spectrum.contrast(f64::NAN, 0.0..1.0).is_err());
     }
 }

@@ -1,0 +1,30 @@
+# append_licences(FILE NAME-VERSION...): appends to the file what the crates say about their licences and copyright, each
+# text once. The Apache License 2.0, which Debian has in /usr/share/common-licenses, is left out.
+function(append_licences file)
+  execute_process(COMMAND ${AZULEJO_CARGO} version --verbose OUTPUT_VARIABLE version COMMAND_ERROR_IS_FATAL ANY)
+  string(REGEX MATCH "host: ([^\n]+)" found "${version}")
+  # Without a platform cargo would fetch what other systems need.
+  execute_process(COMMAND ${AZULEJO_CARGO} metadata --locked --format-version 1 --filter-platform ${CMAKE_MATCH_1}
+                  WORKING_DIRECTORY ${PROJECT_SOURCE_DIR} OUTPUT_VARIABLE metadata COMMAND_ERROR_IS_FATAL ANY)
+  foreach(crate ${ARGN})
+    # The folder of a crate in cargo's registry is named after it.
+    string(REGEX MATCH "\"manifest_path\":\"([^\"]*/${crate})/Cargo.toml\"" found "${metadata}")
+    if(NOT found)
+      message(FATAL_ERROR "cargo metadata does not know ${crate}")
+    endif()
+    file(GLOB texts ${CMAKE_MATCH_1}/[Ll][Ii][Cc][Ee][Nn][CcSs][Ee]* ${CMAKE_MATCH_1}/COPYING* ${CMAKE_MATCH_1}/COPYRIGHT*)
+    list(FILTER texts EXCLUDE REGEX "APACHE|apache")
+    foreach(text ${texts})
+      file(SHA256 ${text} digest)
+      list(APPEND crates_of_${digest} ${crate})
+      set(text_of_${digest} ${text})
+      list(APPEND digests ${digest})
+    endforeach()
+  endforeach()
+  list(REMOVE_DUPLICATES digests)
+  foreach(digest ${digests})
+    list(JOIN crates_of_${digest} ", " names)
+    file(READ ${text_of_${digest}} text)
+    file(APPEND ${file} "\n\n--- ${names}:\n\n${text}")
+  endforeach()
+endfunction()

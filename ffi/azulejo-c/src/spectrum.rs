@@ -1,0 +1,232 @@
+//! Power spectra of sets of the plane.
+
+use std::mem::MaybeUninit;
+
+use azulejo_core::Error;
+use azulejo_core::analysis::spectrum::{Annulus, Periodogram, sparse_periodogram};
+
+use crate::boundary::{self, array, check_pointer, required};
+use crate::context::azulejo_context;
+use crate::domain::points_in_domain;
+use crate::status::{Failure, azulejo_status};
+
+/// The power spectrum of a set of the plane, or the mean of several: |sum of exp(-2 pi i f x)|^2 / count on a square grid of
+/// frequencies f. 1 on average for a Poisson process (Ulichney 1988; Lagae and Dutre 2008). Never changes.
+///
+/// Frequencies are in units of sqrt(density), the density being count / area: sets of different size can be compared, and
+/// the first ring of blue noise lies near 1.
+pub struct azulejo_spectrum {
+    periodogram: Periodogram,
+}
+
+/// The frequencies of about one length: a point of the radial curves.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct azulejo_annulus {
+    /// The mean length of its frequencies, in units of sqrt(density).
+    pub frequency: f64,
+    /// The mean power: the radial mean; 1 for a Poisson process.
+    pub power: f64,
+    /// The variance of the power over its squared mean. The spectrum of one isotropic set has 1 (0 dB), the mean of n has
+    /// 1/n; directions that stand out give more.
+    pub anisotropy: f64,
+    /// The number of its frequencies, not counting a frequency and its opposite twice; at least 2.
+    pub count: u64,
+}
+
+/// The figures of a spectrum.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct azulejo_spectrum_report {
+    /// The distance of neighbouring columns and rows, in units of sqrt(density).
+    pub frequency_step: [f64; 2],
+    /// The effective Nyquist frequency, in units of sqrt(density): half of the largest frequency up to which the mean power
+    /// is below 0.1 (Heck et al. 2013). 0.5 for a square lattice, 0.537 for a hexagonal one, 0 for a Poisson process; the
+    /// tables of the literature divide it by 0.5. -1 if the spectrum ends too early: frequencies up to 1.5 mostly do.
+    pub effective_nyquist: f64,
+    /// The oscillation, without unit: ten times the root mean square of the power's deviation from 1, by area, from where it
+    /// first is 0.98 to 5 sqrt(density) above (Heck et al. 2013). 0 for a Poisson process. -1 if the spectrum ends too
+    /// early: frequencies up to 6.5 mostly do.
+    pub oscillation: f64,
+    /// How much the power scatters about its radial mean, over the frequencies from `low` to `high`: 1 for one set without
+    /// order over long distances, 1/n for the mean of n, more where parts are repeated. 0 if there are none.
+    pub contrast: f64,
+    /// The largest power of a frequency from `low` to `high`, over the radial mean there. By chance alone it is about ln n
+    /// for n frequencies of one set. 0 if there are none.
+    pub peak: f64,
+    /// Where that is, along x and y, in units of sqrt(density); its opposite is as high.
+    pub peak_frequency: [f64; 2],
+    /// Zeros, for later versions.
+    pub reserved: [u64; 4],
+}
+
+/// Makes the spectrum of points of the plane, by nonuniform fast Fourier transform in double arithmetic: the power differs
+/// from that of the sum itself by no more than its rounding to float.
+///
+/// A periodic domain has exact frequencies, whole numbers of waves per period. A bounded one is taken for a window onto a
+/// larger set: its points are weighted by a taper that falls to 0 towards the ellipse inside it, so that the spectrum does
+/// not show the border.
+///
+/// xy: the points, x y each, finite; `count` of them. In a bounded domain at least one must lie inside the ellipse.
+///
+/// domain_min, domain_max, boundary: two numbers, two numbers and a constant, as in the options.
+///
+/// size: the frequencies per side, 2 to 4096. The lowest are -(size / 2) steps of 1 / width and 1 / height.
+///
+/// stride: 1 takes all frequencies; n, up to 4096, only every n-th along both axes, so that the spectra of large sets reach
+/// as far as those of small ones. For all figures, size * stride of about 13 sqrt(count) is enough on a square.
+///
+/// out: the spectrum, to be freed with azulejo_spectrum_free.
+///
+/// O(count + size^2 log size) time, and about 40 bytes of memory for each point and each frequency while it runs.
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_spectrum_create(
+    context: Option<&azulejo_context>,
+    xy: *const f32,
+    count: usize,
+    domain_min: *const f64,
+    domain_max: *const f64,
+    boundary: i32,
+    size: u32,
+    stride: u32,
+    out: Option<&mut MaybeUninit<Box<azulejo_spectrum>>>,
+) -> azulejo_status {
+    boundary::create(out, || {
+        let context = required("context", context)?.shared.clone();
+        // SAFETY: handed on from the caller.
+        let (points, domain) = unsafe { points_in_domain(xy, count, [domain_min, domain_max], boundary) }?;
+        let [size, stride] = [size, stride].map(|number| number as usize);
+        let periodogram = sparse_periodogram(&context, &domain, points, size, stride, None)?;
+        Ok(azulejo_spectrum { periodogram })
+    })
+}
+
+/// Makes the mean of the spectra of sets of one kind. The speckle of a single one fades with the square root of their
+/// number.
+///
+/// spectra: `count` spectra, at least 1, all of one size.
+///
+/// out: the mean, to be freed with azulejo_spectrum_free; the spectra stay the caller's.
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_spectrum_mean(
+    spectra: *const *const azulejo_spectrum,
+    count: usize,
+    out: Option<&mut MaybeUninit<Box<azulejo_spectrum>>>,
+) -> azulejo_status {
+    boundary::create(out, || {
+        // SAFETY: handed on from the caller.
+        let spectra = unsafe { boundary::handles("spectra", spectra, count) }?;
+        let periodograms: Vec<_> = spectra.iter().map(|spectrum| spectrum.periodogram.clone()).collect();
+        Ok(azulejo_spectrum { periodogram: Periodogram::mean(&periodograms)? })
+    })
+}
+
+/// The frequencies per side; 0 for NULL.
+#[unsafe(no_mangle)]
+pub extern "C" fn azulejo_spectrum_size(spectrum: Option<&azulejo_spectrum>) -> u32 {
+    spectrum.map_or(0, |spectrum| spectrum.periodogram.size() as u32)
+}
+
+/// The power, size * size numbers, row by row from the lowest frequency; frequency 0, where it is 0, stands in row and column
+/// size / 2. NULL for NULL.
+#[unsafe(no_mangle)]
+pub extern "C" fn azulejo_spectrum_power(spectrum: Option<&azulejo_spectrum>) -> *const f32 {
+    spectrum.map_or(std::ptr::null(), |spectrum| array(spectrum.periodogram.power()))
+}
+
+/// The radial curves of a spectrum, mean and anisotropy, out to its largest circle.
+///
+/// width: the width of an annulus, above 0, in units of sqrt(density). Annuli of fewer than two frequencies are left out.
+///
+/// annuli: where to write at most `capacity` of them, from the lowest frequency; may be NULL if `capacity` is 0.
+///
+/// out_count: how many there are, whatever the capacity.
+///
+/// O(size^2) time.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_spectrum_radial(
+    spectrum: Option<&azulejo_spectrum>,
+    width: f64,
+    annuli: *mut azulejo_annulus,
+    capacity: usize,
+    out_count: Option<&mut MaybeUninit<usize>>,
+) -> azulejo_status {
+    boundary::call(|| {
+        let out_count = required("out_count", out_count)?;
+        let spectrum = required("spectrum", spectrum)?;
+        if capacity > 0 {
+            check_pointer("annuli", annuli.cast_const())?;
+        }
+        let curve: Vec<_> = spectrum.periodogram.radial(width)?.into_iter().map(azulejo_annulus::from).collect();
+        if capacity > 0 {
+            // SAFETY: not more than the caller's capacity.
+            unsafe { boundary::write(annuli, &curve[..capacity.min(curve.len())]) };
+        }
+        out_count.write(curve.len());
+        Ok(())
+    })
+}
+
+impl From<Annulus> for azulejo_annulus {
+    fn from(Annulus { count, frequency, power, anisotropy }: Annulus) -> Self {
+        Self { frequency, power, anisotropy, count: count as u64 }
+    }
+}
+
+/// Measures a spectrum: aliasing, contrast and the highest peak.
+///
+/// width: the width of the annuli of which the radial mean is made, above 0, in units of sqrt(density). 0.05 is good for
+/// sets of some thousand points.
+///
+/// low, high: the range of frequencies for contrast and peak, in units of sqrt(density).
+///
+/// out: the figures.
+///
+/// O(size^2) time.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_spectrum_measure(
+    spectrum: Option<&azulejo_spectrum>,
+    width: f64,
+    low: f64,
+    high: f64,
+    out: Option<&mut MaybeUninit<azulejo_spectrum_report>>,
+) -> azulejo_status {
+    boundary::call(|| {
+        let out = required("out", out)?;
+        let of = &required("spectrum", spectrum)?.periodogram;
+        for (argument, frequency) in [("low", low), ("high", high)] {
+            if !frequency.is_finite() {
+                return Err(Failure::invalid(argument, format!("{frequency} is not a finite number")));
+            }
+        }
+        let peak = of.highest_peak(width, low..high)?;
+        out.write(azulejo_spectrum_report {
+            frequency_step: of.frequency_step(),
+            effective_nyquist: unless_too_small(of.effective_nyquist(width))?,
+            oscillation: unless_too_small(of.oscillation(width))?,
+            contrast: of.contrast(width, low..high)?,
+            peak: peak.map_or(0.0, |peak| peak.over_mean),
+            peak_frequency: peak.map_or([0.0; 2], |peak| peak.frequency),
+            reserved: [0; 4],
+        });
+        Ok(())
+    })
+}
+
+/// A figure that a spectrum may be too small for: -1 then.
+fn unless_too_small(figure: azulejo_core::Result<f64>) -> azulejo_core::Result<f64> {
+    match figure {
+        Err(Error::InvalidArgument { argument: "size", .. }) => Ok(-1.0),
+        other => other,
+    }
+}
+
+/// Frees the spectrum. NULL is allowed.
+#[unsafe(no_mangle)]
+pub extern "C" fn azulejo_spectrum_free(spectrum: Option<Box<azulejo_spectrum>>) {
+    boundary::free(spectrum);
+}

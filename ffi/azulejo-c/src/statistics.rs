@@ -1,0 +1,190 @@
+//! What sets of the plane are like: their spacing, order, triangles and distances.
+
+use std::mem::MaybeUninit;
+
+use azulejo_core::analysis::bonds::bond_order;
+use azulejo_core::analysis::coverage::covering_radius_2d;
+use azulejo_core::analysis::distribution::radial_distribution;
+use azulejo_core::analysis::spacing::{nearest_distances_2d, nearest_histogram_2d, spacing_2d};
+use azulejo_core::analysis::triangles::triangle_statistics;
+use azulejo_core::{Context, Domain};
+
+use crate::boundary::{self, check_pointer, required};
+use crate::context::azulejo_context;
+use crate::domain::points_in_domain;
+use crate::status::{Failure, azulejo_status};
+
+/// The figures of a set of the plane. The unit d_max is sqrt(2 area / (sqrt(3) count)), the distance of neighbours if as
+/// many points stood in hexagonal arrangement.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct azulejo_plane_report {
+    /// The number of points.
+    pub count: u64,
+    /// The smallest distance between two points, in the units of the domain; infinite for less than two, as the mean is.
+    pub smallest_distance: f64,
+    /// The mean distance from a point to its nearest neighbour, in the units of the domain.
+    pub mean_distance: f64,
+    /// d_max, in the units of the domain; infinite for no point.
+    pub hexagonal_distance: f64,
+    /// The smallest distance in units of d_max: at most 1 on a periodic domain, about 0.77 for maximal Poisson-disk sets.
+    pub rho: f64,
+    /// The covering radius, in the units of the domain: see azulejo_plane_covering_radius. d_max / sqrt(3) for a hexagonal
+    /// lattice; infinite for no point.
+    pub covering_radius: f64,
+    /// The bond order psi6, 0 to 1: the mean over the points of |sum of exp(6 i angle)| / n for the n directions of their
+    /// Delaunay neighbours (Nelson and Halperin 1979). 1 for a hexagonal lattice, 0.36 for a Poisson process.
+    pub bond_order: f64,
+    /// The number of Delaunay triangles; in a bounded domain those that do not cross the border when the set is mirrored
+    /// by it.
+    pub triangles: u64,
+    /// The share of triangles with an angle above 90 degrees, 0 to 1.
+    pub obtuse: f64,
+    /// The share of triangles with an angle below 30 degrees, 0 to 1.
+    pub below_30_degrees: f64,
+    /// The mean length of the edges of the triangles, in the units of the domain.
+    pub edge_mean: f64,
+    /// The variance of the lengths of the edges over the square of their mean.
+    pub edge_variation: f64,
+    /// The variance of the areas of the triangles over the square of their mean.
+    pub area_variation: f64,
+    /// Zeros, for later versions.
+    pub reserved: [u64; 11],
+}
+
+/// Measures points of the plane: spacing, covering radius, bond order and Delaunay triangles.
+///
+/// xy: the points, x y each, in the domain; `count` of them.
+///
+/// domain_min, domain_max, boundary: two numbers, two numbers and a constant, as in the options.
+///
+/// out: the figures.
+///
+/// O(count log count) time for points that leave no large holes and are not clustered: some seconds for a million.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_plane_measure(
+    context: Option<&azulejo_context>,
+    xy: *const f32,
+    count: usize,
+    domain_min: *const f64,
+    domain_max: *const f64,
+    boundary: i32,
+    out: Option<&mut MaybeUninit<azulejo_plane_report>>,
+) -> azulejo_status {
+    boundary::call(|| {
+        let out = required("out", out)?;
+        let context = required("context", context)?.shared.clone();
+        // SAFETY: handed on from the caller.
+        let (points, domain) = unsafe { points_in_domain(xy, count, [domain_min, domain_max], boundary) }?;
+        out.write(measure(&context, &domain, points)?);
+        Ok(())
+    })
+}
+
+fn measure(context: &Context, domain: &Domain, points: &[[f32; 2]]) -> azulejo_core::Result<azulejo_plane_report> {
+    let spacing = spacing_2d(domain, &nearest_distances_2d(context, domain, points)?);
+    let triangles = triangle_statistics(context, domain, points)?;
+    Ok(azulejo_plane_report {
+        count: points.len() as u64,
+        smallest_distance: spacing.smallest,
+        mean_distance: spacing.mean,
+        hexagonal_distance: spacing.hexagonal,
+        rho: if points.is_empty() { f64::INFINITY } else { spacing.smallest / spacing.hexagonal },
+        covering_radius: covering_radius_2d(context, domain, points)?,
+        bond_order: bond_order(context, domain, points)?,
+        triangles: triangles.triangles,
+        obtuse: triangles.obtuse,
+        below_30_degrees: triangles.below_30_degrees,
+        edge_mean: triangles.edge_mean,
+        edge_variation: triangles.edge_variation,
+        area_variation: triangles.area_variation,
+        reserved: [0; 11],
+    })
+}
+
+/// The histogram of the distances from points of the plane to their nearest neighbours.
+///
+/// xy: the points, x y each, in the domain; `count` of them.
+///
+/// domain_min, domain_max, boundary: two numbers, two numbers and a constant, as in the options.
+///
+/// reach: where the last bin ends, above 0, in units of d_max (see azulejo_plane_report).
+///
+/// bins: how many bins of equal width there are from 0 to `reach`, 1 to 65536.
+///
+/// out: an array of `bins` numbers, how many points have their nearest neighbour at such a distance. Those at `reach` or
+/// farther, and a point that is alone, are in none. Histograms of several sets add up.
+///
+/// O(count) time for points that are spread evenly.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_plane_nearest_histogram(
+    context: Option<&azulejo_context>,
+    xy: *const f32,
+    count: usize,
+    domain_min: *const f64,
+    domain_max: *const f64,
+    boundary: i32,
+    reach: f64,
+    bins: usize,
+    out: *mut u64,
+) -> azulejo_status {
+    boundary::call(|| {
+        check_bins(out, bins)?;
+        let context = required("context", context)?.shared.clone();
+        // SAFETY: handed on from the caller.
+        let (points, domain) = unsafe { points_in_domain(xy, count, [domain_min, domain_max], boundary) }?;
+        let nearest = nearest_distances_2d(&context, &domain, points)?;
+        let histogram = nearest_histogram_2d(&domain, &nearest, reach, bins)?;
+        // SAFETY: one number for each of the caller's bins.
+        unsafe { boundary::write(out, &histogram) };
+        Ok(())
+    })
+}
+
+/// The radial distribution function g of points of the plane, also called pair correlation: the density of other points at
+/// a distance from a point, over the mean density. 1 for a Poisson process; a hexagonal lattice has peaks at 1, sqrt(3),
+/// 2, ... d_max.
+///
+/// In a bounded domain each pair counts by one over the share of the domain that stays in it when it is moved by their
+/// difference, which makes up for the border (Ohser and Stoyan 1981).
+///
+/// xy: the points, x y each, in the domain; `count` of them, at least 2.
+///
+/// domain_min, domain_max, boundary: two numbers, two numbers and a constant, as in the options.
+///
+/// reach: where the last bin ends, in units of d_max (see azulejo_plane_report): above 0, and at most half the width or
+/// height of the domain.
+///
+/// bins: how many bins of equal width there are from 0 to `reach`, 1 to 65536.
+///
+/// out: an array of `bins` numbers, the mean of g in each bin. The mean over sets of one kind and count is their g.
+///
+/// O(count * (1 + reach^2)) time for points that are spread evenly.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_plane_radial_distribution(
+    context: Option<&azulejo_context>,
+    xy: *const f32,
+    count: usize,
+    domain_min: *const f64,
+    domain_max: *const f64,
+    boundary: i32,
+    reach: f64,
+    bins: usize,
+    out: *mut f64,
+) -> azulejo_status {
+    boundary::call(|| {
+        check_bins(out, bins)?;
+        let context = required("context", context)?.shared.clone();
+        // SAFETY: handed on from the caller.
+        let (points, domain) = unsafe { points_in_domain(xy, count, [domain_min, domain_max], boundary) }?;
+        let distribution = radial_distribution(&context, &domain, points, reach, bins, None)?;
+        // SAFETY: one number for each of the caller's bins.
+        unsafe { boundary::write(out, &distribution.density()) };
+        Ok(())
+    })
+}
+
+/// The caller's array, one element for each bin; no bins at all are refused as such.
+fn check_bins<T>(out: *mut T, bins: usize) -> Result<(), Failure> {
+    if bins > 0 { check_pointer("out", out.cast_const()) } else { Ok(()) }
+}

@@ -1,0 +1,304 @@
+/* Analysis: known figures of a lattice and of random points, gaps that are put in, and each bad input refused with a
+   message that names it, leaving the outputs alone. */
+
+#include <math.h>
+
+#include "samples.h"
+
+#define INVALID AZULEJO_ERROR_INVALID_ARGUMENT
+#define TOO_LARGE AZULEJO_ERROR_TOO_LARGE
+
+/* A hexagonal lattice of unit spacing on a torus. */
+#define COLUMNS 16
+#define ROWS 18
+#define LATTICE (COLUMNS * ROWS)
+#define RANDOM 4000
+
+static azulejo_context *context;
+static azulejo_mesh *cube;
+static float lattice[LATTICE][2], noise[RANDOM][2];
+static double lattice_max[2];
+static const double low[2] = {0, 0}, high[2] = {1, 1}, bad[2] = {NAN, 1};
+
+static int near(double a, double b, double tolerance) { return fabs(a - b) <= tolerance; }
+
+static void make_sets(void) {
+    const double height = sqrt(0.75);
+    int i;
+    for (i = 0; i < LATTICE; i++) {
+        const int row = i / COLUMNS;
+        lattice[i][0] = (float)(i % COLUMNS + 0.5 * (row % 2));
+        lattice[i][1] = (float)(row * height);
+    }
+    lattice_max[0] = COLUMNS;
+    lattice_max[1] = ROWS * height;
+    random_points(&noise[0][0], RANDOM);
+}
+
+static void planes(void) {
+    azulejo_plane_report report;
+    azulejo_coverage coverage;
+    size_t i;
+    ACCEPTED(azulejo_plane_measure(context, *lattice, LATTICE, low, lattice_max, 0, &report));
+    CHECK(report.count == LATTICE && report.triangles == 2 * LATTICE);
+    CHECK(near(report.smallest_distance, 1, 1e-5) && near(report.mean_distance, 1, 1e-5));
+    CHECK(near(report.hexagonal_distance, 1, 1e-12) && near(report.rho, 1, 1e-5));
+    CHECK(near(report.covering_radius, sqrt(1.0 / 3), 1e-5) && near(report.bond_order, 1, 1e-5));
+    CHECK(report.obtuse == 0 && report.below_30_degrees == 0 && near(report.edge_mean, 1, 1e-5));
+    CHECK(near(report.edge_variation, 0, 1e-9) && near(report.area_variation, 0, 1e-9));
+    for (i = 0; i < COUNT_OF(report.reserved); i++) CHECK(report.reserved[i] == 0);
+
+    ACCEPTED(azulejo_plane_measure(context, NULL, 0, low, high, 1, &report));
+    CHECK(report.count == 0 && isinf(report.smallest_distance) && isinf(report.rho) && isinf(report.covering_radius));
+    ACCEPTED(azulejo_plane_measure(context, *noise, RANDOM, low, high, 1, &report));
+    CHECK(near(report.mean_distance / report.hexagonal_distance, 0.465, 0.02) && near(report.bond_order, 0.365, 0.02));
+
+    ACCEPTED(azulejo_plane_coverage(context, *lattice, LATTICE, low, lattice_max, 0, 0.58, &coverage));
+    CHECK(coverage.gaps == 0 && near(coverage.covering_radius, sqrt(1.0 / 3), 1e-5) && coverage.reserved[1] == 0);
+    /* A gap in each triangle. */
+    ACCEPTED(azulejo_plane_coverage(context, *lattice, LATTICE, low, lattice_max, 0, 0.55, &coverage));
+    CHECK(coverage.gaps == 2 * LATTICE);
+    ACCEPTED(azulejo_plane_coverage(context, NULL, 0, low, high, 1, 0.5, &coverage));
+    CHECK(coverage.gaps == 1 && isinf(coverage.covering_radius));
+}
+
+static void distributions(void) {
+    double density[40];
+    uint64_t histogram[41], sum = 0;
+    int i;
+    ACCEPTED(azulejo_plane_nearest_histogram(context, *lattice, LATTICE, low, lattice_max, 0, 2.05, 41, histogram));
+    for (i = 0; i < 41; i++) sum += histogram[i];
+    CHECK(histogram[19] + histogram[20] == LATTICE && sum == LATTICE);
+    ACCEPTED(azulejo_plane_radial_distribution(context, *lattice, LATTICE, low, lattice_max, 0, 1.65, 33, density));
+    CHECK(density[19] + density[20] > 5 && density[18] == 0 && density[25] == 0);
+    for (i = 0; i <= 1; i++) {
+        int bin;
+        ACCEPTED(azulejo_plane_radial_distribution(context, *noise, RANDOM, low, high, i, 8, 40, density));
+        for (bin = 5; bin < 40; bin++) CHECK(near(density[bin], 1, 0.1));
+    }
+}
+
+static void spectra(void) {
+    azulejo_spectrum *spectrum = NULL, *other = NULL, *mean = NULL;
+    const azulejo_spectrum *both[2];
+    azulejo_spectrum_report report;
+    azulejo_annulus annuli[200];
+    size_t count = 0, again = 0, i, k;
+
+    ACCEPTED(azulejo_spectrum_create(context, *lattice, LATTICE, low, lattice_max, 0, 241, 1, &spectrum));
+    CHECK(azulejo_spectrum_size(spectrum) == 241);
+    /* The lowest frequency of the dual lattice along y, ROWS waves, and one that is in no sum. */
+    CHECK(near(azulejo_spectrum_power(spectrum)[(120 + ROWS) * 241 + 120 + COLUMNS / 2], 0, 1e-3));
+    CHECK(near(azulejo_spectrum_power(spectrum)[(120 + ROWS / 2) * 241 + 120 + COLUMNS], LATTICE, 1e-2));
+    CHECK(azulejo_spectrum_power(spectrum)[120 * 241 + 120] == 0);
+    ACCEPTED(azulejo_spectrum_measure(spectrum, 0.02, 0.5, 2, &report));
+    CHECK(near(report.effective_nyquist, 0.5 * pow(4.0 / 3, 0.25), 0.01));
+    CHECK(near(hypot(report.peak_frequency[0], report.peak_frequency[1]), 1.0746, 1e-3) || report.peak > 1);
+    CHECK(near(report.frequency_step[0], 1 / (COLUMNS * sqrt(LATTICE / (lattice_max[0] * lattice_max[1]))), 1e-9));
+    azulejo_spectrum_free(spectrum);
+
+    ACCEPTED(azulejo_spectrum_create(context, *noise, RANDOM / 2, low, high, 0, 300, 2, &spectrum));
+    ACCEPTED(azulejo_spectrum_create(context, noise[RANDOM / 2], RANDOM / 2, low, high, 0, 300, 2, &other));
+    both[0] = spectrum;
+    both[1] = other;
+    ACCEPTED(azulejo_spectrum_mean(both, 2, &mean));
+    for (i = 0; i < 3; i++) {
+        const azulejo_spectrum *of = i < 2 ? both[i] : mean;
+        ACCEPTED(azulejo_spectrum_measure(of, 0.1, 0.3, 3, &report));
+        CHECK(near(report.contrast * (i < 2 ? 1 : 2), 1, 0.1));
+        CHECK(report.peak > 3 && report.peak < 25 && report.effective_nyquist >= 0 && report.effective_nyquist < 0.1);
+        CHECK(report.oscillation >= 0 && report.oscillation < 1 && report.reserved[3] == 0);
+        ACCEPTED(azulejo_spectrum_radial(of, 0.1, annuli, COUNT_OF(annuli), &count));
+        CHECK(count > 60 && count < COUNT_OF(annuli));
+        for (k = 5; k < count; k++) CHECK(near(annuli[k].power, 1, 0.35) && annuli[k].count > 20);
+    }
+    ACCEPTED(azulejo_spectrum_radial(mean, 0.1, NULL, 0, &again));
+    CHECK(again == count);
+    annuli[1].count = 77;
+    ACCEPTED(azulejo_spectrum_radial(mean, 0.1, annuli, 1, &again));
+    CHECK(again == count && annuli[1].count == 77);
+    /* A small one does not reach far enough. */
+    azulejo_spectrum_free(other);
+    ACCEPTED(azulejo_spectrum_create(context, *noise, RANDOM, low, high, 1, 16, 1, &other));
+    ACCEPTED(azulejo_spectrum_measure(other, 0.02, 5, 6, &report));
+    CHECK(report.effective_nyquist == -1 && report.oscillation == -1 && report.contrast == 0 && report.peak == 0);
+    both[1] = other;
+    REFUSED(INVALID, "sizes", azulejo_spectrum_mean(both, 2, &mean));
+    azulejo_spectrum_free(spectrum);
+    azulejo_spectrum_free(other);
+    azulejo_spectrum_free(mean);
+}
+
+static void surfaces(void) {
+    const double up[3] = {0, 0, 1}, frequencies[2] = {0.3, 1};
+    azulejo_psp_options options = psp_options(0.05);
+    azulejo_points *points = NULL;
+    azulejo_coverage coverage;
+    azulejo_differences *one = NULL, *both = NULL;
+    const azulejo_differences *all[2];
+    double power[2] = {0, 0};
+    const float *positions;
+    size_t count;
+    options.iterations = 0;
+    ACCEPTED(azulejo_psp_sample(context, cube, &options, &points, NULL));
+    positions = azulejo_points_positions(points);
+    count = azulejo_points_count(points);
+    ACCEPTED(azulejo_mesh_coverage(context, cube, positions, count, 0.05 + 1e-6, &coverage));
+    CHECK(coverage.gaps == 0 && coverage.covering_radius > 0.045 && coverage.reserved[0] == 0);
+    ACCEPTED(azulejo_mesh_coverage(context, cube, positions, 1, 0.05, &coverage));
+    CHECK(coverage.gaps == 1 && coverage.covering_radius > 0.8);
+    ACCEPTED(azulejo_mesh_coverage(context, cube, NULL, 0, 0.05, &coverage));
+    CHECK(coverage.gaps >= 1 && isinf(coverage.covering_radius));
+
+    ACCEPTED(azulejo_differences_create(context, cube, positions, azulejo_points_normals(points), count, up, 3, &one));
+    all[0] = all[1] = one;
+    ACCEPTED(azulejo_differences_mean(all, 2, &both));
+    CHECK(azulejo_differences_radial(one)[30] == 0); /* half a spacing; the radius is 0.83 of one */
+    CHECK(azulejo_differences_radial(both)[60] > 1.2 && near(azulejo_differences_radial(both)[511], 1, 0.2));
+    CHECK(azulejo_differences_density(both)[64 * 128 + 64] == 0);
+    ACCEPTED(azulejo_differences_power(both, frequencies, 2, power));
+    CHECK(power[0] < 0.3 && power[1] > 0.7);
+    ACCEPTED(azulejo_differences_power(both, NULL, 0, NULL));
+
+    REFUSED(INVALID, "NULL", azulejo_differences_create(NULL, cube, positions, positions, count, up, 3, &one));
+    REFUSED(INVALID, "mesh", azulejo_differences_create(context, NULL, positions, positions, count, up, 3, &one));
+    REFUSED(INVALID, "positions", azulejo_differences_create(context, cube, NULL, positions, count, up, 3, &one));
+    REFUSED(INVALID, "positions", azulejo_differences_create(context, cube, positions, positions, 1, up, 3, &one));
+    REFUSED(INVALID, "normals", azulejo_differences_create(context, cube, positions, NULL, count, up, 3, &one));
+    REFUSED(INVALID, "direction", azulejo_differences_create(context, cube, positions, positions, count, NULL, 3, &one));
+    REFUSED(TOO_LARGE, "count", azulejo_differences_create(context, cube, positions, positions, SIZE_MAX, up, 3, &one));
+    REFUSED(INVALID, "out", azulejo_differences_create(context, cube, positions, positions, count, up, 3, NULL));
+    REFUSED(INVALID, "differences", azulejo_differences_mean(NULL, 1, &both));
+    REFUSED(INVALID, "differences", azulejo_differences_mean(all, 0, &both));
+    all[1] = NULL;
+    REFUSED(INVALID, "differences: [1]", azulejo_differences_mean(all, 2, &both));
+    REFUSED(INVALID, "frequencies", azulejo_differences_power(one, NULL, 2, power));
+    REFUSED(INVALID, "frequencies: [0]", azulejo_differences_power(one, bad, 2, power));
+    REFUSED(INVALID, "out", azulejo_differences_power(one, frequencies, 2, NULL));
+    REFUSED(INVALID, "differences", azulejo_differences_power(NULL, frequencies, 2, power));
+    CHECK(azulejo_differences_density(NULL) == NULL && azulejo_differences_radial(NULL) == NULL);
+    azulejo_differences_free(one);
+    azulejo_differences_free(both);
+    azulejo_differences_free(NULL);
+    azulejo_points_free(points);
+}
+
+/* Every wrong argument of a function that takes a set of the plane; further ones and the output go to the end. */
+#define REFUSES_PLANES(function, ...)                                                                        \
+    do {                                                                                                     \
+        const float outside[4] = {0.5f, 0.5f, NAN, 0.5f};                                                    \
+        REFUSED(INVALID, "context", function(NULL, *noise, RANDOM, low, high, 0, __VA_ARGS__));              \
+        REFUSED(INVALID, "xy", function(context, NULL, RANDOM, low, high, 0, __VA_ARGS__));                  \
+        REFUSED(INVALID, "xy", function(context, outside, 2, low, high, 0, __VA_ARGS__));                    \
+        REFUSED(TOO_LARGE, "count", function(context, *noise, SIZE_MAX, low, high, 0, __VA_ARGS__));         \
+        REFUSED(INVALID, "domain_min", function(context, *noise, RANDOM, NULL, high, 0, __VA_ARGS__));       \
+        REFUSED(INVALID, "domain_max", function(context, *noise, RANDOM, low, NULL, 0, __VA_ARGS__));        \
+        REFUSED(INVALID, "domain_min", function(context, *noise, RANDOM, bad, high, 0, __VA_ARGS__));        \
+        REFUSED(INVALID, "domain_max", function(context, *noise, RANDOM, high, low, 0, __VA_ARGS__));        \
+        REFUSED(INVALID, "boundary", function(context, *noise, RANDOM, low, high, 2, __VA_ARGS__));          \
+    } while (0)
+
+static void refused_sets(void) {
+    azulejo_plane_report report, report_before;
+    azulejo_coverage coverage, coverage_before;
+    azulejo_spectrum *spectrum = UNTOUCHED;
+    uint64_t histogram[4] = {7, 7, 7, 7};
+    double density[4] = {7, 7, 7, 7};
+    memset(&report, 0x5a, sizeof report);
+    memset(&coverage, 0x5a, sizeof coverage);
+    report_before = report;
+    coverage_before = coverage;
+
+    REFUSES_PLANES(azulejo_plane_measure, &report);
+    REFUSES_PLANES(azulejo_plane_coverage, 0.1, &coverage);
+    REFUSES_PLANES(azulejo_plane_nearest_histogram, 2, 4, histogram);
+    REFUSES_PLANES(azulejo_plane_radial_distribution, 2, 4, density);
+    REFUSES_PLANES(azulejo_spectrum_create, 16, 1, &spectrum);
+    REFUSED(INVALID, "out", azulejo_plane_measure(context, *noise, RANDOM, low, high, 0, NULL));
+    REFUSED(INVALID, "out", azulejo_plane_coverage(context, *noise, RANDOM, low, high, 0, 0.1, NULL));
+    REFUSED(INVALID, "radius", azulejo_plane_coverage(context, *noise, RANDOM, low, high, 0, NAN, &coverage));
+    REFUSED(INVALID, "radius", azulejo_plane_coverage(context, *noise, RANDOM, low, high, 0, 0, &coverage));
+
+#define BINS(part, reach, bins, array)                                                                                 \
+    REFUSED(INVALID, part, azulejo_plane_##array(context, *noise, RANDOM, low, high, 0, reach, bins, out))
+    {
+        uint64_t *out = histogram;
+        BINS("reach", 0, 4, nearest_histogram);
+        BINS("reach", INFINITY, 4, nearest_histogram);
+        BINS("bins", 1, 0, nearest_histogram);
+        BINS("bins", 1, SIZE_MAX, nearest_histogram);
+        out = NULL;
+        BINS("out", 1, 4, nearest_histogram);
+    }
+    {
+        double *out = density;
+        BINS("reach", NAN, 4, radial_distribution);
+        BINS("reach", 1000, 4, radial_distribution);
+        BINS("bins", 1, 0, radial_distribution);
+        BINS("bins", 1, 65537, radial_distribution);
+        out = NULL;
+        BINS("out", 1, 4, radial_distribution);
+        REFUSED(INVALID, "xy", azulejo_plane_radial_distribution(context, *noise, 1, low, high, 0, 1, 4, density));
+    }
+#undef BINS
+
+    REFUSED(INVALID, "xy", azulejo_spectrum_create(context, NULL, 0, low, high, 0, 16, 1, &spectrum));
+    REFUSED(INVALID, "size", azulejo_spectrum_create(context, *noise, RANDOM, low, high, 0, 0, 1, &spectrum));
+    REFUSED(INVALID, "size", azulejo_spectrum_create(context, *noise, RANDOM, low, high, 0, UINT32_MAX, 1, &spectrum));
+    REFUSED(INVALID, "stride", azulejo_spectrum_create(context, *noise, RANDOM, low, high, 0, 16, 0, &spectrum));
+    REFUSED(INVALID, "stride", azulejo_spectrum_create(context, *noise, RANDOM, low, high, 0, 16, UINT32_MAX, &spectrum));
+    REFUSED(INVALID, "out", azulejo_spectrum_create(context, *noise, RANDOM, low, high, 0, 16, 1, NULL));
+    CHECK(spectrum == UNTOUCHED && histogram[0] == 7 && density[3] == 7);
+    CHECK(memcmp(&report, &report_before, sizeof report) == 0);
+    CHECK(memcmp(&coverage, &coverage_before, sizeof coverage) == 0);
+}
+
+static void refused_spectra(void) {
+    azulejo_spectrum *spectrum = NULL, *mean = UNTOUCHED;
+    const azulejo_spectrum *none[1] = {NULL};
+    azulejo_spectrum_report report;
+    azulejo_annulus annulus;
+    azulejo_coverage coverage;
+    size_t count = 7;
+    ACCEPTED(azulejo_spectrum_create(context, *noise, RANDOM, low, high, 0, 16, 1, &spectrum));
+    REFUSED(INVALID, "spectra", azulejo_spectrum_mean(NULL, 1, &mean));
+    REFUSED(INVALID, "spectra: [0]", azulejo_spectrum_mean(none, 1, &mean));
+    REFUSED(INVALID, "periodograms", azulejo_spectrum_mean(none, 0, &mean));
+    REFUSED(TOO_LARGE, "count", azulejo_spectrum_mean(none, SIZE_MAX, &mean));
+    REFUSED(INVALID, "spectrum", azulejo_spectrum_radial(NULL, 0.1, &annulus, 1, &count));
+    REFUSED(INVALID, "width", azulejo_spectrum_radial(spectrum, 0, &annulus, 1, &count));
+    REFUSED(INVALID, "annuli", azulejo_spectrum_radial(spectrum, 0.1, NULL, 1, &count));
+    REFUSED(INVALID, "out_count", azulejo_spectrum_radial(spectrum, 0.1, &annulus, 1, NULL));
+    REFUSED(INVALID, "spectrum", azulejo_spectrum_measure(NULL, 0.1, 0, 1, &report));
+    REFUSED(INVALID, "width", azulejo_spectrum_measure(spectrum, NAN, 0, 1, &report));
+    REFUSED(INVALID, "low", azulejo_spectrum_measure(spectrum, 0.1, NAN, 1, &report));
+    REFUSED(INVALID, "high", azulejo_spectrum_measure(spectrum, 0.1, 0, INFINITY, &report));
+    REFUSED(INVALID, "out", azulejo_spectrum_measure(spectrum, 0.1, 0, 1, NULL));
+    CHECK(mean == UNTOUCHED && count == 7);
+    CHECK(azulejo_spectrum_size(NULL) == 0 && azulejo_spectrum_power(NULL) == NULL);
+    azulejo_spectrum_free(spectrum);
+    azulejo_spectrum_free(NULL);
+
+    REFUSED(INVALID, "context", azulejo_mesh_coverage(NULL, cube, cube_positions[0], 8, 0.1, &coverage));
+    REFUSED(INVALID, "mesh", azulejo_mesh_coverage(context, NULL, cube_positions[0], 8, 0.1, &coverage));
+    REFUSED(INVALID, "positions", azulejo_mesh_coverage(context, cube, NULL, 8, 0.1, &coverage));
+    REFUSED(TOO_LARGE, "count", azulejo_mesh_coverage(context, cube, cube_positions[0], SIZE_MAX, 0.1, &coverage));
+    REFUSED(INVALID, "radius", azulejo_mesh_coverage(context, cube, cube_positions[0], 8, -1, &coverage));
+    REFUSED(TOO_LARGE, "radius", azulejo_mesh_coverage(context, cube, cube_positions[0], 8, 1e-9, &coverage));
+    REFUSED(INVALID, "out", azulejo_mesh_coverage(context, cube, cube_positions[0], 8, 0.1, NULL));
+}
+
+int main(void) {
+    context = make_context(2);
+    cube = make_cube();
+    make_sets();
+    planes();
+    distributions();
+    spectra();
+    surfaces();
+    refused_sets();
+    refused_spectra();
+    azulejo_mesh_free(cube);
+    azulejo_context_free(context);
+    return finish();
+}

@@ -1,0 +1,104 @@
+// azulejo.hpp: the analysis of sets, of the plane and of a mesh.
+
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#include <azulejo.hpp>
+
+#include "samples.h"
+
+namespace {
+
+const double low[] = {0, 0}, high[] = {1, 1};
+
+template <class Call>
+bool refused(const char *part, Call call) {
+    try {
+        call();
+        return false;
+    } catch (const azulejo::Error &error) {
+        return error.status() == AZULEJO_ERROR_INVALID_ARGUMENT && std::strstr(error.what(), part) != nullptr;
+    }
+}
+
+azulejo::Points blue_noise(const azulejo::Context &context, std::uint64_t seed) {
+    azulejo::MaximalOptions options;
+    options.radius = 0.02;
+    options.seed = seed;
+    return azulejo::maximal_sample(context, options);
+}
+
+void planes() {
+    const azulejo::Context context(2);
+    const azulejo::Points points = blue_noise(context, 1);
+    const auto report = azulejo::plane_measure(context, points.positions(), low, high, AZULEJO_BOUNDARY_PERIODIC);
+    CHECK(report.count == points.size() && report.smallest_distance >= 0.02 && report.covering_radius <= 0.02 + 1e-6);
+    CHECK(report.rho > 0.74 && report.rho < 0.8 && report.triangles == 2 * report.count);
+
+    const auto covered = azulejo::plane_coverage(context, points.positions(), low, high, 0, 0.02 + 1e-6);
+    const auto open = azulejo::plane_coverage(context, points.positions(), low, high, 0, 0.018);
+    CHECK(covered.gaps == 0 && open.gaps > 10 && covered.covering_radius == report.covering_radius);
+
+    const auto histogram = azulejo::plane_nearest_histogram(context, points.positions(), low, high, 0, 2, 40);
+    CHECK(std::accumulate(histogram.begin(), histogram.end(), std::uint64_t(0)) == points.size());
+    CHECK(histogram[14] == 0 && histogram[15] > histogram[25]);
+    const auto density = azulejo::plane_radial_distribution(context, points.positions(), low, high, 0, 4, 80);
+    CHECK(density.size() == 80 && density[14] == 0 && density[16] > 1.5 && std::abs(density[79] - 1) < 0.1);
+    CHECK(refused("xy: 7", [&] { azulejo::plane_measure(context, std::vector<float>(7), low, high, 0); }));
+    CHECK(refused("bins", [&] { azulejo::plane_radial_distribution(context, points.positions(), low, high, 0, 4, 0); }));
+}
+
+void spectra() {
+    const azulejo::Context context(2);
+    std::vector<azulejo::Spectrum> spectra;
+    for (std::uint64_t seed = 0; seed < 4; seed++) {
+        const auto points = blue_noise(context, seed);
+        spectra.emplace_back(context, points.positions(), low, high, AZULEJO_BOUNDARY_PERIODIC, 280, 2);
+    }
+    const auto mean = azulejo::Spectrum::mean(spectra);
+    CHECK(mean.size() == 280 && mean.power().size() == 280 * 280 && mean.power()[140 * 280 + 140] == 0);
+    const auto report = mean.measure(0.05, 0.5, 3);
+    CHECK(std::abs(report.effective_nyquist - 0.341) < 0.015 && std::abs(report.oscillation - 1.57) < 0.15);
+    CHECK(std::abs(4 * report.contrast - 1) < 0.15 && report.peak < 10);
+    const auto annuli = mean.radial(0.05);
+    CHECK(annuli.size() > 100 && annuli[5].power < 0.2 && annuli[21].power > 1);
+    CHECK(refused("width", [&] { mean.radial(-1); }));
+    CHECK(refused("periodograms", [&] { azulejo::Spectrum::mean({}); }));
+    const auto moved = std::move(spectra[0]);
+    CHECK(moved.size() == 280 && spectra[0].size() == 0 && spectra[0].power().empty());
+    CHECK(refused("spectra: [0]", [&] { azulejo::Spectrum::mean(spectra); }));
+}
+
+void surfaces() {
+    const azulejo::Context context(2);
+    const azulejo::Mesh cube(&cube_positions[0][0], 8, sizeof *cube_positions, &cube_indices[0][0], 12);
+    azulejo::PspOptions options;
+    options.radius = 0.05;
+    const auto points = azulejo::psp_sample(context, cube, options);
+    const auto coverage = azulejo::mesh_coverage(context, cube, points.positions(), 0.05 + 1e-6);
+    CHECK(coverage.gaps == 0 && coverage.covering_radius < 0.05 + 1e-6);
+    CHECK(azulejo::mesh_coverage(context, cube, {points.positions().data(), 3}, 0.05).gaps == 1);
+
+    std::vector<azulejo::Differences> differences;
+    const double up[] = {0, 0, 1};
+    differences.emplace_back(context, cube, points.positions(), points.normals(), up);
+    differences.emplace_back(context, cube, points.positions(), points.normals(), up, 5);
+    const auto both = azulejo::Differences::mean(differences);
+    CHECK(both.density().size() == 128 * 128 && both.radial().size() == 512 && both.radial()[20] == 0);
+    const auto power = both.power(std::array<double, 2>{0.3, 1});
+    CHECK(power.size() == 2 && power[0] < 0.3 && power[1] > 0.7);
+    CHECK(refused("normals", [&] { azulejo::Differences(context, cube, points.positions(), {}, up); }));
+}
+
+} // namespace
+
+int main() {
+    planes();
+    spectra();
+    surfaces();
+    return finish();
+}
