@@ -1,8 +1,8 @@
 //! `azulejo report dcr`: what relaxation makes of sets of the torus (thesis chapter 4), beside others' methods.
 
+mod measured;
 mod page;
-mod quality;
-mod sets;
+pub mod sets;
 
 use std::fs;
 use std::io::Write;
@@ -14,7 +14,7 @@ use clap::Args;
 use crate::draw::points;
 use crate::output::Output;
 use crate::progress::watched;
-use quality::Measured;
+use measured::Measured;
 use sets::{METHODS, Start};
 
 #[derive(Args)]

@@ -4,6 +4,8 @@ use azulejo::dcr::{Neighbourhood, Options};
 use azulejo::kdrt::{self, CountOptions};
 use azulejo::{Boundary, Context, Domain, Result};
 
+use crate::reference;
+
 /// The seed of the first set of each kind. No setting of a method was chosen by what sets of these seeds gave; who tunes
 /// one takes others.
 pub const FIRST_SEED: u64 = 31_000;
@@ -57,7 +59,7 @@ impl Start {
     pub fn points(self, context: &Context, count: usize, seed: u64) -> Result<Vec<[f32; 2]>> {
         let domain = Domain::unit(Boundary::Periodic);
         match self {
-            Self::Random => Ok(random_points(count, seed)),
+            Self::Random => Ok(reference::random(count, seed)),
             Self::Kdrt => {
                 let leaf_size = kdrt::DEFAULT_LEAF_SIZE;
                 let options = CountOptions { count: count as u64, domain, leaf_size, seed };
@@ -65,16 +67,4 @@ impl Start {
             }
         }
     }
-}
-
-/// Uniform random points of the unit square, by SplitMix64 (Steele, Lea and Flood 2014).
-fn random_points(count: usize, seed: u64) -> Vec<[f32; 2]> {
-    let mut state = seed;
-    let mut unit = || {
-        state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mixed = (state ^ (state >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((mixed ^ (mixed >> 31)) >> 40) as f32 / (1u32 << 24) as f32
-    };
-    (0..count).map(|_| [unit(), unit()]).collect()
 }
