@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use azulejo::dcr::{Convergence, Distribution, Neighbourhood, Options, Stopped, Thesis, relax};
-use azulejo::{Boundary, Context, Result};
+use azulejo::{Boundary, Context, Domain, Result};
 
 use super::sets::{FIRST_SEED, Start};
 use super::study::{Study, thesis_options};
@@ -66,9 +66,10 @@ fn by_start(study: &Study, count: usize, sets: usize) -> Result<String> {
     let ends = study.each("convergence", cases.len() * sets, |context, i| {
         let (start, convergence, distribution) = cases[i / sets];
         let seed = FIRST_SEED + (i % sets) as u64;
-        let points = start.points(context, Boundary::Bounded, count, seed)?;
+        let domain = Domain::unit(Boundary::Bounded);
+        let points = start.points(context, domain, count, seed)?;
         let thesis = Thesis { convergence, distribution, ..Thesis::default() };
-        End::of(context, &thesis_options(thesis, Neighbourhood::Delaunay, Boundary::Bounded, seed), &points)
+        End::of(context, &thesis_options(thesis, Neighbourhood::Delaunay, domain, seed), &points)
     })?;
     let mut text = format!(
         "## Steps to convergence (thesis §4.4.4)\n\n\
@@ -100,9 +101,10 @@ fn by_step(study: &Study, count: usize, sets: usize) -> Result<String> {
     let ends = study.each("step sizes", cases.len() * sets, |context, i| {
         let ((step, decay), convergence) = cases[i / sets];
         let seed = FIRST_SEED + (i % sets) as u64;
-        let points = Start::Random.points(context, Boundary::Periodic, count, seed)?;
+        let domain = Domain::unit(Boundary::Periodic);
+        let points = Start::Random.points(context, domain, count, seed)?;
         let thesis = Thesis { step, decay, convergence, ..Thesis::default() };
-        let options = thesis_options(thesis, Neighbourhood::Delaunay, Boundary::Periodic, seed);
+        let options = thesis_options(thesis, Neighbourhood::Delaunay, domain, seed);
         End::of(context, &Options { max_iterations: 1500, ..options }, &points)
     })?;
     let mut text = format!(

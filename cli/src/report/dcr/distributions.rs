@@ -53,8 +53,8 @@ pub fn section(study: &Study) -> Result<String> {
 /// The variance of the distances to the nearest point after each step, in squares of `d_max`, from a random start.
 fn variances(context: &Context, thesis: Thesis, count: usize, seed: u64) -> Result<Vec<f64>> {
     let domain = Domain::unit(Boundary::Periodic);
-    let start = Start::Random.points(context, domain.boundary, count, seed)?;
-    let options = thesis_options(thesis, Neighbourhood::Delaunay, domain.boundary, seed);
+    let start = Start::Random.points(context, domain, count, seed)?;
+    let options = thesis_options(thesis, Neighbourhood::Delaunay, domain, seed);
     let options = Options { tolerance: 0.0, max_iterations: MARKS[MARKS.len() - 1] as u32, ..options };
     let mut states = Vec::new();
     let mut observe = |points: &[[f32; 2]]| states.push(points.to_vec());

@@ -90,8 +90,8 @@ fn settings() -> Vec<Setting> {
 impl Outcome {
     fn of(context: &Context, setting: &Setting, count: usize, seed: u64) -> Result<Self> {
         let domain = Domain::unit(Boundary::Periodic);
-        let start = Start::Random.points(context, domain.boundary, count, seed)?;
-        let options = thesis_options(setting.thesis, setting.neighbourhood, domain.boundary, seed);
+        let start = Start::Random.points(context, domain, count, seed)?;
+        let options = thesis_options(setting.thesis, setting.neighbourhood, domain, seed);
         let (points, report) = relax(context, &options, &start, None)?;
         let half = (FREQUENCY_LIMIT * (count as f64).sqrt()).ceil() as usize + 1;
         let spectrum = periodogram(context, &domain, &points, 2 * half + 1, None)?;

@@ -38,7 +38,7 @@ impl Treatment {
     }
 
     fn set(self, context: &Context, count: usize, seed: u64) -> Result<Vec<[f32; 2]>> {
-        let points = Start::Kdrt.points(context, Boundary::Periodic, count, seed)?;
+        let points = Start::Kdrt.points(context, Domain::unit(Boundary::Periodic), count, seed)?;
         self.apply(context, points, seed)
     }
 }
