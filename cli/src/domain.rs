@@ -3,11 +3,11 @@
 use azulejo::{Boundary, Domain};
 use clap::Args;
 
-use crate::ply::PointSet;
+use crate::formats::PointSet;
 
 #[derive(Args)]
 pub struct DomainArgs {
-    /// The corners of the rectangle [default: that of the input file, or the unit square].
+    /// The corners of the rectangle [default: that of the input, or the unit square].
     #[arg(long, num_args = 4, value_names = ["X0", "Y0", "X1", "Y1"], allow_negative_numbers = true)]
     domain: Option<Vec<f64>>,
     /// Let the rectangle end at its border; otherwise it is periodic.
@@ -23,6 +23,17 @@ impl DomainArgs {
     /// The domain asked for, or the unit square.
     pub fn or_unit(&self) -> Domain {
         self.asked().unwrap_or(Domain::unit(self.boundary()))
+    }
+
+    /// The domain asked for, or the smallest around some rectangles, or the unit square.
+    pub fn or_box_of(&self, rectangles: &[Domain]) -> Domain {
+        let around = rectangles.iter().copied().reduce(|a, b| Domain {
+            min: [0, 1].map(|axis: usize| a.min[axis].min(b.min[axis])),
+            max: [0, 1].map(|axis: usize| a.max[axis].max(b.max[axis])),
+            ..a
+        });
+        let around = around.map(|around| Domain { boundary: self.boundary(), ..around });
+        self.asked().or(around).unwrap_or(Domain::unit(self.boundary()))
     }
 
     fn asked(&self) -> Option<Domain> {
@@ -70,7 +81,7 @@ mod tests {
     use super::*;
 
     fn set(corners: [[f32; 2]; 2], domain: Option<Domain>) -> PointSet {
-        PointSet { positions: corners.map(|[x, y]| [x, y, 0.0]).to_vec(), domain }
+        PointSet { positions: corners.map(|[x, y]| [x, y, 0.0]).to_vec(), domain, ..PointSet::default() }
     }
 
     #[test]

@@ -5,6 +5,7 @@ pub mod canvas;
 mod detail;
 mod discs;
 pub mod palette;
+pub mod panels;
 pub mod plot;
 pub mod points;
 pub mod render;

@@ -12,8 +12,7 @@ use azulejo::{Context, Domain, Error, Result, psp};
 use clap::{Args, ValueEnum};
 
 use crate::domain::DomainArgs;
-use crate::output::Output;
-use crate::ply;
+use crate::formats::{Coordinates, Destination, Input};
 use crate::progress::watched;
 use crate::text::{grouped, rounded};
 
@@ -53,15 +52,14 @@ impl Density {
     }
 }
 
-/// Where samples come from and go to.
+/// What all samplers have.
 #[derive(Args)]
-struct Common {
-    /// The samples: a binary PLY file.
-    #[arg(short, long, value_name = "FILE.ply")]
-    output: PathBuf,
+pub struct Common {
+    #[command(flatten)]
+    pub destination: Destination,
     /// Another seed gives another set of the same kind.
     #[arg(long, value_name = "SEED", default_value_t = 0)]
-    seed: u64,
+    pub seed: u64,
 }
 
 #[derive(Args)]
@@ -79,7 +77,7 @@ pub struct Plane {
 
 impl Plane {
     pub fn run(&self, context: &Context) -> Result<()> {
-        let output = Output::at(&self.common.output)?;
+        let output = self.common.destination.open()?;
         let domain = self.domain.or_unit();
         let start = Instant::now();
         let (points, about) = match self.density.count {
@@ -87,8 +85,8 @@ impl Plane {
             None => self.at(self.density.radius.unwrap_or(f64::NAN), context, domain)?,
         };
         let seconds = start.elapsed().as_secs_f64();
-        ply::write_plane(&output, &domain, &points)?;
-        report(&self.common.output, points.len(), &about, seconds);
+        output.write_plane(&domain, &points)?;
+        report(&self.common.destination.output, points.len(), &about, seconds);
         Ok(())
     }
 
@@ -178,7 +176,7 @@ enum Normals {
 
 impl Surface {
     pub fn run(&self, context: &Context) -> Result<()> {
-        let output = Output::at(&self.common.output)?;
+        let output = self.common.destination.open()?;
         let mesh = Arc::new(Mesh::load(&self.mesh)?);
         if self.normals == Normals::Interpolated && !mesh.has_normals() {
             let reason = format!("{} has none to be interpolated", self.mesh.display());
@@ -198,19 +196,21 @@ impl Surface {
             Normals::Geometric => &samples.normals,
             Normals::Interpolated => &samples.interpolated_normals,
         };
-        ply::write_surface(&output, &samples, normals)?;
+        output.write_surface(&samples, normals)?;
         let asked = self.density.count.map(|count| compared(samples.len(), count)).unwrap_or_default();
         let about = format!("{asked}radius {}", rounded(radius, 4));
-        report(&self.common.output, samples.len(), &about, done.seconds);
+        report(&self.common.destination.output, samples.len(), &about, done.seconds);
         Ok(())
     }
 }
 
 #[derive(Args)]
 pub struct Relax {
-    /// The set: a PLY file with x and y.
-    #[arg(value_name = "POINTS.ply")]
+    /// The set: a .ply, .npy, .csv, .xyz or .raw file.
+    #[arg(value_name = "POINTS")]
     input: PathBuf,
+    #[command(flatten)]
+    format: Input,
     #[command(flatten)]
     common: Common,
     #[command(flatten)]
@@ -233,8 +233,8 @@ enum Neighbours {
 
 impl Relax {
     pub fn run(&self, context: &Context) -> Result<()> {
-        let output = Output::at(&self.common.output)?;
-        let set = ply::read(&self.input)?;
+        let output = self.common.destination.open()?;
+        let set = self.format.read(&self.input, Coordinates::Plane)?;
         let domain = self.domain.of(&set).ok_or_else(|| Error::Format {
             path: self.input.clone(),
             reason: "does not name its domain, and does not fill the unit square: give --domain".to_owned(),
@@ -250,9 +250,9 @@ impl Relax {
         let start = Instant::now();
         let (relaxed, done) = watched("relax", |progress| dcr::relax(context, &options, &points, Some(progress)))?;
         let seconds = start.elapsed().as_secs_f64();
-        ply::write_plane(&output, &domain, &relaxed)?;
+        output.write_plane(&domain, &relaxed)?;
         let about = format!("{} steps, smallest distance {}", done.iterations, rounded(done.smallest_distance, 4));
-        report(&self.common.output, relaxed.len(), &about, seconds);
+        report(&self.common.destination.output, relaxed.len(), &about, seconds);
         Ok(())
     }
 }
@@ -265,7 +265,7 @@ fn compared(count: usize, asked: u64) -> String {
 }
 
 /// One line that says what was written. Nobody may be listening.
-fn report(path: &Path, count: usize, about: &str, seconds: f64) {
+pub fn report(path: &Path, count: usize, about: &str, seconds: f64) {
     let line = format!("{}: {} samples, {about}, {seconds:.2} s", path.display(), grouped(count));
     _ = writeln!(io::stdout(), "{line}");
 }

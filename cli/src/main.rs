@@ -1,23 +1,38 @@
 //! The command-line tool of azulejo: samples into files, and pictures of them.
 
+mod analyze;
 mod domain;
 mod draw;
+mod formats;
 mod generate;
+mod merge;
 mod output;
 mod ply;
 mod procedural;
 mod progress;
+mod quality;
+mod reference;
 mod report;
+mod shell;
+mod summary;
 mod text;
 
 use std::process::ExitCode;
 
 use azulejo::{Context, Result};
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, Parser, Subcommand};
 
-/// Blue-noise samples in the plane and on meshes: make them, relax them, draw them.
+/// What the help of all commands ends with.
+const AFTERWARDS: &str = "\
+Files of points are PLY (.ply), NumPy arrays (.npy), text (.csv, .xyz, .txt) or little-endian 32-bit floats (.raw, .f32, .bin). \
+PLY alone names the domain of a set of the plane.
+
+Exit codes: 0 done; 1 refused or failed, with the reason on the standard error; 2 wrong usage. Files are written whole or \
+not at all.";
+
+/// Blue-noise samples in the plane and on meshes: make them, relax them, measure them, draw them.
 #[derive(Parser)]
-#[command(name = "azulejo", version, arg_required_else_help = true)]
+#[command(name = "azulejo", version, arg_required_else_help = true, after_help = AFTERWARDS)]
 struct Cli {
     /// Number of threads; 0 takes one per core. Results do not depend on it.
     #[arg(long, global = true, value_name = "N", default_value_t = 0)]
@@ -34,6 +49,10 @@ enum Command {
     Surface(generate::Surface),
     /// Relax a set of the plane by distance constraints (DCR).
     Relax(generate::Relax),
+    /// Glue sets that were made apart into one maximal set (KDRT).
+    Merge(merge::Merge),
+    /// Measure sets of the plane or samples of a mesh: a table, JSON, plots.
+    Analyze(analyze::Analyze),
     /// Write a mesh that needs no download.
     Mesh(procedural::Procedural),
     /// Draw samples as a PNG picture.
@@ -42,6 +61,10 @@ enum Command {
     /// Measure the library and write a page with plots.
     #[command(subcommand)]
     Report(report::Report),
+    /// Print the completions for a shell.
+    Completions(shell::Completions),
+    /// Print a page of the manual.
+    Man(shell::Man),
 }
 
 fn run(cli: &Cli) -> Result<()> {
@@ -50,14 +73,20 @@ fn run(cli: &Cli) -> Result<()> {
         Command::Plane(plane) => plane.run(&context),
         Command::Surface(surface) => surface.run(&context),
         Command::Relax(relax) => relax.run(&context),
+        Command::Merge(merge) => merge.run(&context),
+        Command::Analyze(analyze) => analyze.run(&context),
         Command::Mesh(procedural) => procedural.run(),
         Command::Draw(draw) => draw.run(&context),
         Command::Report(report) => report.run(&context),
+        Command::Completions(completions) => completions.run(Cli::command()),
+        Command::Man(man) => man.run(Cli::command()),
     }
 }
 
 /// 0: done; 1: refused or failed, with the reason on the standard error; 2: wrong usage (by clap).
 fn main() -> ExitCode {
+    // Where signals cannot be caught, they end the process all the same.
+    _ = output::remove_on_signals();
     match run(&Cli::parse()) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {

@@ -1,10 +1,15 @@
 //! Output files that are there whole or not at all.
 
+mod temporary;
+
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
 use azulejo::{Error, Result};
+
+use temporary::Temporary;
+pub use temporary::remove_on_signals;
 
 /// A file to be written at the end of a command. It is written beside its place and renamed when it is whole.
 pub struct Output {
@@ -49,14 +54,9 @@ impl Output {
         if fs::metadata(&self.target).is_ok_and(|found| !found.is_file()) {
             return fill(&File::options().write(true).open(&self.target)?, content);
         }
-        let mut builder = tempfile::Builder::new();
-        builder.prefix(".azulejo-");
-        #[cfg(unix)]
-        builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-        let temporary = builder.tempfile_in(self.directory())?;
-        fill(temporary.as_file(), content)?;
-        temporary.persist(&self.target).map_err(|error| error.error)?;
-        Ok(())
+        let temporary = Temporary::new(self.directory())?;
+        fill(temporary.file(), content)?;
+        temporary.persist(&self.target)
     }
 }
 

@@ -3,48 +3,35 @@
 //! A set of the plane names its domain in a comment, `domain <x0> <y0> <x1> <y1> periodic|bounded`: points alone do
 //! not tell the period of a torus. Files without that comment are read too.
 
-use std::fs::File;
-use std::io::{self, BufReader, Write};
-use std::path::Path;
+use std::io::{self, Write};
 
-use azulejo::{Boundary, Domain, Error, Result, SurfaceSamples};
+use azulejo::{Boundary, Domain, SurfaceSamples};
 use ply_rs_bw::parser::{ParseError, Parser, Reader};
 use ply_rs_bw::ply::{Header, PropertyAccess, PropertyAccessResult};
 
+use crate::formats::{Coordinates, PointSet};
 use crate::output::Output;
 
-/// What a file of points holds, whoever wrote it.
-pub struct PointSet {
-    /// Positions; 0 where the file has no z.
-    pub positions: Vec<[f32; 3]>,
-    /// The domain that the file names.
-    pub domain: Option<Domain>,
-}
+/// The properties of a vertex that are kept.
+const NAMES: [&str; 6] = ["x", "y", "z", "nx", "ny", "nz"];
 
-impl PointSet {
-    /// The positions without z.
-    pub fn plane_positions(&self) -> Vec<[f32; 2]> {
-        self.positions.iter().map(|&[x, y, _]| [x, y]).collect()
-    }
-}
+/// A vertex, of which position and normal are kept. A coordinate that the file has as an integer type counts too.
+struct Vertex([f32; 6]);
 
-/// A vertex, of which only the position is kept. A coordinate that the file has as an integer type counts too.
-struct Position([f32; 3]);
-
-impl Position {
+impl Vertex {
     /// For every type of number that a file may hold.
     fn set(&mut self, name: &str, value: f32) -> PropertyAccessResult {
-        let Some(axis) = ["x", "y", "z"].iter().position(|&axis| axis == name) else {
+        let Some(place) = NAMES.iter().position(|&known| known == name) else {
             return PropertyAccessResult::Ignored;
         };
-        self.0[axis] = value;
+        self.0[place] = value;
         PropertyAccessResult::Set
     }
 }
 
-impl PropertyAccess for Position {
+impl PropertyAccess for Vertex {
     fn new() -> Self {
-        Self([0.0; 3])
+        Self([0.0; 6])
     }
     fn set_char(&mut self, name: &str, value: i8) -> PropertyAccessResult {
         self.set(name, value.into())
@@ -72,34 +59,28 @@ impl PropertyAccess for Position {
     }
 }
 
-/// Reads the vertices of a PLY file, text or binary, in any order of properties.
-pub fn read(path: &Path) -> Result<PointSet> {
-    let read_error = |source| Error::Io { path: path.into(), source };
-    let format_error = |reason: String| Error::Format { path: path.into(), reason };
+/// The vertices of a PLY file, text or binary, in any order of properties.
+pub fn parse(bytes: &[u8], coordinates: Coordinates) -> Result<PointSet, String> {
     // The reader's messages go on with what it had hoped for, line after line.
-    let parse_error = |error: ParseError| {
-        format_error(error.to_string().lines().next().unwrap_or_default().trim_end_matches('.').to_owned())
+    let explain = |error: ParseError| {
+        error.to_string().lines().next().unwrap_or_default().trim_end_matches('.').replacen("Line", "line", 1)
     };
-    let file = File::open(path).map_err(read_error)?;
-    if file.metadata().map_err(read_error)?.is_dir() {
-        return Err(read_error(io::ErrorKind::IsADirectory.into()));
+    let mut reader = Reader::new(bytes);
+    let parser = Parser::<Vertex>::new();
+    let header = parser.read_header(&mut reader).map_err(explain)?;
+    let (first, vertex) = header.elements.first().ok_or("no element in the header")?;
+    let has = |names: &[&str]| names.iter().all(|&name| vertex.properties.contains_key(name));
+    if first != "vertex" || !has(&NAMES[..coordinates.count()]) {
+        return Err(format!("the first element is not a vertex with {}", NAMES[..coordinates.count()].join(", ")));
     }
-    let mut reader = Reader::new(BufReader::with_capacity(1 << 18, file));
-    let parser = Parser::<Position>::new();
-    let header = parser.read_header(&mut reader).map_err(parse_error)?;
-    let (first, vertex) = header.elements.first().ok_or_else(|| format_error("no element in the header".to_owned()))?;
-    if first != "vertex" || !["x", "y"].iter().all(|&axis| vertex.properties.contains_key(axis)) {
-        return Err(format_error("the first element is not a vertex with x and y".to_owned()));
-    }
-    let vertices = parser.read_payload_for_element(&mut reader, vertex, &header).map_err(parse_error)?;
+    let vertices = parser.read_payload_for_element(&mut reader, vertex, &header).map_err(explain)?;
     if let Some(i) = vertices.iter().position(|vertex| !vertex.0.iter().all(|x| x.is_finite())) {
-        return Err(format_error(format!("vertex {i} is {:?}, not finite", vertices[i].0)));
+        return Err(format!("vertex {i} is {:?}, not finite", &vertices[i].0));
     }
-    if vertices.is_empty() {
-        return Err(format_error("no points".to_owned()));
-    }
-    let domain = named_domain(&header);
-    Ok(PointSet { positions: vertices.into_iter().map(|vertex| vertex.0).collect(), domain })
+    let part = |vertex: &Vertex, from: usize| std::array::from_fn(|axis| vertex.0[from + axis]);
+    let normals = if has(&NAMES[3..]) { vertices.iter().map(|vertex| part(vertex, 3)).collect() } else { Vec::new() };
+    let positions = vertices.iter().map(|vertex| part(vertex, 0)).collect();
+    Ok(PointSet { positions, normals, domain: named_domain(&header) })
 }
 
 /// The domain of the header's comments, if one is there and is a rectangle.
@@ -119,7 +100,7 @@ fn named_domain(header: &Header) -> Option<Domain> {
 }
 
 /// Writes a set of the plane with its domain.
-pub fn write_plane(output: &Output, domain: &Domain, points: &[[f32; 2]]) -> Result<()> {
+pub fn write_plane(output: &Output, domain: &Domain, points: &[[f32; 2]]) -> azulejo::Result<()> {
     let ([x0, y0], [x1, y1]) = (domain.min, domain.max);
     let boundary = match domain.boundary {
         Boundary::Periodic => "periodic",
@@ -133,7 +114,7 @@ pub fn write_plane(output: &Output, domain: &Domain, points: &[[f32; 2]]) -> Res
 }
 
 /// Writes samples of a surface with all that is known of them, and with these of their normals.
-pub fn write_surface(output: &Output, samples: &SurfaceSamples, normals: &[[f32; 3]]) -> Result<()> {
+pub fn write_surface(output: &Output, samples: &SurfaceSamples, normals: &[[f32; 3]]) -> azulejo::Result<()> {
     const PROPERTIES: [&str; 9] =
         ["float x", "float y", "float z", "float nx", "float ny", "float nz", "uint triangle", "float u", "float v"];
     output.write(|writer| {
@@ -148,7 +129,7 @@ pub fn write_surface(output: &Output, samples: &SurfaceSamples, normals: &[[f32;
 }
 
 /// Writes a triangle mesh, with faces as `vertex_indices`.
-pub fn write_mesh(output: &Output, positions: &[[f32; 3]], triangles: &[[u32; 3]]) -> Result<()> {
+pub fn write_mesh(output: &Output, positions: &[[f32; 3]], triangles: &[[u32; 3]]) -> azulejo::Result<()> {
     output.write(|writer| {
         writeln!(writer, "ply\nformat binary_little_endian 1.0\nelement vertex {}", positions.len())?;
         writeln!(writer, "property float x\nproperty float y\nproperty float z\nelement face {}", triangles.len())?;

@@ -2,6 +2,7 @@
 
 mod adaptive;
 mod dcr;
+mod gallery;
 mod head;
 mod kdrt;
 mod page;
@@ -22,6 +23,8 @@ pub enum Report {
     Psp(psp::Psp),
     /// Measure what DCR makes of random and of KDRT's sets, against others' methods; takes some minutes.
     Dcr(dcr::Dcr),
+    /// Show samplers side by side: points, spectra and a zone plate; takes some minutes.
+    Gallery(gallery::Gallery),
 }
 
 impl Report {
@@ -30,6 +33,7 @@ impl Report {
             Self::Kdrt(kdrt) => kdrt.run(context),
             Self::Psp(psp) => psp.run(context),
             Self::Dcr(dcr) => dcr.run(context),
+            Self::Gallery(gallery) => gallery.run(context),
         }
     }
 }

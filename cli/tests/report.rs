@@ -94,10 +94,41 @@ fn a_quick_report_of_relaxation_has_every_method_and_plausible_figures() {
 }
 
 #[test]
+fn a_quick_gallery_shows_every_sampler_with_its_spectrum_and_zone_plate() {
+    let workshop = Workshop::new();
+    let said = workshop.succeed(&["report", "gallery", "--quick", "--out", "pages/docs", "--threads", "2"]);
+    assert!(said.is_empty(), "{said}");
+    let page = std::fs::read_to_string(workshop.path("pages/docs/gallery.md")).unwrap();
+    for name in ["samplers", "relaxed", "zone-plate"] {
+        assert!(page.contains(&format!("](gallery/{name}.png)")), "{name}");
+        let picture = image::open(workshop.path(&format!("pages/docs/gallery/{name}.png"))).unwrap().to_rgb8();
+        assert!(picture.width() >= 1400 && picture.pixels().any(|pixel| pixel[0] < 64));
+    }
+    let rows = |cells: usize| {
+        let rows = page.lines().map(|line| line.split('|').map(str::trim).collect::<Vec<_>>());
+        let is_row = move |row: &Vec<&str>| row.len() == cells && row[2].parse::<f64>().is_ok();
+        rows.filter(is_row).map(|row| row.iter().map(|cell| cell.to_string()).collect::<Vec<_>>()).collect::<Vec<_>>()
+    };
+    let (figures, errors) = (rows(11), rows(5));
+    let names = ["random", "jittered", "Halton", "flat quadtree", "KDRT", "DCR, best, Delaunay", "DCR, best, nearest"];
+    assert_eq!((figures.len(), errors.len()), (9, 9), "{page}");
+    assert!(figures.iter().zip(names).all(|(row, name)| row[1] == name), "{figures:?}");
+    let number = |row: &[String], cell: usize| row[cell].parse::<f64>().unwrap();
+    // The order in which the samplers have always been ranked: by spacing, and by what they show of the plate.
+    for (better, worse) in [(1, 0), (3, 1), (3, 2), (5, 3), (6, 5)] {
+        assert!(number(&figures[better], 2) > number(&figures[worse], 2), "{better} {worse}: {figures:?}");
+    }
+    for (better, worse) in [(1, 0), (2, 0), (3, 1), (3, 2), (5, 3)] {
+        assert!(number(&errors[better], 2) < number(&errors[worse], 2), "{better} {worse}: {errors:?}");
+    }
+    assert!(!page.contains("NaN"));
+}
+
+#[test]
 fn a_report_is_refused_where_it_cannot_be_written() {
     let workshop = Workshop::new();
     workshop.write("file", "");
-    for page in ["kdrt", "psp", "dcr"] {
+    for page in ["kdrt", "psp", "dcr", "gallery"] {
         let said = workshop.refuse(&["report", page, "--quick", "--out", "file"], 1);
         assert!(said.starts_with("error: file"), "{said}");
     }

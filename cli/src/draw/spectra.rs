@@ -1,6 +1,8 @@
 //! Which part of a set is shown, and the power spectrum of it or of many such parts.
 
-use azulejo::analysis::spectrum::{Periodogram, periodogram};
+use std::ops::Range;
+
+use azulejo::analysis::spectrum::{Periodogram, periodogram, sparse_periodogram};
 use azulejo::{Boundary, Context, Domain, Progress, Result};
 
 /// Frequencies are shown up to this many sqrt(density).
@@ -45,6 +47,12 @@ impl Windows {
         Self { domains: (0..windows).map(window).collect(), density }
     }
 
+    /// What is to be said of a spectrum of these windows.
+    pub fn remark(&self) -> String {
+        let count = self.domains.len();
+        if count > 1 { format!("mean of {count} windows") } else { String::new() }
+    }
+
     /// The mean of the periodograms of all windows, out to the [`FREQUENCY_LIMIT`].
     pub fn spectrum(&self, context: &Context, points: &[[f32; 2]], progress: &Progress) -> Result<Periodogram> {
         let count = self.domains.len() as f64;
@@ -56,6 +64,23 @@ impl Windows {
         });
         Periodogram::mean(&spectra.collect::<Result<Vec<_>>>()?)
     }
+}
+
+/// The power of `points` up to `limit`, in units of sqrt(density), on a grid of no more than about `most` frequencies per
+/// side: of a large set only every so many of them are taken. Sets of `count` points have the same grid.
+pub fn spectrum_up_to(
+    context: &Context,
+    domain: &Domain,
+    points: &[[f32; 2]],
+    count: usize,
+    limit: f64,
+    most: usize,
+) -> Result<Periodogram> {
+    let [width, height] = domain.extent();
+    let waves = limit * width.max(height) * (count as f64 / domain.area()).sqrt();
+    let stride = (2.0 * waves / most as f64).ceil().max(1.0);
+    let half = (waves / stride).ceil() as usize;
+    sparse_periodogram(context, domain, points, 2 * half + 1, stride as usize, None)
 }
 
 /// The points of a window; on a torus all points.
@@ -78,6 +103,23 @@ pub fn power_at(spectrum: &Periodogram, frequency: [f64; 2]) -> f64 {
     let [(left, u), (low, v)] = [x, y].map(|k| (k.floor(), k - k.floor()));
     let row = |row| at(left, row) * (1.0 - u) + at(left + 1.0, row) * u;
     row(low) * (1.0 - v) + row(low + 1.0) * v
+}
+
+/// The mean power of the grid's frequencies in a rectangle; where there is none, the power in its middle.
+pub fn mean_power(spectrum: &Periodogram, x: Range<f64>, y: Range<f64>) -> f64 {
+    let size = spectrum.size();
+    let within = |range: &Range<f64>, axis: usize| {
+        let place = |frequency: f64| (frequency / spectrum.frequency_step()[axis]).ceil() + (size / 2) as f64;
+        let [start, end] = [range.start, range.end].map(|frequency| place(frequency).clamp(0.0, size as f64) as usize);
+        start..end
+    };
+    let (columns, rows) = (within(&x, 0), within(&y, 1));
+    if columns.is_empty() || rows.is_empty() {
+        return power_at(spectrum, [0.5 * (x.start + x.end), 0.5 * (y.start + y.end)]);
+    }
+    let count = columns.len() * rows.len();
+    let row = |row: usize| spectrum.power()[row * size..][columns.clone()].iter().map(|&power| f64::from(power));
+    rows.flat_map(row).sum::<f64>() / count as f64
 }
 
 #[cfg(test)]
@@ -114,5 +156,18 @@ mod tests {
         let between = 0.5 * (power(3, 3) + power(3, 4));
         assert!((power_at(&spectrum, [0.5, 0.75]) - between).abs() < 1e-12);
         assert_eq!(power_at(&spectrum, [9.0, 0.0]), 0.0);
+    }
+
+    #[test]
+    fn the_mean_power_of_a_rectangle_is_that_of_its_frequencies() {
+        let context = Context::new(1).unwrap();
+        let points = [[0.1, 0.2], [0.5, 0.9], [0.3, 0.4], [0.7, 0.1]];
+        let spectrum = periodogram(&context, &Domain::unit(Boundary::Periodic), &points, 5, None).unwrap();
+        // Frequencies are half of whole numbers. The end of a range is not in it.
+        let mean = mean_power(&spectrum, 0.4..1.1, -0.6..0.0);
+        let expected = 0.5 * (power_at(&spectrum, [0.5, -0.5]) + power_at(&spectrum, [1.0, -0.5]));
+        assert!((mean - expected).abs() < 1e-12);
+        assert_eq!(mean_power(&spectrum, 0.1..0.3, 0.4..0.6), power_at(&spectrum, [0.2, 0.5]));
+        assert_eq!(mean_power(&spectrum, 7.0..8.0, 0.0..1.0), 0.0);
     }
 }

@@ -13,8 +13,8 @@ use super::detail::most_interesting;
 use super::palette::{COBALT, INK, SLATE};
 use super::render::render;
 use super::stage::Stage;
+use crate::formats::{Coordinates, Input};
 use crate::output::Output;
-use crate::ply;
 use crate::progress::watched;
 use crate::text::grouped;
 
@@ -34,9 +34,11 @@ pub struct Surface {
     /// The mesh: OBJ, PLY or STL.
     #[arg(value_name = "MESH")]
     mesh: PathBuf,
-    /// The samples: a PLY file with x, y and z.
-    #[arg(value_name = "SAMPLES.ply")]
+    /// The samples: a .ply, .npy, .csv, .xyz or .raw file.
+    #[arg(value_name = "SAMPLES")]
     samples: PathBuf,
+    #[command(flatten)]
+    format: Input,
     /// The picture.
     #[arg(short, long, value_name = "FILE.png")]
     output: PathBuf,
@@ -52,7 +54,7 @@ impl Surface {
     pub fn run(&self, context: &Context) -> Result<()> {
         let output = Output::at(&self.output)?;
         let mesh = Mesh::load(&self.mesh)?;
-        let samples = ply::read(&self.samples)?.positions;
+        let samples = self.format.read(&self.samples, Coordinates::Space)?.positions;
         let name = self.mesh.file_stem().unwrap_or_default().to_string_lossy();
         let stage = Stage::new(context, &mesh, &samples, self.cutaway)?;
         picture(context, &name, &stage, self.size, &output)

@@ -5,9 +5,10 @@ use std::fmt::Write;
 use super::head::verdict;
 use super::kdrt::{Effort, Sampler};
 use super::pictures::{STAGES, stage_times};
-use super::statistics::{ANNULUS, CONTRAST_RANGE, GROUPS, Peak, Statistics, Summary};
+use super::statistics::{ANNULUS, CONTRAST_RANGE, GROUPS, Peak, Statistics};
 use super::times::{LeafTimes, Times};
 use crate::generate::MAXIMAL_DENSITY;
+use crate::summary::Summary;
 use crate::text::{grouped, rounded};
 
 /// The thesis's figures for its leaf sizes: table 2.2 in percent, and million samples per second on its CPU (Core

@@ -5,6 +5,7 @@ use azulejo::{Boundary, Context, Domain, Progress, Result};
 
 use super::kdrt::{Effort, Sampler, radius};
 use crate::draw::spectra::FREQUENCY_LIMIT;
+use crate::summary::Summary;
 
 /// Groups of sets, in each of which spectra are averaged: the largest value of a few such means is known to chance.
 pub const GROUPS: u64 = 5;
@@ -16,29 +17,6 @@ pub const CONTRAST_RANGE: std::ops::Range<f64> = 0.5..2.0;
 /// The largest width of a fill block of KDRT and of a cell of the quadtree, in radii.
 const BLOCK: f64 = 4.8;
 const CELL: f64 = std::f64::consts::FRAC_1_SQRT_2;
-
-/// What is known of a quantity from some measurements of it.
-pub struct Summary {
-    pub mean: f64,
-    /// The standard error of the mean.
-    pub error: f64,
-    pub low: f64,
-    pub high: f64,
-}
-
-impl Summary {
-    pub fn of(values: &[f64]) -> Self {
-        let count = values.len() as f64;
-        let mean = values.iter().sum::<f64>() / count;
-        let squares: f64 = values.iter().map(|value| (value - mean).powi(2)).sum();
-        Self {
-            mean,
-            error: (squares / (count - 1.0).max(1.0) / count).sqrt(),
-            low: values.iter().copied().fold(f64::INFINITY, f64::min),
-            high: values.iter().copied().fold(f64::NEG_INFINITY, f64::max),
-        }
-    }
-}
 
 /// The largest of some frequencies.
 pub struct Peak {
@@ -149,14 +127,6 @@ fn harmonics(radius: f64, half: i64) -> [Vec<[i64; 2]>; 3] {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn a_summary_has_mean_error_and_range() {
-        let summary = Summary::of(&[1.0, 2.0, 3.0, 6.0]);
-        assert_eq!((summary.mean, summary.low, summary.high), (3.0, 1.0, 6.0));
-        assert!((summary.error - (14.0f64 / 3.0 / 4.0).sqrt()).abs() < 1e-12);
-        assert_eq!(Summary::of(&[5.0]).error, 0.0);
-    }
 
     #[test]
     fn harmonics_are_multiples_of_what_is_regular_in_half_of_the_plane() {

@@ -22,8 +22,15 @@ impl Workshop {
         fs::write(self.path(name), content).unwrap();
     }
 
+    /// The program in this directory.
+    pub fn command(&self, arguments: &[&str]) -> Command {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_azulejo"));
+        command.args(arguments).current_dir(&self.0);
+        command
+    }
+
     pub fn run(&self, arguments: &[&str]) -> Output {
-        Command::new(env!("CARGO_BIN_EXE_azulejo")).args(arguments).current_dir(&self.0).output().unwrap()
+        self.command(arguments).output().unwrap()
     }
 
     /// Runs a command that must succeed, and say nothing on the standard error: it is not a terminal.

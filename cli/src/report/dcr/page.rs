@@ -6,10 +6,11 @@ use azulejo::Context;
 use azulejo::dcr::Neighbourhood;
 
 use super::Effort;
-use super::quality::{Measured, Quality};
+use super::measured::Measured;
 use super::sets::{FIRST_SEED, METHODS};
+use crate::quality::Quality;
 use crate::report::head::{head, verdict};
-use crate::report::statistics::Summary;
+use crate::summary::Summary;
 use crate::text::{grouped, rounded};
 
 /// A figure, and which way is better for a set that shall have even distances and no more order than that takes.

@@ -13,7 +13,7 @@ use glam::DVec3;
 use super::Effort;
 use super::scenes::{radius, sphere};
 use super::ways::Way;
-use crate::report::statistics::Summary;
+use crate::summary::Summary;
 
 /// The bins of the density by facing angle, in degrees. No normal is farther than 54.7 degrees from the nearest of three
 /// orthogonal directions, and hardly any as far.

@@ -1,0 +1,109 @@
+"""Runs one peer from PyPI: peers.py NAME COUNT RADIUS OUT [MESH]
+
+Writes the samples to OUT, raw doubles, and prints seconds, seconds of processor time and megabytes as timing.rs does.
+"""
+
+import resource
+import sys
+import time
+
+import numpy
+
+
+def poisson_disk(count, radius, mesh):
+    from scipy.stats import qmc
+
+    sampler = qmc.PoissonDisk(2, radius=radius, rng=1)
+    return sampler.fill_space
+
+
+def halton_lloyd(count, radius, mesh):
+    from scipy.stats import qmc
+
+    return lambda: qmc.Halton(2, rng=1, optimization="lloyd").random(count)
+
+
+def lloyd_plane(count, radius, mesh):
+    import point_cloud_utils
+
+    return lambda: point_cloud_utils.lloyd_2d(count, num_lloyd=100)
+
+
+def open3d_elimination(count, radius, mesh):
+    import open3d
+
+    surface = open3d.io.read_triangle_mesh(mesh)
+    return lambda: numpy.asarray(surface.sample_points_poisson_disk(count).points)
+
+
+def meshlab(count, radius, mesh):
+    import pymeshlab
+
+    meshes = pymeshlab.MeshSet(verbose=False)
+    meshes.load_new_mesh(mesh)
+
+    def sample():
+        meshes.set_current_mesh(0)
+        meshes.generate_sampling_poisson_disk(radius=pymeshlab.PureValue(radius))
+        return meshes.current_mesh().vertex_matrix()
+
+    return sample
+
+
+def cloud_poisson_disk(count, radius, mesh):
+    import point_cloud_utils
+
+    vertices, faces = point_cloud_utils.load_mesh_vf(mesh)
+
+    def sample():
+        triangles, shares = point_cloud_utils.sample_mesh_poisson_disk(
+            vertices, faces, -1, radius=radius, use_geodesic_distance=False, random_seed=1
+        )
+        return point_cloud_utils.interpolate_barycentric_coords(faces, triangles, shares, vertices)
+
+    return sample
+
+
+def cloud_lloyd(count, radius, mesh):
+    import point_cloud_utils
+
+    vertices, faces = point_cloud_utils.load_mesh_vf(mesh)
+    return lambda: point_cloud_utils.sample_mesh_lloyd(vertices, faces, count)
+
+
+def igl_blue_noise(count, radius, mesh):
+    import igl
+    import trimesh
+
+    surface = trimesh.load(mesh)
+    vertices, faces = numpy.asarray(surface.vertices), numpy.asarray(surface.faces)
+    return lambda: igl.blue_noise(vertices, faces, radius)[2]
+
+
+def trimesh_even(count, radius, mesh):
+    import trimesh
+
+    surface = trimesh.load(mesh)
+    return lambda: trimesh.sample.sample_surface_even(surface, count, radius=radius, seed=1)[0]
+
+
+def memory(field):
+    with open("/proc/self/status") as status:
+        return next(int(line.split()[1]) / 1024 for line in status if line.startswith(field))
+
+
+def main():
+    name, count, radius, out, *mesh = sys.argv[1:]
+    sample = globals()[name](int(count), float(radius), mesh[0] if mesh else None)
+    held = memory("VmRSS")
+    usage = resource.getrusage(resource.RUSAGE_SELF)
+    start = time.perf_counter()
+    points = sample()
+    seconds = time.perf_counter() - start
+    after = resource.getrusage(resource.RUSAGE_SELF)
+    busy = after.ru_utime + after.ru_stime - usage.ru_utime - usage.ru_stime
+    print(seconds, busy, memory("VmHWM") - held)
+    numpy.ascontiguousarray(points, dtype="<f8").tofile(out)
+
+
+main()

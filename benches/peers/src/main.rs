@@ -1,0 +1,50 @@
+//! azulejo beside its peers: one run, one machine, one page.
+//!
+//! Each peer runs in a process of its own, which says how long its call took, how busy its threads were and how much memory it
+//! took on top; all that is judged here, from the samples that it wrote.
+
+mod judge;
+mod native;
+mod page;
+mod peers;
+mod timing;
+
+use std::error::Error;
+use std::path::PathBuf;
+
+use clap::{Parser, Subcommand};
+
+#[derive(Parser)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    /// Runs one peer that is written in Rust.
+    One { name: String, count: usize, radius: f64, out: PathBuf, mesh: Option<PathBuf> },
+    /// Runs all and writes the page.
+    All {
+        /// The Python that has the packages.
+        #[arg(long)]
+        python: PathBuf,
+        #[arg(long)]
+        mesh: PathBuf,
+        #[arg(long)]
+        page: PathBuf,
+        /// What the page says of the packages' versions.
+        #[arg(long)]
+        packages: String,
+    },
+}
+
+fn main() -> Result<(), Box<dyn Error>> {
+    match Cli::parse().command {
+        Command::One { name, count, radius, out, mesh } => native::run(&name, count, radius, &out, mesh.as_deref()),
+        Command::All { python, mesh, page, packages } => {
+            let tables = peers::run_all(&python, &mesh)?;
+            Ok(std::fs::write(page, page::page(&tables, &mesh, &packages)?)?)
+        }
+    }
+}

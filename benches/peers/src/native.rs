@@ -1,0 +1,97 @@
+//! The peers that are written in Rust, and azulejo itself.
+
+use std::error::Error;
+use std::fs::File;
+use std::io::{BufWriter, Write};
+use std::path::Path;
+use std::sync::Arc;
+
+use azulejo::mesh::Mesh;
+use azulejo::{Boundary, Context, Domain, dcr, kdrt, maximal, psp};
+use rand_06::SeedableRng as _;
+
+use crate::timing::{Cost, timed};
+
+/// Runs the peer of this name, writes its samples as raw doubles and prints what it cost.
+pub fn run(name: &str, count: usize, radius: f64, out: &Path, mesh: Option<&Path>) -> Result<(), Box<dyn Error>> {
+    let (samples, cost) = match (name, mesh) {
+        ("azulejo_plane_1", _) => plane(&Context::new(1)?, radius),
+        ("azulejo_plane", _) => plane(&Context::new(0)?, radius),
+        ("azulejo_maximal", _) => reference(radius),
+        ("azulejo_relaxed", _) => relaxed(count),
+        ("azulejo_surface_1", Some(mesh)) => surface(&Context::new(1)?, mesh, radius)?,
+        ("azulejo_surface", Some(mesh)) => surface(&Context::new(0)?, mesh, radius)?,
+        ("bluenoise", _) => bluenoise(radius),
+        ("fast_poisson", _) => fast_poisson(radius),
+        ("poisson_bridson", _) => poisson(radius, poisson::algorithm::Bridson),
+        ("poisson_ebeida", _) => poisson(radius, poisson::algorithm::Ebeida),
+        _ => return Err(format!("{name} is no peer, or needs a mesh").into()),
+    };
+    let mut file = BufWriter::new(File::create(out)?);
+    for value in samples {
+        file.write_all(&value.to_le_bytes())?;
+    }
+    println!("{} {} {}", cost.seconds, cost.busy, cost.megabytes);
+    Ok(file.flush()?)
+}
+
+type Run = (Vec<f64>, Cost);
+
+/// Coordinates, one after the other.
+fn flat<const N: usize, T: Into<f64> + Copy>((points, cost): (Vec<[T; N]>, Cost)) -> Run {
+    (points.iter().flatten().map(|&value| value.into()).collect(), cost)
+}
+
+fn domain() -> Domain {
+    Domain::unit(Boundary::Bounded)
+}
+
+fn plane(context: &Context, radius: f64) -> Run {
+    let options = kdrt::Options { radius, domain: domain(), leaf_size: 20.0, seed: 1 };
+    flat(timed(|| kdrt::sample(context, &options, None).expect("a plane")))
+}
+
+fn reference(radius: f64) -> Run {
+    let options = maximal::Options { radius, domain: domain(), seed: 1 };
+    let context = Context::new(1).expect("one thread");
+    flat(timed(|| maximal::sample(&context, &options, None).expect("a plane")))
+}
+
+/// From random points, as the Lloyd relaxations that it is compared with.
+fn relaxed(count: usize) -> Run {
+    use rand_09::{Rng, SeedableRng};
+    let mut random = rand_09::rngs::SmallRng::seed_from_u64(1);
+    let start: Vec<[f32; 2]> = (0..count).map(|_| random.random()).collect();
+    let context = Context::new(0).expect("threads");
+    let options = dcr::Options::new(domain(), dcr::Neighbourhood::Delaunay);
+    flat(timed(|| dcr::relax(&context, &options, &start, None).expect("points of the domain").0))
+}
+
+fn surface(context: &Context, mesh: &Path, radius: f64) -> Result<Run, Box<dyn Error>> {
+    let mesh = Arc::new(Mesh::load(mesh)?);
+    let options = psp::Options { seed: 1, ..psp::Options::new(radius) };
+    let (sampled, cost) = timed(|| psp::sample(context, &mesh, &options, None));
+    Ok(flat((sampled?.0.positions, cost)))
+}
+
+fn bluenoise(radius: f64) -> Run {
+    use bluenoise::BlueNoise;
+    flat(timed(|| {
+        let mut points = BlueNoise::<rand_09::rngs::SmallRng>::from_seed(1.0, 1.0, radius as f32, 1);
+        points.by_ref().map(|point| [point.x, point.y]).collect::<Vec<[f32; 2]>>()
+    }))
+}
+
+fn fast_poisson(radius: f64) -> Run {
+    flat(timed(|| fast_poisson::Poisson2D::new().with_dimensions([1.0, 1.0], radius).with_seed(1).generate()))
+}
+
+/// Its radius is that of disks that do not overlap: half of what it is elsewhere.
+fn poisson<A>(radius: f64, algorithm: A) -> Run
+where
+    A: poisson::algorithm::Creator<f64, nalgebra::Vector2<f64>>,
+{
+    let random = rand_06::rngs::SmallRng::seed_from_u64(1);
+    let builder = poisson::Builder::<f64, nalgebra::Vector2<f64>>::with_radius(radius / 2.0, poisson::Type::Normal);
+    flat(timed(|| builder.build(random, algorithm).generate().iter().map(|p| [p.x, p.y]).collect::<Vec<[f64; 2]>>()))
+}

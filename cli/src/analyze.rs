@@ -1,0 +1,102 @@
+//! `azulejo analyze`: what sets are like, as a table, as JSON and as pictures.
+
+mod figures;
+mod page;
+mod plane;
+mod plots;
+mod surface;
+
+use std::fs;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+use azulejo::mesh::Mesh;
+use azulejo::{Context, Error, Result};
+use clap::Args;
+
+use crate::domain::DomainArgs;
+use crate::formats::{Coordinates, Input, PointSet};
+use crate::output::Output;
+
+#[derive(Args)]
+pub struct Analyze {
+    /// The samples: .ply, .npy, .csv, .xyz or .raw files. Several are taken for sets of one kind, and averaged.
+    #[arg(value_name = "SAMPLES", required = true)]
+    files: Vec<PathBuf>,
+    #[command(flatten)]
+    input: Input,
+    #[command(flatten)]
+    domain: DomainArgs,
+    /// The mesh that the samples lie on: OBJ, PLY or STL.
+    #[arg(long, value_name = "MESH", conflicts_with_all = ["domain", "bounded"])]
+    mesh: Option<PathBuf>,
+    /// A radius that the set shall keep and cover.
+    #[arg(long, value_name = "R", allow_negative_numbers = true)]
+    radius: Option<f64>,
+    /// Print JSON, with the curves of the plots, instead of a table.
+    #[arg(long)]
+    json: bool,
+    /// Draw the samples, their spectrum and their distances as PNG pictures into a directory.
+    #[arg(long, value_name = "DIRECTORY")]
+    plots: Option<PathBuf>,
+}
+
+/// A set and its file.
+struct Set {
+    path: PathBuf,
+    points: PointSet,
+}
+
+impl Analyze {
+    pub fn run(&self, context: &Context) -> Result<()> {
+        if let Some(radius) = self.radius.filter(|radius| !(*radius > 0.0 && radius.is_finite())) {
+            let reason = format!("{radius} is not a positive finite number");
+            return Err(Error::InvalidArgument { argument: "--radius", reason });
+        }
+        if let Some(directory) = &self.plots {
+            fs::create_dir_all(directory).map_err(|source| Error::Io { path: directory.clone(), source })?;
+        }
+        let coordinates = if self.mesh.is_some() { Coordinates::Space } else { Coordinates::Plane };
+        let read = |path: &PathBuf| Ok(Set { path: path.clone(), points: self.input.read(path, coordinates)? });
+        let sets = self.files.iter().map(read).collect::<Result<Vec<_>>>()?;
+        let text = match &self.mesh {
+            Some(mesh) => self.surface(context, mesh, &sets)?,
+            None => self.plane(context, &sets)?,
+        };
+        // Nobody may be listening.
+        _ = io::stdout().write_all(text.as_bytes());
+        Ok(())
+    }
+
+    fn plane(&self, context: &Context, sets: &[Set]) -> Result<String> {
+        let domain = self.domain.of_or_around(&sets[0].points);
+        let measured = plane::Measured::of(context, &domain, sets, self.radius)?;
+        if let Some(directory) = &self.plots {
+            plots::plane(context, &domain, sets, &measured, directory)?;
+        }
+        Ok(if self.json {
+            page::plane_json(&domain, sets, &measured)
+        } else {
+            page::plane_table(&domain, sets, &measured)
+        })
+    }
+
+    fn surface(&self, context: &Context, path: &Path, sets: &[Set]) -> Result<String> {
+        let mesh = Mesh::load(path)?;
+        let measured = surface::Measured::of(context, &mesh, sets, self.radius)?;
+        if let Some(directory) = &self.plots {
+            let name = path.file_stem().unwrap_or_default().to_string_lossy();
+            plots::surface(context, &name, &mesh, sets, &measured, directory)?;
+        }
+        Ok(if self.json {
+            page::surface_json(path, &mesh, sets, &measured)
+        } else {
+            page::surface_table(path, &mesh, sets, &measured)
+        })
+    }
+}
+
+/// A picture in the directory of the plots.
+fn picture(directory: &Path, name: &str) -> Result<Output> {
+    Output::at(&directory.join(name))
+}

@@ -1,0 +1,84 @@
+//! What `analyze` prints.
+
+use std::path::Path;
+
+use azulejo::mesh::Mesh;
+use azulejo::{Boundary, Domain};
+use serde_json::{Value, json};
+
+use super::Set;
+use super::figures::{object, table};
+use super::plane::{self, NEAREST_BINS, NEAREST_REACH};
+use super::surface;
+use crate::text::{grouped, rounded};
+
+/// What the sets are, in a few words.
+fn title(sets: &[Set]) -> String {
+    match sets {
+        [set] => set.path.display().to_string(),
+        _ => format!("{} sets, the first of {}", sets.len(), sets[0].path.display()),
+    }
+}
+
+fn boundary(domain: &Domain) -> &'static str {
+    match domain.boundary {
+        Boundary::Periodic => "periodic",
+        Boundary::Bounded => "bounded",
+    }
+}
+
+pub fn plane_table(domain: &Domain, sets: &[Set], measured: &plane::Measured) -> String {
+    let [x, y] = [0, 1].map(|axis| format!("{} to {}", rounded(domain.min[axis], 6), rounded(domain.max[axis], 6)));
+    let rows = table(&measured.rows, sets.len());
+    format!("{}: x {x}, y {y}, {}\n\n{rows}", title(sets), boundary(domain))
+}
+
+pub fn surface_table(path: &Path, mesh: &Mesh, sets: &[Set], measured: &surface::Measured) -> String {
+    let (area, triangles) = (rounded(mesh.area(), 4), grouped(mesh.triangles().len()));
+    let rows = table(&measured.rows, sets.len());
+    let missing = if measured.differences.is_none() { "\nWithout normals there are no differences.\n" } else { "" };
+    format!("{}: on {} of {triangles} triangles, area {area}\n\n{rows}{missing}", title(sets), path.display())
+}
+
+fn files(sets: &[Set]) -> Vec<String> {
+    sets.iter().map(|set| set.path.display().to_string()).collect()
+}
+
+/// JSON as it is printed, on one line.
+fn printed(value: &Value) -> String {
+    format!("{value}\n")
+}
+
+pub fn plane_json(domain: &Domain, sets: &[Set], measured: &plane::Measured) -> String {
+    let annuli = measured.annuli.iter();
+    let radial = annuli.map(|annulus| json!([annulus.frequency, annulus.power, annulus.anisotropy]));
+    let distribution = measured.distribution.as_ref().map(|distribution| {
+        let pairs = std::iter::zip(distribution.distances(), distribution.density());
+        pairs.map(|(distance, density)| json!([distance, density])).collect::<Vec<_>>()
+    });
+    let middle = |bin: usize| (bin as f64 + 0.5) * NEAREST_REACH / NEAREST_BINS as f64;
+    let nearest = measured.nearest.iter().enumerate().map(|(bin, share)| json!([middle(bin), share]));
+    printed(&json!({
+        "files": files(sets),
+        "domain": { "min": domain.min, "max": domain.max, "boundary": boundary(domain) },
+        "figures": object(&measured.rows),
+        "radial": { "columns": ["frequency / √density", "power", "anisotropy"], "rows": radial.collect::<Vec<_>>() },
+        "distances": { "columns": ["distance / d_max", "density of pairs"], "rows": distribution },
+        "nearest": { "columns": ["distance / d_max", "share of points"], "rows": nearest.collect::<Vec<_>>() },
+    }))
+}
+
+pub fn surface_json(path: &Path, mesh: &Mesh, sets: &[Set], measured: &surface::Measured) -> String {
+    let radial = measured.differences.as_ref().map(surface::Measured::power);
+    let distances = measured.differences.as_ref().map(|differences| {
+        let shells = differences.radial();
+        shells.iter().map(|shell| json!([shell.distance, shell.density])).collect::<Vec<_>>()
+    });
+    printed(&json!({
+        "files": files(sets),
+        "mesh": { "file": path.display().to_string(), "triangles": mesh.triangles().len(), "area": mesh.area() },
+        "figures": object(&measured.rows),
+        "radial": { "columns": ["frequency / √density", "power"], "rows": radial },
+        "distances": { "columns": ["distance / mean spacing", "density of pairs"], "rows": distances },
+    }))
+}

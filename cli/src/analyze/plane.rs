@@ -1,0 +1,156 @@
+//! Sets of the plane, measured.
+
+use azulejo::analysis::coverage::{coverage_2d, covering_radius_2d};
+use azulejo::analysis::distribution::{RadialDistribution, radial_distribution};
+use azulejo::analysis::spacing::{nearest_distances_2d, nearest_histogram_2d};
+use azulejo::analysis::spectrum::{Annulus, Periodogram};
+use azulejo::{Context, Domain, Error, Progress, Result};
+
+use super::Set;
+use super::figures::{Figure, Row};
+use crate::draw::spectra::spectrum_up_to;
+use crate::formats::blame;
+use crate::progress::watched;
+use crate::quality::Quality;
+
+/// How far the spectrum is measured, in units of sqrt(density): the oscillation takes it to about 6.1 for most sets. The
+/// frequencies per side, at most, and the least width of an annulus.
+const FREQUENCY_REACH: f64 = 7.0;
+const GRID: usize = 1501;
+const ANNULUS: f64 = 0.02;
+
+/// Where the contrast is measured, in units of sqrt(density), as in docs/kdrt.md.
+const CONTRAST_RANGE: std::ops::Range<f64> = 0.5..2.0;
+
+/// How far pairs are counted, and in how many bins; and nearest neighbours. In units of `d_max`.
+pub const PAIR_REACH: f64 = 5.0;
+const PAIR_BINS: usize = 250;
+pub const NEAREST_REACH: f64 = 1.5;
+pub const NEAREST_BINS: usize = 75;
+
+/// How far the sizes of sets of one kind may differ.
+const SAME: f64 = 0.1;
+
+/// The figures of a single set, and those of all sets together.
+const FIGURES: [Figure; 12] = [
+    Figure::new("points", "points", ""),
+    Figure::new("smallest_distance", "smallest distance", ""),
+    Figure::new("rho", "smallest distance, relative (ρ)", "d_max"),
+    Figure::new("nearest_mean", "distance of nearest, mean", "d_max"),
+    Figure::new("covering_radius", "covering radius", ""),
+    Figure::new("covering_radius_relative", "covering radius, relative", "d_max"),
+    Figure::new("bond_order", "bond order ψ6", ""),
+    Figure::new("obtuse", "obtuse triangles, share", ""),
+    Figure::new("below_30_degrees", "triangles with less than 30°, share", ""),
+    Figure::new("edge_variation", "edge lengths, variance / mean²", ""),
+    Figure::new("low_power", "power below 0.25 √density", ""),
+    Figure::new("contrast", "contrast of the spectrum", ""),
+];
+pub const RADIUS_FIGURES: [Figure; 3] = [
+    Figure::new("smallest_over_radius", "smallest distance / radius", ""),
+    Figure::new("covering_over_radius", "covering radius / radius", ""),
+    Figure::new("gaps", "gaps", ""),
+];
+
+/// A gap that is not deeper, in radii, is one of rounding: the library's maximal sets may have such.
+pub const SHALLOW: f64 = 1e-6;
+const SPECTRAL_FIGURES: [Figure; 2] = [
+    Figure::new("effective_nyquist", "effective Nyquist frequency", "√density"),
+    Figure::new("oscillation", "oscillation Ω", ""),
+];
+
+/// What is known of all sets.
+pub struct Measured {
+    pub rows: Vec<Row>,
+    /// The radial curves of the mean spectrum.
+    pub annuli: Vec<Annulus>,
+    /// The radial distribution function; none for sets that are too small for it.
+    pub distribution: Option<RadialDistribution>,
+    /// The share of the points in each bin of distances to the nearest neighbour.
+    pub nearest: Vec<f64>,
+}
+
+/// What is known of one set.
+struct One {
+    figures: Vec<f64>,
+    spectrum: Periodogram,
+    distribution: Option<RadialDistribution>,
+    nearest: Vec<u64>,
+}
+
+impl Measured {
+    pub fn of(context: &Context, domain: &Domain, sets: &[Set], radius: Option<f64>) -> Result<Self> {
+        let count = sets[0].points.positions.len();
+        let mut ones = Vec::new();
+        watched("measure", |progress: &Progress| {
+            for (i, set) in sets.iter().enumerate() {
+                ones.push(One::of(context, domain, set, count, radius).map_err(|error| blame(&set.path, error))?);
+                _ = progress((i + 1) as f64 / sets.len() as f64);
+            }
+            Ok(())
+        })?;
+        let spectra: Vec<_> = ones.iter().map(|one| one.spectrum.clone()).collect();
+        let spectrum = Periodogram::mean(&spectra)?;
+        let width = spectrum.frequency_step().into_iter().fold(ANNULUS, f64::max);
+        let figures = FIGURES.iter().chain(RADIUS_FIGURES.iter().filter(|_| radius.is_some()));
+        let row =
+            |(i, &figure): (usize, &Figure)| Row { figure, values: ones.iter().map(|one| one.figures[i]).collect() };
+        let mut rows: Vec<_> = figures.enumerate().map(row).collect();
+        // Neither is defined for every set.
+        let together = [spectrum.effective_nyquist(width), spectrum.oscillation(width)];
+        rows.extend(
+            std::iter::zip(SPECTRAL_FIGURES, together)
+                .map(|(figure, value)| Row { figure, values: vec![value.unwrap_or(f64::NAN)] }),
+        );
+        let distributions: Option<Vec<_>> = ones.iter().map(|one| one.distribution.clone()).collect();
+        let total: f64 = sets.iter().map(|set| set.points.positions.len() as f64).sum();
+        let share = |bin: usize| ones.iter().map(|one| one.nearest[bin]).sum::<u64>() as f64 / total;
+        Ok(Self {
+            rows,
+            annuli: spectrum.radial(width)?,
+            distribution: distributions.map(|all| RadialDistribution::mean(&all)).transpose()?,
+            nearest: (0..NEAREST_BINS).map(share).collect(),
+        })
+    }
+}
+
+impl One {
+    /// The figures of a set of about `count` points.
+    fn of(context: &Context, domain: &Domain, set: &Set, count: usize, radius: Option<f64>) -> Result<Self> {
+        let points = set.points.plane_positions();
+        if (points.len() as f64 / count as f64 - 1.0).abs() > SAME {
+            let reason = format!("{} points, not about {count}: only sets of one kind have a mean", points.len());
+            return Err(Error::Format { path: set.path.clone(), reason });
+        }
+        let unit = domain.hexagonal_distance(points.len());
+        let distances = nearest_distances_2d(context, domain, &points)?;
+        let covering = covering_radius_2d(context, domain, &points)?;
+        let spectrum = spectrum_up_to(context, domain, &points, count, FREQUENCY_REACH, GRID)?;
+        let quality = Quality::of(context, domain, &points, covering / unit)?;
+        let smallest = quality.rho * unit;
+        let mut figures = vec![
+            points.len() as f64,
+            smallest,
+            quality.rho,
+            quality.mean_distance,
+            covering,
+            quality.cover,
+            quality.order,
+            quality.obtuse,
+            quality.sharp,
+            quality.edge_variation,
+            quality.low_power,
+            spectrum.contrast(ANNULUS, CONTRAST_RANGE)?,
+        ];
+        if let Some(radius) = radius {
+            let gaps = coverage_2d(context, domain, &points, radius * (1.0 + SHALLOW))?.gaps;
+            figures.extend([smallest / radius, covering / radius, gaps as f64]);
+        }
+        // Larger distances than half the domain are not all there.
+        let reach = PAIR_REACH * unit <= 0.5 * domain.extent().into_iter().fold(f64::INFINITY, f64::min);
+        let pairs = || radial_distribution(context, domain, &points, PAIR_REACH, PAIR_BINS, None);
+        let distribution = (reach && points.len() > 1).then(pairs).transpose()?;
+        let nearest = nearest_histogram_2d(domain, &distances, NEAREST_REACH, NEAREST_BINS)?;
+        Ok(Self { figures, spectrum, distribution, nearest })
+    }
+}

@@ -1,0 +1,90 @@
+//! `azulejo merge`: sets that were made apart, and points that must stay, become one maximal set.
+
+use std::path::PathBuf;
+use std::time::Instant;
+
+use azulejo::kdrt::{self, MergeOptions, Piece};
+use azulejo::{Boundary, Context, Domain, Error, Result};
+use clap::{ArgAction, Args};
+
+use crate::domain::DomainArgs;
+use crate::formats::{Coordinates, Input};
+use crate::generate::{Common, report};
+use crate::progress::watched;
+use crate::text::{grouped, rounded};
+
+#[derive(Args)]
+pub struct Merge {
+    /// The pieces: sets on rectangles that do not overlap. A PLY file names its rectangle, as `azulejo plane` writes it.
+    #[arg(value_name = "PIECE", required_unless_present = "fixed")]
+    pieces: Vec<PathBuf>,
+    /// Points that must stay; can be given again.
+    #[arg(long, value_name = "POINTS")]
+    fixed: Vec<PathBuf>,
+    /// The smallest distance between samples: that of the pieces.
+    #[arg(long, value_name = "R", allow_negative_numbers = true)]
+    radius: f64,
+    /// The rectangles of the pieces, where their files do not name them: once for each piece, in their order.
+    #[arg(long, num_args = 4, action = ArgAction::Append, value_names = ["X0", "Y0", "X1", "Y1"], allow_negative_numbers = true)]
+    rectangle: Vec<f64>,
+    #[command(flatten)]
+    input: Input,
+    #[command(flatten)]
+    common: Common,
+    #[command(flatten)]
+    domain: DomainArgs,
+}
+
+impl Merge {
+    pub fn run(&self, context: &Context) -> Result<()> {
+        let output = self.common.destination.open()?;
+        let loaded = self.load()?;
+        let mut fixed = Vec::new();
+        for path in &self.fixed {
+            fixed.extend(self.input.read(path, Coordinates::Plane)?.plane_positions());
+        }
+        let rectangles: Vec<_> = loaded.iter().map(|piece| piece.rectangle).collect();
+        let pieces: Vec<_> = loaded
+            .iter()
+            .map(|Loaded { rectangle, samples }| Piece { samples, min: rectangle.min, max: rectangle.max })
+            .collect();
+        let domain = self.domain.or_box_of(&rectangles);
+        let options = MergeOptions { radius: self.radius, domain, seed: self.common.seed };
+        let start = Instant::now();
+        let merge = |progress: &azulejo::Progress| kdrt::merge(context, &options, &pieces, &fixed, Some(progress));
+        let (samples, done) = watched("merge", merge)?;
+        let seconds = start.elapsed().as_secs_f64();
+        output.write_plane(&domain, &samples)?;
+        let [kept, eliminated, inserted] = [done.kept, done.eliminated, done.inserted].map(grouped);
+        let about =
+            format!("radius {}, {kept} kept, {eliminated} eliminated, {inserted} inserted", rounded(self.radius, 4));
+        report(&self.common.destination.output, samples.len(), &about, seconds);
+        Ok(())
+    }
+
+    /// The pieces, each with the rectangle that is given for it or that its file names.
+    fn load(&self) -> Result<Vec<Loaded>> {
+        let given = self.rectangle.as_chunks::<4>().0;
+        if !given.is_empty() && given.len() != self.pieces.len() {
+            let reason = format!("there are {} for {} pieces", given.len(), self.pieces.len());
+            return Err(Error::InvalidArgument { argument: "--rectangle", reason });
+        }
+        let boundary = Boundary::Bounded;
+        let given = given.iter().map(|&[x0, y0, x1, y1]| Some(Domain { min: [x0, y0], max: [x1, y1], boundary }));
+        let load = |(path, given): (&PathBuf, Option<Domain>)| {
+            let set = self.input.read(path, Coordinates::Plane)?;
+            let rectangle = given.or(set.domain).ok_or_else(|| Error::Format {
+                path: path.clone(),
+                reason: "does not name its rectangle: give --rectangle for each piece".to_owned(),
+            })?;
+            Ok(Loaded { rectangle, samples: set.plane_positions() })
+        };
+        std::iter::zip(&self.pieces, given.chain(std::iter::repeat(None))).map(load).collect()
+    }
+}
+
+/// A piece as it is in its file.
+struct Loaded {
+    rectangle: Domain,
+    samples: Vec<[f32; 2]>,
+}

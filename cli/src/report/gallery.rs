@@ -1,0 +1,63 @@
+//! `azulejo report gallery`: samplers side by side, as in the thesis's fig. 4.16 and 4.17 and the third row of fig. 2.12.
+
+mod measured;
+mod page;
+mod pictures;
+mod samplers;
+mod zone_plate;
+
+use std::fs;
+use std::io::Write;
+use std::path::PathBuf;
+
+use azulejo::{Context, Error, Progress, Result};
+use clap::Args;
+
+use crate::output::Output;
+use crate::progress::watched;
+use measured::Measured;
+use samplers::{RELAXED, SAMPLERS, Sampler};
+
+#[derive(Args)]
+pub struct Gallery {
+    /// The directory of the page `gallery.md` and its pictures.
+    #[arg(long, value_name = "DIRECTORY", default_value = "docs")]
+    out: PathBuf,
+    /// Show few and small sets: to see the page, not to believe it.
+    #[arg(long)]
+    quick: bool,
+}
+
+/// How much is measured.
+pub struct Effort {
+    /// Points of a set: those of `side` by `side` cells.
+    pub side: usize,
+    /// Sets of each sampler, and of those that are slow.
+    pub sets: u64,
+    pub slow_sets: u64,
+}
+
+const FULL: Effort = Effort { side: 256, sets: 10, slow_sets: 2 };
+const QUICK: Effort = Effort { side: 32, sets: 2, slow_sets: 1 };
+
+impl Gallery {
+    pub fn run(&self, context: &Context) -> Result<()> {
+        let effort = if self.quick { QUICK } else { FULL };
+        let pictures = self.out.join("gallery");
+        fs::create_dir_all(&pictures).map_err(|source| Error::Io { path: pictures.clone(), source })?;
+        let page = Output::at(&self.out.join("gallery.md"))?;
+
+        let samplers: Vec<Sampler> = SAMPLERS.into_iter().chain(RELAXED).collect();
+        let mut measured = Vec::new();
+        for sampler in samplers {
+            let measure = |progress: &Progress| Measured::of(context, sampler, &effort, progress);
+            measured.push(watched("gallery", measure)?);
+        }
+        let (direct, relaxed) = measured.split_at(SAMPLERS.len());
+        pictures::draw_sets(direct, &Output::at(&pictures.join("samplers.png"))?)?;
+        pictures::draw_sets(relaxed, &Output::at(&pictures.join("relaxed.png"))?)?;
+        pictures::draw_plates(&measured, effort.side, &Output::at(&pictures.join("zone-plate.png"))?)?;
+        let text = page::text(context, &effort, &measured, self.quick);
+        page.write(|writer| writer.write_all(text.as_bytes()))
+    }
+}

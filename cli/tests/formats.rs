@@ -1,0 +1,130 @@
+//! Files of points in every format, from outside.
+
+mod common;
+
+use std::fs;
+
+use common::Workshop;
+
+const FORMATS: [&str; 5] = ["ply", "npy", "csv", "xyz", "raw"];
+
+#[test]
+fn a_set_of_the_plane_survives_every_format() {
+    let workshop = Workshop::new();
+    for format in FORMATS {
+        workshop.succeed(&["plane", "--count", "500", "-o", &format!("a.{format}")]);
+        // Through the format and back: no step moves a point.
+        let (input, output) = (format!("a.{format}"), format!("back-{format}.ply"));
+        workshop.succeed(&["relax", &input, "--iterations", "0", "-o", &output]);
+        assert!(fs::read(workshop.path(&output)).unwrap() == fs::read(workshop.path("a.ply")).unwrap(), "{format}");
+    }
+    let size = |name: &str| fs::metadata(workshop.path(name)).unwrap().len();
+    assert_eq!((size("a.raw"), size("a.npy")), (500 * 8, 128 + 500 * 8));
+    let text = fs::read_to_string(workshop.path("a.csv")).unwrap();
+    assert!(text.starts_with("x,y\n0.") && text.lines().count() == 501);
+}
+
+#[test]
+fn a_format_can_be_asked_for_whatever_the_extension() {
+    let workshop = Workshop::new();
+    workshop.succeed(&["plane", "--count", "100", "--format", "csv", "-o", "points.data"]);
+    assert!(fs::read_to_string(workshop.path("points.data")).unwrap().starts_with("x,y\n"));
+    workshop.succeed(&["relax", "points.data", "--input-format", "csv", "--iterations", "1", "-o", "b.ply"]);
+    let said = workshop.refuse(&["relax", "points.data", "-o", "c.ply"], 1);
+    assert!(said.starts_with("error: points.data: the extension names no format"), "{said}");
+    let said = workshop.refuse(&["plane", "--count", "100", "-o", "c.png"], 1);
+    assert!(said.starts_with("error: c.png: the extension names no format"), "{said}");
+    workshop.refuse(&["plane", "--count", "100", "--format", "png", "-o", "c.png"], 2);
+}
+
+#[test]
+fn samples_of_a_surface_keep_what_each_format_has_a_place_for() {
+    let workshop = Workshop::new();
+    workshop.write("roof.obj", "v 0 0 0\nv 2 0 0\nv 0 2 0\nv 0 0 2\nf 1 2 3\nf 1 4 2\n");
+    for format in FORMATS {
+        workshop.succeed(&["surface", "roof.obj", "--radius", "0.1", "-o", &format!("a.{format}")]);
+    }
+    let json = |format: &str| {
+        let arguments = ["analyze", &format!("a.{format}"), "--mesh", "roof.obj", "--json"];
+        serde_json::from_str::<serde_json::Value>(&workshop.succeed(&arguments)).unwrap()
+    };
+    let expected = json("ply");
+    for format in ["csv", "xyz"] {
+        let found = json(format);
+        assert_eq!((&found["figures"], &found["radial"]), (&expected["figures"], &expected["radial"]), "{format}");
+    }
+    for format in ["npy", "raw"] {
+        let found = json(format);
+        assert_eq!(found["figures"]["smallest_distance"], expected["figures"]["smallest_distance"], "{format}");
+        assert!(found["radial"]["rows"].is_null() && expected["radial"]["rows"].is_array());
+    }
+    let text = fs::read_to_string(workshop.path("a.csv")).unwrap();
+    assert!(text.starts_with("x,y,z,nx,ny,nz,triangle,u,v\n"), "{text}");
+}
+
+#[test]
+fn broken_files_are_refused_with_name_place_and_reason() {
+    let workshop = Workshop::new();
+    let npy = |header: &str| [b"\x93NUMPY\x01\x00\x76\x00", format!("{header:<117}\n").as_bytes()].concat();
+    let broken: [(&str, Vec<u8>, &str); 9] = [
+        ("word.csv", b"x,y\n0.1,0.2\n0.3,three\n".to_vec(), "line 3: \"three\" is not a number"),
+        ("columns.xyz", b"# two\n0 0\n1 1\n2\n".to_vec(), "line 4: has 1 columns, and line 2 has 2"),
+        ("header.csv", b"a,b\n1,2\n".to_vec(), "line 1: the header names no column x"),
+        ("infinite.txt", b"0 0\n0 1e60\n".to_vec(), "line 2: \"1e60\" is not finite as a float"),
+        ("empty.csv", b"x,y\n".to_vec(), "no points"),
+        ("cut.raw", vec![0; 12], "12 bytes are not whole points of 2 floats"),
+        (
+            "nan.f32",
+            [0.5, 0.5, f32::NAN, 0.5].map(f32::to_le_bytes).concat(),
+            "byte 8: point 1 is [NaN, 0.5, 0.0], not finite",
+        ),
+        (
+            "short.npy",
+            npy("{'descr': '<f4', 'fortran_order': False, 'shape': (3, 2), }"),
+            "the header announces 3 x 2 numbers, but only 0 bytes follow",
+        ),
+        (
+            "pickle.npy",
+            npy("{'descr': '|O', 'fortran_order': False, 'shape': (3, 2), }"),
+            "has numbers of the type \"|O\", not f4, f8 or i4",
+        ),
+    ];
+    for (name, content, reason) in broken {
+        workshop.write(name, content);
+        for arguments in [
+            &["relax", name, "-o", "out.ply"][..],
+            &["analyze", name],
+            &["merge", name, "--radius", "0.1", "-o", "out.ply"],
+        ] {
+            assert_eq!(workshop.refuse(arguments, 1), format!("error: {name}: {reason}\n"));
+        }
+    }
+    workshop.write("flat.csv", "x,y\n1,2\n");
+    let said = workshop.refuse(&["draw", "surface", "flat.csv", "flat.csv", "-o", "a.png"], 1);
+    assert!(said.starts_with("error: flat.csv: "), "{said}");
+}
+
+/// A command that is ended while it writes leaves neither its output nor a temporary file.
+#[cfg(unix)]
+#[test]
+fn a_signal_leaves_no_file_behind() {
+    use std::os::unix::process::ExitStatusExt;
+    use std::process::{Command, Stdio};
+    use std::time::{Duration, Instant};
+
+    for (name, number) in [("INT", 2), ("TERM", 15)] {
+        let workshop = Workshop::new();
+        // Some 100 MB of text take longer to be written than a poll.
+        let mut command = workshop.command(&["plane", "--count", "5000000", "-o", "a.xyz"]);
+        let mut child = command.stdout(Stdio::null()).spawn().unwrap();
+        let start = Instant::now();
+        while !workshop.files().iter().any(|file| file.starts_with(".azulejo-")) {
+            assert!(child.try_wait().unwrap().is_none() && start.elapsed() < Duration::from_secs(60), "{name}");
+            std::thread::sleep(Duration::from_millis(2));
+        }
+        let sent = Command::new("kill").args([&format!("-{name}"), &child.id().to_string()]).status().unwrap();
+        assert!(sent.success());
+        assert_eq!(child.wait().unwrap().signal(), Some(number));
+        assert!(workshop.files().is_empty(), "{name}: {:?}", workshop.files());
+    }
+}
