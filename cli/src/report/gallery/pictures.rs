@@ -43,9 +43,6 @@ const PLATE_PITCH: [f32; 2] = [PLATE + PLATE_GAP, PLATE + 84.0];
 const PLATE_TOP: f32 = 52.0;
 const MARGIN: f32 = 30.0;
 
-/// Levels of grey: few, for the picture's size.
-const GREYS: f64 = 32.0;
-
 /// Points, spectrum, radial mean and anisotropy of some samplers, each a column (thesis fig. 4.16 and 4.17).
 pub fn draw_sets(sets: &[Measured], output: &Output) -> Result<()> {
     let width = LEFT + sets.len() as f32 * (COLUMN + GAP) - GAP + RIGHT;
@@ -135,8 +132,8 @@ pub fn draw_plates(sets: &[Measured], side: usize, output: &Output) -> Result<()
 fn draw_plate(canvas: &mut Canvas, rect: Rect, plate: &[f64], side: usize) {
     let grey = |i: usize| {
         let value = plate[(side - 1 - i / side) * side + i % side];
-        let level = ((GREYS - 1.0) * 0.5 * (1.0 + value.clamp(-1.0, 1.0))).round();
-        [(255.0 / (GREYS - 1.0) * level).round() as u8; 3]
+        // All greys there are: fewer would beat with the plate's rings, and show some that are not there.
+        [(127.5 * (1.0 + value.clamp(-1.0, 1.0))).round() as u8; 3]
     };
     let image: Vec<Colour> = (0..side * side).map(grey).collect();
     canvas.image(&image, side, rect);
