@@ -6,7 +6,7 @@
 //! | [`psp`] | Poisson-disk samples on triangle meshes, maximal if wanted | thesis ch. 3 |
 //! | [`dcr`] | a point set, relaxed by distance constraints | thesis ch. 4 |
 //! | [`maximal`] | the unbiased set that the others are measured by | Ebeida et al. 2012 |
-//! | [`analysis`] | spacing, coverage, spectra, triangles and bond order of any set | |
+//! | [`analysis`] | spacing, coverage, spectra, distances, triangles and bond order of any set | |
 //!
 //! The thesis is Wang Tong, *Techniques on Mining Effective Parallelism For High-Performance Blue-Noise Sampling*,
 //! University of Tokyo, 2019. Each file says which section it is and where it departs.

@@ -120,6 +120,21 @@ fn a_square_lattice_has_a_gap_in_each_square() {
     }
 }
 
+/// All points in a corner: nearly all places are far from all of them, and the farthest lies in a large hole.
+#[test]
+fn a_cluster_is_as_far_away_as_its_nearest_point() {
+    let points: Vec<_> = random_points(30_000, 6).iter().map(|point| point.map(|x| 0.02 * x)).collect();
+    for (boundary, corner) in [(Boundary::Bounded, [1.0, 1.0]), (Boundary::Periodic, [0.51, 0.51])] {
+        let domain = unit_square(boundary);
+        let found = covering_radius_2d(&context(), &domain, &points).unwrap();
+        let from_corner = points.iter().map(|&point| distance(&domain, corner, point)).fold(f64::INFINITY, f64::min);
+        // On the torus the farthest place is about opposite of the middle of the cluster.
+        let tolerance = if boundary == Boundary::Bounded { 1e-9 } else { 0.001 };
+        assert!(found >= from_corner * (1.0 - 1e-9) && found <= from_corner + tolerance, "{found} {from_corner}");
+        assert_eq!(gaps(&domain, &points, 0.5), 1);
+    }
+}
+
 fn mesh((positions, triangles): Soup) -> Mesh {
     Mesh::new(positions, triangles).unwrap()
 }

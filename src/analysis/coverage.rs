@@ -2,16 +2,18 @@
 
 mod gaps;
 mod groups;
+mod nearest;
 mod surface;
 mod tree;
 
 use crate::analysis::probes::Surface;
 use crate::error::Result;
-use crate::grid2::Grid2;
 use crate::grid3::{Grid3, distance_squared};
 use crate::job::{Context, chunks};
 use crate::mesh::Mesh;
 use crate::points::{Domain, check_radius};
+
+use nearest::Nearest;
 
 pub use surface::{surface_coverage, surface_covering_radius};
 
@@ -31,7 +33,7 @@ pub struct Coverage {
 /// torus, that is farther than `radius` from all points; the whole domain is one for an empty set.
 ///
 /// Gaps are counted by the Voronoi diagram, however small they are; those shallower than 1e-6 of the mean spacing may be
-/// missed, unless they are all there is. Takes O(n log n), and O(n) for a set without gaps.
+/// missed, unless they are all there is. Takes O(n log n).
 ///
 /// # Errors
 /// As [`covering_radius_2d`]; and [`Error::InvalidArgument`](crate::Error::InvalidArgument) for a radius that is not
@@ -54,7 +56,7 @@ pub fn coverage_2d(context: &Context, domain: &Domain, points: &[[f32; 2]], radi
 /// a cell whose centre is at distance `d` has no point farther than `d` + half its diagonal; cells that could hold
 /// more than the largest `d` so far are divided. The result is too small by at most the factor 1 + [`PRECISION`].
 ///
-/// Takes O(n) for sets that leave no large holes.
+/// Takes O(n log n).
 ///
 /// # Errors
 /// [`Error::InvalidArgument`](crate::Error::InvalidArgument) for a domain that is none and for points outside it (`xy`).
@@ -64,12 +66,11 @@ pub fn covering_radius_2d(context: &Context, domain: &Domain, points: &[[f32; 2]
     if points.is_empty() {
         return Ok(f64::INFINITY);
     }
-    let spacing = (domain.area() / points.len() as f64).sqrt();
-    let grid = Grid2::new(*domain, points.iter().map(|point| point.map(f64::from)), spacing);
+    let nearest = Nearest::new(domain, points);
     let cells = Cells::about(domain, points.len());
     let chunks = chunks(cells.len());
     let farthest = context.run(None, |job| {
-        job.map(chunks.len(), |chunk| farthest(&grid, chunks.range(chunk).map(|cell| cells.get(cell)).collect()))
+        job.map(chunks.len(), |chunk| farthest(&nearest, chunks.range(chunk).map(|cell| cells.get(cell)).collect()))
     })?;
     Ok(farthest.into_iter().fold(0.0, f64::max))
 }
@@ -110,11 +111,11 @@ impl Cells {
     }
 }
 
-/// The largest distance of a point in the cells from the points of the grid.
-fn farthest(grid: &Grid2, mut cells: Vec<Cell>) -> f64 {
+/// The largest distance of a place in the cells from the points.
+fn farthest(nearest: &Nearest, mut cells: Vec<Cell>) -> f64 {
     let mut farthest: f64 = 0.0;
     while !cells.is_empty() {
-        let distances: Vec<f64> = cells.iter().map(|cell| grid.nearest_squared(cell.centre, None).sqrt()).collect();
+        let distances: Vec<f64> = cells.iter().map(|cell| nearest.distance(cell.centre)).collect();
         farthest = distances.iter().copied().fold(farthest, f64::max);
         let could_exceed =
             |cell: &Cell, distance: f64| distance + cell.half[0].hypot(cell.half[1]) > farthest * (1.0 + PRECISION);
@@ -136,8 +137,8 @@ fn quarters(cell: &Cell) -> [Cell; 4] {
 /// `f64`): an estimate of the uncovered part of its area, with a standard error of at most 0.5 / sqrt(`probes`).
 /// 0 without probes, and where the mesh's mask leaves no area.
 ///
-/// Probes are uniform by area and keyed by `seed` and their number. Small gaps escape them: this estimates a share, it
-/// proves nothing.
+/// Probes are uniform by area and keyed by `seed` and their number. Small gaps escape them: this estimates a share,
+/// while [`surface_coverage`] proves that there is none.
 ///
 /// # Errors
 /// [`Error::InvalidArgument`](crate::Error::InvalidArgument) for a radius that is not positive and finite and for

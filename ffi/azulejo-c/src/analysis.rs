@@ -43,7 +43,7 @@ pub unsafe extern "C" fn azulejo_plane_smallest_distance(
 ///
 /// out: the covering radius, by less than a billionth of it too small; infinite for no point.
 ///
-/// Found exactly, by subdividing the domain: O(count) time for points that leave no large holes.
+/// Found exactly, by subdividing the domain: O(count log count) time.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_plane_covering_radius(
     context: Option<&azulejo_context>,
@@ -92,8 +92,8 @@ pub unsafe extern "C" fn azulejo_space_smallest_distance(
 ///
 /// out: the share of probes that are not covered, 0 to 1; 0 if the mask of the mesh leaves nothing to be looked at.
 ///
-/// O(probes + count) time. Probes do not prove coverage: they find a gap of a millionth of the area with two million of
-/// them most of the time, and miss smaller ones.
+/// O(probes + count) time. Probes do not prove coverage, as azulejo_mesh_coverage does: they find a gap of a millionth of the
+/// area with two million of them most of the time, and miss smaller ones.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_mesh_uncovered_fraction(
     context: Option<&azulejo_context>,

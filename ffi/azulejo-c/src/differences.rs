@@ -140,8 +140,9 @@ pub unsafe extern "C" fn azulejo_differences_power(
         let differences = required("differences", differences)?;
         // SAFETY: handed on from the caller.
         let frequencies = unsafe { rows::<f64, 1>("frequencies", frequencies, "count", count) }?.as_flattened();
-        if let Some(i) = frequencies.iter().position(|frequency| !(frequency.abs() <= MAX_FREQUENCY)) {
-            let reason = format!("[{i}] is {}, not in -{MAX_FREQUENCY} to {MAX_FREQUENCY}", frequencies[i]);
+        let range = -MAX_FREQUENCY..=MAX_FREQUENCY;
+        if let Some(i) = frequencies.iter().position(|frequency| !range.contains(frequency)) {
+            let reason = format!("[{i}] is {}, not in {range:?}", frequencies[i]);
             return Err(Failure::invalid("frequencies", reason));
         }
         if count > 0 {
