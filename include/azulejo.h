@@ -1106,7 +1106,7 @@ azulejo_status azulejo_plane_smallest_distance(const struct azulejo_context *con
 ///
 /// out: the covering radius, by less than a billionth of it too small; infinite for no point.
 ///
-/// Found exactly, by subdividing the domain: O(count) time for points that leave no large holes.
+/// Found exactly, by subdividing the domain: O(count log count) time.
 azulejo_status azulejo_plane_covering_radius(const struct azulejo_context *context,
                                              const float *xy,
                                              size_t count,
@@ -1137,8 +1137,8 @@ azulejo_status azulejo_space_smallest_distance(const struct azulejo_context *con
 ///
 /// out: the share of probes that are not covered, 0 to 1; 0 if the mask of the mesh leaves nothing to be looked at.
 ///
-/// O(probes + count) time. Probes do not prove coverage: they find a gap of a millionth of the area with two million of
-/// them most of the time, and miss smaller ones.
+/// O(probes + count) time. Probes do not prove coverage, as azulejo_mesh_coverage does: they find a gap of a millionth of the
+/// area with two million of them most of the time, and miss smaller ones.
 azulejo_status azulejo_mesh_uncovered_fraction(const struct azulejo_context *context,
                                                const struct azulejo_mesh *mesh,
                                                const float *positions,

@@ -10,6 +10,8 @@ pub(super) struct Tree {
     points: Vec<DVec3>,
     /// The axis along which the middle of a range divides it.
     axes: Vec<u8>,
+    /// The corners of the box around all points.
+    bounds: [DVec3; 2],
 }
 
 /// Ranges of no more points are not divided.
@@ -24,24 +26,30 @@ impl Tree {
     /// Takes O(n log n).
     fn new(mut points: Vec<DVec3>) -> Self {
         let mut axes = vec![0; points.len()];
+        let bounds = bounds(&points);
         divide(&mut points, &mut axes);
-        Self { points, axes }
+        Self { points, axes, bounds }
     }
 
     /// The distance of the nearest point; infinite if there is none. Takes O(log n).
     pub fn nearest(&self, place: DVec3) -> f64 {
         let mut nearest = f64::INFINITY;
-        search(&self.points, &self.axes, place, &mut nearest);
+        let away = place - place.clamp(self.bounds[0], self.bounds[1]);
+        search(&self.points, &self.axes, place, away, &mut nearest);
         nearest.sqrt()
     }
+}
+
+fn bounds(points: &[DVec3]) -> [DVec3; 2] {
+    [DVec3::min, DVec3::max].map(|choose| points.iter().copied().reduce(choose).unwrap_or_default())
 }
 
 fn divide(points: &mut [DVec3], axes: &mut [u8]) {
     if points.len() <= LEAF {
         return;
     }
-    let corner = |choose: fn(DVec3, DVec3) -> DVec3| points.iter().copied().reduce(choose).unwrap_or_default();
-    let axis = (corner(DVec3::max) - corner(DVec3::min)).max_position();
+    let [low, high] = bounds(points);
+    let axis = (high - low).max_position();
     let middle = points.len() / 2;
     points.select_nth_unstable_by(middle, |a, b| a[axis].total_cmp(&b[axis]));
     axes[middle] = axis as u8;
@@ -49,8 +57,10 @@ fn divide(points: &mut [DVec3], axes: &mut [u8]) {
     divide(&mut points[middle + 1..], &mut axes[middle + 1..]);
 }
 
-/// Lowers `nearest`, a squared distance, to that of the nearest of a range.
-fn search(points: &[DVec3], axes: &[u8], place: DVec3, nearest: &mut f64) {
+/// Lowers `nearest`, a squared distance, to that of the nearest of a range. `away` is how far along each axis the place is
+/// from the part of space that the range fills (Arya and Mount 1993, "Algorithms for fast vector quantization"): from far
+/// away no axis alone tells that a part is too far.
+fn search(points: &[DVec3], axes: &[u8], place: DVec3, away: DVec3, nearest: &mut f64) {
     if points.len() <= LEAF {
         *nearest = points.iter().map(|point| point.distance_squared(place)).fold(*nearest, f64::min);
         return;
@@ -61,9 +71,11 @@ fn search(points: &[DVec3], axes: &[u8], place: DVec3, nearest: &mut f64) {
     let [low, high] = [0..middle, middle + 1..points.len()].map(|range| (&points[range.clone()], &axes[range]));
     let [near, far] = if beyond < 0.0 { [low, high] } else { [high, low] };
     *nearest = nearest.min(points[middle].distance_squared(place));
-    search(near.0, near.1, place, nearest);
-    if beyond * beyond < *nearest {
-        search(far.0, far.1, place, nearest);
+    search(near.0, near.1, place, away, nearest);
+    let mut farther = away;
+    farther[axis] = beyond;
+    if farther.length_squared() < *nearest {
+        search(far.0, far.1, place, farther, nearest);
     }
 }
 
