@@ -53,12 +53,12 @@ impl Analyze {
             let reason = format!("{radius} is not a positive finite number");
             return Err(Error::InvalidArgument { argument: "--radius", reason });
         }
-        if let Some(directory) = &self.plots {
-            fs::create_dir_all(directory).map_err(|source| Error::Io { path: directory.clone(), source })?;
-        }
         let coordinates = if self.mesh.is_some() { Coordinates::Space } else { Coordinates::Plane };
         let read = |path: &PathBuf| Ok(Set { path: path.clone(), points: self.input.read(path, coordinates)? });
         let sets = self.files.iter().map(read).collect::<Result<Vec<_>>>()?;
+        if let Some(directory) = &self.plots {
+            fs::create_dir_all(directory).map_err(|source| Error::Io { path: directory.clone(), source })?;
+        }
         let text = match &self.mesh {
             Some(mesh) => self.surface(context, mesh, &sets)?,
             None => self.plane(context, &sets)?,
@@ -70,6 +70,11 @@ impl Analyze {
 
     fn plane(&self, context: &Context, sets: &[Set]) -> Result<String> {
         let domain = self.domain.of_or_around(&sets[0].points);
+        let named = self.domain.of(&sets[0].points);
+        if let Some(other) = sets.iter().find(|set| self.domain.of(&set.points) != named) {
+            let reason = format!("has another domain than {}", sets[0].path.display());
+            return Err(Error::Format { path: other.path.clone(), reason });
+        }
         let measured = plane::Measured::of(context, &domain, sets, self.radius)?;
         if let Some(directory) = &self.plots {
             plots::plane(context, &domain, sets, &measured, directory)?;

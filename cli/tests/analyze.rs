@@ -98,6 +98,9 @@ fn several_files_are_averaged() {
     lattice(&workshop);
     let said = workshop.refuse(&["analyze", "1.ply", "lattice.xyz"], 1);
     assert!(said.starts_with("error: lattice.xyz: 1024 points, not about "), "{said}");
+    workshop.succeed(&["plane", "--radius", "0.06", "--domain", "0", "0", "2", "2", "-o", "wide.ply"]);
+    let said = workshop.refuse(&["analyze", "1.ply", "wide.ply"], 1);
+    assert_eq!(said, "error: wide.ply: has another domain than 1.ply\n");
 }
 
 #[test]

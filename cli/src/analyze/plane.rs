@@ -84,8 +84,9 @@ impl Measured {
         let mut ones = Vec::new();
         watched("measure", |progress: &Progress| {
             for (i, set) in sets.iter().enumerate() {
-                ones.push(One::of(context, domain, set, count, radius).map_err(|error| blame(&set.path, error))?);
-                _ = progress((i + 1) as f64 / sets.len() as f64);
+                let progress = |done: f64| _ = progress((i as f64 + done) / sets.len() as f64);
+                let one = One::of(context, domain, set, count, radius, &progress);
+                ones.push(one.map_err(|error| blame(&set.path, error))?);
             }
             Ok(())
         })?;
@@ -116,7 +117,14 @@ impl Measured {
 
 impl One {
     /// The figures of a set of about `count` points.
-    fn of(context: &Context, domain: &Domain, set: &Set, count: usize, radius: Option<f64>) -> Result<Self> {
+    fn of(
+        context: &Context,
+        domain: &Domain,
+        set: &Set,
+        count: usize,
+        radius: Option<f64>,
+        progress: &dyn Fn(f64),
+    ) -> Result<Self> {
         let points = set.points.plane_positions();
         if (points.len() as f64 / count as f64 - 1.0).abs() > SAME {
             let reason = format!("{} points, not about {count}: only sets of one kind have a mean", points.len());
@@ -125,8 +133,11 @@ impl One {
         let unit = domain.hexagonal_distance(points.len());
         let distances = nearest_distances_2d(context, domain, &points)?;
         let covering = covering_radius_2d(context, domain, &points)?;
+        progress(0.2);
         let spectrum = spectrum_up_to(context, domain, &points, count, FREQUENCY_REACH, GRID)?;
+        progress(0.4);
         let quality = Quality::of(context, domain, &points, covering / unit)?;
+        progress(0.7);
         let smallest = quality.rho * unit;
         let mut figures = vec![
             points.len() as f64,
@@ -151,6 +162,7 @@ impl One {
         let pairs = || radial_distribution(context, domain, &points, PAIR_REACH, PAIR_BINS, None);
         let distribution = (reach && points.len() > 1).then(pairs).transpose()?;
         let nearest = nearest_histogram_2d(domain, &distances, NEAREST_REACH, NEAREST_BINS)?;
+        progress(1.0);
         Ok(Self { figures, spectrum, distribution, nearest })
     }
 }

@@ -33,7 +33,7 @@ const ANNULUS: f64 = 0.0125;
 
 /// The highest power and the range of the anisotropy, over that of an isotropic set, that are shown.
 const HIGHEST_POWER: f64 = 6.0;
-const DECIBELS: [f64; 2] = [-10.0, 20.0];
+const DECIBELS: [f64; 2] = [-10.0, 40.0];
 
 /// A zone plate, as many units as it has pixels, and how plates are set.
 const PLATE: f32 = 256.0;
@@ -110,7 +110,7 @@ pub fn draw_plates(sets: &[Measured], side: usize, output: &Output) -> Result<()
         let [low, high] = [set.error(|errors| errors.low), set.error(|errors| errors.high)];
         format!("error {low:.3} low, {high:.3} high")
     };
-    let exact = ("exact".to_owned(), "errors: of low and high frequencies".to_owned(), zone_plate::reference(side));
+    let exact = ("exact".to_owned(), "low and high frequencies".to_owned(), zone_plate::reference(side));
     let plates = sets.iter().map(|set| (set.sampler.name(), errors(set), set.plate.clone()));
     for (i, (name, remark, plate)) in std::iter::once(exact).chain(plates).enumerate() {
         let [column, row] = [i % PLATES_PER_ROW, i / PLATES_PER_ROW].map(|k| k as f32);
@@ -132,6 +132,7 @@ pub fn draw_plates(sets: &[Measured], side: usize, output: &Output) -> Result<()
 fn draw_plate(canvas: &mut Canvas, rect: Rect, plate: &[f64], side: usize) {
     let grey = |i: usize| {
         let value = plate[(side - 1 - i / side) * side + i % side];
+        // All greys there are: fewer would beat with the plate's rings, and show some that are not there.
         [(127.5 * (1.0 + value.clamp(-1.0, 1.0))).round() as u8; 3]
     };
     let image: Vec<Colour> = (0..side * side).map(grey).collect();
