@@ -40,6 +40,8 @@ pub(crate) enum Draw {
     Adaptive,
     /// PSP: which pieces of the surface are filled with those of larger radii.
     Octave,
+    /// DCR: random points, as dense as asked for.
+    Scatter,
 }
 
 /// The stream of random numbers of one place.

@@ -12,10 +12,10 @@
 //!   is built anew in every step.
 
 mod cells;
-mod constraints;
-mod mesh;
-mod torus;
-mod waves;
+pub(super) mod constraints;
+pub(super) mod mesh;
+pub(super) mod torus;
+pub(super) mod waves;
 
 use glam::Vec2;
 
@@ -31,22 +31,19 @@ use crate::error::Result;
 use crate::job::{Job, chunks};
 
 /// The share of its way that a point makes again in the next step.
-const MOMENTUM: f32 = 0.78;
+pub(super) const MOMENTUM: f32 = 0.78;
 
 /// Long waves are removed in every so manieth step.
-const WAVES_EVERY: u32 = 5;
+pub(super) const WAVES_EVERY: u32 = 5;
 
 /// How far points may move in the room that they have: less than half, so that no triangle turns over.
-const ROOM: f32 = 0.45;
+pub(super) const ROOM: f32 = 0.45;
 
 /// The room, in spacings, of points that are in no mesh.
-const WIDE: f32 = 1.0;
-
-/// The steps over which constraints grow stiffer.
-const STIFFENING: u32 = 60;
+pub(super) const WIDE: f32 = 1.0;
 
 /// The step size by which motion is measured: a span is 10 steps, in which long waves are removed twice.
-const STEP: f64 = 0.2;
+pub(super) const STEP: f64 = 0.2;
 
 /// What knows the neighbours of each point.
 enum Neighbours {
@@ -82,7 +79,7 @@ impl Spread {
         let order = along_curve(&entered);
         let start: Vec<Place> = order.iter().map(|&point| entered[point as usize]).collect();
         Self {
-            waves: Waves::new(&torus, start.len()),
+            waves: Waves::new(&torus, start.len(), 1.0),
             neighbourhood: options.neighbourhood,
             places: torus.with_images(&start),
             velocities: vec![Vec2::ZERO; start.len()],
@@ -115,14 +112,14 @@ impl Spread {
         Delaunay::new(job, &self.torus.frame, self.torus.nudged(&self.places).into_iter())
     }
 
-    /// The constraints of this step. Radii and stiffness, and the momentum, are the best of those tried on sets of
-    /// 1,000 to 65,536 points: with more momentum sets get more regular, with stiffer pulls too.
     fn constraints(&self) -> Constraints {
-        let stiff = self.iterations.min(STIFFENING) as f32 / STIFFENING as f32;
-        let (push, pull) = (0.1 + 0.3 * stiff, 0.1 + 0.1 * stiff);
         match self.neighbourhood {
-            Neighbourhood::Delaunay => Constraints { conflict_radius: 0.862, coverage_radius: 0.66, push, pull },
-            Neighbourhood::Nearest => Constraints { conflict_radius: 0.92, coverage_radius: f32::INFINITY, push, pull },
+            Neighbourhood::Delaunay => Constraints::of_step(self.iterations),
+            Neighbourhood::Nearest => Constraints {
+                conflict_radius: 0.92,
+                coverage_radius: f32::INFINITY,
+                ..Constraints::of_step(self.iterations)
+            },
         }
     }
 

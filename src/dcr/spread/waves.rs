@@ -19,14 +19,17 @@ use crate::job::{Job, chunks, chunks_of};
 /// The frequency up to which waves are removed, in units of sqrt(density).
 const HIGHEST: f64 = 0.25;
 
-/// The width of the grid's cells in spacings: the highest frequency has three cells to a wave.
+/// The width of the grid's cells in distances of points: the highest frequency has three cells to a wave.
 const CELL: f64 = 1.25;
 
-type Field = Vec<Complex<f64>>;
+/// Numbers at the nodes of the grid, row by row.
+pub(in crate::dcr) type Field = Vec<Complex<f64>>;
 
 /// The grid of a torus.
-pub(super) struct Waves {
+pub(in crate::dcr) struct Waves {
     torus: Torus,
+    /// The distance of points for which the grid is made, in spacings.
+    spacing: f64,
     /// Columns and rows.
     cells: [usize; 2],
     /// Along rows and along columns, forward and back.
@@ -35,33 +38,42 @@ pub(super) struct Waves {
 }
 
 impl Waves {
-    /// The grid for `count` points; on a strip that is thinner than their distance it has no more columns than points.
-    pub(super) fn new(torus: &Torus, count: usize) -> Self {
-        let limit = (count + 8) as f64;
-        let cells = torus.frame.size().to_array().map(|length| smooth((length / CELL).ceil().min(limit) as usize));
+    /// The grid for `count` points that are so far apart; on a strip that is thinner than their distance it has no more
+    /// columns than points.
+    pub(in crate::dcr) fn new(torus: &Torus, count: usize, spacing: f64) -> Self {
+        let limit = (count + 8) as f64 / spacing;
+        let along = |length: f64| smooth((length / (CELL * spacing)).ceil().min(limit) as usize);
+        let cells = torus.frame.size().to_array().map(along);
         let mut planner = FftPlanner::new();
         let forward = cells.map(|count| planner.plan_fft_forward(count));
-        Self { torus: *torus, cells, forward, back: cells.map(|count| planner.plan_fft_inverse(count)) }
+        Self { torus: *torus, spacing, cells, forward, back: cells.map(|count| planner.plan_fft_inverse(count)) }
     }
 
     /// The displacements, in spacings, of the first `count` points.
     pub(super) fn drift(&self, job: &Job, places: &[Place], count: usize) -> Result<Vec<Vec2>> {
-        let density = self.draw(places);
-        let (row, column) = (self.cells[0], self.cells[1]);
-        let columns = transform(&job.part(0.0, 0.2), density, row, &self.forward[0])?;
-        let mut waves = transform(&job.part(0.2, 0.4), columns, column, &self.forward[1])?;
-        self.integrate(&mut waves, places.len());
-        let columns = transform(&job.part(0.4, 0.6), waves, row, &self.back[0])?;
-        let field = transform(&job.part(0.6, 0.8), columns, column, &self.back[1])?;
+        let density = self.draw(places.iter().map(|&place| (place, 1.0)));
+        let field = self.displacements(&job.part(0.0, 0.8), density, places.len())?;
         let chunks = chunks(count);
         job.part(0.8, 1.0).concat(chunks.len(), |chunk| {
-            let drift = |&place: &Place| {
-                let mut sum = Complex::<f64>::default();
-                self.for_each_cell(place, |cell, weight| sum += field[cell] * weight);
-                Vec2::new(sum.re as f32, sum.im as f32)
-            };
-            places[chunks.range(chunk)].iter().map(drift).collect()
+            places[chunks.range(chunk)].iter().map(|&place| self.read(&field, place)).collect()
         })
+    }
+
+    /// The displacements at the nodes that level a density which sums up to, or is the excess over, `count` points.
+    pub(in crate::dcr) fn displacements(&self, job: &Job, density: Field, count: usize) -> Result<Field> {
+        let (row, column) = (self.cells[0], self.cells[1]);
+        let columns = transform(&job.part(0.0, 0.25), density, row, &self.forward[0])?;
+        let mut waves = transform(&job.part(0.25, 0.5), columns, column, &self.forward[1])?;
+        self.integrate(&mut waves, count);
+        let columns = transform(&job.part(0.5, 0.75), waves, row, &self.back[0])?;
+        transform(&job.part(0.75, 1.0), columns, column, &self.back[1])
+    }
+
+    /// The displacement at a place.
+    pub(in crate::dcr) fn read(&self, field: &Field, place: Place) -> Vec2 {
+        let mut sum = Complex::<f64>::default();
+        self.for_each_cell(place, |cell, weight| sum += field[cell] * weight);
+        Vec2::new(sum.re as f32, sum.im as f32)
     }
 
     /// Cells around a place and their weights: the cubic B-spline along each axis.
@@ -83,10 +95,11 @@ impl Waves {
         }
     }
 
-    fn draw(&self, places: &[Place]) -> Field {
+    /// The density of weights at places.
+    pub(in crate::dcr) fn draw(&self, weights: impl Iterator<Item = (Place, f64)>) -> Field {
         let mut density = vec![Complex::default(); self.cells[0] * self.cells[1]];
-        for &place in places {
-            self.for_each_cell(place, |cell, weight| density[cell].re += weight);
+        for (place, whole) in weights {
+            self.for_each_cell(place, |cell, weight| density[cell].re += whole * weight);
         }
         density
     }
@@ -108,7 +121,7 @@ impl Waves {
         for (row, (ky, spline_y)) in waves.chunks_mut(self.cells[0]).zip(axis(1)) {
             for (wave, (kx, spline_x)) in row.iter_mut().zip(axis(0)) {
                 let k = DVec2::new(kx, ky);
-                let relative = k.length() / (TAU * HIGHEST) * area.sqrt();
+                let relative = k.length() / (TAU * HIGHEST) * area.sqrt() * self.spacing;
                 let share = (-relative.powi(4)).exp() / (spline_x * spline_y).max(0.01) / count as f64;
                 let potential = if k == DVec2::ZERO { 0.0 } else { share / k.length_squared() };
                 *wave *= Complex::new(k.y, -k.x) * potential;
@@ -171,7 +184,7 @@ mod tests {
         let side = [60, 30];
         let torus = Torus::new(domain, 1800);
         let (places, displaced): (Vec<_>, Vec<_>) = wavy(&torus, side, 0.1).into_iter().unzip();
-        let waves = Waves::new(&torus, places.len());
+        let waves = Waves::new(&torus, places.len(), 1.0);
         for threads in [1, 3] {
             let context = Context::new(threads).unwrap();
             let drift = context.run(None, |job| waves.drift(job, &places, places.len())).unwrap();
