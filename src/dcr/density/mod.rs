@@ -76,13 +76,14 @@ fn is_density(value: f64) -> bool {
 }
 
 /// Relaxes a set of points to a density: returns as many points, in the same order, as dense from place to place as the
-/// density asks for, and evenly spread. It ends at the same set from any start, be it uniform, in the sense of all that
-/// can be measured; what it starts from decides how soon.
+/// density asks for, and evenly spread. A start that is about as dense as it shall be, such as [`scatter`] or
+/// [`psp::adaptive`](crate::psp::adaptive) make, needs no more than the usual 100 steps.
 ///
 /// As [`relax`](super::relax), with these differences. In the report, lengths are in units of the *local spacing*: `d_max` for
-/// the mean density, as 1 / sqrt(density) elsewhere, but it grows by no more than the distance from place to place, so
+/// the mean density, as 1 / sqrt(density) elsewhere, but it grows by no more than half of the distance from place to place, so
 /// that it is finite where the density is 0. [`Report::rho`] is the least of all distances over the mean of the spacings
-/// of the two points, [`Report::coverage`] the largest of all distances of a place from the set over the spacing there.
+/// of the two points, [`Report::coverage`] the largest circumradius of a triangle over the spacing at its centre, there
+/// without the limit to its growth.
 /// [`Report::motion`] is in units of `d_max`. Details of the density that are finer than an eighth of `d_max` are lost.
 /// A call that is cancelled before the first step returns the points as they are.
 ///

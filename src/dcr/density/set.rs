@@ -11,12 +11,16 @@ use crate::dcr::motion::Motion;
 use crate::dcr::spread::constraints::{Constraints, Force};
 use crate::dcr::spread::mesh::Mesh;
 use crate::dcr::spread::torus::{Place, Torus, along_curve};
-use crate::dcr::spread::{MOMENTUM, ROOM, STEP, WAVES_EVERY, WIDE};
+use crate::dcr::spread::{MOMENTUM, ROOM, STEP, WIDE};
 use crate::dcr::{Options, Relaxation};
 use crate::error::Result;
 use crate::grid2::Grid2;
 use crate::job::{Job, chunks};
 use crate::points::Domain;
+
+/// What is too much or missing is levelled in every so manieth step: more often than in uniform sets, where nothing holds
+/// against it.
+const WAVES_EVERY: u32 = 2;
 
 /// What knows the neighbours of each point.
 enum Neighbours {
@@ -110,7 +114,8 @@ impl Graded {
             let advance = |point: usize| {
                 self.surround(neighbours, point, &mut ring);
                 let spacing = self.spacings[point];
-                let Force { sum, room } = force(&constraints, spacing, &ring);
+                let density_at = |offset| self.raster.density(self.torus.moved(self.places[point], offset));
+                let Force { sum, room } = force(&constraints, spacing, &ring, density_at);
                 let limit = ROOM * if matches!(neighbours, Neighbours::Mesh(_)) { room } else { WIDE * spacing };
                 let velocity = MOMENTUM * self.velocities[point] + sum;
                 let place = self.torus.moved(self.places[point], (velocity + drift[point]).clamp_length_max(limit));
@@ -118,11 +123,6 @@ impl Graded {
             };
             chunks.range(chunk).map(advance).collect()
         })
-    }
-
-    /// The local spacing at a place of the torus, in its spacings.
-    fn spacing_at(&self, position: DVec2) -> f64 {
-        self.raster.spacing(self.torus.place(position)).into()
     }
 }
 
@@ -193,10 +193,11 @@ impl Relaxation for Graded {
         Ok(Some(least.into_iter().fold(f64::INFINITY, f64::min)))
     }
 
-    /// The largest circumradius over the spacing at its centre.
+    /// The largest circumradius in units of what the density at its centre asks for.
     fn coverage(&self, job: &Job) -> Result<f64> {
         let delaunay = self.triangulate(job)?;
-        let relative = |(centre, radius): (DVec2, f64)| radius / self.spacing_at(centre);
+        let relative =
+            |(centre, radius): (DVec2, f64)| radius * f64::from(self.raster.density(self.torus.place(centre))).sqrt();
         let largest = delaunay.circumcircles().map(relative).fold(0.0, f64::max);
         Ok(largest * self.domain.hexagonal_distance(self.order.len()))
     }

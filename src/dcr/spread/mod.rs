@@ -34,7 +34,7 @@ use crate::job::{Job, chunks};
 pub(super) const MOMENTUM: f32 = 0.78;
 
 /// Long waves are removed in every so manieth step.
-pub(super) const WAVES_EVERY: u32 = 5;
+const WAVES_EVERY: u32 = 5;
 
 /// How far points may move in the room that they have: less than half, so that no triangle turns over.
 pub(super) const ROOM: f32 = 0.45;
