@@ -265,7 +265,7 @@ fn compared(count: usize, asked: u64) -> String {
 }
 
 /// One line that says what was written. Nobody may be listening.
-fn report(path: &Path, count: usize, about: &str, seconds: f64) {
+pub fn report(path: &Path, count: usize, about: &str, seconds: f64) {
     let line = format!("{}: {} samples, {about}, {seconds:.2} s", path.display(), grouped(count));
     _ = writeln!(io::stdout(), "{line}");
 }

@@ -8,6 +8,8 @@ mod ply;
 mod procedural;
 mod progress;
 mod report;
+mod sheet;
+mod stipple;
 mod text;
 
 use std::process::ExitCode;
@@ -34,6 +36,8 @@ enum Command {
     Surface(generate::Surface),
     /// Relax a set of the plane by distance constraints (DCR).
     Relax(generate::Relax),
+    /// Draw an image with dots, as dense as it is dark (PSP, DCR).
+    Stipple(stipple::Stipple),
     /// Write a mesh that needs no download.
     Mesh(procedural::Procedural),
     /// Draw samples as a PNG picture.
@@ -50,6 +54,7 @@ fn run(cli: &Cli) -> Result<()> {
         Command::Plane(plane) => plane.run(&context),
         Command::Surface(surface) => surface.run(&context),
         Command::Relax(relax) => relax.run(&context),
+        Command::Stipple(stipple) => stipple.run(&context),
         Command::Mesh(procedural) => procedural.run(),
         Command::Draw(draw) => draw.run(&context),
         Command::Report(report) => report.run(&context),

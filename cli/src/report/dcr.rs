@@ -1,5 +1,6 @@
 //! `azulejo report dcr`: what relaxation makes of sets of the torus (thesis chapter 4), beside others' methods.
 
+mod density;
 mod page;
 mod quality;
 mod sets;

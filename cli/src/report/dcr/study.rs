@@ -4,6 +4,7 @@ use std::path::Path;
 
 use azulejo::{Context, Result};
 
+use super::density;
 use crate::output::Output;
 
 /// What a section has to work with.
@@ -26,4 +27,4 @@ impl Study<'_> {
 pub type Section = fn(&Study) -> Result<String>;
 
 /// All sections, in the order of the page. Each is a file of its own.
-pub const SECTIONS: [Section; 0] = [];
+pub const SECTIONS: [Section; 1] = [density::section];
