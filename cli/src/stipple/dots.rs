@@ -7,8 +7,9 @@ use azulejo::{Context, Progress, Result};
 use super::darkness::Darkness;
 use crate::sheet::sheet;
 
-/// What is lighter than this, but not white, is sampled by PSP as if it were so dark.
-const LIGHTEST: f64 = 0.01;
+/// What is lighter than this, but not white, is sampled by PSP as if it were so dark: the step from white to the next
+/// grey value of a byte.
+const LIGHTEST: f64 = 1.0 / 255.0;
 
 /// Dots at random.
 pub fn random(context: &Context, darkness: &Darkness, count: usize, seed: u64) -> Result<Vec<[f32; 2]>> {

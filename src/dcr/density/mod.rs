@@ -8,8 +8,10 @@
 //!   asks for is brought about by long waves of what is too much or missing, whose lengths scale with the local spacing
 //!   (`levels.rs`).
 //!
-//! All else is the best method's: momentum, constraints that grow stiffer, a mesh that is kept (`set.rs`).
+//! All else is the best method's: momentum, constraints that grow stiffer, a mesh that is kept (`set.rs`), also where wide
+//! areas have no points (`anchors.rs`).
 
+mod anchors;
 mod forces;
 mod levels;
 mod raster;

@@ -186,8 +186,8 @@ impl Raster {
             let ends = [(column + block[0]).min(self.cells[0]), (row + block[1]).min(self.cells[1])];
             let rows = (row..ends[1]).map(|row| &self.density[row * self.cells[0]..][column..ends[0]]);
             let sum: f64 = rows.flatten().map(|&density| f64::from(density)).sum();
-            let middle = |axis: usize, start: usize| self.coordinate(axis, 0.5 * (start + ends[axis]) as f64);
-            weights.push(([middle(0, column), middle(1, row)], sum * unit));
+            let middle = |axis: usize, start: usize| 0.5 * (start + ends[axis]) as f64 / self.cells[axis] as f64;
+            weights.push((self.place([middle(0, column), middle(1, row)]), sum * unit));
         }
         weights
     }
@@ -205,18 +205,19 @@ impl Raster {
             let at = rng.unit() * whole;
             let cell = sums.partition_point(|&sum| sum <= at).min(sums.len() - 1);
             let cell = [cell % self.cells[0], cell / self.cells[0]];
-            torus.leave([0, 1].map(|axis| self.coordinate(axis, cell[axis] as f64 + rng.unit())))
+            let share = [0, 1].map(|axis| (cell[axis] as f64 + rng.unit()) / self.cells[axis] as f64);
+            torus.leave(self.place(share))
         };
         (0..count as u64).map(point).collect()
     }
 
-    /// The coordinate on the torus that is so many cells from the lower border.
-    fn coordinate(&self, axis: usize, cells: f64) -> u32 {
+    /// The place on the torus at a share of the width and of the height.
+    pub(super) fn place(&self, share: [f64; 2]) -> Place {
         let period = match self.domain.boundary {
             Boundary::Periodic => 2f64.powi(32),
             Boundary::Bounded => f64::from(HALF),
         };
-        (cells / self.cells[axis] as f64 * period) as u64 as u32
+        share.map(|share| (share * period) as u64 as u32)
     }
 }
 

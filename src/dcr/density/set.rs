@@ -2,6 +2,7 @@
 
 use glam::{DVec2, Vec2};
 
+use super::anchors::anchors;
 use super::forces::{Neighbour, force};
 use super::levels::Levels;
 use super::raster::Raster;
@@ -41,6 +42,7 @@ pub(super) struct Graded {
     start: Vec<Place>,
     /// Where they are, and after them their images on the torus.
     places: Vec<Place>,
+    anchors: Vec<Place>,
     /// The local spacing of each point, in spacings of the torus.
     spacings: Vec<f32>,
     velocities: Vec<Vec2>,
@@ -61,6 +63,7 @@ impl Graded {
             domain: options.domain,
             levels: Levels::new(job, &torus, &raster, start.len())?,
             places: torus.with_images(&start),
+            anchors: anchors(&torus, &raster),
             spacings: start.iter().map(|&place| raster.spacing(place)).collect(),
             velocities: vec![Vec2::ZERO; start.len()],
             mesh: None,
@@ -77,31 +80,42 @@ impl Graded {
         if let Some(mesh) = self.mesh.take() {
             return Ok(Neighbours::Mesh(mesh));
         }
-        let delaunay = self.triangulate(&job.part(0.0, 0.9))?;
-        if let Some(mut mesh) = Mesh::new(&delaunay, &self.torus, &self.places)
-            && mesh.repair(&job.part(0.9, 1.0), &self.places)?
+        let corners = self.corners();
+        let delaunay = self.triangulate(&job.part(0.0, 0.9), &corners)?;
+        if let Some(mut mesh) = Mesh::new(&delaunay, &self.torus, &corners)
+            && mesh.repair(&job.part(0.9, 1.0), &corners)?
         {
             return Ok(Neighbours::Mesh(mesh));
         }
         Ok(Neighbours::Stars(delaunay))
     }
 
-    fn triangulate(&self, job: &Job) -> Result<Delaunay> {
-        Delaunay::new(job, &self.torus.frame, self.torus.nudged(&self.places).into_iter())
+    /// The corners of the mesh: all places, then the anchors.
+    fn corners(&self) -> Vec<Place> {
+        [&self.places[..], &self.anchors].concat()
+    }
+
+    fn triangulate(&self, job: &Job, corners: &[Place]) -> Result<Delaunay> {
+        Delaunay::new(job, &self.torus.frame, self.torus.nudged(corners).into_iter())
     }
 
     /// The ring around a point.
     fn surround(&self, neighbours: &Neighbours, point: usize, ring: &mut Vec<Neighbour>) {
         ring.clear();
-        let spacing = |other: u32| self.spacings[other as usize % self.order.len()];
+        let mut add = |other: u32, offset: Option<Vec2>| {
+            // Nothing is in conflict with an anchor.
+            let (place, spacing) = match (other as usize).checked_sub(self.places.len()) {
+                Some(anchor) => (self.anchors[anchor], f32::INFINITY),
+                None => (self.places[other as usize], self.spacings[other as usize % self.order.len()]),
+            };
+            let offset = offset.unwrap_or_else(|| self.torus.way(self.places[point], place));
+            ring.push(Neighbour { offset, spacing });
+        };
         match neighbours {
-            Neighbours::Mesh(mesh) => mesh.for_each_neighbour(point, |other| {
-                let offset = self.torus.way(self.places[point], self.places[other as usize]);
-                ring.push(Neighbour { offset, spacing: spacing(other) });
-            }),
-            Neighbours::Stars(delaunay) => delaunay.for_each(point, |link| {
-                ring.push(Neighbour { offset: link.offset.as_vec2(), spacing: spacing(link.other) });
-            }),
+            Neighbours::Mesh(mesh) => mesh.for_each_neighbour(point, |other| add(other, None)),
+            Neighbours::Stars(delaunay) => {
+                delaunay.for_each(point, |link| add(link.other, Some(link.offset.as_vec2())));
+            }
         }
     }
 
@@ -141,7 +155,7 @@ impl Relaxation for Graded {
         self.iterations += 1;
         self.motion.after_step(&self.torus.frame, || places.iter().map(|&place| self.torus.position(place)));
         if let Neighbours::Mesh(mut mesh) = neighbours {
-            self.mesh = mesh.repair(&job.part(0.7, 1.0), &self.places)?.then_some(mesh);
+            self.mesh = mesh.repair(&job.part(0.7, 1.0), &self.corners())?.then_some(mesh);
         }
         Ok(())
     }
@@ -195,7 +209,7 @@ impl Relaxation for Graded {
 
     /// The largest circumradius in units of what the density at its centre asks for.
     fn coverage(&self, job: &Job) -> Result<f64> {
-        let delaunay = self.triangulate(job)?;
+        let delaunay = self.triangulate(job, &self.places)?;
         let relative =
             |(centre, radius): (DVec2, f64)| radius * f64::from(self.raster.density(self.torus.place(centre))).sqrt();
         let largest = delaunay.circumcircles().map(relative).fold(0.0, f64::max);
