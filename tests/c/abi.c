@@ -149,6 +149,17 @@ FIELD(azulejo_dcr_report, coverage, 32);
 FIELD(azulejo_dcr_report, stopped, 40);
 FIELD(azulejo_dcr_report, reserved, 44);
 
+SIZE(azulejo_density_fn, 8);
+
+SIZE(azulejo_density, 48);
+FIELD(azulejo_density, struct_size, 0);
+FIELD(azulejo_density, reserved, 4);
+FIELD(azulejo_density, values, 8);
+FIELD(azulejo_density, width, 16);
+FIELD(azulejo_density, height, 24);
+FIELD(azulejo_density, function, 32);
+FIELD(azulejo_density, user, 40);
+
 CONSTANT(AZULEJO_OK, 0);
 CONSTANT(AZULEJO_ERROR_INVALID_ARGUMENT, -1);
 CONSTANT(AZULEJO_ERROR_TOO_LARGE, -2);
