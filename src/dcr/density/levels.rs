@@ -8,6 +8,7 @@
 use glam::Vec2;
 
 use super::raster::Raster;
+use crate::dcr::spread::LONG_WAVES;
 use crate::dcr::spread::torus::{Place, Torus};
 use crate::dcr::spread::waves::{Field, Waves};
 use crate::error::Result;
@@ -27,6 +28,7 @@ pub(super) struct Levels {
 }
 
 struct Level {
+    spacing: f64,
     waves: Waves,
     wanted: Field,
 }
@@ -41,11 +43,11 @@ impl Levels {
         let octaves = (largest / finest).max(1.0).log2().ceil() as usize;
         let levels = job.map(1 + octaves, |octave| {
             let spacing = finest * 2f64.powi(octave as i32);
-            let waves = Waves::new(torus, count, spacing);
+            let waves = Waves::of_spacing(torus, count, spacing);
             let weights = raster.weights(torus, spacing / WEIGHTS, count as f64);
             let (places, weights): (Vec<Place>, Vec<f64>) = weights.into_iter().unzip();
             let weights = torus.with_images(&places).into_iter().zip(weights.into_iter().cycle());
-            Level { wanted: waves.draw(weights), waves }
+            Level { spacing, wanted: waves.draw(weights), waves }
         })?;
         Ok(Self { levels, finest })
     }
@@ -79,6 +81,6 @@ impl Level {
     fn flow(&self, job: &Job, places: &[Place]) -> Result<Field> {
         let mut excess = self.waves.draw(places.iter().map(|&place| (place, 1.0)));
         excess.iter_mut().zip(&self.wanted).for_each(|(excess, wanted)| *excess -= wanted);
-        self.waves.displacements(job, excess, places.len())
+        self.waves.displacements(job, excess, places.len(), LONG_WAVES / self.spacing)
     }
 }

@@ -14,6 +14,7 @@
 mod anchors;
 mod forces;
 mod levels;
+mod mesh;
 mod raster;
 mod set;
 

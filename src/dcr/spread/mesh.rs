@@ -32,7 +32,7 @@ struct Triangle {
 }
 
 /// A triangulation of a torus, all of whose edges are short.
-pub(in crate::dcr) struct Mesh {
+pub(super) struct Mesh {
     torus: Torus,
     triangles: Vec<Triangle>,
     /// A half-edge that starts at each point.
@@ -53,7 +53,7 @@ impl Mesh {
     /// The mesh of a triangulation of the torus with its copies. None if edges are too long, as in sets of a few points or
     /// with large holes, or if copies are not triangulated alike, which happens to
     /// four points on one circle unless they are nudged.
-    pub(in crate::dcr) fn new(delaunay: &Delaunay, torus: &Torus, places: &[Place]) -> Option<Self> {
+    pub(super) fn new(delaunay: &Delaunay, torus: &Torus, places: &[Place]) -> Option<Self> {
         // Of the translates of a triangle one has its first point in the domain.
         let corners = delaunay.triangles().filter_map(|sites| {
             let least = sites.iter().min_by_key(|site| site.source)?;
@@ -161,7 +161,7 @@ impl Mesh {
     }
 
     /// Makes the mesh the Delaunay triangulation of points that have moved; false if a triangle has turned over.
-    pub(in crate::dcr) fn repair(&mut self, job: &Job, places: &[Place]) -> Result<bool> {
+    pub(super) fn repair(&mut self, job: &Job, places: &[Place]) -> Result<bool> {
         let chunks = chunks_of(self.triangles.len(), 4096);
         let sound = AtomicBool::new(true);
         let cotangents = job.part(0.0, 0.5).concat(chunks.len(), |chunk| {
@@ -213,16 +213,12 @@ impl Mesh {
 impl Mesh {
     /// Adds the ways from a point to its neighbours to `ring`, in spacings and counter-clockwise.
     pub(super) fn star(&self, places: &[Place], point: usize, ring: &mut Vec<Vec2>) {
-        self.for_each_neighbour(point, |other| ring.push(self.torus.way(places[point], places[other as usize])));
-    }
-
-    /// Visits the neighbours of a point, counter-clockwise.
-    pub(in crate::dcr) fn for_each_neighbour(&self, point: usize, mut visit: impl FnMut(u32)) {
         let start = self.first[point];
         let mut edge = start;
         loop {
             let triangle = &self.triangles[(edge >> 2) as usize];
-            visit(triangle.corners[(next(edge) & 3) as usize]);
+            let other = triangle.corners[(next(edge) & 3) as usize];
+            ring.push(self.torus.way(places[point], places[other as usize]));
             edge = triangle.twins[(previous(edge) & 3) as usize];
             if edge == start {
                 return;

@@ -104,6 +104,12 @@ impl Torus {
         mirrors[..self.copies()].iter().flat_map(|mirror| points.iter().copied().map(mirror)).collect()
     }
 
+    /// The ways from a point of a bounded domain to its own images across the nearest borders.
+    pub(super) fn own_images(&self, place: Place) -> [Vec2; 2] {
+        let [x, y] = place;
+        [[x.wrapping_neg(), y], [x, y.wrapping_neg()]].map(|image| self.way(place, image))
+    }
+
     /// The positions of places, nudged so little that nothing changes but this: where four stand on one circle, as points
     /// and their mirror images do, all copies of them agree on which diagonal is an edge.
     pub(in crate::dcr) fn nudged(&self, places: &[Place]) -> Vec<DVec2> {
