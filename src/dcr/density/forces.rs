@@ -16,7 +16,7 @@ pub(super) struct Neighbour {
     pub(super) spacing: f32,
 }
 
-/// The force on a point with this spacing by the neighbours on a ring around it, in counter-clockwise order;
+/// The force, in units of its spacing, on a point with this spacing by the neighbours on a ring around it, in counter-clockwise order;
 /// `density_at` gives the density, in units of the mean, at an offset from the point.
 pub(super) fn force(
     constraints: &Constraints,
@@ -35,7 +35,7 @@ pub(super) fn force(
         sum += pull(constraints, spacing.min(before.spacing).min(neighbour.spacing), a, b, &density_at);
         before = neighbour;
     }
-    Force { sum: spacing * sum, room }
+    Force { sum, room }
 }
 
 /// The force by the triangle of a point and two neighbours, the least of whose spacings is given: none unless its

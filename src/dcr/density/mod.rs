@@ -8,8 +8,9 @@
 //!   asks for is brought about by long waves of what is too much or missing, whose lengths scale with the local spacing
 //!   (`levels.rs`).
 //!
-//! All else is the best method's: momentum, constraints that grow stiffer, a mesh that is kept (`set.rs`), also where wide
-//! areas have no points (`anchors.rs`).
+//! All else is the best method's: momentum, constraints that grow stiffer, a border in which points do not see themselves, a
+//! mesh that is kept (`set.rs`), also where wide areas have no points (`anchors.rs`). The border has no excess of points, which
+//! would show as a frame.
 
 mod anchors;
 mod forces;

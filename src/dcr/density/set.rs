@@ -10,6 +10,7 @@ use super::raster::Raster;
 use crate::dcr::delaunay::Delaunay;
 use crate::dcr::links::Links;
 use crate::dcr::motion::Motion;
+use crate::dcr::spread::border::Border;
 use crate::dcr::spread::constraints::{Constraints, Force};
 use crate::dcr::spread::torus::{Place, Torus, along_curve};
 use crate::dcr::spread::{MOMENTUM, ROOM, STEP, WIDE};
@@ -17,7 +18,7 @@ use crate::dcr::{Options, Relaxation};
 use crate::error::Result;
 use crate::grid2::Grid2;
 use crate::job::{Job, chunks};
-use crate::points::Domain;
+use crate::points::{Boundary, Domain};
 
 /// What is too much or missing is levelled in every so manieth step: more often than in uniform sets, where nothing holds
 /// against it.
@@ -131,7 +132,14 @@ impl Graded {
                 let density_at = |offset| self.raster.density(self.torus.moved(self.places[point], offset));
                 let Force { sum, room } = force(&constraints, spacing, &ring, density_at);
                 let limit = ROOM * if matches!(neighbours, Neighbours::Mesh(_)) { room } else { WIDE * spacing };
-                let velocity = MOMENTUM * self.velocities[point] + sum;
+                let sum = match self.domain.boundary {
+                    Boundary::Periodic => sum,
+                    Boundary::Bounded => {
+                        let images = self.torus.own_images(self.places[point]).map(|image| image / spacing);
+                        Border::force_by_images(&constraints, images, sum)
+                    }
+                };
+                let velocity = MOMENTUM * self.velocities[point] + spacing * sum;
                 let place = self.torus.moved(self.places[point], (velocity + drift[point]).clamp_length_max(limit));
                 (place, velocity.clamp_length_max(limit))
             };

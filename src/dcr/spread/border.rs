@@ -24,7 +24,7 @@ const MEETING: f32 = 0.25;
 const EXCESS: f64 = 0.13;
 
 /// The border of a domain that stands on a torus beside its mirror images.
-pub(super) struct Border {
+pub(in crate::dcr) struct Border {
     torus: Torus,
 }
 
@@ -36,9 +36,14 @@ impl Border {
 
     /// The force on a point, from that by all neighbours of which its own images were some.
     pub(super) fn force(&self, constraints: &Constraints, place: Place, sum: Vec2) -> Vec2 {
+        Self::force_by_images(constraints, self.torus.own_images(place), sum)
+    }
+
+    /// The same, given the ways to its own images.
+    pub(in crate::dcr) fn force_by_images(constraints: &Constraints, images: [Vec2; 2], sum: Vec2) -> Vec2 {
         let meeting = Constraints { conflict_radius: MEETING, ..*constraints };
         let mut force = sum;
-        for image in self.torus.own_images(place) {
+        for image in images {
             let (squared, outwards) = (image.length_squared(), image.normalize_or_zero());
             force -= constraints.push(image, squared);
             // By symmetry a point on the border is not pushed out, but of a neighbour and its image the triangulation may

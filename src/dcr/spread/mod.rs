@@ -12,7 +12,7 @@
 //! * the triangulation is kept and repaired by flips (`mesh.rs`). Where it cannot be, with a few points or large holes, it
 //!   is built anew in every step.
 
-mod border;
+pub(super) mod border;
 mod cells;
 pub(super) mod constraints;
 mod mesh;

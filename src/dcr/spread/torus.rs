@@ -105,7 +105,7 @@ impl Torus {
     }
 
     /// The ways from a point of a bounded domain to its own images across the nearest borders.
-    pub(super) fn own_images(&self, place: Place) -> [Vec2; 2] {
+    pub(in crate::dcr) fn own_images(&self, place: Place) -> [Vec2; 2] {
         let [x, y] = place;
         [[x.wrapping_neg(), y], [x, y.wrapping_neg()]].map(|image| self.way(place, image))
     }
