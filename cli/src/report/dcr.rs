@@ -1,8 +1,12 @@
 //! `azulejo report dcr`: what relaxation makes of sets of the torus (thesis chapter 4), beside others' methods.
 
+mod convergence;
 mod density;
+mod distributions;
 mod page;
 mod quality;
+mod radii;
+mod remeshing;
 mod sets;
 mod study;
 

@@ -119,7 +119,7 @@ pub fn relax_with_density(
         let raster = Raster::new(&job.part(0.0, 0.5), &options.domain, density, points.len())?;
         Graded::new(&job.part(0.5, 1.0), options, raster, points)
     })?;
-    super::run(context, options, points, &mut set, progress)
+    super::run(context, options, points, &mut set, progress, None)
 }
 
 /// Random points of a domain, as dense as asked for: a start for [`relax_with_density`]. Point `i` depends on the

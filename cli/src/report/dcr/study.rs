@@ -2,10 +2,20 @@
 
 use std::path::Path;
 
-use azulejo::{Context, Result};
+use azulejo::dcr::{Method, Neighbourhood, Options, Thesis};
+use azulejo::{Boundary, Context, Domain, Result};
 
-use super::density;
+use super::{convergence, density, distributions, radii, remeshing};
+use crate::draw::rows::in_parallel;
 use crate::output::Output;
+use crate::progress::watched;
+
+/// Measures, writes its pictures, and gives its text, from its `##` title on.
+pub type Section = fn(&Study) -> Result<String>;
+
+/// All sections, in the order of the page. Each is a file of its own.
+pub const SECTIONS: [Section; 5] =
+    [convergence::section, radii::section, distributions::section, remeshing::section, density::section];
 
 /// What a section has to work with.
 pub struct Study<'a> {
@@ -21,10 +31,22 @@ impl Study<'_> {
     pub fn picture(&self, name: &str) -> Result<Output> {
         Output::at(&self.pictures.join(format!("{name}.png")))
     }
+
+    /// `[work(0), .., work(count - 1)]`, each on one thread, as many at a time as there are threads: one relaxation by the
+    /// thesis's algorithm has little to share.
+    pub fn each<T: Send>(
+        &self,
+        what: &'static str,
+        count: usize,
+        work: impl Fn(&Context, usize) -> Result<T> + Sync,
+    ) -> Result<Vec<T>> {
+        let single = Context::new(1)?;
+        let threads = self.context.num_threads();
+        watched(what, |progress| in_parallel(threads, count, progress, |i| work(&single, i)))?.into_iter().collect()
+    }
 }
 
-/// Measures, writes its pictures, and gives its text, from its `##` title on.
-pub type Section = fn(&Study) -> Result<String>;
-
-/// All sections, in the order of the page. Each is a file of its own.
-pub const SECTIONS: [Section; 1] = [density::section];
+/// The thesis's algorithm with these settings on the unit square.
+pub fn thesis_options(thesis: Thesis, neighbourhood: Neighbourhood, boundary: Boundary, seed: u64) -> Options {
+    Options { method: Method::Thesis(thesis), seed, ..Options::thesis(Domain::unit(boundary), neighbourhood) }
+}
