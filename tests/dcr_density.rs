@@ -51,7 +51,7 @@ fn a_constant_density_is_as_good_as_none() {
                 assert!((report.smallest_distance / smallest - 1.0).abs() < 1e-12);
                 assert!((report.rho * domain.hexagonal_distance(start.len()) / smallest - 1.0).abs() < 1e-6);
                 assert!(
-                    report.rho > plain.rho - 0.02 && report.coverage < plain.coverage + 0.03,
+                    report.rho > plain.rho - 0.02 && report.coverage < plain.coverage + 0.05,
                     "{report:?} {plain:?}"
                 );
             }
@@ -110,8 +110,8 @@ fn where_no_points_are_wanted_there_are_none() {
         let inner = relaxed.iter().filter(|p| radius(p) < 0.15).count() as f64;
         assert!((inner / 375.0 - 1.0).abs() < 0.04, "{inner}");
         assert!(report.rho > 0.7, "{report:?}");
-        // From a uniform start they come from everywhere.
-        let (relaxed, _) = run(&Options { max_iterations: 400, ..options(domain) }, &density, &random_points(1500, 5));
+        // From a uniform start they come from everywhere, which takes its time.
+        let (relaxed, _) = run(&Options { max_iterations: 800, ..options(domain) }, &density, &random_points(1500, 5));
         let strays = relaxed.iter().filter(|p| radius(p) > 0.3 + spacing).count();
         assert!(strays < 15, "{boundary:?}: {strays}");
     }

@@ -27,6 +27,9 @@ pub(super) struct Levels {
     finest: f64,
 }
 
+/// The grids are those for points this many times as far apart: three nodes to the shortest of the waves are enough.
+const NODES: f64 = 1.4;
+
 struct Level {
     spacing: f64,
     waves: Waves,
@@ -43,7 +46,7 @@ impl Levels {
         let octaves = (largest / finest).max(1.0).log2().ceil() as usize;
         let levels = job.map(1 + octaves, |octave| {
             let spacing = finest * 2f64.powi(octave as i32);
-            let waves = Waves::of_spacing(torus, count, spacing);
+            let waves = Waves::of_spacing(torus, count, NODES * spacing);
             let weights = raster.weights(torus, spacing / WEIGHTS, count as f64);
             let (places, weights): (Vec<Place>, Vec<f64>) = weights.into_iter().unzip();
             let weights = torus.with_images(&places).into_iter().zip(weights.into_iter().cycle());

@@ -81,7 +81,7 @@ fn is_density(value: f64) -> bool {
 
 /// Relaxes a set of points to a density: returns as many points, in the same order, as dense from place to place as the
 /// density asks for, and evenly spread. A start that is about as dense as it shall be, such as [`scatter`] or
-/// [`psp::adaptive`](crate::psp::adaptive) make, needs no more than the usual 100 steps.
+/// [`psp::adaptive`](crate::psp::adaptive) make, needs no more than the usual 100 steps; others may take 800.
 ///
 /// As [`relax`](super::relax), with these differences. In the report, lengths are in units of the *local spacing*: `d_max` for
 /// the mean density, as 1 / sqrt(density) elsewhere, but it grows by no more than half of the distance from place to place, so
