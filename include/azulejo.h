@@ -1048,7 +1048,8 @@ azulejo_status azulejo_dcr_scatter(const struct azulejo_context *context,
 
 /// Relaxes a set of points to a density: as azulejo_dcr_relax, but the points become as dense from place to place as the
 /// density asks for, and evenly spread (thesis section 4.2.3). Points that are about as dense before, as
-/// azulejo_dcr_scatter and azulejo_psp_sample_adaptive make them, need no more than the usual 100 steps.
+/// azulejo_dcr_scatter and azulejo_psp_sample_adaptive make them, need no more than the usual 100 steps; others may take
+/// 800.
 ///
 /// The unit of length is the local spacing: d_max for the mean density, as 1 / sqrt(density) elsewhere, but it grows by no
 /// more than half of the distance from place to place, so that it is finite where the density is 0. The report's rho is the

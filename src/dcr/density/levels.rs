@@ -20,15 +20,15 @@ const FINEST: f64 = 3.0;
 /// Nodes are this many times as far apart as the weights that the density is drawn by.
 const WEIGHTS: f64 = 2.0;
 
+/// The grids are those for points this many times as far apart: three nodes to the shortest of the waves are enough.
+const NODES: f64 = 1.4;
+
 /// The grids, from fine to coarse.
 pub(super) struct Levels {
     levels: Vec<Level>,
     /// The spacing that the first is for.
     finest: f64,
 }
-
-/// The grids are those for points this many times as far apart: three nodes to the shortest of the waves are enough.
-const NODES: f64 = 1.4;
 
 struct Level {
     spacing: f64,
