@@ -1,9 +1,11 @@
-// Stippling (thesis section 3.4.4): draws a grey image with dots, as dense as the image is dark.
+// Stippling (thesis sections 3.4.4 and 4.2.3): draws a grey image with dots, as dense as the image is dark.
 //
 //   stipple IMAGE.pgm OUT.svg [DOTS]
 //
 // The image becomes a flat mesh with a vertex for each pixel, whose radius follows from its darkness: a maximal set has
-// 0.69656 / radius^2 samples on an area of 1. Where all is white there is no mesh, and so no dot.
+// 0.69656 / radius^2 samples on an area of 1. Where all is white there is no mesh, and so no dot. Then the samples are
+// relaxed until they are as dense as the image is dark, and evenly spread. The dots' size is that with which they have as
+// much ink as the image.
 
 #include <algorithm>
 #include <cmath>
@@ -12,6 +14,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <iostream>
+#include <numeric>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -23,12 +26,12 @@ namespace {
 constexpr double density = 0.69656;
 // What is lighter than this, but not white, is drawn as if it were so dark.
 constexpr double lightest = 0.01;
-// The radius of the dots in that of the samples where it is darkest.
-constexpr double dot = 0.55;
 
 struct Image {
     std::uint32_t width, height;
-    std::vector<double> darkness; // row by row, 0 for white to 1 for black
+    std::vector<float> darkness; // row by row, 0 for white to 1 for black
+
+    double ink() const { return std::accumulate(darkness.begin(), darkness.end(), 0.0); }
 };
 
 // The next number of a PGM header; comments run from # to the end of a line.
@@ -62,7 +65,7 @@ Image load(const char *path) {
             if (white > 255) grey = 256 * grey + static_cast<unsigned char>(file.get());
         }
         if (!file) throw std::runtime_error("fewer pixels than the header says");
-        image.darkness.push_back(1 - std::min(1.0, double(grey) / white));
+        image.darkness.push_back(float(1 - std::min(1.0, double(grey) / white)));
     }
     return image;
 }
@@ -70,16 +73,14 @@ Image load(const char *path) {
 struct Canvas {
     std::vector<float> positions, radii;
     std::vector<std::uint32_t> indices;
-    double darkest; // its radius
 };
 
 // The mesh of an image, in pixels, with the radii that make about so many dots.
 Canvas prepare(const Image &image, double dots) {
     const auto [width, height, darkness] = image;
     Canvas canvas;
-    double ink = 0, most = 0;
-    for (double d : darkness) ink += d, most = std::max(most, d);
-    if (most == 0) throw std::runtime_error("a white image has no dots");
+    const double ink = image.ink();
+    if (ink == 0) throw std::runtime_error("a white image has no dots");
     const auto radius = [&](double d) { return std::sqrt(density * ink / (dots * std::max(d, lightest))); };
     for (std::uint32_t y = 0; y < height; y++)
         for (std::uint32_t x = 0; x < width; x++) {
@@ -95,20 +96,36 @@ Canvas prepare(const Image &image, double dots) {
             triangle(a, b, d);
             triangle(a, d, c);
         }
-    canvas.darkest = radius(most);
     return canvas;
 }
 
+// The samples, relaxed: x y each, on a domain that begins where the image does, half a pixel before its first vertex.
+azulejo::Points relax(const azulejo::Context &context, const Image &image, const azulejo::Points &samples) {
+    std::vector<float> xy;
+    const auto xyz = samples.positions();
+    for (std::size_t i = 0; i < samples.size(); i++)
+        xy.insert(xy.end(), {xyz[3 * i] + 0.5f, xyz[3 * i + 1] + 0.5f});
+    azulejo::DcrOptions options;
+    options.boundary = AZULEJO_BOUNDARY_BOUNDED;
+    options.domain_max[0] = image.width;
+    options.domain_max[1] = image.height;
+    azulejo::Density density;
+    density.values = image.darkness;
+    density.width = image.width;
+    return azulejo::dcr_relax_density(context, options, density, xy);
+}
+
 // One path of strokes without length, whose round caps are the dots.
-void write(const char *path, const Image &image, const azulejo::Points &points, double dot_radius) {
+void write(const char *path, const Image &image, const azulejo::Points &points) {
+    const double diameter = 2 * std::sqrt(image.ink() / (3.14159265 * double(points.size())));
     std::ofstream file(path);
     file << "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " << image.width << ' ' << image.height << "\">\n"
          << "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n<path stroke=\"black\" stroke-linecap=\"round\" "
-         << "stroke-width=\"" << 2 * dot_radius << "\" d=\"\n";
-    const auto xyz = points.positions();
+         << "stroke-width=\"" << diameter << "\" d=\"\n";
+    const auto xy = points.positions();
     for (std::size_t i = 0; i < points.size(); i++) {
         char text[64];
-        std::snprintf(text, sizeof text, "M%.3f %.3fh0\n", xyz[3 * i] + 0.5, xyz[3 * i + 1] + 0.5);
+        std::snprintf(text, sizeof text, "M%.3f %.3fh0\n", xy[2 * i], xy[2 * i + 1]);
         file << text;
     }
     file << "\"/>\n</svg>\n";
@@ -132,10 +149,9 @@ int main(int argc, char **argv) {
         const azulejo::Mesh mesh(canvas.positions, canvas.indices);
         azulejo::AdaptiveOptions options;
         options.vertex_radii = canvas.radii;
-        azulejo::PspReport report;
-        const auto points = azulejo::psp_sample_adaptive(context, mesh, options, &report);
-        write(argv[2], image, points, dot * canvas.darkest);
-        std::printf("%zu dots in %.3f s\n", points.size(), report.seconds);
+        const auto points = relax(context, image, azulejo::psp_sample_adaptive(context, mesh, options));
+        write(argv[2], image, points);
+        std::printf("%zu dots\n", points.size());
         return EXIT_SUCCESS;
     } catch (const std::exception &error) {
         std::cerr << "stipple: " << error.what() << '\n';

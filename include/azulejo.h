@@ -29,10 +29,10 @@
  *
  * Progress. The callback in the options is called on the thread that makes the call, with the finished share, which
  *   never falls, from 0 to 1 (the 1 comes if the call succeeds). Any return value but 0 cancels the call, which then
- *   returns AZULEJO_ERROR_CANCELLED; only azulejo_dcr_relax returns what it has, as its report says. The callback may
- *   call the library, also with the same context. It must return: no exception and no longjmp may leave it. The same
- *   holds for the callback of azulejo_kdrt_stream. Only an azulejo_radius_fn is called on other threads, and several at
- *   once.
+ *   returns AZULEJO_ERROR_CANCELLED; only azulejo_dcr_relax and azulejo_dcr_relax_density return what they have, as
+ *   their report says. The callback may call the library, also with the same context. It must return: no exception and
+ *   no longjmp may leave it. The same holds for the callback of azulejo_kdrt_stream. Only an azulejo_radius_fn and an
+ *   azulejo_density_fn are called on other threads, and several at once.
  *
  * Threads. Every function may be called from any thread at any time. A context can be used by several threads at
  *   once; a psp handle serves one changing call at a time and refuses a second one. The last error belongs to the
@@ -558,6 +558,42 @@ typedef struct azulejo_dcr_report {
     /// Zeros, for later versions.
     uint32_t reserved[5];
 } azulejo_dcr_report;
+
+/// Gives the density at a place.
+///
+/// It is called from several threads at once, the library's own; only where the context has one thread it is called on
+/// the thread that made the call. It is called once for each place of a lattice of up to some hundred places per point,
+/// all before the first step, and not before or in the first report of progress. It must return (no exception and no
+/// longjmp may leave it), and must not call the library with the same context.
+///
+/// user: the user of the azulejo_density.
+///
+/// position: x y of a place in the domain.
+///
+/// Returns the density, 0 or above and finite.
+typedef double (*azulejo_density_fn)(void *user, const double *position);
+
+/// How dense points shall be from place to place, in any unit: twice the density gives the same set. Densities are 0 or
+/// above and finite, and not 0 everywhere; where they are 0 no points are wanted. Either `values` or `function` is to be
+/// set.
+typedef struct azulejo_density {
+    /// The size of the caller's struct in bytes; set by the init function.
+    uint32_t struct_size;
+    /// Must be 0.
+    uint32_t reserved;
+    /// An image that is stretched over the domain, linear between the centres of its pixels: height rows of width
+    /// densities each, of which the first lies along the lower border (domain_min[1]). NULL, the default, where `function`
+    /// is set. Used during the call only.
+    const float *values;
+    /// Pixels in a row; at least 1. Not used with `function`.
+    size_t width;
+    /// Rows; at least 1. Not used with `function`.
+    size_t height;
+    /// Gives the density at a place, unless NULL, which is the default.
+    azulejo_density_fn function;
+    /// Handed to `function`.
+    void *user;
+} azulejo_density;
 
 /// How a set covers a domain or a surface with disks of a radius. See azulejo_plane_coverage, azulejo_mesh_coverage.
 typedef struct azulejo_coverage {
@@ -1102,6 +1138,56 @@ azulejo_status azulejo_dcr_relax(const struct azulejo_context *context,
                                  size_t count,
                                  struct azulejo_points **out,
                                  struct azulejo_dcr_report *report);
+
+/// Writes the defaults. `struct_size` is sizeof *density.
+azulejo_status azulejo_density_init(struct azulejo_density *density, size_t struct_size);
+
+/// Makes random points of the domain of the options, as dense as asked for: a start for azulejo_dcr_relax_density. Of the
+/// options domain, boundary and seed play a part.
+///
+/// The same arguments give the same bytes. O(count log count) time and O(count) memory.
+///
+/// count: how many points there shall be.
+///
+/// out: the points, to be freed with azulejo_points_free.
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_TOO_LARGE.
+azulejo_status azulejo_dcr_scatter(const struct azulejo_context *context,
+                                   const struct azulejo_dcr_options *options,
+                                   const struct azulejo_density *density,
+                                   size_t count,
+                                   struct azulejo_points **out);
+
+/// Relaxes a set of points to a density: as azulejo_dcr_relax, but the points become as dense from place to place as the
+/// density asks for, and evenly spread (thesis section 4.2.3). Points that are about as dense before, as
+/// azulejo_dcr_scatter and azulejo_psp_sample_adaptive make them, need no more than the usual 100 steps; others may take
+/// 800.
+///
+/// The unit of length is the local spacing: d_max for the mean density, as 1 / sqrt(density) elsewhere, but it grows by no
+/// more than half of the distance from place to place, so that it is finite where the density is 0. The report's rho is the
+/// least of all distances over the mean of the spacings of the two points; its coverage the largest circumradius of a
+/// Delaunay triangle over what the density at its centre asks for; its motion is in units of d_max. Details of the
+/// density that are finer than an eighth of d_max are lost.
+///
+/// options: AZULEJO_METHOD_BEST and AZULEJO_NEIGHBOURHOOD_DELAUNAY, the defaults; no others are accepted.
+///
+/// density: how dense the points shall be; used during the call only.
+///
+/// xy: the points, x y each, in domain_min <= x < domain_max; `count` of them.
+///
+/// out: the points after the last step, in the same order, to be freed with azulejo_points_free.
+///
+/// report: what the call did, or NULL.
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for densities that are negative or not finite, or 0 everywhere;
+/// AZULEJO_ERROR_TOO_LARGE. A call that its progress callback cancels succeeds, as azulejo_dcr_relax does.
+azulejo_status azulejo_dcr_relax_density(const struct azulejo_context *context,
+                                         const struct azulejo_dcr_options *options,
+                                         const struct azulejo_density *density,
+                                         const float *xy,
+                                         size_t count,
+                                         struct azulejo_points **out,
+                                         struct azulejo_dcr_report *report);
 
 /// The smallest distance between two points of the plane, in double arithmetic; on a periodic domain around the torus.
 ///

@@ -5,6 +5,7 @@
 #ifndef AZULEJO_HPP
 #define AZULEJO_HPP
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -110,6 +111,18 @@ struct AdaptiveOptions : Options<azulejo_adaptive_options, azulejo_adaptive_opti
 /// See azulejo_dcr_options.
 using DcrOptions = Options<azulejo_dcr_options, azulejo_dcr_options_init>;
 
+/// Gives the density at a place of the plane. Called from several threads at once, the library's own; see
+/// azulejo_density_fn. What it throws fails the call and leaves it.
+using DensityFunction = std::function<double(const std::array<double, 2> &position)>;
+
+/// How dense points shall be; see azulejo_density. An image of `width` pixels a row, which stays the caller's, or a
+/// function.
+struct Density {
+    Span<const float> values;
+    std::size_t width = 0;
+    DensityFunction function;
+};
+
 using KdrtReport = azulejo_kdrt_report;
 using MergeReport = azulejo_merge_report;
 using PspReport = azulejo_psp_report;
@@ -123,7 +136,7 @@ namespace detail {
 
 /// How many groups of `width` numbers an array holds; a rest is refused.
 inline std::size_t groups(std::size_t size, std::size_t width, const char *argument) {
-    if (size % width != 0) {
+    if (width == 0 || size % width != 0) {
         throw Error(AZULEJO_ERROR_INVALID_ARGUMENT, std::string(argument) + ": " + std::to_string(size) +
                                                         " numbers are not a multiple of " + std::to_string(width));
     }
@@ -451,36 +464,62 @@ inline Points psp_sample(const Context &context, const Mesh &mesh, const PspOpti
     return Points(points);
 }
 
+namespace detail {
+
+/// A function of the caller's that the library calls on several threads; it keeps what the function throws.
+template <std::size_t dimension>
+struct Guest {
+    const std::function<double(const std::array<double, dimension> &)> &function;
+    std::mutex lock;
+    std::exception_ptr thrown;
+
+    static double call(void *user, const double *position) noexcept {
+        auto *guest = static_cast<Guest *>(user);
+        try {
+            std::array<double, dimension> place;
+            std::copy_n(position, dimension, place.begin());
+            return guest->function(place);
+        } catch (...) {
+            const std::lock_guard<std::mutex> guard(guest->lock);
+            guest->thrown = std::current_exception();
+            return std::numeric_limits<double>::quiet_NaN(); // which fails the call
+        }
+    }
+
+    /// The status of a call, unless the function threw in it.
+    azulejo_status checked(azulejo_status status) const {
+        if (thrown) {
+            std::rethrow_exception(thrown);
+        }
+        return status;
+    }
+};
+
+/// The C struct of a density, whose function is the guest's.
+inline azulejo_density density(const Density &density, Guest<2> &guest) {
+    azulejo_density result;
+    check(azulejo_density_init(&result, sizeof result));
+    result.values = density.values.data();
+    result.width = density.width;
+    result.height = density.values.empty() ? 0 : groups(density.values.size(), density.width, "values");
+    result.function = density.function ? &Guest<2>::call : nullptr;
+    result.user = &guest;
+    return result;
+}
+
+} // namespace detail
+
 /// Samples of a mesh, each with a radius of its own; see azulejo_psp_sample_adaptive. `report` may be null.
 inline Points psp_sample_adaptive(const Context &context, const Mesh &mesh, const AdaptiveOptions &options,
                                   PspReport *report = nullptr) {
-    struct Guest {
-        const RadiusFunction &radius;
-        std::mutex lock;
-        std::exception_ptr thrown;
-
-        static double call(void *user, const double *position) noexcept {
-            auto *guest = static_cast<Guest *>(user);
-            try {
-                return guest->radius({position[0], position[1], position[2]});
-            } catch (...) {
-                const std::lock_guard<std::mutex> guard(guest->lock);
-                guest->thrown = std::current_exception();
-                return std::numeric_limits<double>::quiet_NaN(); // which fails the call
-            }
-        }
-    } guest{options.radius, {}, nullptr};
+    detail::Guest<3> guest{options.radius, {}, nullptr};
     azulejo_points *points = nullptr;
     detail::watched(options, [&](auto *o) {
         o->vertex_radii = options.vertex_radii.data();
         o->vertex_count = options.vertex_radii.size();
-        o->radius = options.radius ? &Guest::call : nullptr;
+        o->radius = options.radius ? &detail::Guest<3>::call : nullptr;
         o->radius_user = &guest;
-        const auto status = azulejo_psp_sample_adaptive(context.get(), mesh.get(), o, &points, report);
-        if (guest.thrown) {
-            std::rethrow_exception(guest.thrown);
-        }
-        return status;
+        return guest.checked(azulejo_psp_sample_adaptive(context.get(), mesh.get(), o, &points, report));
     });
     return Points(points);
 }
@@ -496,6 +535,31 @@ inline Points dcr_relax(const Context &context, const DcrOptions &options, Span<
         const auto status = azulejo_dcr_relax(context.get(), o, xy.data(), count, &relaxed, report);
         points = Points(relaxed);
         return status;
+    });
+    return points;
+}
+
+/// Random points of the plane, as dense as asked for; see azulejo_dcr_scatter.
+inline Points dcr_scatter(const Context &context, const DcrOptions &options, const Density &density, std::size_t count) {
+    detail::Guest<2> guest{density.function, {}, nullptr};
+    const azulejo_density wanted = detail::density(density, guest);
+    azulejo_points *points = nullptr;
+    check(guest.checked(azulejo_dcr_scatter(context.get(), &options, &wanted, count, &points)));
+    return Points(points);
+}
+
+/// Relaxes points of the plane, x y each, to a density; see azulejo_dcr_relax_density. `report` may be null.
+inline Points dcr_relax_density(const Context &context, const DcrOptions &options, const Density &density,
+                                Span<const float> xy, DcrReport *report = nullptr) {
+    detail::Guest<2> guest{density.function, {}, nullptr};
+    const azulejo_density wanted = detail::density(density, guest);
+    Points points(nullptr);
+    const std::size_t count = detail::groups(xy.size(), 2, "xy");
+    detail::watched(options, [&](auto *o) {
+        azulejo_points *relaxed = nullptr;
+        const auto status = azulejo_dcr_relax_density(context.get(), o, &wanted, xy.data(), count, &relaxed, report);
+        points = Points(relaxed);
+        return guest.checked(status);
     });
     return points;
 }

@@ -42,6 +42,8 @@ pub(crate) enum Draw {
     Octave,
     /// DCR: which end of an edge visits it.
     Visit,
+    /// DCR: random points, as dense as asked for.
+    Scatter,
 }
 
 /// The stream of random numbers of one place.

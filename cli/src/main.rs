@@ -13,7 +13,9 @@ mod progress;
 mod quality;
 mod reference;
 mod report;
+mod sheet;
 mod shell;
+mod stipple;
 mod summary;
 mod text;
 
@@ -53,6 +55,8 @@ enum Command {
     Merge(merge::Merge),
     /// Measure sets of the plane or samples of a mesh: a table, JSON, plots.
     Analyze(analyze::Analyze),
+    /// Draw an image with dots, as dense as it is dark (PSP, DCR).
+    Stipple(stipple::Stipple),
     /// Write a mesh that needs no download.
     Mesh(procedural::Procedural),
     /// Draw samples as a PNG picture.
@@ -75,6 +79,7 @@ fn run(cli: &Cli) -> Result<()> {
         Command::Relax(relax) => relax.run(&context),
         Command::Merge(merge) => merge.run(&context),
         Command::Analyze(analyze) => analyze.run(&context),
+        Command::Stipple(stipple) => stipple.run(&context),
         Command::Mesh(procedural) => procedural.run(),
         Command::Draw(draw) => draw.run(&context),
         Command::Report(report) => report.run(&context),

@@ -79,7 +79,15 @@ fn a_quick_report_of_relaxation_has_every_method_and_plausible_figures() {
         "distributions",
         "remeshing",
     ];
-    assert_eq!(page.matches("](").count(), pictures.len());
+    assert_eq!(page.matches("](").count(), pictures.len() + 1);
+    let dots = image::open(workshop.path("pages/docs/dcr/density.png")).unwrap().to_rgb8();
+    assert!(dots.width() >= 900 && dots.pixels().any(|pixel| pixel[0] < 128));
+    for (image, relaxed) in ["ramp", "sphere", "knot"].into_iter().flat_map(|image| [(image, "PSP"), (image, "random")])
+    {
+        let start = format!("| {image} | 1,000 | from {relaxed} | ");
+        let row = page.lines().find_map(|line| line.strip_prefix(&start)).unwrap_or_else(|| panic!("{start}"));
+        assert!(row.ends_with("| met |"), "{row}");
+    }
     for name in pictures {
         assert!(page.contains(&format!("](dcr/{name}.png)")), "{name}");
         let picture = image::open(workshop.path(&format!("pages/docs/dcr/{name}.png"))).unwrap().to_rgb8();

@@ -102,12 +102,19 @@ impl Delaunay {
 
     /// The largest distance from the points: the largest circumradius of the triangles that touch one.
     pub(super) fn coverage(&self) -> f64 {
-        let radius = |corners: [Site; 3]| {
+        self.circumcircles().map(|(_, radius)| radius).fold(0.0, f64::max)
+    }
+
+    /// Centres and radii of the circumcircles of the triangles that touch a point of the domain.
+    pub(super) fn circumcircles(&self) -> impl Iterator<Item = (DVec2, f64)> {
+        self.triangles().map(|corners| {
             let [a, b, c] = corners.map(|corner| corner.position);
-            let lengths = a.distance_squared(b) * b.distance_squared(c) * c.distance_squared(a);
-            (lengths / (4.0 * (b - a).perp_dot(c - a).powi(2))).sqrt()
-        };
-        self.triangles().map(radius).fold(0.0, f64::max)
+            let (ab, ac) = (b - a, c - a);
+            let area = 2.0 * ab.perp_dot(ac);
+            let to_centre = (ab.length_squared() * -ac.perp() + ac.length_squared() * ab.perp()) / area;
+            let lengths = ab.length_squared() * ac.length_squared() * b.distance_squared(c);
+            (a + to_centre, (lengths / area.powi(2)).sqrt())
+        })
     }
 
     /// The edges from a point of the domain with their duals; those to copies come once from each end.

@@ -31,6 +31,7 @@
 //! Convergence is judged by motion ([`Report::motion`]), unless [`Convergence::Variance`] asks for the thesis's own test.
 
 pub(crate) mod delaunay;
+mod density;
 mod forces;
 pub(crate) mod frame;
 mod knn;
@@ -41,6 +42,7 @@ mod spread;
 mod thesis;
 mod variance;
 
+pub use density::{Density, DensityFunction, relax_with_density, scatter};
 pub use settings::{Convergence, Distribution, Thesis, Visits};
 use spread::Spread;
 use thesis::Tensioned;
@@ -166,7 +168,13 @@ trait Relaxation {
     /// The points in the user's order; `points` is what they were.
     fn points(&self, points: &[[f32; 2]]) -> Vec<[f32; 2]>;
 
-    /// The largest distance from the set, in units of the domain.
+    /// [`Report::rho`] of these points, if it is not simply the smallest distance in units of `d_max`.
+    fn relative_spacing(&self, _job: &Job, _points: &[[f32; 2]]) -> Result<Option<f64>> {
+        Ok(None)
+    }
+
+    /// The largest distance from the set, in units of the domain; if the spacing varies, as large as it would be at the
+    /// mean spacing.
     fn coverage(&self, job: &Job) -> Result<f64>;
 }
 
@@ -214,13 +222,25 @@ pub fn relax_observed(
         Method::Best => Box::new(Spread::new(options, points)),
         Method::Thesis(thesis) => Box::new(Tensioned::new(options, thesis, points)),
     };
+    run(context, options, points, &mut *set, progress, observe)
+}
+
+/// Makes the steps of a set, measures what they made of it, and lets a cancelled call end well.
+fn run(
+    context: &Context,
+    options: &Options,
+    points: &[[f32; 2]],
+    set: &mut dyn Relaxation,
+    progress: Option<&Progress>,
+    observe: Option<&mut Observer>,
+) -> Result<(Vec<[f32; 2]>, Report)> {
     let relaxed = context.run(progress, |job| {
-        let stopped = make_steps(&job.part(0.0, 0.98), options, points, &mut *set, observe)?;
-        measure(&job.part(0.98, 1.0), options, points, &*set, stopped)
+        let stopped = make_steps(&job.part(0.0, 0.98), options, points, set, observe)?;
+        measure(&job.part(0.98, 1.0), options, points, set, stopped)
     });
     match relaxed {
         // What there is after the last whole step is measured without further questions.
-        Err(Error::Cancelled) => context.run(None, |job| measure(job, options, points, &*set, Stopped::Cancelled)),
+        Err(Error::Cancelled) => context.run(None, |job| measure(job, options, points, set, Stopped::Cancelled)),
         relaxed => relaxed,
     }
 }
@@ -258,15 +278,16 @@ fn measure(
     stopped: Stopped,
 ) -> Result<(Vec<[f32; 2]>, Report)> {
     let relaxed = if set.iterations() > 0 { set.points(points) } else { points.to_vec() };
-    let smallest_distance = smallest_distance(&job.part(0.0, 0.5), &options.domain, &relaxed)?;
-    let coverage = if points.is_empty() { f64::INFINITY } else { set.coverage(&job.part(0.5, 1.0))? };
+    let smallest_distance = smallest_distance(&job.part(0.0, 0.3), &options.domain, &relaxed)?;
+    let relative_spacing = set.relative_spacing(&job.part(0.3, 0.6), &relaxed)?;
+    let coverage = if points.is_empty() { f64::INFINITY } else { set.coverage(&job.part(0.6, 1.0))? };
     let unit = options.domain.hexagonal_distance(points.len().max(1));
     let report = Report {
         iterations: set.iterations(),
         stopped,
         motion: if set.iterations() > 0 { set.motion() } else { 0.0 },
         smallest_distance,
-        rho: smallest_distance / unit,
+        rho: relative_spacing.unwrap_or(smallest_distance / unit),
         coverage: coverage / unit,
     };
     Ok((relaxed, report))

@@ -187,6 +187,16 @@ FIELD(azulejo_spectrum_report, contrast, 32);
 FIELD(azulejo_spectrum_report, peak, 40);
 FIELD(azulejo_spectrum_report, peak_frequency, 48);
 FIELD(azulejo_spectrum_report, reserved, 64);
+SIZE(azulejo_density_fn, 8);
+
+SIZE(azulejo_density, 48);
+FIELD(azulejo_density, struct_size, 0);
+FIELD(azulejo_density, reserved, 4);
+FIELD(azulejo_density, values, 8);
+FIELD(azulejo_density, width, 16);
+FIELD(azulejo_density, height, 24);
+FIELD(azulejo_density, function, 32);
+FIELD(azulejo_density, user, 40);
 
 CONSTANT(AZULEJO_OK, 0);
 CONSTANT(AZULEJO_ERROR_INVALID_ARGUMENT, -1);

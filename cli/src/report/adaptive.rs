@@ -17,6 +17,7 @@ use crate::generate::MAXIMAL_DENSITY;
 use crate::output::Output;
 use crate::procedural::knot::knot;
 use crate::progress::watched;
+use crate::sheet::sheet;
 use crate::text::grouped;
 
 /// How much is drawn and measured.
@@ -91,33 +92,23 @@ fn photograph(context: &Context, stage: &Stage, size: usize, progress: &Progress
     render(stage, &window, &window, [size; 2], context.num_threads(), progress)
 }
 
-/// A flat mesh with a vertex for each number of a table, and the radii that make about `dots` of them in all. What is lighter
-/// than the lightest is drawn as if it were that; where all corners of a triangle are white there is none.
-fn sheet(darkness: &[f64], columns: usize, lightest: f64, dots: f64) -> Result<(Mesh, Vec<f32>)> {
-    let rows = darkness.len() / columns;
-    let place = |i: usize| [(i % columns) as f32, (i / columns) as f32, 0.0];
-    let ink: f64 = darkness.iter().sum();
-    let radius = |&dark: &f64| (MAXIMAL_DENSITY * ink / (dots * dark.max(lightest))).sqrt() as f32;
-    let squares = (0..rows - 1).flat_map(|y| (0..columns - 1).map(move |x| y * columns + x));
-    let triangles = squares.flat_map(|a| [[a, a + 1, a + columns + 1], [a, a + columns + 1, a + columns]]);
-    let triangles = triangles.filter(|triangle| triangle.iter().any(|&vertex| darkness[vertex] > 0.0));
-    let triangles = triangles.map(|triangle| triangle.map(|vertex| vertex as u32)).collect();
-    let mesh = Mesh::new((0..darkness.len()).map(place).collect(), triangles)?;
-    Ok((mesh, darkness.iter().map(radius).collect()))
-}
-
 /// What is less dark than this is white paper; it is cut off from all.
 const PAPER_DARKNESS: f64 = 0.04;
 
-fn draw_stipple(context: &Context, effort: &Effort, output: &Output, progress: &Progress) -> Result<usize> {
-    let (positions, triangles) = knot(effort.detail);
+/// How dark each pixel of a rendered knot is, from 0 to 1, in a square of so many pixels.
+pub fn knot_in_grey(context: &Context, detail: u32, size: usize, progress: &Progress) -> Result<Vec<f64>> {
+    let (positions, triangles) = knot(detail);
     let stage = Stage::new(context, &Mesh::new(positions, triangles)?, &[], false)?;
-    let size = 600;
     let darkness = |[r, g, b]: [u8; 3]| {
         let grey = (0.2126 * f64::from(r) + 0.7152 * f64::from(g) + 0.0722 * f64::from(b)) / 255.0;
         ((1.0 - grey - PAPER_DARKNESS) / (1.0 - PAPER_DARKNESS)).max(0.0)
     };
-    let darkness: Vec<_> = photograph(context, &stage, size, progress)?.into_iter().map(darkness).collect();
+    Ok(photograph(context, &stage, size, progress)?.into_iter().map(darkness).collect())
+}
+
+fn draw_stipple(context: &Context, effort: &Effort, output: &Output, progress: &Progress) -> Result<usize> {
+    let size = 600;
+    let darkness = knot_in_grey(context, effort.detail, size, progress)?;
     let (mesh, radii) = sheet(&darkness, size, 0.01, effort.dots)?;
     let (set, _) = adaptive::sample(context, &mesh, &Options::new(Radius::PerVertex(&radii)), None)?;
     let darkest = radii.iter().copied().fold(f32::INFINITY, f32::min);

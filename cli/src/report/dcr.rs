@@ -1,6 +1,7 @@
 //! `azulejo report dcr`: what relaxation makes of sets of the torus (thesis chapter 4), beside others' methods.
 
 mod convergence;
+mod density;
 mod distributions;
 mod measured;
 mod page;

@@ -122,7 +122,7 @@ options!(azulejo_dcr_options requires domain_max {
 });
 
 impl azulejo_dcr_options {
-    fn request(&self) -> Result<dcr::Options, Failure> {
+    pub(crate) fn request(&self) -> Result<dcr::Options, Failure> {
         let domain = domain(self.domain_min, self.domain_max, self.boundary)?;
         let neighbourhood = neighbourhood(self.neighbourhood)?;
         if self.reserved != 0 {

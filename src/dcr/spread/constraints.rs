@@ -10,28 +10,39 @@ use glam::Vec2;
 /// The tension at which a pull stops growing: wide holes of random sets would tear their borders in.
 const STRONGEST_PULL: f32 = 1.0;
 
+/// The steps over which constraints grow stiffer.
+const STIFFENING: u32 = 60;
+
 /// The constraints and how stiff they are, in spacings.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Constraints {
-    pub(super) conflict_radius: f32,
-    pub(super) coverage_radius: f32,
+pub(in crate::dcr) struct Constraints {
+    pub(in crate::dcr) conflict_radius: f32,
+    pub(in crate::dcr) coverage_radius: f32,
     /// The displacement by a conflict of tension 1.
-    pub(super) push: f32,
+    pub(in crate::dcr) push: f32,
     /// The displacement by a hole of tension 1.
-    pub(super) pull: f32,
+    pub(in crate::dcr) pull: f32,
 }
 
 /// The sum of forces on a point, and the room that it has.
-pub(super) struct Force {
-    pub(super) sum: Vec2,
+pub(in crate::dcr) struct Force {
+    pub(in crate::dcr) sum: Vec2,
     /// The least height of the triangles around the point. If no corner of a triangle moves by more than half of its least
     /// height, it cannot turn over: three points that near to a line are no triangle of that height.
-    pub(super) room: f32,
+    pub(in crate::dcr) room: f32,
 }
 
 impl Constraints {
+    /// The constraints of a step with Delaunay neighbours. Radii and stiffness, and the momentum, are the best of those
+    /// tried on sets of 1,000 to 65,536 points: with more momentum sets get more regular, with stiffer pulls too.
+    pub(in crate::dcr) fn of_step(iterations: u32) -> Self {
+        let stiff = iterations.min(STIFFENING) as f32 / STIFFENING as f32;
+        let (push, pull) = (0.1 + 0.3 * stiff, 0.1 + 0.1 * stiff);
+        Self { conflict_radius: 0.862, coverage_radius: 0.66, push, pull }
+    }
+
     /// The force by the neighbours on a ring around the point, in counter-clockwise order.
-    pub(super) fn force(&self, ring: &[Vec2]) -> Force {
+    pub(in crate::dcr) fn force(&self, ring: &[Vec2]) -> Force {
         // The square of the least height is a fraction: one division is enough for all.
         let (mut sum, mut least) = (Vec2::ZERO, (f32::INFINITY, 1f32));
         let mut before = *ring.last().unwrap_or(&Vec2::ZERO);
@@ -53,7 +64,7 @@ impl Constraints {
     }
 
     /// The force by one neighbour.
-    pub(super) fn push(&self, offset: Vec2, squared: f32) -> Vec2 {
+    pub(in crate::dcr) fn push(&self, offset: Vec2, squared: f32) -> Vec2 {
         if squared >= self.conflict_radius * self.conflict_radius || squared == 0.0 {
             return Vec2::ZERO;
         }
@@ -62,7 +73,7 @@ impl Constraints {
     }
 
     /// The force by a hole: the triangle between two neighbours, of twice this area.
-    fn pull(&self, a: Vec2, b: Vec2, area: f32) -> Vec2 {
+    pub(in crate::dcr) fn pull(&self, a: Vec2, b: Vec2, area: f32) -> Vec2 {
         let centre = (b.length_squared() * a.perp() - a.length_squared() * b.perp()) / (2.0 * area);
         let radius = centre.length();
         // Infinite or NaN for triangles without area.

@@ -5,20 +5,25 @@
 //!
 //! * holes attract, not long edges (`constraints.rs`);
 //! * points have momentum instead of activeness: what pulls to and fro cancels out, what keeps pulling adds up;
-//! * the density's long waves are removed directly, every few steps (`waves.rs`);
+//! * the density's long waves are removed directly, every few steps (`waves.rs`), and at first not only the long ones;
+//! * the border of a bounded domain is a mirror in which points do not see themselves (`border.rs`);
 //! * constraints grow stiffer: soft ones let the set stay irregular while it finds its places, stiff ones make sure of
 //!   the last point;
 //! * the triangulation is kept and repaired by flips (`mesh.rs`). Where it cannot be, with a few points or large holes, it
 //!   is built anew in every step.
 
+pub(super) mod border;
 mod cells;
-mod constraints;
+pub(super) mod constraints;
 mod mesh;
-mod torus;
-mod waves;
+pub(super) mod torus;
+pub(super) mod waves;
+
+use std::ops::Range;
 
 use glam::Vec2;
 
+use self::border::Border;
 use self::cells::Cells;
 use self::constraints::{Constraints, Force};
 use self::mesh::Mesh;
@@ -31,22 +36,29 @@ use crate::error::Result;
 use crate::job::{Job, chunks};
 
 /// The share of its way that a point makes again in the next step.
-const MOMENTUM: f32 = 0.78;
+pub(super) const MOMENTUM: f32 = 0.78;
 
 /// Long waves are removed in every so manieth step.
 const WAVES_EVERY: u32 = 5;
 
+/// Waves are removed up to this frequency, in units of sqrt(density), while points find their places. That is finer than
+/// low frequencies are: it fills holes for which constraints are blind, those of nearest neighbours all the time.
+const FINE_WAVES: f64 = 0.55;
+
+/// The same at the end: fine waves are then due to the constraints, which this would disturb.
+pub(super) const LONG_WAVES: f64 = 0.25;
+
+/// The steps during which one becomes the other.
+const COARSENING: Range<u32> = 60..85;
+
 /// How far points may move in the room that they have: less than half, so that no triangle turns over.
-const ROOM: f32 = 0.45;
+pub(super) const ROOM: f32 = 0.45;
 
 /// The room, in spacings, of points that are in no mesh.
-const WIDE: f32 = 1.0;
-
-/// The steps over which constraints grow stiffer.
-const STIFFENING: u32 = 60;
+pub(super) const WIDE: f32 = 1.0;
 
 /// The step size by which motion is measured: a span is 10 steps, in which long waves are removed twice.
-const STEP: f64 = 0.2;
+pub(super) const STEP: f64 = 0.2;
 
 /// What knows the neighbours of each point.
 enum Neighbours {
@@ -59,6 +71,8 @@ enum Neighbours {
 /// A set in the making.
 pub(super) struct Spread {
     torus: Torus,
+    /// None for a periodic domain.
+    border: Option<Border>,
     waves: Waves,
     neighbourhood: Neighbourhood,
     /// The user's index of each point: points are kept along a curve.
@@ -82,6 +96,7 @@ impl Spread {
         let order = along_curve(&entered);
         let start: Vec<Place> = order.iter().map(|&point| entered[point as usize]).collect();
         Self {
+            border: Border::new(&torus),
             waves: Waves::new(&torus, start.len()),
             neighbourhood: options.neighbourhood,
             places: torus.with_images(&start),
@@ -115,15 +130,22 @@ impl Spread {
         Delaunay::new(job, &self.torus.frame, self.torus.nudged(&self.places).into_iter())
     }
 
-    /// The constraints of this step. Radii and stiffness, and the momentum, are the best of those tried on sets of
-    /// 1,000 to 65,536 points: with more momentum sets get more regular, with stiffer pulls too.
     fn constraints(&self) -> Constraints {
-        let stiff = self.iterations.min(STIFFENING) as f32 / STIFFENING as f32;
-        let (push, pull) = (0.1 + 0.3 * stiff, 0.1 + 0.1 * stiff);
         match self.neighbourhood {
-            Neighbourhood::Delaunay => Constraints { conflict_radius: 0.862, coverage_radius: 0.66, push, pull },
-            Neighbourhood::Nearest => Constraints { conflict_radius: 0.92, coverage_radius: f32::INFINITY, push, pull },
+            Neighbourhood::Delaunay => Constraints::of_step(self.iterations),
+            Neighbourhood::Nearest => Constraints {
+                conflict_radius: 0.92,
+                coverage_radius: f32::INFINITY,
+                ..Constraints::of_step(self.iterations)
+            },
         }
+    }
+
+    /// The frequency up to which waves are removed in this step.
+    fn highest_wave(&self) -> f64 {
+        let done = self.iterations.clamp(COARSENING.start, COARSENING.end) - COARSENING.start;
+        let share = f64::from(done) / f64::from(COARSENING.end - COARSENING.start);
+        FINE_WAVES + (LONG_WAVES - FINE_WAVES) * share
     }
 
     /// Where every point gets, and how fast.
@@ -147,7 +169,8 @@ impl Spread {
                         Force { room: WIDE, ..constraints.force(&ring) }
                     }
                 };
-                let velocity = MOMENTUM * self.velocities[point] + sum;
+                let at_border = |border: &Border| border.force(&constraints, self.places[point], sum);
+                let velocity = MOMENTUM * self.velocities[point] + self.border.as_ref().map_or(sum, at_border);
                 let limit = ROOM * room;
                 let place = self.torus.moved(self.places[point], (velocity + drift[point]).clamp_length_max(limit));
                 (place, velocity.clamp_length_max(limit))
@@ -161,7 +184,7 @@ impl Relaxation for Spread {
     fn step(&mut self, job: &Job) -> Result<()> {
         let count = self.order.len();
         let drift = match self.iterations.is_multiple_of(WAVES_EVERY) {
-            true => self.waves.drift(&job.part(0.0, 0.2), &self.places, count)?,
+            true => self.waves.drift(&job.part(0.0, 0.2), &self.places, count, self.highest_wave())?,
             false => vec![Vec2::ZERO; count],
         };
         let neighbours = self.neighbours(&job.part(0.2, 0.4))?;

@@ -12,10 +12,10 @@ use crate::points::{Boundary, Domain};
 use crate::rng::{Draw, Rng};
 
 /// A place on the torus, in 2^-32 of the periods.
-pub(super) type Place = [u32; 2];
+pub(in crate::dcr) type Place = [u32; 2];
 
 /// Half a period: the far border of a domain that is mirrored.
-const HALF: u32 = 1 << 31;
+pub(in crate::dcr) const HALF: u32 = 1 << 31;
 
 /// Points of a bounded domain keep this distance from its border, lest they meet their mirror images.
 const INSET: u32 = 16;
@@ -25,18 +25,18 @@ const NUDGE: f64 = 1e-7;
 
 /// The torus that a domain is, or on which it is mirrored.
 #[derive(Clone, Copy)]
-pub(super) struct Torus {
+pub(in crate::dcr) struct Torus {
     /// The domain as the user sees it.
     domain: Frame,
     /// The whole torus; its unit of length is that of all forces.
-    pub(super) frame: Frame,
+    pub(in crate::dcr) frame: Frame,
     /// The length of 2^-32 of each period.
     unit: DVec2,
 }
 
 impl Torus {
     /// The torus for `count` points of a domain.
-    pub(super) fn new(domain: Domain, count: usize) -> Self {
+    pub(in crate::dcr) fn new(domain: Domain, count: usize) -> Self {
         let [width, height] = domain.extent();
         let whole = match domain.boundary {
             Boundary::Periodic => domain,
@@ -53,7 +53,7 @@ impl Torus {
     }
 
     /// How often each point stands on the torus.
-    pub(super) fn copies(&self) -> usize {
+    pub(in crate::dcr) fn copies(&self) -> usize {
         match self.domain.boundary() {
             Boundary::Periodic => 1,
             Boundary::Bounded => 4,
@@ -61,7 +61,7 @@ impl Torus {
     }
 
     /// The places of points of the domain: no two coincide, and not all lie on one line.
-    pub(super) fn enter(&self, points: &[[f32; 2]], seed: u64) -> Vec<Place> {
+    pub(in crate::dcr) fn enter(&self, points: &[[f32; 2]], seed: u64) -> Vec<Place> {
         let entered = self.frame.enter(points).into_iter();
         let mut positions: Vec<DVec2> = entered.map(|position| self.position(self.place(position))).collect();
         self.frame.part(&mut positions, seed);
@@ -69,11 +69,12 @@ impl Torus {
     }
 
     /// A place in the user's coordinates.
-    pub(super) fn leave(&self, place: Place) -> [f32; 2] {
+    pub(in crate::dcr) fn leave(&self, place: Place) -> [f32; 2] {
         self.domain.leave(self.position(place) * (self.frame.spacing() / self.domain.spacing()))
     }
 
-    fn place(&self, position: DVec2) -> Place {
+    /// The place of the domain that a position of the torus is, or is the image of.
+    pub(in crate::dcr) fn place(&self, position: DVec2) -> Place {
         // What rounds up to a whole period wraps to 0.
         let fractions = (position / self.unit).round().to_array().map(|x| x as i64 as u32);
         self.inside(fractions)
@@ -88,12 +89,12 @@ impl Torus {
     }
 
     /// The position in spacings.
-    pub(super) fn position(&self, place: Place) -> DVec2 {
+    pub(in crate::dcr) fn position(&self, place: Place) -> DVec2 {
         DVec2::new(place[0].into(), place[1].into()) * self.unit
     }
 
     /// The places of points and, where the domain is mirrored, after them those of their images.
-    pub(super) fn with_images(&self, points: &[Place]) -> Vec<Place> {
+    pub(in crate::dcr) fn with_images(&self, points: &[Place]) -> Vec<Place> {
         let mirrors: &[fn(Place) -> Place] = &[
             |place| place,
             |[x, y]| [x.wrapping_neg(), y],
@@ -103,9 +104,15 @@ impl Torus {
         mirrors[..self.copies()].iter().flat_map(|mirror| points.iter().copied().map(mirror)).collect()
     }
 
+    /// The ways from a point of a bounded domain to its own images across the nearest borders.
+    pub(in crate::dcr) fn own_images(&self, place: Place) -> [Vec2; 2] {
+        let [x, y] = place;
+        [[x.wrapping_neg(), y], [x, y.wrapping_neg()]].map(|image| self.way(place, image))
+    }
+
     /// The positions of places, nudged so little that nothing changes but this: where four stand on one circle, as points
     /// and their mirror images do, all copies of them agree on which diagonal is an edge.
-    pub(super) fn nudged(&self, places: &[Place]) -> Vec<DVec2> {
+    pub(in crate::dcr) fn nudged(&self, places: &[Place]) -> Vec<DVec2> {
         let nudge = |(index, &place): (u64, &Place)| {
             let mut rng = Rng::at(0, Draw::Part, &[index, index]);
             self.position(place) + NUDGE * DVec2::new(rng.unit(), rng.unit())
@@ -114,26 +121,26 @@ impl Torus {
     }
 
     /// The shortest way between two places.
-    pub(super) fn offset(&self, from: Place, to: Place) -> DVec2 {
+    pub(in crate::dcr) fn offset(&self, from: Place, to: Place) -> DVec2 {
         let along = |axis: usize| f64::from(to[axis].wrapping_sub(from[axis]).cast_signed());
         DVec2::new(along(0), along(1)) * self.unit
     }
 
     /// [`Torus::offset`], sooner than exactly: to seven digits.
-    pub(super) fn way(&self, from: Place, to: Place) -> Vec2 {
+    pub(in crate::dcr) fn way(&self, from: Place, to: Place) -> Vec2 {
         let along = |axis: usize| to[axis].wrapping_sub(from[axis]).cast_signed() as f32;
         Vec2::new(along(0), along(1)) * self.unit.as_vec2()
     }
 
     /// Where a point of the domain gets by a displacement.
-    pub(super) fn moved(&self, place: Place, displacement: Vec2) -> Place {
+    pub(in crate::dcr) fn moved(&self, place: Place, displacement: Vec2) -> Place {
         let by = (displacement.as_dvec2() / self.unit).to_array();
         self.inside(std::array::from_fn(|axis| place[axis].wrapping_add(by[axis] as i64 as u32)))
     }
 }
 
 /// The order of places along a Z-curve: what lies together comes together.
-pub(super) fn along_curve(places: &[Place]) -> Vec<u32> {
+pub(in crate::dcr) fn along_curve(places: &[Place]) -> Vec<u32> {
     let mut keyed: Vec<(u64, u32)> = (0..).zip(places).map(|(i, &[x, y])| (spread(x) | spread(y) << 1, i)).collect();
     keyed.sort_unstable();
     keyed.into_iter().map(|(_, i)| i).collect()

@@ -5,7 +5,7 @@ use std::path::Path;
 use azulejo::dcr::{Method, Neighbourhood, Options, Thesis};
 use azulejo::{Context, Domain, Result};
 
-use super::{convergence, distributions, radii, remeshing};
+use super::{convergence, density, distributions, radii, remeshing};
 use crate::draw::rows::in_parallel;
 use crate::output::Output;
 use crate::progress::watched;
@@ -14,7 +14,8 @@ use crate::progress::watched;
 pub type Section = fn(&Study) -> Result<String>;
 
 /// All sections, in the order of the page. Each is a file of its own.
-pub const SECTIONS: [Section; 4] = [convergence::section, radii::section, distributions::section, remeshing::section];
+pub const SECTIONS: [Section; 5] =
+    [convergence::section, radii::section, distributions::section, remeshing::section, density::section];
 
 /// What a section has to work with.
 pub struct Study<'a> {

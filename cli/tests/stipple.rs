@@ -1,0 +1,110 @@
+//! `azulejo stipple`, from outside.
+
+mod common;
+
+use std::fs;
+
+use common::Workshop;
+use image::{GrayImage, Luma};
+
+const SIDE: u32 = 96;
+
+/// A ramp from black at the left to white at the right, whose grey values are light.
+fn write_ramp(workshop: &Workshop, name: &str) {
+    let ramp = GrayImage::from_fn(SIDE, SIDE / 2, |x, _| Luma([(255 * x / (SIDE - 1)) as u8]));
+    ramp.save(workshop.path(name)).unwrap();
+}
+
+/// The centres of an SVG drawing, and the diameter of its dots.
+fn drawing(workshop: &Workshop, name: &str) -> (Vec<[f64; 2]>, f64) {
+    let text = fs::read_to_string(workshop.path(name)).unwrap();
+    assert!(text.contains("viewBox=\"0 0 96 48\"") && text.ends_with("</svg>\n"), "{}", &text[..200]);
+    let dot = |line: &str| {
+        let (x, y) = line.strip_prefix('M')?.strip_suffix("h0")?.split_once(' ')?;
+        Some([x.parse().unwrap(), y.parse().unwrap()])
+    };
+    let width = text.split("stroke-width=\"").nth(1).unwrap().split('"').next().unwrap();
+    (text.lines().filter_map(dot).collect(), width.parse().unwrap())
+}
+
+#[test]
+fn dots_have_the_number_and_the_ink_that_the_image_asks_for() {
+    let workshop = Workshop::new();
+    write_ramp(&workshop, "ramp.png");
+    let said = workshop.succeed(&["stipple", "ramp.png", "a.svg", "--count", "3000", "--gamma", "1"]);
+    assert!(said.starts_with("a.svg: 3,000 samples, 100 steps, dots of radius 0.49"), "{said}");
+    let (dots, diameter) = drawing(&workshop, "a.svg");
+    assert_eq!(dots.len(), 3000);
+    let ink = 3000.0 * std::f64::consts::PI * (0.5 * diameter).powi(2);
+    assert!((ink / (0.5 * 96.0 * 48.0) - 1.0).abs() < 0.01, "{ink}");
+    for [from, to] in [[0.0, 24.0], [24.0, 48.0], [48.0, 72.0], [72.0, 96.0]] {
+        let found = dots.iter().filter(|[x, _]| (from..to).contains(x)).count() as f64;
+        let share = |x: f64| (2.0 - x / 96.0) * x / 96.0;
+        let expected = 3000.0 * (share(to) - share(from));
+        assert!((found - expected).abs() < 0.03 * expected + 5.0, "{found} for {expected}");
+    }
+}
+
+#[test]
+fn without_relaxation_there_are_about_as_many() {
+    let workshop = Workshop::new();
+    write_ramp(&workshop, "ramp.png");
+    let said = workshop.succeed(&["stipple", "ramp.png", "a.svg", "--count", "3000", "--no-relax"]);
+    let (dots, diameter) = drawing(&workshop, "a.svg");
+    assert!((2700..3300).contains(&dots.len()) && !said.contains("steps"), "{said}");
+    let told = said.split("dots of radius ").nth(1).unwrap().split(',').next().unwrap().parse::<f64>().unwrap();
+    assert!((told / (0.5 * diameter) - 1.0).abs() < 1e-3, "{said}");
+}
+
+#[test]
+fn pictures_are_as_dark_as_the_image_and_files_of_points_hold_the_centres() {
+    let workshop = Workshop::new();
+    write_ramp(&workshop, "ramp.png");
+    for gamma in ["1", "2.2"] {
+        let exponent: f64 = gamma.parse().unwrap();
+        let arguments = ["stipple", "ramp.png", "a.png", "--count", "800", "--size", "960", "--gamma", gamma];
+        workshop.succeed(&arguments);
+        let picture = image::open(workshop.path("a.png")).unwrap().to_luma8();
+        assert_eq!((picture.width(), picture.height()), (960, 480));
+        let light = |image: &GrayImage, side: u32| {
+            let half = image.width() / 2;
+            let pixels = image.enumerate_pixels().filter(|(x, _, _)| x / half == side);
+            let sum: f64 = pixels.map(|(_, _, grey)| (f64::from(grey[0]) / 255.0).powf(exponent)).sum();
+            sum / f64::from(half * image.height())
+        };
+        let ramp = image::open(workshop.path("ramp.png")).unwrap().to_luma8();
+        // Where it is darkest dots overlap.
+        assert!((light(&picture, 1) - light(&ramp, 1)).abs() < 0.03, "{gamma}");
+        assert!((light(&picture, 0) - light(&ramp, 0)).abs() < 0.15, "{gamma}");
+    }
+    workshop.succeed(&["stipple", "ramp.png", "a.ply", "--count", "800", "--iterations", "3", "--threads", "1"]);
+    let first = fs::read(workshop.path("a.ply")).unwrap();
+    assert!(String::from_utf8_lossy(&first[..200]).contains("comment domain 0 0 96 48 bounded\nelement vertex 800\n"));
+    workshop.succeed(&["stipple", "ramp.png", "a.ply", "--count", "800", "--iterations", "3", "--threads", "3"]);
+    assert!(fs::read(workshop.path("a.ply")).unwrap() == first);
+    workshop.succeed(&["stipple", "ramp.png", "a.ply", "--count", "800", "--iterations", "3", "--seed", "1"]);
+    assert!(fs::read(workshop.path("a.ply")).unwrap() != first);
+}
+
+#[test]
+fn what_cannot_be_drawn_is_refused_with_its_name() {
+    let workshop = Workshop::new();
+    write_ramp(&workshop, "ramp.png");
+    GrayImage::from_pixel(8, 8, Luma([255])).save(workshop.path("white.png")).unwrap();
+    workshop.write("text.png", "no picture");
+    for (image, start) in [("white.png", "white.png: "), ("text.png", "text.png: "), ("missing.png", "missing.png: ")] {
+        let said = workshop.refuse(&["stipple", image, "a.svg", "--count", "100"], 1);
+        assert!(said.starts_with(&format!("error: {start}")), "{said}");
+    }
+    let said = workshop.refuse(&["stipple", "ramp.png", "a.jpg", "--count", "100"], 1);
+    assert_eq!(said, "error: OUT: a.jpg ends neither in .svg nor in .png nor in .ply\n");
+    for gamma in ["0", "-1", "nan", "inf"] {
+        let said = workshop.refuse(&["stipple", "ramp.png", "a.svg", "--count", "100", "--gamma", gamma], 1);
+        assert!(said.starts_with("error: --gamma: "), "{said}");
+    }
+    for wrong in [&["a.svg"][..], &["a.svg", "--count", "0"], &["a.svg", "--count", "9", "--size", "1"]] {
+        workshop.refuse(&[&["stipple", "ramp.png"], wrong].concat(), 2);
+    }
+    let both = ["stipple", "ramp.png", "a.svg", "--count", "9", "--no-relax", "--iterations", "3"];
+    workshop.refuse(&both, 2);
+}

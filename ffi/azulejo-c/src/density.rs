@@ -1,0 +1,205 @@
+//! DCR with a density: sets that are denser here than there.
+
+use std::ffi::c_void;
+use std::mem::MaybeUninit;
+
+use azulejo_core::dcr::{self, Density};
+
+use crate::boundary::{self, required, rows};
+use crate::context::azulejo_context;
+use crate::dcr::{azulejo_dcr_options, azulejo_dcr_report};
+use crate::options::{self, Watch, options};
+use crate::points::azulejo_points;
+use crate::status::{AZULEJO_OK, Failure, azulejo_status};
+
+/// Gives the density at a place.
+///
+/// It is called from several threads at once, the library's own; only where the context has one thread it is called on
+/// the thread that made the call. It is called once for each place of a lattice of up to some hundred places per point,
+/// all before the first step, and not before or in the first report of progress. It must return (no exception and no
+/// longjmp may leave it), and must not call the library with the same context.
+///
+/// user: the user of the azulejo_density.
+///
+/// position: x y of a place in the domain.
+///
+/// Returns the density, 0 or above and finite.
+pub type azulejo_density_fn = Option<unsafe extern "C" fn(user: *mut c_void, position: *const f64) -> f64>;
+
+/// How dense points shall be from place to place, in any unit: twice the density gives the same set. Densities are 0 or
+/// above and finite, and not 0 everywhere; where they are 0 no points are wanted. Either `values` or `function` is to be
+/// set.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct azulejo_density {
+    /// The size of the caller's struct in bytes; set by the init function.
+    pub struct_size: u32,
+    /// Must be 0.
+    pub reserved: u32,
+    /// An image that is stretched over the domain, linear between the centres of its pixels: height rows of width
+    /// densities each, of which the first lies along the lower border (domain_min[1]). NULL, the default, where `function`
+    /// is set. Used during the call only.
+    pub values: *const f32,
+    /// Pixels in a row; at least 1. Not used with `function`.
+    pub width: usize,
+    /// Rows; at least 1. Not used with `function`.
+    pub height: usize,
+    /// Gives the density at a place, unless NULL, which is the default.
+    pub function: azulejo_density_fn,
+    /// Handed to `function`.
+    pub user: *mut c_void,
+}
+
+options!(azulejo_density requires user {
+    reserved: 0,
+    values: std::ptr::null(),
+    width: 0,
+    height: 0,
+    function: None,
+    user: std::ptr::null_mut(),
+});
+
+/// The caller's function with what it is given, where the core can call it.
+struct Callback {
+    function: unsafe extern "C" fn(*mut c_void, *const f64) -> f64,
+    user: *mut c_void,
+}
+
+// SAFETY: the caller's word, as the type of the function says: it may be called from several threads at once.
+unsafe impl Sync for Callback {}
+
+impl Callback {
+    fn call(&self, position: [f64; 2]) -> f64 {
+        // SAFETY: the caller gave the two for each other, to be called during this call.
+        unsafe { (self.function)(self.user, position.as_ptr()) }
+    }
+}
+
+impl azulejo_density {
+    /// Hands the density to `body`.
+    ///
+    /// # Safety
+    /// Unless the checks fail, `values` leads to `width * height` numbers that nobody changes during the call.
+    unsafe fn with<T>(&self, body: impl FnOnce(&Density) -> Result<T, Failure>) -> Result<T, Failure> {
+        if self.reserved != 0 {
+            return Err(Failure::invalid("reserved", format!("{} is not 0", self.reserved)));
+        }
+        match (self.function, self.values.is_null()) {
+            (Some(_), false) => Err(Failure::invalid("function", "is set, and values too; one of them must be NULL")),
+            (None, true) => Err(Failure::invalid("function", "is NULL, and values too; one of them is needed")),
+            (Some(function), true) => {
+                let callback = Callback { function, user: self.user };
+                body(&Density::Function(&|position| callback.call(position)))
+            }
+            (None, false) => {
+                let (width, height) = (self.width, self.height);
+                let too_large =
+                    || Failure::too_large("width", format!("{width} by {height} pixels exceed the address space"));
+                let count = width.checked_mul(height).ok_or_else(too_large)?;
+                // SAFETY: the caller's word.
+                let values = unsafe { rows::<f32, 1>("values", self.values, "width", count)? }.as_flattened();
+                body(&Density::Image { values, width, height })
+            }
+        }
+    }
+}
+
+/// Writes the defaults. `struct_size` is sizeof *density.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_density_init(density: *mut azulejo_density, struct_size: usize) -> azulejo_status {
+    match boundary::call(|| boundary::check_pointer("density", density)) {
+        // SAFETY: handed on from the caller.
+        AZULEJO_OK => unsafe { options::init(density, struct_size) },
+        refused => refused,
+    }
+}
+
+/// Makes random points of the domain of the options, as dense as asked for: a start for azulejo_dcr_relax_density. Of the
+/// options domain, boundary and seed play a part.
+///
+/// The same arguments give the same bytes. O(count log count) time and O(count) memory.
+///
+/// count: how many points there shall be.
+///
+/// out: the points, to be freed with azulejo_points_free.
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_TOO_LARGE.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_dcr_scatter(
+    context: Option<&azulejo_context>,
+    options: *const azulejo_dcr_options,
+    density: *const azulejo_density,
+    count: usize,
+    out: Option<&mut MaybeUninit<Box<azulejo_points>>>,
+) -> azulejo_status {
+    boundary::create(out, || {
+        let context = required("context", context)?.shared.clone();
+        // SAFETY: handed on from the caller.
+        let (options, density) = unsafe { (options::read(options)?, read(density)?) };
+        let dcr::Options { domain, seed, .. } = options.request()?;
+        let scatter = |density: &Density| Ok(dcr::scatter(&context, &domain, density, count, seed)?);
+        // SAFETY: handed on from the caller.
+        Ok(azulejo_points::plane(unsafe { density.with(scatter) }?))
+    })
+}
+
+/// Relaxes a set of points to a density: as azulejo_dcr_relax, but the points become as dense from place to place as the
+/// density asks for, and evenly spread (thesis section 4.2.3). Points that are about as dense before, as
+/// azulejo_dcr_scatter and azulejo_psp_sample_adaptive make them, need no more than the usual 100 steps; others may take
+/// 800.
+///
+/// The unit of length is the local spacing: d_max for the mean density, as 1 / sqrt(density) elsewhere, but it grows by no
+/// more than half of the distance from place to place, so that it is finite where the density is 0. The report's rho is the
+/// least of all distances over the mean of the spacings of the two points; its coverage the largest circumradius of a
+/// Delaunay triangle over what the density at its centre asks for; its motion is in units of d_max. Details of the
+/// density that are finer than an eighth of d_max are lost.
+///
+/// options: AZULEJO_METHOD_BEST and AZULEJO_NEIGHBOURHOOD_DELAUNAY, the defaults; no others are accepted.
+///
+/// density: how dense the points shall be; used during the call only.
+///
+/// xy: the points, x y each, in domain_min <= x < domain_max; `count` of them.
+///
+/// out: the points after the last step, in the same order, to be freed with azulejo_points_free.
+///
+/// report: what the call did, or NULL.
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for densities that are negative or not finite, or 0 everywhere;
+/// AZULEJO_ERROR_TOO_LARGE. A call that its progress callback cancels succeeds, as azulejo_dcr_relax does.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_dcr_relax_density(
+    context: Option<&azulejo_context>,
+    options: *const azulejo_dcr_options,
+    density: *const azulejo_density,
+    xy: *const f32,
+    count: usize,
+    out: Option<&mut MaybeUninit<Box<azulejo_points>>>,
+    report: Option<&mut MaybeUninit<azulejo_dcr_report>>,
+) -> azulejo_status {
+    boundary::create(out, || {
+        let context = required("context", context)?.shared.clone();
+        // SAFETY: handed on from the caller.
+        let (options, density) = unsafe { (options::read(options)?, read(density)?) };
+        // SAFETY: handed on from the caller.
+        let points = unsafe { rows::<f32, 2>("xy", xy, "count", count)? };
+        let request = options.request()?;
+        let watch = Watch { function: options.progress, user: options.progress_user };
+        let relax = |density: &Density| {
+            Ok(watch.run(|progress| dcr::relax_with_density(&context, &request, density, points, progress))?)
+        };
+        // SAFETY: handed on from the caller.
+        let (relaxed, done) = unsafe { density.with(relax) }?;
+        report.map(|report| report.write(done.into()));
+        Ok(azulejo_points::plane(relaxed))
+    })
+}
+
+/// The caller's density, under its own name in messages.
+///
+/// # Safety
+/// Unless the checks fail, `density` leads to as many bytes as its first field says.
+unsafe fn read(density: *const azulejo_density) -> Result<azulejo_density, Failure> {
+    boundary::check_pointer("density", density)?;
+    // SAFETY: the caller's word.
+    unsafe { options::read(density) }
+}

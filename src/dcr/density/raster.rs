@@ -1,0 +1,242 @@
+//! The density on a grid of the domain, and the local spacing that follows from it.
+//!
+//! The spacing at a place is 1 / sqrt(density) in units of that of the mean density, but no more than [`SLOPE`] times a
+//! distance above that at any other place (as sizes of mesh elements are graded: Persson 2006, "Mesh size functions for
+//! implicit geometries and PDE-based mesh generation"). Where no points are wanted it is therefore finite, and a point that
+//! has strayed there yields to those at the edge instead of clearing its surroundings.
+
+use glam::Vec2;
+
+use super::{Density, is_density};
+use crate::dcr::spread::torus::{HALF, Place, Torus};
+use crate::error::{Error, Result};
+use crate::job::{Job, chunks_of};
+use crate::points::{Boundary, Domain};
+use crate::rng::{Draw, Rng};
+
+/// How fast the spacing grows at most from place to place, per distance; 1 leaves three times the error of tone beside
+/// edges, and so does 0.25.
+const SLOPE: f32 = 0.5;
+
+/// Cells per distance of points, at least and at most; between them a cell is a pixel.
+const FINENESS: [f64; 2] = [4.0, 8.0];
+
+/// Cells along an axis, at least: few points too shall find what is dark in an image.
+const FEWEST: usize = 64;
+
+/// A grid over the domain.
+pub(super) struct Raster {
+    domain: Domain,
+    /// Columns and rows.
+    cells: [usize; 2],
+    /// In units of the mean, row by row.
+    density: Vec<f32>,
+    /// In units of the torus, where its distance is the hexagonal one.
+    spacing: Vec<f32>,
+}
+
+impl Raster {
+    /// Samples a density that has been checked, for `count` points of a domain.
+    pub(super) fn new(job: &Job, domain: &Domain, density: &Density, count: usize) -> Result<Self> {
+        let torus = Torus::new(*domain, count.max(1));
+        let extent = domain.extent().map(|length| length / torus.frame.spacing());
+        let pixels = match *density {
+            Density::Image { width, height, .. } => [width, height],
+            Density::Function(_) => extent.map(|length| (FINENESS[1] * length) as usize),
+        };
+        let cells = [0, 1].map(|axis| {
+            // A strip that is thinner than the distance of its points has no more cells than points need.
+            let limit = 8 * (count + 8);
+            let [least, most] = FINENESS.map(|fineness| (fineness * extent[axis]).ceil().min(limit as f64) as usize);
+            pixels[axis].clamp(least, most).max(FEWEST)
+        });
+        let mut raster = Self { domain: *domain, cells, density: Vec::new(), spacing: Vec::new() };
+        raster.density = raster.sample(job, density, pixels)?;
+        let sum: f64 = raster.density.iter().map(|&density| f64::from(density)).sum();
+        if sum == 0.0 {
+            return Err(Error::invalid("density", "is 0 everywhere"));
+        }
+        let mean = sum / raster.density.len() as f64;
+        raster.density.iter_mut().for_each(|density| *density = (f64::from(*density) / mean) as f32);
+        raster.spacing = raster.density.iter().map(|density| density.sqrt().recip()).collect();
+        let cell = [0, 1].map(|axis| (extent[axis] / cells[axis] as f64) as f32);
+        raster.limit_slope(SLOPE * Vec2::from_array(cell));
+        Ok(raster)
+    }
+
+    /// The means of the density over the cells.
+    fn sample(&self, job: &Job, density: &Density, pixels: [usize; 2]) -> Result<Vec<f32>> {
+        let parts = match density {
+            Density::Image { .. } => [0, 1].map(|axis| pixels[axis].div_ceil(self.cells[axis])),
+            Density::Function(_) => [2; 2],
+        };
+        let rows = chunks_of(self.cells[1], 1 + 4096 / self.cells[0]);
+        let sampled = job.map(rows.len(), |chunk| {
+            let cells = rows.range(chunk).flat_map(|row| (0..self.cells[0]).map(move |column| [column, row]));
+            cells.map(|cell| self.mean(density, cell, parts)).collect::<Result<Vec<f32>>>()
+        })?;
+        Ok(sampled.into_iter().collect::<Result<Vec<_>>>()?.concat())
+    }
+
+    /// The mean of the density over the parts of a cell.
+    fn mean(&self, density: &Density, cell: [usize; 2], parts: [usize; 2]) -> Result<f32> {
+        let share = |axis: usize, part: usize| {
+            let index = (cell[axis] * parts[axis] + part) as f64 + 0.5;
+            index / (self.cells[axis] * parts[axis]) as f64
+        };
+        let mut sum = 0.0;
+        for part in (0..parts[0] * parts[1]).map(|part| [part % parts[0], part / parts[0]]) {
+            sum += self.at_share(density, [share(0, part[0]), share(1, part[1])])?;
+        }
+        Ok((sum / (parts[0] * parts[1]) as f64) as f32)
+    }
+
+    /// The density at a share of the width and of the height.
+    fn at_share(&self, density: &Density, share: [f64; 2]) -> Result<f64> {
+        match *density {
+            Density::Image { values, width, height } => {
+                let sizes = [width, height];
+                let [x, y] = [0, 1].map(|axis| Between::of(share[axis], sizes[axis], self.domain.boundary));
+                let at = |column: usize, row: usize| f64::from(values[row * width + column]);
+                let along = |row: usize| (1.0 - x.share) * at(x.first, row) + x.share * at(x.second, row);
+                Ok((1.0 - y.share) * along(y.first) + y.share * along(y.second))
+            }
+            Density::Function(at) => {
+                let extent = self.domain.extent();
+                let position = [0, 1].map(|axis| self.domain.min[axis] + share[axis] * extent[axis]);
+                let value = at(position);
+                if !is_density(value) {
+                    let reason = format!("{value:?} at {position:?} is not 0 or above and finite");
+                    return Err(Error::invalid("density", reason));
+                }
+                Ok(value)
+            }
+        }
+    }
+
+    /// Brings every spacing down to what its neighbours allow, which are a `step` away along each axis: two passes over the
+    /// grid, as distance transforms are made (Rosenfeld and Pfaltz 1966), and two more for what crosses the seam of a torus.
+    fn limit_slope(&mut self, step: Vec2) {
+        let [columns, rows] = self.cells;
+        let wraps = self.domain.boundary == Boundary::Periodic;
+        let before: [([usize; 2], f32); 4] = [
+            ([columns - 1, 0], step.x),
+            ([0, rows - 1], step.y),
+            ([columns - 1, rows - 1], step.length()),
+            ([1, rows - 1], step.length()),
+        ];
+        let mut lower = |[column, row]: [usize; 2], is_turned: bool| {
+            for ([right, up], length) in before {
+                let by = if is_turned { [columns - right, rows - up] } else { [right, up] };
+                let other = [(column + by[0]) % columns, (row + by[1]) % rows];
+                let is_near = column.abs_diff(other[0]) <= 1 && row.abs_diff(other[1]) <= 1;
+                if wraps || is_near {
+                    let bound = self.spacing[other[1] * columns + other[0]] + length;
+                    let spacing = &mut self.spacing[row * columns + column];
+                    *spacing = spacing.min(bound);
+                }
+            }
+        };
+        let cells = || (0..rows).flat_map(|row| (0..columns).map(move |column| [column, row]));
+        for _ in 0..if wraps { 2 } else { 1 } {
+            cells().for_each(|cell| lower(cell, false));
+            cells().rev().for_each(|cell| lower(cell, true));
+        }
+    }
+
+    /// The local spacing at a place.
+    pub(super) fn spacing(&self, place: Place) -> f32 {
+        self.interpolate(&self.spacing, place)
+    }
+
+    /// The density at a place, in units of the mean.
+    pub(super) fn density(&self, place: Place) -> f32 {
+        self.interpolate(&self.density, place)
+    }
+
+    fn interpolate(&self, values: &[f32], place: Place) -> f32 {
+        let [x, y] = [0, 1].map(|axis| {
+            let share = match self.domain.boundary {
+                Boundary::Periodic => f64::from(place[axis]) / 2f64.powi(32),
+                Boundary::Bounded => f64::from(place[axis].min(place[axis].wrapping_neg())) / f64::from(HALF),
+            };
+            Between::of(share, self.cells[axis], self.domain.boundary)
+        });
+        let along = |row: usize| {
+            let at = |column: usize| f64::from(values[row * self.cells[0] + column]);
+            (1.0 - x.share) * at(x.first) + x.share * at(x.second)
+        };
+        ((1.0 - y.share) * along(y.first) + y.share * along(y.second)) as f32
+    }
+
+    /// The smallest and the largest spacing.
+    pub(super) fn range(&self) -> [f32; 2] {
+        let range = [f32::INFINITY, 0.0];
+        self.spacing.iter().fold(range, |[low, high], &spacing| [low.min(spacing), high.max(spacing)])
+    }
+
+    /// The density as weights at places, which sum up to `total`: one for each block of cells that is no wider than `width`.
+    pub(super) fn weights(&self, torus: &Torus, width: f64, total: f64) -> Vec<(Place, f64)> {
+        let extent = self.domain.extent().map(|length| length / torus.frame.spacing());
+        let block = [0, 1].map(|axis| ((width * self.cells[axis] as f64 / extent[axis]) as usize).max(1));
+        let unit = total / self.density.len() as f64;
+        let starts = |axis: usize| (0..self.cells[axis]).step_by(block[axis]);
+        let mut weights = Vec::new();
+        for (row, column) in starts(1).flat_map(|row| starts(0).map(move |column| (row, column))) {
+            let ends = [(column + block[0]).min(self.cells[0]), (row + block[1]).min(self.cells[1])];
+            let rows = (row..ends[1]).map(|row| &self.density[row * self.cells[0]..][column..ends[0]]);
+            let sum: f64 = rows.flatten().map(|&density| f64::from(density)).sum();
+            let middle = |axis: usize, start: usize| 0.5 * (start + ends[axis]) as f64 / self.cells[axis] as f64;
+            weights.push((self.place([middle(0, column), middle(1, row)]), sum * unit));
+        }
+        weights
+    }
+
+    /// Random points, as dense as the density asks for.
+    pub(super) fn scatter(&self, torus: &Torus, count: usize, seed: u64) -> Vec<[f32; 2]> {
+        let add = |sum: &mut f64, &density: &f32| {
+            *sum += f64::from(density);
+            Some(*sum)
+        };
+        let sums: Vec<f64> = self.density.iter().scan(0.0, add).collect();
+        let whole = sums.last().copied().unwrap_or(0.0);
+        let point = |index: u64| {
+            let mut rng = Rng::at(seed, Draw::Scatter, &[index]);
+            let at = rng.unit() * whole;
+            let cell = sums.partition_point(|&sum| sum <= at).min(sums.len() - 1);
+            let cell = [cell % self.cells[0], cell / self.cells[0]];
+            let share = [0, 1].map(|axis| (cell[axis] as f64 + rng.unit()) / self.cells[axis] as f64);
+            torus.leave(self.place(share))
+        };
+        (0..count as u64).map(point).collect()
+    }
+
+    /// The place on the torus at a share of the width and of the height.
+    pub(super) fn place(&self, share: [f64; 2]) -> Place {
+        let period = match self.domain.boundary {
+            Boundary::Periodic => 2f64.powi(32),
+            Boundary::Bounded => f64::from(HALF),
+        };
+        share.map(|share| (share * period) as u64 as u32)
+    }
+}
+
+/// Two neighbours of a row of cells, and how far a place is on the way from the centre of one to that of the other.
+struct Between {
+    first: usize,
+    second: usize,
+    share: f64,
+}
+
+impl Between {
+    /// Around a share of the length of a row; at its ends there is one neighbour, or the one beyond the seam.
+    fn of(share: f64, count: usize, boundary: Boundary) -> Self {
+        let place = share * count as f64 - 0.5;
+        let first = place.floor();
+        let cell = |index: f64| match boundary {
+            Boundary::Periodic => index.rem_euclid(count as f64) as usize % count,
+            Boundary::Bounded => index.clamp(0.0, (count - 1) as f64) as usize,
+        };
+        Self { first: cell(first), second: cell(first + 1.0), share: place - first }
+    }
+}
