@@ -38,6 +38,7 @@ mod knn;
 mod links;
 mod motion;
 mod spread;
+pub mod surface;
 mod thesis;
 
 use spread::Spread;

@@ -12,26 +12,26 @@ const STRONGEST_PULL: f32 = 1.0;
 
 /// The constraints and how stiff they are, in spacings.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Constraints {
-    pub(super) conflict_radius: f32,
-    pub(super) coverage_radius: f32,
+pub(in crate::dcr) struct Constraints {
+    pub(in crate::dcr) conflict_radius: f32,
+    pub(in crate::dcr) coverage_radius: f32,
     /// The displacement by a conflict of tension 1.
-    pub(super) push: f32,
+    pub(in crate::dcr) push: f32,
     /// The displacement by a hole of tension 1.
-    pub(super) pull: f32,
+    pub(in crate::dcr) pull: f32,
 }
 
 /// The sum of forces on a point, and the room that it has.
-pub(super) struct Force {
-    pub(super) sum: Vec2,
+pub(in crate::dcr) struct Force {
+    pub(in crate::dcr) sum: Vec2,
     /// The least height of the triangles around the point. If no corner of a triangle moves by more than half of its least
     /// height, it cannot turn over: three points that near to a line are no triangle of that height.
-    pub(super) room: f32,
+    pub(in crate::dcr) room: f32,
 }
 
 impl Constraints {
     /// The force by the neighbours on a ring around the point, in counter-clockwise order.
-    pub(super) fn force(&self, ring: &[Vec2]) -> Force {
+    pub(in crate::dcr) fn force(&self, ring: &[Vec2]) -> Force {
         // The square of the least height is a fraction: one division is enough for all.
         let (mut sum, mut least) = (Vec2::ZERO, (f32::INFINITY, 1f32));
         let mut before = *ring.last().unwrap_or(&Vec2::ZERO);
@@ -53,7 +53,7 @@ impl Constraints {
     }
 
     /// The force by one neighbour.
-    pub(super) fn push(&self, offset: Vec2, squared: f32) -> Vec2 {
+    pub(in crate::dcr) fn push(&self, offset: Vec2, squared: f32) -> Vec2 {
         if squared >= self.conflict_radius * self.conflict_radius || squared == 0.0 {
             return Vec2::ZERO;
         }

@@ -12,7 +12,7 @@
 //!   is built anew in every step.
 
 mod cells;
-mod constraints;
+pub(super) mod constraints;
 mod mesh;
 mod torus;
 mod waves;

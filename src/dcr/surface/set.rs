@@ -1,0 +1,200 @@
+//! A set in the making: places on the surface, how fast they move, and who is near whom.
+
+use glam::{DQuat, DVec2, DVec3, Vec2};
+
+use super::near::{Crowd, Neighbour, Neighbourhoods, mirrored};
+use super::sheet::Sheet;
+use super::star::Near;
+use super::walk::{Flat, Place, walk};
+use crate::dcr::motion::{Motion, Space};
+use crate::dcr::spread::constraints::{Constraints, Force};
+use crate::error::Result;
+use crate::job::{Chunks, Job, chunks_of};
+
+/// The share of its way that a sample makes again in the next step.
+const MOMENTUM: f32 = 0.78;
+
+/// How far samples may move in the room that they have.
+const ROOM: f32 = 0.45;
+
+/// The room, in spacings, of samples whose neighbours do not surround them.
+const WIDE: f32 = 1.0;
+
+/// The steps over which constraints grow stiffer.
+const STIFFENING: u32 = 60;
+
+/// The step size by which motion is measured: a span is 10 steps.
+const STEP: f64 = 0.2;
+
+/// Neighbours are looked for up to this distance, in spacings ...
+const REACH: f64 = 1.7;
+/// ... and as much farther, so that they need not be looked for until two samples have together moved by it.
+const SLACK: f64 = 0.3;
+
+/// The samples of one task: few, as each has much to do.
+const CHUNK: usize = 512;
+
+/// Samples on a surface, moving.
+pub(super) struct Set<'a> {
+    sheet: &'a Sheet<'a>,
+    spacing: f64,
+    places: Vec<Place>,
+    /// Where they are in space.
+    positions: Vec<DVec3>,
+    /// How fast they move, in the planes of their triangles and in spacings.
+    velocities: Vec<DVec2>,
+    neighbourhoods: Vec<Neighbourhoods>,
+    /// How far samples may still move, one of them and in spacings, before neighbours are to be looked for again.
+    slack: f64,
+    motion: Motion<DVec3>,
+    iterations: u32,
+}
+
+/// Where a sample gets.
+#[derive(Clone, Copy, Default)]
+struct Moved {
+    place: Place,
+    position: DVec3,
+    velocity: DVec2,
+    length: f64,
+}
+
+impl<'a> Set<'a> {
+    pub(super) fn new(sheet: &'a Sheet<'a>, spacing: f64, places: Vec<Place>) -> Self {
+        let position = |place: &Place| sheet.mesh.point_exact(place.triangle, place.uv.into());
+        let positions: Vec<DVec3> = places.iter().map(position).collect();
+        Self {
+            sheet,
+            spacing,
+            velocities: vec![DVec2::ZERO; places.len()],
+            motion: Motion::new(STEP, positions.clone()),
+            positions,
+            places,
+            neighbourhoods: Vec::new(),
+            slack: -1.0,
+            iterations: 0,
+        }
+    }
+
+    pub(super) fn iterations(&self) -> u32 {
+        self.iterations
+    }
+
+    /// Half of how far samples got in the last span of steps, in spacings.
+    pub(super) fn motion(&self) -> f64 {
+        self.motion.last(&Unit(self.spacing), self.positions.iter().copied())
+    }
+
+    /// Whether there was a whole span, and no more motion in the last than this.
+    pub(super) fn has_settled(&self, tolerance: f64) -> bool {
+        self.motion.has_settled(tolerance)
+    }
+
+    pub(super) fn places(&self) -> &[Place] {
+        &self.places
+    }
+
+    /// Moves all samples. If it is cancelled, all have moved or none.
+    pub(super) fn step(&mut self, job: &Job) -> Result<()> {
+        let chunks = chunks_of(self.places.len(), CHUNK);
+        if self.slack <= 0.0 {
+            let triangles: Vec<u32> = self.places.iter().map(|place| place.triangle).collect();
+            let crowd = Crowd::new(self.sheet, &self.positions, &triangles);
+            let radius = (REACH + SLACK) * self.spacing;
+            self.neighbourhoods = crowd.neighbourhoods(&job.part(0.0, 0.5), chunks, radius)?;
+            self.slack = SLACK / 2.0;
+            eprint!("{} ", self.iterations);
+        }
+        let moved = self.gather(&job.part(0.5, 1.0), chunks)?;
+        self.slack -= moved.iter().map(|moved| moved.length).fold(0.0, f64::max);
+        self.places = moved.iter().map(|moved| moved.place).collect();
+        self.positions = moved.iter().map(|moved| moved.position).collect();
+        self.velocities = moved.iter().map(|moved| moved.velocity).collect();
+        self.iterations += 1;
+        self.motion.after_step(&Unit(self.spacing), || self.positions.iter().copied());
+        Ok(())
+    }
+
+    /// Where every sample gets, and how fast.
+    fn gather(&self, job: &Job, chunks: Chunks) -> Result<Vec<Moved>> {
+        let constraints = self.constraints();
+        job.concat(chunks.len(), |chunk| {
+            let mut view = View::default();
+            let samples = chunks.range(chunk).enumerate();
+            samples
+                .map(|(nth, sample)| {
+                    let around = &self.neighbourhoods[chunk];
+                    self.moved(&constraints, sample, around.of(nth), around.normal(nth), &mut view)
+                })
+                .collect()
+        })
+    }
+
+    fn moved(
+        &self,
+        constraints: &Constraints,
+        sample: usize,
+        neighbours: &[Neighbour],
+        normal: DVec3,
+        view: &mut View,
+    ) -> Moved {
+        let (place, from) = (self.places[sample], self.positions[sample]);
+        let flat = Flat::new(self.sheet, place.triangle, self.spacing);
+        // The mean plane around the sample, turned into that of its triangle.
+        let turn = DQuat::from_rotation_arc(normal, flat.normal());
+        let offsets = neighbours.iter().map(|neighbour| {
+            let position = self.positions[neighbour.sample as usize];
+            let seen = match neighbour.mirror {
+                Some(border) => mirrored(position, self.sheet.ends(border)),
+                None => position,
+            };
+            flat.turned(turn * ((seen - from) / self.spacing)).as_vec2()
+        });
+        let Force { sum, room } = view.force(constraints, offsets);
+        let velocity = MOMENTUM * self.velocities[sample].as_vec2() + sum;
+        let way = velocity.clamp_length_max(ROOM * room).as_dvec2();
+        let end = walk(self.sheet, self.spacing, place, way);
+        let position = self.sheet.mesh.point_exact(end.place.triangle, end.place.uv.into());
+        Moved { place: end.place, position, velocity: end.way, length: from.distance(position) / self.spacing }
+    }
+
+    /// The constraints of this step.
+    fn constraints(&self) -> Constraints {
+        let stiff = self.iterations.min(STIFFENING) as f32 / STIFFENING as f32;
+        let (push, pull) = (0.1 + 0.3 * stiff, 0.1 + 0.1 * stiff);
+        Constraints { conflict_radius: 0.862, coverage_radius: 0.66, push, pull }
+    }
+}
+
+/// Space, with this as the unit of length.
+struct Unit(f64);
+
+impl Space<DVec3> for Unit {
+    fn distance_squared(&self, from: DVec3, to: DVec3) -> f64 {
+        from.distance_squared(to) / (self.0 * self.0)
+    }
+}
+
+/// What one sample sees of its neighbours: memory that is used again for the next.
+#[derive(Default)]
+struct View {
+    near: Near,
+    order: Vec<usize>,
+    ring: Vec<Vec2>,
+}
+
+impl View {
+    /// The force by neighbours at these offsets. Who is not surrounded by them is only pushed.
+    fn force(&mut self, constraints: &Constraints, offsets: impl Iterator<Item = Vec2>) -> Force {
+        self.near.clear();
+        // Neighbours at the same place have no direction to push in.
+        offsets.filter(|&offset| offset != Vec2::ZERO).for_each(|offset| self.near.add(offset));
+        if self.near.star(&mut self.order) {
+            self.ring.clear();
+            self.ring.extend(self.order.iter().map(|&point| self.near.offset(point)));
+            return constraints.force(&self.ring);
+        }
+        let offsets = (0..self.near.len()).map(|point| self.near.offset(point));
+        Force { sum: offsets.map(|offset| constraints.push(offset, offset.length_squared())).sum(), room: WIDE }
+    }
+}
