@@ -1,18 +1,20 @@
-//! Who is near whom: the samples that are reached on the surface without leaving a ball.
+//! Who is near whom: the samples within a ball that are reached on the surface without leaving it.
 //!
 //! A flood goes from a sample's triangle through all edges that the ball meets. So what is near through space but not on
 //! the surface, as on the other side of a thin wall, is not found, and what is behind a sharp fold is.
 //!
 //! Where the flood meets a border it mirrors what it has found by it, as the thesis does on bounded domains (Fig. 4.12 (b)).
 
-use std::collections::HashSet;
+use std::collections::HashMap;
 use std::hash::{BuildHasherDefault, Hasher};
 
 use glam::DVec3;
 
 use super::sheet::Sheet;
 use super::star::MOST;
+use super::walk::Place;
 use crate::error::Result;
+use crate::grid3::Grid3;
 use crate::job::{Chunks, Job};
 use crate::mesh::exact;
 
@@ -26,166 +28,146 @@ pub(super) struct Neighbour {
     pub(super) mirror: Option<u32>,
 }
 
-/// The neighbours of samples that follow each other.
-#[derive(Default)]
-pub(super) struct Neighbourhoods {
-    /// Where those of each sample end.
-    ends: Vec<u32>,
-    neighbours: Vec<Neighbour>,
-    /// The mean normal around each sample.
-    normals: Vec<DVec3>,
+/// What is near one sample.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Neighbourhood {
+    /// The nearest first, no more than [`MOST`].
+    pub(super) neighbours: Box<[Neighbour]>,
+    /// The mean normal, on the side of the sample's triangle's front; zero where there is none.
+    pub(super) normal: DVec3,
 }
 
-impl Neighbourhoods {
-    /// Those of the `nth` of the samples.
-    pub(super) fn of(&self, nth: usize) -> &[Neighbour] {
-        let start = if nth == 0 { 0 } else { self.ends[nth - 1] };
-        &self.neighbours[start as usize..self.ends[nth] as usize]
-    }
-
-    /// The mean normal around the `nth` sample, on the side of its triangle's front; zero where there is none.
-    pub(super) fn normal(&self, nth: usize) -> DVec3 {
-        self.normals[nth]
-    }
-}
-
-/// Samples by their triangle.
+/// All samples, found by their position.
 pub(super) struct Crowd<'a> {
     sheet: &'a Sheet<'a>,
+    places: &'a [Place],
     positions: &'a [DVec3],
-    triangles: &'a [u32],
-    /// The samples on triangle `t` are `samples[starts[t]..starts[t + 1]]`.
-    starts: Vec<u32>,
-    samples: Vec<u32>,
+    radius: f64,
+    grid: Grid3,
 }
 
 impl<'a> Crowd<'a> {
-    pub(super) fn new(sheet: &'a Sheet<'a>, positions: &'a [DVec3], triangles: &'a [u32]) -> Self {
-        let mut starts = vec![0u32; sheet.mesh.triangles().len() + 1];
-        triangles.iter().for_each(|&triangle| starts[triangle as usize + 1] += 1);
-        for triangle in 1..starts.len() {
-            starts[triangle] += starts[triangle - 1];
-        }
-        let (mut places, mut samples) = (starts.clone(), vec![0; triangles.len()]);
-        for (sample, &triangle) in triangles.iter().enumerate() {
-            samples[places[triangle as usize] as usize] = sample as u32;
-            places[triangle as usize] += 1;
-        }
-        Self { sheet, positions, triangles, starts, samples }
+    /// Neighbours will be those within `radius`.
+    pub(super) fn new(sheet: &'a Sheet<'a>, places: &'a [Place], positions: &'a [DVec3], radius: f64) -> Self {
+        let mut grid = Grid3::new(sheet.mesh.bounds().0.map(f64::from), radius);
+        positions.iter().for_each(|position| {
+            grid.insert(position.as_vec3().to_array());
+        });
+        Self { sheet, places, positions, radius, grid }
     }
 
-    /// The neighbours of all samples within `radius`; of more than [`MOST`] the nearest.
-    pub(super) fn neighbourhoods(&self, job: &Job, chunks: Chunks, radius: f64) -> Result<Vec<Neighbourhoods>> {
-        job.map(chunks.len(), |chunk| {
-            let (mut flood, mut found) = (Flood::default(), Neighbourhoods::default());
-            for sample in chunks.range(chunk) {
-                self.find(sample as u32, radius, &mut flood);
-                found.neighbours.extend(flood.found.iter().map(|&(_, neighbour)| neighbour));
-                found.normals.push(flood.normal.normalize_or_zero());
-                found.ends.push(found.neighbours.len() as u32);
-            }
-            found
+    /// The neighbourhoods of those samples that are asked for, with their numbers.
+    pub(super) fn neighbourhoods(
+        &self,
+        job: &Job,
+        chunks: Chunks,
+        is_asked: impl Fn(usize) -> bool + Sync,
+    ) -> Result<Vec<(usize, Neighbourhood)>> {
+        job.flat_map(chunks.len(), |chunk| {
+            let mut flood = Flood::default();
+            let asked = chunks.range(chunk).filter(|&sample| is_asked(sample));
+            asked.map(|sample| (sample, self.neighbourhood(sample, &mut flood))).collect()
         })
     }
 
-    /// Finds the neighbours of a sample, the nearest first.
-    fn find(&self, centre: u32, radius: f64, flood: &mut Flood) {
-        let place = self.positions[centre as usize];
-        flood.spread(self.sheet, self.triangles[centre as usize], place, radius * radius);
-        for &Reached { triangle, side } in &flood.reached {
-            let of_triangle = self.starts[triangle as usize] as usize..self.starts[triangle as usize + 1] as usize;
-            if of_triangle.is_empty() {
-                continue;
+    fn neighbourhood(&self, centre: usize, flood: &mut Flood) -> Neighbourhood {
+        let (position, limit) = (self.positions[centre], self.radius * self.radius);
+        flood.spread(self.sheet, self.places[centre].triangle, position, limit);
+        let mut found = Vec::new();
+        for sample in self.grid.candidates(position.to_array(), self.radius) {
+            let squared = self.positions[sample as usize].distance_squared(position);
+            if squared <= limit && flood.sides.contains_key(&self.places[sample as usize].triangle) {
+                found.push((squared, Neighbour { sample, mirror: None }));
             }
-            let normal = side * exact(self.sheet.mesh.normal(triangle));
-            for &sample in &self.samples[of_triangle] {
-                let squared = self.positions[sample as usize].distance_squared(place);
-                if squared <= radius * radius {
-                    flood.found.push((squared, Neighbour { sample, mirror: None }));
-                    flood.normal += (1.0 - squared / (radius * radius)) * normal;
+        }
+        let order = |a: &(f64, Neighbour), b: &(f64, Neighbour)| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1));
+        found.sort_unstable_by(order);
+        // The grid may name one twice.
+        found.dedup();
+        let weighted = found.iter().map(|&(squared, Neighbour { sample, .. })| {
+            let triangle = self.places[sample as usize].triangle;
+            (1.0 - squared / limit) * flood.sides[&triangle] * exact(self.sheet.mesh.normal(triangle))
+        });
+        let normal = weighted.sum::<DVec3>().normalize_or_zero();
+        if !flood.borders.is_empty() {
+            for nth in 0..found.len() {
+                self.mirror(&flood.borders, found[nth].1.sample, position, &mut found);
+            }
+            found.sort_unstable_by(order);
+        }
+        let others = found.iter().map(|&(_, neighbour)| neighbour);
+        let others = others.filter(|neighbour| neighbour.sample as usize != centre || neighbour.mirror.is_some());
+        Neighbourhood { neighbours: others.take(MOST).collect(), normal }
+    }
+
+    /// Adds the mirror images of a sample: by the place on the borders that is nearest to it, and by all others that are
+    /// beside it. Along a border with many corners one image stands for several.
+    fn mirror(&self, borders: &[u32], sample: u32, centre: DVec3, found: &mut Vec<(f64, Neighbour)>) {
+        let position = self.positions[sample as usize];
+        let mirrors = borders.iter().map(|&border| {
+            let [a, b] = self.sheet.ends(border);
+            let mirror = nearest_on(a, b, position);
+            (mirror.distance_squared(position), border, mirror, mirror != a && mirror != b)
+        });
+        let mut mirrors: Vec<_> = mirrors.collect();
+        mirrors.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        let mut taken: Vec<DVec3> = Vec::new();
+        for (_, border, mirror, is_beside) in mirrors {
+            let is_apart = taken.iter().all(|other| other.distance(mirror) > APART * self.radius);
+            if taken.is_empty() || (is_beside && is_apart) {
+                taken.push(mirror);
+                let squared = (2.0 * mirror - position).distance_squared(centre);
+                if squared <= self.radius * self.radius {
+                    found.push((squared, Neighbour { sample, mirror: Some(border) }));
                 }
             }
         }
-        for i in 0..flood.found.len() {
-            flood.mirror(self.sheet, i, self.positions, place, radius);
-        }
-        flood.found.retain(|(_, neighbour)| *neighbour != Neighbour { sample: centre, mirror: None });
-        flood.found.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-        flood.found.truncate(MOST);
     }
 }
 
 /// What the flood from one sample has reached.
 #[derive(Default)]
 struct Flood {
-    seen: HashSet<u32, BuildHasherDefault<Mixer>>,
-    reached: Vec<Reached>,
+    /// For each triangle whether its front is on the same side as that of the first, 1, or on the other, -1.
+    sides: HashMap<u32, f64, BuildHasherDefault<Mixer>>,
+    /// The half-edges through which the flood has come into triangles.
+    entries: Vec<u32>,
     borders: Vec<u32>,
-    /// Neighbours with the squares of their distances.
-    found: Vec<(f64, Neighbour)>,
-    /// The sum of their normals, the near ones with more weight.
-    normal: DVec3,
-}
-
-/// A triangle, and whether its front is on the same side as that of the first, 1, or on the other, -1.
-struct Reached {
-    triangle: u32,
-    side: f64,
 }
 
 impl Flood {
-    fn spread(&mut self, sheet: &Sheet, triangle: u32, place: DVec3, radius_squared: f64) {
-        (self.seen.clear(), self.reached.clear(), self.borders.clear(), self.found.clear());
-        self.normal = DVec3::ZERO;
-        self.seen.insert(triangle);
-        self.reached.push(Reached { triangle, side: 1.0 });
+    fn spread(&mut self, sheet: &Sheet, start: u32, place: DVec3, radius_squared: f64) {
+        self.sides.clear();
+        self.entries.clear();
+        self.borders.clear();
+        self.sides.insert(start, 1.0);
+        (3 * start..3 * start + 3).for_each(|edge| self.leave(sheet, edge, place, radius_squared));
         let mut next = 0;
-        while let Some(&Reached { triangle, side }) = self.reached.get(next) {
+        while let Some(&entry) = self.entries.get(next) {
             next += 1;
-            for edge in 3 * triangle..3 * triangle + 3 {
-                let [a, b] = sheet.ends(edge);
-                if nearest_on(a, b, place).distance_squared(place) > radius_squared {
-                    continue;
-                }
-                let mut is_border = true;
-                for other in sheet.across(edge) {
-                    is_border = false;
-                    if self.seen.insert(other / 3) {
-                        let side = if sheet.run_alike(edge, other) { -side } else { side };
-                        self.reached.push(Reached { triangle: other / 3, side });
-                    }
-                }
-                if is_border {
-                    self.borders.push(edge);
-                }
-            }
+            let first = entry - entry % 3;
+            let others = (first..first + 3).filter(|&edge| edge != entry);
+            others.for_each(|edge| self.leave(sheet, edge, place, radius_squared));
         }
     }
-}
 
-impl Flood {
-    /// Adds the mirror images of the sample that was found as `nth` to what is found: by the place on the borders that is
-    /// nearest to it, and by all others that are beside it. Along a border with many corners one image stands for several.
-    fn mirror(&mut self, sheet: &Sheet, nth: usize, positions: &[DVec3], centre: DVec3, radius: f64) {
-        let sample = self.found[nth].1.sample;
-        let place = positions[sample as usize];
-        let mirrors = self.borders.iter().map(|&border| {
-            let [a, b] = sheet.ends(border);
-            let mirror = nearest_on(a, b, place);
-            (mirror.distance_squared(place), border, mirror, mirror != a && mirror != b)
-        });
-        let mut mirrors: Vec<_> = mirrors.collect();
-        mirrors.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-        let mut taken: Vec<DVec3> = Vec::new();
-        for (_, border, mirror, is_beside) in mirrors {
-            let is_apart = taken.iter().all(|other| other.distance(mirror) > APART * radius);
-            if taken.is_empty() || (is_beside && is_apart) {
-                taken.push(mirror);
-                let squared = (2.0 * mirror - place).distance_squared(centre);
-                if squared <= radius * radius {
-                    self.found.push((squared, Neighbour { sample, mirror: Some(border) }));
-                }
+    /// Goes through a half-edge if the ball meets it.
+    fn leave(&mut self, sheet: &Sheet, edge: u32, place: DVec3, radius_squared: f64) {
+        let [a, b] = sheet.ends(edge);
+        if nearest_on(a, b, place).distance_squared(place) > radius_squared {
+            return;
+        }
+        let mut is_border = true;
+        for other in sheet.across(edge) {
+            is_border = false;
+            if !self.sides.contains_key(&(other / 3)) {
+                let side = self.sides[&(edge / 3)];
+                self.sides.insert(other / 3, if sheet.run_alike(edge, other) { -side } else { side });
+                self.entries.push(other);
             }
+        }
+        if is_border {
+            self.borders.push(edge);
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use glam::{DQuat, DVec2, DVec3, Vec2};
 
-use super::near::{Crowd, Neighbour, Neighbourhoods, mirrored};
+use super::near::{Crowd, Neighbourhood, mirrored};
 use super::sheet::Sheet;
 use super::star::Near;
 use super::walk::{Flat, Place, walk};
@@ -43,9 +43,9 @@ pub(super) struct Set<'a> {
     positions: Vec<DVec3>,
     /// How fast they move, in the planes of their triangles and in spacings.
     velocities: Vec<DVec2>,
-    neighbourhoods: Vec<Neighbourhoods>,
-    /// How far samples may still move, one of them and in spacings, before neighbours are to be looked for again.
-    slack: f64,
+    neighbourhoods: Vec<Neighbourhood>,
+    /// How far each has moved since its neighbours were looked for, in spacings.
+    travelled: Vec<f64>,
     motion: Motion<DVec3>,
     iterations: u32,
 }
@@ -69,9 +69,9 @@ impl<'a> Set<'a> {
             velocities: vec![DVec2::ZERO; places.len()],
             motion: Motion::new(STEP, positions.clone()),
             positions,
+            neighbourhoods: vec![Neighbourhood::default(); places.len()],
+            travelled: vec![f64::INFINITY; places.len()],
             places,
-            neighbourhoods: Vec::new(),
-            slack: -1.0,
             iterations: 0,
         }
     }
@@ -97,16 +97,9 @@ impl<'a> Set<'a> {
     /// Moves all samples. If it is cancelled, all have moved or none.
     pub(super) fn step(&mut self, job: &Job) -> Result<()> {
         let chunks = chunks_of(self.places.len(), CHUNK);
-        if self.slack <= 0.0 {
-            let triangles: Vec<u32> = self.places.iter().map(|place| place.triangle).collect();
-            let crowd = Crowd::new(self.sheet, &self.positions, &triangles);
-            let radius = (REACH + SLACK) * self.spacing;
-            self.neighbourhoods = crowd.neighbourhoods(&job.part(0.0, 0.5), chunks, radius)?;
-            self.slack = SLACK / 2.0;
-            eprint!("{} ", self.iterations);
-        }
+        self.look_around(&job.part(0.0, 0.5), chunks)?;
         let moved = self.gather(&job.part(0.5, 1.0), chunks)?;
-        self.slack -= moved.iter().map(|moved| moved.length).fold(0.0, f64::max);
+        self.travelled.iter_mut().zip(&moved).for_each(|(travelled, moved)| *travelled += moved.length);
         self.places = moved.iter().map(|moved| moved.place).collect();
         self.positions = moved.iter().map(|moved| moved.position).collect();
         self.velocities = moved.iter().map(|moved| moved.velocity).collect();
@@ -115,33 +108,42 @@ impl<'a> Set<'a> {
         Ok(())
     }
 
+    /// Looks for the neighbours of those that have moved by half of the slack, and of those who are then near them. So two
+    /// samples that do not know of each other have moved towards each other by no more than the slack.
+    fn look_around(&mut self, job: &Job, chunks: Chunks) -> Result<()> {
+        let has_moved: Vec<bool> = self.travelled.iter().map(|&way| way >= SLACK / 2.0).collect();
+        if !has_moved.contains(&true) {
+            return Ok(());
+        }
+        let crowd = Crowd::new(self.sheet, &self.places, &self.positions, (REACH + SLACK) * self.spacing);
+        let found = crowd.neighbourhoods(&job.part(0.0, 0.7), chunks, |sample| has_moved[sample])?;
+        let mut is_near = vec![false; self.places.len()];
+        let neighbours = found.iter().flat_map(|(_, neighbourhood)| &neighbourhood.neighbours);
+        neighbours.for_each(|neighbour| is_near[neighbour.sample as usize] = !has_moved[neighbour.sample as usize]);
+        let near = crowd.neighbourhoods(&job.part(0.7, 1.0), chunks, |sample| is_near[sample])?;
+        for (sample, neighbourhood) in found {
+            self.neighbourhoods[sample] = neighbourhood;
+            self.travelled[sample] = 0.0;
+        }
+        near.into_iter().for_each(|(sample, neighbourhood)| self.neighbourhoods[sample] = neighbourhood);
+        Ok(())
+    }
+
     /// Where every sample gets, and how fast.
     fn gather(&self, job: &Job, chunks: Chunks) -> Result<Vec<Moved>> {
         let constraints = self.constraints();
         job.concat(chunks.len(), |chunk| {
             let mut view = View::default();
-            let samples = chunks.range(chunk).enumerate();
-            samples
-                .map(|(nth, sample)| {
-                    let around = &self.neighbourhoods[chunk];
-                    self.moved(&constraints, sample, around.of(nth), around.normal(nth), &mut view)
-                })
-                .collect()
+            chunks.range(chunk).map(|sample| self.moved(&constraints, sample, &mut view)).collect()
         })
     }
 
-    fn moved(
-        &self,
-        constraints: &Constraints,
-        sample: usize,
-        neighbours: &[Neighbour],
-        normal: DVec3,
-        view: &mut View,
-    ) -> Moved {
+    fn moved(&self, constraints: &Constraints, sample: usize, view: &mut View) -> Moved {
         let (place, from) = (self.places[sample], self.positions[sample]);
+        let Neighbourhood { neighbours, normal } = &self.neighbourhoods[sample];
         let flat = Flat::new(self.sheet, place.triangle, self.spacing);
         // The mean plane around the sample, turned into that of its triangle.
-        let turn = DQuat::from_rotation_arc(normal, flat.normal());
+        let turn = DQuat::from_rotation_arc(*normal, flat.normal());
         let offsets = neighbours.iter().map(|neighbour| {
             let position = self.positions[neighbour.sample as usize];
             let seen = match neighbour.mirror {
