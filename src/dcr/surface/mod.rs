@@ -18,7 +18,11 @@ mod near;
 mod set;
 mod sheet;
 mod star;
+mod triangles;
+mod view;
 mod walk;
+
+pub use triangles::{Triangulation, triangulate};
 
 use glam::DVec2;
 
@@ -155,13 +159,15 @@ fn check(mesh: &Mesh, triangles: &[u32], barycentrics: &[[f32; 2]]) -> Result<()
     Ok(())
 }
 
+/// A sample as a place.
+fn place((&triangle, &uv): (&u32, &[f32; 2])) -> Place {
+    let [u, v] = round_barycentrics(uv.map(f64::from)).map(f64::from);
+    Place { triangle, uv: DVec2::new(u, v) }
+}
+
 /// The samples as places, none at that of another and none on an edge: a sample on the border would coincide with its
 /// mirror image. Where it has to, a sample moves a little towards a random point of its triangle.
 fn enter(mesh: &Mesh, triangles: &[u32], barycentrics: &[[f32; 2]], spacing: f64, seed: u64) -> Vec<Place> {
-    let place = |(&triangle, &uv): (&u32, &[f32; 2])| {
-        let [u, v] = round_barycentrics(uv.map(f64::from)).map(f64::from);
-        Place { triangle, uv: DVec2::new(u, v) }
-    };
     let mut places: Vec<Place> = triangles.iter().zip(barycentrics).map(place).collect();
     let positions: Vec<[f32; 3]> =
         triangles.iter().zip(barycentrics).map(|(&triangle, &uv)| mesh.point(triangle, uv)).collect();

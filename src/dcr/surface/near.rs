@@ -202,3 +202,97 @@ impl Hasher for Mixer {
         self.0 = (self.0 ^ u64::from(number)).wrapping_mul(0x9e37_79b9_7f4a_7c15).rotate_left(32);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::job::{Context, chunks};
+    use crate::mesh::Mesh;
+    use crate::rng::{Draw, Rng};
+    use glam::DVec2;
+
+    const RADIUS: f64 = 0.15;
+
+    /// Unit squares at these heights, each of two triangles.
+    fn squares(heights: &[f32]) -> Mesh {
+        let positions = heights.iter().flat_map(|&z| [[0.0, 0.0, z], [1.0, 0.0, z], [1.0, 1.0, z], [0.0, 1.0, z]]);
+        let triangles =
+            (0..heights.len() as u32).flat_map(|i| [[4 * i, 4 * i + 1, 4 * i + 2], [4 * i, 4 * i + 2, 4 * i + 3]]);
+        Mesh::new(positions.collect(), triangles.collect()).unwrap()
+    }
+
+    fn places(mesh: &Mesh, count: u64) -> Vec<Place> {
+        let mut rng = Rng::at(4, Draw::Probe, &[]);
+        let mut place = || {
+            let [u, v] = [rng.unit(), rng.unit()];
+            let uv = if u + v <= 1.0 { DVec2::new(u, v) } else { DVec2::new(1.0 - u, 1.0 - v) };
+            Place { triangle: rng.below(mesh.triangles().len() as u64) as u32, uv }
+        };
+        (0..count).map(|_| place()).collect()
+    }
+
+    /// The neighbours of all samples: sample, and where it or its image is.
+    fn found(mesh: &Mesh, places: &[Place]) -> Vec<Vec<(u32, DVec3)>> {
+        let sheet = Sheet::new(mesh).unwrap();
+        let positions: Vec<DVec3> =
+            places.iter().map(|place| mesh.point_exact(place.triangle, place.uv.into())).collect();
+        let crowd = Crowd::new(&sheet, places, &positions, RADIUS);
+        let context = Context::new(1).unwrap();
+        let found = context.run(None, |job| crowd.neighbourhoods(job, chunks(places.len()), |_| true)).unwrap();
+        let seen = |neighbour: &Neighbour| {
+            let position = positions[neighbour.sample as usize];
+            (neighbour.sample, neighbour.mirror.map_or(position, |border| mirrored(position, sheet.ends(border))))
+        };
+        found.iter().map(|(_, around)| around.neighbours.iter().map(seen).collect()).collect()
+    }
+
+    fn sorted(mut neighbours: Vec<(u32, DVec3)>) -> Vec<(u32, [i64; 3])> {
+        // Up to rounding.
+        let key = |x: DVec3| x.to_array().map(|x| (x * 1e9).round() as i64);
+        neighbours.sort_by_key(|&(sample, position)| (sample, key(position)));
+        neighbours.into_iter().map(|(sample, position)| (sample, key(position))).collect()
+    }
+
+    #[test]
+    fn on_a_square_they_are_all_that_are_near_and_the_images_by_its_sides() {
+        let mesh = squares(&[0.0]);
+        let places = places(&mesh, 400);
+        let positions: Vec<DVec3> =
+            places.iter().map(|place| mesh.point_exact(place.triangle, place.uv.into())).collect();
+        let mut mirrored = 0;
+        for (centre, neighbours) in found(&mesh, &places).into_iter().enumerate() {
+            let mut expected = Vec::new();
+            for (sample, &position) in positions.iter().enumerate() {
+                let DVec3 { x, y, .. } = position;
+                let mut images = vec![position];
+                let mut sides = [(x, DVec3::new(-x, y, 0.0)), (y, DVec3::new(x, -y, 0.0))].to_vec();
+                sides.extend([(1.0 - x, DVec3::new(2.0 - x, y, 0.0)), (1.0 - y, DVec3::new(x, 2.0 - y, 0.0))]);
+                // Places nearer to each other than `APART` are at the corners only.
+                sides.sort_by(|a, b| a.0.total_cmp(&b.0));
+                let apart = (0.5 * (sides[0].1 - position)).distance(0.5 * (sides[1].1 - position)) > APART * RADIUS;
+                images.push(sides[0].1);
+                images.extend(apart.then_some(sides[1].1));
+                let near = images.into_iter().filter(|image| image.distance(positions[centre]) <= RADIUS);
+                expected.extend(
+                    near.filter(|&image| sample != centre || image != position).map(|image| (sample as u32, image)),
+                );
+            }
+            expected.sort_by(|a, b| a.1.distance(positions[centre]).total_cmp(&b.1.distance(positions[centre])));
+            expected.truncate(MOST);
+            mirrored += expected.iter().filter(|(_, position)| position.min_element() < 0.0).count();
+            assert_eq!(sorted(neighbours), sorted(expected), "around {}", positions[centre]);
+        }
+        assert!(mirrored > 100);
+    }
+
+    #[test]
+    fn the_other_side_of_a_thin_wall_is_not_near() {
+        let mesh = squares(&[0.0, 0.001]);
+        let places = places(&mesh, 500);
+        for (centre, neighbours) in found(&mesh, &places).into_iter().enumerate() {
+            assert!(neighbours.len() > 5);
+            let side = |sample: usize| places[sample].triangle / 2;
+            assert!(neighbours.iter().all(|&(sample, _)| side(sample as usize) == side(centre)));
+        }
+    }
+}

@@ -1,10 +1,10 @@
 //! A set in the making: places on the surface, how fast they move, and who is near whom.
 
-use glam::{DQuat, DVec2, DVec3, Vec2};
+use glam::{DVec2, DVec3};
 
-use super::near::{Crowd, Neighbourhood, mirrored};
+use super::near::{Crowd, Neighbourhood};
 use super::sheet::Sheet;
-use super::star::Near;
+use super::view::View;
 use super::walk::{Flat, Place, walk};
 use crate::dcr::motion::{Motion, Space};
 use crate::dcr::spread::constraints::{Constraints, Force};
@@ -17,11 +17,14 @@ const MOMENTUM: f32 = 0.78;
 /// How far samples may move in the room that they have.
 const ROOM: f32 = 0.45;
 
-/// The room, in spacings, of samples whose neighbours do not surround them.
-const WIDE: f32 = 1.0;
-
 /// The steps over which constraints grow stiffer.
 const STIFFENING: u32 = 60;
+
+/// How far samples may go in a step, in spacings, ...
+const STRIDE: f32 = 0.4;
+/// ... and by which factor that falls from step to step when constraints no longer grow stiffer. Where the surface is bent
+/// more than the samples are dense, what two of them do to each other is not opposite, and they would never come to rest.
+const CALMING: f32 = 0.9;
 
 /// The step size by which motion is measured: a span is 10 steps.
 const STEP: f64 = 0.2;
@@ -140,24 +143,19 @@ impl<'a> Set<'a> {
 
     fn moved(&self, constraints: &Constraints, sample: usize, view: &mut View) -> Moved {
         let (place, from) = (self.places[sample], self.positions[sample]);
-        let Neighbourhood { neighbours, normal } = &self.neighbourhoods[sample];
         let flat = Flat::new(self.sheet, place.triangle, self.spacing);
-        // The mean plane around the sample, turned into that of its triangle.
-        let turn = DQuat::from_rotation_arc(*normal, flat.normal());
-        let offsets = neighbours.iter().map(|neighbour| {
-            let position = self.positions[neighbour.sample as usize];
-            let seen = match neighbour.mirror {
-                Some(border) => mirrored(position, self.sheet.ends(border)),
-                None => position,
-            };
-            flat.turned(turn * ((seen - from) / self.spacing)).as_vec2()
-        });
-        let Force { sum, room } = view.force(constraints, offsets);
+        view.look(self.sheet, &flat, from, &self.neighbourhoods[sample], &self.positions);
+        let Force { sum, room } = view.force(constraints);
         let velocity = MOMENTUM * self.velocities[sample].as_vec2() + sum;
-        let way = velocity.clamp_length_max(ROOM * room).as_dvec2();
+        let way = velocity.clamp_length_max((ROOM * room).min(self.stride())).as_dvec2();
         let end = walk(self.sheet, self.spacing, place, way);
         let position = self.sheet.mesh.point_exact(end.place.triangle, end.place.uv.into());
         Moved { place: end.place, position, velocity: end.way, length: from.distance(position) / self.spacing }
+    }
+
+    /// How far samples may go in this step, in spacings.
+    fn stride(&self) -> f32 {
+        STRIDE * CALMING.powi(self.iterations.saturating_sub(STIFFENING) as i32)
     }
 
     /// The constraints of this step.
@@ -174,29 +172,5 @@ struct Unit(f64);
 impl Space<DVec3> for Unit {
     fn distance_squared(&self, from: DVec3, to: DVec3) -> f64 {
         from.distance_squared(to) / (self.0 * self.0)
-    }
-}
-
-/// What one sample sees of its neighbours: memory that is used again for the next.
-#[derive(Default)]
-struct View {
-    near: Near,
-    order: Vec<usize>,
-    ring: Vec<Vec2>,
-}
-
-impl View {
-    /// The force by neighbours at these offsets. Who is not surrounded by them is only pushed.
-    fn force(&mut self, constraints: &Constraints, offsets: impl Iterator<Item = Vec2>) -> Force {
-        self.near.clear();
-        // Neighbours at the same place have no direction to push in.
-        offsets.filter(|&offset| offset != Vec2::ZERO).for_each(|offset| self.near.add(offset));
-        if self.near.star(&mut self.order) {
-            self.ring.clear();
-            self.ring.extend(self.order.iter().map(|&point| self.near.offset(point)));
-            return constraints.force(&self.ring);
-        }
-        let offsets = (0..self.near.len()).map(|point| self.near.offset(point));
-        Force { sum: offsets.map(|offset| constraints.push(offset, offset.length_squared())).sum(), room: WIDE }
     }
 }

@@ -129,3 +129,50 @@ fn welded(mesh: &Mesh) -> Vec<u32> {
     };
     (0..).zip(positions).map(weld).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// How many half-edges each edge of the mesh has, from the most to the fewest.
+    fn degrees(sheet: &Sheet) -> Vec<usize> {
+        let edges = 0..3 * sheet.mesh.triangles().len() as u32;
+        let firsts = edges.filter(|&edge| sheet.across(edge).all(|other| other > edge));
+        let mut degrees: Vec<_> = firsts.map(|edge| 1 + sheet.across(edge).count()).collect();
+        degrees.sort_unstable_by(|a, b| b.cmp(a));
+        degrees
+    }
+
+    const SQUARE: [[f32; 3]; 4] = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
+
+    #[test]
+    fn edges_are_shared_by_place_whatever_the_winding_and_the_indices() {
+        let [a, b, c, d] = SQUARE;
+        let turned = [a[0], -0.0, 1e-8];
+        for positions in [vec![a, b, c, a, c, d], vec![a, b, c, turned, c, d], vec![a, b, c, d, c, a]] {
+            let mesh = Mesh::new(positions.clone(), vec![[0, 1, 2], [3, 4, 5]]).unwrap();
+            let sheet = Sheet::new(&mesh).unwrap();
+            assert_eq!(degrees(&sheet), [2, 1, 1, 1, 1]);
+            let alike = positions[3] == d;
+            let [diagonal, other] = [2, if alike { 4 } else { 3 }];
+            assert_eq!(sheet.across(diagonal).collect::<Vec<_>>(), [other]);
+            assert_eq!(sheet.run_alike(diagonal, other), alike);
+        }
+        let apart = [a[0], 0.0, 1e-5];
+        let mesh = Mesh::new(vec![a, b, c, apart, c, d], vec![[0, 1, 2], [3, 4, 5]]).unwrap();
+        assert_eq!(degrees(&Sheet::new(&mesh).unwrap()), [1; 6]);
+    }
+
+    #[test]
+    fn edges_of_many_triangles_hold_them_all_and_what_is_left_out_is_not_there() {
+        let [a, b, c, d] = SQUARE;
+        let up = [0.5, 0.5, 1.0];
+        let triangles = vec![[0, 1, 2], [0, 2, 3], [2, 0, 4], [0, 0, 2]];
+        let mesh = Mesh::new(vec![a, b, c, d, up], triangles).unwrap();
+        assert_eq!(degrees(&Sheet::new(&mesh).unwrap())[..2], [3, 1]);
+        let mesh = mesh.with_mask(vec![true, true, false, true]).unwrap();
+        let sheet = Sheet::new(&mesh).unwrap();
+        assert_eq!(degrees(&sheet)[..2], [2, 1]);
+        assert_eq!(sheet.across(2).collect::<Vec<_>>(), [3]);
+    }
+}

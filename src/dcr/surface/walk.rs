@@ -20,6 +20,8 @@ pub(super) struct Flat {
     corners: [DVec2; 3],
     /// The plane's axes in space.
     axes: [DVec3; 2],
+    /// The unit of length.
+    spacing: f64,
 }
 
 /// A place on the surface.
@@ -45,7 +47,7 @@ impl Flat {
         let length = ab.length();
         let (x, cross) = (ab / length, ab.cross(ac));
         let corners = [DVec2::ZERO, DVec2::new(length, 0.0), DVec2::new(ac.dot(x), cross.length() / length)];
-        Self { corners, axes: [x, cross.cross(x).normalize_or_zero()] }
+        Self { corners, axes: [x, cross.cross(x).normalize_or_zero()], spacing }
     }
 
     /// The unit normal; zero for a triangle without area.
@@ -53,10 +55,10 @@ impl Flat {
         self.axes[0].cross(self.axes[1])
     }
 
-    /// A vector of space as it is seen in the triangle's plane: turned into it without losing its length.
+    /// A vector of space as it is seen in the triangle's plane: turned into it without losing its length. In spacings.
     pub(super) fn turned(&self, offset: DVec3) -> DVec2 {
         let seen = DVec2::new(offset.dot(self.axes[0]), offset.dot(self.axes[1]));
-        seen.normalize_or_zero() * offset.length()
+        seen.normalize_or_zero() * (offset.length() / self.spacing)
     }
 
     fn point(&self, uv: DVec2) -> DVec2 {
@@ -133,4 +135,102 @@ fn straightest(sheet: &Sheet, spacing: f64, flat: &Flat, edge: u32) -> Option<(u
     let first = others.next()?;
     let best = others.fold(first, |best, other| if other.0 < best.0 { other } else { best });
     Some((best.1, best.2))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::Mesh;
+    use crate::rng::{Draw, Rng};
+
+    const SPACING: f64 = 0.25;
+
+    /// A square of side 8 around the origin in irregular triangles, some of them turned over, rolled up around the y axis
+    /// with this curvature.
+    fn sheet(curvature: f32) -> Mesh {
+        let side = 17;
+        let mut rng = Rng::at(1, Draw::Probe, &[]);
+        let mut coordinate =
+            |i: u32| if i % (side - 1) == 0 { i as f32 / 2.0 } else { (i as f32 + 0.6 * rng.unit() as f32) / 2.0 };
+        let places: Vec<[f32; 2]> =
+            (0..side * side).map(|i| [coordinate(i % side), coordinate(i / side)].map(|x| x - 4.0)).collect();
+        let rolled = |&[x, y]: &[f32; 2]| match curvature {
+            0.0 => [x, y, 0.0],
+            _ => [(curvature * x).sin() / curvature, y, (curvature * x).cos() / curvature],
+        };
+        let quads = (0..side - 1).flat_map(|y| (0..side - 1).map(move |x| y * side + x));
+        let triangles = quads.flat_map(|a| [[a, a + 1, a + side + 1], [a, a + side, a + side + 1]]);
+        Mesh::new(places.iter().map(rolled).collect(), triangles.collect()).unwrap()
+    }
+
+    fn at(mesh: &Mesh, place: Place) -> DVec3 {
+        mesh.point_exact(place.triangle, place.uv.into())
+    }
+
+    #[test]
+    fn in_the_plane_walks_are_straight_lines() {
+        let mesh = sheet(0.0);
+        let sheet = Sheet::new(&mesh).unwrap();
+        let mut rng = Rng::at(2, Draw::Probe, &[]);
+        let (mut inside, mut stopped) = (0, 0);
+        for _ in 0..2000 {
+            let start = Place { triangle: rng.below(512) as u32, uv: DVec2::new(rng.unit(), rng.unit()) / 2.0 };
+            let way = DVec3::new(rng.unit() - 0.5, rng.unit() - 0.5, 0.0) * 10.0;
+            let flat = Flat::new(&sheet, start.triangle, SPACING);
+            let end = walk(&sheet, SPACING, start, flat.turned(way));
+            let (from, to) = (at(&mesh, start), at(&mesh, end.place));
+            let expected = from + way;
+            if expected.abs().max_element() < 4.0 {
+                assert!(to.distance(expected) < 1e-9, "from {from} to {to}, not {expected}");
+                assert!((end.way.length() - way.length() / SPACING).abs() < 1e-9);
+                inside += 1;
+            } else {
+                // The border is met at this share of the way.
+                let share = (0..2).map(|axis| (4.0 * way[axis].signum() - from[axis]) / way[axis]).fold(1.0, f64::min);
+                assert!((to - from).cross(way).length() < 1e-9 && to.abs().max_element() < 4.0);
+                let gone = (to - from).length() / way.length();
+                assert!(gone <= share && gone > 0.98 * share - 0.01, "{gone} of {share}");
+                stopped += 1;
+            }
+        }
+        assert!(inside > 500 && stopped > 200, "{inside} {stopped}");
+    }
+
+    #[test]
+    fn on_a_roll_walks_are_those_of_the_plane_rolled_up() {
+        let (mesh, plane) = (sheet(0.7), sheet(0.0));
+        // The mesh is made of chords: its plane is that of its own edges.
+        let (sheet, flat_sheet) = (Sheet::new(&mesh).unwrap(), Sheet::new(&plane).unwrap());
+        let mut rng = Rng::at(3, Draw::Probe, &[]);
+        for _ in 0..500 {
+            let start = Place { triangle: rng.below(512) as u32, uv: DVec2::new(rng.unit(), rng.unit()) / 2.0 };
+            let way = DVec2::from_angle(rng.unit() * 7.0) * 4.0;
+            let [end, flat_end] = [&sheet, &flat_sheet].map(|sheet| walk(sheet, SPACING, start, way));
+            let back = walk(&sheet, SPACING, end.place, -end.way);
+            if (end.way.length() - 4.0).abs() < 1e-9 {
+                assert!(at(&mesh, back.place).distance(at(&mesh, start)) < 1e-9, "the way back ends elsewhere");
+            }
+            // Triangles differ from those of the plane by what their vertices leave the cylinder in between.
+            let near = at(&plane, end.place).distance(at(&plane, flat_end.place));
+            assert!(near < 0.1, "{near}");
+        }
+    }
+
+    #[test]
+    fn triangles_without_area_are_crossed_and_nobody_stays_there() {
+        // A square whose upper half ends on an edge with one vertex more: the triangle between has no area.
+        let positions =
+            vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.5, -1.0, 0.0], [0.5, 0.0, 0.0], [0.0, 1.0, 0.0], [1.0, 1.0, 0.0]];
+        let triangles = vec![[2, 1, 0], [0, 1, 3], [0, 3, 4], [3, 1, 5], [3, 5, 4]];
+        let mesh = Mesh::new(positions, triangles).unwrap();
+        let sheet = Sheet::new(&mesh).unwrap();
+        let start = Place { triangle: 0, uv: DVec2::new(0.3, 0.4) };
+        let flat = Flat::new(&sheet, 0, SPACING);
+        for length in [0.1, 0.5, 0.9] {
+            let way = DVec3::new(0.1, length, 0.0);
+            let end = walk(&sheet, SPACING, start, flat.turned(way));
+            assert!(at(&mesh, end.place).distance(at(&mesh, start) + way) < 1e-9);
+            assert!(mesh.triangle_area(end.place.triangle) > 0.0);
+        }
+    }
 }
