@@ -149,7 +149,22 @@
 /// 80 per cent of the tension to the point itself, 20 to the neighbour.
 #define AZULEJO_DISTRIBUTION_EIGHTY_TWENTY 4
 
-/// The motion came to its end, or there was nothing to move.
+/// An edge is visited from each end that has the other in its neighbourhood: the default.
+#define AZULEJO_VISITS_BOTH_ENDS 0
+
+/// An edge is visited from one end, the same in every step, by a coin keyed by the seed and the two points: points get about
+/// half as far in a step, and the constant distributions differ with Delaunay neighbours too.
+#define AZULEJO_VISITS_ONE_END 1
+
+/// A set has converged when the motion falls to the tolerance: the default.
+#define AZULEJO_CONVERGENCE_MOTION 0
+
+/// A set has converged when ten times in a row the variance of the distances to the nearest point changes by less than 0.1
+/// per cent in a step, and more than 99 per cent of the points move by less than 0.01 d_max (thesis section 4.4.2). The
+/// smaller the step, the earlier that happens; in sets of a few hundred points it may never.
+#define AZULEJO_CONVERGENCE_VARIANCE 1
+
+/// The set converged, or there was nothing to move.
 #define AZULEJO_STOPPED_CONVERGED 0
 
 /// All steps were made.
@@ -464,7 +479,8 @@ typedef struct azulejo_dcr_options {
     /// Parts points that coincide; used for nothing else.
     uint64_t seed;
     /// Neighbours closer than this repel each other; above 0, at most 1; 0.95 by default. Plays a part in
-    /// AZULEJO_METHOD_THESIS only, as all fields from here to `distribution` but for `tolerance`.
+    /// AZULEJO_METHOD_THESIS only, as all fields from here to `distribution` but for `tolerance`, and `visits`,
+    /// `convergence` and `decay`.
     double conflict_radius;
     /// Delaunay neighbours farther apart than this attract each other; at least conflict_radius; 1.05 by default.
     double attraction_radius;
@@ -485,13 +501,20 @@ typedef struct azulejo_dcr_options {
     int32_t method;
     /// 0.
     uint32_t reserved;
+    /// An AZULEJO_VISITS_ constant; from both ends by default.
+    int32_t visits;
+    /// An AZULEJO_CONVERGENCE_ constant; by motion by default.
+    int32_t convergence;
+    /// What `step` is multiplied with after every step; above 0, at most 1; 1 by default. All steps together are no longer
+    /// than step / (1 - decay): about 10 are needed from a random start.
+    double decay;
 } azulejo_dcr_options;
 
 /// What a relaxation did.
 typedef struct azulejo_dcr_report {
     /// The steps made.
     uint32_t iterations;
-    /// 1 if the motion came to its end before the steps did, else 0.
+    /// 1 if the set converged, or there was nothing to move, before the steps came to their end; else 0.
     int32_t converged;
     /// Half of how far points got, root mean square, in units of d_max: over the last 10 steps, or with
     /// AZULEJO_METHOD_THESIS over the last steps whose sizes add up to 2, which is the same for small and large steps.

@@ -40,6 +40,8 @@ pub(crate) enum Draw {
     Adaptive,
     /// PSP: which pieces of the surface are filled with those of larger radii.
     Octave,
+    /// DCR: which end of an edge visits it.
+    Visit,
 }
 
 /// The stream of random numbers of one place.

@@ -6,7 +6,7 @@ mod sets;
 use azulejo::analysis::bonds::bond_order;
 use azulejo::analysis::coverage::{covering_radius_2d, surface_uncovered_fraction};
 use azulejo::analysis::spacing::{nearest_distances_2d, rho, smallest_distance_2d, smallest_distance_3d};
-use azulejo::analysis::triangles::triangle_statistics;
+use azulejo::analysis::triangles::{delaunay_triangles, triangle_statistics};
 use azulejo::mesh::Mesh;
 use azulejo::{Boundary, Context, Domain, Error};
 use proptest::prelude::*;
@@ -121,9 +121,11 @@ fn triangles_of_random_points_have_the_known_shares() {
     let steps = 10_000;
     let width = right / f64::from(steps);
     let obtuse = 3.0 * (0..steps).map(|i| density(right + (f64::from(i) + 0.5) * width) * width).sum::<f64>();
+    let sharp = (0..steps).map(|i| density((f64::from(i) + 0.5) * width / 3.0) * width / 3.0).sum::<f64>();
     for boundary in BOUNDARIES {
         let statistics = triangle_statistics(&context(), &unit_square(boundary), &random_points(20_000, 3)).unwrap();
         assert!((statistics.obtuse - obtuse).abs() < 0.015, "{} {obtuse}", statistics.obtuse);
+        assert!((statistics.angles_below_30_degrees - sharp).abs() < 0.01, "{statistics:?} {sharp}");
         assert!(statistics.triangles <= 40_000 && statistics.triangles > 39_000);
     }
     let quality =
@@ -144,8 +146,49 @@ fn a_stretched_lattice_has_sharp_triangles_of_three_lengths() {
     let mean = (1.0 + 2.0 * leg) / 3.0;
     let variance = ((1.0 - mean).powi(2) + 2.0 * (leg - mean).powi(2)) / 3.0;
     assert_eq!((statistics.triangles, statistics.obtuse, statistics.below_30_degrees), (48, 0.0, 1.0));
+    assert!(close(statistics.angles_below_30_degrees, 1.0 / 3.0));
     assert!(close(statistics.edge_mean, mean) && close(statistics.edge_variation, variance / (mean * mean)));
     assert!(statistics.area_variation < 1e-12);
+}
+
+#[test]
+fn a_lattice_with_a_shifted_point_has_four_outlying_triangles() {
+    let (domain, mut points) = hexagonal_lattice();
+    let shift = 0.125;
+    points[8 * 16 + 8][0] += shift as f32;
+    let statistics = triangle_statistics(&context(), &domain, &points).unwrap();
+    let count = 2.0 * 16.0 * 18.0;
+    // Of the six triangles around the point two keep their height above the opposite edge.
+    let (height, change) = (0.75f64.sqrt(), shift * 0.75f64.sqrt());
+    let variation = 4.0 * (change / height).powi(2) / count;
+    assert!((statistics.area_variation / variation - 1.0).abs() < 1e-4, "{statistics:?}");
+    assert!(close(statistics.beyond_4_sigma, 4.0 / count), "{statistics:?}");
+    assert_eq!((statistics.triangles, statistics.obtuse, statistics.angles_below_30_degrees), (576, 0.0, 0.0));
+}
+
+#[test]
+fn triangles_tile_the_torus_and_a_square_but_for_its_border() {
+    for count in [2, 3, 50, 1000] {
+        let points = random_points(count, 12);
+        let triangles = |boundary| delaunay_triangles(&context(), &unit_square(boundary), &points).unwrap();
+        let area = |boundary| triangles(boundary).iter().map(|triangle| triangle.area()).sum::<f64>();
+        assert_eq!(triangles(Boundary::Periodic).len(), 2 * count);
+        assert!(close(area(Boundary::Periodic), 1.0), "{count}");
+        let inside = |x: f64| (0.0..1.0).contains(&x);
+        assert!(
+            triangles(Boundary::Bounded).iter().all(|triangle| triangle
+                .corners
+                .as_flattened()
+                .iter()
+                .all(|&x| inside(x)))
+        );
+        assert!(area(Boundary::Bounded) < 1.0 && (count < 1000 || area(Boundary::Bounded) > 0.9));
+        for triangle in triangles(Boundary::Periodic) {
+            let [a, b, c] = triangle.edges();
+            let longest = a.max(b).max(c);
+            assert_eq!(triangle.is_obtuse(), 2.0 * longest * longest > a * a + b * b + c * c);
+        }
+    }
 }
 
 #[test]

@@ -8,11 +8,80 @@ use crate::error::Result;
 use crate::job::Context;
 use crate::points::{Boundary, Domain};
 
-/// What the triangles of a set are like. On a torus there are twice as many as points; on a bounded domain those count
-/// that do not cross the border when the set is mirrored by it, so there are no slivers along the convex hull.
+/// A triangle of the Delaunay triangulation of a set.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Triangle {
+    /// The corners, counter-clockwise, in the units of the domain.
+    pub corners: [[f64; 2]; 3],
+}
+
+impl Triangle {
+    /// The area, in the units of the domain.
+    pub fn area(&self) -> f64 {
+        let [a, b, c] = self.corners.map(DVec2::from_array);
+        (b - a).perp_dot(c - a) / 2.0
+    }
+
+    /// Whether an angle is above 90 degrees.
+    pub fn is_obtuse(&self) -> bool {
+        self.cosines().iter().any(|&cosine| cosine < 0.0)
+    }
+
+    /// The lengths of the edges.
+    pub fn edges(&self) -> [f64; 3] {
+        let corners = self.corners.map(DVec2::from_array);
+        std::array::from_fn(|i| corners[i].distance(corners[(i + 1) % 3]))
+    }
+
+    /// The cosines of the angles.
+    fn cosines(&self) -> [f64; 3] {
+        let corners = self.corners.map(DVec2::from_array);
+        std::array::from_fn(|i| {
+            let side = |other: usize| (corners[(i + other) % 3] - corners[i]).normalize_or_zero();
+            side(1).dot(side(2))
+        })
+    }
+}
+
+/// The Delaunay triangles of a set, each once. Takes O(n log n).
 ///
-/// Shares and variations of nothing are 0. Lattices with more than three points on an empty circle have more than one
-/// triangulation, which need not be the same on both sides of the torus: there the figures are of a mixture.
+/// On a torus there are twice as many as points, and those that lie across the border reach out of the domain on one of the
+/// sides. On a bounded domain those are left out that cross the border when the set is mirrored by it, so there are no
+/// slivers along the convex hull.
+///
+/// Lattices with more than three points on an empty circle have more than one triangulation, which need not be the same on
+/// both sides of the torus: there some triangles may be missing and others overlap.
+///
+/// # Errors
+/// [`Error::InvalidArgument`](crate::Error::InvalidArgument) for a domain that is none and for points outside it (`xy`).
+pub fn delaunay_triangles(context: &Context, domain: &Domain, points: &[[f32; 2]]) -> Result<Vec<Triangle>> {
+    domain.check()?;
+    domain.check_points(points)?;
+    if points.is_empty() {
+        return Ok(Vec::new());
+    }
+    let frame = Frame::new(*domain, points.len());
+    let positions = frame.enter(points);
+    let delaunay = context.run(None, |job| Delaunay::new(job, &frame, positions.iter().copied()))?;
+    let place = |corner: Site| (DVec2::from_array(domain.min) + corner.position * frame.spacing()).to_array();
+    let counted = delaunay.triangles().filter(|corners| is_counted(domain.boundary, corners));
+    Ok(counted.map(|corners| Triangle { corners: corners.map(place) }).collect())
+}
+
+/// Whether a triangle is the one of its images that counts: on a torus that whose first corner is a point of the domain,
+/// first by its number and then by its place, which orders the images of a point in the same way on every side.
+fn is_counted(boundary: Boundary, corners: &[Site; 3]) -> bool {
+    let order = |a: &&Site, b: &&Site| {
+        let by_place = a.position.x.total_cmp(&b.position.x).then(a.position.y.total_cmp(&b.position.y));
+        a.source.cmp(&b.source).then(by_place)
+    };
+    match boundary {
+        Boundary::Periodic => corners.iter().min_by(order).is_some_and(Site::is_original),
+        Boundary::Bounded => corners.iter().all(Site::is_original),
+    }
+}
+
+/// What the triangles of a set are like, as [`delaunay_triangles`] gives them. Shares and variations of nothing are 0.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct TriangleStatistics {
     /// The number of triangles.
@@ -21,90 +90,75 @@ pub struct TriangleStatistics {
     pub obtuse: f64,
     /// The share of triangles with an angle below 30 degrees.
     pub below_30_degrees: f64,
-    /// The mean length of the edges.
+    /// The share of angles below 30 degrees.
+    pub angles_below_30_degrees: f64,
+    /// The mean length of the edges, in the units of the domain.
     pub edge_mean: f64,
     /// The variance of the edge lengths over the square of their mean (CV²).
     pub edge_variation: f64,
     /// The variance of the triangle areas over the square of their mean.
     pub area_variation: f64,
+    /// The share of triangles whose area is more than 4 standard deviations from the mean: those of this set.
+    pub beyond_4_sigma: f64,
 }
 
 /// Measures the Delaunay triangles of a set. Takes O(n log n).
 ///
 /// # Errors
-/// [`Error::InvalidArgument`](crate::Error::InvalidArgument) for a domain that is none and for points outside it (`xy`).
+/// As [`delaunay_triangles`].
 pub fn triangle_statistics(context: &Context, domain: &Domain, points: &[[f32; 2]]) -> Result<TriangleStatistics> {
-    domain.check()?;
-    domain.check_points(points)?;
-    if points.is_empty() {
-        return Ok(TriangleStatistics::default());
-    }
-    let frame = Frame::new(*domain, points.len());
-    let positions = frame.enter(points);
-    let delaunay = context.run(None, |job| Delaunay::new(job, &frame, positions.iter().copied()))?;
-
-    let (mut obtuse, mut sharp) = (0.0, 0.0);
-    let (mut areas, mut edges) = (Moments::default(), Moments::default());
-    for corners in delaunay.triangles() {
-        let weight = weight(domain.boundary, &corners);
-        let corners = corners.map(|corner| corner.position);
-        let cosines = cosines(corners);
-        obtuse += weight * f64::from(cosines.iter().any(|&cosine| cosine < 0.0));
-        sharp += weight * f64::from(cosines.iter().any(|&cosine| cosine > 0.75f64.sqrt()));
-        areas.add((corners[1] - corners[0]).perp_dot(corners[2] - corners[0]) / 2.0, weight);
+    let triangles = delaunay_triangles(context, domain, points)?;
+    let [mut areas, mut edges] = [Moments::default(); 2];
+    let (mut obtuse, mut sharp, mut sharp_angles) = (0, 0, 0);
+    for triangle in &triangles {
+        areas.add(triangle.area());
         // Inner edges come twice, once with each of their triangles.
-        (0..3).for_each(|i| edges.add(corners[i].distance(corners[(i + 1) % 3]), weight));
+        triangle.edges().into_iter().for_each(|edge| edges.add(edge));
+        let angles = triangle.cosines().into_iter().filter(|&cosine| cosine > 0.75f64.sqrt()).count();
+        obtuse += usize::from(triangle.is_obtuse());
+        sharp += usize::from(angles > 0);
+        sharp_angles += angles;
     }
-    let share = |part: f64| if areas.weight > 0.0 { part / areas.weight } else { 0.0 };
+    let limit = SIGMAS * areas.variation().sqrt() * areas.mean();
+    let outlying = triangles.iter().filter(|triangle| (triangle.area() - areas.mean()).abs() > limit).count();
+    let share = |part: usize| part as f64 / triangles.len().max(1) as f64;
     Ok(TriangleStatistics {
-        triangles: areas.weight.round() as u64,
+        triangles: triangles.len() as u64,
         obtuse: share(obtuse),
         below_30_degrees: share(sharp),
-        edge_mean: edges.mean() * frame.spacing(),
+        angles_below_30_degrees: share(sharp_angles) / 3.0,
+        edge_mean: edges.mean(),
         edge_variation: edges.variation(),
         area_variation: areas.variation(),
+        beyond_4_sigma: share(outlying),
     })
 }
 
-/// How much a triangle counts: on a torus each comes once for every corner that is a point and not a copy.
-fn weight(boundary: Boundary, corners: &[Site; 3]) -> f64 {
-    let originals = corners.iter().filter(|corner| corner.is_original()).count();
-    match boundary {
-        Boundary::Periodic => originals as f64 / 3.0,
-        Boundary::Bounded => f64::from(originals == 3),
-    }
-}
+/// From how many standard deviations on an area is outlying.
+const SIGMAS: f64 = 4.0;
 
-/// The cosines of the angles.
-fn cosines(corners: [DVec2; 3]) -> [f64; 3] {
-    std::array::from_fn(|i| {
-        let side = |other: usize| (corners[(i + other) % 3] - corners[i]).normalize_or_zero();
-        side(1).dot(side(2))
-    })
-}
-
-/// Weighted sums of a quantity and of its square.
-#[derive(Default)]
+/// Sums of a quantity and of its square.
+#[derive(Clone, Copy, Default)]
 struct Moments {
-    weight: f64,
+    count: f64,
     sum: f64,
     squares: f64,
 }
 
 impl Moments {
-    fn add(&mut self, x: f64, weight: f64) {
-        self.weight += weight;
-        self.sum += weight * x;
-        self.squares += weight * x * x;
+    fn add(&mut self, x: f64) {
+        self.count += 1.0;
+        self.sum += x;
+        self.squares += x * x;
     }
 
     fn mean(&self) -> f64 {
-        if self.weight > 0.0 { self.sum / self.weight } else { 0.0 }
+        if self.count > 0.0 { self.sum / self.count } else { 0.0 }
     }
 
     /// The variance over the square of the mean.
     fn variation(&self) -> f64 {
         let mean = self.mean();
-        if mean > 0.0 { (self.squares / self.weight / (mean * mean) - 1.0).max(0.0) } else { 0.0 }
+        if mean > 0.0 { (self.squares / self.count / (mean * mean) - 1.0).max(0.0) } else { 0.0 }
     }
 }

@@ -11,7 +11,8 @@
 use glam::DVec2;
 
 use super::links::{Link, Links};
-use super::{Distribution, Neighbourhood, Thesis};
+use super::{Distribution, Neighbourhood, Thesis, Visits};
+use crate::rng::{Draw, hash};
 
 /// A force within this cosine of the reverse of the one before: the point oscillates (δ of §4.4.2; §4.3.5 says 0.9).
 const OSCILLATION_COSINE: f64 = 0.95;
@@ -38,12 +39,15 @@ pub(super) struct Forces {
     conflict_radius: f64,
     /// Infinite where neighbours do not attract.
     attraction_radius: f64,
-    step: f64,
+    /// λ.
+    pub(super) step: f64,
     distribution: Distribution,
+    visits: Visits,
+    seed: u64,
 }
 
 impl Forces {
-    pub(super) fn new(neighbourhood: Neighbourhood, thesis: &Thesis) -> Self {
+    pub(super) fn new(neighbourhood: Neighbourhood, thesis: &Thesis, seed: u64) -> Self {
         Self {
             conflict_radius: thesis.conflict_radius,
             attraction_radius: match neighbourhood {
@@ -52,6 +56,8 @@ impl Forces {
             },
             step: thesis.step,
             distribution: thesis.distribution,
+            visits: thesis.visits,
+            seed,
         }
     }
 
@@ -69,21 +75,33 @@ impl Forces {
         strength * offset.normalize_or_zero()
     }
 
-    /// The share of one tension that the visits to its edge bring upon the point itself: up to 1 when both ends visit.
-    fn share(&self, link: &Link, particle: &Particle, other: &Particle) -> f64 {
-        // What a point takes of a tension when it visits, and when it is visited.
-        let (own, given) = match self.distribution {
+    /// How often the point visits a link, and how often the neighbour does.
+    fn visits(&self, point: u32, link: &Link) -> [f64; 2] {
+        let is_mutual = link.outgoing && link.incoming;
+        match self.visits {
+            // A point and its own image visit the edge between them alike.
+            Visits::OneEnd if is_mutual && link.other == point => [0.5; 2],
+            Visits::OneEnd if is_mutual => {
+                let (low, high) = (point.min(link.other), point.max(link.other));
+                let is_low_visiting = hash(self.seed, Draw::Visit, &[low.into(), high.into()]) & 1 == 0;
+                if is_low_visiting == (point == low) { [1.0, 0.0] } else { [0.0, 1.0] }
+            }
+            _ => [link.outgoing, link.incoming].map(|visits| f64::from(u8::from(visits))),
+        }
+    }
+
+    /// What a point takes of a tension when it visits, and when it is visited.
+    fn shares(&self, particle: &Particle, other: &Particle) -> [f64; 2] {
+        match self.distribution {
             Distribution::Activeness => {
                 let sum = particle.yielding + other.yielding;
-                let share = if sum > 0.0 { particle.yielding / sum } else { 0.5 };
-                (share, share)
+                [if sum > 0.0 { particle.yielding / sum } else { 0.5 }; 2]
             }
-            Distribution::Average => (0.5, 0.5),
-            Distribution::Dominant => (0.0, 1.0),
-            Distribution::Zero => (1.0, 0.0),
-            Distribution::EightyTwenty => (0.8, 0.2),
-        };
-        f64::from(link.outgoing) * own + f64::from(link.incoming) * given
+            Distribution::Average => [0.5; 2],
+            Distribution::Dominant => [0.0, 1.0],
+            Distribution::Zero => [1.0, 0.0],
+            Distribution::EightyTwenty => [0.8, 0.2],
+        }
     }
 
     /// The point after one step; its position has not been folded back into the domain.
@@ -92,9 +110,11 @@ impl Forces {
         let (mut displacement, mut tension, mut tensions) = (DVec2::ZERO, DVec2::ZERO, 0.0);
         links.for_each(point, |link| {
             let force = self.tension(link.offset);
-            displacement += self.share(&link, &particle, &particles[link.other as usize]) * force;
-            // Each end that visits feels the tension once.
-            let visits = f64::from(u8::from(link.outgoing) + u8::from(link.incoming));
+            let [own, given] = self.shares(&particle, &particles[link.other as usize]);
+            let [visiting, visited] = self.visits(point as u32, &link);
+            displacement += (visiting * own + visited * given) * force;
+            // Every visit is felt at both ends.
+            let visits = visiting + visited;
             tension += visits * force;
             tensions += visits * force.length();
         });
@@ -106,5 +126,121 @@ impl Forces {
             sum => (tension.length() / sum).min(1.0),
         };
         Particle { position: particle.position + self.step * displacement, yielding, tension }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::rng::Rng;
+
+    const COUNT: usize = 24;
+
+    /// A neighbourhood of which some links lead one way only. The way to a neighbour is that to its place.
+    struct Some<'a> {
+        positions: &'a [DVec2],
+    }
+
+    impl Some<'_> {
+        fn has(&self, from: usize, to: usize) -> bool {
+            let near = self.positions[from].distance(self.positions[to]) < 1.6;
+            from != to && near && (from * to) % 5 != from % 3
+        }
+    }
+
+    impl Links for Some<'_> {
+        fn for_each(&self, point: usize, mut visit: impl FnMut(Link)) {
+            for other in 0..COUNT {
+                let offset = self.positions[other] - self.positions[point];
+                let (outgoing, incoming) = (self.has(point, other), self.has(other, point));
+                if outgoing || incoming {
+                    visit(Link { other: other as u32, offset, outgoing, incoming });
+                }
+            }
+        }
+    }
+
+    /// The thesis's state of a point: its activeness, and the force that it felt in the step before.
+    type State = (DVec2, f64, DVec2);
+
+    /// Activeness without bound, in the formulas that divide by its sum with another.
+    const UNBOUND: f64 = 1e15;
+
+    /// The pseudo-code of the thesis: whoever visits an edge adds to both of its ends.
+    fn scatter(forces: &Forces, before: &[State]) -> Vec<State> {
+        let positions: Vec<_> = before.iter().map(|state| state.0).collect();
+        let links = Some { positions: &positions };
+        let mut moved = vec![DVec2::ZERO; COUNT];
+        let mut felt = vec![(DVec2::ZERO, 0.0); COUNT];
+        for (i, j) in (0..COUNT).flat_map(|i| (0..COUNT).map(move |j| (i, j))).filter(|&(i, j)| links.has(i, j)) {
+            let low_visits = hash(forces.seed, Draw::Visit, &[i.min(j) as u64, i.max(j) as u64]) & 1 == 0;
+            if forces.visits == Visits::OneEnd && links.has(j, i) && low_visits != (i < j) {
+                continue;
+            }
+            let edge = positions[j] - positions[i];
+            let force = if edge.length() < forces.conflict_radius {
+                -(forces.conflict_radius - edge.length()) / forces.conflict_radius * edge.normalize()
+            } else if edge.length() > forces.attraction_radius {
+                (edge.length() - forces.attraction_radius) / forces.attraction_radius * edge.normalize()
+            } else {
+                DVec2::ZERO
+            };
+            let alpha = match forces.distribution {
+                Distribution::Activeness => before[i].1 / (before[i].1 + before[j].1),
+                Distribution::Average => 0.5,
+                Distribution::Dominant => 1.0,
+                Distribution::Zero => 0.0,
+                Distribution::EightyTwenty => 0.2,
+            };
+            moved[i] += forces.step * (1.0 - alpha) * force;
+            moved[j] -= forces.step * alpha * force;
+            for (end, force) in [(i, force), (j, -force)] {
+                felt[end] = (felt[end].0 + force, felt[end].1 + force.length());
+            }
+        }
+        let after = |i: usize| {
+            let (force, tensions) = felt[i];
+            let cosine = -force.normalize_or_zero().dot(before[i].2.normalize_or_zero());
+            let alpha = match tensions / force.length() {
+                _ if cosine > OSCILLATION_COSINE => UNBOUND,
+                alpha if tensions > 0.0 => alpha.min(UNBOUND),
+                _ => 1.0,
+            };
+            (positions[i] + moved[i], alpha, force)
+        };
+        (0..COUNT).map(after).collect()
+    }
+
+    #[test]
+    fn what_points_gather_is_what_the_thesis_scatters() {
+        let distributions = [
+            Distribution::Activeness,
+            Distribution::Average,
+            Distribution::Dominant,
+            Distribution::Zero,
+            Distribution::EightyTwenty,
+        ];
+        let cases = distributions.into_iter().flat_map(|d| [Visits::BothEnds, Visits::OneEnd].map(|v| (d, v)));
+        for (distribution, visits) in cases {
+            // Large steps, for points that oscillate.
+            let thesis = Thesis { step: 0.4, distribution, visits, ..Thesis::default() };
+            let forces = Forces::new(Neighbourhood::Delaunay, &thesis, 3);
+            let mut rng = Rng::at(7, Draw::Probe, &[]);
+            let start = (0..COUNT).map(|_| 4.0 * DVec2::new(rng.unit(), rng.unit()));
+            let mut particles: Vec<_> = start.map(Particle::new).collect();
+            let mut states: Vec<State> = particles.iter().map(|p| (p.position, 1.0, DVec2::ZERO)).collect();
+            let mut oscillating = 0;
+            for _ in 0..12 {
+                let positions: Vec<_> = particles.iter().map(|p| p.position).collect();
+                let links = Some { positions: &positions };
+                particles = (0..COUNT).map(|point| forces.advance(&links, &particles, point)).collect();
+                states = scatter(&forces, &states);
+                for (particle, state) in particles.iter().zip(&states) {
+                    assert!(particle.position.distance(state.0) < 1e-9, "{distribution:?} {visits:?}");
+                }
+                oscillating += particles.iter().filter(|p| p.yielding == 0.0).count();
+            }
+            assert!(oscillating > 0 || distribution == Distribution::Activeness, "{distribution:?} {visits:?}");
+        }
     }
 }

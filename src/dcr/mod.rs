@@ -28,8 +28,7 @@
 //!
 //! On bounded domains a row of points forms along the border, and 100 steps leave rho at about 0.8 and cover at 0.77.
 //!
-//! Convergence is judged by motion ([`Report::motion`]) and not by the thesis's test on the variance of nearest distances
-//! (§4.4.2), which depends on the step size and fires early.
+//! Convergence is judged by motion ([`Report::motion`]), unless [`Convergence::Variance`] asks for the thesis's own test.
 
 pub(crate) mod delaunay;
 mod forces;
@@ -37,10 +36,13 @@ pub(crate) mod frame;
 mod knn;
 mod links;
 mod motion;
+mod settings;
 mod spread;
 pub mod surface;
 mod thesis;
+mod variance;
 
+pub use settings::{Convergence, Distribution, Thesis, Visits};
 use spread::Spread;
 use thesis::Tensioned;
 
@@ -68,82 +70,6 @@ pub enum Method {
     Thesis(Thesis),
 }
 
-/// How a tension is divided between the point that visits an edge and the neighbour at its other end (Fig. 4.19).
-///
-/// Delaunay edges are visited from both ends, so there all but [`Distribution::Activeness`] give the same
-/// displacements. On the nearest neighbourhood, where only one end may count the other among its nearest, all differ.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Distribution {
-    /// By activeness: whose tensions cancel out moves its neighbours, whose tensions agree moves itself.
-    Activeness,
-    /// Half to each end.
-    Average,
-    /// All to the neighbour.
-    Dominant,
-    /// All to the visiting point itself.
-    Zero,
-    /// 80 % to the visiting point, 20 % to the neighbour. (Of the thesis's two descriptions, the one in the list of
-    /// strategies that names the numbers in this order.)
-    EightyTwenty,
-}
-
-/// What the thesis's algorithm can be varied by. Lengths are in units of `d_max`, the distance of neighbours if the same
-/// number of points stood in hexagonal arrangement on the domain's area (and never more than its shorter side).
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Thesis {
-    /// Neighbours closer than this repel each other; above 0, at most 1. The thesis: 0.8 to 0.99.
-    pub conflict_radius: f64,
-    /// Delaunay neighbours farther apart attract each other; at least the conflict radius. The thesis: 1.01 to 1.2.
-    pub attraction_radius: f64,
-    /// The step size λ: the displacement by a tension of 1; above 0, at most 1.
-    pub step: f64,
-    /// `K` of the nearest neighbourhood; at least 1.
-    pub neighbours: u32,
-    /// How tensions are divided.
-    pub distribution: Distribution,
-}
-
-impl Default for Thesis {
-    /// The settings of the thesis: radii 0.95 and 1.05, λ = 0.05, activeness; 6 nearest neighbours, the number that a
-    /// point of the plane has on average, as the thesis names none.
-    fn default() -> Self {
-        Self {
-            conflict_radius: 0.95,
-            attraction_radius: 1.05,
-            step: 0.05,
-            neighbours: 6,
-            distribution: Distribution::Activeness,
-        }
-    }
-}
-
-impl Thesis {
-    /// Refuses what is out of its range.
-    ///
-    /// # Errors
-    /// [`Error::InvalidArgument`] with the name of the field.
-    pub fn check(&self) -> Result<()> {
-        let within = |argument, value: f64| {
-            // The comparison fails for NaN too.
-            if value > 0.0 && value <= 1.0 {
-                Ok(())
-            } else {
-                Err(Error::invalid(argument, format!("{value} is not above 0 and at most 1")))
-            }
-        };
-        within("conflict_radius", self.conflict_radius)?;
-        within("step", self.step)?;
-        if !(self.conflict_radius..).contains(&self.attraction_radius) {
-            let reason = format!("{} is below conflict_radius {}", self.attraction_radius, self.conflict_radius);
-            return Err(Error::invalid("attraction_radius", reason));
-        }
-        if self.neighbours == 0 {
-            return Err(Error::invalid("neighbours", "0 is not at least 1"));
-        }
-        Ok(())
-    }
-}
-
 /// The options of [`relax`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Options {
@@ -158,6 +84,7 @@ pub struct Options {
     /// Where points of degenerate sets are moved; used for nothing else.
     pub seed: u64,
     /// The motion ([`Report::motion`]) at which the set has converged; 0 makes all steps unless nothing moves at all.
+    /// [`Convergence::Variance`] does not ask for it.
     pub tolerance: f64,
 }
 
@@ -194,7 +121,7 @@ impl Options {
 /// Why [`relax`] made no more steps.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stopped {
-    /// The motion came to its end, or there was nothing to move.
+    /// The set converged, or there was nothing to move.
     Converged,
     /// All steps were made.
     Steps,
@@ -265,6 +192,23 @@ pub fn relax(
     points: &[[f32; 2]],
     progress: Option<&Progress>,
 ) -> Result<(Vec<[f32; 2]>, Report)> {
+    relax_observed(context, options, points, progress, None)
+}
+
+/// Shown the points after a step, in the user's order.
+pub type Observer<'a> = dyn FnMut(&[[f32; 2]]) + 'a;
+
+/// As [`relax`], and calls `observe` after every step, on the calling thread.
+///
+/// # Errors
+/// As [`relax`].
+pub fn relax_observed(
+    context: &Context,
+    options: &Options,
+    points: &[[f32; 2]],
+    progress: Option<&Progress>,
+    observe: Option<&mut Observer>,
+) -> Result<(Vec<[f32; 2]>, Report)> {
     options.check()?;
     options.domain.check_points(points)?;
     let mut set: Box<dyn Relaxation> = match &options.method {
@@ -272,7 +216,7 @@ pub fn relax(
         Method::Thesis(thesis) => Box::new(Tensioned::new(options, thesis, points)),
     };
     let relaxed = context.run(progress, |job| {
-        let stopped = make_steps(&job.part(0.0, 0.98), options, points.len(), &mut *set)?;
+        let stopped = make_steps(&job.part(0.0, 0.98), options, points, &mut *set, observe)?;
         measure(&job.part(0.98, 1.0), options, points, &*set, stopped)
     });
     match relaxed {
@@ -283,13 +227,22 @@ pub fn relax(
 }
 
 /// Steps until the motion ends or the steps do.
-fn make_steps(job: &Job, options: &Options, count: usize, set: &mut dyn Relaxation) -> Result<Stopped> {
-    if count < 2 {
+fn make_steps(
+    job: &Job,
+    options: &Options,
+    points: &[[f32; 2]],
+    set: &mut dyn Relaxation,
+    mut observe: Option<&mut Observer>,
+) -> Result<Stopped> {
+    if points.len() < 2 {
         return Ok(Stopped::Converged);
     }
     let share = |iteration: u32| f64::from(iteration) / f64::from(options.max_iterations);
     for iteration in 0..options.max_iterations {
         set.step(&job.part(share(iteration), share(iteration + 1)))?;
+        if let Some(observe) = &mut observe {
+            observe(&set.points(points));
+        }
         if set.has_settled(options.tolerance) {
             return Ok(Stopped::Converged);
         }

@@ -1,7 +1,6 @@
 //! Convergence by motion.
 //!
-//! The thesis stops when the variance of nearest distances changes by less than 0.1 % ten times in a row (§4.4.2).
-//! That depends on the step size and fires early: halving λ halves the change per step. Motion per step does not work
+//! The thesis's test (`variance.rs`) depends on the step size and fires early: halving λ halves the change per step. Motion per step does not work
 //! either: activeness keeps points jittering for ever, the more per step the larger λ is.
 //!
 //! So what is measured is how far points get: the root mean square way from where they were, over a span of steps
@@ -15,12 +14,17 @@ use super::frame::Frame;
 /// The sum of the step sizes in one span.
 const SPAN: f64 = 2.0;
 
+/// What a sum of steps may lack by rounding.
+const ROUNDING: f64 = 1e-9;
+
 /// The motion of the points, measured over span after span.
 pub(super) struct Motion<P = DVec2> {
+    /// The size of the next step.
     step: f64,
     /// Where the points were when the span began.
     start: Vec<P>,
-    steps: u32,
+    /// The sum of the steps since.
+    way: f64,
     last: Option<f64>,
 }
 
@@ -39,16 +43,21 @@ impl Space<DVec2> for Frame {
 impl<P: Copy> Motion<P> {
     /// Begins the first span.
     pub(super) fn new(step: f64, positions: Vec<P>) -> Self {
-        Self { step, start: positions, steps: 0, last: None }
+        Self { step, start: positions, way: 0.0, last: None }
+    }
+
+    /// The steps from now on are of this size.
+    pub(super) fn set_step(&mut self, step: f64) {
+        self.step = step;
     }
 
     /// Counts a step.
     pub(super) fn after_step<I: Iterator<Item = P>>(&mut self, space: &impl Space<P>, positions: impl Fn() -> I) {
-        self.steps += 1;
-        if f64::from(self.steps) * self.step >= SPAN {
+        self.way += self.step;
+        if self.way >= SPAN - ROUNDING {
             self.last = Some(self.since_start(space, positions()));
             self.start = positions().collect();
-            self.steps = 0;
+            self.way = 0.0;
         }
     }
 
@@ -63,10 +72,11 @@ impl<P: Copy> Motion<P> {
     }
 
     fn since_start(&self, space: &impl Space<P>, positions: impl Iterator<Item = P>) -> f64 {
-        if self.steps == 0 {
+        if self.way == 0.0 {
             return 0.0;
         }
-        let squares: f64 = self.start.iter().zip(positions).map(|(&from, to)| space.distance_squared(from, to)).sum();
-        (squares / self.start.len() as f64).sqrt() / (f64::from(self.steps) * self.step)
+        let squares: f64 =
+            self.start.iter().zip(positions).map(|(&from, to)| space.distance_squared(from, to)).sum();
+        (squares / self.start.len() as f64).sqrt() / self.way
     }
 }

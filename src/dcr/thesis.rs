@@ -34,7 +34,8 @@ use super::frame::{Frame, along_strips};
 use super::knn::Nearest;
 use super::links::Links;
 use super::motion::Motion;
-use super::{Neighbourhood, Options, Relaxation, Thesis};
+use super::variance::Variance;
+use super::{Convergence, Neighbourhood, Options, Relaxation, Thesis};
 use crate::error::Result;
 use crate::job::{Job, chunks};
 
@@ -48,6 +49,8 @@ pub(super) struct Tensioned {
     order: Vec<u32>,
     particles: Vec<Particle>,
     motion: Motion,
+    /// The thesis's test, if that is what ends the steps.
+    variance: Option<Variance>,
     iterations: u32,
 }
 
@@ -61,12 +64,13 @@ impl Tensioned {
         let positions: Vec<_> = order.iter().map(|&point| positions[point as usize]).collect();
         Self {
             thesis: *thesis,
-            forces: Forces::new(options.neighbourhood, thesis),
+            forces: Forces::new(options.neighbourhood, thesis, options.seed),
             neighbourhood: options.neighbourhood,
             frame,
             order,
             particles: positions.iter().copied().map(Particle::new).collect(),
             motion: Motion::new(thesis.step, positions),
+            variance: (thesis.convergence == Convergence::Variance).then(Variance::default),
             iterations: 0,
         }
     }
@@ -90,8 +94,8 @@ impl Tensioned {
 
 impl Relaxation for Tensioned {
     fn step(&mut self, job: &Job) -> Result<()> {
-        let (prepare, gather) = (job.part(0.0, 0.5), job.part(0.5, 1.0));
-        self.particles = match self.neighbourhood {
+        let (prepare, gather, judge) = (job.part(0.0, 0.5), job.part(0.5, 0.9), job.part(0.9, 1.0));
+        let moved = match self.neighbourhood {
             Neighbourhood::Delaunay => {
                 self.gather(&gather, &Delaunay::new(&prepare, &self.frame, self.positions())?)?
             }
@@ -100,9 +104,16 @@ impl Relaxation for Tensioned {
                 self.gather(&gather, &Nearest::new(&prepare, &self.frame, self.positions(), radius, count)?)?
             }
         };
+        if let Some(variance) = &mut self.variance {
+            let positions = |particles: &[Particle]| particles.iter().map(|p| p.position).collect::<Vec<_>>();
+            variance.after_step(&judge, &self.frame, &positions(&self.particles), &positions(&moved))?;
+        }
+        self.particles = moved;
         self.iterations += 1;
         let particles = &self.particles;
         self.motion.after_step(&self.frame, || particles.iter().map(|particle| particle.position));
+        self.forces.step *= self.thesis.decay;
+        self.motion.set_step(self.forces.step);
         Ok(())
     }
 
@@ -115,7 +126,10 @@ impl Relaxation for Tensioned {
     }
 
     fn has_settled(&self, tolerance: f64) -> bool {
-        self.motion.has_settled(tolerance)
+        match &self.variance {
+            Some(variance) => variance.has_settled(),
+            None => self.motion.has_settled(tolerance),
+        }
     }
 
     fn points(&self, points: &[[f32; 2]]) -> Vec<[f32; 2]> {

@@ -120,7 +120,7 @@ FIELD(azulejo_adaptive_options, seed, 72);
 FIELD(azulejo_adaptive_options, progress, 80);
 FIELD(azulejo_adaptive_options, progress_user, 88);
 
-SIZE(azulejo_dcr_options, 120);
+SIZE(azulejo_dcr_options, 136);
 FIELD(azulejo_dcr_options, struct_size, 0);
 FIELD(azulejo_dcr_options, boundary, 4);
 FIELD(azulejo_dcr_options, domain_min, 8);
@@ -138,6 +138,9 @@ FIELD(azulejo_dcr_options, progress, 96);
 FIELD(azulejo_dcr_options, progress_user, 104);
 FIELD(azulejo_dcr_options, method, 112);
 FIELD(azulejo_dcr_options, reserved, 116);
+FIELD(azulejo_dcr_options, visits, 120);
+FIELD(azulejo_dcr_options, convergence, 124);
+FIELD(azulejo_dcr_options, decay, 128);
 
 SIZE(azulejo_dcr_report, 64);
 FIELD(azulejo_dcr_report, iterations, 0);
@@ -168,6 +171,10 @@ CONSTANT(AZULEJO_DISTRIBUTION_AVERAGE, 1);
 CONSTANT(AZULEJO_DISTRIBUTION_DOMINANT, 2);
 CONSTANT(AZULEJO_DISTRIBUTION_ZERO, 3);
 CONSTANT(AZULEJO_DISTRIBUTION_EIGHTY_TWENTY, 4);
+CONSTANT(AZULEJO_VISITS_BOTH_ENDS, 0);
+CONSTANT(AZULEJO_VISITS_ONE_END, 1);
+CONSTANT(AZULEJO_CONVERGENCE_MOTION, 0);
+CONSTANT(AZULEJO_CONVERGENCE_VARIANCE, 1);
 
 /* The fixed signatures: assignments that compile only if they are these. */
 static void signatures(void) {

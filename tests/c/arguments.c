@@ -319,6 +319,13 @@ static void dcr(void) {
     DCR("method", o.method = -1);
     DCR("reserved", o.reserved = 1);
     DCR("tolerance", o.tolerance = NAN);
+    DCR("visits", o.visits = 2);
+    DCR("visits", o.visits = -1);
+    DCR("convergence", o.convergence = 2);
+    DCR("convergence", o.convergence = -1);
+    DCR("decay", o.decay = 0);
+    DCR("decay", o.decay = 1.01);
+    DCR("decay", o.decay = NAN);
     DCR("xy", xy[3] = NAN);
     DCR("xy", xy[3] = INFINITY);
     DCR("xy", xy[3] = 1); /* the upper border belongs to the next period */

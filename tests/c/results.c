@@ -324,6 +324,45 @@ static void relaxations(void) {
     }
 }
 
+/* What the thesis's algorithm can be varied by reaches the core. */
+static void thesis_relaxations(void) {
+    enum { COUNT = 1000 };
+    static float xy[2 * COUNT];
+    azulejo_dcr_options plain = dcr_options(400), options;
+    azulejo_points *points = NULL, *varied = NULL;
+    azulejo_dcr_report report;
+
+    random_points(xy, COUNT);
+    plain.method = AZULEJO_METHOD_THESIS;
+    plain.tolerance = 0;
+    CHECK(plain.visits == AZULEJO_VISITS_BOTH_ENDS && plain.convergence == AZULEJO_CONVERGENCE_MOTION && plain.decay == 1);
+    options = plain;
+    options.max_iterations = 2;
+    options.distribution = AZULEJO_DISTRIBUTION_ZERO;
+    ACCEPTED(azulejo_dcr_relax(context, &options, xy, COUNT, &points, NULL));
+    options.distribution = AZULEJO_DISTRIBUTION_DOMINANT;
+    options.visits = AZULEJO_VISITS_ONE_END;
+    ACCEPTED(azulejo_dcr_relax(context, &options, xy, COUNT, &varied, NULL));
+    CHECK(!same_points(points, varied));
+    azulejo_points_free(varied);
+    options.visits = AZULEJO_VISITS_BOTH_ENDS;
+    options.decay = 0.5;
+    ACCEPTED(azulejo_dcr_relax(context, &options, xy, COUNT, &varied, NULL));
+    CHECK(!same_points(points, varied));
+    azulejo_points_free(varied);
+    azulejo_points_free(points);
+
+    options = plain;
+    ACCEPTED(azulejo_dcr_relax(context, &options, xy, COUNT, &points, &report));
+    CHECK(report.stopped == AZULEJO_STOPPED_STEPS && report.iterations == 400);
+    azulejo_points_free(points);
+    options.convergence = AZULEJO_CONVERGENCE_VARIANCE;
+    options.step = 0.0125;
+    ACCEPTED(azulejo_dcr_relax(context, &options, xy, COUNT, &points, &report));
+    CHECK(report.stopped == AZULEJO_STOPPED_CONVERGED && report.iterations > 10);
+    azulejo_points_free(points);
+}
+
 int main(void) {
     CHECK(azulejo_version() == AZULEJO_VERSION);
     context = make_context(2);
@@ -333,6 +372,7 @@ int main(void) {
     surfaces();
     growing_sets();
     relaxations();
+    thesis_relaxations();
     azulejo_context_free(context);
     return finish();
 }

@@ -140,6 +140,32 @@ impl Canvas {
         }
     }
 
+    /// Triangles, of which only the parts inside of `clip` are drawn.
+    pub fn triangles(&mut self, triangles: impl Iterator<Item = [[f32; 2]; 3]>, colour: Colour, clip: Rect) {
+        let mask = self.mask(clip);
+        let mut builder = PathBuilder::new();
+        for [[x, y], rest @ ..] in triangles {
+            builder.move_to(x, y);
+            rest.into_iter().for_each(|[x, y]| builder.line_to(x, y));
+            builder.close();
+        }
+        if let Some(path) = builder.finish() {
+            self.fill_path(&path, colour, Some(&mask));
+        }
+    }
+
+    /// Lines between two places each, of which only the parts inside of `clip` are drawn.
+    pub fn segments(&mut self, segments: impl Iterator<Item = [[f32; 2]; 2]>, width: f32, colour: Colour, clip: Rect) {
+        let mut builder = PathBuilder::new();
+        for [[x, y], [to_x, to_y]] in segments {
+            builder.move_to(x, y);
+            builder.line_to(to_x, to_y);
+        }
+        if let Some(path) = builder.finish() {
+            self.stroke(&path, width, colour, Some(clip));
+        }
+    }
+
     fn mask(&self, rect: Rect) -> Mask {
         let mut mask = Mask::new(self.pixmap.width(), self.pixmap.height()).expect("as large as the page");
         mask.fill_path(&rect.path(), FillRule::Winding, true, self.transform());

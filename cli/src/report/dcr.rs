@@ -1,8 +1,13 @@
 //! `azulejo report dcr`: what relaxation makes of sets of the torus (thesis chapter 4), beside others' methods.
 
+mod convergence;
+mod distributions;
 mod page;
 mod quality;
+mod radii;
+mod remeshing;
 mod sets;
+mod study;
 
 use std::fs;
 use std::io::Write;
@@ -16,6 +21,7 @@ use crate::output::Output;
 use crate::progress::watched;
 use quality::Measured;
 use sets::{METHODS, Start};
+use study::{SECTIONS, Study};
 
 #[derive(Args)]
 pub struct Dcr {
@@ -63,7 +69,11 @@ impl Dcr {
             let output = Output::at(&pictures.join(one.method.picture()))?;
             points::draw(context, &Domain::unit(Boundary::Periodic), &one.first, PIXELS, &output)?;
         }
-        let text = page::text(context, &effort, &measured, self.quick);
+        let mut text = page::text(context, &effort, &measured, self.quick);
+        let study = Study { context, pictures: &pictures, quick: self.quick };
+        for section in SECTIONS {
+            text += &format!("\n{}", section(&study)?);
+        }
         page.write(|writer| writer.write_all(text.as_bytes()))
     }
 }

@@ -1,7 +1,7 @@
 //! The plots of the report.
 
 use azulejo::Result;
-use azulejo::analysis::spectrum::Annulus;
+use azulejo::analysis::spectrum::{Annulus, Periodogram};
 use azulejo::kdrt::Stages;
 
 use super::statistics::Statistics;
@@ -17,7 +17,7 @@ const FULL_INK: f64 = 2.5;
 const INKS: f64 = 16.0;
 
 /// The annuli of the radial curves, in units of sqrt(density).
-const CURVE_ANNULUS: f64 = 0.0125;
+pub const CURVE_ANNULUS: f64 = 0.0125;
 
 /// The stages of a sample, as bars are divided.
 pub const STAGES: [&str; 6] = ["pattern", "divide", "clip", "eliminate", "fill", "output"];
@@ -98,7 +98,8 @@ pub fn draw_stages(times: &Times, output: &Output) -> Result<()> {
 /// Spectrum, radial mean and anisotropy (thesis fig. 2.15 to 2.19), over those of the reference.
 pub fn draw_spectrum(of: &Statistics, reference: &Statistics, output: &Output) -> Result<()> {
     let mut canvas = Canvas::new(1000.0, 440.0, 1000);
-    draw_power(&mut canvas, of);
+    let square = Rect { x: 90.0, y: 56.0, width: 300.0, height: 300.0 };
+    draw_power(&mut canvas, square, &of.spectrum, &of.sampler.name(), &format!("mean of {} sets", of.sets));
     let isotropic = -10.0 * (of.sets as f64).log10();
     let mean = Panel {
         rect: Rect { x: 500.0, y: 56.0, width: 460.0, height: 104.0 },
@@ -119,8 +120,8 @@ pub fn draw_spectrum(of: &Statistics, reference: &Statistics, output: &Output) -
     canvas.write(output)
 }
 
-fn draw_power(canvas: &mut Canvas, of: &Statistics) {
-    let square = Rect { x: 90.0, y: 56.0, width: 300.0, height: 300.0 };
+/// A power spectrum in a square.
+pub fn draw_power(canvas: &mut Canvas, square: Rect, spectrum: &Periodogram, title: &str, remark: &str) {
     let range = [-FREQUENCY_LIMIT, FREQUENCY_LIMIT];
     let panel = Panel {
         rect: square,
@@ -131,14 +132,15 @@ fn draw_power(canvas: &mut Canvas, of: &Statistics) {
     let frequency = |i: usize| ((i as f64 + 0.5) / pixels as f64 * 2.0 - 1.0) * FREQUENCY_LIMIT;
     let ink = |power: f64| ((power / FULL_INK).sqrt() * INKS).round() / INKS;
     let image: Vec<Colour> = (0..pixels * pixels)
-        .map(|i| glaze_to_cobalt(ink(power_at(&of.spectrum, [frequency(i % pixels), -frequency(i / pixels)]))))
+        .map(|i| glaze_to_cobalt(ink(power_at(spectrum, [frequency(i % pixels), -frequency(i / pixels)]))))
         .collect();
     canvas.image(&image, pixels, square);
     panel.axes(canvas);
-    panel.title(canvas, &of.sampler.name(), &format!("mean of {} sets", of.sets));
+    panel.title(canvas, title, remark);
 }
 
-fn draw_curves(
+/// Curves over the annuli of spectra, each with its width and colour.
+pub fn draw_curves(
     canvas: &mut Canvas,
     panel: &Panel,
     curves: &[(Vec<Annulus>, f32, Colour)],

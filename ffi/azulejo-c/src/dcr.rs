@@ -3,7 +3,7 @@
 use std::ffi::c_void;
 use std::mem::MaybeUninit;
 
-use azulejo_core::dcr::{self, Distribution, Method, Neighbourhood, Report, Stopped, Thesis};
+use azulejo_core::dcr::{self, Convergence, Distribution, Method, Neighbourhood, Report, Stopped, Thesis, Visits};
 
 use crate::boundary::{self, required, rows};
 use crate::context::azulejo_context;
@@ -34,6 +34,19 @@ pub const AZULEJO_DISTRIBUTION_ZERO: i32 = 3;
 /// 80 per cent of the tension to the point itself, 20 to the neighbour.
 pub const AZULEJO_DISTRIBUTION_EIGHTY_TWENTY: i32 = 4;
 
+/// An edge is visited from each end that has the other in its neighbourhood: the default.
+pub const AZULEJO_VISITS_BOTH_ENDS: i32 = 0;
+/// An edge is visited from one end, the same in every step, by a coin keyed by the seed and the two points: points get about
+/// half as far in a step, and the constant distributions differ with Delaunay neighbours too.
+pub const AZULEJO_VISITS_ONE_END: i32 = 1;
+
+/// A set has converged when the motion falls to the tolerance: the default.
+pub const AZULEJO_CONVERGENCE_MOTION: i32 = 0;
+/// A set has converged when ten times in a row the variance of the distances to the nearest point changes by less than 0.1
+/// per cent in a step, and more than 99 per cent of the points move by less than 0.01 d_max (thesis section 4.4.2). The
+/// smaller the step, the earlier that happens; in sets of a few hundred points it may never.
+pub const AZULEJO_CONVERGENCE_VARIANCE: i32 = 1;
+
 /// Options of azulejo_dcr_relax. Radii are in units of d_max = sqrt(2 * area / (sqrt(3) * count)), the distance of
 /// neighbours if the same number of points stood in hexagonal arrangement.
 #[repr(C)]
@@ -55,7 +68,8 @@ pub struct azulejo_dcr_options {
     /// Parts points that coincide; used for nothing else.
     pub seed: u64,
     /// Neighbours closer than this repel each other; above 0, at most 1; 0.95 by default. Plays a part in
-    /// AZULEJO_METHOD_THESIS only, as all fields from here to `distribution` but for `tolerance`.
+    /// AZULEJO_METHOD_THESIS only, as all fields from here to `distribution` but for `tolerance`, and `visits`,
+    /// `convergence` and `decay`.
     pub conflict_radius: f64,
     /// Delaunay neighbours farther apart than this attract each other; at least conflict_radius; 1.05 by default.
     pub attraction_radius: f64,
@@ -76,6 +90,13 @@ pub struct azulejo_dcr_options {
     pub method: i32,
     /// 0.
     pub reserved: u32,
+    /// An AZULEJO_VISITS_ constant; from both ends by default.
+    pub visits: i32,
+    /// An AZULEJO_CONVERGENCE_ constant; by motion by default.
+    pub convergence: i32,
+    /// What `step` is multiplied with after every step; above 0, at most 1; 1 by default. All steps together are no longer
+    /// than step / (1 - decay): about 10 are needed from a random start.
+    pub decay: f64,
 }
 
 options!(azulejo_dcr_options requires domain_max {
@@ -95,6 +116,9 @@ options!(azulejo_dcr_options requires domain_max {
     progress_user: std::ptr::null_mut(),
     method: AZULEJO_METHOD_BEST,
     reserved: 0,
+    visits: AZULEJO_VISITS_BOTH_ENDS,
+    convergence: AZULEJO_CONVERGENCE_MOTION,
+    decay: 1.0,
 });
 
 impl azulejo_dcr_options {
@@ -108,8 +132,11 @@ impl azulejo_dcr_options {
             conflict_radius: self.conflict_radius,
             attraction_radius: self.attraction_radius,
             step: self.step,
+            decay: self.decay,
             neighbours: self.neighbours,
             distribution: distribution(self.distribution)?,
+            visits: visits(self.visits)?,
+            convergence: convergence(self.convergence)?,
         };
         thesis.check()?;
         let (default, method) = match self.method {
@@ -146,7 +173,23 @@ fn distribution(value: i32) -> Result<Distribution, Failure> {
     }
 }
 
-/// The motion came to its end, or there was nothing to move.
+fn visits(value: i32) -> Result<Visits, Failure> {
+    match value {
+        AZULEJO_VISITS_BOTH_ENDS => Ok(Visits::BothEnds),
+        AZULEJO_VISITS_ONE_END => Ok(Visits::OneEnd),
+        other => Err(Failure::invalid("visits", format!("{other} is no AZULEJO_VISITS_ constant"))),
+    }
+}
+
+fn convergence(value: i32) -> Result<Convergence, Failure> {
+    match value {
+        AZULEJO_CONVERGENCE_MOTION => Ok(Convergence::Motion),
+        AZULEJO_CONVERGENCE_VARIANCE => Ok(Convergence::Variance),
+        other => Err(Failure::invalid("convergence", format!("{other} is no AZULEJO_CONVERGENCE_ constant"))),
+    }
+}
+
+/// The set converged, or there was nothing to move.
 pub const AZULEJO_STOPPED_CONVERGED: i32 = 0;
 /// All steps were made.
 pub const AZULEJO_STOPPED_STEPS: i32 = 1;
@@ -159,7 +202,7 @@ pub const AZULEJO_STOPPED_CANCELLED: i32 = 2;
 pub struct azulejo_dcr_report {
     /// The steps made.
     pub iterations: u32,
-    /// 1 if the motion came to its end before the steps did, else 0.
+    /// 1 if the set converged, or there was nothing to move, before the steps came to their end; else 0.
     pub converged: i32,
     /// Half of how far points got, root mean square, in units of d_max: over the last 10 steps, or with
     /// AZULEJO_METHOD_THESIS over the last steps whose sizes add up to 2, which is the same for small and large steps.

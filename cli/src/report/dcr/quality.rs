@@ -36,7 +36,7 @@ pub struct Quality {
 
 impl Quality {
     /// The figures of points of the unit torus.
-    fn of(context: &Context, points: &[[f32; 2]], cover: f64) -> Result<Self> {
+    pub fn of(context: &Context, points: &[[f32; 2]], cover: f64) -> Result<Self> {
         let domain = Domain::unit(Boundary::Periodic);
         let unit = domain.hexagonal_distance(points.len());
         let distances = nearest_distances_2d(context, &domain, points)?;
@@ -90,7 +90,7 @@ impl Measured {
     fn kind(context: &Context, method: Method, start: Start, count: usize, sets: u64) -> Result<Self> {
         let mut measured = Self { method, start, count, sets: Vec::new(), steps: 0.0, seconds: 0.0, first: Vec::new() };
         for seed in FIRST_SEED..FIRST_SEED + sets {
-            let points = start.points(context, count, seed)?;
+            let points = start.points(context, Boundary::Periodic, count, seed)?;
             let options = method.options(Domain::unit(Boundary::Periodic), seed);
             let clock = Instant::now();
             let (relaxed, report) = relax(context, &options, &points, None)?;

@@ -2,7 +2,10 @@
 
 use azulejo::dcr::{Neighbourhood, Options};
 use azulejo::kdrt::{self, CountOptions};
-use azulejo::{Boundary, Context, Domain, Result};
+use azulejo::mesh::Mesh;
+use azulejo::{Boundary, Context, Domain, Result, psp};
+
+use crate::generate::MAXIMAL_DENSITY;
 
 /// The seed of the first set of each kind. No setting of a method was chosen by what sets of these seeds gave; who tunes
 /// one takes others.
@@ -41,7 +44,12 @@ pub enum Start {
     Random,
     /// A maximal Poisson-disk set.
     Kdrt,
+    /// What the thesis's projections leave on a square, which is not filled. It knows no torus.
+    Psp,
 }
+
+/// Iterations of [`Start::Psp`]: as many as the thesis's reference has (§3.4.1).
+const PROJECTIONS: u32 = 50;
 
 pub const STARTS: [Start; 2] = [Start::Random, Start::Kdrt];
 
@@ -50,18 +58,29 @@ impl Start {
         match self {
             Self::Random => "random",
             Self::Kdrt => "KDRT",
+            Self::Psp => "PSP",
         }
     }
 
-    /// So many points of the unit torus.
-    pub fn points(self, context: &Context, count: usize, seed: u64) -> Result<Vec<[f32; 2]>> {
-        let domain = Domain::unit(Boundary::Periodic);
+    /// So many points of the unit square, or about as many of PSP's.
+    pub fn points(self, context: &Context, boundary: Boundary, count: usize, seed: u64) -> Result<Vec<[f32; 2]>> {
+        let domain = Domain::unit(boundary);
         match self {
             Self::Random => Ok(random_points(count, seed)),
             Self::Kdrt => {
                 let leaf_size = kdrt::DEFAULT_LEAF_SIZE;
                 let options = CountOptions { count: count as u64, domain, leaf_size, seed };
                 Ok(kdrt::sample_count(context, &options, None)?.samples)
+            }
+            Self::Psp => {
+                let corners = vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
+                let square = Mesh::new(corners, vec![[0, 1, 2], [0, 2, 3]])?.into();
+                let radius = (MAXIMAL_DENSITY / count as f64).sqrt();
+                let options =
+                    psp::Options { iterations: PROJECTIONS, maximal: false, seed, ..psp::Options::new(radius) };
+                let (samples, _) = psp::sample(context, &square, &options, None)?;
+                let inside = |&[x, y]: &[f32; 2]| x < 1.0 && y < 1.0;
+                Ok(samples.positions.iter().map(|&[x, y, _]| [x, y]).filter(inside).collect())
             }
         }
     }

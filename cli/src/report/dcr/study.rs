@@ -1,0 +1,51 @@
+//! The sections that follow the tables of the methods.
+
+use std::path::Path;
+
+use azulejo::dcr::{Method, Neighbourhood, Options, Thesis};
+use azulejo::{Boundary, Context, Domain, Result};
+
+use super::{convergence, distributions, radii, remeshing};
+use crate::draw::rows::in_parallel;
+use crate::output::Output;
+use crate::progress::watched;
+
+/// Measures, writes its pictures, and gives its text, from its `##` title on.
+pub type Section = fn(&Study) -> Result<String>;
+
+/// All sections, in the order of the page. Each is a file of its own.
+pub const SECTIONS: [Section; 4] = [convergence::section, radii::section, distributions::section, remeshing::section];
+
+/// What a section has to work with.
+pub struct Study<'a> {
+    pub context: &'a Context,
+    /// The folder of its pictures, beside the page; the page calls it `dcr`.
+    pub pictures: &'a Path,
+    /// Whether few and small sets are enough.
+    pub quick: bool,
+}
+
+impl Study<'_> {
+    /// The picture of this name, a PNG file.
+    pub fn picture(&self, name: &str) -> Result<Output> {
+        Output::at(&self.pictures.join(format!("{name}.png")))
+    }
+
+    /// `[work(0), .., work(count - 1)]`, each on one thread, as many at a time as there are threads: one relaxation by the
+    /// thesis's algorithm has little to share.
+    pub fn each<T: Send>(
+        &self,
+        what: &'static str,
+        count: usize,
+        work: impl Fn(&Context, usize) -> Result<T> + Sync,
+    ) -> Result<Vec<T>> {
+        let single = Context::new(1)?;
+        let threads = self.context.num_threads();
+        watched(what, |progress| in_parallel(threads, count, progress, |i| work(&single, i)))?.into_iter().collect()
+    }
+}
+
+/// The thesis's algorithm with these settings on the unit square.
+pub fn thesis_options(thesis: Thesis, neighbourhood: Neighbourhood, boundary: Boundary, seed: u64) -> Options {
+    Options { method: Method::Thesis(thesis), seed, ..Options::thesis(Domain::unit(boundary), neighbourhood) }
+}

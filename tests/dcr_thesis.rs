@@ -1,0 +1,173 @@
+//! What the thesis's algorithm can be varied by: how tensions are divided, from where edges are visited, the step size, and
+//! what ends it.
+
+#[path = "common/sets.rs"]
+mod sets;
+
+use azulejo::analysis::spacing::nearest_distances_2d;
+use azulejo::dcr::{
+    Convergence, Distribution, Method, Neighbourhood, Options, Report, Stopped, Thesis, Visits, relax, relax_observed,
+};
+use azulejo::{Boundary, Context, Domain};
+use sets::{darts, random_points, unit_square};
+
+const NEIGHBOURHOODS: [Neighbourhood; 2] = [Neighbourhood::Delaunay, Neighbourhood::Nearest];
+
+fn options(neighbourhood: Neighbourhood, boundary: Boundary, thesis: Thesis) -> Options {
+    Options { method: Method::Thesis(thesis), ..Options::thesis(unit_square(boundary), neighbourhood) }
+}
+
+/// The points after every step, from the start on.
+fn states(options: &Options, start: &[[f32; 2]]) -> (Vec<Vec<[f32; 2]>>, Report) {
+    let mut states = vec![start.to_vec()];
+    let mut observe = |points: &[[f32; 2]]| states.push(points.to_vec());
+    let (relaxed, report) =
+        relax_observed(&Context::new(1).unwrap(), options, start, None, Some(&mut observe)).unwrap();
+    assert_eq!(states.last(), Some(&relaxed));
+    assert_eq!(states.len() as u32, report.iterations + 1);
+    (states, report)
+}
+
+/// How far each point got, on the torus or in the square.
+fn ways(domain: &Domain, from: &[[f32; 2]], to: &[[f32; 2]]) -> Vec<[f64; 2]> {
+    let way = |(from, to): (&[f32; 2], &[f32; 2])| domain.offset(from.map(f64::from), to.map(f64::from));
+    from.iter().zip(to).map(way).collect()
+}
+
+fn largest_difference(a: &[[f64; 2]], b: &[[f64; 2]]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| (a[0] - b[0]).hypot(a[1] - b[1])).fold(0.0, f64::max)
+}
+
+#[test]
+fn distributions_differ_where_edges_are_visited_once_and_are_mixtures_of_two() {
+    for neighbourhood in NEIGHBOURHOODS {
+        for boundary in [Boundary::Periodic, Boundary::Bounded] {
+            let start = random_points(400, 5);
+            let first_step = |distribution, visits| {
+                let thesis = Thesis { distribution, visits, ..Thesis::default() };
+                let once = Options { max_iterations: 1, ..options(neighbourhood, boundary, thesis) };
+                ways(&once.domain, &start, &states(&once, &start).0[1])
+            };
+            let by = |distribution| first_step(distribution, Visits::OneEnd);
+            let [zero, dominant] = [by(Distribution::Zero), by(Distribution::Dominant)];
+            let mixture = |own: f64| -> Vec<_> {
+                let mix = |(a, b): (&[f64; 2], &[f64; 2])| [0, 1].map(|i| own * a[i] + (1.0 - own) * b[i]);
+                zero.iter().zip(&dominant).map(mix).collect()
+            };
+            let scale = largest_difference(&zero, &dominant);
+            assert!(scale > 1e-3, "{neighbourhood:?} {boundary:?}: {scale}");
+            // Before the first step all points are equally active.
+            for (own, mixed) in
+                [(0.5, Distribution::Average), (0.5, Distribution::Activeness), (0.8, Distribution::EightyTwenty)]
+            {
+                let difference = largest_difference(&by(mixed), &mixture(own));
+                assert!(difference < 1e-6, "{neighbourhood:?} {boundary:?} {mixed:?}: {difference}");
+            }
+            if neighbourhood == Neighbourhood::Delaunay {
+                let both: Vec<_> = mixture(0.5).into_iter().map(|way| way.map(|x| 2.0 * x)).collect();
+                let average = first_step(Distribution::Average, Visits::BothEnds);
+                // The image of a point beyond the border is visited by halves, from either side.
+                assert!(largest_difference(&average, &both) < 1e-6, "{boundary:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn single_visits_do_not_depend_on_threads_or_on_the_order_of_points_but_on_the_seed() {
+    let start = random_points(3000, 6);
+    let backwards: Vec<_> = start.iter().rev().copied().collect();
+    for neighbourhood in NEIGHBOURHOODS {
+        let thesis = Thesis { visits: Visits::OneEnd, distribution: Distribution::Zero, ..Thesis::default() };
+        let few = Options { max_iterations: 5, ..options(neighbourhood, Boundary::Periodic, thesis) };
+        let run = |options: &Options, threads, points: &[[f32; 2]]| {
+            relax(&Context::new(threads).unwrap(), options, points, None).unwrap().0
+        };
+        let expected = run(&few, 1, &start);
+        assert_eq!(run(&few, 4, &start), expected);
+        let mut turned = run(&few, 2, &backwards);
+        turned.reverse();
+        assert!(largest_difference(&ways(&few.domain, &turned, &expected), &vec![[0.0; 2]; 3000]) < 1e-6);
+        assert_ne!(run(&Options { seed: 1, ..few }, 1, &start), expected);
+    }
+}
+
+#[test]
+fn steps_decay_by_their_factor() {
+    let start = random_points(500, 7);
+    for neighbourhood in NEIGHBOURHOODS {
+        let path = |decay| {
+            let thesis = Thesis { decay, ..Thesis::default() };
+            let options =
+                Options { max_iterations: 60, tolerance: 0.0, ..options(neighbourhood, Boundary::Periodic, thesis) };
+            (states(&options, &start).0, options.domain)
+        };
+        let ((constant, domain), (decaying, _)) = (path(1.0), path(0.25));
+        assert_eq!(constant[1], decaying[1]);
+        let way = |states: &[Vec<[f32; 2]>]| ways(&domain, &states[1], &states[2]);
+        let quarter: Vec<_> = way(&constant).into_iter().map(|way| way.map(|x| 0.25 * x)).collect();
+        assert!(largest_difference(&way(&decaying), &quarter) < 1e-6);
+        assert_eq!(decaying[40], decaying[60]);
+    }
+}
+
+#[test]
+fn a_slow_decay_leads_as_far_as_a_constant_step_and_converges() {
+    let start = random_points(1000, 8);
+    for neighbourhood in NEIGHBOURHOODS {
+        let run = |decay, step| {
+            let thesis = Thesis { decay, step, ..Thesis::default() };
+            let options = options(neighbourhood, Boundary::Periodic, thesis);
+            relax(&Context::new(1).unwrap(), &options, &start, None).unwrap().1
+        };
+        let (constant, decaying) = (run(1.0, 0.05), run(0.998, 0.1));
+        assert_eq!((constant.stopped, decaying.stopped), (Stopped::Converged, Stopped::Converged));
+        assert!(decaying.iterations < constant.iterations, "{decaying:?} {constant:?}");
+        assert!(decaying.rho > constant.rho - 0.1 && decaying.motion <= 0.02, "{decaying:?} {constant:?}");
+    }
+}
+
+/// The thesis's test, from its words: the step after which it is met.
+fn variance_rests(domain: &Domain, states: &[Vec<[f32; 2]>]) -> Option<usize> {
+    let spacing = domain.hexagonal_distance(states[0].len());
+    let variance = |points: &Vec<[f32; 2]>| {
+        let distances = nearest_distances_2d(&Context::new(1).unwrap(), domain, points).unwrap();
+        let mean = distances.iter().sum::<f64>() / distances.len() as f64;
+        distances.iter().map(|d| (d - mean).powi(2)).sum::<f64>() / distances.len() as f64
+    };
+    let variances: Vec<_> = states.iter().map(variance).collect();
+    let mut row = 0;
+    (2..states.len()).find(|&k| {
+        let change = (variances[k] / variances[k - 1] - 1.0).abs();
+        let ways = ways(domain, &states[k - 1], &states[k]);
+        let stable = ways.iter().filter(|way| way[0].hypot(way[1]) < 0.01 * spacing).count();
+        row = if change < 1e-3 && stable as f64 > 0.99 * ways.len() as f64 { row + 1 } else { 0 };
+        row == 10
+    })
+}
+
+#[test]
+fn the_thesis_s_test_ends_the_steps_when_the_variance_rests() {
+    for (start, boundary) in [(random_points(2000, 9), Boundary::Periodic), (darts(2000, 9), Boundary::Bounded)] {
+        let thesis = Thesis { convergence: Convergence::Variance, ..Thesis::default() };
+        let options = options(Neighbourhood::Delaunay, boundary, thesis);
+        let (states, report) = states(&options, &start);
+        assert_eq!(report.stopped, Stopped::Converged);
+        assert_eq!(variance_rests(&options.domain, &states), Some(report.iterations as usize));
+    }
+}
+
+#[test]
+fn the_thesis_s_test_fires_the_earlier_the_smaller_the_steps() {
+    let start = random_points(1000, 10);
+    let way = |step, convergence| {
+        let thesis = Thesis { step, convergence, ..Thesis::default() };
+        let options = Options { max_iterations: 3000, ..options(Neighbourhood::Delaunay, Boundary::Periodic, thesis) };
+        let report = relax(&Context::new(1).unwrap(), &options, &start, None).unwrap().1;
+        assert_eq!(report.stopped, Stopped::Converged);
+        f64::from(report.iterations) * step
+    };
+    let ratio = |convergence| way(0.00625, convergence) / way(0.05, convergence);
+    assert!(ratio(Convergence::Variance) < 0.5);
+    assert!(ratio(Convergence::Motion) > 0.7);
+}
