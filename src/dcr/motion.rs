@@ -75,8 +75,7 @@ impl<P: Copy> Motion<P> {
         if self.way == 0.0 {
             return 0.0;
         }
-        let squares: f64 =
-            self.start.iter().zip(positions).map(|(&from, to)| space.distance_squared(from, to)).sum();
+        let squares: f64 = self.start.iter().zip(positions).map(|(&from, to)| space.distance_squared(from, to)).sum();
         (squares / self.start.len() as f64).sqrt() / self.way
     }
 }
