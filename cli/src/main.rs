@@ -32,7 +32,7 @@ enum Command {
     Plane(generate::Plane),
     /// Cover a triangle mesh with a maximal Poisson-disk set (PSP).
     Surface(generate::Surface),
-    /// Relax a set of the plane by distance constraints (DCR).
+    /// Relax a set of the plane, or the samples of a mesh, by distance constraints (DCR).
     Relax(generate::Relax),
     /// Write a mesh that needs no download.
     Mesh(procedural::Procedural),

@@ -19,6 +19,8 @@ pub struct PointSet {
     pub positions: Vec<[f32; 3]>,
     /// The domain that the file names.
     pub domain: Option<Domain>,
+    /// For each point its triangle and barycentrics, where the file has them.
+    pub on_mesh: Option<(Vec<u32>, Vec<[f32; 2]>)>,
 }
 
 impl PointSet {
@@ -28,23 +30,32 @@ impl PointSet {
     }
 }
 
-/// A vertex, of which only the position is kept. A coordinate that the file has as an integer type counts too.
-struct Position([f32; 3]);
+/// A vertex, of which only some numbers are kept. What the file has as another type counts too.
+#[derive(Default)]
+struct Vertex {
+    position: [f32; 3],
+    triangle: Option<u32>,
+    uv: [f32; 2],
+}
 
-impl Position {
+impl Vertex {
     /// For every type of number that a file may hold.
     fn set(&mut self, name: &str, value: f32) -> PropertyAccessResult {
-        let Some(axis) = ["x", "y", "z"].iter().position(|&axis| axis == name) else {
-            return PropertyAccessResult::Ignored;
-        };
-        self.0[axis] = value;
+        match name {
+            "x" => self.position[0] = value,
+            "y" => self.position[1] = value,
+            "z" => self.position[2] = value,
+            "u" => self.uv[0] = value,
+            "v" => self.uv[1] = value,
+            _ => return PropertyAccessResult::Ignored,
+        }
         PropertyAccessResult::Set
     }
 }
 
-impl PropertyAccess for Position {
+impl PropertyAccess for Vertex {
     fn new() -> Self {
-        Self([0.0; 3])
+        Self::default()
     }
     fn set_char(&mut self, name: &str, value: i8) -> PropertyAccessResult {
         self.set(name, value.into())
@@ -62,6 +73,10 @@ impl PropertyAccess for Position {
         self.set(name, value as f32)
     }
     fn set_uint(&mut self, name: &str, value: u32) -> PropertyAccessResult {
+        if name == "triangle" {
+            self.triangle = Some(value);
+            return PropertyAccessResult::Set;
+        }
         self.set(name, value as f32)
     }
     fn set_float(&mut self, name: &str, value: f32) -> PropertyAccessResult {
@@ -85,21 +100,27 @@ pub fn read(path: &Path) -> Result<PointSet> {
         return Err(read_error(io::ErrorKind::IsADirectory.into()));
     }
     let mut reader = Reader::new(BufReader::with_capacity(1 << 18, file));
-    let parser = Parser::<Position>::new();
+    let parser = Parser::<Vertex>::new();
     let header = parser.read_header(&mut reader).map_err(parse_error)?;
     let (first, vertex) = header.elements.first().ok_or_else(|| format_error("no element in the header".to_owned()))?;
     if first != "vertex" || !["x", "y"].iter().all(|&axis| vertex.properties.contains_key(axis)) {
         return Err(format_error("the first element is not a vertex with x and y".to_owned()));
     }
     let vertices = parser.read_payload_for_element(&mut reader, vertex, &header).map_err(parse_error)?;
-    if let Some(i) = vertices.iter().position(|vertex| !vertex.0.iter().all(|x| x.is_finite())) {
-        return Err(format_error(format!("vertex {i} is {:?}, not finite", vertices[i].0)));
+    if let Some(i) = vertices.iter().position(|vertex| !vertex.position.iter().all(|x| x.is_finite())) {
+        return Err(format_error(format!("vertex {i} is {:?}, not finite", vertices[i].position)));
     }
     if vertices.is_empty() {
         return Err(format_error("no points".to_owned()));
     }
-    let domain = named_domain(&header);
-    Ok(PointSet { positions: vertices.into_iter().map(|vertex| vertex.0).collect(), domain })
+    let is_on_mesh = ["triangle", "u", "v"].iter().all(|&name| vertex.properties.contains_key(name));
+    let triangles = vertices.iter().map(|vertex| vertex.triangle).collect::<Option<Vec<u32>>>();
+    let uvs = || vertices.iter().map(|vertex| vertex.uv).collect();
+    Ok(PointSet {
+        positions: vertices.iter().map(|vertex| vertex.position).collect(),
+        domain: named_domain(&header),
+        on_mesh: triangles.filter(|_| is_on_mesh).map(|triangles| (triangles, uvs())),
+    })
 }
 
 /// The domain of the header's comments, if one is there and is a rectangle.

@@ -5,7 +5,7 @@ use std::path::Path;
 use azulejo::dcr::{Method, Neighbourhood, Options, Thesis};
 use azulejo::{Boundary, Context, Domain, Result};
 
-use super::{convergence, distributions, radii, remeshing};
+use super::{convergence, distributions, radii, remeshing, surfaces};
 use crate::draw::rows::in_parallel;
 use crate::output::Output;
 use crate::progress::watched;
@@ -14,7 +14,8 @@ use crate::progress::watched;
 pub type Section = fn(&Study) -> Result<String>;
 
 /// All sections, in the order of the page. Each is a file of its own.
-pub const SECTIONS: [Section; 4] = [convergence::section, radii::section, distributions::section, remeshing::section];
+pub const SECTIONS: [Section; 5] =
+    [convergence::section, radii::section, distributions::section, remeshing::section, surfaces::section];
 
 /// What a section has to work with.
 pub struct Study<'a> {
@@ -23,6 +24,9 @@ pub struct Study<'a> {
     pub pictures: &'a Path,
     /// Whether few and small sets are enough.
     pub quick: bool,
+    /// The files of meshes, where they were given.
+    pub bunny: Option<&'a Path>,
+    pub dragon: Option<&'a Path>,
 }
 
 impl Study<'_> {
