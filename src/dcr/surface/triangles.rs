@@ -25,9 +25,9 @@ pub struct Triangulation {
     pub agreement: f64,
 }
 
-/// Triangulates samples on a mesh, which shall be spread about evenly, as maximal and relaxed sets are: the parts of their
-/// Delaunay stars in which they agree. Triangles across open borders, and across gaps that are more than twice as wide as samples are
-/// apart, are left out. Arguments and errors are those of [`relax`](super::relax). O(n log n).
+/// Triangulates samples on a mesh, which shall be spread about evenly, as maximal and relaxed sets are: the triangles of their
+/// Delaunay stars in which they agree. Those across open borders, and across gaps that are more than twice as wide as samples
+/// are apart, are left out. The arguments are those of [`relax`](super::relax). O(n log n).
 ///
 /// # Errors
 /// Those of [`relax`](super::relax), and [`Error::Cancelled`](crate::Error::Cancelled).
