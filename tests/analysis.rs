@@ -6,7 +6,7 @@ mod sets;
 use azulejo::analysis::bonds::bond_order;
 use azulejo::analysis::coverage::{covering_radius_2d, surface_uncovered_fraction};
 use azulejo::analysis::spacing::{nearest_distances_2d, rho, smallest_distance_2d, smallest_distance_3d};
-use azulejo::analysis::triangles::{delaunay_triangles, triangle_statistics};
+use azulejo::analysis::triangles::{Triangle, TriangleStatistics, delaunay_triangles, triangle_statistics};
 use azulejo::mesh::Mesh;
 use azulejo::{Boundary, Context, Domain, Error};
 use proptest::prelude::*;

@@ -70,7 +70,7 @@ mod tests {
     use super::*;
 
     fn set(corners: [[f32; 2]; 2], domain: Option<Domain>) -> PointSet {
-        PointSet { positions: corners.map(|[x, y]| [x, y, 0.0]).to_vec(), domain }
+        PointSet { positions: corners.map(|[x, y]| [x, y, 0.0]).to_vec(), domain, on_mesh: None }
     }
 
     #[test]

@@ -37,6 +37,13 @@ pub(super) struct Neighbourhood {
     pub(super) normal: DVec3,
 }
 
+impl Neighbourhood {
+    /// Whether a sample, or this image of it, is among the neighbours.
+    pub(super) fn knows(&self, neighbour: Neighbour) -> bool {
+        self.neighbours.contains(&neighbour)
+    }
+}
+
 /// All samples, found by their position.
 pub(super) struct Crowd<'a> {
     sheet: &'a Sheet<'a>,

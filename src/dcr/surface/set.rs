@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3};
 
-use super::near::{Crowd, Neighbourhood};
+use super::near::{Crowd, Neighbour, Neighbourhood};
 use super::sheet::Sheet;
 use super::view::View;
 use super::walk::{Flat, Place, walk};
@@ -111,8 +111,8 @@ impl<'a> Set<'a> {
         Ok(())
     }
 
-    /// Looks for the neighbours of those that have moved by half of the slack, and of those who are then near them. So two
-    /// samples that do not know of each other have moved towards each other by no more than the slack.
+    /// Looks for the neighbours of those that have moved by half of the slack, and of those near them then that do not know
+    /// of them. So two samples that do not know of each other have moved towards each other by no more than the slack.
     fn look_around(&mut self, job: &Job, chunks: Chunks) -> Result<()> {
         let has_moved: Vec<bool> = self.travelled.iter().map(|&way| way >= SLACK / 2.0).collect();
         if !has_moved.contains(&true) {
@@ -120,15 +120,19 @@ impl<'a> Set<'a> {
         }
         let crowd = Crowd::new(self.sheet, &self.places, &self.positions, (REACH + SLACK) * self.spacing);
         let found = crowd.neighbourhoods(&job.part(0.0, 0.7), chunks, |sample| has_moved[sample])?;
-        let mut is_near = vec![false; self.places.len()];
-        let neighbours = found.iter().flat_map(|(_, neighbourhood)| &neighbourhood.neighbours);
-        neighbours.for_each(|neighbour| is_near[neighbour.sample as usize] = !has_moved[neighbour.sample as usize]);
-        let near = crowd.neighbourhoods(&job.part(0.7, 1.0), chunks, |sample| is_near[sample])?;
-        for (sample, neighbourhood) in found {
-            self.neighbourhoods[sample] = neighbourhood;
-            self.travelled[sample] = 0.0;
+        let mut is_met = vec![false; self.places.len()];
+        for (mover, around) in &found {
+            for neighbour in around.neighbours.iter().filter(|neighbour| !has_moved[neighbour.sample as usize]) {
+                // Images are mutual too.
+                let mover = Neighbour { sample: *mover as u32, mirror: neighbour.mirror };
+                is_met[neighbour.sample as usize] |= !self.neighbourhoods[neighbour.sample as usize].knows(mover);
+            }
         }
-        near.into_iter().for_each(|(sample, neighbourhood)| self.neighbourhoods[sample] = neighbourhood);
+        let met = crowd.neighbourhoods(&job.part(0.7, 1.0), chunks, |sample| is_met[sample])?;
+        found.iter().for_each(|&(sample, _)| self.travelled[sample] = 0.0);
+        for (sample, around) in found.into_iter().chain(met) {
+            self.neighbourhoods[sample] = around;
+        }
         Ok(())
     }
 

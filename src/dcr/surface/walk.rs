@@ -158,8 +158,9 @@ mod tests {
     fn sheet(curvature: f32) -> Mesh {
         let side = 17;
         let mut rng = Rng::at(1, Draw::Probe, &[]);
-        let mut coordinate =
-            |i: u32| if i % (side - 1) == 0 { i as f32 / 2.0 } else { (i as f32 + 0.6 * rng.unit() as f32) / 2.0 };
+        let mut coordinate = |i: u32| {
+            if i.is_multiple_of(side - 1) { i as f32 / 2.0 } else { (i as f32 + 0.6 * rng.unit() as f32) / 2.0 }
+        };
         let places: Vec<[f32; 2]> =
             (0..side * side).map(|i| [coordinate(i % side), coordinate(i / side)].map(|x| x - 4.0)).collect();
         let rolled = |&[x, y]: &[f32; 2]| match curvature {

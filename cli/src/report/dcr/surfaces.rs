@@ -27,8 +27,10 @@ struct Remeshed {
     samples: SurfaceSamples,
     triangulation: Triangulation,
     statistics: TriangleStatistics,
-    /// The smallest and the mean distance to the nearest sample, in units of d_max.
+    /// In units of d_max the smallest distance of two samples through space, and of two that are joined by a triangle; the
+    /// mean distance to the nearest sample.
     rho: f64,
+    joined: f64,
     nearest: f64,
 }
 
@@ -100,8 +102,9 @@ impl Remeshed {
         }
         let known: Vec<f64> = nearest.into_iter().filter(|length| length.is_finite()).collect();
         let d_max = (2.0 * mesh.area() / (3f64.sqrt() * samples.len() as f64)).sqrt();
+        let joined = known.iter().copied().fold(f64::INFINITY, f64::min) / d_max;
         let nearest = known.iter().sum::<f64>() / (known.len() as f64 * d_max);
-        Ok(Self { statistics: TriangleStatistics::of(&triangles), triangulation, samples, rho, nearest })
+        Ok(Self { statistics: TriangleStatistics::of(&triangles), triangulation, samples, rho, joined, nearest })
     }
 }
 
@@ -110,24 +113,25 @@ fn text(study: &Study, cases: &[Case], pictured: &Case) -> String {
         "## Surfaces\n\n\
          PSP's maximal sets on meshes, before and after they are relaxed on the surface; seed {FIRST_SEED}. d_max is that of a \
          plane of the mesh's area. *ρ* is the smallest straight distance through space of any two samples, on whatever \
-         sheets they are; *nearest* the mean distance to the nearest sample on the surface. The triangles are those in which the local \
+         sheets they are, *joined* that of two samples that are joined by a triangle, *nearest* the mean distance to the nearest \
+         of these. The triangles are those in which the local \
          Delaunay stars of all three corners agree; *agreed* is their share of all that are in the stars. Steps times samples per second \
          are those of one call on {} threads, mesh adjacency included.\n\n\
-         | mesh | triangles | samples | | ρ | nearest | obtuse | below 30° | edge CV² | area CV² | beyond 4σ | agreed | steps | \
+         | mesh | triangles | samples | | ρ | joined | nearest | obtuse | below 30° | edge CV² | area CV² | beyond 4σ | agreed | steps | \
          M steps·samples/s |\n{}|\n",
         study.context.num_threads(),
-        "|---".repeat(14),
+        "|---".repeat(15),
     );
     for case in cases {
         for (name, set) in ["PSP", "relaxed"].into_iter().zip(&case.sets) {
-            let Remeshed { samples, triangulation, statistics, rho, nearest } = set;
+            let Remeshed { samples, triangulation, statistics, rho, joined, nearest } = set;
             let (steps, rate) = match name {
                 "PSP" => (String::new(), String::new()),
                 _ => (case.steps.to_string(), rounded(case.rate / 1e6, 2)),
             };
             _ = writeln!(
                 text,
-                "| {} | {} | {} | {name} | {rho:.3} | {nearest:.3} | {:.1} % | {:.3} % | {:.4} | {:.4} | {:.3} % | {:.2} % | \
+                "| {} | {} | {} | {name} | {rho:.3} | {joined:.3} | {nearest:.3} | {:.1} % | {:.3} % | {:.4} | {:.4} | {:.3} % | {:.2} % | \
                  {steps} | {rate} |",
                 case.mesh,
                 grouped(case.triangles),
@@ -171,7 +175,7 @@ fn draw(case: &Case, study: &Study) -> Result<()> {
     let length = REACH * start.statistics.edge_mean;
     for (column, (name, set)) in ["PSP", "relaxed"].into_iter().zip(&case.sets).enumerate() {
         let rect = Rect { x: 20.0 + 610.0 * column as f32, y: 50.0, width: 590.0, height: 590.0 };
-        let title = format!("{} of samples by {name}", case.mesh);
+        let title = format!("{}, {name}", case.mesh);
         let style = Style { size: 27.0, colour: INK, align: Align::Left, upwards: false };
         canvas.text(&title, [rect.x, 36.0], style);
         let axis = || Axis::linear("", [-length, length], 0);
