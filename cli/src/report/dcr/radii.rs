@@ -58,9 +58,9 @@ pub fn section(study: &Study) -> Result<String> {
     );
     for (neighbourhood, name) in [(Neighbourhood::Delaunay, "delaunay"), (Neighbourhood::Nearest, "nearest")] {
         let rows: Vec<_> = all.iter().filter(|(setting, _)| setting.neighbourhood == neighbourhood).collect();
-        let mut canvas = Canvas::new(1600.0, 1180.0, 1600);
+        let mut canvas = Canvas::new(1760.0, 1180.0, 1200);
         for (column, (setting, outcomes)) in rows.iter().take(DRAWN).enumerate() {
-            draw(&mut canvas, 90.0 + 385.0 * column as f32, setting, outcomes)?;
+            draw(&mut canvas, 90.0 + 425.0 * column as f32, setting, outcomes)?;
         }
         canvas.write(&study.picture(&format!("radii-{name}"))?)?;
         text += &format!(
