@@ -29,10 +29,10 @@
  *
  * Progress. The callback in the options is called on the thread that makes the call, with the finished share, which
  *   never falls, from 0 to 1 (the 1 comes if the call succeeds). Any return value but 0 cancels the call, which then
- *   returns AZULEJO_ERROR_CANCELLED; only azulejo_dcr_relax and azulejo_dcr_relax_density return what they have, as
- *   their report says. The callback may call the library, also with the same context. It must return: no exception and
- *   no longjmp may leave it. The same holds for the callback of azulejo_kdrt_stream. Only an azulejo_radius_fn and an
- *   azulejo_density_fn are called on other threads, and several at once.
+ *   returns AZULEJO_ERROR_CANCELLED; only azulejo_dcr_relax, azulejo_dcr_relax_density and azulejo_dcr_relax_surface return
+ *   what they have, as their reports say. The callback may call the library, also with the same context. It must return:
+ *   no exception and no longjmp may leave it. The same holds for the callback of azulejo_kdrt_stream. Only an
+ *   azulejo_radius_fn and an azulejo_density_fn are called on other threads, and several at once.
  *
  * Threads. Every function may be called from any thread at any time. A context can be used by several threads at
  *   once; a psp handle serves one changing call at a time and refuses a second one. The last error belongs to the
@@ -594,6 +594,43 @@ typedef struct azulejo_density {
     /// Handed to `function`.
     void *user;
 } azulejo_density;
+
+/// Options of azulejo_dcr_relax_surface. d_max = sqrt(2 * area / (sqrt(3) * count)) is the distance of neighbours if the
+/// samples stood in hexagonal arrangement on a plane of the mesh's area.
+typedef struct azulejo_dcr_surface_options {
+    /// The size of the caller's struct in bytes; set by the init function.
+    uint32_t struct_size;
+    /// The largest number of steps, 100 by default. 0 returns the samples as they are. Fewer are made where the motion ends
+    /// before.
+    uint32_t max_iterations;
+    /// The motion (see the report) at which the set has converged. 0 makes all steps; a negative number, the default,
+    /// takes 0.0005.
+    double tolerance;
+    /// Parts samples that coincide, or lie on the edges of triangles; used for nothing else.
+    uint64_t seed;
+    /// Called during the call, unless NULL, which is the default.
+    azulejo_progress_fn progress;
+    /// Handed to the progress callback.
+    void *progress_user;
+} azulejo_dcr_surface_options;
+
+/// What a relaxation on a surface did.
+typedef struct azulejo_dcr_surface_report {
+    /// The steps made.
+    uint32_t iterations;
+    /// Why no more steps were made: an AZULEJO_STOPPED_ constant.
+    int32_t stopped;
+    /// Half of how far samples got over the last 10 steps, root mean square, in units of d_max.
+    double motion;
+    /// The smallest straight distance between two of the samples, whether or not they are near on the surface; infinite
+    /// for less than two samples.
+    double smallest_distance;
+    /// The smallest distance in units of d_max: 0.77 for a maximal set, about 0.86 for a relaxed one where the surface is
+    /// smooth and no part of it near another.
+    double rho;
+    /// Zeros, for later versions.
+    uint32_t reserved[6];
+} azulejo_dcr_surface_report;
 
 /// How a set covers a domain or a surface with disks of a radius. See azulejo_plane_coverage, azulejo_mesh_coverage.
 typedef struct azulejo_coverage {
@@ -1188,6 +1225,37 @@ azulejo_status azulejo_dcr_relax_density(const struct azulejo_context *context,
                                          size_t count,
                                          struct azulejo_points **out,
                                          struct azulejo_dcr_report *report);
+
+/// Writes the defaults. `struct_size` is sizeof *options.
+azulejo_status azulejo_dcr_surface_options_init(struct azulejo_dcr_surface_options *options, size_t struct_size);
+
+/// Relaxes samples of a mesh: they walk on the surface, away from neighbours that are too close and into holes, until the
+/// motion ends or the steps do (the future work of thesis chapter 4). Neighbours are near on the surface: the two sides of
+/// a thin wall do not know of each other, and may come as close as they are. Triangles are connected by edges between the
+/// same places; any other edge is a border, which samples do not cross. O(count) time for each step, and
+/// O(triangles * log triangles) once.
+///
+/// A call that its progress callback cancels succeeds: it returns the samples after the last whole step, and
+/// AZULEJO_STOPPED_CANCELLED in the report.
+///
+/// triangles, barycentrics: a triangle and the barycentrics u v of each of `count` samples, as azulejo_points_triangles and
+/// azulejo_points_barycentrics give them.
+///
+/// out: the samples after the last step, in the same order, with normals, triangles and barycentrics, to be freed with
+/// azulejo_points_free.
+///
+/// report: what the call did, or NULL.
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for triangles that the mesh does not have, without area, or left out by
+/// its mask, and for barycentrics outside the triangle by more than 1e-6; AZULEJO_ERROR_TOO_LARGE.
+azulejo_status azulejo_dcr_relax_surface(const struct azulejo_context *context,
+                                         const struct azulejo_mesh *mesh,
+                                         const struct azulejo_dcr_surface_options *options,
+                                         const uint32_t *triangles,
+                                         const float *barycentrics,
+                                         size_t count,
+                                         struct azulejo_points **out,
+                                         struct azulejo_dcr_surface_report *report);
 
 /// The smallest distance between two points of the plane, in double arithmetic; on a periodic domain around the torus.
 ///

@@ -110,6 +110,8 @@ struct AdaptiveOptions : Options<azulejo_adaptive_options, azulejo_adaptive_opti
 };
 /// See azulejo_dcr_options.
 using DcrOptions = Options<azulejo_dcr_options, azulejo_dcr_options_init>;
+/// See azulejo_dcr_surface_options.
+using DcrSurfaceOptions = Options<azulejo_dcr_surface_options, azulejo_dcr_surface_options_init>;
 
 /// Gives the density at a place of the plane. Called from several threads at once, the library's own; see
 /// azulejo_density_fn. What it throws fails the call and leaves it.
@@ -127,6 +129,7 @@ using KdrtReport = azulejo_kdrt_report;
 using MergeReport = azulejo_merge_report;
 using PspReport = azulejo_psp_report;
 using DcrReport = azulejo_dcr_report;
+using DcrSurfaceReport = azulejo_dcr_surface_report;
 using PlaneReport = azulejo_plane_report;
 using SpectrumReport = azulejo_spectrum_report;
 using Coverage = azulejo_coverage;
@@ -524,19 +527,29 @@ inline Points psp_sample_adaptive(const Context &context, const Mesh &mesh, cons
     return Points(points);
 }
 
-/// Relaxes points of the plane, x y each; see azulejo_dcr_relax. `report` may be null.
-inline Points dcr_relax(const Context &context, const DcrOptions &options, Span<const float> xy,
-                        DcrReport *report = nullptr) {
+namespace detail {
+
+/// The points of a call that succeeds when it is cancelled: they need an owner before the callback's exception goes on.
+template <class O, class F> Points relaxed(const O &options, F call) {
     Points points(nullptr);
-    const std::size_t count = detail::groups(xy.size(), 2, "xy");
-    // A call that is cancelled succeeds: its points need an owner before the callback's exception goes on.
-    detail::watched(options, [&](auto *o) {
+    watched(options, [&](auto *o) {
         azulejo_points *relaxed = nullptr;
-        const auto status = azulejo_dcr_relax(context.get(), o, xy.data(), count, &relaxed, report);
+        const auto status = call(o, &relaxed);
         points = Points(relaxed);
         return status;
     });
     return points;
+}
+
+} // namespace detail
+
+/// Relaxes points of the plane, x y each; see azulejo_dcr_relax. `report` may be null.
+inline Points dcr_relax(const Context &context, const DcrOptions &options, Span<const float> xy,
+                        DcrReport *report = nullptr) {
+    const std::size_t count = detail::groups(xy.size(), 2, "xy");
+    return detail::relaxed(options, [&](auto *o, azulejo_points **out) {
+        return azulejo_dcr_relax(context.get(), o, xy.data(), count, out, report);
+    });
 }
 
 /// Random points of the plane, as dense as asked for; see azulejo_dcr_scatter.
@@ -553,15 +566,26 @@ inline Points dcr_relax_density(const Context &context, const DcrOptions &option
                                 Span<const float> xy, DcrReport *report = nullptr) {
     detail::Guest<2> guest{density.function, {}, nullptr};
     const azulejo_density wanted = detail::density(density, guest);
-    Points points(nullptr);
     const std::size_t count = detail::groups(xy.size(), 2, "xy");
-    detail::watched(options, [&](auto *o) {
-        azulejo_points *relaxed = nullptr;
-        const auto status = azulejo_dcr_relax_density(context.get(), o, &wanted, xy.data(), count, &relaxed, report);
-        points = Points(relaxed);
-        return guest.checked(status);
+    return detail::relaxed(options, [&](auto *o, azulejo_points **out) {
+        return guest.checked(azulejo_dcr_relax_density(context.get(), o, &wanted, xy.data(), count, out, report));
     });
-    return points;
+}
+
+/// Relaxes samples of a mesh, a triangle and the barycentrics u v for each; see azulejo_dcr_relax_surface. `report` may be
+/// null.
+inline Points dcr_relax_surface(const Context &context, const Mesh &mesh, const DcrSurfaceOptions &options,
+                                Span<const std::uint32_t> triangles, Span<const float> barycentrics,
+                                DcrSurfaceReport *report = nullptr) {
+    const std::size_t count = detail::groups(barycentrics.size(), 2, "barycentrics");
+    if (count != triangles.size()) {
+        throw Error(AZULEJO_ERROR_INVALID_ARGUMENT, "triangles: there are " + std::to_string(triangles.size()) +
+                                                        ", and barycentrics of " + std::to_string(count) + " samples");
+    }
+    return detail::relaxed(options, [&](auto *o, azulejo_points **out) {
+        return azulejo_dcr_relax_surface(context.get(), mesh.get(), o, triangles.data(), barycentrics.data(), count,
+                                         out, report);
+    });
 }
 
 /// See azulejo_plane_smallest_distance; the domain as in the options.

@@ -1,5 +1,8 @@
 //! Hash grid over points in space that grows: the neighbour search in 3D.
 
+use crate::error::Result;
+use crate::job::{Job, chunks};
+
 /// Points in cells of one side, chained in a hash table. Insertion takes a short serial moment between parallel,
 /// read-only searches. Answers are sets: they do not depend on the order of insertion.
 pub(crate) struct Grid3 {
@@ -74,6 +77,47 @@ impl Grid3 {
 /// The squared distance in f64.
 pub(crate) fn distance_squared(a: [f32; 3], b: [f32; 3]) -> f64 {
     (0..3).map(|axis| (a[axis] as f64 - b[axis] as f64).powi(2)).sum()
+}
+
+/// The smallest distance between two points; infinite for less than two. O(n log n) for points that are neither clustered
+/// in space nor lined up in planes across their longest extent.
+pub(crate) fn smallest_distance(job: &Job, positions: &[[f32; 3]]) -> Result<f64> {
+    let bound = neighbours_in_order(positions);
+    if bound == 0.0 || bound == f64::INFINITY {
+        return Ok(bound);
+    }
+    // Of n points there is a pair in order about as close as n points are on a surface, so cells hold few points.
+    let mut grid = Grid3::new([0.0; 3], bound);
+    positions.iter().for_each(|&position| {
+        grid.insert(position);
+    });
+    let chunks = chunks(positions.len());
+    let nearest = job.map(chunks.len(), |chunk| {
+        let squared = |i: usize| {
+            grid.candidates(positions[i].map(f64::from), bound)
+                .filter(|&other| other as usize != i)
+                .map(|other| distance_squared(positions[i], positions[other as usize]))
+                .fold(f64::INFINITY, f64::min)
+        };
+        chunks.range(chunk).map(squared).fold(f64::INFINITY, f64::min)
+    })?;
+    Ok(nearest.into_iter().fold(f64::INFINITY, f64::min).sqrt())
+}
+
+/// A first bound: the smallest distance of points that follow each other along the longest extent.
+fn neighbours_in_order(positions: &[[f32; 3]]) -> f64 {
+    let extent = |axis: usize| {
+        let (low, high) = positions
+            .iter()
+            .map(|position| f64::from(position[axis]))
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
+        high - low
+    };
+    let axis = (0..3).max_by(|&a, &b| extent(a).total_cmp(&extent(b))).unwrap_or(0);
+    let mut ordered = positions.to_vec();
+    ordered.sort_unstable_by(|a, b| a[axis].total_cmp(&b[axis]));
+    let squared = ordered.windows(2).map(|pair| distance_squared(pair[0], pair[1]));
+    squared.fold(f64::INFINITY, f64::min).sqrt()
 }
 
 #[cfg(test)]

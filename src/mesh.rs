@@ -9,6 +9,7 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use crate::error::{Error, Result};
+use crate::points::SurfaceSamples;
 
 mod normals;
 mod obj;
@@ -237,6 +238,21 @@ impl Mesh {
     /// The point `(1 - u - v) * a + u * b + v * c` of a triangle, computed in `f64` and rounded once.
     pub fn point(&self, triangle: u32, [u, v]: [f32; 2]) -> [f32; 3] {
         self.point_exact(triangle, [u.into(), v.into()]).as_vec3().to_array()
+    }
+
+    /// The samples at these places, with their positions and normals.
+    pub(crate) fn samples(&self, triangles: Vec<u32>, barycentrics: Vec<[f32; 2]>) -> SurfaceSamples {
+        let places = || triangles.iter().zip(&barycentrics).map(|(&triangle, &uv)| (triangle, uv));
+        SurfaceSamples {
+            positions: places().map(|(triangle, uv)| self.point(triangle, uv)).collect(),
+            normals: triangles.iter().map(|&triangle| self.normal(triangle)).collect(),
+            // None if the mesh carries no normals.
+            interpolated_normals: places()
+                .filter_map(|(triangle, uv)| self.interpolated_normal(triangle, uv))
+                .collect(),
+            triangles,
+            barycentrics,
+        }
     }
 
     /// [`Mesh::point`] before it is rounded.

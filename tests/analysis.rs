@@ -6,7 +6,7 @@ mod sets;
 use azulejo::analysis::bonds::bond_order;
 use azulejo::analysis::coverage::{covering_radius_2d, surface_uncovered_fraction};
 use azulejo::analysis::spacing::{nearest_distances_2d, rho, smallest_distance_2d, smallest_distance_3d};
-use azulejo::analysis::triangles::{delaunay_triangles, triangle_statistics};
+use azulejo::analysis::triangles::{Triangle, TriangleStatistics, delaunay_triangles, triangle_statistics};
 use azulejo::mesh::Mesh;
 use azulejo::{Boundary, Context, Domain, Error};
 use proptest::prelude::*;
@@ -250,4 +250,16 @@ fn bad_arguments_are_refused_by_name() {
     for radius in [0.0, -1.0, f64::NAN, f64::INFINITY] {
         assert_eq!(argument(surface_uncovered_fraction(&context(), &square(), &[], radius, 1, 0)), "radius");
     }
+}
+
+#[test]
+fn triangles_of_space_are_measured_as_if_they_lay_in_the_plane() {
+    let corners = [[1.0, 2.0, 3.0], [1.0, 2.0, 5.0], [1.0, 5.0, 2.0]];
+    let triangle = Triangle::in_space(corners);
+    assert!((triangle.area() - 3.0).abs() < 1e-12 && triangle.is_obtuse());
+    let lengths = [2.0, 18f64.sqrt(), 10f64.sqrt()];
+    assert!(triangle.edges().iter().zip(lengths).all(|(edge, length)| (edge - length).abs() < 1e-12));
+    let flat = Triangle { corners: [[0.0, 0.0], [2.0, 0.0], [-1.0, 3.0]] };
+    let [one, other] = [triangle, flat].map(|triangle| TriangleStatistics::of(&[triangle, flat]));
+    assert!((one.edge_variation - other.edge_variation).abs() < 1e-12 && one.obtuse == 1.0);
 }

@@ -29,6 +29,8 @@ pub struct PointSet {
     pub positions: Vec<[f32; 3]>,
     /// Normals, one for each position; empty if the file has none.
     pub normals: Vec<[f32; 3]>,
+    /// For each point its triangle and barycentrics, where the file, a PLY one, has them.
+    pub on_mesh: Option<(Vec<u32>, Vec<[f32; 2]>)>,
     /// The domain that the file names.
     pub domain: Option<Domain>,
 }

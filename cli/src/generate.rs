@@ -5,14 +5,14 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Instant;
 
-use azulejo::dcr::{self, Neighbourhood};
+use azulejo::dcr::{self, Neighbourhood, surface};
 use azulejo::kdrt::{self, CountOptions};
 use azulejo::mesh::Mesh;
 use azulejo::{Context, Domain, Error, Result, psp};
 use clap::{Args, ValueEnum};
 
 use crate::domain::DomainArgs;
-use crate::formats::{Coordinates, Destination, Input};
+use crate::formats::{Coordinates, Destination, Input, PointFile, PointSet};
 use crate::progress::watched;
 use crate::text::{grouped, rounded};
 
@@ -206,13 +206,16 @@ impl Surface {
 
 #[derive(Args)]
 pub struct Relax {
-    /// The set: a .ply, .npy, .csv, .xyz or .raw file.
+    /// The set: a .ply, .npy, .csv, .xyz or .raw file, or with --mesh a .ply file that `azulejo surface` has written.
     #[arg(value_name = "POINTS")]
     input: PathBuf,
     #[command(flatten)]
     format: Input,
     #[command(flatten)]
     common: Common,
+    /// The mesh that the samples are on, and stay on: OBJ, PLY or STL.
+    #[arg(long, value_name = "MESH", conflicts_with_all = ["domain", "boundary", "neighbourhood"])]
+    mesh: Option<PathBuf>,
     #[command(flatten)]
     domain: DomainArgs,
     /// Which points keep each other at a distance.
@@ -234,6 +237,9 @@ enum Neighbours {
 impl Relax {
     pub fn run(&self, context: &Context) -> Result<()> {
         let output = self.common.destination.open()?;
+        if let Some(mesh) = &self.mesh {
+            return self.run_on(context, mesh, &self.format.read(&self.input, Coordinates::Space)?, &output);
+        }
         let set = self.format.read(&self.input, Coordinates::Plane)?;
         let domain = self.domain.of(&set).ok_or_else(|| Error::Format {
             path: self.input.clone(),
@@ -251,6 +257,28 @@ impl Relax {
         let (relaxed, done) = watched("relax", |progress| dcr::relax(context, &options, &points, Some(progress)))?;
         let seconds = start.elapsed().as_secs_f64();
         output.write_plane(&domain, &relaxed)?;
+        let about = format!("{} steps, smallest distance {}", done.iterations, rounded(done.smallest_distance, 4));
+        report(&self.common.destination.output, relaxed.len(), &about, seconds);
+        Ok(())
+    }
+}
+
+/// Relaxation on a mesh.
+impl Relax {
+    fn run_on(&self, context: &Context, mesh: &Path, set: &PointSet, output: &PointFile) -> Result<()> {
+        let mesh = Mesh::load(mesh)?;
+        let (triangles, barycentrics) = set.on_mesh.as_ref().ok_or_else(|| Error::Format {
+            path: self.input.clone(),
+            reason: "does not say on which triangle each sample is, and where: no triangle, u and v".to_owned(),
+        })?;
+        let mut options = surface::Options { seed: self.common.seed, ..Default::default() };
+        options.max_iterations = self.iterations.unwrap_or(options.max_iterations);
+        let start = Instant::now();
+        let (relaxed, done) = watched("relax", |progress| {
+            surface::relax(context, &mesh, triangles, barycentrics, &options, Some(progress))
+        })?;
+        let seconds = start.elapsed().as_secs_f64();
+        output.write_surface(&relaxed, &relaxed.normals)?;
         let about = format!("{} steps, smallest distance {}", done.iterations, rounded(done.smallest_distance, 4));
         report(&self.common.destination.output, relaxed.len(), &about, seconds);
         Ok(())

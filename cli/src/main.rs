@@ -49,7 +49,7 @@ enum Command {
     Plane(generate::Plane),
     /// Cover a triangle mesh with a maximal Poisson-disk set (PSP).
     Surface(generate::Surface),
-    /// Relax a set of the plane by distance constraints (DCR).
+    /// Relax a set of the plane, or the samples of a mesh, by distance constraints (DCR).
     Relax(generate::Relax),
     /// Glue sets that were made apart into one maximal set (KDRT).
     Merge(merge::Merge),

@@ -12,11 +12,15 @@ use ply_rs_bw::ply::{Header, PropertyAccess, PropertyAccessResult};
 use crate::formats::{Coordinates, PointSet};
 use crate::output::Output;
 
-/// The properties of a vertex that are kept.
-const NAMES: [&str; 6] = ["x", "y", "z", "nx", "ny", "nz"];
+/// The properties of a vertex that are kept as floats.
+const NAMES: [&str; 8] = ["x", "y", "z", "nx", "ny", "nz", "u", "v"];
 
-/// A vertex, of which position and normal are kept. A coordinate that the file has as an integer type counts too.
-struct Vertex([f32; 6]);
+/// A vertex, of which only some numbers are kept. A coordinate that the file has as an integer type counts too.
+#[derive(Default)]
+struct Vertex {
+    floats: [f32; NAMES.len()],
+    triangle: Option<u32>,
+}
 
 impl Vertex {
     /// For every type of number that a file may hold.
@@ -24,14 +28,14 @@ impl Vertex {
         let Some(place) = NAMES.iter().position(|&known| known == name) else {
             return PropertyAccessResult::Ignored;
         };
-        self.0[place] = value;
+        self.floats[place] = value;
         PropertyAccessResult::Set
     }
 }
 
 impl PropertyAccess for Vertex {
     fn new() -> Self {
-        Self([0.0; 6])
+        Self::default()
     }
     fn set_char(&mut self, name: &str, value: i8) -> PropertyAccessResult {
         self.set(name, value.into())
@@ -49,6 +53,10 @@ impl PropertyAccess for Vertex {
         self.set(name, value as f32)
     }
     fn set_uint(&mut self, name: &str, value: u32) -> PropertyAccessResult {
+        if name == "triangle" {
+            self.triangle = Some(value);
+            return PropertyAccessResult::Set;
+        }
         self.set(name, value as f32)
     }
     fn set_float(&mut self, name: &str, value: f32) -> PropertyAccessResult {
@@ -74,13 +82,22 @@ pub fn parse(bytes: &[u8], coordinates: Coordinates) -> Result<PointSet, String>
         return Err(format!("the first element is not a vertex with {}", NAMES[..coordinates.count()].join(", ")));
     }
     let vertices = parser.read_payload_for_element(&mut reader, vertex, &header).map_err(explain)?;
-    if let Some(i) = vertices.iter().position(|vertex| !vertex.0.iter().all(|x| x.is_finite())) {
-        return Err(format!("vertex {i} is {:?}, not finite", &vertices[i].0));
+    if let Some(i) = vertices.iter().position(|vertex| !vertex.floats.iter().all(|x| x.is_finite())) {
+        return Err(format!("vertex {i} is {:?}, not finite", &vertices[i].floats));
     }
-    let part = |vertex: &Vertex, from: usize| std::array::from_fn(|axis| vertex.0[from + axis]);
-    let normals = if has(&NAMES[3..]) { vertices.iter().map(|vertex| part(vertex, 3)).collect() } else { Vec::new() };
-    let positions = vertices.iter().map(|vertex| part(vertex, 0)).collect();
-    Ok(PointSet { positions, normals, domain: named_domain(&header) })
+    let is_on_mesh = has(&["triangle", "u", "v"]);
+    let triangles = vertices.iter().map(|vertex| vertex.triangle).collect::<Option<Vec<u32>>>().filter(|_| is_on_mesh);
+    Ok(PointSet {
+        positions: part(&vertices, 0),
+        normals: if has(&NAMES[3..6]) { part(&vertices, 3) } else { Vec::new() },
+        on_mesh: triangles.map(|triangles| (triangles, part(&vertices, 6))),
+        domain: named_domain(&header),
+    })
+}
+
+/// Some of the numbers of each vertex.
+fn part<const N: usize>(vertices: &[Vertex], from: usize) -> Vec<[f32; N]> {
+    vertices.iter().map(|vertex| std::array::from_fn(|axis| vertex.floats[from + axis])).collect()
 }
 
 /// The domain of the header's comments, if one is there and is a rectangle.

@@ -89,3 +89,29 @@ fn normals_of_samples_are_those_that_are_asked_for() {
     assert_eq!(said, "error: --normals: plain.obj has none to be interpolated\n");
     workshop.refuse(&["surface", "plain.obj", "--radius", "0.1", "--normals", "smooth", "-o", "b.ply"], 2);
 }
+
+#[test]
+fn samples_are_relaxed_on_their_mesh() {
+    let workshop = Workshop::new();
+    workshop.succeed(&["mesh", "sphere", "--detail", "64", "-o", "mesh.ply"]);
+    workshop.succeed(&["surface", "mesh.ply", "--count", "1000", "-o", "a.ply"]);
+    let said = workshop.succeed(&["relax", "a.ply", "--mesh", "mesh.ply", "-o", "b.ply"]);
+    let (before, after) = (samples(&workshop, "a.ply"), samples(&workshop, "b.ply"));
+    assert_eq!(before.len(), after.len());
+    let smallest = |set: &[[f32; 9]]| {
+        let distance = |a: &[f32; 9], b: &[f32; 9]| (0..3).map(|axis| (a[axis] - b[axis]).powi(2)).sum::<f32>().sqrt();
+        let pairs = (0..set.len()).flat_map(|i| (0..i).map(move |j| (i, j)));
+        pairs.map(|(i, j)| distance(&set[i], &set[j])).fold(f32::MAX, f32::min)
+    };
+    assert!(smallest(&after) > 1.08 * smallest(&before), "{} {}", smallest(&before), smallest(&after));
+    assert!(said.starts_with("b.ply: ") && said.contains(" steps, smallest distance 0.1"), "{said}");
+    workshop.succeed(&["relax", "a.ply", "--mesh", "mesh.ply", "--iterations", "0", "-o", "c.ply"]);
+    assert_eq!(fs::read(workshop.path("a.ply")).unwrap(), fs::read(workshop.path("c.ply")).unwrap());
+    workshop.succeed(&["plane", "--radius", "0.1", "-o", "plane.ply"]);
+    let said = workshop.refuse(&["relax", "plane.ply", "--mesh", "mesh.ply", "-o", "d.ply"], 1);
+    assert!(said.contains("plane.ply: does not say on which triangle"), "{said}");
+    workshop.succeed(&["mesh", "sphere", "--detail", "8", "-o", "coarse.ply"]);
+    let said = workshop.refuse(&["relax", "a.ply", "--mesh", "coarse.ply", "-o", "d.ply"], 1);
+    assert!(said.contains("triangles: ["), "{said}");
+    workshop.refuse(&["relax", "a.ply", "--mesh", "mesh.ply", "--neighbourhood", "nearest", "-o", "d.ply"], 2);
+}

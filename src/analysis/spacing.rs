@@ -3,7 +3,7 @@
 use super::distribution::check_bins;
 use crate::error::Result;
 use crate::grid2::Grid2;
-use crate::grid3::{Grid3, distance_squared};
+use crate::grid3;
 use crate::job::{Context, chunks};
 use crate::points::Domain;
 
@@ -93,42 +93,5 @@ pub fn nearest_histogram_2d(domain: &Domain, nearest: &[f64], reach: f64, bins: 
 /// [`Error::InvalidArgument`](crate::Error::InvalidArgument) for positions that are not finite (`positions`).
 pub fn smallest_distance_3d(context: &Context, positions: &[[f32; 3]]) -> Result<f64> {
     super::check_positions(positions)?;
-    let bound = neighbours_in_order(positions);
-    if bound == 0.0 || bound == f64::INFINITY {
-        return Ok(bound);
-    }
-    // Of n points there is a pair in order about as close as n points are on a surface, so cells hold few points.
-    let mut grid = Grid3::new([0.0; 3], bound);
-    positions.iter().for_each(|&position| {
-        grid.insert(position);
-    });
-    let chunks = chunks(positions.len());
-    let nearest = context.run(None, |job| {
-        job.map(chunks.len(), |chunk| {
-            let squared = |i: usize| {
-                grid.candidates(positions[i].map(f64::from), bound)
-                    .filter(|&other| other as usize != i)
-                    .map(|other| distance_squared(positions[i], positions[other as usize]))
-                    .fold(f64::INFINITY, f64::min)
-            };
-            chunks.range(chunk).map(squared).fold(f64::INFINITY, f64::min)
-        })
-    })?;
-    Ok(nearest.into_iter().fold(f64::INFINITY, f64::min).sqrt())
-}
-
-/// A first bound: the smallest distance of points that follow each other along the longest extent.
-fn neighbours_in_order(positions: &[[f32; 3]]) -> f64 {
-    let extent = |axis: usize| {
-        let (low, high) = positions
-            .iter()
-            .map(|position| f64::from(position[axis]))
-            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
-        high - low
-    };
-    let axis = (0..3).max_by(|&a, &b| extent(a).total_cmp(&extent(b))).unwrap_or(0);
-    let mut ordered = positions.to_vec();
-    ordered.sort_unstable_by(|a, b| a[axis].total_cmp(&b[axis]));
-    let squared = ordered.windows(2).map(|pair| distance_squared(pair[0], pair[1]));
-    squared.fold(f64::INFINITY, f64::min).sqrt()
+    context.run(None, |job| grid3::smallest_distance(job, positions))
 }

@@ -6,6 +6,7 @@ use crate::dcr::delaunay::Delaunay;
 use crate::dcr::frame::{Frame, Site};
 use crate::error::Result;
 use crate::job::Context;
+use crate::mesh::exact;
 use crate::points::{Boundary, Domain};
 
 /// A triangle of the Delaunay triangulation of a set.
@@ -16,6 +17,14 @@ pub struct Triangle {
 }
 
 impl Triangle {
+    /// A triangle of space, laid into the plane: the first corner at 0, the second on the x axis.
+    pub fn in_space(corners: [[f32; 3]; 3]) -> Self {
+        let [a, b, c] = corners.map(exact);
+        let (x, length) = ((b - a).normalize_or_zero(), (b - a).length());
+        let along = (c - a).dot(x);
+        Self { corners: [[0.0; 2], [length, 0.0], [along, (c - a - along * x).length()]] }
+    }
+
     /// The area, in the units of the domain.
     pub fn area(&self) -> f64 {
         let [a, b, c] = self.corners.map(DVec2::from_array);
@@ -107,31 +116,38 @@ pub struct TriangleStatistics {
 /// # Errors
 /// As [`delaunay_triangles`].
 pub fn triangle_statistics(context: &Context, domain: &Domain, points: &[[f32; 2]]) -> Result<TriangleStatistics> {
-    let triangles = delaunay_triangles(context, domain, points)?;
-    let [mut areas, mut edges] = [Moments::default(); 2];
-    let (mut obtuse, mut sharp, mut sharp_angles) = (0, 0, 0);
-    for triangle in &triangles {
-        areas.add(triangle.area());
-        // Inner edges come twice, once with each of their triangles.
-        triangle.edges().into_iter().for_each(|edge| edges.add(edge));
-        let angles = triangle.cosines().into_iter().filter(|&cosine| cosine > 0.75f64.sqrt()).count();
-        obtuse += usize::from(triangle.is_obtuse());
-        sharp += usize::from(angles > 0);
-        sharp_angles += angles;
+    Ok(TriangleStatistics::of(&delaunay_triangles(context, domain, points)?))
+}
+
+impl TriangleStatistics {
+    /// Measures any triangles, as those of the samples of a surface
+    /// ([`dcr::surface::triangulate`](crate::dcr::surface::triangulate)).
+    pub fn of(triangles: &[Triangle]) -> Self {
+        let [mut areas, mut edges] = [Moments::default(); 2];
+        let (mut obtuse, mut sharp, mut sharp_angles) = (0, 0, 0);
+        for triangle in triangles {
+            areas.add(triangle.area());
+            // Inner edges come twice, once with each of their triangles.
+            triangle.edges().into_iter().for_each(|edge| edges.add(edge));
+            let angles = triangle.cosines().into_iter().filter(|&cosine| cosine > 0.75f64.sqrt()).count();
+            obtuse += usize::from(triangle.is_obtuse());
+            sharp += usize::from(angles > 0);
+            sharp_angles += angles;
+        }
+        let limit = SIGMAS * areas.variation().sqrt() * areas.mean();
+        let outlying = triangles.iter().filter(|triangle| (triangle.area() - areas.mean()).abs() > limit).count();
+        let share = |part: usize| part as f64 / triangles.len().max(1) as f64;
+        Self {
+            triangles: triangles.len() as u64,
+            obtuse: share(obtuse),
+            below_30_degrees: share(sharp),
+            angles_below_30_degrees: share(sharp_angles) / 3.0,
+            edge_mean: edges.mean(),
+            edge_variation: edges.variation(),
+            area_variation: areas.variation(),
+            beyond_4_sigma: share(outlying),
+        }
     }
-    let limit = SIGMAS * areas.variation().sqrt() * areas.mean();
-    let outlying = triangles.iter().filter(|triangle| (triangle.area() - areas.mean()).abs() > limit).count();
-    let share = |part: usize| part as f64 / triangles.len().max(1) as f64;
-    Ok(TriangleStatistics {
-        triangles: triangles.len() as u64,
-        obtuse: share(obtuse),
-        below_30_degrees: share(sharp),
-        angles_below_30_degrees: share(sharp_angles) / 3.0,
-        edge_mean: edges.mean(),
-        edge_variation: edges.variation(),
-        area_variation: areas.variation(),
-        beyond_4_sigma: share(outlying),
-    })
 }
 
 /// From how many standard deviations on an area is outlying.

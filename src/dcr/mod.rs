@@ -28,6 +28,8 @@
 //!
 //! On bounded domains a row of points forms along the border, and 100 steps leave rho at about 0.8 and cover at 0.77.
 //!
+//! Samples of a mesh are relaxed on it by [`surface`].
+//!
 //! Convergence is judged by motion ([`Report::motion`]), unless [`Convergence::Variance`] asks for the thesis's own test.
 
 pub(crate) mod delaunay;
@@ -39,6 +41,7 @@ mod links;
 mod motion;
 mod settings;
 mod spread;
+pub mod surface;
 mod thesis;
 mod variance;
 

@@ -18,19 +18,31 @@ const SPAN: f64 = 2.0;
 const ROUNDING: f64 = 1e-9;
 
 /// The motion of the points, measured over span after span.
-pub(super) struct Motion {
+pub(super) struct Motion<P = DVec2> {
     /// The size of the next step.
     step: f64,
     /// Where the points were when the span began.
-    start: Vec<DVec2>,
+    start: Vec<P>,
     /// The sum of the steps since.
     way: f64,
     last: Option<f64>,
 }
 
-impl Motion {
+/// Where points are: what knows how far they are apart.
+pub(super) trait Space<P> {
+    /// The squared distance.
+    fn distance_squared(&self, from: P, to: P) -> f64;
+}
+
+impl Space<DVec2> for Frame {
+    fn distance_squared(&self, from: DVec2, to: DVec2) -> f64 {
+        self.offset(from, to).length_squared()
+    }
+}
+
+impl<P: Copy> Motion<P> {
     /// Begins the first span.
-    pub(super) fn new(step: f64, positions: Vec<DVec2>) -> Self {
+    pub(super) fn new(step: f64, positions: Vec<P>) -> Self {
         Self { step, start: positions, way: 0.0, last: None }
     }
 
@@ -40,10 +52,10 @@ impl Motion {
     }
 
     /// Counts a step.
-    pub(super) fn after_step<P: Iterator<Item = DVec2>>(&mut self, frame: &Frame, positions: impl Fn() -> P) {
+    pub(super) fn after_step<I: Iterator<Item = P>>(&mut self, space: &impl Space<P>, positions: impl Fn() -> I) {
         self.way += self.step;
         if self.way >= SPAN - ROUNDING {
-            self.last = Some(self.since_start(frame, positions()));
+            self.last = Some(self.since_start(space, positions()));
             self.start = positions().collect();
             self.way = 0.0;
         }
@@ -55,16 +67,15 @@ impl Motion {
     }
 
     /// The motion over the last whole span, or over all steps if there were fewer.
-    pub(super) fn last(&self, frame: &Frame, positions: impl Iterator<Item = DVec2>) -> f64 {
-        self.last.unwrap_or_else(|| self.since_start(frame, positions))
+    pub(super) fn last(&self, space: &impl Space<P>, positions: impl Iterator<Item = P>) -> f64 {
+        self.last.unwrap_or_else(|| self.since_start(space, positions))
     }
 
-    fn since_start(&self, frame: &Frame, positions: impl Iterator<Item = DVec2>) -> f64 {
+    fn since_start(&self, space: &impl Space<P>, positions: impl Iterator<Item = P>) -> f64 {
         if self.way == 0.0 {
             return 0.0;
         }
-        let squares: f64 =
-            self.start.iter().zip(positions).map(|(&from, to)| frame.offset(from, to).length_squared()).sum();
+        let squares: f64 = self.start.iter().zip(positions).map(|(&from, to)| space.distance_squared(from, to)).sum();
         (squares / self.start.len() as f64).sqrt() / self.way
     }
 }

@@ -138,13 +138,6 @@ impl SampleSet {
 
 /// Samples with their normals.
 pub(super) fn surface_samples(mesh: &Mesh, samples: &[Sample]) -> SurfaceSamples {
-    // None if the mesh carries no normals.
-    let interpolated = |sample: &Sample| mesh.interpolated_normal(sample.triangle, sample.barycentrics);
-    SurfaceSamples {
-        positions: samples.iter().map(|sample| sample.position).collect(),
-        normals: samples.iter().map(|sample| mesh.normal(sample.triangle)).collect(),
-        triangles: samples.iter().map(|sample| sample.triangle).collect(),
-        barycentrics: samples.iter().map(|sample| sample.barycentrics).collect(),
-        interpolated_normals: samples.iter().filter_map(interpolated).collect(),
-    }
+    let triangles = samples.iter().map(|sample| sample.triangle).collect();
+    mesh.samples(triangles, samples.iter().map(|sample| sample.barycentrics).collect())
 }

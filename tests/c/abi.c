@@ -198,6 +198,22 @@ FIELD(azulejo_density, height, 24);
 FIELD(azulejo_density, function, 32);
 FIELD(azulejo_density, user, 40);
 
+SIZE(azulejo_dcr_surface_options, 40);
+FIELD(azulejo_dcr_surface_options, struct_size, 0);
+FIELD(azulejo_dcr_surface_options, max_iterations, 4);
+FIELD(azulejo_dcr_surface_options, tolerance, 8);
+FIELD(azulejo_dcr_surface_options, seed, 16);
+FIELD(azulejo_dcr_surface_options, progress, 24);
+FIELD(azulejo_dcr_surface_options, progress_user, 32);
+
+SIZE(azulejo_dcr_surface_report, 56);
+FIELD(azulejo_dcr_surface_report, iterations, 0);
+FIELD(azulejo_dcr_surface_report, stopped, 4);
+FIELD(azulejo_dcr_surface_report, motion, 8);
+FIELD(azulejo_dcr_surface_report, smallest_distance, 16);
+FIELD(azulejo_dcr_surface_report, rho, 24);
+FIELD(azulejo_dcr_surface_report, reserved, 32);
+
 CONSTANT(AZULEJO_OK, 0);
 CONSTANT(AZULEJO_ERROR_INVALID_ARGUMENT, -1);
 CONSTANT(AZULEJO_ERROR_TOO_LARGE, -2);

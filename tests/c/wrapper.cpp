@@ -377,6 +377,27 @@ void relaxing() {
     CHECK(thrown == 7);
 }
 
+void relaxing_on_a_mesh() {
+    const float corners[] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
+    const std::uint32_t triangles[] = {0, 1, 2, 0, 2, 3};
+    const azulejo::Context context(1);
+    const azulejo::Mesh mesh(corners, 4, 3 * sizeof(float), triangles, 2);
+    azulejo::PspOptions options;
+    options.radius = 0.05;
+    const auto darts = azulejo::psp_sample(context, mesh, options);
+    azulejo::DcrSurfaceReport report;
+    const auto points = azulejo::dcr_relax_surface(context, mesh, azulejo::DcrSurfaceOptions(), darts.triangles(),
+                                                   darts.barycentrics(), &report);
+    CHECK(points.size() == darts.size() && report.smallest_distance > 0.05);
+    int status = AZULEJO_OK;
+    try {
+        azulejo::dcr_relax_surface(context, mesh, azulejo::DcrSurfaceOptions(), {}, darts.barycentrics());
+    } catch (const azulejo::Error &error) {
+        status = error.status();
+    }
+    CHECK(status == AZULEJO_ERROR_INVALID_ARGUMENT);
+}
+
 } // namespace
 
 int main() {
@@ -392,5 +413,6 @@ int main() {
     merging();
     adaptive();
     relaxing();
+    relaxing_on_a_mesh();
     return finish();
 }

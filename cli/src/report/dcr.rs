@@ -9,6 +9,7 @@ mod radii;
 mod remeshing;
 pub mod sets;
 mod study;
+mod surfaces;
 
 use std::fs;
 use std::io::Write;
@@ -29,6 +30,12 @@ pub struct Dcr {
     /// The directory of the page `dcr.md` and its pictures.
     #[arg(long, value_name = "DIRECTORY", default_value = "docs")]
     out: PathBuf,
+    /// The Stanford bunny, OBJ or PLY; left out if it is not given.
+    #[arg(long, value_name = "MESH")]
+    bunny: Option<PathBuf>,
+    /// The Stanford dragon, OBJ or PLY; left out if it is not given.
+    #[arg(long, value_name = "MESH")]
+    dragon: Option<PathBuf>,
     /// Measure few and small sets: to see the page, not to believe it.
     #[arg(long)]
     quick: bool,
@@ -71,7 +78,13 @@ impl Dcr {
             points::draw(context, &Domain::unit(Boundary::Periodic), &one.first, PIXELS, &output)?;
         }
         let mut text = page::text(context, &effort, &measured, self.quick);
-        let study = Study { context, pictures: &pictures, quick: self.quick };
+        let study = Study {
+            context,
+            pictures: &pictures,
+            quick: self.quick,
+            bunny: self.bunny.as_deref(),
+            dragon: self.dragon.as_deref(),
+        };
         for section in SECTIONS {
             text += &format!("\n{}", section(&study)?);
         }

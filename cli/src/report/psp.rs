@@ -6,7 +6,7 @@ mod page;
 mod pictures;
 mod rates;
 mod rays;
-mod scenes;
+pub mod scenes;
 mod ways;
 
 use std::fs;

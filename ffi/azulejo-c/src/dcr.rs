@@ -222,11 +222,6 @@ pub struct azulejo_dcr_report {
 impl From<Report> for azulejo_dcr_report {
     fn from(report: Report) -> Self {
         let Report { iterations, stopped, motion, smallest_distance, rho, coverage } = report;
-        let reason = match stopped {
-            Stopped::Converged => AZULEJO_STOPPED_CONVERGED,
-            Stopped::Steps => AZULEJO_STOPPED_STEPS,
-            Stopped::Cancelled => AZULEJO_STOPPED_CANCELLED,
-        };
         Self {
             iterations,
             converged: (stopped == Stopped::Converged).into(),
@@ -234,9 +229,18 @@ impl From<Report> for azulejo_dcr_report {
             smallest_distance,
             rho,
             coverage,
-            stopped: reason,
+            stopped: reason(stopped),
             reserved: [0; 5],
         }
+    }
+}
+
+/// The constant for why no more steps were made.
+pub(crate) fn reason(stopped: Stopped) -> i32 {
+    match stopped {
+        Stopped::Converged => AZULEJO_STOPPED_CONVERGED,
+        Stopped::Steps => AZULEJO_STOPPED_STEPS,
+        Stopped::Cancelled => AZULEJO_STOPPED_CANCELLED,
     }
 }
 

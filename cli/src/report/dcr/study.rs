@@ -5,7 +5,7 @@ use std::path::Path;
 use azulejo::dcr::{Method, Neighbourhood, Options, Thesis};
 use azulejo::{Context, Domain, Result};
 
-use super::{convergence, density, distributions, radii, remeshing};
+use super::{convergence, density, distributions, radii, remeshing, surfaces};
 use crate::draw::rows::in_parallel;
 use crate::output::Output;
 use crate::progress::watched;
@@ -14,8 +14,14 @@ use crate::progress::watched;
 pub type Section = fn(&Study) -> Result<String>;
 
 /// All sections, in the order of the page. Each is a file of its own.
-pub const SECTIONS: [Section; 5] =
-    [convergence::section, radii::section, distributions::section, remeshing::section, density::section];
+pub const SECTIONS: [Section; 6] = [
+    convergence::section,
+    radii::section,
+    distributions::section,
+    remeshing::section,
+    density::section,
+    surfaces::section,
+];
 
 /// What a section has to work with.
 pub struct Study<'a> {
@@ -24,6 +30,9 @@ pub struct Study<'a> {
     pub pictures: &'a Path,
     /// Whether few and small sets are enough.
     pub quick: bool,
+    /// The files of meshes, where they were given.
+    pub bunny: Option<&'a Path>,
+    pub dragon: Option<&'a Path>,
 }
 
 impl Study<'_> {

@@ -1,0 +1,305 @@
+//! Who is near whom: the samples within a ball that are reached on the surface without leaving it.
+//!
+//! A flood goes from a sample's triangle through all edges that the ball meets. So what is near through space but not on
+//! the surface, as on the other side of a thin wall, is not found, and what is behind a sharp fold is.
+//!
+//! Where the flood meets a border it mirrors what it has found by it, as the thesis does on bounded domains (Fig. 4.12 (b)).
+
+use std::collections::HashMap;
+use std::hash::{BuildHasherDefault, Hasher};
+
+use glam::DVec3;
+
+use super::sheet::Sheet;
+use super::star::MOST;
+use super::walk::Place;
+use crate::error::Result;
+use crate::grid3::Grid3;
+use crate::job::{Chunks, Job};
+use crate::mesh::exact;
+
+/// Two places on the borders at which a sample is mirrored are farther apart than this share of the ball's radius.
+const APART: f64 = 0.2;
+
+/// A sample, or its mirror image by a half-edge at the border.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct Neighbour {
+    pub(super) sample: u32,
+    pub(super) mirror: Option<u32>,
+}
+
+/// What is near one sample.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Neighbourhood {
+    /// The nearest first, no more than [`MOST`].
+    pub(super) neighbours: Box<[Neighbour]>,
+    /// The mean normal, on the side of the sample's triangle's front; zero where there is none.
+    pub(super) normal: DVec3,
+}
+
+impl Neighbourhood {
+    /// Whether a sample, or this image of it, is among the neighbours.
+    pub(super) fn knows(&self, neighbour: Neighbour) -> bool {
+        self.neighbours.contains(&neighbour)
+    }
+}
+
+/// All samples, found by their position.
+pub(super) struct Crowd<'a> {
+    sheet: &'a Sheet<'a>,
+    places: &'a [Place],
+    positions: &'a [DVec3],
+    radius: f64,
+    grid: Grid3,
+}
+
+impl<'a> Crowd<'a> {
+    /// Neighbours will be those within `radius`.
+    pub(super) fn new(sheet: &'a Sheet<'a>, places: &'a [Place], positions: &'a [DVec3], radius: f64) -> Self {
+        let mut grid = Grid3::new(sheet.mesh.bounds().0.map(f64::from), radius);
+        positions.iter().for_each(|position| {
+            grid.insert(position.as_vec3().to_array());
+        });
+        Self { sheet, places, positions, radius, grid }
+    }
+
+    /// The neighbourhoods of those samples that are asked for, with their numbers.
+    pub(super) fn neighbourhoods(
+        &self,
+        job: &Job,
+        chunks: Chunks,
+        is_asked: impl Fn(usize) -> bool + Sync,
+    ) -> Result<Vec<(usize, Neighbourhood)>> {
+        job.flat_map(chunks.len(), |chunk| {
+            let mut flood = Flood::default();
+            let asked = chunks.range(chunk).filter(|&sample| is_asked(sample));
+            asked.map(|sample| (sample, self.neighbourhood(sample, &mut flood))).collect()
+        })
+    }
+
+    fn neighbourhood(&self, centre: usize, flood: &mut Flood) -> Neighbourhood {
+        let (position, limit) = (self.positions[centre], self.radius * self.radius);
+        flood.spread(self.sheet, self.places[centre].triangle, position, limit);
+        let mut found = Vec::new();
+        for sample in self.grid.candidates(position.to_array(), self.radius) {
+            let squared = self.positions[sample as usize].distance_squared(position);
+            if squared <= limit && flood.sides.contains_key(&self.places[sample as usize].triangle) {
+                found.push((squared, Neighbour { sample, mirror: None }));
+            }
+        }
+        let order = |a: &(f64, Neighbour), b: &(f64, Neighbour)| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1));
+        found.sort_unstable_by(order);
+        // The grid may name one twice.
+        found.dedup();
+        let weighted = found.iter().map(|&(squared, Neighbour { sample, .. })| {
+            let triangle = self.places[sample as usize].triangle;
+            (1.0 - squared / limit) * flood.sides[&triangle] * exact(self.sheet.mesh.normal(triangle))
+        });
+        let normal = weighted.sum::<DVec3>().normalize_or_zero();
+        if !flood.borders.is_empty() {
+            for nth in 0..found.len() {
+                self.mirror(&flood.borders, found[nth].1.sample, position, &mut found);
+            }
+            found.sort_unstable_by(order);
+        }
+        let others = found.iter().map(|&(_, neighbour)| neighbour);
+        let others = others.filter(|neighbour| neighbour.sample as usize != centre || neighbour.mirror.is_some());
+        Neighbourhood { neighbours: others.take(MOST).collect(), normal }
+    }
+
+    /// Adds the mirror images of a sample: by the place on the borders that is nearest to it, and by all others that are
+    /// beside it. Along a border with many corners one image stands for several.
+    fn mirror(&self, borders: &[u32], sample: u32, centre: DVec3, found: &mut Vec<(f64, Neighbour)>) {
+        let position = self.positions[sample as usize];
+        let mirrors = borders.iter().map(|&border| {
+            let [a, b] = self.sheet.ends(border);
+            let mirror = nearest_on(a, b, position);
+            (mirror.distance_squared(position), border, mirror, mirror != a && mirror != b)
+        });
+        let mut mirrors: Vec<_> = mirrors.collect();
+        mirrors.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        let mut taken: Vec<DVec3> = Vec::new();
+        for (_, border, mirror, is_beside) in mirrors {
+            let is_apart = taken.iter().all(|other| other.distance(mirror) > APART * self.radius);
+            if taken.is_empty() || (is_beside && is_apart) {
+                taken.push(mirror);
+                let squared = (2.0 * mirror - position).distance_squared(centre);
+                if squared <= self.radius * self.radius {
+                    found.push((squared, Neighbour { sample, mirror: Some(border) }));
+                }
+            }
+        }
+    }
+}
+
+/// What the flood from one sample has reached.
+#[derive(Default)]
+struct Flood {
+    /// For each triangle whether its front is on the same side as that of the first, 1, or on the other, -1.
+    sides: HashMap<u32, f64, BuildHasherDefault<Mixer>>,
+    /// The half-edges through which the flood has come into triangles.
+    entries: Vec<u32>,
+    borders: Vec<u32>,
+}
+
+impl Flood {
+    fn spread(&mut self, sheet: &Sheet, start: u32, place: DVec3, radius_squared: f64) {
+        self.sides.clear();
+        self.entries.clear();
+        self.borders.clear();
+        self.sides.insert(start, 1.0);
+        (3 * start..3 * start + 3).for_each(|edge| self.leave(sheet, edge, place, radius_squared));
+        let mut next = 0;
+        while let Some(&entry) = self.entries.get(next) {
+            next += 1;
+            let first = entry - entry % 3;
+            let others = (first..first + 3).filter(|&edge| edge != entry);
+            others.for_each(|edge| self.leave(sheet, edge, place, radius_squared));
+        }
+    }
+
+    /// Goes through a half-edge if the ball meets it.
+    fn leave(&mut self, sheet: &Sheet, edge: u32, place: DVec3, radius_squared: f64) {
+        let [a, b] = sheet.ends(edge);
+        if nearest_on(a, b, place).distance_squared(place) > radius_squared {
+            return;
+        }
+        let mut is_border = true;
+        for other in sheet.across(edge) {
+            is_border = false;
+            if !self.sides.contains_key(&(other / 3)) {
+                let side = self.sides[&(edge / 3)];
+                self.sides.insert(other / 3, if sheet.run_alike(edge, other) { -side } else { side });
+                self.entries.push(other);
+            }
+        }
+        if is_border {
+            self.borders.push(edge);
+        }
+    }
+}
+
+/// The point of a segment that is nearest to a place.
+fn nearest_on(a: DVec3, b: DVec3, place: DVec3) -> DVec3 {
+    let (along, way) = (b - a, place - a);
+    match way.dot(along) / along.length_squared() {
+        share if share <= 0.0 => a,
+        share if share >= 1.0 => b,
+        share => a + share * along,
+    }
+}
+
+/// The image of a place by an edge.
+pub(super) fn mirrored(place: DVec3, [a, b]: [DVec3; 2]) -> DVec3 {
+    2.0 * nearest_on(a, b, place) - place
+}
+
+/// Hashes the numbers of triangles: one multiplication (Knuth, TAOCP 3, §6.4).
+#[derive(Default)]
+struct Mixer(u64);
+
+impl Hasher for Mixer {
+    fn finish(&self) -> u64 {
+        self.0
+    }
+    fn write(&mut self, bytes: &[u8]) {
+        bytes.iter().for_each(|&byte| self.write_u32(byte.into()));
+    }
+    fn write_u32(&mut self, number: u32) {
+        self.0 = (self.0 ^ u64::from(number)).wrapping_mul(0x9e37_79b9_7f4a_7c15).rotate_left(32);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::job::{Context, chunks};
+    use crate::mesh::Mesh;
+    use crate::rng::{Draw, Rng};
+    use glam::DVec2;
+
+    const RADIUS: f64 = 0.15;
+
+    /// Unit squares at these heights, each of two triangles.
+    fn squares(heights: &[f32]) -> Mesh {
+        let positions = heights.iter().flat_map(|&z| [[0.0, 0.0, z], [1.0, 0.0, z], [1.0, 1.0, z], [0.0, 1.0, z]]);
+        let triangles =
+            (0..heights.len() as u32).flat_map(|i| [[4 * i, 4 * i + 1, 4 * i + 2], [4 * i, 4 * i + 2, 4 * i + 3]]);
+        Mesh::new(positions.collect(), triangles.collect()).unwrap()
+    }
+
+    fn places(mesh: &Mesh, count: u64) -> Vec<Place> {
+        let mut rng = Rng::at(4, Draw::Probe, &[]);
+        let mut place = || {
+            let [u, v] = [rng.unit(), rng.unit()];
+            let uv = if u + v <= 1.0 { DVec2::new(u, v) } else { DVec2::new(1.0 - u, 1.0 - v) };
+            Place { triangle: rng.below(mesh.triangles().len() as u64) as u32, uv }
+        };
+        (0..count).map(|_| place()).collect()
+    }
+
+    /// The neighbours of all samples: sample, and where it or its image is.
+    fn found(mesh: &Mesh, places: &[Place]) -> Vec<Vec<(u32, DVec3)>> {
+        let sheet = Sheet::new(mesh).unwrap();
+        let positions: Vec<DVec3> =
+            places.iter().map(|place| mesh.point_exact(place.triangle, place.uv.into())).collect();
+        let crowd = Crowd::new(&sheet, places, &positions, RADIUS);
+        let context = Context::new(1).unwrap();
+        let found = context.run(None, |job| crowd.neighbourhoods(job, chunks(places.len()), |_| true)).unwrap();
+        let seen = |neighbour: &Neighbour| {
+            let position = positions[neighbour.sample as usize];
+            (neighbour.sample, neighbour.mirror.map_or(position, |border| mirrored(position, sheet.ends(border))))
+        };
+        found.iter().map(|(_, around)| around.neighbours.iter().map(seen).collect()).collect()
+    }
+
+    fn sorted(mut neighbours: Vec<(u32, DVec3)>) -> Vec<(u32, [i64; 3])> {
+        // Up to rounding.
+        let key = |x: DVec3| x.to_array().map(|x| (x * 1e9).round() as i64);
+        neighbours.sort_by_key(|&(sample, position)| (sample, key(position)));
+        neighbours.into_iter().map(|(sample, position)| (sample, key(position))).collect()
+    }
+
+    #[test]
+    fn on_a_square_they_are_all_that_are_near_and_the_images_by_its_sides() {
+        let mesh = squares(&[0.0]);
+        let places = places(&mesh, 400);
+        let positions: Vec<DVec3> =
+            places.iter().map(|place| mesh.point_exact(place.triangle, place.uv.into())).collect();
+        let mut mirrored = 0;
+        for (centre, neighbours) in found(&mesh, &places).into_iter().enumerate() {
+            let mut expected = Vec::new();
+            for (sample, &position) in positions.iter().enumerate() {
+                let DVec3 { x, y, .. } = position;
+                let mut images = vec![position];
+                let mut sides = [(x, DVec3::new(-x, y, 0.0)), (y, DVec3::new(x, -y, 0.0))].to_vec();
+                sides.extend([(1.0 - x, DVec3::new(2.0 - x, y, 0.0)), (1.0 - y, DVec3::new(x, 2.0 - y, 0.0))]);
+                // Places nearer to each other than `APART` are at the corners only.
+                sides.sort_by(|a, b| a.0.total_cmp(&b.0));
+                let apart = (0.5 * (sides[0].1 - position)).distance(0.5 * (sides[1].1 - position)) > APART * RADIUS;
+                images.push(sides[0].1);
+                images.extend(apart.then_some(sides[1].1));
+                let near = images.into_iter().filter(|image| image.distance(positions[centre]) <= RADIUS);
+                expected.extend(
+                    near.filter(|&image| sample != centre || image != position).map(|image| (sample as u32, image)),
+                );
+            }
+            expected.sort_by(|a, b| a.1.distance(positions[centre]).total_cmp(&b.1.distance(positions[centre])));
+            expected.truncate(MOST);
+            mirrored += expected.iter().filter(|(_, position)| position.min_element() < 0.0).count();
+            assert_eq!(sorted(neighbours), sorted(expected), "around {}", positions[centre]);
+        }
+        assert!(mirrored > 100);
+    }
+
+    #[test]
+    fn the_other_side_of_a_thin_wall_is_not_near() {
+        let mesh = squares(&[0.0, 0.001]);
+        let places = places(&mesh, 500);
+        for (centre, neighbours) in found(&mesh, &places).into_iter().enumerate() {
+            assert!(neighbours.len() > 5);
+            let side = |sample: usize| places[sample].triangle / 2;
+            assert!(neighbours.iter().all(|&(sample, _)| side(sample as usize) == side(centre)));
+        }
+    }
+}

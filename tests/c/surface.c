@@ -1,0 +1,138 @@
+/* Relaxation on a mesh: samples end farther apart, each on its triangle, a cancelled call returns what it has, and each bad
+   input is refused with a message that names it, leaving the outputs alone. */
+
+#include <math.h>
+
+#include "samples.h"
+
+#define INVALID AZULEJO_ERROR_INVALID_ARGUMENT
+
+static azulejo_context *one, *four;
+static azulejo_mesh *cube;
+static azulejo_points *darts;
+
+static azulejo_dcr_surface_options surface_options(void) {
+    azulejo_dcr_surface_options options;
+    ACCEPTED(azulejo_dcr_surface_options_init(&options, sizeof options));
+    return options;
+}
+
+static azulejo_status relax(const azulejo_context *context, const azulejo_dcr_surface_options *options,
+                            azulejo_points **out, azulejo_dcr_surface_report *report) {
+    return azulejo_dcr_relax_surface(context, cube, options, azulejo_points_triangles(darts),
+                                     azulejo_points_barycentrics(darts), azulejo_points_count(darts), out, report);
+}
+
+/* Whether each sample is where its triangle and barycentrics say. */
+static int on_triangles(const azulejo_points *points) {
+    const float *xyz = azulejo_points_positions(points), *uv = azulejo_points_barycentrics(points);
+    const uint32_t *triangles = azulejo_points_triangles(points);
+    size_t i, count = azulejo_points_count(points);
+    int axis;
+    for (i = 0; i < count; i++) {
+        const uint32_t *corners = cube_indices[triangles[i]];
+        const double u = uv[2 * i], v = uv[2 * i + 1];
+        if (!(u >= 0 && v >= 0 && u + v <= 1)) return 0;
+        for (axis = 0; axis < 3; axis++) {
+            const double a = cube_positions[corners[0]][axis], b = cube_positions[corners[1]][axis];
+            const double c = cube_positions[corners[2]][axis];
+            if (xyz[3 * i + axis] != (float)((1 - u - v) * a + u * b + v * c)) return 0;
+        }
+    }
+    return count > 0;
+}
+
+static void relaxed(void) {
+    azulejo_dcr_surface_options options = surface_options();
+    azulejo_dcr_surface_report report;
+    azulejo_points *points = NULL, *same = NULL;
+    const size_t count = azulejo_points_count(darts);
+    double distance = 0;
+    if (!ACCEPTED(relax(four, &options, &points, &report)) || !ACCEPTED(relax(one, &options, &same, NULL))) return;
+    CHECK(azulejo_points_count(points) == count && on_triangles(points));
+    ACCEPTED(azulejo_space_smallest_distance(four, azulejo_points_positions(points), count, &distance));
+    CHECK(distance == report.smallest_distance && report.rho > 0.8 && report.iterations <= 100);
+    CHECK(fabs(report.rho - distance / sqrt(12 / (sqrt(3) * (double)count))) < 1e-6);
+    CHECK(report.stopped == AZULEJO_STOPPED_STEPS || report.stopped == AZULEJO_STOPPED_CONVERGED);
+    CHECK(memcmp(azulejo_points_positions(points), azulejo_points_positions(same), count * 3 * sizeof(float)) == 0);
+    azulejo_points_free(points);
+    azulejo_points_free(same);
+    points = NULL;
+    options.max_iterations = 0;
+    ACCEPTED(relax(four, &options, &points, NULL));
+    CHECK(memcmp(azulejo_points_positions(points), azulejo_points_positions(darts), count * 3 * sizeof(float)) == 0);
+    azulejo_points_free(points);
+    points = NULL;
+    ACCEPTED(azulejo_dcr_relax_surface(one, cube, &options, NULL, NULL, 0, &points, &report));
+    CHECK(azulejo_points_count(points) == 0 && report.smallest_distance == INFINITY);
+    azulejo_points_free(points);
+}
+
+static int32_t stop_at(void *user, double done) { return done >= *(const double *)user; }
+
+static void cancelled(const azulejo_context *context) {
+    double limits[] = {0, 0.5, 1};
+    size_t i;
+    for (i = 0; i < COUNT_OF(limits); i++) {
+        azulejo_dcr_surface_options options = surface_options();
+        azulejo_dcr_surface_report report;
+        azulejo_points *points = NULL;
+        options.progress = stop_at;
+        options.progress_user = &limits[i];
+        if (!ACCEPTED(relax(context, &options, &points, &report))) continue;
+        CHECK(report.stopped == AZULEJO_STOPPED_CANCELLED && on_triangles(points));
+        CHECK(i == 0 ? report.iterations == 0 : report.iterations > 10);
+        azulejo_points_free(points);
+    }
+}
+
+static void refused(void) {
+    azulejo_dcr_surface_options good = surface_options();
+    azulejo_dcr_surface_report report, before;
+    azulejo_points *out = UNTOUCHED;
+    uint32_t triangles[] = {3, 4};
+    float uv[] = {0.25f, 0.5f, 0.5f, 0.25f};
+    memset(&report, 0x55, sizeof report);
+    before = report;
+#define CALL(context, mesh, options, triangles, uv, count, out) \
+    azulejo_dcr_relax_surface(context, mesh, options, triangles, uv, count, out, &report)
+    REFUSED(INVALID, "context", CALL(NULL, cube, &good, triangles, uv, 2, &out));
+    REFUSED(INVALID, "mesh", CALL(one, NULL, &good, triangles, uv, 2, &out));
+    REFUSED(INVALID, "options", CALL(one, cube, NULL, triangles, uv, 2, &out));
+    REFUSED(INVALID, "triangles", CALL(one, cube, &good, NULL, uv, 2, &out));
+    REFUSED(INVALID, "barycentrics", CALL(one, cube, &good, triangles, NULL, 2, &out));
+    REFUSED(INVALID, "out", CALL(one, cube, &good, triangles, uv, 2, NULL));
+    REFUSED(AZULEJO_ERROR_TOO_LARGE, "count", CALL(one, cube, &good, triangles, uv, SIZE_MAX / 2, &out));
+    good.tolerance = NAN;
+    REFUSED(INVALID, "tolerance", CALL(one, cube, &good, triangles, uv, 2, &out));
+    good.tolerance = 0;
+    good.struct_size = 3;
+    REFUSED(INVALID, "struct_size", CALL(one, cube, &good, triangles, uv, 2, &out));
+    good.struct_size = sizeof good;
+    triangles[1] = 12;
+    REFUSED(INVALID, "triangles: [1] is 12", CALL(one, cube, &good, triangles, uv, 2, &out));
+    triangles[1] = 4;
+    uv[3] = 0.51f;
+    REFUSED(INVALID, "barycentrics: [1] is (0.5, 0.51)", CALL(one, cube, &good, triangles, uv, 2, &out));
+    uv[3] = NAN;
+    REFUSED(INVALID, "barycentrics: [1] is ", CALL(one, cube, &good, triangles, uv, 2, &out));
+#undef CALL
+    CHECK(out == UNTOUCHED && memcmp(&report, &before, sizeof report) == 0);
+}
+
+int main(void) {
+    azulejo_psp_options options = psp_options(0.05);
+    one = make_context(1);
+    four = make_context(4);
+    cube = make_cube();
+    if (!ACCEPTED(azulejo_psp_sample(four, cube, &options, &darts, NULL))) return finish();
+    relaxed();
+    cancelled(one);
+    cancelled(four);
+    refused();
+    azulejo_points_free(darts);
+    azulejo_mesh_free(cube);
+    azulejo_context_free(one);
+    azulejo_context_free(four);
+    return finish();
+}

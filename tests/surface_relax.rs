@@ -1,0 +1,227 @@
+//! Relaxation on surfaces: what it promises, on smooth, open, thin and broken meshes.
+
+#[path = "common/meshes.rs"]
+#[allow(dead_code)]
+mod meshes;
+#[path = "common/surface_oracle.rs"]
+#[allow(dead_code)]
+mod oracle;
+
+use std::cell::Cell;
+use std::ops::ControlFlow;
+use std::sync::Arc;
+
+use azulejo::dcr::Stopped;
+use azulejo::dcr::surface::{Options, Report, relax, triangulate};
+use azulejo::mesh::Mesh;
+use azulejo::{Context, Error, SurfaceSamples, psp};
+use meshes::Soup;
+
+fn mesh((positions, triangles): Soup) -> Arc<Mesh> {
+    Arc::new(Mesh::new(positions, triangles).unwrap())
+}
+
+/// A maximal set of about so many samples.
+fn darts(mesh: &Arc<Mesh>, count: f64) -> SurfaceSamples {
+    let radius = (0.7 * mesh.area() / count).sqrt();
+    psp::sample(&Context::new(1).unwrap(), mesh, &psp::Options::new(radius), None).unwrap().0
+}
+
+fn run(mesh: &Mesh, samples: &SurfaceSamples) -> (SurfaceSamples, Report) {
+    let context = Context::new(2).unwrap();
+    let (relaxed, report) =
+        relax(&context, mesh, &samples.triangles, &samples.barycentrics, &Options::default(), None).unwrap();
+    assert_eq!(relaxed.len(), samples.len());
+    assert_eq!(oracle::misplaced(mesh, &relaxed), None);
+    let smallest = smallest_distance(&relaxed);
+    assert!((report.smallest_distance - smallest).abs() < 1e-12 * smallest);
+    assert!((report.rho - smallest / d_max(mesh, samples.len())).abs() < 1e-9);
+    (relaxed, report)
+}
+
+fn d_max(mesh: &Mesh, count: usize) -> f64 {
+    (2.0 * mesh.area() / (3f64.sqrt() * count as f64)).sqrt()
+}
+
+fn distance(a: [f32; 3], b: [f32; 3]) -> f64 {
+    (0..3).map(|axis| (f64::from(a[axis]) - f64::from(b[axis])).powi(2)).sum::<f64>().sqrt()
+}
+
+fn smallest_distance(samples: &SurfaceSamples) -> f64 {
+    let of = |i: usize| samples.positions[..i].iter().map(move |&other| distance(samples.positions[i], other));
+    (0..samples.len()).flat_map(of).fold(f64::INFINITY, f64::min)
+}
+
+#[test]
+fn closed_and_open_surfaces_end_at_the_distances_of_the_plane() {
+    // Sharp edges, and borders, cost a little.
+    for (name, soup, goal) in [
+        ("sphere", meshes::sphere(), 0.85),
+        ("torus", meshes::torus(), 0.85),
+        ("square", meshes::plane(), 0.83),
+        ("cube", cube(), 0.80),
+    ] {
+        let mesh = mesh(soup);
+        let samples = darts(&mesh, 3000.0);
+        let before = smallest_distance(&samples) / d_max(&mesh, samples.len());
+        let (_, report) = run(&mesh, &samples);
+        assert!(before < 0.79 && report.rho > goal, "{name}: {before} to {report:?}");
+    }
+}
+
+/// The unit cube.
+fn cube() -> Soup {
+    let positions = (0..8).map(|i| [i & 1, (i >> 1) & 1, i >> 2].map(|x| x as f32)).collect();
+    let quads = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+    (positions, quads.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]).collect())
+}
+
+/// Along the border stands a row of samples, no denser than elsewhere.
+#[test]
+fn samples_neither_leave_an_open_square_nor_crowd_at_its_border() {
+    let mesh = mesh(meshes::plane());
+    let samples = darts(&mesh, 4000.0);
+    let (relaxed, _) = run(&mesh, &samples);
+    assert!(
+        relaxed.positions.iter().all(|&[x, y, z]| (0.0..=1.0).contains(&x) && (0.0..=1.0).contains(&y) && z == 0.0)
+    );
+    let margin = |samples: &SurfaceSamples| {
+        let at_border = |&&[x, y, _]: &&[f32; 3]| x.min(y).min(1.0 - x).min(1.0 - y) < 0.1;
+        samples.positions.iter().filter(at_border).count() as f64 / samples.len() as f64
+    };
+    assert!((margin(&relaxed) / 0.36 - 1.0).abs() < 0.04, "{}", margin(&relaxed));
+    let nearest = relaxed.positions.iter().map(|&[x, y, _]| x.min(y).min(1.0 - x).min(1.0 - y)).fold(1.0, f32::min);
+    assert!(f64::from(nearest) > 0.2 * d_max(&mesh, samples.len()), "{nearest}");
+}
+
+#[test]
+fn the_two_sides_of_a_thin_wall_do_not_know_of_each_other() {
+    let single = mesh(meshes::plane());
+    let samples = darts(&single, 700.0);
+    let double = mesh(meshes::sheets(1e-3));
+    let twice = SurfaceSamples {
+        triangles: samples
+            .triangles
+            .iter()
+            .copied()
+            .chain(samples.triangles.iter().map(|triangle| triangle + 2))
+            .collect(),
+        barycentrics: [&samples.barycentrics[..], &samples.barycentrics].concat(),
+        positions: vec![[0.0; 3]; 2 * samples.len()],
+        ..Default::default()
+    };
+    let (alone, report) = run(&single, &samples);
+    let (both, joint) = run(&double, &twice);
+    assert_eq!(both.barycentrics, [&alone.barycentrics[..], &alone.barycentrics].concat());
+    assert_eq!(both.triangles[..samples.len()], alone.triangles);
+    assert!(report.rho > 0.8 && joint.smallest_distance <= 1.001e-3, "{joint:?}");
+}
+
+#[test]
+fn neither_the_indices_nor_the_winding_of_a_mesh_matter() {
+    let (positions, triangles) = meshes::sphere();
+    let whole = mesh((positions.clone(), triangles.clone()));
+    let samples = darts(&whole, 1000.0);
+    let corners = triangles.iter().flatten().map(|&vertex| positions[vertex as usize]).collect();
+    let split = (0..triangles.len() as u32).map(|t| [3 * t, 3 * t + 1, 3 * t + 2]).collect();
+    let (relaxed, _) = run(&whole, &samples);
+    assert_eq!(run(&mesh((corners, split)), &samples).0, relaxed);
+    let turned = triangles.iter().enumerate().map(|(i, &[a, b, c])| if i % 3 == 0 { [a, c, b] } else { [a, b, c] });
+    let turned = mesh((positions, turned.collect()));
+    let (_, report) = run(&turned, &darts(&turned, 1000.0));
+    assert!(report.rho > 0.85, "{report:?}");
+}
+
+#[test]
+fn random_soups_and_coincident_samples_are_held_out() {
+    for soup in [meshes::random_soup(3, 40), meshes::book(5), meshes::slivers(), meshes::duplicated(meshes::torus())] {
+        let mesh = mesh(soup);
+        run(&mesh, &darts(&mesh, 500.0));
+    }
+    let mesh = mesh(meshes::plane());
+    let samples = SurfaceSamples { triangles: vec![0; 60], barycentrics: vec![[0.25, 0.5]; 60], ..Default::default() };
+    let samples = SurfaceSamples { positions: vec![[0.0; 3]; 60], ..samples };
+    let (_, report) = run(&mesh, &samples);
+    assert!(report.smallest_distance > 0.0, "{report:?}");
+}
+
+#[test]
+fn the_result_does_not_depend_on_the_threads() {
+    let mesh = mesh(meshes::torus());
+    let samples = darts(&mesh, 1500.0);
+    let relaxed = [1, 4].map(|threads| {
+        let context = Context::new(threads).unwrap();
+        let quiet = |_| ControlFlow::Continue(());
+        relax(&context, &mesh, &samples.triangles, &samples.barycentrics, &Options::default(), Some(&quiet)).unwrap()
+    });
+    assert_eq!(relaxed[0], relaxed[1]);
+    let triangles = [1, 4].map(|threads| {
+        triangulate(&Context::new(threads).unwrap(), &mesh, &samples.triangles, &samples.barycentrics, None).unwrap()
+    });
+    assert_eq!(triangles[0], triangles[1]);
+}
+
+#[test]
+fn a_cancelled_call_returns_its_last_whole_step() {
+    let mesh = mesh(meshes::torus());
+    let samples = darts(&mesh, 1500.0);
+    let context = Context::new(2).unwrap();
+    let call = |options: &Options, limit: f64| {
+        let told = Cell::new(0.0);
+        let progress = |share| {
+            assert!(share >= told.replace(share));
+            if share >= limit { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        };
+        relax(&context, &mesh, &samples.triangles, &samples.barycentrics, options, Some(&progress)).unwrap()
+    };
+    let (start, report) = call(&Options::default(), 0.0);
+    assert_eq!((start, report.iterations, report.stopped), (samples.clone(), 0, Stopped::Cancelled));
+    let (cancelled, report) = call(&Options::default(), 0.3);
+    assert!(report.stopped == Stopped::Cancelled && (1..=31).contains(&report.iterations), "{report:?}");
+    let steps = Options { max_iterations: report.iterations, ..Options::default() };
+    assert_eq!(call(&steps, 2.0).0, cancelled);
+    let none = Options { max_iterations: 0, ..Options::default() };
+    assert_eq!(call(&none, 2.0).0, samples);
+}
+
+/// Euler's formula: a closed surface of genus 0 has two triangles per sample but four.
+#[test]
+fn the_triangles_of_a_relaxed_sphere_are_a_sphere() {
+    let mesh = mesh(meshes::sphere());
+    let (samples, _) = run(&mesh, &darts(&mesh, 3000.0));
+    let made = triangulate(&Context::new(2).unwrap(), &mesh, &samples.triangles, &samples.barycentrics, None).unwrap();
+    assert!(made.agreement > 0.997, "{}", made.agreement);
+    let all = 2 * samples.len() - 4;
+    assert!(made.triangles.len() <= all && made.triangles.len() > all - all / 300, "{} of {all}", made.triangles.len());
+    for corners in &made.triangles {
+        let [a, b, c] = corners.map(|i| glam::Vec3::from(samples.positions[i as usize]));
+        assert!((b - a).cross(c - a).dot(a + b + c) > 0.0, "a triangle faces inwards");
+    }
+}
+
+#[test]
+fn what_is_no_place_on_the_mesh_is_refused() {
+    let mesh = Mesh::new(meshes::plane().0, vec![[0, 1, 3], [0, 3, 2], [0, 0, 1]]).unwrap();
+    let context = Context::new(1).unwrap();
+    let refused = |mesh: &Mesh, triangles: &[u32], barycentrics: &[[f32; 2]], tolerance: f64| {
+        let options = Options { tolerance, ..Options::default() };
+        match relax(&context, mesh, triangles, barycentrics, &options, None) {
+            Err(Error::InvalidArgument { argument, .. }) => argument,
+            other => panic!("{other:?}"),
+        }
+    };
+    assert_eq!(refused(&mesh, &[0, 3], &[[0.2; 2]; 2], 0.0), "triangles");
+    assert_eq!(refused(&mesh, &[0, 2], &[[0.2; 2]; 2], 0.0), "triangles");
+    assert_eq!(refused(&mesh, &[0, 1], &[[0.2; 2]], 0.0), "barycentrics");
+    for bad in [[f32::NAN, 0.2], [0.2, f32::NAN], [f32::INFINITY, 0.0], [-0.01, 0.5], [0.5, 0.51]] {
+        assert_eq!(refused(&mesh, &[0, 1], &[[0.2; 2], bad], 0.0), "barycentrics");
+    }
+    for tolerance in [-1.0, f64::NAN] {
+        assert_eq!(refused(&mesh, &[0], &[[0.2; 2]], tolerance), "tolerance");
+    }
+    let masked = mesh.clone().with_mask(vec![false, true, true]).unwrap();
+    assert_eq!(refused(&masked, &[1, 0], &[[0.2; 2]; 2], 0.0), "triangles");
+    let rounded = [[0.5, 0.500_000_06]];
+    assert!(relax(&context, &mesh, &[0], &rounded, &Options::default(), None).is_ok());
+    assert!(relax(&context, &mesh, &[], &[], &Options::default(), None).unwrap().0.is_empty());
+}
