@@ -675,8 +675,12 @@ typedef struct azulejo_plane_report {
     double edge_variation;
     /// The variance of the areas of the triangles over the square of their mean.
     double area_variation;
+    /// The share of angles, of all triangles, below 30 degrees, 0 to 1.
+    double angles_below_30_degrees;
+    /// The share of triangles whose area is farther than 4 standard deviations from the mean, 0 to 1.
+    double beyond_4_sigma;
     /// Zeros, for later versions.
-    uint64_t reserved[11];
+    uint64_t reserved[9];
 } azulejo_plane_report;
 
 /// The frequencies of about one length: a point of the radial curves.

@@ -171,7 +171,9 @@ FIELD(azulejo_plane_report, below_30_degrees, 72);
 FIELD(azulejo_plane_report, edge_mean, 80);
 FIELD(azulejo_plane_report, edge_variation, 88);
 FIELD(azulejo_plane_report, area_variation, 96);
-FIELD(azulejo_plane_report, reserved, 104);
+FIELD(azulejo_plane_report, angles_below_30_degrees, 104);
+FIELD(azulejo_plane_report, beyond_4_sigma, 112);
+FIELD(azulejo_plane_report, reserved, 120);
 
 SIZE(azulejo_annulus, 32);
 FIELD(azulejo_annulus, frequency, 0);

@@ -44,6 +44,7 @@ static void planes(void) {
     CHECK(near(report.smallest_distance, 1, 1e-5) && near(report.mean_distance, 1, 1e-5));
     CHECK(near(report.hexagonal_distance, 1, 1e-12) && near(report.rho, 1, 1e-5));
     CHECK(near(report.covering_radius, sqrt(1.0 / 3), 1e-5) && near(report.bond_order, 1, 1e-5));
+    CHECK(report.angles_below_30_degrees == 0 && report.beyond_4_sigma < 1);
     CHECK(report.obtuse == 0 && report.below_30_degrees == 0 && near(report.edge_mean, 1, 1e-5));
     CHECK(near(report.edge_variation, 0, 1e-9) && near(report.area_variation, 0, 1e-9));
     for (i = 0; i < COUNT_OF(report.reserved); i++) CHECK(report.reserved[i] == 0);

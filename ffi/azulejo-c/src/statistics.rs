@@ -48,8 +48,12 @@ pub struct azulejo_plane_report {
     pub edge_variation: f64,
     /// The variance of the areas of the triangles over the square of their mean.
     pub area_variation: f64,
+    /// The share of angles, of all triangles, below 30 degrees, 0 to 1.
+    pub angles_below_30_degrees: f64,
+    /// The share of triangles whose area is farther than 4 standard deviations from the mean, 0 to 1.
+    pub beyond_4_sigma: f64,
     /// Zeros, for later versions.
-    pub reserved: [u64; 11],
+    pub reserved: [u64; 9],
 }
 
 /// Measures points of the plane: spacing, covering radius, bond order and Delaunay triangles.
@@ -98,7 +102,9 @@ fn measure(context: &Context, domain: &Domain, points: &[[f32; 2]]) -> azulejo_c
         edge_mean: triangles.edge_mean,
         edge_variation: triangles.edge_variation,
         area_variation: triangles.area_variation,
-        reserved: [0; 11],
+        angles_below_30_degrees: triangles.angles_below_30_degrees,
+        beyond_4_sigma: triangles.beyond_4_sigma,
+        reserved: [0; 9],
     })
 }
 
