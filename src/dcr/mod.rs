@@ -14,19 +14,20 @@
 //!
 //! | points | start | rho | cover | ψ6 | P | obtuse | edge CV² |
 //! |---|---|---|---|---|---|---|---|
-//! | 1,000 | random | 0.861 | 0.661 | 0.471 | 1.6e-5 | 5.6 % | 0.0184 |
-//! | 1,000 | KDRT | 0.861 | 0.661 | 0.469 | 1.6e-5 | 5.7 % | 0.0187 |
-//! | 4,096 | random | 0.860 | 0.662 | 0.472 | 1.8e-5 | 5.6 % | 0.0184 |
-//! | 4,096 | KDRT | 0.860 | 0.662 | 0.470 | 1.7e-5 | 5.6 % | 0.0186 |
-//! | 65,536 | random | 0.857 | 0.664 | 0.472 | 1.8e-5 | 5.5 % | 0.0183 |
-//! | 65,536 | KDRT | 0.857 | 0.664 | 0.470 | 1.9e-5 | 5.7 % | 0.0187 |
-//! | 1,000,000 | random | 0.843 | 0.686 | 0.472 | 1.9e-5 | 5.5 % | 0.0183 |
-//! | 1,000,000 | KDRT | 0.856 | 0.666 | 0.470 | 1.9e-5 | 5.6 % | 0.0186 |
+//! | 1,000 | random | 0.862 | 0.660 | 0.464 | 4.0e-6 | 5.6 % | 0.0177 |
+//! | 1,000 | KDRT | 0.862 | 0.660 | 0.462 | 4.0e-6 | 5.8 % | 0.0179 |
+//! | 4,096 | random | 0.861 | 0.661 | 0.464 | 4.7e-6 | 5.5 % | 0.0177 |
+//! | 4,096 | KDRT | 0.861 | 0.661 | 0.464 | 4.5e-6 | 5.6 % | 0.0178 |
+//! | 65,536 | random | 0.859 | 0.663 | 0.466 | 4.1e-6 | 5.5 % | 0.0178 |
+//! | 65,536 | KDRT | 0.860 | 0.661 | 0.464 | 3.7e-6 | 5.7 % | 0.0180 |
+//! | 1,000,000 | random | 0.849 | 0.666 | 0.465 | 4.2e-6 | 5.5 % | 0.0178 |
+//! | 1,000,000 | KDRT | 0.856 | 0.666 | 0.465 | 4.0e-6 | 5.6 % | 0.0179 |
 //! | | push-pull (Ahmed et al. 2016) | 0.850 | 0.670 | 0.475 | 2.2e-3 | 5.9 % | 0.019 |
 //!
 //! These are means: single sets of 1,000 points may have more obtuse triangles than push-pull's.
 //!
-//! On bounded domains a row of points forms along the border, and 100 steps leave rho at about 0.8 and cover at 0.77.
+//! Bounded domains are relaxed as well as that: along the border density and spacing are those of the inside within some percent
+//! (the section "Bounded" of that page).
 //!
 //! Samples of a mesh are relaxed on it by [`surface`].
 //!

@@ -6,7 +6,6 @@ use azulejo::mesh::Mesh;
 use azulejo::{Context, Domain, Result, psp};
 
 use crate::generate::MAXIMAL_DENSITY;
-
 use crate::reference;
 
 /// The seed of the first set of each kind. No setting of a method was chosen by what sets of these seeds gave; who tunes
