@@ -107,6 +107,42 @@ fn a_quick_report_of_relaxation_has_every_method_and_plausible_figures() {
         );
     }
     assert!(page.contains("Sets of 1,000 points and more are left out") && !page.contains("NaN"));
+    check_variations_of_the_thesis(&page);
+}
+
+/// Of the page of relaxation: the sections on what the thesis's algorithm can be varied by, and on remeshing.
+fn check_variations_of_the_thesis(page: &str) {
+    for figure in ["(thesis §4.4.4)", "fig. 4.13 to 4.15", "fig. 4.19 and 4.20", "fig. 4.21"] {
+        assert!(page.contains(figure), "{figure}");
+    }
+    let rows: Vec<Vec<_>> = page.lines().map(|line| line.split('|').map(str::trim).collect()).collect();
+    let number = |cell: &str| -> f64 {
+        let number = cell.trim_matches('*').split(' ').next().unwrap();
+        number.parse().unwrap_or_else(|_| panic!("{cell} is no number"))
+    };
+    // Start, the thesis's steps, those by its test and by motion, with and without activeness, and two rho.
+    let starts: Vec<_> = rows.iter().filter(|row| row.len() == 11 && row[2].parse::<u32>().is_ok()).collect();
+    assert_eq!(starts.iter().map(|row| row[1]).collect::<Vec<_>>(), ["KDRT", "PSP", "random"]);
+    for row in starts {
+        assert!([4, 5, 8, 9].iter().all(|&cell| (20.0..=1000.0).contains(&number(row[cell]))), "{row:?}");
+        assert!([6, 7].iter().all(|&cell| (0.5..0.9).contains(&number(row[cell]))), "{row:?}");
+    }
+    // Four radii after three numbers of steps: what is visited from one end only does not come to rest.
+    let variances: Vec<_> = rows.iter().filter(|row| row.len() == 9 && row[1].contains(" and 1.")).collect();
+    let variances: Vec<_> = variances.iter().filter(|row| row[2].parse::<u32>().is_ok()).collect();
+    assert_eq!(variances.len(), 12);
+    for row in variances.iter().filter(|row| row[1] == "0.95 and 1.05" && row[2] == "400") {
+        let [active, average, dominant, zero, mixed] = [3, 4, 5, 6, 7].map(|cell| number(row[cell]));
+        assert!(active < dominant && active < zero && average < dominant && mixed < dominant, "{row:?}");
+    }
+    let shares = |name: &str| {
+        let row = rows.iter().find(|row| row.len() == 6 && row[1] == name).unwrap();
+        [2, 3, 4].map(|cell| number(row[cell]))
+    };
+    for name in ["obtuse triangles", "variance of edge lengths / mean²", "variance of areas / mean²"] {
+        let [thrown, best, thesis] = shares(name);
+        assert!(best < 0.7 * thrown && thesis < 0.7 * thrown, "{name}");
+    }
 }
 
 #[test]

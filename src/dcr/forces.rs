@@ -137,18 +137,18 @@ mod tests {
     const COUNT: usize = 24;
 
     /// A neighbourhood of which some links lead one way only. The way to a neighbour is that to its place.
-    struct Some<'a> {
+    struct Partial<'a> {
         positions: &'a [DVec2],
     }
 
-    impl Some<'_> {
+    impl Partial<'_> {
         fn has(&self, from: usize, to: usize) -> bool {
             let near = self.positions[from].distance(self.positions[to]) < 1.6;
             from != to && near && (from * to) % 5 != from % 3
         }
     }
 
-    impl Links for Some<'_> {
+    impl Links for Partial<'_> {
         fn for_each(&self, point: usize, mut visit: impl FnMut(Link)) {
             for other in 0..COUNT {
                 let offset = self.positions[other] - self.positions[point];
@@ -169,7 +169,7 @@ mod tests {
     /// The pseudo-code of the thesis: whoever visits an edge adds to both of its ends.
     fn scatter(forces: &Forces, before: &[State]) -> Vec<State> {
         let positions: Vec<_> = before.iter().map(|state| state.0).collect();
-        let links = Some { positions: &positions };
+        let links = Partial { positions: &positions };
         let mut moved = vec![DVec2::ZERO; COUNT];
         let mut felt = vec![(DVec2::ZERO, 0.0); COUNT];
         for (i, j) in (0..COUNT).flat_map(|i| (0..COUNT).map(move |j| (i, j))).filter(|&(i, j)| links.has(i, j)) {
@@ -232,7 +232,7 @@ mod tests {
             let mut oscillating = 0;
             for _ in 0..12 {
                 let positions: Vec<_> = particles.iter().map(|p| p.position).collect();
-                let links = Some { positions: &positions };
+                let links = Partial { positions: &positions };
                 particles = (0..COUNT).map(|point| forces.advance(&links, &particles, point)).collect();
                 states = scatter(&forces, &states);
                 for (particle, state) in particles.iter().zip(&states) {

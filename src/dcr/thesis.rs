@@ -3,16 +3,20 @@
 //! Where the thesis contradicts itself, this module does what its algorithm (§4.3.3) says:
 //!
 //! * Every edge is visited from both ends, so each end receives twice its share of the tension. The constant
-//!   distributions of Fig. 4.19 then coincide on the Delaunay neighbourhood, which is symmetric: see [`Distribution`].
+//!   distributions of Fig. 4.19 then coincide on the Delaunay neighbourhood, which is symmetric;
+//!   [`Visits::OneEnd`](super::Visits::OneEnd) tells them apart.
 //! * High activeness moves a point *less*; the formulas of §4.3.2 have it the other way round.
 //! * Activeness is computed from the tensions themselves, not from the forces that it has weighted.
 //! * The tension is divided by its radius; eq. 4.10 is not.
 //! * Radii are centre-to-centre distances in units of `d_max = sqrt(2 A / (sqrt(3) N))`; the formula for `r_max`
 //!   printed in §4.4.2 lacks a fraction bar.
+//! * A point oscillates if the cosine of its force and the reverse of the one before is above 0.95 (§4.4.2); §4.3.5 says
+//!   0.9, of the longer of the two. Its activeness is then infinite: its neighbours move instead.
+//! * λ is constant, as in the thesis's experiments, or decays by a factor per step, where the thesis gives no rule.
 //!
-//! Convergence is judged by motion and not by the thesis's test on the variance of nearest distances (§4.4.2), which
-//! depends on the step size and fires early. [`Report::motion`] is how far points got over the last steps whose λ add
-//! up to 2 (40 steps of 0.05), per unit of λ: the same for small and large steps at the same state.
+//! Convergence is judged by motion: [`Report::motion`](super::Report::motion) is how far points got over the last steps
+//! whose λ add up to 2 (40 steps of 0.05), per unit of λ: the same for small and large steps at the same state. The
+//! thesis's own test (`variance.rs`) depends on the step size; [`Convergence::Variance`] asks for it.
 //!
 //! What to expect, measured on 4,096 points of a torus with the settings of the thesis. rho is the smallest distance,
 //! cover the largest distance from the set, both in `d_max`; the variance is that of nearest distances.

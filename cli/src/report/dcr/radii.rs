@@ -58,9 +58,9 @@ pub fn section(study: &Study) -> Result<String> {
     );
     for (neighbourhood, name) in [(Neighbourhood::Delaunay, "delaunay"), (Neighbourhood::Nearest, "nearest")] {
         let rows: Vec<_> = all.iter().filter(|(setting, _)| setting.neighbourhood == neighbourhood).collect();
-        let mut canvas = Canvas::new(1600.0, 1180.0, 1600);
+        let mut canvas = Canvas::new(1760.0, 1180.0, 1200);
         for (column, (setting, outcomes)) in rows.iter().take(DRAWN).enumerate() {
-            draw(&mut canvas, 90.0 + 385.0 * column as f32, setting, outcomes)?;
+            draw(&mut canvas, 90.0 + 425.0 * column as f32, setting, outcomes)?;
         }
         canvas.write(&study.picture(&format!("radii-{name}"))?)?;
         text += &format!(
@@ -90,8 +90,8 @@ fn settings() -> Vec<Setting> {
 impl Outcome {
     fn of(context: &Context, setting: &Setting, count: usize, seed: u64) -> Result<Self> {
         let domain = Domain::unit(Boundary::Periodic);
-        let start = Start::Random.points(context, domain.boundary, count, seed)?;
-        let options = thesis_options(setting.thesis, setting.neighbourhood, domain.boundary, seed);
+        let start = Start::Random.points(context, domain, count, seed)?;
+        let options = thesis_options(setting.thesis, setting.neighbourhood, domain, seed);
         let (points, report) = relax(context, &options, &start, None)?;
         let half = (FREQUENCY_LIMIT * (count as f64).sqrt()).ceil() as usize + 1;
         let spectrum = periodogram(context, &domain, &points, 2 * half + 1, None)?;

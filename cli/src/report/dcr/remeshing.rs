@@ -1,5 +1,6 @@
 //! Triangles for remeshing, before and after relaxation (thesis §4.4.4, fig. 4.21).
 
+use std::collections::BTreeMap;
 use std::fmt::Write;
 
 use azulejo::analysis::triangles::{Triangle, TriangleStatistics, delaunay_triangles, triangle_statistics};
@@ -9,7 +10,7 @@ use azulejo::{Boundary, Context, Domain, Result};
 use super::sets::{FIRST_SEED, Start};
 use super::study::Study;
 use crate::draw::canvas::{Align, Canvas, Rect, Style};
-use crate::draw::palette::{COBALT, INK, MIST, SERIES, SLATE};
+use crate::draw::palette::{COBALT, Colour, INK, MIST, SERIES, SLATE, glaze_to_cobalt};
 use crate::draw::plot::{Axis, Panel};
 use crate::report::statistics::Summary;
 use crate::text::grouped;
@@ -37,7 +38,7 @@ impl Treatment {
     }
 
     fn set(self, context: &Context, count: usize, seed: u64) -> Result<Vec<[f32; 2]>> {
-        let points = Start::Kdrt.points(context, Boundary::Periodic, count, seed)?;
+        let points = Start::Kdrt.points(context, Domain::unit(Boundary::Periodic), count, seed)?;
         self.apply(context, points, seed)
     }
 }
@@ -77,12 +78,14 @@ fn text(by_treatment: &[&[TriangleStatistics]], count: usize, drawn: usize) -> S
         "## Remeshing (thesis fig. 4.21)\n\n\
          The Delaunay triangles of KDRT's sets of {} points on the torus, before and after relaxation with Delaunay neighbours; \
          means of {} sets and their standard errors. σ is that of each set's own areas. The picture shows sets of {drawn} \
-         points; of the edges those are in ochre that are more than {:.0} % longer than the mean, in cobalt those that are as much \
+         points. In its second row triangles are the darker the farther their area is from the mean, up to {:.0} % of it, and ochre \
+         beyond 4σ; in its third, edges are ochre that are more than {:.0} % longer than the mean, and cobalt that are as much \
          shorter.\n\n\
          ![Triangles of a set before and after relaxation](dcr/remeshing.png)\n\n\
          | | {} |\n{}|\n",
         grouped(count),
         by_treatment[0].len(),
+        100.0 * FULL_INK,
         100.0 * UNEVEN,
         TREATMENTS.map(|(name, _)| name).join(" | "),
         "|---".repeat(1 + TREATMENTS.len()),
@@ -101,12 +104,12 @@ fn text(by_treatment: &[&[TriangleStatistics]], count: usize, drawn: usize) -> S
     text
 }
 
-/// A column for each set: obtuse triangles, triangles of outlying area, and edges that are much longer or shorter than the
-/// mean.
+/// A column for each set: obtuse triangles, triangles the darker the farther their area is from the mean and in ochre beyond
+/// 4σ, and edges that are much longer or shorter than the mean.
 fn draw(sets: &[(Vec<Triangle>, TriangleStatistics)], study: &Study) -> Result<()> {
-    let mut canvas = Canvas::new(1290.0, 1320.0, 1290);
+    let mut canvas = Canvas::new(1290.0, 1320.0, 1000);
     let style = Style { size: 21.0, colour: SLATE, align: Align::Centre, upwards: true };
-    for (row, label) in ["obtuse", "area beyond 4σ", "edges"].into_iter().enumerate() {
+    for (row, label) in ["obtuse", "area", "edges"].into_iter().enumerate() {
         canvas.text(label, [32.0, 247.0 + 420.0 * row as f32], style);
     }
     for ((column, (triangles, statistics)), (name, _)) in sets.iter().enumerate().zip(TREATMENTS) {
@@ -116,11 +119,22 @@ fn draw(sets: &[(Vec<Triangle>, TriangleStatistics)], study: &Study) -> Result<(
         canvas.text(name, [left, 36.0], Style { size: 27.0, colour: INK, align: Align::Left, upwards: false });
         let mean = triangles.iter().map(Triangle::area).sum::<f64>() / triangles.len() as f64;
         let limit = 4.0 * statistics.area_variation.sqrt() * mean;
-        sheet(0.0).draw_triangles(&mut canvas, Triangle::is_obtuse);
-        sheet(1.0).draw_triangles(&mut canvas, |triangle| (triangle.area() - mean).abs() > limit);
+        sheet(0.0).draw_triangles(&mut canvas, |triangle| triangle.is_obtuse().then_some(COBALT));
+        sheet(1.0).draw_triangles(&mut canvas, |triangle| {
+            let excess = (triangle.area() - mean).abs();
+            Some(if excess > limit { SERIES[1] } else { shade(excess / mean) })
+        });
         sheet(2.0).draw_edges(&mut canvas, statistics.edge_mean);
     }
     canvas.write(&study.picture("remeshing")?)
+}
+
+/// An area that differs from the mean by this share of it has all the ink; and how many inks there are.
+const FULL_INK: f64 = 0.75;
+const INKS: f64 = 12.0;
+
+fn shade(excess: f64) -> Colour {
+    glaze_to_cobalt((excess / FULL_INK * INKS).round() / INKS)
 }
 
 /// An edge that differs from the mean by this share of it is drawn in colour.
@@ -159,11 +173,19 @@ impl Sheet {
         drawn.map(|edge| ends(edge).map(|end| self.panel.place(end))).collect()
     }
 
-    /// All triangles, and those that are `blue`.
-    fn draw_triangles(&self, canvas: &mut Canvas, blue: impl Fn(&Triangle) -> bool) {
+    /// All triangles, in the colours that they have.
+    fn draw_triangles(&self, canvas: &mut Canvas, colour: impl Fn(&Triangle) -> Option<Colour>) {
         self.panel.ground(canvas, false);
-        let blue = self.triangles.iter().filter(|triangle| blue(triangle));
-        canvas.triangles(blue.map(|one| one.corners.map(|corner| self.panel.place(corner))), COBALT, self.panel.rect);
+        let mut by_colour = BTreeMap::<Colour, Vec<_>>::new();
+        for triangle in &self.triangles {
+            if let Some(colour) = colour(triangle) {
+                let places = triangle.corners.map(|corner| self.panel.place(corner));
+                by_colour.entry(colour).or_default().push(places);
+            }
+        }
+        for (colour, triangles) in by_colour {
+            canvas.triangles(triangles.into_iter(), colour, self.panel.rect);
+        }
         canvas.segments(self.segments(|_| true).into_iter(), 1.0, MIST, self.panel.rect);
         self.panel.axes(canvas);
     }

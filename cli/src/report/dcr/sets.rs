@@ -3,7 +3,7 @@
 use azulejo::dcr::{Neighbourhood, Options};
 use azulejo::kdrt::{self, CountOptions};
 use azulejo::mesh::Mesh;
-use azulejo::{Boundary, Context, Domain, Result, psp};
+use azulejo::{Context, Domain, Result, psp};
 
 use crate::generate::MAXIMAL_DENSITY;
 
@@ -62,9 +62,8 @@ impl Start {
         }
     }
 
-    /// So many points of the unit square, or about as many of PSP's.
-    pub fn points(self, context: &Context, boundary: Boundary, count: usize, seed: u64) -> Result<Vec<[f32; 2]>> {
-        let domain = Domain::unit(boundary);
+    /// So many points of a unit square, or about as many of PSP's.
+    pub fn points(self, context: &Context, domain: Domain, count: usize, seed: u64) -> Result<Vec<[f32; 2]>> {
         match self {
             Self::Random => Ok(random_points(count, seed)),
             Self::Kdrt => {

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use azulejo::dcr::{Method, Neighbourhood, Options, Thesis};
-use azulejo::{Boundary, Context, Domain, Result};
+use azulejo::{Context, Domain, Result};
 
 use super::{convergence, density, distributions, radii, remeshing};
 use crate::draw::rows::in_parallel;
@@ -46,7 +46,7 @@ impl Study<'_> {
     }
 }
 
-/// The thesis's algorithm with these settings on the unit square.
-pub fn thesis_options(thesis: Thesis, neighbourhood: Neighbourhood, boundary: Boundary, seed: u64) -> Options {
-    Options { method: Method::Thesis(thesis), seed, ..Options::thesis(Domain::unit(boundary), neighbourhood) }
+/// The thesis's algorithm with these settings.
+pub fn thesis_options(thesis: Thesis, neighbourhood: Neighbourhood, domain: Domain, seed: u64) -> Options {
+    Options { method: Method::Thesis(thesis), seed, ..Options::thesis(domain, neighbourhood) }
 }
