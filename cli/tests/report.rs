@@ -79,10 +79,9 @@ fn a_quick_report_of_relaxation_has_every_method_and_plausible_figures() {
         "distributions",
         "remeshing",
         "corners",
+        "density",
     ];
-    assert_eq!(page.matches("](").count(), pictures.len() + 1);
-    let dots = image::open(workshop.path("pages/docs/dcr/density.png")).unwrap().to_rgb8();
-    assert!(dots.width() >= 900 && dots.pixels().any(|pixel| pixel[0] < 128));
+    assert_eq!(page.matches("](").count(), pictures.len());
     for (image, relaxed) in ["ramp", "sphere", "knot"].into_iter().flat_map(|image| [(image, "PSP"), (image, "random")])
     {
         let start = format!("| {image} | 1,000 | from {relaxed} | ");
