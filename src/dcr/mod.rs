@@ -26,8 +26,8 @@
 //!
 //! These are means: single sets of 1,000 points may have more obtuse triangles than push-pull's.
 //!
-//! Bounded domains are relaxed as well as that: along the border density and spacing are those of the inside within some percent
-//! (the section "Bounded" of that page).
+//! Bounded domains are relaxed nearly as well: rho 0.852 to 0.860, cover 0.662 to 0.668. Density and spacing of the strip along
+//! the border, one `d_max` wide, are those of the inside within 3 %; the next strip is 11 % denser (section "Bounded" there).
 //!
 //! Samples of a mesh are relaxed on it by [`surface`].
 //!
