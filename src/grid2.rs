@@ -74,7 +74,7 @@ impl Grid2 {
                 let cell = row * self.cells[0] + column;
                 for &(id, neighbour) in &self.entries[self.starts[cell] as usize..self.starts[cell + 1] as usize] {
                     let offset = self.domain.offset(point, neighbour);
-                    let d2 = offset[0] * offset[0] + offset[1] * offset[1];
+                    let d2 = squared(offset);
                     if d2 <= radius * radius {
                         visit(id, offset, d2);
                     }
@@ -86,21 +86,30 @@ impl Grid2 {
     /// The squared distance from `point` to the nearest point of the grid other than `except`; infinite if there is
     /// none. On a torus the shortest images count.
     pub(crate) fn nearest_squared(&self, point: [f64; 2], except: Option<u32>) -> f64 {
+        self.nearest(point, except).map_or(f64::INFINITY, squared)
+    }
+
+    /// The way from `point` to the nearest point of the grid other than `except`, if there is one.
+    pub(crate) fn nearest(&self, point: [f64; 2], except: Option<u32>) -> Option<[f64; 2]> {
         let [width, height] = self.domain.extent();
         let mut radius = 1.0 / self.scale[0].max(self.scale[1]);
         loop {
-            let mut nearest = f64::INFINITY;
-            self.for_each_within(point, radius, |id, _, d2| {
-                if Some(id) != except {
-                    nearest = nearest.min(d2);
+            let (mut nearest, mut least) = (None, f64::INFINITY);
+            self.for_each_within(point, radius, |id, offset, d2| {
+                if Some(id) != except && d2 < least {
+                    (nearest, least) = (Some(offset), d2);
                 }
             });
-            if nearest < f64::INFINITY || radius > width + height {
+            if nearest.is_some() || radius > width + height {
                 return nearest;
             }
             radius *= 2.0;
         }
     }
+}
+
+fn squared(offset: [f64; 2]) -> f64 {
+    offset[0] * offset[0] + offset[1] * offset[1]
 }
 
 #[cfg(test)]
