@@ -90,7 +90,7 @@ fn hostile<T>(input: &mut Input, init: unsafe extern "C" fn(*mut T, usize) -> az
 /// Puts the callback in its place; without one a call would work for long.
 macro_rules! watched {
     ($memory:ident, $type:ident, $patience:ident) => {
-        $memory.put(std::mem::offset_of!($type, progress), Some(Patience::tell as unsafe extern "C" fn(_, _) -> _))
+        $memory.put(std::mem::offset_of!($type, progress), Some(Patience::tell as unsafe extern "C-unwind" fn(_, _) -> _))
             && $memory.put(std::mem::offset_of!($type, progress_user), $patience.user())
     };
 }
@@ -172,7 +172,7 @@ fn adaptive(input: &mut Input, patience: &Patience) {
     memory.put(std::mem::offset_of!(azulejo_adaptive_options, vertex_count), count);
     memory.put(
         std::mem::offset_of!(azulejo_adaptive_options, radius),
-        (!by_vertex).then_some(constant as unsafe extern "C" fn(_, _) -> _),
+        (!by_vertex).then_some(constant as unsafe extern "C-unwind" fn(_, _) -> _),
     );
     if !watched!(memory, azulejo_adaptive_options, patience) {
         memory.put(std::mem::offset_of!(azulejo_adaptive_options, slope), 0.0f64);
@@ -182,7 +182,7 @@ fn adaptive(input: &mut Input, patience: &Patience) {
     create(|out| unsafe { azulejo_psp_sample_adaptive(context(), Some(&mesh), memory.start.cast(), out, None) });
 }
 
-unsafe extern "C" fn constant(_: *mut std::ffi::c_void, _: *const f64) -> f64 {
+unsafe extern "C-unwind" fn constant(_: *mut std::ffi::c_void, _: *const f64) -> f64 {
     0.25
 }
 

@@ -119,7 +119,7 @@ struct Visitor {
     samples: Vec<[f32; 2]>,
 }
 
-unsafe extern "C" fn visit(user: *mut c_void, xy: *const f32, count: usize) -> i32 {
+unsafe extern "C-unwind" fn visit(user: *mut c_void, xy: *const f32, count: usize) -> i32 {
     // SAFETY: `stream` leads here with this user, the library with so many samples.
     let (visitor, xy) = unsafe { (&mut *user.cast::<Visitor>(), array(xy, 2 * count)) };
     visitor.samples.extend(xy.as_chunks::<2>().0);

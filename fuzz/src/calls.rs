@@ -76,7 +76,7 @@ impl Patience {
     ///
     /// # Safety
     /// `user` is NULL or that of a patience that is alive.
-    pub unsafe extern "C" fn tell(user: *mut c_void, done: f64) -> i32 {
+    pub unsafe extern "C-unwind" fn tell(user: *mut c_void, done: f64) -> i32 {
         // SAFETY: by the contract.
         let Some(patience) = (unsafe { user.cast::<Self>().as_ref() }) else { return 1 };
         let last = patience.last.replace(done);

@@ -146,7 +146,7 @@ fn in_steps(
 }
 
 /// A radius that is as the options say, or not.
-unsafe extern "C" fn radius_at(user: *mut c_void, position: *const f64) -> f64 {
+unsafe extern "C-unwind" fn radius_at(user: *mut c_void, position: *const f64) -> f64 {
     // SAFETY: the options below lead here with these two.
     let (&[least, slope], &[x, _, _]) = unsafe { (&*user.cast::<[f64; 2]>(), &*position.cast::<[f64; 3]>()) };
     (least + (x.abs() * slope).min(least)).min(2.0 * least)
