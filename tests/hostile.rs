@@ -1,9 +1,10 @@
 //! What fuzzing found (scripts/fuzz.sh): input that took memory or time without end, each as small as can be.
 
 use azulejo::analysis::coverage::covering_radius_2d;
+use azulejo::analysis::triangles::triangle_statistics;
 use azulejo::mesh::Mesh;
 use azulejo::psp::adaptive::{self, Options, Radius};
-use azulejo::{Boundary, Context, Domain};
+use azulejo::{Boundary, Context, Domain, Error};
 
 /// The number of samples was estimated on pieces as small as a needle's area, which was 10^17 of them.
 #[test]
@@ -24,4 +25,17 @@ fn the_covering_radius_of_a_corner_of_a_thin_domain() {
         let found = covering_radius_2d(&Context::new(1).unwrap(), &domain, &[[-0.8125, 1.4375]]).unwrap();
         assert!((found / farthest - 1.0).abs() < 1e-8, "{found} instead of {farthest}");
     }
+}
+
+/// Spade has a largest coordinate; a triangulation panicked beyond it.
+#[test]
+fn a_domain_that_is_a_line_for_all_floats_is_refused() {
+    let context = Context::new(1).unwrap();
+    for thin in [1e-279, 1e-32] {
+        let domain = Domain { min: [0.0; 2], max: [thin, 1.0], boundary: Boundary::Periodic };
+        let refused = triangle_statistics(&context, &domain, &[[0.0, 0.5]]);
+        assert!(matches!(refused, Err(Error::InvalidArgument { argument: "domain_max", .. })));
+    }
+    let domain = Domain { min: [0.0; 2], max: [1e-29, 1.0], boundary: Boundary::Periodic };
+    assert!(triangle_statistics(&context, &domain, &[[0.0, 0.5]]).is_ok());
 }
