@@ -12,7 +12,7 @@ if ! cargo +nightly miri --version >/dev/null 2>&1; then
     exit 0
 fi
 
-# Rayon's deques, which no call of one thread reaches, are not the subject; the clock is the reports'.
-export MIRIFLAGS=-Zmiri-disable-isolation CARGO_INCREMENTAL=0
+# What asks the machine for its memory gets no answer in there.
+export MIRIFLAGS=-Zmiri-isolation-error=hide CARGO_INCREMENTAL=0
 cargo +nightly miri test --quiet --locked --package azulejo-c --lib --target-dir target/miri
 cargo +nightly miri test --quiet --locked --manifest-path fuzz/Cargo.toml --package azulejo-c-abi --target-dir target/miri

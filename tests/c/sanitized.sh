@@ -46,6 +46,9 @@ esac
 runtime=$sysroot/lib/rustlib/$host/lib/librustc-nightly_rt.$runtime.a
 [ -f "$runtime" ] || skip "$(basename "$runtime")"
 
+# Sizes that no memory has are refused; a hundred rounds show what a thousand do.
+export ASAN_OPTIONS=allocator_may_return_null=1 AZULEJO_ROUNDS=100
+
 target=$root/target/sanitizers/$sanitizer
 library=$target/$host/debug/libazulejo.a
 
