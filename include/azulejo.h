@@ -401,8 +401,8 @@ typedef struct azulejo_psp_report {
 /// Gives the radius at a place.
 ///
 /// It is called from several threads at once, the library's own; only where the context has one thread it is called on
-/// the thread that made the call. It must give the same radius for the same place, must return (no exception and no
-/// longjmp may leave it), and must not call the library with the same context.
+/// the thread that made the call. It must give the same radius for the same place, must return (an exception
+/// that leaves it ends the process, a longjmp is undefined), and must not call the library with the same context.
 ///
 /// user: the radius_user of the options.
 ///
@@ -535,7 +535,8 @@ uint32_t azulejo_version(void);
 /// Embree's threads, too; but Embree knows one bound for a process, the largest that one of its devices has, and sets it
 /// for all that uses TBB. Beside a device of the program's that has more threads, a build of this library can use as many;
 /// a device with fewer can use `num_threads` while a psp handle that has made iterations lives, and has its own number
-/// again after that. AZULEJO_ENGINE_RASTERISER makes no device.
+/// again after that. TBB may leave threads of its own behind, also with 1, which do no work. AZULEJO_ENGINE_RASTERISER
+/// makes no device and wakes nobody.
 ///
 /// out: the context, to be freed with azulejo_context_free.
 azulejo_status azulejo_context_create(uint32_t num_threads,

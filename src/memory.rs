@@ -87,7 +87,8 @@ mod tests {
         assert_eq!(available("MemTotal: 9 kB\nMemAvailable:    1234 kB\n"), Some(1234.0 * 1024.0));
         assert_eq!(available("MemTotal: 9 kB\n"), None);
         assert_eq!(available("MemAvailable: many kB\n"), None);
-        let limits = |limit| format!("Limit  Soft Limit  Hard Limit  Units\nMax address space     {limit}   unlimited  bytes\n");
+        let limits =
+            |limit| format!("Limit  Soft Limit  Hard Limit  Units\nMax address space     {limit}   unlimited  bytes\n");
         assert_eq!(soft_limit(&limits("4096")), Some(4096.0));
         assert_eq!(soft_limit(&limits("unlimited")), None);
     }

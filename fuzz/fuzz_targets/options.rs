@@ -90,7 +90,8 @@ fn hostile<T>(input: &mut Input, init: unsafe extern "C" fn(*mut T, usize) -> az
 /// Puts the callback in its place; without one a call would work for long.
 macro_rules! watched {
     ($memory:ident, $type:ident, $patience:ident) => {
-        $memory.put(std::mem::offset_of!($type, progress), Some(Patience::tell as unsafe extern "C-unwind" fn(_, _) -> _))
+        $memory
+            .put(std::mem::offset_of!($type, progress), Some(Patience::tell as unsafe extern "C-unwind" fn(_, _) -> _))
             && $memory.put(std::mem::offset_of!($type, progress_user), $patience.user())
     };
 }

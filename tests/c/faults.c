@@ -111,7 +111,7 @@ static void cancelled_at_every_stage(const azulejo_context *context) {
         azulejo_points *expected = NULL, *points;
         int passes, stages = 1;
         ACCEPTED(samplers[i](context, (watcher){NULL, NULL}, &expected));
-        for (passes = 0; passes < stages; passes += 1 + stages / 40) {
+        for (passes = 0; passes < stages; passes += 1 + stages / 12) {
             stubborn s = {passes, 0, garbage[passes % 5]};
             const watcher w = {answer, &s};
             azulejo_status status;

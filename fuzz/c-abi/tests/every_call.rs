@@ -122,7 +122,10 @@ fn planes() {
         assert_eq!(azulejo_kdrt_stream(Some(&context), &options, Some(visit), (&raw mut visited).cast()), AZULEJO_OK);
         assert!(visited > 2 && calls > 0);
         options.progress = Some(stop);
-        assert_eq!(azulejo_kdrt_sample(Some(&context), &options, Some(&mut MaybeUninit::uninit())), AZULEJO_ERROR_CANCELLED);
+        assert_eq!(
+            azulejo_kdrt_sample(Some(&context), &options, Some(&mut MaybeUninit::uninit())),
+            AZULEJO_ERROR_CANCELLED
+        );
 
         let mut options = defaults(azulejo_maximal_options_init);
         options.radius = 0.5;
@@ -134,8 +137,9 @@ fn planes() {
         let piece = azulejo_merge_piece { xy: xy.as_ptr(), count: 1, min: [0.0; 2], max: [0.5, 1.0] };
         let fixed = [0.75f32, 0.5];
         let mut report = MaybeUninit::uninit();
-        let merge =
-            |out: Out<_>| azulejo_kdrt_merge(Some(&context), &options, &piece, 1, fixed.as_ptr(), 1, out, Some(&mut report));
+        let merge = |out: Out<_>| {
+            azulejo_kdrt_merge(Some(&context), &options, &piece, 1, fixed.as_ptr(), 1, out, Some(&mut report))
+        };
         assert!(read_and_free(made(merge)) >= 2);
         assert_eq!(report.assume_init().kept, 1);
     }
@@ -149,9 +153,7 @@ fn surfaces() {
     // SAFETY: the arrays are as long as told.
     let (normal, masked) = unsafe {
         (
-            made(|out| {
-                azulejo_mesh_with_normals(Some(&mesh), normals.as_ptr(), 1, 12, [0u32; 6].as_ptr(), 2, out)
-            }),
+            made(|out| azulejo_mesh_with_normals(Some(&mesh), normals.as_ptr(), 1, 12, [0u32; 6].as_ptr(), 2, out)),
             made(|out| azulejo_mesh_with_mask(Some(&mesh), [1u8, 0].as_ptr(), 2, out)),
         )
     };
@@ -173,17 +175,38 @@ fn surfaces() {
         assert_eq!(azulejo_psp_fill(Some(handle), None), AZULEJO_OK);
         assert!(read_and_free(made(|out| azulejo_psp_points(Some(&set), out))) > 0);
         azulejo_psp_free(Some(set));
+    }
+    azulejo_mesh_free(Some(normal));
+    azulejo_mesh_free(Some(mesh));
+    azulejo_context_free(Some(context));
+}
 
-        let mut options = defaults(azulejo_adaptive_options_init);
+/// Its options are read by Miri, its samples are not: they are estimated on 100,000 pieces.
+#[test]
+fn adaptive_surfaces() {
+    let (context, mesh) = (context(), mesh());
+    let mut options = defaults(azulejo_adaptive_options_init);
+    let mut out = MaybeUninit::uninit();
+    // SAFETY: the options are of the size that they say, and the array has four radii.
+    unsafe {
+        options.cosine = f64::NAN;
         let radii = [0.8f32, 0.9, 1.0, 1.1];
-        (options.vertex_radii, options.vertex_count) = (radii.as_ptr(), 4);
+        options.vertex_radii = radii.as_ptr();
+        options.vertex_count = 4;
+        let refused = azulejo_psp_sample_adaptive(Some(&context), Some(&mesh), &options, Some(&mut out), None);
+        assert_eq!(refused, AZULEJO_ERROR_INVALID_ARGUMENT);
+        options.cosine = -1.0;
+        if cfg!(miri) {
+            azulejo_mesh_free(Some(mesh));
+            azulejo_context_free(Some(context));
+            return;
+        }
         read_and_free(made(|out| azulejo_psp_sample_adaptive(Some(&context), Some(&mesh), &options, out, None)));
         options.vertex_radii = null();
         options.radius = Some(radius_at);
         (options.smallest, options.largest, options.slope, options.radius_user) = (0.8, 1.0, 0.1, null_mut());
         read_and_free(made(|out| azulejo_psp_sample_adaptive(Some(&context), Some(&mesh), &options, out, None)));
     }
-    azulejo_mesh_free(Some(normal));
     azulejo_mesh_free(Some(mesh));
     azulejo_context_free(Some(context));
 }
