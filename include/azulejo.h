@@ -31,12 +31,16 @@
  *   never falls, from 0 to 1 (the 1 comes if the call succeeds). Any return value but 0 cancels the call, which then
  *   returns AZULEJO_ERROR_CANCELLED; only azulejo_dcr_relax, azulejo_dcr_relax_density and azulejo_dcr_relax_surface return
  *   what they have, as their reports say. The callback may call the library, also with the same context. It must return:
- *   no exception and no longjmp may leave it. The same holds for the callback of azulejo_kdrt_stream. Only an
- *   azulejo_radius_fn and an azulejo_density_fn are called on other threads, and several at once.
+ *   an exception that leaves it ends the process, a longjmp is undefined. The same holds for the callback of
+ *   azulejo_kdrt_stream. Only an azulejo_radius_fn and an azulejo_density_fn are called on other threads, and several at
+ *   once.
  *
  * Threads. Every function may be called from any thread at any time. A context can be used by several threads at
  *   once; a psp handle serves one changing call at a time and refuses a second one. The last error belongs to the
- *   thread that made the call.
+ *   thread that made the call. In a process that is forked, contexts with more than one thread and what was made with
+ *   them refuse to work, with AZULEJO_ERROR_THREADS, since their threads are in the other process; everything can be
+ *   freed. Contexts of one thread, and those made after the fork, work; but Embree's own threads are gone as well, so
+ *   that a process that used it before it forked should use AZULEJO_ENGINE_RASTERISER after.
  *
  * Results. The same options and seed give the same bytes, for every number of threads and whatever was called before.
  *   A radius is always the smallest distance allowed between the centres of two samples; where it varies, the mean of
@@ -45,8 +49,9 @@
  *   up to the rounding of the returned floats: 3 times the spacing of floats at the largest coordinate in the plane, 6
  *   times where sets are merged and on a mesh.
  *
- * Memory. Sizes that cannot be held are refused with AZULEJO_ERROR_TOO_LARGE before memory is taken. When the system
- *   has no memory left in the middle of a call, the process is aborted, as by every Rust library.
+ * Memory. Sizes that cannot be held are refused with AZULEJO_ERROR_TOO_LARGE before memory is taken: what the machine has
+ *   left counts, and the limits of the process (ulimit -v) and of its control groups. When there is no memory left in the
+ *   middle of a call nevertheless, the process is aborted, as by every Rust library.
  *
  * The algorithms are those of T. Wang, Techniques on Mining Effective Parallelism For High-Performance Blue-Noise
  * Sampling, University of Tokyo, 2019 ("thesis" below).
@@ -82,7 +87,7 @@
 /// Embree refused: no device, no memory, or a scene that it cannot build.
 #define AZULEJO_ERROR_EMBREE -7
 
-/// Threads could not be started.
+/// Threads could not be started, or are in the process that this one was forked from.
 #define AZULEJO_ERROR_THREADS -8
 
 /// A bug of the library, please report it. Handles that took part in the call can only be freed.
@@ -440,8 +445,8 @@ typedef struct azulejo_psp_report {
 /// Gives the radius at a place.
 ///
 /// It is called from several threads at once, the library's own; only where the context has one thread it is called on
-/// the thread that made the call. It must give the same radius for the same place, must return (no exception and no
-/// longjmp may leave it), and must not call the library with the same context.
+/// the thread that made the call. It must give the same radius for the same place, must return (an exception
+/// that leaves it ends the process, a longjmp is undefined), and must not call the library with the same context.
 ///
 /// user: the radius_user of the options.
 ///
@@ -743,7 +748,8 @@ uint32_t azulejo_version(void);
 /// Embree's threads, too; but Embree knows one bound for a process, the largest that one of its devices has, and sets it
 /// for all that uses TBB. Beside a device of the program's that has more threads, a build of this library can use as many;
 /// a device with fewer can use `num_threads` while a psp handle that has made iterations lives, and has its own number
-/// again after that. AZULEJO_ENGINE_RASTERISER makes no device.
+/// again after that. TBB may leave threads of its own behind, also with 1, which do no work. AZULEJO_ENGINE_RASTERISER
+/// makes no device and wakes nobody.
 ///
 /// out: the context, to be freed with azulejo_context_free.
 azulejo_status azulejo_context_create(uint32_t num_threads,

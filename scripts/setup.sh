@@ -49,6 +49,18 @@ install_missing() {
     } 2>&1) || die "apt-get could not install ${missing[*]}: $(tail -n 20 <<<"$output")"
 }
 
+# Where there is a nightly compiler, what sanitizers and Miri need of it; tests that lack it say so and are skipped.
+add_nightly_components() {
+    local component
+    rustc +nightly --version >/dev/null 2>&1 || return 0
+    for component in rust-src miri; do
+        if ! rustup component list --toolchain nightly 2>/dev/null | grep -q "^$component.*(installed)"; then
+            echo "setup.sh: adding $component to the nightly compiler" >&2
+            rustup component add --toolchain nightly "$component" >/dev/null 2>&1 || echo "setup.sh: it cannot be had" >&2
+        fi
+    done
+}
+
 case "${1:-}" in
 "") ;;
 --tests) packages+=("${test_packages[@]}") ;;
@@ -57,3 +69,4 @@ esac
 command -v apt-get >/dev/null || die "no apt-get here: install Embree (4, or 3.13), libclang, a C++ compiler and CMake"
 check_rust
 install_missing "${packages[@]}"
+[ "${1:-}" != --tests ] || add_nightly_components

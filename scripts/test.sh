@@ -41,6 +41,16 @@ tests/c/pages.sh target/package/prefix README.md docs/integrating.md docs/portin
 stage "C and C++ programs: plain, under sanitizers, under valgrind"
 tests/c/run.sh target/package/prefix --asan --valgrind
 
+stage "C and C++ programs with sanitizers in Rust, too"
+tests/c/sanitized.sh address
+tests/c/sanitized.sh thread
+
+stage "The C border under Miri"
+scripts/miri.sh
+
+stage "Fuzzing, a minute for each target"
+scripts/fuzz.sh
+
 stage "Debian packages: what they hold and depend on"
 tests/c/debs.sh target/package
 

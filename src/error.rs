@@ -57,6 +57,9 @@ pub enum Error {
         /// What the thread pool said.
         reason: String,
     },
+    /// The process was forked after the context was made: the threads are in another process.
+    #[error("context: its threads are in the process that this one was forked from; make a context after the fork")]
+    Forked,
 }
 
 impl Error {

@@ -3,6 +3,7 @@
 //! All parallel code of the crate goes through [`Job::map`]: tasks that share nothing, results in the order of the
 //! tasks. That is what makes every result independent of the number of threads.
 
+use std::mem::ManuallyDrop;
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc::{self, RecvTimeoutError};
@@ -24,9 +25,14 @@ pub type Progress<'a> = dyn Fn(f64) -> ControlFlow<()> + 'a;
 /// The threads of the library: a rayon pool of its own, never the global one.
 ///
 /// With one thread no thread is made and all work happens in the caller's. Can be shared freely between threads.
+///
+/// A process that is forked has none of the threads: a context with threads refuses to work there.
 #[derive(Debug)]
 pub struct Context {
-    pool: Option<rayon::ThreadPool>,
+    /// Taken by `drop` only.
+    pool: Option<ManuallyDrop<rayon::ThreadPool>>,
+    /// The process that the threads are in.
+    process: u32,
 }
 
 impl Context {
@@ -42,29 +48,49 @@ impl Context {
             0 => std::thread::available_parallelism().map_or(1, usize::from),
             n => n,
         };
+        let process = std::process::id();
         if threads == 1 {
-            return Ok(Self { pool: None });
+            return Ok(Self { pool: None, process });
         }
         let pool = rayon::ThreadPoolBuilder::new()
             .num_threads(threads)
             .thread_name(|i| format!("azulejo-{i}"))
             .build()
             .map_err(|error| Error::Threads { threads, reason: error.to_string() })?;
-        Ok(Self { pool: Some(pool) })
+        Ok(Self { pool: Some(ManuallyDrop::new(pool)), process })
     }
 
     /// How many threads work on a call.
     pub fn num_threads(&self) -> usize {
-        self.pool.as_ref().map_or(1, rayon::ThreadPool::current_num_threads)
+        self.pool.as_ref().map_or(1, |pool| pool.current_num_threads())
     }
 
     /// Runs a call to its end and reports the last `1.0`.
     pub(crate) fn run<T>(&self, progress: Option<&Progress>, call: impl FnOnce(&Job) -> Result<T>) -> Result<T> {
+        if self.pool.is_some() && self.was_left_behind() {
+            return Err(Error::Forked);
+        }
         let job = Job { context: self, progress, from: 0.0, to: 1.0 };
         job.report(0.0)?;
         let result = call(&job)?;
         job.report(1.0)?;
         Ok(result)
+    }
+
+    /// Whether the process was forked since, and the threads are in another one.
+    fn was_left_behind(&self) -> bool {
+        self.process != std::process::id()
+    }
+}
+
+impl Drop for Context {
+    fn drop(&mut self) {
+        // In a forked process a thread that is not there may hold a lock for ever; the pool's memory is left alone.
+        if let Some(pool) = self.pool.take()
+            && !self.was_left_behind()
+        {
+            drop(ManuallyDrop::into_inner(pool));
+        }
     }
 }
 

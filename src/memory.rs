@@ -1,8 +1,11 @@
 //! Refusing what cannot be held, before it is allocated.
 
+use std::path::Path;
+
 use crate::error::{Error, Result};
 
-/// Refuses with [`Error::TooLarge`] when `bytes` are more than the machine can give now. `argument` is the option
+/// Refuses with [`Error::TooLarge`] when `bytes` are more than the machine, the process's limit of address space and the
+/// control groups that it is in (those of a container, say) can give now. `argument` is the option
 /// that asks for them and `what` names what they are for: "3000000 samples".
 ///
 /// Where the operating system does not tell (it is asked on Linux only) nothing is refused.
@@ -21,15 +24,45 @@ pub(crate) fn require(bytes: f64, argument: &'static str, what: &str) -> Result<
 
 /// Bytes of memory that can be had without swapping.
 fn available() -> Option<f64> {
-    let table = std::fs::read_to_string("/proc/meminfo").ok()?;
-    parse(&table)
+    let machine = read("/proc/meminfo").and_then(|table| entry(&table, "MemAvailable:"));
+    [machine, address_space(), control_groups(Path::new("/sys/fs/cgroup"))].into_iter().flatten().reduce(f64::min)
 }
 
-/// The entry `MemAvailable` of Linux's table, which counts in KiB.
-fn parse(table: &str) -> Option<f64> {
-    let entry = table.lines().find_map(|line| line.strip_prefix("MemAvailable:"))?;
+fn read(path: impl AsRef<Path>) -> Option<String> {
+    std::fs::read_to_string(path).ok()
+}
+
+/// An entry of one of Linux's tables, which count in KiB.
+fn entry(table: &str, name: &str) -> Option<f64> {
+    let entry = table.lines().find_map(|line| line.strip_prefix(name))?;
     let kibibytes: f64 = entry.trim().strip_suffix("kB")?.trim().parse().ok()?;
     Some(kibibytes * 1024.0)
+}
+
+/// What the process's limit (`ulimit -v`) leaves, if it has one.
+fn address_space() -> Option<f64> {
+    Some(soft_limit(&read("/proc/self/limits")?)? - entry(&read("/proc/self/status")?, "VmSize:")?)
+}
+
+/// The soft limit of the address space in the table of limits, unless it is "unlimited".
+fn soft_limit(table: &str) -> Option<f64> {
+    table.lines().find_map(|line| line.strip_prefix("Max address space"))?.split_whitespace().next()?.parse().ok()
+}
+
+/// What the process's control group (version 2) and those that it is in leave, if they have limits.
+fn control_groups(root: &Path) -> Option<f64> {
+    let groups = read("/proc/self/cgroup")?;
+    let group = groups.lines().find_map(|line| line.strip_prefix("0::/"))?;
+    let groups = Path::new(group).ancestors().map(|group| root.join(group));
+    groups.filter_map(|group| left_in(&group)).reduce(f64::min)
+}
+
+/// What a control group leaves. Files that are cached count as used, though they make room for others.
+fn left_in(group: &Path) -> Option<f64> {
+    let number = |name: &str| read(group.join(name))?.trim().parse::<f64>().ok();
+    let statistics = read(group.join("memory.stat")).unwrap_or_default();
+    let cached = statistics.lines().find_map(|line| line.strip_prefix("inactive_file ")?.parse().ok()).unwrap_or(0.0);
+    Some(number("memory.max")? - number("memory.current")? + cached)
 }
 
 #[cfg(test)]
@@ -49,9 +82,27 @@ mod tests {
     }
 
     #[test]
-    fn the_table_is_read() {
-        assert_eq!(parse("MemTotal: 9 kB\nMemAvailable:    1234 kB\n"), Some(1234.0 * 1024.0));
-        assert_eq!(parse("MemTotal: 9 kB\n"), None);
-        assert_eq!(parse("MemAvailable: many kB\n"), None);
+    fn the_tables_are_read() {
+        let available = |table| entry(table, "MemAvailable:");
+        assert_eq!(available("MemTotal: 9 kB\nMemAvailable:    1234 kB\n"), Some(1234.0 * 1024.0));
+        assert_eq!(available("MemTotal: 9 kB\n"), None);
+        assert_eq!(available("MemAvailable: many kB\n"), None);
+        let limits =
+            |limit| format!("Limit  Soft Limit  Hard Limit  Units\nMax address space     {limit}   unlimited  bytes\n");
+        assert_eq!(soft_limit(&limits("4096")), Some(4096.0));
+        assert_eq!(soft_limit(&limits("unlimited")), None);
+    }
+
+    #[test]
+    fn a_control_group_leaves_what_is_not_used_or_only_cached() {
+        let group = tempfile::tempdir().unwrap();
+        let write = |name: &str, text: &str| std::fs::write(group.path().join(name), text).unwrap();
+        write("memory.max", "max\n");
+        write("memory.current", "600\n");
+        assert_eq!(left_in(group.path()), None);
+        write("memory.max", "1000\n");
+        assert_eq!(left_in(group.path()), Some(400.0));
+        write("memory.stat", "file 200\ninactive_file 100\n");
+        assert_eq!(left_in(group.path()), Some(500.0));
     }
 }

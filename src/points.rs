@@ -11,6 +11,9 @@ pub enum Boundary {
     Bounded,
 }
 
+/// How many times as long as the other one side of a domain may be, 2^100: spade refuses larger coordinates than 2^201.
+const LARGEST_ASPECT: f64 = (1u128 << 100) as f64;
+
 /// An axis-aligned rectangle of the plane; its samples lie in `min <= x < max`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Domain {
@@ -80,7 +83,7 @@ impl Domain {
         }
     }
 
-    /// Refuses what is not a rectangle of finite `f32` coordinates.
+    /// Refuses what is not a rectangle of finite `f32` coordinates, and what is thinner than any of them can tell.
     pub(crate) fn check(&self) -> Result<()> {
         for axis in 0..2 {
             let (min, max) = (self.min[axis], self.max[axis]);
@@ -92,6 +95,11 @@ impl Domain {
             if min >= max {
                 return Err(Error::invalid("domain_max", format!("[{axis}] is {max}, not above domain_min {min}")));
             }
+        }
+        let [width, height] = self.extent();
+        if width.max(height) > LARGEST_ASPECT * width.min(height) {
+            let reason = format!("the domain is {width:e} by {height:e}; one side is at most 2^100 times the other");
+            return Err(Error::invalid("domain_max", reason));
         }
         Ok(())
     }

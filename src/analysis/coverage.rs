@@ -53,8 +53,8 @@ pub fn coverage_2d(context: &Context, domain: &Domain, points: &[[f32; 2]], radi
 /// from all of them. A set is maximal for a radius if this is not above it. Infinite for an empty set.
 ///
 /// Only the domain has to be covered, with the samples of the other side of a torus helping. Found by branch and bound:
-/// a cell whose centre is at distance `d` has no point farther than `d` + half its diagonal; cells that could hold
-/// more than the largest `d` so far are divided. The result is too small by at most the factor 1 + [`PRECISION`].
+/// the sample nearest to a cell's centre bounds the distances of all of its points; cells that could hold more than the
+/// largest distance so far are divided. The result is too small by at most the factor 1 + [`PRECISION`].
 ///
 /// Takes O(n log n).
 ///
@@ -115,22 +115,37 @@ impl Cells {
 fn farthest(nearest: &Nearest, mut cells: Vec<Cell>) -> f64 {
     let mut farthest: f64 = 0.0;
     while !cells.is_empty() {
-        let distances: Vec<f64> = cells.iter().map(|cell| nearest.distance(cell.centre)).collect();
-        farthest = distances.iter().copied().fold(farthest, f64::max);
-        let could_exceed =
-            |cell: &Cell, distance: f64| distance + cell.half[0].hypot(cell.half[1]) > farthest * (1.0 + PRECISION);
-        cells = std::iter::zip(&cells, distances)
-            .filter(|&(cell, distance)| could_exceed(cell, distance))
-            .flat_map(|(cell, _)| quarters(cell))
+        let offsets: Vec<[f64; 2]> = cells.iter().map(|cell| nearest.offset(cell.centre).map(f64::abs)).collect();
+        farthest = offsets.iter().map(|&[x, y]| x.hypot(y)).fold(farthest, f64::max);
+        let could_exceed = |cell: &Cell, offset: [f64; 2]| cell.bound(offset) > farthest * (1.0 + PRECISION);
+        cells = std::iter::zip(&cells, offsets)
+            .filter(|&(cell, offset)| could_exceed(cell, offset))
+            .flat_map(|(cell, offset)| cell.parts(offset))
             .collect();
     }
     farthest
 }
 
-fn quarters(cell: &Cell) -> [Cell; 4] {
-    let half = cell.half.map(|half| half / 2.0);
-    [[-1.0, -1.0], [1.0, -1.0], [-1.0, 1.0], [1.0, 1.0]]
-        .map(|side| Cell { centre: std::array::from_fn(|axis| cell.centre[axis] + side[axis] * half[axis]), half })
+impl Cell {
+    /// A bound for the distances of the cell's points, from the offset of the sample that is nearest to its centre: they
+    /// are no farther from this sample than the corner on the other side.
+    fn bound(&self, offset: [f64; 2]) -> f64 {
+        (offset[0] + self.half[0]).hypot(offset[1] + self.half[1])
+    }
+
+    /// Halves or quarters: divided along each axis that has a large part in the bound. In a thin domain that is the long
+    /// axis alone, and cells do not become many more than are needed along the short one.
+    fn parts(&self, offset: [f64; 2]) -> impl Iterator<Item = Cell> + use<> {
+        let Self { centre, half } = *self;
+        let excess: [f64; 2] = std::array::from_fn(|axis| half[axis] * (2.0 * offset[axis] + half[axis]));
+        let larger = excess[0].max(excess[1]);
+        let count = excess.map(|excess| if 4.0 * excess >= larger { 2 } else { 1 });
+        let half: [f64; 2] = std::array::from_fn(|axis| half[axis] / f64::from(count[axis]));
+        let along = move |axis: usize, part| centre[axis] + f64::from(2 * part + 1 - count[axis]) * half[axis];
+        (0..count[1]).flat_map(move |row| {
+            (0..count[0]).map(move |column| Cell { centre: [along(0, column), along(1, row)], half })
+        })
+    }
 }
 
 /// The share of random points of the surface that are farther than `radius` from every sample (Euclidean distance, in

@@ -182,7 +182,8 @@ fn count(
     same: bool,
     weight: impl Fn(DVec3) -> f64 + Sync,
 ) -> Result<Counts> {
-    let (firsts, others) = (Cells::new(firsts, REACH), Cells::new(others, REACH));
+    let side = pairs::side([firsts, others], REACH);
+    let (firsts, others) = (Cells::new(firsts, side), Cells::new(others, side));
     let tasks = chunks_of(firsts.len(), firsts.len().div_ceil(MAX_TASKS).max(1));
     let parts = job.map(tasks.len(), |task| {
         let mut counts = Counts::none();

@@ -337,12 +337,16 @@ impl Stopwatch {
 /// than the radius, since a needle has length and hardly any area.
 fn expected_samples(mesh: &Mesh, radius: f64) -> f64 {
     let along = |triangle: u32| {
-        let [a, b, c] = mesh.corners(triangle).map(exact);
-        let longest = (b - a).length().max((c - b).length()).max((a - c).length());
+        let longest = longest_edge(mesh, triangle);
         if longest > radius { longest / radius } else { 0.0 }
     };
     let lengths: f64 = mesh.sampled_triangles().map(along).sum();
     DENSITY * mesh.area() / (radius * radius) + lengths
+}
+
+fn longest_edge(mesh: &Mesh, triangle: u32) -> f64 {
+    let [a, b, c] = mesh.corners(triangle).map(exact);
+    (b - a).length().max((c - b).length()).max((a - c).length())
 }
 
 /// What an iteration costs, counted in rays: one for each pattern point in the shadow of the mesh's box, and a sixteenth

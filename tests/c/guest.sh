@@ -81,7 +81,69 @@ END
     cc "$work/load.c" -o "$work/load" -ldl -lpthread && "$work/load" "$prefix/lib/libazulejo.so"
 }
 
+# Two plug-ins bring a copy each: both work at once, and what one makes is the same as what the other makes.
+two_copies() {
+    cat >"$work/copies.c" <<'END'
+#include <azulejo.h>
+#include <dlfcn.h>
+#include <pthread.h>
+#include <string.h>
+
+typedef struct {
+    const char *path;
+    void *library;
+    azulejo_points *points;
+    const float *xy;
+    size_t count;
+} copy;
+
+#define FIND(copy, name) (*(__typeof__(&name) *)memcpy(&(__typeof__(&name)){0}, &(void *){dlsym((copy)->library, #name)}, 8))
+
+static void *use(void *user) {
+    copy *c = user;
+    azulejo_kdrt_options options;
+    azulejo_context *context;
+    int round;
+    for (round = 0; round < 20; round++) {
+        if (c->points != NULL) FIND(c, azulejo_points_free)(c->points);
+        if (FIND(c, azulejo_kdrt_options_init)(&options, sizeof options)) return NULL;
+        options.radius = 0.02;
+        if (FIND(c, azulejo_context_create)(2, &context)) return NULL;
+        if (FIND(c, azulejo_kdrt_sample)(context, &options, &c->points)) return NULL;
+        FIND(c, azulejo_context_free)(context);
+    }
+    c->xy = FIND(c, azulejo_points_positions)(c->points);
+    c->count = FIND(c, azulejo_points_count)(c->points);
+    return c;
+}
+
+int main(int argc, char **argv) {
+    copy copies[2];
+    pthread_t threads[2];
+    int i;
+    if (argc != 3) return 1;
+    memset(copies, 0, sizeof copies);
+    for (i = 0; i < 2; i++) {
+        copies[i].library = dlopen(argv[1 + i], RTLD_NOW | RTLD_LOCAL);
+        if (copies[i].library == NULL || pthread_create(&threads[i], NULL, use, &copies[i])) return 2;
+    }
+    for (i = 0; i < 2; i++) {
+        void *done;
+        if (pthread_join(threads[i], &done) || done == NULL) return 3;
+    }
+    /* Two libraries indeed. */
+    if (dlsym(copies[0].library, "azulejo_version") == dlsym(copies[1].library, "azulejo_version")) return 4;
+    if (copies[0].count == 0 || copies[0].count != copies[1].count) return 5;
+    return memcmp(copies[0].xy, copies[1].xy, 8 * copies[0].count) != 0;
+}
+END
+    cp "$prefix/lib/libazulejo.so" "$work/another.so"
+    cc -I "$prefix/include" "$work/copies.c" -o "$work/copies" -ldl -lpthread &&
+        "$work/copies" "$prefix/lib/libazulejo.so" "$work/another.so"
+}
+
 step "static: exports the C ABI, nothing of Rust" exports
 step "static: -Wl,--no-undefined" leaves_nothing_open
 step "static: beside another Rust library" beside_another_rust_library
 step "shared: loaded and closed at run time" loaded_and_closed
+step "shared: two copies in one process" two_copies

@@ -16,15 +16,15 @@ use crate::status::{Failure, azulejo_status};
 /// Gives the radius at a place.
 ///
 /// It is called from several threads at once, the library's own; only where the context has one thread it is called on
-/// the thread that made the call. It must give the same radius for the same place, must return (no exception and no
-/// longjmp may leave it), and must not call the library with the same context.
+/// the thread that made the call. It must give the same radius for the same place, must return (an exception
+/// that leaves it ends the process, a longjmp is undefined), and must not call the library with the same context.
 ///
 /// user: the radius_user of the options.
 ///
 /// position: x y z of a place on the mesh; for a sample, the floats that are returned.
 ///
 /// Returns the radius, from `smallest` to `largest`.
-pub type azulejo_radius_fn = Option<unsafe extern "C" fn(user: *mut c_void, position: *const f64) -> f64>;
+pub type azulejo_radius_fn = Option<unsafe extern "C-unwind" fn(user: *mut c_void, position: *const f64) -> f64>;
 
 /// Options of azulejo_psp_sample_adaptive. Either `vertex_radii` or `radius` is to be set.
 #[repr(C)]
@@ -83,7 +83,7 @@ options!(azulejo_adaptive_options requires slope {
 
 /// The caller's function with what it is given, where the core can call it.
 struct Callback {
-    function: unsafe extern "C" fn(*mut c_void, *const f64) -> f64,
+    function: unsafe extern "C-unwind" fn(*mut c_void, *const f64) -> f64,
     user: *mut c_void,
 }
 

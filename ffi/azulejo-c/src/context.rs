@@ -20,7 +20,8 @@ pub struct azulejo_context {
 /// Embree's threads, too; but Embree knows one bound for a process, the largest that one of its devices has, and sets it
 /// for all that uses TBB. Beside a device of the program's that has more threads, a build of this library can use as many;
 /// a device with fewer can use `num_threads` while a psp handle that has made iterations lives, and has its own number
-/// again after that. AZULEJO_ENGINE_RASTERISER makes no device.
+/// again after that. TBB may leave threads of its own behind, also with 1, which do no work. AZULEJO_ENGINE_RASTERISER
+/// makes no device and wakes nobody.
 ///
 /// out: the context, to be freed with azulejo_context_free.
 #[unsafe(no_mangle)]

@@ -199,7 +199,8 @@ pub unsafe extern "C" fn azulejo_kdrt_sample_window(
 /// xy: the samples, x y each, until the callback returns; `count` of them, at least one.
 ///
 /// Returns 0 to go on, anything else to cancel.
-pub type azulejo_kdrt_window_fn = Option<unsafe extern "C" fn(user: *mut c_void, xy: *const f32, count: usize) -> i32>;
+pub type azulejo_kdrt_window_fn =
+    Option<unsafe extern "C-unwind" fn(user: *mut c_void, xy: *const f32, count: usize) -> i32>;
 
 /// Makes the set of azulejo_kdrt_sample and hands it out part by part, in its order, instead of keeping it: for sets that
 /// are written or used up, of any size.

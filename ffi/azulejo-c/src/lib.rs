@@ -30,12 +30,16 @@
 //!   never falls, from 0 to 1 (the 1 comes if the call succeeds). Any return value but 0 cancels the call, which then
 //!   returns AZULEJO_ERROR_CANCELLED; only azulejo_dcr_relax, azulejo_dcr_relax_density and azulejo_dcr_relax_surface return
 //!   what they have, as their reports say. The callback may call the library, also with the same context. It must return:
-//!   no exception and no longjmp may leave it. The same holds for the callback of azulejo_kdrt_stream. Only an
-//!   azulejo_radius_fn and an azulejo_density_fn are called on other threads, and several at once.
+//!   an exception that leaves it ends the process, a longjmp is undefined. The same holds for the callback of
+//!   azulejo_kdrt_stream. Only an azulejo_radius_fn and an azulejo_density_fn are called on other threads, and several at
+//!   once.
 //!
 //! Threads. Every function may be called from any thread at any time. A context can be used by several threads at
 //!   once; a psp handle serves one changing call at a time and refuses a second one. The last error belongs to the
-//!   thread that made the call.
+//!   thread that made the call. In a process that is forked, contexts with more than one thread and what was made with
+//!   them refuse to work, with AZULEJO_ERROR_THREADS, since their threads are in the other process; everything can be
+//!   freed. Contexts of one thread, and those made after the fork, work; but Embree's own threads are gone as well, so
+//!   that a process that used it before it forked should use AZULEJO_ENGINE_RASTERISER after.
 //!
 //! Results. The same options and seed give the same bytes, for every number of threads and whatever was called before.
 //!   A radius is always the smallest distance allowed between the centres of two samples; where it varies, the mean of
@@ -44,8 +48,9 @@
 //!   up to the rounding of the returned floats: 3 times the spacing of floats at the largest coordinate in the plane, 6
 //!   times where sets are merged and on a mesh.
 //!
-//! Memory. Sizes that cannot be held are refused with AZULEJO_ERROR_TOO_LARGE before memory is taken. When the system
-//!   has no memory left in the middle of a call, the process is aborted, as by every Rust library.
+//! Memory. Sizes that cannot be held are refused with AZULEJO_ERROR_TOO_LARGE before memory is taken: what the machine has
+//!   left counts, and the limits of the process (ulimit -v) and of its control groups. When there is no memory left in the
+//!   middle of a call nevertheless, the process is aborted, as by every Rust library.
 //!
 //! The algorithms are those of T. Wang, Techniques on Mining Effective Parallelism For High-Performance Blue-Noise
 //! Sampling, University of Tokyo, 2019 ("thesis" below).

@@ -19,7 +19,7 @@ use crate::status::{Failure, azulejo_status};
 /// done: the finished share of the call, from 0 to 1; it never falls.
 ///
 /// Returns 0 to go on, anything else to cancel.
-pub type azulejo_progress_fn = Option<unsafe extern "C" fn(user: *mut c_void, done: f64) -> i32>;
+pub type azulejo_progress_fn = Option<unsafe extern "C-unwind" fn(user: *mut c_void, done: f64) -> i32>;
 
 /// No struct of a caller is longer: a garbage `struct_size` is refused before the struct's tail is read.
 const MAX_STRUCT_SIZE: usize = 4096;

@@ -24,7 +24,7 @@ pub const AZULEJO_ERROR_CANCELLED: i32 = -5;
 pub const AZULEJO_ERROR_OUT_OF_MEMORY: i32 = -6;
 /// Embree refused: no device, no memory, or a scene that it cannot build.
 pub const AZULEJO_ERROR_EMBREE: i32 = -7;
-/// Threads could not be started.
+/// Threads could not be started, or are in the process that this one was forked from.
 pub const AZULEJO_ERROR_THREADS: i32 = -8;
 /// A bug of the library, please report it. Handles that took part in the call can only be freed.
 pub const AZULEJO_ERROR_INTERNAL: i32 = -100;
@@ -66,7 +66,7 @@ impl From<Error> for Failure {
             Error::Format { .. } => AZULEJO_ERROR_FORMAT,
             Error::Cancelled => AZULEJO_ERROR_CANCELLED,
             Error::Embree(_) => AZULEJO_ERROR_EMBREE,
-            Error::Threads { .. } => AZULEJO_ERROR_THREADS,
+            Error::Threads { .. } | Error::Forked => AZULEJO_ERROR_THREADS,
             // The enum may grow inside the workspace; an error without a code of its own is a bug of this crate.
             _ => AZULEJO_ERROR_INTERNAL,
         };

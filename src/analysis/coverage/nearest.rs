@@ -27,14 +27,18 @@ impl Nearest {
         Self { domain: *domain, spacing, grid, tree }
     }
 
-    /// The distance of the nearest point from a place of the domain.
-    pub fn distance(&self, place: [f64; 2]) -> f64 {
+    /// The way from a place of the domain to the nearest point.
+    pub fn offset(&self, place: [f64; 2]) -> [f64; 2] {
         let mut reach = self.spacing;
         while reach <= NEAR * self.spacing {
-            let mut nearest = f64::INFINITY;
-            self.grid.for_each_within(place, reach, |_, _, squared| nearest = nearest.min(squared));
-            if nearest < f64::INFINITY {
-                return nearest.sqrt();
+            let (mut nearest, mut least) = (None, f64::INFINITY);
+            self.grid.for_each_within(place, reach, |_, offset, squared| {
+                if squared < least {
+                    (nearest, least) = (Some(offset), squared);
+                }
+            });
+            if let Some(offset) = nearest {
+                return offset;
             }
             reach *= 2.0;
         }
@@ -43,8 +47,12 @@ impl Nearest {
             Boundary::Bounded => &[0.0],
         };
         let [width, height] = self.domain.extent();
-        let images =
-            turns.iter().flat_map(|x| turns.iter().map(move |y| [place[0] + x * width, place[1] + y * height]));
-        images.map(|[x, y]| self.tree.nearest(DVec3::new(x, y, 0.0))).fold(f64::INFINITY, f64::min)
+        let images = turns.iter().flat_map(|x| turns.iter().map(move |y| [x * width, y * height]));
+        let ways = images.filter_map(|turn| {
+            let image = DVec3::new(place[0] + turn[0], place[1] + turn[1], 0.0);
+            Some(self.tree.nearest_point(image)? - image)
+        });
+        let nearest = ways.min_by(|a, b| a.length_squared().total_cmp(&b.length_squared()));
+        nearest.expect("there is a point").truncate().to_array()
     }
 }

@@ -33,10 +33,30 @@ impl Tree {
 
     /// The distance of the nearest point; infinite if there is none. Takes O(log n).
     pub fn nearest(&self, place: DVec3) -> f64 {
-        let mut nearest = f64::INFINITY;
+        self.nearest_point(place).map_or(f64::INFINITY, |point| point.distance(place))
+    }
+
+    /// The nearest point, if there is one. Takes O(log n).
+    pub fn nearest_point(&self, place: DVec3) -> Option<DVec3> {
+        let mut nearest = Found { squared: f64::INFINITY, point: None };
         let away = place - place.clamp(self.bounds[0], self.bounds[1]);
         search(&self.points, &self.axes, place, away, &mut nearest);
-        nearest.sqrt()
+        nearest.point
+    }
+}
+
+/// The nearest point so far.
+struct Found {
+    squared: f64,
+    point: Option<DVec3>,
+}
+
+impl Found {
+    fn look_at(&mut self, point: DVec3, place: DVec3) {
+        let squared = point.distance_squared(place);
+        if squared < self.squared {
+            *self = Self { squared, point: Some(point) };
+        }
     }
 }
 
@@ -57,12 +77,12 @@ fn divide(points: &mut [DVec3], axes: &mut [u8]) {
     divide(&mut points[middle + 1..], &mut axes[middle + 1..]);
 }
 
-/// Lowers `nearest`, a squared distance, to that of the nearest of a range. `away` is how far along each axis the place is
+/// Looks at what may be nearer in a range. `away` is how far along each axis the place is
 /// from the part of space that the range fills (Arya and Mount 1993, "Algorithms for fast vector quantization"): from far
 /// away no axis alone tells that a part is too far.
-fn search(points: &[DVec3], axes: &[u8], place: DVec3, away: DVec3, nearest: &mut f64) {
+fn search(points: &[DVec3], axes: &[u8], place: DVec3, away: DVec3, nearest: &mut Found) {
     if points.len() <= LEAF {
-        *nearest = points.iter().map(|point| point.distance_squared(place)).fold(*nearest, f64::min);
+        points.iter().for_each(|&point| nearest.look_at(point, place));
         return;
     }
     let middle = points.len() / 2;
@@ -70,11 +90,11 @@ fn search(points: &[DVec3], axes: &[u8], place: DVec3, away: DVec3, nearest: &mu
     let beyond = place[axis] - points[middle][axis];
     let [low, high] = [0..middle, middle + 1..points.len()].map(|range| (&points[range.clone()], &axes[range]));
     let [near, far] = if beyond < 0.0 { [low, high] } else { [high, low] };
-    *nearest = nearest.min(points[middle].distance_squared(place));
+    nearest.look_at(points[middle], place);
     search(near.0, near.1, place, away, nearest);
     let mut farther = away;
     farther[axis] = beyond;
-    if farther.length_squared() < *nearest {
+    if farther.length_squared() < nearest.squared {
         search(far.0, far.1, place, farther, nearest);
     }
 }

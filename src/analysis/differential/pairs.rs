@@ -7,7 +7,15 @@ use glam::DVec3;
 /// Cells are no narrower than this share of the box of all points, so that their numbers stay small.
 const NARROWEST: f64 = 1.0 / (1 << 20) as f64;
 
-/// Points sorted into cubes, whose side is at least the reach within which they are looked for.
+/// The side of the cubes for sets of points among which pairs within a reach are looked for: it must be the same for all
+/// of them, or a cube of one set would meet any number of another's.
+pub(super) fn side(sets: [&[DVec3]; 2], reach: f64) -> f64 {
+    let all = || sets.into_iter().flatten().copied();
+    let extent = all().reduce(DVec3::max).unwrap_or_default() - all().reduce(DVec3::min).unwrap_or_default();
+    reach.max(NARROWEST * extent.max_element())
+}
+
+/// Points sorted into cubes.
 pub(super) struct Cells {
     origin: DVec3,
     side: f64,
@@ -18,10 +26,8 @@ pub(super) struct Cells {
 }
 
 impl Cells {
-    pub fn new(points: &[DVec3], reach: f64) -> Self {
+    pub fn new(points: &[DVec3], side: f64) -> Self {
         let origin = points.iter().copied().reduce(DVec3::min).unwrap_or_default();
-        let extent = points.iter().copied().reduce(DVec3::max).unwrap_or_default() - origin;
-        let side = reach.max(NARROWEST * extent.max_element());
         let mut points: Vec<_> = (0..).zip(points.iter().copied()).collect();
         points.sort_by_cached_key(|&(_, point)| cell(point, origin, side));
         let mut cells: Vec<([i64; 3], Range<usize>)> = Vec::new();
@@ -45,7 +51,7 @@ impl Cells {
         &self.points[self.cells[cell].1.clone()]
     }
 
-    /// All points within the reach of some points that are near each other, and others.
+    /// All points within the reach of some points that are in one cube, and others.
     pub fn near(&self, around: &[(u32, DVec3)]) -> Vec<(u32, DVec3)> {
         let places = || around.iter().map(|&(_, point)| point);
         let (Some(low), Some(high)) = (places().reduce(DVec3::min), places().reduce(DVec3::max)) else {
@@ -85,7 +91,8 @@ mod tests {
             let mut point = || DVec3::new(stretch * rng.below(3) as f64, rng.unit(), rng.unit() + 7.0);
             let (firsts, others): (Vec<_>, Vec<_>) = (0..300).map(|_| (point(), point())).unzip();
             let is_near = |a: DVec3, b: DVec3| a.distance(b) <= reach;
-            let (from, to) = (Cells::new(&firsts, reach), Cells::new(&others, reach));
+            let side = side([&firsts, &others], reach);
+            let (from, to) = (Cells::new(&firsts, side), Cells::new(&others, side));
             let mut found = Vec::new();
             for cell in 0..from.len() {
                 let near = to.near(from.points(cell));
@@ -99,5 +106,14 @@ mod tests {
             assert!(found == expected && !expected.is_empty(), "{reach}: {} of {}", found.len(), expected.len());
         }
         assert_eq!(Cells::new(&[], 1.0).len(), 0);
+    }
+
+    /// Found by fuzzing: the few points of a cube were looked for in 10^12 cubes of the others.
+    #[test]
+    fn a_set_that_is_spread_wide_meets_few_cubes_of_one_that_is_not() {
+        let (wide, narrow) = ([DVec3::ZERO, DVec3::new(1.0, 1e13, 0.0)], [DVec3::ZERO, DVec3::ONE]);
+        let side = side([&wide, &narrow], 1.0);
+        let (from, to) = (Cells::new(&wide, side), Cells::new(&narrow, side));
+        assert_eq!(to.near(from.points(0)).len(), 2);
     }
 }

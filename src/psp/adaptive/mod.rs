@@ -23,7 +23,7 @@ use crate::mesh::Mesh;
 use crate::points::SurfaceSamples;
 use crate::psp::pieces::pieces;
 use crate::psp::samples::surface_samples;
-use crate::psp::{DENSITY, Report};
+use crate::psp::{DENSITY, Report, longest_edge};
 
 mod coverage;
 mod fill;
@@ -109,7 +109,9 @@ pub fn sample(
 /// Refuses radii that ask for more samples than can be indexed or held. They are counted on pieces of the surface, each
 /// as if it had the radius of its centre: those of the area, and those along what is longer than the radius.
 fn require(job: &Job, mesh: &Mesh, field: &Field) -> Result<()> {
-    let longest = (4.0 * mesh.area() / ESTIMATES).sqrt();
+    // Needles have next to no area: their lengths bound the pieces as well.
+    let lengths: f64 = mesh.sampled_triangles().map(|triangle| longest_edge(mesh, triangle)).sum();
+    let longest = (4.0 * mesh.area() / ESTIMATES).sqrt().max(lengths / ESTIMATES);
     let expected = |radius: f64, area: f64, length: f64| {
         DENSITY * area / (radius * radius) + if length > radius { length / radius } else { 0.0 }
     };

@@ -1,0 +1,268 @@
+//! Every call of the C ABI that needs no Embree and one thread only: small enough for Miri, which sees undefined behaviour
+//! at the border that nothing else sees (scripts/miri.sh).
+
+use std::ffi::c_void;
+use std::mem::MaybeUninit;
+use std::ptr::{NonNull, null, null_mut};
+
+use azulejo_c::adaptive::*;
+use azulejo_c::analysis::*;
+use azulejo_c::context::*;
+use azulejo_c::dcr::*;
+use azulejo_c::kdrt::*;
+use azulejo_c::maximal::*;
+use azulejo_c::merge::*;
+use azulejo_c::mesh::*;
+use azulejo_c::points::*;
+use azulejo_c::psp::*;
+use azulejo_c::status::*;
+use azulejo_c::version::azulejo_version;
+
+type Out<'a, T> = Option<&'a mut MaybeUninit<T>>;
+
+/// What a call writes, which has to succeed.
+fn made<T>(call: impl FnOnce(Out<T>) -> azulejo_status) -> T {
+    let mut out = MaybeUninit::uninit();
+    assert_eq!(call(Some(&mut out)), AZULEJO_OK, "{}", last_error());
+    // SAFETY: the call has succeeded.
+    unsafe { out.assume_init() }
+}
+
+fn last_error() -> String {
+    let mut buffer = [0u8; 300];
+    // SAFETY: the buffer is as long as that.
+    let needed = unsafe { azulejo_last_error_message(buffer.as_mut_ptr().cast(), buffer.len()) };
+    String::from_utf8_lossy(&buffer[..needed.saturating_sub(1).min(299)]).into_owned()
+}
+
+/// Options with their defaults.
+fn defaults<T>(init: unsafe extern "C" fn(*mut T, usize) -> azulejo_status) -> T {
+    let mut options = MaybeUninit::uninit();
+    // SAFETY: the struct is of this size, and the call fills it.
+    unsafe {
+        assert_eq!(init(options.as_mut_ptr(), size_of::<T>()), AZULEJO_OK);
+        options.assume_init()
+    }
+}
+
+fn context() -> Box<azulejo_context> {
+    made(|out| azulejo_context_create(1, out))
+}
+
+/// Two triangles, with something between the vertices.
+fn mesh() -> Box<azulejo_mesh> {
+    let rows = [[0.0f32, 0.0, 0.0, 9.0], [1.0, 0.0, 0.0, 9.0], [1.0, 1.0, 0.0, 9.0], [0.0, 1.0, 0.5, 9.0]];
+    let indices = [0u32, 1, 2, 0, 2, 3];
+    // SAFETY: four vertices, two triangles.
+    made(|out| unsafe { azulejo_mesh_create(rows.as_ptr().cast(), 4, 16, indices.as_ptr(), 2, out) })
+}
+
+/// Reads all arrays of a set to their ends, and frees it; returns how many samples there were.
+fn read_and_free(points: Box<azulejo_points>) -> usize {
+    let set = Some(&*points);
+    let count = azulejo_points_count(set);
+    let sum = |start: *const f32, length: usize| -> f32 {
+        // SAFETY: the header says that the arrays are that long.
+        (0..if start.is_null() { 0 } else { length }).map(|i| unsafe { start.add(i).read() }).sum()
+    };
+    assert!(sum(azulejo_points_positions(set), count * azulejo_points_dimension(set) as usize).is_finite());
+    for array in [azulejo_points_normals(set), azulejo_points_interpolated_normals(set)] {
+        assert!(sum(array, 3 * count).is_finite());
+    }
+    assert!(sum(azulejo_points_barycentrics(set), 2 * count).is_finite());
+    let (triangles, radii) = (azulejo_points_triangles(set), azulejo_points_radii(set));
+    // SAFETY: as above.
+    assert!((0..count).all(|i| triangles.is_null() || unsafe { triangles.add(i).read() } < 2));
+    // SAFETY: as above.
+    assert!((0..count).all(|i| radii.is_null() || unsafe { radii.add(i).read() } > 0.0));
+    azulejo_points_free(Some(points));
+    count
+}
+
+/// Counts how often it is called.
+unsafe extern "C-unwind" fn count(user: *mut c_void, _: f64) -> i32 {
+    // SAFETY: the tests give it a number.
+    unsafe { *user.cast::<u32>() += 1 };
+    0
+}
+
+unsafe extern "C-unwind" fn stop(_: *mut c_void, _: f64) -> i32 {
+    1
+}
+
+unsafe extern "C-unwind" fn visit(user: *mut c_void, xy: *const f32, samples: usize) -> i32 {
+    // SAFETY: the test gives it a number; the library gives it so many samples.
+    unsafe {
+        assert!((0..2 * samples).all(|i| xy.add(i).read() >= 0.0));
+        *user.cast::<u32>() += samples as u32;
+    }
+    0
+}
+
+unsafe extern "C-unwind" fn radius_at(_: *mut c_void, position: *const f64) -> f64 {
+    // SAFETY: three coordinates.
+    unsafe { 0.8 + 0.1 * position.read() + 0.0 * position.add(2).read() }
+}
+
+#[test]
+fn planes() {
+    let context = context();
+    let mut calls = 0u32;
+    let mut options = defaults(azulejo_kdrt_options_init);
+    options.radius = 0.45;
+    options.progress = Some(count);
+    options.progress_user = (&raw mut calls).cast();
+    // SAFETY: the options are of the size that they say, here and below.
+    unsafe {
+        assert!(read_and_free(made(|out| azulejo_kdrt_sample(Some(&context), &options, out))) > 2);
+        let corners = [[0.0, 0.0], [0.5, 1.0f64]];
+        let [low, high] = [corners[0].as_ptr(), corners[1].as_ptr()];
+        read_and_free(made(|out| azulejo_kdrt_sample_window(Some(&context), &options, low, high, out)));
+        let mut visited = 0u32;
+        assert_eq!(azulejo_kdrt_stream(Some(&context), &options, Some(visit), (&raw mut visited).cast()), AZULEJO_OK);
+        assert!(visited > 2 && calls > 0);
+        options.progress = Some(stop);
+        assert_eq!(
+            azulejo_kdrt_sample(Some(&context), &options, Some(&mut MaybeUninit::uninit())),
+            AZULEJO_ERROR_CANCELLED
+        );
+
+        let mut options = defaults(azulejo_maximal_options_init);
+        options.radius = 0.5;
+        read_and_free(made(|out| azulejo_maximal_sample(Some(&context), &options, out)));
+
+        let mut options = defaults(azulejo_merge_options_init);
+        options.radius = 0.5;
+        let xy = [0.25f32, 0.5];
+        let piece = azulejo_merge_piece { xy: xy.as_ptr(), count: 1, min: [0.0; 2], max: [0.5, 1.0] };
+        let fixed = [0.75f32, 0.5];
+        let mut report = MaybeUninit::uninit();
+        let merge = |out: Out<_>| {
+            azulejo_kdrt_merge(Some(&context), &options, &piece, 1, fixed.as_ptr(), 1, out, Some(&mut report))
+        };
+        assert!(read_and_free(made(merge)) >= 2);
+        assert_eq!(report.assume_init().kept, 1);
+    }
+    azulejo_context_free(Some(context));
+}
+
+#[test]
+fn surfaces() {
+    let (context, mesh) = (context(), mesh());
+    let normals = [0.0f32, 0.0, 1.0];
+    // SAFETY: the arrays are as long as told.
+    let (normal, masked) = unsafe {
+        (
+            made(|out| azulejo_mesh_with_normals(Some(&mesh), normals.as_ptr(), 1, 12, [0u32; 6].as_ptr(), 2, out)),
+            made(|out| azulejo_mesh_with_mask(Some(&mesh), [1u8, 0].as_ptr(), 2, out)),
+        )
+    };
+    assert_eq!((azulejo_mesh_has_normals(Some(&normal)), azulejo_mesh_vertex_count(Some(&masked))), (1, 4));
+    // SAFETY: four vertices, two triangles.
+    unsafe {
+        assert_eq!(azulejo_mesh_positions(Some(&mesh)).add(11).read(), 0.5);
+        assert_eq!(azulejo_mesh_indices(Some(&mesh)).add(5).read(), 3);
+    }
+    let mut options = defaults(azulejo_psp_options_init);
+    (options.radius, options.engine) = (0.9, AZULEJO_ENGINE_RASTERISER);
+    // SAFETY: the options are of the size that they say; the handle lives.
+    unsafe {
+        if !cfg!(miri) {
+            read_and_free(made(|out| azulejo_psp_sample(Some(&context), Some(&normal), &options, out, None)));
+        }
+        let mut set = made(|out| azulejo_psp_create(Some(&context), Some(&masked), &options, out));
+        azulejo_mesh_free(Some(masked));
+        let handle = NonNull::from(&mut *set);
+        // Patterns and fragments take Miri minutes.
+        let iterations = if cfg!(miri) { 0 } else { 1 };
+        assert_eq!(azulejo_psp_advance(Some(handle), iterations, None), AZULEJO_OK);
+        assert!(cfg!(miri) || azulejo_psp_fill(Some(handle), None) == AZULEJO_OK);
+        assert!(read_and_free(made(|out| azulejo_psp_points(Some(&set), out))) > 0 || cfg!(miri));
+        azulejo_psp_free(Some(set));
+    }
+    azulejo_mesh_free(Some(normal));
+    azulejo_mesh_free(Some(mesh));
+    azulejo_context_free(Some(context));
+}
+
+/// Its options are read by Miri, its samples are not: they are estimated on 100,000 pieces.
+#[test]
+fn adaptive_surfaces() {
+    let (context, mesh) = (context(), mesh());
+    let mut options = defaults(azulejo_adaptive_options_init);
+    let mut out = MaybeUninit::uninit();
+    // SAFETY: the options are of the size that they say, and the array has four radii.
+    unsafe {
+        options.cosine = f64::NAN;
+        let radii = [0.8f32, 0.9, 1.0, 1.1];
+        options.vertex_radii = radii.as_ptr();
+        options.vertex_count = 4;
+        let refused = azulejo_psp_sample_adaptive(Some(&context), Some(&mesh), &options, Some(&mut out), None);
+        assert_eq!(refused, AZULEJO_ERROR_INVALID_ARGUMENT);
+        options.cosine = -1.0;
+        if cfg!(miri) {
+            azulejo_mesh_free(Some(mesh));
+            azulejo_context_free(Some(context));
+            return;
+        }
+        read_and_free(made(|out| azulejo_psp_sample_adaptive(Some(&context), Some(&mesh), &options, out, None)));
+        options.vertex_radii = null();
+        options.radius = Some(radius_at);
+        (options.smallest, options.largest, options.slope, options.radius_user) = (0.8, 1.0, 0.1, null_mut());
+        read_and_free(made(|out| azulejo_psp_sample_adaptive(Some(&context), Some(&mesh), &options, out, None)));
+    }
+    azulejo_mesh_free(Some(mesh));
+    azulejo_context_free(Some(context));
+}
+
+#[test]
+fn points() {
+    let context = context();
+    let xy = [0.1f32, 0.2, 0.8, 0.3, 0.5, 0.9];
+    let corners = [[0.0, 0.0], [1.0, 1.0f64]];
+    let [low, high] = [corners[0].as_ptr(), corners[1].as_ptr()];
+    let mut options = defaults(azulejo_dcr_options_init);
+    options.max_iterations = 2;
+    // SAFETY: all arrays are as long as told.
+    unsafe {
+        for method in [AZULEJO_METHOD_BEST, AZULEJO_METHOD_THESIS] {
+            options.method = method;
+            let relax = |out: Out<_>| azulejo_dcr_relax(Some(&context), &options, xy.as_ptr(), 3, out, None);
+            assert_eq!(read_and_free(made(relax)), 3);
+        }
+        for figure in [azulejo_plane_smallest_distance, azulejo_plane_covering_radius] {
+            assert!(made(|out| figure(Some(&context), xy.as_ptr(), 3, low, high, 1, out)) > 0.0);
+        }
+        assert!(made(|out| azulejo_space_smallest_distance(Some(&context), xy.as_ptr(), 2, out)) > 0.0);
+        let mesh = mesh();
+        let uncovered =
+            |out: Out<_>| azulejo_mesh_uncovered_fraction(Some(&context), Some(&mesh), xy.as_ptr(), 2, 9.0, 3, 1, out);
+        assert_eq!(made(uncovered), 0.0);
+        azulejo_mesh_free(Some(mesh));
+    }
+    azulejo_context_free(Some(context));
+}
+
+#[test]
+fn refusals() {
+    let mut out = MaybeUninit::uninit();
+    // SAFETY: nothing is read where a pointer is NULL or a size is wrong.
+    unsafe {
+        assert_eq!(azulejo_kdrt_sample(None, null(), Some(&mut out)), AZULEJO_ERROR_INVALID_ARGUMENT);
+        assert!(last_error().contains("context"));
+        let mut mesh = MaybeUninit::uninit();
+        let refused = azulejo_mesh_create(null(), 3, 12, null(), 1, Some(&mut mesh));
+        assert_eq!(refused, AZULEJO_ERROR_INVALID_ARGUMENT);
+        assert_eq!(azulejo_mesh_load(null(), Some(&mut mesh)), AZULEJO_ERROR_INVALID_ARGUMENT);
+        assert_eq!(azulejo_psp_fill(None, None), AZULEJO_ERROR_INVALID_ARGUMENT);
+        // A struct that ends where it says, in memory that ends there, too.
+        let mut short = vec![0u32; 4];
+        short[0] = 16;
+        let context = context();
+        assert!(azulejo_kdrt_sample(Some(&context), short.as_ptr().cast(), Some(&mut out)) < 0);
+        azulejo_context_free(Some(context));
+    }
+    azulejo_points_free(None);
+    azulejo_mesh_free(None);
+    assert!(azulejo_version() > 0);
+}

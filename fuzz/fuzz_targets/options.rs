@@ -1,0 +1,198 @@
+//! Options structs of every size and content, in memory that ends where they say that they end.
+
+#![no_main]
+
+use std::alloc::{Layout, alloc_zeroed, dealloc, handle_alloc_error};
+
+use azulejo_c::adaptive::*;
+use azulejo_c::dcr::*;
+use azulejo_c::kdrt::*;
+use azulejo_c::maximal::*;
+use azulejo_c::merge::*;
+use azulejo_c::mesh::{azulejo_mesh, azulejo_mesh_create};
+use azulejo_c::psp::*;
+use azulejo_c::status::{AZULEJO_OK, azulejo_status};
+use azulejo_fuzz::calls::{Patience, accepted, context, create};
+use azulejo_fuzz::input::Input;
+use libfuzzer_sys::fuzz_target;
+
+fuzz_target!(|bytes: &[u8]| {
+    let mut input = Input::new(bytes);
+    // Every call ends when it first tells how far it is: sizes do not matter here, and a set may be as large as it likes.
+    let patience = Patience::new(0);
+    match input.below(6) {
+        0 => kdrt(&mut input, &patience),
+        1 => maximal(&mut input, &patience),
+        2 => merge(&mut input, &patience),
+        3 => psp(&mut input, &patience),
+        4 => adaptive(&mut input, &patience),
+        _ => dcr(&mut input, &patience),
+    }
+});
+
+/// Memory of a size that is no multiple of anything, so that a sanitizer sees a read beyond it.
+struct Struct {
+    start: *mut u8,
+    layout: Layout,
+}
+
+impl Struct {
+    fn new(size: usize) -> Self {
+        let layout = Layout::from_size_align(size, 8).expect("a small size");
+        // SAFETY: the size is not 0.
+        let start = unsafe { alloc_zeroed(layout) };
+        if start.is_null() { handle_alloc_error(layout) } else { Self { start, layout } }
+    }
+
+    fn bytes(&mut self) -> &mut [u8] {
+        // SAFETY: the memory is this struct's, of this size.
+        unsafe { std::slice::from_raw_parts_mut(self.start, self.layout.size()) }
+    }
+
+    /// Puts a field where it is, if it is there as a whole.
+    fn put<T>(&mut self, offset: usize, field: T) -> bool {
+        let fits = offset + size_of::<T>() <= self.layout.size();
+        if fits {
+            // SAFETY: inside the memory.
+            unsafe { self.start.add(offset).cast::<T>().write_unaligned(field) };
+        }
+        fits
+    }
+}
+
+impl Drop for Struct {
+    fn drop(&mut self) {
+        // SAFETY: made by `new`.
+        unsafe { dealloc(self.start, self.layout) };
+    }
+}
+
+/// A struct of a size around that of `T`, first with the defaults, then with the input's bytes in some places.
+fn hostile<T>(input: &mut Input, init: unsafe extern "C" fn(*mut T, usize) -> azulejo_status) -> Struct {
+    let size =
+        if input.one_in(16) { input.below(5000) } else { input.below(2 * size_of::<T>() as u32) }.max(4) as usize;
+    let mut memory = Struct::new(size);
+    // SAFETY: the memory is of this size.
+    if unsafe { init(memory.start.cast(), size) } != AZULEJO_OK {
+        memory.put(0, size as u32);
+    }
+    for _ in 0..input.below(8) {
+        let at = 8 + input.below(size as u32) as usize;
+        match input.below(3) {
+            0 => memory.bytes().iter_mut().skip(at - 4).take(1).for_each(|byte| *byte = input.any()),
+            1 => _ = memory.put(at & !7, input.number()),
+            _ => _ = memory.put(at & !3, input.any::<i32>().rem_euclid(4)),
+        }
+    }
+    memory
+}
+
+/// Puts the callback in its place; without one a call would work for long.
+macro_rules! watched {
+    ($memory:ident, $type:ident, $patience:ident) => {
+        $memory
+            .put(std::mem::offset_of!($type, progress), Some(Patience::tell as unsafe extern "C-unwind" fn(_, _) -> _))
+            && $memory.put(std::mem::offset_of!($type, progress_user), $patience.user())
+    };
+}
+
+/// Calls with a struct that has no place for a callback are made with what is refused anyway, or is quick.
+fn quick(memory: &mut Struct, radius: usize) {
+    memory.put(radius, 0.3f64);
+    memory.put(16, [0.0f64, 0.0, 1.0, 1.0]);
+}
+
+fn kdrt(input: &mut Input, patience: &Patience) {
+    let mut memory = hostile(input, azulejo_kdrt_options_init);
+    if !watched!(memory, azulejo_kdrt_options, patience) {
+        quick(&mut memory, std::mem::offset_of!(azulejo_kdrt_options, radius));
+    }
+    let options = memory.start.cast();
+    let corners = [[0.25, 0.25], [0.5f64, 0.5]];
+    // SAFETY: the options are of the size that they say.
+    unsafe {
+        create(|out| azulejo_kdrt_sample(context(), options, out));
+        patience.again(0);
+        create(|out| azulejo_kdrt_sample_window(context(), options, corners[0].as_ptr(), corners[1].as_ptr(), out));
+        patience.again(0);
+        accepted(azulejo_kdrt_stream(context(), options, None, std::ptr::null_mut()));
+    }
+}
+
+fn maximal(input: &mut Input, patience: &Patience) {
+    let mut memory = hostile(input, azulejo_maximal_options_init);
+    if !watched!(memory, azulejo_maximal_options, patience) {
+        quick(&mut memory, std::mem::offset_of!(azulejo_maximal_options, radius));
+    }
+    // SAFETY: the options are of the size that they say.
+    create(|out| unsafe { azulejo_maximal_sample(context(), memory.start.cast(), out) });
+}
+
+fn merge(input: &mut Input, patience: &Patience) {
+    let mut memory = hostile(input, azulejo_merge_options_init);
+    if !watched!(memory, azulejo_merge_options, patience) {
+        quick(&mut memory, std::mem::offset_of!(azulejo_merge_options, radius));
+    }
+    let xy = [0.5f32, 0.5];
+    let piece = azulejo_merge_piece { xy: xy.as_ptr(), count: 1, min: [0.0; 2], max: [1.0; 2] };
+    let null = std::ptr::null();
+    // SAFETY: the options are of the size that they say, the piece has one sample.
+    create(|out| unsafe { azulejo_kdrt_merge(context(), memory.start.cast(), &piece, 1, null, 0, out, None) });
+}
+
+fn triangle() -> Box<azulejo_mesh> {
+    let (corners, indices) = ([0f32, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0], [0u32, 1, 2]);
+    // SAFETY: three vertices, one triangle.
+    create(|out| unsafe { azulejo_mesh_create(corners.as_ptr(), 3, 12, indices.as_ptr(), 1, out) }).expect("a triangle")
+}
+
+fn psp(input: &mut Input, patience: &Patience) {
+    let mut memory = hostile(input, azulejo_psp_options_init);
+    if !watched!(memory, azulejo_psp_options, patience) {
+        memory.put(std::mem::offset_of!(azulejo_psp_options, radius), 0.3f64);
+        memory.put(std::mem::offset_of!(azulejo_psp_options, iterations), 2u32);
+    }
+    let (mesh, options) = (triangle(), memory.start.cast());
+    // SAFETY: the options are of the size that they say.
+    unsafe {
+        create(|out| azulejo_psp_create(context(), Some(&mesh), options, out));
+        create(|out| azulejo_psp_sample(context(), Some(&mesh), options, out, None));
+    }
+}
+
+fn adaptive(input: &mut Input, patience: &Patience) {
+    let mut memory = hostile(input, azulejo_adaptive_options_init);
+    let radii = [0.2f32, 0.3, 0.4];
+    let count = if input.one_in(8) { input.below(3) as usize } else { 3 };
+    let by_vertex = input.one_in(2);
+    // The pointers and the count are the caller's word, which has to be true.
+    memory.put(
+        std::mem::offset_of!(azulejo_adaptive_options, vertex_radii),
+        if by_vertex { radii.as_ptr() } else { std::ptr::null() },
+    );
+    memory.put(std::mem::offset_of!(azulejo_adaptive_options, vertex_count), count);
+    memory.put(
+        std::mem::offset_of!(azulejo_adaptive_options, radius),
+        (!by_vertex).then_some(constant as unsafe extern "C-unwind" fn(_, _) -> _),
+    );
+    if !watched!(memory, azulejo_adaptive_options, patience) {
+        memory.put(std::mem::offset_of!(azulejo_adaptive_options, slope), 0.0f64);
+    }
+    let mesh = triangle();
+    // SAFETY: the options are of the size that they say.
+    create(|out| unsafe { azulejo_psp_sample_adaptive(context(), Some(&mesh), memory.start.cast(), out, None) });
+}
+
+unsafe extern "C-unwind" fn constant(_: *mut std::ffi::c_void, _: *const f64) -> f64 {
+    0.25
+}
+
+fn dcr(input: &mut Input, patience: &Patience) {
+    let mut memory = hostile(input, azulejo_dcr_options_init);
+    if !watched!(memory, azulejo_dcr_options, patience) {
+        memory.put(std::mem::offset_of!(azulejo_dcr_options, max_iterations), 5u32);
+    }
+    let xy = [0.1f32, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.1];
+    // SAFETY: the options are of the size that they say, and there are four points.
+    create(|out| unsafe { azulejo_dcr_relax(context(), memory.start.cast(), xy.as_ptr(), 4, out, None) });
+}

@@ -1,0 +1,163 @@
+//! Sets of the plane: whole, counted, windows, streams, merged, for domains and radii of all sizes.
+
+#![no_main]
+
+use std::ffi::c_void;
+
+use azulejo_c::kdrt::*;
+use azulejo_c::maximal::*;
+use azulejo_c::merge::*;
+use azulejo_core::{Boundary, Domain};
+use azulejo_fuzz::calls::{Arrays, Out, Patience, accepted, array, check_distances, context, create};
+use azulejo_fuzz::input::Input;
+use libfuzzer_sys::fuzz_target;
+
+fuzz_target!(|bytes: &[u8]| {
+    let mut input = Input::new(bytes);
+    let min = [input.coordinate(), input.coordinate()].map(f64::from);
+    let sides = [input.number(), input.number()];
+    let radius = sides[0].min(sides[1]) * input.number() / 16.0;
+    // With hostile numbers nothing of this holds, and the calls refuse.
+    if (sides[0] / radius + 2.0) * (sides[1] / radius + 2.0) > 1000.0 {
+        return;
+    }
+    let patience = Patience::new(if input.one_in(4) { input.below(50) } else { u32::MAX });
+    let options = azulejo_kdrt_options {
+        struct_size: size_of::<azulejo_kdrt_options>() as u32,
+        boundary: i32::from(input.one_in(2)),
+        radius,
+        domain_min: min,
+        domain_max: [min[0] + sides[0], min[1] + sides[1]],
+        leaf_size: if input.one_in(4) { 6.0 * input.number() } else { 6.0 },
+        seed: input.any(),
+        progress: Some(Patience::tell),
+        progress_user: patience.user(),
+        count: 0,
+    };
+    match input.below(6) {
+        0 => maximal(&options),
+        1 => counted(&options, 1 + input.below(200)),
+        2 => window(&options, &patience, &mut input),
+        3 => stream(&options, input.below(20)),
+        4 => merge(&options, &mut input),
+        _ => check(&options, sample(&options)),
+    }
+});
+
+fn domain(options: &azulejo_kdrt_options) -> Domain {
+    let boundary = if options.boundary == 0 { Boundary::Periodic } else { Boundary::Bounded };
+    Domain { min: options.domain_min, max: options.domain_max, boundary }
+}
+
+/// No two samples are too close, and all are in the domain.
+fn check(options: &azulejo_kdrt_options, samples: Option<Vec<[f32; 2]>>) {
+    let (Some(samples), domain) = (samples, domain(options)) else { return };
+    check_distances(&samples, |a, b| domain.offset(a, b), |_, _| options.radius);
+    let inside = |x: f32, axis| (domain.min[axis]..domain.max[axis]).contains(&f64::from(x));
+    assert!(samples.iter().all(|&[x, y]| inside(x, 0) && inside(y, 1)));
+}
+
+fn owned(points: Box<azulejo_c::points::azulejo_points>) -> Vec<[f32; 2]> {
+    Arrays::of(&points).positions.as_chunks::<2>().0.to_vec()
+}
+
+fn sample(options: &azulejo_kdrt_options) -> Option<Vec<[f32; 2]>> {
+    // SAFETY: the options are of the size that they say.
+    create(|out| unsafe { azulejo_kdrt_sample(context(), options, out) }).map(owned)
+}
+
+fn maximal(options: &azulejo_kdrt_options) {
+    let &azulejo_kdrt_options { boundary, radius, domain_min, domain_max, seed, progress, progress_user, .. } = options;
+    let struct_size = size_of::<azulejo_maximal_options>() as u32;
+    let request = azulejo_maximal_options {
+        struct_size,
+        boundary,
+        radius,
+        domain_min,
+        domain_max,
+        seed,
+        progress,
+        progress_user,
+    };
+    // SAFETY: the options are of the size that they say.
+    check(options, create(|out| unsafe { azulejo_maximal_sample(context(), &request, out) }).map(owned));
+}
+
+fn counted(options: &azulejo_kdrt_options, count: u32) {
+    let request = azulejo_kdrt_options { radius: 0.0, count: count.into(), ..*options };
+    let mut report = std::mem::MaybeUninit::uninit();
+    // SAFETY: the options are of the size that they say.
+    let call = |out: Out<_>| unsafe { azulejo_kdrt_sample_with_report(context(), &request, out, Some(&mut report)) };
+    let Some(samples) = create(call).map(owned) else { return };
+    assert_eq!(samples.len(), count as usize);
+    // SAFETY: the call succeeded.
+    let report: azulejo_kdrt_report = unsafe { report.assume_init() };
+    check(&azulejo_kdrt_options { radius: report.radius, ..request }, Some(samples));
+}
+
+/// A window is the whole set, filtered.
+fn window(options: &azulejo_kdrt_options, patience: &Patience, input: &mut Input) {
+    let [low, high] = [0, 1]
+        .map(|_| -> [f64; 2] { std::array::from_fn(|axis| options.domain_min[axis] + f64::from(input.coordinate())) });
+    // SAFETY: the options are of the size that they say, and the corners two numbers each.
+    let call =
+        |out: Out<_>| unsafe { azulejo_kdrt_sample_window(context(), options, low.as_ptr(), high.as_ptr(), out) };
+    let Some(part) = create(call).map(owned) else { return };
+    patience.again(u32::MAX);
+    let Some(mut whole) = sample(options) else { panic!("a window without the whole") };
+    if options.boundary == 1
+        || (0..2).all(|axis| low[axis] >= options.domain_min[axis] && high[axis] <= options.domain_max[axis])
+    {
+        whole.retain(|point| (0..2).all(|axis| (low[axis]..high[axis]).contains(&f64::from(point[axis]))));
+        assert_eq!(part, whole);
+    }
+}
+
+/// A visitor that stops after a while.
+struct Visitor {
+    left: u32,
+    samples: Vec<[f32; 2]>,
+}
+
+unsafe extern "C-unwind" fn visit(user: *mut c_void, xy: *const f32, count: usize) -> i32 {
+    // SAFETY: `stream` leads here with this user, the library with so many samples.
+    let (visitor, xy) = unsafe { (&mut *user.cast::<Visitor>(), array(xy, 2 * count)) };
+    visitor.samples.extend(xy.as_chunks::<2>().0);
+    visitor.left = visitor.left.saturating_sub(1);
+    i32::from(visitor.left == 0)
+}
+
+fn stream(options: &azulejo_kdrt_options, visits: u32) {
+    let mut visitor = Visitor { left: visits, samples: Vec::new() };
+    // SAFETY: the options are of the size that they say, and the visitor lives.
+    let status = unsafe { azulejo_kdrt_stream(context(), options, Some(visit), (&raw mut visitor).cast()) };
+    accepted(status);
+    check(options, Some(visitor.samples));
+}
+
+fn merge(options: &azulejo_kdrt_options, input: &mut Input) {
+    let &azulejo_kdrt_options { boundary, radius, domain_min, domain_max, seed, progress, progress_user, .. } = options;
+    let struct_size = size_of::<azulejo_merge_options>() as u32;
+    let request =
+        azulejo_merge_options { struct_size, boundary, radius, domain_min, domain_max, seed, progress, progress_user };
+    let middle = domain_min[0] + (domain_max[0] - domain_min[0]) * f64::from(input.any::<u8>()) / 256.0;
+    let halves = [(domain_min, [middle, domain_max[1]]), ([middle, domain_min[1]], domain_max)];
+    let samples = halves.map(|(min, max)| {
+        if input.one_in(4) {
+            return input.rows::<2>(30); // mostly too close to each other
+        }
+        let half = azulejo_kdrt_options { domain_min: min, domain_max: max, boundary: 1, ..*options };
+        sample(&half).unwrap_or_default()
+    });
+    let fixed = if input.one_in(2) { input.rows::<2>(4) } else { Vec::new() };
+    let piece = |i: usize| {
+        let ((min, max), samples) = (halves[i], &samples[i]);
+        azulejo_merge_piece { xy: samples.as_ptr().cast(), count: samples.len(), min, max }
+    };
+    let pieces = [piece(0), piece(1)];
+    // SAFETY: all arrays are as long as told.
+    let call = |out: Out<_>| unsafe {
+        azulejo_kdrt_merge(context(), &request, pieces.as_ptr(), 2, fixed.as_ptr().cast(), fixed.len(), out, None)
+    };
+    check(options, create(call).map(owned));
+}

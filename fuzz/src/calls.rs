@@ -1,0 +1,139 @@
+//! The C ABI with owners: outputs that exist on success only, refusals that say why, callbacks that run out of patience.
+
+use std::cell::Cell;
+use std::ffi::{c_char, c_void};
+use std::mem::MaybeUninit;
+use std::slice;
+use std::sync::OnceLock;
+
+use azulejo_c::context::{azulejo_context, azulejo_context_create};
+use azulejo_c::points::*;
+use azulejo_c::status::*;
+
+/// A context of one thread, so that an input always does the same.
+pub fn context() -> Option<&'static azulejo_context> {
+    static CONTEXT: OnceLock<Box<azulejo_context>> = OnceLock::new();
+    Some(CONTEXT.get_or_init(|| create(|out| azulejo_context_create(1, out)).expect("a context of one thread")))
+}
+
+/// Where a call writes what it makes.
+pub type Out<'a, T> = Option<&'a mut MaybeUninit<T>>;
+
+/// The handle that a call makes, unless it refuses.
+pub fn create<T>(call: impl FnOnce(Out<Box<T>>) -> azulejo_status) -> Option<Box<T>> {
+    value(call)
+}
+
+/// The value that a call writes, unless it refuses.
+pub fn value<T>(call: impl FnOnce(Out<T>) -> azulejo_status) -> Option<T> {
+    let mut out = MaybeUninit::uninit();
+    // SAFETY: a call that succeeds has written its output.
+    accepted(call(Some(&mut out))).then(|| unsafe { out.assume_init() })
+}
+
+/// Whether a call succeeded; if it did not, it has a known reason and says it in one line.
+pub fn accepted(status: azulejo_status) -> bool {
+    if status == AZULEJO_OK {
+        return true;
+    }
+    assert!((AZULEJO_ERROR_THREADS..AZULEJO_OK).contains(&status), "status {status}: {}", last_error());
+    let message = last_error();
+    assert!(!message.is_empty() && message.len() < 2000 && !message.contains('\n'), "{message:?}");
+    false
+}
+
+fn last_error() -> String {
+    let mut buffer = vec![0u8; 2048];
+    // SAFETY: the buffer is as long as that.
+    let needed = unsafe { azulejo_last_error_message(buffer.as_mut_ptr().cast::<c_char>(), buffer.len()) };
+    buffer.truncate(needed.saturating_sub(1).min(buffer.len() - 1));
+    String::from_utf8(buffer).expect("messages are UTF-8")
+}
+
+/// How often a progress callback lets a call go on, and what it was told last.
+pub struct Patience {
+    left: Cell<u32>,
+    last: Cell<f64>,
+}
+
+impl Patience {
+    /// Lets the call go on `left` times.
+    pub fn new(left: u32) -> Self {
+        Self { left: Cell::new(left), last: Cell::new(0.0) }
+    }
+
+    /// What goes into the options as progress_user.
+    pub fn user(&self) -> *mut c_void {
+        (&raw const *self).cast_mut().cast()
+    }
+
+    /// For the next call.
+    pub fn again(&self, left: u32) {
+        self.left.set(left);
+    }
+
+    /// The progress callback, which has no patience where its user is NULL. A call begins with 0.
+    ///
+    /// # Safety
+    /// `user` is NULL or that of a patience that is alive.
+    pub unsafe extern "C-unwind" fn tell(user: *mut c_void, done: f64) -> i32 {
+        // SAFETY: by the contract.
+        let Some(patience) = (unsafe { user.cast::<Self>().as_ref() }) else { return 1 };
+        let last = patience.last.replace(done);
+        assert!((last..=1.0).contains(&done) || done == 0.0, "{done} after {last}");
+        let left = patience.left.get();
+        patience.left.set(left.saturating_sub(1));
+        if left == 0 { -7 } else { 0 }
+    }
+}
+
+/// The arrays of a set of samples.
+pub struct Arrays<'a> {
+    pub positions: &'a [f32],
+    pub triangles: &'a [u32],
+    pub barycentrics: &'a [f32],
+    pub normals: &'a [f32],
+    pub interpolated: &'a [f32],
+    pub radii: &'a [f64],
+}
+
+impl<'a> Arrays<'a> {
+    pub fn of(points: &'a azulejo_points) -> Self {
+        let points = Some(points);
+        let count = azulejo_points_count(points);
+        // SAFETY: the header says how long the arrays are, and the set is borrowed as long as they are used.
+        unsafe {
+            Self {
+                positions: array(azulejo_points_positions(points), count * azulejo_points_dimension(points) as usize),
+                triangles: array(azulejo_points_triangles(points), count),
+                barycentrics: array(azulejo_points_barycentrics(points), 2 * count),
+                normals: array(azulejo_points_normals(points), 3 * count),
+                interpolated: array(azulejo_points_interpolated_normals(points), 3 * count),
+                radii: array(azulejo_points_radii(points), count),
+            }
+        }
+    }
+}
+
+/// # Safety
+/// `start` is NULL or leads to `length` numbers that live as long as `'a`.
+pub unsafe fn array<'a, T>(start: *const T, length: usize) -> &'a [T] {
+    // SAFETY: by the contract.
+    if start.is_null() { &[] } else { unsafe { slice::from_raw_parts(start, length) } }
+}
+
+/// Two rows are no closer than `distance` allows for their numbers, in `f64`: all pairs, so for small sets.
+pub fn check_distances<const N: usize>(
+    rows: &[[f32; N]],
+    offset: impl Fn([f64; N], [f64; N]) -> [f64; N],
+    distance: impl Fn(usize, usize) -> f64,
+) {
+    let exact: Vec<[f64; N]> = rows.iter().map(|row| row.map(f64::from)).collect();
+    for (i, &a) in exact.iter().enumerate() {
+        for (j, &b) in exact[..i].iter().enumerate() {
+            let squared: f64 = offset(a, b).iter().map(|x| x * x).sum();
+            let least = distance(i, j);
+            assert!(squared.sqrt() >= least, "samples {j} and {i}, {b:?} and {a:?}, are closer than {least}");
+        }
+    }
+}

@@ -1,0 +1,60 @@
+#!/usr/bin/env bash
+# Fuzzes the C ABI and the analysis with libFuzzer and AddressSanitizer.
+#
+#   scripts/fuzz.sh [--seconds N] [TARGET...]
+#
+# Each target of fuzz/fuzz_targets, or those named, runs for N seconds (60), as many at a time as there are cores. Inputs
+# that fail are kept in target/fuzz/artifacts, and `scripts/fuzz.sh TARGET FILE` runs one of them again. Needs a nightly
+# compiler; without one nothing is done, which is said.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+if ! rustc +nightly --version >/dev/null 2>&1; then
+    echo "SKIPPED: fuzzing, since there is no nightly compiler here"
+    exit 0
+fi
+
+seconds=60
+targets=()
+file=
+while [ $# -gt 0 ]; do
+    case $1 in
+        --seconds)
+            seconds=${2:?--seconds needs a number}
+            shift
+            ;;
+        *) if [ -f "$1" ]; then file=$1; else targets+=("$1"); fi ;;
+    esac
+    shift
+done
+[ ${#targets[@]} -gt 0 ] || mapfile -t targets < <(basename -s .rs fuzz/fuzz_targets/*.rs)
+
+# What libFuzzer needs of the compiler; a target apart, so that build scripts go without.
+host=$(rustc +nightly -vV | sed -n 's/^host: //p')
+export RUSTFLAGS="-Zsanitizer=address -Ccodegen-units=1 -Cpasses=sancov-module
+    -Cllvm-args=-sanitizer-coverage-level=4 -Cllvm-args=-sanitizer-coverage-trace-compares
+    -Cllvm-args=-sanitizer-coverage-inline-8bit-counters -Cllvm-args=-sanitizer-coverage-pc-table"
+cargo +nightly build -j 3 --locked --release --manifest-path fuzz/Cargo.toml --target "$host" \
+    --target-dir target/fuzz $(printf -- '--bin %s ' "${targets[@]}")
+programs=$PWD/target/fuzz/$host/release
+
+# A target in a corpus of its own, begun with the seeds; says how many inputs it ran.
+fuzz() {
+    local work=target/fuzz/corpus/$1 log=target/fuzz/$1.log
+    mkdir -p "$work" target/fuzz/artifacts
+    if "$programs/$1" "$work" fuzz/corpus/"$1" -max_total_time="$2" -timeout=60 -rss_limit_mb=3000 -max_len=4096 \
+        -artifact_prefix="target/fuzz/artifacts/$1-" >"$log" 2>&1; then
+        printf '%-10s %s\n' "$1" "$(tail -n 1 "$log")"
+    else
+        printf '%-10s FAILED\n' "$1"
+        tail -n 60 "$log" | sed 's/^/    /'
+        return 1
+    fi
+}
+export -f fuzz
+export programs
+
+if [ -n "$file" ]; then
+    exec "$programs/${targets[0]}" "$file"
+fi
+printf '%s\n' "${targets[@]}" | xargs -P "$(nproc)" -I{} bash -c "fuzz {} $seconds"

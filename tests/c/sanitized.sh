@@ -1,0 +1,91 @@
+#!/usr/bin/env bash
+# Runs the C and C++ test programs with a libazulejo whose Rust is instrumented, too.
+#
+#   tests/c/sanitized.sh address|thread
+#
+# address: AddressSanitizer, with the overflow checks and debug assertions of Rust. thread: ThreadSanitizer, for what
+# several threads do; it needs Rust's standard library instrumented, or it would not see its locks. A canary shows that
+# the Rust was instrumented: it gives the library a wrong word, which nobody but the sanitizer can see. Needs a nightly
+# compiler, and for threads its component rust-src; what is missing is said.
+set -euo pipefail
+
+root=$(cd "$(dirname "$0")/../.." && pwd)
+here=$root/tests/c
+sanitizer=${1:?usage: tests/c/sanitized.sh address|thread}
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+. "$here/examples.sh"
+
+skip() {
+    echo "SKIPPED: the $sanitizer sanitizer in Rust, since there is no $1 here"
+    exit 0
+}
+rustc +nightly --version >/dev/null 2>&1 || skip "nightly compiler"
+sysroot=$(rustc +nightly --print sysroot)
+host=$(rustc +nightly -vV | sed -n 's/^host: //p')
+
+rust=()
+case $sanitizer in
+    address)
+        runtime=asan
+        caught="AddressSanitizer: heap-buffer-overflow"
+        programs=("$here"/*.c "$here"/*.cpp)
+        ;;
+    thread)
+        [ -d "$sysroot/lib/rustlib/src/rust/library" ] || skip "nightly component rust-src"
+        rust+=(-Zbuild-std)
+        runtime=tsan
+        caught="ThreadSanitizer: data race"
+        programs=("$here"/threads.c "$here"/progress.c)
+        # Nobody instruments Embree and TBB: what they lock is invisible.
+        printf '%s\n' {race,called_from_lib}:lib{embree3,embree4,tbb}.so >"$work/suppressions"
+        export TSAN_OPTIONS="suppressions=$work/suppressions"
+        ;;
+    *) skip "sanitizer of this name" ;;
+esac
+runtime=$sysroot/lib/rustlib/$host/lib/librustc-nightly_rt.$runtime.a
+[ -f "$runtime" ] || skip "$(basename "$runtime")"
+
+# Sizes that no memory has are refused; a hundred rounds show what a thousand do.
+export ASAN_OPTIONS=allocator_may_return_null=1 AZULEJO_ROUNDS=100
+
+target=$root/target/sanitizers/$sanitizer
+library=$target/$host/debug/libazulejo.a
+
+build_library() {
+    (cd "$root" && RUSTFLAGS=-Zsanitizer=$sanitizer CARGO_INCREMENTAL=0 cargo +nightly rustc --quiet --locked \
+        "${rust[@]}" --package azulejo-c --crate-type staticlib --target "$host" --target-dir "$target")
+}
+
+# The Embree that the library was built for: embree3 or embree4.
+embree() { sed -n 's/^cargo::metadata=library=//p' "$target/$host"/debug/build/embree4-sys-*/output | tail -n 1; }
+
+# The runtime is that of the Rust compiler, for C, too: it knows the calls of both.
+build_program() { # SOURCE OUTPUT
+    local compiler=(cc -std=gnu11)
+    [ "${1##*.}" = c ] || compiler=(c++ -std=c++17)
+    "${compiler[@]}" -O1 -g "-fsanitize=$sanitizer" -DEMBREE_MAJOR="${embree#embree}" -I "$root/include" -c "$1" -o "$2.o" &&
+        c++ "$2.o" -o "$2" "$library" -Wl,--whole-archive "$runtime" -Wl,--no-whole-archive -Wl,--export-dynamic \
+            "-l$embree" -lpthread -ldl -lm -lrt
+}
+
+run_program() { # SOURCE
+    local program
+    program=$work/$(basename "$1")
+    program=${program%.*}
+    build_program "$1" "$program" && "$program"
+}
+
+canary_is_caught() {
+    run_program "$here/canaries/$sanitizer.c" >"$work/canary" 2>&1 && return 1
+    cat "$work/canary"
+    # The access is the library's, not the program's.
+    grep -q "$caught" "$work/canary" && grep -q "#[0-9].*$root/src/" "$work/canary"
+}
+
+step "$sanitizer: the library is built" build_library
+embree=$(embree)
+step "$sanitizer: the canary is caught" canary_is_caught
+for program in "${programs[@]}"; do
+    step "$sanitizer: $(basename "$program")" run_program "$program"
+done
