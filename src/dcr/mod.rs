@@ -240,7 +240,7 @@ trait Relaxation {
     fn points(&self, points: &[[f32; 2]]) -> Vec<[f32; 2]>;
 
     /// The largest distance from the set, in units of the domain.
-    fn coverage(&self, job: &Job) -> Result<f64>;
+    fn coverage(&mut self, job: &Job) -> Result<f64>;
 }
 
 /// Relaxes a set of points of the domain: returns as many points, in the same order, spread more evenly.
@@ -272,11 +272,11 @@ pub fn relax(
     };
     let relaxed = context.run(progress, |job| {
         let stopped = make_steps(&job.part(0.0, 0.98), options, points.len(), &mut *set)?;
-        measure(&job.part(0.98, 1.0), options, points, &*set, stopped)
+        measure(&job.part(0.98, 1.0), options, points, &mut *set, stopped)
     });
     match relaxed {
         // What there is after the last whole step is measured without further questions.
-        Err(Error::Cancelled) => context.run(None, |job| measure(job, options, points, &*set, Stopped::Cancelled)),
+        Err(Error::Cancelled) => context.run(None, |job| measure(job, options, points, &mut *set, Stopped::Cancelled)),
         relaxed => relaxed,
     }
 }
@@ -301,7 +301,7 @@ fn measure(
     job: &Job,
     options: &Options,
     points: &[[f32; 2]],
-    set: &dyn Relaxation,
+    set: &mut dyn Relaxation,
     stopped: Stopped,
 ) -> Result<(Vec<[f32; 2]>, Report)> {
     let relaxed = if set.iterations() > 0 { set.points(points) } else { points.to_vec() };

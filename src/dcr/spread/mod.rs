@@ -14,14 +14,21 @@
 mod cells;
 mod constraints;
 mod mesh;
+mod rings;
+mod stars;
+mod tiles;
 mod torus;
+#[allow(unsafe_code)] // Vector instructions.
+mod vectors;
 mod waves;
+
+use std::ops::Range;
 
 use glam::Vec2;
 
 use self::cells::Cells;
 use self::constraints::{Constraints, Force};
-use self::mesh::Mesh;
+use self::mesh::{Edge, Mesh};
 use self::torus::{Place, Torus, along_curve};
 use self::waves::Waves;
 use super::delaunay::Delaunay;
@@ -29,6 +36,7 @@ use super::motion::Motion;
 use super::{Neighbourhood, Options, Relaxation};
 use crate::error::Result;
 use crate::job::{Job, chunks};
+use crate::maximal::Vectors;
 
 /// The share of its way that a point makes again in the next step.
 const MOMENTUM: f32 = 0.78;
@@ -56,22 +64,47 @@ enum Neighbours {
     Cells(Cells),
 }
 
+/// Where points are, and how fast.
+#[derive(Default)]
+struct State {
+    /// The places of the points, and after them those of their images on the torus.
+    places: Vec<Place>,
+    velocities: Vec<Vec2>,
+}
+
 /// A set in the making.
 pub(super) struct Spread {
     torus: Torus,
     waves: Waves,
     neighbourhood: Neighbourhood,
+    vectors: Vectors,
     /// The user's index of each point: points are kept along a curve.
     order: Vec<u32>,
     /// Where the points began.
     start: Vec<Place>,
-    /// Where they are, and after them their images on the torus.
-    places: Vec<Place>,
-    velocities: Vec<Vec2>,
+    state: State,
+    /// What the next state is written to.
+    next: State,
     /// The mesh of the places, once there is one.
     mesh: Option<Mesh>,
     motion: Motion,
     iterations: u32,
+}
+
+/// What was seen while points gathered.
+#[derive(Default)]
+struct Seen {
+    /// The edges that may have to be flipped, in the order of the points.
+    suspects: Vec<Edge>,
+    /// Whether a triangle had turned over.
+    is_unsound: bool,
+}
+
+/// A part of the points, and where their next state goes; nowhere for images, which follow their points.
+struct Part<'a> {
+    points: Range<usize>,
+    places: &'a mut [Place],
+    velocities: &'a mut [Vec2],
 }
 
 impl Spread {
@@ -81,11 +114,14 @@ impl Spread {
         let entered = torus.enter(points, options.seed);
         let order = along_curve(&entered);
         let start: Vec<Place> = order.iter().map(|&point| entered[point as usize]).collect();
+        let places = torus.with_images(&start);
+        let velocities = vec![Vec2::ZERO; start.len()];
         Self {
             waves: Waves::new(&torus, start.len()),
             neighbourhood: options.neighbourhood,
-            places: torus.with_images(&start),
-            velocities: vec![Vec2::ZERO; start.len()],
+            vectors: Vectors::widest(),
+            next: State { places: places.clone(), velocities: velocities.clone() },
+            state: State { places, velocities },
             mesh: None,
             motion: Motion::new(STEP, start.iter().map(|&place| torus.position(place)).collect()),
             iterations: 0,
@@ -99,20 +135,18 @@ impl Spread {
         if let Some(mesh) = self.mesh.take() {
             return Ok(Neighbours::Mesh(mesh));
         }
+        let places = &self.state.places;
         if self.neighbourhood == Neighbourhood::Nearest {
-            return Ok(Neighbours::Cells(Cells::new(&self.torus, &self.places, self.constraints().conflict_radius)));
+            return Ok(Neighbours::Cells(Cells::new(&self.torus, places, self.constraints().conflict_radius)));
         }
-        let delaunay = self.triangulate(&job.part(0.0, 0.9))?;
-        if let Some(mut mesh) = Mesh::new(&delaunay, &self.torus, &self.places)
-            && mesh.repair(&job.part(0.9, 1.0), &self.places)?
-        {
-            return Ok(Neighbours::Mesh(mesh));
+        match Mesh::new(&job.part(0.0, 0.5), &self.torus, places)? {
+            Some(mesh) => Ok(Neighbours::Mesh(mesh)),
+            None => Ok(Neighbours::Stars(self.triangulate(&job.part(0.5, 1.0))?)),
         }
-        Ok(Neighbours::Stars(delaunay))
     }
 
     fn triangulate(&self, job: &Job) -> Result<Delaunay> {
-        Delaunay::new(job, &self.torus.frame, self.torus.nudged(&self.places).into_iter())
+        Delaunay::new(job, &self.torus.frame, self.torus.nudged(&self.state.places).into_iter())
     }
 
     /// The constraints of this step. Radii and stiffness, and the momentum, are the best of those tried on sets of
@@ -126,52 +160,92 @@ impl Spread {
         }
     }
 
-    /// Where every point gets, and how fast.
-    fn gather(&self, job: &Job, neighbours: &Neighbours, drift: &[Vec2]) -> Result<Vec<(Place, Vec2)>> {
-        let constraints = self.constraints();
-        let chunks = chunks(self.order.len());
-        job.concat(chunks.len(), |chunk| {
-            let mut ring = Vec::new();
-            let advance = |point: usize| {
-                ring.clear();
-                let Force { sum, room } = match neighbours {
-                    Neighbours::Cells(cells) => {
-                        Force { sum: cells.force(&constraints, self.places[point]), room: WIDE }
-                    }
-                    Neighbours::Mesh(mesh) => {
-                        mesh.star(&self.places, point, &mut ring);
-                        constraints.force(&ring)
-                    }
-                    Neighbours::Stars(delaunay) => {
-                        ring.extend(delaunay.ring(point).map(|offset| offset.as_vec2()));
-                        Force { room: WIDE, ..constraints.force(&ring) }
-                    }
-                };
-                let velocity = MOMENTUM * self.velocities[point] + sum;
-                let limit = ROOM * room;
-                let place = self.torus.moved(self.places[point], (velocity + drift[point]).clamp_length_max(limit));
-                (place, velocity.clamp_length_max(limit))
+    /// Writes the next state of all points: where they get, and how fast.
+    fn gather(&self, job: &Job, neighbours: &Neighbours, drift: &[Vec2], next: &mut State) -> Result<Seen> {
+        let (count, constraints) = (self.order.len(), self.constraints());
+        let seen = job.part(0.0, 0.9).map_each(parts(count, next), |part: Part| {
+            let mut seen = Seen::default();
+            let Part { points, places, velocities } = part;
+            let first = points.start;
+            let mut write = |point: usize, force: Force| {
+                if point < count {
+                    (places[point - first], velocities[point - first]) = self.advance(point, force, drift);
+                }
             };
-            chunks.range(chunk).map(advance).collect()
-        })
+            match neighbours {
+                Neighbours::Cells(cells) => {
+                    for point in points.filter(|&point| point < count) {
+                        let sum = cells.force(&constraints, self.state.places[point]);
+                        write(point, Force { sum, room: WIDE });
+                    }
+                }
+                Neighbours::Mesh(mesh) => {
+                    mesh.feel(self.vectors, &self.state.places, &constraints, points, |point, felt, lane| {
+                        seen.is_unsound |= !felt.is_sound[lane];
+                        mesh.suspects(point, felt, lane, &mut seen.suspects);
+                        let sum = Vec2::new(felt.x[lane], felt.y[lane]);
+                        write(point, Force { sum, room: felt.room[lane] });
+                    });
+                }
+                Neighbours::Stars(delaunay) => {
+                    let mut ring = Vec::new();
+                    for point in points.filter(|&point| point < count) {
+                        ring.clear();
+                        ring.extend(delaunay.ring(point).map(|offset| offset.as_vec2()));
+                        write(point, Force { room: WIDE, ..constraints.force(&ring) });
+                    }
+                }
+            }
+            seen
+        })?;
+        self.torus.mirror(&job.part(0.9, 1.0), &mut next.places, count)?;
+        let is_unsound = seen.iter().any(|seen| seen.is_unsound);
+        Ok(Seen { suspects: seen.into_iter().flat_map(|seen| seen.suspects).collect(), is_unsound })
     }
+
+    /// Where a point gets by a force, and how fast.
+    #[inline(always)]
+    fn advance(&self, point: usize, Force { sum, room }: Force, drift: &[Vec2]) -> (Place, Vec2) {
+        let velocity = MOMENTUM * self.state.velocities[point] + sum;
+        let limit = ROOM * room;
+        let way = velocity + drift.get(point).copied().unwrap_or(Vec2::ZERO);
+        let place = self.torus.moved(self.state.places[point], way.clamp_length_max(limit));
+        (place, velocity.clamp_length_max(limit))
+    }
+}
+
+/// All points and images, cut into parts.
+fn parts(count: usize, next: &mut State) -> Vec<Part<'_>> {
+    let all = next.places.len();
+    let (own, images) = (chunks(count), chunks(all - count));
+    let places = next.places[..count].chunks_mut(own.size()).chain(std::iter::repeat_with(|| &mut [][..]));
+    let velocities = next.velocities.chunks_mut(own.size()).chain(std::iter::repeat_with(|| &mut [][..]));
+    let own = (0..own.len()).map(|chunk| own.range(chunk));
+    let images = (0..images.len()).map(|chunk| images.range(chunk)).map(|range| range.start + count..range.end + count);
+    let parts = own.chain(images).zip(places.zip(velocities));
+    parts.map(|(points, (places, velocities))| Part { points, places, velocities }).collect()
 }
 
 impl Relaxation for Spread {
     fn step(&mut self, job: &Job) -> Result<()> {
         let count = self.order.len();
         let drift = match self.iterations.is_multiple_of(WAVES_EVERY) {
-            true => self.waves.drift(&job.part(0.0, 0.2), &self.places, count)?,
-            false => vec![Vec2::ZERO; count],
+            true => self.waves.drift(&job.part(0.0, 0.2), &self.state.places, count)?,
+            false => Vec::new(),
         };
-        let neighbours = self.neighbours(&job.part(0.2, 0.4))?;
-        let moved = self.gather(&job.part(0.4, 0.7), &neighbours, &drift)?;
-        let (places, velocities): (Vec<Place>, Vec<Vec2>) = moved.into_iter().unzip();
-        (self.places, self.velocities) = (self.torus.with_images(&places), velocities);
+        let mut next = std::mem::take(&mut self.next);
+        let mut neighbours = self.neighbours(&job.part(0.2, 0.4))?;
+        let mut seen = self.gather(&job.part(0.4, 0.6), &neighbours, &drift, &mut next)?;
+        if seen.is_unsound {
+            neighbours = Neighbours::Stars(self.triangulate(&job.part(0.6, 0.65))?);
+            seen = self.gather(&job.part(0.65, 0.7), &neighbours, &drift, &mut next)?;
+        }
+        self.next = std::mem::replace(&mut self.state, next);
         self.iterations += 1;
-        self.motion.after_step(&self.torus.frame, || places.iter().map(|&place| self.torus.position(place)));
+        let places = &self.state.places;
+        self.motion.after_step(&self.torus.frame, || places[..count].iter().map(|&place| self.torus.position(place)));
         if let Neighbours::Mesh(mut mesh) = neighbours {
-            self.mesh = mesh.repair(&job.part(0.7, 1.0), &self.places)?.then_some(mesh);
+            self.mesh = mesh.mend(&job.part(0.7, 1.0), places, seen.suspects)?.then_some(mesh);
         }
         Ok(())
     }
@@ -181,7 +255,7 @@ impl Relaxation for Spread {
     }
 
     fn motion(&self) -> f64 {
-        let places = self.places[..self.order.len()].iter();
+        let places = self.state.places[..self.order.len()].iter();
         self.motion.last(&self.torus.frame, places.map(|&place| self.torus.position(place)))
     }
 
@@ -192,7 +266,7 @@ impl Relaxation for Spread {
     /// Points that have not moved are returned as they came.
     fn points(&self, points: &[[f32; 2]]) -> Vec<[f32; 2]> {
         let mut relaxed = points.to_vec();
-        for ((&point, &start), &place) in self.order.iter().zip(&self.start).zip(&self.places) {
+        for ((&point, &start), &place) in self.order.iter().zip(&self.start).zip(&self.state.places) {
             if place != start {
                 relaxed[point as usize] = self.torus.leave(place);
             }
@@ -200,10 +274,15 @@ impl Relaxation for Spread {
         relaxed
     }
 
-    fn coverage(&self, job: &Job) -> Result<f64> {
-        let radius = match &self.mesh {
-            Some(mesh) => mesh.coverage(job, &self.places)?,
-            None => self.triangulate(job)?.coverage(),
+    fn coverage(&mut self, job: &Job) -> Result<f64> {
+        let places = &self.state.places;
+        let mesh = match self.mesh.take() {
+            Some(mut mesh) => mesh.repair(&job.part(0.0, 0.5), places)?.then_some(mesh),
+            None => Mesh::new(&job.part(0.0, 0.5), &self.torus, places)?,
+        };
+        let radius = match mesh {
+            Some(mesh) => mesh.coverage(&job.part(0.5, 1.0), places)?,
+            None => self.triangulate(&job.part(0.5, 1.0))?.coverage(),
         };
         Ok(radius * self.torus.frame.spacing())
     }

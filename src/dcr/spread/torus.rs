@@ -8,6 +8,8 @@
 use glam::{DVec2, Vec2};
 
 use crate::dcr::frame::Frame;
+use crate::error::Result;
+use crate::job::{Job, chunks};
 use crate::points::{Boundary, Domain};
 use crate::rng::{Draw, Rng};
 
@@ -20,8 +22,19 @@ const HALF: u32 = 1 << 31;
 /// Points of a bounded domain keep this distance from its border, lest they meet their mirror images.
 const INSET: u32 = 16;
 
+/// A little less than a quarter of a period. A flip can double an edge, and half a period is the longest unambiguous way.
+const LONGEST: f32 = 0.9999 * (1u32 << 30) as f32;
+
 /// How far positions are nudged, in spacings.
 const NUDGE: f64 = 1e-7;
+
+/// Where points and their images stand on a torus that a domain is mirrored on.
+const MIRRORS: [fn(Place) -> Place; 4] = [
+    |place| place,
+    |[x, y]| [x.wrapping_neg(), y],
+    |[x, y]| [x, y.wrapping_neg()],
+    |[x, y]| [x.wrapping_neg(), y.wrapping_neg()],
+];
 
 /// The torus that a domain is, or on which it is mirrored.
 #[derive(Clone, Copy)]
@@ -94,23 +107,33 @@ impl Torus {
 
     /// The places of points and, where the domain is mirrored, after them those of their images.
     pub(super) fn with_images(&self, points: &[Place]) -> Vec<Place> {
-        let mirrors: &[fn(Place) -> Place] = &[
-            |place| place,
-            |[x, y]| [x.wrapping_neg(), y],
-            |[x, y]| [x, y.wrapping_neg()],
-            |[x, y]| [x.wrapping_neg(), y.wrapping_neg()],
-        ];
-        mirrors[..self.copies()].iter().flat_map(|mirror| points.iter().copied().map(mirror)).collect()
+        MIRRORS[..self.copies()].iter().flat_map(|mirror| points.iter().copied().map(mirror)).collect()
+    }
+
+    /// Brings the images behind the first `count` places to where their points are.
+    pub(super) fn mirror(&self, job: &Job, places: &mut [Place], count: usize) -> Result<()> {
+        let (points, images) = places.split_at_mut(count);
+        let size = chunks(count).size();
+        let parts = images.chunks_mut(count.max(1)).zip(&MIRRORS[1..]).flat_map(|(images, mirror)| {
+            images.chunks_mut(size).zip(points.chunks(size)).map(move |(images, points)| (images, points, mirror))
+        });
+        job.map_each(parts.collect(), |(images, points, mirror)| {
+            images.iter_mut().zip(points).for_each(|(image, &point)| *image = mirror(point));
+        })?;
+        Ok(())
     }
 
     /// The positions of places, nudged so little that nothing changes but this: where four stand on one circle, as points
     /// and their mirror images do, all copies of them agree on which diagonal is an edge.
     pub(super) fn nudged(&self, places: &[Place]) -> Vec<DVec2> {
-        let nudge = |(index, &place): (u64, &Place)| {
-            let mut rng = Rng::at(0, Draw::Part, &[index, index]);
-            self.position(place) + NUDGE * DVec2::new(rng.unit(), rng.unit())
-        };
-        (0..).zip(places).map(nudge).collect()
+        (0..).zip(places).map(|(point, &place)| self.position(place) + nudge(point)).collect()
+    }
+
+
+    /// The length of 2^-32 of each period, and the longest edges whose double is unambiguous: a quarter of each.
+    pub(super) fn unit_and_longest(&self) -> (Vec2, [f32; 2]) {
+        let unit = self.unit.as_vec2();
+        (unit, (unit * LONGEST).to_array())
     }
 
     /// The shortest way between two places.
@@ -130,6 +153,12 @@ impl Torus {
         let by = (displacement.as_dvec2() / self.unit).to_array();
         self.inside(std::array::from_fn(|axis| place[axis].wrapping_add(by[axis] as i64 as u32)))
     }
+}
+
+/// By how much a point is nudged.
+pub(super) fn nudge(point: u32) -> DVec2 {
+    let mut rng = Rng::at(0, Draw::Part, &[point.into(), point.into()]);
+    NUDGE * DVec2::new(rng.unit(), rng.unit())
 }
 
 /// The order of places along a Z-curve: what lies together comes together.

@@ -1,0 +1,212 @@
+//! What points feel in their rings, eight at a time: [`Constraints::force`] in vectors, the same to the bit.
+//!
+//! The loops over eight lanes are plain; the compiler makes vectors of them.
+
+use std::array::from_fn;
+
+use super::constraints::Constraints;
+use super::rings::Rings;
+use super::torus::{Place, Torus};
+
+/// So many points at a time.
+pub(super) const LANES: usize = 8;
+
+type Lanes = [f32; LANES];
+
+/// The sum of two cotangents below which an edge may have to be flipped after its points have moved once more.
+const SUSPECT: f32 = 0.05;
+
+/// What eight points feel.
+pub(super) struct Felt {
+    /// The forces.
+    pub(super) x: Lanes,
+    pub(super) y: Lanes,
+    /// The least heights of the triangles around the points.
+    pub(super) room: Lanes,
+    /// Whether no triangle is turned over or has an edge so long that twice it would be ambiguous.
+    pub(super) is_sound: [bool; LANES],
+    /// Whether a neighbour is too close or a triangle too wide.
+    pub(super) is_violated: [bool; LANES],
+    /// In bit `k`, whether the edge to the neighbour before the `k`-th is suspect.
+    suspects: [u32; LANES],
+}
+
+impl Felt {
+    /// The suspect edges of a point to others of higher index, so that each edge is named by one of its ends.
+    #[inline(always)]
+    pub(super) fn suspects(&self, lane: usize, point: u32, ring: &[u32], mut visit: impl FnMut([u32; 2])) {
+        let mut mask = self.suspects[lane];
+        while mask != 0 {
+            let k = mask.trailing_zeros() as usize;
+            let other = ring[if k == 0 { ring.len() } else { k } - 1];
+            if point < other {
+                visit([point, other]);
+            }
+            mask &= mask - 1;
+        }
+    }
+}
+
+/// What eight points feel of the triangles that were looked at, and the last of these.
+struct Sight<'a> {
+    constraints: &'a Constraints,
+    /// The longest edges along the axes, in spacings.
+    longest: [f32; 2],
+    degrees: [u32; LANES],
+    force: [Lanes; 2],
+    /// The squares of the least heights, as numerators and denominators.
+    height: [Lanes; 2],
+    is_sound: [u32; LANES],
+    is_violated: [u32; LANES],
+    suspects: [u32; LANES],
+    /// The way to the last neighbour, and its square.
+    before: [Lanes; 2],
+    before_squared: Lanes,
+    /// Of the last triangle: twice the area, and the cosine at the neighbour before the last, times two edges.
+    area: Lanes,
+    cosine: Lanes,
+}
+
+/// What `points` feel.
+#[inline(always)]
+pub(super) fn feel(
+    rings: &Rings,
+    torus: &Torus,
+    places: &[Place],
+    points: [usize; LANES],
+    constraints: &Constraints,
+) -> Felt {
+    let rings8: [&[u32]; LANES] = from_fn(|i| rings.slots_of(points[i]));
+    let degrees: [u32; LANES] = from_fn(|i| rings.degree(points[i]) as u32);
+    let here: [u64; LANES] = from_fn(|i| whole(places[points[i]]));
+    let (unit, longest) = torus.unit_and_longest();
+    let eight = Eight { places, rings: rings8, here, unit: unit.to_array() };
+    let mut sight = Sight::new(constraints, longest, degrees, eight.ways(degrees.map(|degree| degree as usize - 2)));
+    sight.turn(eight.ways(degrees.map(|degree| degree as usize - 1)));
+    for k in 0..degrees.into_iter().max().unwrap_or(0) {
+        sight.see(eight.ways([k as usize; LANES]), k);
+    }
+    sight.felt()
+}
+
+/// Eight points and their rings.
+struct Eight<'a> {
+    places: &'a [Place],
+    rings: [&'a [u32]; LANES],
+    here: [u64; LANES],
+    unit: [f32; 2],
+}
+
+/// A place in one number: one load from memory.
+#[inline(always)]
+fn whole(place: Place) -> u64 {
+    u64::from(place[0]) | u64::from(place[1]) << 32
+}
+
+impl Eight<'_> {
+    /// The ways from the points to those in these slots of their rings.
+    #[inline(always)]
+    fn ways(&self, slots: [usize; LANES]) -> [Lanes; 2] {
+        let there: [u64; LANES] = from_fn(|i| whole(self.places[self.rings[i][slots[i]] as usize]));
+        let along = |axis: usize, i: usize| {
+            let [there, here] = [there[i], self.here[i]].map(|place| (place >> (32 * axis)) as u32);
+            there.wrapping_sub(here).cast_signed() as f32 * self.unit[axis]
+        };
+        [from_fn(|i| along(0, i)), from_fn(|i| along(1, i))]
+    }
+}
+
+impl<'a> Sight<'a> {
+    #[inline(always)]
+    fn new(constraints: &'a Constraints, longest: [f32; 2], degrees: [u32; LANES], first: [Lanes; 2]) -> Self {
+        Self {
+            constraints,
+            longest,
+            degrees,
+            force: [[0.0; LANES]; 2],
+            height: [[f32::INFINITY; LANES], [1.0; LANES]],
+            is_sound: [1; LANES],
+            is_violated: [0; LANES],
+            suspects: [0; LANES],
+            before: first,
+            before_squared: from_fn(|i| first[0][i] * first[0][i] + first[1][i] * first[1][i]),
+            area: [0.0; LANES],
+            cosine: [0.0; LANES],
+        }
+    }
+
+    /// Goes on to the next neighbours without looking.
+    #[inline(always)]
+    fn turn(&mut self, [x, y]: [Lanes; 2]) {
+        for i in 0..LANES {
+            let [before_x, before_y] = self.before.map(|before| before[i]);
+            self.area[i] = before_x * y[i] - before_y * x[i];
+            self.cosine[i] = self.before_squared[i] - (before_x * x[i] + before_y * y[i]);
+            self.before_squared[i] = x[i] * x[i] + y[i] * y[i];
+        }
+        self.before = [x, y];
+    }
+
+    /// Looks at the triangles between the last neighbours and the `k`-th.
+    #[inline(always)]
+    fn see(&mut self, [xs, ys]: [Lanes; 2], k: u32) {
+        let &Constraints { conflict_radius, coverage_radius, push, pull, .. } = self.constraints;
+        for i in 0..LANES {
+            let is = k < self.degrees[i];
+            let (x, y) = (xs[i], ys[i]);
+            let (before_x, before_y, before_squared) = (self.before[0][i], self.before[1][i], self.before_squared[i]);
+            let squared = x * x + y * y;
+            let opposite = (x - before_x) * (x - before_x) + (y - before_y) * (y - before_y);
+            let area = before_x * y - before_y * x;
+
+            let height = area.max(0.0) * area;
+            let width = before_squared.max(squared).max(opposite);
+            let lower = is & (height * self.height[1][i] < self.height[0][i] * width);
+            self.height[0][i] = if lower { height } else { self.height[0][i] };
+            self.height[1][i] = if lower { width } else { self.height[1][i] };
+            let is_short = (x.abs() <= self.longest[0]) & (y.abs() <= self.longest[1]);
+            self.is_sound[i] &= u32::from(!is | ((area > 0.0) & is_short));
+
+            let distance = squared.sqrt();
+            let is_close = is & (squared < conflict_radius * conflict_radius) & (squared != 0.0);
+            let pushed = -push * (1.0 - distance / conflict_radius) / distance;
+            let pushed = if is_close { pushed } else { 0.0 };
+
+            let product = before_squared * squared * opposite;
+            let is_wide = |radius: f32| product > (2.0 * radius * area) * (2.0 * radius * area);
+            let twice = 2.0 * area;
+            let centre_x = (squared * -before_y + before_squared * y) / twice;
+            let centre_y = (squared * before_x - before_squared * x) / twice;
+            let radius = (centre_x * centre_x + centre_y * centre_y).sqrt();
+            let pulled = pull * (radius / coverage_radius - 1.0).min(1.0) / radius;
+            let pulled_in = is & is_wide(coverage_radius) & radius.is_finite();
+            self.force[0][i] += pushed * x;
+            self.force[1][i] += pushed * y;
+            self.force[0][i] += if pulled_in { pulled * centre_x } else { 0.0 };
+            self.force[1][i] += if pulled_in { pulled * centre_y } else { 0.0 };
+            let violates = is & ((squared < 0.85 * 0.85) | is_wide(0.67));
+            self.is_violated[i] |= u32::from(violates);
+
+            let dot = before_x * x + before_y * y;
+            let excess = self.cosine[i] * area + (squared - dot) * self.area[i];
+            let suspect = is & (excess < SUSPECT * (area * self.area[i]));
+            self.suspects[i] |= u32::from(suspect) << k;
+            self.cosine[i] = before_squared - dot;
+            self.area[i] = area;
+            self.before_squared[i] = squared;
+        }
+        self.before = [xs, ys];
+    }
+
+    #[inline(always)]
+    fn felt(self) -> Felt {
+        Felt {
+            x: self.force[0],
+            y: self.force[1],
+            room: from_fn(|i| (self.height[0][i] / self.height[1][i]).sqrt()),
+            is_sound: self.is_sound.map(|is| is != 0),
+            is_violated: self.is_violated.map(|is| is != 0),
+            suspects: self.suspects,
+        }
+    }
+}

@@ -1,0 +1,42 @@
+//! [`Mesh::feel_portable`] once more for each kind of vectors, the same to the bit: compiled for them, so that its loops over
+//! lanes use them.
+
+use std::ops::Range;
+
+use super::constraints::Constraints;
+use super::mesh::Mesh;
+use super::stars::Felt;
+use super::torus::Place;
+use crate::maximal::Vectors;
+
+impl Mesh {
+    /// Tells `visit` what each of a range of points feels, and in which lane that is.
+    pub(super) fn feel(
+        &self,
+        vectors: Vectors,
+        places: &[Place],
+        constraints: &Constraints,
+        points: Range<usize>,
+        visit: impl FnMut(usize, &Felt, usize),
+    ) {
+        match vectors {
+            // SAFETY: the variants say that the processor has the vectors.
+            #[cfg(target_arch = "x86_64")]
+            Vectors::Avx2 | Vectors::Avx512 => unsafe { self.feel_avx2(places, constraints, points, visit) },
+            Vectors::Portable => self.feel_portable(places, constraints, points, visit),
+        }
+    }
+
+    /// The portable code, compiled for AVX2.
+    #[cfg(target_arch = "x86_64")]
+    #[target_feature(enable = "avx2,popcnt,bmi1,bmi2")]
+    fn feel_avx2(
+        &self,
+        places: &[Place],
+        constraints: &Constraints,
+        points: Range<usize>,
+        visit: impl FnMut(usize, &Felt, usize),
+    ) {
+        self.feel_portable(places, constraints, points, visit);
+    }
+}
