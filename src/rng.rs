@@ -40,6 +40,8 @@ pub(crate) enum Draw {
     Adaptive,
     /// PSP: which pieces of the surface are filled with those of larger radii.
     Octave,
+    /// DCR: directions in which points are kicked.
+    Kick,
 }
 
 /// The stream of random numbers of one place.

@@ -7,13 +7,14 @@
 //! Which edges may have to be flipped shows while points gather, so flips cost no look at the whole mesh: see
 //! [`Mesh::mend`].
 
+use std::array::from_fn;
 use std::ops::Range;
 
 use glam::DVec2;
 
 use super::constraints::Constraints;
 use super::rings::{Patch, Rings, Stars};
-use super::stars::{Felt, LANES, feel};
+use super::stars::{Felt, LANES, Visit, feel};
 use super::tiles;
 use super::torus::{Place, Torus};
 use crate::dcr::delaunay::Delaunay;
@@ -43,6 +44,20 @@ struct Mended {
     is_sound: bool,
 }
 
+/// What a look at all points finds.
+struct Found {
+    suspects: Vec<Edge>,
+    is_sound: bool,
+}
+
+impl Visit for Found {
+    #[inline(always)]
+    fn visit(&mut self, rings: &Rings, points: Range<usize>, felt: &Felt) {
+        self.is_sound &= felt.are_sound(points.len());
+        felt.suspects(rings, points, &mut self.suspects);
+    }
+}
+
 impl Mesh {
     /// The Delaunay triangulation of places. None in sets of a few points or with large holes or with points that have
     /// too many neighbours, or if copies are not triangulated alike, which happens to four points on one circle unless
@@ -58,12 +73,7 @@ impl Mesh {
     }
 
     /// The mesh of a triangulation of the torus with its copies.
-    pub(super) fn of_delaunay(
-        job: &Job,
-        torus: &Torus,
-        places: &[Place],
-        delaunay: &Delaunay,
-    ) -> Result<Option<Self>> {
+    pub(super) fn of_delaunay(job: &Job, torus: &Torus, places: &[Place], delaunay: &Delaunay) -> Result<Option<Self>> {
         let mut stars = Stars::default();
         for point in 0..places.len() {
             stars.neighbours.extend(delaunay.neighbours(point));
@@ -77,52 +87,41 @@ impl Mesh {
         let Some(rings) = Rings::new(places.len(), stars) else { return Ok(None) };
         let mut mesh = Self { torus: *torus, rings };
         let chunks = chunks(places.len());
-        let agree = job.part(0.0, 0.5).map(chunks.len(), |chunk| {
-            chunks.range(chunk).all(|point| mesh.rings.agree(point))
-        })?;
+        let agree =
+            job.part(0.0, 0.5).map(chunks.len(), |chunk| chunks.range(chunk).all(|point| mesh.rings.agree(point)))?;
         // Triangles that agree make a surface without border; with three edges to a point it is a torus.
         let is_torus = agree.into_iter().all(|agree| agree) && mesh.rings.edges() == 3 * places.len();
         Ok((is_torus && mesh.repair(&job.part(0.5, 1.0), places)?).then_some(mesh))
     }
 
-    /// Tells `visit` what each of a range of points feels, and in which lane that is.
+    /// Tells `visit` what each of a range of points feels.
     #[inline(always)]
     pub(super) fn feel_portable(
         &self,
         places: &[Place],
         constraints: &Constraints,
         points: Range<usize>,
-        mut visit: impl FnMut(usize, &Felt, usize),
+        visit: &mut impl Visit,
     ) {
         for first in points.clone().step_by(LANES) {
-            let felt =
-                feel(&self.rings, &self.torus, places, std::array::from_fn(|i| (first + i).min(points.end - 1)), constraints);
-            for lane in 0..LANES.min(points.end - first) {
-                visit(first + lane, &felt, lane);
-            }
+            let eight = first..points.end.min(first + LANES);
+            let lanes = from_fn(|lane| (first + lane).min(points.end - 1));
+            visit.visit(&self.rings, eight, &feel(&self.rings, &self.torus, places, lanes, constraints));
         }
-    }
-
-    /// The suspect edges of a point.
-    #[inline(always)]
-    pub(super) fn suspects(&self, point: usize, felt: &Felt, lane: usize, suspects: &mut Vec<Edge>) {
-        felt.suspects(lane, point as u32, self.rings.ring(point), |edge| suspects.push(edge));
     }
 
     /// Makes the mesh the Delaunay triangulation of the places; false if a triangle has turned over.
     pub(super) fn repair(&mut self, job: &Job, places: &[Place]) -> Result<bool> {
         let chunks = chunks(places.len());
+        let vectors = Vectors::widest();
         let still = Constraints { conflict_radius: 0.0, coverage_radius: f32::INFINITY, push: 0.0, pull: 0.0 };
         let found = job.part(0.0, 0.5).map(chunks.len(), |chunk| {
-            let (mut suspects, mut is_sound) = (Vec::new(), true);
-            self.feel(Vectors::Portable, places, &still, chunks.range(chunk), |point, felt, lane| {
-                is_sound &= felt.is_sound[lane];
-                self.suspects(point, felt, lane, &mut suspects);
-            });
-            (suspects, is_sound)
+            let mut found = Found { suspects: Vec::new(), is_sound: true };
+            self.feel(vectors, places, &still, chunks.range(chunk), &mut found);
+            found
         })?;
-        let is_sound = found.iter().all(|&(_, is_sound)| is_sound);
-        let suspects: Vec<Edge> = found.into_iter().flat_map(|(suspects, _)| suspects).collect();
+        let is_sound = found.iter().all(|found| found.is_sound);
+        let suspects: Vec<Edge> = found.into_iter().flat_map(|found| found.suspects).collect();
         Ok(is_sound && self.mend(&job.part(0.5, 1.0), places, suspects)?)
     }
 
@@ -140,7 +139,8 @@ impl Mesh {
             (patch, own.to_vec())
         });
         let tasks: Vec<_> = tasks.collect();
-        let mended = job.part(0.0, 0.7).map_each(tasks, |(mut patch, edges)| mend(&mut patch, &torus, places, edges))?;
+        let mended =
+            job.part(0.0, 0.7).map_each(tasks, |(mut patch, edges)| mend(&mut patch, &torus, places, edges))?;
         let mut is_sound = mended.iter().all(|mended| mended.is_sound);
         let left = mended.into_iter().flat_map(|mended| mended.left).collect();
         let whole = self.rings.patches(places.len()).next();

@@ -13,6 +13,7 @@
 
 mod cells;
 mod constraints;
+mod gather;
 mod mesh;
 mod rings;
 mod stars;
@@ -22,20 +23,21 @@ mod torus;
 mod vectors;
 mod waves;
 
-use std::ops::Range;
+use std::ops::RangeInclusive;
 
 use glam::Vec2;
 
 use self::cells::Cells;
-use self::constraints::{Constraints, Force};
-use self::mesh::{Edge, Mesh};
+use self::constraints::Constraints;
+use self::gather::{Neighbours, State, Step};
+use self::mesh::Mesh;
 use self::torus::{Place, Torus, along_curve};
 use self::waves::Waves;
 use super::delaunay::Delaunay;
 use super::motion::Motion;
 use super::{Neighbourhood, Options, Relaxation};
 use crate::error::Result;
-use crate::job::{Job, chunks};
+use crate::job::Job;
 use crate::maximal::Vectors;
 
 /// The share of its way that a point makes again in the next step.
@@ -44,33 +46,17 @@ const MOMENTUM: f32 = 0.78;
 /// Long waves are removed in every so manieth step.
 const WAVES_EVERY: u32 = 5;
 
-/// How far points may move in the room that they have: less than half, so that no triangle turns over.
-const ROOM: f32 = 0.45;
-
-/// The room, in spacings, of points that are in no mesh.
-const WIDE: f32 = 1.0;
+/// Points whose constraints are still violated are kicked in every so manieth of these steps, by so many spacings. Where two
+/// points are in each other's way for good, that is what leads one of them out.
+const KICK_EVERY: u32 = 4;
+const KICKS: RangeInclusive<u32> = 32..=80;
+const KICK: f32 = 0.02;
 
 /// The steps over which constraints grow stiffer.
 const STIFFENING: u32 = 60;
 
 /// The step size by which motion is measured: a span is 10 steps, in which long waves are removed twice.
 const STEP: f64 = 0.2;
-
-/// What knows the neighbours of each point.
-enum Neighbours {
-    Mesh(Mesh),
-    /// Where there can be no mesh.
-    Stars(Delaunay),
-    Cells(Cells),
-}
-
-/// Where points are, and how fast.
-#[derive(Default)]
-struct State {
-    /// The places of the points, and after them those of their images on the torus.
-    places: Vec<Place>,
-    velocities: Vec<Vec2>,
-}
 
 /// A set in the making.
 pub(super) struct Spread {
@@ -89,22 +75,6 @@ pub(super) struct Spread {
     mesh: Option<Mesh>,
     motion: Motion,
     iterations: u32,
-}
-
-/// What was seen while points gathered.
-#[derive(Default)]
-struct Seen {
-    /// The edges that may have to be flipped, in the order of the points.
-    suspects: Vec<Edge>,
-    /// Whether a triangle had turned over.
-    is_unsound: bool,
-}
-
-/// A part of the points, and where their next state goes; nowhere for images, which follow their points.
-struct Part<'a> {
-    points: Range<usize>,
-    places: &'a mut [Place],
-    velocities: &'a mut [Vec2],
 }
 
 impl Spread {
@@ -159,71 +129,21 @@ impl Spread {
             Neighbourhood::Nearest => Constraints { conflict_radius: 0.92, coverage_radius: f32::INFINITY, push, pull },
         }
     }
-
-    /// Writes the next state of all points: where they get, and how fast.
-    fn gather(&self, job: &Job, neighbours: &Neighbours, drift: &[Vec2], next: &mut State) -> Result<Seen> {
-        let (count, constraints) = (self.order.len(), self.constraints());
-        let seen = job.part(0.0, 0.9).map_each(parts(count, next), |part: Part| {
-            let mut seen = Seen::default();
-            let Part { points, places, velocities } = part;
-            let first = points.start;
-            let mut write = |point: usize, force: Force| {
-                if point < count {
-                    (places[point - first], velocities[point - first]) = self.advance(point, force, drift);
-                }
-            };
-            match neighbours {
-                Neighbours::Cells(cells) => {
-                    for point in points.filter(|&point| point < count) {
-                        let sum = cells.force(&constraints, self.state.places[point]);
-                        write(point, Force { sum, room: WIDE });
-                    }
-                }
-                Neighbours::Mesh(mesh) => {
-                    mesh.feel(self.vectors, &self.state.places, &constraints, points, |point, felt, lane| {
-                        seen.is_unsound |= !felt.is_sound[lane];
-                        mesh.suspects(point, felt, lane, &mut seen.suspects);
-                        let sum = Vec2::new(felt.x[lane], felt.y[lane]);
-                        write(point, Force { sum, room: felt.room[lane] });
-                    });
-                }
-                Neighbours::Stars(delaunay) => {
-                    let mut ring = Vec::new();
-                    for point in points.filter(|&point| point < count) {
-                        ring.clear();
-                        ring.extend(delaunay.ring(point).map(|offset| offset.as_vec2()));
-                        write(point, Force { room: WIDE, ..constraints.force(&ring) });
-                    }
-                }
-            }
-            seen
-        })?;
-        self.torus.mirror(&job.part(0.9, 1.0), &mut next.places, count)?;
-        let is_unsound = seen.iter().any(|seen| seen.is_unsound);
-        Ok(Seen { suspects: seen.into_iter().flat_map(|seen| seen.suspects).collect(), is_unsound })
-    }
-
-    /// Where a point gets by a force, and how fast.
-    #[inline(always)]
-    fn advance(&self, point: usize, Force { sum, room }: Force, drift: &[Vec2]) -> (Place, Vec2) {
-        let velocity = MOMENTUM * self.state.velocities[point] + sum;
-        let limit = ROOM * room;
-        let way = velocity + drift.get(point).copied().unwrap_or(Vec2::ZERO);
-        let place = self.torus.moved(self.state.places[point], way.clamp_length_max(limit));
-        (place, velocity.clamp_length_max(limit))
-    }
 }
 
-/// All points and images, cut into parts.
-fn parts(count: usize, next: &mut State) -> Vec<Part<'_>> {
-    let all = next.places.len();
-    let (own, images) = (chunks(count), chunks(all - count));
-    let places = next.places[..count].chunks_mut(own.size()).chain(std::iter::repeat_with(|| &mut [][..]));
-    let velocities = next.velocities.chunks_mut(own.size()).chain(std::iter::repeat_with(|| &mut [][..]));
-    let own = (0..own.len()).map(|chunk| own.range(chunk));
-    let images = (0..images.len()).map(|chunk| images.range(chunk)).map(|range| range.start + count..range.end + count);
-    let parts = own.chain(images).zip(places.zip(velocities));
-    parts.map(|(points, (places, velocities))| Part { points, places, velocities }).collect()
+impl Spread {
+    /// The step to come.
+    fn go<'a>(&'a self, drift: &'a [Vec2]) -> Step<'a> {
+        let kicks = self.iterations.is_multiple_of(KICK_EVERY) && KICKS.contains(&self.iterations);
+        Step {
+            torus: &self.torus,
+            vectors: self.vectors,
+            constraints: self.constraints(),
+            momentum: MOMENTUM,
+            drift,
+            kick: kicks.then_some((KICK, self.iterations)),
+        }
+    }
 }
 
 impl Relaxation for Spread {
@@ -235,10 +155,10 @@ impl Relaxation for Spread {
         };
         let mut next = std::mem::take(&mut self.next);
         let mut neighbours = self.neighbours(&job.part(0.2, 0.4))?;
-        let mut seen = self.gather(&job.part(0.4, 0.6), &neighbours, &drift, &mut next)?;
+        let mut seen = self.go(&drift).advance(&job.part(0.4, 0.6), &neighbours, &self.state, &mut next)?;
         if seen.is_unsound {
             neighbours = Neighbours::Stars(self.triangulate(&job.part(0.6, 0.65))?);
-            seen = self.gather(&job.part(0.65, 0.7), &neighbours, &drift, &mut next)?;
+            seen = self.go(&drift).advance(&job.part(0.65, 0.7), &neighbours, &self.state, &mut next)?;
         }
         self.next = std::mem::replace(&mut self.state, next);
         self.iterations += 1;

@@ -3,6 +3,7 @@
 //! The loops over eight lanes are plain; the compiler makes vectors of them.
 
 use std::array::from_fn;
+use std::ops::Range;
 
 use super::constraints::Constraints;
 use super::rings::Rings;
@@ -18,31 +19,45 @@ const SUSPECT: f32 = 0.05;
 
 /// What eight points feel.
 pub(super) struct Felt {
-    /// The forces.
-    pub(super) x: Lanes,
-    pub(super) y: Lanes,
+    /// The forces, along `x` and along `y`.
+    pub(super) force: [Lanes; 2],
     /// The least heights of the triangles around the points.
     pub(super) room: Lanes,
-    /// Whether no triangle is turned over or has an edge so long that twice it would be ambiguous.
-    pub(super) is_sound: [bool; LANES],
-    /// Whether a neighbour is too close or a triangle too wide.
-    pub(super) is_violated: [bool; LANES],
+    /// Whether no triangle is turned over or has an edge so long that twice it would be ambiguous: 1, else 0.
+    is_sound: [u32; LANES],
+    /// Whether a neighbour is too close or a triangle too wide: 1, else 0.
+    is_violated: [u32; LANES],
     /// In bit `k`, whether the edge to the neighbour before the `k`-th is suspect.
     suspects: [u32; LANES],
 }
 
+/// Who is told what points feel.
+pub(super) trait Visit {
+    /// Some points that follow each other, at most eight, and what they feel, the first in the first lane.
+    fn visit(&mut self, rings: &Rings, points: Range<usize>, felt: &Felt);
+}
+
 impl Felt {
-    /// The suspect edges of a point to others of higher index, so that each edge is named by one of its ends.
+    /// Whether all triangles around the first `count` points are sound.
     #[inline(always)]
-    pub(super) fn suspects(&self, lane: usize, point: u32, ring: &[u32], mut visit: impl FnMut([u32; 2])) {
-        let mut mask = self.suspects[lane];
-        while mask != 0 {
-            let k = mask.trailing_zeros() as usize;
-            let other = ring[if k == 0 { ring.len() } else { k } - 1];
-            if point < other {
-                visit([point, other]);
-            }
-            mask &= mask - 1;
+    pub(super) fn are_sound(&self, count: usize) -> bool {
+        self.is_sound[..count].iter().all(|&is| is != 0)
+    }
+
+    /// Those of the first `count` lanes whose constraints are violated.
+    #[inline(always)]
+    pub(super) fn violated(&self, count: usize) -> impl Iterator<Item = usize> {
+        (0..count).filter(|&lane| self.is_violated[lane] != 0)
+    }
+
+    /// Adds the suspect edges of `points` to others of higher index, so that each edge is named by one of its ends.
+    #[inline(always)]
+    pub(super) fn suspects(&self, rings: &Rings, points: Range<usize>, suspects: &mut Vec<[u32; 2]>) {
+        for (point, &mask) in points.zip(&self.suspects).filter(|&(_, &mask)| mask != 0) {
+            let ring = rings.ring(point);
+            let others =
+                (0..ring.len()).filter(|k| mask >> k & 1 == 1).map(|k| ring[(k + ring.len() - 1) % ring.len()]);
+            suspects.extend(others.filter(|&other| point < other as usize).map(|other| [point as u32, other]));
         }
     }
 }
@@ -201,11 +216,10 @@ impl<'a> Sight<'a> {
     #[inline(always)]
     fn felt(self) -> Felt {
         Felt {
-            x: self.force[0],
-            y: self.force[1],
+            force: self.force,
             room: from_fn(|i| (self.height[0][i] / self.height[1][i]).sqrt()),
-            is_sound: self.is_sound.map(|is| is != 0),
-            is_violated: self.is_violated.map(|is| is != 0),
+            is_sound: self.is_sound,
+            is_violated: self.is_violated,
             suspects: self.suspects,
         }
     }

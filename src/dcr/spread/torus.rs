@@ -45,6 +45,8 @@ pub(super) struct Torus {
     pub(super) frame: Frame,
     /// The length of 2^-32 of each period.
     unit: DVec2,
+    /// How often it fits into a spacing.
+    per_spacing: Vec2,
 }
 
 impl Torus {
@@ -59,9 +61,15 @@ impl Torus {
                 ..domain
             },
         };
-        let mut torus = Self { domain: Frame::new(domain, count), frame: Frame::new(whole, count), unit: DVec2::ONE };
+        let mut torus = Self {
+            domain: Frame::new(domain, count),
+            frame: Frame::new(whole, count),
+            unit: DVec2::ONE,
+            per_spacing: Vec2::ONE,
+        };
         torus.frame = Frame::new(whole, count * torus.copies());
         torus.unit = torus.frame.size() / 2f64.powi(32);
+        torus.per_spacing = torus.unit.recip().as_vec2();
         torus
     }
 
@@ -129,7 +137,6 @@ impl Torus {
         (0..).zip(places).map(|(point, &place)| self.position(place) + nudge(point)).collect()
     }
 
-
     /// The length of 2^-32 of each period, and the longest edges whose double is unambiguous: a quarter of each.
     pub(super) fn unit_and_longest(&self) -> (Vec2, [f32; 2]) {
         let unit = self.unit.as_vec2();
@@ -150,8 +157,8 @@ impl Torus {
 
     /// Where a point of the domain gets by a displacement.
     pub(super) fn moved(&self, place: Place, displacement: Vec2) -> Place {
-        let by = (displacement.as_dvec2() / self.unit).to_array();
-        self.inside(std::array::from_fn(|axis| place[axis].wrapping_add(by[axis] as i64 as u32)))
+        let by = (displacement * self.per_spacing).to_array();
+        self.inside(std::array::from_fn(|axis| place[axis].wrapping_add((by[axis] as i32).cast_unsigned())))
     }
 }
 

@@ -5,19 +5,19 @@ use std::ops::Range;
 
 use super::constraints::Constraints;
 use super::mesh::Mesh;
-use super::stars::Felt;
+use super::stars::Visit;
 use super::torus::Place;
 use crate::maximal::Vectors;
 
 impl Mesh {
-    /// Tells `visit` what each of a range of points feels, and in which lane that is.
+    /// Tells `visit` what each of a range of points feels.
     pub(super) fn feel(
         &self,
         vectors: Vectors,
         places: &[Place],
         constraints: &Constraints,
         points: Range<usize>,
-        visit: impl FnMut(usize, &Felt, usize),
+        visit: &mut impl Visit,
     ) {
         match vectors {
             // SAFETY: the variants say that the processor has the vectors.
@@ -30,13 +30,7 @@ impl Mesh {
     /// The portable code, compiled for AVX2.
     #[cfg(target_arch = "x86_64")]
     #[target_feature(enable = "avx2,popcnt,bmi1,bmi2")]
-    fn feel_avx2(
-        &self,
-        places: &[Place],
-        constraints: &Constraints,
-        points: Range<usize>,
-        visit: impl FnMut(usize, &Felt, usize),
-    ) {
+    fn feel_avx2(&self, places: &[Place], constraints: &Constraints, points: Range<usize>, visit: &mut impl Visit) {
         self.feel_portable(places, constraints, points, visit);
     }
 }
