@@ -61,6 +61,8 @@ pub(super) struct Seen {
     pub(super) is_unsound: bool,
     /// The number of points whose constraints were violated.
     pub(super) violated: usize,
+    /// The square of the longest way that a point has gone that is in no mesh.
+    pub(super) longest_way_squared: f32,
 }
 
 /// A part of the points, and where their next state goes; nowhere for images, which follow their points.
@@ -79,7 +81,11 @@ impl Step<'_> {
             let mut gathering = Gathering { step: self, now, part, seen: Seen::default() };
             match neighbours {
                 Neighbours::Cells(cells) => {
-                    gathering.each(|point| Force { sum: cells.force(constraints, now.places[point]), room: WIDE })
+                    let points = gathering.part.points.clone();
+                    let points = points.start..points.end.min(count).max(points.start);
+                    let mut forces = Vec::with_capacity(points.len());
+                    cells.forces(self.vectors, &now.places, constraints, points.clone(), &mut forces);
+                    gathering.each(|point| Force { sum: forces[point - points.start], room: WIDE });
                 }
                 Neighbours::Mesh(mesh) => {
                     let points = gathering.part.points.clone();
@@ -102,6 +108,7 @@ impl Step<'_> {
             all.suspects.extend(part.suspects);
             all.is_unsound |= part.is_unsound;
             all.violated += part.violated;
+            all.longest_way_squared = all.longest_way_squared.max(part.longest_way_squared);
         }
         Ok(all)
     }
@@ -146,6 +153,7 @@ impl Gathering<'_> {
             let drift = self.step.drift.get(point).copied().unwrap_or(Vec2::ZERO);
             let way;
             (way, *velocity) = self.step.moved(self.now.velocities[point], force(point), drift);
+            self.seen.longest_way_squared = self.seen.longest_way_squared.max(way.length_squared());
             *place = self.step.torus.moved(self.now.places[point], way);
         }
     }

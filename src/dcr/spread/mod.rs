@@ -73,6 +73,8 @@ pub(super) struct Spread {
     next: State,
     /// The mesh of the places, once there is one.
     mesh: Option<Mesh>,
+    /// The cells of the points, as long as they serve.
+    cells: Option<Cells>,
     motion: Motion,
     iterations: u32,
 }
@@ -93,6 +95,7 @@ impl Spread {
             next: State { places: places.clone(), velocities: velocities.clone() },
             state: State { places, velocities },
             mesh: None,
+            cells: None,
             motion: Motion::new(STEP, start.iter().map(|&place| torus.position(place)).collect()),
             iterations: 0,
             torus,
@@ -107,7 +110,10 @@ impl Spread {
         }
         let places = &self.state.places;
         if self.neighbourhood == Neighbourhood::Nearest {
-            return Ok(Neighbours::Cells(Cells::new(&self.torus, places, self.constraints().conflict_radius)));
+            let reach = self.constraints().conflict_radius;
+            let mut cells = self.cells.take().unwrap_or_else(|| Cells::new(&self.torus, places, reach));
+            cells.update(job, places)?;
+            return Ok(Neighbours::Cells(cells));
         }
         match Mesh::new(&job.part(0.0, 0.5), &self.torus, places)? {
             Some(mesh) => Ok(Neighbours::Mesh(mesh)),
@@ -164,8 +170,15 @@ impl Relaxation for Spread {
         self.iterations += 1;
         let places = &self.state.places;
         self.motion.after_step(&self.torus.frame, || places[..count].iter().map(|&place| self.torus.position(place)));
-        if let Neighbours::Mesh(mut mesh) = neighbours {
-            self.mesh = mesh.mend(&job.part(0.7, 1.0), places, seen.suspects)?.then_some(mesh);
+        match neighbours {
+            Neighbours::Mesh(mut mesh) => {
+                self.mesh = mesh.mend(&job.part(0.7, 1.0), places, seen.suspects)?.then_some(mesh);
+            }
+            Neighbours::Cells(mut cells) => {
+                let reach = self.constraints().conflict_radius;
+                self.cells = cells.still_serve(seen.longest_way_squared.sqrt(), reach).then_some(cells);
+            }
+            Neighbours::Stars(_) => {}
         }
         Ok(())
     }
