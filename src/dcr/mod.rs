@@ -161,9 +161,9 @@ pub struct Options {
 }
 
 impl Options {
-    /// The best method: at most 100 steps, tolerance 0.0005.
+    /// The best method: at most 100 steps, tolerance 0.001.
     pub fn new(domain: Domain, neighbourhood: Neighbourhood) -> Self {
-        Self { domain, neighbourhood, method: Method::Best, max_iterations: 100, seed: 0, tolerance: 0.0005 }
+        Self { domain, neighbourhood, method: Method::Best, max_iterations: 100, seed: 0, tolerance: 0.001 }
     }
 
     /// The thesis's algorithm with its settings: at most 1000 steps. The tolerance is 0.02 for Delaunay and 0.005 for
@@ -236,6 +236,11 @@ trait Relaxation {
     /// Whether there was a whole span, and no more motion in the last than this.
     fn has_settled(&self, tolerance: f64) -> bool;
 
+    /// Goes back to the best state so far, if that is not the last.
+    fn finish(&mut self, _: &Job) -> Result<()> {
+        Ok(())
+    }
+
     /// The points in the user's order; `points` is what they were.
     fn points(&self, points: &[[f32; 2]]) -> Vec<[f32; 2]>;
 
@@ -304,8 +309,9 @@ fn measure(
     set: &mut dyn Relaxation,
     stopped: Stopped,
 ) -> Result<(Vec<[f32; 2]>, Report)> {
+    set.finish(&job.part(0.0, 0.2))?;
     let relaxed = if set.iterations() > 0 { set.points(points) } else { points.to_vec() };
-    let smallest_distance = smallest_distance(&job.part(0.0, 0.5), &options.domain, &relaxed)?;
+    let smallest_distance = smallest_distance(&job.part(0.2, 0.5), &options.domain, &relaxed)?;
     let coverage = if points.is_empty() { f64::INFINITY } else { set.coverage(&job.part(0.5, 1.0))? };
     let unit = options.domain.hexagonal_distance(points.len().max(1));
     let report = Report {

@@ -39,6 +39,14 @@ pub(super) struct State {
     pub(super) velocities: Vec<Vec2>,
 }
 
+impl State {
+    /// Makes room for as many points as another state has.
+    pub(super) fn fit(&mut self, other: &Self) {
+        self.places.resize(other.places.len(), [0; 2]);
+        self.velocities.resize(other.velocities.len(), Vec2::ZERO);
+    }
+}
+
 /// What moves points.
 pub(super) struct Step<'a> {
     pub(super) torus: &'a Torus,
@@ -59,7 +67,7 @@ pub(super) struct Seen {
     pub(super) suspects: Vec<Edge>,
     /// Whether a triangle had turned over.
     pub(super) is_unsound: bool,
-    /// The number of points whose constraints were violated.
+    /// The number of points whose constraints were violated before the step; of points in no mesh it is not known.
     pub(super) violated: usize,
     /// The square of the longest way that a point has gone that is in no mesh.
     pub(super) longest_way_squared: f32,

@@ -45,15 +45,18 @@ struct Mended {
 }
 
 /// What a look at all points finds.
+#[derive(Default)]
 struct Found {
     suspects: Vec<Edge>,
-    is_sound: bool,
+    is_unsound: bool,
+    violated: usize,
 }
 
 impl Visit for Found {
     #[inline(always)]
     fn visit(&mut self, rings: &Rings, points: Range<usize>, felt: &Felt) {
-        self.is_sound &= felt.are_sound(points.len());
+        self.is_unsound |= !felt.are_sound(points.len());
+        self.violated += felt.violated(points.len()).count();
         felt.suspects(rings, points, &mut self.suspects);
     }
 }
@@ -112,17 +115,32 @@ impl Mesh {
 
     /// Makes the mesh the Delaunay triangulation of the places; false if a triangle has turned over.
     pub(super) fn repair(&mut self, job: &Job, places: &[Place]) -> Result<bool> {
-        let chunks = chunks(places.len());
+        let found = self.look(&job.part(0.0, 0.5), places, places.len())?;
+        Ok(!found.is_unsound && self.mend(&job.part(0.5, 1.0), places, found.suspects)?)
+    }
+
+    /// How many of the first `count` points have their constraints violated.
+    pub(super) fn violated(&self, job: &Job, places: &[Place], count: usize) -> Result<usize> {
+        Ok(self.look(job, places, count)?.violated)
+    }
+
+    /// Looks at the first `count` points.
+    fn look(&self, job: &Job, places: &[Place], count: usize) -> Result<Found> {
+        let chunks = chunks(count);
         let vectors = Vectors::widest();
         let still = Constraints { conflict_radius: 0.0, coverage_radius: f32::INFINITY, push: 0.0, pull: 0.0 };
-        let found = job.part(0.0, 0.5).map(chunks.len(), |chunk| {
-            let mut found = Found { suspects: Vec::new(), is_sound: true };
+        let parts = job.map(chunks.len(), |chunk| {
+            let mut found = Found::default();
             self.feel(vectors, places, &still, chunks.range(chunk), &mut found);
             found
         })?;
-        let is_sound = found.iter().all(|found| found.is_sound);
-        let suspects: Vec<Edge> = found.into_iter().flat_map(|found| found.suspects).collect();
-        Ok(is_sound && self.mend(&job.part(0.5, 1.0), places, suspects)?)
+        let mut all = Found::default();
+        for part in parts {
+            all.suspects.extend(part.suspects);
+            all.is_unsound |= part.is_unsound;
+            all.violated += part.violated;
+        }
+        Ok(all)
     }
 
     /// Flips edges that must be, and those around them, until all are locally Delaunay; false if one could not be flipped.
@@ -148,13 +166,6 @@ impl Mesh {
             is_sound &= mend(&mut whole, &torus, places, left).is_sound;
         }
         Ok(is_sound)
-    }
-
-    /// Adds the ways from a point to its neighbours to `ring`, in spacings and counter-clockwise.
-    #[cfg(test)]
-    pub(super) fn star(&self, places: &[Place], point: usize, ring: &mut Vec<Vec2>) {
-        let ways = self.rings.ring(point).iter().map(|&other| self.torus.way(places[point], places[other as usize]));
-        ring.extend(ways);
     }
 
     /// The largest circumradius.

@@ -23,8 +23,6 @@ mod torus;
 mod vectors;
 mod waves;
 
-use std::ops::RangeInclusive;
-
 use glam::Vec2;
 
 use self::cells::Cells;
@@ -46,11 +44,14 @@ const MOMENTUM: f32 = 0.78;
 /// Long waves are removed in every so manieth step.
 const WAVES_EVERY: u32 = 5;
 
-/// Points whose constraints are still violated are kicked in every so manieth of these steps, by so many spacings. Where two
+/// In every so manieth step, up to the last, points whose constraints are still violated are kicked by so many spacings. Where
 /// points are in each other's way for good, that is what leads one of them out.
-const KICK_EVERY: u32 = 4;
-const KICKS: RangeInclusive<u32> = 32..=80;
-const KICK: f32 = 0.02;
+const KICK_EVERY: u32 = 8;
+const LAST_KICK: u32 = 56;
+const KICK: f32 = 0.03;
+
+/// The share of the points above which violations are no exceptions, and none is kicked.
+const FEW: f64 = 0.04;
 
 /// The steps over which constraints grow stiffer.
 const STIFFENING: u32 = 60;
@@ -71,6 +72,11 @@ pub(super) struct Spread {
     state: State,
     /// What the next state is written to.
     next: State,
+    /// The state in which the fewest points had their constraints violated, and how many; the last of these states.
+    best: State,
+    fewest: usize,
+    /// How many it were before the last step.
+    violated: usize,
     /// The mesh of the places, once there is one.
     mesh: Option<Mesh>,
     /// The cells of the points, as long as they serve.
@@ -92,7 +98,10 @@ impl Spread {
             waves: Waves::new(&torus, start.len()),
             neighbourhood: options.neighbourhood,
             vectors: Vectors::widest(),
-            next: State { places: places.clone(), velocities: velocities.clone() },
+            next: State::default(),
+            best: State::default(),
+            fewest: usize::MAX,
+            violated: usize::MAX,
             state: State { places, velocities },
             mesh: None,
             cells: None,
@@ -138,9 +147,20 @@ impl Spread {
 }
 
 impl Spread {
+    /// Takes the next state, and notes the one before as the best so far if it is.
+    fn keep(&mut self, next: State, violated: Option<usize>) {
+        self.next = std::mem::replace(&mut self.state, next);
+        self.violated = violated.unwrap_or(usize::MAX);
+        if self.violated <= self.fewest {
+            std::mem::swap(&mut self.best, &mut self.next);
+            self.fewest = self.violated;
+        }
+    }
+
     /// The step to come.
     fn go<'a>(&'a self, drift: &'a [Vec2]) -> Step<'a> {
-        let kicks = self.iterations.is_multiple_of(KICK_EVERY) && KICKS.contains(&self.iterations);
+        let are_few = self.violated as f64 <= FEW * self.order.len() as f64;
+        let kicks = are_few && self.iterations.is_multiple_of(KICK_EVERY) && self.iterations <= LAST_KICK;
         Step {
             torus: &self.torus,
             vectors: self.vectors,
@@ -160,13 +180,14 @@ impl Relaxation for Spread {
             false => Vec::new(),
         };
         let mut next = std::mem::take(&mut self.next);
+        next.fit(&self.state);
         let mut neighbours = self.neighbours(&job.part(0.2, 0.4))?;
         let mut seen = self.go(&drift).advance(&job.part(0.4, 0.6), &neighbours, &self.state, &mut next)?;
         if seen.is_unsound {
             neighbours = Neighbours::Stars(self.triangulate(&job.part(0.6, 0.65))?);
             seen = self.go(&drift).advance(&job.part(0.65, 0.7), &neighbours, &self.state, &mut next)?;
         }
-        self.next = std::mem::replace(&mut self.state, next);
+        self.keep(next, matches!(neighbours, Neighbours::Mesh(_)).then_some(seen.violated));
         self.iterations += 1;
         let places = &self.state.places;
         self.motion.after_step(&self.torus.frame, || places[..count].iter().map(|&place| self.torus.position(place)));
@@ -193,7 +214,28 @@ impl Relaxation for Spread {
     }
 
     fn has_settled(&self, tolerance: f64) -> bool {
-        self.motion.has_settled(tolerance)
+        let is_met = self.neighbourhood == Neighbourhood::Nearest || self.violated == 0;
+        is_met && self.motion.has_settled(tolerance)
+    }
+
+    fn finish(&mut self, job: &Job) -> Result<()> {
+        if self.fewest == usize::MAX {
+            return Ok(());
+        }
+        let places = &self.state.places;
+        // A step that was cancelled has lost the mesh.
+        let mesh = match self.mesh.take() {
+            Some(mut mesh) => mesh.repair(&job.part(0.0, 0.5), places)?.then_some(mesh),
+            None => Mesh::new(&job.part(0.0, 0.5), &self.torus, places)?,
+        };
+        let Some(mesh) = mesh else { return Ok(()) };
+        if mesh.violated(&job.part(0.5, 1.0), places, self.order.len())? <= self.fewest {
+            self.mesh = Some(mesh);
+        } else {
+            self.state = std::mem::take(&mut self.best);
+            self.fewest = usize::MAX;
+        }
+        Ok(())
     }
 
     /// Points that have not moved are returned as they came.
@@ -210,7 +252,7 @@ impl Relaxation for Spread {
     fn coverage(&mut self, job: &Job) -> Result<f64> {
         let places = &self.state.places;
         let mesh = match self.mesh.take() {
-            Some(mut mesh) => mesh.repair(&job.part(0.0, 0.5), places)?.then_some(mesh),
+            Some(mesh) => Some(mesh),
             None => Mesh::new(&job.part(0.0, 0.5), &self.torus, places)?,
         };
         let radius = match mesh {

@@ -6,9 +6,11 @@
 /// How many neighbours any point may gain by flips before the slots are full.
 const SPARE: usize = 3;
 
-/// Slots come in so many, a whole cache line; the most are the bits of a mask.
+/// Slots come in so many, a whole cache line.
 const LINE: usize = 16;
-pub(super) const MOST_SLOTS: usize = 32;
+
+/// The most slots: where a point has more neighbours, the others would waste too much memory.
+const MOST: usize = 64;
 
 /// Rings of some points, in no order.
 #[derive(Default)]
@@ -50,7 +52,7 @@ impl Rings {
         };
         let longest = rings().map(|(_, ring)| ring.len()).max()?;
         let slots = (longest + SPARE).next_multiple_of(LINE);
-        if slots > MOST_SLOTS {
+        if slots > MOST {
             return None;
         }
         let (mut degrees, mut neighbours) = (vec![0; count], vec![0; count * slots]);

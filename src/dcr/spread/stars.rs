@@ -14,6 +14,14 @@ pub(super) const LANES: usize = 8;
 
 type Lanes = [f32; LANES];
 
+/// The last bit of the masks of suspects.
+const LAST_BIT: usize = 31;
+
+/// The distance, and the circumradius, in spacings, from which on constraints count as violated: those of the best method
+/// before this one, push-pull.
+const TOO_CLOSE: f32 = 0.85;
+const TOO_WIDE: f32 = 0.67;
+
 /// The sum of two cotangents below which an edge may have to be flipped after its points have moved once more.
 const SUSPECT: f32 = 0.05;
 
@@ -27,7 +35,7 @@ pub(super) struct Felt {
     is_sound: [u32; LANES],
     /// Whether a neighbour is too close or a triangle too wide: 1, else 0.
     is_violated: [u32; LANES],
-    /// In bit `k`, whether the edge to the neighbour before the `k`-th is suspect.
+    /// In bit `k`, whether the edge to the neighbour before the `k`-th is suspect; in the last, whether one of the others is.
     suspects: [u32; LANES],
 }
 
@@ -55,8 +63,9 @@ impl Felt {
     pub(super) fn suspects(&self, rings: &Rings, points: Range<usize>, suspects: &mut Vec<[u32; 2]>) {
         for (point, &mask) in points.zip(&self.suspects).filter(|&(_, &mask)| mask != 0) {
             let ring = rings.ring(point);
-            let others =
-                (0..ring.len()).filter(|k| mask >> k & 1 == 1).map(|k| ring[(k + ring.len() - 1) % ring.len()]);
+            let others = (0..ring.len())
+                .filter(|&k| mask >> k.min(LAST_BIT) & 1 == 1)
+                .map(|k| ring[(k + ring.len() - 1) % ring.len()]);
             suspects.extend(others.filter(|&other| point < other as usize).map(|other| [point as u32, other]));
         }
     }
@@ -91,11 +100,11 @@ pub(super) fn feel(
     points: [usize; LANES],
     constraints: &Constraints,
 ) -> Felt {
-    let rings8: [&[u32]; LANES] = from_fn(|i| rings.slots_of(points[i]));
+    let slots: [&[u32]; LANES] = from_fn(|i| rings.slots_of(points[i]));
     let degrees: [u32; LANES] = from_fn(|i| rings.degree(points[i]) as u32);
     let here: [u64; LANES] = from_fn(|i| whole(places[points[i]]));
     let (unit, longest) = torus.unit_and_longest();
-    let eight = Eight { places, rings: rings8, here, unit: unit.to_array() };
+    let eight = Eight { places, rings: slots, here, unit: unit.to_array() };
     let mut sight = Sight::new(constraints, longest, degrees, eight.ways(degrees.map(|degree| degree as usize - 2)));
     sight.turn(eight.ways(degrees.map(|degree| degree as usize - 1)));
     for k in 0..degrees.into_iter().max().unwrap_or(0) {
@@ -199,13 +208,13 @@ impl<'a> Sight<'a> {
             self.force[1][i] += pushed * y;
             self.force[0][i] += if pulled_in { pulled * centre_x } else { 0.0 };
             self.force[1][i] += if pulled_in { pulled * centre_y } else { 0.0 };
-            let violates = is & ((squared < 0.85 * 0.85) | is_wide(0.67));
+            let violates = is & ((squared < TOO_CLOSE * TOO_CLOSE) | is_wide(TOO_WIDE));
             self.is_violated[i] |= u32::from(violates);
 
             let dot = before_x * x + before_y * y;
             let excess = self.cosine[i] * area + (squared - dot) * self.area[i];
             let suspect = is & (excess < SUSPECT * (area * self.area[i]));
-            self.suspects[i] |= u32::from(suspect) << k;
+            self.suspects[i] |= u32::from(suspect) << k.min(LAST_BIT as u32);
             self.cosine[i] = before_squared - dot;
             self.area[i] = area;
             self.before_squared[i] = squared;

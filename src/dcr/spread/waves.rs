@@ -22,6 +22,9 @@ const HIGHEST: f64 = 0.25;
 /// The width of the grid's cells in spacings: the highest frequency has three cells to a wave.
 const CELL: f64 = 1.25;
 
+/// On so many grids points are drawn at the same time.
+const SHEETS: usize = 8;
+
 type Field = Vec<Complex<f64>>;
 
 /// The grid of a torus.
@@ -46,9 +49,9 @@ impl Waves {
 
     /// The displacements, in spacings, of the first `count` points.
     pub(super) fn drift(&self, job: &Job, places: &[Place], count: usize) -> Result<Vec<Vec2>> {
-        let density = self.draw(places);
+        let density = self.draw(&job.part(0.0, 0.1), places)?;
         let (row, column) = (self.cells[0], self.cells[1]);
-        let columns = transform(&job.part(0.0, 0.2), density, row, &self.forward[0])?;
+        let columns = transform(&job.part(0.1, 0.2), density, row, &self.forward[0])?;
         let mut waves = transform(&job.part(0.2, 0.4), columns, column, &self.forward[1])?;
         self.integrate(&mut waves, places.len());
         let columns = transform(&job.part(0.4, 0.6), waves, row, &self.back[0])?;
@@ -83,12 +86,23 @@ impl Waves {
         }
     }
 
-    fn draw(&self, places: &[Place]) -> Field {
-        let mut density = vec![Complex::default(); self.cells[0] * self.cells[1]];
-        for &place in places {
-            self.for_each_cell(place, |cell, weight| density[cell].re += weight);
-        }
-        density
+    /// The density. Some points at a time are drawn on a grid of their own, and what is drawn is added up: so many grids,
+    /// and no more, that the sums do not depend on the threads.
+    fn draw(&self, job: &Job, places: &[Place]) -> Result<Field> {
+        let sheets = chunks_of(places.len(), places.len().div_ceil(SHEETS).max(8192));
+        let cells = self.cells[0] * self.cells[1];
+        let drawn = job.part(0.0, 0.8).map(sheets.len(), |sheet| {
+            let mut density = vec![0.0; cells];
+            for &place in &places[sheets.range(sheet)] {
+                self.for_each_cell(place, |cell, weight| density[cell] += weight);
+            }
+            density
+        })?;
+        let chunks = chunks_of(cells, 8192);
+        job.part(0.8, 1.0).concat(chunks.len(), |chunk| {
+            let sum = |cell: usize| Complex::from(drawn.iter().map(|density| density[cell]).sum::<f64>());
+            chunks.range(chunk).map(sum).collect()
+        })
     }
 
     /// From the waves of the density of `count` points to those of the displacement, `x` in the real and `y` in the
