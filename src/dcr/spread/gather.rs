@@ -5,6 +5,7 @@ use std::ops::Range;
 
 use glam::Vec2;
 
+use super::border::Border;
 use super::cells::Cells;
 use super::constraints::{Constraints, Force};
 use super::mesh::{Edge, Mesh};
@@ -50,6 +51,8 @@ impl State {
 /// What moves points.
 pub(super) struct Step<'a> {
     pub(super) torus: &'a Torus,
+    /// None for a periodic domain.
+    pub(super) border: Option<&'a Border>,
     pub(super) vectors: Vectors,
     pub(super) constraints: Constraints,
     /// The share of its way that a point makes again.
@@ -159,8 +162,11 @@ impl Gathering<'_> {
         let Part { points, places, velocities } = &mut self.part;
         for ((point, place), velocity) in points.clone().zip(places.iter_mut()).zip(velocities.iter_mut()) {
             let drift = self.step.drift.get(point).copied().unwrap_or(Vec2::ZERO);
+            let Force { sum, room } = force(point);
+            let at_border = |border: &Border| border.force(&self.step.constraints, self.now.places[point], sum);
+            let force = Force { sum: self.step.border.map_or(sum, at_border), room };
             let way;
-            (way, *velocity) = self.step.moved(self.now.velocities[point], force(point), drift);
+            (way, *velocity) = self.step.moved(self.now.velocities[point], force, drift);
             self.seen.longest_way_squared = self.seen.longest_way_squared.max(way.length_squared());
             *place = self.step.torus.moved(self.now.places[point], way);
         }
@@ -177,6 +183,13 @@ impl Visit for Gathering<'_> {
         }
         self.seen.violated += felt.violated(points.len()).count();
         let mut force = felt.force;
+        if let Some(border) = self.step.border {
+            for (lane, point) in points.clone().enumerate() {
+                let sum = Vec2::new(force[0][lane], force[1][lane]);
+                [force[0][lane], force[1][lane]] =
+                    border.force(&self.step.constraints, self.now.places[point], sum).to_array();
+            }
+        }
         if let Some(kick) = self.step.kick {
             for lane in felt.violated(points.len()) {
                 let kick = self.step.kick(kick, points.start + lane);

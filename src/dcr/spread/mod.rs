@@ -5,12 +5,14 @@
 //!
 //! * holes attract, not long edges (`constraints.rs`);
 //! * points have momentum instead of activeness: what pulls to and fro cancels out, what keeps pulling adds up;
-//! * the density's long waves are removed directly, every few steps (`waves.rs`);
+//! * the density's long waves are removed directly, every few steps (`waves.rs`), and at first not only the long ones;
+//! * the border of a bounded domain is a mirror in which points do not see themselves (`border.rs`);
 //! * constraints grow stiffer: soft ones let the set stay irregular while it finds its places, stiff ones make sure of
 //!   the last point;
 //! * the triangulation is kept and repaired by flips (`mesh.rs`). Where it cannot be, with a few points or large holes, it
 //!   is built anew in every step.
 
+mod border;
 mod cells;
 mod constraints;
 mod gather;
@@ -23,8 +25,11 @@ mod torus;
 mod vectors;
 mod waves;
 
+use std::ops::Range;
+
 use glam::Vec2;
 
+use self::border::Border;
 use self::cells::Cells;
 use self::constraints::Constraints;
 use self::gather::{Neighbours, State, Step};
@@ -44,6 +49,16 @@ const MOMENTUM: f32 = 0.78;
 /// Long waves are removed in every so manieth step.
 const WAVES_EVERY: u32 = 5;
 
+/// Waves are removed up to this frequency, in units of sqrt(density), while points find their places. That is finer than
+/// low frequencies are: it fills holes for which constraints are blind, those of nearest neighbours all the time.
+const FINE_WAVES: f64 = 0.55;
+
+/// The same at the end: fine waves are then due to the constraints, which this would disturb.
+const LONG_WAVES: f64 = 0.25;
+
+/// The steps during which one becomes the other.
+const COARSENING: Range<u32> = 60..85;
+
 /// In every so manieth step, up to the last, points whose constraints are still violated are kicked by so many spacings. Where
 /// points are in each other's way for good, that is what leads one of them out.
 const KICK_EVERY: u32 = 8;
@@ -62,6 +77,8 @@ const STEP: f64 = 0.2;
 /// A set in the making.
 pub(super) struct Spread {
     torus: Torus,
+    /// None for a periodic domain.
+    border: Option<Border>,
     waves: Waves,
     neighbourhood: Neighbourhood,
     vectors: Vectors,
@@ -95,6 +112,7 @@ impl Spread {
         let places = torus.with_images(&start);
         let velocities = vec![Vec2::ZERO; start.len()];
         Self {
+            border: Border::new(&torus),
             waves: Waves::new(&torus, start.len()),
             neighbourhood: options.neighbourhood,
             vectors: Vectors::widest(),
@@ -147,6 +165,13 @@ impl Spread {
 }
 
 impl Spread {
+    /// The frequency up to which waves are removed in this step.
+    fn highest_wave(&self) -> f64 {
+        let done = self.iterations.clamp(COARSENING.start, COARSENING.end) - COARSENING.start;
+        let share = f64::from(done) / f64::from(COARSENING.end - COARSENING.start);
+        FINE_WAVES + (LONG_WAVES - FINE_WAVES) * share
+    }
+
     /// Takes the next state, and notes the one before as the best so far if it is.
     fn keep(&mut self, next: State, violated: Option<usize>) {
         self.next = std::mem::replace(&mut self.state, next);
@@ -163,6 +188,7 @@ impl Spread {
         let kicks = are_few && self.iterations.is_multiple_of(KICK_EVERY) && self.iterations <= LAST_KICK;
         Step {
             torus: &self.torus,
+            border: self.border.as_ref(),
             vectors: self.vectors,
             constraints: self.constraints(),
             momentum: MOMENTUM,
@@ -176,7 +202,7 @@ impl Relaxation for Spread {
     fn step(&mut self, job: &Job) -> Result<()> {
         let count = self.order.len();
         let drift = match self.iterations.is_multiple_of(WAVES_EVERY) {
-            true => self.waves.drift(&job.part(0.0, 0.2), &self.state.places, count)?,
+            true => self.waves.drift(&job.part(0.0, 0.2), &self.state.places, count, self.highest_wave())?,
             false => Vec::new(),
         };
         let mut next = std::mem::take(&mut self.next);

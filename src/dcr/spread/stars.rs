@@ -33,7 +33,7 @@ pub(super) struct Felt {
     pub(super) room: Lanes,
     /// Whether no triangle is turned over or has an edge so long that twice it would be ambiguous: 1, else 0.
     is_sound: [u32; LANES],
-    /// Whether a neighbour is too close or a triangle too wide: 1, else 0.
+    /// Whether a neighbour, not counting own images, is too close or a triangle too wide: 1, else 0.
     is_violated: [u32; LANES],
     /// In bit `k`, whether the edge to the neighbour before the `k`-th is suspect; in the last, whether one of the others is.
     suspects: [u32; LANES],
@@ -104,11 +104,12 @@ pub(super) fn feel(
     let degrees: [u32; LANES] = from_fn(|i| rings.degree(points[i]) as u32);
     let here: [u64; LANES] = from_fn(|i| whole(places[points[i]]));
     let (unit, longest) = torus.unit_and_longest();
-    let eight = Eight { places, rings: slots, here, unit: unit.to_array() };
+    let images = torus.straight_images().map(|image| from_fn(|i| whole(image(places[points[i]]))));
+    let eight = Eight { places, rings: slots, here, images, unit: unit.to_array() };
     let mut sight = Sight::new(constraints, longest, degrees, eight.ways(degrees.map(|degree| degree as usize - 2)));
     sight.turn(eight.ways(degrees.map(|degree| degree as usize - 1)));
     for k in 0..degrees.into_iter().max().unwrap_or(0) {
-        sight.see(eight.ways([k as usize; LANES]), k);
+        sight.see(eight.ways([k as usize; LANES]), eight.own([k as usize; LANES]), k);
     }
     sight.felt()
 }
@@ -118,6 +119,8 @@ struct Eight<'a> {
     places: &'a [Place],
     rings: [&'a [u32]; LANES],
     here: [u64; LANES],
+    /// Their images across the borders.
+    images: [[u64; LANES]; 2],
     unit: [f32; 2],
 }
 
@@ -128,10 +131,23 @@ fn whole(place: Place) -> u64 {
 }
 
 impl Eight<'_> {
-    /// The ways from the points to those in these slots of their rings.
+    /// Where the points in these slots of the rings are.
+    #[inline(always)]
+    fn there(&self, slots: [usize; LANES]) -> [u64; LANES] {
+        from_fn(|i| whole(self.places[self.rings[i][slots[i]] as usize]))
+    }
+
+    /// Whether those are the points' own images: 1, else 0.
+    #[inline(always)]
+    fn own(&self, slots: [usize; LANES]) -> [u32; LANES] {
+        let there = self.there(slots);
+        from_fn(|i| u32::from(there[i] == self.images[0][i]) | u32::from(there[i] == self.images[1][i]))
+    }
+
+    /// The ways from the points to them.
     #[inline(always)]
     fn ways(&self, slots: [usize; LANES]) -> [Lanes; 2] {
-        let there: [u64; LANES] = from_fn(|i| whole(self.places[self.rings[i][slots[i]] as usize]));
+        let there = self.there(slots);
         let along = |axis: usize, i: usize| {
             let [there, here] = [there[i], self.here[i]].map(|place| (place >> (32 * axis)) as u32);
             there.wrapping_sub(here).cast_signed() as f32 * self.unit[axis]
@@ -171,9 +187,9 @@ impl<'a> Sight<'a> {
         self.before = [x, y];
     }
 
-    /// Looks at the triangles between the last neighbours and the `k`-th.
+    /// Looks at the triangles between the last neighbours and the `k`-th, some of which are the points' own images.
     #[inline(always)]
-    fn see(&mut self, [xs, ys]: [Lanes; 2], k: u32) {
+    fn see(&mut self, [xs, ys]: [Lanes; 2], own: [u32; LANES], k: u32) {
         let &Constraints { conflict_radius, coverage_radius, push, pull, .. } = self.constraints;
         for i in 0..LANES {
             let is = k < self.degrees[i];
@@ -208,7 +224,7 @@ impl<'a> Sight<'a> {
             self.force[1][i] += pushed * y;
             self.force[0][i] += if pulled_in { pulled * centre_x } else { 0.0 };
             self.force[1][i] += if pulled_in { pulled * centre_y } else { 0.0 };
-            let violates = is & ((squared < TOO_CLOSE * TOO_CLOSE) | is_wide(TOO_WIDE));
+            let violates = is & (((squared < TOO_CLOSE * TOO_CLOSE) & (own[i] == 0)) | is_wide(TOO_WIDE));
             self.is_violated[i] |= u32::from(violates);
 
             let dot = before_x * x + before_y * y;

@@ -131,6 +131,20 @@ impl Torus {
         Ok(())
     }
 
+    /// Where the images of a point across the borders are: on a periodic domain where the point is itself.
+    pub(super) fn straight_images(&self) -> [fn(Place) -> Place; 2] {
+        match self.domain.boundary() {
+            Boundary::Periodic => [MIRRORS[0]; 2],
+            Boundary::Bounded => [MIRRORS[1], MIRRORS[2]],
+        }
+    }
+
+    /// The ways from a point of a bounded domain to its own images across the nearest borders.
+    pub(super) fn own_images(&self, place: Place) -> [Vec2; 2] {
+        let [x, y] = place;
+        [[x.wrapping_neg(), y], [x, y.wrapping_neg()]].map(|image| self.way(place, image))
+    }
+
     /// The positions of places, nudged so little that nothing changes but this: where four stand on one circle, as points
     /// and their mirror images do, all copies of them agree on which diagonal is an edge.
     pub(super) fn nudged(&self, places: &[Place]) -> Vec<DVec2> {

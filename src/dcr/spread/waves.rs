@@ -12,15 +12,14 @@ use glam::{DVec2, Vec2};
 use rustfft::num_complex::Complex;
 use rustfft::{Fft, FftPlanner};
 
+use super::border::Border;
 use super::torus::{Place, Torus};
 use crate::error::Result;
 use crate::job::{Job, chunks, chunks_of};
 
-/// The frequency up to which waves are removed, in units of sqrt(density).
-const HIGHEST: f64 = 0.25;
-
-/// The width of the grid's cells in spacings: the highest frequency has three cells to a wave.
-const CELL: f64 = 1.25;
+/// The width of the grid's cells in spacings. The finest waves that are removed have two cells; and what aliases to long
+/// waves, a spacing or so long, is where the spline by which points are drawn has its zero.
+const CELL: f64 = 0.9;
 
 /// On so many grids points are drawn at the same time.
 const SHEETS: usize = 8;
@@ -30,6 +29,8 @@ type Field = Vec<Complex<f64>>;
 /// The grid of a torus.
 pub(super) struct Waves {
     torus: Torus,
+    /// None for a periodic domain.
+    border: Option<Border>,
     /// Columns and rows.
     cells: [usize; 2],
     /// Along rows and along columns, forward and back.
@@ -44,16 +45,23 @@ impl Waves {
         let cells = torus.frame.size().to_array().map(|length| smooth((length / CELL).ceil().min(limit) as usize));
         let mut planner = FftPlanner::new();
         let forward = cells.map(|count| planner.plan_fft_forward(count));
-        Self { torus: *torus, cells, forward, back: cells.map(|count| planner.plan_fft_inverse(count)) }
+        Self {
+            torus: *torus,
+            border: Border::new(torus),
+            cells,
+            forward,
+            back: cells.map(|count| planner.plan_fft_inverse(count)),
+        }
     }
 
-    /// The displacements, in spacings, of the first `count` points.
-    pub(super) fn drift(&self, job: &Job, places: &[Place], count: usize) -> Result<Vec<Vec2>> {
+    /// The displacements, in spacings, of the first `count` points, by waves up to the frequency `highest` in units of
+    /// sqrt(density), where what is removed has fallen to a third.
+    pub(super) fn drift(&self, job: &Job, places: &[Place], count: usize, highest: f64) -> Result<Vec<Vec2>> {
         let density = self.draw(&job.part(0.0, 0.1), places)?;
         let (row, column) = (self.cells[0], self.cells[1]);
         let columns = transform(&job.part(0.1, 0.2), density, row, &self.forward[0])?;
         let mut waves = transform(&job.part(0.2, 0.4), columns, column, &self.forward[1])?;
-        self.integrate(&mut waves, places.len());
+        self.integrate(&mut waves, places.len(), highest);
         let columns = transform(&job.part(0.4, 0.6), waves, row, &self.back[0])?;
         let field = transform(&job.part(0.6, 0.8), columns, column, &self.back[1])?;
         let chunks = chunks(count);
@@ -107,7 +115,7 @@ impl Waves {
 
     /// From the waves of the density of `count` points to those of the displacement, `x` in the real and `y` in the
     /// imaginary part: both are real, so one transform carries both.
-    fn integrate(&self, waves: &mut Field, count: usize) {
+    fn integrate(&self, waves: &mut Field, count: usize, highest: f64) {
         let size = self.torus.frame.size();
         let area = size.x * size.y / count as f64;
         // Per axis, the wave numbers of the bins, and what the spline does to them when drawing and when reading.
@@ -116,15 +124,19 @@ impl Waves {
             (0..cells).map(move |bin| {
                 let turns = if 2 * bin > cells { bin - cells } else { bin } as f64;
                 let half = PI * turns / cells as f64;
-                (TAU * turns / size[axis], if bin == 0 { 1.0 } else { (half.sin() / half).powi(8) })
+                (turns as i64, TAU * turns / size[axis], if bin == 0 { 1.0 } else { (half.sin() / half).powi(8) })
             })
         };
-        for (row, (ky, spline_y)) in waves.chunks_mut(self.cells[0]).zip(axis(1)) {
-            for (wave, (kx, spline_x)) in row.iter_mut().zip(axis(0)) {
+        for (row, (j, ky, spline_y)) in waves.chunks_mut(self.cells[0]).zip(axis(1)) {
+            for (wave, (i, kx, spline_x)) in row.iter_mut().zip(axis(0)) {
                 let k = DVec2::new(kx, ky);
-                let relative = k.length() / (TAU * HIGHEST) * area.sqrt();
+                let relative = k.length() / (TAU * highest) * area.sqrt();
                 let share = (-relative.powi(4)).exp() / (spline_x * spline_y).max(0.01) / count as f64;
                 let potential = if k == DVec2::ZERO { 0.0 } else { share / k.length_squared() };
+                if let Some(border) = &self.border {
+                    // Drawn as points are.
+                    *wave -= border.wave([i, j]) * f64::sqrt(spline_x * spline_y);
+                }
                 *wave *= Complex::new(k.y, -k.x) * potential;
             }
         }
@@ -188,7 +200,7 @@ mod tests {
         let waves = Waves::new(&torus, places.len());
         for threads in [1, 3] {
             let context = Context::new(threads).unwrap();
-            let drift = context.run(None, |job| waves.drift(job, &places, places.len())).unwrap();
+            let drift = context.run(None, |job| waves.drift(job, &places, places.len(), 0.25)).unwrap();
             for (drift, displaced) in drift.iter().zip(&displaced) {
                 assert!((drift.as_dvec2() + *displaced).length() < 0.01, "{drift} undoes {displaced}");
             }
