@@ -137,8 +137,7 @@ impl Cells {
                 let squared = x * x + y * y;
                 let distance = squared.sqrt();
                 let is = ((i as u32) < count) & (squared < conflict_radius * conflict_radius) & (squared != 0.0);
-                let pushed = -push * (1.0 - distance / conflict_radius) / distance;
-                let pushed = if is { pushed } else { 0.0 };
+                let pushed = if is { push * (conflict_radius.recip() - distance.recip()) } else { 0.0 };
                 sum[0][i] += pushed * x;
                 sum[1][i] += pushed * y;
             }

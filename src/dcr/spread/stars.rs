@@ -5,7 +5,7 @@
 use std::array::from_fn;
 use std::ops::Range;
 
-use super::constraints::Constraints;
+use super::constraints::{Constraints, STRONGEST_PULL};
 use super::rings::Rings;
 use super::torus::{Place, Torus};
 
@@ -76,6 +76,8 @@ struct Sight<'a> {
     constraints: &'a Constraints,
     /// The longest edges along the axes, in spacings.
     longest: [f32; 2],
+    /// The ways to the points' own images across the borders.
+    images: [Lanes; 2],
     degrees: [u32; LANES],
     force: [Lanes; 2],
     /// The squares of the least heights, as numerators and denominators.
@@ -104,12 +106,14 @@ pub(super) fn feel(
     let degrees: [u32; LANES] = from_fn(|i| rings.degree(points[i]) as u32);
     let here: [u64; LANES] = from_fn(|i| whole(places[points[i]]));
     let (unit, longest) = torus.unit_and_longest();
-    let images = torus.straight_images().map(|image| from_fn(|i| whole(image(places[points[i]]))));
-    let eight = Eight { places, rings: slots, here, images, unit: unit.to_array() };
-    let mut sight = Sight::new(constraints, longest, degrees, eight.ways(degrees.map(|degree| degree as usize - 2)));
+    let eight = Eight { places, rings: slots, here, unit: unit.to_array() };
+    let images: [[f32; 2]; LANES] = from_fn(|i| torus.ways_to_images(places[points[i]]));
+    let images = [0, 1].map(|axis| images.map(|image| image[axis]));
+    let first = eight.ways(degrees.map(|degree| degree as usize - 2));
+    let mut sight = Sight::new(constraints, longest, images, degrees, first);
     sight.turn(eight.ways(degrees.map(|degree| degree as usize - 1)));
     for k in 0..degrees.into_iter().max().unwrap_or(0) {
-        sight.see(eight.ways([k as usize; LANES]), eight.own([k as usize; LANES]), k);
+        sight.see(eight.ways([k as usize; LANES]), k);
     }
     sight.felt()
 }
@@ -119,8 +123,6 @@ struct Eight<'a> {
     places: &'a [Place],
     rings: [&'a [u32]; LANES],
     here: [u64; LANES],
-    /// Their images across the borders.
-    images: [[u64; LANES]; 2],
     unit: [f32; 2],
 }
 
@@ -131,23 +133,10 @@ fn whole(place: Place) -> u64 {
 }
 
 impl Eight<'_> {
-    /// Where the points in these slots of the rings are.
-    #[inline(always)]
-    fn there(&self, slots: [usize; LANES]) -> [u64; LANES] {
-        from_fn(|i| whole(self.places[self.rings[i][slots[i]] as usize]))
-    }
-
-    /// Whether those are the points' own images: 1, else 0.
-    #[inline(always)]
-    fn own(&self, slots: [usize; LANES]) -> [u32; LANES] {
-        let there = self.there(slots);
-        from_fn(|i| u32::from(there[i] == self.images[0][i]) | u32::from(there[i] == self.images[1][i]))
-    }
-
-    /// The ways from the points to them.
+    /// The ways from the points to those in these slots of their rings.
     #[inline(always)]
     fn ways(&self, slots: [usize; LANES]) -> [Lanes; 2] {
-        let there = self.there(slots);
+        let there: [u64; LANES] = from_fn(|i| whole(self.places[self.rings[i][slots[i]] as usize]));
         let along = |axis: usize, i: usize| {
             let [there, here] = [there[i], self.here[i]].map(|place| (place >> (32 * axis)) as u32);
             there.wrapping_sub(here).cast_signed() as f32 * self.unit[axis]
@@ -158,10 +147,17 @@ impl Eight<'_> {
 
 impl<'a> Sight<'a> {
     #[inline(always)]
-    fn new(constraints: &'a Constraints, longest: [f32; 2], degrees: [u32; LANES], first: [Lanes; 2]) -> Self {
+    fn new(
+        constraints: &'a Constraints,
+        longest: [f32; 2],
+        images: [Lanes; 2],
+        degrees: [u32; LANES],
+        first: [Lanes; 2],
+    ) -> Self {
         Self {
             constraints,
             longest,
+            images,
             degrees,
             force: [[0.0; LANES]; 2],
             height: [[f32::INFINITY; LANES], [1.0; LANES]],
@@ -187,9 +183,9 @@ impl<'a> Sight<'a> {
         self.before = [x, y];
     }
 
-    /// Looks at the triangles between the last neighbours and the `k`-th, some of which are the points' own images.
+    /// Looks at the triangles between the last neighbours and the `k`-th.
     #[inline(always)]
-    fn see(&mut self, [xs, ys]: [Lanes; 2], own: [u32; LANES], k: u32) {
+    fn see(&mut self, [xs, ys]: [Lanes; 2], k: u32) {
         let &Constraints { conflict_radius, coverage_radius, push, pull, .. } = self.constraints;
         for i in 0..LANES {
             let is = k < self.degrees[i];
@@ -205,32 +201,33 @@ impl<'a> Sight<'a> {
             self.height[0][i] = if lower { height } else { self.height[0][i] };
             self.height[1][i] = if lower { width } else { self.height[1][i] };
             let is_short = (x.abs() <= self.longest[0]) & (y.abs() <= self.longest[1]);
-            self.is_sound[i] &= u32::from(!is | ((area > 0.0) & is_short));
+            self.is_sound[i] = if !is | ((area > 0.0) & is_short) { self.is_sound[i] } else { 0 };
 
             let distance = squared.sqrt();
             let is_close = is & (squared < conflict_radius * conflict_radius) & (squared != 0.0);
-            let pushed = -push * (1.0 - distance / conflict_radius) / distance;
-            let pushed = if is_close { pushed } else { 0.0 };
+            let pushed = if is_close { push * (conflict_radius.recip() - distance.recip()) } else { 0.0 };
 
             let product = before_squared * squared * opposite;
             let is_wide = |radius: f32| product > (2.0 * radius * area) * (2.0 * radius * area);
-            let twice = 2.0 * area;
-            let centre_x = (squared * -before_y + before_squared * y) / twice;
-            let centre_y = (squared * before_x - before_squared * x) / twice;
+            let share = (2.0 * area).recip();
+            let centre_x = (squared * -before_y + before_squared * y) * share;
+            let centre_y = (squared * before_x - before_squared * x) * share;
             let radius = (centre_x * centre_x + centre_y * centre_y).sqrt();
-            let pulled = pull * (radius / coverage_radius - 1.0).min(1.0) / radius;
-            let pulled_in = is & is_wide(coverage_radius) & radius.is_finite();
+            let is_pulled = is & is_wide(coverage_radius) & (radius < f32::INFINITY);
+            let pulled = pull * (coverage_radius.recip() - radius.recip()).min(STRONGEST_PULL * radius.recip());
             self.force[0][i] += pushed * x;
             self.force[1][i] += pushed * y;
-            self.force[0][i] += if pulled_in { pulled * centre_x } else { 0.0 };
-            self.force[1][i] += if pulled_in { pulled * centre_y } else { 0.0 };
-            let violates = is & (((squared < TOO_CLOSE * TOO_CLOSE) & (own[i] == 0)) | is_wide(TOO_WIDE));
-            self.is_violated[i] |= u32::from(violates);
+            self.force[0][i] += if is_pulled { pulled * centre_x } else { 0.0 };
+            self.force[1][i] += if is_pulled { pulled * centre_y } else { 0.0 };
+
+            let is_image = ((x == self.images[0][i]) & (y == 0.0)) | ((y == self.images[1][i]) & (x == 0.0));
+            let violates = is & (((squared < TOO_CLOSE * TOO_CLOSE) & !is_image) | is_wide(TOO_WIDE));
+            self.is_violated[i] = if violates { 1 } else { self.is_violated[i] };
 
             let dot = before_x * x + before_y * y;
             let excess = self.cosine[i] * area + (squared - dot) * self.area[i];
             let suspect = is & (excess < SUSPECT * (area * self.area[i]));
-            self.suspects[i] |= u32::from(suspect) << k.min(LAST_BIT as u32);
+            self.suspects[i] |= if suspect { 1 << k.min(LAST_BIT as u32) } else { 0 };
             self.cosine[i] = before_squared - dot;
             self.area[i] = area;
             self.before_squared[i] = squared;

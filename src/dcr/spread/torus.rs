@@ -131,11 +131,15 @@ impl Torus {
         Ok(())
     }
 
-    /// Where the images of a point across the borders are: on a periodic domain where the point is itself.
-    pub(super) fn straight_images(&self) -> [fn(Place) -> Place; 2] {
+    /// How far a point's own images across the borders are, along `x` and along `y`; NaN on a periodic domain.
+    #[inline(always)]
+    pub(super) fn ways_to_images(&self, place: Place) -> [f32; 2] {
         match self.domain.boundary() {
-            Boundary::Periodic => [MIRRORS[0]; 2],
-            Boundary::Bounded => [MIRRORS[1], MIRRORS[2]],
+            Boundary::Periodic => [f32::NAN; 2],
+            Boundary::Bounded => {
+                let unit = self.unit.as_vec2().to_array();
+                std::array::from_fn(|axis| place[axis].wrapping_mul(2).wrapping_neg().cast_signed() as f32 * unit[axis])
+            }
         }
     }
 

@@ -21,6 +21,9 @@ use crate::job::{Job, chunks, chunks_of};
 /// waves, a spacing or so long, is where the spline by which points are drawn has its zero.
 const CELL: f64 = 0.9;
 
+/// Waves of this frequency, in units of the highest, are removed by less than rounding shows.
+const NOTHING: f64 = 2.4;
+
 /// On so many grids points are drawn at the same time.
 const SHEETS: usize = 8;
 
@@ -61,8 +64,8 @@ impl Waves {
         let (row, column) = (self.cells[0], self.cells[1]);
         let columns = transform(&job.part(0.1, 0.2), density, row, &self.forward[0])?;
         let mut waves = transform(&job.part(0.2, 0.4), columns, column, &self.forward[1])?;
-        self.integrate(&mut waves, places.len(), highest);
-        let columns = transform(&job.part(0.4, 0.6), waves, row, &self.back[0])?;
+        self.integrate(&job.part(0.4, 0.45), &mut waves, places.len(), highest)?;
+        let columns = transform(&job.part(0.45, 0.6), waves, row, &self.back[0])?;
         let field = transform(&job.part(0.6, 0.8), columns, column, &self.back[1])?;
         let chunks = chunks(count);
         job.part(0.8, 1.0).concat(chunks.len(), |chunk| {
@@ -85,9 +88,9 @@ impl Waves {
             ((scaled >> 32) as usize + self.cells[axis] - 1, [u * u * u / 6.0, inner(t), inner(u), t * t * t / 6.0])
         };
         let ((left, across), (bottom, up)) = (along(0), along(1));
-        let columns: [usize; 4] = std::array::from_fn(|i| (left + i) % self.cells[0]);
+        let columns: [usize; 4] = std::array::from_fn(|i| wrapped(left + i, self.cells[0]));
         for (j, weight) in up.into_iter().enumerate() {
-            let row = (bottom + j) % self.cells[1] * self.cells[0];
+            let row = wrapped(bottom + j, self.cells[1]) * self.cells[0];
             for (column, across) in columns.into_iter().zip(across) {
                 visit(row + column, weight * across);
             }
@@ -115,32 +118,58 @@ impl Waves {
 
     /// From the waves of the density of `count` points to those of the displacement, `x` in the real and `y` in the
     /// imaginary part: both are real, so one transform carries both.
-    fn integrate(&self, waves: &mut Field, count: usize, highest: f64) {
+    fn integrate(&self, job: &Job, waves: &mut Field, count: usize, highest: f64) -> Result<()> {
         let size = self.torus.frame.size();
-        let area = size.x * size.y / count as f64;
-        // Per axis, the wave numbers of the bins, and what the spline does to them when drawing and when reading.
-        let axis = |axis: usize| {
-            let cells = self.cells[axis] as i64;
-            (0..cells).map(move |bin| {
-                let turns = if 2 * bin > cells { bin - cells } else { bin } as f64;
-                let half = PI * turns / cells as f64;
-                (turns as i64, TAU * turns / size[axis], if bin == 0 { 1.0 } else { (half.sin() / half).powi(8) })
-            })
-        };
-        for (row, (j, ky, spline_y)) in waves.chunks_mut(self.cells[0]).zip(axis(1)) {
-            for (wave, (i, kx, spline_x)) in row.iter_mut().zip(axis(0)) {
-                let k = DVec2::new(kx, ky);
-                let relative = k.length() / (TAU * highest) * area.sqrt();
-                let share = (-relative.powi(4)).exp() / (spline_x * spline_y).max(0.01) / count as f64;
-                let potential = if k == DVec2::ZERO { 0.0 } else { share / k.length_squared() };
-                if let Some(border) = &self.border {
-                    // Drawn as points are.
-                    *wave -= border.wave([i, j]) * f64::sqrt(spline_x * spline_y);
+        let per_point = (size.x * size.y / count as f64).sqrt() / (TAU * highest);
+        let (columns, rows) = (self.bins(0), self.bins(1));
+        let size = chunks_of(rows.len(), 1 + 8192 / columns.len()).size();
+        let parts = waves.chunks_mut(size * columns.len()).zip(rows.chunks(size));
+        job.map_each(parts.collect(), |(waves, rows)| {
+            for (row, y) in waves.chunks_mut(columns.len()).zip(rows) {
+                for (wave, x) in row.iter_mut().zip(&columns) {
+                    let k = DVec2::new(x.number, y.number);
+                    let relative = k.length() * per_point;
+                    if k == DVec2::ZERO || relative > NOTHING {
+                        *wave = Complex::default();
+                        continue;
+                    }
+                    if let Some(border) = &self.border {
+                        // Drawn as points are.
+                        *wave -= border.wave([x.turns, y.turns]) * f64::sqrt(x.spline * y.spline);
+                    }
+                    let share = (-relative.powi(4)).exp() / (x.spline * y.spline).max(0.01) / count as f64;
+                    *wave *= Complex::new(k.y, -k.x) * (share / k.length_squared());
                 }
-                *wave *= Complex::new(k.y, -k.x) * potential;
             }
-        }
+        })?;
+        Ok(())
     }
+
+    /// The bins of the transform along an axis.
+    fn bins(&self, axis: usize) -> Vec<Bin> {
+        let (cells, length) = (self.cells[axis] as i64, self.torus.frame.size()[axis]);
+        let bin = |bin: i64| {
+            let turns = if 2 * bin > cells { bin - cells } else { bin };
+            let half = PI * turns as f64 / cells as f64;
+            let spline = if bin == 0 { 1.0 } else { (half.sin() / half).powi(8) };
+            Bin { turns, number: TAU * turns as f64 / length, spline }
+        };
+        (0..cells).map(bin).collect()
+    }
+}
+
+/// Waves along an axis.
+struct Bin {
+    /// How often they fit into the period, and their wave number.
+    turns: i64,
+    number: f64,
+    /// What the spline does to them when drawing and when reading, together.
+    spline: f64,
+}
+
+/// The remainder, of numbers most of which are their own.
+fn wrapped(number: usize, count: usize) -> usize {
+    if number < count { number } else { number % count }
 }
 
 /// The least number from `count` on that has only the factors 2, 3 and 5, for which transforms are fast.
