@@ -149,3 +149,49 @@ impl Cells {
 fn along(counts: [usize; 2], axis: usize, coordinate: u32) -> usize {
     ((u64::from(coordinate) * counts[axis] as u64) >> 32) as usize
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::job::Context;
+    use crate::maximal::Vectors;
+    use crate::points::{Boundary, Domain};
+    use crate::rng::{Draw, Rng};
+
+    /// Against all pairs, on grids of many cells and of a few, before and after the points have moved a little.
+    #[test]
+    fn forces_are_those_of_all_pairs() {
+        let context = Context::new(1).unwrap();
+        let constraints = Constraints { conflict_radius: 0.92, coverage_radius: f32::INFINITY, push: 0.4, pull: 0.2 };
+        for (width, count, boundary) in [
+            (1.0, 403, Boundary::Periodic),
+            (40.0, 60, Boundary::Periodic),
+            (1.0, 9, Boundary::Periodic),
+            (2.0, 90, Boundary::Bounded),
+        ] {
+            let torus = Torus::new(Domain { min: [0.0; 2], max: [width, 1.0], boundary }, count);
+            let mut rng = Rng::at(6, Draw::Probe, &[]);
+            let points: Vec<_> = (0..count).map(|_| [rng.unit() * width, rng.unit()].map(|x| x as f32)).collect();
+            let mut places = torus.with_images(&torus.enter(&points, 0));
+            let mut cells = Cells::new(&torus, &places, 0.92);
+            for way in [0.0, 0.05, 0.05] {
+                for place in &mut places[..count] {
+                    *place = torus.moved(*place, Vec2::from_angle(rng.unit() as f32 * 6.3) * way);
+                }
+                context.run(None, |job| torus.mirror(job, &mut places, count)).unwrap();
+                assert!(cells.still_serve(way, 0.92));
+                context.run(None, |job| cells.update(job, &places)).unwrap();
+                for vectors in Vectors::available() {
+                    let mut forces = Vec::new();
+                    cells.forces(vectors, &places, &constraints, 0..count, &mut forces);
+                    for (&place, force) in places.iter().zip(forces) {
+                        let ways = places.iter().map(|&other| torus.way(place, other));
+                        let expected: Vec2 = ways.map(|way| constraints.push(way, way.length_squared())).sum();
+                        assert!(force.distance(expected) < 1e-5, "{vectors:?}: {force}, not {expected}");
+                    }
+                }
+            }
+            assert!(!cells.still_serve(0.03, 0.92) && SKIN < 0.26);
+        }
+    }
+}
