@@ -69,7 +69,7 @@ fn a_quick_report_of_relaxation_has_every_method_and_plausible_figures() {
     let said = workshop.succeed(&["report", "dcr", "--quick", "--out", "pages/docs", "--threads", "2"]);
     assert!(said.is_empty(), "{said}");
     let page = std::fs::read_to_string(workshop.path("pages/docs/dcr.md")).unwrap();
-    let pictures = ["best-delaunay", "best-nearest", "thesis-delaunay", "thesis-nearest"];
+    let pictures = ["best-delaunay", "best-nearest", "thesis-delaunay", "thesis-nearest", "corners"];
     assert_eq!(page.matches("](").count(), pictures.len());
     for name in pictures {
         assert!(page.contains(&format!("](dcr/{name}.png)")), "{name}");
@@ -77,6 +77,14 @@ fn a_quick_report_of_relaxation_has_every_method_and_plausible_figures() {
         assert!(picture.width() >= 900 && picture.pixels().any(|pixel| pixel[0] < 128));
     }
     let rows = page.lines().map(|line| line.split('|').map(str::trim).collect::<Vec<_>>());
+    let bounded: Vec<_> = rows.clone().filter(|cells| cells.len() == 16 && cells[2] == "300").collect();
+    // Two methods from two starts each, and one start as it is.
+    assert_eq!(bounded.len(), 2 * 2 + 1);
+    for row in bounded {
+        let [rho, least, cover, largest, border] = [5, 6, 7, 8, 9].map(|cell| row[cell].parse::<f64>().unwrap());
+        assert!(0.6 < least && least <= rho && rho < 1.0 && 0.577 < cover && cover <= largest && border <= cover);
+        assert!((10..15).all(|cell| (0.7..1.5).contains(&row[cell].parse::<f64>().unwrap())), "{row:?}");
+    }
     let rows: Vec<_> = rows.filter(|cells| cells.len() == 15 && ["random", "KDRT"].contains(&cells[3])).collect();
     // Two sizes of the best methods, one of the thesis's, from two starts each.
     assert_eq!(rows.len(), 2 * 2 * 2 + 2 * 2);

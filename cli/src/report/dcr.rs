@@ -1,5 +1,6 @@
-//! `azulejo report dcr`: what relaxation makes of sets of the torus (thesis chapter 4), beside others' methods.
+//! `azulejo report dcr`: what relaxation makes of sets of the torus and of a bounded square (thesis chapter 4), beside others' methods.
 
+mod bounded;
 mod page;
 mod quality;
 mod sets;
@@ -32,16 +33,19 @@ pub struct Effort {
     /// Points of a set, and sets of that size from each start: of the best method's, and of the thesis's, which is slow.
     pub best: &'static [(usize, u64)],
     pub thesis: &'static [(usize, u64)],
-    /// Points of the sets that are drawn, one of the sizes of both methods.
+    /// The same of the best method's on a bounded square.
+    pub bounded: &'static [(usize, u64)],
+    /// Points of the sets that are drawn, one of the sizes of all methods.
     pub pictured: usize,
 }
 
 const FULL: Effort = Effort {
     best: &[(1000, 64), (4096, 16), (65_536, 2), (1_000_000, 1)],
     thesis: &[(1000, 8), (4096, 4), (65_536, 1)],
+    bounded: &[(1000, 32), (4096, 16), (65_536, 4)],
     pictured: 65_536,
 };
-const QUICK: Effort = Effort { best: &[(300, 2), (1000, 1)], thesis: &[(300, 1)], pictured: 300 };
+const QUICK: Effort = Effort { best: &[(300, 2), (1000, 1)], thesis: &[(300, 1)], bounded: &[(300, 2)], pictured: 300 };
 
 /// Width of the pictures in pixels.
 const PIXELS: u32 = 1000;
@@ -63,7 +67,11 @@ impl Dcr {
             let output = Output::at(&pictures.join(one.method.picture()))?;
             points::draw(context, &Domain::unit(Boundary::Periodic), &one.first, PIXELS, &output)?;
         }
-        let text = page::text(context, &effort, &measured, self.quick);
+        let at_borders = watched("bounded", |progress| bounded::Measured::all(context, effort.bounded, progress))?;
+        let corners = at_borders.iter().filter(|one| one.count == effort.pictured && one.start == Start::Kdrt);
+        let corners: Vec<_> = corners.map(|one| (one.name(), &*one.first)).collect();
+        bounded::draw_corners(&corners, 2 * PIXELS, &Output::at(&pictures.join(page::CORNERS))?)?;
+        let text = page::text(context, &effort, &measured, &at_borders, self.quick);
         page.write(|writer| writer.write_all(text.as_bytes()))
     }
 }

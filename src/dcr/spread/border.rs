@@ -80,7 +80,7 @@ mod tests {
         assert!(Border::new(&Torus::new(domain(Boundary::Periodic), 100)).is_none());
     }
 
-    /// The force of a point's own image, and its relief, against the distance from each side.
+    /// What is left of the push of a point's own image, against the distance from each side.
     #[test]
     fn images_push_when_they_are_about_to_meet() {
         let torus = Torus::new(domain(Boundary::Bounded), 100);
@@ -95,7 +95,7 @@ mod tests {
                 ([1.0, near], Vec2::Y),
                 ([1.0, 1.0 - near], -Vec2::Y),
             ] {
-                let place = torus.enter(&[point, [1.5, 0.6]], 0)[0];
+                let place = torus.enter(&[point, [1.5, 0.6], [1.4, 0.3]], 0)[0];
                 let image = -2.0 * depth as f32 * inwards;
                 let pushed = border.force(&constraints, place, constraints.push(image, image.length_squared()));
                 let expected = 0.4 * (1.0 - 2.0 * depth as f32 / MEETING).max(0.0) * inwards;

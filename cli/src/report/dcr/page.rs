@@ -6,6 +6,7 @@ use azulejo::Context;
 use azulejo::dcr::Neighbourhood;
 
 use super::Effort;
+use super::bounded;
 use super::quality::{Measured, Quality};
 use super::sets::{FIRST_SEED, METHODS};
 use crate::report::head::{head, verdict};
@@ -32,12 +33,21 @@ const FIGURES: [Figure; 6] = [
     Figure { name: "edge CV²", of: |set| set.edge_variation, push_pull: 0.019, higher_is_better: false },
 ];
 
+/// The file of the picture of corners.
+pub const CORNERS: &str = "corners.png";
+
 /// The whole page.
-pub fn text(context: &Context, effort: &Effort, measured: &[Measured], quick: bool) -> String {
+pub fn text(
+    context: &Context,
+    effort: &Effort,
+    measured: &[Measured],
+    at_borders: &[bounded::Measured],
+    quick: bool,
+) -> String {
     let option = if quick { " --quick" } else { "" };
     let intro = format!(
-        " Thesis: Wang 2019, chapter 4. Sets of the unit torus, from seed {FIRST_SEED} on; no setting was chosen by what \
-         these seeds gave. Figures are means over the sets of a size. Seconds are those of one call, on a machine that may \
+        " Thesis: Wang 2019, chapter 4. Sets of the unit torus, and at the end of the unit square with a border, from seed {FIRST_SEED} on; no \
+         setting was chosen by what these seeds gave. Figures are means over the sets of a size. Seconds are those of one call, on a machine that may \
          have had other work.\n\n\
          Lengths are in units of d_max = √(2 A / (√3 N)), the distance of neighbours in the hexagonal arrangement. *ρ* is the \
          smallest distance of a set, *least* the smallest in any of the sets; *nearest* is the mean distance to the nearest \
@@ -51,6 +61,7 @@ pub fn text(context: &Context, effort: &Effort, measured: &[Measured], quick: bo
         goals(measured),
         others(),
         METHODS.map(|method| section(method.name, effort, measured)).join("\n"),
+        borders(effort, at_borders),
     ];
     parts.join("\n")
 }
@@ -141,5 +152,43 @@ fn section(name: &str, effort: &Effort, measured: &[Measured]) -> String {
             one.method.picture()
         );
     }
+    text
+}
+
+/// What sets are like along a border.
+fn borders(effort: &Effort, measured: &[bounded::Measured]) -> String {
+    let mut text = format!(
+        "## Bounded\n\n\
+         Sets of the unit square with a border, by the best methods, and maximal sets as KDRT makes them. *On border* is the \
+         largest distance of a place on the border from the set. Densities are those of strips along the border, one d_max \
+         wide each, over that of the inside, which begins at {} d_max; *spacing* is the mean distance to the nearest \
+         neighbour in the first strip over that inside. A border puts points in rows: the nearest strips share the points of \
+         two rows, some more and some less.\n\n\
+         | method | points | sets | start | ρ | least | cover | largest | on border | 0 to 1 | 1 to 2 | 2 to 3 | 3 to 4 | spacing |\n{}|\n",
+        bounded::STRIPS,
+        "|---".repeat(14),
+    );
+    for one in measured {
+        let mean = |figure: fn(&bounded::Quality) -> f64| one.summary(figure).mean;
+        let densities: Vec<_> =
+            (0..bounded::STRIPS).map(|strip| format!("{:.3}", one.summary(|set| set.densities[strip]).mean)).collect();
+        _ = writeln!(
+            text,
+            "| {} | {} | {} | {} | {:.3} | {:.3} | {:.3} | {:.3} | {:.3} | {} | {:.3} |",
+            one.name(),
+            grouped(one.count),
+            one.sets.len(),
+            one.start.name(),
+            mean(|set| set.rho),
+            one.summary(|set| set.rho).low,
+            mean(|set| set.cover),
+            one.summary(|set| set.cover).high,
+            mean(|set| set.border_cover),
+            densities.join(" | "),
+            mean(|set| set.spacing),
+        );
+    }
+    let pictured = grouped(effort.pictured);
+    _ = writeln!(text, "\n![A corner of the square, of sets of {pictured} points from KDRT](dcr/{CORNERS})");
     text
 }

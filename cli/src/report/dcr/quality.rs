@@ -88,10 +88,11 @@ impl Measured {
     }
 
     fn kind(context: &Context, method: Method, start: Start, count: usize, sets: u64) -> Result<Self> {
+        let domain = Domain::unit(Boundary::Periodic);
         let mut measured = Self { method, start, count, sets: Vec::new(), steps: 0.0, seconds: 0.0, first: Vec::new() };
         for seed in FIRST_SEED..FIRST_SEED + sets {
-            let points = start.points(context, count, seed)?;
-            let options = method.options(Domain::unit(Boundary::Periodic), seed);
+            let points = start.points(context, domain, count, seed)?;
+            let options = method.options(domain, seed);
             let clock = Instant::now();
             let (relaxed, report) = relax(context, &options, &points, None)?;
             measured.seconds += clock.elapsed().as_secs_f64() / sets as f64;

@@ -2,7 +2,7 @@
 
 use azulejo::dcr::{Neighbourhood, Options};
 use azulejo::kdrt::{self, CountOptions};
-use azulejo::{Boundary, Context, Domain, Result};
+use azulejo::{Context, Domain, Result};
 
 /// The seed of the first set of each kind. No setting of a method was chosen by what sets of these seeds gave; who tunes
 /// one takes others.
@@ -53,9 +53,8 @@ impl Start {
         }
     }
 
-    /// So many points of the unit torus.
-    pub fn points(self, context: &Context, count: usize, seed: u64) -> Result<Vec<[f32; 2]>> {
-        let domain = Domain::unit(Boundary::Periodic);
+    /// So many points of a unit square.
+    pub fn points(self, context: &Context, domain: Domain, count: usize, seed: u64) -> Result<Vec<[f32; 2]>> {
         match self {
             Self::Random => Ok(random_points(count, seed)),
             Self::Kdrt => {
