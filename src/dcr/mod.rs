@@ -4,7 +4,8 @@
 //! the threads. There are two ways to do so ([`Method`]):
 //!
 //! * [`Method::Best`], the default: neighbours in conflict push each other away, holes pull their borders in, points have
-//!   momentum, and long waves of the density are removed by Fourier transform. It ends after 100 steps.
+//!   momentum, and long waves of the density are removed by Fourier transform. It ends after 100 steps, or sooner if the
+//!   points have come to rest.
 //! * [`Method::Thesis`]: what the thesis's algorithm says, with all that it can be varied by.
 //!
 //! What the best method makes of sets of the unit torus in 100 steps, with Delaunay neighbours (means of 64, 16, 2 and 1 sets;
@@ -156,7 +157,8 @@ pub struct Options {
     pub max_iterations: u32,
     /// Where points of degenerate sets are moved; used for nothing else.
     pub seed: u64,
-    /// The motion ([`Report::motion`]) at which the set has converged; 0 makes all steps unless nothing moves at all.
+    /// The motion ([`Report::motion`]) at which the set has converged, if the constraints are kept ([`Stopped::Converged`]);
+    /// 0 makes all steps unless nothing moves at all.
     pub tolerance: f64,
 }
 
@@ -193,7 +195,8 @@ impl Options {
 /// Why [`relax`] made no more steps.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stopped {
-    /// The motion came to its end, or there was nothing to move.
+    /// The motion came to its end, or there was nothing to move. With the best method and Delaunay neighbours no points are
+    /// closer than 0.85 `d_max` then, nor a circumradius above 0.67 `d_max`, up to the last step.
     Converged,
     /// All steps were made.
     Steps,
@@ -255,9 +258,13 @@ trait Relaxation {
 /// are. Coincident points, and all points of a set on one line, are first moved by 0.001 to 0.002 `d_max` in
 /// directions keyed by `seed` and index: the forces alone would not lead them apart.
 ///
-/// A call that is cancelled returns the set after the last whole step, and [`Stopped::Cancelled`]. Each step is O(n), but
-/// O(n log n) where a Delaunay triangulation is built anew: by the thesis's method, and by the best one in sets of a few
-/// points or with holes as wide as the domain. A bounded domain costs up to four times the time and memory of a periodic
+/// The best method with Delaunay neighbours returns, of the states after whole steps and the set as it came, the one in which
+/// the fewest points have a neighbour closer than 0.85 `d_max` or a triangle whose circumradius is above 0.67 `d_max`; of
+/// several, the last. All else returns the set after the last whole step. So does a call that is cancelled, with
+/// [`Stopped::Cancelled`].
+///
+/// Each step is O(n), but O(n log n) where a Delaunay triangulation is built anew: by the thesis's method, and by the best one
+/// in sets of a few points, with holes as wide as the domain, or with points that have dozens of neighbours. A bounded domain costs up to four times the time and memory of a periodic
 /// one, as the best method works on it and its mirror images. Memory is O(n).
 ///
 /// # Errors

@@ -25,7 +25,7 @@ const CELL: f64 = 0.9;
 const NOTHING: f64 = 2.4;
 
 /// On so many grids points are drawn at the same time.
-const SHEETS: usize = 8;
+const SHEETS: usize = 4;
 
 type Field = Vec<Complex<f64>>;
 
@@ -60,13 +60,14 @@ impl Waves {
     /// The displacements, in spacings, of the first `count` points, by waves up to the frequency `highest` in units of
     /// sqrt(density), where what is removed has fallen to a third.
     pub(super) fn drift(&self, job: &Job, places: &[Place], count: usize, highest: f64) -> Result<Vec<Vec2>> {
-        let density = self.draw(&job.part(0.0, 0.1), places)?;
+        let mut field = self.draw(&job.part(0.0, 0.1), places)?;
         let (row, column) = (self.cells[0], self.cells[1]);
-        let columns = transform(&job.part(0.1, 0.2), density, row, &self.forward[0])?;
-        let mut waves = transform(&job.part(0.2, 0.4), columns, column, &self.forward[1])?;
-        self.integrate(&job.part(0.4, 0.45), &mut waves, places.len(), highest)?;
-        let columns = transform(&job.part(0.45, 0.6), waves, row, &self.back[0])?;
-        let field = transform(&job.part(0.6, 0.8), columns, column, &self.back[1])?;
+        let mut spare = vec![Complex::default(); field.len()];
+        transform(&job.part(0.1, 0.2), &mut field, &mut spare, row, &self.forward[0])?;
+        transform(&job.part(0.2, 0.4), &mut field, &mut spare, column, &self.forward[1])?;
+        self.integrate(&job.part(0.4, 0.45), &mut field, places.len(), highest)?;
+        transform(&job.part(0.45, 0.6), &mut field, &mut spare, row, &self.back[0])?;
+        transform(&job.part(0.6, 0.8), &mut field, &mut spare, column, &self.back[1])?;
         let chunks = chunks(count);
         job.part(0.8, 1.0).concat(chunks.len(), |chunk| {
             let drift = |&place: &Place| {
@@ -186,20 +187,20 @@ fn smooth(count: usize) -> usize {
     (count.max(1)..).find(|&number| rest(number) == 1).expect("powers of two have no end")
 }
 
-/// Transforms every row of a field, and turns rows into columns.
-fn transform(job: &Job, field: Field, width: usize, fft: &Arc<dyn Fft<f64>>) -> Result<Field> {
+/// Transforms every row of a field, and turns rows into columns. `spare` is as large as the field, and is written over.
+fn transform(job: &Job, field: &mut Field, spare: &mut Field, width: usize, fft: &Arc<dyn Fft<f64>>) -> Result<()> {
     let height = field.len() / width;
-    let rows = chunks_of(height, 1 + 8192 / width);
-    let field = job.part(0.0, 0.7).concat(rows.len(), |chunk| {
-        let range = rows.range(chunk);
-        let mut rows = field[range.start * width..range.end * width].to_vec();
-        fft.process(&mut rows);
-        rows
+    let rows = chunks_of(height, 1 + 8192 / width).size();
+    job.part(0.0, 0.7).map_each(field.chunks_mut(rows * width).collect(), |rows| fft.process(rows))?;
+    let columns = chunks_of(width, 1 + 8192 / height).size();
+    let parts = spare.chunks_mut(columns * height).enumerate();
+    job.part(0.7, 1.0).map_each(parts.collect(), |(chunk, part)| {
+        for (column, part) in (chunk * columns..).zip(part.chunks_mut(height)) {
+            part.iter_mut().zip(field[column..].iter().step_by(width)).for_each(|(to, from)| *to = *from);
+        }
     })?;
-    let columns = chunks_of(width, 1 + 8192 / height);
-    job.part(0.7, 1.0).concat(columns.len(), |chunk| {
-        columns.range(chunk).flat_map(|column| field[column..].iter().step_by(width).copied()).collect()
-    })
+    std::mem::swap(field, spare);
+    Ok(())
 }
 
 #[cfg(test)]
