@@ -27,7 +27,8 @@
 //!
 //! These are means: single sets of 1,000 points may have more obtuse triangles than push-pull's.
 //!
-//! On bounded domains a row of points forms along the border, and 100 steps leave rho at about 0.8 and cover at 0.77.
+//! Bounded domains are relaxed as well as that: along the border density and spacing are those of the inside within some percent
+//! (the section "Bounded" of that page).
 //!
 //! Convergence is judged by motion ([`Report::motion`]) and not by the thesis's test on the variance of nearest distances
 //! (§4.4.2), which depends on the step size and fires early.
