@@ -1,4 +1,4 @@
-//! DCR: time per point and step, on one thread and on four, and how the two compare.
+//! DCR: time per point and step, on one thread and on four, and how the two compare; and of whole calls, what they reach.
 //!
 //! Wall times of a shared machine vary; what is printed is the best of several runs, and ratios of one program.
 
@@ -6,6 +6,7 @@ use std::hint::black_box;
 use std::time::Instant;
 
 use azulejo::dcr::{Method, Neighbourhood, Options, Thesis, relax};
+use azulejo::kdrt::{self, CountOptions};
 use azulejo::{Boundary, Context, Domain};
 
 /// Steps of the short and of the long run: their difference is free of what a call costs before its first step.
@@ -57,6 +58,26 @@ fn main() {
                 let name = format!("{method}, {name}");
                 println!("{name:<28} {:>9} {alone:>12.1} {together:>12.1} {:>7.2}", points.len(), alone / together);
             }
+        }
+    }
+    whole_calls(domain, &[("1", one), ("4", four)]);
+}
+
+/// A million points of KDRT, to the end.
+fn whole_calls(domain: Domain, contexts: &[(&str, Context)]) {
+    println!(
+        "\n{:<28} {:>9} {:>12} {:>7} {:>6} {:>6}",
+        "whole calls from KDRT", "threads", "samples/s", "steps", "rho", "cover"
+    );
+    let count = CountOptions { count: 1_000_000, domain, leaf_size: kdrt::DEFAULT_LEAF_SIZE, seed: 1 };
+    let points = kdrt::sample_count(&contexts[1].1, &count, None).unwrap().samples;
+    for (name, neighbourhood) in [("Delaunay", Neighbourhood::Delaunay), ("nearest", Neighbourhood::Nearest)] {
+        for (threads, context) in contexts {
+            let start = Instant::now();
+            let (_, report) = relax(context, &Options::new(domain, neighbourhood), &points, None).unwrap();
+            let rate = points.len() as f64 / start.elapsed().as_secs_f64();
+            let (steps, rho, cover) = (report.iterations, report.rho, report.coverage);
+            println!("best, {name:<22} {threads:>9} {rate:>12.0} {steps:>7} {rho:>6.3} {cover:>6.3}");
         }
     }
 }

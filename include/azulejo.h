@@ -169,7 +169,8 @@
 /// smaller the step, the earlier that happens; in sets of a few hundred points it may never.
 #define AZULEJO_CONVERGENCE_VARIANCE 1
 
-/// The set converged, or there was nothing to move.
+/// The motion came to its end, or there was nothing to move. With AZULEJO_METHOD_BEST and Delaunay neighbours no points are
+/// closer than 0.85 d_max then, nor a circumradius above 0.67 d_max, up to the last step.
 #define AZULEJO_STOPPED_CONVERGED 0
 
 /// All steps were made.
@@ -1169,12 +1170,14 @@ azulejo_status azulejo_dcr_options_init(struct azulejo_dcr_options *options, siz
 /// Relaxes a set of points: neighbours that are too close repel, holes close, until the motion ends or the steps do (thesis
 /// chapter 4). O(count) time for each step, O(count log count) with AZULEJO_METHOD_THESIS.
 ///
-/// A call that its progress callback cancels succeeds: it returns the points after the last whole step, and
-/// AZULEJO_STOPPED_CANCELLED in the report.
+/// AZULEJO_METHOD_BEST with Delaunay neighbours returns, of the states after whole steps and the points as they came, the one in
+/// which the fewest points have a neighbour closer than 0.85 d_max or a Delaunay triangle with a circumradius above 0.67
+/// d_max. All else returns the points after the last whole step. A call that its progress callback cancels succeeds and
+/// does the same, with AZULEJO_STOPPED_CANCELLED in the report.
 ///
 /// xy: the points, x y each, in domain_min <= x < domain_max; `count` of them.
 ///
-/// out: the points after the last step, in the same order, to be freed with azulejo_points_free.
+/// out: the points, in the same order, to be freed with azulejo_points_free.
 ///
 /// report: what the call did, or NULL.
 ///

@@ -117,6 +117,11 @@ impl Chunks {
         self.items.div_ceil(self.size)
     }
 
+    /// The most items of a chunk.
+    pub(crate) fn size(self) -> usize {
+        self.size
+    }
+
     /// The items of one chunk.
     pub(crate) fn range(self, chunk: usize) -> std::ops::Range<usize> {
         let start = chunk * self.size;
@@ -156,26 +161,33 @@ impl<'a> Job<'a> {
 
     /// `[task(0), .., task(count - 1)]`, in parallel; the order of the result never depends on the threads.
     pub(crate) fn map<T: Send>(&self, count: usize, task: impl Fn(usize) -> T + Sync) -> Result<Vec<T>> {
+        self.map_each((0..count).collect(), task)
+    }
+
+    /// [`Job::map`] over any items: what tasks write in place, each its own part of it, is handed to them so.
+    pub(crate) fn map_each<I: Send, T: Send>(&self, items: Vec<I>, task: impl Fn(I) -> T + Sync) -> Result<Vec<T>> {
+        let count = items.len();
         let share = |finished: usize| finished as f64 / count.max(1) as f64;
         match (&self.context.pool, self.progress) {
-            (None, _) => (0..count)
-                .map(|i| {
-                    let result = task(i);
-                    self.report(share(i + 1)).map(|()| result)
+            (None, _) => (1..)
+                .zip(items)
+                .map(|(finished, item)| {
+                    let result = task(item);
+                    self.report(share(finished)).map(|()| result)
                 })
                 .collect(),
-            (Some(pool), None) => Ok(pool.install(|| (0..count).into_par_iter().map(&task).collect())),
-            (Some(pool), Some(_)) => self.map_watched(pool, count, &share, task),
+            (Some(pool), None) => Ok(pool.install(|| items.into_par_iter().map(&task).collect())),
+            (Some(pool), Some(_)) => self.map_watched(pool, items, &share, task),
         }
     }
 
     /// The tasks run on the pool while the calling thread reports how many are finished.
-    fn map_watched<T: Send>(
+    fn map_watched<I: Send, T: Send>(
         &self,
         pool: &rayon::ThreadPool,
-        count: usize,
+        items: Vec<I>,
         share: &dyn Fn(usize) -> f64,
-        task: impl Fn(usize) -> T + Sync,
+        task: impl Fn(I) -> T + Sync,
     ) -> Result<Vec<T>> {
         let (finished, cancelled) = (AtomicUsize::new(0), AtomicBool::new(false));
         let mut results = None;
@@ -185,15 +197,15 @@ impl<'a> Job<'a> {
         pool.in_place_scope(|scope| {
             scope.spawn(|_| {
                 let _running = running;
-                let attempt = |i| {
+                let attempt = |item| {
                     if cancelled.load(Ordering::Relaxed) {
                         return None;
                     }
-                    let result = task(i);
+                    let result = task(item);
                     finished.fetch_add(1, Ordering::Relaxed);
                     Some(result)
                 };
-                results = (0..count).into_par_iter().map(attempt).collect::<Option<Vec<T>>>();
+                results = items.into_par_iter().map(attempt).collect::<Option<Vec<T>>>();
             });
             while let Err(RecvTimeoutError::Timeout) = watch.recv_timeout(REPORT_INTERVAL) {
                 if verdict.is_ok() {

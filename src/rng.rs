@@ -44,6 +44,8 @@ pub(crate) enum Draw {
     Visit,
     /// DCR: random points, as dense as asked for.
     Scatter,
+    /// DCR: directions in which points are kicked.
+    Kick,
 }
 
 /// The stream of random numbers of one place.

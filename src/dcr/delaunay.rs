@@ -100,6 +100,12 @@ impl Delaunay {
         edges.map(|edge| edge.to().data().position - edge.from().data().position)
     }
 
+    /// The points that a point has as neighbours, themselves or as copies, counter-clockwise.
+    pub(crate) fn neighbours(&self, point: usize) -> impl Iterator<Item = u32> {
+        let edges = self.vertex(point).into_iter().flat_map(|star| star.out_edges());
+        edges.map(|edge| edge.to().data().source)
+    }
+
     /// The largest distance from the points: the largest circumradius of the triangles that touch one.
     pub(super) fn coverage(&self) -> f64 {
         self.circumcircles().map(|(_, radius)| radius).fold(0.0, f64::max)

@@ -4,7 +4,8 @@
 //! the threads. There are two ways to do so ([`Method`]):
 //!
 //! * [`Method::Best`], the default: neighbours in conflict push each other away, holes pull their borders in, points have
-//!   momentum, and long waves of the density are removed by Fourier transform. It ends after 100 steps.
+//!   momentum, and long waves of the density are removed by Fourier transform. It ends after 100 steps, or sooner if the
+//!   points have come to rest.
 //! * [`Method::Thesis`]: what the thesis's algorithm says, with all that it can be varied by.
 //!
 //! What the best method makes of sets of the unit torus in 100 steps, with Delaunay neighbours (means of 64, 16, 2 and 1 sets;
@@ -14,14 +15,14 @@
 //!
 //! | points | start | rho | cover | ψ6 | P | obtuse | edge CV² |
 //! |---|---|---|---|---|---|---|---|
-//! | 1,000 | random | 0.862 | 0.660 | 0.464 | 4.0e-6 | 5.6 % | 0.0177 |
-//! | 1,000 | KDRT | 0.862 | 0.660 | 0.462 | 4.0e-6 | 5.8 % | 0.0179 |
-//! | 4,096 | random | 0.861 | 0.661 | 0.464 | 4.7e-6 | 5.5 % | 0.0177 |
-//! | 4,096 | KDRT | 0.861 | 0.661 | 0.464 | 4.5e-6 | 5.6 % | 0.0178 |
-//! | 65,536 | random | 0.859 | 0.663 | 0.466 | 4.1e-6 | 5.5 % | 0.0178 |
-//! | 65,536 | KDRT | 0.860 | 0.661 | 0.464 | 3.7e-6 | 5.7 % | 0.0180 |
-//! | 1,000,000 | random | 0.849 | 0.666 | 0.465 | 4.2e-6 | 5.5 % | 0.0178 |
-//! | 1,000,000 | KDRT | 0.856 | 0.666 | 0.465 | 4.0e-6 | 5.6 % | 0.0179 |
+//! | 1,000 | random | 0.862 | 0.660 | 0.460 | 5.0e-6 | 5.6 % | 0.0177 |
+//! | 1,000 | KDRT | 0.862 | 0.660 | 0.463 | 4.9e-6 | 5.6 % | 0.0176 |
+//! | 4,096 | random | 0.861 | 0.660 | 0.462 | 4.7e-6 | 5.6 % | 0.0177 |
+//! | 4,096 | KDRT | 0.862 | 0.660 | 0.464 | 5.2e-6 | 5.4 % | 0.0175 |
+//! | 65,536 | random | 0.860 | 0.661 | 0.464 | 4.3e-6 | 5.4 % | 0.0177 |
+//! | 65,536 | KDRT | 0.861 | 0.661 | 0.464 | 3.6e-6 | 5.4 % | 0.0177 |
+//! | 1,000,000 | random | 0.859 | 0.664 | 0.463 | 4.6e-6 | 5.4 % | 0.0177 |
+//! | 1,000,000 | KDRT | 0.860 | 0.662 | 0.466 | 3.9e-6 | 5.3 % | 0.0176 |
 //! | | push-pull (Ahmed et al. 2016) | 0.850 | 0.670 | 0.475 | 2.2e-3 | 5.9 % | 0.019 |
 //!
 //! These are means: single sets of 1,000 points may have more obtuse triangles than push-pull's.
@@ -88,15 +89,16 @@ pub struct Options {
     pub max_iterations: u32,
     /// Where points of degenerate sets are moved; used for nothing else.
     pub seed: u64,
-    /// The motion ([`Report::motion`]) at which the set has converged; 0 makes all steps unless nothing moves at all.
+    /// The motion ([`Report::motion`]) at which the set has converged, if the constraints are kept ([`Stopped::Converged`]);
+    /// 0 makes all steps unless nothing moves at all.
     /// [`Convergence::Variance`] does not ask for it.
     pub tolerance: f64,
 }
 
 impl Options {
-    /// The best method: at most 100 steps, tolerance 0.0005.
+    /// The best method: at most 100 steps, tolerance 0.001.
     pub fn new(domain: Domain, neighbourhood: Neighbourhood) -> Self {
-        Self { domain, neighbourhood, method: Method::Best, max_iterations: 100, seed: 0, tolerance: 0.0005 }
+        Self { domain, neighbourhood, method: Method::Best, max_iterations: 100, seed: 0, tolerance: 0.001 }
     }
 
     /// The thesis's algorithm with its settings: at most 1000 steps. The tolerance is 0.02 for Delaunay and 0.005 for
@@ -126,7 +128,8 @@ impl Options {
 /// Why [`relax`] made no more steps.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stopped {
-    /// The set converged, or there was nothing to move.
+    /// The set converged, or there was nothing to move. With the best method and Delaunay neighbours no points are closer
+    /// than 0.85 `d_max` then, nor a circumradius above 0.67 `d_max`, up to the last step.
     Converged,
     /// All steps were made.
     Steps,
@@ -169,6 +172,11 @@ trait Relaxation {
     /// Whether there was a whole span, and no more motion in the last than this.
     fn has_settled(&self, tolerance: f64) -> bool;
 
+    /// Goes back to the best state so far, if that is not the last.
+    fn finish(&mut self, _: &Job) -> Result<()> {
+        Ok(())
+    }
+
     /// The points in the user's order; `points` is what they were.
     fn points(&self, points: &[[f32; 2]]) -> Vec<[f32; 2]>;
 
@@ -179,7 +187,7 @@ trait Relaxation {
 
     /// The largest distance from the set, in units of the domain; if the spacing varies, as large as it would be at the
     /// mean spacing.
-    fn coverage(&self, job: &Job) -> Result<f64>;
+    fn coverage(&mut self, job: &Job) -> Result<f64>;
 }
 
 /// Relaxes a set of points of the domain: returns as many points, in the same order, spread more evenly.
@@ -189,9 +197,13 @@ trait Relaxation {
 /// are. Coincident points, and all points of a set on one line, are first moved by 0.001 to 0.002 `d_max` in
 /// directions keyed by `seed` and index: the forces alone would not lead them apart.
 ///
-/// A call that is cancelled returns the set after the last whole step, and [`Stopped::Cancelled`]. Each step is O(n), but
-/// O(n log n) where a Delaunay triangulation is built anew: by the thesis's method, and by the best one in sets of a few
-/// points or with holes as wide as the domain. A bounded domain costs up to four times the time and memory of a periodic
+/// The best method with Delaunay neighbours returns, of the states after whole steps and the set as it came, the one in which
+/// the fewest points have a neighbour closer than 0.85 `d_max` or a triangle whose circumradius is above 0.67 `d_max`; of
+/// several, the last. All else returns the set after the last whole step. So does a call that is cancelled, with
+/// [`Stopped::Cancelled`].
+///
+/// Each step is O(n), but O(n log n) where a Delaunay triangulation is built anew: by the thesis's method, and by the best one
+/// in sets of a few points, with holes as wide as the domain, or with points that have dozens of neighbours. A bounded domain costs up to four times the time and memory of a periodic
 /// one, as the best method works on it and its mirror images. Memory is O(n).
 ///
 /// # Errors
@@ -278,12 +290,13 @@ fn measure(
     job: &Job,
     options: &Options,
     points: &[[f32; 2]],
-    set: &dyn Relaxation,
+    set: &mut dyn Relaxation,
     stopped: Stopped,
 ) -> Result<(Vec<[f32; 2]>, Report)> {
+    set.finish(&job.part(0.0, 0.2))?;
     let relaxed = if set.iterations() > 0 { set.points(points) } else { points.to_vec() };
-    let smallest_distance = smallest_distance(&job.part(0.0, 0.3), &options.domain, &relaxed)?;
-    let relative_spacing = set.relative_spacing(&job.part(0.3, 0.6), &relaxed)?;
+    let smallest_distance = smallest_distance(&job.part(0.2, 0.4), &options.domain, &relaxed)?;
+    let relative_spacing = set.relative_spacing(&job.part(0.4, 0.6), &relaxed)?;
     let coverage = if points.is_empty() { f64::INFINITY } else { set.coverage(&job.part(0.6, 1.0))? };
     let unit = options.domain.hexagonal_distance(points.len().max(1));
     let report = Report {

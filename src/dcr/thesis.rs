@@ -144,7 +144,7 @@ impl Relaxation for Tensioned {
         relaxed
     }
 
-    fn coverage(&self, job: &Job) -> Result<f64> {
+    fn coverage(&mut self, job: &Job) -> Result<f64> {
         Ok(Delaunay::new(job, &self.frame, self.positions())?.coverage() * self.frame.spacing())
     }
 }

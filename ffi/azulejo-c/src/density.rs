@@ -24,7 +24,7 @@ use crate::status::{AZULEJO_OK, Failure, azulejo_status};
 /// position: x y of a place in the domain.
 ///
 /// Returns the density, 0 or above and finite.
-pub type azulejo_density_fn = Option<unsafe extern "C" fn(user: *mut c_void, position: *const f64) -> f64>;
+pub type azulejo_density_fn = Option<unsafe extern "C-unwind" fn(user: *mut c_void, position: *const f64) -> f64>;
 
 /// How dense points shall be from place to place, in any unit: twice the density gives the same set. Densities are 0 or
 /// above and finite, and not 0 everywhere; where they are 0 no points are wanted. Either `values` or `function` is to be
@@ -61,7 +61,7 @@ options!(azulejo_density requires user {
 
 /// The caller's function with what it is given, where the core can call it.
 struct Callback {
-    function: unsafe extern "C" fn(*mut c_void, *const f64) -> f64,
+    function: unsafe extern "C-unwind" fn(*mut c_void, *const f64) -> f64,
     user: *mut c_void,
 }
 

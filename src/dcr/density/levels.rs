@@ -44,14 +44,18 @@ impl Levels {
         // Beyond the size of the torus there are no waves.
         let largest = largest.min(torus.frame.size().max_element());
         let octaves = (largest / finest).max(1.0).log2().ceil() as usize;
-        let levels = job.map(1 + octaves, |octave| {
+        let mut levels = Vec::new();
+        for octave in 0..=octaves {
             let spacing = finest * 2f64.powi(octave as i32);
             let waves = Waves::of_spacing(torus, count, NODES * spacing);
             let weights = raster.weights(torus, spacing / WEIGHTS, count as f64);
             let (places, weights): (Vec<Place>, Vec<f64>) = weights.into_iter().unzip();
-            let weights = torus.with_images(&places).into_iter().zip(weights.into_iter().cycle());
-            Level { spacing, wanted: waves.draw(weights), waves }
-        })?;
+            let places = torus.with_images(&places);
+            let share = |octave: usize| octave as f64 / (octaves + 1) as f64;
+            let weighted = |index: usize| (places[index], weights[index % weights.len()]);
+            let wanted = waves.draw(&job.part(share(octave), share(octave + 1)), places.len(), weighted)?;
+            levels.push(Level { spacing, wanted, waves });
+        }
         Ok(Self { levels, finest })
     }
 
@@ -82,8 +86,8 @@ impl Levels {
 impl Level {
     /// The flow that brings points to where they are wanted, over the mean density.
     fn flow(&self, job: &Job, places: &[Place]) -> Result<Field> {
-        let mut excess = self.waves.draw(places.iter().map(|&place| (place, 1.0)));
+        let mut excess = self.waves.draw(&job.part(0.0, 0.2), places.len(), |point| (places[point], 1.0))?;
         excess.iter_mut().zip(&self.wanted).for_each(|(excess, wanted)| *excess -= wanted);
-        self.waves.displacements(job, excess, places.len(), LONG_WAVES / self.spacing)
+        self.waves.displacements(&job.part(0.2, 1.0), excess, places.len(), LONG_WAVES / self.spacing)
     }
 }

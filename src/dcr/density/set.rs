@@ -12,8 +12,9 @@ use crate::dcr::links::Links;
 use crate::dcr::motion::Motion;
 use crate::dcr::spread::border::Border;
 use crate::dcr::spread::constraints::{Constraints, Force};
+use crate::dcr::spread::gather::{ROOM, WIDE};
 use crate::dcr::spread::torus::{Place, Torus, along_curve};
-use crate::dcr::spread::{MOMENTUM, ROOM, STEP, WIDE};
+use crate::dcr::spread::{MOMENTUM, STEP};
 use crate::dcr::{Options, Relaxation};
 use crate::error::Result;
 use crate::grid2::Grid2;
@@ -216,7 +217,7 @@ impl Relaxation for Graded {
     }
 
     /// The largest circumradius in units of what the density at its centre asks for.
-    fn coverage(&self, job: &Job) -> Result<f64> {
+    fn coverage(&mut self, job: &Job) -> Result<f64> {
         let delaunay = self.triangulate(job, &self.places)?;
         let relative =
             |(centre, radius): (DVec2, f64)| radius * f64::from(self.raster.density(self.torus.place(centre))).sqrt();

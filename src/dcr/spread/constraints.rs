@@ -8,7 +8,7 @@
 use glam::Vec2;
 
 /// The tension at which a pull stops growing: wide holes of random sets would tear their borders in.
-const STRONGEST_PULL: f32 = 1.0;
+pub(super) const STRONGEST_PULL: f32 = 1.0;
 
 /// The steps over which constraints grow stiffer.
 const STIFFENING: u32 = 60;
@@ -69,17 +69,17 @@ impl Constraints {
             return Vec2::ZERO;
         }
         let distance = squared.sqrt();
-        -self.push * (1.0 - distance / self.conflict_radius) / distance * offset
+        self.push * (self.conflict_radius.recip() - distance.recip()) * offset
     }
 
     /// The force by a hole: the triangle between two neighbours, of twice this area.
     pub(in crate::dcr) fn pull(&self, a: Vec2, b: Vec2, area: f32) -> Vec2 {
-        let centre = (b.length_squared() * a.perp() - a.length_squared() * b.perp()) / (2.0 * area);
+        let centre = (b.length_squared() * a.perp() - a.length_squared() * b.perp()) * (2.0 * area).recip();
         let radius = centre.length();
         // Infinite or NaN for triangles without area.
         if !radius.is_finite() {
             return Vec2::ZERO;
         }
-        self.pull * (radius / self.coverage_radius - 1.0).min(STRONGEST_PULL) / radius * centre
+        self.pull * (self.coverage_radius.recip() - radius.recip()).min(STRONGEST_PULL * radius.recip()) * centre
     }
 }

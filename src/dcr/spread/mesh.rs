@@ -4,340 +4,225 @@
 //! any order, makes it the Delaunay triangulation again (Lawson 1977). The forces hold points back so that none turns
 //! over; if one does all the same, the mesh says so and is to be built anew.
 //!
-//! Half-edges are numbered `4 t + k`: the edge from corner `k` to the next of triangle `t`, counter-clockwise.
+//! Which edges may have to be flipped shows while points gather, so flips cost no look at the whole mesh: see
+//! [`Mesh::mend`].
 
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::array::from_fn;
+use std::ops::Range;
 
-use glam::{DVec2, Vec2};
+use glam::DVec2;
 
+use super::constraints::Constraints;
+use super::rings::{Patch, Rings, Stars};
+use super::stars::{Felt, LANES, Visit, feel};
+use super::tiles;
 use super::torus::{Place, Torus};
 use crate::dcr::delaunay::Delaunay;
 use crate::error::Result;
-use crate::job::{Job, chunks, chunks_of};
+use crate::job::{Job, chunks};
+use crate::maximal::Vectors;
 
 /// The sum of two cotangents that counts as negative: below the rounding of `f64`, flips could go on for ever.
 const NEGATIVE: f64 = -1e-7;
 
-/// The sum of two cotangents that may be negative for all that `f32` can tell.
-const SUSPECT: f32 = 1e-3;
+/// So many points that follow each other make a patch, in which flips are made while others are made elsewhere.
+const PATCH: usize = 4096;
 
-/// The longest edge, in 2^-32 of a period: a flip can double it, and half a period is the longest that is unambiguous.
-const LONGEST: u32 = (1 << 30) - 1;
-
-#[derive(Clone, Copy, Debug, Default)]
-struct Triangle {
-    corners: [u32; 3],
-    /// The half-edges on the other sides of its edges.
-    twins: [u32; 3],
-}
+/// An edge, from point to point.
+pub(super) type Edge = [u32; 2];
 
 /// A triangulation of a torus, all of whose edges are short.
 pub(super) struct Mesh {
     torus: Torus,
-    triangles: Vec<Triangle>,
-    /// A half-edge that starts at each point.
-    first: Vec<u32>,
+    rings: Rings,
 }
 
-/// The next half-edge of the triangle.
-fn next(edge: u32) -> u32 {
-    if edge & 3 == 2 { edge - 2 } else { edge + 1 }
+/// What is left of the edges of a patch.
+struct Mended {
+    /// Those that may have to be flipped, with points of other patches.
+    left: Vec<Edge>,
+    is_sound: bool,
 }
 
-/// The half-edge of the triangle before.
-fn previous(edge: u32) -> u32 {
-    if edge & 3 == 0 { edge + 2 } else { edge - 1 }
+/// What a look at all points finds.
+#[derive(Default)]
+struct Found {
+    suspects: Vec<Edge>,
+    is_unsound: bool,
+    violated: usize,
+}
+
+impl Visit for Found {
+    #[inline(always)]
+    fn visit(&mut self, rings: &Rings, points: Range<usize>, felt: &Felt) {
+        self.is_unsound |= !felt.are_sound(points.len());
+        self.violated += felt.violated(points.len()).count();
+        felt.suspects(rings, points, &mut self.suspects);
+    }
 }
 
 impl Mesh {
-    /// The mesh of a triangulation of the torus with its copies. None if edges are too long, as in sets of a few points or
-    /// with large holes, or if copies are not triangulated alike, which happens to
-    /// four points on one circle unless they are nudged.
-    pub(super) fn new(delaunay: &Delaunay, torus: &Torus, places: &[Place]) -> Option<Self> {
-        // Of the translates of a triangle one has its first point in the domain.
-        let corners = delaunay.triangles().filter_map(|sites| {
-            let least = sites.iter().min_by_key(|site| site.source)?;
-            least.is_original().then(|| sites.map(|site| site.source))
-        });
-        let mut corners: Vec<[u32; 3]> = corners.collect();
-        corners.sort_unstable_by_key(|corners| *corners.iter().min().expect("there are three"));
-        if corners.len() != 2 * places.len() || places.len() > 1 << 28 {
-            return None;
-        }
-        let triangles = corners.into_iter().map(|corners| Triangle { corners, twins: [u32::MAX; 3] }).collect();
-        let mut mesh = Self { torus: *torus, triangles, first: vec![u32::MAX; places.len()] };
-        (mesh.find_twins() && mesh.triangles.iter().all(|triangle| mesh.cotangents(triangle, places).is_some()))
-            .then_some(mesh)
-    }
-
-    /// Matches the half-edges; whether all could be.
-    fn find_twins(&mut self) -> bool {
-        let edges = || (0..self.triangles.len() as u32).flat_map(|triangle| (0..3).map(move |k| 4 * triangle + k));
-        // The half-edges that start at point `p` are `outgoing[starts[p]..starts[p + 1]]`.
-        let mut starts = vec![0u32; self.first.len() + 1];
-        edges().for_each(|edge| starts[self.origin(edge) as usize + 1] += 1);
-        for point in 1..starts.len() {
-            starts[point] += starts[point - 1];
-        }
-        let (mut ends, mut outgoing) = (starts.clone(), vec![0u32; 3 * self.triangles.len()]);
-        for edge in edges() {
-            let end = &mut ends[self.origin(edge) as usize];
-            outgoing[*end as usize] = edge;
-            *end += 1;
-        }
-        let twin = |edge: u32| {
-            let (from, to) = (self.origin(edge), self.origin(next(edge)) as usize);
-            let mut back = outgoing[starts[to] as usize..starts[to + 1] as usize].iter().copied();
-            let mut back = back.by_ref().filter(|&back| self.origin(next(back)) == from);
-            // Two edges between the same points cannot be told apart.
-            back.next().filter(|_| back.next().is_none())
-        };
-        let Some(twins) = edges().map(twin).collect::<Option<Vec<u32>>>() else { return false };
-        let matched = |(edge, &twin): (u32, &u32)| twins[(3 * (twin >> 2) + (twin & 3)) as usize] == edge;
-        let matched = edges().zip(&twins).all(matched);
-        let firsts: Vec<u32> =
-            starts.windows(2).filter(|pair| pair[0] < pair[1]).map(|pair| outgoing[pair[0] as usize]).collect();
-        let complete = firsts.len() == self.first.len();
-        for (triangle, twins) in self.triangles.iter_mut().zip(twins.chunks(3)) {
-            triangle.twins.copy_from_slice(twins);
-        }
-        self.first = firsts;
-        matched && complete
-    }
-
-    fn origin(&self, edge: u32) -> u32 {
-        self.triangles[(edge >> 2) as usize].corners[(edge & 3) as usize]
-    }
-
-    fn twin(&self, edge: u32) -> u32 {
-        self.triangles[(edge >> 2) as usize].twins[(edge & 3) as usize]
-    }
-
-    fn link(&mut self, edge: u32, twin: u32) {
-        self.triangles[(edge >> 2) as usize].twins[(edge & 3) as usize] = twin;
-        self.triangles[(twin >> 2) as usize].twins[(twin & 3) as usize] = edge;
-    }
-
-    /// The cotangents of the angles that face the edges of a triangle; none unless it is counter-clockwise and has short
-    /// edges.
-    fn cotangents(&self, triangle: &Triangle, places: &[Place]) -> Option<[f32; 3]> {
-        let [p, q, r] = triangle.corners.map(|corner| places[corner as usize]);
-        let is_short = |from: Place, to: Place| {
-            (0..2).all(|axis| to[axis].wrapping_sub(from[axis]).wrapping_add(LONGEST) <= 2 * LONGEST)
-        };
-        let [a, b, c] = [self.torus.way(p, q), self.torus.way(q, r), self.torus.way(r, p)];
-        let area = a.perp_dot(b);
-        let sound = area > 0.0 && is_short(p, q) && is_short(q, r) && is_short(r, p);
-        sound.then(|| [b.dot(c), c.dot(a), a.dot(b)].map(|cosine| -cosine / area))
-    }
-
-    /// Whether the angles that face an edge sum up to more than 180 degrees: the sum of their cotangents is negative.
-    fn must_flip(&self, edge: u32, places: &[Place]) -> bool {
-        let twin = self.twin(edge);
-        let [p, q, r, s] = [edge, twin, previous(edge), previous(twin)].map(|e| places[self.origin(e) as usize]);
-        let angle = |apex: Place, from: Place, to: Place| -> [f64; 2] {
-            let (from, to): (DVec2, DVec2) = (self.torus.offset(apex, from), self.torus.offset(apex, to));
-            [from.dot(to), from.perp_dot(to)]
-        };
-        let ([cos_r, sin_r], [cos_s, sin_s]) = (angle(r, p, q), angle(s, q, p));
-        cos_r * sin_s + cos_s * sin_r < NEGATIVE * sin_r * sin_s
-    }
-
-    /// Replaces the edge `p q` of the triangles `p q r` and `q p s` by `s r`; returns the edges around the two.
-    fn flip(&mut self, edge: u32) -> [u32; 4] {
-        let twin = self.twin(edge);
-        let [p, q, r, s] = [edge, twin, previous(edge), previous(twin)].map(|e| self.origin(e));
-        let [qr, rp, ps, sq] = [next(edge), previous(edge), next(twin), previous(twin)].map(|e| self.twin(e));
-        let (a, b) = (edge & !3, twin & !3);
-        self.triangles[(a >> 2) as usize].corners = [p, s, r];
-        self.triangles[(b >> 2) as usize].corners = [s, q, r];
-        for (edge, twin) in [(a, ps), (a + 1, b + 2), (a + 2, rp), (b, sq), (b + 1, qr)] {
-            self.link(edge, twin);
-        }
-        for (point, edge) in [(p, a), (q, b + 1), (r, a + 2), (s, b)] {
-            self.first[point as usize] = edge;
-        }
-        [a, a + 2, b, b + 1]
-    }
-
-    /// Makes the mesh the Delaunay triangulation of points that have moved; false if a triangle has turned over.
-    pub(super) fn repair(&mut self, job: &Job, places: &[Place]) -> Result<bool> {
-        let chunks = chunks_of(self.triangles.len(), 4096);
-        let sound = AtomicBool::new(true);
-        let cotangents = job.part(0.0, 0.5).concat(chunks.len(), |chunk| {
-            let cotangents = |triangle| {
-                self.cotangents(triangle, places).unwrap_or_else(|| {
-                    sound.store(false, Ordering::Relaxed);
-                    [0.0; 3]
-                })
-            };
-            self.triangles[chunks.range(chunk)].iter().map(cotangents).collect()
-        })?;
-        if !sound.into_inner() {
-            return Ok(false);
-        }
-        let found = job.part(0.5, 1.0).map(chunks.len(), |chunk| {
-            let edges = chunks.range(chunk).flat_map(|triangle| (0..3).map(move |k| (triangle, k)));
-            let suspects = edges.filter_map(|(triangle, k)| {
-                let (edge, twin) = (4 * triangle as u32 + k as u32, self.triangles[triangle].twins[k]);
-                let other = || cotangents[(twin >> 2) as usize][(twin & 3) as usize];
-                (edge < twin && cotangents[triangle][k] + other() < SUSPECT).then_some(edge)
-            });
-            suspects.filter(|&edge| self.must_flip(edge, places)).collect::<Vec<u32>>()
-        })?;
-        let mut wrong = found.concat();
-        while let Some(edge) = wrong.pop() {
-            if self.must_flip(edge, places) {
-                wrong.extend(self.flip(edge));
+    /// The Delaunay triangulation of places. None in sets of a few points or with large holes or with points that have
+    /// too many neighbours, or if copies are not triangulated alike, which happens to four points on one circle unless
+    /// they are nudged.
+    pub(super) fn new(job: &Job, torus: &Torus, places: &[Place]) -> Result<Option<Self>> {
+        match tiles::triangulate(&job.part(0.0, 0.8), torus, places)? {
+            Some(stars) => Self::of_stars(&job.part(0.8, 1.0), torus, places, &stars),
+            None => {
+                let delaunay = Delaunay::new(&job.part(0.0, 0.8), &torus.frame, torus.nudged(places).into_iter())?;
+                Self::of_delaunay(&job.part(0.8, 1.0), torus, places, &delaunay)
             }
         }
-        Ok(true)
+    }
+
+    /// The mesh of a triangulation of the torus with its copies.
+    pub(super) fn of_delaunay(job: &Job, torus: &Torus, places: &[Place], delaunay: &Delaunay) -> Result<Option<Self>> {
+        let mut stars = Stars::default();
+        for point in 0..places.len() {
+            stars.neighbours.extend(delaunay.neighbours(point));
+            stars.points.push((point as u32, stars.neighbours.len()));
+        }
+        Self::of_stars(job, torus, places, &[stars])
+    }
+
+    /// The mesh of rings, if they are those of a triangulation of the torus.
+    fn of_stars(job: &Job, torus: &Torus, places: &[Place], stars: &[Stars]) -> Result<Option<Self>> {
+        let Some(rings) = Rings::new(places.len(), stars) else { return Ok(None) };
+        let mut mesh = Self { torus: *torus, rings };
+        let chunks = chunks(places.len());
+        let agree =
+            job.part(0.0, 0.5).map(chunks.len(), |chunk| chunks.range(chunk).all(|point| mesh.rings.agree(point)))?;
+        // Triangles that agree make a surface without border; with three edges to a point it is a torus.
+        let is_torus = agree.into_iter().all(|agree| agree) && mesh.rings.edges() == 3 * places.len();
+        Ok((is_torus && mesh.repair(&job.part(0.5, 1.0), places)?).then_some(mesh))
+    }
+
+    /// Tells `visit` what each of a range of points feels.
+    #[inline(always)]
+    pub(super) fn feel_portable(
+        &self,
+        places: &[Place],
+        constraints: &Constraints,
+        points: Range<usize>,
+        visit: &mut impl Visit,
+    ) {
+        for first in points.clone().step_by(LANES) {
+            let eight = first..points.end.min(first + LANES);
+            let lanes = from_fn(|lane| (first + lane).min(points.end - 1));
+            visit.visit(&self.rings, eight, &feel(&self.rings, &self.torus, places, lanes, constraints));
+        }
+    }
+
+    /// Makes the mesh the Delaunay triangulation of the places; false if a triangle has turned over.
+    pub(super) fn repair(&mut self, job: &Job, places: &[Place]) -> Result<bool> {
+        let found = self.look(&job.part(0.0, 0.5), places, places.len())?;
+        Ok(!found.is_unsound && self.mend(&job.part(0.5, 1.0), places, found.suspects)?)
+    }
+
+    /// How many of the first `count` points have their constraints violated.
+    pub(super) fn violated(&self, job: &Job, places: &[Place], count: usize) -> Result<usize> {
+        Ok(self.look(job, places, count)?.violated)
+    }
+
+    /// Looks at the first `count` points.
+    fn look(&self, job: &Job, places: &[Place], count: usize) -> Result<Found> {
+        let chunks = chunks(count);
+        let vectors = Vectors::widest();
+        let still = Constraints { conflict_radius: 0.0, coverage_radius: f32::INFINITY, push: 0.0, pull: 0.0 };
+        let parts = job.map(chunks.len(), |chunk| {
+            let mut found = Found::default();
+            self.feel(vectors, places, &still, chunks.range(chunk), &mut found);
+            found
+        })?;
+        let mut all = Found::default();
+        for part in parts {
+            all.suspects.extend(part.suspects);
+            all.is_unsound |= part.is_unsound;
+            all.violated += part.violated;
+        }
+        Ok(all)
+    }
+
+    /// Flips edges that must be, and those around them, until all are locally Delaunay; false if one could not be flipped.
+    ///
+    /// Given the edges that were suspect before the points moved, it leaves those for the next time that were far from
+    /// being flipped and yet must be. `suspects` are in the order of the points that they start from.
+    pub(super) fn mend(&mut self, job: &Job, places: &[Place], suspects: Vec<Edge>) -> Result<bool> {
+        let torus = self.torus;
+        let mut rest = suspects.as_slice();
+        let tasks = self.rings.patches(PATCH).map(|patch| {
+            let count = rest.partition_point(|&[from, _]| (from as usize) < patch.end());
+            let (own, others) = rest.split_at(count);
+            rest = others;
+            (patch, own.to_vec())
+        });
+        let tasks: Vec<_> = tasks.collect();
+        let mended =
+            job.part(0.0, 0.7).map_each(tasks, |(mut patch, edges)| mend(&mut patch, &torus, places, edges))?;
+        let mut is_sound = mended.iter().all(|mended| mended.is_sound);
+        let left = mended.into_iter().flat_map(|mended| mended.left).collect();
+        let whole = self.rings.patches(places.len()).next();
+        if let Some(mut whole) = whole {
+            is_sound &= mend(&mut whole, &torus, places, left).is_sound;
+        }
+        Ok(is_sound)
     }
 
     /// The largest circumradius.
     pub(super) fn coverage(&self, job: &Job, places: &[Place]) -> Result<f64> {
-        let chunks = chunks(self.triangles.len());
+        let chunks = chunks(self.rings.len());
         let largest = job.map(chunks.len(), |chunk| {
-            let squared = |triangle: &Triangle| {
-                let [p, q, r] = triangle.corners.map(|corner| places[corner as usize]);
-                let (a, b) = (self.torus.offset(p, q), self.torus.offset(p, r));
-                let lengths = a.length_squared() * b.length_squared() * (a - b).length_squared();
-                lengths / (4.0 * a.perp_dot(b).powi(2))
+            let squared = |point: usize| {
+                let ring = self.rings.ring(point);
+                let way = |other: u32| self.torus.offset(places[point], places[other as usize]);
+                let triangle = |(&q, &r): (&u32, &u32)| {
+                    let (a, b) = (way(q), way(r));
+                    let lengths = a.length_squared() * b.length_squared() * (a - b).length_squared();
+                    lengths / (4.0 * a.perp_dot(b).powi(2))
+                };
+                ring.iter().zip(ring.iter().cycle().skip(1)).map(triangle).fold(0.0, f64::max)
             };
-            self.triangles[chunks.range(chunk)].iter().map(squared).fold(0.0, f64::max)
+            chunks.range(chunk).map(squared).fold(0.0, f64::max)
         })?;
         Ok(largest.into_iter().fold(0.0, f64::max).sqrt())
     }
 }
 
-impl Mesh {
-    /// Adds the ways from a point to its neighbours to `ring`, in spacings and counter-clockwise.
-    pub(super) fn star(&self, places: &[Place], point: usize, ring: &mut Vec<Vec2>) {
-        let start = self.first[point];
-        let mut edge = start;
-        loop {
-            let triangle = &self.triangles[(edge >> 2) as usize];
-            let other = triangle.corners[(next(edge) & 3) as usize];
-            ring.push(self.torus.way(places[point], places[other as usize]));
-            edge = triangle.twins[(previous(edge) & 3) as usize];
-            if edge == start {
-                return;
-            }
+/// Flips those of the edges that must be, and those around them, as long as their points are in the patch.
+fn mend(patch: &mut Patch, torus: &Torus, places: &[Place], mut edges: Vec<Edge>) -> Mended {
+    let mut left = Vec::new();
+    while let Some(edge) = edges.pop() {
+        let [p, q] = edge;
+        if !patch.holds(p) {
+            left.push(edge);
+            continue;
         }
+        let Some([r, s]) = patch.apices(edge) else { continue };
+        if !must_flip(torus, [p, q, r, s].map(|point| places[point as usize])) {
+            continue;
+        }
+        if ![q, r, s].into_iter().all(|point| patch.holds(point)) {
+            left.push(edge);
+            continue;
+        }
+        if patch.flip(edge, [r, s]).is_err() {
+            return Mended { left, is_sound: false };
+        }
+        edges.extend([[p, r], [r, q], [q, s], [s, p]]);
     }
+    Mended { left, is_sound: true }
+}
+
+/// Whether the angles that face the edge from `p` to `q`, at `r` and at `s`, sum up to more than 180 degrees: the sum of
+/// their cotangents is negative.
+fn must_flip(torus: &Torus, [p, q, r, s]: [Place; 4]) -> bool {
+    let angle = |apex: Place, from: Place, to: Place| -> [f64; 2] {
+        let (from, to): (DVec2, DVec2) = (torus.offset(apex, from), torus.offset(apex, to));
+        [from.dot(to), from.perp_dot(to)]
+    };
+    let ([cos_r, sin_r], [cos_s, sin_s]) = (angle(r, p, q), angle(s, q, p));
+    cos_r * sin_s + cos_s * sin_r < NEGATIVE * sin_r * sin_s
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::job::Context;
-    use crate::points::{Boundary, Domain};
-    use crate::rng::{Draw, Rng};
-
-    fn delaunay(job: &Job, torus: &Torus, places: &[Place]) -> Delaunay {
-        Delaunay::new(job, &torus.frame, torus.nudged(places).into_iter()).unwrap()
-    }
-
-    /// Corners of all triangles, each from its least corner on.
-    fn triangles(mesh: &Mesh) -> Vec<[u32; 3]> {
-        let turned = |triangle: &Triangle| {
-            let mut corners = triangle.corners;
-            let least = (0..3).min_by_key(|&k| corners[k]).unwrap();
-            corners.rotate_left(least);
-            corners
-        };
-        let mut triangles: Vec<_> = mesh.triangles.iter().map(turned).collect();
-        triangles.sort_unstable();
-        triangles
-    }
-
-    fn check_links(mesh: &Mesh) {
-        for edge in (0..4 * mesh.triangles.len() as u32).filter(|edge| edge & 3 < 3) {
-            let twin = mesh.twin(edge);
-            assert_eq!(mesh.twin(twin), edge);
-            assert_eq!((mesh.origin(twin), mesh.origin(next(twin))), (mesh.origin(next(edge)), mesh.origin(edge)));
-        }
-        assert!((0..mesh.first.len()).all(|point| mesh.origin(mesh.first[point]) as usize == point));
-    }
-
-    /// Points wander; after every repair the mesh is a torus, locally Delaunay, and what spade builds from nothing.
-    #[test]
-    fn repaired_meshes_are_those_that_are_built_anew() {
-        let context = Context::new(1).unwrap();
-        for (boundary, width, count) in
-            [(Boundary::Periodic, 1.0, 600), (Boundary::Periodic, 3.0, 900), (Boundary::Bounded, 1.5, 300)]
-        {
-            let torus = Torus::new(Domain { min: [0.0; 2], max: [width, 1.0], boundary }, count);
-            let mut rng = Rng::at(3, Draw::Probe, &[count as u64]);
-            let points: Vec<[f32; 2]> =
-                (0..count).map(|_| [rng.unit() * width, rng.unit()].map(|x| x as f32)).collect();
-            let mut points = torus.enter(&points, 0);
-            let mut places = torus.with_images(&points);
-            context
-                .run(None, |job| {
-                    let mut mesh = Mesh::new(&delaunay(job, &torus, &places), &torus, &places).unwrap();
-                    let mut ring = Vec::new();
-                    let mut flipped = 0;
-                    for _ in 0..25 {
-                        let rooms = (0..count).map(|point| {
-                            ring.clear();
-                            mesh.star(&places, point, &mut ring);
-                            let pairs = ring.iter().zip(ring.iter().cycle().skip(1));
-                            let height = |(a, b): (&Vec2, &Vec2)| {
-                                a.perp_dot(*b) / a.length().max(b.length()).max(a.distance(*b))
-                            };
-                            pairs.map(height).fold(f32::INFINITY, f32::min)
-                        });
-                        let rooms: Vec<f32> = rooms.collect();
-                        for (point, room) in points.iter_mut().zip(rooms) {
-                            let way = Vec2::from_angle(rng.unit() as f32 * 6.3) * 0.45 * room;
-                            *point = torus.moved(*point, way);
-                        }
-                        places = torus.with_images(&points);
-                        let before = triangles(&mesh);
-                        assert!(mesh.repair(job, &places)?, "a triangle turned over");
-                        flipped += usize::from(before != triangles(&mesh));
-                        check_links(&mesh);
-                        let edges = (0..4 * mesh.triangles.len() as u32).filter(|edge| edge & 3 < 3);
-                        assert!(edges.into_iter().all(|edge| !mesh.must_flip(edge, &places)));
-                        // The corners of a mirrored rectangle lie on one circle: there spade may take the other diagonal.
-                        if boundary == Boundary::Periodic {
-                            let anew = Mesh::new(&delaunay(job, &torus, &places), &torus, &places).unwrap();
-                            assert_eq!(triangles(&mesh), triangles(&anew));
-                        }
-                        assert!(
-                            (mesh.coverage(job, &places)? - delaunay(job, &torus, &places).coverage()).abs() < 1e-5
-                        );
-                    }
-                    assert!(flipped > 10);
-                    Ok(())
-                })
-                .unwrap();
-        }
-    }
-
-    #[test]
-    fn few_points_and_large_holes_have_no_mesh_and_turned_triangles_end_one() {
-        let context = Context::new(1).unwrap();
-        let domain = Domain::unit(Boundary::Periodic);
-        let mut rng = Rng::at(4, Draw::Probe, &[]);
-        let mut random = |count, part: f64| -> Vec<[f32; 2]> {
-            (0..count).map(|_| [rng.unit() * part, rng.unit() * part].map(|x| x as f32)).collect()
-        };
-        for (points, has_mesh) in [(random(5, 1.0), false), (random(500, 0.5), false), (random(500, 1.0), true)] {
-            let torus = Torus::new(domain, points.len());
-            let mut places = torus.enter(&points, 0);
-            context
-                .run(None, |job| {
-                    let mesh = Mesh::new(&delaunay(job, &torus, &places), &torus, &places);
-                    assert_eq!(mesh.is_some(), has_mesh);
-                    if let Some(mut mesh) = mesh {
-                        places.swap(0, 250);
-                        assert!(!mesh.repair(job, &places)?);
-                    }
-                    Ok(())
-                })
-                .unwrap();
-        }
-    }
-}
+mod tests;

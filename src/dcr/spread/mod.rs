@@ -9,14 +9,21 @@
 //! * the border of a bounded domain is a mirror in which points do not see themselves (`border.rs`);
 //! * constraints grow stiffer: soft ones let the set stay irregular while it finds its places, stiff ones make sure of
 //!   the last point;
+//! * points that are in each other's way for good are kicked;
 //! * the triangulation is kept and repaired by flips (`mesh.rs`). Where it cannot be, with a few points or large holes, it
 //!   is built anew in every step.
 
 pub(super) mod border;
 mod cells;
 pub(super) mod constraints;
+pub(super) mod gather;
 mod mesh;
+mod rings;
+mod stars;
+mod tiles;
 pub(super) mod torus;
+#[allow(unsafe_code)] // Vector instructions.
+mod vectors;
 pub(super) mod waves;
 
 use std::ops::Range;
@@ -25,7 +32,8 @@ use glam::Vec2;
 
 use self::border::Border;
 use self::cells::Cells;
-use self::constraints::{Constraints, Force};
+use self::constraints::Constraints;
+use self::gather::{Neighbours, State, Step};
 use self::mesh::Mesh;
 use self::torus::{Place, Torus, along_curve};
 use self::waves::Waves;
@@ -33,7 +41,8 @@ use super::delaunay::Delaunay;
 use super::motion::Motion;
 use super::{Neighbourhood, Options, Relaxation};
 use crate::error::Result;
-use crate::job::{Job, chunks};
+use crate::job::Job;
+use crate::maximal::Vectors;
 
 /// The share of its way that a point makes again in the next step.
 pub(super) const MOMENTUM: f32 = 0.78;
@@ -51,22 +60,17 @@ pub(super) const LONG_WAVES: f64 = 0.25;
 /// The steps during which one becomes the other.
 const COARSENING: Range<u32> = 60..85;
 
-/// How far points may move in the room that they have: less than half, so that no triangle turns over.
-pub(super) const ROOM: f32 = 0.45;
+/// In every so manieth step, up to the last, points whose constraints are still violated are kicked by so many spacings. Where
+/// points are in each other's way for good, that is what leads one of them out.
+const KICK_EVERY: u32 = 8;
+const LAST_KICK: u32 = 56;
+const KICK: f32 = 0.03;
 
-/// The room, in spacings, of points that are in no mesh.
-pub(super) const WIDE: f32 = 1.0;
+/// The share of the points above which violations are no exceptions, and none is kicked.
+const FEW: f64 = 0.04;
 
 /// The step size by which motion is measured: a span is 10 steps, in which long waves are removed twice.
 pub(super) const STEP: f64 = 0.2;
-
-/// What knows the neighbours of each point.
-enum Neighbours {
-    Mesh(Mesh),
-    /// Where there can be no mesh.
-    Stars(Delaunay),
-    Cells(Cells),
-}
 
 /// A set in the making.
 pub(super) struct Spread {
@@ -75,15 +79,23 @@ pub(super) struct Spread {
     border: Option<Border>,
     waves: Waves,
     neighbourhood: Neighbourhood,
+    vectors: Vectors,
     /// The user's index of each point: points are kept along a curve.
     order: Vec<u32>,
     /// Where the points began.
     start: Vec<Place>,
-    /// Where they are, and after them their images on the torus.
-    places: Vec<Place>,
-    velocities: Vec<Vec2>,
+    state: State,
+    /// What the next state is written to.
+    next: State,
+    /// The state in which the fewest points had their constraints violated, and how many; the last of these states.
+    best: State,
+    fewest: usize,
+    /// How many it were before the last step.
+    violated: usize,
     /// The mesh of the places, once there is one.
     mesh: Option<Mesh>,
+    /// The cells of the points, as long as they serve.
+    cells: Option<Cells>,
     motion: Motion,
     iterations: u32,
 }
@@ -95,13 +107,20 @@ impl Spread {
         let entered = torus.enter(points, options.seed);
         let order = along_curve(&entered);
         let start: Vec<Place> = order.iter().map(|&point| entered[point as usize]).collect();
+        let places = torus.with_images(&start);
+        let velocities = vec![Vec2::ZERO; start.len()];
         Self {
             border: Border::new(&torus),
             waves: Waves::new(&torus, start.len()),
             neighbourhood: options.neighbourhood,
-            places: torus.with_images(&start),
-            velocities: vec![Vec2::ZERO; start.len()],
+            vectors: Vectors::widest(),
+            next: State::default(),
+            best: State::default(),
+            fewest: usize::MAX,
+            violated: usize::MAX,
+            state: State { places, velocities },
             mesh: None,
+            cells: None,
             motion: Motion::new(STEP, start.iter().map(|&place| torus.position(place)).collect()),
             iterations: 0,
             torus,
@@ -114,20 +133,21 @@ impl Spread {
         if let Some(mesh) = self.mesh.take() {
             return Ok(Neighbours::Mesh(mesh));
         }
+        let places = &self.state.places;
         if self.neighbourhood == Neighbourhood::Nearest {
-            return Ok(Neighbours::Cells(Cells::new(&self.torus, &self.places, self.constraints().conflict_radius)));
+            let reach = self.constraints().conflict_radius;
+            let mut cells = self.cells.take().unwrap_or_else(|| Cells::new(&self.torus, places, reach));
+            cells.update(job, places)?;
+            return Ok(Neighbours::Cells(cells));
         }
-        let delaunay = self.triangulate(&job.part(0.0, 0.9))?;
-        if let Some(mut mesh) = Mesh::new(&delaunay, &self.torus, &self.places)
-            && mesh.repair(&job.part(0.9, 1.0), &self.places)?
-        {
-            return Ok(Neighbours::Mesh(mesh));
+        match Mesh::new(&job.part(0.0, 0.5), &self.torus, places)? {
+            Some(mesh) => Ok(Neighbours::Mesh(mesh)),
+            None => Ok(Neighbours::Stars(self.triangulate(&job.part(0.5, 1.0))?)),
         }
-        Ok(Neighbours::Stars(delaunay))
     }
 
     fn triangulate(&self, job: &Job) -> Result<Delaunay> {
-        Delaunay::new(job, &self.torus.frame, self.torus.nudged(&self.places).into_iter())
+        Delaunay::new(job, &self.torus.frame, self.torus.nudged(&self.state.places).into_iter())
     }
 
     fn constraints(&self) -> Constraints {
@@ -140,7 +160,9 @@ impl Spread {
             },
         }
     }
+}
 
+impl Spread {
     /// The frequency up to which waves are removed in this step.
     fn highest_wave(&self) -> f64 {
         let done = self.iterations.clamp(COARSENING.start, COARSENING.end) - COARSENING.start;
@@ -148,35 +170,29 @@ impl Spread {
         FINE_WAVES + (LONG_WAVES - FINE_WAVES) * share
     }
 
-    /// Where every point gets, and how fast.
-    fn gather(&self, job: &Job, neighbours: &Neighbours, drift: &[Vec2]) -> Result<Vec<(Place, Vec2)>> {
-        let constraints = self.constraints();
-        let chunks = chunks(self.order.len());
-        job.concat(chunks.len(), |chunk| {
-            let mut ring = Vec::new();
-            let advance = |point: usize| {
-                ring.clear();
-                let Force { sum, room } = match neighbours {
-                    Neighbours::Cells(cells) => {
-                        Force { sum: cells.force(&constraints, self.places[point]), room: WIDE }
-                    }
-                    Neighbours::Mesh(mesh) => {
-                        mesh.star(&self.places, point, &mut ring);
-                        constraints.force(&ring)
-                    }
-                    Neighbours::Stars(delaunay) => {
-                        ring.extend(delaunay.ring(point).map(|offset| offset.as_vec2()));
-                        Force { room: WIDE, ..constraints.force(&ring) }
-                    }
-                };
-                let at_border = |border: &Border| border.force(&constraints, self.places[point], sum);
-                let velocity = MOMENTUM * self.velocities[point] + self.border.as_ref().map_or(sum, at_border);
-                let limit = ROOM * room;
-                let place = self.torus.moved(self.places[point], (velocity + drift[point]).clamp_length_max(limit));
-                (place, velocity.clamp_length_max(limit))
-            };
-            chunks.range(chunk).map(advance).collect()
-        })
+    /// Takes the next state, and notes the one before as the best so far if it is.
+    fn keep(&mut self, next: State, violated: Option<usize>) {
+        self.next = std::mem::replace(&mut self.state, next);
+        self.violated = violated.unwrap_or(usize::MAX);
+        if self.violated <= self.fewest {
+            std::mem::swap(&mut self.best, &mut self.next);
+            self.fewest = self.violated;
+        }
+    }
+
+    /// The step to come.
+    fn go<'a>(&'a self, drift: &'a [Vec2]) -> Step<'a> {
+        let are_few = self.violated as f64 <= FEW * self.order.len() as f64;
+        let kicks = are_few && self.iterations.is_multiple_of(KICK_EVERY) && self.iterations <= LAST_KICK;
+        Step {
+            torus: &self.torus,
+            border: self.border.as_ref(),
+            vectors: self.vectors,
+            constraints: self.constraints(),
+            momentum: MOMENTUM,
+            drift,
+            kick: kicks.then_some((KICK, self.iterations)),
+        }
     }
 }
 
@@ -184,17 +200,30 @@ impl Relaxation for Spread {
     fn step(&mut self, job: &Job) -> Result<()> {
         let count = self.order.len();
         let drift = match self.iterations.is_multiple_of(WAVES_EVERY) {
-            true => self.waves.drift(&job.part(0.0, 0.2), &self.places, count, self.highest_wave())?,
-            false => vec![Vec2::ZERO; count],
+            true => self.waves.drift(&job.part(0.0, 0.2), &self.state.places, count, self.highest_wave())?,
+            false => Vec::new(),
         };
-        let neighbours = self.neighbours(&job.part(0.2, 0.4))?;
-        let moved = self.gather(&job.part(0.4, 0.7), &neighbours, &drift)?;
-        let (places, velocities): (Vec<Place>, Vec<Vec2>) = moved.into_iter().unzip();
-        (self.places, self.velocities) = (self.torus.with_images(&places), velocities);
+        let mut next = std::mem::take(&mut self.next);
+        next.fit(&self.state);
+        let mut neighbours = self.neighbours(&job.part(0.2, 0.4))?;
+        let mut seen = self.go(&drift).advance(&job.part(0.4, 0.6), &neighbours, &self.state, &mut next)?;
+        if seen.is_unsound {
+            neighbours = Neighbours::Stars(self.triangulate(&job.part(0.6, 0.65))?);
+            seen = self.go(&drift).advance(&job.part(0.65, 0.7), &neighbours, &self.state, &mut next)?;
+        }
+        self.keep(next, matches!(neighbours, Neighbours::Mesh(_)).then_some(seen.violated));
         self.iterations += 1;
-        self.motion.after_step(&self.torus.frame, || places.iter().map(|&place| self.torus.position(place)));
-        if let Neighbours::Mesh(mut mesh) = neighbours {
-            self.mesh = mesh.repair(&job.part(0.7, 1.0), &self.places)?.then_some(mesh);
+        let places = &self.state.places;
+        self.motion.after_step(&self.torus.frame, || places[..count].iter().map(|&place| self.torus.position(place)));
+        match neighbours {
+            Neighbours::Mesh(mut mesh) => {
+                self.mesh = mesh.mend(&job.part(0.7, 1.0), places, seen.suspects)?.then_some(mesh);
+            }
+            Neighbours::Cells(mut cells) => {
+                let reach = self.constraints().conflict_radius;
+                self.cells = cells.still_serve(seen.longest_way_squared.sqrt(), reach).then_some(cells);
+            }
+            Neighbours::Stars(_) => {}
         }
         Ok(())
     }
@@ -204,18 +233,39 @@ impl Relaxation for Spread {
     }
 
     fn motion(&self) -> f64 {
-        let places = self.places[..self.order.len()].iter();
+        let places = self.state.places[..self.order.len()].iter();
         self.motion.last(&self.torus.frame, places.map(|&place| self.torus.position(place)))
     }
 
     fn has_settled(&self, tolerance: f64) -> bool {
-        self.motion.has_settled(tolerance)
+        let is_met = self.neighbourhood == Neighbourhood::Nearest || self.violated == 0;
+        is_met && self.motion.has_settled(tolerance)
+    }
+
+    fn finish(&mut self, job: &Job) -> Result<()> {
+        if self.fewest == usize::MAX {
+            return Ok(());
+        }
+        let places = &self.state.places;
+        // A step that was cancelled has lost the mesh.
+        let mesh = match self.mesh.take() {
+            Some(mut mesh) => mesh.repair(&job.part(0.0, 0.5), places)?.then_some(mesh),
+            None => Mesh::new(&job.part(0.0, 0.5), &self.torus, places)?,
+        };
+        let Some(mesh) = mesh else { return Ok(()) };
+        if mesh.violated(&job.part(0.5, 1.0), places, self.order.len())? <= self.fewest {
+            self.mesh = Some(mesh);
+        } else {
+            self.state = std::mem::take(&mut self.best);
+            self.fewest = usize::MAX;
+        }
+        Ok(())
     }
 
     /// Points that have not moved are returned as they came.
     fn points(&self, points: &[[f32; 2]]) -> Vec<[f32; 2]> {
         let mut relaxed = points.to_vec();
-        for ((&point, &start), &place) in self.order.iter().zip(&self.start).zip(&self.places) {
+        for ((&point, &start), &place) in self.order.iter().zip(&self.start).zip(&self.state.places) {
             if place != start {
                 relaxed[point as usize] = self.torus.leave(place);
             }
@@ -223,11 +273,56 @@ impl Relaxation for Spread {
         relaxed
     }
 
-    fn coverage(&self, job: &Job) -> Result<f64> {
-        let radius = match &self.mesh {
-            Some(mesh) => mesh.coverage(job, &self.places)?,
-            None => self.triangulate(job)?.coverage(),
+    fn coverage(&mut self, job: &Job) -> Result<f64> {
+        let places = &self.state.places;
+        let mesh = match self.mesh.take() {
+            Some(mesh) => Some(mesh),
+            None => Mesh::new(&job.part(0.0, 0.5), &self.torus, places)?,
+        };
+        let radius = match mesh {
+            Some(mesh) => mesh.coverage(&job.part(0.5, 1.0), places)?,
+            None => self.triangulate(&job.part(0.5, 1.0))?.coverage(),
         };
         Ok(radius * self.torus.frame.spacing())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::job::Context;
+    use crate::points::{Boundary, Domain};
+    use crate::rng::{Draw, Rng};
+
+    /// With more steps a set gets no worse, though kicks make the last state worse than one before.
+    #[test]
+    fn the_best_state_is_returned() {
+        let context = Context::new(1).unwrap();
+        for boundary in [Boundary::Periodic, Boundary::Bounded] {
+            let domain = Domain { min: [0.0; 2], max: [1.0; 2], boundary };
+            let mut rng = Rng::at(7, Draw::Probe, &[]);
+            let points: Vec<_> = (0..1500).map(|_| [rng.unit(), rng.unit()].map(|x| x as f32)).collect();
+            let (mut before, mut kicked_back) = (usize::MAX, 0);
+            for steps in [0, 1, 2, 5, 30, 38, 39, 40, 41, 42, 43, 44, 45, 48, 100] {
+                context
+                    .run(None, |job| {
+                        let mut set = Spread::new(&Options::new(domain, Neighbourhood::Delaunay), &points);
+                        (0..steps).try_for_each(|_| set.step(job))?;
+                        let violated = |set: &Spread| {
+                            let places = &set.state.places;
+                            Mesh::new(job, &set.torus, places)?.unwrap().violated(job, places, points.len())
+                        };
+                        let last = violated(&set)?;
+                        set.finish(job)?;
+                        let best = violated(&set)?;
+                        assert!(best <= last && best <= before, "{boundary:?}, {steps}: {best}, {last}, {before}");
+                        kicked_back += usize::from(best < last);
+                        before = best;
+                        Ok(())
+                    })
+                    .unwrap();
+            }
+            assert!(kicked_back > 0 && before == 0, "{boundary:?}: {before}");
+        }
     }
 }

@@ -8,6 +8,8 @@
 use glam::{DVec2, Vec2};
 
 use crate::dcr::frame::Frame;
+use crate::error::Result;
+use crate::job::{Job, chunks};
 use crate::points::{Boundary, Domain};
 use crate::rng::{Draw, Rng};
 
@@ -20,8 +22,19 @@ pub(in crate::dcr) const HALF: u32 = 1 << 31;
 /// Points of a bounded domain keep this distance from its border, lest they meet their mirror images.
 const INSET: u32 = 16;
 
+/// A little less than a quarter of a period. A flip can double an edge, and half a period is the longest unambiguous way.
+const LONGEST: f32 = 0.9999 * (1u32 << 30) as f32;
+
 /// How far positions are nudged, in spacings.
 const NUDGE: f64 = 1e-7;
+
+/// Where points and their images stand on a torus that a domain is mirrored on.
+const MIRRORS: [fn(Place) -> Place; 4] = [
+    |place| place,
+    |[x, y]| [x.wrapping_neg(), y],
+    |[x, y]| [x, y.wrapping_neg()],
+    |[x, y]| [x.wrapping_neg(), y.wrapping_neg()],
+];
 
 /// The torus that a domain is, or on which it is mirrored.
 #[derive(Clone, Copy)]
@@ -32,6 +45,8 @@ pub(in crate::dcr) struct Torus {
     pub(in crate::dcr) frame: Frame,
     /// The length of 2^-32 of each period.
     unit: DVec2,
+    /// How often it fits into a spacing.
+    per_spacing: Vec2,
 }
 
 impl Torus {
@@ -46,9 +61,15 @@ impl Torus {
                 ..domain
             },
         };
-        let mut torus = Self { domain: Frame::new(domain, count), frame: Frame::new(whole, count), unit: DVec2::ONE };
+        let mut torus = Self {
+            domain: Frame::new(domain, count),
+            frame: Frame::new(whole, count),
+            unit: DVec2::ONE,
+            per_spacing: Vec2::ONE,
+        };
         torus.frame = Frame::new(whole, count * torus.copies());
         torus.unit = torus.frame.size() / 2f64.powi(32);
+        torus.per_spacing = torus.unit.recip().as_vec2();
         torus
     }
 
@@ -95,13 +116,32 @@ impl Torus {
 
     /// The places of points and, where the domain is mirrored, after them those of their images.
     pub(in crate::dcr) fn with_images(&self, points: &[Place]) -> Vec<Place> {
-        let mirrors: &[fn(Place) -> Place] = &[
-            |place| place,
-            |[x, y]| [x.wrapping_neg(), y],
-            |[x, y]| [x, y.wrapping_neg()],
-            |[x, y]| [x.wrapping_neg(), y.wrapping_neg()],
-        ];
-        mirrors[..self.copies()].iter().flat_map(|mirror| points.iter().copied().map(mirror)).collect()
+        MIRRORS[..self.copies()].iter().flat_map(|mirror| points.iter().copied().map(mirror)).collect()
+    }
+
+    /// Brings the images behind the first `count` places to where their points are.
+    pub(super) fn mirror(&self, job: &Job, places: &mut [Place], count: usize) -> Result<()> {
+        let (points, images) = places.split_at_mut(count);
+        let size = chunks(count).size();
+        let parts = images.chunks_mut(count.max(1)).zip(&MIRRORS[1..]).flat_map(|(images, mirror)| {
+            images.chunks_mut(size).zip(points.chunks(size)).map(move |(images, points)| (images, points, mirror))
+        });
+        job.map_each(parts.collect(), |(images, points, mirror)| {
+            images.iter_mut().zip(points).for_each(|(image, &point)| *image = mirror(point));
+        })?;
+        Ok(())
+    }
+
+    /// How far a point's own images across the borders are, along `x` and along `y`; NaN on a periodic domain.
+    #[inline(always)]
+    pub(super) fn ways_to_images(&self, place: Place) -> [f32; 2] {
+        match self.domain.boundary() {
+            Boundary::Periodic => [f32::NAN; 2],
+            Boundary::Bounded => {
+                let unit = self.unit.as_vec2().to_array();
+                std::array::from_fn(|axis| place[axis].wrapping_mul(2).wrapping_neg().cast_signed() as f32 * unit[axis])
+            }
+        }
     }
 
     /// The ways from a point of a bounded domain to its own images across the nearest borders.
@@ -113,11 +153,13 @@ impl Torus {
     /// The positions of places, nudged so little that nothing changes but this: where four stand on one circle, as points
     /// and their mirror images do, all copies of them agree on which diagonal is an edge.
     pub(in crate::dcr) fn nudged(&self, places: &[Place]) -> Vec<DVec2> {
-        let nudge = |(index, &place): (u64, &Place)| {
-            let mut rng = Rng::at(0, Draw::Part, &[index, index]);
-            self.position(place) + NUDGE * DVec2::new(rng.unit(), rng.unit())
-        };
-        (0..).zip(places).map(nudge).collect()
+        (0..).zip(places).map(|(point, &place)| self.position(place) + nudge(point)).collect()
+    }
+
+    /// The length of 2^-32 of each period, and the longest edges whose double is unambiguous: a quarter of each.
+    pub(super) fn unit_and_longest(&self) -> (Vec2, [f32; 2]) {
+        let unit = self.unit.as_vec2();
+        (unit, (unit * LONGEST).to_array())
     }
 
     /// The shortest way between two places.
@@ -134,9 +176,15 @@ impl Torus {
 
     /// Where a point of the domain gets by a displacement.
     pub(in crate::dcr) fn moved(&self, place: Place, displacement: Vec2) -> Place {
-        let by = (displacement.as_dvec2() / self.unit).to_array();
-        self.inside(std::array::from_fn(|axis| place[axis].wrapping_add(by[axis] as i64 as u32)))
+        let by = (displacement * self.per_spacing).to_array();
+        self.inside(std::array::from_fn(|axis| place[axis].wrapping_add((by[axis] as i32).cast_unsigned())))
     }
+}
+
+/// By how much a point is nudged.
+pub(super) fn nudge(point: u32) -> DVec2 {
+    let mut rng = Rng::at(0, Draw::Part, &[point.into(), point.into()]);
+    NUDGE * DVec2::new(rng.unit(), rng.unit())
 }
 
 /// The order of places along a Z-curve: what lies together comes together.

@@ -21,6 +21,12 @@ use crate::job::{Job, chunks, chunks_of};
 /// waves, a spacing or so long, is where the spline by which points are drawn has its zero.
 const CELL: f64 = 0.9;
 
+/// Waves of this frequency, in units of the highest, are removed by less than rounding shows.
+const NOTHING: f64 = 2.4;
+
+/// On so many grids points are drawn at the same time.
+const SHEETS: usize = 4;
+
 /// Numbers at the nodes of the grid, row by row.
 pub(in crate::dcr) type Field = Vec<Complex<f64>>;
 
@@ -57,8 +63,8 @@ impl Waves {
     /// The displacements, in spacings, of the first `count` points, by waves up to the frequency `highest` in units of
     /// sqrt(density), where what is removed has fallen to a third.
     pub(super) fn drift(&self, job: &Job, places: &[Place], count: usize, highest: f64) -> Result<Vec<Vec2>> {
-        let density = self.draw(places.iter().map(|&place| (place, 1.0)));
-        let field = self.displacements(&job.part(0.0, 0.8), density, places.len(), highest)?;
+        let density = self.draw(&job.part(0.0, 0.1), places.len(), |point| (places[point], 1.0))?;
+        let field = self.displacements(&job.part(0.1, 0.8), density, places.len(), highest)?;
         let chunks = chunks(count);
         job.part(0.8, 1.0).concat(chunks.len(), |chunk| {
             places[chunks.range(chunk)].iter().map(|&place| self.read(&field, place)).collect()
@@ -68,11 +74,13 @@ impl Waves {
     /// The displacements at the nodes that level a density which sums up to, or is the excess over, `count` points.
     pub(in crate::dcr) fn displacements(&self, job: &Job, density: Field, count: usize, highest: f64) -> Result<Field> {
         let (row, column) = (self.cells[0], self.cells[1]);
-        let columns = transform(&job.part(0.0, 0.25), density, row, &self.forward[0])?;
-        let mut waves = transform(&job.part(0.25, 0.5), columns, column, &self.forward[1])?;
-        self.integrate(&mut waves, count, highest);
-        let columns = transform(&job.part(0.5, 0.75), waves, row, &self.back[0])?;
-        transform(&job.part(0.75, 1.0), columns, column, &self.back[1])
+        let (mut field, mut spare) = (density, vec![Complex::default(); row * column]);
+        transform(&job.part(0.0, 0.15), &mut field, &mut spare, row, &self.forward[0])?;
+        transform(&job.part(0.15, 0.45), &mut field, &mut spare, column, &self.forward[1])?;
+        self.integrate(&job.part(0.45, 0.5), &mut field, count, highest)?;
+        transform(&job.part(0.5, 0.7), &mut field, &mut spare, row, &self.back[0])?;
+        transform(&job.part(0.7, 1.0), &mut field, &mut spare, column, &self.back[1])?;
+        Ok(field)
     }
 
     /// The displacement at a place.
@@ -92,52 +100,93 @@ impl Waves {
             ((scaled >> 32) as usize + self.cells[axis] - 1, [u * u * u / 6.0, inner(t), inner(u), t * t * t / 6.0])
         };
         let ((left, across), (bottom, up)) = (along(0), along(1));
-        let columns: [usize; 4] = std::array::from_fn(|i| (left + i) % self.cells[0]);
+        let columns: [usize; 4] = std::array::from_fn(|i| wrapped(left + i, self.cells[0]));
         for (j, weight) in up.into_iter().enumerate() {
-            let row = (bottom + j) % self.cells[1] * self.cells[0];
+            let row = wrapped(bottom + j, self.cells[1]) * self.cells[0];
             for (column, across) in columns.into_iter().zip(across) {
                 visit(row + column, weight * across);
             }
         }
     }
 
-    /// The density of weights at places.
-    pub(in crate::dcr) fn draw(&self, weights: impl Iterator<Item = (Place, f64)>) -> Field {
-        let mut density = vec![Complex::default(); self.cells[0] * self.cells[1]];
-        for (place, whole) in weights {
-            self.for_each_cell(place, |cell, weight| density[cell].re += whole * weight);
-        }
-        density
+    /// The density of `count` weights at places. Some at a time are drawn on a grid of their own, and what is drawn is added
+    /// up: so many grids, and no more, that the sums do not depend on the threads.
+    pub(in crate::dcr) fn draw(
+        &self,
+        job: &Job,
+        count: usize,
+        weighted: impl Fn(usize) -> (Place, f64) + Sync,
+    ) -> Result<Field> {
+        let sheets = chunks_of(count, count.div_ceil(SHEETS).max(8192));
+        let cells = self.cells[0] * self.cells[1];
+        let drawn = job.part(0.0, 0.8).map(sheets.len(), |sheet| {
+            let mut density = vec![0.0; cells];
+            for (place, whole) in sheets.range(sheet).map(&weighted) {
+                self.for_each_cell(place, |cell, weight| density[cell] += whole * weight);
+            }
+            density
+        })?;
+        let chunks = chunks_of(cells, 8192);
+        job.part(0.8, 1.0).concat(chunks.len(), |chunk| {
+            let sum = |cell: usize| Complex::from(drawn.iter().map(|density| density[cell]).sum::<f64>());
+            chunks.range(chunk).map(sum).collect()
+        })
     }
 
     /// From the waves of the density of `count` points to those of the displacement, `x` in the real and `y` in the
     /// imaginary part: both are real, so one transform carries both.
-    fn integrate(&self, waves: &mut Field, count: usize, highest: f64) {
+    fn integrate(&self, job: &Job, waves: &mut Field, count: usize, highest: f64) -> Result<()> {
         let size = self.torus.frame.size();
-        let area = size.x * size.y / count as f64;
-        // Per axis, the wave numbers of the bins, and what the spline does to them when drawing and when reading.
-        let axis = |axis: usize| {
-            let cells = self.cells[axis] as i64;
-            (0..cells).map(move |bin| {
-                let turns = if 2 * bin > cells { bin - cells } else { bin } as f64;
-                let half = PI * turns / cells as f64;
-                (turns as i64, TAU * turns / size[axis], if bin == 0 { 1.0 } else { (half.sin() / half).powi(8) })
-            })
-        };
-        for (row, (j, ky, spline_y)) in waves.chunks_mut(self.cells[0]).zip(axis(1)) {
-            for (wave, (i, kx, spline_x)) in row.iter_mut().zip(axis(0)) {
-                let k = DVec2::new(kx, ky);
-                let relative = k.length() / (TAU * highest) * area.sqrt();
-                let share = (-relative.powi(4)).exp() / (spline_x * spline_y).max(0.01) / count as f64;
-                let potential = if k == DVec2::ZERO { 0.0 } else { share / k.length_squared() };
-                if let Some(border) = &self.border {
-                    // Drawn as points are.
-                    *wave -= border.wave([i, j]) * f64::sqrt(spline_x * spline_y);
+        let per_point = (size.x * size.y / count as f64).sqrt() / (TAU * highest);
+        let (columns, rows) = (self.bins(0), self.bins(1));
+        let size = chunks_of(rows.len(), 1 + 8192 / columns.len()).size();
+        let parts = waves.chunks_mut(size * columns.len()).zip(rows.chunks(size));
+        job.map_each(parts.collect(), |(waves, rows)| {
+            for (row, y) in waves.chunks_mut(columns.len()).zip(rows) {
+                for (wave, x) in row.iter_mut().zip(&columns) {
+                    let k = DVec2::new(x.number, y.number);
+                    let relative = k.length() * per_point;
+                    if k == DVec2::ZERO || relative > NOTHING {
+                        *wave = Complex::default();
+                        continue;
+                    }
+                    if let Some(border) = &self.border {
+                        // Drawn as points are.
+                        *wave -= border.wave([x.turns, y.turns]) * f64::sqrt(x.spline * y.spline);
+                    }
+                    let share = (-relative.powi(4)).exp() / (x.spline * y.spline).max(0.01) / count as f64;
+                    *wave *= Complex::new(k.y, -k.x) * (share / k.length_squared());
                 }
-                *wave *= Complex::new(k.y, -k.x) * potential;
             }
-        }
+        })?;
+        Ok(())
     }
+
+    /// The bins of the transform along an axis.
+    fn bins(&self, axis: usize) -> Vec<Bin> {
+        let (cells, length) = (self.cells[axis] as i64, self.torus.frame.size()[axis]);
+        let bin = |bin: i64| {
+            let turns = if 2 * bin > cells { bin - cells } else { bin };
+            let half = PI * turns as f64 / cells as f64;
+            let spline = if bin == 0 { 1.0 } else { (half.sin() / half).powi(8) };
+            Bin { turns, number: TAU * turns as f64 / length, spline }
+        };
+        (0..cells).map(bin).collect()
+    }
+}
+
+/// Waves along an axis.
+struct Bin {
+    /// How often they fit into the period, and their wave number.
+    turns: i64,
+    number: f64,
+    /// What the spline does to them when drawing and when reading, together.
+    spline: f64,
+}
+
+/// The remainder, of numbers most of which are their own.
+fn wrapped(number: usize, count: usize) -> usize {
+    if number < count { number } else { number % count }
 }
 
 /// The least number from `count` on that has only the factors 2, 3 and 5, for which transforms are fast.
@@ -154,20 +203,20 @@ fn smooth(count: usize) -> usize {
     (count.max(1)..).find(|&number| rest(number) == 1).expect("powers of two have no end")
 }
 
-/// Transforms every row of a field, and turns rows into columns.
-fn transform(job: &Job, field: Field, width: usize, fft: &Arc<dyn Fft<f64>>) -> Result<Field> {
+/// Transforms every row of a field, and turns rows into columns. `spare` is as large as the field, and is written over.
+fn transform(job: &Job, field: &mut Field, spare: &mut Field, width: usize, fft: &Arc<dyn Fft<f64>>) -> Result<()> {
     let height = field.len() / width;
-    let rows = chunks_of(height, 1 + 8192 / width);
-    let field = job.part(0.0, 0.7).concat(rows.len(), |chunk| {
-        let range = rows.range(chunk);
-        let mut rows = field[range.start * width..range.end * width].to_vec();
-        fft.process(&mut rows);
-        rows
+    let rows = chunks_of(height, 1 + 8192 / width).size();
+    job.part(0.0, 0.7).map_each(field.chunks_mut(rows * width).collect(), |rows| fft.process(rows))?;
+    let columns = chunks_of(width, 1 + 8192 / height).size();
+    let parts = spare.chunks_mut(columns * height).enumerate();
+    job.part(0.7, 1.0).map_each(parts.collect(), |(chunk, part)| {
+        for (column, part) in (chunk * columns..).zip(part.chunks_mut(height)) {
+            part.iter_mut().zip(field[column..].iter().step_by(width)).for_each(|(to, from)| *to = *from);
+        }
     })?;
-    let columns = chunks_of(width, 1 + 8192 / height);
-    job.part(0.7, 1.0).concat(columns.len(), |chunk| {
-        columns.range(chunk).flat_map(|column| field[column..].iter().step_by(width).copied()).collect()
-    })
+    std::mem::swap(field, spare);
+    Ok(())
 }
 
 #[cfg(test)]
