@@ -51,18 +51,15 @@ impl View {
         self.is_closed = self.near.star(&mut self.star);
     }
 
-    /// The force by the neighbours: all push, as one that is hidden in the plane may be in conflict all the same, and the
-    /// holes of a closed star pull.
+    /// The force by the neighbours. Who is not surrounded by them is only pushed.
     pub(super) fn force(&mut self, constraints: &Constraints) -> Force {
-        let offsets = (0..self.seen.len()).map(|place| self.near.offset(place));
-        let pushes: Vec2 = offsets.map(|offset| constraints.push(offset, offset.length_squared())).sum();
-        if !self.is_closed {
-            return Force { sum: pushes, room: WIDE };
+        if self.is_closed {
+            self.ring.clear();
+            self.ring.extend(self.star.iter().map(|&place| self.near.offset(place)));
+            return constraints.force(&self.ring);
         }
-        self.ring.clear();
-        self.ring.extend(self.star.iter().map(|&place| self.near.offset(place)));
-        let holes = Constraints { push: 0.0, ..*constraints }.force(&self.ring);
-        Force { sum: pushes + holes.sum, room: holes.room }
+        let offsets = (0..self.seen.len()).map(|place| self.near.offset(place));
+        Force { sum: offsets.map(|offset| constraints.push(offset, offset.length_squared())).sum(), room: WIDE }
     }
 
     /// The triangles of the star, but for mirror images: the samples at their two other corners, counter-clockwise.
