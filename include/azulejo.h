@@ -29,11 +29,10 @@
  *
  * Progress. The callback in the options is called on the thread that makes the call, with the finished share, which
  *   never falls, from 0 to 1 (the 1 comes if the call succeeds). Any return value but 0 cancels the call, which then
- *   returns AZULEJO_ERROR_CANCELLED; only azulejo_dcr_relax and
- *   azulejo_dcr_relax_surface return what they have, as their reports say. The callback may
- *   call the library, also with the same context. It must return: no exception and no longjmp may leave it. The same
- *   holds for the callback of azulejo_kdrt_stream. Only an azulejo_radius_fn is called on other threads, and several at
- *   once.
+ *   returns AZULEJO_ERROR_CANCELLED; only azulejo_dcr_relax and azulejo_dcr_relax_surface return what they have, as
+ *   their reports say. The callback may call the library, also with the same context. It must return: no exception and
+ *   no longjmp may leave it. The same holds for the callback of azulejo_kdrt_stream. Only an azulejo_radius_fn is called
+ *   on other threads, and several at once.
  *
  * Threads. Every function may be called from any thread at any time. A context can be used by several threads at
  *   once; a psp handle serves one changing call at a time and refuses a second one. The last error belongs to the
