@@ -214,7 +214,7 @@ pub struct Relax {
     #[command(flatten)]
     common: Common,
     /// The mesh that the samples are on, and stay on: OBJ, PLY or STL.
-    #[arg(long, value_name = "MESH", conflicts_with_all = ["domain", "boundary", "neighbourhood"])]
+    #[arg(long, value_name = "MESH", conflicts_with_all = ["domain", "bounded", "neighbourhood"])]
     mesh: Option<PathBuf>,
     #[command(flatten)]
     domain: DomainArgs,

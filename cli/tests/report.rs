@@ -80,6 +80,7 @@ fn a_quick_report_of_relaxation_has_every_method_and_plausible_figures() {
         "remeshing",
         "corners",
         "density",
+        "surfaces",
     ];
     assert_eq!(page.matches("](").count(), pictures.len());
     for (image, relaxed) in ["ramp", "sphere", "knot"].into_iter().flat_map(|image| [(image, "PSP"), (image, "random")])
@@ -117,6 +118,19 @@ fn a_quick_report_of_relaxation_has_every_method_and_plausible_figures() {
     }
     assert!(page.contains("Sets of 1,000 points and more are left out") && !page.contains("NaN"));
     check_variations_of_the_thesis(&page);
+    check_surfaces(&page);
+}
+
+/// Of the page of relaxation: the sphere before and after, and what was not given.
+fn check_surfaces(page: &str) {
+    let rows = page.lines().filter(|line| line.starts_with("| sphere |"));
+    let number = |cell: &str| cell.trim().trim_end_matches(" %").parse::<f64>().unwrap();
+    let figures = rows.map(|row| row.split('|').collect::<Vec<_>>());
+    // Smallest distance, obtuse triangles, variation of the edges.
+    let figures: Vec<_> = figures.map(|cells| [5, 8, 10].map(|cell| number(cells[cell]))).collect();
+    let [before, after] = figures[..] else { panic!("{figures:?}") };
+    assert!(before[0] < 0.79 && after[0] > 0.83 && after[1] < before[1] && after[2] < before[2], "{figures:?}");
+    assert!(["bunny", "dragon"].iter().all(|name| page.contains(&format!("The {name} is left out"))));
 }
 
 /// Of the page of relaxation: the sections on what the thesis's algorithm can be varied by, and on remeshing.

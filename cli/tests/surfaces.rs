@@ -110,7 +110,7 @@ fn samples_are_relaxed_on_their_mesh() {
     workshop.succeed(&["plane", "--radius", "0.1", "-o", "plane.ply"]);
     let said = workshop.refuse(&["relax", "plane.ply", "--mesh", "mesh.ply", "-o", "d.ply"], 1);
     assert!(said.contains("plane.ply: does not say on which triangle"), "{said}");
-    workshop.succeed(&["mesh", "sphere", "--detail", "8", "-o", "coarse.ply"]);
+    workshop.succeed(&["mesh", "sphere", "--detail", "16", "-o", "coarse.ply"]);
     let said = workshop.refuse(&["relax", "a.ply", "--mesh", "coarse.ply", "-o", "d.ply"], 1);
     assert!(said.contains("triangles: ["), "{said}");
     workshop.refuse(&["relax", "a.ply", "--mesh", "mesh.ply", "--neighbourhood", "nearest", "-o", "d.ply"], 2);

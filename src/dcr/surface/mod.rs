@@ -12,7 +12,8 @@
 //!
 //! Triangles are connected by common edges. A crack is a border: those on its two sides do not see each other. Sets that
 //! were conflict-free through space, as those of [`psp`](crate::psp), need not be so any more where sheets are near each
-//! other; [`Report::smallest_distance`] tells.
+//! other, or bent more than samples are dense: there single pairs may end closer than they began.
+//! [`Report::smallest_distance`] tells.
 
 mod near;
 mod set;
