@@ -76,10 +76,30 @@ impl Constraints {
     pub(in crate::dcr) fn pull(&self, a: Vec2, b: Vec2, area: f32) -> Vec2 {
         let centre = (b.length_squared() * a.perp() - a.length_squared() * b.perp()) * (2.0 * area).recip();
         let radius = centre.length();
-        // Infinite or NaN for triangles without area.
-        if !radius.is_finite() {
+        // Infinite or NaN for triangles without area, and 0 by rounding where two neighbours all but coincide.
+        if !(radius.is_finite() && radius > 0.0) {
             return Vec2::ZERO;
         }
         self.pull * (self.coverage_radius.recip() - radius.recip()).min(STRONGEST_PULL * radius.recip()) * centre
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn neighbours_that_all_but_coincide_push_and_do_not_tear() {
+        // Their circumcentre is found to be the point itself: a hole of no size, which must not divide by its radius.
+        let ring = [
+            Vec2::new(-0.57636416, 0.43213812),
+            Vec2::new(-0.6563772, -1.291182),
+            Vec2::new(0.480859, -1.1277492),
+            Vec2::new(1.228005, 0.07295092),
+            Vec2::new(0.7383431, 1.509538),
+            Vec2::new(0.73834306, 1.509538),
+        ];
+        let Force { sum, room } = Constraints::of_step(30).force(&ring);
+        assert!(sum.is_finite() && sum.length() < 1.0 && room > 0.0, "{sum}, {room}");
     }
 }

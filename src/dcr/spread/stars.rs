@@ -213,7 +213,7 @@ impl<'a> Sight<'a> {
             let centre_x = (squared * -before_y + before_squared * y) * share;
             let centre_y = (squared * before_x - before_squared * x) * share;
             let radius = (centre_x * centre_x + centre_y * centre_y).sqrt();
-            let is_pulled = is & is_wide(coverage_radius) & (radius < f32::INFINITY);
+            let is_pulled = is & is_wide(coverage_radius) & (radius > 0.0) & (radius < f32::INFINITY);
             let pulled = pull * (coverage_radius.recip() - radius.recip()).min(STRONGEST_PULL * radius.recip());
             self.force[0][i] += pushed * x;
             self.force[1][i] += pushed * y;
