@@ -237,10 +237,10 @@ enum Neighbours {
 impl Relax {
     pub fn run(&self, context: &Context) -> Result<()> {
         let output = self.common.destination.open()?;
-        if let Some(mesh) = &self.mesh {
-            return self.run_on(context, mesh, &self.format.read(&self.input, Coordinates::Space)?, &output);
-        }
         let set = self.format.read(&self.input, Coordinates::Plane)?;
+        if let Some(mesh) = &self.mesh {
+            return self.run_on(context, mesh, &set, &output);
+        }
         let domain = self.domain.of(&set).ok_or_else(|| Error::Format {
             path: self.input.clone(),
             reason: "does not name its domain, and does not fill the unit square: give --domain".to_owned(),
