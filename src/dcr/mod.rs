@@ -15,19 +15,19 @@
 //!
 //! | points | start | rho | cover | ψ6 | P | obtuse | edge CV² |
 //! |---|---|---|---|---|---|---|---|
-//! | 1,000 | random | 0.862 | 0.660 | 0.460 | 5.0e-6 | 5.6 % | 0.0177 |
-//! | 1,000 | KDRT | 0.862 | 0.660 | 0.463 | 4.9e-6 | 5.6 % | 0.0176 |
-//! | 4,096 | random | 0.861 | 0.660 | 0.462 | 4.7e-6 | 5.6 % | 0.0177 |
-//! | 4,096 | KDRT | 0.862 | 0.660 | 0.464 | 5.2e-6 | 5.4 % | 0.0175 |
-//! | 65,536 | random | 0.860 | 0.661 | 0.464 | 4.3e-6 | 5.4 % | 0.0177 |
-//! | 65,536 | KDRT | 0.861 | 0.661 | 0.464 | 3.6e-6 | 5.4 % | 0.0177 |
-//! | 1,000,000 | random | 0.859 | 0.664 | 0.463 | 4.6e-6 | 5.4 % | 0.0177 |
-//! | 1,000,000 | KDRT | 0.860 | 0.662 | 0.466 | 3.9e-6 | 5.3 % | 0.0176 |
+//! | 1,000 | random | 0.862 | 0.660 | 0.460 | 5.1e-6 | 5.5 % | 0.0177 |
+//! | 1,000 | KDRT | 0.862 | 0.660 | 0.462 | 5.0e-6 | 5.5 % | 0.0176 |
+//! | 4,096 | random | 0.861 | 0.660 | 0.462 | 4.8e-6 | 5.6 % | 0.0177 |
+//! | 4,096 | KDRT | 0.862 | 0.660 | 0.464 | 5.1e-6 | 5.3 % | 0.0175 |
+//! | 65,536 | random | 0.860 | 0.661 | 0.463 | 4.2e-6 | 5.4 % | 0.0177 |
+//! | 65,536 | KDRT | 0.861 | 0.661 | 0.464 | 3.5e-6 | 5.4 % | 0.0177 |
+//! | 1,000,000 | random | 0.856 | 0.664 | 0.463 | 4.7e-6 | 5.4 % | 0.0177 |
+//! | 1,000,000 | KDRT | 0.860 | 0.662 | 0.466 | 3.8e-6 | 5.3 % | 0.0176 |
 //! | | push-pull (Ahmed et al. 2016) | 0.850 | 0.670 | 0.475 | 2.2e-3 | 5.9 % | 0.019 |
 //!
 //! These are means: single sets of 1,000 points may have more obtuse triangles than push-pull's.
 //!
-//! Bounded domains are relaxed nearly as well: rho 0.852 to 0.860, cover 0.662 to 0.668. Density and spacing of the strip along
+//! Bounded domains are relaxed nearly as well: rho 0.851 to 0.860, cover 0.662 to 0.667. Density and spacing of the strip along
 //! the border, one `d_max` wide, are those of the inside within 3 %; the next strip is 11 % denser (section "Bounded" there).
 //!
 //! Samples of a mesh are relaxed on it by [`surface`].

@@ -47,7 +47,7 @@ pub fn text(
 ) -> String {
     let option = if quick { " --quick" } else { "" };
     let intro = format!(
-        " Thesis: Wang 2019, chapter 4. Sets of the unit torus, and at the end of the unit square with a border, from seed {FIRST_SEED} on; no \
+        " Thesis: Wang 2019, chapter 4. Sets of the unit torus, and under *Bounded* of the unit square with a border, from seed {FIRST_SEED} on; no \
          setting was chosen by what these seeds gave. Figures are means over the sets of a size. Seconds are those of one call, on a machine that may \
          have had other work.\n\n\
          Lengths are in units of d_max = √(2 A / (√3 N)), the distance of neighbours in the hexagonal arrangement. *ρ* is the \
