@@ -1,11 +1,12 @@
 #!/usr/bin/env bash
 # Fuzzes the C ABI and the analysis with libFuzzer and AddressSanitizer.
 #
-#   scripts/fuzz.sh [--seconds N] [TARGET...]
+#   scripts/fuzz.sh [--seconds N] [--seed S] [TARGET...]
 #
-# Each target of fuzz/fuzz_targets, or those named, runs for N seconds (60), as many at a time as there are cores. Inputs
-# that fail are kept in target/fuzz/artifacts, and `scripts/fuzz.sh TARGET FILE` runs one of them again. Needs a nightly
-# compiler; without one nothing is done, which is said.
+# Each target of fuzz/fuzz_targets, or those named, runs for N seconds (60), as many at a time as there are cores. The seed
+# is 1, so that a failure in the tests is due to what has changed; 0 takes a random one. Inputs that fail are kept in
+# target/fuzz/artifacts, and `scripts/fuzz.sh TARGET FILE` runs one of them again. Needs a nightly compiler; without one
+# nothing is done, which is said.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -15,12 +16,17 @@ if ! rustc +nightly --version >/dev/null 2>&1; then
 fi
 
 seconds=60
+export seed=1
 targets=()
 file=
 while [ $# -gt 0 ]; do
     case $1 in
         --seconds)
             seconds=${2:?--seconds needs a number}
+            shift
+            ;;
+        --seed)
+            seed=${2:?--seed needs a number}
             shift
             ;;
         *) if [ -f "$1" ]; then file=$1; else targets+=("$1"); fi ;;
@@ -42,7 +48,7 @@ programs=$PWD/target/fuzz/$host/release
 fuzz() {
     local work=target/fuzz/corpus/$1 log=target/fuzz/$1.log
     mkdir -p "$work" target/fuzz/artifacts
-    if "$programs/$1" "$work" fuzz/corpus/"$1" -max_total_time="$2" -timeout=60 -rss_limit_mb=3000 -max_len=4096 \
+    if "$programs/$1" "$work" fuzz/corpus/"$1" -max_total_time="$2" -seed="$seed" -timeout=60 -rss_limit_mb=3000 -max_len=4096 \
         -artifact_prefix="target/fuzz/artifacts/$1-" >"$log" 2>&1; then
         printf '%-10s %s\n' "$1" "$(tail -n 1 "$log")"
     else
