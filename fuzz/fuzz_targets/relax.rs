@@ -55,6 +55,9 @@ fn options(input: &mut Input, patience: &Patience) -> azulejo_dcr_options {
         progress_user: patience.user(),
         method: i32::from(input.one_in(2)),
         reserved: 0,
+        visits: i32::from(input.one_in(2)),
+        convergence: i32::from(input.one_in(4)),
+        decay: if input.one_in(8) { input.number() } else { 1.0 },
     }
 }
 
