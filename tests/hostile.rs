@@ -27,6 +27,18 @@ fn the_covering_radius_of_a_corner_of_a_thin_domain() {
     }
 }
 
+/// Where doubles are 16 apart cells kept their centre, and were divided into all that memory holds.
+#[test]
+fn the_covering_radius_where_doubles_are_coarse() {
+    for boundary in [Boundary::Bounded, Boundary::Periodic] {
+        let domain = Domain { min: [0.0625, -8.766626110583603e16], max: [0.08578724, -8.7666261105836e16], boundary };
+        let points = [[0.08051123, -8.766626e16], [0.0625, -8.766626e16], [0.07068692, -8.766626e16]];
+        let context = Context::new(1).unwrap();
+        let found = covering_radius_2d(&context, &domain, &points).unwrap();
+        assert!(found <= domain.extent()[1] + 16.0, "{found} in {domain:?}");
+    }
+}
+
 /// Spade has a largest coordinate; a triangulation panicked beyond it.
 #[test]
 fn a_domain_that_is_a_line_for_all_floats_is_refused() {

@@ -140,7 +140,11 @@ impl Cell {
         let excess: [f64; 2] = std::array::from_fn(|axis| half[axis] * (2.0 * offset[axis] + half[axis]));
         let larger = excess[0].max(excess[1]);
         let count = excess.map(|excess| if 4.0 * excess >= larger { 2 } else { 1 });
-        let half: [f64; 2] = std::array::from_fn(|axis| half[axis] / f64::from(count[axis]));
+        // What floats at the cell's place cannot tell apart is not divided any further.
+        let half: [f64; 2] = std::array::from_fn(|axis| {
+            let part = half[axis] / f64::from(count[axis]);
+            if centre[axis] + part == centre[axis] { 0.0 } else { part }
+        });
         let along = move |axis: usize, part| centre[axis] + f64::from(2 * part + 1 - count[axis]) * half[axis];
         (0..count[1]).flat_map(move |row| {
             (0..count[0]).map(move |column| Cell { centre: [along(0, column), along(1, row)], half })
