@@ -97,6 +97,11 @@ impl Domain {
             }
         }
         let [width, height] = self.extent();
+        if width.min(height) < f64::from(f32::from_bits(1)) {
+            let reason =
+                format!("the domain is {width:e} by {height:e}; both sides are at least the smallest float, 2^-149");
+            return Err(Error::invalid("domain_max", reason));
+        }
         if width.max(height) > LARGEST_ASPECT * width.min(height) {
             let reason = format!("the domain is {width:e} by {height:e}; one side is at most 2^100 times the other");
             return Err(Error::invalid("domain_max", reason));
