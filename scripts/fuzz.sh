@@ -48,7 +48,7 @@ programs=$PWD/target/fuzz/$host/release
 fuzz() {
     local work=target/fuzz/corpus/$1 log=target/fuzz/$1.log
     mkdir -p "$work" target/fuzz/artifacts
-    if "$programs/$1" "$work" fuzz/corpus/"$1" -max_total_time="$2" -seed="$seed" -timeout=60 -rss_limit_mb=3000 -max_len=4096 \
+    if "$programs/$1" "$work" fuzz/corpus/"$1" -max_total_time="$2" -seed="$seed" -timeout=600 -rss_limit_mb=3000 -max_len=4096 \
         -artifact_prefix="target/fuzz/artifacts/$1-" >"$log" 2>&1; then
         printf '%-10s %s\n' "$1" "$(tail -n 1 "$log")"
     else

@@ -145,7 +145,7 @@ fn in_steps(
     azulejo_psp_free(Some(set));
 }
 
-/// A radius that is as the options say, or not.
+/// A radius that is as the options say: one that is steeper is refused where that is noticed, and takes long where not.
 unsafe extern "C-unwind" fn radius_at(user: *mut c_void, position: *const f64) -> f64 {
     // SAFETY: the options below lead here with these two.
     let (&[least, slope], &[x, _, _]) = unsafe { (&*user.cast::<[f64; 2]>(), &*position.cast::<[f64; 3]>()) };
@@ -163,7 +163,7 @@ fn adaptive(mesh: &azulejo_mesh, corners: &Corners, radius: f64, input: &mut Inp
         return; // too many samples
     }
     let slope = f64::from(input.any::<u8>()) / 256.0;
-    let mut user = [radius, if input.one_in(8) { 4.0 } else { slope }];
+    let mut user = [radius, slope];
     let by_vertex = input.one_in(2);
     let options = azulejo_adaptive_options {
         struct_size: size_of::<azulejo_adaptive_options>() as u32,
