@@ -385,10 +385,10 @@ mod tests {
         let narrow = refusal(1.00000001, 1.00000002, 0.1);
         assert_eq!(narrow, "domain_max: [0] is 1.00000002: no float lies between it and domain_min 1.00000001");
         assert!(refusal(1.0, 1.0, 0.1).starts_with("domain_max: [0] is 1, not above"));
-        // An area and a square of the radius that underflow are no estimate of infinitely many samples.
+        // Domains whose area underflows would be no estimate at all.
         assert!(matches!(
             lattice([0.0; 2], [1e-300; 2], Boundary::Bounded, 1e-200),
-            Err(Error::InvalidArgument { argument: "radius", .. })
+            Err(Error::InvalidArgument { argument: "domain_max", .. })
         ));
     }
 

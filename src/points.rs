@@ -11,6 +11,9 @@ pub enum Boundary {
     Bounded,
 }
 
+/// The sides of a domain are at least so long, far below the smallest float: its area must not be 0.
+const SHORTEST_SIDE: f64 = 1e-100;
+
 /// How many times as long as the other one side of a domain may be, 2^100: spade refuses larger coordinates than 2^201.
 const LARGEST_ASPECT: f64 = (1u128 << 100) as f64;
 
@@ -97,9 +100,8 @@ impl Domain {
             }
         }
         let [width, height] = self.extent();
-        if width.min(height) < f64::from(f32::from_bits(1)) {
-            let reason =
-                format!("the domain is {width:e} by {height:e}; both sides are at least the smallest float, 2^-149");
+        if width.min(height) < SHORTEST_SIDE {
+            let reason = format!("the domain is {width:e} by {height:e}; both sides are at least {SHORTEST_SIDE:e}");
             return Err(Error::invalid("domain_max", reason));
         }
         if width.max(height) > LARGEST_ASPECT * width.min(height) {

@@ -48,7 +48,7 @@ fn a_domain_that_is_a_line_for_all_floats_is_refused() {
         let refused = triangle_statistics(&context, &domain, &[[0.0, 0.5]]);
         assert!(matches!(refused, Err(Error::InvalidArgument { argument: "domain_max", .. })));
     }
-    // Nor has such a domain an area.
+    // Nor may the area be 0.
     let domain = Domain { min: [0.0; 2], max: [1e-200; 2], boundary: Boundary::Bounded };
     let refused = triangle_statistics(&context, &domain, &[[0.0; 2]; 3]);
     assert!(matches!(refused, Err(Error::InvalidArgument { argument: "domain_max", .. })));
