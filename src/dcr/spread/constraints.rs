@@ -11,7 +11,7 @@ use glam::Vec2;
 pub(super) const STRONGEST_PULL: f32 = 1.0;
 
 /// The steps over which constraints grow stiffer.
-const STIFFENING: u32 = 60;
+pub(in crate::dcr) const STIFFENING: u32 = 60;
 
 /// The constraints and how stiff they are, in spacings.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -7,27 +7,17 @@ use super::sheet::Sheet;
 use super::view::View;
 use super::walk::{Flat, Place, walk};
 use crate::dcr::motion::{Motion, Space};
-use crate::dcr::spread::constraints::{Constraints, Force};
+use crate::dcr::spread::constraints::{Constraints, Force, STIFFENING};
+use crate::dcr::spread::gather::ROOM;
+use crate::dcr::spread::{MOMENTUM, STEP};
 use crate::error::Result;
 use crate::job::{Chunks, Job, chunks_of};
-
-/// The share of its way that a sample makes again in the next step.
-const MOMENTUM: f32 = 0.78;
-
-/// How far samples may move in the room that they have.
-const ROOM: f32 = 0.45;
-
-/// The steps over which constraints grow stiffer.
-const STIFFENING: u32 = 60;
 
 /// How far samples may go in a step, in spacings, ...
 const STRIDE: f32 = 0.4;
 /// ... and by which factor that falls from step to step when constraints no longer grow stiffer. Where the surface is bent
 /// more than the samples are dense, what two of them do to each other is not opposite, and they would never come to rest.
 const CALMING: f32 = 0.9;
-
-/// The step size by which motion is measured: a span is 10 steps.
-const STEP: f64 = 0.2;
 
 /// Neighbours are looked for up to this distance, in spacings ...
 const REACH: f64 = 1.7;
@@ -138,7 +128,7 @@ impl<'a> Set<'a> {
 
     /// Where every sample gets, and how fast.
     fn gather(&self, job: &Job, chunks: Chunks) -> Result<Vec<Moved>> {
-        let constraints = self.constraints();
+        let constraints = Constraints::of_step(self.iterations);
         job.concat(chunks.len(), |chunk| {
             let mut view = View::default();
             chunks.range(chunk).map(|sample| self.moved(&constraints, sample, &mut view)).collect()
@@ -160,13 +150,6 @@ impl<'a> Set<'a> {
     /// How far samples may go in this step, in spacings.
     fn stride(&self) -> f32 {
         STRIDE * CALMING.powi(self.iterations.saturating_sub(STIFFENING) as i32)
-    }
-
-    /// The constraints of this step.
-    fn constraints(&self) -> Constraints {
-        let stiff = self.iterations.min(STIFFENING) as f32 / STIFFENING as f32;
-        let (push, pull) = (0.1 + 0.3 * stiff, 0.1 + 0.1 * stiff);
-        Constraints { conflict_radius: 0.862, coverage_radius: 0.66, push, pull }
     }
 }
 

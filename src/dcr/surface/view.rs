@@ -7,9 +7,7 @@ use super::sheet::Sheet;
 use super::star::Near;
 use super::walk::Flat;
 use crate::dcr::spread::constraints::{Constraints, Force};
-
-/// The room, in spacings, of samples whose neighbours do not surround them.
-const WIDE: f32 = 1.0;
+use crate::dcr::spread::gather::WIDE;
 
 /// The view of one sample after the other.
 #[derive(Default)]
