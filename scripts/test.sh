@@ -19,7 +19,7 @@ for argument; do
     esac
 done
 
-stage() { printf '\n== %s (after %d s)\n' "$*" "$SECONDS"; }
+stage() { printf '\n== %s (after %d s, %s free)\n' "$*" "$SECONDS" "$(df -h --output=avail . | tr -d ' \n' | sed 's/^Avail//')"; }
 
 stage "What is missing"
 scripts/setup.sh --tests
