@@ -31,7 +31,7 @@ cache_of() { # SOURCE RELEASE
 # NAME=value for each of these variables that is set: what sudo and the root are told of the environment.
 settings() {
     local name
-    for name in TERM http_proxy https_proxy CARGO_BUILD_JOBS CARGO_INCREMENTAL RUST_BACKTRACE "$@"; do
+    for name in TERM http_proxy https_proxy CARGO_BUILD_JOBS CARGO_INCREMENTAL PROPTEST_RNG_SEED RUST_BACKTRACE "$@"; do
         [ -z "${!name:-}" ] || printf '%s=%s\n' "$name" "${!name}"
     done
 }
