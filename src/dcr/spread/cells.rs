@@ -19,19 +19,31 @@ use crate::job::{Job, chunks};
 const SKIN: f32 = 0.25;
 
 /// So many places at a time.
-const LANES: usize = 8;
+pub(super) const LANES: usize = 8;
+
+/// What the square of a distance is at least, so that that of a point from itself has a finite inverse.
+pub(super) const LEAST: f32 = f32::MIN_POSITIVE;
+
+/// How many cells beside its own the forces on a point can reach along a row.
+const NEAR: usize = 3;
 
 /// A torus cut into cells.
+///
+/// Rows are so high that forces on a point in the upper half of one come from it and the next only, or else from the one
+/// below: two runs of cells hold all neighbours. Behind either end of a row the cells of its other end stand once more, so
+/// that no run is cut.
 pub(super) struct Cells {
     torus: Torus,
-    /// Columns and rows.
-    counts: [usize; 2],
+    rows: usize,
+    /// Cells from one row to the next, and those of a run.
+    stride: usize,
+    width: usize,
     /// How far the forces reach, in spacings.
     reach: f32,
     /// How far a point may have gone since it was given its cell.
     travelled: f32,
-    /// The cell of each point.
-    cells: Vec<u32>,
+    /// The first cell of the run around each point, doubled, and 1 more in the upper half of a row.
+    runs: Vec<u32>,
     /// Cell `c` holds the points `points[starts[c]..starts[c + 1]]`.
     starts: Vec<u32>,
     points: Vec<u32>,
@@ -43,26 +55,42 @@ pub(super) struct Cells {
 impl Cells {
     /// Sorts places into cells for forces that reach so far, in spacings. Takes O(n).
     pub(super) fn new(torus: &Torus, places: &[Place], reach: f32) -> Self {
+        let (size, width) = (torus.frame.size(), f64::from(reach + SKIN));
         // A strip that is thinner than the distance of its points has no more cells than points.
         let limit = (places.len() + 8) as f64;
-        let count = |length: f64| (length / f64::from(reach + SKIN)).floor().clamp(1.0, limit) as usize;
-        let counts = torus.frame.size().to_array().map(count);
-        let cell = |place: &Place| (along(counts, 1, place[1]) * counts[0] + along(counts, 0, place[0])) as u32;
-        let cells: Vec<u32> = places.iter().map(cell).collect();
-        let mut starts = vec![0; counts[0] * counts[1] + 2];
-        // Counted two cells on and begun one cell on, the starts are what they shall be when all points have their slots.
-        cells.iter().for_each(|&cell| starts[cell as usize + 2] += 1);
-        for cell in 2..starts.len() {
+        let count = |length: f64, width: f64| (length / width).floor().clamp(1.0, limit) as usize;
+        let rows = count(size.y, 2.0 * width);
+        let (columns, near) = match count(size.x, width / NEAR as f64) {
+            columns if columns > 2 * NEAR => (columns, NEAR),
+            _ => (1, 0),
+        };
+        let stride = columns + 2 * near;
+        let run = |&[x, y]: &Place| {
+            let half = along(2 * rows, y);
+            (2 * (half / 2 * stride + along(columns, x)) + half % 2) as u32
+        };
+        let runs: Vec<u32> = places.iter().map(run).collect();
+        // The cells at the ends of rows, and where they stand once more.
+        let twins = (0..rows).map(|row| row * stride);
+        let twins = twins.flat_map(|row| [(row + columns, row), (row + near, row + near + columns)]);
+        let mut starts = vec![0; rows * stride + 1];
+        let cell = |run: u32| run as usize / 2 + near;
+        runs.iter().for_each(|&run| starts[cell(run) + 1] += 1);
+        twins.clone().for_each(|(from, to)| starts.copy_within(from + 1..from + 1 + near, to + 1));
+        for cell in 1..starts.len() {
             starts[cell] += starts[cell - 1];
         }
-        let mut points = vec![0; places.len()];
-        for (point, &cell) in (0..).zip(&cells) {
-            let next = &mut starts[cell as usize + 1];
-            points[*next as usize] = point;
-            *next += 1;
+        let (mut points, mut slots) = (vec![0; starts[rows * stride] as usize], starts.clone());
+        for (point, &run) in (0..).zip(&runs) {
+            let slot = &mut slots[cell(run)];
+            points[*slot as usize] = point;
+            *slot += 1;
         }
-        let [x, y] = [0, 1].map(|_| vec![0; places.len() + LANES]);
-        Self { torus: *torus, counts, reach, travelled: 0.0, cells, starts, points, x, y }
+        for (from, to) in twins {
+            points.copy_within(starts[from] as usize..starts[from + near] as usize, starts[to] as usize);
+        }
+        let [x, y] = [0, 1].map(|_| vec![0; points.len() + LANES]);
+        Self { torus: *torus, rows, stride, width: 2 * near + 1, reach, travelled: 0.0, runs, starts, points, x, y }
     }
 
     /// Whether forces that reach so far are still found after points have gone so far since the last step.
@@ -84,70 +112,64 @@ impl Cells {
         Ok(())
     }
 
-    /// The columns or rows next to one, each once, as ranges.
-    fn near(&self, axis: usize, index: usize) -> [Range<usize>; 2] {
-        let count = self.counts[axis];
-        match index {
-            _ if count <= 3 => [0..count, 0..0],
-            0 => [0..2, count - 1..count],
-            _ if index + 1 == count => [index - 1..count, 0..1],
-            _ => [index - 1..index + 2, 0..0],
-        }
+    /// The points that may be in reach of a point, as ranges.
+    #[inline(always)]
+    pub(super) fn around(&self, point: usize) -> [Range<usize>; 2] {
+        let (first, half) = (self.runs[point] as usize / 2, self.runs[point] % 2);
+        let all = self.rows * self.stride;
+        let run = |first: usize| self.starts[first] as usize..self.starts[first + self.width] as usize;
+        let other = match half {
+            _ if self.rows == 1 => return [run(first), 0..0],
+            0 if first < self.stride => first + all - self.stride,
+            0 => first - self.stride,
+            _ if first + self.stride >= all => first + self.stride - all,
+            _ => first + self.stride,
+        };
+        [run(first), run(other)]
     }
 
-    /// The forces on a range of points by all that conflict with them.
+    /// Eight places from one on: `x` and `y`.
     #[inline(always)]
-    pub(super) fn forces_portable(
-        &self,
-        places: &[Place],
-        constraints: &Constraints,
-        points: Range<usize>,
-        forces: &mut Vec<Vec2>,
-    ) {
-        for point in points {
-            let mut sum = [[0.0; LANES]; 2];
-            let (row, column) =
-                (self.cells[point] as usize / self.counts[0], self.cells[point] as usize % self.counts[0]);
-            let columns = self.near(0, column);
-            for row in self.near(1, row).into_iter().flatten() {
-                for columns in columns.iter().filter(|columns| !columns.is_empty()) {
-                    let start = |column| self.starts[row * self.counts[0] + column] as usize;
-                    self.add(&mut sum, places[point], constraints, start(columns.start)..start(columns.end));
+    pub(super) fn lanes(&self, first: usize) -> [&[u32; LANES]; 2] {
+        [&self.x, &self.y].map(|all| all[first..first + LANES].try_into().expect("eight of them"))
+    }
+
+    /// The lengths of 2^-32 of the periods.
+    #[inline(always)]
+    pub(super) fn unit(&self) -> Vec2 {
+        self.torus.unit_and_longest().0
+    }
+
+    /// The force on a point by all that conflict with it, of those around.
+    pub(super) fn force(&self, here: Place, constraints: &Constraints, around: [Range<usize>; 2]) -> Vec2 {
+        let &Constraints { conflict_radius, push, .. } = constraints;
+        let unit = self.unit();
+        let mut sum = [[0.0; LANES]; 2];
+        for run in around {
+            for first in run.clone().step_by(LANES) {
+                let [xs, ys] = self.lanes(first);
+                for i in 0..LANES.min(run.end - first) {
+                    let x = xs[i].wrapping_sub(here[0]).cast_signed() as f32 * unit.x;
+                    let y = ys[i].wrapping_sub(here[1]).cast_signed() as f32 * unit.y;
+                    let distance = (x * x + y * y).max(LEAST).sqrt();
+                    // Without conflict it is 0; and so is the way of a point to itself.
+                    let pushed = push * (conflict_radius.recip() - distance.recip()).min(0.0);
+                    sum[0][i] += pushed * x;
+                    sum[1][i] += pushed * y;
                 }
             }
-            let [x, y] = sum.map(|lanes| {
-                let halves: [f32; 4] = from_fn(|i| lanes[i] + lanes[i + 4]);
-                (halves[0] + halves[2]) + (halves[1] + halves[3])
-            });
-            forces.push(Vec2::new(x, y));
         }
-    }
-
-    /// Adds the pushes by a run of places.
-    #[inline(always)]
-    fn add(&self, sum: &mut [[f32; LANES]; 2], here: Place, constraints: &Constraints, run: Range<usize>) {
-        let &Constraints { conflict_radius, push, .. } = constraints;
-        let unit = self.torus.unit_and_longest().0;
-        for first in run.clone().step_by(LANES) {
-            let count = (run.end - first) as u32;
-            let (xs, ys) = (&self.x[first..first + LANES], &self.y[first..first + LANES]);
-            for i in 0..LANES {
-                let x = xs[i].wrapping_sub(here[0]).cast_signed() as f32 * unit.x;
-                let y = ys[i].wrapping_sub(here[1]).cast_signed() as f32 * unit.y;
-                let squared = x * x + y * y;
-                let distance = squared.sqrt();
-                let is = ((i as u32) < count) & (squared < conflict_radius * conflict_radius) & (squared != 0.0);
-                let pushed = if is { push * (conflict_radius.recip() - distance.recip()) } else { 0.0 };
-                sum[0][i] += pushed * x;
-                sum[1][i] += pushed * y;
-            }
-        }
+        let [x, y] = sum.map(|lanes| {
+            let halves: [f32; 4] = from_fn(|i| lanes[i] + lanes[i + 4]);
+            (halves[0] + halves[2]) + (halves[1] + halves[3])
+        });
+        Vec2::new(x, y)
     }
 }
 
 /// The column or row of a coordinate.
-fn along(counts: [usize; 2], axis: usize, coordinate: u32) -> usize {
-    ((u64::from(coordinate) * counts[axis] as u64) >> 32) as usize
+fn along(count: usize, coordinate: u32) -> usize {
+    ((u64::from(coordinate) * count as u64) >> 32) as usize
 }
 
 #[cfg(test)]

@@ -1,5 +1,5 @@
-//! [`Mesh::feel_portable`] and [`Cells::forces_portable`] once more for each kind of vectors, the same to the bit: compiled for
-//! them, so that their loops over lanes use them.
+//! Forces in each kind of vectors, the same to the bit: [`Mesh::feel_portable`] once more, compiled for them, so that its loops
+//! over lanes use them; [`Cells::force`], of which the compiler makes no good vectors, written in them.
 
 use std::ops::Range;
 
@@ -11,6 +11,9 @@ use super::mesh::Mesh;
 use super::stars::Visit;
 use super::torus::Place;
 use crate::maximal::Vectors;
+
+#[cfg(target_arch = "x86_64")]
+mod avx2;
 
 impl Mesh {
     /// Tells `visit` what each of a range of points feels.
@@ -52,14 +55,18 @@ impl Cells {
             // SAFETY: the variants say that the processor has the vectors.
             #[cfg(target_arch = "x86_64")]
             Vectors::Avx2 | Vectors::Avx512 => unsafe { self.forces_avx2(places, constraints, points, forces) },
-            Vectors::Portable => self.forces_portable(places, constraints, points, forces),
+            Vectors::Portable => {
+                let force = |point| self.force(places[point], constraints, self.around(point));
+                forces.extend(points.map(force));
+            }
         }
     }
 
-    /// The portable code, compiled for AVX2.
     #[cfg(target_arch = "x86_64")]
     #[target_feature(enable = "avx2,popcnt,bmi1,bmi2")]
     fn forces_avx2(&self, places: &[Place], constraints: &Constraints, points: Range<usize>, forces: &mut Vec<Vec2>) {
-        self.forces_portable(places, constraints, points, forces);
+        for point in points {
+            forces.push(avx2::force(self, places[point], constraints, self.around(point)));
+        }
     }
 }
