@@ -36,16 +36,16 @@ pub struct Quality {
 impl Quality {
     /// The figures of a set, of which the covering radius `cover` is known.
     pub fn of(context: &Context, domain: &Domain, points: &[[f32; 2]], cover: f64) -> Result<Self> {
-        let spacing = spacing_2d(domain, &nearest_distances_2d(context, domain, points)?);
+        let spacing = spacing_2d(domain, &nearest_distances_2d(context, domain, points, None)?);
         let spectrum = spectrum_up_to(context, domain, points, points.len(), LOW, GRID)?;
         // The first annulus holds all frequencies below its width but 0; small sets have none.
         let low = spectrum.radial(LOW)?.into_iter().find(|annulus| annulus.frequency < LOW);
-        let triangles = triangle_statistics(context, domain, points)?;
+        let triangles = triangle_statistics(context, domain, points, None)?;
         Ok(Self {
             rho: spacing.smallest / spacing.hexagonal,
             mean_distance: spacing.mean / spacing.hexagonal,
             cover,
-            order: bond_order(context, domain, points)?,
+            order: bond_order(context, domain, points, None)?,
             low_power: low.map_or(f64::NAN, |annulus| annulus.power),
             obtuse: triangles.obtuse,
             sharp: triangles.below_30_degrees,

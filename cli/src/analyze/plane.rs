@@ -131,8 +131,8 @@ impl One {
             return Err(Error::Format { path: set.path.clone(), reason });
         }
         let unit = domain.hexagonal_distance(points.len());
-        let distances = nearest_distances_2d(context, domain, &points)?;
-        let covering = covering_radius_2d(context, domain, &points)?;
+        let distances = nearest_distances_2d(context, domain, &points, None)?;
+        let covering = covering_radius_2d(context, domain, &points, None)?;
         progress(0.2);
         let spectrum = spectrum_up_to(context, domain, &points, count, FREQUENCY_REACH, GRID)?;
         progress(0.4);
@@ -154,7 +154,7 @@ impl One {
             spectrum.contrast(ANNULUS, CONTRAST_RANGE)?,
         ];
         if let Some(radius) = radius {
-            let gaps = coverage_2d(context, domain, &points, radius * (1.0 + SHALLOW))?.gaps;
+            let gaps = coverage_2d(context, domain, &points, radius * (1.0 + SHALLOW), None)?.gaps;
             figures.extend([smallest / radius, covering / radius, gaps as f64]);
         }
         // Larger distances than half the domain are not all there.

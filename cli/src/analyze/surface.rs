@@ -73,12 +73,12 @@ impl Measured {
 
 fn measure(context: &Context, mesh: &Mesh, set: &Set, radius: Option<f64>) -> Result<Vec<f64>> {
     let positions = &set.points.positions;
-    let smallest = smallest_distance_3d(context, positions)?;
-    let covering = surface_covering_radius(context, mesh, positions)?;
+    let smallest = smallest_distance_3d(context, positions, None)?;
+    let covering = surface_covering_radius(context, mesh, positions, None)?;
     let maximal = (MAXIMAL_DENSITY * mesh.area() / positions.len() as f64).sqrt();
     let mut figures = vec![positions.len() as f64, smallest, smallest / maximal, covering, covering / maximal];
     if let Some(radius) = radius {
-        let gaps = match surface_coverage(context, mesh, positions, radius * (1.0 + SHALLOW)) {
+        let gaps = match surface_coverage(context, mesh, positions, radius * (1.0 + SHALLOW), None) {
             Ok(coverage) => coverage.gaps as f64,
             // Where nearly nothing is covered nobody counts gaps.
             Err(Error::TooLarge { .. }) => f64::NAN,

@@ -46,7 +46,7 @@ impl Measured {
         let (mut first, mut first_plate) = (Vec::new(), Vec::new());
         for seed in 0..sets {
             let points = sampler.sample(context, effort.side, seed)?;
-            let cover = covering_radius_2d(context, &domain, &points)? / domain.hexagonal_distance(points.len());
+            let cover = covering_radius_2d(context, &domain, &points, None)? / domain.hexagonal_distance(points.len());
             quality.push(Quality::of(context, &domain, &points, cover)?);
             near.push(spectrum_up_to(context, &domain, &points, count, FREQUENCY_LIMIT + ANNULUS, GRID)?);
             far.push(spectrum_up_to(context, &domain, &points, count, FREQUENCY_REACH, GRID)?);
