@@ -49,8 +49,9 @@ pub fn figures_2d(
 
 fn order_and_triangles(job: &Job, domain: &Domain, points: &[[f32; 2]]) -> Result<(f64, TriangleStatistics)> {
     let frame = Frame::new(*domain, points.len());
-    let delaunay = Delaunay::new(&job.part(0.0, 0.7), &frame, frame.enter(points).into_iter())?;
+    let positions = frame.enter(points);
+    let delaunay = Delaunay::new(&job.part(0.0, 0.7), &frame, positions.iter().copied())?;
     let order = mean_order(&job.part(0.7, 0.8), &delaunay)?;
-    let triangles = triangles_of(&job.part(0.8, 0.9), domain, &frame, &delaunay)?;
+    let triangles = triangles_of(&job.part(0.8, 0.9), domain, &frame, &positions, &delaunay)?;
     Ok((order, TriangleStatistics::shared(&job.part(0.9, 1.0), &triangles)?))
 }

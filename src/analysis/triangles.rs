@@ -79,31 +79,40 @@ fn triangulate(job: &Job, domain: &Domain, points: &[[f32; 2]]) -> Result<Vec<Tr
         return Ok(Vec::new());
     }
     let frame = Frame::new(*domain, points.len());
-    let delaunay = Delaunay::new(&job.part(0.0, 0.9), &frame, frame.enter(points).into_iter())?;
-    triangles_of(&job.part(0.9, 1.0), domain, &frame, &delaunay)
+    let positions = frame.enter(points);
+    let delaunay = Delaunay::new(&job.part(0.0, 0.9), &frame, positions.iter().copied())?;
+    triangles_of(&job.part(0.9, 1.0), domain, &frame, &positions, &delaunay)
 }
 
-/// The triangles of a triangulation, each once.
-pub(super) fn triangles_of(job: &Job, domain: &Domain, frame: &Frame, delaunay: &Delaunay) -> Result<Vec<Triangle>> {
+/// The triangles of the triangulation of some positions, each once.
+pub(super) fn triangles_of(
+    job: &Job,
+    domain: &Domain,
+    frame: &Frame,
+    positions: &[DVec2],
+    delaunay: &Delaunay,
+) -> Result<Vec<Triangle>> {
+    // By the point that a corner is a copy of, and then by its own place, which orders the images of a point in the same
+    // way on every side. Not by numbers: coincident points are one corner, which has the number of any of them.
+    let key = |site: &Site| {
+        let (of, at) = (positions[site.source as usize], site.position);
+        [of.x, of.y, at.x, at.y]
+    };
+    let order = |a: &&Site, b: &&Site| key(a).partial_cmp(&key(b)).expect("sites are finite");
+    // On a torus that of a triangle's images counts whose first corner is a point of the domain, and there.
+    let is_counted = |point: usize, corners: &[Site; 3]| {
+        let first = corners.iter().min_by(order);
+        first.is_some_and(|site| site.is_original() && site.source as usize == point)
+            && (domain.boundary == Boundary::Periodic || corners.iter().all(Site::is_original))
+    };
     let place = |corner: Site| (DVec2::from_array(domain.min) + corner.position * frame.spacing()).to_array();
     let chunks = chunks(delaunay.len());
     job.concat(chunks.len(), |chunk| {
-        let counted = chunks.range(chunk).flat_map(|point| {
-            delaunay.triangles_at(point).filter(move |corners| is_counted(domain.boundary, point, corners))
-        });
+        let counted = chunks
+            .range(chunk)
+            .flat_map(|point| delaunay.triangles_at(point).filter(move |corners| is_counted(point, corners)));
         counted.map(|corners| Triangle { corners: corners.map(place) }).collect()
     })
-}
-
-/// Whether a triangle counts, of its images and of its corners, at this point: where its first corner is a point of the
-/// domain, first by its number and then by its place, which orders the images of a point in the same way on every side.
-fn is_counted(boundary: Boundary, point: usize, corners: &[Site; 3]) -> bool {
-    let order = |a: &&Site, b: &&Site| {
-        let by_place = a.position.x.total_cmp(&b.position.x).then(a.position.y.total_cmp(&b.position.y));
-        a.source.cmp(&b.source).then(by_place)
-    };
-    let is_first = corners.iter().min_by(order).is_some_and(|site| site.is_original() && site.source as usize == point);
-    is_first && (boundary == Boundary::Periodic || corners.iter().all(Site::is_original))
 }
 
 /// What the triangles of a set are like, as [`delaunay_triangles`] gives them. Shares and variations of nothing are 0.

@@ -187,8 +187,8 @@ pub unsafe extern "C" fn azulejo_plane_coverage(
 /// Found exactly, by subdividing the triangles: O((count + triangles) log count) time for samples that are spread evenly,
 /// and about 100 pieces for each square of the radius that is uncovered.
 ///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, and AZULEJO_ERROR_TOO_LARGE where more than about 600,000 times the square of the
-/// radius is uncovered.
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_CANCELLED, and AZULEJO_ERROR_TOO_LARGE where more than about 600,000
+/// times the square of the radius is uncovered.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_mesh_coverage(
     context: Option<&azulejo_context>,

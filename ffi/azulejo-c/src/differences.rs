@@ -60,7 +60,7 @@ impl From<Differences> for azulejo_differences {
 ///
 /// O(count) time for samples that are spread evenly, about 600 pairs for each.
 ///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_CANCELLED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_differences_create(
     context: Option<&azulejo_context>,

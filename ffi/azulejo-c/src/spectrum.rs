@@ -80,7 +80,7 @@ pub struct azulejo_spectrum_report {
 ///
 /// O(count + size^2 log size) time, and about 40 bytes of memory for each point and each frequency while it runs.
 ///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_CANCELLED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_spectrum_create(
     context: Option<&azulejo_context>,

@@ -14,8 +14,9 @@ use crate::points::check_radius;
 
 /// Triangles are cut before work on them is shared, until none has more than this share of the area.
 const SHARE: f64 = 1.0 / 2048.0;
-/// The fragments of one task.
+/// The fragments of one task, and of one that gathers what of them is uncovered, which may be much.
 const TASK: usize = 64;
+const GATHERED: usize = 8;
 
 /// Uncovered places within this share of the radius are of one gap; fragments are cut until none is half as long.
 const LINK: f64 = 0.5;
@@ -86,17 +87,18 @@ pub fn surface_coverage(
 
 /// A place of each uncovered part of the fragments that is small enough to be of one gap.
 fn gather(job: &Job, tree: &Tree, fragments: &[Fragment], radius: f64) -> Result<Vec<[f32; 3]>> {
+    let tasks = chunks_of(fragments.len(), GATHERED);
     let mut uncovered = Vec::new();
-    let task = |fragment: usize| {
+    let task = |task: usize| {
         let mut found = Vec::new();
-        fragments[fragment].gather(tree, radius, &mut found)?;
+        fragments[tasks.range(task)].iter().try_for_each(|fragment| fragment.gather(tree, radius, &mut found))?;
         Ok(found)
     };
     let keep = |found: Result<Vec<[f32; 3]>>| {
         uncovered.extend(found?);
         check_count(uncovered.len())
     };
-    job.stream(fragments.len(), task, keep)?;
+    job.stream(tasks.len(), task, keep)?;
     Ok(uncovered)
 }
 
