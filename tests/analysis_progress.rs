@@ -103,6 +103,19 @@ fn calls_of_surfaces_are_watched_and_cancelled() {
     check("differences", 5, &|c, p| surface_differences(c, mesh, positions, normals, east, 1, p));
 }
 
+#[test]
+fn probes_without_end_take_no_memory_and_can_be_cancelled() {
+    let (positions, triangles) = meshes::torus();
+    let mesh = Mesh::new(positions, triangles).unwrap();
+    for threads in [1, 3] {
+        let context = Context::new(threads).unwrap();
+        let call = |_: &Context, progress: Option<&Progress>| {
+            surface_uncovered_fraction(&context, &mesh, mesh.positions(), 0.1, u64::MAX, 1, progress)
+        };
+        stops_at("probes", 20, &context, &call);
+    }
+}
+
 /// What several calls find is what each finds alone.
 #[test]
 fn figures_are_those_of_the_calls_that_find_one() {

@@ -237,10 +237,44 @@ impl Links for Delaunay {
 
 #[cfg(test)]
 mod tests {
+    use std::cell::Cell;
+    use std::ops::ControlFlow;
+
     use super::*;
+    use crate::error::Error;
     use crate::job::Context;
     use crate::points::Domain;
     use crate::rng::{Draw, Rng};
+
+    /// Sites in a square and in a small part of it, some of them twice.
+    #[test]
+    fn point_by_point_gives_what_all_at_once_does() {
+        let mut rng = Rng::at(2, Draw::Probe, &[]);
+        let mut site = |source: u32| {
+            let size = if source % 2 == 0 { 1.0 } else { 1e-3 };
+            Site { position: size * DVec2::new(rng.unit(), rng.unit()), source, side: [0, 0] }
+        };
+        let mut sites: Vec<_> = (0..SILENT as u32).map(&mut site).collect();
+        sites.extend_from_within(..100);
+        let all_at_once = DelaunayTriangulation::<Site>::bulk_load(sites.clone()).unwrap();
+        let stopped = Cell::new(0);
+        let stop = |_| {
+            stopped.set(stopped.get() + 1);
+            if stopped.get() == 20 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        };
+        let context = Context::new(1).unwrap();
+        let cancelled = context.run(Some(&stop), |job| triangulate(job, sites.clone()));
+        assert!(matches!(cancelled, Err(Error::Cancelled)));
+        let one_by_one = context.run(None, |job| triangulate(job, sites)).unwrap();
+        let triangles = |of: &DelaunayTriangulation<Site>| {
+            let corner = |vertex: VertexHandle<Site>| vertex.data().position.to_array().map(f64::to_bits);
+            let mut triangles: Vec<_> = of.inner_faces().map(|face| face.vertices().map(corner)).collect();
+            triangles.iter_mut().for_each(|corners| corners.sort_unstable());
+            triangles.sort_unstable();
+            triangles
+        };
+        assert!(triangles(&one_by_one) == triangles(&all_at_once));
+    }
 
     /// Sets that are easy, clustered, thin, and so small that a point is a neighbour of its own copies.
     fn cases(boundary: Boundary) -> Vec<(Frame, Vec<DVec2>)> {

@@ -137,6 +137,8 @@ pub unsafe extern "C" fn azulejo_plane_nearest_histogram(
         // SAFETY: handed on from the caller.
         let set = unsafe { PlaneSet::read(context, xy, count, [domain_min, domain_max], boundary) }?;
         let histogram = set.run(|context, domain, points, progress| {
+            // Bad bins are refused before any work.
+            nearest_histogram_2d(domain, &[], reach, bins)?;
             let nearest = nearest_distances_2d(context, domain, points, progress)?;
             nearest_histogram_2d(domain, &nearest, reach, bins)
         })?;
