@@ -42,8 +42,8 @@ fn row(context: &Context, count: usize, seed: u64, way: &str, make: impl Fn() ->
     let seconds = start.elapsed().as_secs_f64();
     assert_eq!(samples.len(), count);
     let distance = DOMAIN.hexagonal_distance(count);
-    let rho = smallest_distance_2d(context, &DOMAIN, &samples).expect("samples of the domain") / distance;
-    let cover = covering_radius_2d(context, &DOMAIN, &samples).expect("samples of the domain") / distance;
+    let rho = smallest_distance_2d(context, &DOMAIN, &samples, None).expect("samples of the domain") / distance;
+    let cover = covering_radius_2d(context, &DOMAIN, &samples, None).expect("samples of the domain") / distance;
     println!("{count:>9} {seed:>5} {way:>12} {rho:>8.4} {cover:>8.4} {:>9.4} {seconds:>8.3}", cover / rho);
 }
 

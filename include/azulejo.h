@@ -27,10 +27,11 @@
  *   know is zero. A struct with a non-zero tail, an unknown constant or a flag other than 0 and 1 is refused. Reports
  *   are written by the library and need no preparation; they never grow, their reserved fields are zero.
  *
- * Progress. The callback in the options is called on the thread that makes the call, with the finished share, which
- *   never falls, from 0 to 1 (the 1 comes if the call succeeds). Any return value but 0 cancels the call, which then
- *   returns AZULEJO_ERROR_CANCELLED; only azulejo_dcr_relax, azulejo_dcr_relax_density and azulejo_dcr_relax_surface return
- *   what they have, as their reports say. The callback may call the library, also with the same context. It must return:
+ * Progress. The callback in the options, or without one that of the context (azulejo_context_watch), is called on the thread
+ *   that makes the call, with the finished share, which never falls, from 0 to 1 (the 1 comes if the call succeeds). Any
+ *   return value but 0 cancels the call, which then returns AZULEJO_ERROR_CANCELLED; only azulejo_dcr_relax,
+ *   azulejo_dcr_relax_density and azulejo_dcr_relax_surface return what they have, as their reports say. Only
+ *   azulejo_dcr_scatter, calls that take no context, and the making of a psp handle tell nobody. The callback may call the library, also with the same context. It must return:
  *   an exception that leaves it ends the process, a longjmp is undefined. The same holds for the callback of
  *   azulejo_kdrt_stream. Only an azulejo_radius_fn and an azulejo_density_fn are called on other threads, and several at
  *   once.
@@ -231,7 +232,7 @@ typedef int32_t azulejo_status;
 
 /// Called now and then during a long call, on the thread that made it. See "Progress" in the conventions.
 ///
-/// user: the progress_user of the options.
+/// user: the progress_user of the options or of azulejo_context_watch.
 ///
 /// done: the finished share of the call, from 0 to 1; it never falls.
 ///
@@ -755,6 +756,21 @@ uint32_t azulejo_version(void);
 /// out: the context, to be freed with azulejo_context_free.
 azulejo_status azulejo_context_create(uint32_t num_threads,
                                       struct azulejo_context **out);
+
+/// Makes a context that has the threads of another one and a progress callback: it is told of each call that is made with
+/// this context, or with a psp handle made with it, and whose options have no callback of their own. So calls without
+/// options, as those of the analysis, can be watched and cancelled.
+///
+/// context: the other one, which may be freed before. A callback that it has is not taken over.
+///
+/// progress, progress_user: the callback, or NULL for none, and what it is handed. See "Progress" in the conventions. When
+/// several threads use the context, each calls it.
+///
+/// out: the context, to be freed with azulejo_context_free. No thread is made.
+azulejo_status azulejo_context_watch(const struct azulejo_context *context,
+                                     azulejo_progress_fn progress,
+                                     void *progress_user,
+                                     struct azulejo_context **out);
 
 /// The number of threads that work on a call; 0 for NULL.
 uint32_t azulejo_context_num_threads(const struct azulejo_context *context);
@@ -1374,7 +1390,7 @@ azulejo_status azulejo_plane_coverage(const struct azulejo_context *context,
 /// Found exactly, by subdividing the triangles: O((count + triangles) log count) time for samples that are spread evenly,
 /// and about 100 pieces for each square of the radius that is uncovered.
 ///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, and AZULEJO_ERROR_TOO_LARGE where more than about 600,000 times the square of the
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_CANCELLED, and AZULEJO_ERROR_TOO_LARGE where more than about 600,000 times the square of the
 /// radius is uncovered.
 azulejo_status azulejo_mesh_coverage(const struct azulejo_context *context,
                                      const struct azulejo_mesh *mesh,
@@ -1473,7 +1489,7 @@ azulejo_status azulejo_plane_radial_distribution(const struct azulejo_context *c
 ///
 /// O(count + size^2 log size) time, and about 40 bytes of memory for each point and each frequency while it runs.
 ///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_CANCELLED.
 azulejo_status azulejo_spectrum_create(const struct azulejo_context *context,
                                        const float *xy,
                                        size_t count,
@@ -1552,7 +1568,7 @@ void azulejo_spectrum_free(struct azulejo_spectrum *spectrum);
 ///
 /// O(count) time for samples that are spread evenly, about 600 pairs for each.
 ///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_CANCELLED.
 azulejo_status azulejo_differences_create(const struct azulejo_context *context,
                                           const struct azulejo_mesh *mesh,
                                           const float *positions,

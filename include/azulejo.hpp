@@ -189,6 +189,13 @@ public:
         options.progress_user = this;
     }
 
+    /// A context with the same threads that tells this object.
+    Handle<azulejo_context, azulejo_context_free> attached(const azulejo_context *context) {
+        azulejo_context *handle = nullptr;
+        check(azulejo_context_watch(context, progress_ ? &Watch::call : nullptr, this, &handle));
+        return Handle<azulejo_context, azulejo_context_free>(handle);
+    }
+
     /// To be called with what the call returned.
     void finish(azulejo_status status) {
         if (thrown_) {
@@ -236,6 +243,17 @@ public:
 private:
     detail::Handle<azulejo_context, azulejo_context_free> handle_;
 };
+
+namespace detail {
+
+/// Runs a C call without options, of which the caller's function is told.
+template <class Call>
+void measured(const Context &context, const Progress &progress, Call call) {
+    Watch watch(progress);
+    watch.finish(call(watch.attached(context.get()).get()));
+}
+
+} // namespace detail
 
 /// Samples of the plane or of a mesh; see azulejo_points.
 class Points {
@@ -590,83 +608,110 @@ inline Points dcr_relax_surface(const Context &context, const Mesh &mesh, const 
 
 /// See azulejo_plane_smallest_distance; the domain as in the options.
 inline double plane_smallest_distance(const Context &context, Span<const float> xy, const double (&domain_min)[2],
-                                      const double (&domain_max)[2], std::int32_t boundary) {
+                                      const double (&domain_max)[2], std::int32_t boundary,
+                                      const Progress &progress = nullptr) {
     double distance = 0;
-    check(azulejo_plane_smallest_distance(context.get(), xy.data(), detail::groups(xy.size(), 2, "xy"), domain_min,
-                                          domain_max, boundary, &distance));
+    detail::measured(context, progress, [&](const azulejo_context *c) {
+        return azulejo_plane_smallest_distance(c, xy.data(), detail::groups(xy.size(), 2, "xy"), domain_min,
+                                               domain_max, boundary, &distance);
+    });
     return distance;
 }
 
 /// See azulejo_plane_covering_radius; the domain as in the options.
 inline double plane_covering_radius(const Context &context, Span<const float> xy, const double (&domain_min)[2],
-                                    const double (&domain_max)[2], std::int32_t boundary) {
+                                    const double (&domain_max)[2], std::int32_t boundary,
+                                    const Progress &progress = nullptr) {
     double radius = 0;
-    check(azulejo_plane_covering_radius(context.get(), xy.data(), detail::groups(xy.size(), 2, "xy"), domain_min,
-                                        domain_max, boundary, &radius));
+    detail::measured(context, progress, [&](const azulejo_context *c) {
+        return azulejo_plane_covering_radius(c, xy.data(), detail::groups(xy.size(), 2, "xy"), domain_min, domain_max,
+                                             boundary, &radius);
+    });
     return radius;
 }
 
 /// See azulejo_space_smallest_distance.
-inline double space_smallest_distance(const Context &context, Span<const float> positions) {
+inline double space_smallest_distance(const Context &context, Span<const float> positions,
+                                      const Progress &progress = nullptr) {
     double distance = 0;
-    check(azulejo_space_smallest_distance(context.get(), positions.data(),
-                                          detail::groups(positions.size(), 3, "positions"), &distance));
+    detail::measured(context, progress, [&](const azulejo_context *c) {
+        return azulejo_space_smallest_distance(c, positions.data(), detail::groups(positions.size(), 3, "positions"),
+                                               &distance);
+    });
     return distance;
 }
 
 /// See azulejo_mesh_uncovered_fraction.
 inline double mesh_uncovered_fraction(const Context &context, const Mesh &mesh, Span<const float> positions, double radius,
-                                      std::uint64_t probes, std::uint64_t seed = 0) {
+                                      std::uint64_t probes, std::uint64_t seed = 0,
+                                      const Progress &progress = nullptr) {
     double fraction = 0;
-    check(azulejo_mesh_uncovered_fraction(context.get(), mesh.get(), positions.data(),
-                                          detail::groups(positions.size(), 3, "positions"), radius, probes, seed,
-                                          &fraction));
+    detail::measured(context, progress, [&](const azulejo_context *c) {
+        return azulejo_mesh_uncovered_fraction(c, mesh.get(), positions.data(),
+                                               detail::groups(positions.size(), 3, "positions"), radius, probes, seed,
+                                               &fraction);
+    });
     return fraction;
 }
 
 /// See azulejo_mesh_coverage.
-inline Coverage mesh_coverage(const Context &context, const Mesh &mesh, Span<const float> positions, double radius) {
+inline Coverage mesh_coverage(const Context &context, const Mesh &mesh, Span<const float> positions, double radius,
+                              const Progress &progress = nullptr) {
     Coverage coverage;
-    check(azulejo_mesh_coverage(context.get(), mesh.get(), positions.data(),
-                                detail::groups(positions.size(), 3, "positions"), radius, &coverage));
+    detail::measured(context, progress, [&](const azulejo_context *c) {
+        return azulejo_mesh_coverage(c, mesh.get(), positions.data(),
+                                     detail::groups(positions.size(), 3, "positions"), radius, &coverage);
+    });
     return coverage;
 }
 
 /// See azulejo_plane_coverage; the domain as in the options.
 inline Coverage plane_coverage(const Context &context, Span<const float> xy, const double (&domain_min)[2],
-                               const double (&domain_max)[2], std::int32_t boundary, double radius) {
+                               const double (&domain_max)[2], std::int32_t boundary, double radius,
+                               const Progress &progress = nullptr) {
     Coverage coverage;
-    check(azulejo_plane_coverage(context.get(), xy.data(), detail::groups(xy.size(), 2, "xy"), domain_min, domain_max,
-                                 boundary, radius, &coverage));
+    detail::measured(context, progress, [&](const azulejo_context *c) {
+        return azulejo_plane_coverage(c, xy.data(), detail::groups(xy.size(), 2, "xy"), domain_min, domain_max,
+                                      boundary, radius, &coverage);
+    });
     return coverage;
 }
 
 /// See azulejo_plane_measure; the domain as in the options.
 inline PlaneReport plane_measure(const Context &context, Span<const float> xy, const double (&domain_min)[2],
-                                 const double (&domain_max)[2], std::int32_t boundary) {
+                                 const double (&domain_max)[2], std::int32_t boundary,
+                                 const Progress &progress = nullptr) {
     PlaneReport report;
-    check(azulejo_plane_measure(context.get(), xy.data(), detail::groups(xy.size(), 2, "xy"), domain_min, domain_max,
-                                boundary, &report));
+    detail::measured(context, progress, [&](const azulejo_context *c) {
+        return azulejo_plane_measure(c, xy.data(), detail::groups(xy.size(), 2, "xy"), domain_min, domain_max,
+                                     boundary, &report);
+    });
     return report;
 }
 
 /// See azulejo_plane_nearest_histogram; the domain as in the options.
 inline std::vector<std::uint64_t> plane_nearest_histogram(const Context &context, Span<const float> xy,
                                                           const double (&domain_min)[2], const double (&domain_max)[2],
-                                                          std::int32_t boundary, double reach, std::size_t bins) {
+                                                          std::int32_t boundary, double reach, std::size_t bins,
+                                                          const Progress &progress = nullptr) {
     std::vector<std::uint64_t> histogram(bins);
-    check(azulejo_plane_nearest_histogram(context.get(), xy.data(), detail::groups(xy.size(), 2, "xy"), domain_min,
-                                          domain_max, boundary, reach, bins, histogram.data()));
+    detail::measured(context, progress, [&](const azulejo_context *c) {
+        return azulejo_plane_nearest_histogram(c, xy.data(), detail::groups(xy.size(), 2, "xy"), domain_min,
+                                               domain_max, boundary, reach, bins, histogram.data());
+    });
     return histogram;
 }
 
 /// See azulejo_plane_radial_distribution; the domain as in the options.
 inline std::vector<double> plane_radial_distribution(const Context &context, Span<const float> xy,
                                                      const double (&domain_min)[2], const double (&domain_max)[2],
-                                                     std::int32_t boundary, double reach, std::size_t bins) {
+                                                     std::int32_t boundary, double reach, std::size_t bins,
+                                                     const Progress &progress = nullptr) {
     std::vector<double> density(bins);
-    check(azulejo_plane_radial_distribution(context.get(), xy.data(), detail::groups(xy.size(), 2, "xy"), domain_min,
-                                            domain_max, boundary, reach, bins, density.data()));
+    detail::measured(context, progress, [&](const azulejo_context *c) {
+        return azulejo_plane_radial_distribution(c, xy.data(), detail::groups(xy.size(), 2, "xy"), domain_min,
+                                                 domain_max, boundary, reach, bins, density.data());
+    });
     return density;
 }
 
@@ -675,10 +720,13 @@ class Spectrum {
 public:
     /// See azulejo_spectrum_create; the domain as in the options.
     Spectrum(const Context &context, Span<const float> xy, const double (&domain_min)[2],
-             const double (&domain_max)[2], std::int32_t boundary, std::uint32_t size, std::uint32_t stride = 1) {
+             const double (&domain_max)[2], std::int32_t boundary, std::uint32_t size, std::uint32_t stride = 1,
+             const Progress &progress = nullptr) {
         azulejo_spectrum *handle = nullptr;
-        check(azulejo_spectrum_create(context.get(), xy.data(), detail::groups(xy.size(), 2, "xy"), domain_min,
-                                      domain_max, boundary, size, stride, &handle));
+        detail::measured(context, progress, [&](const azulejo_context *c) {
+            return azulejo_spectrum_create(c, xy.data(), detail::groups(xy.size(), 2, "xy"), domain_min, domain_max,
+                                           boundary, size, stride, &handle);
+        });
         handle_.reset(handle);
     }
 
@@ -725,13 +773,16 @@ public:
     /// See azulejo_differences_create.
     Differences(const Context &context, const Mesh &mesh, Span<const float> positions, Span<const float> normals,
                 const double (&direction)[3], std::uint64_t seed = 0) {
-        if (normals.size() != positions.size()) {
+        if (normals.size() != positions.size(), const Progress &progress = nullptr) {
             throw Error(AZULEJO_ERROR_INVALID_ARGUMENT, "normals: " + std::to_string(normals.size()) +
                                                             " numbers, not as many as positions");
         }
         azulejo_differences *handle = nullptr;
-        check(azulejo_differences_create(context.get(), mesh.get(), positions.data(), normals.data(),
-                                         detail::groups(positions.size(), 3, "positions"), direction, seed, &handle));
+        detail::measured(context, progress, [&](const azulejo_context *c) {
+            return azulejo_differences_create(c, mesh.get(), positions.data(), normals.data(),
+                                              detail::groups(positions.size(), 3, "positions"), direction, seed,
+                                              &handle);
+        });
         handle_.reset(handle);
     }
 

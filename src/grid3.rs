@@ -1,7 +1,7 @@
 //! Hash grid over points in space that grows: the neighbour search in 3D.
 
 use crate::error::Result;
-use crate::job::{Job, chunks};
+use crate::job::{Job, chunks_of};
 
 /// Points in cells of one side, chained in a hash table. Insertion takes a short serial moment between parallel,
 /// read-only searches. Answers are sets: they do not depend on the order of insertion.
@@ -17,10 +17,26 @@ pub(crate) struct Grid3 {
 
 const NONE: u32 = u32::MAX;
 
+/// The points of a task of [`smallest_distance`]: few, since most may be in one cell.
+const TASK: usize = 256;
+
+/// How many points are put into a grid between two reports.
+const REPORTED: usize = 1 << 14;
+
 impl Grid3 {
     /// An empty grid. `cell_size` is the radius of the usual search; cells count from `origin`.
     pub(crate) fn new(origin: [f64; 3], cell_size: f64) -> Self {
         Self { cell_size, origin, heads: vec![NONE; 64], next: Vec::new(), points: Vec::new() }
+    }
+
+    /// The grid of many points.
+    pub(crate) fn of(job: &Job, origin: [f64; 3], cell_size: f64, points: &[[f32; 3]]) -> Result<Self> {
+        let mut grid = Self::new(origin, cell_size);
+        for (chunk, done) in points.chunks(REPORTED).zip(0..) {
+            job.report((done * REPORTED) as f64 / points.len() as f64)?;
+            chunk.iter().for_each(|&point| _ = grid.insert(point));
+        }
+        Ok(grid)
     }
 
     fn cell(&self, point: [f64; 3]) -> [i64; 3] {
@@ -83,16 +99,14 @@ pub(crate) fn distance_squared(a: [f32; 3], b: [f32; 3]) -> f64 {
 /// in space nor lined up in planes across their longest extent.
 pub(crate) fn smallest_distance(job: &Job, positions: &[[f32; 3]]) -> Result<f64> {
     let bound = neighbours_in_order(positions);
+    job.report(0.1)?;
     if bound == 0.0 || bound == f64::INFINITY {
         return Ok(bound);
     }
     // Of n points there is a pair in order about as close as n points are on a surface, so cells hold few points.
-    let mut grid = Grid3::new([0.0; 3], bound);
-    positions.iter().for_each(|&position| {
-        grid.insert(position);
-    });
-    let chunks = chunks(positions.len());
-    let nearest = job.map(chunks.len(), |chunk| {
+    let grid = Grid3::of(&job.part(0.1, 0.4), [0.0; 3], bound, positions)?;
+    let chunks = chunks_of(positions.len(), TASK);
+    let nearest = job.part(0.4, 1.0).map(chunks.len(), |chunk| {
         let squared = |i: usize| {
             grid.candidates(positions[i].map(f64::from), bound)
                 .filter(|&other| other as usize != i)

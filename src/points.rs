@@ -72,6 +72,12 @@ impl Domain {
         (2.0 * self.area() / (3f64.sqrt() * count as f64)).sqrt()
     }
 
+    /// Refuses what is no domain, and points (`xy`) that are none of it.
+    pub(crate) fn check_set(&self, points: &[[f32; 2]]) -> Result<()> {
+        self.check()?;
+        self.check_points(points)
+    }
+
     /// Refuses points (`xy`) that do not lie in `min <= x < max`, and more of them than can be indexed.
     pub(crate) fn check_points(&self, points: &[[f32; 2]]) -> Result<()> {
         if points.len() > u32::MAX as usize {

@@ -33,10 +33,10 @@ proptest! {
         let place = |p: &[f32; 2]| [-1.0 + cluster * width as f32 * 0.999 * p[0], 2.0 + cluster * 0.999 * p[1]];
         let points: Vec<_> = random_points(count, seed).iter().map(place).collect();
         let expected = nearest_distances(&domain, &points);
-        let found = nearest_distances_2d(&context(), &domain, &points).unwrap();
+        let found = nearest_distances_2d(&context(), &domain, &points, None).unwrap();
         prop_assert!(found.len() == count && found.iter().zip(&expected).all(|(&a, &b)| close(a, b)));
         let smallest = expected.into_iter().fold(f64::INFINITY, f64::min);
-        prop_assert!(close(smallest_distance_2d(&context(), &domain, &points).unwrap(), smallest));
+        prop_assert!(close(smallest_distance_2d(&context(), &domain, &points, None).unwrap(), smallest));
     }
 
     #[test]
@@ -53,7 +53,7 @@ proptest! {
                 smallest = smallest.min(squares.sqrt());
             }
         }
-        prop_assert!(close(smallest_distance_3d(&context(), &positions).unwrap(), smallest));
+        prop_assert!(close(smallest_distance_3d(&context(), &positions, None).unwrap(), smallest));
     }
 
     /// Against a fine grid of test points: none is farther than the covering radius, and one is nearly as far.
@@ -62,7 +62,7 @@ proptest! {
         let domain = Domain { max: [if thin { 7.0 } else { 1.0 }, 1.0], ..unit_square(BOUNDARIES[usize::from(!periodic)]) };
         let stretch = |[x, y]: [f32; 2]| [x * domain.max[0] as f32, y];
         let points: Vec<_> = random_points(count, seed).into_iter().map(stretch).collect();
-        let found = covering_radius_2d(&context(), &domain, &points).unwrap();
+        let found = covering_radius_2d(&context(), &domain, &points, None).unwrap();
         let steps = 100;
         let at = |i: i32| i as f32 / steps as f32;
         let probes = (0..=steps).flat_map(|i| (0..=steps).map(move |j| stretch([at(i), at(j)])));
@@ -85,10 +85,10 @@ fn hexagonal_lattice() -> (Domain, Vec<[f32; 2]>) {
 fn a_hexagonal_lattice_has_its_known_values() {
     let (domain, points) = hexagonal_lattice();
     let near = |a: f64, b: f64| (a - b).abs() < 1e-5;
-    assert!(near(rho(&context(), &domain, &points).unwrap(), 1.0));
-    assert!(near(smallest_distance_2d(&context(), &domain, &points).unwrap(), 1.0));
-    assert!(near(covering_radius_2d(&context(), &domain, &points).unwrap(), (1.0f64 / 3.0).sqrt()));
-    let statistics = triangle_statistics(&context(), &domain, &points).unwrap();
+    assert!(near(rho(&context(), &domain, &points, None).unwrap(), 1.0));
+    assert!(near(smallest_distance_2d(&context(), &domain, &points, None).unwrap(), 1.0));
+    assert!(near(covering_radius_2d(&context(), &domain, &points, None).unwrap(), (1.0f64 / 3.0).sqrt()));
+    let statistics = triangle_statistics(&context(), &domain, &points, None).unwrap();
     assert_eq!(statistics.triangles, 2 * 16 * 18);
     assert_eq!((statistics.obtuse, statistics.below_30_degrees), (0.0, 0.0));
     assert!(near(statistics.edge_mean, 1.0) && near(statistics.edge_variation, 0.0));
@@ -97,7 +97,7 @@ fn a_hexagonal_lattice_has_its_known_values() {
 
 #[test]
 fn bonds_of_a_hexagonal_lattice_agree_and_those_of_random_points_do_not() {
-    let order = |domain: &Domain, points: &[[f32; 2]]| bond_order(&context(), domain, points).unwrap();
+    let order = |domain: &Domain, points: &[[f32; 2]]| bond_order(&context(), domain, points, None).unwrap();
     let (domain, points) = hexagonal_lattice();
     assert!((order(&domain, &points) - 1.0).abs() < 1e-5);
     for boundary in BOUNDARIES {
@@ -123,13 +123,14 @@ fn triangles_of_random_points_have_the_known_shares() {
     let obtuse = 3.0 * (0..steps).map(|i| density(right + (f64::from(i) + 0.5) * width) * width).sum::<f64>();
     let sharp = (0..steps).map(|i| density((f64::from(i) + 0.5) * width / 3.0) * width / 3.0).sum::<f64>();
     for boundary in BOUNDARIES {
-        let statistics = triangle_statistics(&context(), &unit_square(boundary), &random_points(20_000, 3)).unwrap();
+        let statistics =
+            triangle_statistics(&context(), &unit_square(boundary), &random_points(20_000, 3), None).unwrap();
         assert!((statistics.obtuse - obtuse).abs() < 0.015, "{} {obtuse}", statistics.obtuse);
         assert!((statistics.angles_below_30_degrees - sharp).abs() < 0.01, "{statistics:?} {sharp}");
         assert!(statistics.triangles <= 40_000 && statistics.triangles > 39_000);
     }
     let quality =
-        |points: &[[f32; 2]]| triangle_statistics(&context(), &unit_square(Boundary::Periodic), points).unwrap();
+        |points: &[[f32; 2]]| triangle_statistics(&context(), &unit_square(Boundary::Periodic), points, None).unwrap();
     let (random, thrown) = (quality(&random_points(1000, 4)), quality(&darts(1000, 4)));
     assert_eq!(random.triangles, 2000);
     assert!(thrown.obtuse < 0.5 * random.obtuse && thrown.edge_variation < 0.3 * random.edge_variation);
@@ -141,7 +142,7 @@ fn a_stretched_lattice_has_sharp_triangles_of_three_lengths() {
     // Isosceles triangles of base 1 and height 3, on a torus of 6 x 12.
     let domain = Domain { min: [0.0; 2], max: [6.0, 12.0], boundary: Boundary::Periodic };
     let points: Vec<_> = (0..24).map(|k| [(k % 6) as f32 + 0.5 * (k / 6 % 2) as f32, 3.0 * (k / 6) as f32]).collect();
-    let statistics = triangle_statistics(&context(), &domain, &points).unwrap();
+    let statistics = triangle_statistics(&context(), &domain, &points, None).unwrap();
     let leg = (9.0 + 0.25f64).sqrt();
     let mean = (1.0 + 2.0 * leg) / 3.0;
     let variance = ((1.0 - mean).powi(2) + 2.0 * (leg - mean).powi(2)) / 3.0;
@@ -156,7 +157,7 @@ fn a_lattice_with_a_shifted_point_has_four_outlying_triangles() {
     let (domain, mut points) = hexagonal_lattice();
     let shift = 0.125;
     points[8 * 16 + 8][0] += shift as f32;
-    let statistics = triangle_statistics(&context(), &domain, &points).unwrap();
+    let statistics = triangle_statistics(&context(), &domain, &points, None).unwrap();
     let count = 2.0 * 16.0 * 18.0;
     // Of the six triangles around the point two keep their height above the opposite edge.
     let (height, change) = (0.75f64.sqrt(), shift * 0.75f64.sqrt());
@@ -170,7 +171,7 @@ fn a_lattice_with_a_shifted_point_has_four_outlying_triangles() {
 fn triangles_tile_the_torus_and_a_square_but_for_its_border() {
     for count in [2, 3, 50, 1000] {
         let points = random_points(count, 12);
-        let triangles = |boundary| delaunay_triangles(&context(), &unit_square(boundary), &points).unwrap();
+        let triangles = |boundary| delaunay_triangles(&context(), &unit_square(boundary), &points, None).unwrap();
         let area = |boundary| triangles(boundary).iter().map(|triangle| triangle.area()).sum::<f64>();
         assert_eq!(triangles(Boundary::Periodic).len(), 2 * count);
         assert!(close(area(Boundary::Periodic), 1.0), "{count}");
@@ -196,15 +197,15 @@ fn empty_and_single_sets_have_answers() {
     for boundary in BOUNDARIES {
         let domain = unit_square(boundary);
         for points in [vec![], vec![[0.0, 0.0]]] {
-            assert_eq!(smallest_distance_2d(&context(), &domain, &points).unwrap(), f64::INFINITY);
+            assert_eq!(smallest_distance_2d(&context(), &domain, &points, None).unwrap(), f64::INFINITY);
             let covering = if points.is_empty() { f64::INFINITY } else { 2f64.sqrt() };
             let covering = if boundary == Boundary::Periodic { covering / 2.0 } else { covering };
-            assert!(close(covering_radius_2d(&context(), &domain, &points).unwrap(), covering));
-            triangle_statistics(&context(), &domain, &points).unwrap();
+            assert!(close(covering_radius_2d(&context(), &domain, &points, None).unwrap(), covering));
+            triangle_statistics(&context(), &domain, &points, None).unwrap();
         }
     }
-    assert_eq!(smallest_distance_3d(&context(), &[]).unwrap(), f64::INFINITY);
-    assert_eq!(smallest_distance_3d(&context(), &[[1.0; 3]; 2]).unwrap(), 0.0);
+    assert_eq!(smallest_distance_3d(&context(), &[], None).unwrap(), f64::INFINITY);
+    assert_eq!(smallest_distance_3d(&context(), &[[1.0; 3]; 2], None).unwrap(), 0.0);
 }
 
 /// A unit square of two triangles in the plane z = 1, and a triangle of no area.
@@ -217,7 +218,7 @@ fn square() -> Mesh {
 fn the_uncovered_share_of_a_square_is_that_outside_a_disk() {
     let uncovered = |samples: &[[f32; 3]], radius, threads| {
         let context = Context::new(threads).unwrap();
-        surface_uncovered_fraction(&context, &square(), samples, radius, 100_000, 5).unwrap()
+        surface_uncovered_fraction(&context, &square(), samples, radius, 100_000, 5, None).unwrap()
     };
     let outside = 1.0 - std::f64::consts::PI * 0.09;
     let one = uncovered(&[[0.5, 0.5, 1.0]], 0.3, 1);
@@ -239,16 +240,16 @@ fn bad_arguments_are_refused_by_name() {
     let domain = unit_square(Boundary::Periodic);
     let none = Domain { max: [1.0, 0.0], ..domain };
     for points in [[[1.0, 0.5]], [[0.5, f32::NAN]]] {
-        assert_eq!(argument(smallest_distance_2d(&context(), &domain, &points)), "xy");
-        assert_eq!(argument(covering_radius_2d(&context(), &domain, &points)), "xy");
-        assert_eq!(argument(triangle_statistics(&context(), &domain, &points).map(|s| s.obtuse)), "xy");
+        assert_eq!(argument(smallest_distance_2d(&context(), &domain, &points, None)), "xy");
+        assert_eq!(argument(covering_radius_2d(&context(), &domain, &points, None)), "xy");
+        assert_eq!(argument(triangle_statistics(&context(), &domain, &points, None).map(|s| s.obtuse)), "xy");
     }
-    assert_eq!(argument(covering_radius_2d(&context(), &none, &[])), "domain_max");
+    assert_eq!(argument(covering_radius_2d(&context(), &none, &[], None)), "domain_max");
     let infinite = [[0.0, f32::INFINITY, 0.0]];
-    assert_eq!(argument(smallest_distance_3d(&context(), &infinite)), "positions");
-    assert_eq!(argument(surface_uncovered_fraction(&context(), &square(), &infinite, 1.0, 1, 0)), "positions");
+    assert_eq!(argument(smallest_distance_3d(&context(), &infinite, None)), "positions");
+    assert_eq!(argument(surface_uncovered_fraction(&context(), &square(), &infinite, 1.0, 1, 0, None)), "positions");
     for radius in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-        assert_eq!(argument(surface_uncovered_fraction(&context(), &square(), &[], radius, 1, 0)), "radius");
+        assert_eq!(argument(surface_uncovered_fraction(&context(), &square(), &[], radius, 1, 0, None)), "radius");
     }
 }
 

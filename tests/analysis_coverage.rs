@@ -23,7 +23,7 @@ fn context() -> Context {
 }
 
 fn gaps(domain: &Domain, points: &[[f32; 2]], radius: f64) -> usize {
-    coverage_2d(&context(), domain, points, radius).unwrap().gaps
+    coverage_2d(&context(), domain, points, radius, None).unwrap().gaps
 }
 
 /// Connected parts of the places of a grid that are farther than a radius from all points, found by walking.
@@ -65,7 +65,7 @@ fn gaps_of_random_sets_are_the_parts_that_a_walk_finds() {
             points.iter().map(|&p| distance(&domain, place(row, column), p)).fold(f64::INFINITY, f64::min)
         };
         let distances: Vec<Vec<f64>> = (0..steps).map(|row| (0..steps).map(|c| nearest(row, c)).collect()).collect();
-        let farthest = covering_radius_2d(&context(), &domain, &points).unwrap();
+        let farthest = covering_radius_2d(&context(), &domain, &points, None).unwrap();
         for share in [0.3, 0.5, 0.7, 0.9] {
             let (radius, step) = (share * farthest, domain.max[0] / 400.0);
             let parts = [-4.0, -2.0, -1.0, 0.0, 1.0, 2.0, 4.0]
@@ -90,15 +90,15 @@ fn a_maximal_set_has_no_gap_and_one_for_each_sample_that_is_taken_away() {
         let (radius, domain) = (0.02, unit_square(boundary));
         let mut samples = maximal::sample(&context(), &maximal::Options { radius, domain, seed: 3 }, None).unwrap();
         let reach = radius + 1e-6;
-        let whole = coverage_2d(&context(), &domain, &samples, reach).unwrap();
+        let whole = coverage_2d(&context(), &domain, &samples, reach, None).unwrap();
         assert_eq!(whole.gaps, 0);
-        assert_eq!(whole.farthest, covering_radius_2d(&context(), &domain, &samples).unwrap());
+        assert_eq!(whole.farthest, covering_radius_2d(&context(), &domain, &samples, None).unwrap());
         // Samples far from each other, one of them near the border.
         for (removed, place) in [[0.5, 0.5], [0.02, 0.1], [0.2, 0.99], [0.8, 0.8]].into_iter().enumerate() {
             let from = |sample: &[f32; 2]| distance(&domain, *sample, place);
             let nearest = (0..samples.len()).min_by(|&a, &b| from(&samples[a]).total_cmp(&from(&samples[b]))).unwrap();
             samples.swap_remove(nearest);
-            let found = coverage_2d(&context(), &domain, &samples, reach).unwrap();
+            let found = coverage_2d(&context(), &domain, &samples, reach, None).unwrap();
             // Other samples may cover the middle of the hole, and leave several gaps around it.
             assert!(found.farthest > reach && (removed + 1..5 * (removed + 1)).contains(&found.gaps), "{found:?}");
         }
@@ -126,7 +126,7 @@ fn a_cluster_is_as_far_away_as_its_nearest_point() {
     let points: Vec<_> = random_points(30_000, 6).iter().map(|point| point.map(|x| 0.02 * x)).collect();
     for (boundary, corner) in [(Boundary::Bounded, [1.0, 1.0]), (Boundary::Periodic, [0.51, 0.51])] {
         let domain = unit_square(boundary);
-        let found = covering_radius_2d(&context(), &domain, &points).unwrap();
+        let found = covering_radius_2d(&context(), &domain, &points, None).unwrap();
         let from_corner = points.iter().map(|&point| distance(&domain, corner, point)).fold(f64::INFINITY, f64::min);
         // On the torus the farthest place is about opposite of the middle of the cluster.
         let tolerance = if boundary == Boundary::Bounded { 1e-9 } else { 0.001 };
@@ -147,7 +147,7 @@ proptest! {
     fn the_covering_radius_of_a_soup_is_that_of_its_farthest_place(seed: u64, triangles in 1u32..6, count in 1usize..30) {
         let mesh = mesh(meshes::random_soup(seed, triangles));
         let samples: Vec<_> = random_points(count, seed).iter().map(|&[x, y]| [x, y, x * y]).collect();
-        let found = surface_covering_radius(&context(), &mesh, &samples).unwrap();
+        let found = surface_covering_radius(&context(), &mesh, &samples, None).unwrap();
         let steps = 60;
         let mut farthest: f64 = 0.0;
         for triangle in 0..triangles {
@@ -158,8 +158,8 @@ proptest! {
             }
         }
         prop_assert!(farthest <= found * (1.0 + 1e-6) && found <= farthest + 3f64.sqrt() / f64::from(steps));
-        prop_assert_eq!(surface_coverage(&context(), &mesh, &samples, found).unwrap().gaps, 0);
-        let coverage = surface_coverage(&Context::new(1).unwrap(), &mesh, &samples, 0.99 * found).unwrap();
+        prop_assert_eq!(surface_coverage(&context(), &mesh, &samples, found, None).unwrap().gaps, 0);
+        let coverage = surface_coverage(&Context::new(1).unwrap(), &mesh, &samples, 0.99 * found, None).unwrap();
         prop_assert!(coverage.gaps > 0 && coverage.farthest == found);
     }
 }
@@ -173,12 +173,12 @@ fn a_flat_surface_is_covered_as_the_plane_is() {
     });
     let samples: Vec<_> = points.iter().map(|&[x, y]| [x, y, 0.0]).collect();
     let plane = mesh(meshes::plane());
-    let radius = surface_covering_radius(&context(), &plane, &samples).unwrap();
-    let flat = covering_radius_2d(&context(), &domain, &points).unwrap();
+    let radius = surface_covering_radius(&context(), &plane, &samples, None).unwrap();
+    let flat = covering_radius_2d(&context(), &domain, &points, None).unwrap();
     assert!((radius - flat).abs() < 1e-8 * flat, "{radius} {flat}");
     let [on_mesh, in_plane] = [
-        surface_coverage(&context(), &plane, &samples, 0.03 + 1e-6).unwrap(),
-        coverage_2d(&context(), &domain, &points, 0.03 + 1e-6).unwrap(),
+        surface_coverage(&context(), &plane, &samples, 0.03 + 1e-6, None).unwrap(),
+        coverage_2d(&context(), &domain, &points, 0.03 + 1e-6, None).unwrap(),
     ];
     assert_eq!((on_mesh.gaps, on_mesh.farthest), (3, radius));
     assert!(in_plane.gaps >= 3);
@@ -190,7 +190,7 @@ fn a_maximal_set_on_a_torus_has_no_gap_and_holes_in_it_are_counted() {
     let options = psp::Options { iterations: 0, seed: 5, ..psp::Options::new(radius) };
     let samples = psp::sample(&context(), &torus, &options, None).unwrap().0.positions;
     let reach = radius + 1e-6;
-    let coverage = surface_coverage(&context(), &torus, &samples, reach).unwrap();
+    let coverage = surface_coverage(&context(), &torus, &samples, reach, None).unwrap();
     assert!(coverage.gaps == 0 && coverage.farthest > 0.9 * radius, "{coverage:?}");
     let holes = [[1.4f32, 0.0, 0.0], [-1.4, 0.0, 0.0], [0.0, 1.0, 0.4]];
     let far = |sample: &[f32; 3], hole: [f32; 3]| {
@@ -201,7 +201,7 @@ fn a_maximal_set_on_a_torus_has_no_gap_and_holes_in_it_are_counted() {
         let before = left.len();
         left.retain(|sample| far(sample, hole));
         assert!(left.len() < before);
-        let coverage = surface_coverage(&context(), &torus, &left, reach).unwrap();
+        let coverage = surface_coverage(&context(), &torus, &left, reach, None).unwrap();
         assert!(coverage.gaps == i + 1 && coverage.farthest > 1.1 * radius, "{coverage:?}");
     }
 }
@@ -209,16 +209,16 @@ fn a_maximal_set_on_a_torus_has_no_gap_and_holes_in_it_are_counted() {
 #[test]
 fn sets_without_samples_and_bad_arguments_have_answers() {
     let plane = mesh(meshes::plane());
-    let coverage = |samples: &[[f32; 3]], radius| surface_coverage(&context(), &plane, samples, radius);
+    let coverage = |samples: &[[f32; 3]], radius| surface_coverage(&context(), &plane, samples, radius, None);
     let none = coverage(&[], 0.1).unwrap();
     assert_eq!((none.farthest, none.gaps), (f64::INFINITY, 1));
     let far = coverage(&[[0.0, 0.0, 9.0]], 0.5).unwrap();
     assert!((far.farthest - 83f64.sqrt()).abs() < 1e-7 && far.gaps == 1);
     let masked = plane.clone().with_mask(vec![false; 2]).unwrap();
-    assert_eq!(surface_coverage(&context(), &masked, &[], 0.1).unwrap().gaps, 0);
+    assert_eq!(surface_coverage(&context(), &masked, &[], 0.1, None).unwrap().gaps, 0);
     for radius in [0.0, -1.0, f64::NAN, f64::INFINITY] {
         assert!(matches!(coverage(&[], radius), Err(Error::InvalidArgument { argument: "radius", .. })));
-        let flat = coverage_2d(&context(), &unit_square(Boundary::Bounded), &[], radius);
+        let flat = coverage_2d(&context(), &unit_square(Boundary::Bounded), &[], radius, None);
         assert!(matches!(flat, Err(Error::InvalidArgument { argument: "radius", .. })));
     }
     let infinite = [[0.0, f32::NAN, 0.0]];

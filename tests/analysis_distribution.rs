@@ -92,7 +92,7 @@ fn a_hexagonal_lattice_has_peaks_at_its_distances_and_nothing_between() {
     }
     assert!(neighbours.iter().all(|&count| count == 0.0));
 
-    let nearest = nearest_distances_2d(&context(), &domain, &points).unwrap();
+    let nearest = nearest_distances_2d(&context(), &domain, &points, None).unwrap();
     let spacing = spacing_2d(&domain, &nearest);
     assert!((spacing.smallest - 1.0).abs() < 1e-5 && (spacing.mean - 1.0).abs() < 1e-5);
     assert!((spacing.hexagonal - 1.0).abs() < 1e-12);
@@ -104,7 +104,7 @@ fn a_hexagonal_lattice_has_peaks_at_its_distances_and_nothing_between() {
 fn nearest_neighbours_of_random_points_follow_rayleigh() {
     let domain = unit_square(Boundary::Periodic);
     let points = random_points(50_000, 8);
-    let nearest = nearest_distances_2d(&context(), &domain, &points).unwrap();
+    let nearest = nearest_distances_2d(&context(), &domain, &points, None).unwrap();
     let (reach, bins) = (1.5, 15);
     let histogram = nearest_histogram_2d(&domain, &nearest, reach, bins).unwrap();
     let beyond = |d: f64| (-std::f64::consts::PI * (d * (2.0 / 3f64.sqrt()).sqrt()).powi(2)).exp();
@@ -116,7 +116,7 @@ fn nearest_neighbours_of_random_points_follow_rayleigh() {
     }
     let spacing = spacing_2d(&domain, &nearest);
     assert!((spacing.mean / spacing.hexagonal - 0.4653).abs() < 0.004);
-    assert_eq!(spacing.smallest / spacing.hexagonal, rho(&context(), &domain, &points).unwrap());
+    assert_eq!(spacing.smallest / spacing.hexagonal, rho(&context(), &domain, &points, None).unwrap());
     let none = spacing_2d(&domain, &[]);
     assert!(none.smallest == f64::INFINITY && none.mean == f64::INFINITY);
     assert_eq!(nearest_histogram_2d(&domain, &[f64::INFINITY], 1.0, 3).unwrap(), [0, 0, 0]);

@@ -92,7 +92,7 @@ fn distances_are_those_of_all_pairs() {
             set.check(figure, &found.density(), 1e-8);
         }
         let domain = set.domain(Boundary::Periodic);
-        let nearest = nearest_distances_2d(&context(), &domain, &points).unwrap();
+        let nearest = nearest_distances_2d(&context(), &domain, &points, None).unwrap();
         let histogram = nearest_histogram_2d(&domain, &nearest, reach, bins).unwrap();
         set.check("nearest", &histogram.iter().map(|&count| count as f64).collect::<Vec<_>>(), 0.0);
         let spacing = spacing_2d(&domain, &nearest);
@@ -105,14 +105,14 @@ fn distances_are_those_of_all_pairs() {
 fn triangles_bonds_and_coverage_are_those_of_another_triangulation() {
     for set in table() {
         let (points, domain) = (set.points(), set.domain(Boundary::Periodic));
-        let found = triangle_statistics(&context(), &domain, &points).unwrap();
+        let found = triangle_statistics(&context(), &domain, &points, None).unwrap();
         set.check("triangles", &[found.triangles as f64], 0.0);
         set.check("obtuse", &[found.obtuse], 1e-9);
         set.check("below_30_degrees", &[found.below_30_degrees], 1e-9);
         set.check("edge_mean", &[found.edge_mean], 1e-8);
         set.check("edge_variation", &[found.edge_variation], 1e-8);
         set.check("area_variation", &[found.area_variation], 1e-8);
-        set.check("bond_order", &[bond_order(&context(), &domain, &points).unwrap()], 1e-8);
-        set.check("covering_radius", &[covering_radius_2d(&context(), &domain, &points).unwrap()], 1e-8);
+        set.check("bond_order", &[bond_order(&context(), &domain, &points, None).unwrap()], 1e-8);
+        set.check("covering_radius", &[covering_radius_2d(&context(), &domain, &points, None).unwrap()], 1e-8);
     }
 }

@@ -22,7 +22,7 @@ fn the_covering_radius_of_a_corner_of_a_thin_domain() {
         let domain = Domain { min: [-0.8125, 1.4375], max: [-0.79407, 163.0808], boundary };
         let [width, height] = domain.extent();
         let farthest = if boundary == Boundary::Bounded { 1.0 } else { 0.5 } * width.hypot(height);
-        let found = covering_radius_2d(&Context::new(1).unwrap(), &domain, &[[-0.8125, 1.4375]]).unwrap();
+        let found = covering_radius_2d(&Context::new(1).unwrap(), &domain, &[[-0.8125, 1.4375]], None).unwrap();
         assert!((found / farthest - 1.0).abs() < 1e-8, "{found} instead of {farthest}");
     }
 }
@@ -34,7 +34,7 @@ fn the_covering_radius_where_doubles_are_coarse() {
         let domain = Domain { min: [0.0625, -8.766626110583603e16], max: [0.08578724, -8.7666261105836e16], boundary };
         let points = [[0.08051123, -8.766626e16], [0.0625, -8.766626e16], [0.07068692, -8.766626e16]];
         let context = Context::new(1).unwrap();
-        let found = covering_radius_2d(&context, &domain, &points).unwrap();
+        let found = covering_radius_2d(&context, &domain, &points, None).unwrap();
         assert!(found <= domain.extent()[1] + 16.0, "{found} in {domain:?}");
     }
 }
@@ -45,13 +45,13 @@ fn a_domain_that_is_a_line_for_all_floats_is_refused() {
     let context = Context::new(1).unwrap();
     for thin in [1e-279, 1e-32] {
         let domain = Domain { min: [0.0; 2], max: [thin, 1.0], boundary: Boundary::Periodic };
-        let refused = triangle_statistics(&context, &domain, &[[0.0, 0.5]]);
+        let refused = triangle_statistics(&context, &domain, &[[0.0, 0.5]], None);
         assert!(matches!(refused, Err(Error::InvalidArgument { argument: "domain_max", .. })));
     }
     // Nor may the area be 0.
     let domain = Domain { min: [0.0; 2], max: [1e-200; 2], boundary: Boundary::Bounded };
-    let refused = triangle_statistics(&context, &domain, &[[0.0; 2]; 3]);
+    let refused = triangle_statistics(&context, &domain, &[[0.0; 2]; 3], None);
     assert!(matches!(refused, Err(Error::InvalidArgument { argument: "domain_max", .. })));
     let domain = Domain { min: [0.0; 2], max: [1e-29, 1.0], boundary: Boundary::Periodic };
-    assert!(triangle_statistics(&context, &domain, &[[0.0, 0.5]]).is_ok());
+    assert!(triangle_statistics(&context, &domain, &[[0.0, 0.5]], None).is_ok());
 }

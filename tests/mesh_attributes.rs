@@ -196,8 +196,9 @@ fn a_masked_mesh_is_covered_where_it_has_to_be() {
 
     // The share of the whole is that of the parts.
     let context = Context::new(1).unwrap();
-    let uncovered =
-        |mesh: &Mesh| surface_uncovered_fraction(&context, mesh, &samples.positions[..40], radius, 20_000, 0).unwrap();
+    let uncovered = |mesh: &Mesh| {
+        surface_uncovered_fraction(&context, mesh, &samples.positions[..40], radius, 20_000, 0, None).unwrap()
+    };
     let (part, rest) = (uncovered(&masked), uncovered(&inverse));
     let expected = (part * masked.area() + rest * inverse.area()) / whole.area();
     assert!((uncovered(&whole) - expected).abs() < 0.01, "{part} and {rest} of the parts");
@@ -232,6 +233,6 @@ fn a_mask_may_leave_out_everything() {
         let (samples, report) = psp::sample(&context, &masked, &Options::new(0.01), None).unwrap();
         nothing(report);
         assert!(samples.is_empty());
-        assert_eq!(surface_uncovered_fraction(&context, &masked, &[], 0.1, 100, 0).unwrap(), 0.0);
+        assert_eq!(surface_uncovered_fraction(&context, &masked, &[], 0.1, 100, 0, None).unwrap(), 0.0);
     }
 }

@@ -244,7 +244,8 @@ fn a_report_says_where_the_time_went_and_how_good_the_set_is() {
         let first = psp.advance(&context, 1, None).unwrap();
         let second = psp.advance(&context, 1, None).unwrap();
         let positions = psp.samples().positions;
-        let uncovered = coverage::surface_uncovered_fraction(&context, &mesh, &positions, 0.01, 100_000, 1).unwrap();
+        let uncovered =
+            coverage::surface_uncovered_fraction(&context, &mesh, &positions, 0.01, 100_000, 1, None).unwrap();
         let filled = psp.fill(&context, None).unwrap();
         let again = psp.fill(&context, None).unwrap();
 
@@ -264,7 +265,7 @@ fn a_report_says_where_the_time_went_and_how_good_the_set_is() {
         let before = filled.uncovered_before.unwrap();
         assert!((1.0..4.0).contains(&(before / uncovered)), "{before} for {uncovered}");
         assert!(again.uncovered_before.unwrap() < 0.1 * before);
-        let smallest = spacing::smallest_distance_3d(&context, &psp.samples().positions).unwrap();
+        let smallest = spacing::smallest_distance_3d(&context, &psp.samples().positions, None).unwrap();
         let hexagonal = (2.0 * mesh.area() / (3f64.sqrt() * psp.len() as f64)).sqrt();
         assert!(
             (filled.rho - smallest / hexagonal).abs() < 1e-5 && filled.rho > first.rho,

@@ -8,6 +8,11 @@ use indicatif::{ProgressBar, ProgressStyle};
 
 const STEPS: u64 = 1000;
 
+/// The progress of what is done between two shares of a work.
+pub fn part(progress: &azulejo::Progress, from: f64, to: f64) -> impl Fn(f64) -> ControlFlow<()> {
+    move |done| progress(from + (to - from) * done)
+}
+
 /// Runs `work` under a progress bar on the standard error, if that is a terminal (indicatif hides it otherwise).
 pub fn watched<T>(what: &'static str, work: impl FnOnce(&azulejo::Progress) -> Result<T>) -> Result<T> {
     let style = ProgressStyle::with_template("{msg:>12} {wide_bar:.blue} {percent:>3} %  {elapsed}")

@@ -1,9 +1,8 @@
 //! What a set of the plane is like, in a few figures.
 
-use azulejo::analysis::bonds::bond_order;
-use azulejo::analysis::spacing::{nearest_distances_2d, spacing_2d};
-use azulejo::analysis::triangles::triangle_statistics;
-use azulejo::{Context, Domain, Result};
+use azulejo::analysis::figures::{Figures, figures_2d};
+use azulejo::analysis::spacing::spacing_2d;
+use azulejo::{Context, Domain, Progress, Result};
 
 use crate::draw::spectra::spectrum_up_to;
 
@@ -34,18 +33,28 @@ pub struct Quality {
 }
 
 impl Quality {
-    /// The figures of a set, of which the covering radius `cover` is known.
-    pub fn of(context: &Context, domain: &Domain, points: &[[f32; 2]], cover: f64) -> Result<Self> {
-        let spacing = spacing_2d(domain, &nearest_distances_2d(context, domain, points)?);
-        let spectrum = spectrum_up_to(context, domain, points, points.len(), LOW, GRID)?;
+    /// The figures of a set.
+    pub fn of(context: &Context, domain: &Domain, points: &[[f32; 2]]) -> Result<Self> {
+        Self::with(context, domain, points, &figures_2d(context, domain, points, None)?, None)
+    }
+
+    /// The figures of a set, of which those that take no spectrum are known.
+    pub fn with(
+        context: &Context,
+        domain: &Domain,
+        points: &[[f32; 2]],
+        Figures { nearest, covering_radius, bond_order, triangles }: &Figures,
+        progress: Option<&Progress>,
+    ) -> Result<Self> {
+        let spacing = spacing_2d(domain, nearest);
+        let spectrum = spectrum_up_to(context, domain, points, points.len(), LOW, GRID, progress)?;
         // The first annulus holds all frequencies below its width but 0; small sets have none.
         let low = spectrum.radial(LOW)?.into_iter().find(|annulus| annulus.frequency < LOW);
-        let triangles = triangle_statistics(context, domain, points)?;
         Ok(Self {
             rho: spacing.smallest / spacing.hexagonal,
             mean_distance: spacing.mean / spacing.hexagonal,
-            cover,
-            order: bond_order(context, domain, points)?,
+            cover: covering_radius / spacing.hexagonal,
+            order: *bond_order,
             low_power: low.map_or(f64::NAN, |annulus| annulus.power),
             obtuse: triangles.obtuse,
             sharp: triangles.below_30_degrees,

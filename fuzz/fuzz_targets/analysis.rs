@@ -27,15 +27,15 @@ fn plane(context: &Context, domain: &Domain, input: &mut Input) {
     if let Ok(power) = spectrum::periodogram(context, domain, &points, size, None) {
         assert!(power.power().iter().all(|&power| power >= 0.0 && power.is_finite()));
     }
-    if let Ok(statistics) = triangles::triangle_statistics(context, domain, &points) {
+    if let Ok(statistics) = triangles::triangle_statistics(context, domain, &points, None) {
         assert!((0.0..=1.0).contains(&statistics.obtuse), "{statistics:?}");
     }
-    if let Ok(order) = bonds::bond_order(context, domain, &points) {
+    if let Ok(order) = bonds::bond_order(context, domain, &points, None) {
         assert!((0.0..=1.000001).contains(&order), "{order}");
     }
-    if let Ok(distances) = spacing::nearest_distances_2d(context, domain, &points) {
+    if let Ok(distances) = spacing::nearest_distances_2d(context, domain, &points, None) {
         assert_eq!(distances.len(), points.len());
-        _ = coverage::covering_radius_2d(context, domain, &points).expect("what has distances has a covering radius");
+        _ = coverage::covering_radius_2d(context, domain, &points, None).expect("what has distances has a covering radius");
     }
     if let Ok(differences) = differential::plane_differences(context, domain, &points, None) {
         assert!(differences.density().iter().all(|&density| density >= 0.0));
@@ -50,8 +50,8 @@ fn surface(context: &Context, input: &mut Input) {
     let points = input.rows::<3>(60);
     let normals: Vec<[f32; 3]> = points.iter().map(|_| std::array::from_fn(|_| input.coordinate())).collect();
     let direction = std::array::from_fn(|_| input.coordinate().into());
-    _ = spacing::smallest_distance_3d(context, &points);
-    if let Ok(share) = coverage::surface_uncovered_fraction(context, &mesh, &points, input.number(), 50, 1) {
+    _ = spacing::smallest_distance_3d(context, &points, None);
+    if let Ok(share) = coverage::surface_uncovered_fraction(context, &mesh, &points, input.number(), 50, 1, None) {
         assert!((0.0..=1.0).contains(&share));
     }
     if let Ok(differences) =

@@ -5,7 +5,7 @@ use glam::DVec2;
 use crate::dcr::delaunay::Delaunay;
 use crate::dcr::frame::Frame;
 use crate::error::Result;
-use crate::job::{Context, chunks};
+use crate::job::{Context, Job, Progress, chunks};
 use crate::points::Domain;
 
 /// The bond order ψ6 of a set (Nelson and Halperin 1979, "Dislocation-mediated melting in two dimensions"): the mean over
@@ -19,21 +19,25 @@ use crate::points::Domain;
 /// Takes O(n log n).
 ///
 /// # Errors
-/// [`Error::InvalidArgument`](crate::Error::InvalidArgument) for a domain that is none and for points outside it (`xy`).
-pub fn bond_order(context: &Context, domain: &Domain, points: &[[f32; 2]]) -> Result<f64> {
-    domain.check()?;
-    domain.check_points(points)?;
+/// [`Error::InvalidArgument`](crate::Error::InvalidArgument) for a domain that is none and for points outside it (`xy`);
+/// [`Error::Cancelled`](crate::Error::Cancelled).
+pub fn bond_order(context: &Context, domain: &Domain, points: &[[f32; 2]], progress: Option<&Progress>) -> Result<f64> {
+    domain.check_set(points)?;
     if points.is_empty() {
         return Ok(0.0);
     }
     let frame = Frame::new(*domain, points.len());
-    let positions = frame.enter(points);
-    let chunks = chunks(points.len());
-    let orders: Vec<f64> = context.run(None, |job| {
-        let delaunay = Delaunay::new(job, &frame, positions.iter().copied())?;
-        job.flat_map(chunks.len(), |chunk| {
-            chunks.range(chunk).filter_map(|point| order(delaunay.ring(point))).collect()
-        })
+    context.run(progress, |job| {
+        let delaunay = Delaunay::new(&job.part(0.0, 0.8), &frame, frame.enter(points).into_iter())?;
+        mean_order(&job.part(0.8, 1.0), &delaunay)
+    })
+}
+
+/// The bond order of a set by its triangulation.
+pub(super) fn mean_order(job: &Job, delaunay: &Delaunay) -> Result<f64> {
+    let chunks = chunks(delaunay.len());
+    let orders: Vec<f64> = job.flat_map(chunks.len(), |chunk| {
+        chunks.range(chunk).filter_map(|point| order(delaunay.ring(point))).collect()
     })?;
     Ok(orders.iter().sum::<f64>() / orders.len().max(1) as f64)
 }

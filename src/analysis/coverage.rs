@@ -9,7 +9,7 @@ mod tree;
 use crate::analysis::probes::Surface;
 use crate::error::Result;
 use crate::grid3::{Grid3, distance_squared};
-use crate::job::{Context, chunks};
+use crate::job::{Context, Job, Progress, chunks, chunks_of};
 use crate::mesh::Mesh;
 use crate::points::{Domain, check_radius};
 
@@ -19,6 +19,9 @@ pub use surface::{surface_coverage, surface_covering_radius};
 
 /// The relative precision of a covering radius.
 pub const PRECISION: f64 = 1e-9;
+
+/// The cells of a task, of which each may become many.
+const TASK: usize = 512;
 
 /// How a set covers a domain or a surface with disks of a radius.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -38,15 +41,24 @@ pub struct Coverage {
 /// # Errors
 /// As [`covering_radius_2d`]; and [`Error::InvalidArgument`](crate::Error::InvalidArgument) for a radius that is not
 /// positive and finite.
-pub fn coverage_2d(context: &Context, domain: &Domain, points: &[[f32; 2]], radius: f64) -> Result<Coverage> {
+pub fn coverage_2d(
+    context: &Context,
+    domain: &Domain,
+    points: &[[f32; 2]],
+    radius: f64,
+    progress: Option<&Progress>,
+) -> Result<Coverage> {
     check_radius(radius)?;
-    let farthest = covering_radius_2d(context, domain, points)?;
-    let gaps = match points {
-        _ if farthest <= radius => 0,
-        [] => 1,
-        _ => gaps::count(context, domain, points, radius)?.max(1),
-    };
-    Ok(Coverage { farthest, gaps })
+    domain.check_set(points)?;
+    context.run(progress, |job| {
+        let farthest = covering_radius(&job.part(0.0, 0.5), domain, points)?;
+        let gaps = match points {
+            _ if farthest <= radius => 0,
+            [] => 1,
+            _ => gaps::count(&job.part(0.5, 1.0), domain, points, radius)?.max(1),
+        };
+        Ok(Coverage { farthest, gaps })
+    })
 }
 
 /// The covering radius of a set in the plane: the distance from the samples of the point of the domain that is farthest
@@ -59,20 +71,35 @@ pub fn coverage_2d(context: &Context, domain: &Domain, points: &[[f32; 2]], radi
 /// Takes O(n log n).
 ///
 /// # Errors
-/// [`Error::InvalidArgument`](crate::Error::InvalidArgument) for a domain that is none and for points outside it (`xy`).
-pub fn covering_radius_2d(context: &Context, domain: &Domain, points: &[[f32; 2]]) -> Result<f64> {
-    domain.check()?;
-    domain.check_points(points)?;
+/// [`Error::InvalidArgument`](crate::Error::InvalidArgument) for a domain that is none and for points outside it (`xy`);
+/// [`Error::Cancelled`](crate::Error::Cancelled).
+pub fn covering_radius_2d(
+    context: &Context,
+    domain: &Domain,
+    points: &[[f32; 2]],
+    progress: Option<&Progress>,
+) -> Result<f64> {
+    domain.check_set(points)?;
+    context.run(progress, |job| covering_radius(job, domain, points))
+}
+
+/// [`covering_radius_2d`] of a set that has been checked.
+pub(super) fn covering_radius(job: &Job, domain: &Domain, points: &[[f32; 2]]) -> Result<f64> {
     if points.is_empty() {
         return Ok(f64::INFINITY);
     }
-    let nearest = Nearest::new(domain, points);
+    let nearest = Nearest::new(&job.part(0.0, 0.2), domain, points)?;
     let cells = Cells::about(domain, points.len());
-    let chunks = chunks(cells.len());
-    let farthest = context.run(None, |job| {
-        job.map(chunks.len(), |chunk| farthest(&nearest, chunks.range(chunk).map(|cell| cells.get(cell)).collect()))
-    })?;
-    Ok(farthest.into_iter().fold(0.0, f64::max))
+    let tasks = chunks_of(cells.len(), TASK);
+    let distance = |cell: usize| {
+        let [x, y] = nearest.offset(cells.get(cell).centre);
+        x.hypot(y)
+    };
+    let largest = |distances: Vec<f64>| distances.into_iter().fold(0.0, f64::max);
+    let known =
+        job.part(0.2, 0.3).map(tasks.len(), |task| tasks.range(task).map(distance).fold(0.0, f64::max)).map(largest)?;
+    let of_task = |task: usize| farthest(&nearest, tasks.range(task).map(|cell| cells.get(cell)).collect(), known);
+    job.part(0.3, 1.0).map(tasks.len(), of_task).map(largest)
 }
 
 /// A rectangle of the domain.
@@ -111,9 +138,9 @@ impl Cells {
     }
 }
 
-/// The largest distance of a place in the cells from the points.
-fn farthest(nearest: &Nearest, mut cells: Vec<Cell>) -> f64 {
-    let mut farthest: f64 = 0.0;
+/// The largest distance of a place in the cells from the points, if it is above the one that is known.
+fn farthest(nearest: &Nearest, mut cells: Vec<Cell>, known: f64) -> f64 {
+    let mut farthest = known;
     while !cells.is_empty() {
         let offsets: Vec<[f64; 2]> = cells.iter().map(|cell| nearest.offset(cell.centre).map(f64::abs)).collect();
         farthest = offsets.iter().map(|&[x, y]| x.hypot(y)).fold(farthest, f64::max);
@@ -161,7 +188,7 @@ impl Cell {
 ///
 /// # Errors
 /// [`Error::InvalidArgument`](crate::Error::InvalidArgument) for a radius that is not positive and finite and for
-/// positions that are not finite.
+/// positions that are not finite; [`Error::Cancelled`](crate::Error::Cancelled).
 pub fn surface_uncovered_fraction(
     context: &Context,
     mesh: &Mesh,
@@ -169,28 +196,29 @@ pub fn surface_uncovered_fraction(
     radius: f64,
     probes: u64,
     seed: u64,
+    progress: Option<&Progress>,
 ) -> Result<f64> {
     check_radius(radius)?;
     super::check_positions(positions)?;
     if mesh.area() == 0.0 {
         return Ok(0.0);
     }
-    let mut grid = Grid3::new(mesh.bounds().0.map(f64::from), radius);
-    positions.iter().for_each(|&position| {
-        grid.insert(position);
-    });
     let surface = Surface::new(mesh);
     let chunks = chunks(probes as usize);
-    let uncovered = context.run(None, |job| {
-        job.map(chunks.len(), |chunk| {
-            let probe = |index: &usize| surface.probe(seed, *index as u64);
-            let is_covered = |index: &usize| {
-                let probe = probe(index);
-                let mut near = grid.candidates(probe.map(f64::from), radius);
-                near.any(|sample| distance_squared(positions[sample as usize], probe) <= radius * radius)
-            };
-            chunks.range(chunk).filter(|index| !is_covered(index)).count()
+    let mut uncovered = 0;
+    context.run(progress, |job| {
+        let grid = Grid3::of(&job.part(0.0, 0.1), mesh.bounds().0.map(f64::from), radius, positions)?;
+        let is_covered = |index: usize| {
+            let probe = surface.probe(seed, index as u64);
+            let mut near = grid.candidates(probe.map(f64::from), radius);
+            near.any(|sample| distance_squared(positions[sample as usize], probe) <= radius * radius)
+        };
+        let count = |chunk: usize| chunks.range(chunk).filter(|&index| !is_covered(index)).count();
+        // However many probes there are, the counts of few chunks are held at a time.
+        job.part(0.1, 1.0).stream(chunks.len(), count, |found| {
+            uncovered += found;
+            Ok(())
         })
     })?;
-    Ok(uncovered.into_iter().sum::<usize>() as f64 / probes.max(1) as f64)
+    Ok(uncovered as f64 / probes.max(1) as f64)
 }

@@ -28,7 +28,7 @@ use glam::{DVec2, DVec3};
 
 use crate::analysis::probes::Surface;
 use crate::error::{Error, Result};
-use crate::job::{Context, Job, Progress, chunks_of};
+use crate::job::{Context, Job, Progress, chunks};
 use crate::mesh::{Mesh, exact};
 use crate::points::{Boundary, Domain};
 
@@ -47,8 +47,6 @@ pub const GRID_REACH: f64 = 4.0;
 
 /// Random points of the surface for each sample.
 const PROBES: usize = 2;
-/// No more tasks than this: each has a grid of its own.
-const MAX_TASKS: usize = 64;
 
 /// The differences of a set of samples, or of several.
 #[derive(Clone, Debug, PartialEq)]
@@ -84,8 +82,7 @@ pub fn plane_differences(
     points: &[[f32; 2]],
     progress: Option<&Progress>,
 ) -> Result<Differences> {
-    domain.check()?;
-    domain.check_points(points)?;
+    domain.check_set(points)?;
     check_count("xy", points.len())?;
     let unit = (domain.area() / points.len() as f64).sqrt();
     let extent = DVec2::from(domain.extent()) / unit;
@@ -142,11 +139,12 @@ pub fn surface_differences(
     let places: Vec<_> = positions.iter().map(|&position| exact(position) / unit).collect();
     let locals: Vec<_> = normals.iter().map(|&normal| Local::on_surface(exact(normal), direction)).collect();
     let surface = Surface::new(mesh);
-    let probes = PROBES * positions.len();
-    let probes: Vec<_> = (0..probes as u64).map(|number| exact(surface.probe(seed, number)) / unit).collect();
+    let probes = chunks(PROBES * positions.len());
+    let probe = |number: usize| exact(surface.probe(seed, number as u64)) / unit;
     context.run(progress, |job| {
-        let found = count(&job.part(0.0, 0.2), &places, &locals, &places, true, |_| 1.0)?;
-        let mut expected = count(&job.part(0.2, 1.0), &places, &locals, &probes, false, |_| 1.0)?;
+        let probes = job.part(0.0, 0.05).concat(probes.len(), |chunk| probes.range(chunk).map(probe).collect())?;
+        let found = count(&job.part(0.05, 0.35), &places, &locals, &places, true, |_| 1.0)?;
+        let mut expected = count(&job.part(0.35, 1.0), &places, &locals, &probes, false, |_| 1.0)?;
         expected.scale((positions.len() - 1) as f64 / probes.len() as f64);
         Ok(Differences { found, expected })
     })
@@ -183,25 +181,54 @@ fn count(
     weight: impl Fn(DVec3) -> f64 + Sync,
 ) -> Result<Counts> {
     let side = pairs::side([firsts, others], REACH);
-    let (firsts, others) = (Cells::new(firsts, side), Cells::new(others, side));
-    let tasks = chunks_of(firsts.len(), firsts.len().div_ceil(MAX_TASKS).max(1));
-    let parts = job.map(tasks.len(), |task| {
+    let firsts = Cells::new(firsts, side);
+    job.report(0.02)?;
+    let others = Cells::new(others, side);
+    let tasks = firsts.tasks(&job.part(0.04, 0.1), &others, REACH)?;
+    let count = |task: usize| {
         let mut counts = Counts::none();
-        for cell in tasks.range(task) {
-            let firsts = firsts.points(cell);
-            let near = others.near(firsts);
+        let (mut near, mut hits) = (Vec::new(), Vec::new());
+        for run in &tasks[task] {
+            let firsts = firsts.points(run.clone());
+            near.clear();
+            others.near(firsts, REACH).for_each(|points| near.extend_from_slice(points));
             for &(first, from) in firsts {
-                for &(other, to) in &near {
-                    let offset = to - from;
-                    if offset.length_squared() < REACH * REACH && !(same && first == other) {
-                        counts.add(offset, &locals[first as usize], weight(offset));
-                    }
+                let local = &locals[first as usize];
+                for hit in hits_among(&near, from, &mut hits).iter().filter(|hit| !(same && hit.other == first)) {
+                    counts.add(hit.offset, hit.squared.sqrt(), local, weight(hit.offset));
                 }
             }
         }
         counts
+    };
+    let mut sum = Counts::none();
+    job.part(0.1, 1.0).stream(tasks.len(), count, |counts| {
+        sum.add_all(&counts);
+        Ok(())
     })?;
-    Ok(parts.iter().fold(Counts::none(), Counts::plus))
+    Ok(sum)
+}
+
+/// A point within the reach of another one.
+#[derive(Clone, Copy, Default)]
+struct Hit {
+    other: u32,
+    offset: DVec3,
+    squared: f64,
+}
+
+/// The points within the reach of a place. All are written down, and the next takes the place of one that is no hit: no
+/// processor could guess which it will be.
+fn hits_among<'a>(near: &[(u32, DVec3)], from: DVec3, hits: &'a mut Vec<Hit>) -> &'a [Hit] {
+    hits.resize(hits.len().max(near.len()), Hit::default());
+    let mut count = 0;
+    for &(other, to) in near {
+        let offset = to - from;
+        let squared = offset.length_squared();
+        hits[count] = Hit { other, offset, squared };
+        count += usize::from(squared < REACH * REACH);
+    }
+    &hits[..count]
 }
 
 impl Local {
@@ -235,8 +262,7 @@ impl Counts {
         counts
     }
 
-    fn add(&mut self, offset: DVec3, local: &Local, weight: f64) {
-        let length = offset.length();
+    fn add(&mut self, offset: DVec3, length: f64, local: &Local, weight: f64) {
         let last = self.shells.len() - 1;
         self.shells[((length / SHELL_WIDTH) as usize).min(last)] += weight;
         if length < GRID_REACH * SQRT_2 {
@@ -251,10 +277,9 @@ impl Counts {
         self.grid.iter_mut().chain(&mut self.shells).for_each(|count| *count *= factor);
     }
 
-    fn plus(mut self, other: &Self) -> Self {
+    fn add_all(&mut self, other: &Self) {
         self.grid.iter_mut().zip(&other.grid).for_each(|(sum, count)| *sum += count);
         self.shells.iter_mut().zip(&other.shells).for_each(|(sum, count)| *sum += count);
-        self
     }
 }
 
@@ -274,7 +299,11 @@ impl Differences {
         if of.is_empty() {
             return Err(Error::invalid("differences", "there are none"));
         }
-        let sum = |counts: fn(&Self) -> &Counts| of.iter().map(counts).fold(Counts::none(), Counts::plus);
+        let sum = |counts: fn(&Self) -> &Counts| {
+            let mut sum = Counts::none();
+            of.iter().for_each(|one| sum.add_all(counts(one)));
+            sum
+        };
         Ok(Self { found: sum(|one| &one.found), expected: sum(|one| &one.expected) })
     }
 }

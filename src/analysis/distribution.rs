@@ -13,7 +13,7 @@ use std::f64::consts::PI;
 
 use crate::error::{Error, Result};
 use crate::grid2::Grid2;
-use crate::job::{Context, Progress, chunks};
+use crate::job::{Context, Progress, chunks_of};
 use crate::points::{Boundary, Domain};
 
 /// The largest number of bins.
@@ -48,8 +48,7 @@ pub fn radial_distribution(
     bins: usize,
     progress: Option<&Progress>,
 ) -> Result<RadialDistribution> {
-    domain.check()?;
-    domain.check_points(points)?;
+    domain.check_set(points)?;
     if points.len() < 2 {
         return Err(Error::invalid("xy", format!("{} points have no distances", points.len())));
     }
@@ -68,7 +67,8 @@ pub fn radial_distribution(
     let cell = CELL * (domain.area() / points.len() as f64).sqrt();
     let grid = Grid2::new(*domain, points.iter().map(|point| point.map(f64::from)), cell);
     let per_length = bins as f64 / (reach * unit);
-    let chunks = chunks(points.len());
+    // Many bins take time of their own; many points, perhaps, since most may be in one cell.
+    let chunks = chunks_of(points.len(), (bins / 8).clamp(256, 2048));
     // Along the cells of the grid, so that points which follow each other meet the same others.
     let count = |chunk: usize| {
         let mut counts = vec![0.0; bins];

@@ -8,6 +8,7 @@ pub mod coverage;
 pub mod differential;
 pub mod distribution;
 pub mod facing;
+pub mod figures;
 mod probes;
 pub mod spacing;
 pub mod spectrum;

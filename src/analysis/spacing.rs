@@ -4,27 +4,38 @@ use super::distribution::check_bins;
 use crate::error::Result;
 use crate::grid2::Grid2;
 use crate::grid3;
-use crate::job::{Context, chunks};
+use crate::job::{Context, Job, Progress, chunks_of};
 use crate::points::Domain;
+
+/// The points of a task: so few that a call can be cancelled soon even where most points are in one cell of the grid.
+const TASK: usize = 256;
 
 /// The distance of each point of the plane to its nearest neighbour; infinite for a point that is alone.
 ///
 /// Takes O(n) for sets without large clusters.
 ///
 /// # Errors
-/// [`Error::InvalidArgument`](crate::Error::InvalidArgument) for a domain that is none and for points outside it (`xy`).
-pub fn nearest_distances_2d(context: &Context, domain: &Domain, points: &[[f32; 2]]) -> Result<Vec<f64>> {
-    domain.check()?;
-    domain.check_points(points)?;
+/// [`Error::InvalidArgument`](crate::Error::InvalidArgument) for a domain that is none and for points outside it (`xy`);
+/// [`Error::Cancelled`](crate::Error::Cancelled).
+pub fn nearest_distances_2d(
+    context: &Context,
+    domain: &Domain,
+    points: &[[f32; 2]],
+    progress: Option<&Progress>,
+) -> Result<Vec<f64>> {
+    domain.check_set(points)?;
+    context.run(progress, |job| nearest_distances(job, domain, points))
+}
+
+/// [`nearest_distances_2d`] of a set that has been checked.
+pub(super) fn nearest_distances(job: &Job, domain: &Domain, points: &[[f32; 2]]) -> Result<Vec<f64>> {
     let position = |point: &[f32; 2]| point.map(f64::from);
     let cell_size = (domain.area() / points.len() as f64).sqrt();
     let grid = Grid2::new(*domain, points.iter().map(position), cell_size);
-    let chunks = chunks(points.len());
-    context.run(None, |job| {
-        job.flat_map(chunks.len(), |chunk| {
-            let nearest = |i: usize| grid.nearest_squared(position(&points[i]), Some(i as u32)).sqrt();
-            chunks.range(chunk).map(nearest).collect()
-        })
+    let chunks = chunks_of(points.len(), TASK);
+    job.flat_map(chunks.len(), |chunk| {
+        let nearest = |i: usize| grid.nearest_squared(position(&points[i]), Some(i as u32)).sqrt();
+        chunks.range(chunk).map(nearest).collect()
     })
 }
 
@@ -32,8 +43,13 @@ pub fn nearest_distances_2d(context: &Context, domain: &Domain, points: &[[f32; 
 ///
 /// # Errors
 /// As [`nearest_distances_2d`].
-pub fn smallest_distance_2d(context: &Context, domain: &Domain, points: &[[f32; 2]]) -> Result<f64> {
-    Ok(nearest_distances_2d(context, domain, points)?.into_iter().fold(f64::INFINITY, f64::min))
+pub fn smallest_distance_2d(
+    context: &Context,
+    domain: &Domain,
+    points: &[[f32; 2]],
+    progress: Option<&Progress>,
+) -> Result<f64> {
+    Ok(nearest_distances_2d(context, domain, points, progress)?.into_iter().fold(f64::INFINITY, f64::min))
 }
 
 /// The smallest distance in units of `d_max = sqrt(2 A / (sqrt(3) N))`, the distance of neighbours in the hexagonal
@@ -42,8 +58,8 @@ pub fn smallest_distance_2d(context: &Context, domain: &Domain, points: &[[f32; 
 ///
 /// # Errors
 /// As [`nearest_distances_2d`].
-pub fn rho(context: &Context, domain: &Domain, points: &[[f32; 2]]) -> Result<f64> {
-    let smallest = smallest_distance_2d(context, domain, points)?;
+pub fn rho(context: &Context, domain: &Domain, points: &[[f32; 2]], progress: Option<&Progress>) -> Result<f64> {
+    let smallest = smallest_distance_2d(context, domain, points, progress)?;
     Ok(smallest / domain.hexagonal_distance(points.len().max(1)))
 }
 
@@ -90,8 +106,9 @@ pub fn nearest_histogram_2d(domain: &Domain, nearest: &[f64], reach: f64, bins: 
 /// Takes O(n log n) for sets that are neither clustered in space nor lined up in planes across their longest extent.
 ///
 /// # Errors
-/// [`Error::InvalidArgument`](crate::Error::InvalidArgument) for positions that are not finite (`positions`).
-pub fn smallest_distance_3d(context: &Context, positions: &[[f32; 3]]) -> Result<f64> {
+/// [`Error::InvalidArgument`](crate::Error::InvalidArgument) for positions that are not finite (`positions`);
+/// [`Error::Cancelled`](crate::Error::Cancelled).
+pub fn smallest_distance_3d(context: &Context, positions: &[[f32; 3]], progress: Option<&Progress>) -> Result<f64> {
     super::check_positions(positions)?;
-    context.run(None, |job| grid3::smallest_distance(job, positions))
+    context.run(progress, |job| grid3::smallest_distance(job, positions))
 }

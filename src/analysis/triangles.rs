@@ -5,12 +5,12 @@ use glam::DVec2;
 use crate::dcr::delaunay::Delaunay;
 use crate::dcr::frame::{Frame, Site};
 use crate::error::Result;
-use crate::job::Context;
+use crate::job::{Context, Job, Progress, chunks, chunks_of};
 use crate::mesh::exact;
 use crate::points::{Boundary, Domain};
 
 /// A triangle of the Delaunay triangulation of a set.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Triangle {
     /// The corners, counter-clockwise, in the units of the domain.
     pub corners: [[f64; 2]; 3],
@@ -62,32 +62,57 @@ impl Triangle {
 /// both sides of the torus: there some triangles may be missing and others overlap.
 ///
 /// # Errors
-/// [`Error::InvalidArgument`](crate::Error::InvalidArgument) for a domain that is none and for points outside it (`xy`).
-pub fn delaunay_triangles(context: &Context, domain: &Domain, points: &[[f32; 2]]) -> Result<Vec<Triangle>> {
-    domain.check()?;
-    domain.check_points(points)?;
+/// [`Error::InvalidArgument`](crate::Error::InvalidArgument) for a domain that is none and for points outside it (`xy`);
+/// [`Error::Cancelled`](crate::Error::Cancelled).
+pub fn delaunay_triangles(
+    context: &Context,
+    domain: &Domain,
+    points: &[[f32; 2]],
+    progress: Option<&Progress>,
+) -> Result<Vec<Triangle>> {
+    domain.check_set(points)?;
+    context.run(progress, |job| triangulate(job, domain, points))
+}
+
+fn triangulate(job: &Job, domain: &Domain, points: &[[f32; 2]]) -> Result<Vec<Triangle>> {
     if points.is_empty() {
         return Ok(Vec::new());
     }
     let frame = Frame::new(*domain, points.len());
     let positions = frame.enter(points);
-    let delaunay = context.run(None, |job| Delaunay::new(job, &frame, positions.iter().copied()))?;
-    let place = |corner: Site| (DVec2::from_array(domain.min) + corner.position * frame.spacing()).to_array();
-    let counted = delaunay.triangles().filter(|corners| is_counted(domain.boundary, corners));
-    Ok(counted.map(|corners| Triangle { corners: corners.map(place) }).collect())
+    let delaunay = Delaunay::new(&job.part(0.0, 0.9), &frame, positions.iter().copied())?;
+    triangles_of(&job.part(0.9, 1.0), domain, &frame, &positions, &delaunay)
 }
 
-/// Whether a triangle is the one of its images that counts: on a torus that whose first corner is a point of the domain,
-/// first by its number and then by its place, which orders the images of a point in the same way on every side.
-fn is_counted(boundary: Boundary, corners: &[Site; 3]) -> bool {
-    let order = |a: &&Site, b: &&Site| {
-        let by_place = a.position.x.total_cmp(&b.position.x).then(a.position.y.total_cmp(&b.position.y));
-        a.source.cmp(&b.source).then(by_place)
+/// The triangles of the triangulation of some positions, each once.
+pub(super) fn triangles_of(
+    job: &Job,
+    domain: &Domain,
+    frame: &Frame,
+    positions: &[DVec2],
+    delaunay: &Delaunay,
+) -> Result<Vec<Triangle>> {
+    // By the point that a corner is a copy of, and then by its own place, which orders the images of a point in the same
+    // way on every side. Not by numbers: coincident points are one corner, which has the number of any of them.
+    let key = |site: &Site| {
+        let (of, at) = (positions[site.source as usize], site.position);
+        [of.x, of.y, at.x, at.y]
     };
-    match boundary {
-        Boundary::Periodic => corners.iter().min_by(order).is_some_and(Site::is_original),
-        Boundary::Bounded => corners.iter().all(Site::is_original),
-    }
+    let order = |a: &&Site, b: &&Site| key(a).partial_cmp(&key(b)).expect("sites are finite");
+    // On a torus that of a triangle's images counts whose first corner is a point of the domain, and there.
+    let is_counted = |point: usize, corners: &[Site; 3]| {
+        let first = corners.iter().min_by(order);
+        first.is_some_and(|site| site.is_original() && site.source as usize == point)
+            && (domain.boundary == Boundary::Periodic || corners.iter().all(Site::is_original))
+    };
+    let place = |corner: Site| (DVec2::from_array(domain.min) + corner.position * frame.spacing()).to_array();
+    let chunks = chunks(delaunay.len());
+    job.concat(chunks.len(), |chunk| {
+        let counted = chunks
+            .range(chunk)
+            .flat_map(|point| delaunay.triangles_at(point).filter(move |corners| is_counted(point, corners)));
+        counted.map(|corners| Triangle { corners: corners.map(place) }).collect()
+    })
 }
 
 /// What the triangles of a set are like, as [`delaunay_triangles`] gives them. Shares and variations of nothing are 0.
@@ -115,38 +140,98 @@ pub struct TriangleStatistics {
 ///
 /// # Errors
 /// As [`delaunay_triangles`].
-pub fn triangle_statistics(context: &Context, domain: &Domain, points: &[[f32; 2]]) -> Result<TriangleStatistics> {
-    Ok(TriangleStatistics::of(&delaunay_triangles(context, domain, points)?))
+pub fn triangle_statistics(
+    context: &Context,
+    domain: &Domain,
+    points: &[[f32; 2]],
+    progress: Option<&Progress>,
+) -> Result<TriangleStatistics> {
+    domain.check_set(points)?;
+    context.run(progress, |job| {
+        let triangles = triangulate(&job.part(0.0, 0.9), domain, points)?;
+        TriangleStatistics::shared(&job.part(0.9, 1.0), &triangles)
+    })
 }
 
 impl TriangleStatistics {
     /// Measures any triangles, as those of the samples of a surface
     /// ([`dcr::surface::triangulate`](crate::dcr::surface::triangulate)).
     pub fn of(triangles: &[Triangle]) -> Self {
-        let [mut areas, mut edges] = [Moments::default(); 2];
-        let (mut obtuse, mut sharp, mut sharp_angles) = (0, 0, 0);
-        for triangle in triangles {
-            areas.add(triangle.area());
-            // Inner edges come twice, once with each of their triangles.
-            triangle.edges().into_iter().for_each(|edge| edges.add(edge));
-            let angles = triangle.cosines().into_iter().filter(|&cosine| cosine > 0.75f64.sqrt()).count();
-            obtuse += usize::from(triangle.is_obtuse());
-            sharp += usize::from(angles > 0);
-            sharp_angles += angles;
-        }
-        let limit = SIGMAS * areas.variation().sqrt() * areas.mean();
-        let outlying = triangles.iter().filter(|triangle| (triangle.area() - areas.mean()).abs() > limit).count();
-        let share = |part: usize| part as f64 / triangles.len().max(1) as f64;
+        let parts = || triangles.chunks(PART);
+        let sums = parts().map(Sums::of).fold(Sums::default(), Sums::plus);
+        Self::from_sums(&sums, parts().map(|part| sums.outlying(part)).sum())
+    }
+
+    /// [`TriangleStatistics::of`] by all threads.
+    pub(super) fn shared(job: &Job, triangles: &[Triangle]) -> Result<Self> {
+        let parts = chunks_of(triangles.len(), PART);
+        let part = |part: usize| &triangles[parts.range(part)];
+        let sums = job.part(0.0, 0.8).map(parts.len(), |i| Sums::of(part(i)))?;
+        let sums = sums.into_iter().fold(Sums::default(), Sums::plus);
+        let outlying = job.part(0.8, 1.0).map(parts.len(), |i| sums.outlying(part(i)))?;
+        Ok(Self::from_sums(&sums, outlying.into_iter().sum()))
+    }
+
+    fn from_sums(sums: &Sums, outlying: usize) -> Self {
+        let share = |part: usize| part as f64 / sums.triangles.max(1) as f64;
         Self {
-            triangles: triangles.len() as u64,
-            obtuse: share(obtuse),
-            below_30_degrees: share(sharp),
-            angles_below_30_degrees: share(sharp_angles) / 3.0,
-            edge_mean: edges.mean(),
-            edge_variation: edges.variation(),
-            area_variation: areas.variation(),
+            triangles: sums.triangles as u64,
+            obtuse: share(sums.obtuse),
+            below_30_degrees: share(sums.sharp),
+            angles_below_30_degrees: share(sums.sharp_angles) / 3.0,
+            edge_mean: sums.edges.mean(),
+            edge_variation: sums.edges.variation(),
+            area_variation: sums.areas.variation(),
             beyond_4_sigma: share(outlying),
         }
+    }
+}
+
+/// So many triangles are summed up at a time, by however many threads: that makes the order of the sums.
+const PART: usize = 1 << 13;
+
+/// What is summed up over triangles.
+#[derive(Clone, Copy, Default)]
+struct Sums {
+    triangles: usize,
+    areas: Moments,
+    /// Of inner edges twice, once with each of their triangles.
+    edges: Moments,
+    obtuse: usize,
+    sharp: usize,
+    sharp_angles: usize,
+}
+
+impl Sums {
+    fn of(triangles: &[Triangle]) -> Self {
+        let mut sums = Self { triangles: triangles.len(), ..Self::default() };
+        for triangle in triangles {
+            sums.areas.add(triangle.area());
+            triangle.edges().into_iter().for_each(|edge| sums.edges.add(edge));
+            let cosines = triangle.cosines();
+            let angles = cosines.iter().filter(|&&cosine| cosine > 0.75f64.sqrt()).count();
+            sums.obtuse += usize::from(cosines.iter().any(|&cosine| cosine < 0.0));
+            sums.sharp += usize::from(angles > 0);
+            sums.sharp_angles += angles;
+        }
+        sums
+    }
+
+    fn plus(self, other: Self) -> Self {
+        Self {
+            triangles: self.triangles + other.triangles,
+            areas: self.areas.plus(other.areas),
+            edges: self.edges.plus(other.edges),
+            obtuse: self.obtuse + other.obtuse,
+            sharp: self.sharp + other.sharp,
+            sharp_angles: self.sharp_angles + other.sharp_angles,
+        }
+    }
+
+    /// The triangles, of all that were summed up or some of them, whose area is far from the mean.
+    fn outlying(&self, triangles: &[Triangle]) -> usize {
+        let (mean, limit) = (self.areas.mean(), SIGMAS * self.areas.variation().sqrt() * self.areas.mean());
+        triangles.iter().filter(|triangle| (triangle.area() - mean).abs() > limit).count()
     }
 }
 
@@ -166,6 +251,10 @@ impl Moments {
         self.count += 1.0;
         self.sum += x;
         self.squares += x * x;
+    }
+
+    fn plus(self, other: Self) -> Self {
+        Self { count: self.count + other.count, sum: self.sum + other.sum, squares: self.squares + other.squares }
     }
 
     fn mean(&self) -> f64 {

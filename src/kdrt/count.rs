@@ -164,8 +164,8 @@ mod tests {
             let search = Search::new(&domain, options.leaf_size, count);
             let Counted { samples, report } = context.run(None, |job| attempt(job, &options, search, 1)).unwrap();
             assert_eq!(samples.len() as u64, count);
-            let smallest = crate::analysis::spacing::smallest_distance_2d(&context, &domain, &samples).unwrap();
-            let farthest = crate::analysis::coverage::covering_radius_2d(&context, &domain, &samples).unwrap();
+            let smallest = crate::analysis::spacing::smallest_distance_2d(&context, &domain, &samples, None).unwrap();
+            let farthest = crate::analysis::coverage::covering_radius_2d(&context, &domain, &samples, None).unwrap();
             assert!(smallest >= report.radius);
             assert_eq!(report.is_maximal, farthest < report.radius * (1.0 + 1e-6), "{farthest} {report:?}");
             thinned += u32::from(!report.is_maximal);

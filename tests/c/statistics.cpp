@@ -49,6 +49,20 @@ void planes() {
     const auto density = azulejo::plane_radial_distribution(context, points.positions(), low, high, 0, 4, 80);
     CHECK(density.size() == 80 && density[14] == 0 && density[16] > 1.5 && std::abs(density[79] - 1) < 0.1);
     CHECK(refused("xy: 7", [&] { azulejo::plane_measure(context, std::vector<float>(7), low, high, 0); }));
+    std::vector<double> told;
+    const auto tell = [&](double done) { return told.push_back(done), true; };
+    const auto watched = azulejo::plane_measure(context, points.positions(), low, high, 0, tell);
+    CHECK(watched.covering_radius == report.covering_radius && told.front() == 0 && told.back() == 1);
+    CHECK(refused("cancelled", [&] {
+        azulejo::Spectrum(context, points.positions(), low, high, 0, 100, 1, [](double) { return false; });
+    }));
+    bool thrown = false;
+    try {
+        azulejo::plane_coverage(context, points.positions(), low, high, 0, 0.02, [](double) -> bool { throw 7; });
+    } catch (int) {
+        thrown = true;
+    }
+    CHECK(thrown);
     CHECK(refused("bins", [&] { azulejo::plane_radial_distribution(context, points.positions(), low, high, 0, 4, 0); }));
 }
 

@@ -52,7 +52,7 @@ fn plane(points: &[[f64; 2]], radius: f64) -> Result<Verdict, Box<dyn Error>> {
     // Some return 1, or what becomes 1 as a float.
     let rounded: Vec<[f32; 2]> =
         points.iter().map(|point| point.map(|x| (x as f32).clamp(0.0, 1.0f32.next_down()))).collect();
-    let covered = coverage::coverage_2d(&context, &domain, &rounded, radius + rounding(&rounded))?;
+    let covered = coverage::coverage_2d(&context, &domain, &rounded, radius + rounding(&rounded), None)?;
     let (conflicts, smallest) = pairs(points, radius);
     Ok(Verdict {
         samples: points.len(),
@@ -61,14 +61,14 @@ fn plane(points: &[[f64; 2]], radius: f64) -> Result<Verdict, Box<dyn Error>> {
         farthest: covered.farthest,
         gaps: covered.gaps,
         hexagonal: domain.hexagonal_distance(points.len()),
-        bond_order: Some(bonds::bond_order(&context, &domain, &rounded)?),
+        bond_order: Some(bonds::bond_order(&context, &domain, &rounded, None)?),
     })
 }
 
 fn surface(mesh: &Mesh, points: &[[f64; 3]], radius: f64) -> Result<Verdict, Box<dyn Error>> {
     let context = Context::new(0)?;
     let rounded: Vec<[f32; 3]> = points.iter().map(|point| point.map(|x| x as f32)).collect();
-    let covered = coverage::surface_coverage(&context, mesh, &rounded, radius + rounding(&rounded))?;
+    let covered = coverage::surface_coverage(&context, mesh, &rounded, radius + rounding(&rounded), None)?;
     let (conflicts, smallest) = pairs(points, radius);
     Ok(Verdict {
         samples: points.len(),

@@ -1,8 +1,9 @@
 //! Sets of the plane, measured.
 
-use azulejo::analysis::coverage::{coverage_2d, covering_radius_2d};
+use azulejo::analysis::coverage::coverage_2d;
 use azulejo::analysis::distribution::{RadialDistribution, radial_distribution};
-use azulejo::analysis::spacing::{nearest_distances_2d, nearest_histogram_2d};
+use azulejo::analysis::figures::figures_2d;
+use azulejo::analysis::spacing::nearest_histogram_2d;
 use azulejo::analysis::spectrum::{Annulus, Periodogram};
 use azulejo::{Context, Domain, Error, Progress, Result};
 
@@ -10,7 +11,7 @@ use super::Set;
 use super::figures::{Figure, Row};
 use crate::draw::spectra::spectrum_up_to;
 use crate::formats::blame;
-use crate::progress::watched;
+use crate::progress::{part, watched};
 use crate::quality::Quality;
 
 /// How far the spectrum is measured, in units of sqrt(density): the oscillation takes it to about 6.1 for most sets. The
@@ -84,7 +85,8 @@ impl Measured {
         let mut ones = Vec::new();
         watched("measure", |progress: &Progress| {
             for (i, set) in sets.iter().enumerate() {
-                let progress = |done: f64| _ = progress((i as f64 + done) / sets.len() as f64);
+                let share = 1.0 / sets.len() as f64;
+                let progress = part(progress, i as f64 * share, (i + 1) as f64 * share);
                 let one = One::of(context, domain, set, count, radius, &progress);
                 ones.push(one.map_err(|error| blame(&set.path, error))?);
             }
@@ -123,7 +125,7 @@ impl One {
         set: &Set,
         count: usize,
         radius: Option<f64>,
-        progress: &dyn Fn(f64),
+        progress: &Progress,
     ) -> Result<Self> {
         let points = set.points.plane_positions();
         if (points.len() as f64 / count as f64 - 1.0).abs() > SAME {
@@ -131,13 +133,12 @@ impl One {
             return Err(Error::Format { path: set.path.clone(), reason });
         }
         let unit = domain.hexagonal_distance(points.len());
-        let distances = nearest_distances_2d(context, domain, &points)?;
-        let covering = covering_radius_2d(context, domain, &points)?;
-        progress(0.2);
-        let spectrum = spectrum_up_to(context, domain, &points, count, FREQUENCY_REACH, GRID)?;
-        progress(0.4);
-        let quality = Quality::of(context, domain, &points, covering / unit)?;
-        progress(0.7);
+        let figured = figures_2d(context, domain, &points, Some(&part(progress, 0.0, 0.4)))?;
+        let covering = figured.covering_radius;
+        let reach = FREQUENCY_REACH;
+        let progressing = part(progress, 0.4, 0.6);
+        let spectrum = spectrum_up_to(context, domain, &points, count, reach, GRID, Some(&progressing))?;
+        let quality = Quality::with(context, domain, &points, &figured, Some(&part(progress, 0.6, 0.65)))?;
         let smallest = quality.rho * unit;
         let mut figures = vec![
             points.len() as f64,
@@ -154,15 +155,16 @@ impl One {
             spectrum.contrast(ANNULUS, CONTRAST_RANGE)?,
         ];
         if let Some(radius) = radius {
-            let gaps = coverage_2d(context, domain, &points, radius * (1.0 + SHALLOW))?.gaps;
+            let gaps =
+                coverage_2d(context, domain, &points, radius * (1.0 + SHALLOW), Some(&part(progress, 0.65, 0.8)))?.gaps;
             figures.extend([smallest / radius, covering / radius, gaps as f64]);
         }
         // Larger distances than half the domain are not all there.
         let reach = PAIR_REACH * unit <= 0.5 * domain.extent().into_iter().fold(f64::INFINITY, f64::min);
-        let pairs = || radial_distribution(context, domain, &points, PAIR_REACH, PAIR_BINS, None);
+        let pairs =
+            || radial_distribution(context, domain, &points, PAIR_REACH, PAIR_BINS, Some(&part(progress, 0.8, 1.0)));
         let distribution = (reach && points.len() > 1).then(pairs).transpose()?;
-        let nearest = nearest_histogram_2d(domain, &distances, NEAREST_REACH, NEAREST_BINS)?;
-        progress(1.0);
+        let nearest = nearest_histogram_2d(domain, &figured.nearest, NEAREST_REACH, NEAREST_BINS)?;
         Ok(Self { figures, spectrum, distribution, nearest })
     }
 }

@@ -11,7 +11,7 @@ use super::figures::{Figure, Row};
 use super::plane::{RADIUS_FIGURES, SHALLOW};
 use crate::formats::blame;
 use crate::generate::MAXIMAL_DENSITY;
-use crate::progress::watched;
+use crate::progress::{part, watched};
 
 /// The direction that angles are counted from, and the seed of the random places that pairs are compared with.
 const DIRECTION: [f64; 3] = [1.0, 0.0, 0.0];
@@ -45,11 +45,14 @@ impl Measured {
         let (mut figures, mut differences) = (Vec::new(), Vec::new());
         watched("measure", |progress: &Progress| {
             for (i, set) in sets.iter().enumerate() {
-                figures.push(measure(context, mesh, set, radius).map_err(|error| blame(&set.path, error))?);
+                let blamed = |error| blame(&set.path, error);
+                let share = |done: f64| (i as f64 + done) / sets.len() as f64;
+                let measuring = part(progress, share(0.0), share(0.4));
+                figures.push(measure(context, mesh, set, radius, &measuring).map_err(blamed)?);
                 if !set.points.normals.is_empty() {
-                    differences.push(differences_of(context, mesh, set).map_err(|error| blame(&set.path, error))?);
+                    let comparing = part(progress, share(0.4), share(1.0));
+                    differences.push(differences_of(context, mesh, set, &comparing).map_err(blamed)?);
                 }
-                _ = progress((i + 1) as f64 / sets.len() as f64);
             }
             Ok(())
         })?;
@@ -71,14 +74,15 @@ impl Measured {
     }
 }
 
-fn measure(context: &Context, mesh: &Mesh, set: &Set, radius: Option<f64>) -> Result<Vec<f64>> {
+fn measure(context: &Context, mesh: &Mesh, set: &Set, radius: Option<f64>, progress: &Progress) -> Result<Vec<f64>> {
     let positions = &set.points.positions;
-    let smallest = smallest_distance_3d(context, positions)?;
-    let covering = surface_covering_radius(context, mesh, positions)?;
+    let smallest = smallest_distance_3d(context, positions, Some(&part(progress, 0.0, 0.1)))?;
+    let covering = surface_covering_radius(context, mesh, positions, Some(&part(progress, 0.1, 0.5)))?;
     let maximal = (MAXIMAL_DENSITY * mesh.area() / positions.len() as f64).sqrt();
     let mut figures = vec![positions.len() as f64, smallest, smallest / maximal, covering, covering / maximal];
     if let Some(radius) = radius {
-        let gaps = match surface_coverage(context, mesh, positions, radius * (1.0 + SHALLOW)) {
+        let counting = part(progress, 0.5, 1.0);
+        let gaps = match surface_coverage(context, mesh, positions, radius * (1.0 + SHALLOW), Some(&counting)) {
             Ok(coverage) => coverage.gaps as f64,
             // Where nearly nothing is covered nobody counts gaps.
             Err(Error::TooLarge { .. }) => f64::NAN,
@@ -89,6 +93,6 @@ fn measure(context: &Context, mesh: &Mesh, set: &Set, radius: Option<f64>) -> Re
     Ok(figures)
 }
 
-fn differences_of(context: &Context, mesh: &Mesh, set: &Set) -> Result<Differences> {
-    surface_differences(context, mesh, &set.points.positions, &set.points.normals, DIRECTION, SEED, None)
+fn differences_of(context: &Context, mesh: &Mesh, set: &Set, progress: &Progress) -> Result<Differences> {
+    surface_differences(context, mesh, &set.points.positions, &set.points.normals, DIRECTION, SEED, Some(progress))
 }

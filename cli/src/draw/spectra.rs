@@ -75,12 +75,13 @@ pub fn spectrum_up_to(
     count: usize,
     limit: f64,
     most: usize,
+    progress: Option<&Progress>,
 ) -> Result<Periodogram> {
     let [width, height] = domain.extent();
     let waves = limit * width.max(height) * (count as f64 / domain.area()).sqrt();
     let stride = (2.0 * waves / most as f64).ceil().max(1.0);
     let half = (waves / stride).ceil() as usize;
-    sparse_periodogram(context, domain, points, 2 * half + 1, stride as usize, None)
+    sparse_periodogram(context, domain, points, 2 * half + 1, stride as usize, progress)
 }
 
 /// The points of a window; on a torus all points.

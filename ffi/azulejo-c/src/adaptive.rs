@@ -134,7 +134,7 @@ pub unsafe extern "C" fn azulejo_psp_sample_adaptive(
     report: Option<&mut MaybeUninit<azulejo_psp_report>>,
 ) -> azulejo_status {
     boundary::create(out, || {
-        let context = required("context", context)?.shared.clone();
+        let context = required("context", context)?;
         let mesh = required("mesh", mesh)?.shared.clone();
         // SAFETY: handed on from the caller.
         let options = unsafe { options::read(options) }?;
@@ -148,8 +148,9 @@ pub unsafe extern "C" fn azulejo_psp_sample_adaptive(
             None => Radius::PerVertex(radii),
         };
         let request = adaptive::Options { radius, cosine, seed };
-        let watch = Watch { function: options.progress, user: options.progress_user };
-        let (set, done) = watch.run(|progress| adaptive::sample(&context, &mesh, &request, progress))?;
+        let watch = Watch::new(options.progress, options.progress_user);
+        let (set, done) =
+            context.run(watch, |context, progress| adaptive::sample(context, &mesh, &request, progress))?;
         report.map(|report| report.write(done.into()));
         Ok(azulejo_points::adaptive(set))
     })

@@ -3,12 +3,12 @@
 use std::mem::MaybeUninit;
 
 use azulejo_core::analysis::{coverage, spacing};
-use azulejo_core::{Context, Domain};
 
 use crate::boundary::{self, required, rows};
 use crate::context::azulejo_context;
-use crate::domain::points_in_domain;
-use crate::mesh::azulejo_mesh;
+use crate::domain::PlaneSet;
+use crate::mesh::{SurfaceSet, azulejo_mesh};
+use crate::options::Watch;
 use crate::status::{Failure, azulejo_status};
 
 /// The smallest distance between two points of the plane, in double arithmetic; on a periodic domain around the torus.
@@ -30,8 +30,11 @@ pub unsafe extern "C" fn azulejo_plane_smallest_distance(
     boundary: i32,
     out: Option<&mut MaybeUninit<f64>>,
 ) -> azulejo_status {
-    // SAFETY: handed on from the caller.
-    unsafe { measure_plane(context, xy, count, [domain_min, domain_max], boundary, out, spacing::smallest_distance_2d) }
+    boundary::answer(out, || {
+        // SAFETY: handed on from the caller.
+        let set = unsafe { PlaneSet::read(context, xy, count, [domain_min, domain_max], boundary) }?;
+        set.run(spacing::smallest_distance_2d)
+    })
 }
 
 /// The covering radius of points of the plane: how far the place of the domain that is farthest from all of them is. A
@@ -54,8 +57,11 @@ pub unsafe extern "C" fn azulejo_plane_covering_radius(
     boundary: i32,
     out: Option<&mut MaybeUninit<f64>>,
 ) -> azulejo_status {
-    // SAFETY: handed on from the caller.
-    unsafe { measure_plane(context, xy, count, [domain_min, domain_max], boundary, out, coverage::covering_radius_2d) }
+    boundary::answer(out, || {
+        // SAFETY: handed on from the caller.
+        let set = unsafe { PlaneSet::read(context, xy, count, [domain_min, domain_max], boundary) }?;
+        set.run(coverage::covering_radius_2d)
+    })
 }
 
 /// The smallest straight distance between two points in space, in double arithmetic.
@@ -72,13 +78,11 @@ pub unsafe extern "C" fn azulejo_space_smallest_distance(
     count: usize,
     out: Option<&mut MaybeUninit<f64>>,
 ) -> azulejo_status {
-    boundary::call(|| {
-        let out = required("out", out)?;
-        let context = required("context", context)?.shared.clone();
+    boundary::answer(out, || {
+        let context = required("context", context)?;
         // SAFETY: handed on from the caller.
         let points = unsafe { rows::<f32, 3>("positions", positions, "count", count) }?;
-        out.write(spacing::smallest_distance_3d(&context, points)?);
-        Ok(())
+        context.run(Watch::NOBODY, |context, progress| spacing::smallest_distance_3d(context, points, progress))
     })
 }
 
@@ -105,17 +109,15 @@ pub unsafe extern "C" fn azulejo_mesh_uncovered_fraction(
     seed: u64,
     out: Option<&mut MaybeUninit<f64>>,
 ) -> azulejo_status {
-    boundary::call(|| {
-        let out = required("out", out)?;
-        let context = required("context", context)?.shared.clone();
-        let mesh = required("mesh", mesh)?.shared.clone();
+    boundary::answer(out, || {
         // SAFETY: handed on from the caller.
-        let points = unsafe { rows::<f32, 3>("positions", positions, "count", count) }?;
+        let set = unsafe { SurfaceSet::read(context, mesh, positions, count) }?;
         if probes == 0 {
             return Err(Failure::invalid("probes", "0 is not at least 1"));
         }
-        out.write(coverage::surface_uncovered_fraction(&context, &mesh, points, radius, probes, seed)?);
-        Ok(())
+        set.run(|context, mesh, points, progress| {
+            coverage::surface_uncovered_fraction(context, mesh, points, radius, probes, seed, progress)
+        })
     })
 }
 
@@ -162,13 +164,12 @@ pub unsafe extern "C" fn azulejo_plane_coverage(
     radius: f64,
     out: Option<&mut MaybeUninit<azulejo_coverage>>,
 ) -> azulejo_status {
-    boundary::call(|| {
-        let out = required("out", out)?;
-        let context = required("context", context)?.shared.clone();
+    boundary::answer(out, || {
         // SAFETY: handed on from the caller.
-        let (points, domain) = unsafe { points_in_domain(xy, count, [domain_min, domain_max], boundary) }?;
-        out.write(coverage::coverage_2d(&context, &domain, points, radius)?.into());
-        Ok(())
+        let set = unsafe { PlaneSet::read(context, xy, count, [domain_min, domain_max], boundary) }?;
+        set.run(|context, domain, points, progress| {
+            Ok(coverage::coverage_2d(context, domain, points, radius, progress)?.into())
+        })
     })
 }
 
@@ -186,8 +187,8 @@ pub unsafe extern "C" fn azulejo_plane_coverage(
 /// Found exactly, by subdividing the triangles: O((count + triangles) log count) time for samples that are spread evenly,
 /// and about 100 pieces for each square of the radius that is uncovered.
 ///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, and AZULEJO_ERROR_TOO_LARGE where more than about 600,000 times the square of the
-/// radius is uncovered.
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_CANCELLED, and AZULEJO_ERROR_TOO_LARGE where more than about 600,000
+/// times the square of the radius is uncovered.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_mesh_coverage(
     context: Option<&azulejo_context>,
@@ -197,36 +198,11 @@ pub unsafe extern "C" fn azulejo_mesh_coverage(
     radius: f64,
     out: Option<&mut MaybeUninit<azulejo_coverage>>,
 ) -> azulejo_status {
-    boundary::call(|| {
-        let out = required("out", out)?;
-        let context = required("context", context)?.shared.clone();
-        let mesh = required("mesh", mesh)?.shared.clone();
+    boundary::answer(out, || {
         // SAFETY: handed on from the caller.
-        let points = unsafe { rows::<f32, 3>("positions", positions, "count", count) }?;
-        out.write(coverage::surface_coverage(&context, &mesh, points, radius)?.into());
-        Ok(())
-    })
-}
-
-/// A figure of points of the plane.
-///
-/// # Safety
-/// Unless the checks fail, `xy` leads to `count` pairs of numbers, and the corners to one each.
-unsafe fn measure_plane(
-    context: Option<&azulejo_context>,
-    xy: *const f32,
-    count: usize,
-    corners: [*const f64; 2],
-    boundary: i32,
-    out: Option<&mut MaybeUninit<f64>>,
-    measure: fn(&Context, &Domain, &[[f32; 2]]) -> azulejo_core::Result<f64>,
-) -> azulejo_status {
-    boundary::call(|| {
-        let out = required("out", out)?;
-        let context = required("context", context)?.shared.clone();
-        // SAFETY: handed on from the caller.
-        let (points, domain) = unsafe { points_in_domain(xy, count, corners, boundary) }?;
-        out.write(measure(&context, &domain, points)?);
-        Ok(())
+        let set = unsafe { SurfaceSet::read(context, mesh, positions, count) }?;
+        set.run(|context, mesh, points, progress| {
+            Ok(coverage::surface_coverage(context, mesh, points, radius, progress)?.into())
+        })
     })
 }

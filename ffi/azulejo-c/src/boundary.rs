@@ -1,4 +1,4 @@
-//! The border between C and the core: every entry point goes through [`call`] or one of its two faces.
+//! The border between C and the core: every entry point goes through [`call`] or one of its faces.
 
 use std::any::Any;
 use std::mem::MaybeUninit;
@@ -16,16 +16,21 @@ pub(crate) fn call(body: impl FnOnce() -> Result<(), Failure>) -> azulejo_status
     }
 }
 
-/// [`call`] for a `body` that makes a handle.
+/// [`call`] for a `body` that has one result.
+pub(crate) fn answer<T>(out: Option<&mut MaybeUninit<T>>, body: impl FnOnce() -> Result<T, Failure>) -> azulejo_status {
+    call(|| {
+        let out = required("out", out)?;
+        out.write(body()?);
+        Ok(())
+    })
+}
+
+/// [`answer`] for a `body` that makes a handle.
 pub(crate) fn create<T>(
     out: Option<&mut MaybeUninit<Box<T>>>,
     body: impl FnOnce() -> Result<T, Failure>,
 ) -> azulejo_status {
-    call(|| {
-        let out = required("out", out)?;
-        out.write(Box::new(body()?));
-        Ok(())
-    })
+    answer(out, || body().map(Box::new))
 }
 
 /// Gives a handle back.

@@ -1,17 +1,35 @@
 //! The threads that calls run on.
 
+use std::ffi::c_void;
 use std::mem::MaybeUninit;
 use std::sync::Arc;
 
-use azulejo_core::Context;
+use azulejo_core::{Context, Progress};
 
-use crate::boundary;
-use crate::status::azulejo_status;
+use crate::boundary::{self, required};
+use crate::options::{Watch, azulejo_progress_fn};
+use crate::status::{Failure, azulejo_status};
 
 /// A pool of threads of its own; give it to every call that works for long. One context for a whole program is usual.
 /// It can be used by several threads at once.
+#[derive(Clone)]
 pub struct azulejo_context {
     pub(crate) shared: Arc<Context>,
+    /// Who is told of calls whose options name nobody.
+    watch: Watch,
+}
+
+impl azulejo_context {
+    /// Runs a call, which `own`, the callback of its options, is told of, or else that of the context. What the callback
+    /// frees meanwhile is kept.
+    pub(crate) fn run<T>(
+        &self,
+        own: Watch,
+        call: impl FnOnce(&Context, Option<&Progress>) -> azulejo_core::Result<T>,
+    ) -> Result<T, Failure> {
+        let (shared, watch) = (self.shared.clone(), own.or(self.watch));
+        Ok(watch.run(|progress| call(&shared, progress))?)
+    }
 }
 
 /// Starts the threads.
@@ -29,7 +47,32 @@ pub extern "C" fn azulejo_context_create(
     num_threads: u32,
     out: Option<&mut MaybeUninit<Box<azulejo_context>>>,
 ) -> azulejo_status {
-    boundary::create(out, || Ok(azulejo_context { shared: Arc::new(Context::new(num_threads as usize)?) }))
+    boundary::create(out, || {
+        Ok(azulejo_context { shared: Arc::new(Context::new(num_threads as usize)?), watch: Watch::NOBODY })
+    })
+}
+
+/// Makes a context that has the threads of another one and a progress callback: it is told of each call that is made with
+/// this context, or with a psp handle made with it, and whose options have no callback of their own. So calls without
+/// options, as those of the analysis, can be watched and cancelled.
+///
+/// context: the other one, which may be freed before. A callback that it has is not taken over.
+///
+/// progress, progress_user: the callback, or NULL for none, and what it is handed. See "Progress" in the conventions. When
+/// several threads use the context, each calls it.
+///
+/// out: the context, to be freed with azulejo_context_free. No thread is made.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_context_watch(
+    context: Option<&azulejo_context>,
+    progress: azulejo_progress_fn,
+    progress_user: *mut c_void,
+    out: Option<&mut MaybeUninit<Box<azulejo_context>>>,
+) -> azulejo_status {
+    boundary::create(out, || {
+        let shared = required("context", context)?.shared.clone();
+        Ok(azulejo_context { shared, watch: Watch::new(progress, progress_user) })
+    })
 }
 
 /// The number of threads that work on a call; 0 for NULL.

@@ -280,12 +280,13 @@ pub unsafe extern "C" fn azulejo_dcr_relax(
     report: Option<&mut MaybeUninit<azulejo_dcr_report>>,
 ) -> azulejo_status {
     boundary::create(out, || {
-        let context = required("context", context)?.shared.clone();
+        let context = required("context", context)?;
         // SAFETY: handed on from the caller.
         let (options, points) = unsafe { (options::read(options)?, rows::<f32, 2>("xy", xy, "count", count)?) };
         let request = options.request()?;
-        let watch = Watch { function: options.progress, user: options.progress_user };
-        let (relaxed, done) = watch.run(|progress| dcr::relax(&context, &request, points, progress))?;
+        let watch = Watch::new(options.progress, options.progress_user);
+        let (relaxed, done) =
+            context.run(watch, |context, progress| dcr::relax(context, &request, points, progress))?;
         report.map(|report| report.write(done.into()));
         Ok(azulejo_points::plane(relaxed))
     })

@@ -177,15 +177,16 @@ pub unsafe extern "C" fn azulejo_dcr_relax_density(
     report: Option<&mut MaybeUninit<azulejo_dcr_report>>,
 ) -> azulejo_status {
     boundary::create(out, || {
-        let context = required("context", context)?.shared.clone();
+        let context = required("context", context)?;
         // SAFETY: handed on from the caller.
         let (options, density) = unsafe { (options::read(options)?, read(density)?) };
         // SAFETY: handed on from the caller.
         let points = unsafe { rows::<f32, 2>("xy", xy, "count", count)? };
         let request = options.request()?;
-        let watch = Watch { function: options.progress, user: options.progress_user };
+        let watch = Watch::new(options.progress, options.progress_user);
         let relax = |density: &Density| {
-            Ok(watch.run(|progress| dcr::relax_with_density(&context, &request, density, points, progress))?)
+            context
+                .run(watch, |context, progress| dcr::relax_with_density(context, &request, density, points, progress))
         };
         // SAFETY: handed on from the caller.
         let (relaxed, done) = unsafe { density.with(relax) }?;

@@ -6,7 +6,7 @@ use azulejo_core::analysis::differential::{self, Differences, surface_difference
 
 use crate::boundary::{self, array, check_pointer, required, rows};
 use crate::context::azulejo_context;
-use crate::mesh::azulejo_mesh;
+use crate::mesh::{SurfaceSet, azulejo_mesh};
 use crate::status::{Failure, azulejo_status};
 
 /// The grid of azulejo_differences_density has so many cells per side ...
@@ -60,7 +60,7 @@ impl From<Differences> for azulejo_differences {
 ///
 /// O(count) time for samples that are spread evenly, about 600 pairs for each.
 ///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_CANCELLED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_differences_create(
     context: Option<&azulejo_context>,
@@ -73,17 +73,18 @@ pub unsafe extern "C" fn azulejo_differences_create(
     out: Option<&mut MaybeUninit<Box<azulejo_differences>>>,
 ) -> azulejo_status {
     boundary::create(out, || {
-        let context = required("context", context)?.shared.clone();
-        let mesh = required("mesh", mesh)?.shared.clone();
         // SAFETY: handed on from the caller.
-        let (positions, normals, direction) = unsafe {
+        let (set, normals, direction) = unsafe {
             (
-                rows::<f32, 3>("positions", positions, "count", count)?,
+                SurfaceSet::read(context, mesh, positions, count)?,
                 rows::<f32, 3>("normals", normals, "count", count)?,
                 rows::<f64, 3>("direction", direction, "direction", 1)?[0],
             )
         };
-        Ok(surface_differences(&context, &mesh, positions, normals, direction, seed, None)?.into())
+        let differences = set.run(|context, mesh, positions, progress| {
+            surface_differences(context, mesh, positions, normals, direction, seed, progress)
+        })?;
+        Ok(differences.into())
     })
 }
 

@@ -5,9 +5,9 @@ use std::mem::MaybeUninit;
 use std::ops::ControlFlow;
 use std::time::Instant;
 
+use azulejo_core::Domain;
 use azulejo_core::analysis::coverage::covering_radius_2d;
 use azulejo_core::kdrt::{self, CountOptions, Counted};
-use azulejo_core::{Context, Domain};
 
 use crate::boundary::{self, pair, required};
 use crate::context::azulejo_context;
@@ -135,17 +135,22 @@ pub unsafe extern "C" fn azulejo_kdrt_sample_with_report(
     report: Option<&mut MaybeUninit<azulejo_kdrt_report>>,
 ) -> azulejo_status {
     boundary::create(out, || {
-        let context = required("context", context)?.shared.clone();
+        let context = required("context", context)?;
         // SAFETY: handed on from the caller.
         let options = unsafe { options::read(options) }?;
         let start = Instant::now();
-        let (samples, radius, is_maximal) = options.sample(&context)?;
+        let sampling = if report.is_some() { 0.5 } else { 1.0 };
+        let (samples, radius, is_maximal) = options.sample(context, options.watch().part(0.0, sampling))?;
         if let Some(report) = report {
             let seconds = start.elapsed().as_secs_f64();
+            let domain = options.domain()?;
+            let coverage = context.run(options.watch().part(sampling, 1.0), |context, progress| {
+                covering_radius_2d(context, &domain, &samples, progress)
+            })?;
             report.write(azulejo_kdrt_report {
                 samples: samples.len() as u64,
                 radius,
-                coverage: covering_radius_2d(&context, &options.domain()?, &samples)?,
+                coverage,
                 seconds,
                 is_maximal: is_maximal.into(),
                 reserved: [0; 7],
@@ -181,12 +186,13 @@ pub unsafe extern "C" fn azulejo_kdrt_sample_window(
     out: Option<&mut MaybeUninit<Box<azulejo_points>>>,
 ) -> azulejo_status {
     boundary::create(out, || {
-        let context = required("context", context)?.shared.clone();
+        let context = required("context", context)?;
         // SAFETY: handed on from the caller.
         let (options, min, max) =
             unsafe { (options::read(options)?, pair("window_min", window_min)?, pair("window_max", window_max)?) };
         let request = options.by_radius_only()?;
-        let samples = options.watch().run(|progress| kdrt::sample_window(&context, &request, min, max, progress))?;
+        let samples = context
+            .run(options.watch(), |context, progress| kdrt::sample_window(context, &request, min, max, progress))?;
         Ok(azulejo_points::plane(samples))
     })
 }
@@ -223,7 +229,7 @@ pub unsafe extern "C" fn azulejo_kdrt_stream(
     user: *mut c_void,
 ) -> azulejo_status {
     boundary::call(|| {
-        let context = required("context", context)?.shared.clone();
+        let context = required("context", context)?;
         // SAFETY: handed on from the caller.
         let options = unsafe { options::read(options) }?;
         let request = options.by_radius_only()?;
@@ -235,17 +241,17 @@ pub unsafe extern "C" fn azulejo_kdrt_stream(
                 _ => ControlFlow::Break(()),
             }
         };
-        Ok(options.watch().run(|progress| kdrt::sample_stream(&context, &request, visit, progress))?)
+        context.run(options.watch(), |context, progress| kdrt::sample_stream(context, &request, visit, progress))
     })
 }
 
 impl azulejo_kdrt_options {
     /// The samples, their radius and whether they are maximal for it.
-    fn sample(&self, context: &Context) -> Result<(Vec<[f32; 2]>, f64, bool), Failure> {
+    fn sample(&self, context: &azulejo_context, watch: Watch) -> Result<(Vec<[f32; 2]>, f64, bool), Failure> {
         let &Self { radius, leaf_size, seed, count, .. } = self;
         if count == 0 {
             let request = self.by_radius()?;
-            let samples = self.watch().run(|progress| kdrt::sample(context, &request, progress))?;
+            let samples = context.run(watch, |context, progress| kdrt::sample(context, &request, progress))?;
             return Ok((samples, radius, true));
         }
         if radius != 0.0 {
@@ -254,7 +260,7 @@ impl azulejo_kdrt_options {
         }
         let request = CountOptions { count, domain: self.domain()?, leaf_size, seed };
         let Counted { samples, report, .. } =
-            self.watch().run(|progress| kdrt::sample_count(context, &request, progress))?;
+            context.run(watch, |context, progress| kdrt::sample_count(context, &request, progress))?;
         Ok((samples, report.radius, report.is_maximal))
     }
 
@@ -277,6 +283,6 @@ impl azulejo_kdrt_options {
     }
 
     fn watch(&self) -> Watch {
-        Watch { function: self.progress, user: self.progress_user }
+        Watch::new(self.progress, self.progress_user)
     }
 }

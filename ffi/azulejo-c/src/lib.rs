@@ -26,10 +26,11 @@
 //!   know is zero. A struct with a non-zero tail, an unknown constant or a flag other than 0 and 1 is refused. Reports
 //!   are written by the library and need no preparation; they never grow, their reserved fields are zero.
 //!
-//! Progress. The callback in the options is called on the thread that makes the call, with the finished share, which
-//!   never falls, from 0 to 1 (the 1 comes if the call succeeds). Any return value but 0 cancels the call, which then
-//!   returns AZULEJO_ERROR_CANCELLED; only azulejo_dcr_relax, azulejo_dcr_relax_density and azulejo_dcr_relax_surface return
-//!   what they have, as their reports say. The callback may call the library, also with the same context. It must return:
+//! Progress. The callback in the options, or without one that of the context (azulejo_context_watch), is called on the thread
+//!   that makes the call, with the finished share, which never falls, from 0 to 1 (the 1 comes if the call succeeds). Any
+//!   return value but 0 cancels the call, which then returns AZULEJO_ERROR_CANCELLED; only azulejo_dcr_relax,
+//!   azulejo_dcr_relax_density and azulejo_dcr_relax_surface return what they have, as their reports say. Only
+//!   azulejo_dcr_scatter, calls that take no context, and the making of a psp handle tell nobody. The callback may call the library, also with the same context. It must return:
 //!   an exception that leaves it ends the process, a longjmp is undefined. The same holds for the callback of
 //!   azulejo_kdrt_stream. Only an azulejo_radius_fn and an azulejo_density_fn are called on other threads, and several at
 //!   once.

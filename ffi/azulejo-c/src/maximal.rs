@@ -70,12 +70,13 @@ pub unsafe extern "C" fn azulejo_maximal_sample(
     out: Option<&mut MaybeUninit<Box<azulejo_points>>>,
 ) -> azulejo_status {
     boundary::create(out, || {
-        let context = required("context", context)?.shared.clone();
+        let context = required("context", context)?;
         // SAFETY: handed on from the caller.
         let options = unsafe { options::read(options) }?;
         let domain = domain(options.domain_min, options.domain_max, options.boundary)?;
         let request = maximal::Options { radius: options.radius, domain, seed: options.seed };
-        let watch = Watch { function: options.progress, user: options.progress_user };
-        Ok(azulejo_points::plane(watch.run(|progress| maximal::sample(&context, &request, progress))?))
+        let watch = Watch::new(options.progress, options.progress_user);
+        let samples = context.run(watch, |context, progress| maximal::sample(context, &request, progress))?;
+        Ok(azulejo_points::plane(samples))
     })
 }

@@ -130,7 +130,7 @@ pub unsafe extern "C" fn azulejo_kdrt_merge(
     report: Option<&mut MaybeUninit<azulejo_merge_report>>,
 ) -> azulejo_status {
     boundary::create(out, || {
-        let context = required("context", context)?.shared.clone();
+        let context = required("context", context)?;
         // SAFETY: handed on from the caller.
         let (options, pieces, fixed) = unsafe {
             let fixed = rows::<f32, 2>("fixed", fixed, "fixed_count", fixed_count)?;
@@ -138,8 +138,9 @@ pub unsafe extern "C" fn azulejo_kdrt_merge(
         };
         let domain = domain(options.domain_min, options.domain_max, options.boundary)?;
         let request = MergeOptions { radius: options.radius, domain, seed: options.seed };
-        let watch = Watch { function: options.progress, user: options.progress_user };
-        let (merged, done) = watch.run(|progress| kdrt::merge(&context, &request, &pieces, fixed, progress))?;
+        let watch = Watch::new(options.progress, options.progress_user);
+        let (merged, done) =
+            context.run(watch, |context, progress| kdrt::merge(context, &request, &pieces, fixed, progress))?;
         report.map(|report| report.write(done.into()));
         Ok(azulejo_points::plane(merged))
     })

@@ -7,8 +7,11 @@ use std::path::Path;
 use std::sync::Arc;
 
 use azulejo_core::mesh::Mesh;
+use azulejo_core::{Context, Progress};
 
 use crate::boundary::{self, array, check_pointer, check_size, required, rows};
+use crate::context::azulejo_context;
+use crate::options::Watch;
 use crate::status::{AZULEJO_ERROR_OUT_OF_MEMORY, Failure, azulejo_status};
 
 /// A checked triangle mesh: immutable, may be used by several threads at once. Any soup of triangles will do: open,
@@ -251,4 +254,37 @@ pub(crate) fn collect<T>(argument: &str, rows: impl ExactSizeIterator<Item = T>)
     })?;
     vector.extend(rows);
     Ok(vector)
+}
+
+/// Samples of a mesh that are to be measured, and whose threads do it.
+pub(crate) struct SurfaceSet<'a> {
+    context: &'a azulejo_context,
+    mesh: Arc<Mesh>,
+    positions: &'a [[f32; 3]],
+}
+
+impl<'a> SurfaceSet<'a> {
+    /// The set of the caller's arguments, `count` samples at `positions`.
+    ///
+    /// # Safety
+    /// Unless the checks fail, `positions` leads to `count` triples of numbers.
+    pub(crate) unsafe fn read(
+        context: Option<&'a azulejo_context>,
+        mesh: Option<&azulejo_mesh>,
+        positions: *const f32,
+        count: usize,
+    ) -> Result<Self, Failure> {
+        let (context, mesh) = (required("context", context)?, required("mesh", mesh)?.shared.clone());
+        // SAFETY: handed on from the caller.
+        let positions = unsafe { rows::<f32, 3>("positions", positions, "count", count) }?;
+        Ok(Self { context, mesh, positions })
+    }
+
+    /// Runs a call of the core.
+    pub(crate) fn run<T>(
+        &self,
+        call: impl FnOnce(&Context, &Mesh, &[[f32; 3]], Option<&Progress>) -> azulejo_core::Result<T>,
+    ) -> Result<T, Failure> {
+        self.context.run(Watch::NOBODY, |context, progress| call(context, &self.mesh, self.positions, progress))
+    }
 }

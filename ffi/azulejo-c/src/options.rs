@@ -14,7 +14,7 @@ use crate::status::{Failure, azulejo_status};
 
 /// Called now and then during a long call, on the thread that made it. See "Progress" in the conventions.
 ///
-/// user: the progress_user of the options.
+/// user: the progress_user of the options or of azulejo_context_watch.
 ///
 /// done: the finished share of the call, from 0 to 1; it never falls.
 ///
@@ -126,20 +126,46 @@ fn known_size<T: Options>(struct_size: usize) -> Result<usize, Failure> {
     Ok(ends[ends.partition_point(|&end| end <= struct_size) - 1])
 }
 
-/// The progress callback of an options struct.
+/// A progress callback of the caller's.
 #[derive(Clone, Copy)]
 pub(crate) struct Watch {
-    pub(crate) function: azulejo_progress_fn,
-    pub(crate) user: *mut c_void,
+    function: azulejo_progress_fn,
+    user: *mut c_void,
+    /// What share of the caller's call is finished when this part of it begins and ends.
+    from: f64,
+    to: f64,
 }
 
+// SAFETY: the two are only ever used by a thread of the caller's, in a call that it makes with what holds them: whether
+// that may happen on several threads is the caller's word, as for every callback of C.
+unsafe impl Send for Watch {}
+// SAFETY: likewise.
+unsafe impl Sync for Watch {}
+
 impl Watch {
+    /// No callback.
+    pub(crate) const NOBODY: Self = Self::new(None, std::ptr::null_mut());
+
+    pub(crate) const fn new(function: azulejo_progress_fn, user: *mut c_void) -> Self {
+        Self { function, user, from: 0.0, to: 1.0 }
+    }
+
+    /// The part of a call that lies between two shares of it.
+    pub(crate) fn part(self, from: f64, to: f64) -> Self {
+        Self { from, to, ..self }
+    }
+
+    /// This callback, or another one if there is none.
+    pub(crate) fn or(self, other: Self) -> Self {
+        if self.function.is_some() { self } else { other.part(self.from, self.to) }
+    }
+
     /// Runs `call` with the callback as the core wants it.
     pub(crate) fn run<T>(self, call: impl FnOnce(Option<&Progress>) -> T) -> T {
         let Some(function) = self.function else { return call(None) };
-        let progress = |done| {
+        let progress = |done: f64| {
             // SAFETY: the caller gave the two for each other, to be called on this thread during this call.
-            match unsafe { function(self.user, done) } {
+            match unsafe { function(self.user, self.from + (self.to - self.from) * done) } {
                 0 => ControlFlow::Continue(()),
                 _ => ControlFlow::Break(()),
             }

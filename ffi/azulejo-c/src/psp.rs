@@ -3,7 +3,7 @@
 use std::ffi::c_void;
 use std::mem::MaybeUninit;
 use std::ptr::NonNull;
-use std::sync::{Arc, RwLock, TryLockError};
+use std::sync::{RwLock, TryLockError};
 
 use azulejo_core::psp::{self, Engine, Order, Psp, Report};
 use azulejo_core::{Context, Progress};
@@ -20,7 +20,7 @@ use crate::status::{AZULEJO_ERROR_INTERNAL, Failure, azulejo_status};
 /// One call at a time may change it; a call that comes in between, from another thread or from the progress callback,
 /// is refused. Several threads at once may take its points.
 pub struct azulejo_psp {
-    context: Arc<Context>,
+    context: azulejo_context,
     watch: Watch,
     state: RwLock<Psp>,
 }
@@ -94,7 +94,7 @@ impl azulejo_psp_options {
     }
 
     fn watch(&self) -> Watch {
-        Watch { function: self.progress, user: self.progress_user }
+        Watch::new(self.progress, self.progress_user)
     }
 }
 
@@ -208,7 +208,7 @@ pub unsafe extern "C" fn azulejo_psp_create(
     out: Option<&mut MaybeUninit<Box<azulejo_psp>>>,
 ) -> azulejo_status {
     boundary::create(out, || {
-        let context = required("context", context)?.shared.clone();
+        let context = required("context", context)?.clone();
         let mesh = &required("mesh", mesh)?.shared;
         // SAFETY: handed on from the caller.
         let options = unsafe { options::read(options) }?;
@@ -296,12 +296,13 @@ pub unsafe extern "C" fn azulejo_psp_sample(
     report: Option<&mut MaybeUninit<azulejo_psp_report>>,
 ) -> azulejo_status {
     boundary::create(out, || {
-        let context = required("context", context)?.shared.clone();
+        let context = required("context", context)?;
         let mesh = required("mesh", mesh)?.shared.clone();
         // SAFETY: handed on from the caller.
         let options = unsafe { options::read(options) }?;
         let request = options.request()?;
-        let (samples, done) = options.watch().run(|progress| psp::sample(&context, &mesh, &request, progress))?;
+        let (samples, done) =
+            context.run(options.watch(), |context, progress| psp::sample(context, &mesh, &request, progress))?;
         report.map(|report| report.write(done.into()));
         Ok(azulejo_points::surface(samples))
     })
@@ -320,7 +321,7 @@ unsafe fn change(
         // SAFETY: the caller's word. A shared reference, because two calls may meet; the lock parts them.
         let psp = unsafe { required("psp", psp)?.as_ref() };
         let mut state = psp.state.try_write().map_err(|error| locked(&error))?;
-        let done = psp.watch.run(|progress| step(&mut state, &psp.context, progress))?;
+        let done = psp.context.run(psp.watch, |context, progress| step(&mut state, context, progress))?;
         report.map(|report| report.write(done.into()));
         Ok(())
     })

@@ -7,7 +7,7 @@ use azulejo_core::analysis::spectrum::{Annulus, Periodogram, sparse_periodogram}
 
 use crate::boundary::{self, array, check_pointer, required};
 use crate::context::azulejo_context;
-use crate::domain::points_in_domain;
+use crate::domain::PlaneSet;
 use crate::status::{Failure, azulejo_status};
 
 /// The power spectrum of a set of the plane, or the mean of several: |sum of exp(-2 pi i f x)|^2 / count on a square grid of
@@ -80,7 +80,7 @@ pub struct azulejo_spectrum_report {
 ///
 /// O(count + size^2 log size) time, and about 40 bytes of memory for each point and each frequency while it runs.
 ///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_CANCELLED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_spectrum_create(
     context: Option<&azulejo_context>,
@@ -94,11 +94,12 @@ pub unsafe extern "C" fn azulejo_spectrum_create(
     out: Option<&mut MaybeUninit<Box<azulejo_spectrum>>>,
 ) -> azulejo_status {
     boundary::create(out, || {
-        let context = required("context", context)?.shared.clone();
         // SAFETY: handed on from the caller.
-        let (points, domain) = unsafe { points_in_domain(xy, count, [domain_min, domain_max], boundary) }?;
+        let set = unsafe { PlaneSet::read(context, xy, count, [domain_min, domain_max], boundary) }?;
         let [size, stride] = [size, stride].map(|number| number as usize);
-        let periodogram = sparse_periodogram(&context, &domain, points, size, stride, None)?;
+        let periodogram = set.run(|context, domain, points, progress| {
+            sparse_periodogram(context, domain, points, size, stride, progress)
+        })?;
         Ok(azulejo_spectrum { periodogram })
     })
 }

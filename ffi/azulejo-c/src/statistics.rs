@@ -2,16 +2,14 @@
 
 use std::mem::MaybeUninit;
 
-use azulejo_core::analysis::bonds::bond_order;
-use azulejo_core::analysis::coverage::covering_radius_2d;
+use azulejo_core::Domain;
 use azulejo_core::analysis::distribution::radial_distribution;
+use azulejo_core::analysis::figures::{Figures, figures_2d};
 use azulejo_core::analysis::spacing::{nearest_distances_2d, nearest_histogram_2d, spacing_2d};
-use azulejo_core::analysis::triangles::triangle_statistics;
-use azulejo_core::{Context, Domain};
 
-use crate::boundary::{self, check_pointer, required};
+use crate::boundary::{self, check_pointer};
 use crate::context::azulejo_context;
-use crate::domain::points_in_domain;
+use crate::domain::PlaneSet;
 use crate::status::{Failure, azulejo_status};
 
 /// The figures of a set of the plane. The unit d_max is sqrt(2 area / (sqrt(3) count)), the distance of neighbours if as
@@ -75,27 +73,27 @@ pub unsafe extern "C" fn azulejo_plane_measure(
     boundary: i32,
     out: Option<&mut MaybeUninit<azulejo_plane_report>>,
 ) -> azulejo_status {
-    boundary::call(|| {
-        let out = required("out", out)?;
-        let context = required("context", context)?.shared.clone();
+    boundary::answer(out, || {
         // SAFETY: handed on from the caller.
-        let (points, domain) = unsafe { points_in_domain(xy, count, [domain_min, domain_max], boundary) }?;
-        out.write(measure(&context, &domain, points)?);
-        Ok(())
+        let set = unsafe { PlaneSet::read(context, xy, count, [domain_min, domain_max], boundary) }?;
+        let count = count as u64;
+        set.run(|context, domain, points, progress| {
+            Ok(report(count, domain, &figures_2d(context, domain, points, progress)?))
+        })
     })
 }
 
-fn measure(context: &Context, domain: &Domain, points: &[[f32; 2]]) -> azulejo_core::Result<azulejo_plane_report> {
-    let spacing = spacing_2d(domain, &nearest_distances_2d(context, domain, points)?);
-    let triangles = triangle_statistics(context, domain, points)?;
-    Ok(azulejo_plane_report {
-        count: points.len() as u64,
+fn report(count: u64, domain: &Domain, figures: &Figures) -> azulejo_plane_report {
+    let Figures { nearest, covering_radius, bond_order, triangles } = figures;
+    let spacing = spacing_2d(domain, nearest);
+    azulejo_plane_report {
+        count,
         smallest_distance: spacing.smallest,
         mean_distance: spacing.mean,
         hexagonal_distance: spacing.hexagonal,
-        rho: if points.is_empty() { f64::INFINITY } else { spacing.smallest / spacing.hexagonal },
-        covering_radius: covering_radius_2d(context, domain, points)?,
-        bond_order: bond_order(context, domain, points)?,
+        rho: if count == 0 { f64::INFINITY } else { spacing.smallest / spacing.hexagonal },
+        covering_radius: *covering_radius,
+        bond_order: *bond_order,
         triangles: triangles.triangles,
         obtuse: triangles.obtuse,
         below_30_degrees: triangles.below_30_degrees,
@@ -105,7 +103,7 @@ fn measure(context: &Context, domain: &Domain, points: &[[f32; 2]]) -> azulejo_c
         angles_below_30_degrees: triangles.angles_below_30_degrees,
         beyond_4_sigma: triangles.beyond_4_sigma,
         reserved: [0; 9],
-    })
+    }
 }
 
 /// The histogram of the distances from points of the plane to their nearest neighbours.
@@ -136,11 +134,14 @@ pub unsafe extern "C" fn azulejo_plane_nearest_histogram(
 ) -> azulejo_status {
     boundary::call(|| {
         check_bins(out, bins)?;
-        let context = required("context", context)?.shared.clone();
         // SAFETY: handed on from the caller.
-        let (points, domain) = unsafe { points_in_domain(xy, count, [domain_min, domain_max], boundary) }?;
-        let nearest = nearest_distances_2d(&context, &domain, points)?;
-        let histogram = nearest_histogram_2d(&domain, &nearest, reach, bins)?;
+        let set = unsafe { PlaneSet::read(context, xy, count, [domain_min, domain_max], boundary) }?;
+        let histogram = set.run(|context, domain, points, progress| {
+            // Bad bins are refused before any work.
+            nearest_histogram_2d(domain, &[], reach, bins)?;
+            let nearest = nearest_distances_2d(context, domain, points, progress)?;
+            nearest_histogram_2d(domain, &nearest, reach, bins)
+        })?;
         // SAFETY: one number for each of the caller's bins.
         unsafe { boundary::write(out, &histogram) };
         Ok(())
@@ -180,10 +181,11 @@ pub unsafe extern "C" fn azulejo_plane_radial_distribution(
 ) -> azulejo_status {
     boundary::call(|| {
         check_bins(out, bins)?;
-        let context = required("context", context)?.shared.clone();
         // SAFETY: handed on from the caller.
-        let (points, domain) = unsafe { points_in_domain(xy, count, [domain_min, domain_max], boundary) }?;
-        let distribution = radial_distribution(&context, &domain, points, reach, bins, None)?;
+        let set = unsafe { PlaneSet::read(context, xy, count, [domain_min, domain_max], boundary) }?;
+        let distribution = set.run(|context, domain, points, progress| {
+            radial_distribution(context, domain, points, reach, bins, progress)
+        })?;
         // SAFETY: one number for each of the caller's bins.
         unsafe { boundary::write(out, &distribution.density()) };
         Ok(())

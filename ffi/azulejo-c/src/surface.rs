@@ -117,7 +117,7 @@ pub unsafe extern "C" fn azulejo_dcr_relax_surface(
     report: Option<&mut MaybeUninit<azulejo_dcr_surface_report>>,
 ) -> azulejo_status {
     boundary::create(out, || {
-        let context = required("context", context)?.shared.clone();
+        let context = required("context", context)?;
         let mesh = required("mesh", mesh)?.shared.clone();
         // SAFETY: handed on from the caller.
         let options = unsafe { options::read(options) }?;
@@ -125,9 +125,10 @@ pub unsafe extern "C" fn azulejo_dcr_relax_surface(
         let triangles = unsafe { rows::<u32, 1>("triangles", triangles, "count", count) }?.as_flattened();
         // SAFETY: likewise.
         let barycentrics = unsafe { rows::<f32, 2>("barycentrics", barycentrics, "count", count) }?;
-        let watch = Watch { function: options.progress, user: options.progress_user };
-        let (relaxed, done) = watch
-            .run(|progress| surface::relax(&context, &mesh, triangles, barycentrics, &options.request(), progress))?;
+        let watch = Watch::new(options.progress, options.progress_user);
+        let (relaxed, done) = context.run(watch, |context, progress| {
+            surface::relax(context, &mesh, triangles, barycentrics, &options.request(), progress)
+        })?;
         report.map(|report| report.write(done.into()));
         Ok(azulejo_points::surface(relaxed))
     })

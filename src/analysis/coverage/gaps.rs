@@ -15,42 +15,74 @@ use crate::dcr::delaunay::{Delaunay, Dual};
 use crate::dcr::frame::Frame;
 use crate::error::Result;
 use crate::grid2::Grid2;
-use crate::job::Context;
+use crate::job::{Job, chunks, chunks_of};
 use crate::points::Domain;
 
 /// Circumcentres closer than this, in mean spacings, are one: copies of one on the other side of a torus, and those of
 /// more than three points on one circle.
 const SAME: f64 = 1e-6;
 
+/// The vertices of a task.
+const VERTICES: usize = 256;
+
 /// The number of connected parts of the domain farther than `radius` from all points, of which there is at least one.
-pub(super) fn count(context: &Context, domain: &Domain, points: &[[f32; 2]], radius: f64) -> Result<usize> {
+pub(super) fn count(job: &Job, domain: &Domain, points: &[[f32; 2]], radius: f64) -> Result<usize> {
     let frame = Frame::new(*domain, points.len());
-    let positions = frame.enter(points);
     let radius = radius / frame.spacing();
-    let delaunay = context.run(None, |job| Delaunay::new(job, &frame, positions.iter().copied()))?;
-    let mut vertices: Vec<[f64; 2]> = Vec::new();
-    let mut links = Vec::new();
-    for dual in delaunay.duals() {
-        let uncovered = dual.circles.map(|(_, reach)| reach > radius);
-        let first = vertices.len() as u32;
-        for ((centre, _), uncovered) in std::iter::zip(dual.circles, uncovered) {
-            if uncovered {
-                vertices.push(frame.fold(centre).to_array());
-            }
-        }
-        if uncovered == [true, true] && (dual.half_length() > radius || !dual.crosses_its_edge()) {
-            links.push([first, first + 1]);
-        }
-    }
+    let delaunay = Delaunay::new(&job.part(0.0, 0.7), &frame, frame.enter(points).into_iter())?;
+    let chunks = chunks(points.len());
+    let edges = job.part(0.7, 0.8).flat_map(chunks.len(), |chunk| {
+        let duals = chunks.range(chunk).flat_map(|point| delaunay.duals(point));
+        duals.filter_map(|dual| Edge::uncovered(&frame, &dual, radius)).collect()
+    })?;
+    let vertices: Vec<_> = edges.iter().flat_map(|edge| edge.vertices).flatten().collect();
     let mut gaps = Groups::new(vertices.len());
-    links.iter().for_each(|&[a, b]| gaps.link(a, b));
-    let [width, height] = frame.size().to_array();
-    let torus = Domain { min: [0.0; 2], max: [width, height], boundary: domain.boundary };
-    let grid = Grid2::new(torus, vertices.iter().copied(), 1.0);
-    for &(vertex, place) in grid.entries() {
-        grid.for_each_within(place, SAME, |other, _, _| gaps.link(vertex, other));
+    let mut first = 0;
+    for Edge { vertices, is_open } in &edges {
+        if *is_open {
+            gaps.link(first, first + 1);
+        }
+        first += vertices.iter().flatten().count() as u32;
     }
+    link_same(&job.part(0.8, 1.0), &frame, &vertices, &mut gaps)?;
     Ok(gaps.count())
+}
+
+/// Links vertices that are one.
+fn link_same(job: &Job, frame: &Frame, vertices: &[[f64; 2]], gaps: &mut Groups) -> Result<()> {
+    let torus = Domain { min: [0.0; 2], max: frame.size().to_array(), boundary: frame.boundary() };
+    job.report(0.0)?;
+    let grid = Grid2::new(torus, vertices.iter().copied(), 1.0);
+    let chunks = chunks_of(vertices.len(), VERTICES);
+    let same = |chunk: usize| {
+        let mut pairs = Vec::new();
+        for &(vertex, place) in &grid.entries()[chunks.range(chunk)] {
+            grid.for_each_within(place, SAME, |other, _, _| pairs.extend((other < vertex).then_some([vertex, other])));
+        }
+        pairs
+    };
+    let link = |pairs: Vec<[u32; 2]>| {
+        pairs.into_iter().for_each(|[a, b]| gaps.link(a, b));
+        Ok(())
+    };
+    job.stream(chunks.len(), same, link)
+}
+
+/// An edge of the Voronoi diagram with an end that is not covered.
+struct Edge {
+    /// The ends that are not covered.
+    vertices: [Option<[f64; 2]>; 2],
+    /// Whether no place of it is covered.
+    is_open: bool,
+}
+
+impl Edge {
+    fn uncovered(frame: &Frame, dual: &Dual, radius: f64) -> Option<Self> {
+        let vertices = dual.circles.map(|(centre, reach)| (reach > radius).then(|| frame.fold(centre).to_array()));
+        let both = vertices.iter().all(Option::is_some);
+        let is_open = both && (dual.half_length() > radius || !dual.crosses_its_edge());
+        vertices.iter().any(Option::is_some).then_some(Self { vertices, is_open })
+    }
 }
 
 impl Dual {

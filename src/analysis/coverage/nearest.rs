@@ -3,7 +3,9 @@
 use glam::DVec3;
 
 use super::tree::Tree;
+use crate::error::Result;
 use crate::grid2::Grid2;
+use crate::job::Job;
 use crate::points::{Boundary, Domain};
 
 /// The grid is asked within so many mean spacings, a bit farther than the largest hole of most sets; then the tree, whose
@@ -20,11 +22,11 @@ pub(super) struct Nearest {
 
 impl Nearest {
     /// Takes O(n log n). There must be a point.
-    pub fn new(domain: &Domain, points: &[[f32; 2]]) -> Self {
+    pub fn new(job: &Job, domain: &Domain, points: &[[f32; 2]]) -> Result<Self> {
         let spacing = (domain.area() / points.len() as f64).sqrt();
         let grid = Grid2::new(*domain, points.iter().map(|point| point.map(f64::from)), spacing);
-        let tree = Tree::of(&points.iter().map(|&[x, y]| [x, y, 0.0]).collect::<Vec<_>>());
-        Self { domain: *domain, spacing, grid, tree }
+        let tree = Tree::of(job, &points.iter().map(|&[x, y]| [x, y, 0.0]).collect::<Vec<_>>())?;
+        Ok(Self { domain: *domain, spacing, grid, tree })
     }
 
     /// The way from a place of the domain to the nearest point.

@@ -8,14 +8,15 @@ use super::tree::Tree;
 use super::{Coverage, PRECISION};
 use crate::error::{Error, Result};
 use crate::grid3::{Grid3, distance_squared};
-use crate::job::{Context, Job, chunks_of};
+use crate::job::{Context, Job, Progress, chunks_of};
 use crate::mesh::Mesh;
 use crate::points::check_radius;
 
-/// Meshes of fewer triangles are cut into as many fragments before work on them is shared.
-const FRAGMENTS: usize = 4096;
-/// The fragments of one task.
+/// Triangles are cut before work on them is shared, until none has more than this share of the area.
+const SHARE: f64 = 1.0 / 2048.0;
+/// The fragments of one task, and of one that gathers what of them is uncovered, which may be much.
 const TASK: usize = 64;
+const GATHERED: usize = 8;
 
 /// Uncovered places within this share of the radius are of one gap; fragments are cut until none is half as long.
 const LINK: f64 = 0.5;
@@ -23,6 +24,8 @@ const LINK: f64 = 0.5;
 const DEPTH: f64 = 1e-6;
 /// No more uncovered fragments than this are kept.
 const MAX_UNCOVERED: usize = 1 << 26;
+/// The uncovered places of a task that looks for near ones.
+const PLACES: usize = 2048;
 
 /// The covering radius of samples on a mesh: the straight distance from the samples of the place of the surface that is
 /// farthest from all of them. A set is maximal for a radius if this is not above it. Infinite for an empty set, 0 where
@@ -34,10 +37,18 @@ const MAX_UNCOVERED: usize = 1 << 26;
 /// Takes O((n + triangles) log n) for samples that are spread about evenly.
 ///
 /// # Errors
-/// [`Error::InvalidArgument`] for positions that are not finite.
-pub fn surface_covering_radius(context: &Context, mesh: &Mesh, positions: &[[f32; 3]]) -> Result<f64> {
+/// [`Error::InvalidArgument`] for positions that are not finite; [`Error::Cancelled`].
+pub fn surface_covering_radius(
+    context: &Context,
+    mesh: &Mesh,
+    positions: &[[f32; 3]],
+    progress: Option<&Progress>,
+) -> Result<f64> {
     crate::analysis::check_positions(positions)?;
-    context.run(None, |job| farthest(job, &Tree::of(positions), &Fragment::of(mesh)))
+    context.run(progress, |job| {
+        let tree = Tree::of(&job.part(0.0, 0.1), positions)?;
+        farthest(&job.part(0.1, 1.0), &tree, &Fragment::of(mesh))
+    })
 }
 
 /// How samples on a mesh cover it with disks of `radius`, by straight distance.
@@ -51,28 +62,44 @@ pub fn surface_covering_radius(context: &Context, mesh: &Mesh, positions: &[[f32
 ///
 /// # Errors
 /// [`Error::InvalidArgument`] for a radius that is not positive and finite and for positions that are not finite;
-/// [`Error::TooLarge`] for a `radius` that leaves uncovered more than some 600,000 times its square.
-pub fn surface_coverage(context: &Context, mesh: &Mesh, positions: &[[f32; 3]], radius: f64) -> Result<Coverage> {
+/// [`Error::TooLarge`] for a `radius` that leaves uncovered more than some 600,000 times its square; [`Error::Cancelled`].
+pub fn surface_coverage(
+    context: &Context,
+    mesh: &Mesh,
+    positions: &[[f32; 3]],
+    radius: f64,
+    progress: Option<&Progress>,
+) -> Result<Coverage> {
     check_radius(radius)?;
     crate::analysis::check_positions(positions)?;
-    let (tree, fragments) = (Tree::of(positions), Fragment::of(mesh));
-    let farthest = context.run(None, |job| farthest(job, &tree, &fragments))?;
-    if farthest <= radius {
-        return Ok(Coverage { farthest, gaps: 0 });
-    }
-    let tasks = chunks_of(fragments.len(), TASK);
+    context.run(progress, |job| {
+        let tree = Tree::of(&job.part(0.0, 0.1), positions)?;
+        let fragments = Fragment::of(mesh);
+        let farthest = farthest(&job.part(0.1, 0.6), &tree, &fragments)?;
+        if farthest <= radius {
+            return Ok(Coverage { farthest, gaps: 0 });
+        }
+        let uncovered = gather(&job.part(0.6, 0.8), &tree, &fragments, radius)?;
+        let gaps = count(&job.part(0.8, 1.0), &uncovered, LINK * radius)?.max(1);
+        Ok(Coverage { farthest, gaps })
+    })
+}
+
+/// A place of each uncovered part of the fragments that is small enough to be of one gap.
+fn gather(job: &Job, tree: &Tree, fragments: &[Fragment], radius: f64) -> Result<Vec<[f32; 3]>> {
+    let tasks = chunks_of(fragments.len(), GATHERED);
     let mut uncovered = Vec::new();
     let task = |task: usize| {
         let mut found = Vec::new();
-        fragments[tasks.range(task)].iter().try_for_each(|fragment| fragment.gather(&tree, radius, &mut found))?;
+        fragments[tasks.range(task)].iter().try_for_each(|fragment| fragment.gather(tree, radius, &mut found))?;
         Ok(found)
     };
     let keep = |found: Result<Vec<[f32; 3]>>| {
         uncovered.extend(found?);
         check_count(uncovered.len())
     };
-    context.run(None, |job| job.stream(tasks.len(), task, keep))?;
-    Ok(Coverage { farthest, gaps: count(&uncovered, LINK * radius).max(1) })
+    job.stream(tasks.len(), task, keep)?;
+    Ok(uncovered)
 }
 
 fn check_count(uncovered: usize) -> Result<()> {
@@ -84,27 +111,31 @@ fn check_count(uncovered: usize) -> Result<()> {
 }
 
 /// The groups of places of which each is within `reach` of another one.
-fn count(places: &[[f32; 3]], reach: f64) -> usize {
-    let mut grid = Grid3::new([0.0; 3], reach);
+fn count(job: &Job, places: &[[f32; 3]], reach: f64) -> Result<usize> {
+    let grid = Grid3::of(&job.part(0.0, 0.2), [0.0; 3], reach, places)?;
     let mut groups = Groups::new(places.len());
-    for &place in places {
-        let near: Vec<_> = grid
-            .candidates(place.map(f64::from), reach)
-            .filter(|&other| distance_squared(places[other as usize], place) <= reach * reach)
-            .collect();
-        let id = grid.insert(place);
-        near.into_iter().for_each(|other| groups.link(id, other));
-    }
-    groups.count()
+    let tasks = chunks_of(places.len(), PLACES);
+    let near = |task: usize| {
+        let near = |id: usize| {
+            let place = places[id];
+            let before = grid.candidates(place.map(f64::from), reach).filter(move |&other| (other as usize) < id);
+            let is_near = move |other: &u32| distance_squared(places[*other as usize], place) <= reach * reach;
+            before.filter(is_near).map(move |other| [id as u32, other])
+        };
+        tasks.range(task).flat_map(near).collect::<Vec<_>>()
+    };
+    job.part(0.2, 1.0).stream(tasks.len(), near, |pairs| {
+        pairs.into_iter().for_each(|[a, b]| groups.link(a, b));
+        Ok(())
+    })?;
+    Ok(groups.count())
 }
 
 /// The largest distance of a place of the fragments; infinite without samples.
 fn farthest(job: &Job, tree: &Tree, fragments: &[Fragment]) -> Result<f64> {
     let tasks = chunks_of(fragments.len(), TASK);
-    let distance = |fragment: &Fragment| tree.nearest(fragment.centre);
-    let known = job
-        .part(0.0, 0.2)
-        .map(tasks.len(), |task| fragments[tasks.range(task)].iter().map(distance).fold(0.0, f64::max))?;
+    let farther = |known: f64, fragment: &Fragment| tree.nearest_beyond(fragment.centre, known).unwrap_or(known);
+    let known = job.part(0.0, 0.2).map(tasks.len(), |task| fragments[tasks.range(task)].iter().fold(0.0, farther))?;
     let known = known.into_iter().fold(0.0, f64::max);
     if known == f64::INFINITY {
         return Ok(known);
@@ -113,14 +144,18 @@ fn farthest(job: &Job, tree: &Tree, fragments: &[Fragment]) -> Result<f64> {
         let mut farthest: f64 = known;
         let mut fragments = fragments[tasks.range(task)].to_vec();
         while !fragments.is_empty() {
-            let distances: Vec<f64> = fragments.iter().map(distance).collect();
-            farthest = distances.iter().copied().fold(farthest, f64::max);
+            let mut open = Vec::new();
+            for fragment in &fragments {
+                let enough = farthest * (1.0 + PRECISION) - fragment.reach;
+                if let Some(distance) = tree.nearest_beyond(fragment.centre, enough) {
+                    farthest = farthest.max(distance);
+                    open.push((fragment, distance));
+                }
+            }
             let could_exceed =
                 |fragment: &Fragment, distance: f64| distance + fragment.reach > farthest * (1.0 + PRECISION);
-            fragments = std::iter::zip(&fragments, distances)
-                .filter(|&(fragment, distance)| could_exceed(fragment, distance))
-                .flat_map(|(fragment, _)| fragment.halves())
-                .collect();
+            open.retain(|&(fragment, distance)| could_exceed(fragment, distance));
+            fragments = open.into_iter().flat_map(|(fragment, _)| fragment.halves()).collect();
         }
         farthest
     })?;
@@ -137,14 +172,27 @@ struct Fragment {
 }
 
 impl Fragment {
-    /// The triangles that have an area and that the mask does not leave out, cut if they are few.
+    /// The triangles that have an area and that the mask does not leave out, the large ones cut.
     fn of(mesh: &Mesh) -> Vec<Self> {
         let triangles = mesh.sampled_triangles().filter(|&triangle| mesh.triangle_area(triangle) > 0.0);
-        let mut fragments: Vec<_> = triangles.map(|triangle| Self::new(mesh.exact_corners(triangle))).collect();
-        while !fragments.is_empty() && fragments.len() < FRAGMENTS {
-            fragments = fragments.iter().flat_map(Self::halves).collect();
+        let limit = SHARE * mesh.area();
+        let mut fragments = Vec::new();
+        for triangle in triangles {
+            Self::new(mesh.exact_corners(triangle)).cut(limit, &mut fragments);
         }
         fragments
+    }
+
+    /// Cuts it into parts of no larger area.
+    fn cut(self, limit: f64, parts: &mut Vec<Self>) {
+        let halves = self.halves();
+        // What rounding does not let become smaller is left as it is.
+        let area = self.area();
+        if area > limit && halves.iter().all(|half| half.area() < area) {
+            halves.into_iter().for_each(|half| half.cut(limit, parts));
+        } else {
+            parts.push(self);
+        }
     }
 
     fn new(corners: [DVec3; 3]) -> Self {
@@ -165,10 +213,10 @@ impl Fragment {
     /// Puts down a place of each uncovered part of it that is small enough to be of one gap.
     fn gather(&self, tree: &Tree, radius: f64, uncovered: &mut Vec<[f32; 3]>) -> Result<()> {
         check_count(uncovered.len())?;
-        let distance = tree.nearest(self.centre);
-        if distance + self.reach <= radius * (1.0 + DEPTH) {
-            Ok(())
-        } else if distance - self.reach > radius {
+        let Some(distance) = tree.nearest_beyond(self.centre, radius * (1.0 + DEPTH) - self.reach) else {
+            return Ok(());
+        };
+        if distance - self.reach > radius {
             self.gather_all(radius, uncovered)
         } else if self.reach <= 0.25 * LINK * radius {
             uncovered.extend(self.uncovered(tree, radius).map(|place| place.as_vec3().to_array()));

@@ -3,6 +3,8 @@
 
 use glam::DVec3;
 
+use crate::error::Result;
+use crate::job::Job;
 use crate::mesh::exact;
 
 /// Points in a binary tree without pointers: the middle one of a range divides the others along an axis.
@@ -17,18 +19,30 @@ pub(super) struct Tree {
 /// Ranges of no more points are not divided.
 const LEAF: usize = 8;
 
+/// Ranges of no more points are divided further by one task.
+const TASK: usize = 1 << 13;
+
 impl Tree {
     /// The tree of positions as they are given by callers.
-    pub fn of(positions: &[[f32; 3]]) -> Self {
-        Self::new(positions.iter().map(|&position| exact(position)).collect())
+    pub fn of(job: &Job, positions: &[[f32; 3]]) -> Result<Self> {
+        Self::new(job, positions.iter().map(|&position| exact(position)).collect())
     }
 
     /// Takes O(n log n).
-    fn new(mut points: Vec<DVec3>) -> Self {
+    fn new(job: &Job, mut points: Vec<DVec3>) -> Result<Self> {
         let mut axes = vec![0; points.len()];
         let bounds = bounds(&points);
-        divide(&mut points, &mut axes);
-        Self { points, axes, bounds }
+        let (mut large, mut small) = (vec![Range { points: &mut points, axes: &mut axes }], Vec::new());
+        let mut rest = *job;
+        while !large.is_empty() {
+            let halves = rest.part(0.0, 0.2).map_each(large, Range::halves)?;
+            rest = rest.part(0.2, 1.0);
+            let (more, done): (_, Vec<_>) = halves.into_iter().flatten().flatten().partition(Range::is_large);
+            large = more;
+            small.extend(done);
+        }
+        rest.map_each(small, Range::divide)?;
+        Ok(Self { points, axes, bounds })
     }
 
     /// The distance of the nearest point; infinite if there is none. Takes O(log n).
@@ -38,10 +52,21 @@ impl Tree {
 
     /// The nearest point, if there is one. Takes O(log n).
     pub fn nearest_point(&self, place: DVec3) -> Option<DVec3> {
-        let mut nearest = Found { squared: f64::INFINITY, point: None };
+        self.search(place, -1.0).point
+    }
+
+    /// The distance of the nearest point, or None if a point is no farther than `enough`, which most often takes much less
+    /// to find.
+    pub fn nearest_beyond(&self, place: DVec3, enough: f64) -> Option<f64> {
+        let nearest = self.search(place, enough.abs() * enough);
+        (nearest.squared > nearest.enough).then(|| nearest.squared.sqrt())
+    }
+
+    fn search(&self, place: DVec3, enough: f64) -> Found {
+        let mut nearest = Found { squared: f64::INFINITY, point: None, enough };
         let away = place - place.clamp(self.bounds[0], self.bounds[1]);
         search(&self.points, &self.axes, place, away, &mut nearest);
-        nearest.point
+        nearest
     }
 }
 
@@ -49,13 +74,15 @@ impl Tree {
 struct Found {
     squared: f64,
     point: Option<DVec3>,
+    /// The search ends when the nearest is no farther: the square of a distance, or negative.
+    enough: f64,
 }
 
 impl Found {
     fn look_at(&mut self, point: DVec3, place: DVec3) {
         let squared = point.distance_squared(place);
         if squared < self.squared {
-            *self = Self { squared, point: Some(point) };
+            *self = Self { squared, point: Some(point), ..*self };
         }
     }
 }
@@ -64,17 +91,36 @@ fn bounds(points: &[DVec3]) -> [DVec3; 2] {
     [DVec3::min, DVec3::max].map(|choose| points.iter().copied().reduce(choose).unwrap_or_default())
 }
 
-fn divide(points: &mut [DVec3], axes: &mut [u8]) {
-    if points.len() <= LEAF {
-        return;
+/// A part of the tree that is being made.
+struct Range<'a> {
+    points: &'a mut [DVec3],
+    axes: &'a mut [u8],
+}
+
+impl<'a> Range<'a> {
+    fn is_large(&self) -> bool {
+        self.points.len() > TASK
     }
-    let [low, high] = bounds(points);
-    let axis = (high - low).max_position();
-    let middle = points.len() / 2;
-    points.select_nth_unstable_by(middle, |a, b| a[axis].total_cmp(&b[axis]));
-    axes[middle] = axis as u8;
-    divide(&mut points[..middle], &mut axes[..middle]);
-    divide(&mut points[middle + 1..], &mut axes[middle + 1..]);
+
+    /// What is on either side of the middle point; nothing if there are too few points.
+    fn halves(self) -> Option<[Self; 2]> {
+        let Self { points, axes } = self;
+        if points.len() <= LEAF {
+            return None;
+        }
+        let [low, high] = bounds(points);
+        let axis = (high - low).max_position();
+        let middle = points.len() / 2;
+        points.select_nth_unstable_by(middle, |a, b| a[axis].total_cmp(&b[axis]));
+        axes[middle] = axis as u8;
+        let ((low, high), (low_axes, high_axes)) = (points.split_at_mut(middle), axes.split_at_mut(middle));
+        Some([Self { points: low, axes: low_axes }, Self { points: &mut high[1..], axes: &mut high_axes[1..] }])
+    }
+
+    /// Divides it to the end.
+    fn divide(self) {
+        self.halves().into_iter().flatten().for_each(Self::divide);
+    }
 }
 
 /// Looks at what may be nearer in a range. `away` is how far along each axis the place is
@@ -94,7 +140,7 @@ fn search(points: &[DVec3], axes: &[u8], place: DVec3, away: DVec3, nearest: &mu
     search(near.0, near.1, place, away, nearest);
     let mut farther = away;
     farther[axis] = beyond;
-    if farther.length_squared() < nearest.squared {
+    if nearest.squared > nearest.enough && farther.length_squared() < nearest.squared {
         search(far.0, far.1, place, farther, nearest);
     }
 }
@@ -102,18 +148,26 @@ fn search(points: &[DVec3], axes: &[u8], place: DVec3, away: DVec3, nearest: &mu
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::job::Context;
     use crate::rng::{Draw, Rng};
 
     #[test]
     fn the_nearest_is_that_of_a_loop_over_all_points() {
-        for (case, (count, flat)) in [(0, 0), (1, 0), (9, 0), (1000, 0), (1000, 2), (500, 3)].into_iter().enumerate() {
+        let context = Context::new(2).unwrap();
+        let cases = [(0, 0), (1, 0), (9, 0), (1000, 0), (1000, 2), (500, 3), (4 * TASK, 0), (2 * TASK, 3)];
+        for (case, (count, flat)) in cases.into_iter().enumerate() {
             let mut rng = Rng::at(1, Draw::Probe, &[case as u64]);
             let mut place = || DVec3::from_array(std::array::from_fn(|axis| rng.unit() * f64::from(axis >= flat)));
             let points: Vec<_> = (0..count).map(|_| place()).collect();
-            let tree = Tree::new(points.clone());
+            let tree = context.run(None, |job| Tree::new(job, points.clone())).unwrap();
             for probe in (0..100).map(|_| 3.0 * place() - 1.0) {
                 let expected = points.iter().map(|point| point.distance(probe)).fold(f64::INFINITY, f64::min);
                 assert!(tree.nearest(probe) == expected || (tree.nearest(probe) - expected).abs() < 1e-15);
+                for share in [-1.0, 0.0, 0.999, 1.001, 5.0] {
+                    let enough = if count > 0 { share * expected } else { share };
+                    let beyond = (expected > enough).then_some(tree.nearest(probe));
+                    assert_eq!(tree.nearest_beyond(probe, enough), beyond, "{count} {share}");
+                }
             }
         }
     }

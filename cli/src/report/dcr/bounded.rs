@@ -39,7 +39,7 @@ impl Quality {
     fn of(context: &Context, points: &[[f32; 2]]) -> Result<Self> {
         let domain = Domain::unit(Boundary::Bounded);
         let unit = domain.hexagonal_distance(points.len());
-        let distances = nearest_distances_2d(context, &domain, points)?;
+        let distances = nearest_distances_2d(context, &domain, points, None)?;
         let (mut counts, mut sums) = ([0.0; STRIPS + 1], [0.0; STRIPS + 1]);
         for (point, distance) in points.iter().zip(&distances) {
             let depth = point.iter().map(|&x| f64::from(x.min(1.0 - x))).fold(1.0, f64::min);
@@ -53,7 +53,7 @@ impl Quality {
         let density = |strip: usize| counts[strip] / (within(strip) - within(strip + 1)) / inside;
         Ok(Self {
             rho: distances.iter().copied().fold(f64::INFINITY, f64::min) / unit,
-            cover: covering_radius_2d(context, &domain, points)? / unit,
+            cover: covering_radius_2d(context, &domain, points, None)? / unit,
             border_cover: border_cover(points, unit) / unit,
             densities: std::array::from_fn(density),
             spacing: sums[0] / counts[0] / (sums[STRIPS] / counts[STRIPS]),

@@ -61,7 +61,7 @@ fn variances(context: &Context, thesis: Thesis, count: usize, seed: u64) -> Resu
     relax_observed(context, &options, &start, None, Some(&mut observe))?;
     let unit = domain.hexagonal_distance(count);
     let variance = |points: &Vec<[f32; 2]>| {
-        let distances = nearest_distances_2d(context, &domain, points)?;
+        let distances = nearest_distances_2d(context, &domain, points, None)?;
         let mean = distances.iter().sum::<f64>() / count as f64;
         Ok(distances.iter().map(|distance| ((distance - mean) / unit).powi(2)).sum::<f64>() / count as f64)
     };

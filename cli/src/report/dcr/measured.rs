@@ -51,7 +51,7 @@ impl Measured {
             let (relaxed, report) = relax(context, &options, &points, None)?;
             measured.seconds += clock.elapsed().as_secs_f64() / sets as f64;
             measured.steps += f64::from(report.iterations) / sets as f64;
-            measured.sets.push(Quality::of(context, &options.domain, &relaxed, report.coverage)?);
+            measured.sets.push(Quality::of(context, &options.domain, &relaxed)?);
             if seed == FIRST_SEED {
                 measured.first = relaxed;
             }

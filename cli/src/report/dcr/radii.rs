@@ -95,7 +95,7 @@ impl Outcome {
         let (points, report) = relax(context, &options, &start, None)?;
         let half = (FREQUENCY_LIMIT * (count as f64).sqrt()).ceil() as usize + 1;
         let spectrum = periodogram(context, &domain, &points, 2 * half + 1, None)?;
-        let quality = Quality::of(context, &options.domain, &points, report.coverage)?;
+        let quality = Quality::of(context, &options.domain, &points)?;
         Ok(Self { points, spectrum, quality, steps: report.iterations.into() })
     }
 }

@@ -49,12 +49,12 @@ pub fn section(study: &Study) -> Result<String> {
     let domain = Domain::unit(Boundary::Periodic);
     let statistics = study.each("triangles", TREATMENTS.len() * sets, |context, i| {
         let points = TREATMENTS[i / sets].1.set(context, count, FIRST_SEED + (i % sets) as u64)?;
-        triangle_statistics(context, &domain, &points)
+        triangle_statistics(context, &domain, &points, None)
     })?;
     let pictured = |(_, treatment): (&str, Treatment)| {
         let points = treatment.set(study.context, drawn, FIRST_SEED)?;
-        let triangles = delaunay_triangles(study.context, &domain, &points)?;
-        Ok((triangles, triangle_statistics(study.context, &domain, &points)?))
+        let triangles = delaunay_triangles(study.context, &domain, &points, None)?;
+        Ok((triangles, triangle_statistics(study.context, &domain, &points, None)?))
     };
     draw(&TREATMENTS.into_iter().map(pictured).collect::<Result<Vec<_>>>()?, study)?;
     let by_treatment: Vec<_> = statistics.chunks(sets).collect();

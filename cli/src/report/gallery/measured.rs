@@ -1,6 +1,5 @@
 //! The sets of a sampler and what they are like.
 
-use azulejo::analysis::coverage::covering_radius_2d;
 use azulejo::analysis::spectrum::Periodogram;
 use azulejo::{Boundary, Context, Domain, Progress, Result};
 
@@ -46,10 +45,9 @@ impl Measured {
         let (mut first, mut first_plate) = (Vec::new(), Vec::new());
         for seed in 0..sets {
             let points = sampler.sample(context, effort.side, seed)?;
-            let cover = covering_radius_2d(context, &domain, &points)? / domain.hexagonal_distance(points.len());
-            quality.push(Quality::of(context, &domain, &points, cover)?);
-            near.push(spectrum_up_to(context, &domain, &points, count, FREQUENCY_LIMIT + ANNULUS, GRID)?);
-            far.push(spectrum_up_to(context, &domain, &points, count, FREQUENCY_REACH, GRID)?);
+            quality.push(Quality::of(context, &domain, &points)?);
+            near.push(spectrum_up_to(context, &domain, &points, count, FREQUENCY_LIMIT + ANNULUS, GRID, None)?);
+            far.push(spectrum_up_to(context, &domain, &points, count, FREQUENCY_REACH, GRID, None)?);
             let plate = zone_plate::sampled(&points, effort.side);
             errors.push(zone_plate::Errors::of(&plate, effort.side));
             if seed == 0 {

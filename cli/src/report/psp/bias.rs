@@ -124,7 +124,8 @@ impl Measure<'_> {
             for (sum, one) in facing.iter_mut().zip(facings) {
                 *sum = [sum[0] + one.samples as f64, sum[1] + one.area];
             }
-            uncovered += surface_uncovered_fraction(context, mesh, &samples.positions, radius, effort.probes, seed)?;
+            uncovered +=
+                surface_uncovered_fraction(context, mesh, &samples.positions, radius, effort.probes, seed, None)?;
             differences.push(self.differences(mesh, &samples, [0.0, 0.0, 1.0], seed)?);
             for (tilt, (count, differences)) in TILTS.into_iter().zip(&mut planes) {
                 let (mesh, towards) = plane(directions, (seed % 3) as usize, tilt.to_radians())?;

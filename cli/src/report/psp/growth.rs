@@ -60,7 +60,7 @@ impl Measure<'_> {
     fn moment(&self, psp: &Psp, iterations: u32, seconds: f64, reference: Option<f64>) -> Result<Moment> {
         let (samples, positions) = (psp.len() as f64, psp.samples().positions);
         let (mesh, radius, probes) = (&self.scene.mesh, self.radius(), self.effort.probes);
-        let uncovered = surface_uncovered_fraction(self.context, mesh, &positions, radius, probes, 1)?;
+        let uncovered = surface_uncovered_fraction(self.context, mesh, &positions, radius, probes, 1, None)?;
         let rho = (samples / reference.unwrap_or(samples)).sqrt();
         Ok(Moment { iterations, seconds, samples, rho, uncovered })
     }
