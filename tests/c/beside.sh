@@ -1,4 +1,4 @@
-# Sourced by tests/c/run.sh and tests/c/sanitized.sh: runs steps beside each other that do not need each other. They set
+# Sourced by scripts/test.sh, tests/c/run.sh and tests/c/sanitized.sh: runs steps beside each other that do not need each other. They set
 # work, a scratch folder, before.
 
 # COMMAND...: in the background, as soon as less than one per core is running.

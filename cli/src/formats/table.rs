@@ -2,7 +2,8 @@
 //!
 //! Numbers stand between commas, semicolons or white space. Empty lines and those that begin with `#` or `//` are passed
 //! over. The first other line may be a header, which says where x, y and z, nx, ny and nz, and triangle, u and v stand;
-//! without one the first six come in this order, if there are exactly two, three or six of them, and otherwise the first three numbers are x, y and z.
+//! without one the first six come in this order, if there are exactly two, three or six of them, and otherwise the first
+//! three numbers are x, y and z.
 
 use std::io::{self, Write};
 

@@ -212,8 +212,6 @@ impl Mesh {
 
 #[cfg(test)]
 mod tests {
-    use glam::Vec2;
-
     use super::*;
     use crate::dcr::spread::wandering::{wander, wild, with_and_without_mesh};
     use crate::job::Context;
