@@ -9,7 +9,7 @@ use super::canvas::{Canvas, Rect};
 use super::panels;
 use super::spectra::{FREQUENCY_LIMIT, Windows};
 use crate::domain::{DomainArgs, OF_OR_AROUND};
-use crate::formats::{Coordinates, Input};
+use crate::formats::{Coordinates, Input, blame};
 use crate::output::Output;
 use crate::progress::watched;
 
@@ -45,7 +45,7 @@ impl Points {
         let set = self.format.read(&self.input, Coordinates::Plane)?;
         let domain = self.domain.of_or_around(&set);
         let points = set.plane_positions();
-        draw(context, &domain, &points, self.size, &output)
+        draw(context, &domain, &points, self.size, &output).map_err(|error| blame(&self.input, error))
     }
 }
 
