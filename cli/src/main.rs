@@ -27,6 +27,12 @@ use clap::{CommandFactory, Parser, Subcommand};
 
 /// What the help of all commands ends with.
 const AFTERWARDS: &str = "\
+Examples:
+  azulejo plane --count 65536 -o points.npy
+  azulejo relax points.npy -o relaxed.csv
+  azulejo surface bunny.obj --radius 0.002 -o samples.ply
+  azulejo analyze relaxed.csv --plots plots
+
 Files of points are PLY (.ply), NumPy arrays (.npy), text (.csv, .xyz, .txt) or little-endian 32-bit floats (.raw, .f32, .bin). \
 PLY alone names the domain of a set of the plane. The file - is the standard input or output.
 
