@@ -12,8 +12,9 @@
  *   to stdout; a panic inside the library, which is a bug, prints to stderr and becomes AZULEJO_ERROR_INTERNAL.
  *
  * Handles. azulejo_context, azulejo_mesh, azulejo_psp, azulejo_points, azulejo_spectrum and azulejo_differences are made
- *   by the library and given back with their own _free, which allows NULL. They may be freed in any order: what a handle needs of another one, it keeps.
- *   Accessors allow NULL too and answer 0 or NULL. Pointers into a handle live until it is freed.
+ *   by the library and given back with their own _free, which allows NULL. They may be freed in any order: what a handle
+ *   needs of another one, it keeps. Accessors allow NULL too and answer 0 or NULL. Pointers into a handle live until it is
+ *   freed.
  *
  * Pointers. An argument may be NULL only where that is said. Arrays are packed and read during the call only; the
  *   pointer of an empty array may be NULL, with the count 0. Arrays and options that are not aligned for their type are
@@ -1079,8 +1080,9 @@ const float *azulejo_mesh_positions(const struct azulejo_mesh *mesh);
 /// The three vertices of each triangle, counter-clockwise seen from the front; they live until azulejo_mesh_free. NULL for NULL.
 const uint32_t *azulejo_mesh_indices(const struct azulejo_mesh *mesh);
 
-/// The area of all triangles together that no mask leaves out, in squared units of the positions; 0 for NULL. A maximal set of N samples has a
-/// radius of about sqrt(0.69656 * area / N), as long as that is small against the features of the surface.
+/// The area of all triangles together that no mask leaves out, in squared units of the positions; 0 for NULL. A maximal
+/// set of N samples has a radius of about sqrt(0.69656 * area / N), as long as that is small against the features of the
+/// surface.
 double azulejo_mesh_area(const struct azulejo_mesh *mesh);
 
 /// Frees the mesh, once no psp handle uses it any more. NULL is allowed.
@@ -1555,6 +1557,8 @@ void azulejo_spectrum_free(struct azulejo_spectrum *spectrum);
 
 /// Measures the differences of samples on a mesh. They are divided by those with random points of the mesh, so that
 /// borders, curvature and other sheets near by cancel (Davis and Peebles 1983).
+///
+/// mesh: has to have some area that its mask does not leave out.
 ///
 /// positions: the samples, x y z each; `count` of them, at least 2.
 ///

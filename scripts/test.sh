@@ -44,12 +44,15 @@ tests/c/pages.sh target/package/prefix README.md docs/integrating.md docs/portin
 stage "C and C++ programs: plain, under sanitizers, under valgrind"
 tests/c/run.sh target/package/prefix --asan --valgrind
 
-stage "C and C++ programs with sanitizers in Rust, too"
-tests/c/sanitized.sh address
-tests/c/sanitized.sh thread
-
-stage "The C border under Miri"
-scripts/miri.sh
+stage "C and C++ programs with sanitizers in Rust, too; the C border under Miri: beside each other"
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+. tests/c/beside.sh
+# Miri takes longest, on one core.
+beside scripts/miri.sh
+beside tests/c/sanitized.sh address
+beside tests/c/sanitized.sh thread
+all_done
 
 stage "Fuzzing, a minute for each target"
 scripts/fuzz.sh

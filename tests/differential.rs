@@ -268,6 +268,9 @@ fn what_has_no_differences_is_refused() {
     assert_eq!(refused(&two, &[UP, [0.0, f32::INFINITY, 0.0]], EAST), "normals");
     assert_eq!(refused(&two, &[UP; 2], [0.0; 3]), "direction");
     assert_eq!(refused(&two, &[UP; 2], [f64::NAN, 0.0, 1.0]), "direction");
+    let nothing = mesh.clone().with_mask(vec![false; mesh.triangles().len()]).unwrap();
+    let of_nothing = surface_differences(&context(), &nothing, &two, &[UP; 2], EAST, 1, None);
+    assert_eq!(name(of_nothing), "mesh");
     assert_eq!(name(Differences::together(&[])), "differences");
     // Normals of triangles without area, and directions along the normal, are taken as they come.
     surface_differences(&context(), &mesh, &two, &[[0.0; 3]; 2], [0.0, 0.0, 1.0], 1, None).unwrap();

@@ -21,7 +21,7 @@ const REFUSED: [(&str, &str); 13] = [
     ("OBJ/testpoints.obj", NO_FACES),
     ("PLY/points.ply", NO_FACES),
     ("invalid/empty.obj", NO_FACES),
-    ("invalid/empty.ply", "Unexpected end of file while reading magic number."),
+    ("invalid/empty.ply", "is no PLY file: it does not begin with \"ply\""),
     ("invalid/malformed.obj", "line 23: a face names vertex 12, but there are 8"),
     ("invalid/malformed2.obj", "line 23: a face without corners"),
     ("OBJ/box_UTF16BE.obj", "is encoded in UTF-16; save it as UTF-8"),

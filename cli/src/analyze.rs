@@ -7,18 +7,18 @@ mod plots;
 mod surface;
 
 use std::fs;
-use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use azulejo::mesh::Mesh;
 use azulejo::{Context, Error, Result};
 use clap::Args;
 
-use crate::domain::DomainArgs;
+use crate::domain::{DomainArgs, OF_OR_AROUND};
 use crate::formats::{Coordinates, Input, PointSet};
-use crate::output::Output;
+use crate::output::{Output, print};
 
 #[derive(Args)]
+#[command(mut_arg("domain", |domain| domain.help(OF_OR_AROUND)))]
 pub struct Analyze {
     /// The samples: .ply, .npy, .csv, .xyz or .raw files. Several are taken for sets of one kind, and averaged.
     #[arg(value_name = "SAMPLES", required = true)]
@@ -63,9 +63,7 @@ impl Analyze {
             Some(mesh) => self.surface(context, mesh, &sets)?,
             None => self.plane(context, &sets)?,
         };
-        // Nobody may be listening.
-        _ = io::stdout().write_all(text.as_bytes());
-        Ok(())
+        print(text.as_bytes())
     }
 
     fn plane(&self, context: &Context, sets: &[Set]) -> Result<String> {

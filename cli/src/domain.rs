@@ -5,9 +5,13 @@ use clap::Args;
 
 use crate::formats::PointSet;
 
+/// The help of `--domain` where [`DomainArgs::of_or_around`] takes what there is.
+pub const OF_OR_AROUND: &str = "The corners of the rectangle [default: that of the input, or the unit square if the points \
+                                fill it, or else the smallest around them, bounded]";
+
 #[derive(Args)]
 pub struct DomainArgs {
-    /// The corners of the rectangle [default: that of the input, or the unit square].
+    /// The corners of the rectangle [default: that of the input, or the unit square if the points fill it].
     #[arg(long, num_args = 4, value_names = ["X0", "Y0", "X1", "Y1"], allow_negative_numbers = true)]
     domain: Option<Vec<f64>>,
     /// Let the rectangle end at its border; otherwise it is periodic.

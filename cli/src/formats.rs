@@ -29,7 +29,7 @@ pub struct PointSet {
     pub positions: Vec<[f32; 3]>,
     /// Normals, one for each position; empty if the file has none.
     pub normals: Vec<[f32; 3]>,
-    /// For each point its triangle and barycentrics, where the file, a PLY one, has them.
+    /// For each point its triangle and barycentrics, where the file, PLY or CSV, has them.
     pub on_mesh: Option<(Vec<u32>, Vec<[f32; 2]>)>,
     /// The domain that the file names.
     pub domain: Option<Domain>,
@@ -98,6 +98,9 @@ fn format_error(path: &Path, reason: impl Into<String>) -> Error {
 pub fn blame(path: &Path, error: Error) -> Error {
     match error {
         Error::InvalidArgument { argument: "xy" | "positions" | "normals", reason } => format_error(path, reason),
+        Error::InvalidArgument { argument: argument @ ("triangles" | "barycentrics"), reason } => {
+            format_error(path, format!("{argument}: {reason}"))
+        }
         other => other,
     }
 }
@@ -115,7 +118,8 @@ impl Input {
     pub fn read(&self, path: &Path, coordinates: Coordinates) -> Result<PointSet> {
         let read_error = |source| Error::Io { path: path.into(), source };
         let format = self.input_format.map_or_else(|| Format::of(path), Ok);
-        let bytes = std::fs::read(path).map_err(read_error)?;
+        let bytes = std::fs::read(if path == Path::new("-") { Path::new("/dev/stdin") } else { path });
+        let bytes = bytes.map_err(read_error)?;
         let set = match format? {
             Format::Ply => ply::parse(&bytes, coordinates),
             Format::Npy => npy::parse(&bytes, coordinates),
@@ -149,7 +153,7 @@ impl Destination {
 
 /// A file of points to be written.
 pub struct PointFile {
-    output: Output,
+    pub output: Output,
     format: Format,
 }
 

@@ -1,6 +1,5 @@
 //! `azulejo plane`, `surface` and `relax`: the samplers of the library, from files and into files.
 
-use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Instant;
@@ -12,7 +11,8 @@ use azulejo::{Context, Domain, Error, Result, psp};
 use clap::{Args, ValueEnum};
 
 use crate::domain::DomainArgs;
-use crate::formats::{Coordinates, Destination, Input, PointFile, PointSet};
+use crate::formats::{Coordinates, Destination, Input, PointFile, PointSet, blame};
+use crate::output::Output;
 use crate::progress::watched;
 use crate::text::{grouped, rounded};
 
@@ -63,6 +63,7 @@ pub struct Common {
 }
 
 #[derive(Args)]
+#[command(mut_arg("domain", |domain| domain.help("The corners of the rectangle [default: the unit square]")))]
 pub struct Plane {
     #[command(flatten)]
     density: RadiusOrCount,
@@ -86,7 +87,7 @@ impl Plane {
         };
         let seconds = start.elapsed().as_secs_f64();
         output.write_plane(&domain, &points)?;
-        report(&self.common.destination.output, points.len(), &about, seconds);
+        report(&output.output, points.len(), &about, seconds);
         Ok(())
     }
 
@@ -199,14 +200,14 @@ impl Surface {
         output.write_surface(&samples, normals)?;
         let asked = self.density.count.map(|count| compared(samples.len(), count)).unwrap_or_default();
         let about = format!("{asked}radius {}", rounded(radius, 4));
-        report(&self.common.destination.output, samples.len(), &about, done.seconds);
+        report(&output.output, samples.len(), &about, done.seconds);
         Ok(())
     }
 }
 
 #[derive(Args)]
 pub struct Relax {
-    /// The set: a .ply, .npy, .csv, .xyz or .raw file, or with --mesh a .ply file that `azulejo surface` has written.
+    /// The set: a .ply, .npy, .csv, .xyz or .raw file, or with --mesh a .ply or .csv file that `azulejo surface` has written.
     #[arg(value_name = "POINTS")]
     input: PathBuf,
     #[command(flatten)]
@@ -243,7 +244,11 @@ impl Relax {
         }
         let domain = self.domain.of(&set).ok_or_else(|| Error::Format {
             path: self.input.clone(),
-            reason: "does not name its domain, and does not fill the unit square: give --domain".to_owned(),
+            reason: match set.on_mesh {
+                Some(_) => "holds samples of a mesh: give --mesh",
+                None => "does not name its domain, and does not fill the unit square: give --domain",
+            }
+            .to_owned(),
         })?;
         let neighbourhood = match self.neighbourhood {
             Neighbours::Delaunay => Neighbourhood::Delaunay,
@@ -254,11 +259,12 @@ impl Relax {
         options.max_iterations = self.iterations.unwrap_or(options.max_iterations);
         let points = set.plane_positions();
         let start = Instant::now();
-        let (relaxed, done) = watched("relax", |progress| dcr::relax(context, &options, &points, Some(progress)))?;
+        let (relaxed, done) = watched("relax", |progress| dcr::relax(context, &options, &points, Some(progress)))
+            .map_err(|error| blame(&self.input, error))?;
         let seconds = start.elapsed().as_secs_f64();
         output.write_plane(&domain, &relaxed)?;
         let about = format!("{} steps, smallest distance {}", done.iterations, rounded(done.smallest_distance, 4));
-        report(&self.common.destination.output, relaxed.len(), &about, seconds);
+        report(&output.output, relaxed.len(), &about, seconds);
         Ok(())
     }
 }
@@ -276,24 +282,28 @@ impl Relax {
         let start = Instant::now();
         let (relaxed, done) = watched("relax", |progress| {
             surface::relax(context, &mesh, triangles, barycentrics, &options, Some(progress))
-        })?;
+        })
+        .map_err(|error| blame(&self.input, error))?;
         let seconds = start.elapsed().as_secs_f64();
         output.write_surface(&relaxed, &relaxed.normals)?;
         let about = format!("{} steps, smallest distance {}", done.iterations, rounded(done.smallest_distance, 4));
-        report(&self.common.destination.output, relaxed.len(), &about, seconds);
+        report(&output.output, relaxed.len(), &about, seconds);
         Ok(())
     }
 }
 
-/// How near a count is to the one that was asked for.
-fn compared(count: usize, asked: u64) -> String {
+/// How near a count is to the one that was asked for; nothing where it is that.
+pub fn compared(count: usize, asked: u64) -> String {
+    if count as u64 == asked {
+        return String::new();
+    }
     let excess = count as f64 / asked as f64 - 1.0;
     let (percent, how) = (rounded(100.0 * excess.abs(), 2), if excess < 0.0 { "fewer" } else { "more" });
     format!("{percent} % {how} than asked for, ")
 }
 
-/// One line that says what was written. Nobody may be listening.
-pub fn report(path: &Path, count: usize, about: &str, seconds: f64) {
-    let line = format!("{}: {} samples, {about}, {seconds:.2} s", path.display(), grouped(count));
-    _ = writeln!(io::stdout(), "{line}");
+/// Says how many samples were written, and how they were made.
+pub fn report(output: &Output, count: usize, about: &str, seconds: f64) {
+    let samples = if count == 1 { "sample" } else { "samples" };
+    output.report(&format!("{} {samples}, {about}, {seconds:.2} s", grouped(count)));
 }

@@ -19,6 +19,7 @@ mod stipple;
 mod summary;
 mod text;
 
+use std::io::{self, Write};
 use std::process::ExitCode;
 
 use azulejo::{Context, Result};
@@ -26,8 +27,14 @@ use clap::{CommandFactory, Parser, Subcommand};
 
 /// What the help of all commands ends with.
 const AFTERWARDS: &str = "\
+Examples:
+  azulejo plane --count 65536 -o points.npy
+  azulejo relax points.npy -o relaxed.csv
+  azulejo surface bunny.obj --radius 0.002 -o samples.ply
+  azulejo analyze relaxed.csv --plots plots
+
 Files of points are PLY (.ply), NumPy arrays (.npy), text (.csv, .xyz, .txt) or little-endian 32-bit floats (.raw, .f32, .bin). \
-PLY alone names the domain of a set of the plane.
+PLY alone names the domain of a set of the plane. The file - is the standard input or output.
 
 Exit codes: 0 done; 1 refused or failed, with the reason on the standard error; 2 wrong usage. Files are written whole or \
 not at all.";
@@ -37,7 +44,7 @@ not at all.";
 #[command(name = "azulejo", version, arg_required_else_help = true, after_help = AFTERWARDS)]
 struct Cli {
     /// Number of threads; 0 takes one per core. Results do not depend on it.
-    #[arg(long, global = true, value_name = "N", default_value_t = 0)]
+    #[arg(long, global = true, value_name = "N", default_value_t = 0, display_order = 900)]
     threads: usize,
     #[command(subcommand)]
     command: Command,
@@ -95,7 +102,8 @@ fn main() -> ExitCode {
     match run(&Cli::parse()) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
-            eprintln!("error: {error}");
+            // Where nobody can be told, the exit code still says it.
+            _ = writeln!(io::stderr(), "error: {error}");
             ExitCode::FAILURE
         }
     }

@@ -14,6 +14,7 @@ use crate::progress::watched;
 use crate::text::{grouped, rounded};
 
 #[derive(Args)]
+#[command(mut_arg("domain", |domain| domain.help("The corners of the rectangle [default: the smallest around the pieces]")))]
 pub struct Merge {
     /// The pieces: sets on rectangles that do not overlap. A PLY file names its rectangle, as `azulejo plane` writes it.
     #[arg(value_name = "PIECE", required_unless_present = "fixed")]
@@ -52,14 +53,28 @@ impl Merge {
         let options = MergeOptions { radius: self.radius, domain, seed: self.common.seed };
         let start = Instant::now();
         let merge = |progress: &azulejo::Progress| kdrt::merge(context, &options, &pieces, &fixed, Some(progress));
-        let (samples, done) = watched("merge", merge)?;
+        let (samples, done) = watched("merge", merge).map_err(|error| self.name_pieces(error))?;
         let seconds = start.elapsed().as_secs_f64();
         output.write_plane(&domain, &samples)?;
         let [kept, eliminated, inserted] = [done.kept, done.eliminated, done.inserted].map(grouped);
         let about =
             format!("radius {}, {kept} kept, {eliminated} eliminated, {inserted} inserted", rounded(self.radius, 4));
-        report(&self.common.destination.output, samples.len(), &about, seconds);
+        report(&output.output, samples.len(), &about, seconds);
         Ok(())
+    }
+
+    /// The error with the files of the pieces where the library has their numbers.
+    fn name_pieces(&self, error: Error) -> Error {
+        match error {
+            Error::InvalidArgument { argument: "pieces", reason } => {
+                let named = |reason: String, (i, path): (usize, &PathBuf)| {
+                    reason.replace(&format!("[{i}]"), &path.display().to_string())
+                };
+                let reason = self.pieces.iter().enumerate().fold(reason, named);
+                Error::InvalidArgument { argument: "pieces", reason }
+            }
+            other => other,
+        }
     }
 
     /// The pieces, each with the rectangle that is given for it or that its file names.

@@ -1,4 +1,4 @@
-//! Output files that are there whole or not at all.
+//! What commands write: files that are there whole or not at all, and results on the standard output.
 
 mod temporary;
 
@@ -22,9 +22,26 @@ pub struct Output {
 impl Output {
     /// Finds out before the work whether there can be a file at `path`, and leaves no trace.
     pub fn at(path: &Path) -> Result<Self> {
-        let output = Self { path: path.into(), target: fs::canonicalize(path).unwrap_or_else(|_| path.into()) };
+        let named = if path == Path::new("-") { Path::new("/dev/stdout") } else { path };
+        let output = Self { path: path.into(), target: fs::canonicalize(named).unwrap_or_else(|_| named.into()) };
         output.probe().map_err(|error| output.error(error))?;
         Ok(output)
+    }
+
+    /// [`Output::at`] for what is written in one format alone: a path that ends in another extension is refused.
+    pub fn of_format(extension: &str, path: &Path) -> Result<Self> {
+        match path.extension() {
+            Some(other) if !other.eq_ignore_ascii_case(extension) => {
+                let reason = format!("the extension is not .{extension}, the only format of this file");
+                Err(Error::Format { path: path.into(), reason })
+            }
+            _ => Self::at(path),
+        }
+    }
+
+    /// Whether what is written goes into a pipe or a device.
+    fn is_stream(&self) -> bool {
+        fs::metadata(&self.target).is_ok_and(|found| !found.is_file())
     }
 
     fn probe(&self) -> io::Result<()> {
@@ -51,12 +68,31 @@ impl Output {
 
     fn try_write(&self, content: impl FnOnce(&mut BufWriter<&File>) -> io::Result<()>) -> io::Result<()> {
         // A pipe or a device cannot be replaced by a rename, and has no half.
-        if fs::metadata(&self.target).is_ok_and(|found| !found.is_file()) {
+        if self.is_stream() {
             return fill(&File::options().write(true).open(&self.target)?, content);
         }
         let temporary = Temporary::new(self.directory())?;
         fill(temporary.file(), content)?;
         temporary.persist(&self.target)
+    }
+
+    /// Says on the standard output in one line what was written. Nobody may be listening, and a line would spoil the file
+    /// if that is where it went.
+    pub fn report(&self, what: &str) {
+        if !self.is_stream() {
+            _ = writeln!(io::stdout(), "{}: {what}", self.path.display());
+        }
+    }
+}
+
+/// Writes a result to the standard output. Whoever listens may have heard enough.
+pub fn print(text: &[u8]) -> Result<()> {
+    let mut stdout = io::stdout();
+    match stdout.write_all(text).and_then(|()| stdout.flush()) {
+        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
+            Err(Error::Io { path: "standard output".into(), source: error })
+        }
+        _ => Ok(()),
     }
 }
 
@@ -99,6 +135,9 @@ mod tests {
         assert!(refused(directory.path()).ends_with("is a directory"));
         assert!(refused(&directory.path().join("no/where")).contains("where: "));
         assert!(Output::at(Path::new("")).is_err());
+        let refused = Output::of_format("png", &directory.path().join("a.jpg")).err().expect("refused").to_string();
+        assert!(refused.ends_with("a.jpg: the extension is not .png, the only format of this file"), "{refused}");
+        assert!(["a.PNG", "a"].iter().all(|name| Output::of_format("png", &directory.path().join(name)).is_ok()));
     }
 
     #[cfg(unix)]

@@ -73,6 +73,9 @@ pub fn parse(bytes: &[u8], coordinates: Coordinates) -> Result<PointSet, String>
     let explain = |error: ParseError| {
         error.to_string().lines().next().unwrap_or_default().trim_end_matches('.').replacen("Line", "line", 1)
     };
+    if !bytes.starts_with(b"ply") {
+        return Err("is no PLY file: it does not begin with \"ply\"".to_owned());
+    }
     let mut reader = Reader::new(bytes);
     let parser = Parser::<Vertex>::new();
     let header = parser.read_header(&mut reader).map_err(explain)?;

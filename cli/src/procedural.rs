@@ -61,7 +61,7 @@ impl Shape {
 
 impl Procedural {
     pub fn run(&self) -> Result<()> {
-        let output = Output::at(&self.output)?;
+        let output = Output::of_format("ply", &self.output)?;
         let (default, greatest) = self.shape.details();
         let detail = self.detail.unwrap_or(default);
         if detail > greatest {

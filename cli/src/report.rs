@@ -7,6 +7,7 @@ mod head;
 mod kdrt;
 mod page;
 mod pictures;
+mod place;
 mod psp;
 mod statistics;
 mod times;

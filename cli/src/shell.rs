@@ -1,10 +1,10 @@
 //! `azulejo completions` and `man`: what shells and the manual know of the commands.
 
-use std::io::{self, Write};
-
 use azulejo::{Error, Result};
 use clap::Args;
 use clap_complete::Shell;
+
+use crate::output::print;
 
 #[derive(Args)]
 pub struct Completions {
@@ -17,8 +17,7 @@ impl Completions {
     pub fn run(&self, mut program: clap::Command) -> Result<()> {
         let mut script = Vec::new();
         clap_complete::generate(self.shell, &mut program, "azulejo", &mut script);
-        print(&script);
-        Ok(())
+        print(&script)
     }
 }
 
@@ -42,12 +41,6 @@ impl Man {
         let mut page = Vec::new();
         let written = clap_mangen::Man::new(command.clone()).render(&mut page);
         written.expect("writing into memory does not fail");
-        print(&page);
-        Ok(())
+        print(&page)
     }
-}
-
-/// Nobody may be listening.
-fn print(text: &[u8]) {
-    _ = io::stdout().write_all(text);
 }

@@ -10,7 +10,7 @@ use std::time::Instant;
 use azulejo::{Context, Error, Result};
 use clap::Args;
 
-use crate::generate::report;
+use crate::generate::{compared, report};
 use crate::output::Output;
 use crate::ply;
 use crate::progress::watched;
@@ -77,7 +77,7 @@ impl Stipple {
         let output = Output::at(&self.output)?;
         let darkness = Darkness::load(&self.image, self.gamma)?;
         let start = Instant::now();
-        let (dots, steps) = self.dots(context, &darkness)?;
+        let (dots, about) = self.dots(context, &darkness)?;
         let seconds = start.elapsed().as_secs_f64();
         let radius = darkness.dot_radius(dots.len());
         let drawing = Drawing { size: darkness.size(), dots: &dots, radius };
@@ -91,7 +91,7 @@ impl Stipple {
             }
             Format::Ply => ply::write_plane(&output, &darkness.domain(), &dots)?,
         }
-        report(&self.output, dots.len(), &format!("{steps}dots of radius {}", rounded(radius, 4)), seconds);
+        report(&output, dots.len(), &format!("{about}dots of radius {}", rounded(radius, 4)), seconds);
         Ok(())
     }
 
@@ -100,7 +100,8 @@ impl Stipple {
         if self.no_relax {
             let set =
                 watched("dots", |progress| dots::poisson(context, darkness, self.count as usize, self.seed, progress))?;
-            return Ok((set, String::new()));
+            let about = compared(set.len(), self.count.into());
+            return Ok((set, about));
         }
         let random = dots::random(context, darkness, self.count as usize, self.seed)?;
         let (set, done) =

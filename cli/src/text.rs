@@ -20,11 +20,17 @@ pub fn rounded(number: f64, digits: usize) -> String {
     }
     let magnitude = number.abs().log10().floor();
     if !(-4.0..6.0).contains(&magnitude) {
-        return format!("{number:.*e}", digits - 1);
+        let text = format!("{number:.*e}", digits - 1);
+        let (mantissa, exponent) = text.split_once('e').expect("scientific notation has an exponent");
+        return format!("{}e{exponent}", trimmed(mantissa));
     }
     let decimals = (digits as f64 - 1.0 - magnitude).max(0.0) as usize;
-    let text = format!("{number:.decimals$}");
-    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+    trimmed(&format!("{number:.decimals$}")).to_owned()
+}
+
+/// A decimal number without trailing zeros.
+fn trimmed(number: &str) -> &str {
+    if number.contains('.') { number.trim_end_matches('0').trim_end_matches('.') } else { number }
 }
 
 /// The day, as `2026-01-31`, that is so many seconds after the beginning of 1970, in UTC.
@@ -78,6 +84,6 @@ mod tests {
     #[test]
     fn rounds_to_significant_digits() {
         let texts = [0.0, -0.25, 0.1 + 0.2, 0.000834567, 1234.5, 12_345_678.0, 1e-9].map(|x| rounded(x, 3));
-        assert_eq!(texts, ["0", "-0.25", "0.3", "0.000835", "1234", "1.23e7", "1.00e-9"]);
+        assert_eq!(texts, ["0", "-0.25", "0.3", "0.000835", "1234", "1.23e7", "1e-9"]);
     }
 }

@@ -109,6 +109,8 @@ fn what_cannot_be_drawn_is_refused() {
     }
     let said = workshop.refuse(&["draw", "surface", "flat.obj", "knot.ply", "-o", "a.png"], 1);
     assert!(said.starts_with("error: "), "{said}");
+    let said = workshop.refuse(&["draw", "points", "knot.ply", "-o", "a.jpg"], 1);
+    assert!(said.starts_with("error: a.jpg: the extension is not .png"), "{said}");
     let said = workshop.refuse(&["draw", "points", "knot.ply", "-o", "folder"], 1);
     assert!(said.starts_with("error: folder: "), "{said}");
     for size in ["0", "50", "1000000", "-5", "big"] {

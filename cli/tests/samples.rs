@@ -157,6 +157,8 @@ fn places_that_cannot_be_written_are_refused_before_the_work() {
         let said = workshop.refuse(&["plane", "--count", "1000000000", "-o", place], 1);
         assert!(said.starts_with(&format!("error: {place}: ")), "{said}");
     }
+    let said = workshop.refuse(&["mesh", "knot", "-o", "knot.obj"], 1);
+    assert_eq!(said, "error: knot.obj: the extension is not .ply, the only format of this file\n");
 }
 
 #[test]

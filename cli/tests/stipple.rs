@@ -92,7 +92,9 @@ fn what_cannot_be_drawn_is_refused_with_its_name() {
     write_ramp(&workshop, "ramp.png");
     GrayImage::from_pixel(8, 8, Luma([255])).save(workshop.path("white.png")).unwrap();
     workshop.write("text.png", "no picture");
-    for (image, start) in [("white.png", "white.png: "), ("text.png", "text.png: "), ("missing.png", "missing.png: ")] {
+    for (image, start) in
+        [("white.png", "white.png: "), ("text.png", "text.png: is no PNG file"), ("missing.png", "missing.png: ")]
+    {
         let said = workshop.refuse(&["stipple", image, "a.svg", "--count", "100"], 1);
         assert!(said.starts_with(&format!("error: {start}")), "{said}");
     }

@@ -107,11 +107,17 @@ fn samples_are_relaxed_on_their_mesh() {
     assert!(said.starts_with("b.ply: ") && said.contains(" steps, smallest distance 0.1"), "{said}");
     workshop.succeed(&["relax", "a.ply", "--mesh", "mesh.ply", "--iterations", "0", "-o", "c.ply"]);
     assert_eq!(fs::read(workshop.path("a.ply")).unwrap(), fs::read(workshop.path("c.ply")).unwrap());
+    let said = workshop.refuse(&["relax", "a.ply", "-o", "d.ply"], 1);
+    assert!(said.contains("a.ply: holds samples of a mesh: give --mesh"), "{said}");
+    // Through text, too.
+    workshop.succeed(&["relax", "a.ply", "--mesh", "mesh.ply", "--iterations", "0", "-o", "c.csv"]);
+    workshop.succeed(&["relax", "c.csv", "--mesh", "mesh.ply", "--iterations", "0", "-o", "c.ply"]);
+    assert_eq!(fs::read(workshop.path("a.ply")).unwrap(), fs::read(workshop.path("c.ply")).unwrap());
     workshop.succeed(&["plane", "--radius", "0.1", "-o", "plane.ply"]);
     let said = workshop.refuse(&["relax", "plane.ply", "--mesh", "mesh.ply", "-o", "d.ply"], 1);
     assert!(said.contains("plane.ply: does not say on which triangle"), "{said}");
     workshop.succeed(&["mesh", "sphere", "--detail", "16", "-o", "coarse.ply"]);
     let said = workshop.refuse(&["relax", "a.ply", "--mesh", "coarse.ply", "-o", "d.ply"], 1);
-    assert!(said.contains("triangles: ["), "{said}");
+    assert!(said.contains("a.ply: triangles: ["), "{said}");
     workshop.refuse(&["relax", "a.ply", "--mesh", "mesh.ply", "--neighbourhood", "nearest", "-o", "d.ply"], 2);
 }

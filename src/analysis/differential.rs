@@ -112,8 +112,8 @@ pub fn plane_differences(
 ///
 /// # Errors
 /// [`Error::InvalidArgument`] for positions that are not finite or fewer than two (`positions`), for another number of
-/// normals or such that are not finite (`normals`), and for a `direction` that is zero or not finite;
-/// [`Error::Cancelled`].
+/// normals or such that are not finite (`normals`), for a `direction` that is zero or not finite, and for a `mesh` whose
+/// mask leaves no area; [`Error::Cancelled`].
 pub fn surface_differences(
     context: &Context,
     mesh: &Mesh,
@@ -135,6 +135,9 @@ pub fn surface_differences(
     let Some(direction) = DVec3::from(direction).try_normalize() else {
         return Err(Error::invalid("direction", format!("{direction:?} is none")));
     };
+    if mesh.area() == 0.0 {
+        return Err(Error::invalid("mesh", "its mask leaves no area"));
+    }
     let unit = (mesh.area() / positions.len() as f64).sqrt();
     let places: Vec<_> = positions.iter().map(|&position| exact(position) / unit).collect();
     let locals: Vec<_> = normals.iter().map(|&normal| Local::on_surface(exact(normal), direction)).collect();

@@ -202,9 +202,10 @@ trait Relaxation {
 /// several, the last. All else returns the set after the last whole step. So does a call that is cancelled, with
 /// [`Stopped::Cancelled`].
 ///
-/// Each step is O(n), but O(n log n) where a Delaunay triangulation is built anew: by the thesis's method, and by the best one
-/// in sets of a few points, with holes as wide as the domain, or with points that have dozens of neighbours. A bounded domain costs up to four times the time and memory of a periodic
-/// one, as the best method works on it and its mirror images. Memory is O(n).
+/// Each step is O(n), but O(n log n) where a Delaunay triangulation is built anew: by the thesis's method, and by the best
+/// one in sets of a few points, with holes as wide as the domain, or with points that have dozens of neighbours. A bounded
+/// domain costs up to four times the time and memory of a periodic one, as the best method works on it and its mirror
+/// images. Memory is O(n).
 ///
 /// # Errors
 /// [`Error::InvalidArgument`] for options out of their range and for points outside the domain or not finite (`xy`,

@@ -1,7 +1,7 @@
 //! Convergence by motion.
 //!
-//! The thesis's test (`variance.rs`) depends on the step size and fires early: halving λ halves the change per step. Motion per step does not work
-//! either: activeness keeps points jittering for ever, the more per step the larger λ is.
+//! The thesis's test (`variance.rs`) depends on the step size and fires early: halving λ halves the change per step. Motion
+//! per step does not work either: activeness keeps points jittering for ever, the more per step the larger λ is.
 //!
 //! So what is measured is how far points get: the root mean square way from where they were, over a span of steps
 //! whose step sizes add up to 2, divided by that sum. The jitter of longer spans cancels out, and runs with λ = 0.025

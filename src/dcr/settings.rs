@@ -55,8 +55,8 @@ pub struct Thesis {
     pub attraction_radius: f64,
     /// The step size λ: the displacement by a tension of 1; above 0, at most 1.
     pub step: f64,
-    /// What λ is multiplied with after every step; above 0, at most 1. The thesis has a constant λ, 1, in its experiments
-    /// and recommends a decaying one without a rule for it. All steps together are no longer than
+    /// What λ is multiplied with after every step; above 0, at most 1. With 1 it is constant, as in the thesis's experiments;
+    /// the thesis recommends a decaying one without a rule for it. All steps together are no longer than
     /// `step / (1 - decay)`: about 10 are needed from a random start.
     pub decay: f64,
     /// `K` of the nearest neighbourhood; at least 1.

@@ -16,6 +16,9 @@ use super::text::{number, shown, words};
 
 /// Vertices, triangles and normals, or what is wrong with the file.
 pub(super) fn parse(bytes: &[u8]) -> Result<Soup, String> {
+    if !bytes.starts_with(b"ply") {
+        return Err("is no PLY file: it does not begin with \"ply\"".to_owned());
+    }
     let mut reader = Reader::new(bytes);
     let header = Parser::<DefaultElement>::new().read_header(&mut reader).map_err(explain)?;
     let remaining = reader.get_ref().len();

@@ -1,27 +1,14 @@
 // azulejo.hpp: relaxation to a density, and what a density throws.
 
 #include <array>
-#include <cstring>
 #include <vector>
 
-#include <azulejo.hpp>
-
 #include "check.h"
+#include "throws.hpp"
 
 namespace {
 
 struct Mishap {};
-
-// Whether a call is refused with this in its message.
-template <class Call>
-bool refused(const char *part, Call call) {
-    try {
-        call();
-        return false;
-    } catch (const azulejo::Error &error) {
-        return error.status() == AZULEJO_ERROR_INVALID_ARGUMENT && std::strstr(error.what(), part) != nullptr;
-    }
-}
 
 template <class Call>
 bool leaves_the_mishap(Call call) {

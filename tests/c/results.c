@@ -162,14 +162,72 @@ static void check_surface(const azulejo_points *points, const azulejo_mesh *mesh
     CHECK(wrong == 0);
 }
 
-static void surfaces(void) {
-    azulejo_mesh *cube = make_cube(), *strided = NULL;
-    azulejo_psp_options options = psp_options(0.1);
-    azulejo_points *points = NULL, *same = NULL;
-    azulejo_psp_report report;
+static void surface_measures(const azulejo_mesh *cube, const azulejo_points *points, double radius) {
+    const float *positions = azulejo_points_positions(points);
+    const size_t count = azulejo_points_count(points);
+    const double smallest = smallest_distance(positions, count, 3, NULL);
+    double told = 0, uncovered = 1;
+    CHECK(smallest >= radius);
+    ACCEPTED(azulejo_space_smallest_distance(context, positions, count, &told));
+    CHECK(fabs(told - smallest) <= 1e-12 * smallest);
+    ACCEPTED(azulejo_mesh_uncovered_fraction(context, cube, positions, count, radius, 50000, 1, &uncovered));
+    CHECK(uncovered == 0);
+    /* One sample covers a disk of pi / 100 of the cube's area of 6, or less at an edge. */
+    ACCEPTED(azulejo_mesh_uncovered_fraction(context, cube, positions, 1, radius, 50000, 1, &uncovered));
+    CHECK(uncovered > 1 - 0.0070 && uncovered < 1 - 0.0030);
+    ACCEPTED(azulejo_mesh_uncovered_fraction(context, cube, NULL, 0, radius, 10, 1, &uncovered));
+    CHECK(uncovered == 1);
+}
+
+/* The same mesh from another layout gives the same points. */
+static void strided_surface(const azulejo_points *points, const azulejo_psp_options *options) {
+    azulejo_mesh *strided = NULL;
+    azulejo_points *same = NULL;
     float wide[8][5];
-    double smallest = 0, told = 0, uncovered = 1;
-    size_t count, i;
+    size_t i;
+    for (i = 0; i < 8; i++) {
+        memcpy(wide[i], cube_positions[i], 12);
+        wide[i][3] = wide[i][4] = NAN; /* is not read */
+    }
+    ACCEPTED(azulejo_mesh_create(wide[0], 8, sizeof *wide, &cube_indices[0][0], 12, &strided));
+    ACCEPTED(azulejo_psp_sample(context, strided, options, &same, NULL));
+    CHECK(same_points(points, same));
+    azulejo_points_free(same);
+    azulejo_mesh_free(strided);
+}
+
+/* Each option that chooses another way gives another set. */
+static void surface_options(const azulejo_mesh *cube, const azulejo_points *points, azulejo_psp_options options) {
+    azulejo_psp_options other = options;
+    azulejo_points *set = NULL;
+    azulejo_psp_report report;
+
+    other.order = AZULEJO_ORDER_PROJECTOR;
+    ACCEPTED(azulejo_psp_sample(context, cube, &other, &set, NULL));
+    CHECK(!same_points(points, set));
+    azulejo_points_free(set);
+
+    other = options;
+    other.engine = AZULEJO_ENGINE_RASTERISER;
+    ACCEPTED(azulejo_psp_sample(context, cube, &other, &set, &report));
+    check_surface(set, cube);
+    CHECK(report.iterations > 0 && report.rays > 0 && report.hits > 0);
+    CHECK(!same_points(points, set));
+    azulejo_points_free(set);
+
+    other = options;
+    other.radius = 1000; /* larger than the mesh: one sample is enough, and not more fit */
+    ACCEPTED(azulejo_psp_sample(context, cube, &other, &set, NULL));
+    CHECK(azulejo_points_count(set) == 1);
+    azulejo_points_free(set);
+}
+
+static void surfaces(void) {
+    azulejo_mesh *cube = make_cube();
+    const azulejo_psp_options options = psp_options(0.1);
+    azulejo_points *points = NULL;
+    azulejo_psp_report report;
+    size_t count;
 
     CHECK(azulejo_mesh_area(cube) == 6);
     CHECK(azulejo_mesh_vertex_count(cube) == 8 && azulejo_mesh_triangle_count(cube) == 12);
@@ -189,50 +247,9 @@ static void surfaces(void) {
     CHECK(report.uncovered_before > 0 && report.uncovered_before < 0.5 && report.uncovered_after == 0);
     check_surface(points, cube);
 
-    smallest = smallest_distance(azulejo_points_positions(points), count, 3, NULL);
-    CHECK(smallest >= options.radius);
-    ACCEPTED(azulejo_space_smallest_distance(context, azulejo_points_positions(points), count, &told));
-    CHECK(fabs(told - smallest) <= 1e-12 * smallest);
-    ACCEPTED(azulejo_mesh_uncovered_fraction(context, cube, azulejo_points_positions(points), count, options.radius,
-                                             50000, 1, &uncovered));
-    CHECK(uncovered == 0);
-    /* One sample covers a disk of pi / 100 of the cube's area of 6, or less at an edge. */
-    ACCEPTED(azulejo_mesh_uncovered_fraction(context, cube, azulejo_points_positions(points), 1, options.radius, 50000,
-                                             1, &uncovered));
-    CHECK(uncovered > 1 - 0.0070 && uncovered < 1 - 0.0030);
-    ACCEPTED(azulejo_mesh_uncovered_fraction(context, cube, NULL, 0, options.radius, 10, 1, &uncovered));
-    CHECK(uncovered == 1);
-
-    for (i = 0; i < 8; i++) {
-        memcpy(wide[i], cube_positions[i], 12);
-        wide[i][3] = wide[i][4] = NAN; /* is not read */
-    }
-    ACCEPTED(azulejo_mesh_create(wide[0], 8, sizeof *wide, &cube_indices[0][0], 12, &strided));
-    ACCEPTED(azulejo_psp_sample(context, strided, &options, &same, NULL));
-    CHECK(same_points(points, same));
-    azulejo_points_free(same);
-    azulejo_mesh_free(strided);
-
-    options.order = AZULEJO_ORDER_PROJECTOR;
-    ACCEPTED(azulejo_psp_sample(context, cube, &options, &same, NULL));
-    CHECK(!same_points(points, same));
-    azulejo_points_free(same);
-
-    options.order = AZULEJO_ORDER_SQUARENESS;
-
-    options.engine = AZULEJO_ENGINE_RASTERISER;
-    ACCEPTED(azulejo_psp_sample(context, cube, &options, &same, &report));
-    check_surface(same, cube);
-    CHECK(report.iterations > 0 && report.rays > 0 && report.hits > 0);
-    CHECK(!same_points(points, same));
-    azulejo_points_free(same);
-    options.engine = AZULEJO_ENGINE_EMBREE;
-
-    options.radius = 1000; /* larger than the mesh: one sample is enough, and not more fit */
-    ACCEPTED(azulejo_psp_sample(context, cube, &options, &same, NULL));
-    CHECK(azulejo_points_count(same) == 1);
-    azulejo_points_free(same);
-
+    surface_measures(cube, points, options.radius);
+    strided_surface(points, &options);
+    surface_options(cube, points, options);
     azulejo_points_free(points);
     azulejo_mesh_free(cube);
 }

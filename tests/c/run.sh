@@ -4,8 +4,8 @@
 #   tests/c/run.sh PREFIX [--asan] [--valgrind]
 #
 # The headers compile without a warning in every standard; the shared library exports what symbols.txt says and has its
-# SONAME; the test programs pass: plainly, with --asan also compiled with the address and undefined-behaviour
-# sanitizers, with --valgrind also under valgrind.
+# SONAME; the test programs pass: plainly, one after the other, with --asan also compiled with the address and
+# undefined-behaviour sanitizers, with --valgrind also under valgrind, as many at a time as there are cores.
 set -euo pipefail
 
 here=$(cd "$(dirname "$0")" && pwd)
@@ -31,6 +31,7 @@ library=$(find "$prefix" -name libazulejo.so | head -n 1)
 [ -n "$library" ] || { echo "run.sh: no libazulejo.so below $prefix" >&2; exit 1; }
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
+. "$here/beside.sh"
 
 warnings=(-Wall -Wextra -Wpedantic -Werror)
 include=(-I "$prefix/include")
@@ -43,7 +44,6 @@ if [ -n "${EMBREE_DIR:-}" ]; then
     include+=(-isystem "$EMBREE_DIR/include")
     link=(-L "$EMBREE_DIR/lib" -L "$EMBREE_DIR/lib64" "-Wl,-rpath,$EMBREE_DIR/lib" "${link[@]}")
 fi
-failed=0
 
 # Says how a step went, with its output where that matters: step NAME COMMAND...
 step() {
@@ -54,7 +54,7 @@ step() {
     else
         printf '%-34s FAILED\n' "$name"
         sed 's/^/    /' "$log"
-        failed=1
+        return 1
     fi
 }
 
@@ -106,19 +106,23 @@ run_program() { # SOURCE MODE
     build "$1" "$program" "${flags[@]}" && "${runner[@]}" "$program"
 }
 
-step "azulejo.h as C99" header_compiles c c99 azulejo.h
-step "azulejo.h as C11" header_compiles c c11 azulejo.h
-step "azulejo.h as C++17" header_compiles c++ c++17 azulejo.h
-step "azulejo.hpp as C++17" header_compiles c++ c++17 azulejo.hpp
+beside step "azulejo.h as C99" header_compiles c c99 azulejo.h
+beside step "azulejo.h as C11" header_compiles c c11 azulejo.h
+beside step "azulejo.h as C++17" header_compiles c++ c++17 azulejo.h
+beside step "azulejo.hpp as C++17" header_compiles c++ c++17 azulejo.hpp
 exports >"$work/symbols.txt"
-step "exported symbols" diff "$here/symbols.txt" "$work/symbols.txt"
-step "SONAME" has_soname
-step "needed libraries" needs_nothing_else
+beside step "exported symbols" diff "$here/symbols.txt" "$work/symbols.txt"
+beside step "SONAME" has_soname
+beside step "needed libraries" needs_nothing_else
+wait
 for mode in "${modes[@]}"; do
+    # Some programs measure what their threads do.
+    how=beside
+    [ "$mode" != plain ] || how=apart
     for source in "$here"/*.c "$here"/*.cpp; do
         # Valgrind lets one thread work at a time: there is nothing to measure.
         [ "$mode-$(basename "$source")" != valgrind-num_threads.c ] || continue
-        step "$(basename "$source") ($mode)" run_program "$source" "$mode"
+        "$how" step "$(basename "$source") ($mode)" run_program "$source" "$mode"
     done
 done
-exit $failed
+all_done

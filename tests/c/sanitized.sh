@@ -15,6 +15,7 @@ sanitizer=${1:?usage: tests/c/sanitized.sh address|thread}
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 . "$here/examples.sh"
+. "$here/beside.sh"
 
 skip() {
     echo "SKIPPED: the $sanitizer sanitizer in Rust, since there is no $1 here"
@@ -87,5 +88,6 @@ step "$sanitizer: the library is built" build_library
 embree=$(embree)
 step "$sanitizer: the canary is caught" canary_is_caught
 for program in "${programs[@]}"; do
-    step "$sanitizer: $(basename "$program")" run_program "$program"
+    beside step "$sanitizer: $(basename "$program")" run_program "$program"
 done
+all_done

@@ -2,28 +2,16 @@
 
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <numeric>
 #include <utility>
 #include <vector>
 
-#include <azulejo.hpp>
-
 #include "samples.h"
+#include "throws.hpp"
 
 namespace {
 
 const double low[] = {0, 0}, high[] = {1, 1};
-
-template <class Call>
-bool refused(const char *part, Call call) {
-    try {
-        call();
-        return false;
-    } catch (const azulejo::Error &error) {
-        return error.status() == AZULEJO_ERROR_INVALID_ARGUMENT && std::strstr(error.what(), part) != nullptr;
-    }
-}
 
 azulejo::Points blue_noise(const azulejo::Context &context, std::uint64_t seed) {
     azulejo::MaximalOptions options;

@@ -7,24 +7,13 @@
 #include <type_traits>
 #include <vector>
 
-#include <azulejo.hpp>
-
 #include "check.h"
+#include "throws.hpp"
 
 namespace {
 
 const std::array<float, 12> positions = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
 const std::vector<std::uint32_t> indices = {0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3};
-
-template <class Call>
-bool throws(azulejo_status status, const char *part, Call call) {
-    try {
-        call();
-        return false;
-    } catch (const azulejo::Error &error) {
-        return error.status() == status && std::strstr(error.what(), part) != nullptr;
-    }
-}
 
 template <class T>
 constexpr bool move_only = std::is_nothrow_move_constructible_v<T> && std::is_nothrow_move_assignable_v<T> &&

@@ -36,7 +36,11 @@ pub fn plane_table(domain: &Domain, sets: &[Set], measured: &plane::Measured) ->
 pub fn surface_table(path: &Path, mesh: &Mesh, sets: &[Set], measured: &surface::Measured) -> String {
     let (area, triangles) = (rounded(mesh.area(), 4), grouped(mesh.triangles().len()));
     let rows = table(&measured.rows, sets.len());
-    let missing = if measured.differences.is_none() { "\nWithout normals there are no differences.\n" } else { "" };
+    let missing = if measured.differences.is_none() {
+        "\nNo normals in the files: the differences of the samples are not measured.\n"
+    } else {
+        ""
+    };
     format!("{}: on {} of {triangles} triangles, area {area}\n\n{rows}{missing}", title(sets), path.display())
 }
 

@@ -185,9 +185,28 @@ impl Canvas {
         self.pixmap.draw_pixmap(0, 0, image.as_ref(), &paint, place, None);
     }
 
+    /// The length of a line of text.
+    pub fn length(&self, text: &str, size: f32) -> f32 {
+        outline(&self.font, text).1 * size / self.em()
+    }
+
+    /// The text if it is no longer than `length`, otherwise as much of its beginning as leaves room for an ellipsis.
+    pub fn shortened(&self, text: &str, size: f32, length: f32) -> String {
+        let mut shown = text.to_owned();
+        let mut kept: Vec<char> = text.chars().collect();
+        while self.length(&shown, size) > length && kept.pop().is_some() {
+            shown = kept.iter().chain(&['…']).collect();
+        }
+        shown
+    }
+
+    fn em(&self) -> f32 {
+        self.font.units_per_em().expect("the embedded font has an em")
+    }
+
     /// A line of text; `place` is on its base line.
     pub fn text(&mut self, text: &str, place: [f32; 2], style: Style) {
-        let em = self.font.units_per_em().expect("the embedded font has an em");
+        let em = self.em();
         let (path, length) = outline(&self.font, text);
         let Some(path) = path else { return };
         let start = match style.align {

@@ -21,15 +21,16 @@ pub fn samples(canvas: &mut Canvas, square: Rect, windows: &Windows, points: &[[
     let [width, height] = shown.extent();
     let longer = width.max(height);
     let [across, down] = [width, height].map(|length| (length / longer) as f32);
+    let rect = Rect {
+        x: square.x + 0.5 * square.width * (1.0 - across),
+        y: square.y + 0.5 * square.height * (1.0 - down),
+        width: square.width * across,
+        height: square.height * down,
+    };
     let panel = Panel {
-        rect: Rect {
-            x: square.x + 0.5 * square.width * (1.0 - across),
-            y: square.y + 0.5 * square.height * (1.0 - down),
-            width: square.width * across,
-            height: square.height * down,
-        },
-        x: Axis::linear("x", [shown.min[0], shown.max[0]], 5),
-        y: Axis::linear("y", [shown.min[1], shown.max[1]], 5),
+        rect,
+        x: Axis::linear("x", [shown.min[0], shown.max[0]], ticks(rect.width)),
+        y: Axis::linear("y", [shown.min[1], shown.max[1]], ticks(rect.height)),
     };
     let count = grouped(inside(&shown, points).len());
     let remark = match points.len() {
@@ -40,6 +41,14 @@ pub fn samples(canvas: &mut Canvas, square: Rect, windows: &Windows, points: &[[
     dots(canvas, &panel, &shown, points, windows.density);
     panel.axes(canvas);
     panel.title(canvas, "Samples", &remark);
+}
+
+/// How many ticks, with labels that do not touch, have room along a side of a panel of samples.
+fn ticks(length: f32) -> usize {
+    const APART: f32 = 100.0;
+    // The labels at both ends need the height of a line.
+    const LEAST: f32 = 20.0;
+    if length < LEAST { 0 } else { ((length / APART) as usize).clamp(1, 5) }
 }
 
 /// The points of a domain with so many of them per area, as dots in a panel that shows the domain.

@@ -115,14 +115,19 @@ impl Panel<'_> {
             canvas.line([[x, bottom], [x, bottom + 7.0]], 1.5, SLATE);
             canvas.text(&self.x.scale.label(value), [x, bottom + 25.0], tick(Align::Centre));
         }
+        let mut widest: f32 = 0.0;
         for value in self.y.tick_values() {
             let [_, y] = self.place([self.x.range[0], value]);
+            let text = self.y.scale.label(value);
             canvas.line([[left - 7.0, y], [left, y]], 1.5, SLATE);
-            canvas.text(&self.y.scale.label(value), [left - 12.0, y + 6.0], tick(Align::Right));
+            canvas.text(&text, [left - 12.0, y + 6.0], tick(Align::Right));
+            widest = widest.max(canvas.length(&text, TICK_SIZE));
         }
         let [x, y] = self.rect.centre();
         canvas.text(self.x.label, [x, bottom + 51.0], label(Align::Centre, false));
-        canvas.text(self.y.label, [left - 58.0, y], label(Align::Centre, true));
+        // Beside the longest of the tick's labels.
+        let beside = (widest + 20.0).max(58.0);
+        canvas.text(self.y.label, [left - beside, y], label(Align::Centre, true));
     }
 
     /// A title above the panel, and a remark at the right end of its line.

@@ -8,8 +8,8 @@ use clap::Args;
 use super::canvas::{Canvas, Rect};
 use super::panels;
 use super::spectra::{FREQUENCY_LIMIT, Windows};
-use crate::domain::DomainArgs;
-use crate::formats::{Coordinates, Input};
+use crate::domain::{DomainArgs, OF_OR_AROUND};
+use crate::formats::{Coordinates, Input, blame};
 use crate::output::Output;
 use crate::progress::watched;
 
@@ -22,6 +22,7 @@ const RADIAL: Rect = Rect { x: 110.0, y: 850.0, width: 640.0, height: 220.0 };
 const ANISOTROPY: Rect = Rect { x: 870.0, y: 850.0, width: 640.0, height: 220.0 };
 
 #[derive(Args)]
+#[command(mut_arg("domain", |domain| domain.help(OF_OR_AROUND)))]
 pub struct Points {
     /// The samples: a .ply, .npy, .csv, .xyz or .raw file.
     #[arg(value_name = "SAMPLES")]
@@ -40,11 +41,11 @@ pub struct Points {
 
 impl Points {
     pub fn run(&self, context: &Context) -> Result<()> {
-        let output = Output::at(&self.output)?;
+        let output = Output::of_format("png", &self.output)?;
         let set = self.format.read(&self.input, Coordinates::Plane)?;
         let domain = self.domain.of_or_around(&set);
         let points = set.plane_positions();
-        draw(context, &domain, &points, self.size, &output)
+        draw(context, &domain, &points, self.size, &output).map_err(|error| blame(&self.input, error))
     }
 }
 

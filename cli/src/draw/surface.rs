@@ -52,7 +52,7 @@ pub struct Surface {
 
 impl Surface {
     pub fn run(&self, context: &Context) -> Result<()> {
-        let output = Output::at(&self.output)?;
+        let output = Output::of_format("png", &self.output)?;
         let mesh = Mesh::load(&self.mesh)?;
         let samples = self.format.read(&self.samples, Coordinates::Space)?.positions;
         let name = self.mesh.file_stem().unwrap_or_default().to_string_lossy();
@@ -66,12 +66,14 @@ pub fn picture(context: &Context, name: &str, stage: &Stage, pixels: u32, output
     let windows = windows(stage);
     let mut canvas = Canvas::new(PAGE[0], PAGE[1], pixels);
     watched("light", |progress| draw_views(&mut canvas, stage, &windows, context.num_threads(), progress))?;
-    let style = Style { size: 30.0, colour: INK, align: Align::Left, upwards: false };
-    canvas.text(name, [WHOLE.x, 58.0], style);
     let [samples, triangles] = stage.counts.map(grouped);
     let counts = format!("{samples} samples on {triangles} triangles");
-    let style = Style { size: 22.0, colour: SLATE, align: Align::Right, ..style };
-    canvas.text(&counts, [PAGE[0] - WHOLE.x, 58.0], style);
+    let style = Style { size: 22.0, colour: SLATE, align: Align::Right, upwards: false };
+    let end = PAGE[0] - WHOLE.x;
+    canvas.text(&counts, [end, 58.0], style);
+    let room = end - canvas.length(&counts, style.size) - 40.0 - WHOLE.x;
+    let style = Style { size: 30.0, colour: INK, align: Align::Left, ..style };
+    canvas.text(&canvas.shortened(name, style.size, room), [WHOLE.x, 58.0], style);
     canvas.write(output)
 }
 

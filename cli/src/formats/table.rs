@@ -1,8 +1,9 @@
 //! Points in text, one to a line: CSV and XYZ.
 //!
 //! Numbers stand between commas, semicolons or white space. Empty lines and those that begin with `#` or `//` are passed
-//! over. The first other line may be a header, which says where x, y and z, and nx, ny and nz stand; without one they come
-//! in this order, if there are exactly two, three or six of them, and otherwise the first three numbers are x, y and z.
+//! over. The first other line may be a header, which says where x, y and z, nx, ny and nz, and triangle, u and v stand;
+//! without one the first six come in this order, if there are exactly two, three or six of them, and otherwise the first
+//! three numbers are x, y and z.
 
 use std::io::{self, Write};
 
@@ -10,7 +11,8 @@ use azulejo::SurfaceSamples;
 
 use super::{Coordinates, PointSet};
 
-const NAMES: [&str; 6] = ["x", "y", "z", "nx", "ny", "nz"];
+/// The columns that are kept as floats.
+const NAMES: [&str; 8] = ["x", "y", "z", "nx", "ny", "nz", "u", "v"];
 
 /// What is known after the first line that is no comment.
 struct Columns {
@@ -18,7 +20,9 @@ struct Columns {
     width: usize,
     line: usize,
     /// Where those of [`NAMES`] are.
-    places: [Option<usize>; 6],
+    places: [Option<usize>; NAMES.len()],
+    /// Where the number of the triangle is.
+    triangle: Option<usize>,
 }
 
 pub fn parse(bytes: &[u8], coordinates: Coordinates) -> Result<PointSet, String> {
@@ -51,6 +55,12 @@ pub fn parse(bytes: &[u8], coordinates: Coordinates) -> Result<PointSet, String>
         if columns.has_normals() {
             set.normals.push([numbers[3], numbers[4], numbers[5]]);
         }
+        if let Some(place) = columns.on_mesh() {
+            let (triangles, barycentrics) = set.on_mesh.get_or_insert_default();
+            let no_number = |_| at(format!("{:?} is not the number of a triangle", shortened(words[place])));
+            triangles.push(words[place].parse().map_err(no_number)?);
+            barycentrics.push([numbers[6], numbers[7]]);
+        }
     }
     Ok(set)
 }
@@ -68,9 +78,12 @@ impl Columns {
     fn of(words: &[&str], line: usize, coordinates: Coordinates) -> Result<(Self, bool), String> {
         let width = words.len();
         let is_header = words.iter().all(|word| word.parse::<f64>().is_err());
+        let named = |name: &str| {
+            let is = |word: &&str| is_header && word.trim_matches('"').eq_ignore_ascii_case(name);
+            words.iter().position(is)
+        };
         let places = if is_header {
-            let is = |word: &&str, name: &str| word.trim_matches('"').eq_ignore_ascii_case(name);
-            NAMES.map(|name| words.iter().position(|word| is(word, name)))
+            NAMES.map(named)
         } else {
             let known = if width == 6 { 6 } else { width.min(3) };
             std::array::from_fn(|i| (i < known).then_some(i))
@@ -78,20 +91,25 @@ impl Columns {
         match places[..coordinates.count()].iter().position(Option::is_none) {
             Some(missing) if is_header => Err(format!("the header names no column {}", NAMES[missing])),
             Some(_) => Err(format!("has {width} columns, and {} are needed", coordinates.count())),
-            None => Ok((Self { width, line, places }, is_header)),
+            None => Ok((Self { width, line, places, triangle: named("triangle") }, is_header)),
         }
     }
 
     fn has_normals(&self) -> bool {
-        self.places[3..].iter().all(Option::is_some)
+        self.places[3..6].iter().all(Option::is_some)
+    }
+
+    /// The column of the triangles, if there are barycentrics as well.
+    fn on_mesh(&self) -> Option<usize> {
+        self.triangle.filter(|_| self.places[6..].iter().all(Option::is_some))
     }
 
     /// The numbers of a line; 0 where there is no column.
-    fn read(&self, words: &[&str]) -> Result<[f32; 6], String> {
+    fn read(&self, words: &[&str]) -> Result<[f32; NAMES.len()], String> {
         if words.len() != self.width {
             return Err(format!("has {} columns, and line {} has {}", words.len(), self.line, self.width));
         }
-        let mut numbers = [0.0f32; 6];
+        let mut numbers = [0.0f32; NAMES.len()];
         for (number, place) in numbers.iter_mut().zip(self.places) {
             let Some(place) = place else { continue };
             *number = words[place].parse().map_err(|_| format!("{:?} is not a number", shortened(words[place])))?;
@@ -169,6 +187,7 @@ mod tests {
             ("1 2\n3 1e99\n", Coordinates::Plane, "line 2: \"1e99\" is not finite as a float"),
             ("1 2\nnan 1\n", Coordinates::Plane, "line 2: \"nan\" is not finite as a float"),
             ("1, 2\n3,\n", Coordinates::Plane, "line 2: \"\" is not a number"),
+            ("x,y,triangle,u,v\n1,2,-3,0,0\n", Coordinates::Plane, "line 2: \"-3\" is not the number of a triangle"),
         ] {
             assert_eq!(read(text, coordinates).unwrap_err(), said, "{text}");
         }

@@ -54,13 +54,14 @@ impl Drop for Temporary {
     }
 }
 
-/// From now on SIGINT and SIGTERM remove the temporary files before they end the process as they do by default.
+/// From now on SIGINT, SIGTERM and SIGXFSZ (a file above the limit of the shell) remove the temporary files before they end
+/// the process as they do by default. SIGHUP is left alone, because nohup has it ignored.
 #[cfg(unix)]
 pub fn remove_on_signals() -> io::Result<()> {
-    use signal_hook::consts::{SIGINT, SIGTERM};
+    use signal_hook::consts::{SIGINT, SIGTERM, SIGXFSZ};
     use signal_hook::iterator::Signals;
 
-    let mut signals = Signals::new([SIGINT, SIGTERM])?;
+    let mut signals = Signals::new([SIGINT, SIGTERM, SIGXFSZ])?;
     std::thread::spawn(move || {
         for signal in signals.forever() {
             // The lock is kept: no file is made any more.

@@ -1,5 +1,5 @@
-//! What the page of `azulejo report psp` says of adaptive sampling: thesis §3.4.4 (fig. 3.19 to 3.21), measured and drawn: a fading radius on a surface, an
-//! image in dots, and dots against a ramp of density.
+//! What the page of `azulejo report psp` says of adaptive sampling: thesis §3.4.4 (fig. 3.19 to 3.21), measured and drawn:
+//! a fading radius on a surface, an image in dots, and dots against a ramp of density.
 
 use std::fmt::Write as _;
 use std::path::Path;

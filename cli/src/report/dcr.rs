@@ -1,4 +1,5 @@
-//! `azulejo report dcr`: what relaxation makes of sets of the torus and of a bounded square (thesis chapter 4), beside others' methods.
+//! `azulejo report dcr`: what relaxation makes of sets of the torus and of a bounded square (thesis chapter 4), beside
+//! others' methods.
 
 mod bounded;
 mod convergence;
@@ -12,13 +13,12 @@ pub mod sets;
 mod study;
 mod surfaces;
 
-use std::fs;
 use std::io::Write;
-use std::path::PathBuf;
 
-use azulejo::{Boundary, Context, Domain, Error, Progress, Result};
+use azulejo::{Boundary, Context, Domain, Progress, Result};
 use clap::Args;
 
+use super::place::{Meshes, Place};
 use crate::draw::points;
 use crate::output::Output;
 use crate::progress::watched;
@@ -28,18 +28,10 @@ use study::{SECTIONS, Study};
 
 #[derive(Args)]
 pub struct Dcr {
-    /// The directory of the page `dcr.md` and its pictures.
-    #[arg(long, value_name = "DIRECTORY", default_value = "docs")]
-    out: PathBuf,
-    /// The Stanford bunny, OBJ or PLY; left out if it is not given.
-    #[arg(long, value_name = "MESH")]
-    bunny: Option<PathBuf>,
-    /// The Stanford dragon, OBJ or PLY; left out if it is not given.
-    #[arg(long, value_name = "MESH")]
-    dragon: Option<PathBuf>,
-    /// Measure few and small sets: to see the page, not to believe it.
-    #[arg(long)]
-    quick: bool,
+    #[command(flatten)]
+    place: Place,
+    #[command(flatten)]
+    meshes: Meshes,
 }
 
 /// How much is measured.
@@ -66,10 +58,8 @@ const PIXELS: u32 = 1000;
 
 impl Dcr {
     pub fn run(&self, context: &Context) -> Result<()> {
-        let effort = if self.quick { QUICK } else { FULL };
-        let pictures = self.out.join("dcr");
-        fs::create_dir_all(&pictures).map_err(|source| Error::Io { path: pictures.clone(), source })?;
-        let page = Output::at(&self.out.join("dcr.md"))?;
+        let effort = if self.place.quick { QUICK } else { FULL };
+        let (page, pictures) = self.place.open("dcr")?;
 
         let mut measured = Vec::new();
         for method in METHODS {
@@ -85,13 +75,13 @@ impl Dcr {
         let corners = at_borders.iter().filter(|one| one.count == effort.pictured && one.start == Start::Kdrt);
         let corners: Vec<_> = corners.map(|one| (one.name(), &*one.first)).collect();
         bounded::draw_corners(&corners, 2 * PIXELS, &Output::at(&pictures.join(page::CORNERS))?)?;
-        let mut text = page::text(context, &effort, &measured, &at_borders, self.quick);
+        let mut text = page::text(context, &effort, &measured, &at_borders, self.place.quick);
         let study = Study {
             context,
             pictures: &pictures,
-            quick: self.quick,
-            bunny: self.bunny.as_deref(),
-            dragon: self.dragon.as_deref(),
+            quick: self.place.quick,
+            bunny: self.meshes.bunny.as_deref(),
+            dragon: self.meshes.dragon.as_deref(),
         };
         for section in SECTIONS {
             text += &format!("\n{}", section(&study)?);

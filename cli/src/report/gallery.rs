@@ -6,13 +6,12 @@ mod pictures;
 mod samplers;
 mod zone_plate;
 
-use std::fs;
 use std::io::Write;
-use std::path::PathBuf;
 
-use azulejo::{Context, Error, Progress, Result};
+use azulejo::{Context, Progress, Result};
 use clap::Args;
 
+use super::place::Place;
 use crate::output::Output;
 use crate::progress::watched;
 use measured::Measured;
@@ -20,12 +19,8 @@ use samplers::{RELAXED, SAMPLERS, Sampler};
 
 #[derive(Args)]
 pub struct Gallery {
-    /// The directory of the page `gallery.md` and its pictures.
-    #[arg(long, value_name = "DIRECTORY", default_value = "docs")]
-    out: PathBuf,
-    /// Show few and small sets: to see the page, not to believe it.
-    #[arg(long)]
-    quick: bool,
+    #[command(flatten)]
+    place: Place,
 }
 
 /// How much is measured.
@@ -42,10 +37,8 @@ const QUICK: Effort = Effort { side: 32, sets: 2, slow_sets: 1 };
 
 impl Gallery {
     pub fn run(&self, context: &Context) -> Result<()> {
-        let effort = if self.quick { QUICK } else { FULL };
-        let pictures = self.out.join("gallery");
-        fs::create_dir_all(&pictures).map_err(|source| Error::Io { path: pictures.clone(), source })?;
-        let page = Output::at(&self.out.join("gallery.md"))?;
+        let effort = if self.place.quick { QUICK } else { FULL };
+        let (page, pictures) = self.place.open("gallery")?;
 
         let samplers: Vec<Sampler> = SAMPLERS.into_iter().chain(RELAXED).collect();
         let mut measured = Vec::new();
@@ -57,7 +50,7 @@ impl Gallery {
         pictures::draw_sets(direct, &Output::at(&pictures.join("samplers.png"))?)?;
         pictures::draw_sets(relaxed, &Output::at(&pictures.join("relaxed.png"))?)?;
         pictures::draw_plates(&measured, effort.side, &Output::at(&pictures.join("zone-plate.png"))?)?;
-        let text = page::text(context, &effort, &measured, self.quick);
+        let text = page::text(context, &effort, &measured, self.place.quick);
         page.write(|writer| writer.write_all(text.as_bytes()))
     }
 }

@@ -1,12 +1,11 @@
 //! `azulejo report kdrt`: the tables and figures of thesis chapter 2, measured again.
 
-use std::fs;
 use std::io::Write;
-use std::path::PathBuf;
 
-use azulejo::{Boundary, Context, Domain, Error, Progress, Result, kdrt, maximal};
+use azulejo::{Boundary, Context, Domain, Progress, Result, kdrt, maximal};
 use clap::Args;
 
+use super::place::Place;
 use super::statistics::Statistics;
 use super::times::Times;
 use super::{page, pictures};
@@ -19,12 +18,8 @@ pub const LEAF_SIZES: [f64; 4] = [6.0, 20.0, 40.0, 80.0];
 
 #[derive(Args)]
 pub struct Kdrt {
-    /// The directory of the page `kdrt.md` and its pictures.
-    #[arg(long, value_name = "DIRECTORY", default_value = "docs")]
-    out: PathBuf,
-    /// Measure few and small sets: to see the page, not to believe it.
-    #[arg(long)]
-    quick: bool,
+    #[command(flatten)]
+    place: Place,
 }
 
 /// How much is measured.
@@ -74,10 +69,8 @@ pub fn radius(count: f64) -> f64 {
 
 impl Kdrt {
     pub fn run(&self, context: &Context) -> Result<()> {
-        let effort = if self.quick { QUICK } else { FULL };
-        let pictures = self.out.join("kdrt");
-        fs::create_dir_all(&pictures).map_err(|source| Error::Io { path: pictures.clone(), source })?;
-        let page = Output::at(&self.out.join("kdrt.md"))?;
+        let effort = if self.place.quick { QUICK } else { FULL };
+        let (page, pictures) = self.place.open("kdrt")?;
 
         let times = watched("times", |progress| Times::measure(context, &effort, progress))?;
         let samplers = [Sampler::Maximal].into_iter().chain(LEAF_SIZES.map(Sampler::Leaves));
@@ -93,7 +86,7 @@ impl Kdrt {
             let output = Output::at(&pictures.join(format!("spectrum-{}.png", one.sampler.name())))?;
             pictures::draw_spectrum(one, &statistics[0], &output)?;
         }
-        let text = page::text(&effort, &statistics, &times, self.quick);
+        let text = page::text(&effort, &statistics, &times, self.place.quick);
         page.write(|writer| writer.write_all(text.as_bytes()))
     }
 }

@@ -9,13 +9,12 @@ mod rays;
 pub mod scenes;
 mod ways;
 
-use std::fs;
 use std::io::Write;
-use std::path::PathBuf;
 
-use azulejo::{Context, Error, Progress, Result};
+use azulejo::{Context, Progress, Result};
 use clap::Args;
 
+use super::place::{Meshes, Place};
 use crate::output::Output;
 use crate::progress::watched;
 use crate::report::adaptive;
@@ -27,18 +26,10 @@ use scenes::{Scene, scenes};
 
 #[derive(Args)]
 pub struct Psp {
-    /// The directory of the page `psp.md` and its pictures.
-    #[arg(long, value_name = "DIRECTORY", default_value = "docs")]
-    out: PathBuf,
-    /// The Stanford bunny, OBJ or PLY; left out if it is not given.
-    #[arg(long, value_name = "MESH")]
-    bunny: Option<PathBuf>,
-    /// The Stanford dragon, OBJ or PLY; left out if it is not given.
-    #[arg(long, value_name = "MESH")]
-    dragon: Option<PathBuf>,
-    /// Measure few and small sets: to see the page, not to believe it.
-    #[arg(long)]
-    quick: bool,
+    #[command(flatten)]
+    place: Place,
+    #[command(flatten)]
+    meshes: Meshes,
 }
 
 /// How much is measured.
@@ -113,13 +104,11 @@ impl Measured {
 
 impl Psp {
     pub fn run(&self, context: &Context) -> Result<()> {
-        let effort = if self.quick { QUICK } else { FULL };
-        let pictures = self.out.join("psp");
-        fs::create_dir_all(&pictures).map_err(|source| Error::Io { path: pictures.clone(), source })?;
-        let page = Output::at(&self.out.join("psp.md"))?;
+        let effort = if self.place.quick { QUICK } else { FULL };
+        let (page, pictures) = self.place.open("psp")?;
         let picture = |name: &str| Output::at(&pictures.join(format!("{name}.png")));
 
-        let (found, missing) = scenes(self.bunny.as_deref(), self.dragon.as_deref(), effort.detail)?;
+        let (found, missing) = scenes(self.meshes.bunny.as_deref(), self.meshes.dragon.as_deref(), effort.detail)?;
         let mut measured = Vec::new();
         for scene in found {
             let name = scene.name;
@@ -135,8 +124,8 @@ impl Psp {
         for Measured { scene, .. } in &measured {
             pictures::draw_scene(context, scene, &effort, &picture(scene.name)?)?;
         }
-        let text = page::text(context, &effort, &measured, &missing, &bias, self.quick);
-        let text = text + "\n" + &adaptive::section(context, &pictures, self.quick)?;
+        let text = page::text(context, &effort, &measured, &missing, &bias, self.place.quick);
+        let text = text + "\n" + &adaptive::section(context, &pictures, self.place.quick)?;
         page.write(|writer| writer.write_all(text.as_bytes()))
     }
 }

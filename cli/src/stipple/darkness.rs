@@ -1,10 +1,12 @@
 //! How dark an image is: what share of the paper shall be covered with ink.
 
+use std::fs::File;
+use std::io::BufReader;
 use std::path::Path;
 
 use azulejo::dcr::Density;
 use azulejo::{Boundary, Domain, Error, Result};
-use image::{DynamicImage, ImageReader, Rgba};
+use image::{DynamicImage, ImageFormat, ImageReader, Rgba};
 
 /// The largest side of an image.
 const LARGEST: u32 = 32_768;
@@ -29,7 +31,12 @@ impl Darkness {
         }
         let io_error = |source| Error::Io { path: path.into(), source };
         let format_error = |reason: String| Error::Format { path: path.into(), reason };
-        let mut reader = ImageReader::open(path).map_err(io_error)?.with_guessed_format().map_err(io_error)?;
+        let file = BufReader::new(File::open(path).map_err(io_error)?);
+        // By the content: the name proves nothing.
+        let mut reader = ImageReader::new(file).with_guessed_format().map_err(io_error)?;
+        if reader.format() != Some(ImageFormat::Png) {
+            return Err(format_error("is no PNG file".to_owned()));
+        }
         let mut limits = image::Limits::default();
         (limits.max_image_width, limits.max_image_height) = (Some(LARGEST), Some(LARGEST));
         reader.limits(limits);

@@ -48,6 +48,8 @@ impl From<Differences> for azulejo_differences {
 /// Measures the differences of samples on a mesh. They are divided by those with random points of the mesh, so that
 /// borders, curvature and other sheets near by cancel (Davis and Peebles 1983).
 ///
+/// mesh: has to have some area that its mask does not leave out.
+///
 /// positions: the samples, x y z each; `count` of them, at least 2.
 ///
 /// normals: the normal of the triangle of each sample, x y z each, as azulejo_points_normals gives them; `count` of them.

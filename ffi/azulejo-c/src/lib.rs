@@ -11,8 +11,9 @@
 //!   to stdout; a panic inside the library, which is a bug, prints to stderr and becomes AZULEJO_ERROR_INTERNAL.
 //!
 //! Handles. azulejo_context, azulejo_mesh, azulejo_psp, azulejo_points, azulejo_spectrum and azulejo_differences are made
-//!   by the library and given back with their own _free, which allows NULL. They may be freed in any order: what a handle needs of another one, it keeps.
-//!   Accessors allow NULL too and answer 0 or NULL. Pointers into a handle live until it is freed.
+//!   by the library and given back with their own _free, which allows NULL. They may be freed in any order: what a handle
+//!   needs of another one, it keeps. Accessors allow NULL too and answer 0 or NULL. Pointers into a handle live until it is
+//!   freed.
 //!
 //! Pointers. An argument may be NULL only where that is said. Arrays are packed and read during the call only; the
 //!   pointer of an empty array may be NULL, with the count 0. Arrays and options that are not aligned for their type are

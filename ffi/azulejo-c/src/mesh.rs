@@ -199,8 +199,9 @@ pub extern "C" fn azulejo_mesh_indices(mesh: Option<&azulejo_mesh>) -> *const u3
     mesh.map_or(std::ptr::null(), |mesh| array(mesh.shared.triangles()))
 }
 
-/// The area of all triangles together that no mask leaves out, in squared units of the positions; 0 for NULL. A maximal set of N samples has a
-/// radius of about sqrt(0.69656 * area / N), as long as that is small against the features of the surface.
+/// The area of all triangles together that no mask leaves out, in squared units of the positions; 0 for NULL. A maximal
+/// set of N samples has a radius of about sqrt(0.69656 * area / N), as long as that is small against the features of the
+/// surface.
 #[unsafe(no_mangle)]
 pub extern "C" fn azulejo_mesh_area(mesh: Option<&azulejo_mesh>) -> f64 {
     mesh.map_or(0.0, |mesh| mesh.shared.area())

@@ -16,8 +16,8 @@ pub(super) struct Neighbour {
     pub(super) spacing: f32,
 }
 
-/// The force, in units of its spacing, on a point with this spacing by the neighbours on a ring around it, in counter-clockwise order;
-/// `density_at` gives the density, in units of the mean, at an offset from the point.
+/// The force, in units of its spacing, on a point with this spacing by the neighbours on a ring around it, in
+/// counter-clockwise order; `density_at` gives the density, in units of the mean, at an offset from the point.
 pub(super) fn force(
     constraints: &Constraints,
     spacing: f32,

@@ -212,11 +212,10 @@ impl Mesh {
 
 #[cfg(test)]
 mod tests {
-    use glam::Vec2;
-
     use super::*;
+    use crate::dcr::spread::wandering::{wander, wild, with_and_without_mesh};
     use crate::job::Context;
-    use crate::points::{Boundary, Domain};
+    use crate::points::Boundary;
     use crate::rng::{Draw, Rng};
 
     fn delaunay(job: &Job, torus: &Torus, places: &[Place]) -> Delaunay {
@@ -252,34 +251,21 @@ mod tests {
         for (boundary, width, count) in
             [(Boundary::Periodic, 1.0, 600), (Boundary::Periodic, 3.0, 900), (Boundary::Bounded, 1.5, 300)]
         {
-            let torus = Torus::new(Domain { min: [0.0; 2], max: [width, 1.0], boundary }, count);
-            let mut rng = Rng::at(3, Draw::Probe, &[count as u64]);
-            let points: Vec<[f32; 2]> =
-                (0..count).map(|_| [rng.unit() * width, rng.unit()].map(|x| x as f32)).collect();
-            let mut points = torus.enter(&points, 0);
-            let mut places = torus.with_images(&points);
+            let (torus, mut places) = wild(boundary, width, count);
+            let mut rng = Rng::at(4, Draw::Probe, &[]);
             context
                 .run(None, |job| {
                     let mut mesh = Mesh::new(&delaunay(job, &torus, &places), &torus, &places).unwrap();
-                    let mut ring = Vec::new();
                     let mut flipped = 0;
                     for _ in 0..25 {
-                        let rooms = (0..count).map(|point| {
-                            ring.clear();
-                            let way = |other: u32| torus.way(places[point], places[other as usize]);
+                        let before = places.clone();
+                        let ways = |point: usize| {
+                            let mut ring = Vec::new();
+                            let way = |other: u32| torus.way(before[point], before[other as usize]);
                             mesh.for_each_neighbour(point, |other| ring.push(way(other)));
-                            let pairs = ring.iter().zip(ring.iter().cycle().skip(1));
-                            let height = |(a, b): (&Vec2, &Vec2)| {
-                                a.perp_dot(*b) / a.length().max(b.length()).max(a.distance(*b))
-                            };
-                            pairs.map(height).fold(f32::INFINITY, f32::min)
-                        });
-                        let rooms: Vec<f32> = rooms.collect();
-                        for (point, room) in points.iter_mut().zip(rooms) {
-                            let way = Vec2::from_angle(rng.unit() as f32 * 6.3) * 0.45 * room;
-                            *point = torus.moved(*point, way);
-                        }
-                        places = torus.with_images(&points);
+                            ring
+                        };
+                        wander(&torus, &mut places, count, ways, &mut rng);
                         let before = triangles(&mesh);
                         assert!(mesh.repair(job, &places)?, "a triangle turned over");
                         flipped += usize::from(before != triangles(&mesh));
@@ -302,14 +288,7 @@ mod tests {
     #[test]
     fn few_points_and_large_holes_have_no_mesh_and_turned_triangles_end_one() {
         let context = Context::new(1).unwrap();
-        let domain = Domain::unit(Boundary::Periodic);
-        let mut rng = Rng::at(4, Draw::Probe, &[]);
-        let mut random = |count, part: f64| -> Vec<[f32; 2]> {
-            (0..count).map(|_| [rng.unit() * part, rng.unit() * part].map(|x| x as f32)).collect()
-        };
-        for (points, has_mesh) in [(random(5, 1.0), false), (random(500, 0.5), false), (random(500, 1.0), true)] {
-            let torus = Torus::new(domain, points.len());
-            let mut places = torus.enter(&points, 0);
+        for (torus, mut places, has_mesh) in with_and_without_mesh() {
             context
                 .run(None, |job| {
                     let mesh = Mesh::new(&delaunay(job, &torus, &places), &torus, &places);

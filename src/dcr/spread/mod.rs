@@ -24,6 +24,8 @@ mod tiles;
 pub(super) mod torus;
 #[allow(unsafe_code)] // Vector instructions.
 mod vectors;
+#[cfg(test)]
+pub(super) mod wandering;
 pub(super) mod waves;
 
 use std::ops::Range;

@@ -4,18 +4,10 @@ use glam::Vec2;
 
 use super::*;
 use crate::dcr::spread::constraints::Force;
+use crate::dcr::spread::wandering::{self, wild, with_and_without_mesh};
 use crate::job::Context;
 use crate::points::{Boundary, Domain};
 use crate::rng::{Draw, Rng};
-
-/// Random places of the torus that a domain is or is mirrored on, the number of points, and the torus.
-fn wild(boundary: Boundary, width: f64, count: usize) -> (Torus, Vec<Place>) {
-    let torus = Torus::new(Domain { min: [0.0; 2], max: [width, 1.0], boundary }, count);
-    let mut rng = Rng::at(3, Draw::Probe, &[count as u64]);
-    let points: Vec<_> = (0..count).map(|_| [rng.unit() * width, rng.unit()].map(|x| x as f32)).collect();
-    let places = torus.with_images(&torus.enter(&points, 0));
-    (torus, places)
-}
 
 /// What spade makes of all points at once.
 fn anew(job: &Job, torus: &Torus, places: &[Place]) -> (Mesh, f64) {
@@ -75,14 +67,8 @@ fn repaired_meshes_are_those_that_are_built_anew() {
 
 /// Moves the points in the room that they have, and their images with them.
 fn wander(mesh: &Mesh, places: &mut Vec<Place>, count: usize, rng: &mut Rng) {
-    let still = Constraints { conflict_radius: 0.0, coverage_radius: f32::INFINITY, push: 0.0, pull: 0.0 };
-    let room = |point: usize| still.force(&ways(mesh, places, point)).room;
-    let rooms: Vec<f32> = (0..count).map(room).collect();
-    let moved = |(&place, room): (&Place, f32)| {
-        mesh.torus.moved(place, Vec2::from_angle(rng.unit() as f32 * 6.3) * 0.45 * room)
-    };
-    let points: Vec<Place> = places[..count].iter().zip(rooms).map(moved).collect();
-    *places = mesh.torus.with_images(&points);
+    let before = places.clone();
+    wandering::wander(&mesh.torus, places, count, |point| ways(mesh, &before, point), rng);
 }
 
 fn is_delaunay(mesh: &mut Mesh, places: &[Place]) -> bool {
@@ -171,14 +157,7 @@ fn is_violated(mesh: &Mesh, places: &[Place], point: usize) -> bool {
 #[test]
 fn few_points_and_large_holes_have_no_mesh_and_turned_triangles_end_one() {
     let context = Context::new(1).unwrap();
-    let domain = Domain::unit(Boundary::Periodic);
-    let mut rng = Rng::at(4, Draw::Probe, &[]);
-    let mut random = |count, part: f64| -> Vec<[f32; 2]> {
-        (0..count).map(|_| [rng.unit() * part, rng.unit() * part].map(|x| x as f32)).collect()
-    };
-    for (points, has_mesh) in [(random(5, 1.0), false), (random(500, 0.5), false), (random(500, 1.0), true)] {
-        let torus = Torus::new(domain, points.len());
-        let mut places = torus.enter(&points, 0);
+    for (torus, mut places, has_mesh) in with_and_without_mesh() {
         context
             .run(None, |job| {
                 let mesh = Mesh::new(job, &torus, &places)?;

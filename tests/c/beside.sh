@@ -1,0 +1,25 @@
+# Sourced by scripts/test.sh, tests/c/run.sh and tests/c/sanitized.sh: runs steps beside each other that do not need each other. They set
+# work, a scratch folder, before.
+
+# COMMAND...: in the background, as soon as less than one per core is running.
+beside() {
+    while [ "$(jobs -pr | wc -l)" -ge "${CARGO_BUILD_JOBS:-$(nproc)}" ]; do
+        wait -n || true
+    done
+    apart "$@" &
+}
+
+# COMMAND...: with a scratch folder of its own. What it says is said when it has ended.
+apart() {
+    local scratch
+    scratch=$(mktemp -d "$work/step.XXXXXX")
+    (work=$scratch && "$@") >"$scratch/said" 2>&1 || touch "$work/failed"
+    flock "$work" cat "$scratch/said"
+    rm -rf "$scratch"
+}
+
+# Waits for those in the background; fails if one step has failed so far.
+all_done() {
+    wait
+    [ ! -e "$work/failed" ]
+}
