@@ -163,7 +163,7 @@ fn adaptive(mesh: &azulejo_mesh, corners: &Corners, radius: f64, input: &mut Inp
         return; // too many samples
     }
     let slope = f64::from(input.any::<u8>()) / 256.0;
-    let mut user = [radius, slope];
+    let mut user = [radius, if input.one_in(2) { 4.0 } else { slope }];
     let by_vertex = input.one_in(2);
     let options = azulejo_adaptive_options {
         struct_size: size_of::<azulejo_adaptive_options>() as u32,
