@@ -22,8 +22,8 @@ pub(crate) fn require(bytes: f64, argument: &'static str, what: &str) -> Result<
     }
 }
 
-/// Bytes of memory that can be had without swapping.
-fn available() -> Option<f64> {
+/// Bytes of memory that can be had without swapping, where the operating system tells.
+pub(crate) fn available() -> Option<f64> {
     let machine = read("/proc/meminfo").and_then(|table| entry(&table, "MemAvailable:"));
     [machine, address_space(), control_groups(Path::new("/sys/fs/cgroup"))].into_iter().flatten().reduce(f64::min)
 }

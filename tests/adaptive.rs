@@ -7,6 +7,7 @@ mod meshes;
 mod oracle;
 
 use std::cell::Cell;
+use std::collections::HashSet;
 use std::ops::ControlFlow;
 
 use azulejo::mesh::Mesh;
@@ -181,6 +182,17 @@ fn sides_of_a_thin_wall_ignore_each_other_if_wanted() {
     let radii = vec![0.2; torus.positions().len()];
     let options = Options { cosine: 0.9, ..Options::new(Radius::PerVertex(&radii)) };
     check_all(&torus, &options, &Field::PerVertex(&radii));
+}
+
+/// The square of a rounded normal can be below 1: samples of one triangle ignored each other, and there was no end of them.
+#[test]
+fn with_a_cosine_of_one_triangles_are_sampled_each_for_itself() {
+    let torus = mesh(meshes::torus());
+    let radii = vec![0.05; torus.positions().len()];
+    let options = Options { cosine: 1.0, ..Options::new(Radius::PerVertex(&radii)) };
+    let set = check_all(&torus, &options, &Field::PerVertex(&radii));
+    let triangles: HashSet<_> = set.samples.triangles.iter().collect();
+    assert_eq!(triangles.len(), torus.triangles().len());
 }
 
 #[test]

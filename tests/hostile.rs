@@ -1,5 +1,8 @@
 //! What fuzzing found (scripts/fuzz.sh): input that took memory or time without end, each as small as can be.
 
+use std::ops::ControlFlow;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+
 use azulejo::analysis::coverage::covering_radius_2d;
 use azulejo::analysis::triangles::triangle_statistics;
 use azulejo::mesh::Mesh;
@@ -54,4 +57,75 @@ fn a_domain_that_is_a_line_for_all_floats_is_refused() {
     assert!(matches!(refused, Err(Error::InvalidArgument { argument: "domain_max", .. })));
     let domain = Domain { min: [0.0; 2], max: [1e-29, 1.0], boundary: Boundary::Periodic };
     assert!(triangle_statistics(&context, &domain, &[[0.0, 0.5]], None).is_ok());
+}
+
+/// What a function that is not what its caller says of it brings about, on one thread and on three.
+fn refused(mesh: &Mesh, radius: Radius) -> String {
+    let sample = |threads| adaptive::sample(&Context::new(threads).unwrap(), mesh, &Options::new(radius), None);
+    let [said, again] = [1, 3].map(|threads| sample(threads).unwrap_err().to_string());
+    assert_eq!(said, again, "depends on the number of threads");
+    said
+}
+
+fn square() -> Mesh {
+    let positions = vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [1.0, 1.0, 0.0]];
+    Mesh::new(positions, vec![[0, 1, 2], [2, 1, 3]]).unwrap()
+}
+
+/// Bounds of a steep radius say next to nothing: patches were cut up to the last float, a billion of them for each sample.
+#[test]
+fn a_slope_that_nothing_can_be_proved_with_is_refused() {
+    let radius = Radius::Function { at: &|_| 0.4, smallest: 0.04, largest: 0.8, slope: 5000.0 };
+    let said = refused(&square(), radius);
+    assert!(said.starts_with("slope: 5000.0: radii of this slope"), "{said}");
+}
+
+/// A radius that is steeper than is said is found out before more than a few samples are made of it, and always in the
+/// same place.
+#[test]
+fn a_function_that_is_steeper_than_its_slope_is_refused() {
+    let steep = |[x, ..]: [f64; 3]| (0.02 + (4.0 * (x - 0.3).abs()).min(0.02)).min(0.04);
+    let noise = |[x, y, _]: [f64; 3]| 0.02 + 0.02 * (1e5 * (x + 2.0 * y)).sin().abs();
+    let step = |[x, ..]: [f64; 3]| if x < 0.4142 { 0.02 } else { 0.04 };
+    let functions: [&(dyn Fn([f64; 3]) -> f64 + Sync); 3] = [&steep, &noise, &step];
+    for at in functions {
+        for slope in [0.0, 1e-3, 0.25, 1.0] {
+            let calls = AtomicU64::new(0);
+            let at = |position: [f64; 3]| {
+                calls.fetch_add(1, Ordering::Relaxed);
+                at(position)
+            };
+            let said = refused(&square(), Radius::Function { at: &at, smallest: 0.02, largest: 0.04, slope });
+            assert!(said.starts_with("radius: 0.0") && said.contains("slope"), "{said}");
+            assert!(calls.load(Ordering::Relaxed) < 400_000, "{calls:?} calls");
+        }
+    }
+}
+
+/// Radii that fall when the samples have been estimated: no memory would hold their pieces.
+#[test]
+fn a_function_that_changes_its_mind_does_not_get_all_memory() {
+    let is_small = AtomicBool::new(false);
+    let at = |_: [f64; 3]| if is_small.load(Ordering::Relaxed) { 1e-5 } else { 1.0 };
+    let radius = Radius::Function { at: &at, smallest: 1e-5, largest: 1.0, slope: 0.0 };
+    let watch = |done: f64| {
+        is_small.store(done > 0.04, Ordering::Relaxed);
+        ControlFlow::Continue(())
+    };
+    let refused = adaptive::sample(&Context::new(1).unwrap(), &square(), &Options::new(radius), Some(&watch));
+    let refused = refused.map(|(set, _)| set.radii.len());
+    assert!(matches!(refused, Err(Error::TooLarge { argument: "radius", .. })), "{refused:?}");
+}
+
+/// The estimate was made on a hundred thousand pieces and more, of a surface that has room for a few samples.
+#[test]
+fn few_samples_are_estimated_on_few_pieces() {
+    let calls = AtomicU64::new(0);
+    let at = |_: [f64; 3]| {
+        calls.fetch_add(1, Ordering::Relaxed);
+        0.25
+    };
+    let radius = Radius::Function { at: &at, smallest: 0.25, largest: 0.25, slope: 0.0 };
+    let (set, _) = adaptive::sample(&Context::new(1).unwrap(), &square(), &Options::new(radius), None).unwrap();
+    assert!(set.radii.len() > 8 && calls.load(Ordering::Relaxed) < 5000, "{calls:?} calls");
 }

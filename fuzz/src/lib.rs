@@ -4,6 +4,7 @@
 pub mod calls;
 pub mod files;
 pub mod input;
+pub mod relaxation;
 pub mod surface;
 
 pub use azulejo_c as c;

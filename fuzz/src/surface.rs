@@ -1,5 +1,6 @@
 //! What is done with every mesh, whatever it was made of: sampled by both engines, in steps, with radii that vary.
 
+use std::cell::Cell;
 use std::ffi::c_void;
 use std::ptr::NonNull;
 
@@ -8,6 +9,7 @@ use azulejo_c::analysis::azulejo_mesh_uncovered_fraction;
 use azulejo_c::mesh::*;
 use azulejo_c::points::azulejo_points;
 use azulejo_c::psp::*;
+use azulejo_c::surface::*;
 
 use crate::calls::{Arrays, Out, Patience, accepted, array, check_distances, context, create, value};
 use crate::input::Input;
@@ -88,6 +90,7 @@ pub fn sample(mesh: &azulejo_mesh, input: &mut Input) {
     at_once(mesh, &corners, &options);
     in_steps(mesh, &corners, &options, &patience, input);
     adaptive(mesh, &corners, radius, input);
+    relax(mesh, &corners, input);
 }
 
 fn check_uniform(corners: &Corners, points: &azulejo_points, radius: f64) {
@@ -145,11 +148,34 @@ fn in_steps(
     azulejo_psp_free(Some(set));
 }
 
-/// A radius that is as the options say: one that is steeper is refused where that is noticed, and takes long where not.
+/// A function of the caller's: one that is as the options say, or not.
+struct Guest {
+    least: f64,
+    slope: f64,
+    kind: u32,
+    calls: Cell<u32>,
+}
+
+impl Guest {
+    fn at(&self, position: [f64; 3]) -> f64 {
+        let ramp = |slope: f64| self.least + (position[0].abs() * slope).min(self.least);
+        let noise =
+            position.iter().fold(0u64, |bits, x| (bits ^ x.to_bits()).wrapping_mul(0x9e37_79b9_7f4a_7c15)) >> 32;
+        let calls = self.calls.replace(self.calls.get().wrapping_add(1));
+        match self.kind {
+            0 => ramp(4.0),
+            1 => self.least * (1.0 + noise as f64 / 2f64.powi(32)),
+            2 => self.least * if calls.is_multiple_of(3) { 1.0 } else { 1.5 },
+            3 => self.least * if calls < 2000 { 2.0 } else { 1.0 },
+            4 if noise.is_multiple_of(64) => [f64::NAN, 0.0, -1.0, f64::INFINITY][noise as usize / 64 % 4],
+            _ => ramp(self.slope).min(2.0 * self.least),
+        }
+    }
+}
+
 unsafe extern "C-unwind" fn radius_at(user: *mut c_void, position: *const f64) -> f64 {
     // SAFETY: the options below lead here with these two.
-    let (&[least, slope], &[x, _, _]) = unsafe { (&*user.cast::<[f64; 2]>(), &*position.cast::<[f64; 3]>()) };
-    (least + (x.abs() * slope).min(least)).min(2.0 * least)
+    unsafe { (*user.cast::<Guest>()).at(*position.cast()) }
 }
 
 fn adaptive(mesh: &azulejo_mesh, corners: &Corners, radius: f64, input: &mut Input) {
@@ -163,7 +189,7 @@ fn adaptive(mesh: &azulejo_mesh, corners: &Corners, radius: f64, input: &mut Inp
         return; // too many samples
     }
     let slope = f64::from(input.any::<u8>()) / 256.0;
-    let mut user = [radius, slope];
+    let guest = Guest { least: radius, slope, kind: input.below(10), calls: Cell::new(0) };
     let by_vertex = input.one_in(2);
     let options = azulejo_adaptive_options {
         struct_size: size_of::<azulejo_adaptive_options>() as u32,
@@ -171,11 +197,11 @@ fn adaptive(mesh: &azulejo_mesh, corners: &Corners, radius: f64, input: &mut Inp
         vertex_radii: if by_vertex { radii.as_ptr() } else { std::ptr::null() },
         vertex_count: if by_vertex { radii.len() } else { 0 },
         radius: (!by_vertex).then_some(radius_at),
-        radius_user: user.as_mut_ptr().cast(),
+        radius_user: (&raw const guest).cast_mut().cast(),
         smallest: radius,
         largest: 2.0 * radius,
         slope,
-        cosine: if input.one_in(4) { input.number() } else { -1.0 },
+        cosine: if input.one_in(4) { [1.0, input.number()][input.below(2) as usize] } else { -1.0 },
         seed: input.any(),
         progress: None,
         progress_user: std::ptr::null_mut(),
@@ -190,4 +216,42 @@ fn adaptive(mesh: &azulejo_mesh, corners: &Corners, radius: f64, input: &mut Inp
         let mean = |i: usize, j: usize| (set.radii[i] + set.radii[j]) / 2.0;
         check_distances(positions, |a, b| std::array::from_fn(|axis| a[axis] - b[axis]), mean);
     }
+}
+
+/// Samples anywhere, some on edges and on each other, walk over the mesh.
+fn relax(mesh: &azulejo_mesh, corners: &Corners, input: &mut Input) {
+    let patience = Patience::new(if input.one_in(4) { input.below(20) } else { u32::MAX });
+    let options = azulejo_dcr_surface_options {
+        struct_size: size_of::<azulejo_dcr_surface_options>() as u32,
+        max_iterations: input.below(12),
+        tolerance: if input.one_in(8) { input.number() } else { -1.0 },
+        seed: input.any(),
+        progress: Some(Patience::tell),
+        progress_user: patience.user(),
+    };
+    let count = input.below(40) as usize;
+    let hostile = input.one_in(8);
+    let triangles: Vec<u32> = (0..count)
+        .map(|_| if hostile { input.any::<u8>().into() } else { input.below(corners.0.len().max(1) as u32) })
+        .collect();
+    let sides = |input: &mut Input| {
+        let [u, v] = [0; 2].map(|_| f32::from(input.any::<u8>() / 15) / 17.0);
+        if hostile {
+            [input.coordinate(), v]
+        } else if u + v > 1.0 {
+            [1.0 - u, 1.0 - v]
+        } else {
+            [u, v]
+        }
+    };
+    let barycentrics: Vec<[f32; 2]> = (0..count).map(|_| sides(input)).collect();
+    let (start, uv) = (triangles.as_ptr(), barycentrics.as_ptr().cast());
+    // SAFETY: the options are of the size that they say, and so are the arrays.
+    let call = |out: Out<_>| unsafe {
+        azulejo_dcr_relax_surface(context(), Some(mesh), &options, start, uv, count, out, None)
+    };
+    let Some(points) = create(call) else { return };
+    let set = Arrays::of(&points);
+    assert_eq!(set.triangles.len(), count);
+    corners.check(&set);
 }

@@ -35,6 +35,11 @@ fn dot(a: [f32; 3], b: [f32; 3]) -> f64 {
     a * d + b * e + c * f
 }
 
+/// Whether samples on triangles with these normals matter to each other.
+fn sees(a: [f32; 3], b: [f32; 3], cosine: f64) -> bool {
+    a == b || cosine <= -1.0 || dot(a, b) >= cosine
+}
+
 fn middle((a, s): (Point, [f64; 2]), (b, t): (Point, [f64; 2])) -> (Point, [f64; 2]) {
     (std::array::from_fn(|axis| (a[axis] + b[axis]) / 2.0), std::array::from_fn(|i| (s[i] + t[i]) / 2.0))
 }
@@ -93,8 +98,7 @@ pub fn conflict(samples: &SurfaceSamples, radii: &[f64], cosine: f64) -> Option<
     let normals = &samples.normals;
     (0..points.len()).find_map(|i| {
         let conflicts = |&j: &usize| {
-            distance(points[i], points[j]) < (radii[i] + radii[j]) / 2.0
-                && (cosine <= -1.0 || dot(normals[i], normals[j]) >= cosine)
+            distance(points[i], points[j]) < (radii[i] + radii[j]) / 2.0 && sees(normals[i], normals[j], cosine)
         };
         (0..i).find(conflicts).map(|j| (j, i))
     })
@@ -112,7 +116,7 @@ pub fn gap(
 ) -> Option<Point> {
     (0..mesh.triangles().len() as u32).filter(|&triangle| mesh.triangle_area(triangle) > 0.0).find_map(|triangle| {
         let normal = mesh.normal(triangle);
-        let seen = |&i: &usize| cosine <= -1.0 || dot(samples.normals[i], normal) >= cosine;
+        let seen = |&i: &usize| sees(samples.normals[i], normal, cosine);
         let balls = (0..radii.len()).filter(seen).map(|i| (exact(samples.positions[i]), radii[i])).collect::<Vec<_>>();
         let [a, b, c] = mesh.corners(triangle).map(exact);
         let whole = Part { triangle, corners: [(a, [0.0, 0.0]), (b, [1.0, 0.0]), (c, [0.0, 1.0])] };

@@ -60,6 +60,8 @@ pub(super) struct Coverage<'a> {
     per_unit: f64,
     /// Patches no longer than this are cut up no more.
     finest: f64,
+    /// At how many fragments it may still look.
+    pub looks: u64,
     /// Where samples were gathered, how far around, and for which normal.
     centre: DVec3,
     reach: f64,
@@ -69,14 +71,15 @@ pub(super) struct Coverage<'a> {
 }
 
 impl<'a> Coverage<'a> {
-    /// Distances are computed in `unit`, which is about the radius.
-    pub fn new(mesh: &'a Mesh, field: &'a Field<'a>, room: &'a Room, unit: f64, finest: f64) -> Self {
+    /// Distances are computed in `unit`, which is about the radius. Fails when it has looked at so many fragments.
+    pub fn new(mesh: &'a Mesh, field: &'a Field<'a>, room: &'a Room, unit: f64, finest: f64, looks: u64) -> Self {
         Self {
             mesh,
             field,
             room,
             per_unit: 1.0 / unit,
             finest,
+            looks,
             centre: DVec3::ZERO,
             reach: f64::NEG_INFINITY,
             normal: [0.0; 3],
@@ -121,6 +124,13 @@ impl<'a> Coverage<'a> {
 
     /// `nearby[from..]` holds the samples that can reach the fragment, and others.
     fn descend(&mut self, fragment: &Fragment, shape: &Shape, bounds: Bounds, from: usize, uncovered: &mut Vec<Open>) {
+        if self.looks == 0 {
+            self.field.give_up(shape.centre);
+        }
+        if self.field.has_failed() {
+            return;
+        }
+        self.looks -= 1;
         let start = self.nearby.len();
         let open = self.open_sixteenths(shape, bounds, from);
         let longest = shape.longest;
@@ -221,7 +231,7 @@ mod tests {
             let (whole, unit) = (Fragment::whole(0), 2.0);
             let shape = whole.shape(&mesh);
             let bounds = field.bounds(&whole, &shape, field.all());
-            let mut coverage = Coverage::new(&mesh, &field, &room, unit, 0.0);
+            let mut coverage = Coverage::new(&mesh, &field, &room, unit, 0.0, 1);
             coverage.gather(&whole, &shape, bounds);
             let open = coverage.open_sixteenths(&shape, bounds, 0);
             for index in 0..16 {

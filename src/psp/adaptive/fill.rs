@@ -1,6 +1,7 @@
 //! Rounds of darts into what is uncovered, as in `psp/fill.rs`, where the radius varies.
 
 use super::coverage::{Coverage, Open};
+use super::limits::Quota;
 use super::radius::Field;
 use super::room::{Dot, Room, Rule, end_of_octave};
 use super::set::{Place, Set};
@@ -15,18 +16,29 @@ use crate::rng::{Draw, Rng};
 
 /// The pieces that the search begins with, in local radii.
 const PIECE: f64 = 2.0;
+/// At how many fragments a block may look for each of its pieces and samples. Slopes of 1 take about a hundred, of 30 a
+/// thousand: a caller who states a far steeper one would wait for hours.
+const LOOKS: u64 = 1 << 12;
 
 /// A maximal set, and how many darts it took.
-pub(super) fn fill(job: &Job, mesh: &Mesh, field: &Field, rule: Rule, seed: u64) -> Result<(Set, u64)> {
+pub(super) fn fill(job: &Job, mesh: &Mesh, field: &Field, quota: &Quota, rule: Rule, seed: u64) -> Result<(Set, u64)> {
     let mut set = Set::new(mesh, seed);
     let bounds = |fragment: &Fragment, shape: &Shape| field.bounds(fragment, shape, field.all());
-    let longest = |fragment: &Fragment, shape: &Shape| PIECE * bounds(fragment, shape).scale();
-    let place = |fragment: &Fragment, shape: &Shape| set.place(shape.centre, bounds(fragment, shape).largest);
+    let longest = |fragment: &Fragment, shape: &Shape| {
+        if quota.is_exceeded() { f64::INFINITY } else { PIECE * bounds(fragment, shape).scale() }
+    };
+    let place = |fragment: &Fragment, shape: &Shape| {
+        quota.take(1);
+        set.place(shape.centre, bounds(fragment, shape).largest)
+    };
     let pieces = pieces(&job.part(0.05, 0.2), mesh, longest, place)?;
     field.check()?;
+    quota.check(field.argument())?;
     let darts = set.grow(&job.part(0.2, 1.0), mesh, rule, &pieces, |place, room, pieces| {
-        let filled = fill_block(mesh, field, seed, place, room, pieces);
-        field.check().map(|()| filled)
+        let field = field.apart();
+        let filled = fill_block(mesh, &field, quota, seed, place, room, pieces);
+        field.check()?;
+        quota.check(field.argument()).map(|()| filled)
     })?;
     Ok((set, darts))
 }
@@ -35,6 +47,7 @@ pub(super) fn fill(job: &Job, mesh: &Mesh, field: &Field, rule: Rule, seed: u64)
 fn fill_block(
     mesh: &Mesh,
     field: &Field,
+    quota: &Quota,
     seed: u64,
     place: Place,
     room: &mut Room,
@@ -43,10 +56,15 @@ fn fill_block(
     let mut rng = Rng::at(seed, Draw::Adaptive, &place.key());
     let (unit, spacing) = (end_of_octave(place.octave), float_spacing(mesh));
     let (mut open, mut next) = (Vec::new(), Vec::new());
-    let mut coverage = Coverage::new(mesh, field, room, unit, spacing);
-    pieces.for_each(|piece| coverage.search(piece, &mut open));
+    let mut coverage = Coverage::new(mesh, field, room, unit, spacing, 0);
+    pieces.for_each(|piece| {
+        coverage.looks += LOOKS;
+        coverage.search(piece, &mut open);
+    });
+    let mut looks = coverage.looks;
     let (mut accepted, mut darts) = (Vec::new(), 0);
-    while !open.is_empty() && !field.has_failed() {
+    while !open.is_empty() && !field.has_failed() && !quota.is_exceeded() {
+        let known = accepted.len();
         darts += open.len() as u64;
         for patch in in_order_of_arrival(mesh, &open, &mut rng) {
             let sample = dart(mesh, patch, spacing, &mut rng);
@@ -57,9 +75,12 @@ fn fill_block(
                 accepted.push((sample, radius));
             }
         }
+        let new = (accepted.len() - known) as u64;
+        quota.take(new);
         // A dart into the centre of a patch decides about all of it.
-        let mut coverage = Coverage::new(mesh, field, room, unit, spacing);
+        let mut coverage = Coverage::new(mesh, field, room, unit, spacing, looks + LOOKS * new);
         open.iter().filter(|patch| patch.longest > spacing).for_each(|patch| coverage.refine(patch, &mut next));
+        looks = coverage.looks;
         std::mem::swap(&mut open, &mut next);
         next.clear();
     }

@@ -27,10 +27,12 @@ use crate::psp::{DENSITY, Report, longest_edge};
 
 mod coverage;
 mod fill;
+mod limits;
 mod radius;
 mod room;
 mod set;
 
+use limits::Quota;
 use radius::Field;
 pub use radius::{Radius, RadiusFunction};
 use room::Rule;
@@ -42,8 +44,8 @@ pub struct Options<'a> {
     /// vertices before they are interpolated.
     pub radius: Radius<'a>,
     /// Samples on triangles whose normals have a smaller cosine ignore each other, and so do samples and uncovered
-    /// surface: the sides of a thin wall are sampled as if they were far apart. From -1, which is off, to 1. The
-    /// triangles must be wound consistently.
+    /// surface: the sides of a thin wall are sampled as if they were far apart. From -1, which is off, to 1, where only
+    /// samples with the same normal see each other. The triangles must be wound consistently.
     pub cosine: f64,
     /// Selects one of 2^64 sets.
     pub seed: u64,
@@ -65,7 +67,7 @@ pub struct AdaptiveSamples {
     pub radii: Vec<f64>,
 }
 
-/// On how many pieces of the surface the number of samples is estimated, about.
+/// On how many pieces of the surface the number of samples is estimated, about and at most.
 const ESTIMATES: f64 = 1e5;
 /// Memory per sample at the peak.
 const BYTES_PER_SAMPLE: f64 = 800.0;
@@ -78,9 +80,10 @@ const BYTES_PER_SAMPLE: f64 = 800.0;
 /// # Errors
 /// [`Error::InvalidArgument`] for radii that are not positive and finite (`vertex_radii`), not one for each vertex
 /// (`vertex_count`), or below 64 float spacings at the largest coordinate of the mesh; for bad `smallest`, `largest` and
-/// `slope`; for a function that gives what is not in `smallest..=largest` or changes faster than `slope` (`radius`; which
-/// of several violations is told is chance); for a `cosine` outside -1 to 1. [`Error::TooLarge`] where the radii would ask
-/// for more than 2^32 samples, or more than memory holds. [`Error::Cancelled`] by the progress callback.
+/// `slope`; for a function that gives what is not in `smallest..=largest` or changes faster than `slope` (`radius`);
+/// for a `cosine` outside -1 to 1. [`Error::TooLarge`] where the radii would ask for more than 2^32 samples, or more than
+/// memory holds, and where they change so fast that it takes thousands of looks per sample to find out what is covered (`slope`,
+/// `vertex_radii`). [`Error::Cancelled`] by the progress callback.
 pub fn sample(
     context: &Context,
     mesh: &Mesh,
@@ -94,8 +97,8 @@ pub fn sample(
     }
     let field = Field::new(mesh, options.radius)?;
     let (set, darts) = context.run(progress, |job| {
-        require(&job.part(0.0, 0.05), mesh, &field)?;
-        fill::fill(job, mesh, &field, Rule { cosine }, options.seed)
+        let quota = Quota::new(require(&job.part(0.0, 0.05), mesh, &field)?, mesh);
+        fill::fill(job, mesh, &field, &quota, Rule { cosine }, options.seed)
     })?;
     let (samples, radii): (Vec<_>, Vec<_>) = set.samples.into_iter().unzip();
     let accepted = samples.len() as u64;
@@ -106,12 +109,13 @@ pub fn sample(
     Ok((AdaptiveSamples { samples, radii }, report))
 }
 
-/// Refuses radii that ask for more samples than can be indexed or held. They are counted on pieces of the surface, each
+/// Estimates the samples and refuses radii that ask for more than can be indexed or held. They are counted on pieces of the surface, each
 /// as if it had the radius of its centre: those of the area, and those along what is longer than the radius.
-fn require(job: &Job, mesh: &Mesh, field: &Field) -> Result<()> {
+fn require(job: &Job, mesh: &Mesh, field: &Field) -> Result<f64> {
     // Needles have next to no area: their lengths bound the pieces as well.
     let lengths: f64 = mesh.sampled_triangles().map(|triangle| longest_edge(mesh, triangle)).sum();
-    let longest = (4.0 * mesh.area() / ESTIMATES).sqrt().max(lengths / ESTIMATES);
+    // Nor is anything learned from pieces that are shorter than every radius.
+    let longest = (4.0 * mesh.area() / ESTIMATES).sqrt().max(lengths / ESTIMATES).max(field.all().least);
     let expected = |radius: f64, area: f64, length: f64| {
         DENSITY * area / (radius * radius) + if length > radius { length / radius } else { 0.0 }
     };
@@ -131,5 +135,6 @@ fn require(job: &Job, mesh: &Mesh, field: &Field) -> Result<()> {
             format!("{least:?} to {largest:?} asks for about {estimate:.3e} samples; the limit is {}", u32::MAX);
         return Err(Error::too_large(argument, reason));
     }
-    crate::memory::require(estimate * BYTES_PER_SAMPLE, argument, &format!("about {estimate:.3e} samples"))
+    crate::memory::require(estimate * BYTES_PER_SAMPLE, argument, &format!("about {estimate:.3e} samples"))?;
+    Ok(estimate)
 }

@@ -5,10 +5,9 @@
 //! limited for this. Of vertices, the barycentrics change the radius by 2^-24 of the difference of two corners, at most
 //! four diagonals; these are at most 14 float spacings, and no radius is below 64.
 
-use std::sync::OnceLock;
-
 use glam::DVec3;
 
+use super::limits::Verdict;
 use crate::error::{Error, Result};
 use crate::mesh::{Mesh, exact};
 use crate::psp::coverage::{Fragment, Shape};
@@ -34,7 +33,7 @@ pub enum Radius<'a> {
         largest: f64,
         /// How much the radius changes at most per unit of distance between two positions on a triangle: 0 and up. What
         /// is covered is proved with it, so it must hold; where a violation is seen, the call fails. The work grows
-        /// with its square from about 1 on. At most `smallest` / 24 per float spacing at the largest coordinate of the
+        /// with its square from about 1 on; from about 30 on it may be too much, which is refused. At most `smallest` / 24 per float spacing at the largest coordinate of the
         /// mesh.
         slope: f64,
     },
@@ -68,8 +67,8 @@ pub(super) struct Field<'a> {
     limit: f64,
     /// How far rounding moves a sample at most.
     rounding: f64,
-    /// What is wrong with the caller's function.
-    failure: OnceLock<String>,
+    /// What is wrong with the radii.
+    verdict: Verdict,
 }
 
 impl<'a> Field<'a> {
@@ -104,7 +103,7 @@ impl<'a> Field<'a> {
             return Err(Error::invalid("slope", reason));
         }
         let all = Bounds { least: all.least.min(limit), largest: all.largest.min(limit) };
-        Ok(Self { mesh, radius, all, limit, rounding, failure: OnceLock::new() })
+        Ok(Self { mesh, radius, all, limit, rounding, verdict: Verdict::default() })
     }
 
     /// The argument that asks for too many samples where there are too many.
@@ -161,17 +160,30 @@ impl<'a> Field<'a> {
         }
     }
 
-    /// Fails where the caller's function has failed.
-    pub fn check(&self) -> Result<()> {
-        match self.failure.get() {
-            None => Ok(()),
-            Some(reason) => Err(Error::invalid("radius", reason.clone())),
-        }
+    /// The same radii with a verdict of their own, for one task: what it finds out depends on no other.
+    pub fn apart(&self) -> Self {
+        Self { verdict: Verdict::default(), ..*self }
     }
 
-    /// Whether the caller's function has failed: the rest of the work is in vain.
+    /// Fails where the radii have failed.
+    pub fn check(&self) -> Result<()> {
+        self.verdict.check()
+    }
+
+    /// Whether the radii have failed: the rest of the work is in vain.
     pub fn has_failed(&self) -> bool {
-        self.failure.get().is_some()
+        self.verdict.is_given()
+    }
+
+    /// Fails since too much work is of no avail.
+    pub fn give_up(&self, place: DVec3) {
+        let (argument, what) = match self.radius {
+            Radius::PerVertex(_) => ("vertex_radii", "the radii".to_owned()),
+            Radius::Function { slope, .. } => ("slope", format!("{slope:?}: radii of this slope, or a steeper one,")),
+        };
+        let place = place.to_array();
+        let reason = format!("{what} change too fast at {place:?} to find out what is covered");
+        self.verdict.add(place, Error::too_large(argument, reason));
     }
 
     fn interpolate(&self, radii: &[f32], triangle: u32, [u, v]: [f64; 2]) -> f64 {
@@ -185,7 +197,8 @@ impl<'a> Field<'a> {
         let Radius::Function { smallest, largest, .. } = self.radius else { return self.all.least };
         let radius = at(position);
         if !(smallest..=largest).contains(&radius) {
-            self.fail(|| format!("{radius:?} at {position:?} is not in {smallest:?}..={largest:?}"));
+            let reason = format!("{radius:?} at {position:?} is not in {smallest:?}..={largest:?}");
+            self.verdict.add(position, Error::invalid("radius", reason));
             return self.all.least;
         }
         radius.min(self.limit)
@@ -196,14 +209,10 @@ impl<'a> Field<'a> {
         let slack = ROUNDING * radius + slope * self.rounding;
         if !(least - slack..=largest + slack).contains(&radius) {
             let place = position.to_array();
-            self.fail(|| {
-                format!("{radius:?} at {place:?} is farther than slope {slope:?} allows from the values around")
-            });
+            let reason =
+                format!("{radius:?} at {place:?} is farther than slope {slope:?} allows from the values around");
+            self.verdict.add(place, Error::invalid("radius", reason));
         }
-    }
-
-    fn fail(&self, reason: impl FnOnce() -> String) {
-        self.failure.get_or_init(reason);
     }
 }
 

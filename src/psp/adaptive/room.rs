@@ -18,7 +18,7 @@ pub(super) struct Dot {
 /// Who conflicts with whom.
 #[derive(Clone, Copy)]
 pub(super) struct Rule {
-    /// Samples whose normals have a smaller cosine ignore each other; -1: none do.
+    /// Samples whose normals have a smaller cosine ignore each other, unless the normals are the same; -1: none do.
     pub cosine: f64,
 }
 
@@ -29,9 +29,10 @@ impl Rule {
         0.5 * (1.0 + 1e-14) * (a + b)
     }
 
-    /// Whether two samples with these normals matter to each other.
+    /// Whether two samples with these normals matter to each other. Those of one triangle do: the square of a rounded
+    /// normal can be below a cosine of 1, and a triangle would be sampled without end.
     pub fn sees(self, a: [f32; 3], b: [f32; 3]) -> bool {
-        self.cosine <= -1.0 || exact(a).dot(exact(b)) >= self.cosine
+        self.cosine <= -1.0 || a == b || exact(a).dot(exact(b)) >= self.cosine
     }
 
     fn conflict(self, a: &Dot, b: &Dot) -> bool {

@@ -1,0 +1,183 @@
+//! What the C ABI measures of points of all kinds: figures, histograms, spectra, coverage, differences.
+
+#![no_main]
+
+use azulejo_c::analysis::*;
+use azulejo_c::differences::*;
+use azulejo_c::mesh::*;
+use azulejo_c::spectrum::*;
+use azulejo_c::statistics::*;
+use azulejo_fuzz::calls::{Out, accepted, array, context, create, value};
+use azulejo_fuzz::input::Input;
+use libfuzzer_sys::fuzz_target;
+
+fuzz_target!(|bytes: &[u8]| {
+    let mut input = Input::new(bytes);
+    let set = Set::new(&mut input);
+    if input.one_in(2) {
+        set.figures(input.number());
+        set.histograms(&mut input);
+        set.spectra(&mut input);
+    } else {
+        surface(&mut input);
+    }
+});
+
+/// A set of the plane, mostly one that is.
+struct Set {
+    points: Vec<[f32; 2]>,
+    min: [f64; 2],
+    max: [f64; 2],
+    boundary: i32,
+}
+
+impl Set {
+    fn new(input: &mut Input) -> Self {
+        let min = [input.coordinate(), input.coordinate()].map(f64::from);
+        let max = std::array::from_fn(|axis| min[axis] + input.number());
+        let boundary = if input.one_in(32) { input.any() } else { i32::from(input.one_in(2)) };
+        let mut points = input.rows::<2>(60);
+        if !input.one_in(4) {
+            points.retain(|point| (0..2).all(|axis| (min[axis]..max[axis]).contains(&point[axis].into())));
+        }
+        Self { points, min, max, boundary }
+    }
+
+    /// What most calls begin with.
+    fn arguments(&self) -> (*const f32, usize, *const f64, *const f64, i32) {
+        (self.points.as_ptr().cast(), self.points.len(), self.min.as_ptr(), self.max.as_ptr(), self.boundary)
+    }
+
+    fn figures(&self, radius: f64) {
+        let (xy, count, min, max, boundary) = self.arguments();
+        // SAFETY: the arrays are as long as told.
+        let measure = |out: Out<_>| unsafe { azulejo_plane_measure(context(), xy, count, min, max, boundary, out) };
+        if let Some(report) = value(measure) {
+            assert_eq!(report.count, count as u64);
+            assert!(report.smallest_distance >= 0.0 && report.covering_radius >= 0.0 && report.rho >= 0.0);
+            assert!((0.0..=1.0).contains(&report.obtuse) && (0.0..=1.000001).contains(&report.bond_order));
+        }
+        // SAFETY: as above.
+        let covers =
+            |out: Out<_>| unsafe { azulejo_plane_coverage(context(), xy, count, min, max, boundary, radius, out) };
+        if let Some(coverage) = value(covers) {
+            assert!(coverage.covering_radius >= 0.0, "{}", coverage.covering_radius);
+            assert!(coverage.covering_radius <= radius || coverage.gaps > 0, "{} > {radius}", coverage.covering_radius);
+        }
+    }
+
+    fn histograms(&self, input: &mut Input) {
+        let (xy, count, min, max, boundary) = self.arguments();
+        let reach = input.number();
+        let bins = if input.one_in(8) { input.any::<u32>() as usize } else { input.below(100) as usize };
+        // Where there are too many bins nothing is written.
+        let (mut nearest, mut density) = (vec![u64::MAX; bins.min(65536)], vec![-1.0f64; bins.min(65536)]);
+        // SAFETY: the arrays are as long as told, or longer than what is accepted.
+        unsafe {
+            let out = nearest.as_mut_ptr();
+            if accepted(azulejo_plane_nearest_histogram(context(), xy, count, min, max, boundary, reach, bins, out)) {
+                assert!(nearest.iter().sum::<u64>() <= count as u64);
+            }
+            let out = density.as_mut_ptr();
+            if accepted(azulejo_plane_radial_distribution(context(), xy, count, min, max, boundary, reach, bins, out)) {
+                assert!(density.iter().all(|&density| density >= 0.0), "{density:?}");
+            }
+        }
+    }
+
+    fn spectra(&self, input: &mut Input) {
+        let (xy, count, min, max, boundary) = self.arguments();
+        let size = if input.one_in(16) { 4097 + input.below(5000) } else { input.below(64) };
+        let stride = if input.one_in(4) { input.below(5000) } else { 1 };
+        // SAFETY: the arrays are as long as told.
+        let make = |out: Out<_>| unsafe {
+            azulejo_spectrum_create(context(), xy, count, min, max, boundary, size, stride, out)
+        };
+        let Some(one) = create(make) else { return };
+        let both: [&azulejo_spectrum; 2] = [&one, &one];
+        // SAFETY: two spectra that live.
+        let mean = create(|out| unsafe { azulejo_spectrum_mean((&raw const both).cast(), 2, out) });
+        let mean = mean.expect("two spectra of one size have a mean");
+        let length = azulejo_spectrum_size(Some(&mean)) as usize;
+        assert_eq!(length, size as usize);
+        // SAFETY: the header says how long it is.
+        let power = unsafe { array(azulejo_spectrum_power(Some(&mean)), length * length) };
+        assert!(power.iter().all(|&power| power >= 0.0 && power.is_finite()));
+        let (width, low, high) = (input.number() / 16.0, input.number(), input.number());
+        let capacity = input.below(20) as usize;
+        let mut annuli = vec![azulejo_annulus { frequency: -1.0, power: -1.0, anisotropy: -1.0, count: 0 }; capacity];
+        let start = if capacity == 0 { std::ptr::null_mut() } else { annuli.as_mut_ptr() };
+        // SAFETY: the array has this capacity.
+        let radial = |out: Out<_>| unsafe { azulejo_spectrum_radial(Some(&mean), width, start, capacity, out) };
+        if let Some(count) = value(radial) {
+            assert!(annuli.iter().take(count).all(|annulus| annulus.count >= 2 && annulus.power >= 0.0));
+        }
+        // SAFETY: the spectrum lives.
+        let report = value(|out| unsafe { azulejo_spectrum_measure(Some(&mean), width, low, high, out) });
+        assert!(report.is_none_or(|report| report.contrast >= 0.0 && report.peak >= 0.0));
+        azulejo_spectrum_free(Some(one));
+        azulejo_spectrum_free(Some(mean));
+    }
+}
+
+fn surface(input: &mut Input) {
+    let (positions, count) = (input.rows::<3>(20), input.below(20) as usize);
+    let vertex = |input: &mut Input| u32::from(input.any::<u8>()) % positions.len().max(1) as u32;
+    let indices: Vec<u32> = (0..3 * count).map(|_| vertex(input)).collect();
+    let (start, vertices) = (positions.as_ptr().cast(), positions.len());
+    // SAFETY: the arrays are as long as told.
+    let made = create(|out| unsafe { azulejo_mesh_create(start, vertices, 12, indices.as_ptr(), count, out) });
+    let Some(mesh) = made else { return };
+    let samples = input.rows::<3>(60);
+    covered(&mesh, &samples, input);
+    differ(&mesh, &samples, input);
+    azulejo_mesh_free(Some(mesh));
+}
+
+fn covered(mesh: &azulejo_mesh, samples: &[[f32; 3]], input: &mut Input) {
+    let area = azulejo_mesh_area(Some(mesh));
+    let radius = if input.one_in(4) { input.number() } else { (area / f64::from(1 + input.below(100))).sqrt() };
+    if (1e3..1e8).contains(&(area / (radius * radius))) {
+        return; // refused or found, but not in the time that a fuzz target has
+    }
+    let (start, count) = (samples.as_ptr().cast(), samples.len());
+    // SAFETY: the array is as long as told.
+    let covers = |out: Out<_>| unsafe { azulejo_mesh_coverage(context(), Some(mesh), start, count, radius, out) };
+    if let Some(coverage) = value(covers) {
+        assert!(coverage.covering_radius >= 0.0, "{}", coverage.covering_radius);
+        assert!(coverage.covering_radius <= radius || coverage.gaps > 0, "{} > {radius}", coverage.covering_radius);
+    }
+}
+
+fn differ(mesh: &azulejo_mesh, samples: &[[f32; 3]], input: &mut Input) {
+    let normals: Vec<[f32; 3]> = samples.iter().map(|_| std::array::from_fn(|_| input.coordinate())).collect();
+    let direction: [f64; 3] = std::array::from_fn(|_| input.coordinate().into());
+    let (start, normals, count, seed) = (samples.as_ptr().cast(), normals.as_ptr().cast(), samples.len(), input.any());
+    // SAFETY: the arrays are as long as told.
+    let make = |out: Out<_>| unsafe {
+        azulejo_differences_create(context(), Some(mesh), start, normals, count, direction.as_ptr(), seed, out)
+    };
+    let Some(one) = create(make) else { return };
+    let both: [&azulejo_differences; 2] = [&one, &one];
+    // SAFETY: two that live.
+    let mean = create(|out| unsafe { azulejo_differences_mean((&raw const both).cast(), 2, out) });
+    let mean = mean.expect("differences have a mean");
+    let cells = AZULEJO_DIFFERENCES_SIZE.pow(2) as usize;
+    // SAFETY: the header says how long they are.
+    let [density, radial] = unsafe {
+        [
+            array(azulejo_differences_density(Some(&mean)), cells),
+            array(azulejo_differences_radial(Some(&mean)), AZULEJO_DIFFERENCES_SHELLS as usize),
+        ]
+    };
+    assert!(density.iter().chain(radial).all(|&density| density >= 0.0));
+    let frequencies: Vec<f64> = (0..input.below(9)).map(|_| input.number()).collect();
+    let mut power = vec![f64::NAN; frequencies.len()];
+    let (from, count, out) = (frequencies.as_ptr(), frequencies.len(), power.as_mut_ptr());
+    // SAFETY: both arrays are as long as told.
+    if accepted(unsafe { azulejo_differences_power(Some(&mean), from, count, out) }) {
+        assert!(power.iter().all(|power| power.is_finite()), "{power:?}");
+    }
+    azulejo_differences_free(Some(one));
+    azulejo_differences_free(Some(mean));
+}
