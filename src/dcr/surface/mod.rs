@@ -15,6 +15,7 @@
 //! other, or bent more than samples are dense: there single pairs may end closer than they began.
 //! [`Report::smallest_distance`] tells.
 
+mod apart;
 mod near;
 mod set;
 mod sheet;
@@ -107,8 +108,11 @@ pub fn relax(
     }
     let sheet = Sheet::new(mesh)?;
     let spacing = hexagonal_distance(mesh, triangles.len());
-    let mut set = Set::new(&sheet, spacing, enter(mesh, triangles, barycentrics, spacing, options.seed));
-    let steps = context.run(progress, |job| make_steps(job, options, triangles.len(), &mut set));
+    let places: Vec<Place> = triangles.iter().zip(barycentrics).map(place).collect();
+    let positions = places.iter().map(|place| place.position(mesh).as_vec3().to_array()).collect::<Vec<_>>();
+    let floor = context.run(None, |job| grid3::smallest_distance(job, &positions))?;
+    let mut set = Set::new(&sheet, spacing, floor, places);
+    let steps = context.run(progress, |job| make_steps(job, options, spacing, &mut set));
     let stopped = match steps {
         Err(Error::Cancelled) => Stopped::Cancelled,
         steps => steps?,
@@ -166,14 +170,12 @@ fn place((&triangle, &uv): (&u32, &[f32; 2])) -> Place {
     Place { triangle, uv: DVec2::new(u, v) }
 }
 
-/// The samples as places, none at that of another and none on an edge: a sample on the border would coincide with its
-/// mirror image. Where it has to, a sample moves a little towards a random point of its triangle.
-fn enter(mesh: &Mesh, triangles: &[u32], barycentrics: &[[f32; 2]], spacing: f64, seed: u64) -> Vec<Place> {
-    let mut places: Vec<Place> = triangles.iter().zip(barycentrics).map(place).collect();
-    let positions: Vec<[f32; 3]> =
-        triangles.iter().zip(barycentrics).map(|(&triangle, &uv)| mesh.point(triangle, uv)).collect();
+/// The places of the set, none at that of another and none on an edge: a sample on the border would coincide with its mirror
+/// image. Where it has to, a sample moves a little towards a random point of its triangle.
+fn parted(set: &Set, spacing: f64, seed: u64) -> Vec<Place> {
+    let (mesh, mut places) = (set.mesh(), set.places().to_vec());
     let mut order: Vec<u32> = (0..places.len() as u32).collect();
-    let bits = |i: u32| positions[i as usize].map(f32::to_bits);
+    let bits = |i: u32| set.positions()[i as usize].to_array().map(f64::to_bits);
     order.sort_unstable_by_key(|&i| (bits(i), i));
     let repeated = order.windows(2).filter(|pair| bits(pair[0]) == bits(pair[1])).map(|pair| pair[1]);
     let on_edges = (0..places.len() as u32).filter(|&i| {
@@ -202,9 +204,12 @@ fn leave(mesh: &Mesh, places: &[Place]) -> SurfaceSamples {
 }
 
 /// Steps until the motion ends or the steps do.
-fn make_steps(job: &Job, options: &Options, count: usize, set: &mut Set) -> Result<Stopped> {
-    if count < 2 {
+fn make_steps(job: &Job, options: &Options, spacing: f64, set: &mut Set) -> Result<Stopped> {
+    if set.places().len() < 2 {
         return Ok(Stopped::Converged);
+    }
+    if options.max_iterations > 0 {
+        set.shift(&job.part(0.0, 0.0), &parted(set, spacing, options.seed))?;
     }
     let share = |iteration: u32| f64::from(iteration) / f64::from(options.max_iterations);
     for iteration in 0..options.max_iterations {

@@ -6,6 +6,7 @@
 //! Where the flood meets a border it mirrors what it has found by it, as the thesis does on bounded domains (Fig. 4.12 (b)).
 
 use std::collections::HashMap;
+use std::collections::hash_map::Entry;
 use std::hash::{BuildHasherDefault, Hasher};
 
 use glam::DVec3;
@@ -35,12 +36,19 @@ pub(super) struct Neighbourhood {
     pub(super) neighbours: Box<[Neighbour]>,
     /// The mean normal, on the side of the sample's triangle's front; zero where there is none.
     pub(super) normal: DVec3,
+    /// All others within sight through space, on whatever sheets, in rising order.
+    pub(super) in_sight: Box<[u32]>,
 }
 
 impl Neighbourhood {
     /// Whether a sample, or this image of it, is among the neighbours.
     pub(super) fn knows(&self, neighbour: Neighbour) -> bool {
         self.neighbours.contains(&neighbour)
+    }
+
+    /// Whether another sample is in sight.
+    pub(super) fn sees(&self, other: u32) -> bool {
+        self.in_sight.binary_search(&other).is_ok()
     }
 }
 
@@ -50,17 +58,24 @@ pub(super) struct Crowd<'a> {
     places: &'a [Place],
     positions: &'a [DVec3],
     radius: f64,
+    sight: f64,
     grid: Grid3,
 }
 
 impl<'a> Crowd<'a> {
-    /// Neighbours will be those within `radius`.
-    pub(super) fn new(sheet: &'a Sheet<'a>, places: &'a [Place], positions: &'a [DVec3], radius: f64) -> Self {
-        let mut grid = Grid3::new(sheet.mesh.bounds().0.map(f64::from), radius);
+    /// Neighbours will be those within `radius`, and in sight those within `sight`.
+    pub(super) fn new(
+        sheet: &'a Sheet<'a>,
+        places: &'a [Place],
+        positions: &'a [DVec3],
+        radius: f64,
+        sight: f64,
+    ) -> Self {
+        let mut grid = Grid3::new(sheet.mesh.bounds().0.map(f64::from), radius.max(sight));
         positions.iter().for_each(|position| {
             grid.insert(position.as_vec3().to_array());
         });
-        Self { sheet, places, positions, radius, grid }
+        Self { sheet, places, positions, radius, sight, grid }
     }
 
     /// The neighbourhoods of those samples that are asked for, with their numbers.
@@ -80,9 +95,12 @@ impl<'a> Crowd<'a> {
     fn neighbourhood(&self, centre: usize, flood: &mut Flood) -> Neighbourhood {
         let (position, limit) = (self.positions[centre], self.radius * self.radius);
         flood.spread(self.sheet, self.places[centre].triangle, position, limit);
-        let mut found = Vec::new();
-        for sample in self.grid.candidates(position.to_array(), self.radius) {
+        let (mut found, mut in_sight) = (Vec::new(), Vec::new());
+        for sample in self.grid.candidates(position.to_array(), self.radius.max(self.sight)) {
             let squared = self.positions[sample as usize].distance_squared(position);
+            if squared <= self.sight * self.sight && sample as usize != centre {
+                in_sight.push(sample);
+            }
             if squared <= limit && flood.sides.contains_key(&self.places[sample as usize].triangle) {
                 found.push((squared, Neighbour { sample, mirror: None }));
             }
@@ -91,6 +109,8 @@ impl<'a> Crowd<'a> {
         found.sort_unstable_by(order);
         // The grid may name one twice.
         found.dedup();
+        in_sight.sort_unstable();
+        in_sight.dedup();
         let weighted = found.iter().map(|&(squared, Neighbour { sample, .. })| {
             let triangle = self.places[sample as usize].triangle;
             (1.0 - squared / limit) * flood.sides[&triangle] * exact(self.sheet.mesh.normal(triangle))
@@ -104,7 +124,7 @@ impl<'a> Crowd<'a> {
         }
         let others = found.iter().map(|&(_, neighbour)| neighbour);
         let others = others.filter(|neighbour| neighbour.sample as usize != centre || neighbour.mirror.is_some());
-        Neighbourhood { neighbours: others.take(MOST).collect(), normal }
+        Neighbourhood { neighbours: others.take(MOST).collect(), normal, in_sight: in_sight.into() }
     }
 
     /// Adds the mirror images of a sample: by the place on the borders that is nearest to it, and by all others that are
@@ -137,8 +157,8 @@ impl<'a> Crowd<'a> {
 struct Flood {
     /// For each triangle whether its front is on the same side as that of the first, 1, or on the other, -1.
     sides: HashMap<u32, f64, BuildHasherDefault<Mixer>>,
-    /// The half-edges through which the flood has come into triangles.
-    entries: Vec<u32>,
+    /// The half-edges through which the flood has come into triangles, and the sides of these.
+    entries: Vec<(u32, f64)>,
     borders: Vec<u32>,
 }
 
@@ -148,35 +168,43 @@ impl Flood {
         self.entries.clear();
         self.borders.clear();
         self.sides.insert(start, 1.0);
-        (3 * start..3 * start + 3).for_each(|edge| self.leave(sheet, edge, place, radius_squared));
+        (3 * start..3 * start + 3).for_each(|edge| self.leave(sheet, (edge, 1.0), place, radius_squared));
         let mut next = 0;
-        while let Some(&entry) = self.entries.get(next) {
+        while let Some(&(entry, side)) = self.entries.get(next) {
             next += 1;
             let first = entry - entry % 3;
             let others = (first..first + 3).filter(|&edge| edge != entry);
-            others.for_each(|edge| self.leave(sheet, edge, place, radius_squared));
+            others.for_each(|edge| self.leave(sheet, (edge, side), place, radius_squared));
         }
     }
 
-    /// Goes through a half-edge if the ball meets it.
-    fn leave(&mut self, sheet: &Sheet, edge: u32, place: DVec3, radius_squared: f64) {
-        let [a, b] = sheet.ends(edge);
-        if nearest_on(a, b, place).distance_squared(place) > radius_squared {
-            return;
-        }
-        let mut is_border = true;
+    /// Goes through a half-edge of a triangle on this side, if the ball meets it.
+    fn leave(&mut self, sheet: &Sheet, (edge, side): (u32, f64), place: DVec3, radius_squared: f64) {
+        let [mut is_border, mut is_met] = [true, false];
         for other in sheet.across(edge) {
             is_border = false;
-            if !self.sides.contains_key(&(other / 3)) {
-                let side = self.sides[&(edge / 3)];
-                self.sides.insert(other / 3, if sheet.run_alike(edge, other) { -side } else { side });
-                self.entries.push(other);
+            // Most edges lead to where the flood has been.
+            let Entry::Vacant(unseen) = self.sides.entry(other / 3) else { continue };
+            is_met = is_met || meets(sheet.ends(edge), place, radius_squared);
+            if !is_met {
+                return;
             }
+            let side = if sheet.run_alike(edge, other) { -side } else { side };
+            unseen.insert(side);
+            self.entries.push((other, side));
         }
-        if is_border {
+        if is_border && meets(sheet.ends(edge), place, radius_squared) {
             self.borders.push(edge);
         }
     }
+}
+
+/// Whether a ball meets a segment.
+fn meets([a, b]: [DVec3; 2], place: DVec3, radius_squared: f64) -> bool {
+    // Most that are met end inside.
+    a.distance_squared(place) <= radius_squared
+        || b.distance_squared(place) <= radius_squared
+        || nearest_on(a, b, place).distance_squared(place) <= radius_squared
 }
 
 /// The point of a segment that is nearest to a place.
@@ -243,7 +271,7 @@ mod tests {
         let sheet = Sheet::new(mesh).unwrap();
         let positions: Vec<DVec3> =
             places.iter().map(|place| mesh.point_exact(place.triangle, place.uv.into())).collect();
-        let crowd = Crowd::new(&sheet, places, &positions, RADIUS);
+        let crowd = Crowd::new(&sheet, places, &positions, RADIUS, 0.0);
         let context = Context::new(1).unwrap();
         let found = context.run(None, |job| crowd.neighbourhoods(job, chunks(places.len()), |_| true)).unwrap();
         let seen = |neighbour: &Neighbour| {

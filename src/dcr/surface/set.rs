@@ -2,6 +2,7 @@
 
 use glam::{DVec2, DVec3};
 
+use super::apart::{Contacts, Floor, Limits};
 use super::near::{Crowd, Neighbour, Neighbourhood};
 use super::sheet::Sheet;
 use super::view::View;
@@ -12,12 +13,16 @@ use crate::dcr::spread::gather::ROOM;
 use crate::dcr::spread::{MOMENTUM, STEP};
 use crate::error::Result;
 use crate::job::{Chunks, Job, chunks_of};
+use crate::mesh::Mesh;
 
 /// How far samples may go in a step, in spacings, ...
 const STRIDE: f32 = 0.4;
 /// ... and by which factor that falls from step to step when constraints no longer grow stiffer. Where the surface is bent
 /// more than the samples are dense, what two of them do to each other is not opposite, and they would never come to rest.
 const CALMING: f32 = 0.9;
+
+/// How far samples get in a step at most, in spacings: the stride, and what rounding adds.
+const FARTHEST: f64 = 0.41;
 
 /// Neighbours are looked for up to this distance, in spacings ...
 const REACH: f64 = 1.7;
@@ -31,8 +36,9 @@ const CHUNK: usize = 512;
 pub(super) struct Set<'a> {
     sheet: &'a Sheet<'a>,
     spacing: f64,
+    floor: Floor,
     places: Vec<Place>,
-    /// Where they are in space.
+    /// Where they are in space, in the floats in which they will be returned.
     positions: Vec<DVec3>,
     /// How fast they move, in the planes of their triangles and in spacings.
     velocities: Vec<DVec2>,
@@ -53,12 +59,13 @@ struct Moved {
 }
 
 impl<'a> Set<'a> {
-    pub(super) fn new(sheet: &'a Sheet<'a>, spacing: f64, places: Vec<Place>) -> Self {
-        let position = |place: &Place| sheet.mesh.point_exact(place.triangle, place.uv.into());
-        let positions: Vec<DVec3> = places.iter().map(position).collect();
+    /// Samples no two of which are nearer to each other than the floor, and will be.
+    pub(super) fn new(sheet: &'a Sheet<'a>, spacing: f64, floor: f64, places: Vec<Place>) -> Self {
+        let positions: Vec<DVec3> = places.iter().map(|place| place.position(sheet.mesh)).collect();
         Self {
             sheet,
             spacing,
+            floor: Floor::new(floor),
             velocities: vec![DVec2::ZERO; places.len()],
             motion: Motion::new(STEP, positions.clone()),
             positions,
@@ -83,39 +90,86 @@ impl<'a> Set<'a> {
         self.motion.has_settled(tolerance)
     }
 
+    pub(super) fn mesh(&self) -> &'a Mesh {
+        self.sheet.mesh
+    }
+
     pub(super) fn places(&self) -> &[Place] {
         &self.places
+    }
+
+    pub(super) fn positions(&self) -> &[DVec3] {
+        &self.positions
     }
 
     /// Moves all samples. If it is cancelled, all have moved or none.
     pub(super) fn step(&mut self, job: &Job) -> Result<()> {
         let chunks = chunks_of(self.places.len(), CHUNK);
         self.look_around(&job.part(0.0, 0.5), chunks)?;
-        let moved = self.gather(&job.part(0.5, 1.0), chunks)?;
-        self.travelled.iter_mut().zip(&moved).for_each(|(travelled, moved)| *travelled += moved.length);
-        self.places = moved.iter().map(|moved| moved.place).collect();
-        self.positions = moved.iter().map(|moved| moved.position).collect();
-        self.velocities = moved.iter().map(|moved| moved.velocity).collect();
+        let wanted = self.gather(&job.part(0.5, 0.9), chunks)?;
+        self.go(&job.part(0.9, 1.0), chunks, &wanted)?;
         self.iterations += 1;
         self.motion.after_step(&Unit(self.spacing), || self.positions.iter().copied());
         Ok(())
     }
 
+    /// Moves samples to these places beside theirs, where that is admitted. This is no step.
+    pub(super) fn shift(&mut self, job: &Job, places: &[Place]) -> Result<()> {
+        let chunks = chunks_of(places.len(), CHUNK);
+        self.look_around(&job.part(0.0, 0.9), chunks)?;
+        let all = places.iter().zip(&self.positions);
+        let wanted: Vec<Moved> = all.map(|(&place, &from)| self.arrived(place, from, DVec2::ZERO)).collect();
+        self.go(&job.part(0.9, 1.0), chunks, &wanted)
+    }
+
+    /// Makes those moves that are admitted.
+    fn go(&mut self, job: &Job, chunks: Chunks, wanted: &[Moved]) -> Result<()> {
+        let moved = job.concat(chunks.len(), |chunk| {
+            let made = chunks.range(chunk).map(|sample| match self.admits(sample, wanted) {
+                true => wanted[sample],
+                false => Moved { place: self.places[sample], position: self.positions[sample], ..Moved::default() },
+            });
+            made.collect()
+        })?;
+        self.travelled.iter_mut().zip(&moved).for_each(|(travelled, moved)| *travelled += moved.length);
+        self.places = moved.iter().map(|moved| moved.place).collect();
+        self.positions = moved.iter().map(|moved| moved.position).collect();
+        self.velocities = moved.iter().map(|moved| moved.velocity).collect();
+        Ok(())
+    }
+
+    /// Whether a sample gets nowhere too near to where another is, nor to where another wants to get.
+    fn admits(&self, sample: usize, wanted: &[Moved]) -> bool {
+        let to = wanted[sample].position;
+        let admits = |&other: &u32| {
+            let other = other as usize;
+            self.floor.admits(to, self.positions[other]) && self.floor.admits(to, wanted[other].position)
+        };
+        wanted[sample].length <= FARTHEST && self.neighbourhoods[sample].in_sight.iter().all(admits)
+    }
+
     /// Looks for the neighbours of those that have moved by half of the slack, and of those near them then that do not know
-    /// of them. So two samples that do not know of each other have moved towards each other by no more than the slack.
+    /// of them. So two samples that do not know of each other have moved towards each other by no more than the slack, and
+    /// after the next step those out of sight are no nearer than the floor.
     fn look_around(&mut self, job: &Job, chunks: Chunks) -> Result<()> {
         let has_moved: Vec<bool> = self.travelled.iter().map(|&way| way >= SLACK / 2.0).collect();
         if !has_moved.contains(&true) {
             return Ok(());
         }
-        let crowd = Crowd::new(self.sheet, &self.places, &self.positions, (REACH + SLACK) * self.spacing);
+        let radius = (REACH + SLACK) * self.spacing;
+        let sight = self.floor.distance() + (SLACK + 2.0 * FARTHEST) * self.spacing;
+        let crowd = Crowd::new(self.sheet, &self.places, &self.positions, radius, sight);
         let found = crowd.neighbourhoods(&job.part(0.0, 0.7), chunks, |sample| has_moved[sample])?;
         let mut is_met = vec![false; self.places.len()];
         for (mover, around) in &found {
+            let mover = *mover as u32;
             for neighbour in around.neighbours.iter().filter(|neighbour| !has_moved[neighbour.sample as usize]) {
                 // Images are mutual too.
-                let mover = Neighbour { sample: *mover as u32, mirror: neighbour.mirror };
+                let mover = Neighbour { sample: mover, mirror: neighbour.mirror };
                 is_met[neighbour.sample as usize] |= !self.neighbourhoods[neighbour.sample as usize].knows(mover);
+            }
+            for &other in around.in_sight.iter().filter(|&&other| !has_moved[other as usize]) {
+                is_met[other as usize] |= !self.neighbourhoods[other as usize].sees(mover);
             }
         }
         let met = crowd.neighbourhoods(&job.part(0.7, 1.0), chunks, |sample| is_met[sample])?;
@@ -126,25 +180,55 @@ impl<'a> Set<'a> {
         Ok(())
     }
 
-    /// Where every sample gets, and how fast.
+    /// Where every sample wants to get, and how fast.
     fn gather(&self, job: &Job, chunks: Chunks) -> Result<Vec<Moved>> {
         let constraints = Constraints::of_step(self.iterations);
+        let limits = Limits::of_step(self.iterations, self.floor, self.spacing);
         job.concat(chunks.len(), |chunk| {
-            let mut view = View::default();
-            chunks.range(chunk).map(|sample| self.moved(&constraints, sample, &mut view)).collect()
+            let (mut view, mut contacts) = (View::default(), Contacts::default());
+            let moved = |sample| self.moved(&constraints, limits, sample, &mut view, &mut contacts);
+            chunks.range(chunk).map(moved).collect()
         })
     }
 
-    fn moved(&self, constraints: &Constraints, sample: usize, view: &mut View) -> Moved {
+    fn moved(
+        &self,
+        constraints: &Constraints,
+        limits: Limits,
+        sample: usize,
+        view: &mut View,
+        contacts: &mut Contacts,
+    ) -> Moved {
         let (place, from) = (self.places[sample], self.positions[sample]);
         let flat = Flat::new(self.sheet, place.triangle, self.spacing);
         view.look(self.sheet, &flat, from, &self.neighbourhoods[sample], &self.positions);
         let Force { sum, room } = view.force(constraints);
         let velocity = MOMENTUM * self.velocities[sample].as_vec2() + sum;
         let way = velocity.clamp_length_max((ROOM * room).min(self.stride())).as_dvec2();
+        self.touch(limits, sample, &flat, way, contacts);
+        let way = contacts.hold_off(way).clamp_length_max(self.stride().into());
         let end = walk(self.sheet, self.spacing, place, way);
-        let position = self.sheet.mesh.point_exact(end.place.triangle, end.place.uv.into());
-        Moved { place: end.place, position, velocity: end.way, length: from.distance(position) / self.spacing }
+        self.arrived(end.place, from, end.way)
+    }
+
+    /// Finds those that a sample must keep off if it goes this way.
+    fn touch(&self, limits: Limits, sample: usize, flat: &Flat, way: DVec2, contacts: &mut Contacts) {
+        contacts.clear();
+        let around = &self.neighbourhoods[sample];
+        let reach = limits.near + 2.0 * way.length() * self.spacing;
+        for &other in &around.in_sight {
+            let offset = self.positions[other as usize] - self.positions[sample];
+            if offset.length_squared() < reach * reach {
+                let is_near = around.knows(Neighbour { sample: other, mirror: None });
+                contacts.add(flat, offset, if is_near { limits.near } else { limits.far });
+            }
+        }
+    }
+
+    /// Who has come from somewhere to a place.
+    fn arrived(&self, place: Place, from: DVec3, velocity: DVec2) -> Moved {
+        let position = place.position(self.sheet.mesh);
+        Moved { place, position, velocity, length: from.distance(position) / self.spacing }
     }
 
     /// How far samples may go in this step, in spacings.

@@ -43,7 +43,7 @@ pub fn triangulate(
     let spacing = hexagonal_distance(mesh, triangles.len());
     let places: Vec<Place> = triangles.iter().zip(barycentrics).map(place).collect();
     let positions: Vec<_> = places.iter().map(|place| mesh.point_exact(place.triangle, place.uv.into())).collect();
-    let crowd = Crowd::new(&sheet, &places, &positions, REACH * spacing);
+    let crowd = Crowd::new(&sheet, &places, &positions, REACH * spacing, 0.0);
     let chunks = chunks_of(places.len(), 512);
     let mut found = context.run(progress, |job| {
         let around = crowd.neighbourhoods(&job.part(0.0, 0.8), chunks, |_| true)?;

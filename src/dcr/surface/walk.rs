@@ -7,6 +7,7 @@
 use glam::{DVec2, DVec3};
 
 use super::sheet::Sheet;
+use crate::mesh::{Mesh, exact, round_barycentrics};
 
 /// Who crosses more edges than this in one step stays in the triangle that was reached.
 const MOST_EDGES: u32 = 10_000;
@@ -30,6 +31,13 @@ pub(super) struct Place {
     pub(super) triangle: u32,
     /// Barycentrics u and v.
     pub(super) uv: DVec2,
+}
+
+impl Place {
+    /// Where it is in space, in the floats in which samples are returned.
+    pub(super) fn position(self, mesh: &Mesh) -> DVec3 {
+        exact(mesh.point(self.triangle, round_barycentrics(self.uv.into())))
+    }
 }
 
 /// Where a walk ends.
@@ -57,8 +65,17 @@ impl Flat {
 
     /// A vector of space as it is seen in the triangle's plane: turned into it without losing its length. In spacings.
     pub(super) fn turned(&self, offset: DVec3) -> DVec2 {
-        let seen = DVec2::new(offset.dot(self.axes[0]), offset.dot(self.axes[1]));
-        seen.normalize_or_zero() * (offset.length() / self.spacing)
+        self.seen(offset).normalize_or_zero() * (offset.length() / self.spacing)
+    }
+
+    /// The part of a vector of space in the triangle's plane.
+    pub(super) fn seen(&self, offset: DVec3) -> DVec2 {
+        DVec2::new(offset.dot(self.axes[0]), offset.dot(self.axes[1])) / self.spacing
+    }
+
+    /// The unit of length.
+    pub(super) fn spacing(&self) -> f64 {
+        self.spacing
     }
 
     fn point(&self, uv: DVec2) -> DVec2 {
@@ -148,7 +165,6 @@ fn straightest(sheet: &Sheet, spacing: f64, flat: &Flat, edge: u32) -> Option<(u
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mesh::Mesh;
     use crate::rng::{Draw, Rng};
 
     const SPACING: f64 = 0.25;
