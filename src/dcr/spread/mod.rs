@@ -111,9 +111,10 @@ impl Spread {
         let start: Vec<Place> = order.iter().map(|&point| entered[point as usize]).collect();
         let places = torus.with_images(&start);
         let velocities = vec![Vec2::ZERO; start.len()];
+        let border = Border::new(&torus, options.neighbourhood);
         Self {
-            border: Border::new(&torus),
-            waves: Waves::new(&torus, start.len()),
+            border,
+            waves: Waves::new(&torus, border, start.len()),
             neighbourhood: options.neighbourhood,
             vectors: Vectors::widest(),
             next: State::default(),
@@ -201,10 +202,13 @@ impl Spread {
 impl Relaxation for Spread {
     fn step(&mut self, job: &Job) -> Result<()> {
         let count = self.order.len();
-        let drift = match self.iterations.is_multiple_of(WAVES_EVERY) {
+        let mut drift = match self.iterations.is_multiple_of(WAVES_EVERY) {
             true => self.waves.drift(&job.part(0.0, 0.2), &self.state.places, count, self.highest_wave())?,
             false => Vec::new(),
         };
+        if let Some(border) = &self.border {
+            border.calm(self.iterations, &self.state.places, &mut drift);
+        }
         let mut next = std::mem::take(&mut self.next);
         next.fit(&self.state);
         let mut neighbours = self.neighbours(&job.part(0.2, 0.4))?;

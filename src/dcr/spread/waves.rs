@@ -44,8 +44,8 @@ pub(in crate::dcr) struct Waves {
 
 impl Waves {
     /// The grid for `count` points.
-    pub(super) fn new(torus: &Torus, count: usize) -> Self {
-        Self { border: Border::new(torus), ..Self::of_spacing(torus, count, 1.0) }
+    pub(super) fn new(torus: &Torus, border: Option<Border>, count: usize) -> Self {
+        Self { border, ..Self::of_spacing(torus, count, 1.0) }
     }
 
     /// The grid for points that are so far apart, in spacings; on a strip that is thinner than their distance it has no
@@ -243,7 +243,7 @@ mod tests {
         let side = [60, 30];
         let torus = Torus::new(domain, 1800);
         let (places, displaced): (Vec<_>, Vec<_>) = wavy(&torus, side, 0.1).into_iter().unzip();
-        let waves = Waves::new(&torus, places.len());
+        let waves = Waves::new(&torus, None, places.len());
         for threads in [1, 3] {
             let context = Context::new(threads).unwrap();
             let drift = context.run(None, |job| waves.drift(job, &places, places.len(), 0.25)).unwrap();
