@@ -289,6 +289,46 @@ static void refused_spectra(void) {
     REFUSED(INVALID, "out", azulejo_mesh_coverage(context, cube, cube_positions[0], 8, 0.1, NULL));
 }
 
+static void refused_measures(void) {
+    float xyz[6] = {0.1f, 0.1f, 0.5f, 0.6f, 0.2f, 0.5f};
+    double out = 7;
+
+    REFUSED(INVALID, "context", azulejo_plane_smallest_distance(NULL, xyz, 3, low, high, 0, &out));
+    REFUSED(INVALID, "xy", azulejo_plane_smallest_distance(context, NULL, 3, low, high, 0, &out));
+    REFUSED(INVALID, "domain_min", azulejo_plane_smallest_distance(context, xyz, 3, NULL, high, 0, &out));
+    REFUSED(INVALID, "domain_max", azulejo_plane_smallest_distance(context, xyz, 3, low, NULL, 0, &out));
+    REFUSED(INVALID, "domain_min", azulejo_plane_smallest_distance(context, xyz, 3, bad, high, 0, &out));
+    REFUSED(INVALID, "boundary", azulejo_plane_smallest_distance(context, xyz, 3, low, high, 3, &out));
+    REFUSED(INVALID, "out", azulejo_plane_smallest_distance(context, xyz, 3, low, high, 0, NULL));
+    REFUSED(TOO_LARGE, "count", azulejo_plane_smallest_distance(context, xyz, SIZE_MAX / 2, low, high, 0, &out));
+
+    REFUSED(INVALID, "context", azulejo_plane_covering_radius(NULL, xyz, 3, low, high, 0, &out));
+    REFUSED(INVALID, "xy", azulejo_plane_covering_radius(context, NULL, 3, low, high, 0, &out));
+    REFUSED(INVALID, "domain_min", azulejo_plane_covering_radius(context, xyz, 3, NULL, high, 0, &out));
+    REFUSED(INVALID, "domain_max", azulejo_plane_covering_radius(context, xyz, 3, high, low, 0, &out));
+    REFUSED(INVALID, "boundary", azulejo_plane_covering_radius(context, xyz, 3, low, high, -1, &out));
+    REFUSED(INVALID, "out", azulejo_plane_covering_radius(context, xyz, 3, low, high, 0, NULL));
+
+    REFUSED(INVALID, "context", azulejo_space_smallest_distance(NULL, xyz, 2, &out));
+    REFUSED(INVALID, "positions", azulejo_space_smallest_distance(context, NULL, 2, &out));
+    REFUSED(INVALID, "out", azulejo_space_smallest_distance(context, xyz, 2, NULL));
+    REFUSED(TOO_LARGE, "count", azulejo_space_smallest_distance(context, xyz, SIZE_MAX / 3, &out));
+
+    REFUSED(INVALID, "context", azulejo_mesh_uncovered_fraction(NULL, cube, xyz, 2, 0.1, 10, 0, &out));
+    REFUSED(INVALID, "mesh", azulejo_mesh_uncovered_fraction(context, NULL, xyz, 2, 0.1, 10, 0, &out));
+    REFUSED(INVALID, "positions", azulejo_mesh_uncovered_fraction(context, cube, NULL, 2, 0.1, 10, 0, &out));
+    REFUSED(INVALID, "out", azulejo_mesh_uncovered_fraction(context, cube, xyz, 2, 0.1, 10, 0, NULL));
+    REFUSED(INVALID, "radius", azulejo_mesh_uncovered_fraction(context, cube, xyz, 2, NAN, 10, 0, &out));
+    REFUSED(INVALID, "radius", azulejo_mesh_uncovered_fraction(context, cube, xyz, 2, -1, 10, 0, &out));
+    REFUSED(INVALID, "probes", azulejo_mesh_uncovered_fraction(context, cube, xyz, 2, 0.1, 0, 0, &out));
+
+    xyz[2] = NAN;
+    REFUSED(INVALID, "xy", azulejo_plane_smallest_distance(context, xyz, 3, low, high, 0, &out));
+    REFUSED(INVALID, "positions", azulejo_space_smallest_distance(context, xyz, 2, &out));
+    REFUSED(INVALID, "positions", azulejo_mesh_uncovered_fraction(context, cube, xyz, 2, 0.1, 10, 0, &out));
+    CHECK(out == 7);
+}
+
 int main(void) {
     context = make_context(2);
     cube = make_cube();
@@ -299,6 +339,7 @@ int main(void) {
     surfaces();
     refused_sets();
     refused_spectra();
+    refused_measures();
     azulejo_mesh_free(cube);
     azulejo_context_free(context);
     return finish();

@@ -335,48 +335,6 @@ static void dcr(void) {
     CHECK(memcmp(&report, &before, sizeof report) == 0);
 }
 
-static void analysis(void) {
-    float xyz[6] = {0.1f, 0.1f, 0.5f, 0.6f, 0.2f, 0.5f};
-    const double low[2] = {0, 0}, high[2] = {1, 1}, bad[2] = {NAN, 1};
-    double out = 7;
-
-    REFUSED(INVALID, "context", azulejo_plane_smallest_distance(NULL, xyz, 3, low, high, 0, &out));
-    REFUSED(INVALID, "xy", azulejo_plane_smallest_distance(context, NULL, 3, low, high, 0, &out));
-    REFUSED(INVALID, "domain_min", azulejo_plane_smallest_distance(context, xyz, 3, NULL, high, 0, &out));
-    REFUSED(INVALID, "domain_max", azulejo_plane_smallest_distance(context, xyz, 3, low, NULL, 0, &out));
-    REFUSED(INVALID, "domain_min", azulejo_plane_smallest_distance(context, xyz, 3, bad, high, 0, &out));
-    REFUSED(INVALID, "boundary", azulejo_plane_smallest_distance(context, xyz, 3, low, high, 3, &out));
-    REFUSED(INVALID, "out", azulejo_plane_smallest_distance(context, xyz, 3, low, high, 0, NULL));
-    REFUSED(AZULEJO_ERROR_TOO_LARGE, "count",
-            azulejo_plane_smallest_distance(context, xyz, SIZE_MAX / 2, low, high, 0, &out));
-
-    REFUSED(INVALID, "context", azulejo_plane_covering_radius(NULL, xyz, 3, low, high, 0, &out));
-    REFUSED(INVALID, "xy", azulejo_plane_covering_radius(context, NULL, 3, low, high, 0, &out));
-    REFUSED(INVALID, "domain_min", azulejo_plane_covering_radius(context, xyz, 3, NULL, high, 0, &out));
-    REFUSED(INVALID, "domain_max", azulejo_plane_covering_radius(context, xyz, 3, high, low, 0, &out));
-    REFUSED(INVALID, "boundary", azulejo_plane_covering_radius(context, xyz, 3, low, high, -1, &out));
-    REFUSED(INVALID, "out", azulejo_plane_covering_radius(context, xyz, 3, low, high, 0, NULL));
-
-    REFUSED(INVALID, "context", azulejo_space_smallest_distance(NULL, xyz, 2, &out));
-    REFUSED(INVALID, "positions", azulejo_space_smallest_distance(context, NULL, 2, &out));
-    REFUSED(INVALID, "out", azulejo_space_smallest_distance(context, xyz, 2, NULL));
-    REFUSED(AZULEJO_ERROR_TOO_LARGE, "count", azulejo_space_smallest_distance(context, xyz, SIZE_MAX / 3, &out));
-
-    REFUSED(INVALID, "context", azulejo_mesh_uncovered_fraction(NULL, cube, xyz, 2, 0.1, 10, 0, &out));
-    REFUSED(INVALID, "mesh", azulejo_mesh_uncovered_fraction(context, NULL, xyz, 2, 0.1, 10, 0, &out));
-    REFUSED(INVALID, "positions", azulejo_mesh_uncovered_fraction(context, cube, NULL, 2, 0.1, 10, 0, &out));
-    REFUSED(INVALID, "out", azulejo_mesh_uncovered_fraction(context, cube, xyz, 2, 0.1, 10, 0, NULL));
-    REFUSED(INVALID, "radius", azulejo_mesh_uncovered_fraction(context, cube, xyz, 2, NAN, 10, 0, &out));
-    REFUSED(INVALID, "radius", azulejo_mesh_uncovered_fraction(context, cube, xyz, 2, -1, 10, 0, &out));
-    REFUSED(INVALID, "probes", azulejo_mesh_uncovered_fraction(context, cube, xyz, 2, 0.1, 0, 0, &out));
-
-    xyz[2] = NAN;
-    REFUSED(INVALID, "xy", azulejo_plane_smallest_distance(context, xyz, 3, low, high, 0, &out));
-    REFUSED(INVALID, "positions", azulejo_space_smallest_distance(context, xyz, 2, &out));
-    REFUSED(INVALID, "positions", azulejo_mesh_uncovered_fraction(context, cube, xyz, 2, 0.1, 10, 0, &out));
-    CHECK(out == 7);
-}
-
 static void points(void) {
     CHECK(azulejo_points_count(NULL) == 0 && azulejo_points_dimension(NULL) == 0);
     CHECK(azulejo_points_positions(NULL) == NULL && azulejo_points_normals(NULL) == NULL);
@@ -399,7 +357,6 @@ int main(void) {
     meshes();
     psp();
     dcr();
-    analysis();
     points();
     azulejo_mesh_free(cube);
     azulejo_context_free(context);

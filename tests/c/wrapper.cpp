@@ -337,56 +337,6 @@ void adaptive() {
     CHECK(throws(AZULEJO_ERROR_CANCELLED, "cancelled", [&] { azulejo::psp_sample_adaptive(context, mesh, options); }));
 }
 
-void relaxing() {
-    const azulejo::Context context(1);
-    azulejo::DcrOptions options;
-    azulejo::DcrReport report;
-    options.max_iterations = 30;
-    std::vector<float> xy;
-    for (int i = 0; i < 64; i++) {
-        xy.push_back(static_cast<float>(i % 8) / 8 + 0.01f * static_cast<float>(i % 3));
-        xy.push_back(static_cast<float>(i / 8) / 8 + 0.01f * static_cast<float>(i % 5));
-    }
-    const auto points = azulejo::dcr_relax(context, options, xy, &report);
-    CHECK(points.size() == 64 && report.iterations <= 30 && report.rho > 0);
-    const double smallest = azulejo::plane_smallest_distance(context, points.positions(), options.domain_min,
-                                                             options.domain_max, options.boundary);
-    CHECK(std::abs(smallest - report.smallest_distance) < 1e-12);
-
-    options.progress = [](double done) { return done < 0.5; };
-    const auto half = azulejo::dcr_relax(context, options, xy, &report);
-    CHECK(half.size() == 64 && report.stopped == AZULEJO_STOPPED_CANCELLED && report.iterations < 30);
-    options.progress = [](double) -> bool { throw 7; };
-    int thrown = 0;
-    try {
-        azulejo::dcr_relax(context, options, xy);
-    } catch (int number) {
-        thrown = number;
-    }
-    CHECK(thrown == 7);
-}
-
-void relaxing_on_a_mesh() {
-    const float corners[] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
-    const std::uint32_t triangles[] = {0, 1, 2, 0, 2, 3};
-    const azulejo::Context context(1);
-    const azulejo::Mesh mesh(corners, 4, 3 * sizeof(float), triangles, 2);
-    azulejo::PspOptions options;
-    options.radius = 0.05;
-    const auto darts = azulejo::psp_sample(context, mesh, options);
-    azulejo::DcrSurfaceReport report;
-    const auto points = azulejo::dcr_relax_surface(context, mesh, azulejo::DcrSurfaceOptions(), darts.triangles(),
-                                                   darts.barycentrics(), &report);
-    CHECK(points.size() == darts.size() && report.smallest_distance > 0.05);
-    int status = AZULEJO_OK;
-    try {
-        azulejo::dcr_relax_surface(context, mesh, azulejo::DcrSurfaceOptions(), {}, darts.barycentrics());
-    } catch (const azulejo::Error &error) {
-        status = error.status();
-    }
-    CHECK(status == AZULEJO_ERROR_INVALID_ARGUMENT);
-}
-
 } // namespace
 
 int main() {
@@ -401,7 +351,5 @@ int main() {
     streams();
     merging();
     adaptive();
-    relaxing();
-    relaxing_on_a_mesh();
     return finish();
 }
