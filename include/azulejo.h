@@ -481,12 +481,13 @@ typedef struct azulejo_adaptive_options {
     /// How much `radius` changes at most per unit of distance between two places of a triangle; 0, the default, says
     /// that it is constant there. What is covered is proved with it, so it must hold: a violation that is seen makes the
     /// call fail, one that is not can leave gaps. From about 1 on the work grows with its square; vertex_radii, which
-    /// carry their own slopes, are the better choice for images and other data with edges. At most `smallest` / 24 per
-    /// float spacing at the largest coordinate of the mesh. Not used with vertex_radii.
+    /// carry their own slopes, are the better choice for images and other data with edges. From about 30 on it may be too
+    /// much, which is refused. At most `smallest` / 24 per float spacing at the largest coordinate of the mesh. Not used
+    /// with vertex_radii.
     double slope;
     /// Samples on triangles whose normals have a smaller cosine than this ignore each other, so that the two sides of a
     /// thin wall are sampled as if they were far apart; the triangles must be wound consistently. From -1, the default,
-    /// which is off, to 1.
+    /// which is off, to 1, where only samples with the same normal see each other.
     double cosine;
     /// Any number; another seed gives another set.
     uint64_t seed;
@@ -1175,7 +1176,8 @@ azulejo_status azulejo_adaptive_options_init(struct azulejo_adaptive_options *op
 ///
 /// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for radii that are not positive and finite or below 64 times the spacing
 /// of floats at the largest coordinate, and where `radius` gives what is not in `smallest` to `largest` or changes
-/// faster than `slope`; AZULEJO_ERROR_TOO_LARGE with the estimated count; AZULEJO_ERROR_CANCELLED.
+/// faster than `slope`; AZULEJO_ERROR_TOO_LARGE with the estimated count, or for radii that change so fast that it takes
+/// thousands of looks per sample to find out what is covered; AZULEJO_ERROR_CANCELLED.
 azulejo_status azulejo_psp_sample_adaptive(const struct azulejo_context *context,
                                            const struct azulejo_mesh *mesh,
                                            const struct azulejo_adaptive_options *options,
@@ -1392,8 +1394,8 @@ azulejo_status azulejo_plane_coverage(const struct azulejo_context *context,
 /// Found exactly, by subdividing the triangles: O((count + triangles) log count) time for samples that are spread evenly,
 /// and about 100 pieces for each square of the radius that is uncovered.
 ///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_CANCELLED, and AZULEJO_ERROR_TOO_LARGE where more than about 600,000 times the square of the
-/// radius is uncovered.
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_CANCELLED, and AZULEJO_ERROR_TOO_LARGE where more than about 600,000
+/// times the square of the radius is uncovered.
 azulejo_status azulejo_mesh_coverage(const struct azulejo_context *context,
                                      const struct azulejo_mesh *mesh,
                                      const float *positions,
