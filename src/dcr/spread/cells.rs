@@ -1,7 +1,7 @@
 //! The points by cells of a grid of the torus, for forces that reach less far than a cell is wide.
 //!
 //! Neither who a neighbour is nor how many there are matters to a force, only where they are: so the neighbours of a point
-//! are looked up as three runs of memory, eight places at a time. Points stay in their cells while none has gone farther
+//! are looked up as two runs of memory, eight places at a time. Points stay in their cells while none has gone farther
 //! than half of what the cells are wider than the forces reach, as in Verlet's lists (1967); only their places are brought
 //! up to date.
 
