@@ -52,7 +52,7 @@ impl Levels {
             let (places, weights): (Vec<Place>, Vec<f64>) = weights.into_iter().unzip();
             let places = torus.with_images(&places);
             let share = |octave: usize| octave as f64 / (octaves + 1) as f64;
-            let weighted = |index: usize| (places[index], weights[index % weights.len()]);
+            let weighted = |index: usize| (places[index], weights[index % weights.len()] as f32);
             let wanted = waves.draw(&job.part(share(octave), share(octave + 1)), places.len(), weighted)?;
             levels.push(Level { spacing, wanted, waves });
         }

@@ -28,7 +28,7 @@ const NOTHING: f64 = 2.4;
 const SHEETS: usize = 4;
 
 /// Numbers at the nodes of the grid, row by row.
-pub(in crate::dcr) type Field = Vec<Complex<f64>>;
+pub(in crate::dcr) type Field = Vec<Complex<f32>>;
 
 /// The grid of a torus.
 pub(in crate::dcr) struct Waves {
@@ -38,8 +38,8 @@ pub(in crate::dcr) struct Waves {
     /// Columns and rows.
     cells: [usize; 2],
     /// Along rows and along columns, forward and back.
-    forward: [Arc<dyn Fft<f64>>; 2],
-    back: [Arc<dyn Fft<f64>>; 2],
+    forward: [Arc<dyn Fft<f32>>; 2],
+    back: [Arc<dyn Fft<f32>>; 2],
 }
 
 impl Waves {
@@ -73,38 +73,52 @@ impl Waves {
 
     /// The displacements at the nodes that level a density which sums up to, or is the excess over, `count` points.
     pub(in crate::dcr) fn displacements(&self, job: &Job, density: Field, count: usize, highest: f64) -> Result<Field> {
-        let (row, column) = (self.cells[0], self.cells[1]);
-        let (mut field, mut spare) = (density, vec![Complex::default(); row * column]);
-        transform(&job.part(0.0, 0.15), &mut field, &mut spare, row, &self.forward[0])?;
-        transform(&job.part(0.15, 0.45), &mut field, &mut spare, column, &self.forward[1])?;
-        self.integrate(&job.part(0.45, 0.5), &mut field, count, highest)?;
-        transform(&job.part(0.5, 0.7), &mut field, &mut spare, row, &self.back[0])?;
-        transform(&job.part(0.7, 1.0), &mut field, &mut spare, column, &self.back[1])?;
+        let [width, height] = self.cells;
+        let (mut field, mut turned) = (density, vec![Complex::default(); width * height]);
+        transform(&job.part(0.0, 0.1), &mut field, &self.forward[0])?;
+        turn(&job.part(0.1, 0.2), &field, &mut turned, width)?;
+        transform(&job.part(0.2, 0.4), &mut turned, &self.forward[1])?;
+        self.integrate(&job.part(0.4, 0.6), &mut turned, count, highest)?;
+        transform(&job.part(0.6, 0.7), &mut turned, &self.back[1])?;
+        turn(&job.part(0.7, 0.8), &turned, &mut field, height)?;
+        transform(&job.part(0.8, 1.0), &mut field, &self.back[0])?;
         Ok(field)
     }
 
     /// The displacement at a place.
     pub(in crate::dcr) fn read(&self, field: &Field, place: Place) -> Vec2 {
-        let mut sum = Complex::<f64>::default();
-        self.for_each_cell(place, |cell, weight| sum += field[cell] * weight);
-        Vec2::new(sum.re as f32, sum.im as f32)
+        let mut sums = [Complex::<f32>::default(); 4];
+        self.for_each_run(place, |start, weights| {
+            let run = &field[start..start + weights.len()];
+            sums.iter_mut().zip(run).zip(weights).for_each(|((sum, value), weight)| *sum += value * weight);
+        });
+        let sum = (sums[0] + sums[2]) + (sums[1] + sums[3]);
+        Vec2::new(sum.re, sum.im)
     }
 
-    /// Cells around a place and their weights: the cubic B-spline along each axis.
-    fn for_each_cell(&self, place: Place, mut visit: impl FnMut(usize, f64)) {
+    /// Runs of nodes around a place, each from one on, and their weights: the cubic B-spline along each axis.
+    #[inline(always)]
+    fn for_each_run(&self, place: Place, mut visit: impl FnMut(usize, &[f32])) {
+        let [width, height] = self.cells;
         let along = |axis: usize| {
             let scaled = u64::from(place[axis]) * self.cells[axis] as u64;
-            let t = (scaled & 0xffff_ffff) as f64 / 2f64.powi(32);
+            let t = scaled as u32 as f32 / 2f32.powi(32);
             let u = 1.0 - t;
-            let inner = |x: f64| ((3.0 * x - 6.0) * x * x + 4.0) / 6.0;
+            let inner = |x: f32| ((3.0 * x - 6.0) * x * x + 4.0) / 6.0;
             ((scaled >> 32) as usize + self.cells[axis] - 1, [u * u * u / 6.0, inner(t), inner(u), t * t * t / 6.0])
         };
         let ((left, across), (bottom, up)) = (along(0), along(1));
-        let columns: [usize; 4] = std::array::from_fn(|i| wrapped(left + i, self.cells[0]));
-        for (j, weight) in up.into_iter().enumerate() {
-            let row = wrapped(bottom + j, self.cells[1]) * self.cells[0];
-            for (column, across) in columns.into_iter().zip(across) {
-                visit(row + column, weight * across);
+        let left = wrapped(left, width);
+        for (j, up) in up.into_iter().enumerate() {
+            let row = wrapped(bottom + j, height) * width;
+            let weights = across.map(|across| up * across);
+            if left + weights.len() <= width {
+                visit(row + left, &weights);
+            } else {
+                // Across the seam, node by node.
+                for (i, weight) in weights.chunks(1).enumerate() {
+                    visit(row + wrapped(left + i, width), weight);
+                }
             }
         }
     }
@@ -115,35 +129,38 @@ impl Waves {
         &self,
         job: &Job,
         count: usize,
-        weighted: impl Fn(usize) -> (Place, f64) + Sync,
+        weighted: impl Fn(usize) -> (Place, f32) + Sync,
     ) -> Result<Field> {
         let sheets = chunks_of(count, count.div_ceil(SHEETS).max(8192));
         let cells = self.cells[0] * self.cells[1];
         let drawn = job.part(0.0, 0.8).map(sheets.len(), |sheet| {
             let mut density = vec![0.0; cells];
             for (place, whole) in sheets.range(sheet).map(&weighted) {
-                self.for_each_cell(place, |cell, weight| density[cell] += whole * weight);
+                self.for_each_run(place, |start, weights| {
+                    // One by one: runs overlap those before by a part, which vectors would wait for.
+                    (start..).zip(weights).for_each(|(node, weight)| density[node] += whole * weight);
+                });
             }
             density
         })?;
         let chunks = chunks_of(cells, 8192);
         job.part(0.8, 1.0).concat(chunks.len(), |chunk| {
-            let sum = |cell: usize| Complex::from(drawn.iter().map(|density| density[cell]).sum::<f64>());
+            let sum = |cell: usize| Complex::from(drawn.iter().map(|density| density[cell]).sum::<f32>());
             chunks.range(chunk).map(sum).collect()
         })
     }
 
     /// From the waves of the density of `count` points to those of the displacement, `x` in the real and `y` in the
-    /// imaginary part: both are real, so one transform carries both.
+    /// imaginary part: both are real, so one transform carries both. `waves` are given column by column.
     fn integrate(&self, job: &Job, waves: &mut Field, count: usize, highest: f64) -> Result<()> {
         let size = self.torus.frame.size();
         let per_point = (size.x * size.y / count as f64).sqrt() / (TAU * highest);
         let (columns, rows) = (self.bins(0), self.bins(1));
-        let size = chunks_of(rows.len(), 1 + 8192 / columns.len()).size();
-        let parts = waves.chunks_mut(size * columns.len()).zip(rows.chunks(size));
-        job.map_each(parts.collect(), |(waves, rows)| {
-            for (row, y) in waves.chunks_mut(columns.len()).zip(rows) {
-                for (wave, x) in row.iter_mut().zip(&columns) {
+        let size = chunks_of(columns.len(), 1 + 8192 / rows.len()).size();
+        let parts = waves.chunks_mut(size * rows.len()).zip(columns.chunks(size));
+        job.map_each(parts.collect(), |(waves, columns)| {
+            for (column, x) in waves.chunks_mut(rows.len()).zip(columns) {
+                for (wave, y) in column.iter_mut().zip(&rows) {
                     let k = DVec2::new(x.number, y.number);
                     let relative = k.length() * per_point;
                     if k == DVec2::ZERO || relative > NOTHING {
@@ -152,10 +169,11 @@ impl Waves {
                     }
                     if let Some(border) = &self.border {
                         // Drawn as points are.
-                        *wave -= border.wave([x.turns, y.turns]) * f64::sqrt(x.spline * y.spline);
+                        *wave -= (border.wave([x.turns, y.turns]) * f64::sqrt(x.spline * y.spline)) as f32;
                     }
                     let share = (-relative.powi(4)).exp() / (x.spline * y.spline).max(0.01) / count as f64;
-                    *wave *= Complex::new(k.y, -k.x) * (share / k.length_squared());
+                    let way = DVec2::new(k.y, -k.x) * (share / k.length_squared());
+                    *wave *= Complex::new(way.x as f32, way.y as f32);
                 }
             }
         })?;
@@ -184,9 +202,13 @@ struct Bin {
     spline: f64,
 }
 
-/// The remainder, of numbers most of which are their own.
+/// The remainder, of numbers most of which are less than twice the divisor: a division takes longer than a node's share.
 fn wrapped(number: usize, count: usize) -> usize {
-    if number < count { number } else { number % count }
+    match number.checked_sub(count) {
+        None => number,
+        Some(rest) if rest < count => rest,
+        Some(rest) => rest % count,
+    }
 }
 
 /// The least number from `count` on that has only the factors 2, 3 and 5, for which transforms are fast.
@@ -203,19 +225,23 @@ fn smooth(count: usize) -> usize {
     (count.max(1)..).find(|&number| rest(number) == 1).expect("powers of two have no end")
 }
 
-/// Transforms every row of a field, and turns rows into columns. `spare` is as large as the field, and is written over.
-fn transform(job: &Job, field: &mut Field, spare: &mut Field, width: usize, fft: &Arc<dyn Fft<f64>>) -> Result<()> {
+/// Transforms a field row by row.
+fn transform(job: &Job, field: &mut Field, fft: &Arc<dyn Fft<f32>>) -> Result<()> {
+    let rows = chunks_of(field.len() / fft.len(), 1 + 8192 / fft.len()).size();
+    job.map_each(field.chunks_mut(rows * fft.len()).collect(), |rows| fft.process(rows))?;
+    Ok(())
+}
+
+/// Makes columns of the rows, which are so long.
+fn turn(job: &Job, field: &Field, turned: &mut Field, width: usize) -> Result<()> {
     let height = field.len() / width;
-    let rows = chunks_of(height, 1 + 8192 / width).size();
-    job.part(0.0, 0.7).map_each(field.chunks_mut(rows * width).collect(), |rows| fft.process(rows))?;
     let columns = chunks_of(width, 1 + 8192 / height).size();
-    let parts = spare.chunks_mut(columns * height).enumerate();
-    job.part(0.7, 1.0).map_each(parts.collect(), |(chunk, part)| {
+    let parts = turned.chunks_mut(columns * height).enumerate();
+    job.map_each(parts.collect(), |(chunk, part)| {
         for (column, part) in (chunk * columns..).zip(part.chunks_mut(height)) {
             part.iter_mut().zip(field[column..].iter().step_by(width)).for_each(|(to, from)| *to = *from);
         }
     })?;
-    std::mem::swap(field, spare);
     Ok(())
 }
 
