@@ -28,12 +28,17 @@ fn darts(mesh: &Arc<Mesh>, count: f64) -> SurfaceSamples {
 }
 
 fn run(mesh: &Mesh, samples: &SurfaceSamples) -> (SurfaceSamples, Report) {
+    run_steps(mesh, samples, Options::default().max_iterations)
+}
+
+fn run_steps(mesh: &Mesh, samples: &SurfaceSamples, steps: u32) -> (SurfaceSamples, Report) {
     let context = Context::new(2).unwrap();
-    let (relaxed, report) =
-        relax(&context, mesh, &samples.triangles, &samples.barycentrics, &Options::default(), None).unwrap();
+    let options = Options { max_iterations: steps, ..Options::default() };
+    let (relaxed, report) = relax(&context, mesh, &samples.triangles, &samples.barycentrics, &options, None).unwrap();
     assert_eq!(relaxed.len(), samples.len());
     assert_eq!(oracle::misplaced(mesh, &relaxed), None);
     let smallest = smallest_distance(&relaxed);
+    assert!(smallest >= smallest_distance(samples), "{smallest}, not {} any more", smallest_distance(samples));
     assert!((report.smallest_distance - smallest).abs() < 1e-12 * smallest);
     assert!((report.rho - smallest / d_max(mesh, samples.len())).abs() < 1e-9);
     (relaxed, report)
@@ -107,14 +112,109 @@ fn the_two_sides_of_a_thin_wall_do_not_know_of_each_other() {
             .chain(samples.triangles.iter().map(|triangle| triangle + 2))
             .collect(),
         barycentrics: [&samples.barycentrics[..], &samples.barycentrics].concat(),
-        positions: vec![[0.0; 3]; 2 * samples.len()],
+        positions: [0.0, 1e-3]
+            .iter()
+            .flat_map(|&z| samples.positions.iter().map(move |&[x, y, _]| [x, y, z]))
+            .collect(),
         ..Default::default()
     };
     let (alone, report) = run(&single, &samples);
     let (both, joint) = run(&double, &twice);
-    assert_eq!(both.barycentrics, [&alone.barycentrics[..], &alone.barycentrics].concat());
-    assert_eq!(both.triangles[..samples.len()], alone.triangles);
     assert!(report.rho > 0.8 && joint.smallest_distance <= 1.001e-3, "{joint:?}");
+    let (low, high) = both.positions.split_at(samples.len());
+    for side in [low, high] {
+        let side = SurfaceSamples { positions: side.to_vec(), ..alone.clone() };
+        assert!(smallest_distance(&side) > 0.8 * d_max(&single, samples.len()));
+    }
+}
+
+/// A blade of this thickness: a wedge that is closed but for its back.
+fn fin(thickness: f32) -> Soup {
+    let (z, y) = (0.5 * thickness, 0.6);
+    let positions = vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, y, z], [1.0, y, z], [0.0, y, -z], [1.0, y, -z]];
+    (positions, vec![[0, 1, 3], [0, 3, 2], [1, 0, 4], [1, 4, 5], [0, 2, 4], [1, 5, 3]])
+}
+
+/// A cone of height 1 on a base of this radius, which is open.
+fn cone(radius: f32) -> Soup {
+    let around = 24;
+    let at = |i: u32| (i as f32 / around as f32 * std::f32::consts::TAU).sin_cos();
+    let base = (0..around).map(|i| [radius * at(i).1, radius * at(i).0, 0.0]);
+    let positions = base.chain([[0.0, 0.0, 1.0]]).collect();
+    (positions, (0..around).map(|i| [i, (i + 1) % around, around]).collect())
+}
+
+/// Thirty needles in one place, a tenth to a thousandth as wide as they are long.
+fn urchin() -> Soup {
+    let needle = |i: u32| {
+        let (s, c) = (i as f32 * 2.4).sin_cos();
+        let (z, width) = (i as f32 / 15.0 - 1.0, 0.1 / (1.0 + i as f32).powi(2).min(100.0));
+        let across = [-s * width, c * width, 0.0];
+        let root = [0.02 * c, 0.02 * s, 0.02 * z];
+        (vec![root, [c, s, z], std::array::from_fn(|axis| root[axis] + across[axis])], vec![[0, 1, 2]])
+    };
+    meshes::join((0..30).map(needle))
+}
+
+/// Meshes on which forces along the surface lead samples together through space.
+fn sharp() -> [(&'static str, Soup); 6] {
+    [
+        ("blade", fin(0.03)),
+        ("thick blade", fin(0.15)),
+        ("cone", cone(0.08)),
+        ("cube", cube()),
+        ("thin wall", meshes::sheets(0.03)),
+        ("crossing triangles", meshes::random_soup(5, 12)),
+    ]
+}
+
+/// `run` compares the smallest distances of all pairs.
+#[test]
+fn no_two_samples_get_nearer_than_the_nearest_two_were() {
+    let torn = [("needles", urchin()), ("slivers", meshes::slivers()), ("book", meshes::book(4))];
+    for (name, soup) in sharp().into_iter().chain(torn) {
+        let mesh = mesh(soup);
+        for count in [5.0, 60.0, 1200.0] {
+            let maximal = darts(&mesh, count);
+            // A set that has holes, and pairs as near as they can be for its radius.
+            let every = |nth: usize| {
+                let kept: Vec<usize> = (0..maximal.len()).filter(|i| i % nth != 1).collect();
+                let triangles = kept.iter().map(|&i| maximal.triangles[i]).collect();
+                let barycentrics = kept.iter().map(|&i| maximal.barycentrics[i]).collect();
+                let positions = kept.iter().map(|&i| maximal.positions[i]).collect();
+                SurfaceSamples { triangles, barycentrics, positions, ..Default::default() }
+            };
+            for (steps, samples) in [(1, &maximal), (9, &maximal), (100, &maximal), (30, &every(2)), (100, &every(3))] {
+                let (relaxed, _) = run_steps(&mesh, samples, steps);
+                assert!(relaxed.positions != samples.positions || samples.len() < 2, "{name}: nothing moves");
+            }
+        }
+    }
+}
+
+#[test]
+fn few_samples_that_are_far_apart_stay_so() {
+    let mesh = mesh(meshes::plane());
+    let strip =
+        Mesh::new(mesh.positions().iter().map(|&[x, y, _]| [1e5 * x, y, 0.0]).collect(), mesh.triangles().to_vec());
+    let strip = strip.unwrap();
+    // The first triangle's corners, two of them far away; their distance is hundreds of spacings.
+    let barycentrics = vec![[0.1, 0.1], [0.8, 0.1], [0.4, 0.3]];
+    let positions = barycentrics.iter().map(|&uv| strip.point(0, uv)).collect();
+    let samples = SurfaceSamples { triangles: vec![0; 3], barycentrics, positions, ..Default::default() };
+    let (_, report) = run(&strip, &samples);
+    assert!(report.rho > 50.0, "{report:?}");
+}
+
+#[test]
+fn on_sharp_edges_and_thin_blades_distances_grow() {
+    for (name, soup) in sharp() {
+        let mesh = mesh(soup);
+        let samples = darts(&mesh, 2500.0);
+        let before = smallest_distance(&samples) / d_max(&mesh, samples.len());
+        let (_, report) = run(&mesh, &samples);
+        assert!(report.rho > 1.03 * before, "{name}: {before} to {report:?}");
+    }
 }
 
 #[test]

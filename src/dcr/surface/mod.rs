@@ -8,12 +8,11 @@
 //! * each sample finds its Delaunay star among them for itself (`star.rs`): there is no triangulation to be kept;
 //! * samples walk straight on, from triangle to triangle (`walk.rs`), so they are on the surface at all times;
 //! * at open borders neighbours are mirrored, so that samples neither leave nor crowd there;
+//! * no two samples get nearer to each other through space than the nearest two were (`apart.rs`), on whatever sheets;
 //! * long waves of the density stay: there is no Fourier transform on a mesh.
 //!
-//! Triangles are connected by common edges. A crack is a border: those on its two sides do not see each other. Sets that
-//! were conflict-free through space, as those of [`psp`](crate::psp), need not be so any more where sheets are near each
-//! other, or bent more than samples are dense: there single pairs may end closer than they began.
-//! [`Report::smallest_distance`] tells.
+//! Triangles are connected by common edges. A crack is a border: those on its two sides do not see each other, but keep their
+//! distance through space.
 
 mod apart;
 mod near;
@@ -44,6 +43,9 @@ const ROUNDING: f64 = 1e-6;
 
 /// How far samples are moved that coincide with others, or lie on an edge of their triangle, in spacings.
 const PARTING: f64 = 1e-3;
+
+/// How often that is tried for those that would get too near to others.
+const ATTEMPTS: u64 = 16;
 
 /// The options of [`relax`].
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -171,8 +173,8 @@ fn place((&triangle, &uv): (&u32, &[f32; 2])) -> Place {
 }
 
 /// The places of the set, none at that of another and none on an edge: a sample on the border would coincide with its mirror
-/// image. Where it has to, a sample moves a little towards a random point of its triangle.
-fn parted(set: &Set, spacing: f64, seed: u64) -> Vec<Place> {
+/// image. Where it has to, a sample moves a little towards a random point of its triangle. None if none has to.
+fn parted(set: &Set, spacing: f64, seed: u64, attempt: u64) -> Option<Vec<Place>> {
     let (mesh, mut places) = (set.mesh(), set.places().to_vec());
     let mut order: Vec<u32> = (0..places.len() as u32).collect();
     let bits = |i: u32| set.positions()[i as usize].to_array().map(f64::to_bits);
@@ -185,16 +187,16 @@ fn parted(set: &Set, spacing: f64, seed: u64) -> Vec<Place> {
     let mut parted: Vec<u32> = repeated.chain(on_edges).collect();
     parted.sort_unstable();
     parted.dedup();
-    for i in parted {
+    for &i in &parted {
         let place = &mut places[i as usize];
-        let mut rng = Rng::at(seed, Draw::Part, &[i.into()]);
+        let mut rng = Rng::at(seed, Draw::Part, &[i.into(), attempt]);
         let (along, across) = (rng.unit().sqrt(), rng.unit());
         let aim = DVec2::new(along * (1.0 - across), along * across);
         let at = |uv: DVec2| mesh.point_exact(place.triangle, uv.into());
         let distance = at(place.uv).distance(at(aim));
         place.uv = place.uv.lerp(aim, (PARTING * spacing / distance).min(1.0));
     }
-    places
+    (!parted.is_empty()).then_some(places)
 }
 
 /// The places as samples, by rounded barycentrics.
@@ -208,8 +210,10 @@ fn make_steps(job: &Job, options: &Options, spacing: f64, set: &mut Set) -> Resu
     if set.places().len() < 2 {
         return Ok(Stopped::Converged);
     }
-    if options.max_iterations > 0 {
-        set.shift(&job.part(0.0, 0.0), &parted(set, spacing, options.seed))?;
+    let attempts = if options.max_iterations > 0 { ATTEMPTS } else { 0 };
+    for attempt in 0..attempts {
+        let Some(places) = parted(set, spacing, options.seed, attempt) else { break };
+        set.shift(&job.part(0.0, 0.0), &places)?;
     }
     let share = |iteration: u32| f64::from(iteration) / f64::from(options.max_iterations);
     for iteration in 0..options.max_iterations {

@@ -245,3 +245,48 @@ impl Space<DVec3> for Unit {
         from.distance_squared(to) / (self.0 * self.0)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::job::Context;
+    use crate::rng::{Draw, Rng};
+
+    /// What nobody sees cannot get too near in the step to come.
+    #[test]
+    fn all_are_in_sight_that_could_get_too_near_in_a_step() {
+        // A fold: two sides of little more than a spacing between them at the back.
+        let positions =
+            vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.1], [1.0, 1.0, 0.1], [0.0, 1.0, 0.0], [1.0, 1.0, 0.0]];
+        let mesh = Mesh::new(positions, vec![[0, 1, 3], [0, 3, 2], [1, 0, 4], [1, 4, 5]]).unwrap();
+        let sheet = Sheet::new(&mesh).unwrap();
+        let spacing = 0.08;
+        let mut rng = Rng::at(6, Draw::Probe, &[]);
+        let mut place = || {
+            let [u, v] = [rng.unit(), rng.unit()];
+            let uv = if u + v <= 1.0 { DVec2::new(u, v) } else { DVec2::new(1.0 - u, 1.0 - v) };
+            Place { triangle: rng.below(4) as u32, uv }
+        };
+        let places: Vec<Place> = (0..350).map(|_| place()).collect();
+        let positions: Vec<DVec3> = places.iter().map(|place| place.position(&mesh)).collect();
+        let pairs = || (0..places.len()).flat_map(|i| (0..i).map(move |j| (i, j)));
+        let floor = pairs().map(|(i, j)| positions[i].distance(positions[j])).fold(f64::INFINITY, f64::min);
+        let mut set = Set::new(&sheet, spacing, floor, places.clone());
+        let context = Context::new(1).unwrap();
+        let (mut sights, mut unknown) = (0, 0);
+        for _ in 0..30 {
+            let chunks = chunks_of(places.len(), CHUNK);
+            context.run(None, |job| set.look_around(job, chunks)).unwrap();
+            for (i, j) in pairs() {
+                if set.positions[i].distance(set.positions[j]) < floor + 2.0 * FARTHEST * spacing {
+                    assert!(set.neighbourhoods[i].sees(j as u32) && set.neighbourhoods[j].sees(i as u32));
+                    sights += 1;
+                    unknown += usize::from(!set.neighbourhoods[i].knows(Neighbour { sample: j as u32, mirror: None }));
+                }
+            }
+            context.run(None, |job| set.step(job)).unwrap();
+            assert!(pairs().all(|(i, j)| set.positions[i].distance(set.positions[j]) >= floor));
+        }
+        assert!(sights > 10_000 && unknown > 1000, "{sights} in sight, {unknown} of them on another sheet");
+    }
+}
