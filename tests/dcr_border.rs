@@ -42,17 +42,18 @@ fn the_thesis_keeps_the_density_along_a_border() {
     }
 }
 
-/// The density of points of the unit square in the strip along its border, over that of all that is deeper than four
-/// strips; and the mean of a value of the points in the one over that in the other.
-fn strip_over_inside(width: f64, points: &[[f32; 2]], values: &[f64]) -> [f64; 2] {
+/// The density of points of the unit square in strips along its border, one to three times so wide, over that of all that
+/// is deeper than four; and the mean of a value of the points in the narrowest over that inside.
+fn strips_over_inside(width: f64, points: &[[f32; 2]], values: &[f64]) -> ([f64; 3], f64) {
     let mean_and_density = |holds: &dyn Fn(f64) -> bool, area: f64| {
         let of: Vec<f64> =
             points.iter().zip(values).filter(|(p, _)| holds(depth(p))).map(|(_, &value)| value).collect();
         [of.len() as f64 / area, of.iter().sum::<f64>() / of.len() as f64]
     };
-    let strip = mean_and_density(&|depth| depth < width, 1.0 - (1.0 - 2.0 * width).powi(2));
+    let strips = [1.0, 2.0, 3.0]
+        .map(|strip| mean_and_density(&|depth| depth < strip * width, 1.0 - (1.0 - 2.0 * strip * width).powi(2)));
     let inside = mean_and_density(&|depth| depth >= 4.0 * width, (1.0 - 8.0 * width).powi(2));
-    [strip[0] / inside[0], strip[1] / inside[1]]
+    (strips.map(|strip| strip[0] / inside[0]), strips[0][1] / inside[1])
 }
 
 #[test]
@@ -60,12 +61,16 @@ fn the_border_of_a_bounded_square_is_neither_crowded_nor_empty() {
     let count = 2500;
     let domain = unit_square(Boundary::Bounded);
     let unit = domain.hexagonal_distance(count);
-    for (neighbourhood, coverage) in [(Neighbourhood::Delaunay, 0.68f64), (Neighbourhood::Nearest, 0.9)] {
-        let (mut sum, sets) = ([0.0; 2], 6);
+    // How much denser a strip may be: rows cut by a strip one spacing wide are what is more in it, or less.
+    let goals =
+        [(Neighbourhood::Delaunay, 0.68f64, [0.06, 0.04, 0.035]), (Neighbourhood::Nearest, 0.9, [0.05, 0.07, 0.06])];
+    for (neighbourhood, coverage, excess) in goals {
+        let (mut densities, mut spacing, sets) = ([0.0; 3], 0.0, 6);
         for seed in 70..70 + sets {
             let (relaxed, report) = run(&Options::new(domain, neighbourhood), &random_points(count, seed));
-            let ratios = strip_over_inside(unit, &relaxed, &nearest_distances(&domain, &relaxed));
-            sum = std::array::from_fn(|i| sum[i] + ratios[i] / sets as f64);
+            let (density, mean) = strips_over_inside(unit, &relaxed, &nearest_distances(&domain, &relaxed));
+            densities = std::array::from_fn(|i| densities[i] + density[i] / sets as f64);
+            spacing += mean / sets as f64;
             // No place on the border is worse off than one inside may be.
             for step in 0..=400 {
                 let along = step as f32 / 400.0;
@@ -75,9 +80,9 @@ fn the_border_of_a_bounded_square_is_neither_crowded_nor_empty() {
                 }
             }
         }
-        let [density, spacing] = sum;
-        assert!((0.95..1.05).contains(&density), "{neighbourhood:?}: {density}");
-        assert!((0.98..1.04).contains(&spacing), "{neighbourhood:?}: {spacing}");
+        let is_even = densities.iter().zip(excess).all(|(density, excess)| (density - 1.0).abs() < excess);
+        assert!(is_even, "{neighbourhood:?}: {densities:?}");
+        assert!((0.98..1.06).contains(&spacing), "{neighbourhood:?}: {spacing}");
     }
     // What is measured sees a crowd and a gap.
     let all = random_points(count, 1);
@@ -85,7 +90,25 @@ fn the_border_of_a_bounded_square_is_neither_crowded_nor_empty() {
         let kept = all.iter().enumerate().filter(|(i, p)| depth(p) >= unit || i % part > 0);
         kept.map(|(_, &p)| p).collect::<Vec<_>>()
     };
-    assert!(strip_over_inside(unit, &without(5), &[1.0; 2500])[0] < 0.9);
+    assert!(strips_over_inside(unit, &without(5), &[1.0; 2500]).0[0] < 0.9);
     let twice: Vec<_> = all.iter().filter(|p| depth(p) < unit).chain(&all).copied().collect();
-    assert!(strip_over_inside(unit, &twice, &[1.0; 5000])[0] > 1.7);
+    assert!(strips_over_inside(unit, &twice, &[1.0; 5000]).0[0] > 1.7);
+}
+
+/// Two points beside each other on the border, and a third between them that can go neither out nor in: in 100 such sets
+/// there were three in which waves of the density kept pushing it back.
+#[test]
+fn no_points_stay_in_conflict_at_a_border() {
+    let count = 1000;
+    let domain = unit_square(Boundary::Bounded);
+    let unit = domain.hexagonal_distance(count);
+    for (neighbourhood, conflict_radius, sets) in
+        [(Neighbourhood::Delaunay, 0.85, 100), (Neighbourhood::Nearest, 0.9, 10)]
+    {
+        for seed in 500..500 + sets {
+            let (relaxed, _) = run(&Options::new(domain, neighbourhood), &random_points(count, seed));
+            let rho = nearest_distances(&domain, &relaxed).into_iter().fold(f64::INFINITY, f64::min) / unit;
+            assert!(rho >= conflict_radius, "{neighbourhood:?}, seed {seed}: {rho}");
+        }
+    }
 }

@@ -12,7 +12,7 @@ use crate::draw::plot::{Axis, Panel};
 use crate::output::Output;
 use crate::summary::Summary;
 
-/// The strips along the border, each one `d_max` wide; what lies deeper is the inside.
+/// The strips along the border, from one `d_max` wide to so many; what lies deeper is the inside.
 pub const STRIPS: usize = 4;
 
 /// Places along the border per `d_max`, at which the distance from the set is measured.
@@ -28,7 +28,8 @@ pub struct Quality {
     pub rho: f64,
     pub cover: f64,
     pub border_cover: f64,
-    /// The density of each strip over that of the inside.
+    /// The density of each strip over that of the inside. Strips share the border: narrow ones beside each other would show
+    /// which rows of points they cut, not how many points there are too many.
     pub densities: [f64; STRIPS],
     /// The mean distance to the nearest neighbour in the outermost strip over that of the inside.
     pub spacing: f64,
@@ -47,10 +48,10 @@ impl Quality {
             counts[strip] += 1.0;
             sums[strip] += distance;
         }
-        // The square within the border of each strip, and the next.
-        let within = |strip: usize| (1.0 - 2.0 * unit * strip as f64).powi(2);
+        // The square that a strip of this width leaves.
+        let within = |width: usize| (1.0 - 2.0 * unit * width as f64).powi(2);
         let inside = counts[STRIPS] / within(STRIPS);
-        let density = |strip: usize| counts[strip] / (within(strip) - within(strip + 1)) / inside;
+        let density = |strip: usize| counts[..=strip].iter().sum::<f64>() / (1.0 - within(strip + 1)) / inside;
         Ok(Self {
             rho: distances.iter().copied().fold(f64::INFINITY, f64::min) / unit,
             cover: covering_radius_2d(context, &domain, points, None)? / unit,
@@ -169,11 +170,11 @@ mod tests {
         let even = Quality::of(&context, &lattice).unwrap();
         assert!((even.rho - side).abs() < 1e-5 && (even.spacing - 1.0).abs() < 1e-5);
         assert!((even.cover - side / 2f64.sqrt()).abs() < 1e-5 && (even.border_cover - even.cover).abs() < 1e-5);
-        // The outermost ring of points is in the first strip alone, the second has the next.
-        let strip = |outer: f64| (1.0 - 2.0 * unit * outer).powi(2) - (1.0 - 2.0 * unit * (outer + 1.0)).powi(2);
+        // The first strip has the outermost ring of points, the second the next as well.
+        let strip = |width: f64| 1.0 - (1.0 - 2.0 * unit * width).powi(2);
         let inside = 32.0 * 32.0 / (1.0 - 8.0 * unit).powi(2);
-        assert!((even.densities[0] - 4.0 * 39.0 / strip(0.0) / inside).abs() < 1e-9, "{:?}", even.densities);
-        assert!((even.densities[1] - 4.0 * 37.0 / strip(1.0) / inside).abs() < 1e-9, "{:?}", even.densities);
+        assert!((even.densities[0] - 4.0 * 39.0 / strip(1.0) / inside).abs() < 1e-9, "{:?}", even.densities);
+        assert!((even.densities[1] - 4.0 * (39.0 + 37.0) / strip(2.0) / inside).abs() < 1e-9, "{:?}", even.densities);
 
         // Without the points along one side.
         let bare = Quality::of(&context, &lattice[40..]).unwrap();

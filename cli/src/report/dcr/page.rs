@@ -161,11 +161,11 @@ fn borders(effort: &Effort, measured: &[bounded::Measured]) -> String {
     let mut text = format!(
         "## Bounded\n\n\
          Sets of the unit square with a border, by the best methods, and maximal sets as KDRT makes them. *On border* is the \
-         largest distance of a place on the border from the set. Densities are those of strips along the border, one d_max \
-         wide each, over that of the inside, which begins at {} d_max; *spacing* is the mean distance to the nearest \
-         neighbour in the first strip over that inside. A border puts points in rows: the nearest strips share the points of \
-         two rows, some more and some less.\n\n\
-         | method | points | sets | start | ρ | least | cover | largest | on border | 0 to 1 | 1 to 2 | 2 to 3 | 3 to 4 | spacing |\n{}|\n",
+         largest distance of a place on the border from the set. Densities are those within 1 to 4 d_max of the border, over \
+         that of the inside, which begins at {} d_max; *spacing* is the mean distance to the nearest neighbour within 1 d_max \
+         of the border over that inside. A border puts points in rows, the first at a depth of about 0.2 d_max, the second at \
+         1.1: within 1 d_max there is but one of them.\n\n\
+         | method | points | sets | start | ρ | least | cover | largest | on border | to 1 | to 2 | to 3 | to 4 | spacing |\n{}|\n",
         bounded::STRIPS,
         "|---".repeat(14),
     );
