@@ -1,13 +1,15 @@
 //! Coverage of a surface, by cutting it into fragments: a place of a fragment is no farther from the samples than its
 //! centre is and a corner is from that.
 
+use std::collections::HashMap;
+
 use glam::DVec3;
 
 use super::groups::Groups;
 use super::tree::Tree;
 use super::{Coverage, PRECISION};
 use crate::error::{Error, Result};
-use crate::grid3::{Grid3, distance_squared};
+use crate::grid3::distance_squared;
 use crate::job::{Context, Job, chunks_of};
 use crate::mesh::Mesh;
 use crate::points::check_radius;
@@ -84,16 +86,32 @@ fn check_count(uncovered: usize) -> Result<()> {
 }
 
 /// The groups of places of which each is within `reach` of another one.
+///
+/// Places are put into cells in which any two are near, however many they are. Of two cells it takes a pair to link all.
 fn count(places: &[[f32; 3]], reach: f64) -> usize {
-    let mut grid = Grid3::new([0.0; 3], reach);
+    let side = reach / 3f64.sqrt() * (1.0 - 1e-9);
+    // Whole numbers, of which 0 has one form.
+    let cell = |place: [f32; 3]| place.map(|x| (f64::from(x) / side).floor() + 0.0);
+    let key = |cell: [f64; 3]| cell.map(f64::to_bits);
     let mut groups = Groups::new(places.len());
-    for &place in places {
-        let near: Vec<_> = grid
-            .candidates(place.map(f64::from), reach)
-            .filter(|&other| distance_squared(places[other as usize], place) <= reach * reach)
-            .collect();
-        let id = grid.insert(place);
-        near.into_iter().for_each(|other| groups.link(id, other));
+    let mut cells: HashMap<[u64; 3], Vec<u32>> = HashMap::new();
+    for (id, &place) in (0..).zip(places) {
+        let members = cells.entry(key(cell(place))).or_default();
+        members.first().into_iter().for_each(|&first| groups.link(first, id));
+        members.push(id);
+    }
+    let are_near = |a: u32, b: u32| distance_squared(places[a as usize], places[b as usize]) <= reach * reach;
+    for members in cells.values() {
+        let [x, y, z] = cell(places[members[0] as usize]);
+        let steps = || [-2.0, -1.0, 0.0, 1.0, 2.0].into_iter();
+        for (i, j, k) in steps().flat_map(|i| steps().flat_map(move |j| steps().map(move |k| (i, j, k)))) {
+            let Some(others) = cells.get(&key([x + i + 0.0, y + j + 0.0, z + k + 0.0])) else { continue };
+            if !groups.are_linked(members[0], others[0])
+                && members.iter().any(|&a| others.iter().any(|&b| are_near(a, b)))
+            {
+                groups.link(members[0], others[0]);
+            }
+        }
     }
     groups.count()
 }

@@ -105,6 +105,7 @@ pub fn relax(
     if !(0.0..).contains(&options.tolerance) {
         return Err(Error::invalid("tolerance", format!("{} is not at least 0", options.tolerance)));
     }
+    crate::dcr::require_memory("triangles", triangles.len())?;
     let sheet = Sheet::new(mesh)?;
     let spacing = hexagonal_distance(mesh, triangles.len());
     let mut set = Set::new(&sheet, spacing, enter(mesh, triangles, barycentrics, spacing, options.seed));
