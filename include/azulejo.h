@@ -479,12 +479,13 @@ typedef struct azulejo_adaptive_options {
     /// How much `radius` changes at most per unit of distance between two places of a triangle; 0, the default, says
     /// that it is constant there. What is covered is proved with it, so it must hold: a violation that is seen makes the
     /// call fail, one that is not can leave gaps. From about 1 on the work grows with its square; vertex_radii, which
-    /// carry their own slopes, are the better choice for images and other data with edges. At most `smallest` / 24 per
-    /// float spacing at the largest coordinate of the mesh. Not used with vertex_radii.
+    /// carry their own slopes, are the better choice for images and other data with edges. From about 30 on it may be too
+    /// much, which is refused. At most `smallest` / 24 per float spacing at the largest coordinate of the mesh. Not used
+    /// with vertex_radii.
     double slope;
     /// Samples on triangles whose normals have a smaller cosine than this ignore each other, so that the two sides of a
     /// thin wall are sampled as if they were far apart; the triangles must be wound consistently. From -1, the default,
-    /// which is off, to 1.
+    /// which is off, to 1, where only samples with the same normal see each other.
     double cosine;
     /// Any number; another seed gives another set.
     uint64_t seed;
@@ -606,8 +607,8 @@ typedef struct azulejo_density {
 typedef struct azulejo_dcr_surface_options {
     /// The size of the caller's struct in bytes; set by the init function.
     uint32_t struct_size;
-    /// The largest number of steps, 100 by default. 0 returns the samples as they are. Fewer are made where the motion ends
-    /// before.
+    /// The largest number of steps, 100 by default. 0 returns the samples as they are, those that rounding has put outside
+    /// their triangle on its edge. Fewer are made where the motion ends before.
     uint32_t max_iterations;
     /// The motion (see the report) at which the set has converged. 0 makes all steps; a negative number, the default,
     /// takes 0.0005.
@@ -1157,7 +1158,8 @@ azulejo_status azulejo_adaptive_options_init(struct azulejo_adaptive_options *op
 ///
 /// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for radii that are not positive and finite or below 64 times the spacing
 /// of floats at the largest coordinate, and where `radius` gives what is not in `smallest` to `largest` or changes
-/// faster than `slope`; AZULEJO_ERROR_TOO_LARGE with the estimated count; AZULEJO_ERROR_CANCELLED.
+/// faster than `slope`; AZULEJO_ERROR_TOO_LARGE with the estimated count, or for radii that change so fast that it takes
+/// thousands of looks per sample to find out what is covered; AZULEJO_ERROR_CANCELLED.
 azulejo_status azulejo_psp_sample_adaptive(const struct azulejo_context *context,
                                            const struct azulejo_mesh *mesh,
                                            const struct azulejo_adaptive_options *options,

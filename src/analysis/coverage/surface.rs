@@ -200,8 +200,9 @@ impl Fragment {
     fn gather_all(&self, radius: f64, uncovered: &mut Vec<[f32; 3]>) -> Result<()> {
         let smallest = 0.25 * LINK * radius;
         // Halves are not larger than a right triangle of that reach is, which has 0.9 of its square.
-        let least = self.area() / (smallest * smallest);
-        check_count(uncovered.len() + least as usize)?;
+        // A needle is as long as a chain of them.
+        let least = (self.area() / (smallest * smallest)).max(self.reach / (2.0 * smallest));
+        check_count(uncovered.len().saturating_add(least as usize))?;
         if self.reach <= smallest {
             uncovered.push(self.centre.as_vec3().to_array());
             return Ok(());

@@ -47,7 +47,8 @@ const PARTING: f64 = 1e-3;
 /// The options of [`relax`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Options {
-    /// The largest number of steps. 0 returns the samples as they are.
+    /// The largest number of steps. 0 returns the samples as they are, those that rounding has put outside their triangle on
+    /// its edge.
     pub max_iterations: u32,
     /// The motion ([`Report::motion`]) at which the set has converged; 0 makes all steps unless nothing moves at all.
     pub tolerance: f64,
@@ -115,7 +116,10 @@ pub fn relax(
         steps => steps?,
     };
     let samples = match set.iterations() {
-        0 => mesh.samples(triangles.to_vec(), barycentrics.to_vec()),
+        0 => {
+            let on_triangle = |&uv: &[f32; 2]| round_barycentrics(uv.map(f64::from));
+            mesh.samples(triangles.to_vec(), barycentrics.iter().map(on_triangle).collect())
+        }
         _ => leave(mesh, set.places()),
     };
     let smallest_distance = context.run(None, |job| grid3::smallest_distance(job, &samples.positions))?;
