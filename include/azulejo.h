@@ -609,8 +609,8 @@ typedef struct azulejo_density {
 typedef struct azulejo_dcr_surface_options {
     /// The size of the caller's struct in bytes; set by the init function.
     uint32_t struct_size;
-    /// The largest number of steps, 100 by default. 0 returns the samples as they are. Fewer are made where the motion ends
-    /// before.
+    /// The largest number of steps, 100 by default. 0 returns the samples as they are, those that rounding has put outside
+    /// their triangle on its edge. Fewer are made where the motion ends before.
     uint32_t max_iterations;
     /// The motion (see the report) at which the set has converged. 0 makes all steps; a negative number, the default,
     /// takes 0.0005.

@@ -3,8 +3,9 @@
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
-use azulejo::analysis::coverage::covering_radius_2d;
+use azulejo::analysis::coverage::{covering_radius_2d, surface_coverage};
 use azulejo::analysis::triangles::triangle_statistics;
+use azulejo::dcr::{self, Density, surface};
 use azulejo::mesh::Mesh;
 use azulejo::psp::adaptive::{self, Options, Radius};
 use azulejo::{Boundary, Context, Domain, Error};
@@ -128,4 +129,51 @@ fn few_samples_are_estimated_on_few_pieces() {
     let radius = Radius::Function { at: &at, smallest: 0.25, largest: 0.25, slope: 0.0 };
     let (set, _) = adaptive::sample(&Context::new(1).unwrap(), &square(), &Options::new(radius), None).unwrap();
     assert!(set.radii.len() > 8 && calls.load(Ordering::Relaxed) < 5000, "{calls:?} calls");
+}
+
+/// Uncovered fragments were compared in pairs: an hour for a hundred thousand triangles in one place, minutes for what
+/// three triangles were cut into.
+#[test]
+fn many_uncovered_triangles_in_one_place_are_one_gap() {
+    let corners = |i: u32| {
+        let x = i as f32 * 1e-6;
+        [[x, 0.0, 0.0], [x + 0.01, 0.0, 0.0], [x, 0.01, 0.0]]
+    };
+    let near = (0..100_000).flat_map(corners);
+    let far = [[3.0, 0.0, 0.0], [3.01, 0.0, 0.0], [3.0, 0.01, 0.0]];
+    let positions: Vec<_> = near.chain(far).collect();
+    let triangles = (0..positions.len() as u32).collect::<Vec<_>>().as_chunks::<3>().0.to_vec();
+    let mesh = Mesh::new(positions, triangles).unwrap();
+    let coverage = surface_coverage(&Context::new(1).unwrap(), &mesh, &[[50.0, 0.0, 0.0]], 1.0).unwrap();
+    assert_eq!(coverage.gaps, 2);
+}
+
+/// A raster of a hundred cells for each point was made before it was known whether memory holds it.
+#[test]
+fn more_points_of_a_density_than_memory_holds_are_refused() {
+    let context = Context::new(1).unwrap();
+    let density = Density::Image { values: &[1.0], width: 1, height: 1 };
+    let domain = Domain::unit(Boundary::Bounded);
+    let refused = dcr::scatter(&context, &domain, &density, u32::MAX as usize, 0).map(|points| points.len());
+    assert!(matches!(refused, Err(Error::TooLarge { argument: "count", .. })), "{refused:?}");
+}
+
+/// The chain of fragments of a needle was followed for minutes before there were too many.
+#[test]
+fn a_needle_of_a_billion_radii_is_refused_at_once() {
+    let mesh = Mesh::new(vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1e-20, 0.0]], vec![[0, 1, 2]]).unwrap();
+    let refused = surface_coverage(&Context::new(1).unwrap(), &mesh, &[[2.0, 0.0, 0.0]], 1e-9);
+    assert!(matches!(refused, Err(Error::TooLarge { argument: "radius", .. })), "{refused:?}");
+}
+
+/// Samples that rounding had put outside their triangle came back as they were where no step was made.
+#[test]
+fn samples_are_returned_on_their_triangles_without_a_step_too() {
+    let outside = [0.529411792755127f32, 0.47058823704719543];
+    let options = surface::Options { max_iterations: 0, ..Default::default() };
+    let context = Context::new(1).unwrap();
+    let (samples, _) = surface::relax(&context, &square(), &[0, 1], &[outside, [0.25, 0.5]], &options, None).unwrap();
+    let [[u, v], same] = samples.barycentrics[..] else { panic!("{samples:?}") };
+    assert!(f64::from(u) + f64::from(v) <= 1.0 && (u - outside[0]).abs() < 1e-7 && v == outside[1], "{u} {v}");
+    assert_eq!(same, [0.25, 0.5]);
 }

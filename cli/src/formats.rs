@@ -10,6 +10,8 @@
 //!
 //! What is read may have more: integers and doubles, big-endian arrays, other columns, comments.
 
+#[cfg(test)]
+mod hostile;
 mod npy;
 mod raw;
 mod table;
@@ -103,6 +105,11 @@ pub fn blame(path: &Path, error: Error) -> Error {
         }
         other => other,
     }
+}
+
+/// A word of a file as a message can show it: files may have anything in its place.
+fn shortened(word: &str) -> String {
+    word.chars().take(40).map(|letter| if letter.is_control() { ' ' } else { letter }).collect()
 }
 
 /// In which format points are read.

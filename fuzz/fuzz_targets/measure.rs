@@ -129,15 +129,20 @@ fn surface(input: &mut Input) {
     let made = create(|out| unsafe { azulejo_mesh_create(start, vertices, 12, indices.as_ptr(), count, out) });
     let Some(mesh) = made else { return };
     let samples = input.rows::<3>(60);
-    covered(&mesh, &samples, input);
+    let corner = |&vertex: &u32| positions[vertex as usize].map(f64::from);
+    let edge = |a: [f64; 3], b: [f64; 3]| (0..3).map(|axis| (a[axis] - b[axis]).powi(2)).sum::<f64>().sqrt();
+    let corners = indices.as_chunks::<3>().0.iter().map(|triangle| triangle.each_ref().map(corner));
+    let length = corners.map(|[a, b, c]| edge(a, b) + edge(b, c)).sum();
+    covered(&mesh, length, &samples, input);
     differ(&mesh, &samples, input);
     azulejo_mesh_free(Some(mesh));
 }
 
-fn covered(mesh: &azulejo_mesh, samples: &[[f32; 3]], input: &mut Input) {
+fn covered(mesh: &azulejo_mesh, length: f64, samples: &[[f32; 3]], input: &mut Input) {
     let area = azulejo_mesh_area(Some(mesh));
     let radius = if input.one_in(4) { input.number() } else { (area / f64::from(1 + input.below(100))).sqrt() };
-    if (1e3..1e8).contains(&(area / (radius * radius))) {
+    let pieces = area / (radius * radius) + length / radius;
+    if (1e3..1e16).contains(&pieces) {
         return; // refused or found, but not in the time that a fuzz target has
     }
     let (start, count) = (samples.as_ptr().cast(), samples.len());

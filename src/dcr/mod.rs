@@ -55,6 +55,7 @@ use thesis::Tensioned;
 use crate::error::{Error, Result};
 use crate::grid2::Grid2;
 use crate::job::{Context, Job, Progress, chunks};
+use crate::memory;
 use crate::points::Domain;
 
 /// Who is a neighbour of a point.
@@ -235,11 +236,20 @@ pub fn relax_observed(
 ) -> Result<(Vec<[f32; 2]>, Report)> {
     options.check()?;
     options.domain.check_points(points)?;
+    require_memory("xy", points.len())?;
     let mut set: Box<dyn Relaxation> = match &options.method {
         Method::Best => Box::new(Spread::new(options, points)),
         Method::Thesis(thesis) => Box::new(Tensioned::new(options, thesis, points)),
     };
     run(context, options, points, &mut *set, progress, observe)
+}
+
+/// Memory for a point or a sample and all that is known of it, at the peak.
+const BYTES_PER_POINT: f64 = 300.0;
+
+/// Refuses more points than memory holds.
+fn require_memory(argument: &'static str, count: usize) -> Result<()> {
+    memory::require(BYTES_PER_POINT * count as f64, argument, &format!("{count} points"))
 }
 
 /// Makes the steps of a set, measures what they made of it, and lets a cancelled call end well.

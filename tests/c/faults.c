@@ -159,6 +159,41 @@ static void radii_that_are_garbage(const azulejo_context *context) {
     }
 }
 
+/* Functions that are steeper than is said, and slopes that nothing can be proved with: the call ends, and says why. */
+static double steep(void *user, const double *position) {
+    (void)user;
+    return position[0] < 0.4142 ? 0.1 : 0.2;
+}
+
+static double even(void *user, const double *position) {
+    (void)user, (void)position;
+    return 0.4;
+}
+
+static azulejo_adaptive_options by_function(azulejo_radius_fn radius, double smallest, double largest, double slope) {
+    azulejo_adaptive_options o;
+    ACCEPTED(azulejo_adaptive_options_init(&o, sizeof o));
+    o.radius = radius;
+    o.smallest = smallest;
+    o.largest = largest;
+    o.slope = slope;
+    return o;
+}
+
+static void radii_that_are_not_as_told(const azulejo_context *context) {
+    const azulejo_adaptive_options lying = by_function(steep, 0.1, 0.2, 0.25), vain = by_function(even, 0.04, 0.8, 5000);
+    azulejo_adaptive_options apart = by_function(even, 0.4, 0.4, 0);
+    azulejo_points *out = UNTOUCHED;
+    REFUSED(INVALID, "slope 0.25", azulejo_psp_sample_adaptive(context, cube, &lying, &out, NULL));
+    REFUSED(AZULEJO_ERROR_TOO_LARGE, "slope: 5000.0", azulejo_psp_sample_adaptive(context, cube, &vain, &out, NULL));
+    CHECK(out == UNTOUCHED);
+    /* A triangle's samples see each other even if nobody else does. */
+    apart.cosine = 1;
+    ACCEPTED(azulejo_psp_sample_adaptive(context, cube, &apart, &out, NULL));
+    CHECK(azulejo_points_count(out) > 6 && azulejo_points_count(out) < 200);
+    azulejo_points_free(out);
+}
+
 /* Runs a part of the test in a process of its own, which has a minute; its exit code, or 128 and the signal. */
 static int in_child(void (*part)(void *), void *user) {
     int status = 0;
@@ -234,6 +269,9 @@ static void forks(void) {
 static void in_little_memory(void *context) {
     azulejo_kdrt_options plane = kdrt_options(1e-5);
     azulejo_psp_options surface = psp_options(1e-4);
+    azulejo_dcr_options relaxed = dcr_options(1);
+    azulejo_density density;
+    const float white = 1;
     azulejo_points *out = UNTOUCHED;
     char line[256];
     unsigned long pages = 0;
@@ -248,6 +286,10 @@ static void in_little_memory(void *context) {
     plane.radius = 0;
     plane.count = 1000000000;
     REFUSED(AZULEJO_ERROR_TOO_LARGE, "count", azulejo_kdrt_sample(context, &plane, &out));
+    ACCEPTED(azulejo_density_init(&density, sizeof density));
+    density.values = &white;
+    density.width = density.height = 1;
+    REFUSED(AZULEJO_ERROR_TOO_LARGE, "count", azulejo_dcr_scatter(context, &relaxed, &density, 1000000000, &out));
     CHECK(out == UNTOUCHED);
 }
 
@@ -299,6 +341,8 @@ int main(void) {
     cancelled_at_every_stage(three);
     radii_that_are_garbage(one);
     radii_that_are_garbage(three);
+    radii_that_are_not_as_told(one);
+    radii_that_are_not_as_told(three);
     arrays_of_any_size();
     forks();
     CHECK(in_child(in_little_memory, one) == 0);

@@ -7,7 +7,7 @@
 
 use std::io::{self, Write};
 
-use super::{Coordinates, PointSet};
+use super::{Coordinates, PointSet, shortened};
 
 const MAGIC: &[u8] = b"\x93NUMPY";
 
@@ -80,13 +80,13 @@ impl Array {
             ">f8" => (8, |bytes| f64::from_be_bytes(chunk(bytes)) as f32),
             "<i4" => (4, |bytes| i32::from_le_bytes(chunk(bytes)) as f32),
             ">i4" => (4, |bytes| i32::from_be_bytes(chunk(bytes)) as f32),
-            _ => return Err(format!("has numbers of the type {element:?}, not f4, f8 or i4")),
+            _ => return Err(format!("has numbers of the type {:?}, not f4, f8 or i4", shortened(element))),
         };
         let shape = entry("shape")?.trim_start_matches('(').split(')').next().unwrap_or_default();
         let lengths = shape.split(',').map(str::trim).filter(|length| !length.is_empty());
         let lengths: Option<Vec<usize>> = lengths.map(|length| length.parse().ok()).collect();
         let Some(&[count, width]) = lengths.as_deref() else {
-            return Err(format!("has the shape ({shape}), not (points, coordinates)"));
+            return Err(format!("has the shape ({}), not (points, coordinates)", shortened(shape)));
         };
         Ok(Self { count, width, by_columns: entry("fortran_order")?.starts_with("True"), size, read })
     }

@@ -9,7 +9,7 @@ use std::io::{self, Write};
 
 use azulejo::SurfaceSamples;
 
-use super::{Coordinates, PointSet};
+use super::{Coordinates, PointSet, shortened};
 
 /// The columns that are kept as floats.
 const NAMES: [&str; 8] = ["x", "y", "z", "nx", "ny", "nz", "u", "v"];
@@ -119,11 +119,6 @@ impl Columns {
         }
         Ok(numbers)
     }
-}
-
-/// A word as a message can show it.
-fn shortened(word: &str) -> String {
-    word.chars().take(40).collect()
 }
 
 pub fn write_csv_plane(writer: &mut impl Write, points: &[[f32; 2]]) -> io::Result<()> {

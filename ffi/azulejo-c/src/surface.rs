@@ -20,8 +20,8 @@ use crate::status::azulejo_status;
 pub struct azulejo_dcr_surface_options {
     /// The size of the caller's struct in bytes; set by the init function.
     pub struct_size: u32,
-    /// The largest number of steps, 100 by default. 0 returns the samples as they are. Fewer are made where the motion ends
-    /// before.
+    /// The largest number of steps, 100 by default. 0 returns the samples as they are, those that rounding has put outside
+    /// their triangle on its edge. Fewer are made where the motion ends before.
     pub max_iterations: u32,
     /// The motion (see the report) at which the set has converged. 0 makes all steps; a negative number, the default,
     /// takes 0.0005.

@@ -18,6 +18,11 @@ impl Groups {
         self.count
     }
 
+    /// Whether two members are of one group.
+    pub fn are_linked(&mut self, a: u32, b: u32) -> bool {
+        self.root(a) == self.root(b)
+    }
+
     /// Makes one group of those of two members.
     pub fn link(&mut self, a: u32, b: u32) {
         let [a, b] = [self.root(a), self.root(b)];

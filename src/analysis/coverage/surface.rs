@@ -1,13 +1,15 @@
 //! Coverage of a surface, by cutting it into fragments: a place of a fragment is no farther from the samples than its
 //! centre is and a corner is from that.
 
+use std::collections::HashMap;
+
 use glam::DVec3;
 
 use super::groups::Groups;
 use super::tree::Tree;
 use super::{Coverage, PRECISION};
 use crate::error::{Error, Result};
-use crate::grid3::{Grid3, distance_squared};
+use crate::grid3::distance_squared;
 use crate::job::{Context, Job, Progress, chunks_of};
 use crate::mesh::Mesh;
 use crate::points::check_radius;
@@ -24,8 +26,8 @@ const LINK: f64 = 0.5;
 const DEPTH: f64 = 1e-6;
 /// No more uncovered fragments than this are kept.
 const MAX_UNCOVERED: usize = 1 << 26;
-/// The uncovered places of a task that looks for near ones.
-const PLACES: usize = 2048;
+/// So many places, or cells of them, are grouped between two reports.
+const PLACES: u32 = 2048;
 
 /// The covering radius of samples on a mesh: the straight distance from the samples of the place of the surface that is
 /// farthest from all of them. A set is maximal for a radius if this is not above it. Infinite for an empty set, 0 where
@@ -111,23 +113,39 @@ fn check_count(uncovered: usize) -> Result<()> {
 }
 
 /// The groups of places of which each is within `reach` of another one.
+///
+/// Places are put into cells in which any two are near, however many they are. Of two cells it takes a pair to link all.
 fn count(job: &Job, places: &[[f32; 3]], reach: f64) -> Result<usize> {
-    let grid = Grid3::of(&job.part(0.0, 0.2), [0.0; 3], reach, places)?;
+    let side = reach / 3f64.sqrt() * (1.0 - 1e-9);
+    // Whole numbers, of which 0 has one form.
+    let cell = |place: [f32; 3]| place.map(|x| (f64::from(x) / side).floor() + 0.0);
+    let key = |cell: [f64; 3]| cell.map(f64::to_bits);
     let mut groups = Groups::new(places.len());
-    let tasks = chunks_of(places.len(), PLACES);
-    let near = |task: usize| {
-        let near = |id: usize| {
-            let place = places[id];
-            let before = grid.candidates(place.map(f64::from), reach).filter(move |&other| (other as usize) < id);
-            let is_near = move |other: &u32| distance_squared(places[*other as usize], place) <= reach * reach;
-            before.filter(is_near).map(move |other| [id as u32, other])
-        };
-        tasks.range(task).flat_map(near).collect::<Vec<_>>()
-    };
-    job.part(0.2, 1.0).stream(tasks.len(), near, |pairs| {
-        pairs.into_iter().for_each(|[a, b]| groups.link(a, b));
-        Ok(())
-    })?;
+    let mut cells: HashMap<[u64; 3], Vec<u32>> = HashMap::new();
+    for (id, &place) in (0..).zip(places) {
+        if id % PLACES == 0 {
+            job.report(0.5 * f64::from(id) / places.len() as f64)?;
+        }
+        let members = cells.entry(key(cell(place))).or_default();
+        members.first().into_iter().for_each(|&first| groups.link(first, id));
+        members.push(id);
+    }
+    let are_near = |a: u32, b: u32| distance_squared(places[a as usize], places[b as usize]) <= reach * reach;
+    for (done, members) in cells.values().enumerate() {
+        if done % PLACES as usize == 0 {
+            job.report(0.5 + 0.5 * done as f64 / cells.len() as f64)?;
+        }
+        let [x, y, z] = cell(places[members[0] as usize]);
+        let steps = || [-2.0, -1.0, 0.0, 1.0, 2.0].into_iter();
+        for (i, j, k) in steps().flat_map(|i| steps().flat_map(move |j| steps().map(move |k| (i, j, k)))) {
+            let Some(others) = cells.get(&key([x + i + 0.0, y + j + 0.0, z + k + 0.0])) else { continue };
+            if !groups.are_linked(members[0], others[0])
+                && members.iter().any(|&a| others.iter().any(|&b| are_near(a, b)))
+            {
+                groups.link(members[0], others[0]);
+            }
+        }
+    }
     Ok(groups.count())
 }
 
@@ -230,8 +248,9 @@ impl Fragment {
     fn gather_all(&self, radius: f64, uncovered: &mut Vec<[f32; 3]>) -> Result<()> {
         let smallest = 0.25 * LINK * radius;
         // Halves are not larger than a right triangle of that reach is, which has 0.9 of its square.
-        let least = self.area() / (smallest * smallest);
-        check_count(uncovered.len() + least as usize)?;
+        // A needle is as long as a chain of them.
+        let least = (self.area() / (smallest * smallest)).max(self.reach / (2.0 * smallest));
+        check_count(uncovered.len().saturating_add(least as usize))?;
         if self.reach <= smallest {
             uncovered.push(self.centre.as_vec3().to_array());
             return Ok(());

@@ -115,6 +115,7 @@ pub fn relax_with_density(
         return Err(Error::invalid("neighbourhood", "densities take Delaunay neighbours"));
     }
     options.domain.check_points(points)?;
+    super::require_memory("xy", points.len())?;
     let mut set = context.run(None, |job| {
         let raster = Raster::new(&job.part(0.0, 0.5), &options.domain, density, points.len())?;
         Graded::new(&job.part(0.5, 1.0), options, raster, points)
@@ -126,7 +127,8 @@ pub fn relax_with_density(
 /// arguments and on nothing else.
 ///
 /// # Errors
-/// [`Error::InvalidArgument`] for a domain or a density that is none, [`Error::TooLarge`] for more than 2^32 - 1 points.
+/// [`Error::InvalidArgument`] for a domain or a density that is none, [`Error::TooLarge`] for more than 2^32 - 1 points, or
+/// than memory holds.
 pub fn scatter(
     context: &Context,
     domain: &Domain,

@@ -11,6 +11,7 @@ use super::{Density, is_density};
 use crate::dcr::spread::torus::{HALF, Place, Torus};
 use crate::error::{Error, Result};
 use crate::job::{Job, chunks_of};
+use crate::memory;
 use crate::points::{Boundary, Domain};
 use crate::rng::{Draw, Rng};
 
@@ -20,6 +21,9 @@ const SLOPE: f32 = 0.5;
 
 /// Cells per distance of points, at least and at most; between them a cell is a pixel.
 const FINENESS: [f64; 2] = [4.0, 8.0];
+
+/// Memory for a cell at the peak, when its density is in two arrays.
+const BYTES_PER_CELL: f64 = 12.0;
 
 /// Cells along an axis, at least: few points too shall find what is dark in an image.
 const FEWEST: usize = 64;
@@ -50,6 +54,8 @@ impl Raster {
             let [least, most] = FINENESS.map(|fineness| (fineness * extent[axis]).ceil().min(limit as f64) as usize);
             pixels[axis].clamp(least, most).max(FEWEST)
         });
+        let bytes = BYTES_PER_CELL * cells[0] as f64 * cells[1] as f64;
+        memory::require(bytes, "count", &format!("{count} points of a density"))?;
         let mut raster = Self { domain: *domain, cells, density: Vec::new(), spacing: Vec::new() };
         raster.density = raster.sample(job, density, pixels)?;
         let sum: f64 = raster.density.iter().map(|&density| f64::from(density)).sum();

@@ -50,7 +50,8 @@ const ATTEMPTS: u64 = 16;
 /// The options of [`relax`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Options {
-    /// The largest number of steps. 0 returns the samples as they are.
+    /// The largest number of steps. 0 returns the samples as they are, those that rounding has put outside their triangle on
+    /// its edge.
     pub max_iterations: u32,
     /// The motion ([`Report::motion`]) at which the set has converged; 0 makes all steps unless nothing moves at all.
     pub tolerance: f64,
@@ -108,6 +109,7 @@ pub fn relax(
     if !(0.0..).contains(&options.tolerance) {
         return Err(Error::invalid("tolerance", format!("{} is not at least 0", options.tolerance)));
     }
+    crate::dcr::require_memory("triangles", triangles.len())?;
     let sheet = Sheet::new(mesh)?;
     let spacing = hexagonal_distance(mesh, triangles.len());
     let places: Vec<Place> = triangles.iter().zip(barycentrics).map(place).collect();
@@ -120,7 +122,10 @@ pub fn relax(
         steps => steps?,
     };
     let samples = match set.iterations() {
-        0 => mesh.samples(triangles.to_vec(), barycentrics.to_vec()),
+        0 => {
+            let on_triangle = |&uv: &[f32; 2]| round_barycentrics(uv.map(f64::from));
+            mesh.samples(triangles.to_vec(), barycentrics.iter().map(on_triangle).collect())
+        }
         _ => leave(mesh, set.places()),
     };
     let smallest_distance = context.run(None, |job| grid3::smallest_distance(job, &samples.positions))?;

@@ -1,0 +1,110 @@
+//! Files that are no files of points: good ones with some bytes changed, cut out, doubled, in every format. Each is read or
+//! refused in a line; a panic would be neither, and numbers of a header are not believed.
+
+use super::{Coordinates, PointSet, npy, raw, table};
+use crate::ply;
+
+type Parse = fn(&[u8], Coordinates) -> Result<PointSet, String>;
+
+/// What damage begins with: every parser, and files that it reads.
+fn good_files() -> Vec<(Parse, Vec<u8>)> {
+    let (plane, space) = ([[0.5f32, -1.25], [3.0, 4e-3]], [[0.5f32, -1.25, 7.0], [3.0, 4e-3, 1e9]]);
+    let mut arrays = [Vec::new(), Vec::new()];
+    npy::write(&mut arrays[0], &plane).unwrap();
+    npy::write(&mut arrays[1], &space).unwrap();
+    let mut floats = Vec::new();
+    raw::write(&mut floats, &space).unwrap();
+    let text = "# points\nx,y,z,nx,ny,nz\n0.5,-1.25,7,0,0,1\n3,4e-3,1e9,1,0,0\n";
+    let header = |format: &str, index: &str| {
+        format!(
+            "ply\nformat {format} 1.0\ncomment domain 0 0 1 1 periodic\nelement vertex 2\nproperty float x\nproperty \
+             double y\nproperty short z\nproperty uint triangle\nproperty float u\nproperty float v\n{index}end_header\n"
+        )
+    };
+    let vertex = [0.5f32.to_le_bytes().to_vec(), 2.0f64.to_le_bytes().to_vec(), vec![0; 14]].concat();
+    let binary = [header("binary_little_endian", "").into_bytes(), vertex.clone(), vertex].concat();
+    let list = header("ascii", "element face 1\nproperty list uchar int vertex_indices\n");
+    let ascii = format!("{list}0.5 2 3 0 0.25 0.5\n1 2 3 1 0.5 0.25\n3 0 1 1\n");
+    let [first, second] = arrays;
+    vec![
+        (npy::parse, first),
+        (npy::parse, second),
+        (raw::parse, floats),
+        (table::parse, text.into()),
+        (table::parse, "0.5 2 3 0 0 1\n1 2 3 1 0 0\n".into()),
+        (ply::parse, binary),
+        (ply::parse, ascii.into()),
+    ]
+}
+
+/// Random numbers (Marsaglia's xorshift).
+struct Numbers(u64);
+
+impl Numbers {
+    fn below(&mut self, end: usize) -> usize {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        (self.0 >> 11) as usize % end.max(1)
+    }
+}
+
+fn damage(file: &mut Vec<u8>, numbers: &mut Numbers) {
+    const PARTS: [&str; 8] = [
+        "18446744073709551615",
+        "-1",
+        "nan",
+        "4294967296",
+        "\n",
+        "1e999",
+        "(3, 6148914691236517206)",
+        "element vertex 9",
+    ];
+    let at = numbers.below(file.len());
+    let end = (at + numbers.below(12)).min(file.len());
+    match numbers.below(6) {
+        0 => file.truncate(at),
+        1 => _ = file.drain(at..end),
+        2 => file[at..end].fill(numbers.below(256) as u8),
+        3 => _ = file.splice(at..at, file[at..end].to_vec()),
+        4 => _ = file.splice(at..end, PARTS[numbers.below(PARTS.len())].bytes()),
+        // A digit more than there was.
+        _ => _ = file.splice(at..at, [b'0' + numbers.below(10) as u8]),
+    }
+}
+
+fn check(parsed: Result<PointSet, String>) -> bool {
+    match parsed {
+        Ok(set) => {
+            assert!(set.positions.iter().chain(&set.normals).flatten().all(|x| x.is_finite()));
+            assert!(set.normals.is_empty() || set.normals.len() == set.positions.len());
+            let lengths = set.on_mesh.map(|(triangles, sides)| [triangles.len(), sides.len()]);
+            assert!(lengths.is_none_or(|lengths| lengths == [set.positions.len(); 2]));
+            true
+        }
+        Err(reason) => {
+            assert!(!reason.is_empty() && reason.len() < 1000 && !reason.contains('\n'), "{reason}");
+            false
+        }
+    }
+}
+
+#[test]
+fn damaged_files_are_read_or_refused() {
+    let mut numbers = Numbers(1);
+    for (parse, good) in good_files() {
+        assert!(check(parse(&good, Coordinates::Plane)));
+        let mut read = 0;
+        for _ in 0..10_000 {
+            let mut file = good.clone();
+            (0..=numbers.below(4)).for_each(|_| {
+                if !file.is_empty() {
+                    damage(&mut file, &mut numbers);
+                }
+            });
+            let coordinates = [Coordinates::Plane, Coordinates::Space][numbers.below(2)];
+            read += u32::from(check(parse(&file, coordinates)));
+        }
+        assert!((100..9_900).contains(&read), "{read} of 10,000 damaged files were read");
+    }
+}
