@@ -16,12 +16,12 @@ namespace {
 const double low[] = {0, 0}, high[] = {1, 1};
 
 template <class Call>
-bool refused(const char *part, Call call) {
+bool refused(const char *part, Call call, azulejo_status status = AZULEJO_ERROR_INVALID_ARGUMENT) {
     try {
         call();
         return false;
     } catch (const azulejo::Error &error) {
-        return error.status() == AZULEJO_ERROR_INVALID_ARGUMENT && std::strstr(error.what(), part) != nullptr;
+        return error.status() == status && std::strstr(error.what(), part) != nullptr;
     }
 }
 
@@ -53,9 +53,9 @@ void planes() {
     const auto tell = [&](double done) { return told.push_back(done), true; };
     const auto watched = azulejo::plane_measure(context, points.positions(), low, high, 0, tell);
     CHECK(watched.covering_radius == report.covering_radius && told.front() == 0 && told.back() == 1);
-    CHECK(refused("cancelled", [&] {
-        azulejo::Spectrum(context, points.positions(), low, high, 0, 100, 1, [](double) { return false; });
-    }));
+    const auto stop = [](double) { return false; };
+    const auto stopped = [&] { azulejo::Spectrum(context, points.positions(), low, high, 0, 100, 1, stop); };
+    CHECK(refused("cancelled", stopped, AZULEJO_ERROR_CANCELLED));
     bool thrown = false;
     try {
         azulejo::plane_coverage(context, points.positions(), low, high, 0, 0.02, [](double) -> bool { throw 7; });
