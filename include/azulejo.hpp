@@ -772,8 +772,8 @@ class Differences {
 public:
     /// See azulejo_differences_create.
     Differences(const Context &context, const Mesh &mesh, Span<const float> positions, Span<const float> normals,
-                const double (&direction)[3], std::uint64_t seed = 0) {
-        if (normals.size() != positions.size(), const Progress &progress = nullptr) {
+                const double (&direction)[3], std::uint64_t seed = 0, const Progress &progress = nullptr) {
+        if (normals.size() != positions.size()) {
             throw Error(AZULEJO_ERROR_INVALID_ARGUMENT, "normals: " + std::to_string(normals.size()) +
                                                             " numbers, not as many as positions");
         }

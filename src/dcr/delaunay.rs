@@ -182,10 +182,10 @@ pub(crate) struct Dual {
 /// The triangulation of sites.
 fn triangulate(job: &Job, mut sites: Vec<Site>) -> Result<DelaunayTriangulation<Site>> {
     const ACCEPTED: &str = "sites are finite and neither too large nor too small for spade";
-    job.report(0.0)?;
     if sites.len() <= SILENT {
         return Ok(DelaunayTriangulation::bulk_load(sites).expect(ACCEPTED));
     }
+    job.report(0.0)?;
     along_columns(&mut sites);
     job.report(0.1)?;
     let mut triangulation = DelaunayTriangulation::with_capacity(sites.len(), 3 * sites.len(), 2 * sites.len());

@@ -41,9 +41,9 @@ void planes() {
     const auto tell = [&](double done) { return told.push_back(done), true; };
     const auto watched = azulejo::plane_measure(context, points.positions(), low, high, 0, tell);
     CHECK(watched.covering_radius == report.covering_radius && told.front() == 0 && told.back() == 1);
-    CHECK(refused("cancelled", [&] {
-        azulejo::Spectrum(context, points.positions(), low, high, 0, 100, 1, [](double) { return false; });
-    }));
+    const auto stop = [](double) { return false; };
+    const auto stopped = [&] { azulejo::Spectrum(context, points.positions(), low, high, 0, 100, 1, stop); };
+    CHECK(throws(AZULEJO_ERROR_CANCELLED, "cancelled", stopped));
     bool thrown = false;
     try {
         azulejo::plane_coverage(context, points.positions(), low, high, 0, 0.02, [](double) -> bool { throw 7; });
