@@ -144,7 +144,7 @@ fn many_uncovered_triangles_in_one_place_are_one_gap() {
     let positions: Vec<_> = near.chain(far).collect();
     let triangles = (0..positions.len() as u32).collect::<Vec<_>>().as_chunks::<3>().0.to_vec();
     let mesh = Mesh::new(positions, triangles).unwrap();
-    let coverage = surface_coverage(&Context::new(1).unwrap(), &mesh, &[[50.0, 0.0, 0.0]], 1.0).unwrap();
+    let coverage = surface_coverage(&Context::new(1).unwrap(), &mesh, &[[50.0, 0.0, 0.0]], 1.0, None).unwrap();
     assert_eq!(coverage.gaps, 2);
 }
 
@@ -162,7 +162,7 @@ fn more_points_of_a_density_than_memory_holds_are_refused() {
 #[test]
 fn a_needle_of_a_billion_radii_is_refused_at_once() {
     let mesh = Mesh::new(vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1e-20, 0.0]], vec![[0, 1, 2]]).unwrap();
-    let refused = surface_coverage(&Context::new(1).unwrap(), &mesh, &[[2.0, 0.0, 0.0]], 1e-9);
+    let refused = surface_coverage(&Context::new(1).unwrap(), &mesh, &[[2.0, 0.0, 0.0]], 1e-9, None);
     assert!(matches!(refused, Err(Error::TooLarge { argument: "radius", .. })), "{refused:?}");
 }
 
