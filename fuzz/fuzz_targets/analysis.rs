@@ -35,7 +35,8 @@ fn plane(context: &Context, domain: &Domain, input: &mut Input) {
     }
     if let Ok(distances) = spacing::nearest_distances_2d(context, domain, &points, None) {
         assert_eq!(distances.len(), points.len());
-        _ = coverage::covering_radius_2d(context, domain, &points, None).expect("what has distances has a covering radius");
+        _ = coverage::covering_radius_2d(context, domain, &points, None)
+            .expect("what has distances has a covering radius");
     }
     if let Ok(differences) = differential::plane_differences(context, domain, &points, None) {
         assert!(differences.density().iter().all(|&density| density >= 0.0));
