@@ -68,7 +68,7 @@ const KICK_EVERY: u32 = 8;
 const LAST_KICK: u32 = 56;
 const KICK: f32 = 0.03;
 
-/// The share of the points above which violations are no exceptions, and none is kicked.
+/// The share of the points above which violations are no exceptions: none is kicked, and waves help at the border as well.
 const FEW: f64 = 0.04;
 
 /// The step size by which motion is measured: a span is 10 steps, in which long waves are removed twice.
@@ -183,10 +183,15 @@ impl Spread {
         }
     }
 
+    /// Whether the set has found its places but for exceptions.
+    fn are_few_violated(&self) -> bool {
+        self.violated as f64 <= FEW * self.order.len() as f64
+    }
+
     /// The step to come.
     fn go<'a>(&'a self, drift: &'a [Vec2]) -> Step<'a> {
-        let are_few = self.violated as f64 <= FEW * self.order.len() as f64;
-        let kicks = are_few && self.iterations.is_multiple_of(KICK_EVERY) && self.iterations <= LAST_KICK;
+        let kicks =
+            self.are_few_violated() && self.iterations.is_multiple_of(KICK_EVERY) && self.iterations <= LAST_KICK;
         Step {
             torus: &self.torus,
             border: self.border.as_ref(),
@@ -206,7 +211,9 @@ impl Relaxation for Spread {
             true => self.waves.drift(&job.part(0.0, 0.2), &self.state.places, count, self.highest_wave())?,
             false => Vec::new(),
         };
-        if let Some(border) = &self.border {
+        if let Some(border) = &self.border
+            && self.are_few_violated()
+        {
             border.calm(self.iterations, &self.state.places, &mut drift);
         }
         let mut next = std::mem::take(&mut self.next);
