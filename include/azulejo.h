@@ -1390,8 +1390,8 @@ azulejo_status azulejo_plane_coverage(const struct azulejo_context *context,
 /// Found exactly, by subdividing the triangles: O((count + triangles) log count) time for samples that are spread evenly,
 /// and about 100 pieces for each square of the radius that is uncovered.
 ///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_CANCELLED, and AZULEJO_ERROR_TOO_LARGE where more than about 600,000 times the square of the
-/// radius is uncovered.
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_CANCELLED, and AZULEJO_ERROR_TOO_LARGE where more than about 600,000
+/// times the square of the radius is uncovered.
 azulejo_status azulejo_mesh_coverage(const struct azulejo_context *context,
                                      const struct azulejo_mesh *mesh,
                                      const float *positions,
