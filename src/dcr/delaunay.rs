@@ -251,7 +251,7 @@ mod tests {
     fn point_by_point_gives_what_all_at_once_does() {
         let mut rng = Rng::at(2, Draw::Probe, &[]);
         let mut site = |source: u32| {
-            let size = if source % 2 == 0 { 1.0 } else { 1e-3 };
+            let size = if source.is_multiple_of(2) { 1.0 } else { 1e-3 };
             Site { position: size * DVec2::new(rng.unit(), rng.unit()), source, side: [0, 0] }
         };
         let mut sites: Vec<_> = (0..SILENT as u32).map(&mut site).collect();
