@@ -628,11 +628,11 @@ typedef struct azulejo_dcr_surface_report {
     int32_t stopped;
     /// Half of how far samples got over the last 10 steps, root mean square, in units of d_max.
     double motion;
-    /// The smallest straight distance between two of the samples, whether or not they are near on the surface; infinite
-    /// for less than two samples.
+    /// The smallest straight distance between two of the samples, whether or not they are near on the surface, which is no
+    /// less than it was; infinite for less than two samples.
     double smallest_distance;
-    /// The smallest distance in units of d_max: 0.77 for a maximal set, about 0.86 for a relaxed one where the surface is
-    /// smooth and no part of it near another.
+    /// The smallest distance in units of d_max: 0.77 for a maximal set; for a relaxed one 0.86 where the surface is smooth,
+    /// about 0.84 with sharp features and parts that are near others.
     double rho;
     /// Zeros, for later versions.
     uint32_t reserved[6];
@@ -1243,10 +1243,13 @@ azulejo_status azulejo_dcr_relax_density(const struct azulejo_context *context,
 azulejo_status azulejo_dcr_surface_options_init(struct azulejo_dcr_surface_options *options, size_t struct_size);
 
 /// Relaxes samples of a mesh: they walk on the surface, away from neighbours that are too close and into holes, until the
-/// motion ends or the steps do (the future work of thesis chapter 4). Neighbours are near on the surface: the two sides of
-/// a thin wall do not know of each other, and may come as close as they are. Triangles are connected by edges between the
-/// same places; any other edge is a border, which samples do not cross. O(count) time for each step, and
-/// O(triangles * log triangles) once.
+/// motion ends or the steps do (the future work of thesis chapter 4). Neighbours are near on the surface, not on the other
+/// side of a thin wall. Triangles are connected by edges between the same places; any other edge is a border, which samples
+/// do not cross. O(count) time for each step, and O(triangles * log triangles) once.
+///
+/// No two samples get nearer to each other than the nearest two were, on whatever sides of walls and borders: straight
+/// distances, in double arithmetic on the positions, without tolerance, after any number of steps. Barycentrics outside
+/// their triangle count as brought into it.
 ///
 /// A call that its progress callback cancels succeeds: it returns the samples after the last whole step, and
 /// AZULEJO_STOPPED_CANCELLED in the report.
