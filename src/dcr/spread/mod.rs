@@ -49,7 +49,7 @@ use crate::maximal::Vectors;
 /// The share of its way that a point makes again in the next step.
 pub(super) const MOMENTUM: f32 = 0.78;
 
-/// Long waves are removed in every so manieth step.
+/// Long waves are removed in one of so many steps.
 const WAVES_EVERY: u32 = 5;
 
 /// Waves are removed up to this frequency, in units of sqrt(density), while points find their places. That is finer than

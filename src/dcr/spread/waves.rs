@@ -156,6 +156,7 @@ impl Waves {
         let size = self.torus.frame.size();
         let per_point = (size.x * size.y / count as f64).sqrt() / (TAU * highest);
         let (columns, rows) = (self.bins(0), self.bins(1));
+        let finest = self.finest();
         let size = chunks_of(columns.len(), 1 + 8192 / rows.len()).size();
         let parts = waves.chunks_mut(size * rows.len()).zip(columns.chunks(size));
         job.map_each(parts.collect(), |(waves, columns)| {
@@ -163,7 +164,7 @@ impl Waves {
                 for (wave, y) in column.iter_mut().zip(&rows) {
                     let k = DVec2::new(x.number, y.number);
                     let relative = k.length() * per_point;
-                    if k == DVec2::ZERO || relative > NOTHING {
+                    if k == DVec2::ZERO || relative > NOTHING || k.length() > finest {
                         *wave = Complex::default();
                         continue;
                     }
@@ -171,13 +172,22 @@ impl Waves {
                         // Drawn as points are.
                         *wave -= (border.wave([x.turns, y.turns]) * f64::sqrt(x.spline * y.spline)) as f32;
                     }
-                    let share = (-relative.powi(4)).exp() / (x.spline * y.spline).max(0.01) / count as f64;
+                    // Nothing where the grid ends in some directions: a square would be seen in the spectrum.
+                    let round = 1.0 - (k.length() / finest).powi(8);
+                    let share = (-relative.powi(4)).exp() * round / (x.spline * y.spline).max(0.01) / count as f64;
                     let way = DVec2::new(k.y, -k.x) * (share / k.length_squared());
                     *wave *= Complex::new(way.x as f32, way.y as f32);
                 }
             }
         })?;
         Ok(())
+    }
+
+    /// The highest wave number that the grid has in all directions.
+    fn finest(&self) -> f64 {
+        let size = self.torus.frame.size().to_array();
+        let along = |axis: usize| PI * self.cells[axis] as f64 / size[axis];
+        f64::min(along(0), along(1))
     }
 
     /// The bins of the transform along an axis.
