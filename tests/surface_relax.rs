@@ -95,11 +95,8 @@ fn samples_neither_leave_an_open_square_nor_crowd_at_its_border() {
         samples.positions.iter().filter(at_border).count() as f64 / samples.len() as f64
     };
     assert!((margin(&relaxed) / 0.36 - 1.0).abs() < 0.04, "{}", margin(&relaxed));
-    // Where there is no room, a few that began on the border are held there by those that must not get nearer.
-    let is_at_border =
-        |&&[x, y, _]: &&[f32; 3]| f64::from(x.min(y).min(1.0 - x).min(1.0 - y)) < 0.2 * d_max(&mesh, samples.len());
-    let held = relaxed.positions.iter().filter(is_at_border).count();
-    assert!(held <= samples.len() / 500, "{held}");
+    let border = relaxed.positions.iter().map(|&[x, y, _]| f64::from(x.min(y).min(1.0 - x).min(1.0 - y)));
+    assert!(border.fold(1.0, f64::min) > 0.2 * d_max(&mesh, samples.len()));
 }
 
 #[test]

@@ -19,7 +19,8 @@ use crate::grid3::Grid3;
 use crate::job::{Chunks, Job};
 use crate::mesh::exact;
 
-/// Two places on the borders at which a sample is mirrored are farther apart than this share of the ball's radius.
+/// Two places on the borders at which a sample is mirrored are farther apart than this share of the ball's radius, or are seen
+/// from it at least 60 degrees apart: without its image by both sides of a corner, nothing keeps a sample off one of them.
 const APART: f64 = 0.2;
 
 /// A sample, or its mirror image by a half-edge at the border.
@@ -140,7 +141,10 @@ impl<'a> Crowd<'a> {
         mirrors.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         let mut taken: Vec<DVec3> = Vec::new();
         for (_, border, mirror, is_beside) in mirrors {
-            let is_apart = taken.iter().all(|other| other.distance(mirror) > APART * self.radius);
+            let is_apart = taken.iter().all(|&other| {
+                let (one, other) = (mirror - position, other - position);
+                one.distance(other) > APART * self.radius || 2.0 * one.dot(other) <= one.length() * other.length()
+            });
             if taken.is_empty() || (is_beside && is_apart) {
                 taken.push(mirror);
                 let squared = (2.0 * mirror - position).distance_squared(centre);
@@ -300,13 +304,8 @@ mod tests {
             for (sample, &position) in positions.iter().enumerate() {
                 let DVec3 { x, y, .. } = position;
                 let mut images = vec![position];
-                let mut sides = [(x, DVec3::new(-x, y, 0.0)), (y, DVec3::new(x, -y, 0.0))].to_vec();
-                sides.extend([(1.0 - x, DVec3::new(2.0 - x, y, 0.0)), (1.0 - y, DVec3::new(x, 2.0 - y, 0.0))]);
-                // Places nearer to each other than `APART` are at the corners only.
-                sides.sort_by(|a, b| a.0.total_cmp(&b.0));
-                let apart = (0.5 * (sides[0].1 - position)).distance(0.5 * (sides[1].1 - position)) > APART * RADIUS;
-                images.push(sides[0].1);
-                images.extend(apart.then_some(sides[1].1));
+                images.extend([DVec3::new(-x, y, 0.0), DVec3::new(x, -y, 0.0)]);
+                images.extend([DVec3::new(2.0 - x, y, 0.0), DVec3::new(x, 2.0 - y, 0.0)]);
                 let near = images.into_iter().filter(|image| image.distance(positions[centre]) <= RADIUS);
                 expected.extend(
                     near.filter(|&image| sample != centre || image != position).map(|image| (sample as u32, image)),
