@@ -194,7 +194,7 @@ fn count(
         for run in &tasks[task] {
             let firsts = firsts.points(run.clone());
             near.clear();
-            others.near(firsts, REACH).for_each(|points| near.extend_from_slice(points));
+            others.near(firsts, REACH).iter().for_each(|points| near.extend_from_slice(points));
             for &(first, from) in firsts {
                 let local = &locals[first as usize];
                 for hit in hits_among(&near, from, &mut hits).iter().filter(|hit| !(same && hit.other == first)) {

@@ -136,8 +136,8 @@ fn count(job: &Job, places: &[[f32; 3]], reach: f64) -> Result<usize> {
             job.report(0.5 + 0.5 * done as f64 / cells.len() as f64)?;
         }
         let [x, y, z] = cell(places[members[0] as usize]);
-        let steps = || [-2.0, -1.0, 0.0, 1.0, 2.0].into_iter();
-        for (i, j, k) in steps().flat_map(|i| steps().flat_map(move |j| steps().map(move |k| (i, j, k)))) {
+        for step in 0..5 * 5 * 5 {
+            let [i, j, k] = [step / 25, step / 5 % 5, step % 5].map(|step| f64::from(step) - 2.0);
             let Some(others) = cells.get(&key([x + i + 0.0, y + j + 0.0, z + k + 0.0])) else { continue };
             if !groups.are_linked(members[0], others[0])
                 && members.iter().any(|&a| others.iter().any(|&b| are_near(a, b)))

@@ -66,7 +66,8 @@ impl Cells {
         let chunks = chunks_of(self.cells.len(), ESTIMATED);
         let runs = job.flat_map(chunks.len(), |chunk| {
             let cells = self.cells[chunks.range(chunk)].iter().flat_map(|(_, run)| {
-                let near = others.near(&self.points[run.clone()], reach).map(<[_]>::len).sum::<usize>().max(1);
+                let near = others.near(&self.points[run.clone()], reach);
+                let near = near.iter().map(|points| points.len()).sum::<usize>().max(1);
                 let size = (TESTS / near).max(1);
                 run.clone().step_by(size).map(move |start| (start..(start + size).min(run.end), near))
             });
@@ -87,15 +88,17 @@ impl Cells {
     }
 
     /// All points within `reach` of some points, and others, by columns of cells.
-    pub fn near(&self, around: &[(u32, DVec3)], reach: f64) -> impl Iterator<Item = &[(u32, DVec3)]> + use<'_> {
+    pub fn near(&self, around: &[(u32, DVec3)], reach: f64) -> Vec<&[(u32, DVec3)]> {
         let places = || around.iter().map(|&(_, point)| point);
-        let corners = places().reduce(DVec3::min).zip(places().reduce(DVec3::max));
-        let range = corners.map(|(low, high)| [low - reach, high + reach].map(|corner| self.place(corner)));
-        range.into_iter().flat_map(move |[low, high]| {
-            let along = move |axis: usize| low[axis].max(0)..=high[axis].min((1 << BITS) - 1);
-            let columns = along(0).flat_map(move |x| along(1).map(move |y| [x, y]));
-            columns.map(move |[x, y]| self.column([x, y, low[2].max(0)], [x, y, high[2].min((1 << BITS) - 1)]))
-        })
+        let Some((low, high)) = places().reduce(DVec3::min).zip(places().reduce(DVec3::max)) else { return Vec::new() };
+        let [low, high] = [low - reach, high + reach].map(|corner| self.place(corner));
+        let along = |axis: usize| low[axis].max(0)..=high[axis].min((1 << BITS) - 1);
+        let (bottom, top) = (low[2].max(0), high[2].min((1 << BITS) - 1));
+        let mut columns = Vec::new();
+        for x in along(0) {
+            columns.extend(along(1).map(|y| self.column([x, y, bottom], [x, y, top])));
+        }
+        columns
     }
 
     fn place(&self, point: DVec3) -> [i64; 3] {
@@ -146,9 +149,9 @@ mod tests {
             let tasks = Context::new(2).unwrap().run(None, |job| from.tasks(job, &to, reach)).unwrap();
             let mut found = Vec::new();
             for run in tasks.concat() {
-                let near: Vec<_> = to.near(from.points(run.clone()), reach).flatten().collect();
+                let near = to.near(from.points(run.clone()), reach).concat();
                 for &(i, a) in from.points(run) {
-                    found.extend(near.iter().filter(|(_, b)| is_near(a, *b)).map(|&&(j, _)| (i, j)));
+                    found.extend(near.iter().filter(|(_, b)| is_near(a, *b)).map(|&(j, _)| (i, j)));
                 }
             }
             found.sort_unstable();
@@ -177,6 +180,6 @@ mod tests {
         let (wide, narrow) = ([DVec3::ZERO, DVec3::new(1.0, 1e13, 0.0)], [DVec3::ZERO, DVec3::ONE]);
         let side = side([&wide, &narrow], 1.0);
         let (from, to) = (Cells::new(&wide, side), Cells::new(&narrow, side));
-        assert_eq!(to.near(from.points(0..1), 1.0).map(<[_]>::len).sum::<usize>(), 2);
+        assert_eq!(to.near(from.points(0..1), 1.0).concat().len(), 2);
     }
 }
