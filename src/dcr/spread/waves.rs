@@ -172,9 +172,7 @@ impl Waves {
                         // Drawn as points are.
                         *wave -= (border.wave([x.turns, y.turns]) * f64::sqrt(x.spline * y.spline)) as f32;
                     }
-                    // Nothing where the grid ends in some directions: a square would be seen in the spectrum.
-                    let round = 1.0 - (k.length() / finest).powi(8);
-                    let share = (-relative.powi(4)).exp() * round / (x.spline * y.spline).max(0.01) / count as f64;
+                    let share = (-relative.powi(4)).exp() / (x.spline * y.spline).max(0.01) / count as f64;
                     let way = DVec2::new(k.y, -k.x) * (share / k.length_squared());
                     *wave *= Complex::new(way.x as f32, way.y as f32);
                 }
@@ -183,7 +181,7 @@ impl Waves {
         Ok(())
     }
 
-    /// The highest wave number that the grid has in all directions.
+    /// The highest wave number that the grid has in all directions: its square would be seen in the spectrum.
     fn finest(&self) -> f64 {
         let size = self.torus.frame.size().to_array();
         let along = |axis: usize| PI * self.cells[axis] as f64 / size[axis];
