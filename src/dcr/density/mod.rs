@@ -21,8 +21,8 @@ mod set;
 
 use self::raster::Raster;
 use self::set::Graded;
-use super::spread::torus::Torus;
-use super::{Method, Neighbourhood, Options, Report};
+use crate::dcr::ground::torus::Torus;
+use crate::dcr::{Method, Neighbourhood, Options, Report};
 use crate::error::{Error, Result};
 use crate::job::{Context, Progress};
 use crate::points::Domain;
@@ -115,12 +115,12 @@ pub fn relax_with_density(
         return Err(Error::invalid("neighbourhood", "densities take Delaunay neighbours"));
     }
     options.domain.check_points(points)?;
-    super::require_memory("xy", points.len())?;
+    crate::dcr::require_memory("xy", points.len())?;
     let mut set = context.run(None, |job| {
         let raster = Raster::new(&job.part(0.0, 0.5), &options.domain, density, points.len())?;
         Graded::new(&job.part(0.5, 1.0), options, raster, points)
     })?;
-    super::run(context, options, points, &mut set, progress, None)
+    crate::dcr::run(context, options, points, &mut set, progress, None)
 }
 
 /// Random points of a domain, as dense as asked for: a start for [`relax_with_density`]. Point `i` depends on the
