@@ -13,6 +13,7 @@ use crate::plane::lattice::Lattice;
 use crate::plane::{CellAxis, CellGrid, Quadtree};
 use crate::points::{Boundary, Domain};
 use crate::rng::{Draw, Rng};
+use crate::setters::setters;
 
 /// Darts per cell, before any is cut. After that [`darts()`] says how many.
 const DARTS_PER_CELL: usize = 2;
@@ -25,6 +26,7 @@ const BYTES_PER_CELL: f64 = 40.0;
 
 /// What to sample.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Options {
     /// The smallest centre-to-centre distance, above 0 and at least 64 float spacings at the domain's largest
     /// coordinate. It may exceed the domain: one sample is the result.
@@ -35,6 +37,15 @@ pub struct Options {
     /// The same options and seed give the same samples.
     pub seed: u64,
 }
+
+impl Options {
+    /// This radius on the unit torus, with seed 0.
+    pub fn new(radius: f64) -> Self {
+        Self { radius, domain: Domain::unit(Boundary::Periodic), seed: 0 }
+    }
+}
+
+setters!(Options { radius: f64, domain: Domain, seed: u64 });
 
 /// A maximal Poisson-disk set of a rectangle, unbiased.
 ///

@@ -100,7 +100,7 @@ mod tests {
     fn the_stages_make_the_set_that_sampling_makes() {
         for boundary in [Boundary::Periodic, Boundary::Bounded] {
             for (radius, leaf_size) in [(0.004, 20.0), (0.007, 6.0), (0.2, 20.0)] {
-                let options = Options { radius, domain: Domain::unit(boundary), leaf_size, seed: 3 };
+                let options = Options::new(radius).domain(Domain::unit(boundary)).leaf_size(leaf_size).seed(3);
                 let stages = measure(&options).unwrap();
                 let samples = crate::kdrt::sample(&Context::new(1).unwrap(), &options, None).unwrap();
                 assert_eq!(stages.samples, samples.len() as u64);
