@@ -2,6 +2,10 @@
 
 use crate::error::{Error, Result};
 
+/// N·r² of an unbiased maximal set of N samples in the unit square: the jamming limit of random sequential
+/// placement of disks, 0.5470735, is the share of the area that disks of *diameter* r cover.
+pub const MAXIMAL_DENSITY: f64 = 0.5470735 * 4.0 / std::f64::consts::PI;
+
 /// What lies beyond the border of a domain.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Boundary {
@@ -154,4 +158,18 @@ pub(crate) fn check_radius(radius: f64) -> Result<()> {
     } else {
         Err(Error::invalid("radius", format!("{radius} is not a positive finite number")))
     }
+}
+
+/// How many float spacings a radius has at least: a tolerance of a few spacings is then a small part of it.
+const FINEST_RADIUS: f64 = 64.0;
+
+/// Refuses a radius below 64 times the spacing of floats at a place, such as "the largest coordinate of the mesh".
+pub(crate) fn check_resolution(argument: &'static str, radius: f64, spacing: f64, place: &str) -> Result<()> {
+    let finest = FINEST_RADIUS * spacing;
+    if radius >= finest {
+        return Ok(());
+    }
+    let reason =
+        format!("{radius:?} is below {finest:?}, {FINEST_RADIUS} times the float spacing {spacing:?} at {place}");
+    Err(Error::invalid(argument, reason))
 }

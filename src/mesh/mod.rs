@@ -267,6 +267,12 @@ impl Mesh {
         min.into_iter().chain(max).fold(0.0, |largest, x| largest.max(x.abs()))
     }
 
+    /// The spacing of floats at the largest coordinate.
+    pub(crate) fn float_spacing(&self) -> f64 {
+        let largest = self.largest_coordinate();
+        f64::from(largest) - f64::from(next_below(largest))
+    }
+
     /// The cross product of two edges: twice the area, along the normal.
     fn cross(&self, triangle: u32) -> DVec3 {
         let [a, b, c] = self.exact_corners(triangle);
