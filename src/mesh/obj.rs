@@ -10,7 +10,7 @@ use std::borrow::Cow;
 
 use tobj::LoadError::{FaceVertexOutOfBounds, InvalidPolygon};
 
-use crate::mesh::Soup;
+use crate::mesh::soup::Soup;
 use crate::mesh::text::{lines, number, words};
 
 /// What of a file is shown as vertices and faces.

@@ -11,7 +11,7 @@ use ply_rs_bw::ply::{
     ScalarType,
 };
 
-use crate::mesh::Soup;
+use crate::mesh::soup::Soup;
 use crate::mesh::text::{number, shown, words};
 
 /// Vertices, triangles and normals, or what is wrong with the file.

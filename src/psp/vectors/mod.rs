@@ -13,7 +13,7 @@ mod avx512;
 pub(super) fn append(vectors: Level, stack: &mut PointStack, places: &PointLanes, centre: [f32; 3], reach2: f32) {
     match vectors {
         Level::Portable => stack.append(places, centre, reach2),
-        // SAFETY: the variant says that the processor has the vectors.
+        // SAFETY: the token is proof that the processor has the instructions.
         #[cfg(target_arch = "x86_64")]
         Level::Avx2(_) => unsafe { avx2::append(stack, places, centre, reach2) },
         // SAFETY: the same.
@@ -33,7 +33,7 @@ pub(super) fn append_reaching(
     reach2: f32,
 ) {
     match vectors {
-        // SAFETY: the variant says that the processor has the vectors.
+        // SAFETY: the token is proof that the processor has the instructions.
         #[cfg(target_arch = "x86_64")]
         Level::Avx512(_) => unsafe { avx512::append_reaching(stack, from, to, centre, reach2) },
         // SAFETY: the same.
@@ -48,7 +48,7 @@ pub(super) fn append_reaching(
 pub(super) fn covered(vectors: Level, stack: &PointStack, from: usize, fragment: &LocalFragment) -> u16 {
     match vectors {
         Level::Portable => stack.covered(from, fragment),
-        // SAFETY: the variant says that the processor has the vectors.
+        // SAFETY: the token is proof that the processor has the instructions.
         #[cfg(target_arch = "x86_64")]
         Level::Avx2(_) => unsafe { avx2::covered(stack, from, fragment) },
         // SAFETY: the same.
@@ -68,7 +68,7 @@ pub(super) fn take_covered(
 ) {
     match vectors {
         Level::Portable => stack.take_covered(from, fragment, open),
-        // SAFETY: the variant says that the processor has the vectors.
+        // SAFETY: the token is proof that the processor has the instructions.
         #[cfg(target_arch = "x86_64")]
         Level::Avx2(_) => unsafe { avx2::take_covered(stack, from, fragment, open) },
         // SAFETY: the same.
@@ -82,7 +82,7 @@ pub(super) fn take_covered(
 pub(super) fn close(vectors: Level, places: &PointLanes, point: [f32; 3]) -> u8 {
     match vectors {
         Level::Portable => stack::close(places, point),
-        // SAFETY: the variant says that the processor has the vectors.
+        // SAFETY: the token is proof that the processor has the instructions.
         #[cfg(target_arch = "x86_64")]
         Level::Avx2(_) | Level::Avx512(_) => unsafe { avx2::close(places, point) },
     }
@@ -104,7 +104,7 @@ mod tests {
     #[test]
     fn all_vectors_give_the_same_bits() {
         let mut rng = Rng::at(3, Draw::Probe, &[]);
-        let (mut reaching, mut covered, mut open, mut closer) = (0, 0, 0, 0);
+        let mut counts = [0; 4];
         for round in 0..3000 {
             let mut coordinate = |size: f64| (size * (2.0 * rng.unit() - 1.0)) as f32;
             let pages: Vec<PointLanes> = (0..5)
@@ -130,14 +130,12 @@ mod tests {
             };
             let expected = all(Level::Portable);
             assert!(Level::available().into_iter().all(|vectors| all(vectors) == expected));
-            reaching += expected.0.len() - expected.1;
-            covered += expected.2.count_ones();
-            open += expected.3.iter().map(|open| open.count_ones()).sum::<u32>();
-            closer += expected.4.count_ones();
+            counts[0] += expected.0.len() - expected.1;
+            counts[1] += expected.2.count_ones() as usize;
+            counts[2] += expected.3.iter().map(|open| open.count_ones() as usize).sum::<usize>();
+            counts[3] += expected.4.count_ones() as usize;
         }
-        assert!(
-            reaching > 10_000 && covered > 3000 && open > 10_000 && closer > 1000,
-            "{reaching} {covered} {open} {closer}"
-        );
+        let [reaching, covered, open, closer] = counts;
+        assert!(reaching > 10_000 && covered > 3000 && open > 10_000 && closer > 1000, "{counts:?}");
     }
 }
