@@ -7,7 +7,7 @@ mod check;
 mod load;
 mod normals;
 mod obj;
-mod ply;
+pub mod ply;
 mod rounding;
 mod soup;
 mod stl;

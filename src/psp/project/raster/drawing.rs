@@ -48,11 +48,11 @@ impl<'a> Drawing<'a> {
             tiles,
             lattice,
             projector,
-            points: tile.points.iter().map(place).collect(),
+            points: tile.items().iter().map(place).collect(),
             corner: [0, 1].map(|axis| (corner[axis] + shift[axis] + reach) * units),
             per_unit: tiles.cells as f64 / (side * units),
             found: Vec::new(),
-            last: vec![NONE; tile.points.len()],
+            last: vec![NONE; tile.items().len()],
             tile,
         }
     }
@@ -101,8 +101,7 @@ impl<'a> Drawing<'a> {
         if columns.is_empty() {
             return 0..0;
         }
-        let [start, end] = [columns.start, columns.end].map(|column| usize::from(self.tile.starts[first + column]));
-        start..end
+        self.tile.range(first + columns.start..first + columns.end)
     }
 
     /// The hits by ray, `t` and triangle.

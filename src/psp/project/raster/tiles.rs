@@ -2,6 +2,7 @@
 //! triangle can cover in a row are neighbours in memory.
 
 use crate::error::Result;
+use crate::geometry::counting_sort::Binned;
 use crate::job::{Job, chunks_of};
 use crate::psp::buckets::Buckets;
 
@@ -22,14 +23,8 @@ pub(super) struct PatternTiles {
     tiles: Vec<PatternTile>,
 }
 
-/// A tile of the pattern.
-#[derive(Default)]
-pub(super) struct PatternTile {
-    /// Sorted by cells, row by row; in radii from the corner of the pattern.
-    pub points: Vec<[f32; 2]>,
-    /// Where the points of each cell begin, and where those of the last one end.
-    pub starts: Vec<u16>,
-}
+/// The points of a tile of the pattern by cells, row by row; in radii from the corner of the pattern.
+pub(super) type PatternTile = Binned<[f32; 2]>;
 
 impl PatternTiles {
     /// Sorts the points of a pattern of this side.
@@ -53,8 +48,8 @@ impl PatternTiles {
                     .map(|axis| index((f64::from(point[axis]) - corner[axis]).max(0.0) / tile_side * cells, cells));
                 row * cells as usize + column
             };
-            let points: Vec<_> = parts.items(part).copied().collect();
-            (number, PatternTile::new(&points, cells as usize * cells as usize, cell))
+            let points = parts.items(part).map(|point| (cell(point), *point));
+            (number, PatternTile::new(cells as usize * cells as usize, points))
         })?;
         let mut tiles: Vec<_> = (0..(count * count) as usize).map(|_| PatternTile::default()).collect();
         sorted.into_iter().for_each(|(number, tile)| tiles[number] = tile);
@@ -65,21 +60,5 @@ impl PatternTiles {
     pub fn get(&self, column: i32, row: i32) -> &PatternTile {
         let [column, row] = [column, row].map(|x| x.rem_euclid(self.count));
         &self.tiles[(row * self.count + column) as usize]
-    }
-}
-
-impl PatternTile {
-    /// Sorts points by their cells, of which there are so many.
-    fn new(points: &[[f32; 2]], cells: usize, cell: impl Fn(&[f32; 2]) -> usize) -> Self {
-        let mut starts = vec![0; cells + 1];
-        points.iter().for_each(|point| starts[cell(point) + 1] += 1);
-        (0..cells).for_each(|cell| starts[cell + 1] += starts[cell]);
-        let (mut next, mut sorted) = (starts.clone(), vec![[0.0; 2]; points.len()]);
-        for point in points {
-            let place = &mut next[cell(point)];
-            sorted[usize::from(*place)] = *point;
-            *place += 1;
-        }
-        Self { points: sorted, starts }
     }
 }
