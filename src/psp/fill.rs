@@ -18,8 +18,6 @@ use crate::rng::{Draw, Rng};
 /// The pieces that the search begins with, in radii: large enough to share their samples, small enough for
 /// [`Surroundings`].
 const PIECE: f64 = 4.0;
-/// How long, in radii, the sixteenths of a partly covered patch are, whose sixteenths in turn it tells apart.
-const FINE: f64 = 0.25;
 
 /// Counts of a fill, or of a part of it.
 #[derive(Default)]
@@ -54,7 +52,7 @@ fn fill_cube(
     pieces: &mut dyn Iterator<Item = &Fragment>,
 ) -> (Vec<Sample>, Filled) {
     let test = UniformCover::new(surroundings);
-    let mut search = PatchSearch { mesh, test, fine: FINE, finest: mesh.float_spacing() };
+    let mut search = PatchSearch { mesh, test, finest: mesh.float_spacing() };
     let mut patches = Vec::new();
     pieces.for_each(|piece| search.search(piece, &mut patches));
     let open_area = patches.iter().map(|patch| patch.open_area(mesh)).sum();

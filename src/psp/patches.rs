@@ -44,13 +44,14 @@ pub(super) trait CoverTest {
 
     /// Of the sixteenths of each sixteenth, a bit for each, takes those that a sample in the stack from `from` on certainly
     /// covers.
-    fn take_covered(&self, part: &Self::Part, from: usize, open: &mut [u16; 16]);
+    fn take_covered(&mut self, part: &Self::Part, from: usize, open: &mut [u16; 16]);
 
     /// The radius on a part.
     fn radius(&self, part: &Self::Part) -> Self::Radius;
 
-    /// What the parts of a part are measured by.
-    fn scale(&self, radius: Self::Radius) -> f64;
+    /// Whether a patch whose longest edge has this length is told apart by the sixteenths of its sixteenths, where it is
+    /// partly covered.
+    fn is_fine(&self, longest: f64, radius: Self::Radius) -> bool;
 
     /// How many samples have been added since the test was made.
     fn added(&self) -> usize;
@@ -101,9 +102,7 @@ impl<R> OpenPatch<R> {
 pub(super) struct PatchSearch<'a, T> {
     pub mesh: &'a Mesh,
     pub test: T,
-    /// Patches with some sixteenths covered are cut up until these are no longer than this share of the radius ...
-    pub fine: f64,
-    /// ... or the patch is no longer than this.
+    /// Patches no longer than this are cut up no more.
     pub finest: f64,
 }
 
@@ -155,8 +154,7 @@ impl<T: CoverTest> PatchSearch<'_, T> {
         uncovered: &mut Vec<OpenPatch<T::Radius>>,
     ) {
         let radius = self.test.radius(part);
-        let is_fine = longest <= 4.0 * self.fine * self.test.scale(radius);
-        let is_finest = longest <= self.finest;
+        let (is_fine, is_finest) = (self.test.is_fine(longest, radius), longest <= self.finest);
         let is_kept = |index: usize| open >> index & 1 == 1 && (is_fine || is_finest || open == u16::MAX);
         let parts = std::array::from_fn(|index| if is_kept(index) { u16::MAX } else { 0 });
         let mut patch = OpenPatch { fragment: *fragment, open: parts, longest, radius, seen: self.test.gathered() };

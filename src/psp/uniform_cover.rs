@@ -19,6 +19,9 @@ use crate::simd::Level;
 /// How far around a fragment samples are gathered, in radii, even if it needs less: its neighbours will need them too.
 const REACH: f32 = 2.5;
 
+/// How long, in radii, the sixteenths of a partly covered patch are, whose sixteenths in turn it tells apart.
+const FINE: f64 = 0.25;
+
 /// The samples in and around a cube, and those that are added to them.
 pub(super) struct UniformCover<'a> {
     surroundings: &'a mut Surroundings,
@@ -94,14 +97,14 @@ impl CoverTest for UniformCover<'_> {
         !vectors::covered(self.vectors, &self.stack, start, part)
     }
 
-    fn take_covered(&self, part: &LocalFragment, from: usize, open: &mut [u16; 16]) {
+    fn take_covered(&mut self, part: &LocalFragment, from: usize, open: &mut [u16; 16]) {
         vectors::take_covered(self.vectors, &self.stack, from, part, open);
     }
 
     fn radius(&self, _: &LocalFragment) {}
 
-    fn scale(&self, (): ()) -> f64 {
-        self.surroundings.radius()
+    fn is_fine(&self, longest: f64, (): ()) -> bool {
+        longest <= 4.0 * FINE * self.surroundings.radius()
     }
 
     fn added(&self) -> usize {
@@ -178,7 +181,7 @@ mod tests {
             let whole = Fragment::whole(0);
             let shape = whole.shape(&mesh);
             let test = UniformCover::new(&mut surroundings);
-            let mut search = PatchSearch { mesh: &mesh, test, fine: 0.1, finest: 0.0 };
+            let mut search = PatchSearch { mesh: &mesh, test, finest: 0.0 };
             let mut samples = Vec::new();
             for _ in 0..6 {
                 let position = std::array::from_fn(|_| (8.0 - 1.2 + 2.4 * rng.unit()) as f32);

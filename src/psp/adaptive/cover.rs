@@ -4,39 +4,31 @@
 //! is nearer to s than half the radius of s and half the least radius of the fragment, less the sixteenth's extent: then
 //! all of it is, whatever the radius is at its points.
 
-use glam::{DVec3, Vec3};
+use glam::DVec3;
 
 use crate::mesh::{Mesh, exact};
 use crate::psp::adaptive::field::{RadiusBounds, RadiusField};
 use crate::psp::adaptive::grids::{Dot, OctaveGrids};
 use crate::psp::adaptive::limits::Quota;
+use crate::psp::adaptive::outline::{Nearby, Outline};
+use crate::psp::adaptive::set::REACH;
+use crate::psp::adaptive::vectors;
 use crate::psp::fragment::{Fragment, Shape};
 use crate::psp::patches::CoverTest;
 use crate::psp::rain::Target;
 use crate::psp::samples::Sample;
-use crate::psp::sixteenths::SIXTEENTHS;
+use crate::psp::stack::{FAR, LANES, PointLanes};
+use crate::psp::vectors::close;
 use crate::rng::Rng;
+use crate::simd::Level;
 
-/// How much, as a share of the distances at hand, rounding can add to a distance, and some more.
-const SLACK: f64 = 1e-5;
+/// How long, in local radii, the sixteenths of a partly covered patch are, whose sixteenths in turn it tells apart.
+const FINE: f64 = 0.25;
 /// How much farther, in local radii, samples are gathered than a fragment needs: its neighbours will need them too.
 const SPARE: f64 = 1.0;
 /// At how many fragments a cube may look for each of its pieces and samples. Slopes of 1 take about a hundred, of 30 a
 /// thousand: a caller who states a far steeper one would wait for hours.
 const LOOKS: u64 = 1 << 12;
-
-/// The centres of the sixteenths as seen from the centre of the fragment, in edges, one axis after the other.
-const CENTRES: [[f32; 16]; 2] = {
-    let mut centres = [[0.0; 16]; 2];
-    let mut index = 0;
-    while index < 16 {
-        let [a, b, c] = SIXTEENTHS[index];
-        centres[0][index] = ((a[0] + b[0] + c[0]) / 12.0 - 1.0 / 3.0) as f32;
-        centres[1][index] = ((a[1] + b[1] + c[1]) / 12.0 - 1.0 / 3.0) as f32;
-        index += 1;
-    }
-    centres
-};
 
 /// A fragment, and the radius on it.
 #[derive(Clone, Copy)]
@@ -48,25 +40,20 @@ pub(super) struct GradedPart {
     origin: DVec3,
 }
 
-/// A sample near a fragment, in units of the test.
-#[derive(Clone, Copy, Default)]
-struct Nearby {
-    offset: Vec3,
-    /// Half of its radius, less what rounding can add to distances from it.
-    half: f32,
-}
-
 /// The samples in and around a cube, and those that are added to them.
 pub(super) struct GradedCover<'a> {
     mesh: &'a Mesh,
     field: &'a RadiusField<'a>,
     quota: &'a Quota,
     grids: &'a mut OctaveGrids,
-    /// Distances are computed in a unit that is about the radius.
+    /// Distances are computed in a unit that is about the radius, the end of the octave.
     per_unit: f64,
     /// At how many fragments it may still look.
     looks: u64,
+    /// The samples added, and where they are.
     added: Vec<Dot>,
+    places: Vec<PointLanes>,
+    level: Level,
     /// Where samples were gathered, how far around, for which normal, and how many were added before.
     centre: DVec3,
     reach: f64,
@@ -91,6 +78,8 @@ impl<'a> GradedCover<'a> {
             per_unit: 1.0 / unit,
             looks: 0,
             added: Vec::new(),
+            places: Vec::new(),
+            level: Level::widest(),
             centre: DVec3::ZERO,
             reach: f64::NEG_INFINITY,
             normal: [0.0; 3],
@@ -112,24 +101,29 @@ impl<'a> GradedCover<'a> {
         }
     }
 
-    /// The fragment that a part is, in units of the test.
-    fn outline(&self, shape: &Shape, bounds: RadiusBounds, origin: DVec3) -> Outline {
-        let scaled = |vector: DVec3| (vector * self.per_unit).as_vec3();
-        let half = |radius: f64| (0.5 * radius * self.per_unit) as f32;
-        Outline {
-            centre: scaled(shape.centre - origin),
-            edges: [1, 2].map(|corner| scaled(shape.corners[corner] - shape.corners[0])),
-            extent: (shape.extent * self.per_unit) as f32,
-            least: half(bounds.least),
-            largest: half(bounds.largest),
-        }
+    /// A part in units of the test.
+    fn outline(&self, part: &GradedPart) -> Outline {
+        Outline::new(&part.shape, part.bounds, part.origin, self.per_unit)
     }
-}
 
-/// A sample as it is seen from `offset` away, where distances are up to `reach` and half of its radius.
-fn nearby(offset: DVec3, radius: f64, reach: f64, per_unit: f64) -> Nearby {
-    let half = 0.5 * radius - SLACK * (reach + 0.5 * radius);
-    Nearby { offset: (offset * per_unit).as_vec3(), half: (half * per_unit) as f32 }
+    /// Pushes the samples in the stack from `from` on that can reach a fragment.
+    fn push_reaching(&mut self, outline: &Outline, from: usize) {
+        // All are copied, and those that reach it overwrite the others: a branch would be a guess.
+        let (start, mut end) = (self.stack.len(), self.stack.len());
+        self.stack.resize(2 * start - from, Nearby::default());
+        for index in from..start {
+            let sample = self.stack[index];
+            self.stack[end] = sample;
+            end += usize::from(outline.is_reached_by(&sample));
+        }
+        self.stack.truncate(end);
+    }
+
+    /// A point as seen from the first sample that was added, in units beyond which no such sample reaches a fragment.
+    fn place(&self, point: DVec3) -> [f32; 3] {
+        let first = self.added.first().map_or(point, |dot| exact(dot.position));
+        ((point - first) * (self.per_unit / REACH)).as_vec3().to_array()
+    }
 }
 
 impl CoverTest for GradedCover<'_> {
@@ -151,7 +145,7 @@ impl CoverTest for GradedCover<'_> {
             self.stack.clear();
             let (stack, per_unit, reach) = (&mut self.stack, self.per_unit, self.reach);
             self.grids.near(self.centre, reach, normal, |offset, radius| {
-                stack.push(nearby(offset, radius, reach, per_unit));
+                stack.push(Nearby::new(offset, radius, reach, per_unit));
             });
         }
         GradedPart { fragment, shape, bounds, origin: self.centre }
@@ -166,10 +160,16 @@ impl CoverTest for GradedCover<'_> {
     ) -> GradedPart {
         let (origin, reach) = (shape.centre, 0.5 * bounds.largest + shape.extent);
         let normal = self.mesh.normal(fragment.triangle);
-        for dot in &self.added[known..] {
-            let (offset, limit) = (exact(dot.position) - origin, reach + 0.5 * dot.radius);
-            if offset.length_squared() <= limit * limit && self.grids.rule.sees(dot.normal, normal) {
-                self.stack.push(nearby(offset, dot.radius, reach, self.per_unit));
+        let place = self.place(shape.centre);
+        for (lanes, dots) in self.places.iter().zip(self.added.chunks(LANES)).skip(known / LANES) {
+            let mut near = close(self.level, lanes, place);
+            while near != 0 {
+                let dot = &dots[near.trailing_zeros() as usize];
+                let (offset, limit) = (exact(dot.position) - origin, reach + 0.5 * dot.radius);
+                if offset.length_squared() <= limit * limit && self.grids.rule.sees(dot.normal, normal) {
+                    self.stack.push(Nearby::new(offset, dot.radius, reach, self.per_unit));
+                }
+                near &= near - 1;
             }
         }
         GradedPart { fragment, shape, bounds, origin }
@@ -185,33 +185,27 @@ impl CoverTest for GradedCover<'_> {
         if self.field.has_failed() {
             return 0;
         }
-        let outline = self.outline(&part.shape, part.bounds, part.origin);
-        // All are copied, and those that reach it overwrite the others: a branch would be a guess.
-        let (start, mut end) = (self.stack.len(), self.stack.len());
-        self.stack.resize(2 * start - from, Nearby::default());
-        for index in from..start {
-            let sample = self.stack[index];
-            self.stack[end] = sample;
-            end += usize::from(outline.is_reached_by(&sample));
-        }
-        self.stack.truncate(end);
-        outline.open_sixteenths(self.stack[start..].iter())
+        let (outline, start) = (self.outline(part), self.stack.len());
+        self.push_reaching(&outline, from);
+        vectors::open_sixteenths(self.level, &outline, &self.stack[start..])
     }
 
-    fn take_covered(&self, part: &GradedPart, from: usize, open: &mut [u16; 16]) {
+    fn take_covered(&mut self, part: &GradedPart, from: usize, open: &mut [u16; 16]) {
+        let start = self.stack.len();
+        self.push_reaching(&self.outline(part), from);
         for (index, open) in open.iter_mut().enumerate().filter(|(_, open)| **open != 0) {
-            let outline = self.outline(&part.shape.sixteenth(index), part.bounds, part.origin);
-            let reaching = self.stack[from..].iter().filter(|sample| outline.is_reached_by(sample));
-            *open &= outline.open_sixteenths(reaching);
+            let outline = self.outline(&GradedPart { shape: part.shape.sixteenth(index), ..*part });
+            *open &= vectors::open_sixteenths(self.level, &outline, &self.stack[start..]);
         }
+        self.stack.truncate(start);
     }
 
     fn radius(&self, part: &GradedPart) -> RadiusBounds {
         part.bounds
     }
 
-    fn scale(&self, bounds: RadiusBounds) -> f64 {
-        bounds.scale()
+    fn is_fine(&self, longest: f64, bounds: RadiusBounds) -> bool {
+        longest + (bounds.largest - bounds.least) <= 4.0 * FINE * bounds.scale()
     }
 
     fn added(&self) -> usize {
@@ -256,6 +250,11 @@ impl Target for GradedCover<'_> {
             return false;
         }
         self.grids.add(dot);
+        let (place, lane) = (self.place(exact(dot.position)), self.added.len() % LANES);
+        if lane == 0 {
+            self.places.push([[FAR; LANES]; 3]);
+        }
+        (0..3).for_each(|axis| self.places[self.added.len() / LANES][axis][lane] = place[axis]);
         self.added.push(dot);
         self.quota.take(1);
         self.allow_looks();
@@ -267,52 +266,11 @@ impl Target for GradedCover<'_> {
     }
 }
 
-/// A fragment in units of the test, and half of the radii on it.
-struct Outline {
-    centre: Vec3,
-    edges: [Vec3; 2],
-    extent: f32,
-    least: f32,
-    largest: f32,
-}
-
-impl Outline {
-    /// Whether a sample can cover a point of the fragment.
-    fn is_reached_by(&self, sample: &Nearby) -> bool {
-        let limit = self.largest + self.extent + sample.half;
-        (sample.offset - self.centre).length_squared() <= limit * limit
-    }
-
-    /// The sixteenths that none of these samples certainly covers.
-    fn open_sixteenths<'a>(&self, samples: impl Iterator<Item = &'a Nearby>) -> u16 {
-        let [e, f] = self.edges;
-        // By how much the squared distance is above its limit, at the sample for which this is least.
-        let mut excess = [f32::INFINITY; 16];
-        for sample in samples {
-            let offset = sample.offset - self.centre;
-            let limit = self.least + sample.half - 0.25 * self.extent;
-            // Where the limit is small against the fragment the difference of the squares would be nothing but rounding.
-            let limit = if limit > 0.25 * self.extent { limit * limit } else { f32::NEG_INFINITY };
-            let (squared, a, b) = (offset.length_squared() - limit, -2.0 * offset.dot(e), -2.0 * offset.dot(f));
-            for i in 0..16 {
-                let above = squared + (a * CENTRES[0][i] + b * CENTRES[1][i]);
-                excess[i] = if above < excess[i] { above } else { excess[i] };
-            }
-        }
-        let (ee, ef, ff) = (e.length_squared(), 2.0 * e.dot(f), f.length_squared());
-        let mut open = 0;
-        for i in 0..16 {
-            let (s, t) = (CENTRES[0][i], CENTRES[1][i]);
-            open |= u16::from(excess[i] + (s * s * ee + s * t * ef + t * t * ff) >= 0.0) << i;
-        }
-        open
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::psp::adaptive::grids::ConflictRule;
+    use crate::psp::adaptive::outline::SLACK;
     use crate::psp::adaptive::radius::Radius;
     use crate::rng::{Draw, Rng};
 

@@ -5,9 +5,9 @@ use crate::job::Job;
 use crate::mesh::Mesh;
 use crate::psp::adaptive::cover::GradedCover;
 use crate::psp::adaptive::field::RadiusField;
-use crate::psp::adaptive::grids::{ConflictRule, OctaveGrids, end_of_octave};
+use crate::psp::adaptive::grids::{ConflictRule, end_of_octave};
 use crate::psp::adaptive::limits::Quota;
-use crate::psp::adaptive::set::{AdaptiveSet, OctaveCube};
+use crate::psp::adaptive::set::AdaptiveSet;
 use crate::psp::fragment::{Fragment, Shape};
 use crate::psp::patches::PatchSearch;
 use crate::psp::pieces::pieces;
@@ -17,8 +17,6 @@ use crate::rng::{Draw, Rng};
 
 /// The pieces that the search begins with, in local radii.
 const PIECE: f64 = 2.0;
-/// How long, in local radii, the sixteenths of a partly covered patch are, whose sixteenths in turn it tells apart.
-const FINE: f64 = 0.25;
 
 /// A maximal set, and how many darts it took.
 pub(super) fn fill(
@@ -43,7 +41,8 @@ pub(super) fn fill(
     quota.check(field.argument())?;
     let darts = set.grow(&job.part(0.2, 1.0), mesh, rule, &pieces, |cube, grids, pieces| {
         let field = field.apart();
-        let rained = fill_cube(mesh, &field, quota, seed, cube, grids, pieces);
+        let test = GradedCover::new(mesh, &field, quota, grids, end_of_octave(cube.octave));
+        let rained = fill_cube(mesh, test, Rng::at(seed, Draw::Adaptive, &cube.key()), pieces);
         field.check()?;
         quota.check(field.argument()).map(|()| (rained.accepted, rained.darts))
     })?;
@@ -53,19 +52,15 @@ pub(super) fn fill(
 /// The samples that a cube needs to be covered, with their radii, and how many darts that took.
 fn fill_cube(
     mesh: &Mesh,
-    field: &RadiusField,
-    quota: &Quota,
-    seed: u64,
-    cube: OctaveCube,
-    grids: &mut OctaveGrids,
+    test: GradedCover,
+    rng: Rng,
     pieces: &mut dyn Iterator<Item = &Fragment>,
 ) -> Rained<(Sample, f64)> {
-    let test = GradedCover::new(mesh, field, quota, grids, end_of_octave(cube.octave));
-    let mut search = PatchSearch { mesh, test, fine: FINE, finest: mesh.float_spacing() };
+    let mut search = PatchSearch { mesh, test, finest: mesh.float_spacing() };
     let mut patches = Vec::new();
     pieces.for_each(|piece| {
         search.test.allow_looks();
         search.search(piece, &mut patches);
     });
-    rain(search, patches, Rng::at(seed, Draw::Adaptive, &cube.key()))
+    rain(search, patches, rng)
 }

@@ -21,9 +21,12 @@ mod fill;
 mod grids;
 mod limits;
 mod options;
+mod outline;
 mod radius;
 mod sample;
 mod set;
+#[allow(unsafe_code)] // Vector instructions.
+mod vectors;
 
 pub use options::Options;
 pub use radius::{Radius, RadiusFunction};
