@@ -29,10 +29,15 @@ impl ConflictRule {
         0.5 * (1.0 + 1e-14) * (a + b)
     }
 
+    /// Whether normals matter at all.
+    pub fn asks_normals(self) -> bool {
+        self.cosine > -1.0
+    }
+
     /// Whether two samples with these normals matter to each other. Those of one triangle do: the square of a rounded
     /// normal can be below a cosine of 1, and a triangle would be sampled without end.
     pub fn sees(self, a: [f32; 3], b: [f32; 3]) -> bool {
-        self.cosine <= -1.0 || a == b || exact(a).dot(exact(b)) >= self.cosine
+        !self.asks_normals() || a == b || exact(a).dot(exact(b)) >= self.cosine
     }
 
     fn conflict(self, a: &Dot, b: &Dot) -> bool {

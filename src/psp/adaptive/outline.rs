@@ -85,12 +85,16 @@ impl Outline {
                 excess[i] = if above < excess[i] { above } else { excess[i] };
             }
         }
+        if excess[0] == f32::INFINITY {
+            return u16::MAX;
+        }
         let (ee, ef, ff) = (e.length_squared(), 2.0 * e.dot(f), f.length_squared());
-        let mut open = 0;
+        let mut open = [0; 16];
         for i in 0..16 {
             let (s, t) = (CENTRES[0][i], CENTRES[1][i]);
-            open |= u16::from(excess[i] + (s * s * ee + s * t * ef + t * t * ff) >= 0.0) << i;
+            let is_open = excess[i] + (s * s * ee + s * t * ef + t * t * ff) >= 0.0;
+            open[i] = if is_open { 1u32 << i } else { 0 };
         }
-        open
+        open.iter().fold(0, |all, bit| all | bit) as u16
     }
 }
