@@ -144,16 +144,16 @@ impl PointStack {
     }
 }
 
-/// Which of some points may be closer than 1 to a point: a bit for each.
-pub(super) fn close(places: &PointLanes, point: [f32; 3]) -> u8 {
-    let mut close = 0;
+/// Which of some points are no farther than the square root of `reach2` from a point: a bit for each.
+pub(super) fn within(places: &PointLanes, point: [f32; 3], reach2: f32) -> u8 {
+    let mut within = 0;
     for (lane, offset) in offsets(places, point).enumerate() {
-        close |= u8::from(square(offset) <= 1.0 + SLACK) << lane;
+        within |= u8::from(square(offset) <= reach2) << lane;
     }
-    close
+    within
 }
 
-/// PointLanes as seen from a point.
+/// Places as seen from a point.
 fn offsets(places: &PointLanes, from: [f32; 3]) -> impl Iterator<Item = [f32; 3]> {
     (0..LANES).map(move |lane| [0, 1, 2].map(|axis| places[axis][lane] - from[axis]))
 }

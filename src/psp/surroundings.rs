@@ -5,7 +5,7 @@ use glam::{DVec3, Vec3A};
 use crate::geometry::grid3::distance_squared;
 use crate::mesh::exact;
 use crate::psp::cubes::{Cube, SIDE};
-use crate::psp::stack::{FAR, LANES, PointLanes, PointStack};
+use crate::psp::stack::{FAR, LANES, PointLanes, PointStack, SLACK};
 use crate::psp::vectors;
 use crate::simd::Level;
 
@@ -112,7 +112,7 @@ impl Surroundings {
         let place = self.place(exact(point));
         let squared = self.radius * self.radius;
         self.any_page(place, 1.0, |page| {
-            let mut close = vectors::close(self.vectors, &page.places, place);
+            let mut close = vectors::within(self.vectors, &page.places, place, 1.0 + SLACK);
             while close != 0 {
                 let other = page.points[close.trailing_zeros() as usize];
                 if distance_squared(point, self.points[usize::from(other)]) < squared {

@@ -10,15 +10,15 @@ use crate::mesh::{Mesh, exact};
 use crate::psp::adaptive::field::{RadiusBounds, RadiusField};
 use crate::psp::adaptive::grids::{Dot, OctaveGrids};
 use crate::psp::adaptive::limits::Quota;
-use crate::psp::adaptive::outline::{Nearby, Outline};
-use crate::psp::adaptive::set::REACH;
+use crate::psp::adaptive::outline::{Nearby, Outline, SLACK};
+use crate::psp::adaptive::set::HALF;
 use crate::psp::adaptive::vectors;
 use crate::psp::fragment::{Fragment, Shape};
 use crate::psp::patches::CoverTest;
 use crate::psp::rain::Target;
 use crate::psp::samples::Sample;
 use crate::psp::stack::{FAR, LANES, PointLanes};
-use crate::psp::vectors::close;
+use crate::psp::vectors::within;
 use crate::simd::Level;
 
 /// How long, in local radii, the sixteenths of a partly covered patch are, whose sixteenths in turn it tells apart.
@@ -125,10 +125,10 @@ impl<'a> GradedCover<'a> {
         self.stack.truncate(end);
     }
 
-    /// A point as seen from the first sample that was added, in units beyond which no such sample reaches a fragment.
+    /// A point as seen from the first sample that was added, in units of the test.
     fn place(&self, point: DVec3) -> [f32; 3] {
         let first = self.added.first().map_or(point, |dot| exact(dot.position));
-        ((point - first) * (self.per_unit / REACH)).as_vec3().to_array()
+        ((point - first) * self.per_unit).as_vec3().to_array()
     }
 }
 
@@ -165,9 +165,9 @@ impl CoverTest for GradedCover<'_> {
     ) -> GradedPart {
         let (origin, reach) = (shape.centre, 0.5 * bounds.largest + shape.extent);
         let normal = self.normal(fragment.triangle);
-        let place = self.place(shape.centre);
+        let (place, farthest) = (self.place(shape.centre), (1.0 + SLACK) * (reach * self.per_unit + HALF));
         for (lanes, dots) in self.places.iter().zip(self.added.chunks(LANES)).skip(known / LANES) {
-            let mut near = close(self.level, lanes, place);
+            let mut near = within(self.level, lanes, place, (farthest * farthest) as f32);
             while near != 0 {
                 let dot = &dots[near.trailing_zeros() as usize];
                 let (offset, limit) = (exact(dot.position) - origin, reach + 0.5 * dot.radius);
@@ -196,17 +196,17 @@ impl CoverTest for GradedCover<'_> {
     }
 
     fn take_covered(&mut self, part: &GradedPart, from: usize, open: &mut [u16; 16]) {
-        let start = self.stack.len();
-        self.push_reaching(&self.outline(part), from);
+        let (outline, start) = (self.outline(part), self.stack.len());
+        self.push_reaching(&outline, from);
         let is_flat = part.bounds.largest - part.bounds.least <= FLAT * part.bounds.scale();
         for (index, open) in open.iter_mut().enumerate().filter(|(_, open)| **open != 0) {
             let sixteenth = if is_flat {
-                GradedPart { shape: part.shape.sixteenth(index), ..*part }
+                outline.sixteenth(index)
             } else {
-                self.sixteenth(part, index)
+                let part = self.sixteenth(part, index);
+                self.outline(&part)
             };
-            let outline = self.outline(&sixteenth);
-            *open &= vectors::open_sixteenths(self.level, &outline, &self.stack[start..]);
+            *open &= vectors::open_sixteenths(self.level, &sixteenth, &self.stack[start..]);
         }
         self.stack.truncate(start);
     }
@@ -241,9 +241,9 @@ impl Target for GradedCover<'_> {
     /// A sample and its radius.
     type Dart = (Sample, f64);
 
-    /// It rains as densely as samples will stand.
+    /// It rains as densely as samples will stand: this is the mean of 1 / radius² where the radius grows evenly.
     fn density(&self, bounds: RadiusBounds) -> f64 {
-        1.0 / (bounds.middle() * bounds.middle())
+        1.0 / (bounds.least * bounds.largest)
     }
 
     fn dart(&self, sample: Sample, bounds: RadiusBounds) -> (Sample, f64) {
@@ -276,7 +276,6 @@ impl Target for GradedCover<'_> {
 mod tests {
     use super::*;
     use crate::psp::adaptive::grids::ConflictRule;
-    use crate::psp::adaptive::outline::SLACK;
     use crate::psp::adaptive::radius::Radius;
     use crate::rng::{Draw, Rng};
 

@@ -4,7 +4,7 @@ use glam::{DVec3, Vec3};
 
 use crate::psp::adaptive::field::RadiusBounds;
 use crate::psp::fragment::Shape;
-use crate::psp::sixteenths::SIXTEENTHS;
+use crate::psp::sixteenths::{SIXTEENTHS, STANDING};
 
 /// How much, as a share of the distances at hand, rounding can add to a distance, and some more.
 pub(super) const SLACK: f64 = 1e-5;
@@ -58,6 +58,17 @@ impl Outline {
             extent: (shape.extent * per_unit) as f32,
             least: half(bounds.least),
             largest: half(bounds.largest),
+        }
+    }
+
+    /// One of the sixteen parts, with the same radii.
+    pub fn sixteenth(&self, index: usize) -> Self {
+        let share = if index < STANDING { 0.25 } else { -0.25 };
+        Self {
+            centre: self.centre + (CENTRES[0][index] * self.edges[0] + CENTRES[1][index] * self.edges[1]),
+            edges: self.edges.map(|edge| share * edge),
+            extent: 0.25 * self.extent,
+            ..*self
         }
     }
 

@@ -27,9 +27,7 @@ const SIDE: f64 = 16.0;
 const OVERHANG: f64 = 4.0 / 3.0;
 /// Half of the radius of a sample, in the same unit, and some more: rounding can bring it above the radii of its piece by
 /// at most a quarter of these (see `radius.rs`).
-const HALF: f64 = 0.64;
-/// How far the centre of a fragment of a cube can be from a sample of the cube that covers some of it, in the same unit.
-pub(super) const REACH: f64 = OVERHANG + 0.5 + HALF;
+pub(super) const HALF: f64 = 0.64;
 
 /// A cube of an octave.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

@@ -142,9 +142,9 @@ pub fn take_covered(stack: &PointStack, from: usize, fragment: &LocalFragment, o
     }
 }
 
-/// [`stack::close`](crate::psp::stack::close).
+/// [`stack::within`](crate::psp::stack::within).
 #[target_feature(enable = "avx2")]
-pub fn close([x, y, z]: &PointLanes, point: [f32; 3]) -> u8 {
-    let limit = _mm256_set1_ps(1.0 + SLACK);
-    _mm256_movemask_ps(_mm256_cmp_ps::<_CMP_LE_OQ>(square(offsets([x, y, z], point)), limit)) as u8
+pub fn within([x, y, z]: &PointLanes, point: [f32; 3], reach2: f32) -> u8 {
+    let squares = square(offsets([x, y, z], point));
+    _mm256_movemask_ps(_mm256_cmp_ps::<_CMP_LE_OQ>(squares, _mm256_set1_ps(reach2))) as u8
 }

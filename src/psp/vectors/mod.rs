@@ -77,14 +77,14 @@ pub(super) fn take_covered(
     }
 }
 
-/// [`stack::close`].
+/// [`stack::within`].
 #[inline]
-pub(super) fn close(vectors: Level, places: &PointLanes, point: [f32; 3]) -> u8 {
+pub(super) fn within(vectors: Level, places: &PointLanes, point: [f32; 3], reach2: f32) -> u8 {
     match vectors {
-        Level::Portable => stack::close(places, point),
+        Level::Portable => stack::within(places, point, reach2),
         // SAFETY: the token is proof that the processor has the instructions.
         #[cfg(target_arch = "x86_64")]
-        Level::Avx2(_) | Level::Avx512(_) => unsafe { avx2::close(places, point) },
+        Level::Avx2(_) | Level::Avx512(_) => unsafe { avx2::within(places, point, reach2) },
     }
 }
 
@@ -126,7 +126,7 @@ mod tests {
                 let covered = covered(vectors, &stack, end, &fragment);
                 let mut open = std::array::from_fn(|index| [u16::MAX, 0, 0x1234][(index + round) % 3]);
                 take_covered(vectors, &stack, end / 2, &fragment, &mut open);
-                (points(&stack), end, covered, open, close(vectors, &pages[0], centre))
+                (points(&stack), end, covered, open, within(vectors, &pages[0], centre, 1.0))
             };
             let expected = all(Level::Portable);
             assert!(Level::available().into_iter().all(|vectors| all(vectors) == expected));
