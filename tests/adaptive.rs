@@ -136,11 +136,18 @@ fn radii_larger_than_the_mesh_give_one_sample() {
     let (low, high) = torus.bounds();
     let diagonal = (0..3).map(|axis| f64::from(high[axis] - low[axis]).powi(2)).sum::<f64>().sqrt();
     let [large, cut] = [1e38, 3.999 * diagonal].map(|large| radii(&torus, |[x, ..]| if x > 1.2 { large } else { 0.2 }));
-    let set = check_vertices(&torus, &cut);
-    assert!(set.samples.len() > 100);
-    let set = sample(&torus, &Options::new(Radius::PerVertex(&large)));
-    assert_eq!(oracle::conflict(&set.samples, &set.radii, -1.0), None);
-    assert!(set.samples.len() > 100 && set.radii.iter().all(|&radius| radius <= 4.001 * diagonal));
+    let mut most = [0; 2];
+    for seed in 0..10 {
+        let options = |radii| Options::new(Radius::PerVertex(radii)).seed(seed);
+        let set = check_all(&torus, &options(&cut), &Field::PerVertex(&cut));
+        most[0] = most[0].max(set.samples.len());
+        let set = sample(&torus, &options(&large));
+        assert_eq!(oracle::conflict(&set.samples, &set.radii, -1.0), None);
+        assert!(set.radii.iter().all(|&radius| radius <= 4.001 * diagonal));
+        most[1] = most[1].max(set.samples.len());
+    }
+    // Mostly the first sample is so large that it stands alone.
+    assert!(most.into_iter().all(|samples| samples > 100), "{most:?}");
 }
 
 #[test]
