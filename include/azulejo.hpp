@@ -1,18 +1,19 @@
-// azulejo for C++17: azulejo.h with owners instead of handles, arrays and points as C++ programs have
-// them, and options that start with their defaults. Header only; copy it beside azulejo.h.
+// azulejo for C++17: azulejo.h with owners instead of handles, arrays and points as C++ programs
+// have them, and options that start with their defaults. Header only; copy it beside azulejo.h.
 //
-// The units, ranges, errors and thread rules of a call are documented in azulejo.h under the name of
-// the C function, which each comment here gives.
+// The units, ranges, errors and thread rules of a call are documented in azulejo.h under the name
+// of the C function, which each comment here gives.
 //
-// Errors. Every call that can fail has two forms. try_kdrt_sample(.., out) returns a Status and writes
-//   `out` on success only; kdrt_sample(..) returns the result and throws an Error. Programs that are
-//   compiled without exceptions, or with AZULEJO_NO_EXCEPTIONS defined, have the first form only.
+// Errors. Every call that can fail has two forms. try_kdrt_sample(.., out) returns a Status and
+//   writes `out` on success only; kdrt_sample(..) returns the result and throws an Error. Programs
+//   that are compiled without exceptions, or with AZULEJO_NO_EXCEPTIONS defined, have the first
+//   form only.
 //
 // Callbacks are std::functions. An exception that leaves one stops the call, and leaves the call in
 //   both of its forms. A callback must not throw where AZULEJO_NO_EXCEPTIONS is defined.
 //
-// Sections: status, arrays, owners, points, places and domains, options, reports, context, mesh, psp,
-//   samplers, relaxation, analysis, the throwing forms.
+// Sections: status, arrays, owners, points, places and domains, options, reports, context, mesh,
+//   psp, samplers, relaxation, analysis, the throwing forms.
 
 #ifndef AZULEJO_HPP
 #define AZULEJO_HPP
@@ -154,8 +155,9 @@ private:
 
 // ---- Owners ------------------------------------------------------------------------------------
 
-/// Owns a C handle, or none. Owners can be moved, not copied; one that was moved from or made without
-/// arguments holds NULL (but see Context), with which accessors return 0 or nothing and calls fail.
+/// Owns a C handle, or none. Owners can be moved, not copied; one that was moved from or made
+/// without arguments holds NULL (but see Context), with which accessors return 0 or nothing and
+/// calls fail.
 template <class C, void (*free)(C *)>
 class Owner {
 public:
@@ -275,8 +277,8 @@ public:
     Tuples(const Container &container) noexcept {
         constexpr bool is_tuple = detail::is_tuple<Element, T, width>;
         static_assert(is_tuple || std::is_same_v<Element, T>,
-                      "an element must be a number of the right type, or a standard-layout type that "
-                      "consists of as many of them as are needed");
+                      "an element must be a number of the right type, or a standard-layout type "
+                      "that consists of as many of them as are needed");
         data_ = reinterpret_cast<const T *>(std::data(container));
         size_ = is_tuple ? std::size(container) : std::size(container) / width;
         rest_ = is_tuple ? 0 : std::size(container) % width;
@@ -294,8 +296,8 @@ public:
     /// The number of tuples.
     constexpr std::size_t size() const noexcept { return size_; }
 
-    /// Refuses samples of another dimension and numbers that do not add up to tuples, by the name of
-    /// the argument.
+    /// Refuses samples of another dimension and numbers that do not add up to tuples, by the name
+    /// of the argument.
     Status check(const char *argument) const {
         if (dimension_ != width) {
             return refusal(argument, "the set has " + std::to_string(dimension_) +
@@ -327,8 +329,8 @@ using SpacePoints = Tuples<float, 3>;
 /// Triangles, three indices each: numbers or triples.
 using Triangles = Tuples<std::uint32_t, 3>;
 
-/// The vertices or normals of a mesh, which belong to the caller: what SpacePoints can be made of, or
-/// a member of larger vertices.
+/// The vertices or normals of a mesh, which belong to the caller: what SpacePoints can be made of,
+/// or a member of larger vertices.
 class Vertices {
 public:
     template <class Source,
@@ -343,7 +345,8 @@ public:
     template <class Container, class Vertex, class Member>
     Vertices(const Container &vertices, Member Vertex::*member) noexcept
         : stride_(sizeof(detail::Element<Container>)) {
-        static_assert(detail::is_tuple<Member, float, 3>, "the member must consist of three floats");
+        static_assert(detail::is_tuple<Member, float, 3>,
+                      "the member must consist of three floats");
         static_assert(std::is_base_of_v<Vertex, detail::Element<Container>>,
                       "the member must be one of the container's elements");
         if (std::size(vertices) != 0) {
@@ -407,8 +410,9 @@ public:
                                                          (std::is_arithmetic_v<Numbers> && ...)>>
     constexpr Coordinates(Numbers... numbers) noexcept : values_{static_cast<double>(numbers)...} {}
 
-    template <class P, class = std::enable_if_t<detail::tuple_size<P> != 0 || detail::is_indexed<P> ||
-                                                detail::is_named<P, width>>>
+    template <class P,
+              class = std::enable_if_t<detail::tuple_size<P> != 0 || detail::is_indexed<P> ||
+                                       detail::is_named<P, width>>>
     constexpr Coordinates(const P &place) {
         constexpr std::size_t known = std::is_array_v<P> ? std::extent_v<P> : detail::tuple_size<P>;
         static_assert(known == 0 || known == width, "a place with another number of coordinates");
@@ -462,8 +466,8 @@ struct PlaneSet {
 
 // ---- Callbacks ---------------------------------------------------------------------------------
 
-/// Called on the calling thread with the completed share of the call, from 0 to 1; returns whether to
-/// go on. See azulejo_progress_fn.
+/// Called on the calling thread with the completed share of the call, from 0 to 1; returns whether
+/// to go on. See azulejo_progress_fn.
 using Progress = std::function<bool(double done)>;
 
 /// Called on the calling thread with some of the samples, which are valid until it returns; returns
@@ -634,8 +638,9 @@ public:
     // Cannot fail: the struct has the size that this header gives it.
     Options() noexcept : C() { (void)init(this, sizeof(C)); }
 
-    /// Sets `progress` and `progress_user`; an empty function unsets them. Copies share the function,
-    /// which must be safe to call from all threads that use them. It lives as long as one of them.
+    /// Sets `progress` and `progress_user`; an empty function unsets them. Copies share the
+    /// function, which must be safe to call from all threads that use them. It lives as long as one
+    /// of them.
     void set_progress(Progress function) {
         progress_ = function ? std::make_shared<Progress>(std::move(function)) : nullptr;
         this->progress = progress_ ? &detail::tell : nullptr;
@@ -683,8 +688,8 @@ public:
         vertex_count = radii.size();
     }
 
-    /// Sets `radius` and `radius_user`; an empty function unsets them. Copies share it as set_progress
-    /// says.
+    /// Sets `radius` and `radius_user`; an empty function unsets them. Copies share it as
+    /// set_progress says.
     void set_radius(RadiusFunction function) {
         function_ = function ? std::make_shared<Function>(std::move(function)) : nullptr;
         radius = function_ ? &detail::Field<3>::call : nullptr;
@@ -753,13 +758,14 @@ public:
         return detail::make(out, [&](auto **c) { return azulejo_context_create(num_threads, c); });
     }
 
-    /// A context with the same threads whose calls report to this function, unless their options have
-    /// one: plane_measure(context.watch(..), ..). See azulejo_context_watch. An empty function watches
-    /// nothing.
+    /// A context with the same threads whose calls report to this function, unless their options
+    /// have one: plane_measure(context.watch(..), ..). See azulejo_context_watch. An empty function
+    /// watches nothing.
     Status try_watch(Progress function, Context &out) const {
         auto progress = function ? std::make_shared<Progress>(std::move(function)) : nullptr;
         Status status = detail::make(out, [&](auto **c) {
-            return azulejo_context_watch(get(), progress ? &detail::tell : nullptr, progress.get(), c);
+            return azulejo_context_watch(get(), progress ? &detail::tell : nullptr, progress.get(),
+                                         c);
         });
         if (status.ok()) out.progress_ = std::move(progress);
         return status;
@@ -802,25 +808,28 @@ public:
 
     /// An OBJ, PLY or STL file; see azulejo_mesh_load.
     static Status try_load(const std::string &path, Mesh &out) {
-        return detail::make(out, [&](auto **mesh) { return azulejo_mesh_load(path.c_str(), mesh); });
+        return detail::make(out, [&](auto **m) { return azulejo_mesh_load(path.c_str(), m); });
     }
 
     /// Triangles of an RTCScene of the caller's; see azulejo_mesh_create_from_embree.
     static Status try_from_embree(void *scene, Span<const azulejo_embree_geometry> geometries,
                                   Mesh &out) {
         return detail::make(out, [&](auto **mesh) {
-            return azulejo_mesh_create_from_embree(scene, geometries.data(), geometries.size(), mesh);
+            return azulejo_mesh_create_from_embree(scene, geometries.data(), geometries.size(),
+                                                   mesh);
         });
     }
 
-    /// This mesh with normals: one for each vertex, or named by three indices for each triangle; see
-    /// azulejo_mesh_with_normals.
-    Status try_with_normals(const Vertices &normals, const Triangles &normal_indices, Mesh &out) const {
+    /// This mesh with normals: one for each vertex, or named by three indices for each triangle;
+    /// see azulejo_mesh_with_normals.
+    Status try_with_normals(const Vertices &normals, const Triangles &normal_indices,
+                            Mesh &out) const {
         if (Status s = normals.check("normals"); !s.ok()) return s;
         if (Status s = normal_indices.check("normal_indices"); !s.ok()) return s;
         return detail::make(out, [&](auto **mesh) {
-            return azulejo_mesh_with_normals(get(), normals.data(), normals.size(), normals.stride(),
-                                             normal_indices.data(), normal_indices.size(), mesh);
+            return azulejo_mesh_with_normals(get(), normals.data(), normals.size(),
+                                             normals.stride(), normal_indices.data(),
+                                             normal_indices.size(), mesh);
         });
     }
 
@@ -872,7 +881,9 @@ public:
     /// See azulejo_mesh_triangle_count.
     std::size_t triangle_count() const noexcept { return azulejo_mesh_triangle_count(get()); }
     /// x y z of each vertex; see azulejo_mesh_positions.
-    Positions positions() const noexcept { return {azulejo_mesh_positions(get()), vertex_count(), 3}; }
+    Positions positions() const noexcept {
+        return {azulejo_mesh_positions(get()), vertex_count(), 3};
+    }
     /// Three vertices for each triangle; see azulejo_mesh_indices.
     Span<const std::uint32_t> indices() const noexcept {
         return {azulejo_mesh_indices(get()), 3 * triangle_count()};
@@ -883,8 +894,8 @@ public:
 
 // ---- Psp ---------------------------------------------------------------------------------------
 
-/// A set of samples on a mesh that grows; see azulejo_psp. It keeps what it needs of the context, the
-/// mesh and the options, with their progress functions.
+/// A set of samples on a mesh that grows; see azulejo_psp. It keeps what it needs of the context,
+/// the mesh and the options, with their progress functions.
 class Psp : public Owner<azulejo_psp, azulejo_psp_free> {
 public:
     using Owner::Owner;
@@ -961,8 +972,8 @@ inline Status try_kdrt_sample(const Context &context, const KdrtOptions &options
 inline Status try_kdrt_sample_window(const Context &context, const KdrtOptions &options,
                                      const Pair &window_min, const Pair &window_max, Points &out) {
     return detail::make(out, [&](auto **points) {
-        return azulejo_kdrt_sample_window(context.get(), &options, window_min.data(), window_max.data(),
-                                          points);
+        return azulejo_kdrt_sample_window(context.get(), &options, window_min.data(),
+                                          window_max.data(), points);
     });
 }
 
@@ -987,11 +998,11 @@ struct KdrtMergePiece {
     Pair max;
 };
 
-/// Merges sets on rectangles that do not overlap, and points that must stay, into one maximal set; see
-/// azulejo_kdrt_merge.
+/// Merges sets on rectangles that do not overlap, and points that must stay, into one maximal set;
+/// see azulejo_kdrt_merge.
 inline Status try_kdrt_merge(const Context &context, const KdrtMergeOptions &options,
-                             Span<const KdrtMergePiece> pieces, const PlanePoints &fixed, Points &out,
-                             KdrtMergeReport *report = nullptr) {
+                             Span<const KdrtMergePiece> pieces, const PlanePoints &fixed,
+                             Points &out, KdrtMergeReport *report = nullptr) {
     std::vector<azulejo_kdrt_merge_piece> c_pieces;
     for (const auto &[xy, min, max] : pieces) {
         if (Status s = xy.check("xy"); !s.ok()) return s;
@@ -1005,7 +1016,8 @@ inline Status try_kdrt_merge(const Context &context, const KdrtMergeOptions &opt
 }
 
 /// The unbiased reference, which is slow; see azulejo_maximal_sample.
-inline Status try_maximal_sample(const Context &context, const MaximalOptions &options, Points &out) {
+inline Status try_maximal_sample(const Context &context, const MaximalOptions &options,
+                                 Points &out) {
     return detail::make(out, [&](auto **points) {
         return azulejo_maximal_sample(context.get(), &options, points);
     });
@@ -1035,7 +1047,7 @@ inline Status try_psp_adaptive_sample(const Context &context, const Mesh &mesh,
     return detail::make(out, [&](auto **points) { return field.after(sample(c_options, points)); });
 }
 
-// ---- Relaxation: `report` may be null; a call that is cancelled succeeds, as the report says -------
+// ---- Relaxation: `report` may be null; a cancelled call succeeds, as the report says -----------
 
 namespace detail {
 
@@ -1062,8 +1074,8 @@ Status with_density(const Density &density, Points &out, Call call) {
 } // namespace detail
 
 /// Relaxes points of the plane; see azulejo_dcr_relax.
-inline Status try_dcr_relax(const Context &context, const DcrOptions &options, const PlanePoints &xy,
-                            Points &out, DcrReport *report = nullptr) {
+inline Status try_dcr_relax(const Context &context, const DcrOptions &options,
+                            const PlanePoints &xy, Points &out, DcrReport *report = nullptr) {
     if (Status s = xy.check("xy"); !s.ok()) return s;
     return detail::make(out, [&](auto **points) {
         return azulejo_dcr_relax(context.get(), &options, xy.data(), xy.size(), points, report);
@@ -1084,8 +1096,8 @@ inline Status try_dcr_relax_density(const Context &context, const DcrOptions &op
                                     DcrReport *report = nullptr) {
     if (Status s = xy.check("xy"); !s.ok()) return s;
     return detail::with_density(density, out, [&](const azulejo_density *wanted, auto **points) {
-        return azulejo_dcr_relax_density(context.get(), &options, wanted, xy.data(), xy.size(), points,
-                                         report);
+        return azulejo_dcr_relax_density(context.get(), &options, wanted, xy.data(), xy.size(),
+                                         points, report);
     });
 }
 
@@ -1100,7 +1112,8 @@ inline Status try_dcr_surface_relax(const Context &context, const Mesh &mesh,
     if (barycentrics.size() != triangles.size()) {
         return Status(AZULEJO_ERROR_INVALID_ARGUMENT,
                       "triangles: there are " + std::to_string(triangles.size()) +
-                          ", and barycentrics of " + std::to_string(barycentrics.size()) + " samples");
+                          ", and barycentrics of " + std::to_string(barycentrics.size()) +
+                          " samples");
     }
     return detail::make(out, [&](auto **points) {
         return azulejo_dcr_surface_relax(context.get(), mesh.get(), &options, triangles.data(),
@@ -1113,8 +1126,8 @@ inline Status try_dcr_surface_relax(const Context &context, const Mesh &mesh,
                                     const DcrSurfaceOptions &options, const Points &samples,
                                     Points &out, DcrSurfaceReport *report = nullptr) {
     if (Status s = SpacePoints(samples).check("samples"); !s.ok()) return s;
-    return try_dcr_surface_relax(context, mesh, options, samples.triangles(), samples.barycentrics(),
-                                 out, report);
+    return try_dcr_surface_relax(context, mesh, options, samples.triangles(),
+                                 samples.barycentrics(), out, report);
 }
 
 // ---- Analysis ----------------------------------------------------------------------------------
@@ -1155,9 +1168,11 @@ std::vector<const typename Owner::Handle *> handles(Span<const Owner> owners) {
 } // namespace detail
 
 /// See azulejo_plane_smallest_distance.
-inline Status try_plane_smallest_distance(const Context &context, const PlaneSet &set, double &out) {
-    return detail::measured(
-        set, [&](const auto *s) { return azulejo_plane_smallest_distance(context.get(), s, &out); });
+inline Status try_plane_smallest_distance(const Context &context, const PlaneSet &set,
+                                          double &out) {
+    return detail::measured(set, [&](const auto *s) {
+        return azulejo_plane_smallest_distance(context.get(), s, &out);
+    });
 }
 
 /// See azulejo_plane_covering_radius.
@@ -1191,8 +1206,9 @@ inline Status try_plane_nearest_histogram(const Context &context, const PlaneSet
 }
 
 /// See azulejo_plane_radial_distribution.
-inline Status try_plane_radial_distribution(const Context &context, const PlaneSet &set, double reach,
-                                            std::size_t bins, std::vector<double> &out) {
+inline Status try_plane_radial_distribution(const Context &context, const PlaneSet &set,
+                                            double reach, std::size_t bins,
+                                            std::vector<double> &out) {
     std::vector<double> density(std::min(bins, detail::most_bins));
     Status status = detail::measured(set, [&](const auto *s) {
         return azulejo_plane_radial_distribution(context.get(), s, reach, bins, density.data());
@@ -1206,7 +1222,8 @@ inline Status try_space_smallest_distance(const Context &context, const SpacePoi
                                           double &out) {
     if (Status s = positions.check("positions"); !s.ok()) return s;
     return detail::run([&] {
-        return azulejo_space_smallest_distance(context.get(), positions.data(), positions.size(), &out);
+        return azulejo_space_smallest_distance(context.get(), positions.data(), positions.size(),
+                                               &out);
     });
 }
 
@@ -1222,8 +1239,8 @@ inline Status try_mesh_uncovered_fraction(const Context &context, const Mesh &me
 }
 
 /// See azulejo_mesh_coverage.
-inline Status try_mesh_coverage(const Context &context, const Mesh &mesh, const SpacePoints &positions,
-                                double radius, CoverageReport &out) {
+inline Status try_mesh_coverage(const Context &context, const Mesh &mesh,
+                                const SpacePoints &positions, double radius, CoverageReport &out) {
     if (Status s = positions.check("positions"); !s.ok()) return s;
     return detail::run([&] {
         return azulejo_mesh_coverage(context.get(), mesh.get(), positions.data(), positions.size(),
@@ -1271,7 +1288,8 @@ public:
     }
 
 #ifndef AZULEJO_NO_EXCEPTIONS
-    Spectrum(const Context &context, const PlaneSet &set, std::uint32_t size, std::uint32_t stride = 1) {
+    Spectrum(const Context &context, const PlaneSet &set, std::uint32_t size,
+             std::uint32_t stride = 1) {
         check(try_create(context, set, size, stride, *this));
     }
 
@@ -1310,8 +1328,8 @@ public:
 
     /// See azulejo_differences_create.
     static Status try_create(const Context &context, const Mesh &mesh, const SpacePoints &positions,
-                             const SpacePoints &normals, const Triple &direction, std::uint64_t seed,
-                             Differences &out) {
+                             const SpacePoints &normals, const Triple &direction,
+                             std::uint64_t seed, Differences &out) {
         if (Status s = positions.check("positions"); !s.ok()) return s;
         if (Status s = normals.check("normals"); !s.ok()) return s;
         if (normals.size() != positions.size()) {
@@ -1321,8 +1339,8 @@ public:
         }
         return detail::make(out, [&](auto **differences) {
             return azulejo_differences_create(context.get(), mesh.get(), positions.data(),
-                                              normals.data(), positions.size(), direction.data(), seed,
-                                              differences);
+                                              normals.data(), positions.size(), direction.data(),
+                                              seed, differences);
         });
     }
 
@@ -1337,7 +1355,8 @@ public:
     /// See azulejo_differences_power.
     Status try_power(Span<const double> frequencies, std::vector<double> &out) const {
         std::vector<double> power(frequencies.size());
-        Status status(azulejo_differences_power(get(), frequencies.data(), power.size(), power.data()));
+        Status status(
+            azulejo_differences_power(get(), frequencies.data(), power.size(), power.data()));
         if (status.ok()) out = std::move(power);
         return status;
     }
@@ -1374,7 +1393,7 @@ public:
     }
 };
 
-// ---- The throwing forms: each does what its try_ function says -----------------------------------
+// ---- The throwing forms: each does what its try_ function says ---------------------------------
 
 #ifndef AZULEJO_NO_EXCEPTIONS
 
@@ -1392,7 +1411,8 @@ inline Points kdrt_sample_window(const Context &context, const KdrtOptions &opti
     return points;
 }
 
-inline void kdrt_stream(const Context &context, const KdrtOptions &options, const KdrtVisitor &visit) {
+inline void kdrt_stream(const Context &context, const KdrtOptions &options,
+                        const KdrtVisitor &visit) {
     check(try_kdrt_stream(context, options, visit));
 }
 
@@ -1447,7 +1467,8 @@ inline Points dcr_relax_density(const Context &context, const DcrOptions &option
 }
 
 inline Points dcr_surface_relax(const Context &context, const Mesh &mesh,
-                                const DcrSurfaceOptions &options, Span<const std::uint32_t> triangles,
+                                const DcrSurfaceOptions &options,
+                                Span<const std::uint32_t> triangles,
                                 const Tuples<float, 2> &barycentrics,
                                 DcrSurfaceReport *report = nullptr) {
     Points points;
@@ -1487,8 +1508,9 @@ inline PlaneReport plane_measure(const Context &context, const PlaneSet &set) {
     return report;
 }
 
-inline std::vector<std::uint64_t> plane_nearest_histogram(const Context &context, const PlaneSet &set,
-                                                          double reach, std::size_t bins) {
+inline std::vector<std::uint64_t> plane_nearest_histogram(const Context &context,
+                                                          const PlaneSet &set, double reach,
+                                                          std::size_t bins) {
     std::vector<std::uint64_t> histogram;
     check(try_plane_nearest_histogram(context, set, reach, bins, histogram));
     return histogram;

@@ -1,5 +1,5 @@
-// azulejo.hpp: callbacks, how long they live, and what they throw. The options of C++ keep their functions when they are
-// handed to C; a context that is watched tells of the calls whose options have no function.
+// azulejo.hpp: callbacks, how long they live, and what they throw. The options of C++ keep their functions when they
+// are handed to C; a watched context reports the calls whose options have no function.
 
 #include <array>
 #include <cstring>
@@ -128,7 +128,7 @@ void options_in_c() {
     CHECK(azulejo::psp_adaptive_sample(context, mesh, adaptive).size() > 100);
 }
 
-// A context that is watched tells of calls without options, and of those whose options have no function.
+// A watched context reports calls without options, and those whose options have no function.
 void watching() {
     azulejo::Context watched(nullptr);
     std::vector<double> told;
@@ -163,7 +163,7 @@ void watching() {
     azulejo_context_free(released);
 }
 
-// A psp handle goes on telling the function of a context that is gone.
+// A psp handle keeps the function of a context that is gone.
 void watching_a_handle() {
     int calls = 0;
     bool throwing = false;
@@ -183,7 +183,8 @@ void watching_a_handle() {
     CHECK(psp.fill().samples > 100);
 }
 
-// What a callback throws belongs to the call that it stopped: calls within callbacks, and on other threads, have their own.
+// What a callback throws belongs to the call that it stopped: calls within callbacks and on other threads have their
+// own.
 void apart() {
     const azulejo::Context context(2);
     azulejo::KdrtOptions inner, outer;
