@@ -99,7 +99,7 @@
 #define AZULEJO_VERSION_MAJOR 0
 
 /// The minor version of this header. It changes when something is added; before 1.0 also when programs must be changed.
-#define AZULEJO_VERSION_MINOR 1
+#define AZULEJO_VERSION_MINOR 2
 
 /// The patch level of this header.
 #define AZULEJO_VERSION_PATCH 0
@@ -115,10 +115,10 @@
 
 /// Where two candidates of an iteration are too close, that one comes first that its projector faces more squarely: the
 /// default, which finds more samples. Existing samples come before all candidates.
-#define AZULEJO_ORDER_SQUARENESS 0
+#define AZULEJO_PRIORITY_SQUARENESS 0
 
 /// The candidate of the earlier projector comes first, as in the thesis (§3.3.2). Existing samples come before all.
-#define AZULEJO_ORDER_PROJECTOR 1
+#define AZULEJO_PRIORITY_PROJECTOR 1
 
 /// Embree's ray packets find where patterns meet the mesh: the default.
 #define AZULEJO_ENGINE_EMBREE 0
@@ -136,7 +136,7 @@
 
 /// Neighbours in conflict push each other away, holes pull their borders in, points have momentum, and long waves of the
 /// density are removed: the default.
-#define AZULEJO_METHOD_BEST 0
+#define AZULEJO_METHOD_MOMENTUM 0
 
 /// The algorithm of thesis chapter 4.
 #define AZULEJO_METHOD_THESIS 1
@@ -171,7 +171,7 @@
 /// smaller the step, the earlier that happens; in sets of a few hundred points it may never.
 #define AZULEJO_CONVERGENCE_VARIANCE 1
 
-/// The motion came to its end, or there was nothing to move. With AZULEJO_METHOD_BEST and Delaunay neighbours no points are
+/// The motion came to its end, or there was nothing to move. With AZULEJO_METHOD_MOMENTUM and Delaunay neighbours no points are
 /// closer than 0.85 d_max then, nor a circumradius above 0.67 d_max, up to the last step.
 #define AZULEJO_STOPPED_CONVERGED 0
 
@@ -231,14 +231,47 @@ typedef struct azulejo_spectrum azulejo_spectrum;
 /// What a call answers: AZULEJO_OK or a negative AZULEJO_ERROR_ code. Codes are never reused; new ones may come.
 typedef int32_t azulejo_status;
 
-/// Called now and then during a long call, on the thread that made it. See "Progress" in the conventions.
+/// Called now and then during a long call, on the thread that made it. See "Progress" at the top.
 ///
 /// user: the progress_user of the options or of azulejo_context_watch.
 ///
-/// done: the finished share of the call, from 0 to 1; it never falls.
+/// done: the fraction of the call that is done, from 0 to 1; it never decreases.
 ///
-/// Returns 0 to go on, anything else to cancel.
+/// Returns 0 to go on, anything else to cancel the call.
 typedef int32_t (*azulejo_progress_fn)(void *user, double done);
+
+/// Points of the plane and their domain, for the calls that measure them.
+typedef struct azulejo_plane_set {
+    /// The size of the caller's struct in bytes; set by the init function.
+    uint32_t struct_size;
+    /// An AZULEJO_BOUNDARY_ constant; periodic by default.
+    int32_t boundary;
+    /// The points, x y each, in domain_min <= x < domain_max. NULL, the default, if there are none.
+    const float *positions;
+    /// The number of points; 0 by default.
+    size_t count;
+    /// The lower corner of the domain, x y; 0 0 by default.
+    double domain_min[2];
+    /// The upper corner of the domain, above the lower one on both axes; 1 1 by default.
+    double domain_max[2];
+} azulejo_plane_set;
+
+/// What azulejo_kdrt_sample achieved.
+typedef struct azulejo_kdrt_report {
+    /// The size of the caller's struct in bytes; set by the init function.
+    uint32_t struct_size;
+    /// 1 if the set is maximal for `radius`, else 0.
+    uint32_t is_maximal;
+    /// The number of samples: the count, if there was one.
+    uint64_t samples;
+    /// The radius: that of the options, or the one that was found for the count. No two samples are closer.
+    double radius;
+    /// The covering radius: the farthest that any place of the domain is from all samples, as
+    /// azulejo_plane_covering_radius measures it.
+    double coverage;
+    /// Wall time, without the measuring of `coverage`.
+    double seconds;
+} azulejo_kdrt_report;
 
 /// Options of azulejo_kdrt_sample, azulejo_kdrt_sample_with_report, azulejo_kdrt_sample_window and azulejo_kdrt_stream.
 typedef struct azulejo_kdrt_options {
@@ -264,25 +297,12 @@ typedef struct azulejo_kdrt_options {
     void *progress_user;
     /// How many samples there shall be, exactly; 0, the default, takes as many as the radius gives. Windows and streams
     /// need a radius.
-    uint64_t count;
+    size_t count;
+    /// 1: azulejo_kdrt_sample measures the `coverage` of its report. 0, the default: it does not.
+    uint32_t measure_coverage;
+    /// Must be 0.
+    uint32_t reserved;
 } azulejo_kdrt_options;
-
-/// What a call achieved.
-typedef struct azulejo_kdrt_report {
-    /// The number of samples: the count, if there was one.
-    uint64_t samples;
-    /// The radius: that of the options, or the one that was found for the count. No two samples are closer.
-    double radius;
-    /// The covering radius: the farthest that any place of the domain is from all samples, as
-    /// azulejo_plane_covering_radius measures it.
-    double coverage;
-    /// Wall time, without the measuring of `coverage`.
-    double seconds;
-    /// 1 if the set is maximal for `radius`, else 0.
-    int32_t is_maximal;
-    /// Zeros, for later versions.
-    uint32_t reserved[7];
-} azulejo_kdrt_report;
 
 /// Called with a part of a set of samples, on the thread that made the call. What holds for progress callbacks holds
 /// for it too: it may call the library, and must return.
@@ -292,7 +312,7 @@ typedef struct azulejo_kdrt_report {
 /// xy: the samples, x y each, until the callback returns; `count` of them, at least one.
 ///
 /// Returns 0 to go on, anything else to cancel.
-typedef int32_t (*azulejo_kdrt_window_fn)(void *user, const float *xy, size_t count);
+typedef int32_t (*azulejo_kdrt_visit_fn)(void *user, const float *xy, size_t count);
 
 /// Options of azulejo_maximal_sample.
 typedef struct azulejo_maximal_options {
@@ -315,7 +335,7 @@ typedef struct azulejo_maximal_options {
 } azulejo_maximal_options;
 
 /// Options of azulejo_kdrt_merge.
-typedef struct azulejo_merge_options {
+typedef struct azulejo_kdrt_merge_options {
     /// The size of the caller's struct in bytes; set by the init function.
     uint32_t struct_size;
     /// An AZULEJO_BOUNDARY_ constant; periodic by default.
@@ -332,11 +352,26 @@ typedef struct azulejo_merge_options {
     azulejo_progress_fn progress;
     /// Handed to the progress callback.
     void *progress_user;
-} azulejo_merge_options;
+} azulejo_kdrt_merge_options;
+
+/// What became of the samples of the pieces. The result has first the fixed points, then those kept, then the inserted
+/// ones.
+typedef struct azulejo_kdrt_merge_report {
+    /// The size of the caller's struct in bytes; set by the init function.
+    uint32_t struct_size;
+    /// 0.
+    uint32_t reserved;
+    /// Samples of the pieces that are in the result.
+    uint64_t kept;
+    /// Samples of the pieces that are not.
+    uint64_t eliminated;
+    /// New samples.
+    uint64_t inserted;
+} azulejo_kdrt_merge_report;
 
 /// A set of samples that was made by itself, such as by azulejo_kdrt_sample on a bounded domain or by
 /// azulejo_kdrt_sample_window. It has no struct_size and never grows.
-typedef struct azulejo_merge_piece {
+typedef struct azulejo_kdrt_merge_piece {
     /// The samples, x y each, in min <= x < max, no two of them closer than the radius; read during the call only. Any
     /// floats will do, and they need not be maximal. NULL if there are none.
     const float *xy;
@@ -346,20 +381,7 @@ typedef struct azulejo_merge_piece {
     double min[2];
     /// The upper corner, above the lower one on both axes.
     double max[2];
-} azulejo_merge_piece;
-
-/// What became of the samples of the pieces. The result has first the fixed points, then those kept, then the inserted
-/// ones.
-typedef struct azulejo_merge_report {
-    /// Samples of the pieces that are in the result.
-    uint64_t kept;
-    /// Samples of the pieces that are not.
-    uint64_t eliminated;
-    /// New samples.
-    uint64_t inserted;
-    /// Zeros, for later versions.
-    uint32_t reserved[10];
-} azulejo_merge_report;
+} azulejo_kdrt_merge_piece;
 
 /// A geometry of triangles in a scene of the caller's. Embree does not tell the sizes of its buffers: the caller does.
 typedef struct azulejo_embree_geometry {
@@ -390,21 +412,25 @@ typedef struct azulejo_psp_options {
     uint64_t seed;
     /// 1, the default: azulejo_psp_sample fills all gaps. 0: it stops after the iterations, as the thesis does, with
     /// some per cent of the surface uncovered.
-    int32_t maximal;
+    uint32_t maximal;
+    /// An AZULEJO_PRIORITY_ constant; by squareness by default.
+    int32_t priority;
+    /// An AZULEJO_ENGINE_ constant; Embree by default.
+    int32_t engine;
     /// Must be 0.
     uint32_t reserved;
     /// Called during the calls, unless NULL, which is the default. A psp handle keeps it for all its calls.
     azulejo_progress_fn progress;
     /// Handed to the progress callback.
     void *progress_user;
-    /// An AZULEJO_ORDER_ constant; by squareness by default.
-    int32_t order;
-    /// An AZULEJO_ENGINE_ constant; Embree by default.
-    int32_t engine;
 } azulejo_psp_options;
 
 /// What a call did.
 typedef struct azulejo_psp_report {
+    /// The size of the caller's struct in bytes; set by the init function.
+    uint32_t struct_size;
+    /// The iterations of projection that it made.
+    uint32_t iterations;
     /// The samples of the set after the call.
     uint64_t samples;
     /// The samples that the call added.
@@ -422,10 +448,6 @@ typedef struct azulejo_psp_report {
     uint64_t conflicts;
     /// Wall time.
     double seconds;
-    /// The iterations of projection that it made.
-    uint32_t iterations;
-    /// Zero, for later versions.
-    uint32_t reserved;
     /// The part of the time in which patterns and, for Embree, the scene were made: in the first iteration of a set.
     double prepare_seconds;
     /// The part of the time in which the hits were found.
@@ -458,8 +480,8 @@ typedef struct azulejo_psp_report {
 /// Returns the radius, from `smallest` to `largest`.
 typedef double (*azulejo_radius_fn)(void *user, const double *position);
 
-/// Options of azulejo_psp_sample_adaptive. Either `vertex_radii` or `radius` is to be set.
-typedef struct azulejo_adaptive_options {
+/// Options of azulejo_psp_adaptive_sample. Either `vertex_radii` or `radius` is to be set.
+typedef struct azulejo_psp_adaptive_options {
     /// The size of the caller's struct in bytes; set by the init function.
     uint32_t struct_size;
     /// Must be 0.
@@ -495,7 +517,28 @@ typedef struct azulejo_adaptive_options {
     azulejo_progress_fn progress;
     /// Handed to the progress callback.
     void *progress_user;
-} azulejo_adaptive_options;
+} azulejo_psp_adaptive_options;
+
+/// What a relaxation did.
+typedef struct azulejo_dcr_report {
+    /// The size of the caller's struct in bytes; set by the init function.
+    uint32_t struct_size;
+    /// The steps made.
+    uint32_t iterations;
+    /// Why no more steps were made: an AZULEJO_STOPPED_ constant.
+    int32_t stopped;
+    /// 0.
+    uint32_t reserved;
+    /// Half of how far points got, root mean square, in units of d_max: over the last 10 steps, or with
+    /// AZULEJO_METHOD_THESIS over the last steps whose sizes add up to 2, which is the same for small and large steps.
+    double motion;
+    /// The smallest distance between two of the points, in the units of the domain; infinite for less than two points.
+    double smallest_distance;
+    /// The smallest distance in units of d_max: 0.77 for a maximal set, at most 1 on a periodic domain.
+    double rho;
+    /// The largest distance of a place in the domain from the points, in units of d_max; infinite for no point.
+    double coverage;
+} azulejo_dcr_report;
 
 /// Options of azulejo_dcr_relax. Radii are in units of d_max = sqrt(2 * area / (sqrt(3) * count)), the distance of
 /// neighbours if the same number of points stood in hexagonal arrangement.
@@ -510,63 +553,40 @@ typedef struct azulejo_dcr_options {
     double domain_max[2];
     /// An AZULEJO_NEIGHBOURHOOD_ constant; Delaunay by default.
     int32_t neighbourhood;
-    /// The largest number of steps, 100 by default, which is what AZULEJO_METHOD_BEST takes; AZULEJO_METHOD_THESIS may
+    /// An AZULEJO_METHOD_ constant; momentum by default.
+    int32_t method;
+    /// The largest number of steps, 100 by default, which is what AZULEJO_METHOD_MOMENTUM takes; AZULEJO_METHOD_THESIS may
     /// take 1000. 0 returns the points as they are. Fewer are made where the motion ends before.
     uint32_t max_iterations;
+    /// Must be 0.
+    uint32_t reserved;
     /// Parts points that coincide; used for nothing else.
     uint64_t seed;
-    /// Neighbours closer than this repel each other; above 0, at most 1; 0.95 by default. Plays a part in
-    /// AZULEJO_METHOD_THESIS only, as all fields from here to `distribution` but for `tolerance`, and `visits`,
-    /// `convergence` and `decay`.
+    /// The motion (see the report) at which the set has converged. 0 makes all steps; a negative number, the default,
+    /// takes 0.0005, or with AZULEJO_METHOD_THESIS 0.02 for Delaunay and 0.005 for nearest neighbours.
+    double tolerance;
+    /// Called during the call, unless NULL, which is the default.
+    azulejo_progress_fn progress;
+    /// Handed to the progress callback.
+    void *progress_user;
+    /// Neighbours closer than this repel each other; above 0, at most 1; 0.95 by default.
     double conflict_radius;
     /// Delaunay neighbours farther apart than this attract each other; at least conflict_radius; 1.05 by default.
     double attraction_radius;
     /// The displacement by a tension of 1; above 0, at most 1; 0.05 by default.
     double step;
-    /// The motion (see the report) at which the set has converged. 0 makes all steps; a negative number, the default,
-    /// takes 0.0005, or with AZULEJO_METHOD_THESIS 0.02 for Delaunay and 0.005 for nearest neighbours.
-    double tolerance;
+    /// What `step` is multiplied with after every step; above 0, at most 1; 1 by default. All steps together are no longer
+    /// than step / (1 - decay): about 10 are needed from a random start.
+    double decay;
     /// How many neighbours AZULEJO_NEIGHBOURHOOD_NEAREST takes; at least 1; 6 by default.
     uint32_t neighbours;
     /// An AZULEJO_DISTRIBUTION_ constant (thesis figure 4.19); by activeness by default.
     int32_t distribution;
-    /// Called during the call, unless NULL, which is the default.
-    azulejo_progress_fn progress;
-    /// Handed to the progress callback.
-    void *progress_user;
-    /// An AZULEJO_METHOD_ constant; the best by default.
-    int32_t method;
-    /// 0.
-    uint32_t reserved;
     /// An AZULEJO_VISITS_ constant; from both ends by default.
     int32_t visits;
     /// An AZULEJO_CONVERGENCE_ constant; by motion by default.
     int32_t convergence;
-    /// What `step` is multiplied with after every step; above 0, at most 1; 1 by default. All steps together are no longer
-    /// than step / (1 - decay): about 10 are needed from a random start.
-    double decay;
 } azulejo_dcr_options;
-
-/// What a relaxation did.
-typedef struct azulejo_dcr_report {
-    /// The steps made.
-    uint32_t iterations;
-    /// 1 if the set converged, or there was nothing to move, before the steps came to their end; else 0.
-    int32_t converged;
-    /// Half of how far points got, root mean square, in units of d_max: over the last 10 steps, or with
-    /// AZULEJO_METHOD_THESIS over the last steps whose sizes add up to 2, which is the same for small and large steps.
-    double motion;
-    /// The smallest distance between two of the points, in the units of the domain; infinite for less than two points.
-    double smallest_distance;
-    /// The smallest distance in units of d_max: 0.77 for a maximal set, at most 1 on a periodic domain.
-    double rho;
-    /// The largest distance of a place in the domain from the points, in units of d_max; infinite for no point.
-    double coverage;
-    /// Why no more steps were made: an AZULEJO_STOPPED_ constant.
-    int32_t stopped;
-    /// Zeros, for later versions.
-    uint32_t reserved[5];
-} azulejo_dcr_report;
 
 /// Gives the density at a place.
 ///
@@ -604,7 +624,7 @@ typedef struct azulejo_density {
     void *user;
 } azulejo_density;
 
-/// Options of azulejo_dcr_relax_surface. d_max = sqrt(2 * area / (sqrt(3) * count)) is the distance of neighbours if the
+/// Options of azulejo_dcr_surface_relax. d_max = sqrt(2 * area / (sqrt(3) * count)) is the distance of neighbours if the
 /// samples stood in hexagonal arrangement on a plane of the mesh's area.
 typedef struct azulejo_dcr_surface_options {
     /// The size of the caller's struct in bytes; set by the init function.
@@ -625,10 +645,14 @@ typedef struct azulejo_dcr_surface_options {
 
 /// What a relaxation on a surface did.
 typedef struct azulejo_dcr_surface_report {
+    /// The size of the caller's struct in bytes; set by the init function.
+    uint32_t struct_size;
     /// The steps made.
     uint32_t iterations;
     /// Why no more steps were made: an AZULEJO_STOPPED_ constant.
     int32_t stopped;
+    /// 0.
+    uint32_t reserved;
     /// Half of how far samples got over the last 10 steps, root mean square, in units of d_max.
     double motion;
     /// The smallest straight distance between two of the samples, whether or not they are near on the surface, which is no
@@ -637,24 +661,28 @@ typedef struct azulejo_dcr_surface_report {
     /// The smallest distance in units of d_max: 0.77 for a maximal set; for a relaxed one 0.85 on the bunny, 0.84 on the dragon,
     /// and less, 0.75, where there are thin blades: parts nearer to each other than samples are.
     double rho;
-    /// Zeros, for later versions.
-    uint32_t reserved[6];
 } azulejo_dcr_surface_report;
 
 /// How a set covers a domain or a surface with disks of a radius. See azulejo_plane_coverage, azulejo_mesh_coverage.
-typedef struct azulejo_coverage {
+typedef struct azulejo_coverage_report {
+    /// The size of the caller's struct in bytes; set by the init function.
+    uint32_t struct_size;
+    /// 0.
+    uint32_t reserved;
     /// The covering radius: the distance from the samples of the place that is farthest from all of them. Infinite for no
     /// sample.
     double covering_radius;
     /// The number of gaps; 0 for a set that is maximal for the radius.
     uint64_t gaps;
-    /// Zeros, for later versions.
-    uint64_t reserved[2];
-} azulejo_coverage;
+} azulejo_coverage_report;
 
 /// The figures of a set of the plane. The unit d_max is sqrt(2 area / (sqrt(3) count)), the distance of neighbours if as
 /// many points stood in hexagonal arrangement.
 typedef struct azulejo_plane_report {
+    /// The size of the caller's struct in bytes; set by the init function.
+    uint32_t struct_size;
+    /// 0.
+    uint32_t reserved;
     /// The number of points.
     uint64_t count;
     /// The smallest distance between two points, in the units of the domain; infinite for less than two, as the mean is.
@@ -688,25 +716,14 @@ typedef struct azulejo_plane_report {
     double angles_below_30_degrees;
     /// The share of triangles whose area is farther than 4 standard deviations from the mean, 0 to 1.
     double beyond_4_sigma;
-    /// Zeros, for later versions.
-    uint64_t reserved[9];
 } azulejo_plane_report;
-
-/// The frequencies of about one length: a point of the radial curves.
-typedef struct azulejo_annulus {
-    /// The mean length of its frequencies, in units of sqrt(density).
-    double frequency;
-    /// The mean power: the radial mean; 1 for a Poisson process.
-    double power;
-    /// The variance of the power over its squared mean. The spectrum of one isotropic set has 1 (0 dB), the mean of n has
-    /// 1/n; directions that stand out give more.
-    double anisotropy;
-    /// The number of its frequencies, not counting a frequency and its opposite twice; at least 2.
-    uint64_t count;
-} azulejo_annulus;
 
 /// The figures of a spectrum.
 typedef struct azulejo_spectrum_report {
+    /// The size of the caller's struct in bytes; set by the init function.
+    uint32_t struct_size;
+    /// 0.
+    uint32_t reserved;
     /// The distance of neighbouring columns and rows, in units of sqrt(density).
     double frequency_step[2];
     /// The effective Nyquist frequency, in units of sqrt(density): half of the largest frequency up to which the mean power
@@ -725,9 +742,20 @@ typedef struct azulejo_spectrum_report {
     double peak;
     /// Where that is, along x and y, in units of sqrt(density); its opposite is as high.
     double peak_frequency[2];
-    /// Zeros, for later versions.
-    uint64_t reserved[4];
 } azulejo_spectrum_report;
+
+/// The frequencies of about one length: a point of the radial curves.
+typedef struct azulejo_annulus {
+    /// The mean length of its frequencies, in units of sqrt(density).
+    double frequency;
+    /// The mean power: the radial mean; 1 for a Poisson process.
+    double power;
+    /// The variance of the power over its squared mean. The spectrum of one isotropic set has 1 (0 dB), the mean of n has
+    /// 1/n; directions that stand out give more.
+    double anisotropy;
+    /// The number of its frequencies, not counting a frequency and its opposite twice; at least 2.
+    uint64_t count;
+} azulejo_annulus;
 
 #ifdef __cplusplus
 extern "C" {
@@ -741,7 +769,8 @@ extern "C" {
 /// characters. May be NULL if `capacity` is 0.
 ///
 /// Returns the bytes that the whole message needs, the NUL among them.
-size_t azulejo_last_error_message(char *buffer, size_t capacity);
+size_t azulejo_last_error_message(char *buffer,
+                                  size_t capacity);
 
 /// The version of the library that the program runs with, to compare with AZULEJO_VERSION.
 uint32_t azulejo_version(void);
@@ -780,6 +809,9 @@ uint32_t azulejo_context_num_threads(const struct azulejo_context *context);
 /// Ends the threads, once no call and no psp handle uses them any more. NULL is allowed.
 void azulejo_context_free(struct azulejo_context *context);
 
+/// Writes the defaults: no points on the unit torus. `struct_size` is sizeof *set.
+azulejo_status azulejo_plane_set_init(struct azulejo_plane_set *set, size_t struct_size);
+
 /// The number of samples; 0 for NULL.
 size_t azulejo_points_count(const struct azulejo_points *points);
 
@@ -809,55 +841,24 @@ const uint32_t *azulejo_points_triangles(const struct azulejo_points *points);
 /// NULL for NULL, an empty set and samples of the plane.
 const float *azulejo_points_barycentrics(const struct azulejo_points *points);
 
-/// The radius of each sample of azulejo_psp_sample_adaptive; NULL for NULL, an empty set and all other sets, whose radius
+/// The radius of each sample of azulejo_psp_adaptive_sample; NULL for NULL, an empty set and all other sets, whose radius
 /// is the one that was asked for.
 const double *azulejo_points_radii(const struct azulejo_points *points);
 
 /// Frees the set with all its arrays. NULL is allowed.
 void azulejo_points_free(struct azulejo_points *points);
 
+/// Writes the defaults. `struct_size` is sizeof *report.
+azulejo_status azulejo_kdrt_report_init(struct azulejo_kdrt_report *report, size_t struct_size);
+
 /// Writes the defaults. `struct_size` is sizeof *options.
 azulejo_status azulejo_kdrt_options_init(struct azulejo_kdrt_options *options, size_t struct_size);
 
-/// Makes a maximal, conflict-free set of samples of a rectangle: about 0.7 * area / radius^2 of them, or exactly as
-/// many as the count in the options says (then see azulejo_kdrt_sample_with_report, which tells the radius).
-///
-/// Tiles clips of one small pattern over a random kd-tree and repairs the seams (thesis chapter 2) with all threads of
-/// the context: O(samples) time and 24 bytes per sample. Its only bias is at the seams. A domain of less area than the
-/// pattern, or narrower than 13 radii, is not tiled: it gets what azulejo_maximal_sample makes. A radius longer than
-/// the diagonal of the domain gives one sample.
-///
-/// out: the samples, x y each, to be freed with azulejo_points_free.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also where floats are too coarse to carry the radius (their spacing at the
-/// largest coordinate is above radius / 64); AZULEJO_ERROR_TOO_LARGE, with the estimate, above 2^32 samples or the
-/// memory that is available; AZULEJO_ERROR_CANCELLED.
+/// DOC kdrt_sample
 azulejo_status azulejo_kdrt_sample(const struct azulejo_context *context,
                                    const struct azulejo_kdrt_options *options,
-                                   struct azulejo_points **out);
-
-/// azulejo_kdrt_sample, and what it achieved.
-///
-/// With a count the radius follows from the density of maximal sets. The samples by which the set then differs from the
-/// count, mostly a few of a thousand, are set right by making small places anew, so that it is still conflict-free and
-/// maximal. Many radii would do for a few samples, nearly one for many. If no maximal set of so many samples is found,
-/// which has not been seen in 100000 sets of few samples, the most crowded samples of a larger set are dropped; then
-/// `is_maximal` is 0.
-///
-/// out: the samples, x y each, to be freed with azulejo_points_free. With a count the order is that of the set that was
-/// begun with, with the samples made anew in the places of others.
-///
-/// report: what the call achieved, or NULL. Measuring `coverage` for it takes some microseconds per sample, more than
-/// the sampling; the progress callback has seen the 1 by then.
-///
-/// O(samples) time and memory, with a count about twice as much.
-///
-/// Errors: as azulejo_kdrt_sample, in terms of the count if there is one; AZULEJO_ERROR_INVALID_ARGUMENT for a count
-/// and a radius at once.
-azulejo_status azulejo_kdrt_sample_with_report(const struct azulejo_context *context,
-                                               const struct azulejo_kdrt_options *options,
-                                               struct azulejo_points **out,
-                                               struct azulejo_kdrt_report *report);
+                                   struct azulejo_points **out,
+                                   struct azulejo_kdrt_report *report);
 
 /// Makes the part of azulejo_kdrt_sample's set that lies in a window of the domain, without making the rest: the same
 /// floats in the same order.
@@ -897,11 +898,12 @@ azulejo_status azulejo_kdrt_sample_window(const struct azulejo_context *context,
 /// 10^11; AZULEJO_ERROR_CANCELLED also when `visit` cancels.
 azulejo_status azulejo_kdrt_stream(const struct azulejo_context *context,
                                    const struct azulejo_kdrt_options *options,
-                                   azulejo_kdrt_window_fn visit,
+                                   azulejo_kdrt_visit_fn visit,
                                    void *user);
 
 /// Writes the defaults. `struct_size` is sizeof *options.
-azulejo_status azulejo_maximal_options_init(struct azulejo_maximal_options *options, size_t struct_size);
+azulejo_status azulejo_maximal_options_init(struct azulejo_maximal_options *options,
+                                            size_t struct_size);
 
 /// Makes a maximal, conflict-free set of samples of a rectangle by throwing darts into what is still uncovered, one
 /// after the other: without any bias, much slower than azulejo_kdrt_sample and on one thread. It is the reference that
@@ -917,7 +919,12 @@ azulejo_status azulejo_maximal_sample(const struct azulejo_context *context,
                                       struct azulejo_points **out);
 
 /// Writes the defaults. `struct_size` is sizeof *options.
-azulejo_status azulejo_merge_options_init(struct azulejo_merge_options *options, size_t struct_size);
+azulejo_status azulejo_kdrt_merge_options_init(struct azulejo_kdrt_merge_options *options,
+                                               size_t struct_size);
+
+/// Writes zeros. `struct_size` is sizeof *report.
+azulejo_status azulejo_kdrt_merge_report_init(struct azulejo_kdrt_merge_report *report,
+                                              size_t struct_size);
 
 /// Glues sets of samples on rectangles that do not overlap, and points that must stay, into one maximal, conflict-free
 /// set of the domain (thesis section 2.4.4). Only the seams change.
@@ -946,13 +953,13 @@ azulejo_status azulejo_merge_options_init(struct azulejo_merge_options *options,
 /// their rectangle, two samples of one piece or two fixed points that are closer than the radius (the message has their
 /// indices), and where floats are too coarse to carry the radius; AZULEJO_ERROR_TOO_LARGE; AZULEJO_ERROR_CANCELLED.
 azulejo_status azulejo_kdrt_merge(const struct azulejo_context *context,
-                                  const struct azulejo_merge_options *options,
-                                  const struct azulejo_merge_piece *pieces,
+                                  const struct azulejo_kdrt_merge_options *options,
+                                  const struct azulejo_kdrt_merge_piece *pieces,
                                   size_t piece_count,
                                   const float *fixed,
                                   size_t fixed_count,
                                   struct azulejo_points **out,
-                                  struct azulejo_merge_report *report);
+                                  struct azulejo_kdrt_merge_report *report);
 
 /// Copies the triangles of a scene that the caller has made with Embree. Nothing of the scene and of its device is
 /// changed: flags, error function, thread count (as far as that is the device's alone: see azulejo_context_create). The
@@ -1092,6 +1099,9 @@ void azulejo_mesh_free(struct azulejo_mesh *mesh);
 /// Writes the defaults. `struct_size` is sizeof *options.
 azulejo_status azulejo_psp_options_init(struct azulejo_psp_options *options, size_t struct_size);
 
+/// Writes zeros. `struct_size` is sizeof *report.
+azulejo_status azulejo_psp_report_init(struct azulejo_psp_report *report, size_t struct_size);
+
 /// Makes an empty set on a mesh.
 ///
 /// options: `iterations` and `maximal` play no part here, but are checked.
@@ -1132,7 +1142,8 @@ azulejo_status azulejo_psp_advance(struct azulejo_psp *psp,
 /// report: what this call did, or NULL.
 ///
 /// Errors: AZULEJO_ERROR_CANCELLED: the set then holds what was finished, and can grow on.
-azulejo_status azulejo_psp_fill(struct azulejo_psp *psp, struct azulejo_psp_report *report);
+azulejo_status azulejo_psp_fill(struct azulejo_psp *psp,
+                                struct azulejo_psp_report *report);
 
 /// Copies the set as it is now.
 ///
@@ -1157,7 +1168,8 @@ azulejo_status azulejo_psp_sample(const struct azulejo_context *context,
                                   struct azulejo_psp_report *report);
 
 /// Writes the defaults. `struct_size` is sizeof *options.
-azulejo_status azulejo_adaptive_options_init(struct azulejo_adaptive_options *options, size_t struct_size);
+azulejo_status azulejo_psp_adaptive_options_init(struct azulejo_psp_adaptive_options *options,
+                                                 size_t struct_size);
 
 /// Makes a maximal set of samples on a mesh, each with a radius of its own (thesis section 3.4.4).
 ///
@@ -1178,11 +1190,14 @@ azulejo_status azulejo_adaptive_options_init(struct azulejo_adaptive_options *op
 /// of floats at the largest coordinate, and where `radius` gives what is not in `smallest` to `largest` or changes
 /// faster than `slope`; AZULEJO_ERROR_TOO_LARGE with the estimated count, or for radii that change so fast that it takes
 /// thousands of looks per sample to find out what is covered; AZULEJO_ERROR_CANCELLED.
-azulejo_status azulejo_psp_sample_adaptive(const struct azulejo_context *context,
+azulejo_status azulejo_psp_adaptive_sample(const struct azulejo_context *context,
                                            const struct azulejo_mesh *mesh,
-                                           const struct azulejo_adaptive_options *options,
+                                           const struct azulejo_psp_adaptive_options *options,
                                            struct azulejo_points **out,
                                            struct azulejo_psp_report *report);
+
+/// Writes zeros. `struct_size` is sizeof *report.
+azulejo_status azulejo_dcr_report_init(struct azulejo_dcr_report *report, size_t struct_size);
 
 /// Writes the defaults. `struct_size` is sizeof *options.
 azulejo_status azulejo_dcr_options_init(struct azulejo_dcr_options *options, size_t struct_size);
@@ -1190,7 +1205,7 @@ azulejo_status azulejo_dcr_options_init(struct azulejo_dcr_options *options, siz
 /// Relaxes a set of points: neighbours that are too close repel, holes close, until the motion ends or the steps do (thesis
 /// chapter 4). O(count) time for each step, O(count log count) with AZULEJO_METHOD_THESIS.
 ///
-/// AZULEJO_METHOD_BEST with Delaunay neighbours returns, of the states after whole steps and the points as they came, the one in
+/// AZULEJO_METHOD_MOMENTUM with Delaunay neighbours returns, of the states after whole steps and the points as they came, the one in
 /// which the fewest points have a neighbour closer than 0.85 d_max or a Delaunay triangle with a circumradius above 0.67
 /// d_max. All else returns the points after the last whole step. A call that its progress callback cancels succeeds and
 /// does the same, with AZULEJO_STOPPED_CANCELLED in the report.
@@ -1239,7 +1254,7 @@ azulejo_status azulejo_dcr_scatter(const struct azulejo_context *context,
 /// Delaunay triangle over what the density at its centre asks for; its motion is in units of d_max. Details of the
 /// density that are finer than an eighth of d_max are lost.
 ///
-/// options: AZULEJO_METHOD_BEST and AZULEJO_NEIGHBOURHOOD_DELAUNAY, the defaults; no others are accepted.
+/// options: AZULEJO_METHOD_MOMENTUM and AZULEJO_NEIGHBOURHOOD_DELAUNAY, the defaults; no others are accepted.
 ///
 /// density: how dense the points shall be; used during the call only.
 ///
@@ -1260,7 +1275,12 @@ azulejo_status azulejo_dcr_relax_density(const struct azulejo_context *context,
                                          struct azulejo_dcr_report *report);
 
 /// Writes the defaults. `struct_size` is sizeof *options.
-azulejo_status azulejo_dcr_surface_options_init(struct azulejo_dcr_surface_options *options, size_t struct_size);
+azulejo_status azulejo_dcr_surface_options_init(struct azulejo_dcr_surface_options *options,
+                                                size_t struct_size);
+
+/// Writes zeros. `struct_size` is sizeof *report.
+azulejo_status azulejo_dcr_surface_report_init(struct azulejo_dcr_surface_report *report,
+                                               size_t struct_size);
 
 /// Relaxes samples of a mesh: they walk on the surface, away from neighbours that are too close and into holes, until the
 /// motion ends or the steps do (the future work of thesis chapter 4). Neighbours are near on the surface, not on the other
@@ -1284,7 +1304,7 @@ azulejo_status azulejo_dcr_surface_options_init(struct azulejo_dcr_surface_optio
 ///
 /// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for triangles that the mesh does not have, without area, or left out by
 /// its mask, and for barycentrics outside the triangle by more than 1e-6; AZULEJO_ERROR_TOO_LARGE.
-azulejo_status azulejo_dcr_relax_surface(const struct azulejo_context *context,
+azulejo_status azulejo_dcr_surface_relax(const struct azulejo_context *context,
                                          const struct azulejo_mesh *mesh,
                                          const struct azulejo_dcr_surface_options *options,
                                          const uint32_t *triangles,
@@ -1295,37 +1315,25 @@ azulejo_status azulejo_dcr_relax_surface(const struct azulejo_context *context,
 
 /// The smallest distance between two points of the plane, in double arithmetic; on a periodic domain around the torus.
 ///
-/// xy: the points, x y each, in the domain; `count` of them.
-///
-/// domain_min, domain_max, boundary: two numbers, two numbers and a constant, as in the options.
+/// set: the points.
 ///
 /// out: the distance; infinite for less than two points.
 ///
 /// O(count) time for points that are spread evenly.
 azulejo_status azulejo_plane_smallest_distance(const struct azulejo_context *context,
-                                               const float *xy,
-                                               size_t count,
-                                               const double *domain_min,
-                                               const double *domain_max,
-                                               int32_t boundary,
+                                               const struct azulejo_plane_set *set,
                                                double *out);
 
 /// The covering radius of points of the plane: how far the place of the domain that is farthest from all of them is. A
 /// set is maximal for a radius that is not smaller. On a periodic domain points cover around the torus.
 ///
-/// xy: the points, x y each, in the domain; `count` of them.
-///
-/// domain_min, domain_max, boundary: two numbers, two numbers and a constant, as in the options.
+/// set: the points.
 ///
 /// out: the covering radius, by less than a billionth of it too small; infinite for no point.
 ///
 /// Found exactly, by subdividing the domain: O(count log count) time.
 azulejo_status azulejo_plane_covering_radius(const struct azulejo_context *context,
-                                             const float *xy,
-                                             size_t count,
-                                             const double *domain_min,
-                                             const double *domain_max,
-                                             int32_t boundary,
+                                             const struct azulejo_plane_set *set,
                                              double *out);
 
 /// The smallest straight distance between two points in space, in double arithmetic.
@@ -1361,12 +1369,14 @@ azulejo_status azulejo_mesh_uncovered_fraction(const struct azulejo_context *con
                                                uint64_t seed,
                                                double *out);
 
+/// Writes zeros. `struct_size` is sizeof *report.
+azulejo_status azulejo_coverage_report_init(struct azulejo_coverage_report *report,
+                                            size_t struct_size);
+
 /// The gaps that points of the plane leave: the connected parts of the domain, or of the torus, that are farther than a
 /// radius from all of them. With no gap the set is maximal for the radius.
 ///
-/// xy: the points, x y each, in the domain; `count` of them.
-///
-/// domain_min, domain_max, boundary: two numbers, two numbers and a constant, as in the options.
+/// set: the points.
 ///
 /// radius: above 0, in the units of the domain.
 ///
@@ -1375,13 +1385,9 @@ azulejo_status azulejo_mesh_uncovered_fraction(const struct azulejo_context *con
 ///
 /// Found exactly, by the Voronoi diagram: O(count log count) time.
 azulejo_status azulejo_plane_coverage(const struct azulejo_context *context,
-                                      const float *xy,
-                                      size_t count,
-                                      const double *domain_min,
-                                      const double *domain_max,
-                                      int32_t boundary,
+                                      const struct azulejo_plane_set *set,
                                       double radius,
-                                      struct azulejo_coverage *out);
+                                      struct azulejo_coverage_report *out);
 
 /// The gaps that samples leave on a mesh, by straight distance: groups of places that are farther than a radius from all of
 /// them, in which each place is within half of the radius of another one. With no gap the set is maximal for the radius.
@@ -1404,30 +1410,25 @@ azulejo_status azulejo_mesh_coverage(const struct azulejo_context *context,
                                      const float *positions,
                                      size_t count,
                                      double radius,
-                                     struct azulejo_coverage *out);
+                                     struct azulejo_coverage_report *out);
+
+/// Writes zeros. `struct_size` is sizeof *report.
+azulejo_status azulejo_plane_report_init(struct azulejo_plane_report *report, size_t struct_size);
 
 /// Measures points of the plane: spacing, covering radius, bond order and Delaunay triangles.
 ///
-/// xy: the points, x y each, in the domain; `count` of them.
-///
-/// domain_min, domain_max, boundary: two numbers, two numbers and a constant, as in the options.
+/// set: the points.
 ///
 /// out: the figures.
 ///
 /// O(count log count) time for points that leave no large holes and are not clustered: some seconds for a million.
 azulejo_status azulejo_plane_measure(const struct azulejo_context *context,
-                                     const float *xy,
-                                     size_t count,
-                                     const double *domain_min,
-                                     const double *domain_max,
-                                     int32_t boundary,
+                                     const struct azulejo_plane_set *set,
                                      struct azulejo_plane_report *out);
 
 /// The histogram of the distances from points of the plane to their nearest neighbours.
 ///
-/// xy: the points, x y each, in the domain; `count` of them.
-///
-/// domain_min, domain_max, boundary: two numbers, two numbers and a constant, as in the options.
+/// set: the points.
 ///
 /// reach: where the last bin ends, above 0, in units of d_max (see azulejo_plane_report).
 ///
@@ -1438,11 +1439,7 @@ azulejo_status azulejo_plane_measure(const struct azulejo_context *context,
 ///
 /// O(count) time for points that are spread evenly.
 azulejo_status azulejo_plane_nearest_histogram(const struct azulejo_context *context,
-                                               const float *xy,
-                                               size_t count,
-                                               const double *domain_min,
-                                               const double *domain_max,
-                                               int32_t boundary,
+                                               const struct azulejo_plane_set *set,
                                                double reach,
                                                size_t bins,
                                                uint64_t *out);
@@ -1467,14 +1464,14 @@ azulejo_status azulejo_plane_nearest_histogram(const struct azulejo_context *con
 ///
 /// O(count * (1 + reach^2)) time for points that are spread evenly.
 azulejo_status azulejo_plane_radial_distribution(const struct azulejo_context *context,
-                                                 const float *xy,
-                                                 size_t count,
-                                                 const double *domain_min,
-                                                 const double *domain_max,
-                                                 int32_t boundary,
+                                                 const struct azulejo_plane_set *set,
                                                  double reach,
                                                  size_t bins,
                                                  double *out);
+
+/// Writes zeros. `struct_size` is sizeof *report.
+azulejo_status azulejo_spectrum_report_init(struct azulejo_spectrum_report *report,
+                                            size_t struct_size);
 
 /// Makes the spectrum of points of the plane, by nonuniform fast Fourier transform in double arithmetic: the power differs
 /// from that of the sum itself by no more than its rounding to float.
@@ -1498,11 +1495,7 @@ azulejo_status azulejo_plane_radial_distribution(const struct azulejo_context *c
 ///
 /// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_CANCELLED.
 azulejo_status azulejo_spectrum_create(const struct azulejo_context *context,
-                                       const float *xy,
-                                       size_t count,
-                                       const double *domain_min,
-                                       const double *domain_max,
-                                       int32_t boundary,
+                                       const struct azulejo_plane_set *set,
                                        uint32_t size,
                                        uint32_t stride,
                                        struct azulejo_spectrum **out);

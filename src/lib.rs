@@ -39,18 +39,17 @@
 pub mod analysis;
 pub mod dcr;
 mod error;
-mod grid2;
-mod grid3;
+mod geometry;
 mod job;
 pub mod kdrt;
-mod lattice;
 pub mod maximal;
 mod memory;
 pub mod mesh;
+mod plane;
 mod points;
 pub mod psp;
-mod rect;
 mod rng;
+mod simd;
 #[allow(unsafe_code)]
 pub mod trace;
 

@@ -34,26 +34,19 @@
 //!
 //! Convergence is judged by motion ([`Report::motion`]), unless [`Convergence::Variance`] asks for the thesis's own test.
 
-pub(crate) mod delaunay;
 mod density;
-mod forces;
-pub(crate) mod frame;
-mod knn;
-mod links;
-mod motion;
-mod settings;
-mod spread;
+mod ground;
 pub mod surface;
 mod thesis;
-mod variance;
+mod uniform;
 
 pub use density::{Density, DensityFunction, relax_with_density, scatter};
-pub use settings::{Convergence, Distribution, Thesis, Visits};
-use spread::Spread;
 use thesis::Tensioned;
+pub use thesis::{Convergence, Distribution, Thesis, Visits};
+use uniform::Spread;
 
 use crate::error::{Error, Result};
-use crate::grid2::Grid2;
+use crate::geometry::grid2::Grid2;
 use crate::job::{Context, Job, Progress, chunks};
 use crate::memory;
 use crate::points::Domain;

@@ -28,7 +28,7 @@ mod window;
 
 use crate::error::{Error, Result};
 use crate::job::{Context, Job, Progress};
-use crate::lattice::Lattice;
+use crate::plane::lattice::Lattice;
 use crate::points::Domain;
 use crate::{maximal, memory};
 

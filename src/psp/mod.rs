@@ -29,11 +29,8 @@ mod fill;
 mod measure;
 mod merge;
 mod near;
-mod pattern;
 mod pieces;
-mod projector;
-mod raster;
-mod rays;
+mod project;
 mod room;
 mod samples;
 #[allow(unsafe_code)] // Vector instructions.
@@ -42,7 +39,7 @@ mod vectors;
 pub use fill::TOLERANCE;
 #[doc(hidden)]
 pub use measure::{Stages, measure};
-use projector::{Collector, Projection, Projector};
+use project::projector::{Collector, Projection, Projector};
 use samples::SampleSet;
 
 /// The number of iterations after which a maximal set is finished soonest: what the projectors do not find is filled.
@@ -273,7 +270,7 @@ impl Psp {
             };
             report.prepare_seconds += stage.lap();
             let Options { seed, order, .. } = self.options;
-            let frame = projector::frame(seed, self.iterations, self.frame);
+            let frame = project::projector::frame(seed, self.iterations, self.frame);
             let projectors = &Projector::all(frame, seed, self.iterations);
             let collector = Collector { mesh: &self.mesh, samples: &self.samples, order, projectors };
             let (candidates, projected) = projection.project(&job.part(prepared, 0.7), projectors, &collector)?;

@@ -5,11 +5,12 @@ use std::mem::MaybeUninit;
 
 use azulejo_core::psp::adaptive::{self, Radius};
 
-use crate::boundary::{self, required, rows};
+use crate::boundary::{self, check_reserved, check_unused, required, rows};
 use crate::context::azulejo_context;
+use crate::growing::{self, Output, growing};
 use crate::mesh::azulejo_mesh;
-use crate::options::{self, Watch, azulejo_progress_fn, options};
 use crate::points::azulejo_points;
+use crate::progress::{Watch, azulejo_progress_fn};
 use crate::psp::azulejo_psp_report;
 use crate::status::{Failure, azulejo_status};
 
@@ -26,10 +27,10 @@ use crate::status::{Failure, azulejo_status};
 /// Returns the radius, from `smallest` to `largest`.
 pub type azulejo_radius_fn = Option<unsafe extern "C-unwind" fn(user: *mut c_void, position: *const f64) -> f64>;
 
-/// Options of azulejo_psp_sample_adaptive. Either `vertex_radii` or `radius` is to be set.
+/// Options of azulejo_psp_adaptive_sample. Either `vertex_radii` or `radius` is to be set.
 #[repr(C)]
 #[derive(Clone, Copy)]
-pub struct azulejo_adaptive_options {
+pub struct azulejo_psp_adaptive_options {
     /// The size of the caller's struct in bytes; set by the init function.
     pub struct_size: u32,
     /// Must be 0.
@@ -67,7 +68,7 @@ pub struct azulejo_adaptive_options {
     pub progress_user: *mut c_void,
 }
 
-options!(azulejo_adaptive_options requires slope {
+growing!(azulejo_psp_adaptive_options requires slope {
     reserved: 0,
     vertex_radii: std::ptr::null(),
     vertex_count: 0,
@@ -100,12 +101,12 @@ impl Callback {
 
 /// Writes the defaults. `struct_size` is sizeof *options.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn azulejo_adaptive_options_init(
-    options: *mut azulejo_adaptive_options,
+pub unsafe extern "C" fn azulejo_psp_adaptive_options_init(
+    options: *mut azulejo_psp_adaptive_options,
     struct_size: usize,
 ) -> azulejo_status {
     // SAFETY: handed on from the caller.
-    unsafe { options::init(options, struct_size) }
+    unsafe { growing::init("options", options, struct_size) }
 }
 
 /// Makes a maximal set of samples on a mesh, each with a radius of its own (thesis section 3.4.4).
@@ -128,23 +129,23 @@ pub unsafe extern "C" fn azulejo_adaptive_options_init(
 /// faster than `slope`; AZULEJO_ERROR_TOO_LARGE with the estimated count, or for radii that change so fast that it takes
 /// thousands of looks per sample to find out what is covered; AZULEJO_ERROR_CANCELLED.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn azulejo_psp_sample_adaptive(
+pub unsafe extern "C" fn azulejo_psp_adaptive_sample(
     context: Option<&azulejo_context>,
     mesh: Option<&azulejo_mesh>,
-    options: *const azulejo_adaptive_options,
+    options: *const azulejo_psp_adaptive_options,
     out: Option<&mut MaybeUninit<Box<azulejo_points>>>,
-    report: Option<&mut MaybeUninit<azulejo_psp_report>>,
+    report: *mut azulejo_psp_report,
 ) -> azulejo_status {
     boundary::create(out, || {
         let context = required("context", context)?;
         let mesh = required("mesh", mesh)?.shared.clone();
         // SAFETY: handed on from the caller.
-        let options = unsafe { options::read(options) }?;
+        let (options, report) = unsafe { (growing::read("options", options)?, Output::optional("report", report)?) };
         let callback = options.radius.map(|function| Callback { function, user: options.radius_user });
         let at = callback.as_ref().map(|callback| |position| callback.call(position));
         // SAFETY: handed on from the caller.
         let radii = unsafe { options.vertex_radii() }?;
-        let azulejo_adaptive_options { smallest, largest, slope, cosine, seed, .. } = options;
+        let azulejo_psp_adaptive_options { smallest, largest, slope, cosine, seed, .. } = options;
         let radius = match &at {
             Some(at) => Radius::Function { at, smallest, largest, slope },
             None => Radius::PerVertex(radii),
@@ -153,26 +154,29 @@ pub unsafe extern "C" fn azulejo_psp_sample_adaptive(
         let watch = Watch::new(options.progress, options.progress_user);
         let (set, done) =
             context.run(watch, |context, progress| adaptive::sample(context, &mesh, &request, progress))?;
-        report.map(|report| report.write(done.into()));
+        if let Some(report) = report {
+            report.write(done);
+        }
         Ok(azulejo_points::adaptive(set))
     })
 }
 
-impl azulejo_adaptive_options {
+impl azulejo_psp_adaptive_options {
     /// The radii of the vertices; none where `radius` is set.
     ///
     /// # Safety
     /// Unless the checks fail, `vertex_radii` leads to `vertex_count` numbers that nobody changes during `'a`.
     unsafe fn vertex_radii<'a>(&self) -> Result<&'a [f32], Failure> {
-        if self.reserved != 0 {
-            return Err(Failure::invalid("reserved", format!("{} is not 0", self.reserved)));
-        }
+        check_reserved(self.reserved)?;
         match (self.radius.is_some(), self.vertex_radii.is_null()) {
-            (true, true) => Ok(&[]),
+            (true, true) => check_unused("vertex_count", self.vertex_count, 0, "with radius").map(|()| [].as_slice()),
             (true, false) => Err(Failure::invalid("radius", "is set, and vertex_radii too; one of them must be NULL")),
             (false, true) => Err(Failure::invalid("radius", "is NULL, and vertex_radii too; one of them is needed")),
             // SAFETY: the caller's word.
             (false, false) => unsafe {
+                for (field, value) in [("smallest", self.smallest), ("largest", self.largest), ("slope", self.slope)] {
+                    check_unused(field, value, 0.0, "with vertex_radii")?;
+                }
                 Ok(rows::<f32, 1>("vertex_radii", self.vertex_radii, "vertex_count", self.vertex_count)?.as_flattened())
             },
         }

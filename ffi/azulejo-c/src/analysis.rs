@@ -6,16 +6,15 @@ use azulejo_core::analysis::{coverage, spacing};
 
 use crate::boundary::{self, required, rows};
 use crate::context::azulejo_context;
-use crate::domain::PlaneSet;
+use crate::domain::{PlaneSet, azulejo_plane_set};
+use crate::growing::{self, Growing, Output, growing};
 use crate::mesh::{SurfaceSet, azulejo_mesh};
-use crate::options::Watch;
+use crate::progress::Watch;
 use crate::status::{Failure, azulejo_status};
 
 /// The smallest distance between two points of the plane, in double arithmetic; on a periodic domain around the torus.
 ///
-/// xy: the points, x y each, in the domain; `count` of them.
-///
-/// domain_min, domain_max, boundary: two numbers, two numbers and a constant, as in the options.
+/// set: the points.
 ///
 /// out: the distance; infinite for less than two points.
 ///
@@ -23,16 +22,12 @@ use crate::status::{Failure, azulejo_status};
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_plane_smallest_distance(
     context: Option<&azulejo_context>,
-    xy: *const f32,
-    count: usize,
-    domain_min: *const f64,
-    domain_max: *const f64,
-    boundary: i32,
+    set: *const azulejo_plane_set,
     out: Option<&mut MaybeUninit<f64>>,
 ) -> azulejo_status {
     boundary::answer(out, || {
         // SAFETY: handed on from the caller.
-        let set = unsafe { PlaneSet::read(context, xy, count, [domain_min, domain_max], boundary) }?;
+        let set = unsafe { PlaneSet::read(context, set) }?;
         set.run(spacing::smallest_distance_2d)
     })
 }
@@ -40,9 +35,7 @@ pub unsafe extern "C" fn azulejo_plane_smallest_distance(
 /// The covering radius of points of the plane: how far the place of the domain that is farthest from all of them is. A
 /// set is maximal for a radius that is not smaller. On a periodic domain points cover around the torus.
 ///
-/// xy: the points, x y each, in the domain; `count` of them.
-///
-/// domain_min, domain_max, boundary: two numbers, two numbers and a constant, as in the options.
+/// set: the points.
 ///
 /// out: the covering radius, by less than a billionth of it too small; infinite for no point.
 ///
@@ -50,16 +43,12 @@ pub unsafe extern "C" fn azulejo_plane_smallest_distance(
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_plane_covering_radius(
     context: Option<&azulejo_context>,
-    xy: *const f32,
-    count: usize,
-    domain_min: *const f64,
-    domain_max: *const f64,
-    boundary: i32,
+    set: *const azulejo_plane_set,
     out: Option<&mut MaybeUninit<f64>>,
 ) -> azulejo_status {
     boundary::answer(out, || {
         // SAFETY: handed on from the caller.
-        let set = unsafe { PlaneSet::read(context, xy, count, [domain_min, domain_max], boundary) }?;
+        let set = unsafe { PlaneSet::read(context, set) }?;
         set.run(coverage::covering_radius_2d)
     })
 }
@@ -82,7 +71,7 @@ pub unsafe extern "C" fn azulejo_space_smallest_distance(
         let context = required("context", context)?;
         // SAFETY: handed on from the caller.
         let points = unsafe { rows::<f32, 3>("positions", positions, "count", count) }?;
-        context.run(Watch::NOBODY, |context, progress| spacing::smallest_distance_3d(context, points, progress))
+        context.run(Watch::NONE, |context, progress| spacing::smallest_distance_3d(context, points, progress))
     })
 }
 
@@ -124,28 +113,40 @@ pub unsafe extern "C" fn azulejo_mesh_uncovered_fraction(
 /// How a set covers a domain or a surface with disks of a radius. See azulejo_plane_coverage, azulejo_mesh_coverage.
 #[repr(C)]
 #[derive(Clone, Copy)]
-pub struct azulejo_coverage {
+pub struct azulejo_coverage_report {
+    /// The size of the caller's struct in bytes; set by the init function.
+    pub struct_size: u32,
+    /// 0.
+    pub reserved: u32,
     /// The covering radius: the distance from the samples of the place that is farthest from all of them. Infinite for no
     /// sample.
     pub covering_radius: f64,
     /// The number of gaps; 0 for a set that is maximal for the radius.
     pub gaps: u64,
-    /// Zeros, for later versions.
-    pub reserved: [u64; 2],
 }
 
-impl From<coverage::Coverage> for azulejo_coverage {
+growing!(azulejo_coverage_report requires covering_radius { reserved: 0, covering_radius: 0.0, gaps: 0 });
+
+impl From<coverage::Coverage> for azulejo_coverage_report {
     fn from(coverage::Coverage { farthest, gaps }: coverage::Coverage) -> Self {
-        Self { covering_radius: farthest, gaps: gaps as u64, reserved: [0; 2] }
+        Self { covering_radius: farthest, gaps: gaps as u64, ..Self::DEFAULT }
     }
+}
+
+/// Writes zeros. `struct_size` is sizeof *report.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_coverage_report_init(
+    report: *mut azulejo_coverage_report,
+    struct_size: usize,
+) -> azulejo_status {
+    // SAFETY: handed on from the caller.
+    unsafe { growing::init("report", report, struct_size) }
 }
 
 /// The gaps that points of the plane leave: the connected parts of the domain, or of the torus, that are farther than a
 /// radius from all of them. With no gap the set is maximal for the radius.
 ///
-/// xy: the points, x y each, in the domain; `count` of them.
-///
-/// domain_min, domain_max, boundary: two numbers, two numbers and a constant, as in the options.
+/// set: the points.
 ///
 /// radius: above 0, in the units of the domain.
 ///
@@ -156,20 +157,17 @@ impl From<coverage::Coverage> for azulejo_coverage {
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_plane_coverage(
     context: Option<&azulejo_context>,
-    xy: *const f32,
-    count: usize,
-    domain_min: *const f64,
-    domain_max: *const f64,
-    boundary: i32,
+    set: *const azulejo_plane_set,
     radius: f64,
-    out: Option<&mut MaybeUninit<azulejo_coverage>>,
+    out: *mut azulejo_coverage_report,
 ) -> azulejo_status {
-    boundary::answer(out, || {
+    boundary::call(|| {
         // SAFETY: handed on from the caller.
-        let set = unsafe { PlaneSet::read(context, xy, count, [domain_min, domain_max], boundary) }?;
-        set.run(|context, domain, points, progress| {
-            Ok(coverage::coverage_2d(context, domain, points, radius, progress)?.into())
-        })
+        let (out, set) = unsafe { (Output::required("out", out)?, PlaneSet::read(context, set)?) };
+        out.write(set.run(|context, domain, points, progress| {
+            coverage::coverage_2d(context, domain, points, radius, progress)
+        })?);
+        Ok(())
     })
 }
 
@@ -196,13 +194,14 @@ pub unsafe extern "C" fn azulejo_mesh_coverage(
     positions: *const f32,
     count: usize,
     radius: f64,
-    out: Option<&mut MaybeUninit<azulejo_coverage>>,
+    out: *mut azulejo_coverage_report,
 ) -> azulejo_status {
-    boundary::answer(out, || {
+    boundary::call(|| {
         // SAFETY: handed on from the caller.
-        let set = unsafe { SurfaceSet::read(context, mesh, positions, count) }?;
-        set.run(|context, mesh, points, progress| {
-            Ok(coverage::surface_coverage(context, mesh, points, radius, progress)?.into())
-        })
+        let (out, set) = unsafe { (Output::required("out", out)?, SurfaceSet::read(context, mesh, positions, count)?) };
+        out.write(set.run(|context, mesh, points, progress| {
+            coverage::surface_coverage(context, mesh, points, radius, progress)
+        })?);
+        Ok(())
     })
 }

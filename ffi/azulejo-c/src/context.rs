@@ -7,7 +7,7 @@ use std::sync::Arc;
 use azulejo_core::{Context, Progress};
 
 use crate::boundary::{self, required};
-use crate::options::{Watch, azulejo_progress_fn};
+use crate::progress::{Watch, azulejo_progress_fn};
 use crate::status::{Failure, azulejo_status};
 
 /// A pool of threads of its own; give it to every call that works for long. One context for a whole program is usual.
@@ -48,7 +48,7 @@ pub extern "C" fn azulejo_context_create(
     out: Option<&mut MaybeUninit<Box<azulejo_context>>>,
 ) -> azulejo_status {
     boundary::create(out, || {
-        Ok(azulejo_context { shared: Arc::new(Context::new(num_threads as usize)?), watch: Watch::NOBODY })
+        Ok(azulejo_context { shared: Arc::new(Context::new(num_threads as usize)?), watch: Watch::NONE })
     })
 }
 

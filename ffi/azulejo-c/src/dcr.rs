@@ -5,11 +5,12 @@ use std::mem::MaybeUninit;
 
 use azulejo_core::dcr::{self, Convergence, Distribution, Method, Neighbourhood, Report, Stopped, Thesis, Visits};
 
-use crate::boundary::{self, required, rows};
+use crate::boundary::{self, check_reserved, check_unused, required, rows};
 use crate::context::azulejo_context;
 use crate::domain::{AZULEJO_BOUNDARY_PERIODIC, domain};
-use crate::options::{self, Watch, azulejo_progress_fn, options};
+use crate::growing::{self, Growing, Output, growing};
 use crate::points::azulejo_points;
+use crate::progress::{Watch, azulejo_progress_fn};
 use crate::status::{Failure, azulejo_status};
 
 /// A point's neighbours are those of the Delaunay triangulation: they keep their distance and close holes.
@@ -19,7 +20,7 @@ pub const AZULEJO_NEIGHBOURHOOD_NEAREST: i32 = 1;
 
 /// Neighbours in conflict push each other away, holes pull their borders in, points have momentum, and long waves of the
 /// density are removed: the default.
-pub const AZULEJO_METHOD_BEST: i32 = 0;
+pub const AZULEJO_METHOD_MOMENTUM: i32 = 0;
 /// The algorithm of thesis chapter 4.
 pub const AZULEJO_METHOD_THESIS: i32 = 1;
 
@@ -62,72 +63,72 @@ pub struct azulejo_dcr_options {
     pub domain_max: [f64; 2],
     /// An AZULEJO_NEIGHBOURHOOD_ constant; Delaunay by default.
     pub neighbourhood: i32,
-    /// The largest number of steps, 100 by default, which is what AZULEJO_METHOD_BEST takes; AZULEJO_METHOD_THESIS may
+    /// An AZULEJO_METHOD_ constant; momentum by default.
+    pub method: i32,
+    /// The largest number of steps, 100 by default, which is what AZULEJO_METHOD_MOMENTUM takes; AZULEJO_METHOD_THESIS may
     /// take 1000. 0 returns the points as they are. Fewer are made where the motion ends before.
     pub max_iterations: u32,
+    /// Must be 0.
+    pub reserved: u32,
     /// Parts points that coincide; used for nothing else.
     pub seed: u64,
-    /// Neighbours closer than this repel each other; above 0, at most 1; 0.95 by default. Plays a part in
-    /// AZULEJO_METHOD_THESIS only, as all fields from here to `distribution` but for `tolerance`, and `visits`,
-    /// `convergence` and `decay`.
+    /// The motion (see the report) at which the set has converged. 0 makes all steps; a negative number, the default,
+    /// takes 0.0005, or with AZULEJO_METHOD_THESIS 0.02 for Delaunay and 0.005 for nearest neighbours.
+    pub tolerance: f64,
+    /// Called during the call, unless NULL, which is the default.
+    pub progress: azulejo_progress_fn,
+    /// Handed to the progress callback.
+    pub progress_user: *mut c_void,
+    /// Neighbours closer than this repel each other; above 0, at most 1; 0.95 by default.
     pub conflict_radius: f64,
     /// Delaunay neighbours farther apart than this attract each other; at least conflict_radius; 1.05 by default.
     pub attraction_radius: f64,
     /// The displacement by a tension of 1; above 0, at most 1; 0.05 by default.
     pub step: f64,
-    /// The motion (see the report) at which the set has converged. 0 makes all steps; a negative number, the default,
-    /// takes 0.0005, or with AZULEJO_METHOD_THESIS 0.02 for Delaunay and 0.005 for nearest neighbours.
-    pub tolerance: f64,
+    /// What `step` is multiplied with after every step; above 0, at most 1; 1 by default. All steps together are no longer
+    /// than step / (1 - decay): about 10 are needed from a random start.
+    pub decay: f64,
     /// How many neighbours AZULEJO_NEIGHBOURHOOD_NEAREST takes; at least 1; 6 by default.
     pub neighbours: u32,
     /// An AZULEJO_DISTRIBUTION_ constant (thesis figure 4.19); by activeness by default.
     pub distribution: i32,
-    /// Called during the call, unless NULL, which is the default.
-    pub progress: azulejo_progress_fn,
-    /// Handed to the progress callback.
-    pub progress_user: *mut c_void,
-    /// An AZULEJO_METHOD_ constant; the best by default.
-    pub method: i32,
-    /// 0.
-    pub reserved: u32,
     /// An AZULEJO_VISITS_ constant; from both ends by default.
     pub visits: i32,
     /// An AZULEJO_CONVERGENCE_ constant; by motion by default.
     pub convergence: i32,
-    /// What `step` is multiplied with after every step; above 0, at most 1; 1 by default. All steps together are no longer
-    /// than step / (1 - decay): about 10 are needed from a random start.
-    pub decay: f64,
 }
 
-options!(azulejo_dcr_options requires domain_max {
+growing!(azulejo_dcr_options requires domain_max {
     boundary: AZULEJO_BOUNDARY_PERIODIC,
     domain_min: [0.0; 2],
     domain_max: [1.0; 2],
     neighbourhood: AZULEJO_NEIGHBOURHOOD_DELAUNAY,
+    method: AZULEJO_METHOD_MOMENTUM,
     max_iterations: 100,
+    reserved: 0,
     seed: 0,
+    tolerance: -1.0,
+    progress: None,
+    progress_user: std::ptr::null_mut(),
     conflict_radius: 0.95,
     attraction_radius: 1.05,
     step: 0.05,
-    tolerance: -1.0,
+    decay: 1.0,
     neighbours: 6,
     distribution: AZULEJO_DISTRIBUTION_ACTIVENESS,
-    progress: None,
-    progress_user: std::ptr::null_mut(),
-    method: AZULEJO_METHOD_BEST,
-    reserved: 0,
     visits: AZULEJO_VISITS_BOTH_ENDS,
     convergence: AZULEJO_CONVERGENCE_MOTION,
-    decay: 1.0,
 });
 
 impl azulejo_dcr_options {
+    pub(crate) fn watch(&self) -> Watch {
+        Watch::new(self.progress, self.progress_user)
+    }
+
     pub(crate) fn request(&self) -> Result<dcr::Options, Failure> {
         let domain = domain(self.domain_min, self.domain_max, self.boundary)?;
         let neighbourhood = neighbourhood(self.neighbourhood)?;
-        if self.reserved != 0 {
-            return Err(Failure::invalid("reserved", format!("{} is not 0", self.reserved)));
-        }
+        check_reserved(self.reserved)?;
         let thesis = Thesis {
             conflict_radius: self.conflict_radius,
             attraction_radius: self.attraction_radius,
@@ -140,7 +141,10 @@ impl azulejo_dcr_options {
         };
         thesis.check()?;
         let (default, method) = match self.method {
-            AZULEJO_METHOD_BEST => (dcr::Options::new(domain, neighbourhood), Method::Best),
+            AZULEJO_METHOD_MOMENTUM => {
+                self.check_momentum()?;
+                (dcr::Options::new(domain, neighbourhood), Method::Best)
+            }
             AZULEJO_METHOD_THESIS => (dcr::Options::thesis(domain, neighbourhood), Method::Thesis(thesis)),
             other => return Err(Failure::invalid("method", format!("{other} is no AZULEJO_METHOD_ constant"))),
         };
@@ -151,6 +155,19 @@ impl azulejo_dcr_options {
             tolerance: if self.tolerance < 0.0 { default.tolerance } else { self.tolerance },
             ..default
         })
+    }
+
+    /// Refuses the thesis's settings with the momentum method, unless they are the defaults.
+    fn check_momentum(&self) -> Result<(), Failure> {
+        let (default, call) = (Self::DEFAULT, "with AZULEJO_METHOD_MOMENTUM");
+        check_unused("conflict_radius", self.conflict_radius, default.conflict_radius, call)?;
+        check_unused("attraction_radius", self.attraction_radius, default.attraction_radius, call)?;
+        check_unused("step", self.step, default.step, call)?;
+        check_unused("decay", self.decay, default.decay, call)?;
+        check_unused("neighbours", self.neighbours, default.neighbours, call)?;
+        check_unused("distribution", self.distribution, default.distribution, call)?;
+        check_unused("visits", self.visits, default.visits, call)?;
+        check_unused("convergence", self.convergence, default.convergence, call)
     }
 }
 
@@ -189,7 +206,7 @@ fn convergence(value: i32) -> Result<Convergence, Failure> {
     }
 }
 
-/// The motion came to its end, or there was nothing to move. With AZULEJO_METHOD_BEST and Delaunay neighbours no points are
+/// The motion came to its end, or there was nothing to move. With AZULEJO_METHOD_MOMENTUM and Delaunay neighbours no points are
 /// closer than 0.85 d_max then, nor a circumradius above 0.67 d_max, up to the last step.
 pub const AZULEJO_STOPPED_CONVERGED: i32 = 0;
 /// All steps were made.
@@ -201,10 +218,14 @@ pub const AZULEJO_STOPPED_CANCELLED: i32 = 2;
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct azulejo_dcr_report {
+    /// The size of the caller's struct in bytes; set by the init function.
+    pub struct_size: u32,
     /// The steps made.
     pub iterations: u32,
-    /// 1 if the set converged, or there was nothing to move, before the steps came to their end; else 0.
-    pub converged: i32,
+    /// Why no more steps were made: an AZULEJO_STOPPED_ constant.
+    pub stopped: i32,
+    /// 0.
+    pub reserved: u32,
     /// Half of how far points got, root mean square, in units of d_max: over the last 10 steps, or with
     /// AZULEJO_METHOD_THESIS over the last steps whose sizes add up to 2, which is the same for small and large steps.
     pub motion: f64,
@@ -214,26 +235,34 @@ pub struct azulejo_dcr_report {
     pub rho: f64,
     /// The largest distance of a place in the domain from the points, in units of d_max; infinite for no point.
     pub coverage: f64,
-    /// Why no more steps were made: an AZULEJO_STOPPED_ constant.
-    pub stopped: i32,
-    /// Zeros, for later versions.
-    pub reserved: [u32; 5],
 }
+
+growing!(azulejo_dcr_report requires iterations {
+    iterations: 0,
+    stopped: 0,
+    reserved: 0,
+    motion: 0.0,
+    smallest_distance: 0.0,
+    rho: 0.0,
+    coverage: 0.0,
+});
 
 impl From<Report> for azulejo_dcr_report {
     fn from(report: Report) -> Self {
         let Report { iterations, stopped, motion, smallest_distance, rho, coverage } = report;
-        Self {
-            iterations,
-            converged: (stopped == Stopped::Converged).into(),
-            motion,
-            smallest_distance,
-            rho,
-            coverage,
-            stopped: reason(stopped),
-            reserved: [0; 5],
-        }
+        let stopped = reason(stopped);
+        Self { iterations, stopped, motion, smallest_distance, rho, coverage, ..Self::DEFAULT }
     }
+}
+
+/// Writes zeros. `struct_size` is sizeof *report.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_dcr_report_init(
+    report: *mut azulejo_dcr_report,
+    struct_size: usize,
+) -> azulejo_status {
+    // SAFETY: handed on from the caller.
+    unsafe { growing::init("report", report, struct_size) }
 }
 
 /// The constant for why no more steps were made.
@@ -252,13 +281,13 @@ pub unsafe extern "C" fn azulejo_dcr_options_init(
     struct_size: usize,
 ) -> azulejo_status {
     // SAFETY: handed on from the caller.
-    unsafe { options::init(options, struct_size) }
+    unsafe { growing::init("options", options, struct_size) }
 }
 
 /// Relaxes a set of points: neighbours that are too close repel, holes close, until the motion ends or the steps do (thesis
 /// chapter 4). O(count) time for each step, O(count log count) with AZULEJO_METHOD_THESIS.
 ///
-/// AZULEJO_METHOD_BEST with Delaunay neighbours returns, of the states after whole steps and the points as they came, the one in
+/// AZULEJO_METHOD_MOMENTUM with Delaunay neighbours returns, of the states after whole steps and the points as they came, the one in
 /// which the fewest points have a neighbour closer than 0.85 d_max or a Delaunay triangle with a circumradius above 0.67
 /// d_max. All else returns the points after the last whole step. A call that its progress callback cancels succeeds and
 /// does the same, with AZULEJO_STOPPED_CANCELLED in the report.
@@ -277,17 +306,21 @@ pub unsafe extern "C" fn azulejo_dcr_relax(
     xy: *const f32,
     count: usize,
     out: Option<&mut MaybeUninit<Box<azulejo_points>>>,
-    report: Option<&mut MaybeUninit<azulejo_dcr_report>>,
+    report: *mut azulejo_dcr_report,
 ) -> azulejo_status {
     boundary::create(out, || {
         let context = required("context", context)?;
         // SAFETY: handed on from the caller.
-        let (options, points) = unsafe { (options::read(options)?, rows::<f32, 2>("xy", xy, "count", count)?) };
+        let (options, report): (azulejo_dcr_options, _) =
+            unsafe { (growing::read("options", options)?, Output::optional("report", report)?) };
+        // SAFETY: handed on from the caller.
+        let points = unsafe { rows::<f32, 2>("xy", xy, "count", count) }?;
         let request = options.request()?;
-        let watch = Watch::new(options.progress, options.progress_user);
         let (relaxed, done) =
-            context.run(watch, |context, progress| dcr::relax(context, &request, points, progress))?;
-        report.map(|report| report.write(done.into()));
+            context.run(options.watch(), |context, progress| dcr::relax(context, &request, points, progress))?;
+        if let Some(report) = report {
+            report.write(done);
+        }
         Ok(azulejo_points::plane(relaxed))
     })
 }
@@ -295,7 +328,6 @@ pub unsafe extern "C" fn azulejo_dcr_relax(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::options::Options;
 
     #[test]
     fn the_defaults_are_those_of_the_core() {

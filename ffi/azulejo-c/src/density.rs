@@ -5,12 +5,12 @@ use std::mem::MaybeUninit;
 
 use azulejo_core::dcr::{self, Density};
 
-use crate::boundary::{self, required, rows};
+use crate::boundary::{self, check_reserved, check_unused, required, rows};
 use crate::context::azulejo_context;
 use crate::dcr::{azulejo_dcr_options, azulejo_dcr_report};
-use crate::options::{self, Watch, options};
+use crate::growing::{self, Output, growing};
 use crate::points::azulejo_points;
-use crate::status::{AZULEJO_OK, Failure, azulejo_status};
+use crate::status::{Failure, azulejo_status};
 
 /// Gives the density at a place.
 ///
@@ -50,7 +50,7 @@ pub struct azulejo_density {
     pub user: *mut c_void,
 }
 
-options!(azulejo_density requires user {
+growing!(azulejo_density requires user {
     reserved: 0,
     values: std::ptr::null(),
     width: 0,
@@ -81,13 +81,13 @@ impl azulejo_density {
     /// # Safety
     /// Unless the checks fail, `values` leads to `width * height` numbers that nobody changes during the call.
     unsafe fn with<T>(&self, body: impl FnOnce(&Density) -> Result<T, Failure>) -> Result<T, Failure> {
-        if self.reserved != 0 {
-            return Err(Failure::invalid("reserved", format!("{} is not 0", self.reserved)));
-        }
+        check_reserved(self.reserved)?;
         match (self.function, self.values.is_null()) {
             (Some(_), false) => Err(Failure::invalid("function", "is set, and values too; one of them must be NULL")),
             (None, true) => Err(Failure::invalid("function", "is NULL, and values too; one of them is needed")),
             (Some(function), true) => {
+                check_unused("width", self.width, 0, "with function")?;
+                check_unused("height", self.height, 0, "with function")?;
                 let callback = Callback { function, user: self.user };
                 body(&Density::Function(&|position| callback.call(position)))
             }
@@ -107,11 +107,8 @@ impl azulejo_density {
 /// Writes the defaults. `struct_size` is sizeof *density.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_density_init(density: *mut azulejo_density, struct_size: usize) -> azulejo_status {
-    match boundary::call(|| boundary::check_pointer("density", density)) {
-        // SAFETY: handed on from the caller.
-        AZULEJO_OK => unsafe { options::init(density, struct_size) },
-        refused => refused,
-    }
+    // SAFETY: handed on from the caller.
+    unsafe { growing::init("density", density, struct_size) }
 }
 
 /// Makes random points of the domain of the options, as dense as asked for: a start for azulejo_dcr_relax_density. Of the
@@ -133,11 +130,16 @@ pub unsafe extern "C" fn azulejo_dcr_scatter(
     out: Option<&mut MaybeUninit<Box<azulejo_points>>>,
 ) -> azulejo_status {
     boundary::create(out, || {
-        let context = required("context", context)?.shared.clone();
+        let context = required("context", context)?;
         // SAFETY: handed on from the caller.
-        let (options, density) = unsafe { (options::read(options)?, read(density)?) };
+        let (options, density): (azulejo_dcr_options, azulejo_density) =
+            unsafe { (growing::read("options", options)?, growing::read("density", density)?) };
         let dcr::Options { domain, seed, .. } = options.request()?;
-        let scatter = |density: &Density| Ok(dcr::scatter(&context, &domain, density, count, seed)?);
+        let scatter = |density: &Density| {
+            context.run(options.watch(), |context, progress| {
+                dcr::scatter(context, &domain, density, count, seed, progress)
+            })
+        };
         // SAFETY: handed on from the caller.
         Ok(azulejo_points::plane(unsafe { density.with(scatter) }?))
     })
@@ -154,7 +156,7 @@ pub unsafe extern "C" fn azulejo_dcr_scatter(
 /// Delaunay triangle over what the density at its centre asks for; its motion is in units of d_max. Details of the
 /// density that are finer than an eighth of d_max are lost.
 ///
-/// options: AZULEJO_METHOD_BEST and AZULEJO_NEIGHBOURHOOD_DELAUNAY, the defaults; no others are accepted.
+/// options: AZULEJO_METHOD_MOMENTUM and AZULEJO_NEIGHBOURHOOD_DELAUNAY, the defaults; no others are accepted.
 ///
 /// density: how dense the points shall be; used during the call only.
 ///
@@ -174,33 +176,27 @@ pub unsafe extern "C" fn azulejo_dcr_relax_density(
     xy: *const f32,
     count: usize,
     out: Option<&mut MaybeUninit<Box<azulejo_points>>>,
-    report: Option<&mut MaybeUninit<azulejo_dcr_report>>,
+    report: *mut azulejo_dcr_report,
 ) -> azulejo_status {
     boundary::create(out, || {
         let context = required("context", context)?;
         // SAFETY: handed on from the caller.
-        let (options, density) = unsafe { (options::read(options)?, read(density)?) };
-        // SAFETY: handed on from the caller.
-        let points = unsafe { rows::<f32, 2>("xy", xy, "count", count)? };
+        let (options, density): (azulejo_dcr_options, azulejo_density) =
+            unsafe { (growing::read("options", options)?, growing::read("density", density)?) };
+        // SAFETY: likewise.
+        let (points, report) =
+            unsafe { (rows::<f32, 2>("xy", xy, "count", count)?, Output::optional("report", report)?) };
         let request = options.request()?;
-        let watch = Watch::new(options.progress, options.progress_user);
         let relax = |density: &Density| {
-            context
-                .run(watch, |context, progress| dcr::relax_with_density(context, &request, density, points, progress))
+            context.run(options.watch(), |context, progress| {
+                dcr::relax_with_density(context, &request, density, points, progress)
+            })
         };
         // SAFETY: handed on from the caller.
         let (relaxed, done) = unsafe { density.with(relax) }?;
-        report.map(|report| report.write(done.into()));
+        if let Some(report) = report {
+            report.write(done);
+        }
         Ok(azulejo_points::plane(relaxed))
     })
-}
-
-/// The caller's density, under its own name in messages.
-///
-/// # Safety
-/// Unless the checks fail, `density` leads to as many bytes as its first field says.
-unsafe fn read(density: *const azulejo_density) -> Result<azulejo_density, Failure> {
-    boundary::check_pointer("density", density)?;
-    // SAFETY: the caller's word.
-    unsafe { options::read(density) }
 }

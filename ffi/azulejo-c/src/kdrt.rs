@@ -9,11 +9,12 @@ use azulejo_core::Domain;
 use azulejo_core::analysis::coverage::covering_radius_2d;
 use azulejo_core::kdrt::{self, CountOptions, Counted};
 
-use crate::boundary::{self, pair, required};
+use crate::boundary::{self, check_reserved, flag, pair, required};
 use crate::context::azulejo_context;
 use crate::domain::{AZULEJO_BOUNDARY_PERIODIC, domain};
-use crate::options::{self, Watch, azulejo_progress_fn, options};
+use crate::growing::{self, Growing, Output, growing};
 use crate::points::azulejo_points;
+use crate::progress::{Watch, azulejo_progress_fn};
 use crate::status::{Failure, azulejo_status};
 
 /// Options of azulejo_kdrt_sample, azulejo_kdrt_sample_with_report, azulejo_kdrt_sample_window and azulejo_kdrt_stream.
@@ -42,10 +43,14 @@ pub struct azulejo_kdrt_options {
     pub progress_user: *mut c_void,
     /// How many samples there shall be, exactly; 0, the default, takes as many as the radius gives. Windows and streams
     /// need a radius.
-    pub count: u64,
+    pub count: usize,
+    /// 1: azulejo_kdrt_sample measures the `coverage` of its report. 0, the default: it does not.
+    pub measure_coverage: u32,
+    /// Must be 0.
+    pub reserved: u32,
 }
 
-options!(azulejo_kdrt_options requires radius {
+growing!(azulejo_kdrt_options requires radius {
     boundary: AZULEJO_BOUNDARY_PERIODIC,
     radius: 0.0,
     domain_min: [0.0; 2],
@@ -55,12 +60,18 @@ options!(azulejo_kdrt_options requires radius {
     progress: None,
     progress_user: std::ptr::null_mut(),
     count: 0,
+    measure_coverage: 0,
+    reserved: 0,
 });
 
-/// What a call achieved.
+/// What azulejo_kdrt_sample achieved.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct azulejo_kdrt_report {
+    /// The size of the caller's struct in bytes; set by the init function.
+    pub struct_size: u32,
+    /// 1 if the set is maximal for `radius`, else 0.
+    pub is_maximal: u32,
     /// The number of samples: the count, if there was one.
     pub samples: u64,
     /// The radius: that of the options, or the one that was found for the count. No two samples are closer.
@@ -70,10 +81,24 @@ pub struct azulejo_kdrt_report {
     pub coverage: f64,
     /// Wall time, without the measuring of `coverage`.
     pub seconds: f64,
-    /// 1 if the set is maximal for `radius`, else 0.
-    pub is_maximal: i32,
-    /// Zeros, for later versions.
-    pub reserved: [u32; 7],
+}
+
+growing!(azulejo_kdrt_report requires samples {
+    is_maximal: 0,
+    samples: 0,
+    radius: 0.0,
+    coverage: 0.0,
+    seconds: 0.0,
+});
+
+/// Writes the defaults. `struct_size` is sizeof *report.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_kdrt_report_init(
+    report: *mut azulejo_kdrt_report,
+    struct_size: usize,
+) -> azulejo_status {
+    // SAFETY: handed on from the caller.
+    unsafe { growing::init("report", report, struct_size) }
 }
 
 /// Writes the defaults. `struct_size` is sizeof *options.
@@ -83,82 +108,46 @@ pub unsafe extern "C" fn azulejo_kdrt_options_init(
     struct_size: usize,
 ) -> azulejo_status {
     // SAFETY: handed on from the caller.
-    unsafe { options::init(options, struct_size) }
+    unsafe { growing::init("options", options, struct_size) }
 }
 
-/// Makes a maximal, conflict-free set of samples of a rectangle: about 0.7 * area / radius^2 of them, or exactly as
-/// many as the count in the options says (then see azulejo_kdrt_sample_with_report, which tells the radius).
-///
-/// Tiles clips of one small pattern over a random kd-tree and repairs the seams (thesis chapter 2) with all threads of
-/// the context: O(samples) time and 24 bytes per sample. Its only bias is at the seams. A domain of less area than the
-/// pattern, or narrower than 13 radii, is not tiled: it gets what azulejo_maximal_sample makes. A radius longer than
-/// the diagonal of the domain gives one sample.
-///
-/// out: the samples, x y each, to be freed with azulejo_points_free.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also where floats are too coarse to carry the radius (their spacing at the
-/// largest coordinate is above radius / 64); AZULEJO_ERROR_TOO_LARGE, with the estimate, above 2^32 samples or the
-/// memory that is available; AZULEJO_ERROR_CANCELLED.
+/// DOC kdrt_sample
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_kdrt_sample(
     context: Option<&azulejo_context>,
     options: *const azulejo_kdrt_options,
     out: Option<&mut MaybeUninit<Box<azulejo_points>>>,
-) -> azulejo_status {
-    // SAFETY: handed on from the caller.
-    unsafe { azulejo_kdrt_sample_with_report(context, options, out, None) }
-}
-
-/// azulejo_kdrt_sample, and what it achieved.
-///
-/// With a count the radius follows from the density of maximal sets. The samples by which the set then differs from the
-/// count, mostly a few of a thousand, are set right by making small places anew, so that it is still conflict-free and
-/// maximal. Many radii would do for a few samples, nearly one for many. If no maximal set of so many samples is found,
-/// which has not been seen in 100000 sets of few samples, the most crowded samples of a larger set are dropped; then
-/// `is_maximal` is 0.
-///
-/// out: the samples, x y each, to be freed with azulejo_points_free. With a count the order is that of the set that was
-/// begun with, with the samples made anew in the places of others.
-///
-/// report: what the call achieved, or NULL. Measuring `coverage` for it takes some microseconds per sample, more than
-/// the sampling; the progress callback has seen the 1 by then.
-///
-/// O(samples) time and memory, with a count about twice as much.
-///
-/// Errors: as azulejo_kdrt_sample, in terms of the count if there is one; AZULEJO_ERROR_INVALID_ARGUMENT for a count
-/// and a radius at once.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn azulejo_kdrt_sample_with_report(
-    context: Option<&azulejo_context>,
-    options: *const azulejo_kdrt_options,
-    out: Option<&mut MaybeUninit<Box<azulejo_points>>>,
-    report: Option<&mut MaybeUninit<azulejo_kdrt_report>>,
+    report: *mut azulejo_kdrt_report,
 ) -> azulejo_status {
     boundary::create(out, || {
         let context = required("context", context)?;
         // SAFETY: handed on from the caller.
-        let options = unsafe { options::read(options) }?;
+        let (options, report) = unsafe { (growing::read("options", options)?, Output::optional("report", report)?) };
+        let measured = options.measures_coverage()?;
+        if measured && report.is_none() {
+            return Err(Failure::invalid("measure_coverage", "1, but report is NULL"));
+        }
         let start = Instant::now();
-        let sampling = if report.is_some() { 0.5 } else { 1.0 };
+        let sampling = if measured { SAMPLING_SHARE } else { 1.0 };
         let (samples, radius, is_maximal) = options.sample(context, options.watch().part(0.0, sampling))?;
+        let seconds = start.elapsed().as_secs_f64();
+        let coverage = if measured { options.coverage(context, &samples)? } else { -1.0 };
         if let Some(report) = report {
-            let seconds = start.elapsed().as_secs_f64();
-            let domain = options.domain()?;
-            let coverage = context.run(options.watch().part(sampling, 1.0), |context, progress| {
-                covering_radius_2d(context, &domain, &samples, progress)
-            })?;
             report.write(azulejo_kdrt_report {
+                is_maximal: is_maximal.into(),
                 samples: samples.len() as u64,
                 radius,
                 coverage,
                 seconds,
-                is_maximal: is_maximal.into(),
-                reserved: [0; 7],
+                ..azulejo_kdrt_report::DEFAULT
             });
         }
         Ok(azulejo_points::plane(samples))
     })
 }
+
+/// What fraction of a call is the sampling where coverage is measured, which takes longer.
+const SAMPLING_SHARE: f64 = 0.1;
 
 /// Makes the part of azulejo_kdrt_sample's set that lies in a window of the domain, without making the rest: the same
 /// floats in the same order.
@@ -188,8 +177,9 @@ pub unsafe extern "C" fn azulejo_kdrt_sample_window(
     boundary::create(out, || {
         let context = required("context", context)?;
         // SAFETY: handed on from the caller.
-        let (options, min, max) =
-            unsafe { (options::read(options)?, pair("window_min", window_min)?, pair("window_max", window_max)?) };
+        let (options, min, max) = unsafe {
+            (growing::read("options", options)?, pair("window_min", window_min)?, pair("window_max", window_max)?)
+        };
         let request = options.by_radius_only()?;
         let samples = context
             .run(options.watch(), |context, progress| kdrt::sample_window(context, &request, min, max, progress))?;
@@ -205,7 +195,7 @@ pub unsafe extern "C" fn azulejo_kdrt_sample_window(
 /// xy: the samples, x y each, until the callback returns; `count` of them, at least one.
 ///
 /// Returns 0 to go on, anything else to cancel.
-pub type azulejo_kdrt_window_fn =
+pub type azulejo_kdrt_visit_fn =
     Option<unsafe extern "C-unwind" fn(user: *mut c_void, xy: *const f32, count: usize) -> i32>;
 
 /// Makes the set of azulejo_kdrt_sample and hands it out part by part, in its order, instead of keeping it: for sets that
@@ -225,13 +215,13 @@ pub type azulejo_kdrt_window_fn =
 pub unsafe extern "C" fn azulejo_kdrt_stream(
     context: Option<&azulejo_context>,
     options: *const azulejo_kdrt_options,
-    visit: azulejo_kdrt_window_fn,
+    visit: azulejo_kdrt_visit_fn,
     user: *mut c_void,
 ) -> azulejo_status {
     boundary::call(|| {
         let context = required("context", context)?;
         // SAFETY: handed on from the caller.
-        let options = unsafe { options::read(options) }?;
+        let options = unsafe { growing::read("options", options) }?;
         let request = options.by_radius_only()?;
         let visit = required("visit", visit)?;
         let visit = |samples: &[[f32; 2]]| {
@@ -246,6 +236,19 @@ pub unsafe extern "C" fn azulejo_kdrt_stream(
 }
 
 impl azulejo_kdrt_options {
+    /// The flags, of which one is to be set.
+    fn measures_coverage(&self) -> Result<bool, Failure> {
+        check_reserved(self.reserved)?;
+        flag("measure_coverage", self.measure_coverage)
+    }
+
+    /// The covering radius of the samples, as the last part of the call.
+    fn coverage(&self, context: &azulejo_context, samples: &[[f32; 2]]) -> Result<f64, Failure> {
+        let domain = self.domain()?;
+        let watch = self.watch().part(SAMPLING_SHARE, 1.0);
+        context.run(watch, |context, progress| covering_radius_2d(context, &domain, samples, progress))
+    }
+
     /// The samples, their radius and whether they are maximal for it.
     fn sample(&self, context: &azulejo_context, watch: Watch) -> Result<(Vec<[f32; 2]>, f64, bool), Failure> {
         let &Self { radius, leaf_size, seed, count, .. } = self;
@@ -258,7 +261,7 @@ impl azulejo_kdrt_options {
             let reason = format!("{count} samples and radius {radius:?} are asked for at once; one of them must be 0");
             return Err(Failure::invalid("count", reason));
         }
-        let request = CountOptions { count, domain: self.domain()?, leaf_size, seed };
+        let request = CountOptions { count: count as u64, domain: self.domain()?, leaf_size, seed };
         let Counted { samples, report, .. } =
             context.run(watch, |context, progress| kdrt::sample_count(context, &request, progress))?;
         Ok((samples, report.radius, report.is_maximal))
@@ -269,6 +272,9 @@ impl azulejo_kdrt_options {
         if self.count != 0 {
             let reason = format!("{} is not 0; windows and streams are made by radius, not by number", self.count);
             return Err(Failure::invalid("count", reason));
+        }
+        if self.measures_coverage()? {
+            return Err(Failure::invalid("measure_coverage", "1 is not 0; windows and streams have no report"));
         }
         self.by_radius()
     }

@@ -62,11 +62,13 @@
 #![allow(clippy::missing_safety_doc)]
 
 mod boundary;
-mod options;
+mod growing;
 
 // In the order of the header.
 pub mod status;
 pub mod version;
+
+pub mod progress;
 
 pub mod context;
 pub mod domain;

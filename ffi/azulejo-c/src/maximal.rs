@@ -8,8 +8,9 @@ use azulejo_core::maximal;
 use crate::boundary::{self, required};
 use crate::context::azulejo_context;
 use crate::domain::{AZULEJO_BOUNDARY_PERIODIC, domain};
-use crate::options::{self, Watch, azulejo_progress_fn, options};
+use crate::growing::{self, growing};
 use crate::points::azulejo_points;
+use crate::progress::{Watch, azulejo_progress_fn};
 use crate::status::azulejo_status;
 
 /// Options of azulejo_maximal_sample.
@@ -34,7 +35,7 @@ pub struct azulejo_maximal_options {
     pub progress_user: *mut c_void,
 }
 
-options!(azulejo_maximal_options requires radius {
+growing!(azulejo_maximal_options requires radius {
     boundary: AZULEJO_BOUNDARY_PERIODIC,
     radius: 0.0,
     domain_min: [0.0; 2],
@@ -51,7 +52,7 @@ pub unsafe extern "C" fn azulejo_maximal_options_init(
     struct_size: usize,
 ) -> azulejo_status {
     // SAFETY: handed on from the caller.
-    unsafe { options::init(options, struct_size) }
+    unsafe { growing::init("options", options, struct_size) }
 }
 
 /// Makes a maximal, conflict-free set of samples of a rectangle by throwing darts into what is still uncovered, one
@@ -72,7 +73,7 @@ pub unsafe extern "C" fn azulejo_maximal_sample(
     boundary::create(out, || {
         let context = required("context", context)?;
         // SAFETY: handed on from the caller.
-        let options = unsafe { options::read(options) }?;
+        let options = unsafe { growing::read("options", options) }?;
         let domain = domain(options.domain_min, options.domain_max, options.boundary)?;
         let request = maximal::Options { radius: options.radius, domain, seed: options.seed };
         let watch = Watch::new(options.progress, options.progress_user);

@@ -8,14 +8,15 @@ use azulejo_core::kdrt::{self, MergeOptions, MergeReport, Piece};
 use crate::boundary::{self, required, rows};
 use crate::context::azulejo_context;
 use crate::domain::{AZULEJO_BOUNDARY_PERIODIC, domain};
-use crate::options::{self, Watch, azulejo_progress_fn, options};
+use crate::growing::{self, Growing, Output, growing};
 use crate::points::azulejo_points;
+use crate::progress::{Watch, azulejo_progress_fn};
 use crate::status::{Failure, azulejo_status};
 
 /// Options of azulejo_kdrt_merge.
 #[repr(C)]
 #[derive(Clone, Copy)]
-pub struct azulejo_merge_options {
+pub struct azulejo_kdrt_merge_options {
     /// The size of the caller's struct in bytes; set by the init function.
     pub struct_size: u32,
     /// An AZULEJO_BOUNDARY_ constant; periodic by default.
@@ -34,7 +35,7 @@ pub struct azulejo_merge_options {
     pub progress_user: *mut c_void,
 }
 
-options!(azulejo_merge_options requires radius {
+growing!(azulejo_kdrt_merge_options requires radius {
     boundary: AZULEJO_BOUNDARY_PERIODIC,
     radius: 0.0,
     domain_min: [0.0; 2],
@@ -46,19 +47,19 @@ options!(azulejo_merge_options requires radius {
 
 /// Writes the defaults. `struct_size` is sizeof *options.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn azulejo_merge_options_init(
-    options: *mut azulejo_merge_options,
+pub unsafe extern "C" fn azulejo_kdrt_merge_options_init(
+    options: *mut azulejo_kdrt_merge_options,
     struct_size: usize,
 ) -> azulejo_status {
     // SAFETY: handed on from the caller.
-    unsafe { options::init(options, struct_size) }
+    unsafe { growing::init("options", options, struct_size) }
 }
 
 /// A set of samples that was made by itself, such as by azulejo_kdrt_sample on a bounded domain or by
 /// azulejo_kdrt_sample_window. It has no struct_size and never grows.
 #[repr(C)]
 #[derive(Clone, Copy)]
-pub struct azulejo_merge_piece {
+pub struct azulejo_kdrt_merge_piece {
     /// The samples, x y each, in min <= x < max, no two of them closer than the radius; read during the call only. Any
     /// floats will do, and they need not be maximal. NULL if there are none.
     pub xy: *const f32,
@@ -74,22 +75,36 @@ pub struct azulejo_merge_piece {
 /// ones.
 #[repr(C)]
 #[derive(Clone, Copy)]
-pub struct azulejo_merge_report {
+pub struct azulejo_kdrt_merge_report {
+    /// The size of the caller's struct in bytes; set by the init function.
+    pub struct_size: u32,
+    /// 0.
+    pub reserved: u32,
     /// Samples of the pieces that are in the result.
     pub kept: u64,
     /// Samples of the pieces that are not.
     pub eliminated: u64,
     /// New samples.
     pub inserted: u64,
-    /// Zeros, for later versions.
-    pub reserved: [u32; 10],
 }
 
-impl From<MergeReport> for azulejo_merge_report {
+growing!(azulejo_kdrt_merge_report requires kept { reserved: 0, kept: 0, eliminated: 0, inserted: 0 });
+
+impl From<MergeReport> for azulejo_kdrt_merge_report {
     fn from(report: MergeReport) -> Self {
         let MergeReport { kept, eliminated, inserted } = report;
-        Self { kept: kept as u64, eliminated: eliminated as u64, inserted: inserted as u64, reserved: [0; 10] }
+        Self { kept: kept as u64, eliminated: eliminated as u64, inserted: inserted as u64, ..Self::DEFAULT }
     }
+}
+
+/// Writes zeros. `struct_size` is sizeof *report.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_kdrt_merge_report_init(
+    report: *mut azulejo_kdrt_merge_report,
+    struct_size: usize,
+) -> azulejo_status {
+    // SAFETY: handed on from the caller.
+    unsafe { growing::init("report", report, struct_size) }
 }
 
 /// Glues sets of samples on rectangles that do not overlap, and points that must stay, into one maximal, conflict-free
@@ -121,27 +136,29 @@ impl From<MergeReport> for azulejo_merge_report {
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_kdrt_merge(
     context: Option<&azulejo_context>,
-    options: *const azulejo_merge_options,
-    pieces: *const azulejo_merge_piece,
+    options: *const azulejo_kdrt_merge_options,
+    pieces: *const azulejo_kdrt_merge_piece,
     piece_count: usize,
     fixed: *const f32,
     fixed_count: usize,
     out: Option<&mut MaybeUninit<Box<azulejo_points>>>,
-    report: Option<&mut MaybeUninit<azulejo_merge_report>>,
+    report: *mut azulejo_kdrt_merge_report,
 ) -> azulejo_status {
     boundary::create(out, || {
         let context = required("context", context)?;
         // SAFETY: handed on from the caller.
-        let (options, pieces, fixed) = unsafe {
+        let (options, pieces, fixed, report) = unsafe {
             let fixed = rows::<f32, 2>("fixed", fixed, "fixed_count", fixed_count)?;
-            (options::read(options)?, read(pieces, piece_count)?, fixed)
+            (growing::read("options", options)?, read(pieces, piece_count)?, fixed, Output::optional("report", report)?)
         };
         let domain = domain(options.domain_min, options.domain_max, options.boundary)?;
         let request = MergeOptions { radius: options.radius, domain, seed: options.seed };
         let watch = Watch::new(options.progress, options.progress_user);
         let (merged, done) =
             context.run(watch, |context, progress| kdrt::merge(context, &request, &pieces, fixed, progress))?;
-        report.map(|report| report.write(done.into()));
+        if let Some(report) = report {
+            report.write(done);
+        }
         Ok(azulejo_points::plane(merged))
     })
 }
@@ -151,10 +168,10 @@ pub unsafe extern "C" fn azulejo_kdrt_merge(
 /// # Safety
 /// Unless the checks fail, `pieces` leads to `count` pieces and each of them to its samples, which nobody changes during
 /// `'a`.
-unsafe fn read<'a>(pieces: *const azulejo_merge_piece, count: usize) -> Result<Vec<Piece<'a>>, Failure> {
+unsafe fn read<'a>(pieces: *const azulejo_kdrt_merge_piece, count: usize) -> Result<Vec<Piece<'a>>, Failure> {
     // SAFETY: handed on from the caller.
-    let pieces = unsafe { rows::<azulejo_merge_piece, 1>("pieces", pieces, "piece_count", count) }?;
-    let read = |(i, &[piece]): (usize, &[azulejo_merge_piece; 1])| {
+    let pieces = unsafe { rows::<azulejo_kdrt_merge_piece, 1>("pieces", pieces, "piece_count", count) }?;
+    let read = |(i, &[piece]): (usize, &[azulejo_kdrt_merge_piece; 1])| {
         let [xy, count] = ["xy", "count"].map(|field| format!("pieces: [{i}].{field}"));
         // SAFETY: handed on from the caller.
         let samples = unsafe { rows::<f32, 2>(&xy, piece.xy, &count, piece.count) }?;

@@ -11,7 +11,7 @@ use azulejo_core::{Context, Progress};
 
 use crate::boundary::{self, array, check_pointer, check_size, required, rows};
 use crate::context::azulejo_context;
-use crate::options::Watch;
+use crate::progress::Watch;
 use crate::status::{AZULEJO_ERROR_OUT_OF_MEMORY, Failure, azulejo_status};
 
 /// A checked triangle mesh: immutable, may be used by several threads at once. Any soup of triangles will do: open,
@@ -286,6 +286,6 @@ impl<'a> SurfaceSet<'a> {
         &self,
         call: impl FnOnce(&Context, &Mesh, &[[f32; 3]], Option<&Progress>) -> azulejo_core::Result<T>,
     ) -> Result<T, Failure> {
-        self.context.run(Watch::NOBODY, |context, progress| call(context, &self.mesh, self.positions, progress))
+        self.context.run(Watch::NONE, |context, progress| call(context, &self.mesh, self.positions, progress))
     }
 }

@@ -101,7 +101,7 @@ pub extern "C" fn azulejo_points_barycentrics(points: Option<&azulejo_points>) -
     surface(points).map_or(std::ptr::null(), |samples| array(&samples.barycentrics))
 }
 
-/// The radius of each sample of azulejo_psp_sample_adaptive; NULL for NULL, an empty set and all other sets, whose radius
+/// The radius of each sample of azulejo_psp_adaptive_sample; NULL for NULL, an empty set and all other sets, whose radius
 /// is the one that was asked for.
 #[unsafe(no_mangle)]
 pub extern "C" fn azulejo_points_radii(points: Option<&azulejo_points>) -> *const f64 {

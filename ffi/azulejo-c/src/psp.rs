@@ -8,11 +8,12 @@ use std::sync::{RwLock, TryLockError};
 use azulejo_core::psp::{self, Engine, Order, Psp, Report};
 use azulejo_core::{Context, Progress};
 
-use crate::boundary::{self, flag, required};
+use crate::boundary::{self, check_reserved, check_unused, flag, required};
 use crate::context::azulejo_context;
+use crate::growing::{self, Growing, Output, growing};
 use crate::mesh::azulejo_mesh;
-use crate::options::{self, Watch, azulejo_progress_fn, options};
 use crate::points::azulejo_points;
+use crate::progress::{Watch, azulejo_progress_fn};
 use crate::status::{AZULEJO_ERROR_INTERNAL, Failure, azulejo_status};
 
 /// A set of samples on a mesh that grows. It keeps its context and its mesh, which may be freed before it.
@@ -27,9 +28,9 @@ pub struct azulejo_psp {
 
 /// Where two candidates of an iteration are too close, that one comes first that its projector faces more squarely: the
 /// default, which finds more samples. Existing samples come before all candidates.
-pub const AZULEJO_ORDER_SQUARENESS: i32 = 0;
+pub const AZULEJO_PRIORITY_SQUARENESS: i32 = 0;
 /// The candidate of the earlier projector comes first, as in the thesis (§3.3.2). Existing samples come before all.
-pub const AZULEJO_ORDER_PROJECTOR: i32 = 1;
+pub const AZULEJO_PRIORITY_PROJECTOR: i32 = 1;
 
 /// Embree's ray packets find where patterns meet the mesh: the default.
 pub const AZULEJO_ENGINE_EMBREE: i32 = 0;
@@ -53,44 +54,49 @@ pub struct azulejo_psp_options {
     pub seed: u64,
     /// 1, the default: azulejo_psp_sample fills all gaps. 0: it stops after the iterations, as the thesis does, with
     /// some per cent of the surface uncovered.
-    pub maximal: i32,
+    pub maximal: u32,
+    /// An AZULEJO_PRIORITY_ constant; by squareness by default.
+    pub priority: i32,
+    /// An AZULEJO_ENGINE_ constant; Embree by default.
+    pub engine: i32,
     /// Must be 0.
     pub reserved: u32,
     /// Called during the calls, unless NULL, which is the default. A psp handle keeps it for all its calls.
     pub progress: azulejo_progress_fn,
     /// Handed to the progress callback.
     pub progress_user: *mut c_void,
-    /// An AZULEJO_ORDER_ constant; by squareness by default.
-    pub order: i32,
-    /// An AZULEJO_ENGINE_ constant; Embree by default.
-    pub engine: i32,
 }
 
-options!(azulejo_psp_options requires radius {
+growing!(azulejo_psp_options requires radius {
     iterations: psp::DEFAULT_ITERATIONS,
     radius: 0.0,
     seed: 0,
     maximal: 1,
+    priority: AZULEJO_PRIORITY_SQUARENESS,
+    engine: AZULEJO_ENGINE_EMBREE,
     reserved: 0,
     progress: None,
     progress_user: std::ptr::null_mut(),
-    order: AZULEJO_ORDER_SQUARENESS,
-    engine: AZULEJO_ENGINE_EMBREE,
 });
 
 impl azulejo_psp_options {
     fn request(&self) -> Result<psp::Options, Failure> {
-        if self.reserved != 0 {
-            return Err(Failure::invalid("reserved", format!("{} is not 0", self.reserved)));
-        }
+        check_reserved(self.reserved)?;
         Ok(psp::Options {
             radius: self.radius,
             iterations: self.iterations,
             maximal: flag("maximal", self.maximal)?,
             seed: self.seed,
-            order: order(self.order)?,
+            order: priority(self.priority)?,
             engine: engine(self.engine)?,
         })
+    }
+
+    /// Refuses what a handle has no use for: its calls say how often, and whether gaps are filled.
+    fn check_create(&self) -> Result<(), Failure> {
+        let (default, call) = (Self::DEFAULT, "in azulejo_psp_create");
+        check_unused("iterations", self.iterations, default.iterations, call)?;
+        check_unused("maximal", self.maximal, default.maximal, call)
     }
 
     fn watch(&self) -> Watch {
@@ -98,11 +104,11 @@ impl azulejo_psp_options {
     }
 }
 
-fn order(value: i32) -> Result<Order, Failure> {
+fn priority(value: i32) -> Result<Order, Failure> {
     match value {
-        AZULEJO_ORDER_SQUARENESS => Ok(Order::Squareness),
-        AZULEJO_ORDER_PROJECTOR => Ok(Order::Projector),
-        other => Err(Failure::invalid("order", format!("{other} is no AZULEJO_ORDER_ constant"))),
+        AZULEJO_PRIORITY_SQUARENESS => Ok(Order::Squareness),
+        AZULEJO_PRIORITY_PROJECTOR => Ok(Order::Projector),
+        other => Err(Failure::invalid("priority", format!("{other} is no AZULEJO_PRIORITY_ constant"))),
     }
 }
 
@@ -118,6 +124,10 @@ fn engine(value: i32) -> Result<Engine, Failure> {
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct azulejo_psp_report {
+    /// The size of the caller's struct in bytes; set by the init function.
+    pub struct_size: u32,
+    /// The iterations of projection that it made.
+    pub iterations: u32,
     /// The samples of the set after the call.
     pub samples: u64,
     /// The samples that the call added.
@@ -135,10 +145,6 @@ pub struct azulejo_psp_report {
     pub conflicts: u64,
     /// Wall time.
     pub seconds: f64,
-    /// The iterations of projection that it made.
-    pub iterations: u32,
-    /// Zero, for later versions.
-    pub reserved: u32,
     /// The part of the time in which patterns and, for Embree, the scene were made: in the first iteration of a set.
     pub prepare_seconds: f64,
     /// The part of the time in which the hits were found.
@@ -158,6 +164,25 @@ pub struct azulejo_psp_report {
     pub uncovered_after: f64,
 }
 
+growing!(azulejo_psp_report requires samples {
+    iterations: 0,
+    samples: 0,
+    accepted: 0,
+    rays: 0,
+    hits: 0,
+    restart_conflicts: 0,
+    darts: 0,
+    conflicts: 0,
+    seconds: 0.0,
+    prepare_seconds: 0.0,
+    project_seconds: 0.0,
+    merge_seconds: 0.0,
+    fill_seconds: 0.0,
+    rho: 0.0,
+    uncovered_before: 0.0,
+    uncovered_after: 0.0,
+});
+
 impl From<Report> for azulejo_psp_report {
     fn from(report: Report) -> Self {
         Self {
@@ -170,7 +195,6 @@ impl From<Report> for azulejo_psp_report {
             conflicts: report.conflicts,
             seconds: report.seconds,
             iterations: report.iterations,
-            reserved: 0,
             prepare_seconds: report.prepare_seconds,
             project_seconds: report.project_seconds,
             merge_seconds: report.merge_seconds,
@@ -178,6 +202,7 @@ impl From<Report> for azulejo_psp_report {
             rho: report.rho,
             uncovered_before: report.uncovered_before.unwrap_or(-1.0),
             uncovered_after: report.uncovered_after.unwrap_or(-1.0),
+            ..Self::DEFAULT
         }
     }
 }
@@ -189,7 +214,17 @@ pub unsafe extern "C" fn azulejo_psp_options_init(
     struct_size: usize,
 ) -> azulejo_status {
     // SAFETY: handed on from the caller.
-    unsafe { options::init(options, struct_size) }
+    unsafe { growing::init("options", options, struct_size) }
+}
+
+/// Writes zeros. `struct_size` is sizeof *report.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_psp_report_init(
+    report: *mut azulejo_psp_report,
+    struct_size: usize,
+) -> azulejo_status {
+    // SAFETY: handed on from the caller.
+    unsafe { growing::init("report", report, struct_size) }
 }
 
 /// Makes an empty set on a mesh.
@@ -211,7 +246,8 @@ pub unsafe extern "C" fn azulejo_psp_create(
         let context = required("context", context)?.clone();
         let mesh = &required("mesh", mesh)?.shared;
         // SAFETY: handed on from the caller.
-        let options = unsafe { options::read(options) }?;
+        let options = unsafe { growing::read("options", options) }?;
+        options.check_create()?;
         let state = RwLock::new(Psp::new(mesh, &options.request()?)?);
         Ok(azulejo_psp { context, watch: options.watch(), state })
     })
@@ -238,7 +274,7 @@ pub unsafe extern "C" fn azulejo_psp_create(
 pub unsafe extern "C" fn azulejo_psp_advance(
     psp: Option<NonNull<azulejo_psp>>,
     iterations: u32,
-    report: Option<&mut MaybeUninit<azulejo_psp_report>>,
+    report: *mut azulejo_psp_report,
 ) -> azulejo_status {
     // SAFETY: handed on from the caller.
     unsafe { change(psp, report, |state, context, progress| state.advance(context, iterations, progress)) }
@@ -253,7 +289,7 @@ pub unsafe extern "C" fn azulejo_psp_advance(
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_psp_fill(
     psp: Option<NonNull<azulejo_psp>>,
-    report: Option<&mut MaybeUninit<azulejo_psp_report>>,
+    report: *mut azulejo_psp_report,
 ) -> azulejo_status {
     // SAFETY: handed on from the caller.
     unsafe { change(psp, report, Psp::fill) }
@@ -293,17 +329,19 @@ pub unsafe extern "C" fn azulejo_psp_sample(
     mesh: Option<&azulejo_mesh>,
     options: *const azulejo_psp_options,
     out: Option<&mut MaybeUninit<Box<azulejo_points>>>,
-    report: Option<&mut MaybeUninit<azulejo_psp_report>>,
+    report: *mut azulejo_psp_report,
 ) -> azulejo_status {
     boundary::create(out, || {
         let context = required("context", context)?;
         let mesh = required("mesh", mesh)?.shared.clone();
         // SAFETY: handed on from the caller.
-        let options = unsafe { options::read(options) }?;
+        let (options, report) = unsafe { (growing::read("options", options)?, Output::optional("report", report)?) };
         let request = options.request()?;
         let (samples, done) =
             context.run(options.watch(), |context, progress| psp::sample(context, &mesh, &request, progress))?;
-        report.map(|report| report.write(done.into()));
+        if let Some(report) = report {
+            report.write(done);
+        }
         Ok(azulejo_points::surface(samples))
     })
 }
@@ -314,15 +352,17 @@ pub unsafe extern "C" fn azulejo_psp_sample(
 /// `psp` is NULL or a handle that lives as long as the call.
 unsafe fn change(
     psp: Option<NonNull<azulejo_psp>>,
-    report: Option<&mut MaybeUninit<azulejo_psp_report>>,
+    report: *mut azulejo_psp_report,
     step: impl FnOnce(&mut Psp, &Context, Option<&Progress>) -> azulejo_core::Result<Report>,
 ) -> azulejo_status {
     boundary::call(|| {
         // SAFETY: the caller's word. A shared reference, because two calls may meet; the lock parts them.
-        let psp = unsafe { required("psp", psp)?.as_ref() };
+        let (psp, report) = unsafe { (required("psp", psp)?.as_ref(), Output::optional("report", report)?) };
         let mut state = psp.state.try_write().map_err(|error| locked(&error))?;
         let done = psp.context.run(psp.watch, |context, progress| step(&mut state, context, progress))?;
-        report.map(|report| report.write(done.into()));
+        if let Some(report) = report {
+            report.write(done);
+        }
         Ok(())
     })
 }

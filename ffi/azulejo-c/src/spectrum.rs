@@ -7,7 +7,8 @@ use azulejo_core::analysis::spectrum::{Annulus, Periodogram, sparse_periodogram}
 
 use crate::boundary::{self, array, check_pointer, required};
 use crate::context::azulejo_context;
-use crate::domain::PlaneSet;
+use crate::domain::{PlaneSet, azulejo_plane_set};
+use crate::growing::{self, Growing, Output, growing};
 use crate::status::{Failure, azulejo_status};
 
 /// The power spectrum of a set of the plane, or the mean of several: |sum of exp(-2 pi i f x)|^2 / count on a square grid of
@@ -38,6 +39,10 @@ pub struct azulejo_annulus {
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct azulejo_spectrum_report {
+    /// The size of the caller's struct in bytes; set by the init function.
+    pub struct_size: u32,
+    /// 0.
+    pub reserved: u32,
     /// The distance of neighbouring columns and rows, in units of sqrt(density).
     pub frequency_step: [f64; 2],
     /// The effective Nyquist frequency, in units of sqrt(density): half of the largest frequency up to which the mean power
@@ -56,8 +61,26 @@ pub struct azulejo_spectrum_report {
     pub peak: f64,
     /// Where that is, along x and y, in units of sqrt(density); its opposite is as high.
     pub peak_frequency: [f64; 2],
-    /// Zeros, for later versions.
-    pub reserved: [u64; 4],
+}
+
+growing!(azulejo_spectrum_report requires frequency_step {
+    reserved: 0,
+    frequency_step: [0.0; 2],
+    effective_nyquist: 0.0,
+    oscillation: 0.0,
+    contrast: 0.0,
+    peak: 0.0,
+    peak_frequency: [0.0; 2],
+});
+
+/// Writes zeros. `struct_size` is sizeof *report.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_spectrum_report_init(
+    report: *mut azulejo_spectrum_report,
+    struct_size: usize,
+) -> azulejo_status {
+    // SAFETY: handed on from the caller.
+    unsafe { growing::init("report", report, struct_size) }
 }
 
 /// Makes the spectrum of points of the plane, by nonuniform fast Fourier transform in double arithmetic: the power differs
@@ -84,18 +107,14 @@ pub struct azulejo_spectrum_report {
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_spectrum_create(
     context: Option<&azulejo_context>,
-    xy: *const f32,
-    count: usize,
-    domain_min: *const f64,
-    domain_max: *const f64,
-    boundary: i32,
+    set: *const azulejo_plane_set,
     size: u32,
     stride: u32,
     out: Option<&mut MaybeUninit<Box<azulejo_spectrum>>>,
 ) -> azulejo_status {
     boundary::create(out, || {
         // SAFETY: handed on from the caller.
-        let set = unsafe { PlaneSet::read(context, xy, count, [domain_min, domain_max], boundary) }?;
+        let set = unsafe { PlaneSet::read(context, set) }?;
         let [size, stride] = [size, stride].map(|number| number as usize);
         let periodogram = set.run(|context, domain, points, progress| {
             sparse_periodogram(context, domain, points, size, stride, progress)
@@ -194,10 +213,11 @@ pub unsafe extern "C" fn azulejo_spectrum_measure(
     width: f64,
     low: f64,
     high: f64,
-    out: Option<&mut MaybeUninit<azulejo_spectrum_report>>,
+    out: *mut azulejo_spectrum_report,
 ) -> azulejo_status {
     boundary::call(|| {
-        let out = required("out", out)?;
+        // SAFETY: handed on from the caller.
+        let out = unsafe { Output::required("out", out) }?;
         let of = &required("spectrum", spectrum)?.periodogram;
         for (argument, frequency) in [("low", low), ("high", high)] {
             if !frequency.is_finite() {
@@ -212,7 +232,7 @@ pub unsafe extern "C" fn azulejo_spectrum_measure(
             contrast: of.contrast(width, low..high)?,
             peak: peak.map_or(0.0, |peak| peak.over_mean),
             peak_frequency: peak.map_or([0.0; 2], |peak| peak.frequency),
-            reserved: [0; 4],
+            ..azulejo_spectrum_report::DEFAULT
         });
         Ok(())
     })

@@ -1,7 +1,5 @@
 //! What sets of the plane are like: their spacing, order, triangles and distances.
 
-use std::mem::MaybeUninit;
-
 use azulejo_core::Domain;
 use azulejo_core::analysis::distribution::radial_distribution;
 use azulejo_core::analysis::figures::{Figures, figures_2d};
@@ -9,7 +7,8 @@ use azulejo_core::analysis::spacing::{nearest_distances_2d, nearest_histogram_2d
 
 use crate::boundary::{self, check_pointer};
 use crate::context::azulejo_context;
-use crate::domain::PlaneSet;
+use crate::domain::{PlaneSet, azulejo_plane_set};
+use crate::growing::{self, Growing, Output, growing};
 use crate::status::{Failure, azulejo_status};
 
 /// The figures of a set of the plane. The unit d_max is sqrt(2 area / (sqrt(3) count)), the distance of neighbours if as
@@ -17,6 +16,10 @@ use crate::status::{Failure, azulejo_status};
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct azulejo_plane_report {
+    /// The size of the caller's struct in bytes; set by the init function.
+    pub struct_size: u32,
+    /// 0.
+    pub reserved: u32,
     /// The number of points.
     pub count: u64,
     /// The smallest distance between two points, in the units of the domain; infinite for less than two, as the mean is.
@@ -50,15 +53,40 @@ pub struct azulejo_plane_report {
     pub angles_below_30_degrees: f64,
     /// The share of triangles whose area is farther than 4 standard deviations from the mean, 0 to 1.
     pub beyond_4_sigma: f64,
-    /// Zeros, for later versions.
-    pub reserved: [u64; 9],
+}
+
+growing!(azulejo_plane_report requires count {
+    reserved: 0,
+    count: 0,
+    smallest_distance: 0.0,
+    mean_distance: 0.0,
+    hexagonal_distance: 0.0,
+    rho: 0.0,
+    covering_radius: 0.0,
+    bond_order: 0.0,
+    triangles: 0,
+    obtuse: 0.0,
+    below_30_degrees: 0.0,
+    edge_mean: 0.0,
+    edge_variation: 0.0,
+    area_variation: 0.0,
+    angles_below_30_degrees: 0.0,
+    beyond_4_sigma: 0.0,
+});
+
+/// Writes zeros. `struct_size` is sizeof *report.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_plane_report_init(
+    report: *mut azulejo_plane_report,
+    struct_size: usize,
+) -> azulejo_status {
+    // SAFETY: handed on from the caller.
+    unsafe { growing::init("report", report, struct_size) }
 }
 
 /// Measures points of the plane: spacing, covering radius, bond order and Delaunay triangles.
 ///
-/// xy: the points, x y each, in the domain; `count` of them.
-///
-/// domain_min, domain_max, boundary: two numbers, two numbers and a constant, as in the options.
+/// set: the points.
 ///
 /// out: the figures.
 ///
@@ -66,20 +94,17 @@ pub struct azulejo_plane_report {
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_plane_measure(
     context: Option<&azulejo_context>,
-    xy: *const f32,
-    count: usize,
-    domain_min: *const f64,
-    domain_max: *const f64,
-    boundary: i32,
-    out: Option<&mut MaybeUninit<azulejo_plane_report>>,
+    set: *const azulejo_plane_set,
+    out: *mut azulejo_plane_report,
 ) -> azulejo_status {
-    boundary::answer(out, || {
+    boundary::call(|| {
         // SAFETY: handed on from the caller.
-        let set = unsafe { PlaneSet::read(context, xy, count, [domain_min, domain_max], boundary) }?;
-        let count = count as u64;
-        set.run(|context, domain, points, progress| {
+        let (out, set) = unsafe { (Output::required("out", out)?, PlaneSet::read(context, set)?) };
+        let count = set.points.len() as u64;
+        out.write(set.run(|context, domain, points, progress| {
             Ok(report(count, domain, &figures_2d(context, domain, points, progress)?))
-        })
+        })?);
+        Ok(())
     })
 }
 
@@ -102,15 +127,13 @@ fn report(count: u64, domain: &Domain, figures: &Figures) -> azulejo_plane_repor
         area_variation: triangles.area_variation,
         angles_below_30_degrees: triangles.angles_below_30_degrees,
         beyond_4_sigma: triangles.beyond_4_sigma,
-        reserved: [0; 9],
+        ..azulejo_plane_report::DEFAULT
     }
 }
 
 /// The histogram of the distances from points of the plane to their nearest neighbours.
 ///
-/// xy: the points, x y each, in the domain; `count` of them.
-///
-/// domain_min, domain_max, boundary: two numbers, two numbers and a constant, as in the options.
+/// set: the points.
 ///
 /// reach: where the last bin ends, above 0, in units of d_max (see azulejo_plane_report).
 ///
@@ -123,11 +146,7 @@ fn report(count: u64, domain: &Domain, figures: &Figures) -> azulejo_plane_repor
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_plane_nearest_histogram(
     context: Option<&azulejo_context>,
-    xy: *const f32,
-    count: usize,
-    domain_min: *const f64,
-    domain_max: *const f64,
-    boundary: i32,
+    set: *const azulejo_plane_set,
     reach: f64,
     bins: usize,
     out: *mut u64,
@@ -135,7 +154,7 @@ pub unsafe extern "C" fn azulejo_plane_nearest_histogram(
     boundary::call(|| {
         check_bins(out, bins)?;
         // SAFETY: handed on from the caller.
-        let set = unsafe { PlaneSet::read(context, xy, count, [domain_min, domain_max], boundary) }?;
+        let set = unsafe { PlaneSet::read(context, set) }?;
         let histogram = set.run(|context, domain, points, progress| {
             // Bad bins are refused before any work.
             nearest_histogram_2d(domain, &[], reach, bins)?;
@@ -170,11 +189,7 @@ pub unsafe extern "C" fn azulejo_plane_nearest_histogram(
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_plane_radial_distribution(
     context: Option<&azulejo_context>,
-    xy: *const f32,
-    count: usize,
-    domain_min: *const f64,
-    domain_max: *const f64,
-    boundary: i32,
+    set: *const azulejo_plane_set,
     reach: f64,
     bins: usize,
     out: *mut f64,
@@ -182,7 +197,7 @@ pub unsafe extern "C" fn azulejo_plane_radial_distribution(
     boundary::call(|| {
         check_bins(out, bins)?;
         // SAFETY: handed on from the caller.
-        let set = unsafe { PlaneSet::read(context, xy, count, [domain_min, domain_max], boundary) }?;
+        let set = unsafe { PlaneSet::read(context, set) }?;
         let distribution = set.run(|context, domain, points, progress| {
             radial_distribution(context, domain, points, reach, bins, progress)
         })?;

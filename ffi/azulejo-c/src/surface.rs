@@ -8,12 +8,13 @@ use azulejo_core::dcr::surface::{self, Options, Report};
 use crate::boundary::{self, required, rows};
 use crate::context::azulejo_context;
 use crate::dcr::reason;
+use crate::growing::{self, Growing, Output, growing};
 use crate::mesh::azulejo_mesh;
-use crate::options::{self, Watch, azulejo_progress_fn, options};
 use crate::points::azulejo_points;
+use crate::progress::{Watch, azulejo_progress_fn};
 use crate::status::azulejo_status;
 
-/// Options of azulejo_dcr_relax_surface. d_max = sqrt(2 * area / (sqrt(3) * count)) is the distance of neighbours if the
+/// Options of azulejo_dcr_surface_relax. d_max = sqrt(2 * area / (sqrt(3) * count)) is the distance of neighbours if the
 /// samples stood in hexagonal arrangement on a plane of the mesh's area.
 #[repr(C)]
 #[derive(Clone, Copy)]
@@ -34,7 +35,7 @@ pub struct azulejo_dcr_surface_options {
     pub progress_user: *mut c_void,
 }
 
-options!(azulejo_dcr_surface_options requires max_iterations {
+growing!(azulejo_dcr_surface_options requires max_iterations {
     max_iterations: 100,
     tolerance: -1.0,
     seed: 0,
@@ -54,10 +55,14 @@ impl azulejo_dcr_surface_options {
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct azulejo_dcr_surface_report {
+    /// The size of the caller's struct in bytes; set by the init function.
+    pub struct_size: u32,
     /// The steps made.
     pub iterations: u32,
     /// Why no more steps were made: an AZULEJO_STOPPED_ constant.
     pub stopped: i32,
+    /// 0.
+    pub reserved: u32,
     /// Half of how far samples got over the last 10 steps, root mean square, in units of d_max.
     pub motion: f64,
     /// The smallest straight distance between two of the samples, whether or not they are near on the surface, which is no
@@ -66,13 +71,20 @@ pub struct azulejo_dcr_surface_report {
     /// The smallest distance in units of d_max: 0.77 for a maximal set; for a relaxed one 0.85 on the bunny, 0.84 on the dragon,
     /// and less, 0.75, where there are thin blades: parts nearer to each other than samples are.
     pub rho: f64,
-    /// Zeros, for later versions.
-    pub reserved: [u32; 6],
 }
+
+growing!(azulejo_dcr_surface_report requires iterations {
+    iterations: 0,
+    stopped: 0,
+    reserved: 0,
+    motion: 0.0,
+    smallest_distance: 0.0,
+    rho: 0.0,
+});
 
 impl From<Report> for azulejo_dcr_surface_report {
     fn from(Report { iterations, stopped, motion, smallest_distance, rho }: Report) -> Self {
-        Self { iterations, stopped: reason(stopped), motion, smallest_distance, rho, reserved: [0; 6] }
+        Self { iterations, stopped: reason(stopped), motion, smallest_distance, rho, ..Self::DEFAULT }
     }
 }
 
@@ -83,7 +95,17 @@ pub unsafe extern "C" fn azulejo_dcr_surface_options_init(
     struct_size: usize,
 ) -> azulejo_status {
     // SAFETY: handed on from the caller.
-    unsafe { options::init(options, struct_size) }
+    unsafe { growing::init("options", options, struct_size) }
+}
+
+/// Writes zeros. `struct_size` is sizeof *report.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_dcr_surface_report_init(
+    report: *mut azulejo_dcr_surface_report,
+    struct_size: usize,
+) -> azulejo_status {
+    // SAFETY: handed on from the caller.
+    unsafe { growing::init("report", report, struct_size) }
 }
 
 /// Relaxes samples of a mesh: they walk on the surface, away from neighbours that are too close and into holes, until the
@@ -109,7 +131,7 @@ pub unsafe extern "C" fn azulejo_dcr_surface_options_init(
 /// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for triangles that the mesh does not have, without area, or left out by
 /// its mask, and for barycentrics outside the triangle by more than 1e-6; AZULEJO_ERROR_TOO_LARGE.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn azulejo_dcr_relax_surface(
+pub unsafe extern "C" fn azulejo_dcr_surface_relax(
     context: Option<&azulejo_context>,
     mesh: Option<&azulejo_mesh>,
     options: *const azulejo_dcr_surface_options,
@@ -117,13 +139,13 @@ pub unsafe extern "C" fn azulejo_dcr_relax_surface(
     barycentrics: *const f32,
     count: usize,
     out: Option<&mut MaybeUninit<Box<azulejo_points>>>,
-    report: Option<&mut MaybeUninit<azulejo_dcr_surface_report>>,
+    report: *mut azulejo_dcr_surface_report,
 ) -> azulejo_status {
     boundary::create(out, || {
         let context = required("context", context)?;
         let mesh = required("mesh", mesh)?.shared.clone();
         // SAFETY: handed on from the caller.
-        let options = unsafe { options::read(options) }?;
+        let (options, report) = unsafe { (growing::read("options", options)?, Output::optional("report", report)?) };
         // SAFETY: likewise.
         let triangles = unsafe { rows::<u32, 1>("triangles", triangles, "count", count) }?.as_flattened();
         // SAFETY: likewise.
@@ -132,7 +154,9 @@ pub unsafe extern "C" fn azulejo_dcr_relax_surface(
         let (relaxed, done) = context.run(watch, |context, progress| {
             surface::relax(context, &mesh, triangles, barycentrics, &options.request(), progress)
         })?;
-        report.map(|report| report.write(done.into()));
+        if let Some(report) = report {
+            report.write(done);
+        }
         Ok(azulejo_points::surface(relaxed))
     })
 }
@@ -140,7 +164,6 @@ pub unsafe extern "C" fn azulejo_dcr_relax_surface(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::options::Options as _;
 
     #[test]
     fn the_defaults_are_those_of_the_core() {

@@ -3,7 +3,7 @@
 /// The major version of this header. It changes when programs must be changed.
 pub const AZULEJO_VERSION_MAJOR: u32 = 0;
 /// The minor version of this header. It changes when something is added; before 1.0 also when programs must be changed.
-pub const AZULEJO_VERSION_MINOR: u32 = 1;
+pub const AZULEJO_VERSION_MINOR: u32 = 2;
 /// The patch level of this header.
 pub const AZULEJO_VERSION_PATCH: u32 = 0;
 /// The version of this header as one number: major * 10000 + minor * 100 + patch.

@@ -27,9 +27,9 @@ pub use triangles::{Triangulation, triangulate};
 
 use glam::DVec2;
 
-use super::Stopped;
+use crate::dcr::Stopped;
 use crate::error::{Error, Result};
-use crate::grid3;
+use crate::geometry::grid3;
 use crate::job::{Context, Job, Progress};
 use crate::mesh::{Mesh, round_barycentrics};
 use crate::points::SurfaceSamples;

@@ -32,8 +32,8 @@ mod insert;
 
 use crate::error::{Error, Result};
 use crate::job::{Context, Progress};
-use crate::lattice::Lattice;
 use crate::memory;
+use crate::plane::lattice::Lattice;
 use crate::points::{Boundary, Domain};
 use crate::rng::{Draw, hash};
 
