@@ -90,6 +90,8 @@ void relaxing_to_a_density() {
 
     density.values = {};
     density.function = [](const std::array<double, 2> &position) { return position[1]; };
+    CHECK(refused("width", [&] { azulejo::dcr_scatter(context, options, density, 9); }));
+    density.width = 0;
     const auto raised = azulejo::dcr_relax_density(context, options, density, start, &report);
     CHECK(raised.size() == 500 && report.iterations > 0);
     density.function = [](const std::array<double, 2> &position) -> double {
