@@ -416,15 +416,7 @@ public:
     constexpr Coordinates(const P &place) {
         constexpr std::size_t known = std::is_array_v<P> ? std::extent_v<P> : detail::tuple_size<P>;
         static_assert(known == 0 || known == width, "a place with another number of coordinates");
-        if constexpr (detail::tuple_size<P> != 0) {
-            read(place, std::make_index_sequence<width>());
-        } else if constexpr (detail::is_indexed<P>) {
-            for (std::size_t i = 0; i < width; i++) values_[i] = static_cast<double>(place[i]);
-        } else {
-            values_[0] = static_cast<double>(place.x);
-            values_[1] = static_cast<double>(place.y);
-            if constexpr (width == 3) values_[2] = static_cast<double>(place.z);
-        }
+        read(place, std::make_index_sequence<width>());
     }
 
     constexpr const double *data() const noexcept { return values_; }
@@ -433,7 +425,15 @@ public:
 private:
     template <class P, std::size_t... i>
     constexpr void read(const P &place, std::index_sequence<i...>) {
-        ((values_[i] = static_cast<double>(std::get<i>(place))), ...);
+        if constexpr (detail::tuple_size<P> != 0) {
+            ((values_[i] = static_cast<double>(std::get<i>(place))), ...);
+        } else if constexpr (detail::is_indexed<P>) {
+            ((values_[i] = static_cast<double>(place[i])), ...);
+        } else {
+            values_[0] = static_cast<double>(place.x);
+            values_[1] = static_cast<double>(place.y);
+            if constexpr (width == 3) values_[2] = static_cast<double>(place.z);
+        }
     }
 
     double values_[width] = {};
@@ -1054,8 +1054,8 @@ namespace detail {
 /// Calls with the C struct of a density.
 template <class Call>
 Status with_density(const Density &density, Points &out, Call call) {
-    const Tuples<float, 1> values(density.values);
-    if (!density.values.empty() && (density.width == 0 || values.size() % density.width != 0)) {
+    const auto values = density.values;
+    if (!values.empty() && (density.width == 0 || values.size() % density.width != 0)) {
         return Status(AZULEJO_ERROR_INVALID_ARGUMENT,
                       "values: " + std::to_string(values.size()) +
                           " numbers are not a multiple of " + std::to_string(density.width));
@@ -1065,7 +1065,7 @@ Status with_density(const Density &density, Points &out, Call call) {
     if (Status s{azulejo_density_init(&wanted, sizeof wanted)}; !s.ok()) return s;
     wanted.values = values.data();
     wanted.width = density.width;
-    wanted.height = density.values.empty() ? 0 : values.size() / density.width;
+    wanted.height = values.empty() ? 0 : values.size() / density.width;
     wanted.function = density.function ? &Field<2>::call : nullptr;
     wanted.user = &field;
     return make(out, [&](auto **points) { return field.after(call(&wanted, points)); });
