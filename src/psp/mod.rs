@@ -20,6 +20,7 @@ use crate::error::{Error, Result};
 use crate::job::{Context, Job, Progress};
 use crate::mesh::{Mesh, exact};
 use crate::points::{SurfaceSamples, check_radius};
+use crate::setters::setters;
 
 pub mod adaptive;
 mod blocks;
@@ -63,7 +64,7 @@ const RAYS_ALWAYS: f64 = 1e7;
 
 /// Which of an iteration's candidates comes first where two of them are too close. Existing samples come before all.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Order {
+pub enum Priority {
     /// That which its projector faces more squarely: there the pattern is stretched less. Finds more samples.
     #[default]
     Squareness,
@@ -86,6 +87,7 @@ pub enum Engine {
 
 /// What to sample.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Options {
     /// The smallest distance of two samples, in the units of the mesh; positive and finite.
     pub radius: f64,
@@ -96,7 +98,7 @@ pub struct Options {
     /// Selects one of 2^64 sets.
     pub seed: u64,
     /// Which candidates come first.
-    pub order: Order,
+    pub priority: Priority,
     /// What finds the hits.
     pub engine: Engine,
 }
@@ -109,14 +111,17 @@ impl Options {
             iterations: DEFAULT_ITERATIONS,
             maximal: true,
             seed: 0,
-            order: Order::default(),
+            priority: Priority::default(),
             engine: Engine::default(),
         }
     }
 }
 
+setters!(Options { radius: f64, iterations: u32, maximal: bool, seed: u64, priority: Priority, engine: Engine });
+
 /// What a call did.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[non_exhaustive]
 pub struct Report {
     /// Samples there are after the call.
     pub samples: u64,
@@ -269,10 +274,10 @@ impl Psp {
                 none => none.insert(Projection::new(&job.part(0.0, prepared), &self.mesh, &self.options)?),
             };
             report.prepare_seconds += stage.lap();
-            let Options { seed, order, .. } = self.options;
+            let Options { seed, priority, .. } = self.options;
             let frame = project::projector::frame(seed, self.iterations, self.frame);
             let projectors = &Projector::all(frame, seed, self.iterations);
-            let collector = Collector { mesh: &self.mesh, samples: &self.samples, order, projectors };
+            let collector = Collector { mesh: &self.mesh, samples: &self.samples, priority, projectors };
             let (candidates, projected) = projection.project(&job.part(prepared, 0.7), projectors, &collector)?;
             report.project_seconds += stage.lap();
             let accepted = merge::merge(&job.part(0.7, 1.0), &mut self.samples, &candidates)?;

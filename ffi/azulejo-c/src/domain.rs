@@ -81,18 +81,22 @@ impl<'a> PlaneSet<'a> {
         Ok(Self { context, points, domain: domain(set.domain_min, set.domain_max, set.boundary)? })
     }
 
-    /// Runs a call of the core, which knows the positions as `xy`.
+    /// Runs a call of the core.
     pub(crate) fn run<T>(
         &self,
         call: impl FnOnce(&Context, &Domain, &[[f32; 2]], Option<&Progress>) -> azulejo_core::Result<T>,
     ) -> Result<T, Failure> {
         self.context.run(Watch::NONE, |context, progress| {
-            call(context, &self.domain, self.points, progress).map_err(|error| match error {
-                Error::InvalidArgument { argument: "xy", reason } => {
-                    Error::InvalidArgument { argument: "positions", reason }
-                }
-                other => other,
-            })
+            call(context, &self.domain, self.points, progress).map_err(in_words_of_c)
         })
+    }
+}
+
+/// An error of the core, which knows the positions as `xy`.
+fn in_words_of_c(error: Error) -> Error {
+    match error {
+        Error::InvalidArgument { argument: "xy", reason } => Error::InvalidArgument { argument: "positions", reason },
+        Error::TooLarge { argument: "xy", reason } => Error::TooLarge { argument: "positions", reason },
+        other => other,
     }
 }

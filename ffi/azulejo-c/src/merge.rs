@@ -92,7 +92,7 @@ growing!(azulejo_kdrt_merge_report requires kept { reserved: 0, kept: 0, elimina
 
 impl From<MergeReport> for azulejo_kdrt_merge_report {
     fn from(report: MergeReport) -> Self {
-        let MergeReport { kept, eliminated, inserted } = report;
+        let MergeReport { kept, eliminated, inserted, .. } = report;
         Self { kept: kept as u64, eliminated: eliminated as u64, inserted: inserted as u64, ..Self::DEFAULT }
     }
 }
@@ -152,7 +152,7 @@ pub unsafe extern "C" fn azulejo_kdrt_merge(
             (growing::read("options", options)?, read(pieces, piece_count)?, fixed, Output::optional("report", report)?)
         };
         let domain = domain(options.domain_min, options.domain_max, options.boundary)?;
-        let request = MergeOptions { radius: options.radius, domain, seed: options.seed };
+        let request = MergeOptions::new(options.radius).domain(domain).seed(options.seed);
         let watch = Watch::new(options.progress, options.progress_user);
         let (merged, done) =
             context.run(watch, |context, progress| kdrt::merge(context, &request, &pieces, fixed, progress))?;

@@ -5,7 +5,7 @@ use std::mem::MaybeUninit;
 use std::ptr::NonNull;
 use std::sync::{RwLock, TryLockError};
 
-use azulejo_core::psp::{self, Engine, Order, Psp, Report};
+use azulejo_core::psp::{self, Engine, Priority, Psp, Report};
 use azulejo_core::{Context, Progress};
 
 use crate::boundary::{self, check_reserved, check_unused, flag, required};
@@ -82,14 +82,12 @@ growing!(azulejo_psp_options requires radius {
 impl azulejo_psp_options {
     fn request(&self) -> Result<psp::Options, Failure> {
         check_reserved(self.reserved)?;
-        Ok(psp::Options {
-            radius: self.radius,
-            iterations: self.iterations,
-            maximal: flag("maximal", self.maximal)?,
-            seed: self.seed,
-            order: priority(self.priority)?,
-            engine: engine(self.engine)?,
-        })
+        Ok(psp::Options::new(self.radius)
+            .iterations(self.iterations)
+            .maximal(flag("maximal", self.maximal)?)
+            .seed(self.seed)
+            .priority(priority(self.priority)?)
+            .engine(engine(self.engine)?))
     }
 
     /// Refuses what a handle has no use for: its calls say how often, and whether gaps are filled.
@@ -104,10 +102,10 @@ impl azulejo_psp_options {
     }
 }
 
-fn priority(value: i32) -> Result<Order, Failure> {
+fn priority(value: i32) -> Result<Priority, Failure> {
     match value {
-        AZULEJO_PRIORITY_SQUARENESS => Ok(Order::Squareness),
-        AZULEJO_PRIORITY_PROJECTOR => Ok(Order::Projector),
+        AZULEJO_PRIORITY_SQUARENESS => Ok(Priority::Squareness),
+        AZULEJO_PRIORITY_PROJECTOR => Ok(Priority::Projector),
         other => Err(Failure::invalid("priority", format!("{other} is no AZULEJO_PRIORITY_ constant"))),
     }
 }

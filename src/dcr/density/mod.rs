@@ -97,7 +97,7 @@ fn is_density(value: f64) -> bool {
 /// # Errors
 /// [`Error::InvalidArgument`] for a density that is not 0 or above and finite, or is 0 everywhere (`density`; which of
 /// several bad places is told is not chance), for an image without pixels (`width`, `height`) or of another size than its
-/// values, and for all options but [`Method::Best`] (`method`) with Delaunay neighbours (`neighbourhood`); those of
+/// values, and for all options but [`Method::Momentum`] (`method`) with Delaunay neighbours (`neighbourhood`); those of
 /// [`relax`](super::relax).
 pub fn relax_with_density(
     context: &Context,
@@ -108,7 +108,7 @@ pub fn relax_with_density(
 ) -> Result<(Vec<[f32; 2]>, Report)> {
     options.check()?;
     density.check()?;
-    if options.method != Method::Best {
+    if options.method != Method::Momentum {
         return Err(Error::invalid("method", "only the best method knows densities"));
     }
     if options.neighbourhood != Neighbourhood::Delaunay {

@@ -223,7 +223,7 @@ mod tests {
         let cases = distributions.into_iter().flat_map(|d| [Visits::BothEnds, Visits::OneEnd].map(|v| (d, v)));
         for (distribution, visits) in cases {
             // Large steps, for points that oscillate.
-            let thesis = Thesis { step: 0.4, distribution, visits, ..Thesis::default() };
+            let thesis = Thesis::default().step(0.4).distribution(distribution).visits(visits);
             let forces = Forces::new(Neighbourhood::Delaunay, &thesis, 3);
             let mut rng = Rng::at(7, Draw::Probe, &[]);
             let start = (0..COUNT).map(|_| 4.0 * DVec2::new(rng.unit(), rng.unit()));

@@ -1,6 +1,7 @@
 //! What the thesis's algorithm can be varied by (§4.4.2 and §4.4.3).
 
 use crate::error::{Error, Result};
+use crate::setters::setters;
 
 /// How a tension is divided between the point that visits an edge and the neighbour at its other end (Fig. 4.19).
 ///
@@ -48,6 +49,7 @@ pub enum Convergence {
 /// What the thesis's algorithm can be varied by. Lengths are in units of `d_max`, the distance of neighbours if the same
 /// number of points stood in hexagonal arrangement on the domain's area (and never more than its shorter side).
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Thesis {
     /// Neighbours closer than this repel each other; above 0, at most 1. The thesis: 0.8 to 0.99.
     pub conflict_radius: f64,
@@ -86,6 +88,17 @@ impl Default for Thesis {
         }
     }
 }
+
+setters!(Thesis {
+    conflict_radius: f64,
+    attraction_radius: f64,
+    step: f64,
+    decay: f64,
+    neighbours: u32,
+    distribution: Distribution,
+    visits: Visits,
+    convergence: Convergence,
+});
 
 impl Thesis {
     /// Refuses what is out of its range.

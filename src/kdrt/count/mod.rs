@@ -14,10 +14,12 @@ mod tune;
 use crate::error::{Error, Result};
 use crate::job::{Context, Job, Progress};
 use crate::plane::lattice::Lattice;
-use crate::points::Domain;
+use crate::points::{Boundary, Domain};
 use crate::rng::{Draw, hash};
+use crate::setters::setters;
 
-use crate::kdrt::{check_leaf_size, sample_lattice};
+use crate::kdrt::options::{DEFAULT_LEAF_SIZE, check_leaf_size};
+use crate::kdrt::sample::sample_lattice;
 use search::Search;
 use thin::thin;
 use tune::tune;
@@ -34,6 +36,7 @@ const SAMPLING_SHARE: f64 = 0.7;
 
 /// What to sample, by number.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct CountOptions {
     /// How many samples: at least 1.
     pub count: u64,
@@ -44,6 +47,15 @@ pub struct CountOptions {
     /// The same options and seed give the same samples.
     pub seed: u64,
 }
+
+impl CountOptions {
+    /// So many samples on the unit torus, with leaves of [`DEFAULT_LEAF_SIZE`] and seed 0.
+    pub fn new(count: u64) -> Self {
+        Self { count, domain: Domain::unit(Boundary::Periodic), leaf_size: DEFAULT_LEAF_SIZE, seed: 0 }
+    }
+}
+
+setters!(CountOptions { count: u64, domain: Domain, leaf_size: f64, seed: u64 });
 
 /// What [`sample_count`] achieved.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -57,6 +69,7 @@ pub struct CountReport {
 
 /// Samples, and what holds for them.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Counted {
     /// The samples: as many as asked for.
     pub samples: Vec<[f32; 2]>,
@@ -160,7 +173,7 @@ mod tests {
         let domain = Domain::unit(Boundary::Periodic);
         let mut thinned = 0;
         for (count, seed) in (2..12).flat_map(|count| (0..30).map(move |seed| (count, seed))) {
-            let options = CountOptions { count, domain, leaf_size: 20.0, seed };
+            let options = CountOptions::new(count).domain(domain).seed(seed);
             let search = Search::new(&domain, options.leaf_size, count);
             let Counted { samples, report } = context.run(None, |job| attempt(job, &options, search, 1)).unwrap();
             assert_eq!(samples.len() as u64, count);
@@ -178,7 +191,7 @@ mod tests {
         let context = Context::new(1).unwrap();
         let refuse = |count, max: [f64; 2], leaf_size| {
             let domain = Domain { min: [1.0; 2], max, boundary: Boundary::Bounded };
-            sample_count(&context, &CountOptions { count, domain, leaf_size, seed: 0 }, None).unwrap_err()
+            sample_count(&context, &CountOptions::new(count).domain(domain).leaf_size(leaf_size), None).unwrap_err()
         };
         let invalid =
             |error: &Error, name| matches!(error, Error::InvalidArgument { argument, .. } if *argument == name);

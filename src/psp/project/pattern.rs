@@ -23,7 +23,7 @@ const SMALLEST_SIDE: f64 = 8.0;
 pub(crate) fn torus(job: &Job, extent: f64, seed: u64) -> Result<(f64, Vec<[f32; 2]>)> {
     let side = extent.clamp(SMALLEST_SIDE, LARGEST_SIDE);
     let domain = Domain { min: [0.0; 2], max: [side; 2], boundary: Boundary::Periodic };
-    let options = kdrt::Options { radius: 1.0, domain, leaf_size: kdrt::DEFAULT_LEAF_SIZE, seed };
+    let options = kdrt::Options::new(1.0).domain(domain).seed(seed);
     let progress = |share| job.report(share).map_or(ControlFlow::Break(()), ControlFlow::Continue);
     Ok((side, kdrt::sample(job.context(), &options, Some(&progress))?))
 }

@@ -14,7 +14,7 @@ use crate::psp::merge::Candidate;
 use crate::psp::project::raster::Rasteriser;
 use crate::psp::project::rays::Rays;
 use crate::psp::samples::{Sample, SampleSet};
-use crate::psp::{Engine, Options, Order};
+use crate::psp::{Engine, Options, Priority};
 use crate::rng::{Draw, Rng};
 use crate::trace::Hit;
 
@@ -88,7 +88,7 @@ pub(crate) type Found = (Groups<Block, Candidate>, Projected);
 pub(crate) struct Collector<'a> {
     pub mesh: &'a Mesh,
     pub samples: &'a SampleSet,
-    pub order: Order,
+    pub priority: Priority,
     pub projectors: &'a [Projector; 3],
 }
 
@@ -132,9 +132,9 @@ impl Collector<'_> {
                     kept.push(sample.position);
                 }
                 let squareness = || exact(self.mesh.normal(hit.triangle)).dot(direction).abs();
-                let rank = match self.order {
-                    Order::Squareness => ((1.0 - squareness()) * RANKS) as u32,
-                    Order::Projector => projector as u32,
+                let rank = match self.priority {
+                    Priority::Squareness => ((1.0 - squareness()) * RANKS) as u32,
+                    Priority::Projector => projector as u32,
                 };
                 add(self.samples.block(sample.position.map(f64::from)), Candidate { sample, rank });
             }

@@ -8,7 +8,7 @@ use crate::job::Context;
 use crate::mesh::{Mesh, exact};
 use crate::psp::project::projector::{Collector, Projection, Projector, frame};
 use crate::psp::samples::{Sample, SampleSet};
-use crate::psp::{Engine, Options, Order};
+use crate::psp::{Engine, Options, Priority};
 
 #[path = "../../../../tests/common/meshes.rs"]
 #[allow(dead_code)]
@@ -25,9 +25,9 @@ fn hits(
     projectors: &[Projector; 3],
     threads: usize,
 ) -> HashMap<(u32, u32), Vec<Sample>> {
-    let options = Options { engine, ..Options::new(radius) };
+    let options = Options::new(radius).engine(engine);
     let samples = &SampleSet::new(mesh, radius);
-    let collector = Collector { mesh, samples, order: Order::Projector, projectors };
+    let collector = Collector { mesh, samples, priority: Priority::Projector, projectors };
     let found = Context::new(threads)
         .unwrap()
         .run(None, |job| Projection::new(job, mesh, &options)?.project(job, projectors, &collector));
