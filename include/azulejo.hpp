@@ -10,7 +10,8 @@
 //   form only.
 //
 // Callbacks are std::functions. An exception that leaves one stops the call, and leaves the call in
-//   both of its forms. A callback must not throw where AZULEJO_NO_EXCEPTIONS is defined.
+//   both of its forms; a call of azulejo.h that has the callback fails instead. Where there are no
+//   exceptions, a callback that throws ends the process.
 //
 // Sections: status, arrays, owners, points, places and domains, options, reports, context, mesh,
 //   psp, samplers, relaxation, analysis, the throwing forms.
