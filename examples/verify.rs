@@ -1,10 +1,10 @@
-//! Verifies a set of points of the unit torus, from whatever program: is it conflict-free and maximal for a radius?
+//! Verifies points of the unit torus, made by any program: is the set conflict-free and maximal for a radius?
 //!
 //! ```sh
-//! cargo run --release --example verify -- 0.00326 < plane.xy      # the radius that the example `plane` prints
+//! cargo run --release --example verify -- RADIUS < plane.xy      # the radius that the example `plane` prints
 //! ```
 //!
-//! The exit code is 0 if it is, 1 if it is not, and 2 if it cannot be checked.
+//! The exit code is 0 if it is both, 1 if it is not, and 2 if the input cannot be read.
 
 use std::error::Error;
 use std::process::ExitCode;
