@@ -6,7 +6,8 @@
 //!
 //! Regular borders would leave peaks in the spectrum, so each is moved by up to a quarter of the regular width.
 
-use crate::plane::lattice::{Lattice, Rect};
+use crate::plane::lattice::Lattice;
+use crate::plane::rect::Rect;
 use crate::points::Boundary;
 use crate::rng::{Draw, Rng, hash};
 
@@ -26,6 +27,12 @@ const JITTER: f64 = 0.25;
 /// (0, 0) at the corners.
 pub(super) const PHASES: [([i32; 2], [i32; 2]); 4] =
     [([0, 0], [2, 1]), ([1, 0], [1, 1]), ([1, 1], [1, 0]), ([0, 1], [0, 0])];
+
+/// A fill block: its lattice points, and the cells that hold them.
+pub(super) struct Block {
+    pub rect: Rect,
+    pub cells: Rect,
+}
 
 /// The blocks of a plane. Columns and rows count from 0; on a torus they go on beyond its borders.
 #[derive(Clone, Debug)]
@@ -151,7 +158,7 @@ mod tests {
                 let (lattice, blocks) = blocks(boundary, seed);
                 for axis in 0..2 {
                     let borders: Vec<_> = (0..=blocks.counts[axis]).map(|index| blocks.border(axis, index)).collect();
-                    assert!(borders.windows(2).all(|pair| pair[1] - pair[0] > lattice.reach));
+                    assert!(borders.windows(2).all(|pair| pair[1] - pair[0] > lattice.separation.reach));
                     assert_eq!((borders[0], borders[borders.len() - 1]), (0, lattice.size[axis]));
                     assert!(boundary == Boundary::Bounded || blocks.counts[axis] % 2 == 0);
                 }

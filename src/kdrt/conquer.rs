@@ -14,7 +14,7 @@
 //! enough.
 
 use crate::plane::CellGrid;
-use crate::plane::lattice::Rect;
+use crate::plane::rect::Rect;
 
 use crate::kdrt::clip::{Pattern, Row};
 use crate::kdrt::divide::Leaf;

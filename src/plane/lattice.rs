@@ -15,19 +15,32 @@
 //! samples.
 
 use crate::error::{Error, Result};
-use crate::points::{Boundary, Domain, check_radius};
-
-pub(crate) use crate::plane::rect::Rect;
-
-/// N·r² of an unbiased maximal set of N samples in the unit square: the jamming limit of random sequential
-/// placement of disks, 0.5470735, is the share of the area that disks of *diameter* r cover.
-pub(crate) const MAXIMAL_DENSITY: f64 = 0.5470735 * 4.0 / std::f64::consts::PI;
+use crate::plane::rect::Rect;
+use crate::points::{Boundary, Domain, MAXIMAL_DENSITY, check_radius};
 
 /// The smallest radius in lattice units.
 const FINEST_RADIUS: f64 = 64.0;
 
 /// More samples are never made in one call.
 const MAX_SAMPLES: f64 = u32::MAX as f64;
+
+/// How far apart two lattice points must be for a radius.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Separation {
+    /// Points whose squared distance is below this conflict.
+    pub threshold: i64,
+    /// The largest distance along one axis at which points can conflict.
+    pub reach: i32,
+}
+
+impl Separation {
+    /// That of a radius in lattice units.
+    pub fn new(radius: f64) -> Self {
+        // The guard covers the rounding of the squares here and in the user's own check.
+        let threshold = (radius * radius * (1.0 + 1e-14)).ceil() as i64;
+        Self { threshold, reach: (threshold - 1).isqrt() as i32 }
+    }
+}
 
 /// The lattice of a domain, with the radius in its units.
 #[derive(Clone, Debug)]
@@ -40,10 +53,8 @@ pub(crate) struct Lattice {
     pub boundary: Boundary,
     /// The radius in lattice units.
     pub radius: f64,
-    /// Points whose squared distance is below this conflict.
-    pub threshold: i64,
-    /// The largest distance along one axis at which points can conflict.
-    pub reach: i32,
+    /// What the radius asks of two lattice points.
+    pub separation: Separation,
 }
 
 impl Lattice {
@@ -84,17 +95,15 @@ impl Lattice {
         }
         // No two lattice points are as far apart as 2^26, so a longer radius means the same and only overflows.
         let radius = (radius / unit).min((1 << 26) as f64);
-        let lattice = Self { unit, origin, size, boundary: domain.boundary, radius, threshold: 0, reach: 0 };
-        Ok(lattice.widened(0.0))
+        let lattice =
+            Self { unit, origin, size, boundary: domain.boundary, radius, separation: Separation::new(radius) };
+        Ok(lattice)
     }
 
     /// The same lattice with a radius that is longer by so many units.
     pub fn widened(&self, units: f64) -> Self {
         let radius = self.radius + units;
-        // The guard covers the rounding of the squares here and in the user's own check.
-        let threshold = (radius * radius * (1.0 + 1e-14)).ceil() as i64;
-        let reach = (threshold - 1).isqrt() as i32;
-        Self { radius, threshold, reach, ..self.clone() }
+        Self { radius, separation: Separation::new(radius), ..self.clone() }
     }
 
     /// A square torus of points of this lattice, with the same radius.
@@ -280,10 +289,10 @@ mod tests {
         for radius in [0.013, 0.25, 2e-5, 3.0 / 7.0, 0.5f64.powi(9)] {
             let lattice = lattice([0.0; 2], [1.0; 2], Boundary::Bounded, radius).unwrap();
             let length = |d2: i64| (d2 as f64).sqrt() * lattice.unit;
-            assert!(length(lattice.threshold) >= radius);
-            assert!(length(lattice.threshold - 2) < radius);
-            assert!(i64::from(lattice.reach).pow(2) < lattice.threshold);
-            assert!(i64::from(lattice.reach + 1).pow(2) >= lattice.threshold);
+            assert!(length(lattice.separation.threshold) >= radius);
+            assert!(length(lattice.separation.threshold - 2) < radius);
+            assert!(i64::from(lattice.separation.reach).pow(2) < lattice.separation.threshold);
+            assert!(i64::from(lattice.separation.reach + 1).pow(2) >= lattice.separation.threshold);
         }
     }
 
@@ -291,7 +300,7 @@ mod tests {
     fn a_radius_beyond_every_distance_makes_everything_conflict() {
         let lattice = lattice([-1.0; 2], [1.0; 2], Boundary::Bounded, 1e300).unwrap();
         let diagonal: i64 = lattice.size.iter().map(|&size| i64::from(size).pow(2)).sum();
-        assert!(lattice.threshold > diagonal);
+        assert!(lattice.separation.threshold > diagonal);
     }
 
     /// A thin domain far from the long axis's multiples: its own floats count.

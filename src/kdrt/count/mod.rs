@@ -18,7 +18,8 @@ use crate::points::{Boundary, Domain};
 use crate::rng::{Draw, hash};
 use crate::setters::setters;
 
-use crate::kdrt::{DEFAULT_LEAF_SIZE, check_leaf_size, sample_lattice};
+use crate::kdrt::options::{DEFAULT_LEAF_SIZE, check_leaf_size};
+use crate::kdrt::sample::sample_lattice;
 use search::Search;
 use thin::thin;
 use tune::tune;

@@ -4,7 +4,8 @@
 //! hole, and what decides about it within 2r: the hole is that far from the borders of its plot, unless nothing lies
 //! beyond.
 
-use crate::plane::lattice::{Lattice, Rect};
+use crate::plane::lattice::Lattice;
+use crate::plane::rect::Rect;
 use crate::points::Boundary;
 use crate::rng::Rng;
 
@@ -97,7 +98,7 @@ pub(super) struct Plot {
 impl Plots {
     /// Cuts the domain at places of `rng`'s choice.
     pub fn new(lattice: &Lattice, mut rng: Rng) -> Self {
-        Self { axes: lattice.size.map(|size| Cuts::new(size, lattice.boundary, lattice.reach, &mut rng)) }
+        Self { axes: lattice.size.map(|size| Cuts::new(size, lattice.boundary, lattice.separation.reach, &mut rng)) }
     }
 
     /// The number of plots.
@@ -189,7 +190,8 @@ mod tests {
                 let plots = Plots::new(&lattice, Rng::at(0, Draw::Probe, &[round]));
                 for plot in (0..plots.len()).map(|plot| plots.get(plot)).filter(|plot| !plot.hole().is_empty()) {
                     for (span, size) in std::iter::zip(plot.axes, lattice.size) {
-                        let decides = [span.hole[0] - 2 * lattice.reach, span.hole[1] + 2 * lattice.reach];
+                        let decides =
+                            [span.hole[0] - 2 * lattice.separation.reach, span.hole[1] + 2 * lattice.separation.reach];
                         let begins = decides[0] >= 0 || lattice.boundary == Boundary::Bounded && span.start == 0;
                         let ends = decides[1] <= span.length
                             || lattice.boundary == Boundary::Bounded && span.start + span.length == size;
