@@ -10,10 +10,7 @@ use std::io::{self, BufWriter, Write};
 use std::sync::Arc;
 
 use azulejo::mesh::Mesh;
-use azulejo::{Context, psp};
-
-/// Samples per squared radius of a maximal set on a plane; curved surfaces have a few per cent less.
-const DENSITY: f64 = 0.69656;
+use azulejo::{Context, MAXIMAL_DENSITY, psp};
 
 fn main() -> Result<(), Box<dyn Error>> {
     let arguments: Vec<String> = env::args().skip(1).collect();
@@ -21,7 +18,8 @@ fn main() -> Result<(), Box<dyn Error>> {
         return Err("usage: mesh MESH COUNT".into());
     };
     let mesh = Arc::new(Mesh::load(path)?);
-    let radius = (DENSITY * mesh.area() / count.parse::<f64>()?).sqrt();
+    // The radius of so many samples on a plane of the same area; a curved surface takes a few per cent less.
+    let radius = (MAXIMAL_DENSITY * mesh.area() / count.parse::<f64>()?).sqrt();
 
     let context = Context::new(0)?;
     let (samples, report) = psp::sample(&context, &mesh, &psp::Options::new(radius), None)?;
