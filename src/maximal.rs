@@ -50,7 +50,7 @@ setters!(Options { radius: f64, domain: Domain, seed: u64 });
 /// * `domain.min <= x < domain.max`; the order is by rows about 0.7 `radius` high.
 ///
 /// One thread does the work, in O(n) for n samples: about a million samples a second, less where they exceed the
-/// caches. [`crate::kdrt`] is the fast way.
+/// caches. [`crate::kdrt`] is the fast sampler.
 ///
 /// # Errors
 /// [`Error::InvalidArgument`](crate::Error::InvalidArgument) for a radius or domain out of range or floats too coarse

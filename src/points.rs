@@ -28,7 +28,7 @@ pub struct Domain {
     pub min: [f64; 2],
     /// The upper corner, above `min` on both axes.
     pub max: [f64; 2],
-    /// What lies beyond the border.
+    /// What lies beyond the boundary.
     pub boundary: Boundary,
 }
 
@@ -96,7 +96,7 @@ impl Domain {
         }
     }
 
-    /// Refuses what is not a rectangle of finite `f32` coordinates, and what is thinner than any of them can tell.
+    /// Refuses what is not a rectangle of finite `f32` coordinates, and what is thinner than their spacing.
     pub(crate) fn check(&self) -> Result<()> {
         for axis in 0..2 {
             let (min, max) = (self.min[axis], self.max[axis]);

@@ -2,7 +2,7 @@
 //! quadtree of `fill.rs`.
 //!
 //! A row of a block is one word, and a sample clears, in a dozen words, the voxels that lie in its disk (`stamp.rs`). The
-//! bitmap may keep voxels that are covered, never the other way round.
+//! bitmap may keep voxels that are covered, but never lacks one that is not.
 
 use crate::plane::rect::Rect;
 use crate::plane::{CellGrid, List};
@@ -234,8 +234,8 @@ mod tests {
                     let is_whole =
                         (0..2).all(|axis| block.min[axis] < rect.min[axis] && rect.max[axis] < block.max[axis]);
                     // Two sixteenths of a voxel, and a few lattice points.
-                    let room = 0.03 * radius + 8.0;
-                    assert!(!(bitmap.is_open(place) && is_whole) || (farthest as f64).sqrt() > radius - room);
+                    let margin = 0.03 * radius + 8.0;
+                    assert!(!(bitmap.is_open(place) && is_whole) || (farthest as f64).sqrt() > radius - margin);
                 }
             }
         }

@@ -2,7 +2,7 @@
 //!
 //! Departures: the pattern is periodic, so every offset can be clipped; it lies on the lattice of the plane and has the
 //! plane's radius, so translations are exact and nothing is scaled; a clip is turned at random as well as shifted; and it
-//! is what lies *inside* the leaf, without the thesis's margin of 2r, because the gaps along its border are filled anyway.
+//! is what lies *inside* the leaf, without the thesis's margin of 2r, because the gaps along its boundary are filled anyway.
 
 use crate::error::Result;
 use crate::geometry::counting_sort::Binned;

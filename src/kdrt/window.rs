@@ -17,9 +17,8 @@ use crate::kdrt::tiling::Tiling;
 /// The samples of [`sample`](super::sample) that lie in `window_min <= x < window_max`: the same floats in the same
 /// order, without making the others.
 ///
-/// So the sets of windows that cut the domain in any way hold each sample once, and nobody who makes one of them needs
-/// to know of the others. A window may be of any size, also smaller than the radius, and may have no sample. On a torus
-/// it lies in one period, as samples do.
+/// So windows that partition the domain hold each sample once, and a window is made without the others. It may be of
+/// any size, also smaller than the radius, and may have no sample. On a torus it lies in one period, as samples do.
 ///
 /// # What a window depends on
 /// Beyond its options a window depends only on its surroundings, as tiled: whether and where a sample lies is decided
@@ -102,7 +101,7 @@ pub fn sample_stream(
     })
 }
 
-/// The part of a domain between two corners; in itself it has a border.
+/// The part of a domain between two corners; it is bounded.
 fn part(domain: &Domain, min: [f64; 2], max: [f64; 2]) -> Result<Domain> {
     domain.check()?;
     for axis in 0..2 {

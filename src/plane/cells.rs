@@ -17,8 +17,8 @@ const MAX_MARGIN: i32 = 3;
 /// Around the cells lies a margin as wide as conflicts reach, so that neighbours are at fixed offsets. It is empty,
 /// or on a whole torus holds the images of samples on the other side.
 pub(crate) struct CellGrid {
-    /// Borders of the cells of each axis, one more than cells.
-    borders: [Vec<i32>; 2],
+    /// Edges of the cells of each axis, one more than cells.
+    edges: [Vec<i32>; 2],
     finders: [Finder; 2],
     /// The longest side of a cell of the plane.
     widest_cell: i32,
@@ -37,21 +37,21 @@ pub(crate) struct CellGrid {
 impl CellGrid {
     /// The empty cells that hold the lattice points of `rect`, for the separation of the lattice.
     pub fn new(axes: &[CellAxis; 2], rect: &Rect, separation: Separation) -> Self {
-        let borders: [Vec<i32>; 2] = std::array::from_fn(|axis| {
+        let edges: [Vec<i32>; 2] = std::array::from_fn(|axis| {
             let last = axes[axis].cell(rect.max[axis] - 1);
-            (axes[axis].cell(rect.min[axis])..=last + 1).map(|cell| axes[axis].border(cell)).collect()
+            (axes[axis].cell(rect.min[axis])..=last + 1).map(|cell| axes[axis].edge(cell)).collect()
         });
         // The images in a torus of few cells fill at most one period on each side: the nearest image is nearer.
         let margin = [0, 1].map(|axis| axes[axis].cells_within(separation.reach));
         debug_assert!(margin.into_iter().all(|cells| cells <= MAX_MARGIN));
-        let [width, height] = [0, 1].map(|axis| borders[axis].len() - 1 + 2 * margin[axis] as usize);
+        let [width, height] = [0, 1].map(|axis| edges[axis].len() - 1 + 2 * margin[axis] as usize);
         Self {
             // That of the plane, whether this grid has such a cell or not: what is thrown must not depend on the window.
             widest_cell: axes[0].side().max(axes[1].side()).ceil() as i32,
             finders: [0, 1].map(|axis: usize| axes[axis].finder(rect.min[axis])),
             samples: [0, 1].map(|_| vec![NOWHERE; width * height + LANES]),
             stride: width,
-            borders,
+            edges,
             margin,
             torus: None,
             vectors: Level::widest(),
@@ -68,7 +68,7 @@ impl CellGrid {
 
     /// Cells per axis.
     pub fn counts(&self) -> [i32; 2] {
-        [0, 1].map(|axis: usize| self.borders[axis].len() as i32 - 1)
+        [0, 1].map(|axis: usize| self.edges[axis].len() as i32 - 1)
     }
 
     /// The longest side of a cell of the plane, in lattice points.
@@ -84,7 +84,7 @@ impl CellGrid {
     /// The lattice points of a cell.
     #[inline(always)]
     pub fn rect(&self, [x, y]: [i32; 2]) -> Rect {
-        let [columns, rows] = &self.borders;
+        let [columns, rows] = &self.edges;
         let (x, y) = (x as usize, y as usize);
         Rect { min: [columns[x], rows[y]], max: [columns[x + 1], rows[y + 1]] }
     }
@@ -98,8 +98,8 @@ impl CellGrid {
     #[inline(always)]
     pub fn part(&self, axis: usize, cell: i32, part: i32, parts: i32) -> [i32; 2] {
         let (first, length) = self.span(axis, cell);
-        let border = |part: i32| first + (length * part as u32 / parts as u32) as i32;
-        [border(part), border(part + 1)]
+        let edge = |part: i32| first + (length * part as u32 / parts as u32) as i32;
+        [edge(part), edge(part + 1)]
     }
 
     /// The part of a column (axis 0) or row (axis 1) of cells that holds a coordinate.
@@ -113,8 +113,8 @@ impl CellGrid {
     /// Where a column (axis 0) or row (axis 1) of cells begins, and how long it is.
     #[inline(always)]
     fn span(&self, axis: usize, cell: i32) -> (i32, u32) {
-        let borders = &self.borders[axis][cell as usize..][..2];
-        (borders[0], (borders[1] - borders[0]) as u32)
+        let edges = &self.edges[axis][cell as usize..][..2];
+        (edges[0], (edges[1] - edges[0]) as u32)
     }
 
     /// The cell of a lattice point of the grid.
@@ -142,8 +142,7 @@ impl CellGrid {
 
     /// The cells that hold the lattice points of `rect`, as far as there are such cells.
     pub fn cells_of(&self, rect: &Rect) -> Rect {
-        let all =
-            Rect { min: self.rect([0; 2]).min, max: [0, 1].map(|axis: usize| *self.borders[axis].last().unwrap()) };
+        let all = Rect { min: self.rect([0; 2]).min, max: [0, 1].map(|axis: usize| *self.edges[axis].last().unwrap()) };
         let rect = rect.intersection(&all);
         if rect.is_empty() {
             return Rect { min: [0; 2], max: [0; 2] };

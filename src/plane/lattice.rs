@@ -7,7 +7,7 @@
 //!
 //! # What is guaranteed
 //! Two points *conflict* when their squared distance is below `threshold` = ceil(r² / unit²), so points without
-//! conflict are at least r apart, in `f64`, computed from the returned floats in any way that rounds each operation
+//! conflict are at least r apart, in `f64`, computed from the returned floats by any formula that rounds each operation
 //! correctly. A set is *maximal* when every lattice point of the domain conflicts with one of its points. A point of
 //! the domain between lattice points is at most one unit per axis from one of them, and on a torus the distance
 //! over the seam is at most one unit per axis longer than on the lattice (see [`Lattice::new`]): no point of the
@@ -124,7 +124,7 @@ impl Lattice {
         (MAXIMAL_DENSITY * width * height).max(1.0)
     }
 
-    /// The lattice points of a part of the domain, and perhaps the next ones beyond its borders.
+    /// The lattice points of a part of the domain, and perhaps the next ones beyond its boundaries.
     pub fn points_in(&self, part: &Domain) -> Rect {
         // The quotients are rounded, but not across an integer: the first lattice point from `x` on is the integer
         // below them or the next one.
@@ -142,7 +142,7 @@ impl Lattice {
     }
 
     /// A lattice point at most one unit per axis away from any point of `domain`, which is this lattice's; on a torus
-    /// perhaps over the seam. Away from the domain's border it is half a unit.
+    /// perhaps over the seam. Away from the domain's boundary it is half a unit.
     pub fn nearest(&self, domain: &Domain, point: [f32; 2]) -> [i32; 2] {
         std::array::from_fn(|axis| {
             let place = (f64::from(point[axis]) - self.origin[axis]) / self.unit;
@@ -314,7 +314,7 @@ mod tests {
         }
     }
 
-    /// Parts whose borders are on a lattice point, next to it, or anywhere.
+    /// Parts whose edges are on a lattice point, next to it, or anywhere.
     #[test]
     fn the_points_of_a_part_are_those_that_lie_in_it() {
         let mut rng = Rng::at(1, Draw::Probe, &[]);
@@ -323,12 +323,12 @@ mod tests {
             let max = [0, 1].map(|axis: usize| min[axis] + size[axis] * unit);
             let lattice = lattice(min, max, Boundary::Bounded, 100.0).unwrap();
             for _ in 0..300 {
-                let mut border = |axis: usize| {
+                let mut edge = |axis: usize| {
                     let x = min[axis] + rng.unit() * size[axis] * unit;
                     let on = (x / unit).round() * unit;
                     [x, on, on.next_up(), on.next_down()][rng.below(4) as usize].clamp(min[axis], max[axis])
                 };
-                let corners = [0, 1].map(|_| [border(0), border(1)]);
+                let corners = [0, 1].map(|_| [edge(0), edge(1)]);
                 let [min, max] =
                     [f64::min, f64::max].map(|pick| [0, 1].map(|axis| pick(corners[0][axis], corners[1][axis])));
                 let part = Domain { min, max, boundary: Boundary::Bounded };
@@ -342,7 +342,7 @@ mod tests {
         }
     }
 
-    /// Any floats of odd domains, those next to the borders among them.
+    /// Any floats of odd domains, those next to the boundaries among them.
     #[test]
     fn the_nearest_lattice_point_is_at_most_a_unit_away_per_axis() {
         let mut rng = Rng::at(2, Draw::Probe, &[]);

@@ -13,13 +13,13 @@ pub(crate) struct List {
 }
 
 impl List {
-    /// Empties the list for [`collect`](collect) and makes room for so many samples, whenever they come.
-    pub(super) fn clear(&mut self, room: usize) {
+    /// Empties the list for [`collect`], with capacity for so many samples in all.
+    pub(super) fn clear(&mut self, capacity: usize) {
         self.count = 0;
         // Vectors of sixteen are written from any place on.
-        if self.x.len() < room + 2 * LANES {
-            self.x.resize(room + 2 * LANES, NOWHERE);
-            self.y.resize(room + 2 * LANES, NOWHERE);
+        if self.x.len() < capacity + 2 * LANES {
+            self.x.resize(capacity + 2 * LANES, NOWHERE);
+            self.y.resize(capacity + 2 * LANES, NOWHERE);
         }
     }
 
@@ -29,7 +29,7 @@ impl List {
         self.y[self.count..self.count + LANES].fill(NOWHERE);
     }
 
-    /// Adds a sample, for which there must be room.
+    /// Adds a sample; the list must have capacity for it.
     pub(super) fn push(&mut self, [x, y]: [i32; 2]) {
         (self.x[self.count], self.y[self.count]) = (x, y);
         (self.x[self.count + LANES], self.y[self.count + LANES]) = (NOWHERE, NOWHERE);
@@ -50,7 +50,7 @@ impl List {
     }
 }
 
-/// Appends the samples in the first `width` cells of each row that lie in a rectangle to a list, which has room for all.
+/// Appends the samples in the first `width` cells of each row that lie in a rectangle to a list that has capacity for all.
 pub(super) fn collect(rows: &Rows, width: usize, rect: &Rect, list: &mut List) {
     let [xs, ys] = rows.samples;
     for row in 0..rows.count {

@@ -124,7 +124,7 @@ mod tests {
         (Rect { min, max }, (width + 3) / 4)
     }
 
-    /// Against exact distances: what is certainly uncovered is kept, what is covered with some room is dropped.
+    /// Against exact distances: what is certainly uncovered is kept, what is covered with some margin is dropped.
     #[test]
     fn the_coarse_tests_say_what_exact_distances_say_except_at_the_very_border() {
         let mut rng = Rng::at(0, Draw::Probe, &[]);

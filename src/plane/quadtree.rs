@@ -132,7 +132,7 @@ impl Quadtree {
     }
 
     /// Throws darts and cuts voxels until every lattice point is covered, and shows the new samples to `accepted`. For whole
-    /// domains, of which about `expected` samples tell the progress: a sample is not compared with the other voxels.
+    /// domains, of which about `expected` samples are the whole progress: a sample is not compared with the other voxels.
     pub fn rain(
         &mut self,
         job: &Job,

@@ -12,13 +12,16 @@ use crate::mesh::{SurfaceSet, azulejo_mesh};
 use crate::progress::Watch;
 use crate::status::{Failure, azulejo_status};
 
-/// The smallest distance between two points of the plane, in double arithmetic; on a periodic domain around the torus.
+/// The smallest distance between two points of the plane, in double arithmetic; on a periodic
+/// domain around the torus.
 ///
 /// set: the points.
 ///
-/// out: the distance; infinite for less than two points.
+/// out: the distance in the units of the domain; infinite for fewer than two points.
 ///
-/// O(count) time for points that are spread evenly.
+/// O(count) time for evenly spread points.
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_TOO_LARGE, AZULEJO_ERROR_CANCELLED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_plane_smallest_distance(
     context: Option<&azulejo_context>,
@@ -32,14 +35,17 @@ pub unsafe extern "C" fn azulejo_plane_smallest_distance(
     })
 }
 
-/// The covering radius of points of the plane: how far the place of the domain that is farthest from all of them is. A
-/// set is maximal for a radius that is not smaller. On a periodic domain points cover around the torus.
+/// The covering radius of points of the plane; on a periodic domain around the torus. The set is
+/// maximal for every radius that is not smaller.
 ///
 /// set: the points.
 ///
-/// out: the covering radius, by less than a billionth of it too small; infinite for no point.
+/// out: the covering radius in the units of the domain, too small by less than a billionth of it;
+/// infinite for no point.
 ///
-/// Found exactly, by subdividing the domain: O(count log count) time.
+/// Found exactly, by subdivision of the domain: O(count * log count) time for evenly spread points.
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_TOO_LARGE, AZULEJO_ERROR_CANCELLED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_plane_covering_radius(
     context: Option<&azulejo_context>,
@@ -55,11 +61,13 @@ pub unsafe extern "C" fn azulejo_plane_covering_radius(
 
 /// The smallest straight distance between two points in space, in double arithmetic.
 ///
-/// positions: the points, x y z each; `count` of them.
+/// positions: the points, x y z each, finite; `count` of them.
 ///
-/// out: the distance; infinite for less than two points.
+/// out: the distance in the units of the positions; infinite for fewer than two points.
 ///
-/// O(count) time for points that are spread evenly.
+/// O(count) time for evenly spread points.
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_TOO_LARGE, AZULEJO_ERROR_CANCELLED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_space_smallest_distance(
     context: Option<&azulejo_context>,
@@ -75,18 +83,25 @@ pub unsafe extern "C" fn azulejo_space_smallest_distance(
     })
 }
 
-/// The part of a surface that is farther than a radius from every one of some points, seen by random probes.
+/// The fraction of a surface that is farther than a radius from every sample, estimated by random
+/// probes.
 ///
-/// positions: the points, x y z each; `count` of them.
+/// positions: the samples, x y z each, finite; `count` of them. They need not lie on the mesh.
 ///
 /// radius: above 0, in the units of the mesh.
 ///
-/// probes, seed: how many random places of the surface are looked at, spread evenly over its area, and which.
+/// probes: the number of random places of the surface that are examined, at least 1, uniform over
+/// its area.
 ///
-/// out: the share of probes that are not covered, 0 to 1; 0 if the mask of the mesh leaves nothing to be looked at.
+/// seed: selects the places.
 ///
-/// O(probes + count) time. Probes do not prove coverage, as azulejo_mesh_coverage does: they find a gap of a millionth of the
-/// area with two million of them most of the time, and miss smaller ones.
+/// out: the fraction of the probes that are uncovered, 0 to 1; 0 if the mask of the mesh leaves out
+/// everything.
+///
+/// O(probes + count) time for evenly spread samples. Probes do not prove coverage,
+/// azulejo_mesh_coverage does.
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_TOO_LARGE, AZULEJO_ERROR_CANCELLED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_mesh_uncovered_fraction(
     context: Option<&azulejo_context>,
@@ -110,18 +125,18 @@ pub unsafe extern "C" fn azulejo_mesh_uncovered_fraction(
     })
 }
 
-/// How a set covers a domain or a surface with disks of a radius. See azulejo_plane_coverage, azulejo_mesh_coverage.
+/// How a set covers a domain or a surface with disks of a radius: the result of
+/// azulejo_plane_coverage and azulejo_mesh_coverage.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct azulejo_coverage_report {
-    /// The size of the caller's struct in bytes; set by the init function.
+    /// The size of the struct in bytes; set by the _init function.
     pub struct_size: u32,
-    /// 0.
+    /// Always 0.
     pub reserved: u32,
-    /// The covering radius: the distance from the samples of the place that is farthest from all of them. Infinite for no
-    /// sample.
+    /// The covering radius, in the units of the domain or mesh; infinite for no sample.
     pub covering_radius: f64,
-    /// The number of gaps; 0 for a set that is maximal for the radius.
+    /// The number of gaps; 0 if the set is maximal for the radius.
     pub gaps: u64,
 }
 
@@ -133,7 +148,9 @@ impl From<coverage::Coverage> for azulejo_coverage_report {
     }
 }
 
-/// Writes zeros. `struct_size` is sizeof *report.
+/// Writes zeros and the size. `struct_size` is sizeof *report.
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_coverage_report_init(
     report: *mut azulejo_coverage_report,
@@ -143,17 +160,21 @@ pub unsafe extern "C" fn azulejo_coverage_report_init(
     unsafe { growing::init("report", report, struct_size) }
 }
 
-/// The gaps that points of the plane leave: the connected parts of the domain, or of the torus, that are farther than a
-/// radius from all of them. With no gap the set is maximal for the radius.
+/// Counts the gaps that points of the plane leave: the connected parts of the domain, or of the
+/// torus, that are farther than a radius from all points. With no gap the set is maximal for the
+/// radius.
 ///
 /// set: the points.
 ///
 /// radius: above 0, in the units of the domain.
 ///
-/// out: the covering radius, as azulejo_plane_covering_radius finds it, and the number of gaps. Every gap deeper than a
-/// millionth of the mean spacing is found, however small, and the deepest in any case. An empty set has one.
+/// out: the covering radius, as azulejo_plane_covering_radius finds it, and the number of gaps.
+/// Every gap deeper than a millionth of the mean spacing is found, however small, and the deepest
+/// in any case. An empty set has one gap.
 ///
-/// Found exactly, by the Voronoi diagram: O(count log count) time.
+/// Found exactly, by the Voronoi diagram: O(count * log count) time for evenly spread points.
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_TOO_LARGE, AZULEJO_ERROR_CANCELLED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_plane_coverage(
     context: Option<&azulejo_context>,
@@ -171,22 +192,24 @@ pub unsafe extern "C" fn azulejo_plane_coverage(
     })
 }
 
-/// The gaps that samples leave on a mesh, by straight distance: groups of places that are farther than a radius from all of
-/// them, in which each place is within half of the radius of another one. With no gap the set is maximal for the radius.
+/// Counts the gaps that samples leave on a mesh, by straight distance: groups of places that are
+/// farther than a radius from all samples, each within half of the radius of another place of its
+/// group. With no gap the set is maximal for the radius.
 ///
-/// positions: the samples, x y z each; `count` of them. They need not lie on the mesh.
+/// positions: the samples, x y z each, finite; `count` of them. They need not lie on the mesh.
 ///
 /// radius: above 0, in the units of the mesh.
 ///
-/// out: the covering radius, by less than a billionth of it too small, and the number of gaps. Every gap deeper than a
-/// millionth of the radius is found, however small, and the deepest in any case. An empty set has infinity and 1 at least;
-/// a mesh without area, or whose mask leaves none, has 0 and 0.
+/// out: the covering radius, too small by less than a billionth of it, and the number of gaps.
+/// Every gap deeper than a millionth of the radius is found, however small, and the deepest in any
+/// case. An empty set has an infinite radius and at least one gap; a mesh without area, or whose
+/// mask leaves out everything, has 0 and 0.
 ///
-/// Found exactly, by subdividing the triangles: O((count + triangles) log count) time for samples that are spread evenly,
-/// and about 100 pieces for each square of the radius that is uncovered.
+/// Found exactly, by subdivision of the triangles: O((count + triangles) * log count) time for
+/// evenly spread samples, and about 100 pieces per radius^2 of uncovered area.
 ///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_CANCELLED, and AZULEJO_ERROR_TOO_LARGE where more than about 600,000
-/// times the square of the radius is uncovered.
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT; AZULEJO_ERROR_TOO_LARGE, also if more than about 600,000
+/// * radius^2 of the area is uncovered; AZULEJO_ERROR_CANCELLED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_mesh_coverage(
     context: Option<&azulejo_context>,

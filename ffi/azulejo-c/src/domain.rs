@@ -10,7 +10,7 @@ use crate::status::{Failure, azulejo_status};
 
 /// The domain is a torus: distances wrap with the period domain_max - domain_min.
 pub const AZULEJO_BOUNDARY_PERIODIC: i32 = 0;
-/// Nothing lies beyond the domain: only its own samples count, and they alone cover it.
+/// The domain ends at its edges: samples beyond them neither exist nor cover anything.
 pub const AZULEJO_BOUNDARY_BOUNDED: i32 = 1;
 
 /// The domain of the caller; the core checks the corners.
@@ -23,21 +23,22 @@ pub(crate) fn domain(min: [f64; 2], max: [f64; 2], boundary: i32) -> Result<Doma
     Ok(Domain { min, max, boundary })
 }
 
-/// Points of the plane and their domain, for the calls that measure them.
+/// Points of the plane and their domain: the input of the calls that measure them.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct azulejo_plane_set {
-    /// The size of the caller's struct in bytes; set by the init function.
+    /// The size of the struct in bytes; set by the _init function.
     pub struct_size: u32,
-    /// An AZULEJO_BOUNDARY_ constant; periodic by default.
+    /// An AZULEJO_BOUNDARY_ constant; default periodic.
     pub boundary: i32,
-    /// The points, x y each, in domain_min <= x < domain_max. NULL, the default, if there are none.
+    /// The points, x y each, with domain_min <= x < domain_max on both axes. Default NULL: none.
     pub positions: *const f32,
-    /// The number of points; 0 by default.
+    /// The number of points; default 0.
     pub count: usize,
-    /// The lower corner of the domain, x y; 0 0 by default.
+    /// The lower corner of the domain, x y; finite; default 0 0.
     pub domain_min: [f64; 2],
-    /// The upper corner of the domain, above the lower one on both axes; 1 1 by default.
+    /// The upper corner of the domain, x y; finite and above the lower corner on both axes; default
+    /// 1 1. Neither side may be longer than 2^100 times the other.
     pub domain_max: [f64; 2],
 }
 
@@ -50,6 +51,8 @@ growing!(azulejo_plane_set requires domain_max {
 });
 
 /// Writes the defaults: no points on the unit torus. `struct_size` is sizeof *set.
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_plane_set_init(set: *mut azulejo_plane_set, struct_size: usize) -> azulejo_status {
     // SAFETY: handed on from the caller.
@@ -66,9 +69,8 @@ pub(crate) struct PlaneSet<'a> {
 impl<'a> PlaneSet<'a> {
     /// The set of the caller.
     ///
-    /// # Safety
-    /// Unless the checks fail, `set` leads to as many bytes as its `struct_size` says, and its `positions` to `count` pairs
-    /// that nobody changes during `'a`.
+    /// # Safety Unless the checks fail, `set` leads to as many bytes as its `struct_size` says, and
+    /// its `positions` to `count` pairs that nobody changes during `'a`.
     pub(crate) unsafe fn read(
         context: Option<&'a azulejo_context>,
         set: *const azulejo_plane_set,

@@ -17,34 +17,39 @@ use crate::points::azulejo_points;
 use crate::progress::{Watch, azulejo_progress_fn};
 use crate::status::{Failure, azulejo_status};
 
-/// Options of azulejo_kdrt_sample, azulejo_kdrt_sample_with_report, azulejo_kdrt_sample_window and azulejo_kdrt_stream.
+/// Options of azulejo_kdrt_sample, azulejo_kdrt_sample_window and azulejo_kdrt_stream.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct azulejo_kdrt_options {
-    /// The size of the caller's struct in bytes; set by the init function.
+    /// The size of the struct in bytes; set by the _init function.
     pub struct_size: u32,
-    /// An AZULEJO_BOUNDARY_ constant; periodic by default.
+    /// An AZULEJO_BOUNDARY_ constant; default periodic.
     pub boundary: i32,
-    /// The smallest distance between two samples, in the units of the domain. Above 0; there is no default. With a
-    /// count it must be 0: the radius follows.
+    /// The smallest distance between two samples, in the units of the domain: above 0, and at least
+    /// 64 times the spacing of floats at the largest coordinate. It has no default. Must be 0 if
+    /// there is a `count`, from which the radius follows.
     pub radius: f64,
-    /// The lower corner of the domain, x y; 0 0 by default.
+    /// The lower corner of the domain, x y; finite; default 0 0.
     pub domain_min: [f64; 2],
-    /// The upper corner of the domain, above the lower one on both axes; 1 1 by default.
+    /// The upper corner of the domain, x y; finite and above the lower corner on both axes; default
+    /// 1 1. Neither side may be longer than 2^100 times the other.
     pub domain_max: [f64; 2],
-    /// The shortest side of the leaves that tile the domain, in radii: at least 6, by default 20; sides are random, up
-    /// to twice this. Larger leaves are faster and have fewer seams, but need a larger pattern.
+    /// The shortest side of the leaves that tile the domain, in radii; at least 6, default 20.
+    /// Sides are random, up to twice as long. Larger leaves are faster and have fewer seams, but
+    /// need a larger pattern.
     pub leaf_size: f64,
-    /// Any number; another seed gives another set.
+    /// Any number; another seed gives another set. Default 0.
     pub seed: u64,
-    /// Called during the call, unless NULL, which is the default.
+    /// Called during the call; default NULL: the callback of the context, if it has one.
     pub progress: azulejo_progress_fn,
-    /// Handed to the progress callback.
+    /// Passed to the progress callback.
     pub progress_user: *mut c_void,
-    /// How many samples there shall be, exactly; 0, the default, takes as many as the radius gives. Windows and streams
-    /// need a radius.
+    /// The exact number of samples; default 0: as many as the radius gives. Must be 0 for windows
+    /// and streams, which are made by radius.
     pub count: usize,
-    /// 1: azulejo_kdrt_sample measures the `coverage` of its report. 0, the default: it does not.
+    /// 1: azulejo_kdrt_sample measures the `coverage` in its report, which takes much longer than
+    /// the sampling. Default 0. Must be 0 where there is no report: with the report NULL, for
+    /// windows and for streams.
     pub measure_coverage: u32,
     /// Must be 0.
     pub reserved: u32,
@@ -64,22 +69,35 @@ growing!(azulejo_kdrt_options requires radius {
     reserved: 0,
 });
 
+/// Writes the defaults. `struct_size` is sizeof *options.
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_kdrt_options_init(
+    options: *mut azulejo_kdrt_options,
+    struct_size: usize,
+) -> azulejo_status {
+    // SAFETY: handed on from the caller.
+    unsafe { growing::init("options", options, struct_size) }
+}
+
 /// What azulejo_kdrt_sample achieved.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct azulejo_kdrt_report {
-    /// The size of the caller's struct in bytes; set by the init function.
+    /// The size of the struct in bytes; set by the _init function.
     pub struct_size: u32,
     /// 1 if the set is maximal for `radius`, else 0.
     pub is_maximal: u32,
-    /// The number of samples: the count, if there was one.
+    /// The number of samples; the `count` of the options if there is one.
     pub samples: u64,
-    /// The radius: that of the options, or the one that was found for the count. No two samples are closer.
+    /// The radius, that of the options or the one found for the count, in the units of the domain.
+    /// No two samples are closer.
     pub radius: f64,
-    /// The covering radius: the farthest that any place of the domain is from all samples, as
-    /// azulejo_plane_covering_radius measures it.
+    /// The covering radius as azulejo_plane_covering_radius measures it, in the units of the
+    /// domain, if the options have `measure_coverage`; else -1.
     pub coverage: f64,
-    /// Wall time, without the measuring of `coverage`.
+    /// Wall time in seconds, without the measuring of `coverage`.
     pub seconds: f64,
 }
 
@@ -91,7 +109,9 @@ growing!(azulejo_kdrt_report requires samples {
     seconds: 0.0,
 });
 
-/// Writes the defaults. `struct_size` is sizeof *report.
+/// Writes zeros and the size. `struct_size` is sizeof *report.
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_kdrt_report_init(
     report: *mut azulejo_kdrt_report,
@@ -101,17 +121,34 @@ pub unsafe extern "C" fn azulejo_kdrt_report_init(
     unsafe { growing::init("report", report, struct_size) }
 }
 
-/// Writes the defaults. `struct_size` is sizeof *options.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn azulejo_kdrt_options_init(
-    options: *mut azulejo_kdrt_options,
-    struct_size: usize,
-) -> azulejo_status {
-    // SAFETY: handed on from the caller.
-    unsafe { growing::init("options", options, struct_size) }
-}
-
-/// DOC kdrt_sample
+/// Makes a maximal, conflict-free set of samples of a rectangle: about 0.6966 * area / radius^2 of
+/// them, or exactly `count`.
+///
+/// Tiles clips of one small pattern over a random kd-tree and repairs the seams (thesis chapter 2).
+/// Its only bias is at the seams. A domain with less area than the pattern, or narrower than 13
+/// radii, is not tiled: it gets the set of azulejo_maximal_sample. A radius longer than the
+/// diagonal of the domain gives one sample.
+///
+/// With a count, the radius follows from the density of maximal sets. The samples by which that set
+/// differs from the count, mostly a few per thousand, are corrected by making small regions again,
+/// so the set is still conflict-free and maximal. If no maximal set of exactly that many samples is
+/// found, which is rare, the most crowded samples of a larger set are dropped and `is_maximal` is
+/// 0.
+///
+/// options: with a radius or a count, not both.
+///
+/// out: the samples, x y each, to be freed with azulejo_points_free. With a count, samples that
+/// were made again take the places of others in the order.
+///
+/// report: what the call achieved, or NULL. It costs nothing unless `measure_coverage` is 1; then
+/// progress includes the measuring.
+///
+/// O(samples) time, and 24 bytes of memory per sample; with a count about twice as much. Measuring
+/// the coverage takes O(samples * log samples).
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for a radius (or a count whose radius is) below 64
+/// times the spacing of floats at the largest coordinate; AZULEJO_ERROR_TOO_LARGE, with the
+/// estimate, for 2^32 samples or more, or more than memory holds; AZULEJO_ERROR_CANCELLED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_kdrt_sample(
     context: Option<&azulejo_context>,
@@ -149,23 +186,28 @@ pub unsafe extern "C" fn azulejo_kdrt_sample(
 /// What fraction of a call is the sampling where coverage is measured, which takes longer.
 const SAMPLING_SHARE: f64 = 0.1;
 
-/// Makes the part of azulejo_kdrt_sample's set that lies in a window of the domain, without making the rest: the same
-/// floats in the same order.
+/// Makes the part of a set of azulejo_kdrt_sample that lies in a window of the domain, without
+/// making the rest: the same floats in the same order.
 ///
-/// So windows that cut the domain in any way have every sample once, and can be made in any order, by threads,
-/// processes and machines that know nothing of each other. What lies in a window depends on nothing farther from it
-/// than 22 radii along x and 18 along y.
+/// Windows that partition the domain have every sample once, and can be made in any order, by
+/// threads, processes and machines that do not communicate. The samples in a window depend on
+/// nothing farther from it than 22 radii along x and 18 along y.
 ///
-/// window_min, window_max: two numbers each, domain_min <= window_min < window_max <= domain_max; the window has the
-/// samples with window_min <= x < window_max. It may be smaller than the radius, and may turn out to have no sample.
+/// options: those of the whole set, with a radius.
+///
+/// window_min, window_max: the corners, x y each, with domain_min <= window_min < window_max <=
+/// domain_max. The window has the samples with window_min <= x < window_max. It may be smaller than
+/// the radius and may contain no sample.
 ///
 /// out: the samples, x y each, to be freed with azulejo_points_free.
 ///
-/// O(samples of the window and around it) time and memory, after the making of the pattern (about 28000 samples with the
-/// default leaves), which every call repeats. A domain that is not tiled is made as a whole.
+/// O(samples in and around the window) time and memory, and in every call the making of the
+/// pattern, of about 28,000 samples with the default leaves. A domain that is not tiled is made as
+/// a whole.
 ///
-/// Errors: as azulejo_kdrt_sample, but AZULEJO_ERROR_TOO_LARGE for the samples of the window: the domain may have as
-/// many as floats can carry, up to about 10^11.
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT as azulejo_kdrt_sample; AZULEJO_ERROR_TOO_LARGE for the
+/// samples of the window, while the domain may have as many as floats can carry, up to about 10^11;
+/// AZULEJO_ERROR_CANCELLED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_kdrt_sample_window(
     context: Option<&azulejo_context>,
@@ -187,30 +229,33 @@ pub unsafe extern "C" fn azulejo_kdrt_sample_window(
     })
 }
 
-/// Called with a part of a set of samples, on the thread that made the call. What holds for progress callbacks holds
-/// for it too: it may call the library, and must return.
+/// Called with a part of a set, on the thread that made the call. See "Callbacks" at the top.
 ///
-/// user: what was given to the call.
+/// user: the `user` of the call.
 ///
-/// xy: the samples, x y each, until the callback returns; `count` of them, at least one.
+/// xy: the samples, x y each, valid until the callback returns; `count` of them, at least one.
 ///
-/// Returns 0 to go on, anything else to cancel.
+/// Returns 0 to continue, any other value to cancel the call.
 pub type azulejo_kdrt_visit_fn =
     Option<unsafe extern "C-unwind" fn(user: *mut c_void, xy: *const f32, count: usize) -> i32>;
 
-/// Makes the set of azulejo_kdrt_sample and hands it out part by part, in its order, instead of keeping it: for sets that
-/// are written or used up, of any size.
+/// Makes the set of azulejo_kdrt_sample and passes it to a callback part by part, in its order,
+/// instead of keeping it: for sets of any size that are written or consumed at once.
 ///
-/// visit: gets the parts, windows of at most about 270 radii (50000 samples), the same ones for every number of threads.
-/// While it works on the calling thread, the threads of the context make the next parts.
+/// options: those of the whole set, with a radius.
 ///
-/// user: handed to it.
+/// visit: gets the parts: windows at most about 270 radii wide, of at most about 50,000 samples,
+/// the same ones for every number of threads. While it runs on the calling thread, the threads of
+/// the context make the next parts.
 ///
-/// O(samples) time; memory for the pattern and at most 8 parts per thread. A domain that is not tiled is made as a whole
-/// and is one part.
+/// user: passed to `visit`.
 ///
-/// Errors: as azulejo_kdrt_sample, but a domain that is tiled may have as many samples as floats can carry, up to about
-/// 10^11; AZULEJO_ERROR_CANCELLED also when `visit` cancels.
+/// O(samples) time; memory for the pattern and at most 8 parts per thread. A domain that is not
+/// tiled is made as a whole and is one part.
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT as azulejo_kdrt_sample; AZULEJO_ERROR_TOO_LARGE for a
+/// domain that is not tiled, or that has more samples than floats can carry, about 10^11;
+/// AZULEJO_ERROR_CANCELLED, also if `visit` cancels.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_kdrt_stream(
     context: Option<&azulejo_context>,

@@ -132,7 +132,7 @@ fn resample(lattice: &Lattice, plot: &Plot, samples: &[[f32; 2]], members: &[usi
     if hole.is_empty() {
         return change;
     }
-    // A torus of its own for the plot, with room behind it for nothing to meet over the seam.
+    // A torus of its own for the plot, with a margin behind it so that nothing meets over the seam.
     let length = plot.axes.map(|axis| if axis.is_circle { axis.length } else { axis.length + separation.reach + 1 });
     let mut grid = CellGrid::torus(&length.map(|length| CellAxis::new(length, radius)), separation);
     for &index in members {

@@ -34,7 +34,7 @@ pub(super) struct Given<'a> {
     lattice: Lattice,
     /// The cells of the domain's lattice points: small enough that two points of one conflict.
     pub axes: [CellAxis; 2],
-    /// For each column and each row those that can hold a conflict with it, each once.
+    /// For each column and row, the columns and rows that can hold a conflict with it, each once.
     near: [Vec<[Range<usize>; 2]>; 2],
     /// The sites of each cell.
     by_cell: Binned<Site>,
@@ -203,7 +203,7 @@ fn near_on_axis(axis: &CellAxis, reach: i32, boundary: Boundary) -> Vec<[Range<u
     let count = axis.count();
     let run = |first: i32, end: i32| first as usize..end as usize;
     let near = |cell: i32| {
-        let (first, end) = (axis.cell(axis.border(cell) - reach), axis.cell(axis.border(cell + 1) - 1 + reach) + 1);
+        let (first, end) = (axis.cell(axis.edge(cell) - reach), axis.cell(axis.edge(cell + 1) - 1 + reach) + 1);
         match boundary {
             Boundary::Bounded => [run(first.max(0), end.min(count)), 0..0],
             Boundary::Periodic if end - first >= count => [run(0, count), 0..0],

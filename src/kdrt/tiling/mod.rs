@@ -160,7 +160,7 @@ impl Tiling {
         self.inside(&filled.grown((2 + LONGEST_CHAIN) * self.lattice.separation.reach))
     }
 
-    /// A rectangle without what lies beyond the border of a bounded domain.
+    /// A rectangle without what lies beyond the boundary of a bounded domain.
     fn inside(&self, rect: &Rect) -> Rect {
         match self.lattice.boundary {
             Boundary::Periodic => *rect,
@@ -355,7 +355,7 @@ mod tests {
                 };
                 let known = tiling.surroundings(&block);
                 assert!(is_right(&known), "seed {seed}, {block:?}");
-                // A border of the domain is not to be moved inwards.
+                // A boundary of the domain is not to be moved inwards.
                 if boundary == Boundary::Periodic {
                     wrong += usize::from(!is_right(&known.grown(-4 * tiling.lattice.separation.reach)));
                 }
