@@ -161,14 +161,15 @@ void surfaces() {
     CHECK(!mesh->has_normals() && whole.interpolated_normals().empty());
     const std::array<float, 3> up = {0, 0, 2};
     const std::vector<std::uint32_t> first_normal(indices.size());
-    auto carrying = mesh->with_normals(positions).with_normals(up, first_normal).with_mask(std::vector<std::uint8_t>{1, 0, 0, 0});
+    const std::vector<std::uint8_t> only_the_first = {1, 0, 0, 0};
+    auto carrying = mesh->with_normals(positions).with_normals(up, first_normal).with_mask(only_the_first);
     CHECK(carrying.has_normals() && carrying.triangle_count() == 4 && carrying.area() == 0.5);
     const auto part = azulejo::psp_sample(context, carrying, options);
     CHECK(part.interpolated_normals().size() == 3 * part.size() && part.interpolated_normals()[2] == 1);
     CHECK(part.normals()[2] == -1 && part.triangles()[part.size() - 1] == 0);
     CHECK(mesh->with_normals({positions.data(), 1, 48}, first_normal).has_normals());
-    CHECK(throws(AZULEJO_ERROR_INVALID_ARGUMENT, "normals: 4", [&] { mesh->with_normals(azulejo::Span(positions.data(), 4)); }));
-    CHECK(throws(AZULEJO_ERROR_INVALID_ARGUMENT, "triangle_count", [&] { mesh->with_normals(up, azulejo::Span(indices.data(), 3)); }));
+    CHECK(refused("normals: 4", [&] { mesh->with_normals(azulejo::Span(positions.data(), 4)); }));
+    CHECK(refused("triangle_count", [&] { mesh->with_normals(up, azulejo::Span(indices.data(), 3)); }));
     CHECK(throws(AZULEJO_ERROR_INVALID_ARGUMENT, "triangle_count", [&] { mesh->with_mask({}); }));
 
     azulejo::Psp psp(context, *mesh, options);
