@@ -175,8 +175,9 @@ pub unsafe extern "C" fn azulejo_psp_adaptive_sample(
 impl azulejo_psp_adaptive_options {
     /// The radii of the vertices; none where `radius` is set.
     ///
-    /// # Safety Unless the checks fail, `vertex_radii` leads to `vertex_count` numbers that nobody
-    /// changes during `'a`.
+    /// # Safety
+    /// Unless the checks fail, `vertex_radii` leads to `vertex_count` numbers that are
+    /// not changed during `'a`.
     unsafe fn vertex_radii<'a>(&self) -> Result<&'a [f32], Failure> {
         check_reserved(self.reserved)?;
         match (self.radius.is_some(), self.vertex_radii.is_null()) {
