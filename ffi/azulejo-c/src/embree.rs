@@ -110,7 +110,8 @@ impl azulejo_embree_geometry {
 /// Rows of three numbers, packed.
 ///
 /// # Safety
-/// Unless the check fails, there are `count` rows, `stride` bytes apart, which are not changed during the call.
+/// Unless the check fails, there are `count` rows, `stride` bytes apart, which are not
+/// changed during the call.
 unsafe fn strided<T: Copy>(
     argument: &str,
     start: NonNull<T>,
