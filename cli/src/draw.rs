@@ -22,7 +22,7 @@ pub const PICTURE_WIDTHS: std::ops::RangeInclusive<i64> = 200..=10_000;
 
 /// What to draw.
 #[derive(Subcommand)]
-pub enum Draw {
+pub(crate) enum Draw {
     /// Draw a set of the plane, or a part of a large one, beside its power spectrum.
     Points(points::Points),
     /// Draw samples as discs on their mesh, with two details.
@@ -30,7 +30,7 @@ pub enum Draw {
 }
 
 impl Draw {
-    pub fn run(&self, context: &Context) -> Result<()> {
+    pub(crate) fn run(&self, context: &Context) -> Result<()> {
         match self {
             Self::Points(points) => points.run(context),
             Self::Surface(surface) => surface.run(context),

@@ -23,7 +23,7 @@ const ANISOTROPY: Rect = Rect { x: 870.0, y: 850.0, width: 640.0, height: 220.0 
 
 #[derive(Args)]
 #[command(mut_arg("domain", |domain| domain.help(OF_OR_AROUND)))]
-pub struct Points {
+pub(crate) struct Points {
     /// The samples: a .ply, .npy, .csv, .xyz or .raw file.
     #[arg(value_name = "SAMPLES")]
     input: PathBuf,
@@ -40,7 +40,7 @@ pub struct Points {
 }
 
 impl Points {
-    pub fn run(&self, context: &Context) -> Result<()> {
+    pub(crate) fn run(&self, context: &Context) -> Result<()> {
         let output = Output::of_format("png", &self.output)?;
         let set = self.format.read(&self.input, Coordinates::Plane)?;
         let domain = self.domain.of_or_around(&set);

@@ -30,7 +30,7 @@ const DETAILS: [Rect; 2] = [
 const CLOSE: f32 = 13.0;
 
 #[derive(Args)]
-pub struct Surface {
+pub(crate) struct Surface {
     /// The mesh: OBJ, PLY or STL.
     #[arg(value_name = "MESH")]
     mesh: PathBuf,
@@ -51,7 +51,7 @@ pub struct Surface {
 }
 
 impl Surface {
-    pub fn run(&self, context: &Context) -> Result<()> {
+    pub(crate) fn run(&self, context: &Context) -> Result<()> {
         let output = Output::of_format("png", &self.output)?;
         let mesh = Mesh::load(&self.mesh)?;
         let samples = self.format.read(&self.samples, Coordinates::Space)?.positions;

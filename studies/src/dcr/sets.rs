@@ -1,0 +1,87 @@
+//! What is relaxed, and by which methods.
+
+use azulejo::dcr::{Neighbourhood, Options};
+use azulejo::kdrt::{self, CountOptions};
+use azulejo::mesh::Mesh;
+use azulejo::{Context, Domain, Result, psp};
+
+use crate::reference;
+use azulejo_cli::MAXIMAL_DENSITY;
+
+/// The seed of the first set of each kind. No setting of a method was chosen by what sets of these seeds gave; who tunes
+/// one takes others.
+pub const FIRST_SEED: u64 = 31_000;
+
+/// A method, with the options that it has unless one asks for others.
+#[derive(Clone, Copy)]
+pub struct Method {
+    pub name: &'static str,
+    pub neighbourhood: Neighbourhood,
+    pub is_best: bool,
+}
+
+pub const METHODS: [Method; 4] = [
+    Method { name: "best, Delaunay", neighbourhood: Neighbourhood::Delaunay, is_best: true },
+    Method { name: "best, nearest", neighbourhood: Neighbourhood::Nearest, is_best: true },
+    Method { name: "thesis, Delaunay", neighbourhood: Neighbourhood::Delaunay, is_best: false },
+    Method { name: "thesis, nearest", neighbourhood: Neighbourhood::Nearest, is_best: false },
+];
+
+impl Method {
+    pub fn options(&self, domain: Domain, seed: u64) -> Options {
+        let options = if self.is_best { Options::new } else { Options::thesis };
+        Options { seed, ..options(domain, self.neighbourhood) }
+    }
+
+    /// The file of its picture.
+    pub fn picture(&self) -> String {
+        format!("{}.png", self.name.replace(", ", "-").to_lowercase())
+    }
+}
+
+/// What a set is before it is relaxed.
+#[derive(Clone, Copy, PartialEq)]
+pub enum Start {
+    Random,
+    /// A maximal Poisson-disk set.
+    Kdrt,
+    /// What the thesis's projections leave on a square, which is not filled. It knows no torus.
+    Psp,
+}
+
+/// Iterations of [`Start::Psp`]: as many as the thesis's reference has (§3.4.1).
+const PROJECTIONS: u32 = 50;
+
+pub const STARTS: [Start; 2] = [Start::Random, Start::Kdrt];
+
+impl Start {
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Random => "random",
+            Self::Kdrt => "KDRT",
+            Self::Psp => "PSP",
+        }
+    }
+
+    /// So many points of a unit square, or about as many of PSP's.
+    pub fn points(self, context: &Context, domain: Domain, count: usize, seed: u64) -> Result<Vec<[f32; 2]>> {
+        match self {
+            Self::Random => Ok(reference::random(count, seed)),
+            Self::Kdrt => {
+                let leaf_size = kdrt::DEFAULT_LEAF_SIZE;
+                let options = CountOptions { count: count as u64, domain, leaf_size, seed };
+                Ok(kdrt::sample_count(context, &options, None)?.samples)
+            }
+            Self::Psp => {
+                let corners = vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
+                let square = Mesh::new(corners, vec![[0, 1, 2], [0, 2, 3]])?.into();
+                let radius = (MAXIMAL_DENSITY / count as f64).sqrt();
+                let options =
+                    psp::Options { iterations: PROJECTIONS, maximal: false, seed, ..psp::Options::new(radius) };
+                let (samples, _) = psp::sample(context, &square, &options, None)?;
+                let inside = |&[x, y]: &[f32; 2]| x < 1.0 && y < 1.0;
+                Ok(samples.positions.iter().map(|&[x, y, _]| [x, y]).filter(inside).collect())
+            }
+        }
+    }
+}
