@@ -34,7 +34,9 @@ impl Page {
 
     /// The names and the pictures that the page shows.
     fn pictures(&self) -> Vec<(String, RgbImage)> {
-        let names = self.text.split("](").skip(1).map(|rest| rest.split(')').next().unwrap());
+        let targets = self.text.split("](").skip(1).map(|rest| rest.split(')').next().unwrap());
+        // Other targets are pages.
+        let names = targets.filter(|target| target.ends_with(".png"));
         let open = |name: &str| image::open(self.directory.path().join("pages/docs").join(name)).unwrap().to_rgb8();
         names.map(|name| (name.to_owned(), open(name))).collect()
     }
