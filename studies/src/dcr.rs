@@ -36,22 +36,23 @@ pub struct Dcr {
 
 /// How much is measured.
 pub struct Effort {
-    /// Points of a set, and sets of that size from each start: of the best method's, and of the thesis's, which is slow.
-    pub best: &'static [(usize, u64)],
+    /// Points of a set, and sets of that size from each start: by the momentum method, and by the thesis's, which is slow.
+    pub momentum: &'static [(usize, u64)],
     pub thesis: &'static [(usize, u64)],
-    /// The same of the best method's on a bounded square.
+    /// The same by the momentum method on a bounded square.
     pub bounded: &'static [(usize, u64)],
     /// Points of the sets that are drawn, one of the sizes of all methods.
     pub pictured: usize,
 }
 
 const FULL: Effort = Effort {
-    best: &[(1000, 64), (4096, 16), (65_536, 2), (1_000_000, 1)],
+    momentum: &[(1000, 64), (4096, 16), (65_536, 2), (1_000_000, 1)],
     thesis: &[(1000, 8), (4096, 4), (65_536, 1)],
     bounded: &[(1000, 32), (4096, 16), (65_536, 4)],
     pictured: 65_536,
 };
-const QUICK: Effort = Effort { best: &[(300, 2), (1000, 1)], thesis: &[(300, 1)], bounded: &[(300, 2)], pictured: 300 };
+const QUICK: Effort =
+    Effort { momentum: &[(300, 2), (1000, 1)], thesis: &[(300, 1)], bounded: &[(300, 2)], pictured: 300 };
 
 /// Width of the pictures in pixels.
 const PIXELS: u32 = 1000;
@@ -71,11 +72,11 @@ impl Dcr {
             let output = Output::at(&pictures.join(one.method.picture()))?;
             points::draw(context, &Domain::unit(Boundary::Periodic), &one.first, PIXELS, &output)?;
         }
-        let at_borders = watched("bounded", |progress| bounded::Measured::all(context, effort.bounded, progress))?;
-        let corners = at_borders.iter().filter(|one| one.count == effort.pictured && one.start == Start::Kdrt);
+        let bounded = watched("bounded", |progress| bounded::Measured::all(context, effort.bounded, progress))?;
+        let corners = bounded.iter().filter(|one| one.count == effort.pictured && one.start == Start::Kdrt);
         let corners: Vec<_> = corners.map(|one| (one.name(), &*one.first)).collect();
         bounded::draw_corners(&corners, 2 * PIXELS, &Output::at(&pictures.join(page::CORNERS))?)?;
-        let mut text = page::text(context, &effort, &measured, &at_borders, self.page.quick);
+        let mut text = page::text(context, &effort, &measured, &bounded, self.page.quick);
         let study = Study {
             context,
             pictures: &pictures,

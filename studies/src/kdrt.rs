@@ -39,7 +39,7 @@ pub struct Effort {
 const FULL: Effort = Effort { count: 1e5, sets_per_group: 20, timed: 1e6, largest: 1e7 };
 const QUICK: Effort = Effort { count: 2e4, sets_per_group: 1, timed: 3e4, largest: 3e4 };
 
-/// Who makes a set.
+/// What makes a set.
 #[derive(Clone, Copy, PartialEq)]
 pub enum Sampler {
     /// The unbiased reference.

@@ -1,6 +1,7 @@
 //! Measures azulejo and writes the pages of `docs/` that show it, with their pictures.
 //!
-//! `cargo run --release -p azulejo-studies -- kdrt` writes `docs/kdrt.md`; so do `psp`, `dcr` and `gallery` their pages.
+//! `cargo run --release -p azulejo-studies -- kdrt` writes `docs/kdrt.md`; so do `psp`, `dcr` and `gallery` their pages;
+//! `sums` prints SHA-256 sums of what calls return.
 
 mod args;
 mod dcr;
@@ -9,6 +10,7 @@ mod head;
 mod kdrt;
 mod psp;
 mod reference;
+mod sums;
 
 use std::process::ExitCode;
 
@@ -37,6 +39,8 @@ enum Study {
     Dcr(dcr::Dcr),
     /// Show samplers side by side: points, spectra and a zone plate; takes some minutes.
     Gallery(gallery::Gallery),
+    /// Print SHA-256 sums of what some sixty calls return, to compare them before and after a change; takes a minute.
+    Sums(sums::Sums),
 }
 
 fn run(cli: &Cli) -> Result<()> {
@@ -46,6 +50,7 @@ fn run(cli: &Cli) -> Result<()> {
         Study::Psp(psp) => psp.run(&context),
         Study::Dcr(dcr) => dcr.run(&context),
         Study::Gallery(gallery) => gallery.run(&context),
+        Study::Sums(sums) => sums.run(&context),
     }
 }
 

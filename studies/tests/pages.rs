@@ -109,8 +109,8 @@ fn a_quick_page_of_surfaces_says_what_is_left_out_and_shows_the_rest() {
 fn a_quick_page_of_relaxation_has_every_method_and_plausible_figures() {
     let page = Page::quick("dcr");
     let pictures = [
-        "best-delaunay",
-        "best-nearest",
+        "momentum-delaunay",
+        "momentum-nearest",
         "thesis-delaunay",
         "thesis-nearest",
         "radii-delaunay",
@@ -137,12 +137,12 @@ fn a_quick_page_of_relaxation_has_every_method_and_plausible_figures() {
     // Two methods from two starts each, and one start as it is.
     assert_eq!(bounded.len(), 2 * 2 + 1);
     for row in bounded {
-        let [rho, least, cover, largest, border] = [5, 6, 7, 8, 9].map(|cell| row[cell].parse::<f64>().unwrap());
-        assert!(0.6 < least && least <= rho && rho < 1.0 && 0.577 < cover && cover <= largest && border <= cover);
+        let [rho, least, cover, largest, boundary] = [5, 6, 7, 8, 9].map(|cell| row[cell].parse::<f64>().unwrap());
+        assert!(0.6 < least && least <= rho && rho < 1.0 && 0.577 < cover && cover <= largest && boundary <= cover);
         assert!((10..15).all(|cell| (0.7..1.5).contains(&row[cell].parse::<f64>().unwrap())), "{row:?}");
     }
     let rows: Vec<_> = rows.filter(|cells| cells.len() == 15 && ["random", "KDRT"].contains(&cells[3])).collect();
-    // Two sizes of the best methods, one of the thesis's, from two starts each.
+    // Two sizes of the momentum method, one of the thesis's, from two starts each.
     assert_eq!(rows.len(), 2 * 2 * 2 + 2 * 2);
     for row in rows {
         let number = |cell: usize| row[cell].trim_end_matches(" %").parse::<f64>().unwrap();
@@ -201,8 +201,8 @@ fn check_variations_of_the_thesis(page: &str) {
         [2, 3, 4].map(|cell| number(row[cell]))
     };
     for name in ["obtuse triangles", "variance of edge lengths / mean²", "variance of areas / mean²"] {
-        let [thrown, best, thesis] = shares(name);
-        assert!(best < 0.7 * thrown && thesis < 0.7 * thrown, "{name}");
+        let [thrown, momentum, thesis] = shares(name);
+        assert!(momentum < 0.7 * thrown && thesis < 0.7 * thrown, "{name}");
     }
 }
 
@@ -220,7 +220,8 @@ fn a_quick_gallery_shows_every_sampler_with_its_spectrum_and_zone_plate() {
         rows.filter(is_row).map(|row| row.iter().map(|cell| cell.to_string()).collect::<Vec<_>>()).collect::<Vec<_>>()
     };
     let (figures, errors) = (rows(11), rows(5));
-    let names = ["random", "jittered", "Halton", "flat quadtree", "KDRT", "DCR, best, Delaunay", "DCR, best, nearest"];
+    let names =
+        ["random", "jittered", "Halton", "flat quadtree", "KDRT", "DCR, momentum, Delaunay", "DCR, momentum, nearest"];
     assert_eq!((figures.len(), errors.len()), (9, 9), "{page}");
     assert!(figures.iter().zip(names).all(|(row, name)| row[1] == name), "{figures:?}");
     let number = |row: &[String], cell: usize| row[cell].parse::<f64>().unwrap();

@@ -110,7 +110,7 @@ impl Canvas {
         self.pixmap.fill_path(path, &paint(colour), FillRule::Winding, transform, mask);
     }
 
-    /// The border of a rectangle.
+    /// The outline of a rectangle.
     pub fn frame(&mut self, rect: Rect, width: f32, colour: Colour) {
         self.stroke(&rect.path(), width, colour, None);
     }
@@ -204,7 +204,7 @@ impl Canvas {
         outline(&self.font, text).1 * size / self.em()
     }
 
-    /// The text if it is no longer than `length`, otherwise as much of its beginning as leaves room for an ellipsis.
+    /// The text if it is no longer than `length`, otherwise as much of its beginning as leaves space for an ellipsis.
     pub fn shortened(&self, text: &str, size: f32, length: f32) -> String {
         let mut shown = text.to_owned();
         let mut kept: Vec<char> = text.chars().collect();

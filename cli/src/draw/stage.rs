@@ -35,8 +35,8 @@ pub(super) struct Seen {
 }
 
 impl Stage {
-    /// With `cutaway` the faces that are turned away from the camera are left out, and one looks into rooms whose walls
-    /// face inwards.
+    /// With `cutaway` the faces that are turned away from the camera are left out, which shows the inside of a building whose
+    /// walls face inwards.
     pub fn new(context: &Context, mesh: &Mesh, samples: &[[f32; 3]], cutaway: bool) -> Result<Self> {
         let (low, high) = mesh.bounds();
         let [low, high] = [low, high].map(|corner| glam::DVec3::from(corner.map(f64::from)));
@@ -120,7 +120,7 @@ fn vertex_normals(positions: &[Vec3], triangles: &[[u32; 3]]) -> Vec<Vec3> {
 pub(super) mod tests {
     use super::*;
 
-    /// A square of side 2 upright before the camera, its two triangles wound in opposite ways, with one sample.
+    /// A square of side 2 upright before the camera, its two triangles wound in opposite directions, with one sample.
     pub fn square(sample: [f32; 3]) -> Stage {
         let positions = vec![[9.0, 4.0, 7.0], [11.0, 4.0, 7.0], [11.0, 6.0, 7.0], [9.0, 6.0, 7.0]];
         let mesh = Mesh::new(positions, vec![[0, 1, 2], [0, 3, 2]]).unwrap();

@@ -71,9 +71,9 @@ pub fn picture(context: &Context, name: &str, stage: &Stage, pixels: u32, output
     let style = Style { size: 22.0, colour: SLATE, align: Align::Right, upwards: false };
     let end = PAGE[0] - WHOLE.x;
     canvas.text(&counts, [end, 58.0], style);
-    let room = end - canvas.length(&counts, style.size) - 40.0 - WHOLE.x;
+    let free = end - canvas.length(&counts, style.size) - 40.0 - WHOLE.x;
     let style = Style { size: 30.0, colour: INK, align: Align::Left, ..style };
-    canvas.text(&canvas.shortened(name, style.size, room), [WHOLE.x, 58.0], style);
+    canvas.text(&canvas.shortened(name, style.size, free), [WHOLE.x, 58.0], style);
     canvas.write(output)
 }
 

@@ -1,4 +1,4 @@
-//! Sets of a bounded square: what they are like along its border, and what its corner looks like.
+//! Sets of a bounded square: what they are like along its boundary, and what its corner looks like.
 
 use azulejo::analysis::coverage::covering_radius_2d;
 use azulejo::analysis::spacing::nearest_distances_2d;
@@ -12,10 +12,10 @@ use azulejo_cli::draw::plot::{Axis, Panel};
 use azulejo_cli::output::Output;
 use azulejo_cli::summary::Summary;
 
-/// The strips along the border, from one `d_max` wide to so many; what lies deeper is the inside.
+/// The strips along the boundary, from one `d_max` wide to so many; what lies deeper is the inside.
 pub const STRIPS: usize = 4;
 
-/// Places along the border per `d_max`, at which the distance from the set is measured.
+/// Places along the boundary per `d_max`, at which the distance from the set is measured.
 const PLACES: f64 = 50.0;
 
 /// The side of the picture's part of the domain, in `d_max`.
@@ -24,11 +24,11 @@ const SHOWN: f64 = 16.0;
 /// The figures of a set. Lengths are in units of `d_max`.
 #[derive(Clone, Copy)]
 pub struct Quality {
-    /// The smallest distance of two points, and the largest of a place from the set: in the domain, and on its border.
+    /// The smallest distance of two points, and the largest of a place from the set: in the domain, and on its boundary.
     pub rho: f64,
     pub cover: f64,
-    pub border_cover: f64,
-    /// The density of each strip over that of the inside. Strips share the border: narrow ones beside each other would show
+    pub boundary_cover: f64,
+    /// The density of each strip over that of the inside. Strips share the boundary: narrow ones beside each other would show
     /// which rows of points they cut, not how many points there are too many.
     pub densities: [f64; STRIPS],
     /// The mean distance to the nearest neighbour in the outermost strip over that of the inside.
@@ -55,15 +55,15 @@ impl Quality {
         Ok(Self {
             rho: distances.iter().copied().fold(f64::INFINITY, f64::min) / unit,
             cover: covering_radius_2d(context, &domain, points, None)? / unit,
-            border_cover: border_cover(points, unit) / unit,
+            boundary_cover: boundary_cover(points, unit) / unit,
             densities: std::array::from_fn(density),
             spacing: sums[0] / counts[0] / (sums[STRIPS] / counts[STRIPS]),
         })
     }
 }
 
-/// The largest distance of a place on the border of the unit square from the points; `unit` is about their spacing.
-fn border_cover(points: &[[f32; 2]], unit: f64) -> f64 {
+/// The largest distance of a place on the boundary of the unit square from the points; `unit` is about their spacing.
+fn boundary_cover(points: &[[f32; 2]], unit: f64) -> f64 {
     let steps = (PLACES / unit).ceil() as usize;
     let sides = (0..2).flat_map(|axis| [0.0, 1.0].map(|end| (axis, end)));
     let farthest = sides.map(|(axis, end)| {
@@ -96,9 +96,9 @@ pub struct Measured {
 }
 
 impl Measured {
-    /// All sizes and starts of the best methods, and maximal sets as they are.
+    /// All sizes and starts of the momentum method, and maximal sets as they are.
     pub fn all(context: &Context, sizes: &[(usize, u64)], progress: &Progress) -> Result<Vec<Self>> {
-        let relaxed = METHODS.into_iter().filter(|method| method.is_best).map(Some);
+        let relaxed = METHODS.into_iter().filter(|method| !method.is_thesis).map(Some);
         let kinds = relaxed.flat_map(|method| STARTS.map(|start| (method, start))).chain([(None, Start::Kdrt)]);
         let kinds: Vec<_> =
             kinds.flat_map(|(method, start)| sizes.iter().map(move |size| (method, start, size))).collect();
@@ -159,7 +159,7 @@ pub fn draw_corners(sets: &[(&str, &[[f32; 2]])], pixels: u32, output: &Output) 
 mod tests {
     use super::*;
 
-    /// A square lattice of 40 by 40 points, half a cell from the border.
+    /// A square lattice of 40 by 40 points, half a cell from the boundary.
     #[test]
     fn a_lattice_has_the_figures_that_are_known_of_it() {
         let at = |k: usize| [k % 40, k / 40].map(|i| (i as f32 + 0.5) / 40.0);
@@ -169,7 +169,7 @@ mod tests {
         let side = 0.025 / unit;
         let even = Quality::of(&context, &lattice).unwrap();
         assert!((even.rho - side).abs() < 1e-5 && (even.spacing - 1.0).abs() < 1e-5);
-        assert!((even.cover - side / 2f64.sqrt()).abs() < 1e-5 && (even.border_cover - even.cover).abs() < 1e-5);
+        assert!((even.cover - side / 2f64.sqrt()).abs() < 1e-5 && (even.boundary_cover - even.cover).abs() < 1e-5);
         // The first strip has the outermost ring of points, the second the next as well.
         let strip = |width: f64| 1.0 - (1.0 - 2.0 * unit * width).powi(2);
         let inside = 32.0 * 32.0 / (1.0 - 8.0 * unit).powi(2);
@@ -178,6 +178,6 @@ mod tests {
 
         // Without the points along one side.
         let bare = Quality::of(&context, &lattice[40..]).unwrap();
-        assert!(bare.densities[0] < 0.8 * even.densities[0] && bare.border_cover > 2.0 * even.border_cover);
+        assert!(bare.densities[0] < 0.8 * even.densities[0] && bare.boundary_cover > 2.0 * even.boundary_cover);
     }
 }

@@ -74,7 +74,7 @@ fn by_start(study: &Study, count: usize, sets: usize) -> Result<String> {
     let mut text = format!(
         "## Steps to convergence (thesis §4.4.4)\n\n\
          The thesis's algorithm with Delaunay neighbours, radii 0.95 and 1.05, λ = 0.05, on a square that is mirrored by its \
-         border (fig. 4.12 (b)); {} points, {sets} sets: means, and from the fewest to the most. The thesis does not say how \
+         boundary (fig. 4.12 (b)); {} points, {sets} sets: means, and from the fewest to the most. The thesis does not say how \
          many points it had. Its test asks that the variance of the distances to the nearest point change by less than 0.1 % \
          ten times in a row; the other that points move by no more than 0.02 d_max per unit of λ, which is asked every 40 \
          steps. *ρ* is that of the sets that the thesis's test leaves. PSP's sets are those of 50 iterations, not filled. Fewer \
@@ -108,21 +108,21 @@ fn by_step(study: &Study, count: usize, sets: usize) -> Result<String> {
         End::of(context, &options.max_iterations(1500), &points)
     })?;
     let mut text = format!(
-        "The thesis's test depends on the step: the shorter the steps, the earlier on its way is a set when it is met; with \
-         long ones activeness keeps the variance moving. *Way* is the sum of all λ. From random sets on the torus, with α; {sets} sets. Of a λ that decays the thesis says only that it \
+        "The thesis's test depends on the step: the shorter the steps, the less a set has changed when it is met; with \
+         long ones activeness keeps the variance moving. *Path* is the sum of all λ. From random sets on the torus, with α; {sets} sets. Of a λ that decays the thesis says only that it \
          recommends one; here it is multiplied with a factor after every step.\n\n\
-         | λ | its test: steps | way | ρ | by motion: steps | way | ρ |\n{}|\n",
+         | λ | its test: steps | path | ρ | by motion: steps | path | ρ |\n{}|\n",
         "|---".repeat(7),
     );
     for ((step, decay), ends) in STEPS.iter().zip(ends.chunks(TESTS.len() * sets)) {
         let lambda = if *decay < 1.0 { format!("{step}, decaying by {decay}") } else { step.to_string() };
         let cells = ends.chunks(sets).map(|ends| {
-            let way = |end: &End| match *decay {
+            let path = |end: &End| match *decay {
                 1.0 => step * end.steps,
                 decay => step * (1.0 - decay.powf(end.steps)) / (1.0 - decay),
             };
-            let way = ends.iter().map(way).sum::<f64>() / sets as f64;
-            format!("{} | {way:.1} | {:.3}", steps(ends), mean_rho(ends))
+            let path = ends.iter().map(path).sum::<f64>() / sets as f64;
+            format!("{} | {path:.1} | {:.3}", steps(ends), mean_rho(ends))
         });
         _ = writeln!(text, "| {lambda} | {} |", cells.collect::<Vec<_>>().join(" | "));
     }

@@ -19,12 +19,12 @@ use azulejo_cli::text::{grouped, rounded};
 use tone::{Tone, WIDTHS};
 
 /// How dots are made, in the order of the table.
-const WAYS: [&str; 4] = ["random", "PSP", "PSP, relaxed", "random, relaxed"];
+const METHODS: [&str; 4] = ["random", "PSP", "PSP, relaxed", "random, relaxed"];
 
-/// The ways that are compared with PSP alone, and how the table of the goal calls them.
+/// The methods that are compared with PSP alone, and their names in the table of the goal.
 const JUDGED: [(usize, &str); 2] = [(2, "from PSP"), (3, "from random")];
 
-/// Dots that were made in one way, and what they are like.
+/// Dots that were made by one method, and what they are like.
 struct Dots {
     points: Vec<[f32; 2]>,
     /// Errors of tone, by the widths of the filter.
@@ -35,11 +35,11 @@ struct Dots {
     seconds: f64,
 }
 
-/// An image in dots, in all ways.
+/// An image in dots, by each of the [`METHODS`].
 struct Stippled {
     image: &'static str,
     count: usize,
-    ways: Vec<Dots>,
+    dots: Vec<Dots>,
 }
 
 /// Measures and writes; the section's text.
@@ -51,7 +51,7 @@ pub fn section(study: &Study) -> Result<String> {
         for &count in counts {
             let stippled = watched("dots", |progress| Stippled::measure(study.context, name, &image, count, progress))?;
             if name == "knot" && count == counts[0] {
-                picture::draw(&image, &stippled.ways.iter().map(|dots| &dots.points[..]).collect::<Vec<_>>(), &output)?;
+                picture::draw(&image, &stippled.dots.iter().map(|dots| &dots.points[..]).collect::<Vec<_>>(), &output)?;
             }
             all.push(stippled);
         }
@@ -84,7 +84,7 @@ impl Stippled {
         let points = dots::poisson(context, image, count, FIRST_SEED, progress)?;
         let poisson = measure(points, start.elapsed().as_secs_f64())?;
         let relaxed = [relax(&poisson.points)?, relax(&random.points)?];
-        Ok(Self { image: name, count, ways: [random, poisson].into_iter().chain(relaxed).collect() })
+        Ok(Self { image: name, count, dots: [random, poisson].into_iter().chain(relaxed).collect() })
     }
 }
 
@@ -108,9 +108,9 @@ fn text(all: &[Stippled], pictured: usize) -> String {
         heads(),
         "|---".repeat(WIDTHS.len() + 4),
     );
-    for Stippled { image, count, ways } in all {
-        for (way, from) in JUDGED {
-            let gains: [f64; WIDTHS.len()] = std::array::from_fn(|i| ways[1].errors[i] / ways[way].errors[i]);
+    for Stippled { image, count, dots } in all {
+        for (method, from) in JUDGED {
+            let gains: [f64; WIDTHS.len()] = std::array::from_fn(|i| dots[1].errors[i] / dots[method].errors[i]);
             let (cells, met) =
                 (gains.map(|gain| format!("{gain:.1}")).join(" | "), gains.iter().all(|&gain| gain > 1.0));
             _ = writeln!(text, "| {image} | {} | {from} | {cells} | {} |", grouped(*count), verdict(met));
@@ -122,8 +122,8 @@ fn text(all: &[Stippled], pictured: usize) -> String {
         heads(),
         "|---".repeat(WIDTHS.len() + 6),
     );
-    for Stippled { image, ways, .. } in all {
-        for (name, dots) in WAYS.iter().zip(ways) {
+    for Stippled { image, dots, .. } in all {
+        for (name, dots) in METHODS.iter().zip(dots) {
             let errors = dots.errors.map(|error| format!("{} %", rounded(100.0 * error, 2))).join(" | ");
             let (count, seconds) = (grouped(dots.points.len()), rounded(dots.seconds, 2));
             let (rho, cover) = (dots.rho, dots.cover);

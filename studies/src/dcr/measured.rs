@@ -27,7 +27,7 @@ pub struct Measured {
 impl Measured {
     /// All sizes and starts of a method.
     pub fn all(context: &Context, method: Method, effort: &Effort, progress: &Progress) -> Result<Vec<Self>> {
-        let sizes = if method.is_best { effort.best } else { effort.thesis };
+        let sizes = if method.is_thesis { effort.thesis } else { effort.momentum };
         let kinds = sizes.iter().flat_map(|size| STARTS.map(|start| (size, start)));
         let weight = |count: usize, sets: u64| count as f64 * sets as f64;
         let all: f64 = 2.0 * sizes.iter().map(|&(count, sets)| weight(count, sets)).sum::<f64>();

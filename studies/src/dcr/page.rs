@@ -14,7 +14,8 @@ use azulejo_cli::quality::Quality;
 use azulejo_cli::summary::Summary;
 use azulejo_cli::text::{grouped, rounded};
 
-/// A figure, and which way is better for a set that shall have even distances and no more order than that takes.
+/// A figure, and whether a higher or a lower value is better for a set with even distances and no more order than they
+/// need.
 struct Figure {
     name: &'static str,
     of: fn(&Quality) -> f64,
@@ -42,12 +43,12 @@ pub fn text(
     context: &Context,
     effort: &Effort,
     measured: &[Measured],
-    at_borders: &[bounded::Measured],
+    bounded: &[bounded::Measured],
     quick: bool,
 ) -> String {
     let option = if quick { " --quick" } else { "" };
     let intro = format!(
-        " Thesis: Wang 2019, chapter 4. Sets of the unit torus, and under *Bounded* of the unit square with a border, from seed {FIRST_SEED} on; no \
+        " Thesis: Wang 2019, chapter 4. Sets of the unit torus, and under *Bounded* of the unit square with a boundary, from seed {FIRST_SEED} on; no \
          setting was chosen by what these seeds gave. Figures are means over the sets of a size. Seconds are those of one call, on a machine that may \
          have had other work.\n\n\
          Lengths are in units of d_max = √(2 A / (√3 N)), the distance of neighbours in the hexagonal arrangement. *ρ* is the \
@@ -62,7 +63,7 @@ pub fn text(
         goals(measured),
         others(),
         METHODS.map(|method| section(method.name, effort, measured)).join("\n"),
-        borders(effort, at_borders),
+        boundaries(effort, bounded),
     ];
     parts.join("\n")
 }
@@ -70,12 +71,12 @@ pub fn text(
 /// Against push-pull, figure by figure.
 fn goals(measured: &[Measured]) -> String {
     let mut text = "## Goal\n\n\
-        The best method with Delaunay neighbours shall be better than push-pull in every figure. Small sets scatter: in a \
+        The momentum method with Delaunay neighbours shall be better than push-pull in every figure. Small sets scatter: in a \
         first run the first 8 sets of 1,000 points from KDRT, in place of 64, had 6.2 % obtuse triangles, which is worse than \
         push-pull. The numbers of small sets were raised after that was seen; no set was left out.\n\n\
         | points | start | push-pull is better in | |\n|---|---|---|---|\n"
         .to_owned();
-    let is_judged = |one: &&Measured| one.method.is_best && one.method.neighbourhood == Neighbourhood::Delaunay;
+    let is_judged = |one: &&Measured| !one.method.is_thesis && one.method.neighbourhood == Neighbourhood::Delaunay;
     for one in measured.iter().filter(is_judged) {
         let worse: Vec<_> = FIGURES.iter().filter_map(|figure| figure.lost_by(one)).collect();
         let list = if worse.is_empty() { "nothing".to_owned() } else { worse.join(", ") };
@@ -142,7 +143,7 @@ fn section(name: &str, effort: &Effort, measured: &[Measured]) -> String {
             rounded(one.seconds, 2),
         );
     }
-    if let Some((count, _)) = effort.best.iter().find(|(count, _)| of_method().all(|one| one.count != *count)) {
+    if let Some((count, _)) = effort.momentum.iter().find(|(count, _)| of_method().all(|one| one.count != *count)) {
         _ = writeln!(text, "\nSets of {} points and more are left out: they take too long.", grouped(*count));
     }
     let pictured = grouped(effort.pictured);
@@ -156,16 +157,16 @@ fn section(name: &str, effort: &Effort, measured: &[Measured]) -> String {
     text
 }
 
-/// What sets are like along a border.
-fn borders(effort: &Effort, measured: &[bounded::Measured]) -> String {
+/// What sets are like along a boundary.
+fn boundaries(effort: &Effort, measured: &[bounded::Measured]) -> String {
     let mut text = format!(
         "## Bounded\n\n\
-         Sets of the unit square with a border, by the best methods, and maximal sets as KDRT makes them. *On border* is the \
-         largest distance of a place on the border from the set. Densities are those within 1 to 4 d_max of the border, over \
+         Sets of the unit square with a boundary, by the momentum method, and maximal sets as KDRT makes them. *On boundary* is the \
+         largest distance of a place on the boundary from the set. Densities are those within 1 to 4 d_max of the boundary, over \
          that of the inside, which begins at {} d_max; *spacing* is the mean distance to the nearest neighbour within 1 d_max \
-         of the border over that inside. A border puts points in rows, the first at a depth of about 0.2 d_max, the second at \
+         of the boundary over that inside. A boundary puts points in rows, the first at a depth of about 0.2 d_max, the second at \
          1.1: within 1 d_max there is but one of them.\n\n\
-         | method | points | sets | start | ρ | least | cover | largest | on border | to 1 | to 2 | to 3 | to 4 | spacing |\n{}|\n",
+         | method | points | sets | start | ρ | least | cover | largest | on boundary | to 1 | to 2 | to 3 | to 4 | spacing |\n{}|\n",
         bounded::STRIPS,
         "|---".repeat(14),
     );
@@ -184,7 +185,7 @@ fn borders(effort: &Effort, measured: &[bounded::Measured]) -> String {
             one.summary(|set| set.rho).low,
             mean(|set| set.cover),
             one.summary(|set| set.cover).high,
-            mean(|set| set.border_cover),
+            mean(|set| set.boundary_cover),
             densities.join(" | "),
             mean(|set| set.spacing),
         );

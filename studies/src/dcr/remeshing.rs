@@ -19,19 +19,19 @@ use azulejo_cli::text::grouped;
 #[derive(Clone, Copy, PartialEq)]
 enum Treatment {
     None,
-    Best,
+    Momentum,
     Thesis,
 }
 
 const TREATMENTS: [(&str, Treatment); 3] =
-    [("KDRT", Treatment::None), ("relaxed, best", Treatment::Best), ("relaxed, thesis", Treatment::Thesis)];
+    [("KDRT", Treatment::None), ("relaxed, momentum", Treatment::Momentum), ("relaxed, thesis", Treatment::Thesis)];
 
 impl Treatment {
     fn apply(self, context: &Context, points: Vec<[f32; 2]>, seed: u64) -> Result<Vec<[f32; 2]>> {
         let domain = Domain::unit(Boundary::Periodic);
         let options = match self {
             Self::None => return Ok(points),
-            Self::Best => Options::new(domain, Neighbourhood::Delaunay),
+            Self::Momentum => Options::new(domain, Neighbourhood::Delaunay),
             Self::Thesis => Options::thesis(domain, Neighbourhood::Delaunay),
         };
         Ok(relax(context, &options.seed(seed), &points, None)?.0)

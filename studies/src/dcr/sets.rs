@@ -8,28 +8,28 @@ use azulejo::{Context, Domain, Result, psp};
 use crate::reference;
 use azulejo_cli::MAXIMAL_DENSITY;
 
-/// The seed of the first set of each kind. No setting of a method was chosen by what sets of these seeds gave; who tunes
-/// one takes others.
+/// The seed of the first set of each kind. No setting of a method was chosen by what sets of these seeds gave; take other
+/// seeds to tune one.
 pub const FIRST_SEED: u64 = 31_000;
 
-/// A method, with the options that it has unless one asks for others.
+/// A method, with its default options.
 #[derive(Clone, Copy)]
 pub struct Method {
     pub name: &'static str,
     pub neighbourhood: Neighbourhood,
-    pub is_best: bool,
+    pub is_thesis: bool,
 }
 
 pub const METHODS: [Method; 4] = [
-    Method { name: "best, Delaunay", neighbourhood: Neighbourhood::Delaunay, is_best: true },
-    Method { name: "best, nearest", neighbourhood: Neighbourhood::Nearest, is_best: true },
-    Method { name: "thesis, Delaunay", neighbourhood: Neighbourhood::Delaunay, is_best: false },
-    Method { name: "thesis, nearest", neighbourhood: Neighbourhood::Nearest, is_best: false },
+    Method { name: "momentum, Delaunay", neighbourhood: Neighbourhood::Delaunay, is_thesis: false },
+    Method { name: "momentum, nearest", neighbourhood: Neighbourhood::Nearest, is_thesis: false },
+    Method { name: "thesis, Delaunay", neighbourhood: Neighbourhood::Delaunay, is_thesis: true },
+    Method { name: "thesis, nearest", neighbourhood: Neighbourhood::Nearest, is_thesis: true },
 ];
 
 impl Method {
     pub fn options(&self, domain: Domain, seed: u64) -> Options {
-        let options = if self.is_best { Options::new } else { Options::thesis };
+        let options = if self.is_thesis { Options::thesis } else { Options::new };
         options(domain, self.neighbourhood).seed(seed)
     }
 

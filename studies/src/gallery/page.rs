@@ -27,7 +27,7 @@ fn introduction(effort: &Effort) -> String {
          Each set has {} points on the unit torus, or about as many. *Random* points are independent, *jittered* ones lie \
          anywhere in the cells of a grid, *Halton* ones follow his sequence of the bases 2 and 3, each set where the one \
          before ends. *Flat quadtree* is the unbiased maximal Poisson-disk set (Ebeida et al. 2012), *KDRT* the tiled one \
-         (chapter 2). DCR (chapter 4) starts from random points; *best* and *thesis* are its two methods. There are {} sets \
+         (chapter 2). DCR (chapter 4) starts from random points; *momentum* and *thesis* are its two methods. There are {} sets \
          of each, of the thesis's methods {}.\n",
         grouped(effort.side * effort.side),
         effort.sets,
@@ -40,7 +40,7 @@ fn spectra() -> String {
      From above: a part of the first set; the mean power spectrum of all sets, 1 for white noise, all ink from 4 on; its radial \
      mean; its anisotropy, 0 dB where a set is the same in all directions.\n\n\
      ![Random, jittered, Halton, flat quadtree, KDRT](gallery/samplers.png)\n\n\
-     ![DCR: best and thesis's, with Delaunay and nearest neighbours](gallery/relaxed.png)\n"
+     ![DCR: the momentum method and the thesis's, with Delaunay and nearest neighbours](gallery/relaxed.png)\n"
         .to_owned()
 }
 

@@ -60,7 +60,7 @@ pub fn draw_sets(sets: &[Measured], output: &Output) -> Result<()> {
 fn draw_samples(canvas: &mut Canvas, rect: Rect, set: &Measured) {
     let count = set.first.len() as f64;
     let side = (SHOWN / count).sqrt().min(1.0);
-    // The border is that of a torus only where all of it is seen.
+    // The boundary is that of a torus only where all of it is seen.
     let boundary = if side < 1.0 { Boundary::Bounded } else { Boundary::Periodic };
     let shown = Domain { min: [0.0; 2], max: [side; 2], boundary };
     let panel = Panel { rect, x: Axis::linear("", [0.0, side], 0), y: Axis::linear("", [0.0, side], 0) };

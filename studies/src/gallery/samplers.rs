@@ -1,4 +1,4 @@
-//! Who is shown.
+//! The samplers that are shown.
 
 use azulejo::dcr::relax;
 use azulejo::kdrt::DEFAULT_LEAF_SIZE;
@@ -9,7 +9,7 @@ use crate::dcr::sets::{METHODS, Method};
 use crate::kdrt;
 use crate::reference;
 
-/// Who makes a set.
+/// What makes a set.
 #[derive(Clone, Copy)]
 pub enum Sampler {
     Random,
@@ -22,7 +22,7 @@ pub enum Sampler {
     Relaxed(Method),
 }
 
-/// Those that make points, and those that move them.
+/// Samplers that make points, and the methods that relax random ones.
 pub const SAMPLERS: [Sampler; 5] =
     [Sampler::Random, Sampler::Jittered, Sampler::Halton, Sampler::Maximal, Sampler::Kdrt];
 pub const RELAXED: [Sampler; METHODS.len()] = {
@@ -45,7 +45,7 @@ impl Sampler {
     /// How many sets of it are made.
     pub fn sets(self, effort: &Effort) -> u64 {
         match self {
-            Self::Relaxed(method) if !method.is_best => effort.slow_sets,
+            Self::Relaxed(method) if method.is_thesis => effort.slow_sets,
             _ => effort.sets,
         }
     }

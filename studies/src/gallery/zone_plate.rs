@@ -40,7 +40,7 @@ pub fn reference(side: usize) -> Vec<f64> {
 }
 
 /// The picture that points of the unit torus make of the plate: at each pixel the mean of the samples near it, weighted
-/// by the filter. Beyond the picture's border the torus is repeated, the plate goes on.
+/// by the filter. Beyond the picture's edge the torus is repeated, the plate goes on.
 pub fn sampled(points: &[[f32; 2]], side: usize) -> Vec<f64> {
     let (length, margin) = (side as f64, REACH + 1.0);
     let (mut sums, mut weights) = (vec![0.0; side * side], vec![0.0; side * side]);

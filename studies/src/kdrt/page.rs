@@ -15,10 +15,10 @@ use azulejo_cli::text::{grouped, rounded};
 /// i7-4930K) and GPU (GTX 1080) from the captions of fig. 2.16 to 2.19.
 const THESIS: [[f64; 3]; 4] = [[63.0, 1.84, 10.56], [21.0, 3.37, 13.15], [9.0, 5.66, 16.75], [5.0, 6.76, 18.14]];
 
-/// A way to look for peaks.
+/// What a peak is measured by.
 type Figure = fn(&Peak) -> &Summary;
 
-/// The ways to look for peaks.
+/// What peaks are measured by.
 const PEAKS: [(&str, Figure); 2] = [("power", |peak| &peak.power), ("power over its annulus", |peak| &peak.over_mean)];
 
 /// How far the density of the default leaf size may be from that of an unbiased set, in percent.

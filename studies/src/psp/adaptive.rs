@@ -115,7 +115,7 @@ fn draw_stipple(context: &Context, effort: &Effort, output: &Output, progress: &
 }
 
 /// Bands along the ramp, and columns of the sheet in each. The sheet goes on beyond the ramp on all sides: samples stand
-/// closer along a border.
+/// closer along a boundary.
 const BANDS: usize = 16;
 const COLUMNS: usize = 32;
 const MARGIN: usize = 48;

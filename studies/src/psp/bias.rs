@@ -1,4 +1,4 @@
-//! How biased the sets of each order are: by the angle to the projectors, in their differences, along the projection.
+//! How biased the sets of each variant are: by the angle to the projectors, in their differences, along the projection.
 
 use std::sync::Arc;
 
@@ -31,9 +31,9 @@ pub fn frequencies() -> Vec<f64> {
     (4..=125).map(|i| 0.02 * f64::from(i)).collect()
 }
 
-/// What the sets of one way are like.
+/// What the sets of one variant are like.
 pub struct Bias {
-    pub way: Variant,
+    pub variant: Variant,
     /// Samples on a sphere over those of the reference.
     pub count: Summary,
     /// The part of the sphere that is left uncovered.
@@ -66,16 +66,16 @@ impl Bias {
         points.max_by(|a, b| a[1].total_cmp(&b[1])).unwrap_or_default()
     }
 
-    /// The bias of each of the ways; the first of them is the reference.
+    /// The bias of each of the variants, of which the first is the reference.
     pub fn measure(context: &Context, effort: &Effort, progress: &Progress) -> Result<Vec<Self>> {
-        let (ways, sphere) = (Variant::COMPARED, sphere()?);
+        let (variants, sphere) = (Variant::COMPARED, sphere()?);
         let directions =
             (0..effort.seeds).map(|seed| directions(context, &sphere, seed)).collect::<Result<Vec<_>>>()?;
         let measure = Measure { context, effort, sphere, directions };
         let mut references = None;
         let mut all = Vec::new();
-        for (i, way) in ways.into_iter().enumerate() {
-            let raw = measure.of(way, &|done| progress((i as f64 + done) / ways.len() as f64))?;
+        for (i, variant) in variants.into_iter().enumerate() {
+            let raw = measure.of(variant, &|done| progress((i as f64 + done) / variants.len() as f64))?;
             let reference = references.get_or_insert_with(|| raw.densities());
             all.push(raw.over(reference)?);
         }
@@ -83,9 +83,9 @@ impl Bias {
     }
 }
 
-/// What was measured of a way, before it is compared with the reference.
+/// What was measured of a variant, before it is compared with the reference.
 struct Raw {
-    way: Variant,
+    variant: Variant,
     counts: Vec<f64>,
     uncovered: f64,
     facing: Vec<f64>,
@@ -110,14 +110,14 @@ struct Measure<'a> {
 }
 
 impl Measure<'_> {
-    fn of(&self, way: Variant, progress: &Progress) -> Result<Raw> {
+    fn of(&self, variant: Variant, progress: &Progress) -> Result<Raw> {
         let Self { context, effort, sphere: mesh, .. } = self;
         let radius = radius(mesh, effort.bias);
         let mut facing = vec![[0.0; 2]; FACING_BINS];
         let (mut counts, mut differences, mut uncovered) = (Vec::new(), Vec::new(), 0.0);
         let mut planes: Vec<_> = TILTS.iter().map(|_| (0.0, Vec::new())).collect();
         for (directions, seed) in self.directions.iter().zip(0..) {
-            let samples = way.sample(context, mesh, radius, seed)?;
+            let samples = variant.sample(context, mesh, radius, seed)?;
             counts.push(samples.len() as f64);
             let bins = (90.0 / FACING_BIN) as usize;
             let facings = density_by_facing(mesh, &samples.triangles, directions, bins)?;
@@ -129,7 +129,7 @@ impl Measure<'_> {
             differences.push(self.differences(mesh, &samples, [0.0, 0.0, 1.0], seed)?);
             for (tilt, (count, differences)) in TILTS.into_iter().zip(&mut planes) {
                 let (mesh, towards) = plane(directions, (seed % 3) as usize, tilt.to_radians())?;
-                let samples = way.sample(context, &mesh, self::radius(&mesh, effort.planes), seed)?;
+                let samples = variant.sample(context, &mesh, self::radius(&mesh, effort.planes), seed)?;
                 *count += samples.len() as f64;
                 differences.push(self.differences(&mesh, &samples, towards, seed)?);
             }
@@ -137,7 +137,7 @@ impl Measure<'_> {
         }
         let together = |(count, differences): (f64, Vec<_>)| Ok((count, Differences::together(&differences)?));
         Ok(Raw {
-            way,
+            variant,
             counts,
             uncovered: uncovered / effort.seeds as f64,
             facing: facing.into_iter().map(|[samples, area]| samples / area).collect(),
@@ -161,7 +161,7 @@ impl Raw {
         let ratios = |own: &[f64], others: &[f64]| own.iter().zip(others).map(|(a, b)| a / b).collect::<Vec<_>>();
         let planes = self.planes.into_iter().zip(&reference.planes);
         Ok(Bias {
-            way: self.way,
+            variant: self.variant,
             count: Summary::of(&ratios(&self.counts, &reference.counts)),
             uncovered: self.uncovered,
             facing: ratios(&self.facing, &reference.facing),

@@ -7,7 +7,7 @@ use azulejo::{Context, Progress, Result};
 use super::Effort;
 use super::scenes::{Scene, radius};
 
-/// A set on its way.
+/// A set in the making.
 #[derive(Clone, Copy)]
 pub struct Moment {
     pub iterations: u32,

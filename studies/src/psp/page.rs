@@ -39,8 +39,8 @@ pub fn text(
         rates(measured),
         growth(effort, measured),
         directions(effort, measured),
-        order(effort, measured),
-        bias_by_order(effort, bias),
+        priority(effort, measured),
+        bias_by_variant(effort, bias),
         rays(measured),
     ];
     parts.join("\n")
@@ -166,12 +166,12 @@ fn to_quality(measured: &[Measured]) -> String {
     };
     let mut text =
         "Seconds to a relative radius, by the iterations of the tables above. The thesis calls 0.9 enough for most \
-        uses and 0.98 close to maximal.\n\n| scene, way | 0.9 | 0.95 | 0.98 |\n|---|---|---|---|\n"
+        uses and 0.98 close to maximal.\n\n| scene, method | 0.9 | 0.95 | 0.98 |\n|---|---|---|---|\n"
             .to_owned();
     for one in measured {
         let [squareness, projector] = &one.growth.iterated;
-        let ways = [("squareness", &squareness[..]), ("projector", projector), ("filled", &[one.growth.filled])];
-        for (name, moments) in ways {
+        let methods = [("squareness", &squareness[..]), ("projector", projector), ("filled", &[one.growth.filled])];
+        for (name, moments) in methods {
             let cells = RHO.map(|rho| reached(moments, rho)).join(" | ");
             _ = writeln!(text, "| {}, {name} | {cells} |", one.scene.name);
         }
@@ -199,13 +199,13 @@ fn directions(effort: &Effort, measured: &[Measured]) -> String {
     )
 }
 
-fn order(effort: &Effort, measured: &[Measured]) -> String {
+fn priority(effort: &Effort, measured: &[Measured]) -> String {
     let mut text = format!(
-        "## Order of the candidates\n\nWhere candidates of an iteration conflict, the *squarer* one wins, that which its \
+        "## Priority of the candidates\n\nWhere candidates of an iteration conflict, the *squarer* one wins, that which its \
          projector faces most squarely, or that of the *projector* with the lower number, as in the thesis. Of about {} samples: \
          what one iteration finds and what there is when the rest is filled, over the samples of the reference, in brackets \
          the square root, which is the relative radius; and the seconds to the end.\n\n\
-         | scene, order | one iteration | filled | seconds |\n|---|---|---|---|\n",
+         | scene, priority | one iteration | filled | seconds |\n|---|---|---|---|\n",
         grouped(effort.samples as usize)
     );
     for Measured { scene, rates, .. } in measured {
@@ -213,18 +213,18 @@ fn order(effort: &Effort, measured: &[Measured]) -> String {
             let share = report.samples as f64 / rates.by_iterations[0].filled.samples as f64;
             format!("{share:.3} ({:.3})", share.sqrt())
         };
-        let ways = [("squareness", rates.by_iterations[1]), ("projector", rates.by_projector)];
-        for (order, stages) in ways.into_iter().chain([("reference", rates.by_iterations[0])]) {
+        let priorities = [("squareness", rates.by_iterations[1]), ("projector", rates.by_projector)];
+        for (priority, stages) in priorities.into_iter().chain([("reference", rates.by_iterations[0])]) {
             let (found, filled) = (share(stages.iterated), share(stages.filled));
-            _ = writeln!(text, "| {}, {order} | {found} | {filled} | {:.3} |", scene.name, stages.seconds());
+            _ = writeln!(text, "| {}, {priority} | {found} | {filled} | {:.3} |", scene.name, stages.seconds());
         }
     }
     text + "\nBy squareness is the default: an iteration finds more, leaves less uncovered and less to fill, so that a maximal \
-            set takes less work and a set that is not filled is worth several iterations more. By projector is the way to a set \
-            that is nearer to the reference, and no iteration at all the way to the reference itself.\n"
+            set takes less work and a set that is not filled is worth several iterations more. Take the projector's for a \
+            set that is nearer to the reference, and no iteration at all for the reference itself.\n"
 }
 
-fn bias_by_order(effort: &Effort, bias: &[Bias]) -> String {
+fn bias_by_variant(effort: &Effort, bias: &[Bias]) -> String {
     let reference = &bias[0];
     let mut text = format!(
         "## Bias (thesis fig. 3.10 and 3.11)\n\nOn a sphere, {} sets of about {} \
@@ -233,7 +233,7 @@ fn bias_by_order(effort: &Effort, bias: &[Bias]) -> String {
          nearest projector of the first iteration, over the reference's; the first ring of the spectrum and how far the \
          spectrum is from the reference's at most. The spectrum is that of the differences of the samples (Wei and Wang \
          2011): the Hankel transform of their radial distribution function.\n\n\
-         | way | samples | relative radius | uncovered | density by angle | first ring | spectrum |\n|---|---|---|---|---|---|---|\n",
+         | variant | samples | relative radius | uncovered | density by angle | first ring | spectrum |\n|---|---|---|---|---|---|---|\n",
         effort.seeds,
         grouped(effort.bias as usize),
     );
@@ -243,7 +243,7 @@ fn bias_by_order(effort: &Effort, bias: &[Bias]) -> String {
         _ = writeln!(
             text,
             "| {} | {:.4} ± {:.4} | {:.4} | {:.2} % | {low:.3} to {high:.3} | {power:.3} at {frequency:.2} | {:.3} |",
-            one.way.name(),
+            one.variant.name(),
             one.count.mean,
             one.count.error,
             one.count.mean.sqrt(),
@@ -256,7 +256,7 @@ fn bias_by_order(effort: &Effort, bias: &[Bias]) -> String {
         text,
         "On planes, whose normal has this angle to the nearest projector, of about {} samples: samples over those of the \
          reference, and how uneven neighbours ({} to {} mean spacings apart) are all around: 0 if they are the same in all \
-         directions, negative where there are fewer along the direction in which the pattern is stretched.\n\n| way",
+         directions, negative where there are fewer along the direction in which the pattern is stretched.\n\n| variant",
         grouped(effort.planes as usize),
         NEIGHBOURS.start,
         NEIGHBOURS.end,
@@ -264,13 +264,13 @@ fn bias_by_order(effort: &Effort, bias: &[Bias]) -> String {
     TILTS.iter().for_each(|tilt| _ = write!(text, " | {tilt}°"));
     _ = writeln!(text, " |\n|---{}|", "|---".repeat(TILTS.len()));
     for one in bias {
-        _ = write!(text, "| {}", one.way.name());
+        _ = write!(text, "| {}", one.variant.name());
         for tilted in &one.planes {
             _ = write!(text, " | {:.4}, {:+.3}", tilted.count, tilted.differences.elongation(NEIGHBOURS));
         }
         text.push_str(" |\n");
     }
-    text + "\nThe differences of all pairs of those that are maximal: white where there is none, the full colour at 2.5 \
+    text + "\nThe differences of all pairs of the maximal sets: white where there is none, the full colour at 2.5 \
             times the mean density. An ellipse is the hole of a pattern that is stretched; filling puts samples into it, but \
             the samples of the pattern still avoid it.\n\n![Differences on planes](psp/differences.png)\n"
 }

@@ -129,10 +129,10 @@ pub fn draw_facing(bias: &[Bias], output: &Output) -> Result<()> {
     };
     panel.ground(&mut canvas, true);
     for ((one, colour), row) in bias.iter().zip(SERIES).zip(0..) {
-        let width = if one.way.maximal { 3.6 } else { 1.6 };
+        let width = if one.variant.maximal { 3.6 } else { 1.6 };
         let angles = (0..).map(|bin| (f64::from(bin) + 0.5) * FACING_BIN);
         curve(&mut canvas, &panel, angles.zip(&one.facing).map(|(x, &y)| [x, y]), width, colour);
-        legend(&mut canvas, [136.0, 348.0 + 22.0 * row as f32], &one.way.name(), width, colour);
+        legend(&mut canvas, [136.0, 348.0 + 22.0 * row as f32], &one.variant.name(), width, colour);
     }
     panel.axes(&mut canvas);
     panel.title(&mut canvas, "Density by facing angle", "sphere");
@@ -152,18 +152,18 @@ pub fn draw_spectra(bias: &[Bias], output: &Output) -> Result<()> {
         let width = if row == 0 { 5.0 } else { 2.0 };
         let points = frequencies().into_iter().zip(&one.power).map(|(x, &y)| [x, y]);
         curve(&mut canvas, &panel, points, width, colour);
-        legend(&mut canvas, [560.0, 86.0 + 23.0 * row as f32], &one.way.name(), width, colour);
+        legend(&mut canvas, [560.0, 86.0 + 23.0 * row as f32], &one.variant.name(), width, colour);
     }
     panel.axes(&mut canvas);
     panel.title(&mut canvas, "Radial mean of the power", "sphere");
     canvas.write(output)
 }
 
-/// Differences on planes: a row for each way, a column for each tilt.
+/// Differences on planes: a row for each variant, a column for each tilt.
 pub fn draw_differences(bias: &[Bias], output: &Output) -> Result<()> {
     const SIDE: f32 = 256.0;
     const STEP: [f32; 2] = [SIDE + 50.0, SIDE + 70.0];
-    let maximal: Vec<_> = bias.iter().filter(|one| one.way.maximal).collect();
+    let maximal: Vec<_> = bias.iter().filter(|one| one.variant.maximal).collect();
     let size = [80.0 + TILTS.len() as f32 * STEP[0], 110.0 + maximal.len() as f32 * STEP[1]];
     let mut canvas = Canvas::new(size[0], size[1], size[0] as u32);
     let range = [-SHOWN_REACH, SHOWN_REACH];
@@ -184,7 +184,7 @@ pub fn draw_differences(bias: &[Bias], output: &Output) -> Result<()> {
             }
             if is_first {
                 let style = Style { size: 20.0, colour: INK, align: Align::Left, upwards: false };
-                canvas.text(&one.way.name(), [place[0], place[1] - 12.0], style);
+                canvas.text(&one.variant.name(), [place[0], place[1] - 12.0], style);
             }
         }
     }

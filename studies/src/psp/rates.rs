@@ -9,7 +9,7 @@ use super::scenes::{Scene, radius};
 /// How many iterations before filling are tried, of three directions each.
 pub const ITERATIONS: std::ops::RangeInclusive<u32> = 0..=4;
 
-/// The way to a maximal set.
+/// A maximal set in the making: after the iterations, and filled.
 #[derive(Clone, Copy)]
 pub struct Stages {
     pub radius: f64,

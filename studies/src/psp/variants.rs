@@ -38,7 +38,7 @@ impl Variant {
         }
         let plural = if self.iterations == 1 { "" } else { "s" };
         let fill = if self.maximal { ", fill" } else { "" };
-        format!("{}, {} iteration{plural}{fill}", order_name(self.priority), self.iterations)
+        format!("{}, {} iteration{plural}{fill}", priority_name(self.priority), self.iterations)
     }
 
     pub fn sample(self, context: &Context, mesh: &Arc<Mesh>, radius: f64, seed: u64) -> Result<SurfaceSamples> {
@@ -48,7 +48,7 @@ impl Variant {
     }
 }
 
-pub fn order_name(priority: Priority) -> &'static str {
+pub fn priority_name(priority: Priority) -> &'static str {
     match priority {
         Priority::Squareness => "squareness",
         Priority::Projector => "projector",

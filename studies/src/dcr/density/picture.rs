@@ -1,4 +1,4 @@
-//! An image in dots, made in several ways, side by side, and a detail of each below.
+//! An image in dots, made by several methods, side by side, and a detail of each below.
 
 use azulejo::Result;
 
@@ -15,12 +15,12 @@ const TITLE: f32 = 40.0;
 /// The part of the image that is shown in detail: where it begins, and its side, in shares of the image.
 const DETAIL: ([f32; 2], f32) = ([0.52, 0.3], 0.22);
 
-/// Draws the ways of making dots.
-pub fn draw(image: &Darkness, ways: &[&[[f32; 2]]], output: &Output) -> Result<()> {
+/// Draws the dots of each of the methods.
+pub fn draw(image: &Darkness, sets: &[&[[f32; 2]]], output: &Output) -> Result<()> {
     let size = image.size()[0] as f32;
-    let width = ways.len() as f32 * (PANEL + GAP) + GAP;
+    let width = sets.len() as f32 * (PANEL + GAP) + GAP;
     let mut canvas = Canvas::new(width, TITLE + 2.0 * (PANEL + GAP), width as u32);
-    for (column, (dots, name)) in ways.iter().zip(super::WAYS).enumerate() {
+    for (column, (dots, name)) in sets.iter().zip(super::METHODS).enumerate() {
         let x = GAP + column as f32 * (PANEL + GAP);
         let style = Style { size: 22.0, colour: INK, align: Align::Left, upwards: false };
         canvas.text(name, [x, TITLE - 14.0], style);
