@@ -1,16 +1,14 @@
 //! What all pages of measurements begin with, and say of a goal.
 
-use std::time::{SystemTime, UNIX_EPOCH};
-
-use azulejo_cli::text::date;
+use jiff::Timestamp;
+use jiff::tz::TimeZone;
 
 /// The title, and when, by which command and on which machine the page was written.
 pub fn head(title: &str, command: &str, threads: usize) -> String {
-    let seconds = SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |since| since.as_secs());
+    let date = Timestamp::now().to_zoned(TimeZone::UTC).date();
     let processor = processor();
     format!(
-        "# {title}\n\nWritten by `cargo run --release -p azulejo-studies -- {command}` on {}, on {threads} threads of {processor}.",
-        date(seconds)
+        "# {title}\n\nWritten by `cargo run --release -p azulejo-studies -- {command}` on {date}, on {threads} threads of {processor}."
     )
 }
 
