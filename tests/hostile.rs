@@ -118,7 +118,7 @@ fn a_function_that_changes_its_mind_does_not_get_all_memory() {
     assert!(matches!(refused, Err(Error::TooLarge { argument: "radius", .. })), "{refused:?}");
 }
 
-/// The estimate was made on a hundred thousand pieces and more, of a surface that has room for a few samples.
+/// The estimate was made on a hundred thousand pieces and more, of a surface that holds a few samples.
 #[test]
 fn few_samples_are_estimated_on_few_pieces() {
     let calls = AtomicU64::new(0);
