@@ -21,5 +21,4 @@ pub mod stipple;
 pub mod summary;
 pub mod text;
 
-pub use generate::MAXIMAL_DENSITY;
 pub use program::{exit_code, main};

@@ -1,14 +1,13 @@
-//! Where the page of a report goes, and what it is about.
+//! What the commands have in common.
 
-use std::fs;
 use std::path::PathBuf;
 
-use azulejo::{Error, Result};
+use azulejo::Result;
 use clap::Args;
 
-use azulejo_cli::output::Output;
+use crate::files::Files;
 
-/// What all reports have.
+/// Options of every page.
 #[derive(Args)]
 pub struct PageArgs {
     /// The directory of the page and its pictures.
@@ -20,11 +19,9 @@ pub struct PageArgs {
 }
 
 impl PageArgs {
-    /// The page of this name, and the folder of its pictures, which is made.
-    pub fn open(&self, name: &str) -> Result<(Output, PathBuf)> {
-        let pictures = self.out.join(name);
-        fs::create_dir_all(&pictures).map_err(|source| Error::Io { path: pictures.clone(), source })?;
-        Ok((Output::at(&self.out.join(format!("{name}.md")))?, pictures))
+    /// The files of the page of this name.
+    pub fn open(&self, name: &'static str) -> Result<Files> {
+        Files::open(&self.out, name, self.quick)
     }
 }
 

@@ -13,14 +13,11 @@ pub mod sets;
 mod study;
 mod surfaces;
 
-use std::io::Write;
-
 use azulejo::{Boundary, Context, Domain, Progress, Result};
 use clap::Args;
 
 use crate::args::{MeshArgs, PageArgs};
 use azulejo_cli::draw::points;
-use azulejo_cli::output::Output;
 use azulejo_cli::progress::watched;
 use measured::Measured;
 use sets::{METHODS, Start};
@@ -60,7 +57,7 @@ const PIXELS: u32 = 1000;
 impl Dcr {
     pub fn run(&self, context: &Context) -> Result<()> {
         let effort = if self.page.quick { QUICK } else { FULL };
-        let (page, pictures) = self.page.open("dcr")?;
+        let files = self.page.open("dcr")?;
 
         let mut measured = Vec::new();
         for method in METHODS {
@@ -69,17 +66,17 @@ impl Dcr {
         }
         let drawn = |one: &&Measured| one.count == effort.pictured && one.start == Start::Random;
         for one in measured.iter().filter(drawn) {
-            let output = Output::at(&pictures.join(one.method.picture()))?;
+            let output = files.picture(&one.method.picture())?;
             points::draw(context, &Domain::unit(Boundary::Periodic), &one.first, PIXELS, &output)?;
         }
         let bounded = watched("bounded", |progress| bounded::Measured::all(context, effort.bounded, progress))?;
         let corners = bounded.iter().filter(|one| one.count == effort.pictured && one.start == Start::Kdrt);
         let corners: Vec<_> = corners.map(|one| (one.name(), &*one.first)).collect();
-        bounded::draw_corners(&corners, 2 * PIXELS, &Output::at(&pictures.join(page::CORNERS))?)?;
-        let mut text = page::text(context, &effort, &measured, &bounded, self.page.quick);
+        bounded::draw_corners(&corners, 2 * PIXELS, &files.picture("corners")?)?;
+        let mut text = page::text(&effort, &measured, &bounded);
         let study = Study {
             context,
-            pictures: &pictures,
+            files: &files,
             quick: self.page.quick,
             bunny: self.meshes.bunny.as_deref(),
             dragon: self.meshes.dragon.as_deref(),
@@ -87,6 +84,6 @@ impl Dcr {
         for section in SECTIONS {
             text += &format!("\n{}", section(&study)?);
         }
-        page.write(|writer| writer.write_all(text.as_bytes()))
+        files.write("DCR, measured", context.num_threads(), &text)
     }
 }

@@ -6,13 +6,10 @@ mod pictures;
 mod samplers;
 mod zone_plate;
 
-use std::io::Write;
-
 use azulejo::{Context, Progress, Result};
 use clap::Args;
 
 use crate::args::PageArgs;
-use azulejo_cli::output::Output;
 use azulejo_cli::progress::watched;
 use measured::Measured;
 use samplers::{RELAXED, SAMPLERS, Sampler};
@@ -38,7 +35,7 @@ const QUICK: Effort = Effort { side: 32, sets: 2, slow_sets: 1 };
 impl Gallery {
     pub fn run(&self, context: &Context) -> Result<()> {
         let effort = if self.page.quick { QUICK } else { FULL };
-        let (page, pictures) = self.page.open("gallery")?;
+        let files = self.page.open("gallery")?;
 
         let samplers: Vec<Sampler> = SAMPLERS.into_iter().chain(RELAXED).collect();
         let mut measured = Vec::new();
@@ -47,10 +44,9 @@ impl Gallery {
             measured.push(watched("gallery", measure)?);
         }
         let (direct, relaxed) = measured.split_at(SAMPLERS.len());
-        pictures::draw_sets(direct, &Output::at(&pictures.join("samplers.png"))?)?;
-        pictures::draw_sets(relaxed, &Output::at(&pictures.join("relaxed.png"))?)?;
-        pictures::draw_plates(&measured, effort.side, &Output::at(&pictures.join("zone-plate.png"))?)?;
-        let text = page::text(context, &effort, &measured, self.page.quick);
-        page.write(|writer| writer.write_all(text.as_bytes()))
+        pictures::draw_sets(direct, &files.picture("samplers")?)?;
+        pictures::draw_sets(relaxed, &files.picture("relaxed")?)?;
+        pictures::draw_plates(&measured, effort.side, &files.picture("zone-plate")?)?;
+        files.write("Samplers side by side", context.num_threads(), &page::text(&effort, &measured))
     }
 }

@@ -5,14 +5,10 @@ pub mod pictures;
 mod statistics;
 mod times;
 
-use std::io::Write;
-
-use azulejo::{Boundary, Context, Domain, Progress, Result, kdrt, maximal};
+use azulejo::{Boundary, Context, Domain, MAXIMAL_DENSITY, Progress, Result, kdrt, maximal};
 use clap::Args;
 
 use crate::args::PageArgs;
-use azulejo_cli::MAXIMAL_DENSITY;
-use azulejo_cli::output::Output;
 use azulejo_cli::progress::watched;
 use statistics::Statistics;
 use times::Times;
@@ -76,7 +72,7 @@ pub fn radius(count: f64) -> f64 {
 impl Kdrt {
     pub fn run(&self, context: &Context) -> Result<()> {
         let effort = if self.page.quick { QUICK } else { FULL };
-        let (page, pictures) = self.page.open("kdrt")?;
+        let files = self.page.open("kdrt")?;
 
         let times = watched("times", |progress| Times::measure(context, &effort, progress))?;
         let samplers = [Sampler::Maximal].into_iter().chain(LEAF_SIZES.map(Sampler::Leaves));
@@ -86,13 +82,12 @@ impl Kdrt {
             let measure = |progress: &Progress| Statistics::measure(context, sampler, &effort, reference, progress);
             statistics.push(watched("spectra", measure)?);
         }
-        pictures::draw_times(&times, &Output::at(&pictures.join("times.png"))?)?;
-        pictures::draw_stages(&times, &Output::at(&pictures.join("stages.png"))?)?;
+        pictures::draw_times(&times, &files.picture("times")?)?;
+        pictures::draw_stages(&times, &files.picture("stages")?)?;
         for one in &statistics {
-            let output = Output::at(&pictures.join(format!("spectrum-{}.png", one.sampler.name())))?;
+            let output = files.picture(&format!("spectrum-{}", one.sampler.name()))?;
             pictures::draw_spectrum(one, &statistics[0], &output)?;
         }
-        let text = page::text(&effort, &statistics, &times, self.page.quick);
-        page.write(|writer| writer.write_all(text.as_bytes()))
+        files.write("KDRT, measured", times.threads, &page::text(&effort, &statistics, &times))
     }
 }

@@ -4,13 +4,15 @@
 //! `sums` prints SHA-256 sums of what calls return.
 
 mod args;
+mod chart;
 mod dcr;
+mod files;
 mod gallery;
-mod head;
 mod kdrt;
 mod psp;
 mod reference;
 mod sums;
+mod verdict;
 
 use std::process::ExitCode;
 

@@ -10,13 +10,10 @@ mod rays;
 pub mod scenes;
 mod variants;
 
-use std::io::Write;
-
 use azulejo::{Context, Progress, Result};
 use clap::Args;
 
 use crate::args::{MeshArgs, PageArgs};
-use azulejo_cli::output::Output;
 use azulejo_cli::progress::watched;
 use bias::Bias;
 use growth::Growth;
@@ -105,8 +102,7 @@ impl Measured {
 impl Psp {
     pub fn run(&self, context: &Context) -> Result<()> {
         let effort = if self.page.quick { QUICK } else { FULL };
-        let (page, pictures) = self.page.open("psp")?;
-        let picture = |name: &str| Output::at(&pictures.join(format!("{name}.png")));
+        let files = self.page.open("psp")?;
 
         let (found, missing) = scenes(self.meshes.bunny.as_deref(), self.meshes.dragon.as_deref(), effort.detail)?;
         let mut measured = Vec::new();
@@ -116,16 +112,17 @@ impl Psp {
         }
         let bias = watched("bias", |progress| Bias::measure(context, &effort, progress))?;
 
-        pictures::draw_rates(&measured, &picture("rates")?)?;
-        pictures::draw_growth(&measured, &picture("growth")?)?;
-        pictures::draw_facing(&bias, &picture("facing")?)?;
-        pictures::draw_spectra(&bias, &picture("spectra")?)?;
-        pictures::draw_differences(&bias, &picture("differences")?)?;
+        pictures::draw_rates(&measured, &files.picture("rates")?)?;
+        pictures::draw_growth(&measured, &files.picture("growth")?)?;
+        pictures::draw_facing(&bias, &files.picture("facing")?)?;
+        pictures::draw_spectra(&bias, &files.picture("spectra")?)?;
+        pictures::draw_differences(&bias, &files.picture("differences")?)?;
         for Measured { scene, .. } in &measured {
-            pictures::draw_scene(context, scene, &effort, &picture(scene.name)?)?;
+            pictures::draw_scene(context, scene, &effort, &files.picture(scene.name)?)?;
         }
-        let text = page::text(context, &effort, &measured, &missing, &bias, self.page.quick);
-        let text = text + "\n" + &adaptive::section(context, &pictures, self.page.quick)?;
-        page.write(|writer| writer.write_all(text.as_bytes()))
+        let threads = context.num_threads();
+        let text = page::text(threads, &effort, &measured, &missing, &bias);
+        let text = text + "\n" + &adaptive::section(context, &files, self.page.quick)?;
+        files.write("PSP, measured", threads, &text)
     }
 }

@@ -2,12 +2,11 @@
 
 use azulejo::mesh::Mesh;
 use azulejo::trace::{Hit, Ray, Scene};
-use azulejo::{Context, Error, Result};
+use azulejo::{Context, Error, MAXIMAL_DENSITY, Result};
 use glam::Vec3;
 
 use super::camera::Camera;
 use super::discs::Discs;
-use crate::generate::MAXIMAL_DENSITY;
 
 /// The radius of a painted disc in parts of the radius of a maximal set of as many samples: discs stay apart.
 const DISC: f64 = 0.36;

@@ -11,7 +11,7 @@ use azulejo::{Context, Progress, Result};
 
 use super::sets::FIRST_SEED;
 use super::study::Study;
-use crate::head::verdict;
+use crate::verdict::verdict;
 use azulejo_cli::progress::watched;
 use azulejo_cli::stipple::darkness::Darkness;
 use azulejo_cli::stipple::dots;

@@ -2,14 +2,13 @@
 
 use std::fmt::Write;
 
-use azulejo::Context;
 use azulejo::dcr::Neighbourhood;
 
 use super::Effort;
 use super::bounded;
 use super::measured::Measured;
 use super::sets::{FIRST_SEED, METHODS};
-use crate::head::{head, verdict};
+use crate::verdict::verdict;
 use azulejo_cli::quality::Quality;
 use azulejo_cli::summary::Summary;
 use azulejo_cli::text::{grouped, rounded};
@@ -35,20 +34,10 @@ const FIGURES: [Figure; 6] = [
     Figure { name: "edge CV²", of: |set| set.edge_variation, push_pull: 0.019, higher_is_better: false },
 ];
 
-/// The file of the picture of corners.
-pub const CORNERS: &str = "corners.png";
-
-/// The whole page.
-pub fn text(
-    context: &Context,
-    effort: &Effort,
-    measured: &[Measured],
-    bounded: &[bounded::Measured],
-    quick: bool,
-) -> String {
-    let option = if quick { " --quick" } else { "" };
-    let intro = format!(
-        " Thesis: Wang 2019, chapter 4. Sets of the unit torus, and under *Bounded* of the unit square with a boundary, from seed {FIRST_SEED} on; no \
+/// The text of the page.
+pub fn text(effort: &Effort, measured: &[Measured], bounded: &[bounded::Measured]) -> String {
+    let introduction = format!(
+        "Thesis: Wang 2019, chapter 4. Sets of the unit torus, and under *Bounded* of the unit square with a boundary, from seed {FIRST_SEED} on; no \
          setting was chosen by what these seeds gave. Figures are means over the sets of a size. Seconds are those of one call, on a machine that may \
          have had other work.\n\n\
          Lengths are in units of d_max = √(2 A / (√3 N)), the distance of neighbours in the hexagonal arrangement. *ρ* is the \
@@ -59,7 +48,7 @@ pub fn text(
          squared mean.\n",
     );
     let parts = [
-        head("DCR, measured", &format!("dcr{option}"), context.num_threads()) + &intro,
+        introduction,
         goals(measured),
         others(),
         METHODS.map(|method| section(method.name, effort, measured)).join("\n"),
@@ -150,7 +139,7 @@ fn section(name: &str, effort: &Effort, measured: &[Measured]) -> String {
     for one in of_method().take(1) {
         _ = writeln!(
             text,
-            "\n![{pictured} points, at random before, and their spectrum](dcr/{})",
+            "\n![{pictured} points, at random before, and their spectrum](dcr/{}.png)",
             one.method.picture()
         );
     }
@@ -191,6 +180,6 @@ fn boundaries(effort: &Effort, measured: &[bounded::Measured]) -> String {
         );
     }
     let pictured = grouped(effort.pictured);
-    _ = writeln!(text, "\n![A corner of the square, of sets of {pictured} points from KDRT](dcr/{CORNERS})");
+    _ = writeln!(text, "\n![A corner of the square, of sets of {pictured} points from KDRT](dcr/corners.png)");
     text
 }

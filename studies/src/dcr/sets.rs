@@ -5,8 +5,8 @@ use azulejo::kdrt::{self, CountOptions};
 use azulejo::mesh::Mesh;
 use azulejo::{Context, Domain, Result, psp};
 
+use crate::kdrt::radius;
 use crate::reference;
-use azulejo_cli::MAXIMAL_DENSITY;
 
 /// The seed of the first set of each kind. No setting of a method was chosen by what sets of these seeds gave; take other
 /// seeds to tune one.
@@ -33,9 +33,9 @@ impl Method {
         options(domain, self.neighbourhood).seed(seed)
     }
 
-    /// The file of its picture.
+    /// The name of its picture.
     pub fn picture(&self) -> String {
-        format!("{}.png", self.name.replace(", ", "-").to_lowercase())
+        self.name.replace(", ", "-").to_lowercase()
     }
 }
 
@@ -75,8 +75,7 @@ impl Start {
             Self::Psp => {
                 let corners = vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
                 let square = Mesh::new(corners, vec![[0, 1, 2], [0, 2, 3]])?.into();
-                let radius = (MAXIMAL_DENSITY / count as f64).sqrt();
-                let options = psp::Options::new(radius).iterations(PROJECTIONS).maximal(false).seed(seed);
+                let options = psp::Options::new(radius(count as f64)).iterations(PROJECTIONS).maximal(false).seed(seed);
                 let (samples, _) = psp::sample(context, &square, &options, None)?;
                 let inside = |&[x, y]: &[f32; 2]| x < 1.0 && y < 1.0;
                 Ok(samples.positions.iter().map(|&[x, y, _]| [x, y]).filter(inside).collect())

@@ -6,6 +6,7 @@ use azulejo::dcr::{Method, Neighbourhood, Options, Thesis};
 use azulejo::{Context, Domain, Result};
 
 use super::{convergence, density, distributions, radii, remeshing, surfaces};
+use crate::files::Files;
 use azulejo_cli::draw::rows::in_parallel;
 use azulejo_cli::output::Output;
 use azulejo_cli::progress::watched;
@@ -26,8 +27,8 @@ pub const SECTIONS: [Section; 6] = [
 /// What a section has to work with.
 pub struct Study<'a> {
     pub context: &'a Context,
-    /// The folder of its pictures, beside the page; the page calls it `dcr`.
-    pub pictures: &'a Path,
+    /// The files of the page.
+    pub files: &'a Files,
     /// Whether few and small sets are enough.
     pub quick: bool,
     /// The files of meshes, where they were given.
@@ -38,7 +39,7 @@ pub struct Study<'a> {
 impl Study<'_> {
     /// The picture of this name, a PNG file.
     pub fn picture(&self, name: &str) -> Result<Output> {
-        Output::at(&self.pictures.join(format!("{name}.png")))
+        self.files.picture(name)
     }
 
     /// `[work(0), .., work(count - 1)]`, each on one thread, as many at a time as there are threads: one relaxation by the

@@ -2,28 +2,18 @@
 
 use std::fmt::Write;
 
-use azulejo::Context;
-
 use super::Effort;
 use super::measured::Measured;
-use crate::head::head;
 use azulejo_cli::text::{grouped, rounded};
 
-/// The whole page.
-pub fn text(context: &Context, effort: &Effort, measured: &[Measured], quick: bool) -> String {
-    let option = if quick { " --quick" } else { "" };
-    let parts = [
-        head("Samplers side by side", &format!("gallery{option}"), context.num_threads()) + &introduction(effort),
-        spectra(),
-        figures(measured),
-        plates(effort, measured),
-    ];
-    parts.join("\n")
+/// The text of the page.
+pub fn text(effort: &Effort, measured: &[Measured]) -> String {
+    [introduction(effort), spectra(), figures(measured), plates(effort, measured)].join("\n")
 }
 
 fn introduction(effort: &Effort) -> String {
     format!(
-        " Thesis: Wang 2019, fig. 4.16, 4.17 and 2.12.\n\n\
+        "Thesis: Wang 2019, fig. 4.16, 4.17 and 2.12.\n\n\
          Each set has {} points on the unit torus, or about as many. *Random* points are independent, *jittered* ones lie \
          anywhere in the cells of a grid, *Halton* ones follow his sequence of the bases 2 and 3, each set where the one \
          before ends. *Flat quadtree* is the unbiased maximal Poisson-disk set (Ebeida et al. 2012), *KDRT* the tiled one \

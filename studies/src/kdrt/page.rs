@@ -1,13 +1,14 @@
-//! The page of the report, in Markdown.
+//! The page, in Markdown.
 
 use std::fmt::Write;
+
+use azulejo::MAXIMAL_DENSITY;
 
 use super::pictures::{STAGES, stage_times};
 use super::statistics::{ANNULUS, CONTRAST_RANGE, GROUPS, Peak, Statistics};
 use super::times::{LeafTimes, Times};
 use super::{Effort, Sampler};
-use crate::head::verdict;
-use azulejo_cli::MAXIMAL_DENSITY;
+use crate::verdict::verdict;
 use azulejo_cli::summary::Summary;
 use azulejo_cli::text::{grouped, rounded};
 
@@ -24,10 +25,10 @@ const PEAKS: [(&str, Figure); 2] = [("power", |peak| &peak.power), ("power over 
 /// How far the density of the default leaf size may be from that of an unbiased set, in percent.
 const DENSITY_GOAL: f64 = 0.5;
 
-/// The whole page.
-pub fn text(effort: &Effort, statistics: &[Statistics], times: &Times, quick: bool) -> String {
+/// The text of the page.
+pub fn text(effort: &Effort, statistics: &[Statistics], times: &Times) -> String {
     let parts = [
-        head(times, quick),
+        introduction(),
         goals(statistics),
         bias(effort, statistics),
         spectra(statistics, times),
@@ -38,11 +39,10 @@ pub fn text(effort: &Effort, statistics: &[Statistics], times: &Times, quick: bo
     parts.join("\n")
 }
 
-fn head(times: &Times, quick: bool) -> String {
-    let option = if quick { " --quick" } else { "" };
-    crate::head::head("KDRT, measured", &format!("kdrt{option}"), times.threads)
-        + " Thesis: Wang 2019, chapter 2. `r` is the radius, the smallest distance; frequencies are in units of √density. \
-           Times are the least of three, on a machine that may have had other work.\n"
+fn introduction() -> String {
+    "Thesis: Wang 2019, chapter 2. `r` is the radius, the smallest distance; frequencies are in units of √density. Times are \
+     the least of three, on a machine that may have had other work.\n"
+        .to_owned()
 }
 
 /// By how many percent a set is denser than an unbiased one.
@@ -67,7 +67,7 @@ fn goals(statistics: &[Statistics]) -> String {
         if is_default {
             let error = 100.0 * one.density.error / MAXIMAL_DENSITY;
             let is_met = excess.abs() <= DENSITY_GOAL;
-            let goal = format!("density within {DENSITY_GOAL} % of {MAXIMAL_DENSITY} / r²");
+            let goal = format!("density within {DENSITY_GOAL} % of {MAXIMAL_DENSITY:.5} / r²");
             _ = writeln!(text, "| {goal} | {name} | {excess:+.2} ± {error:.2} % | {} |", verdict(is_met));
         }
         let Summary { low, high, .. } = reference.contrast;
@@ -99,7 +99,7 @@ fn bias(effort: &Effort, statistics: &[Statistics]) -> String {
     let mut text = format!(
         "## Bias\n\n\
          Sets of about {} samples on the unit torus, {} of each kind, with the same r. The density of an unbiased maximal \
-         set is N·r² = {MAXIMAL_DENSITY} (the jamming limit of random sequential placement, 0.5470735 · 4/π; ± is the \
+         set is N·r² = {MAXIMAL_DENSITY:.5} (the jamming limit of random sequential placement, 0.5470735 · 4/π; ± is the \
          standard error of the mean). *Contrast* is the variance of a set's periodogram over its squared mean, in annuli \
          of {ANNULUS}, averaged over all frequencies from {} to {}: 1 without order over long distances, more where parts \
          repeat. It is the mean of all sets, with their range. Of the mean spectrum of all sets: how far its radial mean is \

@@ -1,4 +1,4 @@
-//! The plots of the report.
+//! The plots of the page.
 
 use azulejo::Result;
 use azulejo::analysis::spectrum::{Annulus, Periodogram};
@@ -6,6 +6,7 @@ use azulejo::kdrt::stages::Stages;
 
 use super::statistics::Statistics;
 use super::times::Times;
+use crate::chart::{curve, dots, legend, range, single};
 use azulejo_cli::draw::canvas::{Align, Canvas, Rect, Style};
 use azulejo_cli::draw::palette::{COBALT, Colour, INK, SERIES, SLATE, glaze_to_cobalt};
 use azulejo_cli::draw::plot::{Axis, Panel};
@@ -34,25 +35,16 @@ fn label(size: f32, align: Align) -> Style {
 
 /// Seconds against samples on one thread (thesis fig. 2.11).
 pub fn draw_times(times: &Times, output: &Output) -> Result<()> {
-    let mut canvas = Canvas::new(900.0, 560.0, 900);
-    let range = |i: usize| {
-        let values = times.leaves.iter().flat_map(|leaf| leaf.one_thread.iter().map(|point| point[i]));
-        let (low, high) = values.fold((f64::INFINITY, 0.0), |(low, high): (f64, f64), x| (low.min(x), high.max(x)));
-        [0.7 * low, 1.4 * high]
-    };
-    let panel = Panel {
-        rect: Rect { x: 110.0, y: 60.0, width: 750.0, height: 410.0 },
-        x: Axis::logarithmic("samples", range(0)),
-        y: Axis::logarithmic("time / s", range(1)),
-    };
-    panel.ground(&mut canvas, true);
+    let points = || times.leaves.iter().flat_map(|leaf| &leaf.one_thread);
+    let x = Axis::logarithmic("samples", range(points().map(|[samples, _]| *samples), 1.4));
+    let y = Axis::logarithmic("time / s", range(points().map(|[_, seconds]| *seconds), 1.4));
+    let (mut canvas, panel) = single(x, y);
     for ((leaf, colour), row) in times.leaves.iter().zip(SERIES).zip(0..) {
-        let places: Vec<_> = leaf.one_thread.iter().map(|&point| panel.place(point)).collect();
-        canvas.line(places.iter().copied(), 2.6, colour);
-        canvas.discs(places.into_iter(), 4.5, colour, panel.rect);
-        let y = 92.0 + 28.0 * row as f32;
-        canvas.line([[136.0, y - 6.0], [176.0, y - 6.0]], 2.6, colour);
-        canvas.text(&format!("leaves of {}r", leaf.leaf_size), [188.0, y], label(19.0, Align::Left));
+        let points = || leaf.one_thread.iter().copied();
+        curve(&mut canvas, &panel, points(), 2.6, colour);
+        dots(&mut canvas, &panel, points(), 4.5, colour);
+        let name = format!("leaves of {}r", leaf.leaf_size);
+        legend(&mut canvas, [136.0, 92.0 + 28.0 * row as f32], &name, 2.6, colour);
     }
     panel.axes(&mut canvas);
     panel.title(&mut canvas, "Time against samples", "one thread");

@@ -2,13 +2,13 @@
 //! a fading radius on a surface, an image in dots, and dots against a ramp of density.
 
 use std::fmt::Write as _;
-use std::path::Path;
 
 use azulejo::mesh::Mesh;
 use azulejo::psp::adaptive::{self, AdaptiveSamples, Options, Radius};
-use azulejo::{Context, Progress, Result};
+use azulejo::{Context, MAXIMAL_DENSITY, Progress, Result};
 
-use azulejo_cli::MAXIMAL_DENSITY;
+use super::scenes::radius;
+use crate::files::Files;
 use azulejo_cli::draw::canvas::{Canvas, Rect};
 use azulejo_cli::draw::palette::{COBALT, INK, SERIES};
 use azulejo_cli::draw::plot::{Axis, Panel};
@@ -35,26 +35,24 @@ struct Effort {
 const FULL: Effort = Effort { samples: 3e4, dots: 6e4, detail: 1280, ramp: 2e4, sets: 20 };
 const QUICK: Effort = Effort { samples: 2e3, dots: 5e3, detail: 160, ramp: 5e3, sets: 2 };
 
-/// Writes the pictures into a folder and gives the text of the section, for a page that stands beside the folder.
-pub fn section(context: &Context, folder: &Path, quick: bool) -> Result<String> {
+/// Writes the pictures and gives the text of the section.
+pub fn section(context: &Context, files: &Files, quick: bool) -> Result<String> {
     let effort = if quick { QUICK } else { FULL };
-    let at = |name: &str| Output::at(&folder.join(name));
-    let [fading, stipple, ramp] = [at("fading.png")?, at("stipple.png")?, at("ramp.png")?];
+    let [fading, stipple, ramp] = [files.picture("fading")?, files.picture("stipple")?, files.picture("ramp")?];
     let samples = watched("fading", |progress| draw_fading(context, &effort, &fading, progress))?;
     let dots = watched("stipple", |progress| draw_stipple(context, &effort, &stipple, progress))?;
     let ramp = watched("ramp", |progress| Ramp::measure(context, &effort, progress)?.draw(&ramp))?;
-    let place = folder.file_name().unwrap_or_default().to_string_lossy();
     Ok(format!(
         "## Adaptive sampling\n\nEach sample has its own radius; two samples are no closer than the mean of theirs, and the set is maximal under \
-         that rule. The radius that gives a density of N samples on an area of 1 is √({MAXIMAL_DENSITY} / N).\n\n\
+         that rule. The radius that gives a density of N samples on an area of 1 is √({MAXIMAL_DENSITY:.5} / N).\n\n\
          ### A fading radius (thesis fig. 3.20)\n\n\
          {} samples on a knot, with a radius for each vertex that grows six-fold from below to above.\n\n\
-         ![Samples on a knot that fade upwards]({place}/fading.png)\n\n\
+         ![Samples on a knot that fade upwards](psp/fading.png)\n\n\
          ### An image in dots (thesis fig. 3.21)\n\n\
          {} dots, all of one size, as dense as a rendered image is dark. The image is a flat mesh with a vertex for each \
          pixel; where it is white there is no mesh.\n\n\
-         ![A knot in dots]({place}/stipple.png)\n\n{}\n\
-         ![Dots in bands of a ramp against its density]({place}/ramp.png)\n",
+         ![A knot in dots](psp/stipple.png)\n\n{}\n\
+         ![Dots in bands of a ramp against its density](psp/ramp.png)\n",
         grouped(samples),
         grouped(dots),
         ramp.text(),
@@ -68,12 +66,12 @@ fn draw_fading(context: &Context, effort: &Effort, output: &Output, progress: &P
     let (positions, triangles) = knot(effort.detail);
     let mesh = Mesh::new(positions, triangles)?;
     let ([_, low, _], [_, high, _]) = mesh.bounds();
-    let uniform = (MAXIMAL_DENSITY * mesh.area() / effort.samples).sqrt();
-    let radius = |[_, y, _]: &[f32; 3]| {
+    let uniform = radius(&mesh, effort.samples);
+    let fading = |[_, y, _]: &[f32; 3]| {
         let height = f64::from((y - low) / (high - low));
         (uniform * FADING[0] * (FADING[1] / FADING[0]).powf(height)) as f32
     };
-    let radii: Vec<_> = mesh.positions().iter().map(radius).collect();
+    let radii: Vec<_> = mesh.positions().iter().map(fading).collect();
     let (set, _) = adaptive::sample(context, &mesh, &Options::new(Radius::PerVertex(&radii)), None)?;
     let stage = Stage::new(context, &mesh, &set.samples.positions, false)?;
     let mut canvas = Canvas::new(900.0, 900.0, 900);

@@ -1,40 +1,32 @@
-//! The page of the report, in Markdown.
+//! The page, in Markdown.
 
 use std::fmt::Write;
 
-use azulejo::{Context, psp};
+use azulejo::psp;
 
 use super::bias::{Bias, NEIGHBOURS, TILTS};
 use super::growth::Moment;
 use super::rates::ITERATIONS;
 use super::scenes::Missing;
 use super::{Effort, Measured};
-use crate::head::{head, verdict};
+use crate::verdict::verdict;
 use azulejo_cli::text::{grouped, rounded};
 
 /// The relative radii that the thesis names (§3.4.1): good enough for most uses, and close to maximal.
 const RHO: [f64; 3] = [0.9, 0.95, 0.98];
 
-/// The whole page.
-pub fn text(
-    context: &Context,
-    effort: &Effort,
-    measured: &[Measured],
-    missing: &[Missing],
-    bias: &[Bias],
-    quick: bool,
-) -> String {
-    let option = if quick { " --quick" } else { "" };
-    let intro = " Thesis: Wang 2019, chapter 3; its machine was a Core i7-7700K with a GTX 1080, on which PSP ran. `r` is the \
+/// The text of the page.
+pub fn text(threads: usize, effort: &Effort, measured: &[Measured], missing: &[Missing], bias: &[Bias]) -> String {
+    let introduction = "Thesis: Wang 2019, chapter 3; its machine was a Core i7-7700K with a GTX 1080, on which PSP ran. `r` is the \
         radius, the smallest distance. An *iteration* is three orthogonal directions; *relative radius* is the square root \
         of the samples over those of the reference, a set that is only filled: darts into what is uncovered. Times are the \
         lesser of two on a machine that may have had other work.\n";
     let absent =
         |one: &Missing| format!("\n**The {} was not given (`{} MESH`) and is left out.**\n", one.name, one.option);
     let parts = [
-        head("PSP, measured", &format!("psp{option}"), context.num_threads()) + intro,
+        introduction.to_owned(),
         missing.iter().map(absent).collect(),
-        goals(effort, measured, context.num_threads()),
+        goals(effort, measured, threads),
         scenes(effort, measured),
         rates(measured),
         growth(effort, measured),

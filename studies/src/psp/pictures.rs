@@ -1,4 +1,4 @@
-//! The plots and pictures of the report.
+//! The plots and pictures of the page.
 
 use azulejo::analysis::differential::{GRID_REACH, GRID_SIZE};
 use azulejo::psp::{self, Options};
@@ -8,6 +8,7 @@ use super::bias::{Bias, FACING_BIN, TILTS, frequencies};
 use super::growth::{Growth, Moment};
 use super::scenes::{Scene, radius};
 use super::{Effort, Measured};
+use crate::chart::{curve, dots, legend, range, single};
 use azulejo_cli::draw::canvas::{Align, Canvas, Rect, Style};
 use azulejo_cli::draw::palette::{Colour, INK, SERIES, SLATE, glaze_to_cobalt};
 use azulejo_cli::draw::plot::{Axis, Panel};
@@ -23,44 +24,14 @@ const INKS: f64 = 16.0;
 const SHOWN: usize = GRID_SIZE / 2;
 const SHOWN_REACH: f64 = GRID_REACH / 2.0;
 
-fn label(text: &str, place: [f32; 2], canvas: &mut Canvas) {
-    canvas.text(text, place, Style { size: 18.0, colour: SLATE, align: Align::Left, upwards: false });
-}
-
-/// A line of the legend: a stroke of the curve's width and colour, and what it is.
-fn legend(canvas: &mut Canvas, [x, y]: [f32; 2], text: &str, width: f32, colour: Colour) {
-    canvas.line([[x, y - 6.0], [x + 34.0, y - 6.0]], width, colour);
-    label(text, [x + 44.0, y], canvas);
-}
-
-fn curve(canvas: &mut Canvas, panel: &Panel, points: impl Iterator<Item = [f64; 2]>, width: f32, colour: Colour) {
-    canvas.clipped_line(points.map(|point| panel.place(point)), width, colour, Some(panel.rect));
-}
-
-fn dots(canvas: &mut Canvas, panel: &Panel, points: impl Iterator<Item = [f64; 2]>, radius: f32, colour: Colour) {
-    canvas.discs(points.map(|point| panel.place(point)), radius, colour, panel.rect);
-}
-
-/// The range of some values, widened by a factor on both sides.
-fn range(values: impl Iterator<Item = f64>, factor: f64) -> [f64; 2] {
-    let (low, high) = values.fold((f64::INFINITY, 0.0), |(low, high): (f64, f64), x| (low.min(x), high.max(x)));
-    [low / factor, high * factor]
-}
-
 /// Samples per second against their number (thesis fig. 3.14).
 pub fn draw_rates(measured: &[Measured], output: &Output) -> Result<()> {
-    let mut canvas = Canvas::new(900.0, 560.0, 900);
     let stages = || measured.iter().flat_map(|one| &one.rates.by_count);
     let highest = stages().flat_map(|stage| [stage.iterated_rate(), stage.rate()]).fold(0.0, f64::max) / 1e6;
-    let panel = Panel {
-        rect: Rect { x: 110.0, y: 60.0, width: 750.0, height: 410.0 },
-        x: Axis::logarithmic(
-            "samples of the maximal set",
-            range(stages().map(|stage| stage.filled.samples as f64), 1.3),
-        ),
-        y: Axis::linear("rate / million samples per s", [0.0, 1.1 * highest], 5),
-    };
-    panel.ground(&mut canvas, true);
+    let x =
+        Axis::logarithmic("samples of the maximal set", range(stages().map(|stage| stage.filled.samples as f64), 1.3));
+    let y = Axis::linear("rate / million samples per s", [0.0, 1.1 * highest], 5);
+    let (mut canvas, panel) = single(x, y);
     for ((one, colour), row) in measured.iter().zip(SERIES).zip(0..) {
         let stages = &one.rates.by_count;
         let places = |rate: fn(&super::rates::Stages) -> f64| {
@@ -121,13 +92,9 @@ fn draw_moments(canvas: &mut Canvas, panel: &Panel, of: &Growth, colour: Colour,
 
 /// Density by facing angle (what thesis fig. 3.11 sketches).
 pub fn draw_facing(bias: &[Bias], output: &Output) -> Result<()> {
-    let mut canvas = Canvas::new(900.0, 560.0, 900);
-    let panel = Panel {
-        rect: Rect { x: 110.0, y: 60.0, width: 750.0, height: 410.0 },
-        x: Axis::linear("angle between normal and nearest projector / degrees", [0.0, 55.0], 11),
-        y: Axis::linear("density / that of the reference", [0.45, 1.05], 6),
-    };
-    panel.ground(&mut canvas, true);
+    let x = Axis::linear("angle between normal and nearest projector / degrees", [0.0, 55.0], 11);
+    let y = Axis::linear("density / that of the reference", [0.45, 1.05], 6);
+    let (mut canvas, panel) = single(x, y);
     for ((one, colour), row) in bias.iter().zip(SERIES).zip(0..) {
         let width = if one.variant.maximal { 3.6 } else { 1.6 };
         let angles = (0..).map(|bin| (f64::from(bin) + 0.5) * FACING_BIN);
@@ -141,13 +108,9 @@ pub fn draw_facing(bias: &[Bias], output: &Output) -> Result<()> {
 
 /// Spectra from the differences (thesis fig. 3.10).
 pub fn draw_spectra(bias: &[Bias], output: &Output) -> Result<()> {
-    let mut canvas = Canvas::new(900.0, 560.0, 900);
-    let panel = Panel {
-        rect: Rect { x: 110.0, y: 60.0, width: 750.0, height: 410.0 },
-        x: Axis::linear("frequency / √density", [0.0, 2.5], 5),
-        y: Axis::linear("power", [0.0, 2.2], 4),
-    };
-    panel.ground(&mut canvas, true);
+    let x = Axis::linear("frequency / √density", [0.0, 2.5], 5);
+    let y = Axis::linear("power", [0.0, 2.2], 4);
+    let (mut canvas, panel) = single(x, y);
     for ((one, colour), row) in bias.iter().zip(SERIES).zip(0..) {
         let width = if row == 0 { 5.0 } else { 2.0 };
         let points = frequencies().into_iter().zip(&one.power).map(|(x, &y)| [x, y]);

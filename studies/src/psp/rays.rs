@@ -3,11 +3,10 @@
 use std::time::Instant;
 
 use azulejo::trace::{Ray, Scene as Tracer};
-use azulejo::{Boundary, Context, Domain, Result, kdrt};
+use azulejo::{Boundary, Context, Domain, MAXIMAL_DENSITY, Result, kdrt};
 use glam::Vec3;
 
 use super::scenes::Scene;
-use azulejo_cli::MAXIMAL_DENSITY;
 use azulejo_cli::draw::rows;
 
 /// Points are put in order by squares of this many mean spacings, whose points fill about one packet.

@@ -3,10 +3,9 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use azulejo::Result;
 use azulejo::mesh::Mesh;
+use azulejo::{MAXIMAL_DENSITY, Result};
 
-use azulejo_cli::MAXIMAL_DENSITY;
 use azulejo_cli::procedural::{hall, shapes};
 
 /// A mesh with a name.

@@ -20,15 +20,18 @@ const fn rectangle(min: [f64; 2], max: [f64; 2], boundary: Boundary) -> Domain {
     Domain { min, max, boundary }
 }
 
+/// Points of the plane.
+type Points = Vec<[f32; 2]>;
+
 /// Sets that are relaxed and measured.
 pub struct Sets {
     /// A large maximal set, and one of 1000 samples, on the [`TORUS`].
-    pub large: Vec<[f32; 2]>,
-    pub thousand: Vec<[f32; 2]>,
+    pub large: Points,
+    pub thousand: Points,
     /// A maximal set of 30,000 samples of the [`SQUARE`].
-    pub bounded: Vec<[f32; 2]>,
+    pub bounded: Points,
     /// Random points of the [`TORUS`].
-    pub random: Vec<[f32; 2]>,
+    pub random: Points,
 }
 
 /// Prints the sums.
@@ -50,7 +53,7 @@ fn options(radius: f64, domain: Domain, leaf_size: f64, seed: u64) -> Options {
     Options::new(radius).domain(domain).leaf_size(leaf_size).seed(seed)
 }
 
-fn tiled(context: &Context) -> Result<Vec<[f32; 2]>> {
+fn tiled(context: &Context) -> Result<Points> {
     let sample =
         |radius, domain, leaf_size, seed| kdrt::sample(context, &options(radius, domain, leaf_size, seed), None);
     let large = sample(0.002, TORUS, 20.0, 3)?;
@@ -79,7 +82,7 @@ fn windows(context: &Context) -> Result<()> {
 }
 
 /// Gives [`Sets::thousand`] and [`Sets::bounded`].
-fn counted(context: &Context) -> Result<(Vec<[f32; 2]>, Vec<[f32; 2]>)> {
+fn counted(context: &Context) -> Result<(Points, Vec<[f32; 2]>)> {
     let sample = |count, domain, seed| {
         kdrt::sample_count(context, &CountOptions::new(count).domain(domain).leaf_size(20.0).seed(seed), None)
     };
