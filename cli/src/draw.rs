@@ -14,11 +14,32 @@ pub mod spectra;
 pub mod stage;
 pub mod surface;
 
+use std::path::PathBuf;
+
 use azulejo::{Context, Result};
-use clap::Subcommand;
+use clap::{Args, Subcommand};
+
+use crate::output::Output;
 
 /// Widths of pictures, in pixels.
 pub const PICTURE_WIDTHS: std::ops::RangeInclusive<i64> = 200..=10_000;
+
+/// The picture that a command draws.
+#[derive(Args)]
+struct PictureArgs {
+    /// The picture.
+    #[arg(short, long, value_name = "FILE.png")]
+    output: PathBuf,
+    /// Width of the picture in pixels.
+    #[arg(long, value_name = "PIXELS", default_value_t = 1600, value_parser = clap::value_parser!(u32).range(PICTURE_WIDTHS))]
+    size: u32,
+}
+
+impl PictureArgs {
+    fn open(&self) -> Result<Output> {
+        Output::of_format("png", &self.output)
+    }
+}
 
 /// What to draw.
 #[derive(Subcommand)]

@@ -7,6 +7,7 @@ use azulejo::{Context, Progress, Result};
 use clap::Args;
 use glam::Vec2;
 
+use super::PictureArgs;
 use super::camera::Window;
 use super::canvas::{Align, Canvas, Rect, Style};
 use super::detail::most_interesting;
@@ -39,12 +40,8 @@ pub(crate) struct Surface {
     samples: PathBuf,
     #[command(flatten)]
     format: Input,
-    /// The picture.
-    #[arg(short, long, value_name = "FILE.png")]
-    output: PathBuf,
-    /// Width of the picture in pixels.
-    #[arg(long, value_name = "PIXELS", default_value_t = 1600, value_parser = clap::value_parser!(u32).range(super::PICTURE_WIDTHS))]
-    size: u32,
+    #[command(flatten)]
+    picture: PictureArgs,
     /// Leave out faces that are turned away from the camera: one looks into a hall whose walls face inwards.
     #[arg(long)]
     cutaway: bool,
@@ -52,12 +49,12 @@ pub(crate) struct Surface {
 
 impl Surface {
     pub(crate) fn run(&self, context: &Context) -> Result<()> {
-        let output = Output::of_format("png", &self.output)?;
+        let output = self.picture.open()?;
         let mesh = Mesh::load(&self.mesh)?;
         let samples = self.format.read(&self.samples, Coordinates::Space)?.positions;
         let name = self.mesh.file_stem().unwrap_or_default().to_string_lossy();
         let stage = Stage::new(context, &mesh, &samples, self.cutaway)?;
-        picture(context, &name, &stage, self.size, &output)
+        picture(context, &name, &stage, self.picture.size, &output)
     }
 }
 

@@ -82,7 +82,7 @@ fn windows(context: &Context) -> Result<()> {
 }
 
 /// Gives [`Sets::thousand`] and [`Sets::bounded`].
-fn counted(context: &Context) -> Result<(Points, Vec<[f32; 2]>)> {
+fn counted(context: &Context) -> Result<(Points, Points)> {
     let sample = |count, domain, seed| {
         kdrt::sample_count(context, &CountOptions::new(count).domain(domain).leaf_size(20.0).seed(seed), None)
     };
