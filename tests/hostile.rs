@@ -154,7 +154,7 @@ fn more_points_of_a_density_than_memory_holds_are_refused() {
     let context = Context::new(1).unwrap();
     let density = Density::Image { values: &[1.0], width: 1, height: 1 };
     let domain = Domain::unit(Boundary::Bounded);
-    let refused = dcr::scatter(&context, &domain, &density, u32::MAX as usize, 0).map(|points| points.len());
+    let refused = dcr::scatter(&context, &domain, &density, u32::MAX as usize, 0, None).map(|points| points.len());
     assert!(matches!(refused, Err(Error::TooLarge { argument: "count", .. })), "{refused:?}");
 }
 
