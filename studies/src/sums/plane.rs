@@ -44,7 +44,7 @@ pub fn print(context: &Context) -> Result<Sets> {
     windows(context)?;
     let (thousand, bounded) = counted(context)?;
     merged(context)?;
-    let random = dcr::scatter(context, &TORUS, &Density::Function(&|_| 1.0), 3000, 20)?;
+    let random = dcr::scatter(context, &TORUS, &Density::Function(&|_| 1.0), 3000, 20, None)?;
     print::points("scatter", &random)?;
     Ok(Sets { large, thousand, bounded, random })
 }

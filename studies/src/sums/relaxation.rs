@@ -41,7 +41,7 @@ fn by_density(context: &Context) -> Result<()> {
     let inside = |[x, y]: [f64; 2]| (x - 0.5).powi(2) + (y - 0.4).powi(2) < 0.09;
     let disc = |place: [f64; 2]| if inside(place) { 1.0 } else { 0.1 * place[0] };
     let disc = Density::Function(&disc);
-    let start = dcr::scatter(context, &SQUARE, &disc, 4000, 26)?;
+    let start = dcr::scatter(context, &SQUARE, &disc, 4000, 26, None)?;
     let options = Options::new(SQUARE, DELAUNAY).seed(26);
     let (relaxed, report) = dcr::relax_with_density(context, &options, &disc, &start, None)?;
     print::points("density function", &relaxed)?;
@@ -50,7 +50,7 @@ fn by_density(context: &Context) -> Result<()> {
     let value = |i: usize| if i % 64 < 20 { 0.0 } else { ((i * 37) % 101) as f32 };
     let values: Vec<f32> = (0..64 * 48).map(value).collect();
     let image = Density::Image { values: &values, width: 64, height: 48 };
-    let start = dcr::scatter(context, &TORUS, &image, 2000, 27)?;
+    let start = dcr::scatter(context, &TORUS, &image, 2000, 27, None)?;
     let options = Options::new(TORUS, DELAUNAY).seed(27);
     print::points("density image", &dcr::relax_with_density(context, &options, &image, &start, None)?.0)
 }
