@@ -247,7 +247,7 @@ pub unsafe extern "C" fn azulejo_psp_report_init(
 ///
 /// out: the handle, to be freed with azulejo_psp_free.
 ///
-/// O(1).
+/// At most O(triangles) time.
 ///
 /// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for a radius below 64 times the spacing of floats
 /// at the largest coordinate; AZULEJO_ERROR_TOO_LARGE, with the estimated number of samples.
