@@ -170,7 +170,7 @@ fn a_needle_of_a_billion_radii_is_refused_at_once() {
 #[test]
 fn samples_are_returned_on_their_triangles_without_a_step_too() {
     let outside = [0.5294118f32, 0.47058824];
-    let options = surface::Options { max_iterations: 0, ..Default::default() };
+    let options = surface::Options::default().max_iterations(0);
     let context = Context::new(1).unwrap();
     let (samples, _) = surface::relax(&context, &square(), &[0, 1], &[outside, [0.25, 0.5]], &options, None).unwrap();
     let [[u, v], same] = samples.barycentrics[..] else { panic!("{samples:?}") };

@@ -2,9 +2,9 @@
 
 use glam::DVec2;
 
-use crate::dcr::delaunay::Delaunay;
-use crate::dcr::frame::Frame;
 use crate::error::Result;
+use crate::geometry::delaunay::Delaunay;
+use crate::geometry::frame::Frame;
 use crate::job::{Context, Job, Progress, chunks};
 use crate::points::Domain;
 

@@ -2,9 +2,9 @@
 
 use glam::DVec2;
 
-use crate::dcr::delaunay::Delaunay;
-use crate::dcr::frame::{Frame, Site};
 use crate::error::Result;
+use crate::geometry::delaunay::Delaunay;
+use crate::geometry::frame::{Frame, Site};
 use crate::job::{Context, Job, Progress, chunks, chunks_of};
 use crate::mesh::exact;
 use crate::points::{Boundary, Domain};

@@ -1,6 +1,6 @@
 //! Work that is shared, watched and cancelled.
 
-use super::*;
+use crate::job::*;
 use std::cell::{Cell, RefCell};
 use std::thread::{self, ThreadId};
 

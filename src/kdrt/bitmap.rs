@@ -4,12 +4,12 @@
 //! A row of a block is one word, and a sample clears, in a dozen words, the voxels that lie in its disk (`stamp.rs`). The
 //! bitmap may keep voxels that are covered, never the other way round.
 
-use crate::lattice::Rect;
-use crate::maximal::{CellGrid, List};
+use crate::plane::lattice::Rect;
+use crate::plane::{CellGrid, List};
 
-use super::conquer::SeamCells;
-use super::fill::Block;
-use super::stamp::{self, PER_CELL, PLACES, REACH, Stamps};
+use crate::kdrt::conquer::SeamCells;
+use crate::kdrt::fill::Block;
+use crate::kdrt::stamp::{self, PER_CELL, PLACES, REACH, Stamps};
 
 /// Voxels of a block's bitmap before its first one, so that every stamp begins in the bitmap.
 const MARGIN: i32 = 2 * REACH;
@@ -176,7 +176,7 @@ fn spread(bits: u64) -> u64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::maximal::CellAxis;
+    use crate::plane::CellAxis;
     use crate::rng::{Draw, Rng};
 
     /// A grid of cells, all of them seams.

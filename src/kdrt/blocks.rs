@@ -6,7 +6,7 @@
 //!
 //! Regular borders would leave peaks in the spectrum, so each is moved by up to a quarter of the regular width.
 
-use crate::lattice::{Lattice, Rect};
+use crate::plane::lattice::{Lattice, Rect};
 use crate::points::Boundary;
 use crate::rng::{Draw, Rng, hash};
 
@@ -134,7 +134,7 @@ impl Blocks {
 mod tests {
     use super::*;
     use crate::kdrt::bitmap::MOST_CELLS;
-    use crate::maximal::CellAxis;
+    use crate::plane::CellAxis;
     use crate::points::Domain;
 
     fn blocks(boundary: Boundary, seed: u64) -> (Lattice, Blocks) {

@@ -6,11 +6,11 @@
 
 use crate::error::Result;
 use crate::job::Job;
-use crate::lattice::{Lattice, Rect};
 use crate::maximal;
+use crate::plane::lattice::{Lattice, Rect};
 use crate::rng::{Draw, Rng};
 
-use super::divide::Leaf;
+use crate::kdrt::divide::Leaf;
 
 /// The pattern's side in leaf sizes and its bounds in radii, if leaves are not very large: about 28,000 samples with the
 /// leaves of the default size.

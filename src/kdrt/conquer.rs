@@ -13,12 +13,12 @@
 //! the square's side as far as there is one.) Chains end after three hops: knowing all points within 3·reach of p0 is
 //! enough.
 
-use crate::lattice::Rect;
-use crate::maximal::CellGrid;
+use crate::plane::CellGrid;
+use crate::plane::lattice::Rect;
 
-use super::clip::{Pattern, Row};
-use super::divide::Leaf;
-use super::output::Output;
+use crate::kdrt::clip::{Pattern, Row};
+use crate::kdrt::divide::Leaf;
+use crate::kdrt::output::Output;
 
 /// How many radii (in lattice units: reaches) around a region decide which points survive in it.
 pub(super) const LONGEST_CHAIN: i32 = 3;

@@ -4,7 +4,7 @@
 //! descends only the nodes that meet it and finds the same leaves; and a node is split across its longer side instead
 //! of in turns, so that leaves do not become slivers.
 
-use crate::lattice::Rect;
+use crate::plane::lattice::Rect;
 use crate::rng::{Draw, Rng, hash};
 
 /// A leaf of the tree.

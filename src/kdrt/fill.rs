@@ -4,14 +4,14 @@
 //! gaps; here a gap is filled by a flat quadtree, uniformly on what is uncovered and until nothing is. Its first level
 //! is a bitmap (`bitmap.rs`), in which nearly all gaps are found and closed.
 
-use crate::lattice::Rect;
-use crate::maximal::{CellGrid, List, Quadtree, darts};
+use crate::plane::lattice::Rect;
+use crate::plane::{CellGrid, List, Quadtree, darts};
 use crate::rng::Rng;
 
-use super::bitmap::{Bitmap, Place};
-use super::conquer::SeamCells;
-use super::output::Output;
-use super::stamp::Stamps;
+use crate::kdrt::bitmap::{Bitmap, Place};
+use crate::kdrt::conquer::SeamCells;
+use crate::kdrt::output::Output;
+use crate::kdrt::stamp::Stamps;
 
 /// A fill block: its lattice points, and the cells that hold them.
 pub(super) struct Block {

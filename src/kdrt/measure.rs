@@ -5,10 +5,10 @@ use std::time::{Duration, Instant};
 
 use crate::error::Result;
 use crate::job::Context;
-use crate::lattice::{Lattice, Rect};
+use crate::plane::lattice::{Lattice, Rect};
 
-use super::Options;
-use super::plane::Plane;
+use crate::kdrt::Options;
+use crate::kdrt::plane::Plane;
 
 /// What each stage of KDRT did and took, on one thread.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -46,11 +46,11 @@ pub struct Stages {
 /// Those of [`sample`](super::sample).
 pub fn measure(options: &Options) -> Result<Stages> {
     let &Options { radius, domain, leaf_size, seed } = options;
-    super::check_leaf_size(leaf_size)?;
+    crate::kdrt::check_leaf_size(leaf_size)?;
     let lattice = Lattice::new(&domain, radius)?;
     let (context, mut stages) = (Context::new(1)?, Stages::default());
     if !Plane::is_worthwhile(&lattice, leaf_size) {
-        let samples = timed(&mut stages.pattern, || super::sample(&context, options, None))?;
+        let samples = timed(&mut stages.pattern, || crate::kdrt::sample(&context, options, None))?;
         return Ok(Stages { samples: samples.len() as u64, ..stages });
     }
     let plane = timed(&mut stages.pattern, || context.run(None, |job| Plane::new(job, lattice, leaf_size, seed)))?;
@@ -100,9 +100,9 @@ mod tests {
     fn the_stages_make_the_set_that_sampling_makes() {
         for boundary in [Boundary::Periodic, Boundary::Bounded] {
             for (radius, leaf_size) in [(0.004, 20.0), (0.007, 6.0), (0.2, 20.0)] {
-                let options = Options { radius, domain: Domain::unit(boundary), leaf_size, seed: 3 };
+                let options = Options::new(radius).domain(Domain::unit(boundary)).leaf_size(leaf_size).seed(3);
                 let stages = measure(&options).unwrap();
-                let samples = super::super::sample(&Context::new(1).unwrap(), &options, None).unwrap();
+                let samples = crate::kdrt::sample(&Context::new(1).unwrap(), &options, None).unwrap();
                 assert_eq!(stages.samples, samples.len() as u64);
                 if stages.clipped > 0 {
                     assert_eq!(stages.samples, stages.clipped - stages.eliminated + stages.filled);

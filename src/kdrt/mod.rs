@@ -28,8 +28,9 @@ mod window;
 
 use crate::error::{Error, Result};
 use crate::job::{Context, Job, Progress};
-use crate::lattice::Lattice;
-use crate::points::Domain;
+use crate::plane::lattice::Lattice;
+use crate::points::{Boundary, Domain};
+use crate::setters::setters;
 use crate::{maximal, memory};
 
 use plane::Plane;
@@ -53,6 +54,7 @@ const PATTERN_SHARE: f64 = 0.05;
 
 /// What to sample.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Options {
     /// The smallest centre-to-centre distance, above 0 and at least 64 float spacings at the domain's largest
     /// coordinate. It may exceed the domain: one sample is the result.
@@ -66,6 +68,15 @@ pub struct Options {
     /// The same options and seed give the same samples.
     pub seed: u64,
 }
+
+impl Options {
+    /// This radius on the unit torus, with leaves of [`DEFAULT_LEAF_SIZE`] and seed 0.
+    pub fn new(radius: f64) -> Self {
+        Self { radius, domain: Domain::unit(Boundary::Periodic), leaf_size: DEFAULT_LEAF_SIZE, seed: 0 }
+    }
+}
+
+setters!(Options { radius: f64, domain: Domain, leaf_size: f64, seed: u64 });
 
 /// A maximal Poisson-disk set of a rectangle, in parallel.
 ///

@@ -1,8 +1,8 @@
 //! The samples of a window, as floats in the order in which they are found.
 
-use crate::lattice::{Lattice, Rect};
+use crate::plane::lattice::{Lattice, Rect};
 
-use super::clip::Row;
+use crate::kdrt::clip::Row;
 
 /// Collects the samples that lie in a rectangle.
 pub(super) struct Output<'a> {

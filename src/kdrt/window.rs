@@ -1,17 +1,17 @@
 //! Any part of a plane without the rest: a window of it as a set, or all of it as a stream.
 //!
-//! Both are made of the windows of fill blocks that [`super::sample`] is made of (`plane.rs`), in the same order.
+//! Both are made of the windows of fill blocks that [`crate::kdrt::sample`] is made of (`plane.rs`), in the same order.
 
 use std::ops::ControlFlow;
 
 use crate::error::{Error, Result};
 use crate::job::{Context, Progress};
-use crate::lattice::{self, Lattice};
+use crate::plane::lattice::{self, Lattice};
 use crate::points::{Boundary, Domain};
 use crate::{maximal, memory};
 
-use super::plane::Plane;
-use super::{BYTES_PER_SAMPLE, Options, PATTERN_SHARE, check_leaf_size};
+use crate::kdrt::plane::Plane;
+use crate::kdrt::{BYTES_PER_SAMPLE, Options, PATTERN_SHARE, check_leaf_size};
 
 /// The samples of [`sample`](super::sample) that lie in `window_min <= x < window_max`: the same floats in the same
 /// order, without making the others.

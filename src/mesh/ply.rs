@@ -15,8 +15,8 @@ use std::str::FromStr;
 use ply_rs_bw::parser::{ParseError, Parser, Reader};
 use ply_rs_bw::ply::{DefaultElement, ElementDef, Encoding, PropertyType, ScalarType};
 
-use super::Soup;
-use super::text::{number, shown, words};
+use crate::mesh::Soup;
+use crate::mesh::text::{number, shown, words};
 
 /// The parts of a PLY file that were asked for.
 #[derive(Debug)]

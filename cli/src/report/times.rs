@@ -36,7 +36,7 @@ impl Times {
             let one_thread = counts.iter().map(|&count| least_time(&one, sampler, count)).collect::<Result<_>>()?;
             let rate = |context: &Context| least_time(context, sampler, effort.timed).map(|[samples, s]| samples / s);
             let domain = Domain::unit(Boundary::Periodic);
-            let options = kdrt::Options { radius: radius(effort.timed), domain, leaf_size, seed: 1 };
+            let options = kdrt::Options::new(radius(effort.timed)).domain(domain).leaf_size(leaf_size).seed(1);
             leaves.push(LeafTimes {
                 leaf_size,
                 one_thread,

@@ -149,7 +149,7 @@ pub unsafe extern "C" fn azulejo_psp_sample_adaptive(
             Some(at) => Radius::Function { at, smallest, largest, slope },
             None => Radius::PerVertex(radii),
         };
-        let request = adaptive::Options { radius, cosine, seed };
+        let request = adaptive::Options::new(radius).cosine(cosine).seed(seed);
         let watch = Watch::new(options.progress, options.progress_user);
         let (set, done) =
             context.run(watch, |context, progress| adaptive::sample(context, &mesh, &request, progress))?;

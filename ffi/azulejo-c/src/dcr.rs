@@ -128,29 +128,23 @@ impl azulejo_dcr_options {
         if self.reserved != 0 {
             return Err(Failure::invalid("reserved", format!("{} is not 0", self.reserved)));
         }
-        let thesis = Thesis {
-            conflict_radius: self.conflict_radius,
-            attraction_radius: self.attraction_radius,
-            step: self.step,
-            decay: self.decay,
-            neighbours: self.neighbours,
-            distribution: distribution(self.distribution)?,
-            visits: visits(self.visits)?,
-            convergence: convergence(self.convergence)?,
-        };
+        let thesis = Thesis::default()
+            .conflict_radius(self.conflict_radius)
+            .attraction_radius(self.attraction_radius)
+            .step(self.step)
+            .decay(self.decay)
+            .neighbours(self.neighbours)
+            .distribution(distribution(self.distribution)?)
+            .visits(visits(self.visits)?)
+            .convergence(convergence(self.convergence)?);
         thesis.check()?;
         let (default, method) = match self.method {
-            AZULEJO_METHOD_BEST => (dcr::Options::new(domain, neighbourhood), Method::Best),
+            AZULEJO_METHOD_BEST => (dcr::Options::new(domain, neighbourhood), Method::Momentum),
             AZULEJO_METHOD_THESIS => (dcr::Options::thesis(domain, neighbourhood), Method::Thesis(thesis)),
             other => return Err(Failure::invalid("method", format!("{other} is no AZULEJO_METHOD_ constant"))),
         };
-        Ok(dcr::Options {
-            method,
-            max_iterations: self.max_iterations,
-            seed: self.seed,
-            tolerance: if self.tolerance < 0.0 { default.tolerance } else { self.tolerance },
-            ..default
-        })
+        let tolerance = if self.tolerance < 0.0 { default.tolerance } else { self.tolerance };
+        Ok(default.method(method).max_iterations(self.max_iterations).seed(self.seed).tolerance(tolerance))
     }
 }
 
@@ -222,7 +216,7 @@ pub struct azulejo_dcr_report {
 
 impl From<Report> for azulejo_dcr_report {
     fn from(report: Report) -> Self {
-        let Report { iterations, stopped, motion, smallest_distance, rho, coverage } = report;
+        let Report { iterations, stopped, motion, smallest_distance, rho, coverage, .. } = report;
         Self {
             iterations,
             converged: (stopped == Stopped::Converged).into(),
@@ -306,7 +300,7 @@ mod tests {
             let options = azulejo_dcr_options { neighbourhood, method, ..azulejo_dcr_options::DEFAULT };
             let request = options.request().unwrap();
             let thesis = dcr::Options::thesis(request.domain, request.neighbourhood);
-            assert_eq!(request, dcr::Options { max_iterations: 100, ..thesis });
+            assert_eq!(request, thesis.max_iterations(100));
         }
     }
 }

@@ -258,7 +258,7 @@ impl azulejo_kdrt_options {
             let reason = format!("{count} samples and radius {radius:?} are asked for at once; one of them must be 0");
             return Err(Failure::invalid("count", reason));
         }
-        let request = CountOptions { count, domain: self.domain()?, leaf_size, seed };
+        let request = CountOptions::new(count).domain(self.domain()?).leaf_size(leaf_size).seed(seed);
         let Counted { samples, report, .. } =
             context.run(watch, |context, progress| kdrt::sample_count(context, &request, progress))?;
         Ok((samples, report.radius, report.is_maximal))
@@ -275,7 +275,7 @@ impl azulejo_kdrt_options {
 
     fn by_radius(&self) -> Result<kdrt::Options, Failure> {
         let &Self { radius, leaf_size, seed, .. } = self;
-        Ok(kdrt::Options { radius, domain: self.domain()?, leaf_size, seed })
+        Ok(kdrt::Options::new(radius).domain(self.domain()?).leaf_size(leaf_size).seed(seed))
     }
 
     fn domain(&self) -> Result<Domain, Failure> {

@@ -74,7 +74,7 @@ pub unsafe extern "C" fn azulejo_maximal_sample(
         // SAFETY: handed on from the caller.
         let options = unsafe { options::read(options) }?;
         let domain = domain(options.domain_min, options.domain_max, options.boundary)?;
-        let request = maximal::Options { radius: options.radius, domain, seed: options.seed };
+        let request = maximal::Options::new(options.radius).domain(domain).seed(options.seed);
         let watch = Watch::new(options.progress, options.progress_user);
         let samples = context.run(watch, |context, progress| maximal::sample(context, &request, progress))?;
         Ok(azulejo_points::plane(samples))

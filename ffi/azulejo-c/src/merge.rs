@@ -87,7 +87,7 @@ pub struct azulejo_merge_report {
 
 impl From<MergeReport> for azulejo_merge_report {
     fn from(report: MergeReport) -> Self {
-        let MergeReport { kept, eliminated, inserted } = report;
+        let MergeReport { kept, eliminated, inserted, .. } = report;
         Self { kept: kept as u64, eliminated: eliminated as u64, inserted: inserted as u64, reserved: [0; 10] }
     }
 }
@@ -137,7 +137,7 @@ pub unsafe extern "C" fn azulejo_kdrt_merge(
             (options::read(options)?, read(pieces, piece_count)?, fixed)
         };
         let domain = domain(options.domain_min, options.domain_max, options.boundary)?;
-        let request = MergeOptions { radius: options.radius, domain, seed: options.seed };
+        let request = MergeOptions::new(options.radius).domain(domain).seed(options.seed);
         let watch = Watch::new(options.progress, options.progress_user);
         let (merged, done) =
             context.run(watch, |context, progress| kdrt::merge(context, &request, &pieces, fixed, progress))?;

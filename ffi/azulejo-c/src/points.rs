@@ -27,7 +27,7 @@ impl azulejo_points {
         Self { samples: Samples::Surface(samples), radii: Vec::new() }
     }
 
-    pub(crate) fn adaptive(AdaptiveSamples { samples, radii }: AdaptiveSamples) -> Self {
+    pub(crate) fn adaptive(AdaptiveSamples { samples, radii, .. }: AdaptiveSamples) -> Self {
         Self { samples: Samples::Surface(samples), radii }
     }
 }

@@ -5,7 +5,7 @@ use std::mem::MaybeUninit;
 use std::ptr::NonNull;
 use std::sync::{RwLock, TryLockError};
 
-use azulejo_core::psp::{self, Engine, Order, Psp, Report};
+use azulejo_core::psp::{self, Engine, Priority, Psp, Report};
 use azulejo_core::{Context, Progress};
 
 use crate::boundary::{self, flag, required};
@@ -83,14 +83,12 @@ impl azulejo_psp_options {
         if self.reserved != 0 {
             return Err(Failure::invalid("reserved", format!("{} is not 0", self.reserved)));
         }
-        Ok(psp::Options {
-            radius: self.radius,
-            iterations: self.iterations,
-            maximal: flag("maximal", self.maximal)?,
-            seed: self.seed,
-            order: order(self.order)?,
-            engine: engine(self.engine)?,
-        })
+        Ok(psp::Options::new(self.radius)
+            .iterations(self.iterations)
+            .maximal(flag("maximal", self.maximal)?)
+            .seed(self.seed)
+            .priority(priority(self.order)?)
+            .engine(engine(self.engine)?))
     }
 
     fn watch(&self) -> Watch {
@@ -98,10 +96,10 @@ impl azulejo_psp_options {
     }
 }
 
-fn order(value: i32) -> Result<Order, Failure> {
+fn priority(value: i32) -> Result<Priority, Failure> {
     match value {
-        AZULEJO_ORDER_SQUARENESS => Ok(Order::Squareness),
-        AZULEJO_ORDER_PROJECTOR => Ok(Order::Projector),
+        AZULEJO_ORDER_SQUARENESS => Ok(Priority::Squareness),
+        AZULEJO_ORDER_PROJECTOR => Ok(Priority::Projector),
         other => Err(Failure::invalid("order", format!("{other} is no AZULEJO_ORDER_ constant"))),
     }
 }

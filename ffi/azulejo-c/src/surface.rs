@@ -46,7 +46,7 @@ impl azulejo_dcr_surface_options {
     fn request(&self) -> Options {
         let default = Options::default();
         let tolerance = if self.tolerance < 0.0 { default.tolerance } else { self.tolerance };
-        Options { max_iterations: self.max_iterations, tolerance, seed: self.seed }
+        Options::default().max_iterations(self.max_iterations).tolerance(tolerance).seed(self.seed)
     }
 }
 
@@ -71,7 +71,7 @@ pub struct azulejo_dcr_surface_report {
 }
 
 impl From<Report> for azulejo_dcr_surface_report {
-    fn from(Report { iterations, stopped, motion, smallest_distance, rho }: Report) -> Self {
+    fn from(Report { iterations, stopped, motion, smallest_distance, rho, .. }: Report) -> Self {
         Self { iterations, stopped: reason(stopped), motion, smallest_distance, rho, reserved: [0; 6] }
     }
 }

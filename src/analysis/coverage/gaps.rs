@@ -10,11 +10,11 @@
 
 use glam::DVec2;
 
-use super::groups::Groups;
-use crate::dcr::delaunay::{Delaunay, Dual};
-use crate::dcr::frame::Frame;
+use crate::analysis::coverage::groups::Groups;
 use crate::error::Result;
-use crate::grid2::Grid2;
+use crate::geometry::delaunay::{Delaunay, Dual};
+use crate::geometry::frame::Frame;
+use crate::geometry::grid2::Grid2;
 use crate::job::{Job, chunks, chunks_of};
 use crate::points::Domain;
 

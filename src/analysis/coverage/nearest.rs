@@ -2,9 +2,9 @@
 
 use glam::DVec3;
 
-use super::tree::Tree;
+use crate::analysis::coverage::tree::Tree;
 use crate::error::Result;
-use crate::grid2::Grid2;
+use crate::geometry::grid2::Grid2;
 use crate::job::Job;
 use crate::points::{Boundary, Domain};
 

@@ -5,11 +5,11 @@ use std::collections::HashMap;
 
 use glam::DVec3;
 
-use super::groups::Groups;
-use super::tree::Tree;
-use super::{Coverage, PRECISION};
+use crate::analysis::coverage::groups::Groups;
+use crate::analysis::coverage::tree::Tree;
+use crate::analysis::coverage::{Coverage, PRECISION};
 use crate::error::{Error, Result};
-use crate::grid3::distance_squared;
+use crate::geometry::grid3::distance_squared;
 use crate::job::{Context, Job, Progress, chunks_of};
 use crate::mesh::Mesh;
 use crate::points::check_radius;

@@ -4,7 +4,7 @@
 //! hole, and what decides about it within 2r: the hole is that far from the borders of its plot, unless nothing lies
 //! beyond.
 
-use crate::lattice::{Lattice, Rect};
+use crate::plane::lattice::{Lattice, Rect};
 use crate::points::Boundary;
 use crate::rng::Rng;
 

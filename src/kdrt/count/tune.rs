@@ -10,11 +10,11 @@ use std::cmp::Reverse;
 
 use crate::error::Result;
 use crate::job::{Job, chunks_of};
-use crate::lattice::{Lattice, Rect};
-use crate::maximal::{CellAxis, CellGrid, Quadtree};
+use crate::plane::lattice::{Lattice, Rect};
+use crate::plane::{CellAxis, CellGrid, Quadtree};
 use crate::rng::{Draw, Rng, hash};
 
-use super::plots::{Plot, Plots};
+use crate::kdrt::count::plots::{Plot, Plots};
 
 /// Rounds until a set is given up; three are mostly enough.
 const ROUNDS: u64 = 24;

@@ -9,7 +9,7 @@ use crate::error::Result;
 use crate::job::{Job, chunks_of};
 use crate::rng::{Draw, hash};
 
-use super::given::Given;
+use crate::kdrt::merge::given::Given;
 
 /// Cells per task.
 const CELLS: usize = 1 << 14;

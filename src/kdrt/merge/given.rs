@@ -4,11 +4,11 @@ use std::ops::Range;
 
 use crate::error::{Error, Result};
 use crate::job::Job;
-use crate::lattice::{Lattice, Rect};
-use crate::maximal::CellAxis;
+use crate::plane::CellAxis;
+use crate::plane::lattice::{Lattice, Rect};
 use crate::points::{Boundary, Domain};
 
-use super::NARROWING;
+use crate::kdrt::merge::NARROWING;
 
 /// Points per task.
 const POINTS: usize = 1 << 14;

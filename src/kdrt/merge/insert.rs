@@ -6,14 +6,14 @@
 
 use crate::error::Result;
 use crate::job::Job;
-use crate::lattice::{Lattice, Rect};
-use crate::maximal::{CellGrid, Quadtree};
+use crate::plane::lattice::{Lattice, Rect};
+use crate::plane::{CellGrid, Quadtree};
 use crate::points::Boundary;
 use crate::rng::{Draw, Rng};
 
-use super::WIDENING;
-use super::given::Given;
 use crate::kdrt::blocks::{Blocks, PHASES};
+use crate::kdrt::merge::WIDENING;
+use crate::kdrt::merge::given::Given;
 use crate::kdrt::plane::{WINDOW_BLOCKS, cut};
 
 /// Darts between two looks at the progress callback, where one thread works.

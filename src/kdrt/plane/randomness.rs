@@ -3,13 +3,13 @@
 //! Without random splits the seams lie on a regular grid, whose harmonics peak in the spectrum. Without random clips all
 //! leaves show the same points, and the spectrum is speckled as that of a single leaf: its contrast is high.
 
-use super::Plane;
 use crate::analysis::spectrum::{Periodogram, periodogram};
 use crate::error::Result;
 use crate::job::{Context, Job};
 use crate::kdrt::divide::Fixed;
-use crate::lattice::Lattice;
+use crate::kdrt::plane::Plane;
 use crate::maximal;
+use crate::plane::lattice::Lattice;
 use crate::points::{Boundary, Domain};
 
 /// Leaves along a side where every split is in the middle, and their side in radii.
