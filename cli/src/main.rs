@@ -5,6 +5,7 @@ mod domain;
 mod draw;
 mod formats;
 mod generate;
+mod input;
 mod merge;
 mod output;
 mod ply;

@@ -8,10 +8,13 @@ use azulejo::{Boundary, Context, Domain, Error, Result};
 use clap::{ArgAction, Args};
 
 use crate::domain::DomainArgs;
-use crate::formats::{Coordinates, Input};
+use crate::formats::Input;
 use crate::generate::{Common, report};
 use crate::progress::watched;
 use crate::text::{grouped, rounded};
+
+/// What is said of sets that are not of the plane.
+const INSTEAD: &str = "only sets of the plane can be merged";
 
 #[derive(Args)]
 #[command(mut_arg("domain", |domain| domain.help("The corners of the rectangle [default: the smallest around the pieces]")))]
@@ -38,11 +41,11 @@ pub struct Merge {
 
 impl Merge {
     pub fn run(&self, context: &Context) -> Result<()> {
-        let output = self.common.destination.open()?;
+        let output = self.common.destination.open_plane()?;
         let loaded = self.load()?;
         let mut fixed = Vec::new();
         for path in &self.fixed {
-            fixed.extend(self.input.read(path, Coordinates::Plane)?.plane_positions());
+            fixed.extend(self.input.read_plane(path, INSTEAD)?.points);
         }
         let rectangles: Vec<_> = loaded.iter().map(|piece| piece.rectangle).collect();
         let pieces: Vec<_> = loaded
@@ -87,12 +90,12 @@ impl Merge {
         let boundary = Boundary::Bounded;
         let given = given.iter().map(|&[x0, y0, x1, y1]| Some(Domain { min: [x0, y0], max: [x1, y1], boundary }));
         let load = |(path, given): (&PathBuf, Option<Domain>)| {
-            let set = self.input.read(path, Coordinates::Plane)?;
+            let set = self.input.read_plane(path, INSTEAD)?;
             let rectangle = given.or(set.domain).ok_or_else(|| Error::Format {
                 path: path.clone(),
                 reason: "does not name its rectangle: give --rectangle for each piece".to_owned(),
             })?;
-            Ok(Loaded { rectangle, samples: set.plane_positions() })
+            Ok(Loaded { rectangle, samples: set.points })
         };
         std::iter::zip(&self.pieces, given.chain(std::iter::repeat(None))).map(load).collect()
     }

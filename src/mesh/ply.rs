@@ -113,6 +113,11 @@ impl Element {
         }
     }
 
+    /// The names of all properties, in the order of the file, also of those that were not asked for.
+    pub fn properties(&self) -> impl Iterator<Item = &str> {
+        self.properties.iter().map(|property| property.name.as_str())
+    }
+
     fn values(&self, name: &str) -> Option<&Values> {
         self.properties.iter().find(|property| property.name == name)?.values.as_ref()
     }

@@ -10,6 +10,7 @@ use super::Set;
 use super::figures::{Figure, Row};
 use super::plane::{RADIUS_FIGURES, SHALLOW};
 use crate::formats::blame;
+use crate::formats::set::SampleSet;
 use crate::generate::MAXIMAL_DENSITY;
 use crate::progress::{part, watched};
 
@@ -41,7 +42,7 @@ pub struct Measured {
 }
 
 impl Measured {
-    pub fn of(context: &Context, mesh: &Mesh, sets: &[Set], radius: Option<f64>) -> Result<Self> {
+    pub fn of(context: &Context, mesh: &Mesh, sets: &[Set<SampleSet>], radius: Option<f64>) -> Result<Self> {
         let (mut figures, mut differences) = (Vec::new(), Vec::new());
         watched("measure", |progress: &Progress| {
             for (i, set) in sets.iter().enumerate() {
@@ -49,7 +50,7 @@ impl Measured {
                 let share = |done: f64| (i as f64 + done) / sets.len() as f64;
                 let measuring = part(progress, share(0.0), share(0.4));
                 figures.push(measure(context, mesh, set, radius, &measuring).map_err(blamed)?);
-                if !set.points.normals.is_empty() {
+                if !set.loaded.normals.is_empty() {
                     let comparing = part(progress, share(0.4), share(1.0));
                     differences.push(differences_of(context, mesh, set, &comparing).map_err(blamed)?);
                 }
@@ -74,8 +75,14 @@ impl Measured {
     }
 }
 
-fn measure(context: &Context, mesh: &Mesh, set: &Set, radius: Option<f64>, progress: &Progress) -> Result<Vec<f64>> {
-    let positions = &set.points.positions;
+fn measure(
+    context: &Context,
+    mesh: &Mesh,
+    set: &Set<SampleSet>,
+    radius: Option<f64>,
+    progress: &Progress,
+) -> Result<Vec<f64>> {
+    let positions = &set.loaded.positions;
     let smallest = smallest_distance_3d(context, positions, Some(&part(progress, 0.0, 0.1)))?;
     let covering = surface_covering_radius(context, mesh, positions, Some(&part(progress, 0.1, 0.5)))?;
     let maximal = (MAXIMAL_DENSITY * mesh.area() / positions.len() as f64).sqrt();
@@ -93,6 +100,6 @@ fn measure(context: &Context, mesh: &Mesh, set: &Set, radius: Option<f64>, progr
     Ok(figures)
 }
 
-fn differences_of(context: &Context, mesh: &Mesh, set: &Set, progress: &Progress) -> Result<Differences> {
-    surface_differences(context, mesh, &set.points.positions, &set.points.normals, DIRECTION, SEED, Some(progress))
+fn differences_of(context: &Context, mesh: &Mesh, set: &Set<SampleSet>, progress: &Progress) -> Result<Differences> {
+    surface_differences(context, mesh, &set.loaded.positions, &set.loaded.normals, DIRECTION, SEED, Some(progress))
 }

@@ -9,7 +9,7 @@ use super::canvas::{Canvas, Rect};
 use super::panels;
 use super::spectra::{FREQUENCY_LIMIT, Windows};
 use crate::domain::{DomainArgs, OF_OR_AROUND};
-use crate::formats::{Coordinates, Input, blame};
+use crate::formats::{Input, blame};
 use crate::output::Output;
 use crate::progress::watched;
 
@@ -42,10 +42,10 @@ pub struct Points {
 impl Points {
     pub fn run(&self, context: &Context) -> Result<()> {
         let output = Output::of_format("png", &self.output)?;
-        let set = self.format.read(&self.input, Coordinates::Plane)?;
+        let instead = "azulejo draw surface draws them on their mesh";
+        let set = self.format.read_plane(&self.input, instead)?;
         let domain = self.domain.of_or_around(&set);
-        let points = set.plane_positions();
-        draw(context, &domain, &points, self.size, &output).map_err(|error| blame(&self.input, error))
+        draw(context, &domain, &set.points, self.size, &output).map_err(|error| blame(&self.input, error))
     }
 }
 
