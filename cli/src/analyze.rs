@@ -1,4 +1,4 @@
-//! `azulejo analyze`: what sets are like, as a table, as JSON and as pictures.
+//! `azulejo analyze`: figures of sets, as a table, as JSON and as pictures.
 
 mod figures;
 mod page;
@@ -21,7 +21,7 @@ use crate::output::{Output, print};
 #[derive(Args)]
 #[command(mut_arg("domain", |domain| domain.help(OF_OR_AROUND)))]
 pub struct Analyze {
-    /// The samples: .ply, .npy, .csv, .xyz or .raw files. Several are taken for sets of one kind, and averaged.
+    /// The samples: .ply, .npy, .csv, .xyz or .raw files. Several files are sets of one kind, and their figures are averaged.
     #[arg(value_name = "SAMPLES", required = true)]
     files: Vec<PathBuf>,
     #[command(flatten)]
@@ -31,7 +31,7 @@ pub struct Analyze {
     /// The mesh that the samples lie on: OBJ, PLY or STL.
     #[arg(long, value_name = "MESH", conflicts_with_all = ["domain", "bounded"])]
     mesh: Option<PathBuf>,
-    /// A radius that the set shall keep and cover.
+    /// A radius to check the set against: the smallest distance that it should keep, and the distance within which it should cover.
     #[arg(long, value_name = "R", allow_negative_numbers = true)]
     radius: Option<f64>,
     /// Print JSON, with the curves of the plots, instead of a table.

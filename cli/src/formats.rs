@@ -78,7 +78,7 @@ pub fn blame(path: &Path, error: Error) -> Error {
     }
 }
 
-/// A word of a file as a message can show it: files may have anything in its place.
+/// A word of a file as a message can show it: short and on one line, whatever it is.
 fn shortened(word: &str) -> String {
     word.chars().take(40).map(|letter| if letter.is_control() { ' ' } else { letter }).collect()
 }
@@ -180,7 +180,7 @@ impl PointFile {
         }
     }
 
-    /// Writes samples of a surface with all that the format has a place for.
+    /// Writes samples of a surface, with every column that the format has.
     pub fn write_surface(&self, table: &SurfaceTable) -> Result<()> {
         match self.format {
             Format::Ply => ply::write_surface(&self.output, table),

@@ -1,4 +1,4 @@
-//! `azulejo merge`: sets that were made apart, and points that must stay, become one maximal set.
+//! `azulejo merge`: sets that were sampled separately, and points that must stay, become one maximal set.
 
 use std::path::PathBuf;
 use std::time::Instant;
@@ -22,10 +22,10 @@ pub struct Merge {
     /// The pieces: sets on rectangles that do not overlap. A PLY file names its rectangle, as `azulejo plane` writes it.
     #[arg(value_name = "PIECE", required_unless_present = "fixed")]
     pieces: Vec<PathBuf>,
-    /// Points that must stay; can be given again.
+    /// Points that must stay; may be given several times.
     #[arg(long, value_name = "POINTS")]
     fixed: Vec<PathBuf>,
-    /// The smallest distance between samples: that of the pieces.
+    /// The smallest distance between samples, the same as in the pieces.
     #[arg(long, value_name = "R", allow_negative_numbers = true)]
     radius: f64,
     /// The rectangles of the pieces, where their files do not name them: once for each piece, in their order.

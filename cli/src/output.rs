@@ -1,4 +1,4 @@
-//! What commands write: files that are there whole or not at all, and results on the standard output.
+//! What commands write: files, complete or not at all, and results on the standard output.
 
 mod temporary;
 
@@ -11,7 +11,7 @@ use azulejo::{Error, Result};
 use temporary::Temporary;
 pub use temporary::remove_on_signals;
 
-/// A file to be written at the end of a command. It is written beside its place and renamed when it is whole.
+/// A file to be written at the end of a command: as a temporary file in the same directory, renamed when it is complete.
 pub struct Output {
     /// As the user gave it, for messages.
     path: PathBuf,

@@ -1,4 +1,4 @@
-//! `azulejo stipple`: an image in dots, all of one size, as dense as it is dark.
+//! `azulejo stipple`: an image in dots of one size, denser where it is darker.
 
 pub mod darkness;
 pub mod dots;
@@ -33,7 +33,7 @@ pub struct Stipple {
     #[arg(long, value_name = "N", value_parser = count::<u32>)]
     count: u32,
     /// Do not relax: the dots are a maximal Poisson-disk set whose radius follows the image (PSP), and their number is
-    /// only about the one asked for. Without this flag random dots are relaxed (DCR): exactly as many, and truer to the tone.
+    /// only about the one asked for. Without this flag random dots are relaxed (DCR): exactly as many, and closer to the tones of the image.
     #[arg(long)]
     no_relax: bool,
     /// The largest number of steps of the relaxation.

@@ -37,7 +37,7 @@ pub struct Element {
 struct Property {
     name: String,
     data_type: PropertyType,
-    /// `None` if nobody asked for them.
+    /// `None` if they were not asked for.
     values: Option<Values>,
 }
 

@@ -33,7 +33,7 @@ pub const NEAREST_BINS: usize = 75;
 /// How far the sizes of sets of one kind may differ.
 const SAME: f64 = 0.1;
 
-/// The figures of a single set, and those of all sets together.
+/// The figures of a single set, and of all sets together.
 const FIGURES: [Figure; 12] = [
     Figure::new("points", "points", ""),
     Figure::new("smallest_distance", "smallest distance", ""),

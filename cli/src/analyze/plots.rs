@@ -88,7 +88,7 @@ pub fn plane(
 /// A curve of densities around 1, from 0 to somewhat above its peak.
 fn draw_density(curve: &[[f64; 2]], x: Axis, title: &str) -> Canvas {
     let peak = curve.iter().map(|point| point[1]).fold(1.5, f64::max);
-    let panel = Panel { rect: WIDE, x, y: Axis::linear("pairs / those at random", [0.0, 1.1 * peak], 4) };
+    let panel = Panel { rect: WIDE, x, y: Axis::linear("pairs / pairs at random", [0.0, 1.1 * peak], 4) };
     let mut canvas = page(WIDE_PAGE);
     panels::curve(&mut canvas, &panel, curve.iter().copied(), 1.0);
     panel.title(&mut canvas, title, "Poisson process: 1");
@@ -149,12 +149,12 @@ fn draw_differences(differences: &Differences) -> Canvas {
         y: Axis::linear("difference across / mean spacing", range, 8),
     };
     let density = differences.density();
-    // Rows of pictures go down, those of densities up.
+    // Rows of pictures go down, rows of densities up.
     let ink = |i: usize| density[(GRID_SIZE - 1 - i / GRID_SIZE) * GRID_SIZE + i % GRID_SIZE] / FULL_INK;
     let image: Vec<_> = (0..GRID_SIZE * GRID_SIZE).map(|i| glaze_to_cobalt(ink(i))).collect();
     canvas.image(&image, GRID_SIZE, SQUARE);
     panel.axes(&mut canvas);
-    panel.title(&mut canvas, "Differences", "pairs / those at random");
+    panel.title(&mut canvas, "Differences", "pairs / pairs at random");
     panels::scale(&mut canvas, BAR, &[0.0, 0.5, 1.0, 1.5, 2.0, FULL_INK], |density| density / FULL_INK);
     canvas
 }

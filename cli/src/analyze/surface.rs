@@ -14,7 +14,7 @@ use crate::formats::set::SampleSet;
 use crate::generate::MAXIMAL_DENSITY;
 use crate::progress::{part, watched};
 
-/// The direction that angles are counted from, and the seed of the random places that pairs are compared with.
+/// The direction that angles are counted from, and the seed of the random points that pairs are compared with.
 const DIRECTION: [f64; 3] = [1.0, 0.0, 0.0];
 const SEED: u64 = 0;
 
@@ -91,7 +91,7 @@ fn measure(
         let counting = part(progress, 0.5, 1.0);
         let gaps = match surface_coverage(context, mesh, positions, radius * (1.0 + SHALLOW), Some(&counting)) {
             Ok(coverage) => coverage.gaps as f64,
-            // Where nearly nothing is covered nobody counts gaps.
+            // There are too many gaps to count where next to nothing is covered.
             Err(Error::TooLarge { .. }) => f64::NAN,
             Err(error) => return Err(error),
         };

@@ -86,7 +86,7 @@ struct Array {
     columns: Columns<Column>,
 }
 
-/// Where a column begins, and how far its numbers are apart.
+/// Where a column begins, and the distance between its numbers.
 struct Column {
     offset: usize,
     stride: usize,
@@ -164,7 +164,7 @@ fn length(value: &Value) -> Option<usize> {
 /// A type of numbers.
 #[derive(Clone, Copy)]
 struct Number {
-    /// `f` for floats, `i` for integers with a sign, `u` for those without.
+    /// `f` for floats, `i` for signed integers, `u` for unsigned ones.
     kind: char,
     size: usize,
     is_big_endian: bool,

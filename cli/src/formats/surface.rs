@@ -7,7 +7,7 @@ use azulejo::SurfaceSamples;
 /// Samples with all that is known of them.
 pub struct SurfaceTable<'a> {
     pub samples: &'a SurfaceSamples,
-    /// Those of their normals that shall be written.
+    /// The normals to write: geometric or interpolated.
     pub normals: &'a [[f32; 3]],
     /// The radius of each sample, where they differ.
     pub radii: Option<&'a [f64]>,

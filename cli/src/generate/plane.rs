@@ -11,7 +11,7 @@ use crate::domain::DomainArgs;
 use crate::progress::watched;
 use crate::text::rounded;
 
-/// How dense a set of the plane shall be.
+/// The density of a set of the plane.
 #[derive(Args)]
 #[group(required = true, multiple = false)]
 struct RadiusOrCount {

@@ -14,15 +14,15 @@ use crate::formats::surface::SurfaceTable;
 use crate::progress::watched;
 use crate::text::rounded;
 
-/// How dense a set of a surface shall be.
+/// The density of a set of a surface.
 #[derive(Args)]
 #[group(required = true, multiple = false)]
 struct Density {
     /// The smallest distance between samples.
     #[arg(long, value_name = "R", allow_negative_numbers = true)]
     radius: Option<f64>,
-    /// About how many samples there shall be, such as 65536 or 1e6: the radius is that of a maximal set of so many on a
-    /// plane of the same area. Most often 2 to 10 % fewer fit, and down to half as many where parts of the surface are
+    /// The approximate number of samples, such as 65536 or 1e6: the radius is that of a maximal set of this size on a
+    /// plane of the same area. Usually 2 to 10 % fewer fit, and down to half as many where parts of the surface are
     /// nearer to each other than the radius.
     #[arg(long, value_name = "N", value_parser = count::<u64>)]
     count: Option<u64>,
@@ -167,7 +167,7 @@ impl Surface {
         Ok(Made { samples, radii: None, about, seconds: done.seconds })
     }
 
-    /// Samples whose radii are those of the vertices, interpolated.
+    /// Samples whose radii are interpolated from the radii of the vertices.
     fn adaptive(&self, context: &Context, mesh: &Mesh, file: &MeshFile, attribute: &str) -> Result<Made> {
         let radii: Vec<_> = file.vertex_attribute(attribute)?.into_iter().map(|radius| radius as f32).collect();
         let options = adaptive::Options::new(Radius::PerVertex(&radii)).seed(self.common.seed);

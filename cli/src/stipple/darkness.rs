@@ -1,4 +1,4 @@
-//! How dark an image is: what share of the paper shall be covered with ink.
+//! The darkness of an image: the share of the paper to cover with ink.
 
 use std::io::Cursor;
 use std::path::Path;
