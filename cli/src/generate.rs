@@ -11,12 +11,10 @@ use crate::formats::Destination;
 use crate::output::Output;
 use crate::text::{grouped, rounded};
 
+pub use azulejo::MAXIMAL_DENSITY;
 pub use plane::Plane;
 pub use relax::Relax;
 pub use surface::Surface;
-
-/// N·r²/A of a maximal Poisson-disk set: the jamming limit of random sequential placement (Zhang and Torquato 2013).
-pub const MAXIMAL_DENSITY: f64 = 0.69656;
 
 /// What all samplers have.
 #[derive(Args)]

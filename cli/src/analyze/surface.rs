@@ -4,14 +4,13 @@ use azulejo::analysis::coverage::{surface_coverage, surface_covering_radius};
 use azulejo::analysis::differential::{Differences, surface_differences};
 use azulejo::analysis::spacing::smallest_distance_3d;
 use azulejo::mesh::Mesh;
-use azulejo::{Context, Error, Progress, Result};
+use azulejo::{Context, Error, MAXIMAL_DENSITY, Progress, Result};
 
 use super::Set;
 use super::figures::{Figure, Row};
 use super::plane::{RADIUS_FIGURES, SHALLOW};
 use crate::formats::blame;
 use crate::formats::set::SampleSet;
-use crate::generate::MAXIMAL_DENSITY;
 use crate::progress::{part, watched};
 
 /// The direction that angles are counted from, and the seed of the random points that pairs are compared with.

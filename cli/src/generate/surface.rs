@@ -5,11 +5,11 @@ use std::sync::Arc;
 
 use azulejo::mesh::Mesh;
 use azulejo::psp::adaptive::{self, Radius};
-use azulejo::{Context, Error, Progress, Result, SurfaceSamples, psp};
+use azulejo::{Context, Error, MAXIMAL_DENSITY, Progress, Result, SurfaceSamples, psp};
 use clap::{Args, ValueEnum};
 
 use super::attributes::{MeshFile, mask_of_text};
-use super::{Common, MAXIMAL_DENSITY, compared, count, report};
+use super::{Common, compared, count, report};
 use crate::formats::surface::SurfaceTable;
 use crate::progress::watched;
 use crate::text::rounded;
