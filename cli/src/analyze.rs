@@ -21,7 +21,7 @@ use crate::output::{Output, print};
 #[derive(Args)]
 #[command(mut_arg("domain", |domain| domain.help(OF_OR_AROUND)))]
 pub struct Analyze {
-    /// The samples: .ply, .npy, .csv, .xyz or .raw files. Several files are sets of one kind, and their figures are averaged.
+    /// The samples: .ply, .npy, .csv, .xyz or .raw files. Several files are sets of one kind, whose figures are averaged.
     #[arg(value_name = "SAMPLES", required = true)]
     files: Vec<PathBuf>,
     #[command(flatten)]
@@ -31,7 +31,7 @@ pub struct Analyze {
     /// The mesh that the samples lie on: OBJ, PLY or STL.
     #[arg(long, value_name = "MESH", conflicts_with_all = ["domain", "bounded"])]
     mesh: Option<PathBuf>,
-    /// A radius to check the set against: the smallest distance that it should keep, and the distance within which it should cover.
+    /// A radius to check the sets against: compares it with smallest distance and covering radius, and counts gaps.
     #[arg(long, value_name = "R", allow_negative_numbers = true)]
     radius: Option<f64>,
     /// Print JSON, with the curves of the plots, instead of a table.

@@ -134,7 +134,7 @@ impl Input {
 /// Where points go to.
 #[derive(Args)]
 pub struct Destination {
-    /// The samples: a .ply, .npy, .csv, .xyz or .raw file.
+    /// The samples: a .ply, .npy, .csv or .xyz file, or .raw for a set of the plane.
     #[arg(short, long, value_name = "FILE")]
     pub output: PathBuf,
     /// The format of the output [default: by the extension].

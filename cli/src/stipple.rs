@@ -33,7 +33,8 @@ pub struct Stipple {
     #[arg(long, value_name = "N", value_parser = count::<u32>)]
     count: u32,
     /// Do not relax: the dots are a maximal Poisson-disk set whose radius follows the image (PSP), and their number is
-    /// only about the one asked for. Without this flag random dots are relaxed (DCR): exactly as many, and closer to the tones of the image.
+    /// only about the one asked for. Without this flag random dots are relaxed (DCR): exactly as many, and closer to the
+    /// tones of the image.
     #[arg(long)]
     no_relax: bool,
     /// The largest number of steps of the relaxation.

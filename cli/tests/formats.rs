@@ -65,7 +65,8 @@ fn samples_of_a_surface_keep_what_each_format_has_a_place_for() {
     let text = fs::read_to_string(workshop.path("a.csv")).unwrap();
     assert!(text.starts_with("x,y,z,nx,ny,nz,triangle,u,v\n"), "{text}");
     let npy = fs::read(workshop.path("a.npy")).unwrap();
-    let descr = "'descr': [('position', '<f4', (3,)), ('normal', '<f4', (3,)), ('triangle', '<u4'), ('barycentrics', '<f4', (2,))]";
+    let descr = "'descr': [('position', '<f4', (3,)), ('normal', '<f4', (3,)), ('triangle', '<u4'), \
+                 ('barycentrics', '<f4', (2,))]";
     assert!(String::from_utf8_lossy(&npy[..192]).contains(descr));
     // Refused before the work: it would take minutes.
     let said = workshop.refuse(&["surface", "roof.obj", "--radius", "0.0001", "-o", "a.raw"], 1);

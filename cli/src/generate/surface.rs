@@ -26,8 +26,8 @@ struct Density {
     /// nearer to each other than the radius.
     #[arg(long, value_name = "N", value_parser = count::<u64>)]
     count: Option<u64>,
-    /// Sample adaptively: the name of a number that a PLY file has for each vertex, the radius there. Two samples keep the
-    /// mean of their radii as distance, and the file of samples has the radius of each.
+    /// The name of a vertex attribute of a PLY mesh that holds the radius there, for adaptive sampling. The distance of two
+    /// samples is at least the mean of their radii. The output has the radius of each sample, except in XYZ.
     #[arg(long, value_name = "ATTRIBUTE")]
     radius_from: Option<String>,
 }
@@ -39,11 +39,11 @@ pub struct Surface {
     mesh: PathBuf,
     #[command(flatten)]
     density: Density,
-    /// Leave out triangles: the name of a number that a PLY file has for each face, 0 for the faces to leave out.
+    /// The name of a face attribute of a PLY mesh. Faces where it is 0 are not sampled.
     #[arg(long, value_name = "ATTRIBUTE")]
     mask: Option<String>,
-    /// Leave out triangles: a text file with a number for each triangle, 1 to sample it and 0 to leave it out, between
-    /// white space. Polygons count as the triangles of their fans.
+    /// A text file with a number for each triangle, separated by white space: 1 to sample it, 0 to leave it out. A
+    /// polygon counts as the triangles of its fan.
     #[arg(long, value_name = "FILE", conflicts_with = "mask")]
     mask_file: Option<PathBuf>,
     #[command(flatten)]
