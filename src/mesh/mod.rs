@@ -13,7 +13,7 @@ use crate::points::SurfaceSamples;
 
 mod normals;
 mod obj;
-mod ply;
+pub mod ply;
 mod stl;
 mod text;
 
@@ -156,16 +156,24 @@ impl Mesh {
             let what = if kind.is_dir() { "is a directory" } else { "is not a regular file" };
             return Err(io_error(std::io::Error::other(what)));
         }
-        let bytes = std::fs::read(path).map_err(io_error)?;
+        Self::parse(path, &std::fs::read(path).map_err(io_error)?)
+    }
 
+    /// [`Mesh::load`] for the contents of a file that are in memory, such as those of a pipe or an archive. The extension
+    /// of `path` names the format, and messages name `path`; nothing is read from there.
+    ///
+    /// # Errors
+    /// [`Error::Format`] where the contents are broken or not what [`Mesh::new`] takes.
+    pub fn parse(path: impl AsRef<Path>, bytes: &[u8]) -> Result<Self> {
+        let path = path.as_ref();
         let extension = path.extension().map(|extension| extension.to_string_lossy().to_lowercase());
         let soup = match extension.as_deref() {
-            Some("obj") => obj::parse(&bytes),
-            Some("ply") => ply::parse(&bytes),
-            Some("stl") => stl::parse(&bytes),
-            _ if bytes.starts_with(b"ply") => ply::parse(&bytes),
-            _ if stl::is_likely(&bytes) => stl::parse(&bytes),
-            _ => obj::parse(&bytes),
+            Some("obj") => obj::parse(bytes),
+            Some("ply") => ply::parse(bytes),
+            Some("stl") => stl::parse(bytes),
+            _ if bytes.starts_with(b"ply") => ply::parse(bytes),
+            _ if stl::is_likely(bytes) => stl::parse(bytes),
+            _ => obj::parse(bytes),
         };
         let format_error = |reason| Error::Format { path: path.to_owned(), reason };
         soup.map_err(format_error)?.into_mesh().map_err(|error| format_error(error.to_string()))
