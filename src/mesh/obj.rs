@@ -6,8 +6,8 @@
 
 use std::borrow::Cow;
 
-use super::Soup;
-use super::text::{lines, number, shown, vector, words};
+use crate::mesh::soup::Soup;
+use crate::mesh::text::{lines, number, shown, vector, words};
 
 /// Vertices, triangles and normals, or what is wrong with the file.
 pub(super) fn parse(bytes: &[u8]) -> Result<Soup, String> {

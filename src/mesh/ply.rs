@@ -15,7 +15,7 @@ use std::str::FromStr;
 use ply_rs_bw::parser::{ParseError, Parser, Reader};
 use ply_rs_bw::ply::{DefaultElement, ElementDef, Encoding, PropertyType, ScalarType};
 
-use crate::mesh::Soup;
+use crate::mesh::soup::Soup;
 use crate::mesh::text::{number, shown, words};
 
 /// The parts of a PLY file that were asked for.

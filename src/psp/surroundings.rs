@@ -1,20 +1,20 @@
-//! The neighbour search inside one block: what stands in it and around it, in a small dense grid.
+//! The neighbour search in one cube: the samples in it and around it, in a small dense grid.
 
 use glam::{DVec3, Vec3A};
 
 use crate::geometry::grid3::distance_squared;
 use crate::mesh::exact;
-use crate::psp::blocks::{Block, SIDE};
-use crate::psp::near::{FAR, LANES, Near, Places};
+use crate::psp::cubes::{Cube, SIDE};
+use crate::psp::stack::{FAR, LANES, PointLanes, PointStack};
 use crate::psp::vectors;
 use crate::simd::Level;
 
-/// How far a room reaches beyond its block, in radii. A block looks at what is near to fragments whose centre is in it:
+/// How far the grid reaches beyond the cube, in radii. Looked at is what is near to fragments whose centre is in the cube:
 /// within a radius and the extent of the fragment, at most 8/3.
 const HALO: u32 = 4;
 /// The side of a cell in radii: a page or two of a surface.
 const CELL: f32 = 4.0;
-/// Half the side of the room in radii.
+/// Half the side of the grid in radii.
 const HALF: f32 = (SIDE / 2 + HALO) as f32;
 /// Cells along an axis.
 const CELLS: usize = (2.0 * HALF / CELL) as usize;
@@ -23,9 +23,9 @@ const MARGIN: f32 = 1e-4;
 
 const NONE: u16 = u16::MAX;
 
-/// Conflict-free points in and around a block. There are at most sqrt(2) for each cube of a radius, the densest packing,
-/// and some along the border: a `u16` counts them.
-pub(super) struct Room {
+/// Conflict-free points in and around a cube. There are at most sqrt(2) for each cube of a radius, the densest packing,
+/// and some along the boundary: a `u16` counts them.
+pub(super) struct Surroundings {
     radius: f64,
     centre: DVec3,
     per_radius: f64,
@@ -41,18 +41,18 @@ pub(super) struct Room {
 /// Some of the points in a cell.
 #[repr(align(64))]
 struct Page {
-    /// As seen from the centre of the room, in radii.
-    places: Places,
+    /// As seen from the centre of the cube, in radii.
+    places: PointLanes,
     points: [u16; LANES],
     count: u16,
     /// The next page of the cell.
     next: u16,
 }
 
-impl Room {
-    /// An empty room. Blocks count from `origin`.
-    pub fn new(block: Block, origin: [f64; 3], radius: f64) -> Self {
-        let centre = [0, 1, 2].map(|axis| origin[axis] + (f64::from(block.0[axis]) + 0.5) * f64::from(SIDE) * radius);
+impl Surroundings {
+    /// No points yet. Cubes count from `origin`.
+    pub fn new(cube: Cube, origin: [f64; 3], radius: f64) -> Self {
+        let centre = [0, 1, 2].map(|axis| origin[axis] + (f64::from(cube.0[axis]) + 0.5) * f64::from(SIDE) * radius);
         let (centre, half) = (DVec3::from_array(centre), f64::from(HALF) * radius * 1.01);
         Self {
             radius,
@@ -70,7 +70,7 @@ impl Room {
         self.radius
     }
 
-    /// A point as seen from the centre of the room, in radii.
+    /// A point as seen from the centre of the cube, in radii.
     pub fn place(&self, point: DVec3) -> [f32; 3] {
         ((point - self.centre) * self.per_radius).as_vec3().to_array()
     }
@@ -92,7 +92,7 @@ impl Room {
         if place.iter().any(|x| x.abs() >= HALF) {
             return;
         }
-        // A sum can be rounded up to the very border.
+        // A sum can be rounded up to the very end.
         let [x, y, z] = place.map(|x| (((x + HALF) / CELL) as usize).min(CELLS - 1));
         let head = &mut self.heads[(z * CELLS + y) * CELLS + x];
         if *head == NONE || usize::from(self.pages[usize::from(*head)].count) == LANES {
@@ -125,10 +125,10 @@ impl Room {
     }
 
     /// Appends the points within `reach` radii of a place, as seen from there.
-    pub fn gather(&self, centre: [f32; 3], reach: f32, near: &mut Near) {
+    pub fn gather(&self, centre: [f32; 3], reach: f32, stack: &mut PointStack) {
         self.any_page(centre, reach, |page| {
-            near.reserve(LANES);
-            vectors::append(self.vectors, near, &page.places, centre, reach * reach);
+            stack.reserve(LANES);
+            vectors::append(self.vectors, stack, &page.places, centre, reach * reach);
             false
         });
     }
@@ -164,35 +164,35 @@ mod tests {
     use crate::rng::{Draw, Rng};
 
     #[test]
-    fn finds_what_a_loop_over_all_points_in_the_room_finds() {
+    fn finds_what_a_loop_over_all_points_finds() {
         for (origin, radius) in [([0.0; 3], 0.05), ([-7.0, 3.0, 1e3], 1.5)] {
-            let block = Block([1, 0, 2]);
+            let cube = Cube([1, 0, 2]);
             let side = f64::from(SIDE) * radius;
-            let corner: [f64; 3] = std::array::from_fn(|axis| origin[axis] + f64::from(block.0[axis]) * side);
+            let corner: [f64; 3] = std::array::from_fn(|axis| origin[axis] + f64::from(cube.0[axis]) * side);
             let mut rng = Rng::at(5, Draw::Probe, &[]);
-            // In the room and outside.
+            // Inside and outside.
             let mut point = |margin: f64| -> [f32; 3] {
                 corner.map(|x| (x - margin * radius + (side + 2.0 * margin * radius) * rng.unit()) as f32)
             };
-            let mut room = Room::new(block, origin, radius);
+            let mut surroundings = Surroundings::new(cube, origin, radius);
             let mut points: Vec<[f32; 3]> = Vec::new();
             for _ in 0..4000 {
                 let new = point(4.5);
-                room.add(new);
+                surroundings.add(new);
                 points.push(new);
                 let centre = point(1.05);
                 let close = |other: &&[f32; 3]| distance_squared(centre, **other) < radius * radius;
-                assert_eq!(room.rejects(centre), points.iter().any(|other| close(&other)));
-                let (place, mut near) = (room.place(exact(centre)), Near::new());
-                room.gather(place, 2.9, &mut near);
-                let found: Vec<_> = (0..near.len).map(|i| exact(near.point(i))).collect();
-                let around = room.at(place);
+                assert_eq!(surroundings.rejects(centre), points.iter().any(|other| close(&other)));
+                let (place, mut stack) = (surroundings.place(exact(centre)), PointStack::new());
+                surroundings.gather(place, 2.9, &mut stack);
+                let found: Vec<_> = (0..stack.len).map(|i| exact(stack.point(i))).collect();
+                let around = surroundings.at(place);
                 let distances = points.iter().map(|&other| ((exact(other) - around) / radius, other));
                 let reached = distances.filter(|(offset, _)| offset.length() < 2.9 + 1e-5);
                 let reached: Vec<_> = reached.collect();
                 assert!(found.len() <= reached.len());
                 for (offset, other) in reached.into_iter().filter(|(offset, _)| offset.length() < 2.9 - 1e-5) {
-                    assert!(room.may_hold(other));
+                    assert!(surroundings.may_hold(other));
                     assert!(found.iter().any(|found| found.distance(offset) < 2e-6), "{offset}");
                 }
             }

@@ -1,4 +1,4 @@
-//! The neighbour search inside one block: a grid for each octave of radii, so that a search meets few cells and few
+//! The neighbour search in one cube: a grid for each octave of radii, so that a search meets few cells and few
 //! samples in each, however far the radii are apart.
 
 use glam::DVec3;
@@ -15,24 +15,29 @@ pub(super) struct Dot {
     pub normal: [f32; 3],
 }
 
-/// Who conflicts with whom.
+/// Which samples conflict with each other.
 #[derive(Clone, Copy)]
-pub(super) struct Rule {
+pub(super) struct ConflictRule {
     /// Samples whose normals have a smaller cosine ignore each other, unless the normals are the same; -1: none do.
     pub cosine: f64,
 }
 
-impl Rule {
+impl ConflictRule {
     /// How far two samples must be apart: the mean of their radii. It is larger by 1e-14, dozens of units in the last
     /// place, so that it is kept in whatever order a caller evaluates distances.
     pub fn distance(a: f64, b: f64) -> f64 {
         0.5 * (1.0 + 1e-14) * (a + b)
     }
 
+    /// Whether normals matter at all.
+    pub fn asks_normals(self) -> bool {
+        self.cosine > -1.0
+    }
+
     /// Whether two samples with these normals matter to each other. Those of one triangle do: the square of a rounded
     /// normal can be below a cosine of 1, and a triangle would be sampled without end.
     pub fn sees(self, a: [f32; 3], b: [f32; 3]) -> bool {
-        self.cosine <= -1.0 || a == b || exact(a).dot(exact(b)) >= self.cosine
+        !self.asks_normals() || a == b || exact(a).dot(exact(b)) >= self.cosine
     }
 
     fn conflict(self, a: &Dot, b: &Dot) -> bool {
@@ -51,14 +56,14 @@ pub(super) fn end_of_octave(octave: i32) -> f64 {
     f64::from(octave + 1).exp2()
 }
 
-/// Dots in and around a block.
-pub(super) struct Room {
-    pub rule: Rule,
+/// Dots in and around a cube.
+pub(super) struct OctaveGrids {
+    pub rule: ConflictRule,
     /// Dots whose radii have the same octave, in no order.
-    grids: Vec<Octave>,
+    grids: Vec<OctaveGrid>,
 }
 
-struct Octave {
+struct OctaveGrid {
     octave: i32,
     /// What all radii are below; the side of a cell is twice that.
     end: f64,
@@ -66,27 +71,27 @@ struct Octave {
     dots: Vec<Dot>,
 }
 
-impl Room {
-    pub fn new(rule: Rule) -> Self {
+impl OctaveGrids {
+    pub fn new(rule: ConflictRule) -> Self {
         Self { rule, grids: Vec::new() }
     }
 
     pub fn add(&mut self, dot: Dot) {
         let octave = octave(dot.radius);
         let known = self.grids.iter().position(|grid| grid.octave == octave);
-        let place = known.unwrap_or_else(|| {
+        let grid = known.unwrap_or_else(|| {
             let end = end_of_octave(octave);
             let cells = Grid3::new(dot.position.map(f64::from), 2.0 * end);
-            self.grids.push(Octave { octave, end, cells, dots: Vec::new() });
+            self.grids.push(OctaveGrid { octave, end, cells, dots: Vec::new() });
             self.grids.len() - 1
         });
-        self.grids[place].cells.insert(dot.position);
-        self.grids[place].dots.push(dot);
+        self.grids[grid].cells.insert(dot.position);
+        self.grids[grid].dots.push(dot);
     }
 
     /// Whether a dot conflicts with another one.
     pub fn rejects(&self, dot: &Dot) -> bool {
-        let reach = |end| Rule::distance(dot.radius, end);
+        let reach = |end| ConflictRule::distance(dot.radius, end);
         self.any_in_reach(dot.position.map(f64::from), reach, |other| self.rule.conflict(dot, other))
     }
 
@@ -142,11 +147,11 @@ mod tests {
                 radius: 0.1 * f64::powf(ratio, -rng.unit()),
                 normal: DVec3::new(rng.unit() - 0.5, rng.unit() - 0.5, 0.3).normalize().as_vec3().to_array(),
             };
-            let (mut room, mut dots) = (Room::new(Rule { cosine }), Vec::<Dot>::new());
+            let (mut grids, mut dots) = (OctaveGrids::new(ConflictRule { cosine }), Vec::<Dot>::new());
             let mut rejected = 0;
             for _ in 0..3000 {
                 let (new, probe) = (dot(), dot());
-                room.add(new);
+                grids.add(new);
                 dots.push(new);
                 let sees = |other: &Dot| cosine == -1.0 || exact(other.normal).dot(exact(probe.normal)) >= cosine;
                 let close = |other: &&Dot| {
@@ -154,13 +159,13 @@ mod tests {
                     apart < 0.5 * (other.radius + probe.radius) && sees(other)
                 };
                 let expected = dots.iter().any(|other| close(&other));
-                assert_eq!(room.rejects(&probe), expected);
+                assert_eq!(grids.rejects(&probe), expected);
                 rejected += u32::from(expected);
 
                 let (centre, reach, mut found) = (exact(probe.position), 3.0 * probe.radius, 0);
                 // A dot can come twice, which does no harm; the farthest one must come.
                 let mut farthest = 0.0f64;
-                room.near(centre, reach, probe.normal, |offset, radius| {
+                grids.near(centre, reach, probe.normal, |offset, radius| {
                     assert!(offset.length() <= reach + 0.5 * radius + 1e-12);
                     found += 1;
                     farthest = farthest.max(offset.length());
