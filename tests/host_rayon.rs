@@ -4,10 +4,10 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+use azulejo::Context;
 use azulejo::kdrt;
 use azulejo::mesh::Mesh;
 use azulejo::psp;
-use azulejo::Context;
 use rayon::prelude::*;
 
 fn plane(context: &Context, seed: u64) -> Vec<[f32; 2]> {

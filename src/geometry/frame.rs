@@ -1,4 +1,4 @@
-//! The domain in units of the reference spacing, and the copies of points that stand beyond its border.
+//! The domain in units of the reference spacing, and the copies of points that stand beyond its boundary.
 
 use glam::DVec2;
 
@@ -12,7 +12,7 @@ const PARTING: f64 = 1e-3;
 /// The width, in spacings, of the strips along which points are put in order.
 const STRIP: f64 = 4.0;
 
-/// Points of a bounded domain keep this distance from its border, in spacings, so that none falls on its mirror image.
+/// Points of a bounded domain keep this distance from its boundary, in spacings, so that none falls on its mirror image.
 const INSET: f64 = 1e-6;
 
 /// A domain whose lower corner is the origin and whose unit of length is the reference spacing.
@@ -26,13 +26,13 @@ pub(crate) struct Frame {
     size: DVec2,
 }
 
-/// A point, or a copy of one beyond the border.
+/// A point, or a copy of one beyond the boundary.
 #[derive(Clone, Copy)]
 pub(crate) struct Site {
     pub(crate) position: DVec2,
     /// The point.
     pub(crate) source: u32,
-    /// Per axis: 0 for the point itself, -1 and 1 for its copy beyond the lower and the upper border.
+    /// Per axis: 0 for the point itself, -1 and 1 for its copy beyond the lower and the upper boundary.
     pub(crate) side: [i8; 2],
 }
 
@@ -82,7 +82,7 @@ impl Frame {
         }
     }
 
-    /// Brings a point that has left the domain back: around the torus, or reflected by the border.
+    /// Brings a point that has left the domain back: around the torus, or reflected by the boundary.
     pub(crate) fn fold(&self, position: DVec2) -> DVec2 {
         let axis = |x: f64, length: f64| match self.domain.boundary {
             // Rounding can turn a small negative remainder into the length itself.
@@ -108,7 +108,7 @@ impl Frame {
 
     /// The points, in their order, and after them every copy that lies within `margin` of the domain.
     ///
-    /// Copies are translated by a period, or mirrored by the border (thesis, Fig. 4.12 (b)). The margin is cut to the
+    /// Copies are translated by a period, or mirrored by the boundary (thesis, Fig. 4.12 (b)). The margin is cut to the
     /// size of the domain, so there is at most one ring of copies.
     pub(crate) fn sites(&self, positions: impl Iterator<Item = DVec2> + Clone, margin: f64) -> Vec<Site> {
         let copy = |axis: usize, x: f64, side: i8| {
@@ -140,7 +140,7 @@ impl Frame {
             let x = (min + position[axis] * self.spacing) as f32;
             let (first, last) = (first_float_from(min), last_float_below(max));
             match self.domain.boundary {
-                // What rounds up to the upper border is, on the torus, at the lower one.
+                // What rounds up to the upper boundary is, on the torus, at the lower one.
                 Boundary::Periodic if x > last => first,
                 _ => x.clamp(first, last),
             }
@@ -249,7 +249,7 @@ mod tests {
             let left = sites.iter().find(|site| site.side == [-1, 0]).unwrap();
             let expected = if boundary == Boundary::Periodic { point.x - frame.size().x } else { -point.x };
             assert_eq!(left.position, DVec2::new(expected, point.y));
-            // The only copy within 0.6 is the one beyond a vertical border.
+            // The only copy within 0.6 is the one beyond a vertical boundary.
             assert_eq!(frame.sites([point].into_iter(), 0.6).len(), 2);
             assert_eq!(frame.sites([point].into_iter(), 0.4).len(), 1);
         }

@@ -58,7 +58,7 @@ impl Grid2 {
     fn cells_near(&self, axis: usize, coordinate: f64, radius: f64) -> impl Iterator<Item = usize> + Clone + use<> {
         let count = self.cells[axis] as i64;
         let at = |x: f64| ((x - self.domain.min[axis]) * self.scale[axis]).floor().clamp(-1e15, 1e15) as i64;
-        // One cell more on each side than exact arithmetic needs: rounding may move a point across a cell border.
+        // One cell more on each side than exact arithmetic needs: rounding may move a point across a cell boundary.
         let (mut first, mut last) = (at(coordinate - radius) - 1, at(coordinate + radius) + 1);
         match self.domain.boundary {
             Boundary::Periodic if last - first >= count => (first, last) = (0, count - 1),

@@ -74,7 +74,7 @@ impl Grid3 {
     /// The ids of all points in the cells that a ball touches, and of some others: the caller tests the distance.
     /// An id can come twice when two of the cells share a bucket.
     pub(crate) fn candidates(&self, centre: [f64; 3], radius: f64) -> impl Iterator<Item = u32> {
-        // Cell borders are compared in f64 as computed on insertion; the margin covers the rounding of `centre`.
+        // Cell boundaries are compared in f64 as computed on insertion; the margin covers the rounding of `centre`.
         let reach = radius * (1.0 + 1e-9);
         let low = self.cell(centre.map(|x| x - reach));
         let high = self.cell(centre.map(|x| x + reach));

@@ -2,18 +2,18 @@
 //!
 //! Each tile of the torus is triangulated with the points in a margin around it. The star of a point is that of the whole
 //! set if the circumcircles of its triangles lie where all points are known; if one does not, there is no result, and the
-//! set is to be triangulated as a whole.
+//! set must be triangulated as a whole.
 
 use glam::DVec2;
 use spade::handles::VertexHandle;
 use spade::{DelaunayTriangulation, HasPosition, Point2, Triangulation};
 
-use crate::dcr::ground::torus::{Place, Torus, nudge};
-use crate::dcr::uniform::rings::Stars;
+use crate::dcr::ground::torus::{Torus, TorusPoint, nudge};
+use crate::dcr::uniform::rings::RingList;
 use crate::error::Result;
 use crate::job::Job;
 
-/// Tiles have about as many points, or up to four times as many.
+/// The least number of points of a tile on average; it can be four times as high.
 const POINTS: usize = 2000;
 
 /// The margin, in spacings: a little more than the largest empty circle of a million random points is wide.
@@ -40,7 +40,7 @@ impl HasPosition for Vertex {
 /// A torus cut into 2^`level` tiles along each axis, and the points of each.
 struct Tiles<'a> {
     torus: &'a Torus,
-    places: &'a [Place],
+    places: &'a [TorusPoint],
     level: u32,
     /// Tile `t` holds the points `points[starts[t]..starts[t + 1]]`.
     starts: Vec<u32>,
@@ -48,7 +48,7 @@ struct Tiles<'a> {
 }
 
 /// The rings of all points. None for sets that are too small, and if a star is not enclosed in the margin of its tile.
-pub(super) fn triangulate(job: &Job, torus: &Torus, places: &[Place]) -> Result<Option<Vec<Stars>>> {
+pub(super) fn triangulate(job: &Job, torus: &Torus, places: &[TorusPoint]) -> Result<Option<Vec<RingList>>> {
     let level = (places.len() / POINTS).max(1).ilog2() / 2;
     let narrow = torus.frame.size().min_element() / f64::from(1u32 << level) < 2.0 * MARGIN;
     // With three tiles along an axis, those on both sides of one are different.
@@ -61,9 +61,9 @@ pub(super) fn triangulate(job: &Job, torus: &Torus, places: &[Place]) -> Result<
 }
 
 impl<'a> Tiles<'a> {
-    fn new(torus: &'a Torus, places: &'a [Place], level: u32) -> Self {
+    fn new(torus: &'a Torus, places: &'a [TorusPoint], level: u32) -> Self {
         let mut tiles = Self { torus, places, level, starts: Vec::new(), points: vec![0; places.len()] };
-        // Counted two tiles on and begun one tile on, the starts are what they shall be when all points have their slots.
+        // Counts are stored two tiles ahead and positions one tile ahead, so that the starts are right when all points are sorted.
         let mut starts = vec![0; (1 << (2 * level)) + 2];
         places.iter().for_each(|&place| starts[tiles.tile(place) + 2] += 1);
         for tile in 2..starts.len() {
@@ -77,7 +77,7 @@ impl<'a> Tiles<'a> {
         Self { starts, ..tiles }
     }
 
-    fn tile(&self, place: Place) -> usize {
+    fn tile(&self, place: TorusPoint) -> usize {
         let [x, y] = place.map(|x| x >> (32 - self.level));
         (y << self.level | x) as usize
     }
@@ -88,7 +88,7 @@ impl<'a> Tiles<'a> {
     }
 
     /// The rings of the points of a tile.
-    fn stars(&self, tile: u32) -> Option<Stars> {
+    fn stars(&self, tile: u32) -> Option<RingList> {
         let size = self.size();
         let knows = |centre: DVec2, radius: f64| {
             (centre - radius).cmpge(DVec2::splat(-MARGIN)).all() && (centre + radius).cmple(size + MARGIN).all()
@@ -102,7 +102,7 @@ impl<'a> Tiles<'a> {
                 })
             })
         };
-        let mut stars = Stars::default();
+        let mut stars = RingList::default();
         for star in triangulation.vertices().filter(|star| star.data().is_inside) {
             if !is_enclosed(&star) {
                 return None;
