@@ -91,9 +91,9 @@ fn print_stages(counts: &[u32]) {
     stages.iter().for_each(|stage| print!(" {stage:>12}"));
     println!();
     for (&count, leaf_size) in counts.iter().flat_map(|count| LEAF_SIZES.map(|leaf_size| (count, leaf_size))) {
-        let stages = kdrt::measure(&options(count, leaf_size)).expect("a good domain");
+        let stages = kdrt::stages::measure(&options(count, leaf_size)).expect("a good domain");
         let per_sample = |time: Duration| time.as_secs_f64() * 1e9 / stages.samples as f64;
-        let kdrt::Stages { pattern, divide, clip, eliminate, fill, output, .. } = stages;
+        let kdrt::stages::Stages { pattern, divide, clip, eliminate, fill, output, .. } = stages;
         let times = [pattern, divide, clip, eliminate, fill, output].map(per_sample);
         let source = vec![[0.5f32; 2]; stages.samples as usize];
         let mut target = source.clone();

@@ -56,7 +56,7 @@ pub mod trace;
 
 pub use error::{Error, Result};
 pub use job::{Context, Progress};
-pub use points::{Boundary, Domain, SurfaceSamples};
+pub use points::{Boundary, Domain, MAXIMAL_DENSITY, SurfaceSamples};
 
 /// The code blocks of the README are compiled with the documentation tests.
 #[cfg(doctest)]

@@ -15,12 +15,6 @@ use crate::points::{Boundary, Domain};
 use crate::rng::{Draw, Rng};
 use crate::setters::setters;
 
-/// Darts per cell, before any is cut. After that [`darts()`] says how many.
-const DARTS_PER_CELL: usize = 2;
-
-/// Darts between two looks at the progress callback.
-const DARTS_PER_REPORT: usize = 1 << 16;
-
 /// The most bytes that a cell takes while it is sampled: its sample, its voxels of two levels.
 const BYTES_PER_CELL: f64 = 40.0;
 
@@ -56,7 +50,7 @@ setters!(Options { radius: f64, domain: Domain, seed: u64 });
 /// * `domain.min <= x < domain.max`; the order is by rows about 0.7 `radius` high.
 ///
 /// One thread does the work, in O(n) for n samples: about a million samples a second, less where they exceed the
-/// caches. [`crate::kdrt`] is the fast way.
+/// caches. [`crate::kdrt`] is the fast sampler.
 ///
 /// # Errors
 /// [`Error::InvalidArgument`](crate::Error::InvalidArgument) for a radius or domain out of range or floats too coarse
@@ -83,25 +77,13 @@ pub(crate) fn sample_points(job: &Job, lattice: &Lattice, seed: u64) -> Result<V
     memory::require(cells * BYTES_PER_CELL, "radius", &format!("about {expected:.0} samples"))?;
 
     let mut grid = match lattice.boundary {
-        Boundary::Periodic => CellGrid::torus(&axes, lattice.threshold, lattice.reach),
-        Boundary::Bounded => CellGrid::new(&axes, &rect, lattice.threshold, lattice.reach),
+        Boundary::Periodic => CellGrid::torus(&axes, lattice.separation),
+        Boundary::Bounded => CellGrid::new(&axes, &rect, lattice.separation),
     };
     let all = (0..rows).flat_map(|y| (0..columns).map(move |x| [x, y]));
     let mut quadtree = Quadtree::new(&grid, rect, all);
     let mut rng = Rng::at(seed, Draw::Darts, &[]);
-    let mut count = 0u64;
-    let mut darts = DARTS_PER_CELL * quadtree.len();
-    while !quadtree.is_empty() {
-        while darts > 0 {
-            for _ in 0..darts.min(DARTS_PER_REPORT) {
-                count += u64::from(quadtree.throw(&mut grid, &mut rng).is_some());
-            }
-            darts = darts.saturating_sub(DARTS_PER_REPORT);
-            job.report((count as f64 / expected).min(0.99))?;
-        }
-        quadtree.refine(&grid);
-        darts = crate::plane::darts(quadtree.len());
-    }
+    quadtree.rain(job, &mut grid, &mut rng, expected, |_| ())?;
     #[cfg(test)]
     grid.sanity_check();
     Ok(grid.samples_in(&rect).collect())
@@ -135,7 +117,7 @@ mod tests {
                         squares.filter(|&d2| d2 > 0 || !samples.contains(&[x, y])).min().unwrap_or(i64::MAX)
                     };
                     for (y, x) in (0..lattice.size[1]).flat_map(|y| (0..lattice.size[0]).map(move |x| (y, x))) {
-                        let conflicts = nearest([x, y]) < lattice.threshold;
+                        let conflicts = nearest([x, y]) < lattice.separation.threshold;
                         assert_eq!(conflicts, !samples.contains(&[x, y]), "at {x}, {y}");
                     }
                 }

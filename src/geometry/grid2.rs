@@ -1,5 +1,6 @@
 //! Uniform grid over points of the plane, sorted by cell: the neighbour search in 2D.
 
+use crate::geometry::counting_sort::Binned;
 use crate::points::{Boundary, Domain};
 
 /// Points of a domain, sorted by the cells of a uniform grid. Built in O(n), never changed.
@@ -9,9 +10,8 @@ pub(crate) struct Grid2 {
     cells: [usize; 2],
     /// Cells per unit of length.
     scale: [f64; 2],
-    /// Cell `c` holds the entries `starts[c]..starts[c + 1]`.
-    starts: Vec<u32>,
-    entries: Vec<(u32, [f64; 2])>,
+    /// The points with their ids, by cells.
+    entries: Binned<(u32, [f64; 2])>,
 }
 
 impl Grid2 {
@@ -22,28 +22,15 @@ impl Grid2 {
         let finest = (domain.area() / limit).sqrt().max(extent[0].max(extent[1]) / limit);
         let cells = extent.map(|length| (length / cell_size.max(finest)).floor().max(1.0) as usize);
         let scale = std::array::from_fn(|axis| cells[axis] as f64 / extent[axis]);
-        let mut grid = Self { domain, cells, scale, starts: vec![0; cells[0] * cells[1] + 1], entries: Vec::new() };
-
-        for point in points.clone() {
-            let cell = grid.cell(point);
-            grid.starts[cell + 1] += 1;
-        }
-        for cell in 1..grid.starts.len() {
-            grid.starts[cell] += grid.starts[cell - 1];
-        }
-        let mut next = grid.starts.clone();
-        grid.entries = vec![(0, [0.0; 2]); points.len()];
-        for (id, point) in points.enumerate() {
-            let slot = &mut next[grid.cell(point)];
-            grid.entries[*slot as usize] = (id as u32, point);
-            *slot += 1;
-        }
-        grid
+        let grid = Self { domain, cells, scale, entries: Binned::default() };
+        let entries =
+            Binned::new(cells[0] * cells[1], (0..).zip(points).map(|(id, point)| (grid.cell(point), (id, point))));
+        Self { entries, ..grid }
     }
 
     /// The points with their ids, those of a cell together.
     pub(crate) fn entries(&self) -> &[(u32, [f64; 2])] {
-        &self.entries
+        self.entries.items()
     }
 
     fn cell(&self, point: [f64; 2]) -> usize {
@@ -77,7 +64,7 @@ impl Grid2 {
         for row in self.cells_near(1, point[1], radius) {
             for column in columns.clone() {
                 let cell = row * self.cells[0] + column;
-                for &(id, neighbour) in &self.entries[self.starts[cell] as usize..self.starts[cell + 1] as usize] {
+                for &(id, neighbour) in self.entries.bin(cell) {
                     let offset = self.domain.offset(point, neighbour);
                     let d2 = offset[0] * offset[0] + offset[1] * offset[1];
                     if d2 <= radius * radius {

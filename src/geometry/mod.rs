@@ -1,7 +1,8 @@
 //! Geometry in floats, shared by relaxation, analysis and mesh sampling: Delaunay triangulations, circumcircles, frames,
-//! grids.
+//! grids, and the counting sort behind grids and lists of neighbours.
 
 pub(crate) mod circumcircle;
+pub(crate) mod counting_sort;
 pub(crate) mod delaunay;
 pub(crate) mod frame;
 pub(crate) mod grid2;

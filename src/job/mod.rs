@@ -1,4 +1,4 @@
-//! A job: on which threads a long call runs, whom it tells how far it is, and who may stop it.
+//! A job: the threads that a long call runs on, its progress callback and its cancellation.
 //!
 //! All parallel code of the crate goes through [`Job::map`]: tasks that share nothing, results in the order of the
 //! tasks. That is what makes every result independent of the number of threads.
@@ -150,7 +150,7 @@ impl<'a> Job<'a> {
         self.context
     }
 
-    /// Tells the caller that `share` of this part is done.
+    /// Reports to the caller that `share` of this part is done.
     pub(crate) fn report(&self, share: f64) -> Result<()> {
         let Some(progress) = self.progress else { return Ok(()) };
         match progress(self.from + (self.to - self.from) * share) {

@@ -1,6 +1,7 @@
 //! The samples of a window, as floats in the order in which they are found.
 
-use crate::plane::lattice::{Lattice, Rect};
+use crate::plane::lattice::Lattice;
+use crate::plane::rect::Rect;
 
 use crate::kdrt::clip::Row;
 
@@ -37,6 +38,7 @@ impl<'a> Output<'a> {
     }
 
     /// How many samples there are so far.
+    #[cfg(feature = "stages")]
     pub fn len(&self) -> usize {
         self.samples.len()
     }

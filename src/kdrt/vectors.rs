@@ -5,7 +5,8 @@ use crate::plane::CellGrid;
 use crate::rng::Rng;
 use crate::simd::Level;
 
-use crate::kdrt::fill::{Block, Filling};
+use crate::kdrt::blocks::Block;
+use crate::kdrt::fill::Filling;
 use crate::kdrt::output::Output;
 
 impl Filling<'_> {

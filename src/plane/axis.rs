@@ -1,7 +1,7 @@
 //! The cuts of an axis into cells.
 
 /// How one axis of a plane is cut into cells: at the multiples of size / count, rounded down to lattice points. Cell `i`
-/// holds the lattice points from `border(i)` to before `border(i + 1)`; on a torus `i` may be any integer.
+/// holds the lattice points from `edge(i)` to before `edge(i + 1)`; on a torus `i` may be any integer.
 #[derive(Clone, Debug)]
 pub(crate) struct CellAxis {
     pub(super) size: i32,
@@ -15,7 +15,7 @@ impl CellAxis {
         Self { size, count: (f64::from(size) / widest).ceil().max(1.0) as i32 }
     }
 
-    /// The side of a cell, in lattice points, before borders are rounded.
+    /// The side of a cell, in lattice points, before edges are rounded.
     pub fn side(&self) -> f64 {
         f64::from(self.size) / f64::from(self.count)
     }
@@ -25,8 +25,8 @@ impl CellAxis {
         self.count
     }
 
-    /// The first lattice point of a cell. Borders repeat exactly with the period of the torus.
-    pub fn border(&self, cell: i32) -> i32 {
+    /// The first lattice point of a cell. Edges repeat exactly with the period of the torus.
+    pub fn edge(&self, cell: i32) -> i32 {
         (i64::from(cell) * i64::from(self.size)).div_euclid(i64::from(self.count)) as i32
     }
 
@@ -94,14 +94,14 @@ mod tests {
     fn cells_fill_an_axis_and_two_points_of_one_conflict() {
         for (size, radius) in SIZES.into_iter().flat_map(|size| RADII.map(|radius| (size, radius))) {
             let axis = CellAxis::new(size, radius);
-            assert_eq!((axis.border(0), axis.border(axis.count)), (0, size));
-            let finder = axis.finder(axis.border(-4));
+            assert_eq!((axis.edge(0), axis.edge(axis.count)), (0, size));
+            let finder = axis.finder(axis.edge(-4));
             for cell in (-3..axis.count.min(3)).chain(axis.count - 3..axis.count + 3) {
-                let (first, end) = (axis.border(cell), axis.border(cell + 1));
+                let (first, end) = (axis.edge(cell), axis.edge(cell + 1));
                 assert!(first < end && 2.0 * f64::from(end - 1 - first).powi(2) < radius * radius);
                 assert_eq!((axis.cell(first), axis.cell(end - 1)), (cell, cell));
                 assert_eq!((finder.cell(first), finder.cell(end - 1)), (cell + 4, cell + 4));
-                assert_eq!(axis.border(cell + axis.count), first + size);
+                assert_eq!(axis.edge(cell + axis.count), first + size);
             }
         }
     }

@@ -1,14 +1,13 @@
 //! Cells of one sample at most: the exact conflict and coverage tests of everything that happens in the plane.
 
-use crate::plane::lattice::Rect;
+use crate::plane::lattice::Separation;
+use crate::plane::rect::Rect;
 
 use crate::plane::axis::{CellAxis, Finder};
 use crate::plane::list::List;
-use crate::plane::near::{LANES, Near, Rows, SLACK};
+use crate::plane::near::{Near, SLACK};
+use crate::plane::rows::{LANES, NOWHERE, Rows};
 use crate::simd::Level;
-
-/// The place of a cell without a sample: far beyond every threshold.
-pub(super) const NOWHERE: i32 = -(1 << 29);
 
 /// The most cells away that a conflict can be: cells are narrower than r / sqrt(2) by half at most.
 const MAX_MARGIN: i32 = 3;
@@ -18,8 +17,8 @@ const MAX_MARGIN: i32 = 3;
 /// Around the cells lies a margin as wide as conflicts reach, so that neighbours are at fixed offsets. It is empty,
 /// or on a whole torus holds the images of samples on the other side.
 pub(crate) struct CellGrid {
-    /// Borders of the cells of each axis, one more than cells.
-    borders: [Vec<i32>; 2],
+    /// Edges of the cells of each axis, one more than cells.
+    edges: [Vec<i32>; 2],
     finders: [Finder; 2],
     /// The longest side of a cell of the plane.
     widest_cell: i32,
@@ -32,45 +31,44 @@ pub(crate) struct CellGrid {
     /// On a whole torus its cells and its size.
     torus: Option<[[i32; 2]; 2]>,
     vectors: Level,
-    /// Points whose squared distance is below this conflict.
-    pub(super) threshold: i64,
+    separation: Separation,
 }
 
 impl CellGrid {
-    /// The empty cells that hold the lattice points of `rect`. `threshold` and `reach` are those of the lattice.
-    pub fn new(axes: &[CellAxis; 2], rect: &Rect, threshold: i64, reach: i32) -> Self {
-        let borders: [Vec<i32>; 2] = std::array::from_fn(|axis| {
+    /// The empty cells that hold the lattice points of `rect`, for the separation of the lattice.
+    pub fn new(axes: &[CellAxis; 2], rect: &Rect, separation: Separation) -> Self {
+        let edges: [Vec<i32>; 2] = std::array::from_fn(|axis| {
             let last = axes[axis].cell(rect.max[axis] - 1);
-            (axes[axis].cell(rect.min[axis])..=last + 1).map(|cell| axes[axis].border(cell)).collect()
+            (axes[axis].cell(rect.min[axis])..=last + 1).map(|cell| axes[axis].edge(cell)).collect()
         });
         // The images in a torus of few cells fill at most one period on each side: the nearest image is nearer.
-        let margin = [0, 1].map(|axis| axes[axis].cells_within(reach));
+        let margin = [0, 1].map(|axis| axes[axis].cells_within(separation.reach));
         debug_assert!(margin.into_iter().all(|cells| cells <= MAX_MARGIN));
-        let [width, height] = [0, 1].map(|axis| borders[axis].len() - 1 + 2 * margin[axis] as usize);
+        let [width, height] = [0, 1].map(|axis| edges[axis].len() - 1 + 2 * margin[axis] as usize);
         Self {
             // That of the plane, whether this grid has such a cell or not: what is thrown must not depend on the window.
             widest_cell: axes[0].side().max(axes[1].side()).ceil() as i32,
             finders: [0, 1].map(|axis: usize| axes[axis].finder(rect.min[axis])),
             samples: [0, 1].map(|_| vec![NOWHERE; width * height + LANES]),
             stride: width,
-            borders,
+            edges,
             margin,
             torus: None,
             vectors: Level::widest(),
-            threshold,
+            separation,
         }
     }
 
     /// The empty cells of a whole torus of the size of `axes`.
-    pub fn torus(axes: &[CellAxis; 2], threshold: i64, reach: i32) -> Self {
+    pub fn torus(axes: &[CellAxis; 2], separation: Separation) -> Self {
         let size = [0, 1].map(|axis: usize| axes[axis].size);
         let torus = Some([[0, 1].map(|axis: usize| axes[axis].count()), size]);
-        Self { torus, ..Self::new(axes, &Rect { min: [0; 2], max: size }, threshold, reach) }
+        Self { torus, ..Self::new(axes, &Rect { min: [0; 2], max: size }, separation) }
     }
 
     /// Cells per axis.
     pub fn counts(&self) -> [i32; 2] {
-        [0, 1].map(|axis: usize| self.borders[axis].len() as i32 - 1)
+        [0, 1].map(|axis: usize| self.edges[axis].len() as i32 - 1)
     }
 
     /// The longest side of a cell of the plane, in lattice points.
@@ -80,13 +78,13 @@ impl CellGrid {
 
     /// Squared distances below this are below the threshold, also when they are computed in `f32`.
     pub(super) fn certain(&self) -> f32 {
-        self.threshold as f32 * (1.0 - SLACK)
+        self.separation.threshold as f32 * (1.0 - SLACK)
     }
 
     /// The lattice points of a cell.
     #[inline(always)]
     pub fn rect(&self, [x, y]: [i32; 2]) -> Rect {
-        let [columns, rows] = &self.borders;
+        let [columns, rows] = &self.edges;
         let (x, y) = (x as usize, y as usize);
         Rect { min: [columns[x], rows[y]], max: [columns[x + 1], rows[y + 1]] }
     }
@@ -100,8 +98,8 @@ impl CellGrid {
     #[inline(always)]
     pub fn part(&self, axis: usize, cell: i32, part: i32, parts: i32) -> [i32; 2] {
         let (first, length) = self.span(axis, cell);
-        let border = |part: i32| first + (length * part as u32 / parts as u32) as i32;
-        [border(part), border(part + 1)]
+        let edge = |part: i32| first + (length * part as u32 / parts as u32) as i32;
+        [edge(part), edge(part + 1)]
     }
 
     /// The part of a column (axis 0) or row (axis 1) of cells that holds a coordinate.
@@ -115,8 +113,8 @@ impl CellGrid {
     /// Where a column (axis 0) or row (axis 1) of cells begins, and how long it is.
     #[inline(always)]
     fn span(&self, axis: usize, cell: i32) -> (i32, u32) {
-        let borders = &self.borders[axis][cell as usize..][..2];
-        (borders[0], (borders[1] - borders[0]) as u32)
+        let edges = &self.edges[axis][cell as usize..][..2];
+        (edges[0], (edges[1] - edges[0]) as u32)
     }
 
     /// The cell of a lattice point of the grid.
@@ -144,8 +142,7 @@ impl CellGrid {
 
     /// The cells that hold the lattice points of `rect`, as far as there are such cells.
     pub fn cells_of(&self, rect: &Rect) -> Rect {
-        let all =
-            Rect { min: self.rect([0; 2]).min, max: [0, 1].map(|axis: usize| *self.borders[axis].last().unwrap()) };
+        let all = Rect { min: self.rect([0; 2]).min, max: [0, 1].map(|axis: usize| *self.edges[axis].last().unwrap()) };
         let rect = rect.intersection(&all);
         if rect.is_empty() {
             return Rect { min: [0; 2], max: [0; 2] };
@@ -182,14 +179,14 @@ impl CellGrid {
     #[inline(always)]
     pub(super) fn gather(&self, cell: [i32; 2], near: &mut Near) {
         near.limit = self.certain();
-        self.vectors.gather(near, &self.rows_near(cell), self.rect(cell), self.threshold as f32);
+        self.vectors.gather(near, &self.rows_near(cell), self.rect(cell), self.separation.threshold as f32);
     }
 
     /// Gathers from a list the samples that cover something of a voxel.
     #[inline(always)]
     pub(super) fn gather_among(&self, list: &List, voxel: Rect, near: &mut Near) {
         near.limit = self.certain();
-        self.vectors.gather(near, &list.rows(), voxel, self.threshold as f32);
+        self.vectors.gather(near, &list.rows(), voxel, self.separation.threshold as f32);
     }
 
     /// [`Near::uncovered`].
@@ -208,7 +205,7 @@ impl CellGrid {
     #[inline(always)]
     pub(super) fn conflicts_among(&self, rows: &Rows, point: [i32; 2]) -> bool {
         let nearest = self.vectors.nearest(rows, point);
-        if nearest >= self.threshold as f32 * (1.0 + SLACK) {
+        if nearest >= self.separation.threshold as f32 * (1.0 + SLACK) {
             return false;
         }
         nearest < self.certain() || self.conflicts_exactly(rows, point)
@@ -220,7 +217,7 @@ impl CellGrid {
         rows.iter().any(|[xs, ys]| {
             (0..LANES).any(|lane| {
                 let [dx, dy] = [(xs[lane], 0), (ys[lane], 1)].map(|(x, axis)| i64::from(x) - i64::from(point[axis]));
-                dx * dx + dy * dy < self.threshold
+                dx * dx + dy * dy < self.separation.threshold
             })
         })
     }
@@ -243,7 +240,7 @@ impl CellGrid {
             || near.iter().any(|sample| {
                 let dx = (2 * i64::from(sample[0]) - centre[0]).abs() + extent[0];
                 let dy = (2 * i64::from(sample[1]) - centre[1]).abs() + extent[1];
-                dx * dx + dy * dy < 4 * self.threshold
+                dx * dx + dy * dy < 4 * self.separation.threshold
             })
     }
 
@@ -314,7 +311,7 @@ impl CellGrid {
             for other in self.samples_near(cell, &mut memory) {
                 let [dx, dy] = [0, 1].map(|axis: usize| i64::from(other[axis]) - i64::from(sample[axis]));
                 let same = dx % i64::from(size[0]) == 0 && dy % i64::from(size[1]) == 0;
-                assert!(same || dx * dx + dy * dy >= self.threshold, "{sample:?} conflicts with {other:?}");
+                assert!(same || dx * dx + dy * dy >= self.separation.threshold, "{sample:?} conflicts with {other:?}");
             }
         }
     }
@@ -332,11 +329,11 @@ mod tests {
         for (size, radius) in [([700, 900], 64.3), ([90, 1500], 90.0), ([30, 20], 70.0), ([200, 100], 150.0)] {
             for torus in [false, true] {
                 let axes = size.map(|size| CellAxis::new(size, radius));
-                let (threshold, reach) = ((radius * radius).ceil() as i64, radius as i32);
+                let separation = Separation { threshold: (radius * radius).ceil() as i64, reach: radius as i32 };
                 let all = Rect { min: [0; 2], max: size };
                 let mut grid = match torus {
-                    true => CellGrid::torus(&axes, threshold, reach),
-                    false => CellGrid::new(&axes, &all, threshold, reach),
+                    true => CellGrid::torus(&axes, separation),
+                    false => CellGrid::new(&axes, &all, separation),
                 };
                 let distance = |a: [i32; 2], b: [i32; 2]| -> i64 {
                     let along = |axis: usize| {
@@ -355,10 +352,12 @@ mod tests {
                     if grid.covers(near, &part) {
                         let corners = [part.min, [part.min[0], part.max[1] - 1], [part.max[0] - 1, part.min[1]]];
                         let corners = corners.into_iter().chain([part.max.map(|x| x - 1)]);
-                        assert!(corners.into_iter().all(|p| samples.iter().any(|&s| distance(s, p) < threshold)));
+                        assert!(
+                            corners.into_iter().all(|p| samples.iter().any(|&s| distance(s, p) < separation.threshold))
+                        );
                     }
                     let single = Rect { min: point, max: point.map(|x| x + 1) };
-                    let conflict = samples.iter().any(|&sample| distance(sample, point) < threshold);
+                    let conflict = samples.iter().any(|&sample| distance(sample, point) < separation.threshold);
                     assert_eq!(grid.covers(near, &single), conflict);
                     assert_eq!(grid.conflicts(cell, point), conflict);
                     if !conflict {
@@ -377,7 +376,8 @@ mod tests {
     #[test]
     fn one_sample_covers_exactly_what_lies_in_its_disk() {
         let axes = [CellAxis::new(500, 100.0), CellAxis::new(500, 100.0)];
-        let mut grid = CellGrid::new(&axes, &Rect { min: [0; 2], max: [500; 2] }, 10_000, 99);
+        let mut grid =
+            CellGrid::new(&axes, &Rect { min: [0; 2], max: [500; 2] }, Separation { threshold: 10_000, reach: 99 });
         grid.insert(grid.cell([250, 250]), [250, 250]);
         let mut memory = Vec::new();
         let near = grid.samples_near(grid.cell([260, 260]), &mut memory);

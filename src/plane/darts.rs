@@ -1,6 +1,6 @@
 //! Darts: points thrown at voxels, which become samples where nothing conflicts with them.
 
-use crate::plane::lattice::Rect;
+use crate::plane::rect::Rect;
 use crate::rng::Rng;
 
 use crate::plane::cells::CellGrid;

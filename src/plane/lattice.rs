@@ -7,7 +7,7 @@
 //!
 //! # What is guaranteed
 //! Two points *conflict* when their squared distance is below `threshold` = ceil(r² / unit²), so points without
-//! conflict are at least r apart, in `f64`, computed from the returned floats in any way that rounds each operation
+//! conflict are at least r apart, in `f64`, computed from the returned floats by any formula that rounds each operation
 //! correctly. A set is *maximal* when every lattice point of the domain conflicts with one of its points. A point of
 //! the domain between lattice points is at most one unit per axis from one of them, and on a torus the distance
 //! over the seam is at most one unit per axis longer than on the lattice (see [`Lattice::new`]): no point of the
@@ -15,19 +15,32 @@
 //! samples.
 
 use crate::error::{Error, Result};
-use crate::points::{Boundary, Domain, check_radius};
-
-pub(crate) use crate::plane::rect::Rect;
-
-/// N·r² of an unbiased maximal set of N samples in the unit square: the jamming limit of random sequential
-/// placement of disks, 0.5470735, is the share of the area that disks of *diameter* r cover.
-pub(crate) const MAXIMAL_DENSITY: f64 = 0.5470735 * 4.0 / std::f64::consts::PI;
+use crate::plane::rect::Rect;
+use crate::points::{Boundary, Domain, MAXIMAL_DENSITY, check_radius};
 
 /// The smallest radius in lattice units.
 const FINEST_RADIUS: f64 = 64.0;
 
 /// More samples are never made in one call.
 const MAX_SAMPLES: f64 = u32::MAX as f64;
+
+/// How far apart two lattice points must be for a radius.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Separation {
+    /// Points whose squared distance is below this conflict.
+    pub threshold: i64,
+    /// The largest distance along one axis at which points can conflict.
+    pub reach: i32,
+}
+
+impl Separation {
+    /// That of a radius in lattice units.
+    pub fn new(radius: f64) -> Self {
+        // The guard covers the rounding of the squares here and in the user's own check.
+        let threshold = (radius * radius * (1.0 + 1e-14)).ceil() as i64;
+        Self { threshold, reach: (threshold - 1).isqrt() as i32 }
+    }
+}
 
 /// The lattice of a domain, with the radius in its units.
 #[derive(Clone, Debug)]
@@ -40,10 +53,8 @@ pub(crate) struct Lattice {
     pub boundary: Boundary,
     /// The radius in lattice units.
     pub radius: f64,
-    /// Points whose squared distance is below this conflict.
-    pub threshold: i64,
-    /// The largest distance along one axis at which points can conflict.
-    pub reach: i32,
+    /// What the radius asks of two lattice points.
+    pub separation: Separation,
 }
 
 impl Lattice {
@@ -84,17 +95,15 @@ impl Lattice {
         }
         // No two lattice points are as far apart as 2^26, so a longer radius means the same and only overflows.
         let radius = (radius / unit).min((1 << 26) as f64);
-        let lattice = Self { unit, origin, size, boundary: domain.boundary, radius, threshold: 0, reach: 0 };
-        Ok(lattice.widened(0.0))
+        let lattice =
+            Self { unit, origin, size, boundary: domain.boundary, radius, separation: Separation::new(radius) };
+        Ok(lattice)
     }
 
     /// The same lattice with a radius that is longer by so many units.
     pub fn widened(&self, units: f64) -> Self {
         let radius = self.radius + units;
-        // The guard covers the rounding of the squares here and in the user's own check.
-        let threshold = (radius * radius * (1.0 + 1e-14)).ceil() as i64;
-        let reach = (threshold - 1).isqrt() as i32;
-        Self { radius, threshold, reach, ..self.clone() }
+        Self { radius, separation: Separation::new(radius), ..self.clone() }
     }
 
     /// A square torus of points of this lattice, with the same radius.
@@ -115,7 +124,7 @@ impl Lattice {
         (MAXIMAL_DENSITY * width * height).max(1.0)
     }
 
-    /// The lattice points of a part of the domain, and perhaps the next ones beyond its borders.
+    /// The lattice points of a part of the domain, and perhaps the next ones beyond its boundaries.
     pub fn points_in(&self, part: &Domain) -> Rect {
         // The quotients are rounded, but not across an integer: the first lattice point from `x` on is the integer
         // below them or the next one.
@@ -133,7 +142,7 @@ impl Lattice {
     }
 
     /// A lattice point at most one unit per axis away from any point of `domain`, which is this lattice's; on a torus
-    /// perhaps over the seam. Away from the domain's border it is half a unit.
+    /// perhaps over the seam. Away from the domain's boundary it is half a unit.
     pub fn nearest(&self, domain: &Domain, point: [f32; 2]) -> [i32; 2] {
         std::array::from_fn(|axis| {
             let place = (f64::from(point[axis]) - self.origin[axis]) / self.unit;
@@ -280,10 +289,10 @@ mod tests {
         for radius in [0.013, 0.25, 2e-5, 3.0 / 7.0, 0.5f64.powi(9)] {
             let lattice = lattice([0.0; 2], [1.0; 2], Boundary::Bounded, radius).unwrap();
             let length = |d2: i64| (d2 as f64).sqrt() * lattice.unit;
-            assert!(length(lattice.threshold) >= radius);
-            assert!(length(lattice.threshold - 2) < radius);
-            assert!(i64::from(lattice.reach).pow(2) < lattice.threshold);
-            assert!(i64::from(lattice.reach + 1).pow(2) >= lattice.threshold);
+            assert!(length(lattice.separation.threshold) >= radius);
+            assert!(length(lattice.separation.threshold - 2) < radius);
+            assert!(i64::from(lattice.separation.reach).pow(2) < lattice.separation.threshold);
+            assert!(i64::from(lattice.separation.reach + 1).pow(2) >= lattice.separation.threshold);
         }
     }
 
@@ -291,7 +300,7 @@ mod tests {
     fn a_radius_beyond_every_distance_makes_everything_conflict() {
         let lattice = lattice([-1.0; 2], [1.0; 2], Boundary::Bounded, 1e300).unwrap();
         let diagonal: i64 = lattice.size.iter().map(|&size| i64::from(size).pow(2)).sum();
-        assert!(lattice.threshold > diagonal);
+        assert!(lattice.separation.threshold > diagonal);
     }
 
     /// A thin domain far from the long axis's multiples: its own floats count.
@@ -305,7 +314,7 @@ mod tests {
         }
     }
 
-    /// Parts whose borders are on a lattice point, next to it, or anywhere.
+    /// Parts whose edges are on a lattice point, next to it, or anywhere.
     #[test]
     fn the_points_of_a_part_are_those_that_lie_in_it() {
         let mut rng = Rng::at(1, Draw::Probe, &[]);
@@ -314,12 +323,12 @@ mod tests {
             let max = [0, 1].map(|axis: usize| min[axis] + size[axis] * unit);
             let lattice = lattice(min, max, Boundary::Bounded, 100.0).unwrap();
             for _ in 0..300 {
-                let mut border = |axis: usize| {
+                let mut edge = |axis: usize| {
                     let x = min[axis] + rng.unit() * size[axis] * unit;
                     let on = (x / unit).round() * unit;
                     [x, on, on.next_up(), on.next_down()][rng.below(4) as usize].clamp(min[axis], max[axis])
                 };
-                let corners = [0, 1].map(|_| [border(0), border(1)]);
+                let corners = [0, 1].map(|_| [edge(0), edge(1)]);
                 let [min, max] =
                     [f64::min, f64::max].map(|pick| [0, 1].map(|axis| pick(corners[0][axis], corners[1][axis])));
                 let part = Domain { min, max, boundary: Boundary::Bounded };
@@ -333,7 +342,7 @@ mod tests {
         }
     }
 
-    /// Any floats of odd domains, those next to the borders among them.
+    /// Any floats of odd domains, those next to the boundaries among them.
     #[test]
     fn the_nearest_lattice_point_is_at_most_a_unit_away_per_axis() {
         let mut rng = Rng::at(2, Draw::Probe, &[]);

@@ -1,7 +1,7 @@
 //! The samples around a place, one after the other: what many darts and voxels of it are compared with.
 
-use crate::plane::cells::NOWHERE;
-use crate::plane::near::{LANES, Rows};
+use crate::plane::rect::Rect;
+use crate::plane::rows::{LANES, NOWHERE, Rows};
 
 /// Samples, by their coordinates.
 #[derive(Default)]
@@ -13,13 +13,13 @@ pub(crate) struct List {
 }
 
 impl List {
-    /// Empties the list for [`collect`](super::near::collect) and makes room for so many samples, whenever they come.
-    pub(super) fn clear(&mut self, room: usize) {
+    /// Empties the list for [`collect`], with capacity for so many samples in all.
+    pub(super) fn clear(&mut self, capacity: usize) {
         self.count = 0;
         // Vectors of sixteen are written from any place on.
-        if self.x.len() < room + 2 * LANES {
-            self.x.resize(room + 2 * LANES, NOWHERE);
-            self.y.resize(room + 2 * LANES, NOWHERE);
+        if self.x.len() < capacity + 2 * LANES {
+            self.x.resize(capacity + 2 * LANES, NOWHERE);
+            self.y.resize(capacity + 2 * LANES, NOWHERE);
         }
     }
 
@@ -29,7 +29,7 @@ impl List {
         self.y[self.count..self.count + LANES].fill(NOWHERE);
     }
 
-    /// Adds a sample, for which there must be room.
+    /// Adds a sample; the list must have capacity for it.
     pub(super) fn push(&mut self, [x, y]: [i32; 2]) {
         (self.x[self.count], self.y[self.count]) = (x, y);
         (self.x[self.count + LANES], self.y[self.count + LANES]) = (NOWHERE, NOWHERE);
@@ -47,6 +47,19 @@ impl List {
         let (xs, ys) = (self.x.as_chunks().0, self.y.as_chunks().0);
         let eights = self.count.div_ceil(LANES);
         xs[..eights].iter().zip(&ys[..eights]).map(|(xs, ys)| [xs, ys])
+    }
+}
+
+/// Appends the samples in the first `width` cells of each row that lie in a rectangle to a list that has capacity for all.
+pub(super) fn collect(rows: &Rows, width: usize, rect: &Rect, list: &mut List) {
+    let [xs, ys] = rows.samples;
+    for row in 0..rows.count {
+        let cells = rows.first + row * rows.stride..rows.first + row * rows.stride + width;
+        for (&x, &y) in xs[cells.clone()].iter().zip(&ys[cells]) {
+            // Written in any case and counted only if it is one: which cells have one is not predictable.
+            (list.x[list.count], list.y[list.count]) = (x, y);
+            list.count += usize::from(rect.contains([x, y]));
+        }
     }
 }
 

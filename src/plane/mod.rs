@@ -9,6 +9,7 @@ mod list;
 mod near;
 mod quadtree;
 pub(crate) mod rect;
+mod rows;
 #[allow(unsafe_code)] // Vector instructions.
 mod vectors;
 

@@ -1,19 +1,16 @@
 //! What is near a place of the grid: the coarse tests, in `f32`, that nearly all work of the plane goes through.
 //!
 //! They say what is certain; what they leave open is decided in integers by `cells.rs`. The code here is plain and
-//! portable. [`Level`](super::vectors::Level) picks, once for a grid, the same functions in the widest vectors of the
+//! portable. [`Level`](crate::simd::Level) picks, once for a grid, the same functions in the widest vectors of the
 //! processor, whose results are the same to the bit: no sum has another order, no rounding is left out.
 
-use crate::plane::lattice::Rect;
+use crate::plane::rect::Rect;
 
-use crate::plane::list::List;
+use crate::plane::rows::{LANES, Rows};
 
 /// The share of the squared radius that rounding can add up to, and some more: coordinates are below 5 radii, and each
 /// of a handful of operations is off by at most 2^-24 of its result.
 pub(super) const SLACK: f32 = 1e-5;
-
-/// The cells of a row that are read together: at least as many as conflicts can reach over.
-pub(super) const LANES: usize = 8;
 
 /// At most 13 samples cover something of a cell (Oler's inequality for points r apart that lie at most r from a square of
 /// side r / sqrt(2)), a few more where a torus is so narrow that images of one sample do. Any more are left out.
@@ -25,46 +22,11 @@ pub(super) const ALWAYS: usize = 4;
 /// A coordinate of no sample. Its square is a float.
 pub(super) const FAR: f32 = 1e18;
 
-/// The rows of cells around a place in which samples can conflict with its points. What lies in a row beyond the reach
-/// of conflicts is read too; it is what it is, and cannot conflict. The place of a cell without sample is far away.
-pub(super) struct Rows<'a> {
-    /// The x and the y of the samples of all cells.
-    pub samples: [&'a [i32]; 2],
-    /// Where the first row begins.
-    pub first: usize,
-    /// From one row to the next.
-    pub stride: usize,
-    /// How many rows; there is one at least.
-    pub count: usize,
-}
-
-impl<'a> Rows<'a> {
-    /// The x and the y of each row.
-    pub fn iter(&self) -> impl Iterator<Item = [&'a [i32; LANES]; 2]> {
-        (0..self.count).map(|row| {
-            let start = self.first + row * self.stride;
-            self.samples.map(|samples| samples[start..start + LANES].try_into().expect("eight cells"))
-        })
-    }
-
-    /// The squared distance from a point to the nearest sample of the rows.
-    pub fn nearest(&self, point: [i32; 2]) -> f32 {
-        let mut nearest = [f32::MAX; LANES];
-        for [xs, ys] in self.iter() {
-            for lane in 0..LANES {
-                let (dx, dy) = ((xs[lane] - point[0]) as f32, (ys[lane] - point[1]) as f32);
-                nearest[lane] = nearest[lane].min(dx * dx + dy * dy);
-            }
-        }
-        nearest.into_iter().fold(f32::MAX, f32::min)
-    }
-}
-
 /// The samples that cover something of a cell, as seen from its corner.
 pub(super) struct Near {
     pub origin: [i32; 2],
     /// The first `count` are samples; [`ALWAYS`] and more after them are [`FAR`], so that a few can be tested whether they
-    /// are there or not. How many there are is not predictable. (Level of sixteen are written from any place on.)
+    /// are there or not. How many there are is not predictable. (Vectors of sixteen are written from any place on.)
     pub x: [f32; MOST_NEAR + 2 * LANES],
     pub y: [f32; MOST_NEAR + 2 * LANES],
     pub count: usize,
@@ -123,24 +85,12 @@ impl Near {
     }
 }
 
-/// Appends the samples in the first `width` cells of each row that lie in a rectangle to a list, which has room for all.
-pub(super) fn collect(rows: &Rows, width: usize, rect: &Rect, list: &mut List) {
-    let [xs, ys] = rows.samples;
-    for row in 0..rows.count {
-        let cells = rows.first + row * rows.stride..rows.first + row * rows.stride + width;
-        for (&x, &y) in xs[cells.clone()].iter().zip(&ys[cells]) {
-            // Written in any case and counted only if it is one: which cells have one is not predictable.
-            (list.x[list.count], list.y[list.count]) = (x, y);
-            list.count += usize::from(rect.contains([x, y]));
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use std::array::from_fn;
 
+    use crate::plane::list::List;
     use crate::rng::{Draw, Rng};
     use crate::simd::Level;
 
@@ -174,7 +124,7 @@ mod tests {
         (Rect { min, max }, (width + 3) / 4)
     }
 
-    /// Against exact distances: what is certainly uncovered is kept, what is covered with some room is dropped.
+    /// Against exact distances: what is certainly uncovered is kept, what is covered with some margin is dropped.
     #[test]
     fn the_coarse_tests_say_what_exact_distances_say_except_at_the_very_border() {
         let mut rng = Rng::at(0, Draw::Probe, &[]);

@@ -8,15 +8,23 @@
 //!
 //! Voxels are cut in sixteen by a coarse test (`near.rs`) while they are wide, and exactly in four after that.
 
+use crate::error::Result;
+use crate::job::Job;
 use crate::plane::cells::CellGrid;
-use crate::plane::lattice::Rect;
 use crate::plane::list::List;
 use crate::plane::near::Near;
+use crate::plane::rect::Rect;
 use crate::rng::Rng;
 
 /// Voxels wider than this are cut in sixteen by the coarse test, which has no slack to speak of at this size; others
 /// exactly in four.
 const NARROWEST: i32 = 8;
+
+/// Darts per cell of a whole domain, before any is cut. After that [`darts()`] says how many.
+const DARTS_PER_CELL: usize = 2;
+
+/// Darts between two reports of the progress.
+const DARTS_PER_REPORT: usize = 1 << 16;
 
 /// The deepest voxels that are cut by the coarse test, as a share of the cell: much wider than its slack.
 const DEEPEST: i32 = 1 << 9;
@@ -99,7 +107,7 @@ impl Quadtree {
 
     /// Throws a dart and adds it to the grid if it becomes a sample. There must be voxels left.
     #[inline(always)]
-    pub fn throw(&mut self, grid: &mut CellGrid, rng: &mut Rng) -> Option<[i32; 2]> {
+    fn throw(&mut self, grid: &mut CellGrid, rng: &mut Rng) -> Option<[i32; 2]> {
         let pick = rng.below(self.voxels.len() as u64) as usize;
         let Voxel { rect, cell } = self.voxels[pick];
         grid.throw(cell, &rect, self.width, rng)
@@ -123,8 +131,36 @@ impl Quadtree {
         self.voxels.truncate(left);
     }
 
-    /// Throws darts and cuts voxels until every lattice point is covered, and shows the new samples to `accepted`. Each is
-    /// compared with all voxels: this is for few of them.
+    /// Throws darts and cuts voxels until every lattice point is covered, and shows the new samples to `accepted`. For whole
+    /// domains, of which about `expected` samples are the whole progress: a sample is not compared with the other voxels.
+    pub fn rain(
+        &mut self,
+        job: &Job,
+        grid: &mut CellGrid,
+        rng: &mut Rng,
+        expected: f64,
+        mut accepted: impl FnMut([i32; 2]),
+    ) -> Result<()> {
+        let mut count = 0u64;
+        let mut remaining = DARTS_PER_CELL * self.len();
+        while !self.is_empty() {
+            while remaining > 0 {
+                for _ in 0..remaining.min(DARTS_PER_REPORT) {
+                    if let Some(sample) = self.throw(grid, rng) {
+                        count += 1;
+                        accepted(sample);
+                    }
+                }
+                remaining = remaining.saturating_sub(DARTS_PER_REPORT);
+                job.report((count as f64 / expected).min(0.99))?;
+            }
+            self.refine(grid);
+            remaining = darts(self.len());
+        }
+        Ok(())
+    }
+
+    /// As [`Quadtree::rain`] where there are few voxels: a new sample is compared with all of them.
     #[inline(always)]
     pub fn fill(&mut self, grid: &mut CellGrid, rng: &mut Rng, mut accepted: impl FnMut([i32; 2])) {
         while !self.is_empty() {
@@ -205,11 +241,12 @@ fn quarters(voxel: Rect, width: i32) -> impl Iterator<Item = Rect> {
 mod tests {
     use super::*;
     use crate::plane::CellAxis;
+    use crate::plane::lattice::Separation;
     use crate::rng::Draw;
 
     fn grid(size: [i32; 2]) -> CellGrid {
         let axes = size.map(|size| CellAxis::new(size, 70.0));
-        CellGrid::new(&axes, &Rect { min: [0; 2], max: size }, 4900, 69)
+        CellGrid::new(&axes, &Rect { min: [0; 2], max: size }, Separation { threshold: 4900, reach: 69 })
     }
 
     fn all_cells(grid: &CellGrid) -> Vec<[i32; 2]> {

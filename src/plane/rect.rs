@@ -23,7 +23,7 @@ impl Rect {
         (0..2).any(|axis| self.min[axis] >= self.max[axis])
     }
 
-    /// The rectangle with its borders moved outwards, or inwards by a negative margin.
+    /// The rectangle with its edges moved outwards, or inwards by a negative margin.
     pub fn grown(&self, margin: i32) -> Self {
         Self { min: self.min.map(|x| x - margin), max: self.max.map(|x| x + margin) }
     }

@@ -2,7 +2,8 @@
 
 use std::time::Instant;
 
-use azulejo::kdrt::{self, Stages};
+use azulejo::kdrt;
+use azulejo::kdrt::stages::Stages;
 use azulejo::{Boundary, Context, Domain, Progress, Result};
 
 use super::kdrt::{Effort, LEAF_SIZES, Sampler, radius};
@@ -41,7 +42,7 @@ impl Times {
                 leaf_size,
                 one_thread,
                 rates: [rate(&one)?, rate(context)?],
-                stages: kdrt::measure(&options)?,
+                stages: kdrt::stages::measure(&options)?,
             });
             _ = progress((i + 1) as f64 / LEAF_SIZES.len() as f64);
         }

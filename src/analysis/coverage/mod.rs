@@ -1,12 +1,12 @@
 //! Coverage: how far the domain or the surface is from the samples.
 
+mod disjoint_sets;
 mod gaps;
-mod groups;
 mod nearest;
 mod surface;
 mod tree;
 
-use crate::analysis::probes::Surface;
+use crate::analysis::probes::AreaSampler;
 use crate::error::Result;
 use crate::geometry::grid3::{Grid3, distance_squared};
 use crate::job::{Context, Job, Progress, chunks, chunks_of};
@@ -89,7 +89,7 @@ pub(super) fn covering_radius(job: &Job, domain: &Domain, points: &[[f32; 2]]) -
         return Ok(f64::INFINITY);
     }
     let nearest = Nearest::new(&job.part(0.0, 0.2), domain, points)?;
-    let cells = Cells::about(domain, points.len());
+    let cells = SearchCells::about(domain, points.len());
     let tasks = chunks_of(cells.len(), TASK);
     let distance = |cell: usize| {
         let [x, y] = nearest.offset(cells.get(cell).centre);
@@ -104,20 +104,20 @@ pub(super) fn covering_radius(job: &Job, domain: &Domain, points: &[[f32; 2]]) -
 
 /// A rectangle of the domain.
 #[derive(Clone, Copy)]
-struct Cell {
+struct SearchCell {
     centre: [f64; 2],
     half: [f64; 2],
 }
 
 /// The domain divided into equal cells.
-struct Cells {
+struct SearchCells {
     min: [f64; 2],
     half: [f64; 2],
     columns: usize,
     rows: usize,
 }
 
-impl Cells {
+impl SearchCells {
     /// At least `count` cells, about square where the domain is not too thin for it, and not many times more.
     fn about(domain: &Domain, count: usize) -> Self {
         let extent = domain.extent();
@@ -131,20 +131,20 @@ impl Cells {
         self.columns * self.rows
     }
 
-    fn get(&self, cell: usize) -> Cell {
+    fn get(&self, cell: usize) -> SearchCell {
         let place = [cell % self.columns, cell / self.columns];
         let centre = std::array::from_fn(|axis| self.min[axis] + (2 * place[axis] + 1) as f64 * self.half[axis]);
-        Cell { centre, half: self.half }
+        SearchCell { centre, half: self.half }
     }
 }
 
 /// The largest distance of a place in the cells from the points, if it is above the one that is known.
-fn farthest(nearest: &Nearest, mut cells: Vec<Cell>, known: f64) -> f64 {
+fn farthest(nearest: &Nearest, mut cells: Vec<SearchCell>, known: f64) -> f64 {
     let mut farthest = known;
     while !cells.is_empty() {
         let offsets: Vec<[f64; 2]> = cells.iter().map(|cell| nearest.offset(cell.centre).map(f64::abs)).collect();
         farthest = offsets.iter().map(|&[x, y]| x.hypot(y)).fold(farthest, f64::max);
-        let could_exceed = |cell: &Cell, offset: [f64; 2]| cell.bound(offset) > farthest * (1.0 + PRECISION);
+        let could_exceed = |cell: &SearchCell, offset: [f64; 2]| cell.bound(offset) > farthest * (1.0 + PRECISION);
         cells = std::iter::zip(&cells, offsets)
             .filter(|&(cell, offset)| could_exceed(cell, offset))
             .flat_map(|(cell, offset)| cell.parts(offset))
@@ -153,7 +153,7 @@ fn farthest(nearest: &Nearest, mut cells: Vec<Cell>, known: f64) -> f64 {
     farthest
 }
 
-impl Cell {
+impl SearchCell {
     /// A bound for the distances of the cell's points, from the offset of the sample that is nearest to its centre: they
     /// are no farther from this sample than the corner on the other side.
     fn bound(&self, offset: [f64; 2]) -> f64 {
@@ -162,19 +162,19 @@ impl Cell {
 
     /// Halves or quarters: divided along each axis that has a large part in the bound. In a thin domain that is the long
     /// axis alone, and cells do not become many more than are needed along the short one.
-    fn parts(&self, offset: [f64; 2]) -> impl Iterator<Item = Cell> + use<> {
+    fn parts(&self, offset: [f64; 2]) -> impl Iterator<Item = SearchCell> + use<> {
         let Self { centre, half } = *self;
         let excess: [f64; 2] = std::array::from_fn(|axis| half[axis] * (2.0 * offset[axis] + half[axis]));
         let larger = excess[0].max(excess[1]);
         let count = excess.map(|excess| if 4.0 * excess >= larger { 2 } else { 1 });
-        // What floats at the cell's place cannot tell apart is not divided any further.
+        // A cell that is as small as the float spacing at its place is not divided any further.
         let half: [f64; 2] = std::array::from_fn(|axis| {
             let part = half[axis] / f64::from(count[axis]);
             if centre[axis] + part == centre[axis] { 0.0 } else { part }
         });
         let along = move |axis: usize, part| centre[axis] + f64::from(2 * part + 1 - count[axis]) * half[axis];
         (0..count[1]).flat_map(move |row| {
-            (0..count[0]).map(move |column| Cell { centre: [along(0, column), along(1, row)], half })
+            (0..count[0]).map(move |column| SearchCell { centre: [along(0, column), along(1, row)], half })
         })
     }
 }
@@ -203,7 +203,7 @@ pub fn surface_uncovered_fraction(
     if mesh.area() == 0.0 {
         return Ok(0.0);
     }
-    let surface = Surface::new(mesh);
+    let surface = AreaSampler::new(mesh);
     let chunks = chunks(probes as usize);
     let mut uncovered = 0;
     context.run(progress, |job| {

@@ -11,7 +11,7 @@
 //! projected likewise.
 //!
 //! *Normalisation.* The pairs on a surface are divided by the pairs of the samples with random points of the surface
-//! (Davis and Peebles 1983, "A survey of galaxy redshifts"): borders, curvature and other sheets near by cancel. In the plane the
+//! (Davis and Peebles 1983, "A survey of galaxy redshifts"): boundaries, curvature and other sheets near by cancel. In the plane the
 //! expectation is known; in a bounded domain a pair counts by one over the share of the domain that stays in it when
 //! it is moved by their difference (Ohser and Stoyan 1981, "On the second-order analysis of stationary point processes").
 //!
@@ -26,13 +26,13 @@ use std::f64::consts::SQRT_2;
 
 use glam::{DVec2, DVec3};
 
-use crate::analysis::probes::Surface;
+use crate::analysis::probes::AreaSampler;
 use crate::error::{Error, Result};
 use crate::job::{Context, Job, Progress, chunks};
 use crate::mesh::{Mesh, exact};
 use crate::points::{Boundary, Domain};
 
-use pairs::Cells;
+use pairs::PairGrid;
 
 pub use radial::Shell;
 
@@ -64,7 +64,7 @@ struct Counts {
 }
 
 /// A sample and the directions in which its offsets are seen.
-struct Local {
+struct LocalFrame {
     x: DVec3,
     y: DVec3,
 }
@@ -99,7 +99,7 @@ pub fn plane_differences(
         Boundary::Periodic => 1.0,
         Boundary::Bounded => (1.0 - offset.truncate().abs() / extent).element_product().recip(),
     };
-    let locals: Vec<_> = points.iter().map(|_| Local { x: DVec3::X, y: DVec3::Y }).collect();
+    let locals: Vec<_> = points.iter().map(|_| LocalFrame { x: DVec3::X, y: DVec3::Y }).collect();
     let others = [&places[..], &images].concat();
     let found = context.run(progress, |job| count(job, &places, &locals, &others, true, weight))?;
     Ok(Differences { found, expected: Counts::of_poisson_process(points.len()) })
@@ -140,8 +140,8 @@ pub fn surface_differences(
     }
     let unit = (mesh.area() / positions.len() as f64).sqrt();
     let places: Vec<_> = positions.iter().map(|&position| exact(position) / unit).collect();
-    let locals: Vec<_> = normals.iter().map(|&normal| Local::on_surface(exact(normal), direction)).collect();
-    let surface = Surface::new(mesh);
+    let locals: Vec<_> = normals.iter().map(|&normal| LocalFrame::on_surface(exact(normal), direction)).collect();
+    let surface = AreaSampler::new(mesh);
     let probes = chunks(PROBES * positions.len());
     let probe = |number: usize| exact(surface.probe(seed, number as u64)) / unit;
     context.run(progress, |job| {
@@ -178,15 +178,15 @@ fn images(places: &[DVec3], extent: DVec2) -> Vec<DVec3> {
 fn count(
     job: &Job,
     firsts: &[DVec3],
-    locals: &[Local],
+    locals: &[LocalFrame],
     others: &[DVec3],
     same: bool,
     weight: impl Fn(DVec3) -> f64 + Sync,
 ) -> Result<Counts> {
     let side = pairs::side([firsts, others], REACH);
-    let firsts = Cells::new(firsts, side);
+    let firsts = PairGrid::new(firsts, side);
     job.report(0.02)?;
-    let others = Cells::new(others, side);
+    let others = PairGrid::new(others, side);
     let tasks = firsts.tasks(&job.part(0.04, 0.1), &others, REACH)?;
     let count = |task: usize| {
         let mut counts = Counts::none();
@@ -197,7 +197,7 @@ fn count(
             others.near(firsts, REACH).iter().for_each(|points| near.extend_from_slice(points));
             for &(first, from) in firsts {
                 let local = &locals[first as usize];
-                for hit in hits_among(&near, from, &mut hits).iter().filter(|hit| !(same && hit.other == first)) {
+                for hit in encounters_among(&near, from, &mut hits).iter().filter(|hit| !(same && hit.other == first)) {
                     counts.add(hit.offset, hit.squared.sqrt(), local, weight(hit.offset));
                 }
             }
@@ -214,7 +214,7 @@ fn count(
 
 /// A point within the reach of another one.
 #[derive(Clone, Copy, Default)]
-struct Hit {
+struct Encounter {
     other: u32,
     offset: DVec3,
     squared: f64,
@@ -222,19 +222,19 @@ struct Hit {
 
 /// The points within the reach of a place. All are written down, and the next takes the place of one that is no hit: no
 /// processor could guess which it will be.
-fn hits_among<'a>(near: &[(u32, DVec3)], from: DVec3, hits: &'a mut Vec<Hit>) -> &'a [Hit] {
-    hits.resize(hits.len().max(near.len()), Hit::default());
+fn encounters_among<'a>(near: &[(u32, DVec3)], from: DVec3, hits: &'a mut Vec<Encounter>) -> &'a [Encounter] {
+    hits.resize(hits.len().max(near.len()), Encounter::default());
     let mut count = 0;
     for &(other, to) in near {
         let offset = to - from;
         let squared = offset.length_squared();
-        hits[count] = Hit { other, offset, squared };
+        hits[count] = Encounter { other, offset, squared };
         count += usize::from(squared < REACH * REACH);
     }
     &hits[..count]
 }
 
-impl Local {
+impl LocalFrame {
     fn on_surface(normal: DVec3, direction: DVec3) -> Self {
         let normal = normal.try_normalize().unwrap_or(DVec3::Z);
         let along = direction.reject_from_normalized(normal).try_normalize();
@@ -265,7 +265,7 @@ impl Counts {
         counts
     }
 
-    fn add(&mut self, offset: DVec3, length: f64, local: &Local, weight: f64) {
+    fn add(&mut self, offset: DVec3, length: f64, local: &LocalFrame, weight: f64) {
         let last = self.shells.len() - 1;
         self.shells[((length / SHELL_WIDTH) as usize).min(last)] += weight;
         if length < GRID_REACH * SQRT_2 {

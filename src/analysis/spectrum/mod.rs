@@ -19,7 +19,7 @@ use crate::error::{Error, Result};
 use crate::job::{Context, Progress};
 use crate::points::{Boundary, Domain};
 
-use transform::{Waves, Weighted, transform};
+use transform::{Coefficients, Weighted, transform};
 
 pub use radial::{Annulus, Peak};
 
@@ -46,7 +46,7 @@ pub struct Periodogram {
 /// The periodogram of `points`, `size` by `size` frequencies with frequency 0 in row and column `size / 2`.
 ///
 /// On a periodic domain all points count, on a bounded one those inside it (see the [module](self)). The power at
-/// frequency 0, which only tells the number of points, is 0.
+/// frequency 0, which is only the number of points, is 0.
 ///
 /// O(points + size² log size) in time, 100,000 points at size 1,600 take about 0.2 s on one core; in memory about 40
 /// bytes per point and as many per frequency.
@@ -100,7 +100,7 @@ pub fn sparse_periodogram(
     };
     let mean = Mean { weight: weighted.iter().map(|point| point.weight).sum(), boundary: domain.boundary };
     let half = size / 2;
-    let power = |waves: &Waves, row: usize| {
+    let power = |waves: &Coefficients, row: usize| {
         let power = (0..size).map(|column| match [column, row].map(|k| k as i64 - half as i64) {
             [0, 0] => 0.0,
             [column, row] => {

@@ -13,6 +13,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use crate::dcr::ground::flips::must_flip;
 use crate::dcr::ground::torus::{Torus, TorusPoint};
 use crate::error::Result;
+use crate::geometry::counting_sort::Binned;
 use crate::geometry::delaunay::Delaunay;
 use crate::job::{Job, chunks_of};
 
@@ -71,30 +72,17 @@ impl HalfEdgeMesh {
     /// Matches the half-edges; whether all could be.
     fn find_twins(&mut self) -> bool {
         let edges = || (0..self.triangles.len() as u32).flat_map(|triangle| (0..3).map(move |k| 4 * triangle + k));
-        // The half-edges that start at point `p` are `outgoing[starts[p]..starts[p + 1]]`.
-        let mut starts = vec![0u32; self.first.len() + 1];
-        edges().for_each(|edge| starts[self.origin(edge) as usize + 1] += 1);
-        for point in 1..starts.len() {
-            starts[point] += starts[point - 1];
-        }
-        let (mut ends, mut outgoing) = (starts.clone(), vec![0u32; 3 * self.triangles.len()]);
-        for edge in edges() {
-            let end = &mut ends[self.origin(edge) as usize];
-            outgoing[*end as usize] = edge;
-            *end += 1;
-        }
+        let outgoing = Binned::new(self.first.len(), edges().map(|edge| (self.origin(edge) as usize, edge)));
         let twin = |edge: u32| {
             let (from, to) = (self.origin(edge), self.origin(next(edge)) as usize);
-            let mut back = outgoing[starts[to] as usize..starts[to + 1] as usize].iter().copied();
-            let mut back = back.by_ref().filter(|&back| self.origin(next(back)) == from);
+            let mut back = outgoing.bin(to).iter().copied().filter(|&back| self.origin(next(back)) == from);
             // Two edges between the same points cannot be told apart.
             back.next().filter(|_| back.next().is_none())
         };
         let Some(twins) = edges().map(twin).collect::<Option<Vec<u32>>>() else { return false };
         let matched = |(edge, &twin): (u32, &u32)| twins[(3 * (twin >> 2) + (twin & 3)) as usize] == edge;
         let matched = edges().zip(&twins).all(matched);
-        let firsts: Vec<u32> =
-            starts.windows(2).filter(|pair| pair[0] < pair[1]).map(|pair| outgoing[pair[0] as usize]).collect();
+        let firsts: Vec<u32> = (0..outgoing.len()).filter_map(|point| outgoing.bin(point).first().copied()).collect();
         let complete = firsts.len() == self.first.len();
         for (triangle, twins) in self.triangles.iter_mut().zip(twins.chunks(3)) {
             triangle.twins.copy_from_slice(twins);

@@ -10,6 +10,7 @@
 use glam::DVec3;
 
 use crate::error::{Error, Result};
+use crate::geometry::counting_sort::Binned;
 use crate::geometry::grid3::{Grid3, distance_squared};
 use crate::mesh::{Mesh, exact};
 
@@ -44,22 +45,15 @@ impl<'a> ConnectedMesh<'a> {
 
     /// Links the half-edges between the same two vertices.
     fn linked(&self) -> Vec<u32> {
-        // The edges whose lower vertex is `v`: `ends[starts[v]..starts[v + 1]]`, each with its higher vertex.
-        let mut starts = vec![0u32; self.vertices.len() + 1];
-        self.edges().for_each(|edge| starts[self.vertices_of(edge)[0] as usize + 1] += 1);
-        for vertex in 1..starts.len() {
-            starts[vertex] += starts[vertex - 1];
-        }
-        let mut ends = vec![(0, 0); starts[self.vertices.len()] as usize];
-        let mut places = starts.clone();
-        for edge in self.edges() {
+        // The edges by their lower vertex, each with its higher one.
+        let ends = self.edges().map(|edge| {
             let [low, high] = self.vertices_of(edge);
-            ends[places[low as usize] as usize] = (high, edge);
-            places[low as usize] += 1;
-        }
+            (low as usize, (high, edge))
+        });
+        let mut ends = Binned::new(self.vertices.len(), ends);
         let mut around: Vec<u32> = (0..3 * self.mesh.triangles().len() as u32).collect();
-        for range in starts.windows(2) {
-            let ends = &mut ends[range[0] as usize..range[1] as usize];
+        for vertex in 0..ends.len() {
+            let ends = ends.bin_mut(vertex);
             ends.sort_unstable();
             for same in ends.chunk_by(|a, b| a.0 == b.0) {
                 let others = same.iter().cycle().skip(1);
@@ -70,7 +64,7 @@ impl<'a> ConnectedMesh<'a> {
     }
 
     /// The half-edges of all triangles that are not ignored.
-    fn edges(&self) -> impl Iterator<Item = u32> {
+    fn edges(&self) -> impl Iterator<Item = u32> + Clone {
         self.mesh
             .sampled_triangles()
             .map(|triangle| 3 * triangle)

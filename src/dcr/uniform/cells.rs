@@ -13,6 +13,7 @@ use glam::Vec2;
 use crate::dcr::ground::constraints::Constraints;
 use crate::dcr::ground::torus::{Torus, TorusPoint};
 use crate::error::Result;
+use crate::geometry::counting_sort::Binned;
 use crate::job::{Job, chunks};
 
 /// The width of cells beyond the reach of the forces, in spacings.
@@ -44,10 +45,9 @@ pub(super) struct VerletCells {
     travelled: f32,
     /// The first cell of the run around each point, doubled, and 1 more in the upper half of a row.
     runs: Vec<u32>,
-    /// Cell `c` holds the points `points[starts[c]..starts[c + 1]]`.
-    starts: Vec<u32>,
-    points: Vec<u32>,
-    /// The coordinates of these points, and some more to fill the lanes.
+    /// The points by cells.
+    points: Binned<u32>,
+    /// Their coordinates, and some more to fill the lanes.
     x: Vec<u32>,
     y: Vec<u32>,
 }
@@ -70,27 +70,21 @@ impl VerletCells {
             (2 * (half / 2 * stride + along(columns, x)) + half % 2) as u32
         };
         let runs: Vec<u32> = places.iter().map(run).collect();
-        // The cells at the ends of rows, and their repetitions.
-        let twins = (0..rows).map(|row| row * stride);
-        let twins = twins.flat_map(|row| [(row + columns, row), (row + near, row + near + columns)]);
-        let mut starts = vec![0; rows * stride + 1];
-        let cell = |run: u32| run as usize / 2 + near;
-        runs.iter().for_each(|&run| starts[cell(run) + 1] += 1);
-        twins.clone().for_each(|(from, to)| starts.copy_within(from + 1..from + 1 + near, to + 1));
-        for cell in 1..starts.len() {
-            starts[cell] += starts[cell - 1];
-        }
-        let (mut points, mut slots) = (vec![0; starts[rows * stride] as usize], starts.clone());
-        for (point, &run) in (0..).zip(&runs) {
-            let slot = &mut slots[cell(run)];
-            points[*slot as usize] = point;
-            *slot += 1;
-        }
-        for (from, to) in twins {
-            points.copy_within(starts[from] as usize..starts[from + near] as usize, starts[to] as usize);
-        }
-        let [x, y] = [0, 1].map(|_| vec![0; points.len() + LANES]);
-        Self { torus: *torus, rows, stride, width: 2 * near + 1, reach, travelled: 0.0, runs, starts, points, x, y }
+        // Points in the cells at one end of a row are repeated beyond the other.
+        let repetition = |cell: usize, column: usize| match column {
+            _ if near == 0 => None,
+            column if column < near => Some(cell + columns),
+            column if column >= columns - near => Some(cell - columns),
+            _ => None,
+        };
+        let points = (0..).zip(places).zip(&runs).flat_map(|((point, &[x, _]), &run)| {
+            let cell = run as usize / 2 + near;
+            let cells = [Some(cell), repetition(cell, along(columns, x))];
+            cells.into_iter().flatten().map(move |cell| (cell, point))
+        });
+        let points = Binned::new(rows * stride, points);
+        let [x, y] = [0, 1].map(|_| vec![0; points.items().len() + LANES]);
+        Self { torus: *torus, rows, stride, width: 2 * near + 1, reach, travelled: 0.0, runs, points, x, y }
     }
 
     /// Whether all forces of this reach are still found after a step in which points have moved by up to `distance`.
@@ -101,8 +95,9 @@ impl VerletCells {
 
     /// Updates the coordinates.
     pub(super) fn update(&mut self, job: &Job, places: &[TorusPoint]) -> Result<()> {
-        let chunks = chunks(self.points.len());
-        let parts = self.points.chunks(chunks.size()).zip(self.x.chunks_mut(chunks.size()));
+        let points = self.points.items();
+        let chunks = chunks(points.len());
+        let parts = points.chunks(chunks.size()).zip(self.x.chunks_mut(chunks.size()));
         let parts = parts.zip(self.y.chunks_mut(chunks.size()));
         job.map_each(parts.collect(), |((points, x), y)| {
             for ((&point, x), y) in points.iter().zip(x).zip(y) {
@@ -117,7 +112,7 @@ impl VerletCells {
     pub(super) fn around(&self, point: usize) -> [Range<usize>; 2] {
         let (first, half) = (self.runs[point] as usize / 2, self.runs[point] % 2);
         let all = self.rows * self.stride;
-        let run = |first: usize| self.starts[first] as usize..self.starts[first + self.width] as usize;
+        let run = |first: usize| self.points.range(first..first + self.width);
         let other = match half {
             _ if self.rows == 1 => return [run(first), 0..0],
             0 if first < self.stride => first + all - self.stride,

@@ -11,6 +11,7 @@ use spade::{DelaunayTriangulation, HasPosition, Point2, Triangulation};
 use crate::dcr::ground::torus::{Torus, TorusPoint, nudge};
 use crate::dcr::uniform::rings::RingList;
 use crate::error::Result;
+use crate::geometry::counting_sort::Binned;
 use crate::job::Job;
 
 /// The least number of points of a tile on average; it can be four times as high.
@@ -42,9 +43,8 @@ struct Tiles<'a> {
     torus: &'a Torus,
     places: &'a [TorusPoint],
     level: u32,
-    /// Tile `t` holds the points `points[starts[t]..starts[t + 1]]`.
-    starts: Vec<u32>,
-    points: Vec<u32>,
+    /// The points by tiles.
+    points: Binned<u32>,
 }
 
 /// The rings of all points. None for sets that are too small, and if a star is not enclosed in the margin of its tile.
@@ -62,19 +62,10 @@ pub(super) fn triangulate(job: &Job, torus: &Torus, places: &[TorusPoint]) -> Re
 
 impl<'a> Tiles<'a> {
     fn new(torus: &'a Torus, places: &'a [TorusPoint], level: u32) -> Self {
-        let mut tiles = Self { torus, places, level, starts: Vec::new(), points: vec![0; places.len()] };
-        // Counts are stored two tiles ahead and positions one tile ahead, so that the starts are right when all points are sorted.
-        let mut starts = vec![0; (1 << (2 * level)) + 2];
-        places.iter().for_each(|&place| starts[tiles.tile(place) + 2] += 1);
-        for tile in 2..starts.len() {
-            starts[tile] += starts[tile - 1];
-        }
-        for (point, &place) in (0..).zip(places) {
-            let next = &mut starts[tiles.tile(place) + 1];
-            tiles.points[*next as usize] = point;
-            *next += 1;
-        }
-        Self { starts, ..tiles }
+        let tiles = Self { torus, places, level, points: Binned::default() };
+        let points = (0..).zip(places).map(|(point, &place)| (tiles.tile(place), point));
+        let points = Binned::new(1 << (2 * level), points);
+        Self { points, ..tiles }
     }
 
     fn tile(&self, place: TorusPoint) -> usize {
@@ -123,7 +114,7 @@ impl<'a> Tiles<'a> {
         let mut vertices = Vec::new();
         for [column, row] in around.into_iter().flatten() {
             let tile = (row * side + column) as usize;
-            for &point in &self.points[self.starts[tile] as usize..self.starts[tile + 1] as usize] {
+            for &point in self.points.bin(tile) {
                 let offset = self.torus.offset(middle, self.places[point as usize]) + nudge(point);
                 let position = offset + 0.5 * size;
                 if position.cmpge(DVec2::splat(-MARGIN)).all() && position.cmple(size + MARGIN).all() {

@@ -1,7 +1,7 @@
 //! Exactly N samples (thesis §2.5.3), and still a maximal set.
 //!
 //! Departure: the thesis makes about N samples and then inserts the rest into the largest triangles, which brings
-//! samples closer together than the radius, or eliminates those that are too many, which leaves gaps. Here a set of
+//! samples closer together than the radius, or eliminates the surplus, which leaves gaps. Here a set of
 //! about N samples is changed in small places only (`tune.rs`): the samples of a place are taken out and it is filled
 //! again, as KDRT fills its gaps, until it holds as many more or fewer as wanted. The radius is kept, and so is the
 //! coverage.
@@ -18,7 +18,8 @@ use crate::points::{Boundary, Domain};
 use crate::rng::{Draw, hash};
 use crate::setters::setters;
 
-use crate::kdrt::{DEFAULT_LEAF_SIZE, check_leaf_size, sample_lattice};
+use crate::kdrt::options::{DEFAULT_LEAF_SIZE, check_leaf_size};
+use crate::kdrt::sample::sample_lattice;
 use search::Search;
 use thin::thin;
 use tune::tune;

@@ -1,6 +1,6 @@
 //! The radius of a maximal set with a given number of samples, from the density of such sets and from what was made.
 
-use crate::plane::lattice::MAXIMAL_DENSITY;
+use crate::points::MAXIMAL_DENSITY;
 use crate::points::{Boundary, Domain};
 
 /// Samples per radius on a line: Rényi's parking constant.

@@ -115,7 +115,7 @@ pub struct MergeReport {
 ///   are filled.
 /// * Only the seams change. A sample of a piece goes only if it is closer than `radius` to a fixed point, or to a sample
 ///   that stays of another piece, or of its own over the seam of a torus. If the pieces are maximal as
-///   [`sample`](super::sample) makes them, new samples lie within `radius` of a sample that went or of the border of a
+///   [`sample`](super::sample) makes them, new samples lie within `radius` of a sample that went or of the boundary of a
 ///   piece's rectangle.
 /// * Which of two pieces loses samples to the other depends on `seed` and their places in `pieces`.
 /// * The same for every number of threads.

@@ -2,8 +2,9 @@
 
 use std::arch::x86_64::*;
 
-use crate::plane::lattice::Rect;
-use crate::plane::near::{ALWAYS, FAR, LANES, MOST_NEAR, Near, Rows};
+use crate::plane::near::{ALWAYS, FAR, MOST_NEAR, Near};
+use crate::plane::rect::Rect;
+use crate::plane::rows::{LANES, Rows};
 
 /// A row of cells: coordinates along one axis.
 #[inline]

@@ -2,10 +2,10 @@
 
 use std::arch::x86_64::*;
 
-use crate::plane::cells::NOWHERE;
-use crate::plane::lattice::Rect;
 use crate::plane::list::List;
-use crate::plane::near::{ALWAYS, FAR, LANES, MOST_NEAR, Near, Rows};
+use crate::plane::near::{ALWAYS, FAR, MOST_NEAR, Near};
+use crate::plane::rect::Rect;
+use crate::plane::rows::{LANES, NOWHERE, Rows};
 
 /// Visits the rows by twos, as the x and the y of sixteen cells; a last one alone has a row of nothing beside it.
 #[inline(always)]
@@ -108,7 +108,7 @@ pub fn uncovered(near: &Near, voxel: &Rect, width: i32) -> u16 {
         & _mm512_cmp_ps_mask::<_CMP_GE_OQ>(rows.1, zero)
 }
 
-/// [`collect`](crate::plane::near::collect).
+/// [`collect`](crate::plane::list::collect).
 #[inline]
 #[target_feature(enable = "avx512f,popcnt")]
 pub fn collect(rows: &Rows, width: usize, rect: &Rect, list: &mut List) {

@@ -1,8 +1,9 @@
 //! Which vectors there are: the functions of `near.rs` in AVX2 and AVX-512, chosen at run time, the same to the bit.
 
-use crate::plane::lattice::Rect;
-use crate::plane::list::List;
-use crate::plane::near::{self, Near, Rows};
+use crate::plane::list::{self, List};
+use crate::plane::near::Near;
+use crate::plane::rect::Rect;
+use crate::plane::rows::Rows;
 use crate::simd::Level;
 
 #[cfg(target_arch = "x86_64")]
@@ -53,14 +54,14 @@ impl Level {
         }
     }
 
-    /// [`near::collect`].
+    /// [`list::collect`].
     #[inline]
     pub(super) fn collect(self, rows: &Rows, width: usize, rect: &Rect, list: &mut List) {
         match self {
             // SAFETY: the variant says that the processor has the vectors.
             #[cfg(target_arch = "x86_64")]
             Self::Avx512(_) => unsafe { avx512::collect(rows, width, rect, list) },
-            _ => near::collect(rows, width, rect, list),
+            _ => list::collect(rows, width, rect, list),
         }
     }
 }

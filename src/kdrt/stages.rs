@@ -1,14 +1,15 @@
-//! What each stage of KDRT does and takes (thesis table 2.2 and fig. 2.13).
+//! What each stage of KDRT does and takes (thesis table 2.2 and fig. 2.13), for benchmarks and studies: not a part of the API.
 
 use std::hint::black_box;
 use std::time::{Duration, Instant};
 
 use crate::error::Result;
 use crate::job::Context;
-use crate::plane::lattice::{Lattice, Rect};
+use crate::plane::lattice::Lattice;
+use crate::plane::rect::Rect;
 
-use crate::kdrt::Options;
-use crate::kdrt::plane::Plane;
+use crate::kdrt::options::Options;
+use crate::kdrt::tiling::Tiling;
 
 /// What each stage of KDRT did and took, on one thread.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -46,30 +47,30 @@ pub struct Stages {
 /// Those of [`sample`](super::sample).
 pub fn measure(options: &Options) -> Result<Stages> {
     let &Options { radius, domain, leaf_size, seed } = options;
-    crate::kdrt::check_leaf_size(leaf_size)?;
+    crate::kdrt::options::check_leaf_size(leaf_size)?;
     let lattice = Lattice::new(&domain, radius)?;
     let (context, mut stages) = (Context::new(1)?, Stages::default());
-    if !Plane::is_worthwhile(&lattice, leaf_size) {
-        let samples = timed(&mut stages.pattern, || crate::kdrt::sample(&context, options, None))?;
+    if !Tiling::is_worthwhile(&lattice, leaf_size) {
+        let samples = timed(&mut stages.pattern, || crate::kdrt::sample::sample(&context, options, None))?;
         return Ok(Stages { samples: samples.len() as u64, ..stages });
     }
-    let plane = timed(&mut stages.pattern, || context.run(None, |job| Plane::new(job, lattice, leaf_size, seed)))?;
+    let tiling = timed(&mut stages.pattern, || context.run(None, |job| Tiling::new(job, lattice, leaf_size, seed)))?;
     let mut all = Vec::new();
-    for window in plane.windows() {
-        let samples = measure_window(&plane, &window, &mut stages);
+    for window in tiling.windows() {
+        let samples = measure_window(&tiling, &window, &mut stages);
         timed(&mut stages.output, || all.extend_from_slice(&samples));
     }
     stages.samples = all.len() as u64;
     Ok(stages)
 }
 
-fn measure_window(plane: &Plane, window: &Rect, stages: &mut Stages) -> Vec<[f32; 2]> {
-    let (known, held) = (plane.surroundings(window), plane.rect(window));
-    let leaves = timed(&mut stages.divide, || plane.leaves(&known));
+fn measure_window(tiling: &Tiling, window: &Rect, stages: &mut Stages) -> Vec<[f32; 2]> {
+    let (known, held) = (tiling.surroundings(window), tiling.rect(window));
+    let leaves = timed(&mut stages.divide, || tiling.leaves(&known));
     let mut clip = Duration::ZERO;
-    timed(&mut clip, || black_box(plane.clip(&known, &leaves)));
+    timed(&mut clip, || black_box(tiling.clip(&known, &leaves)));
     let mut merge = Duration::ZERO;
-    let merged = timed(&mut merge, || plane.merge(&known, window, &leaves));
+    let merged = timed(&mut merge, || tiling.merge(&known, window, &leaves));
     stages.clip += clip;
     stages.eliminate += merge.saturating_sub(clip);
 
@@ -78,7 +79,7 @@ fn measure_window(plane: &Plane, window: &Rect, stages: &mut Stages) -> Vec<[f32
     stages.clipped += survivors + eliminated;
     stages.tested += merged.grid.samples_in(&held).count() as u64 + eliminated;
     stages.eliminated += eliminated;
-    let samples = timed(&mut stages.fill, || plane.fill(window, &leaves, merged));
+    let samples = timed(&mut stages.fill, || tiling.fill(window, &leaves, merged));
     stages.filled += samples.len() as u64 - survivors;
     samples
 }
@@ -102,7 +103,7 @@ mod tests {
             for (radius, leaf_size) in [(0.004, 20.0), (0.007, 6.0), (0.2, 20.0)] {
                 let options = Options::new(radius).domain(Domain::unit(boundary)).leaf_size(leaf_size).seed(3);
                 let stages = measure(&options).unwrap();
-                let samples = crate::kdrt::sample(&Context::new(1).unwrap(), &options, None).unwrap();
+                let samples = crate::kdrt::sample::sample(&Context::new(1).unwrap(), &options, None).unwrap();
                 assert_eq!(stages.samples, samples.len() as u64);
                 if stages.clipped > 0 {
                     assert_eq!(stages.samples, stages.clipped - stages.eliminated + stages.filled);

@@ -10,16 +10,17 @@ mod randomness;
 
 use crate::error::Result;
 use crate::job::Job;
-use crate::plane::lattice::{Lattice, Rect};
+use crate::plane::lattice::Lattice;
+use crate::plane::rect::Rect;
 use crate::plane::{CellAxis, CellGrid};
 use crate::points::Boundary;
 
-use crate::kdrt::MIN_LEAF_SIZE;
-use crate::kdrt::blocks::{Blocks, PHASES};
+use crate::kdrt::blocks::{Block, Blocks, PHASES};
 use crate::kdrt::clip::{Pattern, pattern_side};
 use crate::kdrt::conquer::{LONGEST_CHAIN, SeamCells, merge};
 use crate::kdrt::divide::{Leaf, Tree};
-use crate::kdrt::fill::{Block, Filling};
+use crate::kdrt::fill::Filling;
+use crate::kdrt::options::MIN_LEAF_SIZE;
 use crate::kdrt::output::Output;
 use crate::kdrt::stamp::Stamps;
 
@@ -36,7 +37,7 @@ pub(super) struct Merged<'a> {
 }
 
 /// A maximal set of a whole domain, of which any window can be made.
-pub(super) struct Plane {
+pub(super) struct Tiling {
     lattice: Lattice,
     axes: [CellAxis; 2],
     tree: Tree,
@@ -45,7 +46,7 @@ pub(super) struct Plane {
     stamps: Stamps,
 }
 
-impl Plane {
+impl Tiling {
     /// Whether a domain can be tiled and is larger than the pattern that it would be tiled with.
     pub fn is_worthwhile(lattice: &Lattice, leaf_size: f64) -> bool {
         let [width, height] = lattice.size.map(|size| f64::from(size) / lattice.radius);
@@ -73,11 +74,13 @@ impl Plane {
     }
 
     /// The lattice points of a window.
+    #[cfg(feature = "stages")]
     pub fn rect(&self, window: &Rect) -> Rect {
         self.blocks.rect(window)
     }
 
-    /// Lays the pattern in the leaves and does nothing with it. Returns how many points it has in the rectangle.
+    /// Lays the pattern in the leaves and does nothing with it, to measure what that takes. Returns how many points it has in the rectangle.
+    #[cfg(feature = "stages")]
     pub fn clip(&self, rect: &Rect, leaves: &[Leaf]) -> usize {
         let mut points = 0;
         for leaf in leaves {
@@ -88,12 +91,12 @@ impl Plane {
         points
     }
 
-    /// The plane cut into windows for [`Plane::window`].
+    /// The plane cut into windows for [`Tiling::window`].
     pub fn windows(&self) -> Vec<Rect> {
         self.windows_of(WINDOW_BLOCKS)
     }
 
-    /// What of [`Plane::windows`] is needed for some lattice points, in the same order.
+    /// What of [`Tiling::windows`] is needed for some lattice points, in the same order.
     pub fn windows_holding(&self, points: &Rect) -> Vec<Rect> {
         cut(&self.blocks.holding(points), WINDOW_BLOCKS)
     }
@@ -116,17 +119,17 @@ impl Plane {
 
     /// Clips the leaves and eliminates conflicts.
     pub fn merge(&self, known: &Rect, window: &Rect, leaves: &[Leaf]) -> Merged<'_> {
-        let Lattice { threshold, reach, .. } = self.lattice;
-        let mut grid = CellGrid::new(&self.axes, known, threshold, reach);
+        let separation = self.lattice.separation;
+        let mut grid = CellGrid::new(&self.axes, known, separation);
         let mut output = Output::new(&self.lattice, self.blocks.rect(window));
-        let eliminated = merge(&mut grid, &self.pattern, leaves, known, reach, &mut output);
+        let eliminated = merge(&mut grid, &self.pattern, leaves, known, separation.reach, &mut output);
         Merged { grid, eliminated, output }
     }
 
     /// Fills the gaps: the samples of the window.
     pub fn fill(&self, window: &Rect, leaves: &[Leaf], merged: Merged) -> Vec<[f32; 2]> {
         let Merged { mut grid, eliminated, mut output } = merged;
-        let reach = self.lattice.reach;
+        let reach = self.lattice.separation.reach;
         let seams = SeamCells::new(&grid, leaves, &eliminated, reach);
         let mut filling = Filling::new(&self.stamps, seams, reach);
         for (parity, margin) in PHASES {
@@ -154,10 +157,10 @@ impl Plane {
         let filled = self.blocks.rect(&self.blocks.grown(window, PHASES[0].1));
         // The fill looks for samples within a reach, and for eliminated points within a reach of its cells, which
         // go less than another beyond it.
-        self.inside(&filled.grown((2 + LONGEST_CHAIN) * self.lattice.reach))
+        self.inside(&filled.grown((2 + LONGEST_CHAIN) * self.lattice.separation.reach))
     }
 
-    /// A rectangle without what lies beyond the border of a bounded domain.
+    /// A rectangle without what lies beyond the boundary of a bounded domain.
     fn inside(&self, rect: &Rect) -> Rect {
         match self.lattice.boundary {
             Boundary::Periodic => *rect,
@@ -193,23 +196,24 @@ pub(super) fn cut(blocks: &Rect, side: i32) -> Vec<Rect> {
 mod tests {
     use super::*;
     use crate::job::Context;
+    use crate::plane::lattice::Separation;
     use crate::points::Domain;
     use crate::rng::{Draw, Rng};
     use crate::simd::Level;
 
     /// The plane of a domain, made by windows of one size.
-    fn samples(plane: &Plane, window_blocks: i32) -> Vec<[f32; 2]> {
-        let windows = plane.windows_of(window_blocks);
-        let mut samples: Vec<_> = windows.iter().flat_map(|window| plane.window(window)).collect();
+    fn samples(tiling: &Tiling, window_blocks: i32) -> Vec<[f32; 2]> {
+        let windows = tiling.windows_of(window_blocks);
+        let mut samples: Vec<_> = windows.iter().flat_map(|window| tiling.window(window)).collect();
         samples.sort_unstable_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
         samples
     }
 
-    fn plane(domain: Domain, radius: f64, leaf_size: f64, seed: u64) -> Plane {
+    fn tiling(domain: Domain, radius: f64, leaf_size: f64, seed: u64) -> Tiling {
         let lattice = Lattice::new(&domain, radius).unwrap();
-        assert!(Plane::is_worthwhile(&lattice, leaf_size));
+        assert!(Tiling::is_worthwhile(&lattice, leaf_size));
         let context = Context::new(1).unwrap();
-        context.run(None, |job| Plane::new(job, lattice.clone(), leaf_size, seed)).unwrap()
+        context.run(None, |job| Tiling::new(job, lattice.clone(), leaf_size, seed)).unwrap()
     }
 
     #[test]
@@ -219,10 +223,10 @@ mod tests {
             {
                 for extent in [[1.3, 1.0], [11.0, 0.11]] {
                     let domain = Domain { min: [0.3, -0.4], max: [0.3 + extent[0], -0.4 + extent[1]], boundary };
-                    let plane = plane(domain, radius, leaf_size, seed);
-                    let whole = samples(&plane, WINDOW_BLOCKS);
+                    let tiling = tiling(domain, radius, leaf_size, seed);
+                    let whole = samples(&tiling, WINDOW_BLOCKS);
                     for window_blocks in [1, 2, 5, 16] {
-                        assert!(samples(&plane, window_blocks) == whole, "{window_blocks} blocks, seed {seed}");
+                        assert!(samples(&tiling, window_blocks) == whole, "{window_blocks} blocks, seed {seed}");
                     }
                 }
             }
@@ -233,9 +237,9 @@ mod tests {
     #[test]
     fn the_smallest_torus_is_its_own_neighbour() {
         let domain = Domain { min: [0.0; 2], max: [0.131, 12.0], boundary: Boundary::Periodic };
-        let plane = plane(domain, 0.01, 6.0, 5);
-        assert_eq!(plane.blocks.counts()[0], 4);
-        assert!(samples(&plane, 1) == samples(&plane, 1000));
+        let tiling = tiling(domain, 0.01, 6.0, 5);
+        assert_eq!(tiling.blocks.counts()[0], 4);
+        assert!(samples(&tiling, 1) == samples(&tiling, 1000));
     }
 
     /// The elimination of small windows around the leaves' corners, where chains are longest, against its definition on
@@ -244,14 +248,14 @@ mod tests {
     fn survivors_are_those_that_no_survivor_of_a_higher_leaf_conflicts_with() {
         let domain = Domain { min: [0.0; 2], max: [1.2, 1.0], boundary: Boundary::Bounded };
         for seed in 0..4 {
-            let plane = plane(domain, 0.009, 6.0, seed);
-            let Lattice { threshold, reach, .. } = plane.lattice;
-            let all = plane.lattice.rect();
-            let leaves = plane.leaves(&all);
+            let tiling = tiling(domain, 0.009, 6.0, seed);
+            let separation @ Separation { threshold, reach } = tiling.lattice.separation;
+            let all = tiling.lattice.rect();
+            let leaves = tiling.leaves(&all);
             let mut survivors: Vec<[i32; 2]> = Vec::new();
             for leaf in &leaves {
                 let higher = survivors.len();
-                for point in plane.pattern.clip(leaf, &leaf.rect) {
+                for point in tiling.pattern.clip(leaf, &leaf.rect) {
                     let conflicts = |other: &[i32; 2]| {
                         let [dx, dy] = [0, 1].map(|axis: usize| i64::from(other[axis] - point[axis]));
                         dx * dx + dy * dy < threshold
@@ -269,16 +273,16 @@ mod tests {
                     continue;
                 }
                 let window = core.grown(LONGEST_CHAIN * reach).intersection(&all);
-                let mut grid = CellGrid::new(&plane.axes, &window, threshold, reach);
-                let mut output = Output::new(&plane.lattice, core);
-                merge(&mut grid, &plane.pattern, &plane.leaves(&window), &window, reach, &mut output);
+                let mut grid = CellGrid::new(&tiling.axes, &window, separation);
+                let mut output = Output::new(&tiling.lattice, core);
+                merge(&mut grid, &tiling.pattern, &tiling.leaves(&window), &window, reach, &mut output);
                 let mut positions = output.finish();
                 let mut found: Vec<_> = grid.samples_in(&core).collect();
                 let mut expected: Vec<_> = survivors.iter().copied().filter(|&point| core.contains(point)).collect();
                 found.sort_unstable();
                 expected.sort_unstable();
                 assert_eq!(found, expected);
-                let mut expected: Vec<_> = expected.into_iter().map(|point| plane.lattice.position(point)).collect();
+                let mut expected: Vec<_> = expected.into_iter().map(|point| tiling.lattice.position(point)).collect();
                 positions.sort_unstable_by(|a, b| a.partial_cmp(b).unwrap());
                 expected.sort_unstable_by(|a, b| a.partial_cmp(b).unwrap());
                 assert_eq!(positions, expected);
@@ -289,14 +293,14 @@ mod tests {
     #[test]
     fn all_vectors_fill_the_same() {
         for seed in 0..3 {
-            let plane = plane(Domain::unit(Boundary::Periodic), 1.0 / 110.0, 6.0, seed);
-            for window in plane.windows_of(8) {
-                let known = plane.surroundings(&window);
-                let leaves = plane.leaves(&known);
+            let tiling = tiling(Domain::unit(Boundary::Periodic), 1.0 / 110.0, 6.0, seed);
+            for window in tiling.windows_of(8) {
+                let known = tiling.surroundings(&window);
+                let leaves = tiling.leaves(&known);
                 let filled = |vectors| {
-                    let mut merged = plane.merge(&known, &window, &leaves);
+                    let mut merged = tiling.merge(&known, &window, &leaves);
                     merged.grid.set_vectors(vectors);
-                    plane.fill(&window, &leaves, merged)
+                    tiling.fill(&window, &leaves, merged)
                 };
                 let expected = filled(Level::Portable);
                 assert!(Level::available().into_iter().all(|vectors| filled(vectors) == expected));
@@ -311,12 +315,12 @@ mod tests {
             let widths = [13.1, 17.0, 22.6, 33.9, 34.0, 50.0, 110.0, 199.0, 201.0, 205.0, 500.0];
             for (seed, width) in widths.into_iter().enumerate() {
                 let domain = Domain { min: [0.0; 2], max: [width, 12_000.0 / width], boundary };
-                let plane = plane(domain, 1.0, 6.0, seed as u64);
-                for block in plane.windows_of(1) {
-                    let (held, known) = (plane.blocks.rect(&block), plane.surroundings(&block));
+                let tiling = tiling(domain, 1.0, 6.0, seed as u64);
+                for block in tiling.windows_of(1) {
+                    let (held, known) = (tiling.blocks.rect(&block), tiling.surroundings(&block));
                     for axis in 0..2 {
-                        let radii = |length: i32| f64::from(length) / plane.lattice.radius;
-                        let size = radii(plane.lattice.size[axis]);
+                        let radii = |length: i32| f64::from(length) / tiling.lattice.radius;
+                        let size = radii(tiling.lattice.size[axis]);
                         let documented = [22.0, 18.0][axis];
                         let farthest = (held.max[axis] - known.min[axis]).max(known.max[axis] - held.min[axis]);
                         // Around a torus nothing is farther away than half of it.
@@ -336,23 +340,24 @@ mod tests {
         let mut wrong = 0;
         for seed in (0..10).chain([23, 65, 111, 178, 198]) {
             let boundary = if seed % 2 == 0 { Boundary::Periodic } else { Boundary::Bounded };
-            let plane = plane(Domain::unit(boundary), 1.0 / 110.0, 6.0, seed);
-            let whole = samples(&plane, WINDOW_BLOCKS);
-            for block in plane.windows_of(1) {
-                let held = plane.blocks.rect(&block);
-                let (first, last) = (plane.lattice.position(held.min), plane.lattice.position(held.max.map(|x| x - 1)));
+            let tiling = tiling(Domain::unit(boundary), 1.0 / 110.0, 6.0, seed);
+            let whole = samples(&tiling, WINDOW_BLOCKS);
+            for block in tiling.windows_of(1) {
+                let held = tiling.blocks.rect(&block);
+                let (first, last) =
+                    (tiling.lattice.position(held.min), tiling.lattice.position(held.max.map(|x| x - 1)));
                 let inside = |sample: &&[f32; 2]| (0..2).all(|axis| (first[axis]..=last[axis]).contains(&sample[axis]));
                 let expected: Vec<_> = whole.iter().filter(inside).copied().collect();
                 let is_right = |known: &Rect| {
-                    let mut found = plane.window_within(known, &block);
+                    let mut found = tiling.window_within(known, &block);
                     found.sort_unstable_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
                     found == expected
                 };
-                let known = plane.surroundings(&block);
+                let known = tiling.surroundings(&block);
                 assert!(is_right(&known), "seed {seed}, {block:?}");
-                // A border of the domain is not to be moved inwards.
+                // A boundary of the domain is not to be moved inwards.
                 if boundary == Boundary::Periodic {
-                    wrong += usize::from(!is_right(&known.grown(-4 * plane.lattice.reach)));
+                    wrong += usize::from(!is_right(&known.grown(-4 * tiling.lattice.separation.reach)));
                 }
             }
         }

@@ -2,12 +2,12 @@
 //! set union algorithm").
 
 /// A forest with a tree for each group.
-pub(super) struct Groups {
+pub(super) struct DisjointSets {
     parents: Vec<u32>,
     count: usize,
 }
 
-impl Groups {
+impl DisjointSets {
     /// As many groups of one.
     pub fn new(members: usize) -> Self {
         Self { parents: (0..members as u32).collect(), count: members }

@@ -7,7 +7,7 @@ use crate::analysis::spectrum::{Periodogram, periodogram};
 use crate::error::Result;
 use crate::job::{Context, Job};
 use crate::kdrt::divide::Fixed;
-use crate::kdrt::plane::Plane;
+use crate::kdrt::tiling::Tiling;
 use crate::maximal;
 use crate::plane::lattice::Lattice;
 use crate::points::{Boundary, Domain};
@@ -49,10 +49,10 @@ fn figures(sample: impl Fn(&Job, &Lattice, u64) -> Result<Vec<[f32; 2]>>) -> Fig
 /// The figures of planes with leaves of at least 20 radii, in which something is not random.
 fn figures_of_planes(fixed: Fixed) -> Figures {
     figures(|job, lattice, seed| {
-        assert!(Plane::is_worthwhile(lattice, 20.0));
-        let mut plane = Plane::new(job, lattice.clone(), 20.0, seed)?;
-        plane.tree.fixed = fixed;
-        Ok(plane.windows().iter().flat_map(|window| plane.window(window)).collect())
+        assert!(Tiling::is_worthwhile(lattice, 20.0));
+        let mut tiling = Tiling::new(job, lattice.clone(), 20.0, seed)?;
+        tiling.tree.fixed = fixed;
+        Ok(tiling.windows().iter().flat_map(|window| tiling.window(window)).collect())
     })
 }
 
@@ -60,18 +60,21 @@ fn figures_of_planes(fixed: Fixed) -> Figures {
 fn with_both_randomnesses_a_plane_is_like_the_unbiased_reference() {
     let reference = figures(maximal::sample_lattice);
     assert!((reference.contrast - 1.0).abs() < 0.02, "{reference:?}");
-    let plane = figures_of_planes(Fixed::Nothing);
-    assert!(plane.contrast < reference.contrast + 0.1 && plane.peak < 1.6 * reference.peak, "{plane:?} {reference:?}");
+    let tiling = figures_of_planes(Fixed::Nothing);
+    assert!(
+        tiling.contrast < reference.contrast + 0.1 && tiling.peak < 1.6 * reference.peak,
+        "{tiling:?} {reference:?}"
+    );
 }
 
 #[test]
 fn without_random_splits_the_grid_of_leaves_peaks() {
-    let plane = figures_of_planes(Fixed::Splits);
-    assert!(plane.peak > 7.0, "{plane:?}");
+    let tiling = figures_of_planes(Fixed::Splits);
+    assert!(tiling.peak > 7.0, "{tiling:?}");
 }
 
 #[test]
 fn without_random_clips_the_spectrum_is_speckled() {
-    let plane = figures_of_planes(Fixed::Clips);
-    assert!(plane.contrast > 1.8, "{plane:?}");
+    let tiling = figures_of_planes(Fixed::Clips);
+    assert!(tiling.contrast > 1.8, "{tiling:?}");
 }
