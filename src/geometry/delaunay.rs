@@ -18,14 +18,14 @@ use crate::geometry::circumcircle::{circumcentre, circumradius_squared};
 use crate::geometry::frame::{Frame, Site};
 use crate::job::{Job, chunks};
 
-/// The first margin, in spacings: a little more than the largest empty circle of a million random points is wide.
+/// The first margin, in spacings: slightly more than the diameter of the largest empty circle of a million random points.
 const MARGIN: f64 = 4.0;
 
 /// Larger sets are triangulated point by point, which reports progress and can be cancelled. It takes about a quarter longer
 /// than spade's bulk load, which does neither.
 const BULK: usize = 1 << 17;
 
-/// How many points are triangulated between two reports.
+/// The number of points that are triangulated between two reports of progress.
 const REPORTED: usize = 1 << 12;
 
 impl HasPosition for Site {
@@ -205,8 +205,7 @@ fn triangulate(job: &Job, mut sites: Vec<Site>) -> Result<DelaunayTriangulation<
     Ok(triangulation)
 }
 
-/// Puts sites in an order in which each is near the one before, however they are spread: up and down columns that hold
-/// equally many.
+/// Orders sites so that each is near the one before, however they are spread: up and down columns of equally many.
 fn along_columns(sites: &mut [Site]) {
     sites.sort_unstable_by(|a, b| a.position.x.total_cmp(&b.position.x).then(a.position.y.total_cmp(&b.position.y)));
     let size = (2.0 * sites.len() as f64).sqrt().ceil() as usize;
@@ -227,7 +226,7 @@ mod tests {
     use super::*;
     use crate::error::Error;
     use crate::job::Context;
-    use crate::points::Domain;
+    use crate::points::{Boundary, Domain};
     use crate::rng::{Draw, Rng};
 
     /// Sites in a square and in a small part of it, some of them twice.

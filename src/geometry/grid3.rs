@@ -20,7 +20,7 @@ const NONE: u32 = u32::MAX;
 /// The points of a task of [`smallest_distance`]: few, since most may be in one cell.
 const TASK: usize = 256;
 
-/// How many points are put into a grid between two reports.
+/// The number of points that are inserted between two reports of progress.
 const REPORTED: usize = 1 << 14;
 
 impl Grid3 {

@@ -20,8 +20,7 @@ use crate::geometry::grid2::Grid2;
 use crate::job::{Job, chunks};
 use crate::points::{Boundary, Domain};
 
-/// The excess over the density is removed in one of so many steps: more often than in uniform sets, where no difference of
-/// density persists.
+/// The number of steps from one removal of waves to the next: fewer than in uniform sets, where nothing builds them up again.
 const WAVES_EVERY: u32 = 2;
 
 /// The points, their velocities and mesh, and the density that they shall have.

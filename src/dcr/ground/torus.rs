@@ -181,7 +181,7 @@ impl Torus {
     }
 }
 
-/// By how much a point is nudged.
+/// The displacement by which a point is nudged.
 pub(in crate::dcr) fn nudge(point: u32) -> DVec2 {
     let mut rng = Rng::at(0, Draw::Part, &[point.into(), point.into()]);
     NUDGE * DVec2::new(rng.unit(), rng.unit())

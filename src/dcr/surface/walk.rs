@@ -1,8 +1,8 @@
 //! Walking on the surface: straight on, from triangle to triangle, as if each were turned about the common edge into the
 //! plane of the one before (Polthier and Schmies 1998, "Straightest geodesics on polyhedral surfaces").
 //!
-//! Nothing but the shapes of triangles is used, each laid into the plane for itself. So triangles may turn their other
-//! side to their neighbour, and those without area are crossed as easily as any.
+//! Nothing but the shapes of triangles is used, each laid into the plane for itself. So neighbours may face opposite
+//! sides, and triangles without area are crossed like any other.
 
 use glam::{DVec2, DVec3};
 
@@ -239,7 +239,7 @@ mod tests {
             if (end.displacement.length() - 4.0).abs() < 1e-9 {
                 assert!(at(&mesh, back.place).distance(at(&mesh, start)) < 1e-9, "the walk back ends elsewhere");
             }
-            // Triangles differ from those of the plane by what their vertices leave the cylinder in between.
+            // Triangles differ from those of the plane by the distance of chords from the cylinder.
             let near = at(&plane, end.place).distance(at(&plane, flat_end.place));
             assert!(near < 0.1, "{near}");
         }

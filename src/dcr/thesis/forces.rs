@@ -5,7 +5,7 @@
 //! would add to it, so that points share nothing; the sums are the same.
 //!
 //! Activeness `α = Σ|F| / |ΣF|` (eq. 4.11) is 1 without tension and infinite in balance. It is held as its inverse,
-//! the *yield* `β = |ΣF| / Σ|F|` in `0..=1`: how readily a point gives way. The algorithm's own share
+//! the *yield* `β = |ΣF| / Σ|F|` in `0..=1`: the readiness of a point to move. The algorithm's own share
 //! `1 - α_i / (α_i + α_j)` is then `β_i / (β_i + β_j)`.
 
 use glam::DVec2;

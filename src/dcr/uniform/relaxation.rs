@@ -22,7 +22,7 @@ use crate::job::Job;
 use crate::points::Domain;
 use crate::simd::Level;
 
-/// Waves are removed in one of so many steps.
+/// The number of steps from one removal of waves to the next.
 const WAVES_EVERY: u32 = 5;
 
 /// Waves are removed up to this frequency, in units of sqrt(density), until the points have spread. That includes finer
@@ -33,8 +33,8 @@ const FINE_WAVES: f64 = 0.55;
 /// would disturb.
 const COARSENING: Range<u32> = 60..85;
 
-/// In one of so many steps, up to the last kick, points whose constraints are still violated are kicked. Where points block
-/// each other for good, this is what moves one of them out.
+/// The number of steps from one kick to the next, and the step of the last. Points whose constraints are violated are kicked:
+/// where points block each other for good, this moves one of them out.
 const KICK_EVERY: u32 = 8;
 const LAST_KICK: u32 = 56;
 

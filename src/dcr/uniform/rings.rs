@@ -126,7 +126,7 @@ impl Patch<'_> {
         (point.wrapping_sub(self.first) as usize) < self.degrees.len()
     }
 
-    /// The point behind those of the patch.
+    /// The index after the last point of the patch.
     pub(super) fn end(&self) -> usize {
         self.first as usize + self.degrees.len()
     }

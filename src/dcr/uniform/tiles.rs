@@ -17,7 +17,7 @@ use crate::job::Job;
 /// The least number of points of a tile on average; it can be four times as high.
 const POINTS: usize = 2000;
 
-/// The margin, in spacings: a little more than the largest empty circle of a million random points is wide.
+/// The margin, in spacings: slightly more than the diameter of the largest empty circle of a million random points.
 const MARGIN: f64 = 4.0;
 
 /// A point in a tile or its margin.
