@@ -13,7 +13,7 @@ const LIGHTEST: f64 = 1.0 / 255.0;
 
 /// Dots at random.
 pub fn random(context: &Context, darkness: &Darkness, count: usize, seed: u64) -> Result<Vec<[f32; 2]>> {
-    dcr::scatter(context, &darkness.domain(), &darkness.density(), count, seed)
+    dcr::scatter(context, &darkness.domain(), &darkness.density(), count, seed, None)
 }
 
 /// Dots that have been relaxed.

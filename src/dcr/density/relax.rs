@@ -61,22 +61,23 @@ pub fn relax_with_density(
 /// arguments and on nothing else.
 ///
 /// # Errors
-/// [`Error::InvalidArgument`] for a domain or a density that is invalid, [`Error::TooLarge`] for more than 2^32 - 1 points, or
-/// than memory holds.
+/// [`Error::InvalidArgument`] for a domain or a density that is invalid, [`Error::TooLarge`] for more than 2^32 - 1 points,
+/// or than memory holds, [`Error::Cancelled`].
 pub fn scatter(
     context: &Context,
     domain: &Domain,
     density: &Density,
     count: usize,
     seed: u64,
+    progress: Option<&Progress>,
 ) -> Result<Vec<[f32; 2]>> {
     domain.check()?;
     density.check()?;
     if count > u32::MAX as usize {
         return Err(Error::too_large("count", format!("{count} points; the limit is {}", u32::MAX)));
     }
-    context.run(None, |job| {
-        let raster = Raster::new(job, domain, density, count)?;
+    context.run(progress, |job| {
+        let raster = Raster::new(&job.part(0.0, 0.9), domain, density, count)?;
         Ok(raster.scatter(&Torus::new(*domain, count), count, seed))
     })
 }
