@@ -42,8 +42,8 @@ fn the_thesis_keeps_the_density_along_a_boundary() {
     }
 }
 
-/// The density of points of the unit square in strips along its boundary, one to three times so wide, over that of all that
-/// is deeper than four; and the mean of a value of the points in the narrowest over that inside.
+/// The density of points of the unit square in strips along its boundary, one to three times so wide, over that of all
+/// that is deeper than four; and the mean of a value of the points in the narrowest over that inside.
 fn strips_over_inside(width: f64, points: &[[f32; 2]], values: &[f64]) -> ([f64; 3], f64) {
     let mean_and_density = |holds: &dyn Fn(f64) -> bool, area: f64| {
         let of: Vec<f64> =
@@ -95,8 +95,9 @@ fn the_boundary_of_a_bounded_square_is_neither_crowded_nor_empty() {
     assert!(strips_over_inside(unit, &twice, &[1.0; 5000]).0[0] > 1.7);
 }
 
-/// Two points beside each other on the boundary, and a third between them that can go neither out nor in: in 300 such sets
-/// there were 11 in which waves of the density kept pushing it back. In corners one set in some hundreds has such three.
+/// Two points beside each other on the boundary, and a third between them that can go neither out nor in: in 300 such
+/// sets there were 11 in which waves of the density kept pushing it back. In corners one set in some hundreds has such
+/// three.
 #[test]
 fn hardly_any_points_stay_in_conflict_at_a_boundary() {
     let count = 1000;

@@ -1,5 +1,5 @@
-//! What the thesis's algorithm can be varied by: how tensions are divided, from where edges are visited, the step size, and
-//! what ends it.
+//! What the thesis's algorithm can be varied by: how tensions are divided, from where edges are visited, the step size,
+//! and what ends it.
 
 #[path = "common/sets.rs"]
 #[allow(dead_code)]

@@ -3,15 +3,16 @@
 //! All points move at once, each by the forces of its neighbours. The result depends neither on the order of the points
 //! nor on the number of threads. There are two methods ([`Method`]):
 //!
-//! * [`Method::Momentum`], the default: neighbours in conflict push each other away, holes pull the points around them in,
-//!   points have momentum, and long waves of the density are removed by Fourier transform. It ends after 100 steps, or
-//!   sooner if the points have come to rest.
+//! * [`Method::Momentum`], the default: neighbours in conflict push each other away, holes pull the points around them
+//!   in, points have momentum, and long waves of the density are removed by Fourier transform. It ends after 100 steps,
+//!   or sooner if the points have come to rest.
 //! * [`Method::Thesis`]: the algorithm of the thesis with all of its settings.
 //!
-//! [`relax`] works on a constant density, [`relax_with_density`] on any other, [`surface::relax`] on triangle meshes.
-//! `docs/dcr.md` has what each of them reaches, measured: distances, coverage, spectra and angles.
+//! [`fn@relax`] works on a constant density, [`relax_with_density`] on any other, [`fn@surface::relax`] on triangle
+//! meshes. `docs/dcr.md` has what each of them reaches, measured: distances, coverage, spectra and angles.
 //!
-//! Convergence is judged by motion ([`Report::motion`]), unless [`Convergence::Variance`] asks for the thesis's own test.
+//! Convergence is judged by motion ([`Report::motion`]), unless [`Convergence::Variance`] asks for the thesis's own
+//! test.
 
 mod density;
 mod ground;

@@ -15,7 +15,7 @@ pub enum Method {
     Thesis(Thesis),
 }
 
-/// The options of [`relax`](super::relax).
+/// The options of [`relax`](fn@super::relax).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Options {

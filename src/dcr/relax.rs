@@ -17,15 +17,15 @@ use crate::job::{Context, Progress};
 /// are. Coincident points, and all points of a set on one line, are first moved by 0.001 to 0.002 `d_max` in
 /// directions keyed by `seed` and index: the forces alone would not separate them.
 ///
-/// The momentum method with Delaunay neighbours returns, of the initial set and the states after whole steps, the one in
-/// which the fewest points have a neighbour closer than 0.85 `d_max` or a triangle whose circumradius is above 0.67 `d_max`;
-/// of several, the last. In all other cases the set after the last whole step is returned. A call that is cancelled
-/// returns the same, with [`Stopped::Cancelled`](super::Stopped::Cancelled).
+/// The momentum method with Delaunay neighbours returns, of the initial set and the states after whole steps, the one
+/// in which the fewest points have a neighbour closer than 0.85 `d_max` or a triangle whose circumradius is above 0.67
+/// `d_max`; of several, the last. In all other cases the set after the last whole step is returned. A call that is
+/// cancelled returns the same, with [`Stopped::Cancelled`](super::Stopped::Cancelled).
 ///
-/// Each step is O(n), but O(n log n) where a Delaunay triangulation is built anew: always by the thesis's method, and by the
-/// momentum method in sets of a few points, with holes as wide as the domain, or with points that have dozens of neighbours.
-/// A bounded domain costs up to four times the time and memory of a periodic one, as the momentum method works on it and its
-/// mirror images. Memory is O(n).
+/// Each step is O(n) for sets without dense clusters, but O(n log n) where a Delaunay triangulation is built anew:
+/// always by the thesis's method, and by the momentum method in sets of a few points, with holes as wide as the domain,
+/// or with points that have dozens of neighbours. A bounded domain costs up to four times the time and memory of a
+/// periodic one, as the momentum method works on it and its mirror images. Memory is O(n).
 ///
 /// # Errors
 /// [`Error::InvalidArgument`](crate::Error::InvalidArgument) for options out of their range and for points outside the

@@ -25,7 +25,8 @@ pub(super) trait Relaxation {
     /// The points in the user's order; `points` are those with which it began.
     fn points(&self, points: &[[f32; 2]]) -> Vec<[f32; 2]>;
 
-    /// [`Report::rho`](super::Report::rho) of these points, if it is not simply the smallest distance in units of `d_max`.
+    /// [`Report::rho`](super::Report::rho) of these points, if it is not simply the smallest distance in units of
+    /// `d_max`.
     fn relative_spacing(&self, _job: &Job, _points: &[[f32; 2]]) -> Result<Option<f64>> {
         Ok(None)
     }

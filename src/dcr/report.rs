@@ -9,8 +9,8 @@ use crate::points::Domain;
 /// Why a relaxation made no more steps.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stopped {
-    /// The set converged, or there was nothing to move. With the momentum method and Delaunay neighbours no points are then
-    /// closer than 0.85 `d_max` and no circumradius is above 0.67 `d_max`, up to the last step.
+    /// The set converged, or there was nothing to move. With the momentum method and Delaunay neighbours no points are
+    /// then closer than 0.85 `d_max` and no circumradius is above 0.67 `d_max`, up to the last step.
     Converged,
     /// All steps were made.
     Steps,
@@ -18,7 +18,7 @@ pub enum Stopped {
     Cancelled,
 }
 
-/// What [`relax`](super::relax) did. `d_max` is [`Domain::hexagonal_distance`].
+/// What [`relax`](fn@super::relax) did. `d_max` is [`Domain::hexagonal_distance`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Report {

@@ -13,8 +13,8 @@ pub(crate) fn scaled_circumcentre(a: Vec2, b: Vec2) -> Vec2 {
     b.length_squared() * a.perp() - a.length_squared() * b.perp()
 }
 
-/// The square of the radius, of the triangle with the edges `a`, `b` and `a - b`: the product of the edges over four times
-/// the area.
+/// The square of the radius, of the triangle with the edges `a`, `b` and `a - b`: the product of the edges over four
+/// times the area.
 pub(crate) fn circumradius_squared(a: DVec2, b: DVec2, opposite: DVec2) -> f64 {
     let edges = a.length_squared() * b.length_squared() * opposite.length_squared();
     edges / (4.0 * a.perp_dot(b).powi(2))

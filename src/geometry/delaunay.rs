@@ -1,9 +1,9 @@
 //! The Delaunay triangulation of a torus or of a bounded rectangle with its mirror images (thesis §4.3.3).
 //!
-//! The triangulation itself is spade's. It supports neither tori nor mirrors, so it is given the points and their copies
-//! in a margin around the domain (thesis §4.4.1 and Fig. 4.12 (b)), which the thesis assumes to be sufficient. Here it is
-//! verified: the star of a point is that of the endless pattern when the circumcircles of its triangles lie where all
-//! copies are known. If one does not, the margin is doubled.
+//! The triangulation itself is spade's. It supports neither tori nor mirrors, so it is given the points and their
+//! copies in a margin around the domain (thesis §4.4.1 and Fig. 4.12 (b)), which the thesis assumes to be sufficient.
+//! Here it is verified: the star of a point is that of the endless pattern when the circumcircles of its triangles lie
+//! where all copies are known. If one does not, the margin is doubled.
 //!
 //! One whole ring of copies is always enough. Let an empty circle touch a point p of the domain and another site q.
 //! Were q more than a period away along an axis, the chord of the circle through p or the one through q would be
@@ -18,11 +18,12 @@ use crate::geometry::circumcircle::{circumcentre, circumradius_squared};
 use crate::geometry::frame::{Frame, Site};
 use crate::job::{Job, chunks};
 
-/// The first margin, in spacings: slightly more than the diameter of the largest empty circle of a million random points.
+/// The first margin, in spacings: slightly more than the diameter of the largest empty circle of a million random
+/// points.
 const MARGIN: f64 = 4.0;
 
-/// Larger sets are triangulated point by point, which reports progress and can be cancelled. It takes about a quarter longer
-/// than spade's bulk load, which does neither.
+/// Larger sets are triangulated point by point, which reports progress and can be cancelled. It takes about a quarter
+/// longer than spade's bulk load, which does neither.
 const BULK: usize = 1 << 17;
 
 /// The number of points that are triangulated between two reports of progress.

@@ -5,8 +5,8 @@ use glam::DVec2;
 use crate::points::{Boundary, Domain};
 use crate::rng::{Draw, Rng};
 
-/// The distance by which points are moved out of a degenerate arrangement, in spacings: enough for the forces to resolve it
-/// before the motion seems to end, too little to be visible.
+/// The distance by which points are moved out of a degenerate arrangement, in spacings: enough for the forces to
+/// resolve it before the motion seems to end, too little to be visible.
 const PARTING: f64 = 1e-3;
 
 /// The width, in spacings, of the strips along which points are ordered.

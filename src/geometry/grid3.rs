@@ -95,8 +95,8 @@ pub(crate) fn distance_squared(a: [f32; 3], b: [f32; 3]) -> f64 {
     (0..3).map(|axis| (a[axis] as f64 - b[axis] as f64).powi(2)).sum()
 }
 
-/// The smallest distance between two points; infinite for less than two. O(n log n) for points that are neither clustered
-/// in space nor lined up in planes across their longest extent.
+/// The smallest distance between two points; infinite for less than two. O(n log n) for points that are neither
+/// clustered in space nor lined up in planes across their longest extent.
 pub(crate) fn smallest_distance(job: &Job, positions: &[[f32; 3]]) -> Result<f64> {
     let bound = neighbours_in_order(positions);
     job.report(0.1)?;

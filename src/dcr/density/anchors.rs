@@ -1,8 +1,8 @@
 //! Fixed points that hold the mesh where no points are wanted.
 //!
 //! The kept mesh has no edge longer than a quarter of the torus (`half_edge_mesh.rs`), but stippled images often have
-//! wide white areas. So a coarse lattice of anchors is placed there. They are corners of triangles and nothing else: they
-//! do not move, push or count, and no hole is filled where the density is 0.
+//! wide white areas. So a coarse lattice of anchors is placed there. They are corners of triangles and nothing else:
+//! they do not move, push or count, and no hole is filled where the density is 0.
 
 use crate::dcr::density::raster::Raster;
 use crate::dcr::ground::torus::{Torus, TorusPoint};

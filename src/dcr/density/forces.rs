@@ -1,9 +1,9 @@
-//! Forces where the spacing varies: the constraints of the momentum method, with distances in units of the mean spacing of
-//! the two points, circumradii in units of the spacing that the density at the centre asks for, and displacements in units
-//! of the point's own spacing.
+//! Forces where the spacing varies: the constraints of the momentum method, with distances in units of the mean spacing
+//! of the two points, circumradii in units of the spacing that the density at the centre asks for, and displacements in
+//! units of the point's own spacing.
 //!
-//! Holes are judged by the density itself because a spacing whose growth is limited is too small beside edges: with it, holes
-//! would pull dots out of dark areas, and the error of tone is three to ten times as large.
+//! Holes are judged by the density itself because a spacing whose growth is limited is too small beside edges: with it,
+//! holes would pull dots out of dark areas, and the error of tone is three to ten times as large.
 
 use glam::Vec2;
 
@@ -17,7 +17,8 @@ pub(super) struct RingPoint {
     pub(super) spacing: f32,
 }
 
-/// The force on a point, in units of its spacing, by the neighbours in the ring around it, in counter-clockwise order; `density_at` gives the density, in units of the mean, at an offset from the point.
+/// The force on a point, in units of its spacing, by the neighbours in the ring around it, in counter-clockwise order;
+/// `density_at` gives the density, in units of the mean, at an offset from the point.
 pub(super) fn force(
     constraints: &Constraints,
     spacing: f32,

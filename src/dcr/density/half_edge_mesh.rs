@@ -1,12 +1,12 @@
 //! The Delaunay triangulation of a torus, kept while its points move and repaired by flips (`ground/flips.rs`), in
 //! half-edges.
 //!
-//! The forces hold points back so that no triangle turns over; if one does all the same, the mesh says so and must be built
-//! anew.
+//! The forces hold points back so that no triangle turns over; if one does all the same, the mesh says so and must be
+//! built anew.
 //!
-//! Where the spacing varies, points have few neighbours or hundreds, as anchors and points beside dark edges do: half-edges
-//! support both, rings of equally many slots (`uniform/rings.rs`) do not. Half-edges are numbered `4 t + k`: the edge from
-//! corner `k` to the next of triangle `t`, counter-clockwise.
+//! Where the spacing varies, points have few neighbours or hundreds, as anchors and points beside dark edges do:
+//! half-edges support both, rings of equally many slots (`uniform/rings.rs`) do not. Half-edges are numbered `4 t + k`:
+//! the edge from corner `k` to the next of triangle `t`, counter-clockwise.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -49,9 +49,9 @@ fn previous(edge: u32) -> u32 {
 }
 
 impl HalfEdgeMesh {
-    /// The mesh of a triangulation of the torus with its copies. None if edges are too long, as in sets of a few points or
-    /// with large holes, or if copies are not triangulated alike, which happens to four points on one circle unless they are
-    /// nudged.
+    /// The mesh of a triangulation of the torus with its copies. None if edges are too long, as in sets of a few points
+    /// or with large holes, or if copies are not triangulated alike, which happens to four points on one circle unless
+    /// they are nudged.
     pub(super) fn new(delaunay: &Delaunay, torus: &Torus, places: &[TorusPoint]) -> Option<Self> {
         // Exactly one of the translates of a triangle has its first point in the domain.
         let corners = delaunay.triangles().filter_map(|sites| {
@@ -252,7 +252,8 @@ mod tests {
                         check_links(&mesh);
                         let edges = (0..4 * mesh.triangles.len() as u32).filter(|edge| edge & 3 < 3);
                         assert!(edges.into_iter().all(|edge| !mesh.must_flip(edge, &places)));
-                        // The corners of a mirrored rectangle lie on one circle: there spade may take the other diagonal.
+                        // The corners of a mirrored rectangle lie on one circle: there spade may take the other
+                        // diagonal.
                         if boundary == Boundary::Periodic {
                             let anew = HalfEdgeMesh::new(&delaunay(job, &torus, &places), &torus, &places).unwrap();
                             assert_eq!(triangles(&mesh), triangles(&anew));

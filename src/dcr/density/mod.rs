@@ -7,9 +7,9 @@
 //! * Constraints between neighbours only relax the points locally. The number of points that the density asks for in a
 //!   region is achieved by removing long waves of the excess, whose lengths scale with the local spacing (`octaves.rs`).
 //!
-//! All else is that of the momentum method: momentum, constraints that grow stiffer, a boundary in which points do not see
-//! themselves, a mesh that is kept (`half_edge_mesh.rs`), also where wide areas have no points (`anchors.rs`). The boundary
-//! has no excess of points, which would show as a frame.
+//! All else is that of the momentum method: momentum, constraints that grow stiffer, a boundary in which points do not
+//! see themselves, a mesh that is kept (`half_edge_mesh.rs`), also where wide areas have no points (`anchors.rs`). The
+//! boundary has no excess of points, which would show as a frame.
 
 mod anchors;
 mod forces;

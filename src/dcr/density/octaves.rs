@@ -19,8 +19,8 @@ const FINEST: f64 = 3.0;
 /// The distance of nodes over that of the weights by which the density is drawn.
 const WEIGHTS: f64 = 2.0;
 
-/// The spacing of the points that a grid is made for, over that of its octave: three nodes per wavelength of the shortest
-/// waves are enough.
+/// The spacing of the points that a grid is made for, over that of its octave: three nodes per wavelength of the
+/// shortest waves are enough.
 const NODES: f64 = 1.4;
 
 /// The grids, from fine to coarse.
@@ -59,7 +59,8 @@ impl OctaveGrids {
         Ok(Self { grids, finest })
     }
 
-    /// The displacements, in spacings of the torus, of the first points of `places`: those whose local spacings are given.
+    /// The displacements, in spacings of the torus, of the first points of `places`: those whose local spacings are
+    /// given.
     pub(super) fn drift(&self, job: &Job, places: &[TorusPoint], spacings: &[f32]) -> Result<Vec<Vec2>> {
         let count = self.grids.len() as f64;
         let mut fields = Vec::new();

@@ -1,9 +1,9 @@
 //! The density on a grid of the domain, and the local spacing that follows from it.
 //!
-//! The spacing at a position is 1 / sqrt(density) in units of that of the mean density, but no more than [`SLOPE`] times a
-//! distance above that at any other position (as sizes of mesh elements are graded: Persson 2006, "Mesh size functions for
-//! implicit geometries and PDE-based mesh generation"). So it is finite where no points are wanted, and a point that has
-//! strayed there yields to those at the edge instead of clearing its surroundings.
+//! The spacing at a position is 1 / sqrt(density) in units of that of the mean density, but no more than [`SLOPE`]
+//! times a distance above that at any other position (as sizes of mesh elements are graded: Persson 2006, "Mesh size
+//! functions for implicit geometries and PDE-based mesh generation"). So it is finite where no points are wanted, and a
+//! point that has strayed there yields to those at the edge instead of clearing its surroundings.
 
 use glam::Vec2;
 
@@ -15,7 +15,8 @@ use crate::memory;
 use crate::points::{Boundary, Domain};
 use crate::rng::{Draw, Rng};
 
-/// The largest growth of the spacing per distance; 1 leaves three times the error of tone beside edges, and so does 0.25.
+/// The largest growth of the spacing per distance; 1 leaves three times the error of tone beside edges, and so does
+/// 0.25.
 const SLOPE: f32 = 0.5;
 
 /// Cells per distance of points, at least and at most; between them a cell is a pixel.
@@ -119,8 +120,8 @@ impl Raster {
         }
     }
 
-    /// Lowers every spacing to what its neighbours allow, which are a `step` away along each axis: two passes over the grid,
-    /// as in distance transforms (Rosenfeld and Pfaltz 1966), and two more across the seam of a torus.
+    /// Lowers every spacing to what its neighbours allow, which are a `step` away along each axis: two passes over the
+    /// grid, as in distance transforms (Rosenfeld and Pfaltz 1966), and two more across the seam of a torus.
     fn limit_slope(&mut self, step: Vec2) {
         let [columns, rows] = self.cells;
         let wraps = self.domain.boundary == Boundary::Periodic;
@@ -180,7 +181,8 @@ impl Raster {
         self.spacing.iter().fold(range, |[low, high], &spacing| [low.min(spacing), high.max(spacing)])
     }
 
-    /// The density as weighted points, whose weights sum up to `total`: one for each block of cells no wider than `width`.
+    /// The density as weighted points, whose weights sum up to `total`: one for each block of cells no wider than
+    /// `width`.
     pub(super) fn weights(&self, torus: &Torus, width: f64, total: f64) -> Vec<(TorusPoint, f64)> {
         let extent = self.domain.extent().map(|length| length / torus.frame.spacing());
         let block = [0, 1].map(|axis| ((width * self.cells[axis] as f64 / extent[axis]) as usize).max(1));

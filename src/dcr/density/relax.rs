@@ -17,13 +17,13 @@ use crate::points::Domain;
 /// for, and evenly spread. A start with about that density, such as [`scatter`] or
 /// [`psp::adaptive`](crate::psp::adaptive) make, needs no more than the usual 100 steps; others may take 800.
 ///
-/// As [`relax`](crate::dcr::relax), with these differences. In the report, lengths are in units of the *local spacing*: `d_max` for
-/// the mean density, as 1 / sqrt(density) elsewhere, but it grows by no more than half of the distance between positions, so
-/// that it is finite where the density is 0. [`Report::rho`] is the least of all distances over the mean of the spacings
-/// of the two points, [`Report::coverage`] the largest circumradius of a triangle over the spacing at its centre, there
-/// without the limit to its growth.
-/// [`Report::motion`] is in units of `d_max`. Details of the density that are finer than an eighth of `d_max` are lost.
-/// A call that is cancelled before the first step returns the points as they are.
+/// As [`relax`](fn@crate::dcr::relax), with these differences. In the report, lengths are in units of the *local
+/// spacing*: `d_max` for the mean density, as 1 / sqrt(density) elsewhere, but it grows by no more than half of the
+/// distance between positions, so that it is finite where the density is 0. [`Report::rho`] is the least of all
+/// distances over the mean of the spacings of the two points, [`Report::coverage`] the largest circumradius of a
+/// triangle over the spacing at its centre, there without the limit to its growth. [`Report::motion`] is in units of
+/// `d_max`. Details of the density that are finer than an eighth of `d_max` are lost. A call that is cancelled before
+/// the first step returns the points as they are.
 ///
 /// The density is sampled at 13 to 55 positions per point, and then each step is O(n), with a factor for densities that
 /// vary by octaves.
@@ -32,7 +32,7 @@ use crate::points::Domain;
 /// [`Error::InvalidArgument`] for a density that is not 0 or above and finite, or is 0 everywhere (`density`; of
 /// several such positions the reported one does not depend on chance), for an image without pixels (`width`, `height`) or of another size than its
 /// values, and for all options but [`Method::Momentum`] (`method`) with Delaunay neighbours (`neighbourhood`); those of
-/// [`relax`](crate::dcr::relax).
+/// [`relax`](fn@crate::dcr::relax).
 pub fn relax_with_density(
     context: &Context,
     options: &Options,

@@ -20,7 +20,8 @@ use crate::geometry::grid2::Grid2;
 use crate::job::{Job, chunks};
 use crate::points::{Boundary, Domain};
 
-/// The number of steps from one removal of waves to the next: fewer than in uniform sets, where nothing builds them up again.
+/// The number of steps from one removal of waves to the next: fewer than in uniform sets, where nothing builds them up
+/// again.
 const WAVES_EVERY: u32 = 2;
 
 /// The points, their velocities and mesh, and the density that they shall have.
@@ -177,8 +178,8 @@ impl Relaxation for DensityRelaxation {
         self.order.leave(&self.torus, &self.places, points)
     }
 
-    /// The smallest distance over the mean spacing of the two points. The spacing grows by no more than the distance, so of
-    /// two points the one with the smaller spacing finds the other within twice that.
+    /// The smallest distance over the mean spacing of the two points. The spacing grows by no more than the distance,
+    /// so of two points the one with the smaller spacing finds the other within twice that.
     fn relative_spacing(&self, job: &Job, points: &[[f32; 2]]) -> Result<Option<f64>> {
         let unit = self.torus.frame.spacing();
         let position = |point: &[f32; 2]| point.map(f64::from);

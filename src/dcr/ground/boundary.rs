@@ -1,16 +1,16 @@
 //! The boundary of a bounded domain: a mirror with three exceptions.
 //!
-//! Mirror images (thesis Fig. 4.12 (b)) close the stars of points at the boundary, and holes there are found exactly: the
-//! circle through two points and their images has its centre on the boundary, at the position farthest from all. But
-//! images that push like points keep the set half a conflict radius away. It then forms rows along the boundary, like
-//! a crystal along a wall, converges late, and covers the boundary badly. The exceptions:
+//! Mirror images (thesis Fig. 4.12 (b)) close the stars of points at the boundary, and holes there are found exactly:
+//! the circle through two points and their images has its centre on the boundary, at the position farthest from all.
+//! But images that push like points keep the set half a conflict radius away. It then forms rows along the boundary,
+//! like a crystal along a wall, converges late, and covers the boundary badly. The exceptions:
 //!
 //! * A point's own image pushes only to keep the two from meeting.
-//! * So points are nearer to the boundary, on disks that are partly outside. A density that is constant for the long waves
-//!   (`waves.rs`) would leave them too sparse: the density wanted at the boundary is a little higher.
-//! * In the last steps only the constraints move the points along the boundary. A point too many there is one too many in
-//!   its image as well: waves push it and its neighbours apart by 0.05 to 0.1 spacings, constraints need five steps to move
-//!   them back, and this repeats. Two points were left in conflict in three of a hundred sets of 1,000.
+//! * So points are nearer to the boundary, on disks that are partly outside. A density that is constant for the long
+//!   waves (`waves.rs`) would leave them too sparse: the density wanted at the boundary is a little higher.
+//! * In the last steps only the constraints move the points along the boundary. A point too many there is one too many
+//!   in its image as well: waves push it and its neighbours apart by 0.05 to 0.1 spacings, constraints need five steps
+//!   to move them back, and this repeats. Two points were left in conflict in three of a hundred sets of 1,000.
 
 use glam::Vec2;
 
@@ -18,12 +18,13 @@ use crate::dcr::ground::constraints::{Constraints, STIFFENING};
 use crate::dcr::ground::torus::{Torus, TorusPoint};
 use crate::dcr::neighbourhood::Neighbourhood;
 
-/// The distance, in spacings, below which a point and its own image push each other: enough to keep triangles between them
-/// from getting flat, in which points could not move.
+/// The distance, in spacings, below which a point and its own image push each other: enough to keep triangles between
+/// them from getting flat, in which points could not move.
 const MEETING: f32 = 0.25;
 
-/// The points, per spacing of the boundary, in excess of a constant density. Delaunay neighbours: the lower, the more even
-/// is the density, but with 0 the outermost spacing is 8 % sparser than the inside. Nearest: a lower excess widens holes.
+/// The points, per spacing of the boundary, in excess of a constant density. Delaunay neighbours: the lower, the more
+/// even is the density, but with 0 the outermost spacing is 8 % sparser than the inside. Nearest: a lower excess widens
+/// holes.
 const EXCESS: f64 = 0.06;
 const EXCESS_OF_NEAREST: f64 = 0.13;
 
@@ -56,8 +57,8 @@ impl MirrorBoundary {
         for image in images {
             let (squared, outwards) = (image.length_squared(), image.normalize_or_zero());
             force -= constraints.push(image, squared);
-            // By symmetry a point on the boundary is not pushed out, but of a neighbour and its image the triangulation may
-            // have only one for a neighbour.
+            // By symmetry a point on the boundary is not pushed out, but of a neighbour and its image the triangulation
+            // may have only one for a neighbour.
             let held = 1.0 - (image.length() / MEETING).min(1.0);
             force -= held * force.dot(outwards).max(0.0) * outwards;
             force += meeting.push(image, squared);
@@ -78,8 +79,8 @@ impl MirrorBoundary {
         }
     }
 
-    /// The Fourier sum of the excess points for so many waves along the axes of the torus. They are spread evenly over the
-    /// boundary and those of the images: along each axis on two lines, at 0 and at half the period.
+    /// The Fourier sum of the excess points for so many waves along the axes of the torus. They are spread evenly over
+    /// the boundary and those of the images: along each axis on two lines, at 0 and at half the period.
     pub(in crate::dcr) fn wave(&self, turns: [i64; 2]) -> f64 {
         let size = self.torus.frame.size();
         let excess = self.excess();

@@ -1,9 +1,10 @@
 //! What neighbours do to a point: two constraints, neither of which exerts a force when it is met.
 //!
 //! * *Conflict*: neighbours closer than the conflict radius push the point away, as in the thesis (eq. 4.10).
-//! * *Coverage*: triangles with a circumradius above the coverage radius pull the point towards their circumcentre, which
-//!   is the position farthest from all points. The thesis attracts along long edges instead, but a long edge need not mean
-//!   a hole, nor a hole a long edge (Ahmed et al. 2016, "A simple push-pull algorithm for blue-noise sampling").
+//! * *Coverage*: triangles with a circumradius above the coverage radius pull the point towards their circumcentre,
+//!   which is the position farthest from all points. The thesis attracts along long edges instead, but a long edge need
+//!   not mean a hole, nor a hole a long edge (Ahmed et al. 2016, "A simple push-pull algorithm for blue-noise
+//!   sampling").
 
 use glam::Vec2;
 
@@ -18,7 +19,8 @@ pub(in crate::dcr) const SAFE_FRACTION: f32 = 0.45;
 /// The clearance, in spacings, of points that are in no mesh.
 pub(in crate::dcr) const FREE_CLEARANCE: f32 = 1.0;
 
-/// The tension at which a pull stops growing: otherwise the wide holes of random sets would draw the points around them too far in.
+/// The tension at which a pull stops growing: otherwise the wide holes of random sets would draw the points around them
+/// too far in.
 pub(in crate::dcr) const STRONGEST_PULL: f32 = 1.0;
 
 /// The steps over which constraints grow stiffer.
@@ -38,8 +40,8 @@ pub(in crate::dcr) struct Constraints {
 /// The sum of forces on a point, and how far it may move.
 pub(in crate::dcr) struct Force {
     pub(in crate::dcr) sum: Vec2,
-    /// The least height of the triangles around the point. If no corner of a triangle moves by half of its least height, it
-    /// cannot turn over: three points that close to a line form no triangle of that height.
+    /// The least height of the triangles around the point. If no corner of a triangle moves by half of its least
+    /// height, it cannot turn over: three points that close to a line form no triangle of that height.
     pub(in crate::dcr) clearance: f32,
 }
 

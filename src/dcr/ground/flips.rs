@@ -1,8 +1,9 @@
 //! When an edge of a triangulation of the torus must be flipped.
 //!
 //! As long as no triangle turns over, a triangulation of moving points stays one, and flipping the edges that are not
-//! locally Delaunay, in any order, makes it the Delaunay triangulation again (Lawson 1977). No exact predicates are needed:
-//! forces do not feel the difference, and flips end because edges within rounding of 180 degrees are left alone.
+//! locally Delaunay, in any order, makes it the Delaunay triangulation again (Lawson 1977). No exact predicates are
+//! needed: forces do not feel the difference, and flips end because edges within rounding of 180 degrees are left
+//! alone.
 
 use glam::DVec2;
 

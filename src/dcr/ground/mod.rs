@@ -1,4 +1,5 @@
-//! What the relaxation methods share: the torus in integers, the mirror boundary, long waves, constraints, flips, motion.
+//! What the relaxation methods share: the torus in integers, the mirror boundary, long waves, constraints, flips,
+//! motion.
 
 pub(super) mod boundary;
 pub(super) mod constraints;

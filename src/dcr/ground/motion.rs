@@ -1,11 +1,12 @@
 //! Convergence by motion.
 //!
-//! The thesis's test (`thesis/variance.rs`) depends on the step size and fires early: halving λ halves the change per step.
-//! Motion per step does not work either: activeness keeps points jittering for ever, the more per step the larger λ is.
+//! The thesis's test (`thesis/variance.rs`) depends on the step size and fires early: halving λ halves the change per
+//! step. Motion per step does not work either: activeness keeps points jittering for ever, the more per step the larger
+//! λ is.
 //!
-//! So the distance covered is measured: the root mean square distance from where the points were, over a span of steps whose
-//! step sizes add up to 2, divided by that sum. The jitter cancels out over longer spans, and runs with λ = 0.025 to 0.2
-//! have the same motion at the same sum of step sizes, within a third.
+//! So the distance covered is measured: the root mean square distance from where the points were, over a span of steps
+//! whose step sizes add up to 2, divided by that sum. The jitter cancels out over longer spans, and runs with λ = 0.025
+//! to 0.2 have the same motion at the same sum of step sizes, within a third.
 
 use glam::DVec2;
 
@@ -18,8 +19,8 @@ const SPAN: f64 = 2.0;
 /// What a sum of steps may lack by rounding.
 const ROUNDING: f64 = 1e-9;
 
-/// The step size by which the motion of the momentum method is measured: a span is 10 steps, in which long waves are removed
-/// twice.
+/// The step size by which the motion of the momentum method is measured: a span is 10 steps, in which long waves are
+/// removed twice.
 pub(in crate::dcr) const STEP: f64 = 0.2;
 
 /// The motion of the points, measured over span after span.

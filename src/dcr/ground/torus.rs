@@ -2,8 +2,8 @@
 //!
 //! A coordinate is a `u32` that counts 2^-32 of a period, so the difference of two points, taken as `i32`, is the
 //! shortest offset between them, and the seam of the torus needs no code. A bounded domain becomes a torus of twice its
-//! width and height, on which its three mirror images stand beside it (thesis Fig. 4.12 (b)): whatever treats a point and
-//! its images alike keeps the mirrors where they are, and with them the boundary.
+//! width and height, on which its three mirror images stand beside it (thesis Fig. 4.12 (b)): whatever treats a point
+//! and its images alike keeps the mirrors where they are, and with them the boundary.
 
 use glam::{DVec2, Vec2};
 
@@ -22,7 +22,8 @@ pub(in crate::dcr) const HALF: u32 = 1 << 31;
 /// Points of a bounded domain keep this distance from its boundary, so that none meets its mirror image.
 const INSET: u32 = 16;
 
-/// A little less than a quarter of a period. A flip can double an edge, and half a period is the longest unambiguous offset.
+/// A little less than a quarter of a period. A flip can double an edge, and half a period is the longest unambiguous
+/// offset.
 const LONGEST: f32 = 0.9999 * (1u32 << 30) as f32;
 
 /// How far positions are nudged, in spacings.
@@ -132,7 +133,8 @@ impl Torus {
         Ok(())
     }
 
-    /// The distances from a point to its own images across the boundary, along `x` and along `y`; NaN on a periodic domain.
+    /// The distances from a point to its own images across the boundary, along `x` and along `y`; NaN on a periodic
+    /// domain.
     #[inline(always)]
     pub(in crate::dcr) fn image_distances(&self, place: TorusPoint) -> [f32; 2] {
         match self.domain.boundary() {
@@ -150,8 +152,8 @@ impl Torus {
         [[x.wrapping_neg(), y], [x, y.wrapping_neg()]].map(|image| self.offset_f32(place, image))
     }
 
-    /// The positions of points, nudged by so little that it changes one thing only: where four are on one circle, as points
-    /// and their mirror images are, all copies of them agree on the diagonal that is an edge.
+    /// The positions of points, nudged by so little that it changes one thing only: where four are on one circle, as
+    /// points and their mirror images are, all copies of them agree on the diagonal that is an edge.
     pub(in crate::dcr) fn nudged(&self, places: &[TorusPoint]) -> Vec<DVec2> {
         (0..).zip(places).map(|(point, &place)| self.position(place) + nudge(point)).collect()
     }

@@ -15,8 +15,8 @@ pub(in crate::dcr) fn random_places(boundary: Boundary, width: f64, count: usize
     (torus, places)
 }
 
-/// Moves the first `count` points as far as their triangles allow, and their images with them. `offsets` gives those of the
-/// neighbours of a point, counter-clockwise.
+/// Moves the first `count` points as far as their triangles allow, and their images with them. `offsets` gives those of
+/// the neighbours of a point, counter-clockwise.
 pub(in crate::dcr) fn wander(
     torus: &Torus,
     places: &mut Vec<TorusPoint>,

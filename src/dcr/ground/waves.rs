@@ -1,9 +1,10 @@
 //! Removes long waves of the density.
 //!
 //! Constraints between neighbours do not see that a wide region is slightly denser than another, which is why no force
-//! that depends on distances alone clears the low frequencies. Here the density is drawn on a grid, and the displacement
-//! `u` whose divergence is its relative excess `δ` is found by Fourier transform, `u = -i k δ / k²`, as particle-mesh codes
-//! find gravity (Hockney and Eastwood 1981). To first order, points that follow it have a constant density.
+//! that depends on distances alone clears the low frequencies. Here the density is drawn on a grid, and the
+//! displacement `u` whose divergence is its relative excess `δ` is found by Fourier transform, `u = -i k δ / k²`, as
+//! particle-mesh codes find gravity (Hockney and Eastwood 1981). To first order, points that follow it have a constant
+//! density.
 
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
@@ -20,8 +21,8 @@ use crate::job::{Job, chunks, chunks_of};
 /// Waves are removed up to this frequency, in units of sqrt(density), once points have settled.
 pub(in crate::dcr) const LONG_WAVES: f64 = 0.25;
 
-/// The width of the grid's cells in spacings. The finest waves that are removed are two cells long. Waves that alias to long
-/// ones are about a spacing long, where the spline by which points are drawn has its zero.
+/// The width of the grid's cells in spacings. The finest waves that are removed are two cells long. Waves that alias to
+/// long ones are about a spacing long, where the spline by which points are drawn has its zero.
 const CELL: f64 = 0.9;
 
 /// Waves above this frequency, in units of the highest, would be removed by less than rounding.
@@ -132,8 +133,8 @@ impl WaveGrid {
         }
     }
 
-    /// The density of `count` weighted points. They are drawn on a fixed number of grids, which are then added up, so that
-    /// the sums do not depend on the number of threads.
+    /// The density of `count` weighted points. They are drawn on a fixed number of grids, which are then added up, so
+    /// that the sums do not depend on the number of threads.
     pub(in crate::dcr) fn draw(
         &self,
         job: &Job,
@@ -146,7 +147,8 @@ impl WaveGrid {
             let mut density = vec![0.0; cells];
             for (place, whole) in layers.range(layer).map(&weighted) {
                 self.for_each_run(place, |start, weights| {
-                    // One by one: a run overlaps parts of those before it, so that vector loads would wait for the stores.
+                    // One by one: a run overlaps parts of those before it, so that vector loads would wait for the
+                    // stores.
                     (start..).zip(weights).for_each(|(node, weight)| density[node] += whole * weight);
                 });
             }
@@ -221,8 +223,8 @@ struct Bin {
     spline: f64,
 }
 
-/// The remainder of numbers most of which are less than twice the divisor: a division would take longer than all else that
-/// is done for a node.
+/// The remainder of numbers most of which are less than twice the divisor: a division would take longer than all else
+/// that is done for a node.
 fn wrapped(number: usize, count: usize) -> usize {
     match number.checked_sub(count) {
         None => number,

@@ -1,27 +1,27 @@
 //! Keeps samples apart by straight distances through space, on whatever parts of the surface they are.
 //!
-//! Forces see the surface laid into a plane. On a fin that is thinner than the distance of samples, and where it is sharply
-//! bent, they lead two samples closer to each other through space that move apart in the plane. So the displacements that
-//! forces ask for are corrected twice.
+//! Forces see the surface laid into a plane. On a fin that is thinner than the distance of samples, and where it is
+//! sharply bent, they lead two samples closer to each other through space that move apart in the plane. So the
+//! displacements that forces ask for are corrected twice.
 //!
-//! * Samples are *held off*: a displacement is shortened in the direction of another sample to half of what is left between
-//!   them, and samples that are too close already move apart. Directions and distances are those of space, projected into
-//!   the triangle's plane.
-//! * Moves are *checked*: a move is made only if its end is no closer than the floor to the positions of all others and to
-//!   those to which they would move. If both of two samples move, the second test has held; if one moves, the first; if none
-//!   does, nothing has changed. So no two get closer than the floor, and no refusal requires another.
+//! * Samples are *held off*: a displacement is shortened in the direction of another sample to half of what is left
+//!   between them, and samples that are too close already move apart. Directions and distances are those of space,
+//!   projected into the triangle's plane.
+//! * Moves are *checked*: a move is made only if its end is no closer than the floor to the positions of all others and
+//!   to those to which they would move. If both of two samples move, the second test has held; if one moves, the first;
+//!   if none does, nothing has changed. So no two get closer than the floor, and no refusal requires another.
 
 use glam::{DVec2, DVec3};
 
 use crate::dcr::ground::constraints::STIFFENING;
 use crate::dcr::surface::walk::FlatTriangle;
 
-/// The distance, in spacings, up to which samples that are near on the surface are held off in the end. It is a little less
-/// than the conflict radius, at which forces stop.
+/// The distance, in spacings, up to which samples that are near on the surface are held off in the end. It is a little
+/// less than the conflict radius, at which forces stop.
 const NEAR: f64 = 0.855;
 
-/// The same for samples that are near through space only, over the floor: from that of a maximal set to that of a relaxed
-/// one, but no farther than parts of the surface allow that were sampled independently of each other.
+/// The same for samples that are near through space only, over the floor: from that of a maximal set to that of a
+/// relaxed one, but no farther than parts of the surface allow that were sampled independently of each other.
 const FAR: f64 = 1.1;
 
 /// How often a displacement is corrected by all close samples.
@@ -92,15 +92,15 @@ impl Contacts {
         // A sample straight above or below is in no direction.
         if across > 0.0 {
             let left = (squared.sqrt() - limit) / flat.spacing();
-            // Along the plane the distance is longer, by the slope of the offset; but no sample moves back by more than what
-            // the distance is short of the limit.
+            // Along the plane the distance is longer, by the slope of the offset; but no sample moves back by more than
+            // what the distance is short of the limit.
             let most = (0.5 * left * squared.sqrt() / (across * flat.spacing())).max(left.min(0.0));
             self.0.push(Contact { squared, direction: projected / across, most });
         }
     }
 
-    /// The displacement, corrected. The nearest sample comes last: where not all can be held off, it is. (In the order of
-    /// their numbers, pairs stay stuck.)
+    /// The displacement, corrected. The nearest sample comes last: where not all can be held off, it is. (In the order
+    /// of their numbers, pairs stay stuck.)
     pub(super) fn hold_off(&mut self, mut displacement: DVec2) -> DVec2 {
         self.0.sort_unstable_by(|a, b| b.squared.total_cmp(&a.squared));
         for _ in 0..ROUNDS {
@@ -120,8 +120,8 @@ mod tests {
 
     const SPACING: f64 = 0.5;
 
-    /// What is left of a displacement along the plane z = 0, with others at these offsets that are held off up to 1. In the
-    /// units of the mesh.
+    /// What is left of a displacement along the plane z = 0, with others at these offsets that are held off up to 1. In
+    /// the units of the mesh.
     fn held_off(others: &[DVec3], displacement: DVec2) -> DVec2 {
         let mesh = Mesh::new(vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]], vec![[0, 1, 2]]).unwrap();
         let flat = FlatTriangle::new(&ConnectedMesh::new(&mesh).unwrap(), 0, SPACING);

@@ -1,9 +1,9 @@
 //! The edges that triangles share: which part of a surface is connected to which.
 //!
-//! Vertices at the same position are one, as needed for files that repeat their vertices in each triangle (STL). Triangles
-//! without a common edge are not connected, however close they are: the two sides of a thin wall are far from each other on
-//! the surface, and a crack is a boundary. Triangles left out by the mesh's mask are ignored, as are those two of whose
-//! corners coincide.
+//! Vertices at the same position are one, as needed for files that repeat their vertices in each triangle (STL).
+//! Triangles without a common edge are not connected, however close they are: the two sides of a thin wall are far from
+//! each other on the surface, and a crack is a boundary. Triangles left out by the mesh's mask are ignored, as are
+//! those two of whose corners coincide.
 //!
 //! Half-edges are numbered `3 t + k`: the edge from corner `k` to the next of triangle `t`.
 
@@ -105,8 +105,8 @@ impl<'a> ConnectedMesh<'a> {
     }
 }
 
-/// For each vertex the first one at its position, up to a float spacing at the largest coordinate: seams that were computed
-/// twice differ by that.
+/// For each vertex the first one at its position, up to a float spacing at the largest coordinate: seams that were
+/// computed twice differ by that.
 fn welded(mesh: &Mesh) -> Vec<u32> {
     let tolerance = f64::from(mesh.largest_coordinate()) * f64::from(f32::EPSILON);
     let positions = mesh.positions();

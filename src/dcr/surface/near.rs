@@ -1,8 +1,8 @@
 //! The surroundings of samples: the samples within a ball that are reached on the surface without leaving it.
 //!
-//! A flood starts from a sample's triangle and crosses all edges that the ball meets. So samples that are near through space
-//! but not on the surface, as on the other side of a thin wall, are not found, and those behind a sharp fold are. Neither
-//! normals nor winding are trusted.
+//! A flood starts from a sample's triangle and crosses all edges that the ball meets. So samples that are near through
+//! space but not on the surface, as on the other side of a thin wall, are not found, and those behind a sharp fold are.
+//! Neither normals nor winding are trusted.
 //!
 //! Where the flood meets a boundary it mirrors the samples found, as the thesis does on bounded domains (Fig. 4.12 (b)).
 
@@ -20,9 +20,9 @@ use crate::geometry::grid3::Grid3;
 use crate::job::{Chunks, Job};
 use crate::mesh::exact;
 
-/// Two positions on the boundary at which a sample is mirrored are farther apart than this fraction of the ball's radius, or
-/// at least 60 degrees apart as seen from it: without its image by both sides of a corner, nothing keeps a sample off one of
-/// them.
+/// Two positions on the boundary at which a sample is mirrored are farther apart than this fraction of the ball's
+/// radius, or at least 60 degrees apart as seen from it: without its image by both sides of a corner, nothing keeps a
+/// sample off one of them.
 const APART: f64 = 0.2;
 
 /// A sample, or its mirror image by a half-edge of the boundary.
@@ -130,8 +130,8 @@ impl<'a> SampleSearch<'a> {
         Surroundings { neighbours: others.take(MOST).collect(), normal, in_sight: in_sight.into() }
     }
 
-    /// Adds the mirror images of a sample: by the position on the boundary that is nearest to it, and by all other edges that it
-    /// is beside. Along a boundary with many corners one image replaces several.
+    /// Adds the mirror images of a sample: by the position on the boundary that is nearest to it, and by all other
+    /// edges that it is beside. Along a boundary with many corners one image replaces several.
     fn mirror(&self, boundary: &[u32], sample: u32, centre: DVec3, found: &mut Vec<(f64, NearSample)>) {
         let position = self.positions[sample as usize];
         let mirrors = boundary.iter().map(|&edge| {

@@ -4,12 +4,12 @@ use crate::dcr::report::Stopped;
 use crate::error::{Error, Result};
 use crate::setters::setters;
 
-/// The options of [`relax`](super::relax).
+/// The options of [`relax`](fn@super::relax).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Options {
-    /// The largest number of steps. 0 returns the samples as they are, but moves those that rounding has put outside their
-    /// triangle to its edge.
+    /// The largest number of steps. 0 returns the samples as they are, but moves those that rounding has put outside
+    /// their triangle to its edge.
     pub max_iterations: u32,
     /// The motion ([`Report::motion`]) at which the set has converged; 0 makes all steps unless nothing moves at all.
     pub tolerance: f64,
@@ -36,8 +36,8 @@ impl Options {
 
 setters!(Options { max_iterations: u32, tolerance: f64, seed: u64 });
 
-/// What [`relax`](super::relax) did. `d_max = sqrt(2 A / (sqrt(3) N))` is the distance of neighbours in the hexagonal arrangement of
-/// as many samples on a plane of the mesh's area A.
+/// What [`relax`](fn@super::relax) did. `d_max = sqrt(2 A / (sqrt(3) N))` is the distance of neighbours in the hexagonal
+/// arrangement of as many samples on a plane of the mesh's area A.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Report {
@@ -51,7 +51,7 @@ pub struct Report {
     /// The smallest straight distance between two of the returned samples, in the units of the mesh, on whatever parts
     /// of the surface they are; infinite for less than two.
     pub smallest_distance: f64,
-    /// The smallest distance in units of `d_max`; infinite for less than two samples. It ends lower where parts of the surface
-    /// are closer to each other than samples, as on thin blades; `docs/dcr.md` has what meshes reach.
+    /// The smallest distance in units of `d_max`; infinite for less than two samples. It ends lower where parts of the
+    /// surface are closer to each other than samples, as on thin blades; `docs/dcr.md` has what meshes reach.
     pub rho: f64,
 }

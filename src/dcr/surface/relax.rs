@@ -27,8 +27,8 @@ const ATTEMPTS: u64 = 16;
 ///
 /// A cancelled call succeeds: it returns the samples after the last whole step, and says so in its report.
 ///
-/// Takes O(triangles log triangles) and then, for each step, O(samples) for samples that are spread about evenly. Finding
-/// neighbours, every few steps, takes O(triangles) besides. Memory is O(triangles + samples).
+/// Takes O(triangles log triangles) and then, for each step, O(samples) for samples that are spread about evenly.
+/// Finding neighbours, every few steps, takes O(triangles) besides. Memory is O(triangles + samples).
 ///
 /// # Errors
 /// [`Error::InvalidArgument`] for triangles that the mesh does not have, that its mask leaves out or that have no area
@@ -76,7 +76,8 @@ pub fn relax(
 }
 
 /// The points of the set, with those moved that coincide with another or lie on an edge: a sample on the boundary would
-/// coincide with its mirror image. They move a little towards a random point of their triangle. None if none must be moved.
+/// coincide with its mirror image. They move a little towards a random point of their triangle. None if none must be
+/// moved.
 fn parted(set: &SurfaceRelaxation, spacing: f64, seed: u64, attempt: u64) -> Option<Vec<SurfacePoint>> {
     let (mesh, mut places) = (set.mesh(), set.places().to_vec());
     let mut order: Vec<u32> = (0..places.len() as u32).collect();

@@ -16,8 +16,8 @@ use crate::mesh::Mesh;
 /// The largest displacement of samples in a step, in spacings.
 const STRIDE: f32 = 0.4;
 
-/// The factor of that from step to step when constraints no longer grow stiffer. Where the curvature is high for the density
-/// of the samples, the forces of two of them on each other are not opposite, and they would never come to rest.
+/// The factor of that from step to step when constraints no longer grow stiffer. Where the curvature is high for the
+/// density of the samples, the forces of two of them on each other are not opposite, and they would never come to rest.
 const CALMING: f32 = 0.9;
 
 /// The largest distance by which positions change in a step, in spacings: the stride, and rounding.
@@ -26,8 +26,8 @@ const FARTHEST: f64 = 0.41;
 /// The distance up to which neighbours are needed, in spacings.
 const REACH: f64 = 1.7;
 
-/// The distance beyond that up to which neighbours are searched, so that they need not be searched again until two samples
-/// together have moved by it.
+/// The distance beyond that up to which neighbours are searched, so that they need not be searched again until two
+/// samples together have moved by it.
 const SLACK: f64 = 0.3;
 
 /// The samples of one task: few, as each takes long.
@@ -149,9 +149,9 @@ impl<'a> SurfaceRelaxation<'a> {
         wanted[sample].length <= FARTHEST && self.surroundings[sample].in_sight.iter().all(admits)
     }
 
-    /// Searches the neighbours of samples that have moved by half of the slack, and of the samples near these that do not have
-    /// them as neighbours yet. So two samples that do not have each other have moved towards each other by no more than the
-    /// slack, and after the next step samples out of sight are no closer than the floor.
+    /// Searches the neighbours of samples that have moved by half of the slack, and of the samples near these that do
+    /// not have them as neighbours yet. So two samples that do not have each other have moved towards each other by no
+    /// more than the slack, and after the next step samples out of sight are no closer than the floor.
     fn search(&mut self, job: &Job, chunks: Chunks) -> Result<()> {
         let has_moved: Vec<bool> = self.travelled.iter().map(|&distance| distance >= SLACK / 2.0).collect();
         if !has_moved.contains(&true) {

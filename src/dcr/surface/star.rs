@@ -1,7 +1,8 @@
 //! The Delaunay star of one point among those near it in its tangent plane.
 //!
-//! The nearest point is a Delaunay neighbour; from one neighbour on, the next counter-clockwise is the point that sees the
-//! edge to it under the largest angle (gift wrapping; McLain 1976, "Two dimensional interpolation from random data").
+//! The nearest point is a Delaunay neighbour; from one neighbour on, the next counter-clockwise is the point that sees
+//! the edge to it under the largest angle (gift wrapping; McLain 1976, "Two dimensional interpolation from random
+//! data").
 
 use glam::Vec2;
 
@@ -40,8 +41,8 @@ impl StarCandidates {
         Vec2::new(self.x[point], self.y[point])
     }
 
-    /// Writes the neighbours, counter-clockwise, to `ring`. False if they leave a gap of a half turn or more; then `ring`
-    /// begins after the gap.
+    /// Writes the neighbours, counter-clockwise, to `ring`. False if they leave a gap of a half turn or more; then
+    /// `ring` begins after the gap.
     pub(super) fn star(&self, ring: &mut Vec<usize>) -> bool {
         ring.clear();
         let nearest = (0..self.count).min_by(|&a, &b| self.squared[a].total_cmp(&self.squared[b]));

@@ -1,7 +1,7 @@
 //! The triangulation of relaxed samples on a surface, for remeshing (thesis §4.4.4).
 //!
-//! Each sample finds its Delaunay star in its own tangent plane. A triangle that is in the stars of all three of its corners
-//! is one of the mesh; where the surface is bent too much for the samples to agree, there are holes.
+//! Each sample finds its Delaunay star in its own tangent plane. A triangle that is in the stars of all three of its
+//! corners is one of the mesh; where the surface is bent too much for the samples to agree, there are holes.
 
 use crate::dcr::surface::connected::ConnectedMesh;
 use crate::dcr::surface::near::SampleSearch;
@@ -18,19 +18,20 @@ const REACH: f64 = 2.2;
 /// The triangles of a set of samples.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Triangulation {
-    /// The numbers of three samples each, counter-clockwise as seen from the front of the mesh's triangle under the sample
-    /// with the lowest number, which comes first.
+    /// The numbers of three samples each, counter-clockwise as seen from the front of the mesh's triangle under the
+    /// sample with the lowest number, which comes first.
     pub triangles: Vec<[u32; 3]>,
-    /// The fraction of the corners of all samples' triangles that are corners of these: 1 where all agree. 1 for no triangle.
+    /// The fraction of the corners of all samples' triangles that are corners of these: 1 where all agree. 1 for no
+    /// triangle.
     pub agreement: f64,
 }
 
 /// Triangulates samples on a mesh that are spread about evenly, as maximal and relaxed sets are: the triangles of their
 /// Delaunay stars on which they agree. Those across open boundaries, and across gaps wider than twice the distance of
-/// samples, are left out. The arguments are those of [`relax`](super::relax). O(n log n).
+/// samples, are left out. The arguments are those of [`relax`](fn@super::relax). O(n log n).
 ///
 /// # Errors
-/// Those of [`relax`](super::relax), and [`Error::Cancelled`](crate::Error::Cancelled).
+/// Those of [`relax`](fn@super::relax), and [`Error::Cancelled`](crate::Error::Cancelled).
 pub fn triangulate(
     context: &Context,
     mesh: &Mesh,

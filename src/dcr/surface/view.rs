@@ -21,9 +21,9 @@ pub(super) struct View {
 }
 
 impl View {
-    /// Projects the neighbours of a sample at `from` on the triangle `flat`. Offsets keep their length, which is the straight
-    /// distance in spacings. The plane is that of the mean normal, rotated into that of the triangle: so samples on a fold, or
-    /// on one of many small facets, have neighbours on all sides.
+    /// Projects the neighbours of a sample at `from` on the triangle `flat`. Offsets keep their length, which is the
+    /// straight distance in spacings. The plane is that of the mean normal, rotated into that of the triangle: so
+    /// samples on a fold, or on one of many small facets, have neighbours on all sides.
     pub(super) fn project(
         &mut self,
         connected: &ConnectedMesh,

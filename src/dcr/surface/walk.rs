@@ -44,8 +44,8 @@ impl SurfacePoint {
 #[derive(Clone, Copy)]
 pub(super) struct WalkEnd {
     pub(super) place: SurfacePoint,
-    /// The displacement in the plane of the last triangle: of the same length, or where a boundary was met its component along
-    /// the boundary.
+    /// The displacement in the plane of the last triangle: of the same length, or where a boundary was met its
+    /// component along the boundary.
     pub(super) displacement: DVec2,
 }
 
@@ -98,8 +98,8 @@ impl FlatTriangle {
         (from, to - from)
     }
 
-    /// The edge through which a path from a point leads out of the triangle, and the fraction of the path before it, if it
-    /// does. `entry` is the edge on which it began.
+    /// The edge through which a path from a point leads out of the triangle, and the fraction of the path before it, if
+    /// it does. `entry` is the edge on which it began.
     fn exit(&self, point: DVec2, path: DVec2, entry: Option<u32>) -> Option<(u32, f64)> {
         let time = |k: u32| {
             let (from, along) = self.edge(k);
@@ -118,7 +118,8 @@ impl FlatTriangle {
     }
 }
 
-/// Walks from a point, in a triangle with area, by a displacement, which is in the plane of its triangle and in spacings.
+/// Walks from a point, in a triangle with area, by a displacement, which is in the plane of its triangle and in
+/// spacings.
 pub(super) fn walk(mesh: &ConnectedMesh, spacing: f64, start: SurfacePoint, displacement: DVec2) -> WalkEnd {
     let mut triangle = start.triangle;
     let mut flat = FlatTriangle::new(mesh, triangle, spacing);
@@ -171,8 +172,8 @@ mod tests {
 
     const SPACING: f64 = 0.25;
 
-    /// A square of side 8 around the origin in irregular triangles, some of them turned over, rolled up around the y axis
-    /// with this curvature.
+    /// A square of side 8 around the origin in irregular triangles, some of them turned over, rolled up around the y
+    /// axis with this curvature.
     fn rolled_square(curvature: f32) -> Mesh {
         let side = 17;
         let mut rng = Rng::at(1, Draw::Probe, &[]);

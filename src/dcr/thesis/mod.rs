@@ -18,9 +18,9 @@
 //! whose λ add up to 2 (40 steps of 0.05), per unit of λ: the same for small and large steps at the same state. The
 //! thesis's own test (`variance.rs`) depends on the step size; [`Convergence::Variance`] asks for it.
 //!
-//! The thesis's radii cost Delaunay neighbours some of the spacing that thrown darts have, as an attraction radius of 1.05
-//! cannot be met everywhere; they gain coverage and well-shaped triangles. Nearest neighbours gain spacing at the price of
-//! holes, as nothing attracts. `docs/dcr.md` compares both with the thesis's tables.
+//! The thesis's radii cost Delaunay neighbours some of the spacing that thrown darts have, as an attraction radius of
+//! 1.05 cannot be met everywhere; they gain coverage and well-shaped triangles. Nearest neighbours gain spacing at the
+//! price of holes, as nothing attracts. `docs/dcr.md` compares both with the thesis's tables.
 
 mod delaunay;
 mod forces;

@@ -44,8 +44,8 @@ impl NearestLinks {
     }
 }
 
-/// The rounding, in spacings, by which equal distances may differ: that from a point to the copy of another, and that from
-/// the other to the copy of the point.
+/// The rounding, in spacings, by which equal distances may differ: that from a point to the copy of another, and that
+/// from the other to the copy of the point.
 const ROUNDING: f64 = 1e-9;
 
 /// The squared reach of a neighbourhood; `nearest` is working memory.

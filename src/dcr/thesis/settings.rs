@@ -6,8 +6,8 @@ use crate::setters::setters;
 /// How a tension is divided between the point that visits an edge and the neighbour at its other end (Fig. 4.19).
 ///
 /// Where edges are visited from both ends ([`Visits::BothEnds`]) all but [`Distribution::Activeness`] give the same
-/// displacements on the Delaunay neighbourhood. They differ on the nearest, where one end may be among the nearest of the
-/// other but not conversely, and with [`Visits::OneEnd`].
+/// displacements on the Delaunay neighbourhood. They differ on the nearest, where one end may be among the nearest of
+/// the other but not conversely, and with [`Visits::OneEnd`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Distribution {
     /// By activeness: a point whose tensions cancel out moves its neighbours, one whose tensions agree moves itself.
@@ -28,8 +28,9 @@ pub enum Distribution {
 pub enum Visits {
     /// From each end that has the other in its neighbourhood, as in the thesis's pseudo-code.
     BothEnds,
-    /// From one end. Of two that are in each other's neighbourhood it is the same one in every step, chosen by a coin keyed by
-    /// the seed and the two points, so that the distributions of Fig. 4.19 differ. Points move about half as far in a step.
+    /// From one end. Of two that are in each other's neighbourhood it is the same one in every step, chosen by a coin
+    /// keyed by the seed and the two points, so that the distributions of Fig. 4.19 differ. Points move about half as
+    /// far in a step.
     OneEnd,
 }
 

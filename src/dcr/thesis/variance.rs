@@ -97,7 +97,8 @@ mod tests {
             context.run(None, |job| variance.after_step(job, &frame, before, after)).unwrap();
             variance.has_settled()
         };
-        // The first step has no change to compare with; a point that jumps starts the count again, as does a new variance.
+        // The first step has no change to compare with; a point that jumps starts the count again, as does a new
+        // variance.
         assert!((0..10).all(|_| !step(&calm, &calm)));
         let elsewhere = calm.map(|point| point + 0.02);
         assert!(!step(&calm, &elsewhere));

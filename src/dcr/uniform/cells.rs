@@ -1,9 +1,9 @@
 //! The points in the cells of a grid of the torus, for forces with a reach shorter than a cell is wide.
 //!
-//! A force depends neither on which point a neighbour is nor on the number of neighbours, only on their positions: so the
-//! neighbours of a point are found as two runs of memory, eight points at a time. Points stay in their cells while none has
-//! moved by more than half of the skin, the width that cells have beyond the reach, as in Verlet's lists (1967); only their
-//! coordinates are updated.
+//! A force depends neither on which point a neighbour is nor on the number of neighbours, only on their positions: so
+//! the neighbours of a point are found as two runs of memory, eight points at a time. Points stay in their cells while
+//! none has moved by more than half of the skin, the width that cells have beyond the reach, as in Verlet's lists
+//! (1967); only their coordinates are updated.
 
 use std::array::from_fn;
 use std::ops::Range;
@@ -30,9 +30,9 @@ const NEAR: usize = 3;
 
 /// A torus cut into cells.
 ///
-/// Rows are so high that forces on a point in the upper half of one come from it and the next row only, and those in the
-/// lower half from it and the row below: two runs of cells hold all neighbours. The cells at each end of a row are repeated
-/// beyond its other end, so that no run is cut.
+/// Rows are so high that forces on a point in the upper half of one come from it and the next row only, and those in
+/// the lower half from it and the row below: two runs of cells hold all neighbours. The cells at each end of a row are
+/// repeated beyond its other end, so that no run is cut.
 pub(super) struct VerletCells {
     torus: Torus,
     rows: usize,

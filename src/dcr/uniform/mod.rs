@@ -5,12 +5,13 @@
 //!
 //! * holes attract, not long edges (`ground/constraints.rs`);
 //! * points have momentum instead of activeness: alternating forces cancel out, steady ones add up;
-//! * the density's long waves are removed directly, every few steps (`ground/waves.rs`), and in the first steps finer ones;
+//! * the density's long waves are removed directly, every few steps (`ground/waves.rs`), and in the first steps finer
+//!   ones;
 //! * the boundary of a bounded domain is a mirror in which points do not see themselves (`ground/boundary.rs`);
 //! * constraints grow stiffer: soft ones let the set stay irregular while it spreads, stiff ones leave no violations;
 //! * points that block each other for good are kicked;
-//! * the triangulation is kept and repaired by flips (`flip_mesh`). Where it cannot be, with a few points or large holes,
-//!   it is built anew in every step.
+//! * the triangulation is kept and repaired by flips (`flip_mesh`). Where it cannot be, with a few points or large
+//!   holes, it is built anew in every step.
 
 mod cells;
 mod flip_mesh;

@@ -29,20 +29,20 @@ const WAVES_EVERY: u32 = 5;
 /// waves than low frequencies: it fills holes that the constraints do not see, with nearest neighbours in all steps.
 const FINE_WAVES: f64 = 0.55;
 
-/// The steps during which that falls to [`LONG_WAVES`]: in the end fine waves are due to the constraints, which removing them
-/// would disturb.
+/// The steps during which that falls to [`LONG_WAVES`]: in the end fine waves are due to the constraints, which
+/// removing them would disturb.
 const COARSENING: Range<u32> = 60..85;
 
-/// The number of steps from one kick to the next, and the step of the last. Points whose constraints are violated are kicked:
-/// where points block each other for good, this moves one of them out.
+/// The number of steps from one kick to the next, and the step of the last. Points whose constraints are violated are
+/// kicked: where points block each other for good, this moves one of them out.
 const KICK_EVERY: u32 = 8;
 const LAST_KICK: u32 = 56;
 
 /// The length of a kick, in spacings.
 const KICK: f32 = 0.03;
 
-/// The fraction of the points above which violations are not exceptions: no point is kicked, and waves act at the boundary
-/// too.
+/// The fraction of the points above which violations are not exceptions: no point is kicked, and waves act at the
+/// boundary too.
 const FEW: f64 = 0.04;
 
 /// The points, their velocities, and the search for their neighbours.

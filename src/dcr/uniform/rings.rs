@@ -97,8 +97,8 @@ impl Rings {
         &self.neighbours[point * self.slots..][..self.slots]
     }
 
-    /// Whether for every neighbour `q` of a point and the one that follows it, `r`, the point follows `r` in the ring of `q`:
-    /// then the rings describe triangles on which all corners agree.
+    /// Whether for every neighbour `q` of a point and the one that follows it, `r`, the point follows `r` in the ring
+    /// of `q`: then the rings describe triangles on which all corners agree.
     pub(super) fn agree(&self, point: usize) -> bool {
         let ring = self.ring(point);
         let is_distinct = (1..ring.len()).all(|k| !ring[..k].contains(&ring[k]));

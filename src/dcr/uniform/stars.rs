@@ -17,8 +17,8 @@ type Lanes = [f32; LANES];
 /// The last bit of the masks of suspects.
 const LAST_BIT: usize = 31;
 
-/// The distance below which, and the circumradius above which, constraints count as violated, in spacings: those that the
-/// push-pull algorithm (Ahmed et al. 2016) reaches.
+/// The distance below which, and the circumradius above which, constraints count as violated, in spacings: those that
+/// the push-pull algorithm (Ahmed et al. 2016) reaches.
 const TOO_CLOSE: f32 = 0.85;
 const TOO_WIDE: f32 = 0.67;
 
@@ -35,7 +35,8 @@ pub(super) struct Gathered {
     is_sound: [u32; LANES],
     /// 1 if a neighbour, not counting own images, is too close or a triangle too wide, else 0.
     is_violated: [u32; LANES],
-    /// Bit `k` says whether the edge to the neighbour before the `k`-th is suspect, the last bit whether one of the others is.
+    /// Bit `k` says whether the edge to the neighbour before the `k`-th is suspect, the last bit whether one of the
+    /// others is.
     suspects: [u32; LANES],
 }
 
@@ -102,8 +103,8 @@ pub(super) struct Stars<'a> {
 }
 
 impl Stars<'_> {
-    /// Gathers for a range of points and passes the results to `visitor`. Code of its own for each level of vectors is in
-    /// `vectors`.
+    /// Gathers for a range of points and passes the results to `visitor`. Code of its own for each level of vectors is
+    /// in `vectors`.
     #[inline(always)]
     pub(super) fn gather(&self, points: Range<usize>, visitor: &mut impl Visitor) {
         for first in points.clone().step_by(LANES) {

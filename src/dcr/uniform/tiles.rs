@@ -1,8 +1,8 @@
 //! The first triangulation of large sets, tile by tile.
 //!
-//! Each tile of the torus is triangulated with the points in a margin around it. The star of a point is that of the whole
-//! set if the circumcircles of its triangles lie where all points are known; if one does not, there is no result, and the
-//! set must be triangulated as a whole.
+//! Each tile of the torus is triangulated with the points in a margin around it. The star of a point is that of the
+//! whole set if the circumcircles of its triangles lie where all points are known; if one does not, there is no result,
+//! and the set must be triangulated as a whole.
 
 use glam::DVec2;
 use spade::handles::VertexHandle;

@@ -1,4 +1,5 @@
-//! The Delaunay triangulation of a torus, kept while its points move and repaired by flips (`ground/flips.rs`), in rings.
+//! The Delaunay triangulation of a torus, kept while its points move and repaired by flips (`ground/flips.rs`), in
+//! rings.
 //!
 //! The forces hold points back so that no triangle turns over; if one does all the same, the mesh says so and must be
 //! built anew. The edges that may have to be flipped are found while points gather, so that flips need no pass over the
@@ -139,7 +140,8 @@ impl FlipMesh {
         Ok(all)
     }
 
-    /// Flips edges that must be, and those around them, until all are locally Delaunay; false if one could not be flipped.
+    /// Flips edges that must be, and those around them, until all are locally Delaunay; false if one could not be
+    /// flipped.
     ///
     /// `suspects` are those of before the points moved, ordered by the points at which they start. An edge that was not
     /// suspect then and must be flipped now is left for the next step.

@@ -1,6 +1,6 @@
-//! Forces in each level of vector instructions, the same to the bit. Those in stars are the portable code compiled for AVX2,
-//! so that its loops over lanes become vectors. Those in cells, of which the compiler makes no good vectors, are written in
-//! intrinsics.
+//! Forces in each level of vector instructions, the same to the bit. Those in stars are the portable code compiled for
+//! AVX2, so that its loops over lanes become vectors. Those in cells, of which the compiler makes no good vectors, are
+//! written in intrinsics.
 
 use std::ops::Range;
 
