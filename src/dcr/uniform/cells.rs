@@ -70,19 +70,15 @@ impl VerletCells {
             (2 * (half / 2 * stride + along(columns, x)) + half % 2) as u32
         };
         let runs: Vec<u32> = places.iter().map(run).collect();
-        // Points in the cells at one end of a row are repeated beyond the other.
-        let repetition = |cell: usize, column: usize| match column {
-            _ if near == 0 => None,
-            column if column < near => Some(cell + columns),
-            column if column >= columns - near => Some(cell - columns),
+        let own = (0..).zip(&runs).map(|(point, &run)| (run as usize / 2 + near, point));
+        // Points in the cells at one end of a row are repeated beyond the other, in cells of their own.
+        let repeated = own.clone().zip(places).filter_map(|((cell, point), &[x, _])| match along(columns, x) {
+            column if column < near => Some((cell + columns, point)),
+            column if column >= columns - near => Some((cell - columns, point)),
             _ => None,
-        };
-        let points = (0..).zip(places).zip(&runs).flat_map(|((point, &[x, _]), &run)| {
-            let cell = run as usize / 2 + near;
-            let cells = [Some(cell), repetition(cell, along(columns, x))];
-            cells.into_iter().flatten().map(move |cell| (cell, point))
         });
-        let points = Binned::new(rows * stride, points);
+        let repeated: Vec<(usize, u32)> = repeated.collect();
+        let points = Binned::new(rows * stride, own.chain(repeated.iter().copied()));
         let [x, y] = [0, 1].map(|_| vec![0; points.items().len() + LANES]);
         Self { torus: *torus, rows, stride, width: 2 * near + 1, reach, travelled: 0.0, runs, points, x, y }
     }
