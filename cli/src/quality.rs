@@ -43,7 +43,7 @@ impl Quality {
         context: &Context,
         domain: &Domain,
         points: &[[f32; 2]],
-        Figures { nearest, covering_radius, bond_order, triangles }: &Figures,
+        Figures { nearest, covering_radius, bond_order, triangles, .. }: &Figures,
         progress: Option<&Progress>,
     ) -> Result<Self> {
         let spacing = spacing_2d(domain, nearest);
