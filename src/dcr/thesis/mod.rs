@@ -14,9 +14,9 @@
 //!   0.9, of the longer of the two. Its activeness is then infinite: its neighbours move instead.
 //! * λ is constant, as in the thesis's experiments, or decays by a factor per step, where the thesis gives no rule.
 //!
-//! Convergence is judged by motion: [`Report::motion`](super::Report::motion) is the distance covered in the last steps
-//! whose λ add up to 2 (40 steps of 0.05), per unit of λ: the same for small and large steps at the same state. The
-//! thesis's own test (`variance.rs`) depends on the step size; [`Convergence::Variance`] asks for it.
+//! Convergence is judged by motion: [`Report::motion`](crate::dcr::Report::motion) is the distance covered in the last
+//! steps whose λ add up to 2 (40 steps of 0.05), per unit of λ: the same for small and large steps at the same state.
+//! The thesis's own test (`variance.rs`) depends on the step size; [`Convergence::Variance`] asks for it.
 //!
 //! The thesis's radii cost Delaunay neighbours some of the spacing that thrown darts have, as an attraction radius of
 //! 1.05 cannot be met everywhere; they gain coverage and well-shaped triangles. Nearest neighbours gain spacing at the

@@ -37,7 +37,7 @@ pub enum Visits {
 /// The test of convergence.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Convergence {
-    /// The motion ([`Report::motion`](super::Report::motion)) falls to the tolerance. It does not depend on the
+    /// The motion ([`Report::motion`](crate::dcr::Report::motion)) falls to the tolerance. It does not depend on the
     /// step size.
     Motion,
     /// The thesis's test (§4.4.2): ten times in a row the variance of the distances to the nearest point changes by less
