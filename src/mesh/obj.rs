@@ -1,120 +1,154 @@
-//! OBJ files: vertices, faces and normals of corners.
+//! OBJ files, by the crate tobj.
 //!
-//! Not by a crate: tobj 4 panics on broken texture and normal indices, gives a corner without a normal its neighbour's,
-//! numbers vertices anew for each group and follows `mtllib` to other files. Showing it only what it can take needed more
-//! code than reading the three kinds of lines that a mesh is made of.
+//! tobj is shown nothing but vertices and faces: once those of the file, and once its normals in place of the vertices,
+//! with the faces by the numbers of their normals. That keeps the faces of all groups in their order, follows no `mtllib`
+//! to other files, admits comments in any encoding, distinguishes corners without a normal, and avoids tobj's
+//! handling of texture coordinates and normals, which panics on some broken files. As tobj numbers vertices by their
+//! first use, the first faces that it sees use all of them, in the order of the file.
+//!
+//! Both passes are needed: in one pass tobj 4 either merges the indices of positions and normals, so that vertices lose the
+//! numbers of the file, or gives a corner without a normal the normal of another. A file without normals is shown once.
 
 use std::borrow::Cow;
 
+use tobj::LoadError::{FaceVertexOutOfBounds, InvalidPolygon};
+
 use crate::mesh::soup::Soup;
-use crate::mesh::text::{lines, number, shown, vector, words};
+use crate::mesh::text::{lines, number, words};
+
+/// What of a file is shown as vertices and faces.
+struct View {
+    /// What the items are called, that faces name, and the keyword of their lines.
+    name: &'static str,
+    keyword: &'static [u8],
+    /// Which part of a corner, `vertex/texture/normal`, names one.
+    part: usize,
+    /// Whether corners may name none. One more item, of zeros and behind all others, stands for that.
+    is_optional: bool,
+}
+
+/// Vectors, and the three of each triangle.
+type Indexed = (Vec<[f32; 3]>, Vec<[u32; 3]>);
+
+const VERTICES: View = View { name: "vertex", keyword: b"v", part: 0, is_optional: false };
+const NORMALS: View = View { name: "normal", keyword: b"vn", part: 2, is_optional: true };
 
 /// Vertices, triangles and normals, or what is wrong with the file.
 pub(super) fn parse(bytes: &[u8]) -> Result<Soup, String> {
     if bytes.starts_with(b"\xff\xfe") || bytes.starts_with(b"\xfe\xff") {
         return Err("is encoded in UTF-16; save it as UTF-8".to_owned());
     }
-    let (mut vertices, mut normals) = (Items::new("vertex"), Items::new("normal"));
-    for (line, content) in statements(bytes) {
-        let mut words = words(&content);
-        let read = match words.next() {
-            Some(b"v") => vector(words).map(|vector| vertices.vectors.push(vector)),
-            Some(b"vn") => vector(words).map(|vector| normals.vectors.push(vector)),
-            Some(b"f") => read_face(words, line, &mut vertices, &mut normals),
-            _ => Ok(()),
-        };
-        read.map_err(|problem| format!("line {line}: {problem}"))?;
-    }
-    let (positions, triangles) = vertices.finish()?;
+    let (positions, triangles) = VERTICES.load(bytes)?;
     let mut soup = Soup { positions, triangles, ..Default::default() };
-    if normals.highest > 0 {
-        let (normals, indices) = normals.finish()?;
+    if NORMALS.is_named_in(bytes) {
+        let (normals, indices) = NORMALS.load(bytes)?;
         (soup.normals, soup.normal_indices) = (normals, Some(indices));
     }
     Ok(soup)
 }
 
-/// Vectors, and the three of each triangle.
-type Indexed = (Vec<[f32; 3]>, Vec<[u32; 3]>);
-
-/// The vectors of one kind, and the three of each triangle.
-struct Items {
-    name: &'static str,
-    vectors: Vec<[f32; 3]>,
-    /// Numbers counted from 1; 0 where a corner has none.
-    triangles: Vec<[u32; 3]>,
-    /// The largest number that a face names, and the first line that names it.
-    highest: i64,
-    line: usize,
-}
-
-impl Items {
-    fn new(name: &'static str) -> Self {
-        Self { name, vectors: Vec::new(), triangles: Vec::new(), highest: 0, line: 0 }
+impl View {
+    /// The items, and the three of each triangle.
+    fn load(&self, bytes: &[u8]) -> Result<Indexed, String> {
+        let items = self.count(bytes) + usize::from(self.is_optional);
+        let firsts = items.div_ceil(3);
+        let text = self.show(bytes, items);
+        let options =
+            tobj::LoadOptions { triangulate: true, ignore_points: true, ignore_lines: true, ..Default::default() };
+        let mut rest = &text[..];
+        let loaded = tobj::load_obj_buf(&mut rest, &options, |_| Err(tobj::LoadError::MaterialParseError));
+        let (models, _) = loaded.map_err(|error| match error {
+            // These are found at the end, when the faces are put together.
+            FaceVertexOutOfBounds | InvalidPolygon => self.bad_face(bytes).unwrap_or_else(|| error.to_string()),
+            _ => {
+                let read = text[..text.len() - rest.len()].iter().filter(|&&byte| byte == b'\n').count() - firsts;
+                let line = statements(bytes).filter(|(_, content)| self.shows(content)).nth(read.saturating_sub(1));
+                format!("line {}: {error}", line.map_or(0, |(line, _)| line))
+            }
+        })?;
+        let Some(model) = models.into_iter().next() else { return Ok(Default::default()) };
+        let vectors = model.mesh.positions.as_chunks().0.to_vec();
+        let triangles = model.mesh.indices.as_chunks().0[firsts..].to_vec();
+        Ok((vectors, triangles))
     }
 
-    /// The number that a corner names, counted from 1; 0 for none. Negative ones count back from the last so far, and
-    /// positive ones may be of lines that follow.
-    fn resolve(&mut self, word: &[u8], line: usize) -> Result<u32, String> {
-        if word.is_empty() {
-            return Ok(0);
+    /// The lines that tobj is shown: faces that use all items in order, then the items and faces of the file.
+    fn show(&self, bytes: &[u8], items: usize) -> Vec<u8> {
+        let mut text = Vec::with_capacity(bytes.len());
+        let mut write = |keyword: &[u8], words: &mut dyn Iterator<Item = Cow<[u8]>>| {
+            text.extend(keyword);
+            for word in words {
+                text.push(b' ');
+                text.extend_from_slice(&word);
+            }
+            text.push(b'\n');
+        };
+        let decimal = |number: usize| Cow::from(number.to_string().into_bytes());
+        for first in (1..=items).step_by(3) {
+            write(b"f", &mut (first..first + 3).map(|item| decimal(item.min(items))));
         }
-        let named: i64 = number(word).ok_or_else(|| format!("{} is not the number of a {}", shown(word), self.name))?;
-        let so_far = self.vectors.len() as i64;
-        let resolved = if named < 0 { so_far + 1 + named } else { named };
-        if named < 0 && resolved < 1 {
-            return Err(format!("a face names {} {named}, but there are {so_far} so far", self.name));
+        for (_, content) in statements(bytes).filter(|(_, content)| self.shows(content)) {
+            let mut words = words(&content);
+            if words.next() == Some(b"f") {
+                write(b"f", &mut words.map(|corner| self.index(corner).map_or(decimal(items), Cow::from)));
+            } else {
+                // Weights and colours may follow.
+                write(b"v", &mut words.take(3).map(Cow::from));
+            }
         }
-        if resolved > self.highest {
-            (self.highest, self.line) = (resolved, line);
+        if self.is_optional {
+            write(b"v 0 0 0", &mut std::iter::empty());
         }
-        Ok(u32::try_from(resolved).unwrap_or(u32::MAX))
+        text
     }
 
-    /// The vectors, and the three of each triangle, counted from 0. One more vector, zero and behind all others, stands
-    /// for none.
-    fn finish(mut self) -> Result<Indexed, String> {
-        let count = self.vectors.len();
-        if self.highest > count as i64 {
-            let Self { name, highest, line, .. } = self;
-            return Err(format!("line {line}: a face names {name} {highest}, but there are {count}"));
-        }
-        let corners = self.triangles.as_flattened_mut();
-        if corners.contains(&0) {
-            self.vectors.push([0.0; 3]);
-        }
-        corners.iter_mut().for_each(|number| *number = number.checked_sub(1).unwrap_or(count as u32));
-        Ok((self.vectors, self.triangles))
-    }
-}
-
-/// Reads the corners `vertex/texture/normal` of a polygon, and cuts it into a fan.
-fn read_face<'a>(
-    words: impl Iterator<Item = &'a [u8]>,
-    line: usize,
-    vertices: &mut Items,
-    normals: &mut Items,
-) -> Result<(), String> {
-    let mut corners = Vec::new();
-    for corner in words {
+    /// The index in a corner of a face; none if there may be none, and is none.
+    fn index<'a>(&self, corner: &'a [u8]) -> Option<&'a [u8]> {
         let mut parts = corner.split(|&byte| byte == b'/');
-        let [vertex, _, normal] = [(); 3].map(|()| parts.next().unwrap_or_default());
-        if parts.next().is_some() {
-            return Err(format!("{} is not the corner of a face", shown(corner)));
+        match parts.clone().nth(self.part).unwrap_or_default() {
+            // Not the corner of a face.
+            _ if parts.nth(3).is_some() => Some(corner),
+            b"" | b"0" if self.is_optional => None,
+            b"" => Some(b"0"),
+            index => Some(index),
         }
-        let vertex = vertices.resolve(vertex, line)?;
-        if vertex == 0 {
-            return Err(format!("a face names vertex 0, but there are {}", vertices.vectors.len()));
-        }
-        corners.push([vertex, normals.resolve(normal, line)?]);
     }
-    let [first, rest @ ..] = &corners[..] else { return Err("a face without corners".to_owned()) };
-    for pair in rest.windows(2) {
-        let [a, b, c] = [*first, pair[0], pair[1]];
-        vertices.triangles.push([a[0], b[0], c[0]]);
-        normals.triangles.push([a[1], b[1], c[1]]);
+
+    fn shows(&self, content: &[u8]) -> bool {
+        words(content).next().is_some_and(|keyword| keyword == self.keyword || keyword == b"f")
     }
-    Ok(())
+
+    /// The number of items.
+    fn count(&self, bytes: &[u8]) -> usize {
+        statements(bytes).filter(|(_, content)| words(content).next() == Some(self.keyword)).count()
+    }
+
+    /// Whether a face names an item.
+    fn is_named_in(&self, bytes: &[u8]) -> bool {
+        let mut faces = statements(bytes).filter(|(_, content)| content.first() == Some(&b'f'));
+        faces.any(|(_, content)| words(&content).skip(1).any(|corner| self.index(corner).is_some()))
+    }
+
+    /// The first face that has no corners or names an item that there is not.
+    fn bad_face(&self, bytes: &[u8]) -> Option<String> {
+        let (name, all) = (self.name, self.count(bytes));
+        let mut so_far = 0;
+        statements(bytes).find_map(|(line, content)| {
+            let mut words = words(&content);
+            let keyword = words.next();
+            so_far += usize::from(keyword == Some(self.keyword));
+            if keyword != Some(b"f") {
+                return None;
+            }
+            if words.clone().next().is_none() {
+                return Some(format!("line {line}: a face without corners"));
+            }
+            let is_bad = |&index: &i64| index == 0 || !(-(so_far as i64)..=all as i64).contains(&index);
+            let bad = words.filter_map(|corner| number(self.index(corner)?)).find(is_bad)?;
+            let seen = if bad < 0 { format!("{so_far} so far") } else { format!("{all}") };
+            Some(format!("line {line}: a face names {name} {bad}, but there are {seen}"))
+        })
+    }
 }
 
 /// What a file says, line by line, each with its number: without comments and empty lines. A line that ends with a

@@ -1,23 +1,25 @@
-//! Which triangles share an edge: the surface as it is for those who stay on it.
+//! The edges that triangles share: which part of a surface is connected to which.
 //!
-//! Vertices at the same place are one, as files that repeat their vertices in each triangle (STL) ask for. What shares
-//! no edge is not connected, however near it is: the two sides of a thin wall are far from each other, and a crack is a
-//! border. Triangles that the mesh's mask leaves out are not there, nor are those two of whose corners coincide.
+//! Vertices at the same position are one, as needed for files that repeat their vertices in each triangle (STL).
+//! Triangles without a common edge are not connected, however close they are: the two sides of a thin wall are far from
+//! each other on the surface, and a crack is a boundary. Triangles left out by the mesh's mask are ignored, as are
+//! those two of whose corners coincide.
 //!
 //! Half-edges are numbered `3 t + k`: the edge from corner `k` to the next of triangle `t`.
 
 use glam::DVec3;
 
 use crate::error::{Error, Result};
+use crate::geometry::counting_sort::Binned;
 use crate::geometry::grid3::{Grid3, distance_squared};
 use crate::mesh::{Mesh, exact};
 
 /// A mesh with its edges.
-pub(super) struct Sheet<'a> {
+pub(super) struct ConnectedMesh<'a> {
     pub(super) mesh: &'a Mesh,
     /// For each vertex the first one of the same position.
     vertices: Vec<u32>,
-    /// The half-edges of an edge lead to one another in a circle. One that is alone, at a border, leads to itself.
+    /// The half-edges of an edge are linked in a circle. One that is alone, at a boundary, is linked to itself.
     around: Vec<u32>,
 }
 
@@ -26,7 +28,7 @@ fn next(edge: u32) -> u32 {
     if edge % 3 == 2 { edge - 2 } else { edge + 1 }
 }
 
-impl<'a> Sheet<'a> {
+impl<'a> ConnectedMesh<'a> {
     /// Finds the edges. O(n log n).
     ///
     /// # Errors
@@ -36,29 +38,22 @@ impl<'a> Sheet<'a> {
         if count > (u32::MAX / 3) as usize {
             return Err(Error::too_large("mesh", format!("{count} triangles; the limit is {}", u32::MAX / 3)));
         }
-        let mut sheet = Self { mesh, vertices: welded(mesh), around: Vec::new() };
-        sheet.around = sheet.linked();
-        Ok(sheet)
+        let mut connected = Self { mesh, vertices: welded(mesh), around: Vec::new() };
+        connected.around = connected.linked();
+        Ok(connected)
     }
 
     /// Links the half-edges between the same two vertices.
     fn linked(&self) -> Vec<u32> {
-        // The edges whose lower vertex is `v`: `ends[starts[v]..starts[v + 1]]`, each with its higher vertex.
-        let mut starts = vec![0u32; self.vertices.len() + 1];
-        self.edges().for_each(|edge| starts[self.vertices_of(edge)[0] as usize + 1] += 1);
-        for vertex in 1..starts.len() {
-            starts[vertex] += starts[vertex - 1];
-        }
-        let mut ends = vec![(0, 0); starts[self.vertices.len()] as usize];
-        let mut places = starts.clone();
-        for edge in self.edges() {
+        // The edges by their lower vertex, each with its higher one.
+        let ends = self.edges().map(|edge| {
             let [low, high] = self.vertices_of(edge);
-            ends[places[low as usize] as usize] = (high, edge);
-            places[low as usize] += 1;
-        }
+            (low as usize, (high, edge))
+        });
+        let mut ends = Binned::new(self.vertices.len(), ends);
         let mut around: Vec<u32> = (0..3 * self.mesh.triangles().len() as u32).collect();
-        for range in starts.windows(2) {
-            let ends = &mut ends[range[0] as usize..range[1] as usize];
+        for vertex in 0..ends.len() {
+            let ends = ends.bin_mut(vertex);
             ends.sort_unstable();
             for same in ends.chunk_by(|a, b| a.0 == b.0) {
                 let others = same.iter().cycle().skip(1);
@@ -68,8 +63,8 @@ impl<'a> Sheet<'a> {
         around
     }
 
-    /// The half-edges of all triangles that are there.
-    fn edges(&self) -> impl Iterator<Item = u32> {
+    /// The half-edges of all triangles that are not ignored.
+    fn edges(&self) -> impl Iterator<Item = u32> + Clone {
         self.mesh
             .sampled_triangles()
             .map(|triangle| 3 * triangle)
@@ -92,13 +87,13 @@ impl<'a> Sheet<'a> {
         [from.min(to), from.max(to)]
     }
 
-    /// The other half-edges of the same edge: none at a border, most often one.
+    /// The other half-edges of the same edge: none at a boundary, most often one.
     pub(super) fn across(&self, edge: u32) -> impl Iterator<Item = u32> {
         std::iter::successors(Some(self.around[edge as usize]), |&other| Some(self.around[other as usize]))
             .take_while(move |&other| other != edge)
     }
 
-    /// Whether two half-edges of an edge run the same way: then their triangles face opposite sides.
+    /// Whether two half-edges of an edge have the same direction: then their triangles face opposite sides.
     pub(super) fn run_alike(&self, edge: u32, other: u32) -> bool {
         self.origin(edge) == self.origin(other)
     }
@@ -110,7 +105,7 @@ impl<'a> Sheet<'a> {
     }
 }
 
-/// For each vertex the first one that is at its place, up to a float spacing at the largest coordinate: seams that were
+/// For each vertex the first one at its position, up to a float spacing at the largest coordinate: seams that were
 /// computed twice differ by that.
 fn welded(mesh: &Mesh) -> Vec<u32> {
     let tolerance = f64::from(mesh.largest_coordinate()) * f64::from(f32::EPSILON);
@@ -135,10 +130,10 @@ mod tests {
     use super::*;
 
     /// How many half-edges each edge of the mesh has, from the most to the fewest.
-    fn degrees(sheet: &Sheet) -> Vec<usize> {
-        let edges = 0..3 * sheet.mesh.triangles().len() as u32;
-        let firsts = edges.filter(|&edge| sheet.across(edge).all(|other| other > edge));
-        let mut degrees: Vec<_> = firsts.map(|edge| 1 + sheet.across(edge).count()).collect();
+    fn degrees(connected: &ConnectedMesh) -> Vec<usize> {
+        let edges = 0..3 * connected.mesh.triangles().len() as u32;
+        let firsts = edges.filter(|&edge| connected.across(edge).all(|other| other > edge));
+        let mut degrees: Vec<_> = firsts.map(|edge| 1 + connected.across(edge).count()).collect();
         degrees.sort_unstable_by(|a, b| b.cmp(a));
         degrees
     }
@@ -151,16 +146,16 @@ mod tests {
         let turned = [a[0], -0.0, 1e-8];
         for positions in [vec![a, b, c, a, c, d], vec![a, b, c, turned, c, d], vec![a, b, c, d, c, a]] {
             let mesh = Mesh::new(positions.clone(), vec![[0, 1, 2], [3, 4, 5]]).unwrap();
-            let sheet = Sheet::new(&mesh).unwrap();
-            assert_eq!(degrees(&sheet), [2, 1, 1, 1, 1]);
+            let connected = ConnectedMesh::new(&mesh).unwrap();
+            assert_eq!(degrees(&connected), [2, 1, 1, 1, 1]);
             let alike = positions[3] == d;
             let [diagonal, other] = [2, if alike { 4 } else { 3 }];
-            assert_eq!(sheet.across(diagonal).collect::<Vec<_>>(), [other]);
-            assert_eq!(sheet.run_alike(diagonal, other), alike);
+            assert_eq!(connected.across(diagonal).collect::<Vec<_>>(), [other]);
+            assert_eq!(connected.run_alike(diagonal, other), alike);
         }
         let apart = [a[0], 0.0, 1e-5];
         let mesh = Mesh::new(vec![a, b, c, apart, c, d], vec![[0, 1, 2], [3, 4, 5]]).unwrap();
-        assert_eq!(degrees(&Sheet::new(&mesh).unwrap()), [1; 6]);
+        assert_eq!(degrees(&ConnectedMesh::new(&mesh).unwrap()), [1; 6]);
     }
 
     #[test]
@@ -169,10 +164,10 @@ mod tests {
         let up = [0.5, 0.5, 1.0];
         let triangles = vec![[0, 1, 2], [0, 2, 3], [2, 0, 4], [0, 0, 2]];
         let mesh = Mesh::new(vec![a, b, c, d, up], triangles).unwrap();
-        assert_eq!(degrees(&Sheet::new(&mesh).unwrap())[..2], [3, 1]);
+        assert_eq!(degrees(&ConnectedMesh::new(&mesh).unwrap())[..2], [3, 1]);
         let mesh = mesh.with_mask(vec![true, true, false, true]).unwrap();
-        let sheet = Sheet::new(&mesh).unwrap();
-        assert_eq!(degrees(&sheet)[..2], [2, 1]);
-        assert_eq!(sheet.across(2).collect::<Vec<_>>(), [3]);
+        let connected = ConnectedMesh::new(&mesh).unwrap();
+        assert_eq!(degrees(&connected)[..2], [2, 1]);
+        assert_eq!(connected.across(2).collect::<Vec<_>>(), [3]);
     }
 }

@@ -1,75 +1,76 @@
-//! A set in the making: places on the surface, how fast they move, and who is near whom.
+//! A set of samples that is being relaxed on a surface.
 
 use glam::{DVec2, DVec3};
 
-use crate::dcr::ground::constraints::{Constraints, Force, STIFFENING};
-use crate::dcr::ground::motion::{Motion, Space};
+use crate::dcr::ground::constraints::{Constraints, Force, MOMENTUM, SAFE_FRACTION, STIFFENING};
+use crate::dcr::ground::motion::{Motion, STEP, Space};
 use crate::dcr::surface::apart::{Contacts, Floor, Limits};
-use crate::dcr::surface::near::{Crowd, Neighbour, Neighbourhood};
-use crate::dcr::surface::sheet::Sheet;
+use crate::dcr::surface::connected::ConnectedMesh;
+use crate::dcr::surface::near::{NearSample, SampleSearch, Surroundings};
 use crate::dcr::surface::view::View;
-use crate::dcr::surface::walk::{Flat, Place, walk};
-use crate::dcr::uniform::gather::ROOM;
-use crate::dcr::uniform::{MOMENTUM, STEP};
+use crate::dcr::surface::walk::{FlatTriangle, SurfacePoint, walk};
 use crate::error::Result;
 use crate::job::{Chunks, Job, chunks_of};
 use crate::mesh::Mesh;
 
-/// How far samples may go in a step, in spacings, ...
+/// The largest displacement of samples in a step, in spacings.
 const STRIDE: f32 = 0.4;
-/// ... and by which factor that falls from step to step when constraints no longer grow stiffer. Where the surface is bent
-/// more than the samples are dense, what two of them do to each other is not opposite, and they would never come to rest.
+
+/// The factor of that from step to step when constraints no longer grow stiffer. Where the curvature is high for the
+/// density of the samples, the forces of two of them on each other are not opposite, and they would never come to rest.
 const CALMING: f32 = 0.9;
 
-/// How far samples get in a step at most, in spacings: the stride, and what rounding adds.
+/// The largest distance by which positions change in a step, in spacings: the stride, and rounding.
 const FARTHEST: f64 = 0.41;
 
-/// Neighbours are looked for up to this distance, in spacings ...
+/// The distance up to which neighbours are needed, in spacings.
 const REACH: f64 = 1.7;
-/// ... and as much farther, so that they need not be looked for until two samples have together moved by it.
+
+/// The distance beyond that up to which neighbours are searched, so that they need not be searched again until two
+/// samples together have moved by it.
 const SLACK: f64 = 0.3;
 
-/// The samples of one task: few, as each has much to do.
+/// The samples of one task: few, as each takes long.
 const CHUNK: usize = 512;
 
 /// Samples on a surface, moving.
-pub(super) struct Set<'a> {
-    sheet: &'a Sheet<'a>,
+pub(super) struct SurfaceRelaxation<'a> {
+    connected: &'a ConnectedMesh<'a>,
     spacing: f64,
     floor: Floor,
-    places: Vec<Place>,
-    /// Where they are in space, in the floats in which they will be returned.
+    places: Vec<SurfacePoint>,
+    /// Their positions in space, in the floats in which they will be returned.
     positions: Vec<DVec3>,
-    /// How fast they move, in the planes of their triangles and in spacings.
+    /// In the planes of their triangles and in spacings.
     velocities: Vec<DVec2>,
-    neighbourhoods: Vec<Neighbourhood>,
-    /// How far each has moved since its neighbours were looked for, in spacings.
+    surroundings: Vec<Surroundings>,
+    /// The distance that each has moved since its neighbours were searched, in spacings.
     travelled: Vec<f64>,
     motion: Motion<DVec3>,
     iterations: u32,
 }
 
-/// Where a sample gets.
+/// The state of a sample after a step.
 #[derive(Clone, Copy, Default)]
 struct Moved {
-    place: Place,
+    place: SurfacePoint,
     position: DVec3,
     velocity: DVec2,
     length: f64,
 }
 
-impl<'a> Set<'a> {
-    /// Samples no two of which are nearer to each other than the floor, and will be.
-    pub(super) fn new(sheet: &'a Sheet<'a>, spacing: f64, floor: f64, places: Vec<Place>) -> Self {
-        let positions: Vec<DVec3> = places.iter().map(|place| place.position(sheet.mesh)).collect();
+impl<'a> SurfaceRelaxation<'a> {
+    /// Samples no two of which are closer to each other than the floor, now and after each step.
+    pub(super) fn new(connected: &'a ConnectedMesh<'a>, spacing: f64, floor: f64, places: Vec<SurfacePoint>) -> Self {
+        let positions: Vec<DVec3> = places.iter().map(|place| place.position(connected.mesh)).collect();
         Self {
-            sheet,
+            connected,
             spacing,
             floor: Floor::new(floor),
             velocities: vec![DVec2::ZERO; places.len()],
             motion: Motion::new(STEP, positions.clone()),
             positions,
-            neighbourhoods: vec![Neighbourhood::default(); places.len()],
+            surroundings: vec![Surroundings::default(); places.len()],
             travelled: vec![f64::INFINITY; places.len()],
             places,
             iterations: 0,
@@ -80,21 +81,21 @@ impl<'a> Set<'a> {
         self.iterations
     }
 
-    /// Half of how far samples got in the last span of steps, in spacings.
+    /// Half of the distance that samples covered in the last span of steps, in spacings.
     pub(super) fn motion(&self) -> f64 {
         self.motion.last(&Unit(self.spacing), self.positions.iter().copied())
     }
 
-    /// Whether there was a whole span, and no more motion in the last than this.
+    /// Whether a whole span of steps was made, and the motion in the last is at most the tolerance.
     pub(super) fn has_settled(&self, tolerance: f64) -> bool {
         self.motion.has_settled(tolerance)
     }
 
     pub(super) fn mesh(&self) -> &'a Mesh {
-        self.sheet.mesh
+        self.connected.mesh
     }
 
-    pub(super) fn places(&self) -> &[Place] {
+    pub(super) fn places(&self) -> &[SurfacePoint] {
         &self.places
     }
 
@@ -105,25 +106,25 @@ impl<'a> Set<'a> {
     /// Moves all samples. If it is cancelled, all have moved or none.
     pub(super) fn step(&mut self, job: &Job) -> Result<()> {
         let chunks = chunks_of(self.places.len(), CHUNK);
-        self.look_around(&job.part(0.0, 0.5), chunks)?;
+        self.search(&job.part(0.0, 0.5), chunks)?;
         let wanted = self.gather(&job.part(0.5, 0.9), chunks)?;
-        self.go(&job.part(0.9, 1.0), chunks, &wanted)?;
+        self.move_to(&job.part(0.9, 1.0), chunks, &wanted)?;
         self.iterations += 1;
         self.motion.after_step(&Unit(self.spacing), || self.positions.iter().copied());
         Ok(())
     }
 
-    /// Moves samples to these places beside theirs, where that is admitted. This is no step.
-    pub(super) fn shift(&mut self, job: &Job, places: &[Place]) -> Result<()> {
+    /// Moves samples to these points close to theirs, where that is admitted. This does not count as a step.
+    pub(super) fn shift(&mut self, job: &Job, places: &[SurfacePoint]) -> Result<()> {
         let chunks = chunks_of(places.len(), CHUNK);
-        self.look_around(&job.part(0.0, 0.9), chunks)?;
+        self.search(&job.part(0.0, 0.9), chunks)?;
         let all = places.iter().zip(&self.positions);
         let wanted: Vec<Moved> = all.map(|(&place, &from)| self.arrived(place, from, DVec2::ZERO)).collect();
-        self.go(&job.part(0.9, 1.0), chunks, &wanted)
+        self.move_to(&job.part(0.9, 1.0), chunks, &wanted)
     }
 
-    /// Makes those moves that are admitted.
-    fn go(&mut self, job: &Job, chunks: Chunks, wanted: &[Moved]) -> Result<()> {
+    /// Makes the moves that are admitted.
+    fn move_to(&mut self, job: &Job, chunks: Chunks, wanted: &[Moved]) -> Result<()> {
         let moved = job.concat(chunks.len(), |chunk| {
             let made = chunks.range(chunk).map(|sample| match self.admits(sample, wanted) {
                 true => wanted[sample],
@@ -138,49 +139,49 @@ impl<'a> Set<'a> {
         Ok(())
     }
 
-    /// Whether a sample gets nowhere too near to where another is, nor to where another wants to get.
+    /// Whether the move of a sample ends too close neither to another sample nor to the end of another's move.
     fn admits(&self, sample: usize, wanted: &[Moved]) -> bool {
         let to = wanted[sample].position;
         let admits = |&other: &u32| {
             let other = other as usize;
             self.floor.admits(to, self.positions[other]) && self.floor.admits(to, wanted[other].position)
         };
-        wanted[sample].length <= FARTHEST && self.neighbourhoods[sample].in_sight.iter().all(admits)
+        wanted[sample].length <= FARTHEST && self.surroundings[sample].in_sight.iter().all(admits)
     }
 
-    /// Looks for the neighbours of those that have moved by half of the slack, and of those near them then that do not know
-    /// of them. So two samples that do not know of each other have moved towards each other by no more than the slack, and
-    /// after the next step those out of sight are no nearer than the floor.
-    fn look_around(&mut self, job: &Job, chunks: Chunks) -> Result<()> {
-        let has_moved: Vec<bool> = self.travelled.iter().map(|&way| way >= SLACK / 2.0).collect();
+    /// Searches the neighbours of samples that have moved by half of the slack, and of the samples near these that do
+    /// not have them as neighbours yet. So two samples that do not have each other have moved towards each other by no
+    /// more than the slack, and after the next step samples out of sight are no closer than the floor.
+    fn search(&mut self, job: &Job, chunks: Chunks) -> Result<()> {
+        let has_moved: Vec<bool> = self.travelled.iter().map(|&distance| distance >= SLACK / 2.0).collect();
         if !has_moved.contains(&true) {
             return Ok(());
         }
         let radius = (REACH + SLACK) * self.spacing;
         let sight = self.floor.distance() + (SLACK + 2.0 * FARTHEST) * self.spacing;
-        let crowd = Crowd::new(self.sheet, &self.places, &self.positions, radius, sight);
-        let found = crowd.neighbourhoods(&job.part(0.0, 0.7), chunks, |sample| has_moved[sample])?;
+        let search = SampleSearch::new(self.connected, &self.places, &self.positions, radius, sight);
+        let found = search.surroundings(&job.part(0.0, 0.7), chunks, |sample| has_moved[sample])?;
         let mut is_met = vec![false; self.places.len()];
         for (mover, around) in &found {
             let mover = *mover as u32;
             for neighbour in around.neighbours.iter().filter(|neighbour| !has_moved[neighbour.sample as usize]) {
                 // Images are mutual too.
-                let mover = Neighbour { sample: mover, mirror: neighbour.mirror };
-                is_met[neighbour.sample as usize] |= !self.neighbourhoods[neighbour.sample as usize].knows(mover);
+                let mover = NearSample { sample: mover, mirror: neighbour.mirror };
+                is_met[neighbour.sample as usize] |= !self.surroundings[neighbour.sample as usize].knows(mover);
             }
             for &other in around.in_sight.iter().filter(|&&other| !has_moved[other as usize]) {
-                is_met[other as usize] |= !self.neighbourhoods[other as usize].sees(mover);
+                is_met[other as usize] |= !self.surroundings[other as usize].sees(mover);
             }
         }
-        let met = crowd.neighbourhoods(&job.part(0.7, 1.0), chunks, |sample| is_met[sample])?;
+        let met = search.surroundings(&job.part(0.7, 1.0), chunks, |sample| is_met[sample])?;
         found.iter().for_each(|&(sample, _)| self.travelled[sample] = 0.0);
         for (sample, around) in found.into_iter().chain(met) {
-            self.neighbourhoods[sample] = around;
+            self.surroundings[sample] = around;
         }
         Ok(())
     }
 
-    /// Where every sample wants to get, and how fast.
+    /// The moves that forces ask for.
     fn gather(&self, job: &Job, chunks: Chunks) -> Result<Vec<Moved>> {
         let constraints = Constraints::of_step(self.iterations);
         let limits = Limits::of_step(self.iterations, self.floor, self.spacing);
@@ -200,38 +201,38 @@ impl<'a> Set<'a> {
         contacts: &mut Contacts,
     ) -> Moved {
         let (place, from) = (self.places[sample], self.positions[sample]);
-        let flat = Flat::new(self.sheet, place.triangle, self.spacing);
-        view.look(self.sheet, &flat, from, &self.neighbourhoods[sample], &self.positions);
-        let Force { sum, room } = view.force(constraints);
+        let flat = FlatTriangle::new(self.connected, place.triangle, self.spacing);
+        view.project(self.connected, &flat, from, &self.surroundings[sample], &self.positions);
+        let Force { sum, clearance } = view.force(constraints);
         let velocity = MOMENTUM * self.velocities[sample].as_vec2() + sum;
-        let way = velocity.clamp_length_max((ROOM * room).min(self.stride())).as_dvec2();
-        self.touch(limits, sample, &flat, way, contacts);
-        let way = contacts.hold_off(way).clamp_length_max(self.stride().into());
-        let end = walk(self.sheet, self.spacing, place, way);
-        self.arrived(end.place, from, end.way)
+        let wanted = velocity.clamp_length_max((SAFE_FRACTION * clearance).min(self.stride())).as_dvec2();
+        self.touch(limits, sample, &flat, wanted, contacts);
+        let held_off = contacts.hold_off(wanted).clamp_length_max(self.stride().into());
+        let end = walk(self.connected, self.spacing, place, held_off);
+        self.arrived(end.place, from, end.displacement)
     }
 
-    /// Finds those that a sample must keep off if it goes this way.
-    fn touch(&self, limits: Limits, sample: usize, flat: &Flat, way: DVec2, contacts: &mut Contacts) {
+    /// Finds the samples from which one must be held off in this displacement.
+    fn touch(&self, limits: Limits, sample: usize, flat: &FlatTriangle, displacement: DVec2, contacts: &mut Contacts) {
         contacts.clear();
-        let around = &self.neighbourhoods[sample];
-        let reach = limits.near + 2.0 * way.length() * self.spacing;
+        let around = &self.surroundings[sample];
+        let reach = limits.near + 2.0 * displacement.length() * self.spacing;
         for &other in &around.in_sight {
             let offset = self.positions[other as usize] - self.positions[sample];
             if offset.length_squared() < reach * reach {
-                let is_near = around.knows(Neighbour { sample: other, mirror: None });
+                let is_near = around.knows(NearSample { sample: other, mirror: None });
                 contacts.add(flat, offset, if is_near { limits.near } else { limits.far });
             }
         }
     }
 
-    /// Who has come from somewhere to a place.
-    fn arrived(&self, place: Place, from: DVec3, velocity: DVec2) -> Moved {
-        let position = place.position(self.sheet.mesh);
+    /// The state of a sample that has moved to a point.
+    fn arrived(&self, place: SurfacePoint, from: DVec3, velocity: DVec2) -> Moved {
+        let position = place.position(self.connected.mesh);
         Moved { place, position, velocity, length: from.distance(position) / self.spacing }
     }
 
-    /// How far samples may go in this step, in spacings.
+    /// The largest displacement of samples in this step, in spacings.
     fn stride(&self) -> f32 {
         STRIDE * CALMING.powi(self.iterations.saturating_sub(STIFFENING) as i32)
     }
@@ -252,41 +253,41 @@ mod tests {
     use crate::job::Context;
     use crate::rng::{Draw, Rng};
 
-    /// What nobody sees cannot get too near in the step to come.
+    /// Samples out of sight cannot get too close in the next step.
     #[test]
-    fn all_are_in_sight_that_could_get_too_near_in_a_step() {
+    fn all_are_in_sight_that_could_get_too_close_in_a_step() {
         // A fold: two sides of little more than a spacing between them at the back.
         let positions =
             vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.1], [1.0, 1.0, 0.1], [0.0, 1.0, 0.0], [1.0, 1.0, 0.0]];
         let mesh = Mesh::new(positions, vec![[0, 1, 3], [0, 3, 2], [1, 0, 4], [1, 4, 5]]).unwrap();
-        let sheet = Sheet::new(&mesh).unwrap();
+        let connected = ConnectedMesh::new(&mesh).unwrap();
         let spacing = 0.08;
         let mut rng = Rng::at(6, Draw::Probe, &[]);
         let mut place = || {
             let [u, v] = [rng.unit(), rng.unit()];
             let uv = if u + v <= 1.0 { DVec2::new(u, v) } else { DVec2::new(1.0 - u, 1.0 - v) };
-            Place { triangle: rng.below(4) as u32, uv }
+            SurfacePoint { triangle: rng.below(4) as u32, uv }
         };
-        let places: Vec<Place> = (0..350).map(|_| place()).collect();
+        let places: Vec<SurfacePoint> = (0..350).map(|_| place()).collect();
         let positions: Vec<DVec3> = places.iter().map(|place| place.position(&mesh)).collect();
         let pairs = || (0..places.len()).flat_map(|i| (0..i).map(move |j| (i, j)));
         let floor = pairs().map(|(i, j)| positions[i].distance(positions[j])).fold(f64::INFINITY, f64::min);
-        let mut set = Set::new(&sheet, spacing, floor, places.clone());
+        let mut set = SurfaceRelaxation::new(&connected, spacing, floor, places.clone());
         let context = Context::new(1).unwrap();
         let (mut sights, mut unknown) = (0, 0);
         for _ in 0..30 {
             let chunks = chunks_of(places.len(), CHUNK);
-            context.run(None, |job| set.look_around(job, chunks)).unwrap();
+            context.run(None, |job| set.search(job, chunks)).unwrap();
             for (i, j) in pairs() {
                 if set.positions[i].distance(set.positions[j]) < floor + 2.0 * FARTHEST * spacing {
-                    assert!(set.neighbourhoods[i].sees(j as u32) && set.neighbourhoods[j].sees(i as u32));
+                    assert!(set.surroundings[i].sees(j as u32) && set.surroundings[j].sees(i as u32));
                     sights += 1;
-                    unknown += usize::from(!set.neighbourhoods[i].knows(Neighbour { sample: j as u32, mirror: None }));
+                    unknown += usize::from(!set.surroundings[i].knows(NearSample { sample: j as u32, mirror: None }));
                 }
             }
             context.run(None, |job| set.step(job)).unwrap();
             assert!(pairs().all(|(i, j)| set.positions[i].distance(set.positions[j]) >= floor));
         }
-        assert!(sights > 10_000 && unknown > 1000, "{sights} in sight, {unknown} of them on another sheet");
+        assert!(sights > 10_000 && unknown > 1000, "{sights} in sight, {unknown} of them on another side");
     }
 }

@@ -1,41 +1,39 @@
-//! The Delaunay triangulation of a torus, kept while its points move and repaired by flips.
+//! The Delaunay triangulation of a torus, kept while its points move and repaired by flips (`ground/flips.rs`), in
+//! half-edges.
 //!
-//! As long as no triangle turns over, a triangulation stays one, and flipping the edges that are not locally Delaunay, in
-//! any order, makes it the Delaunay triangulation again (Lawson 1977). The forces hold points back so that none turns
-//! over; if one does all the same, the mesh says so and is to be built anew.
+//! The forces hold points back so that no triangle turns over; if one does all the same, the mesh says so and must be
+//! built anew.
 //!
-//! Where the spacing varies, points have few neighbours or hundreds, as anchors and points beside dark edges do; half-edges
-//! take both. They are numbered `4 t + k`: the edge from corner `k` to the next of triangle `t`, counter-clockwise.
+//! Where the spacing varies, points have few neighbours or hundreds, as anchors and points beside dark edges do:
+//! half-edges support both, rings of equally many slots (`uniform/rings.rs`) do not. Half-edges are numbered `4 t + k`:
+//! the edge from corner `k` to the next of triangle `t`, counter-clockwise.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use glam::DVec2;
-
-use crate::dcr::ground::torus::{Place, Torus};
+use crate::dcr::ground::flips::must_flip;
+use crate::dcr::ground::torus::{Torus, TorusPoint};
 use crate::error::Result;
+use crate::geometry::counting_sort::Binned;
 use crate::geometry::delaunay::Delaunay;
 use crate::job::{Job, chunks_of};
 
-/// The sum of two cotangents that counts as negative: below the rounding of `f64`, flips could go on for ever.
-const NEGATIVE: f64 = -1e-7;
-
-/// The sum of two cotangents that may be negative for all that `f32` can tell.
+/// The sum of two cotangents in `f32` below which it may be negative in `f64`.
 const SUSPECT: f32 = 1e-3;
 
 /// The longest edge, in 2^-32 of a period: a flip can double it, and half a period is the longest that is unambiguous.
 const LONGEST: u32 = (1 << 30) - 1;
 
 #[derive(Clone, Copy, Debug, Default)]
-struct Triangle {
+struct HalfEdgeTriangle {
     corners: [u32; 3],
     /// The half-edges on the other sides of its edges.
     twins: [u32; 3],
 }
 
 /// A triangulation of a torus, all of whose edges are short.
-pub(super) struct Mesh {
+pub(super) struct HalfEdgeMesh {
     torus: Torus,
-    triangles: Vec<Triangle>,
+    triangles: Vec<HalfEdgeTriangle>,
     /// A half-edge that starts at each point.
     first: Vec<u32>,
 }
@@ -50,12 +48,12 @@ fn previous(edge: u32) -> u32 {
     if edge & 3 == 0 { edge + 2 } else { edge - 1 }
 }
 
-impl Mesh {
-    /// The mesh of a triangulation of the torus with its copies. None if edges are too long, as in sets of a few points or
-    /// with large holes, or if copies are not triangulated alike, which happens to
-    /// four points on one circle unless they are nudged.
-    pub(super) fn new(delaunay: &Delaunay, torus: &Torus, places: &[Place]) -> Option<Self> {
-        // Of the translates of a triangle one has its first point in the domain.
+impl HalfEdgeMesh {
+    /// The mesh of a triangulation of the torus with its copies. None if edges are too long, as in sets of a few points
+    /// or with large holes, or if copies are not triangulated alike, which happens to four points on one circle unless
+    /// they are nudged.
+    pub(super) fn new(delaunay: &Delaunay, torus: &Torus, places: &[TorusPoint]) -> Option<Self> {
+        // Exactly one of the translates of a triangle has its first point in the domain.
         let corners = delaunay.triangles().filter_map(|sites| {
             let least = sites.iter().min_by_key(|site| site.source)?;
             least.is_original().then(|| sites.map(|site| site.source))
@@ -65,7 +63,7 @@ impl Mesh {
         if corners.len() != 2 * places.len() || places.len() > 1 << 28 {
             return None;
         }
-        let triangles = corners.into_iter().map(|corners| Triangle { corners, twins: [u32::MAX; 3] }).collect();
+        let triangles = corners.into_iter().map(|corners| HalfEdgeTriangle { corners, twins: [u32::MAX; 3] }).collect();
         let mut mesh = Self { torus: *torus, triangles, first: vec![u32::MAX; places.len()] };
         (mesh.find_twins() && mesh.triangles.iter().all(|triangle| mesh.cotangents(triangle, places).is_some()))
             .then_some(mesh)
@@ -74,30 +72,17 @@ impl Mesh {
     /// Matches the half-edges; whether all could be.
     fn find_twins(&mut self) -> bool {
         let edges = || (0..self.triangles.len() as u32).flat_map(|triangle| (0..3).map(move |k| 4 * triangle + k));
-        // The half-edges that start at point `p` are `outgoing[starts[p]..starts[p + 1]]`.
-        let mut starts = vec![0u32; self.first.len() + 1];
-        edges().for_each(|edge| starts[self.origin(edge) as usize + 1] += 1);
-        for point in 1..starts.len() {
-            starts[point] += starts[point - 1];
-        }
-        let (mut ends, mut outgoing) = (starts.clone(), vec![0u32; 3 * self.triangles.len()]);
-        for edge in edges() {
-            let end = &mut ends[self.origin(edge) as usize];
-            outgoing[*end as usize] = edge;
-            *end += 1;
-        }
+        let outgoing = Binned::new(self.first.len(), edges().map(|edge| (self.origin(edge) as usize, edge)));
         let twin = |edge: u32| {
             let (from, to) = (self.origin(edge), self.origin(next(edge)) as usize);
-            let mut back = outgoing[starts[to] as usize..starts[to + 1] as usize].iter().copied();
-            let mut back = back.by_ref().filter(|&back| self.origin(next(back)) == from);
+            let mut back = outgoing.bin(to).iter().copied().filter(|&back| self.origin(next(back)) == from);
             // Two edges between the same points cannot be told apart.
             back.next().filter(|_| back.next().is_none())
         };
         let Some(twins) = edges().map(twin).collect::<Option<Vec<u32>>>() else { return false };
         let matched = |(edge, &twin): (u32, &u32)| twins[(3 * (twin >> 2) + (twin & 3)) as usize] == edge;
         let matched = edges().zip(&twins).all(matched);
-        let firsts: Vec<u32> =
-            starts.windows(2).filter(|pair| pair[0] < pair[1]).map(|pair| outgoing[pair[0] as usize]).collect();
+        let firsts: Vec<u32> = (0..outgoing.len()).filter_map(|point| outgoing.bin(point).first().copied()).collect();
         let complete = firsts.len() == self.first.len();
         for (triangle, twins) in self.triangles.iter_mut().zip(twins.chunks(3)) {
             triangle.twins.copy_from_slice(twins);
@@ -121,27 +106,22 @@ impl Mesh {
 
     /// The cotangents of the angles that face the edges of a triangle; none unless it is counter-clockwise and has short
     /// edges.
-    fn cotangents(&self, triangle: &Triangle, places: &[Place]) -> Option<[f32; 3]> {
+    fn cotangents(&self, triangle: &HalfEdgeTriangle, places: &[TorusPoint]) -> Option<[f32; 3]> {
         let [p, q, r] = triangle.corners.map(|corner| places[corner as usize]);
-        let is_short = |from: Place, to: Place| {
+        let is_short = |from: TorusPoint, to: TorusPoint| {
             (0..2).all(|axis| to[axis].wrapping_sub(from[axis]).wrapping_add(LONGEST) <= 2 * LONGEST)
         };
-        let [a, b, c] = [self.torus.way(p, q), self.torus.way(q, r), self.torus.way(r, p)];
+        let [a, b, c] = [self.torus.offset_f32(p, q), self.torus.offset_f32(q, r), self.torus.offset_f32(r, p)];
         let area = a.perp_dot(b);
         let sound = area > 0.0 && is_short(p, q) && is_short(q, r) && is_short(r, p);
         sound.then(|| [b.dot(c), c.dot(a), a.dot(b)].map(|cosine| -cosine / area))
     }
 
-    /// Whether the angles that face an edge sum up to more than 180 degrees: the sum of their cotangents is negative.
-    fn must_flip(&self, edge: u32, places: &[Place]) -> bool {
+    /// Whether an edge is not locally Delaunay.
+    fn must_flip(&self, edge: u32, places: &[TorusPoint]) -> bool {
         let twin = self.twin(edge);
-        let [p, q, r, s] = [edge, twin, previous(edge), previous(twin)].map(|e| places[self.origin(e) as usize]);
-        let angle = |apex: Place, from: Place, to: Place| -> [f64; 2] {
-            let (from, to): (DVec2, DVec2) = (self.torus.offset(apex, from), self.torus.offset(apex, to));
-            [from.dot(to), from.perp_dot(to)]
-        };
-        let ([cos_r, sin_r], [cos_s, sin_s]) = (angle(r, p, q), angle(s, q, p));
-        cos_r * sin_s + cos_s * sin_r < NEGATIVE * sin_r * sin_s
+        let corners = [edge, twin, previous(edge), previous(twin)];
+        must_flip(&self.torus, corners.map(|corner| places[self.origin(corner) as usize]))
     }
 
     /// Replaces the edge `p q` of the triangles `p q r` and `q p s` by `s r`; returns the edges around the two.
@@ -162,7 +142,7 @@ impl Mesh {
     }
 
     /// Makes the mesh the Delaunay triangulation of points that have moved; false if a triangle has turned over.
-    pub(super) fn repair(&mut self, job: &Job, places: &[Place]) -> Result<bool> {
+    pub(super) fn repair(&mut self, job: &Job, places: &[TorusPoint]) -> Result<bool> {
         let chunks = chunks_of(self.triangles.len(), 4096);
         let sound = AtomicBool::new(true);
         let cotangents = job.part(0.0, 0.5).concat(chunks.len(), |chunk| {
@@ -213,18 +193,18 @@ impl Mesh {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::dcr::ground::wandering::{wander, wild, with_and_without_mesh};
+    use crate::dcr::ground::wandering::{random_places, wander, with_and_without_mesh};
     use crate::job::Context;
     use crate::points::Boundary;
     use crate::rng::{Draw, Rng};
 
-    fn delaunay(job: &Job, torus: &Torus, places: &[Place]) -> Delaunay {
+    fn delaunay(job: &Job, torus: &Torus, places: &[TorusPoint]) -> Delaunay {
         Delaunay::new(job, &torus.frame, torus.nudged(places).into_iter()).unwrap()
     }
 
     /// Corners of all triangles, each from its least corner on.
-    fn triangles(mesh: &Mesh) -> Vec<[u32; 3]> {
-        let turned = |triangle: &Triangle| {
+    fn triangles(mesh: &HalfEdgeMesh) -> Vec<[u32; 3]> {
+        let turned = |triangle: &HalfEdgeTriangle| {
             let mut corners = triangle.corners;
             let least = (0..3).min_by_key(|&k| corners[k]).unwrap();
             corners.rotate_left(least);
@@ -235,7 +215,7 @@ mod tests {
         triangles
     }
 
-    fn check_links(mesh: &Mesh) {
+    fn check_links(mesh: &HalfEdgeMesh) {
         for edge in (0..4 * mesh.triangles.len() as u32).filter(|edge| edge & 3 < 3) {
             let twin = mesh.twin(edge);
             assert_eq!(mesh.twin(twin), edge);
@@ -251,30 +231,31 @@ mod tests {
         for (boundary, width, count) in
             [(Boundary::Periodic, 1.0, 600), (Boundary::Periodic, 3.0, 900), (Boundary::Bounded, 1.5, 300)]
         {
-            let (torus, mut places) = wild(boundary, width, count);
+            let (torus, mut places) = random_places(boundary, width, count);
             let mut rng = Rng::at(4, Draw::Probe, &[]);
             context
                 .run(None, |job| {
-                    let mut mesh = Mesh::new(&delaunay(job, &torus, &places), &torus, &places).unwrap();
+                    let mut mesh = HalfEdgeMesh::new(&delaunay(job, &torus, &places), &torus, &places).unwrap();
                     let mut flipped = 0;
                     for _ in 0..25 {
                         let before = places.clone();
-                        let ways = |point: usize| {
+                        let offsets = |point: usize| {
                             let mut ring = Vec::new();
-                            let way = |other: u32| torus.way(before[point], before[other as usize]);
-                            mesh.for_each_neighbour(point, |other| ring.push(way(other)));
+                            let offset = |other: u32| torus.offset_f32(before[point], before[other as usize]);
+                            mesh.for_each_neighbour(point, |other| ring.push(offset(other)));
                             ring
                         };
-                        wander(&torus, &mut places, count, ways, &mut rng);
+                        wander(&torus, &mut places, count, offsets, &mut rng);
                         let before = triangles(&mesh);
                         assert!(mesh.repair(job, &places)?, "a triangle turned over");
                         flipped += usize::from(before != triangles(&mesh));
                         check_links(&mesh);
                         let edges = (0..4 * mesh.triangles.len() as u32).filter(|edge| edge & 3 < 3);
                         assert!(edges.into_iter().all(|edge| !mesh.must_flip(edge, &places)));
-                        // The corners of a mirrored rectangle lie on one circle: there spade may take the other diagonal.
+                        // The corners of a mirrored rectangle lie on one circle: there spade may take the other
+                        // diagonal.
                         if boundary == Boundary::Periodic {
-                            let anew = Mesh::new(&delaunay(job, &torus, &places), &torus, &places).unwrap();
+                            let anew = HalfEdgeMesh::new(&delaunay(job, &torus, &places), &torus, &places).unwrap();
                             assert_eq!(triangles(&mesh), triangles(&anew));
                         }
                     }
@@ -291,7 +272,7 @@ mod tests {
         for (torus, mut places, has_mesh) in with_and_without_mesh() {
             context
                 .run(None, |job| {
-                    let mesh = Mesh::new(&delaunay(job, &torus, &places), &torus, &places);
+                    let mesh = HalfEdgeMesh::new(&delaunay(job, &torus, &places), &torus, &places);
                     assert_eq!(mesh.is_some(), has_mesh);
                     if let Some(mut mesh) = mesh {
                         places.swap(0, 250);

@@ -1,28 +1,27 @@
 //! The neighbourhood of the `K` nearest points (thesis §4.3.4), for repulsion only.
 //!
-//! Neighbours beyond the conflict radius exert no force, so none is looked for: of the `K` nearest only those closer
-//! than the conflict radius are known here.
+//! Neighbours beyond the conflict radius exert no force, so of the `K` nearest only those within it are found.
 
 use glam::DVec2;
 
+use crate::dcr::thesis::links::{Link, Links};
 use crate::error::Result;
 use crate::geometry::frame::{Frame, Site};
 use crate::geometry::grid2::Grid2;
-use crate::geometry::links::{Link, Links};
 use crate::job::{Job, chunks};
 use crate::points::{Boundary, Domain};
 
-/// The points and their copies in a grid, and how far the neighbourhood of each point reaches.
-pub(super) struct Nearest {
+/// The points and their copies in a grid, and the reach of each point's neighbourhood.
+pub(super) struct NearestLinks {
     sites: Vec<Site>,
     grid: Grid2,
     radius: f64,
     /// The squared distance of each point's `K`-th nearest neighbour, a little more, and infinite if that is beyond
-    /// `radius`. Who is as far as the `K`-th belongs to the neighbourhood too: ties are not broken.
+    /// `radius`. A point as far as the `K`-th belongs to the neighbourhood too: ties are not broken.
     reach: Vec<f64>,
 }
 
-impl Nearest {
+impl NearestLinks {
     /// The neighbourhoods of `count` neighbours closer than `radius`, which is at most 1. Takes O(n) for sets without
     /// clusters.
     pub(super) fn new(
@@ -45,11 +44,11 @@ impl Nearest {
     }
 }
 
-/// What distances that would be equal without rounding may differ by, in spacings: those from a point to the copy of
-/// another, and from the other to the copy of the point.
+/// The rounding, in spacings, by which equal distances may differ: that from a point to the copy of another, and that
+/// from the other to the copy of the point.
 const ROUNDING: f64 = 1e-9;
 
-/// The squared reach of a neighbourhood; `nearest` is memory to work in.
+/// The squared reach of a neighbourhood; `nearest` is working memory.
 fn reach(grid: &Grid2, sites: &[Site], point: usize, radius: f64, count: usize, nearest: &mut Vec<f64>) -> f64 {
     nearest.clear();
     grid.for_each_within(sites[point].position.to_array(), radius, |site, _, squared| {
@@ -63,7 +62,7 @@ fn reach(grid: &Grid2, sites: &[Site], point: usize, radius: f64, count: usize, 
     (nearest.select_nth_unstable_by(count - 1, f64::total_cmp).1.sqrt() + ROUNDING).powi(2)
 }
 
-impl Links for Nearest {
+impl Links for NearestLinks {
     fn for_each(&self, point: usize, mut visit: impl FnMut(Link)) {
         self.grid.for_each_within(self.sites[point].position.to_array(), self.radius, |site, offset, squared| {
             let other = self.sites[site as usize].source;
@@ -105,7 +104,7 @@ mod tests {
                     around.into_iter().filter(|&(distance, _)| distance <= radius).collect::<Vec<_>>()
                 };
                 let reach = |point: usize| around(point).get(neighbours - 1).map_or(f64::INFINITY, |&(d, _)| d + 1e-9);
-                let run = |job: &Job| Nearest::new(job, &frame, points.iter().copied(), radius, neighbours);
+                let run = |job: &Job| NearestLinks::new(job, &frame, points.iter().copied(), radius, neighbours);
                 let nearest = Context::new(1).unwrap().run(None, run).unwrap();
                 for point in 0..count {
                     let mut found = Vec::new();

@@ -1,128 +1,120 @@
-//! A set with a density, in the making.
+//! A set that is being relaxed to a density.
 
 use glam::{DVec2, Vec2};
 
 use crate::dcr::density::anchors::anchors;
-use crate::dcr::density::forces::{Neighbour, force};
-use crate::dcr::density::levels::Levels;
-use crate::dcr::density::mesh::Mesh;
+use crate::dcr::density::forces::{RingPoint, force};
+use crate::dcr::density::half_edge_mesh::HalfEdgeMesh;
+use crate::dcr::density::octaves::OctaveGrids;
 use crate::dcr::density::raster::Raster;
-use crate::dcr::ground::border::Border;
-use crate::dcr::ground::constraints::{Constraints, Force};
-use crate::dcr::ground::motion::Motion;
-use crate::dcr::ground::torus::{Place, Torus, along_curve};
-use crate::dcr::uniform::gather::{ROOM, WIDE};
-use crate::dcr::uniform::{MOMENTUM, STEP};
-use crate::dcr::{Options, Relaxation};
+use crate::dcr::ground::boundary::MirrorBoundary;
+use crate::dcr::ground::constraints::{Constraints, FREE_CLEARANCE, Force, MOMENTUM, SAFE_FRACTION};
+use crate::dcr::ground::curve::CurveOrder;
+use crate::dcr::ground::motion::{Motion, STEP};
+use crate::dcr::ground::neighbours::Neighbours;
+use crate::dcr::ground::torus::{Torus, TorusPoint};
+use crate::dcr::relaxation::Relaxation;
 use crate::error::Result;
 use crate::geometry::delaunay::Delaunay;
 use crate::geometry::grid2::Grid2;
-use crate::geometry::links::Links;
 use crate::job::{Job, chunks};
 use crate::points::{Boundary, Domain};
 
-/// What is too much or missing is levelled in every so manieth step: more often than in uniform sets, where nothing holds
-/// against it.
+/// The number of steps from one removal of waves to the next: fewer than in uniform sets, where nothing builds them up
+/// again.
 const WAVES_EVERY: u32 = 2;
 
-/// What knows the neighbours of each point.
-enum Neighbours {
-    Mesh(Mesh),
-    /// Where there can be no mesh.
-    Stars(Delaunay),
-}
-
-/// Points, and the density that they shall have.
-pub(super) struct Graded {
+/// The points, their velocities and mesh, and the density that they shall have.
+pub(super) struct DensityRelaxation {
     domain: Domain,
     torus: Torus,
     raster: Raster,
-    levels: Levels,
-    /// The user's index of each point: points are kept along a curve.
-    order: Vec<u32>,
-    /// Where the points began.
-    start: Vec<Place>,
-    /// Where they are, and after them their images on the torus.
-    places: Vec<Place>,
-    anchors: Vec<Place>,
+    octaves: OctaveGrids,
+    order: CurveOrder,
+    /// The points, and after them their images on the torus.
+    places: Vec<TorusPoint>,
+    anchors: Vec<TorusPoint>,
     /// The local spacing of each point, in spacings of the torus.
     spacings: Vec<f32>,
     velocities: Vec<Vec2>,
-    /// The mesh of the places, once there is one.
-    mesh: Option<Mesh>,
-    motion: Motion,
+    /// The mesh of the points, once there is one.
+    mesh: Option<HalfEdgeMesh>,
+    motion: Motion<TorusPoint>,
     iterations: u32,
 }
 
-impl Graded {
+impl DensityRelaxation {
     /// The points before the first step.
-    pub(super) fn new(job: &Job, options: &Options, raster: Raster, points: &[[f32; 2]]) -> Result<Self> {
-        let torus = Torus::new(options.domain, points.len());
-        let entered = torus.enter(points, options.seed);
-        let order = along_curve(&entered);
-        let start: Vec<Place> = order.iter().map(|&point| entered[point as usize]).collect();
+    pub(super) fn new(job: &Job, domain: Domain, seed: u64, raster: Raster, points: &[[f32; 2]]) -> Result<Self> {
+        let torus = Torus::new(domain, points.len());
+        let order = CurveOrder::new(&torus, points, seed);
+        let start = order.start();
         Ok(Self {
-            domain: options.domain,
-            levels: Levels::new(job, &torus, &raster, start.len())?,
-            places: torus.with_images(&start),
+            domain,
+            octaves: OctaveGrids::new(job, &torus, &raster, start.len())?,
+            places: torus.with_images(start),
             anchors: anchors(&torus, &raster),
             spacings: start.iter().map(|&place| raster.spacing(place)).collect(),
             velocities: vec![Vec2::ZERO; start.len()],
             mesh: None,
-            motion: Motion::new(STEP, start.iter().map(|&place| torus.position(place)).collect()),
+            motion: Motion::new(STEP, start.to_vec()),
             iterations: 0,
             torus,
             raster,
             order,
-            start,
         })
     }
 
-    fn neighbours(&mut self, job: &Job) -> Result<Neighbours> {
+    fn neighbours(&mut self, job: &Job) -> Result<Neighbours<HalfEdgeMesh>> {
         if let Some(mesh) = self.mesh.take() {
-            return Ok(Neighbours::Mesh(mesh));
+            return Ok(Neighbours::Kept(mesh));
         }
         let corners = self.corners();
         let delaunay = self.triangulate(&job.part(0.0, 0.9), &corners)?;
-        if let Some(mut mesh) = Mesh::new(&delaunay, &self.torus, &corners)
+        if let Some(mut mesh) = HalfEdgeMesh::new(&delaunay, &self.torus, &corners)
             && mesh.repair(&job.part(0.9, 1.0), &corners)?
         {
-            return Ok(Neighbours::Mesh(mesh));
+            return Ok(Neighbours::Kept(mesh));
         }
-        Ok(Neighbours::Stars(delaunay))
+        Ok(Neighbours::Built(delaunay))
     }
 
-    /// The corners of the mesh: all places, then the anchors.
-    fn corners(&self) -> Vec<Place> {
+    /// The corners of the mesh: all points and images, then the anchors.
+    fn corners(&self) -> Vec<TorusPoint> {
         [&self.places[..], &self.anchors].concat()
     }
 
-    fn triangulate(&self, job: &Job, corners: &[Place]) -> Result<Delaunay> {
+    fn triangulate(&self, job: &Job, corners: &[TorusPoint]) -> Result<Delaunay> {
         Delaunay::new(job, &self.torus.frame, self.torus.nudged(corners).into_iter())
     }
 
     /// The ring around a point.
-    fn surround(&self, neighbours: &Neighbours, point: usize, ring: &mut Vec<Neighbour>) {
+    fn surround(&self, neighbours: &Neighbours<HalfEdgeMesh>, point: usize, ring: &mut Vec<RingPoint>) {
         ring.clear();
         let mut add = |other: u32, offset: Option<Vec2>| {
-            // Nothing is in conflict with an anchor.
+            // No point is in conflict with an anchor.
             let (place, spacing) = match (other as usize).checked_sub(self.places.len()) {
                 Some(anchor) => (self.anchors[anchor], f32::INFINITY),
                 None => (self.places[other as usize], self.spacings[other as usize % self.order.len()]),
             };
-            let offset = offset.unwrap_or_else(|| self.torus.way(self.places[point], place));
-            ring.push(Neighbour { offset, spacing });
+            let offset = offset.unwrap_or_else(|| self.torus.offset_f32(self.places[point], place));
+            ring.push(RingPoint { offset, spacing });
         };
         match neighbours {
-            Neighbours::Mesh(mesh) => mesh.for_each_neighbour(point, |other| add(other, None)),
-            Neighbours::Stars(delaunay) => {
-                delaunay.for_each(point, |link| add(link.other, Some(link.offset.as_vec2())));
+            Neighbours::Kept(mesh) => mesh.for_each_neighbour(point, |other| add(other, None)),
+            Neighbours::Built(delaunay) => {
+                delaunay.star(point).for_each(|(site, offset)| add(site.source, Some(offset.as_vec2())));
             }
         }
     }
 
-    /// Where every point gets, and how fast.
-    fn gather(&self, job: &Job, neighbours: &Neighbours, drift: &[Vec2]) -> Result<Vec<(Place, Vec2)>> {
+    /// The points and their velocities after a step.
+    fn gather(
+        &self,
+        job: &Job,
+        neighbours: &Neighbours<HalfEdgeMesh>,
+        drift: &[Vec2],
+    ) -> Result<Vec<(TorusPoint, Vec2)>> {
         let constraints = Constraints::of_step(self.iterations);
         let chunks = chunks(self.order.len());
         job.concat(chunks.len(), |chunk| {
@@ -131,13 +123,14 @@ impl Graded {
                 self.surround(neighbours, point, &mut ring);
                 let spacing = self.spacings[point];
                 let density_at = |offset| self.raster.density(self.torus.moved(self.places[point], offset));
-                let Force { sum, room } = force(&constraints, spacing, &ring, density_at);
-                let limit = ROOM * if matches!(neighbours, Neighbours::Mesh(_)) { room } else { WIDE * spacing };
+                let Force { sum, clearance } = force(&constraints, spacing, &ring, density_at);
+                let limit = SAFE_FRACTION
+                    * if matches!(neighbours, Neighbours::Kept(_)) { clearance } else { FREE_CLEARANCE * spacing };
                 let sum = match self.domain.boundary {
                     Boundary::Periodic => sum,
                     Boundary::Bounded => {
                         let images = self.torus.own_images(self.places[point]).map(|image| image / spacing);
-                        Border::force_by_images(&constraints, images, sum)
+                        MirrorBoundary::force_by_images(&constraints, images, sum)
                     }
                 };
                 let velocity = MOMENTUM * self.velocities[point] + spacing * sum;
@@ -149,21 +142,21 @@ impl Graded {
     }
 }
 
-impl Relaxation for Graded {
+impl Relaxation for DensityRelaxation {
     fn step(&mut self, job: &Job) -> Result<()> {
         let count = self.order.len();
         let drift = match self.iterations.is_multiple_of(WAVES_EVERY) {
-            true => self.levels.drift(&job.part(0.0, 0.2), &self.places, &self.spacings)?,
+            true => self.octaves.drift(&job.part(0.0, 0.2), &self.places, &self.spacings)?,
             false => vec![Vec2::ZERO; count],
         };
         let neighbours = self.neighbours(&job.part(0.2, 0.4))?;
         let moved = self.gather(&job.part(0.4, 0.7), &neighbours, &drift)?;
-        let (places, velocities): (Vec<Place>, Vec<Vec2>) = moved.into_iter().unzip();
+        let (places, velocities): (Vec<TorusPoint>, Vec<Vec2>) = moved.into_iter().unzip();
         self.spacings = places.iter().map(|&place| self.raster.spacing(place)).collect();
         (self.places, self.velocities) = (self.torus.with_images(&places), velocities);
         self.iterations += 1;
-        self.motion.after_step(&self.torus.frame, || places.iter().map(|&place| self.torus.position(place)));
-        if let Neighbours::Mesh(mut mesh) = neighbours {
+        self.motion.after_step(&self.torus, || places.iter().copied());
+        if let Neighbours::Kept(mut mesh) = neighbours {
             self.mesh = mesh.repair(&job.part(0.7, 1.0), &self.corners())?.then_some(mesh);
         }
         Ok(())
@@ -174,27 +167,19 @@ impl Relaxation for Graded {
     }
 
     fn motion(&self) -> f64 {
-        let places = self.places[..self.order.len()].iter();
-        self.motion.last(&self.torus.frame, places.map(|&place| self.torus.position(place)))
+        self.motion.last(&self.torus, self.places[..self.order.len()].iter().copied())
     }
 
     fn has_settled(&self, tolerance: f64) -> bool {
         self.motion.has_settled(tolerance)
     }
 
-    /// Points that have not moved are returned as they came.
     fn points(&self, points: &[[f32; 2]]) -> Vec<[f32; 2]> {
-        let mut relaxed = points.to_vec();
-        for ((&point, &start), &place) in self.order.iter().zip(&self.start).zip(&self.places) {
-            if place != start {
-                relaxed[point as usize] = self.torus.leave(place);
-            }
-        }
-        relaxed
+        self.order.leave(&self.torus, &self.places, points)
     }
 
-    /// The smallest distance over the mean spacing of the two points. The spacing grows by no more than the distance, so of
-    /// two points the one with the smaller spacing sees the other within twice that.
+    /// The smallest distance over the mean spacing of the two points. The spacing grows by no more than the distance,
+    /// so of two points the one with the smaller spacing finds the other within twice that.
     fn relative_spacing(&self, job: &Job, points: &[[f32; 2]]) -> Result<Option<f64>> {
         let unit = self.torus.frame.spacing();
         let position = |point: &[f32; 2]| point.map(f64::from);

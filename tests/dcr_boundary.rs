@@ -1,4 +1,4 @@
-//! DCR on bounded squares: what the border does to a set, along it and on it.
+//! DCR on bounded squares: sets along the boundary and on it.
 
 #[path = "common/sets.rs"]
 #[allow(dead_code)]
@@ -12,19 +12,19 @@ fn run(options: &Options, points: &[[f32; 2]]) -> (Vec<[f32; 2]>, Report) {
     relax(&Context::new(1).unwrap(), options, points, None).unwrap()
 }
 
-/// The distance of a point of the unit square from its border.
+/// The distance of a point of the unit square from its boundary.
 fn depth(point: &[f32; 2]) -> f64 {
     point.iter().map(|&x| f64::from(x.min(1.0 - x))).fold(1.0, f64::min)
 }
 
 #[test]
-fn the_thesis_keeps_the_density_along_a_border() {
+fn the_thesis_keeps_the_density_along_a_boundary() {
     let count = 1500;
     let domain = unit_square(Boundary::Bounded);
     let strip = 4.0 * domain.hexagonal_distance(count);
     for neighbourhood in [Neighbourhood::Delaunay, Neighbourhood::Nearest] {
         let options = Options::thesis(domain, neighbourhood);
-        // Points are counted the less the deeper they lie, lest the rows along the border show.
+        // Points are counted the less the deeper they lie, so that the rows along the boundary do not show.
         let (mut counted, mut spacing) = (0.0, [(0.0, 0); 2]);
         for seed in 0..3 {
             let (relaxed, _) = run(&options, &random_points(count, 70 + seed));
@@ -42,8 +42,8 @@ fn the_thesis_keeps_the_density_along_a_border() {
     }
 }
 
-/// The density of points of the unit square in strips along its border, one to three times so wide, over that of all that
-/// is deeper than four; and the mean of a value of the points in the narrowest over that inside.
+/// The density of points of the unit square in strips along its boundary, one to three times so wide, over that of all
+/// that is deeper than four; and the mean of a value of the points in the narrowest over that inside.
 fn strips_over_inside(width: f64, points: &[[f32; 2]], values: &[f64]) -> ([f64; 3], f64) {
     let mean_and_density = |holds: &dyn Fn(f64) -> bool, area: f64| {
         let of: Vec<f64> =
@@ -57,11 +57,11 @@ fn strips_over_inside(width: f64, points: &[[f32; 2]], values: &[f64]) -> ([f64;
 }
 
 #[test]
-fn the_border_of_a_bounded_square_is_neither_crowded_nor_empty() {
+fn the_boundary_of_a_bounded_square_is_neither_crowded_nor_empty() {
     let count = 2500;
     let domain = unit_square(Boundary::Bounded);
     let unit = domain.hexagonal_distance(count);
-    // How much denser a strip may be: rows cut by a strip one spacing wide are what is more in it, or less.
+    // The tolerance of the density of a strip: a strip one spacing wide may contain a row more or less.
     let goals =
         [(Neighbourhood::Delaunay, 0.68f64, [0.06, 0.04, 0.035]), (Neighbourhood::Nearest, 0.9, [0.05, 0.07, 0.06])];
     for (neighbourhood, coverage, excess) in goals {
@@ -71,7 +71,7 @@ fn the_border_of_a_bounded_square_is_neither_crowded_nor_empty() {
             let (density, mean) = strips_over_inside(unit, &relaxed, &nearest_distances(&domain, &relaxed));
             densities = std::array::from_fn(|i| densities[i] + density[i] / sets as f64);
             spacing += mean / sets as f64;
-            // No place on the border is worse off than one inside may be.
+            // No position on the boundary is covered worse than those inside may be.
             for step in 0..=400 {
                 let along = step as f32 / 400.0;
                 for place in [[along, 0.0], [along, 1.0], [0.0, along], [1.0, along]] {
@@ -95,10 +95,11 @@ fn the_border_of_a_bounded_square_is_neither_crowded_nor_empty() {
     assert!(strips_over_inside(unit, &twice, &[1.0; 5000]).0[0] > 1.7);
 }
 
-/// Two points beside each other on the border, and a third between them that can go neither out nor in: in 300 such sets
-/// there were 11 in which waves of the density kept pushing it back. In corners one set in some hundreds has such three.
+/// Two points beside each other on the boundary, and a third between them that can go neither out nor in: in 300 such
+/// sets there were 11 in which waves of the density kept pushing it back. In corners one set in some hundreds has such
+/// three.
 #[test]
-fn hardly_any_points_stay_in_conflict_at_a_border() {
+fn hardly_any_points_stay_in_conflict_at_a_boundary() {
     let count = 1000;
     let domain = unit_square(Boundary::Bounded);
     let unit = domain.hexagonal_distance(count);
