@@ -10,23 +10,24 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
 . "$root/tests/c/examples.sh"
+. "$root/tests/c/version.sh"
 
 is_clean() { fails command -v cargo && fails ldconfig_knows && fails ls /usr/include/embree*; }
 
-ldconfig_knows() { ldconfig -p | grep -q libazulejo.so.0; }
+ldconfig_knows() { ldconfig -p | grep -q "libazulejo.so.$abi"; }
 
 apt() { apt-get -qq -o Dpkg::Use-Pty=0 "$@"; }
 
 install_debs() { apt update && apt install --no-install-recommends "$@" && ldconfig_knows; }
 
 remove_debs() {
-    apt purge libazulejo0 && fails ldconfig_knows && [ -z "$(dpkg-query -W 'libazulejo*' 2>/dev/null)" ] &&
+    apt purge "libazulejo$abi" && fails ldconfig_knows && [ -z "$(dpkg-query -W 'libazulejo*' 2>/dev/null)" ] &&
         [ -z "$(find / -xdev -name '*azulejo*' ! -path "$work*" ! -path "/azulejo*" ! -name azulejo-base)" ]
 }
 
 step "installed: the root is clean" is_clean
-step "installed: the library alone" install_debs /debs/libazulejo0_*.deb
-step "installed: both packages" install_debs /debs/libazulejo0_*.deb /debs/libazulejo-dev_*.deb
+step "installed: the library alone" install_debs "/debs/libazulejo$abi"_*.deb
+step "installed: both packages" install_debs "/debs/libazulejo$abi"_*.deb /debs/libazulejo-dev_*.deb
 make_mesh
 step "installed: examples, shared" examples "$work/shared" ""
 step "installed: they run" run_examples "$work/shared"

@@ -3,9 +3,10 @@
 #
 #   tests/c/run.sh PREFIX [--asan] [--valgrind]
 #
-# The headers compile without a warning in every standard; the shared library exports what symbols.txt says and has its
-# SONAME; the test programs pass: plainly, one after the other, with --asan also compiled with the address and
-# undefined-behaviour sanitizers, with --valgrind also under valgrind, as many at a time as there are cores.
+# The headers compile without a warning in every standard, and in C++ without exceptions and RTTI; the shared library
+# exports what symbols.txt says and has its SONAME; the test programs pass: plainly, one after the other, with --asan also
+# compiled with the address and undefined-behaviour sanitizers, with --valgrind also under valgrind, as many at a time as
+# there are cores.
 set -euo pipefail
 
 here=$(cd "$(dirname "$0")" && pwd)
@@ -31,9 +32,13 @@ library=$(find "$prefix" -name libazulejo.so | head -n 1)
 [ -n "$library" ] || { echo "run.sh: no libazulejo.so below $prefix" >&2; exit 1; }
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
+root=$here/../..
+. "$here/version.sh"
 . "$here/beside.sh"
 
 warnings=(-Wall -Wextra -Wpedantic -Werror)
+# How many engines are compiled, and tests/c/no_exceptions*.cpp.
+bare=(-fno-exceptions -fno-rtti)
 include=(-I "$prefix/include")
 link=(-L "$(dirname "$library")" -Wl,-rpath,"$(dirname "$library")" -lazulejo -lpthread -lm)
 # The Embree that the library was built for, for programs that have a scene of their own.
@@ -58,18 +63,18 @@ step() {
     fi
 }
 
-header_compiles() { # LANGUAGE STANDARD FILE
+header_compiles() { # LANGUAGE STANDARD FILE FLAG...
     local strict=() compiler=$cc
     case $1 in
         c) strict=(-Wstrict-prototypes) ;;
         c++) compiler=$cxx ;;
     esac
-    "$compiler" -x "$1" "-std=$2" "${warnings[@]}" "${strict[@]}" -fsyntax-only "$prefix/include/$3"
+    "$compiler" -x "$1" "-std=$2" "${warnings[@]}" "${strict[@]}" "${@:4}" -fsyntax-only "$prefix/include/$3"
 }
 
 exports() { nm --dynamic --defined-only --format=posix "$library" | awk '{ print $1 }' | LC_ALL=C sort; }
 
-has_soname() { readelf --dynamic "$library" | grep -F "Library soname: [libazulejo.so.0]"; }
+has_soname() { readelf --dynamic "$library" | grep -F "Library soname: [libazulejo.so.$abi]"; }
 
 needs_nothing_else() { # libraries that are neither the C runtime nor Embree
     local others
@@ -83,6 +88,7 @@ build() { # SOURCE OUTPUT FLAG...
     shift 2
     case $source in
         *.c) "$cc" -std=gnu11 -Wstrict-prototypes "$@" "${warnings[@]}" "${include[@]}" "$source" -o "$output" "${link[@]}" ;;
+        */no_exceptions*) "$cxx" -std=c++17 "${bare[@]}" "$@" "${warnings[@]}" "${include[@]}" "$source" -o "$output" "${link[@]}" ;;
         *) "$cxx" -std=c++17 "$@" "${warnings[@]}" "${include[@]}" "$source" -o "$output" "${link[@]}" ;;
     esac
 }
@@ -110,6 +116,8 @@ beside step "azulejo.h as C99" header_compiles c c99 azulejo.h
 beside step "azulejo.h as C11" header_compiles c c11 azulejo.h
 beside step "azulejo.h as C++17" header_compiles c++ c++17 azulejo.h
 beside step "azulejo.hpp as C++17" header_compiles c++ c++17 azulejo.hpp
+beside step "azulejo.hpp as C++20" header_compiles c++ c++20 azulejo.hpp
+beside step "azulejo.hpp, no exceptions or RTTI" header_compiles c++ c++17 azulejo.hpp "${bare[@]}"
 exports >"$work/symbols.txt"
 beside step "exported symbols" diff "$here/symbols.txt" "$work/symbols.txt"
 beside step "SONAME" has_soname

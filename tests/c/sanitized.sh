@@ -64,7 +64,10 @@ embree() { sed -n 's/^cargo::metadata=library=//p' "$target/$host"/debug/build/e
 # The runtime is that of the Rust compiler, for C, too: it knows the calls of both.
 build_program() { # SOURCE OUTPUT
     local compiler=(cc -std=gnu11)
-    [ "${1##*.}" = c ] || compiler=(c++ -std=c++17)
+    case $1 in
+        */no_exceptions*) compiler=(c++ -std=c++17 -fno-exceptions -fno-rtti) ;;
+        *.cpp) compiler=(c++ -std=c++17) ;;
+    esac
     "${compiler[@]}" -O1 -g "-fsanitize=$sanitizer" -DEMBREE_MAJOR="${embree#embree}" -I "$root/include" -c "$1" -o "$2.o" &&
         c++ "$2.o" -o "$2" "$library" -Wl,--whole-archive "$runtime" -Wl,--no-whole-archive -Wl,--export-dynamic \
             "-l$embree" -lpthread -ldl -lm -lrt
