@@ -16,7 +16,7 @@ is_clean() { fails command -v cargo && fails ldconfig_knows && fails ls /usr/inc
 
 ldconfig_knows() { ldconfig -p | grep -q "libazulejo.so.$abi"; }
 
-apt() { apt-get -qq -o Dpkg::Use-Pty=0 "$@"; }
+apt() { apt-get -qq -o Dpkg::Use-Pty=0 -o Acquire::Retries=3 "$@"; }
 
 install_debs() { apt update && apt install --no-install-recommends "$@" && ldconfig_knows; }
 
