@@ -13,7 +13,7 @@ use std::time::Instant;
 
 use azulejo::analysis::coverage::covering_radius_2d;
 use azulejo::analysis::spacing::smallest_distance_2d;
-use azulejo::kdrt::{CountOptions, DEFAULT_LEAF_SIZE, Options, sample, sample_count};
+use azulejo::kdrt::{CountOptions, Options, sample, sample_count};
 use azulejo::{Boundary, Context, Domain};
 use spade::{DelaunayTriangulation, Point2, Triangulation};
 
@@ -25,7 +25,7 @@ fn main() {
     for (count, seeds) in [(1_000, 5), (10_000, 5), (100_000, 3), (1_000_000, 2)] {
         for seed in 0..seeds {
             row(&context, count, seed, "tuning", || {
-                let options = CountOptions { count: count as u64, domain: DOMAIN, leaf_size: DEFAULT_LEAF_SIZE, seed };
+                let options = CountOptions::new(count as u64).domain(DOMAIN).seed(seed);
                 sample_count(&context, &options, None).expect("a good domain").samples
             });
             row(&context, count, seed, "insertion", || inserted(start(&context, count, seed, Ordering::Less), count));
@@ -51,7 +51,7 @@ fn row(context: &Context, count: usize, seed: u64, way: &str, make: impl Fn() ->
 fn start(context: &Context, count: usize, seed: u64, wanted: Ordering) -> Vec<[f32; 2]> {
     let radius = (0.69656 * 1.0045 / count as f64).sqrt();
     let set = |attempt: u64| {
-        let options = Options { radius, domain: DOMAIN, leaf_size: DEFAULT_LEAF_SIZE, seed: seed + (attempt << 32) };
+        let options = Options::new(radius).domain(DOMAIN).seed(seed + (attempt << 32));
         sample(context, &options, None).expect("a good domain")
     };
     (0..).map(set).find(|samples| samples.len().cmp(&count) == wanted).expect("either happens")

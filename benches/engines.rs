@@ -24,7 +24,7 @@ fn mesh((positions, triangles): meshes::Soup) -> Arc<Mesh> {
 
 /// Options for a set that has about `count` samples once it is maximal.
 fn options(mesh: &Mesh, count: f64, engine: Engine) -> Options {
-    Options { engine, ..Options::new((0.69656 * mesh.area() / count).sqrt()) }
+    Options::new((0.69656 * mesh.area() / count).sqrt()).engine(engine)
 }
 
 fn iterate(context: &Context, mesh: &Arc<Mesh>, options: &Options) -> Report {

@@ -6,7 +6,7 @@
 use std::hint::black_box;
 use std::time::{Duration, Instant};
 
-use azulejo::{Boundary, Context, Domain, kdrt, maximal};
+use azulejo::{Context, kdrt, maximal};
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 
 const LEAF_SIZES: [f64; 4] = [6.0, 20.0, 40.0, 80.0];
@@ -20,7 +20,7 @@ fn radius(count: u32) -> f64 {
 }
 
 fn options(count: u32, leaf_size: f64) -> kdrt::Options {
-    kdrt::Options { radius: radius(count), domain: Domain::unit(Boundary::Periodic), leaf_size, seed: 1 }
+    kdrt::Options::new(radius(count)).leaf_size(leaf_size).seed(1)
 }
 
 fn kdrt(context: &Context, count: u32, leaf_size: f64) -> usize {
@@ -28,7 +28,7 @@ fn kdrt(context: &Context, count: u32, leaf_size: f64) -> usize {
 }
 
 fn maximal(context: &Context, count: u32) -> usize {
-    let options = maximal::Options { radius: radius(count), domain: Domain::unit(Boundary::Periodic), seed: 1 };
+    let options = maximal::Options::new(radius(count)).seed(1);
     maximal::sample(context, &options, None).expect("a good domain").len()
 }
 
@@ -91,9 +91,9 @@ fn print_stages(counts: &[u32]) {
     stages.iter().for_each(|stage| print!(" {stage:>12}"));
     println!();
     for (&count, leaf_size) in counts.iter().flat_map(|count| LEAF_SIZES.map(|leaf_size| (count, leaf_size))) {
-        let stages = kdrt::measure(&options(count, leaf_size)).expect("a good domain");
+        let stages = kdrt::stages::measure(&options(count, leaf_size)).expect("a good domain");
         let per_sample = |time: Duration| time.as_secs_f64() * 1e9 / stages.samples as f64;
-        let kdrt::Stages { pattern, divide, clip, eliminate, fill, output, .. } = stages;
+        let kdrt::stages::Stages { pattern, divide, clip, eliminate, fill, output, .. } = stages;
         let times = [pattern, divide, clip, eliminate, fill, output].map(per_sample);
         let source = vec![[0.5f32; 2]; stages.samples as usize];
         let mut target = source.clone();

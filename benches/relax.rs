@@ -21,7 +21,7 @@ fn start(side: usize, domain: Domain) -> Vec<[f32; 2]> {
         [(x as f64 + jitter(k, 0.618_033_988_749_895)) as f32, (y as f64 + jitter(k, 0.414_213_562_373_095)) as f32]
     };
     let grid: Vec<_> = (0..side * side).map(|k| at(k).map(|x| x / side as f32)).collect();
-    let options = Options { max_iterations: 10, ..Options::new(domain, Neighbourhood::Delaunay) };
+    let options = Options::new(domain, Neighbourhood::Delaunay).max_iterations(10);
     relax(&Context::new(0).unwrap(), &options, &grid, None).unwrap().0
 }
 
@@ -29,7 +29,7 @@ fn start(side: usize, domain: Domain) -> Vec<[f32; 2]> {
 fn nanoseconds(context: &Context, options: &Options, points: &[[f32; 2]], share: u32) -> f64 {
     let steps = STEPS.map(|steps| steps / share);
     let seconds = |max_iterations| {
-        let options = Options { max_iterations, tolerance: 0.0, ..*options };
+        let options = options.max_iterations(max_iterations).tolerance(0.0);
         let run = || {
             let start = Instant::now();
             relax(context, &options, black_box(points), None).unwrap();
@@ -49,7 +49,7 @@ fn main() {
         let points = start(side, domain);
         for (name, neighbourhood) in [("Delaunay", Neighbourhood::Delaunay), ("nearest", Neighbourhood::Nearest)] {
             let best = Options::new(domain, neighbourhood);
-            let thesis = Options { method: Method::Thesis(Thesis::default()), ..best };
+            let thesis = best.method(Method::Thesis(Thesis::default()));
             for (method, options, share) in [("best", best, 1), ("thesis", thesis, 10)] {
                 if side > 256 && method == "thesis" {
                     continue;
@@ -69,7 +69,7 @@ fn whole_calls(domain: Domain, contexts: &[(&str, Context)]) {
         "\n{:<28} {:>9} {:>12} {:>7} {:>6} {:>6}",
         "whole calls from KDRT", "threads", "samples/s", "steps", "rho", "cover"
     );
-    let count = CountOptions { count: 1_000_000, domain, leaf_size: kdrt::DEFAULT_LEAF_SIZE, seed: 1 };
+    let count = CountOptions::new(1_000_000).domain(domain).seed(1);
     let points = kdrt::sample_count(&contexts[1].1, &count, None).unwrap().samples;
     for (name, neighbourhood) in [("Delaunay", Neighbourhood::Delaunay), ("nearest", Neighbourhood::Nearest)] {
         for (threads, context) in contexts {

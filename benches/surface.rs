@@ -34,10 +34,10 @@ fn surface(criterion: &mut Criterion) {
     let mesh = mesh(meshes::fine_torus(500, 200));
     let options = Options::new(radius(&mesh, 1e5));
     let cases = [
-        ("one iteration", Options { iterations: 1, maximal: false, ..options }),
-        ("three iterations", Options { iterations: 3, maximal: false, ..options }),
-        ("maximal", Options { iterations: DEFAULT_ITERATIONS, ..options }),
-        ("maximal, filled only", Options { iterations: 0, ..options }),
+        ("one iteration", options.iterations(1).maximal(false)),
+        ("three iterations", options.iterations(3).maximal(false)),
+        ("maximal", options.iterations(DEFAULT_ITERATIONS)),
+        ("maximal, filled only", options.iterations(0)),
     ];
     let contexts = [1, 0].map(|threads| Context::new(threads).expect("threads"));
     let mut group = criterion.benchmark_group("surface");

@@ -28,7 +28,7 @@
 //!
 //! let context = Context::new(0)?;
 //! let domain = Domain::unit(Boundary::Periodic);
-//! let options = kdrt::Options { radius: 0.01, domain, leaf_size: kdrt::DEFAULT_LEAF_SIZE, seed: 7 };
+//! let options = kdrt::Options::new(0.01).domain(domain).seed(7);
 //! let samples = kdrt::sample(&context, &options, None)?;
 //! assert!(samples.len() > 6_800);
 //! # Ok::<(), azulejo::Error>(())
@@ -39,24 +39,24 @@
 pub mod analysis;
 pub mod dcr;
 mod error;
-mod grid2;
-mod grid3;
+mod geometry;
 mod job;
 pub mod kdrt;
-mod lattice;
 pub mod maximal;
 mod memory;
 pub mod mesh;
+mod plane;
 mod points;
 pub mod psp;
-mod rect;
 mod rng;
+mod setters;
+mod simd;
 #[allow(unsafe_code)]
 pub mod trace;
 
 pub use error::{Error, Result};
 pub use job::{Context, Progress};
-pub use points::{Boundary, Domain, SurfaceSamples};
+pub use points::{Boundary, Domain, MAXIMAL_DENSITY, SurfaceSamples};
 
 /// The code blocks of the README are compiled with the documentation tests.
 #[cfg(doctest)]

@@ -8,7 +8,7 @@ use crate::error::{Error, Result};
 /// control groups that it is in (those of a container, say) can give now. `argument` is the option
 /// that asks for them and `what` names what they are for: "3000000 samples".
 ///
-/// Where the operating system does not tell (it is asked on Linux only) nothing is refused.
+/// Where the operating system does not say (only Linux is asked) nothing is refused.
 pub(crate) fn require(bytes: f64, argument: &'static str, what: &str) -> Result<()> {
     match available() {
         Some(limit) if bytes > limit => {
@@ -22,7 +22,7 @@ pub(crate) fn require(bytes: f64, argument: &'static str, what: &str) -> Result<
     }
 }
 
-/// Bytes of memory that can be had without swapping, where the operating system tells.
+/// Bytes of memory that can be had without swapping, where the operating system says.
 pub(crate) fn available() -> Option<f64> {
     let machine = read("/proc/meminfo").and_then(|table| entry(&table, "MemAvailable:"));
     [machine, address_space(), control_groups(Path::new("/sys/fs/cgroup"))].into_iter().flatten().reduce(f64::min)
@@ -50,7 +50,7 @@ fn soft_limit(table: &str) -> Option<f64> {
     table.lines().find_map(|line| line.strip_prefix("Max address space"))?.split_whitespace().next()?.parse().ok()
 }
 
-/// What the process's control group (version 2) and those that it is in leave, if they have limits.
+/// What the process's control group (version 2) and its parents leave, if they have limits.
 fn control_groups(root: &Path) -> Option<f64> {
     let groups = read("/proc/self/cgroup")?;
     let group = groups.lines().find_map(|line| line.strip_prefix("0::/"))?;
@@ -58,7 +58,7 @@ fn control_groups(root: &Path) -> Option<f64> {
     groups.filter_map(|group| left_in(&group)).reduce(f64::min)
 }
 
-/// What a control group leaves. Files that are cached count as used, though they make room for others.
+/// What a control group leaves. Files that are cached count as used, though they are given up for others.
 fn left_in(group: &Path) -> Option<f64> {
     let number = |name: &str| read(group.join(name))?.trim().parse::<f64>().ok();
     let statistics = read(group.join("memory.stat")).unwrap_or_default();

@@ -2,7 +2,11 @@
 
 use crate::error::{Error, Result};
 
-/// What lies beyond the border of a domain.
+/// N·r² of an unbiased maximal set of N samples on an area of 1, 0.69656: the jamming limit of random sequential placement,
+/// 0.5470735 (Zhang and Torquato 2013), is the share of the area that disks of *diameter* r cover.
+pub const MAXIMAL_DENSITY: f64 = 0.5470735 * 4.0 / std::f64::consts::PI;
+
+/// What lies beyond the boundary of a domain.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Boundary {
     /// The domain is a torus: distances wrap with the period `max - min`.
@@ -24,7 +28,7 @@ pub struct Domain {
     pub min: [f64; 2],
     /// The upper corner, above `min` on both axes.
     pub max: [f64; 2],
-    /// What lies beyond the border.
+    /// What lies beyond the boundary.
     pub boundary: Boundary,
 }
 
@@ -92,7 +96,7 @@ impl Domain {
         }
     }
 
-    /// Refuses what is not a rectangle of finite `f32` coordinates, and what is thinner than any of them can tell.
+    /// Refuses what is not a rectangle of finite `f32` coordinates, and what is thinner than their spacing.
     pub(crate) fn check(&self) -> Result<()> {
         for axis in 0..2 {
             let (min, max) = (self.min[axis], self.max[axis]);

@@ -93,7 +93,7 @@ fn radii_by_position() {
         let at = |[x, y, z]: [f64; 3]| 0.05 + slope * (0.05 * (3.0 * x + 2.0 * y - z)).sin().abs();
         let (smallest, largest) = (0.05, 0.05 + slope);
         let radius = Radius::Function { at: &at, smallest, largest, slope: 0.19 * slope };
-        check_all(&torus, &Options { seed: 3, ..Options::new(radius) }, &Field::Function(&at, 0.19 * slope));
+        check_all(&torus, &Options::new(radius).seed(3), &Field::Function(&at, 0.19 * slope));
     }
 }
 
@@ -101,12 +101,12 @@ fn radii_by_position() {
 fn every_seed_gives_another_good_set() {
     let sphere = mesh(meshes::sphere());
     let radii = radii(&sphere, |[x, ..]| 0.2 + 0.15 * x);
-    let mut before = AdaptiveSamples { samples: Default::default(), radii: vec![] };
+    let mut before = None;
     for seed in 0..20 {
-        let options = Options { seed, ..Options::new(Radius::PerVertex(&radii)) };
+        let options = Options::new(Radius::PerVertex(&radii)).seed(seed);
         let set = check_all(&sphere, &options, &Field::PerVertex(&radii));
-        assert_ne!(set, before);
-        before = set;
+        assert_ne!(Some(&set), before.as_ref());
+        before = Some(set);
     }
 }
 
@@ -166,7 +166,7 @@ fn wall() -> Mesh {
 fn sides_of_a_thin_wall_ignore_each_other_if_wanted() {
     let wall = wall();
     let radii = radii(&wall, |[x, ..]| 0.05 + 0.05 * x);
-    let with = |cosine| Options { cosine, ..Options::new(Radius::PerVertex(&radii)) };
+    let with = |cosine| Options::new(Radius::PerVertex(&radii)).cosine(cosine);
     let field = Field::PerVertex(&radii);
     let [shared, apart, together] = [-1.0, 0.0, -0.999].map(|cosine| check_all(&wall, &with(cosine), &field));
     let side =
@@ -180,7 +180,7 @@ fn sides_of_a_thin_wall_ignore_each_other_if_wanted() {
     // A bent surface, where neighbours differ by some degrees.
     let torus = mesh(meshes::torus());
     let radii = vec![0.2; torus.positions().len()];
-    let options = Options { cosine: 0.9, ..Options::new(Radius::PerVertex(&radii)) };
+    let options = Options::new(Radius::PerVertex(&radii)).cosine(0.9);
     check_all(&torus, &options, &Field::PerVertex(&radii));
 }
 
@@ -189,7 +189,7 @@ fn sides_of_a_thin_wall_ignore_each_other_if_wanted() {
 fn with_a_cosine_of_one_triangles_are_sampled_each_for_itself() {
     let torus = mesh(meshes::torus());
     let radii = vec![0.05; torus.positions().len()];
-    let options = Options { cosine: 1.0, ..Options::new(Radius::PerVertex(&radii)) };
+    let options = Options::new(Radius::PerVertex(&radii)).cosine(1.0);
     let set = check_all(&torus, &options, &Field::PerVertex(&radii));
     let triangles: HashSet<_> = set.samples.triangles.iter().collect();
     assert_eq!(triangles.len(), torus.triangles().len());
@@ -228,7 +228,7 @@ fn a_ramp_of_density_is_met_in_every_band() {
     let mut counts = [0.0; BANDS];
     let seeds = 4;
     for seed in 0..seeds {
-        let set = sample(&plane, &Options { seed, ..Options::new(Radius::PerVertex(&radii)) });
+        let set = sample(&plane, &Options::new(Radius::PerVertex(&radii)).seed(seed));
         for [x, y, _] in set.samples.positions.iter().map(|position| position.map(f64::from)) {
             if (margin..1.0 - margin).contains(&y) {
                 counts[(x / 4.0 * BANDS as f64) as usize] += 1.0;
@@ -305,7 +305,7 @@ fn bad_functions_and_cosines_are_refused() {
     let radius = Radius::Function { at: &|_| 1e-5, smallest: 1e-5, largest: 1.0, slope: 0.0 };
     assert_eq!(refused(&many, &Options::new(radius)).0, "radius");
     for cosine in [-1.1, 1.1, f64::NAN] {
-        let options = Options { cosine, ..Options::new(Radius::PerVertex(&[0.1; 4])) };
+        let options = Options::new(Radius::PerVertex(&[0.1; 4])).cosine(cosine);
         assert_eq!(refused(&plane, &options).0, "cosine");
     }
 }
@@ -340,7 +340,7 @@ fn the_checkers_see_what_is_wrong() {
     let radii = radii(&wall, |[x, ..]| 0.1 + 0.1 * x);
     let field = Field::PerVertex(&radii);
     for cosine in [-1.0, 0.0] {
-        let good = sample(&wall, &Options { cosine, ..Options::new(Radius::PerVertex(&radii)) });
+        let good = sample(&wall, &Options::new(Radius::PerVertex(&radii)).cosine(cosine));
         for removed in (0..good.radii.len()).step_by(10) {
             let mut bad = good.clone();
             bad.samples.positions.remove(removed);
@@ -355,7 +355,7 @@ fn the_checkers_see_what_is_wrong() {
         assert_eq!(oracle::wrong_radius(&wall, &field, &bad.samples, &bad.radii), Some(0));
     }
     // What is good if the sides ignore each other is not if they do not.
-    let apart = sample(&wall, &Options { cosine: 0.0, ..Options::new(Radius::PerVertex(&radii)) });
+    let apart = sample(&wall, &Options::new(Radius::PerVertex(&radii)).cosine(0.0));
     assert!(oracle::conflict(&apart.samples, &apart.radii, -1.0).is_some());
 }
 
@@ -368,7 +368,7 @@ proptest! {
         let largest = (mesh.area().sqrt() * 10f64.powf(size)).max(0.02);
         let noise = |[x, y, z]: [f64; 3]| (largest * 10f64.powf(-ratio * (777.0 * (x + y + z)).fract())).max(0.02);
         let radii = radii(&mesh, noise);
-        let options = Options { seed, cosine: if triangles % 2 == 0 { -1.0 } else { 0.3 }, ..Options::new(Radius::PerVertex(&radii)) };
+        let options = Options::new(Radius::PerVertex(&radii)).seed(seed).cosine(if triangles % 2 == 0 { -1.0 } else { 0.3 });
         check_all(&mesh, &options, &Field::PerVertex(&radii));
     }
 }

@@ -88,12 +88,13 @@ fn gaps_of_random_sets_are_the_parts_that_a_walk_finds() {
 fn a_maximal_set_has_no_gap_and_one_for_each_sample_that_is_taken_away() {
     for boundary in BOUNDARIES {
         let (radius, domain) = (0.02, unit_square(boundary));
-        let mut samples = maximal::sample(&context(), &maximal::Options { radius, domain, seed: 3 }, None).unwrap();
+        let mut samples =
+            maximal::sample(&context(), &maximal::Options::new(radius).domain(domain).seed(3), None).unwrap();
         let reach = radius + 1e-6;
         let whole = coverage_2d(&context(), &domain, &samples, reach, None).unwrap();
         assert_eq!(whole.gaps, 0);
         assert_eq!(whole.farthest, covering_radius_2d(&context(), &domain, &samples, None).unwrap());
-        // Samples far from each other, one of them near the border.
+        // Samples far from each other, one of them near the boundary.
         for (removed, place) in [[0.5, 0.5], [0.02, 0.1], [0.2, 0.99], [0.8, 0.8]].into_iter().enumerate() {
             let from = |sample: &[f32; 2]| distance(&domain, *sample, place);
             let nearest = (0..samples.len()).min_by(|&a, &b| from(&samples[a]).total_cmp(&from(&samples[b]))).unwrap();
@@ -167,7 +168,7 @@ proptest! {
 #[test]
 fn a_flat_surface_is_covered_as_the_plane_is() {
     let domain = unit_square(Boundary::Bounded);
-    let mut points = maximal::sample(&context(), &maximal::Options { radius: 0.03, domain, seed: 9 }, None).unwrap();
+    let mut points = maximal::sample(&context(), &maximal::Options::new(0.03).domain(domain).seed(9), None).unwrap();
     points.retain(|&point| {
         [[0.2, 0.2], [0.8, 0.3], [0.5, 1.0]].iter().all(|&hole| distance(&domain, point, hole) > 0.04)
     });
@@ -187,7 +188,7 @@ fn a_flat_surface_is_covered_as_the_plane_is() {
 #[test]
 fn a_maximal_set_on_a_torus_has_no_gap_and_holes_in_it_are_counted() {
     let (radius, torus) = (0.1, Arc::new(mesh(meshes::torus())));
-    let options = psp::Options { iterations: 0, seed: 5, ..psp::Options::new(radius) };
+    let options = psp::Options::new(radius).iterations(0).seed(5);
     let samples = psp::sample(&context(), &torus, &options, None).unwrap().0.positions;
     let reach = radius + 1e-6;
     let coverage = surface_coverage(&context(), &torus, &samples, reach, None).unwrap();

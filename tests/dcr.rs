@@ -31,7 +31,7 @@ fn all_cases() -> impl Iterator<Item = Options> {
 
 /// The thesis's options with some changed.
 fn varied(options: Options, thesis: Thesis) -> Options {
-    Options { method: Method::Thesis(thesis), ..options }
+    options.method(Method::Thesis(thesis))
 }
 
 fn run(options: &Options, points: &[[f32; 2]]) -> (Vec<[f32; 2]>, Report) {
@@ -130,7 +130,7 @@ fn low_frequencies_are_cleared() {
 fn the_thesis_s_nearest_neighbours_raise_rho_of_thrown_darts() {
     let start = darts(1000, 2);
     for boundary in BOUNDARIES {
-        let options = Options { tolerance: 0.003, ..Options::thesis(unit_square(boundary), Neighbourhood::Nearest) };
+        let options = Options::thesis(unit_square(boundary), Neighbourhood::Nearest).tolerance(0.003);
         let (_, report) = run(&options, &start);
         assert!(report.rho >= 0.85, "{report:?}");
     }
@@ -140,7 +140,7 @@ fn the_thesis_s_nearest_neighbours_raise_rho_of_thrown_darts() {
 fn the_result_does_not_depend_on_the_threads() {
     let start = random_points(6000, 3);
     for options in all_cases() {
-        let options = Options { max_iterations: 6, ..options };
+        let options = options.max_iterations(6);
         let expected = run(&options, &start);
         let four = Context::new(4).unwrap();
         assert_eq!(relax(&four, &options, &start, None).unwrap(), expected);
@@ -154,7 +154,7 @@ fn the_verdict_does_not_depend_on_the_step() {
     for neighbourhood in NEIGHBOURHOODS {
         let path = |step| {
             let options = Options::thesis(unit_square(Boundary::Periodic), neighbourhood);
-            let options = varied(options, Thesis { step, ..Thesis::default() });
+            let options = varied(options, Thesis::default().step(step));
             f64::from(run(&options, &start).1.iterations) * step
         };
         let ratio = path(0.05) / path(0.1);
@@ -169,8 +169,8 @@ fn average_forces_balance_and_constant_distributions_coincide_on_delaunay_edges(
     let constant = [Distribution::Average, Distribution::Dominant, Distribution::Zero, Distribution::EightyTwenty];
     for neighbourhood in NEIGHBOURHOODS {
         let relaxed_by = |distribution| {
-            let options = Options { max_iterations: 4, ..Options::thesis(domain, neighbourhood) };
-            run(&varied(options, Thesis { distribution, ..Thesis::default() }), &start).0
+            let options = Options::thesis(domain, neighbourhood).max_iterations(4);
+            run(&varied(options, Thesis::default().distribution(distribution)), &start).0
         };
         let same = |a: &[[f32; 2]], b: &[[f32; 2]]| a.iter().zip(b).all(|(&a, &b)| distance(&domain, a, b) < 1e-6);
         let average = relaxed_by(Distribution::Average);
@@ -195,7 +195,7 @@ fn a_shift_of_the_torus_shifts_the_result() {
     let start: Vec<_> = random_points(500, 6).iter().map(|p| p.map(|x| (x * 4096.0).floor() / 4096.0)).collect();
     let shift = |p: &[f32; 2]| [(p[0] + 0.375).fract(), (p[1] + 0.8125).fract()];
     for neighbourhood in NEIGHBOURHOODS {
-        let options = Options { max_iterations: 10, ..Options::thesis(domain, neighbourhood) };
+        let options = Options::thesis(domain, neighbourhood).max_iterations(10);
         let (stayed, _) = run(&options, &start);
         let (shifted, _) = run(&options, &start.iter().map(shift).collect::<Vec<_>>());
         for (stayed, &shifted) in stayed.iter().zip(&shifted) {
@@ -211,9 +211,9 @@ fn a_hexagonal_lattice_rests() {
     let at = |i: usize, j: usize| [-3.0 + i as f64 + 0.5 * (j % 2) as f64, 5.0 + (j as f64 + 0.25) * row];
     let lattice: Vec<_> = (0..120).map(|k| at(k % 10, k / 10).map(|x| x as f32)).collect();
     for options in all_cases() {
-        let (relaxed, report) = run(&Options { domain, ..options }, &lattice);
+        let (relaxed, report) = run(&options.domain(domain), &lattice);
         // The grid on which the best method sees long waves takes a lattice's own for one.
-        let slack = if options.method == Method::Best { 0.01 } else { 0.0 };
+        let slack = if options.method == Method::Momentum { 0.01 } else { 0.0 };
         assert!(relaxed.iter().zip(&lattice).all(|(&a, &b)| distance(&domain, a, b) <= slack));
         assert!(report.stopped == Stopped::Converged && report.motion <= slack, "{report:?}");
         assert!((report.coverage - 1.0 / 3f64.sqrt()).abs() < 1e-5 + slack, "{report:?}");
@@ -231,7 +231,7 @@ fn empty_sets_single_points_and_no_iterations_change_nothing() {
             assert_eq!((report.smallest_distance, report.rho), (f64::INFINITY, f64::INFINITY));
         }
         let points = [[0.1, 0.1], [0.1, 0.1], [1e-30, 0.3]];
-        let (relaxed, report) = run(&Options { max_iterations: 0, ..options }, &points);
+        let (relaxed, report) = run(&options.max_iterations(0), &points);
         assert_eq!(relaxed, points);
         assert!(report.stopped == Stopped::Steps && report.iterations == 0 && report.smallest_distance == 0.0);
     }
@@ -252,7 +252,7 @@ fn few_coincident_and_collinear_points_are_spread() {
     ];
     for options in all_cases() {
         for (number, set) in sets.iter().enumerate() {
-            let (_, report) = run(&Options { max_iterations: 3000, ..options }, set);
+            let (_, report) = run(&options.max_iterations(3000), set);
             assert!(report.rho > 0.45, "set {number}, {:?}: {report:?}", options);
         }
     }
@@ -298,7 +298,7 @@ fn points_stay_inside_domains_that_floats_can_hardly_resolve() {
             let place = |x: f32| ((min + f64::from(x) * (max - min)) as f32).max(min as f32);
             let inside = |p: &[f32; 2]| p.iter().all(|&x| (min..max).contains(&f64::from(x)));
             let points: Vec<_> = unit.iter().map(|p| p.map(place)).filter(inside).collect();
-            run(&Options { max_iterations: 12, domain, ..options }, &points);
+            run(&options.max_iterations(12).domain(domain), &points);
         }
     }
 }
@@ -308,7 +308,7 @@ fn strips_narrower_than_the_hexagonal_distance_are_relaxed() {
     for options in all_cases() {
         let domain = Domain { min: [0.0; 2], max: [200.0, 1.0], ..options.domain };
         let points: Vec<_> = random_points(120, 9).iter().map(|p| [p[0] * 200.0, p[1]]).collect();
-        let (relaxed, _) = run(&Options { max_iterations: 400, domain, ..options }, &points);
+        let (relaxed, _) = run(&options.max_iterations(400).domain(domain), &points);
         let smallest = smallest(&nearest_distances(&domain, &relaxed));
         assert!(smallest > 0.6, "{options:?}: {smallest}");
     }
@@ -320,7 +320,7 @@ fn progress_grows_and_a_call_can_be_cancelled() {
     for threads in [1, 2] {
         let context = Context::new(threads).unwrap();
         for options in all_cases() {
-            let options = Options { max_iterations: 20, ..options };
+            let options = options.max_iterations(20);
             let last = Cell::new(0.0);
             let watch = |share: f64| {
                 assert!(share >= last.replace(share));
@@ -334,7 +334,7 @@ fn progress_grows_and_a_call_can_be_cancelled() {
                 let (relaxed, report) = relax(&context, &options, &start, Some(&stop)).unwrap();
                 assert_eq!(report.stopped, Stopped::Cancelled);
                 // The state after the last whole step is what as many steps give, and better than none.
-                let (same, _) = run(&Options { max_iterations: report.iterations, ..options }, &start);
+                let (same, _) = run(&options.max_iterations(report.iterations), &start);
                 assert_eq!(relaxed, same);
                 assert!(Some(report.iterations) > iterations, "{report:?}");
                 assert!(report.coverage < coverage, "{report:?}");
@@ -366,21 +366,21 @@ fn bad_arguments_are_refused_by_name() {
     let max = |max| Domain { max: [1.0, max], ..good.domain };
     let thesis = Thesis::default();
     for (argument, options) in [
-        ("domain_max", Options { domain: max(0.0), ..good }),
-        ("domain_max", Options { domain: max(nan), ..good }),
-        ("conflict_radius", varied(good, Thesis { conflict_radius: 0.0, ..thesis })),
-        ("conflict_radius", varied(good, Thesis { conflict_radius: 1.01, ..thesis })),
-        ("conflict_radius", varied(good, Thesis { conflict_radius: nan, ..thesis })),
-        ("attraction_radius", varied(good, Thesis { attraction_radius: 0.9, ..thesis })),
-        ("attraction_radius", varied(good, Thesis { attraction_radius: nan, ..thesis })),
-        ("step", varied(good, Thesis { step: 0.0, ..thesis })),
-        ("step", varied(good, Thesis { step: 1.5, ..thesis })),
-        ("decay", varied(good, Thesis { decay: 0.0, ..thesis })),
-        ("decay", varied(good, Thesis { decay: 1.01, ..thesis })),
-        ("decay", varied(good, Thesis { decay: nan, ..thesis })),
-        ("neighbours", varied(good, Thesis { neighbours: 0, ..thesis })),
-        ("tolerance", Options { tolerance: -0.1, ..good }),
-        ("tolerance", Options { tolerance: nan, ..good }),
+        ("domain_max", good.domain(max(0.0))),
+        ("domain_max", good.domain(max(nan))),
+        ("conflict_radius", varied(good, thesis.conflict_radius(0.0))),
+        ("conflict_radius", varied(good, thesis.conflict_radius(1.01))),
+        ("conflict_radius", varied(good, thesis.conflict_radius(nan))),
+        ("attraction_radius", varied(good, thesis.attraction_radius(0.9))),
+        ("attraction_radius", varied(good, thesis.attraction_radius(nan))),
+        ("step", varied(good, thesis.step(0.0))),
+        ("step", varied(good, thesis.step(1.5))),
+        ("decay", varied(good, thesis.decay(0.0))),
+        ("decay", varied(good, thesis.decay(1.01))),
+        ("decay", varied(good, thesis.decay(nan))),
+        ("neighbours", varied(good, thesis.neighbours(0))),
+        ("tolerance", good.tolerance(-0.1)),
+        ("tolerance", good.tolerance(nan)),
     ] {
         assert_eq!(refusal(options, &start).0, argument);
     }

@@ -25,7 +25,7 @@ fn run(options: &Options, density: &Density, points: &[[f32; 2]]) -> (Vec<[f32; 
 }
 
 fn scattered(domain: &Domain, density: &Density, count: usize, seed: u64) -> Vec<[f32; 2]> {
-    scatter(&Context::new(1).unwrap(), domain, density, count, seed).unwrap()
+    scatter(&Context::new(1).unwrap(), domain, density, count, seed, None).unwrap()
 }
 
 /// A third at the left and 1 at the right.
@@ -111,7 +111,7 @@ fn where_no_points_are_wanted_there_are_none() {
         assert!((inner / 375.0 - 1.0).abs() < 0.04, "{inner}");
         assert!(report.rho > 0.7, "{report:?}");
         // From a uniform start they come from everywhere, which takes its time.
-        let (relaxed, _) = run(&Options { max_iterations: 800, ..options(domain) }, &density, &random_points(1500, 5));
+        let (relaxed, _) = run(&options(domain).max_iterations(800), &density, &random_points(1500, 5));
         let strays = relaxed.iter().filter(|p| radius(p) > 0.3 + spacing).count();
         assert!(strays < 15, "{boundary:?}: {strays}");
     }
@@ -125,7 +125,7 @@ fn a_single_pixel_attracts_all() {
     let domain = unit_square(Boundary::Bounded);
     let start = scattered(&domain, &density, 100, 6);
     for points in [start, random_points(100, 7)] {
-        let (relaxed, _) = run(&Options { max_iterations: 300, ..options(domain) }, &density, &points);
+        let (relaxed, _) = run(&options(domain).max_iterations(300), &density, &points);
         let near = |p: &&[f32; 2]| (p[0] - 0.75).abs() < 0.16 && (p[1] - 0.35).abs() < 0.16;
         assert!(relaxed.iter().filter(near).count() >= 95);
     }
@@ -137,10 +137,10 @@ fn the_result_does_not_depend_on_the_threads() {
         let domain = unit_square(boundary);
         let density = Density::Function(&ramp);
         let start = scattered(&domain, &density, 5000, 8);
-        let options = Options { max_iterations: 6, ..options(domain) };
+        let options = options(domain).max_iterations(6);
         let expected = run(&options, &density, &start);
         let four = Context::new(4).unwrap();
-        assert_eq!(scatter(&four, &domain, &density, 5000, 8).unwrap(), start);
+        assert_eq!(scatter(&four, &domain, &density, 5000, 8, None).unwrap(), start);
         assert_eq!(relax_with_density(&four, &options, &density, &start, None).unwrap(), expected);
         let progress = |_| ControlFlow::Continue(());
         assert_eq!(relax_with_density(&four, &options, &density, &start, Some(&progress)).unwrap(), expected);
@@ -154,7 +154,7 @@ fn the_unit_of_the_density_does_not_matter() {
     let domain = unit_square(Boundary::Periodic);
     let [a, b] = [image, scaled].map(|values| {
         let density = Density::Image { values: &values, width: 20, height: 20 };
-        run(&Options { max_iterations: 10, ..options(domain) }, &density, &scattered(&domain, &density, 500, 9)).0
+        run(&options(domain).max_iterations(10), &density, &scattered(&domain, &density, 500, 9)).0
     });
     assert_eq!(a, b);
 }
@@ -171,7 +171,7 @@ fn few_points_are_spread_and_none_and_one_stay() {
         }
         for count in [2, 3, 5, 8] {
             for points in [random_points(count, 10), vec![[0.5, 0.5]; count]] {
-                let (relaxed, report) = run(&Options { max_iterations: 1000, ..options(domain) }, &density, &points);
+                let (relaxed, report) = run(&options(domain).max_iterations(1000), &density, &points);
                 assert!(report.rho > 0.3, "{boundary:?}: {relaxed:?} {report:?}");
             }
         }
@@ -248,14 +248,14 @@ fn strips_and_domains_that_floats_can_hardly_resolve_stay_inside() {
             let inside = |p: &[f32; 2]| p.iter().all(|&x| (min..max).contains(&f64::from(x)));
             let points: Vec<_> = unit.iter().map(|p| p.map(place)).filter(inside).collect();
             let density = Density::Function(&|[x, _]| if x > min + 0.3 * (max - min) { 1.0 } else { 0.2 });
-            run(&Options { max_iterations: 12, ..options(domain) }, &density, &points);
+            run(&options(domain).max_iterations(12), &density, &points);
         }
     }
     for boundary in BOUNDARIES {
         let domain = Domain { min: [0.0; 2], max: [200.0, 1.0], boundary };
         let density = Density::Function(&|[x, _]| 1.0 + x);
         let points = scattered(&domain, &density, 120, 15);
-        let (relaxed, _) = run(&Options { max_iterations: 400, ..options(domain) }, &density, &points);
+        let (relaxed, _) = run(&options(domain).max_iterations(400), &density, &points);
         let left = relaxed.iter().filter(|p| p[0] < 100.0).count();
         assert!((25..38).contains(&left), "{left}");
     }

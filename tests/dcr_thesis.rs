@@ -14,7 +14,7 @@ use sets::{darts, nearest_distances, random_points, unit_square};
 const NEIGHBOURHOODS: [Neighbourhood; 2] = [Neighbourhood::Delaunay, Neighbourhood::Nearest];
 
 fn options(neighbourhood: Neighbourhood, boundary: Boundary, thesis: Thesis) -> Options {
-    Options { method: Method::Thesis(thesis), ..Options::thesis(unit_square(boundary), neighbourhood) }
+    Options::thesis(unit_square(boundary), neighbourhood).method(Method::Thesis(thesis))
 }
 
 /// The points after every step, from the start on.
@@ -44,8 +44,8 @@ fn distributions_differ_where_edges_are_visited_once_and_are_mixtures_of_two() {
         for boundary in [Boundary::Periodic, Boundary::Bounded] {
             let start = random_points(400, 5);
             let first_step = |distribution, visits| {
-                let thesis = Thesis { distribution, visits, ..Thesis::default() };
-                let once = Options { max_iterations: 1, ..options(neighbourhood, boundary, thesis) };
+                let thesis = Thesis::default().distribution(distribution).visits(visits);
+                let once = options(neighbourhood, boundary, thesis).max_iterations(1);
                 ways(&once.domain, &start, &states(&once, &start).0[1])
             };
             let by = |distribution| first_step(distribution, Visits::OneEnd);
@@ -78,8 +78,8 @@ fn single_visits_do_not_depend_on_threads_or_on_the_order_of_points_but_on_the_s
     let start = random_points(3000, 6);
     let backwards: Vec<_> = start.iter().rev().copied().collect();
     for neighbourhood in NEIGHBOURHOODS {
-        let thesis = Thesis { visits: Visits::OneEnd, distribution: Distribution::Zero, ..Thesis::default() };
-        let few = Options { max_iterations: 5, ..options(neighbourhood, Boundary::Periodic, thesis) };
+        let thesis = Thesis::default().visits(Visits::OneEnd).distribution(Distribution::Zero);
+        let few = options(neighbourhood, Boundary::Periodic, thesis).max_iterations(5);
         let run = |options: &Options, threads, points: &[[f32; 2]]| {
             relax(&Context::new(threads).unwrap(), options, points, None).unwrap().0
         };
@@ -88,7 +88,7 @@ fn single_visits_do_not_depend_on_threads_or_on_the_order_of_points_but_on_the_s
         let mut turned = run(&few, 2, &backwards);
         turned.reverse();
         assert!(largest_difference(&ways(&few.domain, &turned, &expected), &vec![[0.0; 2]; 3000]) < 1e-6);
-        assert_ne!(run(&Options { seed: 1, ..few }, 1, &start), expected);
+        assert_ne!(run(&few.seed(1), 1, &start), expected);
     }
 }
 
@@ -97,9 +97,8 @@ fn steps_decay_by_their_factor() {
     let start = random_points(500, 7);
     for neighbourhood in NEIGHBOURHOODS {
         let path = |decay| {
-            let thesis = Thesis { decay, ..Thesis::default() };
-            let options =
-                Options { max_iterations: 60, tolerance: 0.0, ..options(neighbourhood, Boundary::Periodic, thesis) };
+            let thesis = Thesis::default().decay(decay);
+            let options = options(neighbourhood, Boundary::Periodic, thesis).max_iterations(60).tolerance(0.0);
             (states(&options, &start).0, options.domain)
         };
         let ((constant, domain), (decaying, _)) = (path(1.0), path(0.25));
@@ -116,7 +115,7 @@ fn a_slow_decay_leads_as_far_as_a_constant_step_and_converges() {
     let start = random_points(1000, 8);
     for neighbourhood in NEIGHBOURHOODS {
         let run = |decay, step| {
-            let thesis = Thesis { decay, step, ..Thesis::default() };
+            let thesis = Thesis::default().decay(decay).step(step);
             let options = options(neighbourhood, Boundary::Periodic, thesis);
             relax(&Context::new(1).unwrap(), &options, &start, None).unwrap().1
         };
@@ -150,7 +149,7 @@ fn variance_rests(domain: &Domain, states: &[Vec<[f32; 2]>]) -> Option<usize> {
 fn the_thesis_s_test_ends_the_steps_when_the_variance_rests() {
     for (start, boundary) in [(random_points(1000, 9), Boundary::Periodic), (darts(1000, 9), Boundary::Bounded)] {
         // Longer steps keep the variance of small sets moving.
-        let thesis = Thesis { step: 0.02, convergence: Convergence::Variance, ..Thesis::default() };
+        let thesis = Thesis::default().step(0.02).convergence(Convergence::Variance);
         let options = options(Neighbourhood::Delaunay, boundary, thesis);
         let (states, report) = states(&options, &start);
         assert_eq!(report.stopped, Stopped::Converged);
@@ -162,8 +161,8 @@ fn the_thesis_s_test_ends_the_steps_when_the_variance_rests() {
 fn the_thesis_s_test_fires_the_earlier_the_smaller_the_steps() {
     let start = random_points(1000, 10);
     let way = |step, convergence| {
-        let thesis = Thesis { step, convergence, ..Thesis::default() };
-        let options = Options { max_iterations: 3000, ..options(Neighbourhood::Delaunay, Boundary::Periodic, thesis) };
+        let thesis = Thesis::default().step(step).convergence(convergence);
+        let options = options(Neighbourhood::Delaunay, Boundary::Periodic, thesis).max_iterations(3000);
         let report = relax(&Context::new(1).unwrap(), &options, &start, None).unwrap().1;
         assert_eq!(report.stopped, Stopped::Converged);
         f64::from(report.iterations) * step

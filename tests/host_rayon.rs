@@ -4,21 +4,21 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+use azulejo::Context;
 use azulejo::kdrt;
 use azulejo::mesh::Mesh;
 use azulejo::psp;
-use azulejo::{Boundary, Context, Domain};
 use rayon::prelude::*;
 
 fn plane(context: &Context, seed: u64) -> Vec<[f32; 2]> {
-    let options = kdrt::Options { radius: 0.02, domain: Domain::unit(Boundary::Periodic), leaf_size: 6.0, seed };
+    let options = kdrt::Options::new(0.02).leaf_size(6.0).seed(seed);
     kdrt::sample(context, &options, Some(&|_| std::ops::ControlFlow::Continue(()))).unwrap()
 }
 
 fn surface(context: &Context, seed: u64) -> Vec<[f32; 3]> {
     let corners = vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
     let mesh = Arc::new(Mesh::new(corners, vec![[0, 1, 2], [0, 2, 3]]).unwrap());
-    let options = psp::Options { seed, ..psp::Options::new(0.1) };
+    let options = psp::Options::new(0.1).seed(seed);
     psp::sample(context, &mesh, &options, None).unwrap().0.positions
 }
 

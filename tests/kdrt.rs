@@ -12,7 +12,8 @@ use std::ops::ControlFlow;
 use tiled::tiled_radius;
 
 fn samples(domain: Domain, radius: f64, leaf_size: f64, seed: u64) -> Vec<[f32; 2]> {
-    sample(&Context::new(2).unwrap(), &Options { radius, domain, leaf_size, seed }, None).unwrap()
+    sample(&Context::new(2).unwrap(), &Options::new(radius).domain(domain).leaf_size(leaf_size).seed(seed), None)
+        .unwrap()
 }
 
 #[test]
@@ -36,7 +37,9 @@ fn hard_domains_are_sampled_without_conflict_or_gap() {
 }
 
 fn maximal_count(domain: Domain, radius: f64, seed: u64) -> usize {
-    maximal::sample(&Context::new(1).unwrap(), &maximal::Options { radius, domain, seed }, None).unwrap().len()
+    maximal::sample(&Context::new(1).unwrap(), &maximal::Options::new(radius).domain(domain).seed(seed), None)
+        .unwrap()
+        .len()
 }
 
 #[test]
@@ -66,7 +69,8 @@ fn domains_that_are_too_small_to_tile_are_sampled_like_maximal() {
         for (extent, radius) in [([1.0, 1.0], 0.3), ([1.0, 1.0], 5.0), ([1.0, 0.01], 0.02), ([1.0, 1.0], 0.01)] {
             let domain = domain([0.0; 2], extent, boundary);
             let context = Context::new(1).unwrap();
-            let expected = maximal::sample(&context, &maximal::Options { radius, domain, seed: 3 }, None).unwrap();
+            let expected =
+                maximal::sample(&context, &maximal::Options::new(radius).domain(domain).seed(3), None).unwrap();
             assert_eq!(samples(domain, radius, DEFAULT_LEAF_SIZE, 3), expected);
         }
         let domain = domain([0.0; 2], [1.0; 2], boundary);
@@ -90,19 +94,19 @@ fn the_density_is_near_that_of_an_unbiased_set() {
 #[test]
 fn seeds_and_not_threads_or_earlier_calls_decide() {
     for boundary in BOUNDARIES {
-        let options = Options { radius: 0.0025, domain: Domain::unit(boundary), leaf_size: 20.0, seed: 1 };
+        let options = Options::new(0.0025).domain(Domain::unit(boundary)).seed(1);
         let [one, four] = [1, 4].map(|threads| sample(&Context::new(threads).unwrap(), &options, None).unwrap());
         assert!(one == four);
         let context = Context::new(3).unwrap();
-        assert!(one != sample(&context, &Options { seed: 2, ..options }, None).unwrap());
-        assert!(one != sample(&context, &Options { leaf_size: 21.0, ..options }, None).unwrap());
+        assert!(one != sample(&context, &options.seed(2), None).unwrap());
+        assert!(one != sample(&context, &options.leaf_size(21.0), None).unwrap());
         assert!(one == sample(&context, &options, Some(&|_| ControlFlow::Continue(()))).unwrap());
     }
 }
 
 #[test]
 fn a_call_can_be_cancelled_at_any_time() {
-    let options = Options { radius: 0.001, domain: Domain::unit(Boundary::Periodic), leaf_size: 20.0, seed: 0 };
+    let options = Options::new(0.001);
     for threads in [1, 4] {
         for limit in [0.0, 0.02, 0.3, 1.0] {
             let stop = |share| if share >= limit { ControlFlow::Break(()) } else { ControlFlow::Continue(()) };
@@ -114,25 +118,24 @@ fn a_call_can_be_cancelled_at_any_time() {
 
 #[test]
 fn bad_arguments_are_refused_by_name() {
-    let good =
-        Options { radius: 0.01, domain: Domain::unit(Boundary::Periodic), leaf_size: DEFAULT_LEAF_SIZE, seed: 0 };
+    let good = Options::new(0.01);
     let refuse = |options: Options| sample(&Context::new(1).unwrap(), &options, None).unwrap_err();
     for leaf_size in [5.999, 0.0, -20.0, f64::NAN, f64::INFINITY] {
-        let error = refuse(Options { leaf_size, ..good });
+        let error = refuse(good.leaf_size(leaf_size));
         assert!(matches!(error, Error::InvalidArgument { argument: "leaf_size", .. }), "{error}");
     }
     for radius in [f64::NAN, 0.0, -1.0, f64::INFINITY] {
-        let error = refuse(Options { radius, ..good });
+        let error = refuse(good.radius(radius));
         assert!(matches!(error, Error::InvalidArgument { argument: "radius", .. }), "{error}");
     }
     let swapped = domain([1.0; 2], [0.0; 2], Boundary::Periodic);
-    let error = refuse(Options { domain: swapped, ..good });
+    let error = refuse(good.domain(swapped));
     assert!(matches!(error, Error::InvalidArgument { argument: "domain_max", .. }), "{error}");
-    let error = refuse(Options { radius: 8.346e-7, ..good });
+    let error = refuse(good.radius(8.346e-7));
     assert!(matches!(error, Error::TooLarge { argument: "radius", .. }));
     assert!(error.to_string().contains("about 1.00e12 samples"), "{error}");
     let coarse = domain([1e7; 2], [1e7 + 1e4; 2], Boundary::Periodic);
-    let error = refuse(Options { radius: 10.0, domain: coarse, ..good });
+    let error = refuse(good.radius(10.0).domain(coarse));
     assert!(matches!(error, Error::InvalidArgument { argument: "radius", .. }), "{error}");
 }
 

@@ -4,13 +4,13 @@ mod common;
 
 use std::ops::ControlFlow;
 
-use azulejo::kdrt::{CountOptions, Counted, DEFAULT_LEAF_SIZE, sample_count};
+use azulejo::kdrt::{CountOptions, Counted, sample_count};
 use azulejo::{Boundary, Context, Domain, Error};
 use common::{BOUNDARIES, check, domain, find_conflict, find_gap, float_spacing, hard_domains};
 use proptest::prelude::*;
 
 fn options(domain: Domain, count: u64, seed: u64) -> CountOptions {
-    CountOptions { count, domain, leaf_size: DEFAULT_LEAF_SIZE, seed }
+    CountOptions::new(count).domain(domain).seed(seed)
 }
 
 fn counted(domain: Domain, count: u64, seed: u64) -> Counted {
@@ -18,7 +18,7 @@ fn counted(domain: Domain, count: u64, seed: u64) -> Counted {
 }
 
 /// As many as asked for, conflict-free at the radius of the report, and maximal if and only if the report says so.
-fn check_report(domain: &Domain, count: u64, Counted { samples, report }: &Counted) {
+fn check_report(domain: &Domain, count: u64, Counted { samples, report, .. }: &Counted) {
     assert_eq!(samples.len() as u64, count);
     if report.is_maximal {
         check(domain, report.radius, samples);
@@ -94,7 +94,7 @@ fn seeds_and_not_threads_or_earlier_calls_decide() {
                 [1, 4].map(|threads| sample_count(&Context::new(threads).unwrap(), &options, None).unwrap());
             assert!(one == four);
             let context = Context::new(3).unwrap();
-            let other = sample_count(&context, &CountOptions { seed: 2, ..options }, None).unwrap();
+            let other = sample_count(&context, &options.seed(2), None).unwrap();
             assert!(one.samples != other.samples);
             assert!(one == sample_count(&context, &options, Some(&|_| ControlFlow::Continue(()))).unwrap());
         }
@@ -138,7 +138,7 @@ proptest! {
         let (height, aspect, count) = (height.exp(), aspect.exp(), count.exp() as u64);
         let boundary = BOUNDARIES[usize::from(!periodic)];
         let domain = domain(corner, [corner[0] + height * aspect, corner[1] + height], boundary);
-        let options = CountOptions { leaf_size, ..options(domain, count, seed) };
+        let options = options(domain, count, seed).leaf_size(leaf_size);
         let counted = sample_count(&Context::new(2).unwrap(), &options, None).unwrap();
         check_report(&domain, count, &counted);
         prop_assert!(count < 50 || counted.report.is_maximal);

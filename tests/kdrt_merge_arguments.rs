@@ -5,11 +5,9 @@ use std::ops::ControlFlow;
 use azulejo::kdrt::{MergeOptions, MergeReport, Piece, merge};
 use azulejo::{Boundary, Context, Domain, Error};
 
-const GOOD: MergeOptions = MergeOptions {
-    radius: 0.1,
-    domain: Domain { min: [0.0; 2], max: [1.0; 2], boundary: Boundary::Periodic },
-    seed: 0,
-};
+fn good() -> MergeOptions {
+    MergeOptions::new(0.1)
+}
 
 /// Samples of the left half of the unit square.
 const SAMPLES: [[f32; 2]; 4] = [[0.1, 0.1], [0.3, 0.1], [0.0, 0.5], [0.4, 0.9]];
@@ -37,7 +35,7 @@ fn refusal(options: MergeOptions, pieces: &[Piece], fixed: &[[f32; 2]]) -> Strin
 fn a_call_can_be_cancelled_at_any_time() {
     // Wide enough for blocks, and a torus that is not.
     for (max, radius) in [([1.0, 1.0], 0.003), ([1.0, 0.01], 0.001)] {
-        let options = MergeOptions { radius, domain: Domain { max, ..GOOD.domain }, seed: 0 };
+        let options = MergeOptions::new(radius).domain(Domain { max, ..good().domain });
         for threads in [1, 4] {
             for limit in [0.0, 0.02, 0.3, 0.6, 1.0] {
                 let stop = |share| if share >= limit { ControlFlow::Break(()) } else { ControlFlow::Continue(()) };
@@ -51,18 +49,18 @@ fn a_call_can_be_cancelled_at_any_time() {
 #[test]
 fn bad_options_are_refused_by_name() {
     for radius in [f64::NAN, 0.0, -1.0, f64::INFINITY] {
-        assert!(refusal(MergeOptions { radius, ..GOOD }, &[], &[]).starts_with("radius: "));
+        assert!(refusal(good().radius(radius), &[], &[]).starts_with("radius: "));
     }
-    let swapped = Domain { max: [-1.0; 2], ..GOOD.domain };
-    assert!(refusal(MergeOptions { domain: swapped, ..GOOD }, &[], &[]).starts_with("domain_max: "));
-    let error = merged(MergeOptions { radius: 8.346e-7, ..GOOD }, &[], &[]).unwrap_err();
+    let swapped = Domain { max: [-1.0; 2], ..good().domain };
+    assert!(refusal(good().domain(swapped), &[], &[]).starts_with("domain_max: "));
+    let error = merged(good().radius(8.346e-7), &[], &[]).unwrap_err();
     assert!(matches!(error, Error::TooLarge { argument: "radius", .. }), "{error}");
 }
 
 #[test]
 fn bad_fixed_points_are_refused_by_index() {
     for boundary in [Boundary::Periodic, Boundary::Bounded] {
-        let options = MergeOptions { domain: Domain::unit(boundary), ..GOOD };
+        let options = good().domain(Domain::unit(boundary));
         for bad in [[f32::NAN, 0.5], [0.5, f32::INFINITY], [-1e-45, 0.5], [0.5, 1.0], [0.5, -f32::MAX]] {
             let message = refusal(options, &[], &[[0.2, 0.2], bad]);
             assert!(message.starts_with("fixed: point 1 is ("), "{message}");
@@ -75,15 +73,15 @@ fn bad_fixed_points_are_refused_by_index() {
         assert!(refusal(options, &[], &[[0.3; 2]; 1 << 20]).starts_with("fixed: points 0 and 1 are 0.0 apart"));
     }
     // Over the seam of a torus, points that must stay have no way out.
-    let message = refusal(GOOD, &[], &[[0.5, 0.01], [0.5, 0.95]]);
+    let message = refusal(good(), &[], &[[0.5, 0.01], [0.5, 0.95]]);
     assert!(message.starts_with("fixed: points 0 and 1 are 0.06"), "{message}");
-    let bounded = MergeOptions { domain: Domain::unit(Boundary::Bounded), ..GOOD };
+    let bounded = good().domain(Domain::unit(Boundary::Bounded));
     assert!(merged(bounded, &[], &[[0.5, 0.01], [0.5, 0.95]]).is_ok());
 }
 
 #[test]
 fn bad_rectangles_are_refused_by_index() {
-    assert!(merged(GOOD, &[left(&SAMPLES), empty([0.5, 0.0], [1.0, 1.0])], &[]).is_ok());
+    assert!(merged(good(), &[left(&SAMPLES), empty([0.5, 0.0], [1.0, 1.0])], &[]).is_ok());
     for (min, max) in [
         ([0.5, 0.0], [0.5, 1.0]),
         ([0.6, 0.9], [0.7, 0.8]),
@@ -93,11 +91,11 @@ fn bad_rectangles_are_refused_by_index() {
         ([0.6, 0.0], [0.7, f64::NAN]),
         ([0.6, f64::NEG_INFINITY], [0.7, 1.0]),
     ] {
-        let message = refusal(GOOD, &[left(&SAMPLES), empty(min, max)], &[]);
+        let message = refusal(good(), &[left(&SAMPLES), empty(min, max)], &[]);
         assert!(message.starts_with("pieces: [1] reaches on axis "), "{message}");
     }
     for (min, max) in [([0.4, 0.4], [0.6, 0.6]), ([0.1; 2], [0.2; 2]), ([0.0; 2], [0.5, 1.0]), ([0.0; 2], [0.6, 0.9])] {
-        let message = refusal(GOOD, &[left(&SAMPLES), empty([0.6, 0.0], [0.7, 0.2]), empty(min, max)], &[]);
+        let message = refusal(good(), &[left(&SAMPLES), empty([0.6, 0.0], [0.7, 0.2]), empty(min, max)], &[]);
         assert_eq!(message, "pieces: the rectangles of [0] and [2] overlap");
     }
 }
@@ -108,11 +106,11 @@ fn bad_samples_of_pieces_are_refused_by_index() {
     for bad in [[0.5, 0.5], [0.2, 1.0], [f32::NAN, 0.1], [-0.1, 0.1]] {
         let mut samples = SAMPLES;
         samples[3] = bad;
-        let message = refusal(GOOD, &[right, left(&samples)], &[]);
+        let message = refusal(good(), &[right, left(&samples)], &[]);
         assert!(message.starts_with("pieces: [1]: sample 3 is ("), "{message}");
     }
     let mut samples = SAMPLES;
     samples[2] = [0.375, 0.84375];
-    let message = refusal(GOOD, &[right, left(&samples)], &[]);
+    let message = refusal(good(), &[right, left(&samples)], &[]);
     assert!(message.starts_with("pieces: [1]: samples 2 and 3 are 0.0615"), "{message}");
 }

@@ -76,7 +76,7 @@ fn windows_of_hard_domains_are_parts_of_the_whole() {
         for domain in hard_domains(boundary) {
             for (seed, leaf_size) in [(0, 6.0), (1, 9.5), (2, DEFAULT_LEAF_SIZE)] {
                 let radius = tiled_radius(&domain, leaf_size).max(64.0 * float_spacing(&domain));
-                let options = Options { radius, domain, leaf_size, seed };
+                let options = Options::new(radius).domain(domain).leaf_size(leaf_size).seed(seed);
                 let whole = whole(&options);
                 assert!(window(&options, (domain.min, domain.max)) == whole);
                 for _ in 0..8 {
@@ -92,7 +92,7 @@ fn windows_of_hard_domains_are_parts_of_the_whole() {
 #[test]
 fn windows_without_the_widest_cells_are_parts_of_the_whole() {
     let domain = domain([0.0; 2], [0.44543627703057015, 0.024653297013654124], Boundary::Bounded);
-    let options = Options { radius: 0.0008558173968672642, domain, leaf_size: 6.0, seed: 379135351191757 };
+    let options = Options::new(0.0008558173968672642).domain(domain).leaf_size(6.0).seed(379135351191757);
     let (whole, mut random) = (whole(&options), Random::new(6));
     for _ in 0..40 {
         let rect = random_window(&mut random, &domain);
@@ -106,7 +106,7 @@ fn windows_of_large_leaves_are_parts_of_the_whole() {
     for boundary in BOUNDARIES {
         for (leaf_size, side) in [(40.0, 210.0), (80.0, 330.0)] {
             let domain = domain([-0.2, 0.0], [1.1, 0.9], boundary);
-            let options = Options { radius: domain.area().sqrt() / side, domain, leaf_size, seed: 7 };
+            let options = Options::new(domain.area().sqrt() / side).domain(domain).leaf_size(leaf_size).seed(7);
             let whole = whole(&options);
             for _ in 0..4 {
                 let rect = random_window(&mut random, &domain);
@@ -122,7 +122,7 @@ fn a_partition_into_windows_has_every_sample_once() {
     for boundary in BOUNDARIES {
         for (seed, extent) in [[1.0, 1.2], [12.0, 0.13], [0.15, 9.0]].into_iter().enumerate() {
             let domain = domain([0.3, -0.7], [0.3 + extent[0], -0.7 + extent[1]], boundary);
-            let options = Options { radius: tiled_radius(&domain, 6.0), domain, leaf_size: 6.0, seed: seed as u64 };
+            let options = Options::new(tiled_radius(&domain, 6.0)).domain(domain).leaf_size(6.0).seed(seed as u64);
             let mut whole = whole(&options);
             let parts = random_partition(&mut random, (domain.min, domain.max), 6, &whole);
             assert!(parts.len() > 8);
@@ -136,12 +136,12 @@ fn a_partition_into_windows_has_every_sample_once() {
     }
 }
 
-/// Corners, borders, lines through everything, and windows that hold one float.
+/// Corners, boundaries, lines through everything, and windows that hold one float.
 #[test]
 fn windows_at_the_edge_of_what_there_is() {
     for boundary in BOUNDARIES {
         let domain = domain([-3.3, 1.7], [-1.1, 3.3], boundary);
-        let options = Options { radius: tiled_radius(&domain, 6.0), domain, leaf_size: 6.0, seed: 4 };
+        let options = Options::new(tiled_radius(&domain, 6.0)).domain(domain).leaf_size(6.0).seed(4);
         let (whole, r, Domain { min, max, .. }) = (whole(&options), options.radius, domain);
         let spacing = float_spacing(&domain);
         let mut rects = vec![
@@ -173,7 +173,7 @@ fn domains_that_are_not_tiled_have_windows_and_a_stream_too() {
     for boundary in BOUNDARIES {
         for (extent, radius) in [([1.0, 1.0], 0.02), ([1.0, 1.0], 5.0), ([1.0, 0.01], 0.02), ([1e-7, 40.0], 0.3)] {
             let domain = domain([0.5; 2], extent.map(|x| 0.5 + x), boundary);
-            let options = Options { radius, domain, leaf_size: DEFAULT_LEAF_SIZE, seed: 3 };
+            let options = Options::new(radius).domain(domain).seed(3);
             let whole = whole(&options);
             assert!(window(&options, (domain.min, domain.max)) == whole);
             assert!(streamed(1, &options) == std::slice::from_ref(&whole));
@@ -202,7 +202,7 @@ fn streamed(threads: usize, options: &Options) -> Vec<Vec<[f32; 2]>> {
 fn a_stream_is_the_whole_in_parts_that_do_not_depend_on_the_threads() {
     for boundary in BOUNDARIES {
         let domain = domain([1e5, -3e4], [1e5 + 1234.5, -3e4 + 999.9], boundary);
-        let options = Options { radius: 0.9, domain, leaf_size: DEFAULT_LEAF_SIZE, seed: 1 };
+        let options = Options::new(0.9).domain(domain).seed(1);
         let parts = streamed(1, &options);
         assert!(parts.len() > 10 && parts.iter().all(|part| part.len() < 70_000));
         assert!(parts.concat() == whole(&options));
@@ -213,7 +213,7 @@ fn a_stream_is_the_whole_in_parts_that_do_not_depend_on_the_threads() {
 #[test]
 fn windows_do_not_depend_on_the_threads() {
     for boundary in BOUNDARIES {
-        let options = Options { radius: 0.001, domain: Domain::unit(boundary), leaf_size: 20.0, seed: 1 };
+        let options = Options::new(0.001).domain(Domain::unit(boundary)).seed(1);
         let [one, four] = [1, 4].map(|threads| {
             let context = Context::new(threads).unwrap();
             sample_window(&context, &options, [0.1, 0.2], [0.9, 0.97], None).unwrap()
@@ -222,7 +222,7 @@ fn windows_do_not_depend_on_the_threads() {
     }
 }
 
-/// A billion samples and a hundred billion: nobody holds them, but any window is made at once.
+/// A billion samples and a hundred billion: they are never held, but any window is made at once.
 #[test]
 fn windows_of_planes_that_nobody_can_hold() {
     for (domain, radius) in [
@@ -230,7 +230,7 @@ fn windows_of_planes_that_nobody_can_hold() {
         (Domain::unit(Boundary::Bounded), 8.2e-6),
         (domain([-1.0; 2], [1.0; 2], Boundary::Periodic), 3.9e-6),
     ] {
-        let options = Options { radius, domain, leaf_size: DEFAULT_LEAF_SIZE, seed: 11 };
+        let options = Options::new(radius).domain(domain).seed(11);
         let side = 50.0 * radius;
         for corner in [[0.7, 0.3], [0.123_456_789, 0.987_654_321], domain.min, domain.max.map(|x| x - side)] {
             let start = Instant::now();
@@ -264,10 +264,10 @@ fn windows_of_planes_that_nobody_can_hold() {
     }
 }
 
-/// On a plane too large for `sample`; the stream starts at once and ends when told.
+/// On a plane too large for `sample`; the stream starts at once and ends when its visitor says so.
 #[test]
 fn a_stream_of_a_plane_that_nobody_can_hold_can_be_left() {
-    let options = Options { radius: 8.2e-6, domain: Domain::unit(Boundary::Periodic), leaf_size: 20.0, seed: 0 };
+    let options = Options::new(8.2e-6);
     for threads in [1, 4] {
         let context = Context::new(threads).unwrap();
         assert!(matches!(sample(&context, &options, None), Err(Error::TooLarge { argument: "radius", .. })));
@@ -285,7 +285,7 @@ fn a_stream_of_a_plane_that_nobody_can_hold_can_be_left() {
 
 #[test]
 fn calls_can_be_cancelled_at_any_time() {
-    let options = Options { radius: 0.002, domain: Domain::unit(Boundary::Periodic), leaf_size: 20.0, seed: 0 };
+    let options = Options::new(0.002);
     for threads in [1, 4] {
         let context = Context::new(threads).unwrap();
         for limit in [0.0, 0.02, 0.3, 1.0] {
@@ -306,7 +306,7 @@ fn calls_can_be_cancelled_at_any_time() {
 #[test]
 fn bad_windows_are_refused_by_name() {
     let domain = domain([-1.0, 2.0], [1.0, 5.0], Boundary::Periodic);
-    let good = Options { radius: 0.01, domain, leaf_size: DEFAULT_LEAF_SIZE, seed: 0 };
+    let good = Options::new(0.01).domain(domain);
     let context = Context::new(1).unwrap();
     let refuse = |options: &Options, min, max| sample_window(&context, options, min, max, None).unwrap_err();
     let (min, max) = ([-0.5, 2.5], [0.5, 3.5]);
@@ -329,18 +329,18 @@ fn bad_windows_are_refused_by_name() {
 
     // What is wrong with the options is said as by the whole.
     for options in [
-        Options { radius: 0.0, ..good },
-        Options { radius: f64::NAN, ..good },
-        Options { leaf_size: 5.9, ..good },
-        Options { domain: Domain { min: [f64::NAN; 2], ..domain }, ..good },
-        Options { domain: Domain { max: [-2.0; 2], ..domain }, ..good },
+        good.radius(0.0),
+        good.radius(f64::NAN),
+        good.leaf_size(5.9),
+        good.domain(Domain { min: [f64::NAN; 2], ..domain }),
+        good.domain(Domain { max: [-2.0; 2], ..domain }),
     ] {
         let expected = sample(&context, &options, None).unwrap_err().to_string();
         assert_eq!(refuse(&options, min, max).to_string(), expected);
         let error = sample_stream(&context, &options, |_| panic!("visited"), None).unwrap_err();
         assert_eq!(error.to_string(), expected);
     }
-    let coarse = Options { radius: 1e-5, ..good };
+    let coarse = good.radius(1e-5);
     let finest = "radius: 1e-5 is below 3.0517578125e-5, 64 times the float spacing";
     assert!(refuse(&coarse, [0.1, 2.1], [0.2, 2.2]).to_string().starts_with(finest));
 }
@@ -348,12 +348,12 @@ fn bad_windows_are_refused_by_name() {
 /// The limits count the samples that are made.
 #[test]
 fn windows_that_are_too_large_are_refused_before_work() {
-    let options = Options { radius: 8.2e-6, domain: Domain::unit(Boundary::Bounded), leaf_size: 20.0, seed: 0 };
+    let options = Options::new(8.2e-6).domain(Domain::unit(Boundary::Bounded));
     let context = Context::new(1).unwrap();
     let error = sample_window(&context, &options, [0.0; 2], [1.0, 0.5], None).unwrap_err();
     assert!(matches!(error, Error::TooLarge { argument: "radius", .. }));
     assert!(error.to_string().contains("about 5.18e9 samples"), "{error}");
-    let untiled = Options { leaf_size: 1e30, ..options };
+    let untiled = options.leaf_size(1e30);
     let error = sample_window(&context, &untiled, [0.0; 2], [1e-3; 2], None).unwrap_err();
     assert!(matches!(error, Error::TooLarge { argument: "radius", .. }), "the whole would be made");
     let error = sample_stream(&context, &untiled, |_| panic!("visited"), None).unwrap_err();
@@ -376,7 +376,7 @@ proptest! {
         let (height, aspect) = (height.exp(), aspect.exp());
         let boundary = BOUNDARIES[usize::from(!periodic)];
         let domain = domain(corner, [corner[0] + height * aspect, corner[1] + height], boundary);
-        let options = Options { radius: factor.exp() * domain.area().sqrt(), domain, leaf_size, seed };
+        let options = Options::new(factor.exp() * domain.area().sqrt()).domain(domain).leaf_size(leaf_size).seed(seed);
         let (whole, mut random) = (whole(&options), Random::new(seed));
         for _ in 0..4 {
             let rect = random_window(&mut random, &domain);

@@ -9,7 +9,7 @@ use proptest::prelude::*;
 use std::ops::ControlFlow;
 
 fn samples(domain: Domain, radius: f64, seed: u64) -> Vec<[f32; 2]> {
-    sample(&Context::new(1).unwrap(), &Options { radius, domain, seed }, None).unwrap()
+    sample(&Context::new(1).unwrap(), &Options::new(radius).domain(domain).seed(seed), None).unwrap()
 }
 
 #[test]
@@ -64,7 +64,7 @@ fn domains_thinner_than_the_radius_are_sampled() {
 #[test]
 fn the_density_is_that_of_the_jamming_limit() {
     let (radius, seeds, context) = (0.0026, 60, Context::new(0).unwrap());
-    let options = |seed| Options { radius, domain: Domain::unit(Boundary::Periodic), seed };
+    let options = |seed| Options::new(radius).seed(seed);
     let count: usize = (0..seeds).map(|seed| sample(&context, &options(seed), None).unwrap().len()).sum();
     let density = count as f64 / seeds as f64 * radius * radius;
     assert!((density - 0.69656).abs() < 0.0002, "{density}");
@@ -96,12 +96,12 @@ fn seeds_and_not_threads_or_earlier_calls_decide() {
     let first = samples(domain, 0.05, 1);
     assert_ne!(first, samples(domain, 0.05, 2));
     let four = Context::new(4).unwrap();
-    assert_eq!(first, sample(&four, &Options { radius: 0.05, domain, seed: 1 }, None).unwrap());
+    assert_eq!(first, sample(&four, &Options::new(0.05).domain(domain).seed(1), None).unwrap());
 }
 
 #[test]
 fn a_call_can_be_cancelled_at_any_time() {
-    let options = Options { radius: 0.002, domain: Domain::unit(Boundary::Periodic), seed: 0 };
+    let options = Options::new(0.002);
     for limit in [0.0, 0.3, 0.99, 1.0] {
         let stop = |share| if share >= limit { ControlFlow::Break(()) } else { ControlFlow::Continue(()) };
         let result = sample(&Context::new(1).unwrap(), &options, Some(&stop));
@@ -111,7 +111,7 @@ fn a_call_can_be_cancelled_at_any_time() {
 
 #[test]
 fn the_progress_grows_from_zero_to_one() {
-    let options = Options { radius: 0.003, domain: Domain::unit(Boundary::Bounded), seed: 0 };
+    let options = Options::new(0.003).domain(Domain::unit(Boundary::Bounded));
     let told = std::cell::RefCell::new(Vec::new());
     let watch = |share| {
         told.borrow_mut().push(share);
@@ -126,7 +126,7 @@ fn the_progress_grows_from_zero_to_one() {
 #[test]
 fn bad_arguments_are_refused_by_name() {
     let refuse = |min: [f64; 2], max: [f64; 2], radius: f64| {
-        let options = Options { radius, domain: domain(min, max, Boundary::Bounded), seed: 0 };
+        let options = Options::new(radius).domain(domain(min, max, Boundary::Bounded));
         sample(&Context::new(1).unwrap(), &options, None).unwrap_err()
     };
     for radius in [f64::NAN, 0.0, -1.0, f64::INFINITY] {

@@ -11,7 +11,7 @@ use std::sync::Arc;
 
 use azulejo::analysis::{coverage, spacing};
 use azulejo::mesh::Mesh;
-use azulejo::psp::{self, Engine, Options, Order, Psp};
+use azulejo::psp::{self, Engine, Options, Priority, Psp};
 use azulejo::{Context, Error, SurfaceSamples};
 use meshes::Soup;
 use proptest::prelude::*;
@@ -47,7 +47,7 @@ fn check_all(mesh: &Arc<Mesh>, radius: f64) {
         (2, true, Engine::Rasteriser),
     ];
     for (iterations, maximal, engine) in cases {
-        let options = Options { iterations, maximal, engine, ..Options::new(radius) };
+        let options = Options::new(radius).iterations(iterations).maximal(maximal).engine(engine);
         let [(samples, report), (again, _)] =
             [1, 4].map(|threads| psp::sample(&Context::new(threads).unwrap(), mesh, &options, None).unwrap());
         check(mesh, &samples, radius, maximal);
@@ -133,7 +133,7 @@ fn nothing_is_left_uncovered_on_any_kind_of_mesh() {
         let mesh = mesh(soup);
         for (seed, iterations) in (0..6).flat_map(|seed| [(seed, 0), (seed, 1), (seed, 3)]) {
             println!("{kind}, seed {seed}, {iterations} iterations");
-            let options = Options { iterations, seed, ..Options::new(radius) };
+            let options = Options::new(radius).iterations(iterations).seed(seed);
             let (samples, report) = psp::sample(&context, &mesh, &options, None).unwrap();
             assert_eq!(report.iterations, iterations);
             check(&mesh, &samples, radius, true);
@@ -177,7 +177,7 @@ fn a_maximal_set_is_as_dense_as_darts_become() {
     let sphere = mesh(meshes::sphere());
     for (mesh, radius, border) in [(mesh(meshes::plane()), 0.005, 4.0), (sphere, 0.02, 0.0)] {
         for iterations in [0, 3] {
-            let options = Options { iterations, ..Options::new(radius) };
+            let options = Options::new(radius).iterations(iterations);
             let (samples, _) = psp::sample(&context, &mesh, &options, None).unwrap();
             let expected = 0.69656 * (mesh.area() + 0.5 * border * radius) / (radius * radius);
             let ratio = samples.len() as f64 / expected;
@@ -191,7 +191,7 @@ fn a_maximal_set_is_as_dense_as_darts_become() {
 fn iterations_only_add_and_can_be_made_in_pieces() {
     let context = Context::new(2).unwrap();
     let mesh = mesh(meshes::torus());
-    let options = Options { seed: 7, ..Options::new(0.05) };
+    let options = Options::new(0.05).seed(7);
     let mut whole = Psp::new(&mesh, &options).unwrap();
     let mut pieces = Psp::new(&mesh, &options).unwrap();
     whole.advance(&context, 4, None).unwrap();
@@ -211,7 +211,7 @@ fn iterations_only_add_and_can_be_made_in_pieces() {
     // Nothing fits into a maximal set.
     assert_eq!(whole.advance(&context, 1, None).unwrap().accepted, 0);
     assert_eq!(whole.fill(&context, None).unwrap().accepted, 0);
-    let other = psp::sample(&context, &mesh, &Options { seed: 8, ..options }, None).unwrap().0;
+    let other = psp::sample(&context, &mesh, &options.seed(8), None).unwrap().0;
     assert_ne!(other.positions[..20], before.positions[..20], "another seed gives another set");
 }
 
@@ -221,8 +221,8 @@ fn candidates_can_come_in_the_order_of_the_thesis_which_finds_fewer() {
     let context = Context::new(2).unwrap();
     let mesh = mesh(meshes::torus());
     let radius = 0.03;
-    let found = [Order::Squareness, Order::Projector].map(|order| {
-        let options = Options { order, ..Options::new(radius) };
+    let found = [Priority::Squareness, Priority::Projector].map(|priority| {
+        let options = Options::new(radius).priority(priority);
         let mut psp = Psp::new(&mesh, &options).unwrap();
         psp.advance(&context, 1, None).unwrap();
         check(&mesh, &psp.samples(), radius, false);
@@ -239,7 +239,7 @@ fn a_report_says_where_the_time_went_and_how_good_the_set_is() {
     let context = Context::new(2).unwrap();
     let mesh = mesh(meshes::fine_torus(100, 50));
     for engine in [Engine::Embree, Engine::Rasteriser] {
-        let options = Options { engine, ..Options::new(0.01) };
+        let options = Options::new(0.01).engine(engine);
         let mut psp = Psp::new(&mesh, &options).unwrap();
         let first = psp.advance(&context, 1, None).unwrap();
         let second = psp.advance(&context, 1, None).unwrap();
@@ -305,7 +305,7 @@ fn whenever_it_is_cancelled_a_set_stays_valid_and_can_go_on() {
     let mesh = mesh(meshes::torus());
     let context = Context::new(1).unwrap();
     for engine in [Engine::Embree, Engine::Rasteriser] {
-        let options = Options { engine, ..Options::new(0.13) };
+        let options = Options::new(0.13).engine(engine);
         let expected = psp::sample(&context, &mesh, &options, None).unwrap().0;
         let mut lengths = vec![];
         for limit in 1.. {
@@ -380,7 +380,7 @@ proptest! {
     fn random_soups(seed: u64, triangles in 1u32..8, size in -3.0f64..0.5, iterations in 0u32..3, offset in 0.0f64..30.0) {
         let mesh = mesh(meshes::placed(meshes::random_soup(seed, triangles), 1.0, offset));
         let radius = (mesh.area().sqrt() * 10f64.powf(size)).max(0.01);
-        let options = Options { iterations, seed, ..Options::new(radius) };
+        let options = Options::new(radius).iterations(iterations).seed(seed);
         let (samples, _) = psp::sample(&Context::new(2).unwrap(), &mesh, &options, None).unwrap();
         check(&mesh, &samples, radius, true);
     }

@@ -53,7 +53,7 @@ fn check(mesh: &Arc<Mesh>, radius: f64) {
     let context = Context::new(2).unwrap();
     let mut counts = Vec::new();
     for (iterations, maximal) in [(0, true), (2, false), (1, true)] {
-        let options = Options { iterations, maximal, ..Options::new(radius) };
+        let options = Options::new(radius).iterations(iterations).maximal(maximal);
         let (samples, report) = psp::sample(&context, mesh, &options, None).unwrap();
         assert_eq!(report.iterations, iterations);
         check_positions(mesh, &samples);

@@ -33,7 +33,7 @@ fn run(mesh: &Mesh, samples: &SurfaceSamples) -> (SurfaceSamples, Report) {
 
 fn run_steps(mesh: &Mesh, samples: &SurfaceSamples, steps: u32) -> (SurfaceSamples, Report) {
     let context = Context::new(2).unwrap();
-    let options = Options { max_iterations: steps, ..Options::default() };
+    let options = Options::default().max_iterations(steps);
     let (relaxed, report) = relax(&context, mesh, &samples.triangles, &samples.barycentrics, &options, None).unwrap();
     assert_eq!(relaxed.len(), samples.len());
     assert_eq!(oracle::misplaced(mesh, &relaxed), None);
@@ -278,9 +278,9 @@ fn a_cancelled_call_returns_its_last_whole_step() {
     assert_eq!((start, report.iterations, report.stopped), (samples.clone(), 0, Stopped::Cancelled));
     let (cancelled, report) = call(&Options::default(), 0.3);
     assert!(report.stopped == Stopped::Cancelled && (1..=31).contains(&report.iterations), "{report:?}");
-    let steps = Options { max_iterations: report.iterations, ..Options::default() };
+    let steps = Options::default().max_iterations(report.iterations);
     assert_eq!(call(&steps, 2.0).0, cancelled);
-    let none = Options { max_iterations: 0, ..Options::default() };
+    let none = Options::default().max_iterations(0);
     assert_eq!(call(&none, 2.0).0, samples);
 }
 
@@ -304,7 +304,7 @@ fn what_is_no_place_on_the_mesh_is_refused() {
     let mesh = Mesh::new(meshes::plane().0, vec![[0, 1, 3], [0, 3, 2], [0, 0, 1]]).unwrap();
     let context = Context::new(1).unwrap();
     let refused = |mesh: &Mesh, triangles: &[u32], barycentrics: &[[f32; 2]], tolerance: f64| {
-        let options = Options { tolerance, ..Options::default() };
+        let options = Options::default().tolerance(tolerance);
         match relax(&context, mesh, triangles, barycentrics, &options, None) {
             Err(Error::InvalidArgument { argument, .. }) => argument,
             other => panic!("{other:?}"),

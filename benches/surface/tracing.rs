@@ -58,7 +58,7 @@ pub fn rates(context: &Context, mesh: &Mesh, radius: f64) -> [f64; 2] {
 fn rays(context: &Context, half_box: DVec3, radius: f64) -> Vec<Ray> {
     let side = (1.0 / radius).clamp(8.0, 2390.0);
     let domain = Domain { min: [0.0; 2], max: [side; 2], boundary: Boundary::Periodic };
-    let options = kdrt::Options { radius: 1.0, domain, leaf_size: kdrt::DEFAULT_LEAF_SIZE, seed: 1 };
+    let options = kdrt::Options::new(1.0).domain(domain).seed(1);
     let mut points = kdrt::sample(context, &options, None).expect("a pattern");
     points.sort_by_cached_key(|point| {
         let [x, y] = point.map(|x| (f64::from(x) / side * 65536.0) as u32);

@@ -93,14 +93,14 @@ impl Plane {
 
     /// A set of this radius, and what is to be said of it.
     fn at(&self, radius: f64, context: &Context, domain: Domain) -> Result<(Vec<[f32; 2]>, String)> {
-        let options = kdrt::Options { radius, domain, leaf_size: self.leaf_size, seed: self.common.seed };
+        let options = kdrt::Options::new(radius).domain(domain).leaf_size(self.leaf_size).seed(self.common.seed);
         let points = watched("plane", |progress| kdrt::sample(context, &options, Some(progress)))?;
         Ok((points, format!("radius {}", rounded(radius, 4))))
     }
 
     /// A set of this many samples, and what is to be said of it.
     fn exactly(&self, count: u64, context: &Context, domain: Domain) -> Result<(Vec<[f32; 2]>, String)> {
-        let options = CountOptions { count, domain, leaf_size: self.leaf_size, seed: self.common.seed };
+        let options = CountOptions::new(count).domain(domain).leaf_size(self.leaf_size).seed(self.common.seed);
         let made = watched("plane", |progress| kdrt::sample_count(context, &options, Some(progress)))?;
         let maximal = if made.report.is_maximal { "" } else { ", not maximal" };
         Ok((made.samples, format!("radius {}{maximal}", rounded(made.report.radius, 4))))
@@ -127,14 +127,14 @@ pub struct Surface {
     normals: Normals,
     /// Which candidates come first where two are too close.
     #[arg(long, value_enum, default_value = "squareness")]
-    order: Order,
+    priority: Priority,
     /// What finds the places that the patterns are projected to.
     #[arg(long, value_enum, default_value = "embree")]
     engine: Engine,
 }
 
 #[derive(Clone, Copy, ValueEnum)]
-enum Order {
+enum Priority {
     /// Those that their projector faces more squarely: the faster.
     Squareness,
     /// Those of the projector with the lower number, as in the thesis: half the bias.
@@ -149,11 +149,11 @@ enum Engine {
     Rasteriser,
 }
 
-impl From<Order> for psp::Order {
-    fn from(order: Order) -> Self {
-        match order {
-            Order::Squareness => Self::Squareness,
-            Order::Projector => Self::Projector,
+impl From<Priority> for psp::Priority {
+    fn from(priority: Priority) -> Self {
+        match priority {
+            Priority::Squareness => Self::Squareness,
+            Priority::Projector => Self::Projector,
         }
     }
 }
@@ -184,14 +184,12 @@ impl Surface {
             return Err(Error::InvalidArgument { argument: "--normals", reason });
         }
         let radius = self.density.radius(mesh.area());
-        let options = psp::Options {
-            iterations: self.iterations,
-            maximal: !self.no_fill,
-            seed: self.common.seed,
-            order: self.order.into(),
-            engine: self.engine.into(),
-            ..psp::Options::new(radius)
-        };
+        let options = psp::Options::new(radius)
+            .iterations(self.iterations)
+            .maximal(!self.no_fill)
+            .seed(self.common.seed)
+            .priority(self.priority.into())
+            .engine(self.engine.into());
         let (samples, done) = watched("surface", |progress| psp::sample(context, &mesh, &options, Some(progress)))?;
         let normals = match self.normals {
             Normals::Geometric => &samples.normals,
@@ -277,7 +275,7 @@ impl Relax {
             path: self.input.clone(),
             reason: "does not say on which triangle each sample is, and where: no triangle, u and v".to_owned(),
         })?;
-        let mut options = surface::Options { seed: self.common.seed, ..Default::default() };
+        let mut options = surface::Options::default().seed(self.common.seed);
         options.max_iterations = self.iterations.unwrap_or(options.max_iterations);
         let start = Instant::now();
         let (relaxed, done) = watched("relax", |progress| {

@@ -50,7 +50,7 @@ impl Merge {
             .map(|Loaded { rectangle, samples }| Piece { samples, min: rectangle.min, max: rectangle.max })
             .collect();
         let domain = self.domain.or_box_of(&rectangles);
-        let options = MergeOptions { radius: self.radius, domain, seed: self.common.seed };
+        let options = MergeOptions::new(self.radius).domain(domain).seed(self.common.seed);
         let start = Instant::now();
         let merge = |progress: &azulejo::Progress| kdrt::merge(context, &options, &pieces, &fixed, Some(progress));
         let (samples, done) = watched("merge", merge).map_err(|error| self.name_pieces(error))?;

@@ -2,9 +2,9 @@
 
 use glam::DVec2;
 
-use crate::dcr::delaunay::Delaunay;
-use crate::dcr::frame::Frame;
 use crate::error::Result;
+use crate::geometry::delaunay::Delaunay;
+use crate::geometry::frame::Frame;
 use crate::job::{Context, Job, Progress, chunks};
 use crate::points::Domain;
 
@@ -12,7 +12,7 @@ use crate::points::Domain;
 /// all points of |Σ exp(6iθ)| / n, θ being the directions of the n edges of a point in the Delaunay triangulation.
 ///
 /// 1 in a hexagonal lattice, turned as it may be, about 0.36 in a Poisson process. The mean is one of local orders: many
-/// small crystals are as regular as one. A bounded domain is mirrored by its border, and mirror images are neighbours.
+/// small crystals are as regular as one. A bounded domain is mirrored by its boundary, and mirror images are neighbours.
 /// Points without neighbours, as all but one of coincident points are, do not count; 0 if there are no others. Lattices
 /// with more than three points on an empty circle have more than one triangulation, and the result is that of one.
 ///
@@ -42,9 +42,10 @@ pub(super) fn mean_order(job: &Job, delaunay: &Delaunay) -> Result<f64> {
     Ok(orders.iter().sum::<f64>() / orders.len().max(1) as f64)
 }
 
-/// The order of a point by the ways to its neighbours.
+/// The order of a point by the offsets of its neighbours.
 fn order(ring: impl Iterator<Item = DVec2>) -> Option<f64> {
-    let add = |(sum, count): (DVec2, f64), way: DVec2| (sum + DVec2::from_angle(6.0 * way.to_angle()), count + 1.0);
+    let add =
+        |(sum, count): (DVec2, f64), offset: DVec2| (sum + DVec2::from_angle(6.0 * offset.to_angle()), count + 1.0);
     let (sum, count) = ring.fold((DVec2::ZERO, 0.0), add);
     (count > 0.0).then(|| sum.length() / count)
 }

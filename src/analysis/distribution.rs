@@ -5,14 +5,14 @@
 //! 1 at every distance for a Poisson process. A hexagonal lattice has peaks at 1, sqrt(3), 2, ... in units of
 //! `d_max = sqrt(2 A / (sqrt(3) N))`, the distance of its neighbours, which is the unit of all distances here.
 //!
-//! *Borders.* On a torus the distances wrap. In a bounded domain a pair counts by one over the share of the domain that
+//! *Boundaries.* On a torus the distances wrap. In a bounded domain a pair counts by one over the share of the domain that
 //! stays in it when it is moved by their difference (Ohser and Stoyan 1981, "On the second-order analysis of stationary
 //! point processes"), which is unbiased.
 
 use std::f64::consts::PI;
 
 use crate::error::{Error, Result};
-use crate::grid2::Grid2;
+use crate::geometry::grid2::Grid2;
 use crate::job::{Context, Progress, chunks_of};
 use crate::points::{Boundary, Domain};
 
@@ -27,7 +27,7 @@ const CELL: f64 = 1.5;
 #[derive(Clone, Debug, PartialEq)]
 pub struct RadialDistribution {
     reach: f64,
-    /// Pairs in each bin, both ways, and how many a Poisson process would have.
+    /// Pairs in each bin, counted from both ends, and how many a Poisson process would have.
     found: Vec<f64>,
     expected: Vec<f64>,
 }
@@ -111,7 +111,7 @@ impl RadialDistribution {
         std::iter::zip(&self.found, &self.expected).map(|(found, expected)| found / expected).collect()
     }
 
-    /// The pairs that a Poisson process would have in each bin, both ways: its g(r) has a standard error of about
+    /// The pairs that a Poisson process would have in each bin, counted from both ends: its g(r) has a standard error of about
     /// sqrt(2 / expected), since each pair comes twice.
     pub fn expected(&self) -> &[f64] {
         &self.expected

@@ -4,9 +4,9 @@ use crate::analysis::bonds::mean_order;
 use crate::analysis::coverage::covering_radius;
 use crate::analysis::spacing::nearest_distances;
 use crate::analysis::triangles::{TriangleStatistics, triangles_of};
-use crate::dcr::delaunay::Delaunay;
-use crate::dcr::frame::Frame;
 use crate::error::Result;
+use crate::geometry::delaunay::Delaunay;
+use crate::geometry::frame::Frame;
 use crate::job::{Context, Job, Progress};
 use crate::points::Domain;
 

@@ -4,13 +4,13 @@ use crate::mesh::Mesh;
 use crate::rng::{Draw, Rng};
 
 /// A mesh from which points are drawn uniformly by area.
-pub(super) struct Surface<'a> {
+pub(super) struct AreaSampler<'a> {
     mesh: &'a Mesh,
     /// The area of the triangles up to and with each.
     areas: Vec<f64>,
 }
 
-impl<'a> Surface<'a> {
+impl<'a> AreaSampler<'a> {
     pub fn new(mesh: &'a Mesh) -> Self {
         let add = |sum: &mut f64, triangle| {
             *sum += mesh.triangle_area(triangle);

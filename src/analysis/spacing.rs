@@ -1,9 +1,9 @@
 //! Spacing: the distances between samples, in `f64` from the floats, around the torus on a periodic domain.
 
-use super::distribution::check_bins;
+use crate::analysis::distribution::check_bins;
 use crate::error::Result;
-use crate::grid2::Grid2;
-use crate::grid3;
+use crate::geometry::grid2::Grid2;
+use crate::geometry::grid3;
 use crate::job::{Context, Job, Progress, chunks_of};
 use crate::points::Domain;
 
@@ -109,6 +109,6 @@ pub fn nearest_histogram_2d(domain: &Domain, nearest: &[f64], reach: f64, bins: 
 /// [`Error::InvalidArgument`](crate::Error::InvalidArgument) for positions that are not finite (`positions`);
 /// [`Error::Cancelled`](crate::Error::Cancelled).
 pub fn smallest_distance_3d(context: &Context, positions: &[[f32; 3]], progress: Option<&Progress>) -> Result<f64> {
-    super::check_positions(positions)?;
+    crate::analysis::check_positions(positions)?;
     context.run(progress, |job| grid3::smallest_distance(job, positions))
 }

@@ -2,9 +2,9 @@
 
 use glam::DVec2;
 
-use crate::dcr::delaunay::Delaunay;
-use crate::dcr::frame::{Frame, Site};
 use crate::error::Result;
+use crate::geometry::delaunay::Delaunay;
+use crate::geometry::frame::{Frame, Site};
 use crate::job::{Context, Job, Progress, chunks, chunks_of};
 use crate::mesh::exact;
 use crate::points::{Boundary, Domain};
@@ -54,8 +54,8 @@ impl Triangle {
 
 /// The Delaunay triangles of a set, each once. Takes O(n log n).
 ///
-/// On a torus there are twice as many as points, and those that lie across the border reach out of the domain on one of the
-/// sides. On a bounded domain those are left out that cross the border when the set is mirrored by it, so there are no
+/// On a torus there are twice as many as points, and those that lie across the boundary reach out of the domain on one of the
+/// sides. On a bounded domain triangles are left out that cross the boundary when the set is mirrored by it, so there are no
 /// slivers along the convex hull.
 ///
 /// Lattices with more than three points on an empty circle have more than one triangulation, which need not be the same on
@@ -92,14 +92,14 @@ pub(super) fn triangles_of(
     positions: &[DVec2],
     delaunay: &Delaunay,
 ) -> Result<Vec<Triangle>> {
-    // By the point that a corner is a copy of, and then by its own place, which orders the images of a point in the same
-    // way on every side. Not by numbers: coincident points are one corner, which has the number of any of them.
+    // By the point that a corner is a copy of, and then by its own place, which orders the images of a point alike on
+    // every side. Not by numbers: coincident points are one corner, which has the number of any of them.
     let key = |site: &Site| {
         let (of, at) = (positions[site.source as usize], site.position);
         [of.x, of.y, at.x, at.y]
     };
     let order = |a: &&Site, b: &&Site| key(a).partial_cmp(&key(b)).expect("sites are finite");
-    // On a torus that of a triangle's images counts whose first corner is a point of the domain, and there.
+    // On a torus a triangle has several images: the one counts whose first corner is a point of the domain.
     let is_counted = |point: usize, corners: &[Site; 3]| {
         let first = corners.iter().min_by(order);
         first.is_some_and(|site| site.is_original() && site.source as usize == point)
@@ -228,7 +228,7 @@ impl Sums {
         }
     }
 
-    /// The triangles, of all that were summed up or some of them, whose area is far from the mean.
+    /// The triangles, among these, whose area is far from the mean.
     fn outlying(&self, triangles: &[Triangle]) -> usize {
         let (mean, limit) = (self.areas.mean(), SIGMAS * self.areas.variation().sqrt() * self.areas.mean());
         triangles.iter().filter(|triangle| (triangle.area() - mean).abs() > limit).count()

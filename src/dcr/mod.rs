@@ -3,7 +3,7 @@
 //! All points move at once, by what they gather from their neighbours; nothing depends on the order of the points or on
 //! the threads. There are two ways to do so ([`Method`]):
 //!
-//! * [`Method::Best`], the default: neighbours in conflict push each other away, holes pull their borders in, points have
+//! * [`Method::Momentum`], the default: neighbours in conflict push each other away, holes pull their borders in, points have
 //!   momentum, and long waves of the density are removed by Fourier transform. It ends after 100 steps, or sooner if the
 //!   points have come to rest.
 //! * [`Method::Thesis`]: what the thesis's algorithm says, with all that it can be varied by.
@@ -34,29 +34,23 @@
 //!
 //! Convergence is judged by motion ([`Report::motion`]), unless [`Convergence::Variance`] asks for the thesis's own test.
 
-pub(crate) mod delaunay;
 mod density;
-mod forces;
-pub(crate) mod frame;
-mod knn;
-mod links;
-mod motion;
-mod settings;
-mod spread;
+mod ground;
 pub mod surface;
 mod thesis;
-mod variance;
+mod uniform;
 
 pub use density::{Density, DensityFunction, relax_with_density, scatter};
-pub use settings::{Convergence, Distribution, Thesis, Visits};
-use spread::Spread;
 use thesis::Tensioned;
+pub use thesis::{Convergence, Distribution, Thesis, Visits};
+use uniform::Spread;
 
 use crate::error::{Error, Result};
-use crate::grid2::Grid2;
+use crate::geometry::grid2::Grid2;
 use crate::job::{Context, Job, Progress, chunks};
 use crate::memory;
 use crate::points::Domain;
+use crate::setters::setters;
 
 /// Who is a neighbour of a point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -72,13 +66,14 @@ pub enum Neighbourhood {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Method {
     /// Push, pull, momentum and waves; see the page of this module.
-    Best,
+    Momentum,
     /// The algorithm of the thesis.
     Thesis(Thesis),
 }
 
 /// The options of [`relax`].
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Options {
     /// The rectangle in which the points lie and stay.
     pub domain: Domain,
@@ -99,7 +94,7 @@ pub struct Options {
 impl Options {
     /// The best method: at most 100 steps, tolerance 0.001.
     pub fn new(domain: Domain, neighbourhood: Neighbourhood) -> Self {
-        Self { domain, neighbourhood, method: Method::Best, max_iterations: 100, seed: 0, tolerance: 0.001 }
+        Self { domain, neighbourhood, method: Method::Momentum, max_iterations: 100, seed: 0, tolerance: 0.001 }
     }
 
     /// The thesis's algorithm with its settings: at most 1000 steps. The tolerance is 0.02 for Delaunay and 0.005 for
@@ -126,6 +121,15 @@ impl Options {
     }
 }
 
+setters!(Options {
+    domain: Domain,
+    neighbourhood: Neighbourhood,
+    method: Method,
+    max_iterations: u32,
+    seed: u64,
+    tolerance: f64,
+});
+
 /// Why [`relax`] made no more steps.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stopped {
@@ -140,6 +144,7 @@ pub enum Stopped {
 
 /// What [`relax`] did. `d_max` is [`Domain::hexagonal_distance`].
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Report {
     /// The number of steps made.
     pub iterations: u32,
@@ -238,7 +243,7 @@ pub fn relax_observed(
     options.domain.check_points(points)?;
     require_memory("xy", points.len())?;
     let mut set: Box<dyn Relaxation> = match &options.method {
-        Method::Best => Box::new(Spread::new(options, points)),
+        Method::Momentum => Box::new(Spread::new(options, points)),
         Method::Thesis(thesis) => Box::new(Tensioned::new(options, thesis, points)),
     };
     run(context, options, points, &mut *set, progress, observe)

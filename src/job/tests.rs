@@ -1,6 +1,6 @@
 //! Work that is shared, watched and cancelled.
 
-use super::*;
+use crate::job::*;
 use std::cell::{Cell, RefCell};
 use std::thread::{self, ThreadId};
 
@@ -48,7 +48,7 @@ fn a_call_can_be_cancelled_at_its_start_in_its_middle_and_at_its_end() {
         for limit in [0.0, 0.4, 0.8, 1.0] {
             let stopped = Cell::new(false);
             let progress = |share| {
-                assert!(!stopped.get(), "told after it was cancelled");
+                assert!(!stopped.get(), "called after it was cancelled");
                 stopped.set(share >= limit);
                 if stopped.get() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
             };

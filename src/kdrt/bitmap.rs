@@ -2,14 +2,14 @@
 //! quadtree of `fill.rs`.
 //!
 //! A row of a block is one word, and a sample clears, in a dozen words, the voxels that lie in its disk (`stamp.rs`). The
-//! bitmap may keep voxels that are covered, never the other way round.
+//! bitmap may keep voxels that are covered, but never lacks one that is not.
 
-use crate::lattice::Rect;
-use crate::maximal::{CellGrid, List};
+use crate::plane::rect::Rect;
+use crate::plane::{CellGrid, List};
 
-use super::conquer::SeamCells;
-use super::fill::Block;
-use super::stamp::{self, PER_CELL, PLACES, REACH, Stamps};
+use crate::kdrt::blocks::Block;
+use crate::kdrt::conquer::SeamCells;
+use crate::kdrt::stamp::{self, PER_CELL, PLACES, REACH, Stamps};
 
 /// Voxels of a block's bitmap before its first one, so that every stamp begins in the bitmap.
 const MARGIN: i32 = 2 * REACH;
@@ -20,12 +20,12 @@ const LONGEST: i32 = u64::BITS as i32 - MARGIN;
 /// The most cells along the side of a block.
 pub(super) const MOST_CELLS: i32 = LONGEST / PER_CELL;
 
-/// Rows of a bitmap: those of the longest block with the margin before it, and a stamp that begins in the last one.
+/// OpenRows of a bitmap: those of the longest block with the margin before it, and a stamp that begins in the last one.
 const ROWS: usize = (MARGIN + LONGEST) as usize + stamp::ROWS;
 
 /// A word per row of voxels.
 #[repr(align(64))]
-struct Rows([u64; ROWS]);
+struct OpenRows([u64; ROWS]);
 
 /// The voxels of a block that may be uncovered.
 pub(super) struct Bitmap<'a> {
@@ -34,11 +34,11 @@ pub(super) struct Bitmap<'a> {
     /// The cells that hold the block, and the first of their lattice points.
     cells: Rect,
     origin: [i32; 2],
-    rows: Rows,
+    rows: OpenRows,
 }
 
 /// The column and row of a voxel in the bitmap.
-pub(super) type Place = [u8; 2];
+pub(super) type VoxelIndex = [u8; 2];
 
 impl<'a> Bitmap<'a> {
     /// The voxels of the block in cells at seams, as if nothing covered them.
@@ -46,7 +46,8 @@ impl<'a> Bitmap<'a> {
     pub fn of_seams(stamps: &'a Stamps, grid: &CellGrid, seams: &SeamCells, block: &Block) -> Self {
         let &Block { rect, cells } = block;
         debug_assert!((0..2).all(|axis| cells.length(axis) <= MOST_CELLS));
-        let mut bitmap = Self { stamps, block: rect, cells, origin: grid.rect(cells.min).min, rows: Rows([0; ROWS]) };
+        let mut bitmap =
+            Self { stamps, block: rect, cells, origin: grid.rect(cells.min).min, rows: OpenRows([0; ROWS]) };
         let [columns, rows] = [bitmap.inside(grid, 0), bitmap.inside(grid, 1)];
         let cell_rows = bitmap.rows.0[MARGIN as usize..].chunks_exact_mut(PER_CELL as usize);
         for (y, voxel_rows) in (cells.min[1]..cells.max[1]).zip(cell_rows) {
@@ -113,13 +114,13 @@ impl<'a> Bitmap<'a> {
     }
 
     /// Whether a voxel may be uncovered.
-    pub fn is_open(&self, [column, row]: Place) -> bool {
+    pub fn is_open(&self, [column, row]: VoxelIndex) -> bool {
         self.rows.0[usize::from(row)] >> column & 1 == 1
     }
 
     /// Drops those of some voxels that are covered for certain.
     #[inline(always)]
-    pub fn keep_open(&self, places: &mut Vec<Place>) {
+    pub fn keep_open(&self, places: &mut Vec<VoxelIndex>) {
         let mut left = 0;
         for i in 0..places.len() {
             // Written in any case, kept only if it is open: which are is not predictable.
@@ -131,7 +132,7 @@ impl<'a> Bitmap<'a> {
 
     /// All voxels that may be uncovered.
     #[inline(always)]
-    pub fn list(&self, places: &mut Vec<Place>) {
+    pub fn list(&self, places: &mut Vec<VoxelIndex>) {
         let rows = MARGIN as usize..(MARGIN + PER_CELL * self.cells.length(1)) as usize;
         let count: u32 = self.rows.0[rows.clone()].iter().map(|open| open.count_ones()).sum();
         places.resize(count as usize, [0; 2]);
@@ -149,7 +150,7 @@ impl<'a> Bitmap<'a> {
 
     /// The cell of a voxel and its lattice points in the block.
     #[inline(always)]
-    pub fn voxel(&self, grid: &CellGrid, place: Place) -> ([i32; 2], Rect) {
+    pub fn voxel(&self, grid: &CellGrid, place: VoxelIndex) -> ([i32; 2], Rect) {
         let place = place.map(|index| i32::from(index) - MARGIN);
         let cell = [0, 1].map(|axis: usize| self.cells.min[axis] + place[axis] / PER_CELL);
         let part = |axis: usize| grid.part(axis, cell[axis], place[axis] % PER_CELL, PER_CELL);
@@ -176,15 +177,16 @@ fn spread(bits: u64) -> u64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::maximal::CellAxis;
+    use crate::plane::CellAxis;
+    use crate::plane::lattice::Separation;
     use crate::rng::{Draw, Rng};
 
     /// A grid of cells, all of them seams.
     fn everything(size: i32, radius: f64) -> (CellGrid, SeamCells, Stamps) {
         let axes = [size, size - 17].map(|size| CellAxis::new(size, radius));
         let all = Rect { min: [0; 2], max: [size, size - 17] };
-        let (threshold, reach) = ((radius * radius).ceil() as i64, radius as i32);
-        let grid = CellGrid::new(&axes, &all, threshold, reach);
+        let separation = Separation { threshold: (radius * radius).ceil() as i64, reach: radius as i32 };
+        let grid = CellGrid::new(&axes, &all, separation);
         let leaf = crate::kdrt::divide::Leaf { rect: all, key: 0 };
         let seams = SeamCells::new(&grid, &[leaf], &[], size);
         (grid, seams, Stamps::new(radius, [0, 1].map(|axis: usize| axes[axis].side())))
@@ -232,8 +234,8 @@ mod tests {
                     let is_whole =
                         (0..2).all(|axis| block.min[axis] < rect.min[axis] && rect.max[axis] < block.max[axis]);
                     // Two sixteenths of a voxel, and a few lattice points.
-                    let room = 0.03 * radius + 8.0;
-                    assert!(!(bitmap.is_open(place) && is_whole) || (farthest as f64).sqrt() > radius - room);
+                    let margin = 0.03 * radius + 8.0;
+                    assert!(!(bitmap.is_open(place) && is_whole) || (farthest as f64).sqrt() > radius - margin);
                 }
             }
         }
@@ -271,7 +273,7 @@ mod tests {
             together.rows.0[20..].fill(0);
             together.keep_open(&mut places);
             assert!(places.iter().all(|&place| place[1] < 20 && together.is_open(place)));
-            assert_eq!(places.len(), together.rows.0.iter().map(|row| row.count_ones() as usize).sum());
+            assert_eq!(places.len(), together.rows.0.iter().map(|row| row.count_ones() as usize).sum::<usize>());
         }
     }
 

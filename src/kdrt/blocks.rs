@@ -4,9 +4,10 @@
 //! of earlier phases. Blocks of one phase are farther than r apart, so each depends only on a few others and the plane
 //! needs no order beyond that of the phases.
 //!
-//! Regular borders would leave peaks in the spectrum, so each is moved by up to a quarter of the regular width.
+//! Regular edges would leave peaks in the spectrum, so each is moved by up to a quarter of the regular width.
 
-use crate::lattice::{Lattice, Rect};
+use crate::plane::lattice::Lattice;
+use crate::plane::rect::Rect;
 use crate::points::Boundary;
 use crate::rng::{Draw, Rng, hash};
 
@@ -14,7 +15,7 @@ use crate::rng::{Draw, Rng, hash};
 /// cells at most, since a domain worth tiling has cells of at least 0.67 radii.
 const WIDTH: f64 = 4.8;
 
-/// How far a border is moved at most, as a share of the width.
+/// How far an edge is moved at most, as a share of the width.
 const JITTER: f64 = 0.25;
 
 /// The phases: the parity of their blocks' column and row, and how many columns and rows around a window of blocks
@@ -27,13 +28,19 @@ const JITTER: f64 = 0.25;
 pub(super) const PHASES: [([i32; 2], [i32; 2]); 4] =
     [([0, 0], [2, 1]), ([1, 0], [1, 1]), ([1, 1], [1, 0]), ([0, 1], [0, 0])];
 
-/// The blocks of a plane. Columns and rows count from 0; on a torus they go on beyond its borders.
+/// A fill block: its lattice points, and the cells that hold them.
+pub(super) struct Block {
+    pub rect: Rect,
+    pub cells: Rect,
+}
+
+/// The blocks of a plane. Columns and rows count from 0; on a torus they go on beyond its edges.
 #[derive(Clone, Debug)]
 pub(super) struct Blocks {
     size: [i32; 2],
     counts: [i32; 2],
     /// Where the columns (axis 0) and rows (axis 1) of the domain begin, and where the last ends.
-    borders: [Vec<i32>; 2],
+    edges: [Vec<i32>; 2],
     boundary: Boundary,
     seed: u64,
 }
@@ -52,16 +59,16 @@ impl Blocks {
             // The parities of the phases must go on across the seam of a torus.
             if lattice.boundary == Boundary::Periodic { 2 * (widths / 2.0).ceil() as i32 } else { widths.ceil() as i32 }
         });
-        let borders = std::array::from_fn(|axis| {
+        let edges = std::array::from_fn(|axis| {
             let (size, count) = (i64::from(lattice.size[axis]), i64::from(counts[axis]));
             let limit = (size as f64 / count as f64 * JITTER) as i64;
             let jitter = |index: i64| {
                 Rng::at(seed, Draw::Block, &[axis as u64, index as u64]).below(2 * limit as u64 + 1) as i64 - limit
             };
-            let border = |index| size * index / count + if index % count == 0 { 0 } else { jitter(index) };
-            (0..=count).map(|index| border(index) as i32).collect()
+            let edge = |index| size * index / count + if index % count == 0 { 0 } else { jitter(index) };
+            (0..=count).map(|index| edge(index) as i32).collect()
         });
-        Self { size: lattice.size, counts, borders, boundary: lattice.boundary, seed }
+        Self { size: lattice.size, counts, edges, boundary: lattice.boundary, seed }
     }
 
     /// Columns and rows of the domain.
@@ -70,16 +77,16 @@ impl Blocks {
     }
 
     /// Where a column (axis 0) or row (axis 1) begins.
-    fn border(&self, axis: usize, index: i32) -> i32 {
+    fn edge(&self, axis: usize, index: i32) -> i32 {
         let (turn, index) = (index.div_euclid(self.counts[axis]), index.rem_euclid(self.counts[axis]));
-        turn * self.size[axis] + self.borders[axis][index as usize]
+        turn * self.size[axis] + self.edges[axis][index as usize]
     }
 
     /// The lattice points of a rectangle of blocks, given by its first and the end of its columns and rows.
     pub fn rect(&self, blocks: &Rect) -> Rect {
         Rect {
-            min: std::array::from_fn(|axis| self.border(axis, blocks.min[axis])),
-            max: std::array::from_fn(|axis| self.border(axis, blocks.max[axis])),
+            min: std::array::from_fn(|axis| self.edge(axis, blocks.min[axis])),
+            max: std::array::from_fn(|axis| self.edge(axis, blocks.max[axis])),
         }
     }
 
@@ -95,10 +102,10 @@ impl Blocks {
     fn index(&self, axis: usize, point: i32) -> i32 {
         let regular = i64::from(point) * i64::from(self.counts[axis]) / i64::from(self.size[axis]);
         let mut index = regular as i32;
-        while self.border(axis, index) > point {
+        while self.edge(axis, index) > point {
             index -= 1;
         }
-        while self.border(axis, index + 1) <= point {
+        while self.edge(axis, index + 1) <= point {
             index += 1;
         }
         index
@@ -108,7 +115,7 @@ impl Blocks {
     /// with its first lattice point and the one after its last.
     pub fn of_parity(&self, blocks: &Rect, axis: usize, parity: i32) -> impl Iterator<Item = (i32, [i32; 2])> {
         let indices = (blocks.min[axis]..blocks.max[axis]).filter(move |index| index & 1 == parity);
-        indices.map(move |index| (index, [self.border(axis, index), self.border(axis, index + 1)]))
+        indices.map(move |index| (index, [self.edge(axis, index), self.edge(axis, index + 1)]))
     }
 
     /// A rectangle of blocks with more columns and rows around it, as far as there are any.
@@ -134,7 +141,7 @@ impl Blocks {
 mod tests {
     use super::*;
     use crate::kdrt::bitmap::MOST_CELLS;
-    use crate::maximal::CellAxis;
+    use crate::plane::CellAxis;
     use crate::points::Domain;
 
     fn blocks(boundary: Boundary, seed: u64) -> (Lattice, Blocks) {
@@ -150,9 +157,9 @@ mod tests {
             for seed in 0..50 {
                 let (lattice, blocks) = blocks(boundary, seed);
                 for axis in 0..2 {
-                    let borders: Vec<_> = (0..=blocks.counts[axis]).map(|index| blocks.border(axis, index)).collect();
-                    assert!(borders.windows(2).all(|pair| pair[1] - pair[0] > lattice.reach));
-                    assert_eq!((borders[0], borders[borders.len() - 1]), (0, lattice.size[axis]));
+                    let edges: Vec<_> = (0..=blocks.counts[axis]).map(|index| blocks.edge(axis, index)).collect();
+                    assert!(edges.windows(2).all(|pair| pair[1] - pair[0] > lattice.separation.reach));
+                    assert_eq!((edges[0], edges[edges.len() - 1]), (0, lattice.size[axis]));
                     assert!(boundary == Boundary::Bounded || blocks.counts[axis] % 2 == 0);
                 }
             }
@@ -179,7 +186,7 @@ mod tests {
                 let lattice = Lattice::new(&Domain { min: [0.0; 2], max: [width; 2], boundary }, 1.0).unwrap();
                 let (blocks, cells) = (Blocks::new(&lattice, seed), CellAxis::new(lattice.size[0], lattice.radius));
                 for index in 0..blocks.counts[0] {
-                    let (first, end) = (blocks.border(0, index), blocks.border(0, index + 1));
+                    let (first, end) = (blocks.edge(0, index), blocks.edge(0, index + 1));
                     let touched = cells.cell(end - 1) + 1 - cells.cell(first);
                     assert!(touched <= MOST_CELLS, "{touched} cells of a plane {width} wide");
                 }
@@ -193,7 +200,7 @@ mod tests {
         for index in -3..10 {
             for axis in 0..2 {
                 let image = index + 2 * blocks.counts[axis];
-                assert_eq!(blocks.border(axis, image), blocks.border(axis, index) + 2 * lattice.size[axis]);
+                assert_eq!(blocks.edge(axis, image), blocks.edge(axis, index) + 2 * lattice.size[axis]);
             }
             let image = [index - blocks.counts[0], index + blocks.counts[1]];
             assert_eq!(blocks.rng(image).bits(), blocks.rng([index; 2]).bits());

@@ -2,15 +2,17 @@
 //!
 //! Departures: the pattern is periodic, so every offset can be clipped; it lies on the lattice of the plane and has the
 //! plane's radius, so translations are exact and nothing is scaled; a clip is turned at random as well as shifted; and it
-//! is what lies *inside* the leaf, without the thesis's margin of 2r, because the gaps along its border are filled anyway.
+//! is what lies *inside* the leaf, without the thesis's margin of 2r, because the gaps along its boundary are filled anyway.
 
 use crate::error::Result;
+use crate::geometry::counting_sort::Binned;
 use crate::job::Job;
-use crate::lattice::{Lattice, Rect};
 use crate::maximal;
+use crate::plane::lattice::Lattice;
+use crate::plane::rect::Rect;
 use crate::rng::{Draw, Rng};
 
-use super::divide::Leaf;
+use crate::kdrt::divide::Leaf;
 
 /// The pattern's side in leaf sizes and its bounds in radii, if leaves are not very large: about 28,000 samples with the
 /// leaves of the default size.
@@ -36,32 +38,16 @@ pub(super) struct Pattern {
     height: i32,
     /// The pattern as it is, mirrored, transposed, and both. Sets of real numbers have the same power at opposite
     /// frequencies, so the other four symmetries of the square would add nothing.
-    turned: [Rows; 4],
+    turned: [Binned<[i32; 2]>; 4],
 }
 
-/// The points of a pattern by rows.
-struct Rows {
-    /// Row `i` holds the points `starts[i]..starts[i + 1]`, from left to right.
-    starts: Vec<usize>,
-    points: Vec<[i32; 2]>,
-}
-
-impl Rows {
-    fn new(points: &[[i32; 2]], rows: usize, height: i32) -> Self {
-        let row = |point: &[i32; 2]| (point[1] / height) as usize;
-        let mut starts = vec![0; rows + 1];
-        points.iter().for_each(|point| starts[row(point) + 1] += 1);
-        (0..rows).for_each(|row| starts[row + 1] += starts[row]);
-        let (mut ends, mut by_row) = (starts.clone(), vec![[0; 2]; points.len()]);
-        for point in points {
-            by_row[ends[row(point)]] = *point;
-            ends[row(point)] += 1;
-        }
-        for bounds in starts.windows(2) {
-            by_row[bounds[0]..bounds[1]].sort_unstable_by_key(|&[x, y]| i64::from(x) << 32 | i64::from(y));
-        }
-        Self { starts, points: by_row }
+/// The points of a pattern by rows of this height, in each from left to right.
+fn by_rows(points: &[[i32; 2]], rows: usize, height: i32) -> Binned<[i32; 2]> {
+    let mut sorted = Binned::new(rows, points.iter().map(|&point| ((point[1] / height) as usize, point)));
+    for row in 0..rows {
+        sorted.bin_mut(row).sort_unstable_by_key(|&[x, y]| i64::from(x) << 32 | i64::from(y));
     }
+    sorted
 }
 
 /// A run of points of one row of the pattern, from left to right, where it is laid on the plane.
@@ -105,13 +91,13 @@ impl Pattern {
     /// A pattern for a plane on `plane`, with a side in lattice points.
     pub fn new(job: &Job, plane: &Lattice, side: i32, seed: u64) -> Result<Self> {
         let lattice = plane.square_torus(side);
-        Ok(Self::from_points(maximal::sample_points(job, &lattice, seed)?, side, lattice.reach))
+        Ok(Self::from_points(maximal::sample_points(job, &lattice, seed)?, side, lattice.separation.reach))
     }
 
     fn from_points(points: Vec<[i32; 2]>, side: i32, height: i32) -> Self {
         let turned = std::array::from_fn(|turn| {
             let turned: Vec<_> = points.iter().map(|&point| turned(point, side, turn)).collect();
-            Rows::new(&turned, ((side - 1) / height + 1) as usize, height)
+            by_rows(&turned, ((side - 1) / height + 1) as usize, height)
         });
         Self { side, height, turned }
     }
@@ -125,14 +111,14 @@ impl Pattern {
     /// Visits the leaf's clip in `part`, a part of its rectangle, by rows.
     pub fn rows(&self, leaf: &Leaf, part: &Rect, mut visit: impl FnMut(Row)) {
         let (offset, turn) = self.place(leaf);
-        let Rows { starts, points } = &self.turned[turn];
+        let rows = &self.turned[turn];
         let pieces: [_; 2] = std::array::from_fn(|axis| {
             let start = (part.min[axis] - leaf.rect.min[axis] + offset[axis]) % self.side;
             self.pieces(start, part.length(axis), part.min[axis])
         });
         for &(bottom, top, up) in pieces[1].iter().filter(|(bottom, top, _)| bottom < top) {
             for row in bottom / self.height..=(top - 1) / self.height {
-                let points = &points[starts[row as usize]..starts[row as usize + 1]];
+                let points = rows.bin(row as usize);
                 let (row_bottom, row_top) = (row * self.height, ((row + 1) * self.height).min(self.side));
                 let (bottom, top) = (bottom.max(row_bottom), top.min(row_top));
                 for &(left, right, along) in pieces[0].iter().filter(|(left, right, _)| left < right) {

@@ -13,17 +13,17 @@
 //! the square's side as far as there is one.) Chains end after three hops: knowing all points within 3·reach of p0 is
 //! enough.
 
-use crate::lattice::Rect;
-use crate::maximal::CellGrid;
+use crate::plane::CellGrid;
+use crate::plane::rect::Rect;
 
-use super::clip::{Pattern, Row};
-use super::divide::Leaf;
-use super::output::Output;
+use crate::kdrt::clip::{Pattern, Row};
+use crate::kdrt::divide::Leaf;
+use crate::kdrt::output::Output;
 
 /// How many radii (in lattice units: reaches) around a region decide which points survive in it.
 pub(super) const LONGEST_CHAIN: i32 = 3;
 
-/// How far inside its leaf, per axis, a point has no part in any test: gaps lie within 2 reaches of a border (see
+/// How far inside its leaf, per axis, a point has no part in any test: gaps lie within 2 reaches of a boundary (see
 /// [`SeamCells`]), in cells that may go a cell farther, and what conflicts with a point there is a reach away.
 pub(super) fn seam_depth(grid: &CellGrid, reach: i32) -> i32 {
     3 * reach + grid.widest_cell()
@@ -75,7 +75,7 @@ pub(super) fn merge(
 /// The cells of a window in which a lattice point may be uncovered after elimination.
 ///
 /// In the pattern every point is covered, by a sample at most a reach away. If that is missing from the plane, it lay
-/// outside the leaf, so the point is within a reach of the leaf's border, or it was eliminated. Both are the same for
+/// outside the leaf, so the point is within a reach of the leaf's boundary, or it was eliminated. Both are the same for
 /// all windows that know what survives around the cell, so they agree on it.
 pub(super) struct SeamCells {
     /// Words of a row of cells, each with a bit per cell, and one more.
@@ -90,7 +90,7 @@ impl SeamCells {
         let mut cells = Self { stride, seam: vec![0; stride * height as usize] };
         for leaf in leaves {
             let all = grid.cells_of(&leaf.rect);
-            // A cell that the border of the inner rectangle cuts is not inside of it.
+            // A cell that the boundary of the inner rectangle cuts is not inside of it.
             let inside = grid.cells_of(&leaf.rect.grown(-reach)).grown(-1);
             if inside.is_empty() {
                 cells.mark(&all);

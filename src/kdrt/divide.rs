@@ -4,7 +4,7 @@
 //! descends only the nodes that meet it and finds the same leaves; and a node is split across its longer side instead
 //! of in turns, so that leaves do not become slivers.
 
-use crate::lattice::Rect;
+use crate::plane::rect::Rect;
 use crate::rng::{Draw, Rng, hash};
 
 /// A leaf of the tree.
@@ -83,10 +83,10 @@ impl Tree {
         let choice = Rng::at(node.key, Draw::Split, &[]).below(choices as u64) as i32;
         #[cfg(test)]
         let choice = if self.fixed == Fixed::Splits { choices / 2 } else { choice };
-        let border = node.rect.min[axis] + self.shortest[axis] + choice;
+        let edge = node.rect.min[axis] + self.shortest[axis] + choice;
         let mut rects = [node.rect; 2];
-        rects[0].max[axis] = border;
-        rects[1].min[axis] = border;
+        rects[0].max[axis] = edge;
+        rects[1].min[axis] = edge;
         Some([0, 1].map(|half| Leaf { rect: rects[half], key: hash(node.key, Draw::Split, &[half as u64]) }))
     }
 }

@@ -4,20 +4,14 @@
 //! gaps; here a gap is filled by a flat quadtree, uniformly on what is uncovered and until nothing is. Its first level
 //! is a bitmap (`bitmap.rs`), in which nearly all gaps are found and closed.
 
-use crate::lattice::Rect;
-use crate::maximal::{CellGrid, List, Quadtree, darts};
+use crate::plane::{CellGrid, List, Quadtree, darts};
 use crate::rng::Rng;
 
-use super::bitmap::{Bitmap, Place};
-use super::conquer::SeamCells;
-use super::output::Output;
-use super::stamp::Stamps;
-
-/// A fill block: its lattice points, and the cells that hold them.
-pub(super) struct Block {
-    pub rect: Rect,
-    pub cells: Rect,
-}
+use crate::kdrt::bitmap::{Bitmap, VoxelIndex};
+use crate::kdrt::blocks::Block;
+use crate::kdrt::conquer::SeamCells;
+use crate::kdrt::output::Output;
+use crate::kdrt::stamp::Stamps;
 
 /// The filling of the blocks of a window, one after the other.
 pub(super) struct Filling<'a> {
@@ -29,7 +23,7 @@ pub(super) struct Filling<'a> {
     /// The memory of the samples around a block.
     near: List,
     /// The memory of its open voxels.
-    open: Vec<Place>,
+    open: Vec<VoxelIndex>,
 }
 
 impl<'a> Filling<'a> {

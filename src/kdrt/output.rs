@@ -1,8 +1,9 @@
 //! The samples of a window, as floats in the order in which they are found.
 
-use crate::lattice::{Lattice, Rect};
+use crate::plane::lattice::Lattice;
+use crate::plane::rect::Rect;
 
-use super::clip::Row;
+use crate::kdrt::clip::Row;
 
 /// Collects the samples that lie in a rectangle.
 pub(super) struct Output<'a> {
@@ -37,6 +38,7 @@ impl<'a> Output<'a> {
     }
 
     /// How many samples there are so far.
+    #[cfg(feature = "stages")]
     pub fn len(&self) -> usize {
         self.samples.len()
     }

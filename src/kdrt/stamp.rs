@@ -2,12 +2,12 @@
 //!
 //! A voxel is a quarter of a cell wide. Which of those around a sample lie in its disk depends only on where in its own
 //! voxel the sample lies; to a sixteenth of a voxel that is looked up in a table. The table holds what is covered for
-//! certain: it may leave voxels out that are covered, never the other way round.
+//! certain: it may leave out voxels that are covered, but never has one that is not.
 
 /// Voxels along a cell's side.
 pub(super) const PER_CELL: i32 = 4;
 
-/// Places in a voxel that the table tells apart, per axis.
+/// Positions in a voxel that the table distinguishes, per axis.
 pub(super) const PLACES: u32 = 16;
 
 /// Voxels on each side of a sample's own that its disk can cover: r is at most 6 voxels (see [`Stamps::new`]).
@@ -49,24 +49,24 @@ impl Stamps {
     /// squared radius, with all that rounding can add to it.
     fn squares(radius: f64, voxel: f64) -> Vec<Vec<f64>> {
         let places = f64::from(PLACES);
-        // Borders are rounded to the lattice; the place is found with a rounded factor.
-        let (border, rounding) = (3.0 / voxel, 0.01 / places);
+        // Edges are rounded to the lattice; the place is found with a rounded factor.
+        let (edge, rounding) = (3.0 / voxel, 0.01 / places);
         let square = |place: u32, column: i32| {
             let (first, last) = (f64::from(place) / places - rounding, f64::from(place + 1) / places + rounding);
             let column = f64::from(column);
-            let farthest = (column + 1.0 + border - first).max(last - column + border);
+            let farthest = (column + 1.0 + edge - first).max(last - column + edge);
             (farthest * voxel / radius).powi(2) * (1.0 + 1e-9)
         };
         (0..PLACES).map(|place| (-REACH..=REACH).map(|column| square(place, column)).collect()).collect()
     }
 
-    /// Where a sample lies after the border of a voxel, along an axis, in places.
+    /// Where a sample lies after the edge of a voxel, along an axis, in places.
     #[inline(always)]
     pub fn place(&self, axis: usize, after: i32) -> i32 {
         ((i64::from(after) * self.places[axis]) >> 32) as i32
     }
 
-    /// The stamp of a sample whose place counts from any voxel's border.
+    /// The stamp of a sample whose place counts from any voxel's edge.
     #[inline(always)]
     pub fn at(&self, [x, y]: [u32; 2]) -> &Stamp {
         &self.table[(y % PLACES * PLACES + x % PLACES) as usize]

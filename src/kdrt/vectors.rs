@@ -1,11 +1,13 @@
 //! The filling of a block (`fill.rs`) once more for each kind of vectors, the same to the bit: compiled for them, so that the
 //! small functions in these vectors (`maximal/vectors.rs`) become a part of it, and its loops over bits and stamps use them.
 
-use crate::maximal::{CellGrid, Vectors};
+use crate::plane::CellGrid;
 use crate::rng::Rng;
+use crate::simd::Level;
 
-use super::fill::{Block, Filling};
-use super::output::Output;
+use crate::kdrt::blocks::Block;
+use crate::kdrt::fill::Filling;
+use crate::kdrt::output::Output;
 
 impl Filling<'_> {
     /// Makes the samples of the grid maximal in `block` and gives the new ones to `output`.
@@ -14,11 +16,11 @@ impl Filling<'_> {
         match grid.vectors() {
             // SAFETY: the variants say that the processor has the vectors.
             #[cfg(target_arch = "x86_64")]
-            Vectors::Avx512 => unsafe { self.fill_avx512(grid, block, rng, output) },
+            Level::Avx512(_) => unsafe { self.fill_avx512(grid, block, rng, output) },
             // SAFETY: the same.
             #[cfg(target_arch = "x86_64")]
-            Vectors::Avx2 => unsafe { self.fill_avx2(grid, block, rng, output) },
-            Vectors::Portable => self.fill_portable(grid, block, rng, output),
+            Level::Avx2(_) => unsafe { self.fill_avx2(grid, block, rng, output) },
+            Level::Portable => self.fill_portable(grid, block, rng, output),
         }
     }
 

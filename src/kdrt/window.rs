@@ -1,24 +1,24 @@
 //! Any part of a plane without the rest: a window of it as a set, or all of it as a stream.
 //!
-//! Both are made of the windows of fill blocks that [`super::sample`] is made of (`plane.rs`), in the same order.
+//! Both are made of the windows of fill blocks that [`crate::kdrt::sample`] is made of (`plane.rs`), in the same order.
 
 use std::ops::ControlFlow;
 
 use crate::error::{Error, Result};
 use crate::job::{Context, Progress};
-use crate::lattice::{self, Lattice};
+use crate::plane::lattice::{self, Lattice};
 use crate::points::{Boundary, Domain};
 use crate::{maximal, memory};
 
-use super::plane::Plane;
-use super::{BYTES_PER_SAMPLE, Options, PATTERN_SHARE, check_leaf_size};
+use crate::kdrt::options::{Options, check_leaf_size};
+use crate::kdrt::sample::{BYTES_PER_SAMPLE, PATTERN_SHARE};
+use crate::kdrt::tiling::Tiling;
 
 /// The samples of [`sample`](super::sample) that lie in `window_min <= x < window_max`: the same floats in the same
 /// order, without making the others.
 ///
-/// So the sets of windows that cut the domain in any way hold each sample once, and nobody who makes one of them needs
-/// to know of the others. A window may be of any size, also smaller than the radius, and may have no sample. On a torus
-/// it lies in one period, as samples do.
+/// So windows that partition the domain hold each sample once, and a window is made without the others. It may be of
+/// any size, also smaller than the radius, and may have no sample. On a torus it lies in one period, as samples do.
 ///
 /// # What a window depends on
 /// Beyond its options a window depends only on its surroundings, as tiled: whether and where a sample lies is decided
@@ -49,7 +49,7 @@ pub fn sample_window(
         samples.retain(|&sample| window.contains(sample));
         samples
     };
-    if !Plane::is_worthwhile(&lattice, leaf_size) {
+    if !Tiling::is_worthwhile(&lattice, leaf_size) {
         lattice::estimate(domain.extent(), radius)?;
         return context.run(progress, |job| maximal::sample_lattice(job, &lattice, seed).map(inside));
     }
@@ -59,9 +59,9 @@ pub fn sample_window(
         return context.run(progress, |_| Ok(Vec::new()));
     }
     context.run(progress, |job| {
-        let plane = Plane::new(&job.part(0.0, PATTERN_SHARE), lattice, leaf_size, seed)?;
-        let windows = plane.windows_holding(&points);
-        job.part(PATTERN_SHARE, 1.0).concat(windows.len(), |i| inside(plane.window(&windows[i])))
+        let tiling = Tiling::new(&job.part(0.0, PATTERN_SHARE), lattice, leaf_size, seed)?;
+        let windows = tiling.windows_holding(&points);
+        job.part(PATTERN_SHARE, 1.0).concat(windows.len(), |i| inside(tiling.window(&windows[i])))
     })
 }
 
@@ -90,18 +90,18 @@ pub fn sample_stream(
     let mut visit = |samples: Vec<[f32; 2]>| {
         if samples.is_empty() || visit(&samples).is_continue() { Ok(()) } else { Err(Error::Cancelled) }
     };
-    if !Plane::is_worthwhile(&lattice, leaf_size) {
+    if !Tiling::is_worthwhile(&lattice, leaf_size) {
         lattice::estimate(domain.extent(), radius)?;
         return context.run(progress, |job| visit(maximal::sample_lattice(job, &lattice, seed)?));
     }
     context.run(progress, |job| {
-        let plane = Plane::new(&job.part(0.0, PATTERN_SHARE), lattice, leaf_size, seed)?;
-        let windows = plane.windows();
-        job.part(PATTERN_SHARE, 1.0).stream(windows.len(), |i| plane.window(&windows[i]), visit)
+        let tiling = Tiling::new(&job.part(0.0, PATTERN_SHARE), lattice, leaf_size, seed)?;
+        let windows = tiling.windows();
+        job.part(PATTERN_SHARE, 1.0).stream(windows.len(), |i| tiling.window(&windows[i]), visit)
     })
 }
 
-/// The part of a domain between two corners; in itself it has a border.
+/// The part of a domain between two corners; it is bounded.
 fn part(domain: &Domain, min: [f64; 2], max: [f64; 2]) -> Result<Domain> {
     domain.check()?;
     for axis in 0..2 {

@@ -2,8 +2,8 @@
 
 use glam::DVec3;
 
-use super::{Mesh, check_finite, check_indices, exact};
 use crate::error::{Error, Result};
+use crate::mesh::{Mesh, check_finite, check_indices, exact};
 
 /// Interpolated normals shorter than this share of the longest normal have no direction: it would be that of roundings.
 const SHORTEST: f64 = 1e-6;

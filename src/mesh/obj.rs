@@ -10,8 +10,8 @@ use std::borrow::Cow;
 
 use tobj::LoadError::{FaceVertexOutOfBounds, InvalidPolygon};
 
-use super::Soup;
-use super::text::{lines, number, words};
+use crate::mesh::Soup;
+use crate::mesh::text::{lines, number, words};
 
 /// What of a file is shown as vertices and faces.
 struct View {

@@ -11,8 +11,8 @@ use ply_rs_bw::ply::{
     ScalarType,
 };
 
-use super::Soup;
-use super::text::{number, shown, words};
+use crate::mesh::Soup;
+use crate::mesh::text::{number, shown, words};
 
 /// Vertices, triangles and normals, or what is wrong with the file.
 pub(super) fn parse(bytes: &[u8]) -> Result<Soup, String> {

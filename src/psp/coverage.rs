@@ -10,12 +10,12 @@
 
 use glam::{DVec2, DVec3, Vec3};
 
-use crate::maximal::Vectors;
 use crate::mesh::{Mesh, exact};
 use crate::psp::cover::SIXTEENTHS;
 use crate::psp::near::{FAR, LANES, Local, Near, Places, SLACK};
 use crate::psp::room::Room;
 use crate::psp::vectors;
+use crate::simd::Level;
 
 /// A part of a triangle.
 #[derive(Clone, Copy)]
@@ -141,7 +141,7 @@ const REACH: f32 = 2.5;
 pub(super) struct Coverage<'a> {
     mesh: &'a Mesh,
     room: &'a mut Room,
-    vectors: Vectors,
+    vectors: Level,
     /// Patches with some sixteenths covered are cut up until these are no longer than this ...
     fine: f64,
     /// ... or the patch is no longer than this.
@@ -160,7 +160,7 @@ pub(super) struct Coverage<'a> {
 
 impl<'a> Coverage<'a> {
     pub fn new(mesh: &'a Mesh, room: &'a mut Room, fine: f64, finest: f64) -> Self {
-        let (vectors, near) = (Vectors::widest(), Near::new());
+        let (vectors, near) = (Level::widest(), Near::new());
         let (centre, reach) = ([0.0; 3], f32::NEG_INFINITY);
         Self { mesh, room, vectors, fine, finest, added: Vec::new(), count: 0, centre, reach, seen: 0, near }
     }

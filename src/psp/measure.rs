@@ -7,7 +7,7 @@ use crate::error::Result;
 use crate::job::Context;
 use crate::mesh::{Mesh, exact};
 use crate::points::SurfaceSamples;
-use crate::psp::pattern::Pattern;
+use crate::psp::project::pattern::Pattern;
 use crate::psp::{Options, Psp, Stopwatch};
 
 /// What the stages of a maximal set by one iteration did and took.
@@ -67,10 +67,10 @@ mod tests {
     fn the_stages_make_the_set_that_sampling_makes() {
         let corners = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.2], [0.0, 1.0, 0.4], [1.0, 1.0, 1.0]];
         let mesh = Arc::new(Mesh::new(corners.into(), vec![[0, 1, 2], [3, 2, 1]]).unwrap());
-        let options = Options { iterations: 1, seed: 4, ..Options::new(0.03) };
+        let options = Options::new(0.03).iterations(1).seed(4);
         let context = Context::new(2).unwrap();
         let (samples, stages) = measure(&context, &mesh, &options).unwrap();
-        let (expected, report) = super::super::sample(&context, &mesh, &options, None).unwrap();
+        let (expected, report) = crate::psp::sample(&context, &mesh, &options, None).unwrap();
         assert_eq!(samples, expected);
         assert_eq!((stages.samples, stages.rays), (report.samples, report.rays));
         assert!(0 < stages.found && stages.found < stages.samples);

@@ -20,6 +20,7 @@ use crate::error::{Error, Result};
 use crate::job::{Context, Job, Progress};
 use crate::mesh::{Mesh, exact};
 use crate::points::{SurfaceSamples, check_radius};
+use crate::setters::setters;
 
 pub mod adaptive;
 mod blocks;
@@ -29,11 +30,8 @@ mod fill;
 mod measure;
 mod merge;
 mod near;
-mod pattern;
 mod pieces;
-mod projector;
-mod raster;
-mod rays;
+mod project;
 mod room;
 mod samples;
 #[allow(unsafe_code)] // Vector instructions.
@@ -42,7 +40,7 @@ mod vectors;
 pub use fill::TOLERANCE;
 #[doc(hidden)]
 pub use measure::{Stages, measure};
-use projector::{Collector, Projection, Projector};
+use project::projector::{Collector, Projection, Projector};
 use samples::SampleSet;
 
 /// The number of iterations after which a maximal set is finished soonest: what the projectors do not find is filled.
@@ -66,7 +64,7 @@ const RAYS_ALWAYS: f64 = 1e7;
 
 /// Which of an iteration's candidates comes first where two of them are too close. Existing samples come before all.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Order {
+pub enum Priority {
     /// That which its projector faces more squarely: there the pattern is stretched less. Finds more samples.
     #[default]
     Squareness,
@@ -89,6 +87,7 @@ pub enum Engine {
 
 /// What to sample.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Options {
     /// The smallest distance of two samples, in the units of the mesh; positive and finite.
     pub radius: f64,
@@ -99,7 +98,7 @@ pub struct Options {
     /// Selects one of 2^64 sets.
     pub seed: u64,
     /// Which candidates come first.
-    pub order: Order,
+    pub priority: Priority,
     /// What finds the hits.
     pub engine: Engine,
 }
@@ -112,14 +111,17 @@ impl Options {
             iterations: DEFAULT_ITERATIONS,
             maximal: true,
             seed: 0,
-            order: Order::default(),
+            priority: Priority::default(),
             engine: Engine::default(),
         }
     }
 }
 
+setters!(Options { radius: f64, iterations: u32, maximal: bool, seed: u64, priority: Priority, engine: Engine });
+
 /// What a call did.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[non_exhaustive]
 pub struct Report {
     /// Samples there are after the call.
     pub samples: u64,
@@ -272,10 +274,10 @@ impl Psp {
                 none => none.insert(Projection::new(&job.part(0.0, prepared), &self.mesh, &self.options)?),
             };
             report.prepare_seconds += stage.lap();
-            let Options { seed, order, .. } = self.options;
-            let frame = projector::frame(seed, self.iterations, self.frame);
+            let Options { seed, priority, .. } = self.options;
+            let frame = project::projector::frame(seed, self.iterations, self.frame);
             let projectors = &Projector::all(frame, seed, self.iterations);
-            let collector = Collector { mesh: &self.mesh, samples: &self.samples, order, projectors };
+            let collector = Collector { mesh: &self.mesh, samples: &self.samples, priority, projectors };
             let (candidates, projected) = projection.project(&job.part(prepared, 0.7), projectors, &collector)?;
             report.project_seconds += stage.lap();
             let accepted = merge::merge(&job.part(0.7, 1.0), &mut self.samples, &candidates)?;

@@ -65,7 +65,7 @@ pub(super) struct Near {
     pub len: usize,
 }
 
-/// Vectors are no wider.
+/// Level are no wider.
 const SPARE: usize = 16;
 
 impl Near {
@@ -165,9 +165,9 @@ fn square([x, y, z]: [f32; 3]) -> f32 {
 mod tests {
     use super::*;
 
-    use crate::maximal::Vectors;
     use crate::psp::vectors;
     use crate::rng::{Draw, Rng};
+    use crate::simd::Level;
 
     fn points(near: &Near) -> Vec<[f32; 3]> {
         (0..near.len).map(|index| near.point(index)).collect()
@@ -189,7 +189,7 @@ mod tests {
             let centre: [f32; 3] = std::array::from_fn(|_| coordinate(0.5));
             let mut vector = || Vec3A::from_array(std::array::from_fn(|_| coordinate([1.0, 0.3, 1e-3][round % 3])));
             let fragment = Local { corner: vector(), edges: [vector(), vector()], extent: 0.5 };
-            let all = |vectors: Vectors| {
+            let all = |vectors: Level| {
                 let mut near = Near::new();
                 near.reserve(80);
                 pages.iter().for_each(|page| vectors::append(vectors, &mut near, page, centre, 3.0));
@@ -200,8 +200,8 @@ mod tests {
                 vectors::take_covered(vectors, &near, end / 2, &fragment, &mut open);
                 (points(&near), end, covered, open, vectors::close(vectors, &pages[0], centre))
             };
-            let expected = all(Vectors::Portable);
-            assert!(Vectors::available().into_iter().all(|vectors| all(vectors) == expected));
+            let expected = all(Level::Portable);
+            assert!(Level::available().into_iter().all(|vectors| all(vectors) == expected));
             reaching += expected.0.len() - expected.1;
             covered += expected.2.count_ones();
             open += expected.3.iter().map(|open| open.count_ones()).sum::<u32>();

@@ -2,12 +2,12 @@
 
 use glam::{DVec3, Vec3A};
 
-use crate::grid3::distance_squared;
-use crate::maximal::Vectors;
+use crate::geometry::grid3::distance_squared;
 use crate::mesh::exact;
 use crate::psp::blocks::{Block, SIDE};
 use crate::psp::near::{FAR, LANES, Near, Places};
 use crate::psp::vectors;
+use crate::simd::Level;
 
 /// How far a room reaches beyond its block, in radii. A block looks at what is near to fragments whose centre is in it:
 /// within a radius and the extent of the fragment, at most 8/3.
@@ -31,7 +31,7 @@ pub(super) struct Room {
     per_radius: f64,
     /// The lower and upper corner, and a rounding more.
     bounds: [Vec3A; 2],
-    vectors: Vectors,
+    vectors: Level,
     /// The first page of each cell.
     heads: Vec<u16>,
     pages: Vec<Page>,
@@ -59,7 +59,7 @@ impl Room {
             centre,
             bounds: [(centre - half).as_vec3a(), (centre + half).as_vec3a()],
             per_radius: 1.0 / radius,
-            vectors: Vectors::widest(),
+            vectors: Level::widest(),
             heads: vec![NONE; CELLS * CELLS * CELLS],
             pages: Vec::new(),
             points: Vec::new(),

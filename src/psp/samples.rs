@@ -4,7 +4,7 @@ use std::collections::HashMap;
 use std::ops::{AddAssign, Range};
 
 use crate::error::Result;
-use crate::grid3::distance_squared;
+use crate::geometry::grid3::distance_squared;
 use crate::job::Job;
 use crate::mesh::Mesh;
 use crate::points::SurfaceSamples;

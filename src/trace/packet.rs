@@ -6,11 +6,11 @@ use std::{ptr, slice};
 
 use embree4_sys::*;
 
-use super::build::Built;
-use super::settle::settle;
+use crate::trace::build::Built;
+use crate::trace::settle::settle;
 #[cfg(target_arch = "x86_64")]
-use super::wide;
-use super::{Hit, LARGEST_COORDINATE, Ray};
+use crate::trace::wide;
+use crate::trace::{Hit, LARGEST_COORDINATE, Ray};
 
 /// The widest packet.
 const MAX_WIDTH: usize = 16;

@@ -3,8 +3,8 @@
 use std::arch::x86_64::*;
 use std::ffi::c_int;
 
-use super::Hit;
-use super::packet::field;
+use crate::trace::Hit;
+use crate::trace::packet::field;
 
 const WIDTH: usize = 16;
 

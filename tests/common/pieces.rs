@@ -13,10 +13,10 @@ pub struct Part {
     pub rectangle: Domain,
 }
 
-/// A maximal set of a rectangle with a border.
+/// A maximal set of a rectangle with a boundary.
 pub fn part(min: [f64; 2], max: [f64; 2], radius: f64, seed: u64) -> Part {
     let rectangle = domain(min, max, Boundary::Bounded);
-    let options = Options { radius, domain: rectangle, leaf_size: 6.0, seed };
+    let options = Options::new(radius).domain(rectangle).leaf_size(6.0).seed(seed);
     let samples = kdrt::sample(&Context::new(1).unwrap(), &options, None).unwrap();
     check(&rectangle, radius, &samples);
     Part { samples, rectangle }

@@ -47,12 +47,12 @@ fn domain() -> Domain {
 }
 
 fn plane(context: &Context, radius: f64) -> Run {
-    let options = kdrt::Options { radius, domain: domain(), leaf_size: 20.0, seed: 1 };
+    let options = kdrt::Options::new(radius).domain(domain()).seed(1);
     flat(timed(|| kdrt::sample(context, &options, None).expect("a plane")))
 }
 
 fn reference(radius: f64) -> Run {
-    let options = maximal::Options { radius, domain: domain(), seed: 1 };
+    let options = maximal::Options::new(radius).domain(domain()).seed(1);
     let context = Context::new(1).expect("one thread");
     flat(timed(|| maximal::sample(&context, &options, None).expect("a plane")))
 }
@@ -69,7 +69,7 @@ fn relaxed(count: usize) -> Run {
 
 fn surface(context: &Context, mesh: &Path, radius: f64) -> Result<Run, Box<dyn Error>> {
     let mesh = Arc::new(Mesh::load(mesh)?);
-    let options = psp::Options { seed: 1, ..psp::Options::new(radius) };
+    let options = psp::Options::new(radius).seed(1);
     let (sampled, cost) = timed(|| psp::sample(context, &mesh, &options, None));
     Ok(flat((sampled?.0.positions, cost)))
 }

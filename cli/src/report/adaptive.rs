@@ -155,7 +155,7 @@ impl Ramp {
         let (mesh, radii) = sheet(&darkness, columns, LIGHTEST, black * darkness.iter().sum::<f64>())?;
         let (mut sets, mut found) = (Vec::new(), [0.0; BANDS]);
         for seed in 0..effort.sets {
-            let options = Options { seed, ..Options::new(Radius::PerVertex(&radii)) };
+            let options = Options::new(Radius::PerVertex(&radii)).seed(seed);
             let (mut set, _) = adaptive::sample(context, &mesh, &options, None)?;
             let on_ramp = |[x, y, _]: [f32; 3]| [x, y].map(|x| f64::from(x) - MARGIN as f64);
             for [x, y] in set.samples.positions.iter().map(|&position| on_ramp(position)) {

@@ -2,7 +2,7 @@
 
 use azulejo::Result;
 use azulejo::analysis::spectrum::{Annulus, Periodogram};
-use azulejo::kdrt::Stages;
+use azulejo::kdrt::stages::Stages;
 
 use super::statistics::Statistics;
 use super::times::Times;

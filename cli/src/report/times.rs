@@ -2,7 +2,8 @@
 
 use std::time::Instant;
 
-use azulejo::kdrt::{self, Stages};
+use azulejo::kdrt;
+use azulejo::kdrt::stages::Stages;
 use azulejo::{Boundary, Context, Domain, Progress, Result};
 
 use super::kdrt::{Effort, LEAF_SIZES, Sampler, radius};
@@ -36,12 +37,12 @@ impl Times {
             let one_thread = counts.iter().map(|&count| least_time(&one, sampler, count)).collect::<Result<_>>()?;
             let rate = |context: &Context| least_time(context, sampler, effort.timed).map(|[samples, s]| samples / s);
             let domain = Domain::unit(Boundary::Periodic);
-            let options = kdrt::Options { radius: radius(effort.timed), domain, leaf_size, seed: 1 };
+            let options = kdrt::Options::new(radius(effort.timed)).domain(domain).leaf_size(leaf_size).seed(1);
             leaves.push(LeafTimes {
                 leaf_size,
                 one_thread,
                 rates: [rate(&one)?, rate(context)?],
-                stages: kdrt::measure(&options)?,
+                stages: kdrt::stages::measure(&options)?,
             });
             _ = progress((i + 1) as f64 / LEAF_SIZES.len() as f64);
         }

@@ -13,7 +13,7 @@ const LIGHTEST: f64 = 1.0 / 255.0;
 
 /// Dots at random.
 pub fn random(context: &Context, darkness: &Darkness, count: usize, seed: u64) -> Result<Vec<[f32; 2]>> {
-    dcr::scatter(context, &darkness.domain(), &darkness.density(), count, seed)
+    dcr::scatter(context, &darkness.domain(), &darkness.density(), count, seed, None)
 }
 
 /// Dots that have been relaxed.
@@ -24,7 +24,7 @@ pub fn relaxed(
     max_iterations: u32,
     progress: &Progress,
 ) -> Result<(Vec<[f32; 2]>, Report)> {
-    let options = Options { max_iterations, ..Options::new(darkness.domain(), Neighbourhood::Delaunay) };
+    let options = Options::new(darkness.domain(), Neighbourhood::Delaunay).max_iterations(max_iterations);
     dcr::relax_with_density(context, &options, &darkness.density(), dots, Some(progress))
 }
 
@@ -44,7 +44,7 @@ pub fn poisson(
     };
     let corners = (0..=height).flat_map(|row| (0..=width).map(move |column| corner(column, row)));
     let (mesh, radii) = sheet(&corners.collect::<Vec<_>>(), width + 1, LIGHTEST, count as f64)?;
-    let options = adaptive::Options { seed, ..adaptive::Options::new(Radius::PerVertex(&radii)) };
+    let options = adaptive::Options::new(Radius::PerVertex(&radii)).seed(seed);
     let (set, _) = adaptive::sample(context, &mesh, &options, Some(progress))?;
     // The far borders belong to the mesh, but not to the domain.
     let inside = |x: f32, length: usize| x.min(length as f32 * (1.0 - f32::EPSILON));

@@ -93,7 +93,7 @@ static inline void azulejo_rtcInitIntersectArguments(struct RTCIntersectArgument
   rtcInitIntersectArguments(arguments);
 }
 
-/* The sizes of the structs that cross the border, as the C compiler sees them. */
+/* The sizes of the structs that cross the FFI boundary, as the C compiler sees them. */
 struct AzulejoSizes {
   size_t ray_hit, ray_hit4, ray_hit8, ray_hit16, hit, ray_query_context, intersect_arguments;
 };

@@ -6,15 +6,15 @@
 //! nearest to its two points half-way between them, where it crosses their connection, or else at an end.
 //!
 //! In a bounded domain the mirror images of the points are never nearer than the points, so that the diagram of all of
-//! them, which the border divides, is the one inside.
+//! them, which the boundary divides, is the one inside.
 
 use glam::DVec2;
 
-use super::groups::Groups;
-use crate::dcr::delaunay::{Delaunay, Dual};
-use crate::dcr::frame::Frame;
+use crate::analysis::coverage::disjoint_sets::DisjointSets;
 use crate::error::Result;
-use crate::grid2::Grid2;
+use crate::geometry::delaunay::{Delaunay, Dual};
+use crate::geometry::frame::Frame;
+use crate::geometry::grid2::Grid2;
 use crate::job::{Job, chunks, chunks_of};
 use crate::points::Domain;
 
@@ -36,7 +36,7 @@ pub(super) fn count(job: &Job, domain: &Domain, points: &[[f32; 2]], radius: f64
         duals.filter_map(|dual| Edge::uncovered(&frame, &dual, radius)).collect()
     })?;
     let vertices: Vec<_> = edges.iter().flat_map(|edge| edge.vertices).flatten().collect();
-    let mut gaps = Groups::new(vertices.len());
+    let mut gaps = DisjointSets::new(vertices.len());
     let mut first = 0;
     for Edge { vertices, is_open } in &edges {
         if *is_open {
@@ -49,7 +49,7 @@ pub(super) fn count(job: &Job, domain: &Domain, points: &[[f32; 2]], radius: f64
 }
 
 /// Links vertices that are one.
-fn link_same(job: &Job, frame: &Frame, vertices: &[[f64; 2]], gaps: &mut Groups) -> Result<()> {
+fn link_same(job: &Job, frame: &Frame, vertices: &[[f64; 2]], gaps: &mut DisjointSets) -> Result<()> {
     let torus = Domain { min: [0.0; 2], max: frame.size().to_array(), boundary: frame.boundary() };
     job.report(0.0)?;
     let grid = Grid2::new(torus, vertices.iter().copied(), 1.0);

@@ -2,9 +2,9 @@
 
 use glam::DVec3;
 
-use super::tree::Tree;
+use crate::analysis::coverage::tree::PointTree;
 use crate::error::Result;
-use crate::grid2::Grid2;
+use crate::geometry::grid2::Grid2;
 use crate::job::Job;
 use crate::points::{Boundary, Domain};
 
@@ -17,7 +17,7 @@ pub(super) struct Nearest {
     domain: Domain,
     spacing: f64,
     grid: Grid2,
-    tree: Tree,
+    tree: PointTree,
 }
 
 impl Nearest {
@@ -25,11 +25,11 @@ impl Nearest {
     pub fn new(job: &Job, domain: &Domain, points: &[[f32; 2]]) -> Result<Self> {
         let spacing = (domain.area() / points.len() as f64).sqrt();
         let grid = Grid2::new(*domain, points.iter().map(|point| point.map(f64::from)), spacing);
-        let tree = Tree::of(job, &points.iter().map(|&[x, y]| [x, y, 0.0]).collect::<Vec<_>>())?;
+        let tree = PointTree::of(job, &points.iter().map(|&[x, y]| [x, y, 0.0]).collect::<Vec<_>>())?;
         Ok(Self { domain: *domain, spacing, grid, tree })
     }
 
-    /// The way from a place of the domain to the nearest point.
+    /// The offset from a place of the domain to the nearest point.
     pub fn offset(&self, place: [f64; 2]) -> [f64; 2] {
         let mut reach = self.spacing;
         while reach <= NEAR * self.spacing {
@@ -50,11 +50,11 @@ impl Nearest {
         };
         let [width, height] = self.domain.extent();
         let images = turns.iter().flat_map(|x| turns.iter().map(move |y| [x * width, y * height]));
-        let ways = images.filter_map(|turn| {
+        let offsets = images.filter_map(|turn| {
             let image = DVec3::new(place[0] + turn[0], place[1] + turn[1], 0.0);
             Some(self.tree.nearest_point(image)? - image)
         });
-        let nearest = ways.min_by(|a, b| a.length_squared().total_cmp(&b.length_squared()));
+        let nearest = offsets.min_by(|a, b| a.length_squared().total_cmp(&b.length_squared()));
         nearest.expect("there is a point").truncate().to_array()
     }
 }

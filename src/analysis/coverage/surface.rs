@@ -5,11 +5,11 @@ use std::collections::HashMap;
 
 use glam::DVec3;
 
-use super::groups::Groups;
-use super::tree::Tree;
-use super::{Coverage, PRECISION};
+use crate::analysis::coverage::disjoint_sets::DisjointSets;
+use crate::analysis::coverage::tree::PointTree;
+use crate::analysis::coverage::{Coverage, PRECISION};
 use crate::error::{Error, Result};
-use crate::grid3::distance_squared;
+use crate::geometry::grid3::distance_squared;
 use crate::job::{Context, Job, Progress, chunks_of};
 use crate::mesh::Mesh;
 use crate::points::check_radius;
@@ -48,8 +48,8 @@ pub fn surface_covering_radius(
 ) -> Result<f64> {
     crate::analysis::check_positions(positions)?;
     context.run(progress, |job| {
-        let tree = Tree::of(&job.part(0.0, 0.1), positions)?;
-        farthest(&job.part(0.1, 1.0), &tree, &Fragment::of(mesh))
+        let tree = PointTree::of(&job.part(0.0, 0.1), positions)?;
+        farthest(&job.part(0.1, 1.0), &tree, &TrianglePart::of(mesh))
     })
 }
 
@@ -57,7 +57,7 @@ pub fn surface_covering_radius(
 ///
 /// A *gap* here is a group of uncovered places in which each is within half of the radius of another one, so that hardly
 /// more than a sample is missing in a small one: a connected part of what is uncovered, or several that are so near to
-/// each other. Surfaces may touch and cross, so that places in space tell more than triangles that share an edge. Each gap
+/// each other. Surfaces may touch and cross, so that distances in space decide, not shared edges. Each gap
 /// deeper than a millionth of the radius is found, however narrow.
 ///
 /// Takes what [`surface_covering_radius`] takes, and about 100 fragments for each square of the radius that is uncovered.
@@ -75,8 +75,8 @@ pub fn surface_coverage(
     check_radius(radius)?;
     crate::analysis::check_positions(positions)?;
     context.run(progress, |job| {
-        let tree = Tree::of(&job.part(0.0, 0.1), positions)?;
-        let fragments = Fragment::of(mesh);
+        let tree = PointTree::of(&job.part(0.0, 0.1), positions)?;
+        let fragments = TrianglePart::of(mesh);
         let farthest = farthest(&job.part(0.1, 0.6), &tree, &fragments)?;
         if farthest <= radius {
             return Ok(Coverage { farthest, gaps: 0 });
@@ -88,7 +88,7 @@ pub fn surface_coverage(
 }
 
 /// A place of each uncovered part of the fragments that is small enough to be of one gap.
-fn gather(job: &Job, tree: &Tree, fragments: &[Fragment], radius: f64) -> Result<Vec<[f32; 3]>> {
+fn gather(job: &Job, tree: &PointTree, fragments: &[TrianglePart], radius: f64) -> Result<Vec<[f32; 3]>> {
     let tasks = chunks_of(fragments.len(), GATHERED);
     let mut uncovered = Vec::new();
     let task = |task: usize| {
@@ -120,7 +120,7 @@ fn count(job: &Job, places: &[[f32; 3]], reach: f64) -> Result<usize> {
     // Whole numbers, of which 0 has one form.
     let cell = |place: [f32; 3]| place.map(|x| (f64::from(x) / side).floor() + 0.0);
     let key = |cell: [f64; 3]| cell.map(f64::to_bits);
-    let mut groups = Groups::new(places.len());
+    let mut groups = DisjointSets::new(places.len());
     let mut cells: HashMap<[u64; 3], Vec<u32>> = HashMap::new();
     for (id, &place) in (0..).zip(places) {
         if id % PLACES == 0 {
@@ -150,9 +150,9 @@ fn count(job: &Job, places: &[[f32; 3]], reach: f64) -> Result<usize> {
 }
 
 /// The largest distance of a place of the fragments; infinite without samples.
-fn farthest(job: &Job, tree: &Tree, fragments: &[Fragment]) -> Result<f64> {
+fn farthest(job: &Job, tree: &PointTree, fragments: &[TrianglePart]) -> Result<f64> {
     let tasks = chunks_of(fragments.len(), TASK);
-    let farther = |known: f64, fragment: &Fragment| tree.nearest_beyond(fragment.centre, known).unwrap_or(known);
+    let farther = |known: f64, fragment: &TrianglePart| tree.nearest_beyond(fragment.centre, known).unwrap_or(known);
     let known = job.part(0.0, 0.2).map(tasks.len(), |task| fragments[tasks.range(task)].iter().fold(0.0, farther))?;
     let known = known.into_iter().fold(0.0, f64::max);
     if known == f64::INFINITY {
@@ -171,7 +171,7 @@ fn farthest(job: &Job, tree: &Tree, fragments: &[Fragment]) -> Result<f64> {
                 }
             }
             let could_exceed =
-                |fragment: &Fragment, distance: f64| distance + fragment.reach > farthest * (1.0 + PRECISION);
+                |fragment: &TrianglePart, distance: f64| distance + fragment.reach > farthest * (1.0 + PRECISION);
             open.retain(|&(fragment, distance)| could_exceed(fragment, distance));
             fragments = open.into_iter().flat_map(|(fragment, _)| fragment.halves()).collect();
         }
@@ -182,14 +182,14 @@ fn farthest(job: &Job, tree: &Tree, fragments: &[Fragment]) -> Result<f64> {
 
 /// A part of a triangle.
 #[derive(Clone, Copy)]
-struct Fragment {
+struct TrianglePart {
     corners: [DVec3; 3],
     centre: DVec3,
     /// The distance of the farthest corner from the centre.
     reach: f64,
 }
 
-impl Fragment {
+impl TrianglePart {
     /// The triangles that have an area and that the mask does not leave out, the large ones cut.
     fn of(mesh: &Mesh) -> Vec<Self> {
         let triangles = mesh.sampled_triangles().filter(|&triangle| mesh.triangle_area(triangle) > 0.0);
@@ -229,7 +229,7 @@ impl Fragment {
     }
 
     /// Puts down a place of each uncovered part of it that is small enough to be of one gap.
-    fn gather(&self, tree: &Tree, radius: f64, uncovered: &mut Vec<[f32; 3]>) -> Result<()> {
+    fn gather(&self, tree: &PointTree, radius: f64, uncovered: &mut Vec<[f32; 3]>) -> Result<()> {
         check_count(uncovered.len())?;
         let Some(distance) = tree.nearest_beyond(self.centre, radius * (1.0 + DEPTH) - self.reach) else {
             return Ok(());
@@ -264,7 +264,7 @@ impl Fragment {
     }
 
     /// A place of it that is farther from the samples than `radius`.
-    fn uncovered(&self, tree: &Tree, radius: f64) -> Option<DVec3> {
+    fn uncovered(&self, tree: &PointTree, radius: f64) -> Option<DVec3> {
         let distance = tree.nearest(self.centre);
         if distance > radius {
             Some(self.centre)

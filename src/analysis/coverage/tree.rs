@@ -8,7 +8,7 @@ use crate::job::Job;
 use crate::mesh::exact;
 
 /// Points in a binary tree without pointers: the middle one of a range divides the others along an axis.
-pub(super) struct Tree {
+pub(super) struct PointTree {
     points: Vec<DVec3>,
     /// The axis along which the middle of a range divides it.
     axes: Vec<u8>,
@@ -22,7 +22,7 @@ const LEAF: usize = 8;
 /// Ranges of no more points are divided further by one task.
 const TASK: usize = 1 << 13;
 
-impl Tree {
+impl PointTree {
     /// The tree of positions as they are given by callers.
     pub fn of(job: &Job, positions: &[[f32; 3]]) -> Result<Self> {
         Self::new(job, positions.iter().map(|&position| exact(position)).collect())
@@ -125,7 +125,7 @@ impl<'a> Range<'a> {
 
 /// Looks at what may be nearer in a range. `away` is how far along each axis the place is
 /// from the part of space that the range fills (Arya and Mount 1993, "Algorithms for fast vector quantization"): from far
-/// away no axis alone tells that a part is too far.
+/// away no single axis shows that a part is too far.
 fn search(points: &[DVec3], axes: &[u8], place: DVec3, away: DVec3, nearest: &mut Found) {
     if points.len() <= LEAF {
         points.iter().for_each(|&point| nearest.look_at(point, place));
@@ -159,7 +159,7 @@ mod tests {
             let mut rng = Rng::at(1, Draw::Probe, &[case as u64]);
             let mut place = || DVec3::from_array(std::array::from_fn(|axis| rng.unit() * f64::from(axis >= flat)));
             let points: Vec<_> = (0..count).map(|_| place()).collect();
-            let tree = context.run(None, |job| Tree::new(job, points.clone())).unwrap();
+            let tree = context.run(None, |job| PointTree::new(job, points.clone())).unwrap();
             for probe in (0..100).map(|_| 3.0 * place() - 1.0) {
                 let expected = points.iter().map(|point| point.distance(probe)).fold(f64::INFINITY, f64::min);
                 assert!(tree.nearest(probe) == expected || (tree.nearest(probe) - expected).abs() < 1e-15);

@@ -7,12 +7,12 @@ use glam::DVec3;
 use crate::error::Result;
 use crate::job::{Job, chunks_of};
 
-/// Cells are no narrower than this share of the box of all points, so that their numbers stay small.
+/// PairGrid are no narrower than this share of the box of all points, so that their numbers stay small.
 const NARROWEST: f64 = 1.0 / (1 << 20) as f64;
 /// The bits of a cell's number along an axis.
 const BITS: u32 = 21;
 
-/// Cells whose work is estimated by one task.
+/// PairGrid whose work is estimated by one task.
 const ESTIMATED: usize = 1 << 10;
 /// A task tests about so many pairs: it takes some hundredths of a second, however the points are spread.
 const TESTS: usize = 1 << 22;
@@ -27,7 +27,7 @@ pub(super) fn side(sets: [&[DVec3]; 2], reach: f64) -> f64 {
 }
 
 /// Points sorted into cubes.
-pub(super) struct Cells {
+pub(super) struct PairGrid {
     origin: DVec3,
     side: f64,
     /// The points with their numbers, those of a cell together.
@@ -39,7 +39,7 @@ pub(super) struct Cells {
 /// Points that follow each other and are in one cell.
 pub(super) type Run = Range<usize>;
 
-impl Cells {
+impl PairGrid {
     pub fn new(points: &[DVec3], side: f64) -> Self {
         let origin = points.iter().copied().reduce(DVec3::min).unwrap_or_default();
         let mut order: Vec<_> =
@@ -145,7 +145,7 @@ mod tests {
             let (firsts, others): (Vec<_>, Vec<_>) = (0..300).map(|_| (point(), point())).unzip();
             let is_near = |a: DVec3, b: DVec3| a.distance(b) <= reach;
             let side = side([&firsts, &others], reach);
-            let (from, to) = (Cells::new(&firsts, side), Cells::new(&others, side));
+            let (from, to) = (PairGrid::new(&firsts, side), PairGrid::new(&others, side));
             let tasks = Context::new(2).unwrap().run(None, |job| from.tasks(job, &to, reach)).unwrap();
             let mut found = Vec::new();
             for run in tasks.concat() {
@@ -159,7 +159,7 @@ mod tests {
             let expected: Vec<_> = all.filter(|&(i, j)| is_near(firsts[i as usize], others[j as usize])).collect();
             assert!(found == expected && !expected.is_empty(), "{reach}: {} of {}", found.len(), expected.len());
         }
-        let none = Cells::new(&[], 1.0);
+        let none = PairGrid::new(&[], 1.0);
         assert!(Context::new(1).unwrap().run(None, |job| none.tasks(job, &none, 1.0)).unwrap().is_empty());
     }
 
@@ -167,7 +167,7 @@ mod tests {
     #[test]
     fn tasks_test_about_as_many_pairs_however_points_are_spread() {
         let points = vec![DVec3::ONE; 10_000];
-        let cells = Cells::new(&points, 1.0);
+        let cells = PairGrid::new(&points, 1.0);
         let tasks = Context::new(1).unwrap().run(None, |job| cells.tasks(job, &cells, 1.0)).unwrap();
         assert_eq!(tasks.len(), points.len().div_ceil(TESTS / points.len()));
         assert!(tasks.concat().into_iter().flatten().eq(0..points.len()));
@@ -179,7 +179,7 @@ mod tests {
     fn a_set_that_is_spread_wide_meets_few_cubes_of_one_that_is_not() {
         let (wide, narrow) = ([DVec3::ZERO, DVec3::new(1.0, 1e13, 0.0)], [DVec3::ZERO, DVec3::ONE]);
         let side = side([&wide, &narrow], 1.0);
-        let (from, to) = (Cells::new(&wide, side), Cells::new(&narrow, side));
+        let (from, to) = (PairGrid::new(&wide, side), PairGrid::new(&narrow, side));
         assert_eq!(to.near(from.points(0..1), 1.0).concat().len(), 2);
     }
 }

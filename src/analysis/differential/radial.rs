@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 use std::ops::Range;
 
-use super::{Differences, GRID_REACH, GRID_SIZE, REACH, SHELL_WIDTH, ratio};
+use crate::analysis::differential::{Differences, GRID_REACH, GRID_SIZE, REACH, SHELL_WIDTH, ratio};
 
 /// The differences of about one length.
 #[derive(Clone, Copy, Debug, PartialEq)]

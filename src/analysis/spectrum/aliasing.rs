@@ -4,7 +4,7 @@
 //! The thresholds and ranges are those of psa, the program of the paper's authors, from which the figures in the literature
 //! come. It finds the radial power from the radial distribution function; here it is that of the periodogram.
 
-use super::Periodogram;
+use crate::analysis::spectrum::Periodogram;
 use crate::error::{Error, Result};
 
 /// The mean power up to a frequency that an image of half that frequency can bear, and the one above which the spectrum
@@ -93,8 +93,8 @@ impl Periodogram {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{periodogram, sparse_periodogram};
     use super::*;
+    use crate::analysis::spectrum::{periodogram, sparse_periodogram};
     use crate::job::Context;
     use crate::points::{Boundary, Domain};
     use crate::rng::{Draw, Rng};

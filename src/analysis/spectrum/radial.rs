@@ -1,6 +1,6 @@
 //! Radial mean, anisotropy, contrast and peaks of a periodogram (Ulichney 1988; thesis fig. 1.10).
 
-use super::Periodogram;
+use crate::analysis::spectrum::Periodogram;
 use crate::error::{Error, Result};
 
 /// The frequencies of about one length: a point of the radial curves.
@@ -156,8 +156,8 @@ impl Periodogram {
 
 #[cfg(test)]
 mod tests {
-    use super::super::periodogram;
     use super::*;
+    use crate::analysis::spectrum::periodogram;
     use crate::job::Context;
     use crate::points::{Boundary, Domain};
     use crate::rng::{Draw, Rng};

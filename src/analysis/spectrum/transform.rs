@@ -28,13 +28,13 @@ pub(super) struct Weighted {
 }
 
 /// The Fourier sums of points.
-pub(super) struct Waves {
+pub(super) struct Coefficients {
     half: usize,
     /// By columns from 0 to `half`, in each by rows from -`half` to `half`.
     columns: Vec<Vec<Complex<f64>>>,
 }
 
-impl Waves {
+impl Coefficients {
     /// The sum at a frequency of at most `half` periods in columns and rows.
     pub fn at(&self, column: i64, row: i64) -> Complex<f64> {
         let place = |row: i64| (row + self.half as i64) as usize;
@@ -47,7 +47,7 @@ impl Waves {
 }
 
 /// The sums up to `half` periods. O(points + half² log half).
-pub(super) fn transform(job: &Job, points: &[Weighted], half: usize) -> Result<Waves> {
+pub(super) fn transform(job: &Job, points: &[Weighted], half: usize) -> Result<Coefficients> {
     let side = (4 * half).max(2 * WIDTH).next_power_of_two();
     let fft = FftPlanner::new().plan_fft_forward(side);
     let scratch = || vec![Complex::default(); fft.get_inplace_scratch_len()];
@@ -77,7 +77,7 @@ pub(super) fn transform(job: &Job, points: &[Weighted], half: usize) -> Result<W
         });
         transformed.collect()
     })?;
-    Ok(Waves { half, columns })
+    Ok(Coefficients { half, columns })
 }
 
 /// The points sorted into the rows of a periodic grid.

@@ -4,8 +4,8 @@
 //! on wide white paper. So a coarse lattice of anchors stands there. They are corners of triangles and nothing else: they
 //! do not move, push or count, and no hole is filled where the density is 0.
 
-use super::raster::Raster;
-use crate::dcr::spread::torus::{Place, Torus};
+use crate::dcr::density::raster::Raster;
+use crate::dcr::ground::torus::{Place, Torus};
 
 /// Places of the lattice along each axis of the domain.
 const LATTICE: u32 = 8;

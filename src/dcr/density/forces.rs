@@ -7,7 +7,7 @@
 
 use glam::Vec2;
 
-use crate::dcr::spread::constraints::{Constraints, Force};
+use crate::dcr::ground::constraints::{Constraints, Force};
 
 /// A neighbour: the way to it, and its local spacing.
 #[derive(Clone, Copy)]

@@ -7,10 +7,10 @@
 
 use glam::Vec2;
 
-use super::raster::Raster;
-use crate::dcr::spread::LONG_WAVES;
-use crate::dcr::spread::torus::{Place, Torus};
-use crate::dcr::spread::waves::{Field, Waves};
+use crate::dcr::density::raster::Raster;
+use crate::dcr::ground::torus::{Place, Torus};
+use crate::dcr::ground::waves::{Field, Waves};
+use crate::dcr::uniform::LONG_WAVES;
 use crate::error::Result;
 use crate::job::{Job, chunks};
 

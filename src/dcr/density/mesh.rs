@@ -11,9 +11,9 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use glam::DVec2;
 
-use crate::dcr::delaunay::Delaunay;
-use crate::dcr::spread::torus::{Place, Torus};
+use crate::dcr::ground::torus::{Place, Torus};
 use crate::error::Result;
+use crate::geometry::delaunay::Delaunay;
 use crate::job::{Job, chunks_of};
 
 /// The sum of two cotangents that counts as negative: below the rounding of `f64`, flips could go on for ever.
@@ -213,7 +213,7 @@ impl Mesh {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::dcr::spread::wandering::{wander, wild, with_and_without_mesh};
+    use crate::dcr::ground::wandering::{wander, wild, with_and_without_mesh};
     use crate::job::Context;
     use crate::points::Boundary;
     use crate::rng::{Draw, Rng};

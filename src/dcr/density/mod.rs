@@ -21,8 +21,8 @@ mod set;
 
 use self::raster::Raster;
 use self::set::Graded;
-use super::spread::torus::Torus;
-use super::{Method, Neighbourhood, Options, Report};
+use crate::dcr::ground::torus::Torus;
+use crate::dcr::{Method, Neighbourhood, Options, Report};
 use crate::error::{Error, Result};
 use crate::job::{Context, Progress};
 use crate::points::Domain;
@@ -97,7 +97,7 @@ fn is_density(value: f64) -> bool {
 /// # Errors
 /// [`Error::InvalidArgument`] for a density that is not 0 or above and finite, or is 0 everywhere (`density`; which of
 /// several bad places is told is not chance), for an image without pixels (`width`, `height`) or of another size than its
-/// values, and for all options but [`Method::Best`] (`method`) with Delaunay neighbours (`neighbourhood`); those of
+/// values, and for all options but [`Method::Momentum`] (`method`) with Delaunay neighbours (`neighbourhood`); those of
 /// [`relax`](super::relax).
 pub fn relax_with_density(
     context: &Context,
@@ -108,19 +108,19 @@ pub fn relax_with_density(
 ) -> Result<(Vec<[f32; 2]>, Report)> {
     options.check()?;
     density.check()?;
-    if options.method != Method::Best {
+    if options.method != Method::Momentum {
         return Err(Error::invalid("method", "only the best method knows densities"));
     }
     if options.neighbourhood != Neighbourhood::Delaunay {
         return Err(Error::invalid("neighbourhood", "densities take Delaunay neighbours"));
     }
     options.domain.check_points(points)?;
-    super::require_memory("xy", points.len())?;
+    crate::dcr::require_memory("xy", points.len())?;
     let mut set = context.run(None, |job| {
         let raster = Raster::new(&job.part(0.0, 0.5), &options.domain, density, points.len())?;
         Graded::new(&job.part(0.5, 1.0), options, raster, points)
     })?;
-    super::run(context, options, points, &mut set, progress, None)
+    crate::dcr::run(context, options, points, &mut set, progress, None)
 }
 
 /// Random points of a domain, as dense as asked for: a start for [`relax_with_density`]. Point `i` depends on the
@@ -128,21 +128,22 @@ pub fn relax_with_density(
 ///
 /// # Errors
 /// [`Error::InvalidArgument`] for a domain or a density that is none, [`Error::TooLarge`] for more than 2^32 - 1 points, or
-/// than memory holds.
+/// than memory holds, [`Error::Cancelled`].
 pub fn scatter(
     context: &Context,
     domain: &Domain,
     density: &Density,
     count: usize,
     seed: u64,
+    progress: Option<&Progress>,
 ) -> Result<Vec<[f32; 2]>> {
     domain.check()?;
     density.check()?;
     if count > u32::MAX as usize {
         return Err(Error::too_large("count", format!("{count} points; the limit is {}", u32::MAX)));
     }
-    context.run(None, |job| {
-        let raster = Raster::new(job, domain, density, count)?;
+    context.run(progress, |job| {
+        let raster = Raster::new(&job.part(0.0, 0.9), domain, density, count)?;
         Ok(raster.scatter(&Torus::new(*domain, count), count, seed))
     })
 }

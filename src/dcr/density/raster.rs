@@ -7,8 +7,8 @@
 
 use glam::Vec2;
 
-use super::{Density, is_density};
-use crate::dcr::spread::torus::{HALF, Place, Torus};
+use crate::dcr::density::{Density, is_density};
+use crate::dcr::ground::torus::{HALF, Place, Torus};
 use crate::error::{Error, Result};
 use crate::job::{Job, chunks_of};
 use crate::memory;

@@ -2,22 +2,22 @@
 
 use glam::{DVec2, Vec2};
 
-use super::anchors::anchors;
-use super::forces::{Neighbour, force};
-use super::levels::Levels;
-use super::mesh::Mesh;
-use super::raster::Raster;
-use crate::dcr::delaunay::Delaunay;
-use crate::dcr::links::Links;
-use crate::dcr::motion::Motion;
-use crate::dcr::spread::border::Border;
-use crate::dcr::spread::constraints::{Constraints, Force};
-use crate::dcr::spread::gather::{ROOM, WIDE};
-use crate::dcr::spread::torus::{Place, Torus, along_curve};
-use crate::dcr::spread::{MOMENTUM, STEP};
+use crate::dcr::density::anchors::anchors;
+use crate::dcr::density::forces::{Neighbour, force};
+use crate::dcr::density::levels::Levels;
+use crate::dcr::density::mesh::Mesh;
+use crate::dcr::density::raster::Raster;
+use crate::dcr::ground::border::Border;
+use crate::dcr::ground::constraints::{Constraints, Force};
+use crate::dcr::ground::motion::Motion;
+use crate::dcr::ground::torus::{Place, Torus, along_curve};
+use crate::dcr::uniform::gather::{ROOM, WIDE};
+use crate::dcr::uniform::{MOMENTUM, STEP};
 use crate::dcr::{Options, Relaxation};
 use crate::error::Result;
-use crate::grid2::Grid2;
+use crate::geometry::delaunay::Delaunay;
+use crate::geometry::grid2::Grid2;
+use crate::geometry::links::Links;
 use crate::job::{Job, chunks};
 use crate::points::{Boundary, Domain};
 

@@ -12,8 +12,8 @@
 
 use glam::{DVec2, DVec3};
 
-use super::walk::Flat;
-use crate::dcr::spread::constraints::STIFFENING;
+use crate::dcr::ground::constraints::STIFFENING;
+use crate::dcr::surface::walk::Flat;
 
 /// The distance, in spacings, up to which samples that are near on the surface are held off in the end. It is a little less
 /// than the conflict radius, at which forces stop.

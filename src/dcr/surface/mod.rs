@@ -27,13 +27,14 @@ pub use triangles::{Triangulation, triangulate};
 
 use glam::DVec2;
 
-use super::Stopped;
+use crate::dcr::Stopped;
 use crate::error::{Error, Result};
-use crate::grid3;
+use crate::geometry::grid3;
 use crate::job::{Context, Job, Progress};
 use crate::mesh::{Mesh, round_barycentrics};
 use crate::points::SurfaceSamples;
 use crate::rng::{Draw, Rng};
+use crate::setters::setters;
 use set::Set;
 use sheet::Sheet;
 use walk::Place;
@@ -49,6 +50,7 @@ const ATTEMPTS: u64 = 16;
 
 /// The options of [`relax`].
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Options {
     /// The largest number of steps. 0 returns the samples as they are, those that rounding has put outside their triangle on
     /// its edge.
@@ -66,9 +68,12 @@ impl Default for Options {
     }
 }
 
+setters!(Options { max_iterations: u32, tolerance: f64, seed: u64 });
+
 /// What [`relax`] did. `d_max = sqrt(2 A / (sqrt(3) N))` is the distance of neighbours if the samples stood in hexagonal
 /// arrangement on a plane of the mesh's area A.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Report {
     /// The number of steps made.
     pub iterations: u32,

@@ -11,11 +11,11 @@ use std::hash::{BuildHasherDefault, Hasher};
 
 use glam::DVec3;
 
-use super::sheet::Sheet;
-use super::star::MOST;
-use super::walk::Place;
+use crate::dcr::surface::sheet::Sheet;
+use crate::dcr::surface::star::MOST;
+use crate::dcr::surface::walk::Place;
 use crate::error::Result;
-use crate::grid3::Grid3;
+use crate::geometry::grid3::Grid3;
 use crate::job::{Chunks, Job};
 use crate::mesh::exact;
 

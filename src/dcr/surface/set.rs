@@ -2,15 +2,15 @@
 
 use glam::{DVec2, DVec3};
 
-use super::apart::{Contacts, Floor, Limits};
-use super::near::{Crowd, Neighbour, Neighbourhood};
-use super::sheet::Sheet;
-use super::view::View;
-use super::walk::{Flat, Place, walk};
-use crate::dcr::motion::{Motion, Space};
-use crate::dcr::spread::constraints::{Constraints, Force, STIFFENING};
-use crate::dcr::spread::gather::ROOM;
-use crate::dcr::spread::{MOMENTUM, STEP};
+use crate::dcr::ground::constraints::{Constraints, Force, STIFFENING};
+use crate::dcr::ground::motion::{Motion, Space};
+use crate::dcr::surface::apart::{Contacts, Floor, Limits};
+use crate::dcr::surface::near::{Crowd, Neighbour, Neighbourhood};
+use crate::dcr::surface::sheet::Sheet;
+use crate::dcr::surface::view::View;
+use crate::dcr::surface::walk::{Flat, Place, walk};
+use crate::dcr::uniform::gather::ROOM;
+use crate::dcr::uniform::{MOMENTUM, STEP};
 use crate::error::Result;
 use crate::job::{Chunks, Job, chunks_of};
 use crate::mesh::Mesh;

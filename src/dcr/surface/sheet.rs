@@ -9,7 +9,7 @@
 use glam::DVec3;
 
 use crate::error::{Error, Result};
-use crate::grid3::{Grid3, distance_squared};
+use crate::geometry::grid3::{Grid3, distance_squared};
 use crate::mesh::{Mesh, exact};
 
 /// A mesh with its edges.

@@ -3,11 +3,11 @@
 //! Each sample finds its Delaunay star in its own tangent plane. A triangle that is in the stars of all three of its corners
 //! is one of the mesh; where the surface is bent too much for the samples to agree, there are holes.
 
-use super::near::Crowd;
-use super::sheet::Sheet;
-use super::view::View;
-use super::walk::{Flat, Place};
-use super::{check, hexagonal_distance, place};
+use crate::dcr::surface::near::Crowd;
+use crate::dcr::surface::sheet::Sheet;
+use crate::dcr::surface::view::View;
+use crate::dcr::surface::walk::{Flat, Place};
+use crate::dcr::surface::{check, hexagonal_distance, place};
 use crate::error::Result;
 use crate::job::{Context, Progress, chunks_of};
 use crate::mesh::Mesh;

@@ -2,12 +2,12 @@
 
 use glam::{DQuat, DVec3, Vec2};
 
-use super::near::{Neighbour, Neighbourhood, mirrored};
-use super::sheet::Sheet;
-use super::star::Near;
-use super::walk::Flat;
-use crate::dcr::spread::constraints::{Constraints, Force};
-use crate::dcr::spread::gather::WIDE;
+use crate::dcr::ground::constraints::{Constraints, Force};
+use crate::dcr::surface::near::{Neighbour, Neighbourhood, mirrored};
+use crate::dcr::surface::sheet::Sheet;
+use crate::dcr::surface::star::Near;
+use crate::dcr::surface::walk::Flat;
+use crate::dcr::uniform::gather::WIDE;
 
 /// The view of one sample after the other.
 #[derive(Default)]

@@ -6,7 +6,7 @@
 
 use glam::{DVec2, DVec3};
 
-use super::sheet::Sheet;
+use crate::dcr::surface::sheet::Sheet;
 use crate::mesh::{Mesh, exact, round_barycentrics};
 
 /// Who crosses more edges than this in one step stays in the triangle that was reached.

@@ -1,10 +1,11 @@
 //! Plots: the domain cut into rectangles of which each can be changed without regard to the others.
 //!
 //! The samples in the *hole* of a plot are taken out and others put in. What is uncovered then lies within r of the
-//! hole, and what decides about it within 2r: the hole is that far from the borders of its plot, unless nothing lies
+//! hole, and what decides about it within 2r: the hole is that far from the edges of its plot, unless nothing lies
 //! beyond.
 
-use crate::lattice::{Lattice, Rect};
+use crate::plane::lattice::Lattice;
+use crate::plane::rect::Rect;
 use crate::points::Boundary;
 use crate::rng::Rng;
 
@@ -15,7 +16,7 @@ const SIDE: i32 = 6;
 struct Cuts {
     size: i32,
     reach: i32,
-    /// Regular plots; a bounded axis has one more, cut in two by its border.
+    /// Regular plots; a bounded axis has one more, cut in two by its edge.
     count: i32,
     offset: i32,
     /// Whether the axis closes to a circle, of which plots are parts.
@@ -56,7 +57,7 @@ impl Cuts {
     }
 
     /// Where a regular plot begins, counted from the offset.
-    fn border(&self, index: i32) -> i32 {
+    fn edge(&self, index: i32) -> i32 {
         (i64::from(self.size) * i64::from(index) / i64::from(self.count)) as i32
     }
 
@@ -71,11 +72,11 @@ impl Cuts {
     fn span(&self, index: i32) -> Span {
         let margin = 2 * self.reach;
         if self.is_circle {
-            let length = self.border(index + 1) - self.border(index);
-            let start = self.offset + self.border(index);
+            let length = self.edge(index + 1) - self.edge(index);
+            let start = self.offset + self.edge(index);
             return Span { start, length, hole: [margin, length - margin], is_circle: false };
         }
-        let [start, end] = [index - 1, index].map(|index| (self.offset + self.border(index)).clamp(0, self.size));
+        let [start, end] = [index - 1, index].map(|index| (self.offset + self.edge(index)).clamp(0, self.size));
         let length = end - start;
         let first = if start == 0 { 0 } else { margin };
         let last = if end == self.size { length } else { length - margin };
@@ -97,7 +98,7 @@ pub(super) struct Plot {
 impl Plots {
     /// Cuts the domain at places of `rng`'s choice.
     pub fn new(lattice: &Lattice, mut rng: Rng) -> Self {
-        Self { axes: lattice.size.map(|size| Cuts::new(size, lattice.boundary, lattice.reach, &mut rng)) }
+        Self { axes: lattice.size.map(|size| Cuts::new(size, lattice.boundary, lattice.separation.reach, &mut rng)) }
     }
 
     /// The number of plots.
@@ -189,7 +190,8 @@ mod tests {
                 let plots = Plots::new(&lattice, Rng::at(0, Draw::Probe, &[round]));
                 for plot in (0..plots.len()).map(|plot| plots.get(plot)).filter(|plot| !plot.hole().is_empty()) {
                     for (span, size) in std::iter::zip(plot.axes, lattice.size) {
-                        let decides = [span.hole[0] - 2 * lattice.reach, span.hole[1] + 2 * lattice.reach];
+                        let decides =
+                            [span.hole[0] - 2 * lattice.separation.reach, span.hole[1] + 2 * lattice.separation.reach];
                         let begins = decides[0] >= 0 || lattice.boundary == Boundary::Bounded && span.start == 0;
                         let ends = decides[1] <= span.length
                             || lattice.boundary == Boundary::Bounded && span.start + span.length == size;

@@ -1,6 +1,6 @@
 //! The radius of a maximal set with a given number of samples, from the density of such sets and from what was made.
 
-use crate::lattice::MAXIMAL_DENSITY;
+use crate::points::MAXIMAL_DENSITY;
 use crate::points::{Boundary, Domain};
 
 /// Samples per radius on a line: Rényi's parking constant.
@@ -64,7 +64,7 @@ impl Search {
     }
 }
 
-/// About how many samples a maximal set has: see [`crate::lattice::Lattice::expected_samples`], which this refines.
+/// About how many samples a maximal set has: see [`crate::plane::lattice::Lattice::expected_samples`], which this refines.
 fn expected(domain: &Domain, leaf_size: f64, radius: f64) -> f64 {
     let beyond = if domain.boundary == Boundary::Bounded { 1.0 } else { 0.0 };
     // A domain thinner than the radius is a line.

@@ -10,11 +10,12 @@ use std::cmp::Reverse;
 
 use crate::error::Result;
 use crate::job::{Job, chunks_of};
-use crate::lattice::{Lattice, Rect};
-use crate::maximal::{CellAxis, CellGrid, Quadtree};
+use crate::plane::lattice::Lattice;
+use crate::plane::rect::Rect;
+use crate::plane::{CellAxis, CellGrid, Quadtree};
 use crate::rng::{Draw, Rng, hash};
 
-use super::plots::{Plot, Plots};
+use crate::kdrt::count::plots::{Plot, Plots};
 
 /// Rounds until a set is given up; three are mostly enough.
 const ROUNDS: u64 = 24;
@@ -125,15 +126,15 @@ fn members(
 
 /// Takes the samples out of the hole of a plot, which has the given members, and fills it.
 fn resample(lattice: &Lattice, plot: &Plot, samples: &[[f32; 2]], members: &[usize], mut rng: Rng) -> Change {
-    let &Lattice { radius, threshold, reach, .. } = lattice;
+    let &Lattice { radius, separation, .. } = lattice;
     let mut change = Change { removed: Vec::new(), added: Vec::new() };
     let hole = plot.hole();
     if hole.is_empty() {
         return change;
     }
-    // A torus of its own for the plot, with room behind it for nothing to meet over the seam.
-    let length = plot.axes.map(|axis| if axis.is_circle { axis.length } else { axis.length + reach + 1 });
-    let mut grid = CellGrid::torus(&length.map(|length| CellAxis::new(length, radius)), threshold, reach);
+    // A torus of its own for the plot, with a margin behind it so that nothing meets over the seam.
+    let length = plot.axes.map(|axis| if axis.is_circle { axis.length } else { axis.length + separation.reach + 1 });
+    let mut grid = CellGrid::torus(&length.map(|length| CellAxis::new(length, radius)), separation);
     for &index in members {
         let point = plot.inward(lattice.point(samples[index]));
         if hole.contains(point) {
@@ -143,7 +144,7 @@ fn resample(lattice: &Lattice, plot: &Plot, samples: &[[f32; 2]], members: &[usi
         }
     }
     let within = Rect { min: [0; 2], max: plot.axes.map(|axis| axis.length) };
-    let open = hole.grown(reach).intersection(&within);
+    let open = hole.grown(separation.reach).intersection(&within);
     let cells = grid.cells_of(&open);
     let all = (cells.min[1]..cells.max[1]).flat_map(|y| (cells.min[0]..cells.max[0]).map(move |x| [x, y]));
     let empty: Vec<_> = all.filter(|&cell| grid.sample(cell).is_none()).collect();

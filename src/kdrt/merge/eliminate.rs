@@ -9,7 +9,7 @@ use crate::error::Result;
 use crate::job::{Job, chunks_of};
 use crate::rng::{Draw, hash};
 
-use super::given::Given;
+use crate::kdrt::merge::given::Given;
 
 /// Cells per task.
 const CELLS: usize = 1 << 14;
@@ -17,7 +17,7 @@ const CELLS: usize = 1 << 14;
 /// For each of the given points, in the order of its sites, whether it survives.
 pub(super) fn survivors(job: &Job, given: &Given, seed: u64) -> Result<Vec<bool>> {
     let ranks = ranks(given.set_count(), seed);
-    let rank = |site: usize| (ranks[given.sites[site].set as usize], given.sites[site].index);
+    let rank = |site: usize| (ranks[given.sites()[site].set as usize], given.sites()[site].index);
     let chunks = chunks_of(given.cells(), CELLS);
     let links = job.map(chunks.len(), |i| {
         let mut links = Vec::new();
@@ -32,7 +32,7 @@ pub(super) fn survivors(job: &Job, given: &Given, seed: u64) -> Result<Vec<bool>
 
     // When a point's turn comes, all that could eliminate it are decided.
     links.sort_unstable_by_key(|&(site, _)| rank(site));
-    let mut survives = vec![true; given.sites.len()];
+    let mut survives = vec![true; given.sites().len()];
     for (site, other) in links {
         survives[site] &= !survives[other];
     }

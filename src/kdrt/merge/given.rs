@@ -3,12 +3,14 @@
 use std::ops::Range;
 
 use crate::error::{Error, Result};
+use crate::geometry::counting_sort::Binned;
 use crate::job::Job;
-use crate::lattice::{Lattice, Rect};
-use crate::maximal::CellAxis;
+use crate::plane::CellAxis;
+use crate::plane::lattice::Lattice;
+use crate::plane::rect::Rect;
 use crate::points::{Boundary, Domain};
 
-use super::NARROWING;
+use crate::kdrt::merge::NARROWING;
 
 /// Points per task.
 const POINTS: usize = 1 << 14;
@@ -32,11 +34,10 @@ pub(super) struct Given<'a> {
     lattice: Lattice,
     /// The cells of the domain's lattice points: small enough that two points of one conflict.
     pub axes: [CellAxis; 2],
-    /// For each column and each row those that can hold a conflict with it, each once.
+    /// For each column and row, the columns and rows that can hold a conflict with it, each once.
     near: [Vec<[Range<usize>; 2]>; 2],
-    /// Cell `c` holds the sites `starts[c]..starts[c + 1]`.
-    starts: Vec<u32>,
-    pub sites: Vec<Site>,
+    /// The sites of each cell.
+    by_cell: Binned<Site>,
     sets: &'a [&'a [[f32; 2]]],
 }
 
@@ -49,40 +50,29 @@ impl<'a> Given<'a> {
     pub fn new(job: &Job, domain: Domain, lattice: &Lattice, radius: f64, sets: &'a [&'a [[f32; 2]]]) -> Result<Self> {
         let axes = lattice.size.map(|size| CellAxis::new(size, lattice.radius - NARROWING));
         // Distances of given points are at most two units shorter per axis than those of their lattice points.
-        let near = axes.each_ref().map(|axis| near_on_axis(axis, lattice.reach + 3, domain.boundary));
-        let (lattice, starts, sites) = (lattice.clone(), Vec::new(), Vec::new());
-        let mut given = Self { domain, radius, lattice, axes, near, starts, sites, sets };
+        let near = axes.each_ref().map(|axis| near_on_axis(axis, lattice.separation.reach + 3, domain.boundary));
+        let lattice = lattice.clone();
+        let mut given = Self { domain, radius, lattice, axes, near, by_cell: Binned::default(), sets };
         given.sort(job)?;
         given.check_cells()?;
         Ok(given)
     }
 
-    /// Fills `starts` and `sites`. Which cells the points lie in is most of the work, and is shared.
+    /// Sorts the points. Which cells they lie in is most of the work, and is shared.
     fn sort(&mut self, job: &Job) -> Result<()> {
         let chunks: Vec<&[[f32; 2]]> = self.sets.iter().flat_map(|set| set.chunks(POINTS)).collect();
         let cells = job.map(chunks.len(), |i| chunks[i].iter().map(|&point| self.cell(point)).collect::<Vec<_>>())?;
-        self.starts = vec![0; self.axes.iter().map(|axis| axis.count() as usize).product::<usize>() + 1];
-        for &cell in cells.iter().flatten() {
-            self.starts[cell + 1] += 1;
-        }
-        for cell in 1..self.starts.len() {
-            self.starts[cell] += self.starts[cell - 1];
-        }
-        let mut next = self.starts.clone();
-        let mut cells = cells.iter().flatten();
-        self.sites = vec![Site::default(); self.sets.iter().map(|set| set.len()).sum()];
-        for (set, points) in (0..).zip(self.sets) {
-            for ((index, &position), &cell) in (0..).zip(*points).zip(&mut cells) {
-                self.sites[next[cell] as usize] = Site { position, set, index };
-                next[cell] += 1;
-            }
-        }
+        let sites = (0..)
+            .zip(self.sets)
+            .flat_map(|(set, points)| (0..).zip(*points).map(move |(index, &position)| Site { position, set, index }));
+        let count = self.axes.iter().map(|axis| axis.count() as usize).product();
+        self.by_cell = Binned::new(count, cells.iter().flatten().copied().zip(sites));
         Ok(())
     }
 
     fn check_cells(&self) -> Result<()> {
         let crowded = |pair: &&[Site]| self.conflict(&pair[0], &pair[1]) && self.is_fault(&pair[0], &pair[1]);
-        match self.sites.windows(2).find(crowded) {
+        match self.sites().windows(2).find(crowded) {
             Some(pair) => Err(self.refusal(&pair[0], &pair[1])),
             None => Ok(()),
         }
@@ -103,9 +93,14 @@ impl<'a> Given<'a> {
         self.sets.len()
     }
 
+    /// All points, by cells and in each by sets.
+    pub fn sites(&self) -> &[Site] {
+        self.by_cell.items()
+    }
+
     /// The number of cells.
     pub fn cells(&self) -> usize {
-        self.starts.len() - 1
+        self.by_cell.len()
     }
 
     /// The lattice point that stands for a given one.
@@ -141,7 +136,7 @@ impl<'a> Given<'a> {
     /// # Errors
     /// [`Error::InvalidArgument`] for a conflict in one set, unless it can be resolved.
     pub fn conflicts(&self, cell: usize, mut visit: impl FnMut(usize, usize)) -> Result<()> {
-        let sites = self.starts[cell] as usize..self.starts[cell + 1] as usize;
+        let sites = self.by_cell.range(cell..cell + 1);
         if sites.is_empty() {
             return Ok(());
         }
@@ -150,7 +145,7 @@ impl<'a> Given<'a> {
         let runs = rows.flat_map(|row| self.near[0][column].iter().map(move |columns| self.places(row, columns)));
         for other in runs.flatten() {
             for site in sites.clone().filter(|&site| site != other) {
-                let (a, b) = (&self.sites[site], &self.sites[other]);
+                let (a, b) = (&self.sites()[site], &self.sites()[other]);
                 if !self.conflict(a, b) {
                     continue;
                 }
@@ -166,7 +161,7 @@ impl<'a> Given<'a> {
     /// The places in `sites` of the points in a run of cells of one row.
     fn places(&self, row: usize, columns: &Range<usize>) -> Range<usize> {
         let first = row * self.columns();
-        self.starts[first + columns.start] as usize..self.starts[first + columns.end] as usize
+        self.by_cell.range(first + columns.start..first + columns.end)
     }
 
     /// The places in `sites` of all points in the cells that hold the lattice points of `rect`, a part of the domain.
@@ -181,7 +176,7 @@ impl<'a> Given<'a> {
     /// The surviving points in the order in which they were given.
     pub fn in_order(&self, survives: &[bool]) -> Vec<[f32; 2]> {
         let mut stays: Vec<Vec<bool>> = self.sets.iter().map(|set| vec![true; set.len()]).collect();
-        for (site, _) in self.sites.iter().zip(survives).filter(|(_, survives)| !**survives) {
+        for (site, _) in self.sites().iter().zip(survives).filter(|(_, survives)| !**survives) {
             stays[site.set as usize][site.index as usize] = false;
         }
         let points = self.sets.iter().copied().flatten().zip(stays.iter().flatten());
@@ -208,7 +203,7 @@ fn near_on_axis(axis: &CellAxis, reach: i32, boundary: Boundary) -> Vec<[Range<u
     let count = axis.count();
     let run = |first: i32, end: i32| first as usize..end as usize;
     let near = |cell: i32| {
-        let (first, end) = (axis.cell(axis.border(cell) - reach), axis.cell(axis.border(cell + 1) - 1 + reach) + 1);
+        let (first, end) = (axis.cell(axis.edge(cell) - reach), axis.cell(axis.edge(cell + 1) - 1 + reach) + 1);
         match boundary {
             Boundary::Bounded => [run(first.max(0), end.min(count)), 0..0],
             Boundary::Periodic if end - first >= count => [run(0, count), 0..0],

@@ -6,18 +6,16 @@
 
 use crate::error::Result;
 use crate::job::Job;
-use crate::lattice::{Lattice, Rect};
-use crate::maximal::{CellGrid, Quadtree};
+use crate::plane::lattice::Lattice;
+use crate::plane::rect::Rect;
+use crate::plane::{CellGrid, Quadtree};
 use crate::points::Boundary;
 use crate::rng::{Draw, Rng};
 
-use super::WIDENING;
-use super::given::Given;
 use crate::kdrt::blocks::{Blocks, PHASES};
-use crate::kdrt::plane::{WINDOW_BLOCKS, cut};
-
-/// Darts between two looks at the progress callback, where one thread works.
-const DARTS_PER_REPORT: usize = 1 << 16;
+use crate::kdrt::merge::WIDENING;
+use crate::kdrt::merge::given::Given;
+use crate::kdrt::tiling::{WINDOW_BLOCKS, cut};
 
 /// The samples that make the survivors maximal.
 pub(super) fn insert(
@@ -47,13 +45,13 @@ struct Gaps<'a> {
 impl Gaps<'_> {
     /// Fills a rectangle of blocks, and as much around it as is necessary to do this as any other window would.
     fn fill_window(&self, blocks: &Blocks, window: &Rect) -> Vec<[f32; 2]> {
-        let Lattice { threshold, reach, .. } = *self.lattice;
-        let known = blocks.rect(&blocks.grown(window, PHASES[0].1)).grown(reach);
+        let separation = self.lattice.separation;
+        let known = blocks.rect(&blocks.grown(window, PHASES[0].1)).grown(separation.reach);
         let known = match self.lattice.boundary {
             Boundary::Periodic => known,
             Boundary::Bounded => known.intersection(&self.lattice.rect()),
         };
-        let mut grid = CellGrid::new(&self.given.axes, &known, threshold, reach);
+        let mut grid = CellGrid::new(&self.given.axes, &known, separation);
         self.survivors_in(&known, |point| grid.insert(grid.cell(point), point));
 
         let (inside, mut samples) = (blocks.rect(window), Vec::new());
@@ -76,24 +74,12 @@ impl Gaps<'_> {
 
     /// Fills a torus that is too narrow for blocks, as a whole.
     fn fill_torus(&self, job: &Job, mut rng: Rng) -> Result<Vec<[f32; 2]>> {
-        let Lattice { threshold, reach, .. } = *self.lattice;
         let all = self.lattice.rect();
-        let mut grid = CellGrid::torus(&self.given.axes, threshold, reach);
+        let mut grid = CellGrid::torus(&self.given.axes, self.lattice.separation);
         self.survivors_in(&all, |point| grid.insert(grid.cell(point), point));
-
-        let (mut quadtree, mut samples) = (uncovered(&grid, &all), Vec::new());
-        while !quadtree.is_empty() {
-            let mut darts = quadtree.len();
-            while darts > 0 {
-                for _ in 0..darts.min(DARTS_PER_REPORT) {
-                    let sample = quadtree.throw(&mut grid, &mut rng);
-                    samples.extend(sample.map(|sample| self.lattice.position(sample)));
-                }
-                darts = darts.saturating_sub(DARTS_PER_REPORT);
-                job.report((samples.len() as f64 / self.lattice.expected_samples()).min(0.99))?;
-            }
-            quadtree.refine(&grid);
-        }
+        let mut samples = Vec::new();
+        let accepted = |sample| samples.push(self.lattice.position(sample));
+        uncovered(&grid, &all).rain(job, &mut grid, &mut rng, self.lattice.expected_samples(), accepted)?;
         Ok(samples)
     }
 
@@ -104,7 +90,7 @@ impl Gaps<'_> {
         for turn in turns(1).flat_map(|y| turns(0).map(move |x| [x * size[0], y * size[1]])) {
             let part = rect.translated(turn.map(|x| -x)).intersection(&self.lattice.rect());
             for place in self.given.places_in(&part).filter(|&place| self.survives[place]) {
-                let point = self.given.lattice_point(self.given.sites[place].position);
+                let point = self.given.lattice_point(self.given.sites()[place].position);
                 if part.contains(point) {
                     visit([point[0] + turn[0], point[1] + turn[1]]);
                 }

@@ -32,10 +32,11 @@ mod insert;
 
 use crate::error::{Error, Result};
 use crate::job::{Context, Progress};
-use crate::lattice::Lattice;
 use crate::memory;
+use crate::plane::lattice::Lattice;
 use crate::points::{Boundary, Domain};
 use crate::rng::{Draw, hash};
+use crate::setters::setters;
 
 use eliminate::survivors;
 use given::Given;
@@ -57,6 +58,7 @@ const ELIMINATE_SHARE: f64 = 0.3;
 
 /// How to merge.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct MergeOptions {
     /// The smallest centre-to-centre distance, above 0 and at least 64 float spacings at the domain's largest
     /// coordinate: that of the pieces.
@@ -66,6 +68,15 @@ pub struct MergeOptions {
     /// The same input and seed give the same samples.
     pub seed: u64,
 }
+
+impl MergeOptions {
+    /// This radius on the unit torus, with seed 0.
+    pub fn new(radius: f64) -> Self {
+        Self { radius, domain: Domain::unit(Boundary::Periodic), seed: 0 }
+    }
+}
+
+setters!(MergeOptions { radius: f64, domain: Domain, seed: u64 });
 
 /// A set of samples that was made by itself, such as by [`sample`](super::sample) on a bounded domain or by
 /// [`sample_window`](super::sample_window).
@@ -81,6 +92,7 @@ pub struct Piece<'a> {
 
 /// What became of the samples of the pieces.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct MergeReport {
     /// Samples of the pieces that are in the result.
     pub kept: usize,
@@ -103,7 +115,7 @@ pub struct MergeReport {
 ///   are filled.
 /// * Only the seams change. A sample of a piece goes only if it is closer than `radius` to a fixed point, or to a sample
 ///   that stays of another piece, or of its own over the seam of a torus. If the pieces are maximal as
-///   [`sample`](super::sample) makes them, new samples lie within `radius` of a sample that went or of the border of a
+///   [`sample`](super::sample) makes them, new samples lie within `radius` of a sample that went or of the boundary of a
 ///   piece's rectangle.
 /// * Which of two pieces loses samples to the other depends on `seed` and their places in `pieces`.
 /// * The same for every number of threads.
@@ -124,14 +136,14 @@ pub struct MergeReport {
 /// let context = Context::new(0)?;
 /// let half = |min: [f64; 2], max: [f64; 2], seed| {
 ///     let domain = Domain { min, max, boundary: Boundary::Bounded };
-///     kdrt::sample(&context, &kdrt::Options { radius: 0.01, domain, leaf_size: kdrt::DEFAULT_LEAF_SIZE, seed }, None)
+///     kdrt::sample(&context, &kdrt::Options::new(0.01).domain(domain).seed(seed), None)
 /// };
 /// let (left, right) = (half([0.0, 0.0], [0.5, 1.0], 1)?, half([0.5, 0.0], [1.0, 1.0], 2)?);
 /// let pieces = [
 ///     kdrt::Piece { samples: &left, min: [0.0, 0.0], max: [0.5, 1.0] },
 ///     kdrt::Piece { samples: &right, min: [0.5, 0.0], max: [1.0, 1.0] },
 /// ];
-/// let options = kdrt::MergeOptions { radius: 0.01, domain: Domain::unit(Boundary::Periodic), seed: 7 };
+/// let options = kdrt::MergeOptions::new(0.01).seed(7);
 /// let (samples, report) = kdrt::merge(&context, &options, &pieces, &[[0.25, 0.75]], None)?;
 /// assert_eq!(samples[0], [0.25, 0.75]);
 /// assert_eq!(samples.len(), 1 + report.kept + report.inserted);

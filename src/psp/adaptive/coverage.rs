@@ -6,9 +6,9 @@
 
 use glam::{DVec3, Vec3};
 
-use super::radius::{Bounds, Field};
-use super::room::Room;
 use crate::mesh::Mesh;
+use crate::psp::adaptive::radius::{Bounds, Field};
+use crate::psp::adaptive::room::Room;
 use crate::psp::cover::SIXTEENTHS;
 use crate::psp::coverage::{Fragment, Shape};
 

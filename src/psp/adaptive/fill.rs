@@ -1,13 +1,13 @@
 //! Rounds of darts into what is uncovered, as in `psp/fill.rs`, where the radius varies.
 
-use super::coverage::{Coverage, Open};
-use super::limits::Quota;
-use super::radius::Field;
-use super::room::{Dot, Room, Rule, end_of_octave};
-use super::set::{Place, Set};
 use crate::error::Result;
 use crate::job::Job;
 use crate::mesh::{Mesh, round_barycentrics};
+use crate::psp::adaptive::coverage::{Coverage, Open};
+use crate::psp::adaptive::limits::Quota;
+use crate::psp::adaptive::radius::Field;
+use crate::psp::adaptive::room::{Dot, Room, Rule, end_of_octave};
+use crate::psp::adaptive::set::{Place, Set};
 use crate::psp::coverage::{Fragment, Shape};
 use crate::psp::fill::float_spacing;
 use crate::psp::pieces::pieces;

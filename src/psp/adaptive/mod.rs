@@ -24,6 +24,7 @@ use crate::points::SurfaceSamples;
 use crate::psp::pieces::pieces;
 use crate::psp::samples::surface_samples;
 use crate::psp::{DENSITY, Report, longest_edge};
+use crate::setters::setters;
 
 mod coverage;
 mod fill;
@@ -39,6 +40,7 @@ use room::Rule;
 
 /// What to sample.
 #[derive(Clone, Copy)]
+#[non_exhaustive]
 pub struct Options<'a> {
     /// The radius on the surface. Radii larger than four times the diagonal of the mesh's box are taken as that, those of
     /// vertices before they are interpolated.
@@ -58,8 +60,11 @@ impl<'a> Options<'a> {
     }
 }
 
+setters!(Options<'a> { cosine: f64, seed: u64 });
+
 /// Samples and their radii.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct AdaptiveSamples {
     /// In the order in which they were accepted.
     pub samples: SurfaceSamples,

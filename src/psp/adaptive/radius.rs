@@ -7,9 +7,9 @@
 
 use glam::DVec3;
 
-use super::limits::Verdict;
 use crate::error::{Error, Result};
 use crate::mesh::{Mesh, exact};
+use crate::psp::adaptive::limits::Verdict;
 use crate::psp::coverage::{Fragment, Shape};
 use crate::psp::fill::float_spacing;
 use crate::psp::samples::Sample;

@@ -3,7 +3,7 @@
 
 use glam::DVec3;
 
-use crate::grid3::{Grid3, distance_squared};
+use crate::geometry::grid3::{Grid3, distance_squared};
 use crate::mesh::exact;
 
 /// A sample as others see it.

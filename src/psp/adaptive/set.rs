@@ -11,10 +11,10 @@ use std::ops::Range;
 
 use glam::DVec3;
 
-use super::room::{Dot, Room, Rule, end_of_octave, octave};
 use crate::error::{Error, Result};
 use crate::job::Job;
 use crate::mesh::{Mesh, exact};
+use crate::psp::adaptive::room::{Dot, Room, Rule, end_of_octave, octave};
 use crate::psp::blocks::{Block, Groups};
 use crate::psp::coverage::Fragment;
 use crate::psp::samples::Sample;

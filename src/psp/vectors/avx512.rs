@@ -7,7 +7,7 @@ use glam::Vec3A;
 use crate::psp::cover::{CORNERS, CORNERS_OF_SIXTEENTHS, STANDING, STARTS};
 use crate::psp::near::{FAR, LANES, Local, Near, Places, SLACK};
 
-use super::avx2;
+use crate::psp::vectors::avx2;
 
 /// Lanes of a whole vector.
 const WIDE: usize = 16;

@@ -68,7 +68,7 @@ fn by_start(study: &Study, count: usize, sets: usize) -> Result<String> {
         let seed = FIRST_SEED + (i % sets) as u64;
         let domain = Domain::unit(Boundary::Bounded);
         let points = start.points(context, domain, count, seed)?;
-        let thesis = Thesis { convergence, distribution, ..Thesis::default() };
+        let thesis = Thesis::default().convergence(convergence).distribution(distribution);
         End::of(context, &thesis_options(thesis, Neighbourhood::Delaunay, domain, seed), &points)
     })?;
     let mut text = format!(
@@ -103,9 +103,9 @@ fn by_step(study: &Study, count: usize, sets: usize) -> Result<String> {
         let seed = FIRST_SEED + (i % sets) as u64;
         let domain = Domain::unit(Boundary::Periodic);
         let points = Start::Random.points(context, domain, count, seed)?;
-        let thesis = Thesis { step, decay, convergence, ..Thesis::default() };
+        let thesis = Thesis::default().step(step).decay(decay).convergence(convergence);
         let options = thesis_options(thesis, Neighbourhood::Delaunay, domain, seed);
-        End::of(context, &Options { max_iterations: 1500, ..options }, &points)
+        End::of(context, &options.max_iterations(1500), &points)
     })?;
     let mut text = format!(
         "The thesis's test depends on the step: the shorter the steps, the earlier on its way is a set when it is met; with \

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use azulejo::analysis::spacing::nearest_distances_2d;
-use azulejo::dcr::{Distribution, Neighbourhood, Options, Thesis, Visits, relax_observed};
+use azulejo::dcr::{Distribution, Neighbourhood, Thesis, Visits, relax_observed};
 use azulejo::{Boundary, Context, Domain, Result};
 
 use super::sets::{FIRST_SEED, Start};
@@ -38,7 +38,11 @@ pub fn section(study: &Study) -> Result<String> {
     let curves = study.each("distributions", cases.len() * sets, |context, i| {
         let (&[conflict_radius, attraction_radius], distribution) = cases[i / sets];
         let visits = Visits::OneEnd;
-        let thesis = Thesis { conflict_radius, attraction_radius, distribution, visits, ..Thesis::default() };
+        let thesis = Thesis::default()
+            .conflict_radius(conflict_radius)
+            .attraction_radius(attraction_radius)
+            .distribution(distribution)
+            .visits(visits);
         variances(context, thesis, count, FIRST_SEED + (i % sets) as u64)
     })?;
     let mean = |curves: &[Vec<f64>]| -> Vec<f64> {
@@ -55,7 +59,7 @@ fn variances(context: &Context, thesis: Thesis, count: usize, seed: u64) -> Resu
     let domain = Domain::unit(Boundary::Periodic);
     let start = Start::Random.points(context, domain, count, seed)?;
     let options = thesis_options(thesis, Neighbourhood::Delaunay, domain, seed);
-    let options = Options { tolerance: 0.0, max_iterations: MARKS[MARKS.len() - 1] as u32, ..options };
+    let options = options.tolerance(0.0).max_iterations(MARKS[MARKS.len() - 1] as u32);
     let mut states = Vec::new();
     let mut observe = |points: &[[f32; 2]]| states.push(points.to_vec());
     relax_observed(context, &options, &start, None, Some(&mut observe))?;

@@ -77,12 +77,12 @@ fn settings() -> Vec<Setting> {
     let delaunay = DELAUNAY.map(|[conflict_radius, attraction_radius]| Setting {
         name: format!("{conflict_radius} and {attraction_radius}"),
         neighbourhood: Neighbourhood::Delaunay,
-        thesis: Thesis { conflict_radius, attraction_radius, ..Thesis::default() },
+        thesis: Thesis::default().conflict_radius(conflict_radius).attraction_radius(attraction_radius),
     });
     let nearest = NEAREST.map(|(conflict_radius, neighbours)| Setting {
         name: format!("{conflict_radius}, K = {neighbours}"),
         neighbourhood: Neighbourhood::Nearest,
-        thesis: Thesis { conflict_radius, neighbours, ..Thesis::default() },
+        thesis: Thesis::default().conflict_radius(conflict_radius).neighbours(neighbours),
     });
     delaunay.into_iter().chain(nearest).collect()
 }

@@ -34,7 +34,7 @@ impl Treatment {
             Self::Best => Options::new(domain, Neighbourhood::Delaunay),
             Self::Thesis => Options::thesis(domain, Neighbourhood::Delaunay),
         };
-        Ok(relax(context, &Options { seed, ..options }, &points, None)?.0)
+        Ok(relax(context, &options.seed(seed), &points, None)?.0)
     }
 
     fn set(self, context: &Context, count: usize, seed: u64) -> Result<Vec<[f32; 2]>> {

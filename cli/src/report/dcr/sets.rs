@@ -30,7 +30,7 @@ pub const METHODS: [Method; 4] = [
 impl Method {
     pub fn options(&self, domain: Domain, seed: u64) -> Options {
         let options = if self.is_best { Options::new } else { Options::thesis };
-        Options { seed, ..options(domain, self.neighbourhood) }
+        options(domain, self.neighbourhood).seed(seed)
     }
 
     /// The file of its picture.
@@ -69,15 +69,14 @@ impl Start {
             Self::Random => Ok(reference::random(count, seed)),
             Self::Kdrt => {
                 let leaf_size = kdrt::DEFAULT_LEAF_SIZE;
-                let options = CountOptions { count: count as u64, domain, leaf_size, seed };
+                let options = CountOptions::new(count as u64).domain(domain).leaf_size(leaf_size).seed(seed);
                 Ok(kdrt::sample_count(context, &options, None)?.samples)
             }
             Self::Psp => {
                 let corners = vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
                 let square = Mesh::new(corners, vec![[0, 1, 2], [0, 2, 3]])?.into();
                 let radius = (MAXIMAL_DENSITY / count as f64).sqrt();
-                let options =
-                    psp::Options { iterations: PROJECTIONS, maximal: false, seed, ..psp::Options::new(radius) };
+                let options = psp::Options::new(radius).iterations(PROJECTIONS).maximal(false).seed(seed);
                 let (samples, _) = psp::sample(context, &square, &options, None)?;
                 let inside = |&[x, y]: &[f32; 2]| x < 1.0 && y < 1.0;
                 Ok(samples.positions.iter().map(|&[x, y, _]| [x, y]).filter(inside).collect())

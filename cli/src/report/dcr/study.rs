@@ -57,5 +57,5 @@ impl Study<'_> {
 
 /// The thesis's algorithm with these settings.
 pub fn thesis_options(thesis: Thesis, neighbourhood: Neighbourhood, domain: Domain, seed: u64) -> Options {
-    Options { method: Method::Thesis(thesis), seed, ..Options::thesis(domain, neighbourhood) }
+    Options::thesis(domain, neighbourhood).method(Method::Thesis(thesis)).seed(seed)
 }

@@ -69,15 +69,15 @@ pub fn section(study: &Study) -> Result<String> {
 
 impl Case {
     fn measure(context: &Context, name: &'static str, mesh: &Arc<Mesh>, count: f64) -> Result<Self> {
-        let options = psp::Options { seed: FIRST_SEED, ..psp::Options::new(scenes::radius(mesh, count)) };
+        let options = psp::Options::new(scenes::radius(mesh, count)).seed(FIRST_SEED);
         let (start, _) = psp::sample(context, mesh, &options, None)?;
-        let options = Options { seed: FIRST_SEED, ..Options::default() };
+        let options = Options::default().seed(FIRST_SEED);
         let clock = Instant::now();
         let (relaxed, report) = relax(context, mesh, &start.triangles, &start.barycentrics, &options, None)?;
         let seconds = clock.elapsed().as_secs_f64();
         let rate = f64::from(report.iterations) * start.len() as f64 / seconds;
         // Zero steps only measure.
-        let none = Options { max_iterations: 0, ..options };
+        let none = options.max_iterations(0);
         let (_, before) = relax(context, mesh, &start.triangles, &start.barycentrics, &none, None)?;
         let sets =
             [Remeshed::new(context, mesh, start, before.rho)?, Remeshed::new(context, mesh, relaxed, report.rho)?];

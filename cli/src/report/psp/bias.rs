@@ -175,7 +175,7 @@ impl Raw {
 
 /// Where the projectors of a seed's first iteration look, on whatever mesh.
 fn directions(context: &Context, mesh: &Arc<Mesh>, seed: u64) -> Result<[[f64; 3]; 3]> {
-    let mut psp = Psp::new(mesh, &Options { seed, ..Options::new(1.0) })?;
+    let mut psp = Psp::new(mesh, &Options::new(1.0).seed(seed))?;
     psp.advance(context, 1, None)?;
     Ok(psp.directions().expect("there was an iteration"))
 }

@@ -1,7 +1,7 @@
 //! How a set grows with time: its density, and what it leaves uncovered (thesis fig. 3.8, 3.12, 3.13 and 3.15).
 
 use azulejo::analysis::coverage::surface_uncovered_fraction;
-use azulejo::psp::{Options, Order, Psp};
+use azulejo::psp::{Options, Priority, Psp};
 use azulejo::{Context, Progress, Result};
 
 use super::Effort;
@@ -34,10 +34,10 @@ impl Growth {
     pub fn measure(context: &Context, scene: &Scene, effort: &Effort, progress: &Progress) -> Result<Self> {
         let measure = Measure { context, scene, effort };
         let reference = measure.filled(0, None)?;
-        let by_order = |order| measure.iterated(order, reference.samples);
-        let by_squareness = by_order(Order::Squareness)?;
+        let by_priority = |priority| measure.iterated(priority, reference.samples);
+        let by_squareness = by_priority(Priority::Squareness)?;
         _ = progress(0.5);
-        let iterated = [by_squareness, by_order(Order::Projector)?];
+        let iterated = [by_squareness, by_priority(Priority::Projector)?];
         Ok(Self { reference, iterated, filled: measure.filled(1, Some(reference.samples))? })
     }
 }
@@ -49,8 +49,8 @@ struct Measure<'a> {
 }
 
 impl Measure<'_> {
-    fn empty(&self, order: Order) -> Result<Psp> {
-        Psp::new(&self.scene.mesh, &Options { order, ..Options::new(self.radius()) })
+    fn empty(&self, priority: Priority) -> Result<Psp> {
+        Psp::new(&self.scene.mesh, &Options::new(self.radius()).priority(priority))
     }
 
     fn radius(&self) -> f64 {
@@ -66,13 +66,13 @@ impl Measure<'_> {
     }
 
     fn filled(&self, iterations: u32, reference: Option<f64>) -> Result<Moment> {
-        let mut psp = self.empty(Order::Squareness)?;
+        let mut psp = self.empty(Priority::Squareness)?;
         let seconds = psp.advance(self.context, iterations, None)?.seconds + psp.fill(self.context, None)?.seconds;
         self.moment(&psp, iterations, seconds, reference)
     }
 
-    fn iterated(&self, order: Order, reference: f64) -> Result<Vec<Moment>> {
-        let mut psp = self.empty(order)?;
+    fn iterated(&self, priority: Priority, reference: f64) -> Result<Vec<Moment>> {
+        let mut psp = self.empty(priority)?;
         let (mut done, mut seconds) = (0, 0.0);
         let mark = |&mark: &u32| {
             seconds += psp.advance(self.context, mark - done, None)?.seconds;

@@ -1,6 +1,6 @@
 //! How fast sets are made: by radius, by iterations before filling, on one thread and on all.
 
-use azulejo::psp::{Options, Order, Psp, Report};
+use azulejo::psp::{Options, Priority, Psp, Report};
 use azulejo::{Context, Progress, Result};
 
 use super::Effort;
@@ -18,16 +18,16 @@ pub struct Stages {
 }
 
 impl Stages {
-    fn of(context: &Context, scene: &Scene, count: f64, order: Order, iterations: u32) -> Result<Self> {
+    fn of(context: &Context, scene: &Scene, count: f64, priority: Priority, iterations: u32) -> Result<Self> {
         let radius = radius(&scene.mesh, count);
-        let mut psp = Psp::new(&scene.mesh, &Options { order, ..Options::new(radius) })?;
+        let mut psp = Psp::new(&scene.mesh, &Options::new(radius).priority(priority))?;
         let iterated = psp.advance(context, iterations, None)?;
         Ok(Self { radius, iterated, filled: psp.fill(context, None)? })
     }
 
     /// The faster of two attempts: noise only adds.
-    fn least(context: &Context, scene: &Scene, count: f64, order: Order, iterations: u32) -> Result<Self> {
-        let [first, second] = [(); 2].map(|()| Self::of(context, scene, count, order, iterations));
+    fn least(context: &Context, scene: &Scene, count: f64, priority: Priority, iterations: u32) -> Result<Self> {
+        let [first, second] = [(); 2].map(|()| Self::of(context, scene, count, priority, iterations));
         let (first, second) = (first?, second?);
         Ok(if first.seconds() < second.seconds() { first } else { second })
     }
@@ -63,15 +63,15 @@ pub struct Rates {
 
 impl Rates {
     pub fn measure(context: &Context, scene: &Scene, effort: &Effort, progress: &Progress) -> Result<Self> {
-        let stages = |count, order, iterations| Stages::least(context, scene, count, order, iterations);
-        let by_count = effort.counts.iter().map(|&count| stages(count, Order::Squareness, 1));
+        let stages = |count, priority, iterations| Stages::least(context, scene, count, priority, iterations);
+        let by_count = effort.counts.iter().map(|&count| stages(count, Priority::Squareness, 1));
         let by_count = by_count.collect::<Result<_>>()?;
         _ = progress(0.35);
-        let by_iterations = ITERATIONS.map(|iterations| stages(effort.samples, Order::Squareness, iterations));
+        let by_iterations = ITERATIONS.map(|iterations| stages(effort.samples, Priority::Squareness, iterations));
         let by_iterations = by_iterations.collect::<Result<_>>()?;
         _ = progress(0.7);
-        let by_projector = stages(effort.samples, Order::Projector, 1)?;
-        let one_thread = Stages::of(&Context::new(1)?, scene, effort.samples, Order::Squareness, 1)?;
+        let by_projector = stages(effort.samples, Priority::Projector, 1)?;
+        let one_thread = Stages::of(&Context::new(1)?, scene, effort.samples, Priority::Squareness, 1)?;
         _ = progress(0.9);
         let mut psp = Psp::new(&scene.mesh, &Options::new(radius(&scene.mesh, effort.samples)))?;
         psp.advance(context, 1, None)?;

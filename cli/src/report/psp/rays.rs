@@ -59,7 +59,7 @@ fn along(context: &Context, axis: usize, half: Vec3, count: f64) -> Result<Vec<R
     let reach = [x, y].map(|axis| f64::from(half[axis]).max(1e-3));
     let domain = Domain { min: reach.map(|reach| -reach), max: reach, boundary: Boundary::Bounded };
     let radius = (MAXIMAL_DENSITY * domain.area() / count).sqrt();
-    let options = kdrt::Options { radius, domain, leaf_size: kdrt::DEFAULT_LEAF_SIZE, seed: 1 };
+    let options = kdrt::Options::new(radius).domain(domain).seed(1);
     let mut points = kdrt::sample(context, &options, None)?;
     let tile = TILE * (domain.area() / count).sqrt();
     points.sort_by_cached_key(|point| {

@@ -3,33 +3,33 @@
 use std::sync::Arc;
 
 use azulejo::mesh::Mesh;
-use azulejo::psp::{self, Options, Order};
+use azulejo::psp::{self, Options, Priority};
 use azulejo::{Context, Result, SurfaceSamples};
 
 /// How a set is made.
 #[derive(Clone, Copy, PartialEq)]
 pub struct Way {
-    pub order: Order,
+    pub priority: Priority,
     pub iterations: u32,
     pub maximal: bool,
 }
 
 impl Way {
     /// Only filled: darts into what is uncovered.
-    pub const REFERENCE: Self = Self { order: Order::Squareness, iterations: 0, maximal: true };
+    pub const REFERENCE: Self = Self { priority: Priority::Squareness, iterations: 0, maximal: true };
 
     /// Those of the comparison of the orders.
     pub const COMPARED: [Self; 6] = [
         Self::REFERENCE,
-        Self::iterated(Order::Squareness, 1, true),
-        Self::iterated(Order::Projector, 1, true),
-        Self::iterated(Order::Squareness, 1, false),
-        Self::iterated(Order::Projector, 1, false),
-        Self::iterated(Order::Projector, 20, false),
+        Self::iterated(Priority::Squareness, 1, true),
+        Self::iterated(Priority::Projector, 1, true),
+        Self::iterated(Priority::Squareness, 1, false),
+        Self::iterated(Priority::Projector, 1, false),
+        Self::iterated(Priority::Projector, 20, false),
     ];
 
-    pub const fn iterated(order: Order, iterations: u32, maximal: bool) -> Self {
-        Self { order, iterations, maximal }
+    pub const fn iterated(priority: Priority, iterations: u32, maximal: bool) -> Self {
+        Self { priority, iterations, maximal }
     }
 
     pub fn name(self) -> String {
@@ -38,19 +38,19 @@ impl Way {
         }
         let plural = if self.iterations == 1 { "" } else { "s" };
         let fill = if self.maximal { ", fill" } else { "" };
-        format!("{}, {} iteration{plural}{fill}", order_name(self.order), self.iterations)
+        format!("{}, {} iteration{plural}{fill}", order_name(self.priority), self.iterations)
     }
 
     pub fn sample(self, context: &Context, mesh: &Arc<Mesh>, radius: f64, seed: u64) -> Result<SurfaceSamples> {
-        let Self { order, iterations, maximal } = self;
-        let options = Options { order, iterations, maximal, seed, ..Options::new(radius) };
+        let Self { priority, iterations, maximal } = self;
+        let options = Options::new(radius).priority(priority).iterations(iterations).maximal(maximal).seed(seed);
         Ok(psp::sample(context, mesh, &options, None)?.0)
     }
 }
 
-pub fn order_name(order: Order) -> &'static str {
-    match order {
-        Order::Squareness => "squareness",
-        Order::Projector => "projector",
+pub fn order_name(priority: Priority) -> &'static str {
+    match priority {
+        Priority::Squareness => "squareness",
+        Priority::Projector => "projector",
     }
 }

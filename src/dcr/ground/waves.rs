@@ -1,0 +1,289 @@
+//! Long waves of the density, removed at once.
+//!
+//! Constraints between neighbours do not feel that a wide region is a little denser than another, which is why no force
+//! that depends on distances alone clears the low frequencies. Here the density is drawn on a grid, and the displacement
+//! `u` whose divergence is its relative excess `δ` is found by Fourier transform, `u = -i k δ / k²`, as particle-mesh codes
+//! find gravity (Hockney and Eastwood 1981). To first order, points that follow it leave a constant density.
+
+use std::f64::consts::{PI, TAU};
+use std::sync::Arc;
+
+use glam::{DVec2, Vec2};
+use rustfft::num_complex::Complex;
+use rustfft::{Fft, FftPlanner};
+
+use crate::dcr::ground::border::Border;
+use crate::dcr::ground::torus::{Place, Torus};
+use crate::error::Result;
+use crate::job::{Job, chunks, chunks_of};
+
+/// The width of the grid's cells in spacings. The finest waves that are removed have two cells; and what aliases to long
+/// waves, a spacing or so long, is where the spline by which points are drawn has its zero.
+const CELL: f64 = 0.9;
+
+/// Waves of this frequency, in units of the highest, are removed by less than rounding shows.
+const NOTHING: f64 = 2.4;
+
+/// On so many grids points are drawn at the same time.
+const SHEETS: usize = 4;
+
+/// Numbers at the nodes of the grid, row by row.
+pub(in crate::dcr) type Field = Vec<Complex<f32>>;
+
+/// The grid of a torus.
+pub(in crate::dcr) struct Waves {
+    torus: Torus,
+    /// None for a periodic domain, and where the border is like any other place.
+    border: Option<Border>,
+    /// Columns and rows.
+    cells: [usize; 2],
+    /// Along rows and along columns, forward and back.
+    forward: [Arc<dyn Fft<f32>>; 2],
+    back: [Arc<dyn Fft<f32>>; 2],
+}
+
+impl Waves {
+    /// The grid for `count` points.
+    pub(crate) fn new(torus: &Torus, border: Option<Border>, count: usize) -> Self {
+        Self { border, ..Self::of_spacing(torus, count, 1.0) }
+    }
+
+    /// The grid for points that are so far apart, in spacings; on a strip that is thinner than their distance it has no
+    /// more columns than `count` points need.
+    pub(in crate::dcr) fn of_spacing(torus: &Torus, count: usize, spacing: f64) -> Self {
+        let limit = (count + 8) as f64 / spacing;
+        let along = |length: f64| smooth((length / (CELL * spacing)).ceil().min(limit) as usize);
+        let cells = torus.frame.size().to_array().map(along);
+        let mut planner = FftPlanner::new();
+        let forward = cells.map(|count| planner.plan_fft_forward(count));
+        let back = cells.map(|count| planner.plan_fft_inverse(count));
+        Self { torus: *torus, border: None, cells, forward, back }
+    }
+
+    /// The displacements, in spacings, of the first `count` points, by waves up to the frequency `highest` in units of
+    /// sqrt(density), where what is removed has fallen to a third.
+    pub(crate) fn drift(&self, job: &Job, places: &[Place], count: usize, highest: f64) -> Result<Vec<Vec2>> {
+        let density = self.draw(&job.part(0.0, 0.1), places.len(), |point| (places[point], 1.0))?;
+        let field = self.displacements(&job.part(0.1, 0.8), density, places.len(), highest)?;
+        let chunks = chunks(count);
+        job.part(0.8, 1.0).concat(chunks.len(), |chunk| {
+            places[chunks.range(chunk)].iter().map(|&place| self.read(&field, place)).collect()
+        })
+    }
+
+    /// The displacements at the nodes that level a density which sums up to, or is the excess over, `count` points.
+    pub(in crate::dcr) fn displacements(&self, job: &Job, density: Field, count: usize, highest: f64) -> Result<Field> {
+        let [width, height] = self.cells;
+        let (mut field, mut turned) = (density, vec![Complex::default(); width * height]);
+        transform(&job.part(0.0, 0.1), &mut field, &self.forward[0])?;
+        turn(&job.part(0.1, 0.2), &field, &mut turned, width)?;
+        transform(&job.part(0.2, 0.4), &mut turned, &self.forward[1])?;
+        self.integrate(&job.part(0.4, 0.6), &mut turned, count, highest)?;
+        transform(&job.part(0.6, 0.7), &mut turned, &self.back[1])?;
+        turn(&job.part(0.7, 0.8), &turned, &mut field, height)?;
+        transform(&job.part(0.8, 1.0), &mut field, &self.back[0])?;
+        Ok(field)
+    }
+
+    /// The displacement at a place.
+    pub(in crate::dcr) fn read(&self, field: &Field, place: Place) -> Vec2 {
+        let mut sums = [Complex::<f32>::default(); 4];
+        self.for_each_run(place, |start, weights| {
+            let run = &field[start..start + weights.len()];
+            sums.iter_mut().zip(run).zip(weights).for_each(|((sum, value), weight)| *sum += value * weight);
+        });
+        let sum = (sums[0] + sums[2]) + (sums[1] + sums[3]);
+        Vec2::new(sum.re, sum.im)
+    }
+
+    /// Runs of nodes around a place, each from one on, and their weights: the cubic B-spline along each axis.
+    #[inline(always)]
+    fn for_each_run(&self, place: Place, mut visit: impl FnMut(usize, &[f32])) {
+        let [width, height] = self.cells;
+        let along = |axis: usize| {
+            let scaled = u64::from(place[axis]) * self.cells[axis] as u64;
+            let t = scaled as u32 as f32 / 2f32.powi(32);
+            let u = 1.0 - t;
+            let inner = |x: f32| ((3.0 * x - 6.0) * x * x + 4.0) / 6.0;
+            ((scaled >> 32) as usize + self.cells[axis] - 1, [u * u * u / 6.0, inner(t), inner(u), t * t * t / 6.0])
+        };
+        let ((left, across), (bottom, up)) = (along(0), along(1));
+        let left = wrapped(left, width);
+        for (j, up) in up.into_iter().enumerate() {
+            let row = wrapped(bottom + j, height) * width;
+            let weights = across.map(|across| up * across);
+            if left + weights.len() <= width {
+                visit(row + left, &weights);
+            } else {
+                // Across the seam, node by node.
+                for (i, weight) in weights.chunks(1).enumerate() {
+                    visit(row + wrapped(left + i, width), weight);
+                }
+            }
+        }
+    }
+
+    /// The density of `count` weights at places. Some at a time are drawn on a grid of their own, and what is drawn is added
+    /// up: so many grids, and no more, that the sums do not depend on the threads.
+    pub(in crate::dcr) fn draw(
+        &self,
+        job: &Job,
+        count: usize,
+        weighted: impl Fn(usize) -> (Place, f32) + Sync,
+    ) -> Result<Field> {
+        let sheets = chunks_of(count, count.div_ceil(SHEETS).max(8192));
+        let cells = self.cells[0] * self.cells[1];
+        let drawn = job.part(0.0, 0.8).map(sheets.len(), |sheet| {
+            let mut density = vec![0.0; cells];
+            for (place, whole) in sheets.range(sheet).map(&weighted) {
+                self.for_each_run(place, |start, weights| {
+                    // One by one: runs overlap those before by a part, which vectors would wait for.
+                    (start..).zip(weights).for_each(|(node, weight)| density[node] += whole * weight);
+                });
+            }
+            density
+        })?;
+        let chunks = chunks_of(cells, 8192);
+        job.part(0.8, 1.0).concat(chunks.len(), |chunk| {
+            let sum = |cell: usize| Complex::from(drawn.iter().map(|density| density[cell]).sum::<f32>());
+            chunks.range(chunk).map(sum).collect()
+        })
+    }
+
+    /// From the waves of the density of `count` points to those of the displacement, `x` in the real and `y` in the
+    /// imaginary part: both are real, so one transform carries both. `waves` are given column by column.
+    fn integrate(&self, job: &Job, waves: &mut Field, count: usize, highest: f64) -> Result<()> {
+        let size = self.torus.frame.size();
+        let per_point = (size.x * size.y / count as f64).sqrt() / (TAU * highest);
+        let (columns, rows) = (self.bins(0), self.bins(1));
+        let finest = self.finest();
+        let size = chunks_of(columns.len(), 1 + 8192 / rows.len()).size();
+        let parts = waves.chunks_mut(size * rows.len()).zip(columns.chunks(size));
+        job.map_each(parts.collect(), |(waves, columns)| {
+            for (column, x) in waves.chunks_mut(rows.len()).zip(columns) {
+                for (wave, y) in column.iter_mut().zip(&rows) {
+                    let k = DVec2::new(x.number, y.number);
+                    let relative = k.length() * per_point;
+                    if k == DVec2::ZERO || relative > NOTHING || k.length() > finest {
+                        *wave = Complex::default();
+                        continue;
+                    }
+                    if let Some(border) = &self.border {
+                        // Drawn as points are.
+                        *wave -= (border.wave([x.turns, y.turns]) * f64::sqrt(x.spline * y.spline)) as f32;
+                    }
+                    let share = (-relative.powi(4)).exp() / (x.spline * y.spline).max(0.01) / count as f64;
+                    let way = DVec2::new(k.y, -k.x) * (share / k.length_squared());
+                    *wave *= Complex::new(way.x as f32, way.y as f32);
+                }
+            }
+        })?;
+        Ok(())
+    }
+
+    /// The highest wave number that the grid has in all directions: its square would be seen in the spectrum.
+    fn finest(&self) -> f64 {
+        let size = self.torus.frame.size().to_array();
+        let along = |axis: usize| PI * self.cells[axis] as f64 / size[axis];
+        f64::min(along(0), along(1))
+    }
+
+    /// The bins of the transform along an axis.
+    fn bins(&self, axis: usize) -> Vec<Bin> {
+        let (cells, length) = (self.cells[axis] as i64, self.torus.frame.size()[axis]);
+        let bin = |bin: i64| {
+            let turns = if 2 * bin > cells { bin - cells } else { bin };
+            let half = PI * turns as f64 / cells as f64;
+            let spline = if bin == 0 { 1.0 } else { (half.sin() / half).powi(8) };
+            Bin { turns, number: TAU * turns as f64 / length, spline }
+        };
+        (0..cells).map(bin).collect()
+    }
+}
+
+/// Waves along an axis.
+struct Bin {
+    /// How often they fit into the period, and their wave number.
+    turns: i64,
+    number: f64,
+    /// What the spline does to them when drawing and when reading, together.
+    spline: f64,
+}
+
+/// The remainder, of numbers most of which are less than twice the divisor: a division takes longer than a node's share.
+fn wrapped(number: usize, count: usize) -> usize {
+    match number.checked_sub(count) {
+        None => number,
+        Some(rest) if rest < count => rest,
+        Some(rest) => rest % count,
+    }
+}
+
+/// The least number from `count` on that has only the factors 2, 3 and 5, for which transforms are fast.
+fn smooth(count: usize) -> usize {
+    let rest = |number: usize| {
+        [2, 3, 5].iter().fold(number, |rest, factor| {
+            let mut rest = rest;
+            while rest % factor == 0 {
+                rest /= factor;
+            }
+            rest
+        })
+    };
+    (count.max(1)..).find(|&number| rest(number) == 1).expect("powers of two have no end")
+}
+
+/// Transforms a field row by row.
+fn transform(job: &Job, field: &mut Field, fft: &Arc<dyn Fft<f32>>) -> Result<()> {
+    let rows = chunks_of(field.len() / fft.len(), 1 + 8192 / fft.len()).size();
+    job.map_each(field.chunks_mut(rows * fft.len()).collect(), |rows| fft.process(rows))?;
+    Ok(())
+}
+
+/// Makes columns of the rows, which are so long.
+fn turn(job: &Job, field: &Field, turned: &mut Field, width: usize) -> Result<()> {
+    let height = field.len() / width;
+    let columns = chunks_of(width, 1 + 8192 / height).size();
+    let parts = turned.chunks_mut(columns * height).enumerate();
+    job.map_each(parts.collect(), |(chunk, part)| {
+        for (column, part) in (chunk * columns..).zip(part.chunks_mut(height)) {
+            part.iter_mut().zip(field[column..].iter().step_by(width)).for_each(|(to, from)| *to = *from);
+        }
+    })?;
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::job::Context;
+    use crate::points::{Boundary, Domain};
+
+    /// A lattice displaced by a long wave along both axes, on a domain that is not square.
+    fn wavy(torus: &Torus, side: [u32; 2], height: f64) -> Vec<(Place, DVec2)> {
+        let cells = (0..side[1]).flat_map(|j| (0..side[0]).map(move |i| [i, j]));
+        let at = |[i, j]: [u32; 2]| {
+            let turns = DVec2::new(f64::from(i) / f64::from(side[0]), f64::from(j) / f64::from(side[1]));
+            let wave = DVec2::new((TAU * 2.0 * turns.x).sin(), (TAU * turns.y).cos()) * height;
+            let place = turns.to_array().map(|x| (x * 2f64.powi(32)) as u32);
+            (torus.moved(place, wave.as_vec2()), wave)
+        };
+        cells.map(at).collect()
+    }
+
+    #[test]
+    fn a_long_wave_is_undone() {
+        let domain = Domain { min: [0.0; 2], max: [2.0, 1.0], boundary: Boundary::Periodic };
+        let side = [60, 30];
+        let torus = Torus::new(domain, 1800);
+        let (places, displaced): (Vec<_>, Vec<_>) = wavy(&torus, side, 0.1).into_iter().unzip();
+        let waves = Waves::new(&torus, None, places.len());
+        for threads in [1, 3] {
+            let context = Context::new(threads).unwrap();
+            let drift = context.run(None, |job| waves.drift(job, &places, places.len(), 0.25)).unwrap();
+            for (drift, displaced) in drift.iter().zip(&displaced) {
+                assert!((drift.as_dvec2() + *displaced).length() < 0.01, "{drift} undoes {displaced}");
+            }
+        }
+    }
+}

@@ -1,0 +1,248 @@
+//! What points feel in their rings, eight at a time: [`Constraints::force`] in vectors, the same to the bit.
+//!
+//! The loops over eight lanes are plain; the compiler makes vectors of them.
+
+use std::array::from_fn;
+use std::ops::Range;
+
+use crate::dcr::ground::constraints::{Constraints, STRONGEST_PULL};
+use crate::dcr::ground::torus::{Place, Torus};
+use crate::dcr::uniform::rings::Rings;
+
+/// So many points at a time.
+pub(super) const LANES: usize = 8;
+
+type Lanes = [f32; LANES];
+
+/// The last bit of the masks of suspects.
+const LAST_BIT: usize = 31;
+
+/// The distance, and the circumradius, in spacings, from which on constraints count as violated: those of the best method
+/// before this one, push-pull.
+const TOO_CLOSE: f32 = 0.85;
+const TOO_WIDE: f32 = 0.67;
+
+/// The sum of two cotangents below which an edge may have to be flipped after its points have moved once more.
+const SUSPECT: f32 = 0.05;
+
+/// What eight points feel.
+pub(super) struct Felt {
+    /// The forces, along `x` and along `y`.
+    pub(super) force: [Lanes; 2],
+    /// The least heights of the triangles around the points.
+    pub(super) room: Lanes,
+    /// Whether no triangle is turned over or has an edge so long that twice it would be ambiguous: 1, else 0.
+    is_sound: [u32; LANES],
+    /// Whether a neighbour, not counting own images, is too close or a triangle too wide: 1, else 0.
+    is_violated: [u32; LANES],
+    /// In bit `k`, whether the edge to the neighbour before the `k`-th is suspect; in the last, whether one of the others is.
+    suspects: [u32; LANES],
+}
+
+/// Who is told what points feel.
+pub(super) trait Visit {
+    /// Some points that follow each other, at most eight, and what they feel, the first in the first lane.
+    fn visit(&mut self, rings: &Rings, points: Range<usize>, felt: &Felt);
+}
+
+impl Felt {
+    /// Whether all triangles around the first `count` points are sound.
+    #[inline(always)]
+    pub(super) fn are_sound(&self, count: usize) -> bool {
+        self.is_sound[..count].iter().all(|&is| is != 0)
+    }
+
+    /// Those of the first `count` lanes whose constraints are violated.
+    #[inline(always)]
+    pub(super) fn violated(&self, count: usize) -> impl Iterator<Item = usize> {
+        (0..count).filter(|&lane| self.is_violated[lane] != 0)
+    }
+
+    /// Adds the suspect edges of `points` to others of higher index, so that each edge is named by one of its ends.
+    #[inline(always)]
+    pub(super) fn suspects(&self, rings: &Rings, points: Range<usize>, suspects: &mut Vec<[u32; 2]>) {
+        for (point, &mask) in points.zip(&self.suspects).filter(|&(_, &mask)| mask != 0) {
+            let ring = rings.ring(point);
+            let others = (0..ring.len())
+                .filter(|&k| mask >> k.min(LAST_BIT) & 1 == 1)
+                .map(|k| ring[(k + ring.len() - 1) % ring.len()]);
+            suspects.extend(others.filter(|&other| point < other as usize).map(|other| [point as u32, other]));
+        }
+    }
+}
+
+/// What eight points feel of the triangles that were looked at, and the last of these.
+struct Sight<'a> {
+    constraints: &'a Constraints,
+    /// The longest edges along the axes, in spacings.
+    longest: [f32; 2],
+    /// The ways to the points' own images across the borders.
+    images: [Lanes; 2],
+    degrees: [u32; LANES],
+    force: [Lanes; 2],
+    /// The squares of the least heights, as numerators and denominators.
+    height: [Lanes; 2],
+    is_sound: [u32; LANES],
+    is_violated: [u32; LANES],
+    suspects: [u32; LANES],
+    /// The way to the last neighbour, and its square.
+    before: [Lanes; 2],
+    before_squared: Lanes,
+    /// Of the last triangle: twice the area, and the cosine at the neighbour before the last, times two edges.
+    area: Lanes,
+    cosine: Lanes,
+}
+
+/// What `points` feel.
+#[inline(always)]
+pub(super) fn feel(
+    rings: &Rings,
+    torus: &Torus,
+    places: &[Place],
+    points: [usize; LANES],
+    constraints: &Constraints,
+) -> Felt {
+    let slots: [&[u32]; LANES] = from_fn(|i| rings.slots_of(points[i]));
+    let degrees: [u32; LANES] = from_fn(|i| rings.degree(points[i]) as u32);
+    let here: [u64; LANES] = from_fn(|i| whole(places[points[i]]));
+    let (unit, longest) = torus.unit_and_longest();
+    let eight = Eight { places, rings: slots, here, unit: unit.to_array() };
+    let images: [[f32; 2]; LANES] = from_fn(|i| torus.ways_to_images(places[points[i]]));
+    let images = [0, 1].map(|axis| images.map(|image| image[axis]));
+    let first = eight.ways(degrees.map(|degree| degree as usize - 2));
+    let mut sight = Sight::new(constraints, longest, images, degrees, first);
+    sight.turn(eight.ways(degrees.map(|degree| degree as usize - 1)));
+    for k in 0..degrees.into_iter().max().unwrap_or(0) {
+        sight.see(eight.ways([k as usize; LANES]), k);
+    }
+    sight.felt()
+}
+
+/// Eight points and their rings.
+struct Eight<'a> {
+    places: &'a [Place],
+    rings: [&'a [u32]; LANES],
+    here: [u64; LANES],
+    unit: [f32; 2],
+}
+
+/// A place in one number: one load from memory.
+#[inline(always)]
+fn whole(place: Place) -> u64 {
+    u64::from(place[0]) | u64::from(place[1]) << 32
+}
+
+impl Eight<'_> {
+    /// The ways from the points to those in these slots of their rings.
+    #[inline(always)]
+    fn ways(&self, slots: [usize; LANES]) -> [Lanes; 2] {
+        let there: [u64; LANES] = from_fn(|i| whole(self.places[self.rings[i][slots[i]] as usize]));
+        let along = |axis: usize, i: usize| {
+            let [there, here] = [there[i], self.here[i]].map(|place| (place >> (32 * axis)) as u32);
+            there.wrapping_sub(here).cast_signed() as f32 * self.unit[axis]
+        };
+        [from_fn(|i| along(0, i)), from_fn(|i| along(1, i))]
+    }
+}
+
+impl<'a> Sight<'a> {
+    #[inline(always)]
+    fn new(
+        constraints: &'a Constraints,
+        longest: [f32; 2],
+        images: [Lanes; 2],
+        degrees: [u32; LANES],
+        first: [Lanes; 2],
+    ) -> Self {
+        Self {
+            constraints,
+            longest,
+            images,
+            degrees,
+            force: [[0.0; LANES]; 2],
+            height: [[f32::INFINITY; LANES], [1.0; LANES]],
+            is_sound: [1; LANES],
+            is_violated: [0; LANES],
+            suspects: [0; LANES],
+            before: first,
+            before_squared: from_fn(|i| first[0][i] * first[0][i] + first[1][i] * first[1][i]),
+            area: [0.0; LANES],
+            cosine: [0.0; LANES],
+        }
+    }
+
+    /// Goes on to the next neighbours without looking.
+    #[inline(always)]
+    fn turn(&mut self, [x, y]: [Lanes; 2]) {
+        for i in 0..LANES {
+            let [before_x, before_y] = self.before.map(|before| before[i]);
+            self.area[i] = before_x * y[i] - before_y * x[i];
+            self.cosine[i] = self.before_squared[i] - (before_x * x[i] + before_y * y[i]);
+            self.before_squared[i] = x[i] * x[i] + y[i] * y[i];
+        }
+        self.before = [x, y];
+    }
+
+    /// Looks at the triangles between the last neighbours and the `k`-th.
+    #[inline(always)]
+    fn see(&mut self, [xs, ys]: [Lanes; 2], k: u32) {
+        let &Constraints { conflict_radius, coverage_radius, push, pull, .. } = self.constraints;
+        for i in 0..LANES {
+            let is = k < self.degrees[i];
+            let (x, y) = (xs[i], ys[i]);
+            let (before_x, before_y, before_squared) = (self.before[0][i], self.before[1][i], self.before_squared[i]);
+            let squared = x * x + y * y;
+            let opposite = (x - before_x) * (x - before_x) + (y - before_y) * (y - before_y);
+            let area = before_x * y - before_y * x;
+
+            let height = area.max(0.0) * area;
+            let width = before_squared.max(squared).max(opposite);
+            let lower = is & (height * self.height[1][i] < self.height[0][i] * width);
+            self.height[0][i] = if lower { height } else { self.height[0][i] };
+            self.height[1][i] = if lower { width } else { self.height[1][i] };
+            let is_short = (x.abs() <= self.longest[0]) & (y.abs() <= self.longest[1]);
+            self.is_sound[i] = if !is | ((area > 0.0) & is_short) { self.is_sound[i] } else { 0 };
+
+            let distance = squared.sqrt();
+            let is_close = is & (squared < conflict_radius * conflict_radius) & (squared != 0.0);
+            let pushed = if is_close { push * (conflict_radius.recip() - distance.recip()) } else { 0.0 };
+
+            let product = before_squared * squared * opposite;
+            let is_wide = |radius: f32| product > (2.0 * radius * area) * (2.0 * radius * area);
+            let share = (2.0 * area).recip();
+            let centre_x = (squared * -before_y + before_squared * y) * share;
+            let centre_y = (squared * before_x - before_squared * x) * share;
+            let radius = (centre_x * centre_x + centre_y * centre_y).sqrt();
+            let is_pulled = is & is_wide(coverage_radius) & (radius > 0.0) & (radius < f32::INFINITY);
+            let pulled = pull * (coverage_radius.recip() - radius.recip()).min(STRONGEST_PULL * radius.recip());
+            self.force[0][i] += pushed * x;
+            self.force[1][i] += pushed * y;
+            self.force[0][i] += if is_pulled { pulled * centre_x } else { 0.0 };
+            self.force[1][i] += if is_pulled { pulled * centre_y } else { 0.0 };
+
+            let is_image = ((x == self.images[0][i]) & (y == 0.0)) | ((y == self.images[1][i]) & (x == 0.0));
+            let violates = is & (((squared < TOO_CLOSE * TOO_CLOSE) & !is_image) | is_wide(TOO_WIDE));
+            self.is_violated[i] = if violates { 1 } else { self.is_violated[i] };
+
+            let dot = before_x * x + before_y * y;
+            let excess = self.cosine[i] * area + (squared - dot) * self.area[i];
+            let suspect = is & (excess < SUSPECT * (area * self.area[i]));
+            self.suspects[i] |= if suspect { 1 << k.min(LAST_BIT as u32) } else { 0 };
+            self.cosine[i] = before_squared - dot;
+            self.area[i] = area;
+            self.before_squared[i] = squared;
+        }
+        self.before = [xs, ys];
+    }
+
+    #[inline(always)]
+    fn felt(self) -> Felt {
+        Felt {
+            force: self.force,
+            room: from_fn(|i| (self.height[0][i] / self.height[1][i]).sqrt()),
+            is_sound: self.is_sound,
+            is_violated: self.is_violated,
+            suspects: self.suspects,
+        }
+    }
+}

@@ -1,0 +1,290 @@
+//! A job: the threads that a long call runs on, its progress callback and its cancellation.
+//!
+//! All parallel code of the crate goes through [`Job::map`]: tasks that share nothing, results in the order of the
+//! tasks. That is what makes every result independent of the number of threads.
+
+use std::mem::ManuallyDrop;
+use std::ops::ControlFlow;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::mpsc::{self, RecvTimeoutError};
+use std::time::Duration;
+
+use rayon::prelude::*;
+
+use crate::error::{Error, Result};
+
+/// How often the calling thread looks up from waiting to report progress.
+const REPORT_INTERVAL: Duration = Duration::from_millis(20);
+
+/// How many results of [`Job::stream`] each thread makes while those before them are visited.
+const TASKS_AHEAD: usize = 4;
+
+/// Called on the thread that made the call, with the finished share, which grows from 0 to 1; `Break` cancels.
+pub type Progress<'a> = dyn Fn(f64) -> ControlFlow<()> + 'a;
+
+/// The threads of the library: a rayon pool of its own, never the global one.
+///
+/// With one thread no thread is made and all work happens in the caller's. Can be shared freely between threads.
+///
+/// A process that is forked has none of the threads: a context with threads refuses to work there.
+#[derive(Debug)]
+pub struct Context {
+    /// Taken by `drop` only.
+    pool: Option<ManuallyDrop<rayon::ThreadPool>>,
+    /// The process that the threads are in.
+    process: u32,
+}
+
+impl Context {
+    /// A context with `num_threads` threads, or one per core for 0.
+    ///
+    /// # Errors
+    /// [`Error::InvalidArgument`] above 4096 threads, [`Error::Threads`] if they cannot be started.
+    pub fn new(num_threads: usize) -> Result<Self> {
+        if num_threads > 4096 {
+            return Err(Error::invalid("num_threads", format!("{num_threads} is above 4096")));
+        }
+        let threads = match num_threads {
+            0 => std::thread::available_parallelism().map_or(1, usize::from),
+            n => n,
+        };
+        let process = std::process::id();
+        if threads == 1 {
+            return Ok(Self { pool: None, process });
+        }
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .thread_name(|i| format!("azulejo-{i}"))
+            .build()
+            .map_err(|error| Error::Threads { threads, reason: error.to_string() })?;
+        Ok(Self { pool: Some(ManuallyDrop::new(pool)), process })
+    }
+
+    /// How many threads work on a call.
+    pub fn num_threads(&self) -> usize {
+        self.pool.as_ref().map_or(1, |pool| pool.current_num_threads())
+    }
+
+    /// Runs a call to its end and reports the last `1.0`.
+    pub(crate) fn run<T>(&self, progress: Option<&Progress>, call: impl FnOnce(&Job) -> Result<T>) -> Result<T> {
+        if self.pool.is_some() && self.was_left_behind() {
+            return Err(Error::Forked);
+        }
+        let job = Job { context: self, progress, from: 0.0, to: 1.0 };
+        job.report(0.0)?;
+        let result = call(&job)?;
+        job.report(1.0)?;
+        Ok(result)
+    }
+
+    /// Whether the process was forked since, and the threads are in another one.
+    fn was_left_behind(&self) -> bool {
+        self.process != std::process::id()
+    }
+}
+
+impl Drop for Context {
+    fn drop(&mut self) {
+        // In a forked process a thread that is not there may hold a lock for ever; the pool's memory is left alone.
+        if let Some(pool) = self.pool.take()
+            && !self.was_left_behind()
+        {
+            drop(ManuallyDrop::into_inner(pool));
+        }
+    }
+}
+
+/// A range of items cut into the tasks of [`Job::map`]: many items each, the same for any number of threads.
+#[derive(Clone, Copy)]
+pub(crate) struct Chunks {
+    items: usize,
+    size: usize,
+}
+
+/// Cuts `0..items` into chunks of the usual size.
+pub(crate) fn chunks(items: usize) -> Chunks {
+    chunks_of(items, 2048)
+}
+
+/// Cuts `0..items` into chunks of `size` items.
+pub(crate) fn chunks_of(items: usize, size: usize) -> Chunks {
+    Chunks { items, size }
+}
+
+impl Chunks {
+    /// The number of chunks.
+    pub(crate) fn len(self) -> usize {
+        self.items.div_ceil(self.size)
+    }
+
+    /// The most items of a chunk.
+    pub(crate) fn size(self) -> usize {
+        self.size
+    }
+
+    /// The items of one chunk.
+    pub(crate) fn range(self, chunk: usize) -> std::ops::Range<usize> {
+        let start = chunk * self.size;
+        start..(start + self.size).min(self.items)
+    }
+}
+
+/// A call in progress, or a part of one.
+#[derive(Clone, Copy)]
+pub(crate) struct Job<'a> {
+    context: &'a Context,
+    progress: Option<&'a Progress<'a>>,
+    from: f64,
+    to: f64,
+}
+
+impl<'a> Job<'a> {
+    /// The part of this job that lies between two shares of it. Parts follow each other; they do not overlap.
+    pub(crate) fn part(&self, from: f64, to: f64) -> Job<'a> {
+        let at = |share: f64| self.from + (self.to - self.from) * share;
+        Job { from: at(from), to: at(to), ..*self }
+    }
+
+    /// The threads that the job runs on.
+    pub(crate) fn context(&self) -> &'a Context {
+        self.context
+    }
+
+    /// Reports to the caller that `share` of this part is done.
+    pub(crate) fn report(&self, share: f64) -> Result<()> {
+        let Some(progress) = self.progress else { return Ok(()) };
+        match progress(self.from + (self.to - self.from) * share) {
+            ControlFlow::Continue(()) => Ok(()),
+            ControlFlow::Break(()) => Err(Error::Cancelled),
+        }
+    }
+
+    /// `[task(0), .., task(count - 1)]`, in parallel; the order of the result never depends on the threads.
+    pub(crate) fn map<T: Send>(&self, count: usize, task: impl Fn(usize) -> T + Sync) -> Result<Vec<T>> {
+        self.map_each((0..count).collect(), task)
+    }
+
+    /// [`Job::map`] over any items: what tasks write in place, each its own part of it, is handed to them so.
+    pub(crate) fn map_each<I: Send, T: Send>(&self, items: Vec<I>, task: impl Fn(I) -> T + Sync) -> Result<Vec<T>> {
+        let count = items.len();
+        let share = |finished: usize| finished as f64 / count.max(1) as f64;
+        match (&self.context.pool, self.progress) {
+            (None, _) => (1..)
+                .zip(items)
+                .map(|(finished, item)| {
+                    let result = task(item);
+                    self.report(share(finished)).map(|()| result)
+                })
+                .collect(),
+            (Some(pool), None) => Ok(pool.install(|| items.into_par_iter().map(&task).collect())),
+            (Some(pool), Some(_)) => self.map_watched(pool, items, &share, task),
+        }
+    }
+
+    /// The tasks run on the pool while the calling thread reports how many are finished.
+    fn map_watched<I: Send, T: Send>(
+        &self,
+        pool: &rayon::ThreadPool,
+        items: Vec<I>,
+        share: &dyn Fn(usize) -> f64,
+        task: impl Fn(I) -> T + Sync,
+    ) -> Result<Vec<T>> {
+        let (finished, cancelled) = (AtomicUsize::new(0), AtomicBool::new(false));
+        let mut results = None;
+        // Dropping the sender, at the end or by a panic, is what ends the calling thread's watch.
+        let (running, watch) = mpsc::channel::<()>();
+        let mut verdict = Ok(());
+        pool.in_place_scope(|scope| {
+            scope.spawn(|_| {
+                let _running = running;
+                let attempt = |item| {
+                    if cancelled.load(Ordering::Relaxed) {
+                        return None;
+                    }
+                    let result = task(item);
+                    finished.fetch_add(1, Ordering::Relaxed);
+                    Some(result)
+                };
+                results = items.into_par_iter().map(attempt).collect::<Option<Vec<T>>>();
+            });
+            while let Err(RecvTimeoutError::Timeout) = watch.recv_timeout(REPORT_INTERVAL) {
+                if verdict.is_ok() {
+                    verdict = self.report(share(finished.load(Ordering::Relaxed)));
+                    cancelled.store(verdict.is_err(), Ordering::Relaxed);
+                }
+            }
+        });
+        verdict?;
+        self.report(1.0)?;
+        results.ok_or(Error::Cancelled)
+    }
+
+    /// Hands `task(0), .., task(count - 1)` to `visit`, in this order and on the calling thread, while the pool makes the
+    /// next ones. Whatever the count, at most 2 · [`TASKS_AHEAD`] results per thread exist at a time.
+    pub(crate) fn stream<T: Send>(
+        &self,
+        count: usize,
+        task: impl Fn(usize) -> T + Sync,
+        mut visit: impl FnMut(T) -> Result<()>,
+    ) -> Result<()> {
+        let mut visited = 0;
+        let mut visit = |result| {
+            visit(result)?;
+            visited += 1;
+            self.report(visited as f64 / count as f64)
+        };
+        let Some(pool) = &self.context.pool else {
+            return (0..count).try_for_each(|i| visit(task(i)));
+        };
+        let size = TASKS_AHEAD * pool.current_num_threads();
+        let mut ready = Vec::new();
+        // One round more than there are batches: the first has nothing to visit yet, the last nothing to make.
+        for start in (0..count + size).step_by(size) {
+            let batch = start..(start + size).min(count);
+            let waiting = std::mem::take(&mut ready);
+            pool.in_place_scope(|scope| {
+                scope.spawn(|_| ready = batch.into_par_iter().map(&task).collect());
+                waiting.into_iter().try_for_each(&mut visit)
+            })?;
+        }
+        Ok(())
+    }
+
+    /// [`Job::map`] for tasks that give any number of results each, concatenated in the order of the tasks.
+    pub(crate) fn flat_map<T: Send>(&self, count: usize, task: impl Fn(usize) -> Vec<T> + Sync) -> Result<Vec<T>> {
+        let parts = self.map(count, task)?;
+        let mut all = Vec::with_capacity(parts.iter().map(Vec::len).sum());
+        parts.into_iter().for_each(|part| all.extend(part));
+        Ok(all)
+    }
+
+    /// [`Job::flat_map`] where there are so many results that the copy counts, and the first use of memory as much: one
+    /// thread copies each part while it is in the cache, several share the copy.
+    pub(crate) fn concat<T: Copy + Default + Send + Sync>(
+        &self,
+        count: usize,
+        task: impl Fn(usize) -> Vec<T> + Sync,
+    ) -> Result<Vec<T>> {
+        let Some(pool) = &self.context.pool else {
+            let mut all = Vec::new();
+            self.stream(count, task, |part| {
+                all.extend_from_slice(&part);
+                Ok(())
+            })?;
+            return Ok(all);
+        };
+        let parts = self.map(count, task)?;
+        let mut all = vec![T::default(); parts.iter().map(Vec::len).sum()];
+        let (mut rest, mut places) = (all.as_mut_slice(), Vec::with_capacity(parts.len()));
+        for part in &parts {
+            let (place, behind) = rest.split_at_mut(part.len());
+            places.push(place);
+            rest = behind;
+        }
+        pool.install(|| places.into_par_iter().zip(parts).for_each(|(place, part)| place.copy_from_slice(&part)));
+        Ok(all)
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,116 @@
+//! What each stage of KDRT does and takes (thesis table 2.2 and fig. 2.13), for benchmarks and studies: not a part of the API.
+
+use std::hint::black_box;
+use std::time::{Duration, Instant};
+
+use crate::error::Result;
+use crate::job::Context;
+use crate::plane::lattice::Lattice;
+use crate::plane::rect::Rect;
+
+use crate::kdrt::options::Options;
+use crate::kdrt::tiling::Tiling;
+
+/// What each stage of KDRT did and took, on one thread.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Stages {
+    /// Samples of the result.
+    pub samples: u64,
+    /// Points of the pattern laid in leaves.
+    pub clipped: u64,
+    /// Of these, those near seams, which were tested.
+    pub tested: u64,
+    /// Of these, those eliminated.
+    pub eliminated: u64,
+    /// Samples that fill gaps.
+    pub filled: u64,
+    /// Making the pattern.
+    pub pattern: Duration,
+    /// Finding the leaves.
+    pub divide: Duration,
+    /// Laying the pattern in the leaves.
+    pub clip: Duration,
+    /// Eliminating conflicts.
+    pub eliminate: Duration,
+    /// Filling gaps.
+    pub fill: Duration,
+    /// Writing the samples.
+    pub output: Duration,
+}
+
+/// Measures the stages of [`sample`](super::sample) on one thread, with the set that it would make.
+///
+/// Clipping is interwoven with elimination; it is measured by clipping once more, and elimination as the rest. A domain
+/// that is not tiled is all pattern.
+///
+/// # Errors
+/// Those of [`sample`](super::sample).
+pub fn measure(options: &Options) -> Result<Stages> {
+    let &Options { radius, domain, leaf_size, seed } = options;
+    crate::kdrt::options::check_leaf_size(leaf_size)?;
+    let lattice = Lattice::new(&domain, radius)?;
+    let (context, mut stages) = (Context::new(1)?, Stages::default());
+    if !Tiling::is_worthwhile(&lattice, leaf_size) {
+        let samples = timed(&mut stages.pattern, || crate::kdrt::sample::sample(&context, options, None))?;
+        return Ok(Stages { samples: samples.len() as u64, ..stages });
+    }
+    let tiling = timed(&mut stages.pattern, || context.run(None, |job| Tiling::new(job, lattice, leaf_size, seed)))?;
+    let mut all = Vec::new();
+    for window in tiling.windows() {
+        let samples = measure_window(&tiling, &window, &mut stages);
+        timed(&mut stages.output, || all.extend_from_slice(&samples));
+    }
+    stages.samples = all.len() as u64;
+    Ok(stages)
+}
+
+fn measure_window(tiling: &Tiling, window: &Rect, stages: &mut Stages) -> Vec<[f32; 2]> {
+    let (known, held) = (tiling.surroundings(window), tiling.rect(window));
+    let leaves = timed(&mut stages.divide, || tiling.leaves(&known));
+    let mut clip = Duration::ZERO;
+    timed(&mut clip, || black_box(tiling.clip(&known, &leaves)));
+    let mut merge = Duration::ZERO;
+    let merged = timed(&mut merge, || tiling.merge(&known, window, &leaves));
+    stages.clip += clip;
+    stages.eliminate += merge.saturating_sub(clip);
+
+    let survivors = merged.output.len() as u64;
+    let eliminated = merged.eliminated.iter().filter(|&&point| held.contains(point)).count() as u64;
+    stages.clipped += survivors + eliminated;
+    stages.tested += merged.grid.samples_in(&held).count() as u64 + eliminated;
+    stages.eliminated += eliminated;
+    let samples = timed(&mut stages.fill, || tiling.fill(window, &leaves, merged));
+    stages.filled += samples.len() as u64 - survivors;
+    samples
+}
+
+/// Adds the time of a piece of work to `total`.
+fn timed<T>(total: &mut Duration, work: impl FnOnce() -> T) -> T {
+    let start = Instant::now();
+    let result = work();
+    *total += start.elapsed();
+    result
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::points::{Boundary, Domain};
+
+    #[test]
+    fn the_stages_make_the_set_that_sampling_makes() {
+        for boundary in [Boundary::Periodic, Boundary::Bounded] {
+            for (radius, leaf_size) in [(0.004, 20.0), (0.007, 6.0), (0.2, 20.0)] {
+                let options = Options::new(radius).domain(Domain::unit(boundary)).leaf_size(leaf_size).seed(3);
+                let stages = measure(&options).unwrap();
+                let samples = crate::kdrt::sample::sample(&Context::new(1).unwrap(), &options, None).unwrap();
+                assert_eq!(stages.samples, samples.len() as u64);
+                if stages.clipped > 0 {
+                    assert_eq!(stages.samples, stages.clipped - stages.eliminated + stages.filled);
+                    assert!(stages.eliminated < stages.tested && stages.tested < stages.clipped);
+                }
+                assert_eq!(stages.clipped > 0, radius < 0.1);
+            }
+        }
+    }
+}

@@ -1,0 +1,306 @@
+//! The flat quadtree of Ebeida, Mitchell, Patney, Davidson and Owens 2012, "A simple algorithm for maximal
+//! Poisson-disk sampling in high dimensions", in the plane and on the lattice.
+//!
+//! The list of *voxels*, squares of one level, always holds every lattice point that no sample covers. Darts fall
+//! exactly uniformly on the voxels' lattice points, so an accepted dart is uniform on what is uncovered. Between
+//! rounds of darts voxels are cut and the parts that one sample covers are dropped. Where the paper ends at the
+//! precision of floats, the voxels here end as single lattice points: an empty list *proves* maximality.
+//!
+//! Voxels are cut in sixteen by a coarse test (`near.rs`) while they are wide, and exactly in four after that.
+
+use crate::error::Result;
+use crate::job::Job;
+use crate::plane::cells::CellGrid;
+use crate::plane::list::List;
+use crate::plane::near::Near;
+use crate::plane::rect::Rect;
+use crate::rng::Rng;
+
+/// Voxels wider than this are cut in sixteen by the coarse test, which has no slack to speak of at this size; others
+/// exactly in four.
+const NARROWEST: i32 = 8;
+
+/// Darts per cell of a whole domain, before any is cut. After that [`darts()`] says how many.
+const DARTS_PER_CELL: usize = 2;
+
+/// Darts between two reports of the progress.
+const DARTS_PER_REPORT: usize = 1 << 16;
+
+/// The deepest voxels that are cut by the coarse test, as a share of the cell: much wider than its slack.
+const DEEPEST: i32 = 1 << 9;
+
+/// A rectangle of lattice points of a cell, some of which may be uncovered.
+#[derive(Clone, Copy)]
+struct Voxel {
+    rect: Rect,
+    cell: [i32; 2],
+}
+
+/// The voxels of a rectangle of lattice points that may be uncovered. Those of one cell follow each other.
+pub(crate) struct Quadtree {
+    /// The widest voxel of this level.
+    width: i32,
+    /// The narrowest voxel that the coarse test may cut.
+    narrowest: i32,
+    voxels: Vec<Voxel>,
+    /// The memory of the next level's voxels.
+    next: Vec<Voxel>,
+    /// The memory of the samples near a cell, for the coarse test.
+    near: Box<Near>,
+    /// The same for the exact test.
+    exactly_near: Vec<[i32; 2]>,
+}
+
+impl Quadtree {
+    /// The given cells of the grid, as far as they lie in `rect`.
+    pub fn new(grid: &CellGrid, rect: Rect, cells: impl IntoIterator<Item = [i32; 2]>) -> Self {
+        let voxels = cells.into_iter().map(|cell| (cell, grid.rect(cell).intersection(&rect)));
+        let mut quadtree = Self::empty();
+        quadtree.restart(grid, grid.widest_cell(), voxels.filter(|(_, rect)| !rect.is_empty()));
+        quadtree
+    }
+
+    /// No voxels.
+    pub fn empty() -> Self {
+        Self {
+            width: 1,
+            narrowest: NARROWEST,
+            voxels: Vec::new(),
+            next: Vec::new(),
+            near: Box::new(Near::new()),
+            exactly_near: Vec::new(),
+        }
+    }
+
+    /// Drops all voxels and takes the given ones, no wider than `width`, each with its cell.
+    pub fn restart(&mut self, grid: &CellGrid, width: i32, voxels: impl Iterator<Item = ([i32; 2], Rect)>) {
+        self.width = width;
+        self.narrowest = NARROWEST.max(grid.widest_cell() / DEEPEST);
+        self.voxels.clear();
+        self.voxels.extend(voxels.map(|(cell, rect)| Voxel { rect, cell }));
+    }
+
+    /// Drops all voxels, for sixteenths of voxels no wider than `width` ([`Quadtree::add_sixteenths`]).
+    #[inline(always)]
+    pub fn restart_cut(&mut self, grid: &CellGrid, width: i32) {
+        self.restart(grid, part(width), std::iter::empty());
+        debug_assert!(width > self.narrowest);
+    }
+
+    /// Takes the sixteenths of a voxel of a cell that no sample covers. All samples that could are listed.
+    #[inline(always)]
+    pub fn add_sixteenths(&mut self, grid: &CellGrid, list: &List, cell: [i32; 2], voxel: Rect) {
+        grid.gather_among(list, voxel, &mut self.near);
+        let open = grid.uncovered(&self.near, &voxel, self.width);
+        self.voxels.extend(parts(voxel, self.width, open).map(|rect| Voxel { rect, cell }));
+    }
+
+    /// How many voxels are left.
+    pub fn len(&self) -> usize {
+        self.voxels.len()
+    }
+
+    /// Whether every lattice point is covered.
+    pub fn is_empty(&self) -> bool {
+        self.voxels.is_empty()
+    }
+
+    /// Throws a dart and adds it to the grid if it becomes a sample. There must be voxels left.
+    #[inline(always)]
+    fn throw(&mut self, grid: &mut CellGrid, rng: &mut Rng) -> Option<[i32; 2]> {
+        let pick = rng.below(self.voxels.len() as u64) as usize;
+        let Voxel { rect, cell } = self.voxels[pick];
+        grid.throw(cell, &rect, self.width, rng)
+    }
+
+    /// Drops the voxels that a new sample covers, as far as this is certain without a second look.
+    #[inline(always)]
+    fn prune(&mut self, grid: &CellGrid, sample: [i32; 2]) {
+        let limit = grid.certain();
+        let mut left = 0;
+        for i in 0..self.voxels.len() {
+            let voxel = self.voxels[i];
+            let [dx, dy] = [0, 1].map(|axis: usize| {
+                let ends = [sample[axis] - voxel.rect.min[axis], voxel.rect.max[axis] - 1 - sample[axis]];
+                ends[0].max(ends[1]) as f32
+            });
+            // Written in any case, kept only if it is open: which are is not predictable.
+            self.voxels[left] = voxel;
+            left += usize::from(dx * dx + dy * dy >= limit);
+        }
+        self.voxels.truncate(left);
+    }
+
+    /// Throws darts and cuts voxels until every lattice point is covered, and shows the new samples to `accepted`. For whole
+    /// domains, of which about `expected` samples are the whole progress: a sample is not compared with the other voxels.
+    pub fn rain(
+        &mut self,
+        job: &Job,
+        grid: &mut CellGrid,
+        rng: &mut Rng,
+        expected: f64,
+        mut accepted: impl FnMut([i32; 2]),
+    ) -> Result<()> {
+        let mut count = 0u64;
+        let mut remaining = DARTS_PER_CELL * self.len();
+        while !self.is_empty() {
+            while remaining > 0 {
+                for _ in 0..remaining.min(DARTS_PER_REPORT) {
+                    if let Some(sample) = self.throw(grid, rng) {
+                        count += 1;
+                        accepted(sample);
+                    }
+                }
+                remaining = remaining.saturating_sub(DARTS_PER_REPORT);
+                job.report((count as f64 / expected).min(0.99))?;
+            }
+            self.refine(grid);
+            remaining = darts(self.len());
+        }
+        Ok(())
+    }
+
+    /// As [`Quadtree::rain`] where there are few voxels: a new sample is compared with all of them.
+    #[inline(always)]
+    pub fn fill(&mut self, grid: &mut CellGrid, rng: &mut Rng, mut accepted: impl FnMut([i32; 2])) {
+        while !self.is_empty() {
+            let mut misses = darts(self.len());
+            while misses > 0 {
+                misses -= 1;
+                if let Some(sample) = self.throw(grid, rng) {
+                    self.prune(grid, sample);
+                    accepted(sample);
+                    misses = darts(self.len());
+                }
+            }
+            self.refine(grid);
+        }
+    }
+
+    /// Cuts the voxels in parts and drops those that one sample covers. Single lattice points are not cut.
+    #[inline(always)]
+    pub fn refine(&mut self, grid: &CellGrid) {
+        let is_coarse = self.width > self.narrowest;
+        let width = if is_coarse { part(self.width) } else { (self.width + 1) / 2 };
+        self.next.clear();
+        for voxels in self.voxels.chunk_by(|a, b| a.cell == b.cell) {
+            let cell = voxels[0].cell;
+            if grid.sample(cell).is_some() {
+                continue;
+            }
+            if is_coarse {
+                grid.gather(cell, &mut self.near);
+                for &Voxel { rect, .. } in voxels {
+                    let open = parts(rect, width, grid.uncovered(&self.near, &rect, width));
+                    self.next.extend(open.map(|rect| Voxel { rect, cell }));
+                }
+            } else {
+                let near = grid.samples_near(cell, &mut self.exactly_near);
+                let quarters = voxels.iter().flat_map(|voxel| quarters(voxel.rect, width));
+                let open = quarters.filter(|rect| !grid.covers(near, rect));
+                self.next.extend(open.map(|rect| Voxel { rect, cell }));
+            }
+        }
+        self.width = width;
+        std::mem::swap(&mut self.voxels, &mut self.next);
+    }
+}
+
+/// How many darts are thrown at so many voxels before they are cut. Where voxels are pruned by every new sample: how many
+/// miss in a row; in a gap most darts become samples, and most samples close it.
+pub(crate) fn darts(voxels: usize) -> usize {
+    voxels.div_ceil(2)
+}
+
+/// The width of the parts when a voxel is cut in four along each axis.
+fn part(width: i32) -> i32 {
+    (width + 3) / 4
+}
+
+/// The sixteenths of a voxel, as wide as given, whose bit is set in `open`.
+#[inline(always)]
+fn parts(voxel: Rect, width: i32, mut open: u16) -> impl Iterator<Item = Rect> {
+    std::iter::from_fn(move || {
+        (open != 0).then(|| {
+            let i = open.trailing_zeros() as i32;
+            open &= open - 1;
+            let min = [voxel.min[0] + i % 4 * width, voxel.min[1] + i / 4 * width];
+            Rect { min, max: [0, 1].map(|axis: usize| (min[axis] + width).min(voxel.max[axis])) }
+        })
+    })
+}
+
+/// The quarters of a voxel, as wide as given; of one that is no wider, itself.
+fn quarters(voxel: Rect, width: i32) -> impl Iterator<Item = Rect> {
+    let corners = [[0, 0], [1, 0], [0, 1], [1, 1]].map(|[x, y]| [voxel.min[0] + x * width, voxel.min[1] + y * width]);
+    let rects = corners.map(|min| Rect { min, max: min.map(|x| x + width) }.intersection(&voxel));
+    rects.into_iter().filter(|rect| !rect.is_empty())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plane::CellAxis;
+    use crate::plane::lattice::Separation;
+    use crate::rng::Draw;
+
+    fn grid(size: [i32; 2]) -> CellGrid {
+        let axes = size.map(|size| CellAxis::new(size, 70.0));
+        CellGrid::new(&axes, &Rect { min: [0; 2], max: size }, Separation { threshold: 4900, reach: 69 })
+    }
+
+    fn all_cells(grid: &CellGrid) -> Vec<[i32; 2]> {
+        let [columns, rows] = grid.counts();
+        (0..rows).flat_map(|y| (0..columns).map(move |x| [x, y])).collect()
+    }
+
+    /// In an empty grid nothing is dropped: at every level each lattice point is in exactly one voxel.
+    #[test]
+    fn voxels_of_every_level_hold_each_lattice_point_once() {
+        let grid = grid([211, 130]);
+        let clip = Rect { min: [13, 20], max: [200, 101] };
+        let mut quadtree = Quadtree::new(&grid, clip, all_cells(&grid));
+        loop {
+            let mut held = vec![0; 211 * 130];
+            for &Voxel { rect, cell } in &quadtree.voxels {
+                assert!((0..2).all(|axis| rect.length(axis) <= quadtree.width));
+                assert_eq!(rect.intersection(&grid.rect(cell)), rect);
+                for (y, x) in (rect.min[1]..rect.max[1]).flat_map(|y| (rect.min[0]..rect.max[0]).map(move |x| (y, x))) {
+                    held[(y * 211 + x) as usize] += 1;
+                }
+            }
+            for (place, held) in held.into_iter().enumerate() {
+                let inside = clip.contains([place as i32 % 211, place as i32 / 211]);
+                assert_eq!(held, i32::from(inside));
+            }
+            if quadtree.width == 1 {
+                break;
+            }
+            quadtree.refine(&grid);
+        }
+    }
+
+    #[test]
+    fn first_darts_are_uniform_at_every_level() {
+        let size = [57, 61];
+        for level in 0..4 {
+            let mut histogram = vec![0u32; 57 * 61];
+            let mut rng = Rng::at(level, Draw::Probe, &[]);
+            for _ in 0..100_000 {
+                let mut grid = grid(size);
+                let mut quadtree = Quadtree::new(&grid, Rect { min: [0; 2], max: size }, all_cells(&grid));
+                (0..level).for_each(|_| quadtree.refine(&grid));
+                let mut first = None;
+                while first.is_none() {
+                    first = quadtree.throw(&mut grid, &mut rng);
+                }
+                let [x, y] = first.unwrap();
+                histogram[(y * 57 + x) as usize] += 1;
+            }
+            let expected = 100_000.0 / histogram.len() as f64;
+            let chi2: f64 = histogram.iter().map(|&count| (f64::from(count) - expected).powi(2) / expected).sum();
+            let freedom = histogram.len() as f64 - 1.0;
+            assert!((chi2 - freedom).abs() < 5.0 * (2.0 * freedom).sqrt(), "chi2 {chi2} of {freedom} at level {level}");
+        }
+    }
+}

@@ -1,0 +1,129 @@
+//! Projection by ray packets: the pattern's points become rays, filtered by the bounding box (thesis §3.4.3) and traced
+//! through the whole mesh by Embree (§3.3.2).
+//!
+//! Departs from the thesis in how a ray goes on behind its first hit: one traversal that collects all hits, instead of
+//! restarted rays. It finds the same hits, without an epsilon.
+//!
+//! Rays live in *trace space*, where the mesh's box is centred at the origin and has a diagonal of 1: Embree's precision
+//! depends on the size of the scene. Only triangle and barycentrics come back from there.
+
+use glam::DVec3;
+
+use crate::error::Result;
+use crate::job::Job;
+use crate::mesh::{Mesh, exact};
+use crate::psp::project::pattern::Pattern;
+use crate::psp::project::projector::{Collector, Found, Projector};
+use crate::trace::{Ray, Scene};
+
+/// The box is widened by this (trace space), so that a rounded ray along its side is not lost.
+const BOX_MARGIN: f64 = 1e-6;
+/// Distance of the projectors from the centre (trace space), outside the mesh.
+const DISTANCE: f64 = 1.0;
+/// No more tasks than this, however many repetitions of the pattern a projector needs.
+const MAX_TASKS: u64 = 1 << 16;
+
+/// A mesh in trace space and the pattern that is projected onto it.
+pub(crate) struct Rays {
+    /// The triangles that are to be sampled, and no others.
+    scene: Scene,
+    /// Their numbers in the mesh.
+    numbers: Vec<u32>,
+    pattern: Pattern,
+    /// Half the size of the mesh's box (trace space).
+    half_box: DVec3,
+    /// The radius (trace space).
+    radius: f64,
+}
+
+/// The repetitions of the pattern that meet the shadow of the box on a projector.
+struct Repetitions {
+    /// Half the size of the shadow, in radii.
+    half: [f64; 2],
+    /// The lowest on each axis, and how many.
+    first: [i64; 2],
+    count: [u64; 2],
+}
+
+impl Rays {
+    /// Builds the scene and the pattern.
+    pub fn new(job: &Job, mesh: &Mesh, radius: f64, seed: u64) -> Result<Self> {
+        let (low, high) = mesh.bounds();
+        let (low, high) = (exact(low), exact(high));
+        let (centre, scale) = (0.5 * (low + high), (high - low).length().recip());
+        // Vertices that no triangle uses can be anywhere; a clamp keeps them from upsetting Embree.
+        let normalise = |&position: &[f32; 3]| {
+            ((exact(position) - centre) * scale).clamp(DVec3::NEG_ONE, DVec3::ONE).as_vec3().to_array()
+        };
+        let normalised: Vec<_> = mesh.positions().iter().map(normalise).collect();
+        let numbers: Vec<_> = mesh.sampled_triangles().collect();
+        let triangles: Vec<_> = numbers.iter().map(|&number| mesh.triangles()[number as usize]).collect();
+        let scene = Scene::build(&job.part(0.0, 0.5), &normalised, &triangles, job.context().num_threads())?;
+        Ok(Self {
+            scene,
+            numbers,
+            pattern: Pattern::new(&job.part(0.5, 1.0), 1.0 / (radius * scale), seed)?,
+            half_box: 0.5 * scale * (high - low) + BOX_MARGIN,
+            radius: radius * scale,
+        })
+    }
+
+    /// Traces three projectors and collects all hits.
+    pub fn project(&self, job: &Job, projectors: &[Projector; 3], collector: &Collector) -> Result<Found> {
+        let repetitions = projectors.each_ref().map(|projector| self.repetitions(projector));
+        // A unit is one chunk of one repetition of the pattern on one projector.
+        let chunks = self.pattern.chunks() as u64;
+        let ends = repetitions.iter().scan(0, |end, repetitions| {
+            *end += repetitions.count[0] * repetitions.count[1] * chunks;
+            Some(*end)
+        });
+        let ends: Vec<u64> = ends.collect();
+        let units = ends[2];
+        let units_per_task = units.div_ceil(MAX_TASKS).max(1);
+        let tasks = units.div_ceil(units_per_task) as usize;
+        collector.collect(job, tasks, |task, take| {
+            let mut hits = Vec::new();
+            let first = task as u64 * units_per_task;
+            for unit in first..units.min(first + units_per_task) {
+                let axis = ends.partition_point(|&end| end <= unit);
+                let start = if axis == 0 { 0 } else { ends[axis - 1] };
+                let (repetition, chunk) = ((unit - start) / chunks, (unit - start) % chunks);
+                let rays = self.rays(&projectors[axis], &repetitions[axis], repetition, chunk as usize);
+                hits.clear();
+                self.scene.all_hits(&rays, &mut hits);
+                hits.iter_mut().for_each(|hit| hit.triangle = self.numbers[hit.triangle as usize]);
+                take(axis, rays.len(), &hits);
+            }
+        })
+    }
+
+    fn repetitions(&self, projector: &Projector) -> Repetitions {
+        let (side, shift) = (self.pattern.side, projector.shift(self.pattern.side));
+        let half = [projector.right, projector.up].map(|axis| self.half_box.dot(axis.abs()) / self.radius);
+        let repetition = |x: f64, axis: usize| ((x - shift[axis]) / side).floor() as i64;
+        let first = [0, 1].map(|axis| repetition(-half[axis], axis));
+        let count = [0, 1].map(|axis| (repetition(half[axis], axis) - first[axis] + 1) as u64);
+        Repetitions { half, first, count }
+    }
+
+    /// The rays of a chunk of the pattern that meet the box.
+    fn rays(&self, projector: &Projector, repetitions: &Repetitions, repetition: u64, chunk: usize) -> Vec<Ray> {
+        let (column, row) = (repetition % repetitions.count[0], repetition / repetitions.count[0]);
+        let (side, shift) = (self.pattern.side, projector.shift(self.pattern.side));
+        let offset = [(0, column), (1, row)]
+            .map(|(axis, step)| shift[axis] + (repetitions.first[axis] + step as i64) as f64 * side);
+        let inverse = projector.forward.recip();
+        let points = self.pattern.chunk(chunk, offset, repetitions.half);
+        let on_plane = points.map(|[x, y]| self.radius * (x * projector.right + y * projector.up));
+        let meets_box = on_plane.filter(|&point| {
+            // Where the ray enters and leaves the three pairs of planes (Kay and Kajiya 1986).
+            let (a, b) = ((-self.half_box - point) * inverse, (self.half_box - point) * inverse);
+            a.min(b).max_element() <= a.max(b).min_element()
+        });
+        let ray = |point: DVec3| Ray {
+            origin: (point - DISTANCE * projector.forward).as_vec3().to_array(),
+            direction: projector.forward.as_vec3().to_array(),
+        };
+        meets_box.map(ray).collect()
+    }
+}
