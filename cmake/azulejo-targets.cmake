@@ -1,5 +1,5 @@
 # The targets of azulejo, for this tree and for the installed package: azulejo::azulejo, the shared library, and
-# azulejo::azulejo_static, which brings its link line along; that one only where Embree's library is found too.
+# azulejo::azulejo_static, which brings its link line along and is defined only where Embree's library is found.
 #
 # In: azulejo_INCLUDE_DIR, azulejo_LIBRARY_DIR, the names of the files azulejo_SHARED and azulejo_STATIC, azulejo_SONAME
 # where there is one, azulejo_EMBREE, the name of Embree's library, and the azulejo_SYSTEM_LIBRARIES.

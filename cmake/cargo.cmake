@@ -1,5 +1,5 @@
-# The target azulejo_cargo: runs cargo, which knows best what is out of date, and lays its libraries out in
-# AZULEJO_OUTPUT_DIR as they are installed: AZULEJO_RUNTIME_LIBRARIES and AZULEJO_DEVELOPMENT_LIBRARIES. Cargo heeds
+# The target azulejo_cargo: runs cargo, which finds out what is out of date, and places its libraries in
+# AZULEJO_OUTPUT_DIR as they are installed: AZULEJO_RUNTIME_LIBRARIES and AZULEJO_DEVELOPMENT_LIBRARIES. Cargo reads
 # its own variables: RUSTFLAGS, CARGO_BUILD_JOBS, CARGO_BUILD_TARGET and so on; CARGO names another cargo.
 if(DEFINED ENV{CARGO})
   set(AZULEJO_CARGO "$ENV{CARGO}" CACHE FILEPATH "The cargo to build with")

@@ -10,10 +10,10 @@ PATH=$PATH:/usr/sbin:/sbin
 
 . "$(dirname "$0")/debian-root.sh"
 
-# Beside those of every root: dpkg-dev and file are what cpack makes Debian packages with.
+# In addition to the packages of every root; cpack needs dpkg-dev and file to make Debian packages.
 packages=(libembree-dev libclang-dev dpkg-dev file)
 
-# --- Outside: as the user, who knows where the Rust toolchain is and who owns cargo's registry ---
+# --- Outside: as the user, whose environment names the Rust toolchain and cargo's registry ---
 
 outside() {
     local source cache sysroot settings sudo=()

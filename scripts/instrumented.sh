@@ -1,10 +1,10 @@
-# Sourced by scripts/fuzz.sh and tests/c/sanitized.sh: cargo for the workspace of fuzz/ with AddressSanitizer, in one way
-# for both, so that the library is compiled once. What libFuzzer needs on top does no harm to other programs: the
-# sanitizer's runtime takes its calls. Needs a nightly compiler.
+# Sourced by scripts/fuzz.sh and tests/c/sanitized.sh: builds the workspace of fuzz/ with AddressSanitizer and with the
+# coverage counters of libFuzzer, so that both scripts share one compiled library. Programs without libFuzzer can link
+# it: the sanitizer's runtime defines what the counters call. Needs a nightly compiler.
 host=$(rustc +nightly -vV | sed -n 's/^host: //p')
 instrumented=$root/target/fuzz/$host/release
 
-# COMMAND ARGUMENT...: a target is named, so that build scripts go without.
+# COMMAND ARGUMENT...: the target is named so that the flags do not apply to build scripts.
 cargo_instrumented() {
     (cd "$root" && CARGO_INCREMENTAL=0 RUSTFLAGS="-Zsanitizer=address -Ccodegen-units=1 -Cpasses=sancov-module
         -Cllvm-args=-sanitizer-coverage-level=4 -Cllvm-args=-sanitizer-coverage-trace-compares

@@ -1,5 +1,5 @@
-# Sourced by scripts/test.sh: runs stages, one lane of them behind the others, and says what each has cost. It sets work,
-# a scratch folder, before.
+# Sourced by scripts/test.sh: runs stages, a lane of them in the background, and lists what each has cost. The script
+# sets work, a scratch folder, before.
 
 # NAME COMMAND...: runs the command in a process of its own, so that its `times` counts this stage alone.
 stage() {
@@ -13,14 +13,14 @@ stage() {
     ) 2>&1 | tee -a "$work/said"
 }
 
-# NAME WALL <TIMES: the second line of `times` is what the children took, in user mode and in the kernel.
+# NAME WALL <TIMES: the second line of `times` is the time of the children, in user mode and in the kernel.
 add_row() {
     awk -F '[ms ]+' -v name="$1" -v wall="$2" \
         'NR == 2 { printf "%6d %6d  %s\n", wall, 60 * ($1 + $3) + $2 + $4, name }' >>"$work/rows"
 }
 
-# COMMAND: a function of stages, which runs behind the stages that follow and takes the time that they leave; what it
-# prints is printed when it has ended. Its group of processes ends with this one.
+# COMMAND: a function of stages, run in the background at low priority, in the time that the stages in the foreground
+# leave. What it prints is shown when it has ended. It is killed, with its children, when this script ends.
 behind() {
     set -m
     (
@@ -37,17 +37,17 @@ lane_is_well() {
     [ -z "${lane:-}" ] || kill -0 "$lane" 2>/dev/null || [ -e "$work/lane_done" ] || lane_ended
 }
 
-# Waits for it, and fails if it has.
+# Waits for the background; fails if a stage there has failed.
 lane_ended() {
     wait "$lane" || true
     cat "$work/lane"
     [ -e "$work/lane_done" ]
 }
 
-# REASON: for the last line; stages say so too, in a line of this form.
+# WHAT: for the last line. A stage that lacks a tool prints a line of the same form.
 leave_out() { echo "SKIPPED: $*" | tee -a "$work/said"; }
 
-# What each stage has cost, dearest last, and what was left out by a flag or for lack of a tool.
+# What each stage has cost, the most expensive last, and what was left out.
 summary() {
     local but
     printf '\n  wall    CPU  stage (seconds)\n'

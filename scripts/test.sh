@@ -3,11 +3,11 @@
 #
 #   scripts/test.sh [--long] [--no-debian13]
 #
-# --long adds what needs no repeat for each change, but once a week: fresh seeds for the property tests, a minute of
-# fuzzing for each target instead of ten seconds, and on Embree 4.3 the Rust tests that do not call Embree.
+# --long is for once a week. It adds fresh seeds for the property tests, fuzzes each target for a minute instead of ten
+# seconds, and runs all Rust tests on Embree 4.3, also those that do not call Embree.
 # --no-debian13 leaves out the run on Embree 4.3 in a Debian 13 root, and the clean roots in which the Debian packages are
-# installed, for people without root.
-# The last lines say what each stage has cost, and what was left out.
+# installed, for users without root.
+# The last lines list the cost of each stage, and what was left out.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -64,15 +64,15 @@ sanitized_address() {
     tests/c/sanitized.sh address
 }
 
-# What asks for the network or for one core.
+# Stages that wait for the network or use one core.
 lane() {
     [ $debian13 = no ] || stage "Debian roots" debian_roots
     stage "FFI boundary under Miri" scripts/miri.sh
     stage "C programs with ThreadSanitizer in Rust, too" tests/c/sanitized.sh thread
 }
 
-# Cargo's packages need not be compiled twice by one compiler. Unless it is a long run, of the Rust tests those that are
-# of Embree: that name it, tracing, or samplers of meshes.
+# Packages of the registry that the same compiler has compiled are taken over. Of the Rust tests only those run that name
+# Embree, tracing or samplers of meshes, except in a long run: the others would repeat what they did on the machine.
 on_debian13() {
     local what=(--workspace)
     if ! is_long; then

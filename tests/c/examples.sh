@@ -65,7 +65,7 @@ run_tufts() { # BUILD: a picture of as many bytes as its pixels take, with fur o
         fails "$1/tufts" && fails "$1/tufts" "$work/missing.obj" "$work/missing.ppm" && [ ! -e "$work/missing.ppm" ]
 }
 
-run_ranks() { # BUILD: four processes that do not talk make the plane that one makes, and three do, too
+run_ranks() { # BUILD: four processes, or three, make the plane that one makes, without communication
     export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
     mpirun --oversubscribe -n 4 "$1/ranks" --check 0.002 "$work/plane.xy" >"$work/ranks.txt" &&
         mpirun --oversubscribe -n 3 "$1/ranks" --check 0.005 && cat "$work/ranks.txt" &&

@@ -50,7 +50,7 @@ find_version() { # VERSION
 
 version_refused() { fails find_version "$1" && grep -q "compatible with requested version" "$work/log"; }
 
-# azulejo's own licences and those of the crates inside.
+# The licences of azulejo and of the crates that it contains.
 has_licences() {
     local folder=$prefix/share/doc/azulejo
     cmp "$root/LICENSE-MIT" "$folder/LICENSE-MIT" && cmp "$root/LICENSE-APACHE" "$folder/LICENSE-APACHE" &&

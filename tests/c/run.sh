@@ -37,7 +37,7 @@ root=$here/../..
 . "$here/beside.sh"
 
 warnings=(-Wall -Wextra -Wpedantic -Werror)
-# How many engines are compiled, and tests/c/no_exceptions*.cpp.
+# The flags of many game engines, and of tests/c/no_exceptions*.cpp.
 bare=(-fno-exceptions -fno-rtti)
 include=(-I "$prefix/include")
 link=(-L "$(dirname "$library")" -Wl,-rpath,"$(dirname "$library")" -lazulejo -lpthread -lm)
