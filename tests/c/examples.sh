@@ -21,10 +21,17 @@ make_mesh() {
 
 # BUILD PREFIX CMAKE-ARGUMENT...: outside the tree, from a copy that knows nothing of it; PREFIX is empty for the system's
 examples() {
-    local build=$1
+    configure_examples "$@" && cmake --build "$1" -j "${CARGO_BUILD_JOBS:-$(nproc)}"
+}
+
+# The same, but only the programs of run_examples.
+few_examples() {
+    configure_examples "$@" && cmake --build "$1" -j "${CARGO_BUILD_JOBS:-$(nproc)}" --target plane surface relax
+}
+
+configure_examples() {
     rm -rf "$work/examples" && cp -r "$root/examples_c" "$work/examples"
-    cmake -S "$work/examples" -B "$build" -DCMAKE_PREFIX_PATH="$2" "${@:3}" &&
-        cmake --build "$build" -j "${CARGO_BUILD_JOBS:-$(nproc)}"
+    cmake -S "$work/examples" -B "$1" -DCMAKE_PREFIX_PATH="$2" "${@:3}"
 }
 
 run_examples() { # BUILD: each prints lines of finite numbers
