@@ -11,7 +11,7 @@ from=$1
 to=$2
 [ -d "$from/deps" ] && [ ! -e "$to/deps" ] || exit 0
 for macro in "$from"/deps/lib*.so; do
-    ! ldd "$macro" 2>&1 | grep -q 'not found' || exit 0
+    ! ldd "$macro" 2>&1 | grep -q "version .GLIBC.* not found" || exit 0
 done
 
 workspace=(! -name '*azulejo*' ! -name '*embree4*')
