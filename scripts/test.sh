@@ -43,10 +43,13 @@ lints() {
     scripts/docs.sh
 }
 
-# Which files have property tests; a seed that fails is named, and PROPTEST_RNG_SEED takes it.
+# Names of files become arguments of cargo.
+as_tests() { xargs basename -s .rs | sed 's/^/--test=/'; }
+
+# Runs the files that have property tests; scripts/test.sh with the same PROPTEST_RNG_SEED repeats a failure.
 fresh_seeds() {
     local round tests
-    mapfile -t tests < <(grep -l 'proptest!' tests/*.rs | xargs basename -s .rs | sed 's/^/--test=/')
+    mapfile -t tests < <(grep -l 'proptest!' tests/*.rs | as_tests)
     for round in 1 2 3 4 5; do
         PROPTEST_RNG_SEED=$(od -An -N4 -tu4 /dev/urandom | tr -d ' ')
         echo "PROPTEST_RNG_SEED=$PROPTEST_RNG_SEED"
@@ -74,15 +77,15 @@ lane() {
 # Packages of the registry that the same compiler has compiled are taken over. Of the Rust tests only those run that name
 # Embree, tracing or samplers of meshes, except in a long run: the others would repeat what they did on the machine.
 on_debian13() {
-    local what=(--workspace)
+    local what=()
     if ! is_long; then
-        what=(--package azulejo --package embree4-sys --package azulejo-c --lib)
-        what+=($(grep -lE '\b(psp|trace|embree|surface)' tests/*.rs ffi/*/tests/*.rs | xargs basename -s .rs | sed 's/^/--test=/'))
+        mapfile -t what < <(grep -lE '\b(psp|trace|embree|surface)' tests/*.rs ffi/*/tests/*.rs | as_tests)
+        what+=(--lib)
     fi
     scripts/debian13.sh bash -ec '
         scripts/share-packages.sh target/debug /var/cache/azulejo/debug
         scripts/share-packages.sh target/package/build/cargo/release /var/cache/package/build/cargo/release
-        cargo test --offline --locked "$@"
+        cargo test --offline --locked --workspace "$@"
         tests/c/package.sh --keep /var/cache/package
         tests/c/run.sh /var/cache/package/prefix
         tests/c/debs.sh /var/cache/package' bash "${what[@]}"
