@@ -27,7 +27,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let (context, domain) = (Context::new(0)?, Domain::unit(Boundary::Bounded));
     let density = Density::Function(&darkness);
 
-    let start = dcr::scatter(&context, &domain, &density, count, 7)?;
+    let start = dcr::scatter(&context, &domain, &density, count, 7, None)?;
     let options = dcr::Options::new(domain, Neighbourhood::Delaunay);
     let (dots, report) = dcr::relax_with_density(&context, &options, &density, &start, None)?;
     eprintln!("{count} dots after {} steps; the closest two are {:.2} spacings apart", report.iterations, report.rho);

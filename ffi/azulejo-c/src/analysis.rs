@@ -143,7 +143,7 @@ pub struct azulejo_coverage_report {
 growing!(azulejo_coverage_report requires covering_radius { reserved: 0, covering_radius: 0.0, gaps: 0 });
 
 impl From<coverage::Coverage> for azulejo_coverage_report {
-    fn from(coverage::Coverage { farthest, gaps }: coverage::Coverage) -> Self {
+    fn from(coverage::Coverage { farthest, gaps, .. }: coverage::Coverage) -> Self {
         Self { covering_radius: farthest, gaps: gaps as u64, ..Self::DEFAULT }
     }
 }

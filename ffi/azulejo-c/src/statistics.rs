@@ -117,7 +117,7 @@ pub unsafe extern "C" fn azulejo_plane_measure(
 }
 
 fn report(count: u64, domain: &Domain, figures: &Figures) -> azulejo_plane_report {
-    let Figures { nearest, covering_radius, bond_order, triangles } = figures;
+    let Figures { nearest, covering_radius, bond_order, triangles, .. } = figures;
     let spacing = spacing_2d(domain, nearest);
     azulejo_plane_report {
         count,
