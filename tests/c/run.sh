@@ -84,32 +84,32 @@ needs_nothing_else() { # libraries that are neither the C runtime nor Embree
 }
 
 build() { # SOURCE OUTPUT FLAG...
-    local source=$1 output=$2
-    shift 2
-    case $source in
-        *.c) "$cc" -std=gnu11 -Wstrict-prototypes "$@" "${warnings[@]}" "${include[@]}" "$source" -o "$output" "${link[@]}" ;;
-        */no_exceptions*) "$cxx" -std=c++17 "${bare[@]}" "$@" "${warnings[@]}" "${include[@]}" "$source" -o "$output" "${link[@]}" ;;
-        *) "$cxx" -std=c++17 "$@" "${warnings[@]}" "${include[@]}" "$source" -o "$output" "${link[@]}" ;;
+    local compiler=("$cxx" -std=c++17)
+    case $1 in
+        *.c) compiler=("$cc" -std=gnu11 -Wstrict-prototypes) ;;
+        */no_exceptions*) compiler+=("${bare[@]}") ;;
     esac
+    "${compiler[@]}" -O1 -g "${@:3}" "${warnings[@]}" "${include[@]}" "$1" -o "$2" "${link[@]}"
 }
 
 # Sizes that no memory has are refused, also by the sanitizer's memory.
 export ASAN_OPTIONS=allocator_may_return_null=1
 
-run_program() { # SOURCE MODE
-    local program flags=(-O1 -g) runner=()
-    program=$work/$(basename "${1%.*}")-$2
-    case $2 in
-        asan)
-            flags+=(-fsanitize=address,undefined -fno-sanitize-recover=all)
-            runner=(env AZULEJO_ROUNDS=100)
-            ;;
-        valgrind)
-            runner=(env AZULEJO_ROUNDS=10 valgrind --quiet --error-exitcode=1 --leak-check=full --errors-for-leak-kinds=definite,indirect
-                --show-leak-kinds=definite,indirect)
-            ;;
-    esac
-    build "$1" "$program" "${flags[@]}" && "${runner[@]}" "$program"
+# Plain programs are built once, for both modes that take them.
+built=$work/built
+mkdir "$built"
+build_plain() { build "$1" "$built/$(basename "$1")"; }
+
+run_plain() { "$built/$(basename "$1")"; }
+
+run_asan() {
+    build "$1" "$work/program" -fsanitize=address,undefined -fno-sanitize-recover=all &&
+        AZULEJO_ROUNDS=100 "$work/program"
+}
+
+run_valgrind() {
+    AZULEJO_ROUNDS=10 valgrind --quiet --error-exitcode=1 --leak-check=full \
+        --errors-for-leak-kinds=definite,indirect --show-leak-kinds=definite,indirect "$built/$(basename "$1")"
 }
 
 beside step "azulejo.h as C99" header_compiles c c99 azulejo.h
@@ -122,15 +122,18 @@ exports >"$work/symbols.txt"
 beside step "exported symbols" diff "$here/symbols.txt" "$work/symbols.txt"
 beside step "SONAME" has_soname
 beside step "needed libraries" needs_nothing_else
-wait
+for source in "$here"/*.c "$here"/*.cpp; do
+    beside build_plain "$source"
+done
+all_done
 for mode in "${modes[@]}"; do
-    # Some programs measure what their threads do.
+    # Some programs measure what their threads do: plain, they have the machine for themselves.
     how=beside
     [ "$mode" != plain ] || how=apart
     for source in "$here"/*.c "$here"/*.cpp; do
         # Valgrind lets one thread work at a time: there is nothing to measure.
         [ "$mode-$(basename "$source")" != valgrind-num_threads.c ] || continue
-        "$how" step "$(basename "$source") ($mode)" run_program "$source" "$mode"
+        "$how" step "$(basename "$source") ($mode)" "run_$mode" "$source"
     done
 done
 all_done
