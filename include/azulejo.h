@@ -574,9 +574,8 @@ typedef struct azulejo_psp_adaptive_options {
     /// Must be 0.
     uint32_t reserved;
     /// A radius for each vertex of the mesh, above 0, in its units; used during the call only. At
-    /// the barycentrics u v of a sample on the triangle (a, b, c) the radius is (1 - u - v) * a + u
-    /// * b + v * c, in double arithmetic. It may change arbitrarily steeply. NULL, the default, if
-    /// `radius` is set.
+    /// the barycentrics u v of a sample on the triangle (a, b, c) it is (1-u-v)*a + u*b + v*c, in
+    /// double arithmetic. It may change arbitrarily steeply. NULL, the default, if `radius` is set.
     const float *vertex_radii;
     /// The number of vertex_radii: that of the vertices of the mesh. Must be 0, the default, if
     /// `radius` is set.
@@ -969,8 +968,8 @@ const float *azulejo_points_interpolated_normals(const struct azulejo_points *po
 const uint32_t *azulejo_points_triangles(const struct azulejo_points *points);
 
 /// The barycentric coordinates u v of each sample in its triangle (a, b, c), as in Embree: the
-/// position is (1 - u - v) * a + u * b + v * c; other attributes of the vertices are interpolated
-/// in the same manner. NULL for NULL, an empty set and samples of the plane.
+/// position is (1-u-v)*a + u*b + v*c, and other attributes of the vertices are interpolated in the
+/// same manner. NULL for NULL, an empty set and samples of the plane.
 const float *azulejo_points_barycentrics(const struct azulejo_points *points);
 
 /// The radius of each sample of azulejo_psp_adaptive_sample, in the units of the mesh; NULL for

@@ -11,7 +11,6 @@ use crate::formats::Destination;
 use crate::output::Output;
 use crate::text::{grouped, rounded};
 
-pub use azulejo::MAXIMAL_DENSITY;
 pub use plane::Plane;
 pub use relax::Relax;
 pub use surface::Surface;

@@ -13,7 +13,7 @@ use crate::ply;
 use shapes::Soup;
 
 #[derive(Args)]
-pub struct Procedural {
+pub(crate) struct Procedural {
     /// Which mesh.
     #[arg(value_enum)]
     shape: Shape,
@@ -60,7 +60,7 @@ impl Shape {
 }
 
 impl Procedural {
-    pub fn run(&self) -> Result<()> {
+    pub(crate) fn run(&self) -> Result<()> {
         let output = Output::of_format("ply", &self.output)?;
         let (default, greatest) = self.shape.details();
         let detail = self.detail.unwrap_or(default);

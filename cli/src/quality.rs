@@ -15,8 +15,9 @@ const GRID: usize = 1001;
 /// The figures of a set. Lengths are in units of `d_max`, the distance of neighbours in the hexagonal arrangement.
 #[derive(Clone, Copy)]
 pub struct Quality {
-    /// The smallest distance, and the mean of the distances to the nearest neighbour.
+    /// The smallest distance.
     pub rho: f64,
+    /// The mean of the distances to the nearest neighbour.
     pub mean_distance: f64,
     /// The largest distance of a point of the domain from the set.
     pub cover: f64,

@@ -19,7 +19,7 @@ use darkness::Darkness;
 use drawing::Drawing;
 
 #[derive(Args)]
-pub struct Stipple {
+pub(crate) struct Stipple {
     /// The image: a PNG file. Colours count by their luminance; transparent parts are white.
     #[arg(value_name = "IMAGE.png")]
     image: PathBuf,
@@ -79,7 +79,7 @@ impl Format {
 }
 
 impl Stipple {
-    pub fn run(&self, context: &Context) -> Result<()> {
+    pub(crate) fn run(&self, context: &Context) -> Result<()> {
         let format = self.format.map_or_else(|| Format::of(&self.output), Ok)?;
         let output = Output::at(&self.output)?;
         let darkness = Darkness::load(&self.image, self.gamma)?;

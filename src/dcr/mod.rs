@@ -9,7 +9,7 @@
 //! * [`Method::Thesis`]: what the thesis's algorithm says, with all that it can be varied by.
 //!
 //! What the best method makes of sets of the unit torus in 100 steps, with Delaunay neighbours (means of 64, 16, 2 and 1 sets;
-//! `azulejo report dcr` writes `docs/dcr.md`, where there is more). The seeds, from 31,000 on, had not been looked at when
+//! `azulejo-studies dcr` writes `docs/dcr.md`, where there is more). The seeds, from 31,000 on, had not been looked at when
 //! the settings were chosen. rho is the smallest, cover the largest distance in `d_max`; ψ6 is the
 //! [bond order](crate::analysis::bonds), 0.36 in random sets; P is the mean power below a quarter of sqrt(density).
 //!

@@ -163,7 +163,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_torus_shows_dots_on_both_sides_of_its_border() {
+    fn a_torus_shows_dots_on_both_sides_of_its_boundary() {
         let points = [[0.01, 0.5], [0.99, 0.99], [0.5, 0.5]];
         let count = |boundary| images(&Domain::unit(boundary), &points, 0.02).count();
         assert_eq!((count(Boundary::Periodic), count(Boundary::Bounded)), (2 + 4 + 1, 3));

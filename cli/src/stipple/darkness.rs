@@ -72,11 +72,13 @@ impl Darkness {
         Domain { min: [0.0; 2], max: self.size().map(|length| length as f64), boundary: Boundary::Bounded }
     }
 
+    /// The darkness as a density on the [`domain`](Self::domain).
     pub fn density(&self) -> Density<'_> {
         let [width, height] = self.size();
         Density::Image { values: &self.values, width, height }
     }
 
+    /// The darkness of a pixel.
     pub fn at(&self, column: usize, row: usize) -> f64 {
         self.values[row * self.width + column].into()
     }

@@ -37,9 +37,8 @@ pub struct azulejo_psp_adaptive_options {
     /// Must be 0.
     pub reserved: u32,
     /// A radius for each vertex of the mesh, above 0, in its units; used during the call only. At
-    /// the barycentrics u v of a sample on the triangle (a, b, c) the radius is (1 - u - v) * a + u
-    /// * b + v * c, in double arithmetic. It may change arbitrarily steeply. NULL, the default, if
-    /// `radius` is set.
+    /// the barycentrics u v of a sample on the triangle (a, b, c) it is (1-u-v)*a + u*b + v*c, in
+    /// double arithmetic. It may change arbitrarily steeply. NULL, the default, if `radius` is set.
     pub vertex_radii: *const f32,
     /// The number of vertex_radii: that of the vertices of the mesh. Must be 0, the default, if
     /// `radius` is set.
@@ -175,8 +174,9 @@ pub unsafe extern "C" fn azulejo_psp_adaptive_sample(
 impl azulejo_psp_adaptive_options {
     /// The radii of the vertices; none where `radius` is set.
     ///
-    /// # Safety Unless the checks fail, `vertex_radii` leads to `vertex_count` numbers that nobody
-    /// changes during `'a`.
+    /// # Safety
+    /// Unless the checks fail, `vertex_radii` leads to `vertex_count` numbers that are not
+    /// changed during `'a`.
     unsafe fn vertex_radii<'a>(&self) -> Result<&'a [f32], Failure> {
         check_reserved(self.reserved)?;
         match (self.radius.is_some(), self.vertex_radii.is_null()) {

@@ -1,4 +1,4 @@
-//! The border between C and the core: every entry point goes through [`call`] or one of its faces.
+//! The FFI boundary: every entry point goes through [`call`] or a function built on it.
 
 use std::any::Any;
 use std::fmt::Debug;
@@ -73,7 +73,7 @@ pub(crate) fn check_size(argument: &str, count: usize, bytes: Option<usize>) -> 
 /// The caller's array of `count` rows of `N` numbers; NULL only if it is empty.
 ///
 /// # Safety
-/// Unless the checks fail, `rows` leads to `count` rows that nobody changes during `'a`.
+/// Unless the checks fail, `rows` leads to `count` rows that are not changed during `'a`.
 pub(crate) unsafe fn rows<'a, T, const N: usize>(
     argument: &str,
     rows: *const T,

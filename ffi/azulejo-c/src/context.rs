@@ -15,13 +15,13 @@ use crate::status::{Failure, azulejo_status};
 #[derive(Clone)]
 pub struct azulejo_context {
     pub(crate) shared: Arc<Context>,
-    /// Who is told of calls whose options name nobody.
+    /// The callback of calls whose options have none.
     watch: Watch,
 }
 
 impl azulejo_context {
-    /// Runs a call, which `own`, the callback of its options, is told of, or else that of the
-    /// context. What the callback frees meanwhile is kept.
+    /// Runs a call. Its progress goes to `own`, the callback of its options, or else to that of the
+    /// context. Handles that the callback frees live until the end of the call.
     pub(crate) fn run<T>(
         &self,
         own: Watch,

@@ -79,8 +79,9 @@ impl Callback {
 impl azulejo_density {
     /// Hands the density to `body`.
     ///
-    /// # Safety Unless the checks fail, `values` leads to `width * height` numbers that nobody
-    /// changes during the call.
+    /// # Safety
+    /// Unless the checks fail, `values` leads to `width * height` numbers that are not
+    /// changed during the call.
     unsafe fn with<T>(&self, body: impl FnOnce(&Density) -> Result<T, Failure>) -> Result<T, Failure> {
         check_reserved(self.reserved)?;
         match (self.function, self.values.is_null()) {

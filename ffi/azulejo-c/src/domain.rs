@@ -69,8 +69,9 @@ pub(crate) struct PlaneSet<'a> {
 impl<'a> PlaneSet<'a> {
     /// The set of the caller.
     ///
-    /// # Safety Unless the checks fail, `set` leads to as many bytes as its `struct_size` says, and
-    /// its `positions` to `count` pairs that nobody changes during `'a`.
+    /// # Safety
+    /// Unless the checks fail, `set` leads to as many bytes as its `struct_size` says, and
+    /// its `positions` to `count` pairs that are not changed during `'a`.
     pub(crate) unsafe fn read(
         context: Option<&'a azulejo_context>,
         set: *const azulejo_plane_set,

@@ -109,7 +109,9 @@ impl azulejo_embree_geometry {
 
 /// Rows of three numbers, packed.
 ///
-/// # Safety Unless the check fails, there are as many rows, so far apart, and nobody changes them.
+/// # Safety
+/// Unless the check fails, there are `count` rows, `stride` bytes apart, which are not
+/// changed during the call.
 unsafe fn strided<T: Copy>(
     argument: &str,
     start: NonNull<T>,

@@ -184,7 +184,7 @@ pub unsafe extern "C" fn azulejo_kdrt_sample(
 }
 
 /// What fraction of a call is the sampling where coverage is measured, which takes longer.
-const SAMPLING_SHARE: f64 = 0.1;
+const SAMPLING_SHARE: f64 = 0.05;
 
 /// Makes the part of a set of azulejo_kdrt_sample that lies in a window of the domain, without
 /// making the rest: the same floats in the same order.

@@ -174,8 +174,9 @@ pub unsafe extern "C" fn azulejo_kdrt_merge(
 
 /// The caller's pieces as the core wants them.
 ///
-/// # Safety Unless the checks fail, `pieces` leads to `count` pieces and each of them to its
-/// samples, which nobody changes during `'a`.
+/// # Safety
+/// Unless the checks fail, `pieces` leads to `count` pieces and each of them to its
+/// samples, which are not changed during `'a`.
 unsafe fn read<'a>(pieces: *const azulejo_kdrt_merge_piece, count: usize) -> Result<Vec<Piece<'a>>, Failure> {
     // SAFETY: handed on from the caller.
     let pieces = unsafe { rows::<azulejo_kdrt_merge_piece, 1>("pieces", pieces, "piece_count", count) }?;

@@ -240,7 +240,8 @@ fn check_triangle_count(mesh: &Mesh, count: usize) -> Result<(), Failure> {
 
 /// Vectors of the caller's, packed.
 ///
-/// # Safety Unless the checks fail, `vectors` leads to as many of them, so far apart.
+/// # Safety
+/// Unless the checks fail, `vectors` leads to `count` of them, `stride` bytes apart.
 unsafe fn strided(
     argument: &str,
     vectors: *const f32,
@@ -271,7 +272,7 @@ pub(crate) fn collect<T>(argument: &str, rows: impl ExactSizeIterator<Item = T>)
     Ok(vector)
 }
 
-/// Samples of a mesh that are to be measured, and whose threads do it.
+/// Samples of a mesh that are to be measured, and the context that does it.
 pub(crate) struct SurfaceSet<'a> {
     context: &'a azulejo_context,
     mesh: Arc<Mesh>,
@@ -281,7 +282,8 @@ pub(crate) struct SurfaceSet<'a> {
 impl<'a> SurfaceSet<'a> {
     /// The set of the caller's arguments, `count` samples at `positions`.
     ///
-    /// # Safety Unless the checks fail, `positions` leads to `count` triples of numbers.
+    /// # Safety
+    /// Unless the checks fail, `positions` leads to `count` triples of numbers.
     pub(crate) unsafe fn read(
         context: Option<&'a azulejo_context>,
         mesh: Option<&azulejo_mesh>,

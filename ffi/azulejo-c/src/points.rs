@@ -97,8 +97,8 @@ pub extern "C" fn azulejo_points_triangles(points: Option<&azulejo_points>) -> *
 }
 
 /// The barycentric coordinates u v of each sample in its triangle (a, b, c), as in Embree: the
-/// position is (1 - u - v) * a + u * b + v * c; other attributes of the vertices are interpolated
-/// in the same manner. NULL for NULL, an empty set and samples of the plane.
+/// position is (1-u-v)*a + u*b + v*c, and other attributes of the vertices are interpolated in the
+/// same manner. NULL for NULL, an empty set and samples of the plane.
 #[unsafe(no_mangle)]
 pub extern "C" fn azulejo_points_barycentrics(points: Option<&azulejo_points>) -> *const f32 {
     surface(points).map_or(std::ptr::null(), |samples| array(&samples.barycentrics))

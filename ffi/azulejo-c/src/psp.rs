@@ -377,7 +377,8 @@ pub unsafe extern "C" fn azulejo_psp_sample(
 
 /// A call that adds samples to the set.
 ///
-/// # Safety `psp` is NULL or a handle that lives as long as the call.
+/// # Safety
+/// `psp` is NULL or a handle that lives as long as the call.
 unsafe fn change(
     psp: Option<NonNull<azulejo_psp>>,
     report: *mut azulejo_psp_report,

@@ -32,7 +32,7 @@ pub const AZULEJO_ERROR_THREADS: i32 = -8;
 /// A bug in the library; please report it. Handles that took part in the call can only be freed.
 pub const AZULEJO_ERROR_INTERNAL: i32 = -100;
 
-/// A call that was refused or could not be finished: its status and what to tell the caller.
+/// A call that was refused or could not be finished: its status and its message.
 #[derive(Debug)]
 pub(crate) struct Failure {
     status: azulejo_status,
