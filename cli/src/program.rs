@@ -91,7 +91,7 @@ pub fn exit_code(work: impl FnOnce() -> Result<()>) -> ExitCode {
     match work() {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
-            // Where nobody can be told, the exit code still says it.
+            // The exit code remains where the message cannot be written.
             _ = writeln!(io::stderr(), "error: {error}");
             ExitCode::FAILURE
         }
