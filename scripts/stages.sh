@@ -24,7 +24,7 @@ add_row() {
 behind() {
     set -m
     (
-        renice -n 10 -p $BASHPID >/dev/null
+        renice -n 5 -p $BASHPID >/dev/null
         "$1"
         touch "$work/lane_done"
     ) >"$work/lane" 2>&1 &
