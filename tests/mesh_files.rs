@@ -58,17 +58,12 @@ fn broken_obj_files_are_refused_with_the_line() {
     let files = Files::new();
     let vertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
     let line = |line: &str| files.reason("line.obj", format!("{vertices}{line}\n"));
-    assert_eq!(files.reason("word.obj", "# one\nv 0 zero 0\n"), "line 2: \"zero\" is not a number");
-    assert_eq!(files.reason("short.obj", "v 0 0 0\n\nv 1 2"), "line 3: fewer than three numbers");
-    assert_eq!(files.reason("latin.obj", b"v 0 0 0\nv 1 0 \xff\n"), "line 2: \"\u{fffd}\" is not a number");
-    assert_eq!(line("vn 0 1\nf 1//1 2//1 3//1"), "line 4: fewer than three numbers");
-    for (corner, shown, what) in [
-        ("x", "\"x\"", "number of a vertex"),
-        ("1/1/1/1", "\"1/1/1/1\"", "corner of a face"),
-        ("2//x", "\"x\"", "number of a normal"),
-        (&"9".repeat(1000), &format!("\"{}\"...", "9".repeat(40)), "number of a vertex"),
-    ] {
-        assert_eq!(line(&format!("g\nf 1 2 {corner}")), format!("line 5: {shown} is not the {what}"));
+    assert_eq!(files.reason("word.obj", "# one\nv 0 zero 0\n"), "line 2: position parse error");
+    assert_eq!(files.reason("short.obj", "v 0 0 0\n\nv 1 2"), "line 3: position parse error");
+    assert_eq!(files.reason("latin.obj", b"v 0 0 0\nv 1 0 \xff\n"), "line 2: read error");
+    assert_eq!(line("vn 0 1\nf 1//1 2//1 3//1"), "line 4: position parse error");
+    for corner in ["x", "1/1/1/1", "2//x", &"9".repeat(1000)] {
+        assert_eq!(line(&format!("g\nf 1 2 {corner}")), "line 5: face parse error");
     }
     assert_eq!(line("f"), "line 4: a face without corners");
     assert_eq!(line("f 1 2 /1/1"), "line 4: a face names vertex 0, but there are 3");
