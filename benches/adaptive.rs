@@ -7,12 +7,12 @@ mod meshes;
 
 use std::sync::Arc;
 
-use azulejo::Context;
 use azulejo::mesh::Mesh;
 use azulejo::psp::{
     self,
     adaptive::{self, Radius},
 };
+use azulejo::{Context, MAXIMAL_DENSITY};
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 
 const SAMPLES: f64 = 1e5;
@@ -28,7 +28,7 @@ fn growth(ratio: f64, height: f64) -> f64 {
 fn least(mesh: &Mesh, ratio: f64) -> f64 {
     let samples = |triangle: u32| {
         let height = mesh.corners(triangle).iter().map(|corner| f64::from(corner[2])).sum::<f64>() / 3.0;
-        0.69656 * mesh.triangle_area(triangle) / growth(ratio, height).powi(2)
+        MAXIMAL_DENSITY * mesh.triangle_area(triangle) / growth(ratio, height).powi(2)
     };
     ((0..mesh.triangles().len() as u32).map(samples).sum::<f64>() / SAMPLES).sqrt()
 }

@@ -11,9 +11,9 @@ mod meshes;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use azulejo::Context;
 use azulejo::mesh::Mesh;
 use azulejo::psp::{Engine, Options, Psp, Report};
+use azulejo::{Context, MAXIMAL_DENSITY};
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 
 const ENGINES: [Engine; 2] = [Engine::Embree, Engine::Rasteriser];
@@ -24,7 +24,7 @@ fn mesh((positions, triangles): meshes::Soup) -> Arc<Mesh> {
 
 /// Options for a set that has about `count` samples once it is maximal.
 fn options(mesh: &Mesh, count: f64, engine: Engine) -> Options {
-    Options::new((0.69656 * mesh.area() / count).sqrt()).engine(engine)
+    Options::new((MAXIMAL_DENSITY * mesh.area() / count).sqrt()).engine(engine)
 }
 
 fn iterate(context: &Context, mesh: &Arc<Mesh>, options: &Options) -> Report {

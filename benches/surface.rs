@@ -14,16 +14,16 @@ mod tracing;
 
 use std::path::PathBuf;
 use std::sync::Arc;
-use std::time::Duration;
+use std::time::Instant;
 
-use azulejo::Context;
 use azulejo::mesh::Mesh;
-use azulejo::psp::{self, DEFAULT_ITERATIONS, Options, Stages};
+use azulejo::psp::{self, DEFAULT_ITERATIONS, Options, Psp};
+use azulejo::{Context, MAXIMAL_DENSITY};
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 
 /// The radius at which a maximal set has about `count` samples.
 fn radius(mesh: &Mesh, count: f64) -> f64 {
-    (0.69656 * mesh.area() / count).sqrt()
+    (MAXIMAL_DENSITY * mesh.area() / count).sqrt()
 }
 
 fn mesh((positions, triangles): meshes::Soup) -> Arc<Mesh> {
@@ -65,24 +65,49 @@ fn table_meshes() -> Vec<(&'static str, Arc<Mesh>)> {
     std::iter::once(("hall", mesh(meshes::hall(48)))).chain(loaded).collect()
 }
 
-/// Wall times of a maximal set by one iteration, in seconds.
-struct Times(Stages);
+/// Wall times of the stages of a maximal set by one iteration, in seconds.
+struct Times {
+    prepare: f64,
+    project: f64,
+    merge: f64,
+    fill: f64,
+    /// Handing out the samples.
+    output: f64,
+    /// Samples that the iteration found, and those of the maximal set.
+    found: u64,
+    samples: u64,
+}
 
 impl Times {
+    fn of(context: &Context, mesh: &Arc<Mesh>, radius: f64) -> Self {
+        let mut psp = Psp::new(mesh, &Options::new(radius)).expect("a good radius");
+        let first = psp.advance(context, 1, None).expect("an iteration");
+        let filled = psp.fill(context, None).expect("a maximal set");
+        let start = Instant::now();
+        std::hint::black_box(psp.samples());
+        Self {
+            prepare: first.prepare_seconds,
+            project: first.project_seconds,
+            merge: first.merge_seconds,
+            fill: filled.fill_seconds,
+            output: start.elapsed().as_secs_f64(),
+            found: first.accepted,
+            samples: filled.samples,
+        }
+    }
+
     /// The least of a few attempts: noise only adds.
     fn least(context: &Context, mesh: &Arc<Mesh>, radius: f64, attempts: usize) -> Self {
-        let attempt = |_| Self(psp::measure(context, mesh, &Options::new(radius)).expect("a set").1);
-        let attempts = (0..attempts).map(attempt);
+        let attempts = (0..attempts).map(|_| Self::of(context, mesh, radius));
         attempts.min_by(|a, b| a.total().total_cmp(&b.total())).expect("an attempt")
     }
 
     fn first(&self) -> f64 {
-        let Stages { pattern, scene, project, merge, .. } = self.0;
-        (pattern + scene + project + merge).as_secs_f64()
+        self.prepare + self.project + self.merge
     }
 
     fn total(&self) -> f64 {
-        self.first() + self.0.fill.as_secs_f64()
+        self.first() + self.fill
     }
 }
 
@@ -90,11 +115,10 @@ impl Times {
 fn print_table(contexts: &[Context; 2]) {
     let threads = contexts[1].num_threads();
     println!(
-        "{:>7} {:>9} | {:>7} {:>5} {:>7} {:>5} {:>5} {:>6} | {:>5} {:>5} {:>10} {:>10} | {:>9} {:>10} {:>5}",
+        "{:>7} {:>9} | {:>7} {:>7} {:>5} {:>5} {:>6} | {:>5} {:>5} {:>10} {:>10} | {:>9} {:>10} {:>5}",
         "mesh",
         "samples",
-        "pattern",
-        "scene",
+        "prepare",
         "project",
         "merge",
         "fill",
@@ -114,20 +138,18 @@ fn print_table(contexts: &[Context; 2]) {
             let (radius, attempts) = (radius(&mesh, count), if count < 1e7 { 3 } else { 1 });
             let [one, all] = [0, 1].map(|i: usize| Times::least(&contexts[i], &mesh, radius, attempts));
             let [traced, bare] = tracing::rates(&contexts[1], &mesh, radius);
-            let stages = all.0;
-            let samples = stages.samples as f64;
-            let ns = |time: Duration| time.as_secs_f64() / samples * 1e9;
+            let samples = all.samples as f64;
+            let ns = |seconds: f64| seconds / samples * 1e9;
             println!(
-                "{name:>7} {samples:>9} | {:>7.0} {:>5.0} {:>7.0} {:>5.0} {:>5.0} {:>6.0} | {:>5.2} {:>5.2} {:>10.2} {:>10} | {:>9.1} {:>10.1} {:>5.2}",
-                ns(stages.pattern),
-                ns(stages.scene),
-                ns(stages.project),
-                ns(stages.merge),
-                ns(stages.fill),
-                ns(stages.output),
-                stages.found as f64 / all.first() / 1e6,
+                "{name:>7} {samples:>9} | {:>7.0} {:>7.0} {:>5.0} {:>5.0} {:>6.0} | {:>5.2} {:>5.2} {:>10.2} {:>10} | {:>9.1} {:>10.1} {:>5.2}",
+                ns(all.prepare),
+                ns(all.project),
+                ns(all.merge),
+                ns(all.fill),
+                ns(all.output),
+                all.found as f64 / all.first() / 1e6,
                 samples / all.total() / 1e6,
-                stages.fill.as_secs_f64() / all.first(),
+                all.fill / all.first(),
                 format!("{threads}: x{:.2}", one.total() / all.total()),
                 traced / 1e6,
                 bare / 1e6,

@@ -1302,11 +1302,6 @@ void azulejo_mesh_free(struct azulejo_mesh *mesh);
 /// Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
 azulejo_status azulejo_psp_options_init(struct azulejo_psp_options *options, size_t struct_size);
 
-/// Writes zeros and the size. `struct_size` is sizeof *report.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
-azulejo_status azulejo_psp_report_init(struct azulejo_psp_report *report, size_t struct_size);
-
 /// Makes an empty set on a mesh. It does not report progress.
 ///
 /// mesh: kept by the handle as long as it needs it.
@@ -1315,7 +1310,7 @@ azulejo_status azulejo_psp_report_init(struct azulejo_psp_report *report, size_t
 ///
 /// out: the handle, to be freed with azulejo_psp_free.
 ///
-/// O(1).
+/// At most O(triangles) time.
 ///
 /// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for a radius below 64 times the spacing of floats
 /// at the largest coordinate; AZULEJO_ERROR_TOO_LARGE, with the estimated number of samples.
@@ -1387,6 +1382,11 @@ azulejo_status azulejo_psp_sample(const struct azulejo_context *context,
                                   const struct azulejo_psp_options *options,
                                   struct azulejo_points **out,
                                   struct azulejo_psp_report *report);
+
+/// Writes zeros and the size. `struct_size` is sizeof *report.
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
+azulejo_status azulejo_psp_report_init(struct azulejo_psp_report *report, size_t struct_size);
 
 /// Writes the defaults. `struct_size` is sizeof *options.
 ///

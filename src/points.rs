@@ -159,3 +159,17 @@ pub(crate) fn check_radius(radius: f64) -> Result<()> {
         Err(Error::invalid("radius", format!("{radius} is not a positive finite number")))
     }
 }
+
+/// How many float spacings a radius has at least: a tolerance of a few spacings is then a small part of it.
+const FINEST_RADIUS: f64 = 64.0;
+
+/// Refuses a radius below 64 times the spacing of floats at a place, such as "the largest coordinate of the mesh".
+pub(crate) fn check_resolution(argument: &'static str, radius: f64, spacing: f64, place: &str) -> Result<()> {
+    let finest = FINEST_RADIUS * spacing;
+    if radius >= finest {
+        return Ok(());
+    }
+    let reason =
+        format!("{radius:?} is below {finest:?}, {FINEST_RADIUS} times the float spacing {spacing:?} at {place}");
+    Err(Error::invalid(argument, reason))
+}

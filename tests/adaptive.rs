@@ -13,7 +13,7 @@ use std::ops::ControlFlow;
 use azulejo::mesh::Mesh;
 use azulejo::psp::adaptive::{self, AdaptiveSamples, Options, Radius};
 use azulejo::psp::{self, Report};
-use azulejo::{Context, Error, Result};
+use azulejo::{Context, Error, MAXIMAL_DENSITY, Result};
 use meshes::Soup;
 use oracle::Field;
 use proptest::prelude::*;
@@ -201,7 +201,7 @@ fn one_radius_gives_the_density_of_the_uniform_set() {
     let radius = 0.02f32;
     let radii = vec![radius; sphere.positions().len()];
     let set = sample(&sphere, &Options::new(Radius::PerVertex(&radii)));
-    let ratio = set.samples.len() as f64 * f64::from(radius).powi(2) / sphere.area() / 0.69656;
+    let ratio = set.samples.len() as f64 * f64::from(radius).powi(2) / sphere.area() / MAXIMAL_DENSITY;
     assert!((0.997..1.012).contains(&ratio), "{ratio}");
     assert!(set.radii.iter().all(|&r| (r / f64::from(radius) - 1.0).abs() < 1e-15));
 }
@@ -222,8 +222,8 @@ fn a_ramp_of_density_is_met_in_every_band() {
     // Samples on an area of 1 at the black end, and the share of that at the other.
     let (full, least) = (20_000.0, 0.05);
     let density = |x: f64| full * (least + (1.0 - least) * x / 4.0);
-    let radii = radii(&plane, |[x, ..]| (0.69656 / density(x)).sqrt());
-    // Within a radius of the border samples stand closer.
+    let radii = radii(&plane, |[x, ..]| (MAXIMAL_DENSITY / density(x)).sqrt());
+    // Within a radius of the boundary samples stand closer.
     let margin = 2.0 * f64::from(radii[0]);
     let mut counts = [0.0; BANDS];
     let seeds = 4;
@@ -259,7 +259,7 @@ fn bad_radii_of_vertices_are_refused() {
     }
     assert_eq!(of(&[0.1; 3]), ("vertex_count", "3 radii for 4 vertices".to_owned()));
     let (argument, reason) = of(&[0.1, 0.1, 1e-6, 0.1]);
-    assert!(argument == "vertex_radii" && reason.contains("64 float spacings"), "{reason}");
+    assert!(argument == "vertex_radii" && reason.contains("64 times the float spacing"), "{reason}");
     let many = mesh(meshes::join((0..100).map(|_| meshes::plane())));
     let (argument, reason) = refused(&many, &Options::new(Radius::PerVertex(&[1e-5; 400])));
     assert!(argument == "vertex_radii" && reason.contains("7.007e11 samples"), "{reason}");

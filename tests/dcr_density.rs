@@ -33,7 +33,7 @@ fn ramp([x, _]: [f64; 2]) -> f64 {
     (1.0 + 2.0 * x) / 3.0
 }
 
-/// The share of the ramp's points that stand left of a place.
+/// The fraction of the ramp's points to the left of a position.
 fn ramp_left_of(x: f64) -> f64 {
     (x + x * x) / 2.0
 }

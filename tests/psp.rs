@@ -12,7 +12,7 @@ use std::sync::Arc;
 use azulejo::analysis::{coverage, spacing};
 use azulejo::mesh::Mesh;
 use azulejo::psp::{self, Engine, Options, Priority, Psp};
-use azulejo::{Context, Error, SurfaceSamples};
+use azulejo::{Context, Error, MAXIMAL_DENSITY, SurfaceSamples};
 use meshes::Soup;
 use proptest::prelude::*;
 
@@ -169,17 +169,17 @@ fn any_size_and_any_distance_from_the_origin() {
     }
 }
 
-/// The jamming limit of random sequential placement is 0.69656 / radius² ; the border of the plane adds to it. Projected
+/// The jamming limit of random sequential placement is [`MAXIMAL_DENSITY`] / radius²; the boundary of the plane adds to it.
 /// samples leave a set some 2 % sparser, and more with some seeds.
 #[test]
 fn a_maximal_set_is_as_dense_as_darts_become() {
     let context = Context::new(2).unwrap();
     let sphere = mesh(meshes::sphere());
-    for (mesh, radius, border) in [(mesh(meshes::plane()), 0.005, 4.0), (sphere, 0.02, 0.0)] {
+    for (mesh, radius, boundary) in [(mesh(meshes::plane()), 0.005, 4.0), (sphere, 0.02, 0.0)] {
         for iterations in [0, 3] {
             let options = Options::new(radius).iterations(iterations);
             let (samples, _) = psp::sample(&context, &mesh, &options, None).unwrap();
-            let expected = 0.69656 * (mesh.area() + 0.5 * border * radius) / (radius * radius);
+            let expected = MAXIMAL_DENSITY * (mesh.area() + 0.5 * boundary * radius) / (radius * radius);
             let ratio = samples.len() as f64 / expected;
             let tolerance = if iterations == 0 { 0.02 } else { 0.04 };
             assert!((ratio - 1.0).abs() < tolerance, "{iterations} iterations: {ratio}");

@@ -1,4 +1,4 @@
-//! How even the sets of PSP are, however a surface is turned towards the projectors.
+//! How even the sets of PSP are, however a surface is turned towards the projectors, and however it is cut into triangles.
 
 #[path = "common/meshes.rs"]
 #[allow(dead_code)]
@@ -6,10 +6,11 @@ mod meshes;
 
 use std::sync::Arc;
 
-use azulejo::Context;
 use azulejo::analysis::facing::density_by_facing;
 use azulejo::mesh::Mesh;
+use azulejo::psp::adaptive::{self, Radius};
 use azulejo::psp::{Options, Priority, Psp};
+use azulejo::{Context, MAXIMAL_DENSITY};
 
 /// Degrees of a bin.
 const BIN: usize = 6;
@@ -37,9 +38,6 @@ fn densities(priority: Priority) -> [Vec<f64>; 2] {
     sums.map(|bins| bins.into_iter().map(|[samples, area]| samples * radius * radius / area).collect())
 }
 
-/// The density of an unbiased maximal set.
-const MAXIMAL: f64 = 0.69656;
-
 /// What one iteration finds depends on the angle; what is filled makes up for all of it but a few percent.
 #[test]
 fn filling_evens_out_what_the_projectors_miss() {
@@ -47,9 +45,53 @@ fn filling_evens_out_what_the_projectors_miss() {
         let [found, filled] = densities(priority);
         assert!(found[found.len() - 1] < 0.8 * found[0], "{priority:?} {found:?}");
         // Where a projector looks squarely its pattern is as it was, but for what candidates of others displace.
-        assert_eq!(found[0] > 0.98 * MAXIMAL, priority == Priority::Squareness, "{priority:?} {found:?}");
+        assert_eq!(found[0] > 0.98 * MAXIMAL_DENSITY, priority == Priority::Squareness, "{priority:?} {found:?}");
         for density in filled {
-            assert!((density / MAXIMAL - 1.0).abs() < left, "{priority:?} {density}");
+            assert!((density / MAXIMAL_DENSITY - 1.0).abs() < left, "{priority:?} {density}");
         }
+    }
+}
+
+/// A square of `count` by `count` quads of side 2, every second one whole and the others cut into 8 by 8. For each triangle,
+/// whether it is of a whole quad.
+fn checkers(count: u32) -> (Mesh, Vec<bool>) {
+    let (mut positions, mut triangles, mut is_whole) = (Vec::new(), Vec::new(), Vec::new());
+    for [i, j] in (0..count * count).map(|quad| [quad / count, quad % count]) {
+        let parts = if (i + j) % 2 == 0 { 1 } else { 8 };
+        for [a, b] in (0..parts * parts).map(|part| [part / parts, part % parts]) {
+            let first = positions.len() as u32;
+            let corner = |[x, y]: [u32; 2]| {
+                let [x, y] =
+                    [(i, a + x), (j, b + y)].map(|(quad, part)| 2.0 * (quad as f32 + part as f32 / parts as f32));
+                [x, y, 0.0]
+            };
+            positions.extend([[0, 0], [1, 0], [1, 1], [0, 1]].map(corner));
+            triangles.extend([[first, first + 1, first + 2], [first, first + 2, first + 3]]);
+            is_whole.extend([parts == 1; 2]);
+        }
+    }
+    (Mesh::new(positions, triangles).unwrap(), is_whole)
+}
+
+/// As many samples stand on large triangles as on small ones between them.
+#[test]
+fn the_size_of_triangles_does_not_matter() {
+    let (mesh, is_whole) = checkers(20);
+    let radii = vec![1.0; mesh.positions().len()];
+    let (context, seeds) = (Context::new(2).unwrap(), 8);
+    let mut counts = [0.0; 2];
+    for seed in 0..seeds {
+        let options = adaptive::Options::new(Radius::PerVertex(&radii)).seed(seed);
+        let (set, _) = adaptive::sample(&context, &mesh, &options, None).unwrap();
+        for (position, &triangle) in set.samples.positions.iter().zip(&set.samples.triangles) {
+            // Samples stand closer at the boundary of the square.
+            if position[..2].iter().all(|x| (4.0..36.0).contains(x)) {
+                counts[usize::from(is_whole[triangle as usize])] += 1.0;
+            }
+        }
+    }
+    for count in counts {
+        let density = count / (0.5 * 32.0 * 32.0 * seeds as f64);
+        assert!((density / MAXIMAL_DENSITY - 1.0).abs() < 0.04, "{counts:?}: {density}");
     }
 }

@@ -8,6 +8,7 @@ mod domain;
 pub mod draw;
 mod formats;
 mod generate;
+mod input;
 mod merge;
 pub mod output;
 mod ply;

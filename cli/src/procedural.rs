@@ -1,4 +1,4 @@
-//! `azulejo mesh`: meshes that are made, not downloaded.
+//! `azulejo mesh`: procedural meshes.
 
 pub mod knot;
 pub mod shapes;
@@ -28,14 +28,14 @@ pub(crate) struct Procedural {
 
 #[derive(Clone, Copy, ValueEnum)]
 enum Shape {
-    /// A trefoil knot with a quilted relief: closed, no border, its box about 2 wide.
+    /// A trefoil knot with a quilted relief: a closed surface, its box about 2 wide.
     Knot,
     /// A sphere of radius 1.
     Sphere,
     /// A torus of radii 1 and 0.4.
     Torus,
     /// A closed hall with columns, arches and drapes, 4 long, 1 high, its walls facing inwards: many surfaces behind one
-    /// another. To be drawn with --cutaway.
+    /// another. Draw it with --cutaway.
     Hall,
 }
 

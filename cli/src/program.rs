@@ -17,7 +17,9 @@ Examples:
   azulejo analyze relaxed.csv --plots plots
 
 Files of points are PLY (.ply), NumPy arrays (.npy), text (.csv, .xyz, .txt) or little-endian 32-bit floats (.raw, .f32, .bin). \
-PLY alone names the domain of a set of the plane. The file - is the standard input or output.
+Only PLY files record the domain of a set of the plane. The file - is the standard input or output, for points, meshes \
+and images: points are read and written as PLY there unless --input-format or --format says otherwise; the format of a \
+mesh is recognised by its contents.
 
 Exit codes: 0 done; 1 refused or failed, with the reason on the standard error; 2 wrong usage. Files are written whole or \
 not at all.";
@@ -41,13 +43,13 @@ enum Command {
     Surface(generate::Surface),
     /// Relax a set of the plane, or the samples of a mesh, by distance constraints (DCR).
     Relax(generate::Relax),
-    /// Glue sets that were made apart into one maximal set (KDRT).
+    /// Merge sets that were sampled separately into one maximal set (KDRT).
     Merge(merge::Merge),
     /// Measure sets of the plane or samples of a mesh: a table, JSON, plots.
     Analyze(analyze::Analyze),
-    /// Draw an image with dots, as dense as it is dark (PSP, DCR).
+    /// Stipple an image: dots, denser where it is darker (PSP, DCR).
     Stipple(stipple::Stipple),
-    /// Write a mesh that needs no download.
+    /// Write a procedural mesh: a knot, a sphere, a torus or a hall.
     Mesh(procedural::Procedural),
     /// Draw samples as a PNG picture.
     #[command(subcommand)]
@@ -89,7 +91,7 @@ pub fn exit_code(work: impl FnOnce() -> Result<()>) -> ExitCode {
     match work() {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
-            // Where nobody can be told, the exit code still says it.
+            // The exit code remains where the message cannot be written.
             _ = writeln!(io::stderr(), "error: {error}");
             ExitCode::FAILURE
         }

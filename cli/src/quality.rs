@@ -19,7 +19,7 @@ pub struct Quality {
     pub rho: f64,
     /// The mean of the distances to the nearest neighbour.
     pub mean_distance: f64,
-    /// The largest distance of a place from the set.
+    /// The largest distance of a point of the domain from the set.
     pub cover: f64,
     /// The bond order ψ6.
     pub order: f64,
@@ -39,7 +39,7 @@ impl Quality {
         Self::with(context, domain, points, &figures_2d(context, domain, points, None)?, None)
     }
 
-    /// The figures of a set, of which those that take no spectrum are known.
+    /// The figures of a set, given the ones that need no spectrum.
     pub fn with(
         context: &Context,
         domain: &Domain,

@@ -9,6 +9,7 @@ use azulejo_c::analysis::azulejo_mesh_uncovered_fraction;
 use azulejo_c::mesh::*;
 use azulejo_c::points::{azulejo_points, azulejo_points_count};
 use azulejo_c::psp::*;
+use azulejo_c::psp_report::azulejo_psp_report_init;
 use azulejo_c::surface::*;
 
 use crate::calls::{Arrays, Out, Patience, accepted, array, check_distances, context, create, report, value};

@@ -6,7 +6,7 @@
 //! Not by a crate: stl_io 0.11 takes a binary file whose header begins with "solid" for text, reads the first of several
 //! solids only, and refuses text whose normals are "nan".
 
-use crate::mesh::Soup;
+use crate::mesh::soup::Soup;
 use crate::mesh::text::{lines, vector, words};
 
 /// A header that may say anything, and the number of facets.

@@ -1,6 +1,6 @@
 //! Conflict resolution: the greedy choice among candidates (thesis §3.3.2, "Compaction").
 //!
-//! The candidates of a block are taken in order of priority, each one unless a sample is too close that stood there
+//! The candidates of a cube are taken in order of priority, each one unless a sample is too close that stood there
 //! before or was taken before. The thesis goes by the number of the projector, and tests the winners against the
 //! existing samples afterwards. Here existing samples come first: a candidate that is doomed anyway must not eliminate
 //! others. Among the candidates those come first that their projector faces most squarely: there its pattern, which is
@@ -8,7 +8,8 @@
 
 use crate::error::Result;
 use crate::job::Job;
-use crate::psp::blocks::{Block, Groups};
+use crate::psp::buckets::Buckets;
+use crate::psp::cubes::Cube;
 use crate::psp::samples::{Sample, SampleSet};
 
 /// A point that a projector found.
@@ -22,17 +23,17 @@ pub(super) struct Candidate {
 /// Adds the greedy choice among the candidates, and returns how many samples that are.
 ///
 /// A failed or cancelled job adds nothing.
-pub(super) fn merge(job: &Job, samples: &mut SampleSet, candidates: &Groups<Block, Candidate>) -> Result<u64> {
+pub(super) fn merge(job: &Job, samples: &mut SampleSet, candidates: &Buckets<Cube, Candidate>) -> Result<u64> {
     let before = samples.len();
-    let merged = samples.grow(job, candidates, |_, room, candidates| {
+    let merged = samples.grow(job, candidates, |_, surroundings, candidates| {
         let candidates: Vec<_> = candidates.collect();
         let mut order: Vec<u64> = (0..).zip(&candidates).map(|(i, c)| u64::from(c.rank) << 32 | i).collect();
         order.sort_unstable();
         let mut accepted = Vec::with_capacity(candidates.len());
         for index in order {
             let sample = candidates[index as u32 as usize].sample;
-            if !room.rejects(sample.position) {
-                room.add(sample.position);
+            if !surroundings.rejects(sample.position) {
+                surroundings.add(sample.position);
                 accepted.push(sample);
             }
         }
@@ -73,16 +74,16 @@ mod tests {
         let context = Context::new(threads).unwrap();
         let merge_round = |round: u64| {
             context.run(None, |job| {
-                let place = |sample: &Sample| samples.block(sample.position.map(f64::from));
-                let (candidates, _) = Groups::collect(job, 10, |task, add| {
+                let place = |sample: &Sample| samples.cube(sample.position.map(f64::from));
+                let (candidates, _) = Buckets::collect(job, 10, |task, add| {
                     let mut rng = Rng::at(1, Draw::Probe, &[round, task as u64]);
                     (0..300).map(|_| candidate(mesh, &mut rng)).for_each(|new| add(place(&new.sample), new));
                 })?;
                 let before = samples.len() as u64;
                 let added = merge(job, &mut samples, &candidates)?;
                 assert_eq!(samples.len() as u64, before + added);
-                // The greedy choice leaves no candidate that has room.
-                for new in (0..candidates.len()).flat_map(|group| candidates.items(group)) {
+                // The greedy choice leaves no candidate without a conflict.
+                for new in (0..candidates.len()).flat_map(|bucket| candidates.items(bucket)) {
                     let place = new.sample.position;
                     assert!(samples.all().iter().any(|sample| samples.conflict(sample.position, place)));
                 }
@@ -93,7 +94,7 @@ mod tests {
     }
 
     #[test]
-    fn a_set_grows_free_of_conflicts_until_no_candidate_has_room_on_any_number_of_threads() {
+    fn a_set_grows_free_of_conflicts_until_all_candidates_conflict_on_any_number_of_threads() {
         let mesh = sheets();
         for radius in [0.01, 0.03, 0.2, 3.0] {
             let (one, three) = (grown(&mesh, radius, 1), grown(&mesh, radius, 3));
@@ -117,10 +118,10 @@ mod tests {
         let at = |u: f32, rank| Candidate { sample: Sample::new(&mesh, 0, [u, 0.0]), rank };
         let mut merge_these = |candidates: &[Candidate]| -> Vec<f32> {
             let merged = Context::new(1).unwrap().run(None, |job| {
-                let add_all = |_, add: &mut dyn FnMut(Block, Candidate)| {
-                    candidates.iter().for_each(|&candidate| add(Block([0; 3]), candidate));
+                let add_all = |_, add: &mut dyn FnMut(Cube, Candidate)| {
+                    candidates.iter().for_each(|&candidate| add(Cube([0; 3]), candidate));
                 };
-                merge(job, &mut samples, &Groups::collect(job, 1, add_all)?.0)
+                merge(job, &mut samples, &Buckets::collect(job, 1, add_all)?.0)
             });
             merged.unwrap();
             samples.all().iter().map(|sample| sample.position[0]).collect()

@@ -1,5 +1,5 @@
 //! The pieces that the search for uncovered surface begins with: all triangles, cut until none is much longer than the
-//! radius, and sorted by blocks.
+//! radius, and put in buckets.
 //!
 //! Bisection alone would do for well-shaped triangles. A needle, though, becomes three needles of half its length, two of
 //! them side by side: n^1.58 pieces where n are enough. So a triangle that is longer than high is sliced first, across
@@ -8,28 +8,28 @@
 use crate::error::Result;
 use crate::job::{Job, chunks_of};
 use crate::mesh::{Mesh, exact};
-use crate::psp::blocks::Groups;
-use crate::psp::coverage::{Fragment, Shape};
+use crate::psp::buckets::Buckets;
+use crate::psp::fragment::{Fragment, Shape};
 
 /// Triangles per task.
 const CHUNK: usize = 1024;
 
-/// The whole surface, in fragments that are no longer than `longest` says of them, each at its place.
+/// The whole surface, in fragments that are no longer than `longest` says of them, each with its key.
 pub(super) fn pieces<K: Copy + Ord + Send>(
     job: &Job,
     mesh: &Mesh,
     longest: impl Fn(&Fragment, &Shape) -> f64 + Sync,
-    place: impl Fn(&Fragment, &Shape) -> K + Sync,
-) -> Result<Groups<K, Fragment>> {
+    key: impl Fn(&Fragment, &Shape) -> K + Sync,
+) -> Result<Buckets<K, Fragment>> {
     let chunks = chunks_of(mesh.triangles().len(), CHUNK);
-    let (pieces, _) = Groups::collect(job, chunks.len(), |chunk, add| {
+    let (pieces, _) = Buckets::collect(job, chunks.len(), |chunk, add| {
         let mut slices = Vec::new();
         for triangle in chunks.range(chunk).map(|triangle| triangle as u32) {
             if mesh.triangle_area(triangle) > 0.0 {
                 let whole = Fragment::whole(triangle);
                 slice(mesh, triangle, longest(&whole, &whole.shape(mesh)), &mut slices);
                 for slice in slices.drain(..) {
-                    let mut add = |piece: Fragment, shape: &Shape| add(place(&piece, shape), piece);
+                    let mut add = |piece: Fragment, shape: &Shape| add(key(&piece, shape), piece);
                     cut(&slice, &slice.shape(mesh), &longest, &mut add);
                 }
             }
@@ -85,7 +85,7 @@ fn slice(mesh: &Mesh, triangle: u32, shortest: f64, slices: &mut Vec<Fragment>) 
     }
 }
 
-/// The point at a share of the way; exact at both ends.
+/// The point at a share of the distance; exact at both ends.
 fn between(from: [f64; 2], to: [f64; 2], share: f64) -> [f64; 2] {
     std::array::from_fn(|axis| (1.0 - share) * from[axis] + share * to[axis])
 }
@@ -94,7 +94,6 @@ fn between(from: [f64; 2], to: [f64; 2], share: f64) -> [f64; 2] {
 mod tests {
     use super::*;
     use crate::job::Context;
-    use crate::psp::blocks::Block;
 
     /// Well-shaped triangles and needles of every kind: flat, acute, right.
     fn triangles() -> Vec<Mesh> {
@@ -104,10 +103,9 @@ mod tests {
     }
 
     fn all_pieces(mesh: &Mesh, longest: f64) -> Vec<Fragment> {
-        let groups =
-            |job: &Job| pieces(job, mesh, |_, _| longest, |_, shape| Block([(4.0 * shape.centre.x) as i32, 0, 0]));
-        let groups = Context::new(2).unwrap().run(None, groups).unwrap();
-        (0..groups.len()).flat_map(|group| groups.items(group)).copied().collect()
+        let pieces = |job: &Job| pieces(job, mesh, |_, _| longest, |_, shape| (4.0 * shape.centre.x) as i32);
+        let buckets = Context::new(2).unwrap().run(None, pieces).unwrap();
+        (0..buckets.len()).flat_map(|bucket| buckets.items(bucket)).copied().collect()
     }
 
     #[test]

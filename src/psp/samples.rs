@@ -1,4 +1,4 @@
-//! The samples accepted so far, and how a set grows: block by block.
+//! The samples accepted so far, and how a set grows: cube by cube.
 
 use std::collections::HashMap;
 use std::ops::{AddAssign, Range};
@@ -8,8 +8,9 @@ use crate::geometry::grid3::distance_squared;
 use crate::job::Job;
 use crate::mesh::Mesh;
 use crate::points::SurfaceSamples;
-use crate::psp::blocks::{Block, Groups, SIDE};
-use crate::psp::room::Room;
+use crate::psp::buckets::Buckets;
+use crate::psp::cubes::{Cube, SIDE};
+use crate::psp::surroundings::Surroundings;
 
 /// A point of the surface.
 #[derive(Clone, Copy, Debug)]
@@ -32,8 +33,8 @@ pub(super) struct SampleSet {
     origin: [f64; 3],
     /// In the order in which they were accepted.
     samples: Vec<Sample>,
-    /// Which samples each block accepted. They lie in it, or not much outside.
-    blocks: HashMap<Block, Vec<Range<u32>>>,
+    /// Which samples each cube accepted. They lie in it, or not much outside.
+    cubes: HashMap<Cube, Vec<Range<u32>>>,
 }
 
 impl SampleSet {
@@ -43,7 +44,7 @@ impl SampleSet {
     /// the samples keep `radius` in whatever order a caller evaluates their distances.
     pub fn new(mesh: &Mesh, radius: f64) -> Self {
         let origin = mesh.bounds().0.map(f64::from);
-        Self { radius: radius * (1.0 + 1e-14), origin, samples: Vec::new(), blocks: HashMap::new() }
+        Self { radius: radius * (1.0 + 1e-14), origin, samples: Vec::new(), cubes: HashMap::new() }
     }
 
     pub fn len(&self) -> usize {
@@ -66,66 +67,66 @@ impl SampleSet {
         self.radius
     }
 
-    /// The block that a point is in.
-    pub fn block(&self, point: [f64; 3]) -> Block {
+    /// The cube that a point is in.
+    pub fn cube(&self, point: [f64; 3]) -> Cube {
         let side = f64::from(SIDE) * self.radius;
         // The origin is the lowest point of the surface, up to rounding, which truncation ignores.
-        Block([0, 1, 2].map(|axis| ((point[axis] - self.origin[axis]) / side) as i32))
+        Cube([0, 1, 2].map(|axis| ((point[axis] - self.origin[axis]) / side) as i32))
     }
 
-    /// Adds what `task` makes of each block's items, given the room of the block, and returns the sum of its counts.
+    /// Adds what `task` makes of each cube's items, given the surroundings of the cube, and returns the sum of its counts.
     ///
-    /// The task returns samples that conflict neither with each other nor with anything in the room, no farther than
-    /// 8/3 radii from the block. A failed or cancelled job leaves what complete colours have added.
+    /// The task returns samples that conflict neither with each other nor with anything in the surroundings, no farther than
+    /// 8/3 radii from the cube. A failed or cancelled job leaves what complete colours have added.
     pub fn grow<T: Send + Sync, C: AddAssign + Default + Send>(
         &mut self,
         job: &Job,
-        groups: &Groups<Block, T>,
-        task: impl Fn(Block, &mut Room, &mut dyn Iterator<Item = &T>) -> (Vec<Sample>, C) + Sync,
+        buckets: &Buckets<Cube, T>,
+        task: impl Fn(Cube, &mut Surroundings, &mut dyn Iterator<Item = &T>) -> (Vec<Sample>, C) + Sync,
     ) -> Result<C> {
         let mut colours: [Vec<usize>; 8] = Default::default();
-        (0..groups.len()).for_each(|group| colours[groups.place(group).colour()].push(group));
+        (0..buckets.len()).for_each(|bucket| colours[buckets.key(bucket).colour()].push(bucket));
         let (mut done, mut total) = (0, C::default());
         for members in colours {
-            let share = |done: usize| done as f64 / groups.len().max(1) as f64;
+            let share = |done: usize| done as f64 / buckets.len().max(1) as f64;
             let part = job.part(share(done), share(done + members.len()));
             let grown = part.map(members.len(), |member| {
-                let block = groups.place(members[member]);
-                task(block, &mut self.room(block), &mut groups.items(members[member]))
+                let cube = buckets.key(members[member]);
+                task(cube, &mut self.surroundings(cube), &mut buckets.items(members[member]))
             })?;
             done += members.len();
-            for (&group, (samples, count)) in members.iter().zip(grown) {
+            for (&bucket, (samples, count)) in members.iter().zip(grown) {
                 total += count;
                 if !samples.is_empty() {
                     let start = self.len() as u32;
                     self.samples.extend(samples);
                     let run = start..self.len() as u32;
-                    self.blocks.entry(groups.place(group)).or_default().push(run);
+                    self.cubes.entry(buckets.key(bucket)).or_default().push(run);
                 }
             }
         }
         Ok(total)
     }
 
-    /// What stands in and around a block.
-    fn room(&self, block: Block) -> Room {
-        let mut room = Room::new(block, self.origin, self.radius);
-        for runs in block.around().filter_map(|block| self.blocks.get(&block)) {
+    /// What stands in and around a cube.
+    fn surroundings(&self, cube: Cube) -> Surroundings {
+        let mut surroundings = Surroundings::new(cube, self.origin, self.radius);
+        for runs in cube.around().filter_map(|cube| self.cubes.get(&cube)) {
             for run in runs {
                 for sample in &self.samples[run.start as usize..run.end as usize] {
-                    if room.may_hold(sample.position) {
-                        room.add(sample.position);
+                    if surroundings.may_hold(sample.position) {
+                        surroundings.add(sample.position);
                     }
                 }
             }
         }
-        room
+        surroundings
     }
 
     /// Takes back all but the first samples.
     pub fn truncate(&mut self, len: usize) {
         self.samples.truncate(len);
-        for runs in self.blocks.values_mut() {
+        for runs in self.cubes.values_mut() {
             runs.retain(|run| run.end as usize <= len);
         }
     }

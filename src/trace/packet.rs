@@ -1,77 +1,15 @@
-//! Packets of rays on their way through Embree, and the filter that records their hits.
+//! Packets of rays on their way through Embree.
 
 use std::ffi::c_int;
-use std::mem::offset_of;
 use std::{ptr, slice};
 
 use embree4_sys::*;
 
 use crate::trace::build::Built;
+use crate::trace::layout::{MAX_WIDTH, RayHits, Valid, field};
+use crate::trace::ray::{Hit, LARGEST_COORDINATE, Ray};
+use crate::trace::recorder::{Recorder, record};
 use crate::trace::settle::settle;
-#[cfg(target_arch = "x86_64")]
-use crate::trace::wide;
-use crate::trace::{Hit, LARGEST_COORDINATE, Ray};
-
-/// The widest packet.
-const MAX_WIDTH: usize = 16;
-
-/// Which array of a struct of N rays and their hits is which: word `field * N + lane`.
-pub(super) mod field {
-    pub const ORIGIN: usize = 0;
-    pub const DIRECTION: usize = 4;
-    pub const TFAR: usize = 8;
-    pub const MASK: usize = 9;
-    pub const ID: usize = 10;
-    /// The first field of the hit.
-    pub const HIT: usize = 12;
-    pub const U: usize = 15;
-    pub const V: usize = 16;
-    pub const TRIANGLE: usize = 17;
-    pub const GEOMETRY: usize = 18;
-    pub const COUNT: usize = 19;
-}
-
-/// One of Embree's structs of N rays and their hits.
-///
-/// # Safety
-/// The struct begins with the arrays of N words (`f32` or `u32`) that [`field`] names, and nothing between them.
-pub(super) unsafe trait RayHits: Default {
-    /// N.
-    const WIDTH: usize;
-
-    /// Traces the rays of the lanes where `valid` is -1. A struct of one ray does not look at `valid`.
-    ///
-    /// # Safety
-    /// The scene is committed, the valid rays are finite, the arguments and what they point to are initialised.
-    unsafe fn intersect(&mut self, valid: &Valid, scene: RTCScene, arguments: &mut RTCIntersectArguments);
-}
-
-/// Which lanes of a packet are traced: -1 those, 0 the others. Embree faults on a mask that is not aligned.
-#[derive(Default)]
-#[repr(C, align(64))]
-pub(super) struct Valid([c_int; MAX_WIDTH]);
-
-macro_rules! ray_hits {
-    ($struct:ty, $width:literal, |$valid:pat_param, $scene:ident, $rays:ident, $arguments:ident| $intersect:expr) => {
-        const _: () = assert!(offset_of!($struct, hit) == 4 * field::HIT * $width);
-
-        // SAFETY: by the layout of Embree's own accessors (RTCRayN_org_x and so on), and the assertion above.
-        unsafe impl RayHits for $struct {
-            const WIDTH: usize = $width;
-
-            unsafe fn intersect(&mut self, $valid: &Valid, $scene: RTCScene, $arguments: &mut RTCIntersectArguments) {
-                let $rays = self;
-                // SAFETY: by the contract; mask and struct are aligned by their types.
-                unsafe { $intersect }
-            }
-        }
-    };
-}
-
-ray_hits!(RTCRayHit, 1, |_, scene, ray, arguments| rtcIntersect1(scene, ray, arguments));
-ray_hits!(RTCRayHit4, 4, |valid, scene, rays, arguments| rtcIntersect4(valid.0.as_ptr(), scene, rays, arguments));
-ray_hits!(RTCRayHit8, 8, |valid, scene, rays, arguments| rtcIntersect8(valid.0.as_ptr(), scene, rays, arguments));
-ray_hits!(RTCRayHit16, 16, |valid, scene, rays, arguments| rtcIntersect16(valid.0.as_ptr(), scene, rays, arguments));
 
 /// Up to N rays of the caller, in Embree's layout. Hits that come from here count rays by lanes.
 pub(super) struct Packet<P> {
@@ -250,78 +188,6 @@ fn coherent() -> RTCIntersectArguments {
     arguments.flags = RTC_RAY_QUERY_FLAG_COHERENT;
     arguments
 }
-
-/// What the filter of a query writes to: Embree hands it the context.
-#[repr(C)]
-pub(super) struct Recorder {
-    context: RTCRayQueryContext,
-    /// The hits of the last query.
-    pub(super) hits: Vec<Hit>,
-}
-
-impl Recorder {
-    pub(super) fn new() -> Self {
-        let mut context = RTCRayQueryContext::default();
-        // SAFETY: as in `coherent`.
-        unsafe { rtcInitRayQueryContext(&mut context) };
-        Self { context, hits: Vec::new() }
-    }
-}
-
-/// The filter: notes each hit, and rejects it so that the traversal goes on.
-///
-/// # Safety
-/// Called by Embree, for rays that `Packet::load` made and whose context is that of a [`Recorder`].
-unsafe extern "C" fn record(arguments: *const RTCFilterFunctionNArguments) {
-    // SAFETY: the pointers are valid for N rays, which may be fewer than the packet's, in the layout of `field`; no one
-    // else uses the recorder during the query.
-    unsafe {
-        let arguments = &*arguments;
-        let recorder = &mut *arguments.context.cast::<Recorder>();
-        let (width, hits) = (arguments.N as usize, &mut recorder.hits);
-        let (valid, ray, hit) = (arguments.valid, arguments.ray.cast(), arguments.hit.cast());
-        #[cfg(target_arch = "x86_64")]
-        if width == 16 && wide::available() {
-            return wide::note(valid, ray, hit, hits);
-        }
-        note(valid, ray, hit, width, hits);
-    }
-}
-
-/// Appends the hits of the valid lanes, and makes no lane valid.
-///
-/// # Safety
-/// The pointers lead to `width` lanes, 16 at most, of masks, of the fields of rays and of those of hits.
-pub(super) unsafe fn note(valid: *mut c_int, ray: *const u32, hit: *const u32, width: usize, hits: &mut Vec<Hit>) {
-    // SAFETY: by the contract.
-    unsafe {
-        let valid = slice::from_raw_parts_mut(valid, width);
-        let mut lanes = valid.iter().zip(&BITS).fold(0, |lanes, (&valid, bit)| lanes | (valid as u32 & bit));
-        valid.fill(0);
-        while lanes != 0 {
-            let lane = lanes.trailing_zeros() as usize;
-            lanes &= lanes - 1;
-            let ray = |field: usize| *ray.add(field * width + lane);
-            let hit = |field: usize| *hit.add((field - field::HIT) * width + lane);
-            hits.push(Hit {
-                ray: ray(field::ID),
-                triangle: hit(field::TRIANGLE),
-                uv: [hit(field::U), hit(field::V)].map(f32::from_bits),
-                t: f32::from_bits(ray(field::TFAR)),
-            });
-        }
-    }
-}
-
-/// A bit for each lane.
-const BITS: [u32; MAX_WIDTH] = {
-    let (mut bits, mut lane) = ([0; MAX_WIDTH], 0);
-    while lane < MAX_WIDTH {
-        bits[lane] = 1 << lane;
-        lane += 1;
-    }
-    bits
-};
 
 #[cfg(test)]
 mod tests {

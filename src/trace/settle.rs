@@ -2,7 +2,7 @@
 
 use std::mem;
 
-use crate::trace::Hit;
+use crate::trace::ray::Hit;
 
 /// A place for a hit.
 const NO_HIT: Hit = Hit { ray: 0, triangle: 0, uv: [0.0; 2], t: 0.0 };

@@ -85,7 +85,8 @@ mod tests {
 
     use super::*;
     use crate::job::{Context, Progress};
-    use crate::trace::{Ray, Scene};
+    use crate::trace::ray::Ray;
+    use crate::trace::scene::Scene;
 
     /// A staircase of squares.
     fn build(threads: usize, progress: &Progress) -> Result<Scene> {

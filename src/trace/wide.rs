@@ -1,28 +1,31 @@
-//! What the filter of `packet.rs` does with sixteen rays, in AVX-512, the same to the bit.
+//! What the filter of `recorder.rs` does with sixteen rays, in AVX-512, the same to the bit.
 
 use std::arch::x86_64::*;
 use std::ffi::c_int;
 
-use crate::trace::Hit;
-use crate::trace::packet::field;
+use crate::simd::Avx512;
+use crate::trace::layout::field;
+use crate::trace::ray::Hit;
 
-const WIDTH: usize = 16;
+/// Rays of a packet.
+pub(super) const WIDTH: usize = 16;
 
-/// Whether [`note`] may be called.
-#[inline]
-pub(super) fn available() -> bool {
-    is_x86_feature_detected!("avx512f") && is_x86_feature_detected!("popcnt")
-}
-
-/// [`packet::note`](super::packet::note) for 16 rays.
+/// What [`record`](super::recorder::record) does with 16 rays.
 ///
 /// The lanes with hits are moved together first. A loop over set bits would end at a place that the processor cannot
 /// foresee, once for nearly every ray.
 ///
 /// # Safety
-/// As there, and the processor has AVX-512.
+/// The pointers lead to 16 lanes of masks, of the fields of rays and of those of hits.
+pub(super) unsafe fn note(_: Avx512, valid: *mut c_int, ray: *const u32, hit: *const u32, hits: &mut Vec<Hit>) {
+    // SAFETY: by the contract; the token is proof that the processor has the instructions.
+    unsafe { note_lanes(valid, ray, hit, hits) }
+}
+
+/// # Safety
+/// As above, and the processor has AVX-512.
 #[target_feature(enable = "avx512f,popcnt")]
-pub(super) unsafe fn note(valid: *mut c_int, ray: *const u32, hit: *const u32, hits: &mut Vec<Hit>) {
+unsafe fn note_lanes(valid: *mut c_int, ray: *const u32, hit: *const u32, hits: &mut Vec<Hit>) {
     // SAFETY: by the contract 16 lanes of each field can be read, and those of `valid` written.
     let (lanes, fields) = unsafe {
         let lanes = _mm512_cmpeq_epi32_mask(_mm512_loadu_si512(valid.cast()), _mm512_set1_epi32(-1));
@@ -51,36 +54,4 @@ pub(super) unsafe fn note(valid: *mut c_int, ray: *const u32, hit: *const u32, h
     }
     // SAFETY: there is room for 16 more, of which the first `count` were written.
     unsafe { hits.set_len(hits.len() + count) };
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::rng::{Draw, Rng};
-    use crate::trace::packet;
-
-    #[test]
-    fn any_lanes_are_noted_as_one_by_one() {
-        if !available() {
-            return;
-        }
-        let mut rng = Rng::at(1, Draw::Probe, &[]);
-        let (mut expected, mut found) = (Vec::new(), Vec::new());
-        for lanes in 0..=u16::MAX {
-            // Bits of floats that are numbers, so that they can be compared.
-            let words: [u32; field::COUNT * WIDTH] = std::array::from_fn(|_| rng.below(1 << 30) as u32);
-            let hit = words[field::HIT * WIDTH..].as_ptr();
-            let mut one: [c_int; WIDTH] = std::array::from_fn(|lane| -c_int::from(lanes >> lane & 1 == 1));
-            let mut other = one;
-            expected.clear();
-            found.clear();
-            // SAFETY: 16 lanes of each field, and a processor that was asked.
-            unsafe {
-                packet::note(one.as_mut_ptr(), words.as_ptr(), hit, WIDTH, &mut expected);
-                note(other.as_mut_ptr(), words.as_ptr(), hit, &mut found);
-            }
-            assert_eq!((&found, one, other), (&expected, [0; WIDTH], [0; WIDTH]));
-            assert_eq!(found.len(), lanes.count_ones() as usize);
-        }
-    }
 }

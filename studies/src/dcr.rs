@@ -21,7 +21,7 @@ use azulejo_cli::draw::points;
 use azulejo_cli::progress::watched;
 use measured::Measured;
 use sets::{METHODS, Start};
-use study::{SECTIONS, Study};
+use study::Study;
 
 #[derive(Args)]
 pub struct Dcr {
@@ -50,6 +50,19 @@ const FULL: Effort = Effort {
 };
 const QUICK: Effort =
     Effort { momentum: &[(300, 2), (1000, 1)], thesis: &[(300, 1)], bounded: &[(300, 2)], pictured: 300 };
+
+/// Measures, writes its pictures, and gives its text, from its `##` title on.
+type Section = fn(&Study) -> Result<String>;
+
+/// The sections that follow the tables of the methods, in the order of the page. Each is a file of its own.
+const SECTIONS: [Section; 6] = [
+    convergence::section,
+    radii::section,
+    distributions::section,
+    remeshing::section,
+    density::section,
+    surfaces::section,
+];
 
 /// Width of the pictures in pixels.
 const PIXELS: u32 = 1000;

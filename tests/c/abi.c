@@ -277,8 +277,8 @@ static void signatures(void) {
                                          const double *, azulejo_points **) = azulejo_kdrt_sample_window;
     azulejo_status (*kdrt_stream)(const azulejo_context *, const azulejo_kdrt_options *,
                                   int32_t (*)(void *, const float *, size_t), void *) = azulejo_kdrt_stream;
-    azulejo_status (*kdrt_merge)(const azulejo_context *, const azulejo_kdrt_merge_options *, const azulejo_kdrt_merge_piece *,
-                                 size_t, const float *, size_t, azulejo_points **, azulejo_kdrt_merge_report *) =
+    azulejo_status (*kdrt_merge)(const azulejo_context *, const azulejo_kdrt_merge_options *,
+                                 const azulejo_kdrt_merge_piece *, size_t, const float *, size_t, azulejo_points **, azulejo_kdrt_merge_report *) =
         azulejo_kdrt_merge;
     azulejo_status (*mesh_create)(const float *, size_t, size_t, const uint32_t *, size_t, azulejo_mesh **) =
         azulejo_mesh_create;

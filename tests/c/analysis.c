@@ -250,15 +250,18 @@ static void refused_sets(void) {
         BINS("bins", 1, 65537, radial_distribution);
         out = NULL;
         BINS("out", 1, 4, radial_distribution);
-        REFUSED(INVALID, "positions", azulejo_plane_radial_distribution(context, PLANE(*noise, 1, low, high, 0), 1, 4, density));
+        REFUSED(INVALID, "positions",
+            azulejo_plane_radial_distribution(context, PLANE(*noise, 1, low, high, 0), 1, 4, density));
     }
 #undef BINS
 
     REFUSED(INVALID, "positions", azulejo_spectrum_create(context, PLANE(NULL, 0, low, high, 0), 16, 1, &spectrum));
     REFUSED(INVALID, "size", azulejo_spectrum_create(context, PLANE(*noise, RANDOM, low, high, 0), 0, 1, &spectrum));
-    REFUSED(INVALID, "size", azulejo_spectrum_create(context, PLANE(*noise, RANDOM, low, high, 0), UINT32_MAX, 1, &spectrum));
+    REFUSED(INVALID, "size",
+            azulejo_spectrum_create(context, PLANE(*noise, RANDOM, low, high, 0), UINT32_MAX, 1, &spectrum));
     REFUSED(INVALID, "stride", azulejo_spectrum_create(context, PLANE(*noise, RANDOM, low, high, 0), 16, 0, &spectrum));
-    REFUSED(INVALID, "stride", azulejo_spectrum_create(context, PLANE(*noise, RANDOM, low, high, 0), 16, UINT32_MAX, &spectrum));
+    REFUSED(INVALID, "stride",
+            azulejo_spectrum_create(context, PLANE(*noise, RANDOM, low, high, 0), 16, UINT32_MAX, &spectrum));
     REFUSED(INVALID, "out", azulejo_spectrum_create(context, PLANE(*noise, RANDOM, low, high, 0), 16, 1, NULL));
     CHECK(spectrum == UNTOUCHED && histogram[0] == 7 && density[3] == 7);
     CHECK(memcmp(&report, &report_before, sizeof report) == 0);

@@ -147,9 +147,9 @@ static azulejo_status measures(azulejo_points **out) {
     double figure;
     azulejo_status status;
     *out = NULL;
-    status = azulejo_plane_smallest_distance(context, PLANE(random_xy, POINTS, low, high, AZULEJO_BOUNDARY_PERIODIC), &figure);
+    status = azulejo_plane_smallest_distance(context, PLANE(random_xy, POINTS, low, high, 0), &figure);
     if (status != AZULEJO_OK) return status;
-    status = azulejo_plane_covering_radius(context, PLANE(random_xy, POINTS, low, high, AZULEJO_BOUNDARY_PERIODIC), &figure);
+    status = azulejo_plane_covering_radius(context, PLANE(random_xy, POINTS, low, high, 0), &figure);
     if (status != AZULEJO_OK) return status;
     status = azulejo_space_smallest_distance(context, random_xy, POINTS / 2, &figure);
     if (status != AZULEJO_OK) return status;

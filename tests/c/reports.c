@@ -149,7 +149,8 @@ typedef struct {
 } entry;
 
 #define REPORT(type, required, last)                                                                              \
-    init_##type, "azulejo_" #type "_report", sizeof(azulejo_##type##_report), required, offsetof(azulejo_##type##_report, last)
+    init_##type, "azulejo_" #type "_report", sizeof(azulejo_##type##_report), required,                                    \
+        offsetof(azulejo_##type##_report, last)
 #define PSP_TIMES offsetof(azulejo_psp_report, seconds), offsetof(azulejo_psp_report, rho)
 static const entry entries[] = {
     {kdrt, REPORT(kdrt, 16, seconds), offsetof(azulejo_kdrt_report, seconds), sizeof(azulejo_kdrt_report), 1},
@@ -205,7 +206,8 @@ static void every_size(const entry *e) {
     }
 }
 
-/* A program built against a later header: the fields that this version does not know stay as its init function left them. */
+/* A program built against a later header: the fields that this version does not know stay as its init function left
+   them. */
 static void later_structs(const entry *e) {
     memory later;
     memset(&later, 0x55, sizeof later);

@@ -111,7 +111,10 @@ static void counts(void) {
             if (!ACCEPTED(azulejo_kdrt_sample(context, &options, &points, &report))) continue;
             CHECK(azulejo_points_count(points) == numbers[i] && report.samples == numbers[i]);
             CHECK(report.is_maximal == 1 && report.seconds >= 0 && report.seconds < 100);
-            ACCEPTED(azulejo_plane_covering_radius(context, PLANE(azulejo_points_positions(points), numbers[i], options.domain_min, options.domain_max, boundaries[j]), &covering));
+            ACCEPTED(azulejo_plane_covering_radius(context,
+                                                   PLANE(azulejo_points_positions(points), numbers[i],
+                                                         options.domain_min, options.domain_max, boundaries[j]),
+                                                   &covering));
             CHECK(report.coverage == covering);
             options.measure_coverage = 0;
             ACCEPTED(azulejo_kdrt_sample(context, &options, &without_report, NULL));

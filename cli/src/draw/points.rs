@@ -10,7 +10,7 @@ use super::canvas::{Canvas, Rect};
 use super::panels;
 use super::spectra::{FREQUENCY_LIMIT, Windows};
 use crate::domain::{DomainArgs, OF_OR_AROUND};
-use crate::formats::{Coordinates, Input, blame};
+use crate::formats::{Input, blame};
 use crate::output::Output;
 use crate::progress::watched;
 
@@ -39,10 +39,10 @@ pub(crate) struct Points {
 impl Points {
     pub(crate) fn run(&self, context: &Context) -> Result<()> {
         let output = self.picture.open()?;
-        let set = self.format.read(&self.input, Coordinates::Plane)?;
+        let instead = "azulejo draw surface draws them on their mesh";
+        let set = self.format.read_plane(&self.input, instead)?;
         let domain = self.domain.of_or_around(&set);
-        let points = set.plane_positions();
-        draw(context, &domain, &points, self.picture.size, &output).map_err(|error| blame(&self.input, error))
+        draw(context, &domain, &set.points, self.picture.size, &output).map_err(|error| blame(&self.input, error))
     }
 }
 

@@ -2,7 +2,6 @@
 
 use std::path::PathBuf;
 
-use azulejo::mesh::Mesh;
 use azulejo::{Context, Progress, Result};
 use clap::Args;
 use glam::Vec2;
@@ -14,7 +13,8 @@ use super::detail::most_interesting;
 use super::palette::{COBALT, INK, SLATE};
 use super::render::render;
 use super::stage::Stage;
-use crate::formats::{Coordinates, Input};
+use crate::formats::Input;
+use crate::input;
 use crate::output::Output;
 use crate::progress::watched;
 use crate::text::grouped;
@@ -50,8 +50,8 @@ pub(crate) struct Surface {
 impl Surface {
     pub(crate) fn run(&self, context: &Context) -> Result<()> {
         let output = self.picture.open()?;
-        let mesh = Mesh::load(&self.mesh)?;
-        let samples = self.format.read(&self.samples, Coordinates::Space)?.positions;
+        let mesh = input::mesh(&self.mesh)?;
+        let samples = self.format.read_samples(&self.samples)?.positions;
         let name = self.mesh.file_stem().unwrap_or_default().to_string_lossy();
         let stage = Stage::new(context, &mesh, &samples, self.cutaway)?;
         picture(context, &name, &stage, self.picture.size, &output)

@@ -11,7 +11,7 @@ use crate::growing::{self, Output, growing};
 use crate::mesh::azulejo_mesh;
 use crate::points::azulejo_points;
 use crate::progress::{Watch, azulejo_progress_fn};
-use crate::psp::azulejo_psp_report;
+use crate::psp_report::azulejo_psp_report;
 use crate::status::{Failure, azulejo_status};
 
 /// Gives the radius at a position.

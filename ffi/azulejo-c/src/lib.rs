@@ -133,6 +133,7 @@ pub mod merge;
 pub mod embree;
 pub mod mesh;
 pub mod psp;
+pub mod psp_report;
 
 pub mod adaptive;
 

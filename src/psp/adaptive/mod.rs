@@ -7,7 +7,7 @@
 //!   radius half-way between them, so that the set is locally what a set of one radius is.
 //! * *Maximal*: no point of the surface is farther from every sample than the mean of the radii of the two. Tolerance:
 //!   [`TOLERANCE`](super::TOLERANCE) float spacings at the largest coordinate of the mesh, and what the radius changes
-//!   on that way; with radii of vertices also 2^-22 of the largest difference of two radii on a triangle, the rounding
+//!   on that distance; with radii of vertices also 2^-22 of the largest difference of two radii on a triangle, the rounding
 //!   of the barycentrics.
 //! * *Dense*: where the radius changes little from sample to sample there are 0.6966 / radius² samples on an area of 1.
 //! * *Deterministic*: the samples and their order depend on mesh, radii and seed only.
@@ -15,131 +15,19 @@
 //! The thesis projects patterns of the smallest radius and thins them, which wastes most rays where radii differ. Here
 //! the set is only filled (see `psp/fill.rs`), octave by octave, without Embree.
 
-use std::time::Instant;
-
-use crate::error::{Error, Result};
-use crate::job::{Context, Job, Progress};
-use crate::mesh::Mesh;
-use crate::points::SurfaceSamples;
-use crate::psp::pieces::pieces;
-use crate::psp::samples::surface_samples;
-use crate::psp::{DENSITY, Report, longest_edge};
-use crate::setters::setters;
-
-mod coverage;
+mod cover;
+mod field;
 mod fill;
+mod grids;
 mod limits;
+mod options;
+mod outline;
 mod radius;
-mod room;
+mod sample;
 mod set;
+#[allow(unsafe_code)] // Vector instructions.
+mod vectors;
 
-use limits::Quota;
-use radius::Field;
+pub use options::Options;
 pub use radius::{Radius, RadiusFunction};
-use room::Rule;
-
-/// What to sample.
-#[derive(Clone, Copy)]
-#[non_exhaustive]
-pub struct Options<'a> {
-    /// The radius on the surface. Radii larger than four times the diagonal of the mesh's box are taken as that, those of
-    /// vertices before they are interpolated.
-    pub radius: Radius<'a>,
-    /// Samples on triangles whose normals have a smaller cosine ignore each other, and so do samples and uncovered
-    /// surface: the sides of a thin wall are sampled as if they were far apart. From -1, which is off, to 1, where only
-    /// samples with the same normal see each other. The triangles must be wound consistently.
-    pub cosine: f64,
-    /// Selects one of 2^64 sets.
-    pub seed: u64,
-}
-
-impl<'a> Options<'a> {
-    /// No sample ignores others.
-    pub fn new(radius: Radius<'a>) -> Self {
-        Self { radius, cosine: -1.0, seed: 0 }
-    }
-}
-
-setters!(Options<'a> { cosine: f64, seed: u64 });
-
-/// Samples and their radii.
-#[derive(Clone, Debug, PartialEq)]
-#[non_exhaustive]
-pub struct AdaptiveSamples {
-    /// In the order in which they were accepted.
-    pub samples: SurfaceSamples,
-    /// The radius of each sample.
-    pub radii: Vec<f64>,
-}
-
-/// On how many pieces of the surface the number of samples is estimated, about and at most.
-const ESTIMATES: f64 = 1e5;
-/// Memory per sample at the peak.
-const BYTES_PER_SAMPLE: f64 = 800.0;
-
-/// A maximal set of samples, each with its own radius.
-///
-/// Time grows with the samples and the triangles, and with the square of how much the radius changes along a radius.
-/// The report counts no iterations, rays and hits.
-///
-/// # Errors
-/// [`Error::InvalidArgument`] for radii that are not positive and finite (`vertex_radii`), not one for each vertex
-/// (`vertex_count`), or below 64 float spacings at the largest coordinate of the mesh; for bad `smallest`, `largest` and
-/// `slope`; for a function that gives what is not in `smallest..=largest` or changes faster than `slope` (`radius`);
-/// for a `cosine` outside -1 to 1. [`Error::TooLarge`] where the radii would ask for more than 2^32 samples, or more than
-/// memory holds, and where they change so fast that it takes thousands of looks per sample to find out what is covered (`slope`,
-/// `vertex_radii`). [`Error::Cancelled`] by the progress callback.
-pub fn sample(
-    context: &Context,
-    mesh: &Mesh,
-    options: &Options,
-    progress: Option<&Progress>,
-) -> Result<(AdaptiveSamples, Report)> {
-    let start = Instant::now();
-    let cosine = options.cosine;
-    if !(-1.0..=1.0).contains(&cosine) {
-        return Err(Error::invalid("cosine", format!("{cosine:?} is not in -1..=1")));
-    }
-    let field = Field::new(mesh, options.radius)?;
-    let (set, darts) = context.run(progress, |job| {
-        let quota = Quota::new(require(&job.part(0.0, 0.05), mesh, &field)?, mesh);
-        fill::fill(job, mesh, &field, &quota, Rule { cosine }, options.seed)
-    })?;
-    let (samples, radii): (Vec<_>, Vec<_>) = set.samples.into_iter().unzip();
-    let accepted = samples.len() as u64;
-    let seconds = start.elapsed().as_secs_f64();
-    let conflicts = darts - accepted;
-    let report = Report { samples: accepted, accepted, darts, conflicts, seconds, ..Report::default() };
-    let samples = surface_samples(mesh, &samples);
-    Ok((AdaptiveSamples { samples, radii }, report))
-}
-
-/// Estimates the samples and refuses radii that ask for more than can be indexed or held. They are counted on pieces of the surface, each
-/// as if it had the radius of its centre: those of the area, and those along what is longer than the radius.
-fn require(job: &Job, mesh: &Mesh, field: &Field) -> Result<f64> {
-    // Needles have next to no area: their lengths bound the pieces as well.
-    let lengths: f64 = mesh.sampled_triangles().map(|triangle| longest_edge(mesh, triangle)).sum();
-    // Nor is anything learned from pieces that are shorter than every radius.
-    let longest = (4.0 * mesh.area() / ESTIMATES).sqrt().max(lengths / ESTIMATES).max(field.all().least);
-    let expected = |radius: f64, area: f64, length: f64| {
-        DENSITY * area / (radius * radius) + if length > radius { length / radius } else { 0.0 }
-    };
-    let pieces = pieces(job, mesh, |_, _| longest, |_, _| ())?;
-    let estimate: f64 = (0..pieces.len())
-        .flat_map(|group| pieces.items(group))
-        .map(|piece| {
-            let shape = piece.shape(mesh);
-            expected(field.centre(piece, &shape), piece.area(mesh), shape.longest)
-        })
-        .sum();
-    field.check()?;
-    let (argument, all) = (field.argument(), field.all());
-    if estimate > f64::from(u32::MAX) {
-        let [least, largest] = [all.least, all.largest];
-        let reason =
-            format!("{least:?} to {largest:?} asks for about {estimate:.3e} samples; the limit is {}", u32::MAX);
-        return Err(Error::too_large(argument, reason));
-    }
-    crate::memory::require(estimate * BYTES_PER_SAMPLE, argument, &format!("about {estimate:.3e} samples"))?;
-    Ok(estimate)
-}
+pub use sample::{AdaptiveSamples, sample};

@@ -10,7 +10,7 @@ use crate::error::Result;
 use crate::job::{Job, chunks_of};
 use crate::kdrt;
 use crate::points::{Boundary, Domain};
-use crate::psp::blocks::Groups;
+use crate::psp::buckets::Buckets;
 
 /// Points per chunk: enough rays to keep a task busy, few enough to stay together on the surface.
 const CHUNK: usize = 4096;
@@ -20,7 +20,7 @@ const LARGEST_SIDE: f64 = 2390.0;
 const SMALLEST_SIDE: f64 = 8.0;
 
 /// Points for a square of side `extent` that repeat with a side, which is returned with them; in radii.
-pub(crate) fn torus(job: &Job, extent: f64, seed: u64) -> Result<(f64, Vec<[f32; 2]>)> {
+pub(super) fn torus(job: &Job, extent: f64, seed: u64) -> Result<(f64, Vec<[f32; 2]>)> {
     let side = extent.clamp(SMALLEST_SIDE, LARGEST_SIDE);
     let domain = Domain { min: [0.0; 2], max: [side; 2], boundary: Boundary::Periodic };
     let options = kdrt::Options::new(1.0).domain(domain).seed(seed);
@@ -28,8 +28,8 @@ pub(crate) fn torus(job: &Job, extent: f64, seed: u64) -> Result<(f64, Vec<[f32;
     Ok((side, kdrt::sample(job.context(), &options, Some(&progress))?))
 }
 
-/// A set of points on the torus of a given side, in units of the radius.
-pub(crate) struct Pattern {
+/// Points on the torus of a given side, in units of the radius, in the order in which rays are traced.
+pub(super) struct RayPattern {
     pub side: f64,
     /// In Morton order, so that rays of a packet and packets of a task meet the same part of the mesh.
     points: Vec<[f32; 2]>,
@@ -37,7 +37,7 @@ pub(crate) struct Pattern {
     bounds: Vec<[[f32; 2]; 2]>,
 }
 
-impl Pattern {
+impl RayPattern {
     /// A pattern for a square of side `extent`, in radii.
     pub fn new(job: &Job, extent: f64, seed: u64) -> Result<Self> {
         let (side, points) = torus(&job.part(0.0, 0.7), extent, seed)?;
@@ -73,7 +73,7 @@ impl Pattern {
 /// The points sorted by a key: into 256 parts by its upper bits, then each part.
 fn sorted(job: &Job, points: &[[f32; 2]], key: impl Fn(&[f32; 2]) -> u32 + Sync) -> Result<Vec<[f32; 2]>> {
     let chunks = chunks_of(points.len(), 16 * CHUNK);
-    let (parts, _) = Groups::collect(&job.part(0.0, 0.3), chunks.len(), |chunk, add| {
+    let (parts, _) = Buckets::collect(&job.part(0.0, 0.3), chunks.len(), |chunk, add| {
         points[chunks.range(chunk)].iter().for_each(|point| add(key(point) >> 24, *point));
     })?;
     job.part(0.3, 1.0).flat_map(parts.len(), |part| {
@@ -118,7 +118,7 @@ mod tests {
     /// Copies of the pattern side by side: every point of a window comes from exactly one chunk of one copy.
     #[test]
     fn chunks_are_cut_to_a_window_and_repeat_around_the_torus() {
-        let pattern = Context::new(1).unwrap().run(None, |job| Pattern::new(job, 100.0, 5)).unwrap();
+        let pattern = Context::new(1).unwrap().run(None, |job| RayPattern::new(job, 100.0, 5)).unwrap();
         assert_eq!(pattern.side, 100.0);
         let window = |offset: [f64; 2]| -> usize {
             let tiles = [-2, -1, 0, 1].map(f64::from);

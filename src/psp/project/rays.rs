@@ -12,8 +12,9 @@ use glam::DVec3;
 use crate::error::Result;
 use crate::job::Job;
 use crate::mesh::{Mesh, exact};
-use crate::psp::project::pattern::Pattern;
-use crate::psp::project::projector::{Collector, Found, Projector};
+use crate::psp::project::collector::{Collector, Found};
+use crate::psp::project::pattern::RayPattern;
+use crate::psp::project::projector::Projector;
 use crate::trace::{Ray, Scene};
 
 /// The box is widened by this (trace space), so that a rounded ray along its side is not lost.
@@ -24,12 +25,12 @@ const DISTANCE: f64 = 1.0;
 const MAX_TASKS: u64 = 1 << 16;
 
 /// A mesh in trace space and the pattern that is projected onto it.
-pub(crate) struct Rays {
+pub(in crate::psp) struct Rays {
     /// The triangles that are to be sampled, and no others.
     scene: Scene,
     /// Their numbers in the mesh.
     numbers: Vec<u32>,
-    pattern: Pattern,
+    pattern: RayPattern,
     /// Half the size of the mesh's box (trace space).
     half_box: DVec3,
     /// The radius (trace space).
@@ -62,7 +63,7 @@ impl Rays {
         Ok(Self {
             scene,
             numbers,
-            pattern: Pattern::new(&job.part(0.5, 1.0), 1.0 / (radius * scale), seed)?,
+            pattern: RayPattern::new(&job.part(0.5, 1.0), 1.0 / (radius * scale), seed)?,
             half_box: 0.5 * scale * (high - low) + BOX_MARGIN,
             radius: radius * scale,
         })

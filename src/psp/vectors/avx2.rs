@@ -1,9 +1,9 @@
-//! The functions of `near.rs` in AVX2.
+//! The functions of `stack.rs` in AVX2.
 
 use std::arch::x86_64::*;
 
-use crate::psp::cover::{CORNERS, Cover};
-use crate::psp::near::{LANES, Local, Near, Places, SLACK};
+use crate::psp::sixteenths::{CORNERS, Cover};
+use crate::psp::stack::{LANES, LocalFragment, PointLanes, PointStack, SLACK};
 
 #[inline]
 #[target_feature(enable = "avx2")]
@@ -34,14 +34,14 @@ pub(super) fn offsets([x, y, z]: [&[f32]; 3], from: [f32; 3]) -> [__m256; 3] {
 /// Pushes the chosen lanes; what is written behind them does not count.
 #[inline]
 #[target_feature(enable = "avx2,popcnt")]
-fn push(near: &mut Near, lanes: [__m256; 3], chosen: u32) {
+fn push(stack: &mut PointStack, lanes: [__m256; 3], chosen: u32) {
     let order = _mm256_cvtepu8_epi32(_mm_cvtsi64_si128(LANES_TO_FRONT[chosen as usize]));
-    for (axis, lanes) in near.axes.iter_mut().zip(lanes) {
-        let target = &mut axis[near.len..near.len + LANES];
+    for (axis, lanes) in stack.axes.iter_mut().zip(lanes) {
+        let target = &mut axis[stack.len..stack.len + LANES];
         // SAFETY: eight floats are written, to a slice of eight; no alignment is asked for.
         unsafe { _mm256_storeu_ps(target.as_mut_ptr(), _mm256_permutevar8x32_ps(lanes, order)) };
     }
-    near.len += chosen.count_ones() as usize;
+    stack.len += chosen.count_ones() as usize;
 }
 
 /// For each choice of lanes, one per bit: the numbers of these lanes, in order, in the bytes from the lowest on.
@@ -62,31 +62,31 @@ const LANES_TO_FRONT: [i64; 256] = {
     table
 };
 
-/// [`Near::append`].
+/// [`PointStack::append`].
 #[target_feature(enable = "avx2,popcnt")]
-pub fn append(near: &mut Near, [x, y, z]: &Places, centre: [f32; 3], reach2: f32) {
+pub fn append(stack: &mut PointStack, [x, y, z]: &PointLanes, centre: [f32; 3], reach2: f32) {
     let offsets = offsets([x, y, z], centre);
     let reaching = _mm256_cmp_ps::<_CMP_LE_OQ>(square(offsets), _mm256_set1_ps(reach2));
-    push(near, offsets, _mm256_movemask_ps(reaching) as u32);
+    push(stack, offsets, _mm256_movemask_ps(reaching) as u32);
 }
 
-/// [`Near::append_reaching`].
+/// [`PointStack::append_reaching`].
 #[target_feature(enable = "avx2,popcnt")]
-pub fn append_reaching(near: &mut Near, from: usize, to: usize, centre: [f32; 3], reach2: f32) {
+pub fn append_reaching(stack: &mut PointStack, from: usize, to: usize, centre: [f32; 3], reach2: f32) {
     for start in (from..to).step_by(LANES) {
-        let [x, y, z] = &near.axes;
+        let [x, y, z] = &stack.axes;
         let places = [&x[start..], &y[start..], &z[start..]];
         let points = [load(places[0]), load(places[1]), load(places[2])];
         let reaching = _mm256_cmp_ps::<_CMP_LE_OQ>(square(offsets(places, centre)), _mm256_set1_ps(reach2));
         let there = (1u32 << (to - start).min(LANES)) - 1;
-        push(near, points, _mm256_movemask_ps(reaching) as u32 & there);
+        push(stack, points, _mm256_movemask_ps(reaching) as u32 & there);
     }
 }
 
 /// Eight corners of sixteenths, from the given one on.
 #[inline]
 #[target_feature(enable = "avx2")]
-fn corners(fragment: &Local, first: usize) -> [__m256; 3] {
+fn corners(fragment: &LocalFragment, first: usize) -> [__m256; 3] {
     let (s, t) = (load(&CORNERS[0][first..]), load(&CORNERS[1][first..]));
     let (corner, [e, f]) = (fragment.corner.to_array(), fragment.edges.map(|edge| edge.to_array()));
     let along = |axis: usize| {
@@ -110,31 +110,31 @@ fn add(cover: &mut Cover, corners: &[[__m256; 3]; 2], point: [f32; 3]) {
     cover.add(low | high << LANES);
 }
 
-/// [`Near::covered`].
+/// [`PointStack::covered`].
 #[target_feature(enable = "avx2")]
-pub fn covered(near: &Near, from: usize, fragment: &Local) -> u16 {
+pub fn covered(stack: &PointStack, from: usize, fragment: &LocalFragment) -> u16 {
     let corners = [corners(fragment, 0), corners(fragment, LANES)];
     let mut cover = Cover::default();
-    (from..near.len).for_each(|index| add(&mut cover, &corners, near.point(index)));
+    (from..stack.len).for_each(|index| add(&mut cover, &corners, stack.point(index)));
     cover.sixteenths()
 }
 
-/// [`Near::take_covered`].
+/// [`PointStack::take_covered`].
 #[target_feature(enable = "avx2,bmi1")]
-pub fn take_covered(near: &Near, from: usize, fragment: &Local, open: &mut [u16; 16]) {
-    let [x, y, z] = &near.axes;
+pub fn take_covered(stack: &PointStack, from: usize, fragment: &LocalFragment, open: &mut [u16; 16]) {
+    let [x, y, z] = &stack.axes;
     for (index, open) in open.iter_mut().enumerate().filter(|(_, open)| **open != 0) {
         let part = fragment.sixteenth(index);
         let (centre, reach2) = part.reach();
         let corners = [corners(&part, 0), corners(&part, LANES)];
         let mut cover = Cover::default();
-        for start in (from..near.len).step_by(LANES) {
+        for start in (from..stack.len).step_by(LANES) {
             let squares = square(offsets([&x[start..], &y[start..], &z[start..]], centre));
             let reaching = _mm256_cmp_ps::<_CMP_LE_OQ>(squares, _mm256_set1_ps(reach2));
-            let there = (1u32 << (near.len - start).min(LANES)) - 1;
+            let there = (1u32 << (stack.len - start).min(LANES)) - 1;
             let mut reaching = _mm256_movemask_ps(reaching) as u32 & there;
             while reaching != 0 {
-                add(&mut cover, &corners, near.point(start + reaching.trailing_zeros() as usize));
+                add(&mut cover, &corners, stack.point(start + reaching.trailing_zeros() as usize));
                 reaching &= reaching - 1;
             }
         }
@@ -142,9 +142,9 @@ pub fn take_covered(near: &Near, from: usize, fragment: &Local, open: &mut [u16;
     }
 }
 
-/// [`near::close`](crate::psp::near::close).
+/// [`stack::close`](crate::psp::stack::close).
 #[target_feature(enable = "avx2")]
-pub fn close([x, y, z]: &Places, point: [f32; 3]) -> u8 {
+pub fn close([x, y, z]: &PointLanes, point: [f32; 3]) -> u8 {
     let limit = _mm256_set1_ps(1.0 + SLACK);
     _mm256_movemask_ps(_mm256_cmp_ps::<_CMP_LE_OQ>(square(offsets([x, y, z], point)), limit)) as u8
 }

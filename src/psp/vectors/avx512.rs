@@ -1,11 +1,11 @@
-//! The functions of `near.rs` in AVX-512.
+//! The functions of `stack.rs` in AVX-512.
 
 use std::arch::x86_64::*;
 
 use glam::Vec3A;
 
-use crate::psp::cover::{CORNERS, CORNERS_OF_SIXTEENTHS, STANDING, STARTS};
-use crate::psp::near::{FAR, LANES, Local, Near, Places, SLACK};
+use crate::psp::sixteenths::{CORNERS, CORNERS_OF_SIXTEENTHS, STANDING, STARTS};
+use crate::psp::stack::{FAR, LANES, LocalFragment, PointLanes, PointStack, SLACK};
 
 use crate::psp::vectors::avx2;
 
@@ -46,48 +46,48 @@ fn squares([x, y, z]: [__m512; 3], from: [f32; 3]) -> __m512 {
     _mm512_add_ps(_mm512_add_ps(_mm512_mul_ps(x, x), _mm512_mul_ps(y, y)), _mm512_mul_ps(z, z))
 }
 
-/// [`Near::append`].
+/// [`PointStack::append`].
 #[target_feature(enable = "avx2,avx512f,avx512vl,popcnt")]
-pub fn append(near: &mut Near, [x, y, z]: &Places, centre: [f32; 3], reach2: f32) {
+pub fn append(stack: &mut PointStack, [x, y, z]: &PointLanes, centre: [f32; 3], reach2: f32) {
     let offsets = avx2::offsets([x, y, z], centre);
     let reaching = _mm256_cmp_ps_mask::<_CMP_LE_OQ>(avx2::square(offsets), _mm256_set1_ps(reach2));
-    for (axis, lanes) in near.axes.iter_mut().zip(offsets) {
-        let target = &mut axis[near.len..near.len + LANES];
+    for (axis, lanes) in stack.axes.iter_mut().zip(offsets) {
+        let target = &mut axis[stack.len..stack.len + LANES];
         // SAFETY: eight floats are written, to a slice of eight; no alignment is asked for.
         unsafe { _mm256_storeu_ps(target.as_mut_ptr(), _mm256_maskz_compress_ps(reaching, lanes)) };
     }
-    near.len += reaching.count_ones() as usize;
+    stack.len += reaching.count_ones() as usize;
 }
 
-/// [`Near::append_reaching`].
+/// [`PointStack::append_reaching`].
 #[target_feature(enable = "avx512f,popcnt")]
-pub fn append_reaching(near: &mut Near, from: usize, to: usize, centre: [f32; 3], reach2: f32) {
+pub fn append_reaching(stack: &mut PointStack, from: usize, to: usize, centre: [f32; 3], reach2: f32) {
     for start in (from..to).step_by(WIDE) {
-        let [x, y, z] = &near.axes;
+        let [x, y, z] = &stack.axes;
         let points = [load(&x[start..]), load(&y[start..]), load(&z[start..])];
         let there = ((1u32 << (to - start).min(WIDE)) - 1) as u16;
         let squares = squares(points, centre);
         let reaching = _mm512_mask_cmp_ps_mask::<_CMP_LE_OQ>(there, squares, _mm512_set1_ps(reach2));
-        for (axis, points) in near.axes.iter_mut().zip(points) {
-            let target = &mut axis[near.len..near.len + WIDE];
+        for (axis, points) in stack.axes.iter_mut().zip(points) {
+            let target = &mut axis[stack.len..stack.len + WIDE];
             // SAFETY: sixteen floats are written, to a slice of sixteen; no alignment is asked for.
             unsafe { _mm512_storeu_ps(target.as_mut_ptr(), _mm512_maskz_compress_ps(reaching, points)) };
         }
-        near.len += reaching.count_ones() as usize;
+        stack.len += reaching.count_ones() as usize;
     }
 }
 
 /// The corners of the sixteenths.
 #[inline]
 #[target_feature(enable = "avx512f")]
-fn corners(fragment: &Local) -> [__m512; 3] {
+fn corners(fragment: &LocalFragment) -> [__m512; 3] {
     places(fragment, &CORNERS)
 }
 
-/// Places of a fragment, by shares of its edges.
+/// PointLanes of a fragment, by shares of its edges.
 #[inline]
 #[target_feature(enable = "avx512f")]
-fn places(fragment: &Local, shares: &[[f32; WIDE]; 2]) -> [__m512; 3] {
+fn places(fragment: &LocalFragment, shares: &[[f32; WIDE]; 2]) -> [__m512; 3] {
     let (s, t) = (load(&shares[0]), load(&shares[1]));
     let (corner, [e, f]) = (fragment.corner.to_array(), fragment.edges.map(|edge| edge.to_array()));
     let along = |axis: usize| {
@@ -113,23 +113,23 @@ fn inside(farthest: __m512) -> u16 {
     _mm512_cmp_ps_mask::<_CMP_LT_OQ>(farthest, _mm512_set1_ps(1.0 - SLACK))
 }
 
-/// [`Near::covered`].
+/// [`PointStack::covered`].
 #[target_feature(enable = "avx512f")]
-pub fn covered(near: &Near, from: usize, fragment: &Local) -> u16 {
+pub fn covered(stack: &PointStack, from: usize, fragment: &LocalFragment) -> u16 {
     let corners = corners(fragment);
     let mut least = _mm512_set1_ps(FAR);
-    for index in from..near.len {
-        least = _mm512_min_ps(least, farthest(corners, near.point(index)));
+    for index in from..stack.len {
+        least = _mm512_min_ps(least, farthest(corners, stack.point(index)));
     }
     inside(least)
 }
 
-/// [`Near::take_covered`].
+/// [`PointStack::take_covered`].
 #[target_feature(enable = "avx512f,bmi1")]
-pub fn take_covered(near: &Near, from: usize, fragment: &Local, open: &mut [u16; 16]) {
-    let [x, y, z] = &near.axes;
+pub fn take_covered(stack: &PointStack, from: usize, fragment: &LocalFragment, open: &mut [u16; 16]) {
+    let [x, y, z] = &stack.axes;
     // All parts are the first one, moved to where they start, and some of them turned over.
-    let first = Local { corner: Vec3A::ZERO, ..fragment.sixteenth(0) };
+    let first = LocalFragment { corner: Vec3A::ZERO, ..fragment.sixteenth(0) };
     let (around, (to_centre, reach2)) = (corners(&first), first.reach());
     let starts = places(fragment, &STARTS).map(|lanes| stored(lanes));
     for (index, open) in open.iter_mut().enumerate().filter(|(_, open)| **open != 0) {
@@ -139,12 +139,12 @@ pub fn take_covered(near: &Near, from: usize, fragment: &Local, open: &mut [u16;
         let corners = [0, 1, 2]
             .map(|axis| _mm512_add_ps(_mm512_set1_ps(start[axis]), _mm512_mul_ps(_mm512_set1_ps(sign), around[axis])));
         let mut least = _mm512_set1_ps(FAR);
-        for first in (from..near.len).step_by(WIDE) {
+        for first in (from..stack.len).step_by(WIDE) {
             let squares = squares([load(&x[first..]), load(&y[first..]), load(&z[first..])], centre);
-            let there = ((1u32 << (near.len - first).min(WIDE)) - 1) as u16;
+            let there = ((1u32 << (stack.len - first).min(WIDE)) - 1) as u16;
             let mut reaching = _mm512_mask_cmp_ps_mask::<_CMP_LE_OQ>(there, squares, _mm512_set1_ps(reach2));
             while reaching != 0 {
-                let point = near.point(first + reaching.trailing_zeros() as usize);
+                let point = stack.point(first + reaching.trailing_zeros() as usize);
                 least = _mm512_min_ps(least, farthest(corners, point));
                 reaching &= reaching - 1;
             }

@@ -1,28 +1,14 @@
-//! The sections that follow the tables of the methods.
+//! What the sections that follow the tables of the methods work with.
 
 use std::path::Path;
 
 use azulejo::dcr::{Method, Neighbourhood, Options, Thesis};
 use azulejo::{Context, Domain, Result};
 
-use super::{convergence, density, distributions, radii, remeshing, surfaces};
 use crate::files::Files;
 use azulejo_cli::draw::rows::in_parallel;
 use azulejo_cli::output::Output;
 use azulejo_cli::progress::watched;
-
-/// Measures, writes its pictures, and gives its text, from its `##` title on.
-pub type Section = fn(&Study) -> Result<String>;
-
-/// All sections, in the order of the page. Each is a file of its own.
-pub const SECTIONS: [Section; 6] = [
-    convergence::section,
-    radii::section,
-    distributions::section,
-    remeshing::section,
-    density::section,
-    surfaces::section,
-];
 
 /// What a section has to work with.
 pub struct Study<'a> {

@@ -6,9 +6,11 @@ use glam::{DVec2, DVec3};
 
 use crate::job::Context;
 use crate::mesh::{Mesh, exact};
-use crate::psp::project::projector::{Collector, Projection, Projector, frame};
+use crate::psp::options::{Engine, Options, Priority};
+use crate::psp::project::collector::Collector;
+use crate::psp::project::projection::Projection;
+use crate::psp::project::projector::{Projector, frame};
 use crate::psp::samples::{Sample, SampleSet};
-use crate::psp::{Engine, Options, Priority};
 
 #[path = "../../../../tests/common/meshes.rs"]
 #[allow(dead_code)]
@@ -56,7 +58,7 @@ fn size(mesh: &Mesh, projector: &Projector, triangle: u32) -> [f64; 2] {
     [longest, (b - a).perp_dot(c - a).abs() / longest]
 }
 
-/// How far a sample is from the border of its triangle, as its projector sees both.
+/// How far a sample is from the boundary of its triangle, as its projector sees both.
 fn depth(mesh: &Mesh, projector: &Projector, sample: &Sample) -> f64 {
     let corners = mesh.corners(sample.triangle).map(|corner| flat(projector, exact(corner)));
     let place = seen(mesh, projector, sample);

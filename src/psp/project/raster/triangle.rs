@@ -4,46 +4,42 @@
 //! A point on an edge counts as if it were moved to the right by next to nothing, and up by much less still. So of all
 //! triangles that meet along an edge, or around a corner, and do not overlap there, exactly one has it.
 
-/// No coordinate is this large: products of coordinates, and sums of a few of them, are `i64`.
-pub(super) const END: i64 = 1 << 30;
-
-/// A point on a projector, in units of its lattice.
-pub(super) type Place = [i64; 2];
+use crate::psp::project::raster::lattice::LatticePoint;
 
 /// An edge of a triangle: positive on its inner side, and where a point on it counts as inside.
 #[derive(Clone, Copy)]
-struct Edge {
-    slope: Place,
+struct ProjectedEdge {
+    slope: LatticePoint,
     constant: i64,
     /// 0 if points on the edge are inside, else 1.
     bias: i64,
 }
 
 /// A triangle on a projector.
-pub(super) struct Triangle {
+pub(super) struct ProjectedTriangle {
     /// Each opposite the corner of its number.
-    edges: [Edge; 3],
+    edges: [ProjectedEdge; 3],
     /// Twice the area; above zero.
     area: i64,
 }
 
-impl Triangle {
+impl ProjectedTriangle {
     /// None if the triangle is seen without area.
-    pub fn new(corners: [Place; 3]) -> Option<Self> {
+    pub fn new(corners: [LatticePoint; 3]) -> Option<Self> {
         let [a, b, c] = corners;
         let area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
         let sign = area.signum();
-        let edge = |from: Place, to: Place| {
+        let edge = |from: LatticePoint, to: LatticePoint| {
             let slope = [sign * (from[1] - to[1]), sign * (to[0] - from[0])];
             let inside = slope[0] > 0 || (slope[0] == 0 && slope[1] > 0);
-            Edge { slope, constant: -(slope[0] * from[0] + slope[1] * from[1]), bias: i64::from(!inside) }
+            ProjectedEdge { slope, constant: -(slope[0] * from[0] + slope[1] * from[1]), bias: i64::from(!inside) }
         };
         let edges = [edge(b, c), edge(c, a), edge(a, b)];
         (area != 0).then_some(Self { edges, area: area.abs() })
     }
 
     /// The shares of the second and third corner in a point; none for points outside.
-    pub fn barycentrics(&self, [x, y]: Place) -> Option<[f64; 2]> {
+    pub fn barycentrics(&self, [x, y]: LatticePoint) -> Option<[f64; 2]> {
         let [a, b, c] = self.edges.map(|edge| edge.slope[0] * x + edge.slope[1] * y + edge.constant - edge.bias);
         // One of them is negative, and with it their union, for points outside.
         let weight = |value: i64, edge: usize| (value + self.edges[edge].bias) as f64 / self.area as f64;
@@ -51,45 +47,20 @@ impl Triangle {
     }
 }
 
-/// The least and the largest coordinate of a triangle on an axis.
-pub(super) fn extent(corners: &[Place; 3], axis: usize) -> [f64; 2] {
-    let [a, b, c] = corners.map(|corner| corner[axis]);
-    [a.min(b).min(c), a.max(b).max(c)].map(|x| x as f64)
-}
-
-/// The least and the largest x of the part of a triangle between two heights, of which there is some.
-pub(super) fn extent_between(corners: &[Place; 3], low: f64, high: f64) -> [f64; 2] {
-    let corners = corners.map(|corner| corner.map(|x| x as f64));
-    let mut extent = [f64::INFINITY, f64::NEG_INFINITY];
-    for i in 0..3 {
-        let ([p, q], [r, s]) = (corners[i], corners[(i + 1) % 3]);
-        let ends = [low, high].map(|y| y.clamp(q.min(s), q.max(s)));
-        if ends[0] <= high && ends[1] >= low {
-            for y in ends {
-                let x = if q == s { p } else { p + (r - p) * ((y - q) / (s - q)) };
-                extent = [extent[0].min(x), extent[1].max(x)];
-            }
-            if q == s {
-                extent = [extent[0].min(r), extent[1].max(r)];
-            }
-        }
-    }
-    extent
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::psp::project::raster::lattice::{END, extent, extent_between};
     use crate::rng::{Draw, Rng};
 
     const SIDE: i64 = 25;
 
-    fn turn([a, b, c]: [Place; 3]) -> i64 {
+    fn turn([a, b, c]: [LatticePoint; 3]) -> i64 {
         ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])).signum()
     }
 
     /// A mesh of 5 by 5 quads whose inner corners are anywhere near their place; each is cut in two, some along an edge.
-    fn quads(rng: &mut Rng) -> Vec<[Place; 3]> {
+    fn quads(rng: &mut Rng) -> Vec<[LatticePoint; 3]> {
         let inner = 1..5;
         let mut corner = |x: i64, y: i64| {
             let moves = inner.contains(&x) && inner.contains(&y);
@@ -113,7 +84,7 @@ mod tests {
         for _ in 0..300 {
             let triangles = quads(&mut rng);
             for point in (1..SIDE).flat_map(|y| (1..SIDE).map(move |x| [x, y])) {
-                let hits = triangles.iter().filter_map(|t| Triangle::new(*t)?.barycentrics(point)).count();
+                let hits = triangles.iter().filter_map(|t| ProjectedTriangle::new(*t)?.barycentrics(point)).count();
                 assert_eq!(hits, 1, "{point:?}");
             }
         }
@@ -127,7 +98,7 @@ mod tests {
             let size = [10, 1000, END as u64][round % 3];
             let mut place = || [rng.below(size) as i64, rng.below(size) as i64];
             let (corners, point) = ([place(), place(), place()], place());
-            let Some([u, v]) = Triangle::new(corners).and_then(|triangle| triangle.barycentrics(point)) else {
+            let Some([u, v]) = ProjectedTriangle::new(corners).and_then(|triangle| triangle.barycentrics(point)) else {
                 continue;
             };
             inside += 1;
@@ -146,7 +117,7 @@ mod tests {
         for _ in 0..2000 {
             let mut place = || [rng.below(SIDE as u64) as i64, rng.below(SIDE as u64) as i64];
             let corners = [place(), place(), place()];
-            let Some(triangle) = Triangle::new(corners) else { continue };
+            let Some(triangle) = ProjectedTriangle::new(corners) else { continue };
             let ([left, right], [bottom, top]) = (extent(&corners, 0), extent(&corners, 1));
             for y in bottom as i64..=top as i64 {
                 let [low, high] = extent_between(&corners, y as f64 - 0.5, y as f64 + 0.5);

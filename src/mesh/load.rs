@@ -1,0 +1,65 @@
+//! Meshes from files.
+
+use std::path::Path;
+
+use crate::error::{Error, Result};
+use crate::mesh::soup::Soup;
+use crate::mesh::surface::Mesh;
+use crate::mesh::{obj, ply, stl};
+
+impl Mesh {
+    /// Reads an OBJ, PLY or STL file: by the extension `.obj`, `.ply` or `.stl`, otherwise by what it begins with.
+    ///
+    /// Polygons are cut into fans, in the order of the faces. Normals of corners (OBJ `vn`) and vertices (PLY `nx ny nz`)
+    /// are read; where a file has some, a corner without, or with one that is not finite, has the normal zero. Points,
+    /// lines, materials, texture coordinates, colours and groups are ignored, as are the normals of STL facets, and STL
+    /// vertices are not merged. Memory stays proportional to the size of the file, whatever its header claims.
+    ///
+    /// # Errors
+    /// [`Error::Io`] where the file cannot be read (or is not a regular file), [`Error::Format`] where it is broken or
+    /// its contents are not what [`Mesh::new`] takes.
+    pub fn load(path: impl AsRef<Path>) -> Result<Self> {
+        let path = path.as_ref();
+        let io_error = |source| Error::Io { path: path.to_owned(), source };
+        let kind = std::fs::metadata(path).map_err(io_error)?.file_type();
+        if !kind.is_file() {
+            let what = if kind.is_dir() { "is a directory" } else { "is not a regular file" };
+            return Err(io_error(std::io::Error::other(what)));
+        }
+        Self::parse(path, &std::fs::read(path).map_err(io_error)?)
+    }
+
+    /// [`Mesh::load`] for the contents of a file that are in memory, such as those of a pipe or an archive. The extension
+    /// of `path` names the format, and messages name `path`; nothing is read from there.
+    ///
+    /// # Errors
+    /// [`Error::Format`] where the contents are broken or not what [`Mesh::new`] takes.
+    pub fn parse(path: impl AsRef<Path>, bytes: &[u8]) -> Result<Self> {
+        let path = path.as_ref();
+        let extension = path.extension().map(|extension| extension.to_string_lossy().to_lowercase());
+        let soup = match extension.as_deref() {
+            Some("obj") => obj::parse(bytes),
+            Some("ply") => ply::parse(bytes),
+            Some("stl") => stl::parse(bytes),
+            _ if bytes.starts_with(b"ply") => ply::parse(bytes),
+            _ if stl::is_likely(bytes) => stl::parse(bytes),
+            _ => obj::parse(bytes),
+        };
+        let format_error = |reason| Error::Format { path: path.to_owned(), reason };
+        soup.map_err(format_error).and_then(|soup| checked(soup).map_err(|error| format_error(error.to_string())))
+    }
+}
+
+/// Checks what a file holds. A normal that is not finite is none.
+fn checked(mut soup: Soup) -> Result<Mesh> {
+    let mesh = Mesh::new(soup.positions, soup.triangles)?;
+    if soup.normals.is_empty() {
+        return Ok(mesh);
+    }
+    for normal in &mut soup.normals {
+        if normal.iter().any(|x| !x.is_finite()) {
+            *normal = [0.0; 3];
+        }
+    }
+    mesh.with_normals(soup.normals, soup.normal_indices)
+}

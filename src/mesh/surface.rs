@@ -1,0 +1,222 @@
+//! A checked triangle soup, and the points on it.
+
+use std::sync::Arc;
+
+use glam::DVec3;
+
+use crate::error::{Error, Result};
+use crate::mesh::check::{check_finite, check_indices};
+use crate::mesh::normals::Normals;
+use crate::mesh::rounding::{exact, next_below};
+use crate::points::SurfaceSamples;
+
+/// A triangle soup: finite positions, indices in range, and some surface.
+///
+/// Triangles without area (repeated or collinear vertices) are allowed and keep their number; they have no surface,
+/// carry no samples and need no cover. The same goes for triangles that a mask leaves out ([`Mesh::with_mask`]).
+///
+/// Immutable. A clone shares vertices, triangles, normals and mask.
+#[derive(Clone, Debug)]
+pub struct Mesh {
+    positions: Arc<[[f32; 3]]>,
+    triangles: Arc<[[u32; 3]]>,
+    normals: Option<Arc<Normals>>,
+    /// Which triangles count; all of them without a mask.
+    mask: Option<Arc<[bool]>>,
+    area: f64,
+    bounds: ([f32; 3], [f32; 3]),
+}
+
+impl Mesh {
+    /// Checks and takes a triangle soup. O(n).
+    ///
+    /// # Errors
+    /// [`Error::InvalidArgument`] for `positions` with a coordinate that is not finite, for `indices` that name no
+    /// vertex, for no triangle at all, and where the total area is zero; [`Error::TooLarge`] for 2^32 - 1 vertices or
+    /// triangles and more.
+    pub fn new(positions: Vec<[f32; 3]>, triangles: Vec<[u32; 3]>) -> Result<Self> {
+        for (argument, count) in [("positions", positions.len()), ("indices", triangles.len())] {
+            if count >= u32::MAX as usize {
+                return Err(Error::too_large(argument, format!("{count} entries; the limit is {}", u32::MAX - 1)));
+            }
+        }
+        check_finite("positions", "vertex", &positions)?;
+        check_indices("indices", "vertex", "vertices", &triangles, positions.len())?;
+        if triangles.is_empty() {
+            return Err(Error::invalid("indices", "0 triangles; at least one is needed"));
+        }
+        let (positions, triangles) = (positions.into(), triangles.into());
+        let mesh = Self { positions, triangles, normals: None, mask: None, area: 0.0, bounds: Default::default() };
+        let mesh = mesh.measured();
+        if mesh.area <= 0.0 {
+            return Err(Error::invalid("indices", "the triangles have no area"));
+        }
+        Ok(mesh)
+    }
+
+    /// The mesh with normals of the caller's, in place of those that it may carry: of any length, one for each vertex, or
+    /// named by `indices`, three for each triangle, where corners that share a vertex differ in their normals. O(n).
+    ///
+    /// A zero vector stands for a corner without a normal; see [`Mesh::interpolated_normal`]. Sampling does not depend on
+    /// normals.
+    ///
+    /// # Errors
+    /// [`Error::InvalidArgument`] for `normals` that are not finite, or are not one for each vertex where there are no
+    /// indices; for `normal_indices` that are not three for each triangle, or name no normal. [`Error::TooLarge`] for
+    /// 2^32 - 1 `normals` and more.
+    pub fn with_normals(mut self, normals: Vec<[f32; 3]>, indices: Option<Vec<[u32; 3]>>) -> Result<Self> {
+        self.normals = Some(Arc::new(Normals::new(self.positions.len(), self.triangles.len(), normals, indices)?));
+        Ok(self)
+    }
+
+    /// The mesh with a mask, in place of the one that it may have: triangles whose entry is false are left out. They keep
+    /// their number. O(n).
+    ///
+    /// The rest is sampled as if they were not there, to the bit: they get no samples, add nothing to area and bounds,
+    /// and need not be covered; nor do they hide or divide anything. So samples on both sides of a masked part keep their
+    /// distance through space. A mask may leave out everything: then a maximal set is empty.
+    ///
+    /// # Errors
+    /// [`Error::InvalidArgument`] for a `mask` that does not have one entry for each triangle.
+    pub fn with_mask(mut self, mask: Vec<bool>) -> Result<Self> {
+        if mask.len() != self.triangles.len() {
+            let reason = format!("{} entries, but there are {} triangles", mask.len(), self.triangles.len());
+            return Err(Error::invalid("mask", reason));
+        }
+        self.mask = Some(mask.into());
+        Ok(self.measured())
+    }
+
+    /// The mesh with its area and bounds.
+    fn measured(mut self) -> Self {
+        let all = 0..self.triangles.len() as u32;
+        self.area = all.clone().map(|triangle| self.triangle_area(triangle)).sum();
+        // A box that is not a point has to be there even where nothing is to be sampled.
+        let counts = |triangle: &u32| self.area == 0.0 || self.is_sampled(*triangle);
+        let mut bounds = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
+        for corner in all.filter(counts).flat_map(|triangle| self.corners(triangle)) {
+            for (axis, x) in corner.into_iter().enumerate() {
+                bounds.0[axis] = bounds.0[axis].min(x);
+                bounds.1[axis] = bounds.1[axis].max(x);
+            }
+        }
+        self.bounds = bounds;
+        self
+    }
+
+    /// The vertices.
+    pub fn positions(&self) -> &[[f32; 3]] {
+        &self.positions
+    }
+
+    /// The vertices of each triangle, counter-clockwise seen from the front.
+    pub fn triangles(&self) -> &[[u32; 3]] {
+        &self.triangles
+    }
+
+    /// The area of all triangles that the mask does not leave out. Zero only if it leaves nothing that has area.
+    pub fn area(&self) -> f64 {
+        self.area
+    }
+
+    /// The lower and upper corner of the box around all triangles that the mask does not leave out; around all of them
+    /// if these have no area. Vertices that no triangle uses do not count.
+    pub fn bounds(&self) -> ([f32; 3], [f32; 3]) {
+        self.bounds
+    }
+
+    /// The corners of a triangle.
+    ///
+    /// # Panics
+    /// Like the other queries of a triangle, where there is no triangle of this number.
+    pub fn corners(&self, triangle: u32) -> [[f32; 3]; 3] {
+        let [a, b, c] = self.triangles[triangle as usize];
+        [self.positions[a as usize], self.positions[b as usize], self.positions[c as usize]]
+    }
+
+    /// Whether a triangle is to be sampled: whether there is no mask, or it does not leave the triangle out.
+    pub fn is_sampled(&self, triangle: u32) -> bool {
+        self.mask.as_ref().is_none_or(|mask| mask[triangle as usize])
+    }
+
+    /// The numbers of the triangles that are to be sampled, in order.
+    pub(crate) fn sampled_triangles(&self) -> impl Iterator<Item = u32> + Clone {
+        (0..self.triangles.len() as u32).filter(|&triangle| self.is_sampled(triangle))
+    }
+
+    /// The area of a triangle that is to be sampled; zero for one that the mask leaves out.
+    pub fn triangle_area(&self, triangle: u32) -> f64 {
+        if self.is_sampled(triangle) { self.cross(triangle).length() / 2.0 } else { 0.0 }
+    }
+
+    /// The unit normal of a triangle, counter-clockwise front; zero where it has no area.
+    pub fn normal(&self, triangle: u32) -> [f32; 3] {
+        self.cross(triangle).normalize_or_zero().as_vec3().to_array()
+    }
+
+    /// Whether the mesh carries normals besides those of its triangles: given by the caller, or read from its file.
+    pub fn has_normals(&self) -> bool {
+        self.normals.is_some()
+    }
+
+    /// The mesh's normals at the corners of a triangle, interpolated to the point `(u, v)` of it in `f64` and normalised;
+    /// `None` if the mesh carries none. Where they add up to nothing, as zero and opposite normals do (less than a
+    /// millionth of the longest of the three), it is the normal of the triangle.
+    pub fn interpolated_normal(&self, triangle: u32, uv: [f32; 2]) -> Option<[f32; 3]> {
+        let normals = self.normals.as_ref()?;
+        let interpolated =
+            normals.interpolated(&self.triangles, triangle, uv).map(|normal| normal.as_vec3().to_array());
+        Some(interpolated.unwrap_or_else(|| self.normal(triangle)))
+    }
+
+    /// The point `(1 - u - v) * a + u * b + v * c` of a triangle, computed in `f64` and rounded once.
+    pub fn point(&self, triangle: u32, [u, v]: [f32; 2]) -> [f32; 3] {
+        self.point_exact(triangle, [u.into(), v.into()]).as_vec3().to_array()
+    }
+
+    /// The samples at these places, with their positions and normals.
+    pub(crate) fn samples(&self, triangles: Vec<u32>, barycentrics: Vec<[f32; 2]>) -> SurfaceSamples {
+        let places = || triangles.iter().zip(&barycentrics).map(|(&triangle, &uv)| (triangle, uv));
+        SurfaceSamples {
+            positions: places().map(|(triangle, uv)| self.point(triangle, uv)).collect(),
+            normals: triangles.iter().map(|&triangle| self.normal(triangle)).collect(),
+            // None if the mesh carries no normals.
+            interpolated_normals: places()
+                .filter_map(|(triangle, uv)| self.interpolated_normal(triangle, uv))
+                .collect(),
+            triangles,
+            barycentrics,
+        }
+    }
+
+    /// [`Mesh::point`] before it is rounded.
+    pub(crate) fn point_exact(&self, triangle: u32, [u, v]: [f64; 2]) -> DVec3 {
+        let [a, b, c] = self.exact_corners(triangle);
+        (1.0 - u - v) * a + u * b + v * c
+    }
+
+    /// The largest absolute coordinate of the triangles.
+    pub(crate) fn largest_coordinate(&self) -> f32 {
+        let (min, max) = self.bounds;
+        min.into_iter().chain(max).fold(0.0, |largest, x| largest.max(x.abs()))
+    }
+
+    /// The spacing of floats at the largest coordinate.
+    pub(crate) fn float_spacing(&self) -> f64 {
+        let largest = self.largest_coordinate();
+        f64::from(largest) - f64::from(next_below(largest))
+    }
+
+    /// The cross product of two edges: twice the area, along the normal.
+    fn cross(&self, triangle: u32) -> DVec3 {
+        let [a, b, c] = self.exact_corners(triangle);
+        (b - a).cross(c - a)
+    }
+
+    /// The corners of a triangle in `f64`. (Spelt out, since `map` on arrays is a call for each.)
+    #[inline]
+    pub(crate) fn exact_corners(&self, triangle: u32) -> [DVec3; 3] {
+        let [a, b, c] = self.corners(triangle);
+        [exact(a), exact(b), exact(c)]
+    }
+}

@@ -1,0 +1,214 @@
+//! The radius as a function on the surface: its value at a sample, and its bounds on a fragment.
+//!
+//! A sample is not exactly where its dart fell: its position and its barycentrics are rounded. This can bring its radius
+//! out of the bounds of its fragment, but by no more than a quarter of the least radius. Of a function the slope is
+//! limited for this. Of vertices, the barycentrics change the radius by 2^-24 of the difference of two corners, at most
+//! four diagonals; these are at most 14 float spacings, and no radius is below 64.
+
+use glam::DVec3;
+
+use crate::error::{Error, Result};
+use crate::mesh::{Mesh, exact};
+use crate::points::check_resolution;
+use crate::psp::adaptive::limits::Verdict;
+use crate::psp::adaptive::radius::{Radius, RadiusFunction};
+use crate::psp::fragment::{Fragment, Shape};
+use crate::psp::rain::TOLERANCE;
+use crate::psp::samples::Sample;
+
+/// Between which values the radius is on a fragment.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct RadiusBounds {
+    pub least: f64,
+    pub largest: f64,
+}
+
+impl RadiusBounds {
+    /// The radius as far as it is known: what fragments are measured by. Where the bounds are far apart the least may
+    /// be due to a distant corner, or to a bad bound; fragments become smaller then, but not by so much.
+    pub fn scale(&self) -> f64 {
+        self.least.max(self.largest / 8.0)
+    }
+}
+
+/// How much, as a share, rounding can add to a radius.
+const ROUNDING: f64 = 1e-9;
+
+/// The radius on a mesh.
+pub(super) struct RadiusField<'a> {
+    mesh: &'a Mesh,
+    radius: Radius<'a>,
+    /// RadiusBounds for the whole surface.
+    all: RadiusBounds,
+    /// A sample of twice this radius excludes all others, so larger radii are taken as this.
+    limit: f64,
+    /// How far rounding moves a sample at most.
+    rounding: f64,
+    /// What is wrong with the radii.
+    verdict: Verdict,
+}
+
+impl<'a> RadiusField<'a> {
+    /// Checks the radii of the caller.
+    pub fn new(mesh: &'a Mesh, radius: Radius<'a>) -> Result<Self> {
+        let (low, high) = mesh.bounds();
+        let limit = 4.0 * (exact(high) - exact(low)).length();
+        let all = match radius {
+            Radius::PerVertex(radii) => bounds_of_vertices(mesh, radii)?,
+            Radius::Function { smallest, largest, slope, .. } => bounds_of_function(smallest, largest, slope)?,
+        };
+        let argument = match radius {
+            Radius::PerVertex(_) => "vertex_radii",
+            Radius::Function { .. } => "smallest",
+        };
+        let spacing = mesh.float_spacing();
+        check_resolution(argument, all.least, spacing, "the largest coordinate of the mesh")?;
+        let rounding = TOLERANCE * spacing;
+        if let Radius::Function { smallest, slope, .. } = radius
+            && 4.0 * slope * rounding > smallest
+        {
+            let steepest = smallest / (4.0 * rounding);
+            let reason =
+                format!("{slope:?} is above {steepest:e}: the radius would change between neighbouring floats");
+            return Err(Error::invalid("slope", reason));
+        }
+        let all = RadiusBounds { least: all.least.min(limit), largest: all.largest.min(limit) };
+        Ok(Self { mesh, radius, all, limit, rounding, verdict: Verdict::default() })
+    }
+
+    /// The argument that asks for too many samples where there are too many.
+    pub fn argument(&self) -> &'static str {
+        match self.radius {
+            Radius::PerVertex(_) => "vertex_radii",
+            Radius::Function { .. } => "radius",
+        }
+    }
+
+    /// RadiusBounds for the whole surface.
+    pub fn all(&self) -> RadiusBounds {
+        self.all
+    }
+
+    /// The radius at a sample.
+    pub fn at(&self, sample: &Sample) -> f64 {
+        match self.radius {
+            Radius::PerVertex(radii) => self.interpolate(radii, sample.triangle, sample.barycentrics.map(f64::from)),
+            Radius::Function { at, .. } => self.call(at, sample.position.map(f64::from)),
+        }
+    }
+
+    /// [`RadiusField::at`] for a sample of a fragment with these bounds, which are tested on the way.
+    pub fn at_within(&self, sample: &Sample, bounds: RadiusBounds) -> f64 {
+        let radius = self.at(sample);
+        self.test_slope(exact(sample.position), radius, bounds);
+        radius
+    }
+
+    /// RadiusBounds on a fragment that is part of one with bounds `within`.
+    pub fn bounds(&self, fragment: &Fragment, shape: &Shape, within: RadiusBounds) -> RadiusBounds {
+        match self.radius {
+            Radius::PerVertex(radii) => {
+                let [a, b, c] = fragment.corners.map(|corner| self.interpolate(radii, fragment.triangle, corner));
+                RadiusBounds { least: a.min(b).min(c), largest: a.max(b).max(c) }
+            }
+            Radius::Function { at, slope, .. } => {
+                let radius = self.call(at, shape.centre.to_array());
+                self.test_slope(shape.centre, radius, within);
+                let change = slope * shape.extent;
+                let [least, largest] =
+                    [radius - change, radius + change].map(|x| x.clamp(within.least, within.largest));
+                RadiusBounds { least, largest }
+            }
+        }
+    }
+
+    /// The radius at the centre of a fragment.
+    pub fn centre(&self, fragment: &Fragment, shape: &Shape) -> f64 {
+        match self.radius {
+            Radius::PerVertex(radii) => self.interpolate(radii, fragment.triangle, fragment.at([1.0 / 3.0; 2])),
+            Radius::Function { at, .. } => self.call(at, shape.centre.to_array()),
+        }
+    }
+
+    /// The same radii with a verdict of their own, for one task: what it finds out depends on no other.
+    pub fn apart(&self) -> Self {
+        Self { verdict: Verdict::default(), ..*self }
+    }
+
+    /// Fails where the radii have failed.
+    pub fn check(&self) -> Result<()> {
+        self.verdict.check()
+    }
+
+    /// Whether the radii have failed: the rest of the work is in vain.
+    pub fn has_failed(&self) -> bool {
+        self.verdict.is_given()
+    }
+
+    /// Fails since too much work is of no avail.
+    pub fn give_up(&self, place: DVec3) {
+        let (argument, what) = match self.radius {
+            Radius::PerVertex(_) => ("vertex_radii", "the radii".to_owned()),
+            Radius::Function { slope, .. } => ("slope", format!("{slope:?}: radii of this slope, or a steeper one,")),
+        };
+        let place = place.to_array();
+        let reason = format!("{what} change too fast at {place:?} to find out what is covered");
+        self.verdict.add(place, Error::too_large(argument, reason));
+    }
+
+    fn interpolate(&self, radii: &[f32], triangle: u32, [u, v]: [f64; 2]) -> f64 {
+        let corners = self.mesh.triangles()[triangle as usize];
+        let [a, b, c] = corners.map(|vertex| f64::from(radii[vertex as usize]).min(self.limit));
+        (1.0 - u - v) * a + u * b + v * c
+    }
+
+    /// What the caller's function gives, or the least it may give if that is nothing good.
+    fn call(&self, at: &RadiusFunction, position: [f64; 3]) -> f64 {
+        let Radius::Function { smallest, largest, .. } = self.radius else { return self.all.least };
+        let radius = at(position);
+        if !(smallest..=largest).contains(&radius) {
+            let reason = format!("{radius:?} at {position:?} is not in {smallest:?}..={largest:?}");
+            self.verdict.add(position, Error::invalid("radius", reason));
+            return self.all.least;
+        }
+        radius.min(self.limit)
+    }
+
+    fn test_slope(&self, position: DVec3, radius: f64, RadiusBounds { least, largest }: RadiusBounds) {
+        let Radius::Function { slope, .. } = self.radius else { return };
+        let slack = ROUNDING * radius + slope * self.rounding;
+        if !(least - slack..=largest + slack).contains(&radius) {
+            let place = position.to_array();
+            let reason =
+                format!("{radius:?} at {place:?} is farther than slope {slope:?} allows from the values around");
+            self.verdict.add(place, Error::invalid("radius", reason));
+        }
+    }
+}
+
+fn bounds_of_vertices(mesh: &Mesh, radii: &[f32]) -> Result<RadiusBounds> {
+    let count = mesh.positions().len();
+    if radii.len() != count {
+        return Err(Error::invalid("vertex_count", format!("{} radii for {count} vertices", radii.len())));
+    }
+    if let Some(vertex) = radii.iter().position(|radius| !(radius.is_finite() && *radius > 0.0)) {
+        let reason = format!("vertex {vertex} has {:?}, not a positive finite number", radii[vertex]);
+        return Err(Error::invalid("vertex_radii", reason));
+    }
+    let used = mesh.triangles().iter().flatten().map(|&vertex| f64::from(radii[vertex as usize]));
+    let start = RadiusBounds { least: f64::INFINITY, largest: 0.0 };
+    Ok(used.fold(start, |all, x| RadiusBounds { least: all.least.min(x), largest: all.largest.max(x) }))
+}
+
+fn bounds_of_function(smallest: f64, largest: f64, slope: f64) -> Result<RadiusBounds> {
+    if !(smallest > 0.0 && smallest.is_finite()) {
+        return Err(Error::invalid("smallest", format!("{smallest:?} is not a positive finite number")));
+    }
+    if !(largest >= smallest && largest.is_finite()) {
+        return Err(Error::invalid("largest", format!("{largest:?} is not a finite number from {smallest:?} on")));
+    }
+    if !(slope >= 0.0 && slope.is_finite()) {
+        return Err(Error::invalid("slope", format!("{slope:?} is not a finite number from 0 on")));
+    }
+    Ok(RadiusBounds { least: smallest, largest })
+}

@@ -1,0 +1,28 @@
+//! What to sample.
+
+use crate::psp::adaptive::radius::Radius;
+use crate::setters::setters;
+
+/// What to sample.
+#[derive(Clone, Copy)]
+#[non_exhaustive]
+pub struct Options<'a> {
+    /// The radius on the surface. Radii larger than four times the diagonal of the mesh's box are taken as that, those of
+    /// vertices before they are interpolated.
+    pub radius: Radius<'a>,
+    /// Samples on triangles whose normals have a smaller cosine ignore each other, and so do samples and uncovered
+    /// surface: the sides of a thin wall are sampled as if they were far apart. From -1, which is off, to 1, where only
+    /// samples with the same normal see each other. The triangles must be wound consistently.
+    pub cosine: f64,
+    /// Selects one of 2^64 sets.
+    pub seed: u64,
+}
+
+impl<'a> Options<'a> {
+    /// No sample ignores others.
+    pub fn new(radius: Radius<'a>) -> Self {
+        Self { radius, cosine: -1.0, seed: 0 }
+    }
+}
+
+setters!(Options<'a> { cosine: f64, seed: u64 });

@@ -1,0 +1,97 @@
+//! Adaptive sampling in one call.
+
+use std::time::Instant;
+
+use crate::error::{Error, Result};
+use crate::job::{Context, Job, Progress};
+use crate::memory;
+use crate::mesh::Mesh;
+use crate::points::SurfaceSamples;
+use crate::psp::adaptive::field::RadiusField;
+use crate::psp::adaptive::fill::fill;
+use crate::psp::adaptive::grids::ConflictRule;
+use crate::psp::adaptive::limits::Quota;
+use crate::psp::adaptive::options::Options;
+use crate::psp::estimate::{expected_samples_of, longest_edge};
+use crate::psp::pieces::pieces;
+use crate::psp::report::Report;
+use crate::psp::samples::surface_samples;
+
+/// Samples and their radii.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct AdaptiveSamples {
+    /// In the order in which they were accepted.
+    pub samples: SurfaceSamples,
+    /// The radius of each sample.
+    pub radii: Vec<f64>,
+}
+
+/// On how many pieces of the surface the number of samples is estimated, about and at most.
+const ESTIMATES: f64 = 1e5;
+/// Memory per sample at the peak.
+const BYTES_PER_SAMPLE: f64 = 800.0;
+
+/// A maximal set of samples, each with its own radius.
+///
+/// Time grows with the samples and the triangles, and with the square of how much the radius changes along a radius.
+/// The report counts no iterations, rays and hits.
+///
+/// # Errors
+/// [`Error::InvalidArgument`] for radii that are not positive and finite (`vertex_radii`), not one for each vertex
+/// (`vertex_count`), or below 64 float spacings at the largest coordinate of the mesh; for bad `smallest`, `largest` and
+/// `slope`; for a function that gives what is not in `smallest..=largest` or changes faster than `slope` (`radius`);
+/// for a `cosine` outside -1 to 1. [`Error::TooLarge`] where the radii would ask for more than 2^32 samples, or more than
+/// memory holds, and where they change so fast that it takes thousands of looks per sample to find out what is covered (`slope`,
+/// `vertex_radii`). [`Error::Cancelled`] by the progress callback.
+pub fn sample(
+    context: &Context,
+    mesh: &Mesh,
+    options: &Options,
+    progress: Option<&Progress>,
+) -> Result<(AdaptiveSamples, Report)> {
+    let start = Instant::now();
+    let cosine = options.cosine;
+    if !(-1.0..=1.0).contains(&cosine) {
+        return Err(Error::invalid("cosine", format!("{cosine:?} is not in -1..=1")));
+    }
+    let field = RadiusField::new(mesh, options.radius)?;
+    let (set, darts) = context.run(progress, |job| {
+        let quota = Quota::new(require(&job.part(0.0, 0.05), mesh, &field)?, mesh);
+        fill(job, mesh, &field, &quota, ConflictRule { cosine }, options.seed)
+    })?;
+    let (samples, radii): (Vec<_>, Vec<_>) = set.samples.into_iter().unzip();
+    let accepted = samples.len() as u64;
+    let seconds = start.elapsed().as_secs_f64();
+    let conflicts = darts - accepted;
+    let report = Report { samples: accepted, accepted, darts, conflicts, seconds, ..Report::default() };
+    let samples = surface_samples(mesh, &samples);
+    Ok((AdaptiveSamples { samples, radii }, report))
+}
+
+/// Estimates the samples and refuses radii that ask for more than can be indexed or held. They are counted on pieces of the surface, each
+/// as if it had the radius of its centre: those of the area, and those along what is longer than the radius.
+fn require(job: &Job, mesh: &Mesh, field: &RadiusField) -> Result<f64> {
+    // Needles have next to no area: their lengths bound the pieces as well.
+    let lengths: f64 = mesh.sampled_triangles().map(|triangle| longest_edge(mesh, triangle)).sum();
+    // Nor is anything learned from pieces that are shorter than every radius.
+    let longest = (4.0 * mesh.area() / ESTIMATES).sqrt().max(lengths / ESTIMATES).max(field.all().least);
+    let pieces = pieces(job, mesh, |_, _| longest, |_, _| ())?;
+    let estimate: f64 = (0..pieces.len())
+        .flat_map(|bucket| pieces.items(bucket))
+        .map(|piece| {
+            let shape = piece.shape(mesh);
+            expected_samples_of(field.centre(piece, &shape), piece.area(mesh), shape.longest)
+        })
+        .sum();
+    field.check()?;
+    let (argument, all) = (field.argument(), field.all());
+    if estimate > f64::from(u32::MAX) {
+        let [least, largest] = [all.least, all.largest];
+        let reason =
+            format!("{least:?} to {largest:?} asks for about {estimate:.3e} samples; the limit is {}", u32::MAX);
+        return Err(Error::too_large(argument, reason));
+    }
+    memory::require(estimate * BYTES_PER_SAMPLE, argument, &format!("about {estimate:.3e} samples"))?;
+    Ok(estimate)
+}

@@ -1,0 +1,99 @@
+//! Parts of triangles: by their barycentrics, and where they lie in space.
+
+use glam::{DVec2, DVec3};
+
+use crate::mesh::Mesh;
+use crate::psp::sixteenths::SIXTEENTHS;
+
+/// A part of a triangle.
+#[derive(Clone, Copy)]
+pub(super) struct Fragment {
+    pub triangle: u32,
+    /// Barycentrics `(u, v)` of the corners.
+    pub corners: [[f64; 2]; 3],
+}
+
+/// Where a fragment lies in space.
+#[derive(Clone, Copy)]
+pub(super) struct Shape {
+    pub corners: [DVec3; 3],
+    pub centre: DVec3,
+    /// The corner opposite the longest edge.
+    pub apex: usize,
+    /// The length of the longest edge.
+    pub longest: f64,
+    /// All of the fragment is this near to its centre.
+    pub extent: f64,
+}
+
+impl Fragment {
+    pub fn whole(triangle: u32) -> Self {
+        Self { triangle, corners: [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]] }
+    }
+
+    /// The area: the whole triangle's, by the share of its barycentrics.
+    pub fn area(&self, mesh: &Mesh) -> f64 {
+        let [a, b, c] = self.corners.map(DVec2::from_array);
+        mesh.triangle_area(self.triangle) * (b - a).perp_dot(c - a).abs()
+    }
+
+    /// The barycentrics of the point with barycentrics `(s, t)` in the fragment.
+    pub fn at(&self, [s, t]: [f64; 2]) -> [f64; 2] {
+        let [a, b, c] = self.corners;
+        std::array::from_fn(|axis| (1.0 - s - t) * a[axis] + s * b[axis] + t * c[axis])
+    }
+
+    pub fn shape(&self, mesh: &Mesh) -> Shape {
+        let [a, b, c] = mesh.exact_corners(self.triangle);
+        let at = |[u, v]: [f64; 2]| (1.0 - u - v) * a + u * b + v * c;
+        let [p, q, r] = self.corners;
+        Shape::of([at(p), at(q), at(r)])
+    }
+
+    /// The two halves on either side of the line from the corner `apex` to the middle of the edge opposite.
+    pub fn bisect(&self, apex: usize) -> [Self; 2] {
+        let (b, c) = ((apex + 1) % 3, (apex + 2) % 3);
+        let middle = std::array::from_fn(|axis| 0.5 * (self.corners[b][axis] + self.corners[c][axis]));
+        [c, b].map(|moved| {
+            let mut half = *self;
+            half.corners[moved] = middle;
+            half
+        })
+    }
+
+    /// One of the sixteen parts.
+    pub fn sixteenth(&self, index: usize) -> Self {
+        let [a, b, c] = SIXTEENTHS[index];
+        let at = |[s, t]: [f64; 2]| self.at([0.25 * s, 0.25 * t]);
+        Self { corners: [at(a), at(b), at(c)], ..*self }
+    }
+}
+
+impl Shape {
+    fn of(corners: [DVec3; 3]) -> Self {
+        let [a, b, c] = corners;
+        let opposite = [b.distance_squared(c), c.distance_squared(a), a.distance_squared(b)];
+        let apex = (1..3).fold(0, |best, i| if opposite[i] > opposite[best] { i } else { best });
+        let centre = (a + b + c) / 3.0;
+        let squared = centre.distance_squared(a).max(centre.distance_squared(b)).max(centre.distance_squared(c));
+        Self { corners, centre, apex, longest: opposite[apex].sqrt(), extent: squared.sqrt() }
+    }
+
+    pub fn bisect(&self) -> [Self; 2] {
+        let (b, c) = ((self.apex + 1) % 3, (self.apex + 2) % 3);
+        let middle = 0.5 * (self.corners[b] + self.corners[c]);
+        [c, b].map(|moved| {
+            let mut corners = self.corners;
+            corners[moved] = middle;
+            Self::of(corners)
+        })
+    }
+
+    /// One of the sixteen parts.
+    pub fn sixteenth(&self, index: usize) -> Self {
+        let [a, e, f] = [self.corners[0], self.corners[1] - self.corners[0], self.corners[2] - self.corners[0]];
+        let corners = SIXTEENTHS[index].map(|[x, y]| a + 0.25 * x * e + 0.25 * y * f);
+        let centre = (corners[0] + corners[1] + corners[2]) / 3.0;
+        Self { corners, centre, longest: 0.25 * self.longest, extent: 0.25 * self.extent, ..*self }
+    }
+}

@@ -1,0 +1,43 @@
+//! What a call did.
+
+/// What a call did.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[non_exhaustive]
+pub struct Report {
+    /// Samples there are after the call.
+    pub samples: u64,
+    /// Samples that the call added.
+    pub accepted: u64,
+    /// Iterations that the call made.
+    pub iterations: u32,
+    /// Rays traced: those that meet the mesh's box. With the rasteriser, the points of its tiles (at most 48 radii wide)
+    /// that have triangles near them.
+    pub rays: u64,
+    /// Hits on the rays.
+    pub hits: u64,
+    /// Hits lost to an earlier hit on the same ray.
+    pub restart_conflicts: u64,
+    /// Darts thrown at uncovered surface by a fill.
+    pub darts: u64,
+    /// Hits and darts lost to other samples or candidates.
+    pub conflicts: u64,
+    /// Wall time of the call.
+    pub seconds: f64,
+    /// The part of it in which the pattern and, for Embree, the scene were made: in the first iteration only.
+    pub prepare_seconds: f64,
+    /// The part of it in which the hits were found.
+    pub project_seconds: f64,
+    /// The part of it in which samples were chosen among the hits.
+    pub merge_seconds: f64,
+    /// The part of it in which uncovered surface was searched and filled.
+    pub fill_seconds: f64,
+    /// The relative radius of the set after the call, `radius / d_max`: `d_max = sqrt(2 A / (sqrt(3) N))` would be the
+    /// distance of N neighbours in hexagonal order on the area A. 0.78 for darts until nothing fits (thesis §1.4); 0 for
+    /// no samples. The smallest distance is taken to be the radius; that of a large set is less than a millionth above.
+    pub rho: f64,
+    /// For a fill, the share of the mesh's area that was uncovered before it. It is an estimate from above, two or three
+    /// times too large: the area of the small fragments that no single sample covers when the search comes to them.
+    pub uncovered_before: Option<f64>,
+    /// For a fill, the share of the area that is uncovered after it: 0, up to [`TOLERANCE`].
+    pub uncovered_after: Option<f64>,
+}

@@ -1,0 +1,201 @@
+//! The neighbour search in one cube: the samples in it and around it, in a small dense grid.
+
+use glam::{DVec3, Vec3A};
+
+use crate::geometry::grid3::distance_squared;
+use crate::mesh::exact;
+use crate::psp::cubes::{Cube, SIDE};
+use crate::psp::stack::{FAR, LANES, PointLanes, PointStack};
+use crate::psp::vectors;
+use crate::simd::Level;
+
+/// How far the grid reaches beyond the cube, in radii. Looked at is what is near to fragments whose centre is in the cube:
+/// within a radius and the extent of the fragment, at most 8/3.
+const HALO: u32 = 4;
+/// The side of a cell in radii: a page or two of a surface.
+const CELL: f32 = 4.0;
+/// Half the side of the grid in radii.
+const HALF: f32 = (SIDE / 2 + HALO) as f32;
+/// Cells along an axis.
+const CELLS: usize = (2.0 * HALF / CELL) as usize;
+/// The cells that a ball touches are found with this margin, in radii, for the rounding of places.
+const MARGIN: f32 = 1e-4;
+
+const NONE: u16 = u16::MAX;
+
+/// Conflict-free points in and around a cube. There are at most sqrt(2) for each cube of a radius, the densest packing,
+/// and some along the boundary: a `u16` counts them.
+pub(super) struct Surroundings {
+    radius: f64,
+    centre: DVec3,
+    per_radius: f64,
+    /// The lower and upper corner, and a rounding more.
+    bounds: [Vec3A; 2],
+    vectors: Level,
+    /// The first page of each cell.
+    heads: Vec<u16>,
+    pages: Vec<Page>,
+    points: Vec<[f32; 3]>,
+}
+
+/// Some of the points in a cell.
+#[repr(align(64))]
+struct Page {
+    /// As seen from the centre of the cube, in radii.
+    places: PointLanes,
+    points: [u16; LANES],
+    count: u16,
+    /// The next page of the cell.
+    next: u16,
+}
+
+impl Surroundings {
+    /// No points yet. Cubes count from `origin`.
+    pub fn new(cube: Cube, origin: [f64; 3], radius: f64) -> Self {
+        let centre = [0, 1, 2].map(|axis| origin[axis] + (f64::from(cube.0[axis]) + 0.5) * f64::from(SIDE) * radius);
+        let (centre, half) = (DVec3::from_array(centre), f64::from(HALF) * radius * 1.01);
+        Self {
+            radius,
+            centre,
+            bounds: [(centre - half).as_vec3a(), (centre + half).as_vec3a()],
+            per_radius: 1.0 / radius,
+            vectors: Level::widest(),
+            heads: vec![NONE; CELLS * CELLS * CELLS],
+            pages: Vec::new(),
+            points: Vec::new(),
+        }
+    }
+
+    pub fn radius(&self) -> f64 {
+        self.radius
+    }
+
+    /// A point as seen from the centre of the cube, in radii.
+    pub fn place(&self, point: DVec3) -> [f32; 3] {
+        ((point - self.centre) * self.per_radius).as_vec3().to_array()
+    }
+
+    /// The point at a place.
+    pub fn at(&self, place: [f32; 3]) -> DVec3 {
+        self.centre + exact(place) * self.radius
+    }
+
+    /// Whether a point may be inside: the quick test of the many that are not.
+    pub fn may_hold(&self, point: [f32; 3]) -> bool {
+        let ([low, high], point) = (self.bounds, Vec3A::from_array(point));
+        (point.cmpge(low) & point.cmple(high)).all()
+    }
+
+    /// Adds a point, or leaves it out if it is outside.
+    pub fn add(&mut self, point: [f32; 3]) {
+        let place = self.place(exact(point));
+        if place.iter().any(|x| x.abs() >= HALF) {
+            return;
+        }
+        // A sum can be rounded up to the very end.
+        let [x, y, z] = place.map(|x| (((x + HALF) / CELL) as usize).min(CELLS - 1));
+        let head = &mut self.heads[(z * CELLS + y) * CELLS + x];
+        if *head == NONE || usize::from(self.pages[usize::from(*head)].count) == LANES {
+            self.pages.push(Page { places: [[FAR; LANES]; 3], points: [0; LANES], count: 0, next: *head });
+            *head = (self.pages.len() - 1) as u16;
+        }
+        let page = &mut self.pages[usize::from(*head)];
+        let lane = usize::from(page.count);
+        (0..3).for_each(|axis| page.places[axis][lane] = place[axis]);
+        page.points[lane] = self.points.len() as u16;
+        page.count += 1;
+        self.points.push(point);
+    }
+
+    /// Whether a point is closer to another one than the radius: in `f64` from the floats, without tolerance.
+    pub fn rejects(&self, point: [f32; 3]) -> bool {
+        let place = self.place(exact(point));
+        let squared = self.radius * self.radius;
+        self.any_page(place, 1.0, |page| {
+            let mut close = vectors::close(self.vectors, &page.places, place);
+            while close != 0 {
+                let other = page.points[close.trailing_zeros() as usize];
+                if distance_squared(point, self.points[usize::from(other)]) < squared {
+                    return true;
+                }
+                close &= close - 1;
+            }
+            false
+        })
+    }
+
+    /// Appends the points within `reach` radii of a place, as seen from there.
+    pub fn gather(&self, centre: [f32; 3], reach: f32, stack: &mut PointStack) {
+        self.any_page(centre, reach, |page| {
+            stack.reserve(LANES);
+            vectors::append(self.vectors, stack, &page.places, centre, reach * reach);
+            false
+        });
+    }
+
+    /// Whether the test holds for a page of the cells that a ball touches.
+    #[inline(always)]
+    fn any_page(&self, centre: [f32; 3], reach: f32, mut test: impl FnMut(&Page) -> bool) -> bool {
+        let cell = |x: f32| ((x + HALF) / CELL).clamp(0.0, CELLS as f32) as usize;
+        let low = centre.map(|x| cell(x - reach - MARGIN));
+        let high = centre.map(|x| (cell(x + reach + MARGIN) + 1).min(CELLS));
+        for z in low[2]..high[2] {
+            for y in low[1]..high[1] {
+                let row = (z * CELLS + y) * CELLS;
+                for &head in &self.heads[row + low[0].min(high[0])..row + high[0]] {
+                    let mut id = head;
+                    while id != NONE {
+                        let page = &self.pages[usize::from(id)];
+                        if test(page) {
+                            return true;
+                        }
+                        id = page.next;
+                    }
+                }
+            }
+        }
+        false
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::rng::{Draw, Rng};
+
+    #[test]
+    fn finds_what_a_loop_over_all_points_finds() {
+        for (origin, radius) in [([0.0; 3], 0.05), ([-7.0, 3.0, 1e3], 1.5)] {
+            let cube = Cube([1, 0, 2]);
+            let side = f64::from(SIDE) * radius;
+            let corner: [f64; 3] = std::array::from_fn(|axis| origin[axis] + f64::from(cube.0[axis]) * side);
+            let mut rng = Rng::at(5, Draw::Probe, &[]);
+            // Inside and outside.
+            let mut point = |margin: f64| -> [f32; 3] {
+                corner.map(|x| (x - margin * radius + (side + 2.0 * margin * radius) * rng.unit()) as f32)
+            };
+            let mut surroundings = Surroundings::new(cube, origin, radius);
+            let mut points: Vec<[f32; 3]> = Vec::new();
+            for _ in 0..4000 {
+                let new = point(4.5);
+                surroundings.add(new);
+                points.push(new);
+                let centre = point(1.05);
+                let close = |other: &&[f32; 3]| distance_squared(centre, **other) < radius * radius;
+                assert_eq!(surroundings.rejects(centre), points.iter().any(|other| close(&other)));
+                let (place, mut stack) = (surroundings.place(exact(centre)), PointStack::new());
+                surroundings.gather(place, 2.9, &mut stack);
+                let found: Vec<_> = (0..stack.len).map(|i| exact(stack.point(i))).collect();
+                let around = surroundings.at(place);
+                let distances = points.iter().map(|&other| ((exact(other) - around) / radius, other));
+                let reached = distances.filter(|(offset, _)| offset.length() < 2.9 + 1e-5);
+                let reached: Vec<_> = reached.collect();
+                assert!(found.len() <= reached.len());
+                for (offset, other) in reached.into_iter().filter(|(offset, _)| offset.length() < 2.9 - 1e-5) {
+                    assert!(surroundings.may_hold(other));
+                    assert!(found.iter().any(|found| found.distance(offset) < 2e-6), "{offset}");
+                }
+            }
+        }
+    }
+}
