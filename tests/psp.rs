@@ -169,7 +169,7 @@ fn any_size_and_any_distance_from_the_origin() {
     }
 }
 
-/// The jamming limit of random sequential placement is [`MAXIMAL_DENSITY`] / radius²; the boundary of the plane adds to it.
+/// The jamming limit of random sequential placement is [`MAXIMAL_DENSITY`] / radius²; the boundary of the plane adds to it. Projected
 /// samples leave a set some 2 % sparser, and more with some seeds.
 #[test]
 fn a_maximal_set_is_as_dense_as_darts_become() {

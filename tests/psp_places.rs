@@ -109,7 +109,9 @@ fn what_floats_cannot_carry_is_refused() {
     let far = placed(meshes::torus(), [1.0; 3], [1e6; 3]);
     assert_eq!(largest_spacing(&far), 0.0625);
     match Psp::new(&far, &Options::new(3.99)).err() {
-        Some(Error::InvalidArgument { argument: "radius", reason }) => assert!(reason.contains("spacings"), "{reason}"),
+        Some(Error::InvalidArgument { argument: "radius", reason }) => {
+            assert!(reason.contains("64 times the float spacing 0.0625"), "{reason}")
+        }
         other => panic!("{other:?}"),
     }
     let (samples, _) = psp::sample(&Context::new(1).unwrap(), &far, &Options::new(4.0), None).unwrap();

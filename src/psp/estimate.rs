@@ -43,7 +43,7 @@ pub(super) fn is_worth_projecting(mesh: &Mesh, radius: f64, samples: f64) -> boo
 }
 
 /// What an iteration costs, counted in rays: one for each pattern point in the shadow of the mesh's box, and a sixteenth
-/// for each point that has to be looked at on the way.
+/// for each point that has to be looked at for them.
 ///
 /// The shadows on three orthogonal planes are largest along the diagonals of a cube, sqrt(3) times its three sides.
 fn expected_rays(mesh: &Mesh, radius: f64) -> f64 {

@@ -38,9 +38,6 @@ pub(super) trait Target: CoverTest {
     /// The dart at a point of a patch.
     fn dart(&self, sample: Sample, radius: Self::Radius) -> Self::Dart;
 
-    /// Whether a dart that falls on a patch falls at all: where the rain is less dense than on the rest, some do not.
-    fn falls(&self, dart: &Self::Dart, radius: Self::Radius, rng: &mut Rng) -> bool;
-
     /// Adds a dart, unless it conflicts with another sample.
     fn add(&mut self, dart: &Self::Dart) -> bool;
 
@@ -76,8 +73,7 @@ pub(super) fn rain<T: Target>(
             Some(search.test.dart(centre, patch.radius))
         } else if patch.open[part] >> of_part & 1 == 1 {
             let point = arrivals.point(&patch.fragment.sixteenth(part).sixteenth(of_part));
-            let dart = search.test.dart(point, patch.radius);
-            search.test.falls(&dart, patch.radius, &mut arrivals.rng).then_some(dart)
+            Some(search.test.dart(point, patch.radius))
         } else {
             None
         };
@@ -100,7 +96,7 @@ pub(super) fn rain<T: Target>(
     Rained { accepted, darts }
 }
 
-/// Darts on their way to the patches of a cube, in the order in which they arrive.
+/// Darts that will fall on the patches of a cube, in the order in which they arrive.
 struct Arrivals<'a> {
     mesh: &'a Mesh,
     rng: Rng,

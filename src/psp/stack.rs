@@ -8,8 +8,9 @@ use glam::Vec3A;
 
 use crate::psp::sixteenths::{CORNERS, Cover, SIXTEENTHS, STANDING};
 
-/// What rounding can add to a squared distance of about 1, and some more. PointLanes in a room are off by 2^-21 on each axis,
-/// which makes 3.3e-6 for two of them; places near a fragment and the sums of a few terms are off by a third of that.
+/// What rounding can add to a squared distance of about 1, and some more. Places in a cube's surroundings are off by 2^-21 on
+/// each axis, which makes 3.3e-6 for two of them; places near a fragment and the sums of a few terms are off by a third of
+/// that.
 pub(super) const SLACK: f32 = 1e-5;
 
 /// Points that are tested together.

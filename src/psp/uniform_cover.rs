@@ -13,7 +13,6 @@ use crate::psp::samples::Sample;
 use crate::psp::stack::{FAR, LANES, LocalFragment, PointLanes, PointStack, SLACK};
 use crate::psp::surroundings::Surroundings;
 use crate::psp::vectors;
-use crate::rng::Rng;
 use crate::simd::Level;
 
 /// How far around a fragment samples are gathered, in radii, even if it needs less: its neighbours will need them too.
@@ -133,10 +132,6 @@ impl Target for UniformCover<'_> {
 
     fn dart(&self, sample: Sample, (): ()) -> Sample {
         sample
-    }
-
-    fn falls(&self, _: &Sample, (): (), _: &mut Rng) -> bool {
-        true
     }
 
     fn add(&mut self, sample: &Sample) -> bool {

@@ -1,4 +1,4 @@
-//! Packets of rays on their way through Embree.
+//! Packets of rays that Embree traces.
 
 use std::ffi::c_int;
 use std::{ptr, slice};

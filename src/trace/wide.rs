@@ -52,6 +52,6 @@ unsafe fn note_lanes(valid: *mut c_int, ray: *const u32, hit: *const u32, hits: 
             end[lane].write(Hit { ray: rays[lane], triangle: triangles[lane], uv: [u, v], t });
         }
     }
-    // SAFETY: there is room for 16 more, of which the first `count` were written.
+    // SAFETY: there is space for 16 more, of which the first `count` were written.
     unsafe { hits.set_len(hits.len() + count) };
 }

@@ -19,7 +19,6 @@ use crate::psp::rain::Target;
 use crate::psp::samples::Sample;
 use crate::psp::stack::{FAR, LANES, PointLanes};
 use crate::psp::vectors::close;
-use crate::rng::Rng;
 use crate::simd::Level;
 
 /// How long, in local radii, the sixteenths of a partly covered patch are, whose sixteenths in turn it tells apart.
@@ -29,7 +28,7 @@ const FLAT: f64 = 0.05;
 /// How much farther, in local radii, samples are gathered than a fragment needs: its neighbours will need them too.
 const SPARE: f64 = 1.0;
 /// At how many fragments a cube may look for each of its pieces and samples. Slopes of 1 take about a hundred, of 30 a
-/// thousand: a caller who states a far steeper one would wait for hours.
+/// thousand: stating a far steeper one would mean waiting for hours.
 const LOOKS: u64 = 1 << 12;
 
 /// A fragment, and the radius on it.
@@ -218,7 +217,7 @@ impl CoverTest for GradedCover<'_> {
 
     fn is_fine(&self, longest: f64, bounds: RadiusBounds) -> bool {
         // What is proved covered falls short by what the radius changes on a sixteenth.
-        longest + 0.25 * (bounds.largest - bounds.least) <= 4.0 * FINE * bounds.scale()
+        longest + 0.25 * (bounds.largest - bounds.least) <= 4.0 * FINE * bounds.middle()
     }
 
     fn added(&self) -> usize {
@@ -244,17 +243,11 @@ impl Target for GradedCover<'_> {
 
     /// It rains as densely as samples will stand.
     fn density(&self, bounds: RadiusBounds) -> f64 {
-        1.0 / (bounds.scale() * bounds.scale())
+        1.0 / (bounds.middle() * bounds.middle())
     }
 
     fn dart(&self, sample: Sample, bounds: RadiusBounds) -> (Sample, f64) {
         (sample, self.field.at_within(&sample, bounds))
-    }
-
-    /// The rain on a patch is as dense as where its radius is least: where the radius is larger, a share of it falls.
-    fn falls(&self, &(_, radius): &(Sample, f64), bounds: RadiusBounds, rng: &mut Rng) -> bool {
-        let share = bounds.scale() / radius;
-        share >= 1.0 || rng.unit() < share * share
     }
 
     fn add(&mut self, &(sample, radius): &(Sample, f64)) -> bool {

@@ -24,7 +24,12 @@ pub(super) struct RadiusBounds {
 }
 
 impl RadiusBounds {
-    /// The radius as far as it is known: what fragments are measured by. Where the bounds are far apart the least may
+    /// The radius in the middle.
+    pub fn middle(&self) -> f64 {
+        0.5 * (self.least + self.largest)
+    }
+
+    /// The radius as far as it is known: what pieces are measured by. Where the bounds are far apart the least may
     /// be due to a distant corner, or to a bad bound; fragments become smaller then, but not by so much.
     pub fn scale(&self) -> f64 {
         self.least.max(self.largest / 8.0)
@@ -97,7 +102,7 @@ impl<'a> RadiusField<'a> {
         }
     }
 
-    /// [`RadiusField::at`] for a sample of a fragment with these bounds, which are tested on the way.
+    /// [`RadiusField::at`] for a sample of a fragment with these bounds, which are tested with it.
     pub fn at_within(&self, sample: &Sample, bounds: RadiusBounds) -> f64 {
         let radius = self.at(sample);
         self.test_slope(exact(sample.position), radius, bounds);

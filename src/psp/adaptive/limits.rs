@@ -9,7 +9,7 @@ use crate::memory;
 use crate::mesh::Mesh;
 
 /// What is wrong with the radii. Of several failures the one at the first place counts, axis by axis, so that it does not
-/// matter who comes first.
+/// matter which is found first.
 #[derive(Default)]
 pub(super) struct Verdict {
     first: Mutex<Option<([f64; 3], Error)>>,

@@ -13,7 +13,7 @@
 //! * *Deterministic*: the samples and their order depend on mesh, radii and seed only.
 //!
 //! The thesis projects patterns of the smallest radius and thins them, which wastes most rays where radii differ. Here
-//! the set is only filled (see `psp/fill.rs`), octave by octave, without Embree.
+//! the set is only filled (see `psp/rain.rs`), octave by octave, without Embree.
 
 mod cover;
 mod field;

@@ -26,7 +26,7 @@ impl Projection {
         })
     }
 
-    /// Collects all hits of three projectors, by blocks.
+    /// Collects all hits of three projectors, by cubes.
     pub fn project(&self, job: &Job, projectors: &[Projector; 3], collector: &Collector) -> Result<Found> {
         match self {
             Self::Embree(rays) => rays.project(job, projectors, collector),

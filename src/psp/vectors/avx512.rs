@@ -84,7 +84,7 @@ fn corners(fragment: &LocalFragment) -> [__m512; 3] {
     places(fragment, &CORNERS)
 }
 
-/// PointLanes of a fragment, by shares of its edges.
+/// Places of a fragment, by shares of its edges.
 #[inline]
 #[target_feature(enable = "avx512f")]
 fn places(fragment: &LocalFragment, shares: &[[f32; WIDE]; 2]) -> [__m512; 3] {

@@ -44,7 +44,7 @@ impl ProjectorLattice {
 
     /// The place on the lattice of a point on a projector, in radii from its centre.
     pub fn round(&self, point: [f64; 2]) -> LatticePoint {
-        // None is below zero, where truncation would round the other way.
+        // None is below zero, where truncation would round up.
         point.map(|x| ((x + self.reach) * self.units) as i64)
     }
 }
