@@ -66,7 +66,7 @@
 //!   report fields that it does not know stay as _init left them. A struct_size out of range, a
 //!   non-zero field beyond the known ones, an unknown constant, a flag other than 0 and 1, and an
 //!   option that its text excludes from the call are refused. A reserved field must be 0 in options
-//!   and is 0 in reports. The options of azulejo_X and azulejo_X_<verb> are azulejo_X_options, the
+//!   and is 0 in reports. The options of azulejo_X and azulejo_X_verb are azulejo_X_options, the
 //!   report azulejo_X_report.
 //!
 //! Progress. A call with a context calls a progress callback on the thread that made the call: the
