@@ -43,7 +43,7 @@ pub fn samples(canvas: &mut Canvas, square: Rect, windows: &Windows, points: &[[
     panel.title(canvas, "Samples", &remark);
 }
 
-/// How many ticks, with labels that do not touch, have room along a side of a panel of samples.
+/// How many ticks, with labels that do not touch, fit along a side of a panel of samples.
 fn ticks(length: f32) -> usize {
     const APART: f32 = 100.0;
     // The labels at both ends need the height of a line.
