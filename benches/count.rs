@@ -1,4 +1,4 @@
-//! Exactly N samples: `kdrt::sample_count` beside the two ways of thesis §2.5.3, as a table.
+//! Exactly N samples: `kdrt::sample_count` beside the two methods of thesis §2.5.3, as a table.
 //!
 //! *Insertion* (after Kanamori et al. 2011) starts with too few samples and puts the others at the centres of the
 //! largest Delaunay circles. *Elimination* (after Yuksel 2015) starts with too many and drops those of the largest
@@ -81,7 +81,7 @@ fn inserted(mut samples: Vec<[f32; 2]>, count: usize) -> Vec<[f32; 2]> {
 
 /// The squared radius and the centre of each Delaunay circle of the torus.
 fn circles(samples: &[[f32; 2]]) -> Vec<(f64, [f64; 2])> {
-    // Triangles are small: what is near a border and its images are enough beyond it.
+    // Triangles are small: what is near a boundary and its images are enough beyond it.
     let margin = 4.0 / (samples.len() as f64).sqrt();
     let turns = [-1.0, 0.0, 1.0];
     let images = samples.iter().flat_map(|sample| {

@@ -1,6 +1,6 @@
-//! DCR: time per point and step, on one thread and on four, and how the two compare; and of whole calls, what they reach.
+//! DCR: time per point and step, on one thread and on four, and their ratio; then whole calls and what they reach.
 //!
-//! Wall times of a shared machine vary; what is printed is the best of several runs, and ratios of one program.
+//! Wall times of a shared machine vary: the least of several runs is printed, and ratios of one program.
 
 use std::hint::black_box;
 use std::time::Instant;
@@ -9,10 +9,10 @@ use azulejo::dcr::{Method, Neighbourhood, Options, Thesis, relax};
 use azulejo::kdrt::{self, CountOptions};
 use azulejo::{Boundary, Context, Domain};
 
-/// Steps of the short and of the long run: their difference is free of what a call costs before its first step.
+/// Steps of the short and of the long run: their difference does not contain the time before the first step.
 const STEPS: [u32; 2] = [10, 40];
 
-/// A jittered grid, relaxed a little: what sets look like during most steps.
+/// A jittered grid, relaxed a little: sets are like this during most steps.
 fn start(side: usize, domain: Domain) -> Vec<[f32; 2]> {
     // The fractions of multiples of the golden ratio and of the root of 2 scatter well enough.
     let jitter = |k: usize, ratio: f64| 0.9 * (k as f64 * ratio).fract();
@@ -48,9 +48,9 @@ fn main() {
     for side in [256, 1000] {
         let points = start(side, domain);
         for (name, neighbourhood) in [("Delaunay", Neighbourhood::Delaunay), ("nearest", Neighbourhood::Nearest)] {
-            let best = Options::new(domain, neighbourhood);
-            let thesis = best.method(Method::Thesis(Thesis::default()));
-            for (method, options, share) in [("best", best, 1), ("thesis", thesis, 10)] {
+            let momentum = Options::new(domain, neighbourhood);
+            let thesis = momentum.method(Method::Thesis(Thesis::default()));
+            for (method, options, share) in [("momentum", momentum, 1), ("thesis", thesis, 10)] {
                 if side > 256 && method == "thesis" {
                     continue;
                 }
@@ -63,7 +63,7 @@ fn main() {
     whole_calls(domain, &[("1", one), ("4", four)]);
 }
 
-/// A million points of KDRT, to the end.
+/// A million points of KDRT, all steps.
 fn whole_calls(domain: Domain, contexts: &[(&str, Context)]) {
     println!(
         "\n{:<28} {:>9} {:>12} {:>7} {:>6} {:>6}",
@@ -77,7 +77,7 @@ fn whole_calls(domain: Domain, contexts: &[(&str, Context)]) {
             let (_, report) = relax(context, &Options::new(domain, neighbourhood), &points, None).unwrap();
             let rate = points.len() as f64 / start.elapsed().as_secs_f64();
             let (steps, rho, cover) = (report.iterations, report.rho, report.coverage);
-            println!("best, {name:<22} {threads:>9} {rate:>12.0} {steps:>7} {rho:>6.3} {cover:>6.3}");
+            println!("momentum, {name:<18} {threads:>9} {rate:>12.0} {steps:>7} {rho:>6.3} {cover:>6.3}");
         }
     }
 }

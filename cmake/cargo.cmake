@@ -1,5 +1,5 @@
-# The target azulejo_cargo: runs cargo, which knows best what is out of date, and lays its libraries out in
-# AZULEJO_OUTPUT_DIR as they are installed: AZULEJO_RUNTIME_LIBRARIES and AZULEJO_DEVELOPMENT_LIBRARIES. Cargo heeds
+# The target azulejo_cargo: runs cargo, which finds out what is out of date, and places its libraries in
+# AZULEJO_OUTPUT_DIR as they are installed: AZULEJO_RUNTIME_LIBRARIES and AZULEJO_DEVELOPMENT_LIBRARIES. Cargo reads
 # its own variables: RUSTFLAGS, CARGO_BUILD_JOBS, CARGO_BUILD_TARGET and so on; CARGO names another cargo.
 if(DEFINED ENV{CARGO})
   set(AZULEJO_CARGO "$ENV{CARGO}" CACHE FILEPATH "The cargo to build with")
@@ -11,34 +11,37 @@ if(NOT AZULEJO_CARGO)
   message(FATAL_ERROR "azulejo is built by cargo, which is not installed: see https://rustup.rs")
 endif()
 
-set(AZULEJO_OUTPUT_DIR ${PROJECT_BINARY_DIR}/lib)
-set(AZULEJO_SHARED_LIBRARY libazulejo.so.${PROJECT_VERSION})
-set(AZULEJO_RUNTIME_LIBRARIES ${AZULEJO_OUTPUT_DIR}/${AZULEJO_SHARED_LIBRARY}
-                              ${AZULEJO_OUTPUT_DIR}/libazulejo.so.${PROJECT_VERSION_MAJOR})
-set(AZULEJO_DEVELOPMENT_LIBRARIES ${AZULEJO_OUTPUT_DIR}/libazulejo.so ${AZULEJO_OUTPUT_DIR}/libazulejo.a)
+# The names of the libraries, which cargo and CMake form by the same rules.
+set(azulejo_SHARED ${CMAKE_SHARED_LIBRARY_PREFIX}azulejo${CMAKE_SHARED_LIBRARY_SUFFIX})
+set(azulejo_STATIC ${CMAKE_STATIC_LIBRARY_PREFIX}azulejo${CMAKE_STATIC_LIBRARY_SUFFIX})
+
+# What Rust's standard library needs of the system beside threads.
+set(azulejo_SYSTEM_LIBRARIES ${CMAKE_DL_LIBS})
+if(UNIX)
+  list(APPEND azulejo_SYSTEM_LIBRARIES m)
+endif()
 
 # Where cargo puts the libraries: below a folder of the target's, if there is one; the profile dev is called debug.
 set(cargo_target_dir ${PROJECT_BINARY_DIR}/cargo)
 string(REGEX REPLACE "^dev$" "debug" cargo_output_dir "${AZULEJO_CARGO_PROFILE}")
 set(cargo_output_dir ${cargo_target_dir}/$ENV{CARGO_BUILD_TARGET}/${cargo_output_dir})
 
-# GNU's linker, whatever the compiler prefers: LLVM's lacks what static.cmake needs.
-find_program(AZULEJO_LINKER NAMES ${CMAKE_LIBRARY_ARCHITECTURE}-ld.bfd ld.bfd REQUIRED
-             DOC "The linker that makes the static library")
-mark_as_advanced(AZULEJO_LINKER)
+set(AZULEJO_OUTPUT_DIR ${PROJECT_BINARY_DIR}/lib)
+if(CMAKE_SYSTEM_NAME STREQUAL "Linux")
+  include(${CMAKE_CURRENT_LIST_DIR}/linux.cmake)
+else()
+  set(AZULEJO_SHARED_LIBRARY ${azulejo_SHARED})
+  set(AZULEJO_RUNTIME_LIBRARIES ${AZULEJO_OUTPUT_DIR}/${azulejo_SHARED})
+  set(AZULEJO_DEVELOPMENT_LIBRARIES ${AZULEJO_OUTPUT_DIR}/${azulejo_STATIC})
+  set(layout COMMAND ${CMAKE_COMMAND} -E copy_if_different ${cargo_output_dir}/${azulejo_SHARED}
+                     ${cargo_output_dir}/${azulejo_STATIC} ${AZULEJO_OUTPUT_DIR})
+endif()
 
 file(MAKE_DIRECTORY ${AZULEJO_OUTPUT_DIR})
 add_custom_target(azulejo_cargo ALL
   COMMAND ${AZULEJO_CARGO} build --package azulejo-c --profile ${AZULEJO_CARGO_PROFILE}
           --target-dir ${cargo_target_dir} ${AZULEJO_CARGO_FLAGS}
-  COMMAND ${CMAKE_COMMAND} -E copy_if_different ${cargo_output_dir}/libazulejo.so
-          ${AZULEJO_OUTPUT_DIR}/${AZULEJO_SHARED_LIBRARY}
-  COMMAND ${CMAKE_COMMAND} -E create_symlink ${AZULEJO_SHARED_LIBRARY}
-          ${AZULEJO_OUTPUT_DIR}/libazulejo.so.${PROJECT_VERSION_MAJOR}
-  COMMAND ${CMAKE_COMMAND} -E create_symlink libazulejo.so.${PROJECT_VERSION_MAJOR} ${AZULEJO_OUTPUT_DIR}/libazulejo.so
-  COMMAND ${CMAKE_COMMAND} -D FROM=${cargo_output_dir}/libazulejo.a -D EXPORTS_OF=${cargo_output_dir}/libazulejo.so
-          -D TO=${AZULEJO_OUTPUT_DIR}/libazulejo.a -D LINKER=${AZULEJO_LINKER} -D NM=${CMAKE_NM}
-          -D OBJCOPY=${CMAKE_OBJCOPY} -D AR=${CMAKE_AR} -P ${CMAKE_CURRENT_LIST_DIR}/static.cmake
+  ${layout}
   BYPRODUCTS ${AZULEJO_RUNTIME_LIBRARIES} ${AZULEJO_DEVELOPMENT_LIBRARIES}
   WORKING_DIRECTORY ${PROJECT_SOURCE_DIR}
   COMMENT "Building libazulejo with cargo"

@@ -1,4 +1,4 @@
-# Debian packages: libazulejo0, the shared library, and libazulejo-dev, what programs are built with.
+# Debian packages: libazulejo0.2 (of version 0.2), the shared library, and libazulejo-dev, what programs are built with.
 #
 #   cmake -S . -B build -DCMAKE_INSTALL_PREFIX=/usr && cmake --build build && (cd build && cpack -G DEB)
 #
@@ -12,7 +12,7 @@ set(CPACK_STRIP_FILES ON)
 set(CPACK_COMPONENTS_ALL runtime development)
 set(CPACK_COMPONENT_DEVELOPMENT_DEPENDS runtime)
 
-set(runtime_package libazulejo${PROJECT_VERSION_MAJOR})
+set(runtime_package libazulejo${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
 set(development_package libazulejo-dev)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
@@ -47,21 +47,14 @@ file(WRITE ${PROJECT_BINARY_DIR}/debian/triggers "activate-noawait ldconfig\n")
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_CONTROL_EXTRA ${PROJECT_BINARY_DIR}/debian/triggers)
 
 # What Debian wants in share/doc of each package: the licences, also of the crates inside, and a changelog.
-execute_process(COMMAND ${AZULEJO_CARGO} tree --locked --package azulejo-c --edges normal,no-proc-macro
-                        --prefix none --format "{p}|{l}|{r}"
-                WORKING_DIRECTORY ${PROJECT_SOURCE_DIR} OUTPUT_VARIABLE tree COMMAND_ERROR_IS_FATAL ANY)
-string(REGEX MATCHALL "[^\n]+" tree "${tree}")
-list(FILTER tree EXCLUDE REGEX "^(azulejo|embree4-sys)|\\(\\*\\)")
-list(SORT tree)
-list(REMOVE_DUPLICATES tree)
-list(TRANSFORM tree REPLACE "^([^ ]+) v([^ |]+).*" "\\1-\\2" OUTPUT_VARIABLE crates)
-list(TRANSFORM tree REPLACE "^([^ ]+) v([^ |]+)[^|]*\\|([^|]*)\\|(.*)$" "  \\1 \\2 (\\3)\n    \\4")
-list(JOIN tree "\n" CRATES)
 file(READ LICENSE-MIT MIT)
 string(REGEX REPLACE "\n(\n*)" "\n\\1  " MIT "  ${MIT}")
-configure_file(cmake/copyright.in debian/copyright @ONLY)
-include(cmake/licences.cmake)
-append_licences(${PROJECT_BINARY_DIR}/debian/copyright ${crates})
+configure_file(cmake/copyright.in debian/licence @ONLY)
+add_custom_command(OUTPUT debian/copyright
+  COMMAND ${CMAKE_COMMAND} -E cat debian/licence ${azulejo_NOTICES} > debian/copyright
+  DEPENDS ${azulejo_NOTICES} ${PROJECT_BINARY_DIR}/debian/licence VERBATIM)
+add_custom_target(azulejo_copyright ALL DEPENDS debian/copyright)
+add_dependencies(azulejo_copyright azulejo_notices)
 string(TIMESTAMP DATE "%a, %d %b %Y %H:%M:%S +0000" UTC)
 
 foreach(component runtime development)
@@ -70,7 +63,7 @@ foreach(component runtime development)
   execute_process(COMMAND gzip --force --best --no-name ${PROJECT_BINARY_DIR}/debian/${PACKAGE}/changelog.Debian
                   COMMAND_ERROR_IS_FATAL ANY)
   install(FILES ${PROJECT_BINARY_DIR}/debian/copyright ${PROJECT_BINARY_DIR}/debian/${PACKAGE}/changelog.Debian.gz
-          DESTINATION share/doc/${PACKAGE} COMPONENT ${component} EXCLUDE_FROM_ALL)
+          DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/${PACKAGE} COMPONENT ${component} EXCLUDE_FROM_ALL)
 endforeach()
 
 include(CPack)

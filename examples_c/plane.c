@@ -23,7 +23,7 @@ int main(int argc, char **argv) {
     check(azulejo_context_create(0, &context));
     check(azulejo_kdrt_options_init(&options, sizeof options));
     options.radius = argc > 1 ? atof(argv[1]) : 0.01;
-    check(azulejo_kdrt_sample(context, &options, &points));
+    check(azulejo_kdrt_sample(context, &options, &points, NULL));
 
     xy = azulejo_points_positions(points);
     count = azulejo_points_count(points);

@@ -1,4 +1,4 @@
-/* One plane made by many processes: each MPI rank makes a window of its own, without a word to the others.
+/* One plane made by many processes: each MPI rank makes a window of its own without communication.
 
        mpirun -n 4 ranks [--check] [radius [file]]
 
@@ -31,7 +31,7 @@ static void *allocate(size_t bytes) {
 }
 
 /* The windows cut the domain into columns and rows, as nearly square as the number of ranks allows. Neighbours compute
-   the same border from the same numbers. */
+   the same boundary from the same numbers. */
 static void window_of(int rank, int ranks, const azulejo_kdrt_options *plane, double min[2], double max[2]) {
     int cells[2] = {0, 0}, at[2], axis;
     MPI_Dims_create(ranks, 2, cells);
@@ -75,7 +75,7 @@ static int compare(const azulejo_context *context, const azulejo_kdrt_options *p
                    unsigned long long total, MPI_Datatype sample) {
     azulejo_points *whole;
     int rank, differing = 0;
-    check(azulejo_kdrt_sample(context, plane, &whole));
+    check(azulejo_kdrt_sample(context, plane, &whole, NULL));
     if (azulejo_points_count(whole) != total) {
         fprintf(stderr, "ranks: the whole has %zu samples, the windows %llu\n", azulejo_points_count(whole), total);
         differing++;

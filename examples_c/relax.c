@@ -28,6 +28,7 @@ int main(void) {
 
     check(azulejo_context_create(0, &context));
     check(azulejo_dcr_options_init(&options, sizeof options));
+    check(azulejo_dcr_report_init(&report, sizeof report));
     check(azulejo_dcr_relax(context, &options, random, COUNT, &points, &report));
     fprintf(stderr, "smallest distance %.5f (rho %.3f) after %u steps\n", report.smallest_distance, report.rho,
             (unsigned)report.iterations);

@@ -190,13 +190,12 @@ void write_surface(const std::filesystem::path &path, const azulejo::Points &poi
 void surface(const azulejo::Context &context, const azulejo::Mesh &mesh, const Arguments &arguments) {
     azulejo::PspOptions options;
     options.radius = std::sqrt(density * mesh.area() / static_cast<double>(arguments.samples));
-    options.progress = bar("surface");
+    options.set_progress(bar("surface"));
     double seconds;
     const auto points = timed(seconds, [&] { return azulejo::psp_sample(context, mesh, options); });
 
-    const double smallest = azulejo::space_smallest_distance(context, points.positions());
-    const double uncovered =
-        azulejo::mesh_uncovered_fraction(context, mesh, points.positions(), options.radius, probes);
+    const double smallest = azulejo::space_smallest_distance(context, points);
+    const double uncovered = azulejo::mesh_uncovered_fraction(context, mesh, points, options.radius, probes);
     print_row("surface", points.size(), seconds, smallest / options.radius, "r", probed(uncovered));
     write_surface(arguments.out / "surface.ply", points);
 }
@@ -204,14 +203,13 @@ void surface(const azulejo::Context &context, const azulejo::Mesh &mesh, const A
 void plane(const azulejo::Context &context, const Arguments &arguments) {
     azulejo::KdrtOptions options;
     options.radius = std::sqrt(density / static_cast<double>(plane_samples));
-    options.progress = bar("plane");
+    options.set_progress(bar("plane"));
     double seconds;
     const auto points = timed(seconds, [&] { return azulejo::kdrt_sample(context, options); });
 
-    const double smallest = azulejo::plane_smallest_distance(context, points.positions(), options.domain_min,
-                                                             options.domain_max, options.boundary);
-    const double covering = azulejo::plane_covering_radius(context, points.positions(), options.domain_min,
-                                                           options.domain_max, options.boundary);
+    const azulejo::PlaneSet set{points, options};
+    const double smallest = azulejo::plane_smallest_distance(context, set);
+    const double covering = azulejo::plane_covering_radius(context, set);
     print_row("plane", points.size(), seconds, smallest / options.radius, "r", farthest(covering / options.radius, "r"));
     write_plane(arguments.out / "plane.ply", points);
 }
@@ -222,12 +220,11 @@ void relax(const azulejo::Context &context, const Arguments &arguments) {
     for (float &x : start) x = static_cast<float>(random() >> 8) / (1 << 24);
 
     azulejo::DcrOptions options;
-    options.progress = bar("relaxed");
+    options.set_progress(bar("relaxed"));
     azulejo::DcrReport report;
     double seconds;
     const auto points = timed(seconds, [&] { return azulejo::dcr_relax(context, options, start, &report); });
-    const double covering = azulejo::plane_covering_radius(context, points.positions(), options.domain_min,
-                                                           options.domain_max, options.boundary);
+    const double covering = azulejo::plane_covering_radius(context, {points, options});
     const double d_max = report.smallest_distance / report.rho;
     print_row("relaxed", points.size(), seconds, report.rho, "d_max", farthest(covering / d_max, "d_max"));
     write_plane(arguments.out / "relaxed.ply", points);

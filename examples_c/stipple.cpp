@@ -106,9 +106,7 @@ azulejo::Points relax(const azulejo::Context &context, const Image &image, const
     for (std::size_t i = 0; i < samples.size(); i++)
         xy.insert(xy.end(), {xyz[3 * i] + 0.5f, xyz[3 * i + 1] + 0.5f});
     azulejo::DcrOptions options;
-    options.boundary = AZULEJO_BOUNDARY_BOUNDED;
-    options.domain_max[0] = image.width;
-    options.domain_max[1] = image.height;
+    options.set_domain({{0, 0}, {image.width, image.height}, AZULEJO_BOUNDARY_BOUNDED});
     azulejo::Density density;
     density.values = image.darkness;
     density.width = image.width;
@@ -147,9 +145,9 @@ int main(int argc, char **argv) {
         const Canvas canvas = prepare(image, dots);
         const azulejo::Context context;
         const azulejo::Mesh mesh(canvas.positions, canvas.indices);
-        azulejo::AdaptiveOptions options;
-        options.vertex_radii = canvas.radii;
-        const auto points = relax(context, image, azulejo::psp_sample_adaptive(context, mesh, options));
+        azulejo::PspAdaptiveOptions options;
+        options.set_vertex_radii(canvas.radii);
+        const auto points = relax(context, image, azulejo::psp_adaptive_sample(context, mesh, options));
         write(argv[2], image, points);
         std::printf("%zu dots\n", points.size());
         return EXIT_SUCCESS;

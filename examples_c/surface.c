@@ -31,6 +31,7 @@ int main(int argc, char **argv) {
     check(azulejo_context_create(0, &context));
     check(azulejo_mesh_load(argv[1], &mesh));
     check(azulejo_psp_options_init(&options, sizeof options));
+    check(azulejo_psp_report_init(&report, sizeof report));
     options.radius = sqrt(0.69656 * azulejo_mesh_area(mesh) / 10000);
     check(azulejo_psp_sample(context, mesh, &options, &points, &report));
     fprintf(stderr, "%zu samples in %.3f s\n", azulejo_points_count(points), report.seconds);

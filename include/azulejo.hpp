@@ -1,6 +1,20 @@
-// azulejo for C++17: the C interface of azulejo.h with owners instead of handles, exceptions instead of status codes,
-// and options that start with their defaults. Header only. What the calls do, their units, ranges and thread rules
-// stand in azulejo.h, under the names of the C functions.
+// azulejo for C++17: azulejo.h with owners instead of handles, arrays and points as C++ programs
+// have them, and options that start with their defaults. Header only; copy it beside azulejo.h.
+//
+// The units, ranges, errors and thread rules of a call are documented in azulejo.h under the name
+// of the C function, which each comment here gives.
+//
+// Errors. Every call that can fail has two forms. try_kdrt_sample(.., out) returns a Status and
+//   writes `out` on success only; kdrt_sample(..) returns the result and throws an Error. Programs
+//   that are compiled without exceptions, or with AZULEJO_NO_EXCEPTIONS defined, have the first
+//   form only.
+//
+// Callbacks are std::functions. An exception that leaves one stops the call, and leaves the call in
+//   both of its forms; a call of azulejo.h that has the callback fails instead. Where there are no
+//   exceptions, a callback that throws ends the process.
+//
+// Sections: status, arrays, owners, points, places and domains, options, reports, context, mesh,
+//   psp, samplers, relaxation, analysis, the throwing forms.
 
 #ifndef AZULEJO_HPP
 #define AZULEJO_HPP
@@ -9,24 +23,74 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <exception>
 #include <functional>
+#include <iterator>
 #include <limits>
 #include <memory>
-#include <mutex>
-#include <stdexcept>
 #include <string>
+#include <tuple>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "azulejo.h"
 
+#if !defined(__cpp_exceptions) && !defined(AZULEJO_NO_EXCEPTIONS)
+#define AZULEJO_NO_EXCEPTIONS
+#endif
+
+#ifndef AZULEJO_NO_EXCEPTIONS
+#include <exception>
+#include <mutex>
+#include <stdexcept>
+#endif
+
 namespace azulejo {
 
-/// A call that failed: what() is the library's message, which names the argument, its value and its range.
+#ifdef AZULEJO_NO_EXCEPTIONS
+// A program may have files with exceptions and files without: their functions differ, and so must
+// their symbols.
+inline namespace no_exceptions {
+#endif
+
+// ---- Status ------------------------------------------------------------------------------------
+
+/// The message of this thread's last failed C call; see azulejo_last_error_message.
+inline std::string last_error() {
+    std::string message(azulejo_last_error_message(nullptr, 0), '\0');
+    azulejo_last_error_message(message.data(), message.size());
+    message.resize(message.empty() ? 0 : message.size() - 1); // the NUL
+    return message;
+}
+
+/// How a call ended: a code and, unless that is AZULEJO_OK, a message.
+class [[nodiscard]] Status {
+public:
+    /// AZULEJO_OK.
+    Status() noexcept = default;
+    /// Of a C call that has just returned this code on this thread, whose message it copies.
+    explicit Status(azulejo_status code) : code_(code) {
+        if (!ok()) message_ = last_error();
+    }
+    Status(azulejo_status code, std::string message) : code_(code), message_(std::move(message)) {}
+
+    bool ok() const noexcept { return code_ == AZULEJO_OK; }
+    /// AZULEJO_OK or one of the AZULEJO_ERROR_ codes.
+    azulejo_status code() const noexcept { return code_; }
+    /// Which argument is wrong, its value and its range; empty for AZULEJO_OK.
+    const std::string &message() const noexcept { return message_; }
+
+private:
+    azulejo_status code_ = AZULEJO_OK;
+    std::string message_;
+};
+
+#ifndef AZULEJO_NO_EXCEPTIONS
+/// A call that failed; what() is the message of its Status.
 class Error : public std::runtime_error {
 public:
-    Error(azulejo_status status, const std::string &message) : std::runtime_error(message), status_(status) {}
+    Error(azulejo_status status, const std::string &message)
+        : std::runtime_error(message), status_(status) {}
 
     /// One of the AZULEJO_ERROR_ codes.
     azulejo_status status() const noexcept { return status_; }
@@ -35,28 +99,31 @@ private:
     azulejo_status status_;
 };
 
-/// Throws the last error of this thread, unless the status is AZULEJO_OK.
-inline void check(azulejo_status status) {
-    if (status == AZULEJO_OK) {
-        return;
-    }
-    std::string message(azulejo_last_error_message(nullptr, 0), '\0');
-    azulejo_last_error_message(message.data(), message.size());
-    message.resize(message.empty() ? 0 : message.size() - 1); // the NUL
-    throw Error(status, message);
+/// Throws an Error unless the status is AZULEJO_OK.
+inline void check(const Status &status) {
+    if (!status.ok()) throw Error(status.code(), status.message());
 }
 
-/// The version of the library that the program runs with; see AZULEJO_VERSION.
+/// The same for a C call that has just returned this code on this thread.
+inline void check(azulejo_status code) { check(Status(code)); }
+#endif
+
+/// The version of the library that the program runs with, to compare with AZULEJO_VERSION; see
+/// azulejo_version.
 inline std::uint32_t version() noexcept { return azulejo_version(); }
 
-/// An array that belongs to someone else: a pointer and a size. What the accessors below return lives as long as the
-/// object that they were called on.
+// ---- Arrays ------------------------------------------------------------------------------------
+
+/// An array that belongs to another object: a pointer and a size. What accessors return is valid as
+/// long as the object that they were called on.
 template <class T>
 class Span {
 public:
     constexpr Span() noexcept = default;
     constexpr Span(T *data, std::size_t size) noexcept : data_(data), size_(size) {}
-    /// Any container with data() and size(), such as std::vector and std::array.
+    template <std::size_t count>
+    constexpr Span(T (&array)[count]) noexcept : data_(array), size_(count) {}
+    /// Any container with data() and size(), such as std::vector, std::array and std::span.
     template <class C, class = decltype(static_cast<T *>(std::declval<C &>().data()))>
     constexpr Span(C &&container) noexcept : data_(container.data()), size_(container.size()) {}
 
@@ -72,752 +139,1417 @@ private:
     std::size_t size_ = 0;
 };
 
-/// Called on the calling thread with the finished share, from 0 to 1; returns whether to go on. A call that is stopped
-/// throws an Error with AZULEJO_ERROR_CANCELLED. What the function itself throws stops the call too and leaves it.
-using Progress = std::function<bool(double done)>;
+/// The coordinates of samples, which know how many belong to one sample: calls for points of the
+/// plane refuse those of a mesh.
+class Positions : public Span<const float> {
+public:
+    constexpr Positions() noexcept = default;
+    constexpr Positions(const float *data, std::size_t samples, std::uint32_t dimension) noexcept
+        : Span(data, samples * dimension), dimension_(dimension) {}
 
-/// Called on the calling thread with a part of the samples, x y each, which live until it returns; returns whether to go
-/// on. A call that is stopped throws an Error with AZULEJO_ERROR_CANCELLED, or what the function threw.
-using WindowVisitor = std::function<bool(Span<const float> xy)>;
+    /// Coordinates of each sample: 2 or 3, or 0 where there is no set.
+    constexpr std::uint32_t dimension() const noexcept { return dimension_; }
 
-/// The options of a call: the fields of the C struct, filled with their defaults, and a progress function.
-template <class C, azulejo_status (*init)(C *, std::size_t)>
-struct Options : C {
-    Options() { check(init(this, sizeof(C))); }
-
-    /// Takes the place of the C struct's two fields.
-    Progress progress;
+private:
+    std::uint32_t dimension_ = 0;
 };
 
-/// See azulejo_kdrt_options; `radius` or `count` is to be set.
-using KdrtOptions = Options<azulejo_kdrt_options, azulejo_kdrt_options_init>;
-/// See azulejo_maximal_options; `radius` has no default.
-using MaximalOptions = Options<azulejo_maximal_options, azulejo_maximal_options_init>;
-/// See azulejo_merge_options; `radius` has no default.
-using MergeOptions = Options<azulejo_merge_options, azulejo_merge_options_init>;
-/// See azulejo_psp_options; `radius` has no default.
-using PspOptions = Options<azulejo_psp_options, azulejo_psp_options_init>;
-/// Gives the radius at a place of a mesh. Called from several threads at once, the library's own; see azulejo_radius_fn.
-/// What it throws fails the call and leaves it.
-using RadiusFunction = std::function<double(const std::array<double, 3> &position)>;
+// ---- Owners ------------------------------------------------------------------------------------
 
-/// See azulejo_adaptive_options; `vertex_radii` or `radius` is to be set.
-struct AdaptiveOptions : Options<azulejo_adaptive_options, azulejo_adaptive_options_init> {
-    /// Takes the place of the C struct's pointer and count; the radii stay the caller's.
-    Span<const float> vertex_radii;
-    /// Takes the place of the C struct's two fields.
-    RadiusFunction radius;
-};
-/// See azulejo_dcr_options.
-using DcrOptions = Options<azulejo_dcr_options, azulejo_dcr_options_init>;
-/// See azulejo_dcr_surface_options.
-using DcrSurfaceOptions = Options<azulejo_dcr_surface_options, azulejo_dcr_surface_options_init>;
+/// Owns a C handle, or none. Owners can be moved, not copied; one that was moved from or made
+/// without arguments holds NULL (but see Context), with which accessors return 0 or nothing and
+/// calls fail.
+template <class C, void (*free)(C *)>
+class Owner {
+public:
+    using Handle = C;
 
-/// Gives the density at a place of the plane. Called from several threads at once, the library's own; see
-/// azulejo_density_fn. What it throws fails the call and leaves it.
-using DensityFunction = std::function<double(const std::array<double, 2> &position)>;
+    Owner() noexcept = default;
+    /// Adopts a handle, which this object frees.
+    explicit Owner(C *handle) noexcept : handle_(handle) {}
 
-/// How dense points shall be; see azulejo_density. An image of `width` pixels a row, which stays the caller's, or a
-/// function.
-struct Density {
-    Span<const float> values;
-    std::size_t width = 0;
-    DensityFunction function;
+    /// The handle, which stays this object's, for calls of azulejo.h.
+    C *get() noexcept { return handle_.get(); }
+    const C *get() const noexcept { return handle_.get(); }
+    /// Gives the handle up to the caller, who frees it. Callbacks that it has (of a Context made by
+    /// watch(), of a Psp) stay this object's, which must outlive the handle then.
+    [[nodiscard]] C *release() noexcept { return handle_.release(); }
+    /// Whether there is a handle.
+    explicit operator bool() const noexcept { return handle_ != nullptr; }
+
+private:
+    struct Free {
+        void operator()(C *handle) const noexcept { free(handle); }
+    };
+
+    std::unique_ptr<C, Free> handle_;
 };
 
-using KdrtReport = azulejo_kdrt_report;
-using MergeReport = azulejo_merge_report;
-using PspReport = azulejo_psp_report;
-using DcrReport = azulejo_dcr_report;
-using DcrSurfaceReport = azulejo_dcr_surface_report;
-using PlaneReport = azulejo_plane_report;
-using SpectrumReport = azulejo_spectrum_report;
-using Coverage = azulejo_coverage;
-using Annulus = azulejo_annulus;
+// ---- Points ------------------------------------------------------------------------------------
+
+/// Samples of the plane or of a mesh; see azulejo_points.
+class Points : public Owner<azulejo_points, azulejo_points_free> {
+public:
+    using Owner::Owner;
+
+    /// The number of samples; see azulejo_points_count.
+    std::size_t size() const noexcept { return azulejo_points_count(get()); }
+    /// 2 for samples of the plane, 3 for samples of a mesh; see azulejo_points_dimension.
+    std::uint32_t dimension() const noexcept { return azulejo_points_dimension(get()); }
+    /// dimension() coordinates for each sample; see azulejo_points_positions.
+    Positions positions() const noexcept {
+        return {azulejo_points_positions(get()), size(), dimension()};
+    }
+    /// x y z for each sample of a mesh; empty for the plane, as are the next three. See
+    /// azulejo_points_normals.
+    Span<const float> normals() const noexcept { return array(azulejo_points_normals(get()), 3); }
+    /// The mesh's own normals, x y z each; empty if it has none. See
+    /// azulejo_points_interpolated_normals.
+    Span<const float> interpolated_normals() const noexcept {
+        return array(azulejo_points_interpolated_normals(get()), 3);
+    }
+    /// The triangle of each sample; see azulejo_points_triangles.
+    Span<const std::uint32_t> triangles() const noexcept {
+        return array(azulejo_points_triangles(get()), 1);
+    }
+    /// u v for each sample; see azulejo_points_barycentrics.
+    Span<const float> barycentrics() const noexcept {
+        return array(azulejo_points_barycentrics(get()), 2);
+    }
+    /// The radius of each sample of psp_adaptive_sample; empty for other sets. See
+    /// azulejo_points_radii.
+    Span<const double> radii() const noexcept { return array(azulejo_points_radii(get()), 1); }
+
+private:
+    template <class T>
+    Span<const T> array(const T *data, std::size_t width) const noexcept {
+        return {data, data ? width * size() : 0};
+    }
+};
 
 namespace detail {
 
-/// How many groups of `width` numbers an array holds; a rest is refused.
-inline std::size_t groups(std::size_t size, std::size_t width, const char *argument) {
-    if (width == 0 || size % width != 0) {
-        throw Error(AZULEJO_ERROR_INVALID_ARGUMENT, std::string(argument) + ": " + std::to_string(size) +
-                                                        " numbers are not a multiple of " + std::to_string(width));
-    }
-    return size / width;
-}
+template <class V, class T, class = void>
+inline constexpr bool indexes_to = false;
+template <class V, class T>
+inline constexpr bool indexes_to<V, T, std::void_t<decltype(std::declval<const V &>()[0])>> =
+    std::is_same_v<std::decay_t<decltype(std::declval<const V &>()[0])>, T>;
 
-template <class T, void (*free)(T *)>
-struct Free {
-    void operator()(T *handle) const noexcept { free(handle); }
+template <class V, class T, class = void>
+inline constexpr bool has_x = false;
+template <class V, class T>
+inline constexpr bool has_x<V, T, std::void_t<decltype(std::declval<const V &>().x)>> =
+    std::is_same_v<std::decay_t<decltype(std::declval<const V &>().x)>, T>;
+
+template <class V, class T, class Indices, class = void>
+inline constexpr bool made_of = false;
+template <class V, class T, std::size_t... i>
+inline constexpr bool made_of<V, T, std::index_sequence<i...>,
+                              std::void_t<decltype(V{((void)i, std::declval<T>())...})>> = true;
+
+/// Whether V is `width` numbers T and nothing else: an array of them, or a struct or class such as
+/// { T x, y, z; } that is laid out as one.
+template <class V, class T, std::size_t width>
+inline constexpr bool is_tuple =
+    sizeof(V) == width * sizeof(T) && std::is_standard_layout_v<V> &&
+    (indexes_to<V, T> || has_x<V, T> || made_of<V, T, std::make_index_sequence<width>>);
+
+/// What a container or a C array has for elements.
+template <class Container>
+using Element = std::remove_cv_t<
+    std::remove_pointer_t<decltype(std::data(std::declval<const Container &>()))>>;
+
+} // namespace detail
+
+/// An array of points, triangles and the like, `width` numbers T each, that belongs to the caller:
+/// made of a container or C array of such numbers, or of any type that consists of `width` of them
+/// (std::array, { T x, y, z; }, glm::vec3 ..). Where T is float, it can be made of Points, whose
+/// dimension is checked by the call.
+template <class T, std::size_t width>
+class Tuples {
+public:
+    constexpr Tuples() noexcept = default;
+
+    /// `size` tuples of packed numbers.
+    constexpr Tuples(const T *data, std::size_t size) noexcept : data_(data), size_(size) {}
+
+    template <class Container, class Element = detail::Element<Container>,
+              class = decltype(std::size(std::declval<const Container &>()))>
+    Tuples(const Container &container) noexcept {
+        constexpr bool is_tuple = detail::is_tuple<Element, T, width>;
+        static_assert(is_tuple || std::is_same_v<Element, T>,
+                      "an element must be a number of the right type, or a standard-layout type "
+                      "that consists of as many of them as are needed");
+        data_ = reinterpret_cast<const T *>(std::data(container));
+        size_ = is_tuple ? std::size(container) : std::size(container) / width;
+        rest_ = is_tuple ? 0 : std::size(container) % width;
+    }
+
+    template <class U = T, class = std::enable_if_t<std::is_same_v<U, float>>>
+    Tuples(const Positions &positions) noexcept
+        : data_(positions.data()), size_(positions.size() / width),
+          dimension_(positions.dimension()) {}
+
+    template <class U = T, class = std::enable_if_t<std::is_same_v<U, float>>>
+    Tuples(const Points &points) noexcept : Tuples(points.positions()) {}
+
+    constexpr const T *data() const noexcept { return data_; }
+    /// The number of tuples.
+    constexpr std::size_t size() const noexcept { return size_; }
+
+    /// Refuses samples of another dimension and numbers that do not add up to tuples, by the name
+    /// of the argument.
+    Status check(const char *argument) const {
+        if (dimension_ != width) {
+            return refusal(argument, "the set has " + std::to_string(dimension_) +
+                                         " coordinates for each sample, and " +
+                                         std::to_string(width) + " are needed");
+        }
+        if (rest_ != 0) {
+            return refusal(argument, std::to_string(width * size_ + rest_) +
+                                         " numbers are not a multiple of " + std::to_string(width));
+        }
+        return Status();
+    }
+
+private:
+    static Status refusal(const char *argument, const std::string &reason) {
+        return Status(AZULEJO_ERROR_INVALID_ARGUMENT, argument + (": " + reason));
+    }
+
+    const T *data_ = nullptr;
+    std::size_t size_ = 0;
+    std::size_t rest_ = 0;
+    std::size_t dimension_ = width;
 };
 
-template <class T, void (*free)(T *)>
-using Handle = std::unique_ptr<T, Free<T, free>>;
+/// Points of the plane, x y each: numbers, pairs, or a set of the plane.
+using PlanePoints = Tuples<float, 2>;
+/// Points of space, x y z each: numbers, triples, or a set on a mesh.
+using SpacePoints = Tuples<float, 3>;
+/// Triangles, three indices each: numbers or triples.
+using Triangles = Tuples<std::uint32_t, 3>;
 
-/// The C handles of several owners.
-template <class C, class Owner>
-std::vector<const C *> handles(Span<const Owner> owners) {
-    std::vector<const C *> handles;
-    for (const Owner &owner : owners) {
-        handles.push_back(owner.get());
+/// The vertices or normals of a mesh, which belong to the caller: what SpacePoints can be made of,
+/// or a member of larger vertices.
+class Vertices {
+public:
+    template <class Source,
+              class = std::enable_if_t<std::is_convertible_v<const Source &, SpacePoints>>>
+    Vertices(const Source &source) noexcept : points_(source) {}
+
+    /// `count` times x y z, one `stride_bytes` after the other.
+    Vertices(const float *first, std::size_t count, std::size_t stride_bytes) noexcept
+        : points_(first, count), stride_(stride_bytes) {}
+
+    /// A member of each vertex in a container or C array: Vertices(vertices, &Vertex::position).
+    template <class Container, class Vertex, class Member>
+    Vertices(const Container &vertices, Member Vertex::*member) noexcept
+        : stride_(sizeof(detail::Element<Container>)) {
+        static_assert(detail::is_tuple<Member, float, 3>,
+                      "the member must consist of three floats");
+        static_assert(std::is_base_of_v<Vertex, detail::Element<Container>>,
+                      "the member must be one of the container's elements");
+        if (std::size(vertices) != 0) {
+            const auto *first = &(std::data(vertices)->*member);
+            points_ = {reinterpret_cast<const float *>(first), std::size(vertices)};
+        }
     }
-    return handles;
-}
 
-/// Runs a function of the caller's where C called it: 0 to go on, 1 to stop. An exception waits in `thrown`.
+    const float *data() const noexcept { return points_.data(); }
+    std::size_t size() const noexcept { return points_.size(); }
+    std::size_t stride() const noexcept { return stride_; }
+    /// As Tuples::check.
+    Status check(const char *argument) const { return points_.check(argument); }
+
+private:
+    SpacePoints points_;
+    std::size_t stride_ = 3 * sizeof(float);
+};
+
+// ---- Places and domains ------------------------------------------------------------------------
+
+namespace detail {
+
+template <class P, class = void>
+inline constexpr std::size_t tuple_size = 0;
+template <class P>
+inline constexpr std::size_t tuple_size<P, std::void_t<decltype(std::tuple_size<P>::value)>> =
+    std::tuple_size<P>::value;
+
+template <class P, class = void>
+inline constexpr bool is_indexed = false;
+template <class P>
+inline constexpr bool
+    is_indexed<P, std::void_t<decltype(static_cast<double>(std::declval<const P &>()[0]))>> = true;
+
+template <class P, class = void>
+inline constexpr bool has_y = false;
+template <class P>
+inline constexpr bool
+    has_y<P, std::void_t<decltype(static_cast<double>(std::declval<const P &>().x +
+                                                      std::declval<const P &>().y))>> = true;
+
+template <class P, class = void>
+inline constexpr bool has_z = false;
+template <class P>
+inline constexpr bool
+    has_z<P, std::void_t<decltype(static_cast<double>(std::declval<const P &>().z))>> = true;
+
+/// Whether P has x and y, and z just where there are three coordinates.
+template <class P, std::size_t width>
+inline constexpr bool is_named = has_y<P> && has_z<P> == (width == 3);
+
+} // namespace detail
+
+/// A place, a corner or a direction of `width` numbers. Made of {0, 1}, std::array, std::pair, C
+/// arrays, pointers, and what has [] or x, y (z).
+template <std::size_t width>
+class Coordinates {
+public:
+    template <class... Numbers, class = std::enable_if_t<sizeof...(Numbers) == width &&
+                                                         (std::is_arithmetic_v<Numbers> && ...)>>
+    constexpr Coordinates(Numbers... numbers) noexcept : values_{static_cast<double>(numbers)...} {}
+
+    template <class P,
+              class = std::enable_if_t<detail::tuple_size<P> != 0 || detail::is_indexed<P> ||
+                                       detail::is_named<P, width>>>
+    constexpr Coordinates(const P &place) {
+        constexpr std::size_t known = std::is_array_v<P> ? std::extent_v<P> : detail::tuple_size<P>;
+        static_assert(known == 0 || known == width, "a place with another number of coordinates");
+        read(place, std::make_index_sequence<width>());
+    }
+
+    constexpr const double *data() const noexcept { return values_; }
+    constexpr double operator[](std::size_t axis) const { return values_[axis]; }
+
+private:
+    template <class P, std::size_t... i>
+    constexpr void read(const P &place, std::index_sequence<i...>) {
+        if constexpr (detail::tuple_size<P> != 0) {
+            ((values_[i] = static_cast<double>(std::get<i>(place))), ...);
+        } else if constexpr (detail::is_indexed<P>) {
+            ((values_[i] = static_cast<double>(place[i])), ...);
+        } else {
+            values_[0] = static_cast<double>(place.x);
+            values_[1] = static_cast<double>(place.y);
+            if constexpr (width == 3) values_[2] = static_cast<double>(place.z);
+        }
+    }
+
+    double values_[width] = {};
+};
+
+using Pair = Coordinates<2>;
+using Triple = Coordinates<3>;
+
+/// A rectangle and its AZULEJO_BOUNDARY_: the unit torus unless told otherwise.
+struct Domain {
+    Pair min{0, 0};
+    Pair max{1, 1};
+    std::int32_t boundary = AZULEJO_BOUNDARY_PERIODIC;
+
+    Domain() = default;
+    Domain(Pair low, Pair high, std::int32_t boundary_kind = AZULEJO_BOUNDARY_PERIODIC)
+        : min(low), max(high), boundary(boundary_kind) {}
+    /// That of the options that a set was made with.
+    template <class Options, class = decltype(std::declval<const Options &>().domain_min)>
+    Domain(const Options &options)
+        : min(options.domain_min), max(options.domain_max), boundary(options.boundary) {}
+};
+
+/// Points of the plane and where they lie, such as {points, options}; see azulejo_plane_set. The
+/// points stay the caller's.
+struct PlaneSet {
+    PlanePoints positions;
+    Domain domain{};
+};
+
+// ---- Callbacks ---------------------------------------------------------------------------------
+
+/// Called on the calling thread with the completed share of the call, from 0 to 1; returns whether
+/// to go on. See azulejo_progress_fn.
+using Progress = std::function<bool(double done)>;
+
+/// Called on the calling thread with some of the samples, which are valid until it returns; returns
+/// whether to go on. See azulejo_kdrt_visit_fn.
+using KdrtVisitor = std::function<bool(Positions xy)>;
+
+/// Gives the radius at a place of a mesh. Called on the library's threads, several at once; see
+/// azulejo_radius_fn.
+using RadiusFunction = std::function<double(const std::array<double, 3> &position)>;
+
+/// Gives the density at a place of the plane. Called on the library's threads, several at once; see
+/// azulejo_density_fn.
+using DensityFunction = std::function<double(const std::array<double, 2> &position)>;
+
+namespace detail {
+
+#ifndef AZULEJO_NO_EXCEPTIONS
+
+/// The exception that left a callback during a call on this thread, until the call returns. A
+/// callback may make calls, too: each keeps its own.
+class Caught {
+public:
+    Caught() : outer_(std::exchange(slot(), nullptr)) {}
+    Caught(const Caught &) = delete;
+    Caught &operator=(const Caught &) = delete;
+    ~Caught() { slot() = outer_; }
+
+    static void keep(std::exception_ptr exception) noexcept { slot() = std::move(exception); }
+
+    void rethrow() {
+        if (slot()) std::rethrow_exception(std::exchange(slot(), nullptr));
+    }
+
+private:
+    static std::exception_ptr &slot() noexcept {
+        static thread_local std::exception_ptr exception;
+        return exception;
+    }
+
+    std::exception_ptr outer_;
+};
+
+/// Runs a callback where C called it: 0 to go on, 1 to stop.
 template <class Function>
-std::int32_t guarded(std::exception_ptr &thrown, Function function) noexcept {
+std::int32_t guarded(Function function) noexcept {
     try {
         return function() ? 0 : 1;
     } catch (...) {
-        thrown = std::current_exception();
+        Caught::keep(std::current_exception());
         return 1;
     }
 }
 
-/// A progress function where C can call it: exceptions wait here until the call is over.
-class Watch {
+/// Keeps the first exception of a function that several threads call.
+class Thrown {
 public:
-    explicit Watch(Progress progress) : progress_(std::move(progress)) {}
-    Watch(const Watch &) = delete;
-    Watch &operator=(const Watch &) = delete;
-
-    /// Makes the options tell this object.
-    template <class C>
-    void attach(C &options) {
-        options.progress = progress_ ? &Watch::call : nullptr;
-        options.progress_user = this;
-    }
-
-    /// A context with the same threads that tells this object.
-    Handle<azulejo_context, azulejo_context_free> attached(const azulejo_context *context) {
-        azulejo_context *handle = nullptr;
-        check(azulejo_context_watch(context, progress_ ? &Watch::call : nullptr, this, &handle));
-        return Handle<azulejo_context, azulejo_context_free>(handle);
-    }
-
-    /// To be called with what the call returned.
-    void finish(azulejo_status status) {
-        if (thrown_) {
-            std::rethrow_exception(std::exchange(thrown_, nullptr));
+    /// NaN, which fails the call, where the function throws.
+    template <class Function>
+    double guarded(Function function) noexcept {
+        try {
+            return function();
+        } catch (...) {
+            const std::lock_guard<std::mutex> guard(lock_);
+            if (!exception_) exception_ = std::current_exception();
+            return std::numeric_limits<double>::quiet_NaN();
         }
-        check(status);
+    }
+
+    /// On the thread that made the call, once that has returned.
+    void hand_over() noexcept {
+        if (exception_) Caught::keep(exception_);
     }
 
 private:
-    static std::int32_t call(void *user, double done) noexcept {
-        auto *watch = static_cast<Watch *>(user);
-        return guarded(watch->thrown_, [&] { return watch->progress_(done); });
-    }
-
-    Progress progress_;
-    std::exception_ptr thrown_;
+    std::mutex lock_;
+    std::exception_ptr exception_;
 };
 
-/// Runs a C call with the C struct of these options, whose progress is told to the caller's function.
-template <class C, azulejo_status (*init)(C *, std::size_t), class Call>
-void watched(const Options<C, init> &options, Call call) {
-    Watch watch(options.progress);
-    C c_options = options;
-    watch.attach(c_options);
-    watch.finish(call(&c_options));
+#else
+
+struct Caught {
+    void rethrow() noexcept {}
+};
+
+template <class Function>
+std::int32_t guarded(Function function) noexcept {
+    return function() ? 0 : 1;
 }
 
-} // namespace detail
-
-/// The threads that calls run on; see azulejo_context. Like all owners here it can be moved, not copied; an object that
-/// was moved from holds NULL.
-class Context {
-public:
-    /// 0 takes one thread per core.
-    explicit Context(std::uint32_t num_threads = 0) {
-        azulejo_context *handle = nullptr;
-        check(azulejo_context_create(num_threads, &handle));
-        handle_.reset(handle);
+struct Thrown {
+    template <class Function>
+    double guarded(Function function) noexcept {
+        return function();
     }
 
-    std::uint32_t num_threads() const noexcept { return azulejo_context_num_threads(get()); }
-    /// The C handle, which stays this object's.
-    const azulejo_context *get() const noexcept { return handle_.get(); }
-
-private:
-    detail::Handle<azulejo_context, azulejo_context_free> handle_;
+    void hand_over() noexcept {}
 };
 
-namespace detail {
+#endif
 
-/// Runs a C call without options, of which the caller's function is told.
+/// An azulejo_progress_fn whose user is a Progress.
+inline std::int32_t tell(void *user, double done) noexcept {
+    return guarded([&] { return (*static_cast<const Progress *>(user))(done); });
+}
+
+/// A function of a place as C calls it, and what it has thrown.
+template <std::size_t dimension>
+class Field {
+public:
+    using Function = std::function<double(const std::array<double, dimension> &)>;
+
+    explicit Field(const Function &function) noexcept : function_(&function) {}
+    /// The same function for one call, so that calls at the same time keep their exceptions apart.
+    explicit Field(const Field &field) noexcept : function_(field.function_) {}
+    Field &operator=(const Field &) = delete;
+
+    static double call(void *user, const double *position) noexcept {
+        auto *field = static_cast<Field *>(user);
+        return field->thrown_.guarded([&] {
+            std::array<double, dimension> place;
+            std::copy_n(position, dimension, place.begin());
+            return (*field->function_)(place);
+        });
+    }
+
+    /// Passes a status on, and an exception to the call's Caught.
+    azulejo_status after(azulejo_status status) noexcept {
+        thrown_.hand_over();
+        return status;
+    }
+
+private:
+    const Function *function_;
+    Thrown thrown_;
+};
+
+/// Makes a C call; exceptions of its callbacks go on from here.
 template <class Call>
-void measured(const Context &context, const Progress &progress, Call call) {
-    Watch watch(progress);
-    watch.finish(call(watch.attached(context.get()).get()));
+Status run(Call call) {
+    Caught caught;
+    Status status(call());
+    caught.rethrow();
+    return status;
+}
+
+/// Makes a C call that writes a handle, for an owner. A relaxation that its callback stopped has a
+/// handle all the same: it is owned before the exception goes on.
+template <class Owner, class Call>
+Status make(Owner &out, Call call) {
+    Caught caught;
+    typename Owner::Handle *handle = nullptr;
+    Status status(call(&handle));
+    Owner made(handle);
+    caught.rethrow();
+    if (status.ok()) out = std::move(made);
+    return status;
 }
 
 } // namespace detail
 
-/// Samples of the plane or of a mesh; see azulejo_points.
-class Points {
-public:
-    /// Takes a C handle over.
-    explicit Points(azulejo_points *handle) noexcept : handle_(handle) {}
+// ---- Options -----------------------------------------------------------------------------------
 
-    /// The number of samples.
-    std::size_t size() const noexcept { return azulejo_points_count(get()); }
-    /// 2 for samples of the plane, 3 for samples of a mesh.
-    std::uint32_t dimension() const noexcept { return azulejo_points_dimension(get()); }
-    /// dimension() coordinates for each sample.
-    Span<const float> positions() const noexcept { return {azulejo_points_positions(get()), size() * dimension()}; }
-    /// Three coordinates for each sample of a mesh; empty for the plane, as are the next three.
-    Span<const float> normals() const noexcept { return surface(azulejo_points_normals(get()), 3); }
-    /// The normals that the mesh carries, interpolated; empty if it carries none. See azulejo_points_interpolated_normals.
-    Span<const float> interpolated_normals() const noexcept {
-        return surface(azulejo_points_interpolated_normals(get()), 3);
+/// The options of a call: the C struct, filled with its defaults. They can be handed to calls of
+/// azulejo.h; functions and arrays are set by the functions below, into fields of the C struct.
+template <class C, azulejo_status (*init)(C *, std::size_t)>
+class Options : public C {
+public:
+    // Cannot fail: the struct has the size that this header gives it.
+    Options() noexcept : C() { (void)init(this, sizeof(C)); }
+
+    /// Sets `progress` and `progress_user`; an empty function unsets them. Copies share the
+    /// function, which must be safe to call from all threads that use them. It lives as long as one
+    /// of them.
+    void set_progress(Progress function) {
+        progress_ = function ? std::make_shared<Progress>(std::move(function)) : nullptr;
+        this->progress = progress_ ? &detail::tell : nullptr;
+        this->progress_user = progress_.get();
     }
-    /// The triangle of each sample.
-    Span<const std::uint32_t> triangles() const noexcept { return surface(azulejo_points_triangles(get()), 1); }
-    /// u v of each sample: its position is (1 - u - v) * a + u * b + v * c.
-    Span<const float> barycentrics() const noexcept { return surface(azulejo_points_barycentrics(get()), 2); }
-    /// The radius of each sample of psp_sample_adaptive; empty for all other sets.
-    Span<const double> radii() const noexcept {
-        const double *data = azulejo_points_radii(get());
-        return {data, data ? size() : 0};
-    }
-    /// The C handle, which stays this object's.
-    const azulejo_points *get() const noexcept { return handle_.get(); }
 
 private:
-    template <class T>
-    Span<const T> surface(const T *data, std::size_t width) const noexcept {
-        return {data, data ? width * size() : 0};
+    friend class Psp;
+
+    std::shared_ptr<Progress> progress_;
+};
+
+/// Options with a domain.
+template <class C, azulejo_status (*init)(C *, std::size_t)>
+class PlaneOptions : public Options<C, init> {
+public:
+    /// Sets `domain_min`, `domain_max` and `boundary`.
+    void set_domain(const Domain &domain) noexcept {
+        std::copy_n(domain.min.data(), 2, this->domain_min);
+        std::copy_n(domain.max.data(), 2, this->domain_max);
+        this->boundary = domain.boundary;
+    }
+};
+
+/// See azulejo_kdrt_options; `radius` or `count` is to be set.
+using KdrtOptions = PlaneOptions<azulejo_kdrt_options, azulejo_kdrt_options_init>;
+/// See azulejo_kdrt_merge_options; `radius` has no default.
+using KdrtMergeOptions = PlaneOptions<azulejo_kdrt_merge_options, azulejo_kdrt_merge_options_init>;
+/// See azulejo_maximal_options; `radius` has no default.
+using MaximalOptions = PlaneOptions<azulejo_maximal_options, azulejo_maximal_options_init>;
+/// See azulejo_psp_options; `radius` has no default.
+using PspOptions = Options<azulejo_psp_options, azulejo_psp_options_init>;
+/// See azulejo_dcr_options.
+using DcrOptions = PlaneOptions<azulejo_dcr_options, azulejo_dcr_options_init>;
+/// See azulejo_dcr_surface_options.
+using DcrSurfaceOptions = Options<azulejo_dcr_surface_options, azulejo_dcr_surface_options_init>;
+
+/// See azulejo_psp_adaptive_options; the radii of the vertices or a function is to be set.
+class PspAdaptiveOptions
+    : public Options<azulejo_psp_adaptive_options, azulejo_psp_adaptive_options_init> {
+public:
+    /// Sets `vertex_radii` and `vertex_count`; the radii stay the caller's.
+    void set_vertex_radii(Span<const float> radii) noexcept {
+        vertex_radii = radii.data();
+        vertex_count = radii.size();
     }
 
-    detail::Handle<azulejo_points, azulejo_points_free> handle_;
+    /// Sets `radius` and `radius_user`; an empty function unsets them. Copies share it as
+    /// set_progress says.
+    void set_radius(RadiusFunction function) {
+        function_ = function ? std::make_shared<Function>(std::move(function)) : nullptr;
+        radius = function_ ? &detail::Field<3>::call : nullptr;
+        radius_user = function_ ? &function_->field : nullptr;
+    }
+
+private:
+    struct Function {
+        explicit Function(RadiusFunction f) : function(std::move(f)) {}
+
+        RadiusFunction function;
+        detail::Field<3> field{function};
+    };
+
+    std::shared_ptr<Function> function_;
 };
+
+/// How dense points shall be; see azulejo_density. Either an image of `width` pixels a row, which
+/// stays the caller's, or a function.
+struct Density {
+    Span<const float> values{};
+    std::size_t width = 0;
+    DensityFunction function{};
+};
+
+// ---- Reports -----------------------------------------------------------------------------------
+
+/// The report of a call: the C struct, initialised.
+template <class C, azulejo_status (*init)(C *, std::size_t)>
+struct Report : C {
+    // Cannot fail: the struct has the size that this header gives it.
+    Report() noexcept : C() { (void)init(this, sizeof(C)); }
+};
+
+using KdrtReport = Report<azulejo_kdrt_report, azulejo_kdrt_report_init>;
+using KdrtMergeReport = Report<azulejo_kdrt_merge_report, azulejo_kdrt_merge_report_init>;
+using PspReport = Report<azulejo_psp_report, azulejo_psp_report_init>;
+using DcrReport = Report<azulejo_dcr_report, azulejo_dcr_report_init>;
+using DcrSurfaceReport = Report<azulejo_dcr_surface_report, azulejo_dcr_surface_report_init>;
+using PlaneReport = Report<azulejo_plane_report, azulejo_plane_report_init>;
+using SpectrumReport = Report<azulejo_spectrum_report, azulejo_spectrum_report_init>;
+using CoverageReport = Report<azulejo_coverage_report, azulejo_coverage_report_init>;
+using Annulus = azulejo_annulus;
+
+// ---- Context -----------------------------------------------------------------------------------
+
+/// The threads that calls run on; see azulejo_context.
+class Context : public Owner<azulejo_context, azulejo_context_free> {
+public:
+#ifndef AZULEJO_NO_EXCEPTIONS
+    /// One thread per core, or as many as given; see azulejo_context_create. Context(nullptr) holds
+    /// NULL.
+    explicit Context(std::uint32_t num_threads = 0) { check(try_create(num_threads, *this)); }
+#else
+    /// Holds NULL.
+    Context() noexcept = default;
+#endif
+
+    /// Adopts a handle. A template, so that Context(0) is a number of threads.
+    template <class Pointer,
+              class = std::enable_if_t<std::is_convertible_v<Pointer, azulejo_context *>>>
+    explicit Context(Pointer handle) noexcept : Owner(handle) {}
+
+    /// See azulejo_context_create.
+    static Status try_create(std::uint32_t num_threads, Context &out) {
+        return detail::make(out, [&](auto **c) { return azulejo_context_create(num_threads, c); });
+    }
+
+    /// A context with the same threads whose calls report to this function, unless their options
+    /// have one: plane_measure(context.watch(..), ..). See azulejo_context_watch. An empty function
+    /// watches nothing.
+    Status try_watch(Progress function, Context &out) const {
+        auto progress = function ? std::make_shared<Progress>(std::move(function)) : nullptr;
+        Status status = detail::make(out, [&](auto **c) {
+            return azulejo_context_watch(get(), progress ? &detail::tell : nullptr, progress.get(),
+                                         c);
+        });
+        if (status.ok()) out.progress_ = std::move(progress);
+        return status;
+    }
+
+#ifndef AZULEJO_NO_EXCEPTIONS
+    Context watch(Progress function) const {
+        Context watched(nullptr);
+        check(try_watch(std::move(function), watched));
+        return watched;
+    }
+#endif
+
+    /// See azulejo_context_num_threads.
+    std::uint32_t num_threads() const noexcept { return azulejo_context_num_threads(get()); }
+
+private:
+    friend class Psp;
+
+    std::shared_ptr<Progress> progress_;
+};
+
+// ---- Mesh --------------------------------------------------------------------------------------
 
 /// A checked triangle mesh; see azulejo_mesh.
-class Mesh {
+class Mesh : public Owner<azulejo_mesh, azulejo_mesh_free> {
 public:
-    /// Packed arrays: x y z of each vertex, three indices for each triangle.
-    Mesh(Span<const float> positions, Span<const std::uint32_t> indices)
-        : Mesh(positions.data(), detail::groups(positions.size(), 3, "positions"), 3 * sizeof(float), indices.data(),
-               detail::groups(indices.size(), 3, "indices")) {}
+    using Owner::Owner;
+    Mesh() noexcept = default;
 
     /// See azulejo_mesh_create.
-    Mesh(const float *positions, std::size_t vertex_count, std::size_t stride_bytes, const std::uint32_t *indices,
-         std::size_t triangle_count) {
-        azulejo_mesh *handle = nullptr;
-        check(azulejo_mesh_create(positions, vertex_count, stride_bytes, indices, triangle_count, &handle));
-        handle_.reset(handle);
+    static Status try_create(const Vertices &positions, const Triangles &indices, Mesh &out) {
+        if (Status s = positions.check("positions"); !s.ok()) return s;
+        if (Status s = indices.check("indices"); !s.ok()) return s;
+        return detail::make(out, [&](auto **mesh) {
+            return azulejo_mesh_create(positions.data(), positions.size(), positions.stride(),
+                                       indices.data(), indices.size(), mesh);
+        });
     }
 
     /// An OBJ, PLY or STL file; see azulejo_mesh_load.
-    static Mesh load(const std::string &path) {
-        azulejo_mesh *handle = nullptr;
-        check(azulejo_mesh_load(path.c_str(), &handle));
-        return Mesh(handle);
+    static Status try_load(const std::string &path, Mesh &out) {
+        return detail::make(out, [&](auto **m) { return azulejo_mesh_load(path.c_str(), m); });
     }
 
     /// Triangles of an RTCScene of the caller's; see azulejo_mesh_create_from_embree.
-    static Mesh from_embree(void *scene, Span<const azulejo_embree_geometry> geometries) {
-        azulejo_mesh *handle = nullptr;
-        check(azulejo_mesh_create_from_embree(scene, geometries.data(), geometries.size(), &handle));
-        return Mesh(handle);
+    static Status try_from_embree(void *scene, Span<const azulejo_embree_geometry> geometries,
+                                  Mesh &out) {
+        return detail::make(out, [&](auto **mesh) {
+            return azulejo_mesh_create_from_embree(scene, geometries.data(), geometries.size(),
+                                                   mesh);
+        });
     }
 
-    /// This mesh with normals: packed, one for each vertex, or named by three indices for each triangle; see
-    /// azulejo_mesh_with_normals.
-    Mesh with_normals(Span<const float> normals, Span<const std::uint32_t> normal_indices = {}) const {
-        return with_normals(normals.data(), detail::groups(normals.size(), 3, "normals"), 3 * sizeof(float), normal_indices);
-    }
-
-    /// See azulejo_mesh_with_normals.
-    Mesh with_normals(const float *normals, std::size_t normal_count, std::size_t stride_bytes,
-                      Span<const std::uint32_t> normal_indices = {}) const {
-        azulejo_mesh *handle = nullptr;
-        check(azulejo_mesh_with_normals(get(), normals, normal_count, stride_bytes, normal_indices.data(),
-                                        detail::groups(normal_indices.size(), 3, "normal_indices"), &handle));
-        return Mesh(handle);
+    /// This mesh with normals: one for each vertex, or named by three indices for each triangle;
+    /// see azulejo_mesh_with_normals.
+    Status try_with_normals(const Vertices &normals, const Triangles &normal_indices,
+                            Mesh &out) const {
+        if (Status s = normals.check("normals"); !s.ok()) return s;
+        if (Status s = normal_indices.check("normal_indices"); !s.ok()) return s;
+        return detail::make(out, [&](auto **mesh) {
+            return azulejo_mesh_with_normals(get(), normals.data(), normals.size(),
+                                             normals.stride(), normal_indices.data(),
+                                             normal_indices.size(), mesh);
+        });
     }
 
     /// This mesh without the triangles whose entry is 0; see azulejo_mesh_with_mask.
-    Mesh with_mask(Span<const std::uint8_t> mask) const {
-        azulejo_mesh *handle = nullptr;
-        check(azulejo_mesh_with_mask(get(), mask.data(), mask.size(), &handle));
-        return Mesh(handle);
+    Status try_with_mask(Span<const std::uint8_t> mask, Mesh &out) const {
+        return detail::make(out, [&](auto **mesh) {
+            return azulejo_mesh_with_mask(get(), mask.data(), mask.size(), mesh);
+        });
     }
 
-    /// Whether the mesh carries normals besides those of its triangles.
+#ifndef AZULEJO_NO_EXCEPTIONS
+    Mesh(const Vertices &positions, const Triangles &indices) {
+        check(try_create(positions, indices, *this));
+    }
+
+    Mesh(const float *positions, std::size_t vertex_count, std::size_t stride_bytes,
+         const std::uint32_t *indices, std::size_t triangle_count)
+        : Mesh({positions, vertex_count, stride_bytes}, {indices, triangle_count}) {}
+
+    static Mesh load(const std::string &path) {
+        Mesh mesh;
+        check(try_load(path, mesh));
+        return mesh;
+    }
+
+    static Mesh from_embree(void *scene, Span<const azulejo_embree_geometry> geometries) {
+        Mesh mesh;
+        check(try_from_embree(scene, geometries, mesh));
+        return mesh;
+    }
+
+    Mesh with_normals(const Vertices &normals, const Triangles &normal_indices = {}) const {
+        Mesh mesh;
+        check(try_with_normals(normals, normal_indices, mesh));
+        return mesh;
+    }
+
+    Mesh with_mask(Span<const std::uint8_t> mask) const {
+        Mesh mesh;
+        check(try_with_mask(mask, mesh));
+        return mesh;
+    }
+#endif
+
+    /// Whether the mesh has normals besides those of its triangles; see azulejo_mesh_has_normals.
     bool has_normals() const noexcept { return azulejo_mesh_has_normals(get()) != 0; }
-
+    /// See azulejo_mesh_vertex_count.
     std::size_t vertex_count() const noexcept { return azulejo_mesh_vertex_count(get()); }
+    /// See azulejo_mesh_triangle_count.
     std::size_t triangle_count() const noexcept { return azulejo_mesh_triangle_count(get()); }
-    /// x y z of each vertex.
-    Span<const float> positions() const noexcept { return {azulejo_mesh_positions(get()), 3 * vertex_count()}; }
-    /// Three vertices for each triangle.
-    Span<const std::uint32_t> indices() const noexcept { return {azulejo_mesh_indices(get()), 3 * triangle_count()}; }
-    /// The area of all triangles that no mask leaves out.
+    /// x y z of each vertex; see azulejo_mesh_positions.
+    Positions positions() const noexcept {
+        return {azulejo_mesh_positions(get()), vertex_count(), 3};
+    }
+    /// Three vertices for each triangle; see azulejo_mesh_indices.
+    Span<const std::uint32_t> indices() const noexcept {
+        return {azulejo_mesh_indices(get()), 3 * triangle_count()};
+    }
+    /// The area of all triangles that no mask leaves out; see azulejo_mesh_area.
     double area() const noexcept { return azulejo_mesh_area(get()); }
-    /// The C handle, which stays this object's.
-    const azulejo_mesh *get() const noexcept { return handle_.get(); }
-
-private:
-    explicit Mesh(azulejo_mesh *handle) noexcept : handle_(handle) {}
-
-    detail::Handle<azulejo_mesh, azulejo_mesh_free> handle_;
 };
 
-/// A set of samples on a mesh that grows; see azulejo_psp. It keeps what it needs of the context and the mesh.
-class Psp {
+// ---- Psp ---------------------------------------------------------------------------------------
+
+/// A set of samples on a mesh that grows; see azulejo_psp. It keeps what it needs of the context,
+/// the mesh and the options, with their progress functions.
+class Psp : public Owner<azulejo_psp, azulejo_psp_free> {
 public:
-    Psp(const Context &context, const Mesh &mesh, const PspOptions &options)
-        : watch_(std::make_unique<detail::Watch>(options.progress)) {
-        azulejo_psp_options c_options = options;
-        watch_->attach(c_options);
-        azulejo_psp *handle = nullptr;
-        watch_->finish(azulejo_psp_create(context.get(), mesh.get(), &c_options, &handle));
-        handle_.reset(handle);
+    using Owner::Owner;
+    Psp() noexcept = default;
+
+    /// See azulejo_psp_create.
+    static Status try_create(const Context &context, const Mesh &mesh, const PspOptions &options,
+                             Psp &out) {
+        Status status = detail::make(out, [&](auto **psp) {
+            return azulejo_psp_create(context.get(), mesh.get(), &options, psp);
+        });
+        if (status.ok()) {
+            out.context_progress_ = context.progress_;
+            out.progress_ = options.progress_;
+        }
+        return status;
     }
 
-    /// Adds samples by projection.
+    /// Adds samples by projection; see azulejo_psp_advance. `report` may be null.
+    Status try_advance(std::uint32_t iterations, PspReport *report = nullptr) {
+        return detail::run([&] { return azulejo_psp_advance(get(), iterations, report); });
+    }
+
+    /// Makes the set maximal; see azulejo_psp_fill. `report` may be null.
+    Status try_fill(PspReport *report = nullptr) {
+        return detail::run([&] { return azulejo_psp_fill(get(), report); });
+    }
+
+    /// A copy of the set as it is now; see azulejo_psp_points.
+    Status try_points(Points &out) const {
+        return detail::make(out, [&](auto **points) { return azulejo_psp_points(get(), points); });
+    }
+
+#ifndef AZULEJO_NO_EXCEPTIONS
+    Psp(const Context &context, const Mesh &mesh, const PspOptions &options) {
+        check(try_create(context, mesh, options, *this));
+    }
+
     PspReport advance(std::uint32_t iterations) {
         PspReport report;
-        finish(azulejo_psp_advance(handle_.get(), iterations, &report));
+        check(try_advance(iterations, &report));
         return report;
     }
 
-    /// Makes the set maximal.
     PspReport fill() {
         PspReport report;
-        finish(azulejo_psp_fill(handle_.get(), &report));
+        check(try_fill(&report));
         return report;
     }
 
-    /// A copy of the set as it is now.
     Points points() const {
-        azulejo_points *points = nullptr;
-        check(azulejo_psp_points(handle_.get(), &points));
-        return Points(points);
+        Points points;
+        check(try_points(points));
+        return points;
     }
+#endif
 
 private:
-    // An object that was moved from has no watch.
-    void finish(azulejo_status status) { watch_ ? watch_->finish(status) : check(status); }
-
-    std::unique_ptr<detail::Watch> watch_; // where the handle's callback finds it, wherever this object moves
-    detail::Handle<azulejo_psp, azulejo_psp_free> handle_;
+    std::shared_ptr<Progress> context_progress_;
+    std::shared_ptr<Progress> progress_;
 };
 
-/// A maximal set of samples of a rectangle; see azulejo_kdrt_sample_with_report. `report` may be null.
-inline Points kdrt_sample(const Context &context, const KdrtOptions &options, KdrtReport *report = nullptr) {
-    azulejo_points *points = nullptr;
-    detail::watched(options,
-                    [&](auto *o) { return azulejo_kdrt_sample_with_report(context.get(), o, &points, report); });
-    return Points(points);
-}
+// ---- Samplers: `report` may be null ------------------------------------------------------------
 
-/// The part of kdrt_sample's set that lies in a window of the domain; see azulejo_kdrt_sample_window.
-inline Points kdrt_sample_window(const Context &context, const KdrtOptions &options, const double (&window_min)[2],
-                                 const double (&window_max)[2]) {
-    azulejo_points *points = nullptr;
-    detail::watched(options, [&](auto *o) {
-        return azulejo_kdrt_sample_window(context.get(), o, window_min, window_max, &points);
-    });
-    return Points(points);
-}
-
-/// Hands the samples of kdrt_sample out part by part instead of keeping them; see azulejo_kdrt_stream.
-inline void kdrt_stream(const Context &context, const KdrtOptions &options, const WindowVisitor &visit) {
-    struct Guest {
-        const WindowVisitor &visit;
-        std::exception_ptr thrown;
-
-        static std::int32_t call(void *user, const float *xy, std::size_t count) noexcept {
-            auto *guest = static_cast<Guest *>(user);
-            return detail::guarded(guest->thrown, [&] { return guest->visit({xy, 2 * count}); });
-        }
-    } guest{visit, nullptr};
-    detail::watched(options, [&](auto *o) {
-        const auto status = azulejo_kdrt_stream(context.get(), o, visit ? &Guest::call : nullptr, &guest);
-        if (guest.thrown) {
-            std::rethrow_exception(guest.thrown);
-        }
-        return status;
+/// A maximal set of samples of a rectangle; see azulejo_kdrt_sample.
+inline Status try_kdrt_sample(const Context &context, const KdrtOptions &options, Points &out,
+                              KdrtReport *report = nullptr) {
+    return detail::make(out, [&](auto **points) {
+        return azulejo_kdrt_sample(context.get(), &options, points, report);
     });
 }
 
-/// A set of samples, x y each, with its rectangle; see azulejo_merge_piece. The samples stay the caller's.
-struct MergePiece {
-    Span<const float> xy;
-    double min[2];
-    double max[2];
+/// The part of kdrt_sample's set that lies in a window; see azulejo_kdrt_sample_window.
+inline Status try_kdrt_sample_window(const Context &context, const KdrtOptions &options,
+                                     const Pair &window_min, const Pair &window_max, Points &out) {
+    return detail::make(out, [&](auto **points) {
+        return azulejo_kdrt_sample_window(context.get(), &options, window_min.data(),
+                                          window_max.data(), points);
+    });
+}
+
+/// Hands out the samples of kdrt_sample part by part; see azulejo_kdrt_stream.
+inline Status try_kdrt_stream(const Context &context, const KdrtOptions &options,
+                              const KdrtVisitor &visit) {
+    const azulejo_kdrt_visit_fn call = [](void *user, const float *xy, std::size_t count) {
+        return detail::guarded(
+            [&] { return (*static_cast<const KdrtVisitor *>(user))(Positions(xy, count, 2)); });
+    };
+    return detail::run([&] {
+        return azulejo_kdrt_stream(context.get(), &options, visit ? call : nullptr,
+                                   const_cast<KdrtVisitor *>(&visit));
+    });
+}
+
+/// A set of samples with its rectangle, such as {points, {0, 0}, {1, 1}}; see
+/// azulejo_kdrt_merge_piece. The samples stay the caller's.
+struct KdrtMergePiece {
+    PlanePoints xy;
+    Pair min;
+    Pair max;
 };
 
-/// Glues sets on rectangles that do not overlap, and points that must stay, into one maximal set; see azulejo_kdrt_merge.
-/// `report` may be null.
-inline Points kdrt_merge(const Context &context, const MergeOptions &options, Span<const MergePiece> pieces,
-                         Span<const float> fixed = {}, MergeReport *report = nullptr) {
-    std::vector<azulejo_merge_piece> c_pieces;
+/// Merges sets on rectangles that do not overlap, and points that must stay, into one maximal set;
+/// see azulejo_kdrt_merge.
+inline Status try_kdrt_merge(const Context &context, const KdrtMergeOptions &options,
+                             Span<const KdrtMergePiece> pieces, const PlanePoints &fixed,
+                             Points &out, KdrtMergeReport *report = nullptr) {
+    std::vector<azulejo_kdrt_merge_piece> c_pieces;
     for (const auto &[xy, min, max] : pieces) {
-        c_pieces.push_back({xy.data(), detail::groups(xy.size(), 2, "xy"), {min[0], min[1]}, {max[0], max[1]}});
+        if (Status s = xy.check("xy"); !s.ok()) return s;
+        c_pieces.push_back({xy.data(), xy.size(), {min[0], min[1]}, {max[0], max[1]}});
     }
-    azulejo_points *points = nullptr;
-    const std::size_t count = detail::groups(fixed.size(), 2, "fixed");
-    detail::watched(options, [&](auto *o) {
-        return azulejo_kdrt_merge(context.get(), o, c_pieces.data(), c_pieces.size(), fixed.data(), count, &points,
-                                  report);
+    if (Status s = fixed.check("fixed"); !s.ok()) return s;
+    return detail::make(out, [&](auto **points) {
+        return azulejo_kdrt_merge(context.get(), &options, c_pieces.data(), c_pieces.size(),
+                                  fixed.data(), fixed.size(), points, report);
     });
-    return Points(points);
 }
 
-/// The unbiased reference, slowly; see azulejo_maximal_sample.
-inline Points maximal_sample(const Context &context, const MaximalOptions &options) {
-    azulejo_points *points = nullptr;
-    detail::watched(options, [&](auto *o) { return azulejo_maximal_sample(context.get(), o, &points); });
-    return Points(points);
+/// The unbiased reference, which is slow; see azulejo_maximal_sample.
+inline Status try_maximal_sample(const Context &context, const MaximalOptions &options,
+                                 Points &out) {
+    return detail::make(out, [&](auto **points) {
+        return azulejo_maximal_sample(context.get(), &options, points);
+    });
 }
 
-/// Samples of a mesh in one call; see azulejo_psp_sample. `report` may be null.
-inline Points psp_sample(const Context &context, const Mesh &mesh, const PspOptions &options,
-                         PspReport *report = nullptr) {
-    azulejo_points *points = nullptr;
-    detail::watched(options,
-                    [&](auto *o) { return azulejo_psp_sample(context.get(), mesh.get(), o, &points, report); });
-    return Points(points);
+/// Samples of a mesh in one call; see azulejo_psp_sample.
+inline Status try_psp_sample(const Context &context, const Mesh &mesh, const PspOptions &options,
+                             Points &out, PspReport *report = nullptr) {
+    return detail::make(out, [&](auto **points) {
+        return azulejo_psp_sample(context.get(), mesh.get(), &options, points, report);
+    });
 }
+
+/// Samples of a mesh, each with a radius of its own; see azulejo_psp_adaptive_sample.
+inline Status try_psp_adaptive_sample(const Context &context, const Mesh &mesh,
+                                      const PspAdaptiveOptions &options, Points &out,
+                                      PspReport *report = nullptr) {
+    const auto sample = [&](const azulejo_psp_adaptive_options &o, azulejo_points **points) {
+        return azulejo_psp_adaptive_sample(context.get(), mesh.get(), &o, points, report);
+    };
+    if (options.radius != &detail::Field<3>::call) {
+        return detail::make(out, [&](auto **points) { return sample(options, points); });
+    }
+    detail::Field<3> field(*static_cast<const detail::Field<3> *>(options.radius_user));
+    azulejo_psp_adaptive_options c_options = options;
+    c_options.radius_user = &field;
+    return detail::make(out, [&](auto **points) { return field.after(sample(c_options, points)); });
+}
+
+// ---- Relaxation: `report` may be null; a cancelled call succeeds, as the report says -----------
 
 namespace detail {
 
-/// A function of the caller's that the library calls on several threads; it keeps what the function throws.
-template <std::size_t dimension>
-struct Guest {
-    const std::function<double(const std::array<double, dimension> &)> &function;
-    std::mutex lock;
-    std::exception_ptr thrown;
-
-    static double call(void *user, const double *position) noexcept {
-        auto *guest = static_cast<Guest *>(user);
-        try {
-            std::array<double, dimension> place;
-            std::copy_n(position, dimension, place.begin());
-            return guest->function(place);
-        } catch (...) {
-            const std::lock_guard<std::mutex> guard(guest->lock);
-            guest->thrown = std::current_exception();
-            return std::numeric_limits<double>::quiet_NaN(); // which fails the call
-        }
+/// Calls with the C struct of a density.
+template <class Call>
+Status with_density(const Density &density, Points &out, Call call) {
+    const auto values = density.values;
+    if (!values.empty() && (density.width == 0 || values.size() % density.width != 0)) {
+        return Status(AZULEJO_ERROR_INVALID_ARGUMENT,
+                      "values: " + std::to_string(values.size()) +
+                          " numbers are not a multiple of " + std::to_string(density.width));
     }
-
-    /// The status of a call, unless the function threw in it.
-    azulejo_status checked(azulejo_status status) const {
-        if (thrown) {
-            std::rethrow_exception(thrown);
-        }
-        return status;
-    }
-};
-
-/// The C struct of a density, whose function is the guest's.
-inline azulejo_density density(const Density &density, Guest<2> &guest) {
-    azulejo_density result;
-    check(azulejo_density_init(&result, sizeof result));
-    result.values = density.values.data();
-    result.width = density.width;
-    result.height = density.values.empty() ? 0 : groups(density.values.size(), density.width, "values");
-    result.function = density.function ? &Guest<2>::call : nullptr;
-    result.user = &guest;
-    return result;
+    Field<2> field(density.function);
+    azulejo_density wanted = {};
+    if (Status s{azulejo_density_init(&wanted, sizeof wanted)}; !s.ok()) return s;
+    wanted.values = values.data();
+    wanted.width = density.width;
+    wanted.height = values.empty() ? 0 : values.size() / density.width;
+    wanted.function = density.function ? &Field<2>::call : nullptr;
+    wanted.user = &field;
+    return make(out, [&](auto **points) { return field.after(call(&wanted, points)); });
 }
 
 } // namespace detail
 
-/// Samples of a mesh, each with a radius of its own; see azulejo_psp_sample_adaptive. `report` may be null.
-inline Points psp_sample_adaptive(const Context &context, const Mesh &mesh, const AdaptiveOptions &options,
-                                  PspReport *report = nullptr) {
-    detail::Guest<3> guest{options.radius, {}, nullptr};
-    azulejo_points *points = nullptr;
-    detail::watched(options, [&](auto *o) {
-        o->vertex_radii = options.vertex_radii.data();
-        o->vertex_count = options.vertex_radii.size();
-        o->radius = options.radius ? &detail::Guest<3>::call : nullptr;
-        o->radius_user = &guest;
-        return guest.checked(azulejo_psp_sample_adaptive(context.get(), mesh.get(), o, &points, report));
-    });
-    return Points(points);
-}
-
-namespace detail {
-
-/// The points of a call that succeeds when it is cancelled: they need an owner before the callback's exception goes on.
-template <class O, class F> Points relaxed(const O &options, F call) {
-    Points points(nullptr);
-    watched(options, [&](auto *o) {
-        azulejo_points *relaxed = nullptr;
-        const auto status = call(o, &relaxed);
-        points = Points(relaxed);
-        return status;
-    });
-    return points;
-}
-
-} // namespace detail
-
-/// Relaxes points of the plane, x y each; see azulejo_dcr_relax. `report` may be null.
-inline Points dcr_relax(const Context &context, const DcrOptions &options, Span<const float> xy,
-                        DcrReport *report = nullptr) {
-    const std::size_t count = detail::groups(xy.size(), 2, "xy");
-    return detail::relaxed(options, [&](auto *o, azulejo_points **out) {
-        return azulejo_dcr_relax(context.get(), o, xy.data(), count, out, report);
+/// Relaxes points of the plane; see azulejo_dcr_relax.
+inline Status try_dcr_relax(const Context &context, const DcrOptions &options,
+                            const PlanePoints &xy, Points &out, DcrReport *report = nullptr) {
+    if (Status s = xy.check("xy"); !s.ok()) return s;
+    return detail::make(out, [&](auto **points) {
+        return azulejo_dcr_relax(context.get(), &options, xy.data(), xy.size(), points, report);
     });
 }
 
 /// Random points of the plane, as dense as asked for; see azulejo_dcr_scatter.
-inline Points dcr_scatter(const Context &context, const DcrOptions &options, const Density &density, std::size_t count) {
-    detail::Guest<2> guest{density.function, {}, nullptr};
-    const azulejo_density wanted = detail::density(density, guest);
-    azulejo_points *points = nullptr;
-    check(guest.checked(azulejo_dcr_scatter(context.get(), &options, &wanted, count, &points)));
-    return Points(points);
-}
-
-/// Relaxes points of the plane, x y each, to a density; see azulejo_dcr_relax_density. `report` may be null.
-inline Points dcr_relax_density(const Context &context, const DcrOptions &options, const Density &density,
-                                Span<const float> xy, DcrReport *report = nullptr) {
-    detail::Guest<2> guest{density.function, {}, nullptr};
-    const azulejo_density wanted = detail::density(density, guest);
-    const std::size_t count = detail::groups(xy.size(), 2, "xy");
-    return detail::relaxed(options, [&](auto *o, azulejo_points **out) {
-        return guest.checked(azulejo_dcr_relax_density(context.get(), o, &wanted, xy.data(), count, out, report));
+inline Status try_dcr_scatter(const Context &context, const DcrOptions &options,
+                              const Density &density, std::size_t count, Points &out) {
+    return detail::with_density(density, out, [&](const azulejo_density *wanted, auto **points) {
+        return azulejo_dcr_scatter(context.get(), &options, wanted, count, points);
     });
 }
 
-/// Relaxes samples of a mesh, a triangle and the barycentrics u v for each; see azulejo_dcr_relax_surface. `report` may be
-/// null.
-inline Points dcr_relax_surface(const Context &context, const Mesh &mesh, const DcrSurfaceOptions &options,
-                                Span<const std::uint32_t> triangles, Span<const float> barycentrics,
-                                DcrSurfaceReport *report = nullptr) {
-    const std::size_t count = detail::groups(barycentrics.size(), 2, "barycentrics");
-    if (count != triangles.size()) {
-        throw Error(AZULEJO_ERROR_INVALID_ARGUMENT, "triangles: there are " + std::to_string(triangles.size()) +
-                                                        ", and barycentrics of " + std::to_string(count) + " samples");
+/// Relaxes points of the plane to a density; see azulejo_dcr_relax_density.
+inline Status try_dcr_relax_density(const Context &context, const DcrOptions &options,
+                                    const Density &density, const PlanePoints &xy, Points &out,
+                                    DcrReport *report = nullptr) {
+    if (Status s = xy.check("xy"); !s.ok()) return s;
+    return detail::with_density(density, out, [&](const azulejo_density *wanted, auto **points) {
+        return azulejo_dcr_relax_density(context.get(), &options, wanted, xy.data(), xy.size(),
+                                         points, report);
+    });
+}
+
+/// Relaxes samples of a mesh, a triangle and the barycentrics u v for each; see
+/// azulejo_dcr_surface_relax.
+inline Status try_dcr_surface_relax(const Context &context, const Mesh &mesh,
+                                    const DcrSurfaceOptions &options,
+                                    Span<const std::uint32_t> triangles,
+                                    const Tuples<float, 2> &barycentrics, Points &out,
+                                    DcrSurfaceReport *report = nullptr) {
+    if (Status s = barycentrics.check("barycentrics"); !s.ok()) return s;
+    if (barycentrics.size() != triangles.size()) {
+        return Status(AZULEJO_ERROR_INVALID_ARGUMENT,
+                      "triangles: there are " + std::to_string(triangles.size()) +
+                          ", and barycentrics of " + std::to_string(barycentrics.size()) +
+                          " samples");
     }
-    return detail::relaxed(options, [&](auto *o, azulejo_points **out) {
-        return azulejo_dcr_relax_surface(context.get(), mesh.get(), o, triangles.data(), barycentrics.data(), count,
-                                         out, report);
+    return detail::make(out, [&](auto **points) {
+        return azulejo_dcr_surface_relax(context.get(), mesh.get(), &options, triangles.data(),
+                                         barycentrics.data(), triangles.size(), points, report);
     });
 }
 
-/// See azulejo_plane_smallest_distance; the domain as in the options.
-inline double plane_smallest_distance(const Context &context, Span<const float> xy, const double (&domain_min)[2],
-                                      const double (&domain_max)[2], std::int32_t boundary,
-                                      const Progress &progress = nullptr) {
-    double distance = 0;
-    detail::measured(context, progress, [&](const azulejo_context *c) {
-        return azulejo_plane_smallest_distance(c, xy.data(), detail::groups(xy.size(), 2, "xy"), domain_min,
-                                               domain_max, boundary, &distance);
-    });
-    return distance;
+/// The same for a set that was sampled on the mesh.
+inline Status try_dcr_surface_relax(const Context &context, const Mesh &mesh,
+                                    const DcrSurfaceOptions &options, const Points &samples,
+                                    Points &out, DcrSurfaceReport *report = nullptr) {
+    if (Status s = SpacePoints(samples).check("samples"); !s.ok()) return s;
+    return try_dcr_surface_relax(context, mesh, options, samples.triangles(),
+                                 samples.barycentrics(), out, report);
 }
 
-/// See azulejo_plane_covering_radius; the domain as in the options.
-inline double plane_covering_radius(const Context &context, Span<const float> xy, const double (&domain_min)[2],
-                                    const double (&domain_max)[2], std::int32_t boundary,
-                                    const Progress &progress = nullptr) {
-    double radius = 0;
-    detail::measured(context, progress, [&](const azulejo_context *c) {
-        return azulejo_plane_covering_radius(c, xy.data(), detail::groups(xy.size(), 2, "xy"), domain_min, domain_max,
-                                             boundary, &radius);
+// ---- Analysis ----------------------------------------------------------------------------------
+
+namespace detail {
+
+/// The C struct of a set.
+inline Status plane_set(const PlaneSet &set, azulejo_plane_set &out) {
+    if (Status s = set.positions.check("positions"); !s.ok()) return s;
+    if (Status s{azulejo_plane_set_init(&out, sizeof out)}; !s.ok()) return s;
+    out.boundary = set.domain.boundary;
+    out.positions = set.positions.data();
+    out.count = set.positions.size();
+    std::copy_n(set.domain.min.data(), 2, out.domain_min);
+    std::copy_n(set.domain.max.data(), 2, out.domain_max);
+    return Status();
+}
+
+/// Makes a C call with the C struct of a set.
+template <class Call>
+Status measured(const PlaneSet &set, Call call) {
+    azulejo_plane_set c_set = {};
+    if (Status s = plane_set(set, c_set); !s.ok()) return s;
+    return run([&] { return call(&c_set); });
+}
+
+/// The most bins that a call allows; a larger number is refused by it and has no array here.
+inline constexpr std::size_t most_bins = 65536;
+
+/// The C handles of several owners.
+template <class Owner>
+std::vector<const typename Owner::Handle *> handles(Span<const Owner> owners) {
+    std::vector<const typename Owner::Handle *> handles;
+    for (const Owner &owner : owners) handles.push_back(owner.get());
+    return handles;
+}
+
+} // namespace detail
+
+/// See azulejo_plane_smallest_distance.
+inline Status try_plane_smallest_distance(const Context &context, const PlaneSet &set,
+                                          double &out) {
+    return detail::measured(set, [&](const auto *s) {
+        return azulejo_plane_smallest_distance(context.get(), s, &out);
     });
-    return radius;
+}
+
+/// See azulejo_plane_covering_radius.
+inline Status try_plane_covering_radius(const Context &context, const PlaneSet &set, double &out) {
+    return detail::measured(
+        set, [&](const auto *s) { return azulejo_plane_covering_radius(context.get(), s, &out); });
+}
+
+/// See azulejo_plane_coverage.
+inline Status try_plane_coverage(const Context &context, const PlaneSet &set, double radius,
+                                 CoverageReport &out) {
+    return detail::measured(
+        set, [&](const auto *s) { return azulejo_plane_coverage(context.get(), s, radius, &out); });
+}
+
+/// See azulejo_plane_measure.
+inline Status try_plane_measure(const Context &context, const PlaneSet &set, PlaneReport &out) {
+    return detail::measured(
+        set, [&](const auto *s) { return azulejo_plane_measure(context.get(), s, &out); });
+}
+
+/// See azulejo_plane_nearest_histogram.
+inline Status try_plane_nearest_histogram(const Context &context, const PlaneSet &set, double reach,
+                                          std::size_t bins, std::vector<std::uint64_t> &out) {
+    std::vector<std::uint64_t> histogram(std::min(bins, detail::most_bins));
+    Status status = detail::measured(set, [&](const auto *s) {
+        return azulejo_plane_nearest_histogram(context.get(), s, reach, bins, histogram.data());
+    });
+    if (status.ok()) out = std::move(histogram);
+    return status;
+}
+
+/// See azulejo_plane_radial_distribution.
+inline Status try_plane_radial_distribution(const Context &context, const PlaneSet &set,
+                                            double reach, std::size_t bins,
+                                            std::vector<double> &out) {
+    std::vector<double> density(std::min(bins, detail::most_bins));
+    Status status = detail::measured(set, [&](const auto *s) {
+        return azulejo_plane_radial_distribution(context.get(), s, reach, bins, density.data());
+    });
+    if (status.ok()) out = std::move(density);
+    return status;
 }
 
 /// See azulejo_space_smallest_distance.
-inline double space_smallest_distance(const Context &context, Span<const float> positions,
-                                      const Progress &progress = nullptr) {
-    double distance = 0;
-    detail::measured(context, progress, [&](const azulejo_context *c) {
-        return azulejo_space_smallest_distance(c, positions.data(), detail::groups(positions.size(), 3, "positions"),
-                                               &distance);
+inline Status try_space_smallest_distance(const Context &context, const SpacePoints &positions,
+                                          double &out) {
+    if (Status s = positions.check("positions"); !s.ok()) return s;
+    return detail::run([&] {
+        return azulejo_space_smallest_distance(context.get(), positions.data(), positions.size(),
+                                               &out);
     });
-    return distance;
 }
 
 /// See azulejo_mesh_uncovered_fraction.
-inline double mesh_uncovered_fraction(const Context &context, const Mesh &mesh, Span<const float> positions, double radius,
-                                      std::uint64_t probes, std::uint64_t seed = 0,
-                                      const Progress &progress = nullptr) {
-    double fraction = 0;
-    detail::measured(context, progress, [&](const azulejo_context *c) {
-        return azulejo_mesh_uncovered_fraction(c, mesh.get(), positions.data(),
-                                               detail::groups(positions.size(), 3, "positions"), radius, probes, seed,
-                                               &fraction);
+inline Status try_mesh_uncovered_fraction(const Context &context, const Mesh &mesh,
+                                          const SpacePoints &positions, double radius,
+                                          std::uint64_t probes, std::uint64_t seed, double &out) {
+    if (Status s = positions.check("positions"); !s.ok()) return s;
+    return detail::run([&] {
+        return azulejo_mesh_uncovered_fraction(context.get(), mesh.get(), positions.data(),
+                                               positions.size(), radius, probes, seed, &out);
     });
-    return fraction;
 }
 
 /// See azulejo_mesh_coverage.
-inline Coverage mesh_coverage(const Context &context, const Mesh &mesh, Span<const float> positions, double radius,
-                              const Progress &progress = nullptr) {
-    Coverage coverage;
-    detail::measured(context, progress, [&](const azulejo_context *c) {
-        return azulejo_mesh_coverage(c, mesh.get(), positions.data(),
-                                     detail::groups(positions.size(), 3, "positions"), radius, &coverage);
+inline Status try_mesh_coverage(const Context &context, const Mesh &mesh,
+                                const SpacePoints &positions, double radius, CoverageReport &out) {
+    if (Status s = positions.check("positions"); !s.ok()) return s;
+    return detail::run([&] {
+        return azulejo_mesh_coverage(context.get(), mesh.get(), positions.data(), positions.size(),
+                                     radius, &out);
     });
-    return coverage;
-}
-
-/// See azulejo_plane_coverage; the domain as in the options.
-inline Coverage plane_coverage(const Context &context, Span<const float> xy, const double (&domain_min)[2],
-                               const double (&domain_max)[2], std::int32_t boundary, double radius,
-                               const Progress &progress = nullptr) {
-    Coverage coverage;
-    detail::measured(context, progress, [&](const azulejo_context *c) {
-        return azulejo_plane_coverage(c, xy.data(), detail::groups(xy.size(), 2, "xy"), domain_min, domain_max,
-                                      boundary, radius, &coverage);
-    });
-    return coverage;
-}
-
-/// See azulejo_plane_measure; the domain as in the options.
-inline PlaneReport plane_measure(const Context &context, Span<const float> xy, const double (&domain_min)[2],
-                                 const double (&domain_max)[2], std::int32_t boundary,
-                                 const Progress &progress = nullptr) {
-    PlaneReport report;
-    detail::measured(context, progress, [&](const azulejo_context *c) {
-        return azulejo_plane_measure(c, xy.data(), detail::groups(xy.size(), 2, "xy"), domain_min, domain_max,
-                                     boundary, &report);
-    });
-    return report;
-}
-
-/// See azulejo_plane_nearest_histogram; the domain as in the options.
-inline std::vector<std::uint64_t> plane_nearest_histogram(const Context &context, Span<const float> xy,
-                                                          const double (&domain_min)[2], const double (&domain_max)[2],
-                                                          std::int32_t boundary, double reach, std::size_t bins,
-                                                          const Progress &progress = nullptr) {
-    std::vector<std::uint64_t> histogram(bins);
-    detail::measured(context, progress, [&](const azulejo_context *c) {
-        return azulejo_plane_nearest_histogram(c, xy.data(), detail::groups(xy.size(), 2, "xy"), domain_min,
-                                               domain_max, boundary, reach, bins, histogram.data());
-    });
-    return histogram;
-}
-
-/// See azulejo_plane_radial_distribution; the domain as in the options.
-inline std::vector<double> plane_radial_distribution(const Context &context, Span<const float> xy,
-                                                     const double (&domain_min)[2], const double (&domain_max)[2],
-                                                     std::int32_t boundary, double reach, std::size_t bins,
-                                                     const Progress &progress = nullptr) {
-    std::vector<double> density(bins);
-    detail::measured(context, progress, [&](const azulejo_context *c) {
-        return azulejo_plane_radial_distribution(c, xy.data(), detail::groups(xy.size(), 2, "xy"), domain_min,
-                                                 domain_max, boundary, reach, bins, density.data());
-    });
-    return density;
 }
 
 /// The power spectrum of a set of the plane, or the mean of several; see azulejo_spectrum.
-class Spectrum {
+class Spectrum : public Owner<azulejo_spectrum, azulejo_spectrum_free> {
 public:
-    /// See azulejo_spectrum_create; the domain as in the options.
-    Spectrum(const Context &context, Span<const float> xy, const double (&domain_min)[2],
-             const double (&domain_max)[2], std::int32_t boundary, std::uint32_t size, std::uint32_t stride = 1,
-             const Progress &progress = nullptr) {
-        azulejo_spectrum *handle = nullptr;
-        detail::measured(context, progress, [&](const azulejo_context *c) {
-            return azulejo_spectrum_create(c, xy.data(), detail::groups(xy.size(), 2, "xy"), domain_min, domain_max,
-                                           boundary, size, stride, &handle);
+    using Owner::Owner;
+    Spectrum() noexcept = default;
+
+    /// See azulejo_spectrum_create.
+    static Status try_create(const Context &context, const PlaneSet &set, std::uint32_t size,
+                             std::uint32_t stride, Spectrum &out) {
+        azulejo_plane_set c_set = {};
+        if (Status s = detail::plane_set(set, c_set); !s.ok()) return s;
+        return detail::make(out, [&](auto **spectrum) {
+            return azulejo_spectrum_create(context.get(), &c_set, size, stride, spectrum);
         });
-        handle_.reset(handle);
     }
 
     /// See azulejo_spectrum_mean.
-    static Spectrum mean(Span<const Spectrum> spectra) {
-        const std::vector<const azulejo_spectrum *> handles = detail::handles<azulejo_spectrum>(spectra);
-        azulejo_spectrum *handle = nullptr;
-        check(azulejo_spectrum_mean(handles.data(), handles.size(), &handle));
-        return Spectrum(handle);
+    static Status try_mean(Span<const Spectrum> spectra, Spectrum &out) {
+        const auto handles = detail::handles(spectra);
+        return detail::make(out, [&](auto **spectrum) {
+            return azulejo_spectrum_mean(handles.data(), handles.size(), spectrum);
+        });
     }
 
-    /// The frequencies per side.
+    /// See azulejo_spectrum_radial.
+    Status try_radial(double width, std::vector<Annulus> &out) const {
+        std::size_t count = 0;
+        if (Status s{azulejo_spectrum_radial(get(), width, nullptr, 0, &count)}; !s.ok()) return s;
+        std::vector<Annulus> annuli(count);
+        Status status(azulejo_spectrum_radial(get(), width, annuli.data(), count, &count));
+        if (status.ok()) out = std::move(annuli);
+        return status;
+    }
+
+    /// See azulejo_spectrum_measure.
+    Status try_measure(double width, double low, double high, SpectrumReport &out) const {
+        return Status(azulejo_spectrum_measure(get(), width, low, high, &out));
+    }
+
+#ifndef AZULEJO_NO_EXCEPTIONS
+    Spectrum(const Context &context, const PlaneSet &set, std::uint32_t size,
+             std::uint32_t stride = 1) {
+        check(try_create(context, set, size, stride, *this));
+    }
+
+    static Spectrum mean(Span<const Spectrum> spectra) {
+        Spectrum mean;
+        check(try_mean(spectra, mean));
+        return mean;
+    }
+
+    std::vector<Annulus> radial(double width) const {
+        std::vector<Annulus> annuli;
+        check(try_radial(width, annuli));
+        return annuli;
+    }
+
+    SpectrumReport measure(double width, double low, double high) const {
+        SpectrumReport report;
+        check(try_measure(width, low, high, report));
+        return report;
+    }
+#endif
+
+    /// The frequencies per side; see azulejo_spectrum_size.
     std::uint32_t size() const noexcept { return azulejo_spectrum_size(get()); }
-    /// size() * size() numbers, row by row.
+    /// size() * size() numbers, row by row; see azulejo_spectrum_power.
     Span<const float> power() const noexcept {
         return {azulejo_spectrum_power(get()), std::size_t(size()) * size()};
     }
-    /// See azulejo_spectrum_radial.
-    std::vector<Annulus> radial(double width) const {
-        std::size_t count = 0;
-        check(azulejo_spectrum_radial(get(), width, nullptr, 0, &count));
-        std::vector<Annulus> annuli(count);
-        check(azulejo_spectrum_radial(get(), width, annuli.data(), count, &count));
-        return annuli;
-    }
-    /// See azulejo_spectrum_measure.
-    SpectrumReport measure(double width, double low, double high) const {
-        SpectrumReport report;
-        check(azulejo_spectrum_measure(get(), width, low, high, &report));
-        return report;
-    }
-    /// The C handle, which stays this object's.
-    const azulejo_spectrum *get() const noexcept { return handle_.get(); }
-
-private:
-    explicit Spectrum(azulejo_spectrum *handle) noexcept : handle_(handle) {}
-
-    detail::Handle<azulejo_spectrum, azulejo_spectrum_free> handle_;
 };
 
 /// The differences of samples on a mesh, or of several sets; see azulejo_differences.
-class Differences {
+class Differences : public Owner<azulejo_differences, azulejo_differences_free> {
 public:
+    using Owner::Owner;
+    Differences() noexcept = default;
+
     /// See azulejo_differences_create.
-    Differences(const Context &context, const Mesh &mesh, Span<const float> positions, Span<const float> normals,
-                const double (&direction)[3], std::uint64_t seed = 0, const Progress &progress = nullptr) {
+    static Status try_create(const Context &context, const Mesh &mesh, const SpacePoints &positions,
+                             const SpacePoints &normals, const Triple &direction,
+                             std::uint64_t seed, Differences &out) {
+        if (Status s = positions.check("positions"); !s.ok()) return s;
+        if (Status s = normals.check("normals"); !s.ok()) return s;
         if (normals.size() != positions.size()) {
-            throw Error(AZULEJO_ERROR_INVALID_ARGUMENT, "normals: " + std::to_string(normals.size()) +
-                                                            " numbers, not as many as positions");
+            return Status(AZULEJO_ERROR_INVALID_ARGUMENT,
+                          "normals: there are " + std::to_string(normals.size()) + ", and " +
+                              std::to_string(positions.size()) + " positions");
         }
-        azulejo_differences *handle = nullptr;
-        detail::measured(context, progress, [&](const azulejo_context *c) {
-            return azulejo_differences_create(c, mesh.get(), positions.data(), normals.data(),
-                                              detail::groups(positions.size(), 3, "positions"), direction, seed,
-                                              &handle);
+        return detail::make(out, [&](auto **differences) {
+            return azulejo_differences_create(context.get(), mesh.get(), positions.data(),
+                                              normals.data(), positions.size(), direction.data(),
+                                              seed, differences);
         });
-        handle_.reset(handle);
     }
 
     /// See azulejo_differences_mean.
-    static Differences mean(Span<const Differences> differences) {
-        const std::vector<const azulejo_differences *> handles = detail::handles<azulejo_differences>(differences);
-        azulejo_differences *handle = nullptr;
-        check(azulejo_differences_mean(handles.data(), handles.size(), &handle));
-        return Differences(handle);
+    static Status try_mean(Span<const Differences> differences, Differences &out) {
+        const auto handles = detail::handles(differences);
+        return detail::make(out, [&](auto **mean) {
+            return azulejo_differences_mean(handles.data(), handles.size(), mean);
+        });
     }
+
+    /// See azulejo_differences_power.
+    Status try_power(Span<const double> frequencies, std::vector<double> &out) const {
+        std::vector<double> power(frequencies.size());
+        Status status(
+            azulejo_differences_power(get(), frequencies.data(), power.size(), power.data()));
+        if (status.ok()) out = std::move(power);
+        return status;
+    }
+
+#ifndef AZULEJO_NO_EXCEPTIONS
+    Differences(const Context &context, const Mesh &mesh, const SpacePoints &positions,
+                const SpacePoints &normals, const Triple &direction, std::uint64_t seed = 0) {
+        check(try_create(context, mesh, positions, normals, direction, seed, *this));
+    }
+
+    static Differences mean(Span<const Differences> differences) {
+        Differences mean;
+        check(try_mean(differences, mean));
+        return mean;
+    }
+
+    std::vector<double> power(Span<const double> frequencies) const {
+        std::vector<double> power;
+        check(try_power(frequencies, power));
+        return power;
+    }
+#endif
 
     /// See azulejo_differences_density.
     Span<const double> density() const noexcept {
         const double *data = azulejo_differences_density(get());
-        return {data, data ? std::size_t(AZULEJO_DIFFERENCES_SIZE) * AZULEJO_DIFFERENCES_SIZE : 0};
+        constexpr std::size_t size = AZULEJO_DIFFERENCES_SIZE;
+        return {data, data ? size * size : 0};
     }
     /// See azulejo_differences_radial.
     Span<const double> radial() const noexcept {
         const double *data = azulejo_differences_radial(get());
         return {data, data ? std::size_t(AZULEJO_DIFFERENCES_SHELLS) : 0};
     }
-    /// See azulejo_differences_power.
-    std::vector<double> power(Span<const double> frequencies) const {
-        std::vector<double> power(frequencies.size());
-        check(azulejo_differences_power(get(), frequencies.data(), frequencies.size(), power.data()));
-        return power;
-    }
-    /// The C handle, which stays this object's.
-    const azulejo_differences *get() const noexcept { return handle_.get(); }
-
-private:
-    explicit Differences(azulejo_differences *handle) noexcept : handle_(handle) {}
-
-    detail::Handle<azulejo_differences, azulejo_differences_free> handle_;
 };
+
+// ---- The throwing forms: each does what its try_ function says ---------------------------------
+
+#ifndef AZULEJO_NO_EXCEPTIONS
+
+inline Points kdrt_sample(const Context &context, const KdrtOptions &options,
+                          KdrtReport *report = nullptr) {
+    Points points;
+    check(try_kdrt_sample(context, options, points, report));
+    return points;
+}
+
+inline Points kdrt_sample_window(const Context &context, const KdrtOptions &options,
+                                 const Pair &window_min, const Pair &window_max) {
+    Points points;
+    check(try_kdrt_sample_window(context, options, window_min, window_max, points));
+    return points;
+}
+
+inline void kdrt_stream(const Context &context, const KdrtOptions &options,
+                        const KdrtVisitor &visit) {
+    check(try_kdrt_stream(context, options, visit));
+}
+
+inline Points kdrt_merge(const Context &context, const KdrtMergeOptions &options,
+                         Span<const KdrtMergePiece> pieces, const PlanePoints &fixed = {},
+                         KdrtMergeReport *report = nullptr) {
+    Points points;
+    check(try_kdrt_merge(context, options, pieces, fixed, points, report));
+    return points;
+}
+
+inline Points maximal_sample(const Context &context, const MaximalOptions &options) {
+    Points points;
+    check(try_maximal_sample(context, options, points));
+    return points;
+}
+
+inline Points psp_sample(const Context &context, const Mesh &mesh, const PspOptions &options,
+                         PspReport *report = nullptr) {
+    Points points;
+    check(try_psp_sample(context, mesh, options, points, report));
+    return points;
+}
+
+inline Points psp_adaptive_sample(const Context &context, const Mesh &mesh,
+                                  const PspAdaptiveOptions &options, PspReport *report = nullptr) {
+    Points points;
+    check(try_psp_adaptive_sample(context, mesh, options, points, report));
+    return points;
+}
+
+inline Points dcr_relax(const Context &context, const DcrOptions &options, const PlanePoints &xy,
+                        DcrReport *report = nullptr) {
+    Points points;
+    check(try_dcr_relax(context, options, xy, points, report));
+    return points;
+}
+
+inline Points dcr_scatter(const Context &context, const DcrOptions &options, const Density &density,
+                          std::size_t count) {
+    Points points;
+    check(try_dcr_scatter(context, options, density, count, points));
+    return points;
+}
+
+inline Points dcr_relax_density(const Context &context, const DcrOptions &options,
+                                const Density &density, const PlanePoints &xy,
+                                DcrReport *report = nullptr) {
+    Points points;
+    check(try_dcr_relax_density(context, options, density, xy, points, report));
+    return points;
+}
+
+inline Points dcr_surface_relax(const Context &context, const Mesh &mesh,
+                                const DcrSurfaceOptions &options,
+                                Span<const std::uint32_t> triangles,
+                                const Tuples<float, 2> &barycentrics,
+                                DcrSurfaceReport *report = nullptr) {
+    Points points;
+    check(try_dcr_surface_relax(context, mesh, options, triangles, barycentrics, points, report));
+    return points;
+}
+
+inline Points dcr_surface_relax(const Context &context, const Mesh &mesh,
+                                const DcrSurfaceOptions &options, const Points &samples,
+                                DcrSurfaceReport *report = nullptr) {
+    Points points;
+    check(try_dcr_surface_relax(context, mesh, options, samples, points, report));
+    return points;
+}
+
+inline double plane_smallest_distance(const Context &context, const PlaneSet &set) {
+    double distance = 0;
+    check(try_plane_smallest_distance(context, set, distance));
+    return distance;
+}
+
+inline double plane_covering_radius(const Context &context, const PlaneSet &set) {
+    double radius = 0;
+    check(try_plane_covering_radius(context, set, radius));
+    return radius;
+}
+
+inline CoverageReport plane_coverage(const Context &context, const PlaneSet &set, double radius) {
+    CoverageReport coverage;
+    check(try_plane_coverage(context, set, radius, coverage));
+    return coverage;
+}
+
+inline PlaneReport plane_measure(const Context &context, const PlaneSet &set) {
+    PlaneReport report;
+    check(try_plane_measure(context, set, report));
+    return report;
+}
+
+inline std::vector<std::uint64_t> plane_nearest_histogram(const Context &context,
+                                                          const PlaneSet &set, double reach,
+                                                          std::size_t bins) {
+    std::vector<std::uint64_t> histogram;
+    check(try_plane_nearest_histogram(context, set, reach, bins, histogram));
+    return histogram;
+}
+
+inline std::vector<double> plane_radial_distribution(const Context &context, const PlaneSet &set,
+                                                     double reach, std::size_t bins) {
+    std::vector<double> density;
+    check(try_plane_radial_distribution(context, set, reach, bins, density));
+    return density;
+}
+
+inline double space_smallest_distance(const Context &context, const SpacePoints &positions) {
+    double distance = 0;
+    check(try_space_smallest_distance(context, positions, distance));
+    return distance;
+}
+
+inline double mesh_uncovered_fraction(const Context &context, const Mesh &mesh,
+                                      const SpacePoints &positions, double radius,
+                                      std::uint64_t probes, std::uint64_t seed = 0) {
+    double fraction = 0;
+    check(try_mesh_uncovered_fraction(context, mesh, positions, radius, probes, seed, fraction));
+    return fraction;
+}
+
+inline CoverageReport mesh_coverage(const Context &context, const Mesh &mesh,
+                                    const SpacePoints &positions, double radius) {
+    CoverageReport coverage;
+    check(try_mesh_coverage(context, mesh, positions, radius, coverage));
+    return coverage;
+}
+
+#endif // AZULEJO_NO_EXCEPTIONS
+
+#ifdef AZULEJO_NO_EXCEPTIONS
+} // namespace no_exceptions
+#endif
 
 } // namespace azulejo
 

@@ -57,6 +57,16 @@ apt_settings() {
     apt-config dump | grep -iE '^Acquire::(http|https|Retries|Check-Date|Check-Valid-Until)\b.* ".+";$' || true
 }
 
+# Mirrors fail now and then.
+attempts() { # COMMAND...
+    "$@" || { sleep 10 && "$@"; } || { sleep 30 && "$@"; }
+}
+
+from_nothing() { # FOLDER COMMAND...
+    rm -rf "$1"
+    "${@:2}"
+}
+
 bootstrap() { # SUITE CACHE ROOT
     local suite=$1 cache=$2 root=$3 mirror keyring proxy
     mirror=${AZULEJO_DEBIAN_MIRROR:-$(find_mirror)}
@@ -69,8 +79,8 @@ bootstrap() { # SUITE CACHE ROOT
     [ -z "${proxy:-}" ] || export http_proxy=${http_proxy:-$proxy}
 
     mkdir -p "$cache/packages"
-    debootstrap --variant=minbase --keyring="$keyring" --cache-dir="$cache/packages" \
-        "$suite" "$root" "$mirror" >"$cache/bootstrap.log" 2>&1 ||
+    attempts from_nothing "$root" debootstrap --variant=minbase --keyring="$keyring" \
+        --cache-dir="$cache/packages" "$suite" "$root" "$mirror" >"$cache/bootstrap.log" 2>&1 ||
         die "debootstrap failed; $cache/bootstrap.log ends with: $(tail -n 3 "$cache/bootstrap.log")"
     apt_settings >"$root/etc/apt/apt.conf.d/90machine"
     # A root that can be made anew need not wait for the disk.
@@ -106,10 +116,10 @@ install_packages() { # CACHE ROOT PACKAGE...
     shift 2
     echo "$(basename "$0"): installing in $root: $*" >&2
     network "$root"
-    chroot "$root" env DEBIAN_FRONTEND=noninteractive LC_ALL=C PATH=/usr/sbin:/usr/bin:/sbin:/bin sh -ec '
+    attempts chroot "$root" env DEBIAN_FRONTEND=noninteractive LC_ALL=C PATH=/usr/sbin:/usr/bin:/sbin:/bin sh -ec '
         dpkg --configure -a
         apt-get update -qq
-        apt-get install -qq --no-install-recommends "$@"
+        apt-get install -qq --no-install-recommends -o Acquire::Retries=3 "$@"
         apt-get clean' sh "$@" >"$cache/install.log" 2>&1 ||
         die "apt-get failed in the root; $cache/install.log ends with: $(tail -n 3 "$cache/install.log")"
 }

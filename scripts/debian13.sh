@@ -10,10 +10,10 @@ PATH=$PATH:/usr/sbin:/sbin
 
 . "$(dirname "$0")/debian-root.sh"
 
-# Beside those of every root; dpkg-dev and file are what cpack makes Debian packages with.
+# In addition to the packages of every root; cpack needs dpkg-dev and file to make Debian packages.
 packages=(libembree-dev libclang-dev dpkg-dev file)
 
-# --- Outside: as the user, who knows where the Rust toolchain is and who owns cargo's registry ---
+# --- Outside: as the user, whose environment names the Rust toolchain and cargo's registry ---
 
 outside() {
     local source cache sysroot settings sudo=()
@@ -57,15 +57,16 @@ inside() {
     mount_system "$root"
     show "$source" "$root/azulejo"
     show "$sysroot" "$root/opt/rust"
-    # Of cargo's home only what holds packages and says where they are from: never its credentials.
-    mkdir -p "$root/opt/cargo"
+    # Of cargo's home only what holds packages and says where they are from: never its credentials. It is where it is
+    # outside, or cargo would not take over what was compiled there (share-packages.sh).
+    mkdir -p "$root$cargo_home"
     for part in registry git config.toml; do
-        [ ! -e "$cargo_home/$part" ] || show "$cargo_home/$part" "$root/opt/cargo/$part"
+        [ ! -e "$cargo_home/$part" ] || show "$cargo_home/$part" "$root$cargo_home/$part"
     done
     mapfile -t settings < <(settings)
     exec chroot "$root" env -i "${settings[@]}" HOME=/root LC_ALL=C.UTF-8 \
         PATH=/opt/rust/bin:/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin \
-        CARGO_HOME=/opt/cargo CARGO_TARGET_DIR=/var/cache/azulejo CARGO_NET_OFFLINE=true \
+        CARGO_HOME="$cargo_home" CARGO_TARGET_DIR=/var/cache/azulejo CARGO_NET_OFFLINE=true \
         sh -c 'cd /azulejo && exec "$@"' sh "$@"
 }
 

@@ -8,7 +8,8 @@
 # target/fuzz/artifacts, and `scripts/fuzz.sh TARGET FILE` runs one of them again. Needs a nightly compiler; without one
 # nothing is done, which is said.
 set -euo pipefail
-cd "$(dirname "$0")/.."
+root=$(cd "$(dirname "$0")/.." && pwd)
+cd "$root"
 
 if ! rustc +nightly --version >/dev/null 2>&1; then
     echo "SKIPPED: fuzzing, since there is no nightly compiler here"
@@ -35,14 +36,10 @@ while [ $# -gt 0 ]; do
 done
 [ ${#targets[@]} -gt 0 ] || mapfile -t targets < <(basename -s .rs fuzz/fuzz_targets/*.rs)
 
-# What libFuzzer needs of the compiler; a target apart, so that build scripts go without.
-host=$(rustc +nightly -vV | sed -n 's/^host: //p')
-export RUSTFLAGS="-Zsanitizer=address -Ccodegen-units=1 -Cpasses=sancov-module
-    -Cllvm-args=-sanitizer-coverage-level=4 -Cllvm-args=-sanitizer-coverage-trace-compares
-    -Cllvm-args=-sanitizer-coverage-inline-8bit-counters -Cllvm-args=-sanitizer-coverage-pc-table"
-cargo +nightly build -j 3 --locked --release --manifest-path fuzz/Cargo.toml --target "$host" \
-    --target-dir target/fuzz $(printf -- '--bin %s ' "${targets[@]}")
-programs=$PWD/target/fuzz/$host/release
+. scripts/instrumented.sh
+mapfile -t binaries < <(printf -- '--bin\n%s\n' "${targets[@]}")
+cargo_instrumented build "${binaries[@]}"
+programs=$instrumented
 
 # A target in a corpus of its own, begun with the seeds; says how many inputs it ran.
 fuzz() {

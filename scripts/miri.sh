@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Runs the calls of the C ABI that need no Embree and one thread, and the tests of the border, under Miri.
+# Tests the FFI boundary under Miri: its unit tests, and each call of the C ABI that needs neither Embree nor a second
+# thread.
 #
 #   scripts/miri.sh
 #
@@ -12,7 +13,7 @@ if ! cargo +nightly miri --version >/dev/null 2>&1; then
     exit 0
 fi
 
-# What asks for files gets no answer in there. Miri warns of optimisations, which it does without.
+# Code that asks for files gets an error inside. Miri ignores optimisations and warns of them.
 export MIRIFLAGS=-Zmiri-isolation-error=hide CARGO_PROFILE_DEV_OPT_LEVEL=0 CARGO_INCREMENTAL=0
 cargo +nightly miri test --quiet --locked --package azulejo-c --lib --target-dir target/miri
 cargo +nightly miri test --quiet --locked --manifest-path fuzz/Cargo.toml --package azulejo-c-abi --target-dir target/miri

@@ -32,6 +32,18 @@ is_installed() {
     [ "$(dpkg-query -W -f '${db:Status-Status}' "$1" 2>/dev/null)" = installed ]
 }
 
+# Mirrors fail now and then: three attempts, and within them some for each file.
+apt() {
+    local attempt
+    for attempt in 1 2 3; do
+        "$@" apt-get update -qq -o Acquire::Retries=3 &&
+            "$@" env DEBIAN_FRONTEND=noninteractive apt-get install -qq --no-install-recommends \
+                -o Acquire::Retries=3 "${missing[@]}" && return
+        sleep $((10 * attempt))
+    done
+    return 1
+}
+
 install_missing() {
     local missing=() sudo=() output
     for package in "$@"; do
@@ -43,10 +55,7 @@ install_missing() {
         command -v sudo >/dev/null || die "not root, and there is no sudo: have root install ${missing[*]}"
         sudo=(sudo)
     fi
-    output=$({
-        "${sudo[@]}" apt-get update -qq &&
-            "${sudo[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -qq --no-install-recommends "${missing[@]}"
-    } 2>&1) || die "apt-get could not install ${missing[*]}: $(tail -n 20 <<<"$output")"
+    output=$(apt "${sudo[@]}" 2>&1) || die "apt-get could not install ${missing[*]}: $(tail -n 20 <<<"$output")"
 }
 
 # Where there is a nightly compiler, what sanitizers and Miri need of it; tests that lack it say so and are skipped.

@@ -1,4 +1,4 @@
-//! The figures of awkward sets against their definitions: few points, coincident ones, points on the border, thin domains.
+//! The figures of awkward sets against their definitions: few points, coincident ones, points on the boundary, thin domains.
 
 #[path = "common/meshes.rs"]
 #[allow(dead_code)]
@@ -27,7 +27,7 @@ fn context() -> Context {
     Context::new(2).unwrap()
 }
 
-/// Domains of several shapes with few points each, some of them coincident or on the border.
+/// Domains of several shapes with few points each, some of them coincident or on the boundary.
 fn cases() -> Vec<(Domain, Vec<[f32; 2]>)> {
     let mut cases = Vec::new();
     for (i, [width, height]) in [[1.0, 1.0], [7.0, 1.0], [0.01, 3.0], [1e4, 1.0]].into_iter().enumerate() {
@@ -48,7 +48,7 @@ fn cases() -> Vec<(Domain, Vec<[f32; 2]>)> {
     cases
 }
 
-/// A point or one of its images: on a torus moved by periods, in a bounded domain mirrored by the border.
+/// A point or one of its images: on a torus moved by periods, in a bounded domain mirrored by the boundary.
 #[derive(Clone, Copy)]
 struct Image {
     point: usize,
@@ -91,7 +91,7 @@ fn triples(images: &[Image]) -> impl Iterator<Item = [Image; 3]> {
 }
 
 /// The largest distance of a place from the points: it is at a vertex of the Voronoi diagram, where one of its edges meets
-/// the border, or in a corner.
+/// the boundary, or in a corner.
 fn covering_radius(domain: &Domain, points: &[[f32; 2]]) -> f64 {
     let (images, size) = (images(domain, points), DVec2::from(domain.extent()));
     let mut places: Vec<_> = triples(&images).filter_map(|triple| circumcentre(triple.map(|i| i.place))).collect();

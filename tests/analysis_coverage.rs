@@ -94,7 +94,7 @@ fn a_maximal_set_has_no_gap_and_one_for_each_sample_that_is_taken_away() {
         let whole = coverage_2d(&context(), &domain, &samples, reach, None).unwrap();
         assert_eq!(whole.gaps, 0);
         assert_eq!(whole.farthest, covering_radius_2d(&context(), &domain, &samples, None).unwrap());
-        // Samples far from each other, one of them near the border.
+        // Samples far from each other, one of them near the boundary.
         for (removed, place) in [[0.5, 0.5], [0.02, 0.1], [0.2, 0.99], [0.8, 0.8]].into_iter().enumerate() {
             let from = |sample: &[f32; 2]| distance(&domain, *sample, place);
             let nearest = (0..samples.len()).min_by(|&a, &b| from(&samples[a]).total_cmp(&from(&samples[b]))).unwrap();

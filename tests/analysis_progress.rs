@@ -1,4 +1,4 @@
-//! Every call of the analysis tells how far it is, can be cancelled whenever it does, and finds the same when it is watched.
+//! Every call of the analysis reports its progress, can be cancelled at each report, and finds the same when it is watched.
 
 #[path = "common/meshes.rs"]
 #[allow(dead_code)]
@@ -26,7 +26,7 @@ use azulejo::mesh::Mesh;
 use azulejo::{Boundary, Context, Domain, Error, Progress, Result};
 use sets::{random_points, unit_square};
 
-/// A call with all but who does it and who is told.
+/// A call with everything but its context and its progress callback.
 type Call<'a, T> = &'a dyn Fn(&Context, Option<&Progress>) -> Result<T>;
 
 /// Checks a call that reports at least `least` times on one thread.

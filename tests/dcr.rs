@@ -19,14 +19,14 @@ fn thesis_cases() -> impl Iterator<Item = Options> {
     pairs.map(|(neighbourhood, boundary)| Options::thesis(unit_square(boundary), neighbourhood))
 }
 
-/// The best method's.
-fn best_cases() -> impl Iterator<Item = Options> {
+/// The momentum method's.
+fn momentum_cases() -> impl Iterator<Item = Options> {
     thesis_cases().map(|Options { domain, neighbourhood, .. }| Options::new(domain, neighbourhood))
 }
 
 /// Both methods.
 fn all_cases() -> impl Iterator<Item = Options> {
-    thesis_cases().chain(best_cases())
+    thesis_cases().chain(momentum_cases())
 }
 
 /// The thesis's options with some changed.
@@ -212,7 +212,7 @@ fn a_hexagonal_lattice_rests() {
     let lattice: Vec<_> = (0..120).map(|k| at(k % 10, k / 10).map(|x| x as f32)).collect();
     for options in all_cases() {
         let (relaxed, report) = run(&options.domain(domain), &lattice);
-        // The grid on which the best method sees long waves takes a lattice's own for one.
+        // The grid on which the momentum method draws the density takes the waves of a lattice for long ones.
         let slack = if options.method == Method::Momentum { 0.01 } else { 0.0 };
         assert!(relaxed.iter().zip(&lattice).all(|(&a, &b)| distance(&domain, a, b) <= slack));
         assert!(report.stopped == Stopped::Converged && report.motion <= slack, "{report:?}");
@@ -280,7 +280,7 @@ fn coincident_and_collinear_points_fill_the_domain() {
         line(&|t| [t, t]),
         [random_points(100, 50), random_points(100, 50)].concat(),
     ];
-    for options in best_cases() {
+    for options in momentum_cases() {
         for (number, set) in sets.iter().enumerate() {
             let (relaxed, report) = run(&options, set);
             assert!(report.rho > 0.8 && report.coverage < 1.0, "set {number}, {options:?}: {report:?}");

@@ -25,7 +25,7 @@ fn run(options: &Options, density: &Density, points: &[[f32; 2]]) -> (Vec<[f32; 
 }
 
 fn scattered(domain: &Domain, density: &Density, count: usize, seed: u64) -> Vec<[f32; 2]> {
-    scatter(&Context::new(1).unwrap(), domain, density, count, seed).unwrap()
+    scatter(&Context::new(1).unwrap(), domain, density, count, seed, None).unwrap()
 }
 
 /// A third at the left and 1 at the right.
@@ -33,7 +33,7 @@ fn ramp([x, _]: [f64; 2]) -> f64 {
     (1.0 + 2.0 * x) / 3.0
 }
 
-/// The share of the ramp's points that stand left of a place.
+/// The fraction of the ramp's points to the left of a position.
 fn ramp_left_of(x: f64) -> f64 {
     (x + x * x) / 2.0
 }
@@ -140,7 +140,7 @@ fn the_result_does_not_depend_on_the_threads() {
         let options = options(domain).max_iterations(6);
         let expected = run(&options, &density, &start);
         let four = Context::new(4).unwrap();
-        assert_eq!(scatter(&four, &domain, &density, 5000, 8).unwrap(), start);
+        assert_eq!(scatter(&four, &domain, &density, 5000, 8, None).unwrap(), start);
         assert_eq!(relax_with_density(&four, &options, &density, &start, None).unwrap(), expected);
         let progress = |_| ControlFlow::Continue(());
         assert_eq!(relax_with_density(&four, &options, &density, &start, Some(&progress)).unwrap(), expected);

@@ -1,5 +1,5 @@
-//! What the thesis's algorithm can be varied by: how tensions are divided, from where edges are visited, the step size, and
-//! what ends it.
+//! What the thesis's algorithm can be varied by: how tensions are divided, from where edges are visited, the step size,
+//! and what ends it.
 
 #[path = "common/sets.rs"]
 #[allow(dead_code)]
@@ -29,9 +29,9 @@ fn states(options: &Options, start: &[[f32; 2]]) -> (Vec<Vec<[f32; 2]>>, Report)
 }
 
 /// How far each point got, on the torus or in the square.
-fn ways(domain: &Domain, from: &[[f32; 2]], to: &[[f32; 2]]) -> Vec<[f64; 2]> {
-    let way = |(from, to): (&[f32; 2], &[f32; 2])| domain.offset(from.map(f64::from), to.map(f64::from));
-    from.iter().zip(to).map(way).collect()
+fn displacements(domain: &Domain, from: &[[f32; 2]], to: &[[f32; 2]]) -> Vec<[f64; 2]> {
+    let displacement = |(from, to): (&[f32; 2], &[f32; 2])| domain.offset(from.map(f64::from), to.map(f64::from));
+    from.iter().zip(to).map(displacement).collect()
 }
 
 fn largest_difference(a: &[[f64; 2]], b: &[[f64; 2]]) -> f64 {
@@ -46,7 +46,7 @@ fn distributions_differ_where_edges_are_visited_once_and_are_mixtures_of_two() {
             let first_step = |distribution, visits| {
                 let thesis = Thesis::default().distribution(distribution).visits(visits);
                 let once = options(neighbourhood, boundary, thesis).max_iterations(1);
-                ways(&once.domain, &start, &states(&once, &start).0[1])
+                displacements(&once.domain, &start, &states(&once, &start).0[1])
             };
             let by = |distribution| first_step(distribution, Visits::OneEnd);
             let [zero, dominant] = [by(Distribution::Zero), by(Distribution::Dominant)];
@@ -64,9 +64,9 @@ fn distributions_differ_where_edges_are_visited_once_and_are_mixtures_of_two() {
                 assert!(difference < 1e-6, "{neighbourhood:?} {boundary:?} {mixed:?}: {difference}");
             }
             if neighbourhood == Neighbourhood::Delaunay {
-                let both: Vec<_> = mixture(0.5).into_iter().map(|way| way.map(|x| 2.0 * x)).collect();
+                let both: Vec<_> = mixture(0.5).into_iter().map(|offset| offset.map(|x| 2.0 * x)).collect();
                 let average = first_step(Distribution::Average, Visits::BothEnds);
-                // The image of a point beyond the border is visited by halves, from either side.
+                // The image of a point beyond the boundary is visited by halves, from either side.
                 assert!(largest_difference(&average, &both) < 1e-6, "{boundary:?}");
             }
         }
@@ -87,7 +87,7 @@ fn single_visits_do_not_depend_on_threads_or_on_the_order_of_points_but_on_the_s
         assert_eq!(run(&few, 4, &start), expected);
         let mut turned = run(&few, 2, &backwards);
         turned.reverse();
-        assert!(largest_difference(&ways(&few.domain, &turned, &expected), &vec![[0.0; 2]; 3000]) < 1e-6);
+        assert!(largest_difference(&displacements(&few.domain, &turned, &expected), &vec![[0.0; 2]; 3000]) < 1e-6);
         assert_ne!(run(&few.seed(1), 1, &start), expected);
     }
 }
@@ -103,9 +103,9 @@ fn steps_decay_by_their_factor() {
         };
         let ((constant, domain), (decaying, _)) = (path(1.0), path(0.25));
         assert_eq!(constant[1], decaying[1]);
-        let way = |states: &[Vec<[f32; 2]>]| ways(&domain, &states[1], &states[2]);
-        let quarter: Vec<_> = way(&constant).into_iter().map(|way| way.map(|x| 0.25 * x)).collect();
-        assert!(largest_difference(&way(&decaying), &quarter) < 1e-6);
+        let second = |states: &[Vec<[f32; 2]>]| displacements(&domain, &states[1], &states[2]);
+        let quarter: Vec<_> = second(&constant).into_iter().map(|offset| offset.map(|x| 0.25 * x)).collect();
+        assert!(largest_difference(&second(&decaying), &quarter) < 1e-6);
         assert_eq!(decaying[40], decaying[60]);
     }
 }
@@ -138,9 +138,9 @@ fn variance_rests(domain: &Domain, states: &[Vec<[f32; 2]>]) -> Option<usize> {
     let mut row = 0;
     (2..states.len()).find(|&k| {
         let change = (variances[k] / variances[k - 1] - 1.0).abs();
-        let ways = ways(domain, &states[k - 1], &states[k]);
-        let stable = ways.iter().filter(|way| way[0].hypot(way[1]) < 0.01 * spacing).count();
-        row = if change < 1e-3 && stable as f64 > 0.99 * ways.len() as f64 { row + 1 } else { 0 };
+        let displacements = displacements(domain, &states[k - 1], &states[k]);
+        let stable = displacements.iter().filter(|offset| offset[0].hypot(offset[1]) < 0.01 * spacing).count();
+        row = if change < 1e-3 && stable as f64 > 0.99 * displacements.len() as f64 { row + 1 } else { 0 };
         row == 10
     })
 }
@@ -160,14 +160,14 @@ fn the_thesis_s_test_ends_the_steps_when_the_variance_rests() {
 #[test]
 fn the_thesis_s_test_fires_the_earlier_the_smaller_the_steps() {
     let start = random_points(1000, 10);
-    let way = |step, convergence| {
+    let distance = |step, convergence| {
         let thesis = Thesis::default().step(step).convergence(convergence);
         let options = options(Neighbourhood::Delaunay, Boundary::Periodic, thesis).max_iterations(3000);
         let report = relax(&Context::new(1).unwrap(), &options, &start, None).unwrap().1;
         assert_eq!(report.stopped, Stopped::Converged);
         f64::from(report.iterations) * step
     };
-    let ratio = |convergence| way(0.00625, convergence) / way(0.05, convergence);
+    let ratio = |convergence| distance(0.00625, convergence) / distance(0.05, convergence);
     assert!(ratio(Convergence::Variance) < 0.5);
     assert!(ratio(Convergence::Motion) > 0.7);
 }

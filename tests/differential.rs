@@ -124,7 +124,7 @@ fn a_hexagonal_lattice_has_its_shells_and_its_six_directions() {
         let cell = |x: f64| ((spacing * distance * x + GRID_REACH) * GRID_SIZE as f64 / (2.0 * GRID_REACH)) as usize;
         density[cell(angle.sin()) * GRID_SIZE + cell(angle.cos())]
     };
-    // Points may lie on a border of cells: those around it are taken together.
+    // Points may lie on a boundary of cells: those around it are taken together.
     let around = |angle: f64, distance: f64| {
         let near = [-0.03, 0.0, 0.03].into_iter().flat_map(|a| [-0.03, 0.0, 0.03].map(|d| at(angle + a, distance + d)));
         near.fold(0.0, f64::max)
@@ -230,7 +230,7 @@ fn counts_are_those_of_all_pairs() {
         for (i, (shell, expected)) in found.iter().zip(&shells).enumerate() {
             let area = SHELL_WIDTH * SHELL_WIDTH * (TAU * i as f64 + PI);
             assert!((shell.expected - 399.0 * area).abs() < 1e-6);
-            // A pair on the border of two shells may be in either.
+            // A pair on the boundary of two shells may be in either.
             let two = |values: &dyn Fn(usize) -> f64| (0..=i).map(values).sum::<f64>();
             let difference = two(&|k| found[k].density * found[k].expected) - two(&|k| shells[k]);
             assert!(difference.abs() < 4.5 + 1e-9 * expected, "{boundary:?} {i} {difference}");

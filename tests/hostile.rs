@@ -118,7 +118,7 @@ fn a_function_that_changes_its_mind_does_not_get_all_memory() {
     assert!(matches!(refused, Err(Error::TooLarge { argument: "radius", .. })), "{refused:?}");
 }
 
-/// The estimate was made on a hundred thousand pieces and more, of a surface that has room for a few samples.
+/// The estimate was made on a hundred thousand pieces and more, of a surface that holds a few samples.
 #[test]
 fn few_samples_are_estimated_on_few_pieces() {
     let calls = AtomicU64::new(0);
@@ -154,7 +154,7 @@ fn more_points_of_a_density_than_memory_holds_are_refused() {
     let context = Context::new(1).unwrap();
     let density = Density::Image { values: &[1.0], width: 1, height: 1 };
     let domain = Domain::unit(Boundary::Bounded);
-    let refused = dcr::scatter(&context, &domain, &density, u32::MAX as usize, 0).map(|points| points.len());
+    let refused = dcr::scatter(&context, &domain, &density, u32::MAX as usize, 0, None).map(|points| points.len());
     assert!(matches!(refused, Err(Error::TooLarge { argument: "count", .. })), "{refused:?}");
 }
 

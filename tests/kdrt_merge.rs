@@ -163,7 +163,7 @@ fn windows_of_planes_are_zipped() {
         };
         let options = MergeOptions::new(0.006).domain(domain).seed(5);
         let halves = |seed| [window(1, [-1.0, 0.0], [0.1, 0.7]), window(seed, [0.1, 0.0], [1.0, 0.7])];
-        // A window of a plane is not maximal at its border, but with the rest of its plane it is.
+        // A window of a plane is not maximal at its boundary, but with the rest of its plane it is.
         let same = halves(1);
         let (samples, _) = merged(&options, &same, &[]).unwrap();
         assert!(samples.iter().eq(same.iter().flat_map(|half| &half.samples)));
@@ -330,7 +330,7 @@ fn seeds_and_not_threads_decide() {
     }
 }
 
-/// A set with a border becomes one without: its own opposite sides meet over the seam.
+/// A set with a boundary becomes one without: its own opposite sides meet over the seam.
 #[test]
 fn pieces_meet_themselves_over_the_seam() {
     for (extent, seed) in [([1.0, 1.0], 0), ([0.7, 1.0], 1), ([1.0, 0.05], 2), ([0.11, 0.1], 3)] {

@@ -136,7 +136,7 @@ fn a_partition_into_windows_has_every_sample_once() {
     }
 }
 
-/// Corners, borders, lines through everything, and windows that hold one float.
+/// Corners, boundaries, lines through everything, and windows that hold one float.
 #[test]
 fn windows_at_the_edge_of_what_there_is() {
     for boundary in BOUNDARIES {
@@ -222,7 +222,7 @@ fn windows_do_not_depend_on_the_threads() {
     }
 }
 
-/// A billion samples and a hundred billion: nobody holds them, but any window is made at once.
+/// A billion samples and a hundred billion: they are never held, but any window is made at once.
 #[test]
 fn windows_of_planes_that_nobody_can_hold() {
     for (domain, radius) in [
@@ -264,7 +264,7 @@ fn windows_of_planes_that_nobody_can_hold() {
     }
 }
 
-/// On a plane too large for `sample`; the stream starts at once and ends when told.
+/// On a plane too large for `sample`; the stream starts at once and ends when its visitor says so.
 #[test]
 fn a_stream_of_a_plane_that_nobody_can_hold_can_be_left() {
     let options = Options::new(8.2e-6);

@@ -6,6 +6,7 @@ mod meshes;
 
 use azulejo::Error;
 use azulejo::mesh::Mesh;
+use azulejo::mesh::ply::{self, Ply};
 
 /// The argument that `Mesh::new` complains of, and how.
 fn refusal(positions: Vec<[f32; 3]>, triangles: Vec<[u32; 3]>) -> (&'static str, String) {
@@ -59,4 +60,56 @@ fn extreme_coordinates_have_finite_areas_and_unit_normals() {
         assert!((mesh.area() / (scale as f64).powi(2) - 1.0).abs() < 1e-12);
         assert_eq!(mesh.normal(0), [0.0, 0.0, 1.0]);
     }
+}
+
+#[test]
+fn attributes_of_ply_files_are_read_by_name() {
+    let header = |format: &str| {
+        format!(
+            "ply\nformat {format} 1.0\ncomment made\nelement vertex 2\nproperty float x\nproperty ushort heat\n\
+             element face 2\nproperty char kept\nproperty list uchar int vertex_index\nend_header\n"
+        )
+    };
+    let text = [header("ascii").as_bytes(), b"0.1 65535\n\n-1 0\n-1 3 0 1 1\n1 5 0 1 0 1 0\n"].concat();
+    let binary = |format: &str, order: fn(&[u8]) -> Vec<u8>| {
+        let mut file = header(format).into_bytes();
+        let mut put = |bytes: &[u8]| file.extend(order(bytes));
+        for (x, heat) in [(0.1f32, u16::MAX), (-1.0, 0)] {
+            put(&x.to_le_bytes());
+            put(&heat.to_le_bytes());
+        }
+        for (kept, corners) in [(-1i8, &[0i32, 1, 1][..]), (1, &[0, 1, 0, 1, 0])] {
+            put(&kept.to_le_bytes());
+            put(&[corners.len() as u8]);
+            corners.iter().for_each(|corner| put(&corner.to_le_bytes()));
+        }
+        file
+    };
+    let little = binary("binary_little_endian", <[u8]>::to_vec);
+    let big = binary("binary_big_endian", |bytes| bytes.iter().rev().copied().collect());
+    for file in [text, little, big] {
+        let ply = Ply::read(&file, |_, property| property != "x").unwrap();
+        assert_eq!(ply.comments(), ["made"]);
+        let [vertices, faces] = ["vertex", "face"].map(|name| ply.element(name).unwrap());
+        assert_eq!((vertices.count(), faces.count()), (2, 2));
+        assert_eq!(vertices.properties().collect::<Vec<_>>(), ["x", "heat"]);
+        assert_eq!((vertices.numbers("heat"), vertices.numbers("x")), (Some(&[65535.0, 0.0][..]), None));
+        assert_eq!(faces.numbers("kept"), Some(&[-1.0, 1.0][..]));
+        let lists = faces.lists("vertex_index").unwrap();
+        assert_eq!(lists.iter().collect::<Vec<_>>(), [&[0.0, 1.0, 1.0][..], &[0.0, 1.0, 0.0, 1.0, 0.0]]);
+        assert!(faces.lists("kept").is_none() && faces.numbers("vertex_index").is_none());
+        assert_eq!(ply::triangles_of_faces(&file), Ok(vec![1, 3]));
+        let cut = Ply::read(&file[..file.len() - 2], |_, _| false).unwrap_err();
+        assert!(cut.contains("ends after 1 of 2 of element face") || cut.contains("fewer numbers"), "{cut}");
+    }
+}
+
+#[test]
+fn a_mesh_in_memory_is_read_as_its_name_or_its_contents_say() {
+    let text = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    for name in ["-", "a.obj", "missing/a.OBJ"] {
+        assert_eq!(Mesh::parse(name, text).unwrap().triangles(), [[0, 1, 2]]);
+    }
+    let error = Mesh::parse("a.ply", text).unwrap_err();
+    assert_eq!(error.to_string(), "a.ply: is no PLY file: it does not begin with \"ply\"");
 }

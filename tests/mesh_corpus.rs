@@ -28,7 +28,7 @@ const REFUSED: [(&str, &str); 13] = [
     // An exponent without its letter.
     ("OBJ/number_formats.obj", "line 11: position parse error"),
     // A line of the header lacks the word "comment".
-    ("PLY/Wuson.ply", "Line 3: Couldn't parse line."),
+    ("PLY/Wuson.ply", "line 3: Couldn't parse line"),
     // Each vertex should have a list of vertices, and has none.
     ("PLY/issue623.ply", "line 1"),
     // A point cloud, which one version of the package has cut.

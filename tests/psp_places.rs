@@ -48,7 +48,7 @@ fn check_positions(mesh: &Mesh, samples: &SurfaceSamples) {
     }
 }
 
-/// Samples in three ways, and checks everything that the sets owe.
+/// Samples by three methods, and checks everything that the sets owe.
 fn check(mesh: &Arc<Mesh>, radius: f64) {
     let context = Context::new(2).unwrap();
     let mut counts = Vec::new();

@@ -21,7 +21,7 @@ fn mesh((positions, triangles): Soup) -> Arc<Mesh> {
     Arc::new(Mesh::new(positions, triangles).unwrap())
 }
 
-/// A maximal set of about so many samples.
+/// A maximal set of about `count` samples.
 fn darts(mesh: &Arc<Mesh>, count: f64) -> SurfaceSamples {
     let radius = (0.7 * mesh.area() / count).sqrt();
     psp::sample(&Context::new(1).unwrap(), mesh, &psp::Options::new(radius), None).unwrap().0
@@ -59,7 +59,7 @@ fn smallest_distance(samples: &SurfaceSamples) -> f64 {
 
 #[test]
 fn closed_and_open_surfaces_end_at_the_distances_of_the_plane() {
-    // Sharp edges, and borders, cost a little.
+    // Sharp edges, and boundaries, cost a little.
     for (name, soup, goal) in [
         ("sphere", meshes::sphere(), 0.85),
         ("torus", meshes::torus(), 0.85),
@@ -81,9 +81,9 @@ fn cube() -> Soup {
     (positions, quads.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]).collect())
 }
 
-/// Along the border stands a row of samples, no denser than elsewhere.
+/// There is a row of samples along the boundary, no denser than elsewhere.
 #[test]
-fn samples_neither_leave_an_open_square_nor_crowd_at_its_border() {
+fn samples_neither_leave_an_open_square_nor_crowd_at_its_boundary() {
     let mesh = mesh(meshes::plane());
     let samples = darts(&mesh, 4000.0);
     let (relaxed, _) = run(&mesh, &samples);
@@ -91,12 +91,12 @@ fn samples_neither_leave_an_open_square_nor_crowd_at_its_border() {
         relaxed.positions.iter().all(|&[x, y, z]| (0.0..=1.0).contains(&x) && (0.0..=1.0).contains(&y) && z == 0.0)
     );
     let margin = |samples: &SurfaceSamples| {
-        let at_border = |&&[x, y, _]: &&[f32; 3]| x.min(y).min(1.0 - x).min(1.0 - y) < 0.1;
-        samples.positions.iter().filter(at_border).count() as f64 / samples.len() as f64
+        let at_boundary = |&&[x, y, _]: &&[f32; 3]| x.min(y).min(1.0 - x).min(1.0 - y) < 0.1;
+        samples.positions.iter().filter(at_boundary).count() as f64 / samples.len() as f64
     };
     assert!((margin(&relaxed) / 0.36 - 1.0).abs() < 0.04, "{}", margin(&relaxed));
-    let border = relaxed.positions.iter().map(|&[x, y, _]| f64::from(x.min(y).min(1.0 - x).min(1.0 - y)));
-    assert!(border.fold(1.0, f64::min) > 0.2 * d_max(&mesh, samples.len()));
+    let boundary = relaxed.positions.iter().map(|&[x, y, _]| f64::from(x.min(y).min(1.0 - x).min(1.0 - y)));
+    assert!(boundary.fold(1.0, f64::min) > 0.2 * d_max(&mesh, samples.len()));
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! `azulejo analyze`: what sets are like, as a table, as JSON and as pictures.
+//! `azulejo analyze`: figures of sets, as a table, as JSON and as pictures.
 
 mod figures;
 mod page;
@@ -9,18 +9,19 @@ mod surface;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use azulejo::mesh::Mesh;
 use azulejo::{Context, Error, Result};
 use clap::Args;
 
 use crate::domain::{DomainArgs, OF_OR_AROUND};
-use crate::formats::{Coordinates, Input, PointSet};
+use crate::formats::set::{PlaneSet, SampleSet};
+use crate::formats::{Input, ON_MESH};
+use crate::input;
 use crate::output::{Output, print};
 
 #[derive(Args)]
 #[command(mut_arg("domain", |domain| domain.help(OF_OR_AROUND)))]
 pub struct Analyze {
-    /// The samples: .ply, .npy, .csv, .xyz or .raw files. Several are taken for sets of one kind, and averaged.
+    /// The samples: .ply, .npy, .csv, .xyz or .raw files. Several files are sets of one kind, whose figures are averaged.
     #[arg(value_name = "SAMPLES", required = true)]
     files: Vec<PathBuf>,
     #[command(flatten)]
@@ -30,7 +31,7 @@ pub struct Analyze {
     /// The mesh that the samples lie on: OBJ, PLY or STL.
     #[arg(long, value_name = "MESH", conflicts_with_all = ["domain", "bounded"])]
     mesh: Option<PathBuf>,
-    /// A radius that the set shall keep and cover.
+    /// A radius to check the sets against: compares it with smallest distance and covering radius, and counts gaps.
     #[arg(long, value_name = "R", allow_negative_numbers = true)]
     radius: Option<f64>,
     /// Print JSON, with the curves of the plots, instead of a table.
@@ -42,9 +43,9 @@ pub struct Analyze {
 }
 
 /// A set and its file.
-struct Set {
+struct Set<Points> {
     path: PathBuf,
-    points: PointSet,
+    loaded: Points,
 }
 
 impl Analyze {
@@ -53,23 +54,27 @@ impl Analyze {
             let reason = format!("{radius} is not a positive finite number");
             return Err(Error::InvalidArgument { argument: "--radius", reason });
         }
-        let coordinates = if self.mesh.is_some() { Coordinates::Space } else { Coordinates::Plane };
-        let read = |path: &PathBuf| Ok(Set { path: path.clone(), points: self.input.read(path, coordinates)? });
-        let sets = self.files.iter().map(read).collect::<Result<Vec<_>>>()?;
-        if let Some(directory) = &self.plots {
-            fs::create_dir_all(directory).map_err(|source| Error::Io { path: directory.clone(), source })?;
-        }
         let text = match &self.mesh {
-            Some(mesh) => self.surface(context, mesh, &sets)?,
-            None => self.plane(context, &sets)?,
+            Some(mesh) => self.surface(context, mesh, &self.read(|path| self.input.read_samples(path))?)?,
+            None => self.plane(context, &self.read(|path| self.input.read_plane(path, ON_MESH))?)?,
         };
         print(text.as_bytes())
     }
 
-    fn plane(&self, context: &Context, sets: &[Set]) -> Result<String> {
-        let domain = self.domain.of_or_around(&sets[0].points);
-        let named = self.domain.of(&sets[0].points);
-        if let Some(other) = sets.iter().find(|set| self.domain.of(&set.points) != named) {
+    /// All sets; then there is a directory for their plots.
+    fn read<Points>(&self, read: impl Fn(&Path) -> Result<Points>) -> Result<Vec<Set<Points>>> {
+        let read = |path: &PathBuf| Ok(Set { path: path.clone(), loaded: read(path)? });
+        let sets = self.files.iter().map(read).collect::<Result<Vec<_>>>()?;
+        if let Some(directory) = &self.plots {
+            fs::create_dir_all(directory).map_err(|source| Error::Io { path: directory.clone(), source })?;
+        }
+        Ok(sets)
+    }
+
+    fn plane(&self, context: &Context, sets: &[Set<PlaneSet>]) -> Result<String> {
+        let domain = self.domain.of_or_around(&sets[0].loaded);
+        let named = self.domain.of(&sets[0].loaded);
+        if let Some(other) = sets.iter().find(|set| self.domain.of(&set.loaded) != named) {
             let reason = format!("has another domain than {}", sets[0].path.display());
             return Err(Error::Format { path: other.path.clone(), reason });
         }
@@ -84,8 +89,8 @@ impl Analyze {
         })
     }
 
-    fn surface(&self, context: &Context, path: &Path, sets: &[Set]) -> Result<String> {
-        let mesh = Mesh::load(path)?;
+    fn surface(&self, context: &Context, path: &Path, sets: &[Set<SampleSet>]) -> Result<String> {
+        let mesh = input::mesh(path)?;
         let measured = surface::Measured::of(context, &mesh, sets, self.radius)?;
         if let Some(directory) = &self.plots {
             let name = path.file_stem().unwrap_or_default().to_string_lossy();

@@ -1,11 +1,11 @@
-//! The domain of a set of the plane: as asked for, as the file says, or as the points let guess.
+//! The domain of a set of the plane: the one asked for, or the one of the file, or a guess from the points.
 
 use azulejo::{Boundary, Domain};
 use clap::Args;
 
-use crate::formats::PointSet;
+use crate::formats::set::PlaneSet;
 
-/// The help of `--domain` where [`DomainArgs::of_or_around`] takes what there is.
+/// The help of `--domain` for [`DomainArgs::of_or_around`].
 pub const OF_OR_AROUND: &str = "The corners of the rectangle [default: that of the input, or the unit square if the points \
                                 fill it, or else the smallest around them, bounded]";
 
@@ -14,7 +14,7 @@ pub struct DomainArgs {
     /// The corners of the rectangle [default: that of the input, or the unit square if the points fill it].
     #[arg(long, num_args = 4, value_names = ["X0", "Y0", "X1", "Y1"], allow_negative_numbers = true)]
     domain: Option<Vec<f64>>,
-    /// Let the rectangle end at its border; otherwise it is periodic.
+    /// The rectangle ends at its boundary; otherwise it is periodic.
     #[arg(long)]
     bounded: bool,
 }
@@ -46,36 +46,36 @@ impl DomainArgs {
     }
 
     /// The domain asked for, or that of the file, or the unit square if the points lie in it and nearly fill it.
-    pub fn of(&self, set: &PointSet) -> Option<Domain> {
+    pub fn of(&self, set: &PlaneSet) -> Option<Domain> {
         let named = set.domain.map(|domain| match self.bounded {
             true => Domain { boundary: Boundary::Bounded, ..domain },
             false => domain,
         });
         self.asked().or(named).or_else(|| {
-            let (low, high) = bounds(&set.positions);
+            let (low, high) = bounds(&set.points);
             let fills = (0..2).all(|axis| low[axis] >= 0.0 && high[axis] < 1.0 && high[axis] - low[axis] > 0.8);
             fills.then(|| Domain::unit(self.boundary()))
         })
     }
 
     /// [`DomainArgs::of`], or the smallest rectangle around the points, which has no period.
-    pub fn of_or_around(&self, set: &PointSet) -> Domain {
+    pub fn of_or_around(&self, set: &PlaneSet) -> Domain {
         self.of(set).unwrap_or_else(|| {
-            let (low, high) = bounds(&set.positions);
+            let (low, high) = bounds(&set.points);
             let side = (0..2).map(|axis| high[axis] - low[axis]).fold(0.0, f64::max);
             // A line of points, or a single one, gets a rectangle around it too.
             let margin = if side > 0.0 { side * 1e-3 } else { 0.5 };
-            let corner = |end: [f64; 3], margin: f64| [end[0] + margin, end[1] + margin];
+            let corner = |end: [f64; 2], margin: f64| end.map(|x| x + margin);
             Domain { min: corner(low, -margin), max: corner(high, margin), boundary: Boundary::Bounded }
         })
     }
 }
 
-/// The corners of the smallest box around points.
-pub fn bounds(points: &[[f32; 3]]) -> ([f64; 3], [f64; 3]) {
-    points.iter().fold(([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]), |(low, high), point| {
+/// The corners of the smallest rectangle around points.
+fn bounds(points: &[[f32; 2]]) -> ([f64; 2], [f64; 2]) {
+    points.iter().fold(([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]), |(low, high), point| {
         let point = point.map(f64::from);
-        let pick = |a: [f64; 3], choose: fn(f64, f64) -> f64| std::array::from_fn(|i| choose(a[i], point[i]));
+        let pick = |a: [f64; 2], choose: fn(f64, f64) -> f64| std::array::from_fn(|i| choose(a[i], point[i]));
         (pick(low, f64::min), pick(high, f64::max))
     })
 }
@@ -84,8 +84,8 @@ pub fn bounds(points: &[[f32; 3]]) -> ([f64; 3], [f64; 3]) {
 mod tests {
     use super::*;
 
-    fn set(corners: [[f32; 2]; 2], domain: Option<Domain>) -> PointSet {
-        PointSet { positions: corners.map(|[x, y]| [x, y, 0.0]).to_vec(), domain, ..PointSet::default() }
+    fn set(corners: [[f32; 2]; 2], domain: Option<Domain>) -> PlaneSet {
+        PlaneSet { points: corners.to_vec(), domain }
     }
 
     #[test]

@@ -14,15 +14,36 @@ pub mod spectra;
 pub mod stage;
 pub mod surface;
 
+use std::path::PathBuf;
+
 use azulejo::{Context, Result};
-use clap::Subcommand;
+use clap::{Args, Subcommand};
+
+use crate::output::Output;
 
 /// Widths of pictures, in pixels.
 pub const PICTURE_WIDTHS: std::ops::RangeInclusive<i64> = 200..=10_000;
 
+/// The picture that a command draws.
+#[derive(Args)]
+struct PictureArgs {
+    /// The picture.
+    #[arg(short, long, value_name = "FILE.png")]
+    output: PathBuf,
+    /// Width of the picture in pixels.
+    #[arg(long, value_name = "PIXELS", default_value_t = 1600, value_parser = clap::value_parser!(u32).range(PICTURE_WIDTHS))]
+    size: u32,
+}
+
+impl PictureArgs {
+    fn open(&self) -> Result<Output> {
+        Output::of_format("png", &self.output)
+    }
+}
+
 /// What to draw.
 #[derive(Subcommand)]
-pub enum Draw {
+pub(crate) enum Draw {
     /// Draw a set of the plane, or a part of a large one, beside its power spectrum.
     Points(points::Points),
     /// Draw samples as discs on their mesh, with two details.
@@ -30,7 +51,7 @@ pub enum Draw {
 }
 
 impl Draw {
-    pub fn run(&self, context: &Context) -> Result<()> {
+    pub(crate) fn run(&self, context: &Context) -> Result<()> {
         match self {
             Self::Points(points) => points.run(context),
             Self::Surface(surface) => surface.run(context),

@@ -2,78 +2,49 @@
 //!
 //! | format | plane | surface | domain |
 //! |---|---|---|---|
-//! | PLY | `x y` | `x y z nx ny nz triangle u v` | in a comment |
-//! | NPY | array of `(n, 2)` floats | array of `(n, 3)` floats: positions | - |
+//! | PLY | `x y` | `x y z nx ny nz triangle u v` and perhaps `radius` | in a comment |
+//! | NPY | array of `(n, 2)` floats | structured array of `position normal triangle barycentrics` and perhaps `radius` | - |
 //! | CSV | columns `x,y` under a header | all columns of PLY under a header | - |
 //! | XYZ | lines `x y 0` | lines `x y z nx ny nz` | - |
-//! | raw | `x y` as little-endian floats | `x y z` as little-endian floats | - |
+//! | raw | `x y` as little-endian floats | - | - |
 //!
-//! What is read may have more: integers and doubles, big-endian arrays, other columns, comments.
+//! What is read may have more: integers and doubles, big-endian arrays, other columns, comments. A set knows whether its
+//! points have two or three dimensions; raw floats do not say it, and so the user has to.
 
 #[cfg(test)]
 mod hostile;
 mod npy;
 mod raw;
+pub mod set;
+pub mod surface;
 mod table;
 
 use std::path::{Path, PathBuf};
 
-use azulejo::{Domain, Error, Result, SurfaceSamples};
+use azulejo::{Domain, Error, Result};
 use clap::{Args, ValueEnum};
 
+use crate::input;
 use crate::output::Output;
 use crate::ply;
+use set::{PlaneSet, PointSet, SampleSet};
+use surface::SurfaceTable;
 
-/// What a file of points holds, whoever wrote it.
-#[derive(Debug, Default)]
-pub struct PointSet {
-    /// Positions; 0 where the file has no z.
-    pub positions: Vec<[f32; 3]>,
-    /// Normals, one for each position; empty if the file has none.
-    pub normals: Vec<[f32; 3]>,
-    /// For each point its triangle and barycentrics, where the file, PLY or CSV, has them.
-    pub on_mesh: Option<(Vec<u32>, Vec<[f32; 2]>)>,
-    /// The domain that the file names.
-    pub domain: Option<Domain>,
-}
-
-impl PointSet {
-    /// The positions without z.
-    pub fn plane_positions(&self) -> Vec<[f32; 2]> {
-        self.positions.iter().map(|&[x, y, _]| [x, y]).collect()
-    }
-}
-
-/// What points are needed for, and so which coordinates.
-#[derive(Clone, Copy, PartialEq)]
-pub enum Coordinates {
-    /// x and y; others are passed over.
-    Plane,
-    /// x, y and z.
-    Space,
-}
-
-impl Coordinates {
-    pub fn count(self) -> usize {
-        match self {
-            Self::Plane => 2,
-            Self::Space => 3,
-        }
-    }
-}
+/// What can be done with samples of a mesh where a set of the plane is needed.
+pub const ON_MESH: &str = "give the mesh that they lie on by --mesh";
 
 /// A format of points.
 #[derive(Clone, Copy, Debug, PartialEq, ValueEnum)]
 pub enum Format {
     /// The Stanford polygon format, written as binary; it alone keeps the domain.
     Ply,
-    /// An array of NumPy.
+    /// A NumPy array: two columns for the plane, a structured array for samples of a mesh.
     Npy,
     /// Comma-separated values under a header.
     Csv,
-    /// A point to a line, its numbers between spaces.
+    /// One point per line, coordinates between spaces; of samples of a mesh the positions and normals alone.
     Xyz,
-    /// Little-endian 32-bit floats and nothing else.
+    /// Little-endian 32-bit floats without a header, for points of the plane only.
     Raw,
 }
 
@@ -107,41 +78,63 @@ pub fn blame(path: &Path, error: Error) -> Error {
     }
 }
 
-/// A word of a file as a message can show it: files may have anything in its place.
+/// A word of a file as a message can show it: short and on one line, whatever it is.
 fn shortened(word: &str) -> String {
     word.chars().take(40).map(|letter| if letter.is_control() { ' ' } else { letter }).collect()
 }
 
-/// In which format points are read.
+/// How points are read.
 #[derive(Args)]
 pub struct Input {
-    /// The format of the input [default: by the extension].
+    /// The format of the input [default: by the extension; PLY without one].
     #[arg(long, value_enum, value_name = "FORMAT")]
     input_format: Option<Format>,
+    /// How many coordinates each point of the input has. Needed for .raw files, which do not say so.
+    #[arg(long, value_name = "2|3", value_parser = clap::value_parser!(u8).range(2..=3))]
+    dimensions: Option<u8>,
 }
 
 impl Input {
+    /// Reads a set of the plane. The refusal of a set in space says what can be done `instead`.
+    pub fn read_plane(&self, path: &Path, instead: &str) -> Result<PlaneSet> {
+        self.read(path)?.into_plane(instead).map_err(|reason| format_error(path, reason))
+    }
+
+    /// Reads samples in space.
+    pub fn read_samples(&self, path: &Path) -> Result<SampleSet> {
+        self.read(path)?.into_samples().map_err(|reason| format_error(path, reason))
+    }
+
     /// Reads points, of which there is at least one, all finite.
-    pub fn read(&self, path: &Path, coordinates: Coordinates) -> Result<PointSet> {
-        let read_error = |source| Error::Io { path: path.into(), source };
+    fn read(&self, path: &Path) -> Result<PointSet> {
         let format = self.input_format.map_or_else(|| Format::of(path), Ok);
-        let bytes = std::fs::read(if path == Path::new("-") { Path::new("/dev/stdin") } else { path });
-        let bytes = bytes.map_err(read_error)?;
-        let set = match format? {
-            Format::Ply => ply::parse(&bytes, coordinates),
-            Format::Npy => npy::parse(&bytes, coordinates),
-            Format::Csv | Format::Xyz => table::parse(&bytes, coordinates),
-            Format::Raw => raw::parse(&bytes, coordinates),
+        let bytes = input::bytes(path)?;
+        let set = match (format?, self.dimensions) {
+            (Format::Ply, _) => ply::parse(&bytes),
+            (Format::Npy, _) => npy::parse(&bytes),
+            (Format::Csv | Format::Xyz, _) => table::parse(&bytes),
+            (Format::Raw, Some(dimensions)) => raw::parse(&bytes, dimensions),
+            (Format::Raw, None) => {
+                Err("raw floats do not say how many coordinates a point has: give --dimensions 2 or 3".to_owned())
+            }
         };
         let set = set.map_err(|reason| format_error(path, reason))?;
-        if set.positions.is_empty() { Err(format_error(path, "no points")) } else { Ok(set) }
+        if set.is_empty() {
+            return Err(format_error(path, "no points"));
+        }
+        match self.dimensions {
+            Some(dimensions) if !set.has_dimensions(dimensions) => {
+                Err(format_error(path, format!("its points do not have {dimensions} dimensions, as --dimensions says")))
+            }
+            _ => Ok(set),
+        }
     }
 }
 
 /// Where points go to.
 #[derive(Args)]
 pub struct Destination {
-    /// The samples: a .ply, .npy, .csv, .xyz or .raw file.
+    /// The samples: a .ply, .npy, .csv or .xyz file, or .raw for a set of the plane.
     #[arg(short, long, value_name = "FILE")]
     pub output: PathBuf,
     /// The format of the output [default: by the extension].
@@ -150,11 +143,22 @@ pub struct Destination {
 }
 
 impl Destination {
-    /// Finds out before the work whether and how there can be a file.
-    pub fn open(&self) -> Result<PointFile> {
+    /// Finds out before the work whether and how there can be a file of a set of the plane.
+    pub fn open_plane(&self) -> Result<PointFile> {
         let output = Output::at(&self.output)?;
         let format = self.format.map_or_else(|| Format::of(&self.output), Ok)?;
         Ok(PointFile { output, format })
+    }
+
+    /// Finds out before the work whether and how there can be a file of samples of a surface.
+    pub fn open_surface(&self) -> Result<PointFile> {
+        let file = self.open_plane()?;
+        if file.format == Format::Raw {
+            let reason = "raw floats have no place for the normals, triangles and barycentrics of samples: \
+                          give .ply, .npy or .csv, or .xyz for positions and normals";
+            return Err(format_error(&self.output, reason));
+        }
+        Ok(file)
     }
 }
 
@@ -169,21 +173,21 @@ impl PointFile {
     pub fn write_plane(&self, domain: &Domain, points: &[[f32; 2]]) -> Result<()> {
         match self.format {
             Format::Ply => ply::write_plane(&self.output, domain, points),
-            Format::Npy => self.output.write(|writer| npy::write(writer, points)),
+            Format::Npy => self.output.write(|writer| npy::write_plane(writer, points)),
             Format::Csv => self.output.write(|writer| table::write_csv_plane(writer, points)),
             Format::Xyz => self.output.write(|writer| table::write_xyz_plane(writer, points)),
-            Format::Raw => self.output.write(|writer| raw::write(writer, points)),
+            Format::Raw => self.output.write(|writer| surface::write_floats(writer, points)),
         }
     }
 
-    /// Writes samples of a surface with these of their normals, and all else that the format has a place for.
-    pub fn write_surface(&self, samples: &SurfaceSamples, normals: &[[f32; 3]]) -> Result<()> {
+    /// Writes samples of a surface, with every column that the format has.
+    pub fn write_surface(&self, table: &SurfaceTable) -> Result<()> {
         match self.format {
-            Format::Ply => ply::write_surface(&self.output, samples, normals),
-            Format::Npy => self.output.write(|writer| npy::write(writer, &samples.positions)),
-            Format::Csv => self.output.write(|writer| table::write_csv_surface(writer, samples, normals)),
-            Format::Xyz => self.output.write(|writer| table::write_xyz_surface(writer, &samples.positions, normals)),
-            Format::Raw => self.output.write(|writer| raw::write(writer, &samples.positions)),
+            Format::Ply => ply::write_surface(&self.output, table),
+            Format::Npy => self.output.write(|writer| npy::write_surface(writer, table)),
+            Format::Csv => self.output.write(|writer| table::write_csv_surface(writer, table)),
+            Format::Xyz => self.output.write(|writer| table::write_xyz_surface(writer, table)),
+            Format::Raw => unreachable!("refused by Destination::open_surface"),
         }
     }
 }

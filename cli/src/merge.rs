@@ -1,4 +1,4 @@
-//! `azulejo merge`: sets that were made apart, and points that must stay, become one maximal set.
+//! `azulejo merge`: sets that were sampled separately, and points that must stay, become one maximal set.
 
 use std::path::PathBuf;
 use std::time::Instant;
@@ -8,10 +8,13 @@ use azulejo::{Boundary, Context, Domain, Error, Result};
 use clap::{ArgAction, Args};
 
 use crate::domain::DomainArgs;
-use crate::formats::{Coordinates, Input};
+use crate::formats::Input;
 use crate::generate::{Common, report};
 use crate::progress::watched;
 use crate::text::{grouped, rounded};
+
+/// What is said of sets that are not of the plane.
+const INSTEAD: &str = "only sets of the plane can be merged";
 
 #[derive(Args)]
 #[command(mut_arg("domain", |domain| domain.help("The corners of the rectangle [default: the smallest around the pieces]")))]
@@ -19,10 +22,10 @@ pub struct Merge {
     /// The pieces: sets on rectangles that do not overlap. A PLY file names its rectangle, as `azulejo plane` writes it.
     #[arg(value_name = "PIECE", required_unless_present = "fixed")]
     pieces: Vec<PathBuf>,
-    /// Points that must stay; can be given again.
+    /// Points that must stay; may be given several times.
     #[arg(long, value_name = "POINTS")]
     fixed: Vec<PathBuf>,
-    /// The smallest distance between samples: that of the pieces.
+    /// The smallest distance between samples, the same as in the pieces.
     #[arg(long, value_name = "R", allow_negative_numbers = true)]
     radius: f64,
     /// The rectangles of the pieces, where their files do not name them: once for each piece, in their order.
@@ -38,11 +41,11 @@ pub struct Merge {
 
 impl Merge {
     pub fn run(&self, context: &Context) -> Result<()> {
-        let output = self.common.destination.open()?;
+        let output = self.common.destination.open_plane()?;
         let loaded = self.load()?;
         let mut fixed = Vec::new();
         for path in &self.fixed {
-            fixed.extend(self.input.read(path, Coordinates::Plane)?.plane_positions());
+            fixed.extend(self.input.read_plane(path, INSTEAD)?.points);
         }
         let rectangles: Vec<_> = loaded.iter().map(|piece| piece.rectangle).collect();
         let pieces: Vec<_> = loaded
@@ -87,12 +90,12 @@ impl Merge {
         let boundary = Boundary::Bounded;
         let given = given.iter().map(|&[x0, y0, x1, y1]| Some(Domain { min: [x0, y0], max: [x1, y1], boundary }));
         let load = |(path, given): (&PathBuf, Option<Domain>)| {
-            let set = self.input.read(path, Coordinates::Plane)?;
+            let set = self.input.read_plane(path, INSTEAD)?;
             let rectangle = given.or(set.domain).ok_or_else(|| Error::Format {
                 path: path.clone(),
                 reason: "does not name its rectangle: give --rectangle for each piece".to_owned(),
             })?;
-            Ok(Loaded { rectangle, samples: set.plane_positions() })
+            Ok(Loaded { rectangle, samples: set.points })
         };
         std::iter::zip(&self.pieces, given.chain(std::iter::repeat(None))).map(load).collect()
     }

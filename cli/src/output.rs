@@ -1,4 +1,4 @@
-//! What commands write: files that are there whole or not at all, and results on the standard output.
+//! What commands write: files, complete or not at all, and results on the standard output.
 
 mod temporary;
 
@@ -11,20 +11,29 @@ use azulejo::{Error, Result};
 use temporary::Temporary;
 pub use temporary::remove_on_signals;
 
-/// A file to be written at the end of a command. It is written beside its place and renamed when it is whole.
+/// A file to be written at the end of a command: as a temporary file in the same directory, renamed when it is complete.
 pub struct Output {
     /// As the user gave it, for messages.
     path: PathBuf,
-    /// The file itself if `path` is a link to it.
-    target: PathBuf,
+    target: Target,
+}
+
+enum Target {
+    /// The standard output.
+    Stdout,
+    /// A file, and not a link to it.
+    File(PathBuf),
 }
 
 impl Output {
     /// Finds out before the work whether there can be a file at `path`, and leaves no trace.
     pub fn at(path: &Path) -> Result<Self> {
-        let named = if path == Path::new("-") { Path::new("/dev/stdout") } else { path };
-        let output = Self { path: path.into(), target: fs::canonicalize(named).unwrap_or_else(|_| named.into()) };
-        output.probe().map_err(|error| output.error(error))?;
+        let target = match path {
+            _ if path == Path::new("-") => Target::Stdout,
+            _ => Target::File(fs::canonicalize(path).unwrap_or_else(|_| path.into())),
+        };
+        let output = Self { path: path.into(), target };
+        output.target.probe().map_err(|error| output.error(error))?;
         Ok(output)
     }
 
@@ -39,24 +48,6 @@ impl Output {
         }
     }
 
-    /// Whether what is written goes into a pipe or a device.
-    fn is_stream(&self) -> bool {
-        fs::metadata(&self.target).is_ok_and(|found| !found.is_file())
-    }
-
-    fn probe(&self) -> io::Result<()> {
-        match fs::metadata(&self.target) {
-            Ok(found) if found.is_dir() => Err(io::ErrorKind::IsADirectory.into()),
-            Ok(found) if !found.is_file() => Ok(()),
-            _ if self.target.file_name().is_none() => Err(io::ErrorKind::InvalidInput.into()),
-            _ => tempfile::tempfile_in(self.directory()).map(|_| ()),
-        }
-    }
-
-    fn directory(&self) -> &Path {
-        self.target.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."))
-    }
-
     fn error(&self, source: io::Error) -> Error {
         Error::Io { path: self.path.clone(), source }
     }
@@ -67,25 +58,61 @@ impl Output {
     }
 
     fn try_write(&self, content: impl FnOnce(&mut BufWriter<&File>) -> io::Result<()>) -> io::Result<()> {
-        // A pipe or a device cannot be replaced by a rename, and has no half.
-        if self.is_stream() {
-            return fill(&File::options().write(true).open(&self.target)?, content);
+        match &self.target {
+            Target::Stdout => fill(&stdout()?, content),
+            // A pipe or a device cannot be replaced by a rename.
+            Target::File(path) if self.target.is_stream() => fill(&File::options().write(true).open(path)?, content),
+            Target::File(path) => {
+                let temporary = Temporary::new(directory(path))?;
+                fill(temporary.file(), content)?;
+                temporary.persist(path)
+            }
         }
-        let temporary = Temporary::new(self.directory())?;
-        fill(temporary.file(), content)?;
-        temporary.persist(&self.target)
     }
 
-    /// Says on the standard output in one line what was written. Nobody may be listening, and a line would spoil the file
-    /// if that is where it went.
+    /// Prints one line about what was written, unless that went to the standard output itself, a pipe or a device. It does
+    /// not matter if the line cannot be printed.
     pub fn report(&self, what: &str) {
-        if !self.is_stream() {
+        if !self.target.is_stream() {
             _ = writeln!(io::stdout(), "{}: {what}", self.path.display());
         }
     }
 }
 
-/// Writes a result to the standard output. Whoever listens may have heard enough.
+impl Target {
+    /// Whether what is written goes to the standard output, a pipe or a device.
+    fn is_stream(&self) -> bool {
+        match self {
+            Self::Stdout => true,
+            Self::File(path) => fs::metadata(path).is_ok_and(|found| !found.is_file()),
+        }
+    }
+
+    fn probe(&self) -> io::Result<()> {
+        let Self::File(path) = self else { return Ok(()) };
+        match fs::metadata(path) {
+            Ok(found) if found.is_dir() => Err(io::ErrorKind::IsADirectory.into()),
+            Ok(found) if !found.is_file() => Ok(()),
+            _ if path.file_name().is_none() => Err(io::ErrorKind::InvalidInput.into()),
+            _ => tempfile::tempfile_in(directory(path)).map(|_| ()),
+        }
+    }
+}
+
+fn directory(path: &Path) -> &Path {
+    path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."))
+}
+
+/// The standard output as a file, which is written from where it stands.
+fn stdout() -> io::Result<File> {
+    #[cfg(unix)]
+    let handle = std::os::fd::AsFd::as_fd(&io::stdout()).try_clone_to_owned()?;
+    #[cfg(windows)]
+    let handle = std::os::windows::io::AsHandle::as_handle(&io::stdout()).try_clone_to_owned()?;
+    Ok(handle.into())
+}
+
+/// Writes a result to the standard output. It is no failure if the reader stops early.
 pub fn print(text: &[u8]) -> Result<()> {
     let mut stdout = io::stdout();
     match stdout.write_all(text).and_then(|()| stdout.flush()) {

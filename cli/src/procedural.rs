@@ -1,4 +1,4 @@
-//! `azulejo mesh`: meshes that are made, not downloaded.
+//! `azulejo mesh`: procedural meshes.
 
 pub mod knot;
 pub mod shapes;
@@ -13,7 +13,7 @@ use crate::ply;
 use shapes::Soup;
 
 #[derive(Args)]
-pub struct Procedural {
+pub(crate) struct Procedural {
     /// Which mesh.
     #[arg(value_enum)]
     shape: Shape,
@@ -28,14 +28,14 @@ pub struct Procedural {
 
 #[derive(Clone, Copy, ValueEnum)]
 enum Shape {
-    /// A trefoil knot with a quilted relief: closed, no border, its box about 2 wide.
+    /// A trefoil knot with a quilted relief: a closed surface, its box about 2 wide.
     Knot,
     /// A sphere of radius 1.
     Sphere,
     /// A torus of radii 1 and 0.4.
     Torus,
     /// A closed hall with columns, arches and drapes, 4 long, 1 high, its walls facing inwards: many surfaces behind one
-    /// another. To be drawn with --cutaway.
+    /// another. Draw it with --cutaway.
     Hall,
 }
 
@@ -60,7 +60,7 @@ impl Shape {
 }
 
 impl Procedural {
-    pub fn run(&self) -> Result<()> {
+    pub(crate) fn run(&self) -> Result<()> {
         let output = Output::of_format("ply", &self.output)?;
         let (default, greatest) = self.shape.details();
         let detail = self.detail.unwrap_or(default);

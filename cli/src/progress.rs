@@ -8,7 +8,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 
 const STEPS: u64 = 1000;
 
-/// The progress of what is done between two shares of a work.
+/// The progress of a part of the work, between two shares of the whole.
 pub fn part(progress: &azulejo::Progress, from: f64, to: f64) -> impl Fn(f64) -> ControlFlow<()> {
     move |done| progress(from + (to - from) * done)
 }

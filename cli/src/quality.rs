@@ -15,10 +15,11 @@ const GRID: usize = 1001;
 /// The figures of a set. Lengths are in units of `d_max`, the distance of neighbours in the hexagonal arrangement.
 #[derive(Clone, Copy)]
 pub struct Quality {
-    /// The smallest distance, and the mean of the distances to the nearest neighbour.
+    /// The smallest distance.
     pub rho: f64,
+    /// The mean of the distances to the nearest neighbour.
     pub mean_distance: f64,
-    /// The largest distance of a place from the set.
+    /// The largest distance of a point of the domain from the set.
     pub cover: f64,
     /// The bond order ψ6.
     pub order: f64,
@@ -38,12 +39,12 @@ impl Quality {
         Self::with(context, domain, points, &figures_2d(context, domain, points, None)?, None)
     }
 
-    /// The figures of a set, of which those that take no spectrum are known.
+    /// The figures of a set, given the ones that need no spectrum.
     pub fn with(
         context: &Context,
         domain: &Domain,
         points: &[[f32; 2]],
-        Figures { nearest, covering_radius, bond_order, triangles }: &Figures,
+        Figures { nearest, covering_radius, bond_order, triangles, .. }: &Figures,
         progress: Option<&Progress>,
     ) -> Result<Self> {
         let spacing = spacing_2d(domain, nearest);

@@ -1,9 +1,7 @@
 //! A flat mesh as dark as a table of numbers, for adaptive sampling.
 
-use azulejo::Result;
 use azulejo::mesh::Mesh;
-
-use crate::generate::MAXIMAL_DENSITY;
+use azulejo::{MAXIMAL_DENSITY, Result};
 
 /// A flat mesh with a vertex for each number of a table, and the radii that make about `dots` of them in all. What is lighter
 /// than the lightest is drawn as if it were that; where all corners of a triangle are white there is none.

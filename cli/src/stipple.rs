@@ -1,4 +1,4 @@
-//! `azulejo stipple`: an image in dots, all of one size, as dense as it is dark.
+//! `azulejo stipple`: an image in dots of one size, denser where it is darker.
 
 pub mod darkness;
 pub mod dots;
@@ -8,9 +8,9 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use azulejo::{Context, Error, Result};
-use clap::Args;
+use clap::{Args, ValueEnum};
 
-use crate::generate::{compared, report};
+use crate::generate::{compared, count, report};
 use crate::output::Output;
 use crate::ply;
 use crate::progress::watched;
@@ -19,24 +19,28 @@ use darkness::Darkness;
 use drawing::Drawing;
 
 #[derive(Args)]
-pub struct Stipple {
-    /// The image: a PNG file. Colours count by their luminance, what is transparent is white.
+pub(crate) struct Stipple {
+    /// The image: a PNG file. Colours count by their luminance; transparent parts are white.
     #[arg(value_name = "IMAGE.png")]
     image: PathBuf,
     /// The dots, in pixels of the image, with y downwards: a drawing (SVG), a picture (PNG) or the centres alone (PLY).
-    #[arg(value_name = "OUT.svg|png|ply")]
+    #[arg(short, long, value_name = "FILE.svg|png|ply")]
     output: PathBuf,
-    /// How many dots there are.
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    /// The format of the output [default: by the extension].
+    #[arg(long, value_enum, value_name = "FORMAT")]
+    format: Option<Format>,
+    /// The number of dots, such as 20000 or 2e4.
+    #[arg(long, value_name = "N", value_parser = count::<u32>)]
     count: u32,
-    /// Leave the dots where they are put first: a maximal Poisson-disk set whose radius follows the image (PSP), of about
-    /// as many dots. Without it dots are put at random and relaxed (DCR): exactly as many, and truer to the tone.
+    /// Do not relax: the dots are a maximal Poisson-disk set whose radius follows the image (PSP), and their number is
+    /// only about the one asked for. Without this flag random dots are relaxed (DCR): exactly as many, and closer to the
+    /// tones of the image.
     #[arg(long)]
     no_relax: bool,
     /// The largest number of steps of the relaxation.
     #[arg(long, value_name = "STEPS", default_value_t = 100, conflicts_with = "no_relax")]
     iterations: u32,
-    /// The light of a pixel is its grey value to this power, 1 being white. What 1 - light says shall be covered with ink.
+    /// The light of a pixel is its grey value, of which 1 is white, to this power; the share 1 - light is covered with ink.
     #[arg(long, value_name = "EXPONENT", default_value_t = 2.2, allow_negative_numbers = true)]
     gamma: f64,
     /// Width of a picture in pixels [default: twice that of the image].
@@ -48,10 +52,13 @@ pub struct Stipple {
 }
 
 /// What the dots are written as.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, ValueEnum)]
 enum Format {
+    /// A drawing.
     Svg,
+    /// A picture.
     Png,
+    /// The centres of the dots.
     Ply,
 }
 
@@ -64,16 +71,16 @@ impl Format {
             "png" => Ok(Self::Png),
             "ply" => Ok(Self::Ply),
             _ => {
-                let reason = format!("{} ends neither in .svg nor in .png nor in .ply", path.display());
-                Err(Error::InvalidArgument { argument: "OUT", reason })
+                let reason = "the extension names no format of dots: give svg, png or ply".to_owned();
+                Err(Error::Format { path: path.into(), reason })
             }
         }
     }
 }
 
 impl Stipple {
-    pub fn run(&self, context: &Context) -> Result<()> {
-        let format = Format::of(&self.output)?;
+    pub(crate) fn run(&self, context: &Context) -> Result<()> {
+        let format = self.format.map_or_else(|| Format::of(&self.output), Ok)?;
         let output = Output::at(&self.output)?;
         let darkness = Darkness::load(&self.image, self.gamma)?;
         let start = Instant::now();

@@ -2,14 +2,18 @@
 
 /// What is known of a quantity from some measurements of it.
 pub struct Summary {
+    /// The mean.
     pub mean: f64,
     /// The standard error of the mean.
     pub error: f64,
+    /// The least value.
     pub low: f64,
+    /// The greatest value.
     pub high: f64,
 }
 
 impl Summary {
+    /// The summary of some values.
     pub fn of(values: &[f64]) -> Self {
         let count = values.len() as f64;
         let mean = values.iter().sum::<f64>() / count;

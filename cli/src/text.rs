@@ -33,47 +33,9 @@ fn trimmed(number: &str) -> &str {
     if number.contains('.') { number.trim_end_matches('0').trim_end_matches('.') } else { number }
 }
 
-/// The day, as `2026-01-31`, that is so many seconds after the beginning of 1970, in UTC.
-pub fn date(seconds: u64) -> String {
-    let (mut year, mut day) = (1970, seconds / 86_400);
-    let is_leap = |year: u64| year.is_multiple_of(4) && !year.is_multiple_of(100) || year.is_multiple_of(400);
-    while day >= 365 + u64::from(is_leap(year)) {
-        day -= 365 + u64::from(is_leap(year));
-        year += 1;
-    }
-    let mut month = 1;
-    for length in [31, 28 + u64::from(is_leap(year)), 31, 30, 31, 30, 31, 31, 30, 31, 30] {
-        if day < length {
-            break;
-        }
-        day -= length;
-        month += 1;
-    }
-    format!("{year}-{month:02}-{:02}", day + 1)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn days_are_those_of_the_calendar() {
-        let days =
-            [0, 31, 58, 59, 364, 365, 11_016, 11_017, 19_723 + 59, 19_723 + 365].map(|day| date(day * 86_400 + 7));
-        let expected = [
-            "1970-01-01",
-            "1970-02-01",
-            "1970-02-28",
-            "1970-03-01",
-            "1970-12-31",
-            "1971-01-01",
-            "2000-02-29",
-            "2000-03-01",
-            "2024-02-29",
-            "2024-12-31",
-        ];
-        assert_eq!(days, expected);
-    }
 
     #[test]
     fn groups_by_three() {

@@ -15,7 +15,7 @@ fn a_set_of_the_plane_survives_every_format() {
         workshop.succeed(&["plane", "--count", "500", "-o", &format!("a.{format}")]);
         // Through the format and back: no step moves a point.
         let (input, output) = (format!("a.{format}"), format!("back-{format}.ply"));
-        workshop.succeed(&["relax", &input, "--iterations", "0", "-o", &output]);
+        workshop.succeed(&["relax", &input, "--dimensions", "2", "--iterations", "0", "-o", &output]);
         assert!(fs::read(workshop.path(&output)).unwrap() == fs::read(workshop.path("a.ply")).unwrap(), "{format}");
     }
     let size = |name: &str| fs::metadata(workshop.path(name)).unwrap().len();
@@ -41,7 +41,7 @@ fn a_format_can_be_asked_for_whatever_the_extension() {
 fn samples_of_a_surface_keep_what_each_format_has_a_place_for() {
     let workshop = Workshop::new();
     workshop.write("roof.obj", "v 0 0 0\nv 2 0 0\nv 0 2 0\nv 0 0 2\nf 1 2 3\nf 1 4 2\n");
-    for format in FORMATS {
+    for format in ["ply", "npy", "csv", "xyz"] {
         workshop.succeed(&["surface", "roof.obj", "--radius", "0.1", "-o", &format!("a.{format}")]);
     }
     let json = |format: &str| {
@@ -49,17 +49,89 @@ fn samples_of_a_surface_keep_what_each_format_has_a_place_for() {
         serde_json::from_str::<serde_json::Value>(&workshop.succeed(&arguments)).unwrap()
     };
     let expected = json("ply");
-    for format in ["csv", "xyz"] {
+    for format in ["npy", "csv", "xyz"] {
         let found = json(format);
         assert_eq!((&found["figures"], &found["radial"]), (&expected["figures"], &expected["radial"]), "{format}");
     }
-    for format in ["npy", "raw"] {
-        let found = json(format);
-        assert_eq!(found["figures"]["smallest_distance"], expected["figures"]["smallest_distance"], "{format}");
-        assert!(found["radial"]["rows"].is_null() && expected["radial"]["rows"].is_array());
+    assert!(expected["radial"]["rows"].is_array());
+    // Triangles and barycentrics as well, but not in XYZ, where there is no place for them.
+    for format in ["npy", "csv"] {
+        let input = format!("a.{format}");
+        workshop.succeed(&["relax", &input, "--mesh", "roof.obj", "--iterations", "0", "-o", "back.ply"]);
+        assert!(fs::read(workshop.path("back.ply")).unwrap() == fs::read(workshop.path("a.ply")).unwrap(), "{format}");
     }
+    let said = workshop.refuse(&["relax", "a.xyz", "--mesh", "roof.obj", "-o", "back.ply"], 1);
+    assert!(said.contains("a.xyz: does not say on which triangle"), "{said}");
     let text = fs::read_to_string(workshop.path("a.csv")).unwrap();
     assert!(text.starts_with("x,y,z,nx,ny,nz,triangle,u,v\n"), "{text}");
+    let npy = fs::read(workshop.path("a.npy")).unwrap();
+    let descr = "'descr': [('position', '<f4', (3,)), ('normal', '<f4', (3,)), ('triangle', '<u4'), \
+                 ('barycentrics', '<f4', (2,))]";
+    assert!(String::from_utf8_lossy(&npy[..192]).contains(descr));
+    // Refused before the work: it would take minutes.
+    let said = workshop.refuse(&["surface", "roof.obj", "--radius", "0.0001", "-o", "a.raw"], 1);
+    assert!(said.starts_with("error: a.raw: raw floats have no place for the normals, triangles"), "{said}");
+}
+
+#[test]
+fn samples_of_a_mesh_are_never_taken_for_points_of_the_plane() {
+    let workshop = Workshop::new();
+    workshop.write("roof.obj", "v 0 0 0\nv 2 0 0\nv 0 2 0\nv 0 0 2\nf 1 2 3\nf 1 4 2\n");
+    for format in ["ply", "npy", "csv", "xyz"] {
+        workshop.succeed(&["surface", "roof.obj", "--radius", "0.3", "-o", &format!("a.{format}")]);
+    }
+    let positions: Vec<f32> = (0..66).map(|i| i as f32).collect();
+    workshop.write("a.raw", positions.iter().flat_map(|x| x.to_le_bytes()).collect::<Vec<_>>());
+    workshop.write("plain.npy", {
+        let header = format!("{:<117}\n", "{'descr': '<f4', 'fortran_order': False, 'shape': (22, 3), }");
+        let floats = positions.iter().flat_map(|x| x.to_le_bytes()).collect::<Vec<_>>();
+        [b"\x93NUMPY\x01\x00\x76\x00", header.as_bytes(), &floats].concat()
+    });
+    for name in ["a.ply", "a.npy", "a.csv", "a.xyz", "a.raw", "plain.npy"] {
+        let dimensions: &[&str] = if name == "a.raw" { &["--dimensions", "3"] } else { &[] };
+        for (command, instead) in [
+            (&["analyze", name][..], "give the mesh that they lie on by --mesh"),
+            (
+                &["relax", name, "--domain", "0", "0", "2", "2", "-o", "b.ply"],
+                "give the mesh that they lie on by --mesh",
+            ),
+            (&["draw", "points", name, "-o", "b.png"], "azulejo draw surface draws them on their mesh"),
+            (&["merge", name, "--radius", "0.1", "-o", "b.ply"], "only sets of the plane can be merged"),
+            (&["merge", "--fixed", name, "--radius", "0.1", "-o", "b.ply"], "only sets of the plane can be merged"),
+        ] {
+            let said = workshop.refuse(&[command, dimensions].concat(), 1);
+            let expected = format!("error: {name}: holds points in three dimensions, not in the plane: {instead}\n");
+            assert_eq!(said, expected, "{command:?}");
+        }
+    }
+    workshop.succeed(&["analyze", "a.raw", "--dimensions", "3", "--mesh", "roof.obj"]);
+    // Nor the other way round.
+    workshop.succeed(&["plane", "--radius", "0.1", "-o", "flat.csv"]);
+    for command in [
+        &["analyze", "flat.csv", "--mesh", "roof.obj"][..],
+        &["draw", "surface", "roof.obj", "flat.csv", "-o", "b.png"],
+    ] {
+        let said = workshop.refuse(command, 1);
+        assert_eq!(said, "error: flat.csv: holds points in the plane, without z, and not samples of a mesh\n");
+    }
+}
+
+#[test]
+fn the_dimension_of_raw_floats_has_to_be_given() {
+    let workshop = Workshop::new();
+    workshop.succeed(&["plane", "--count", "99", "-o", "a.raw"]);
+    let said = workshop.refuse(&["analyze", "a.raw"], 1);
+    assert_eq!(
+        said,
+        "error: a.raw: raw floats do not say how many coordinates a point has: give --dimensions 2 or 3\n"
+    );
+    workshop.succeed(&["analyze", "a.raw", "--dimensions", "2"]);
+    workshop.refuse(&["analyze", "a.raw", "--dimensions", "4"], 2);
+    workshop.succeed(&["plane", "--count", "99", "-o", "a.xyz"]);
+    workshop.succeed(&["analyze", "a.xyz", "--dimensions", "2"]);
+    workshop.succeed(&["plane", "--count", "99", "-o", "a.csv"]);
+    let said = workshop.refuse(&["analyze", "a.csv", "--dimensions", "3"], 1);
+    assert_eq!(said, "error: a.csv: its points do not have 3 dimensions, as --dimensions says\n");
 }
 
 #[test]
@@ -70,23 +142,19 @@ fn broken_files_are_refused_with_name_place_and_reason() {
         ("word.csv", b"x,y\n0.1,0.2\n0.3,three\n".to_vec(), "line 3: \"three\" is not a number"),
         ("columns.xyz", b"# two\n0 0\n1 1\n2\n".to_vec(), "line 4: has 1 columns, and line 2 has 2"),
         ("header.csv", b"a,b\n1,2\n".to_vec(), "line 1: the header names no column x"),
-        ("infinite.txt", b"0 0\n0 1e60\n".to_vec(), "line 2: \"1e60\" is not finite as a float"),
+        ("infinite.txt", b"0 0\n0 1e60\n".to_vec(), "line 2: y is inf, not finite"),
         ("empty.csv", b"x,y\n".to_vec(), "no points"),
         ("cut.raw", vec![0; 12], "12 bytes are not whole points of 2 floats"),
-        (
-            "nan.f32",
-            [0.5, 0.5, f32::NAN, 0.5].map(f32::to_le_bytes).concat(),
-            "byte 8: point 1 is [NaN, 0.5, 0.0], not finite",
-        ),
+        ("nan.f32", [0.5, 0.5, f32::NAN, 0.5].map(f32::to_le_bytes).concat(), "byte 8: point 1: x is NaN, not finite"),
         (
             "short.npy",
             npy("{'descr': '<f4', 'fortran_order': False, 'shape': (3, 2), }"),
-            "the header announces 3 x 2 numbers, but only 0 bytes follow",
+            "the header announces 3 rows of 8 bytes, but only 0 bytes follow",
         ),
         (
             "pickle.npy",
             npy("{'descr': '|O', 'fortran_order': False, 'shape': (3, 2), }"),
-            "has numbers of the type \"|O\", not f4, f8 or i4",
+            "has numbers of the type \"|O\", not floats or integers",
         ),
     ];
     for (name, content, reason) in broken {
@@ -96,7 +164,8 @@ fn broken_files_are_refused_with_name_place_and_reason() {
             &["analyze", name],
             &["merge", name, "--radius", "0.1", "-o", "out.ply"],
         ] {
-            assert_eq!(workshop.refuse(arguments, 1), format!("error: {name}: {reason}\n"));
+            let arguments = [arguments, &["--dimensions", "2"]].concat();
+            assert_eq!(workshop.refuse(&arguments, 1), format!("error: {name}: {reason}\n"));
         }
     }
     workshop.write("flat.csv", "x,y\n1,2\n");

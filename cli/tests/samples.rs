@@ -61,6 +61,33 @@ fn plane_fills_the_rectangle_that_it_is_given() {
 }
 
 #[test]
+fn a_window_has_the_samples_that_the_whole_set_has_there() {
+    let workshop = Workshop::new();
+    let radius = ["plane", "--radius", "0.01", "--seed", "7"];
+    workshop.succeed(&[&radius[..], &["-o", "whole.ply"]].concat());
+    let window = ["--window", "0.25", "0.5", "0.75", "1"];
+    workshop.succeed(&[&radius[..], &window, &["-o", "window.ply"]].concat());
+    let [(_, whole), (header, part)] =
+        ["whole.ply", "window.ply"].map(|name| floats(&fs::read(workshop.path(name)).unwrap(), 2));
+    let inside = |point: &&Vec<f32>| (0.25..0.75).contains(&point[0]) && point[1] >= 0.5;
+    assert_eq!(part, whole.iter().filter(inside).cloned().collect::<Vec<_>>());
+    assert!(part.len() > 1000 && header.contains("comment domain 0.25 0.5 0.75 1 bounded\n"), "{header}");
+    let said = workshop.refuse(&[&radius[..], &["--window", "0", "0", "2", "1", "-o", "a.ply"]].concat(), 1);
+    assert!(said.starts_with("error: window_max: "), "{said}");
+    workshop.refuse(&["plane", "--count", "9", "--window", "0", "0", "1", "1", "-o", "a.ply"], 2);
+}
+
+#[test]
+fn counts_can_be_written_with_an_exponent() {
+    let workshop = Workshop::new();
+    let said = workshop.succeed(&["plane", "--count", "1.5e3", "-o", "a.ply"]);
+    assert!(said.starts_with("a.ply: 1,500 samples, "), "{said}");
+    for count in ["1e-1", "2.5", "0e5", "1e99", "inf"] {
+        workshop.refuse(&["plane", "--count", count, "-o", "a.ply"], 2);
+    }
+}
+
+#[test]
 fn relax_moves_points_apart_and_keeps_their_number_and_domain() {
     let workshop = Workshop::new();
     workshop.succeed(&["plane", "--count", "400", "-o", "a.ply"]);

@@ -60,6 +60,47 @@ mod streams {
     }
 
     #[test]
+    fn a_dash_is_a_mesh_or_an_image_too() {
+        let workshop = Workshop::new();
+        let from = |file: &str, arguments: &[&str]| {
+            let mut command = workshop.command(arguments);
+            let output = command.stdin(File::open(workshop.path(file)).unwrap()).output().unwrap();
+            assert!(output.status.success(), "{arguments:?}: {output:?}");
+            output.stdout
+        };
+        workshop.succeed(&["mesh", "sphere", "--detail", "16", "-o", "mesh.ply"]);
+        workshop.write("roof.obj", "v 0 0 0\nv 2 0 0\nv 0 2 0\nv 0 0 2\nf 1 2 3\nf 1 4 2\n");
+        for mesh in ["mesh.ply", "roof.obj"] {
+            workshop.succeed(&["surface", mesh, "--radius", "0.2", "-o", "a.ply"]);
+            let samples = from(mesh, &["surface", "-", "--radius", "0.2", "-o", "-"]);
+            assert!(samples == fs::read(workshop.path("a.ply")).unwrap(), "{mesh}");
+            let said = workshop.succeed(&["analyze", "a.ply", "--mesh", mesh]);
+            let piped = from(mesh, &["analyze", "a.ply", "--mesh", "-"]);
+            assert_eq!(String::from_utf8(piped).unwrap(), said.replace(mesh, "-"));
+            from(mesh, &["draw", "surface", "-", "a.ply", "-o", "a.png", "--size", "200"]);
+            from(mesh, &["relax", "a.ply", "--mesh", "-", "--iterations", "2", "-o", "b.ply"]);
+        }
+        assert_eq!(
+            from("a.png", &["mesh", "sphere", "--detail", "16", "-o", "-"]),
+            fs::read(workshop.path("mesh.ply")).unwrap()
+        );
+        let svg = from("a.png", &["stipple", "-", "--count", "1e2", "--iterations", "2", "--format", "svg", "-o", "-"]);
+        workshop.succeed(&["stipple", "a.png", "--count", "100", "--iterations", "2", "-o", "a.svg"]);
+        assert!(svg == fs::read(workshop.path("a.svg")).unwrap());
+        let mut twice = workshop.command(&["draw", "surface", "-", "-", "-o", "c.png"]);
+        let output = twice.stdin(File::open(workshop.path("mesh.ply")).unwrap()).output().unwrap();
+        let said = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(said, "error: -: the standard input can be read only once\n");
+        // What comes after other output goes behind it.
+        let log = File::options().append(true).create(true).open(workshop.path("log.csv")).unwrap();
+        let plane = ["plane", "--count", "50", "--format", "csv", "-o", "-"];
+        for _ in 0..2 {
+            assert!(workshop.command(&plane).stdout(log.try_clone().unwrap()).status().unwrap().success());
+        }
+        assert_eq!(fs::read_to_string(workshop.path("log.csv")).unwrap().lines().count(), 102);
+    }
+
+    #[test]
     fn results_that_find_no_room_are_a_failure() {
         let workshop = Workshop::new();
         workshop.succeed(&["plane", "--count", "50", "-o", "a.ply"]);

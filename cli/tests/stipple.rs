@@ -31,7 +31,7 @@ fn drawing(workshop: &Workshop, name: &str) -> (Vec<[f64; 2]>, f64) {
 fn dots_have_the_number_and_the_ink_that_the_image_asks_for() {
     let workshop = Workshop::new();
     write_ramp(&workshop, "ramp.png");
-    let said = workshop.succeed(&["stipple", "ramp.png", "a.svg", "--count", "3000", "--gamma", "1"]);
+    let said = workshop.succeed(&["stipple", "ramp.png", "-o", "a.svg", "--count", "3000", "--gamma", "1"]);
     assert!(said.starts_with("a.svg: 3,000 samples, 100 steps, dots of radius 0.49"), "{said}");
     let (dots, diameter) = drawing(&workshop, "a.svg");
     assert_eq!(dots.len(), 3000);
@@ -49,7 +49,7 @@ fn dots_have_the_number_and_the_ink_that_the_image_asks_for() {
 fn without_relaxation_there_are_about_as_many() {
     let workshop = Workshop::new();
     write_ramp(&workshop, "ramp.png");
-    let said = workshop.succeed(&["stipple", "ramp.png", "a.svg", "--count", "3000", "--no-relax"]);
+    let said = workshop.succeed(&["stipple", "ramp.png", "-o", "a.svg", "--count", "3000", "--no-relax"]);
     let (dots, diameter) = drawing(&workshop, "a.svg");
     assert!((2700..3300).contains(&dots.len()) && !said.contains("steps"), "{said}");
     let told = said.split("dots of radius ").nth(1).unwrap().split(',').next().unwrap().parse::<f64>().unwrap();
@@ -62,7 +62,7 @@ fn pictures_are_as_dark_as_the_image_and_files_of_points_hold_the_centres() {
     write_ramp(&workshop, "ramp.png");
     for gamma in ["1", "2.2"] {
         let exponent: f64 = gamma.parse().unwrap();
-        let arguments = ["stipple", "ramp.png", "a.png", "--count", "800", "--size", "960", "--gamma", gamma];
+        let arguments = ["stipple", "ramp.png", "-o", "a.png", "--count", "800", "--size", "960", "--gamma", gamma];
         workshop.succeed(&arguments);
         let picture = image::open(workshop.path("a.png")).unwrap().to_luma8();
         assert_eq!((picture.width(), picture.height()), (960, 480));
@@ -77,12 +77,12 @@ fn pictures_are_as_dark_as_the_image_and_files_of_points_hold_the_centres() {
         assert!((light(&picture, 1) - light(&ramp, 1)).abs() < 0.03, "{gamma}");
         assert!((light(&picture, 0) - light(&ramp, 0)).abs() < 0.15, "{gamma}");
     }
-    workshop.succeed(&["stipple", "ramp.png", "a.ply", "--count", "800", "--iterations", "3", "--threads", "1"]);
+    workshop.succeed(&["stipple", "ramp.png", "-o", "a.ply", "--count", "800", "--iterations", "3", "--threads", "1"]);
     let first = fs::read(workshop.path("a.ply")).unwrap();
     assert!(String::from_utf8_lossy(&first[..200]).contains("comment domain 0 0 96 48 bounded\nelement vertex 800\n"));
-    workshop.succeed(&["stipple", "ramp.png", "a.ply", "--count", "800", "--iterations", "3", "--threads", "3"]);
+    workshop.succeed(&["stipple", "ramp.png", "-o", "a.ply", "--count", "800", "--iterations", "3", "--threads", "3"]);
     assert!(fs::read(workshop.path("a.ply")).unwrap() == first);
-    workshop.succeed(&["stipple", "ramp.png", "a.ply", "--count", "800", "--iterations", "3", "--seed", "1"]);
+    workshop.succeed(&["stipple", "ramp.png", "-o", "a.ply", "--count", "800", "--iterations", "3", "--seed", "1"]);
     assert!(fs::read(workshop.path("a.ply")).unwrap() != first);
 }
 
@@ -95,18 +95,23 @@ fn what_cannot_be_drawn_is_refused_with_its_name() {
     for (image, start) in
         [("white.png", "white.png: "), ("text.png", "text.png: is no PNG file"), ("missing.png", "missing.png: ")]
     {
-        let said = workshop.refuse(&["stipple", image, "a.svg", "--count", "100"], 1);
+        let said = workshop.refuse(&["stipple", image, "-o", "a.svg", "--count", "100"], 1);
         assert!(said.starts_with(&format!("error: {start}")), "{said}");
     }
-    let said = workshop.refuse(&["stipple", "ramp.png", "a.jpg", "--count", "100"], 1);
-    assert_eq!(said, "error: OUT: a.jpg ends neither in .svg nor in .png nor in .ply\n");
+    let said = workshop.refuse(&["stipple", "ramp.png", "-o", "a.jpg", "--count", "100"], 1);
+    assert_eq!(said, "error: a.jpg: the extension names no format of dots: give svg, png or ply\n");
     for gamma in ["0", "-1", "nan", "inf"] {
-        let said = workshop.refuse(&["stipple", "ramp.png", "a.svg", "--count", "100", "--gamma", gamma], 1);
+        let said = workshop.refuse(&["stipple", "ramp.png", "-o", "a.svg", "--count", "100", "--gamma", gamma], 1);
         assert!(said.starts_with("error: --gamma: "), "{said}");
     }
-    for wrong in [&["a.svg"][..], &["a.svg", "--count", "0"], &["a.svg", "--count", "9", "--size", "1"]] {
+    for wrong in [
+        &["-o", "a.svg"][..],
+        &["-o", "a.svg", "--count", "0"],
+        &["-o", "a.svg", "--count", "9", "--size", "1"],
+        &["--count", "9"],
+    ] {
         workshop.refuse(&[&["stipple", "ramp.png"], wrong].concat(), 2);
     }
-    let both = ["stipple", "ramp.png", "a.svg", "--count", "9", "--no-relax", "--iterations", "3"];
+    let both = ["stipple", "ramp.png", "-o", "a.svg", "--count", "9", "--no-relax", "--iterations", "3"];
     workshop.refuse(&both, 2);
 }

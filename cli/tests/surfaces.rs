@@ -108,16 +108,104 @@ fn samples_are_relaxed_on_their_mesh() {
     workshop.succeed(&["relax", "a.ply", "--mesh", "mesh.ply", "--iterations", "0", "-o", "c.ply"]);
     assert_eq!(fs::read(workshop.path("a.ply")).unwrap(), fs::read(workshop.path("c.ply")).unwrap());
     let said = workshop.refuse(&["relax", "a.ply", "-o", "d.ply"], 1);
-    assert!(said.contains("a.ply: holds samples of a mesh: give --mesh"), "{said}");
+    assert!(
+        said.contains(
+            "a.ply: holds points in three dimensions, not in the plane: give the mesh that they lie on by --mesh"
+        ),
+        "{said}"
+    );
     // Through text, too.
     workshop.succeed(&["relax", "a.ply", "--mesh", "mesh.ply", "--iterations", "0", "-o", "c.csv"]);
     workshop.succeed(&["relax", "c.csv", "--mesh", "mesh.ply", "--iterations", "0", "-o", "c.ply"]);
     assert_eq!(fs::read(workshop.path("a.ply")).unwrap(), fs::read(workshop.path("c.ply")).unwrap());
     workshop.succeed(&["plane", "--radius", "0.1", "-o", "plane.ply"]);
     let said = workshop.refuse(&["relax", "plane.ply", "--mesh", "mesh.ply", "-o", "d.ply"], 1);
-    assert!(said.contains("plane.ply: does not say on which triangle"), "{said}");
+    assert!(said.contains("plane.ply: holds points in the plane"), "{said}");
     workshop.succeed(&["mesh", "sphere", "--detail", "16", "-o", "coarse.ply"]);
     let said = workshop.refuse(&["relax", "a.ply", "--mesh", "coarse.ply", "-o", "d.ply"], 1);
     assert!(said.contains("a.ply: triangles: ["), "{said}");
     workshop.refuse(&["relax", "a.ply", "--mesh", "mesh.ply", "--neighbourhood", "nearest", "-o", "d.ply"], 2);
+}
+
+/// A square of 16 by 16 quads as PLY text: a radius for each vertex, and a number for each face, 1 for the left half.
+fn square(workshop: &Workshop) {
+    let mut text = "ply\nformat ascii 1.0\nelement vertex 289\nproperty float x\nproperty float y\nproperty float z\n\
+                    property float size\nelement face 256\nproperty list uchar int vertex_indices\nproperty uchar kept\n\
+                    end_header\n"
+        .to_owned();
+    for i in 0..289 {
+        let [x, y] = [i % 17, i / 17].map(|step| f64::from(step) / 16.0);
+        text += &format!("{x} {y} 0 {}\n", 0.02 + 0.04 * x);
+    }
+    for i in 0..256 {
+        let (column, a) = (i % 16, i / 16 * 17 + i % 16);
+        text += &format!("4 {a} {} {} {} {}\n", a + 1, a + 18, a + 17, u8::from(column < 8));
+    }
+    workshop.write("square.ply", text);
+}
+
+#[test]
+fn radii_come_from_an_attribute_of_the_vertices() {
+    let workshop = Workshop::new();
+    square(&workshop);
+    for format in ["ply", "npy", "csv"] {
+        let output = format!("a.{format}");
+        let said = workshop.succeed(&["surface", "square.ply", "--radius-from", "size", "-o", &output]);
+        assert!(said.contains(" samples, radii 0.02 to 0.0"), "{said}");
+    }
+    let text = fs::read_to_string(workshop.path("a.csv")).unwrap();
+    let mut lines = text.lines();
+    assert_eq!(lines.next(), Some("x,y,z,nx,ny,nz,triangle,u,v,radius"));
+    let rows = lines.map(|line| line.split(',').map(|word| word.parse::<f64>().unwrap()).collect::<Vec<_>>());
+    let samples: Vec<_> = rows.map(|row| ([row[0], row[1]], row[9])).collect();
+    assert!(samples.len() > 300, "{}", samples.len());
+    for (i, ([x, y], radius)) in samples.iter().enumerate() {
+        assert!((radius - (0.02 + 0.04 * x)).abs() < 1e-6);
+        for ([other_x, other_y], other) in &samples[..i] {
+            assert!((x - other_x).hypot(y - other_y) >= 0.5 * (radius + other) - 1e-6);
+        }
+    }
+    let ply = fs::read(workshop.path("a.ply")).unwrap();
+    assert!(String::from_utf8_lossy(&ply[..300]).contains("property float v\nproperty float radius\nend_header\n"));
+    let npy = fs::read(workshop.path("a.npy")).unwrap();
+    assert!(String::from_utf8_lossy(&npy[..256]).contains("('barycentrics', '<f4', (2,)), ('radius', '<f4')]"));
+    let refuse =
+        |arguments: &[&str], code| workshop.refuse(&[&["surface"], arguments, &["-o", "b.ply"]].concat(), code);
+    let said = refuse(&["square.ply", "--radius-from", "heat"], 1);
+    assert_eq!(said, "error: square.ply: attribute heat: element vertex has no such number, but x, y, z, size\n");
+    let said = refuse(&["square.ply", "--radius-from", "z"], 1);
+    assert!(said.starts_with("error: square.ply: attribute z: "), "{said}");
+    workshop.write("roof.obj", "v 0 0 0\nv 2 0 0\nv 0 2 0\nf 1 2 3\n");
+    let said = refuse(&["roof.obj", "--radius-from", "size"], 1);
+    assert_eq!(said, "error: roof.obj: attribute size: only PLY files have attributes\n");
+    // What has no effect is refused.
+    for vain in [&["--iterations", "3"][..], &["--no-fill"], &["--engine", "embree"], &["--radius", "0.1"]] {
+        refuse(&[&["square.ply", "--radius-from", "size"], vain].concat(), 2);
+    }
+}
+
+#[test]
+fn masked_triangles_get_no_samples() {
+    let workshop = Workshop::new();
+    square(&workshop);
+    let mask: String = (0..256).map(|face| if face % 16 < 8 { "1 1\n" } else { "0 0\n" }).collect();
+    workshop.write("mask.txt", &mask);
+    workshop.succeed(&["surface", "square.ply", "--radius", "0.03", "--mask", "kept", "-o", "a.ply"]);
+    workshop.succeed(&["surface", "square.ply", "--radius", "0.03", "--mask-file", "mask.txt", "-o", "b.ply"]);
+    let made = samples(&workshop, "a.ply");
+    assert!(made.len() > 300 && made.iter().all(|sample| sample[0] <= 0.5), "{}", made.len());
+    assert_eq!(fs::read(workshop.path("a.ply")).unwrap(), fs::read(workshop.path("b.ply")).unwrap());
+    let refuse = |arguments: &[&str], code| {
+        workshop.refuse(&[&["surface", "square.ply", "--radius", "0.03", "-o", "c.ply"], arguments].concat(), code)
+    };
+    let said = refuse(&["--mask", "size"], 1);
+    assert_eq!(said, "error: square.ply: attribute size: element face has no such number, but vertex_indices, kept\n");
+    workshop.write("short.txt", &mask[4..]);
+    assert_eq!(
+        refuse(&["--mask-file", "short.txt"], 1),
+        "error: short.txt: 510 entries, but there are 512 triangles\n"
+    );
+    workshop.write("word.txt", mask.replacen("0 0", "0 no", 1));
+    assert_eq!(refuse(&["--mask-file", "word.txt"], 1), "error: word.txt: line 9: \"no\" is neither 0 nor 1\n");
+    refuse(&["--mask", "kept", "--mask-file", "mask.txt"], 2);
 }

@@ -7,7 +7,7 @@ use std::ffi::c_void;
 
 use azulejo_c::dcr::*;
 use azulejo_c::density::*;
-use azulejo_fuzz::calls::{Arrays, Out, Patience, context, create};
+use azulejo_fuzz::calls::{Arrays, Out, Patience, context, create, report};
 use azulejo_fuzz::input::Input;
 use azulejo_fuzz::relaxation;
 use libfuzzer_sys::fuzz_target;
@@ -17,7 +17,7 @@ fuzz_target!(|bytes: &[u8]| {
     let patience = Patience::new(if input.one_in(4) { input.below(50) } else { u32::MAX });
     let mut options = relaxation::options(&mut input, &patience);
     if !input.one_in(8) {
-        options = azulejo_dcr_options { method: AZULEJO_METHOD_BEST, neighbourhood: 0, ..options };
+        options = momentum(options);
     }
     let points = relaxation::points(&mut input, &options);
     if input.one_in(2) {
@@ -31,6 +31,23 @@ fuzz_target!(|bytes: &[u8]| {
         relax(&options, &azulejo_density { function: Some(density_at), user, ..none() }, &points);
     }
 });
+
+/// Options for which densities are made: the thesis's settings at their defaults.
+fn momentum(options: azulejo_dcr_options) -> azulejo_dcr_options {
+    azulejo_dcr_options {
+        method: AZULEJO_METHOD_MOMENTUM,
+        neighbourhood: 0,
+        conflict_radius: 0.95,
+        attraction_radius: 1.05,
+        step: 0.05,
+        decay: 1.0,
+        neighbours: 6,
+        distribution: 0,
+        visits: 0,
+        convergence: 0,
+        ..options
+    }
+}
 
 fn none() -> azulejo_density {
     azulejo_density {
@@ -109,17 +126,15 @@ fn relax(options: &azulejo_dcr_options, density: &azulejo_density, points: &[[f3
         assert_eq!(scattered.len(), count);
         relaxation::check(options, scattered);
     }
-    let mut report = std::mem::MaybeUninit::uninit();
+    let mut report = report(azulejo_dcr_report_init);
     // SAFETY: as above.
     let call = |out: Out<_>| unsafe {
-        azulejo_dcr_relax_density(context(), options, density, xy, count, out, Some(&mut report))
+        azulejo_dcr_relax_density(context(), options, density, xy, count, out, &raw mut report)
     };
     let Some(relaxed) = create(call) else { return };
     let (relaxed, _) = Arrays::of(&relaxed).positions.as_chunks::<2>();
     assert_eq!(relaxed.len(), count);
     relaxation::check(options, relaxed);
-    // SAFETY: the call succeeded.
-    let report: azulejo_dcr_report = unsafe { report.assume_init() };
     assert!(report.iterations <= options.max_iterations && report.motion >= 0.0 && report.rho >= 0.0, "{}", report.rho);
     assert!(report.coverage >= 0.0, "{}", report.coverage);
 }

@@ -4,10 +4,11 @@
 
 use azulejo_c::analysis::*;
 use azulejo_c::differences::*;
+use azulejo_c::domain::azulejo_plane_set;
 use azulejo_c::mesh::*;
 use azulejo_c::spectrum::*;
 use azulejo_c::statistics::*;
-use azulejo_fuzz::calls::{Out, accepted, array, context, create, value};
+use azulejo_fuzz::calls::{Out, accepted, array, context, create, reported, value};
 use azulejo_fuzz::input::Input;
 use libfuzzer_sys::fuzz_target;
 
@@ -43,31 +44,37 @@ impl Set {
         Self { points, min, max, boundary }
     }
 
-    /// What most calls begin with.
-    fn arguments(&self) -> (*const f32, usize, *const f64, *const f64, i32) {
-        (self.points.as_ptr().cast(), self.points.len(), self.min.as_ptr(), self.max.as_ptr(), self.boundary)
+    /// As the calls want it.
+    fn of_c(&self) -> azulejo_plane_set {
+        azulejo_plane_set {
+            struct_size: size_of::<azulejo_plane_set>() as u32,
+            boundary: self.boundary,
+            positions: self.points.as_ptr().cast(),
+            count: self.points.len(),
+            domain_min: self.min,
+            domain_max: self.max,
+        }
     }
 
     fn figures(&self, radius: f64) {
-        let (xy, count, min, max, boundary) = self.arguments();
-        // SAFETY: the arrays are as long as told.
-        let measure = |out: Out<_>| unsafe { azulejo_plane_measure(context(), xy, count, min, max, boundary, out) };
-        if let Some(report) = value(measure) {
-            assert_eq!(report.count, count as u64);
+        let set = self.of_c();
+        // SAFETY: the array is as long as told.
+        let measure = |out| unsafe { azulejo_plane_measure(context(), &set, out) };
+        if let Some(report) = reported(azulejo_plane_report_init, measure) {
+            assert_eq!(report.count, set.count as u64);
             assert!(report.smallest_distance >= 0.0 && report.covering_radius >= 0.0 && report.rho >= 0.0);
             assert!((0.0..=1.0).contains(&report.obtuse) && (0.0..=1.000001).contains(&report.bond_order));
         }
         // SAFETY: as above.
-        let covers =
-            |out: Out<_>| unsafe { azulejo_plane_coverage(context(), xy, count, min, max, boundary, radius, out) };
-        if let Some(coverage) = value(covers) {
+        let covers = |out| unsafe { azulejo_plane_coverage(context(), &set, radius, out) };
+        if let Some(coverage) = reported(azulejo_coverage_report_init, covers) {
             assert!(coverage.covering_radius >= 0.0, "{}", coverage.covering_radius);
             assert!(coverage.covering_radius <= radius || coverage.gaps > 0, "{} > {radius}", coverage.covering_radius);
         }
     }
 
     fn histograms(&self, input: &mut Input) {
-        let (xy, count, min, max, boundary) = self.arguments();
+        let set = self.of_c();
         let reach = input.number();
         let bins = if input.one_in(8) { input.any::<u32>() as usize } else { input.below(100) as usize };
         // Where there are too many bins nothing is written.
@@ -75,24 +82,22 @@ impl Set {
         // SAFETY: the arrays are as long as told, or longer than what is accepted.
         unsafe {
             let out = nearest.as_mut_ptr();
-            if accepted(azulejo_plane_nearest_histogram(context(), xy, count, min, max, boundary, reach, bins, out)) {
-                assert!(nearest.iter().sum::<u64>() <= count as u64);
+            if accepted(azulejo_plane_nearest_histogram(context(), &set, reach, bins, out)) {
+                assert!(nearest.iter().sum::<u64>() <= set.count as u64);
             }
             let out = density.as_mut_ptr();
-            if accepted(azulejo_plane_radial_distribution(context(), xy, count, min, max, boundary, reach, bins, out)) {
+            if accepted(azulejo_plane_radial_distribution(context(), &set, reach, bins, out)) {
                 assert!(density.iter().all(|&density| density >= 0.0), "{density:?}");
             }
         }
     }
 
     fn spectra(&self, input: &mut Input) {
-        let (xy, count, min, max, boundary) = self.arguments();
+        let set = self.of_c();
         let size = if input.one_in(16) { 4097 + input.below(5000) } else { input.below(64) };
         let stride = if input.one_in(4) { input.below(5000) } else { 1 };
-        // SAFETY: the arrays are as long as told.
-        let make = |out: Out<_>| unsafe {
-            azulejo_spectrum_create(context(), xy, count, min, max, boundary, size, stride, out)
-        };
+        // SAFETY: the array is as long as told.
+        let make = |out: Out<_>| unsafe { azulejo_spectrum_create(context(), &set, size, stride, out) };
         let Some(one) = create(make) else { return };
         let both: [&azulejo_spectrum; 2] = [&one, &one];
         // SAFETY: two spectra that live.
@@ -113,7 +118,8 @@ impl Set {
             assert!(annuli.iter().take(count).all(|annulus| annulus.count >= 2 && annulus.power >= 0.0));
         }
         // SAFETY: the spectrum lives.
-        let report = value(|out| unsafe { azulejo_spectrum_measure(Some(&mean), width, low, high, out) });
+        let measure = |out| unsafe { azulejo_spectrum_measure(Some(&mean), width, low, high, out) };
+        let report = reported(azulejo_spectrum_report_init, measure);
         assert!(report.is_none_or(|report| report.contrast >= 0.0 && report.peak >= 0.0));
         azulejo_spectrum_free(Some(one));
         azulejo_spectrum_free(Some(mean));
@@ -147,8 +153,8 @@ fn covered(mesh: &azulejo_mesh, length: f64, samples: &[[f32; 3]], input: &mut I
     }
     let (start, count) = (samples.as_ptr().cast(), samples.len());
     // SAFETY: the array is as long as told.
-    let covers = |out: Out<_>| unsafe { azulejo_mesh_coverage(context(), Some(mesh), start, count, radius, out) };
-    if let Some(coverage) = value(covers) {
+    let covers = |out| unsafe { azulejo_mesh_coverage(context(), Some(mesh), start, count, radius, out) };
+    if let Some(coverage) = reported(azulejo_coverage_report_init, covers) {
         assert!(coverage.covering_radius >= 0.0, "{}", coverage.covering_radius);
         assert!(coverage.covering_radius <= radius || coverage.gaps > 0, "{} > {radius}", coverage.covering_radius);
     }

@@ -3,6 +3,7 @@
 #![no_main]
 
 use std::alloc::{Layout, alloc_zeroed, dealloc, handle_alloc_error};
+use std::ptr::null_mut;
 
 use azulejo_c::adaptive::*;
 use azulejo_c::dcr::*;
@@ -18,7 +19,7 @@ use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|bytes: &[u8]| {
     let mut input = Input::new(bytes);
-    // Every call ends when it first tells how far it is: sizes do not matter here, and a set may be as large as it likes.
+    // Every call ends with its first report of progress: sizes do not matter here, and a set may be as large as it likes.
     let patience = Patience::new(0);
     match input.below(6) {
         0 => kdrt(&mut input, &patience),
@@ -111,11 +112,11 @@ fn kdrt(input: &mut Input, patience: &Patience) {
     let corners = [[0.25, 0.25], [0.5f64, 0.5]];
     // SAFETY: the options are of the size that they say.
     unsafe {
-        create(|out| azulejo_kdrt_sample(context(), options, out));
+        create(|out| azulejo_kdrt_sample(context(), options, out, null_mut()));
         patience.again(0);
         create(|out| azulejo_kdrt_sample_window(context(), options, corners[0].as_ptr(), corners[1].as_ptr(), out));
         patience.again(0);
-        accepted(azulejo_kdrt_stream(context(), options, None, std::ptr::null_mut()));
+        accepted(azulejo_kdrt_stream(context(), options, None, null_mut()));
     }
 }
 
@@ -129,15 +130,15 @@ fn maximal(input: &mut Input, patience: &Patience) {
 }
 
 fn merge(input: &mut Input, patience: &Patience) {
-    let mut memory = hostile(input, azulejo_merge_options_init);
-    if !watched!(memory, azulejo_merge_options, patience) {
-        quick(&mut memory, std::mem::offset_of!(azulejo_merge_options, radius));
+    let mut memory = hostile(input, azulejo_kdrt_merge_options_init);
+    if !watched!(memory, azulejo_kdrt_merge_options, patience) {
+        quick(&mut memory, std::mem::offset_of!(azulejo_kdrt_merge_options, radius));
     }
     let xy = [0.5f32, 0.5];
-    let piece = azulejo_merge_piece { xy: xy.as_ptr(), count: 1, min: [0.0; 2], max: [1.0; 2] };
+    let piece = azulejo_kdrt_merge_piece { xy: xy.as_ptr(), count: 1, min: [0.0; 2], max: [1.0; 2] };
     let null = std::ptr::null();
     // SAFETY: the options are of the size that they say, the piece has one sample.
-    create(|out| unsafe { azulejo_kdrt_merge(context(), memory.start.cast(), &piece, 1, null, 0, out, None) });
+    create(|out| unsafe { azulejo_kdrt_merge(context(), memory.start.cast(), &piece, 1, null, 0, out, null_mut()) });
 }
 
 fn triangle() -> Box<azulejo_mesh> {
@@ -156,31 +157,31 @@ fn psp(input: &mut Input, patience: &Patience) {
     // SAFETY: the options are of the size that they say.
     unsafe {
         create(|out| azulejo_psp_create(context(), Some(&mesh), options, out));
-        create(|out| azulejo_psp_sample(context(), Some(&mesh), options, out, None));
+        create(|out| azulejo_psp_sample(context(), Some(&mesh), options, out, null_mut()));
     }
 }
 
 fn adaptive(input: &mut Input, patience: &Patience) {
-    let mut memory = hostile(input, azulejo_adaptive_options_init);
+    let mut memory = hostile(input, azulejo_psp_adaptive_options_init);
     let radii = [0.2f32, 0.3, 0.4];
     let count = if input.one_in(8) { input.below(3) as usize } else { 3 };
     let by_vertex = input.one_in(2);
     // The pointers and the count are the caller's word, which has to be true.
     memory.put(
-        std::mem::offset_of!(azulejo_adaptive_options, vertex_radii),
+        std::mem::offset_of!(azulejo_psp_adaptive_options, vertex_radii),
         if by_vertex { radii.as_ptr() } else { std::ptr::null() },
     );
-    memory.put(std::mem::offset_of!(azulejo_adaptive_options, vertex_count), count);
+    memory.put(std::mem::offset_of!(azulejo_psp_adaptive_options, vertex_count), count);
     memory.put(
-        std::mem::offset_of!(azulejo_adaptive_options, radius),
+        std::mem::offset_of!(azulejo_psp_adaptive_options, radius),
         (!by_vertex).then_some(constant as unsafe extern "C-unwind" fn(_, _) -> _),
     );
-    if !watched!(memory, azulejo_adaptive_options, patience) {
-        memory.put(std::mem::offset_of!(azulejo_adaptive_options, slope), 0.0f64);
+    if !watched!(memory, azulejo_psp_adaptive_options, patience) {
+        memory.put(std::mem::offset_of!(azulejo_psp_adaptive_options, slope), 0.0f64);
     }
     let mesh = triangle();
     // SAFETY: the options are of the size that they say.
-    create(|out| unsafe { azulejo_psp_sample_adaptive(context(), Some(&mesh), memory.start.cast(), out, None) });
+    create(|out| unsafe { azulejo_psp_adaptive_sample(context(), Some(&mesh), memory.start.cast(), out, null_mut()) });
 }
 
 unsafe extern "C-unwind" fn constant(_: *mut std::ffi::c_void, _: *const f64) -> f64 {
@@ -194,5 +195,5 @@ fn dcr(input: &mut Input, patience: &Patience) {
     }
     let xy = [0.1f32, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.1];
     // SAFETY: the options are of the size that they say, and there are four points.
-    create(|out| unsafe { azulejo_dcr_relax(context(), memory.start.cast(), xy.as_ptr(), 4, out, None) });
+    create(|out| unsafe { azulejo_dcr_relax(context(), memory.start.cast(), xy.as_ptr(), 4, out, null_mut()) });
 }

@@ -3,12 +3,13 @@
 #![no_main]
 
 use std::ffi::c_void;
+use std::ptr::null_mut;
 
 use azulejo_c::kdrt::*;
 use azulejo_c::maximal::*;
 use azulejo_c::merge::*;
 use azulejo_core::{Boundary, Domain};
-use azulejo_fuzz::calls::{Arrays, Out, Patience, accepted, array, check_distances, context, create};
+use azulejo_fuzz::calls::{Arrays, Out, Patience, accepted, array, check_distances, context, create, report};
 use azulejo_fuzz::input::Input;
 use libfuzzer_sys::fuzz_target;
 
@@ -33,6 +34,8 @@ fuzz_target!(|bytes: &[u8]| {
         progress: Some(Patience::tell),
         progress_user: patience.user(),
         count: 0,
+        measure_coverage: 0,
+        reserved: 0,
     };
     match input.below(6) {
         0 => maximal(&options),
@@ -63,7 +66,7 @@ fn owned(points: Box<azulejo_c::points::azulejo_points>) -> Vec<[f32; 2]> {
 
 fn sample(options: &azulejo_kdrt_options) -> Option<Vec<[f32; 2]>> {
     // SAFETY: the options are of the size that they say.
-    create(|out| unsafe { azulejo_kdrt_sample(context(), options, out) }).map(owned)
+    create(|out| unsafe { azulejo_kdrt_sample(context(), options, out, null_mut()) }).map(owned)
 }
 
 fn maximal(options: &azulejo_kdrt_options) {
@@ -84,14 +87,13 @@ fn maximal(options: &azulejo_kdrt_options) {
 }
 
 fn counted(options: &azulejo_kdrt_options, count: u32) {
-    let request = azulejo_kdrt_options { radius: 0.0, count: count.into(), ..*options };
-    let mut report = std::mem::MaybeUninit::uninit();
-    // SAFETY: the options are of the size that they say.
-    let call = |out: Out<_>| unsafe { azulejo_kdrt_sample_with_report(context(), &request, out, Some(&mut report)) };
+    let request = azulejo_kdrt_options { radius: 0.0, count: count as usize, measure_coverage: 1, ..*options };
+    let mut report = report(azulejo_kdrt_report_init);
+    // SAFETY: the structs are of the sizes that they say.
+    let call = |out: Out<_>| unsafe { azulejo_kdrt_sample(context(), &request, out, &raw mut report) };
     let Some(samples) = create(call).map(owned) else { return };
     assert_eq!(samples.len(), count as usize);
-    // SAFETY: the call succeeded.
-    let report: azulejo_kdrt_report = unsafe { report.assume_init() };
+    assert!(report.coverage > 0.0);
     check(&azulejo_kdrt_options { radius: report.radius, ..request }, Some(samples));
 }
 
@@ -137,9 +139,17 @@ fn stream(options: &azulejo_kdrt_options, visits: u32) {
 
 fn merge(options: &azulejo_kdrt_options, input: &mut Input) {
     let &azulejo_kdrt_options { boundary, radius, domain_min, domain_max, seed, progress, progress_user, .. } = options;
-    let struct_size = size_of::<azulejo_merge_options>() as u32;
-    let request =
-        azulejo_merge_options { struct_size, boundary, radius, domain_min, domain_max, seed, progress, progress_user };
+    let struct_size = size_of::<azulejo_kdrt_merge_options>() as u32;
+    let request = azulejo_kdrt_merge_options {
+        struct_size,
+        boundary,
+        radius,
+        domain_min,
+        domain_max,
+        seed,
+        progress,
+        progress_user,
+    };
     let middle = domain_min[0] + (domain_max[0] - domain_min[0]) * f64::from(input.any::<u8>()) / 256.0;
     let halves = [(domain_min, [middle, domain_max[1]]), ([middle, domain_min[1]], domain_max)];
     let samples = halves.map(|(min, max)| {
@@ -152,12 +162,12 @@ fn merge(options: &azulejo_kdrt_options, input: &mut Input) {
     let fixed = if input.one_in(2) { input.rows::<2>(4) } else { Vec::new() };
     let piece = |i: usize| {
         let ((min, max), samples) = (halves[i], &samples[i]);
-        azulejo_merge_piece { xy: samples.as_ptr().cast(), count: samples.len(), min, max }
+        azulejo_kdrt_merge_piece { xy: samples.as_ptr().cast(), count: samples.len(), min, max }
     };
     let pieces = [piece(0), piece(1)];
     // SAFETY: all arrays are as long as told.
     let call = |out: Out<_>| unsafe {
-        azulejo_kdrt_merge(context(), &request, pieces.as_ptr(), 2, fixed.as_ptr().cast(), fixed.len(), out, None)
+        azulejo_kdrt_merge(context(), &request, pieces.as_ptr(), 2, fixed.as_ptr().cast(), fixed.len(), out, null_mut())
     };
     check(options, create(call).map(owned));
 }

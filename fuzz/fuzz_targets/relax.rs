@@ -4,7 +4,8 @@
 
 use azulejo_c::analysis::*;
 use azulejo_c::dcr::*;
-use azulejo_fuzz::calls::{Arrays, Out, Patience, context, create, value};
+use azulejo_c::domain::azulejo_plane_set;
+use azulejo_fuzz::calls::{Arrays, Out, Patience, context, create, report, value};
 use azulejo_fuzz::input::Input;
 use azulejo_fuzz::relaxation;
 use libfuzzer_sys::fuzz_target;
@@ -15,16 +16,14 @@ fuzz_target!(|bytes: &[u8]| {
     let options = relaxation::options(&mut input, &patience);
     let points = relaxation::points(&mut input, &options);
     let (xy, count) = (points.as_ptr().cast(), points.len());
-    let mut report = std::mem::MaybeUninit::uninit();
+    let mut report = report(azulejo_dcr_report_init);
     // SAFETY: the options are of the size that they say, and there are so many points.
-    let call = |out: Out<_>| unsafe { azulejo_dcr_relax(context(), &options, xy, count, out, Some(&mut report)) };
+    let call = |out: Out<_>| unsafe { azulejo_dcr_relax(context(), &options, xy, count, out, &raw mut report) };
     if let Some(relaxed) = create(call) {
         let (relaxed, _) = Arrays::of(&relaxed).positions.as_chunks::<2>();
         assert_eq!(relaxed.len(), count);
         relaxation::check(&options, relaxed);
         measure(&options, relaxed);
-        // SAFETY: the call succeeded.
-        let report: azulejo_dcr_report = unsafe { report.assume_init() };
         assert!(report.iterations <= options.max_iterations && report.motion >= 0.0 && report.rho >= 0.0);
     }
     measure(&options, &points);
@@ -32,11 +31,18 @@ fuzz_target!(|bytes: &[u8]| {
 
 /// The figures of the header, which are finite where there are two points.
 fn measure(options: &azulejo_dcr_options, points: &[[f32; 2]]) {
-    let (xy, count) = (points.as_ptr().cast(), points.len());
-    let (min, max) = (options.domain_min.as_ptr(), options.domain_max.as_ptr());
+    let count = points.len();
+    let set = azulejo_plane_set {
+        struct_size: size_of::<azulejo_plane_set>() as u32,
+        boundary: options.boundary,
+        positions: points.as_ptr().cast(),
+        count,
+        domain_min: options.domain_min,
+        domain_max: options.domain_max,
+    };
     for function in [azulejo_plane_smallest_distance, azulejo_plane_covering_radius] {
-        // SAFETY: the arrays are as long as told.
-        let call = |out: Out<_>| unsafe { function(context(), xy, count, min, max, options.boundary, out) };
+        // SAFETY: the array is as long as told.
+        let call = |out: Out<_>| unsafe { function(context(), &set, out) };
         if let Some(distance) = value(call) {
             assert!(distance >= 0.0 && (count < 2 || distance.is_finite()), "{distance} for {count} points");
         }

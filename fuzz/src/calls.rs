@@ -31,6 +31,25 @@ pub fn value<T>(call: impl FnOnce(Out<T>) -> azulejo_status) -> Option<T> {
     accepted(call(Some(&mut out))).then(|| unsafe { out.assume_init() })
 }
 
+/// A report for a call to write, as its init function makes it.
+pub fn report<T>(init: unsafe extern "C" fn(*mut T, usize) -> azulejo_status) -> T {
+    let mut report = MaybeUninit::uninit();
+    // SAFETY: the struct is of this size, and the call fills it.
+    unsafe {
+        assert_eq!(init(report.as_mut_ptr(), size_of::<T>()), AZULEJO_OK);
+        report.assume_init()
+    }
+}
+
+/// The report that a call writes, unless it refuses.
+pub fn reported<T>(
+    init: unsafe extern "C" fn(*mut T, usize) -> azulejo_status,
+    call: impl FnOnce(*mut T) -> azulejo_status,
+) -> Option<T> {
+    let mut report = report(init);
+    accepted(call(&raw mut report)).then_some(report)
+}
+
 /// Whether a call succeeded; if it did not, it has a known reason and says it in one line.
 pub fn accepted(status: azulejo_status) -> bool {
     if status == AZULEJO_OK {

@@ -1,6 +1,6 @@
 //! Requests to relax points of the plane, for the targets that do.
 
-use azulejo_c::dcr::azulejo_dcr_options;
+use azulejo_c::dcr::{AZULEJO_METHOD_THESIS, azulejo_dcr_options};
 
 use crate::calls::Patience;
 use crate::input::Input;
@@ -9,29 +9,36 @@ use crate::input::Input;
 pub fn options(input: &mut Input, patience: &Patience) -> azulejo_dcr_options {
     let min = [input.coordinate(), input.coordinate()].map(f64::from);
     let sides = [input.number(), input.number()];
-    let mut thesis = |usual: f64| if input.one_in(16) { input.number() } else { usual };
-    let [conflict_radius, attraction_radius, step] = [thesis(0.95), thesis(1.05), thesis(0.1)];
+    let method = i32::from(input.one_in(2));
+    // The momentum method takes the defaults only.
+    let is_thesis = method == AZULEJO_METHOD_THESIS || input.one_in(16);
+    let mut number = |usual: f64, one_in: u8| if is_thesis && input.one_in(one_in) { input.number() } else { usual };
+    let [conflict_radius, attraction_radius] = [number(0.95, 16), number(1.05, 16)];
+    let [step, decay] = [number(0.05, 2), number(1.0, 8)];
+    let mut choice = |choices: i32| if is_thesis { input.any::<i32>().rem_euclid(choices) } else { 0 };
+    let [distribution, visits, convergence] = [choice(5), choice(2), choice(2)];
+    let neighbours = if is_thesis && input.one_in(8) { input.any() } else { 6 };
     azulejo_dcr_options {
         struct_size: size_of::<azulejo_dcr_options>() as u32,
         boundary: i32::from(input.one_in(2)),
         domain_min: min,
         domain_max: [min[0] + sides[0], min[1] + sides[1]],
         neighbourhood: i32::from(input.one_in(2)),
+        method,
         max_iterations: input.below(24),
+        reserved: 0,
         seed: input.any(),
+        tolerance: if input.one_in(8) { input.number() } else { -1.0 },
+        progress: Some(Patience::tell),
+        progress_user: patience.user(),
         conflict_radius,
         attraction_radius,
         step,
-        tolerance: if input.one_in(8) { input.number() } else { -1.0 },
-        neighbours: if input.one_in(8) { input.any() } else { 6 },
-        distribution: input.any::<i32>().rem_euclid(5),
-        progress: Some(Patience::tell),
-        progress_user: patience.user(),
-        method: i32::from(input.one_in(2)),
-        reserved: 0,
-        visits: i32::from(input.one_in(2)),
-        convergence: i32::from(input.one_in(4)),
-        decay: if input.one_in(8) { input.number() } else { 1.0 },
+        decay,
+        neighbours,
+        distribution,
+        visits,
+        convergence,
     }
 }
 

@@ -2,16 +2,17 @@
 
 use std::cell::Cell;
 use std::ffi::c_void;
-use std::ptr::NonNull;
+use std::ptr::{NonNull, null_mut};
 
 use azulejo_c::adaptive::*;
 use azulejo_c::analysis::azulejo_mesh_uncovered_fraction;
 use azulejo_c::mesh::*;
-use azulejo_c::points::azulejo_points;
+use azulejo_c::points::{azulejo_points, azulejo_points_count};
 use azulejo_c::psp::*;
+use azulejo_c::psp_report::azulejo_psp_report_init;
 use azulejo_c::surface::*;
 
-use crate::calls::{Arrays, Out, Patience, accepted, array, check_distances, context, create, value};
+use crate::calls::{Arrays, Out, Patience, accepted, array, check_distances, context, create, report, value};
 use crate::input::Input;
 
 /// About how many samples a set has at most.
@@ -64,7 +65,7 @@ impl Corners {
     }
 }
 
-/// Samples a mesh in all ways, with a radius that gives few samples.
+/// Samples a mesh by all calls, with a radius that gives few samples.
 pub fn sample(mesh: &azulejo_mesh, input: &mut Input) {
     let corners = Corners::of(mesh);
     let samples = 1.0 + f64::from(input.any::<u8>() / 2);
@@ -80,12 +81,12 @@ pub fn sample(mesh: &azulejo_mesh, input: &mut Input) {
         iterations: input.below(3),
         radius,
         seed: input.any(),
-        maximal: i32::from(!input.one_in(4)),
+        maximal: u32::from(!input.one_in(4)),
+        priority: i32::from(input.one_in(4)),
+        engine: i32::from(input.one_in(2)),
         reserved: 0,
         progress: Some(Patience::tell),
         progress_user: patience.user(),
-        order: i32::from(input.one_in(4)),
-        engine: i32::from(input.one_in(2)),
     };
     at_once(mesh, &corners, &options);
     in_steps(mesh, &corners, &options, &patience, input);
@@ -101,10 +102,11 @@ fn check_uniform(corners: &Corners, points: &azulejo_points, radius: f64) {
 }
 
 fn at_once(mesh: &azulejo_mesh, corners: &Corners, options: &azulejo_psp_options) {
-    let mut report = std::mem::MaybeUninit::uninit();
-    // SAFETY: the options are of the size that they say.
-    let call = |out: Out<_>| unsafe { azulejo_psp_sample(context(), Some(mesh), options, out, Some(&mut report)) };
+    let mut report = report(azulejo_psp_report_init);
+    // SAFETY: the structs are of the sizes that they say.
+    let call = |out: Out<_>| unsafe { azulejo_psp_sample(context(), Some(mesh), options, out, &raw mut report) };
     let Some(points) = create(call) else { return };
+    assert_eq!(report.samples, azulejo_points_count(Some(&points)) as u64);
     check_uniform(corners, &points, options.radius);
     if options.maximal == 1 {
         check_covered(mesh, corners, &points, options);
@@ -130,6 +132,7 @@ fn in_steps(
     patience: &Patience,
     input: &mut Input,
 ) {
+    let options = &azulejo_psp_options { iterations: 1, maximal: 1, ..*options };
     // SAFETY: the options are of the size that they say.
     let create_set = |out: Out<_>| unsafe { azulejo_psp_create(context(), Some(mesh), options, out) };
     let Some(mut set) = create(create_set) else { return };
@@ -139,7 +142,11 @@ fn in_steps(
         let handle = Some(NonNull::from(&mut *set));
         // SAFETY: the handle is alive; nobody else uses it.
         let status = unsafe {
-            if input.one_in(2) { azulejo_psp_fill(handle, None) } else { azulejo_psp_advance(handle, 1, None) }
+            if input.one_in(2) {
+                azulejo_psp_fill(handle, null_mut())
+            } else {
+                azulejo_psp_advance(handle, 1, null_mut())
+            }
         };
         accepted(status);
     }
@@ -191,23 +198,23 @@ fn adaptive(mesh: &azulejo_mesh, corners: &Corners, radius: f64, input: &mut Inp
     let slope = f64::from(input.any::<u8>()) / 256.0;
     let guest = Guest { least: radius, slope, kind: input.below(10), calls: Cell::new(0) };
     let by_vertex = input.one_in(2);
-    let options = azulejo_adaptive_options {
-        struct_size: size_of::<azulejo_adaptive_options>() as u32,
+    let options = azulejo_psp_adaptive_options {
+        struct_size: size_of::<azulejo_psp_adaptive_options>() as u32,
         reserved: 0,
         vertex_radii: if by_vertex { radii.as_ptr() } else { std::ptr::null() },
         vertex_count: if by_vertex { radii.len() } else { 0 },
         radius: (!by_vertex).then_some(radius_at),
         radius_user: (&raw const guest).cast_mut().cast(),
-        smallest: radius,
-        largest: 2.0 * radius,
-        slope,
+        smallest: if by_vertex { 0.0 } else { radius },
+        largest: if by_vertex { 0.0 } else { 2.0 * radius },
+        slope: if by_vertex { 0.0 } else { slope },
         cosine: if input.one_in(4) { [1.0, input.number()][input.below(2) as usize] } else { -1.0 },
         seed: input.any(),
         progress: None,
         progress_user: std::ptr::null_mut(),
     };
     // SAFETY: the options are of the size that they say, and so is the array.
-    let call = |out: Out<_>| unsafe { azulejo_psp_sample_adaptive(context(), Some(mesh), &options, out, None) };
+    let call = |out: Out<_>| unsafe { azulejo_psp_adaptive_sample(context(), Some(mesh), &options, out, null_mut()) };
     let Some(points) = create(call) else { return };
     let set = Arrays::of(&points);
     corners.check(&set);
@@ -248,7 +255,7 @@ fn relax(mesh: &azulejo_mesh, corners: &Corners, input: &mut Input) {
     let (start, uv) = (triangles.as_ptr(), barycentrics.as_ptr().cast());
     // SAFETY: the options are of the size that they say, and so are the arrays.
     let call = |out: Out<_>| unsafe {
-        azulejo_dcr_relax_surface(context(), Some(mesh), &options, start, uv, count, out, None)
+        azulejo_dcr_surface_relax(context(), Some(mesh), &options, start, uv, count, out, null_mut())
     };
     let Some(points) = create(call) else { return };
     let set = Arrays::of(&points);

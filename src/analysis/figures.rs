@@ -12,6 +12,7 @@ use crate::points::Domain;
 
 /// The figures of a set of the plane.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Figures {
     /// The distance of each point to its nearest neighbour, as [`nearest_distances_2d`](super::spacing::nearest_distances_2d)
     /// gives them; [`spacing_2d`](super::spacing::spacing_2d) sums them up.

@@ -65,6 +65,7 @@ pub fn rho(context: &Context, domain: &Domain, points: &[[f32; 2]], progress: Op
 
 /// The distances of the points of a set to their nearest neighbours, in three numbers.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Spacing {
     /// The smallest; infinite for less than two points.
     pub smallest: f64,

@@ -117,6 +117,7 @@ pub(super) fn triangles_of(
 
 /// What the triangles of a set are like, as [`delaunay_triangles`] gives them. Shares and variations of nothing are 0.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[non_exhaustive]
 pub struct TriangleStatistics {
     /// The number of triangles.
     pub triangles: u64,

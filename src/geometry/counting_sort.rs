@@ -21,10 +21,10 @@ impl<T: Copy + Default> Binned<T> {
         }
         let mut next = starts.clone();
         let mut sorted = vec![T::default(); starts[bins] as usize];
-        for (bin, item) in items {
+        items.for_each(|(bin, item)| {
             sorted[next[bin] as usize] = item;
             next[bin] += 1;
-        }
+        });
         Self { starts, items: sorted }
     }
 }

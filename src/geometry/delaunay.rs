@@ -1,32 +1,32 @@
-//! The Delaunay neighbourhood (thesis §4.3.3) of a torus or of a bounded rectangle.
+//! The Delaunay triangulation of a torus or of a bounded rectangle with its mirror images (thesis §4.3.3).
 //!
-//! The triangulation itself is spade's. It knows no torus and no mirror, so it is given the points and their copies
-//! in a margin around the domain (thesis §4.4.1 and Fig. 4.12 (b)), which the thesis takes for sufficient. Here it is
-//! verified: the star of a point is that of the endless pattern when the circumcircles of its triangles lie where all
-//! copies are known. If one does not, the margin is doubled.
+//! The triangulation itself is spade's. It supports neither tori nor mirrors, so it is given the points and their
+//! copies in a margin around the domain (thesis §4.4.1 and Fig. 4.12 (b)), which the thesis assumes to be sufficient.
+//! Here it is verified: the star of a point is that of the endless pattern when the circumcircles of its triangles lie
+//! where all copies are known. If one does not, the margin is doubled.
 //!
 //! One whole ring of copies is always enough. Let an empty circle touch a point p of the domain and another site q.
 //! Were q more than a period away along an axis, the chord of the circle through p or the one through q would be
-//! longer than a period and contain another copy of its point. On mirrored domains the mirror images take that part.
+//! longer than a period and contain another copy of its point. On mirrored domains the mirror images play that part.
 
 use glam::DVec2;
 use spade::handles::{FaceHandle, FixedVertexHandle, PossiblyOuterTag, VertexHandle};
 use spade::{DelaunayTriangulation, HasPosition, Point2, Triangulation};
 
 use crate::error::Result;
+use crate::geometry::circumcircle::{circumcentre, circumradius_squared};
 use crate::geometry::frame::{Frame, Site};
-use crate::geometry::links::{Link, Links};
 use crate::job::{Job, chunks};
-use crate::points::Boundary;
 
-/// The first margin, in spacings: a little more than the largest empty circle of a million random points is wide.
+/// The first margin, in spacings: slightly more than the diameter of the largest empty circle of a million random
+/// points.
 const MARGIN: f64 = 4.0;
 
-/// Larger sets are triangulated point by point, so that the caller is told how far that is and can stop it. It takes about
-/// a quarter longer than spade's way for all at once, which tells nobody.
-const SILENT: usize = 1 << 17;
+/// Larger sets are triangulated point by point, which reports progress and can be cancelled. It takes about a quarter
+/// longer than spade's bulk load, which does neither.
+const BULK: usize = 1 << 17;
 
-/// How many points are triangulated between two reports.
+/// The number of points that are triangulated between two reports of progress.
 const REPORTED: usize = 1 << 12;
 
 impl HasPosition for Site {
@@ -43,7 +43,6 @@ type Star<'a> = VertexHandle<'a, Site>;
 /// The triangulation of the points and of enough of their copies.
 pub(crate) struct Delaunay {
     triangulation: DelaunayTriangulation<Site>,
-    boundary: Boundary,
     /// The vertex of each point; none for a point that coincides with another.
     vertices: Vec<Option<FixedVertexHandle>>,
 }
@@ -53,7 +52,7 @@ impl Delaunay {
     pub(crate) fn new(job: &Job, frame: &Frame, positions: impl Iterator<Item = DVec2> + Clone) -> Result<Self> {
         let (mut margin, mut rest) = (MARGIN, *job);
         loop {
-            // The first margin nearly always does.
+            // The first margin is nearly always enough.
             let attempt = rest.part(0.0, 0.9);
             rest = rest.part(0.9, 1.0);
             let delaunay = Self::within_margin(&attempt.part(0.0, 0.9), frame, positions.clone(), margin)?;
@@ -76,7 +75,7 @@ impl Delaunay {
         for vertex in triangulation.vertices().filter(|vertex| vertex.data().is_original()) {
             vertices[vertex.data().source as usize] = Some(vertex.fix());
         }
-        Ok(Self { triangulation, boundary: frame.boundary(), vertices })
+        Ok(Self { triangulation, vertices })
     }
 
     /// The number of points.
@@ -86,7 +85,7 @@ impl Delaunay {
 
     /// Whether the circumcircles of all triangles at original vertices lie where all copies are known.
     fn is_enclosed(&self, job: &Job, frame: &Frame, margin: f64) -> Result<bool> {
-        // Along an axis with a whole ring of copies there is nothing to fear.
+        // Along an axis with a whole ring of copies nothing can be missing.
         let reach = frame.size().map(|length| if margin < length { margin } else { f64::INFINITY });
         let knows = |(centre, radius): (DVec2, f64)| {
             (centre - radius).cmpge(-reach).all() && (centre + radius).cmple(frame.size() + reach).all()
@@ -113,16 +112,23 @@ impl Delaunay {
         self.vertices[point].map(|vertex| self.triangulation.vertex(vertex))
     }
 
-    /// The ways from a point to its neighbours, among them copies, counter-clockwise.
-    pub(crate) fn ring(&self, point: usize) -> impl Iterator<Item = DVec2> {
+    /// The neighbours of a point, among them copies, and their offsets from it, counter-clockwise.
+    pub(crate) fn star(&self, point: usize) -> impl Iterator<Item = (Site, DVec2)> {
         let edges = self.vertex(point).into_iter().flat_map(|star| star.out_edges());
-        edges.map(|edge| edge.to().data().position - edge.from().data().position)
+        edges.map(|edge| {
+            let neighbour = *edge.to().data();
+            (neighbour, neighbour.position - edge.from().data().position)
+        })
+    }
+
+    /// The offsets of the neighbours of a point, counter-clockwise.
+    pub(crate) fn ring(&self, point: usize) -> impl Iterator<Item = DVec2> {
+        self.star(point).map(|(_, offset)| offset)
     }
 
     /// The points that a point has as neighbours, themselves or as copies, counter-clockwise.
     pub(crate) fn neighbours(&self, point: usize) -> impl Iterator<Item = u32> {
-        let edges = self.vertex(point).into_iter().flat_map(|star| star.out_edges());
-        edges.map(|edge| edge.to().data().source)
+        self.star(point).map(|(neighbour, _)| neighbour.source)
     }
 
     /// The largest distance from the points: the largest circumradius of the triangles that touch one.
@@ -135,10 +141,7 @@ impl Delaunay {
         self.triangles().map(|corners| {
             let [a, b, c] = corners.map(|corner| corner.position);
             let (ab, ac) = (b - a, c - a);
-            let area = 2.0 * ab.perp_dot(ac);
-            let to_centre = (ab.length_squared() * -ac.perp() + ac.length_squared() * ab.perp()) / area;
-            let lengths = ab.length_squared() * ac.length_squared() * b.distance_squared(c);
-            (a + to_centre, (lengths / area.powi(2)).sqrt())
+            (a + circumcentre(ab, ac), circumradius_squared(ab, ac, b - c).sqrt())
         })
     }
 
@@ -182,7 +185,7 @@ pub(crate) struct Dual {
 /// The triangulation of sites.
 fn triangulate(job: &Job, mut sites: Vec<Site>) -> Result<DelaunayTriangulation<Site>> {
     const ACCEPTED: &str = "sites are finite and neither too large nor too small for spade";
-    if sites.len() <= SILENT {
+    if sites.len() <= BULK {
         return Ok(DelaunayTriangulation::bulk_load(sites).expect(ACCEPTED));
     }
     job.report(0.0)?;
@@ -203,8 +206,7 @@ fn triangulate(job: &Job, mut sites: Vec<Site>) -> Result<DelaunayTriangulation<
     Ok(triangulation)
 }
 
-/// Puts sites in an order in which each is near the one before, however they are spread: up and down columns that hold
-/// equally many.
+/// Orders sites so that each is near the one before, however they are spread: up and down columns of equally many.
 fn along_columns(sites: &mut [Site]) {
     sites.sort_unstable_by(|a, b| a.position.x.total_cmp(&b.position.x).then(a.position.y.total_cmp(&b.position.y)));
     let size = (2.0 * sites.len() as f64).sqrt().ceil() as usize;
@@ -217,24 +219,6 @@ fn along_columns(sites: &mut [Site]) {
     }
 }
 
-impl Links for Delaunay {
-    /// On a bounded domain a point is linked across the border to its own mirror image only: an edge to the image of
-    /// another point would cross the mirrored edge, so it is but an arbitrary diagonal of a symmetric cell.
-    fn for_each(&self, point: usize, mut visit: impl FnMut(Link)) {
-        let Some(star) = self.vertex(point) else { return };
-        for edge in star.out_edges() {
-            let neighbour = edge.to();
-            let neighbour = neighbour.data();
-            let mirrored = self.boundary == Boundary::Bounded && !neighbour.is_original();
-            let straight = neighbour.source as usize == point && neighbour.side.contains(&0);
-            if !mirrored || straight {
-                let offset = neighbour.position - star.data().position;
-                visit(Link { other: neighbour.source, offset, outgoing: true, incoming: true });
-            }
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use std::cell::Cell;
@@ -243,7 +227,7 @@ mod tests {
     use super::*;
     use crate::error::Error;
     use crate::job::Context;
-    use crate::points::Domain;
+    use crate::points::{Boundary, Domain};
     use crate::rng::{Draw, Rng};
 
     /// Sites in a square and in a small part of it, some of them twice.
@@ -254,7 +238,7 @@ mod tests {
             let size = if source.is_multiple_of(2) { 1.0 } else { 1e-3 };
             Site { position: size * DVec2::new(rng.unit(), rng.unit()), source, side: [0, 0] }
         };
-        let mut sites: Vec<_> = (0..SILENT as u32).map(&mut site).collect();
+        let mut sites: Vec<_> = (0..BULK as u32).map(&mut site).collect();
         sites.extend_from_within(..100);
         let all_at_once = DelaunayTriangulation::<Site>::bulk_load(sites.clone()).unwrap();
         let stopped = Cell::new(0);
@@ -334,13 +318,13 @@ mod tests {
     }
 
     #[test]
-    fn stars_close_and_links_are_mutual() {
+    fn stars_close_and_edges_are_mutual() {
         // The copies of a single point form rectangles, of which either diagonal may be an edge, or none at the point.
         for (frame, points) in cases(Boundary::Periodic).into_iter().filter(|(_, points)| points.len() > 1) {
             let delaunay = build(&frame, &points);
             let mut links = Vec::new();
             for point in 0..points.len() {
-                delaunay.for_each(point, |link| links.push((point as u32, link.other, link.offset)));
+                links.extend(delaunay.star(point).map(|(other, offset)| (point as u32, other.source, offset)));
             }
             // Euler on the torus: three edges per point, each seen from both ends.
             assert_eq!(links.len(), 6 * points.len());

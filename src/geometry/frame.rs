@@ -1,18 +1,18 @@
-//! The domain in units of the reference spacing, and the copies of points that stand beyond its border.
+//! The domain in units of the reference spacing, and the copies of points beyond its boundary.
 
 use glam::DVec2;
 
 use crate::points::{Boundary, Domain};
 use crate::rng::{Draw, Rng};
 
-/// How far points are moved out of a degenerate arrangement, in spacings: enough for the forces to find their way out
-/// before the motion seems to end, too little to be seen.
+/// The distance by which points are moved out of a degenerate arrangement, in spacings: enough for the forces to
+/// resolve it before the motion seems to end, too little to be visible.
 const PARTING: f64 = 1e-3;
 
-/// The width, in spacings, of the strips along which points are put in order.
+/// The width, in spacings, of the strips along which points are ordered.
 const STRIP: f64 = 4.0;
 
-/// Points of a bounded domain keep this distance from its border, in spacings, so that none falls on its mirror image.
+/// Points of a bounded domain keep this distance from its boundary, in spacings, so that none falls on its mirror image.
 const INSET: f64 = 1e-6;
 
 /// A domain whose lower corner is the origin and whose unit of length is the reference spacing.
@@ -26,13 +26,13 @@ pub(crate) struct Frame {
     size: DVec2,
 }
 
-/// A point, or a copy of one beyond the border.
+/// A point, or a copy of one beyond the boundary.
 #[derive(Clone, Copy)]
 pub(crate) struct Site {
     pub(crate) position: DVec2,
     /// The point.
     pub(crate) source: u32,
-    /// Per axis: 0 for the point itself, -1 and 1 for its copy beyond the lower and the upper border.
+    /// Per axis: 0 for the point itself, -1 and 1 for its copy beyond the lower and the upper side.
     pub(crate) side: [i8; 2],
 }
 
@@ -65,13 +65,13 @@ impl Frame {
         self.size
     }
 
-    /// Brings points of the domain into the frame.
+    /// Points of the domain in the units of the frame.
     pub(crate) fn enter(&self, points: &[[f32; 2]]) -> Vec<DVec2> {
         let min = DVec2::from_array(self.domain.min);
         points.iter().map(|&[x, y]| self.fold((DVec2::new(x.into(), y.into()) - min) / self.spacing)).collect()
     }
 
-    /// Breaks the balance of degenerate arrangements, whose forces have no direction or none that leads out of a line:
+    /// Breaks the symmetry of degenerate arrangements, whose forces have no direction or none that leads out of a line:
     /// moves all but the first of coincident points, and all points of a set that lies on one line.
     pub(crate) fn part(&self, positions: &mut [DVec2], seed: u64) {
         let parted = if lie_on_a_line(positions) { (0..positions.len() as u32).collect() } else { repeated(positions) };
@@ -82,7 +82,7 @@ impl Frame {
         }
     }
 
-    /// Brings a point that has left the domain back: around the torus, or reflected by the border.
+    /// Moves a point that has left the domain back: around the torus, or reflected by the boundary.
     pub(crate) fn fold(&self, position: DVec2) -> DVec2 {
         let axis = |x: f64, length: f64| match self.domain.boundary {
             // Rounding can turn a small negative remainder into the length itself.
@@ -95,7 +95,7 @@ impl Frame {
         DVec2::new(axis(position.x, self.size.x), axis(position.y, self.size.y))
     }
 
-    /// The way from one point to another, the shortest on a torus.
+    /// The offset from one point to another, the shortest on a torus.
     pub(crate) fn offset(&self, from: DVec2, to: DVec2) -> DVec2 {
         match self.domain.boundary {
             Boundary::Bounded => to - from,
@@ -108,7 +108,7 @@ impl Frame {
 
     /// The points, in their order, and after them every copy that lies within `margin` of the domain.
     ///
-    /// Copies are translated by a period, or mirrored by the border (thesis, Fig. 4.12 (b)). The margin is cut to the
+    /// Copies are translated by a period, or mirrored by the boundary (thesis, Fig. 4.12 (b)). The margin is cut to the
     /// size of the domain, so there is at most one ring of copies.
     pub(crate) fn sites(&self, positions: impl Iterator<Item = DVec2> + Clone, margin: f64) -> Vec<Site> {
         let copy = |axis: usize, x: f64, side: i8| {
@@ -133,14 +133,14 @@ impl Frame {
         sites
     }
 
-    /// Brings a point back to the user's domain, where it keeps `min <= x < max` whatever the rounding does.
+    /// The point in the user's domain, with `min <= x < max` whatever the rounding.
     pub(crate) fn leave(&self, position: DVec2) -> [f32; 2] {
         std::array::from_fn(|axis| {
             let (min, max) = (self.domain.min[axis], self.domain.max[axis]);
             let x = (min + position[axis] * self.spacing) as f32;
             let (first, last) = (first_float_from(min), last_float_below(max));
             match self.domain.boundary {
-                // What rounds up to the upper border is, on the torus, at the lower one.
+                // What rounds up to the upper side is, on the torus, at the lower one.
                 Boundary::Periodic if x > last => first,
                 _ => x.clamp(first, last),
             }
@@ -148,7 +148,7 @@ impl Frame {
     }
 }
 
-/// An order in which points that follow each other lie close together, so that neighbours share cache lines.
+/// An order in which consecutive points are close to each other, so that neighbours share cache lines.
 pub(crate) fn along_strips(positions: &[DVec2]) -> Vec<u32> {
     let mut order: Vec<u32> = (0..positions.len() as u32).collect();
     let key = |i: u32| ((positions[i as usize].y / STRIP).floor(), positions[i as usize].x);
@@ -167,7 +167,7 @@ fn repeated(positions: &[DVec2]) -> Vec<u32> {
     order.windows(2).filter(|pair| at(pair[0]) == at(pair[1])).map(|pair| pair[1]).collect()
 }
 
-/// Whether no point is farther from some line than points are parted.
+/// Whether no point is farther from some line than the distance by which points are parted.
 fn lie_on_a_line(positions: &[DVec2]) -> bool {
     let offsets = || positions.iter().map(|&position| position - positions[0]);
     let Some(end) = offsets().max_by(|a, b| a.length_squared().total_cmp(&b.length_squared())) else { return true };
@@ -225,7 +225,7 @@ mod tests {
     }
 
     #[test]
-    fn what_rounds_to_the_border_stays_inside() {
+    fn what_rounds_to_the_boundary_stays_inside() {
         for [min, max] in [[0.0, 1.0], [0.1, 0.7], [-1.0, 0.0], [-1e-45, 1e-45], [100.3, 100.4]] {
             for boundary in [Boundary::Periodic, Boundary::Bounded] {
                 let frame = Frame::new(Domain { min: [min; 2], max: [max; 2], boundary }, 3);
@@ -249,7 +249,7 @@ mod tests {
             let left = sites.iter().find(|site| site.side == [-1, 0]).unwrap();
             let expected = if boundary == Boundary::Periodic { point.x - frame.size().x } else { -point.x };
             assert_eq!(left.position, DVec2::new(expected, point.y));
-            // The only copy within 0.6 is the one beyond a vertical border.
+            // The only copy within 0.6 is the one beyond a vertical boundary.
             assert_eq!(frame.sites([point].into_iter(), 0.6).len(), 2);
             assert_eq!(frame.sites([point].into_iter(), 0.4).len(), 1);
         }

@@ -45,7 +45,7 @@ impl Grid2 {
     fn cells_near(&self, axis: usize, coordinate: f64, radius: f64) -> impl Iterator<Item = usize> + Clone + use<> {
         let count = self.cells[axis] as i64;
         let at = |x: f64| ((x - self.domain.min[axis]) * self.scale[axis]).floor().clamp(-1e15, 1e15) as i64;
-        // One cell more on each side than exact arithmetic needs: rounding may move a point across a cell border.
+        // One cell more on each side than exact arithmetic needs: rounding may move a point across a cell boundary.
         let (mut first, mut last) = (at(coordinate - radius) - 1, at(coordinate + radius) + 1);
         match self.domain.boundary {
             Boundary::Periodic if last - first >= count => (first, last) = (0, count - 1),
@@ -57,7 +57,7 @@ impl Grid2 {
 
     /// Calls `visit(id, offset, squared distance)` for every point within `radius` of `point` (inclusive).
     ///
-    /// Offsets lead from `point` to the neighbour, on a torus by the shortest way: `radius` must not exceed half
+    /// Offsets are from `point` to the neighbour, the shortest on a torus: `radius` must not exceed half
     /// the period for all images to be seen. A point that is itself in the grid is visited too.
     pub(crate) fn for_each_within(&self, point: [f64; 2], radius: f64, mut visit: impl FnMut(u32, [f64; 2], f64)) {
         let columns = self.cells_near(0, point[0], radius);

@@ -20,7 +20,7 @@ const NONE: u32 = u32::MAX;
 /// The points of a task of [`smallest_distance`]: few, since most may be in one cell.
 const TASK: usize = 256;
 
-/// How many points are put into a grid between two reports.
+/// The number of points that are inserted between two reports of progress.
 const REPORTED: usize = 1 << 14;
 
 impl Grid3 {
@@ -74,7 +74,7 @@ impl Grid3 {
     /// The ids of all points in the cells that a ball touches, and of some others: the caller tests the distance.
     /// An id can come twice when two of the cells share a bucket.
     pub(crate) fn candidates(&self, centre: [f64; 3], radius: f64) -> impl Iterator<Item = u32> {
-        // Cell borders are compared in f64 as computed on insertion; the margin covers the rounding of `centre`.
+        // Cell boundaries are compared in f64 as computed on insertion; the margin covers the rounding of `centre`.
         let reach = radius * (1.0 + 1e-9);
         let low = self.cell(centre.map(|x| x - reach));
         let high = self.cell(centre.map(|x| x + reach));
@@ -95,8 +95,8 @@ pub(crate) fn distance_squared(a: [f32; 3], b: [f32; 3]) -> f64 {
     (0..3).map(|axis| (a[axis] as f64 - b[axis] as f64).powi(2)).sum()
 }
 
-/// The smallest distance between two points; infinite for less than two. O(n log n) for points that are neither clustered
-/// in space nor lined up in planes across their longest extent.
+/// The smallest distance between two points; infinite for less than two. O(n log n) for points that are neither
+/// clustered in space nor lined up in planes across their longest extent.
 pub(crate) fn smallest_distance(job: &Job, positions: &[[f32; 3]]) -> Result<f64> {
     let bound = neighbours_in_order(positions);
     job.report(0.1)?;

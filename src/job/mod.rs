@@ -19,7 +19,7 @@ const REPORT_INTERVAL: Duration = Duration::from_millis(20);
 /// How many results of [`Job::stream`] each thread makes while those before them are visited.
 const TASKS_AHEAD: usize = 4;
 
-/// Called on the thread that made the call, with the finished share, which grows from 0 to 1; `Break` cancels.
+/// Called on the thread that made the call, with the fraction that is done, which grows from 0 to 1; `Break` cancels.
 pub type Progress<'a> = dyn Fn(f64) -> ControlFlow<()> + 'a;
 
 /// The threads of the library: a rayon pool of its own, never the global one.

@@ -29,8 +29,9 @@ pub(super) const PATTERN_SHARE: f64 = 0.05;
 /// given to [`crate::maximal`], on one thread.
 ///
 /// # Errors
-/// [`Error::InvalidArgument`] for an argument out of range or floats too coarse for the radius, [`Error::TooLarge`]
-/// above 2^32 samples or the available memory, both before any work; [`Error::Cancelled`].
+/// [`Error::InvalidArgument`](crate::Error::InvalidArgument) for an argument out of range or floats too coarse for the
+/// radius, [`Error::TooLarge`](crate::Error::TooLarge) above 2^32 samples or the available memory, both before any work;
+/// [`Error::Cancelled`](crate::Error::Cancelled).
 pub fn sample(context: &Context, options: &Options, progress: Option<&Progress>) -> Result<Vec<[f32; 2]>> {
     let &Options { radius, domain, leaf_size, seed } = options;
     check_leaf_size(leaf_size)?;

@@ -2,9 +2,12 @@
 //!
 //! tobj is shown nothing but vertices and faces: once those of the file, and once its normals in place of the vertices,
 //! with the faces by the numbers of their normals. That keeps the faces of all groups in their order, follows no `mtllib`
-//! to other files, admits comments in any encoding, tells corners without a normal from others, and spares tobj's
+//! to other files, admits comments in any encoding, distinguishes corners without a normal, and avoids tobj's
 //! handling of texture coordinates and normals, which panics on some broken files. As tobj numbers vertices by their
 //! first use, the first faces that it sees use all of them, in the order of the file.
+//!
+//! Both passes are needed: in one pass tobj 4 either merges the indices of positions and normals, so that vertices lose the
+//! numbers of the file, or gives a corner without a normal the normal of another. A file without normals is shown once.
 
 use std::borrow::Cow;
 

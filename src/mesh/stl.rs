@@ -23,7 +23,7 @@ pub(super) fn is_likely(bytes: &[u8]) -> bool {
 /// Vertices and triangles, or what is wrong with the file.
 pub(super) fn parse(bytes: &[u8]) -> Result<Soup, String> {
     let count = facet_count(bytes);
-    // Headers of binary files, too, may begin with "solid"; the size tells.
+    // Headers of binary files, too, may begin with "solid"; the size decides.
     let has_exact_size = count.is_some_and(|count| bytes.len() == PREAMBLE + FACET * count);
     let positions = match count {
         Some(count) if has_exact_size || !begins_as_text(bytes) => binary(&bytes[PREAMBLE..], count)?,

@@ -140,7 +140,7 @@ impl Mesh {
     }
 
     /// The numbers of the triangles that are to be sampled, in order.
-    pub(crate) fn sampled_triangles(&self) -> impl Iterator<Item = u32> {
+    pub(crate) fn sampled_triangles(&self) -> impl Iterator<Item = u32> + Clone {
         (0..self.triangles.len() as u32).filter(|&triangle| self.is_sampled(triangle))
     }
 

@@ -16,10 +16,7 @@
 
 use crate::error::{Error, Result};
 use crate::plane::rect::Rect;
-use crate::points::{Boundary, Domain, MAXIMAL_DENSITY, check_radius};
-
-/// The smallest radius in lattice units.
-const FINEST_RADIUS: f64 = 64.0;
+use crate::points::{Boundary, Domain, MAXIMAL_DENSITY, check_radius, check_resolution};
 
 /// More samples are never made in one call.
 const MAX_SAMPLES: f64 = u32::MAX as f64;
@@ -81,13 +78,7 @@ impl Lattice {
         domain.check()?;
         check_radius(radius)?;
         let unit = float_spacing(domain.min.iter().chain(&domain.max));
-        if radius < FINEST_RADIUS * unit {
-            let finest = FINEST_RADIUS * unit;
-            let reason = format!(
-                "{radius:?} is below {finest:?}, {FINEST_RADIUS} times the float spacing {unit:?} at the domain's largest coordinate"
-            );
-            return Err(Error::invalid("radius", reason));
-        }
+        check_resolution("radius", radius, unit, "the domain's largest coordinate")?;
 
         let (mut origin, mut size) = ([0.0; 2], [0; 2]);
         for axis in 0..2 {

@@ -36,9 +36,9 @@ pub enum Engine {
 pub struct Options {
     /// The smallest distance of two samples, in the units of the mesh; positive and finite.
     pub radius: f64,
-    /// Iterations of three projectors each, 0 and up. Used by [`sample`] only.
+    /// Iterations of three projectors each, 0 and up. Used by [`sample`](super::sample) only.
     pub iterations: u32,
-    /// Whether to fill what the projectors leave uncovered. Used by [`sample`] only.
+    /// Whether to fill what the projectors leave uncovered. Used by [`sample`](super::sample) only.
     pub maximal: bool,
     /// Selects one of 2^64 sets.
     pub seed: u64,

@@ -1,5 +1,5 @@
 //! What is still uncovered: the surface in patches, of which each knows the sixteenths that are not proved covered.
-//! The thesis has no such search; its loop goes on until it is told to stop.
+//! The thesis has no such search; its loop runs for as many iterations as asked.
 //!
 //! A fragment of a triangle is cut into four by four congruent ones of its own shape (`sixteenths.rs`). Whether one of them
 //! is covered is asked of a [`CoverTest`], of all sixteen at once. The test may err on one side: what it keeps is looked at

@@ -38,6 +38,6 @@ pub struct Report {
     /// For a fill, the share of the mesh's area that was uncovered before it. It is an estimate from above, two or three
     /// times too large: the area of the small fragments that no single sample covers when the search comes to them.
     pub uncovered_before: Option<f64>,
-    /// For a fill, the share of the area that is uncovered after it: 0, up to [`TOLERANCE`].
+    /// For a fill, the share of the area that is uncovered after it: 0, up to [`TOLERANCE`](super::TOLERANCE).
     pub uncovered_after: Option<f64>,
 }

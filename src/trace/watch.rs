@@ -13,7 +13,7 @@ use embree4_sys::{RTCScene, rtcSetSceneProgressMonitorFunction};
 use crate::error::{Error, Result};
 use crate::job::Job;
 
-/// Embree calls its monitor on all threads of a build; a job is told on the thread that waits for it, which is usually one
+/// Embree calls its monitor on all threads of a build; a job reports on the thread that waits for it, which is usually one
 /// of them. (It is none while as many other threads build scenes as TBB takes. A cancelled build then ends late.)
 pub(super) struct Watch<'a> {
     cancelled: AtomicBool,

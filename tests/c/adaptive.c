@@ -11,9 +11,9 @@ static azulejo_context *context, *one;
 static azulejo_mesh *cube;
 static const float corner_radii[8] = {0.1f, 0.2f, 0.1f, 0.2f, 0.3f, 0.1f, 0.1f, 0.25f};
 
-static azulejo_adaptive_options with_vertices(void) {
-    azulejo_adaptive_options options;
-    ACCEPTED(azulejo_adaptive_options_init(&options, sizeof options));
+static azulejo_psp_adaptive_options with_vertices(void) {
+    azulejo_psp_adaptive_options options;
+    ACCEPTED(azulejo_psp_adaptive_options_init(&options, sizeof options));
     options.vertex_radii = corner_radii;
     options.vertex_count = 8;
     return options;
@@ -32,9 +32,9 @@ static double fade(void *user, const double position[3]) {
     return g->bad != 0 && position[0] > 0.9 ? g->bad : 0.1 + 0.1 * position[2];
 }
 
-static azulejo_adaptive_options with_function(guest *g, double bad) {
-    azulejo_adaptive_options options;
-    ACCEPTED(azulejo_adaptive_options_init(&options, sizeof options));
+static azulejo_psp_adaptive_options with_function(guest *g, double bad) {
+    azulejo_psp_adaptive_options options;
+    ACCEPTED(azulejo_psp_adaptive_options_init(&options, sizeof options));
     g->bad = bad;
     g->thread = pthread_self();
     g->strangers = 0;
@@ -68,14 +68,14 @@ static double closest(const azulejo_points *points, double cosine) {
 }
 
 static void radii_of_vertices(void) {
-    azulejo_adaptive_options options = with_vertices();
+    azulejo_psp_adaptive_options options = with_vertices();
     azulejo_points *points = NULL, *again = NULL, *apart = NULL;
-    azulejo_psp_report report;
+    azulejo_psp_report report = psp_report();
     size_t i, wrong = 0;
     CHECK(options.struct_size == sizeof options && options.cosine == -1 && options.seed == 0);
     CHECK(options.radius == NULL && options.smallest == 0 && options.largest == 0 && options.slope == 0);
 
-    ACCEPTED(azulejo_psp_sample_adaptive(context, cube, &options, &points, &report));
+    ACCEPTED(azulejo_psp_adaptive_sample(context, cube, &options, &points, &report));
     CHECK(azulejo_points_count(points) > 100 && azulejo_points_count(points) == report.samples);
     CHECK(report.accepted == report.samples && report.darts == report.accepted + report.conflicts);
     CHECK(report.rays == 0 && report.hits == 0 && report.iterations == 0 && report.seconds >= 0);
@@ -88,12 +88,12 @@ static void radii_of_vertices(void) {
     }
     CHECK(wrong == 0);
 
-    ACCEPTED(azulejo_psp_sample_adaptive(one, cube, &options, &again, NULL));
+    ACCEPTED(azulejo_psp_adaptive_sample(one, cube, &options, &again, NULL));
     CHECK(same_points(points, again));
     CHECK(memcmp(azulejo_points_radii(points), azulejo_points_radii(again), 8 * azulejo_points_count(points)) == 0);
 
     options.cosine = 0.5; /* each side of the cube for itself */
-    ACCEPTED(azulejo_psp_sample_adaptive(context, cube, &options, &apart, NULL));
+    ACCEPTED(azulejo_psp_adaptive_sample(context, cube, &options, &apart, NULL));
     CHECK(azulejo_points_count(apart) > azulejo_points_count(points));
     CHECK(closest(apart, 0.5) >= 1 && closest(apart, -1) < 0.9);
 
@@ -104,11 +104,11 @@ static void radii_of_vertices(void) {
 
 static void radii_by_position(void) {
     guest g, alone;
-    azulejo_adaptive_options options = with_function(&g, 0), serial = with_function(&alone, 0);
+    azulejo_psp_adaptive_options options = with_function(&g, 0), serial = with_function(&alone, 0);
     azulejo_points *points = NULL, *again = NULL;
     size_t i, wrong = 0;
-    ACCEPTED(azulejo_psp_sample_adaptive(context, cube, &options, &points, NULL));
-    ACCEPTED(azulejo_psp_sample_adaptive(one, cube, &serial, &again, NULL));
+    ACCEPTED(azulejo_psp_adaptive_sample(context, cube, &options, &points, NULL));
+    ACCEPTED(azulejo_psp_adaptive_sample(one, cube, &serial, &again, NULL));
     CHECK(same_points(points, again));
     CHECK(g.strangers > 0);
     CHECK(alone.strangers == 0); /* one thread: the caller's */
@@ -125,7 +125,7 @@ static void no_radii(void) {
     azulejo_psp_options uniform = psp_options(0.3);
     azulejo_points *points = NULL;
     CHECK(azulejo_points_radii(NULL) == NULL);
-    ACCEPTED(azulejo_kdrt_sample(context, &plane, &points));
+    ACCEPTED(azulejo_kdrt_sample(context, &plane, &points, NULL));
     CHECK(azulejo_points_radii(points) == NULL);
     azulejo_points_free(points);
     ACCEPTED(azulejo_psp_sample(context, cube, &uniform, &points, NULL));
@@ -134,7 +134,7 @@ static void no_radii(void) {
 }
 
 static void bad_arguments(void) {
-    azulejo_adaptive_options good = with_vertices();
+    azulejo_psp_adaptive_options good = with_vertices();
     azulejo_points *points = UNTOUCHED;
     azulejo_psp_report report, before;
     const float bad_radii[5][8] = {{0, 1, 1, 1, 1, 1, 1, 1},
@@ -145,20 +145,20 @@ static void bad_arguments(void) {
     const float tiny[8] = {4e-6f, 4e-6f, 4e-6f, 4e-6f, 4e-6f, 4e-6f, 4e-6f, 4e-6f};
     guest g;
     int i;
-    memset(&report, 0x5a, sizeof report);
+    UNWRITTEN(report);
     before = report;
-    REFUSED(INVALID, "context", azulejo_psp_sample_adaptive(NULL, cube, &good, &points, &report));
-    REFUSED(INVALID, "mesh", azulejo_psp_sample_adaptive(context, NULL, &good, &points, &report));
-    REFUSED(INVALID, "options", azulejo_psp_sample_adaptive(context, cube, NULL, &points, &report));
-    REFUSED(INVALID, "out", azulejo_psp_sample_adaptive(context, cube, &good, NULL, &report));
-    REFUSED(INVALID, "options", azulejo_adaptive_options_init(NULL, sizeof good));
+    REFUSED(INVALID, "context", azulejo_psp_adaptive_sample(NULL, cube, &good, &points, &report));
+    REFUSED(INVALID, "mesh", azulejo_psp_adaptive_sample(context, NULL, &good, &points, &report));
+    REFUSED(INVALID, "options", azulejo_psp_adaptive_sample(context, cube, NULL, &points, &report));
+    REFUSED(INVALID, "out", azulejo_psp_adaptive_sample(context, cube, &good, NULL, &report));
+    REFUSED(INVALID, "options", azulejo_psp_adaptive_options_init(NULL, sizeof good));
 
 #define ADAPTIVE(status, part, start, change)                                                             \
     do {                                                                                                  \
-        azulejo_adaptive_options o = start;                                                               \
+        azulejo_psp_adaptive_options o = start;                                                               \
         (void)(change);                                                                                   \
-        REFUSED(status, part, azulejo_psp_sample_adaptive(context, cube, &o, &points, &report));          \
-        REFUSED(status, part, azulejo_psp_sample_adaptive(one, cube, &o, &points, &report));              \
+        REFUSED(status, part, azulejo_psp_adaptive_sample(context, cube, &o, &points, &report));          \
+        REFUSED(status, part, azulejo_psp_adaptive_sample(one, cube, &o, &points, &report));              \
     } while (0)
     ADAPTIVE(INVALID, "struct_size", good, o.struct_size = 0);
     ADAPTIVE(INVALID, "reserved: 1", good, o.reserved = 1);
@@ -173,6 +173,12 @@ static void bad_arguments(void) {
     ADAPTIVE(INVALID, "cosine", good, o.cosine = NAN);
     ADAPTIVE(INVALID, "cosine", good, o.cosine = 1.01);
     ADAPTIVE(INVALID, "cosine", good, o.cosine = -1.01);
+
+    ADAPTIVE(INVALID, "smallest: 0.1 has no effect with vertex_radii", good, o.smallest = 0.1);
+    ADAPTIVE(INVALID, "largest: 0.3 has no effect with vertex_radii", good, o.largest = 0.3);
+    ADAPTIVE(INVALID, "slope: 0.5 has no effect with vertex_radii", good, o.slope = 0.5);
+    ADAPTIVE(INVALID, "slope: NaN has no effect with vertex_radii", good, o.slope = NAN);
+    ADAPTIVE(INVALID, "vertex_count: 8 has no effect with radius", with_function(&g, 0), o.vertex_count = 8);
 
     ADAPTIVE(INVALID, "smallest", with_function(&g, 0), o.smallest = 0);
     ADAPTIVE(INVALID, "smallest", with_function(&g, 0), o.smallest = NAN);
@@ -195,7 +201,7 @@ static void bad_arguments(void) {
 static int32_t stop(void *user, double done) { return done >= *(double *)user; }
 
 static void cancelled(void) {
-    azulejo_adaptive_options options = with_vertices();
+    azulejo_psp_adaptive_options options = with_vertices();
     double limits[4] = {0, 0.1, 0.6, 1};
     int i;
     for (i = 0; i < 4; i++) {
@@ -203,8 +209,8 @@ static void cancelled(void) {
         options.progress = stop;
         options.progress_user = &limits[i];
         REFUSED(AZULEJO_ERROR_CANCELLED, "cancelled",
-                azulejo_psp_sample_adaptive(context, cube, &options, &points, NULL));
-        REFUSED(AZULEJO_ERROR_CANCELLED, "cancelled", azulejo_psp_sample_adaptive(one, cube, &options, &points, NULL));
+                azulejo_psp_adaptive_sample(context, cube, &options, &points, NULL));
+        REFUSED(AZULEJO_ERROR_CANCELLED, "cancelled", azulejo_psp_adaptive_sample(one, cube, &options, &points, NULL));
         CHECK(points == UNTOUCHED);
     }
 }

@@ -36,10 +36,9 @@ static void make_sets(void) {
 }
 
 static void planes(void) {
-    azulejo_plane_report report;
-    azulejo_coverage coverage;
-    size_t i;
-    ACCEPTED(azulejo_plane_measure(context, *lattice, LATTICE, low, lattice_max, 0, &report));
+    azulejo_plane_report report = plane_report();
+    azulejo_coverage_report coverage = coverage_report();
+    ACCEPTED(azulejo_plane_measure(context, PLANE(*lattice, LATTICE, low, lattice_max, 0), &report));
     CHECK(report.count == LATTICE && report.triangles == 2 * LATTICE);
     CHECK(near(report.smallest_distance, 1, 1e-5) && near(report.mean_distance, 1, 1e-5));
     CHECK(near(report.hexagonal_distance, 1, 1e-12) && near(report.rho, 1, 1e-5));
@@ -47,19 +46,19 @@ static void planes(void) {
     CHECK(report.angles_below_30_degrees == 0 && report.beyond_4_sigma < 1);
     CHECK(report.obtuse == 0 && report.below_30_degrees == 0 && near(report.edge_mean, 1, 1e-5));
     CHECK(near(report.edge_variation, 0, 1e-9) && near(report.area_variation, 0, 1e-9));
-    for (i = 0; i < COUNT_OF(report.reserved); i++) CHECK(report.reserved[i] == 0);
+    CHECK(report.reserved == 0 && report.struct_size == sizeof report);
 
-    ACCEPTED(azulejo_plane_measure(context, NULL, 0, low, high, 1, &report));
+    ACCEPTED(azulejo_plane_measure(context, PLANE(NULL, 0, low, high, 1), &report));
     CHECK(report.count == 0 && isinf(report.smallest_distance) && isinf(report.rho) && isinf(report.covering_radius));
-    ACCEPTED(azulejo_plane_measure(context, *noise, RANDOM, low, high, 1, &report));
+    ACCEPTED(azulejo_plane_measure(context, PLANE(*noise, RANDOM, low, high, 1), &report));
     CHECK(near(report.mean_distance / report.hexagonal_distance, 0.465, 0.02) && near(report.bond_order, 0.365, 0.02));
 
-    ACCEPTED(azulejo_plane_coverage(context, *lattice, LATTICE, low, lattice_max, 0, 0.58, &coverage));
-    CHECK(coverage.gaps == 0 && near(coverage.covering_radius, sqrt(1.0 / 3), 1e-5) && coverage.reserved[1] == 0);
+    ACCEPTED(azulejo_plane_coverage(context, PLANE(*lattice, LATTICE, low, lattice_max, 0), 0.58, &coverage));
+    CHECK(coverage.gaps == 0 && near(coverage.covering_radius, sqrt(1.0 / 3), 1e-5) && coverage.reserved == 0);
     /* A gap in each triangle. */
-    ACCEPTED(azulejo_plane_coverage(context, *lattice, LATTICE, low, lattice_max, 0, 0.55, &coverage));
+    ACCEPTED(azulejo_plane_coverage(context, PLANE(*lattice, LATTICE, low, lattice_max, 0), 0.55, &coverage));
     CHECK(coverage.gaps == 2 * LATTICE);
-    ACCEPTED(azulejo_plane_coverage(context, NULL, 0, low, high, 1, 0.5, &coverage));
+    ACCEPTED(azulejo_plane_coverage(context, PLANE(NULL, 0, low, high, 1), 0.5, &coverage));
     CHECK(coverage.gaps == 1 && isinf(coverage.covering_radius));
 }
 
@@ -67,14 +66,14 @@ static void distributions(void) {
     double density[40];
     uint64_t histogram[41], sum = 0;
     int i;
-    ACCEPTED(azulejo_plane_nearest_histogram(context, *lattice, LATTICE, low, lattice_max, 0, 2.05, 41, histogram));
+    ACCEPTED(azulejo_plane_nearest_histogram(context, PLANE(*lattice, LATTICE, low, lattice_max, 0), 2.05, 41, histogram));
     for (i = 0; i < 41; i++) sum += histogram[i];
     CHECK(histogram[19] + histogram[20] == LATTICE && sum == LATTICE);
-    ACCEPTED(azulejo_plane_radial_distribution(context, *lattice, LATTICE, low, lattice_max, 0, 1.65, 33, density));
+    ACCEPTED(azulejo_plane_radial_distribution(context, PLANE(*lattice, LATTICE, low, lattice_max, 0), 1.65, 33, density));
     CHECK(density[19] + density[20] > 5 && density[18] == 0 && density[25] == 0);
     for (i = 0; i <= 1; i++) {
         int bin;
-        ACCEPTED(azulejo_plane_radial_distribution(context, *noise, RANDOM, low, high, i, 8, 40, density));
+        ACCEPTED(azulejo_plane_radial_distribution(context, PLANE(*noise, RANDOM, low, high, i), 8, 40, density));
         for (bin = 5; bin < 40; bin++) CHECK(near(density[bin], 1, 0.1));
     }
 }
@@ -82,11 +81,11 @@ static void distributions(void) {
 static void spectra(void) {
     azulejo_spectrum *spectrum = NULL, *other = NULL, *mean = NULL;
     const azulejo_spectrum *both[2];
-    azulejo_spectrum_report report;
+    azulejo_spectrum_report report = spectrum_report();
     azulejo_annulus annuli[200];
     size_t count = 0, again = 0, i, k;
 
-    ACCEPTED(azulejo_spectrum_create(context, *lattice, LATTICE, low, lattice_max, 0, 241, 1, &spectrum));
+    ACCEPTED(azulejo_spectrum_create(context, PLANE(*lattice, LATTICE, low, lattice_max, 0), 241, 1, &spectrum));
     CHECK(azulejo_spectrum_size(spectrum) == 241);
     /* The lowest frequency of the dual lattice along y, ROWS waves, and one that is in no sum. */
     CHECK(near(azulejo_spectrum_power(spectrum)[(120 + ROWS) * 241 + 120 + COLUMNS / 2], 0, 1e-3));
@@ -98,8 +97,8 @@ static void spectra(void) {
     CHECK(near(report.frequency_step[0], 1 / (COLUMNS * sqrt(LATTICE / (lattice_max[0] * lattice_max[1]))), 1e-9));
     azulejo_spectrum_free(spectrum);
 
-    ACCEPTED(azulejo_spectrum_create(context, *noise, RANDOM / 2, low, high, 0, 300, 2, &spectrum));
-    ACCEPTED(azulejo_spectrum_create(context, noise[RANDOM / 2], RANDOM / 2, low, high, 0, 300, 2, &other));
+    ACCEPTED(azulejo_spectrum_create(context, PLANE(*noise, RANDOM / 2, low, high, 0), 300, 2, &spectrum));
+    ACCEPTED(azulejo_spectrum_create(context, PLANE(noise[RANDOM / 2], RANDOM / 2, low, high, 0), 300, 2, &other));
     both[0] = spectrum;
     both[1] = other;
     ACCEPTED(azulejo_spectrum_mean(both, 2, &mean));
@@ -108,7 +107,7 @@ static void spectra(void) {
         ACCEPTED(azulejo_spectrum_measure(of, 0.1, 0.3, 3, &report));
         CHECK(near(report.contrast * (i < 2 ? 1 : 2), 1, 0.1));
         CHECK(report.peak > 3 && report.peak < 25 && report.effective_nyquist >= 0 && report.effective_nyquist < 0.1);
-        CHECK(report.oscillation >= 0 && report.oscillation < 1 && report.reserved[3] == 0);
+        CHECK(report.oscillation >= 0 && report.oscillation < 1 && report.reserved == 0);
         ACCEPTED(azulejo_spectrum_radial(of, 0.1, annuli, COUNT_OF(annuli), &count));
         CHECK(count > 60 && count < COUNT_OF(annuli));
         for (k = 5; k < count; k++) CHECK(near(annuli[k].power, 1, 0.35) && annuli[k].count > 20);
@@ -120,7 +119,7 @@ static void spectra(void) {
     CHECK(again == count && annuli[1].count == 77);
     /* A small one does not reach far enough. */
     azulejo_spectrum_free(other);
-    ACCEPTED(azulejo_spectrum_create(context, *noise, RANDOM, low, high, 1, 16, 1, &other));
+    ACCEPTED(azulejo_spectrum_create(context, PLANE(*noise, RANDOM, low, high, 1), 16, 1, &other));
     ACCEPTED(azulejo_spectrum_measure(other, 0.02, 5, 6, &report));
     CHECK(report.effective_nyquist == -1 && report.oscillation == -1 && report.contrast == 0 && report.peak == 0);
     both[1] = other;
@@ -134,7 +133,7 @@ static void surfaces(void) {
     const double up[3] = {0, 0, 1}, frequencies[2] = {0.3, 1};
     azulejo_psp_options options = psp_options(0.05);
     azulejo_points *points = NULL;
-    azulejo_coverage coverage;
+    azulejo_coverage_report coverage = coverage_report();
     azulejo_differences *one = NULL, *both = NULL;
     const azulejo_differences *all[2];
     double power[2] = {0, 0};
@@ -145,7 +144,7 @@ static void surfaces(void) {
     positions = azulejo_points_positions(points);
     count = azulejo_points_count(points);
     ACCEPTED(azulejo_mesh_coverage(context, cube, positions, count, 0.05 + 1e-6, &coverage));
-    CHECK(coverage.gaps == 0 && coverage.covering_radius > 0.045 && coverage.reserved[0] == 0);
+    CHECK(coverage.gaps == 0 && coverage.covering_radius > 0.045 && coverage.reserved == 0);
     ACCEPTED(azulejo_mesh_coverage(context, cube, positions, 1, 0.05, &coverage));
     CHECK(coverage.gaps == 1 && coverage.covering_radius > 0.8);
     ACCEPTED(azulejo_mesh_coverage(context, cube, NULL, 0, 0.05, &coverage));
@@ -185,28 +184,40 @@ static void surfaces(void) {
 }
 
 /* Every wrong argument of a function that takes a set of the plane; further ones and the output go to the end. */
+#define REFUSES_SET(function, status, part, change, ...)                         \
+    do {                                                                         \
+        azulejo_plane_set set = plane_set(*noise, RANDOM, low, high, 0);         \
+        (void)(change);                                                          \
+        REFUSED(status, part, function(context, &set, __VA_ARGS__));             \
+    } while (0)
 #define REFUSES_PLANES(function, ...)                                                                        \
     do {                                                                                                     \
         const float outside[4] = {0.5f, 0.5f, NAN, 0.5f};                                                    \
-        REFUSED(INVALID, "context", function(NULL, *noise, RANDOM, low, high, 0, __VA_ARGS__));              \
-        REFUSED(INVALID, "xy", function(context, NULL, RANDOM, low, high, 0, __VA_ARGS__));                  \
-        REFUSED(INVALID, "xy", function(context, outside, 2, low, high, 0, __VA_ARGS__));                    \
-        REFUSED(TOO_LARGE, "count", function(context, *noise, SIZE_MAX, low, high, 0, __VA_ARGS__));         \
-        REFUSED(INVALID, "domain_min", function(context, *noise, RANDOM, NULL, high, 0, __VA_ARGS__));       \
-        REFUSED(INVALID, "domain_max", function(context, *noise, RANDOM, low, NULL, 0, __VA_ARGS__));        \
-        REFUSED(INVALID, "domain_min", function(context, *noise, RANDOM, bad, high, 0, __VA_ARGS__));        \
-        REFUSED(INVALID, "domain_max", function(context, *noise, RANDOM, high, low, 0, __VA_ARGS__));        \
-        REFUSED(INVALID, "boundary", function(context, *noise, RANDOM, low, high, 2, __VA_ARGS__));          \
+        azulejo_plane_set good = plane_set(*noise, RANDOM, low, high, 0);                                    \
+        const azulejo_plane_set *misaligned = (const azulejo_plane_set *)((const char *)&good + 2);          \
+        REFUSED(INVALID, "context", function(NULL, &good, __VA_ARGS__));                                     \
+        REFUSED(INVALID, "set: is NULL", function(context, NULL, __VA_ARGS__));                              \
+        REFUSED(INVALID, "set: ", function(context, misaligned, __VA_ARGS__));                               \
+        REFUSES_SET(function, INVALID, "set: struct_size 0 is not", set.struct_size = 0, __VA_ARGS__);       \
+        REFUSES_SET(function, INVALID, "azulejo_plane_set_init", set.struct_size = 55, __VA_ARGS__);         \
+        REFUSES_SET(function, INVALID, "set: struct_size", set.struct_size = UINT32_MAX, __VA_ARGS__);       \
+        REFUSES_SET(function, INVALID, "positions: is NULL", set.positions = NULL, __VA_ARGS__);             \
+        REFUSES_SET(function, INVALID, "positions: ", (set.positions = outside, set.count = 2), __VA_ARGS__); \
+        REFUSES_SET(function, TOO_LARGE, "count", set.count = SIZE_MAX, __VA_ARGS__);                        \
+        REFUSES_SET(function, INVALID, "domain_min", set.domain_min[0] = NAN, __VA_ARGS__);                  \
+        REFUSES_SET(function, INVALID, "domain_max", set.domain_max[1] = -INFINITY, __VA_ARGS__);            \
+        REFUSES_SET(function, INVALID, "domain_max", set.domain_max[0] = 0, __VA_ARGS__);                    \
+        REFUSES_SET(function, INVALID, "boundary", set.boundary = 2, __VA_ARGS__);                           \
     } while (0)
 
 static void refused_sets(void) {
     azulejo_plane_report report, report_before;
-    azulejo_coverage coverage, coverage_before;
+    azulejo_coverage_report coverage, coverage_before;
     azulejo_spectrum *spectrum = UNTOUCHED;
     uint64_t histogram[4] = {7, 7, 7, 7};
     double density[4] = {7, 7, 7, 7};
-    memset(&report, 0x5a, sizeof report);
-    memset(&coverage, 0x5a, sizeof coverage);
+    UNWRITTEN(report);
+    UNWRITTEN(coverage);
     report_before = report;
     coverage_before = coverage;
 
@@ -215,13 +226,13 @@ static void refused_sets(void) {
     REFUSES_PLANES(azulejo_plane_nearest_histogram, 2, 4, histogram);
     REFUSES_PLANES(azulejo_plane_radial_distribution, 2, 4, density);
     REFUSES_PLANES(azulejo_spectrum_create, 16, 1, &spectrum);
-    REFUSED(INVALID, "out", azulejo_plane_measure(context, *noise, RANDOM, low, high, 0, NULL));
-    REFUSED(INVALID, "out", azulejo_plane_coverage(context, *noise, RANDOM, low, high, 0, 0.1, NULL));
-    REFUSED(INVALID, "radius", azulejo_plane_coverage(context, *noise, RANDOM, low, high, 0, NAN, &coverage));
-    REFUSED(INVALID, "radius", azulejo_plane_coverage(context, *noise, RANDOM, low, high, 0, 0, &coverage));
+    REFUSED(INVALID, "out", azulejo_plane_measure(context, PLANE(*noise, RANDOM, low, high, 0), NULL));
+    REFUSED(INVALID, "out", azulejo_plane_coverage(context, PLANE(*noise, RANDOM, low, high, 0), 0.1, NULL));
+    REFUSED(INVALID, "radius", azulejo_plane_coverage(context, PLANE(*noise, RANDOM, low, high, 0), NAN, &coverage));
+    REFUSED(INVALID, "radius", azulejo_plane_coverage(context, PLANE(*noise, RANDOM, low, high, 0), 0, &coverage));
 
 #define BINS(part, reach, bins, array)                                                                                 \
-    REFUSED(INVALID, part, azulejo_plane_##array(context, *noise, RANDOM, low, high, 0, reach, bins, out))
+    REFUSED(INVALID, part, azulejo_plane_##array(context, PLANE(*noise, RANDOM, low, high, 0), reach, bins, out))
     {
         uint64_t *out = histogram;
         BINS("reach", 0, 4, nearest_histogram);
@@ -239,16 +250,19 @@ static void refused_sets(void) {
         BINS("bins", 1, 65537, radial_distribution);
         out = NULL;
         BINS("out", 1, 4, radial_distribution);
-        REFUSED(INVALID, "xy", azulejo_plane_radial_distribution(context, *noise, 1, low, high, 0, 1, 4, density));
+        REFUSED(INVALID, "positions",
+            azulejo_plane_radial_distribution(context, PLANE(*noise, 1, low, high, 0), 1, 4, density));
     }
 #undef BINS
 
-    REFUSED(INVALID, "xy", azulejo_spectrum_create(context, NULL, 0, low, high, 0, 16, 1, &spectrum));
-    REFUSED(INVALID, "size", azulejo_spectrum_create(context, *noise, RANDOM, low, high, 0, 0, 1, &spectrum));
-    REFUSED(INVALID, "size", azulejo_spectrum_create(context, *noise, RANDOM, low, high, 0, UINT32_MAX, 1, &spectrum));
-    REFUSED(INVALID, "stride", azulejo_spectrum_create(context, *noise, RANDOM, low, high, 0, 16, 0, &spectrum));
-    REFUSED(INVALID, "stride", azulejo_spectrum_create(context, *noise, RANDOM, low, high, 0, 16, UINT32_MAX, &spectrum));
-    REFUSED(INVALID, "out", azulejo_spectrum_create(context, *noise, RANDOM, low, high, 0, 16, 1, NULL));
+    REFUSED(INVALID, "positions", azulejo_spectrum_create(context, PLANE(NULL, 0, low, high, 0), 16, 1, &spectrum));
+    REFUSED(INVALID, "size", azulejo_spectrum_create(context, PLANE(*noise, RANDOM, low, high, 0), 0, 1, &spectrum));
+    REFUSED(INVALID, "size",
+            azulejo_spectrum_create(context, PLANE(*noise, RANDOM, low, high, 0), UINT32_MAX, 1, &spectrum));
+    REFUSED(INVALID, "stride", azulejo_spectrum_create(context, PLANE(*noise, RANDOM, low, high, 0), 16, 0, &spectrum));
+    REFUSED(INVALID, "stride",
+            azulejo_spectrum_create(context, PLANE(*noise, RANDOM, low, high, 0), 16, UINT32_MAX, &spectrum));
+    REFUSED(INVALID, "out", azulejo_spectrum_create(context, PLANE(*noise, RANDOM, low, high, 0), 16, 1, NULL));
     CHECK(spectrum == UNTOUCHED && histogram[0] == 7 && density[3] == 7);
     CHECK(memcmp(&report, &report_before, sizeof report) == 0);
     CHECK(memcmp(&coverage, &coverage_before, sizeof coverage) == 0);
@@ -257,11 +271,11 @@ static void refused_sets(void) {
 static void refused_spectra(void) {
     azulejo_spectrum *spectrum = NULL, *mean = UNTOUCHED;
     const azulejo_spectrum *none[1] = {NULL};
-    azulejo_spectrum_report report;
+    azulejo_spectrum_report report = spectrum_report();
     azulejo_annulus annulus;
-    azulejo_coverage coverage;
+    azulejo_coverage_report coverage = coverage_report();
     size_t count = 7;
-    ACCEPTED(azulejo_spectrum_create(context, *noise, RANDOM, low, high, 0, 16, 1, &spectrum));
+    ACCEPTED(azulejo_spectrum_create(context, PLANE(*noise, RANDOM, low, high, 0), 16, 1, &spectrum));
     REFUSED(INVALID, "spectra", azulejo_spectrum_mean(NULL, 1, &mean));
     REFUSED(INVALID, "spectra: [0]", azulejo_spectrum_mean(none, 1, &mean));
     REFUSED(INVALID, "periodograms", azulejo_spectrum_mean(none, 0, &mean));
@@ -293,21 +307,10 @@ static void refused_measures(void) {
     float xyz[6] = {0.1f, 0.1f, 0.5f, 0.6f, 0.2f, 0.5f};
     double out = 7;
 
-    REFUSED(INVALID, "context", azulejo_plane_smallest_distance(NULL, xyz, 3, low, high, 0, &out));
-    REFUSED(INVALID, "xy", azulejo_plane_smallest_distance(context, NULL, 3, low, high, 0, &out));
-    REFUSED(INVALID, "domain_min", azulejo_plane_smallest_distance(context, xyz, 3, NULL, high, 0, &out));
-    REFUSED(INVALID, "domain_max", azulejo_plane_smallest_distance(context, xyz, 3, low, NULL, 0, &out));
-    REFUSED(INVALID, "domain_min", azulejo_plane_smallest_distance(context, xyz, 3, bad, high, 0, &out));
-    REFUSED(INVALID, "boundary", azulejo_plane_smallest_distance(context, xyz, 3, low, high, 3, &out));
-    REFUSED(INVALID, "out", azulejo_plane_smallest_distance(context, xyz, 3, low, high, 0, NULL));
-    REFUSED(TOO_LARGE, "count", azulejo_plane_smallest_distance(context, xyz, SIZE_MAX / 2, low, high, 0, &out));
-
-    REFUSED(INVALID, "context", azulejo_plane_covering_radius(NULL, xyz, 3, low, high, 0, &out));
-    REFUSED(INVALID, "xy", azulejo_plane_covering_radius(context, NULL, 3, low, high, 0, &out));
-    REFUSED(INVALID, "domain_min", azulejo_plane_covering_radius(context, xyz, 3, NULL, high, 0, &out));
-    REFUSED(INVALID, "domain_max", azulejo_plane_covering_radius(context, xyz, 3, high, low, 0, &out));
-    REFUSED(INVALID, "boundary", azulejo_plane_covering_radius(context, xyz, 3, low, high, -1, &out));
-    REFUSED(INVALID, "out", azulejo_plane_covering_radius(context, xyz, 3, low, high, 0, NULL));
+    REFUSES_PLANES(azulejo_plane_smallest_distance, &out);
+    REFUSES_PLANES(azulejo_plane_covering_radius, &out);
+    REFUSED(INVALID, "out", azulejo_plane_smallest_distance(context, PLANE(xyz, 3, low, high, 0), NULL));
+    REFUSED(INVALID, "out", azulejo_plane_covering_radius(context, PLANE(xyz, 3, low, high, 0), NULL));
 
     REFUSED(INVALID, "context", azulejo_space_smallest_distance(NULL, xyz, 2, &out));
     REFUSED(INVALID, "positions", azulejo_space_smallest_distance(context, NULL, 2, &out));
@@ -323,7 +326,7 @@ static void refused_measures(void) {
     REFUSED(INVALID, "probes", azulejo_mesh_uncovered_fraction(context, cube, xyz, 2, 0.1, 0, 0, &out));
 
     xyz[2] = NAN;
-    REFUSED(INVALID, "xy", azulejo_plane_smallest_distance(context, xyz, 3, low, high, 0, &out));
+    REFUSED(INVALID, "positions", azulejo_plane_smallest_distance(context, PLANE(xyz, 3, low, high, 0), &out));
     REFUSED(INVALID, "positions", azulejo_space_smallest_distance(context, xyz, 2, &out));
     REFUSED(INVALID, "positions", azulejo_mesh_uncovered_fraction(context, cube, xyz, 2, 0.1, 10, 0, &out));
     CHECK(out == 7);

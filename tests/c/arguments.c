@@ -46,14 +46,14 @@ static void contexts(void) {
 static void kdrt(void) {
     azulejo_kdrt_options good = kdrt_options(0.1);
     azulejo_points *out = UNTOUCHED;
-    REFUSED(INVALID, "context", azulejo_kdrt_sample(NULL, &good, &out));
-    REFUSED(INVALID, "options", azulejo_kdrt_sample(context, NULL, &out));
-    REFUSED(INVALID, "options", azulejo_kdrt_sample(context, (azulejo_kdrt_options *)((char *)&good + 1), &out));
-    REFUSED(INVALID, "out", azulejo_kdrt_sample(context, &good, NULL));
+    REFUSED(INVALID, "context", azulejo_kdrt_sample(NULL, &good, &out, NULL));
+    REFUSED(INVALID, "options", azulejo_kdrt_sample(context, NULL, &out, NULL));
+    REFUSED(INVALID, "options", azulejo_kdrt_sample(context, (azulejo_kdrt_options *)((char *)&good + 1), &out, NULL));
+    REFUSED(INVALID, "out", azulejo_kdrt_sample(context, &good, NULL, NULL));
     CHECK(out == UNTOUCHED);
 
 #define KDRT(status, part, change) \
-    REFUSED_OPTION(azulejo_kdrt_options o = good, status, part, change, azulejo_kdrt_sample(context, &o, &points))
+    REFUSED_OPTION(azulejo_kdrt_options o = good, status, part, change, azulejo_kdrt_sample(context, &o, &points, NULL))
     KDRT(INVALID, "radius", o.radius = 0);
     KDRT(INVALID, "radius", o.radius = -0.1);
     KDRT(INVALID, "radius", o.radius = NAN);
@@ -234,7 +234,7 @@ static void psp(void) {
     azulejo_points *points = UNTOUCHED;
     azulejo_psp *out = UNTOUCHED;
     azulejo_psp_report report, before;
-    memset(&report, 0x55, sizeof report);
+    UNWRITTEN(report);
     before = report;
 
     REFUSED(INVALID, "context", azulejo_psp_create(NULL, cube, &good, &out));
@@ -263,14 +263,20 @@ static void psp(void) {
     PSP(INVALID, "maximal", o.maximal = 2);
     PSP(INVALID, "maximal", o.maximal = -1);
     PSP(INVALID, "reserved", o.reserved = 1);
-    PSP(INVALID, "order", o.order = 2);
-    PSP(INVALID, "order", o.order = -1);
+    PSP(INVALID, "priority", o.priority = 2);
+    PSP(INVALID, "priority", o.priority = -1);
     PSP(INVALID, "engine", o.engine = 2);
     PSP(INVALID, "engine", o.engine = -1);
     PSP(AZULEJO_ERROR_TOO_LARGE, "radius", o.radius = 2.0443e-6);
     CHECK(largest_number(last_error()) > 0.9e12 && largest_number(last_error()) < 1.1e12);
     PSP(AZULEJO_ERROR_TOO_LARGE, "radius", o.radius = 1e-300);
 #undef PSP
+    good.iterations++;
+    REFUSED(INVALID, "iterations: 2 has no effect in azulejo_psp_create", azulejo_psp_create(context, cube, &good, &out));
+    good.iterations--;
+    good.maximal = 0;
+    REFUSED(INVALID, "maximal: 0 has no effect in azulejo_psp_create", azulejo_psp_create(context, cube, &good, &out));
+    good.maximal = 1;
     CHECK(out == UNTOUCHED && points == UNTOUCHED);
     CHECK(memcmp(&report, &before, sizeof report) == 0);
 
@@ -285,7 +291,7 @@ static void dcr(void) {
     float xy[8] = {0.1f, 0.1f, 0.6f, 0.2f, 0.3f, 0.8f, 0.9f, 0.9f};
     azulejo_points *out = UNTOUCHED;
     azulejo_dcr_report report, before;
-    memset(&report, 0x55, sizeof report);
+    UNWRITTEN(report);
     before = report;
 
     REFUSED(INVALID, "context", azulejo_dcr_relax(NULL, &good, xy, 4, &out, &report));
@@ -296,6 +302,8 @@ static void dcr(void) {
     REFUSED(AZULEJO_ERROR_TOO_LARGE, "count", azulejo_dcr_relax(context, &good, xy, SIZE_MAX, &out, &report));
     REFUSED(AZULEJO_ERROR_TOO_LARGE, "count", azulejo_dcr_relax(context, &good, xy, SIZE_MAX / 8 + 2, &out, &report));
 
+    /* Numbers out of range, and numbers in range that have no effect. */
+    good.method = AZULEJO_METHOD_THESIS;
 #define DCR(part, change) \
     REFUSED_OPTION(azulejo_dcr_options o = good, INVALID, part, change, \
                    azulejo_dcr_relax(context, &o, xy, 4, &points, &report))
@@ -326,9 +334,20 @@ static void dcr(void) {
     DCR("decay", o.decay = 0);
     DCR("decay", o.decay = 1.01);
     DCR("decay", o.decay = NAN);
+    good.method = AZULEJO_METHOD_MOMENTUM;
+    DCR("conflict_radius: 0.9 has no effect with AZULEJO_METHOD_MOMENTUM", o.conflict_radius = 0.9);
+    DCR("conflict_radius", o.conflict_radius = NAN);
+    DCR("attraction_radius: 1.1 has no effect", o.attraction_radius = 1.1);
+    DCR("step: 0.1 has no effect", o.step = 0.1);
+    DCR("step", o.step = 0);
+    DCR("decay: 0.5 has no effect", o.decay = 0.5);
+    DCR("neighbours: 7 has no effect", o.neighbours = 7);
+    DCR("distribution: 1 has no effect", o.distribution = AZULEJO_DISTRIBUTION_AVERAGE);
+    DCR("visits: 1 has no effect", o.visits = AZULEJO_VISITS_ONE_END);
+    DCR("convergence: 1 has no effect", o.convergence = AZULEJO_CONVERGENCE_VARIANCE);
     DCR("xy", xy[3] = NAN);
     DCR("xy", xy[3] = INFINITY);
-    DCR("xy", xy[3] = 1); /* the upper border belongs to the next period */
+    DCR("xy", xy[3] = 1); /* the upper boundary belongs to the next period */
     DCR("xy", xy[3] = -1e-6f);
 #undef DCR
     CHECK(out == UNTOUCHED);

@@ -1,7 +1,7 @@
-# Sourced by scripts/test.sh, tests/c/run.sh and tests/c/sanitized.sh: runs steps beside each other that do not need each other. They set
-# work, a scratch folder, before.
+# Sourced by tests/c/run.sh and tests/c/sanitized.sh: runs steps that do not depend on each other at the same time. The
+# script sets work, a scratch folder, before.
 
-# COMMAND...: in the background, as soon as less than one per core is running.
+# COMMAND...: in the background, as soon as fewer than one per core are running.
 beside() {
     while [ "$(jobs -pr | wc -l)" -ge "${CARGO_BUILD_JOBS:-$(nproc)}" ]; do
         wait -n || true
@@ -9,7 +9,7 @@ beside() {
     apart "$@" &
 }
 
-# COMMAND...: with a scratch folder of its own. What it says is said when it has ended.
+# COMMAND...: with a scratch folder of its own. What it prints is shown when it has ended.
 apart() {
     local scratch
     scratch=$(mktemp -d "$work/step.XXXXXX")
@@ -18,7 +18,7 @@ apart() {
     rm -rf "$scratch"
 }
 
-# Waits for those in the background; fails if one step has failed so far.
+# Waits for the steps in the background; fails if one step has failed so far.
 all_done() {
     wait
     [ ! -e "$work/failed" ]

@@ -18,23 +18,23 @@ static azulejo_kdrt_options of_count(uint64_t count) {
 static void refused(const azulejo_kdrt_options *options, azulejo_status status, const char *part) {
     azulejo_points *out = UNTOUCHED;
     azulejo_kdrt_report report, before;
-    memset(&report, 0x55, sizeof report);
+    UNWRITTEN(report);
     before = report;
-    REFUSED(status, part, azulejo_kdrt_sample_with_report(context, options, &out, &report));
+    REFUSED(status, part, azulejo_kdrt_sample(context, options, &out, &report));
     CHECK(out == UNTOUCHED && memcmp(&report, &before, sizeof report) == 0);
-    REFUSED(status, part, azulejo_kdrt_sample(context, options, &out));
+    REFUSED(status, part, azulejo_kdrt_sample(context, options, &out, NULL));
     CHECK(out == UNTOUCHED);
 }
 
 static void pointers(void) {
     const azulejo_kdrt_options good = of_count(100);
     azulejo_points *out = UNTOUCHED;
-    azulejo_kdrt_report report;
-    REFUSED(INVALID, "context", azulejo_kdrt_sample_with_report(NULL, &good, &out, &report));
-    REFUSED(INVALID, "options", azulejo_kdrt_sample_with_report(context, NULL, &out, &report));
-    REFUSED(INVALID, "out", azulejo_kdrt_sample_with_report(context, &good, NULL, &report));
+    azulejo_kdrt_report report = kdrt_report();
+    REFUSED(INVALID, "context", azulejo_kdrt_sample(NULL, &good, &out, &report));
+    REFUSED(INVALID, "options", azulejo_kdrt_sample(context, NULL, &out, &report));
+    REFUSED(INVALID, "out", azulejo_kdrt_sample(context, &good, NULL, &report));
     CHECK(out == UNTOUCHED);
-    ACCEPTED(azulejo_kdrt_sample_with_report(context, &good, &out, NULL));
+    ACCEPTED(azulejo_kdrt_sample(context, &good, &out, NULL));
     CHECK(azulejo_points_count(out) == 100);
     azulejo_points_free(out);
 }
@@ -77,6 +77,30 @@ static void windows_and_streams(void) {
     CHECK(out == UNTOUCHED && visits == 0);
 }
 
+/* Coverage is measured for a report: where there is none the flag is refused, before any work. */
+static void coverage_without_a_report(void) {
+    const double low[2] = {0.25, 0.5}, high[2] = {0.75, 1};
+    azulejo_kdrt_options o = kdrt_options(0.1), counted = of_count(100);
+    azulejo_kdrt_report report;
+    azulejo_points *out = UNTOUCHED;
+    int visits = 0;
+    o.measure_coverage = counted.measure_coverage = 1;
+    REFUSED(INVALID, "measure_coverage: 1, but report is NULL", azulejo_kdrt_sample(context, &o, &out, NULL));
+    REFUSED(INVALID, "measure_coverage: 1, but report is NULL", azulejo_kdrt_sample(context, &counted, &out, NULL));
+    REFUSED(INVALID, "measure_coverage: 1", azulejo_kdrt_sample_window(context, &o, low, high, &out));
+    REFUSED(INVALID, "measure_coverage: 1", azulejo_kdrt_stream(context, &o, never_visited, &visits));
+    UNWRITTEN(report);
+    o.measure_coverage = 2;
+    REFUSED(INVALID, "measure_coverage: 2", azulejo_kdrt_sample(context, &o, &out, &report));
+    REFUSED(INVALID, "measure_coverage: 2", azulejo_kdrt_sample_window(context, &o, low, high, &out));
+    o.measure_coverage = 0;
+    o.reserved = 1;
+    REFUSED(INVALID, "reserved: 1", azulejo_kdrt_sample(context, &o, &out, &report));
+    REFUSED(INVALID, "reserved: 1", azulejo_kdrt_sample_window(context, &o, low, high, &out));
+    REFUSED(INVALID, "reserved: 1", azulejo_kdrt_stream(context, &o, never_visited, &visits));
+    CHECK(out == UNTOUCHED && visits == 0);
+}
+
 /* Awkward numbers, of sets that are tiled and that are not. */
 static void exactness(void) {
     const uint64_t numbers[] = {1, 2, 3, 5, 8, 13, 31, 97, 1009, 8190, 12345, 65537};
@@ -84,10 +108,12 @@ static void exactness(void) {
     for (i = 0; i < COUNT_OF(numbers); i++) {
         azulejo_kdrt_options o = of_count(numbers[i]);
         azulejo_points *points = NULL, *again = NULL;
-        azulejo_kdrt_report report;
+        azulejo_kdrt_report report = kdrt_report();
         o.seed = i;
-        ACCEPTED(azulejo_kdrt_sample_with_report(context, &o, &points, &report));
-        ACCEPTED(azulejo_kdrt_sample(context, &o, &again));
+        o.measure_coverage = 1;
+        ACCEPTED(azulejo_kdrt_sample(context, &o, &points, &report));
+        o.measure_coverage = 0;
+        ACCEPTED(azulejo_kdrt_sample(context, &o, &again, NULL));
         CHECK(azulejo_points_count(points) == numbers[i] && same_points(points, again));
         CHECK(report.samples == numbers[i] && report.radius > 0 && report.is_maximal == 1);
         CHECK(report.coverage <= report.radius * (1 + 1e-4));
@@ -101,6 +127,7 @@ int main(void) {
     pointers();
     options();
     windows_and_streams();
+    coverage_without_a_report();
     exactness();
     azulejo_context_free(context);
     return finish();

@@ -12,6 +12,7 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
 . "$root/tests/c/examples.sh"
+. "$root/tests/c/version.sh"
 
 make_packages() {
     rm -rf "$base/debs"
@@ -20,17 +21,17 @@ make_packages() {
     cmake -S "$root" -B "$base/debs-build" -DCMAKE_INSTALL_PREFIX=/usr \
         -DAZULEJO_CARGO_FLAGS="${AZULEJO_CARGO_FLAGS:---locked}" && cmake --build "$base/debs-build" &&
         cpack -G DEB --config "$base/debs-build/CPackConfig.cmake" -B "$base/debs" && rm -r "$base/debs/_CPack_Packages" &&
-        runtime=$(ls "$base"/debs/libazulejo0_*.deb) && development=$(ls "$base"/debs/libazulejo-dev_*.deb) &&
+        runtime=$(ls "$base"/debs/libazulejo"$abi"_*.deb) && development=$(ls "$base"/debs/libazulejo-dev_*.deb) &&
         [ "$(ls "$base/debs" | wc -l)" = 2 ]
 }
 
 depend() { # the library on the Embree it is linked with, at run time; programs on that very library
-    local version
-    version=$(dpkg-deb --field "$runtime" Version)
+    local package
+    package=$(dpkg-deb --field "$runtime" Version)
     dpkg-deb --field "$runtime" Depends
     dpkg-deb --field "$runtime" Depends | grep -qE '(^|, )libembree(3-3|4-4) ' &&
         dpkg-deb --field "$runtime" Depends | grep -qE '(^|, )libc6 ' &&
-        [ "$(dpkg-deb --field "$development" Depends)" = "libazulejo0 (= $version), libembree-dev" ]
+        [ "$(dpkg-deb --field "$development" Depends)" = "libazulejo$abi (= $package), libembree-dev" ]
 }
 
 hold() { # each file is in the package that it belongs to
@@ -38,10 +39,10 @@ hold() { # each file is in the package that it belongs to
     libraries=usr/lib/$(dpkg-architecture -qDEB_HOST_MULTIARCH)
     dpkg-deb --extract "$runtime" "$work/runtime" && dpkg-deb --extract "$development" "$work/development" &&
         diff - <(cd "$work/runtime" && find . ! -type d | LC_ALL=C sort) <<END &&
-./$libraries/libazulejo.so.0
-./$libraries/libazulejo.so.$(version)
-./usr/share/doc/libazulejo0/changelog.Debian.gz
-./usr/share/doc/libazulejo0/copyright
+./$libraries/libazulejo.so.$abi
+./$libraries/libazulejo.so.$version
+./usr/share/doc/libazulejo$abi/changelog.Debian.gz
+./usr/share/doc/libazulejo$abi/copyright
 END
         diff - <(cd "$work/development" && find . ! -type d | LC_ALL=C sort) <<END
 ./usr/include/azulejo.h
@@ -59,13 +60,12 @@ END
 
 # Each crate inside is named, and the texts of licences other than Apache's are there.
 credit() {
-    local copyright=$work/runtime/usr/share/doc/libazulejo0/copyright
+    local copyright=$work/runtime/usr/share/doc/libazulejo$abi/copyright
     cmp "$copyright" "$work/development/usr/share/doc/libazulejo-dev/copyright" &&
+        head -n 1 "$copyright" | grep -q '^azulejo is free software' && grep -q '^  MIT License' "$copyright" &&
         grep -q '^  rayon [0-9.]* (MIT OR Apache-2.0)$' "$copyright" &&
         grep -A 2 '^--- rayon-[0-9.]*' "$copyright" | grep -q '^Copyright (c) .*Rust Project'
 }
-
-version() { sed -n 's/^version = "\(.*\)"/\1/p' "$root/Cargo.toml" | head -n 1; }
 
 is_stripped() { fails grep -q debug_info <(readelf --section-headers --wide "$1"); }
 

@@ -62,7 +62,7 @@ static void an_image(void) {
     azulejo_density density = with_image();
     azulejo_dcr_options options = bounded(100);
     azulejo_points *start = NULL, *same = NULL, *points = NULL, *again = NULL;
-    azulejo_dcr_report report;
+    azulejo_dcr_report report = dcr_report();
     CHECK(density.struct_size == sizeof density && density.reserved == 0);
     CHECK(density.function == NULL && density.user == NULL);
     ACCEPTED(azulejo_dcr_scatter(context, &options, &density, COUNT, &start));
@@ -123,7 +123,7 @@ static void bad_arguments(void) {
         {0, 0, 0, 0, 0, 0}, {1, 1, 1, 1, -1, 1}, {1, NAN, 1, 1, 1, 1}, {1, 1, INFINITY, 1, 1, 1}};
     guest g;
     int i;
-    memset(&report, 0x5a, sizeof report);
+    UNWRITTEN(report);
     before = report;
     random_points(xy, 8);
 #define RELAX(context, options, density, xy, count, out) \
@@ -160,6 +160,8 @@ static void bad_arguments(void) {
     DENSITY(AZULEJO_ERROR_TOO_LARGE, "width", good, d.width = SIZE_MAX);
     DENSITY(AZULEJO_ERROR_TOO_LARGE, "width", good, d.width = SIZE_MAX / 8);
     for (i = 0; i < 4; i++) DENSITY(INVALID, "density", good, d.values = bad_images[i]);
+    DENSITY(INVALID, "width: 3 has no effect with function", with_function(&g, 0), d.width = 3);
+    DENSITY(INVALID, "height: 2 has no effect with function", with_function(&g, 0), d.height = 2);
     DENSITY(INVALID, "density: -1.0", with_function(&g, -1), 0);
     DENSITY(INVALID, "density: NaN", with_function(&g, NAN), 0);
     DENSITY(INVALID, "density: inf", with_function(&g, INFINITY), 0);
@@ -183,8 +185,16 @@ static void cancelled(void) {
     int i;
     random_points(xy, COUNT);
     for (i = 0; i < 3; i++) {
+        azulejo_points *points = UNTOUCHED;
+        options.progress = stop;
+        options.progress_user = &limits[i];
+        REFUSED(AZULEJO_ERROR_CANCELLED, "cancelled", azulejo_dcr_scatter(context, &options, &density, COUNT, &points));
+        REFUSED(AZULEJO_ERROR_CANCELLED, "cancelled", azulejo_dcr_scatter(one, &options, &density, COUNT, &points));
+        CHECK(points == UNTOUCHED);
+    }
+    for (i = 0; i < 3; i++) {
         azulejo_points *points = NULL;
-        azulejo_dcr_report report;
+        azulejo_dcr_report report = dcr_report();
         options.progress = stop;
         options.progress_user = &limits[i];
         ACCEPTED(azulejo_dcr_relax_density(context, &options, &density, xy, COUNT, &points, &report));

@@ -21,10 +21,17 @@ make_mesh() {
 
 # BUILD PREFIX CMAKE-ARGUMENT...: outside the tree, from a copy that knows nothing of it; PREFIX is empty for the system's
 examples() {
-    local build=$1
+    configure_examples "$@" && cmake --build "$1" -j "${CARGO_BUILD_JOBS:-$(nproc)}"
+}
+
+# The same, but only the programs of run_examples.
+few_examples() {
+    configure_examples "$@" && cmake --build "$1" -j "${CARGO_BUILD_JOBS:-$(nproc)}" --target plane surface relax
+}
+
+configure_examples() {
     rm -rf "$work/examples" && cp -r "$root/examples_c" "$work/examples"
-    cmake -S "$work/examples" -B "$build" -DCMAKE_PREFIX_PATH="$2" "${@:3}" &&
-        cmake --build "$build" -j "${CARGO_BUILD_JOBS:-$(nproc)}"
+    cmake -S "$work/examples" -B "$1" -DCMAKE_PREFIX_PATH="$2" "${@:3}"
 }
 
 run_examples() { # BUILD: each prints lines of finite numbers
@@ -65,7 +72,7 @@ run_tufts() { # BUILD: a picture of as many bytes as its pixels take, with fur o
         fails "$1/tufts" && fails "$1/tufts" "$work/missing.obj" "$work/missing.ppm" && [ ! -e "$work/missing.ppm" ]
 }
 
-run_ranks() { # BUILD: four processes that do not talk make the plane that one makes, and three do, too
+run_ranks() { # BUILD: four processes, or three, make the plane that one makes, without communication
     export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
     mpirun --oversubscribe -n 4 "$1/ranks" --check 0.002 "$work/plane.xy" >"$work/ranks.txt" &&
         mpirun --oversubscribe -n 3 "$1/ranks" --check 0.005 && cat "$work/ranks.txt" &&

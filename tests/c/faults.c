@@ -29,14 +29,14 @@ typedef azulejo_status (*sampler)(const azulejo_context *, watcher, azulejo_poin
 static azulejo_status kdrt(const azulejo_context *context, watcher w, azulejo_points **out) {
     azulejo_kdrt_options o = kdrt_options(0.02);
     WATCHED(o, w);
-    return azulejo_kdrt_sample(context, &o, out);
+    return azulejo_kdrt_sample(context, &o, out, NULL);
 }
 
 static azulejo_status counted(const azulejo_context *context, watcher w, azulejo_points **out) {
     azulejo_kdrt_options o = kdrt_options(0);
     o.count = 3000;
     WATCHED(o, w);
-    return azulejo_kdrt_sample(context, &o, out);
+    return azulejo_kdrt_sample(context, &o, out, NULL);
 }
 
 static azulejo_status window(const azulejo_context *context, watcher w, azulejo_points **out) {
@@ -54,8 +54,8 @@ static azulejo_status maximal(const azulejo_context *context, watcher w, azulejo
 
 static azulejo_status merge(const azulejo_context *context, watcher w, azulejo_points **out) {
     const float xy[] = {0.25f, 0.5f, 0.75f, 0.5f};
-    const azulejo_merge_piece pieces[] = {{xy, 1, {0, 0}, {0.5, 1}}, {xy + 2, 1, {0.5, 0}, {1, 1}}};
-    azulejo_merge_options o = merge_options(0.05);
+    const azulejo_kdrt_merge_piece pieces[] = {{xy, 1, {0, 0}, {0.5, 1}}, {xy + 2, 1, {0.5, 0}, {1, 1}}};
+    azulejo_kdrt_merge_options o = merge_options(0.05);
     WATCHED(o, w);
     return azulejo_kdrt_merge(context, &o, pieces, 2, NULL, 0, out, NULL);
 }
@@ -75,12 +75,12 @@ static azulejo_status raster(const azulejo_context *context, watcher w, azulejo_
 
 static azulejo_status adaptive(const azulejo_context *context, watcher w, azulejo_points **out) {
     const float radii[8] = {0.1f, 0.1f, 0.1f, 0.1f, 0.3f, 0.3f, 0.3f, 0.3f};
-    azulejo_adaptive_options o;
-    ACCEPTED(azulejo_adaptive_options_init(&o, sizeof o));
+    azulejo_psp_adaptive_options o;
+    ACCEPTED(azulejo_psp_adaptive_options_init(&o, sizeof o));
     o.vertex_radii = radii;
     o.vertex_count = 8;
     WATCHED(o, w);
-    return azulejo_psp_sample_adaptive(context, cube, &o, out, NULL);
+    return azulejo_psp_adaptive_sample(context, cube, &o, out, NULL);
 }
 
 static azulejo_status dcr(const azulejo_context *context, watcher w, azulejo_points **out) {
@@ -148,13 +148,13 @@ static void radii_that_are_garbage(const azulejo_context *context) {
     size_t i;
     for (i = 0; i < COUNT_OF(garbage); i++) {
         azulejo_points *out = UNTOUCHED;
-        azulejo_adaptive_options o;
-        ACCEPTED(azulejo_adaptive_options_init(&o, sizeof o));
+        azulejo_psp_adaptive_options o;
+        ACCEPTED(azulejo_psp_adaptive_options_init(&o, sizeof o));
         o.radius = garbage_radius;
         o.radius_user = &garbage[i];
         o.smallest = 0.1;
         o.largest = 0.2;
-        REFUSED(INVALID, "radius", azulejo_psp_sample_adaptive(context, cube, &o, &out, NULL));
+        REFUSED(INVALID, "radius", azulejo_psp_adaptive_sample(context, cube, &o, &out, NULL));
         CHECK(out == UNTOUCHED);
     }
 }
@@ -170,9 +170,9 @@ static double even(void *user, const double *position) {
     return 0.4;
 }
 
-static azulejo_adaptive_options by_function(azulejo_radius_fn radius, double smallest, double largest, double slope) {
-    azulejo_adaptive_options o;
-    ACCEPTED(azulejo_adaptive_options_init(&o, sizeof o));
+static azulejo_psp_adaptive_options by_function(azulejo_radius_fn radius, double smallest, double largest, double slope) {
+    azulejo_psp_adaptive_options o;
+    ACCEPTED(azulejo_psp_adaptive_options_init(&o, sizeof o));
     o.radius = radius;
     o.smallest = smallest;
     o.largest = largest;
@@ -181,15 +181,15 @@ static azulejo_adaptive_options by_function(azulejo_radius_fn radius, double sma
 }
 
 static void radii_that_are_not_as_told(const azulejo_context *context) {
-    const azulejo_adaptive_options lying = by_function(steep, 0.1, 0.2, 0.25), vain = by_function(even, 0.2, 0.6, 100);
-    azulejo_adaptive_options apart = by_function(even, 0.4, 0.4, 0);
+    const azulejo_psp_adaptive_options lying = by_function(steep, 0.1, 0.2, 0.25), vain = by_function(even, 0.2, 0.6, 100);
+    azulejo_psp_adaptive_options apart = by_function(even, 0.4, 0.4, 0);
     azulejo_points *out = UNTOUCHED;
-    REFUSED(INVALID, "slope 0.25", azulejo_psp_sample_adaptive(context, cube, &lying, &out, NULL));
-    REFUSED(AZULEJO_ERROR_TOO_LARGE, "slope: 100.0", azulejo_psp_sample_adaptive(context, cube, &vain, &out, NULL));
+    REFUSED(INVALID, "slope 0.25", azulejo_psp_adaptive_sample(context, cube, &lying, &out, NULL));
+    REFUSED(AZULEJO_ERROR_TOO_LARGE, "slope: 100.0", azulejo_psp_adaptive_sample(context, cube, &vain, &out, NULL));
     CHECK(out == UNTOUCHED);
     /* A triangle's samples see each other even if nobody else does. */
     apart.cosine = 1;
-    ACCEPTED(azulejo_psp_sample_adaptive(context, cube, &apart, &out, NULL));
+    ACCEPTED(azulejo_psp_adaptive_sample(context, cube, &apart, &out, NULL));
     CHECK(azulejo_points_count(out) > 6 && azulejo_points_count(out) < 200);
     azulejo_points_free(out);
 }
@@ -281,11 +281,11 @@ static void in_little_memory(void *context) {
     if (statm != NULL) fclose(statm);
     limit.rlim_cur = limit.rlim_max = (rlim_t)pages * (rlim_t)sysconf(_SC_PAGESIZE) + ((rlim_t)2 << 30);
     CHECK(setrlimit(RLIMIT_AS, &limit) == 0);
-    REFUSED(AZULEJO_ERROR_TOO_LARGE, "radius", azulejo_kdrt_sample(context, &plane, &out));
+    REFUSED(AZULEJO_ERROR_TOO_LARGE, "radius", azulejo_kdrt_sample(context, &plane, &out, NULL));
     REFUSED(AZULEJO_ERROR_TOO_LARGE, "radius", azulejo_psp_sample(context, cube, &surface, &out, NULL));
     plane.radius = 0;
     plane.count = 1000000000;
-    REFUSED(AZULEJO_ERROR_TOO_LARGE, "count", azulejo_kdrt_sample(context, &plane, &out));
+    REFUSED(AZULEJO_ERROR_TOO_LARGE, "count", azulejo_kdrt_sample(context, &plane, &out, NULL));
     ACCEPTED(azulejo_density_init(&density, sizeof density));
     density.values = &white;
     density.width = density.height = 1;
@@ -323,7 +323,7 @@ static void say_nothing(void *closed) {
         if (samplers[i](context, (watcher){NULL, NULL}, &points) == AZULEJO_OK) azulejo_points_free(points);
     azulejo_mesh_load("/no/such/file.obj", &mesh);
     azulejo_mesh_load(name, &mesh);
-    azulejo_kdrt_sample(NULL, NULL, NULL);
+    azulejo_kdrt_sample(NULL, NULL, NULL, NULL);
     azulejo_context_free(context);
     azulejo_mesh_free(cube);
 

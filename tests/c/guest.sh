@@ -44,7 +44,7 @@ int main(void) {
     azulejo_kdrt_options options;
     azulejo_kdrt_options_init(&options, sizeof options);
     options.radius = 0.05;
-    return azulejo_context_create(2, &context) || azulejo_kdrt_sample(context, &options, &points) ||
+    return azulejo_context_create(2, &context) || azulejo_kdrt_sample(context, &options, &points, NULL) ||
            azulejo_points_count(points) < 200 || other_answer() != 42;
 }
 END
@@ -109,7 +109,7 @@ static void *use(void *user) {
         if (FIND(c, azulejo_kdrt_options_init)(&options, sizeof options)) return NULL;
         options.radius = 0.02;
         if (FIND(c, azulejo_context_create)(2, &context)) return NULL;
-        if (FIND(c, azulejo_kdrt_sample)(context, &options, &c->points)) return NULL;
+        if (FIND(c, azulejo_kdrt_sample)(context, &options, &c->points, NULL)) return NULL;
         FIND(c, azulejo_context_free)(context);
     }
     c->xy = FIND(c, azulejo_points_positions)(c->points);

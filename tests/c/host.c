@@ -34,7 +34,7 @@ static unsigned attach_packed(RTCDevice device, RTCScene scene) {
     return id;
 }
 
-/* Its second half: buffers of the program's, with room between vertices and between triangles, behind an offset. */
+/* Its second half: buffers of the program's, with gaps between vertices and between triangles, behind an offset. */
 static unsigned attach_shared(RTCDevice device, RTCScene scene) {
     static float vertices[10][4];
     static uint32_t indices[6][5];

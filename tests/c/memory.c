@@ -21,7 +21,7 @@ static void one_round(uint32_t num_threads, int32_t engine) {
     size_t i;
     surface.engine = engine;
     ACCEPTED(azulejo_mesh_with_mask(mesh, mask, 12, &masked));
-    ACCEPTED(azulejo_kdrt_sample(context, &plane, &points[0]));
+    ACCEPTED(azulejo_kdrt_sample(context, &plane, &points[0], NULL));
     ACCEPTED(azulejo_psp_sample(context, mesh, &surface, &points[1], NULL));
     ACCEPTED(azulejo_dcr_relax(context, &relax, random_xy, COUNT_OF(random_xy) / 2, &points[2], NULL));
     ACCEPTED(azulejo_psp_create(context, masked, &surface, &set));
@@ -29,7 +29,7 @@ static void one_round(uint32_t num_threads, int32_t engine) {
     ACCEPTED(azulejo_psp_points(set, &points[3]));
     CHECK(azulejo_mesh_load("/no/such/file", &missing) == AZULEJO_ERROR_IO);
     plane.radius = -1;
-    CHECK(azulejo_kdrt_sample(context, &plane, &points[4]) == AZULEJO_ERROR_INVALID_ARGUMENT);
+    CHECK(azulejo_kdrt_sample(context, &plane, &points[4], NULL) == AZULEJO_ERROR_INVALID_ARGUMENT);
     /* In any order. */
     azulejo_context_free(context);
     azulejo_mesh_free(masked);

@@ -106,7 +106,7 @@ static void masks(void) {
     azulejo_points *points, *expected = sample(cube, 0.1);
     azulejo_psp_options options = psp_options(0.1);
     azulejo_psp *psp = NULL;
-    azulejo_psp_report report;
+    azulejo_psp_report report = psp_report();
     double uncovered = 1;
     size_t i, wrong = 0;
 

@@ -74,13 +74,13 @@ enum { POINTS = 100000 };
 
 static azulejo_status kdrt(azulejo_points **out) {
     const azulejo_kdrt_options o = kdrt_options(0.0008);
-    return azulejo_kdrt_sample(context, &o, out);
+    return azulejo_kdrt_sample(context, &o, out, NULL);
 }
 
 static azulejo_status counted(azulejo_points **out) {
     azulejo_kdrt_options o = kdrt_options(0);
     o.count = 300000;
-    return azulejo_kdrt_sample(context, &o, out);
+    return azulejo_kdrt_sample(context, &o, out, NULL);
 }
 
 static azulejo_status window(azulejo_points **out) {
@@ -106,7 +106,7 @@ static azulejo_status maximal(azulejo_points **out) {
 }
 
 static azulejo_status merge(azulejo_points **out) {
-    const azulejo_merge_options o = merge_options(0.002);
+    const azulejo_kdrt_merge_options o = merge_options(0.002);
     return azulejo_kdrt_merge(context, &o, NULL, 0, NULL, 0, out, NULL);
 }
 
@@ -123,11 +123,11 @@ static azulejo_status raster(azulejo_points **out) {
 
 static azulejo_status adaptive(azulejo_points **out) {
     const float radii[8] = {0.01f, 0.01f, 0.01f, 0.01f, 0.02f, 0.02f, 0.02f, 0.02f};
-    azulejo_adaptive_options o;
-    ACCEPTED(azulejo_adaptive_options_init(&o, sizeof o));
+    azulejo_psp_adaptive_options o;
+    ACCEPTED(azulejo_psp_adaptive_options_init(&o, sizeof o));
     o.vertex_radii = radii;
     o.vertex_count = 8;
-    return azulejo_psp_sample_adaptive(context, cube, &o, out, NULL);
+    return azulejo_psp_adaptive_sample(context, cube, &o, out, NULL);
 }
 
 static azulejo_status dcr(azulejo_points **out) {
@@ -147,9 +147,9 @@ static azulejo_status measures(azulejo_points **out) {
     double figure;
     azulejo_status status;
     *out = NULL;
-    status = azulejo_plane_smallest_distance(context, random_xy, POINTS, low, high, AZULEJO_BOUNDARY_PERIODIC, &figure);
+    status = azulejo_plane_smallest_distance(context, PLANE(random_xy, POINTS, low, high, 0), &figure);
     if (status != AZULEJO_OK) return status;
-    status = azulejo_plane_covering_radius(context, random_xy, POINTS, low, high, AZULEJO_BOUNDARY_PERIODIC, &figure);
+    status = azulejo_plane_covering_radius(context, PLANE(random_xy, POINTS, low, high, 0), &figure);
     if (status != AZULEJO_OK) return status;
     status = azulejo_space_smallest_distance(context, random_xy, POINTS / 2, &figure);
     if (status != AZULEJO_OK) return status;

@@ -17,16 +17,24 @@ typedef struct {
 
 static azulejo_points *sample(const azulejo_kdrt_options *options) {
     azulejo_points *points = NULL;
-    ACCEPTED(azulejo_kdrt_sample(context, options, &points));
+    ACCEPTED(azulejo_kdrt_sample(context, options, &points, NULL));
     return points;
 }
 
 static void defaults(void) {
     azulejo_kdrt_options kdrt;
     azulejo_maximal_options maximal;
-    azulejo_merge_options merge;
+    azulejo_kdrt_merge_options merge;
     azulejo_psp_options psp;
     azulejo_dcr_options dcr;
+    azulejo_dcr_surface_options surface;
+    azulejo_psp_adaptive_options adaptive;
+    azulejo_density density;
+    azulejo_plane_set set;
+    memset(&surface, 0x55, sizeof surface);
+    memset(&adaptive, 0x55, sizeof adaptive);
+    memset(&density, 0x55, sizeof density);
+    memset(&set, 0x55, sizeof set);
     memset(&kdrt, 0x55, sizeof kdrt);
     memset(&maximal, 0x55, sizeof maximal);
     memset(&merge, 0x55, sizeof merge);
@@ -34,9 +42,13 @@ static void defaults(void) {
     memset(&dcr, 0x55, sizeof dcr);
     ACCEPTED(azulejo_kdrt_options_init(&kdrt, sizeof kdrt));
     ACCEPTED(azulejo_maximal_options_init(&maximal, sizeof maximal));
-    ACCEPTED(azulejo_merge_options_init(&merge, sizeof merge));
+    ACCEPTED(azulejo_kdrt_merge_options_init(&merge, sizeof merge));
     ACCEPTED(azulejo_psp_options_init(&psp, sizeof psp));
     ACCEPTED(azulejo_dcr_options_init(&dcr, sizeof dcr));
+    ACCEPTED(azulejo_dcr_surface_options_init(&surface, sizeof surface));
+    ACCEPTED(azulejo_psp_adaptive_options_init(&adaptive, sizeof adaptive));
+    ACCEPTED(azulejo_density_init(&density, sizeof density));
+    ACCEPTED(azulejo_plane_set_init(&set, sizeof set));
 
     CHECK(kdrt.struct_size == sizeof kdrt && maximal.struct_size == sizeof maximal);
     CHECK(psp.struct_size == sizeof psp && dcr.struct_size == sizeof dcr);
@@ -45,13 +57,26 @@ static void defaults(void) {
     CHECK(dcr.domain_min[0] == 0 && dcr.domain_min[1] == 0 && dcr.domain_max[0] == 1 && dcr.domain_max[1] == 1);
     CHECK(kdrt.boundary == AZULEJO_BOUNDARY_PERIODIC && dcr.boundary == AZULEJO_BOUNDARY_PERIODIC);
     CHECK(kdrt.leaf_size == 20 && kdrt.seed == 0 && kdrt.progress == NULL && kdrt.progress_user == NULL);
-    CHECK(kdrt.count == 0);
+    CHECK(kdrt.count == 0 && kdrt.measure_coverage == 0 && kdrt.reserved == 0);
     CHECK(merge.struct_size == sizeof merge && merge.radius == 0 && merge.seed == 0 && merge.progress == NULL);
     CHECK(merge.domain_min[0] == 0 && merge.domain_min[1] == 0 && merge.domain_max[0] == 1 && merge.domain_max[1] == 1);
     CHECK(merge.boundary == AZULEJO_BOUNDARY_PERIODIC && merge.progress_user == NULL);
     CHECK(psp.maximal == 1 && psp.iterations > 0 && psp.seed == 0 && psp.progress == NULL);
-    CHECK(psp.order == AZULEJO_ORDER_SQUARENESS && psp.engine == AZULEJO_ENGINE_EMBREE);
+    CHECK(psp.priority == AZULEJO_PRIORITY_SQUARENESS && psp.engine == AZULEJO_ENGINE_EMBREE);
     CHECK(dcr.neighbourhood == AZULEJO_NEIGHBOURHOOD_DELAUNAY && dcr.max_iterations > 0 && dcr.progress == NULL);
+    CHECK(dcr.method == AZULEJO_METHOD_MOMENTUM && dcr.conflict_radius == 0.95 && dcr.attraction_radius == 1.05);
+    CHECK(dcr.step == 0.05 && dcr.decay == 1 && dcr.neighbours == 6 && dcr.tolerance < 0 && dcr.reserved == 0);
+    CHECK(dcr.distribution == AZULEJO_DISTRIBUTION_ACTIVENESS && dcr.visits == AZULEJO_VISITS_BOTH_ENDS);
+    CHECK(dcr.convergence == AZULEJO_CONVERGENCE_MOTION);
+    CHECK(surface.struct_size == sizeof surface && surface.max_iterations == 100 && surface.tolerance < 0);
+    CHECK(surface.seed == 0 && surface.progress == NULL && surface.progress_user == NULL);
+    CHECK(adaptive.struct_size == sizeof adaptive && adaptive.reserved == 0 && adaptive.vertex_radii == NULL);
+    CHECK(adaptive.vertex_count == 0 && adaptive.radius == NULL && adaptive.slope == 0 && adaptive.cosine == -1);
+    CHECK(density.struct_size == sizeof density && density.values == NULL && density.width == 0 && density.height == 0);
+    CHECK(density.function == NULL && density.user == NULL && density.reserved == 0);
+    CHECK(set.struct_size == sizeof set && set.positions == NULL && set.count == 0);
+    CHECK(set.domain_min[0] == 0 && set.domain_min[1] == 0 && set.domain_max[0] == 1 && set.domain_max[1] == 1);
+    CHECK(set.boundary == AZULEJO_BOUNDARY_PERIODIC);
 }
 
 static void refused_inits(void) {
@@ -60,9 +85,13 @@ static void refused_inits(void) {
     before = options;
     REFUSED(INVALID, "options", azulejo_kdrt_options_init(NULL, sizeof options));
     REFUSED(INVALID, "options", azulejo_maximal_options_init(NULL, sizeof options));
-    REFUSED(INVALID, "options", azulejo_merge_options_init(NULL, sizeof options));
+    REFUSED(INVALID, "options", azulejo_kdrt_merge_options_init(NULL, sizeof options));
     REFUSED(INVALID, "options", azulejo_psp_options_init(NULL, sizeof options));
     REFUSED(INVALID, "options", azulejo_dcr_options_init(NULL, sizeof options));
+    REFUSED(INVALID, "options", azulejo_dcr_surface_options_init(NULL, sizeof options));
+    REFUSED(INVALID, "options", azulejo_psp_adaptive_options_init(NULL, sizeof options));
+    REFUSED(INVALID, "set", azulejo_plane_set_init(NULL, sizeof options));
+    REFUSED(INVALID, "set: struct_size 8 is not", azulejo_plane_set_init((azulejo_plane_set *)&options, 8));
     REFUSED(INVALID, "struct_size", azulejo_kdrt_options_init(&options, 0));
     REFUSED(INVALID, "struct_size", azulejo_kdrt_options_init(&options, 4));
     REFUSED(INVALID, "struct_size", azulejo_kdrt_options_init(&options, 4097));
@@ -75,7 +104,7 @@ static void refused_sizes(void) {
     const uint32_t sizes[] = {0, 1, 4, 8, 4097, 0x80000000u, UINT32_MAX};
     azulejo_kdrt_options kdrt = kdrt_options(0.1);
     azulejo_maximal_options maximal = maximal_options(0.1);
-    azulejo_merge_options merge = merge_options(0.1);
+    azulejo_kdrt_merge_options merge = merge_options(0.1);
     azulejo_psp_options psp = psp_options(0.1);
     azulejo_dcr_options dcr = dcr_options(1);
     azulejo_mesh *mesh = make_cube();
@@ -84,7 +113,7 @@ static void refused_sizes(void) {
     size_t i;
     for (i = 0; i < COUNT_OF(sizes); i++) {
         kdrt.struct_size = maximal.struct_size = merge.struct_size = psp.struct_size = dcr.struct_size = sizes[i];
-        REFUSED(INVALID, "struct_size", azulejo_kdrt_sample(context, &kdrt, &out));
+        REFUSED(INVALID, "struct_size", azulejo_kdrt_sample(context, &kdrt, &out, NULL));
         REFUSED(INVALID, "azulejo_maximal_options_init", azulejo_maximal_sample(context, &maximal, &out));
         REFUSED(INVALID, "struct_size", azulejo_kdrt_merge(context, &merge, NULL, 0, NULL, 0, &out, NULL));
         REFUSED(INVALID, "struct_size", azulejo_psp_sample(context, mesh, &psp, &out, NULL));
@@ -159,10 +188,10 @@ static void later_structs(void) {
 
     points = UNTOUCHED;
     later.last = (uint64_t)1 << 63;
-    REFUSED(INVALID, "struct_size", azulejo_kdrt_sample(context, (azulejo_kdrt_options *)&later, &points));
+    REFUSED(INVALID, "struct_size", azulejo_kdrt_sample(context, (azulejo_kdrt_options *)&later, &points, NULL));
     later.last = 0;
     later.later = 1;
-    REFUSED(INVALID, "struct_size", azulejo_kdrt_sample(context, (azulejo_kdrt_options *)&later, &points));
+    REFUSED(INVALID, "struct_size", azulejo_kdrt_sample(context, (azulejo_kdrt_options *)&later, &points, NULL));
     CHECK(points == UNTOUCHED);
     azulejo_points_free(expected);
 }

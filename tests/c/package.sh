@@ -4,8 +4,8 @@
 #   tests/c/package.sh [--keep DIR]      with --keep: builds and installs in DIR (DIR/build, DIR/prefix), which stays
 #
 # examples_c outside the tree, shared and static, through find_package; plane.c through pkg-config; as a guest in other
-# programs (guest.sh); all again from a prefix that was moved; through add_subdirectory; and a version that is not there
-# is refused.
+# programs (guest.sh); all again from a prefix that was moved; through add_subdirectory; licences are installed; and a
+# version that is not there is refused.
 set -euo pipefail
 
 root=$(cd "$(dirname "$0")/../.." && pwd)
@@ -19,6 +19,7 @@ fi
 prefix=$base/prefix
 
 . "$root/tests/c/examples.sh"
+. "$root/tests/c/version.sh"
 
 install_library() {
     cmake -S "$root" -B "$base/build" -DAZULEJO_CARGO_FLAGS="${AZULEJO_CARGO_FLAGS:---locked}" &&
@@ -39,13 +40,22 @@ END
         cmake --build "$work/host-build" -j "${CARGO_BUILD_JOBS:-$(nproc)}"
 }
 
-version_refused() {
+find_version() { # VERSION
     mkdir -p "$work/version"
     printf 'cmake_minimum_required(VERSION 3.20)\nproject(v C)\nfind_package(azulejo %s CONFIG REQUIRED)\n' "$1" \
         >"$work/version/CMakeLists.txt"
     rm -rf "$work/version-build"
-    cmake -S "$work/version" -B "$work/version-build" -DCMAKE_PREFIX_PATH="$prefix" && return 1
-    grep -q "compatible with requested version" "$work/log"
+    cmake -S "$work/version" -B "$work/version-build" -DCMAKE_PREFIX_PATH="$prefix"
+}
+
+version_refused() { fails find_version "$1" && grep -q "compatible with requested version" "$work/log"; }
+
+# The licences of azulejo and of the crates that it contains.
+has_licences() {
+    local folder=$prefix/share/doc/azulejo
+    cmp "$root/LICENSE-MIT" "$folder/LICENSE-MIT" && cmp "$root/LICENSE-APACHE" "$folder/LICENSE-APACHE" &&
+        grep -q '^  rayon [0-9.]* (MIT OR Apache-2.0)$' "$folder/THIRD-PARTY.txt" &&
+        grep -q '^--- rayon-[0-9.]*' "$folder/THIRD-PARTY.txt"
 }
 
 make_mesh
@@ -67,13 +77,16 @@ step "pkg-config" pkg_config "$prefix"
 step "pkg-config --static" pkg_config "$prefix" --static
 step "it does not need libazulejo.so" is_static "$work/plane"
 "$root/tests/c/guest.sh" "$prefix"
+step "licences" has_licences
+step "version $abi is found" find_version "$abi"
+step "an older minor version is refused" version_refused 0.1
+step "a newer minor version is refused" version_refused "${abi%.*}.$((${abi#*.} + 1))"
 step "version 99 is refused" version_refused 99
-step "version 0.2 is refused" version_refused 0.2
 cp -a "$prefix" "$work/moved to another place"
 mv "$prefix" "$prefix.away"
-step "moved: examples, shared" examples "$work/moved-shared" "$work/moved to another place"
+step "moved: examples, shared" few_examples "$work/moved-shared" "$work/moved to another place"
 step "moved: they run" run_examples "$work/moved-shared"
-step "moved: examples, static" examples "$work/moved-static" "$work/moved to another place" -DAZULEJO_EXAMPLES_STATIC=ON
+step "moved: examples, static" few_examples "$work/moved-static" "$work/moved to another place" -DAZULEJO_EXAMPLES_STATIC=ON
 mv "$prefix.away" "$prefix"
 cp -a "$prefix" "$work/moved"
 step "moved: pkg-config" pkg_config "$work/moved"

@@ -5,7 +5,7 @@
 #
 # Each block marked `c` or `cpp` is a program, or without a main, functions that are only compiled. A block marked
 # `sh run` is run as it stands where the programs of examples_c are, with the prefix where pkg-config, CMake and the
-# loader look. Other blocks are left aside.
+# loader look. Other blocks are ignored.
 set -euo pipefail
 
 root=$(cd "$(dirname "$0")/../.." && pwd)

@@ -33,14 +33,13 @@ void relaxing() {
     }
     const auto points = azulejo::dcr_relax(context, options, xy, &report);
     CHECK(points.size() == 64 && report.iterations <= 30 && report.rho > 0);
-    const double smallest = azulejo::plane_smallest_distance(context, points.positions(), options.domain_min,
-                                                             options.domain_max, options.boundary);
+    const double smallest = azulejo::plane_smallest_distance(context, {points, options});
     CHECK(std::abs(smallest - report.smallest_distance) < 1e-12);
 
-    options.progress = [](double done) { return done < 0.5; };
+    options.set_progress([](double done) { return done < 0.5; });
     const auto half = azulejo::dcr_relax(context, options, xy, &report);
     CHECK(half.size() == 64 && report.stopped == AZULEJO_STOPPED_CANCELLED && report.iterations < 30);
-    options.progress = [](double) -> bool { throw 7; };
+    options.set_progress([](double) -> bool { throw 7; });
     int thrown = 0;
     try {
         azulejo::dcr_relax(context, options, xy);
@@ -54,17 +53,19 @@ void relaxing_on_a_mesh() {
     const float corners[] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
     const std::uint32_t triangles[] = {0, 1, 2, 0, 2, 3};
     const azulejo::Context context(1);
-    const azulejo::Mesh mesh(corners, 4, 3 * sizeof(float), triangles, 2);
+    const azulejo::Mesh mesh(corners, triangles);
     azulejo::PspOptions options;
     options.radius = 0.05;
     const auto darts = azulejo::psp_sample(context, mesh, options);
     azulejo::DcrSurfaceReport report;
-    const auto points = azulejo::dcr_relax_surface(context, mesh, azulejo::DcrSurfaceOptions(), darts.triangles(),
+    const auto points = azulejo::dcr_surface_relax(context, mesh, azulejo::DcrSurfaceOptions(), darts.triangles(),
                                                    darts.barycentrics(), &report);
+    const auto same = azulejo::dcr_surface_relax(context, mesh, azulejo::DcrSurfaceOptions(), darts);
     CHECK(points.size() == darts.size() && report.smallest_distance > 0.05);
+    CHECK(same.size() == points.size() && same.positions()[7] == points.positions()[7]);
     int status = AZULEJO_OK;
     try {
-        azulejo::dcr_relax_surface(context, mesh, azulejo::DcrSurfaceOptions(), {}, darts.barycentrics());
+        azulejo::dcr_surface_relax(context, mesh, azulejo::DcrSurfaceOptions(), {}, darts.barycentrics());
     } catch (const azulejo::Error &error) {
         status = error.status();
     }
@@ -83,13 +84,15 @@ void relaxing_to_a_density() {
     density.width = 3;
     const auto start = azulejo::dcr_scatter(context, options, density, 500);
     azulejo::DcrReport report;
-    const auto points = azulejo::dcr_relax_density(context, options, density, start.positions(), &report);
+    const auto points = azulejo::dcr_relax_density(context, options, density, start, &report);
     CHECK(start.size() == 500 && points.size() == 500 && report.rho > 0.6);
     for (std::size_t i = 0; i < points.size(); i++) CHECK(points.positions()[2 * i] > 0.1f);
 
     density.values = {};
     density.function = [](const std::array<double, 2> &position) { return position[1]; };
-    const auto raised = azulejo::dcr_relax_density(context, options, density, start.positions(), &report);
+    CHECK(refused("width", [&] { azulejo::dcr_scatter(context, options, density, 9); }));
+    density.width = 0;
+    const auto raised = azulejo::dcr_relax_density(context, options, density, start, &report);
     CHECK(raised.size() == 500 && report.iterations > 0);
     density.function = [](const std::array<double, 2> &position) -> double {
         if (position[0] > 0.5) throw Mishap();
@@ -97,7 +100,7 @@ void relaxing_to_a_density() {
     };
     for (std::uint32_t threads : {1, 3}) {
         const azulejo::Context some(threads);
-        CHECK(leaves_the_mishap([&] { azulejo::dcr_relax_density(some, options, density, start.positions()); }));
+        CHECK(leaves_the_mishap([&] { azulejo::dcr_relax_density(some, options, density, start); }));
         CHECK(leaves_the_mishap([&] { azulejo::dcr_scatter(some, options, density, 9); }));
     }
 }

@@ -3,9 +3,10 @@
 #
 #   tests/c/run.sh PREFIX [--asan] [--valgrind]
 #
-# The headers compile without a warning in every standard; the shared library exports what symbols.txt says and has its
-# SONAME; the test programs pass: plainly, one after the other, with --asan also compiled with the address and
-# undefined-behaviour sanitizers, with --valgrind also under valgrind, as many at a time as there are cores.
+# The headers compile without a warning in every standard, and in C++ without exceptions and RTTI; the shared library
+# exports what symbols.txt says and has its SONAME; the test programs pass: plainly, one after the other, with --asan also
+# compiled with the address and undefined-behaviour sanitizers, with --valgrind also under valgrind, as many at a time as
+# there are cores.
 set -euo pipefail
 
 here=$(cd "$(dirname "$0")" && pwd)
@@ -31,9 +32,13 @@ library=$(find "$prefix" -name libazulejo.so | head -n 1)
 [ -n "$library" ] || { echo "run.sh: no libazulejo.so below $prefix" >&2; exit 1; }
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
+root=$here/../..
+. "$here/version.sh"
 . "$here/beside.sh"
 
 warnings=(-Wall -Wextra -Wpedantic -Werror)
+# The flags of many game engines, and of tests/c/no_exceptions*.cpp.
+bare=(-fno-exceptions -fno-rtti)
 include=(-I "$prefix/include")
 link=(-L "$(dirname "$library")" -Wl,-rpath,"$(dirname "$library")" -lazulejo -lpthread -lm)
 # The Embree that the library was built for, for programs that have a scene of their own.
@@ -58,18 +63,18 @@ step() {
     fi
 }
 
-header_compiles() { # LANGUAGE STANDARD FILE
+header_compiles() { # LANGUAGE STANDARD FILE FLAG...
     local strict=() compiler=$cc
     case $1 in
         c) strict=(-Wstrict-prototypes) ;;
         c++) compiler=$cxx ;;
     esac
-    "$compiler" -x "$1" "-std=$2" "${warnings[@]}" "${strict[@]}" -fsyntax-only "$prefix/include/$3"
+    "$compiler" -x "$1" "-std=$2" "${warnings[@]}" "${strict[@]}" "${@:4}" -fsyntax-only "$prefix/include/$3"
 }
 
 exports() { nm --dynamic --defined-only --format=posix "$library" | awk '{ print $1 }' | LC_ALL=C sort; }
 
-has_soname() { readelf --dynamic "$library" | grep -F "Library soname: [libazulejo.so.0]"; }
+has_soname() { readelf --dynamic "$library" | grep -F "Library soname: [libazulejo.so.$abi]"; }
 
 needs_nothing_else() { # libraries that are neither the C runtime nor Embree
     local others
@@ -79,50 +84,56 @@ needs_nothing_else() { # libraries that are neither the C runtime nor Embree
 }
 
 build() { # SOURCE OUTPUT FLAG...
-    local source=$1 output=$2
-    shift 2
-    case $source in
-        *.c) "$cc" -std=gnu11 -Wstrict-prototypes "$@" "${warnings[@]}" "${include[@]}" "$source" -o "$output" "${link[@]}" ;;
-        *) "$cxx" -std=c++17 "$@" "${warnings[@]}" "${include[@]}" "$source" -o "$output" "${link[@]}" ;;
+    local compiler=("$cxx" -std=c++17)
+    case $1 in
+        *.c) compiler=("$cc" -std=gnu11 -Wstrict-prototypes) ;;
+        */no_exceptions*) compiler+=("${bare[@]}") ;;
     esac
+    "${compiler[@]}" -O1 -g "${@:3}" "${warnings[@]}" "${include[@]}" "$1" -o "$2" "${link[@]}"
 }
 
 # Sizes that no memory has are refused, also by the sanitizer's memory.
 export ASAN_OPTIONS=allocator_may_return_null=1
 
-run_program() { # SOURCE MODE
-    local program flags=(-O1 -g) runner=()
-    program=$work/$(basename "${1%.*}")-$2
-    case $2 in
-        asan)
-            flags+=(-fsanitize=address,undefined -fno-sanitize-recover=all)
-            runner=(env AZULEJO_ROUNDS=100)
-            ;;
-        valgrind)
-            runner=(env AZULEJO_ROUNDS=10 valgrind --quiet --error-exitcode=1 --leak-check=full --errors-for-leak-kinds=definite,indirect
-                --show-leak-kinds=definite,indirect)
-            ;;
-    esac
-    build "$1" "$program" "${flags[@]}" && "${runner[@]}" "$program"
+# Plain programs are built once, for both modes that take them.
+built=$work/built
+mkdir "$built"
+build_plain() { build "$1" "$built/$(basename "$1")"; }
+
+run_plain() { "$built/$(basename "$1")"; }
+
+run_asan() {
+    build "$1" "$work/program" -fsanitize=address,undefined -fno-sanitize-recover=all &&
+        AZULEJO_ROUNDS=100 "$work/program"
+}
+
+run_valgrind() {
+    AZULEJO_ROUNDS=10 valgrind --quiet --error-exitcode=1 --leak-check=full \
+        --errors-for-leak-kinds=definite,indirect --show-leak-kinds=definite,indirect "$built/$(basename "$1")"
 }
 
 beside step "azulejo.h as C99" header_compiles c c99 azulejo.h
 beside step "azulejo.h as C11" header_compiles c c11 azulejo.h
 beside step "azulejo.h as C++17" header_compiles c++ c++17 azulejo.h
 beside step "azulejo.hpp as C++17" header_compiles c++ c++17 azulejo.hpp
+beside step "azulejo.hpp as C++20" header_compiles c++ c++20 azulejo.hpp
+beside step "azulejo.hpp, no exceptions or RTTI" header_compiles c++ c++17 azulejo.hpp "${bare[@]}"
 exports >"$work/symbols.txt"
 beside step "exported symbols" diff "$here/symbols.txt" "$work/symbols.txt"
 beside step "SONAME" has_soname
 beside step "needed libraries" needs_nothing_else
-wait
+for source in "$here"/*.c "$here"/*.cpp; do
+    beside build_plain "$source"
+done
+all_done
 for mode in "${modes[@]}"; do
-    # Some programs measure what their threads do.
+    # Some programs measure what their threads do: plain, they have the machine for themselves.
     how=beside
     [ "$mode" != plain ] || how=apart
     for source in "$here"/*.c "$here"/*.cpp; do
         # Valgrind lets one thread work at a time: there is nothing to measure.
         [ "$mode-$(basename "$source")" != valgrind-num_threads.c ] || continue
-        "$how" step "$(basename "$source") ($mode)" run_program "$source" "$mode"
+        "$how" step "$(basename "$source") ($mode)" "run_$mode" "$source"
     done
 done
 all_done

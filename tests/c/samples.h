@@ -38,9 +38,9 @@ static inline azulejo_maximal_options maximal_options(double radius) {
     return options;
 }
 
-static inline azulejo_merge_options merge_options(double radius) {
-    azulejo_merge_options options;
-    ACCEPTED(azulejo_merge_options_init(&options, sizeof options));
+static inline azulejo_kdrt_merge_options merge_options(double radius) {
+    azulejo_kdrt_merge_options options;
+    ACCEPTED(azulejo_kdrt_merge_options_init(&options, sizeof options));
     options.radius = radius;
     return options;
 }
@@ -58,6 +58,73 @@ static inline azulejo_dcr_options dcr_options(uint32_t max_iterations) {
     options.max_iterations = max_iterations;
     return options;
 }
+
+/* Reports that calls can write. */
+static inline azulejo_kdrt_report kdrt_report(void) {
+    azulejo_kdrt_report report;
+    ACCEPTED(azulejo_kdrt_report_init(&report, sizeof report));
+    return report;
+}
+
+static inline azulejo_kdrt_merge_report merge_report(void) {
+    azulejo_kdrt_merge_report report;
+    ACCEPTED(azulejo_kdrt_merge_report_init(&report, sizeof report));
+    return report;
+}
+
+static inline azulejo_psp_report psp_report(void) {
+    azulejo_psp_report report;
+    ACCEPTED(azulejo_psp_report_init(&report, sizeof report));
+    return report;
+}
+
+static inline azulejo_dcr_report dcr_report(void) {
+    azulejo_dcr_report report;
+    ACCEPTED(azulejo_dcr_report_init(&report, sizeof report));
+    return report;
+}
+
+static inline azulejo_dcr_surface_report surface_report(void) {
+    azulejo_dcr_surface_report report;
+    ACCEPTED(azulejo_dcr_surface_report_init(&report, sizeof report));
+    return report;
+}
+
+static inline azulejo_plane_report plane_report(void) {
+    azulejo_plane_report report;
+    ACCEPTED(azulejo_plane_report_init(&report, sizeof report));
+    return report;
+}
+
+static inline azulejo_coverage_report coverage_report(void) {
+    azulejo_coverage_report report;
+    ACCEPTED(azulejo_coverage_report_init(&report, sizeof report));
+    return report;
+}
+
+static inline azulejo_spectrum_report spectrum_report(void) {
+    azulejo_spectrum_report report;
+    ACCEPTED(azulejo_spectrum_report_init(&report, sizeof report));
+    return report;
+}
+
+/* Makes a report one that no call has written: its size is right, all else is garbage. */
+#define UNWRITTEN(report) (memset(&(report), 0x55, sizeof(report)), (void)((report).struct_size = sizeof(report)))
+
+static inline azulejo_plane_set plane_set(const float *positions, size_t count, const double *domain_min,
+                                          const double *domain_max, int32_t boundary) {
+    azulejo_plane_set set;
+    ACCEPTED(azulejo_plane_set_init(&set, sizeof set));
+    set.positions = positions;
+    set.count = count;
+    set.boundary = boundary;
+    memcpy(set.domain_min, domain_min, sizeof set.domain_min);
+    memcpy(set.domain_max, domain_max, sizeof set.domain_max);
+    return set;
+}
+
+/* A plane set as an argument. */
+#define PLANE(...) ((const azulejo_plane_set[1]){plane_set(__VA_ARGS__)})
 
 /* Random points of the unit square, the same ones on every machine. */
 static inline void random_points(float *xy, size_t count) {

@@ -3,10 +3,10 @@
 #
 #   tests/c/sanitized.sh address|thread
 #
-# address: AddressSanitizer, with the overflow checks and debug assertions of Rust. thread: ThreadSanitizer, for what
-# several threads do; it needs Rust's standard library instrumented, or it would not see its locks. A canary shows that
-# the Rust was instrumented: it gives the library a wrong word, which nobody but the sanitizer can see. Needs a nightly
-# compiler, and for threads its component rust-src; what is missing is said.
+# address: AddressSanitizer, with the overflow checks and debug assertions of Rust: the library that is fuzzed. thread:
+# ThreadSanitizer, for what several threads do; it needs Rust's standard library instrumented, or it would not see its
+# locks. A canary shows that the Rust was instrumented: it gives the library a wrong word, which only the sanitizer can
+# see. Needs a nightly compiler, and for threads its component rust-src; what is missing is said.
 set -euo pipefail
 
 root=$(cd "$(dirname "$0")/../.." && pwd)
@@ -22,19 +22,27 @@ skip() {
     exit 0
 }
 rustc +nightly --version >/dev/null 2>&1 || skip "nightly compiler"
+. "$root/scripts/instrumented.sh"
 sysroot=$(rustc +nightly --print sysroot)
-host=$(rustc +nightly -vV | sed -n 's/^host: //p')
 
-rust=()
 case $sanitizer in
     address)
+        target=$instrumented
+        library=$target/libazulejo_c.a
+        build_library() { cargo_instrumented rustc --package azulejo-c-abi --crate-type staticlib; }
         runtime=asan
         caught="AddressSanitizer: heap-buffer-overflow"
         programs=("$here"/*.c "$here"/*.cpp)
         ;;
     thread)
         [ -d "$sysroot/lib/rustlib/src/rust/library" ] || skip "nightly component rust-src"
-        rust+=(-Zbuild-std)
+        target=$root/target/sanitizers/thread/$host/debug
+        library=$target/libazulejo.a
+        build_library() {
+            (cd "$root" && RUSTFLAGS=-Zsanitizer=thread CARGO_INCREMENTAL=0 CARGO_PROFILE_DEV_DEBUG=line-tables-only \
+                cargo +nightly rustc --quiet --locked -Zbuild-std --package azulejo-c --crate-type staticlib \
+                --target "$host" --target-dir "$root/target/sanitizers/thread")
+        }
         runtime=tsan
         caught="ThreadSanitizer: data race"
         programs=("$here"/threads.c "$here"/progress.c)
@@ -50,21 +58,16 @@ runtime=$sysroot/lib/rustlib/$host/lib/librustc-nightly_rt.$runtime.a
 # Sizes that no memory has are refused; a hundred rounds show what a thousand do.
 export ASAN_OPTIONS=allocator_may_return_null=1 AZULEJO_ROUNDS=100
 
-target=$root/target/sanitizers/$sanitizer
-library=$target/$host/debug/libazulejo.a
-
-build_library() {
-    (cd "$root" && RUSTFLAGS=-Zsanitizer=$sanitizer CARGO_INCREMENTAL=0 cargo +nightly rustc --quiet --locked \
-        "${rust[@]}" --package azulejo-c --crate-type staticlib --target "$host" --target-dir "$target")
-}
-
 # The Embree that the library was built for: embree3 or embree4.
-embree() { sed -n 's/^cargo::metadata=library=//p' "$target/$host"/debug/build/embree4-sys-*/output | tail -n 1; }
+embree() { sed -n 's/^cargo::metadata=library=//p' "$target"/build/embree4-sys-*/output | tail -n 1; }
 
 # The runtime is that of the Rust compiler, for C, too: it knows the calls of both.
 build_program() { # SOURCE OUTPUT
     local compiler=(cc -std=gnu11)
-    [ "${1##*.}" = c ] || compiler=(c++ -std=c++17)
+    case $1 in
+        */no_exceptions*) compiler=(c++ -std=c++17 -fno-exceptions -fno-rtti) ;;
+        *.cpp) compiler=(c++ -std=c++17) ;;
+    esac
     "${compiler[@]}" -O1 -g "-fsanitize=$sanitizer" -DEMBREE_MAJOR="${embree#embree}" -I "$root/include" -c "$1" -o "$2.o" &&
         c++ "$2.o" -o "$2" "$library" -Wl,--whole-archive "$runtime" -Wl,--no-whole-archive -Wl,--export-dynamic \
             "-l$embree" -lpthread -ldl -lm -lrt

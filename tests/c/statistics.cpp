@@ -11,8 +11,6 @@
 
 namespace {
 
-const double low[] = {0, 0}, high[] = {1, 1};
-
 azulejo::Points blue_noise(const azulejo::Context &context, std::uint64_t seed) {
     azulejo::MaximalOptions options;
     options.radius = 0.02;
@@ -23,35 +21,36 @@ azulejo::Points blue_noise(const azulejo::Context &context, std::uint64_t seed) 
 void planes() {
     const azulejo::Context context(2);
     const azulejo::Points points = blue_noise(context, 1);
-    const auto report = azulejo::plane_measure(context, points.positions(), low, high, AZULEJO_BOUNDARY_PERIODIC);
+    const azulejo::PlaneSet set{points};
+    const auto report = azulejo::plane_measure(context, set);
     CHECK(report.count == points.size() && report.smallest_distance >= 0.02 && report.covering_radius <= 0.02 + 1e-6);
     CHECK(report.rho > 0.74 && report.rho < 0.8 && report.triangles == 2 * report.count);
 
-    const auto covered = azulejo::plane_coverage(context, points.positions(), low, high, 0, 0.02 + 1e-6);
-    const auto open = azulejo::plane_coverage(context, points.positions(), low, high, 0, 0.018);
+    const auto covered = azulejo::plane_coverage(context, set, 0.02 + 1e-6);
+    const auto open = azulejo::plane_coverage(context, set, 0.018);
     CHECK(covered.gaps == 0 && open.gaps > 10 && covered.covering_radius == report.covering_radius);
 
-    const auto histogram = azulejo::plane_nearest_histogram(context, points.positions(), low, high, 0, 2, 40);
+    const auto histogram = azulejo::plane_nearest_histogram(context, set, 2, 40);
     CHECK(std::accumulate(histogram.begin(), histogram.end(), std::uint64_t(0)) == points.size());
     CHECK(histogram[14] == 0 && histogram[15] > histogram[25]);
-    const auto density = azulejo::plane_radial_distribution(context, points.positions(), low, high, 0, 4, 80);
+    const auto density = azulejo::plane_radial_distribution(context, set, 4, 80);
     CHECK(density.size() == 80 && density[14] == 0 && density[16] > 1.5 && std::abs(density[79] - 1) < 0.1);
-    CHECK(refused("xy: 7", [&] { azulejo::plane_measure(context, std::vector<float>(7), low, high, 0); }));
+    CHECK(refused("positions: 7", [&] { azulejo::plane_measure(context, {std::vector<float>(7)}); }));
     std::vector<double> told;
     const auto tell = [&](double done) { return told.push_back(done), true; };
-    const auto watched = azulejo::plane_measure(context, points.positions(), low, high, 0, tell);
+    const auto watched = azulejo::plane_measure(context.watch(tell), set);
     CHECK(watched.covering_radius == report.covering_radius && told.front() == 0 && told.back() == 1);
     const auto stop = [](double) { return false; };
-    const auto stopped = [&] { azulejo::Spectrum(context, points.positions(), low, high, 0, 100, 1, stop); };
+    const auto stopped = [&] { azulejo::Spectrum(context.watch(stop), set, 100); };
     CHECK(throws(AZULEJO_ERROR_CANCELLED, "cancelled", stopped));
     bool thrown = false;
     try {
-        azulejo::plane_coverage(context, points.positions(), low, high, 0, 0.02, [](double) -> bool { throw 7; });
+        azulejo::plane_coverage(context.watch([](double) -> bool { throw 7; }), set, 0.02);
     } catch (int) {
         thrown = true;
     }
     CHECK(thrown);
-    CHECK(refused("bins", [&] { azulejo::plane_radial_distribution(context, points.positions(), low, high, 0, 4, 0); }));
+    CHECK(refused("bins", [&] { azulejo::plane_radial_distribution(context, set, 4, 0); }));
 }
 
 void spectra() {
@@ -59,7 +58,7 @@ void spectra() {
     std::vector<azulejo::Spectrum> spectra;
     for (std::uint64_t seed = 0; seed < 4; seed++) {
         const auto points = blue_noise(context, seed);
-        spectra.emplace_back(context, points.positions(), low, high, AZULEJO_BOUNDARY_PERIODIC, 280, 2);
+        spectra.emplace_back(context, azulejo::PlaneSet{points}, 280, 2);
     }
     const auto mean = azulejo::Spectrum::mean(spectra);
     CHECK(mean.size() == 280 && mean.power().size() == 280 * 280 && mean.power()[140 * 280 + 140] == 0);
@@ -77,23 +76,23 @@ void spectra() {
 
 void surfaces() {
     const azulejo::Context context(2);
-    const azulejo::Mesh cube(&cube_positions[0][0], 8, sizeof *cube_positions, &cube_indices[0][0], 12);
+    const azulejo::Mesh cube(cube_positions, cube_indices);
     azulejo::PspOptions options;
     options.radius = 0.05;
     const auto points = azulejo::psp_sample(context, cube, options);
-    const auto coverage = azulejo::mesh_coverage(context, cube, points.positions(), 0.05 + 1e-6);
+    const auto coverage = azulejo::mesh_coverage(context, cube, points, 0.05 + 1e-6);
     CHECK(coverage.gaps == 0 && coverage.covering_radius < 0.05 + 1e-6);
-    CHECK(azulejo::mesh_coverage(context, cube, {points.positions().data(), 3}, 0.05).gaps == 1);
+    CHECK(azulejo::mesh_coverage(context, cube, azulejo::Span(points.positions().data(), 3), 0.05).gaps == 1);
 
     std::vector<azulejo::Differences> differences;
     const double up[] = {0, 0, 1};
-    differences.emplace_back(context, cube, points.positions(), points.normals(), up);
-    differences.emplace_back(context, cube, points.positions(), points.normals(), up, 5);
+    differences.emplace_back(context, cube, points, points.normals(), up);
+    differences.emplace_back(context, cube, points, points.normals(), up, 5);
     const auto both = azulejo::Differences::mean(differences);
     CHECK(both.density().size() == 128 * 128 && both.radial().size() == 512 && both.radial()[20] == 0);
     const auto power = both.power(std::array<double, 2>{0.3, 1});
     CHECK(power.size() == 2 && power[0] < 0.3 && power[1] > 0.7);
-    CHECK(refused("normals", [&] { azulejo::Differences(context, cube, points.positions(), {}, up); }));
+    CHECK(refused("normals", [&] { azulejo::Differences(context, cube, points, {}, up); }));
 }
 
 } // namespace

@@ -19,7 +19,7 @@ static azulejo_dcr_surface_options surface_options(void) {
 
 static azulejo_status relax(const azulejo_context *context, const azulejo_dcr_surface_options *options,
                             azulejo_points **out, azulejo_dcr_surface_report *report) {
-    return azulejo_dcr_relax_surface(context, cube, options, azulejo_points_triangles(darts),
+    return azulejo_dcr_surface_relax(context, cube, options, azulejo_points_triangles(darts),
                                      azulejo_points_barycentrics(darts), azulejo_points_count(darts), out, report);
 }
 
@@ -44,7 +44,7 @@ static int on_triangles(const azulejo_points *points) {
 
 static void relaxed(void) {
     azulejo_dcr_surface_options options = surface_options();
-    azulejo_dcr_surface_report report;
+    azulejo_dcr_surface_report report = surface_report();
     azulejo_points *points = NULL, *same = NULL;
     const size_t count = azulejo_points_count(darts);
     double distance = 0;
@@ -63,7 +63,7 @@ static void relaxed(void) {
     CHECK(memcmp(azulejo_points_positions(points), azulejo_points_positions(darts), count * 3 * sizeof(float)) == 0);
     azulejo_points_free(points);
     points = NULL;
-    ACCEPTED(azulejo_dcr_relax_surface(one, cube, &options, NULL, NULL, 0, &points, &report));
+    ACCEPTED(azulejo_dcr_surface_relax(one, cube, &options, NULL, NULL, 0, &points, &report));
     CHECK(azulejo_points_count(points) == 0 && report.smallest_distance == INFINITY);
     azulejo_points_free(points);
 }
@@ -75,7 +75,7 @@ static void cancelled(const azulejo_context *context) {
     size_t i;
     for (i = 0; i < COUNT_OF(limits); i++) {
         azulejo_dcr_surface_options options = surface_options();
-        azulejo_dcr_surface_report report;
+        azulejo_dcr_surface_report report = surface_report();
         azulejo_points *points = NULL;
         options.progress = stop_at;
         options.progress_user = &limits[i];
@@ -92,10 +92,10 @@ static void refused(void) {
     azulejo_points *out = UNTOUCHED;
     uint32_t triangles[] = {3, 4};
     float uv[] = {0.25f, 0.5f, 0.5f, 0.25f};
-    memset(&report, 0x55, sizeof report);
+    UNWRITTEN(report);
     before = report;
 #define CALL(context, mesh, options, triangles, uv, count, out) \
-    azulejo_dcr_relax_surface(context, mesh, options, triangles, uv, count, out, &report)
+    azulejo_dcr_surface_relax(context, mesh, options, triangles, uv, count, out, &report)
     REFUSED(INVALID, "context", CALL(NULL, cube, &good, triangles, uv, 2, &out));
     REFUSED(INVALID, "mesh", CALL(one, NULL, &good, triangles, uv, 2, &out));
     REFUSED(INVALID, "options", CALL(one, cube, NULL, triangles, uv, 2, &out));

@@ -23,8 +23,8 @@ int main(void) {
         azulejo_maximal_options maximal = maximal_options(0.1);
         azulejo_dcr_options relaxed = dcr_options(3);
         azulejo_density density;
-        azulejo_plane_report report;
-        azulejo_coverage coverage;
+        azulejo_plane_report report = plane_report();
+        azulejo_coverage_report coverage = coverage_report();
         uint64_t histogram[4];
         azulejo_points *out = NULL;
         memcpy(tiled.domain_max, high, sizeof tiled.domain_max);
@@ -33,14 +33,14 @@ int main(void) {
         ACCEPTED(azulejo_density_init(&density, sizeof density));
         density.values = &white;
         density.width = density.height = 1;
-        ENDS(azulejo_kdrt_sample(context, &tiled, &out));
+        ENDS(azulejo_kdrt_sample(context, &tiled, &out, NULL));
         ENDS(azulejo_maximal_sample(context, &maximal, &out));
         ENDS(azulejo_dcr_relax(context, &relaxed, origin, 1, &out, NULL));
         ENDS(azulejo_dcr_relax_density(context, &relaxed, &density, origin, 1, &out, NULL));
         ENDS(azulejo_dcr_scatter(context, &relaxed, &density, 10, &out));
-        ENDS(azulejo_plane_measure(context, origin, 1, low, high, 0, &report));
-        ENDS(azulejo_plane_coverage(context, origin, 1, low, high, 1, 0.1, &coverage));
-        ENDS(azulejo_plane_nearest_histogram(context, origin, 1, low, high, 0, 1, 4, histogram));
+        ENDS(azulejo_plane_measure(context, PLANE(origin, 1, low, high, 0), &report));
+        ENDS(azulejo_plane_coverage(context, PLANE(origin, 1, low, high, 1), 0.1, &coverage));
+        ENDS(azulejo_plane_nearest_histogram(context, PLANE(origin, 1, low, high, 0), 1, 4, histogram));
     }
     azulejo_context_free(context);
     return finish();

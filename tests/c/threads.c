@@ -14,7 +14,7 @@ static void sample_all(const azulejo_context *context, azulejo_points *out[KINDS
     azulejo_maximal_options maximal = maximal_options(0.05);
     azulejo_psp_options psp = psp_options(0.05);
     azulejo_dcr_options dcr = dcr_options(20);
-    ACCEPTED(azulejo_kdrt_sample(context, &kdrt, &out[0]));
+    ACCEPTED(azulejo_kdrt_sample(context, &kdrt, &out[0], NULL));
     ACCEPTED(azulejo_maximal_sample(context, &maximal, &out[1]));
     ACCEPTED(azulejo_psp_sample(context, cube, &psp, &out[2], NULL));
     ACCEPTED(azulejo_dcr_relax(context, &dcr, random_xy, POINTS, &out[3], NULL));

@@ -26,17 +26,17 @@ void progress(const azulejo_context *context) {
     auto options = kdrt_options(0.02);
     azulejo_points *points = nullptr;
     options.progress = throws;
-    azulejo_kdrt_sample(context, &options, &points);
+    azulejo_kdrt_sample(context, &options, &points, nullptr);
 }
 
 void radius(const azulejo_context *context) {
-    azulejo_adaptive_options options;
+    azulejo_psp_adaptive_options options;
     azulejo_points *points = nullptr;
-    azulejo_adaptive_options_init(&options, sizeof options);
+    azulejo_psp_adaptive_options_init(&options, sizeof options);
     options.radius = throws_radius;
     options.smallest = 0.1;
     options.largest = 0.2;
-    azulejo_psp_sample_adaptive(context, cube, &options, &points, nullptr);
+    azulejo_psp_adaptive_sample(context, cube, &options, &points, nullptr);
 }
 
 void visit(const azulejo_context *context) {

@@ -178,7 +178,7 @@ static void a_huge_plane(void) {
 static void a_small_plane(void) {
     const azulejo_kdrt_options options = kdrt_options(0.1);
     azulejo_points *whole = NULL, *window;
-    ACCEPTED(azulejo_kdrt_sample(one, &options, &whole));
+    ACCEPTED(azulejo_kdrt_sample(one, &options, &whole, NULL));
     CHECK(streams(four, &options, whole) == 1);
     window = make_window(four, &options, 0.25, 0, 0.8, 1);
     CHECK(is_part(window, whole, 0.25, 0, 0.8, 1));
@@ -198,7 +198,7 @@ int main(void) {
         const azulejo_kdrt_options options = plane_options(boundaries[i]);
         azulejo_points *whole = NULL;
         int parts;
-        ACCEPTED(azulejo_kdrt_sample(one, &options, &whole));
+        ACCEPTED(azulejo_kdrt_sample(one, &options, &whole, NULL));
         windows(&options, whole);
         the_whole_as_a_window(&options, whole);
         parts = streams(one, &options, whole);

@@ -1,4 +1,4 @@
-// azulejo.hpp: owners, moves, exceptions, options, progress.
+// azulejo.hpp: owners, moves, exceptions, options.
 
 #include <algorithm>
 #include <array>
@@ -20,6 +20,7 @@ constexpr bool move_only = std::is_nothrow_move_constructible_v<T> && std::is_no
                            !std::is_copy_constructible_v<T> && !std::is_copy_assignable_v<T>;
 static_assert(move_only<azulejo::Context> && move_only<azulejo::Points>);
 static_assert(move_only<azulejo::Mesh> && move_only<azulejo::Psp>);
+static_assert(move_only<azulejo::Spectrum> && move_only<azulejo::Differences>);
 
 void spans() {
     std::vector<float> values = {1, 2, 3};
@@ -36,6 +37,10 @@ void spans() {
 void errors() {
     const azulejo::Context context(1);
     CHECK(throws(AZULEJO_ERROR_INVALID_ARGUMENT, "num_threads", [] { azulejo::Context too_many(5000); }));
+    CHECK(throws(AZULEJO_ERROR_INVALID_ARGUMENT, "num_threads", [] {
+        azulejo_context *handle = nullptr;
+        azulejo::check(azulejo_context_create(5000, &handle));
+    }));
     CHECK(throws(AZULEJO_ERROR_IO, "missing.ply", [] { azulejo::Mesh::load("missing.ply"); }));
     const std::vector<float> seven(7);
     CHECK(throws(AZULEJO_ERROR_INVALID_ARGUMENT, "positions: 7", [&] { azulejo::Mesh mesh(seven, {}); }));
@@ -75,8 +80,63 @@ void owners() {
         o.radius = 0.1;
         return o;
     }());
-    CHECK(azulejo::plane_smallest_distance(second, points.positions(), options.domain_min, options.domain_max,
-                                           options.boundary) >= 0.1);
+    CHECK(azulejo::plane_smallest_distance(second, {points, options}) >= 0.1);
+}
+
+// Objects without a handle, handles that are adopted, and handles that are given up.
+void handles() {
+    const azulejo::Points points;
+    const azulejo::Mesh no_mesh;
+    azulejo::Psp psp;
+    const azulejo::Spectrum spectrum;
+    const azulejo::Differences differences;
+    const azulejo::Context none(nullptr), one(1), all, counted(0);
+    CHECK(!points && !no_mesh && !psp && !spectrum && !differences && !none && one);
+    CHECK(all.num_threads() >= 1 && counted.num_threads() == all.num_threads());
+    CHECK(points.size() == 0 && points.positions().empty() && points.radii().empty() && spectrum.power().empty());
+    CHECK(no_mesh.area() == 0 && differences.density().empty() && none.num_threads() == 0);
+    CHECK(refused("psp", [&] { psp.advance(1); }));
+    CHECK(refused("mesh", [&] { azulejo::psp_sample(one, no_mesh, {}); }));
+    CHECK(refused("coordinates", [&] { azulejo::dcr_relax(one, {}, points); }));
+
+    azulejo::Mesh mesh(positions, indices);
+    azulejo_mesh *const handle = mesh.release();
+    CHECK(handle != nullptr && !mesh && mesh.get() == nullptr && azulejo_mesh_vertex_count(handle) == 4);
+    mesh = azulejo::Mesh(handle);
+    CHECK(mesh.get() == handle && mesh.vertex_count() == 4);
+    azulejo::Context first(2);
+    const azulejo::Context second(first.release());
+    CHECK(!first && second.num_threads() == 2);
+
+    azulejo::PspOptions options;
+    options.radius = 0.1;
+    azulejo_psp *growing = nullptr;
+    azulejo::check(azulejo_psp_create(second.get(), mesh.get(), &options, &growing));
+    psp = azulejo::Psp(growing);
+    CHECK(psp.fill().samples == psp.points().size());
+    CHECK(azulejo_psp_advance(psp.get(), 1, nullptr) == AZULEJO_OK);
+}
+
+// Each call has a form that returns a status, also where there are exceptions.
+void statuses() {
+    azulejo::Context context(nullptr);
+    CHECK(azulejo::Context::try_create(2, context).ok() && context.num_threads() == 2);
+    const azulejo::Status failed = azulejo::Context::try_create(5000, context);
+    CHECK(failed.code() == AZULEJO_ERROR_INVALID_ARGUMENT && failed.message().find("5000") != std::string::npos);
+    CHECK(context.num_threads() == 2);
+
+    azulejo::KdrtOptions options;
+    options.radius = 0.1;
+    azulejo::Points points;
+    CHECK(azulejo::try_kdrt_sample(context, options, points).ok() && points.size() > 50);
+    const azulejo_points *const handle = points.get();
+    options.radius = -1;
+    const azulejo::Status refusal = azulejo::try_kdrt_sample(context, options, points);
+    CHECK(refusal.message().find("radius: -1") != std::string::npos && points.get() == handle);
+    CHECK(azulejo::Status().ok() && azulejo::Status().message().empty());
+    std::vector<std::uint64_t> histogram = {7};
+    const auto bins = azulejo::try_plane_nearest_histogram(context, {points, options}, 2, std::size_t(-1), histogram);
+    CHECK(bins.message().find("bins") != std::string::npos && histogram.size() == 1);
 }
 
 void surfaces() {
@@ -101,14 +161,15 @@ void surfaces() {
     CHECK(!mesh->has_normals() && whole.interpolated_normals().empty());
     const std::array<float, 3> up = {0, 0, 2};
     const std::vector<std::uint32_t> first_normal(indices.size());
-    auto carrying = mesh->with_normals(positions).with_normals(up, first_normal).with_mask(std::vector<std::uint8_t>{1, 0, 0, 0});
+    const std::vector<std::uint8_t> only_the_first = {1, 0, 0, 0};
+    auto carrying = mesh->with_normals(positions).with_normals(up, first_normal).with_mask(only_the_first);
     CHECK(carrying.has_normals() && carrying.triangle_count() == 4 && carrying.area() == 0.5);
     const auto part = azulejo::psp_sample(context, carrying, options);
     CHECK(part.interpolated_normals().size() == 3 * part.size() && part.interpolated_normals()[2] == 1);
     CHECK(part.normals()[2] == -1 && part.triangles()[part.size() - 1] == 0);
-    CHECK(mesh->with_normals(positions.data(), 1, 48, first_normal).has_normals());
-    CHECK(throws(AZULEJO_ERROR_INVALID_ARGUMENT, "normals: 4", [&] { mesh->with_normals({positions.data(), 4}); }));
-    CHECK(throws(AZULEJO_ERROR_INVALID_ARGUMENT, "triangle_count", [&] { mesh->with_normals(up, {indices.data(), 3}); }));
+    CHECK(mesh->with_normals({positions.data(), 1, 48}, first_normal).has_normals());
+    CHECK(refused("normals: 4", [&] { mesh->with_normals(azulejo::Span(positions.data(), 4)); }));
+    CHECK(refused("triangle_count", [&] { mesh->with_normals(up, azulejo::Span(indices.data(), 3)); }));
     CHECK(throws(AZULEJO_ERROR_INVALID_ARGUMENT, "triangle_count", [&] { mesh->with_mask({}); }));
 
     azulejo::Psp psp(context, *mesh, options);
@@ -122,38 +183,6 @@ void surfaces() {
     CHECK(throws(AZULEJO_ERROR_INVALID_ARGUMENT, "psp", [&] { psp.points(); }));
 }
 
-void progress() {
-    const azulejo::Context context(2);
-    azulejo::KdrtOptions options;
-    options.radius = 0.02;
-    double last = -1;
-    options.progress = [&](double done) {
-        CHECK(done >= last);
-        last = done;
-        return true;
-    };
-    CHECK(azulejo::kdrt_sample(context, options).size() > 1000);
-    CHECK(last == 1);
-
-    options.progress = [](double done) { return done < 0.5; };
-    CHECK(throws(AZULEJO_ERROR_CANCELLED, "cancelled", [&] { azulejo::kdrt_sample(context, options); }));
-
-    for (double limit : {0.0, 0.5, 1.0}) {
-        int calls_after = -1;
-        options.progress = [&](double done) {
-            if (calls_after >= 0 || done >= limit) calls_after++;
-            if (done >= limit) throw limit;
-            return true;
-        };
-        try {
-            azulejo::kdrt_sample(context, options);
-            CHECK(!"reached");
-        } catch (double thrown) {
-            CHECK(thrown == limit && calls_after == 0);
-        }
-    }
-}
-
 void counts() {
     const azulejo::Context context(2);
     azulejo::KdrtOptions options;
@@ -161,8 +190,12 @@ void counts() {
     azulejo::KdrtReport report;
     const auto points = azulejo::kdrt_sample(context, options, &report);
     CHECK(points.size() == 777 && report.samples == 777 && report.is_maximal == 1);
-    CHECK(azulejo::plane_smallest_distance(context, points.positions(), options.domain_min, options.domain_max,
-                                           options.boundary) >= report.radius);
+    CHECK(azulejo::plane_smallest_distance(context, {points, options}) >= report.radius && report.coverage == -1);
+    options.measure_coverage = 1;
+    const auto measured = azulejo::kdrt_sample(context, options, &report);
+    CHECK(report.coverage == azulejo::plane_covering_radius(context, {measured, options}) && report.coverage > 0);
+    CHECK(refused("measure_coverage", [&] { azulejo::kdrt_sample(context, options); }));
+    options.measure_coverage = 0;
     options.radius = 0.1;
     CHECK(throws(AZULEJO_ERROR_INVALID_ARGUMENT, "count: 777", [&] { azulejo::kdrt_sample(context, options); }));
 }
@@ -183,7 +216,7 @@ void windows() {
     CHECK(std::equal(expected.begin(), expected.end(), window.positions().begin()));
     CHECK(throws(AZULEJO_ERROR_INVALID_ARGUMENT, "window_max",
                  [&] { azulejo::kdrt_sample_window(context, options, middle, middle); }));
-    options.progress = [](double done) -> bool { throw done; };
+    options.set_progress([](double done) -> bool { throw done; });
     try {
         azulejo::kdrt_sample_window(context, options, middle, options.domain_max);
         CHECK(!"reached");
@@ -224,10 +257,10 @@ void streams() {
             CHECK(std::strcmp(error.what(), "enough") == 0 && visits == last);
         }
     }
-    options.progress = [](double done) {
+    options.set_progress([](double done) {
         if (done > 0.5) throw std::logic_error("progress");
         return true;
-    };
+    });
     try {
         azulejo::kdrt_stream(context, options, [](auto) { return true; });
         CHECK(!"reached");
@@ -240,101 +273,73 @@ void merging() {
     const azulejo::Context context(2);
     azulejo::KdrtOptions left, right;
     left.radius = right.radius = 0.02;
-    left.boundary = right.boundary = AZULEJO_BOUNDARY_BOUNDED;
-    left.domain_max[0] = right.domain_min[0] = 0.6;
+    left.set_domain({{0, 0}, {0.6, 1}, AZULEJO_BOUNDARY_BOUNDED});
+    right.set_domain({{0.6, 0}, {1, 1}, AZULEJO_BOUNDARY_BOUNDED});
     right.seed = 1;
     const auto first = azulejo::kdrt_sample(context, left), second = azulejo::kdrt_sample(context, right);
-    const std::vector<azulejo::MergePiece> pieces = {{first.positions(), {0, 0}, {0.6, 1}},
-                                                     {second.positions(), {0.6, 0}, {1, 1}}};
+    const std::vector<azulejo::KdrtMergePiece> pieces = {{first, {0, 0}, {0.6, 1}},
+                                                         {second.positions(), {0.6, 0}, {1, 1}}};
     const std::array<float, 4> fixed = {0.25f, 0.5f, 0.75f, 0.5f};
-    azulejo::MergeOptions options;
+    azulejo::KdrtMergeOptions options;
     options.radius = 0.02;
-    azulejo::MergeReport report;
+    azulejo::KdrtMergeReport report;
     const auto merged = azulejo::kdrt_merge(context, options, pieces, fixed, &report);
     CHECK(merged.size() == 2 + report.kept + report.inserted);
     CHECK(report.kept + report.eliminated == first.size() + second.size() && report.eliminated > 0);
     CHECK(std::equal(fixed.begin(), fixed.end(), merged.positions().begin()));
-    CHECK(azulejo::plane_smallest_distance(context, merged.positions(), options.domain_min, options.domain_max,
-                                           options.boundary) >= 0.02);
+    CHECK(azulejo::plane_smallest_distance(context, {merged, options}) >= 0.02);
     CHECK(azulejo::kdrt_merge(context, options, {}).size() > 1500);
 
     const std::vector<float> seven(7);
     CHECK(throws(AZULEJO_ERROR_INVALID_ARGUMENT, "fixed: 7",
                  [&] { azulejo::kdrt_merge(context, options, {}, seven); }));
-    const std::array<azulejo::MergePiece, 1> odd = {{{seven, {0, 0}, {1, 1}}}};
+    const std::array<azulejo::KdrtMergePiece, 1> odd = {{{seven, {0, 0}, {1, 1}}}};
     CHECK(throws(AZULEJO_ERROR_INVALID_ARGUMENT, "xy: 7", [&] { azulejo::kdrt_merge(context, options, odd); }));
-    const std::array<azulejo::MergePiece, 2> twice = {pieces[0], pieces[0]};
+    const std::array<azulejo::KdrtMergePiece, 2> twice = {pieces[0], pieces[0]};
     CHECK(throws(AZULEJO_ERROR_INVALID_ARGUMENT, "overlap", [&] { azulejo::kdrt_merge(context, options, twice); }));
-    options.progress = [](double) { return false; };
+    options.set_progress([](double) { return false; });
     CHECK(throws(AZULEJO_ERROR_CANCELLED, "cancelled", [&] { azulejo::kdrt_merge(context, options, pieces); }));
-}
-
-// A handle keeps its progress function through moves and through exceptions.
-void progress_of_a_handle() {
-    const azulejo::Context context(1);
-    const azulejo::Mesh mesh(positions, indices);
-    bool throwing = true;
-    int calls = 0;
-    azulejo::PspOptions options;
-    options.radius = 0.1;
-    options.progress = [&](double) {
-        calls++;
-        if (throwing) throw std::logic_error("no");
-        return true;
-    };
-    azulejo::Psp psp(context, mesh, options);
-    options.progress = nullptr;
-    azulejo::Psp moved = std::move(psp);
-    try {
-        moved.advance(1);
-        CHECK(!"reached");
-    } catch (const std::logic_error &error) {
-        CHECK(std::strcmp(error.what(), "no") == 0);
-    }
-    throwing = false;
-    CHECK(moved.fill().samples > 0);
-    CHECK(calls > 2);
 }
 
 void adaptive() {
     const azulejo::Context context(3);
     const azulejo::Mesh mesh(positions, indices);
-    azulejo::AdaptiveOptions options;
+    azulejo::PspAdaptiveOptions options;
     CHECK(throws(AZULEJO_ERROR_INVALID_ARGUMENT, "radius",
-                 [&] { azulejo::psp_sample_adaptive(context, mesh, options); }));
+                 [&] { azulejo::psp_adaptive_sample(context, mesh, options); }));
     const std::vector<float> radii = {0.05f, 0.1f, 0.2f, 0.1f};
-    options.vertex_radii = radii;
+    options.set_vertex_radii(radii);
     azulejo::PspReport report;
-    const auto points = azulejo::psp_sample_adaptive(context, mesh, options, &report);
+    const auto points = azulejo::psp_adaptive_sample(context, mesh, options, &report);
     CHECK(points.size() > 100 && points.size() == report.samples && points.radii().size() == points.size());
     for (double radius : points.radii()) CHECK(radius >= 0.05f && radius <= 0.2f);
     CHECK(azulejo::Points(nullptr).radii().empty());
 
-    options.vertex_radii = {};
+    options.set_vertex_radii({});
     options.smallest = 0.05;
     options.largest = 0.15;
     options.slope = 0.1;
-    options.radius = [](const std::array<double, 3> &position) { return 0.05 + 0.1 * position[0]; };
-    const auto faded = azulejo::psp_sample_adaptive(context, mesh, options);
+    options.set_radius([](const std::array<double, 3> &position) { return 0.05 + 0.1 * position[0]; });
+    const auto faded = azulejo::psp_adaptive_sample(context, mesh, options);
     CHECK(faded.size() > 100 && faded.radii()[0] == 0.05 + 0.1 * static_cast<double>(faded.positions()[0]));
 
     struct Mishap {};
-    options.radius = [](const std::array<double, 3> &position) -> double {
+    options.set_radius([](const std::array<double, 3> &position) -> double {
         if (position[0] > 0.5) throw Mishap();
         return 0.05 + 0.1 * position[0];
-    };
+    });
     for (std::uint32_t threads : {1, 3}) {
         bool caught = false;
         try {
-            azulejo::psp_sample_adaptive(azulejo::Context(threads), mesh, options);
+            azulejo::psp_adaptive_sample(azulejo::Context(threads), mesh, options);
         } catch (const Mishap &) {
             caught = true;
         }
         CHECK(caught);
     }
-    options.radius = [](const std::array<double, 3> &position) { return 0.05 + 0.1 * position[0]; };
-    options.progress = [](double) { return false; };
-    CHECK(throws(AZULEJO_ERROR_CANCELLED, "cancelled", [&] { azulejo::psp_sample_adaptive(context, mesh, options); }));
+    options.set_radius([](const std::array<double, 3> &position) { return 0.05 + 0.1 * position[0]; });
+    options.set_progress([](double) { return false; });
+    CHECK(throws(AZULEJO_ERROR_CANCELLED, "cancelled", [&] { azulejo::psp_adaptive_sample(context, mesh, options); }));
 }
 
 } // namespace
@@ -343,9 +348,9 @@ int main() {
     spans();
     errors();
     owners();
+    handles();
+    statuses();
     surfaces();
-    progress();
-    progress_of_a_handle();
     counts();
     windows();
     streams();

@@ -13,7 +13,7 @@ pub struct Part {
     pub rectangle: Domain,
 }
 
-/// A maximal set of a rectangle with a border.
+/// A maximal set of a rectangle with a boundary.
 pub fn part(min: [f64; 2], max: [f64; 2], radius: f64, seed: u64) -> Part {
     let rectangle = domain(min, max, Boundary::Bounded);
     let options = Options::new(radius).domain(rectangle).leaf_size(6.0).seed(seed);

@@ -37,7 +37,7 @@ fn plus(a: [f32; 3], b: [f32; 3], factor: f32) -> [f32; 3] {
     std::array::from_fn(|axis| a[axis] + factor * b[axis])
 }
 
-/// A closed surface over a grid of `columns` by `rows` that wraps around both ways.
+/// A closed surface over a grid of `columns` by `rows` that wraps around along both.
 fn wrapped(columns: u32, rows: u32, point: impl Fn(f64, f64) -> [f64; 3]) -> Mesh {
     let at = |column: u32, row: u32| column % columns + columns * (row % rows);
     let cells = (0..rows).flat_map(|row| (0..columns).map(move |column| (column, row)));

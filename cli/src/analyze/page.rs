@@ -10,10 +10,11 @@ use super::Set;
 use super::figures::{object, table};
 use super::plane::{self, NEAREST_BINS, NEAREST_REACH};
 use super::surface;
+use crate::formats::set::{PlaneSet, SampleSet};
 use crate::text::{grouped, rounded};
 
 /// What the sets are, in a few words.
-fn title(sets: &[Set]) -> String {
+fn title<Points>(sets: &[Set<Points>]) -> String {
     match sets {
         [set] => set.path.display().to_string(),
         _ => format!("{} sets, the first of {}", sets.len(), sets[0].path.display()),
@@ -27,13 +28,13 @@ fn boundary(domain: &Domain) -> &'static str {
     }
 }
 
-pub fn plane_table(domain: &Domain, sets: &[Set], measured: &plane::Measured) -> String {
+pub fn plane_table(domain: &Domain, sets: &[Set<PlaneSet>], measured: &plane::Measured) -> String {
     let [x, y] = [0, 1].map(|axis| format!("{} to {}", rounded(domain.min[axis], 6), rounded(domain.max[axis], 6)));
     let rows = table(&measured.rows, sets.len());
     format!("{}: x {x}, y {y}, {}\n\n{rows}", title(sets), boundary(domain))
 }
 
-pub fn surface_table(path: &Path, mesh: &Mesh, sets: &[Set], measured: &surface::Measured) -> String {
+pub fn surface_table(path: &Path, mesh: &Mesh, sets: &[Set<SampleSet>], measured: &surface::Measured) -> String {
     let (area, triangles) = (rounded(mesh.area(), 4), grouped(mesh.triangles().len()));
     let rows = table(&measured.rows, sets.len());
     let missing = if measured.differences.is_none() {
@@ -44,7 +45,7 @@ pub fn surface_table(path: &Path, mesh: &Mesh, sets: &[Set], measured: &surface:
     format!("{}: on {} of {triangles} triangles, area {area}\n\n{rows}{missing}", title(sets), path.display())
 }
 
-fn files(sets: &[Set]) -> Vec<String> {
+fn files<Points>(sets: &[Set<Points>]) -> Vec<String> {
     sets.iter().map(|set| set.path.display().to_string()).collect()
 }
 
@@ -53,7 +54,7 @@ fn printed(value: &Value) -> String {
     format!("{value}\n")
 }
 
-pub fn plane_json(domain: &Domain, sets: &[Set], measured: &plane::Measured) -> String {
+pub fn plane_json(domain: &Domain, sets: &[Set<PlaneSet>], measured: &plane::Measured) -> String {
     let annuli = measured.annuli.iter();
     let radial = annuli.map(|annulus| json!([annulus.frequency, annulus.power, annulus.anisotropy]));
     let distribution = measured.distribution.as_ref().map(|distribution| {
@@ -72,7 +73,7 @@ pub fn plane_json(domain: &Domain, sets: &[Set], measured: &plane::Measured) -> 
     }))
 }
 
-pub fn surface_json(path: &Path, mesh: &Mesh, sets: &[Set], measured: &surface::Measured) -> String {
+pub fn surface_json(path: &Path, mesh: &Mesh, sets: &[Set<SampleSet>], measured: &surface::Measured) -> String {
     let radial = measured.differences.as_ref().map(surface::Measured::power);
     let distances = measured.differences.as_ref().map(|differences| {
         let shells = differences.radial();

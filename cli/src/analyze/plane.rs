@@ -11,6 +11,7 @@ use super::Set;
 use super::figures::{Figure, Row};
 use crate::draw::spectra::spectrum_up_to;
 use crate::formats::blame;
+use crate::formats::set::PlaneSet;
 use crate::progress::{part, watched};
 use crate::quality::Quality;
 
@@ -32,7 +33,7 @@ pub const NEAREST_BINS: usize = 75;
 /// How far the sizes of sets of one kind may differ.
 const SAME: f64 = 0.1;
 
-/// The figures of a single set, and those of all sets together.
+/// The figures of a single set, and of all sets together.
 const FIGURES: [Figure; 12] = [
     Figure::new("points", "points", ""),
     Figure::new("smallest_distance", "smallest distance", ""),
@@ -80,8 +81,8 @@ struct One {
 }
 
 impl Measured {
-    pub fn of(context: &Context, domain: &Domain, sets: &[Set], radius: Option<f64>) -> Result<Self> {
-        let count = sets[0].points.positions.len();
+    pub fn of(context: &Context, domain: &Domain, sets: &[Set<PlaneSet>], radius: Option<f64>) -> Result<Self> {
+        let count = sets[0].loaded.points.len();
         let mut ones = Vec::new();
         watched("measure", |progress: &Progress| {
             for (i, set) in sets.iter().enumerate() {
@@ -106,7 +107,7 @@ impl Measured {
                 .map(|(figure, value)| Row { figure, values: vec![value.unwrap_or(f64::NAN)] }),
         );
         let distributions: Option<Vec<_>> = ones.iter().map(|one| one.distribution.clone()).collect();
-        let total: f64 = sets.iter().map(|set| set.points.positions.len() as f64).sum();
+        let total: f64 = sets.iter().map(|set| set.loaded.points.len() as f64).sum();
         let share = |bin: usize| ones.iter().map(|one| one.nearest[bin]).sum::<u64>() as f64 / total;
         Ok(Self {
             rows,
@@ -122,23 +123,23 @@ impl One {
     fn of(
         context: &Context,
         domain: &Domain,
-        set: &Set,
+        set: &Set<PlaneSet>,
         count: usize,
         radius: Option<f64>,
         progress: &Progress,
     ) -> Result<Self> {
-        let points = set.points.plane_positions();
+        let points = &set.loaded.points;
         if (points.len() as f64 / count as f64 - 1.0).abs() > SAME {
             let reason = format!("{} points, not about {count}: only sets of one kind have a mean", points.len());
             return Err(Error::Format { path: set.path.clone(), reason });
         }
         let unit = domain.hexagonal_distance(points.len());
-        let figured = figures_2d(context, domain, &points, Some(&part(progress, 0.0, 0.4)))?;
+        let figured = figures_2d(context, domain, points, Some(&part(progress, 0.0, 0.4)))?;
         let covering = figured.covering_radius;
         let reach = FREQUENCY_REACH;
         let progressing = part(progress, 0.4, 0.6);
-        let spectrum = spectrum_up_to(context, domain, &points, count, reach, GRID, Some(&progressing))?;
-        let quality = Quality::with(context, domain, &points, &figured, Some(&part(progress, 0.6, 0.65)))?;
+        let spectrum = spectrum_up_to(context, domain, points, count, reach, GRID, Some(&progressing))?;
+        let quality = Quality::with(context, domain, points, &figured, Some(&part(progress, 0.6, 0.65)))?;
         let smallest = quality.rho * unit;
         let mut figures = vec![
             points.len() as f64,
@@ -156,13 +157,13 @@ impl One {
         ];
         if let Some(radius) = radius {
             let gaps =
-                coverage_2d(context, domain, &points, radius * (1.0 + SHALLOW), Some(&part(progress, 0.65, 0.8)))?.gaps;
+                coverage_2d(context, domain, points, radius * (1.0 + SHALLOW), Some(&part(progress, 0.65, 0.8)))?.gaps;
             figures.extend([smallest / radius, covering / radius, gaps as f64]);
         }
         // Larger distances than half the domain are not all there.
         let reach = PAIR_REACH * unit <= 0.5 * domain.extent().into_iter().fold(f64::INFINITY, f64::min);
         let pairs =
-            || radial_distribution(context, domain, &points, PAIR_REACH, PAIR_BINS, Some(&part(progress, 0.8, 1.0)));
+            || radial_distribution(context, domain, points, PAIR_REACH, PAIR_BINS, Some(&part(progress, 0.8, 1.0)));
         let distribution = (reach && points.len() > 1).then(pairs).transpose()?;
         let nearest = nearest_histogram_2d(domain, &figured.nearest, NEAREST_REACH, NEAREST_BINS)?;
         Ok(Self { figures, spectrum, distribution, nearest })

@@ -17,6 +17,7 @@ use crate::draw::plot::{Axis, Panel};
 use crate::draw::spectra::{FREQUENCY_LIMIT, Windows};
 use crate::draw::stage::Stage;
 use crate::draw::surface as view;
+use crate::formats::set::{PlaneSet, SampleSet};
 use crate::progress::watched;
 use crate::text::rounded;
 
@@ -48,20 +49,20 @@ fn page([width, height]: [f32; 2]) -> Canvas {
 pub fn plane(
     context: &Context,
     domain: &Domain,
-    sets: &[Set],
+    sets: &[Set<PlaneSet>],
     measured: &plane::Measured,
     directory: &Path,
 ) -> Result<()> {
-    let points: Vec<_> = sets.iter().map(|set| set.points.plane_positions()).collect();
+    let points: Vec<&[[f32; 2]]> = sets.iter().map(|set| &set.loaded.points[..]).collect();
     let windows = Windows::of(domain, points[0].len());
     let mut canvas = page(SQUARE_PAGE);
-    panels::samples(&mut canvas, SQUARE, &windows, &points[0]);
+    panels::samples(&mut canvas, SQUARE, &windows, points[0]);
     canvas.write(&picture(directory, "points.png")?)?;
 
     let drawn = &points[..points.len().min(DRAWN_SPECTRA)];
     let spectrum = watched("spectrum", |progress: &Progress| {
         let share = |i: usize, done: f64| progress((i as f64 + done) / drawn.len() as f64);
-        let spectrum = |(i, points): (usize, &Vec<_>)| windows.spectrum(context, points, &|done| share(i, done));
+        let spectrum = |(i, points): (usize, &&[[f32; 2]])| windows.spectrum(context, points, &|done| share(i, done));
         Periodogram::mean(&drawn.iter().enumerate().map(spectrum).collect::<Result<Vec<_>>>()?)
     })?;
     let mut canvas = page(SQUARE_PAGE);
@@ -87,7 +88,7 @@ pub fn plane(
 /// A curve of densities around 1, from 0 to somewhat above its peak.
 fn draw_density(curve: &[[f64; 2]], x: Axis, title: &str) -> Canvas {
     let peak = curve.iter().map(|point| point[1]).fold(1.5, f64::max);
-    let panel = Panel { rect: WIDE, x, y: Axis::linear("pairs / those at random", [0.0, 1.1 * peak], 4) };
+    let panel = Panel { rect: WIDE, x, y: Axis::linear("pairs / pairs at random", [0.0, 1.1 * peak], 4) };
     let mut canvas = page(WIDE_PAGE);
     panels::curve(&mut canvas, &panel, curve.iter().copied(), 1.0);
     panel.title(&mut canvas, title, "Poisson process: 1");
@@ -125,11 +126,11 @@ pub fn surface(
     context: &Context,
     name: &str,
     mesh: &Mesh,
-    sets: &[Set],
+    sets: &[Set<SampleSet>],
     measured: &surface::Measured,
     directory: &Path,
 ) -> Result<()> {
-    let stage = Stage::new(context, mesh, &sets[0].points.positions, false)?;
+    let stage = Stage::new(context, mesh, &sets[0].loaded.positions, false)?;
     view::picture(context, name, &stage, VIEW_PIXELS, &picture(directory, "samples.png")?)?;
     let Some(differences) = &measured.differences else { return Ok(()) };
     draw_differences(differences).write(&picture(directory, "differences.png")?)?;
@@ -148,12 +149,12 @@ fn draw_differences(differences: &Differences) -> Canvas {
         y: Axis::linear("difference across / mean spacing", range, 8),
     };
     let density = differences.density();
-    // Rows of pictures go down, those of densities up.
+    // Rows of pictures go down, rows of densities up.
     let ink = |i: usize| density[(GRID_SIZE - 1 - i / GRID_SIZE) * GRID_SIZE + i % GRID_SIZE] / FULL_INK;
     let image: Vec<_> = (0..GRID_SIZE * GRID_SIZE).map(|i| glaze_to_cobalt(ink(i))).collect();
     canvas.image(&image, GRID_SIZE, SQUARE);
     panel.axes(&mut canvas);
-    panel.title(&mut canvas, "Differences", "pairs / those at random");
+    panel.title(&mut canvas, "Differences", "pairs / pairs at random");
     panels::scale(&mut canvas, BAR, &[0.0, 0.5, 1.0, 1.5, 2.0, FULL_INK], |density| density / FULL_INK);
     canvas
 }

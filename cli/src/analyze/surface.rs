@@ -4,16 +4,16 @@ use azulejo::analysis::coverage::{surface_coverage, surface_covering_radius};
 use azulejo::analysis::differential::{Differences, surface_differences};
 use azulejo::analysis::spacing::smallest_distance_3d;
 use azulejo::mesh::Mesh;
-use azulejo::{Context, Error, Progress, Result};
+use azulejo::{Context, Error, MAXIMAL_DENSITY, Progress, Result};
 
 use super::Set;
 use super::figures::{Figure, Row};
 use super::plane::{RADIUS_FIGURES, SHALLOW};
 use crate::formats::blame;
-use crate::generate::MAXIMAL_DENSITY;
+use crate::formats::set::SampleSet;
 use crate::progress::{part, watched};
 
-/// The direction that angles are counted from, and the seed of the random places that pairs are compared with.
+/// The direction that angles are counted from, and the seed of the random points that pairs are compared with.
 const DIRECTION: [f64; 3] = [1.0, 0.0, 0.0];
 const SEED: u64 = 0;
 
@@ -41,7 +41,7 @@ pub struct Measured {
 }
 
 impl Measured {
-    pub fn of(context: &Context, mesh: &Mesh, sets: &[Set], radius: Option<f64>) -> Result<Self> {
+    pub fn of(context: &Context, mesh: &Mesh, sets: &[Set<SampleSet>], radius: Option<f64>) -> Result<Self> {
         let (mut figures, mut differences) = (Vec::new(), Vec::new());
         watched("measure", |progress: &Progress| {
             for (i, set) in sets.iter().enumerate() {
@@ -49,7 +49,7 @@ impl Measured {
                 let share = |done: f64| (i as f64 + done) / sets.len() as f64;
                 let measuring = part(progress, share(0.0), share(0.4));
                 figures.push(measure(context, mesh, set, radius, &measuring).map_err(blamed)?);
-                if !set.points.normals.is_empty() {
+                if !set.loaded.normals.is_empty() {
                     let comparing = part(progress, share(0.4), share(1.0));
                     differences.push(differences_of(context, mesh, set, &comparing).map_err(blamed)?);
                 }
@@ -74,8 +74,14 @@ impl Measured {
     }
 }
 
-fn measure(context: &Context, mesh: &Mesh, set: &Set, radius: Option<f64>, progress: &Progress) -> Result<Vec<f64>> {
-    let positions = &set.points.positions;
+fn measure(
+    context: &Context,
+    mesh: &Mesh,
+    set: &Set<SampleSet>,
+    radius: Option<f64>,
+    progress: &Progress,
+) -> Result<Vec<f64>> {
+    let positions = &set.loaded.positions;
     let smallest = smallest_distance_3d(context, positions, Some(&part(progress, 0.0, 0.1)))?;
     let covering = surface_covering_radius(context, mesh, positions, Some(&part(progress, 0.1, 0.5)))?;
     let maximal = (MAXIMAL_DENSITY * mesh.area() / positions.len() as f64).sqrt();
@@ -84,7 +90,7 @@ fn measure(context: &Context, mesh: &Mesh, set: &Set, radius: Option<f64>, progr
         let counting = part(progress, 0.5, 1.0);
         let gaps = match surface_coverage(context, mesh, positions, radius * (1.0 + SHALLOW), Some(&counting)) {
             Ok(coverage) => coverage.gaps as f64,
-            // Where nearly nothing is covered nobody counts gaps.
+            // There are too many gaps to count where next to nothing is covered.
             Err(Error::TooLarge { .. }) => f64::NAN,
             Err(error) => return Err(error),
         };
@@ -93,6 +99,6 @@ fn measure(context: &Context, mesh: &Mesh, set: &Set, radius: Option<f64>, progr
     Ok(figures)
 }
 
-fn differences_of(context: &Context, mesh: &Mesh, set: &Set, progress: &Progress) -> Result<Differences> {
-    surface_differences(context, mesh, &set.points.positions, &set.points.normals, DIRECTION, SEED, Some(progress))
+fn differences_of(context: &Context, mesh: &Mesh, set: &Set<SampleSet>, progress: &Progress) -> Result<Differences> {
+    surface_differences(context, mesh, &set.loaded.positions, &set.loaded.normals, DIRECTION, SEED, Some(progress))
 }

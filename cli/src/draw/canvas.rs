@@ -17,21 +17,28 @@ use crate::output::Output;
 /// An axis-aligned rectangle in units of the page, y down.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rect {
+    /// The left edge.
     pub x: f32,
+    /// The upper edge.
     pub y: f32,
+    /// From the left to the right edge.
     pub width: f32,
+    /// From the upper to the lower edge.
     pub height: f32,
 }
 
 impl Rect {
+    /// The right edge.
     pub fn right(&self) -> f32 {
         self.x + self.width
     }
 
+    /// The lower edge.
     pub fn bottom(&self) -> f32 {
         self.y + self.height
     }
 
+    /// The middle.
     pub fn centre(&self) -> [f32; 2] {
         [self.x + 0.5 * self.width, self.y + 0.5 * self.height]
     }
@@ -45,16 +52,22 @@ impl Rect {
 /// Which part of a text stands at its place.
 #[derive(Clone, Copy)]
 pub enum Align {
+    /// Its beginning.
     Left,
+    /// Its middle.
     Centre,
+    /// Its end.
     Right,
 }
 
-/// How a text is set: its size is that of the em.
+/// How a text is set.
 #[derive(Clone, Copy)]
 pub struct Style {
+    /// The size of the em.
     pub size: f32,
+    /// The colour of the letters.
     pub colour: Colour,
+    /// Which part of it stands at its place.
     pub align: Align,
     /// Reads upwards, as beside a vertical axis.
     pub upwards: bool,
@@ -87,6 +100,7 @@ impl Canvas {
         Transform::from_scale(self.scale, self.scale)
     }
 
+    /// Fills a rectangle.
     pub fn fill(&mut self, rect: Rect, colour: Colour) {
         self.fill_path(&rect.path(), colour, None);
     }
@@ -96,7 +110,7 @@ impl Canvas {
         self.pixmap.fill_path(path, &paint(colour), FillRule::Winding, transform, mask);
     }
 
-    /// The border of a rectangle.
+    /// The outline of a rectangle.
     pub fn frame(&mut self, rect: Rect, width: f32, colour: Colour) {
         self.stroke(&rect.path(), width, colour, None);
     }
@@ -190,7 +204,7 @@ impl Canvas {
         outline(&self.font, text).1 * size / self.em()
     }
 
-    /// The text if it is no longer than `length`, otherwise as much of its beginning as leaves room for an ellipsis.
+    /// The text if it is no longer than `length`, otherwise as much of its beginning as leaves space for an ellipsis.
     pub fn shortened(&self, text: &str, size: f32, length: f32) -> String {
         let mut shown = text.to_owned();
         let mut kept: Vec<char> = text.chars().collect();

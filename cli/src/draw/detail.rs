@@ -9,7 +9,7 @@ use super::stage::{Seen, Stage};
 /// Places per side of the grid on which a window is searched.
 const GRID: usize = 96;
 
-/// How far from the border of the outer window a detail stays, in parts of the outer window.
+/// How far from the edge of the outer window a detail stays, in parts of the outer window.
 const MARGIN: f32 = 0.04;
 
 /// The square window of half side `half` inside `outer` that the surface fills best and where it turns most: where its

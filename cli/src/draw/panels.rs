@@ -43,7 +43,7 @@ pub fn samples(canvas: &mut Canvas, square: Rect, windows: &Windows, points: &[[
     panel.title(canvas, "Samples", &remark);
 }
 
-/// How many ticks, with labels that do not touch, have room along a side of a panel of samples.
+/// How many ticks, with labels that do not touch, fit along a side of a panel of samples.
 fn ticks(length: f32) -> usize {
     const APART: f32 = 100.0;
     // The labels at both ends need the height of a line.
@@ -163,7 +163,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_torus_shows_dots_on_both_sides_of_its_border() {
+    fn a_torus_shows_dots_on_both_sides_of_its_boundary() {
         let points = [[0.01, 0.5], [0.99, 0.99], [0.5, 0.5]];
         let count = |boundary| images(&Domain::unit(boundary), &points, 0.02).count();
         assert_eq!((count(Boundary::Periodic), count(Boundary::Bounded)), (2 + 4 + 1, 3));

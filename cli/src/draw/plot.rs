@@ -9,18 +9,22 @@ const TICK_SIZE: f32 = 17.0;
 const LABEL_SIZE: f32 = 19.0;
 const TITLE_SIZE: f32 = 27.0;
 
-/// One direction of a panel: what it shows, from where to where, in which unit.
+/// One direction of a panel.
 pub struct Axis<'a> {
+    /// What it shows, and its unit.
     pub label: &'a str,
+    /// The values at its ends.
     pub range: [f64; 2],
     /// How many ticks there are about, where the scale leaves it open; 0 for none.
     pub ticks: usize,
+    /// How values lie along it.
     pub scale: Scale,
 }
 
 /// How values lie along an axis.
 #[derive(Clone, Copy, PartialEq)]
 pub enum Scale {
+    /// Equal steps at equal distances.
     Linear,
     /// Powers of ten at equal distances, with a tick at each.
     Logarithmic,
@@ -83,8 +87,11 @@ fn round_step(step: f64) -> f64 {
 
 /// A rectangle of the page with two axes.
 pub struct Panel<'a> {
+    /// Where the panel is on the page.
     pub rect: Rect,
+    /// The axis from left to right.
     pub x: Axis<'a>,
+    /// The axis from bottom to top.
     pub y: Axis<'a>,
 }
 

@@ -5,11 +5,12 @@ use std::path::PathBuf;
 use azulejo::{Context, Domain, Result};
 use clap::Args;
 
+use super::PictureArgs;
 use super::canvas::{Canvas, Rect};
 use super::panels;
 use super::spectra::{FREQUENCY_LIMIT, Windows};
 use crate::domain::{DomainArgs, OF_OR_AROUND};
-use crate::formats::{Coordinates, Input, blame};
+use crate::formats::{Input, blame};
 use crate::output::Output;
 use crate::progress::watched;
 
@@ -23,29 +24,25 @@ const ANISOTROPY: Rect = Rect { x: 870.0, y: 850.0, width: 640.0, height: 220.0 
 
 #[derive(Args)]
 #[command(mut_arg("domain", |domain| domain.help(OF_OR_AROUND)))]
-pub struct Points {
+pub(crate) struct Points {
     /// The samples: a .ply, .npy, .csv, .xyz or .raw file.
     #[arg(value_name = "SAMPLES")]
     input: PathBuf,
     #[command(flatten)]
     format: Input,
-    /// The picture.
-    #[arg(short, long, value_name = "FILE.png")]
-    output: PathBuf,
-    /// Width of the picture in pixels.
-    #[arg(long, value_name = "PIXELS", default_value_t = 1600, value_parser = clap::value_parser!(u32).range(super::PICTURE_WIDTHS))]
-    size: u32,
+    #[command(flatten)]
+    picture: PictureArgs,
     #[command(flatten)]
     domain: DomainArgs,
 }
 
 impl Points {
-    pub fn run(&self, context: &Context) -> Result<()> {
-        let output = Output::of_format("png", &self.output)?;
-        let set = self.format.read(&self.input, Coordinates::Plane)?;
+    pub(crate) fn run(&self, context: &Context) -> Result<()> {
+        let output = self.picture.open()?;
+        let instead = "azulejo draw surface draws them on their mesh";
+        let set = self.format.read_plane(&self.input, instead)?;
         let domain = self.domain.of_or_around(&set);
-        let points = set.plane_positions();
-        draw(context, &domain, &points, self.size, &output).map_err(|error| blame(&self.input, error))
+        draw(context, &domain, &set.points, self.picture.size, &output).map_err(|error| blame(&self.input, error))
     }
 }
 

@@ -33,8 +33,14 @@ const FADE: f32 = 0.3;
 /// Secondary rays start this far from the surface.
 const OFFSET: f32 = 2e-4;
 
+/// The whole object in a square picture of so many pixels per side, row by row from the top.
+pub fn square(stage: &Stage, side: usize, num_threads: usize, progress: &Progress) -> Result<Vec<Colour>> {
+    let window = stage.camera.window_on(stage.positions(), 1.0, 0.04);
+    render(stage, &window, &window, [side; 2], num_threads, progress)
+}
+
 /// The picture of a `window` inside of the `whole` view, row by row from the top.
-pub fn render(
+pub(super) fn render(
     stage: &Stage,
     whole: &Window,
     window: &Window,

@@ -22,7 +22,7 @@ pub fn in_parallel<T: Send>(
             scope.spawn(move || {
                 let rows = std::iter::repeat_with(|| next.fetch_add(1, Ordering::Relaxed)).take_while(|&i| i < count);
                 for i in rows {
-                    // This fails when the receiver has stopped listening: nobody wants the rest.
+                    // This fails when the receiver has stopped listening: the rest is not needed.
                     if finished.send((i, row(i))).is_err() {
                         break;
                     }

@@ -15,8 +15,9 @@ const WINDOW_POINTS: f64 = 5_000.0;
 /// Windows whose spectra are averaged: the speckle of one falls to a quarter.
 const WINDOW_LIMIT: usize = 16;
 
-/// The parts of a set that are analysed. The first is the one that is shown.
+/// The parts of a set that are analysed, of which the first is the one that is shown.
 pub struct Windows {
+    /// The rectangles; on a torus the whole domain.
     pub domains: Vec<Domain>,
     /// Points per area of the whole set.
     pub density: f64,

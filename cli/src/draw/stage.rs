@@ -2,12 +2,11 @@
 
 use azulejo::mesh::Mesh;
 use azulejo::trace::{Hit, Ray, Scene};
-use azulejo::{Context, Error, Result};
+use azulejo::{Context, Error, MAXIMAL_DENSITY, Result};
 use glam::Vec3;
 
 use super::camera::Camera;
 use super::discs::Discs;
-use crate::generate::MAXIMAL_DENSITY;
 
 /// The radius of a painted disc in parts of the radius of a maximal set of as many samples: discs stay apart.
 const DISC: f64 = 0.36;
@@ -18,25 +17,25 @@ pub struct Stage {
     triangles: Vec<[u32; 3]>,
     positions: Vec<Vec3>,
     normals: Vec<Vec3>,
-    pub discs: Discs,
+    pub(super) discs: Discs,
     /// The radius of a maximal set of as many samples.
-    pub radius: f32,
-    pub camera: Camera,
+    pub(super) radius: f32,
+    pub(super) camera: Camera,
     /// How many samples there are, and triangles, seen or not.
-    pub counts: [usize; 2],
+    pub(super) counts: [usize; 2],
 }
 
 /// A place on the mesh that was seen.
 #[derive(Clone, Copy)]
-pub struct Seen {
+pub(super) struct Seen {
     pub point: Vec3,
     /// The interpolated normal, on the side that was seen.
     pub normal: Vec3,
 }
 
 impl Stage {
-    /// With `cutaway` the faces that are turned away from the camera are left out, and one looks into rooms whose walls
-    /// face inwards.
+    /// With `cutaway` the faces that are turned away from the camera are left out, which shows the inside of a building whose
+    /// walls face inwards.
     pub fn new(context: &Context, mesh: &Mesh, samples: &[[f32; 3]], cutaway: bool) -> Result<Self> {
         let (low, high) = mesh.bounds();
         let [low, high] = [low, high].map(|corner| glam::DVec3::from(corner.map(f64::from)));
@@ -64,23 +63,23 @@ impl Stage {
         Ok(Self { scene, triangles, positions, normals, discs, radius: radius as f32, camera, counts })
     }
 
-    pub fn positions(&self) -> impl Iterator<Item = Vec3> {
+    pub(super) fn positions(&self) -> impl Iterator<Item = Vec3> {
         self.triangles.iter().flatten().map(|&vertex| self.positions[vertex as usize])
     }
 
     /// The height on which the object stands.
-    pub fn floor(&self) -> f32 {
+    pub(super) fn floor(&self) -> f32 {
         self.positions().map(|point| point.y).fold(f32::INFINITY, f32::min)
     }
 
     /// The first place on each ray.
-    pub fn look(&self, rays: &[Ray]) -> Vec<Option<Seen>> {
+    pub(super) fn look(&self, rays: &[Ray]) -> Vec<Option<Seen>> {
         let hits = self.scene.closest_hits(rays);
         rays.iter().zip(hits).map(|(ray, hit)| hit.map(|hit| self.seen(ray, &hit))).collect()
     }
 
     /// Which rays meet the mesh.
-    pub fn meet(&self, rays: &[Ray]) -> Vec<bool> {
+    pub(super) fn meet(&self, rays: &[Ray]) -> Vec<bool> {
         self.scene.closest_hits(rays).iter().map(Option::is_some).collect()
     }
 
@@ -117,10 +116,10 @@ fn vertex_normals(positions: &[Vec3], triangles: &[[u32; 3]]) -> Vec<Vec3> {
 }
 
 #[cfg(test)]
-pub mod tests {
+pub(super) mod tests {
     use super::*;
 
-    /// A square of side 2 upright before the camera, its two triangles wound in opposite ways, with one sample.
+    /// A square of side 2 upright before the camera, its two triangles wound in opposite directions, with one sample.
     pub fn square(sample: [f32; 3]) -> Stage {
         let positions = vec![[9.0, 4.0, 7.0], [11.0, 4.0, 7.0], [11.0, 6.0, 7.0], [9.0, 6.0, 7.0]];
         let mesh = Mesh::new(positions, vec![[0, 1, 2], [0, 3, 2]]).unwrap();

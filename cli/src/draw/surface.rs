@@ -2,18 +2,19 @@
 
 use std::path::PathBuf;
 
-use azulejo::mesh::Mesh;
 use azulejo::{Context, Progress, Result};
 use clap::Args;
 use glam::Vec2;
 
+use super::PictureArgs;
 use super::camera::Window;
 use super::canvas::{Align, Canvas, Rect, Style};
 use super::detail::most_interesting;
 use super::palette::{COBALT, INK, SLATE};
 use super::render::render;
 use super::stage::Stage;
-use crate::formats::{Coordinates, Input};
+use crate::formats::Input;
+use crate::input;
 use crate::output::Output;
 use crate::progress::watched;
 use crate::text::grouped;
@@ -30,7 +31,7 @@ const DETAILS: [Rect; 2] = [
 const CLOSE: f32 = 13.0;
 
 #[derive(Args)]
-pub struct Surface {
+pub(crate) struct Surface {
     /// The mesh: OBJ, PLY or STL.
     #[arg(value_name = "MESH")]
     mesh: PathBuf,
@@ -39,25 +40,21 @@ pub struct Surface {
     samples: PathBuf,
     #[command(flatten)]
     format: Input,
-    /// The picture.
-    #[arg(short, long, value_name = "FILE.png")]
-    output: PathBuf,
-    /// Width of the picture in pixels.
-    #[arg(long, value_name = "PIXELS", default_value_t = 1600, value_parser = clap::value_parser!(u32).range(super::PICTURE_WIDTHS))]
-    size: u32,
+    #[command(flatten)]
+    picture: PictureArgs,
     /// Leave out faces that are turned away from the camera: one looks into a hall whose walls face inwards.
     #[arg(long)]
     cutaway: bool,
 }
 
 impl Surface {
-    pub fn run(&self, context: &Context) -> Result<()> {
-        let output = Output::of_format("png", &self.output)?;
-        let mesh = Mesh::load(&self.mesh)?;
-        let samples = self.format.read(&self.samples, Coordinates::Space)?.positions;
+    pub(crate) fn run(&self, context: &Context) -> Result<()> {
+        let output = self.picture.open()?;
+        let mesh = input::mesh(&self.mesh)?;
+        let samples = self.format.read_samples(&self.samples)?.positions;
         let name = self.mesh.file_stem().unwrap_or_default().to_string_lossy();
         let stage = Stage::new(context, &mesh, &samples, self.cutaway)?;
-        picture(context, &name, &stage, self.size, &output)
+        picture(context, &name, &stage, self.picture.size, &output)
     }
 }
 
@@ -71,9 +68,9 @@ pub fn picture(context: &Context, name: &str, stage: &Stage, pixels: u32, output
     let style = Style { size: 22.0, colour: SLATE, align: Align::Right, upwards: false };
     let end = PAGE[0] - WHOLE.x;
     canvas.text(&counts, [end, 58.0], style);
-    let room = end - canvas.length(&counts, style.size) - 40.0 - WHOLE.x;
+    let free = end - canvas.length(&counts, style.size) - 40.0 - WHOLE.x;
     let style = Style { size: 30.0, colour: INK, align: Align::Left, ..style };
-    canvas.text(&canvas.shortened(name, style.size, room), [WHOLE.x, 58.0], style);
+    canvas.text(&canvas.shortened(name, style.size, free), [WHOLE.x, 58.0], style);
     canvas.write(output)
 }
 

@@ -1,19 +1,24 @@
 //! Files that are no files of points: good ones with some bytes changed, cut out, doubled, in every format. Each is read or
 //! refused in a line; a panic would be neither, and numbers of a header are not believed.
 
-use super::{Coordinates, PointSet, npy, raw, table};
+use super::set::PointSet;
+use super::surface::write_floats;
+use super::{npy, raw, table};
 use crate::ply;
 
-type Parse = fn(&[u8], Coordinates) -> Result<PointSet, String>;
+type Parse = fn(&[u8]) -> Result<PointSet, String>;
 
 /// What damage begins with: every parser, and files that it reads.
 fn good_files() -> Vec<(Parse, Vec<u8>)> {
     let (plane, space) = ([[0.5f32, -1.25], [3.0, 4e-3]], [[0.5f32, -1.25, 7.0], [3.0, 4e-3, 1e9]]);
-    let mut arrays = [Vec::new(), Vec::new()];
-    npy::write(&mut arrays[0], &plane).unwrap();
-    npy::write(&mut arrays[1], &space).unwrap();
+    let mut array = Vec::new();
+    npy::write_plane(&mut array, &plane).unwrap();
+    let fields =
+        "[('x', '<f4'), ('y', '<f4'), ('normal', '<f4', (3,)), ('triangle', '<u4'), ('barycentrics', '<f4', (2,))]";
+    let header = format!("{:<246}", format!("{{'descr': {fields}, 'fortran_order': False, 'shape': (1,), }}"));
+    let structured = [b"\x93NUMPY\x01\x00\xf6\x00", header.as_bytes(), &[0; 32]].concat();
     let mut floats = Vec::new();
-    raw::write(&mut floats, &space).unwrap();
+    write_floats(&mut floats, &space).unwrap();
     let text = "# points\nx,y,z,nx,ny,nz\n0.5,-1.25,7,0,0,1\n3,4e-3,1e9,1,0,0\n";
     let header = |format: &str, index: &str| {
         format!(
@@ -25,11 +30,11 @@ fn good_files() -> Vec<(Parse, Vec<u8>)> {
     let binary = [header("binary_little_endian", "").into_bytes(), vertex.clone(), vertex].concat();
     let list = header("ascii", "element face 1\nproperty list uchar int vertex_indices\n");
     let ascii = format!("{list}0.5 2 3 0 0.25 0.5\n1 2 3 1 0.5 0.25\n3 0 1 1\n");
-    let [first, second] = arrays;
     vec![
-        (npy::parse, first),
-        (npy::parse, second),
-        (raw::parse, floats),
+        (npy::parse, array),
+        (npy::parse, structured),
+        (|bytes| raw::parse(bytes, 2), floats.clone()),
+        (|bytes| raw::parse(bytes, 3), floats),
         (table::parse, text.into()),
         (table::parse, "0.5 2 3 0 0 1\n1 2 3 1 0 0\n".into()),
         (ply::parse, binary),
@@ -76,10 +81,11 @@ fn damage(file: &mut Vec<u8>, numbers: &mut Numbers) {
 fn check(parsed: Result<PointSet, String>) -> bool {
     match parsed {
         Ok(set) => {
-            assert!(set.positions.iter().chain(&set.normals).flatten().all(|x| x.is_finite()));
-            assert!(set.normals.is_empty() || set.normals.len() == set.positions.len());
-            let lengths = set.on_mesh.map(|(triangles, sides)| [triangles.len(), sides.len()]);
-            assert!(lengths.is_none_or(|lengths| lengths == [set.positions.len(); 2]));
+            let Ok(samples) = set.into_samples() else { return true };
+            assert!(samples.positions.iter().chain(&samples.normals).flatten().all(|x| x.is_finite()));
+            assert!(samples.normals.is_empty() || samples.normals.len() == samples.positions.len());
+            let lengths = samples.on_mesh.map(|(triangles, sides)| [triangles.len(), sides.len()]);
+            assert!(lengths.is_none_or(|lengths| lengths == [samples.positions.len(); 2]));
             true
         }
         Err(reason) => {
@@ -93,7 +99,7 @@ fn check(parsed: Result<PointSet, String>) -> bool {
 fn damaged_files_are_read_or_refused() {
     let mut numbers = Numbers(1);
     for (parse, good) in good_files() {
-        assert!(check(parse(&good, Coordinates::Plane)));
+        assert!(check(parse(&good)));
         let mut read = 0;
         for _ in 0..10_000 {
             let mut file = good.clone();
@@ -102,8 +108,7 @@ fn damaged_files_are_read_or_refused() {
                     damage(&mut file, &mut numbers);
                 }
             });
-            let coordinates = [Coordinates::Plane, Coordinates::Space][numbers.below(2)];
-            read += u32::from(check(parse(&file, coordinates)));
+            read += u32::from(check(parse(&file)));
         }
         assert!((100..9_900).contains(&read), "{read} of 10,000 damaged files were read");
     }

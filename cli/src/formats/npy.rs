@@ -1,43 +1,49 @@
-//! Arrays of NumPy: a row a point. Singles, doubles and 32-bit integers of either byte order are read, in C or Fortran
-//! order; little-endian singles are written.
+//! Arrays of NumPy. Sets of the plane are arrays of two floats to a row. Samples of a surface are structured arrays, with
+//! the fields `position` (3 floats), `normal` (3), `triangle` (an unsigned integer), `barycentrics` (2), and `radius` where
+//! radii differ.
+//!
+//! What is read may have floats and integers of any size and byte order: arrays of at least two columns, in C or Fortran
+//! order, of which 2, 3 or 6 are x, y, z, nx, ny and nz, and otherwise the first three; and structured arrays with the
+//! fields above or with fields named x, y, z, nx, ny, nz, triangle, u and v.
 //!
 //! A file is `\x93NUMPY`, a version, the length of a header and the header: a dictionary of Python with three entries
-//! (numpy.lib.format). Of the crates for it npyz and ndarray-npy bring a parser of all literals of Python, and npyz
-//! multiplies what the header claims without a check.
+//! (numpy.lib.format). The crate npyz would parse it too, but multiplies what the header claims without a check.
 
 use std::io::{self, Write};
 
-use super::{Coordinates, PointSet, shortened};
+use serde_json::Value;
+
+use super::set::{self, Columns, NAMES, PointSet};
+use super::shortened;
+use super::surface::{SurfaceTable, write_floats};
 
 const MAGIC: &[u8] = b"\x93NUMPY";
 
 /// Headers are padded with spaces to a multiple of this.
 const ALIGNMENT: usize = 64;
 
-pub fn parse(bytes: &[u8], coordinates: Coordinates) -> Result<PointSet, String> {
+/// Fields of several numbers, and what these are.
+const VECTORS: [(&str, &[&str]); 3] =
+    [("position", &["x", "y", "z"]), ("normal", &["nx", "ny", "nz"]), ("barycentrics", &["u", "v"])];
+
+pub fn parse(bytes: &[u8]) -> Result<PointSet, String> {
     let (header, body) = split(bytes).ok_or("is no array of NumPy, or cut off in its header")?;
     let array = Array::of(header)?;
-    if array.width < coordinates.count() {
-        return Err(format!("has {} columns, and {} are needed", array.width, coordinates.count()));
-    }
     // The header is believed as far as the file goes: it may claim anything.
-    let size = array.count.checked_mul(array.width).and_then(|numbers| numbers.checked_mul(array.size));
-    if size.is_none_or(|size| size > body.len()) {
-        let Array { count, width, .. } = array;
-        return Err(format!("the header announces {count} x {width} numbers, but only {} bytes follow", body.len()));
+    if array.count.checked_mul(array.row_size).is_none_or(|size| size > body.len()) {
+        let Array { count, row_size, .. } = array;
+        let (rows, length) = (format!("{count} rows of {row_size} bytes"), body.len());
+        return Err(format!("the header announces {rows}, but only {length} bytes follow"));
     }
-    let mut set = PointSet::default();
+    let mut points = array.columns.empty_set();
     for row in 0..array.count {
-        let mut position = [0.0; 3];
-        for (column, x) in position[..array.width.min(coordinates.count())].iter_mut().enumerate() {
-            *x = array.number(body, row, column);
-        }
-        if !position.iter().all(|x| x.is_finite()) {
-            return Err(format!("row {row} is {position:?}, not finite"));
-        }
-        set.positions.push(position);
+        let at = |problem| format!("row {row}: {problem}");
+        let number = |column: &Column| column.number.read(&body[column.offset + row * column.stride..]);
+        let numbers = array.columns.floats.each_ref().map(|column| column.as_ref().map_or(0.0, number) as f32);
+        let triangle = array.columns.on_mesh().map_or(Ok(0), |column| set::triangle(number(column))).map_err(at)?;
+        points.push(numbers, triangle).map_err(at)?;
     }
-    Ok(set)
+    Ok(points)
 }
 
 /// Header and body. The length of the header has two bytes in version 1 and four later.
@@ -54,119 +60,176 @@ fn split(bytes: &[u8]) -> Option<(&str, &[u8])> {
     Some((std::str::from_utf8(header).ok()?, body))
 }
 
+/// The header, a literal of Python, as JSON: that has other brackets and quotes, and no comma before a closing bracket.
+fn dictionary(header: &str) -> Result<Value, String> {
+    let mut json = String::with_capacity(header.len());
+    for letter in header.chars() {
+        if matches!(letter, ')' | ']' | '}') {
+            json.truncate(json.trim_end().trim_end_matches(',').len());
+        }
+        json.push(match letter {
+            '(' => '[',
+            ')' => ']',
+            '\'' => '"',
+            other => other,
+        });
+    }
+    let json = json.replace("False", "false").replace("True", "true");
+    serde_json::from_str(&json).map_err(|_| "has a header that is no dictionary of Python".to_owned())
+}
+
 /// How numbers lie in the body.
 struct Array {
     count: usize,
-    width: usize,
-    /// Whether columns and not rows are whole.
-    by_columns: bool,
-    /// Bytes of a number, and the number from its bytes.
-    size: usize,
-    read: fn(&[u8]) -> f32,
+    /// Bytes of all numbers of a row, wherever they lie.
+    row_size: usize,
+    columns: Columns<Column>,
+}
+
+/// Where a column begins, and the distance between its numbers.
+struct Column {
+    offset: usize,
+    stride: usize,
+    number: Number,
 }
 
 impl Array {
     fn of(header: &str) -> Result<Self, String> {
-        let entry = |key: &str| {
-            let (_, rest) = header.split_once(key).ok_or_else(|| format!("the header has no {key}"))?;
-            Ok::<_, String>(rest.trim_start_matches(['\'', '"']).trim_start().trim_start_matches(':').trim_start())
-        };
-        let element = entry("descr")?.trim_start_matches(['\'', '"']);
-        let element = element.split(['\'', '"', ',']).next().unwrap_or_default();
-        let (size, read): (usize, fn(&[u8]) -> f32) = match element {
-            "<f4" => (4, |bytes| f32::from_le_bytes(chunk(bytes))),
-            ">f4" => (4, |bytes| f32::from_be_bytes(chunk(bytes))),
-            "<f8" => (8, |bytes| f64::from_le_bytes(chunk(bytes)) as f32),
-            ">f8" => (8, |bytes| f64::from_be_bytes(chunk(bytes)) as f32),
-            "<i4" => (4, |bytes| i32::from_le_bytes(chunk(bytes)) as f32),
-            ">i4" => (4, |bytes| i32::from_be_bytes(chunk(bytes)) as f32),
-            _ => return Err(format!("has numbers of the type {:?}, not f4, f8 or i4", shortened(element))),
-        };
-        let shape = entry("shape")?.trim_start_matches('(').split(')').next().unwrap_or_default();
-        let lengths = shape.split(',').map(str::trim).filter(|length| !length.is_empty());
-        let lengths: Option<Vec<usize>> = lengths.map(|length| length.parse().ok()).collect();
-        let Some(&[count, width]) = lengths.as_deref() else {
-            return Err(format!("has the shape ({}), not (points, coordinates)", shortened(shape)));
-        };
-        Ok(Self { count, width, by_columns: entry("fortran_order")?.starts_with("True"), size, read })
+        let header = dictionary(header)?;
+        let entry = |key: &str| header.get(key).ok_or_else(|| format!("the header has no {key}"));
+        let (descr, shape) = (entry("descr")?, entry("shape")?);
+        let is_by_columns = entry("fortran_order")?.as_bool() == Some(true);
+        let lengths = shape.as_array().map(|lengths| lengths.iter().map(length).collect::<Option<Vec<_>>>());
+        match (descr, lengths.flatten().as_deref()) {
+            (Value::Array(fields), Some(&[count])) => Self::of_fields(fields, count),
+            (Value::String(code), Some(&[count, width])) => {
+                Self::of_numbers(Number::of(code)?, count, width, is_by_columns)
+            }
+            _ => Err(format!("has the shape {}, not (points, coordinates)", shortened(&shape.to_string()))),
+        }
     }
 
-    fn number(&self, body: &[u8], row: usize, column: usize) -> f32 {
-        let place = if self.by_columns { column * self.count + row } else { row * self.width + column };
-        (self.read)(&body[place * self.size..])
+    /// An array of rows of as many numbers.
+    fn of_numbers(number: Number, count: usize, width: usize, is_by_columns: bool) -> Result<Self, String> {
+        let known = if width == 6 { 6 } else { width.min(3) };
+        let row_size = width.saturating_mul(number.size);
+        let column = |name: &str| {
+            let column = NAMES[..known].iter().position(|known| *known == name)?;
+            let (offset, stride) = if is_by_columns { (column.saturating_mul(count), 1) } else { (column, width) };
+            let [offset, stride] = [offset, stride].map(|numbers| numbers.saturating_mul(number.size));
+            Some(Column { offset, stride, number })
+        };
+        let columns =
+            Columns::find(column).map_err(|missing| format!("has {width} columns, and none for {missing}"))?;
+        Ok(Self { count, row_size, columns })
+    }
+
+    /// A structured array, each of whose fields has a name, a type and perhaps a shape.
+    fn of_fields(fields: &[Value], count: usize) -> Result<Self, String> {
+        let (mut found, mut row_size) = (Vec::new(), 0usize);
+        for field in fields {
+            let unread = || format!("has a field that is not read: {}", shortened(&field.to_string()));
+            let (name, code, shape) = match field.as_array().map(Vec::as_slice) {
+                Some([Value::String(name), Value::String(code)]) => (name, code, None),
+                Some([Value::String(name), Value::String(code), Value::Array(shape)]) => (name, code, Some(shape)),
+                _ => return Err(unread()),
+            };
+            let number = Number::of(code)?;
+            let mut numbers = shape.into_iter().flatten().map(length);
+            let numbers =
+                numbers.try_fold(1usize, |all, length| Some(all.saturating_mul(length?))).ok_or_else(unread)?;
+            let vector = VECTORS.iter().find(|(vector, _)| vector == name);
+            let names = match vector {
+                Some((_, names)) => names.to_vec(),
+                None if numbers == 1 => vec![name.as_str()],
+                None => Vec::new(),
+            };
+            let offsets = (0..numbers).map(|i| row_size.saturating_add(i * number.size));
+            found.extend(names.into_iter().zip(offsets).map(|(name, offset)| (name.to_owned(), offset, number)));
+            row_size = row_size.saturating_add(numbers.saturating_mul(number.size));
+        }
+        let column = |name: &str| {
+            let &(_, offset, number) = found.iter().find(|(found, ..)| found == name)?;
+            Some(Column { offset, stride: row_size, number })
+        };
+        let columns = Columns::find(column).map_err(|missing| format!("has no field for {missing}"))?;
+        Ok(Self { count, row_size, columns })
     }
 }
 
-fn chunk<const N: usize>(bytes: &[u8]) -> [u8; N] {
-    *bytes.first_chunk().expect("the body is as long as the header says")
+fn length(value: &Value) -> Option<usize> {
+    usize::try_from(value.as_u64()?).ok()
 }
 
-/// A file of version 1.0.
-pub fn write<const N: usize>(writer: &mut impl Write, points: &[[f32; N]]) -> io::Result<()> {
-    let header = format!("{{'descr': '<f4', 'fortran_order': False, 'shape': ({}, {N}), }}", points.len());
+/// A type of numbers.
+#[derive(Clone, Copy)]
+struct Number {
+    /// `f` for floats, `i` for signed integers, `u` for unsigned ones.
+    kind: char,
+    size: usize,
+    is_big_endian: bool,
+}
+
+impl Number {
+    /// The type of a code such as `<f4`.
+    fn of(code: &str) -> Result<Self, String> {
+        let kind = code.trim_start_matches(['<', '>', '=', '|']);
+        let is_big_endian = code.starts_with('>');
+        let (kind, size) = match kind {
+            "f4" => ('f', 4),
+            "f8" => ('f', 8),
+            "i1" | "i2" | "i4" | "i8" | "u1" | "u2" | "u4" | "u8" => {
+                (if kind.starts_with('i') { 'i' } else { 'u' }, usize::from(kind.as_bytes()[1] - b'0'))
+            }
+            _ => return Err(format!("has numbers of the type {:?}, not floats or integers", shortened(code))),
+        };
+        Ok(Self { kind, size, is_big_endian })
+    }
+
+    /// The number that begins these bytes.
+    fn read(self, bytes: &[u8]) -> f64 {
+        let mut word = [0; 8];
+        word[..self.size].copy_from_slice(&bytes[..self.size]);
+        if self.is_big_endian {
+            word[..self.size].reverse();
+        }
+        let ([a, b, c, d, ..], integer) = (word, u64::from_le_bytes(word));
+        let rest = 64 - 8 * self.size;
+        match (self.kind, self.size) {
+            ('f', 4) => f32::from_le_bytes([a, b, c, d]).into(),
+            ('f', _) => f64::from_le_bytes(word),
+            ('i', _) => ((integer << rest).cast_signed() >> rest) as f64,
+            _ => integer as f64,
+        }
+    }
+}
+
+/// Writes a set of the plane as an array of two columns.
+pub fn write_plane(writer: &mut impl Write, points: &[[f32; 2]]) -> io::Result<()> {
+    write_header(writer, "'<f4'", &format!("({}, 2)", points.len()))?;
+    write_floats(writer, points)
+}
+
+/// Writes samples of a surface as a structured array.
+pub fn write_surface(writer: &mut impl Write, table: &SurfaceTable) -> io::Result<()> {
+    let radius = if table.radii.is_some() { ", ('radius', '<f4')" } else { "" };
+    let fields = format!(
+        "[('position', '<f4', (3,)), ('normal', '<f4', (3,)), ('triangle', '<u4'), ('barycentrics', '<f4', (2,)){radius}]"
+    );
+    write_header(writer, &fields, &format!("({},)", table.samples.len()))?;
+    table.write_binary(writer)
+}
+
+/// The header of a file of version 1.0.
+fn write_header(writer: &mut impl Write, descr: &str, shape: &str) -> io::Result<()> {
+    let header = format!("{{'descr': {descr}, 'fortran_order': False, 'shape': {shape}, }}");
     let start = MAGIC.len() + 4;
     let length = (start + header.len() + 1).next_multiple_of(ALIGNMENT) - start;
     writer.write_all(MAGIC)?;
     writer.write_all(&[1, 0])?;
     writer.write_all(&(length as u16).to_le_bytes())?;
-    writeln!(writer, "{header:<0$}", length - 1)?;
-    points.iter().flatten().try_for_each(|x| writer.write_all(&x.to_le_bytes()))
+    writeln!(writer, "{header:<0$}", length - 1)
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// A file of version 1.0 with this description and body.
-    fn file(description: &str, body: &[u8]) -> Vec<u8> {
-        let header = format!("{description:<117}\n");
-        let size = (header.len() as u16).to_le_bytes();
-        [b"\x93NUMPY\x01\x00", &size[..], header.as_bytes(), body].concat()
-    }
-
-    fn dictionary(element: &str, fortran: &str, shape: &str) -> String {
-        format!("{{'descr': '{element}', 'fortran_order': {fortran}, 'shape': {shape}, }}")
-    }
-
-    #[test]
-    fn every_type_and_order_gives_the_same_points() {
-        let expected = [[1.0, 2.0, 0.0], [3.0, -4.0, 0.0]];
-        let rows = [1.0f32, 2.0, 3.0, -4.0];
-        let columns = [1.0f32, 3.0, 2.0, -4.0];
-        let bytes = |numbers: [f32; 4], of: fn(f32) -> Vec<u8>| numbers.into_iter().flat_map(of).collect::<Vec<_>>();
-        for (element, fortran, body) in [
-            ("<f4", "False", bytes(rows, |x| x.to_le_bytes().to_vec())),
-            (">f4", "False", bytes(rows, |x| x.to_be_bytes().to_vec())),
-            ("<f8", "True", bytes(columns, |x| f64::from(x).to_le_bytes().to_vec())),
-            ("<i4", "False", bytes(rows, |x| (x as i32).to_le_bytes().to_vec())),
-        ] {
-            let file = file(&dictionary(element, fortran, "(2, 2)"), &body);
-            assert_eq!(parse(&file, Coordinates::Plane).unwrap().positions, expected, "{element}");
-        }
-        let mut written = Vec::new();
-        write(&mut written, &[[1.0, 2.0], [3.0, -4.0f32]]).unwrap();
-        assert_eq!(parse(&written, Coordinates::Plane).unwrap().positions, expected);
-        // The header of these bytes is what numpy.save writes.
-        let start = b"\x93NUMPY\x01\x00v\x00{'descr': '<f4', 'fortran_order': False, 'shape': (2, 2), }  ";
-        assert!(written.starts_with(start) && written[..128].ends_with(b" \n") && written.len() == 128 + 16);
-    }
-
-    #[test]
-    fn what_is_no_array_of_points_is_refused_with_the_reason() {
-        let refused = |file: &[u8], coordinates| parse(file, coordinates).unwrap_err();
-        let body = [0u8; 48];
-        let of = |element: &str, shape: &str| file(&dictionary(element, "False", shape), &body);
-        assert!(refused(&of("<f4", "(12,)"), Coordinates::Plane).starts_with("has the shape (12,), not"));
-        assert!(refused(&of("<f4", "(6, 2)"), Coordinates::Space).starts_with("has 2 columns, and 3"));
-        assert!(refused(&of("<f4", "(7, 2)"), Coordinates::Plane).contains("7 x 2 numbers, but only 48 bytes"));
-        let huge = of("<f4", "(9223372036854775807, 9223372036854775807)");
-        assert!(refused(&huge, Coordinates::Plane).contains("announces"));
-        assert!(refused(&of("<c8", "(3, 2)"), Coordinates::Plane).contains("\"<c8\", not f4, f8 or i4"));
-        assert!(refused(&file("{'shape': (1, 2)}", &body), Coordinates::Plane).contains("has no descr"));
-        for cut in [b"no array".to_vec(), file("{}", &[])[..60].to_vec(), b"\x93NUMPY\x03\x00\xff\xff".to_vec()] {
-            assert!(refused(&cut, Coordinates::Plane).starts_with("is no array of NumPy"));
-        }
-        let infinite = file(&dictionary("<f8", "False", "(1, 2)"), &[1.0f64, 1e300].map(f64::to_le_bytes).concat());
-        assert_eq!(refused(&infinite, Coordinates::Plane), "row 0 is [1.0, inf, 0.0], not finite");
-    }
-}
+mod tests;

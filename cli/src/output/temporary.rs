@@ -7,7 +7,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use tempfile::NamedTempFile;
 
-/// The temporary files of this process. Whoever makes, renames or removes one holds the lock, so that the list is right
+/// The temporary files of this process. The lock is held while one is made, renamed or removed, so that the list is right
 /// whenever a signal comes.
 static FILES: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 
@@ -15,7 +15,7 @@ fn files() -> MutexGuard<'static, Vec<PathBuf>> {
     FILES.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// A file that is gone when this is dropped, unless it was persisted.
+/// A file that is removed when this is dropped, unless it was persisted.
 pub struct Temporary(Option<NamedTempFile>);
 
 impl Temporary {
@@ -34,7 +34,7 @@ impl Temporary {
         self.0.as_ref().expect("it is there until it is persisted or dropped").as_file()
     }
 
-    /// Gives the file the name of `target`, in place of what has it.
+    /// Renames the file to `target`, and replaces what is there.
     pub fn persist(mut self, target: &Path) -> io::Result<()> {
         self.end(|file| file.persist(target).map(drop).map_err(|error| error.error))
     }
@@ -49,7 +49,7 @@ impl Temporary {
 
 impl Drop for Temporary {
     fn drop(&mut self) {
-        // What cannot be removed now could not be removed by anybody else here either.
+        // If the file cannot be removed there is nothing else to try.
         _ = self.end(NamedTempFile::close);
     }
 }

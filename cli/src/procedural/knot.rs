@@ -1,4 +1,4 @@
-//! A trefoil knot with a quilted relief: closed, without a border, its box about 2 wide.
+//! A trefoil knot with a quilted relief: a closed surface, its box about 2 wide.
 
 use std::f64::consts::TAU;
 

@@ -40,7 +40,7 @@ pub fn torus(around_hole: u32, around_tube: u32) -> Soup {
 }
 
 /// A closed hall, 4 by 2 and 1 high, with two rows of columns, arches between them and drapes along the walls: many
-/// surfaces behind one another, whichever way one looks. `detail` is the number of quads around a column.
+/// surfaces behind one another in every direction. `detail` is the number of quads around a column.
 pub fn hall(detail: u32) -> Soup {
     let plain = |origin: [f64; 3], u: [f64; 3], v: [f64; 3]| {
         patch(detail, detail, move |s, t| std::array::from_fn(|axis| origin[axis] + s * u[axis] + t * v[axis]))
@@ -67,7 +67,7 @@ pub fn hall(detail: u32) -> Soup {
     }
     for (y, x) in [0.1, 1.9].into_iter().flat_map(|y| (0..5).map(move |i| (y, 0.2 + 0.75 * f64::from(i)))) {
         parts.push(patch(4 * detail, detail, |u, v| {
-            // Their fronts look into the hall, as those of the walls do.
+            // Their fronts face the hall, as the fronts of the walls do.
             let u = if y < 1.0 { 1.0 - u } else { u };
             [x + 0.6 * u, y + 0.03 * (1.5 - v) * (8.0 * TAU * u).sin(), 0.9 * v]
         }));

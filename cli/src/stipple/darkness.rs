@@ -1,12 +1,13 @@
-//! How dark an image is: what share of the paper shall be covered with ink.
+//! The darkness of an image: the share of the paper to cover with ink.
 
-use std::fs::File;
-use std::io::BufReader;
+use std::io::Cursor;
 use std::path::Path;
 
 use azulejo::dcr::Density;
 use azulejo::{Boundary, Domain, Error, Result};
 use image::{DynamicImage, ImageFormat, ImageReader, Rgba};
+
+use crate::input;
 
 /// The largest side of an image.
 const LARGEST: u32 = 32_768;
@@ -31,8 +32,8 @@ impl Darkness {
         }
         let io_error = |source| Error::Io { path: path.into(), source };
         let format_error = |reason: String| Error::Format { path: path.into(), reason };
-        let file = BufReader::new(File::open(path).map_err(io_error)?);
-        // By the content: the name proves nothing.
+        let file = Cursor::new(input::bytes(path)?);
+        // By the contents: the name proves nothing.
         let mut reader = ImageReader::new(file).with_guessed_format().map_err(io_error)?;
         if reader.format() != Some(ImageFormat::Png) {
             return Err(format_error("is no PNG file".to_owned()));
@@ -71,11 +72,13 @@ impl Darkness {
         Domain { min: [0.0; 2], max: self.size().map(|length| length as f64), boundary: Boundary::Bounded }
     }
 
+    /// The darkness as a density on the [`domain`](Self::domain).
     pub fn density(&self) -> Density<'_> {
         let [width, height] = self.size();
         Density::Image { values: &self.values, width, height }
     }
 
+    /// The darkness of a pixel.
     pub fn at(&self, column: usize, row: usize) -> f64 {
         self.values[row * self.width + column].into()
     }

@@ -13,7 +13,7 @@ const LIGHTEST: f64 = 1.0 / 255.0;
 
 /// Dots at random.
 pub fn random(context: &Context, darkness: &Darkness, count: usize, seed: u64) -> Result<Vec<[f32; 2]>> {
-    dcr::scatter(context, &darkness.domain(), &darkness.density(), count, seed)
+    dcr::scatter(context, &darkness.domain(), &darkness.density(), count, seed, None)
 }
 
 /// Dots that have been relaxed.
@@ -46,7 +46,7 @@ pub fn poisson(
     let (mesh, radii) = sheet(&corners.collect::<Vec<_>>(), width + 1, LIGHTEST, count as f64)?;
     let options = adaptive::Options::new(Radius::PerVertex(&radii)).seed(seed);
     let (set, _) = adaptive::sample(context, &mesh, &options, Some(progress))?;
-    // The far borders belong to the mesh, but not to the domain.
+    // The far boundaries belong to the mesh, but not to the domain.
     let inside = |x: f32, length: usize| x.min(length as f32 * (1.0 - f32::EPSILON));
     Ok(set.samples.positions.iter().map(|&[x, y, _]| [inside(x, width), inside(y, height)]).collect())
 }

@@ -6,71 +6,68 @@ use azulejo_core::analysis::{coverage, spacing};
 
 use crate::boundary::{self, required, rows};
 use crate::context::azulejo_context;
-use crate::domain::PlaneSet;
+use crate::domain::{PlaneSet, azulejo_plane_set};
+use crate::growing::{self, Growing, Output, growing};
 use crate::mesh::{SurfaceSet, azulejo_mesh};
-use crate::options::Watch;
+use crate::progress::Watch;
 use crate::status::{Failure, azulejo_status};
 
-/// The smallest distance between two points of the plane, in double arithmetic; on a periodic domain around the torus.
+/// The smallest distance between two points of the plane, in double arithmetic; on a periodic
+/// domain around the torus.
 ///
-/// xy: the points, x y each, in the domain; `count` of them.
+/// set: the points.
 ///
-/// domain_min, domain_max, boundary: two numbers, two numbers and a constant, as in the options.
+/// out: the distance in the units of the domain; infinite for fewer than two points.
 ///
-/// out: the distance; infinite for less than two points.
+/// O(count) time for evenly spread points.
 ///
-/// O(count) time for points that are spread evenly.
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_TOO_LARGE, AZULEJO_ERROR_CANCELLED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_plane_smallest_distance(
     context: Option<&azulejo_context>,
-    xy: *const f32,
-    count: usize,
-    domain_min: *const f64,
-    domain_max: *const f64,
-    boundary: i32,
+    set: *const azulejo_plane_set,
     out: Option<&mut MaybeUninit<f64>>,
 ) -> azulejo_status {
     boundary::answer(out, || {
         // SAFETY: handed on from the caller.
-        let set = unsafe { PlaneSet::read(context, xy, count, [domain_min, domain_max], boundary) }?;
+        let set = unsafe { PlaneSet::read(context, set) }?;
         set.run(spacing::smallest_distance_2d)
     })
 }
 
-/// The covering radius of points of the plane: how far the place of the domain that is farthest from all of them is. A
-/// set is maximal for a radius that is not smaller. On a periodic domain points cover around the torus.
+/// The covering radius of points of the plane; on a periodic domain around the torus. The set is
+/// maximal for every radius that is not smaller.
 ///
-/// xy: the points, x y each, in the domain; `count` of them.
+/// set: the points.
 ///
-/// domain_min, domain_max, boundary: two numbers, two numbers and a constant, as in the options.
+/// out: the covering radius in the units of the domain, too small by less than a billionth of it;
+/// infinite for no point.
 ///
-/// out: the covering radius, by less than a billionth of it too small; infinite for no point.
+/// Found exactly, by subdivision of the domain: O(count * log count) time for evenly spread points.
 ///
-/// Found exactly, by subdividing the domain: O(count log count) time.
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_TOO_LARGE, AZULEJO_ERROR_CANCELLED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_plane_covering_radius(
     context: Option<&azulejo_context>,
-    xy: *const f32,
-    count: usize,
-    domain_min: *const f64,
-    domain_max: *const f64,
-    boundary: i32,
+    set: *const azulejo_plane_set,
     out: Option<&mut MaybeUninit<f64>>,
 ) -> azulejo_status {
     boundary::answer(out, || {
         // SAFETY: handed on from the caller.
-        let set = unsafe { PlaneSet::read(context, xy, count, [domain_min, domain_max], boundary) }?;
+        let set = unsafe { PlaneSet::read(context, set) }?;
         set.run(coverage::covering_radius_2d)
     })
 }
 
 /// The smallest straight distance between two points in space, in double arithmetic.
 ///
-/// positions: the points, x y z each; `count` of them.
+/// positions: the points, x y z each, finite; `count` of them.
 ///
-/// out: the distance; infinite for less than two points.
+/// out: the distance in the units of the positions; infinite for fewer than two points.
 ///
-/// O(count) time for points that are spread evenly.
+/// O(count) time for evenly spread points.
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_TOO_LARGE, AZULEJO_ERROR_CANCELLED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_space_smallest_distance(
     context: Option<&azulejo_context>,
@@ -82,22 +79,29 @@ pub unsafe extern "C" fn azulejo_space_smallest_distance(
         let context = required("context", context)?;
         // SAFETY: handed on from the caller.
         let points = unsafe { rows::<f32, 3>("positions", positions, "count", count) }?;
-        context.run(Watch::NOBODY, |context, progress| spacing::smallest_distance_3d(context, points, progress))
+        context.run(Watch::NONE, |context, progress| spacing::smallest_distance_3d(context, points, progress))
     })
 }
 
-/// The part of a surface that is farther than a radius from every one of some points, seen by random probes.
+/// The fraction of a surface that is farther than a radius from every sample, estimated by random
+/// probes.
 ///
-/// positions: the points, x y z each; `count` of them.
+/// positions: the samples, x y z each, finite; `count` of them. They need not lie on the mesh.
 ///
 /// radius: above 0, in the units of the mesh.
 ///
-/// probes, seed: how many random places of the surface are looked at, spread evenly over its area, and which.
+/// probes: the number of random places of the surface that are examined, at least 1, uniform over
+/// its area.
 ///
-/// out: the share of probes that are not covered, 0 to 1; 0 if the mask of the mesh leaves nothing to be looked at.
+/// seed: selects the places.
 ///
-/// O(probes + count) time. Probes do not prove coverage, as azulejo_mesh_coverage does: they find a gap of a millionth of the
-/// area with two million of them most of the time, and miss smaller ones.
+/// out: the fraction of the probes that are uncovered, 0 to 1; 0 if the mask of the mesh leaves out
+/// everything.
+///
+/// O(probes + count) time for evenly spread samples. Probes do not prove coverage,
+/// azulejo_mesh_coverage does.
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_TOO_LARGE, AZULEJO_ERROR_CANCELLED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_mesh_uncovered_fraction(
     context: Option<&azulejo_context>,
@@ -121,74 +125,91 @@ pub unsafe extern "C" fn azulejo_mesh_uncovered_fraction(
     })
 }
 
-/// How a set covers a domain or a surface with disks of a radius. See azulejo_plane_coverage, azulejo_mesh_coverage.
+/// How a set covers a domain or a surface with disks of a radius: the result of
+/// azulejo_plane_coverage and azulejo_mesh_coverage.
 #[repr(C)]
 #[derive(Clone, Copy)]
-pub struct azulejo_coverage {
-    /// The covering radius: the distance from the samples of the place that is farthest from all of them. Infinite for no
-    /// sample.
+pub struct azulejo_coverage_report {
+    /// The size of the struct in bytes; set by the _init function.
+    pub struct_size: u32,
+    /// Always 0.
+    pub reserved: u32,
+    /// The covering radius, in the units of the domain or mesh; infinite for no sample.
     pub covering_radius: f64,
-    /// The number of gaps; 0 for a set that is maximal for the radius.
+    /// The number of gaps; 0 if the set is maximal for the radius.
     pub gaps: u64,
-    /// Zeros, for later versions.
-    pub reserved: [u64; 2],
 }
 
-impl From<coverage::Coverage> for azulejo_coverage {
-    fn from(coverage::Coverage { farthest, gaps }: coverage::Coverage) -> Self {
-        Self { covering_radius: farthest, gaps: gaps as u64, reserved: [0; 2] }
+growing!(azulejo_coverage_report requires covering_radius { reserved: 0, covering_radius: 0.0, gaps: 0 });
+
+impl From<coverage::Coverage> for azulejo_coverage_report {
+    fn from(coverage::Coverage { farthest, gaps, .. }: coverage::Coverage) -> Self {
+        Self { covering_radius: farthest, gaps: gaps as u64, ..Self::DEFAULT }
     }
 }
 
-/// The gaps that points of the plane leave: the connected parts of the domain, or of the torus, that are farther than a
-/// radius from all of them. With no gap the set is maximal for the radius.
+/// Writes zeros and the size. `struct_size` is sizeof *report.
 ///
-/// xy: the points, x y each, in the domain; `count` of them.
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_coverage_report_init(
+    report: *mut azulejo_coverage_report,
+    struct_size: usize,
+) -> azulejo_status {
+    // SAFETY: handed on from the caller.
+    unsafe { growing::init("report", report, struct_size) }
+}
+
+/// Counts the gaps that points of the plane leave: the connected parts of the domain, or of the
+/// torus, that are farther than a radius from all points. With no gap the set is maximal for the
+/// radius.
 ///
-/// domain_min, domain_max, boundary: two numbers, two numbers and a constant, as in the options.
+/// set: the points.
 ///
 /// radius: above 0, in the units of the domain.
 ///
-/// out: the covering radius, as azulejo_plane_covering_radius finds it, and the number of gaps. Every gap deeper than a
-/// millionth of the mean spacing is found, however small, and the deepest in any case. An empty set has one.
+/// out: the covering radius, as azulejo_plane_covering_radius finds it, and the number of gaps.
+/// Every gap deeper than a millionth of the mean spacing is found, however small, and the deepest
+/// in any case. An empty set has one gap.
 ///
-/// Found exactly, by the Voronoi diagram: O(count log count) time.
+/// Found exactly, by the Voronoi diagram: O(count * log count) time for evenly spread points.
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_TOO_LARGE, AZULEJO_ERROR_CANCELLED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_plane_coverage(
     context: Option<&azulejo_context>,
-    xy: *const f32,
-    count: usize,
-    domain_min: *const f64,
-    domain_max: *const f64,
-    boundary: i32,
+    set: *const azulejo_plane_set,
     radius: f64,
-    out: Option<&mut MaybeUninit<azulejo_coverage>>,
+    out: *mut azulejo_coverage_report,
 ) -> azulejo_status {
-    boundary::answer(out, || {
+    boundary::call(|| {
         // SAFETY: handed on from the caller.
-        let set = unsafe { PlaneSet::read(context, xy, count, [domain_min, domain_max], boundary) }?;
-        set.run(|context, domain, points, progress| {
-            Ok(coverage::coverage_2d(context, domain, points, radius, progress)?.into())
-        })
+        let (out, set) = unsafe { (Output::required("out", out)?, PlaneSet::read(context, set)?) };
+        out.write(set.run(|context, domain, points, progress| {
+            coverage::coverage_2d(context, domain, points, radius, progress)
+        })?);
+        Ok(())
     })
 }
 
-/// The gaps that samples leave on a mesh, by straight distance: groups of places that are farther than a radius from all of
-/// them, in which each place is within half of the radius of another one. With no gap the set is maximal for the radius.
+/// Counts the gaps that samples leave on a mesh, by straight distance: groups of places that are
+/// farther than a radius from all samples, each within half of the radius of another place of its
+/// group. With no gap the set is maximal for the radius.
 ///
-/// positions: the samples, x y z each; `count` of them. They need not lie on the mesh.
+/// positions: the samples, x y z each, finite; `count` of them. They need not lie on the mesh.
 ///
 /// radius: above 0, in the units of the mesh.
 ///
-/// out: the covering radius, by less than a billionth of it too small, and the number of gaps. Every gap deeper than a
-/// millionth of the radius is found, however small, and the deepest in any case. An empty set has infinity and 1 at least;
-/// a mesh without area, or whose mask leaves none, has 0 and 0.
+/// out: the covering radius, too small by less than a billionth of it, and the number of gaps.
+/// Every gap deeper than a millionth of the radius is found, however small, and the deepest in any
+/// case. An empty set has an infinite radius and at least one gap; a mesh without area, or whose
+/// mask leaves out everything, has 0 and 0.
 ///
-/// Found exactly, by subdividing the triangles: O((count + triangles) log count) time for samples that are spread evenly,
-/// and about 100 pieces for each square of the radius that is uncovered.
+/// Found exactly, by subdivision of the triangles: O((count + triangles) * log count) time for
+/// evenly spread samples, and about 100 pieces per radius^2 of uncovered area.
 ///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_CANCELLED, and AZULEJO_ERROR_TOO_LARGE where more than about 600,000
-/// times the square of the radius is uncovered.
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT; AZULEJO_ERROR_TOO_LARGE, also if more than about 600,000
+/// * radius^2 of the area is uncovered; AZULEJO_ERROR_CANCELLED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_mesh_coverage(
     context: Option<&azulejo_context>,
@@ -196,13 +217,14 @@ pub unsafe extern "C" fn azulejo_mesh_coverage(
     positions: *const f32,
     count: usize,
     radius: f64,
-    out: Option<&mut MaybeUninit<azulejo_coverage>>,
+    out: *mut azulejo_coverage_report,
 ) -> azulejo_status {
-    boundary::answer(out, || {
+    boundary::call(|| {
         // SAFETY: handed on from the caller.
-        let set = unsafe { SurfaceSet::read(context, mesh, positions, count) }?;
-        set.run(|context, mesh, points, progress| {
-            Ok(coverage::surface_coverage(context, mesh, points, radius, progress)?.into())
-        })
+        let (out, set) = unsafe { (Output::required("out", out)?, SurfaceSet::read(context, mesh, positions, count)?) };
+        out.write(set.run(|context, mesh, points, progress| {
+            coverage::surface_coverage(context, mesh, points, radius, progress)
+        })?);
+        Ok(())
     })
 }

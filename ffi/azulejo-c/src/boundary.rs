@@ -1,6 +1,7 @@
-//! The border between C and the core: every entry point goes through [`call`] or one of its faces.
+//! The FFI boundary: every entry point goes through [`call`] or a function built on it.
 
 use std::any::Any;
+use std::fmt::Debug;
 use std::mem::MaybeUninit;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
@@ -72,7 +73,7 @@ pub(crate) fn check_size(argument: &str, count: usize, bytes: Option<usize>) -> 
 /// The caller's array of `count` rows of `N` numbers; NULL only if it is empty.
 ///
 /// # Safety
-/// Unless the checks fail, `rows` leads to `count` rows that nobody changes during `'a`.
+/// Unless the checks fail, `rows` leads to `count` rows that are not changed during `'a`.
 pub(crate) unsafe fn rows<'a, T, const N: usize>(
     argument: &str,
     rows: *const T,
@@ -125,8 +126,21 @@ pub(crate) unsafe fn pair(argument: &str, pointer: *const f64) -> Result<[f64; 2
     Ok(unsafe { pointer.cast::<[f64; 2]>().read() })
 }
 
+/// Refuses a field that later versions may use.
+pub(crate) fn check_reserved(reserved: u32) -> Result<(), Failure> {
+    if reserved == 0 { Ok(()) } else { Err(Failure::invalid("reserved", format!("{reserved} is not 0"))) }
+}
+
+/// Refuses a field that has no effect in this call, unless it has its default.
+pub(crate) fn check_unused<T: PartialEq + Debug>(field: &str, value: T, default: T, call: &str) -> Result<(), Failure> {
+    if value == default {
+        return Ok(());
+    }
+    Err(Failure::invalid(field, format!("{value:?} has no effect {call}; leave the default, {default:?}")))
+}
+
 /// A flag of the caller, 0 or 1.
-pub(crate) fn flag(argument: &str, value: i32) -> Result<bool, Failure> {
+pub(crate) fn flag(argument: &str, value: u32) -> Result<bool, Failure> {
     match value {
         0 => Ok(false),
         1 => Ok(true),

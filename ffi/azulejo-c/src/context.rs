@@ -7,21 +7,21 @@ use std::sync::Arc;
 use azulejo_core::{Context, Progress};
 
 use crate::boundary::{self, required};
-use crate::options::{Watch, azulejo_progress_fn};
+use crate::progress::{Watch, azulejo_progress_fn};
 use crate::status::{Failure, azulejo_status};
 
-/// A pool of threads of its own; give it to every call that works for long. One context for a whole program is usual.
-/// It can be used by several threads at once.
+/// A pool of threads, passed to every call that does long work. One context for a whole program is
+/// usual; several threads may use it at once.
 #[derive(Clone)]
 pub struct azulejo_context {
     pub(crate) shared: Arc<Context>,
-    /// Who is told of calls whose options name nobody.
+    /// The callback of calls whose options have none.
     watch: Watch,
 }
 
 impl azulejo_context {
-    /// Runs a call, which `own`, the callback of its options, is told of, or else that of the context. What the callback
-    /// frees meanwhile is kept.
+    /// Runs a call. Its progress goes to `own`, the callback of its options, or else to that of the
+    /// context. Handles that the callback frees live until the end of the call.
     pub(crate) fn run<T>(
         &self,
         own: Watch,
@@ -32,36 +32,46 @@ impl azulejo_context {
     }
 }
 
-/// Starts the threads.
+/// Makes a context and starts its threads.
 ///
-/// num_threads: 1 to 4096, or 0 for one per core. With 1 no thread is made: all work happens in the caller's. This bounds
-/// Embree's threads, too; but Embree knows one bound for a process, the largest that one of its devices has, and sets it
-/// for all that uses TBB. Beside a device of the program's that has more threads, a build of this library can use as many;
-/// a device with fewer can use `num_threads` while a psp handle that has made iterations lives, and has its own number
-/// again after that. TBB may leave threads of its own behind, also with 1, which do no work. AZULEJO_ENGINE_RASTERISER
-/// makes no device and wakes nobody.
+/// num_threads: the number of threads, 1 to 4096, or 0 for one per core. With 1 no thread is
+/// started: all work happens on the calling thread.
 ///
 /// out: the context, to be freed with azulejo_context_free.
+///
+/// The number also bounds Embree's threads, with two limits of Embree. It has one bound for the
+/// whole process, the largest of its devices, and sets it for all users of TBB: if the program has
+/// a device with more threads, the building of scenes may use as many; if it has one with fewer,
+/// that device may use `num_threads` while a psp handle that has made iterations exists. TBB may
+/// leave idle threads behind, also with 1. AZULEJO_ENGINE_RASTERISER uses neither Embree nor TBB.
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT; AZULEJO_ERROR_THREADS if the threads cannot be started.
 #[unsafe(no_mangle)]
 pub extern "C" fn azulejo_context_create(
     num_threads: u32,
     out: Option<&mut MaybeUninit<Box<azulejo_context>>>,
 ) -> azulejo_status {
     boundary::create(out, || {
-        Ok(azulejo_context { shared: Arc::new(Context::new(num_threads as usize)?), watch: Watch::NOBODY })
+        Ok(azulejo_context { shared: Arc::new(Context::new(num_threads as usize)?), watch: Watch::NONE })
     })
 }
 
-/// Makes a context that has the threads of another one and a progress callback: it is told of each call that is made with
-/// this context, or with a psp handle made with it, and whose options have no callback of their own. So calls without
-/// options, as those of the analysis, can be watched and cancelled.
+/// Makes a context that shares the threads of another one and adds a progress callback. The
+/// callback is used by every call that is made with this context, or with a psp handle made with
+/// it, and whose options have no callback of their own. So calls without options, such as the
+/// analysis, can report progress and be cancelled.
 ///
-/// context: the other one, which may be freed before. A callback that it has is not taken over.
+/// context: the other context. It may be freed before this one. Its own callback, if any, is not
+/// inherited.
 ///
-/// progress, progress_user: the callback, or NULL for none, and what it is handed. See "Progress" in the conventions. When
-/// several threads use the context, each calls it.
+/// progress: the callback, or NULL for none. Each thread that makes a call with the context calls
+/// it.
 ///
-/// out: the context, to be freed with azulejo_context_free. No thread is made.
+/// progress_user: passed to the callback.
+///
+/// out: the context, to be freed with azulejo_context_free. No thread is started. O(1).
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_context_watch(
     context: Option<&azulejo_context>,
@@ -81,7 +91,7 @@ pub extern "C" fn azulejo_context_num_threads(context: Option<&azulejo_context>)
     context.map_or(0, |context| context.shared.num_threads() as u32)
 }
 
-/// Ends the threads, once no call and no psp handle uses them any more. NULL is allowed.
+/// Frees a context. Its threads end when no call and no handle uses them any more. NULL is allowed.
 #[unsafe(no_mangle)]
 pub extern "C" fn azulejo_context_free(context: Option<Box<azulejo_context>>) {
     boundary::free(context);

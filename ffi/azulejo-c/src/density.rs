@@ -5,52 +5,53 @@ use std::mem::MaybeUninit;
 
 use azulejo_core::dcr::{self, Density};
 
-use crate::boundary::{self, required, rows};
+use crate::boundary::{self, check_reserved, check_unused, required, rows};
 use crate::context::azulejo_context;
 use crate::dcr::{azulejo_dcr_options, azulejo_dcr_report};
-use crate::options::{self, Watch, options};
+use crate::growing::{self, Output, growing};
 use crate::points::azulejo_points;
-use crate::status::{AZULEJO_OK, Failure, azulejo_status};
+use crate::status::{Failure, azulejo_status};
 
-/// Gives the density at a place.
+/// Gives the density at a position.
 ///
-/// It is called from several threads at once, the library's own; only where the context has one thread it is called on
-/// the thread that made the call. It is called once for each place of a lattice of up to some hundred places per point,
-/// all before the first step, and not before or in the first report of progress. It must return (no exception and no
-/// longjmp may leave it), and must not call the library with the same context.
+/// It is called on other threads than the one that made the call, by several at once, unless the
+/// context has one thread: then on that thread only. It must be thread-safe, return (see
+/// "Callbacks" at the top), and must not call the library with the same context. It is called once
+/// for each place of a lattice of up to some hundred places per point: by azulejo_dcr_relax_density
+/// before its first report of progress, by azulejo_dcr_scatter after that.
 ///
-/// user: the user of the azulejo_density.
+/// user: the `user` of the azulejo_density.
 ///
 /// position: x y of a place in the domain.
 ///
-/// Returns the density, 0 or above and finite.
+/// Returns the density, finite and at least 0.
 pub type azulejo_density_fn = Option<unsafe extern "C-unwind" fn(user: *mut c_void, position: *const f64) -> f64>;
 
-/// How dense points shall be from place to place, in any unit: twice the density gives the same set. Densities are 0 or
-/// above and finite, and not 0 everywhere; where they are 0 no points are wanted. Either `values` or `function` is to be
-/// set.
+/// A density of points from place to place, in any unit: twice the density gives the same set.
+/// Densities are finite, at least 0, and not 0 everywhere; where they are 0 no points are wanted.
+/// Either `values` or `function` must be set.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct azulejo_density {
-    /// The size of the caller's struct in bytes; set by the init function.
+    /// The size of the struct in bytes; set by the _init function.
     pub struct_size: u32,
     /// Must be 0.
     pub reserved: u32,
-    /// An image that is stretched over the domain, linear between the centres of its pixels: height rows of width
-    /// densities each, of which the first lies along the lower border (domain_min[1]). NULL, the default, where `function`
-    /// is set. Used during the call only.
+    /// An image that is stretched over the domain, linear between the centres of its pixels:
+    /// `height` rows of `width` densities, the first row along the lower edge of the domain
+    /// (domain_min[1]). Used during the call only. NULL, the default, if `function` is set.
     pub values: *const f32,
-    /// Pixels in a row; at least 1. Not used with `function`.
+    /// The number of pixels in a row, at least 1. Must be 0, the default, if `function` is set.
     pub width: usize,
-    /// Rows; at least 1. Not used with `function`.
+    /// The number of rows, at least 1. Must be 0, the default, if `function` is set.
     pub height: usize,
-    /// Gives the density at a place, unless NULL, which is the default.
+    /// Gives the density at a position. NULL, the default, if `values` is set.
     pub function: azulejo_density_fn,
-    /// Handed to `function`.
+    /// Passed to `function`.
     pub user: *mut c_void,
 }
 
-options!(azulejo_density requires user {
+growing!(azulejo_density requires user {
     reserved: 0,
     values: std::ptr::null(),
     width: 0,
@@ -79,15 +80,16 @@ impl azulejo_density {
     /// Hands the density to `body`.
     ///
     /// # Safety
-    /// Unless the checks fail, `values` leads to `width * height` numbers that nobody changes during the call.
+    /// Unless the checks fail, `values` leads to `width * height` numbers that are not
+    /// changed during the call.
     unsafe fn with<T>(&self, body: impl FnOnce(&Density) -> Result<T, Failure>) -> Result<T, Failure> {
-        if self.reserved != 0 {
-            return Err(Failure::invalid("reserved", format!("{} is not 0", self.reserved)));
-        }
+        check_reserved(self.reserved)?;
         match (self.function, self.values.is_null()) {
             (Some(_), false) => Err(Failure::invalid("function", "is set, and values too; one of them must be NULL")),
             (None, true) => Err(Failure::invalid("function", "is NULL, and values too; one of them is needed")),
             (Some(function), true) => {
+                check_unused("width", self.width, 0, "with function")?;
+                check_unused("height", self.height, 0, "with function")?;
                 let callback = Callback { function, user: self.user };
                 body(&Density::Function(&|position| callback.call(position)))
             }
@@ -105,25 +107,29 @@ impl azulejo_density {
 }
 
 /// Writes the defaults. `struct_size` is sizeof *density.
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_density_init(density: *mut azulejo_density, struct_size: usize) -> azulejo_status {
-    match boundary::call(|| boundary::check_pointer("density", density)) {
-        // SAFETY: handed on from the caller.
-        AZULEJO_OK => unsafe { options::init(density, struct_size) },
-        refused => refused,
-    }
+    // SAFETY: handed on from the caller.
+    unsafe { growing::init("density", density, struct_size) }
 }
 
-/// Makes random points of the domain of the options, as dense as asked for: a start for azulejo_dcr_relax_density. Of the
-/// options domain, boundary and seed play a part.
+/// Makes random points with a density: a start for azulejo_dcr_relax_density.
 ///
-/// The same arguments give the same bytes. O(count log count) time and O(count) memory.
+/// options: the domain, the boundary, the seed and the progress callback are used; the other fields
+/// are checked only.
 ///
-/// count: how many points there shall be.
+/// density: the density of the points.
 ///
-/// out: the points, to be freed with azulejo_points_free.
+/// count: the number of points.
 ///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_TOO_LARGE.
+/// out: the points, x y each, to be freed with azulejo_points_free.
+///
+/// O(count * log count) time, and O(count) calls of a density function; O(count) memory.
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for densities that are negative or not finite, or 0
+/// everywhere; AZULEJO_ERROR_TOO_LARGE; AZULEJO_ERROR_CANCELLED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_dcr_scatter(
     context: Option<&azulejo_context>,
@@ -133,39 +139,53 @@ pub unsafe extern "C" fn azulejo_dcr_scatter(
     out: Option<&mut MaybeUninit<Box<azulejo_points>>>,
 ) -> azulejo_status {
     boundary::create(out, || {
-        let context = required("context", context)?.shared.clone();
+        let context = required("context", context)?;
         // SAFETY: handed on from the caller.
-        let (options, density) = unsafe { (options::read(options)?, read(density)?) };
+        let (options, density): (azulejo_dcr_options, azulejo_density) =
+            unsafe { (growing::read("options", options)?, growing::read("density", density)?) };
         let dcr::Options { domain, seed, .. } = options.request()?;
-        let scatter = |density: &Density| Ok(dcr::scatter(&context, &domain, density, count, seed)?);
+        let scatter = |density: &Density| {
+            context.run(options.watch(), |context, progress| {
+                dcr::scatter(context, &domain, density, count, seed, progress)
+            })
+        };
         // SAFETY: handed on from the caller.
         Ok(azulejo_points::plane(unsafe { density.with(scatter) }?))
     })
 }
 
-/// Relaxes a set of points to a density: as azulejo_dcr_relax, but the points become as dense from place to place as the
-/// density asks for, and evenly spread (thesis section 4.2.3). Points that are about as dense before, as
-/// azulejo_dcr_scatter and azulejo_psp_sample_adaptive make them, need no more than the usual 100 steps; others may take
-/// 800.
+/// Relaxes a set of points to a density: as azulejo_dcr_relax, but the points become as dense from
+/// place to place as the density says, and evenly spaced relative to it (thesis section 4.2.3).
+/// Points whose density is about right, such as those of azulejo_dcr_scatter and
+/// azulejo_psp_adaptive_sample, need no more than the default 100 steps; others may need 800.
 ///
-/// The unit of length is the local spacing: d_max for the mean density, as 1 / sqrt(density) elsewhere, but it grows by no
-/// more than half of the distance from place to place, so that it is finite where the density is 0. The report's rho is the
-/// least of all distances over the mean of the spacings of the two points; its coverage the largest circumradius of a
-/// Delaunay triangle over what the density at its centre asks for; its motion is in units of d_max. Details of the
-/// density that are finer than an eighth of d_max are lost.
+/// The unit of length is the local spacing: d_max for the mean density and proportional to 1 /
+/// sqrt(density) elsewhere, but it increases by no more than half of the distance from place to
+/// place, so that it is finite where the density is 0. The report's rho is the least of all
+/// distances over the mean of the spacings of the two points; its coverage is the largest
+/// circumradius of a Delaunay triangle over the spacing at its centre, without the limit to its
+/// increase; its motion is in units of d_max. Details of the density smaller than an eighth of
+/// d_max are lost.
 ///
-/// options: AZULEJO_METHOD_BEST and AZULEJO_NEIGHBOURHOOD_DELAUNAY, the defaults; no others are accepted.
+/// options: AZULEJO_METHOD_MOMENTUM and AZULEJO_NEIGHBOURHOOD_DELAUNAY, the defaults; others are
+/// refused.
 ///
-/// density: how dense the points shall be; used during the call only.
+/// density: the density of the points; used during the call only.
 ///
-/// xy: the points, x y each, in domain_min <= x < domain_max; `count` of them.
+/// xy: the points, x y each, with domain_min <= x < domain_max; `count` of them.
 ///
-/// out: the points after the last step, in the same order, to be freed with azulejo_points_free.
+/// out: the points after the last whole step, in the same order, to be freed with
+/// azulejo_points_free. A call that its progress callback cancels succeeds, as that of
+/// azulejo_dcr_relax does.
 ///
 /// report: what the call did, or NULL.
 ///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for densities that are negative or not finite, or 0 everywhere;
-/// AZULEJO_ERROR_TOO_LARGE. A call that its progress callback cancels succeeds, as azulejo_dcr_relax does.
+/// O(count) calls of a density function, then O(count) time for each step, with a factor for
+/// densities that vary by orders of magnitude, and more from clustered sets as in
+/// azulejo_dcr_relax; O(count) memory.
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for densities that are negative or not finite, or 0
+/// everywhere; AZULEJO_ERROR_TOO_LARGE.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_dcr_relax_density(
     context: Option<&azulejo_context>,
@@ -174,33 +194,27 @@ pub unsafe extern "C" fn azulejo_dcr_relax_density(
     xy: *const f32,
     count: usize,
     out: Option<&mut MaybeUninit<Box<azulejo_points>>>,
-    report: Option<&mut MaybeUninit<azulejo_dcr_report>>,
+    report: *mut azulejo_dcr_report,
 ) -> azulejo_status {
     boundary::create(out, || {
         let context = required("context", context)?;
         // SAFETY: handed on from the caller.
-        let (options, density) = unsafe { (options::read(options)?, read(density)?) };
-        // SAFETY: handed on from the caller.
-        let points = unsafe { rows::<f32, 2>("xy", xy, "count", count)? };
+        let (options, density): (azulejo_dcr_options, azulejo_density) =
+            unsafe { (growing::read("options", options)?, growing::read("density", density)?) };
+        // SAFETY: likewise.
+        let (points, report) =
+            unsafe { (rows::<f32, 2>("xy", xy, "count", count)?, Output::optional("report", report)?) };
         let request = options.request()?;
-        let watch = Watch::new(options.progress, options.progress_user);
         let relax = |density: &Density| {
-            context
-                .run(watch, |context, progress| dcr::relax_with_density(context, &request, density, points, progress))
+            context.run(options.watch(), |context, progress| {
+                dcr::relax_with_density(context, &request, density, points, progress)
+            })
         };
         // SAFETY: handed on from the caller.
         let (relaxed, done) = unsafe { density.with(relax) }?;
-        report.map(|report| report.write(done.into()));
+        if let Some(report) = report {
+            report.write(done);
+        }
         Ok(azulejo_points::plane(relaxed))
     })
-}
-
-/// The caller's density, under its own name in messages.
-///
-/// # Safety
-/// Unless the checks fail, `density` leads to as many bytes as its first field says.
-unsafe fn read(density: *const azulejo_density) -> Result<azulejo_density, Failure> {
-    boundary::check_pointer("density", density)?;
-    // SAFETY: the caller's word.
-    unsafe { options::read(density) }
 }

@@ -9,13 +9,13 @@ use crate::context::azulejo_context;
 use crate::mesh::{SurfaceSet, azulejo_mesh};
 use crate::status::{Failure, azulejo_status};
 
-/// The grid of azulejo_differences_density has so many cells per side ...
+/// The cells per side of the grid of azulejo_differences_density.
 pub const AZULEJO_DIFFERENCES_SIZE: u32 = 128;
-/// ... and reaches so far from the difference 0 along both axes, in mean spacings.
+/// How far the grid extends from the difference 0 along both axes, in mean spacings.
 pub const AZULEJO_DIFFERENCES_GRID_REACH: u32 = 4;
-/// azulejo_differences_radial has so many shells of equal width ...
+/// The shells of equal width of azulejo_differences_radial.
 pub const AZULEJO_DIFFERENCES_SHELLS: u32 = 512;
-/// ... out to this distance, in mean spacings.
+/// The distance at which the last shell ends, in mean spacings.
 pub const AZULEJO_DIFFERENCES_REACH: u32 = 8;
 
 const _: () = {
@@ -25,13 +25,15 @@ const _: () = {
     assert!(differential::REACH / differential::SHELL_WIDTH == AZULEJO_DIFFERENCES_SHELLS as f64);
 };
 
-/// The distribution p(d) of the differences d of all pairs of samples on a mesh, or of several sets (Wei and Wang 2011,
-/// "Differential domain analysis for non-uniform sampling"): the density of other samples at an offset from a sample, over
-/// the mean density. 1 for a Poisson process. Its Fourier transform is the power spectrum, which a surface has no other
-/// way to have. Never changes.
+/// The distribution p(d) of the differences d of all pairs of samples on a mesh, or of several sets
+/// (Wei and Wang 2011, "Differential domain analysis for non-uniform sampling"): the density of
+/// other samples at an offset from a sample, over the mean density. 1 for a Poisson process. Its
+/// Fourier transform takes the place of the power spectrum, which is not defined on a surface.
+/// Immutable: several threads may use it at once.
 ///
-/// The offset of a pair is projected onto the tangent plane of its first sample and keeps its straight length. Lengths are
-/// in mean spacings, sqrt(area / count), and frequencies in units of one over it.
+/// The offset of a pair is projected onto the tangent plane of its first sample and keeps its
+/// straight length. Lengths are in mean spacings, sqrt(area / count), and frequencies in units of
+/// one over that.
 pub struct azulejo_differences {
     differences: Differences,
     density: Vec<f64>,
@@ -45,24 +47,27 @@ impl From<Differences> for azulejo_differences {
     }
 }
 
-/// Measures the differences of samples on a mesh. They are divided by those with random points of the mesh, so that
-/// borders, curvature and other sheets near by cancel (Davis and Peebles 1983).
+/// Measures the differences of samples on a mesh. They are divided by those with random points of
+/// the mesh, so that boundaries, curvature and other sheets nearby cancel out (Davis and Peebles
+/// 1983).
 ///
-/// mesh: has to have some area that its mask does not leave out.
+/// mesh: must have area that its mask does not leave out.
 ///
-/// positions: the samples, x y z each; `count` of them, at least 2.
+/// positions: the samples, x y z each, finite; `count` of them, at least 2.
 ///
-/// normals: the normal of the triangle of each sample, x y z each, as azulejo_points_normals gives them; `count` of them.
+/// normals: the normals of the samples' triangles, x y z each, as azulejo_points_normals returns
+/// them; `count` of them.
 ///
-/// direction: three numbers, not all 0: along its projection onto the tangent plane points the x axis of the offsets.
+/// direction: three numbers, not all 0: the x axis of the offsets is its projection onto the
+/// tangent plane.
 ///
-/// seed: selects the random points, two for each sample.
+/// seed: selects the random points, two per sample.
 ///
 /// out: the differences, to be freed with azulejo_differences_free.
 ///
-/// O(count) time for samples that are spread evenly, about 600 pairs for each.
+/// O(count) time for evenly spread samples.
 ///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_CANCELLED.
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_TOO_LARGE, AZULEJO_ERROR_CANCELLED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_differences_create(
     context: Option<&azulejo_context>,
@@ -90,13 +95,17 @@ pub unsafe extern "C" fn azulejo_differences_create(
     })
 }
 
-/// Takes the differences of sets of one kind together. Noise fades with the square root of their number.
+/// Combines the differences of sets of one kind. Their noise decreases with the square root of the
+/// number of sets. It takes no context: it runs on the calling thread and does not report progress.
 ///
 /// differences: `count` of them, at least 1.
 ///
-/// out: all of them, to be freed with azulejo_differences_free; those given stay the caller's.
+/// out: the mean, to be freed with azulejo_differences_free; those given still belong to the
+/// caller.
 ///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
+/// O(count) time and memory.
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_TOO_LARGE.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_differences_mean(
     differences: *const *const azulejo_differences,
@@ -111,27 +120,32 @@ pub unsafe extern "C" fn azulejo_differences_mean(
     })
 }
 
-/// p(d), AZULEJO_DIFFERENCES_SIZE squared numbers, row by row from the lowest offset; 0 where not even random points have a
-/// pair. The offset 0 is in the middle, where four cells meet. NULL for NULL.
+/// p(d): AZULEJO_DIFFERENCES_SIZE squared numbers, row by row from the lowest offset; 0 where not
+/// even random points have a pair. The offset 0 is in the middle, where four cells meet. Valid
+/// until azulejo_differences_free. NULL for NULL.
 #[unsafe(no_mangle)]
 pub extern "C" fn azulejo_differences_density(differences: Option<&azulejo_differences>) -> *const f64 {
     differences.map_or(std::ptr::null(), |differences| array(&differences.density))
 }
 
-/// The radial mean of p(d), the radial distribution function: AZULEJO_DIFFERENCES_SHELLS numbers. NULL for NULL.
+/// The radial mean of p(d), the radial distribution function: AZULEJO_DIFFERENCES_SHELLS numbers.
+/// Valid until azulejo_differences_free. NULL for NULL.
 #[unsafe(no_mangle)]
 pub extern "C" fn azulejo_differences_radial(differences: Option<&azulejo_differences>) -> *const f64 {
     differences.map_or(std::ptr::null(), |differences| array(&differences.radial))
 }
 
-/// The radial mean of the power spectrum, by Hankel transform of the radial mean of p(d) - 1; 1 for a Poisson process. Seen
-/// through a blur of one over AZULEJO_DIFFERENCES_REACH.
+/// The radial mean of the power spectrum, by Hankel transform of the radial mean of p(d) - 1; 1 for
+/// a Poisson process. Its resolution is one over AZULEJO_DIFFERENCES_REACH.
 ///
-/// frequencies: `count` frequencies of at most 32, in units of one over the mean spacing; may be NULL if there is none.
+/// frequencies: `count` frequencies from -32 to 32, in units of one over the mean spacing; may be
+/// NULL if `count` is 0.
 ///
-/// out: the power at each, `count` numbers; may be NULL if there is none.
+/// out: receives the power at each, `count` numbers; may be NULL if `count` is 0.
 ///
-/// O(count) time.
+/// O(count) time on the calling thread.
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_TOO_LARGE.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_differences_power(
     differences: Option<&azulejo_differences>,

@@ -1,15 +1,16 @@
 //! Rectangles of the plane, as they stand in options and arguments.
 
-use azulejo_core::{Boundary, Context, Domain, Progress};
+use azulejo_core::{Boundary, Context, Domain, Error, Progress};
 
-use crate::boundary::{pair, required, rows};
+use crate::boundary::{required, rows};
 use crate::context::azulejo_context;
-use crate::options::Watch;
-use crate::status::Failure;
+use crate::growing::{self, growing};
+use crate::progress::Watch;
+use crate::status::{Failure, azulejo_status};
 
 /// The domain is a torus: distances wrap with the period domain_max - domain_min.
 pub const AZULEJO_BOUNDARY_PERIODIC: i32 = 0;
-/// Nothing lies beyond the domain: only its own samples count, and they alone cover it.
+/// The domain ends at its edges: samples beyond them neither exist nor cover anything.
 pub const AZULEJO_BOUNDARY_BOUNDED: i32 = 1;
 
 /// The domain of the caller; the core checks the corners.
@@ -22,35 +23,65 @@ pub(crate) fn domain(min: [f64; 2], max: [f64; 2], boundary: i32) -> Result<Doma
     Ok(Domain { min, max, boundary })
 }
 
-/// A set of the plane that is to be measured: its points, its domain, and whose threads do it.
+/// Points of the plane and their domain: the input of the calls that measure them.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct azulejo_plane_set {
+    /// The size of the struct in bytes; set by the _init function.
+    pub struct_size: u32,
+    /// An AZULEJO_BOUNDARY_ constant; default periodic.
+    pub boundary: i32,
+    /// The points, x y each, with domain_min <= x < domain_max on both axes. Default NULL: none.
+    pub positions: *const f32,
+    /// The number of points; default 0.
+    pub count: usize,
+    /// The lower corner of the domain, x y; finite; default 0 0.
+    pub domain_min: [f64; 2],
+    /// The upper corner of the domain, x y; finite and above the lower corner on both axes; default
+    /// 1 1. Neither side may be longer than 2^100 times the other.
+    pub domain_max: [f64; 2],
+}
+
+growing!(azulejo_plane_set requires domain_max {
+    boundary: AZULEJO_BOUNDARY_PERIODIC,
+    positions: std::ptr::null(),
+    count: 0,
+    domain_min: [0.0; 2],
+    domain_max: [1.0; 2],
+});
+
+/// Writes the defaults: no points on the unit torus. `struct_size` is sizeof *set.
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_plane_set_init(set: *mut azulejo_plane_set, struct_size: usize) -> azulejo_status {
+    // SAFETY: handed on from the caller.
+    unsafe { growing::init("set", set, struct_size) }
+}
+
+/// A set of the plane that is to be measured, and the context that does it.
 pub(crate) struct PlaneSet<'a> {
     context: &'a azulejo_context,
-    points: &'a [[f32; 2]],
+    pub(crate) points: &'a [[f32; 2]],
     domain: Domain,
 }
 
 impl<'a> PlaneSet<'a> {
-    /// The set of the caller's arguments: `count` points at `xy`, and the two corners.
+    /// The set of the caller.
     ///
     /// # Safety
-    /// Unless the checks fail, `xy` leads to `count` pairs of numbers, and the corners to one each.
+    /// Unless the checks fail, `set` leads to as many bytes as its `struct_size` says, and
+    /// its `positions` to `count` pairs that are not changed during `'a`.
     pub(crate) unsafe fn read(
         context: Option<&'a azulejo_context>,
-        xy: *const f32,
-        count: usize,
-        [domain_min, domain_max]: [*const f64; 2],
-        boundary: i32,
+        set: *const azulejo_plane_set,
     ) -> Result<Self, Failure> {
         let context = required("context", context)?;
         // SAFETY: handed on from the caller.
-        let (points, min, max) = unsafe {
-            (
-                rows::<f32, 2>("xy", xy, "count", count)?,
-                pair("domain_min", domain_min)?,
-                pair("domain_max", domain_max)?,
-            )
-        };
-        Ok(Self { context, points, domain: domain(min, max, boundary)? })
+        let set = unsafe { growing::read("set", set) }?;
+        // SAFETY: likewise.
+        let points = unsafe { rows::<f32, 2>("positions", set.positions, "count", set.count) }?;
+        Ok(Self { context, points, domain: domain(set.domain_min, set.domain_max, set.boundary)? })
     }
 
     /// Runs a call of the core.
@@ -58,6 +89,17 @@ impl<'a> PlaneSet<'a> {
         &self,
         call: impl FnOnce(&Context, &Domain, &[[f32; 2]], Option<&Progress>) -> azulejo_core::Result<T>,
     ) -> Result<T, Failure> {
-        self.context.run(Watch::NOBODY, |context, progress| call(context, &self.domain, self.points, progress))
+        self.context.run(Watch::NONE, |context, progress| {
+            call(context, &self.domain, self.points, progress).map_err(in_words_of_c)
+        })
+    }
+}
+
+/// An error of the core, which knows the positions as `xy`.
+fn in_words_of_c(error: Error) -> Error {
+    match error {
+        Error::InvalidArgument { argument: "xy", reason } => Error::InvalidArgument { argument: "positions", reason },
+        Error::TooLarge { argument: "xy", reason } => Error::TooLarge { argument: "positions", reason },
+        other => other,
     }
 }

@@ -12,41 +12,48 @@ use crate::boundary::{self, check_pointer, check_size, rows};
 use crate::mesh::{azulejo_mesh, collect};
 use crate::status::{Failure, azulejo_status};
 
-/// A geometry of triangles in a scene of the caller's. Embree does not tell the sizes of its buffers: the caller does.
+/// A geometry of triangles in a scene that the program has made with Embree. Embree does not report
+/// the sizes of its buffers, so the caller gives them. It has no struct_size and never grows.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct azulejo_embree_geometry {
     /// Its number in the scene.
     pub geometry_id: u32,
-    /// Bytes from one vertex to the next: a multiple of 4 from 12 on.
+    /// Bytes from one vertex to the next: a multiple of 4, at least 12.
     pub vertex_stride: u32,
-    /// Bytes from one triangle to the next: a multiple of 4 from 12 on.
+    /// Bytes from one triangle to the next: a multiple of 4, at least 12.
     pub index_stride: u32,
     /// Must be 0.
     pub reserved: u32,
-    /// Vertices in its buffer of type RTC_BUFFER_TYPE_VERTEX, slot 0, of format RTC_FORMAT_FLOAT3.
+    /// The vertices in its buffer of type RTC_BUFFER_TYPE_VERTEX, slot 0, of format
+    /// RTC_FORMAT_FLOAT3.
     pub vertex_count: usize,
-    /// Triangles in its buffer of type RTC_BUFFER_TYPE_INDEX, of format RTC_FORMAT_UINT3.
+    /// The triangles in its buffer of type RTC_BUFFER_TYPE_INDEX, of format RTC_FORMAT_UINT3.
     pub triangle_count: usize,
 }
 
-/// Copies the triangles of a scene that the caller has made with Embree. Nothing of the scene and of its device is
-/// changed: flags, error function, thread count (as far as that is the device's alone: see azulejo_context_create). The
-/// mesh does not need them any more once it is made; what is sampled on it is traced in a scene and on a device of its own.
+/// Makes a mesh from a copy of the triangles of a scene that the program has made with Embree. The
+/// scene and its device are not changed: neither flags nor error function nor thread count (as far
+/// as that belongs to the device alone: see azulejo_context_create). The mesh does not need them
+/// after the call; its samples are traced in a scene and on a device of the library's.
 ///
-/// Triangles are numbered in the order of `geometries`: triangle i of the mesh is primitive i of the first one, those of
-/// the second follow, and so on. The same for vertices.
+/// Triangles are numbered in the order of `geometries`: triangle i of the mesh is primitive i of
+/// the first geometry, those of the second follow, and so on. The same holds for vertices.
 ///
-/// scene: a committed RTCScene that no thread changes during the call. It must come from the same libembree that
-/// libazulejo has loaded: what happens otherwise is undefined, though another version is refused in most cases. Instances
-/// in it are not followed.
+/// scene: a committed RTCScene that no thread changes during the call. It must come from the same
+/// libembree that libazulejo has loaded: otherwise the behaviour is undefined, though another
+/// version is refused in most cases. Instances in it are not followed.
 ///
-/// geometries: `geometry_count` of them, at least one, each attached to the scene as RTC_GEOMETRY_TYPE_TRIANGLE. Where an
-/// id, a size or a type is not that of the scene, what happens is undefined.
+/// geometries: `geometry_count` of them, at least one, each attached to the scene as
+/// RTC_GEOMETRY_TYPE_TRIANGLE. If an id, a size or a type is not that of the scene, the behaviour
+/// is undefined.
 ///
 /// out: the mesh, to be freed with azulejo_mesh_free.
 ///
-/// Errors: those of azulejo_mesh_create; AZULEJO_ERROR_EMBREE for a scene of another version of Embree.
+/// O(vertices + triangles).
+///
+/// Errors: those of azulejo_mesh_create; AZULEJO_ERROR_EMBREE for a scene of another version of
+/// Embree.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_mesh_create_from_embree(
     scene: *mut c_void,
@@ -103,7 +110,8 @@ impl azulejo_embree_geometry {
 /// Rows of three numbers, packed.
 ///
 /// # Safety
-/// Unless the check fails, there are as many rows, so far apart, and nobody changes them.
+/// Unless the check fails, there are `count` rows, `stride` bytes apart, which are not
+/// changed during the call.
 unsafe fn strided<T: Copy>(
     argument: &str,
     start: NonNull<T>,

@@ -1,72 +1,126 @@
-//! azulejo: blue-noise sampling of planes and triangle meshes, and the relaxation of point sets.
+//! azulejo: blue-noise sampling of planes and triangle meshes, and relaxation of point sets.
 //!
-//! This header is generated from ffi/azulejo-c by cbindgen; do not edit it. It is C99; C++ programs may prefer
-//! azulejo.hpp, which wraps it.
+//! This header is generated from ffi/azulejo-c by cbindgen; do not edit it. It is C99. C++ programs
+//! may prefer azulejo.hpp, which wraps it.
 //!
-//! Conventions, which hold for every function unless its own text says otherwise:
+//! The shortest program (link with -lazulejo):
 //!
-//! Status. A call that can fail returns an azulejo_status: AZULEJO_OK (0) or one of the negative AZULEJO_ERROR_ codes.
-//!   azulejo_last_error_message then says which argument is wrong, its value and its range. Arguments are checked before
-//!   any work starts. Outputs are written on success only. Nothing is thrown or unwound into C, and nothing is printed
-//!   to stdout; a panic inside the library, which is a bug, prints to stderr and becomes AZULEJO_ERROR_INTERNAL.
+//!   azulejo_context *context;
+//!   azulejo_kdrt_options options;
+//!   azulejo_points *points;
+//!   azulejo_context_create(0, &context);
+//!   azulejo_kdrt_options_init(&options, sizeof options);
+//!   options.radius = 0.01;
+//!   if (azulejo_kdrt_sample(context, &options, &points, NULL) == AZULEJO_OK) {
+//!       const float *xy = azulejo_points_positions(points);
+//!       size_t count = azulejo_points_count(points);
+//!       ... xy[2 * i] and xy[2 * i + 1] for i from 0 to count - 1 ...
+//!       azulejo_points_free(points);
+//!   }
+//!   azulejo_context_free(context);
 //!
-//! Handles. azulejo_context, azulejo_mesh, azulejo_psp, azulejo_points, azulejo_spectrum and azulejo_differences are made
-//!   by the library and given back with their own _free, which allows NULL. They may be freed in any order: what a handle
-//!   needs of another one, it keeps. Accessors allow NULL too and answer 0 or NULL. Pointers into a handle live until it is
-//!   freed.
+//! What there is: azulejo_kdrt_ maximal Poisson-disk sets in the plane, by radius or by number;
+//! azulejo_psp_ the same on triangle meshes, also with a radius that varies; azulejo_dcr_
+//! relaxation of point sets, in the plane, with a density, and on meshes; azulejo_maximal_ the slow
+//! unbiased reference; azulejo_plane_, azulejo_mesh_, azulejo_spectrum_ and azulejo_differences_
+//! analysis.
 //!
-//! Pointers. An argument may be NULL only where that is said. Arrays are packed and read during the call only; the
-//!   pointer of an empty array may be NULL, with the count 0. Arrays and options that are not aligned for their type are
-//!   refused.
-//!   Beyond that no library can tell a wrong pointer or a wrong count from a right one.
+//! The following holds for every function unless its own text says otherwise.
 //!
-//! Options. Every options struct begins with struct_size and is filled with defaults by its _options_init, which must
-//!   be called first: azulejo_kdrt_options o; azulejo_kdrt_options_init(&o, sizeof o); o.radius = 0.01; ...
-//!   A field exists for the library iff struct_size reaches its end, so that structs can grow: a program built against
-//!   an older header goes on working, and one built against a newer header works as long as what the library does not
-//!   know is zero. A struct with a non-zero tail, an unknown constant or a flag other than 0 and 1 is refused. Reports
-//!   are written by the library and need no preparation; they never grow, their reserved fields are zero.
+//! Terms. A radius is the smallest distance allowed between the centres of two samples; where it
+//!   varies from sample to sample, the mean of the two radii is. A set is conflict-free if no two
+//!   samples are closer than the radius, in double arithmetic on the returned floats, without
+//!   tolerance. It is maximal if no place of the domain or surface is farther than the radius from
+//!   every sample, up to the rounding of the returned floats: 3 times the spacing of floats at the
+//!   largest coordinate in the plane, 6 times for merged sets and on meshes. The covering radius of
+//!   a set is the distance from its samples of the place that is farthest from all of them. d_max
+//!   is sqrt(2 * area / (sqrt(3) * count)), the distance of neighbours if as many samples stood in
+//!   hexagonal arrangement; rho is the smallest distance in units of d_max.
 //!
-//! Progress. The callback in the options, or without one that of the context (azulejo_context_watch), is called on the thread
-//!   that makes the call, with the finished share, which never falls, from 0 to 1 (the 1 comes if the call succeeds). Any
-//!   return value but 0 cancels the call, which then returns AZULEJO_ERROR_CANCELLED; only azulejo_dcr_relax,
-//!   azulejo_dcr_relax_density and azulejo_dcr_relax_surface return what they have, as their reports say. Only
-//!   azulejo_dcr_scatter, calls that take no context, and the making of a psp handle tell nobody. The callback may call the library, also with the same context. It must return:
-//!   an exception that leaves it ends the process, a longjmp is undefined. The same holds for the callback of
-//!   azulejo_kdrt_stream. Only an azulejo_radius_fn and an azulejo_density_fn are called on other threads, and several at
-//!   once.
+//! Status. A call that can fail returns an azulejo_status: AZULEJO_OK (0) or a negative
+//!   AZULEJO_ERROR_ code. azulejo_last_error_message then names the argument, its value and its
+//!   range. Arguments are checked before any work starts. Outputs are written on success only. Each
+//!   function lists its codes except two, which are possible in most: AZULEJO_ERROR_THREADS in
+//!   calls with a context (see "Threads"), and AZULEJO_ERROR_INTERNAL for a panic inside the
+//!   library, which is a bug. AZULEJO_ERROR_INVALID_ARGUMENT is returned for a pointer that is NULL
+//!   or not aligned and for a value outside its documented range. No exception leaves the library.
+//!   Nothing is printed to stdout; a panic prints to stderr.
 //!
-//! Threads. Every function may be called from any thread at any time. A context can be used by several threads at
-//!   once; a psp handle serves one changing call at a time and refuses a second one. The last error belongs to the
-//!   thread that made the call. In a process that is forked, contexts with more than one thread and what was made with
-//!   them refuse to work, with AZULEJO_ERROR_THREADS, since their threads are in the other process; everything can be
-//!   freed. Contexts of one thread, and those made after the fork, work; but Embree's own threads are gone as well, so
-//!   that a process that used it before it forked should use AZULEJO_ENGINE_RASTERISER after.
+//! Handles. azulejo_context, azulejo_mesh, azulejo_psp, azulejo_points, azulejo_spectrum and
+//!   azulejo_differences are made by the library. The caller owns them and frees each with its own
+//!   _free function, which allows NULL. They may be freed in any order: a handle keeps what it
+//!   needs of another one. Accessors return 0 or NULL for NULL. Pointers into a handle are valid
+//!   until the handle is freed.
 //!
-//! Results. The same options and seed give the same bytes, for every number of threads and whatever was called before.
-//!   A radius is always the smallest distance allowed between the centres of two samples; where it varies, the mean of
-//!   their two radii is. Conflict-free: no two samples are closer than the radius, in double arithmetic on the returned
-//!   floats, without tolerance. Maximal: no place of the domain or surface is farther than the radius from every sample,
-//!   up to the rounding of the returned floats: 3 times the spacing of floats at the largest coordinate in the plane, 6
-//!   times where sets are merged and on a mesh.
+//! Pointers. An argument may be NULL only where its text says so. Arrays are packed, and are read
+//!   during the call only. The pointer of an empty array may be NULL, with the count 0. Pointers
+//!   that are not aligned for their type are refused. The library cannot detect other invalid
+//!   pointers or counts that exceed an array.
 //!
-//! Memory. Sizes that cannot be held are refused with AZULEJO_ERROR_TOO_LARGE before memory is taken: what the machine has
-//!   left counts, and the limits of the process (ulimit -v) and of its control groups. When there is no memory left in the
-//!   middle of a call nevertheless, the process is aborted, as by every Rust library.
+//! Structs that can grow. Options, reports, azulejo_plane_set and azulejo_density begin with
+//!   struct_size and must be filled by their _init function before use: it writes the defaults to
+//!   options and zeros to reports. A field exists for the library if struct_size reaches its end:
+//!   options that lack a field get its default, and a field that a report lacks is not written. So
+//!   a program built against an older header of the same SONAME keeps working. One built against a
+//!   newer header works as long as the option fields that this library does not know are zero;
+//!   report fields that it does not know stay as _init left them. A struct_size out of range, a
+//!   non-zero field beyond the known ones, an unknown constant, a flag other than 0 and 1, and an
+//!   option that its text excludes from the call are refused. A reserved field must be 0 in options
+//!   and is 0 in reports. The options of azulejo_X and azulejo_X_verb are azulejo_X_options, the
+//!   report azulejo_X_report.
 //!
-//! The algorithms are those of T. Wang, Techniques on Mining Effective Parallelism For High-Performance Blue-Noise
-//! Sampling, University of Tokyo, 2019 ("thesis" below).
+//! Progress. A call with a context calls a progress callback on the thread that made the call: the
+//!   one in its options or, if that is NULL, the one of the context (azulejo_context_watch). It
+//!   gets the fraction of the call that is done, which never decreases, from 0 to 1; the 1 comes
+//!   last, and only if the call succeeds. A return value other than 0 cancels the call, which
+//!   returns AZULEJO_ERROR_CANCELLED and writes no output. The exceptions are azulejo_dcr_relax,
+//!   azulejo_dcr_relax_density and azulejo_dcr_surface_relax: they succeed with the state after the
+//!   last whole step, and say so in their report. azulejo_psp_create and calls without a context or
+//!   a psp handle do not report progress.
+//!
+//! Callbacks. A callback may call the library, also with the context that is calling it, unless its
+//!   type says otherwise. It must return: an exception that leaves it ends the process, a longjmp
+//!   out of it is undefined. Progress and azulejo_kdrt_visit_fn callbacks are called on the thread
+//!   that made the call. azulejo_radius_fn and azulejo_density_fn callbacks are called on other
+//!   threads as well, by several at once, so they must be thread-safe.
+//!
+//! Threads. Every function may be called from any thread at any time. Several threads may use one
+//!   context at once, and read one mesh, set of points, spectrum or differences. A psp handle
+//!   serves one changing call at a time and refuses a second one. A handle must not be freed while
+//!   another thread uses it. The last error belongs to the thread that made the call. After fork,
+//!   in the child, contexts with more than one thread and psp handles made with them return
+//!   AZULEJO_ERROR_THREADS, since their threads exist in the parent only; they can still be freed.
+//!   Contexts of one thread, and contexts made after the fork, work. Embree's own threads are lost
+//!   as well: a process that used Embree before it forked should use AZULEJO_ENGINE_RASTERISER in
+//!   the child.
+//!
+//! Determinism. The same options and seed give the same bytes, for every number of threads and
+//!   whatever was called before.
+//!
+//! Memory. Requests that memory cannot hold are refused with AZULEJO_ERROR_TOO_LARGE before memory
+//!   is taken; the free memory of the machine counts, and the limits of the process (ulimit -v) and
+//!   of its control groups. If memory runs out during a call nevertheless, the process is aborted.
+//!
+//! Complexity is that of the whole call on one thread; all threads of the context share the work,
+//!   except where a text says otherwise. "Evenly spread" points are as dense, up to a small factor,
+//!   everywhere in their domain or on their surface, as samples of this library are. For points in
+//!   clusters, searches for neighbours take longer, at worst O(count^2).
+//!
+//! The algorithms are those of T. Wang, Techniques on Mining Effective Parallelism For
+//! High-Performance Blue-Noise Sampling, University of Tokyo, 2019 ("thesis" below).
 
 #![allow(non_camel_case_types)]
-// What a caller owes to make a call safe stands once, in the conventions above, and is not repeated per function.
+// What a caller must guarantee is said once, at the top, and not repeated for each function.
 #![allow(clippy::missing_safety_doc)]
 
 mod boundary;
-mod options;
+mod growing;
 
 // In the order of the header.
 pub mod status;
 pub mod version;
+
+pub mod progress;
 
 pub mod context;
 pub mod domain;
@@ -79,6 +133,7 @@ pub mod merge;
 pub mod embree;
 pub mod mesh;
 pub mod psp;
+pub mod psp_report;
 
 pub mod adaptive;
 

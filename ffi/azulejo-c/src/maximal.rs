@@ -8,33 +8,36 @@ use azulejo_core::maximal;
 use crate::boundary::{self, required};
 use crate::context::azulejo_context;
 use crate::domain::{AZULEJO_BOUNDARY_PERIODIC, domain};
-use crate::options::{self, Watch, azulejo_progress_fn, options};
+use crate::growing::{self, growing};
 use crate::points::azulejo_points;
+use crate::progress::{Watch, azulejo_progress_fn};
 use crate::status::azulejo_status;
 
 /// Options of azulejo_maximal_sample.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct azulejo_maximal_options {
-    /// The size of the caller's struct in bytes; set by the init function.
+    /// The size of the struct in bytes; set by the _init function.
     pub struct_size: u32,
-    /// An AZULEJO_BOUNDARY_ constant; periodic by default.
+    /// An AZULEJO_BOUNDARY_ constant; default periodic.
     pub boundary: i32,
-    /// The smallest distance between two samples, in the units of the domain. Above 0; there is no default.
+    /// The smallest distance between two samples, in the units of the domain: above 0, and at least
+    /// 64 times the spacing of floats at the largest coordinate. It has no default.
     pub radius: f64,
-    /// The lower corner of the domain, x y; 0 0 by default.
+    /// The lower corner of the domain, x y; finite; default 0 0.
     pub domain_min: [f64; 2],
-    /// The upper corner of the domain, above the lower one on both axes; 1 1 by default.
+    /// The upper corner of the domain, x y; finite and above the lower corner on both axes; default
+    /// 1 1. Neither side may be longer than 2^100 times the other.
     pub domain_max: [f64; 2],
-    /// Any number; another seed gives another set.
+    /// Any number; another seed gives another set. Default 0.
     pub seed: u64,
-    /// Called during the call, unless NULL, which is the default.
+    /// Called during the call; default NULL: the callback of the context, if it has one.
     pub progress: azulejo_progress_fn,
-    /// Handed to the progress callback.
+    /// Passed to the progress callback.
     pub progress_user: *mut c_void,
 }
 
-options!(azulejo_maximal_options requires radius {
+growing!(azulejo_maximal_options requires radius {
     boundary: AZULEJO_BOUNDARY_PERIODIC,
     radius: 0.0,
     domain_min: [0.0; 2],
@@ -45,24 +48,30 @@ options!(azulejo_maximal_options requires radius {
 });
 
 /// Writes the defaults. `struct_size` is sizeof *options.
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_maximal_options_init(
     options: *mut azulejo_maximal_options,
     struct_size: usize,
 ) -> azulejo_status {
     // SAFETY: handed on from the caller.
-    unsafe { options::init(options, struct_size) }
+    unsafe { growing::init("options", options, struct_size) }
 }
 
-/// Makes a maximal, conflict-free set of samples of a rectangle by throwing darts into what is still uncovered, one
-/// after the other: without any bias, much slower than azulejo_kdrt_sample and on one thread. It is the reference that
-/// other sets are compared with, about 0.6966 * area / radius^2 samples, in O(samples) time.
+/// Makes a maximal, conflict-free set of samples of a rectangle by throwing darts into what is
+/// uncovered, one after the other: about 0.6966 * area / radius^2 samples without any bias. It is
+/// the reference with which other sets are compared. It is much slower than azulejo_kdrt_sample and
+/// uses one thread.
+///
+/// Source: M. S. Ebeida et al., A Simple Algorithm for Maximal Poisson-Disk Sampling in High
+/// Dimensions, 2012.
 ///
 /// out: the samples, x y each, to be freed with azulejo_points_free.
 ///
-/// Errors: as azulejo_kdrt_sample.
+/// O(samples) time and memory, on the calling thread.
 ///
-/// Source: M. S. Ebeida et al., A Simple Algorithm for Maximal Poisson-Disk Sampling in High Dimensions, 2012.
+/// Errors: as azulejo_kdrt_sample.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_maximal_sample(
     context: Option<&azulejo_context>,
@@ -72,7 +81,7 @@ pub unsafe extern "C" fn azulejo_maximal_sample(
     boundary::create(out, || {
         let context = required("context", context)?;
         // SAFETY: handed on from the caller.
-        let options = unsafe { options::read(options) }?;
+        let options = unsafe { growing::read("options", options) }?;
         let domain = domain(options.domain_min, options.domain_max, options.boundary)?;
         let request = maximal::Options::new(options.radius).domain(domain).seed(options.seed);
         let watch = Watch::new(options.progress, options.progress_user);

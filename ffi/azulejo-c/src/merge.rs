@@ -1,4 +1,5 @@
-//! Merging: independently made sets on adjacent rectangles, and points that must stay, become one maximal set.
+//! Merging: independently made sets on adjacent rectangles, and points that must stay, become one
+//! maximal set.
 
 use std::ffi::c_void;
 use std::mem::MaybeUninit;
@@ -8,33 +9,37 @@ use azulejo_core::kdrt::{self, MergeOptions, MergeReport, Piece};
 use crate::boundary::{self, required, rows};
 use crate::context::azulejo_context;
 use crate::domain::{AZULEJO_BOUNDARY_PERIODIC, domain};
-use crate::options::{self, Watch, azulejo_progress_fn, options};
+use crate::growing::{self, Growing, Output, growing};
 use crate::points::azulejo_points;
+use crate::progress::{Watch, azulejo_progress_fn};
 use crate::status::{Failure, azulejo_status};
 
 /// Options of azulejo_kdrt_merge.
 #[repr(C)]
 #[derive(Clone, Copy)]
-pub struct azulejo_merge_options {
-    /// The size of the caller's struct in bytes; set by the init function.
+pub struct azulejo_kdrt_merge_options {
+    /// The size of the struct in bytes; set by the _init function.
     pub struct_size: u32,
-    /// An AZULEJO_BOUNDARY_ constant; periodic by default.
+    /// An AZULEJO_BOUNDARY_ constant; default periodic.
     pub boundary: i32,
-    /// The smallest distance between two samples, that of the pieces. Above 0; there is no default.
+    /// The smallest distance between two samples, that of the pieces, in the units of the domain:
+    /// above 0, and at least 64 times the spacing of floats at the largest coordinate. It has no
+    /// default.
     pub radius: f64,
-    /// The lower corner of the domain, x y; 0 0 by default.
+    /// The lower corner of the domain, x y; finite; default 0 0.
     pub domain_min: [f64; 2],
-    /// The upper corner of the domain, above the lower one on both axes; 1 1 by default.
+    /// The upper corner of the domain, x y; finite and above the lower corner on both axes; default
+    /// 1 1. Neither side may be longer than 2^100 times the other.
     pub domain_max: [f64; 2],
-    /// Any number; another seed gives another set.
+    /// Any number; another seed gives another set. Default 0.
     pub seed: u64,
-    /// Called during the call, unless NULL, which is the default.
+    /// Called during the call; default NULL: the callback of the context, if it has one.
     pub progress: azulejo_progress_fn,
-    /// Handed to the progress callback.
+    /// Passed to the progress callback.
     pub progress_user: *mut c_void,
 }
 
-options!(azulejo_merge_options requires radius {
+growing!(azulejo_kdrt_merge_options requires radius {
     boundary: AZULEJO_BOUNDARY_PERIODIC,
     radius: 0.0,
     domain_min: [0.0; 2],
@@ -45,103 +50,124 @@ options!(azulejo_merge_options requires radius {
 });
 
 /// Writes the defaults. `struct_size` is sizeof *options.
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn azulejo_merge_options_init(
-    options: *mut azulejo_merge_options,
+pub unsafe extern "C" fn azulejo_kdrt_merge_options_init(
+    options: *mut azulejo_kdrt_merge_options,
     struct_size: usize,
 ) -> azulejo_status {
     // SAFETY: handed on from the caller.
-    unsafe { options::init(options, struct_size) }
+    unsafe { growing::init("options", options, struct_size) }
 }
 
-/// A set of samples that was made by itself, such as by azulejo_kdrt_sample on a bounded domain or by
-/// azulejo_kdrt_sample_window. It has no struct_size and never grows.
+/// A set of samples that was made independently, such as by azulejo_kdrt_sample on a bounded domain
+/// or by azulejo_kdrt_sample_window. It has no struct_size and never grows.
 #[repr(C)]
 #[derive(Clone, Copy)]
-pub struct azulejo_merge_piece {
-    /// The samples, x y each, in min <= x < max, no two of them closer than the radius; read during the call only. Any
-    /// floats will do, and they need not be maximal. NULL if there are none.
+pub struct azulejo_kdrt_merge_piece {
+    /// The samples, x y each, with min <= x < max, no two of them closer than the radius; read
+    /// during the call only. They need not be maximal. NULL if there are none.
     pub xy: *const f32,
-    /// How many there are.
+    /// The number of samples.
     pub count: usize,
     /// The lower corner of the piece's rectangle, x y.
     pub min: [f64; 2],
-    /// The upper corner, above the lower one on both axes.
+    /// The upper corner of the rectangle, above the lower one on both axes.
     pub max: [f64; 2],
 }
 
-/// What became of the samples of the pieces. The result has first the fixed points, then those kept, then the inserted
-/// ones.
+/// What became of the samples of the pieces. The result has the fixed points first, then the kept
+/// samples, then the inserted ones.
 #[repr(C)]
 #[derive(Clone, Copy)]
-pub struct azulejo_merge_report {
-    /// Samples of the pieces that are in the result.
+pub struct azulejo_kdrt_merge_report {
+    /// The size of the struct in bytes; set by the _init function.
+    pub struct_size: u32,
+    /// Always 0.
+    pub reserved: u32,
+    /// The samples of the pieces that are in the result.
     pub kept: u64,
-    /// Samples of the pieces that are not.
+    /// The samples of the pieces that are not.
     pub eliminated: u64,
-    /// New samples.
+    /// The new samples.
     pub inserted: u64,
-    /// Zeros, for later versions.
-    pub reserved: [u32; 10],
 }
 
-impl From<MergeReport> for azulejo_merge_report {
+growing!(azulejo_kdrt_merge_report requires kept { reserved: 0, kept: 0, eliminated: 0, inserted: 0 });
+
+impl From<MergeReport> for azulejo_kdrt_merge_report {
     fn from(report: MergeReport) -> Self {
         let MergeReport { kept, eliminated, inserted, .. } = report;
-        Self { kept: kept as u64, eliminated: eliminated as u64, inserted: inserted as u64, reserved: [0; 10] }
+        Self { kept: kept as u64, eliminated: eliminated as u64, inserted: inserted as u64, ..Self::DEFAULT }
     }
 }
 
-/// Glues sets of samples on rectangles that do not overlap, and points that must stay, into one maximal, conflict-free
-/// set of the domain (thesis section 2.4.4). Only the seams change.
+/// Writes zeros and the size. `struct_size` is sizeof *report.
 ///
-/// Conflict-free and maximal as in the conventions, but maximal up to 6 times the spacing of floats; whatever no sample
-/// covers is filled, also where a piece is not maximal, where there is no piece, and the whole domain if there is
-/// nothing. A sample of a piece goes only if it is closer than the radius to a fixed point, or to a sample that stays of
-/// another piece or, over the seam of a periodic domain, of its own; which one goes depends on the seed and the places of
-/// the pieces in the array. If the pieces are maximal as azulejo_kdrt_sample makes them, new samples lie within the radius
-/// of a sample that went or of the border of a piece's rectangle.
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_kdrt_merge_report_init(
+    report: *mut azulejo_kdrt_merge_report,
+    struct_size: usize,
+) -> azulejo_status {
+    // SAFETY: handed on from the caller.
+    unsafe { growing::init("report", report, struct_size) }
+}
+
+/// Merges sets of samples on rectangles that do not overlap, and points that must stay, into one
+/// maximal, conflict-free set of the domain (thesis section 2.4.4). Only the seams change.
+///
+/// Whatever no sample covers is filled: where a piece is not maximal, where there is no piece, and
+/// the whole domain if nothing is given. A sample of a piece is removed only if it is closer than
+/// the radius to a fixed point, or to a sample that stays of another piece or, across the seam of a
+/// periodic domain, of its own; which of the two is removed depends on the seed and the order of
+/// the pieces. If the pieces are maximal as azulejo_kdrt_sample makes them, new samples lie within
+/// the radius of a removed sample or of the edge of a piece's rectangle.
 ///
 /// pieces: `piece_count` of them, in the domain; NULL if there are none.
 ///
-/// fixed: the points that must stay, x y each, in domain_min <= x < domain_max, no two of them closer than the radius;
-/// `fixed_count` of them; NULL if there are none.
+/// fixed: the points that must stay, x y each, with domain_min <= x < domain_max, no two of them
+/// closer than the radius; `fixed_count` of them; NULL if there are none.
 ///
-/// out: the samples, x y each, to be freed with azulejo_points_free: first all fixed points, then the samples of the
-/// pieces that are kept, piece by piece, both in the order and with the bits that they were given; then new ones.
+/// out: the samples, x y each, to be freed with azulejo_points_free: all fixed points, then the
+/// kept samples piece by piece, both in their order and bit for bit as given, then the new ones.
 ///
 /// report: what became of the pieces, or NULL.
 ///
-/// O(samples) time with all threads of the context, and O(piece_count^2) at most. A periodic domain narrower than about
-/// 10 radii is filled on one thread.
+/// O(samples) time and memory, and at most O(piece_count^2) time for the rectangles. A periodic
+/// domain narrower than about 10 radii is filled on one thread.
 ///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for rectangles that overlap or leave the domain, samples outside of
-/// their rectangle, two samples of one piece or two fixed points that are closer than the radius (the message has their
-/// indices), and where floats are too coarse to carry the radius; AZULEJO_ERROR_TOO_LARGE; AZULEJO_ERROR_CANCELLED.
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for rectangles that overlap or leave the domain,
+/// samples outside their rectangle, two samples of one piece or two fixed points that are closer
+/// than the radius (the message has their indices), and a radius below 64 times the spacing of
+/// floats; AZULEJO_ERROR_TOO_LARGE; AZULEJO_ERROR_CANCELLED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_kdrt_merge(
     context: Option<&azulejo_context>,
-    options: *const azulejo_merge_options,
-    pieces: *const azulejo_merge_piece,
+    options: *const azulejo_kdrt_merge_options,
+    pieces: *const azulejo_kdrt_merge_piece,
     piece_count: usize,
     fixed: *const f32,
     fixed_count: usize,
     out: Option<&mut MaybeUninit<Box<azulejo_points>>>,
-    report: Option<&mut MaybeUninit<azulejo_merge_report>>,
+    report: *mut azulejo_kdrt_merge_report,
 ) -> azulejo_status {
     boundary::create(out, || {
         let context = required("context", context)?;
         // SAFETY: handed on from the caller.
-        let (options, pieces, fixed) = unsafe {
+        let (options, pieces, fixed, report) = unsafe {
             let fixed = rows::<f32, 2>("fixed", fixed, "fixed_count", fixed_count)?;
-            (options::read(options)?, read(pieces, piece_count)?, fixed)
+            (growing::read("options", options)?, read(pieces, piece_count)?, fixed, Output::optional("report", report)?)
         };
         let domain = domain(options.domain_min, options.domain_max, options.boundary)?;
         let request = MergeOptions::new(options.radius).domain(domain).seed(options.seed);
         let watch = Watch::new(options.progress, options.progress_user);
         let (merged, done) =
             context.run(watch, |context, progress| kdrt::merge(context, &request, &pieces, fixed, progress))?;
-        report.map(|report| report.write(done.into()));
+        if let Some(report) = report {
+            report.write(done);
+        }
         Ok(azulejo_points::plane(merged))
     })
 }
@@ -149,12 +175,12 @@ pub unsafe extern "C" fn azulejo_kdrt_merge(
 /// The caller's pieces as the core wants them.
 ///
 /// # Safety
-/// Unless the checks fail, `pieces` leads to `count` pieces and each of them to its samples, which nobody changes during
-/// `'a`.
-unsafe fn read<'a>(pieces: *const azulejo_merge_piece, count: usize) -> Result<Vec<Piece<'a>>, Failure> {
+/// Unless the checks fail, `pieces` leads to `count` pieces and each of them to its
+/// samples, which are not changed during `'a`.
+unsafe fn read<'a>(pieces: *const azulejo_kdrt_merge_piece, count: usize) -> Result<Vec<Piece<'a>>, Failure> {
     // SAFETY: handed on from the caller.
-    let pieces = unsafe { rows::<azulejo_merge_piece, 1>("pieces", pieces, "piece_count", count) }?;
-    let read = |(i, &[piece]): (usize, &[azulejo_merge_piece; 1])| {
+    let pieces = unsafe { rows::<azulejo_kdrt_merge_piece, 1>("pieces", pieces, "piece_count", count) }?;
+    let read = |(i, &[piece]): (usize, &[azulejo_kdrt_merge_piece; 1])| {
         let [xy, count] = ["xy", "count"].map(|field| format!("pieces: [{i}].{field}"));
         // SAFETY: handed on from the caller.
         let samples = unsafe { rows::<f32, 2>(&xy, piece.xy, &count, piece.count) }?;

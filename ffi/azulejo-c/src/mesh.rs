@@ -11,32 +11,35 @@ use azulejo_core::{Context, Progress};
 
 use crate::boundary::{self, array, check_pointer, check_size, required, rows};
 use crate::context::azulejo_context;
-use crate::options::Watch;
+use crate::progress::Watch;
 use crate::status::{AZULEJO_ERROR_OUT_OF_MEMORY, Failure, azulejo_status};
 
-/// A checked triangle mesh: immutable, may be used by several threads at once. Any soup of triangles will do: open,
-/// non-manifold, of many parts and mixed winding. It may carry normals and a mask; meshes that are made of one another
-/// share what they have in common.
+/// A checked triangle mesh. Immutable: several threads may use it at once. Any triangle soup is
+/// accepted: open, non-manifold, of many parts and mixed winding. A mesh may carry normals and a
+/// mask. Meshes made from one another share what they have in common.
 pub struct azulejo_mesh {
     pub(crate) shared: Arc<Mesh>,
 }
 
 const VECTOR_SIZE: usize = size_of::<[f32; 3]>();
 
-/// Copies a mesh of the caller's.
+/// Makes a mesh from a copy of the caller's arrays.
 ///
-/// positions: the vertices; the x y z of each begin `stride_bytes` after those of the one before.
+/// positions: the vertices, x y z each, `stride_bytes` from one to the next; `vertex_count` of
+/// them. What lies between is not read.
 ///
-/// stride_bytes: at least 12, a multiple of 4. What lies between the positions is not read.
+/// stride_bytes: a multiple of 4, at least 12.
 ///
-/// indices: three for each triangle, below `vertex_count`; triangles keep their order. Triangles without area are
-/// allowed and get no samples.
+/// indices: three per triangle, below `vertex_count`; triangles keep their order. Triangles without
+/// area are allowed and get no samples.
 ///
 /// out: the mesh, to be freed with azulejo_mesh_free.
 ///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT for positions that are not finite, indices out of range, no triangle at all
-/// and triangles without any area; AZULEJO_ERROR_TOO_LARGE for 2^32 - 1 vertices or triangles or more, and for sizes
-/// that overflow; AZULEJO_ERROR_OUT_OF_MEMORY.
+/// O(vertices + triangles).
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT for positions that are not finite, indices out of range,
+/// no triangles, and triangles without any area; AZULEJO_ERROR_TOO_LARGE for 2^32 - 1 vertices or
+/// triangles or more, and for sizes that overflow; AZULEJO_ERROR_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_mesh_create(
     positions: *const f32,
@@ -59,20 +62,24 @@ pub unsafe extern "C" fn azulejo_mesh_create(
     })
 }
 
-/// Loads a mesh from a file: Wavefront OBJ, PLY or STL (text and binary), told apart by the extension .obj, .ply or .stl,
-/// otherwise by what the file begins with. Polygons become fans of triangles, in the order of the faces. Vertices keep
-/// the order of the file; those of STL facets are three for each, not merged.
+/// Loads a mesh from a file: Wavefront OBJ, PLY or STL (text and binary), distinguished by the
+/// extension .obj, .ply or .stl, otherwise by the first bytes. Polygons become fans of triangles,
+/// in the order of the faces. Vertices keep the order of the file; STL facets have three each,
+/// which are not merged.
 ///
-/// Normals of OBJ corners (vn) and of PLY vertices (nx ny nz) are read; a corner without, or with one that is not finite,
-/// in a file that has some, counts as one with a zero normal: see azulejo_mesh_with_normals. Points, lines, materials,
-/// texture coordinates, colours and normals of STL facets are left aside.
+/// Normals of OBJ corners (vn) and of PLY vertices (nx ny nz) are read. In a file that has some, a
+/// corner without a normal, or with one that is not finite, gets a zero normal: see
+/// azulejo_mesh_with_normals. Points, lines, materials, texture coordinates, colours and normals of
+/// STL facets are ignored.
 ///
-/// path: the name of the file as the operating system wants it.
+/// path: the file name in the encoding of the operating system, terminated by a NUL.
 ///
 /// out: the mesh, to be freed with azulejo_mesh_free.
 ///
-/// Errors: AZULEJO_ERROR_IO if the file cannot be read, AZULEJO_ERROR_FORMAT if it is broken, or what it holds would be
-/// refused by azulejo_mesh_create.
+/// O(size of the file), on the calling thread.
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT; AZULEJO_ERROR_IO if the file cannot be read;
+/// AZULEJO_ERROR_FORMAT if it is invalid, or has a mesh that azulejo_mesh_create would refuse.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_mesh_load(
     path: *const c_char,
@@ -86,29 +93,33 @@ pub unsafe extern "C" fn azulejo_mesh_load(
     })
 }
 
-/// A mesh with normals of the caller's, in place of those that it may carry, such as the smooth ones of a shaded surface.
-/// The samples are the same; azulejo_points_interpolated_normals gives the normals at them.
+/// Makes a mesh with the caller's normals in place of any that it has, such as the smooth ones of a
+/// shaded surface. Samples are the same with and without; azulejo_points_interpolated_normals has
+/// the normals at them.
 ///
-/// mesh: the mesh, which stays as it is.
+/// mesh: the mesh, which is not changed.
 ///
-/// normals: of any length; the x y z of each begin `stride_bytes` after those of the one before. Where the three of a
-/// triangle add up to nothing at a sample, as zeros do, the sample gets the normal of the triangle.
+/// normals: of any length, x y z each, `stride_bytes` from one to the next; `normal_count` of them.
+/// Where the three normals of a triangle add up to zero at a sample, as zeros do, the sample gets
+/// the normal of the triangle.
 ///
-/// normal_count: the number of vertices, where there are no indices.
+/// normal_count: the number of vertices, if there are no indices.
 ///
-/// stride_bytes: at least 12, a multiple of 4.
+/// stride_bytes: a multiple of 4, at least 12.
 ///
-/// normal_indices: three for each triangle, below `normal_count`, where corners that share a vertex differ in their
-/// normals; NULL for one normal for each vertex.
+/// normal_indices: three per triangle, below `normal_count`, for corners that share a vertex but
+/// not its normal; NULL for one normal per vertex.
 ///
-/// triangle_count: the number of triangles of the mesh; 0 for NULL.
+/// triangle_count: the number of triangles of the mesh; 0 if `normal_indices` is NULL.
 ///
-/// out: the new mesh, to be freed with azulejo_mesh_free. It shares vertices, triangles and mask with `mesh`; the two
-/// are freed in any order.
+/// out: the new mesh, to be freed with azulejo_mesh_free. It shares vertices, triangles and mask
+/// with `mesh`; the two may be freed in any order.
 ///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT for normals that are not finite or not as many as there are vertices, and for
-/// indices out of range; AZULEJO_ERROR_TOO_LARGE for 2^32 - 1 normals or more, and for sizes that overflow;
-/// AZULEJO_ERROR_OUT_OF_MEMORY.
+/// O(normals + triangles).
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT for normals that are not finite or not as many as there
+/// are vertices, and for indices out of range; AZULEJO_ERROR_TOO_LARGE for 2^32 - 1 normals or
+/// more, and for sizes that overflow; AZULEJO_ERROR_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_mesh_with_normals(
     mesh: Option<&azulejo_mesh>,
@@ -136,21 +147,24 @@ pub unsafe extern "C" fn azulejo_mesh_with_normals(
     })
 }
 
-/// A mesh with a mask, in place of the one that it may have: triangles whose entry is 0 are left out. They keep their
-/// number. The rest is sampled as if they were not there, to the bit: they get no samples, add nothing to the area, and
-/// need not be covered; nor do they hide or divide anything, so samples on both sides of them keep their distance through
-/// space. A mask may leave out everything: then a maximal set is empty.
+/// Makes a mesh with a mask, in place of any that it has: triangles whose entry is 0 are left out
+/// but keep their numbers. The rest is sampled, bit for bit, as if they did not exist: they get no
+/// samples, have no area, and need not be covered. They do not separate anything either: samples on
+/// both sides of them keep their distance through space. A mask may leave out everything; then a
+/// maximal set is empty.
 ///
-/// mesh: the mesh, which stays as it is.
+/// mesh: the mesh, which is not changed.
 ///
-/// mask: one byte for each triangle: 0 leaves it out, any other value samples it.
+/// mask: one byte per triangle: 0 leaves it out, any other value keeps it.
 ///
 /// triangle_count: the number of triangles of the mesh.
 ///
-/// out: the new mesh, to be freed with azulejo_mesh_free. It shares vertices, triangles and normals with `mesh`; the two
-/// are freed in any order.
+/// out: the new mesh, to be freed with azulejo_mesh_free. It shares vertices, triangles and normals
+/// with `mesh`; the two may be freed in any order.
 ///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT for a mask that is not as long as there are triangles;
+/// O(triangles).
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT for another count than that of the triangles;
 /// AZULEJO_ERROR_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_mesh_with_mask(
@@ -169,7 +183,7 @@ pub unsafe extern "C" fn azulejo_mesh_with_mask(
     })
 }
 
-/// Whether the mesh carries normals besides those of its triangles: 1 or 0; 0 for NULL.
+/// 1 if the mesh carries normals besides those of its triangles, else 0; 0 for NULL.
 #[unsafe(no_mangle)]
 pub extern "C" fn azulejo_mesh_has_normals(mesh: Option<&azulejo_mesh>) -> i32 {
     mesh.is_some_and(|mesh| mesh.shared.has_normals()).into()
@@ -181,33 +195,34 @@ pub extern "C" fn azulejo_mesh_vertex_count(mesh: Option<&azulejo_mesh>) -> usiz
     mesh.map_or(0, |mesh| mesh.shared.positions().len())
 }
 
-/// The number of triangles, those that a mask leaves out among them; 0 for NULL.
+/// The number of triangles, including those that a mask leaves out; 0 for NULL.
 #[unsafe(no_mangle)]
 pub extern "C" fn azulejo_mesh_triangle_count(mesh: Option<&azulejo_mesh>) -> usize {
     mesh.map_or(0, |mesh| mesh.shared.triangles().len())
 }
 
-/// The vertices, x y z each, packed; they live until azulejo_mesh_free. NULL for NULL.
+/// The vertices, x y z each, packed; valid until azulejo_mesh_free. NULL for NULL.
 #[unsafe(no_mangle)]
 pub extern "C" fn azulejo_mesh_positions(mesh: Option<&azulejo_mesh>) -> *const f32 {
     mesh.map_or(std::ptr::null(), |mesh| array(mesh.shared.positions()))
 }
 
-/// The three vertices of each triangle, counter-clockwise seen from the front; they live until azulejo_mesh_free. NULL for NULL.
+/// The three vertices of each triangle, counter-clockwise seen from the front; valid until
+/// azulejo_mesh_free. NULL for NULL.
 #[unsafe(no_mangle)]
 pub extern "C" fn azulejo_mesh_indices(mesh: Option<&azulejo_mesh>) -> *const u32 {
     mesh.map_or(std::ptr::null(), |mesh| array(mesh.shared.triangles()))
 }
 
-/// The area of all triangles together that no mask leaves out, in squared units of the positions; 0 for NULL. A maximal
-/// set of N samples has a radius of about sqrt(0.69656 * area / N), as long as that is small against the features of the
-/// surface.
+/// The area of all triangles that no mask leaves out, in squared units of the positions; 0 for
+/// NULL. A maximal set of n samples has a radius of about sqrt(0.69656 * area / n), if that is
+/// small compared with the features of the surface.
 #[unsafe(no_mangle)]
 pub extern "C" fn azulejo_mesh_area(mesh: Option<&azulejo_mesh>) -> f64 {
     mesh.map_or(0.0, |mesh| mesh.shared.area())
 }
 
-/// Frees the mesh, once no psp handle uses it any more. NULL is allowed.
+/// Frees the mesh once no psp handle uses it any more. NULL is allowed.
 #[unsafe(no_mangle)]
 pub extern "C" fn azulejo_mesh_free(mesh: Option<Box<azulejo_mesh>>) {
     boundary::free(mesh);
@@ -226,7 +241,7 @@ fn check_triangle_count(mesh: &Mesh, count: usize) -> Result<(), Failure> {
 /// Vectors of the caller's, packed.
 ///
 /// # Safety
-/// Unless the checks fail, `vectors` leads to as many of them, so far apart.
+/// Unless the checks fail, `vectors` leads to `count` of them, `stride` bytes apart.
 unsafe fn strided(
     argument: &str,
     vectors: *const f32,
@@ -257,7 +272,7 @@ pub(crate) fn collect<T>(argument: &str, rows: impl ExactSizeIterator<Item = T>)
     Ok(vector)
 }
 
-/// Samples of a mesh that are to be measured, and whose threads do it.
+/// Samples of a mesh that are to be measured, and the context that does it.
 pub(crate) struct SurfaceSet<'a> {
     context: &'a azulejo_context,
     mesh: Arc<Mesh>,
@@ -286,6 +301,6 @@ impl<'a> SurfaceSet<'a> {
         &self,
         call: impl FnOnce(&Context, &Mesh, &[[f32; 3]], Option<&Progress>) -> azulejo_core::Result<T>,
     ) -> Result<T, Failure> {
-        self.context.run(Watch::NOBODY, |context, progress| call(context, &self.mesh, self.positions, progress))
+        self.context.run(Watch::NONE, |context, progress| call(context, &self.mesh, self.positions, progress))
     }
 }

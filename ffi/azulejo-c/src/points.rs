@@ -5,8 +5,8 @@ use azulejo_core::psp::adaptive::AdaptiveSamples;
 
 use crate::boundary::{self, array};
 
-/// The samples that a call made: immutable, may be read by several threads at once. All arrays of a set have one entry
-/// per sample, in the same order, and live until azulejo_points_free.
+/// The samples that a call made. Immutable: several threads may read it at once. All its arrays
+/// have one entry per sample, in the same order, and are valid until azulejo_points_free.
 pub struct azulejo_points {
     pub(crate) samples: Samples,
     /// The radius of each sample, where it varies.
@@ -49,7 +49,8 @@ pub extern "C" fn azulejo_points_count(points: Option<&azulejo_points>) -> usize
     }
 }
 
-/// The number of coordinates of each position: 2 for samples of the plane, 3 for samples of a mesh; 0 for NULL.
+/// The number of coordinates of a position: 2 for samples of the plane, 3 for samples on a mesh; 0
+/// for NULL.
 #[unsafe(no_mangle)]
 pub extern "C" fn azulejo_points_dimension(points: Option<&azulejo_points>) -> u32 {
     match points.map(|points| &points.samples) {
@@ -61,8 +62,9 @@ pub extern "C" fn azulejo_points_dimension(points: Option<&azulejo_points>) -> u
 
 /// The positions, x y or x y z of each sample, interleaved; NULL for NULL and for an empty set.
 ///
-/// Samples of the plane lie in domain_min <= x < domain_max. Samples of a mesh lie on their triangle, up to the rounding
-/// of the floats: they are computed from the barycentrics in double arithmetic and rounded once.
+/// Samples of the plane lie in domain_min <= x < domain_max. Samples on a mesh lie on their
+/// triangle, up to the rounding of the floats: they are computed from the barycentrics in double
+/// arithmetic and rounded once.
 #[unsafe(no_mangle)]
 pub extern "C" fn azulejo_points_positions(points: Option<&azulejo_points>) -> *const f32 {
     match points.map(|points| &points.samples) {
@@ -72,37 +74,38 @@ pub extern "C" fn azulejo_points_positions(points: Option<&azulejo_points>) -> *
     }
 }
 
-/// The unit normals of the samples' triangles, x y z each, seen from where their vertices run counter-clockwise, whether
-/// or not the mesh carries normals of its own; NULL for NULL, an empty set and samples of the plane.
+/// The unit normals of the samples' triangles, x y z each, on the side from which their vertices
+/// appear counter-clockwise, whether or not the mesh carries normals of its own. NULL for NULL, an
+/// empty set and samples of the plane.
 #[unsafe(no_mangle)]
 pub extern "C" fn azulejo_points_normals(points: Option<&azulejo_points>) -> *const f32 {
     surface(points).map_or(std::ptr::null(), |samples| array(&samples.normals))
 }
 
-/// The normals that the mesh carries, from azulejo_mesh_with_normals or from its file, interpolated to the samples with
-/// their barycentrics, of length 1, x y z each; that of the triangle where they add up to nothing. NULL for a mesh that
-/// carries none, NULL, an empty set and samples of the plane.
+/// The normals that the mesh carries, from azulejo_mesh_with_normals or from its file, interpolated
+/// with the samples' barycentrics and normalised, x y z each; the normal of the triangle where the
+/// sum is zero. NULL for a mesh without normals, NULL, an empty set and samples of the plane.
 #[unsafe(no_mangle)]
 pub extern "C" fn azulejo_points_interpolated_normals(points: Option<&azulejo_points>) -> *const f32 {
     surface(points).map_or(std::ptr::null(), |samples| array(&samples.interpolated_normals))
 }
 
-/// The index of the triangle that each sample lies on; NULL for NULL, an empty set and samples of the plane.
+/// The index of each sample's triangle; NULL for NULL, an empty set and samples of the plane.
 #[unsafe(no_mangle)]
 pub extern "C" fn azulejo_points_triangles(points: Option<&azulejo_points>) -> *const u32 {
     surface(points).map_or(std::ptr::null(), |samples| array(&samples.triangles))
 }
 
-/// The barycentric coordinates u v of each sample in its triangle (a, b, c), as in Embree: the position is
-/// (1 - u - v) * a + u * b + v * c, and so is every other attribute of the vertices.
-/// NULL for NULL, an empty set and samples of the plane.
+/// The barycentric coordinates u v of each sample in its triangle (a, b, c), as in Embree: the
+/// position is (1-u-v)*a + u*b + v*c, and other attributes of the vertices are interpolated in the
+/// same manner. NULL for NULL, an empty set and samples of the plane.
 #[unsafe(no_mangle)]
 pub extern "C" fn azulejo_points_barycentrics(points: Option<&azulejo_points>) -> *const f32 {
     surface(points).map_or(std::ptr::null(), |samples| array(&samples.barycentrics))
 }
 
-/// The radius of each sample of azulejo_psp_sample_adaptive; NULL for NULL, an empty set and all other sets, whose radius
-/// is the one that was asked for.
+/// The radius of each sample of azulejo_psp_adaptive_sample, in the units of the mesh; NULL for
+/// NULL, an empty set and all other sets.
 #[unsafe(no_mangle)]
 pub extern "C" fn azulejo_points_radii(points: Option<&azulejo_points>) -> *const f64 {
     points.map_or(std::ptr::null(), |points| array(&points.radii))

@@ -7,95 +7,123 @@ use azulejo_core::analysis::spectrum::{Annulus, Periodogram, sparse_periodogram}
 
 use crate::boundary::{self, array, check_pointer, required};
 use crate::context::azulejo_context;
-use crate::domain::PlaneSet;
+use crate::domain::{PlaneSet, azulejo_plane_set};
+use crate::growing::{self, Growing, Output, growing};
 use crate::status::{Failure, azulejo_status};
 
-/// The power spectrum of a set of the plane, or the mean of several: |sum of exp(-2 pi i f x)|^2 / count on a square grid of
-/// frequencies f. 1 on average for a Poisson process (Ulichney 1988; Lagae and Dutre 2008). Never changes.
+/// The power spectrum of a set of the plane, or the mean of several: |sum of exp(-2 pi i f x)|^2 /
+/// count on a square grid of frequencies f. Its mean is 1 for a Poisson process (Ulichney 1988;
+/// Lagae and Dutre 2008). Immutable: several threads may use it at once.
 ///
-/// Frequencies are in units of sqrt(density), the density being count / area: sets of different size can be compared, and
+/// Frequencies are in units of sqrt(count / area), so that sets of different size can be compared;
 /// the first ring of blue noise lies near 1.
 pub struct azulejo_spectrum {
     periodogram: Periodogram,
 }
 
-/// The frequencies of about one length: a point of the radial curves.
+/// The frequencies of about one length: a point of the radial curves. It has no struct_size and
+/// never grows.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct azulejo_annulus {
-    /// The mean length of its frequencies, in units of sqrt(density).
+    /// The mean length of its frequencies, in units of sqrt(count / area).
     pub frequency: f64,
     /// The mean power: the radial mean; 1 for a Poisson process.
     pub power: f64,
-    /// The variance of the power over its squared mean. The spectrum of one isotropic set has 1 (0 dB), the mean of n has
-    /// 1/n; directions that stand out give more.
+    /// The variance of the power over its squared mean. The spectrum of one isotropic set has 1 (0
+    /// dB), the mean of n such spectra has 1/n; preferred directions give more.
     pub anisotropy: f64,
-    /// The number of its frequencies, not counting a frequency and its opposite twice; at least 2.
+    /// The number of its frequencies, a frequency and its opposite counted once; at least 2.
     pub count: u64,
 }
 
-/// The figures of a spectrum.
+/// The result of azulejo_spectrum_measure.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct azulejo_spectrum_report {
-    /// The distance of neighbouring columns and rows, in units of sqrt(density).
+    /// The size of the struct in bytes; set by the _init function.
+    pub struct_size: u32,
+    /// Always 0.
+    pub reserved: u32,
+    /// The distances of neighbouring columns and rows, in units of sqrt(count / area).
     pub frequency_step: [f64; 2],
-    /// The effective Nyquist frequency, in units of sqrt(density): half of the largest frequency up to which the mean power
-    /// is below 0.1 (Heck et al. 2013). 0.5 for a square lattice, 0.537 for a hexagonal one, 0 for a Poisson process; the
-    /// tables of the literature divide it by 0.5. -1 if the spectrum ends too early: frequencies up to 1.5 mostly do.
+    /// The effective Nyquist frequency, in units of sqrt(count / area): half of the largest
+    /// frequency up to which the mean power is below 0.1 (Heck et al. 2013). 0.5 for a square
+    /// lattice, 0.537 for a hexagonal one, 0 for a Poisson process; the tables of the literature
+    /// divide it by 0.5. -1 if the spectrum ends too early; frequencies up to 1.5 mostly suffice.
     pub effective_nyquist: f64,
-    /// The oscillation, without unit: ten times the root mean square of the power's deviation from 1, by area, from where it
-    /// first is 0.98 to 5 sqrt(density) above (Heck et al. 2013). 0 for a Poisson process. -1 if the spectrum ends too
-    /// early: frequencies up to 6.5 mostly do.
+    /// The oscillation, a number: ten times the root mean square of the power's deviation from 1,
+    /// by area, from where it first reaches 0.98 to 5 sqrt(count / area) above (Heck et al. 2013).
+    /// 0 for a Poisson process. -1 if the spectrum ends too early; frequencies up to 6.5 mostly
+    /// suffice.
     pub oscillation: f64,
-    /// How much the power scatters about its radial mean, over the frequencies from `low` to `high`: 1 for one set without
-    /// order over long distances, 1/n for the mean of n, more where parts are repeated. 0 if there are none.
+    /// The scatter of the power about its radial mean, over the frequencies from `low` to `high`: 1
+    /// for one set without order over long distances, 1/n for the mean of n, more if parts are
+    /// repeated. 0 if there are no such frequencies.
     pub contrast: f64,
-    /// The largest power of a frequency from `low` to `high`, over the radial mean there. By chance alone it is about ln n
-    /// for n frequencies of one set. 0 if there are none.
+    /// The largest power of a frequency from `low` to `high`, over the radial mean there. By chance
+    /// alone it is about ln n for n frequencies of one set. 0 if there are no such frequencies.
     pub peak: f64,
-    /// Where that is, along x and y, in units of sqrt(density); its opposite is as high.
+    /// That frequency, x y, in units of sqrt(count / area); its opposite has the same power.
     pub peak_frequency: [f64; 2],
-    /// Zeros, for later versions.
-    pub reserved: [u64; 4],
 }
 
-/// Makes the spectrum of points of the plane, by nonuniform fast Fourier transform in double arithmetic: the power differs
-/// from that of the sum itself by no more than its rounding to float.
+growing!(azulejo_spectrum_report requires frequency_step {
+    reserved: 0,
+    frequency_step: [0.0; 2],
+    effective_nyquist: 0.0,
+    oscillation: 0.0,
+    contrast: 0.0,
+    peak: 0.0,
+    peak_frequency: [0.0; 2],
+});
+
+/// Writes zeros and the size. `struct_size` is sizeof *report.
 ///
-/// A periodic domain has exact frequencies, whole numbers of waves per period. A bounded one is taken for a window onto a
-/// larger set: its points are weighted by a taper that falls to 0 towards the ellipse inside it, so that the spectrum does
-/// not show the border.
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_spectrum_report_init(
+    report: *mut azulejo_spectrum_report,
+    struct_size: usize,
+) -> azulejo_status {
+    // SAFETY: handed on from the caller.
+    unsafe { growing::init("report", report, struct_size) }
+}
+
+/// Makes the spectrum of points of the plane, by nonuniform fast Fourier transform in double
+/// arithmetic: the power differs from that of the direct sum by no more than its rounding to float.
 ///
-/// xy: the points, x y each, finite; `count` of them. In a bounded domain at least one must lie inside the ellipse.
+/// A periodic domain has exact frequencies, whole numbers of waves per period. A bounded domain is
+/// treated as a window of a larger set: points are weighted by a taper that falls to 0 at the
+/// ellipse inside it, so that its edges do not show in the spectrum.
 ///
-/// domain_min, domain_max, boundary: two numbers, two numbers and a constant, as in the options.
+/// set: the points, which must be finite but may lie outside the domain. In a bounded domain at
+/// least one must lie inside the ellipse.
 ///
-/// size: the frequencies per side, 2 to 4096. The lowest are -(size / 2) steps of 1 / width and 1 / height.
+/// size: the number of frequencies per side, 2 to 4096. The lowest are -(size / 2) steps of 1 /
+/// width and 1 / height.
 ///
-/// stride: 1 takes all frequencies; n, up to 4096, only every n-th along both axes, so that the spectra of large sets reach
-/// as far as those of small ones. For all figures, size * stride of about 13 sqrt(count) is enough on a square.
+/// stride: 1 takes all frequencies; n, up to 4096, every n-th along both axes, so that the spectra
+/// of large sets reach as far as those of small ones. For all figures, size * stride of about 13 *
+/// sqrt(count) is enough on a square.
 ///
 /// out: the spectrum, to be freed with azulejo_spectrum_free.
 ///
-/// O(count + size^2 log size) time, and about 40 bytes of memory for each point and each frequency while it runs.
+/// O(count + size^2 * log size) time, and about 40 bytes of memory per point and per frequency
+/// during the call.
 ///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_CANCELLED.
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_TOO_LARGE, AZULEJO_ERROR_CANCELLED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_spectrum_create(
     context: Option<&azulejo_context>,
-    xy: *const f32,
-    count: usize,
-    domain_min: *const f64,
-    domain_max: *const f64,
-    boundary: i32,
+    set: *const azulejo_plane_set,
     size: u32,
     stride: u32,
     out: Option<&mut MaybeUninit<Box<azulejo_spectrum>>>,
 ) -> azulejo_status {
     boundary::create(out, || {
         // SAFETY: handed on from the caller.
-        let set = unsafe { PlaneSet::read(context, xy, count, [domain_min, domain_max], boundary) }?;
+        let set = unsafe { PlaneSet::read(context, set) }?;
         let [size, stride] = [size, stride].map(|number| number as usize);
         let periodogram = set.run(|context, domain, points, progress| {
             sparse_periodogram(context, domain, points, size, stride, progress)
@@ -104,14 +132,17 @@ pub unsafe extern "C" fn azulejo_spectrum_create(
     })
 }
 
-/// Makes the mean of the spectra of sets of one kind. The speckle of a single one fades with the square root of their
-/// number.
+/// Makes the mean of the spectra of sets of one kind. The noise of a single spectrum decreases with
+/// the square root of their number. It takes no context: it runs on the calling thread and does not
+/// report progress.
 ///
 /// spectra: `count` spectra, at least 1, all of one size.
 ///
-/// out: the mean, to be freed with azulejo_spectrum_free; the spectra stay the caller's.
+/// out: the mean, to be freed with azulejo_spectrum_free; the spectra still belong to the caller.
 ///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
+/// O(count * size^2) time and memory.
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_TOO_LARGE.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_spectrum_mean(
     spectra: *const *const azulejo_spectrum,
@@ -126,14 +157,14 @@ pub unsafe extern "C" fn azulejo_spectrum_mean(
     })
 }
 
-/// The frequencies per side; 0 for NULL.
+/// The number of frequencies per side; 0 for NULL.
 #[unsafe(no_mangle)]
 pub extern "C" fn azulejo_spectrum_size(spectrum: Option<&azulejo_spectrum>) -> u32 {
     spectrum.map_or(0, |spectrum| spectrum.periodogram.size() as u32)
 }
 
-/// The power, size * size numbers, row by row from the lowest frequency; frequency 0, where it is 0, stands in row and column
-/// size / 2. NULL for NULL.
+/// The power, size * size numbers, row by row from the lowest frequency. Frequency 0, whose power
+/// is set to 0, is in row and column size / 2. Valid until azulejo_spectrum_free. NULL for NULL.
 #[unsafe(no_mangle)]
 pub extern "C" fn azulejo_spectrum_power(spectrum: Option<&azulejo_spectrum>) -> *const f32 {
     spectrum.map_or(std::ptr::null(), |spectrum| array(spectrum.periodogram.power()))
@@ -141,13 +172,17 @@ pub extern "C" fn azulejo_spectrum_power(spectrum: Option<&azulejo_spectrum>) ->
 
 /// The radial curves of a spectrum, mean and anisotropy, out to its largest circle.
 ///
-/// width: the width of an annulus, above 0, in units of sqrt(density). Annuli of fewer than two frequencies are left out.
+/// width: the width of an annulus, above 0, in units of sqrt(count / area). Annuli of fewer than
+/// two frequencies are left out.
 ///
-/// annuli: where to write at most `capacity` of them, from the lowest frequency; may be NULL if `capacity` is 0.
+/// annuli: receives at most `capacity` of them, from the lowest frequency; may be NULL if
+/// `capacity` is 0.
 ///
-/// out_count: how many there are, whatever the capacity.
+/// out_count: their number, whatever the capacity.
 ///
-/// O(size^2) time.
+/// O(size^2) time on the calling thread.
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_spectrum_radial(
     spectrum: Option<&azulejo_spectrum>,
@@ -178,26 +213,30 @@ impl From<Annulus> for azulejo_annulus {
     }
 }
 
-/// Measures a spectrum: aliasing, contrast and the highest peak.
+/// Measures a spectrum: effective Nyquist frequency, oscillation, contrast and the highest peak.
 ///
-/// width: the width of the annuli of which the radial mean is made, above 0, in units of sqrt(density). 0.05 is good for
-/// sets of some thousand points.
+/// width: the width of the annuli of the radial mean, above 0, in units of sqrt(count / area); 0.05
+/// suits sets of some thousand points.
 ///
-/// low, high: the range of frequencies for contrast and peak, in units of sqrt(density).
+/// low, high: the range of frequencies for contrast and peak, finite, in units of sqrt(count /
+/// area).
 ///
-/// out: the figures.
+/// out: the report.
 ///
-/// O(size^2) time.
+/// O(size^2) time on the calling thread.
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_spectrum_measure(
     spectrum: Option<&azulejo_spectrum>,
     width: f64,
     low: f64,
     high: f64,
-    out: Option<&mut MaybeUninit<azulejo_spectrum_report>>,
+    out: *mut azulejo_spectrum_report,
 ) -> azulejo_status {
     boundary::call(|| {
-        let out = required("out", out)?;
+        // SAFETY: handed on from the caller.
+        let out = unsafe { Output::required("out", out) }?;
         let of = &required("spectrum", spectrum)?.periodogram;
         for (argument, frequency) in [("low", low), ("high", high)] {
             if !frequency.is_finite() {
@@ -212,7 +251,7 @@ pub unsafe extern "C" fn azulejo_spectrum_measure(
             contrast: of.contrast(width, low..high)?,
             peak: peak.map_or(0.0, |peak| peak.over_mean),
             peak_frequency: peak.map_or([0.0; 2], |peak| peak.frequency),
-            reserved: [0; 4],
+            ..azulejo_spectrum_report::DEFAULT
         });
         Ok(())
     })

@@ -1,7 +1,5 @@
 //! What sets of the plane are like: their spacing, order, triangles and distances.
 
-use std::mem::MaybeUninit;
-
 use azulejo_core::Domain;
 use azulejo_core::analysis::distribution::radial_distribution;
 use azulejo_core::analysis::figures::{Figures, figures_2d};
@@ -9,82 +7,117 @@ use azulejo_core::analysis::spacing::{nearest_distances_2d, nearest_histogram_2d
 
 use crate::boundary::{self, check_pointer};
 use crate::context::azulejo_context;
-use crate::domain::PlaneSet;
+use crate::domain::{PlaneSet, azulejo_plane_set};
+use crate::growing::{self, Growing, Output, growing};
 use crate::status::{Failure, azulejo_status};
 
-/// The figures of a set of the plane. The unit d_max is sqrt(2 area / (sqrt(3) count)), the distance of neighbours if as
-/// many points stood in hexagonal arrangement.
+/// The result of azulejo_plane_measure.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct azulejo_plane_report {
+    /// The size of the struct in bytes; set by the _init function.
+    pub struct_size: u32,
+    /// Always 0.
+    pub reserved: u32,
     /// The number of points.
     pub count: u64,
-    /// The smallest distance between two points, in the units of the domain; infinite for less than two, as the mean is.
+    /// The smallest distance between two points, in the units of the domain; infinite for fewer
+    /// than two.
     pub smallest_distance: f64,
-    /// The mean distance from a point to its nearest neighbour, in the units of the domain.
+    /// The mean distance from a point to its nearest neighbour, in the units of the domain;
+    /// infinite for fewer than two points.
     pub mean_distance: f64,
     /// d_max, in the units of the domain; infinite for no point.
     pub hexagonal_distance: f64,
-    /// The smallest distance in units of d_max: at most 1 on a periodic domain, about 0.77 for maximal Poisson-disk sets.
+    /// The smallest distance in units of d_max: about 0.77 for maximal Poisson-disk sets, at most 1
+    /// on a periodic domain.
     pub rho: f64,
-    /// The covering radius, in the units of the domain: see azulejo_plane_covering_radius. d_max / sqrt(3) for a hexagonal
-    /// lattice; infinite for no point.
+    /// The covering radius, in the units of the domain: see azulejo_plane_covering_radius. d_max /
+    /// sqrt(3) for a hexagonal lattice; infinite for no point.
     pub covering_radius: f64,
-    /// The bond order psi6, 0 to 1: the mean over the points of |sum of exp(6 i angle)| / n for the n directions of their
-    /// Delaunay neighbours (Nelson and Halperin 1979). 1 for a hexagonal lattice, 0.36 for a Poisson process.
+    /// The bond order psi6, 0 to 1: the mean over the points of |sum of exp(6 i angle)| / n for the
+    /// n directions of their Delaunay neighbours (Nelson and Halperin 1979). 1 for a hexagonal
+    /// lattice, 0.36 for a Poisson process.
     pub bond_order: f64,
-    /// The number of Delaunay triangles; in a bounded domain those that do not cross the border when the set is mirrored
-    /// by it.
+    /// The number of Delaunay triangles; in a bounded domain those that do not cross its edges when
+    /// the set is mirrored at them.
     pub triangles: u64,
-    /// The share of triangles with an angle above 90 degrees, 0 to 1.
+    /// The fraction of triangles with an angle above 90 degrees, 0 to 1.
     pub obtuse: f64,
-    /// The share of triangles with an angle below 30 degrees, 0 to 1.
+    /// The fraction of triangles with an angle below 30 degrees, 0 to 1.
     pub below_30_degrees: f64,
-    /// The mean length of the edges of the triangles, in the units of the domain.
+    /// The mean length of the triangles' edges, in the units of the domain.
     pub edge_mean: f64,
-    /// The variance of the lengths of the edges over the square of their mean.
+    /// The variance of the lengths of the edges over their squared mean.
     pub edge_variation: f64,
-    /// The variance of the areas of the triangles over the square of their mean.
+    /// The variance of the areas of the triangles over their squared mean.
     pub area_variation: f64,
-    /// The share of angles, of all triangles, below 30 degrees, 0 to 1.
+    /// The fraction of the angles of all triangles that are below 30 degrees, 0 to 1.
     pub angles_below_30_degrees: f64,
-    /// The share of triangles whose area is farther than 4 standard deviations from the mean, 0 to 1.
+    /// The fraction of triangles whose area is farther than 4 standard deviations from the mean, 0
+    /// to 1.
     pub beyond_4_sigma: f64,
-    /// Zeros, for later versions.
-    pub reserved: [u64; 9],
+}
+
+growing!(azulejo_plane_report requires count {
+    reserved: 0,
+    count: 0,
+    smallest_distance: 0.0,
+    mean_distance: 0.0,
+    hexagonal_distance: 0.0,
+    rho: 0.0,
+    covering_radius: 0.0,
+    bond_order: 0.0,
+    triangles: 0,
+    obtuse: 0.0,
+    below_30_degrees: 0.0,
+    edge_mean: 0.0,
+    edge_variation: 0.0,
+    area_variation: 0.0,
+    angles_below_30_degrees: 0.0,
+    beyond_4_sigma: 0.0,
+});
+
+/// Writes zeros and the size. `struct_size` is sizeof *report.
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_plane_report_init(
+    report: *mut azulejo_plane_report,
+    struct_size: usize,
+) -> azulejo_status {
+    // SAFETY: handed on from the caller.
+    unsafe { growing::init("report", report, struct_size) }
 }
 
 /// Measures points of the plane: spacing, covering radius, bond order and Delaunay triangles.
 ///
-/// xy: the points, x y each, in the domain; `count` of them.
+/// set: the points.
 ///
-/// domain_min, domain_max, boundary: two numbers, two numbers and a constant, as in the options.
+/// out: the report.
 ///
-/// out: the figures.
+/// O(count * log count) time for evenly spread points.
 ///
-/// O(count log count) time for points that leave no large holes and are not clustered: some seconds for a million.
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_TOO_LARGE, AZULEJO_ERROR_CANCELLED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_plane_measure(
     context: Option<&azulejo_context>,
-    xy: *const f32,
-    count: usize,
-    domain_min: *const f64,
-    domain_max: *const f64,
-    boundary: i32,
-    out: Option<&mut MaybeUninit<azulejo_plane_report>>,
+    set: *const azulejo_plane_set,
+    out: *mut azulejo_plane_report,
 ) -> azulejo_status {
-    boundary::answer(out, || {
+    boundary::call(|| {
         // SAFETY: handed on from the caller.
-        let set = unsafe { PlaneSet::read(context, xy, count, [domain_min, domain_max], boundary) }?;
-        let count = count as u64;
-        set.run(|context, domain, points, progress| {
+        let (out, set) = unsafe { (Output::required("out", out)?, PlaneSet::read(context, set)?) };
+        let count = set.points.len() as u64;
+        out.write(set.run(|context, domain, points, progress| {
             Ok(report(count, domain, &figures_2d(context, domain, points, progress)?))
-        })
+        })?);
+        Ok(())
     })
 }
 
 fn report(count: u64, domain: &Domain, figures: &Figures) -> azulejo_plane_report {
-    let Figures { nearest, covering_radius, bond_order, triangles } = figures;
+    let Figures { nearest, covering_radius, bond_order, triangles, .. } = figures;
     let spacing = spacing_2d(domain, nearest);
     azulejo_plane_report {
         count,
@@ -102,32 +135,29 @@ fn report(count: u64, domain: &Domain, figures: &Figures) -> azulejo_plane_repor
         area_variation: triangles.area_variation,
         angles_below_30_degrees: triangles.angles_below_30_degrees,
         beyond_4_sigma: triangles.beyond_4_sigma,
-        reserved: [0; 9],
+        ..azulejo_plane_report::DEFAULT
     }
 }
 
 /// The histogram of the distances from points of the plane to their nearest neighbours.
 ///
-/// xy: the points, x y each, in the domain; `count` of them.
+/// set: the points.
 ///
-/// domain_min, domain_max, boundary: two numbers, two numbers and a constant, as in the options.
+/// reach: where the last bin ends, above 0, in units of d_max.
 ///
-/// reach: where the last bin ends, above 0, in units of d_max (see azulejo_plane_report).
+/// bins: the number of bins of equal width from 0 to `reach`, 1 to 65536.
 ///
-/// bins: how many bins of equal width there are from 0 to `reach`, 1 to 65536.
+/// out: an array of `bins` numbers: how many points have their nearest neighbour at such a
+/// distance. Distances of `reach` and more, and a single point, are in no bin. Histograms of
+/// several sets may be added.
 ///
-/// out: an array of `bins` numbers, how many points have their nearest neighbour at such a distance. Those at `reach` or
-/// farther, and a point that is alone, are in none. Histograms of several sets add up.
+/// O(count) time for evenly spread points.
 ///
-/// O(count) time for points that are spread evenly.
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_TOO_LARGE, AZULEJO_ERROR_CANCELLED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_plane_nearest_histogram(
     context: Option<&azulejo_context>,
-    xy: *const f32,
-    count: usize,
-    domain_min: *const f64,
-    domain_max: *const f64,
-    boundary: i32,
+    set: *const azulejo_plane_set,
     reach: f64,
     bins: usize,
     out: *mut u64,
@@ -135,7 +165,7 @@ pub unsafe extern "C" fn azulejo_plane_nearest_histogram(
     boundary::call(|| {
         check_bins(out, bins)?;
         // SAFETY: handed on from the caller.
-        let set = unsafe { PlaneSet::read(context, xy, count, [domain_min, domain_max], boundary) }?;
+        let set = unsafe { PlaneSet::read(context, set) }?;
         let histogram = set.run(|context, domain, points, progress| {
             // Bad bins are refused before any work.
             nearest_histogram_2d(domain, &[], reach, bins)?;
@@ -148,33 +178,31 @@ pub unsafe extern "C" fn azulejo_plane_nearest_histogram(
     })
 }
 
-/// The radial distribution function g of points of the plane, also called pair correlation: the density of other points at
-/// a distance from a point, over the mean density. 1 for a Poisson process; a hexagonal lattice has peaks at 1, sqrt(3),
-/// 2, ... d_max.
+/// The radial distribution function g of points of the plane, also called pair correlation: the
+/// density of other points at a distance from a point, over the mean density. 1 for a Poisson
+/// process; a hexagonal lattice has peaks at 1, sqrt(3), 2, ... d_max.
 ///
-/// In a bounded domain each pair counts by one over the share of the domain that stays in it when it is moved by their
-/// difference, which makes up for the border (Ohser and Stoyan 1981).
+/// In a bounded domain each pair is weighted by one over the fraction of the domain that overlaps
+/// with the domain translated by their difference, which corrects for the edges (Ohser and Stoyan
+/// 1981).
 ///
-/// xy: the points, x y each, in the domain; `count` of them, at least 2.
+/// set: the points, at least 2.
 ///
-/// domain_min, domain_max, boundary: two numbers, two numbers and a constant, as in the options.
-///
-/// reach: where the last bin ends, in units of d_max (see azulejo_plane_report): above 0, and at most half the width or
+/// reach: where the last bin ends, in units of d_max: above 0, and at most half of the width or
 /// height of the domain.
 ///
-/// bins: how many bins of equal width there are from 0 to `reach`, 1 to 65536.
+/// bins: the number of bins of equal width from 0 to `reach`, 1 to 65536.
 ///
-/// out: an array of `bins` numbers, the mean of g in each bin. The mean over sets of one kind and count is their g.
+/// out: an array of `bins` numbers: the mean of g in each bin. For sets of one kind and count, the
+/// mean of these over the sets is their g.
 ///
-/// O(count * (1 + reach^2)) time for points that are spread evenly.
+/// O(count * (1 + reach^2)) time for evenly spread points.
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_TOO_LARGE, AZULEJO_ERROR_CANCELLED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_plane_radial_distribution(
     context: Option<&azulejo_context>,
-    xy: *const f32,
-    count: usize,
-    domain_min: *const f64,
-    domain_max: *const f64,
-    boundary: i32,
+    set: *const azulejo_plane_set,
     reach: f64,
     bins: usize,
     out: *mut f64,
@@ -182,7 +210,7 @@ pub unsafe extern "C" fn azulejo_plane_radial_distribution(
     boundary::call(|| {
         check_bins(out, bins)?;
         // SAFETY: handed on from the caller.
-        let set = unsafe { PlaneSet::read(context, xy, count, [domain_min, domain_max], boundary) }?;
+        let set = unsafe { PlaneSet::read(context, set) }?;
         let distribution = set.run(|context, domain, points, progress| {
             radial_distribution(context, domain, points, reach, bins, progress)
         })?;

@@ -5,31 +5,34 @@ use std::ffi::c_char;
 
 use azulejo_core::Error;
 
-/// What a call answers: AZULEJO_OK or a negative AZULEJO_ERROR_ code. Codes are never reused; new ones may come.
+/// The result of a call: AZULEJO_OK or a negative AZULEJO_ERROR_ code. Codes are never reused;
+/// later versions may add some.
 pub type azulejo_status = i32;
 
-/// The call did what it says.
+/// The call succeeded.
 pub const AZULEJO_OK: i32 = 0;
 /// An argument or an option is outside its documented range.
 pub const AZULEJO_ERROR_INVALID_ARGUMENT: i32 = -1;
-/// The call asks for more than can be indexed or held; refused before memory was taken, with the estimate.
+/// The call asks for more than can be indexed or held in memory. It is refused before memory is
+/// taken; the message has the estimate.
 pub const AZULEJO_ERROR_TOO_LARGE: i32 = -2;
 /// A file could not be read.
 pub const AZULEJO_ERROR_IO: i32 = -3;
-/// A file was read, but is not what it should be.
+/// A file was read, but its content is not valid.
 pub const AZULEJO_ERROR_FORMAT: i32 = -4;
 /// A callback of the caller cancelled the call.
 pub const AZULEJO_ERROR_CANCELLED: i32 = -5;
-/// Memory for a copy of the caller's arrays could not be had.
+/// There is no memory for a copy of the caller's arrays.
 pub const AZULEJO_ERROR_OUT_OF_MEMORY: i32 = -6;
-/// Embree refused: no device, no memory, or a scene that it cannot build.
+/// Embree failed: no device, no memory, or a scene that it cannot build.
 pub const AZULEJO_ERROR_EMBREE: i32 = -7;
-/// Threads could not be started, or are in the process that this one was forked from.
+/// Threads could not be started, or the context's threads are in the process from which this one
+/// was forked.
 pub const AZULEJO_ERROR_THREADS: i32 = -8;
-/// A bug of the library, please report it. Handles that took part in the call can only be freed.
+/// A bug in the library; please report it. Handles that took part in the call can only be freed.
 pub const AZULEJO_ERROR_INTERNAL: i32 = -100;
 
-/// A call that was refused or could not be finished: its status and what to tell the caller.
+/// A call that was refused or could not be finished: its status and its message.
 #[derive(Debug)]
 pub(crate) struct Failure {
     status: azulejo_status,
@@ -78,14 +81,16 @@ thread_local! {
     static LAST_ERROR: RefCell<String> = const { RefCell::new(String::new()) };
 }
 
-/// Copies the message of this thread's last failed call: one line of UTF-8, ended by a NUL, empty if none failed.
+/// Copies the message of this thread's last failed call: one line of UTF-8, terminated by a NUL;
+/// empty if no call has failed.
 ///
-/// Calls that succeed leave the message as it is: ask right after the call that failed.
+/// Calls that succeed leave the message as it is, so ask right after the call that failed. O(length
+/// of the message).
 ///
-/// buffer: where to write at most `capacity` bytes, the NUL among them; a longer message is cut between two
+/// buffer: receives at most `capacity` bytes including the NUL; a longer message is cut between two
 /// characters. May be NULL if `capacity` is 0.
 ///
-/// Returns the bytes that the whole message needs, the NUL among them.
+/// Returns the size of the whole message in bytes, including the NUL.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_last_error_message(buffer: *mut c_char, capacity: usize) -> usize {
     let copy = |message: &RefCell<String>| {

@@ -2,14 +2,15 @@
 
 /// The major version of this header. It changes when programs must be changed.
 pub const AZULEJO_VERSION_MAJOR: u32 = 0;
-/// The minor version of this header. It changes when something is added; before 1.0 also when programs must be changed.
-pub const AZULEJO_VERSION_MINOR: u32 = 1;
-/// The patch level of this header.
+/// The minor version of this header. It changes when something is added; before 1.0 also when
+/// programs must be changed.
+pub const AZULEJO_VERSION_MINOR: u32 = 2;
+/// The patch version of this header.
 pub const AZULEJO_VERSION_PATCH: u32 = 0;
 /// The version of this header as one number: major * 10000 + minor * 100 + patch.
-pub const AZULEJO_VERSION: u32 = AZULEJO_VERSION_MAJOR * 10000 + AZULEJO_VERSION_MINOR * 100 + AZULEJO_VERSION_PATCH;
+pub const AZULEJO_VERSION: u32 = 200;
 
-/// The version of the library that the program runs with, to compare with AZULEJO_VERSION.
+/// The version of the library that the program runs with, to be compared with AZULEJO_VERSION.
 #[unsafe(no_mangle)]
 pub extern "C" fn azulejo_version() -> u32 {
     AZULEJO_VERSION
@@ -21,6 +22,8 @@ mod tests {
 
     #[test]
     fn the_constants_are_the_version_of_the_crate() {
+        let number = AZULEJO_VERSION_MAJOR * 10000 + AZULEJO_VERSION_MINOR * 100 + AZULEJO_VERSION_PATCH;
+        assert_eq!(number, AZULEJO_VERSION);
         let constants = format!("{AZULEJO_VERSION_MAJOR}.{AZULEJO_VERSION_MINOR}.{AZULEJO_VERSION_PATCH}");
         assert_eq!(constants, env!("CARGO_PKG_VERSION"));
     }

@@ -2,6 +2,9 @@
 
 use std::{env, fs, path::Path};
 
+/// As wide as a line of the header may be.
+const COLUMNS: usize = 100;
+
 #[test]
 fn the_committed_header_is_the_generated_one() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
@@ -11,6 +14,9 @@ fn the_committed_header_is_the_generated_one() {
     let mut generated = Vec::new();
     cbindgen::generate_with_config(root, config).unwrap().write(&mut generated);
     let generated = String::from_utf8(generated).unwrap();
+
+    let is_too_long = |line: &&str| line.chars().count() > COLUMNS;
+    assert_eq!(generated.lines().find(is_too_long), None, "a line of the header is longer than {COLUMNS} columns");
 
     let path = root.join("../../include/azulejo.h");
     if env::var_os("AZULEJO_BLESS").is_some() {

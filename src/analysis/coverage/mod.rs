@@ -25,6 +25,7 @@ const TASK: usize = 512;
 
 /// How a set covers a domain or a surface with disks of a radius.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Coverage {
     /// The covering radius: the worst distance of a place from the samples.
     pub farthest: f64,

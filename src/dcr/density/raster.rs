@@ -1,22 +1,22 @@
 //! The density on a grid of the domain, and the local spacing that follows from it.
 //!
-//! The spacing at a place is 1 / sqrt(density) in units of that of the mean density, but no more than [`SLOPE`] times a
-//! distance above that at any other place (as sizes of mesh elements are graded: Persson 2006, "Mesh size functions for
-//! implicit geometries and PDE-based mesh generation"). Where no points are wanted it is therefore finite, and a point that
-//! has strayed there yields to those at the edge instead of clearing its surroundings.
+//! The spacing at a position is 1 / sqrt(density) in units of that of the mean density, but no more than [`SLOPE`]
+//! times a distance above that at any other position (as sizes of mesh elements are graded: Persson 2006, "Mesh size
+//! functions for implicit geometries and PDE-based mesh generation"). So it is finite where no points are wanted, and a
+//! point that has strayed there yields to those at the edge instead of clearing its surroundings.
 
 use glam::Vec2;
 
-use crate::dcr::density::{Density, is_density};
-use crate::dcr::ground::torus::{HALF, Place, Torus};
+use crate::dcr::density::source::{Density, is_density};
+use crate::dcr::ground::torus::{HALF, Torus, TorusPoint};
 use crate::error::{Error, Result};
 use crate::job::{Job, chunks_of};
 use crate::memory;
 use crate::points::{Boundary, Domain};
 use crate::rng::{Draw, Rng};
 
-/// How fast the spacing grows at most from place to place, per distance; 1 leaves three times the error of tone beside
-/// edges, and so does 0.25.
+/// The largest growth of the spacing per distance; 1 leaves three times the error of tone beside edges, and so does
+/// 0.25.
 const SLOPE: f32 = 0.5;
 
 /// Cells per distance of points, at least and at most; between them a cell is a pixel.
@@ -25,7 +25,7 @@ const FINENESS: [f64; 2] = [4.0, 8.0];
 /// Memory for a cell at the peak, when its density is in two arrays.
 const BYTES_PER_CELL: f64 = 12.0;
 
-/// Cells along an axis, at least: few points too shall find what is dark in an image.
+/// Cells along an axis, at least: dark parts of an image must be found by a few points too.
 const FEWEST: usize = 64;
 
 /// A grid over the domain.
@@ -97,7 +97,7 @@ impl Raster {
         Ok((sum / (parts[0] * parts[1]) as f64) as f32)
     }
 
-    /// The density at a share of the width and of the height.
+    /// The density at a fraction of the width and of the height.
     fn at_share(&self, density: &Density, share: [f64; 2]) -> Result<f64> {
         match *density {
             Density::Image { values, width, height } => {
@@ -120,8 +120,8 @@ impl Raster {
         }
     }
 
-    /// Brings every spacing down to what its neighbours allow, which are a `step` away along each axis: two passes over the
-    /// grid, as distance transforms are made (Rosenfeld and Pfaltz 1966), and two more for what crosses the seam of a torus.
+    /// Lowers every spacing to what its neighbours allow, which are a `step` away along each axis: two passes over the
+    /// grid, as in distance transforms (Rosenfeld and Pfaltz 1966), and two more across the seam of a torus.
     fn limit_slope(&mut self, step: Vec2) {
         let [columns, rows] = self.cells;
         let wraps = self.domain.boundary == Boundary::Periodic;
@@ -150,17 +150,17 @@ impl Raster {
         }
     }
 
-    /// The local spacing at a place.
-    pub(super) fn spacing(&self, place: Place) -> f32 {
+    /// The local spacing at a point.
+    pub(super) fn spacing(&self, place: TorusPoint) -> f32 {
         self.interpolate(&self.spacing, place)
     }
 
-    /// The density at a place, in units of the mean.
-    pub(super) fn density(&self, place: Place) -> f32 {
+    /// The density at a point, in units of the mean.
+    pub(super) fn density(&self, place: TorusPoint) -> f32 {
         self.interpolate(&self.density, place)
     }
 
-    fn interpolate(&self, values: &[f32], place: Place) -> f32 {
+    fn interpolate(&self, values: &[f32], place: TorusPoint) -> f32 {
         let [x, y] = [0, 1].map(|axis| {
             let share = match self.domain.boundary {
                 Boundary::Periodic => f64::from(place[axis]) / 2f64.powi(32),
@@ -181,8 +181,9 @@ impl Raster {
         self.spacing.iter().fold(range, |[low, high], &spacing| [low.min(spacing), high.max(spacing)])
     }
 
-    /// The density as weights at places, which sum up to `total`: one for each block of cells that is no wider than `width`.
-    pub(super) fn weights(&self, torus: &Torus, width: f64, total: f64) -> Vec<(Place, f64)> {
+    /// The density as weighted points, whose weights sum up to `total`: one for each block of cells no wider than
+    /// `width`.
+    pub(super) fn weights(&self, torus: &Torus, width: f64, total: f64) -> Vec<(TorusPoint, f64)> {
         let extent = self.domain.extent().map(|length| length / torus.frame.spacing());
         let block = [0, 1].map(|axis| ((width * self.cells[axis] as f64 / extent[axis]) as usize).max(1));
         let unit = total / self.density.len() as f64;
@@ -198,7 +199,7 @@ impl Raster {
         weights
     }
 
-    /// Random points, as dense as the density asks for.
+    /// Random points with this density.
     pub(super) fn scatter(&self, torus: &Torus, count: usize, seed: u64) -> Vec<[f32; 2]> {
         let add = |sum: &mut f64, &density: &f32| {
             *sum += f64::from(density);
@@ -217,8 +218,8 @@ impl Raster {
         (0..count as u64).map(point).collect()
     }
 
-    /// The place on the torus at a share of the width and of the height.
-    pub(super) fn place(&self, share: [f64; 2]) -> Place {
+    /// The point on the torus at a fraction of the width and of the height.
+    pub(super) fn place(&self, share: [f64; 2]) -> TorusPoint {
         let period = match self.domain.boundary {
             Boundary::Periodic => 2f64.powi(32),
             Boundary::Bounded => f64::from(HALF),
@@ -227,15 +228,16 @@ impl Raster {
     }
 }
 
-/// Two neighbours of a row of cells, and how far a place is on the way from the centre of one to that of the other.
+/// Two neighbouring cells of a row, and a position between their centres.
 struct Between {
     first: usize,
     second: usize,
+    /// The distance from the first centre, in cells.
     share: f64,
 }
 
 impl Between {
-    /// Around a share of the length of a row; at its ends there is one neighbour, or the one beyond the seam.
+    /// The cells around a fraction of the length of a row; at its ends one cell, or the one beyond the seam.
     fn of(share: f64, count: usize, boundary: Boundary) -> Self {
         let place = share * count as f64 - 0.5;
         let first = place.floor();

@@ -1,14 +1,27 @@
-//! What neighbours do to a point: two constraints, each of which is still when it is met.
+//! What neighbours do to a point: two constraints, neither of which exerts a force when it is met.
 //!
 //! * *Conflict*: neighbours closer than the conflict radius push the point away, as in the thesis (eq. 4.10).
-//! * *Coverage*: triangles with a circumradius above the coverage radius pull the point towards their circumcentre, which
-//!   is the farthest place from all points. The thesis attracts along long edges instead, but a long edge need not mean a
-//!   hole, nor a hole a long edge (Ahmed et al. 2016, "A simple push-pull algorithm for blue-noise sampling").
+//! * *Coverage*: triangles with a circumradius above the coverage radius pull the point towards their circumcentre,
+//!   which is the position farthest from all points. The thesis attracts along long edges instead, but a long edge need
+//!   not mean a hole, nor a hole a long edge (Ahmed et al. 2016, "A simple push-pull algorithm for blue-noise
+//!   sampling").
 
 use glam::Vec2;
 
-/// The tension at which a pull stops growing: wide holes of random sets would tear their borders in.
-pub(crate) const STRONGEST_PULL: f32 = 1.0;
+use crate::geometry::circumcircle::scaled_circumcentre;
+
+/// The fraction of its last displacement that a point repeats in a step.
+pub(in crate::dcr) const MOMENTUM: f32 = 0.78;
+
+/// The fraction of its clearance that a point may move by: less than half, so that no triangle turns over.
+pub(in crate::dcr) const SAFE_FRACTION: f32 = 0.45;
+
+/// The clearance, in spacings, of points that are in no mesh.
+pub(in crate::dcr) const FREE_CLEARANCE: f32 = 1.0;
+
+/// The tension at which a pull stops growing: otherwise the wide holes of random sets would draw the points around them
+/// too far in.
+pub(in crate::dcr) const STRONGEST_PULL: f32 = 1.0;
 
 /// The steps over which constraints grow stiffer.
 pub(in crate::dcr) const STIFFENING: u32 = 60;
@@ -24,24 +37,24 @@ pub(in crate::dcr) struct Constraints {
     pub(in crate::dcr) pull: f32,
 }
 
-/// The sum of forces on a point, and the room that it has.
+/// The sum of forces on a point, and how far it may move.
 pub(in crate::dcr) struct Force {
     pub(in crate::dcr) sum: Vec2,
-    /// The least height of the triangles around the point. If no corner of a triangle moves by more than half of its least
-    /// height, it cannot turn over: three points that near to a line are no triangle of that height.
-    pub(in crate::dcr) room: f32,
+    /// The least height of the triangles around the point. If no corner of a triangle moves by half of its least
+    /// height, it cannot turn over: three points that close to a line form no triangle of that height.
+    pub(in crate::dcr) clearance: f32,
 }
 
 impl Constraints {
-    /// The constraints of a step with Delaunay neighbours. Radii and stiffness, and the momentum, are the best of those
-    /// tried on sets of 1,000 to 65,536 points: with more momentum sets get more regular, with stiffer pulls too.
+    /// The constraints of a step with Delaunay neighbours. Radii, stiffness and momentum were chosen on sets of 1,000 to
+    /// 65,536 points: with more momentum or stiffer pulls sets get more regular.
     pub(in crate::dcr) fn of_step(iterations: u32) -> Self {
         let stiff = iterations.min(STIFFENING) as f32 / STIFFENING as f32;
         let (push, pull) = (0.1 + 0.3 * stiff, 0.1 + 0.1 * stiff);
         Self { conflict_radius: 0.862, coverage_radius: 0.66, push, pull }
     }
 
-    /// The force by the neighbours on a ring around the point, in counter-clockwise order.
+    /// The force by the neighbours, which form a ring around the point, in counter-clockwise order.
     pub(in crate::dcr) fn force(&self, ring: &[Vec2]) -> Force {
         // The square of the least height is a fraction: one division is enough for all.
         let (mut sum, mut least) = (Vec2::ZERO, (f32::INFINITY, 1f32));
@@ -60,7 +73,7 @@ impl Constraints {
             }
             (before, before_squared) = (offset, squared);
         }
-        Force { sum, room: (least.0 / least.1).sqrt() }
+        Force { sum, clearance: (least.0 / least.1).sqrt() }
     }
 
     /// The force by one neighbour.
@@ -74,7 +87,7 @@ impl Constraints {
 
     /// The force by a hole: the triangle between two neighbours, of twice this area.
     pub(in crate::dcr) fn pull(&self, a: Vec2, b: Vec2, area: f32) -> Vec2 {
-        let centre = (b.length_squared() * a.perp() - a.length_squared() * b.perp()) * (2.0 * area).recip();
+        let centre = scaled_circumcentre(a, b) * (2.0 * area).recip();
         let radius = centre.length();
         // Infinite or NaN for triangles without area, and 0 by rounding where two neighbours all but coincide.
         if !(radius.is_finite() && radius > 0.0) {
@@ -90,7 +103,7 @@ mod tests {
 
     #[test]
     fn neighbours_that_all_but_coincide_push_and_do_not_tear() {
-        // Their circumcentre is found to be the point itself: a hole of no size, which must not divide by its radius.
+        // Their circumcentre is computed as the point itself: a hole of radius 0, by which nothing may be divided.
         let ring = [
             Vec2::new(-0.57636416, 0.43213812),
             Vec2::new(-0.6563772, -1.291182),
@@ -99,7 +112,7 @@ mod tests {
             Vec2::new(0.7383431, 1.509538),
             Vec2::new(0.73834306, 1.509538),
         ];
-        let Force { sum, room } = Constraints::of_step(30).force(&ring);
-        assert!(sum.is_finite() && sum.length() < 1.0 && room > 0.0, "{sum}, {room}");
+        let Force { sum, clearance } = Constraints::of_step(30).force(&ring);
+        assert!(sum.is_finite() && sum.length() < 1.0 && clearance > 0.0, "{sum}, {clearance}");
     }
 }

@@ -1,9 +1,14 @@
-//! What the relaxation methods of the plane share: the torus in integers, the boundary, long waves, constraints, motion.
+//! What the relaxation methods share: the torus in integers, the mirror boundary, long waves, constraints, flips,
+//! motion.
 
-pub(crate) mod border;
-pub(crate) mod constraints;
-pub(crate) mod motion;
-pub(crate) mod torus;
+pub(super) mod boundary;
+pub(super) mod constraints;
+pub(super) mod curve;
+pub(super) mod flips;
+pub(super) mod memory;
+pub(super) mod motion;
+pub(super) mod neighbours;
+pub(super) mod torus;
 #[cfg(test)]
-pub(crate) mod wandering;
-pub(crate) mod waves;
+pub(super) mod wandering;
+pub(super) mod waves;

@@ -1,9 +1,9 @@
-//! Places on a torus as fractions of its periods.
+//! Points on a torus as fractions of its periods.
 //!
-//! A coordinate is a `u32` that counts 2^-32 of a period, so the difference of two places, taken as `i32`, is the
-//! shortest way from one to the other, and no border needs attention. A bounded domain becomes a torus of twice its width
-//! and height, on which its three mirror images stand beside it (thesis Fig. 4.12 (b)): whatever treats a point and its
-//! images alike keeps the mirrors in their places, and with them the border.
+//! A coordinate is a `u32` that counts 2^-32 of a period, so the difference of two points, taken as `i32`, is the
+//! shortest offset between them, and the seam of the torus needs no code. A bounded domain becomes a torus of twice its
+//! width and height, on which its three mirror images stand beside it (thesis Fig. 4.12 (b)): whatever treats a point
+//! and its images alike keeps the mirrors where they are, and with them the boundary.
 
 use glam::{DVec2, Vec2};
 
@@ -13,23 +13,24 @@ use crate::job::{Job, chunks};
 use crate::points::{Boundary, Domain};
 use crate::rng::{Draw, Rng};
 
-/// A place on the torus, in 2^-32 of the periods.
-pub(in crate::dcr) type Place = [u32; 2];
+/// A point on the torus, in 2^-32 of the periods.
+pub(in crate::dcr) type TorusPoint = [u32; 2];
 
-/// Half a period: the far border of a domain that is mirrored.
+/// Half a period: the far boundary of a domain that is mirrored.
 pub(in crate::dcr) const HALF: u32 = 1 << 31;
 
-/// Points of a bounded domain keep this distance from its border, lest they meet their mirror images.
+/// Points of a bounded domain keep this distance from its boundary, so that none meets its mirror image.
 const INSET: u32 = 16;
 
-/// A little less than a quarter of a period. A flip can double an edge, and half a period is the longest unambiguous way.
+/// A little less than a quarter of a period. A flip can double an edge, and half a period is the longest unambiguous
+/// offset.
 const LONGEST: f32 = 0.9999 * (1u32 << 30) as f32;
 
 /// How far positions are nudged, in spacings.
 const NUDGE: f64 = 1e-7;
 
-/// Where points and their images stand on a torus that a domain is mirrored on.
-const MIRRORS: [fn(Place) -> Place; 4] = [
+/// Where a point and its images are on a torus that a domain is mirrored on.
+const MIRRORS: [fn(TorusPoint) -> TorusPoint; 4] = [
     |place| place,
     |[x, y]| [x.wrapping_neg(), y],
     |[x, y]| [x, y.wrapping_neg()],
@@ -73,7 +74,7 @@ impl Torus {
         torus
     }
 
-    /// How often each point stands on the torus.
+    /// How often each point occurs on the torus.
     pub(in crate::dcr) fn copies(&self) -> usize {
         match self.domain.boundary() {
             Boundary::Periodic => 1,
@@ -81,28 +82,28 @@ impl Torus {
         }
     }
 
-    /// The places of points of the domain: no two coincide, and not all lie on one line.
-    pub(in crate::dcr) fn enter(&self, points: &[[f32; 2]], seed: u64) -> Vec<Place> {
+    /// The points of a domain on the torus, parted so that no two coincide and not all lie on one line.
+    pub(in crate::dcr) fn enter(&self, points: &[[f32; 2]], seed: u64) -> Vec<TorusPoint> {
         let entered = self.frame.enter(points).into_iter();
         let mut positions: Vec<DVec2> = entered.map(|position| self.position(self.place(position))).collect();
         self.frame.part(&mut positions, seed);
         positions.into_iter().map(|position| self.place(position)).collect()
     }
 
-    /// A place in the user's coordinates.
-    pub(in crate::dcr) fn leave(&self, place: Place) -> [f32; 2] {
+    /// A point in the user's coordinates.
+    pub(in crate::dcr) fn leave(&self, place: TorusPoint) -> [f32; 2] {
         self.domain.leave(self.position(place) * (self.frame.spacing() / self.domain.spacing()))
     }
 
-    /// The place of the domain that a position of the torus is, or is the image of.
-    pub(in crate::dcr) fn place(&self, position: DVec2) -> Place {
+    /// The point of the domain at a position of the torus, or the one that it is the image of.
+    pub(in crate::dcr) fn place(&self, position: DVec2) -> TorusPoint {
         // What rounds up to a whole period wraps to 0.
         let fractions = (position / self.unit).round().to_array().map(|x| x as i64 as u32);
         self.inside(fractions)
     }
 
-    /// A place, brought back into the part of the torus that is the domain.
-    fn inside(&self, place: Place) -> Place {
+    /// A point, moved back into the part of the torus that is the domain.
+    fn inside(&self, place: TorusPoint) -> TorusPoint {
         match self.domain.boundary() {
             Boundary::Periodic => place,
             Boundary::Bounded => place.map(|x| x.min(x.wrapping_neg()).clamp(INSET, HALF - INSET)),
@@ -110,17 +111,17 @@ impl Torus {
     }
 
     /// The position in spacings.
-    pub(in crate::dcr) fn position(&self, place: Place) -> DVec2 {
+    pub(in crate::dcr) fn position(&self, place: TorusPoint) -> DVec2 {
         DVec2::new(place[0].into(), place[1].into()) * self.unit
     }
 
-    /// The places of points and, where the domain is mirrored, after them those of their images.
-    pub(in crate::dcr) fn with_images(&self, points: &[Place]) -> Vec<Place> {
+    /// The points and, where the domain is mirrored, after them their images.
+    pub(in crate::dcr) fn with_images(&self, points: &[TorusPoint]) -> Vec<TorusPoint> {
         MIRRORS[..self.copies()].iter().flat_map(|mirror| points.iter().copied().map(mirror)).collect()
     }
 
-    /// Brings the images behind the first `count` places to where their points are.
-    pub(crate) fn mirror(&self, job: &Job, places: &mut [Place], count: usize) -> Result<()> {
+    /// Moves the images, which follow the first `count` places, to where their points are.
+    pub(in crate::dcr) fn mirror(&self, job: &Job, places: &mut [TorusPoint], count: usize) -> Result<()> {
         let (points, images) = places.split_at_mut(count);
         let size = chunks(count).size();
         let parts = images.chunks_mut(count.max(1)).zip(&MIRRORS[1..]).flat_map(|(images, mirror)| {
@@ -132,9 +133,10 @@ impl Torus {
         Ok(())
     }
 
-    /// How far a point's own images across the borders are, along `x` and along `y`; NaN on a periodic domain.
+    /// The distances from a point to its own images across the boundary, along `x` and along `y`; NaN on a periodic
+    /// domain.
     #[inline(always)]
-    pub(crate) fn ways_to_images(&self, place: Place) -> [f32; 2] {
+    pub(in crate::dcr) fn image_distances(&self, place: TorusPoint) -> [f32; 2] {
         match self.domain.boundary() {
             Boundary::Periodic => [f32::NAN; 2],
             Boundary::Bounded => {
@@ -144,61 +146,47 @@ impl Torus {
         }
     }
 
-    /// The ways from a point of a bounded domain to its own images across the nearest borders.
-    pub(in crate::dcr) fn own_images(&self, place: Place) -> [Vec2; 2] {
+    /// The offsets from a point of a bounded domain to its own images across the nearest sides.
+    pub(in crate::dcr) fn own_images(&self, place: TorusPoint) -> [Vec2; 2] {
         let [x, y] = place;
-        [[x.wrapping_neg(), y], [x, y.wrapping_neg()]].map(|image| self.way(place, image))
+        [[x.wrapping_neg(), y], [x, y.wrapping_neg()]].map(|image| self.offset_f32(place, image))
     }
 
-    /// The positions of places, nudged so little that nothing changes but this: where four stand on one circle, as points
-    /// and their mirror images do, all copies of them agree on which diagonal is an edge.
-    pub(in crate::dcr) fn nudged(&self, places: &[Place]) -> Vec<DVec2> {
+    /// The positions of points, nudged by so little that it changes one thing only: where four are on one circle, as
+    /// points and their mirror images are, all copies of them agree on the diagonal that is an edge.
+    pub(in crate::dcr) fn nudged(&self, places: &[TorusPoint]) -> Vec<DVec2> {
         (0..).zip(places).map(|(point, &place)| self.position(place) + nudge(point)).collect()
     }
 
     /// The length of 2^-32 of each period, and the longest edges whose double is unambiguous: a quarter of each.
-    pub(crate) fn unit_and_longest(&self) -> (Vec2, [f32; 2]) {
+    pub(in crate::dcr) fn unit_and_longest(&self) -> (Vec2, [f32; 2]) {
         let unit = self.unit.as_vec2();
         (unit, (unit * LONGEST).to_array())
     }
 
-    /// The shortest way between two places.
-    pub(in crate::dcr) fn offset(&self, from: Place, to: Place) -> DVec2 {
+    /// The shortest offset between two points.
+    pub(in crate::dcr) fn offset(&self, from: TorusPoint, to: TorusPoint) -> DVec2 {
         let along = |axis: usize| f64::from(to[axis].wrapping_sub(from[axis]).cast_signed());
         DVec2::new(along(0), along(1)) * self.unit
     }
 
-    /// [`Torus::offset`], sooner than exactly: to seven digits.
-    pub(in crate::dcr) fn way(&self, from: Place, to: Place) -> Vec2 {
+    /// [`Torus::offset`] to seven digits, which is faster.
+    pub(in crate::dcr) fn offset_f32(&self, from: TorusPoint, to: TorusPoint) -> Vec2 {
         let along = |axis: usize| to[axis].wrapping_sub(from[axis]).cast_signed() as f32;
         Vec2::new(along(0), along(1)) * self.unit.as_vec2()
     }
 
-    /// Where a point of the domain gets by a displacement.
-    pub(in crate::dcr) fn moved(&self, place: Place, displacement: Vec2) -> Place {
+    /// A point of the domain after a displacement.
+    pub(in crate::dcr) fn moved(&self, place: TorusPoint, displacement: Vec2) -> TorusPoint {
         let by = (displacement * self.per_spacing).to_array();
         self.inside(std::array::from_fn(|axis| place[axis].wrapping_add((by[axis] as i32).cast_unsigned())))
     }
 }
 
-/// By how much a point is nudged.
-pub(crate) fn nudge(point: u32) -> DVec2 {
+/// The displacement by which a point is nudged.
+pub(in crate::dcr) fn nudge(point: u32) -> DVec2 {
     let mut rng = Rng::at(0, Draw::Part, &[point.into(), point.into()]);
     NUDGE * DVec2::new(rng.unit(), rng.unit())
-}
-
-/// The order of places along a Z-curve: what lies together comes together.
-pub(in crate::dcr) fn along_curve(places: &[Place]) -> Vec<u32> {
-    let mut keyed: Vec<(u64, u32)> = (0..).zip(places).map(|(i, &[x, y])| (spread(x) | spread(y) << 1, i)).collect();
-    keyed.sort_unstable();
-    keyed.into_iter().map(|(_, i)| i).collect()
-}
-
-/// The bits of a number on the even bits of a longer one.
-fn spread(x: u32) -> u64 {
-    let masks = [(16, 0x0000_ffff_0000_ffff), (8, 0x00ff_00ff_00ff_00ff), (4, 0x0f0f_0f0f_0f0f_0f0f)];
-    let masks = masks.into_iter().chain([(2, 0x3333_3333_3333_3333), (1, 0x5555_5555_5555_5555u64)]);
-    masks.fold(u64::from(x), |x, (shift, mask)| (x | x << shift) & mask)
 }
 
 #[cfg(test)]
@@ -222,7 +210,7 @@ mod tests {
     }
 
     #[test]
-    fn offsets_take_the_shortest_way_and_moves_follow_them() {
+    fn offsets_are_the_shortest_and_moves_follow_them() {
         let torus = torus(Boundary::Periodic);
         let places = torus.enter(&[[-0.875, 2.125], [2.875, 4.875], [1.0, 4.0]], 0);
         let spacing = torus.frame.spacing();
@@ -242,13 +230,5 @@ mod tests {
                 assert!(moved.iter().all(|x| (INSET..=HALF - INSET).contains(x)));
             }
         }
-    }
-
-    #[test]
-    fn the_curve_visits_quarter_after_quarter() {
-        let corners = [[0, 0], [HALF, 0], [0, HALF], [HALF, HALF]];
-        let places: Vec<Place> = (0..16).map(|i| corners[i % 4].map(|x| x + (i as u32 / 4) * 1000)).collect();
-        let quarters: Vec<u32> = along_curve(&places).iter().map(|i| i % 4).collect();
-        assert_eq!(quarters, [0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3]);
     }
 }

@@ -1,9 +1,10 @@
-//! Long waves of the density, removed at once.
+//! Removes long waves of the density.
 //!
-//! Constraints between neighbours do not feel that a wide region is a little denser than another, which is why no force
-//! that depends on distances alone clears the low frequencies. Here the density is drawn on a grid, and the displacement
-//! `u` whose divergence is its relative excess `δ` is found by Fourier transform, `u = -i k δ / k²`, as particle-mesh codes
-//! find gravity (Hockney and Eastwood 1981). To first order, points that follow it leave a constant density.
+//! Constraints between neighbours do not see that a wide region is slightly denser than another, which is why no force
+//! that depends on distances alone clears the low frequencies. Here the density is drawn on a grid, and the
+//! displacement `u` whose divergence is its relative excess `δ` is found by Fourier transform, `u = -i k δ / k²`, as
+//! particle-mesh codes find gravity (Hockney and Eastwood 1981). To first order, points that follow it have a constant
+//! density.
 
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
@@ -12,29 +13,32 @@ use glam::{DVec2, Vec2};
 use rustfft::num_complex::Complex;
 use rustfft::{Fft, FftPlanner};
 
-use crate::dcr::ground::border::Border;
-use crate::dcr::ground::torus::{Place, Torus};
+use crate::dcr::ground::boundary::MirrorBoundary;
+use crate::dcr::ground::torus::{Torus, TorusPoint};
 use crate::error::Result;
 use crate::job::{Job, chunks, chunks_of};
 
-/// The width of the grid's cells in spacings. The finest waves that are removed have two cells; and what aliases to long
-/// waves, a spacing or so long, is where the spline by which points are drawn has its zero.
+/// Waves are removed up to this frequency, in units of sqrt(density), once points have settled.
+pub(in crate::dcr) const LONG_WAVES: f64 = 0.25;
+
+/// The width of the grid's cells in spacings. The finest waves that are removed are two cells long. Waves that alias to
+/// long ones are about a spacing long, where the spline by which points are drawn has its zero.
 const CELL: f64 = 0.9;
 
-/// Waves of this frequency, in units of the highest, are removed by less than rounding shows.
-const NOTHING: f64 = 2.4;
+/// Waves above this frequency, in units of the highest, would be removed by less than rounding.
+const CUTOFF: f64 = 2.4;
 
-/// On so many grids points are drawn at the same time.
-const SHEETS: usize = 4;
+/// The number of grids on which points are drawn at the same time.
+const LAYERS: usize = 4;
 
 /// Numbers at the nodes of the grid, row by row.
 pub(in crate::dcr) type Field = Vec<Complex<f32>>;
 
 /// The grid of a torus.
-pub(in crate::dcr) struct Waves {
+pub(in crate::dcr) struct WaveGrid {
     torus: Torus,
-    /// None for a periodic domain, and where the border is like any other place.
-    border: Option<Border>,
+    /// None for a periodic domain, and if the density at the boundary is to be that of the inside.
+    boundary: Option<MirrorBoundary>,
     /// Columns and rows.
     cells: [usize; 2],
     /// Along rows and along columns, forward and back.
@@ -42,14 +46,14 @@ pub(in crate::dcr) struct Waves {
     back: [Arc<dyn Fft<f32>>; 2],
 }
 
-impl Waves {
+impl WaveGrid {
     /// The grid for `count` points.
-    pub(crate) fn new(torus: &Torus, border: Option<Border>, count: usize) -> Self {
-        Self { border, ..Self::of_spacing(torus, count, 1.0) }
+    pub(in crate::dcr) fn new(torus: &Torus, boundary: Option<MirrorBoundary>, count: usize) -> Self {
+        Self { boundary, ..Self::of_spacing(torus, count, 1.0) }
     }
 
-    /// The grid for points that are so far apart, in spacings; on a strip that is thinner than their distance it has no
-    /// more columns than `count` points need.
+    /// The grid for points at a distance of `spacing`, in spacings of the torus; on a strip that is thinner than that it
+    /// has no more columns than `count` points need.
     pub(in crate::dcr) fn of_spacing(torus: &Torus, count: usize, spacing: f64) -> Self {
         let limit = (count + 8) as f64 / spacing;
         let along = |length: f64| smooth((length / (CELL * spacing)).ceil().min(limit) as usize);
@@ -57,12 +61,18 @@ impl Waves {
         let mut planner = FftPlanner::new();
         let forward = cells.map(|count| planner.plan_fft_forward(count));
         let back = cells.map(|count| planner.plan_fft_inverse(count));
-        Self { torus: *torus, border: None, cells, forward, back }
+        Self { torus: *torus, boundary: None, cells, forward, back }
     }
 
     /// The displacements, in spacings, of the first `count` points, by waves up to the frequency `highest` in units of
-    /// sqrt(density), where what is removed has fallen to a third.
-    pub(crate) fn drift(&self, job: &Job, places: &[Place], count: usize, highest: f64) -> Result<Vec<Vec2>> {
+    /// sqrt(density), at which the fraction that is removed has fallen to a third.
+    pub(in crate::dcr) fn drift(
+        &self,
+        job: &Job,
+        places: &[TorusPoint],
+        count: usize,
+        highest: f64,
+    ) -> Result<Vec<Vec2>> {
         let density = self.draw(&job.part(0.0, 0.1), places.len(), |point| (places[point], 1.0))?;
         let field = self.displacements(&job.part(0.1, 0.8), density, places.len(), highest)?;
         let chunks = chunks(count);
@@ -71,22 +81,22 @@ impl Waves {
         })
     }
 
-    /// The displacements at the nodes that level a density which sums up to, or is the excess over, `count` points.
+    /// The displacements at the nodes that level a density, which is that of `count` points or the excess over it.
     pub(in crate::dcr) fn displacements(&self, job: &Job, density: Field, count: usize, highest: f64) -> Result<Field> {
         let [width, height] = self.cells;
-        let (mut field, mut turned) = (density, vec![Complex::default(); width * height]);
+        let (mut field, mut transposed) = (density, vec![Complex::default(); width * height]);
         transform(&job.part(0.0, 0.1), &mut field, &self.forward[0])?;
-        turn(&job.part(0.1, 0.2), &field, &mut turned, width)?;
-        transform(&job.part(0.2, 0.4), &mut turned, &self.forward[1])?;
-        self.integrate(&job.part(0.4, 0.6), &mut turned, count, highest)?;
-        transform(&job.part(0.6, 0.7), &mut turned, &self.back[1])?;
-        turn(&job.part(0.7, 0.8), &turned, &mut field, height)?;
+        transpose(&job.part(0.1, 0.2), &field, &mut transposed, width)?;
+        transform(&job.part(0.2, 0.4), &mut transposed, &self.forward[1])?;
+        self.integrate(&job.part(0.4, 0.6), &mut transposed, count, highest)?;
+        transform(&job.part(0.6, 0.7), &mut transposed, &self.back[1])?;
+        transpose(&job.part(0.7, 0.8), &transposed, &mut field, height)?;
         transform(&job.part(0.8, 1.0), &mut field, &self.back[0])?;
         Ok(field)
     }
 
-    /// The displacement at a place.
-    pub(in crate::dcr) fn read(&self, field: &Field, place: Place) -> Vec2 {
+    /// The displacement at a point.
+    pub(in crate::dcr) fn read(&self, field: &Field, place: TorusPoint) -> Vec2 {
         let mut sums = [Complex::<f32>::default(); 4];
         self.for_each_run(place, |start, weights| {
             let run = &field[start..start + weights.len()];
@@ -96,9 +106,9 @@ impl Waves {
         Vec2::new(sum.re, sum.im)
     }
 
-    /// Runs of nodes around a place, each from one on, and their weights: the cubic B-spline along each axis.
+    /// Visits the runs of nodes around a point: the first node and the weights, by a cubic B-spline along each axis.
     #[inline(always)]
-    fn for_each_run(&self, place: Place, mut visit: impl FnMut(usize, &[f32])) {
+    fn for_each_run(&self, place: TorusPoint, mut visit: impl FnMut(usize, &[f32])) {
         let [width, height] = self.cells;
         let along = |axis: usize| {
             let scaled = u64::from(place[axis]) * self.cells[axis] as u64;
@@ -115,7 +125,7 @@ impl Waves {
             if left + weights.len() <= width {
                 visit(row + left, &weights);
             } else {
-                // Across the seam, node by node.
+                // Across the seam of the torus, node by node.
                 for (i, weight) in weights.chunks(1).enumerate() {
                     visit(row + wrapped(left + i, width), weight);
                 }
@@ -123,21 +133,22 @@ impl Waves {
         }
     }
 
-    /// The density of `count` weights at places. Some at a time are drawn on a grid of their own, and what is drawn is added
-    /// up: so many grids, and no more, that the sums do not depend on the threads.
+    /// The density of `count` weighted points. They are drawn on a fixed number of grids, which are then added up, so
+    /// that the sums do not depend on the number of threads.
     pub(in crate::dcr) fn draw(
         &self,
         job: &Job,
         count: usize,
-        weighted: impl Fn(usize) -> (Place, f32) + Sync,
+        weighted: impl Fn(usize) -> (TorusPoint, f32) + Sync,
     ) -> Result<Field> {
-        let sheets = chunks_of(count, count.div_ceil(SHEETS).max(8192));
+        let layers = chunks_of(count, count.div_ceil(LAYERS).max(8192));
         let cells = self.cells[0] * self.cells[1];
-        let drawn = job.part(0.0, 0.8).map(sheets.len(), |sheet| {
+        let drawn = job.part(0.0, 0.8).map(layers.len(), |layer| {
             let mut density = vec![0.0; cells];
-            for (place, whole) in sheets.range(sheet).map(&weighted) {
+            for (place, whole) in layers.range(layer).map(&weighted) {
                 self.for_each_run(place, |start, weights| {
-                    // One by one: runs overlap those before by a part, which vectors would wait for.
+                    // One by one: a run overlaps parts of those before it, so that vector loads would wait for the
+                    // stores.
                     (start..).zip(weights).for_each(|(node, weight)| density[node] += whole * weight);
                 });
             }
@@ -150,7 +161,7 @@ impl Waves {
         })
     }
 
-    /// From the waves of the density of `count` points to those of the displacement, `x` in the real and `y` in the
+    /// Turns the waves of the density of `count` points into those of the displacement, `x` in the real and `y` in the
     /// imaginary part: both are real, so one transform carries both. `waves` are given column by column.
     fn integrate(&self, job: &Job, waves: &mut Field, count: usize, highest: f64) -> Result<()> {
         let size = self.torus.frame.size();
@@ -164,24 +175,25 @@ impl Waves {
                 for (wave, y) in column.iter_mut().zip(&rows) {
                     let k = DVec2::new(x.number, y.number);
                     let relative = k.length() * per_point;
-                    if k == DVec2::ZERO || relative > NOTHING || k.length() > finest {
+                    if k == DVec2::ZERO || relative > CUTOFF || k.length() > finest {
                         *wave = Complex::default();
                         continue;
                     }
-                    if let Some(border) = &self.border {
-                        // Drawn as points are.
-                        *wave -= (border.wave([x.turns, y.turns]) * f64::sqrt(x.spline * y.spline)) as f32;
+                    if let Some(boundary) = &self.boundary {
+                        // Through the spline, as points are drawn.
+                        *wave -= (boundary.wave([x.turns, y.turns]) * f64::sqrt(x.spline * y.spline)) as f32;
                     }
                     let share = (-relative.powi(4)).exp() / (x.spline * y.spline).max(0.01) / count as f64;
-                    let way = DVec2::new(k.y, -k.x) * (share / k.length_squared());
-                    *wave *= Complex::new(way.x as f32, way.y as f32);
+                    let integral = DVec2::new(k.y, -k.x) * (share / k.length_squared());
+                    *wave *= Complex::new(integral.x as f32, integral.y as f32);
                 }
             }
         })?;
         Ok(())
     }
 
-    /// The highest wave number that the grid has in all directions: its square would be seen in the spectrum.
+    /// The highest wave number that the grid has in all directions: removing waves up to the corners of the square would
+    /// leave a square in the spectrum.
     fn finest(&self) -> f64 {
         let size = self.torus.frame.size().to_array();
         let along = |axis: usize| PI * self.cells[axis] as f64 / size[axis];
@@ -203,14 +215,16 @@ impl Waves {
 
 /// Waves along an axis.
 struct Bin {
-    /// How often they fit into the period, and their wave number.
+    /// Waves per period.
     turns: i64,
+    /// Their wave number.
     number: f64,
-    /// What the spline does to them when drawing and when reading, together.
+    /// The factor that the spline applies to them by drawing and reading together.
     spline: f64,
 }
 
-/// The remainder, of numbers most of which are less than twice the divisor: a division takes longer than a node's share.
+/// The remainder of numbers most of which are less than twice the divisor: a division would take longer than all else
+/// that is done for a node.
 fn wrapped(number: usize, count: usize) -> usize {
     match number.checked_sub(count) {
         None => number,
@@ -219,7 +233,7 @@ fn wrapped(number: usize, count: usize) -> usize {
     }
 }
 
-/// The least number from `count` on that has only the factors 2, 3 and 5, for which transforms are fast.
+/// The least number that is at least `count` and has only the factors 2, 3 and 5, for which transforms are fast.
 fn smooth(count: usize) -> usize {
     let rest = |number: usize| {
         [2, 3, 5].iter().fold(number, |rest, factor| {
@@ -230,7 +244,7 @@ fn smooth(count: usize) -> usize {
             rest
         })
     };
-    (count.max(1)..).find(|&number| rest(number) == 1).expect("powers of two have no end")
+    (count.max(1)..).find(|&number| rest(number) == 1).expect("there is always a larger power of two")
 }
 
 /// Transforms a field row by row.
@@ -240,11 +254,11 @@ fn transform(job: &Job, field: &mut Field, fft: &Arc<dyn Fft<f32>>) -> Result<()
     Ok(())
 }
 
-/// Makes columns of the rows, which are so long.
-fn turn(job: &Job, field: &Field, turned: &mut Field, width: usize) -> Result<()> {
+/// Transposes a field with rows of this width.
+fn transpose(job: &Job, field: &Field, transposed: &mut Field, width: usize) -> Result<()> {
     let height = field.len() / width;
     let columns = chunks_of(width, 1 + 8192 / height).size();
-    let parts = turned.chunks_mut(columns * height).enumerate();
+    let parts = transposed.chunks_mut(columns * height).enumerate();
     job.map_each(parts.collect(), |(chunk, part)| {
         for (column, part) in (chunk * columns..).zip(part.chunks_mut(height)) {
             part.iter_mut().zip(field[column..].iter().step_by(width)).for_each(|(to, from)| *to = *from);
@@ -260,7 +274,7 @@ mod tests {
     use crate::points::{Boundary, Domain};
 
     /// A lattice displaced by a long wave along both axes, on a domain that is not square.
-    fn wavy(torus: &Torus, side: [u32; 2], height: f64) -> Vec<(Place, DVec2)> {
+    fn wavy(torus: &Torus, side: [u32; 2], height: f64) -> Vec<(TorusPoint, DVec2)> {
         let cells = (0..side[1]).flat_map(|j| (0..side[0]).map(move |i| [i, j]));
         let at = |[i, j]: [u32; 2]| {
             let turns = DVec2::new(f64::from(i) / f64::from(side[0]), f64::from(j) / f64::from(side[1]));
@@ -277,7 +291,7 @@ mod tests {
         let side = [60, 30];
         let torus = Torus::new(domain, 1800);
         let (places, displaced): (Vec<_>, Vec<_>) = wavy(&torus, side, 0.1).into_iter().unzip();
-        let waves = Waves::new(&torus, None, places.len());
+        let waves = WaveGrid::new(&torus, None, places.len());
         for threads in [1, 3] {
             let context = Context::new(threads).unwrap();
             let drift = context.run(None, |job| waves.drift(job, &places, places.len(), 0.25)).unwrap();

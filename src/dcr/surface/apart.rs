@@ -1,32 +1,33 @@
-//! What keeps samples apart: straight distances through space, whatever sheets they are on.
+//! Keeps samples apart by straight distances through space, on whatever parts of the surface they are.
 //!
-//! Forces see the surface laid into a plane. On a fin that is thinner than samples are apart, and where it is sharply bent, they
-//! lead two samples nearer to each other through space that get away from each other in the plane. So what samples want to
-//! do is corrected twice.
+//! Forces see the surface laid into a plane. On a fin that is thinner than the distance of samples, and where it is
+//! sharply bent, they lead two samples closer to each other through space that move apart in the plane. So the
+//! displacements that forces ask for are corrected twice.
 //!
-//! * They are *held off*: a way is shortened in the direction of another to half of what is left between them, and those that
-//!   are too near already give way. Directions and distances are those of space, as the triangle's plane cuts them.
-//! * They are *checked*: a move is made only if it ends no nearer than the floor to where any other was, and to where any
-//!   other wanted to get. So whoever moves: if both do, the second test has held, if one does, the first, and if none does,
-//!   nothing has changed. No two get nearer than the floor.
+//! * Samples are *held off*: a displacement is shortened in the direction of another sample to half of what is left
+//!   between them, and samples that are too close already move apart. Directions and distances are those of space,
+//!   projected into the triangle's plane.
+//! * Moves are *checked*: a move is made only if its end is no closer than the floor to the positions of all others and
+//!   to those to which they would move. If both of two samples move, the second test has held; if one moves, the first;
+//!   if none does, nothing has changed. So no two get closer than the floor, and no refusal requires another.
 
 use glam::{DVec2, DVec3};
 
 use crate::dcr::ground::constraints::STIFFENING;
-use crate::dcr::surface::walk::Flat;
+use crate::dcr::surface::walk::FlatTriangle;
 
-/// The distance, in spacings, up to which samples that are near on the surface are held off in the end. It is a little less
-/// than the conflict radius, at which forces stop.
+/// The distance, in spacings, up to which samples that are near on the surface are held off in the end. It is a little
+/// less than the conflict radius, at which forces stop.
 const NEAR: f64 = 0.855;
 
-/// The same for those that are near through space only, as a share of the floor: from that of a maximal set to that of a
-/// relaxed one, but no farther than sheets allow on which samples began as if there were no others.
+/// The same for samples that are near through space only, over the floor: from that of a maximal set to that of a
+/// relaxed one, but no farther than parts of the surface allow that were sampled independently of each other.
 const FAR: f64 = 1.1;
 
-/// How often a way is corrected by all that are close.
+/// How often a displacement is corrected by all close samples.
 const ROUNDS: usize = 2;
 
-/// How near samples may get, in the units of the mesh.
+/// The least distance of samples, in the units of the mesh.
 #[derive(Clone, Copy)]
 pub(super) struct Floor {
     distance: f64,
@@ -43,17 +44,17 @@ impl Floor {
         self.distance
     }
 
-    /// Whether two places are far enough from each other.
+    /// Whether two positions are far enough from each other.
     pub(super) fn admits(self, a: DVec3, b: DVec3) -> bool {
         let squared = a.distance_squared(b);
         squared > self.above || squared.sqrt() >= self.distance
     }
 }
 
-/// Up to which distances samples are held off in a step, in the units of the mesh.
+/// The distances up to which samples are held off in a step, in the units of the mesh.
 #[derive(Clone, Copy)]
 pub(super) struct Limits {
-    /// From those near on the surface; it grows as constraints get stiffer.
+    /// From samples near on the surface; it grows as constraints get stiffer.
     pub(super) near: f64,
     /// From all others.
     pub(super) far: f64,
@@ -67,7 +68,7 @@ impl Limits {
     }
 }
 
-/// Those that are close to one sample.
+/// The samples that are close to one sample.
 #[derive(Default)]
 pub(super) struct Contacts(Vec<Contact>);
 
@@ -75,7 +76,7 @@ struct Contact {
     squared: f64,
     /// In the plane of the sample's triangle, of length 1.
     direction: DVec2,
-    /// How far the sample may go in that direction, in spacings; less than 0 if it has to give way.
+    /// The distance that the sample may move in that direction, in spacings; less than 0 if it must move back.
     most: f64,
 }
 
@@ -84,60 +85,62 @@ impl Contacts {
         self.0.clear();
     }
 
-    /// Adds a sample at `offset` that shall be held off up to a distance, both in the units of the mesh.
-    pub(super) fn add(&mut self, flat: &Flat, offset: DVec3, limit: f64) {
-        let (seen, squared) = (flat.seen(offset), offset.length_squared());
-        let across = seen.length();
-        // Who is straight above or below is in no direction.
+    /// Adds a sample at `offset` that is held off up to the distance `limit`, both in the units of the mesh.
+    pub(super) fn add(&mut self, flat: &FlatTriangle, offset: DVec3, limit: f64) {
+        let (projected, squared) = (flat.projected(offset), offset.length_squared());
+        let across = projected.length();
+        // A sample straight above or below is in no direction.
         if across > 0.0 {
             let left = (squared.sqrt() - limit) / flat.spacing();
-            // Along the plane it is as much farther as the plane leads away; but nobody gives way by more than all that lacks.
+            // Along the plane the distance is longer, by the slope of the offset; but no sample moves back by more than
+            // what the distance is short of the limit.
             let most = (0.5 * left * squared.sqrt() / (across * flat.spacing())).max(left.min(0.0));
-            self.0.push(Contact { squared, direction: seen / across, most });
+            self.0.push(Contact { squared, direction: projected / across, most });
         }
     }
 
-    /// The way, corrected. The nearest comes last: where not all can be held off, it is.
-    pub(super) fn hold_off(&mut self, mut way: DVec2) -> DVec2 {
+    /// The displacement, corrected. The nearest sample comes last: where not all can be held off, it is. (In the order
+    /// of their numbers, pairs stay stuck.)
+    pub(super) fn hold_off(&mut self, mut displacement: DVec2) -> DVec2 {
         self.0.sort_unstable_by(|a, b| b.squared.total_cmp(&a.squared));
         for _ in 0..ROUNDS {
             for Contact { direction, most, .. } in &self.0 {
-                way -= (way.dot(*direction) - most).max(0.0) * direction;
+                displacement -= (displacement.dot(*direction) - most).max(0.0) * direction;
             }
         }
-        way
+        displacement
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::dcr::surface::sheet::Sheet;
+    use crate::dcr::surface::connected::ConnectedMesh;
     use crate::mesh::Mesh;
 
     const SPACING: f64 = 0.5;
 
-    /// What is left of a way along the plane z = 0, with others at these offsets that are held off up to 1. In the units of
-    /// the mesh.
-    fn held_off(others: &[DVec3], way: DVec2) -> DVec2 {
+    /// What is left of a displacement along the plane z = 0, with others at these offsets that are held off up to 1. In
+    /// the units of the mesh.
+    fn held_off(others: &[DVec3], displacement: DVec2) -> DVec2 {
         let mesh = Mesh::new(vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]], vec![[0, 1, 2]]).unwrap();
-        let flat = Flat::new(&Sheet::new(&mesh).unwrap(), 0, SPACING);
+        let flat = FlatTriangle::new(&ConnectedMesh::new(&mesh).unwrap(), 0, SPACING);
         let mut contacts = Contacts::default();
         others.iter().for_each(|&other| contacts.add(&flat, other, 1.0));
-        contacts.hold_off(way / SPACING) * SPACING
+        contacts.hold_off(displacement / SPACING) * SPACING
     }
 
     #[test]
-    fn ways_are_cut_where_they_lead_too_near_and_nowhere_else() {
+    fn displacements_are_cut_where_they_lead_too_close_and_nowhere_else() {
         let is_near = |a: DVec2, b: DVec2| a.distance(b) < 1e-12;
         let ahead = [DVec3::new(1.2, 0.0, 0.0)];
         assert!(is_near(held_off(&ahead, DVec2::new(0.3, 0.2)), DVec2::new(0.1, 0.2)));
         for free in [DVec2::new(0.09, 0.2), DVec2::new(-0.5, 0.0)] {
             assert_eq!(held_off(&ahead, free), free);
         }
-        // Two that are too near part by half of what lacks each.
+        // Two that are too close move apart by half of what is missing each.
         assert!(is_near(held_off(&[DVec3::new(0.0, 0.8, 0.0)], DVec2::ZERO), DVec2::new(0.0, -0.1)));
-        // Where the plane leads away slowly the way is longer, but never longer than what lacks.
+        // Where the plane leads away slowly the displacement is longer, but never longer than what is missing.
         assert!(is_near(held_off(&[DVec3::new(0.64, 0.0, 0.48)], DVec2::ZERO), DVec2::new(-0.125, 0.0)));
         let above = DVec3::new(1e-3, 0.0, 0.8);
         assert!(is_near(held_off(&[above], DVec2::ZERO), DVec2::new(above.length() - 1.0, 0.0)));

@@ -1,9 +1,10 @@
-//! Who is near whom: the samples within a ball that are reached on the surface without leaving it.
+//! The surroundings of samples: the samples within a ball that are reached on the surface without leaving it.
 //!
-//! A flood goes from a sample's triangle through all edges that the ball meets. So what is near through space but not on
-//! the surface, as on the other side of a thin wall, is not found, and what is behind a sharp fold is.
+//! A flood starts from a sample's triangle and crosses all edges that the ball meets. So samples that are near through
+//! space but not on the surface, as on the other side of a thin wall, are not found, and those behind a sharp fold are.
+//! Neither normals nor winding are trusted.
 //!
-//! Where the flood meets a border it mirrors what it has found by it, as the thesis does on bounded domains (Fig. 4.12 (b)).
+//! Where the flood meets a boundary it mirrors the samples found, as the thesis does on bounded domains (Fig. 4.12 (b)).
 
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
@@ -11,39 +12,40 @@ use std::hash::{BuildHasherDefault, Hasher};
 
 use glam::DVec3;
 
-use crate::dcr::surface::sheet::Sheet;
+use crate::dcr::surface::connected::ConnectedMesh;
 use crate::dcr::surface::star::MOST;
-use crate::dcr::surface::walk::Place;
+use crate::dcr::surface::walk::SurfacePoint;
 use crate::error::Result;
 use crate::geometry::grid3::Grid3;
 use crate::job::{Chunks, Job};
 use crate::mesh::exact;
 
-/// Two places on the borders at which a sample is mirrored are farther apart than this share of the ball's radius, or are seen
-/// from it at least 60 degrees apart: without its image by both sides of a corner, nothing keeps a sample off one of them.
+/// Two positions on the boundary at which a sample is mirrored are farther apart than this fraction of the ball's
+/// radius, or at least 60 degrees apart as seen from it: without its image by both sides of a corner, nothing keeps a
+/// sample off one of them.
 const APART: f64 = 0.2;
 
-/// A sample, or its mirror image by a half-edge at the border.
+/// A sample, or its mirror image by a half-edge of the boundary.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) struct Neighbour {
+pub(super) struct NearSample {
     pub(super) sample: u32,
     pub(super) mirror: Option<u32>,
 }
 
-/// What is near one sample.
+/// The samples near one sample.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Neighbourhood {
+pub(super) struct Surroundings {
     /// The nearest first, no more than [`MOST`].
-    pub(super) neighbours: Box<[Neighbour]>,
-    /// The mean normal, on the side of the sample's triangle's front; zero where there is none.
+    pub(super) neighbours: Box<[NearSample]>,
+    /// The mean normal, on the front side of the sample's triangle; zero where there is none.
     pub(super) normal: DVec3,
-    /// All others within sight through space, on whatever sheets, in rising order.
+    /// All samples within sight through space, on whatever parts of the surface, in ascending order.
     pub(super) in_sight: Box<[u32]>,
 }
 
-impl Neighbourhood {
+impl Surroundings {
     /// Whether a sample, or this image of it, is among the neighbours.
-    pub(super) fn knows(&self, neighbour: Neighbour) -> bool {
+    pub(super) fn knows(&self, neighbour: NearSample) -> bool {
         self.neighbours.contains(&neighbour)
     }
 
@@ -54,48 +56,48 @@ impl Neighbourhood {
 }
 
 /// All samples, found by their position.
-pub(super) struct Crowd<'a> {
-    sheet: &'a Sheet<'a>,
-    places: &'a [Place],
+pub(super) struct SampleSearch<'a> {
+    connected: &'a ConnectedMesh<'a>,
+    places: &'a [SurfacePoint],
     positions: &'a [DVec3],
     radius: f64,
     sight: f64,
     grid: Grid3,
 }
 
-impl<'a> Crowd<'a> {
-    /// Neighbours will be those within `radius`, and in sight those within `sight`.
+impl<'a> SampleSearch<'a> {
+    /// A search for neighbours within `radius`, and samples in sight within `sight`.
     pub(super) fn new(
-        sheet: &'a Sheet<'a>,
-        places: &'a [Place],
+        connected: &'a ConnectedMesh<'a>,
+        places: &'a [SurfacePoint],
         positions: &'a [DVec3],
         radius: f64,
         sight: f64,
     ) -> Self {
-        let mut grid = Grid3::new(sheet.mesh.bounds().0.map(f64::from), radius.max(sight));
+        let mut grid = Grid3::new(connected.mesh.bounds().0.map(f64::from), radius.max(sight));
         positions.iter().for_each(|position| {
             grid.insert(position.as_vec3().to_array());
         });
-        Self { sheet, places, positions, radius, sight, grid }
+        Self { connected, places, positions, radius, sight, grid }
     }
 
-    /// The neighbourhoods of those samples that are asked for, with their numbers.
-    pub(super) fn neighbourhoods(
+    /// The surroundings of the samples that are asked for, with their numbers.
+    pub(super) fn surroundings(
         &self,
         job: &Job,
         chunks: Chunks,
         is_asked: impl Fn(usize) -> bool + Sync,
-    ) -> Result<Vec<(usize, Neighbourhood)>> {
+    ) -> Result<Vec<(usize, Surroundings)>> {
         job.flat_map(chunks.len(), |chunk| {
             let mut flood = Flood::default();
             let asked = chunks.range(chunk).filter(|&sample| is_asked(sample));
-            asked.map(|sample| (sample, self.neighbourhood(sample, &mut flood))).collect()
+            asked.map(|sample| (sample, self.surroundings_of(sample, &mut flood))).collect()
         })
     }
 
-    fn neighbourhood(&self, centre: usize, flood: &mut Flood) -> Neighbourhood {
+    fn surroundings_of(&self, centre: usize, flood: &mut Flood) -> Surroundings {
         let (position, limit) = (self.positions[centre], self.radius * self.radius);
-        flood.spread(self.sheet, self.places[centre].triangle, position, limit);
+        flood.spread(self.connected, self.places[centre].triangle, position, limit);
         let (mut found, mut in_sight) = (Vec::new(), Vec::new());
         for sample in self.grid.candidates(position.to_array(), self.radius.max(self.sight)) {
             let squared = self.positions[sample as usize].distance_squared(position);
@@ -103,44 +105,44 @@ impl<'a> Crowd<'a> {
                 in_sight.push(sample);
             }
             if squared <= limit && flood.sides.contains_key(&self.places[sample as usize].triangle) {
-                found.push((squared, Neighbour { sample, mirror: None }));
+                found.push((squared, NearSample { sample, mirror: None }));
             }
         }
-        let order = |a: &(f64, Neighbour), b: &(f64, Neighbour)| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1));
+        let order = |a: &(f64, NearSample), b: &(f64, NearSample)| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1));
         found.sort_unstable_by(order);
-        // The grid may name one twice.
+        // The grid may find a sample twice.
         found.dedup();
         in_sight.sort_unstable();
         in_sight.dedup();
-        let weighted = found.iter().map(|&(squared, Neighbour { sample, .. })| {
+        let weighted = found.iter().map(|&(squared, NearSample { sample, .. })| {
             let triangle = self.places[sample as usize].triangle;
-            (1.0 - squared / limit) * flood.sides[&triangle] * exact(self.sheet.mesh.normal(triangle))
+            (1.0 - squared / limit) * flood.sides[&triangle] * exact(self.connected.mesh.normal(triangle))
         });
         let normal = weighted.sum::<DVec3>().normalize_or_zero();
-        if !flood.borders.is_empty() {
+        if !flood.boundary.is_empty() {
             for nth in 0..found.len() {
-                self.mirror(&flood.borders, found[nth].1.sample, position, &mut found);
+                self.mirror(&flood.boundary, found[nth].1.sample, position, &mut found);
             }
             found.sort_unstable_by(order);
         }
         let others = found.iter().map(|&(_, neighbour)| neighbour);
         let others = others.filter(|neighbour| neighbour.sample as usize != centre || neighbour.mirror.is_some());
-        Neighbourhood { neighbours: others.take(MOST).collect(), normal, in_sight: in_sight.into() }
+        Surroundings { neighbours: others.take(MOST).collect(), normal, in_sight: in_sight.into() }
     }
 
-    /// Adds the mirror images of a sample: by the place on the borders that is nearest to it, and by all others that are
-    /// beside it. Along a border with many corners one image stands for several.
-    fn mirror(&self, borders: &[u32], sample: u32, centre: DVec3, found: &mut Vec<(f64, Neighbour)>) {
+    /// Adds the mirror images of a sample: by the position on the boundary that is nearest to it, and by all other
+    /// edges that it is beside. Along a boundary with many corners one image replaces several.
+    fn mirror(&self, boundary: &[u32], sample: u32, centre: DVec3, found: &mut Vec<(f64, NearSample)>) {
         let position = self.positions[sample as usize];
-        let mirrors = borders.iter().map(|&border| {
-            let [a, b] = self.sheet.ends(border);
+        let mirrors = boundary.iter().map(|&edge| {
+            let [a, b] = self.connected.ends(edge);
             let mirror = nearest_on(a, b, position);
-            (mirror.distance_squared(position), border, mirror, mirror != a && mirror != b)
+            (mirror.distance_squared(position), edge, mirror, mirror != a && mirror != b)
         });
         let mut mirrors: Vec<_> = mirrors.collect();
         mirrors.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         let mut taken: Vec<DVec3> = Vec::new();
-        for (_, border, mirror, is_beside) in mirrors {
+        for (_, edge, mirror, is_beside) in mirrors {
             let is_apart = taken.iter().all(|&other| {
                 let (one, other) = (mirror - position, other - position);
                 one.distance(other) > APART * self.radius || 2.0 * one.dot(other) <= one.length() * other.length()
@@ -149,84 +151,85 @@ impl<'a> Crowd<'a> {
                 taken.push(mirror);
                 let squared = (2.0 * mirror - position).distance_squared(centre);
                 if squared <= self.radius * self.radius {
-                    found.push((squared, Neighbour { sample, mirror: Some(border) }));
+                    found.push((squared, NearSample { sample, mirror: Some(edge) }));
                 }
             }
         }
     }
 }
 
-/// What the flood from one sample has reached.
+/// The triangles that the flood from one sample has reached.
 #[derive(Default)]
 struct Flood {
-    /// For each triangle whether its front is on the same side as that of the first, 1, or on the other, -1.
+    /// For each triangle 1 if its front is on the same side as that of the first, -1 if it is on the other.
     sides: HashMap<u32, f64, BuildHasherDefault<Mixer>>,
-    /// The half-edges through which the flood has come into triangles, and the sides of these.
+    /// The half-edges through which the flood has entered triangles, and the sides of these.
     entries: Vec<(u32, f64)>,
-    borders: Vec<u32>,
+    /// The half-edges of the boundary that the ball meets.
+    boundary: Vec<u32>,
 }
 
 impl Flood {
-    fn spread(&mut self, sheet: &Sheet, start: u32, place: DVec3, radius_squared: f64) {
+    fn spread(&mut self, connected: &ConnectedMesh, start: u32, place: DVec3, radius_squared: f64) {
         self.sides.clear();
         self.entries.clear();
-        self.borders.clear();
+        self.boundary.clear();
         self.sides.insert(start, 1.0);
-        (3 * start..3 * start + 3).for_each(|edge| self.leave(sheet, (edge, 1.0), place, radius_squared));
+        (3 * start..3 * start + 3).for_each(|edge| self.leave(connected, (edge, 1.0), place, radius_squared));
         let mut next = 0;
         while let Some(&(entry, side)) = self.entries.get(next) {
             next += 1;
             let first = entry - entry % 3;
             let others = (first..first + 3).filter(|&edge| edge != entry);
-            others.for_each(|edge| self.leave(sheet, (edge, side), place, radius_squared));
+            others.for_each(|edge| self.leave(connected, (edge, side), place, radius_squared));
         }
     }
 
-    /// Goes through a half-edge of a triangle on this side, if the ball meets it.
-    fn leave(&mut self, sheet: &Sheet, (edge, side): (u32, f64), place: DVec3, radius_squared: f64) {
-        let [mut is_border, mut is_met] = [true, false];
-        for other in sheet.across(edge) {
-            is_border = false;
-            // Most edges lead to where the flood has been.
-            let Entry::Vacant(unseen) = self.sides.entry(other / 3) else { continue };
-            is_met = is_met || meets(sheet.ends(edge), place, radius_squared);
+    /// Crosses a half-edge of a triangle on this side, if the ball meets it.
+    fn leave(&mut self, connected: &ConnectedMesh, (edge, side): (u32, f64), place: DVec3, radius_squared: f64) {
+        let [mut is_open, mut is_met] = [true, false];
+        for other in connected.across(edge) {
+            is_open = false;
+            // Most edges lead to triangles that were reached before.
+            let Entry::Vacant(unreached) = self.sides.entry(other / 3) else { continue };
+            is_met = is_met || meets(connected.ends(edge), place, radius_squared);
             if !is_met {
                 return;
             }
-            let side = if sheet.run_alike(edge, other) { -side } else { side };
-            unseen.insert(side);
+            let side = if connected.run_alike(edge, other) { -side } else { side };
+            unreached.insert(side);
             self.entries.push((other, side));
         }
-        if is_border && meets(sheet.ends(edge), place, radius_squared) {
-            self.borders.push(edge);
+        if is_open && meets(connected.ends(edge), place, radius_squared) {
+            self.boundary.push(edge);
         }
     }
 }
 
 /// Whether a ball meets a segment.
 fn meets([a, b]: [DVec3; 2], place: DVec3, radius_squared: f64) -> bool {
-    // Most that are met end inside.
+    // Most segments that are met have an end inside.
     a.distance_squared(place) <= radius_squared
         || b.distance_squared(place) <= radius_squared
         || nearest_on(a, b, place).distance_squared(place) <= radius_squared
 }
 
-/// The point of a segment that is nearest to a place.
+/// The point of a segment that is nearest to a position.
 fn nearest_on(a: DVec3, b: DVec3, place: DVec3) -> DVec3 {
-    let (along, way) = (b - a, place - a);
-    match way.dot(along) / along.length_squared() {
+    let (along, offset) = (b - a, place - a);
+    match offset.dot(along) / along.length_squared() {
         share if share <= 0.0 => a,
         share if share >= 1.0 => b,
         share => a + share * along,
     }
 }
 
-/// The image of a place by an edge.
+/// The mirror image of a position by an edge.
 pub(super) fn mirrored(place: DVec3, [a, b]: [DVec3; 2]) -> DVec3 {
     2.0 * nearest_on(a, b, place) - place
 }
 
-/// Hashes the numbers of triangles: one multiplication (Knuth, TAOCP 3, §6.4).
+/// Hashes the numbers of triangles by one multiplication (Knuth, TAOCP 3, §6.4).
 #[derive(Default)]
 struct Mixer(u64);
 
@@ -260,27 +263,27 @@ mod tests {
         Mesh::new(positions.collect(), triangles.collect()).unwrap()
     }
 
-    fn places(mesh: &Mesh, count: u64) -> Vec<Place> {
+    fn places(mesh: &Mesh, count: u64) -> Vec<SurfacePoint> {
         let mut rng = Rng::at(4, Draw::Probe, &[]);
         let mut place = || {
             let [u, v] = [rng.unit(), rng.unit()];
             let uv = if u + v <= 1.0 { DVec2::new(u, v) } else { DVec2::new(1.0 - u, 1.0 - v) };
-            Place { triangle: rng.below(mesh.triangles().len() as u64) as u32, uv }
+            SurfacePoint { triangle: rng.below(mesh.triangles().len() as u64) as u32, uv }
         };
         (0..count).map(|_| place()).collect()
     }
 
     /// The neighbours of all samples: sample, and where it or its image is.
-    fn found(mesh: &Mesh, places: &[Place]) -> Vec<Vec<(u32, DVec3)>> {
-        let sheet = Sheet::new(mesh).unwrap();
+    fn found(mesh: &Mesh, places: &[SurfacePoint]) -> Vec<Vec<(u32, DVec3)>> {
+        let connected = ConnectedMesh::new(mesh).unwrap();
         let positions: Vec<DVec3> =
             places.iter().map(|place| mesh.point_exact(place.triangle, place.uv.into())).collect();
-        let crowd = Crowd::new(&sheet, places, &positions, RADIUS, 0.0);
+        let search = SampleSearch::new(&connected, places, &positions, RADIUS, 0.0);
         let context = Context::new(1).unwrap();
-        let found = context.run(None, |job| crowd.neighbourhoods(job, chunks(places.len()), |_| true)).unwrap();
-        let seen = |neighbour: &Neighbour| {
+        let found = context.run(None, |job| search.surroundings(job, chunks(places.len()), |_| true)).unwrap();
+        let seen = |neighbour: &NearSample| {
             let position = positions[neighbour.sample as usize];
-            (neighbour.sample, neighbour.mirror.map_or(position, |border| mirrored(position, sheet.ends(border))))
+            (neighbour.sample, neighbour.mirror.map_or(position, |edge| mirrored(position, connected.ends(edge))))
         };
         found.iter().map(|(_, around)| around.neighbours.iter().map(seen).collect()).collect()
     }

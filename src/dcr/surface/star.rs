@@ -1,29 +1,30 @@
 //! The Delaunay star of one point among those near it in its tangent plane.
 //!
-//! The nearest point is a Delaunay neighbour; from one neighbour on, the next counter-clockwise is the point that sees the
-//! edge to it under the largest angle (gift wrapping; McLain 1976, "Two dimensional interpolation from random data").
+//! The nearest point is a Delaunay neighbour; from one neighbour on, the next counter-clockwise is the point that sees
+//! the edge to it under the largest angle (gift wrapping; McLain 1976, "Two dimensional interpolation from random
+//! data").
 
 use glam::Vec2;
 
-/// No more points than these are looked at.
+/// The largest number of candidates.
 pub(super) const MOST: usize = 48;
 
-/// The points near one, as offsets from it.
-pub(super) struct Near {
+/// The points near a point, as offsets from it.
+pub(super) struct StarCandidates {
     x: [f32; MOST],
     y: [f32; MOST],
     squared: [f32; MOST],
     count: usize,
 }
 
-impl Default for Near {
+impl Default for StarCandidates {
     fn default() -> Self {
         Self { x: [0.0; MOST], y: [0.0; MOST], squared: [0.0; MOST], count: 0 }
     }
 }
 
-impl Near {
-    /// Forgets all points.
+impl StarCandidates {
+    /// Removes all points.
     pub(super) fn clear(&mut self) {
         self.count = 0;
     }
@@ -40,8 +41,8 @@ impl Near {
         Vec2::new(self.x[point], self.y[point])
     }
 
-    /// Writes the neighbours, counter-clockwise, to `ring`. False if they leave a gap of a half turn or more; then `ring`
-    /// begins after the gap.
+    /// Writes the neighbours, counter-clockwise, to `ring`. False if they leave a gap of a half turn or more; then
+    /// `ring` begins after the gap.
     pub(super) fn star(&self, ring: &mut Vec<usize>) -> bool {
         ring.clear();
         let nearest = (0..self.count).min_by(|&a, &b| self.squared[a].total_cmp(&self.squared[b]));
@@ -101,9 +102,9 @@ mod tests {
     }
 
     fn star(points: &[Vec2]) -> (Vec<usize>, bool) {
-        let (mut near, mut ring) = (Near::default(), Vec::new());
-        points.iter().for_each(|&point| near.add(point));
-        let is_closed = near.star(&mut ring);
+        let (mut candidates, mut ring) = (StarCandidates::default(), Vec::new());
+        points.iter().for_each(|&point| candidates.add(point));
+        let is_closed = candidates.star(&mut ring);
         (ring, is_closed)
     }
 

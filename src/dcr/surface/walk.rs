@@ -1,23 +1,23 @@
 //! Walking on the surface: straight on, from triangle to triangle, as if each were turned about the common edge into the
 //! plane of the one before (Polthier and Schmies 1998, "Straightest geodesics on polyhedral surfaces").
 //!
-//! Nothing but the shapes of triangles is used, each laid into the plane for itself. So triangles may turn their other
-//! side to their neighbour, and those without area are crossed as easily as any.
+//! Nothing but the shapes of triangles is used, each laid into the plane for itself. So neighbours may face opposite
+//! sides, and triangles without area are crossed like any other.
 
 use glam::{DVec2, DVec3};
 
-use crate::dcr::surface::sheet::Sheet;
+use crate::dcr::surface::connected::ConnectedMesh;
 use crate::mesh::{Mesh, exact, round_barycentrics};
 
-/// Who crosses more edges than this in one step stays in the triangle that was reached.
+/// A sample that crosses more edges than this in one step stays in the triangle that it has reached.
 const MOST_EDGES: u32 = 10_000;
 
-/// The share of the way to a border that is gone: a sample on the border itself would be its own mirror image.
+/// The fraction of the distance to a boundary that is walked: a sample on the boundary would be its own mirror image.
 const SHORT_OF_BORDER: f64 = 0.99;
 
 /// A triangle in the plane: the first corner at 0, the second on the x axis, the third above it. Lengths in spacings.
 #[derive(Clone, Copy)]
-pub(super) struct Flat {
+pub(super) struct FlatTriangle {
     corners: [DVec2; 3],
     /// The plane's axes in space.
     axes: [DVec3; 2],
@@ -25,32 +25,33 @@ pub(super) struct Flat {
     spacing: f64,
 }
 
-/// A place on the surface.
+/// A point of the surface.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct Place {
+pub(super) struct SurfacePoint {
     pub(super) triangle: u32,
     /// Barycentrics u and v.
     pub(super) uv: DVec2,
 }
 
-impl Place {
-    /// Where it is in space, in the floats in which samples are returned.
+impl SurfacePoint {
+    /// Its position in space, in the floats in which samples are returned.
     pub(super) fn position(self, mesh: &Mesh) -> DVec3 {
         exact(mesh.point(self.triangle, round_barycentrics(self.uv.into())))
     }
 }
 
-/// Where a walk ends.
+/// The end of a walk.
 #[derive(Clone, Copy)]
-pub(super) struct End {
-    pub(super) place: Place,
-    /// The way as it is seen in the last triangle: of the same length, or where a border was met what led along it.
-    pub(super) way: DVec2,
+pub(super) struct WalkEnd {
+    pub(super) place: SurfacePoint,
+    /// The displacement in the plane of the last triangle: of the same length, or where a boundary was met its
+    /// component along the boundary.
+    pub(super) displacement: DVec2,
 }
 
-impl Flat {
-    pub(super) fn new(sheet: &Sheet, triangle: u32, spacing: f64) -> Self {
-        let [a, b, c] = sheet.mesh.exact_corners(triangle);
+impl FlatTriangle {
+    pub(super) fn new(mesh: &ConnectedMesh, triangle: u32, spacing: f64) -> Self {
+        let [a, b, c] = mesh.mesh.exact_corners(triangle);
         let (ab, ac) = ((b - a) / spacing, (c - a) / spacing);
         let length = ab.length();
         let (x, cross) = (ab / length, ab.cross(ac));
@@ -63,13 +64,13 @@ impl Flat {
         self.axes[0].cross(self.axes[1])
     }
 
-    /// A vector of space as it is seen in the triangle's plane: turned into it without losing its length. In spacings.
+    /// A vector of space, rotated into the triangle's plane without losing its length. In spacings.
     pub(super) fn turned(&self, offset: DVec3) -> DVec2 {
-        self.seen(offset).normalize_or_zero() * (offset.length() / self.spacing)
+        self.projected(offset).normalize_or_zero() * (offset.length() / self.spacing)
     }
 
-    /// The part of a vector of space in the triangle's plane.
-    pub(super) fn seen(&self, offset: DVec3) -> DVec2 {
+    /// A vector of space, projected into the triangle's plane. In spacings.
+    pub(super) fn projected(&self, offset: DVec3) -> DVec2 {
         DVec2::new(offset.dot(self.axes[0]), offset.dot(self.axes[1])) / self.spacing
     }
 
@@ -97,18 +98,19 @@ impl Flat {
         (from, to - from)
     }
 
-    /// The edge through which a way leads out of the triangle, and when, if it does. `entry` is the edge on which it began.
-    fn exit(&self, point: DVec2, way: DVec2, entry: Option<u32>) -> Option<(u32, f64)> {
+    /// The edge through which a path from a point leads out of the triangle, and the fraction of the path before it, if
+    /// it does. `entry` is the edge on which it began.
+    fn exit(&self, point: DVec2, path: DVec2, entry: Option<u32>) -> Option<(u32, f64)> {
         let time = |k: u32| {
             let (from, along) = self.edge(k);
-            let outwards = way.perp_dot(along);
+            let outwards = path.perp_dot(along);
             (outwards > 0.0).then(|| (k, (along.perp_dot(point - from) / outwards).max(0.0)))
         };
         let exit = match entry {
             None => (0..3).filter_map(time).min_by(|a, b| a.1.total_cmp(&b.1)),
-            // Past the corner that faces the entry, on one side or the other: that can be told without any area.
+            // Past the corner that faces the entry, on one side or the other: that is known even without area.
             Some(k) => {
-                let is_right = way.perp_dot(self.corners[(k as usize + 2) % 3] - point) > 0.0;
+                let is_right = path.perp_dot(self.corners[(k as usize + 2) % 3] - point) > 0.0;
                 time((if is_right { k + 1 } else { k + 2 }) % 3)
             }
         };
@@ -116,11 +118,12 @@ impl Flat {
     }
 }
 
-/// Goes from a place, which has area around it, along `way`, which is in the plane of its triangle and in spacings.
-pub(super) fn walk(sheet: &Sheet, spacing: f64, start: Place, way: DVec2) -> End {
+/// Walks from a point, in a triangle with area, by a displacement, which is in the plane of its triangle and in
+/// spacings.
+pub(super) fn walk(mesh: &ConnectedMesh, spacing: f64, start: SurfacePoint, displacement: DVec2) -> WalkEnd {
     let mut triangle = start.triangle;
-    let mut flat = Flat::new(sheet, triangle, spacing);
-    let (mut point, mut direction, mut left, mut entry) = (flat.point(start.uv), way, 1.0, None);
+    let mut flat = FlatTriangle::new(mesh, triangle, spacing);
+    let (mut point, mut direction, mut left, mut entry) = (flat.point(start.uv), displacement, 1.0, None);
     for _ in 0..MOST_EDGES {
         let Some((k, time)) = flat.exit(point, direction * left, entry) else {
             point += direction * left;
@@ -129,13 +132,13 @@ pub(super) fn walk(sheet: &Sheet, spacing: f64, start: Place, way: DVec2) -> End
         let (from, edge) = flat.edge(k);
         let length = edge.length();
         let (along, outwards) = (direction.dot(edge) / length, direction.perp_dot(edge) / length);
-        let Some((other, onward)) = straightest(sheet, spacing, &flat, 3 * triangle + k) else {
+        let Some((other, onward)) = straightest(mesh, spacing, &flat, 3 * triangle + k) else {
             point += direction * (left * time * SHORT_OF_BORDER);
             direction = along * edge / length;
             break;
         };
         let share = ((point + direction * (left * time) - from).dot(edge) / (length * length)).clamp(0.0, 1.0);
-        let alike = sheet.run_alike(3 * triangle + k, other);
+        let alike = mesh.run_alike(3 * triangle + k, other);
         (triangle, flat, entry) = (other / 3, onward, Some(other % 3));
         let (from, edge) = flat.edge(other % 3);
         let ahead = edge / edge.length();
@@ -144,22 +147,22 @@ pub(super) fn walk(sheet: &Sheet, spacing: f64, start: Place, way: DVec2) -> End
         left *= 1.0 - time;
     }
     match flat.barycentrics(point) {
-        Some(uv) => End { place: Place { triangle, uv }, way: direction },
-        None => End { place: start, way: DVec2::ZERO },
+        Some(uv) => WalkEnd { place: SurfacePoint { triangle, uv }, displacement: direction },
+        None => WalkEnd { place: start, displacement: DVec2::ZERO },
     }
 }
 
 /// The half-edge on the other side of an edge, and its triangle: where there are several, the one that turns least.
-fn straightest(sheet: &Sheet, spacing: f64, flat: &Flat, edge: u32) -> Option<(u32, Flat)> {
-    let inwards = |flat: &Flat, edge: u32| {
+fn straightest(mesh: &ConnectedMesh, spacing: f64, flat: &FlatTriangle, edge: u32) -> Option<(u32, FlatTriangle)> {
+    let inwards = |flat: &FlatTriangle, edge: u32| {
         let across = flat.edge(edge % 3).1.perp().normalize();
         across.x * flat.axes[0] + across.y * flat.axes[1]
     };
-    let others = sheet.across(edge).map(|other| (other, Flat::new(sheet, other / 3, spacing)));
+    let others = mesh.across(edge).map(|other| (other, FlatTriangle::new(mesh, other / 3, spacing)));
     let mut others = others.map(|(other, onward)| (inwards(flat, edge).dot(inwards(&onward, other)), other, onward));
     let first = others.next()?;
-    let best = others.fold(first, |best, other| if other.0 < best.0 { other } else { best });
-    Some((best.1, best.2))
+    let straightest = others.fold(first, |least, other| if other.0 < least.0 { other } else { least });
+    Some((straightest.1, straightest.2))
 }
 
 #[cfg(test)]
@@ -169,9 +172,9 @@ mod tests {
 
     const SPACING: f64 = 0.25;
 
-    /// A square of side 8 around the origin in irregular triangles, some of them turned over, rolled up around the y axis
-    /// with this curvature.
-    fn sheet(curvature: f32) -> Mesh {
+    /// A square of side 8 around the origin in irregular triangles, some of them turned over, rolled up around the y
+    /// axis with this curvature.
+    fn rolled_square(curvature: f32) -> Mesh {
         let side = 17;
         let mut rng = Rng::at(1, Draw::Probe, &[]);
         let mut coordinate = |i: u32| {
@@ -188,32 +191,34 @@ mod tests {
         Mesh::new(places.iter().map(rolled).collect(), triangles.collect()).unwrap()
     }
 
-    fn at(mesh: &Mesh, place: Place) -> DVec3 {
+    fn at(mesh: &Mesh, place: SurfacePoint) -> DVec3 {
         mesh.point_exact(place.triangle, place.uv.into())
     }
 
     #[test]
     fn in_the_plane_walks_are_straight_lines() {
-        let mesh = sheet(0.0);
-        let sheet = Sheet::new(&mesh).unwrap();
+        let mesh = rolled_square(0.0);
+        let connected = ConnectedMesh::new(&mesh).unwrap();
         let mut rng = Rng::at(2, Draw::Probe, &[]);
         let (mut inside, mut stopped) = (0, 0);
         for _ in 0..2000 {
-            let start = Place { triangle: rng.below(512) as u32, uv: DVec2::new(rng.unit(), rng.unit()) / 2.0 };
-            let way = DVec3::new(rng.unit() - 0.5, rng.unit() - 0.5, 0.0) * 10.0;
-            let flat = Flat::new(&sheet, start.triangle, SPACING);
-            let end = walk(&sheet, SPACING, start, flat.turned(way));
+            let start = SurfacePoint { triangle: rng.below(512) as u32, uv: DVec2::new(rng.unit(), rng.unit()) / 2.0 };
+            let displacement = DVec3::new(rng.unit() - 0.5, rng.unit() - 0.5, 0.0) * 10.0;
+            let flat = FlatTriangle::new(&connected, start.triangle, SPACING);
+            let end = walk(&connected, SPACING, start, flat.turned(displacement));
             let (from, to) = (at(&mesh, start), at(&mesh, end.place));
-            let expected = from + way;
+            let expected = from + displacement;
             if expected.abs().max_element() < 4.0 {
                 assert!(to.distance(expected) < 1e-9, "from {from} to {to}, not {expected}");
-                assert!((end.way.length() - way.length() / SPACING).abs() < 1e-9);
+                assert!((end.displacement.length() - displacement.length() / SPACING).abs() < 1e-9);
                 inside += 1;
             } else {
-                // The border is met at this share of the way.
-                let share = (0..2).map(|axis| (4.0 * way[axis].signum() - from[axis]) / way[axis]).fold(1.0, f64::min);
-                assert!((to - from).cross(way).length() < 1e-9 && to.abs().max_element() < 4.0);
-                let gone = (to - from).length() / way.length();
+                // The boundary is met at this fraction of the walk.
+                let share = (0..2)
+                    .map(|axis| (4.0 * displacement[axis].signum() - from[axis]) / displacement[axis])
+                    .fold(1.0, f64::min);
+                assert!((to - from).cross(displacement).length() < 1e-9 && to.abs().max_element() < 4.0);
+                let gone = (to - from).length() / displacement.length();
                 assert!(gone <= share && gone > 0.98 * share - 0.01, "{gone} of {share}");
                 stopped += 1;
             }
@@ -223,38 +228,38 @@ mod tests {
 
     #[test]
     fn on_a_roll_walks_are_those_of_the_plane_rolled_up() {
-        let (mesh, plane) = (sheet(0.7), sheet(0.0));
+        let (mesh, plane) = (rolled_square(0.7), rolled_square(0.0));
         // The mesh is made of chords: its plane is that of its own edges.
-        let (sheet, flat_sheet) = (Sheet::new(&mesh).unwrap(), Sheet::new(&plane).unwrap());
+        let (connected, flat_connected) = (ConnectedMesh::new(&mesh).unwrap(), ConnectedMesh::new(&plane).unwrap());
         let mut rng = Rng::at(3, Draw::Probe, &[]);
         for _ in 0..500 {
-            let start = Place { triangle: rng.below(512) as u32, uv: DVec2::new(rng.unit(), rng.unit()) / 2.0 };
-            let way = DVec2::from_angle(rng.unit() * 7.0) * 4.0;
-            let [end, flat_end] = [&sheet, &flat_sheet].map(|sheet| walk(sheet, SPACING, start, way));
-            let back = walk(&sheet, SPACING, end.place, -end.way);
-            if (end.way.length() - 4.0).abs() < 1e-9 {
-                assert!(at(&mesh, back.place).distance(at(&mesh, start)) < 1e-9, "the way back ends elsewhere");
+            let start = SurfacePoint { triangle: rng.below(512) as u32, uv: DVec2::new(rng.unit(), rng.unit()) / 2.0 };
+            let displacement = DVec2::from_angle(rng.unit() * 7.0) * 4.0;
+            let [end, flat_end] = [&connected, &flat_connected].map(|mesh| walk(mesh, SPACING, start, displacement));
+            let back = walk(&connected, SPACING, end.place, -end.displacement);
+            if (end.displacement.length() - 4.0).abs() < 1e-9 {
+                assert!(at(&mesh, back.place).distance(at(&mesh, start)) < 1e-9, "the walk back ends elsewhere");
             }
-            // Triangles differ from those of the plane by what their vertices leave the cylinder in between.
+            // Triangles differ from those of the plane by the distance of chords from the cylinder.
             let near = at(&plane, end.place).distance(at(&plane, flat_end.place));
             assert!(near < 0.1, "{near}");
         }
     }
 
     #[test]
-    fn triangles_without_area_are_crossed_and_nobody_stays_there() {
+    fn triangles_without_area_are_crossed_and_no_walk_ends_there() {
         // A square whose upper half ends on an edge with one vertex more: the triangle between has no area.
         let positions =
             vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.5, -1.0, 0.0], [0.5, 0.0, 0.0], [0.0, 1.0, 0.0], [1.0, 1.0, 0.0]];
         let triangles = vec![[2, 1, 0], [0, 1, 3], [0, 3, 4], [3, 1, 5], [3, 5, 4]];
         let mesh = Mesh::new(positions, triangles).unwrap();
-        let sheet = Sheet::new(&mesh).unwrap();
-        let start = Place { triangle: 0, uv: DVec2::new(0.3, 0.4) };
-        let flat = Flat::new(&sheet, 0, SPACING);
+        let connected = ConnectedMesh::new(&mesh).unwrap();
+        let start = SurfacePoint { triangle: 0, uv: DVec2::new(0.3, 0.4) };
+        let flat = FlatTriangle::new(&connected, 0, SPACING);
         for length in [0.1, 0.5, 0.9] {
-            let way = DVec3::new(0.1, length, 0.0);
-            let end = walk(&sheet, SPACING, start, flat.turned(way));
-            assert!(at(&mesh, end.place).distance(at(&mesh, start) + way) < 1e-9);
+            let displacement = DVec3::new(0.1, length, 0.0);
+            let end = walk(&connected, SPACING, start, flat.turned(displacement));
+            assert!(at(&mesh, end.place).distance(at(&mesh, start) + displacement) < 1e-9);
             assert!(mesh.triangle_area(end.place.triangle) > 0.0);
         }
     }

@@ -1,17 +1,18 @@
 //! Tensions, activeness and displacements of one step (thesis §4.2.4, §4.3.2, §4.3.5 and its algorithm "Enforcing
 //! Distance Constraints").
 //!
-//! The thesis scatters: whoever visits an edge adds to the force on both of its ends. Here every point gathers what
-//! all visits give to it, so that points share nothing; the sums are the same.
+//! The thesis scatters: a visit to an edge adds to the force on both of its ends. Here every point gathers what all
+//! visits would add to it, so that points share nothing; the sums are the same.
 //!
 //! Activeness `α = Σ|F| / |ΣF|` (eq. 4.11) is 1 without tension and infinite in balance. It is held as its inverse,
-//! the *yield* `β = |ΣF| / Σ|F|` in `0..=1`: how readily a point gives way. The algorithm's own share
+//! the *yield* `β = |ΣF| / Σ|F|` in `0..=1`: the readiness of a point to move. The algorithm's own share
 //! `1 - α_i / (α_i + α_j)` is then `β_i / (β_i + β_j)`.
 
 use glam::DVec2;
 
-use crate::dcr::{Distribution, Neighbourhood, Thesis, Visits};
-use crate::geometry::links::{Link, Links};
+use crate::dcr::neighbourhood::Neighbourhood;
+use crate::dcr::thesis::links::{Link, Links};
+use crate::dcr::thesis::settings::{Distribution, Thesis, Visits};
 use crate::rng::{Draw, hash};
 
 /// A force within this cosine of the reverse of the one before: the point oscillates (δ of §4.4.2; §4.3.5 says 0.9).
@@ -79,7 +80,7 @@ impl Forces {
     fn visits(&self, point: u32, link: &Link) -> [f64; 2] {
         let is_mutual = link.outgoing && link.incoming;
         match self.visits {
-            // A point and its own image visit the edge between them alike.
+            // A point and its own image visit the edge between them equally.
             Visits::OneEnd if is_mutual && link.other == point => [0.5; 2],
             Visits::OneEnd if is_mutual => {
                 let (low, high) = (point.min(link.other), point.max(link.other));
@@ -90,7 +91,7 @@ impl Forces {
         }
     }
 
-    /// What a point takes of a tension when it visits, and when it is visited.
+    /// The fraction of a tension that a point takes when it visits, and when it is visited.
     fn shares(&self, particle: &Particle, other: &Particle) -> [f64; 2] {
         match self.distribution {
             Distribution::Activeness => {
@@ -136,7 +137,7 @@ mod tests {
 
     const COUNT: usize = 24;
 
-    /// A neighbourhood of which some links lead one way only. The way to a neighbour is that to its place.
+    /// A neighbourhood in which some links are not mutual.
     struct Partial<'a> {
         positions: &'a [DVec2],
     }
@@ -166,7 +167,7 @@ mod tests {
     /// Activeness without bound, in the formulas that divide by its sum with another.
     const UNBOUND: f64 = 1e15;
 
-    /// The pseudo-code of the thesis: whoever visits an edge adds to both of its ends.
+    /// The pseudo-code of the thesis: a visit to an edge adds to both of its ends.
     fn scatter(forces: &Forces, before: &[State]) -> Vec<State> {
         let positions: Vec<_> = before.iter().map(|state| state.0).collect();
         let links = Partial { positions: &positions };

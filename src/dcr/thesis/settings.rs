@@ -1,4 +1,4 @@
-//! What the thesis's algorithm can be varied by (§4.4.2 and §4.4.3).
+//! The settings of the thesis's algorithm (§4.4.2 and §4.4.3).
 
 use crate::error::{Error, Result};
 use crate::setters::setters;
@@ -6,11 +6,11 @@ use crate::setters::setters;
 /// How a tension is divided between the point that visits an edge and the neighbour at its other end (Fig. 4.19).
 ///
 /// Where edges are visited from both ends ([`Visits::BothEnds`]) all but [`Distribution::Activeness`] give the same
-/// displacements on the Delaunay neighbourhood. On the nearest, where only one end may count the other among its nearest,
-/// all differ, and so they do with [`Visits::OneEnd`].
+/// displacements on the Delaunay neighbourhood. They differ on the nearest, where one end may be among the nearest of
+/// the other but not conversely, and with [`Visits::OneEnd`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Distribution {
-    /// By activeness: whose tensions cancel out moves its neighbours, whose tensions agree moves itself.
+    /// By activeness: a point whose tensions cancel out moves its neighbours, one whose tensions agree moves itself.
     Activeness,
     /// Half to each end: the thesis's algorithm without activeness.
     Average,
@@ -23,21 +23,22 @@ pub enum Distribution {
     EightyTwenty,
 }
 
-/// From where an edge is visited. Each visit brings its tension upon the two ends once.
+/// The ends from which an edge is visited. Each visit applies its tension to both ends once.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Visits {
     /// From each end that has the other in its neighbourhood, as in the thesis's pseudo-code.
     BothEnds,
-    /// From one end. Of two that are in each other's neighbourhood it is the same one in every step, by a coin keyed by the
-    /// seed and the two points, so that the distributions of Fig. 4.19 differ. Points get about half as far in a step.
+    /// From one end. Of two that are in each other's neighbourhood it is the same one in every step, chosen by a coin
+    /// keyed by the seed and the two points, so that the distributions of Fig. 4.19 differ. Points move about half as
+    /// far in a step.
     OneEnd,
 }
 
-/// What ends the thesis's algorithm before its steps do.
+/// The test of convergence.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Convergence {
-    /// The motion ([`Report::motion`](super::Report::motion)) falls to the tolerance. It says the same of small steps and
-    /// of large ones.
+    /// The motion ([`Report::motion`](crate::dcr::Report::motion)) falls to the tolerance. It does not depend on the
+    /// step size.
     Motion,
     /// The thesis's test (§4.4.2): ten times in a row the variance of the distances to the nearest point changes by less
     /// than 0.1 % in a step, while more than 99 % of the points are stable, which the thesis does not define: here those
@@ -46,7 +47,7 @@ pub enum Convergence {
     Variance,
 }
 
-/// What the thesis's algorithm can be varied by. Lengths are in units of `d_max`, the distance of neighbours if the same
+/// The settings of the thesis's algorithm. Lengths are in units of `d_max`, the distance of neighbours if the same
 /// number of points stood in hexagonal arrangement on the domain's area (and never more than its shorter side).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
@@ -57,7 +58,7 @@ pub struct Thesis {
     pub attraction_radius: f64,
     /// The step size λ: the displacement by a tension of 1; above 0, at most 1.
     pub step: f64,
-    /// What λ is multiplied with after every step; above 0, at most 1. With 1 it is constant, as in the thesis's experiments;
+    /// The factor of λ after every step; above 0, at most 1. With 1 it is constant, as in the thesis's experiments;
     /// the thesis recommends a decaying one without a rule for it. All steps together are no longer than
     /// `step / (1 - decay)`: about 10 are needed from a random start.
     pub decay: f64,
@@ -65,9 +66,9 @@ pub struct Thesis {
     pub neighbours: u32,
     /// How tensions are divided.
     pub distribution: Distribution,
-    /// From where edges are visited.
+    /// The ends from which edges are visited.
     pub visits: Visits,
-    /// When no more steps are needed.
+    /// The test of convergence.
     pub convergence: Convergence,
 }
 

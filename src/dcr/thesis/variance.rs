@@ -1,6 +1,6 @@
 //! The thesis's own test of convergence (§4.4.2): the variance of the distances to the nearest point no longer changes,
-//! and more than 99 % of the points are stable. It does not say what a stable point is. With what is taken for one here
-//! that second condition never decided in any of the runs that were looked at: when the variance rests, points do.
+//! and more than 99 % of the points are stable. It does not define a stable point. With the definition chosen here the
+//! second condition was never decisive in the runs examined: when the variance is constant, points are at rest.
 
 use glam::DVec2;
 
@@ -16,7 +16,7 @@ const CHANGE: f64 = 1e-3;
 /// How many times in a row it must rest.
 const STEPS: u32 = 10;
 
-/// A point that moves by less than this in a step, in spacings, is stable; and how many of the points must be.
+/// A point that moves by less than this in a step, in spacings, is stable; and the fraction of the points that must be.
 const STABLE_MOTION: f64 = 0.01;
 const STABLE_SHARE: f64 = 0.99;
 
@@ -28,7 +28,7 @@ pub(super) struct Variance {
 }
 
 impl Variance {
-    /// Looks at the points after a step that led from `before` to `after`.
+    /// Updates the test with a step from `before` to `after`.
     pub(super) fn after_step(&mut self, job: &Job, frame: &Frame, before: &[DVec2], after: &[DVec2]) -> Result<()> {
         let variance = variance(&nearest_distances(job, frame, after)?);
         let is_stable = |&(&from, &to): &(&DVec2, &DVec2)| frame.offset(from, to).length() < STABLE_MOTION;
@@ -97,7 +97,8 @@ mod tests {
             context.run(None, |job| variance.after_step(job, &frame, before, after)).unwrap();
             variance.has_settled()
         };
-        // Of the first step no change is known; a point that jumps begins the row again, and so does a new variance.
+        // The first step has no change to compare with; a point that jumps starts the count again, as does a new
+        // variance.
         assert!((0..10).all(|_| !step(&calm, &calm)));
         let elsewhere = calm.map(|point| point + 0.02);
         assert!(!step(&calm, &elsewhere));

@@ -1,20 +1,24 @@
-//! A triangulation without border, as the ring of neighbours of each point, counter-clockwise.
+//! A triangulation without boundary, as the ring of neighbours of each point, counter-clockwise.
 //!
-//! A ring is what a point gathers from, in one run of memory. A flip changes the rings of four points, so flips in
-//! [`Patch`]es, the rings of points that follow each other, can be made at the same time.
+//! A point gathers from its ring, which is one run of memory. A flip changes the rings of four points, so flips in
+//! different [`Patch`]es, the rings of consecutive points, can be made in parallel.
+//!
+//! Rings have few slots, as points have few neighbours at a constant density. Where the density varies, some points have
+//! hundreds, and every ring would need as many slots: there the mesh is one of half-edges
+//! (`density/half_edge_mesh.rs`).
 
-/// How many neighbours any point may gain by flips before the slots are full.
+/// The number of neighbours that any point can gain by flips before the slots are full.
 const SPARE: usize = 3;
 
-/// Slots come in so many, a whole cache line.
+/// The number of slots is a multiple of this, which is a cache line.
 const LINE: usize = 16;
 
-/// The most slots: where a point has more neighbours, the others would waste too much memory.
+/// The largest number of slots: for points with more neighbours all others would waste too much memory.
 const MOST: usize = 64;
 
-/// Rings of some points, in no order.
+/// Rings of some points, in no order: the form in which a mesh is built.
 #[derive(Default)]
-pub(super) struct Stars {
+pub(super) struct RingList {
     /// The points, and where their rings end in `neighbours`.
     pub(super) points: Vec<(u32, usize)>,
     pub(super) neighbours: Vec<u32>,
@@ -22,14 +26,14 @@ pub(super) struct Stars {
 
 /// The neighbours of every point.
 pub(super) struct Rings {
-    /// How many neighbours a point can have.
+    /// The number of neighbours that a point can have.
     slots: usize,
     degrees: Vec<u8>,
-    /// Those of point `p` from `slots · p` on. Slots behind the last neighbour hold any point.
+    /// Those of point `p` from `slots · p` on. Slots after the last neighbour hold any point.
     neighbours: Vec<u32>,
 }
 
-/// The rings of some points that follow each other, to be changed.
+/// The rings of consecutive points, mutable.
 pub(super) struct Patch<'a> {
     first: u32,
     slots: usize,
@@ -37,13 +41,13 @@ pub(super) struct Patch<'a> {
     neighbours: &'a mut [u32],
 }
 
-/// A ring has no slot left, or too few neighbours for a flip.
+/// A flip is impossible: a ring has no slot left, or too few neighbours.
 #[derive(Debug)]
-pub(super) struct Unfit;
+pub(super) struct Impossible;
 
 impl Rings {
-    /// The rings of `count` points; none if a point has none, or more neighbours than there are slots.
-    pub(super) fn new(count: usize, stars: &[Stars]) -> Option<Self> {
+    /// The rings of `count` points; none if a point has less than three neighbours, or more than there are slots.
+    pub(super) fn new(count: usize, stars: &[RingList]) -> Option<Self> {
         let rings = || {
             stars.iter().flat_map(|stars| {
                 let starts = std::iter::once(0).chain(stars.points.iter().map(|&(_, end)| end));
@@ -57,9 +61,9 @@ impl Rings {
         }
         let (mut degrees, mut neighbours) = (vec![0; count], vec![0; count * slots]);
         for (point, ring) in rings() {
-            let room = &mut neighbours[point * slots..(point + 1) * slots];
-            room[..ring.len()].copy_from_slice(ring);
-            room[ring.len()..].fill(*ring.first()?);
+            let slots_of_point = &mut neighbours[point * slots..(point + 1) * slots];
+            slots_of_point[..ring.len()].copy_from_slice(ring);
+            slots_of_point[ring.len()..].fill(*ring.first()?);
             degrees[point] = ring.len() as u8;
         }
         degrees.iter().all(|&degree| degree >= 3).then_some(Self { slots, degrees, neighbours })
@@ -93,8 +97,8 @@ impl Rings {
         &self.neighbours[point * self.slots..][..self.slots]
     }
 
-    /// Whether every neighbour that follows `q` in the ring of a point has the point follow it in the ring of `q`: then
-    /// the rings are those of triangles, each of which is seen alike by its corners.
+    /// Whether for every neighbour `q` of a point and the one that follows it, `r`, the point follows `r` in the ring
+    /// of `q`: then the rings describe triangles on which all corners agree.
     pub(super) fn agree(&self, point: usize) -> bool {
         let ring = self.ring(point);
         let is_distinct = (1..ring.len()).all(|k| !ring[..k].contains(&ring[k]));
@@ -105,7 +109,7 @@ impl Rings {
             })
     }
 
-    /// The rings, cut after every so many points.
+    /// The rings in patches of `size` points.
     pub(super) fn patches(&mut self, size: usize) -> impl Iterator<Item = Patch<'_>> {
         let slots = self.slots;
         let parts = self.degrees.chunks_mut(size).zip(self.neighbours.chunks_mut(size * slots));
@@ -122,7 +126,7 @@ impl Patch<'_> {
         (point.wrapping_sub(self.first) as usize) < self.degrees.len()
     }
 
-    /// The point behind those of the patch.
+    /// The index after the last point of the patch.
     pub(super) fn end(&self) -> usize {
         self.first as usize + self.degrees.len()
     }
@@ -132,7 +136,7 @@ impl Patch<'_> {
         &self.neighbours[index * self.slots..][..self.degrees[index].into()]
     }
 
-    /// The points on the left and on the right of the way from `p` to `q`; none if that is no edge.
+    /// The points on the left and on the right of the edge from `p` to `q`; none if that is no edge.
     pub(super) fn apices(&self, [p, q]: [u32; 2]) -> Option<[u32; 2]> {
         let ring = self.ring(p);
         let k = ring.iter().position(|&other| other == q)?;
@@ -140,10 +144,10 @@ impl Patch<'_> {
     }
 
     /// Replaces the edge from `p` to `q` by the one between the points on its left and on its right. All four are held.
-    pub(super) fn flip(&mut self, [p, q]: [u32; 2], [r, s]: [u32; 2]) -> Result<(), Unfit> {
+    pub(super) fn flip(&mut self, [p, q]: [u32; 2], [r, s]: [u32; 2]) -> Result<(), Impossible> {
         let is_full = |point: u32| self.ring(point).len() == self.slots;
         if self.ring(p).len() == 3 || self.ring(q).len() == 3 || is_full(r) || is_full(s) {
-            return Err(Unfit);
+            return Err(Impossible);
         }
         self.remove(p, q);
         self.remove(q, p);
@@ -180,7 +184,7 @@ mod tests {
 
     /// The torus of 4 × 4 points whose squares are cut along one diagonal.
     fn lattice() -> Rings {
-        let mut stars = Stars::default();
+        let mut stars = RingList::default();
         for point in 0..16 {
             let (x, y) = (point % 4, point / 4);
             let at = |dx: u32, dy: u32| (x + dx) % 4 + (y + dy) % 4 * 4;
@@ -226,6 +230,6 @@ mod tests {
         let mut rings = lattice();
         rings.neighbours.swap(0, 1);
         assert!(!rings.agree(0));
-        assert!(Rings::new(17, &[Stars::default()]).is_none());
+        assert!(Rings::new(17, &[RingList::default()]).is_none());
     }
 }

@@ -1,4 +1,4 @@
-//! What points feel in their rings, eight at a time: [`Constraints::force`] in vectors, the same to the bit.
+//! Forces in the stars of eight points at a time: [`Constraints::force`] in vectors, the same to the bit.
 //!
 //! The loops over eight lanes are plain; the compiler makes vectors of them.
 
@@ -6,10 +6,10 @@ use std::array::from_fn;
 use std::ops::Range;
 
 use crate::dcr::ground::constraints::{Constraints, STRONGEST_PULL};
-use crate::dcr::ground::torus::{Place, Torus};
+use crate::dcr::ground::torus::{Torus, TorusPoint};
 use crate::dcr::uniform::rings::Rings;
 
-/// So many points at a time.
+/// The number of points that are processed at a time.
 pub(super) const LANES: usize = 8;
 
 type Lanes = [f32; LANES];
@@ -17,42 +17,43 @@ type Lanes = [f32; LANES];
 /// The last bit of the masks of suspects.
 const LAST_BIT: usize = 31;
 
-/// The distance, and the circumradius, in spacings, from which on constraints count as violated: those of the best method
-/// before this one, push-pull.
+/// The distance below which, and the circumradius above which, constraints count as violated, in spacings: those that
+/// the push-pull algorithm (Ahmed et al. 2016) reaches.
 const TOO_CLOSE: f32 = 0.85;
 const TOO_WIDE: f32 = 0.67;
 
 /// The sum of two cotangents below which an edge may have to be flipped after its points have moved once more.
 const SUSPECT: f32 = 0.05;
 
-/// What eight points feel.
-pub(super) struct Felt {
+/// What eight points gather in their stars.
+pub(super) struct Gathered {
     /// The forces, along `x` and along `y`.
     pub(super) force: [Lanes; 2],
     /// The least heights of the triangles around the points.
-    pub(super) room: Lanes,
-    /// Whether no triangle is turned over or has an edge so long that twice it would be ambiguous: 1, else 0.
+    pub(super) clearance: Lanes,
+    /// 1 if no triangle is turned over or has an edge so long that its double would be ambiguous, else 0.
     is_sound: [u32; LANES],
-    /// Whether a neighbour, not counting own images, is too close or a triangle too wide: 1, else 0.
+    /// 1 if a neighbour, not counting own images, is too close or a triangle too wide, else 0.
     is_violated: [u32; LANES],
-    /// In bit `k`, whether the edge to the neighbour before the `k`-th is suspect; in the last, whether one of the others is.
+    /// Bit `k` says whether the edge to the neighbour before the `k`-th is suspect, the last bit whether one of the
+    /// others is.
     suspects: [u32; LANES],
 }
 
-/// Who is told what points feel.
-pub(super) trait Visit {
-    /// Some points that follow each other, at most eight, and what they feel, the first in the first lane.
-    fn visit(&mut self, rings: &Rings, points: Range<usize>, felt: &Felt);
+/// Receives what points gather.
+pub(super) trait Visitor {
+    /// Visits up to eight consecutive points, the first in the first lane.
+    fn visit(&mut self, rings: &Rings, points: Range<usize>, gathered: &Gathered);
 }
 
-impl Felt {
+impl Gathered {
     /// Whether all triangles around the first `count` points are sound.
     #[inline(always)]
     pub(super) fn are_sound(&self, count: usize) -> bool {
         self.is_sound[..count].iter().all(|&is| is != 0)
     }
 
-    /// Those of the first `count` lanes whose constraints are violated.
+    /// Those of the first `count` lanes in which constraints are violated.
     #[inline(always)]
     pub(super) fn violated(&self, count: usize) -> impl Iterator<Item = usize> {
         (0..count).filter(|&lane| self.is_violated[lane] != 0)
@@ -71,12 +72,12 @@ impl Felt {
     }
 }
 
-/// What eight points feel of the triangles that were looked at, and the last of these.
-struct Sight<'a> {
+/// What eight points have gathered in the triangles up to the last one.
+struct Accumulator<'a> {
     constraints: &'a Constraints,
     /// The longest edges along the axes, in spacings.
     longest: [f32; 2],
-    /// The ways to the points' own images across the borders.
+    /// The distances to the points' own images across the boundary.
     images: [Lanes; 2],
     degrees: [u32; LANES],
     force: [Lanes; 2],
@@ -85,7 +86,7 @@ struct Sight<'a> {
     is_sound: [u32; LANES],
     is_violated: [u32; LANES],
     suspects: [u32; LANES],
-    /// The way to the last neighbour, and its square.
+    /// The offset of the last neighbour, and its square.
     before: [Lanes; 2],
     before_squared: Lanes,
     /// Of the last triangle: twice the area, and the cosine at the neighbour before the last, times two edges.
@@ -93,49 +94,64 @@ struct Sight<'a> {
     cosine: Lanes,
 }
 
-/// What `points` feel.
-#[inline(always)]
-pub(super) fn feel(
-    rings: &Rings,
-    torus: &Torus,
-    places: &[Place],
-    points: [usize; LANES],
-    constraints: &Constraints,
-) -> Felt {
-    let slots: [&[u32]; LANES] = from_fn(|i| rings.slots_of(points[i]));
-    let degrees: [u32; LANES] = from_fn(|i| rings.degree(points[i]) as u32);
-    let here: [u64; LANES] = from_fn(|i| whole(places[points[i]]));
-    let (unit, longest) = torus.unit_and_longest();
-    let eight = Eight { places, rings: slots, here, unit: unit.to_array() };
-    let images: [[f32; 2]; LANES] = from_fn(|i| torus.ways_to_images(places[points[i]]));
-    let images = [0, 1].map(|axis| images.map(|image| image[axis]));
-    let first = eight.ways(degrees.map(|degree| degree as usize - 2));
-    let mut sight = Sight::new(constraints, longest, images, degrees, first);
-    sight.turn(eight.ways(degrees.map(|degree| degree as usize - 1)));
-    for k in 0..degrees.into_iter().max().unwrap_or(0) {
-        sight.see(eight.ways([k as usize; LANES]), k);
+/// The stars of all points in a triangulation of the torus.
+pub(super) struct Stars<'a> {
+    pub(super) rings: &'a Rings,
+    pub(super) torus: &'a Torus,
+    pub(super) places: &'a [TorusPoint],
+    pub(super) constraints: &'a Constraints,
+}
+
+impl Stars<'_> {
+    /// Gathers for a range of points and passes the results to `visitor`. Code of its own for each level of vectors is
+    /// in `vectors`.
+    #[inline(always)]
+    pub(super) fn gather(&self, points: Range<usize>, visitor: &mut impl Visitor) {
+        for first in points.clone().step_by(LANES) {
+            let eight = first..points.end.min(first + LANES);
+            let lanes = from_fn(|lane| (first + lane).min(points.end - 1));
+            visitor.visit(self.rings, eight, &self.gather_eight(lanes));
+        }
     }
-    sight.felt()
+
+    #[inline(always)]
+    fn gather_eight(&self, points: [usize; LANES]) -> Gathered {
+        let &Self { rings, torus, places, constraints } = self;
+        let slots: [&[u32]; LANES] = from_fn(|i| rings.slots_of(points[i]));
+        let degrees: [u32; LANES] = from_fn(|i| rings.degree(points[i]) as u32);
+        let here: [u64; LANES] = from_fn(|i| whole(places[points[i]]));
+        let (unit, longest) = torus.unit_and_longest();
+        let eight = Eight { places, rings: slots, here, unit: unit.to_array() };
+        let images: [[f32; 2]; LANES] = from_fn(|i| torus.image_distances(places[points[i]]));
+        let images = [0, 1].map(|axis| images.map(|image| image[axis]));
+        let first = eight.offsets(degrees.map(|degree| degree as usize - 2));
+        let mut sums = Accumulator::new(constraints, longest, images, degrees, first);
+        sums.skip(eight.offsets(degrees.map(|degree| degree as usize - 1)));
+        for k in 0..degrees.into_iter().max().unwrap_or(0) {
+            sums.add_triangles(eight.offsets([k as usize; LANES]), k);
+        }
+        sums.finish()
+    }
 }
 
 /// Eight points and their rings.
 struct Eight<'a> {
-    places: &'a [Place],
+    places: &'a [TorusPoint],
     rings: [&'a [u32]; LANES],
     here: [u64; LANES],
     unit: [f32; 2],
 }
 
-/// A place in one number: one load from memory.
+/// A point as one number: one load from memory.
 #[inline(always)]
-fn whole(place: Place) -> u64 {
+fn whole(place: TorusPoint) -> u64 {
     u64::from(place[0]) | u64::from(place[1]) << 32
 }
 
 impl Eight<'_> {
-    /// The ways from the points to those in these slots of their rings.
+    /// The offsets of the neighbours in these slots of the rings.
     #[inline(always)]
-    fn ways(&self, slots: [usize; LANES]) -> [Lanes; 2] {
+    fn offsets(&self, slots: [usize; LANES]) -> [Lanes; 2] {
         let there: [u64; LANES] = from_fn(|i| whole(self.places[self.rings[i][slots[i]] as usize]));
         let along = |axis: usize, i: usize| {
             let [there, here] = [there[i], self.here[i]].map(|place| (place >> (32 * axis)) as u32);
@@ -145,7 +161,7 @@ impl Eight<'_> {
     }
 }
 
-impl<'a> Sight<'a> {
+impl<'a> Accumulator<'a> {
     #[inline(always)]
     fn new(
         constraints: &'a Constraints,
@@ -171,9 +187,9 @@ impl<'a> Sight<'a> {
         }
     }
 
-    /// Goes on to the next neighbours without looking.
+    /// Goes on to the next neighbours without gathering.
     #[inline(always)]
-    fn turn(&mut self, [x, y]: [Lanes; 2]) {
+    fn skip(&mut self, [x, y]: [Lanes; 2]) {
         for i in 0..LANES {
             let [before_x, before_y] = self.before.map(|before| before[i]);
             self.area[i] = before_x * y[i] - before_y * x[i];
@@ -183,9 +199,9 @@ impl<'a> Sight<'a> {
         self.before = [x, y];
     }
 
-    /// Looks at the triangles between the last neighbours and the `k`-th.
+    /// Gathers in the triangles between the last neighbours and the `k`-th.
     #[inline(always)]
-    fn see(&mut self, [xs, ys]: [Lanes; 2], k: u32) {
+    fn add_triangles(&mut self, [xs, ys]: [Lanes; 2], k: u32) {
         let &Constraints { conflict_radius, coverage_radius, push, pull, .. } = self.constraints;
         for i in 0..LANES {
             let is = k < self.degrees[i];
@@ -236,10 +252,10 @@ impl<'a> Sight<'a> {
     }
 
     #[inline(always)]
-    fn felt(self) -> Felt {
-        Felt {
+    fn finish(self) -> Gathered {
+        Gathered {
             force: self.force,
-            room: from_fn(|i| (self.height[0][i] / self.height[1][i]).sqrt()),
+            clearance: from_fn(|i| (self.height[0][i] / self.height[1][i]).sqrt()),
             is_sound: self.is_sound,
             is_violated: self.is_violated,
             suspects: self.suspects,

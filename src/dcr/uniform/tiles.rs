@@ -1,22 +1,23 @@
 //! The first triangulation of large sets, tile by tile.
 //!
-//! Each tile of the torus is triangulated with the points in a margin around it. The star of a point is that of the whole
-//! set if the circumcircles of its triangles lie where all points are known; if one does not, there is no result, and the
-//! set is to be triangulated as a whole.
+//! Each tile of the torus is triangulated with the points in a margin around it. The star of a point is that of the
+//! whole set if the circumcircles of its triangles lie where all points are known; if one does not, there is no result,
+//! and the set must be triangulated as a whole.
 
 use glam::DVec2;
 use spade::handles::VertexHandle;
 use spade::{DelaunayTriangulation, HasPosition, Point2, Triangulation};
 
-use crate::dcr::ground::torus::{Place, Torus, nudge};
-use crate::dcr::uniform::rings::Stars;
+use crate::dcr::ground::torus::{Torus, TorusPoint, nudge};
+use crate::dcr::uniform::rings::RingList;
 use crate::error::Result;
+use crate::geometry::counting_sort::Binned;
 use crate::job::Job;
 
-/// Tiles have about as many points, or up to four times as many.
+/// The least number of points of a tile on average; it can be four times as high.
 const POINTS: usize = 2000;
 
-/// The margin, in spacings: a little more than the largest empty circle of a million random points is wide.
+/// The margin, in spacings: slightly more than the diameter of the largest empty circle of a million random points.
 const MARGIN: f64 = 4.0;
 
 /// A point in a tile or its margin.
@@ -40,15 +41,14 @@ impl HasPosition for Vertex {
 /// A torus cut into 2^`level` tiles along each axis, and the points of each.
 struct Tiles<'a> {
     torus: &'a Torus,
-    places: &'a [Place],
+    places: &'a [TorusPoint],
     level: u32,
-    /// Tile `t` holds the points `points[starts[t]..starts[t + 1]]`.
-    starts: Vec<u32>,
-    points: Vec<u32>,
+    /// The points by tiles.
+    points: Binned<u32>,
 }
 
 /// The rings of all points. None for sets that are too small, and if a star is not enclosed in the margin of its tile.
-pub(super) fn triangulate(job: &Job, torus: &Torus, places: &[Place]) -> Result<Option<Vec<Stars>>> {
+pub(super) fn triangulate(job: &Job, torus: &Torus, places: &[TorusPoint]) -> Result<Option<Vec<RingList>>> {
     let level = (places.len() / POINTS).max(1).ilog2() / 2;
     let narrow = torus.frame.size().min_element() / f64::from(1u32 << level) < 2.0 * MARGIN;
     // With three tiles along an axis, those on both sides of one are different.
@@ -61,23 +61,14 @@ pub(super) fn triangulate(job: &Job, torus: &Torus, places: &[Place]) -> Result<
 }
 
 impl<'a> Tiles<'a> {
-    fn new(torus: &'a Torus, places: &'a [Place], level: u32) -> Self {
-        let mut tiles = Self { torus, places, level, starts: Vec::new(), points: vec![0; places.len()] };
-        // Counted two tiles on and begun one tile on, the starts are what they shall be when all points have their slots.
-        let mut starts = vec![0; (1 << (2 * level)) + 2];
-        places.iter().for_each(|&place| starts[tiles.tile(place) + 2] += 1);
-        for tile in 2..starts.len() {
-            starts[tile] += starts[tile - 1];
-        }
-        for (point, &place) in (0..).zip(places) {
-            let next = &mut starts[tiles.tile(place) + 1];
-            tiles.points[*next as usize] = point;
-            *next += 1;
-        }
-        Self { starts, ..tiles }
+    fn new(torus: &'a Torus, places: &'a [TorusPoint], level: u32) -> Self {
+        let tiles = Self { torus, places, level, points: Binned::default() };
+        let points = (0..).zip(places).map(|(point, &place)| (tiles.tile(place), point));
+        let points = Binned::new(1 << (2 * level), points);
+        Self { points, ..tiles }
     }
 
-    fn tile(&self, place: Place) -> usize {
+    fn tile(&self, place: TorusPoint) -> usize {
         let [x, y] = place.map(|x| x >> (32 - self.level));
         (y << self.level | x) as usize
     }
@@ -88,7 +79,7 @@ impl<'a> Tiles<'a> {
     }
 
     /// The rings of the points of a tile.
-    fn stars(&self, tile: u32) -> Option<Stars> {
+    fn stars(&self, tile: u32) -> Option<RingList> {
         let size = self.size();
         let knows = |centre: DVec2, radius: f64| {
             (centre - radius).cmpge(DVec2::splat(-MARGIN)).all() && (centre + radius).cmple(size + MARGIN).all()
@@ -102,7 +93,7 @@ impl<'a> Tiles<'a> {
                 })
             })
         };
-        let mut stars = Stars::default();
+        let mut stars = RingList::default();
         for star in triangulation.vertices().filter(|star| star.data().is_inside) {
             if !is_enclosed(&star) {
                 return None;
@@ -123,7 +114,7 @@ impl<'a> Tiles<'a> {
         let mut vertices = Vec::new();
         for [column, row] in around.into_iter().flatten() {
             let tile = (row * side + column) as usize;
-            for &point in &self.points[self.starts[tile] as usize..self.starts[tile + 1] as usize] {
+            for &point in self.points.bin(tile) {
                 let offset = self.torus.offset(middle, self.places[point as usize]) + nudge(point);
                 let position = offset + 0.5 * size;
                 if position.cmpge(DVec2::splat(-MARGIN)).all() && position.cmple(size + MARGIN).all() {

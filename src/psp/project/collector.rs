@@ -12,7 +12,7 @@ use crate::psp::project::projector::Projector;
 use crate::psp::samples::{Sample, SampleSet};
 use crate::trace::Hit;
 
-/// How finely the squareness of a hit is told.
+/// How finely the squareness of a hit is resolved.
 const RANKS: f64 = 1e6;
 
 /// Counts of what some projectors met.

@@ -5,12 +5,16 @@
 #include "../samples.h"
 
 int main(void) {
-    const double low[2] = {0, 0}, high[2] = {1, 1};
     azulejo_context *context = make_context(1);
+    azulejo_plane_set set;
     float *xy = calloc(3, 2 * sizeof *xy);
     double distance;
     if (xy == NULL) return EXIT_FAILURE;
-    azulejo_plane_smallest_distance(context, xy, 4, low, high, AZULEJO_BOUNDARY_BOUNDED, &distance);
+    azulejo_plane_set_init(&set, sizeof set);
+    set.boundary = AZULEJO_BOUNDARY_BOUNDED;
+    set.positions = xy;
+    set.count = 4;
+    azulejo_plane_smallest_distance(context, &set, &distance);
     free(xy);
     azulejo_context_free(context);
     return EXIT_SUCCESS;

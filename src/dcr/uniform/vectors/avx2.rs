@@ -1,4 +1,4 @@
-//! [`Cells::force`] in AVX2.
+//! [`VerletCells::force`] in AVX2.
 
 use std::arch::x86_64::*;
 use std::ops::Range;
@@ -6,21 +6,26 @@ use std::ops::Range;
 use glam::Vec2;
 
 use crate::dcr::ground::constraints::Constraints;
-use crate::dcr::ground::torus::Place;
-use crate::dcr::uniform::cells::{Cells, LANES, LEAST};
+use crate::dcr::ground::torus::TorusPoint;
+use crate::dcr::uniform::cells::{LANES, LEAST, VerletCells};
 
 /// Eight coordinates.
 #[inline]
 #[target_feature(enable = "avx2")]
 fn load(coordinates: &[u32; LANES]) -> __m256i {
-    // SAFETY: eight integers are read, from an array of eight; no alignment is asked for.
+    // SAFETY: eight integers are read, from an array of eight; no alignment is required.
     unsafe { _mm256_loadu_si256(coordinates.as_ptr().cast()) }
 }
 
-/// [`Cells::force`].
+/// [`VerletCells::force`].
 #[inline]
 #[target_feature(enable = "avx2")]
-pub(super) fn force(cells: &Cells, here: Place, constraints: &Constraints, around: [Range<usize>; 2]) -> Vec2 {
+pub(super) fn force(
+    cells: &VerletCells,
+    here: TorusPoint,
+    constraints: &Constraints,
+    around: [Range<usize>; 2],
+) -> Vec2 {
     let unit = cells.unit().to_array().map(|unit| _mm256_set1_ps(unit));
     let here = here.map(|coordinate| _mm256_set1_epi32(coordinate.cast_signed()));
     let still = _mm256_set1_ps(constraints.conflict_radius.recip());

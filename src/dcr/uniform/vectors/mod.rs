@@ -1,72 +1,118 @@
-//! Forces in each kind of vectors, the same to the bit: [`Mesh::feel_portable`] once more, compiled for them, so that its loops
-//! over lanes use them; [`Cells::force`], of which the compiler makes no good vectors, written in them.
+//! Forces in each level of vector instructions, the same to the bit. Those in stars are the portable code compiled for
+//! AVX2, so that its loops over lanes become vectors. Those in cells, of which the compiler makes no good vectors, are
+//! written in intrinsics.
 
 use std::ops::Range;
 
 use glam::Vec2;
 
 use crate::dcr::ground::constraints::Constraints;
-use crate::dcr::ground::torus::Place;
-use crate::dcr::uniform::cells::Cells;
-use crate::dcr::uniform::mesh::Mesh;
-use crate::dcr::uniform::stars::Visit;
+use crate::dcr::ground::torus::TorusPoint;
+use crate::dcr::uniform::cells::VerletCells;
+use crate::dcr::uniform::stars::{Stars, Visitor};
 use crate::simd::Level;
 
 #[cfg(target_arch = "x86_64")]
 mod avx2;
 
-impl Mesh {
-    /// Tells `visit` what each of a range of points feels.
-    pub(super) fn feel(
-        &self,
-        vectors: Level,
-        places: &[Place],
-        constraints: &Constraints,
-        points: Range<usize>,
-        visit: &mut impl Visit,
-    ) {
-        match vectors {
-            // SAFETY: the variants say that the processor has the vectors.
-            #[cfg(target_arch = "x86_64")]
-            Level::Avx2(_) | Level::Avx512(_) => unsafe { self.feel_avx2(places, constraints, points, visit) },
-            Level::Portable => self.feel_portable(places, constraints, points, visit),
-        }
-    }
-
-    /// The portable code, compiled for AVX2.
-    #[cfg(target_arch = "x86_64")]
-    #[target_feature(enable = "avx2,popcnt,bmi1,bmi2")]
-    fn feel_avx2(&self, places: &[Place], constraints: &Constraints, points: Range<usize>, visit: &mut impl Visit) {
-        self.feel_portable(places, constraints, points, visit);
+/// Gathers in the stars of a range of points and passes the results to `visitor`.
+pub(super) fn gather_in_stars(level: Level, stars: &Stars, points: Range<usize>, visitor: &mut impl Visitor) {
+    match level {
+        // SAFETY: both levels hold the proof that the processor has AVX2, POPCNT, BMI1 and BMI2.
+        #[cfg(target_arch = "x86_64")]
+        Level::Avx2(_) | Level::Avx512(_) => unsafe { gather_in_stars_avx2(stars, points, visitor) },
+        Level::Portable => stars.gather(points, visitor),
     }
 }
 
-impl Cells {
-    /// Adds the forces on a range of points by all that conflict with them to `forces`.
-    pub(super) fn forces(
-        &self,
-        vectors: Level,
-        places: &[Place],
-        constraints: &Constraints,
-        points: Range<usize>,
-        forces: &mut Vec<Vec2>,
-    ) {
-        match vectors {
-            // SAFETY: the variants say that the processor has the vectors.
-            #[cfg(target_arch = "x86_64")]
-            Level::Avx2(_) | Level::Avx512(_) => unsafe { self.forces_avx2(places, constraints, points, forces) },
-            Level::Portable => {
-                let force = |point| self.force(places[point], constraints, self.around(point));
-                forces.extend(points.map(force));
-            }
+/// The portable code, compiled for AVX2.
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2,popcnt,bmi1,bmi2")]
+fn gather_in_stars_avx2(stars: &Stars, points: Range<usize>, visitor: &mut impl Visitor) {
+    stars.gather(points, visitor);
+}
+
+/// Adds the forces on a range of points by all others that conflict with them to `forces`.
+pub(super) fn gather_in_cells(
+    level: Level,
+    cells: &VerletCells,
+    places: &[TorusPoint],
+    constraints: &Constraints,
+    points: Range<usize>,
+    forces: &mut Vec<Vec2>,
+) {
+    match level {
+        // SAFETY: both levels hold the proof that the processor has AVX2, POPCNT, BMI1 and BMI2.
+        #[cfg(target_arch = "x86_64")]
+        Level::Avx2(_) | Level::Avx512(_) => unsafe {
+            gather_in_cells_avx2(cells, places, constraints, points, forces);
+        },
+        Level::Portable => {
+            let force = |point| cells.force(places[point], constraints, cells.around(point));
+            forces.extend(points.map(force));
         }
     }
+}
 
-    #[cfg(target_arch = "x86_64")]
-    #[target_feature(enable = "avx2,popcnt,bmi1,bmi2")]
-    fn forces_avx2(&self, places: &[Place], constraints: &Constraints, points: Range<usize>, forces: &mut Vec<Vec2>) {
-        for point in points {
-            forces.push(avx2::force(self, places[point], constraints, self.around(point)));
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2,popcnt,bmi1,bmi2")]
+fn gather_in_cells_avx2(
+    cells: &VerletCells,
+    places: &[TorusPoint],
+    constraints: &Constraints,
+    points: Range<usize>,
+    forces: &mut Vec<Vec2>,
+) {
+    for point in points {
+        forces.push(avx2::force(cells, places[point], constraints, cells.around(point)));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::dcr::ground::torus::Torus;
+    use crate::job::Context;
+    use crate::points::{Boundary, Domain};
+    use crate::rng::{Draw, Rng};
+
+    /// Against all pairs, on grids of many cells and of a few, before and after the points have moved a little.
+    #[test]
+    fn forces_in_cells_are_those_of_all_pairs() {
+        let context = Context::new(1).unwrap();
+        let constraints = Constraints { conflict_radius: 0.92, coverage_radius: f32::INFINITY, push: 0.4, pull: 0.2 };
+        for (width, count, boundary) in [
+            (1.0, 403, Boundary::Periodic),
+            (40.0, 60, Boundary::Periodic),
+            (1.0, 9, Boundary::Periodic),
+            (2.0, 90, Boundary::Bounded),
+        ] {
+            let torus = Torus::new(Domain { min: [0.0; 2], max: [width, 1.0], boundary }, count);
+            let mut rng = Rng::at(6, Draw::Probe, &[]);
+            let points: Vec<_> = (0..count).map(|_| [rng.unit() * width, rng.unit()].map(|x| x as f32)).collect();
+            let mut places = torus.with_images(&torus.enter(&points, 0));
+            let mut cells = VerletCells::new(&torus, &places, 0.92);
+            for distance in [0.0, 0.04, 0.05] {
+                for place in &mut places[..count] {
+                    *place = torus.moved(*place, Vec2::from_angle(rng.unit() as f32 * 6.3) * distance);
+                }
+                context.run(None, |job| torus.mirror(job, &mut places, count)).unwrap();
+                assert!(cells.still_serve(distance, 0.92));
+                context.run(None, |job| cells.update(job, &places)).unwrap();
+                let mut portable = None;
+                for level in Level::available() {
+                    let mut forces = Vec::new();
+                    gather_in_cells(level, &cells, &places, &constraints, 0..count, &mut forces);
+                    for (&place, force) in places.iter().zip(&forces) {
+                        let offsets = places.iter().map(|&other| torus.offset_f32(place, other));
+                        let expected: Vec2 =
+                            offsets.map(|offset| constraints.push(offset, offset.length_squared())).sum();
+                        assert!(force.distance(expected) < 1e-5, "{level:?}: {force}, not {expected}");
+                    }
+                    assert_eq!(&forces, portable.get_or_insert_with(|| forces.clone()), "{level:?}");
+                }
+            }
+            assert!(!cells.still_serve(0.03, 0.92));
         }
     }
 }

@@ -1,0 +1,87 @@
+use super::*;
+use azulejo::SurfaceSamples;
+
+/// A file of version 1.0 with this description and body.
+fn file(description: &str, body: &[u8]) -> Vec<u8> {
+    let header = format!("{description:<117}\n");
+    let size = (header.len() as u16).to_le_bytes();
+    [b"\x93NUMPY\x01\x00", &size[..], header.as_bytes(), body].concat()
+}
+
+fn dictionary(element: &str, fortran: &str, shape: &str) -> String {
+    format!("{{'descr': '{element}', 'fortran_order': {fortran}, 'shape': {shape}, }}")
+}
+
+fn points(file: &[u8]) -> Vec<[f32; 2]> {
+    parse(file).unwrap().into_plane("").unwrap().points
+}
+
+#[test]
+fn every_type_and_order_gives_the_same_points() {
+    let expected = [[1.0, 2.0], [3.0, -4.0]];
+    let rows = [1.0f32, 2.0, 3.0, -4.0];
+    let columns = [1.0f32, 3.0, 2.0, -4.0];
+    let bytes = |numbers: [f32; 4], of: fn(f32) -> Vec<u8>| numbers.into_iter().flat_map(of).collect::<Vec<_>>();
+    for (element, fortran, body) in [
+        ("<f4", "False", bytes(rows, |x| x.to_le_bytes().to_vec())),
+        (">f4", "False", bytes(rows, |x| x.to_be_bytes().to_vec())),
+        ("<f8", "True", bytes(columns, |x| f64::from(x).to_le_bytes().to_vec())),
+        ("<i4", "False", bytes(rows, |x| (x as i32).to_le_bytes().to_vec())),
+        (">i8", "False", bytes(rows, |x| (x as i64).to_be_bytes().to_vec())),
+        ("|i1", "True", bytes(columns, |x| vec![x as i8 as u8])),
+    ] {
+        assert_eq!(points(&file(&dictionary(element, fortran, "(2, 2)"), &body)), expected, "{element}");
+    }
+    let mut written = Vec::new();
+    write_plane(&mut written, &expected).unwrap();
+    assert_eq!(points(&written), expected);
+    // The header of these bytes is what numpy.save writes.
+    let start = b"\x93NUMPY\x01\x00v\x00{'descr': '<f4', 'fortran_order': False, 'shape': (2, 2), }  ";
+    assert!(written.starts_with(start) && written[..128].ends_with(b" \n") && written.len() == 128 + 16);
+}
+
+#[test]
+fn a_structured_array_holds_all_that_is_known_of_samples() {
+    let samples = SurfaceSamples {
+        positions: vec![[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]],
+        normals: vec![[0.0, 0.0, 1.0], [0.0, 1.0, 0.0]],
+        interpolated_normals: Vec::new(),
+        triangles: vec![7, 4_000_000_001],
+        barycentrics: vec![[0.25, 0.5], [0.0, 1.0]],
+    };
+    let table = |radii| SurfaceTable { samples: &samples, normals: &samples.normals, radii };
+    for radii in [None, Some(&[0.5, 2.0][..])] {
+        let mut written = Vec::new();
+        write_surface(&mut written, &table(radii)).unwrap();
+        let read = parse(&written).unwrap().into_samples().unwrap();
+        assert_eq!((&read.positions, &read.normals), (&samples.positions, &samples.normals));
+        assert_eq!(read.on_mesh, Some((samples.triangles.clone(), samples.barycentrics.clone())));
+    }
+    // As plyfile and others have it, with what is not needed.
+    let fields = "[('red', '|u1'), ('y', '<f8'), ('more', '<i2', (2, 2)), ('x', '<f4')]";
+    let text = format!("{{'descr': {fields}, 'fortran_order': False, 'shape': (1,), }}");
+    let body = [&[255][..], &2.5f64.to_le_bytes(), &[1; 8], &(-1.0f32).to_le_bytes()].concat();
+    assert_eq!(points(&file(&text, &body)), [[-1.0, 2.5]]);
+}
+
+#[test]
+fn what_is_no_array_of_points_is_refused_with_the_reason() {
+    let refused = |file: &[u8]| parse(file).unwrap_err();
+    let body = [0u8; 48];
+    let of = |element: &str, shape: &str| file(&dictionary(element, "False", shape), &body);
+    assert!(refused(&of("<f4", "(12,)")).starts_with("has the shape [12], not"));
+    assert_eq!(refused(&of("<f4", "(6, 1)")), "has 1 columns, and none for y");
+    assert!(refused(&of("<f4", "(7, 2)")).contains("7 rows of 8 bytes, but only 48 bytes"));
+    assert!(refused(&of("<f4", "(9223372036854775807, 9223372036854775807)")).contains("announces"));
+    assert!(refused(&of("<c8", "(3, 2)")).contains("\"<c8\", not floats or integers"));
+    assert!(refused(&file("{'shape': (1, 2)}", &body)).contains("has no descr"));
+    let field = |field: &str| file(&format!("{{'descr': [{field}], 'fortran_order': False, 'shape': (1,)}}"), &body);
+    assert!(refused(&field("('x', '<f4'), ('y', [('z', '<f4')])")).starts_with("has a field that is not read"));
+    assert_eq!(refused(&field("('x', '<f4'), ('z', '<f4')")), "has no field for y");
+    assert!(refused(&field("('position', '<f4', (9223372036854775807,))")).contains("announces"));
+    for cut in [b"no array".to_vec(), file("{}", &[])[..60].to_vec(), b"\x93NUMPY\x03\x00\xff\xff".to_vec()] {
+        assert!(refused(&cut).starts_with("is no array of NumPy"));
+    }
+    let infinite = file(&dictionary("<f8", "False", "(1, 2)"), &[1.0f64, 1e300].map(f64::to_le_bytes).concat());
+    assert_eq!(refused(&infinite), "row 0: y is inf, not finite");
+}

@@ -1,0 +1,136 @@
+//! Sets of points, in the plane or in space.
+
+use azulejo::Domain;
+
+/// The columns of a file that are kept as floats.
+pub const NAMES: [&str; 8] = ["x", "y", "z", "nx", "ny", "nz", "u", "v"];
+
+/// Where a file has what is kept of each point.
+pub struct Columns<T> {
+    /// Where the columns of [`NAMES`] are.
+    pub floats: [Option<T>; NAMES.len()],
+    /// Where the number of the triangle is.
+    pub triangle: Option<T>,
+}
+
+impl<T> Columns<T> {
+    /// Looks for the columns by name. The error is the name of one that is missing: x or y.
+    pub fn find(mut find: impl FnMut(&str) -> Option<T>) -> Result<Self, &'static str> {
+        let columns = Self { floats: NAMES.map(&mut find), triangle: find("triangle") };
+        match columns.floats[..2].iter().position(Option::is_none) {
+            Some(missing) => Err(NAMES[missing]),
+            None => Ok(columns),
+        }
+    }
+
+    fn has(&self, range: std::ops::Range<usize>) -> bool {
+        self.floats[range].iter().all(Option::is_some)
+    }
+
+    /// Where the triangle is, if there are barycentrics as well.
+    pub fn on_mesh(&self) -> Option<&T> {
+        self.triangle.as_ref().filter(|_| self.has(6..8))
+    }
+
+    /// A set without points.
+    pub fn empty_set(&self) -> PointSet {
+        PointSet {
+            has_z: self.has(2..3),
+            positions: Vec::new(),
+            normals: self.has(3..6).then(Vec::new),
+            on_mesh: self.on_mesh().map(|_| (Vec::new(), Vec::new())),
+            domain: None,
+        }
+    }
+}
+
+/// The points of a file. It knows whether they have two or three dimensions.
+#[derive(Debug)]
+pub struct PointSet {
+    has_z: bool,
+    /// z is 0 where the file has none.
+    positions: Vec<[f32; 3]>,
+    normals: Option<Vec<[f32; 3]>>,
+    on_mesh: Option<OnMesh>,
+    /// The domain that the file names.
+    pub domain: Option<Domain>,
+}
+
+/// Triangles and barycentrics.
+pub type OnMesh = (Vec<u32>, Vec<[f32; 2]>);
+
+/// A set of the plane.
+#[derive(Debug, Default)]
+pub struct PlaneSet {
+    pub points: Vec<[f32; 2]>,
+    /// The domain that the file names.
+    pub domain: Option<Domain>,
+}
+
+/// Samples in space, such as those of a mesh.
+#[derive(Debug)]
+pub struct SampleSet {
+    pub positions: Vec<[f32; 3]>,
+    /// Normals, one for each position; empty if the file has none.
+    pub normals: Vec<[f32; 3]>,
+    /// For each sample its triangle and barycentrics, if the file has them.
+    pub on_mesh: Option<OnMesh>,
+}
+
+impl PointSet {
+    /// Adds a point: the numbers of [`NAMES`], 0 where there is no column, and the triangle.
+    pub fn push(&mut self, numbers: [f32; NAMES.len()], triangle: u32) -> Result<(), String> {
+        if let Some(i) = numbers.iter().position(|x| !x.is_finite()) {
+            return Err(format!("{} is {}, not finite", NAMES[i], numbers[i]));
+        }
+        let [x, y, z, nx, ny, nz, u, v] = numbers;
+        self.positions.push([x, y, z]);
+        if let Some(normals) = &mut self.normals {
+            normals.push([nx, ny, nz]);
+        }
+        if let Some((triangles, barycentrics)) = &mut self.on_mesh {
+            triangles.push(triangle);
+            barycentrics.push([u, v]);
+        }
+        Ok(())
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.positions.is_empty()
+    }
+
+    /// Whether the points are in the plane: without z, or with a z that is 0 everywhere, as XYZ files have it. What has
+    /// normals or lies on triangles does not.
+    fn is_plane(&self) -> bool {
+        let is_flat = || self.positions.iter().all(|position| position[2] == 0.0);
+        !self.has_z || self.normals.is_none() && self.on_mesh.is_none() && is_flat()
+    }
+
+    /// Whether each point can be taken for one of so many coordinates.
+    pub fn has_dimensions(&self, dimensions: u8) -> bool {
+        if dimensions == 2 { self.is_plane() } else { self.has_z }
+    }
+
+    /// The set as one of the plane; otherwise the reason and what can be done `instead`.
+    pub fn into_plane(self, instead: &str) -> Result<PlaneSet, String> {
+        if !self.is_plane() {
+            return Err(format!("holds points in three dimensions, not in the plane: {instead}"));
+        }
+        Ok(PlaneSet { points: self.positions.iter().map(|&[x, y, _]| [x, y]).collect(), domain: self.domain })
+    }
+
+    /// The set as one of samples in space.
+    pub fn into_samples(self) -> Result<SampleSet, String> {
+        if !self.has_z {
+            return Err("holds points in the plane, without z, and not samples of a mesh".to_owned());
+        }
+        let Self { positions, normals, on_mesh, .. } = self;
+        Ok(SampleSet { positions, normals: normals.unwrap_or_default(), on_mesh })
+    }
+}
+
+/// The number of a triangle that a file has among floats.
+pub fn triangle(number: f64) -> Result<u32, String> {
+    let triangle = number as u32;
+    if f64::from(triangle) == number { Ok(triangle) } else { Err(format!("{number} is not the number of a triangle")) }
+}

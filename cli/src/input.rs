@@ -1,0 +1,31 @@
+//! What commands read: whole files, or the standard input.
+
+use std::fs;
+use std::io::{self, Read};
+use std::path::Path;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use azulejo::mesh::Mesh;
+use azulejo::{Error, Result};
+
+/// Whether the standard input has been read: a second reader would find nothing.
+static STDIN_IS_READ: AtomicBool = AtomicBool::new(false);
+
+/// The contents of a file, or of the standard input for `-`.
+pub fn bytes(path: &Path) -> Result<Vec<u8>> {
+    let error = |source| Error::Io { path: path.into(), source };
+    if path != Path::new("-") {
+        return fs::read(path).map_err(error);
+    }
+    if STDIN_IS_READ.swap(true, Ordering::Relaxed) {
+        return Err(error(io::Error::other("the standard input can be read only once")));
+    }
+    let mut bytes = Vec::new();
+    io::stdin().lock().read_to_end(&mut bytes).map_err(error)?;
+    Ok(bytes)
+}
+
+/// The mesh of a file, or of the standard input for `-`: by the extension, or by its contents if that names no format.
+pub fn mesh(path: &Path) -> Result<Mesh> {
+    Mesh::parse(path, &bytes(path)?)
+}

@@ -1,0 +1,108 @@
+//! What calls that sample meshes report.
+
+use azulejo_core::psp::Report;
+
+use crate::growing::{self, Growing, growing};
+use crate::status::azulejo_status;
+
+/// What a call that samples a mesh did. Times are wall times.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct azulejo_psp_report {
+    /// The size of the struct in bytes; set by the _init function.
+    pub struct_size: u32,
+    /// The iterations of projection that the call made.
+    pub iterations: u32,
+    /// The samples of the set after the call.
+    pub samples: u64,
+    /// The samples that the call added.
+    pub accepted: u64,
+    /// The rays that meet the box of the mesh, which the call traced. For the rasteriser: the
+    /// points of those of its tiles, at most 48 radii wide, that have triangles near them.
+    pub rays: u64,
+    /// The places where rays met the mesh.
+    pub hits: u64,
+    /// The hits that were rejected because of an earlier one on the same ray.
+    pub restart_conflicts: u64,
+    /// The darts thrown into uncovered surface.
+    pub darts: u64,
+    /// The hits and darts that were rejected because of other samples.
+    pub conflicts: u64,
+    /// The time of the call in seconds.
+    pub seconds: f64,
+    /// The part of it in which patterns and, for Embree, the scene were made: in the first
+    /// iteration of a set.
+    pub prepare_seconds: f64,
+    /// The part of it in which hits were found.
+    pub project_seconds: f64,
+    /// The part of it in which samples were chosen among the hits.
+    pub merge_seconds: f64,
+    /// The part of it in which uncovered surface was searched for and filled.
+    pub fill_seconds: f64,
+    /// The radius of the set in units of d_max after the call: about 0.78 for a maximal set, 0 for
+    /// no samples. The smallest distance is taken to be the radius, which it hardly exceeds in
+    /// large sets.
+    pub rho: f64,
+    /// If the call filled gaps: an upper estimate of the fraction of the area that was uncovered
+    /// before, two or three times too large: the area of the small fragments that no single sample
+    /// covered when the search came to them. Else -1.
+    pub uncovered_before: f64,
+    /// If the call filled gaps: the fraction of the area that is uncovered after it, which is 0.
+    /// Else -1.
+    pub uncovered_after: f64,
+}
+
+growing!(azulejo_psp_report requires samples {
+    iterations: 0,
+    samples: 0,
+    accepted: 0,
+    rays: 0,
+    hits: 0,
+    restart_conflicts: 0,
+    darts: 0,
+    conflicts: 0,
+    seconds: 0.0,
+    prepare_seconds: 0.0,
+    project_seconds: 0.0,
+    merge_seconds: 0.0,
+    fill_seconds: 0.0,
+    rho: 0.0,
+    uncovered_before: 0.0,
+    uncovered_after: 0.0,
+});
+
+impl From<Report> for azulejo_psp_report {
+    fn from(report: Report) -> Self {
+        Self {
+            samples: report.samples,
+            accepted: report.accepted,
+            rays: report.rays,
+            hits: report.hits,
+            restart_conflicts: report.restart_conflicts,
+            darts: report.darts,
+            conflicts: report.conflicts,
+            seconds: report.seconds,
+            iterations: report.iterations,
+            prepare_seconds: report.prepare_seconds,
+            project_seconds: report.project_seconds,
+            merge_seconds: report.merge_seconds,
+            fill_seconds: report.fill_seconds,
+            rho: report.rho,
+            uncovered_before: report.uncovered_before.unwrap_or(-1.0),
+            uncovered_after: report.uncovered_after.unwrap_or(-1.0),
+            ..Self::DEFAULT
+        }
+    }
+}
+
+/// Writes zeros and the size. `struct_size` is sizeof *report.
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_psp_report_init(
+    report: *mut azulejo_psp_report,
+    struct_size: usize,
+) -> azulejo_status {
+    // SAFETY: handed on from the caller.
+    unsafe { growing::init("report", report, struct_size) }
+}

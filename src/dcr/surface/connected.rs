@@ -1,0 +1,173 @@
+//! The edges that triangles share: which part of a surface is connected to which.
+//!
+//! Vertices at the same position are one, as needed for files that repeat their vertices in each triangle (STL).
+//! Triangles without a common edge are not connected, however close they are: the two sides of a thin wall are far from
+//! each other on the surface, and a crack is a boundary. Triangles left out by the mesh's mask are ignored, as are
+//! those two of whose corners coincide.
+//!
+//! Half-edges are numbered `3 t + k`: the edge from corner `k` to the next of triangle `t`.
+
+use glam::DVec3;
+
+use crate::error::{Error, Result};
+use crate::geometry::counting_sort::Binned;
+use crate::geometry::grid3::{Grid3, distance_squared};
+use crate::mesh::{Mesh, exact};
+
+/// A mesh with its edges.
+pub(super) struct ConnectedMesh<'a> {
+    pub(super) mesh: &'a Mesh,
+    /// For each vertex the first one of the same position.
+    vertices: Vec<u32>,
+    /// The half-edges of an edge are linked in a circle. One that is alone, at a boundary, is linked to itself.
+    around: Vec<u32>,
+}
+
+/// The next half-edge of the triangle.
+fn next(edge: u32) -> u32 {
+    if edge % 3 == 2 { edge - 2 } else { edge + 1 }
+}
+
+impl<'a> ConnectedMesh<'a> {
+    /// Finds the edges. O(n log n).
+    ///
+    /// # Errors
+    /// [`Error::TooLarge`] for a mesh of more triangles than half-edges can be numbered for.
+    pub(super) fn new(mesh: &'a Mesh) -> Result<Self> {
+        let count = mesh.triangles().len();
+        if count > (u32::MAX / 3) as usize {
+            return Err(Error::too_large("mesh", format!("{count} triangles; the limit is {}", u32::MAX / 3)));
+        }
+        let mut connected = Self { mesh, vertices: welded(mesh), around: Vec::new() };
+        connected.around = connected.linked();
+        Ok(connected)
+    }
+
+    /// Links the half-edges between the same two vertices.
+    fn linked(&self) -> Vec<u32> {
+        // The edges by their lower vertex, each with its higher one.
+        let ends = self.edges().map(|edge| {
+            let [low, high] = self.vertices_of(edge);
+            (low as usize, (high, edge))
+        });
+        let mut ends = Binned::new(self.vertices.len(), ends);
+        let mut around: Vec<u32> = (0..3 * self.mesh.triangles().len() as u32).collect();
+        for vertex in 0..ends.len() {
+            let ends = ends.bin_mut(vertex);
+            ends.sort_unstable();
+            for same in ends.chunk_by(|a, b| a.0 == b.0) {
+                let others = same.iter().cycle().skip(1);
+                same.iter().zip(others).for_each(|(&(_, edge), &(_, other))| around[edge as usize] = other);
+            }
+        }
+        around
+    }
+
+    /// The half-edges of all triangles that are not ignored.
+    fn edges(&self) -> impl Iterator<Item = u32> + Clone {
+        self.mesh
+            .sampled_triangles()
+            .map(|triangle| 3 * triangle)
+            .filter_map(|first| {
+                let [a, b, c] = [first, first + 1, first + 2].map(|edge| self.origin(edge));
+                (a != b && b != c && c != a).then_some(first..first + 3)
+            })
+            .flatten()
+    }
+
+    /// The vertex at which a half-edge starts.
+    fn origin(&self, edge: u32) -> u32 {
+        let corner = self.mesh.triangles()[(edge / 3) as usize][(edge % 3) as usize];
+        self.vertices[corner as usize]
+    }
+
+    /// The vertices of an edge, the lower number first.
+    fn vertices_of(&self, edge: u32) -> [u32; 2] {
+        let (from, to) = (self.origin(edge), self.origin(next(edge)));
+        [from.min(to), from.max(to)]
+    }
+
+    /// The other half-edges of the same edge: none at a boundary, most often one.
+    pub(super) fn across(&self, edge: u32) -> impl Iterator<Item = u32> {
+        std::iter::successors(Some(self.around[edge as usize]), |&other| Some(self.around[other as usize]))
+            .take_while(move |&other| other != edge)
+    }
+
+    /// Whether two half-edges of an edge have the same direction: then their triangles face opposite sides.
+    pub(super) fn run_alike(&self, edge: u32, other: u32) -> bool {
+        self.origin(edge) == self.origin(other)
+    }
+
+    /// The ends of a half-edge.
+    pub(super) fn ends(&self, edge: u32) -> [DVec3; 2] {
+        let corners = self.mesh.triangles()[(edge / 3) as usize];
+        [edge, next(edge)].map(|end| exact(self.mesh.positions()[corners[(end % 3) as usize] as usize]))
+    }
+}
+
+/// For each vertex the first one at its position, up to a float spacing at the largest coordinate: seams that were
+/// computed twice differ by that.
+fn welded(mesh: &Mesh) -> Vec<u32> {
+    let tolerance = f64::from(mesh.largest_coordinate()) * f64::from(f32::EPSILON);
+    let positions = mesh.positions();
+    let mut grid = Grid3::new(mesh.bounds().0.map(f64::from), 16.0 * tolerance);
+    let mut firsts: Vec<u32> = Vec::new();
+    let weld = |(vertex, &position): (u32, &[f32; 3])| {
+        let is_here = |first: &u32| distance_squared(positions[*first as usize], position) <= tolerance * tolerance;
+        let found =
+            grid.candidates(position.map(f64::from), tolerance).map(|id| firsts[id as usize]).filter(is_here).min();
+        found.unwrap_or_else(|| {
+            grid.insert(position);
+            firsts.push(vertex);
+            vertex
+        })
+    };
+    (0..).zip(positions).map(weld).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// How many half-edges each edge of the mesh has, from the most to the fewest.
+    fn degrees(connected: &ConnectedMesh) -> Vec<usize> {
+        let edges = 0..3 * connected.mesh.triangles().len() as u32;
+        let firsts = edges.filter(|&edge| connected.across(edge).all(|other| other > edge));
+        let mut degrees: Vec<_> = firsts.map(|edge| 1 + connected.across(edge).count()).collect();
+        degrees.sort_unstable_by(|a, b| b.cmp(a));
+        degrees
+    }
+
+    const SQUARE: [[f32; 3]; 4] = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
+
+    #[test]
+    fn edges_are_shared_by_place_whatever_the_winding_and_the_indices() {
+        let [a, b, c, d] = SQUARE;
+        let turned = [a[0], -0.0, 1e-8];
+        for positions in [vec![a, b, c, a, c, d], vec![a, b, c, turned, c, d], vec![a, b, c, d, c, a]] {
+            let mesh = Mesh::new(positions.clone(), vec![[0, 1, 2], [3, 4, 5]]).unwrap();
+            let connected = ConnectedMesh::new(&mesh).unwrap();
+            assert_eq!(degrees(&connected), [2, 1, 1, 1, 1]);
+            let alike = positions[3] == d;
+            let [diagonal, other] = [2, if alike { 4 } else { 3 }];
+            assert_eq!(connected.across(diagonal).collect::<Vec<_>>(), [other]);
+            assert_eq!(connected.run_alike(diagonal, other), alike);
+        }
+        let apart = [a[0], 0.0, 1e-5];
+        let mesh = Mesh::new(vec![a, b, c, apart, c, d], vec![[0, 1, 2], [3, 4, 5]]).unwrap();
+        assert_eq!(degrees(&ConnectedMesh::new(&mesh).unwrap()), [1; 6]);
+    }
+
+    #[test]
+    fn edges_of_many_triangles_hold_them_all_and_what_is_left_out_is_not_there() {
+        let [a, b, c, d] = SQUARE;
+        let up = [0.5, 0.5, 1.0];
+        let triangles = vec![[0, 1, 2], [0, 2, 3], [2, 0, 4], [0, 0, 2]];
+        let mesh = Mesh::new(vec![a, b, c, d, up], triangles).unwrap();
+        assert_eq!(degrees(&ConnectedMesh::new(&mesh).unwrap())[..2], [3, 1]);
+        let mesh = mesh.with_mask(vec![true, true, false, true]).unwrap();
+        let connected = ConnectedMesh::new(&mesh).unwrap();
+        assert_eq!(degrees(&connected)[..2], [2, 1]);
+        assert_eq!(connected.across(2).collect::<Vec<_>>(), [3]);
+    }
+}

@@ -1,0 +1,127 @@
+//! The neighbourhood of the `K` nearest points (thesis §4.3.4), for repulsion only.
+//!
+//! Neighbours beyond the conflict radius exert no force, so of the `K` nearest only those within it are found.
+
+use glam::DVec2;
+
+use crate::dcr::thesis::links::{Link, Links};
+use crate::error::Result;
+use crate::geometry::frame::{Frame, Site};
+use crate::geometry::grid2::Grid2;
+use crate::job::{Job, chunks};
+use crate::points::{Boundary, Domain};
+
+/// The points and their copies in a grid, and the reach of each point's neighbourhood.
+pub(super) struct NearestLinks {
+    sites: Vec<Site>,
+    grid: Grid2,
+    radius: f64,
+    /// The squared distance of each point's `K`-th nearest neighbour, a little more, and infinite if that is beyond
+    /// `radius`. A point as far as the `K`-th belongs to the neighbourhood too: ties are not broken.
+    reach: Vec<f64>,
+}
+
+impl NearestLinks {
+    /// The neighbourhoods of `count` neighbours closer than `radius`, which is at most 1. Takes O(n) for sets without
+    /// clusters.
+    pub(super) fn new(
+        job: &Job,
+        frame: &Frame,
+        positions: impl ExactSizeIterator<Item = DVec2> + Clone,
+        radius: f64,
+        count: usize,
+    ) -> Result<Self> {
+        let points = chunks(positions.len());
+        let sites = frame.sites(positions, radius);
+        let max = (frame.size() + radius).to_array();
+        let around = Domain { min: [-radius; 2], max, boundary: Boundary::Bounded };
+        let grid = Grid2::new(around, sites.iter().map(|site| site.position.to_array()), radius);
+        let reach = job.flat_map(points.len(), |chunk| {
+            let mut nearest = Vec::new();
+            points.range(chunk).map(|point| reach(&grid, &sites, point, radius, count, &mut nearest)).collect()
+        })?;
+        Ok(Self { sites, grid, radius, reach })
+    }
+}
+
+/// The rounding, in spacings, by which equal distances may differ: that from a point to the copy of another, and that
+/// from the other to the copy of the point.
+const ROUNDING: f64 = 1e-9;
+
+/// The squared reach of a neighbourhood; `nearest` is working memory.
+fn reach(grid: &Grid2, sites: &[Site], point: usize, radius: f64, count: usize, nearest: &mut Vec<f64>) -> f64 {
+    nearest.clear();
+    grid.for_each_within(sites[point].position.to_array(), radius, |site, _, squared| {
+        if site as usize != point {
+            nearest.push(squared);
+        }
+    });
+    if nearest.len() < count {
+        return f64::INFINITY;
+    }
+    (nearest.select_nth_unstable_by(count - 1, f64::total_cmp).1.sqrt() + ROUNDING).powi(2)
+}
+
+impl Links for NearestLinks {
+    fn for_each(&self, point: usize, mut visit: impl FnMut(Link)) {
+        self.grid.for_each_within(self.sites[point].position.to_array(), self.radius, |site, offset, squared| {
+            let other = self.sites[site as usize].source;
+            let (outgoing, incoming) = (squared <= self.reach[point], squared <= self.reach[other as usize]);
+            if site as usize != point && (outgoing || incoming) {
+                visit(Link { other, offset: DVec2::from_array(offset), outgoing, incoming });
+            }
+        });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::job::Context;
+    use crate::rng::{Draw, Rng};
+
+    /// All sites by distance, then the definition of the neighbourhood.
+    #[test]
+    fn links_are_those_of_the_nearest_sites() {
+        for (count, width, boundary) in [
+            (80, 1.0, Boundary::Periodic),
+            (80, 1.0, Boundary::Bounded),
+            (30, 12.0, Boundary::Periodic),
+            (2, 1.0, Boundary::Bounded),
+        ] {
+            let domain = Domain { min: [0.0; 2], max: [width, 1.0], boundary };
+            let frame = Frame::new(domain, count);
+            let mut rng = Rng::at(2, Draw::Probe, &[]);
+            let points: Vec<_> =
+                (0..count).map(|_| frame.fold(frame.size() * DVec2::new(rng.unit(), rng.unit()))).collect();
+            let sites = frame.sites(points.iter().copied(), 1.0);
+            for (neighbours, radius) in [(1, 0.95), (3, 0.95), (6, 0.5), (6, 1.0), (1000, 1.0)] {
+                let around = |point: usize| {
+                    let distance = |site: &Site| site.position.distance(points[point]);
+                    let others = sites.iter().filter(|site| !(site.is_original() && site.source as usize == point));
+                    let mut around: Vec<_> = others.map(|site| (distance(site), site.source)).collect();
+                    around.sort_by(|a, b| a.0.total_cmp(&b.0));
+                    around.into_iter().filter(|&(distance, _)| distance <= radius).collect::<Vec<_>>()
+                };
+                let reach = |point: usize| around(point).get(neighbours - 1).map_or(f64::INFINITY, |&(d, _)| d + 1e-9);
+                let run = |job: &Job| NearestLinks::new(job, &frame, points.iter().copied(), radius, neighbours);
+                let nearest = Context::new(1).unwrap().run(None, run).unwrap();
+                for point in 0..count {
+                    let mut found = Vec::new();
+                    nearest.for_each(point, |link| {
+                        found.push((link.offset.length(), link.other, link.outgoing, link.incoming));
+                    });
+                    found.sort_by(|a, b| a.0.total_cmp(&b.0));
+                    let mut expected = around(point)
+                        .into_iter()
+                        .map(|(distance, other)| (other, distance <= reach(point), distance <= reach(other as usize)));
+                    let expected: Vec<_> =
+                        expected.by_ref().filter(|&(_, outgoing, incoming)| outgoing || incoming).collect();
+                    let found: Vec<_> =
+                        found.into_iter().map(|(_, other, outgoing, incoming)| (other, outgoing, incoming)).collect();
+                    assert_eq!(found, expected);
+                }
+            }
+        }
+    }
+}

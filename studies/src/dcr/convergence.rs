@@ -1,0 +1,130 @@
+//! After how many steps the thesis's algorithm converges (thesis §4.4.4, the table beside fig. 4.20).
+
+use std::fmt::Write;
+
+use azulejo::dcr::{Convergence, Distribution, Neighbourhood, Options, Stopped, Thesis, relax};
+use azulejo::{Boundary, Context, Domain, Result};
+
+use super::sets::{FIRST_SEED, Start};
+use super::study::{Study, thesis_options};
+use azulejo_cli::summary::Summary;
+use azulejo_cli::text::grouped;
+
+/// A row of the thesis's table: iterations with and without activeness.
+const THESIS: [(Start, [u32; 2]); 3] =
+    [(Start::Kdrt, [132, 146]), (Start::Psp, [157, 158]), (Start::Random, [276, 299])];
+
+/// With activeness and without.
+const DISTRIBUTIONS: [Distribution; 2] = [Distribution::Activeness, Distribution::Average];
+
+const TESTS: [Convergence; 2] = [Convergence::Variance, Convergence::Motion];
+
+/// Step sizes and decays that are compared.
+const STEPS: [(f64, f64); 5] = [(0.0125, 1.0), (0.025, 1.0), (0.05, 1.0), (0.1, 1.0), (0.1, 0.995)];
+
+/// The section.
+pub fn section(study: &Study) -> Result<String> {
+    let (count, sets, sets_by_step) = if study.quick { (1000, 1, 1) } else { (4096, 6, 3) };
+    Ok(by_start(study, count, sets)? + "\n" + &by_step(study, count, sets_by_step)?)
+}
+
+/// How a relaxation ended.
+#[derive(Clone, Copy)]
+struct End {
+    steps: f64,
+    rho: f64,
+    /// Whether the test was met before the steps were made.
+    is_met: bool,
+}
+
+impl End {
+    fn of(context: &Context, options: &Options, points: &[[f32; 2]]) -> Result<Self> {
+        let (_, report) = relax(context, options, points, None)?;
+        let is_met = report.stopped == Stopped::Converged;
+        Ok(Self { steps: report.iterations.into(), rho: report.rho, is_met })
+    }
+}
+
+/// Steps in the mean and from the fewest to the most, and in how many sets the test was never met.
+fn steps(ends: &[End]) -> String {
+    let Summary { mean, low, high, .. } = Summary::of(&ends.iter().map(|end| end.steps).collect::<Vec<_>>());
+    let unmet = ends.iter().filter(|end| !end.is_met).count();
+    let remark = if unmet > 0 { format!("; {unmet} not met") } else { String::new() };
+    format!("{mean:.0} ({low:.0} to {high:.0}{remark})")
+}
+
+fn mean_rho(ends: &[End]) -> f64 {
+    ends.iter().map(|end| end.rho).sum::<f64>() / ends.len() as f64
+}
+
+fn by_start(study: &Study, count: usize, sets: usize) -> Result<String> {
+    let cases: Vec<_> = THESIS
+        .iter()
+        .flat_map(|&(start, _)| TESTS.map(|convergence| (start, convergence)))
+        .flat_map(|(start, convergence)| DISTRIBUTIONS.map(|distribution| (start, convergence, distribution)))
+        .collect();
+    let ends = study.each("convergence", cases.len() * sets, |context, i| {
+        let (start, convergence, distribution) = cases[i / sets];
+        let seed = FIRST_SEED + (i % sets) as u64;
+        let domain = Domain::unit(Boundary::Bounded);
+        let points = start.points(context, domain, count, seed)?;
+        let thesis = Thesis::default().convergence(convergence).distribution(distribution);
+        End::of(context, &thesis_options(thesis, Neighbourhood::Delaunay, domain, seed), &points)
+    })?;
+    let mut text = format!(
+        "## Steps to convergence (thesis §4.4.4)\n\n\
+         The thesis's algorithm with Delaunay neighbours, radii 0.95 and 1.05, λ = 0.05, on a square that is mirrored by its \
+         boundary (fig. 4.12 (b)); {} points, {sets} sets: means, and from the fewest to the most. The thesis does not say how \
+         many points it had. Its test asks that the variance of the distances to the nearest point change by less than 0.1 % \
+         ten times in a row; the other that points move by no more than 0.02 d_max per unit of λ, which is asked every 40 \
+         steps. *ρ* is that of the sets that the thesis's test leaves. PSP's sets are those of 50 iterations, not filled. Fewer \
+         steps are no better sets: with α the variance falls faster (see below, fig. 4.19), and jitters for longer.\n\n\
+         | start | thesis: with α | without | its test: with α | without | ρ | ρ | by motion: with α | without |\n{}|\n",
+        grouped(count),
+        "|---".repeat(9),
+    );
+    for ((start, [with, without]), ends) in THESIS.iter().zip(ends.chunks(TESTS.len() * DISTRIBUTIONS.len() * sets)) {
+        let ends: Vec<_> = ends.chunks(sets).collect();
+        let [active, average, active_motion, average_motion] = [0, 1, 2, 3].map(|i| steps(ends[i]));
+        let [rho, average_rho] = [0, 1].map(|i| mean_rho(ends[i]));
+        _ = writeln!(
+            text,
+            "| {} | {with} | {without} | {active} | {average} | {rho:.3} | {average_rho:.3} | {active_motion} | {average_motion} |",
+            start.name(),
+        );
+    }
+    Ok(text)
+}
+
+fn by_step(study: &Study, count: usize, sets: usize) -> Result<String> {
+    let cases: Vec<_> = STEPS.iter().flat_map(|&step| TESTS.map(|test| (step, test))).collect();
+    let ends = study.each("step sizes", cases.len() * sets, |context, i| {
+        let ((step, decay), convergence) = cases[i / sets];
+        let seed = FIRST_SEED + (i % sets) as u64;
+        let domain = Domain::unit(Boundary::Periodic);
+        let points = Start::Random.points(context, domain, count, seed)?;
+        let thesis = Thesis::default().step(step).decay(decay).convergence(convergence);
+        let options = thesis_options(thesis, Neighbourhood::Delaunay, domain, seed);
+        End::of(context, &options.max_iterations(1500), &points)
+    })?;
+    let mut text = format!(
+        "The thesis's test depends on the step: the shorter the steps, the less a set has changed when it is met; with \
+         long ones activeness keeps the variance moving. *Path* is the sum of all λ. From random sets on the torus, with α; {sets} sets. Of a λ that decays the thesis says only that it \
+         recommends one; here it is multiplied with a factor after every step.\n\n\
+         | λ | its test: steps | path | ρ | by motion: steps | path | ρ |\n{}|\n",
+        "|---".repeat(7),
+    );
+    for ((step, decay), ends) in STEPS.iter().zip(ends.chunks(TESTS.len() * sets)) {
+        let lambda = if *decay < 1.0 { format!("{step}, decaying by {decay}") } else { step.to_string() };
+        let cells = ends.chunks(sets).map(|ends| {
+            let path = |end: &End| match *decay {
+                1.0 => step * end.steps,
+                decay => step * (1.0 - decay.powf(end.steps)) / (1.0 - decay),
+            };
+            let path = ends.iter().map(path).sum::<f64>() / sets as f64;
+            format!("{} | {path:.1} | {:.3}", steps(ends), mean_rho(ends))
+        });
+        _ = writeln!(text, "| {lambda} | {} |", cells.collect::<Vec<_>>().join(" | "));
+    }
+    Ok(text)
+}

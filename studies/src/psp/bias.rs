@@ -1,0 +1,215 @@
+//! How biased the sets of each variant are: by the angle to the projectors, in their differences, along the projection.
+
+use std::sync::Arc;
+
+use azulejo::analysis::coverage::surface_uncovered_fraction;
+use azulejo::analysis::differential::{Differences, surface_differences};
+use azulejo::analysis::facing::density_by_facing;
+use azulejo::mesh::Mesh;
+use azulejo::psp::{Options, Psp};
+use azulejo::{Context, Progress, Result, SurfaceSamples};
+use glam::DVec3;
+
+use super::Effort;
+use super::scenes::{radius, sphere};
+use super::variants::Variant;
+use azulejo_cli::summary::Summary;
+
+/// The bins of the density by facing angle, in degrees. No normal is farther than 54.7 degrees from the nearest of three
+/// orthogonal directions, and hardly any as far.
+pub const FACING_BIN: f64 = 5.0;
+const FACING_BINS: usize = 11;
+
+/// Angles between the normal of a plane and the nearest projector, in degrees; the last is equally far from all three.
+pub const TILTS: [f64; 3] = [0.0, 30.0, 54.7];
+
+/// The lengths of neighbours, in mean spacings: from about the radius of a maximal set, 0.83.
+pub const NEIGHBOURS: std::ops::Range<f64> = 0.8..1.05;
+
+/// Frequencies of the spectra, in units of sqrt(density).
+pub fn frequencies() -> Vec<f64> {
+    (4..=125).map(|i| 0.02 * f64::from(i)).collect()
+}
+
+/// What the sets of one variant are like.
+pub struct Bias {
+    pub variant: Variant,
+    /// Samples on a sphere over those of the reference.
+    pub count: Summary,
+    /// The part of the sphere that is left uncovered.
+    pub uncovered: f64,
+    /// Density over the reference's by facing angle, from 0 degrees.
+    pub facing: Vec<f64>,
+    /// The power at the [`frequencies`], on the sphere.
+    pub power: Vec<f64>,
+    /// On planes at the [`TILTS`].
+    pub planes: Vec<Tilted>,
+}
+
+/// Sets on planes at one angle to their nearest projector.
+pub struct Tilted {
+    /// Samples over those of the reference.
+    pub count: f64,
+    /// The differences; x is the direction in which the pattern is stretched.
+    pub differences: Differences,
+}
+
+impl Bias {
+    /// How far the spectrum is from another at most.
+    pub fn difference(&self, other: &Self) -> f64 {
+        self.power.iter().zip(&other.power).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+    }
+
+    /// Frequency and power of the first ring.
+    pub fn peak(&self) -> [f64; 2] {
+        let points = frequencies().into_iter().zip(&self.power).map(|(frequency, &power)| [frequency, power]);
+        points.max_by(|a, b| a[1].total_cmp(&b[1])).unwrap_or_default()
+    }
+
+    /// The bias of each of the variants, of which the first is the reference.
+    pub fn measure(context: &Context, effort: &Effort, progress: &Progress) -> Result<Vec<Self>> {
+        let (variants, sphere) = (Variant::COMPARED, sphere()?);
+        let directions =
+            (0..effort.seeds).map(|seed| directions(context, &sphere, seed)).collect::<Result<Vec<_>>>()?;
+        let measure = Measure { context, effort, sphere, directions };
+        let mut references = None;
+        let mut all = Vec::new();
+        for (i, variant) in variants.into_iter().enumerate() {
+            let raw = measure.of(variant, &|done| progress((i as f64 + done) / variants.len() as f64))?;
+            let reference = references.get_or_insert_with(|| raw.densities());
+            all.push(raw.over(reference)?);
+        }
+        Ok(all)
+    }
+}
+
+/// What was measured of a variant, before it is compared with the reference.
+struct Raw {
+    variant: Variant,
+    counts: Vec<f64>,
+    uncovered: f64,
+    facing: Vec<f64>,
+    power: Vec<f64>,
+    planes: Vec<(f64, Differences)>,
+}
+
+/// The densities of the reference.
+struct Reference {
+    counts: Vec<f64>,
+    facing: Vec<f64>,
+    planes: Vec<f64>,
+}
+
+/// What all measurements share.
+struct Measure<'a> {
+    context: &'a Context,
+    effort: &'a Effort,
+    sphere: Arc<Mesh>,
+    /// Where the projectors of each seed's first iteration look.
+    directions: Vec<[[f64; 3]; 3]>,
+}
+
+impl Measure<'_> {
+    fn of(&self, variant: Variant, progress: &Progress) -> Result<Raw> {
+        let Self { context, effort, sphere: mesh, .. } = self;
+        let radius = radius(mesh, effort.bias);
+        let mut facing = vec![[0.0; 2]; FACING_BINS];
+        let (mut counts, mut differences, mut uncovered) = (Vec::new(), Vec::new(), 0.0);
+        let mut planes: Vec<_> = TILTS.iter().map(|_| (0.0, Vec::new())).collect();
+        for (directions, seed) in self.directions.iter().zip(0..) {
+            let samples = variant.sample(context, mesh, radius, seed)?;
+            counts.push(samples.len() as f64);
+            let bins = (90.0 / FACING_BIN) as usize;
+            let facings = density_by_facing(mesh, &samples.triangles, directions, bins)?;
+            for (sum, one) in facing.iter_mut().zip(facings) {
+                *sum = [sum[0] + one.samples as f64, sum[1] + one.area];
+            }
+            uncovered +=
+                surface_uncovered_fraction(context, mesh, &samples.positions, radius, effort.probes, seed, None)?;
+            differences.push(self.differences(mesh, &samples, [0.0, 0.0, 1.0], seed)?);
+            for (tilt, (count, differences)) in TILTS.into_iter().zip(&mut planes) {
+                let (mesh, towards) = plane(directions, (seed % 3) as usize, tilt.to_radians())?;
+                let samples = variant.sample(context, &mesh, self::radius(&mesh, effort.planes), seed)?;
+                *count += samples.len() as f64;
+                differences.push(self.differences(&mesh, &samples, towards, seed)?);
+            }
+            _ = progress((seed + 1) as f64 / effort.seeds as f64);
+        }
+        let together = |(count, differences): (f64, Vec<_>)| Ok((count, Differences::together(&differences)?));
+        Ok(Raw {
+            variant,
+            counts,
+            uncovered: uncovered / effort.seeds as f64,
+            facing: facing.into_iter().map(|[samples, area]| samples / area).collect(),
+            power: Differences::together(&differences)?.power(&frequencies()),
+            planes: planes.into_iter().map(together).collect::<Result<_>>()?,
+        })
+    }
+
+    fn differences(&self, mesh: &Mesh, of: &SurfaceSamples, towards: [f64; 3], seed: u64) -> Result<Differences> {
+        surface_differences(self.context, mesh, &of.positions, &of.normals, towards, seed, None)
+    }
+}
+
+impl Raw {
+    fn densities(&self) -> Reference {
+        let planes = self.planes.iter().map(|plane| plane.0).collect();
+        Reference { counts: self.counts.clone(), facing: self.facing.clone(), planes }
+    }
+
+    fn over(self, reference: &Reference) -> Result<Bias> {
+        let ratios = |own: &[f64], others: &[f64]| own.iter().zip(others).map(|(a, b)| a / b).collect::<Vec<_>>();
+        let planes = self.planes.into_iter().zip(&reference.planes);
+        Ok(Bias {
+            variant: self.variant,
+            count: Summary::of(&ratios(&self.counts, &reference.counts)),
+            uncovered: self.uncovered,
+            facing: ratios(&self.facing, &reference.facing),
+            power: self.power,
+            planes: planes
+                .map(|((count, differences), others)| Tilted { count: count / others, differences })
+                .collect(),
+        })
+    }
+}
+
+/// Where the projectors of a seed's first iteration look, on whatever mesh.
+fn directions(context: &Context, mesh: &Arc<Mesh>, seed: u64) -> Result<[[f64; 3]; 3]> {
+    let mut psp = Psp::new(mesh, &Options::new(1.0).seed(seed))?;
+    psp.advance(context, 1, None)?;
+    Ok(psp.directions().expect("there was an iteration"))
+}
+
+/// A square at an angle to the `nearest` of three orthogonal directions, equally far from the other two; and the
+/// direction in which that one's pattern is stretched on it.
+fn plane(directions: &[[f64; 3]; 3], nearest: usize, tilt: f64) -> Result<(Arc<Mesh>, [f64; 3])> {
+    let [along, a, b] = [0, 1, 2].map(|i| DVec3::from(directions[(nearest + i) % 3]));
+    let aside = (a + b).normalize();
+    let towards = aside * tilt.cos() - along * tilt.sin();
+    let across = (a - b).normalize();
+    let corner = |[x, y]: [f64; 2]| (x * towards + y * across).as_vec3().to_array();
+    let corners = [[-0.5, -0.5], [0.5, -0.5], [0.5, 0.5], [-0.5, 0.5]].map(corner);
+    Ok((Arc::new(Mesh::new(corners.to_vec(), vec![[0, 1, 2], [0, 2, 3]])?), towards.to_array()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_plane_is_tilted_from_the_nearest_direction() {
+        let directions = [[0.0, 0.6, 0.8], [1.0, 0.0, 0.0], [0.0, 0.8, -0.6]];
+        for (nearest, tilt) in [(0, 0.0), (1, 0.3), (2, 0.9)] {
+            let (mesh, towards) = plane(&directions, nearest, tilt).unwrap();
+            let cosine = |i: usize| {
+                let normal = DVec3::from(mesh.normal(0).map(f64::from));
+                normal.dot(DVec3::from(directions[i])).abs()
+            };
+            assert!((cosine(nearest) - tilt.cos()).abs() < 1e-6 && cosine((nearest + 1) % 3) < tilt.cos() + 1e-9);
+            assert!((cosine((nearest + 1) % 3) - cosine((nearest + 2) % 3)).abs() < 1e-6);
+            // The direction lies in the plane, as steeply towards the projector as it can.
+            let steep = DVec3::from(towards).dot(DVec3::from(directions[nearest])).abs();
+            assert!((steep - tilt.sin()).abs() < 1e-9 && (mesh.area() - 1.0).abs() < 1e-6);
+        }
+    }
+}

@@ -1,0 +1,247 @@
+//! The pages that `azulejo-studies --quick` writes, from outside.
+
+use std::fs;
+use std::process::{Command, Output};
+
+use azulejo_cli::procedural::knot::knot;
+use image::RgbImage;
+use tempfile::TempDir;
+
+fn studies(directory: &TempDir, arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_azulejo-studies")).args(arguments).current_dir(directory).output().unwrap()
+}
+
+/// A page with its pictures.
+struct Page {
+    directory: TempDir,
+    text: String,
+}
+
+impl Page {
+    /// What a study writes into `directory`, quickly. It says nothing: nothing is a terminal here.
+    fn of(directory: TempDir, study: &str, arguments: &[&str]) -> Self {
+        let common = [study, "--quick", "--out", "pages/docs", "--threads", "2"];
+        let output = studies(&directory, &[&common, arguments].concat());
+        let said = [output.stdout, output.stderr].map(|said| String::from_utf8(said).unwrap());
+        assert!(output.status.success() && said == ["", ""], "{said:?}");
+        let text = fs::read_to_string(directory.path().join(format!("pages/docs/{study}.md"))).unwrap();
+        Self { directory, text }
+    }
+
+    fn quick(study: &str) -> Self {
+        Self::of(tempfile::tempdir().unwrap(), study, &[])
+    }
+
+    /// The names and the pictures that the page shows.
+    fn pictures(&self) -> Vec<(String, RgbImage)> {
+        let targets = self.text.split("](").skip(1).map(|rest| rest.split(')').next().unwrap());
+        // Other targets are pages.
+        let names = targets.filter(|target| target.ends_with(".png"));
+        let open = |name: &str| image::open(self.directory.path().join("pages/docs").join(name)).unwrap().to_rgb8();
+        names.map(|name| (name.to_owned(), open(name))).collect()
+    }
+
+    /// Checks that there are `count` pictures, all at least so wide and with something dark.
+    fn check_pictures(&self, count: usize, width: u32) {
+        let pictures = self.pictures();
+        assert_eq!(pictures.len(), count);
+        for (name, picture) in pictures {
+            let has_ink = picture.pixels().any(|pixel| pixel[0] < 128);
+            assert!(picture.width() >= width && has_ink, "{name}");
+        }
+    }
+}
+
+#[test]
+fn a_quick_page_of_the_plane_has_every_table_and_picture_that_it_shows() {
+    let page = Page::quick("kdrt");
+    for figure in ["table 2.2", "fig. 2.11", "fig. 2.13", "fig. 2.15 to 2.19"] {
+        assert!(page.text.contains(figure), "{figure}");
+    }
+    for name in ["reference", "6r", "20r", "40r", "80r"] {
+        assert!(page.text.contains(&format!("\n| {name} ")), "{name}");
+    }
+    page.check_pictures(7, 900);
+}
+
+/// A knot as an OBJ file.
+fn knot_file() -> String {
+    let (positions, triangles) = knot(64);
+    let vertices = positions.iter().map(|[x, y, z]| format!("v {x} {y} {z}\n"));
+    vertices
+        .chain(triangles.iter().map(|triangle| {
+            let [a, b, c] = triangle.map(|vertex| vertex + 1);
+            format!("f {a} {b} {c}\n")
+        }))
+        .collect()
+}
+
+#[test]
+fn a_quick_page_of_surfaces_says_what_is_left_out_and_shows_the_rest() {
+    let directory = tempfile::tempdir().unwrap();
+    fs::write(directory.path().join("knot.obj"), knot_file()).unwrap();
+    let page = Page::of(directory, "psp", &["--bunny", "knot.obj"]);
+    for figure in [
+        "fig. 3.8 and 3.9",
+        "fig. 3.10 and 3.11",
+        "fig. 3.8, 3.12, 3.13 and 3.15",
+        "fig. 3.14",
+        "table 3.1",
+        "fig. 3.19",
+        "fig. 3.20",
+        "fig. 3.21",
+    ] {
+        assert!(page.text.contains(figure), "{figure}");
+    }
+    assert!(page.text.contains("**The dragon was not given") && !page.text.contains("The bunny was not given"));
+    assert!(page.text.contains("\n| samples that a second fill adds | 0, met | 0, met |"));
+    assert!(page.text.contains("\n| bunny | ") && page.text.contains("\n| hall | ") && !page.text.contains("NaN"));
+    page.check_pictures(10, 400);
+    let errors =
+        page.text.lines().filter_map(|line| line.strip_suffix(" % |")?.rsplit("| ").next()?.parse::<f64>().ok());
+    let errors: Vec<_> = errors.collect();
+    assert!(errors.len() >= 16 && errors.iter().all(|error| error.abs() < 20.0), "{errors:?}");
+    let refused = studies(&page.directory, &["psp", "--quick", "--dragon", "missing.ply", "--out", "pages/docs"]);
+    assert_eq!(refused.status.code(), Some(1));
+}
+
+#[test]
+fn a_quick_page_of_relaxation_has_every_method_and_plausible_figures() {
+    let page = Page::quick("dcr");
+    let pictures = [
+        "momentum-delaunay",
+        "momentum-nearest",
+        "thesis-delaunay",
+        "thesis-nearest",
+        "radii-delaunay",
+        "radii-nearest",
+        "distributions",
+        "remeshing",
+        "corners",
+        "density",
+        "surfaces",
+    ];
+    page.check_pictures(pictures.len(), 900);
+    let page = page.text;
+    for (image, relaxed) in ["ramp", "sphere", "knot"].into_iter().flat_map(|image| [(image, "PSP"), (image, "random")])
+    {
+        let start = format!("| {image} | 1,000 | from {relaxed} | ");
+        let row = page.lines().find_map(|line| line.strip_prefix(&start)).unwrap_or_else(|| panic!("{start}"));
+        assert!(row.ends_with("| met |"), "{row}");
+    }
+    for name in pictures {
+        assert!(page.contains(&format!("](dcr/{name}.png)")), "{name}");
+    }
+    let rows = page.lines().map(|line| line.split('|').map(str::trim).collect::<Vec<_>>());
+    let bounded: Vec<_> = rows.clone().filter(|cells| cells.len() == 16 && cells[2] == "300").collect();
+    // Two methods from two starts each, and one start as it is.
+    assert_eq!(bounded.len(), 2 * 2 + 1);
+    for row in bounded {
+        let [rho, least, cover, largest, boundary] = [5, 6, 7, 8, 9].map(|cell| row[cell].parse::<f64>().unwrap());
+        assert!(0.6 < least && least <= rho && rho < 1.0 && 0.577 < cover && cover <= largest && boundary <= cover);
+        assert!((10..15).all(|cell| (0.7..1.5).contains(&row[cell].parse::<f64>().unwrap())), "{row:?}");
+    }
+    let rows: Vec<_> = rows.filter(|cells| cells.len() == 15 && ["random", "KDRT"].contains(&cells[3])).collect();
+    // Two sizes of the momentum method, one of the thesis's, from two starts each.
+    assert_eq!(rows.len(), 2 * 2 * 2 + 2 * 2);
+    for row in rows {
+        let number = |cell: usize| row[cell].trim_end_matches(" %").parse::<f64>().unwrap();
+        let [rho, least, nearest, cover, order, power, obtuse, edges] = [4, 5, 6, 7, 8, 9, 10, 11].map(number);
+        assert!(0.5 < least && least <= rho && rho < nearest && nearest < 1.0, "{row:?}");
+        assert!((0.577..1.5).contains(&cover) && (0.4..0.75).contains(&order), "{row:?}");
+        assert!(
+            0.0 < power && power < 0.1 && (0.5..15.0).contains(&obtuse) && (0.01..0.03).contains(&edges),
+            "{row:?}"
+        );
+    }
+    assert!(page.contains("Sets of 1,000 points and more are left out") && !page.contains("NaN"));
+    check_variations_of_the_thesis(&page);
+    check_surfaces(&page);
+}
+
+/// Of the page of relaxation: the sphere before and after, and what was not given.
+fn check_surfaces(page: &str) {
+    let rows = page.lines().filter(|line| line.starts_with("| sphere | 102,400 |"));
+    let number = |cell: &str| cell.trim().trim_end_matches(" %").parse::<f64>().unwrap();
+    let figures = rows.map(|row| row.split('|').collect::<Vec<_>>());
+    // Smallest distance, obtuse triangles, variation of the edges.
+    let figures: Vec<_> = figures.map(|cells| [5, 8, 10].map(|cell| number(cells[cell]))).collect();
+    let [before, after] = figures[..] else { panic!("{figures:?}") };
+    assert!(before[0] < 0.79 && after[0] > 0.83 && after[1] < before[1] && after[2] < before[2], "{figures:?}");
+    assert!(["bunny", "dragon"].iter().all(|name| page.contains(&format!("The {name} is left out"))));
+}
+
+/// Of the page of relaxation: the sections on what the thesis's algorithm can be varied by, and on remeshing.
+fn check_variations_of_the_thesis(page: &str) {
+    for figure in ["(thesis §4.4.4)", "fig. 4.13 to 4.15", "fig. 4.19 and 4.20", "fig. 4.21"] {
+        assert!(page.contains(figure), "{figure}");
+    }
+    let rows: Vec<Vec<_>> = page.lines().map(|line| line.split('|').map(str::trim).collect()).collect();
+    let number = |cell: &str| -> f64 {
+        let number = cell.trim_matches('*').split(' ').next().unwrap();
+        number.parse().unwrap_or_else(|_| panic!("{cell} is no number"))
+    };
+    // Start, the thesis's steps, those by its test and by motion, with and without activeness, and two rho.
+    let starts: Vec<_> = rows.iter().filter(|row| row.len() == 11 && row[2].parse::<u32>().is_ok()).collect();
+    assert_eq!(starts.iter().map(|row| row[1]).collect::<Vec<_>>(), ["KDRT", "PSP", "random"]);
+    for row in starts {
+        assert!([4, 5, 8, 9].iter().all(|&cell| (20.0..=1000.0).contains(&number(row[cell]))), "{row:?}");
+        assert!([6, 7].iter().all(|&cell| (0.5..0.9).contains(&number(row[cell]))), "{row:?}");
+    }
+    // Four radii after three numbers of steps: what is visited from one end only does not come to rest.
+    let variances: Vec<_> = rows.iter().filter(|row| row.len() == 9 && row[1].contains(" and 1.")).collect();
+    let variances: Vec<_> = variances.iter().filter(|row| row[2].parse::<u32>().is_ok()).collect();
+    assert_eq!(variances.len(), 12);
+    for row in variances.iter().filter(|row| row[1] == "0.95 and 1.05" && row[2] == "400") {
+        let [active, average, dominant, zero, mixed] = [3, 4, 5, 6, 7].map(|cell| number(row[cell]));
+        assert!(active < dominant && active < zero && average < dominant && mixed < dominant, "{row:?}");
+    }
+    let shares = |name: &str| {
+        let row = rows.iter().find(|row| row.len() == 6 && row[1] == name).unwrap();
+        [2, 3, 4].map(|cell| number(row[cell]))
+    };
+    for name in ["obtuse triangles", "variance of edge lengths / mean²", "variance of areas / mean²"] {
+        let [thrown, momentum, thesis] = shares(name);
+        assert!(momentum < 0.7 * thrown && thesis < 0.7 * thrown, "{name}");
+    }
+}
+
+#[test]
+fn a_quick_gallery_shows_every_sampler_with_its_spectrum_and_zone_plate() {
+    let page = Page::quick("gallery");
+    page.check_pictures(3, 1400);
+    let page = page.text;
+    for name in ["samplers", "relaxed", "zone-plate"] {
+        assert!(page.contains(&format!("](gallery/{name}.png)")), "{name}");
+    }
+    let rows = |cells: usize| {
+        let rows = page.lines().map(|line| line.split('|').map(str::trim).collect::<Vec<_>>());
+        let is_row = move |row: &Vec<&str>| row.len() == cells && row[2].parse::<f64>().is_ok();
+        rows.filter(is_row).map(|row| row.iter().map(|cell| cell.to_string()).collect::<Vec<_>>()).collect::<Vec<_>>()
+    };
+    let (figures, errors) = (rows(11), rows(5));
+    let names =
+        ["random", "jittered", "Halton", "flat quadtree", "KDRT", "DCR, momentum, Delaunay", "DCR, momentum, nearest"];
+    assert_eq!((figures.len(), errors.len()), (9, 9), "{page}");
+    assert!(figures.iter().zip(names).all(|(row, name)| row[1] == name), "{figures:?}");
+    let number = |row: &[String], cell: usize| row[cell].parse::<f64>().unwrap();
+    // The order in which the samplers have always been ranked: by spacing, and by what they show of the plate.
+    for (better, worse) in [(1, 0), (3, 1), (3, 2), (5, 3), (6, 5)] {
+        assert!(number(&figures[better], 2) > number(&figures[worse], 2), "{better} {worse}: {figures:?}");
+    }
+    for (better, worse) in [(1, 0), (2, 0), (3, 1), (3, 2), (5, 3)] {
+        assert!(number(&errors[better], 2) < number(&errors[worse], 2), "{better} {worse}: {errors:?}");
+    }
+    assert!(!page.contains("NaN"));
+}
+
+#[test]
+fn a_page_is_refused_where_it_cannot_be_written() {
+    let directory = tempfile::tempdir().unwrap();
+    fs::write(directory.path().join("file"), "").unwrap();
+    for page in ["kdrt", "psp", "dcr", "gallery"] {
+        let refused = studies(&directory, &[page, "--quick", "--out", "file"]);
+        let said = String::from_utf8(refused.stderr).unwrap();
+        assert!(refused.status.code() == Some(1) && said.starts_with("error: file"), "{said}");
+    }
+}
