@@ -87,7 +87,7 @@ has_vertices() { # FILE BYTES-PER-VERTEX: the file is as long as its header says
     [ "$count" -gt 0 ] && [ "$(stat -c %s "$file")" = $((header + 11 + count * $2)) ]
 }
 
-is_static() { fails grep -q azulejo <(readelf --dynamic "$1"); }
+is_static() { fails grep -qF '[libazulejo.so' <(readelf --dynamic "$1"); }
 
 # PREFIX FLAG...: plane.c with the flags of pkg-config; PREFIX is empty for the system's.
 pkg_config() {
