@@ -111,8 +111,8 @@ impl RadialDistribution {
         std::iter::zip(&self.found, &self.expected).map(|(found, expected)| found / expected).collect()
     }
 
-    /// The pairs that a Poisson process would have in each bin, counted from both ends: its g(r) has a standard error of about
-    /// sqrt(2 / expected), since each pair comes twice.
+    /// The pairs that a Poisson process would have in each bin, counted from both ends: its g(r) has a standard
+    /// error of about sqrt(2 / expected), since each pair comes twice.
     pub fn expected(&self) -> &[f64] {
         &self.expected
     }

@@ -11,8 +11,8 @@
 //! projected likewise.
 //!
 //! *Normalisation.* The pairs on a surface are divided by the pairs of the samples with random points of the surface
-//! (Davis and Peebles 1983, "A survey of galaxy redshifts"): boundaries, curvature and other sheets near by cancel. In the plane the
-//! expectation is known; in a bounded domain a pair counts by one over the share of the domain that stays in it when
+//! (Davis and Peebles 1983, "A survey of galaxy redshifts"): boundaries, curvature and other sheets near by
+//! cancel. In the plane the expectation is known; in a bounded domain a pair counts by one over the share of the domain that stays in it when
 //! it is moved by their difference (Ohser and Stoyan 1981, "On the second-order analysis of stationary point processes").
 //!
 //! Lengths are in units of 1 / sqrt(density), the mean spacing, as the frequencies of the periodogram are in units of

@@ -30,8 +30,8 @@ use crate::points::Domain;
 ///
 /// # Errors
 /// [`Error::InvalidArgument`] for a density that is not 0 or above and finite, or is 0 everywhere (`density`; of
-/// several such positions the reported one does not depend on chance), for an image without pixels (`width`, `height`) or of another size than its
-/// values, and for all options but [`Method::Momentum`] (`method`) with Delaunay neighbours (`neighbourhood`); those of
+/// several such positions the reported one does not depend on chance), for an image without pixels (`width`, `height`) or
+/// of another size than its values, and for all options but [`Method::Momentum`] (`method`) with Delaunay neighbours (`neighbourhood`); those of
 /// [`relax`](fn@crate::dcr::relax).
 pub fn relax_with_density(
     context: &Context,

@@ -79,7 +79,8 @@ impl Tiling {
         self.blocks.rect(window)
     }
 
-    /// Lays the pattern in the leaves and does nothing with it, to measure what that takes. Returns how many points it has in the rectangle.
+    /// Lays the pattern in the leaves and does nothing with it, to measure what that takes. Returns how many points it has
+    /// in the rectangle.
     #[cfg(feature = "stages")]
     pub fn clip(&self, rect: &Rect, leaves: &[Leaf]) -> usize {
         let mut points = 0;

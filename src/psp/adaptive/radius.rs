@@ -19,8 +19,8 @@ pub enum Radius<'a> {
         largest: f64,
         /// How much the radius changes at most per unit of distance between two positions on a triangle: 0 and up. What
         /// is covered is proved with it, so it must hold; where a violation is seen, the call fails. The work grows
-        /// with its square from about 1 on; from about 30 on it may be too much, which is refused. At most `smallest` / 24 per float spacing at the largest coordinate of the
-        /// mesh.
+        /// with its square from about 1 on; from about 30 on it may be too much, which is refused. At most `smallest` /
+        /// 24 per float spacing at the largest coordinate of the mesh.
         slope: f64,
     },
 }

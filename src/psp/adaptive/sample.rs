@@ -42,8 +42,8 @@ const BYTES_PER_SAMPLE: f64 = 800.0;
 /// (`vertex_count`), or below 64 float spacings at the largest coordinate of the mesh; for bad `smallest`, `largest` and
 /// `slope`; for a function that gives what is not in `smallest..=largest` or changes faster than `slope` (`radius`);
 /// for a `cosine` outside -1 to 1. [`Error::TooLarge`] where the radii would ask for more than 2^32 samples, or more than
-/// memory holds, and where they change so fast that it takes thousands of looks per sample to find out what is covered (`slope`,
-/// `vertex_radii`). [`Error::Cancelled`] by the progress callback.
+/// memory holds, and where they change so fast that it takes thousands of looks per sample to find out what is covered
+/// (`slope`, `vertex_radii`). [`Error::Cancelled`] by the progress callback.
 pub fn sample(
     context: &Context,
     mesh: &Mesh,
@@ -69,8 +69,8 @@ pub fn sample(
     Ok((AdaptiveSamples { samples, radii }, report))
 }
 
-/// Estimates the samples and refuses radii that ask for more than can be indexed or held. They are counted on pieces of the surface, each
-/// as if it had the radius of its centre: those of the area, and those along what is longer than the radius.
+/// Estimates the samples and refuses radii that ask for more than can be indexed or held. They are counted on pieces of the
+/// surface, each as if it had the radius of its centre: those of the area, and those along what is longer than the radius.
 fn require(job: &Job, mesh: &Mesh, field: &RadiusField) -> Result<f64> {
     // Needles have next to no area: their lengths bound the pieces as well.
     let lengths: f64 = mesh.sampled_triangles().map(|triangle| longest_edge(mesh, triangle)).sum();
