@@ -27,5 +27,6 @@ pub fn bytes(path: &Path) -> Result<Vec<u8>> {
 
 /// The mesh of a file, or of the standard input for `-`: by the extension, or by its contents if that names no format.
 pub fn mesh(path: &Path) -> Result<Mesh> {
-    Mesh::parse(path, &bytes(path)?)
+    // Of files, only regular ones: a device may have no end.
+    if path == Path::new("-") { Mesh::parse(path, &bytes(path)?) } else { Mesh::load(path) }
 }
