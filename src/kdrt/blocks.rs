@@ -130,6 +130,17 @@ impl Blocks {
         }
     }
 
+    /// The smallest rectangle that holds every block that is filled for a window of blocks: of the columns and rows around
+    /// it the even ones of the first phase, which reaches farthest.
+    pub fn filled(&self, window: &Rect) -> Rect {
+        let around = self.grown(window, PHASES[0].1);
+        let (first, last) = (around.min.map(|index| index + (index & 1)), around.max.map(|end| (end - 1) & !1));
+        Rect {
+            min: [0, 1].map(|axis: usize| window.min[axis].min(first[axis])),
+            max: [0, 1].map(|axis: usize| window.max[axis].max(last[axis] + 1)),
+        }
+    }
+
     /// The random numbers of a block: the same for all its images.
     pub fn rng(&self, block: [i32; 2]) -> Rng {
         let [column, row] = [0, 1].map(|axis: usize| block[axis].rem_euclid(self.counts[axis]) as u64);
@@ -220,6 +231,27 @@ mod tests {
                 let point = Rect { min: corner, max: corner.map(|x| x + 1) };
                 assert!(blocks.rect(&blocks.holding(&point)).contains(corner));
                 assert_eq!(blocks.holding(&lattice.rect()), Rect { min: [0; 2], max: blocks.counts });
+            }
+        }
+    }
+
+    #[test]
+    fn no_block_is_filled_outside_of_what_is_filled() {
+        for boundary in [Boundary::Periodic, Boundary::Bounded] {
+            let (_, blocks) = blocks(boundary, 2);
+            for (min, max) in (0..4).flat_map(|min| (1..5).map(move |length| (min, min + length))) {
+                let window = Rect { min: [min, 3 - min], max: [max, 3 - min + (max - min)] };
+                let mut held = window;
+                for (parity, margin) in PHASES {
+                    let around = blocks.grown(&window, margin);
+                    for axis in 0..2 {
+                        for (index, _) in blocks.of_parity(&around, axis, parity[axis]) {
+                            held.min[axis] = held.min[axis].min(index);
+                            held.max[axis] = held.max[axis].max(index + 1);
+                        }
+                    }
+                }
+                assert_eq!(blocks.filled(&window), held, "{window:?}");
             }
         }
     }

@@ -17,6 +17,7 @@ mod conquer;
 mod count;
 mod divide;
 mod fill;
+mod kept;
 mod merge;
 mod options;
 mod output;
@@ -31,6 +32,7 @@ mod vectors;
 mod window;
 
 pub use count::{CountOptions, CountReport, Counted, sample_count};
+pub use kept::Plane;
 pub use merge::{MergeOptions, MergeReport, Piece, merge};
 pub use options::{DEFAULT_LEAF_SIZE, MIN_LEAF_SIZE, Options};
 pub use sample::sample;

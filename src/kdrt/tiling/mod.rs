@@ -13,7 +13,7 @@ use crate::job::Job;
 use crate::plane::lattice::Lattice;
 use crate::plane::rect::Rect;
 use crate::plane::{CellAxis, CellGrid};
-use crate::points::Boundary;
+use crate::points::{Boundary, Domain};
 
 use crate::kdrt::blocks::{Block, Blocks, PHASES};
 use crate::kdrt::clip::{Pattern, pattern_side};
@@ -97,11 +97,6 @@ impl Tiling {
         self.windows_of(WINDOW_BLOCKS)
     }
 
-    /// What of [`Tiling::windows`] is needed for some lattice points, in the same order.
-    pub fn windows_holding(&self, points: &Rect) -> Vec<Rect> {
-        cut(&self.blocks.holding(points), WINDOW_BLOCKS)
-    }
-
     fn windows_of(&self, side: i32) -> Vec<Rect> {
         cut(&Rect { min: [0; 2], max: self.blocks.counts() }, side)
     }
@@ -109,6 +104,38 @@ impl Tiling {
     /// The samples in a rectangle of fill blocks.
     pub fn window(&self, window: &Rect) -> Vec<[f32; 2]> {
         self.window_within(&self.surroundings(window), window)
+    }
+
+    /// The samples in a part of the domain, in the order that all windows one after the other have them in.
+    pub fn part(&self, job: &Job, part: &Domain) -> Result<Vec<[f32; 2]>> {
+        let points = self.lattice.points_in(part);
+        if points.is_empty() {
+            return Ok(Vec::new());
+        }
+        let inside = |mut samples: Vec<[f32; 2]>| {
+            samples.retain(|&sample| part.contains(sample));
+            samples
+        };
+        let blocks = self.blocks.holding(&points);
+        let windows = cut(&blocks, WINDOW_BLOCKS);
+        if blocks.length(0).max(blocks.length(1)) > WINDOW_BLOCKS {
+            return job.concat(windows.len(), |i| inside(self.window(&windows[i])));
+        }
+        // Less than one window, so at once also where it meets several: their surroundings would be made repeatedly. In
+        // each of them the samples come in the same order.
+        let samples = inside(self.window(&blocks));
+        if windows.len() == 1 {
+            return Ok(samples);
+        }
+        let mut ordered = Vec::with_capacity(samples.len());
+        for window in &windows {
+            let Rect { min, max } = self.blocks.rect(window);
+            let (first, last) = (self.lattice.position(min), self.lattice.position(max.map(|x| x - 1)));
+            let is_inside =
+                |sample: &&[f32; 2]| (0..2).all(|axis| first[axis] <= sample[axis] && sample[axis] <= last[axis]);
+            ordered.extend(samples.iter().filter(is_inside));
+        }
+        Ok(ordered)
     }
 
     /// A window, given what is to be known around it.
@@ -155,7 +182,7 @@ impl Tiling {
 
     /// The lattice points on whose leaves the samples of a window depend.
     pub fn surroundings(&self, window: &Rect) -> Rect {
-        let filled = self.blocks.rect(&self.blocks.grown(window, PHASES[0].1));
+        let filled = self.blocks.rect(&self.blocks.filled(window));
         // The fill looks for samples within a reach, and for eliminated points within a reach of its cells, which
         // go less than another beyond it.
         self.inside(&filled.grown((2 + LONGEST_CHAIN) * self.lattice.separation.reach))
@@ -198,7 +225,6 @@ mod tests {
     use super::*;
     use crate::job::Context;
     use crate::plane::lattice::Separation;
-    use crate::points::Domain;
     use crate::rng::{Draw, Rng};
     use crate::simd::Level;
 
