@@ -1,5 +1,5 @@
 //! The samplers of the plane side by side in one run: times by criterion, then a table of ratios to
-//! `maximal` and one of the stages.
+//! `maximal`, one of the stages and one of windows of a kept plane.
 //!
 //! 10^8 samples are added when the environment variable `AZULEJO_BENCH_LARGE` is set.
 
@@ -63,6 +63,7 @@ fn plane(criterion: &mut Criterion) {
     }
     print_ratios(&contexts, &counts);
     print_stages(&counts);
+    print_windows(&contexts[0]);
 }
 
 fn print_ratios(contexts: &[Context; 2], counts: &[u32]) {
@@ -106,6 +107,53 @@ fn print_stages(counts: &[u32]) {
         println!(" {copy:>12.2} {:>12.0}", times.iter().sum::<f64>() / copy);
         black_box(&target);
     }
+}
+
+/// What windows of a plane of 10^9 samples take on one thread, kept and not, and what a sample of them takes beside one
+/// of a whole set.
+fn print_windows(context: &Context) {
+    const PLANE: u32 = 1_000_000_000;
+    let whole = least_time_per_sample(|| kdrt(context, 1_000_000, kdrt::DEFAULT_LEAF_SIZE));
+    println!("{:>10} {:>8} {:>14} {:>14} {:>10} {:>10}", "window", "leaf", "µs", "sample_window", "ns/sample", "whole");
+    for leaf_size in LEAF_SIZES {
+        let options = options(PLANE, leaf_size);
+        let plane = kdrt::Plane::new(context, &options, None).expect("a good domain");
+        for (count, places) in [(64.0, 1_000), (2_000.0, 400), (50_000.0, 40)] {
+            let side = (count / f64::from(PLANE)).sqrt();
+            let corners = |i: i32| {
+                // Anywhere, by two irrational steps.
+                let min = [0.618_034, 0.414_214].map(|step| (f64::from(i) * step).fract() * 0.99);
+                (min, min.map(|x| x + side))
+            };
+            let kept = median_time(places, |i| {
+                let (min, max) = corners(i);
+                plane.window(min, max).expect("a good window").len()
+            });
+            let alone = median_time(5, |i| {
+                let (min, max) = corners(i);
+                kdrt::sample_window(context, &options, min, max, None).expect("a good window").len()
+            });
+            let leaf = format!("{leaf_size}r");
+            println!(
+                "{count:>10} {leaf:>8} {:>14.1} {:>14.1} {:>10.1} {whole:>10.1}",
+                kept * 1e6,
+                alone * 1e6,
+                kept * 1e9 / count
+            );
+        }
+    }
+}
+
+/// What a call takes in the middle of many, in seconds.
+fn median_time(calls: i32, mut call: impl FnMut(i32) -> usize) -> f64 {
+    let timed = |i| {
+        let start = Instant::now();
+        black_box(call(i));
+        start.elapsed().as_secs_f64()
+    };
+    let mut times: Vec<f64> = (0..calls).map(timed).collect();
+    times.sort_by(f64::total_cmp);
+    times[times.len() / 2]
 }
 
 criterion_group!(benches, plane);

@@ -32,13 +32,13 @@ static void *allocate(size_t bytes) {
 
 /* The windows cut the domain into columns and rows, as nearly square as the number of ranks allows. Neighbours compute
    the same boundary from the same numbers. */
-static void window_of(int rank, int ranks, const azulejo_kdrt_options *plane, double min[2], double max[2]) {
+static void window_of(int rank, int ranks, const azulejo_kdrt_options *options, double min[2], double max[2]) {
     int cells[2] = {0, 0}, at[2], axis;
     MPI_Dims_create(ranks, 2, cells);
     at[0] = rank % cells[0];
     at[1] = rank / cells[0];
     for (axis = 0; axis < 2; axis++) {
-        const double low = plane->domain_min[axis], high = plane->domain_max[axis];
+        const double low = options->domain_min[axis], high = options->domain_max[axis];
         min[axis] = at[axis] == 0 ? low : low + (high - low) * at[axis] / cells[axis];
         max[axis] = at[axis] + 1 == cells[axis] ? high : low + (high - low) * (at[axis] + 1) / cells[axis];
     }
@@ -71,11 +71,11 @@ static int is_window_of(const azulejo_points *whole, const float *xy, size_t cou
 }
 
 /* On rank 0: gets the windows of all ranks, and returns how many differ from the whole. */
-static int compare(const azulejo_context *context, const azulejo_kdrt_options *plane, const azulejo_points *own, int ranks,
-                   unsigned long long total, MPI_Datatype sample) {
+static int compare(const azulejo_context *context, const azulejo_kdrt_options *options, const azulejo_points *own,
+                   int ranks, unsigned long long total, MPI_Datatype sample) {
     azulejo_points *whole;
     int rank, differing = 0;
-    check(azulejo_kdrt_sample(context, plane, &whole, NULL));
+    check(azulejo_kdrt_sample(context, options, &whole, NULL));
     if (azulejo_points_count(whole) != total) {
         fprintf(stderr, "ranks: the whole has %zu samples, the windows %llu\n", azulejo_points_count(whole), total);
         differing++;
@@ -92,7 +92,7 @@ static int compare(const azulejo_context *context, const azulejo_kdrt_options *p
             xy = received = allocate((size_t)count * 2 * sizeof *received);
             MPI_Recv(received, count, sample, rank, 0, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
         }
-        window_of(rank, ranks, plane, min, max);
+        window_of(rank, ranks, options, min, max);
         if (!is_window_of(whole, xy, (size_t)count, min, max)) {
             fprintf(stderr, "ranks: the window of rank %d is not that of the whole\n", rank);
             differing++;
@@ -108,7 +108,8 @@ int main(int argc, char **argv) {
     unsigned long long count, before = 0, total;
     double min[2], max[2];
     azulejo_context *context;
-    azulejo_kdrt_options plane;
+    azulejo_kdrt_options options;
+    azulejo_kdrt *plane;
     azulejo_points *points;
     MPI_Datatype sample;
 
@@ -123,11 +124,12 @@ int main(int argc, char **argv) {
 
     /* A thread per rank: mpirun starts one rank per core. The same options everywhere make it one plane. */
     check(azulejo_context_create(1, &context));
-    check(azulejo_kdrt_options_init(&plane, sizeof plane));
-    plane.radius = argc > 1 ? atof(argv[1]) : 0.001;
-    plane.seed = 7;
-    window_of(rank, ranks, &plane, min, max);
-    check(azulejo_kdrt_sample_window(context, &plane, min, max, &points));
+    check(azulejo_kdrt_options_init(&options, sizeof options));
+    options.radius = argc > 1 ? atof(argv[1]) : 0.001;
+    options.seed = 7;
+    check(azulejo_kdrt_create(context, &options, &plane));
+    window_of(rank, ranks, &options, min, max);
+    check(azulejo_kdrt_window(plane, min, max, &points));
 
     count = azulejo_points_count(points);
     MPI_Exscan(&count, &before, 1, MPI_UNSIGNED_LONG_LONG, MPI_SUM, MPI_COMM_WORLD);
@@ -136,11 +138,12 @@ int main(int argc, char **argv) {
     if (argc > 2) write_file(argv[2], points, before, sample);
     if (checking && rank > 0)
         MPI_Send(azulejo_points_positions(points), (int)count, sample, 0, 0, MPI_COMM_WORLD);
-    if (checking && rank == 0) differing = compare(context, &plane, points, ranks, total, sample);
+    if (checking && rank == 0) differing = compare(context, &options, points, ranks, total, sample);
     if (rank == 0)
         printf("%llu samples by %d ranks%s\n", total, ranks, !checking ? "" : differing ? ", wrong" : ", as made alone");
 
     azulejo_points_free(points);
+    azulejo_kdrt_free(plane);
     azulejo_context_free(context);
     MPI_Type_free(&sample);
     MPI_Bcast(&differing, 1, MPI_INT, 0, MPI_COMM_WORLD);

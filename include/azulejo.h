@@ -47,11 +47,11 @@
  *   or not aligned and for a value outside its documented range. No exception leaves the library.
  *   Nothing is printed to stdout; a panic prints to stderr.
  *
- * Handles. azulejo_context, azulejo_mesh, azulejo_psp, azulejo_points, azulejo_spectrum and
- *   azulejo_differences are made by the library. The caller owns them and frees each with its own
- *   _free function, which allows NULL. They may be freed in any order: a handle keeps what it
- *   needs of another one. Accessors return 0 or NULL for NULL. Pointers into a handle are valid
- *   until the handle is freed.
+ * Handles. azulejo_context, azulejo_kdrt, azulejo_mesh, azulejo_psp, azulejo_points,
+ *   azulejo_spectrum and azulejo_differences are made by the library. The caller owns them and
+ *   frees each with its own _free function, which allows NULL. They may be freed in any order: a
+ *   handle keeps what it needs of another one. Accessors return 0 or NULL for NULL. Pointers into
+ *   a handle are valid until the handle is freed.
  *
  * Pointers. An argument may be NULL only where its text says so. Arrays are packed, and are read
  *   during the call only. The pointer of an empty array may be NULL, with the count 0. Pointers
@@ -86,14 +86,14 @@
  *   threads as well, by several at once, so they must be thread-safe.
  *
  * Threads. Every function may be called from any thread at any time. Several threads may use one
- *   context at once, and read one mesh, set of points, spectrum or differences. A psp handle
- *   serves one changing call at a time and refuses a second one. A handle must not be freed while
- *   another thread uses it. The last error belongs to the thread that made the call. After fork,
- *   in the child, contexts with more than one thread and psp handles made with them return
- *   AZULEJO_ERROR_THREADS, since their threads exist in the parent only; they can still be freed.
- *   Contexts of one thread, and contexts made after the fork, work. Embree's own threads are lost
- *   as well: a process that used Embree before it forked should use AZULEJO_ENGINE_RASTERISER in
- *   the child.
+ *   context at once, make windows of one plane, and read one mesh, set of points, spectrum or
+ *   differences. A psp handle serves one changing call at a time and refuses a second one. A
+ *   handle must not be freed while another thread uses it. The last error belongs to the thread
+ *   that made the call. After fork, in the child, contexts with more than one thread and psp
+ *   handles made with them return AZULEJO_ERROR_THREADS, since their threads exist in the parent
+ *   only; they can still be freed. Planes, contexts of one thread, and contexts made after the
+ *   fork work. Embree's own threads are lost as well: a process that used Embree before it forked
+ *   should use AZULEJO_ENGINE_RASTERISER in the child.
  *
  * Determinism. The same options and seed give the same bytes, for every number of threads and
  *   whatever was called before.
@@ -269,6 +269,10 @@ typedef struct azulejo_context azulejo_context;
 /// one over that.
 typedef struct azulejo_differences azulejo_differences;
 
+/// A plane: a set of azulejo_kdrt_sample of which any window can be made at any time. Immutable:
+/// several threads may make windows of it at once.
+typedef struct azulejo_kdrt azulejo_kdrt;
+
 /// A checked triangle mesh. Immutable: several threads may use it at once. Any triangle soup is
 /// accepted: open, non-manifold, of many parts and mixed winding. A mesh may carry normals and a
 /// mask. Meshes made from one another share what they have in common.
@@ -323,7 +327,8 @@ typedef struct azulejo_plane_set {
     double domain_max[2];
 } azulejo_plane_set;
 
-/// Options of azulejo_kdrt_sample, azulejo_kdrt_sample_window and azulejo_kdrt_stream.
+/// Options of azulejo_kdrt_sample, azulejo_kdrt_sample_window, azulejo_kdrt_stream and
+/// azulejo_kdrt_create.
 typedef struct azulejo_kdrt_options {
     /// The size of the struct in bytes; set by the _init function.
     uint32_t struct_size;
@@ -348,12 +353,12 @@ typedef struct azulejo_kdrt_options {
     azulejo_progress_fn progress;
     /// Passed to the progress callback.
     void *progress_user;
-    /// The exact number of samples; default 0: as many as the radius gives. Must be 0 for windows
-    /// and streams, which are made by radius.
+    /// The exact number of samples; default 0: as many as the radius gives. Must be 0 for windows,
+    /// streams and planes that are kept, which are made by radius.
     size_t count;
     /// 1: azulejo_kdrt_sample measures the `coverage` in its report, which takes much longer than
-    /// the sampling. Default 0. Must be 0 where there is no report: with the report NULL, for
-    /// windows and for streams.
+    /// the sampling. Default 0. Must be 0 where there is no report: with the report NULL, and in
+    /// other calls.
     uint32_t measure_coverage;
     /// Must be 0.
     uint32_t reserved;
@@ -1038,8 +1043,8 @@ azulejo_status azulejo_kdrt_sample(const struct azulejo_context *context,
 /// out: the samples, x y each, to be freed with azulejo_points_free.
 ///
 /// O(samples in and around the window) time and memory, and in every call the making of the
-/// pattern, of about 28,000 samples with the default leaves. A domain that is not tiled is made as
-/// a whole.
+/// pattern, of about 28,000 samples with the default leaves: for many windows of one plane,
+/// azulejo_kdrt_create makes it once. A domain that is not tiled is made as a whole.
 ///
 /// Errors: AZULEJO_ERROR_INVALID_ARGUMENT as azulejo_kdrt_sample; AZULEJO_ERROR_TOO_LARGE for the
 /// samples of the window, while the domain may have as many as floats can carry, up to about 10^11;
@@ -1071,6 +1076,48 @@ azulejo_status azulejo_kdrt_stream(const struct azulejo_context *context,
                                    const struct azulejo_kdrt_options *options,
                                    azulejo_kdrt_visit_fn visit,
                                    void *user);
+
+/// Makes what all windows of a plane need: its pattern and tables.
+///
+/// options: those of the whole set, with a radius. The progress callback is called during this call
+/// only.
+///
+/// out: the plane, to be freed with azulejo_kdrt_free. It keeps neither the context nor any thread.
+///
+/// O(samples of the pattern) time: about 28,000 samples with the default leaves. The plane takes 32
+/// bytes of memory for each of them, 0.9 MB in all, and 1 byte for each radius of the sides of the
+/// domain, however many samples the domain has. A domain that is not tiled (see
+/// azulejo_kdrt_sample) is made as a whole and kept, in 8 bytes per sample.
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT as azulejo_kdrt_sample; AZULEJO_ERROR_TOO_LARGE for a
+/// domain that is not tiled, or that has more samples than floats can carry, about 10^11;
+/// AZULEJO_ERROR_CANCELLED.
+azulejo_status azulejo_kdrt_create(const struct azulejo_context *context,
+                                   const struct azulejo_kdrt_options *options,
+                                   struct azulejo_kdrt **out);
+
+/// Makes the samples of a plane that lie in a window of its domain: the same floats in the same
+/// order as azulejo_kdrt_sample_window and the whole set.
+///
+/// All work happens on the calling thread, and other threads may make windows of the same plane
+/// meanwhile. Very large windows are made faster by azulejo_kdrt_sample_window, on the threads of a
+/// context.
+///
+/// window_min, window_max: as in azulejo_kdrt_sample_window.
+///
+/// out: the samples, x y each, to be freed with azulejo_points_free.
+///
+/// O(samples in the window and within about 20 radii of it) time and memory.
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT; AZULEJO_ERROR_TOO_LARGE for 2^32 samples or more in the
+/// window, or more than memory holds.
+azulejo_status azulejo_kdrt_window(const struct azulejo_kdrt *plane,
+                                   const double *window_min,
+                                   const double *window_max,
+                                   struct azulejo_points **out);
+
+/// Frees a plane. NULL is allowed.
+void azulejo_kdrt_free(struct azulejo_kdrt *plane);
 
 /// Writes the defaults. `struct_size` is sizeof *options.
 ///

@@ -13,8 +13,8 @@
 //   both of its forms; a call of azulejo.h that has the callback fails instead. Where there are no
 //   exceptions, a callback that throws ends the process.
 //
-// Sections: status, arrays, owners, points, places and domains, options, reports, context, mesh,
-//   psp, samplers, relaxation, analysis, the throwing forms.
+// Sections: status, arrays, owners, points, places and domains, options, reports, context, kept
+//   planes, mesh, psp, samplers, relaxation, analysis, the throwing forms.
 
 #ifndef AZULEJO_HPP
 #define AZULEJO_HPP
@@ -787,6 +787,41 @@ private:
     friend class Psp;
 
     std::shared_ptr<Progress> progress_;
+};
+
+// ---- Kept planes -------------------------------------------------------------------------------
+
+/// A plane of which any window can be made at any time; see azulejo_kdrt. Threads may share it.
+class Kdrt : public Owner<azulejo_kdrt, azulejo_kdrt_free> {
+public:
+    using Owner::Owner;
+    Kdrt() noexcept = default;
+
+    /// See azulejo_kdrt_create.
+    static Status try_create(const Context &context, const KdrtOptions &options, Kdrt &out) {
+        return detail::make(out, [&](auto **plane) {
+            return azulejo_kdrt_create(context.get(), &options, plane);
+        });
+    }
+
+    /// The samples in a window, made on the calling thread; see azulejo_kdrt_window.
+    Status try_window(const Pair &window_min, const Pair &window_max, Points &out) const {
+        return detail::make(out, [&](auto **points) {
+            return azulejo_kdrt_window(get(), window_min.data(), window_max.data(), points);
+        });
+    }
+
+#ifndef AZULEJO_NO_EXCEPTIONS
+    Kdrt(const Context &context, const KdrtOptions &options) {
+        check(try_create(context, options, *this));
+    }
+
+    Points window(const Pair &window_min, const Pair &window_max) const {
+        Points points;
+        check(try_window(window_min, window_max, points));
+        return points;
+    }
+#endif
 };
 
 // ---- Mesh --------------------------------------------------------------------------------------

@@ -6,6 +6,8 @@ mod common;
 mod sets;
 #[path = "common/tiled.rs"]
 mod tiled;
+#[path = "common/windows.rs"]
+mod windows;
 
 use azulejo::kdrt::{DEFAULT_LEAF_SIZE, Options, sample, sample_stream, sample_window};
 use azulejo::{Boundary, Context, Domain, Error};
@@ -16,16 +18,7 @@ use std::cell::Cell;
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 use tiled::tiled_radius;
-
-type Rect = ([f64; 2], [f64; 2]);
-
-/// What a window owes: the part of the whole that lies in it.
-fn part_of(whole: &[[f32; 2]], (min, max): Rect) -> Vec<[f32; 2]> {
-    let inside = |sample: &[f32; 2]| {
-        (0..2).all(|axis| min[axis] <= f64::from(sample[axis]) && f64::from(sample[axis]) < max[axis])
-    };
-    whole.iter().copied().filter(inside).collect()
-}
+use windows::{Rect, between, part_of, random_window};
 
 fn window(options: &Options, (min, max): Rect) -> Vec<[f32; 2]> {
     sample_window(&Context::new(1).unwrap(), options, min, max, None).unwrap()
@@ -33,21 +26,6 @@ fn window(options: &Options, (min, max): Rect) -> Vec<[f32; 2]> {
 
 fn whole(options: &Options) -> Vec<[f32; 2]> {
     sample(&Context::new(2).unwrap(), options, None).unwrap()
-}
-
-fn between(random: &mut Random, from: f64, to: f64) -> f64 {
-    from + (to - from) * f64::from(random.unit())
-}
-
-/// A window of a domain; each side anything from the whole side to a thousandth of it, less than a radius.
-fn random_window(random: &mut Random, domain: &Domain) -> Rect {
-    let mut rect = (domain.min, domain.max);
-    for axis in 0..2 {
-        let side = domain.extent()[axis] * 10f64.powf(between(random, -3.0, 0.0));
-        rect.0[axis] = between(random, domain.min[axis], domain.max[axis] - side);
-        rect.1[axis] = (rect.0[axis] + side).min(domain.max[axis]);
-    }
-    rect
 }
 
 /// Cuts a rectangle across, again and again.

@@ -17,8 +17,8 @@ use crate::kdrt::tiling::Tiling;
 const FEWEST_REFUSED: f64 = 1e6;
 
 /// A maximal Poisson-disk set of a rectangle, of which any window can be made at any time: the set of
-/// [`sample`](super::sample) with the same options. The pattern and all tables are made once, so that a window costs its
-/// samples and those around it.
+/// [`sample`](super::sample) with the same options. The pattern and all tables are made once, so that a window costs
+/// its samples and those around it.
 ///
 /// Windows may be made by any number of threads at once; nothing is changed by them, and no thread is kept.
 ///
@@ -61,14 +61,14 @@ impl Plane {
         Ok(Self { domain, radius, kept })
     }
 
-    /// The samples of the plane that lie in `window_min <= x < window_max`, on the calling thread: the same floats in the
-    /// same order as [`sample_window`](super::sample_window) and the whole set have them.
+    /// The samples of the plane that lie in `window_min <= x < window_max`, on the calling thread: the same floats in
+    /// the same order as [`sample_window`](super::sample_window) and the whole set have them.
     ///
     /// O(n) in time and memory for the n samples of the window and those within about 20 radii of it.
     ///
     /// # Errors
-    /// [`Error::InvalidArgument`] for `window_min` and `window_max` if the window is empty or reaches beyond the domain;
-    /// [`Error::TooLarge`] above 2^32 samples or the available memory.
+    /// [`Error::InvalidArgument`] for `window_min` and `window_max` if the window is empty or reaches beyond the
+    /// domain; [`Error::TooLarge`] above 2^32 samples or the available memory.
     pub fn window(&self, window_min: [f64; 2], window_max: [f64; 2]) -> Result<Vec<[f32; 2]>> {
         let window = part(&self.domain, self.radius, window_min, window_max)?;
         Context::new(1)?.run(None, |job| self.window_on(job, &window))

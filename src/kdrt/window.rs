@@ -30,8 +30,8 @@ use crate::kdrt::sample::PATTERN_SHARE;
 ///
 /// # Errors
 /// Those of [`sample`](super::sample), where limits are those of the window;
-/// [`Error::InvalidArgument`](crate::Error::InvalidArgument) for `window_min` and `window_max` if the window is empty or
-/// reaches beyond the domain.
+/// [`Error::InvalidArgument`](crate::Error::InvalidArgument) for `window_min` and `window_max` if the window is empty
+/// or reaches beyond the domain.
 pub fn sample_window(
     context: &Context,
     options: &Options,

@@ -275,6 +275,11 @@ static void signatures(void) {
                                   azulejo_kdrt_report *) = azulejo_kdrt_sample;
     azulejo_status (*kdrt_sample_window)(const azulejo_context *, const azulejo_kdrt_options *, const double *,
                                          const double *, azulejo_points **) = azulejo_kdrt_sample_window;
+    azulejo_status (*kdrt_create)(const azulejo_context *, const azulejo_kdrt_options *, azulejo_kdrt **) =
+        azulejo_kdrt_create;
+    azulejo_status (*kdrt_window)(const azulejo_kdrt *, const double *, const double *, azulejo_points **) =
+        azulejo_kdrt_window;
+    void (*kdrt_free)(azulejo_kdrt *) = azulejo_kdrt_free;
     azulejo_status (*kdrt_stream)(const azulejo_context *, const azulejo_kdrt_options *,
                                   int32_t (*)(void *, const float *, size_t), void *) = azulejo_kdrt_stream;
     azulejo_status (*kdrt_merge)(const azulejo_context *, const azulejo_kdrt_merge_options *,
@@ -322,7 +327,7 @@ static void signatures(void) {
     CHECK(kdrt_merge && dcr_surface_relax && plane_smallest_distance && plane_covering_radius && plane_coverage);
     CHECK(plane_measure && plane_nearest_histogram && plane_radial_distribution && spectrum_create);
     CHECK(mesh_with_normals && mesh_with_mask);
-    CHECK(psp_adaptive_sample);
+    CHECK(psp_adaptive_sample && kdrt_create && kdrt_window && kdrt_free);
 }
 
 int main(void) {

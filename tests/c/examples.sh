@@ -72,6 +72,13 @@ run_tufts() { # BUILD: a picture of as many bytes as its pixels take, with fur o
         fails "$1/tufts" && fails "$1/tufts" "$work/missing.obj" "$work/missing.ppm" && [ ! -e "$work/missing.ppm" ]
 }
 
+run_camera() { # BUILD: frames in three heights, one of them compared with the window of the plane
+    "$1/camera" --check 40 >"$work/camera.txt" && cat "$work/camera.txt" &&
+        grep -q '^10000000000 samples' "$work/camera.txt" &&
+        tail -n 3 "$work/camera.txt" >"$work/heights.txt" && check_numbers "$work/heights.txt" 7 3 &&
+        [ "$(awk '{ sum += $3 } END { print sum }' "$work/heights.txt")" = 40 ] && fails "$1/camera" 0
+}
+
 run_ranks() { # BUILD: four processes, or three, make the plane that one makes, without communication
     export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
     mpirun --oversubscribe -n 4 "$1/ranks" --check 0.002 "$work/plane.xy" >"$work/ranks.txt" &&

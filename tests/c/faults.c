@@ -217,6 +217,7 @@ typedef struct {
     azulejo_context *one, *two;
     azulejo_psp *set;
     azulejo_points *points;
+    azulejo_kdrt *plane;
 } made_before;
 
 /* What was made before a fork, after it. */
@@ -231,6 +232,13 @@ static void forked(void *user) {
     }
     REFUSED(AZULEJO_ERROR_THREADS, "forked", azulejo_psp_fill(before->set, NULL));
     CHECK(azulejo_context_num_threads(before->two) == 2 && azulejo_points_count(before->points) > 0);
+    {
+        const double low[2] = {0.25, 0.5}, high[2] = {0.5, 0.75};
+        azulejo_points *window = NULL;
+        ACCEPTED(azulejo_kdrt_window(before->plane, low, high, &window));
+        CHECK(azulejo_points_count(window) > 300);
+        azulejo_points_free(window);
+    }
 
     ACCEPTED(azulejo_context_create(2, &after));
     for (i = 0; i < COUNT_OF(samplers); i++) {
@@ -242,6 +250,7 @@ static void forked(void *user) {
         azulejo_points_free(points[0]);
         azulejo_points_free(points[1]);
     }
+    azulejo_kdrt_free(before->plane);
     azulejo_psp_free(before->set);
     azulejo_points_free(before->points);
     azulejo_context_free(before->two);
@@ -252,13 +261,18 @@ static void forked(void *user) {
 
 static void forks(void) {
     azulejo_psp_options o = psp_options(0.1);
-    made_before before = {make_context(1), make_context(2), NULL, NULL};
+    azulejo_kdrt_options p = kdrt_options(0.01);
+    made_before before = {make_context(1), make_context(2), NULL, NULL, NULL};
+    p.leaf_size = 6;
+    p.domain_max[0] = 2;
+    ACCEPTED(azulejo_kdrt_create(before.two, &p, &before.plane));
     ACCEPTED(azulejo_psp_create(before.two, cube, &o, &before.set));
     ACCEPTED(azulejo_psp_advance(before.set, 1, NULL));
     ACCEPTED(azulejo_psp_points(before.set, &before.points));
     CHECK(in_child(forked, &before) == 0);
     /* The fork is nothing to the parent. */
     ACCEPTED(azulejo_psp_fill(before.set, NULL));
+    azulejo_kdrt_free(before.plane);
     azulejo_psp_free(before.set);
     azulejo_points_free(before.points);
     azulejo_context_free(before.two);

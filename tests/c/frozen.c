@@ -189,7 +189,8 @@ static int32_t go_on(void *user, double done) {
 
 static void planes(void) {
     const azulejo_kdrt_options now = kdrt_options(0.05);
-    azulejo_points *before = NULL, *after = NULL, *reference = NULL, *merged = NULL;
+    azulejo_points *before = NULL, *after = NULL, *reference = NULL, *merged = NULL, *window = NULL;
+    azulejo_kdrt *plane = NULL;
     double done = 0;
     MAKE(kdrt_options, options);
     MAKE(kdrt_report, report);
@@ -209,6 +210,12 @@ static void planes(void) {
     CHECK(report->is_maximal == 1 && report->radius == 0.05 && report->seconds > 0);
     CHECK(report->coverage > 0.04 && report->coverage < 0.0500001);
 
+    done = 0;
+    options->measure_coverage = 0;
+    ACCEPTED(azulejo_kdrt_create(context, (void *)options, &plane));
+    ACCEPTED(azulejo_kdrt_window(plane, options->domain_min, options->domain_max, &window));
+    CHECK(done == 1 && same_points(window, after));
+
     maximal->radius = merge->radius = 0.05;
     ACCEPTED(azulejo_maximal_sample(context, (void *)maximal, &reference));
     CHECK(azulejo_points_count(reference) > 200);
@@ -218,6 +225,8 @@ static void planes(void) {
     azulejo_points_free(after);
     azulejo_points_free(reference);
     azulejo_points_free(merged);
+    azulejo_points_free(window);
+    azulejo_kdrt_free(plane);
 }
 
 static void surfaces(void) {

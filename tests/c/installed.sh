@@ -33,6 +33,7 @@ step "installed: examples, shared" examples "$work/shared" ""
 step "installed: they run" run_examples "$work/shared"
 step "installed: scatter" run_scatter "$work/shared"
 step "installed: tufts" run_tufts "$work/shared"
+step "installed: camera" run_camera "$work/shared"
 step "installed: examples, static" few_examples "$work/static" "" -DAZULEJO_EXAMPLES_STATIC=ON
 step "installed: they do not need libazulejo.so" is_static "$work/static/plane"
 step "installed: they run" run_examples "$work/static"

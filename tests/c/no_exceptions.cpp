@@ -26,6 +26,11 @@ void planes(const azulejo::Context &context) {
     azulejo::KdrtReport report;
     CHECK(azulejo::try_kdrt_sample(context, options, points, &report).ok() && report.samples == points.size());
     CHECK(azulejo::try_kdrt_sample_window(context, options, {0, 0}, {0.5, 1}, window).ok() && window.size() > 50);
+    azulejo::Kdrt plane;
+    azulejo::Points kept;
+    CHECK(refused("plane", plane.try_window({0, 0}, {0.5, 1}, kept)) && !kept);
+    CHECK(azulejo::Kdrt::try_create(context, options, plane).ok());
+    CHECK(plane.try_window({0, 0}, {0.5, 1}, kept).ok() && same_points(kept.get(), window.get()));
     std::size_t streamed = 0;
     const auto count = [&](azulejo::Positions xy) { return streamed += xy.size() / xy.dimension(), true; };
     CHECK(azulejo::try_kdrt_stream(context, options, count).ok() && streamed == points.size());

@@ -65,6 +65,7 @@ step "they run" run_examples "$work/shared"
 step "scatter" run_scatter "$work/shared"
 step "stipple" run_stipple "$work/shared"
 step "tufts" run_tufts "$work/shared"
+step "camera" run_camera "$work/shared"
 if [ -x "$work/shared/ranks" ]; then
     step "ranks" run_ranks "$work/shared"
 else

@@ -148,4 +148,17 @@ static inline int same_points(const azulejo_points *a, const azulejo_points *b) 
             memcmp(azulejo_points_barycentrics(a), azulejo_points_barycentrics(b), 8 * count) == 0);
 }
 
+/* Whether a window has the samples of the whole that lie in it, in their order. */
+static inline int is_part(const azulejo_points *window, const azulejo_points *whole, double left, double bottom,
+                          double right, double top) {
+    const float *xy = azulejo_points_positions(whole), *found = azulejo_points_positions(window);
+    size_t i, count = 0;
+    for (i = 0; i < azulejo_points_count(whole); i++, xy += 2) {
+        if (!(left <= xy[0] && xy[0] < right && bottom <= xy[1] && xy[1] < top)) continue;
+        if (count == azulejo_points_count(window) || memcmp(xy, found + 2 * count, 8) != 0) return 0;
+        count++;
+    }
+    return count == azulejo_points_count(window);
+}
+
 #endif

@@ -26,19 +26,6 @@ static azulejo_points *make_window(const azulejo_context *context, const azulejo
     return points;
 }
 
-/* Whether a window has the samples of the whole that lie in it, in their order. */
-static int is_part(const azulejo_points *window, const azulejo_points *whole, double left, double bottom, double right,
-                   double top) {
-    const float *xy = azulejo_points_positions(whole), *found = azulejo_points_positions(window);
-    size_t i, count = 0;
-    for (i = 0; i < azulejo_points_count(whole); i++, xy += 2) {
-        if (!(left <= xy[0] && xy[0] < right && bottom <= xy[1] && xy[1] < top)) continue;
-        if (count == azulejo_points_count(window) || memcmp(xy, found + 2 * count, 8) != 0) return 0;
-        count++;
-    }
-    return count == azulejo_points_count(window);
-}
-
 /* Every row and column of windows, cut where nothing else is. */
 static void windows(const azulejo_kdrt_options *options, const azulejo_points *whole) {
     const double x[] = {options->domain_min[0], -1.4999, -1.1, -0.3, -0.25, options->domain_max[0]};

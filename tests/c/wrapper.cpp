@@ -216,7 +216,21 @@ void windows() {
     CHECK(std::equal(expected.begin(), expected.end(), window.positions().begin()));
     CHECK(throws(AZULEJO_ERROR_INVALID_ARGUMENT, "window_max",
                  [&] { azulejo::kdrt_sample_window(context, options, middle, middle); }));
+    auto plane = azulejo::Kdrt(context, options);
+    const azulejo::Kdrt moved = std::move(plane);
+    const auto same = moved.window(middle, options.domain_max);
+    CHECK(!plane && same.positions().size() == expected.size());
+    CHECK(std::equal(expected.begin(), expected.end(), same.positions().begin()));
+    CHECK(throws(AZULEJO_ERROR_INVALID_ARGUMENT, "window_max", [&] { moved.window(middle, middle); }));
+    CHECK(throws(AZULEJO_ERROR_INVALID_ARGUMENT, "plane", [&] { plane.window(middle, options.domain_max); }));
+    CHECK(throws(AZULEJO_ERROR_INVALID_ARGUMENT, "radius", [&] { azulejo::Kdrt(context, {}); }));
     options.set_progress([](double done) -> bool { throw done; });
+    try {
+        azulejo::Kdrt(context, options);
+        CHECK(!"reached");
+    } catch (double thrown) {
+        CHECK(thrown == 0);
+    }
     try {
         azulejo::kdrt_sample_window(context, options, middle, options.domain_max);
         CHECK(!"reached");

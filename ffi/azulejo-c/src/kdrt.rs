@@ -17,7 +17,8 @@ use crate::points::azulejo_points;
 use crate::progress::{Watch, azulejo_progress_fn};
 use crate::status::{Failure, azulejo_status};
 
-/// Options of azulejo_kdrt_sample, azulejo_kdrt_sample_window and azulejo_kdrt_stream.
+/// Options of azulejo_kdrt_sample, azulejo_kdrt_sample_window, azulejo_kdrt_stream and
+/// azulejo_kdrt_create.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct azulejo_kdrt_options {
@@ -44,12 +45,12 @@ pub struct azulejo_kdrt_options {
     pub progress: azulejo_progress_fn,
     /// Passed to the progress callback.
     pub progress_user: *mut c_void,
-    /// The exact number of samples; default 0: as many as the radius gives. Must be 0 for windows
-    /// and streams, which are made by radius.
+    /// The exact number of samples; default 0: as many as the radius gives. Must be 0 for windows,
+    /// streams and planes that are kept, which are made by radius.
     pub count: usize,
     /// 1: azulejo_kdrt_sample measures the `coverage` in its report, which takes much longer than
-    /// the sampling. Default 0. Must be 0 where there is no report: with the report NULL, for
-    /// windows and for streams.
+    /// the sampling. Default 0. Must be 0 where there is no report: with the report NULL, and in
+    /// other calls.
     pub measure_coverage: u32,
     /// Must be 0.
     pub reserved: u32,
@@ -202,8 +203,8 @@ const SAMPLING_SHARE: f64 = 0.05;
 /// out: the samples, x y each, to be freed with azulejo_points_free.
 ///
 /// O(samples in and around the window) time and memory, and in every call the making of the
-/// pattern, of about 28,000 samples with the default leaves. A domain that is not tiled is made as
-/// a whole.
+/// pattern, of about 28,000 samples with the default leaves: for many windows of one plane,
+/// azulejo_kdrt_create makes it once. A domain that is not tiled is made as a whole.
 ///
 /// Errors: AZULEJO_ERROR_INVALID_ARGUMENT as azulejo_kdrt_sample; AZULEJO_ERROR_TOO_LARGE for the
 /// samples of the window, while the domain may have as many as floats can carry, up to about 10^11;
@@ -313,7 +314,7 @@ impl azulejo_kdrt_options {
     }
 
     /// The options of calls that cannot have a count.
-    fn by_radius_only(&self) -> Result<kdrt::Options, Failure> {
+    pub(crate) fn by_radius_only(&self) -> Result<kdrt::Options, Failure> {
         if self.count != 0 {
             let reason = format!("{} is not 0; windows and streams are made by radius, not by number", self.count);
             return Err(Failure::invalid("count", reason));
@@ -333,7 +334,7 @@ impl azulejo_kdrt_options {
         domain(self.domain_min, self.domain_max, self.boundary)
     }
 
-    fn watch(&self) -> Watch {
+    pub(crate) fn watch(&self) -> Watch {
         Watch::new(self.progress, self.progress_user)
     }
 }

@@ -1,0 +1,85 @@
+//! A plane that is kept: its pattern is made once, any of its windows at any time.
+
+use std::mem::MaybeUninit;
+
+use azulejo_core::kdrt::Plane;
+
+use crate::boundary::{self, pair, required};
+use crate::context::azulejo_context;
+use crate::growing;
+use crate::kdrt::azulejo_kdrt_options;
+use crate::points::azulejo_points;
+use crate::status::azulejo_status;
+
+/// A plane: a set of azulejo_kdrt_sample of which any window can be made at any time. Immutable:
+/// several threads may make windows of it at once.
+pub struct azulejo_kdrt {
+    plane: Plane,
+}
+
+/// Makes what all windows of a plane need: its pattern and tables.
+///
+/// options: those of the whole set, with a radius. The progress callback is called during this call
+/// only.
+///
+/// out: the plane, to be freed with azulejo_kdrt_free. It keeps neither the context nor any thread.
+///
+/// O(samples of the pattern) time: about 28,000 samples with the default leaves. The plane takes 32
+/// bytes of memory for each of them, 0.9 MB in all, and 1 byte for each radius of the sides of the
+/// domain, however many samples the domain has. A domain that is not tiled (see
+/// azulejo_kdrt_sample) is made as a whole and kept, in 8 bytes per sample.
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT as azulejo_kdrt_sample; AZULEJO_ERROR_TOO_LARGE for a
+/// domain that is not tiled, or that has more samples than floats can carry, about 10^11;
+/// AZULEJO_ERROR_CANCELLED.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_kdrt_create(
+    context: Option<&azulejo_context>,
+    options: *const azulejo_kdrt_options,
+    out: Option<&mut MaybeUninit<Box<azulejo_kdrt>>>,
+) -> azulejo_status {
+    boundary::create(out, || {
+        let context = required("context", context)?;
+        // SAFETY: handed on from the caller.
+        let options = unsafe { growing::read("options", options) }?;
+        let request = options.by_radius_only()?;
+        let plane = context.run(options.watch(), |context, progress| Plane::new(context, &request, progress))?;
+        Ok(azulejo_kdrt { plane })
+    })
+}
+
+/// Makes the samples of a plane that lie in a window of its domain: the same floats in the same
+/// order as azulejo_kdrt_sample_window and the whole set.
+///
+/// All work happens on the calling thread, and other threads may make windows of the same plane
+/// meanwhile. Very large windows are made faster by azulejo_kdrt_sample_window, on the threads of a
+/// context.
+///
+/// window_min, window_max: as in azulejo_kdrt_sample_window.
+///
+/// out: the samples, x y each, to be freed with azulejo_points_free.
+///
+/// O(samples in the window and within about 20 radii of it) time and memory.
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT; AZULEJO_ERROR_TOO_LARGE for 2^32 samples or more in the
+/// window, or more than memory holds.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_kdrt_window(
+    plane: Option<&azulejo_kdrt>,
+    window_min: *const f64,
+    window_max: *const f64,
+    out: Option<&mut MaybeUninit<Box<azulejo_points>>>,
+) -> azulejo_status {
+    boundary::create(out, || {
+        let plane = &required("plane", plane)?.plane;
+        // SAFETY: handed on from the caller.
+        let (min, max) = unsafe { (pair("window_min", window_min)?, pair("window_max", window_max)?) };
+        Ok(azulejo_points::plane(plane.window(min, max)?))
+    })
+}
+
+/// Frees a plane. NULL is allowed.
+#[unsafe(no_mangle)]
+pub extern "C" fn azulejo_kdrt_free(plane: Option<Box<azulejo_kdrt>>) {
+    boundary::free(plane);
+}

@@ -1,0 +1,248 @@
+/* Planes that are kept: their windows are those of azulejo_kdrt_sample_window and parts of the whole, for planes that
+   are tiled and that are not, on several threads at once, without their context; bad arguments are refused. */
+
+#include <math.h>
+#include <pthread.h>
+
+#include "samples.h"
+
+#define INVALID AZULEJO_ERROR_INVALID_ARGUMENT
+
+static azulejo_context *two;
+
+/* Tiled planes of about 46,000 samples, off the origin, and one that is made as a whole. */
+static azulejo_kdrt_options plane_options(int32_t boundary, double radius) {
+    azulejo_kdrt_options options = kdrt_options(radius);
+    options.boundary = boundary;
+    options.domain_min[0] = -1.5;
+    options.domain_max[0] = 0.15;
+    options.leaf_size = 8;
+    options.seed = 5;
+    return options;
+}
+
+/* The plane, made with a context that does not live longer. */
+static azulejo_kdrt *make_plane(const azulejo_kdrt_options *options) {
+    azulejo_context *context = make_context(2);
+    azulejo_kdrt *plane = NULL;
+    if (!ACCEPTED(azulejo_kdrt_create(context, options, &plane))) exit(finish());
+    azulejo_context_free(context);
+    return plane;
+}
+
+/* A window with a sample: small and large ones, narrow and wide, of one float, and from the lower corner on. */
+static void window_of(const azulejo_kdrt_options *options, const float *sample, size_t i, double low[2],
+                      double high[2]) {
+    const double width = options->radius * pow(2, (double)(i % 9) - 3);
+    const double sides[2] = {width, 60 * options->radius - width};
+    int axis;
+    for (axis = 0; axis < 2; axis++) {
+        const double min = options->domain_min[axis], max = options->domain_max[axis];
+        low[axis] = i % 5 == 1 ? min : sample[axis];
+        high[axis] = i % 4 == 0 ? nextafterf(sample[axis], 1) : sample[axis] + sides[axis];
+        if (high[axis] > max) high[axis] = max;
+    }
+}
+
+static void windows(const azulejo_kdrt_options *options) {
+    azulejo_kdrt *plane = make_plane(options);
+    azulejo_points *whole = NULL, *window = NULL, *again;
+    size_t i;
+    ACCEPTED(azulejo_kdrt_sample(two, options, &whole, NULL));
+    ACCEPTED(azulejo_kdrt_window(plane, options->domain_min, options->domain_max, &window));
+    CHECK(same_points(window, whole));
+    azulejo_points_free(window);
+    for (i = 0; i < 60; i++) {
+        const float *sample = azulejo_points_positions(whole) + 2 * (i * 7919 % azulejo_points_count(whole));
+        double low[2], high[2];
+        window_of(options, sample, i, low, high);
+        ACCEPTED(azulejo_kdrt_window(plane, low, high, &window));
+        CHECK(azulejo_points_count(window) > 0);
+        CHECK(is_part(window, whole, low[0], low[1], high[0], high[1]));
+        if (i < 4) {
+            ACCEPTED(azulejo_kdrt_sample_window(two, options, low, high, &again));
+            CHECK(same_points(window, again));
+            azulejo_points_free(again);
+        }
+        azulejo_points_free(window);
+    }
+    azulejo_points_free(whole);
+    azulejo_kdrt_free(plane);
+}
+
+/* What one of several threads makes of a plane; the checks count in the main thread. */
+typedef struct {
+    const azulejo_kdrt *plane;
+    const azulejo_kdrt_options *options;
+    const azulejo_points *whole;
+    size_t first;
+    int wrong;
+} work;
+
+static void *make_windows(void *user) {
+    work *w = user;
+    size_t i;
+    for (i = w->first; i < w->first + 30; i++) {
+        const float *sample = azulejo_points_positions(w->whole) + 2 * (i * 104729 % azulejo_points_count(w->whole));
+        azulejo_points *window = NULL;
+        double low[2], high[2];
+        window_of(w->options, sample, i, low, high);
+        if (azulejo_kdrt_window(w->plane, low, high, &window) != AZULEJO_OK) w->wrong++;
+        w->wrong += !is_part(window, w->whole, low[0], low[1], high[0], high[1]);
+        azulejo_points_free(window);
+    }
+    return NULL;
+}
+
+static void threads_on_one_plane(const azulejo_kdrt_options *options) {
+    azulejo_kdrt *plane = make_plane(options);
+    azulejo_points *whole = NULL;
+    pthread_t threads[4];
+    work works[4];
+    size_t i;
+    ACCEPTED(azulejo_kdrt_sample(two, options, &whole, NULL));
+    for (i = 0; i < 4; i++) {
+        const work w = {plane, options, whole, 30 * i, 0};
+        works[i] = w;
+        CHECK(pthread_create(&threads[i], NULL, make_windows, &works[i]) == 0);
+    }
+    for (i = 0; i < 4; i++) CHECK(pthread_join(threads[i], NULL) == 0 && works[i].wrong == 0);
+    azulejo_points_free(whole);
+    azulejo_kdrt_free(plane);
+}
+
+/* 10^10 samples. */
+static void a_huge_plane(void) {
+    const azulejo_kdrt_options options = kdrt_options(8.5e-6);
+    const double low[2] = {0.8, 0.1}, high[2] = {0.8005, 0.1005}, all[2][2] = {{0, 0}, {1, 1}};
+    azulejo_kdrt *plane = make_plane(&options);
+    azulejo_points *window = NULL, *same = NULL, *out = UNTOUCHED;
+    ACCEPTED(azulejo_kdrt_window(plane, low, high, &window));
+    ACCEPTED(azulejo_kdrt_sample_window(two, &options, low, high, &same));
+    CHECK(azulejo_points_count(window) > 2300 && same_points(window, same));
+    REFUSED(AZULEJO_ERROR_TOO_LARGE, "radius", azulejo_kdrt_window(plane, all[0], all[1], &out));
+    CHECK(out == UNTOUCHED);
+    azulejo_points_free(window);
+    azulejo_points_free(same);
+    azulejo_kdrt_free(plane);
+}
+
+static void no_planes(void) {
+    azulejo_kdrt_options good = kdrt_options(0.1);
+    azulejo_kdrt *out = UNTOUCHED;
+    REFUSED(INVALID, "context", azulejo_kdrt_create(NULL, &good, &out));
+    REFUSED(INVALID, "options", azulejo_kdrt_create(two, NULL, &out));
+    REFUSED(INVALID, "options", azulejo_kdrt_create(two, (azulejo_kdrt_options *)((char *)&good + 1), &out));
+    REFUSED(INVALID, "out", azulejo_kdrt_create(two, &good, NULL));
+#define NO_PLANE(status, part, change)                              \
+    do {                                                            \
+        azulejo_kdrt_options o = good;                              \
+        (void)(change);                                             \
+        REFUSED(status, part, azulejo_kdrt_create(two, &o, &out));  \
+        CHECK(out == UNTOUCHED);                                    \
+    } while (0)
+    NO_PLANE(INVALID, "radius", o.radius = 0);
+    NO_PLANE(INVALID, "radius", o.radius = NAN);
+    NO_PLANE(INVALID, "radius", o.radius = 1e-6);
+    NO_PLANE(INVALID, "leaf_size", o.leaf_size = 5.9);
+    NO_PLANE(INVALID, "boundary", o.boundary = 2);
+    NO_PLANE(INVALID, "domain_max: [1]", o.domain_max[1] = -1);
+    NO_PLANE(INVALID, "domain_min", o.domain_min[0] = -INFINITY);
+    NO_PLANE(INVALID, "count", o.count = 100);
+    NO_PLANE(INVALID, "measure_coverage", o.measure_coverage = 1);
+    NO_PLANE(INVALID, "reserved", o.reserved = 1);
+    NO_PLANE(INVALID, "struct_size", o.struct_size = 3);
+    NO_PLANE(AZULEJO_ERROR_TOO_LARGE, "radius", (o.radius = 8.5e-6, o.leaf_size = 1e30));
+#undef NO_PLANE
+    azulejo_kdrt_free(NULL);
+}
+
+static void no_windows(const azulejo_kdrt_options *options) {
+    const double inner[2] = {-1.25, 0.5};
+    azulejo_kdrt *plane = make_plane(options);
+    azulejo_points *out = UNTOUCHED;
+    const double *misaligned = (const double *)((const char *)inner + 1);
+    REFUSED(INVALID, "plane: is NULL", azulejo_kdrt_window(NULL, options->domain_min, inner, &out));
+    REFUSED(INVALID, "window_min: is NULL", azulejo_kdrt_window(plane, NULL, inner, &out));
+    REFUSED(INVALID, "window_max: is NULL", azulejo_kdrt_window(plane, inner, NULL, &out));
+    REFUSED(INVALID, "window_min", azulejo_kdrt_window(plane, misaligned, options->domain_max, &out));
+    REFUSED(INVALID, "window_max", azulejo_kdrt_window(plane, options->domain_min, misaligned, &out));
+    REFUSED(INVALID, "out", azulejo_kdrt_window(plane, options->domain_min, inner, NULL));
+    REFUSED(INVALID, "window_max: [0] is -1.25", azulejo_kdrt_window(plane, inner, inner, &out));
+    REFUSED(INVALID, "window_max: [0] is -1.25", azulejo_kdrt_window(plane, options->domain_max, inner, &out));
+#define NO_WINDOW(part, change)                                         \
+    do {                                                                \
+        double min[2] = {-1, 0.25}, max[2] = {0, 0.75};                 \
+        (void)(change);                                                 \
+        REFUSED(INVALID, part, azulejo_kdrt_window(plane, min, max, &out)); \
+    } while (0)
+    NO_WINDOW("window_min: [0]", min[0] = NAN);
+    NO_WINDOW("window_min: [1]", min[1] = NAN);
+    NO_WINDOW("window_min: [0]", min[0] = -1.5000001);
+    NO_WINDOW("window_min: [1]", min[1] = -INFINITY);
+    NO_WINDOW("window_max: [0]", max[0] = NAN);
+    NO_WINDOW("window_max: [1]", max[1] = NAN);
+    NO_WINDOW("window_max: [0]", max[0] = 0.1500001);
+    NO_WINDOW("window_max: [1]", max[1] = INFINITY);
+    NO_WINDOW("window_max: [1]", max[1] = 0.25);
+    NO_WINDOW("window_max: [1]", max[1] = 0);
+#undef NO_WINDOW
+    CHECK(out == UNTOUCHED);
+    azulejo_kdrt_free(plane);
+}
+
+typedef struct {
+    double last, limit;
+    int calls;
+} watch;
+
+static int32_t tell(void *user, double done) {
+    watch *w = user;
+    w->last = done;
+    w->calls++;
+    return done >= w->limit;
+}
+
+/* The making is watched and cancelled; windows are not. */
+static void progress(azulejo_kdrt_options options) {
+    watch w = {-1, 2, 0};
+    azulejo_kdrt *plane = UNTOUCHED;
+    azulejo_points *window = NULL;
+    int calls;
+    options.progress = tell;
+    options.progress_user = &w;
+    ACCEPTED(azulejo_kdrt_create(two, &options, &plane));
+    CHECK(w.last == 1 && w.calls > 2);
+    calls = w.calls;
+    ACCEPTED(azulejo_kdrt_window(plane, options.domain_min, options.domain_max, &window));
+    CHECK(w.calls == calls);
+    azulejo_points_free(window);
+    azulejo_kdrt_free(plane);
+    plane = UNTOUCHED;
+    for (w.limit = 0; w.limit <= 1; w.limit += 0.5) {
+        REFUSED(AZULEJO_ERROR_CANCELLED, "cancelled", azulejo_kdrt_create(two, &options, &plane));
+        CHECK(plane == UNTOUCHED);
+    }
+}
+
+int main(void) {
+    const int32_t boundaries[] = {AZULEJO_BOUNDARY_PERIODIC, AZULEJO_BOUNDARY_BOUNDED};
+    size_t i;
+    two = make_context(2);
+    no_planes();
+    for (i = 0; i < 2; i++) {
+        const azulejo_kdrt_options tiled = plane_options(boundaries[i], 0.005);
+        const azulejo_kdrt_options whole = plane_options(boundaries[i], 0.05);
+        windows(&tiled);
+        windows(&whole);
+        threads_on_one_plane(&tiled);
+        threads_on_one_plane(&whole);
+        no_windows(&tiled);
+        no_windows(&whole);
+        progress(tiled);
+        progress(whole);
+    }
+    a_huge_plane();
+    azulejo_context_free(two);
+    return finish();
+}
