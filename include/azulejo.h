@@ -1069,8 +1069,8 @@ azulejo_status azulejo_kdrt_sample_window(const struct azulejo_context *context,
 /// O(samples) time; memory for the pattern and at most 8 parts per thread. A domain that is not
 /// tiled is made as a whole and is one part.
 ///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT as azulejo_kdrt_sample; AZULEJO_ERROR_TOO_LARGE for a
-/// domain that is not tiled, or that has more samples than floats can carry, about 10^11;
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT as azulejo_kdrt_sample, so for more samples than floats
+/// can carry, about 10^11; AZULEJO_ERROR_TOO_LARGE for a domain that is not tiled;
 /// AZULEJO_ERROR_CANCELLED, also if `visit` cancels.
 azulejo_status azulejo_kdrt_stream(const struct azulejo_context *context,
                                    const struct azulejo_kdrt_options *options,
@@ -1089,8 +1089,8 @@ azulejo_status azulejo_kdrt_stream(const struct azulejo_context *context,
 /// domain, however many samples the domain has. A domain that is not tiled (see
 /// azulejo_kdrt_sample) is made as a whole and kept, in 8 bytes per sample.
 ///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT as azulejo_kdrt_sample; AZULEJO_ERROR_TOO_LARGE for a
-/// domain that is not tiled, or that has more samples than floats can carry, about 10^11;
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT as azulejo_kdrt_sample, so for more samples than floats
+/// can carry, about 10^11; AZULEJO_ERROR_TOO_LARGE for a domain that is not tiled;
 /// AZULEJO_ERROR_CANCELLED.
 azulejo_status azulejo_kdrt_create(const struct azulejo_context *context,
                                    const struct azulejo_kdrt_options *options,

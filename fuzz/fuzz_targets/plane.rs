@@ -6,6 +6,7 @@ use std::ffi::c_void;
 use std::ptr::null_mut;
 
 use azulejo_c::kdrt::*;
+use azulejo_c::kept::*;
 use azulejo_c::maximal::*;
 use azulejo_c::merge::*;
 use azulejo_core::{Boundary, Domain};
@@ -97,7 +98,7 @@ fn counted(options: &azulejo_kdrt_options, count: u32) {
     check(&azulejo_kdrt_options { radius: report.radius, ..request }, Some(samples));
 }
 
-/// A window is the whole set, filtered.
+/// A window is the whole set, filtered, and the same of a kept plane.
 fn window(options: &azulejo_kdrt_options, patience: &Patience, input: &mut Input) {
     let [low, high] = [0, 1]
         .map(|_| -> [f64; 2] { std::array::from_fn(|axis| options.domain_min[axis] + f64::from(input.coordinate())) });
@@ -106,6 +107,12 @@ fn window(options: &azulejo_kdrt_options, patience: &Patience, input: &mut Input
         |out: Out<_>| unsafe { azulejo_kdrt_sample_window(context(), options, low.as_ptr(), high.as_ptr(), out) };
     let Some(part) = create(call).map(owned) else { return };
     patience.again(u32::MAX);
+    // SAFETY: the options are of the size that they say.
+    let plane = create(|out: Out<_>| unsafe { azulejo_kdrt_create(context(), options, out) });
+    // SAFETY: the corners are two numbers each.
+    let call = |out: Out<_>| unsafe { azulejo_kdrt_window(plane.as_deref(), low.as_ptr(), high.as_ptr(), out) };
+    assert_eq!(create(call).map(owned).as_ref(), Some(&part));
+    azulejo_kdrt_free(plane);
     let Some(mut whole) = sample(options) else { panic!("a window without the whole") };
     if options.boundary == 1
         || (0..2).all(|axis| low[axis] >= options.domain_min[axis] && high[axis] <= options.domain_max[axis])

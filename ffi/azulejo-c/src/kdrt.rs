@@ -254,8 +254,8 @@ pub type azulejo_kdrt_visit_fn =
 /// O(samples) time; memory for the pattern and at most 8 parts per thread. A domain that is not
 /// tiled is made as a whole and is one part.
 ///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT as azulejo_kdrt_sample; AZULEJO_ERROR_TOO_LARGE for a
-/// domain that is not tiled, or that has more samples than floats can carry, about 10^11;
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT as azulejo_kdrt_sample, so for more samples than floats
+/// can carry, about 10^11; AZULEJO_ERROR_TOO_LARGE for a domain that is not tiled;
 /// AZULEJO_ERROR_CANCELLED, also if `visit` cancels.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_kdrt_stream(

@@ -29,8 +29,8 @@ pub struct azulejo_kdrt {
 /// domain, however many samples the domain has. A domain that is not tiled (see
 /// azulejo_kdrt_sample) is made as a whole and kept, in 8 bytes per sample.
 ///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT as azulejo_kdrt_sample; AZULEJO_ERROR_TOO_LARGE for a
-/// domain that is not tiled, or that has more samples than floats can carry, about 10^11;
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT as azulejo_kdrt_sample, so for more samples than floats
+/// can carry, about 10^11; AZULEJO_ERROR_TOO_LARGE for a domain that is not tiled;
 /// AZULEJO_ERROR_CANCELLED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_kdrt_create(

@@ -11,6 +11,7 @@ use azulejo_c::context::*;
 use azulejo_c::dcr::*;
 use azulejo_c::domain::*;
 use azulejo_c::kdrt::*;
+use azulejo_c::kept::*;
 use azulejo_c::maximal::*;
 use azulejo_c::merge::*;
 use azulejo_c::mesh::*;
@@ -120,6 +121,9 @@ fn planes() {
         let corners = [[0.0, 0.0], [0.5, 1.0f64]];
         let [low, high] = [corners[0].as_ptr(), corners[1].as_ptr()];
         read_and_free(made(|out| azulejo_kdrt_sample_window(Some(&context), &options, low, high, out)));
+        let plane = made(|out| azulejo_kdrt_create(Some(&context), &options, out));
+        read_and_free(made(|out| azulejo_kdrt_window(Some(&plane), low, high, out)));
+        azulejo_kdrt_free(Some(plane));
         let mut visited = 0u32;
         assert_eq!(azulejo_kdrt_stream(Some(&context), &options, Some(visit), (&raw mut visited).cast()), AZULEJO_OK);
         assert!(visited > 2 && calls > 0);
