@@ -130,15 +130,18 @@ impl Blocks {
         }
     }
 
-    /// The smallest rectangle that holds every block that is filled for a window of blocks: of the columns and rows around
-    /// it the even ones of the first phase, which reaches farthest.
+    /// The smallest rectangle that holds every block that is filled for a window of blocks.
     pub fn filled(&self, window: &Rect) -> Rect {
-        let around = self.grown(window, PHASES[0].1);
-        let (first, last) = (around.min.map(|index| index + (index & 1)), around.max.map(|end| (end - 1) & !1));
-        Rect {
-            min: [0, 1].map(|axis: usize| window.min[axis].min(first[axis])),
-            max: [0, 1].map(|axis: usize| window.max[axis].max(last[axis] + 1)),
+        let mut filled = *window;
+        for (parity, margin) in PHASES {
+            let Rect { min, max } = self.grown(window, margin);
+            for axis in 0..2 {
+                // The first and the last of this parity.
+                filled.min[axis] = filled.min[axis].min(min[axis] + ((min[axis] ^ parity[axis]) & 1));
+                filled.max[axis] = filled.max[axis].max(max[axis] - (((max[axis] - 1) ^ parity[axis]) & 1));
+            }
         }
+        filled
     }
 
     /// The random numbers of a block: the same for all its images.
@@ -239,8 +242,10 @@ mod tests {
     fn no_block_is_filled_outside_of_what_is_filled() {
         for boundary in [Boundary::Periodic, Boundary::Bounded] {
             let (_, blocks) = blocks(boundary, 2);
-            for (min, max) in (0..4).flat_map(|min| (1..5).map(move |length| (min, min + length))) {
-                let window = Rect { min: [min, 3 - min], max: [max, 3 - min + (max - min)] };
+            let all = Rect { min: [0; 2], max: blocks.counts };
+            let places = (0..all.max[1]).flat_map(|row| (0..all.max[0]).map(move |column| [column, row]));
+            for (min, length) in places.flat_map(|min| (1..5).map(move |length| (min, length))) {
+                let window = Rect { min, max: min.map(|index| index + length) }.intersection(&all);
                 let mut held = window;
                 for (parity, margin) in PHASES {
                     let around = blocks.grown(&window, margin);
