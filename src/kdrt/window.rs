@@ -11,6 +11,7 @@ use crate::points::{Boundary, Domain};
 use crate::{maximal, memory};
 
 use crate::kdrt::options::{Options, check_leaf_size};
+use crate::kdrt::output::capacity;
 use crate::kdrt::sample::{BYTES_PER_SAMPLE, PATTERN_SHARE};
 use crate::kdrt::tiling::Tiling;
 
@@ -61,7 +62,8 @@ pub fn sample_window(
     context.run(progress, |job| {
         let tiling = Tiling::new(&job.part(0.0, PATTERN_SHARE), lattice, leaf_size, seed)?;
         let windows = tiling.windows_holding(&points);
-        job.part(PATTERN_SHARE, 1.0).concat(windows.len(), |i| inside(tiling.window(&windows[i])))
+        let task = |i: usize| inside(tiling.window(&windows[i]));
+        job.part(PATTERN_SHARE, 1.0).concat_about(capacity(expected), windows.len(), task)
     })
 }
 
