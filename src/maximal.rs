@@ -49,8 +49,8 @@ setters!(Options { radius: f64, domain: Domain, seed: u64 });
 ///   largest coordinate.
 /// * `domain.min <= x < domain.max`; the order is by rows about 0.7 `radius` high.
 ///
-/// O(n) for n samples: about a million samples a second on one thread, less where they exceed the caches; the samples are the
-/// same for every number of threads. [`crate::kdrt`] is the fast sampler.
+/// O(n) for n samples: about a million samples a second on one thread, less where they exceed the caches; the samples
+/// are the same for every number of threads. [`crate::kdrt`] is the fast sampler.
 ///
 /// # Errors
 /// [`Error::InvalidArgument`](crate::Error::InvalidArgument) for a radius or domain out of range or floats too coarse

@@ -289,9 +289,9 @@ impl<'a> Job<'a> {
         Ok(all)
     }
 
-    /// [`Job::concat`] where there will be about `expected` results: they are put in their place while others are made, so
-    /// that memory holds them once, and no part waits for all of them. More or fewer than expected cost a copy or memory that
-    /// is never touched.
+    /// [`Job::concat`] where there will be about `expected` results: they are put in their place while others are made,
+    /// so that memory holds them once, and no part waits for all of them. More or fewer than expected cost a copy or
+    /// memory that is never touched.
     pub(crate) fn concat_about<T: Copy + Default + Send + Sync>(
         &self,
         expected: usize,

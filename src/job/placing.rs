@@ -23,8 +23,8 @@ impl<'a, T: Copy> Placing<'a, T> {
         Self(Mutex::new(State { free: memory, placed: 0, early: BTreeMap::new(), beyond: Vec::new() }))
     }
 
-    /// Puts a part in its place, or keeps it until those before it have one. The copy happens outside of the lock, by the
-    /// thread that has the part in its cache: where memory is used for the first time that takes as long as making it.
+    /// Puts a part in its place, or keeps it until those before it have one. The copy happens outside of the lock, by
+    /// the thread that has the part in its cache: so the page faults of memory that is new are shared as well.
     pub fn put(&self, index: usize, part: Vec<T>) {
         // A panic in another thread ends the call; what is placed after it does not matter.
         let mut state = self.0.lock().unwrap_or_else(PoisonError::into_inner);

@@ -40,8 +40,8 @@ pub(super) struct Pattern {
     turned: Vec<Binned<[i32; 2]>>,
 }
 
-/// The pattern as it is, mirrored, transposed, and both. Sets of real numbers have the same power at opposite frequencies, so
-/// the other four symmetries of the square would add nothing.
+/// The pattern as it is, mirrored, transposed, and both. Sets of real numbers have the same power at opposite
+/// frequencies, so the other four symmetries of the square would add nothing.
 const TURNS: usize = 4;
 
 /// The points of a pattern by rows of this height, in each from left to right.

@@ -5,8 +5,8 @@ use crate::plane::rect::Rect;
 
 use crate::kdrt::clip::Row;
 
-/// For how many samples there should be memory where an unbiased set would have so many: seams make a set up to 2 % denser;
-/// that much again for chance.
+/// For how many samples there should be memory where an unbiased set would have so many: seams make a set up to 2 %
+/// denser; that much again for chance.
 pub(super) fn capacity(expected: f64) -> usize {
     (expected * 1.04) as usize
 }

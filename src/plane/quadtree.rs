@@ -121,8 +121,8 @@ impl Quadtree {
         self.voxels.truncate(left);
     }
 
-    /// Throws darts and cuts voxels until every lattice point is covered, and shows the new samples to `accepted`. For few
-    /// voxels: a new sample is compared with all of them. ([`Quadtree::rain`] is for whole domains.)
+    /// Throws darts and cuts voxels until every lattice point is covered, and shows the new samples to `accepted`. For
+    /// few voxels: a new sample is compared with all of them. ([`Quadtree::rain`] is for whole domains.)
     #[inline(always)]
     pub fn fill(&mut self, grid: &mut CellGrid, rng: &mut Rng, mut accepted: impl FnMut([i32; 2])) {
         while !self.is_empty() {
@@ -162,7 +162,8 @@ impl Cutter {
         Self { near: Box::new(Near::new()), exactly_near: Vec::new() }
     }
 
-    /// Cuts voxels by the coarse or the exact test in parts of the given width, and appends those that no sample covers.
+    /// Cuts voxels by the coarse or the exact test in parts of the given width, and appends those that no sample
+    /// covers.
     #[inline(always)]
     pub fn cut(&mut self, grid: &CellGrid, voxels: &[Voxel], is_coarse: bool, width: i32, open: &mut Vec<Voxel>) {
         for voxels in voxels.chunk_by(|a, b| a.cell == b.cell) {

@@ -1,8 +1,8 @@
 //! The flat quadtree of a whole domain (`quadtree.rs`), by all threads.
 //!
-//! A round of darts is one stream of random numbers, whose place in it each dart knows. So many darts are aimed at once,
-//! against the samples that were there before; those that hit nothing are then accepted one after the other, in their order, if
-//! nothing accepted meanwhile is in their way. The samples are those of darts thrown one by one.
+//! A round of darts is one stream of random numbers, whose place in it each dart knows. So many darts are aimed at
+//! once, against the samples that were there before; those that hit nothing are then accepted one after the other, in
+//! their order, if nothing accepted meanwhile is in their way. The samples are those of darts thrown one by one.
 
 use std::ops::Range;
 
@@ -16,8 +16,8 @@ use crate::rng::Rng;
 /// Darts per cell of a whole domain, before any is cut. After that [`darts()`] says how many.
 const DARTS_PER_CELL: usize = 2;
 
-/// The darts of a whole domain that are aimed at once: an eighth as many as there are voxels, so that few of them hit the same
-/// place, within these bounds.
+/// The darts of a whole domain that are aimed at once: an eighth as many as there are voxels, so that few of them hit
+/// the same place, within these bounds.
 const DARTS_AT_ONCE: [usize; 2] = [1 << 12, 1 << 16];
 
 /// The random numbers that a dart takes: one for the voxel, one for the place in it.
@@ -48,11 +48,12 @@ impl Quadtree {
         Ok(quadtree)
     }
 
-    /// Throws darts and cuts voxels until every lattice point is covered, and shows the new samples to `accepted`. For whole
-    /// domains, of which about `expected` samples are the whole progress: a sample is not compared with the other voxels.
+    /// Throws darts and cuts voxels until every lattice point is covered, and shows the new samples to `accepted`. For
+    /// whole domains, of which about `expected` samples are the whole progress: a sample is not compared with the other
+    /// voxels.
     ///
-    /// Threads share the aiming and the cutting. What they aim at once is accepted in the order of the darts, so that the
-    /// samples are those of one dart after the other.
+    /// Threads share the aiming and the cutting. What they aim at once is accepted in the order of the darts, so that
+    /// the samples are those of one dart after the other.
     pub fn rain(
         &mut self,
         job: &Job,
