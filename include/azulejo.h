@@ -1127,15 +1127,15 @@ azulejo_status azulejo_maximal_options_init(struct azulejo_maximal_options *opti
 
 /// Makes a maximal, conflict-free set of samples of a rectangle by throwing darts into what is
 /// uncovered, one after the other: about 0.6966 * area / radius^2 samples without any bias. It is
-/// the reference with which other sets are compared. It is much slower than azulejo_kdrt_sample and
-/// uses one thread.
+/// the reference with which other sets are compared. It is much slower than azulejo_kdrt_sample. The
+/// threads of the context share the work; the set is the same for every number of them.
 ///
 /// Source: M. S. Ebeida et al., A Simple Algorithm for Maximal Poisson-Disk Sampling in High
 /// Dimensions, 2012.
 ///
 /// out: the samples, x y each, to be freed with azulejo_points_free.
 ///
-/// O(samples) time and memory, on the calling thread.
+/// O(samples) time and memory.
 ///
 /// Errors: as azulejo_kdrt_sample.
 azulejo_status azulejo_maximal_sample(const struct azulejo_context *context,

@@ -49,8 +49,8 @@ setters!(Options { radius: f64, domain: Domain, seed: u64 });
 ///   largest coordinate.
 /// * `domain.min <= x < domain.max`; the order is by rows about 0.7 `radius` high.
 ///
-/// One thread does the work, in O(n) for n samples: about a million samples a second, less where they exceed the
-/// caches. [`crate::kdrt`] is the fast sampler.
+/// O(n) for n samples: about a million samples a second on one thread, less where they exceed the caches; the samples
+/// are the same for every number of threads. [`crate::kdrt`] is the fast sampler.
 ///
 /// # Errors
 /// [`Error::InvalidArgument`](crate::Error::InvalidArgument) for a radius or domain out of range or floats too coarse
@@ -80,10 +80,9 @@ pub(crate) fn sample_points(job: &Job, lattice: &Lattice, seed: u64) -> Result<V
         Boundary::Periodic => CellGrid::torus(&axes, lattice.separation),
         Boundary::Bounded => CellGrid::new(&axes, &rect, lattice.separation),
     };
-    let all = (0..rows).flat_map(|y| (0..columns).map(move |x| [x, y]));
-    let mut quadtree = Quadtree::new(&grid, rect, all);
+    let mut quadtree = Quadtree::of_all(&job.part(0.0, 0.01), &grid)?;
     let mut rng = Rng::at(seed, Draw::Darts, &[]);
-    quadtree.rain(job, &mut grid, &mut rng, expected, |_| ())?;
+    quadtree.rain(&job.part(0.01, 1.0), &mut grid, &mut rng, expected, |_| ())?;
     #[cfg(test)]
     grid.sanity_check();
     Ok(grid.samples_in(&rect).collect())

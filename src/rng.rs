@@ -74,6 +74,11 @@ impl Rng {
         Self { key: hash(seed, draw, place), counter: 0 }
     }
 
+    /// The same stream after so many more draws.
+    pub(crate) fn after(&self, draws: u64) -> Self {
+        Self { key: self.key, counter: self.counter.wrapping_add(draws) }
+    }
+
     /// 64 random bits.
     pub(crate) fn bits(&mut self) -> u64 {
         self.counter = self.counter.wrapping_add(1);
@@ -111,6 +116,16 @@ mod tests {
         let others = [draw(1, &[3, 2]), draw(2, &[2, 3]), draw(1, &[2]), draw(1, &[2, 3, 0])];
         assert!(others.iter().all(|other| other[0] != draw(1, &[2, 3])[0]));
         assert_ne!(hash(1, Draw::Darts, &[2]), hash(1, Draw::Split, &[2]));
+    }
+
+    #[test]
+    fn a_stream_can_be_entered_anywhere() {
+        let mut rng = Rng::at(4, Draw::Darts, &[1]);
+        rng.bits();
+        let start = rng.clone();
+        for draws in 0..5 {
+            assert_eq!(start.after(draws).bits(), rng.bits());
+        }
     }
 
     #[test]

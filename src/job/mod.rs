@@ -13,6 +13,10 @@ use rayon::prelude::*;
 
 use crate::error::{Error, Result};
 
+mod placing;
+
+use placing::Placing;
+
 /// How often the calling thread looks up from waiting to report progress.
 const REPORT_INTERVAL: Duration = Duration::from_millis(20);
 
@@ -282,6 +286,31 @@ impl<'a> Job<'a> {
             rest = behind;
         }
         pool.install(|| places.into_par_iter().zip(parts).for_each(|(place, part)| place.copy_from_slice(&part)));
+        Ok(all)
+    }
+
+    /// [`Job::concat`] where there will be about `expected` results: they are put in their place while others are made,
+    /// so that memory holds them once, and no part waits for all of them. More or fewer than expected cost a copy or
+    /// memory that is never touched.
+    pub(crate) fn concat_about<T: Copy + Default + Send + Sync>(
+        &self,
+        expected: usize,
+        count: usize,
+        task: impl Fn(usize) -> Vec<T> + Sync,
+    ) -> Result<Vec<T>> {
+        // Memory that is zero comes from the operating system page by page, when it is first used.
+        let mut all = vec![T::default(); expected];
+        let placing = Placing::new(&mut all);
+        // The pool goes through its items from many places at once; what is taken in turn comes about in order.
+        let turn = AtomicUsize::new(0);
+        self.map(count, |_| {
+            let i = turn.fetch_add(1, Ordering::Relaxed);
+            placing.put(i, task(i));
+        })?;
+        let (left, beyond) = placing.finish();
+        all.truncate(expected - left);
+        beyond.into_iter().for_each(|part| all.extend(part));
+        all.shrink_to_fit();
         Ok(all)
     }
 }

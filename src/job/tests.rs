@@ -26,6 +26,26 @@ fn results_do_not_depend_on_the_threads() {
     }
 }
 
+/// The first parts take the longest, so that others come before their turn.
+#[test]
+fn parts_are_put_in_order_whatever_is_expected_of_them() {
+    let part = |i: usize| {
+        thread::sleep(Duration::from_micros(if i % 8 == 0 { 500 } else { 10 }));
+        (0..i % 5).map(|j| 1 + 10 * i + j).collect::<Vec<_>>()
+    };
+    let expected: Vec<_> = (0..50).flat_map(part).collect();
+    for threads in [1, 2, 5] {
+        let context = Context::new(threads).unwrap();
+        for about in [0, 1, 30, expected.len() - 1, expected.len(), 500] {
+            for progress in [None, Some(&(|_| ControlFlow::Continue(())) as &Progress)] {
+                let found = context.run(progress, |job| job.concat_about(about, 50, part)).unwrap();
+                assert_eq!(found, expected, "{threads} threads, {about} expected");
+            }
+        }
+        assert!(context.run(None, |job| job.concat_about(9, 0, part)).unwrap().is_empty());
+    }
+}
+
 #[test]
 fn progress_is_told_on_the_calling_thread_and_grows_from_zero_to_one() {
     for threads in [1, 3] {

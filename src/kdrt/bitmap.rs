@@ -130,22 +130,31 @@ impl<'a> Bitmap<'a> {
         places.truncate(left);
     }
 
-    /// All voxels that may be uncovered.
+    /// All voxels that may be uncovered; they lie in the given cells.
     #[inline(always)]
-    pub fn list(&self, places: &mut Vec<VoxelIndex>) {
-        let rows = MARGIN as usize..(MARGIN + PER_CELL * self.cells.length(1)) as usize;
+    pub fn list(&self, cells: &Rect, places: &mut Vec<VoxelIndex>) {
+        // As many of a row are listed whether they are there or not; seldom are there more.
+        const ALWAYS: usize = 2;
+        let row = |cell: i32| (MARGIN + PER_CELL * (cell - self.cells.min[1])) as usize;
+        let rows = row(cells.min[1])..row(cells.max[1]);
         let count: u32 = self.rows.0[rows.clone()].iter().map(|open| open.count_ones()).sum();
-        places.resize(count as usize, [0; 2]);
-        let mut places = places.iter_mut();
+        places.resize(count as usize + ALWAYS, [0; 2]);
+        let mut rest = places.as_mut_slice();
         for row in rows {
             let mut open = self.rows.0[row];
-            while open != 0 {
-                if let Some(place) = places.next() {
-                    *place = [open.trailing_zeros() as u8, row as u8];
-                }
-                open &= open - 1;
+            let listed = open.count_ones() as usize;
+            let mut lowest = || {
+                let column = open.trailing_zeros() as u8;
+                open &= open.wrapping_sub(1);
+                [column, row as u8]
+            };
+            rest[..ALWAYS].fill_with(&mut lowest);
+            if listed > ALWAYS {
+                rest[ALWAYS..listed].fill_with(lowest);
             }
+            rest = &mut rest[listed..];
         }
+        places.truncate(count as usize);
     }
 
     /// The cell of a voxel and its lattice points in the block.
@@ -210,10 +219,10 @@ mod tests {
                     let around = rng.below((block.length(axis) as u64) + 2 * reach) as i32;
                     block.min[axis] + around - reach as i32
                 });
-                let mut bitmap =
-                    Bitmap::of_seams(&stamps, &grid, &seams, &Block { rect: block, cells: grid.cells_of(&block) });
+                let cells = grid.cells_of(&block);
+                let mut bitmap = Bitmap::of_seams(&stamps, &grid, &seams, &Block { rect: block, cells });
                 let mut places = Vec::new();
-                bitmap.list(&mut places);
+                bitmap.list(&cells, &mut places);
                 let area: i64 = places.iter().map(|&place| area(&bitmap.voxel(&grid, place).1)).sum();
                 assert_eq!(area, self::area(&block), "the voxels are the block");
 
@@ -267,7 +276,7 @@ mod tests {
             grid.samples_in(&around).for_each(|sample| alone.stamp(sample));
             assert_eq!(together.rows.0, alone.rows.0);
             let mut places = Vec::new();
-            together.list(&mut places);
+            together.list(&cells, &mut places);
             let open: u32 = together.rows.0.iter().map(|row| row.count_ones()).sum();
             assert_eq!(places.len(), open as usize);
             together.rows.0[20..].fill(0);

@@ -36,10 +36,13 @@ pub(super) struct Pattern {
     side: i32,
     /// The height of a row.
     height: i32,
-    /// The pattern as it is, mirrored, transposed, and both. Sets of real numbers have the same power at opposite
-    /// frequencies, so the other four symmetries of the square would add nothing.
-    turned: [Binned<[i32; 2]>; 4],
+    /// The pattern after each of its [`TURNS`].
+    turned: Vec<Binned<[i32; 2]>>,
 }
+
+/// The pattern as it is, mirrored, transposed, and both. Sets of real numbers have the same power at opposite
+/// frequencies, so the other four symmetries of the square would add nothing.
+const TURNS: usize = 4;
 
 /// The points of a pattern by rows of this height, in each from left to right.
 fn by_rows(points: &[[i32; 2]], rows: usize, height: i32) -> Binned<[i32; 2]> {
@@ -91,21 +94,22 @@ impl Pattern {
     /// A pattern for a plane on `plane`, with a side in lattice points.
     pub fn new(job: &Job, plane: &Lattice, side: i32, seed: u64) -> Result<Self> {
         let lattice = plane.square_torus(side);
-        Ok(Self::from_points(maximal::sample_points(job, &lattice, seed)?, side, lattice.separation.reach))
+        let points = maximal::sample_points(&job.part(0.0, 0.99), &lattice, seed)?;
+        Self::from_points(&job.part(0.99, 1.0), &points, side, lattice.separation.reach)
     }
 
-    fn from_points(points: Vec<[i32; 2]>, side: i32, height: i32) -> Self {
-        let turned = std::array::from_fn(|turn| {
+    fn from_points(job: &Job, points: &[[i32; 2]], side: i32, height: i32) -> Result<Self> {
+        let turned = job.map(TURNS, |turn| {
             let turned: Vec<_> = points.iter().map(|&point| turned(point, side, turn)).collect();
             by_rows(&turned, ((side - 1) / height + 1) as usize, height)
-        });
-        Self { side, height, turned }
+        })?;
+        Ok(Self { side, height, turned })
     }
 
     /// The point of the torus that is laid on a leaf's lower corner, and how the torus is turned before.
     fn place(&self, leaf: &Leaf) -> ([i32; 2], usize) {
         let mut rng = Rng::at(leaf.key, Draw::Clip, &[]);
-        (std::array::from_fn(|_| rng.below(self.side as u64) as i32), rng.below(4) as usize)
+        (std::array::from_fn(|_| rng.below(self.side as u64) as i32), rng.below(TURNS as u64) as usize)
     }
 
     /// Visits the leaf's clip in `part`, a part of its rectangle, by rows.
@@ -201,7 +205,8 @@ mod tests {
         let mut rng = Rng::at(2, Draw::Probe, &[]);
         let points: Vec<[i32; 2]> = (0..400).map(|_| std::array::from_fn(|_| rng.below(side) as i32)).collect();
         let side = side as i32;
-        let pattern = Pattern::from_points(points.clone(), side, 37);
+        let context = crate::job::Context::new(1).unwrap();
+        let pattern = context.run(None, |job| Pattern::from_points(job, &points, side, 37)).unwrap();
         for key in 0..300 {
             let min = std::array::from_fn(|_| rng.below(10_000) as i32 - 5_000);
             let leaf = Leaf { rect: Rect { min, max: [min[0] + 700, min[1] + 1000] }, key };

@@ -40,7 +40,7 @@ impl<'a> Filling<'a> {
         let around = grid.points_of(&marked).grown(self.reach);
         grid.collect(&marked, &around, &mut self.near);
         bitmap.stamp_all(&self.near);
-        bitmap.list(&mut self.open);
+        bitmap.list(&marked, &mut self.open);
 
         let width = Bitmap::widest(grid);
         self.throw(grid, &mut bitmap, width, &mut rng, output);

@@ -3,12 +3,13 @@
 use crate::error::Result;
 use crate::job::{Context, Job, Progress};
 use crate::kdrt::options::{Options, check_leaf_size};
+use crate::kdrt::output::capacity;
 use crate::kdrt::tiling::Tiling;
 use crate::plane::lattice::Lattice;
 use crate::{maximal, memory};
 
-/// The most bytes that a sample takes: in its window, in the result, and a part of those windows at work.
-pub(super) const BYTES_PER_SAMPLE: f64 = 24.0;
+/// The most bytes that a sample takes: in the result, and a part of those windows at work.
+pub(super) const BYTES_PER_SAMPLE: f64 = 16.0;
 
 /// The share of the progress that making the pattern takes.
 pub(super) const PATTERN_SHARE: f64 = 0.05;
@@ -26,7 +27,7 @@ pub(super) const PATTERN_SHARE: f64 = 0.05;
 /// O(n) for n samples, after the making of a pattern, whose side is 10 leaf sizes, but at least 108 radii and at most 200
 /// radii or 4 leaf sizes, whichever is longer: about 28,000 samples with leaves of the default size. A domain of
 /// less area than the pattern, or narrower than about two of the smallest leaves (13 radii), is not tiled: it is
-/// given to [`crate::maximal`], on one thread.
+/// given to [`crate::maximal`].
 ///
 /// # Errors
 /// [`Error::InvalidArgument`](crate::Error::InvalidArgument) for an argument out of range or floats too coarse for the
@@ -48,5 +49,5 @@ pub(super) fn sample_lattice(job: &Job, lattice: &Lattice, leaf_size: f64, seed:
     memory::require(expected * BYTES_PER_SAMPLE, "radius", &format!("about {expected:.0} samples"))?;
     let tiling = Tiling::new(&job.part(0.0, PATTERN_SHARE), lattice.clone(), leaf_size, seed)?;
     let windows = tiling.windows();
-    job.part(PATTERN_SHARE, 1.0).concat(windows.len(), |i| tiling.window(&windows[i]))
+    job.part(PATTERN_SHARE, 1.0).concat_about(capacity(expected), windows.len(), |i| tiling.window(&windows[i]))
 }

@@ -11,15 +11,18 @@ impl CellGrid {
     /// as wide as `width`; those beyond its own end are void.
     #[inline(always)]
     pub fn throw(&mut self, cell: [i32; 2], voxel: &Rect, width: i32, rng: &mut Rng) -> Option<[i32; 2]> {
-        let point = dart(voxel, width, rng)?;
-        if self.conflicts(cell, point) {
-            return None;
-        }
+        let point = self.aim(cell, voxel, width, rng)?;
         self.insert(cell, point);
         Some(point)
     }
 
-    /// The same where all samples that could conflict with it are listed; it is added to the list, too.
+    /// Where a dart of [`CellGrid::throw`] would become a sample, if it would.
+    #[inline(always)]
+    pub fn aim(&self, cell: [i32; 2], voxel: &Rect, width: i32, rng: &mut Rng) -> Option<[i32; 2]> {
+        dart(voxel, width, rng).filter(|&point| !self.conflicts(cell, point))
+    }
+
+    /// [`CellGrid::throw`] where all samples that could conflict with it are listed; it is added to the list, too.
     #[inline(always)]
     pub fn throw_among(
         &mut self,

@@ -8,6 +8,7 @@ pub(crate) mod lattice;
 mod list;
 mod near;
 mod quadtree;
+mod rain;
 pub(crate) mod rect;
 mod rows;
 #[allow(unsafe_code)] // Vector instructions.

@@ -8,8 +8,6 @@
 //!
 //! Voxels are cut in sixteen by a coarse test (`near.rs`) while they are wide, and exactly in four after that.
 
-use crate::error::Result;
-use crate::job::Job;
 use crate::plane::cells::CellGrid;
 use crate::plane::list::List;
 use crate::plane::near::Near;
@@ -20,34 +18,33 @@ use crate::rng::Rng;
 /// exactly in four.
 const NARROWEST: i32 = 8;
 
-/// Darts per cell of a whole domain, before any is cut. After that [`darts()`] says how many.
-const DARTS_PER_CELL: usize = 2;
-
-/// Darts between two reports of the progress.
-const DARTS_PER_REPORT: usize = 1 << 16;
-
 /// The deepest voxels that are cut by the coarse test, as a share of the cell: much wider than its slack.
 const DEEPEST: i32 = 1 << 9;
 
 /// A rectangle of lattice points of a cell, some of which may be uncovered.
 #[derive(Clone, Copy)]
-struct Voxel {
-    rect: Rect,
-    cell: [i32; 2],
+pub(super) struct Voxel {
+    pub rect: Rect,
+    pub cell: [i32; 2],
 }
 
 /// The voxels of a rectangle of lattice points that may be uncovered. Those of one cell follow each other.
 pub(crate) struct Quadtree {
     /// The widest voxel of this level.
-    width: i32,
+    pub(super) width: i32,
     /// The narrowest voxel that the coarse test may cut.
     narrowest: i32,
-    voxels: Vec<Voxel>,
+    pub(super) voxels: Vec<Voxel>,
     /// The memory of the next level's voxels.
     next: Vec<Voxel>,
-    /// The memory of the samples near a cell, for the coarse test.
+    cutter: Cutter,
+}
+
+/// What cuts voxels, with the memory of the samples near a cell.
+pub(super) struct Cutter {
+    /// For the coarse test.
     near: Box<Near>,
-    /// The same for the exact test.
+    /// For the exact test.
     exactly_near: Vec<[i32; 2]>,
 }
 
@@ -62,14 +59,7 @@ impl Quadtree {
 
     /// No voxels.
     pub fn empty() -> Self {
-        Self {
-            width: 1,
-            narrowest: NARROWEST,
-            voxels: Vec::new(),
-            next: Vec::new(),
-            near: Box::new(Near::new()),
-            exactly_near: Vec::new(),
-        }
+        Self { width: 1, narrowest: NARROWEST, voxels: Vec::new(), next: Vec::new(), cutter: Cutter::new() }
     }
 
     /// Drops all voxels and takes the given ones, no wider than `width`, each with its cell.
@@ -90,8 +80,8 @@ impl Quadtree {
     /// Takes the sixteenths of a voxel of a cell that no sample covers. All samples that could are listed.
     #[inline(always)]
     pub fn add_sixteenths(&mut self, grid: &CellGrid, list: &List, cell: [i32; 2], voxel: Rect) {
-        grid.gather_among(list, voxel, &mut self.near);
-        let open = grid.uncovered(&self.near, &voxel, self.width);
+        grid.gather_among(list, voxel, &mut self.cutter.near);
+        let open = grid.uncovered(&self.cutter.near, &voxel, self.width);
         self.voxels.extend(parts(voxel, self.width, open).map(|rect| Voxel { rect, cell }));
     }
 
@@ -107,7 +97,7 @@ impl Quadtree {
 
     /// Throws a dart and adds it to the grid if it becomes a sample. There must be voxels left.
     #[inline(always)]
-    fn throw(&mut self, grid: &mut CellGrid, rng: &mut Rng) -> Option<[i32; 2]> {
+    pub(super) fn throw(&mut self, grid: &mut CellGrid, rng: &mut Rng) -> Option<[i32; 2]> {
         let pick = rng.below(self.voxels.len() as u64) as usize;
         let Voxel { rect, cell } = self.voxels[pick];
         grid.throw(cell, &rect, self.width, rng)
@@ -131,36 +121,8 @@ impl Quadtree {
         self.voxels.truncate(left);
     }
 
-    /// Throws darts and cuts voxels until every lattice point is covered, and shows the new samples to `accepted`. For whole
-    /// domains, of which about `expected` samples are the whole progress: a sample is not compared with the other voxels.
-    pub fn rain(
-        &mut self,
-        job: &Job,
-        grid: &mut CellGrid,
-        rng: &mut Rng,
-        expected: f64,
-        mut accepted: impl FnMut([i32; 2]),
-    ) -> Result<()> {
-        let mut count = 0u64;
-        let mut remaining = DARTS_PER_CELL * self.len();
-        while !self.is_empty() {
-            while remaining > 0 {
-                for _ in 0..remaining.min(DARTS_PER_REPORT) {
-                    if let Some(sample) = self.throw(grid, rng) {
-                        count += 1;
-                        accepted(sample);
-                    }
-                }
-                remaining = remaining.saturating_sub(DARTS_PER_REPORT);
-                job.report((count as f64 / expected).min(0.99))?;
-            }
-            self.refine(grid);
-            remaining = darts(self.len());
-        }
-        Ok(())
-    }
-
-    /// As [`Quadtree::rain`] where there are few voxels: a new sample is compared with all of them.
+    /// Throws darts and cuts voxels until every lattice point is covered, and shows the new samples to `accepted`. For
+    /// few voxels: a new sample is compared with all of them. ([`Quadtree::rain`] is for whole domains.)
     #[inline(always)]
     pub fn fill(&mut self, grid: &mut CellGrid, rng: &mut Rng, mut accepted: impl FnMut([i32; 2])) {
         while !self.is_empty() {
@@ -180,10 +142,31 @@ impl Quadtree {
     /// Cuts the voxels in parts and drops those that one sample covers. Single lattice points are not cut.
     #[inline(always)]
     pub fn refine(&mut self, grid: &CellGrid) {
-        let is_coarse = self.width > self.narrowest;
-        let width = if is_coarse { part(self.width) } else { (self.width + 1) / 2 };
+        let (is_coarse, width) = self.next_level();
         self.next.clear();
-        for voxels in self.voxels.chunk_by(|a, b| a.cell == b.cell) {
+        self.cutter.cut(grid, &self.voxels, is_coarse, width, &mut self.next);
+        self.width = width;
+        std::mem::swap(&mut self.voxels, &mut self.next);
+    }
+
+    /// Whether the voxels are cut next by the coarse test, and how wide their parts are.
+    #[inline(always)]
+    pub(super) fn next_level(&self) -> (bool, i32) {
+        let is_coarse = self.width > self.narrowest;
+        (is_coarse, if is_coarse { part(self.width) } else { (self.width + 1) / 2 })
+    }
+}
+
+impl Cutter {
+    pub fn new() -> Self {
+        Self { near: Box::new(Near::new()), exactly_near: Vec::new() }
+    }
+
+    /// Cuts voxels by the coarse or the exact test in parts of the given width, and appends those that no sample
+    /// covers.
+    #[inline(always)]
+    pub fn cut(&mut self, grid: &CellGrid, voxels: &[Voxel], is_coarse: bool, width: i32, open: &mut Vec<Voxel>) {
+        for voxels in voxels.chunk_by(|a, b| a.cell == b.cell) {
             let cell = voxels[0].cell;
             if grid.sample(cell).is_some() {
                 continue;
@@ -191,18 +174,15 @@ impl Quadtree {
             if is_coarse {
                 grid.gather(cell, &mut self.near);
                 for &Voxel { rect, .. } in voxels {
-                    let open = parts(rect, width, grid.uncovered(&self.near, &rect, width));
-                    self.next.extend(open.map(|rect| Voxel { rect, cell }));
+                    let parts = parts(rect, width, grid.uncovered(&self.near, &rect, width));
+                    open.extend(parts.map(|rect| Voxel { rect, cell }));
                 }
             } else {
                 let near = grid.samples_near(cell, &mut self.exactly_near);
                 let quarters = voxels.iter().flat_map(|voxel| quarters(voxel.rect, width));
-                let open = quarters.filter(|rect| !grid.covers(near, rect));
-                self.next.extend(open.map(|rect| Voxel { rect, cell }));
+                open.extend(quarters.filter(|rect| !grid.covers(near, rect)).map(|rect| Voxel { rect, cell }));
             }
         }
-        self.width = width;
-        std::mem::swap(&mut self.voxels, &mut self.next);
     }
 }
 

@@ -21,7 +21,7 @@ use crate::kdrt::conquer::{LONGEST_CHAIN, SeamCells, merge};
 use crate::kdrt::divide::{Leaf, Tree};
 use crate::kdrt::fill::Filling;
 use crate::kdrt::options::MIN_LEAF_SIZE;
-use crate::kdrt::output::Output;
+use crate::kdrt::output::{Output, capacity};
 use crate::kdrt::stamp::Stamps;
 
 /// Fill blocks along the side of a window: about 50,000 samples, which fit a core's own cache.
@@ -119,7 +119,8 @@ impl Tiling {
         let blocks = self.blocks.holding(&points);
         let windows = cut(&blocks, WINDOW_BLOCKS);
         if blocks.length(0).max(blocks.length(1)) > WINDOW_BLOCKS {
-            return job.concat(windows.len(), |i| inside(self.window(&windows[i])));
+            let expected = capacity(self.lattice.samples_in(&points));
+            return job.concat_about(expected, windows.len(), |i| inside(self.window(&windows[i])));
         }
         // Less than one window, so at once also where it meets several: their surroundings would be made repeatedly. In
         // each of them the samples come in the same order.
