@@ -1,4 +1,5 @@
-//! DCR: time per point and step, on one thread and on four, and their ratio; then whole calls and what they reach.
+//! DCR: time per point and step, on one thread and on four, and their ratio; then whole calls and what they reach, from
+//! KDRT's sets and from starts that are heaped.
 //!
 //! Wall times of a shared machine vary: the least of several runs is printed, and ratios of one program.
 
@@ -60,7 +61,9 @@ fn main() {
             }
         }
     }
-    whole_calls(domain, &[("1", one), ("4", four)]);
+    let contexts = [("1", one), ("4", four)];
+    whole_calls(domain, &contexts);
+    any_start(&contexts[0].1);
 }
 
 /// A million points of KDRT, all steps.
@@ -80,4 +83,52 @@ fn whole_calls(domain: Domain, contexts: &[(&str, Context)]) {
             println!("momentum, {name:<18} {threads:>9} {rate:>12.0} {steps:>7} {rho:>6.3} {cover:>6.3}");
         }
     }
+}
+
+/// Whole calls from heaped starts, against one from random points.
+fn any_start(context: &Context) {
+    let random = |k: usize| [0.754_877_666_246_693, 0.569_840_290_998_053].map(|ratio| scattered(k as f64 * ratio));
+    // The part of the domain that they are in.
+    let starts = [
+        ("random", [1.0, 1.0]),
+        ("corner", [0.05, 0.05]),
+        ("line", [1.0, 0.0]),
+        ("half", [0.5, 1.0]),
+        ("place", [0.0, 0.0]),
+    ];
+    println!("\n{:<28} {:>9} {:>12} {:>7} {:>6} {:>6}", "from", "points", "seconds", "ratio", "rho", "cover");
+    for count in [1000, 10_000, 100_000] {
+        for max in [[1.0, 1.0], [10.0, 0.1]] {
+            let domain = Domain { max, ..Domain::unit(Boundary::Periodic) };
+            let mut expected = None;
+            for (name, share) in starts {
+                let at = |k: usize| {
+                    let place = random(k);
+                    std::array::from_fn(|axis| {
+                        ((place[axis] * share[axis] * max[axis]) as f32).min((max[axis] as f32).next_down())
+                    })
+                };
+                let points: Vec<[f32; 2]> = (0..count).map(at).collect();
+                let options = Options::new(domain, Neighbourhood::Delaunay);
+                let run = || {
+                    let start = Instant::now();
+                    let (_, report) = relax(context, &options, black_box(&points), None).unwrap();
+                    (start.elapsed().as_secs_f64(), report)
+                };
+                let (seconds, report) =
+                    (0..3).map(|_| run()).min_by(|a, b| a.0.total_cmp(&b.0)).expect("there are three");
+                let ratio = seconds / *expected.get_or_insert(seconds);
+                let name = format!("{name}, {} by {}", max[0], max[1]);
+                println!(
+                    "{name:<28} {count:>9} {seconds:>12.4} {ratio:>7.2} {:>6.3} {:>6.3}",
+                    report.rho, report.coverage
+                );
+            }
+        }
+    }
+}
+
+/// A number from 0 to 1 that looks random.
+fn scattered(x: f64) -> f64 {
+    ((x.fract() * 12.9898 + x).sin() * 43_758.547).rem_euclid(1.0)
 }

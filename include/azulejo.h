@@ -635,13 +635,13 @@ typedef struct azulejo_dcr_options {
     /// An AZULEJO_METHOD_ constant; default momentum.
     int32_t method;
     /// The largest number of steps; default 100, which is enough for AZULEJO_METHOD_MOMENTUM from
-    /// points about as dense everywhere as they shall be; AZULEJO_METHOD_THESIS may need 1000. 0
-    /// returns the points as they are. The call ends earlier when the set has converged.
+    /// any points; AZULEJO_METHOD_THESIS may need 1000. 0 returns the points as they are. The call
+    /// ends earlier when the set has converged.
     uint32_t max_iterations;
     /// Must be 0.
     uint32_t reserved;
-    /// Directions in which coincident points are separated, for azulejo_dcr_scatter the points; any
-    /// number, default 0.
+    /// Directions in which coincident points are separated, for azulejo_dcr_scatter the points, for
+    /// azulejo_dcr_relax_density those on which a heaped set is dealt out; any number, default 0.
     uint64_t seed;
     /// The motion (see the report) at which the set has converged, at least 0; 0 makes all steps.
     /// Any negative number, such as the default -1, selects the tolerance of the method: 0.001, or
@@ -744,8 +744,8 @@ typedef struct azulejo_dcr_surface_options {
     /// The motion (see the report) at which the set has converged, at least 0; 0 makes all steps.
     /// Any negative number, such as the default -1, selects 0.0005.
     double tolerance;
-    /// Directions in which samples are separated that coincide or lie on edges of triangles; any
-    /// number, default 0.
+    /// Directions in which samples are separated that coincide or lie on edges of triangles, and
+    /// the points on which heaped samples are dealt out; any number, default 0.
     uint64_t seed;
     /// Called during the call; default NULL: the callback of the context, if it has one.
     azulejo_progress_fn progress;
@@ -1483,8 +1483,13 @@ azulejo_status azulejo_dcr_report_init(struct azulejo_dcr_report *report, size_t
 /// Relaxes a set of points: neighbours that are too close repel each other and holes close, until
 /// the set has converged or all steps are made (thesis chapter 4).
 ///
-/// With AZULEJO_METHOD_MOMENTUM and Delaunay neighbours the result is, of the given set and the
-/// states after whole steps, the one in which the fewest points have a neighbour closer than 0.85
+/// AZULEJO_METHOD_MOMENTUM levels a heaped set before the first step, one in which points are
+/// crowded in some places and missing in others: any set ends as a random one does, and after about
+/// the same time. A call that makes all steps succeeds whatever it has reached; the report has the
+/// figures.
+///
+/// With AZULEJO_METHOD_MOMENTUM and Delaunay neighbours the result is, of the set before the first
+/// step and the states after whole steps, the one in which the fewest points have a neighbour closer than 0.85
 /// d_max or a Delaunay triangle with a circumradius above 0.67 d_max. Otherwise it is the set after
 /// the last whole step. A call that its progress callback cancels succeeds with what there is then,
 /// and AZULEJO_STOPPED_CANCELLED in the report.
@@ -1497,9 +1502,9 @@ azulejo_status azulejo_dcr_report_init(struct azulejo_dcr_report *report, size_t
 ///
 /// O(count) time for each step from evenly spread points. O(count * log count) where the
 /// triangulation is built again: in each step of AZULEJO_METHOD_THESIS, and with
-/// AZULEJO_METHOD_MOMENTUM in sets of a few points, in clustered sets and in sets with holes as
-/// wide as the domain. Clustered sets need many such steps. A bounded domain takes up to four times
-/// the time and memory of a periodic one. O(count) memory.
+/// AZULEJO_METHOD_MOMENTUM in sets of a few points and in the first steps of sets with holes as
+/// wide as the domain. A bounded domain takes up to four times the time and memory of a periodic
+/// one. O(count) memory.
 ///
 /// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_TOO_LARGE.
 azulejo_status azulejo_dcr_relax(const struct azulejo_context *context,
@@ -1538,7 +1543,9 @@ azulejo_status azulejo_dcr_scatter(const struct azulejo_context *context,
 /// Relaxes a set of points to a density: as azulejo_dcr_relax, but the points become as dense from
 /// place to place as the density says, and evenly spaced relative to it (thesis section 4.2.3).
 /// Points whose density is about right, such as those of azulejo_dcr_scatter and
-/// azulejo_psp_adaptive_sample, need no more than the default 100 steps; others may need 800.
+/// azulejo_psp_adaptive_sample, need no more than the default 100 steps. A set of more than 64
+/// points that is far from it is dealt out before the first step, onto points as azulejo_dcr_scatter
+/// makes them from the seed; those in between may need more steps.
 ///
 /// The unit of length is the local spacing: d_max for the mean density and proportional to 1 /
 /// sqrt(density) elsewhere, but it increases by no more than half of the distance from place to
@@ -1562,8 +1569,7 @@ azulejo_status azulejo_dcr_scatter(const struct azulejo_context *context,
 /// report: what the call did, or NULL.
 ///
 /// O(count) calls of a density function, then O(count) time for each step, with a factor for
-/// densities that vary by orders of magnitude, and more from clustered sets as in
-/// azulejo_dcr_relax; O(count) memory.
+/// densities that vary by orders of magnitude; O(count) memory.
 ///
 /// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for densities that are negative or not finite, or 0
 /// everywhere; AZULEJO_ERROR_TOO_LARGE.
@@ -1597,6 +1603,10 @@ azulejo_status azulejo_dcr_surface_report_init(struct azulejo_dcr_surface_report
 /// walls and boundaries: straight distances, in double arithmetic on the positions, without
 /// tolerance, after any number of steps. A call that its progress callback cancels succeeds: it
 /// returns the samples after the last whole step, and AZULEJO_STOPPED_CANCELLED in the report.
+///
+/// More than 64 samples that are heaped on a part of the surface are dealt out over all of it before
+/// the first step, onto random points that are no nearer to each other than the nearest samples
+/// were: each connected part receives samples by its area. Without room for that they stay.
 ///
 /// triangles, barycentrics: the triangle and the barycentrics u v of each of `count` samples, as
 /// azulejo_points_triangles and azulejo_points_barycentrics return them. Barycentrics outside their

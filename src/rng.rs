@@ -46,6 +46,8 @@ pub(crate) enum Draw {
     Scatter,
     /// DCR: directions in which points are kicked.
     Kick,
+    /// DCR: random points of a surface, on which heaped samples are dealt out.
+    Spread,
 }
 
 /// The stream of random numbers of one place.
@@ -93,6 +95,12 @@ impl Rng {
     /// Uniform in `0..bound`; `bound` is at least 1. The bias of the multiply-shift is below `bound` / 2^64.
     pub(crate) fn below(&mut self, bound: u64) -> u64 {
         ((self.bits() as u128 * bound as u128) >> 64) as u64
+    }
+
+    /// The barycentrics of a uniformly random point of a triangle.
+    pub(crate) fn in_triangle(&mut self) -> [f64; 2] {
+        let (along, across) = (self.unit().sqrt(), self.unit());
+        [along * (1.0 - across), along * across]
     }
 
     /// Two numbers uniform in `0..bound`, at the price of one; the bias is below `bound` / 2^32.

@@ -27,7 +27,8 @@ pub struct Options {
     pub method: Method,
     /// The largest number of steps. 0 returns the points as they are.
     pub max_iterations: u32,
-    /// Where points of degenerate sets are moved; used for nothing else.
+    /// Where coincident points are moved, and those of a set that lies on one line; with a density, where heaped points
+    /// are dealt out. Used for nothing else.
     pub seed: u64,
     /// The motion ([`Report::motion`](super::Report::motion)) at which the set has converged, if the constraints are met
     /// ([`Stopped::Converged`](super::Stopped::Converged)); 0 makes all steps unless nothing moves at all. Not used with

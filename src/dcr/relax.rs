@@ -17,7 +17,13 @@ use crate::job::{Context, Progress};
 /// are. Coincident points, and all points of a set on one line, are first moved by 0.001 to 0.002 `d_max` in
 /// directions keyed by `seed` and index: the forces alone would not separate them.
 ///
-/// The momentum method with Delaunay neighbours returns, of the initial set and the states after whole steps, the one
+/// The momentum method levels a heaped set before the first step: one in which points are crowded in some places and
+/// missing in others, as in a corner, on a line, at a single place. It is spread by the long waves of its density, as
+/// smoothly as that goes, in up to 24 passes that take about the time of a step each. So any set ends with the figures
+/// of a random one, and after about its time. Uniform random sets are not heaped, except on domains that are very long
+/// for their width. A call that makes all of its steps succeeds whatever it has reached; the report says what that is.
+///
+/// The momentum method with Delaunay neighbours returns, of the set before the first step and the states after whole steps, the one
 /// in which the fewest points have a neighbour closer than 0.85 `d_max` or a triangle whose circumradius is above 0.67
 /// `d_max`; of several, the last. In all other cases the set after the last whole step is returned. A call that is
 /// cancelled returns the same, with [`Stopped::Cancelled`](super::Stopped::Cancelled).

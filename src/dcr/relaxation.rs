@@ -5,6 +5,11 @@ use crate::job::Job;
 
 /// A point set that is being relaxed.
 pub(super) trait Relaxation {
+    /// Prepares the set for the first step: one that is heaped is spread. If it is cancelled, no point has moved.
+    fn begin(&mut self, _: &Job) -> Result<()> {
+        Ok(())
+    }
+
     /// Moves all points. If it is cancelled, all have moved or none.
     fn step(&mut self, job: &Job) -> Result<()>;
 
@@ -17,7 +22,8 @@ pub(super) trait Relaxation {
     /// Whether a whole span of steps was made, and the motion in the last is at most the tolerance.
     fn has_settled(&self, tolerance: f64) -> bool;
 
-    /// Returns to the state with the fewest violated constraints, if that is not the last.
+    /// Returns to the state with the fewest violated constraints, if that is not the last; without any step, to the
+    /// points with which the set began.
     fn finish(&mut self, _: &Job) -> Result<()> {
         Ok(())
     }

@@ -6,6 +6,9 @@ use crate::dcr::report::{Report, Stopped, measure};
 use crate::error::{Error, Result};
 use crate::job::{Context, Job, Progress};
 
+/// The share of the steps' progress that is that of the preparation.
+const BEGIN: f64 = 0.01;
+
 /// Receives the points after a step, in the user's order.
 pub type Observer<'a> = dyn FnMut(&[[f32; 2]]) + 'a;
 
@@ -42,7 +45,10 @@ fn make_steps(
     if points.len() < 2 {
         return Ok(Stopped::Converged);
     }
-    let share = |iteration: u32| f64::from(iteration) / f64::from(options.max_iterations);
+    if options.max_iterations > 0 {
+        set.begin(&job.part(0.0, BEGIN))?;
+    }
+    let share = |iteration: u32| BEGIN + (1.0 - BEGIN) * f64::from(iteration) / f64::from(options.max_iterations);
     for iteration in 0..options.max_iterations {
         set.step(&job.part(share(iteration), share(iteration + 1)))?;
         if let Some(observe) = &mut observe {

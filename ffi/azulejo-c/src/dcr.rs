@@ -74,13 +74,13 @@ pub struct azulejo_dcr_options {
     /// An AZULEJO_METHOD_ constant; default momentum.
     pub method: i32,
     /// The largest number of steps; default 100, which is enough for AZULEJO_METHOD_MOMENTUM from
-    /// points about as dense everywhere as they shall be; AZULEJO_METHOD_THESIS may need 1000. 0
-    /// returns the points as they are. The call ends earlier when the set has converged.
+    /// any points; AZULEJO_METHOD_THESIS may need 1000. 0 returns the points as they are. The call
+    /// ends earlier when the set has converged.
     pub max_iterations: u32,
     /// Must be 0.
     pub reserved: u32,
-    /// Directions in which coincident points are separated, for azulejo_dcr_scatter the points; any
-    /// number, default 0.
+    /// Directions in which coincident points are separated, for azulejo_dcr_scatter the points, for
+    /// azulejo_dcr_relax_density those on which a heaped set is dealt out; any number, default 0.
     pub seed: u64,
     /// The motion (see the report) at which the set has converged, at least 0; 0 makes all steps.
     /// Any negative number, such as the default -1, selects the tolerance of the method: 0.001, or
@@ -302,8 +302,13 @@ pub(crate) fn reason(stopped: Stopped) -> i32 {
 /// Relaxes a set of points: neighbours that are too close repel each other and holes close, until
 /// the set has converged or all steps are made (thesis chapter 4).
 ///
-/// With AZULEJO_METHOD_MOMENTUM and Delaunay neighbours the result is, of the given set and the
-/// states after whole steps, the one in which the fewest points have a neighbour closer than 0.85
+/// AZULEJO_METHOD_MOMENTUM levels a heaped set before the first step, one in which points are
+/// crowded in some places and missing in others: any set ends as a random one does, and after about
+/// the same time. A call that makes all steps succeeds whatever it has reached; the report has the
+/// figures.
+///
+/// With AZULEJO_METHOD_MOMENTUM and Delaunay neighbours the result is, of the set before the first
+/// step and the states after whole steps, the one in which the fewest points have a neighbour closer than 0.85
 /// d_max or a Delaunay triangle with a circumradius above 0.67 d_max. Otherwise it is the set after
 /// the last whole step. A call that its progress callback cancels succeeds with what there is then,
 /// and AZULEJO_STOPPED_CANCELLED in the report.
@@ -316,9 +321,9 @@ pub(crate) fn reason(stopped: Stopped) -> i32 {
 ///
 /// O(count) time for each step from evenly spread points. O(count * log count) where the
 /// triangulation is built again: in each step of AZULEJO_METHOD_THESIS, and with
-/// AZULEJO_METHOD_MOMENTUM in sets of a few points, in clustered sets and in sets with holes as
-/// wide as the domain. Clustered sets need many such steps. A bounded domain takes up to four times
-/// the time and memory of a periodic one. O(count) memory.
+/// AZULEJO_METHOD_MOMENTUM in sets of a few points and in the first steps of sets with holes as
+/// wide as the domain. A bounded domain takes up to four times the time and memory of a periodic
+/// one. O(count) memory.
 ///
 /// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_TOO_LARGE.
 #[unsafe(no_mangle)]

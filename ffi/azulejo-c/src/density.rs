@@ -157,7 +157,9 @@ pub unsafe extern "C" fn azulejo_dcr_scatter(
 /// Relaxes a set of points to a density: as azulejo_dcr_relax, but the points become as dense from
 /// place to place as the density says, and evenly spaced relative to it (thesis section 4.2.3).
 /// Points whose density is about right, such as those of azulejo_dcr_scatter and
-/// azulejo_psp_adaptive_sample, need no more than the default 100 steps; others may need 800.
+/// azulejo_psp_adaptive_sample, need no more than the default 100 steps. A set of more than 64
+/// points that is far from it is dealt out before the first step, onto points as azulejo_dcr_scatter
+/// makes them from the seed; those in between may need more steps.
 ///
 /// The unit of length is the local spacing: d_max for the mean density and proportional to 1 /
 /// sqrt(density) elsewhere, but it increases by no more than half of the distance from place to
@@ -181,8 +183,7 @@ pub unsafe extern "C" fn azulejo_dcr_scatter(
 /// report: what the call did, or NULL.
 ///
 /// O(count) calls of a density function, then O(count) time for each step, with a factor for
-/// densities that vary by orders of magnitude, and more from clustered sets as in
-/// azulejo_dcr_relax; O(count) memory.
+/// densities that vary by orders of magnitude; O(count) memory.
 ///
 /// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for densities that are negative or not finite, or 0
 /// everywhere; AZULEJO_ERROR_TOO_LARGE.

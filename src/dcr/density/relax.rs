@@ -15,7 +15,12 @@ use crate::points::Domain;
 
 /// Relaxes a set of points to a density: returns as many points, in the same order, with the local density that is asked
 /// for, and evenly spread. A start with about that density, such as [`scatter`] or
-/// [`psp::adaptive`](crate::psp::adaptive) make, needs no more than the usual 100 steps; others may take 800.
+/// [`psp::adaptive`](crate::psp::adaptive) make, needs no more than the usual 100 steps.
+///
+/// A start that is far from it is dealt out before the first step onto the points that [`scatter`] makes from `seed`, in
+/// the order of a curve, so that points that were near each other mostly stay so. Far is a number of points that differs
+/// in some cell of a quadtree by more than 64, by a quarter and by 16 times the square root from that of the points of
+/// [`scatter`]. Starts in between may take more steps.
 ///
 /// As [`relax`](fn@crate::dcr::relax), with these differences. In the report, lengths are in units of the *local
 /// spacing*: `d_max` for the mean density, as 1 / sqrt(density) elsewhere, but it grows by no more than half of the

@@ -9,7 +9,8 @@ use crate::dcr::density::octaves::OctaveGrids;
 use crate::dcr::density::raster::Raster;
 use crate::dcr::ground::boundary::MirrorBoundary;
 use crate::dcr::ground::constraints::{Constraints, FREE_CLEARANCE, Force, MOMENTUM, SAFE_FRACTION};
-use crate::dcr::ground::curve::CurveOrder;
+use crate::dcr::ground::curve::{CurveOrder, along_curve};
+use crate::dcr::ground::heaps::are_heaped;
 use crate::dcr::ground::motion::{Motion, STEP};
 use crate::dcr::ground::neighbours::Neighbours;
 use crate::dcr::ground::torus::{Torus, TorusPoint};
@@ -30,6 +31,7 @@ pub(super) struct DensityRelaxation {
     torus: Torus,
     raster: Raster,
     octaves: OctaveGrids,
+    seed: u64,
     order: CurveOrder,
     /// The points, and after them their images on the torus.
     places: Vec<TorusPoint>,
@@ -61,8 +63,16 @@ impl DensityRelaxation {
             iterations: 0,
             torus,
             raster,
+            seed,
             order,
         })
+    }
+
+    /// Puts the points on these places before the first step.
+    fn restart(&mut self, places: &[TorusPoint]) {
+        self.places = self.torus.with_images(places);
+        self.spacings = places.iter().map(|&place| self.raster.spacing(place)).collect();
+        self.motion = Motion::new(STEP, places.to_vec());
     }
 
     fn neighbours(&mut self, job: &Job) -> Result<Neighbours<HalfEdgeMesh>> {
@@ -143,6 +153,25 @@ impl DensityRelaxation {
 }
 
 impl Relaxation for DensityRelaxation {
+    /// Deals heaped points out on random points of the density, which are in the order of the curve too.
+    fn begin(&mut self, _: &Job) -> Result<()> {
+        let scattered = self.raster.scatter(&self.torus, self.order.len(), self.seed);
+        let random = CurveOrder::new(&self.torus, &scattered, self.seed);
+        if are_heaped::<2>(&along_curve(self.order.start()), &along_curve(random.start()), u64::BITS) {
+            self.restart(random.start());
+        }
+        Ok(())
+    }
+
+    /// Without any step, the points are those with which the set began.
+    fn finish(&mut self, _: &Job) -> Result<()> {
+        if self.iterations == 0 {
+            let start = self.order.start().to_vec();
+            self.restart(&start);
+        }
+        Ok(())
+    }
+
     fn step(&mut self, job: &Job) -> Result<()> {
         let count = self.order.len();
         let drift = match self.iterations.is_multiple_of(WAVES_EVERY) {

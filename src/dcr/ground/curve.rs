@@ -13,9 +13,17 @@ impl CurveOrder {
     /// Orders points of the domain. Those that coincide are parted, keyed by the seed.
     pub(in crate::dcr) fn new(torus: &Torus, points: &[[f32; 2]], seed: u64) -> Self {
         let entered = torus.enter(points, seed);
-        let order = along_curve(&entered);
+        let order = order_along_curve(&entered);
         let start = order.iter().map(|&point| entered[point as usize]).collect();
         Self { order, start }
+    }
+
+    /// The order after the points have been moved to `places` before the first step, and `places` in that order.
+    pub(in crate::dcr) fn reordered(&self, places: &[TorusPoint]) -> (Self, Vec<TorusPoint>) {
+        let order = order_along_curve(places);
+        let of = |all: &[u32]| order.iter().map(|&point| all[point as usize]).collect();
+        let at = |all: &[TorusPoint]| order.iter().map(|&point| all[point as usize]).collect();
+        (Self { order: of(&self.order), start: at(&self.start) }, at(places))
     }
 
     /// The number of points.
@@ -41,9 +49,14 @@ impl CurveOrder {
     }
 }
 
-/// The order of places along a Z-curve.
-fn along_curve(places: &[TorusPoint]) -> Vec<u32> {
-    let mut keyed: Vec<(u64, u32)> = (0..).zip(places).map(|(i, &[x, y])| (spread(x) | spread(y) << 1, i)).collect();
+/// How far along the Z-curve each of these places is.
+pub(in crate::dcr) fn along_curve(places: &[TorusPoint]) -> Vec<u64> {
+    places.iter().map(|&[x, y]| spread(x) | spread(y) << 1).collect()
+}
+
+/// The order of places along the curve.
+fn order_along_curve(places: &[TorusPoint]) -> Vec<u32> {
+    let mut keyed: Vec<(u64, u32)> = along_curve(places).into_iter().zip(0..).collect();
     keyed.sort_unstable();
     keyed.into_iter().map(|(_, i)| i).collect()
 }
@@ -64,7 +77,7 @@ mod tests {
         const HALF: u32 = 1 << 31;
         let corners = [[0, 0], [HALF, 0], [0, HALF], [HALF, HALF]];
         let places: Vec<TorusPoint> = (0..16).map(|i| corners[i % 4].map(|x| x + (i as u32 / 4) * 1000)).collect();
-        let quarters: Vec<u32> = along_curve(&places).iter().map(|i| i % 4).collect();
+        let quarters: Vec<u32> = order_along_curve(&places).iter().map(|i| i % 4).collect();
         assert_eq!(quarters, [0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3]);
     }
 }

@@ -85,7 +85,12 @@ impl Torus {
     /// The points of a domain on the torus, parted so that no two coincide and not all lie on one line.
     pub(in crate::dcr) fn enter(&self, points: &[[f32; 2]], seed: u64) -> Vec<TorusPoint> {
         let entered = self.frame.enter(points).into_iter();
-        let mut positions: Vec<DVec2> = entered.map(|position| self.position(self.place(position))).collect();
+        self.parted(&entered.map(|position| self.place(position)).collect::<Vec<_>>(), seed)
+    }
+
+    /// Points of the torus, parted so that no two coincide and not all lie on one line.
+    pub(in crate::dcr) fn parted(&self, places: &[TorusPoint], seed: u64) -> Vec<TorusPoint> {
+        let mut positions: Vec<DVec2> = places.iter().map(|&place| self.position(place)).collect();
         self.frame.part(&mut positions, seed);
         positions.into_iter().map(|position| self.place(position)).collect()
     }

@@ -95,6 +95,12 @@ impl WaveGrid {
         Ok(field)
     }
 
+    /// The size of a cell, in spacings.
+    pub(in crate::dcr) fn cell(&self) -> DVec2 {
+        let [columns, rows] = self.cells;
+        self.torus.frame.size() / DVec2::new(columns as f64, rows as f64)
+    }
+
     /// The displacement at a point.
     pub(in crate::dcr) fn read(&self, field: &Field, place: TorusPoint) -> Vec2 {
         let mut sums = [Complex::<f32>::default(); 4];

@@ -10,6 +10,7 @@
 //! * at open boundaries neighbours are mirrored, so that samples neither leave nor crowd there;
 //! * no two samples get closer to each other through space than the closest two were (`apart.rs`), on whatever parts of
 //!   the surface they are;
+//! * samples that are heaped on a part of the surface are dealt out anew before the first step (`spread.rs`);
 //! * long waves of the density stay: there is no Fourier transform on a mesh.
 //!
 //! Triangles are connected by common edges (`connected.rs`). A crack is a boundary: samples on its two sides are not
@@ -22,6 +23,7 @@ mod options;
 mod relax;
 mod relaxation;
 mod samples;
+mod spread;
 mod star;
 mod triangles;
 mod view;

@@ -13,7 +13,7 @@ pub struct Options {
     pub max_iterations: u32,
     /// The motion ([`Report::motion`]) at which the set has converged; 0 makes all steps unless nothing moves at all.
     pub tolerance: f64,
-    /// Where samples that coincide are moved; used for nothing else.
+    /// Where samples that coincide are moved, and where heaped samples are dealt out; used for nothing else.
     pub seed: u64,
 }
 

@@ -4,10 +4,12 @@ use glam::DVec2;
 
 use crate::dcr::ground::memory::require_memory;
 use crate::dcr::report::Stopped;
+use crate::dcr::surface::apart::Floor;
 use crate::dcr::surface::connected::ConnectedMesh;
 use crate::dcr::surface::options::{Options, Report};
 use crate::dcr::surface::relaxation::SurfaceRelaxation;
 use crate::dcr::surface::samples::{check, enter, hexagonal_distance, leave};
+use crate::dcr::surface::spread::spread;
 use crate::dcr::surface::walk::SurfacePoint;
 use crate::error::{Error, Result};
 use crate::geometry::grid3;
@@ -24,6 +26,13 @@ const ATTEMPTS: u64 = 16;
 
 /// Relaxes samples on a mesh: sample `i` is the point `barycentrics[i]` of `triangles[i]`, as in [`SurfaceSamples`], and
 /// of any density. The samples are returned in their order, each with the triangle that it is on.
+///
+/// Samples that are heaped on a part of the surface are dealt out before the first step: random points are thrown on
+/// the surface, keyed by `seed`, both are sorted along a curve through space, and the sample of each rank is put on the
+/// point of that rank. So each connected part receives samples by its area, and samples that were near each other
+/// mostly stay so. Heaped are more than 64 samples whose number in a cube of space differs by more than a quarter and by
+/// more than 16 times the square root from what the area in it asks for, and whose smallest distance is below 0.6
+/// `d_max`. If there is no room for points as far apart as the nearest samples were, these stay where they are.
 ///
 /// A cancelled call succeeds: it returns the samples after the last whole step, and says so in its report.
 ///
@@ -51,7 +60,11 @@ pub fn relax(
     let places = enter(triangles, barycentrics);
     let positions = places.iter().map(|place| place.position(mesh).as_vec3().to_array()).collect::<Vec<_>>();
     let floor = context.run(None, |job| grid3::smallest_distance(job, &positions))?;
-    let mut set = SurfaceRelaxation::new(&connected, spacing, floor, places);
+    let heaped = context.run(None, |job| match options.max_iterations {
+        0 => Ok(None),
+        _ => spread(job, mesh, &places, Floor::new(floor), spacing, options.seed),
+    })?;
+    let mut set = SurfaceRelaxation::new(&connected, spacing, floor, heaped.unwrap_or(places));
     let steps = context.run(progress, |job| make_steps(job, options, spacing, &mut set));
     let stopped = match steps {
         Err(Error::Cancelled) => Stopped::Cancelled,

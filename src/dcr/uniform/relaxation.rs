@@ -7,6 +7,7 @@ use glam::Vec2;
 use crate::dcr::ground::boundary::MirrorBoundary;
 use crate::dcr::ground::constraints::Constraints;
 use crate::dcr::ground::curve::CurveOrder;
+use crate::dcr::ground::level::leveled;
 use crate::dcr::ground::motion::{Motion, STEP};
 use crate::dcr::ground::neighbours::Neighbours;
 use crate::dcr::ground::torus::{Torus, TorusPoint};
@@ -53,6 +54,7 @@ pub(in crate::dcr) struct UniformRelaxation {
     waves: WaveGrid,
     neighbourhood: Neighbourhood,
     level: Level,
+    seed: u64,
     order: CurveOrder,
     state: State,
     /// Memory for the next state.
@@ -91,6 +93,7 @@ impl UniformRelaxation {
             motion: Motion::new(STEP, order.start().to_vec()),
             iterations: 0,
             torus,
+            seed,
             order,
         }
     }
@@ -166,6 +169,16 @@ impl UniformRelaxation {
 }
 
 impl Relaxation for UniformRelaxation {
+    fn begin(&mut self, job: &Job) -> Result<()> {
+        if let Some(leveled) = leveled(job, &self.torus, &self.waves, &self.state.places, self.seed)? {
+            let places;
+            (self.order, places) = self.order.reordered(&leveled);
+            self.state.places = self.torus.with_images(&places);
+            self.motion = Motion::new(STEP, places);
+        }
+        Ok(())
+    }
+
     fn step(&mut self, job: &Job) -> Result<()> {
         let count = self.order.len();
         let mut drift = match self.iterations.is_multiple_of(WAVES_EVERY) {
@@ -216,6 +229,10 @@ impl Relaxation for UniformRelaxation {
     }
 
     fn finish(&mut self, job: &Job) -> Result<()> {
+        if self.iterations == 0 {
+            self.state.places = self.torus.with_images(self.order.start());
+            self.mesh = None;
+        }
         if self.fewest == usize::MAX {
             return Ok(());
         }

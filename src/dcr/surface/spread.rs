@@ -1,0 +1,246 @@
+//! Spreads samples that are heaped on one part of the surface and missing on others.
+//!
+//! There is no Fourier transform on a mesh that would level a heap, and forces move a sample by a fraction of the
+//! spacing in a step. So before the first step such samples are dealt out (`ground/heaps.rs`): as many points are thrown
+//! on the surface at random, both are sorted along a Z-curve through space, and each sample is put on the point of its
+//! rank. Each part of the surface, connected with others or not, receives samples by its area.
+
+use crate::dcr::ground::heaps::are_heaped;
+use crate::dcr::surface::apart::Floor;
+use crate::dcr::surface::walk::SurfacePoint;
+use crate::error::Result;
+use crate::geometry::grid3::Grid3;
+use crate::job::{Job, chunks};
+use crate::mesh::Mesh;
+use crate::rng::{Draw, Rng};
+
+/// Samples that are all this far apart, in spacings, are left where they are: random points would be too close.
+const APART: f64 = 0.6;
+
+/// The number of throws for a sample, each of which gets too close to samples that were dealt before.
+const ATTEMPTS: u64 = 64;
+
+/// Bits of the curve per axis.
+const BITS: u32 = 21;
+
+/// New places for samples that are heaped, no two closer to each other through space than the floor. None if they are
+/// not, or if there is no room for that.
+pub(super) fn spread(
+    job: &Job,
+    mesh: &Mesh,
+    places: &[SurfacePoint],
+    floor: Floor,
+    spacing: f64,
+    seed: u64,
+) -> Result<Option<Vec<SurfacePoint>>> {
+    if floor.distance() >= APART * spacing {
+        return Ok(None);
+    }
+    let throws = Throws::new(mesh, seed);
+    let tasks = chunks(places.len());
+    let thrown = job.part(0.0, 0.5).concat(tasks.len(), |task| tasks.range(task).map(|i| throws.at(i, 0)).collect())?;
+    let samples = sorted(mesh, places);
+    let [along, along_thrown] =
+        [&samples, &sorted(mesh, &thrown)].map(|all| all.iter().map(|&(along, _)| along).collect::<Vec<_>>());
+    if !are_heaped::<3>(&along, &along_thrown, 3 * BITS) {
+        return Ok(None);
+    }
+    let Some(dealt) = throws.apart(&job.part(0.5, 1.0), places.len(), floor, spacing)? else { return Ok(None) };
+    let mut spread = places.to_vec();
+    for ((_, sample), (_, point)) in samples.iter().zip(sorted(mesh, &dealt)) {
+        spread[*sample as usize] = dealt[point as usize];
+    }
+    Ok(Some(spread))
+}
+
+/// Random points of a mesh.
+struct Throws<'a> {
+    mesh: &'a Mesh,
+    seed: u64,
+    triangles: Vec<u32>,
+    /// The sums of the areas up to each of these triangles.
+    areas: Vec<f64>,
+}
+
+impl<'a> Throws<'a> {
+    fn new(mesh: &'a Mesh, seed: u64) -> Self {
+        let (mut triangles, mut areas, mut sum) = (Vec::new(), Vec::new(), 0.0);
+        for triangle in mesh.sampled_triangles() {
+            let area = mesh.triangle_area(triangle);
+            if area > 0.0 {
+                sum += area;
+                triangles.push(triangle);
+                areas.push(sum);
+            }
+        }
+        Self { mesh, seed, triangles, areas }
+    }
+
+    /// The point of a sample in one of its attempts.
+    fn at(&self, sample: usize, attempt: u64) -> SurfacePoint {
+        let mut rng = Rng::at(self.seed, Draw::Spread, &[sample as u64, attempt]);
+        let whole = self.areas.last().copied().unwrap_or(0.0);
+        let area = rng.unit() * whole;
+        let triangle = self.areas.partition_point(|&sum| sum <= area).min(self.areas.len() - 1);
+        SurfacePoint { triangle: self.triangles[triangle], uv: rng.in_triangle().into() }
+    }
+
+    /// The points of so many samples, each the first of its sample that is far enough from those before; none if a
+    /// sample has no such point.
+    fn apart(&self, job: &Job, count: usize, floor: Floor, spacing: f64) -> Result<Option<Vec<SurfacePoint>>> {
+        let (low, _) = self.mesh.bounds();
+        let mut grid = Grid3::new(low.map(f64::from), spacing);
+        let mut places: Vec<SurfacePoint> = Vec::with_capacity(count);
+        for sample in 0..count {
+            if sample % 4096 == 0 {
+                job.report(sample as f64 / count as f64)?;
+            }
+            let is_free = |place: &SurfacePoint| {
+                let position = place.position(self.mesh);
+                let mut near = grid.candidates(position.into(), floor.distance());
+                near.all(|other| floor.admits(position, places[other as usize].position(self.mesh)))
+            };
+            let Some(place) = (0..ATTEMPTS).map(|attempt| self.at(sample, attempt)).find(is_free) else {
+                return Ok(None);
+            };
+            grid.insert(place.position(self.mesh).as_vec3().into());
+            places.push(place);
+        }
+        Ok(Some(places))
+    }
+}
+
+/// The places of points along a Z-curve through the bounds of the mesh, with the points' numbers.
+fn sorted(mesh: &Mesh, places: &[SurfacePoint]) -> Vec<(u64, u32)> {
+    let (low, high) = mesh.bounds();
+    let extent = (0..3).map(|axis| f64::from(high[axis]) - f64::from(low[axis])).fold(f64::MIN_POSITIVE, f64::max);
+    let last = f64::from((1u32 << BITS) - 1);
+    let code = |place: &SurfacePoint| {
+        let position = place.position(mesh).to_array();
+        let along = |axis: usize| ((position[axis] - f64::from(low[axis])) / extent * last) as u64;
+        (0..3).map(|axis| spread_bits(along(axis)) << axis).fold(0, |code, bits| code | bits)
+    };
+    let mut sorted: Vec<(u64, u32)> = places.iter().map(code).zip(0..).collect();
+    sorted.sort_unstable();
+    sorted
+}
+
+/// The bits of a number of [`BITS`], two zeros after each.
+fn spread_bits(x: u64) -> u64 {
+    let masks = [
+        (32, 0x001f_0000_0000_ffff),
+        (16, 0x001f_0000_ff00_00ff),
+        (8, 0x100f_00f0_0f00_f00f),
+        (4, 0x10c3_0c30_c30c_30c3),
+        (2, 0x1249_2492_4924_9249u64),
+    ];
+    masks.into_iter().fold(x, |x, (shift, mask)| (x | x << shift) & mask)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::job::Context;
+
+    /// A unit square of `side`² cells and, far from it, another of twice its size.
+    fn squares(side: u32) -> Mesh {
+        let mut positions = Vec::new();
+        let mut triangles = Vec::new();
+        for (corner, size) in [([0.0, 0.0, 0.0], 1.0), ([9.0, 3.0, -4.0], 2.0)] {
+            let first = positions.len() as u32;
+            let at = |i: u32| size * i as f32 / side as f32;
+            for (row, column) in (0..=side).flat_map(|row| (0..=side).map(move |column| (row, column))) {
+                positions.push([corner[0] + at(column), corner[1] + at(row), corner[2]]);
+                if row < side && column < side {
+                    let a = first + row * (side + 1) + column;
+                    triangles.extend([[a, a + 1, a + side + 2], [a, a + side + 2, a + side + 1]]);
+                }
+            }
+        }
+        Mesh::new(positions, triangles).unwrap()
+    }
+
+    fn uniform(mesh: &Mesh, count: usize) -> Vec<SurfacePoint> {
+        let throws = Throws::new(mesh, 77);
+        (0..count).map(|sample| throws.at(sample, 0)).collect()
+    }
+
+    fn spread_of(mesh: &Mesh, places: &[SurfacePoint], floor: f64) -> Option<Vec<SurfacePoint>> {
+        let spacing = (2.0 * mesh.area() / (3f64.sqrt() * places.len() as f64)).sqrt();
+        let run = |job: &Job| spread(job, mesh, places, Floor::new(floor), spacing, 3);
+        let [one, three] = [1, 3].map(|threads| Context::new(threads).unwrap().run(None, run).unwrap());
+        assert_eq!(one, three);
+        one
+    }
+
+    /// The samples of a uniform set on triangle 0 alone, or with a share of them elsewhere.
+    fn heap(mesh: &Mesh, count: usize, share: f64) -> Vec<SurfacePoint> {
+        let mut places = uniform(mesh, count);
+        let heaped = (share * count as f64) as usize;
+        places[..heaped].iter_mut().for_each(|place| place.triangle = 0);
+        places
+    }
+
+    #[test]
+    fn heaps_are_dealt_out_by_area() {
+        let mesh = squares(20);
+        for share in [1.0, 0.5, 0.2] {
+            let dealt = spread_of(&mesh, &heap(&mesh, 5000, share), 0.0).unwrap();
+            let on_small = dealt.iter().filter(|place| place.triangle < 800).count();
+            assert!(on_small.abs_diff(1000) < 120, "{on_small}");
+            let mut per_triangle = vec![0; 1600];
+            dealt.iter().for_each(|place| per_triangle[place.triangle as usize] += 1);
+            assert!(per_triangle.iter().all(|&count| count < 20), "{share}");
+            assert!(dealt.iter().all(|place| place.uv.min_element() >= 0.0 && place.uv.element_sum() <= 1.0));
+        }
+    }
+
+    #[test]
+    fn sets_that_forces_can_spread_are_left_alone() {
+        let mesh = squares(20);
+        for count in [1, 50, 400, 5000, 40_000] {
+            assert_eq!(spread_of(&mesh, &uniform(&mesh, count), 0.0), None, "{count}");
+        }
+        assert_eq!(spread_of(&mesh, &heap(&mesh, 50, 1.0), 0.0), None);
+    }
+
+    #[test]
+    fn none_are_dealt_closer_than_the_floor() {
+        let mesh = squares(20);
+        let places = heap(&mesh, 1500, 1.0);
+        let spacing = (2.0 * mesh.area() / (3f64.sqrt() * 1500.0)).sqrt();
+        let floor = 0.5 * spacing;
+        let dealt = spread_of(&mesh, &places, floor).unwrap();
+        let positions: Vec<_> = dealt.iter().map(|place| place.position(&mesh)).collect();
+        for i in 0..positions.len() {
+            assert!((0..i).all(|j| positions[i].distance(positions[j]) >= floor));
+        }
+        // Three sheets within the floor have room for a third of the samples.
+        let sheet = squares(4);
+        let positions =
+            (0..3).flat_map(|k| sheet.positions().iter().map(move |&[x, y, z]| [x, y, z + 1e-3 * k as f32]));
+        let count = sheet.positions().len() as u32;
+        let triangles = (0..3).flat_map(|k| sheet.triangles().iter().map(move |t| t.map(|corner| corner + k * count)));
+        let sheets = Mesh::new(positions.collect(), triangles.collect()).unwrap();
+        let spacing = (2.0 * sheets.area() / (3f64.sqrt() * 1500.0)).sqrt();
+        assert_eq!(spread_of(&sheets, &heap(&sheets, 1500, 1.0), 0.59 * spacing), None);
+    }
+
+    /// Samples keep their order along the curve.
+    #[test]
+    fn neighbours_in_the_heap_are_neighbours_after_it() {
+        let mesh = squares(20);
+        let places = heap(&mesh, 4000, 1.0);
+        let dealt = spread_of(&mesh, &places, 0.0).unwrap();
+        let order = |places: &[SurfacePoint]| sorted(&mesh, places).iter().map(|&(_, i)| i).collect::<Vec<_>>();
+        assert_eq!(order(&places), order(&dealt));
+    }
+
+    #[test]
+    fn bits_are_spread() {
+        for x in [0, 1, 0b101, 0x1f_ffff, 0x12_3456] {
+            let expected = (0..BITS).fold(0, |code, bit| code | (x >> bit & 1) << (3 * bit));
+            assert_eq!(spread_bits(x), expected);
+        }
+    }
+}
