@@ -34,7 +34,7 @@ pub struct Plane {
 
 /// What windows are made of.
 enum Kept {
-    Tiling(Tiling),
+    Tiling(Box<Tiling>),
     Whole(Whole),
 }
 
@@ -54,7 +54,7 @@ impl Plane {
     pub(super) fn on_lattice(job: &Job, lattice: Lattice, options: &Options) -> Result<Self> {
         let &Options { radius, domain, leaf_size, seed } = options;
         let kept = if Tiling::is_worthwhile(&lattice, leaf_size) {
-            Kept::Tiling(Tiling::new(job, lattice, leaf_size, seed)?)
+            Kept::Tiling(Box::new(Tiling::new(job, lattice, leaf_size, seed)?))
         } else {
             Kept::Whole(Whole::new(job, lattice, seed)?)
         };

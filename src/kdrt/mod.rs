@@ -8,7 +8,7 @@
 //! The thesis goes through the seams in an order of work. Here every step is a function of the place alone, so that a
 //! window of the plane (`tiling/`) can be made without the rest; this is how threads share the work, and how any part
 //! of a plane can be had alone (`kept.rs`, `window.rs`). A number of samples instead of a radius is `count/`; sets that
-//! were made apart are glued into one by the same two steps (`merge/`). Each file says where it departs from the thesis.
+//! were made apart are glued into one by the same two steps (`merge/`). Files say where they depart from the thesis.
 
 mod bitmap;
 mod blocks;
