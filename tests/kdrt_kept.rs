@@ -12,7 +12,7 @@ mod windows;
 
 use azulejo::kdrt::{DEFAULT_LEAF_SIZE, Options, Plane, sample, sample_window};
 use azulejo::{Boundary, Context, Domain, Error};
-use common::{BOUNDARIES, domain, find_conflict, find_gap, float_spacing, hard_domains};
+use common::{BOUNDARIES, check, domain, find_conflict, find_gap, float_spacing, hard_domains};
 use proptest::prelude::*;
 use sets::Random;
 use std::cell::Cell;
@@ -29,7 +29,7 @@ fn whole(options: &Options) -> Vec<[f32; 2]> {
     sample(&Context::new(2).unwrap(), options, None).unwrap()
 }
 
-fn check(plane: &Plane, whole: &[[f32; 2]], (min, max): Rect) {
+fn check_window(plane: &Plane, whole: &[[f32; 2]], (min, max): Rect) {
     assert!(plane.window(min, max).unwrap() == part_of(whole, (min, max)), "{min:?} {max:?}");
 }
 
@@ -54,10 +54,10 @@ fn windows_of_hard_domains_are_parts_of_the_whole() {
                 let radius = tiled_radius(&domain, leaf_size).max(64.0 * float_spacing(&domain));
                 let options = Options::new(radius).domain(domain).leaf_size(leaf_size).seed(seed);
                 let (plane, whole) = (kept(1, &options), whole(&options));
-                check(&plane, &whole, (domain.min, domain.max));
+                check_window(&plane, &whole, (domain.min, domain.max));
                 for _ in 0..20 {
-                    check(&plane, &whole, random_window(&mut random, &domain));
-                    check(&plane, &whole, small_window(&mut random, &options, 20.0));
+                    check_window(&plane, &whole, random_window(&mut random, &domain));
+                    check_window(&plane, &whole, small_window(&mut random, &options, 20.0));
                 }
                 let (min, max) = random_window(&mut random, &domain);
                 let alone = sample_window(&context, &options, min, max, None).unwrap();
@@ -77,8 +77,8 @@ fn windows_where_others_meet_have_the_order_of_the_whole() {
             let options = Options::new(1.0 / 900.0).domain(domain).leaf_size(leaf_size).seed(seed);
             let (plane, whole) = (kept(2, &options), whole(&options));
             for _ in 0..60 {
-                check(&plane, &whole, small_window(&mut random, &options, 260.0));
-                check(&plane, &whole, small_window(&mut random, &options, 60.0));
+                check_window(&plane, &whole, small_window(&mut random, &options, 260.0));
+                check_window(&plane, &whole, small_window(&mut random, &options, 60.0));
             }
         }
     }
@@ -94,6 +94,7 @@ fn windows_at_the_edge_of_what_there_is() {
             let options = Options::new(factor * tiled_radius(&domain, 6.0)).domain(domain).leaf_size(6.0).seed(4);
             let (plane, whole) = (kept(1, &options), whole(&options));
             let (r, spacing, Domain { min, max, .. }) = (options.radius, float_spacing(&domain), domain);
+            check(&domain, r, &plane.window(min, max).unwrap());
             let mut rects = vec![
                 (min, min.map(|x| x + 0.4 * r)),
                 (max.map(|x| x - 0.4 * r), max),
@@ -106,14 +107,14 @@ fn windows_at_the_edge_of_what_there_is() {
             ];
             for &sample in whole.iter().step_by(29) {
                 let sample = sample.map(f64::from);
-                rects.push((sample, sample.map(|x| (x + 0.5 * spacing))));
+                rects.push((sample, sample.map(|x| x + 0.5 * spacing)));
                 rects.push((sample, sample.map(|x| x.next_up())));
                 rects.push((sample.map(|x| x - r), sample));
             }
             for (mut min, mut max) in rects {
                 min = [0, 1].map(|axis| min[axis].max(domain.min[axis]));
                 max = [0, 1].map(|axis| max[axis].min(domain.max[axis]));
-                check(&plane, &whole, (min, max));
+                check_window(&plane, &whole, (min, max));
             }
         }
     }
@@ -137,10 +138,10 @@ fn domains_that_are_not_tiled_have_windows_too() {
                 let domain = domain(corner, [0, 1].map(|axis| corner[axis] + extent[axis]), boundary);
                 let options = Options::new(radius).domain(domain).seed(3);
                 let (plane, whole) = (kept(2, &options), whole(&options));
-                check(&plane, &whole, (domain.min, domain.max));
+                check_window(&plane, &whole, (domain.min, domain.max));
                 for _ in 0..40 {
-                    check(&plane, &whole, random_window(&mut random, &domain));
-                    check(&plane, &whole, small_window(&mut random, &options, 5.0));
+                    check_window(&plane, &whole, random_window(&mut random, &domain));
+                    check_window(&plane, &whole, small_window(&mut random, &options, 5.0));
                 }
             }
         }
@@ -159,7 +160,7 @@ fn threads_make_windows_of_one_plane_at_once() {
                     scope.spawn(move || {
                         let mut random = Random::new(seed);
                         for _ in 0..40 {
-                            check(plane, whole, small_window(&mut random, options, 70.0));
+                            check_window(plane, whole, small_window(&mut random, options, 70.0));
                         }
                     });
                 }

@@ -13,7 +13,7 @@ use crate::kdrt::options::{Options, check_leaf_size};
 use crate::kdrt::sample::BYTES_PER_SAMPLE;
 use crate::kdrt::tiling::Tiling;
 
-/// The fewest samples for which memory is asked for: for fewer the question takes longer than the window.
+/// The fewest samples, of some 24 MB, that memory is asked for: to ask takes as long as to make a small window.
 const FEWEST_REFUSED: f64 = 1e6;
 
 /// A maximal Poisson-disk set of a rectangle, of which any window can be made at any time: the set of
@@ -22,8 +22,8 @@ const FEWEST_REFUSED: f64 = 1e6;
 ///
 /// Windows may be made by any number of threads at once; nothing is changed by them, and no thread is kept.
 ///
-/// Memory: 32 bytes per sample of the pattern, about 0.9 MB with leaves of the default size, and less than 2 bytes per
-/// radius of the domain's sides. The domain may have any number of samples that floats can carry: up to about 10^11
+/// Memory: 32 bytes per sample of the pattern, about 0.9 MB with leaves of the default size, and 1 byte per radius of
+/// the domain's sides. The domain may have any number of samples that floats can carry: up to about 10^11
 /// around the origin. One that is not tiled (see [`sample`](super::sample)) is made as a whole and kept, in 8 bytes per
 /// sample.
 pub struct Plane {
@@ -34,7 +34,7 @@ pub struct Plane {
 
 /// What windows are made of.
 enum Kept {
-    Tiling(Tiling),
+    Tiling(Box<Tiling>),
     Whole(Whole),
 }
 
@@ -54,7 +54,7 @@ impl Plane {
     pub(super) fn on_lattice(job: &Job, lattice: Lattice, options: &Options) -> Result<Self> {
         let &Options { radius, domain, leaf_size, seed } = options;
         let kept = if Tiling::is_worthwhile(&lattice, leaf_size) {
-            Kept::Tiling(Tiling::new(job, lattice, leaf_size, seed)?)
+            Kept::Tiling(Box::new(Tiling::new(job, lattice, leaf_size, seed)?))
         } else {
             Kept::Whole(Whole::new(job, lattice, seed)?)
         };

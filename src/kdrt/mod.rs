@@ -6,9 +6,9 @@
 //! eliminated (`conquer.rs`) and gaps filled (`fill.rs`). Most samples are copies that nothing needs to look at.
 //!
 //! The thesis goes through the seams in an order of work. Here every step is a function of the place alone, so that a
-//! window of the plane (`plane.rs`) can be made without the rest; this is how threads share the work, and how any part
-//! of a plane can be had alone (`window.rs`). A number of samples instead of a radius is `count.rs`; sets that were made
-//! apart are glued into one by the same two steps (`merge/`). Each file says where it departs from the thesis.
+//! window of the plane (`tiling/`) can be made without the rest; this is how threads share the work, and how any part
+//! of a plane can be had alone (`kept.rs`, `window.rs`). A number of samples instead of a radius is `count/`; sets that
+//! were made apart are glued into one by the same two steps (`merge/`). Files say where they depart from the thesis.
 
 mod bitmap;
 mod blocks;
