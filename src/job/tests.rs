@@ -30,7 +30,7 @@ fn results_do_not_depend_on_the_threads() {
 #[test]
 fn parts_are_put_in_order_whatever_is_expected_of_them() {
     let part = |i: usize| {
-        thread::sleep(Duration::from_micros(if i % 8 == 0 { 500 } else { 10 }));
+        thread::sleep(Duration::from_micros(if i.is_multiple_of(8) { 500 } else { 10 }));
         (0..i % 5).map(|j| 1 + 10 * i + j).collect::<Vec<_>>()
     };
     let expected: Vec<_> = (0..50).flat_map(part).collect();
