@@ -1489,10 +1489,10 @@ azulejo_status azulejo_dcr_report_init(struct azulejo_dcr_report *report, size_t
 /// figures.
 ///
 /// With AZULEJO_METHOD_MOMENTUM and Delaunay neighbours the result is, of the set before the first
-/// step and the states after whole steps, the one in which the fewest points have a neighbour closer than 0.85
-/// d_max or a Delaunay triangle with a circumradius above 0.67 d_max. Otherwise it is the set after
-/// the last whole step. A call that its progress callback cancels succeeds with what there is then,
-/// and AZULEJO_STOPPED_CANCELLED in the report.
+/// step and the states after whole steps, the one in which the fewest points have a neighbour
+/// closer than 0.85 d_max or a Delaunay triangle with a circumradius above 0.67 d_max. Otherwise it
+/// is the set after the last whole step. A call that its progress callback cancels succeeds with
+/// what there is then, and AZULEJO_STOPPED_CANCELLED in the report.
 ///
 /// xy: the points, x y each, with domain_min <= x < domain_max; `count` of them.
 ///
@@ -1544,8 +1544,8 @@ azulejo_status azulejo_dcr_scatter(const struct azulejo_context *context,
 /// place to place as the density says, and evenly spaced relative to it (thesis section 4.2.3).
 /// Points whose density is about right, such as those of azulejo_dcr_scatter and
 /// azulejo_psp_adaptive_sample, need no more than the default 100 steps. A set of more than 64
-/// points that is far from it is dealt out before the first step, onto points as azulejo_dcr_scatter
-/// makes them from the seed; those in between may need more steps.
+/// points that is far from it is dealt out before the first step, onto points as
+/// azulejo_dcr_scatter makes them from the seed; those in between may need more steps.
 ///
 /// The unit of length is the local spacing: d_max for the mean density and proportional to 1 /
 /// sqrt(density) elsewhere, but it increases by no more than half of the distance from place to
@@ -1604,9 +1604,9 @@ azulejo_status azulejo_dcr_surface_report_init(struct azulejo_dcr_surface_report
 /// tolerance, after any number of steps. A call that its progress callback cancels succeeds: it
 /// returns the samples after the last whole step, and AZULEJO_STOPPED_CANCELLED in the report.
 ///
-/// More than 64 samples that are heaped on a part of the surface are dealt out over all of it before
-/// the first step, onto random points that are no nearer to each other than the nearest samples
-/// were: each connected part receives samples by its area. Without room for that they stay.
+/// More than 64 samples that are heaped on a part of the surface are dealt out over all of it
+/// before the first step, onto random points that are no nearer to each other than the nearest
+/// samples were: each connected part receives samples by its area. Without room for that they stay.
 ///
 /// triangles, barycentrics: the triangle and the barycentrics u v of each of `count` samples, as
 /// azulejo_points_triangles and azulejo_points_barycentrics return them. Barycentrics outside their

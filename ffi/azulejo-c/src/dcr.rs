@@ -308,10 +308,10 @@ pub(crate) fn reason(stopped: Stopped) -> i32 {
 /// figures.
 ///
 /// With AZULEJO_METHOD_MOMENTUM and Delaunay neighbours the result is, of the set before the first
-/// step and the states after whole steps, the one in which the fewest points have a neighbour closer than 0.85
-/// d_max or a Delaunay triangle with a circumradius above 0.67 d_max. Otherwise it is the set after
-/// the last whole step. A call that its progress callback cancels succeeds with what there is then,
-/// and AZULEJO_STOPPED_CANCELLED in the report.
+/// step and the states after whole steps, the one in which the fewest points have a neighbour
+/// closer than 0.85 d_max or a Delaunay triangle with a circumradius above 0.67 d_max. Otherwise it
+/// is the set after the last whole step. A call that its progress callback cancels succeeds with
+/// what there is then, and AZULEJO_STOPPED_CANCELLED in the report.
 ///
 /// xy: the points, x y each, with domain_min <= x < domain_max; `count` of them.
 ///

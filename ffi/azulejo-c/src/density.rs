@@ -158,8 +158,8 @@ pub unsafe extern "C" fn azulejo_dcr_scatter(
 /// place to place as the density says, and evenly spaced relative to it (thesis section 4.2.3).
 /// Points whose density is about right, such as those of azulejo_dcr_scatter and
 /// azulejo_psp_adaptive_sample, need no more than the default 100 steps. A set of more than 64
-/// points that is far from it is dealt out before the first step, onto points as azulejo_dcr_scatter
-/// makes them from the seed; those in between may need more steps.
+/// points that is far from it is dealt out before the first step, onto points as
+/// azulejo_dcr_scatter makes them from the seed; those in between may need more steps.
 ///
 /// The unit of length is the local spacing: d_max for the mean density and proportional to 1 /
 /// sqrt(density) elsewhere, but it increases by no more than half of the distance from place to

@@ -127,9 +127,9 @@ pub unsafe extern "C" fn azulejo_dcr_surface_report_init(
 /// tolerance, after any number of steps. A call that its progress callback cancels succeeds: it
 /// returns the samples after the last whole step, and AZULEJO_STOPPED_CANCELLED in the report.
 ///
-/// More than 64 samples that are heaped on a part of the surface are dealt out over all of it before
-/// the first step, onto random points that are no nearer to each other than the nearest samples
-/// were: each connected part receives samples by its area. Without room for that they stay.
+/// More than 64 samples that are heaped on a part of the surface are dealt out over all of it
+/// before the first step, onto random points that are no nearer to each other than the nearest
+/// samples were: each connected part receives samples by its area. Without room for that they stay.
 ///
 /// triangles, barycentrics: the triangle and the barycentrics u v of each of `count` samples, as
 /// azulejo_points_triangles and azulejo_points_barycentrics return them. Barycentrics outside their
