@@ -4,6 +4,7 @@
 //! all welcome. What is asked is checked once, here, so that no later stage meets a bad number or index.
 
 mod check;
+mod kept;
 mod load;
 mod normals;
 mod obj;
