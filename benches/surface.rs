@@ -96,9 +96,10 @@ impl Times {
         }
     }
 
-    /// The least of a few attempts: noise only adds.
-    fn least(context: &Context, mesh: &Arc<Mesh>, radius: f64, attempts: usize) -> Self {
-        let attempts = (0..attempts).map(|_| Self::of(context, mesh, radius));
+    /// The least of a few attempts: noise only adds. Each on a new mesh, which has no scene yet.
+    fn least(context: &Context, mesh: &Mesh, radius: f64, attempts: usize) -> Self {
+        let new = || Mesh::new(mesh.positions().to_vec(), mesh.triangles().to_vec()).expect("a good mesh");
+        let attempts = (0..attempts).map(|_| Self::of(context, &Arc::new(new()), radius));
         attempts.min_by(|a, b| a.total().total_cmp(&b.total())).expect("an attempt")
     }
 

@@ -902,8 +902,9 @@ uint32_t azulejo_version(void);
 /// The number also bounds Embree's threads, with two limits of Embree. It has one bound for the
 /// whole process, the largest of its devices, and sets it for all users of TBB: if the program has
 /// a device with more threads, the building of scenes may use as many; if it has one with fewer,
-/// that device may use `num_threads` while a psp handle that has made iterations exists. TBB may
-/// leave idle threads behind, also with 1. AZULEJO_ENGINE_RASTERISER uses neither Embree nor TBB.
+/// that device may use `num_threads` while a mesh exists on which a set has made iterations (or a
+/// handle of such a set). TBB may leave idle threads behind, also with 1. AZULEJO_ENGINE_RASTERISER
+/// uses neither Embree nor TBB.
 ///
 /// Errors: AZULEJO_ERROR_INVALID_ARGUMENT; AZULEJO_ERROR_THREADS if the threads cannot be started.
 azulejo_status azulejo_context_create(uint32_t num_threads, struct azulejo_context **out);
@@ -1187,7 +1188,7 @@ azulejo_status azulejo_mesh_create_from_embree(void *scene,
 /// Memory: 12 bytes per vertex, 12 per triangle. What later calls make of the mesh whatever the
 /// radius and the seed is kept with it, so that the next call does not pay for it again, on any
 /// thread, and is freed with it: for iterations of AZULEJO_ENGINE_EMBREE that is Embree's scene,
-/// 100 to 150 bytes per triangle. A scene keeps an Embree device with as many threads as the
+/// about 100 bytes per triangle. A scene keeps an Embree device with as many threads as the
 /// context that built it has, which is for so long a bound for TBB in this process, unless another
 /// device has more. A mesh with other normals made from this one shares all that; one with another
 /// mask does not.

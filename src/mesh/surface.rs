@@ -20,9 +20,9 @@ use crate::points::SurfaceSamples;
 /// Immutable. A clone shares vertices, triangles, normals and mask.
 ///
 /// What a call makes of a mesh whatever the radius and the seed is kept with it for the next call, on any thread, and
-/// freed with the last clone: for [`Psp::advance`](crate::psp::Psp::advance) by ray packets that is Embree's scene, 100 to
-/// 150 bytes per triangle, with the number of threads of the call that builds it (see [`Scene::new`](crate::trace::Scene::new)).
-/// A mesh with other normals shares it; one with another mask does not.
+/// freed with the last clone: for [`Psp::advance`](crate::psp::Psp::advance) by ray packets that is Embree's scene, about
+/// 100 bytes per triangle, and a device with the threads of the context that builds it (see
+/// [`Scene::new`](crate::trace::Scene::new)). A mesh with other normals shares it; one with another mask does not.
 #[derive(Clone, Debug)]
 pub struct Mesh {
     // Vectors as they come: an `Arc` of a slice would copy them.

@@ -40,7 +40,7 @@ const VECTOR_SIZE: usize = size_of::<[f32; 3]>();
 /// Memory: 12 bytes per vertex, 12 per triangle. What later calls make of the mesh whatever the
 /// radius and the seed is kept with it, so that the next call does not pay for it again, on any
 /// thread, and is freed with it: for iterations of AZULEJO_ENGINE_EMBREE that is Embree's scene,
-/// 100 to 150 bytes per triangle. A scene keeps an Embree device with as many threads as the
+/// about 100 bytes per triangle. A scene keeps an Embree device with as many threads as the
 /// context that built it has, which is for so long a bound for TBB in this process, unless another
 /// device has more. A mesh with other normals made from this one shares all that; one with another
 /// mask does not.
