@@ -17,6 +17,7 @@ mod cubes;
 mod estimate;
 mod fill;
 mod fragment;
+mod lanes;
 mod merge;
 mod options;
 mod patches;
@@ -27,13 +28,11 @@ mod rain;
 mod report;
 mod samples;
 mod sixteenths;
-mod stack;
 mod surroundings;
-mod uniform_cover;
 #[allow(unsafe_code)] // Vector instructions.
 mod vectors;
 
+pub use fill::rounds::TOLERANCE;
 pub use options::{DEFAULT_ITERATIONS, Engine, Options, Priority};
 pub use progressive::{Psp, sample};
-pub use rain::TOLERANCE;
 pub use report::Report;
