@@ -31,7 +31,7 @@ pub struct Psp {
     mesh: Arc<Mesh>,
     options: Options,
     samples: SampleSet,
-    measures: Measures,
+    measures: Arc<Measures>,
     /// Whether iterations are worth their rays.
     projects: bool,
     /// Made by the first iteration.
@@ -51,7 +51,7 @@ impl Psp {
     pub fn new(mesh: &Arc<Mesh>, options: &Options) -> Result<Self> {
         let radius = options.radius;
         check_radius(radius)?;
-        let measures = Measures::of(mesh);
+        let measures = mesh.kept(|| Ok(()), || Ok(Measures::of(mesh)))?;
         let estimate = expected_samples(mesh, &measures, radius);
         if estimate > u32::MAX as f64 {
             let reason = format!("{radius:?} asks for about {estimate:.3e} samples; the limit is {}", u32::MAX);

@@ -39,11 +39,12 @@ const VECTOR_SIZE: usize = size_of::<[f32; 3]>();
 ///
 /// Memory: 12 bytes per vertex, 12 per triangle. What later calls make of the mesh whatever the
 /// radius and the seed is kept with it, so that the next call does not pay for it again, on any
-/// thread, and is freed with it: for iterations of AZULEJO_ENGINE_EMBREE that is Embree's scene,
-/// about 100 bytes per triangle. A scene keeps an Embree device with as many threads as the
-/// context that built it has, which is for so long a bound for TBB in this process, unless another
-/// device has more. A mesh with other normals made from this one shares all that; one with another
-/// mask does not.
+/// thread, and is freed with it: for any set, a summary of areas and edges, an eighth of a byte per
+/// triangle (with a mask, 4 bytes more for each that it keeps); for iterations of
+/// AZULEJO_ENGINE_EMBREE, Embree's scene, about 100 bytes per triangle. A scene keeps an Embree
+/// device with as many threads as the context that built it has, which is for so long a bound for
+/// TBB in this process, unless another device has more. A mesh with other normals made from this
+/// one shares all that; one with another mask does not.
 ///
 /// Errors: AZULEJO_ERROR_INVALID_ARGUMENT for positions that are not finite, indices out of range,
 /// no triangles, and triangles without any area; AZULEJO_ERROR_TOO_LARGE for 2^32 - 1 vertices or
