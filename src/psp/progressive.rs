@@ -193,7 +193,8 @@ impl Stopwatch {
     }
 }
 
-/// Samples a mesh in one call: [`Psp::new`], [`Psp::advance`] and, if `maximal`, [`Psp::fill`].
+/// Samples a mesh in one call: [`Psp::new`], [`Psp::advance`] by [`Options::iterations_by_rule`] and, if `maximal`,
+/// [`Psp::fill`].
 ///
 /// # Errors
 /// Those of the three. Where the call is cancelled nothing is returned.
@@ -207,8 +208,13 @@ pub fn sample(
     let mut psp = Psp::new(mesh, options)?;
     let mut report = Report::default();
     context.run(progress, |job| {
-        let share = if options.maximal { 0.5 } else { 1.0 };
-        psp.iterate(&job.part(0.0, share), options.iterations, &mut report)?;
+        let iterations = options.iterations_by_rule();
+        let share = match (options.maximal, iterations) {
+            (false, _) => 1.0,
+            (true, 0) => 0.0,
+            (true, _) => 0.5,
+        };
+        psp.iterate(&job.part(0.0, share), iterations, &mut report)?;
         if options.maximal {
             psp.complete(&job.part(share, 1.0), &mut report)?;
         }

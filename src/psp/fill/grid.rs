@@ -9,7 +9,6 @@ use crate::psp::fill::page::{GROUP, Group, LANES, Page, Part};
 use crate::psp::fill::space::{Place, Space, key};
 use crate::psp::fill::table::Table;
 use crate::psp::fill::vectors;
-use crate::psp::sixteenths::Cover;
 use crate::simd::Level;
 
 /// Samples by the cells that their balls touch.
@@ -81,21 +80,21 @@ impl Grid {
             centre: (corner + (to_b + to_c) / 3.0).as_vec3().to_array(),
             reach2: reach * reach * 1.0001,
         };
-        let mut cover = Cover::default();
+        let mut covered = 0;
         each_cell(ends, |cell| {
             self.any_page(cell, |page| {
-                vectors::cover(self.level, page, &part, self.space.surely_within, &mut cover);
-                false
+                covered |= vectors::covered_sixteenths(self.level, page, &part, self.space.surely_within);
+                covered == u16::MAX
             });
         });
-        !cover.sixteenths()
+        !covered
     }
 
     /// Which triangles of a group no single sample certainly covers: a bit for each. Their pages are looked up here.
     pub fn open_triangles(&self, group: &mut Group, count: usize) -> u64 {
         let mut keys = [0; GROUP];
         for (lane, of) in keys.iter_mut().enumerate() {
-            *of = key(self.space.cell(group.corner(0, lane)));
+            *of = key(self.space.cell(group.triangles[lane][0]));
         }
         let mut chained = 0;
         for (lane, &key) in keys.iter().enumerate() {
@@ -103,12 +102,12 @@ impl Grid {
             group.pages[lane] = cell.page;
             chained |= u64::from(cell.count as usize > LANES) << lane;
         }
-        let mut open = !vectors::covered(self.level, group, &self.pages, self.space.surely_within);
+        let mut open = !vectors::covered_triangles(self.level, group, &self.pages, self.space.surely_within);
         open &= u64::MAX >> (64 - count);
         let mut rest = open & chained;
         while rest != 0 {
             let lane = rest.trailing_zeros() as usize;
-            if self.covers(group.triangle(lane)) {
+            if self.covers(&group.triangles[lane]) {
                 open &= !(1 << lane);
             }
             rest &= rest - 1;
@@ -117,8 +116,10 @@ impl Grid {
     }
 
     /// Whether one sample certainly covers a triangle.
-    fn covers(&self, corners: [Place; 3]) -> bool {
-        self.any_page(self.space.cell(corners[0]), |page| page.covering(corners, self.space.surely_within) != 0)
+    fn covers(&self, corners: &[Place; 3]) -> bool {
+        self.any_page(self.space.cell(corners[0]), |page| {
+            vectors::covering(self.level, page, corners, self.space.surely_within) != 0
+        })
     }
 
     /// Whether the test holds for a page of a cell.
@@ -201,7 +202,7 @@ mod tests {
             let radius = grid.space.radius() / f64::from(grid.space.scale());
             samples.iter().for_each(|&sample| grid.add(grid.space.place(sample)));
             let (whole, mut group) = (Fragment::whole(0), Group::EMPTY);
-            group.put(0, mesh.corners(0).map(|corner| grid.space.place(corner)));
+            group.triangles[0] = mesh.corners(0).map(|corner| grid.space.place(corner));
             let is_open = grid.open_triangles(&mut group, 1) == 1;
             let shape = whole.shape(&mesh);
             let scaled = shape.corners.map(|corner| grid.space.scaled(corner));

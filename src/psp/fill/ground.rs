@@ -129,7 +129,7 @@ impl Ground for UniformGround<'_> {
         debug_assert!(wholes.len() <= GROUP);
         let mut group = Group::EMPTY;
         for (lane, whole) in wholes.iter().enumerate() {
-            group.put(lane, self.mesh.corners(whole.triangle).map(|corner| self.grid.space.place(corner)));
+            group.triangles[lane] = self.grid.space.places(self.mesh.corners(whole.triangle));
         }
         self.grid.open_triangles(&mut group, wholes.len())
     }

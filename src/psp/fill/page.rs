@@ -21,9 +21,9 @@ pub(in crate::psp) struct Page(pub [[f32; LANES]; 3]);
 /// Triangles that are tested together.
 pub(in crate::psp) const GROUP: usize = 64;
 
-/// The corners of some triangles, corner by corner and axis by axis, and a page for each.
+/// Some triangles, by their corners, and a page for each.
 pub(in crate::psp) struct Group {
-    pub corners: [[[f32; GROUP]; 3]; 3],
+    pub triangles: [[Place; 3]; GROUP],
     pub pages: [u32; GROUP],
 }
 
@@ -62,7 +62,7 @@ impl Page {
     }
 
     /// Which samples are nearer to all three places.
-    pub fn covering(&self, corners: [Place; 3], limit: f32) -> u16 {
+    pub fn covering(&self, corners: &[Place; 3], limit: f32) -> u16 {
         let [a, b, c] = corners.map(|corner| self.squares(corner));
         let mut covering = 0;
         for lane in 0..LANES {
@@ -76,8 +76,9 @@ impl Page {
         std::array::from_fn(|lane| square([0, 1, 2].map(|axis| self.0[axis][lane] - place[axis])))
     }
 
-    /// Adds the sixteenths of a fragment whose three corners are nearer to one sample than the square root of `limit`.
-    pub fn cover(&self, part: &Part, limit: f32, cover: &mut Cover) {
+    /// The sixteenths of a fragment whose three corners are nearer to one sample than the square root of `limit`.
+    pub fn covered(&self, part: &Part, limit: f32) -> u16 {
+        let mut cover = Cover::default();
         let corners: [[f32; 3]; 16] = std::array::from_fn(|i| {
             [0, 1, 2].map(|axis| {
                 part.corner[axis] + (CORNERS[0][i] * part.edges[0][axis] + CORNERS[1][i] * part.edges[1][axis])
@@ -94,41 +95,19 @@ impl Page {
                 cover.add(inside);
             }
         }
+        cover.sixteenths()
     }
 }
 
 impl Group {
-    pub const EMPTY: Self = Self { corners: [[[0.0; GROUP]; 3]; 3], pages: [0; GROUP] };
-
-    /// Puts a triangle into a lane.
-    #[inline(always)]
-    pub fn put(&mut self, lane: usize, corners: [Place; 3]) {
-        for (lanes, corner) in self.corners.iter_mut().zip(corners) {
-            for (lanes, x) in lanes.iter_mut().zip(corner) {
-                lanes[lane] = x;
-            }
-        }
-    }
-
-    /// A corner in a lane. (Spelt out, since `map` on these arrays copies them.)
-    #[inline(always)]
-    pub fn corner(&self, corner: usize, lane: usize) -> Place {
-        let [x, y, z] = &self.corners[corner];
-        [x[lane], y[lane], z[lane]]
-    }
-
-    /// The corners in a lane.
-    #[inline(always)]
-    pub fn triangle(&self, lane: usize) -> [Place; 3] {
-        [self.corner(0, lane), self.corner(1, lane), self.corner(2, lane)]
-    }
+    pub const EMPTY: Self = Self { triangles: [[[0.0; 3]; 3]; GROUP], pages: [0; GROUP] };
 
     /// Which triangles lie, with their three corners, nearer to one sample of their page than the square root of `limit`: a
     /// bit for each.
     pub fn covered(&self, pages: &[Page], limit: f32) -> u64 {
         let mut covered = 0;
         for (lane, &page) in self.pages.iter().enumerate() {
-            let covering = pages[page as usize].covering(self.triangle(lane), limit);
+            let covering = pages[page as usize].covering(&self.triangles[lane], limit);
             covered |= u64::from(covering != 0) << lane;
         }
         covered

@@ -99,7 +99,7 @@ pub(in crate::psp) fn open_triangles(
     for group in groups {
         let range = triangles.group(group);
         for (lane, index) in range.clone().enumerate() {
-            lanes.put(lane, ground.mesh.corners(triangles.at(index)).map(|corner| space.place(corner)));
+            lanes.triangles[lane] = space.places(ground.mesh.corners(triangles.at(index)));
         }
         let mut uncovered = ground.grid.open_triangles(&mut lanes, range.len());
         while uncovered != 0 {

@@ -12,6 +12,11 @@ use crate::mesh::{Mesh, exact};
 /// roundings of lengths up to a few radii, which is 1.6e-6.
 const SLACK: f64 = 1e-5;
 
+/// Sums with it, up to 2^22 more, are integers.
+const ROUNDER: f32 = (1 << 23) as f32;
+/// The bits of the cell's number along an axis.
+const MASK: u32 = (1 << 21) - 1;
+
 /// A place in the unit of a [`Space`].
 pub(in crate::psp) type Place = [f32; 3];
 
@@ -65,6 +70,12 @@ impl Space {
         [position[0] * self.scale, position[1] * self.scale, position[2] * self.scale]
     }
 
+    /// The places of the corners of a triangle. (Spelt out, since `map` on arrays is a call for each.)
+    #[inline(always)]
+    pub fn places(&self, [a, b, c]: [[f32; 3]; 3]) -> [Place; 3] {
+        [self.place(a), self.place(b), self.place(c)]
+    }
+
     /// Any point, in the unit of places.
     #[inline(always)]
     pub fn scaled(&self, point: DVec3) -> DVec3 {
@@ -77,10 +88,12 @@ impl Space {
         exact(a).distance_squared(exact(b)) < self.radius * self.radius
     }
 
-    /// The cell of a place.
+    /// The cell of a place not farther from the mesh than two radii.
+    ///
+    /// Rounded, since a sum with 2^23 has the integer in its last bits: a conversion is slower.
     #[inline(always)]
     pub fn cell(&self, [x, y, z]: Place) -> [u32; 3] {
-        let along = |x: f32, axis: usize| ((x - self.origin[axis]) * self.per_cell) as u32;
+        let along = |x: f32, axis: usize| ((x - self.origin[axis]) * self.per_cell + ROUNDER).to_bits() & MASK;
         [along(x, 0), along(y, 1), along(z, 2)]
     }
 

@@ -57,32 +57,44 @@ pub fn near(page: &Page, place: Place, limit: f32) -> u16 {
     up_to([0, 1].map(|half| squares(offsets(samples(page, half), place))), limit)
 }
 
+/// [`Page::covering`].
+#[target_feature(enable = "avx2")]
+pub fn covering(page: &Page, corners: &[Place; 3], limit: f32) -> u16 {
+    nearer(page, corners, _mm256_set1_ps(limit))
+}
+
+/// Which samples are nearer to all three corners.
+#[inline]
+#[target_feature(enable = "avx2")]
+fn nearer(page: &Page, [a, b, c]: &[Place; 3], limit: __m256) -> u16 {
+    let [low, high] = [0, 1].map(|half| {
+        let samples = samples(page, half);
+        // The farthest corner decides.
+        let farthest = _mm256_max_ps(squares(offsets(samples, *a)), squares(offsets(samples, *b)));
+        let farthest = _mm256_max_ps(farthest, squares(offsets(samples, *c)));
+        _mm256_movemask_ps(_mm256_cmp_ps::<_CMP_LT_OQ>(farthest, limit)) as u16
+    });
+    low | high << HALF
+}
+
 /// [`Group::covered`].
 #[target_feature(enable = "avx2")]
-pub fn covered(group: &Group, pages: &[Page], limit: f32) -> u64 {
-    let limit = _mm256_set1_ps(limit);
-    let mut covered = 0;
+pub fn covered_triangles(group: &Group, pages: &[Page], limit: f32) -> u64 {
+    let (limit, mut covered) = (_mm256_set1_ps(limit), 0);
     for (lane, &page) in group.pages.iter().enumerate() {
-        let (page, [a, b, c]) = (&pages[page as usize], group.triangle(lane));
-        let covering = [0, 1].map(|half| {
-            let samples = samples(page, half);
-            // The farthest corner decides.
-            let farthest = _mm256_max_ps(squares(offsets(samples, a)), squares(offsets(samples, b)));
-            _mm256_cmp_ps::<_CMP_LT_OQ>(_mm256_max_ps(farthest, squares(offsets(samples, c))), limit)
-        });
-        let covering = _mm256_movemask_ps(_mm256_or_ps(covering[0], covering[1]));
-        covered |= u64::from(covering != 0) << lane;
+        let nearer = nearer(&pages[page as usize], &group.triangles[lane], limit);
+        covered |= u64::from(nearer != 0) << lane;
     }
     covered
 }
 
-/// [`Page::cover`].
+/// [`Page::covered`].
 #[target_feature(enable = "avx2,bmi1")]
-pub fn cover(page: &Page, part: &Part, limit: f32, cover: &mut Cover) {
+pub fn covered_sixteenths(page: &Page, part: &Part, limit: f32) -> u16 {
     let samples = [0, 1].map(|half| offsets(samples(page, half), part.origin));
     let mut reaching = up_to(samples.map(|samples| squares(offsets(samples, part.centre))), part.reach2);
     if reaching == 0 {
-        return;
+        return 0;
     }
     let mut places = [[0.0; LANES]; 3];
     for (half, samples) in samples.into_iter().enumerate() {
@@ -100,7 +112,7 @@ pub fn cover(page: &Page, part: &Part, limit: f32, cover: &mut Cover) {
             _mm256_add_ps(_mm256_set1_ps(part.corner[axis]), _mm256_add_ps(e, f))
         })
     });
-    let limit = _mm256_set1_ps(limit);
+    let (limit, mut cover) = (_mm256_set1_ps(limit), Cover::default());
     while reaching != 0 {
         let lane = reaching.trailing_zeros() as usize;
         let sample = [places[0][lane], places[1][lane], places[2][lane]];
@@ -110,4 +122,5 @@ pub fn cover(page: &Page, part: &Part, limit: f32, cover: &mut Cover) {
         cover.add(low | high << HALF);
         reaching &= reaching - 1;
     }
+    cover.sixteenths()
 }

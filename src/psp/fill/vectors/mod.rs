@@ -2,7 +2,6 @@
 
 use crate::psp::fill::page::{Group, Page, Part};
 use crate::psp::fill::space::Place;
-use crate::psp::sixteenths::Cover;
 use crate::simd::Level;
 
 #[cfg(target_arch = "x86_64")]
@@ -24,31 +23,45 @@ pub(super) fn near(level: Level, page: &Page, place: Place, limit: f32) -> u16 {
     }
 }
 
-/// [`Page::cover`].
+/// [`Page::covering`].
 #[inline]
-pub(super) fn cover(level: Level, page: &Page, part: &Part, limit: f32, cover: &mut Cover) {
+pub(super) fn covering(level: Level, page: &Page, corners: &[Place; 3], limit: f32) -> u16 {
     match level {
-        Level::Portable => page.cover(part, limit, cover),
+        Level::Portable => page.covering(corners, limit),
         // SAFETY: the token is proof that the processor has the instructions.
         #[cfg(target_arch = "x86_64")]
-        Level::Avx2(_) => unsafe { avx2::cover(page, part, limit, cover) },
+        Level::Avx2(_) => unsafe { avx2::covering(page, corners, limit) },
         // SAFETY: the same.
         #[cfg(target_arch = "x86_64")]
-        Level::Avx512(_) => unsafe { avx512::cover(page, part, limit, cover) },
+        Level::Avx512(_) => unsafe { avx512::covering(page, corners, limit) },
+    }
+}
+
+/// [`Page::covered`].
+#[inline]
+pub(super) fn covered_sixteenths(level: Level, page: &Page, part: &Part, limit: f32) -> u16 {
+    match level {
+        Level::Portable => page.covered(part, limit),
+        // SAFETY: the token is proof that the processor has the instructions.
+        #[cfg(target_arch = "x86_64")]
+        Level::Avx2(_) => unsafe { avx2::covered_sixteenths(page, part, limit) },
+        // SAFETY: the same.
+        #[cfg(target_arch = "x86_64")]
+        Level::Avx512(_) => unsafe { avx512::covered_sixteenths(page, part, limit) },
     }
 }
 
 /// [`Group::covered`].
 #[inline]
-pub(super) fn covered(level: Level, group: &Group, pages: &[Page], limit: f32) -> u64 {
+pub(super) fn covered_triangles(level: Level, group: &Group, pages: &[Page], limit: f32) -> u64 {
     match level {
         Level::Portable => group.covered(pages, limit),
         // SAFETY: the token is proof that the processor has the instructions.
         #[cfg(target_arch = "x86_64")]
-        Level::Avx2(_) => unsafe { avx2::covered(group, pages, limit) },
+        Level::Avx2(_) => unsafe { avx2::covered_triangles(group, pages, limit) },
         // SAFETY: the same.
         #[cfg(target_arch = "x86_64")]
-        Level::Avx512(_) => unsafe { avx512::covered(group, pages, limit) },
+        Level::Avx512(_) => unsafe { avx512::covered_triangles(group, pages, limit) },
     }
 }
 
@@ -71,7 +84,7 @@ mod tests {
             for lane in 0..60 {
                 let (at, size) = ([(); 3].map(|()| coordinate(1.0)), [0.5, 0.1, 1e-4][lane % 3]);
                 let corners = [(); 3].map(|()| std::array::from_fn(|axis| at[axis] + coordinate(size)));
-                group.put(lane, corners);
+                group.triangles[lane] = corners;
                 group.pages[lane] = lane as u32 % 4;
             }
             let mut vector = |size: f64| [(); 3].map(|()| coordinate(size));
@@ -85,15 +98,16 @@ mod tests {
                 reach2: 2.0,
             };
             let all = |level: Level| {
-                let mut parts = Cover::default();
-                pages.iter().for_each(|page| cover(level, page, &part, 1.0, &mut parts));
-                (near(level, &pages[1], place, 1.0), covered(level, &group, &pages, 1.0), parts.sixteenths())
+                let parts = [1, 2, 3].map(|page| covered_sixteenths(level, &pages[page], &part, 1.0));
+                let corners = [0, 1, 2].map(|page| covering(level, &pages[page], &group.triangles[page], 1.0));
+                let triangles = covered_triangles(level, &group, &pages, 1.0);
+                (near(level, &pages[1], place, 1.0), corners, triangles, parts)
             };
             let expected = all(Level::Portable);
             assert!(Level::available().into_iter().all(|level| all(level) == expected));
             counts[0] += expected.0.count_ones();
-            counts[1] += expected.1.count_ones();
-            counts[2] += expected.2.count_ones();
+            counts[1] += expected.2.count_ones();
+            counts[2] += expected.3.map(u16::count_ones).iter().sum::<u32>();
         }
         assert!(counts.into_iter().all(|count| count > 1000), "{counts:?}");
     }
