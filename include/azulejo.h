@@ -907,8 +907,9 @@ uint32_t azulejo_version(void);
 /// The number also bounds Embree's threads, with two limits of Embree. It has one bound for the
 /// whole process, the largest of its devices, and sets it for all users of TBB: if the program has
 /// a device with more threads, the building of scenes may use as many; if it has one with fewer,
-/// that device may use `num_threads` while a psp handle that has made iterations exists. TBB may
-/// leave idle threads behind, also with 1. AZULEJO_ENGINE_RASTERISER uses neither Embree nor TBB.
+/// that device may use `num_threads` while a mesh exists on which a set has made iterations (or a
+/// handle of such a set). TBB may leave idle threads behind, also with 1. AZULEJO_ENGINE_RASTERISER
+/// uses neither Embree nor TBB.
 ///
 /// Errors: AZULEJO_ERROR_INVALID_ARGUMENT; AZULEJO_ERROR_THREADS if the threads cannot be started.
 azulejo_status azulejo_context_create(uint32_t num_threads, struct azulejo_context **out);
@@ -1231,6 +1232,15 @@ azulejo_status azulejo_mesh_create_from_embree(void *scene,
 ///
 /// O(vertices + triangles).
 ///
+/// Memory: 12 bytes per vertex, 12 per triangle. What later calls make of the mesh whatever the
+/// radius and the seed is kept with it, so that the next call does not pay for it again, on any
+/// thread, and is freed with it: for any set, a summary of areas and edges, an eighth of a byte per
+/// triangle (with a mask, 4 bytes more for each that it keeps); for iterations of
+/// AZULEJO_ENGINE_EMBREE, Embree's scene, about 100 bytes per triangle. A scene keeps an Embree
+/// device with as many threads as the context that built it has, which is for so long a bound for
+/// TBB in this process, unless another device has more. A mesh with other normals made from this
+/// one shares all that; one with another mask does not.
+///
 /// Errors: AZULEJO_ERROR_INVALID_ARGUMENT for positions that are not finite, indices out of range,
 /// no triangles, and triangles without any area; AZULEJO_ERROR_TOO_LARGE for 2^32 - 1 vertices or
 /// triangles or more, and for sizes that overflow; AZULEJO_ERROR_OUT_OF_MEMORY.
@@ -1255,7 +1265,8 @@ azulejo_status azulejo_mesh_create(const float *positions,
 ///
 /// out: the mesh, to be freed with azulejo_mesh_free.
 ///
-/// O(size of the file), on the calling thread.
+/// O(size of the file), on the calling thread. The file is read block by block and is never in
+/// memory as a whole; only an OBJ file with lines that go on in the next one, or with an error, is.
 ///
 /// Errors: AZULEJO_ERROR_INVALID_ARGUMENT; AZULEJO_ERROR_IO if the file cannot be read;
 /// AZULEJO_ERROR_FORMAT if it is invalid, or has a mesh that azulejo_mesh_create would refuse.

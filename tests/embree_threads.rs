@@ -97,11 +97,12 @@ fn builds_keep_to_their_threads_and_can_be_watched() {
     drop(host);
     assert_eq!(threads_of(|| drop(build(&soup, 1))), 1, "after the host");
 
-    watched(&Arc::new(Mesh::new(soup.0, soup.1).unwrap()));
+    watched(soup);
 }
 
-/// The scene is the first half of what an iteration begins with.
-fn watched(mesh: &Arc<Mesh>) {
+/// The scene is the first half of what an iteration begins with. It is kept with the mesh.
+fn watched((positions, triangles): Soup) {
+    let mesh = || Arc::new(Mesh::new(positions.clone(), triangles.clone()).unwrap());
     let context = Context::new(1).unwrap();
     let options = Options::new(0.05);
     let told = Cell::new(0);
@@ -109,18 +110,25 @@ fn watched(mesh: &Arc<Mesh>) {
         told.set(told.get() + usize::from(share > 0.0 && share < 0.1));
         ControlFlow::Continue(())
     };
-    Psp::new(mesh, &options).unwrap().advance(&context, 1, Some(&watch)).unwrap();
+    let built = mesh();
+    Psp::new(&built, &options).unwrap().advance(&context, 1, Some(&watch)).unwrap();
     assert!(told.get() > 10, "told {} times", told.get());
+    told.set(0);
+    Psp::new(&built, &options).unwrap().advance(&context, 1, Some(&watch)).unwrap();
+    assert_eq!(told.get(), 0, "the second set on a mesh builds no scene");
 
     let last = Cell::new(0.0);
     let stop = |share: f64| {
         last.set(share);
         if share > 0.0 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     };
-    let mut psp = Psp::new(mesh, &options).unwrap();
+    let other = mesh();
+    let mut psp = Psp::new(&other, &options).unwrap();
     assert!(matches!(psp.advance(&context, 1, Some(&stop)), Err(Error::Cancelled)));
     assert!(last.get() < 0.1, "the build went on to {}", last.get());
     assert!(psp.is_empty());
-    psp.advance(&context, 1, None).unwrap();
-    assert!(!psp.is_empty());
+    // The next call builds it, all of it.
+    told.set(0);
+    psp.advance(&context, 1, Some(&watch)).unwrap();
+    assert!(told.get() > 10 && !psp.is_empty(), "told {} times", told.get());
 }

@@ -287,7 +287,7 @@ fn a_cancelled_call_leaves_a_valid_set_that_can_be_used_on() {
             let stop = |share: f64| if share >= limit { ControlFlow::Break(()) } else { ControlFlow::Continue(()) };
             assert!(matches!(psp::sample(&context, &mesh, &options, Some(&stop)), Err(Error::Cancelled)));
             let mut psp = Psp::new(&mesh, &options).unwrap();
-            assert!(matches!(psp.advance(&context, options.iterations, Some(&stop)), Err(Error::Cancelled)));
+            assert!(matches!(psp.advance(&context, 1, Some(&stop)), Err(Error::Cancelled)));
             check(&mesh, &psp.samples(), options.radius, false);
             assert_eq!(psp.samples().positions[..], expected.positions[..psp.len()]);
             assert!(matches!(psp.fill(&context, Some(&stop)), Err(Error::Cancelled)));

@@ -21,6 +21,11 @@ pub(super) fn check_indices(
     triangles: &[[u32; 3]],
     count: usize,
 ) -> Result<()> {
+    // The largest of all, first: that is a vector loop.
+    let largest = triangles.as_flattened().iter().copied().max();
+    if largest.is_none_or(|index| (index as usize) < count) {
+        return Ok(());
+    }
     for (number, triangle) in triangles.iter().enumerate() {
         if let Some(index) = triangle.iter().find(|&&index| index as usize >= count) {
             let reason = format!("triangle {number} names {item} {index}, but there are {count} {items}");

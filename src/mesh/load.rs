@@ -1,9 +1,12 @@
 //! Meshes from files.
 
+use std::fs::File;
+use std::io::Cursor;
 use std::path::Path;
 
 use crate::error::{Error, Result};
 use crate::mesh::soup::Soup;
+use crate::mesh::source::{Input, Source};
 use crate::mesh::surface::Mesh;
 use crate::mesh::{obj, ply, stl};
 
@@ -14,6 +17,9 @@ impl Mesh {
     /// are read; where a file has some, a corner without, or with one that is not finite, has the normal zero. Points,
     /// lines, materials, texture coordinates, colours and groups are ignored, as are the normals of STL facets, and STL
     /// vertices are not merged. Memory stays proportional to the size of the file, whatever its header claims.
+    ///
+    /// A file is read block by block, in one pass, and never in memory as a whole: O(size). The exception is an OBJ file
+    /// with what few have, such as lines that go on in the next one, or with an error; that takes longer as well.
     ///
     /// # Errors
     /// [`Error::Io`] where the file cannot be read (or is not a regular file), [`Error::Format`] where it is broken or
@@ -26,7 +32,9 @@ impl Mesh {
             let what = if kind.is_dir() { "is a directory" } else { "is not a regular file" };
             return Err(io_error(std::io::Error::other(what)));
         }
-        Self::parse(path, &std::fs::read(path).map_err(io_error)?)
+        let mut file = File::open(path).map_err(io_error)?;
+        let length = file.metadata().map_err(io_error)?.len();
+        read(path, &mut file, length)
     }
 
     /// [`Mesh::load`] for the contents of a file that are in memory, such as those of a pipe or an archive. The extension
@@ -35,19 +43,26 @@ impl Mesh {
     /// # Errors
     /// [`Error::Format`] where the contents are broken or not what [`Mesh::new`] takes.
     pub fn parse(path: impl AsRef<Path>, bytes: &[u8]) -> Result<Self> {
-        let path = path.as_ref();
-        let extension = path.extension().map(|extension| extension.to_string_lossy().to_lowercase());
-        let soup = match extension.as_deref() {
-            Some("obj") => obj::parse(bytes),
-            Some("ply") => ply::parse(bytes),
-            Some("stl") => stl::parse(bytes),
-            _ if bytes.starts_with(b"ply") => ply::parse(bytes),
-            _ if stl::is_likely(bytes) => stl::parse(bytes),
-            _ => obj::parse(bytes),
-        };
-        let format_error = |reason| Error::Format { path: path.to_owned(), reason };
-        soup.map_err(format_error).and_then(|soup| checked(soup).map_err(|error| format_error(error.to_string())))
+        read(path.as_ref(), &mut Cursor::new(bytes), bytes.len() as u64)
     }
+}
+
+fn read(path: &Path, input: &mut dyn Input, length: u64) -> Result<Mesh> {
+    let extension = path.extension().map(|extension| extension.to_string_lossy().to_lowercase());
+    let mut source = Source::new(input, length);
+    let soup = match extension.as_deref() {
+        Some("obj") => obj::parse(&mut source),
+        Some("ply") => ply::parse(&mut source),
+        Some("stl") => stl::parse(&mut source),
+        _ if ply::is_likely(&mut source) => ply::parse(&mut source),
+        _ if stl::is_likely(&mut source) => stl::parse(&mut source),
+        _ => obj::parse(&mut source),
+    };
+    if let Some(source) = source.failure() {
+        return Err(Error::Io { path: path.to_owned(), source });
+    }
+    let format_error = |reason| Error::Format { path: path.to_owned(), reason };
+    soup.map_err(format_error).and_then(|soup| checked(soup).map_err(|error| format_error(error.to_string())))
 }
 
 /// Checks what a file holds. A normal that is not finite is none.

@@ -4,12 +4,15 @@
 //! all welcome. What is asked is checked once, here, so that no later stage meets a bad number or index.
 
 mod check;
+mod decimal;
+mod kept;
 mod load;
 mod normals;
 mod obj;
 pub mod ply;
 mod rounding;
 mod soup;
+mod source;
 mod stl;
 mod surface;
 mod text;

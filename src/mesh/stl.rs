@@ -7,7 +7,8 @@
 //! solids only, and refuses text whose normals are "nan".
 
 use crate::mesh::soup::Soup;
-use crate::mesh::text::{lines, vector, words};
+use crate::mesh::source::Source;
+use crate::mesh::text::{next_vector, shown, skip_blanks, split_line, split_word};
 
 /// A header that may say anything, and the number of facets.
 const HEADER: usize = 80;
@@ -16,55 +17,82 @@ const PREAMBLE: usize = HEADER + 4;
 const FACET: usize = 12 + 36 + 2;
 
 /// Whether a file without a name looks like STL.
-pub(super) fn is_likely(bytes: &[u8]) -> bool {
-    begins_as_text(bytes) || facet_count(bytes).is_some_and(|count| bytes.len() == PREAMBLE + FACET * count)
+pub(super) fn is_likely(source: &mut Source) -> bool {
+    let size = source.length();
+    let start = source.at_least(PREAMBLE);
+    begins_as_text(start) || facet_count(start).is_some_and(|count| has_size(size, count))
 }
 
 /// Vertices and triangles, or what is wrong with the file.
-pub(super) fn parse(bytes: &[u8]) -> Result<Soup, String> {
-    let count = facet_count(bytes);
+pub(super) fn parse(source: &mut Source) -> Result<Soup, String> {
+    let size = source.length();
+    let start = source.at_least(PREAMBLE);
     // Headers of binary files, too, may begin with "solid"; the size decides.
-    let has_exact_size = count.is_some_and(|count| bytes.len() == PREAMBLE + FACET * count);
-    let positions = match count {
-        Some(count) if has_exact_size || !begins_as_text(bytes) => binary(&bytes[PREAMBLE..], count)?,
-        _ => text(bytes)?,
+    let positions = match facet_count(start) {
+        Some(count) if has_size(size, count) || !begins_as_text(start) => binary(source, count)?,
+        _ => text(source)?,
     };
     let triangles = (0..positions.len() as u32 / 3).map(|facet| [3 * facet, 3 * facet + 1, 3 * facet + 2]);
     Ok(Soup { triangles: triangles.collect(), positions, ..Default::default() })
 }
 
-fn begins_as_text(bytes: &[u8]) -> bool {
-    bytes.trim_ascii_start().get(..5).is_some_and(|word| word.eq_ignore_ascii_case(b"solid"))
+fn begins_as_text(start: &[u8]) -> bool {
+    start.trim_ascii_start().get(..5).is_some_and(|word| word.eq_ignore_ascii_case(b"solid"))
 }
 
 /// How many facets a binary file announces.
-fn facet_count(bytes: &[u8]) -> Option<usize> {
-    let (count, _) = bytes.get(HEADER..)?.split_first_chunk()?;
-    Some(u32::from_le_bytes(*count) as usize)
+fn facet_count(start: &[u8]) -> Option<u32> {
+    let (count, _) = start.get(HEADER..)?.split_first_chunk()?;
+    Some(u32::from_le_bytes(*count))
+}
+
+/// Whether a file of this size is a binary one with so many facets.
+fn has_size(size: u64, count: u32) -> bool {
+    size == PREAMBLE as u64 + FACET as u64 * u64::from(count)
 }
 
 /// The vertices of all facets.
-fn binary(facets: &[u8], count: usize) -> Result<Vec<[f32; 3]>, String> {
-    if facets.len() / FACET < count {
-        return Err(format!("the header announces {count} facets, but only {} bytes follow", facets.len()));
+fn binary(source: &mut Source, count: u32) -> Result<Vec<[f32; 3]>, String> {
+    source.skip(PREAMBLE);
+    let remaining = source.remaining();
+    let too_few = || format!("the header announces {count} facets, but only {remaining} bytes follow");
+    if remaining / (FACET as u64) < u64::from(count) {
+        return Err(too_few());
     }
     let float = |bytes: &[u8]| f32::from_le_bytes([bytes[0], bytes[1], bytes[2], bytes[3]]);
     let vertex = |bytes: &[u8]| [float(bytes), float(&bytes[4..]), float(&bytes[8..])];
-    let facets = facets.chunks_exact(FACET).take(count);
-    Ok(facets.flat_map(|facet| facet[12..48].chunks_exact(12).map(vertex)).collect())
+    let mut positions = Vec::with_capacity(3 * count as usize);
+    for _ in 0..count {
+        let facet = source.at_least(FACET).get(12..48).ok_or_else(too_few)?;
+        positions.extend(facet.chunks_exact(12).map(vertex));
+        source.skip(FACET);
+    }
+    Ok(positions)
 }
 
 /// The vertices of all facets of all solids.
-fn text(bytes: &[u8]) -> Result<Vec<[f32; 3]>, String> {
-    let mut positions = Vec::new();
-    for (line, content) in lines(bytes) {
-        let mut words = words(content);
-        let Some(keyword) = words.next() else { continue };
-        if keyword.eq_ignore_ascii_case(b"vertex") {
-            positions.push(vector(words).map_err(|problem| format!("line {line}: {problem}"))?);
-        } else if keyword.eq_ignore_ascii_case(b"endloop") && !positions.len().is_multiple_of(3) {
-            return Err(format!("line {line}: the facet ends, but does not have three vertices"));
+fn text(source: &mut Source) -> Result<Vec<[f32; 3]>, String> {
+    let (mut positions, mut number) = (Vec::new(), 0);
+    while let Some(lines) = source.whole_lines() {
+        let (count, mut rest) = (lines.len(), lines);
+        while !rest.is_empty() {
+            let line;
+            (line, rest) = split_line(rest);
+            number += 1;
+            let (keyword, content) = split_word(skip_blanks(line));
+            if keyword.eq_ignore_ascii_case(b"vertex") {
+                let (position, _) = next_vector(content).map_err(|word| format!("line {number}: {}", problem(word)))?;
+                positions.push(position);
+            } else if keyword.eq_ignore_ascii_case(b"endloop") && !positions.len().is_multiple_of(3) {
+                return Err(format!("line {number}: the facet ends, but does not have three vertices"));
+            }
         }
+        source.skip(count);
     }
     if positions.len().is_multiple_of(3) { Ok(positions) } else { Err("ends within a facet".to_owned()) }
+}
+
+/// What is wrong with a word that should be a coordinate.
+fn problem(word: &[u8]) -> String {
+    if word.is_empty() { "fewer than three numbers".to_owned() } else { format!("{} is not a number", shown(word)) }
 }

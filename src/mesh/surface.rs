@@ -1,11 +1,13 @@
 //! A checked triangle soup, and the points on it.
 
+use std::any::Any;
 use std::sync::Arc;
 
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 
 use crate::error::{Error, Result};
 use crate::mesh::check::{check_finite, check_indices};
+use crate::mesh::kept::Kept;
 use crate::mesh::normals::Normals;
 use crate::mesh::rounding::{exact, next_below};
 use crate::points::SurfaceSamples;
@@ -16,15 +18,24 @@ use crate::points::SurfaceSamples;
 /// carry no samples and need no cover. The same goes for triangles that a mask leaves out ([`Mesh::with_mask`]).
 ///
 /// Immutable. A clone shares vertices, triangles, normals and mask.
+///
+/// What a call makes of a mesh whatever the radius and the seed is kept with it for the next call, on any thread, and
+/// freed with the last clone. For any set of samples that is a summary of areas and edges, an eighth of a byte per
+/// triangle (with a mask, 4 bytes more for each that it keeps). For [`Psp::advance`](crate::psp::Psp::advance) by ray
+/// packets it is Embree's scene, about 100 bytes per triangle, and a device with the threads of the context that builds it
+/// (see [`Scene::new`](crate::trace::Scene::new)). A mesh with other normals shares it; one with another mask does not.
 #[derive(Clone, Debug)]
 pub struct Mesh {
-    positions: Arc<[[f32; 3]]>,
-    triangles: Arc<[[u32; 3]]>,
+    // Vectors as they come: an `Arc` of a slice would copy them.
+    positions: Arc<Vec<[f32; 3]>>,
+    triangles: Arc<Vec<[u32; 3]>>,
     normals: Option<Arc<Normals>>,
     /// Which triangles count; all of them without a mask.
-    mask: Option<Arc<[bool]>>,
+    mask: Option<Arc<Vec<bool>>>,
     area: f64,
     bounds: ([f32; 3], [f32; 3]),
+    /// What depends on triangles and mask.
+    kept: Arc<Kept>,
 }
 
 impl Mesh {
@@ -45,8 +56,9 @@ impl Mesh {
         if triangles.is_empty() {
             return Err(Error::invalid("indices", "0 triangles; at least one is needed"));
         }
-        let (positions, triangles) = (positions.into(), triangles.into());
-        let mesh = Self { positions, triangles, normals: None, mask: None, area: 0.0, bounds: Default::default() };
+        let (positions, triangles) = (Arc::new(positions), Arc::new(triangles));
+        let (area, bounds, kept) = Default::default();
+        let mesh = Self { positions, triangles, normals: None, mask: None, area, bounds, kept };
         let mesh = mesh.measured();
         if mesh.area <= 0.0 {
             return Err(Error::invalid("indices", "the triangles have no area"));
@@ -83,25 +95,31 @@ impl Mesh {
             let reason = format!("{} entries, but there are {} triangles", mask.len(), self.triangles.len());
             return Err(Error::invalid("mask", reason));
         }
-        self.mask = Some(mask.into());
+        self.mask = Some(Arc::new(mask));
+        self.kept = Arc::default();
         Ok(self.measured())
     }
 
     /// The mesh with its area and bounds.
     fn measured(mut self) -> Self {
-        let all = 0..self.triangles.len() as u32;
-        self.area = all.clone().map(|triangle| self.triangle_area(triangle)).sum();
-        // A box that is not a point has to be there even where nothing is to be sampled.
-        let counts = |triangle: &u32| self.area == 0.0 || self.is_sampled(*triangle);
-        let mut bounds = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
-        for corner in all.filter(counts).flat_map(|triangle| self.corners(triangle)) {
-            for (axis, x) in corner.into_iter().enumerate() {
-                bounds.0[axis] = bounds.0[axis].min(x);
-                bounds.1[axis] = bounds.1[axis].max(x);
-            }
+        (self.area, self.bounds) = self.measure(self.sampled_triangles());
+        if self.area == 0.0 {
+            // A box that is not a point has to be there even where nothing is to be sampled.
+            self.bounds = self.measure(0..self.triangles.len() as u32).1;
         }
-        self.bounds = bounds;
         self
+    }
+
+    /// The area of triangles, and the corners of the box around them.
+    fn measure(&self, triangles: impl Iterator<Item = u32>) -> (f64, ([f32; 3], [f32; 3])) {
+        let (mut area, mut low, mut high) = (0.0, Vec3::INFINITY, Vec3::NEG_INFINITY);
+        for triangle in triangles {
+            area += self.cross(triangle).length() / 2.0;
+            let [a, b, c] = self.corners(triangle).map(Vec3::from_array);
+            low = low.min(a).min(b.min(c));
+            high = high.max(a).max(b.max(c));
+        }
+        (area, (low.to_array(), high.to_array()))
     }
 
     /// The vertices.
@@ -129,6 +147,7 @@ impl Mesh {
     ///
     /// # Panics
     /// Like the other queries of a triangle, where there is no triangle of this number.
+    #[inline]
     pub fn corners(&self, triangle: u32) -> [[f32; 3]; 3] {
         let [a, b, c] = self.triangles[triangle as usize];
         [self.positions[a as usize], self.positions[b as usize], self.positions[c as usize]]
@@ -137,6 +156,11 @@ impl Mesh {
     /// Whether a triangle is to be sampled: whether there is no mask, or it does not leave the triangle out.
     pub fn is_sampled(&self, triangle: u32) -> bool {
         self.mask.as_ref().is_none_or(|mask| mask[triangle as usize])
+    }
+
+    /// Whether there is a mask.
+    pub(crate) fn is_masked(&self) -> bool {
+        self.mask.is_some()
     }
 
     /// The numbers of the triangles that are to be sampled, in order.
@@ -195,6 +219,20 @@ impl Mesh {
         (1.0 - u - v) * a + u * b + v * c
     }
 
+    /// What `make` makes of the triangles that are to be sampled, and of nothing else: made by the first call for its type,
+    /// kept for the next ones, shared with clones. A call that has to wait for another thread, which is making it, asks
+    /// `wait` now and then whether to go on.
+    ///
+    /// # Errors
+    /// Those of `make`, after which nothing is kept, and of `wait`.
+    pub(crate) fn kept<T: Any + Send + Sync>(
+        &self,
+        wait: impl FnMut() -> Result<()>,
+        make: impl FnOnce() -> Result<T>,
+    ) -> Result<Arc<T>> {
+        self.kept.get(wait, make)
+    }
+
     /// The largest absolute coordinate of the triangles.
     pub(crate) fn largest_coordinate(&self) -> f32 {
         let (min, max) = self.bounds;
@@ -208,6 +246,7 @@ impl Mesh {
     }
 
     /// The cross product of two edges: twice the area, along the normal.
+    #[inline]
     fn cross(&self, triangle: u32) -> DVec3 {
         let [a, b, c] = self.exact_corners(triangle);
         (b - a).cross(c - a)

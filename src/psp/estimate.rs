@@ -2,6 +2,7 @@
 
 use crate::mesh::{Mesh, exact};
 use crate::points::MAXIMAL_DENSITY;
+use crate::psp::fill::triangles::Measures;
 
 /// Samples of a maximal set on an area of radius²: [`MAXIMAL_DENSITY`], rounded up.
 const DENSITY: f64 = 0.7;
@@ -17,18 +18,12 @@ const RAYS_ALWAYS: f64 = 1e7;
 /// How many samples a maximal set has on a part of the surface, rather too many: those of the area, and those along what is
 /// longer than the radius, since a needle has length and hardly any area.
 pub(super) fn expected_samples_of(radius: f64, area: f64, longest: f64) -> f64 {
-    DENSITY * area / (radius * radius) + samples_along(radius, longest)
-}
-
-fn samples_along(radius: f64, longest: f64) -> f64 {
-    if longest > radius { longest / radius } else { 0.0 }
+    DENSITY * area / (radius * radius) + if longest > radius { longest / radius } else { 0.0 }
 }
 
 /// How many samples a maximal set has, rather too many.
-pub(super) fn expected_samples(mesh: &Mesh, radius: f64) -> f64 {
-    let lengths: f64 =
-        mesh.sampled_triangles().map(|triangle| samples_along(radius, longest_edge(mesh, triangle))).sum();
-    DENSITY * mesh.area() / (radius * radius) + lengths
+pub(super) fn expected_samples(mesh: &Mesh, measures: &Measures, radius: f64) -> f64 {
+    DENSITY * mesh.area() / (radius * radius) + measures.longer_than(radius) / radius
 }
 
 /// The length of the longest edge of a triangle.

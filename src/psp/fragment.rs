@@ -6,7 +6,7 @@ use crate::mesh::Mesh;
 use crate::psp::sixteenths::SIXTEENTHS;
 
 /// A part of a triangle.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Fragment {
     pub triangle: u32,
     /// Barycentrics `(u, v)` of the corners.
@@ -48,6 +48,16 @@ impl Fragment {
         let at = |[u, v]: [f64; 2]| (1.0 - u - v) * a + u * b + v * c;
         let [p, q, r] = self.corners;
         Shape::of([at(p), at(q), at(r)])
+    }
+
+    /// The parts of its own shape that lines in parallel to its edges cut it into, `count` along each edge.
+    pub fn parts(&self, count: u32) -> impl Iterator<Item = Self> {
+        let at = move |x: u32, y: u32| self.at([x, y].map(|x| f64::from(x) / f64::from(count)));
+        (0..count).flat_map(move |y| (0..count - y).map(move |x| (x, y))).flat_map(move |(x, y)| {
+            let standing = Self { corners: [at(x, y), at(x + 1, y), at(x, y + 1)], ..*self };
+            let turned = || Self { corners: [at(x + 1, y + 1), at(x, y + 1), at(x + 1, y)], ..*self };
+            [Some(standing), (x + y + 1 < count).then(turned)].into_iter().flatten()
+        })
     }
 
     /// The two halves on either side of the line from the corner `apex` to the middle of the edge opposite.

@@ -25,7 +25,9 @@ pub(super) struct Candidate {
 /// A failed or cancelled job adds nothing.
 pub(super) fn merge(job: &Job, samples: &mut SampleSet, candidates: &Buckets<Cube, Candidate>) -> Result<u64> {
     let before = samples.len();
-    let merged = samples.grow(job, candidates, |_, surroundings, candidates| {
+    let cubes: Vec<Cube> = (0..candidates.len()).map(|bucket| candidates.key(bucket)).collect();
+    let merged = samples.grow(job, &cubes, |bucket, samples| {
+        let (mut surroundings, candidates) = (samples.surroundings(cubes[bucket]), candidates.items(bucket));
         let candidates: Vec<_> = candidates.collect();
         let mut order: Vec<u64> = (0..).zip(&candidates).map(|(i, c)| u64::from(c.rank) << 32 | i).collect();
         order.sort_unstable();

@@ -2,7 +2,8 @@
 //!
 //! A planar Poisson-disk pattern is projected along three orthogonal directions through the mesh; all hits on all rays
 //! are candidates; those that conflict with nothing of higher priority become samples. More iterations from other
-//! directions only add. [`Psp::fill`] then finds what is still uncovered and closes it, which makes the set maximal.
+//! directions only add. [`Psp::fill`] then finds what is still uncovered and closes it, which makes the set maximal. It can
+//! do so from nothing: that is how [`sample`] makes a set unless it is asked for iterations.
 //!
 //! * *Conflict-free*: no two samples are closer than the radius, in `f64` from the returned floats, in straight lines
 //!   through space (not along the surface).
@@ -17,6 +18,7 @@ mod cubes;
 mod estimate;
 mod fill;
 mod fragment;
+mod lanes;
 mod merge;
 mod options;
 mod patches;
@@ -27,13 +29,11 @@ mod rain;
 mod report;
 mod samples;
 mod sixteenths;
-mod stack;
 mod surroundings;
-mod uniform_cover;
 #[allow(unsafe_code)] // Vector instructions.
 mod vectors;
 
-pub use options::{DEFAULT_ITERATIONS, Engine, Options, Priority};
+pub use fill::rounds::TOLERANCE;
+pub use options::{Engine, Options, Priority};
 pub use progressive::{Psp, sample};
-pub use rain::TOLERANCE;
 pub use report::Report;

@@ -2,11 +2,6 @@
 
 use crate::setters::setters;
 
-/// The number of iterations after which a maximal set is finished soonest: what the projectors do not find is filled.
-/// (10^9 cycles to the end, a million samples, for 0, 1, 2, 3: 12.5, 6.8, 8.9, 11.0 on the bunny, 15.8, 11.1, 14.2, 17.2 on
-/// the dragon, of which 1 and 5 are those of loading it.)
-pub const DEFAULT_ITERATIONS: u32 = 1;
-
 /// Which of an iteration's candidates comes first where two of them are too close. Existing samples come before all.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Priority {
@@ -36,8 +31,9 @@ pub enum Engine {
 pub struct Options {
     /// The smallest distance of two samples, in the units of the mesh; positive and finite.
     pub radius: f64,
-    /// Iterations of three projectors each, 0 and up. Used by [`sample`](super::sample) only.
-    pub iterations: u32,
+    /// Iterations of three projectors each, 0 and up; `None`, the default, goes by the rule of
+    /// [`Options::iterations_by_rule`]. Used by [`sample`](super::sample) only.
+    pub iterations: Option<u32>,
     /// Whether to fill what the projectors leave uncovered. Used by [`sample`](super::sample) only.
     pub maximal: bool,
     /// Selects one of 2^64 sets.
@@ -49,11 +45,11 @@ pub struct Options {
 }
 
 impl Options {
-    /// A maximal set, by the default number of iterations.
+    /// A maximal set.
     pub fn new(radius: f64) -> Self {
         Self {
             radius,
-            iterations: DEFAULT_ITERATIONS,
+            iterations: None,
             maximal: true,
             seed: 0,
             priority: Priority::default(),
@@ -62,4 +58,20 @@ impl Options {
     }
 }
 
-setters!(Options { radius: f64, iterations: u32, maximal: bool, seed: u64, priority: Priority, engine: Engine });
+impl Options {
+    /// These options with another [`iterations`](Self::iterations): a number, or `None`.
+    #[must_use]
+    pub fn iterations(mut self, iterations: impl Into<Option<u32>>) -> Self {
+        self.iterations = iterations.into();
+        self
+    }
+
+    /// How many iterations [`sample`](super::sample) makes: as many as asked for, and otherwise by a rule. A maximal set is
+    /// only filled, on every mesh and with every radius: that is without bias, and takes about as long as anything else or
+    /// less. A set that is not filled gets one iteration.
+    pub fn iterations_by_rule(&self) -> u32 {
+        self.iterations.unwrap_or(if self.maximal { 0 } else { 1 })
+    }
+}
+
+setters!(Options { radius: f64, maximal: bool, seed: u64, priority: Priority, engine: Engine });

@@ -81,12 +81,6 @@ pub(super) struct OpenPatch<R> {
 }
 
 impl<R> OpenPatch<R> {
-    /// A fragment of which no sample is known to cover anything.
-    #[cfg(test)]
-    pub fn unseen(fragment: Fragment, longest: f64, radius: R) -> Self {
-        Self { fragment, open: [u16::MAX; 16], longest, radius, seen: 0 }
-    }
-
     /// The number of open sixteenths of sixteenths.
     pub fn open_parts(&self) -> u32 {
         self.open.iter().map(|open| open.count_ones()).sum()

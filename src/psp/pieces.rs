@@ -57,7 +57,7 @@ fn cut(
 ///
 /// The height on the longest edge makes two right triangles. Each is sliced in parallel to the height, which gives one
 /// triangle at the tip and quadrilaterals, cut in two. Slices that meet have the same corners, bit for bit.
-fn slice(mesh: &Mesh, triangle: u32, shortest: f64, slices: &mut Vec<Fragment>) {
+pub(super) fn slice(mesh: &Mesh, triangle: u32, shortest: f64, slices: &mut Vec<Fragment>) {
     let whole = Fragment::whole(triangle);
     let shape = whole.shape(mesh);
     let length = shortest.max(2.0 * mesh.triangle_area(triangle) / shape.longest);

@@ -11,6 +11,7 @@ use crate::mesh::Mesh;
 use crate::points::{SurfaceSamples, check_radius, check_resolution};
 use crate::psp::estimate::{expected_samples, is_worth_projecting};
 use crate::psp::fill;
+use crate::psp::fill::triangles::Measures;
 use crate::psp::merge;
 use crate::psp::options::Options;
 use crate::psp::project::collector::Collector;
@@ -30,6 +31,7 @@ pub struct Psp {
     mesh: Arc<Mesh>,
     options: Options,
     samples: SampleSet,
+    measures: Arc<Measures>,
     /// Whether iterations are worth their rays.
     projects: bool,
     /// Made by the first iteration.
@@ -49,7 +51,8 @@ impl Psp {
     pub fn new(mesh: &Arc<Mesh>, options: &Options) -> Result<Self> {
         let radius = options.radius;
         check_radius(radius)?;
-        let estimate = expected_samples(mesh, radius);
+        let measures = mesh.kept(|| Ok(()), || Ok(Measures::of(mesh)))?;
+        let estimate = expected_samples(mesh, &measures, radius);
         if estimate > u32::MAX as f64 {
             let reason = format!("{radius:?} asks for about {estimate:.3e} samples; the limit is {}", u32::MAX);
             return Err(Error::too_large("radius", reason));
@@ -60,6 +63,7 @@ impl Psp {
             mesh: mesh.clone(),
             options: *options,
             samples: SampleSet::new(mesh, radius),
+            measures,
             projects: is_worth_projecting(mesh, radius, estimate),
             projection: None,
             iterations: 0,
@@ -151,7 +155,7 @@ impl Psp {
 
     fn complete(&mut self, job: &Job, report: &mut Report) -> Result<()> {
         let (mut stage, before) = (Stopwatch::start(), self.len());
-        let filled = fill::fill(job, &self.mesh, &mut self.samples, self.options.seed)?;
+        let filled = fill::fill(job, &self.mesh, &self.measures, &mut self.samples, self.options.seed)?;
         let accepted = (self.len() - before) as u64;
         report.fill_seconds += stage.lap();
         report.accepted += accepted;
@@ -189,7 +193,8 @@ impl Stopwatch {
     }
 }
 
-/// Samples a mesh in one call: [`Psp::new`], [`Psp::advance`] and, if `maximal`, [`Psp::fill`].
+/// Samples a mesh in one call: [`Psp::new`], [`Psp::advance`] by [`Options::iterations_by_rule`] and, if `maximal`,
+/// [`Psp::fill`].
 ///
 /// # Errors
 /// Those of the three. Where the call is cancelled nothing is returned.
@@ -203,8 +208,13 @@ pub fn sample(
     let mut psp = Psp::new(mesh, options)?;
     let mut report = Report::default();
     context.run(progress, |job| {
-        let share = if options.maximal { 0.5 } else { 1.0 };
-        psp.iterate(&job.part(0.0, share), options.iterations, &mut report)?;
+        let iterations = options.iterations_by_rule();
+        let share = match (options.maximal, iterations) {
+            (false, _) => 1.0,
+            (true, 0) => 0.0,
+            (true, _) => 0.5,
+        };
+        psp.iterate(&job.part(0.0, share), iterations, &mut report)?;
         if options.maximal {
             psp.complete(&job.part(share, 1.0), &mut report)?;
         }

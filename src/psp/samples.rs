@@ -8,7 +8,6 @@ use crate::geometry::grid3::distance_squared;
 use crate::job::Job;
 use crate::mesh::Mesh;
 use crate::points::SurfaceSamples;
-use crate::psp::buckets::Buckets;
 use crate::psp::cubes::{Cube, SIDE};
 use crate::psp::surroundings::Surroundings;
 
@@ -33,8 +32,10 @@ pub(super) struct SampleSet {
     origin: [f64; 3],
     /// In the order in which they were accepted.
     samples: Vec<Sample>,
-    /// Which samples each cube accepted. They lie in it, or not much outside.
+    /// Which samples each cube has. They lie in it, or not much outside: it is the cube that accepted them.
     cubes: HashMap<Cube, Vec<Range<u32>>>,
+    /// How many samples are known by their cubes.
+    in_cubes: usize,
 }
 
 impl SampleSet {
@@ -44,7 +45,7 @@ impl SampleSet {
     /// the samples keep `radius` in whatever order a caller evaluates their distances.
     pub fn new(mesh: &Mesh, radius: f64) -> Self {
         let origin = mesh.bounds().0.map(f64::from);
-        Self { radius: radius * (1.0 + 1e-14), origin, samples: Vec::new(), cubes: HashMap::new() }
+        Self { radius: radius * (1.0 + 1e-14), origin, samples: Vec::new(), cubes: HashMap::new(), in_cubes: 0 }
     }
 
     pub fn len(&self) -> usize {
@@ -52,7 +53,6 @@ impl SampleSet {
     }
 
     /// The samples in the order in which they were accepted.
-    #[cfg(test)]
     pub fn all(&self) -> &[Sample] {
         &self.samples
     }
@@ -68,56 +68,77 @@ impl SampleSet {
     }
 
     /// The cube that a point is in.
+    #[inline]
     pub fn cube(&self, point: [f64; 3]) -> Cube {
-        let side = f64::from(SIDE) * self.radius;
+        let per_side = 1.0 / (f64::from(SIDE) * self.radius);
         // The origin is the lowest point of the surface, up to rounding, which truncation ignores.
-        Cube([0, 1, 2].map(|axis| ((point[axis] - self.origin[axis]) / side) as i32))
+        Cube([0, 1, 2].map(|axis| ((point[axis] - self.origin[axis]) * per_side) as i32))
     }
 
-    /// Adds what `task` makes of each cube's items, given the surroundings of the cube, and returns the sum of its counts.
+    /// Adds what `task` makes of each of the cubes, all of them different, given the number of the cube and the samples
+    /// that are there, and returns the sum of its counts.
     ///
-    /// The task returns samples that conflict neither with each other nor with anything in the surroundings, no farther than
-    /// 8/3 radii from the cube. A failed or cancelled job leaves what complete colours have added.
-    pub fn grow<T: Send + Sync, C: AddAssign + Default + Send>(
+    /// The task returns samples that conflict neither with each other nor with any sample in and around the cube, no
+    /// farther than a quarter of its side from it. A failed or cancelled job leaves what complete colours have added.
+    pub fn grow<C: AddAssign + Default + Send>(
         &mut self,
         job: &Job,
-        buckets: &Buckets<Cube, T>,
-        task: impl Fn(Cube, &mut Surroundings, &mut dyn Iterator<Item = &T>) -> (Vec<Sample>, C) + Sync,
+        cubes: &[Cube],
+        task: impl Fn(usize, &Self) -> (Vec<Sample>, C) + Sync,
     ) -> Result<C> {
+        self.sort_into_cubes();
         let mut colours: [Vec<usize>; 8] = Default::default();
-        (0..buckets.len()).for_each(|bucket| colours[buckets.key(bucket).colour()].push(bucket));
+        (0..).zip(cubes).for_each(|(number, cube)| colours[cube.colour()].push(number));
         let (mut done, mut total) = (0, C::default());
         for members in colours {
-            let share = |done: usize| done as f64 / buckets.len().max(1) as f64;
+            let share = |done: usize| done as f64 / cubes.len().max(1) as f64;
             let part = job.part(share(done), share(done + members.len()));
-            let grown = part.map(members.len(), |member| {
-                let cube = buckets.key(members[member]);
-                task(cube, &mut self.surroundings(cube), &mut buckets.items(members[member]))
-            })?;
+            let grown = part.map(members.len(), |member| task(members[member], self))?;
             done += members.len();
-            for (&bucket, (samples, count)) in members.iter().zip(grown) {
+            for (&number, (samples, count)) in members.iter().zip(grown) {
                 total += count;
                 if !samples.is_empty() {
-                    let start = self.len() as u32;
+                    let start = self.len();
                     self.samples.extend(samples);
-                    let run = start..self.len() as u32;
-                    self.cubes.entry(buckets.key(bucket)).or_default().push(run);
+                    let run = start as u32..self.len() as u32;
+                    self.cubes.entry(cubes[number]).or_default().push(run);
                 }
             }
+            self.in_cubes = self.len();
         }
         Ok(total)
     }
 
+    /// Adds samples that conflict neither with each other nor with any other sample.
+    pub fn append(&mut self, samples: &mut Vec<Sample>) {
+        self.samples.append(samples);
+    }
+
+    /// Makes all samples known by their cubes.
+    fn sort_into_cubes(&mut self) {
+        for number in self.in_cubes..self.len() {
+            let cube = self.cube(self.samples[number].position.map(f64::from));
+            let (runs, number) = (self.cubes.entry(cube).or_default(), number as u32);
+            match runs.last_mut() {
+                Some(run) if run.end == number => run.end += 1,
+                _ => runs.push(number..number + 1),
+            }
+        }
+        self.in_cubes = self.len();
+    }
+
+    /// The samples of a cube and of those that touch it.
+    pub fn around(&self, cube: Cube) -> impl Iterator<Item = &Sample> {
+        let runs = cube.around().filter_map(|cube| self.cubes.get(&cube)).flatten();
+        runs.flat_map(|run| &self.samples[run.start as usize..run.end as usize])
+    }
+
     /// What stands in and around a cube.
-    fn surroundings(&self, cube: Cube) -> Surroundings {
+    pub fn surroundings(&self, cube: Cube) -> Surroundings {
         let mut surroundings = Surroundings::new(cube, self.origin, self.radius);
-        for runs in cube.around().filter_map(|cube| self.cubes.get(&cube)) {
-            for run in runs {
-                for sample in &self.samples[run.start as usize..run.end as usize] {
-                    if surroundings.may_hold(sample.position) {
-                        surroundings.add(sample.position);
-                    }
-                }
+        for sample in self.around(cube) {
+            if surroundings.may_hold(sample.position) {
+                surroundings.add(sample.position);
             }
         }
         surroundings
@@ -126,6 +147,7 @@ impl SampleSet {
     /// Takes back all but the first samples.
     pub fn truncate(&mut self, len: usize) {
         self.samples.truncate(len);
+        self.in_cubes = self.in_cubes.min(len);
         for runs in self.cubes.values_mut() {
             runs.retain(|run| run.end as usize <= len);
         }

@@ -28,18 +28,6 @@ pub(super) const SIXTEENTHS: [[[f64; 2]; 3]; 16] = {
     corners
 };
 
-/// The first corners of the sixteenths in shares of the fragment's edges, one edge after the other.
-pub(super) const STARTS: [[f32; 16]; 2] = {
-    let mut starts = [[0.0; 16]; 2];
-    let mut index = 0;
-    while index < 16 {
-        let [x, y] = SIXTEENTHS[index][0];
-        (starts[0][index], starts[1][index]) = (0.25 * x as f32, 0.25 * y as f32);
-        index += 1;
-    }
-    starts
-};
-
 /// The fifteen corners in shares of the fragment's edges, one edge after the other, and the last one twice.
 pub(super) const CORNERS: [[f32; 16]; 2] = {
     let mut corners = [[0.0; 16], [1.0; 16]];

@@ -271,9 +271,9 @@ static void psp(void) {
     CHECK(largest_number(last_error()) > 0.9e12 && largest_number(last_error()) < 1.1e12);
     PSP(AZULEJO_ERROR_TOO_LARGE, "radius", o.radius = 1e-300);
 #undef PSP
-    good.iterations++;
+    good.iterations = 2;
     REFUSED(INVALID, "iterations: 2 has no effect in azulejo_psp_create", azulejo_psp_create(context, cube, &good, &out));
-    good.iterations--;
+    good.iterations = AZULEJO_ITERATIONS_DEFAULT;
     good.maximal = 0;
     REFUSED(INVALID, "maximal: 0 has no effect in azulejo_psp_create", azulejo_psp_create(context, cube, &good, &out));
     good.maximal = 1;

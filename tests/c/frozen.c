@@ -240,13 +240,13 @@ static void surfaces(void) {
     MAKE(dcr_surface_options, relaxation);
     MAKE(dcr_surface_report, done);
     MAKE(coverage_report, coverage);
-    CHECK(options->maximal == 1 && options->iterations > 0 && varying->cosine == -1);
+    CHECK(options->maximal == 1 && options->iterations == AZULEJO_ITERATIONS_DEFAULT && varying->cosine == -1);
     options->radius = now.radius;
     options->seed = now.seed;
     ACCEPTED(azulejo_psp_sample(context, cube, (void *)options, &before, (void *)report));
     ACCEPTED(azulejo_psp_sample(context, cube, &now, &after, NULL));
     CHECK(same_points(before, after) && report->samples == azulejo_points_count(after));
-    CHECK(report->seconds > 0 && report->iterations == now.iterations && report->uncovered_after == 0);
+    CHECK(report->seconds > 0 && report->iterations == 0 && report->uncovered_after == 0);
 
     varying->vertex_radii = radii;
     varying->vertex_count = 8;

@@ -61,7 +61,7 @@ static void defaults(void) {
     CHECK(merge.struct_size == sizeof merge && merge.radius == 0 && merge.seed == 0 && merge.progress == NULL);
     CHECK(merge.domain_min[0] == 0 && merge.domain_min[1] == 0 && merge.domain_max[0] == 1 && merge.domain_max[1] == 1);
     CHECK(merge.boundary == AZULEJO_BOUNDARY_PERIODIC && merge.progress_user == NULL);
-    CHECK(psp.maximal == 1 && psp.iterations > 0 && psp.seed == 0 && psp.progress == NULL);
+    CHECK(psp.maximal == 1 && psp.iterations == AZULEJO_ITERATIONS_DEFAULT && psp.seed == 0 && psp.progress == NULL);
     CHECK(psp.priority == AZULEJO_PRIORITY_SQUARENESS && psp.engine == AZULEJO_ENGINE_EMBREE);
     CHECK(dcr.neighbourhood == AZULEJO_NEIGHBOURHOOD_DELAUNAY && dcr.max_iterations > 0 && dcr.progress == NULL);
     CHECK(dcr.method == AZULEJO_METHOD_MOMENTUM && dcr.conflict_radius == 0.95 && dcr.attraction_radius == 1.05);

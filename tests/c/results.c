@@ -207,9 +207,19 @@ static void strided_surface(const azulejo_points *points, const azulejo_psp_opti
 /* Each option that chooses another method gives another set. */
 static void surface_options(const azulejo_mesh *cube, const azulejo_points *points, azulejo_psp_options options) {
     azulejo_psp_options other = options;
-    azulejo_points *set = NULL;
+    azulejo_points *set = NULL, *filled = NULL;
     azulejo_psp_report report = psp_report();
 
+    other.iterations = AZULEJO_ITERATIONS_DEFAULT; /* the same as 0 */
+    ACCEPTED(azulejo_psp_sample(context, cube, &other, &filled, NULL));
+    other.iterations = 0;
+    ACCEPTED(azulejo_psp_sample(context, cube, &other, &set, &report));
+    CHECK(report.iterations == 0 && report.rays == 0);
+    CHECK(same_points(filled, set) && !same_points(points, set));
+    azulejo_points_free(set);
+    azulejo_points_free(filled);
+
+    other = options;
     other.priority = AZULEJO_PRIORITY_PROJECTOR;
     ACCEPTED(azulejo_psp_sample(context, cube, &other, &set, NULL));
     CHECK(!same_points(points, set));
@@ -232,7 +242,7 @@ static void surface_options(const azulejo_mesh *cube, const azulejo_points *poin
 
 static void surfaces(void) {
     azulejo_mesh *cube = make_cube();
-    const azulejo_psp_options options = psp_options(0.1);
+    azulejo_psp_options options = psp_options(0.1);
     azulejo_points *points = NULL;
     azulejo_psp_report report = psp_report();
     size_t count;
@@ -242,6 +252,7 @@ static void surfaces(void) {
     CHECK(memcmp(azulejo_mesh_positions(cube), cube_positions, sizeof cube_positions) == 0);
     CHECK(memcmp(azulejo_mesh_indices(cube), cube_indices, sizeof cube_indices) == 0);
 
+    options.iterations = 1;
     UNWRITTEN(report);
     ACCEPTED(azulejo_psp_sample(context, cube, &options, &points, &report));
     count = azulejo_points_count(points);

@@ -48,9 +48,9 @@ pub struct Surface {
     mask_file: Option<PathBuf>,
     #[command(flatten)]
     common: Common,
-    /// How often to project patterns from three directions.
-    #[arg(long, value_name = "N", default_value_t = psp::DEFAULT_ITERATIONS, conflicts_with = "radius_from")]
-    iterations: u32,
+    /// How often to project patterns from three directions before the gaps are filled [default: 0, or 1 with --no-fill].
+    #[arg(long, value_name = "N", conflicts_with = "radius_from")]
+    iterations: Option<u32>,
     /// Do not fill the gaps that the projections leave.
     #[arg(long, conflicts_with = "radius_from")]
     no_fill: bool,

@@ -42,8 +42,9 @@ impl azulejo_context {
 /// The number also bounds Embree's threads, with two limits of Embree. It has one bound for the
 /// whole process, the largest of its devices, and sets it for all users of TBB: if the program has
 /// a device with more threads, the building of scenes may use as many; if it has one with fewer,
-/// that device may use `num_threads` while a psp handle that has made iterations exists. TBB may
-/// leave idle threads behind, also with 1. AZULEJO_ENGINE_RASTERISER uses neither Embree nor TBB.
+/// that device may use `num_threads` while a mesh exists on which a set has made iterations (or a
+/// handle of such a set). TBB may leave idle threads behind, also with 1. AZULEJO_ENGINE_RASTERISER
+/// uses neither Embree nor TBB.
 ///
 /// Errors: AZULEJO_ERROR_INVALID_ARGUMENT; AZULEJO_ERROR_THREADS if the threads cannot be started.
 #[unsafe(no_mangle)]

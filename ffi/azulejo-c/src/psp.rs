@@ -43,6 +43,9 @@ pub const AZULEJO_ENGINE_EMBREE: i32 = 0;
 /// diagonal: a point so close to an edge may hit the triangle on its other side.
 pub const AZULEJO_ENGINE_RASTERISER: i32 = 1;
 
+/// The number of iterations of azulejo_psp_options that stands for a rule.
+pub const AZULEJO_ITERATIONS_DEFAULT: u32 = u32::MAX;
+
 /// Options of azulejo_psp_create and azulejo_psp_sample.
 #[repr(C)]
 #[derive(Clone, Copy)]
@@ -50,8 +53,9 @@ pub struct azulejo_psp_options {
     /// The size of the struct in bytes; set by the _init function.
     pub struct_size: u32,
     /// How often azulejo_psp_sample projects its patterns, in 3 directions each time, before it
-    /// fills the gaps. More iterations leave less to the filling, which costs more per sample; the
-    /// default, 1, is the fastest. azulejo_psp_create refuses any value but the default.
+    /// fills the gaps. AZULEJO_ITERATIONS_DEFAULT, the default: 0 if `maximal` is 1, on every mesh
+    /// and with every radius, since a set that is only filled is without bias and takes about as
+    /// long or less; 1 if `maximal` is 0. azulejo_psp_create refuses any value but the default.
     pub iterations: u32,
     /// The smallest straight distance between two samples, in the units of the mesh: above 0, and
     /// at least 64 times the spacing of floats at the largest coordinate. It has no default.
@@ -76,7 +80,7 @@ pub struct azulejo_psp_options {
 }
 
 growing!(azulejo_psp_options requires radius {
-    iterations: psp::DEFAULT_ITERATIONS,
+    iterations: AZULEJO_ITERATIONS_DEFAULT,
     radius: 0.0,
     seed: 0,
     maximal: 1,
@@ -91,7 +95,7 @@ impl azulejo_psp_options {
     fn request(&self) -> Result<psp::Options, Failure> {
         check_reserved(self.reserved)?;
         Ok(psp::Options::new(self.radius)
-            .iterations(self.iterations)
+            .iterations(Some(self.iterations).filter(|&count| count != AZULEJO_ITERATIONS_DEFAULT))
             .maximal(flag("maximal", self.maximal)?)
             .seed(self.seed)
             .priority(priority(self.priority)?)

@@ -14,10 +14,10 @@ use crate::psp::adaptive::outline::{Nearby, Outline, SLACK};
 use crate::psp::adaptive::set::HALF;
 use crate::psp::adaptive::vectors;
 use crate::psp::fragment::{Fragment, Shape};
+use crate::psp::lanes::{FAR, LANES, PointLanes};
 use crate::psp::patches::CoverTest;
 use crate::psp::rain::Target;
 use crate::psp::samples::Sample;
-use crate::psp::stack::{FAR, LANES, PointLanes};
 use crate::psp::vectors::within;
 use crate::simd::Level;
 

@@ -7,6 +7,8 @@
 //! Rays live in *trace space*, where the mesh's box is centred at the origin and has a diagonal of 1: Embree's precision
 //! depends on the size of the scene. Only triangle and barycentrics come back from there.
 
+use std::sync::Arc;
+
 use glam::DVec3;
 
 use crate::error::Result;
@@ -15,7 +17,7 @@ use crate::mesh::{Mesh, exact};
 use crate::psp::project::collector::{Collector, Found};
 use crate::psp::project::pattern::RayPattern;
 use crate::psp::project::projector::Projector;
-use crate::trace::{Ray, Scene};
+use crate::trace::{Hit, Ray, Scene};
 
 /// The box is widened by this (trace space), so that a rounded ray along its side is not lost.
 const BOX_MARGIN: f64 = 1e-6;
@@ -26,15 +28,22 @@ const MAX_TASKS: u64 = 1 << 16;
 
 /// A mesh in trace space and the pattern that is projected onto it.
 pub(in crate::psp) struct Rays {
-    /// The triangles that are to be sampled, and no others.
-    scene: Scene,
-    /// Their numbers in the mesh.
-    numbers: Vec<u32>,
+    space: Arc<TraceSpace>,
     pattern: RayPattern,
-    /// Half the size of the mesh's box (trace space).
-    half_box: DVec3,
     /// The radius (trace space).
     radius: f64,
+}
+
+/// A mesh in trace space. It is kept with the mesh.
+struct TraceSpace {
+    /// The triangles that are to be sampled, and no others.
+    scene: Scene,
+    /// Their numbers in the mesh, unless they are all of it.
+    numbers: Option<Vec<u32>>,
+    /// Lengths of the mesh times this are those in trace space.
+    scale: f64,
+    /// Half the size of the mesh's box (trace space), widened.
+    half_box: DVec3,
 }
 
 /// The repetitions of the pattern that meet the shadow of the box on a projector.
@@ -47,26 +56,12 @@ struct Repetitions {
 }
 
 impl Rays {
-    /// Builds the scene and the pattern.
+    /// Builds the scene, if the mesh does not have one yet, and the pattern.
     pub fn new(job: &Job, mesh: &Mesh, radius: f64, seed: u64) -> Result<Self> {
-        let (low, high) = mesh.bounds();
-        let (low, high) = (exact(low), exact(high));
-        let (centre, scale) = (0.5 * (low + high), (high - low).length().recip());
-        // Vertices that no triangle uses can be anywhere; a clamp keeps them from upsetting Embree.
-        let normalise = |&position: &[f32; 3]| {
-            ((exact(position) - centre) * scale).clamp(DVec3::NEG_ONE, DVec3::ONE).as_vec3().to_array()
-        };
-        let normalised: Vec<_> = mesh.positions().iter().map(normalise).collect();
-        let numbers: Vec<_> = mesh.sampled_triangles().collect();
-        let triangles: Vec<_> = numbers.iter().map(|&number| mesh.triangles()[number as usize]).collect();
-        let scene = Scene::build(&job.part(0.0, 0.5), &normalised, &triangles, job.context().num_threads())?;
-        Ok(Self {
-            scene,
-            numbers,
-            pattern: RayPattern::new(&job.part(0.5, 1.0), 1.0 / (radius * scale), seed)?,
-            half_box: 0.5 * scale * (high - low) + BOX_MARGIN,
-            radius: radius * scale,
-        })
+        let building = job.part(0.0, 0.5);
+        let space = mesh.kept(|| building.report(0.0), || TraceSpace::new(&building, mesh))?;
+        let radius = radius * space.scale;
+        Ok(Self { space, pattern: RayPattern::new(&job.part(0.5, 1.0), 1.0 / radius, seed)?, radius })
     }
 
     /// Traces three projectors and collects all hits.
@@ -91,8 +86,7 @@ impl Rays {
                 let (repetition, chunk) = ((unit - start) / chunks, (unit - start) % chunks);
                 let rays = self.rays(&projectors[axis], &repetitions[axis], repetition, chunk as usize);
                 hits.clear();
-                self.scene.all_hits(&rays, &mut hits);
-                hits.iter_mut().for_each(|hit| hit.triangle = self.numbers[hit.triangle as usize]);
+                self.space.all_hits(&rays, &mut hits);
                 take(axis, rays.len(), &hits);
             }
         })
@@ -100,7 +94,7 @@ impl Rays {
 
     fn repetitions(&self, projector: &Projector) -> Repetitions {
         let (side, shift) = (self.pattern.side, projector.shift(self.pattern.side));
-        let half = [projector.right, projector.up].map(|axis| self.half_box.dot(axis.abs()) / self.radius);
+        let half = [projector.right, projector.up].map(|axis| self.space.half_box.dot(axis.abs()) / self.radius);
         let repetition = |x: f64, axis: usize| ((x - shift[axis]) / side).floor() as i64;
         let first = [0, 1].map(|axis| repetition(-half[axis], axis));
         let count = [0, 1].map(|axis| (repetition(half[axis], axis) - first[axis] + 1) as u64);
@@ -118,7 +112,7 @@ impl Rays {
         let on_plane = points.map(|[x, y]| self.radius * (x * projector.right + y * projector.up));
         let meets_box = on_plane.filter(|&point| {
             // Where the ray enters and leaves the three pairs of planes (Kay and Kajiya 1986).
-            let (a, b) = ((-self.half_box - point) * inverse, (self.half_box - point) * inverse);
+            let (a, b) = ((-self.space.half_box - point) * inverse, (self.space.half_box - point) * inverse);
             a.min(b).max_element() <= a.max(b).min_element()
         });
         let ray = |point: DVec3| Ray {
@@ -126,5 +120,38 @@ impl Rays {
             direction: projector.forward.as_vec3().to_array(),
         };
         meets_box.map(ray).collect()
+    }
+}
+
+impl TraceSpace {
+    /// Builds the scene.
+    fn new(job: &Job, mesh: &Mesh) -> Result<Self> {
+        let (low, high) = mesh.bounds();
+        let (low, high) = (exact(low), exact(high));
+        let (centre, scale) = (0.5 * (low + high), (high - low).length().recip());
+        // Vertices that no triangle uses can be anywhere; a clamp keeps them from upsetting Embree.
+        let normalise = |&position: &[f32; 3]| {
+            ((exact(position) - centre) * scale).clamp(DVec3::NEG_ONE, DVec3::ONE).as_vec3().to_array()
+        };
+        let normalised: Vec<_> = mesh.positions().iter().map(normalise).collect();
+        let build = |triangles: &[[u32; 3]]| Scene::build(job, &normalised, triangles, job.context().num_threads());
+        let numbers: Option<Vec<_>> = mesh.is_masked().then(|| mesh.sampled_triangles().collect());
+        let scene = match &numbers {
+            None => build(mesh.triangles())?,
+            Some(numbers) => {
+                let triangles: Vec<_> = numbers.iter().map(|&number| mesh.triangles()[number as usize]).collect();
+                build(&triangles)?
+            }
+        };
+        Ok(Self { scene, numbers, scale, half_box: 0.5 * scale * (high - low) + BOX_MARGIN })
+    }
+
+    /// Appends every hit on every ray, with the numbers of the mesh's triangles.
+    fn all_hits(&self, rays: &[Ray], hits: &mut Vec<Hit>) {
+        let first = hits.len();
+        self.scene.all_hits(rays, hits);
+        if let Some(numbers) = &self.numbers {
+            hits[first..].iter_mut().for_each(|hit| hit.triangle = numbers[hit.triangle as usize]);
+        }
     }
 }

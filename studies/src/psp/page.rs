@@ -184,9 +184,10 @@ fn directions(effort: &Effort, measured: &[Measured]) -> String {
         ITERATIONS.zip(&cells).map(|(iterations, cell)| (format!("{}", 3 * iterations), cell as Cell)).collect();
     format!(
         "## Directions before filling\n\nSeconds to a maximal set of about {} samples, by the number of directions from \
-         which patterns are projected before the rest is filled: all (iterations + fill). The default is {}.\n\n{}",
+         which patterns are projected before the rest is filled: all (iterations + fill). The default is 0, on every mesh and \
+         with every radius: a set that is only filled is the reference, without bias (see below for both ways), and few \
+         samples on many triangles are filled much sooner than projected. Iterations have to be asked for.\n\n{}",
         grouped(effort.samples as usize),
-        3 * psp::DEFAULT_ITERATIONS,
         table("directions", measured, &rows),
     )
 }

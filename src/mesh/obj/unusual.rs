@@ -1,4 +1,5 @@
-//! OBJ files, by the crate tobj.
+//! OBJ files of all kinds, by the crate tobj: lines that go on in the next one, numbers and comments in odd places, and
+//! what is wrong with a broken file.
 //!
 //! tobj is shown nothing but vertices and faces: once those of the file, and once its normals in place of the vertices,
 //! with the faces by the numbers of their normals. That keeps the faces of all groups in their order, follows no `mtllib`
@@ -35,9 +36,6 @@ const NORMALS: View = View { name: "normal", keyword: b"vn", part: 2, is_optiona
 
 /// Vertices, triangles and normals, or what is wrong with the file.
 pub(super) fn parse(bytes: &[u8]) -> Result<Soup, String> {
-    if bytes.starts_with(b"\xff\xfe") || bytes.starts_with(b"\xfe\xff") {
-        return Err("is encoded in UTF-16; save it as UTF-8".to_owned());
-    }
     let (positions, triangles) = VERTICES.load(bytes)?;
     let mut soup = Soup { positions, triangles, ..Default::default() };
     if NORMALS.is_named_in(bytes) {
@@ -125,7 +123,7 @@ impl View {
 
     /// Whether a face names an item.
     fn is_named_in(&self, bytes: &[u8]) -> bool {
-        let mut faces = statements(bytes).filter(|(_, content)| content.first() == Some(&b'f'));
+        let mut faces = statements(bytes).filter(|(_, content)| words(content).next() == Some(b"f"));
         faces.any(|(_, content)| words(&content).skip(1).any(|corner| self.index(corner).is_some()))
     }
 

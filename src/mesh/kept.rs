@@ -1,0 +1,166 @@
+//! What is made of a mesh on first use, and kept with it for the calls that follow.
+//!
+//! Each kind of thing is known by its type, so that a mesh need not know who keeps what: Embree's scene (psp), for example.
+
+use std::any::{Any, TypeId};
+use std::collections::HashMap;
+use std::panic::{RefUnwindSafe, UnwindSafe};
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::thread::{self, ThreadId};
+use std::time::Duration;
+
+use crate::error::Result;
+
+/// How often a thread that waits for another one's work asks whether to go on.
+const INTERVAL: Duration = Duration::from_millis(20);
+
+/// Things of different types, each made once.
+#[derive(Debug, Default)]
+pub(super) struct Kept {
+    slots: Mutex<HashMap<TypeId, Slot>>,
+    /// Signalled where one of them was made, or was not.
+    changed: Condvar,
+}
+
+// What panics while something is made leaves its slot empty.
+impl UnwindSafe for Kept {}
+impl RefUnwindSafe for Kept {}
+
+#[derive(Debug)]
+enum Slot {
+    /// By a thread of a process: in a forked one it is not there.
+    BeingMade(u32, ThreadId),
+    Made(Arc<dyn Any + Send + Sync>),
+}
+
+impl Kept {
+    /// What was made before, or is made now. A thread that has to wait while another one makes it asks `wait` now and then
+    /// whether to go on.
+    ///
+    /// # Errors
+    /// Those of `make`, after which the next call makes it, and of `wait`.
+    pub fn get<T: Any + Send + Sync>(
+        &self,
+        mut wait: impl FnMut() -> Result<()>,
+        make: impl FnOnce() -> Result<T>,
+    ) -> Result<Arc<T>> {
+        let (process, thread, kind) = (std::process::id(), thread::current().id(), TypeId::of::<T>());
+        let mut slots = self.slots();
+        loop {
+            match slots.get(&kind) {
+                Some(Slot::Made(thing)) => return Ok(thing.clone().downcast().expect("a slot has things of its type")),
+                // Asked for by a callback of the making: this cannot wait for itself.
+                Some(&Slot::BeingMade(its, by)) if (its, by) == (process, thread) => {
+                    drop(slots);
+                    return make().map(Arc::new);
+                }
+                Some(&Slot::BeingMade(its, _)) if its == process => {
+                    drop(self.changed.wait_timeout(slots, INTERVAL).unwrap_or_else(PoisonError::into_inner));
+                    wait()?;
+                    slots = self.slots();
+                }
+                _ => break,
+            }
+        }
+        slots.insert(kind, Slot::BeingMade(process, thread));
+        drop(slots);
+        let making = Making { kept: self, kind };
+        let thing = Arc::new(make()?);
+        self.slots().insert(kind, Slot::Made(thing.clone()));
+        drop(making);
+        Ok(thing)
+    }
+
+    fn slots(&self) -> MutexGuard<'_, HashMap<TypeId, Slot>> {
+        self.slots.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+/// Ends the making of something, successful or not.
+struct Making<'a> {
+    kept: &'a Kept,
+    kind: TypeId,
+}
+
+impl Drop for Making<'_> {
+    fn drop(&mut self) {
+        let mut slots = self.kept.slots();
+        if let Some(Slot::BeingMade(..)) = slots.get(&self.kind) {
+            slots.remove(&self.kind);
+        }
+        self.kept.changed.notify_all();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::panic::{AssertUnwindSafe, catch_unwind};
+    use std::sync::Barrier;
+    use std::sync::atomic::{AtomicUsize, Ordering};
+
+    use super::*;
+    use crate::error::Error;
+
+    fn go_on() -> Result<()> {
+        Ok(())
+    }
+
+    #[test]
+    fn a_thing_is_made_once_whoever_asks() {
+        let (kept, made, barrier) = (Kept::default(), AtomicUsize::new(0), Barrier::new(4));
+        let ask = || {
+            barrier.wait();
+            let make = || {
+                thread::sleep(Duration::from_millis(50));
+                Ok(made.fetch_add(1, Ordering::Relaxed))
+            };
+            *kept.get(go_on, make).unwrap()
+        };
+        thread::scope(|scope| {
+            let threads = [(); 4].map(|()| scope.spawn(ask));
+            threads.into_iter().for_each(|thread| assert_eq!(thread.join().unwrap(), 0));
+        });
+        assert_eq!(made.into_inner(), 1);
+        assert_eq!(*kept.get(go_on, || Ok("of another type")).unwrap(), "of another type");
+        assert_eq!(*kept.get::<usize>(go_on, || unreachable!()).unwrap(), 0);
+    }
+
+    #[test]
+    fn what_fails_is_made_by_the_next_call() {
+        let kept = Kept::default();
+        assert!(matches!(kept.get::<u8>(go_on, || Err(Error::Cancelled)), Err(Error::Cancelled)));
+        assert!(catch_unwind(AssertUnwindSafe(|| kept.get::<u8>(go_on, || panic!("on purpose")))).is_err());
+        assert_eq!(*kept.get(go_on, || Ok(7u8)).unwrap(), 7);
+    }
+
+    #[test]
+    fn a_call_within_the_making_does_not_wait_for_itself() {
+        let kept = Kept::default();
+        let inner = || kept.get(|| panic!("waits"), || Ok(1u8)).map(|thing| *thing + 1);
+        assert_eq!(*kept.get(go_on, inner).unwrap(), 2);
+        assert_eq!(*kept.get::<u8>(go_on, || unreachable!()).unwrap(), 2);
+    }
+
+    #[test]
+    fn waiting_can_be_cancelled_and_what_has_failed_elsewhere_is_made_here() {
+        let (kept, begun, over) = (Kept::default(), Barrier::new(3), Barrier::new(2));
+        thread::scope(|scope| {
+            let maker = scope.spawn(|| {
+                kept.get::<u8>(go_on, || {
+                    begun.wait();
+                    over.wait();
+                    Err(Error::Cancelled)
+                })
+            });
+            let patient = scope.spawn(|| {
+                begun.wait();
+                *kept.get(go_on, || Ok(3u8)).unwrap()
+            });
+            begun.wait();
+            assert!(matches!(kept.get(|| Err(Error::Forked), || Ok(4u8)), Err(Error::Forked)));
+            over.wait();
+            assert!(maker.join().unwrap().is_err());
+            assert_eq!(patient.join().unwrap(), 3);
+        });
+    }
+}

@@ -1,0 +1,58 @@
+//! Darts as rain: where a Poisson process of even density falls on a row of areas.
+//!
+//! From one dart to the next the area passed is Exp(1) over the density. So a row of areas has been rained on evenly,
+//! however the surface is cut into them.
+
+use crate::rng::Rng;
+
+/// A rain that passes over areas, one after the other.
+pub(in crate::psp) struct Rain<'a> {
+    rng: &'a mut Rng,
+    per_area: f64,
+    /// The area left before the next dart falls.
+    left: f64,
+}
+
+impl<'a> Rain<'a> {
+    pub fn new(rng: &'a mut Rng, per_area: f64) -> Self {
+        let left = waiting(rng, per_area);
+        Self { rng, per_area, left }
+    }
+
+    /// Whether the next area stays dry. If so, it has been passed.
+    pub fn passes(&mut self, area: f64) -> bool {
+        let is_dry = area <= self.left;
+        if is_dry {
+            self.left -= area;
+        }
+        is_dry
+    }
+
+    /// How many darts fall on the next area.
+    pub fn fall(&mut self, area: f64) -> usize {
+        let mut darts = 0;
+        self.left -= area;
+        while self.left < 0.0 {
+            darts += 1;
+            self.left += waiting(self.rng, self.per_area);
+        }
+        darts
+    }
+}
+
+fn waiting(rng: &mut Rng, per_area: f64) -> f64 {
+    -libm::log(1.0 - rng.unit()) / per_area
+}
+
+/// Puts items into random order (Fisher and Yates).
+pub(in crate::psp) fn shuffle<T>(rng: &mut Rng, items: &mut [T]) {
+    for last in (1..items.len()).rev() {
+        items.swap(last, rng.below(last as u64 + 1) as usize);
+    }
+}
+
+/// Barycentrics of a random point of a triangle.
+pub(in crate::psp) fn random_point(rng: &mut Rng) -> [f64; 2] {
+    let [s, t] = [rng.unit(), rng.unit()];
+    if s + t > 1.0 { [1.0 - s, 1.0 - t] } else { [s, t] }
+}

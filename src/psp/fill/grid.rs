@@ -1,0 +1,223 @@
+//! The neighbour search of a fill: a hashed grid of cells of two radii, where each cell lists, on pages of sixteen, every
+//! sample whose ball touches it. So a test of a place, and of a part of the surface that lies in one cell, reads one page.
+//!
+//! A page has a lane for each axis; one more would hold a clearance of each sample's own.
+
+use glam::DVec3;
+
+use crate::psp::fill::page::{GROUP, Group, LANES, Page, Part};
+use crate::psp::fill::space::{Place, Space, key};
+use crate::psp::fill::table::Table;
+use crate::psp::fill::vectors;
+use crate::simd::Level;
+
+/// Samples by the cells that their balls touch.
+pub(in crate::psp) struct Grid {
+    pub space: Space,
+    level: Level,
+    cells: Table<Cell>,
+    /// The first page is empty: that of all cells without samples.
+    pages: Vec<Page>,
+    /// For each page, the one of its cell that was full before.
+    earlier: Vec<u32>,
+}
+
+/// The last page of a cell, and how many samples all of its pages list.
+#[derive(Clone, Copy, Default)]
+struct Cell {
+    page: u32,
+    count: u32,
+}
+
+impl Grid {
+    pub fn new(space: Space) -> Self {
+        let (pages, earlier) = (vec![Page::EMPTY], vec![0]);
+        Self { space, level: Level::widest(), cells: Table::new(), pages, earlier }
+    }
+
+    /// Adds a sample.
+    pub fn add(&mut self, place: Place) {
+        each_cell(self.space.cells_around(place), |cell| {
+            let cell = self.cells.entry(key(cell));
+            let lane = cell.count as usize % LANES;
+            if lane == 0 {
+                self.earlier.push(cell.page);
+                cell.page = self.pages.len() as u32;
+                self.pages.push(Page::EMPTY);
+            }
+            cell.count += 1;
+            self.pages[cell.page as usize].put(lane, place);
+        });
+    }
+
+    /// Whether a place is closer to a sample than the radius: in `f64`, without tolerance.
+    pub fn rejects(&self, place: Place) -> bool {
+        self.any_page(self.space.cell(place), |page| {
+            let mut near = vectors::near(self.level, page, place, self.space.surely_beyond);
+            while near != 0 {
+                if self.space.conflict(place, page.place(near.trailing_zeros() as usize)) {
+                    return true;
+                }
+                near &= near - 1;
+            }
+            false
+        })
+    }
+
+    /// The sixteenths of a triangle, given by its corners in the unit of the space, that no single sample certainly covers.
+    pub fn open_sixteenths(&self, corners: [DVec3; 3], longest: f64) -> u16 {
+        let places = corners.map(|corner| corner.as_vec3());
+        let [a, b, c] = places;
+        let ends = [a.min(b).min(c), a.max(b).max(c)].map(|place| self.space.cell(place.to_array()));
+        let origin = places[0].to_array();
+        let [corner, to_b, to_c] = [corners[0] - a.as_dvec3(), corners[1] - corners[0], corners[2] - corners[0]];
+        // No corner is farther from the centre than two thirds of the longest edge.
+        let reach = (self.space.radius() + 2.0 / 3.0 * longest) as f32;
+        let part = Part {
+            origin,
+            corner: corner.as_vec3().to_array(),
+            edges: [to_b.as_vec3().to_array(), to_c.as_vec3().to_array()],
+            centre: (corner + (to_b + to_c) / 3.0).as_vec3().to_array(),
+            reach2: reach * reach * 1.0001,
+        };
+        let mut covered = 0;
+        each_cell(ends, |cell| {
+            self.any_page(cell, |page| {
+                covered |= vectors::covered_sixteenths(self.level, page, &part, self.space.surely_within);
+                covered == u16::MAX
+            });
+        });
+        !covered
+    }
+
+    /// Which triangles of a group no single sample certainly covers: a bit for each. Their pages are looked up here.
+    pub fn open_triangles(&self, group: &mut Group, count: usize) -> u64 {
+        let mut keys = [0; GROUP];
+        for (lane, of) in keys.iter_mut().enumerate() {
+            *of = key(self.space.cell(group.triangles[lane][0]));
+        }
+        let mut chained = 0;
+        for (lane, &key) in keys.iter().enumerate() {
+            let cell = self.cells.get(key);
+            group.pages[lane] = cell.page;
+            chained |= u64::from(cell.count as usize > LANES) << lane;
+        }
+        let mut open = !vectors::covered_triangles(self.level, group, &self.pages, self.space.surely_within);
+        open &= u64::MAX >> (64 - count);
+        let mut rest = open & chained;
+        while rest != 0 {
+            let lane = rest.trailing_zeros() as usize;
+            if self.covers(&group.triangles[lane]) {
+                open &= !(1 << lane);
+            }
+            rest &= rest - 1;
+        }
+        open
+    }
+
+    /// Whether one sample certainly covers a triangle.
+    fn covers(&self, corners: &[Place; 3]) -> bool {
+        self.any_page(self.space.cell(corners[0]), |page| {
+            vectors::covering(self.level, page, corners, self.space.surely_within) != 0
+        })
+    }
+
+    /// Whether the test holds for a page of a cell.
+    #[inline(always)]
+    fn any_page(&self, cell: [u32; 3], mut test: impl FnMut(&Page) -> bool) -> bool {
+        let Cell { mut page, count } = self.cells.get(key(cell));
+        for _ in 0..count.div_ceil(LANES as u32) {
+            if test(&self.pages[page as usize]) {
+                return true;
+            }
+            page = self.earlier[page as usize];
+        }
+        false
+    }
+}
+
+/// Calls `visit` with all cells from the lowest to the highest.
+#[inline(always)]
+fn each_cell([low, high]: [[u32; 3]; 2], mut visit: impl FnMut([u32; 3])) {
+    for z in low[2]..=high[2] {
+        for y in low[1]..=high[1] {
+            for x in low[0]..=high[0] {
+                visit([x, y, z]);
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::{Mesh, exact};
+    use crate::psp::fragment::Fragment;
+    use crate::rng::{Draw, Rng};
+
+    /// Where the tests look: near the origin, and where floats have hardly more than 64 spacings for a radius.
+    const PLACES: [(f64, f64); 4] = [(8.0, 1.0), (8.0, 7.0), (8e30, 1e30), (2e5, 1.1)];
+
+    fn random_point(rng: &mut Rng, centre: f64, size: f64) -> [f32; 3] {
+        [(); 3].map(|()| (centre + size * (2.0 * rng.unit() - 1.0)) as f32)
+    }
+
+    /// Against exact distances: what conflicts with no sample is not rejected, and what does is.
+    #[test]
+    fn rejects_what_a_loop_over_all_samples_rejects() {
+        for (centre, radius) in PLACES {
+            let mut rng = Rng::at(1, Draw::Probe, &[]);
+            let corners = vec![
+                random_point(&mut rng, centre, 0.0),
+                [(centre + 4.0 * radius) as f32; 3],
+                [(centre - 4.0 * radius) as f32, 0.0, 0.0],
+            ];
+            let mesh = Mesh::new(corners, vec![[0, 1, 2]]).unwrap();
+            let mut grid = Grid::new(Space::new(&mesh, radius));
+            let mut samples: Vec<[f32; 3]> = Vec::new();
+            for _ in 0..2000 {
+                let point = random_point(&mut rng, centre, 4.0 * radius);
+                let conflicts = samples.iter().any(|&sample| exact(sample).distance(exact(point)) < radius);
+                assert_eq!(grid.rejects(grid.space.place(point)), conflicts);
+                if samples.len() < 400 {
+                    grid.add(grid.space.place(point));
+                    samples.push(point);
+                }
+            }
+        }
+    }
+
+    /// Against exact distances to the corners: what no single sample covers is open, and what one covers well is not.
+    #[test]
+    fn only_what_is_covered_is_dropped_and_all_that_is_well_covered() {
+        let (mut rng, mut counts) = (Rng::at(2, Draw::Probe, &[]), [0; 4]);
+        for round in 0..3000 {
+            let (centre, radius) = PLACES[round % 3];
+            let size = [1.0, 0.1, 1e-3][round / 3 % 3] * radius;
+            let corners = vec![(); 3].iter().map(|()| random_point(&mut rng, centre, size)).collect();
+            let Ok(mesh) = Mesh::new(corners, vec![[0, 1, 2]]) else { continue };
+            let mut grid = Grid::new(Space::new(&mesh, radius));
+            let samples: Vec<_> = (0..30).map(|_| random_point(&mut rng, centre, 1.4 * radius)).collect();
+            // A radius far beyond the mesh stands for less.
+            let radius = grid.space.radius() / f64::from(grid.space.scale());
+            samples.iter().for_each(|&sample| grid.add(grid.space.place(sample)));
+            let (whole, mut group) = (Fragment::whole(0), Group::EMPTY);
+            group.triangles[0] = mesh.corners(0).map(|corner| grid.space.place(corner));
+            let is_open = grid.open_triangles(&mut group, 1) == 1;
+            let shape = whole.shape(&mesh);
+            let scaled = shape.corners.map(|corner| grid.space.scaled(corner));
+            let open = grid.open_sixteenths(scaled, shape.longest * f64::from(grid.space.scale()));
+            let parts = (0..16).map(|part| (open >> part & 1 == 1, whole.sixteenth(part)));
+            for (is_open, part) in std::iter::once((is_open, whole)).chain(parts) {
+                let corners = part.shape(&mesh).corners;
+                let farthest =
+                    |&sample: &[f32; 3]| corners.map(|c| c.distance(exact(sample))).into_iter().fold(0.0, f64::max);
+                let nearest = samples.iter().map(farthest).fold(f64::INFINITY, f64::min);
+                assert!(is_open || nearest < radius, "{nearest} {radius}");
+                assert!(!is_open || nearest > radius * (1.0 - 2e-5), "{nearest} {radius}");
+                counts[2 * usize::from(part.corners == whole.corners) + usize::from(is_open)] += 1;
+            }
+        }
+        assert!(counts.into_iter().all(|count| count > 300), "{counts:?}");
+    }
+}

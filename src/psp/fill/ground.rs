@@ -1,0 +1,149 @@
+//! What a fill rains on: a surface of which samples cover a part.
+//!
+//! The rounds (`rounds.rs`) know it by this trait only, so that they serve whatever a sample covers. A ground looks at
+//! fragments and takes darts. Lengths are in radii, areas in squared radii: those of the place, where the radius varies.
+
+use glam::DVec3;
+
+use crate::mesh::{Mesh, round_barycentrics};
+use crate::psp::fill::grid::Grid;
+use crate::psp::fill::page::{GROUP, Group};
+use crate::psp::fill::space::Space;
+use crate::psp::fragment::Fragment;
+use crate::psp::samples::Sample;
+
+/// A whole triangle, small beside the radius, that may be uncovered.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::psp) struct Whole {
+    pub triangle: u32,
+    pub area: f32,
+    pub longest: f32,
+}
+
+/// A fragment that may be uncovered.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::psp) struct Patch {
+    pub fragment: Fragment,
+    /// A bit for each sixteenth that may be; at least one.
+    pub open: u16,
+    pub area: f32,
+    /// The longest edge.
+    pub longest: f32,
+}
+
+/// A surface with samples.
+pub(in crate::psp) trait Ground {
+    /// A dart, until it is known whether it is accepted.
+    type Dart;
+
+    /// Fragments no longer than this are cut up no more.
+    fn finest(&self) -> f32;
+
+    /// A fragment as a patch, unless all of its sixteenths are covered, each by one sample.
+    fn look(&self, fragment: &Fragment) -> Option<Patch>;
+
+    /// Which of the open sixteenths of a patch no single sample certainly covers now.
+    fn open_sixteenths(&self, patch: &Patch) -> u16;
+
+    /// Which of at most 64 triangles no single sample certainly covers: a bit for each.
+    fn open_wholes(&self, wholes: &[Whole]) -> u64;
+
+    /// The dart at a point of a triangle.
+    fn dart(&self, triangle: u32, barycentrics: [f64; 2]) -> Self::Dart;
+
+    /// Makes a dart a sample, unless it conflicts with another one.
+    fn throw(&mut self, dart: Self::Dart);
+}
+
+/// A surface whose samples all have one radius.
+pub(in crate::psp) struct UniformGround<'a> {
+    pub mesh: &'a Mesh,
+    pub grid: Grid,
+    /// The samples that the fill has added.
+    pub accepted: Vec<Sample>,
+    /// How many darts it took.
+    pub darts: u64,
+    per_radius: f64,
+}
+
+impl<'a> UniformGround<'a> {
+    pub fn new(mesh: &'a Mesh, space: Space) -> Self {
+        let per_radius = 1.0 / space.radius();
+        Self { mesh, grid: Grid::new(space), accepted: Vec::new(), darts: 0, per_radius }
+    }
+
+    /// The radius, in the unit of the mesh.
+    pub fn radius(&self) -> f64 {
+        self.grid.space.radius() / f64::from(self.grid.space.scale())
+    }
+
+    /// Tells the ground of a sample that is there already.
+    pub fn add(&mut self, position: [f32; 3]) {
+        self.grid.add(self.grid.space.place(position));
+    }
+
+    /// A whole triangle, and whether it has any area.
+    pub fn whole(&self, triangle: u32) -> (Whole, bool) {
+        let corners = self.mesh.exact_corners(triangle).map(|corner| self.grid.space.scaled(corner));
+        let (area, longest) = self.size(&corners);
+        (Whole { triangle, area: area as f32, longest: longest as f32 }, self.mesh.triangle_area(triangle) > 0.0)
+    }
+
+    /// Where the corners of a fragment are, in the unit of the space.
+    fn corners(&self, fragment: &Fragment) -> [DVec3; 3] {
+        let [a, b, c] = self.mesh.exact_corners(fragment.triangle).map(|corner| self.grid.space.scaled(corner));
+        let at = |[u, v]: [f64; 2]| (1.0 - u - v) * a + u * b + v * c;
+        let [p, q, r] = fragment.corners;
+        [at(p), at(q), at(r)]
+    }
+
+    /// Area and longest edge.
+    fn size(&self, &[a, b, c]: &[DVec3; 3]) -> (f64, f64) {
+        let (e, f) = ((b - a) * self.per_radius, (c - a) * self.per_radius);
+        let longest = e.length_squared().max(f.length_squared()).max((f - e).length_squared());
+        (0.5 * e.cross(f).length(), longest.sqrt())
+    }
+}
+
+impl Ground for UniformGround<'_> {
+    type Dart = Sample;
+
+    fn finest(&self) -> f32 {
+        (f64::from(self.grid.space.scale()) * self.mesh.float_spacing() * self.per_radius) as f32
+    }
+
+    fn look(&self, fragment: &Fragment) -> Option<Patch> {
+        let corners = self.corners(fragment);
+        let (area, longest) = self.size(&corners);
+        let open = self.grid.open_sixteenths(corners, longest / self.per_radius);
+        let patch = Patch { fragment: *fragment, open, area: area as f32, longest: longest as f32 };
+        (open != 0).then_some(patch)
+    }
+
+    fn open_sixteenths(&self, patch: &Patch) -> u16 {
+        let corners = self.corners(&patch.fragment);
+        patch.open & self.grid.open_sixteenths(corners, f64::from(patch.longest) / self.per_radius)
+    }
+
+    fn open_wholes(&self, wholes: &[Whole]) -> u64 {
+        debug_assert!(wholes.len() <= GROUP);
+        let mut group = Group::EMPTY;
+        for (lane, whole) in wholes.iter().enumerate() {
+            group.triangles[lane] = self.grid.space.places(self.mesh.corners(whole.triangle));
+        }
+        self.grid.open_triangles(&mut group, wholes.len())
+    }
+
+    fn dart(&self, triangle: u32, barycentrics: [f64; 2]) -> Sample {
+        Sample::new(self.mesh, triangle, round_barycentrics(barycentrics))
+    }
+
+    fn throw(&mut self, sample: Sample) {
+        self.darts += 1;
+        let place = self.grid.space.place(sample.position);
+        if !self.grid.rejects(place) {
+            self.grid.add(place);
+            self.accepted.push(sample);
+        }
+    }
+}

@@ -1,0 +1,170 @@
+//! Filling what is uncovered, until the set is maximal (departs from the thesis, which has no such step).
+//!
+//! On an empty surface darts rain first, about six for each sample that will stand there. Then one pass over the triangles
+//! drops those that a single sample covers, which are nearly all of them, and rounds of darts close what is open. A mesh
+//! thus costs two short passes, and all else is in proportion to the samples.
+//!
+//! Where many samples are expected each cube of space does so for itself, in the colours of `cubes.rs`: its samples then stay
+//! in the cache, and threads share the cubes. Few samples are made in one piece, since sorting the triangles costs more.
+
+mod blocks;
+mod darts;
+mod grid;
+mod ground;
+mod page;
+mod region;
+pub(super) mod rounds;
+mod space;
+mod table;
+pub(super) mod triangles;
+#[allow(unsafe_code)] // Vector instructions.
+mod vectors;
+
+use std::ops::AddAssign;
+
+use crate::error::Result;
+use crate::job::{Job, chunks_of};
+use crate::mesh::Mesh;
+use crate::psp::cubes::Cube;
+use crate::psp::estimate::expected_samples;
+use crate::psp::fill::blocks::Blocks;
+use crate::psp::fill::ground::UniformGround;
+use crate::psp::fill::region::{Items, first_darts, first_darts_on_pieces, open_parts, open_triangles, throw_first};
+use crate::psp::fill::rounds::{MEASURED, Open, rounds};
+use crate::psp::fill::space::Space;
+use crate::psp::fill::triangles::{Measures, Triangles};
+use crate::psp::samples::{Sample, SampleSet};
+use crate::rng::{Draw, Rng};
+
+/// Up to so many expected samples a surface is filled in one piece.
+const ONE_PIECE: f64 = 25_000.0;
+
+/// Groups of triangles per task.
+const CHUNK: usize = 1 << 8;
+
+/// Counts of a fill, or of a part of it.
+#[derive(Default)]
+pub(super) struct Filled {
+    pub darts: u64,
+    /// The area that was open at first.
+    pub open_area: f64,
+}
+
+impl AddAssign for Filled {
+    fn add_assign(&mut self, part: Self) {
+        self.darts += part.darts;
+        self.open_area += part.open_area;
+    }
+}
+
+/// Adds samples until the set is maximal.
+pub(super) fn fill(job: &Job, mesh: &Mesh, measures: &Measures, samples: &mut SampleSet, seed: u64) -> Result<Filled> {
+    let is_empty = samples.len() == 0;
+    let mut filled = if expected_samples(mesh, measures, samples.radius()) <= ONE_PIECE {
+        let mut ground = UniformGround::new(mesh, Space::new(mesh, samples.radius()));
+        samples.all().iter().for_each(|sample| ground.add(sample.position));
+        let open_area = fill_in_one_piece(job, &mut ground, measures, is_empty, seed);
+        // What was accepted stays, even where the job is cancelled.
+        samples.append(&mut ground.accepted);
+        Filled { darts: ground.darts, open_area: open_area? }
+    } else {
+        fill_in_blocks(job, mesh, measures, samples, is_empty, seed)?
+    };
+    if is_empty {
+        filled.open_area = mesh.area();
+    }
+    Ok(filled)
+}
+
+/// The area that is open where there were samples before the fill, measured in parts that are fine enough.
+fn open_area(ground: &mut UniformGround, open: &mut Open, is_empty: bool) -> f64 {
+    if is_empty {
+        return 0.0;
+    }
+    open.update(ground, MEASURED);
+    open.area() * ground.radius() * ground.radius()
+}
+
+/// Fills the whole surface, and returns the area that was open before the rounds.
+fn fill_in_one_piece(
+    job: &Job,
+    ground: &mut UniformGround,
+    measures: &Measures,
+    is_empty: bool,
+    seed: u64,
+) -> Result<f64> {
+    let triangles = measures.triangles();
+    let chunks = chunks_of(triangles.groups(), CHUNK);
+    let mut rng = Rng::at(seed, Draw::Fill, &[]);
+    if is_empty {
+        let mut darts = Vec::new();
+        let in_chunk = |chunk: usize| {
+            let groups = chunks.range(chunk).map(|group| (group, measures.areas[group]));
+            let rng = &mut Rng::at(seed, Draw::Fill, &[chunk as u64]);
+            first_darts(ground.mesh, ground.radius(), triangles, groups, rng)
+        };
+        job.part(0.0, 0.2).stream(chunks.len(), in_chunk, |mut part| {
+            darts.append(&mut part);
+            Ok(())
+        })?;
+        throw_first(ground, Items { triangles, pieces: &[] }, darts, &mut rng);
+    }
+    let mut open = Open::default();
+    let in_chunk = |chunk: usize| open_triangles(ground, triangles, chunks.range(chunk));
+    job.part(0.2, 0.5).stream(chunks.len(), in_chunk, |mut part| {
+        open.append(&mut part);
+        Ok(())
+    })?;
+    let open_area = open_area(ground, &mut open, is_empty);
+    let job = job.part(0.5, 1.0);
+    rounds(ground, open, &mut rng, |round| job.report(1.0 - 0.8f64.powi(round)))?;
+    Ok(open_area)
+}
+
+/// Fills the surface cube by cube.
+fn fill_in_blocks(
+    job: &Job,
+    mesh: &Mesh,
+    measures: &Measures,
+    samples: &mut SampleSet,
+    is_empty: bool,
+    seed: u64,
+) -> Result<Filled> {
+    let blocks = Blocks::new(&job.part(0.0, 0.1), mesh, measures.triangles(), samples)?;
+    let space = Space::new(mesh, samples.radius());
+    samples.grow(&job.part(0.1, 1.0), &blocks.cubes, |block, samples| {
+        let (triangles, pieces) = blocks.content(block);
+        let items = Items { triangles: Triangles::Listed(&triangles), pieces: &pieces };
+        fill_block(UniformGround::new(mesh, space), items, blocks.cubes[block], samples, is_empty, seed)
+    })
+}
+
+/// The samples that a cube needs to be covered, and what that took.
+fn fill_block(
+    mut ground: UniformGround,
+    items: Items,
+    cube: Cube,
+    samples: &SampleSet,
+    is_empty: bool,
+    seed: u64,
+) -> (Vec<Sample>, Filled) {
+    let mut rng = Rng::at(seed, Draw::Fill, &cube.key());
+    let (low, high) = items.reached(ground.mesh, ground.radius());
+    for sample in samples.around(cube) {
+        if (0..3).all(|axis| low[axis] <= sample.position[axis] && sample.position[axis] <= high[axis]) {
+            ground.add(sample.position);
+        }
+    }
+    let triangles = items.triangles;
+    if is_empty {
+        let groups = (0..triangles.groups()).map(|group| (group, f64::INFINITY));
+        let mut darts = first_darts(ground.mesh, ground.radius(), triangles, groups, &mut rng);
+        darts.append(&mut first_darts_on_pieces(ground.mesh, ground.radius(), items, &mut rng));
+        throw_first(&mut ground, items, darts, &mut rng);
+    }
+    let mut open = open_triangles(&ground, triangles, 0..triangles.groups());
+    items.pieces.iter().for_each(|piece| open_parts(&ground, piece, &mut open));
+    let open_area = open_area(&mut ground, &mut open, is_empty);
+    let Ok(()) = rounds(&mut ground, open, &mut rng, |_| Ok::<(), std::convert::Infallible>(()));
+    (ground.accepted, Filled { darts: ground.darts, open_area })
+}

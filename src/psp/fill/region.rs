@@ -1,0 +1,137 @@
+//! Filling a part of the surface by itself: the first darts, what they leave open, and the rounds.
+
+use crate::mesh::Mesh;
+use crate::psp::fill::darts::{Rain, random_point, shuffle};
+use crate::psp::fill::ground::{Ground, UniformGround};
+use crate::psp::fill::page::{GROUP, Group};
+use crate::psp::fill::rounds::{Open, PATCH, WHOLE, throw};
+use crate::psp::fill::triangles::Triangles;
+use crate::psp::fragment::Fragment;
+use crate::psp::pieces::slice;
+use crate::rng::Rng;
+
+/// The first darts on an empty surface, for each squared radius: about six for each sample that will stand there. They are
+/// cheap, as nothing but the triangle that they fall on is known of them, and leave little of the surface open.
+const FIRST_DARTS: f64 = 4.2;
+
+/// Triangles, and fragments of others that are too long, whose numbers follow.
+#[derive(Clone, Copy)]
+pub(in crate::psp) struct Items<'a> {
+    pub triangles: Triangles<'a>,
+    pub pieces: &'a [Fragment],
+}
+
+impl Items<'_> {
+    fn fragment(&self, number: u32) -> Fragment {
+        match (number as usize).checked_sub(self.triangles.len()) {
+            None => Fragment::whole(self.triangles.at(number as usize)),
+            Some(piece) => self.pieces[piece],
+        }
+    }
+
+    /// The box that samples are in that can reach any of it.
+    pub fn reached(&self, mesh: &Mesh, radius: f64) -> ([f32; 3], [f32; 3]) {
+        let triangles = (0..self.triangles.len()).flat_map(|index| mesh.corners(self.triangles.at(index)));
+        let pieces = self.pieces.iter().flat_map(|piece| {
+            piece.corners.map(|corner| mesh.point_exact(piece.triangle, corner).as_vec3().to_array())
+        });
+        let (mut low, mut high) = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
+        for corner in triangles.chain(pieces) {
+            for axis in 0..3 {
+                low[axis] = low[axis].min(corner[axis]);
+                high[axis] = high[axis].max(corner[axis]);
+            }
+        }
+        // Some more, for the rounding of the corners and of the reach.
+        let reach = (1.1 * radius) as f32;
+        (low.map(|x| x - reach), high.map(|x| x + reach))
+    }
+}
+
+/// On which of some groups of triangles the first darts fall, in order. Of groups that stay dry only the area is needed.
+pub(in crate::psp) fn first_darts(
+    mesh: &Mesh,
+    radius: f64,
+    triangles: Triangles,
+    groups: impl Iterator<Item = (usize, f64)>,
+    rng: &mut Rng,
+) -> Vec<u32> {
+    let (mut darts, mut rain) = (Vec::new(), first_rain(rng, radius));
+    for (group, area) in groups {
+        if !rain.passes(area) {
+            let (areas, _) = triangles.measure(mesh, group);
+            for (index, area) in triangles.group(group).zip(areas) {
+                darts.extend(std::iter::repeat_n(index as u32, rain.fall(area)));
+            }
+        }
+    }
+    darts
+}
+
+/// On which pieces they fall.
+pub(in crate::psp) fn first_darts_on_pieces(mesh: &Mesh, radius: f64, items: Items, rng: &mut Rng) -> Vec<u32> {
+    let mut rain = first_rain(rng, radius);
+    let numbers = items.triangles.len() as u32..;
+    let darts = numbers.zip(items.pieces);
+    darts.flat_map(|(number, piece)| std::iter::repeat_n(number, rain.fall(piece.area(mesh)))).collect()
+}
+
+fn first_rain(rng: &mut Rng, radius: f64) -> Rain<'_> {
+    Rain::new(rng, FIRST_DARTS / (radius * radius))
+}
+
+/// Throws the first darts.
+pub(in crate::psp) fn throw_first(ground: &mut UniformGround, items: Items, mut darts: Vec<u32>, rng: &mut Rng) {
+    shuffle(rng, &mut darts);
+    throw(ground, rng, &darts, |number, rng| {
+        let fragment = items.fragment(number);
+        (fragment.triangle, fragment.at(random_point(rng)))
+    });
+}
+
+/// What is open of some groups of triangles.
+pub(in crate::psp) fn open_triangles(
+    ground: &UniformGround,
+    triangles: Triangles,
+    groups: std::ops::Range<usize>,
+) -> Open {
+    let (mut open, mut lanes, space) = (Open::default(), Group::EMPTY, ground.grid.space);
+    for group in groups {
+        let range = triangles.group(group);
+        for (lane, index) in range.clone().enumerate() {
+            lanes.triangles[lane] = space.places(ground.mesh.corners(triangles.at(index)));
+        }
+        let mut uncovered = ground.grid.open_triangles(&mut lanes, range.len());
+        while uncovered != 0 {
+            add(ground, triangles.at(range.start + uncovered.trailing_zeros() as usize), &mut open);
+            uncovered &= uncovered - 1;
+        }
+    }
+    open
+}
+
+/// Adds a triangle that is not covered: whole, if it is small and has any area, or in parts.
+fn add(ground: &UniformGround, triangle: u32, open: &mut Open) {
+    let (whole, has_area) = ground.whole(triangle);
+    if !has_area {
+    } else if whole.longest <= WHOLE {
+        open.wholes.push(whole);
+    } else {
+        let (mut slices, radius) = (Vec::new(), ground.radius());
+        slice(ground.mesh, triangle, PATCH * radius, &mut slices);
+        slices.iter().for_each(|slice| open_parts(ground, slice, open));
+    }
+}
+
+/// Adds what is open of a fragment, in patches that are small enough.
+pub(in crate::psp) fn open_parts(ground: &UniformGround, fragment: &Fragment, open: &mut Open) {
+    let parts = parts_up_to(ground.mesh, fragment, PATCH * ground.radius());
+    open.patches.extend(parts.filter_map(|part| ground.look(&part)));
+}
+
+/// The parts of a fragment, of its own shape, that are no longer than `longest`.
+pub(in crate::psp) fn parts_up_to(mesh: &Mesh, fragment: &Fragment, longest: f64) -> impl Iterator<Item = Fragment> {
+    fragment.parts((fragment.shape(mesh).longest / longest).ceil().max(1.0) as u32)
+}
+
+const _: () = assert!(GROUP == 64, "a bit for each triangle");

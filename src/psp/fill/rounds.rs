@@ -1,0 +1,183 @@
+//! Rounds of darts on what is not covered, until nothing is left: what makes a set maximal.
+//!
+//! As in the flat quadtree of Ebeida et al. 2012 ("A simple algorithm for maximal Poisson-disk sampling in high dimensions"),
+//! with triangles for squares: darts on all open parts, a new look at these, and what is still open is cut up.
+//!
+//! *Even darts.* The darts of a round are a rain of one density on the whole open area, thrown in random order. So each place
+//! is as likely to be hit as any other, however the surface is cut: a dart on what is left out would be rejected anyway.
+//!
+//! *The end.* Each round halves the length up to which open parts are kept whole. Floats cannot tell points apart that are
+//! closer than the float spacing at the mesh's largest coordinate. Where parts no longer than that are still open, one dart
+//! goes to their centre. If it is rejected the part is covered up to rounding: that of the position (0.9 spacings), of the
+//! barycentrics (below 4.4, on a triangle that spans a mesh around the origin) and the size of the part (0.7). So no point
+//! of the surface is farther from all samples than the radius and [`TOLERANCE`] float spacings.
+
+use crate::psp::fill::darts::{Rain, random_point, shuffle};
+use crate::psp::fill::ground::{Ground, Patch, Whole};
+use crate::psp::fill::page::GROUP;
+use crate::psp::fragment::Fragment;
+use crate::rng::Rng;
+
+/// How far beyond the radius a point of the surface can be from all samples of a maximal set, in spacings of floats at
+/// the largest absolute coordinate of the mesh.
+pub const TOLERANCE: f64 = 6.0;
+
+/// Patches are no longer than this at first, in radii: their sixteenths can be covered.
+pub(in crate::psp) const PATCH: f64 = 1.5;
+/// Triangles up to this length are kept whole at first.
+pub(in crate::psp) const WHOLE: f32 = 0.5;
+
+/// The open area is measured in triangles up to this length, and in sixteenths of patches up to four times as long.
+pub(in crate::psp) const MEASURED: f32 = 0.25;
+
+/// How many darts a round throws for each whole triangle, ...
+const DARTS_PER_WHOLE: f64 = 0.2;
+/// ... or, where these are tiny, for each squared radius of them, ...
+const DARTS_PER_AREA: f64 = 20.0;
+/// ... and how many for each patch.
+const DARTS_PER_PATCH: f64 = 0.9;
+
+/// Darts whose positions are computed together: the processor waits for the memory of several triangles at once.
+const TOGETHER: usize = 32;
+
+/// What may be uncovered.
+#[derive(Default)]
+pub(in crate::psp) struct Open {
+    pub wholes: Vec<Whole>,
+    pub patches: Vec<Patch>,
+}
+
+impl Patch {
+    /// The area that may be uncovered.
+    fn open_area(&self) -> f64 {
+        f64::from(self.area) * f64::from(self.open.count_ones()) / 16.0
+    }
+}
+
+impl Open {
+    /// The area of all of it, in squared radii.
+    pub fn area(&self) -> f64 {
+        self.wholes_area() + self.patches.iter().map(Patch::open_area).sum::<f64>()
+    }
+
+    fn wholes_area(&self) -> f64 {
+        self.wholes.iter().map(|whole| f64::from(whole.area)).sum()
+    }
+
+    /// Takes up what is open elsewhere.
+    pub fn append(&mut self, other: &mut Self) {
+        self.wholes.append(&mut other.wholes);
+        self.patches.append(&mut other.patches);
+    }
+
+    /// The darts of a round: on which whole triangle, or behind these on which patch, each of them falls.
+    fn rain(&self, rng: &mut Rng) -> Vec<u32> {
+        let per_wholes = (DARTS_PER_WHOLE * self.wholes.len() as f64).min(DARTS_PER_AREA * self.wholes_area());
+        let expected = per_wholes + DARTS_PER_PATCH * self.patches.len() as f64;
+        let mut darts = Vec::with_capacity((1.1 * expected) as usize + 16);
+        let mut rain = Rain::new(rng, expected / self.area());
+        let areas = self.wholes.iter().map(|whole| f64::from(whole.area));
+        for (number, area) in (0..).zip(areas.chain(self.patches.iter().map(Patch::open_area))) {
+            let count = rain.fall(area);
+            darts.extend(std::iter::repeat_n(number, count));
+        }
+        shuffle(rng, &mut darts);
+        darts
+    }
+
+    /// A random point of a whole triangle or an open part of a patch.
+    fn point(&self, number: u32, rng: &mut Rng) -> (u32, [f64; 2]) {
+        let number = number as usize;
+        match self.wholes.get(number) {
+            Some(whole) => (whole.triangle, random_point(rng)),
+            None => {
+                let Patch { fragment, open, .. } = &self.patches[number - self.wholes.len()];
+                let skipped = rng.below(open.count_ones().into());
+                let part = (0..skipped).fold(*open, |open, _| open & (open - 1)).trailing_zeros();
+                (fragment.triangle, fragment.sixteenth(part as usize).at(random_point(rng)))
+            }
+        }
+    }
+
+    /// Looks again at everything: drops what is covered, and cuts up what is longer than a limit.
+    pub fn update<G: Ground>(&mut self, ground: &mut G, limit: f32) {
+        let finest = ground.finest();
+        let is_kept = |longest: f32| longest <= limit && finest <= limit;
+        let (mut kept, mut grown, mut last) = (0, Vec::new(), Vec::new());
+        for start in (0..self.wholes.len()).step_by(GROUP) {
+            let end = (start + GROUP).min(self.wholes.len());
+            let mut open = ground.open_wholes(&self.wholes[start..end]);
+            while open != 0 {
+                let whole = self.wholes[start + open.trailing_zeros() as usize];
+                open &= open - 1;
+                let fragment = Fragment::whole(whole.triangle);
+                if is_kept(whole.longest) {
+                    self.wholes[kept] = whole;
+                    kept += 1;
+                } else if whole.longest <= finest {
+                    last.push(fragment);
+                } else {
+                    grown.extend(ground.look(&fragment));
+                }
+            }
+        }
+        self.wholes.truncate(kept);
+        kept = 0;
+        for index in 0..self.patches.len() {
+            let mut patch = self.patches[index];
+            patch.open = ground.open_sixteenths(&patch);
+            if patch.open == 0 {
+            } else if is_kept(patch.longest) {
+                self.patches[kept] = patch;
+                kept += 1;
+            } else if patch.longest <= finest {
+                last.push(patch.fragment);
+            } else {
+                let parts = (0..16).filter(|part| patch.open >> part & 1 == 1);
+                grown.extend(parts.filter_map(|part| ground.look(&patch.fragment.sixteenth(part))));
+            }
+        }
+        self.patches.truncate(kept);
+        self.patches.append(&mut grown);
+        for fragment in last {
+            ground.throw(ground.dart(fragment.triangle, fragment.at([1.0 / 3.0; 2])));
+        }
+    }
+}
+
+/// Throws darts at random points, in order.
+pub(in crate::psp) fn throw<G: Ground>(
+    ground: &mut G,
+    rng: &mut Rng,
+    targets: &[u32],
+    point: impl Fn(u32, &mut Rng) -> (u32, [f64; 2]),
+) {
+    let mut darts = Vec::with_capacity(TOGETHER);
+    for targets in targets.chunks(TOGETHER) {
+        darts.extend(targets.iter().map(|&target| {
+            let (triangle, barycentrics) = point(target, rng);
+            ground.dart(triangle, barycentrics)
+        }));
+        darts.drain(..).for_each(|dart| ground.throw(dart));
+    }
+}
+
+/// Throws darts at what is open until it is covered. After each round it is told how many there have been.
+pub(in crate::psp) fn rounds<G: Ground, E>(
+    ground: &mut G,
+    mut open: Open,
+    rng: &mut Rng,
+    report: impl Fn(i32) -> Result<(), E>,
+) -> Result<(), E> {
+    let mut limit = PATCH as f32;
+    let mut round = 0;
+    while !(open.wholes.is_empty() && open.patches.is_empty()) {
+        let darts = open.rain(rng);
+        throw(ground, rng, &darts, |target, rng| open.point(target, rng));
+        limit *= 0.5;
+        open.update(ground, limit);
+        round += 1;
+        report(round)?;
+    }
+    Ok(())
+}

@@ -1,0 +1,114 @@
+//! The tests of `page.rs` in AVX2 and AVX-512, the same to the bit.
+
+use crate::psp::fill::page::{Group, Page, Part};
+use crate::psp::fill::space::Place;
+use crate::simd::Level;
+
+#[cfg(target_arch = "x86_64")]
+mod avx2;
+#[cfg(target_arch = "x86_64")]
+mod avx512;
+
+/// [`Page::near`].
+#[inline]
+pub(super) fn near(level: Level, page: &Page, place: Place, limit: f32) -> u16 {
+    match level {
+        Level::Portable => page.near(place, limit),
+        // SAFETY: the token is proof that the processor has the instructions.
+        #[cfg(target_arch = "x86_64")]
+        Level::Avx2(_) => unsafe { avx2::near(page, place, limit) },
+        // SAFETY: the same.
+        #[cfg(target_arch = "x86_64")]
+        Level::Avx512(_) => unsafe { avx512::near(page, place, limit) },
+    }
+}
+
+/// [`Page::covering`].
+#[inline]
+pub(super) fn covering(level: Level, page: &Page, corners: &[Place; 3], limit: f32) -> u16 {
+    match level {
+        Level::Portable => page.covering(corners, limit),
+        // SAFETY: the token is proof that the processor has the instructions.
+        #[cfg(target_arch = "x86_64")]
+        Level::Avx2(_) => unsafe { avx2::covering(page, corners, limit) },
+        // SAFETY: the same.
+        #[cfg(target_arch = "x86_64")]
+        Level::Avx512(_) => unsafe { avx512::covering(page, corners, limit) },
+    }
+}
+
+/// [`Page::covered`].
+#[inline]
+pub(super) fn covered_sixteenths(level: Level, page: &Page, part: &Part, limit: f32) -> u16 {
+    match level {
+        Level::Portable => page.covered(part, limit),
+        // SAFETY: the token is proof that the processor has the instructions.
+        #[cfg(target_arch = "x86_64")]
+        Level::Avx2(_) => unsafe { avx2::covered_sixteenths(page, part, limit) },
+        // SAFETY: the same.
+        #[cfg(target_arch = "x86_64")]
+        Level::Avx512(_) => unsafe { avx512::covered_sixteenths(page, part, limit) },
+    }
+}
+
+/// [`Group::covered`].
+#[inline]
+pub(super) fn covered_triangles(level: Level, group: &Group, pages: &[Page], limit: f32) -> u64 {
+    match level {
+        Level::Portable => group.covered(pages, limit),
+        // SAFETY: the token is proof that the processor has the instructions.
+        #[cfg(target_arch = "x86_64")]
+        Level::Avx2(_) => unsafe { avx2::covered_triangles(group, pages, limit) },
+        // SAFETY: the same.
+        #[cfg(target_arch = "x86_64")]
+        Level::Avx512(_) => unsafe { avx512::covered_triangles(group, pages, limit) },
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::rng::{Draw, Rng};
+
+    #[test]
+    fn all_vectors_give_the_same_bits() {
+        let mut rng = Rng::at(3, Draw::Probe, &[]);
+        let mut counts = [0; 3];
+        for round in 0..1000 {
+            let mut coordinate = |size: f64| (size * (2.0 * rng.unit() - 1.0)) as f32;
+            let mut pages = [Page::EMPTY; 4];
+            for page in &mut pages[1..] {
+                (0..13).for_each(|lane| page.put(lane, std::array::from_fn(|_| coordinate(1.5))));
+            }
+            let mut group = Group::EMPTY;
+            for lane in 0..60 {
+                let (at, size) = ([(); 3].map(|()| coordinate(1.0)), [0.5, 0.1, 1e-4][lane % 3]);
+                let corners = [(); 3].map(|()| std::array::from_fn(|axis| at[axis] + coordinate(size)));
+                group.triangles[lane] = corners;
+                group.pages[lane] = lane as u32 % 4;
+            }
+            let mut vector = |size: f64| [(); 3].map(|()| coordinate(size));
+            let place = vector(1.0);
+            let size = [1.0, 0.3, 1e-3][round % 3];
+            let part = Part {
+                origin: vector(0.5),
+                corner: vector(0.1),
+                edges: [vector(size), vector(size)],
+                centre: vector(0.3),
+                reach2: 2.0,
+            };
+            let all = |level: Level| {
+                let parts = [1, 2, 3].map(|page| covered_sixteenths(level, &pages[page], &part, 1.0));
+                let corners = [0, 1, 2].map(|page| covering(level, &pages[page], &group.triangles[page], 1.0));
+                let triangles = covered_triangles(level, &group, &pages, 1.0);
+                (near(level, &pages[1], place, 1.0), corners, triangles, parts)
+            };
+            let expected = all(Level::Portable);
+            assert!(Level::available().into_iter().all(|level| all(level) == expected));
+            counts[0] += expected.0.count_ones();
+            counts[1] += expected.2.count_ones();
+            counts[2] += expected.3.map(u16::count_ones).iter().sum::<u32>();
+        }
+        assert!(counts.into_iter().all(|count| count > 1000), "{counts:?}");
+    }
+}

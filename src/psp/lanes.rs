@@ -1,0 +1,27 @@
+//! Samples in lanes of eight, and the coarse test, in `f32`, by which merging finds those near a point.
+//!
+//! Lengths are in radii. The test says what is certainly far; the rest is decided in `f64` (`surroundings.rs`). The code here
+//! is portable; `vectors.rs` has the same in AVX2, equal to the bit.
+
+/// What rounding can add to a squared distance of about 1, and some more. Places in a cube's surroundings are off by 2^-21 on
+/// each axis, which makes 3.3e-6 for two of them.
+pub(super) const SLACK: f32 = 1e-5;
+
+/// Points that are tested together.
+pub(super) const LANES: usize = 8;
+
+/// A coordinate of no point. Its square is a float.
+pub(super) const FAR: f32 = 1e18;
+
+/// A few points, one axis after the other; places without a point are [`FAR`] away.
+pub(super) type PointLanes = [[f32; LANES]; 3];
+
+/// Which of some points are no farther than the square root of `reach2` from a point: a bit for each.
+pub(super) fn within(places: &PointLanes, point: [f32; 3], reach2: f32) -> u8 {
+    let mut within = 0;
+    for lane in 0..LANES {
+        let [x, y, z] = [0, 1, 2].map(|axis| places[axis][lane] - point[axis]);
+        within |= u8::from(x * x + y * y + z * z <= reach2) << lane;
+    }
+    within
+}
