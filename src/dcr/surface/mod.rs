@@ -16,16 +16,26 @@
 //! neighbours, but keep their distance through space.
 
 mod apart;
+mod cells;
 mod connected;
+mod flood;
+mod forces;
+mod gather;
+mod lists;
+mod local;
 mod near;
+mod neighbourhoods;
 mod options;
+mod patches;
 mod relax;
 mod relaxation;
 mod samples;
-mod star;
 mod triangles;
+#[allow(unsafe_code)] // Vector instructions.
+mod vectors;
 mod view;
 mod walk;
+mod welding;
 
 pub use options::{Options, Report};
 pub use relax::relax;

@@ -10,7 +10,6 @@ use crate::dcr::surface::relaxation::SurfaceRelaxation;
 use crate::dcr::surface::samples::{check, enter, hexagonal_distance, leave};
 use crate::dcr::surface::walk::SurfacePoint;
 use crate::error::{Error, Result};
-use crate::geometry::grid3;
 use crate::job::{Context, Job, Progress};
 use crate::mesh::{Mesh, round_barycentrics};
 use crate::points::SurfaceSamples;
@@ -49,9 +48,7 @@ pub fn relax(
     let connected = ConnectedMesh::new(mesh)?;
     let spacing = hexagonal_distance(mesh, triangles.len());
     let places = enter(triangles, barycentrics);
-    let positions = places.iter().map(|place| place.position(mesh).as_vec3().to_array()).collect::<Vec<_>>();
-    let floor = context.run(None, |job| grid3::smallest_distance(job, &positions))?;
-    let mut set = SurfaceRelaxation::new(&connected, spacing, floor, places);
+    let mut set = context.run(None, |job| SurfaceRelaxation::new(job, &connected, spacing, &places))?;
     let steps = context.run(progress, |job| make_steps(job, options, spacing, &mut set));
     let stopped = match steps {
         Err(Error::Cancelled) => Stopped::Cancelled,
@@ -62,9 +59,9 @@ pub fn relax(
             let on_triangle = |&uv: &[f32; 2]| round_barycentrics(uv.map(f64::from));
             mesh.samples(triangles.to_vec(), barycentrics.iter().map(on_triangle).collect())
         }
-        _ => leave(mesh, set.places()),
+        _ => leave(mesh, &set.places()),
     };
-    let smallest_distance = context.run(None, |job| grid3::smallest_distance(job, &samples.positions))?;
+    let smallest_distance = context.run(None, |job| set.smallest_distance(job))?;
     let report = Report {
         iterations: set.iterations(),
         stopped,
@@ -79,9 +76,10 @@ pub fn relax(
 /// coincide with its mirror image. They move a little towards a random point of their triangle. None if none must be
 /// moved.
 fn parted(set: &SurfaceRelaxation, spacing: f64, seed: u64, attempt: u64) -> Option<Vec<SurfacePoint>> {
-    let (mesh, mut places) = (set.mesh(), set.places().to_vec());
+    let (mesh, mut places) = (set.mesh(), set.places());
+    let positions: Vec<_> = places.iter().map(|place| place.position(mesh)).collect();
     let mut order: Vec<u32> = (0..places.len() as u32).collect();
-    let bits = |i: u32| set.positions()[i as usize].to_array().map(f64::to_bits);
+    let bits = |i: u32| positions[i as usize].to_array().map(f64::to_bits);
     order.sort_unstable_by_key(|&i| (bits(i), i));
     let repeated = order.windows(2).filter(|pair| bits(pair[0]) == bits(pair[1])).map(|pair| pair[1]);
     let on_edges = (0..places.len() as u32).filter(|&i| {
@@ -105,7 +103,7 @@ fn parted(set: &SurfaceRelaxation, spacing: f64, seed: u64, attempt: u64) -> Opt
 
 /// Steps until the motion ends or the steps do.
 fn make_steps(job: &Job, options: &Options, spacing: f64, set: &mut SurfaceRelaxation) -> Result<Stopped> {
-    if set.places().len() < 2 {
+    if set.count() < 2 {
         return Ok(Stopped::Converged);
     }
     let attempts = if options.max_iterations > 0 { ATTEMPTS } else { 0 };
