@@ -96,6 +96,7 @@ impl Flood {
 mod tests {
     use super::*;
     use crate::dcr::surface::connected::ConnectedMesh;
+    use crate::job::Context;
     use crate::mesh::{Mesh, exact};
     use std::collections::BTreeSet;
 
@@ -132,7 +133,8 @@ mod tests {
         for (count, spacing) in [(10, 0.05), (200, 0.1), (1000, 0.2), (1000, 0.05)] {
             let mesh = folded(count);
             let connected = ConnectedMesh::new(&mesh).unwrap();
-            let patches = Patches::new(&connected, spacing);
+            let context = Context::new(1).unwrap();
+            let patches = context.run(None, |job| Patches::new(job, &connected, spacing)).unwrap();
             let (mut flood, mut beyond) = (Flood::default(), 0);
             for start in (0..2 * count).step_by(7) {
                 let [a, b, c] = mesh.corners(start).map(Vec3::from);

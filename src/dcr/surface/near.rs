@@ -194,6 +194,7 @@ pub(super) fn mirrored(place: DVec3, [a, b]: [DVec3; 2]) -> DVec3 {
 mod tests {
     use super::*;
     use crate::dcr::surface::walk::SurfacePoint;
+    use crate::job::Context;
     use crate::mesh::Mesh;
     use crate::rng::{Draw, Rng};
     use glam::DVec2;
@@ -222,7 +223,8 @@ mod tests {
     fn found(mesh: &Mesh, places: &[SurfacePoint]) -> Vec<Vec<(u32, DVec3)>> {
         let connected = &ConnectedMesh::new(mesh).unwrap();
         let positions: Vec<DVec3> = places.iter().map(|place| place.position(mesh)).collect();
-        let patches = &Patches::new(connected, RADIUS);
+        let context = Context::new(1).unwrap();
+        let patches = &context.run(None, |job| Patches::new(job, connected, RADIUS)).unwrap();
         let side = SampleSearch::cell_side(RADIUS, 1.0, 0.0);
         let cells = &Cells::new(DVec3::ZERO, side, positions.iter().map(|position| position.as_vec3()));
         let search = SampleSearch { connected, patches, cells, spacing: RADIUS, radius: 1.0, sight: 0.0 };

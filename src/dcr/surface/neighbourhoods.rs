@@ -21,10 +21,10 @@ use crate::job::{Job, chunks_of};
 use crate::mesh::exact;
 
 /// The distance up to which neighbours are needed, in spacings.
-const REACH: f64 = 1.6;
+const REACH: f64 = 1.7;
 
 /// The distance beyond that up to which they are listed.
-const SKIN: f64 = 0.4;
+const SKIN: f64 = 0.3;
 
 /// The least stride for which samples in sight are listed, in spacings.
 const LEAST_STRIDE: f64 = 0.2;
@@ -55,21 +55,22 @@ pub(super) struct Neighbourhoods<'a> {
 impl<'a> Neighbourhoods<'a> {
     /// Of samples that are never closer to each other than `floor` spacings.
     pub(super) fn new(
+        job: &Job,
         connected: &'a ConnectedMesh<'a>,
         spacing: f64,
         floor: f64,
         movers: &[Mover],
         positions: &[Position],
-    ) -> Self {
+    ) -> Result<Self> {
         let most = f64::from(FARTHEST);
         let farthest = ((REACH - floor) / 2.0).clamp(LEAST_STRIDE, most);
         let sight = floor + 2.0 * farthest + SKIN;
         let side = SampleSearch::cell_side(spacing, REACH + SKIN, sight);
         let cells = Cells::new(exact(connected.mesh.bounds().0), side, positions.iter().map(|&place| vec3(place)));
         let locals = movers.iter().map(|mover| Local::on(connected, spacing, mover.place.triangle, Vec3::ZERO));
-        Self {
+        Ok(Self {
             connected,
-            patches: Patches::new(connected, spacing),
+            patches: Patches::new(job, connected, spacing)?,
             spacing,
             sight,
             farthest,
@@ -79,7 +80,7 @@ impl<'a> Neighbourhoods<'a> {
             strayed: (0..movers.len() as u32).collect(),
             searches: vec![0; movers.len()],
             search: 0,
-        }
+        })
     }
 
     /// The farthest that samples may move in a step, in spacings.

@@ -3,9 +3,12 @@
 //! The triangles of a patch have their centres in one voxel, a little more than half a spacing wide, so that the number
 //! of patches near a sample does not grow with the number of triangles. A triangle larger than a voxel is a patch.
 
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 
 use crate::dcr::surface::connected::ConnectedMesh;
+use crate::error::Result;
+use crate::job::{Job, chunks};
+use crate::mesh::{Mesh, exact};
 
 /// The side of a voxel, in spacings.
 const VOXEL: f64 = 0.6;
@@ -74,58 +77,34 @@ impl Portal {
 pub(super) struct Patches {
     /// For each triangle its patch.
     sides: Vec<Side>,
-    /// Patch `p` has the portals `starts[p].portals..starts[p + 1].portals`, and so on.
-    starts: Vec<Start>,
+    exits: Exits,
+}
+
+/// What leads out of patches.
+#[derive(Default)]
+struct Exits {
+    /// The portals of each patch end, and the next one's begin, at this number of them; the same for `open`.
+    ends: Vec<[u32; 2]>,
     portals: Vec<Portal>,
     /// The half-edges of boundaries.
     open: Vec<u32>,
 }
 
-#[derive(Clone, Copy)]
-struct Start {
-    portals: u32,
-    open: u32,
-}
-
 impl Patches {
     /// Divides a mesh. O(n).
-    pub(super) fn new(connected: &ConnectedMesh, spacing: f64) -> Self {
-        let (sides, triangles, starts) = divided(connected, spacing);
-        let mut patches =
-            Self { sides, starts: vec![Start { portals: 0, open: 0 }], portals: Vec::new(), open: Vec::new() };
-        for (patch, range) in (0..).zip(starts.windows(2)) {
-            triangles[range[0]..range[1]].iter().for_each(|&triangle| patches.leave(connected, patch, triangle));
-            patches.starts.push(Start { portals: patches.portals.len() as u32, open: patches.open.len() as u32 });
-        }
-        patches
-    }
-
-    /// Adds the edges through which a triangle leads out of the last patch.
-    fn leave(&mut self, connected: &ConnectedMesh, patch: u32, triangle: u32) {
-        let first = self.starts[patch as usize].portals as usize;
-        for edge in 3 * triangle..3 * triangle + 3 {
-            let mut is_open = true;
-            for other in connected.across(edge) {
-                is_open = false;
-                let side = self.sides[(other / 3) as usize];
-                if side.patch() == patch {
-                    continue;
-                }
-                let ends = connected.end_positions(edge);
-                let same = self.portals[first..].iter_mut().find(|portal| portal.to.patch() == side.patch());
-                match same {
-                    Some(portal) => portal.extend(ends),
-                    None => {
-                        let here = self.sides[triangle as usize];
-                        let is_turned = here.is_turned() ^ side.is_turned() ^ connected.run_alike(edge, other);
-                        self.portals.push(Portal { to: Side::new(side.patch(), is_turned), ends, is_box: false });
-                    }
-                }
+    pub(super) fn new(job: &Job, connected: &ConnectedMesh, spacing: f64) -> Result<Self> {
+        let Division { sides, triangles, starts } = Division::new(job, connected, spacing)?;
+        let chunks = chunks(starts.len() - 1);
+        let parts = job.map(chunks.len(), |chunk| {
+            let mut part = Exits::default();
+            for patch in chunks.range(chunk) {
+                part.add(connected, &sides, patch as u32, &triangles[starts[patch]..starts[patch + 1]]);
             }
-            if is_open {
-                self.open.push(edge);
-            }
-        }
+            part
+        })?;
+        let mut exits = Exits::default();
+        parts.into_iter().for_each(|part| exits.append(part));
+        Ok(Self { sides, exits })
     }
 
     /// The patch of a triangle.
@@ -137,69 +116,131 @@ impl Patches {
     /// The portals of a patch.
     #[inline]
     pub(super) fn portals(&self, patch: u32) -> &[Portal] {
-        let [start, end] = self.bounds(patch);
-        &self.portals[start.portals as usize..end.portals as usize]
+        let [[from, _], [to, _]] = self.exits.bounds(patch);
+        &self.exits.portals[from as usize..to as usize]
     }
 
     /// The half-edges of a patch that are at a boundary.
     #[inline]
     pub(super) fn open(&self, patch: u32) -> &[u32] {
-        let [start, end] = self.bounds(patch);
-        &self.open[start.open as usize..end.open as usize]
-    }
-
-    fn bounds(&self, patch: u32) -> [Start; 2] {
-        [self.starts[patch as usize], self.starts[patch as usize + 1]]
+        let [[_, from], [_, to]] = self.exits.bounds(patch);
+        &self.exits.open[from as usize..to as usize]
     }
 }
 
-/// The patch of each triangle, the triangles by patches, and where each patch begins among these.
-fn divided(connected: &ConnectedMesh, spacing: f64) -> (Vec<Side>, Vec<u32>, Vec<usize>) {
-    let count = connected.mesh.triangles().len();
-    let voxels = voxels(connected, spacing);
-    let mut sides = vec![Side(NONE); count];
-    let (mut triangles, mut starts) = (Vec::with_capacity(count), vec![]);
-    for first in connected.mesh.sampled_triangles() {
-        if sides[first as usize].0 != NONE {
-            continue;
+impl Exits {
+    /// Adds what leads out of the next patch.
+    fn add(&mut self, connected: &ConnectedMesh, sides: &[Side], patch: u32, triangles: &[u32]) {
+        let first = self.portals.len();
+        for edge in triangles.iter().flat_map(|&triangle| 3 * triangle..3 * triangle + 3) {
+            let mut is_open = true;
+            for other in connected.across(edge) {
+                is_open = false;
+                let side = sides[(other / 3) as usize];
+                if side.patch() == patch {
+                    continue;
+                }
+                let ends = connected.end_positions(edge);
+                match self.portals[first..].iter_mut().find(|portal| portal.to.patch() == side.patch()) {
+                    Some(portal) => portal.extend(ends),
+                    None => {
+                        let here = sides[(edge / 3) as usize];
+                        let is_turned = here.is_turned() ^ side.is_turned() ^ connected.run_alike(edge, other);
+                        self.portals.push(Portal { to: Side::new(side.patch(), is_turned), ends, is_box: false });
+                    }
+                }
+            }
+            if is_open {
+                self.open.push(edge);
+            }
         }
-        let (patch, voxel) = (starts.len() as u32, voxels[first as usize]);
-        starts.push(triangles.len());
-        sides[first as usize] = Side::new(patch, false);
-        triangles.push(first);
-        let mut next = triangles.len() - 1;
-        while voxel != ALONE && next < triangles.len() {
-            let triangle: u32 = triangles[next];
-            next += 1;
-            for edge in 3 * triangle..3 * triangle + 3 {
-                for other in connected.across(edge) {
-                    let reached = (other / 3) as usize;
-                    if voxels[reached] == voxel && sides[reached].0 == NONE {
-                        let is_turned = sides[triangle as usize].is_turned() ^ connected.run_alike(edge, other);
-                        sides[reached] = Side::new(patch, is_turned);
-                        triangles.push(reached as u32);
+        self.ends.push([self.portals.len() as u32, self.open.len() as u32]);
+    }
+
+    /// Adds what leads out of the patches after these.
+    fn append(&mut self, part: Self) {
+        let [portals, open] = [self.portals.len() as u32, self.open.len() as u32];
+        self.ends.extend(part.ends.iter().map(|end| [end[0] + portals, end[1] + open]));
+        self.portals.extend(part.portals);
+        self.open.extend(part.open);
+    }
+
+    /// Where the exits of a patch begin and end.
+    #[inline]
+    fn bounds(&self, patch: u32) -> [[u32; 2]; 2] {
+        let patch = patch as usize;
+        [if patch == 0 { [0; 2] } else { self.ends[patch - 1] }, self.ends[patch]]
+    }
+}
+
+/// The triangles of a mesh by patches.
+struct Division {
+    /// For each triangle its patch.
+    sides: Vec<Side>,
+    /// Patch `p` has the triangles `starts[p]..starts[p + 1]` of these.
+    triangles: Vec<u32>,
+    starts: Vec<usize>,
+}
+
+impl Division {
+    fn new(job: &Job, connected: &ConnectedMesh, spacing: f64) -> Result<Self> {
+        let count = connected.mesh.triangles().len();
+        let chunks = chunks(count);
+        let voxels = Voxels::new(connected.mesh, spacing);
+        let voxels: Vec<u64> = job.concat(chunks.len(), |chunk| {
+            chunks.range(chunk).map(|triangle| voxels.of(connected.mesh, triangle as u32)).collect()
+        })?;
+        let mut sides = vec![Side(NONE); count];
+        let (mut triangles, mut starts) = (Vec::with_capacity(count), vec![]);
+        for first in connected.mesh.sampled_triangles() {
+            if sides[first as usize].0 != NONE {
+                continue;
+            }
+            let (patch, voxel) = (starts.len() as u32, voxels[first as usize]);
+            let mut next = triangles.len();
+            starts.push(next);
+            sides[first as usize] = Side::new(patch, false);
+            triangles.push(first);
+            while voxel != ALONE && next < triangles.len() {
+                let triangle: u32 = triangles[next];
+                next += 1;
+                for edge in 3 * triangle..3 * triangle + 3 {
+                    for other in connected.across(edge) {
+                        let reached = (other / 3) as usize;
+                        if voxels[reached] == voxel && sides[reached].0 == NONE {
+                            let is_turned = sides[triangle as usize].is_turned() ^ connected.run_alike(edge, other);
+                            sides[reached] = Side::new(patch, is_turned);
+                            triangles.push(reached as u32);
+                        }
                     }
                 }
             }
         }
+        starts.push(triangles.len());
+        Ok(Self { sides, triangles, starts })
     }
-    starts.push(triangles.len());
-    (sides, triangles, starts)
 }
 
-/// The voxel in which each triangle has its centre. Voxels far from each other may have the same number.
-fn voxels(connected: &ConnectedMesh, spacing: f64) -> Vec<u64> {
-    let mesh = connected.mesh;
-    let (low, voxel) = (crate::mesh::exact(mesh.bounds().0), VOXEL * spacing);
-    let of = |triangle: u32| {
+/// The voxels of a mesh, each a number. Voxels far from each other may have the same.
+struct Voxels {
+    low: DVec3,
+    side: f64,
+}
+
+impl Voxels {
+    fn new(mesh: &Mesh, spacing: f64) -> Self {
+        Self { low: exact(mesh.bounds().0), side: VOXEL * spacing }
+    }
+
+    /// The voxel in which a triangle has its centre.
+    fn of(&self, mesh: &Mesh, triangle: u32) -> u64 {
         let [a, b, c] = mesh.exact_corners(triangle);
         let longest = a.distance_squared(b).max(b.distance_squared(c)).max(c.distance_squared(a));
-        if longest > voxel * voxel {
+        if longest > self.side * self.side {
             return ALONE;
         }
-        let place = ((a + b + c) / 3.0 - low) / voxel;
+        let place = ((a + b + c) / 3.0 - self.low) / self.side;
         let bits = |x: f64| x as u64 & 0x1f_ffff;
         bits(place.x) | bits(place.y) << 21 | bits(place.z) << 42
-    };
-    (0..mesh.triangles().len() as u32).map(of).collect()
+    }
 }

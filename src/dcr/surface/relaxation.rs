@@ -66,7 +66,7 @@ impl<'a> SurfaceRelaxation<'a> {
             level: Level::widest(),
             spacing,
             floor: Floor::new(floor),
-            near: Neighbourhoods::new(connected, spacing, floor / spacing, &movers, &positions),
+            near: Neighbourhoods::new(job, connected, spacing, floor / spacing, &movers, &positions)?,
             motion: Motion::new(STEP, positions.clone()),
             wanted: positions.clone(),
             positions,

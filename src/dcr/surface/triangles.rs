@@ -50,7 +50,7 @@ pub fn triangulate(
     let spacing = hexagonal_distance(mesh, triangles.len());
     let places = enter(triangles, barycentrics);
     let positions: Vec<Position> = places.iter().map(|place| place.rounded(mesh)).collect();
-    let patches = Patches::new(&connected, spacing);
+    let patches = context.run(None, |job| Patches::new(job, &connected, spacing))?;
     let side = SampleSearch::cell_side(spacing, REACH, 0.0);
     let cells = Cells::new(exact(mesh.bounds().0), side, positions.iter().map(|&[x, y, z, _]| Vec3::new(x, y, z)));
     let (connected, patches, cells) = (&connected, &patches, &cells);
