@@ -1,8 +1,8 @@
 //! The edges that triangles share: which part of a surface is connected to which.
 //!
-//! Vertices at the same position are one (`welding.rs`). Triangles without a common edge are not connected, however close they are: the two sides of a thin wall are far from
-//! each other on the surface, and a crack is a boundary. Triangles left out by the mesh's mask are ignored, as are
-//! those two of whose corners coincide.
+//! Vertices at the same position are one (`welding.rs`). Triangles without a common edge are not connected, however
+//! close they are: the two sides of a thin wall are far from each other on the surface, and a crack is a boundary.
+//! Triangles left out by the mesh's mask are ignored, as are those two of whose corners coincide.
 //!
 //! Half-edges are numbered `3 t + k`: the edge from corner `k` to the next of triangle `t`.
 

@@ -148,7 +148,7 @@ mod tests {
                     assert!(found.is_none() || far.contains(&triangle), "{start} {triangle}");
                     beyond += usize::from(found.is_some() && !expected.contains(&triangle));
                     // The first half faces up as it was made, the second too; both turned over every third.
-                    let faces = |triangle: u32| triangle % 3 == 0;
+                    let faces = |triangle: u32| triangle.is_multiple_of(3);
                     assert!(found.is_none_or(|is_turned| is_turned == (faces(triangle) ^ faces(start))));
                 }
                 let open = flood.boundary().iter().copied().collect::<BTreeSet<u32>>();

@@ -125,6 +125,7 @@ mod tests {
     use crate::rng::{Draw, Rng};
     use crate::simd::Level;
     use glam::Vec3;
+    use std::f32::consts::TAU;
 
     /// The force on the origin by points, and that by [`Constraints::force`] or the sum of all pushes.
     struct Both<'a>(&'a Constraints, &'a [Vec2]);
@@ -152,7 +153,7 @@ mod tests {
             // Random points, and rings of many.
             let count = 1 + case as usize % 40;
             let point = |k: usize, x: f64, y: f64| match case % 3 {
-                0 => Vec2::from_angle(k as f32 / count as f32 * 6.28) * (0.8 + 1e-3 * x as f32),
+                0 => Vec2::from_angle(k as f32 / count as f32 * TAU) * (0.8 + 1e-3 * x as f32),
                 _ => Vec2::new(x as f32 - 0.5, y as f32 - 0.5) * (0.5 * (count as f32).sqrt()),
             };
             let points: Vec<Vec2> = (0..count).map(|k| point(k, rng.unit(), rng.unit())).collect();

@@ -1,8 +1,8 @@
 //! The lists of all samples, kept up to date while these move.
 //!
-//! Lists hold who is within a radius of where a sample was *listed*. A sample that has strayed from there by half of the
-//! skin is listed anew where it is; the samples that it meets there get it into their lists. So two samples that do not
-//! have each other are no closer than the radius less the skin.
+//! Lists hold what is within a radius of where a sample was *listed*. A sample that has strayed from there by half of
+//! the skin is listed anew where it is; the samples that it meets there get it into their lists. So two samples that do
+//! not have each other are no closer than the radius less the skin.
 
 use glam::Vec3;
 
@@ -31,6 +31,9 @@ const LEAST_STRIDE: f64 = 0.2;
 
 /// The samples of one task.
 const CHUNK: usize = 128;
+
+/// The samples that are found before they are listed.
+const BATCH: usize = 1 << 16;
 
 /// What samples know of each other.
 pub(super) struct Neighbourhoods<'a> {
@@ -132,12 +135,19 @@ impl<'a> Neighbourhoods<'a> {
             self.cells.put(sample, vec3(positions[sample as usize]));
             self.searches[sample as usize] = self.search;
         }
-        let found = self.find(&job.part(0.0, 0.8), &strayed, movers)?;
-        self.take(&strayed, found, movers);
+        self.list(&job.part(0.0, 0.8), &strayed, movers)?;
         let mut met = Vec::new();
         strayed.iter().for_each(|&sample| self.meet(sample, &mut met));
-        let found = self.find(&job.part(0.8, 1.0), &met, movers)?;
-        self.take(&met, found, movers);
+        self.list(&job.part(0.8, 1.0), &met, movers)
+    }
+
+    /// Lists samples, so many at a time that what is found takes little memory.
+    fn list(&mut self, job: &Job, samples: &[u32], movers: &mut [Mover]) -> Result<()> {
+        let share = |first: usize| first.min(samples.len()) as f64 / samples.len() as f64;
+        for (first, part) in (0..).step_by(BATCH).zip(samples.chunks(BATCH)) {
+            let found = self.find(&job.part(share(first), share(first + BATCH)), part, movers)?;
+            self.take(part, found, movers);
+        }
         Ok(())
     }
 

@@ -2,7 +2,6 @@
 
 use glam::DVec2;
 
-use crate::dcr::ground::memory::require_memory;
 use crate::dcr::report::Stopped;
 use crate::dcr::surface::connected::ConnectedMesh;
 use crate::dcr::surface::options::{Options, Report};
@@ -11,12 +10,16 @@ use crate::dcr::surface::samples::{check, enter, hexagonal_distance, leave};
 use crate::dcr::surface::walk::SurfacePoint;
 use crate::error::{Error, Result};
 use crate::job::{Context, Job, Progress};
+use crate::memory;
 use crate::mesh::{Mesh, round_barycentrics};
 use crate::points::SurfaceSamples;
 use crate::rng::{Draw, Rng};
 
 /// The distance by which samples are moved that coincide with others, or lie on an edge of their triangle, in spacings.
 const PARTING: f64 = 1e-3;
+
+/// Memory for a sample and all that is known of it, at the peak.
+const BYTES_PER_SAMPLE: f64 = 600.0;
 
 /// The number of attempts for samples that would get too close to others.
 const ATTEMPTS: u64 = 16;
@@ -26,8 +29,9 @@ const ATTEMPTS: u64 = 16;
 ///
 /// A cancelled call succeeds: it returns the samples after the last whole step, and says so in its report.
 ///
-/// Takes O(triangles log triangles) and then, for each step, O(samples) for samples that are spread about evenly.
-/// Finding neighbours, every few steps, takes O(triangles) besides. Memory is O(triangles + samples).
+/// Takes O(triangles) and then, for each step, O(samples) for samples that are spread about evenly. Memory is
+/// O(triangles + samples). Progress is reported, and the call cancelled, between steps and while neighbours are
+/// searched.
 ///
 /// # Errors
 /// [`Error::InvalidArgument`] for triangles that the mesh does not have, that its mask leaves out or that have no area
@@ -44,7 +48,7 @@ pub fn relax(
 ) -> Result<(SurfaceSamples, Report)> {
     check(mesh, triangles, barycentrics)?;
     options.check()?;
-    require_memory("triangles", triangles.len())?;
+    memory::require(BYTES_PER_SAMPLE * triangles.len() as f64, "triangles", &format!("{} points", triangles.len()))?;
     let connected = ConnectedMesh::new(mesh)?;
     let spacing = hexagonal_distance(mesh, triangles.len());
     let places = enter(triangles, barycentrics);

@@ -21,14 +21,25 @@ const KEPT: usize = 15;
 /// A value for each candidate.
 #[derive(Clone, Copy)]
 #[repr(align(64))]
-pub(super) struct PerCandidate([[f32; LANES]; VECTORS]);
+struct PerCandidate([f32; MOST]);
 
 impl PerCandidate {
-    const ZERO: Self = Self([[0.0; LANES]; VECTORS]);
+    const ZERO: Self = Self([0.0; MOST]);
 
     #[inline(always)]
     fn of(&self, candidate: usize) -> f32 {
-        self.0[candidate / LANES][candidate % LANES]
+        self.0[candidate]
+    }
+
+    /// Sixteen candidates.
+    #[inline(always)]
+    fn vector(&self, vector: usize) -> &[f32; LANES] {
+        &self.0.as_chunks().0[vector]
+    }
+
+    #[inline(always)]
+    fn vector_mut(&mut self, vector: usize) -> &mut [f32; LANES] {
+        &mut self.0.as_chunks_mut().0[vector]
     }
 }
 
@@ -86,9 +97,9 @@ impl View {
     #[inline(always)]
     pub(super) fn add_vector<L: Lanes>(&mut self, lanes: L, offsets: [L::Floats; 3], count: usize) {
         let vector = self.count / LANES;
-        lanes.store(offsets[0], &mut self.offsets[0].0[vector]);
-        lanes.store(offsets[1], &mut self.offsets[1].0[vector]);
-        lanes.store(offsets[2], &mut self.offsets[2].0[vector]);
+        lanes.store(offsets[0], self.offsets[0].vector_mut(vector));
+        lanes.store(offsets[1], self.offsets[1].vector_mut(vector));
+        lanes.store(offsets[2], self.offsets[2].vector_mut(vector));
         self.count += count;
     }
 
@@ -96,10 +107,11 @@ impl View {
     pub(super) fn add(&mut self, offset: Vec3) {
         let (vector, lane) = (self.count / LANES, self.count % LANES);
         for axis in 0..3 {
+            let offsets = self.offsets[axis].vector_mut(vector);
             if lane == 0 {
-                self.offsets[axis].0[vector] = [0.0; LANES];
+                *offsets = [0.0; LANES];
             }
-            self.offsets[axis].0[vector][lane] = offset[axis];
+            offsets[lane] = offset[axis];
         }
         self.count += 1;
     }
@@ -110,9 +122,9 @@ impl View {
         let zero = lanes.splat(0.0);
         let mut vector = 0;
         while vector < self.vectors() {
-            let x = lanes.load(&self.offsets[0].0[vector]);
-            let y = lanes.load(&self.offsets[1].0[vector]);
-            let z = lanes.load(&self.offsets[2].0[vector]);
+            let x = lanes.load(self.offsets[0].vector(vector));
+            let y = lanes.load(self.offsets[1].vector(vector));
+            let z = lanes.load(self.offsets[2].vector(vector));
             let u = Self::along(lanes, axes[0], x, y, z);
             let v = Self::along(lanes, axes[1], x, y, z);
             let squared = lanes.add(lanes.add(lanes.mul(x, x), lanes.mul(y, y)), lanes.mul(z, z));
@@ -121,11 +133,11 @@ impl View {
             let lengths = lanes.mul(squared, planar);
             let scale = lanes.only(lanes.less(zero, lengths), lanes.div(lanes.splat(1.0), lanes.sqrt(lengths)));
             let (u, v) = (lanes.mul(u, scale), lanes.mul(v, scale));
-            lanes.store(squared, &mut self.squared.0[vector]);
-            lanes.store(u, &mut self.inverted[0].0[vector]);
-            lanes.store(v, &mut self.inverted[1].0[vector]);
-            lanes.store(lanes.mul(u, squared), &mut self.plane[0].0[vector]);
-            lanes.store(lanes.mul(v, squared), &mut self.plane[1].0[vector]);
+            lanes.store(squared, self.squared.vector_mut(vector));
+            lanes.store(u, self.inverted[0].vector_mut(vector));
+            lanes.store(v, self.inverted[1].vector_mut(vector));
+            lanes.store(lanes.mul(u, squared), self.plane[0].vector_mut(vector));
+            lanes.store(lanes.mul(v, squared), self.plane[1].vector_mut(vector));
             vector += 1;
         }
     }
@@ -171,7 +183,7 @@ impl View {
         let mut least = lanes.splat(f32::INFINITY);
         let mut vector = 0;
         while vector * LANES < count {
-            let squared = lanes.load(&self.squared.0[vector]);
+            let squared = lanes.load(self.squared.vector(vector));
             let is_one = lanes.less(lanes.load(&NUMBERS[vector]), lanes.splat(count as f32));
             least = lanes.min(least, lanes.select(is_one, squared, lanes.splat(f32::INFINITY)));
             vector += 1;
@@ -185,7 +197,7 @@ impl View {
         let mut near = 0;
         let mut vector = 0;
         while vector * LANES < count {
-            let squared = lanes.load(&self.squared.0[vector]);
+            let squared = lanes.load(self.squared.vector(vector));
             near |= u64::from(lanes.bits(lanes.less(squared, lanes.splat(limit)))) << (vector * LANES);
             vector += 1;
         }
@@ -225,7 +237,7 @@ impl View {
         let mut points = [[lanes.splat(0.0); 2]; N];
         let mut vector = 0;
         while vector < N {
-            points[vector] = [lanes.load(&self.inverted[0].0[vector]), lanes.load(&self.inverted[1].0[vector])];
+            points[vector] = [lanes.load(self.inverted[0].vector(vector)), lanes.load(self.inverted[1].vector(vector))];
             vector += 1;
         }
         let (mut least, mut is_around) = (lanes.splat(0.0), true);
@@ -296,11 +308,11 @@ impl View {
         let mut least = infinite;
         let mut vector = 0;
         while vector < self.vectors() {
-            let u = lanes.load(&self.plane[0].0[vector]);
-            let v = lanes.load(&self.plane[1].0[vector]);
+            let u = lanes.load(self.plane[0].vector(vector));
+            let v = lanes.load(self.plane[1].vector(vector));
             let sine = lanes.mul(lanes.splat(turn), lanes.sub(lanes.mul(x, v), lanes.mul(y, u)));
             // |b|² - a·b, of the candidate b seen from the last neighbour a; falls with the angle at b.
-            let here = lanes.load(&self.squared.0[vector]);
+            let here = lanes.load(self.squared.vector(vector));
             let cosine = lanes.sub(here, lanes.add(lanes.mul(x, u), lanes.mul(y, v)));
             let is_ahead = lanes.less(lanes.splat(0.0), sine);
             cotangents[vector] = lanes.select(is_ahead, lanes.div(cosine, sine), infinite);
