@@ -1,14 +1,20 @@
-//! DCR: time per point and step, on one thread and on four, and their ratio; then whole calls and what they reach, from
-//! KDRT's sets and from starts that are heaped.
+//! DCR: time per point and step, on one thread and on four, and their ratio; then whole calls and what they reach, in the
+//! plane from KDRT's sets and from starts that are heaped, and on meshes.
 //!
 //! Wall times of a shared machine vary: the least of several runs is printed, and ratios of one program.
 
+#[path = "../tests/common/meshes.rs"]
+#[allow(dead_code)]
+mod meshes;
+
 use std::hint::black_box;
+use std::sync::Arc;
 use std::time::Instant;
 
-use azulejo::dcr::{Method, Neighbourhood, Options, Thesis, relax};
+use azulejo::dcr::{Method, Neighbourhood, Options, Thesis, relax, surface};
 use azulejo::kdrt::{self, CountOptions};
-use azulejo::{Boundary, Context, Domain};
+use azulejo::mesh::Mesh;
+use azulejo::{Boundary, Context, Domain, MAXIMAL_DENSITY, psp};
 
 /// Steps of the short and of the long run: their difference does not contain the time before the first step.
 const STEPS: [u32; 2] = [10, 40];
@@ -64,6 +70,7 @@ fn main() {
     let contexts = [("1", one), ("4", four)];
     whole_calls(domain, &contexts);
     any_start(&contexts[0].1);
+    calls_on_meshes(&contexts);
 }
 
 /// A million points of KDRT, all steps.
@@ -131,4 +138,30 @@ fn any_start(context: &Context) {
 /// A number from 0 to 1 that looks random.
 fn scattered(x: f64) -> f64 {
     ((x.fract() * 12.9898 + x).sin() * 43_758.547).rem_euclid(1.0)
+}
+/// Maximal sets on a torus of few and of many triangles, 100 steps, everything in.
+fn calls_on_meshes(contexts: &[(&str, Context)]) {
+    println!(
+        "\n{:<28} {:>9} {:>9} {:>9} {:>12} {:>6}",
+        "whole calls on meshes", "samples", "triangles", "threads", "ns per step", "rho"
+    );
+    for (around_hole, around_tube, count) in [(400, 100, 1e5), (1500, 400, 1e5), (1500, 400, 2e3)] {
+        let (positions, triangles) = meshes::fine_torus(around_hole, around_tube);
+        let mesh = Arc::new(Mesh::new(positions, triangles).expect("a good mesh"));
+        let radius = (MAXIMAL_DENSITY * mesh.area() / count).sqrt();
+        let samples = psp::sample(&contexts[1].1, &mesh, &psp::Options::new(radius), None).unwrap().0;
+        for (threads, context) in contexts {
+            let options = surface::Options::default().tolerance(0.0);
+            let run = || {
+                let start = Instant::now();
+                let (_, report) =
+                    surface::relax(context, &mesh, &samples.triangles, &samples.barycentrics, &options, None).unwrap();
+                (start.elapsed().as_secs_f64(), report)
+            };
+            let (seconds, report) = (0..3).map(|_| run()).min_by(|a, b| a.0.total_cmp(&b.0)).unwrap();
+            let nanoseconds = 1e9 * seconds / (samples.len() as f64 * f64::from(report.iterations));
+            let (count, triangles) = (samples.len(), mesh.triangles().len());
+            println!("{:<28} {count:>9} {triangles:>9} {threads:>9} {nanoseconds:>12.1} {:>6.3}", "torus", report.rho);
+        }
+    }
 }

@@ -140,9 +140,9 @@ pub unsafe extern "C" fn azulejo_dcr_surface_report_init(
 ///
 /// report: what the call did, or NULL.
 ///
-/// O(triangles * log triangles) time once, and for evenly spread samples O(count) for each step and
-/// O(count + triangles) every few steps, to find neighbours. Steps take longer the more triangles
-/// there are between neighbouring samples, and from clustered samples. O(count + triangles) memory.
+/// O(triangles) time once, and for evenly spread samples O(count) for each step, nearly as fast with
+/// many triangles between neighbouring samples as with none. Steps take longer from clustered samples,
+/// and beside many boundaries. O(count + triangles) memory. The call is cancelled between steps.
 ///
 /// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for triangles that do not exist, have no area or
 /// are left out by the mask, and for barycentrics farther outside; AZULEJO_ERROR_TOO_LARGE.

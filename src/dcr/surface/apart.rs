@@ -11,18 +11,17 @@
 //!   to those to which they would move. If both of two samples move, the second test has held; if one moves, the first;
 //!   if none does, nothing has changed. So no two get closer than the floor, and no refusal requires another.
 
-use glam::{DVec2, DVec3};
+use glam::{DVec3, Vec2, Vec3};
 
 use crate::dcr::ground::constraints::STIFFENING;
-use crate::dcr::surface::walk::FlatTriangle;
 
 /// The distance, in spacings, up to which samples that are near on the surface are held off in the end. It is a little
 /// less than the conflict radius, at which forces stop.
-const NEAR: f64 = 0.855;
+const NEAR: f32 = 0.855;
 
 /// The same for samples that are near through space only, over the floor: from that of a maximal set to that of a
 /// relaxed one, but no farther than parts of the surface allow that were sampled independently of each other.
-const FAR: f64 = 1.1;
+const FAR: f32 = 1.1;
 
 /// How often a displacement is corrected by all close samples.
 const ROUNDS: usize = 2;
@@ -51,20 +50,21 @@ impl Floor {
     }
 }
 
-/// The distances up to which samples are held off in a step, in the units of the mesh.
+/// The distances up to which samples are held off in a step, in spacings.
 #[derive(Clone, Copy)]
 pub(super) struct Limits {
     /// From samples near on the surface; it grows as constraints get stiffer.
-    pub(super) near: f64,
+    pub(super) near: f32,
     /// From all others.
-    pub(super) far: f64,
+    pub(super) far: f32,
 }
 
 impl Limits {
-    pub(super) fn of_step(iterations: u32, floor: Floor, spacing: f64) -> Self {
-        let stiff = f64::from(iterations.min(STIFFENING)) / f64::from(STIFFENING);
-        let near = floor.distance.max(NEAR * stiff * spacing);
-        Self { near, far: near.min(FAR * floor.distance) }
+    /// The limits of a step, of samples that are no closer than `floor` spacings.
+    pub(super) fn of_step(iterations: u32, floor: f32) -> Self {
+        let stiff = iterations.min(STIFFENING) as f32 / STIFFENING as f32;
+        let near = floor.max(NEAR * stiff);
+        Self { near, far: near.min(FAR * floor) }
     }
 }
 
@@ -73,39 +73,46 @@ impl Limits {
 pub(super) struct Contacts(Vec<Contact>);
 
 struct Contact {
-    squared: f64,
+    squared: f32,
     /// In the plane of the sample's triangle, of length 1.
-    direction: DVec2,
+    direction: Vec2,
     /// The distance that the sample may move in that direction, in spacings; less than 0 if it must move back.
-    most: f64,
+    most: f32,
 }
 
 impl Contacts {
+    /// Forgets all samples.
     pub(super) fn clear(&mut self) {
         self.0.clear();
     }
 
-    /// Adds a sample at `offset` that is held off up to the distance `limit`, both in the units of the mesh.
-    pub(super) fn add(&mut self, flat: &FlatTriangle, offset: DVec3, limit: f64) {
-        let (projected, squared) = (flat.projected(offset), offset.length_squared());
-        let across = projected.length();
+    /// Adds a sample at `offset`, seen in the plane of these axes, that is held off up to the distance `limit`, both in
+    /// spacings.
+    pub(super) fn add(&mut self, axes: [Vec3; 2], offset: Vec3, limit: f32) {
+        let projected = Vec2::new(offset.dot(axes[0]), offset.dot(axes[1]));
+        let (across_squared, squared) = (projected.length_squared(), offset.length_squared());
         // A sample straight above or below is in no direction.
-        if across > 0.0 {
-            let left = (squared.sqrt() - limit) / flat.spacing();
+        if across_squared > 0.0 {
+            let (across, distance) = (across_squared.sqrt(), squared.sqrt());
+            let left = distance - limit;
             // Along the plane the distance is longer, by the slope of the offset; but no sample moves back by more than
             // what the distance is short of the limit.
-            let most = (0.5 * left * squared.sqrt() / (across * flat.spacing())).max(left.min(0.0));
+            let most = (0.5 * left * distance / across).max(left.min(0.0));
             self.0.push(Contact { squared, direction: projected / across, most });
         }
     }
 
     /// The displacement, corrected. The nearest sample comes last: where not all can be held off, it is. (In the order
     /// of their numbers, pairs stay stuck.)
-    pub(super) fn hold_off(&mut self, mut displacement: DVec2) -> DVec2 {
-        self.0.sort_unstable_by(|a, b| b.squared.total_cmp(&a.squared));
+    pub(super) fn hold_off(&mut self, mut displacement: Vec2) -> Vec2 {
+        let is_free = |contact: &Contact| displacement.dot(contact.direction) <= contact.most;
+        if self.0.iter().all(is_free) {
+            return displacement;
+        }
+        self.0.sort_by(|a, b| b.squared.total_cmp(&a.squared));
         for _ in 0..ROUNDS {
             for Contact { direction, most, .. } in &self.0 {
-                displacement -= (displacement.dot(*direction) - most).max(0.0) * direction;
+                displacement -= (displacement.dot(*direction) - most).max(0.0) * *direction;
             }
         }
         displacement
@@ -115,43 +122,36 @@ impl Contacts {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::dcr::surface::connected::ConnectedMesh;
-    use crate::mesh::Mesh;
 
-    const SPACING: f64 = 0.5;
-
-    /// What is left of a displacement along the plane z = 0, with others at these offsets that are held off up to 1. In
-    /// the units of the mesh.
-    fn held_off(others: &[DVec3], displacement: DVec2) -> DVec2 {
-        let mesh = Mesh::new(vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]], vec![[0, 1, 2]]).unwrap();
-        let flat = FlatTriangle::new(&ConnectedMesh::new(&mesh).unwrap(), 0, SPACING);
+    /// What is left of a displacement along the plane z = 0, with others at these offsets that are held off up to 1.
+    fn held_off(others: &[Vec3], displacement: Vec2) -> Vec2 {
         let mut contacts = Contacts::default();
-        others.iter().for_each(|&other| contacts.add(&flat, other, 1.0));
-        contacts.hold_off(displacement / SPACING) * SPACING
+        others.iter().for_each(|&other| contacts.add([Vec3::X, Vec3::Y], other, 1.0));
+        contacts.hold_off(displacement)
     }
 
     #[test]
     fn displacements_are_cut_where_they_lead_too_close_and_nowhere_else() {
-        let is_near = |a: DVec2, b: DVec2| a.distance(b) < 1e-12;
-        let ahead = [DVec3::new(1.2, 0.0, 0.0)];
-        assert!(is_near(held_off(&ahead, DVec2::new(0.3, 0.2)), DVec2::new(0.1, 0.2)));
-        for free in [DVec2::new(0.09, 0.2), DVec2::new(-0.5, 0.0)] {
+        let is_near = |a: Vec2, b: Vec2| a.distance(b) < 1e-6;
+        let ahead = [Vec3::new(1.2, 0.0, 0.0)];
+        assert!(is_near(held_off(&ahead, Vec2::new(0.3, 0.2)), Vec2::new(0.1, 0.2)));
+        for free in [Vec2::new(0.09, 0.2), Vec2::new(-0.5, 0.0)] {
             assert_eq!(held_off(&ahead, free), free);
         }
         // Two that are too close move apart by half of what is missing each.
-        assert!(is_near(held_off(&[DVec3::new(0.0, 0.8, 0.0)], DVec2::ZERO), DVec2::new(0.0, -0.1)));
+        assert!(is_near(held_off(&[Vec3::new(0.0, 0.8, 0.0)], Vec2::ZERO), Vec2::new(0.0, -0.1)));
         // Where the plane leads away slowly the displacement is longer, but never longer than what is missing.
-        assert!(is_near(held_off(&[DVec3::new(0.64, 0.0, 0.48)], DVec2::ZERO), DVec2::new(-0.125, 0.0)));
-        let above = DVec3::new(1e-3, 0.0, 0.8);
-        assert!(is_near(held_off(&[above], DVec2::ZERO), DVec2::new(above.length() - 1.0, 0.0)));
-        assert_eq!(held_off(&[DVec3::new(0.0, 0.0, 0.8)], DVec2::Y), DVec2::Y);
+        assert!(is_near(held_off(&[Vec3::new(0.64, 0.0, 0.48)], Vec2::ZERO), Vec2::new(-0.125, 0.0)));
+        let above = Vec3::new(1e-3, 0.0, 0.8);
+        assert!(is_near(held_off(&[above], Vec2::ZERO), Vec2::new(above.length() - 1.0, 0.0)));
+        assert_eq!(held_off(&[Vec3::new(0.0, 0.0, 0.8)], Vec2::Y), Vec2::Y);
     }
 
     #[test]
     fn of_two_in_opposite_directions_the_nearer_is_held_off() {
-        let others = [DVec3::new(-0.7, 0.0, 0.0), DVec3::new(0.9, 0.0, 0.0)];
+        let others = [Vec3::new(-0.7, 0.0, 0.0), Vec3::new(0.9, 0.0, 0.0)];
         for others in [others, [others[1], others[0]]] {
-            assert!((held_off(&others, DVec2::ZERO) - DVec2::new(0.15, 0.0)).length() < 1e-12);
+            assert!((held_off(&others, Vec2::ZERO) - Vec2::new(0.15, 0.0)).length() < 1e-6);
         }
     }
 

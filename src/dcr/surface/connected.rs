@@ -1,17 +1,16 @@
 //! The edges that triangles share: which part of a surface is connected to which.
 //!
-//! Vertices at the same position are one, as needed for files that repeat their vertices in each triangle (STL).
-//! Triangles without a common edge are not connected, however close they are: the two sides of a thin wall are far from
-//! each other on the surface, and a crack is a boundary. Triangles left out by the mesh's mask are ignored, as are
-//! those two of whose corners coincide.
+//! Vertices at the same position are one (`welding.rs`). Triangles without a common edge are not connected, however
+//! close they are: the two sides of a thin wall are far from each other on the surface, and a crack is a boundary.
+//! Triangles left out by the mesh's mask are ignored, as are those two of whose corners coincide.
 //!
 //! Half-edges are numbered `3 t + k`: the edge from corner `k` to the next of triangle `t`.
 
 use glam::DVec3;
 
+use crate::dcr::surface::welding::welded;
 use crate::error::{Error, Result};
 use crate::geometry::counting_sort::Binned;
-use crate::geometry::grid3::{Grid3, distance_squared};
 use crate::mesh::{Mesh, exact};
 
 /// A mesh with its edges.
@@ -100,29 +99,14 @@ impl<'a> ConnectedMesh<'a> {
 
     /// The ends of a half-edge.
     pub(super) fn ends(&self, edge: u32) -> [DVec3; 2] {
-        let corners = self.mesh.triangles()[(edge / 3) as usize];
-        [edge, next(edge)].map(|end| exact(self.mesh.positions()[corners[(end % 3) as usize] as usize]))
+        self.end_positions(edge).map(exact)
     }
-}
 
-/// For each vertex the first one at its position, up to a float spacing at the largest coordinate: seams that were
-/// computed twice differ by that.
-fn welded(mesh: &Mesh) -> Vec<u32> {
-    let tolerance = f64::from(mesh.largest_coordinate()) * f64::from(f32::EPSILON);
-    let positions = mesh.positions();
-    let mut grid = Grid3::new(mesh.bounds().0.map(f64::from), 16.0 * tolerance);
-    let mut firsts: Vec<u32> = Vec::new();
-    let weld = |(vertex, &position): (u32, &[f32; 3])| {
-        let is_here = |first: &u32| distance_squared(positions[*first as usize], position) <= tolerance * tolerance;
-        let found =
-            grid.candidates(position.map(f64::from), tolerance).map(|id| firsts[id as usize]).filter(is_here).min();
-        found.unwrap_or_else(|| {
-            grid.insert(position);
-            firsts.push(vertex);
-            vertex
-        })
-    };
-    (0..).zip(positions).map(weld).collect()
+    /// The ends of a half-edge, in floats.
+    pub(super) fn end_positions(&self, edge: u32) -> [[f32; 3]; 2] {
+        let corners = self.mesh.triangles()[(edge / 3) as usize];
+        [edge, next(edge)].map(|end| self.mesh.positions()[corners[(end % 3) as usize] as usize])
+    }
 }
 
 #[cfg(test)]

@@ -1,139 +1,157 @@
 //! The surroundings of samples: the samples within a ball that are reached on the surface without leaving it.
 //!
-//! A flood starts from a sample's triangle and crosses all edges that the ball meets. So samples that are near through
-//! space but not on the surface, as on the other side of a thin wall, are not found, and those behind a sharp fold are.
-//! Neither normals nor winding are trusted.
+//! A flood (`flood.rs`) starts from a sample's triangle and crosses all edges that the ball meets. So samples that are
+//! near through space but not on the surface, as on the other side of a thin wall, are not found, and those behind a
+//! sharp fold are. Neither normals nor winding are trusted.
 //!
 //! Where the flood meets a boundary it mirrors the samples found, as the thesis does on bounded domains (Fig. 4.12 (b)).
 
-use std::collections::HashMap;
-use std::collections::hash_map::Entry;
-use std::hash::{BuildHasherDefault, Hasher};
+use glam::{DVec3, Vec3};
 
-use glam::DVec3;
-
+use crate::dcr::surface::cells::Cells;
 use crate::dcr::surface::connected::ConnectedMesh;
-use crate::dcr::surface::star::MOST;
-use crate::dcr::surface::walk::SurfacePoint;
-use crate::error::Result;
-use crate::geometry::grid3::Grid3;
-use crate::job::{Chunks, Job};
-use crate::mesh::exact;
+use crate::dcr::surface::flood::Flood;
+use crate::dcr::surface::patches::Patches;
+use crate::dcr::surface::view::MOST;
 
 /// Two positions on the boundary at which a sample is mirrored are farther apart than this fraction of the ball's
 /// radius, or at least 60 degrees apart as seen from it: without its image by both sides of a corner, nothing keeps a
 /// sample off one of them.
 const APART: f64 = 0.2;
 
-/// A sample, or its mirror image by a half-edge of the boundary.
+/// The mirror image of a sample by a half-edge of the boundary.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) struct NearSample {
+pub(super) struct Image {
     pub(super) sample: u32,
-    pub(super) mirror: Option<u32>,
+    pub(super) edge: u32,
 }
 
 /// The samples near one sample.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Surroundings {
-    /// The nearest first, no more than [`MOST`].
-    pub(super) neighbours: Box<[NearSample]>,
+    /// The samples that are reached on the surface. With the images no more than [`MOST`], the nearest.
+    pub(super) reached: Vec<u32>,
+    pub(super) images: Vec<Image>,
+    /// All other samples within sight through space, on whatever parts of the surface.
+    pub(super) others: Vec<u32>,
     /// The mean normal, on the front side of the sample's triangle; zero where there is none.
-    pub(super) normal: DVec3,
-    /// All samples within sight through space, on whatever parts of the surface, in ascending order.
-    pub(super) in_sight: Box<[u32]>,
+    pub(super) normal: Vec3,
 }
 
-impl Surroundings {
-    /// Whether a sample, or this image of it, is among the neighbours.
-    pub(super) fn knows(&self, neighbour: NearSample) -> bool {
-        self.neighbours.contains(&neighbour)
-    }
-
-    /// Whether another sample is in sight.
-    pub(super) fn sees(&self, other: u32) -> bool {
-        self.in_sight.binary_search(&other).is_ok()
-    }
-}
-
-/// All samples, found by their position.
+/// All samples, found by their position. Lengths are in the units of the mesh.
 pub(super) struct SampleSearch<'a> {
-    connected: &'a ConnectedMesh<'a>,
-    places: &'a [SurfacePoint],
-    positions: &'a [DVec3],
-    radius: f64,
-    sight: f64,
-    grid: Grid3,
+    pub(super) connected: &'a ConnectedMesh<'a>,
+    pub(super) patches: &'a Patches,
+    pub(super) cells: &'a Cells,
+    pub(super) spacing: f64,
+    /// The radius of the ball, and how far others are in sight; in spacings.
+    pub(super) radius: f64,
+    pub(super) sight: f64,
 }
 
-impl<'a> SampleSearch<'a> {
-    /// A search for neighbours within `radius`, and samples in sight within `sight`.
-    pub(super) fn new(
-        connected: &'a ConnectedMesh<'a>,
-        places: &'a [SurfacePoint],
-        positions: &'a [DVec3],
-        radius: f64,
-        sight: f64,
-    ) -> Self {
-        let mut grid = Grid3::new(connected.mesh.bounds().0.map(f64::from), radius.max(sight));
-        positions.iter().for_each(|position| {
-            grid.insert(position.as_vec3().to_array());
-        });
-        Self { connected, places, positions, radius, sight, grid }
+/// What is found around one sample after the other.
+#[derive(Default)]
+pub(super) struct Finds {
+    flood: Flood,
+    near: Vec<Near>,
+}
+
+#[derive(Clone, Copy)]
+struct Near {
+    squared: f32,
+    sample: u32,
+    position: Vec3,
+}
+
+impl SampleSearch<'_> {
+    /// The side of the cells in which samples are found.
+    pub(super) fn cell_side(spacing: f64, radius: f64, sight: f64) -> f64 {
+        // A little more, for the rounding of positions in cells.
+        radius.max(sight) * spacing * (1.0 + 1e-6)
     }
 
-    /// The surroundings of the samples that are asked for, with their numbers.
-    pub(super) fn surroundings(
+    /// The surroundings of a sample. `seen` has the triangle that each sample is on, and the normal of it.
+    pub(super) fn around(&self, sample: u32, seen: impl Fn(u32) -> (u32, Vec3), finds: &mut Finds) -> Surroundings {
+        let unit = (1.0 / self.spacing) as f32;
+        let (position, triangle) = (self.cells.position(sample), seen(sample).0);
+        let Finds { flood, near } = finds;
+        flood.spread(self.patches, triangle, position, self.radius as f32, unit);
+        near.clear();
+        let mut around = Surroundings::default();
+        let (limit, in_sight) = ((self.radius * self.radius) as f32, (self.sight * self.sight) as f32);
+        let mut normal = Vec3::ZERO;
+        self.cells.around(position, |other, place| {
+            let squared = ((place - position) * unit).length_squared();
+            if squared <= limit {
+                let (triangle, front) = seen(other);
+                if let Some(is_turned) = flood.is_turned(self.patches.side(triangle)) {
+                    let weight = 1.0 - squared / limit;
+                    normal += if is_turned { -weight } else { weight } * front;
+                    near.push(Near { squared, sample: other, position: place });
+                    return;
+                }
+            }
+            if squared <= in_sight && other != sample {
+                around.others.push(other);
+            }
+        });
+        around.normal = normal.normalize_or_zero();
+        let boundary = flood.boundary();
+        if !boundary.is_empty() {
+            self.mirror_all(boundary, position.as_dvec3(), near, &mut around.images);
+        }
+        self.keep_nearest(sample, position, in_sight, near, &mut around);
+        around
+    }
+
+    /// Takes what was found, and if that is too much the nearest of it.
+    fn keep_nearest(
         &self,
-        job: &Job,
-        chunks: Chunks,
-        is_asked: impl Fn(usize) -> bool + Sync,
-    ) -> Result<Vec<(usize, Surroundings)>> {
-        job.flat_map(chunks.len(), |chunk| {
-            let mut flood = Flood::default();
-            let asked = chunks.range(chunk).filter(|&sample| is_asked(sample));
-            asked.map(|sample| (sample, self.surroundings_of(sample, &mut flood))).collect()
-        })
+        sample: u32,
+        position: Vec3,
+        in_sight: f32,
+        near: &mut Vec<Near>,
+        around: &mut Surroundings,
+    ) {
+        near.retain(|near| near.sample != sample);
+        if near.len() + around.images.len() > MOST {
+            let unit = (1.0 / self.spacing) as f32;
+            let image_squared = |image: &Image| {
+                let place = self.cells.position(image.sample).as_dvec3();
+                let place = mirrored(place, self.connected.ends(image.edge));
+                ((place - position.as_dvec3()).as_vec3() * unit).length_squared()
+            };
+            let images: Vec<(f32, Image)> = around.images.iter().map(|image| (image_squared(image), *image)).collect();
+            let mut all: Vec<f32> = near.iter().map(|near| near.squared).chain(images.iter().map(|i| i.0)).collect();
+            all.sort_unstable_by(f32::total_cmp);
+            let farthest = all[MOST - 1];
+            near.sort_by(|a, b| a.squared.total_cmp(&b.squared).then(a.sample.cmp(&b.sample)));
+            around.images = images.into_iter().filter(|image| image.0 <= farthest).map(|image| image.1).collect();
+            around.images.truncate(MOST);
+            let room = MOST - around.images.len();
+            let left_out = near.drain(near.len().min(room)..).filter(|near| near.squared <= in_sight);
+            around.others.extend(left_out.map(|near| near.sample));
+        }
+        around.reached.extend(near.iter().map(|near| near.sample));
     }
 
-    fn surroundings_of(&self, centre: usize, flood: &mut Flood) -> Surroundings {
-        let (position, limit) = (self.positions[centre], self.radius * self.radius);
-        flood.spread(self.connected, self.places[centre].triangle, position, limit);
-        let (mut found, mut in_sight) = (Vec::new(), Vec::new());
-        for sample in self.grid.candidates(position.to_array(), self.radius.max(self.sight)) {
-            let squared = self.positions[sample as usize].distance_squared(position);
-            if squared <= self.sight * self.sight && sample as usize != centre {
-                in_sight.push(sample);
-            }
-            if squared <= limit && flood.sides.contains_key(&self.places[sample as usize].triangle) {
-                found.push((squared, NearSample { sample, mirror: None }));
-            }
+    /// Mirrors the samples at the edges of the boundary that the ball meets.
+    fn mirror_all(&self, boundary: &[u32], centre: DVec3, near: &[Near], images: &mut Vec<Image>) {
+        let radius = self.radius * self.spacing;
+        let is_met = |&edge: &u32| {
+            let [a, b] = self.connected.ends(edge);
+            nearest_on(a, b, centre).distance_squared(centre) <= radius * radius
+        };
+        let met: Vec<u32> = boundary.iter().copied().filter(is_met).collect();
+        if !met.is_empty() {
+            near.iter().for_each(|near| self.mirror(&met, near.sample, near.position.as_dvec3(), centre, images));
         }
-        let order = |a: &(f64, NearSample), b: &(f64, NearSample)| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1));
-        found.sort_unstable_by(order);
-        // The grid may find a sample twice.
-        found.dedup();
-        in_sight.sort_unstable();
-        in_sight.dedup();
-        let weighted = found.iter().map(|&(squared, NearSample { sample, .. })| {
-            let triangle = self.places[sample as usize].triangle;
-            (1.0 - squared / limit) * flood.sides[&triangle] * exact(self.connected.mesh.normal(triangle))
-        });
-        let normal = weighted.sum::<DVec3>().normalize_or_zero();
-        if !flood.boundary.is_empty() {
-            for nth in 0..found.len() {
-                self.mirror(&flood.boundary, found[nth].1.sample, position, &mut found);
-            }
-            found.sort_unstable_by(order);
-        }
-        let others = found.iter().map(|&(_, neighbour)| neighbour);
-        let others = others.filter(|neighbour| neighbour.sample as usize != centre || neighbour.mirror.is_some());
-        Surroundings { neighbours: others.take(MOST).collect(), normal, in_sight: in_sight.into() }
     }
 
     /// Adds the mirror images of a sample: by the position on the boundary that is nearest to it, and by all other
     /// edges that it is beside. Along a boundary with many corners one image replaces several.
-    fn mirror(&self, boundary: &[u32], sample: u32, centre: DVec3, found: &mut Vec<(f64, NearSample)>) {
-        let position = self.positions[sample as usize];
+    fn mirror(&self, boundary: &[u32], sample: u32, position: DVec3, centre: DVec3, images: &mut Vec<Image>) {
+        let radius = self.radius * self.spacing;
         let mirrors = boundary.iter().map(|&edge| {
             let [a, b] = self.connected.ends(edge);
             let mirror = nearest_on(a, b, position);
@@ -145,73 +163,16 @@ impl<'a> SampleSearch<'a> {
         for (_, edge, mirror, is_beside) in mirrors {
             let is_apart = taken.iter().all(|&other| {
                 let (one, other) = (mirror - position, other - position);
-                one.distance(other) > APART * self.radius || 2.0 * one.dot(other) <= one.length() * other.length()
+                one.distance(other) > APART * radius || 2.0 * one.dot(other) <= one.length() * other.length()
             });
             if taken.is_empty() || (is_beside && is_apart) {
                 taken.push(mirror);
-                let squared = (2.0 * mirror - position).distance_squared(centre);
-                if squared <= self.radius * self.radius {
-                    found.push((squared, NearSample { sample, mirror: Some(edge) }));
+                if (2.0 * mirror - position).distance_squared(centre) <= radius * radius {
+                    images.push(Image { sample, edge });
                 }
             }
         }
     }
-}
-
-/// The triangles that the flood from one sample has reached.
-#[derive(Default)]
-struct Flood {
-    /// For each triangle 1 if its front is on the same side as that of the first, -1 if it is on the other.
-    sides: HashMap<u32, f64, BuildHasherDefault<Mixer>>,
-    /// The half-edges through which the flood has entered triangles, and the sides of these.
-    entries: Vec<(u32, f64)>,
-    /// The half-edges of the boundary that the ball meets.
-    boundary: Vec<u32>,
-}
-
-impl Flood {
-    fn spread(&mut self, connected: &ConnectedMesh, start: u32, place: DVec3, radius_squared: f64) {
-        self.sides.clear();
-        self.entries.clear();
-        self.boundary.clear();
-        self.sides.insert(start, 1.0);
-        (3 * start..3 * start + 3).for_each(|edge| self.leave(connected, (edge, 1.0), place, radius_squared));
-        let mut next = 0;
-        while let Some(&(entry, side)) = self.entries.get(next) {
-            next += 1;
-            let first = entry - entry % 3;
-            let others = (first..first + 3).filter(|&edge| edge != entry);
-            others.for_each(|edge| self.leave(connected, (edge, side), place, radius_squared));
-        }
-    }
-
-    /// Crosses a half-edge of a triangle on this side, if the ball meets it.
-    fn leave(&mut self, connected: &ConnectedMesh, (edge, side): (u32, f64), place: DVec3, radius_squared: f64) {
-        let [mut is_open, mut is_met] = [true, false];
-        for other in connected.across(edge) {
-            is_open = false;
-            // Most edges lead to triangles that were reached before.
-            let Entry::Vacant(unreached) = self.sides.entry(other / 3) else { continue };
-            is_met = is_met || meets(connected.ends(edge), place, radius_squared);
-            if !is_met {
-                return;
-            }
-            let side = if connected.run_alike(edge, other) { -side } else { side };
-            unreached.insert(side);
-            self.entries.push((other, side));
-        }
-        if is_open && meets(connected.ends(edge), place, radius_squared) {
-            self.boundary.push(edge);
-        }
-    }
-}
-
-/// Whether a ball meets a segment.
-fn meets([a, b]: [DVec3; 2], place: DVec3, radius_squared: f64) -> bool {
-    // Most segments that are met have an end inside.
-    a.distance_squared(place) <= radius_squared
-        || b.distance_squared(place) <= radius_squared
-        || nearest_on(a, b, place).distance_squared(place) <= radius_squared
 }
 
 /// The point of a segment that is nearest to a position.
@@ -229,26 +190,11 @@ pub(super) fn mirrored(place: DVec3, [a, b]: [DVec3; 2]) -> DVec3 {
     2.0 * nearest_on(a, b, place) - place
 }
 
-/// Hashes the numbers of triangles by one multiplication (Knuth, TAOCP 3, §6.4).
-#[derive(Default)]
-struct Mixer(u64);
-
-impl Hasher for Mixer {
-    fn finish(&self) -> u64 {
-        self.0
-    }
-    fn write(&mut self, bytes: &[u8]) {
-        bytes.iter().for_each(|&byte| self.write_u32(byte.into()));
-    }
-    fn write_u32(&mut self, number: u32) {
-        self.0 = (self.0 ^ u64::from(number)).wrapping_mul(0x9e37_79b9_7f4a_7c15).rotate_left(32);
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::job::{Context, chunks};
+    use crate::dcr::surface::walk::SurfacePoint;
+    use crate::job::Context;
     use crate::mesh::Mesh;
     use crate::rng::{Draw, Rng};
     use glam::DVec2;
@@ -275,17 +221,22 @@ mod tests {
 
     /// The neighbours of all samples: sample, and where it or its image is.
     fn found(mesh: &Mesh, places: &[SurfacePoint]) -> Vec<Vec<(u32, DVec3)>> {
-        let connected = ConnectedMesh::new(mesh).unwrap();
-        let positions: Vec<DVec3> =
-            places.iter().map(|place| mesh.point_exact(place.triangle, place.uv.into())).collect();
-        let search = SampleSearch::new(&connected, places, &positions, RADIUS, 0.0);
+        let connected = &ConnectedMesh::new(mesh).unwrap();
+        let positions: Vec<DVec3> = places.iter().map(|place| place.position(mesh)).collect();
         let context = Context::new(1).unwrap();
-        let found = context.run(None, |job| search.surroundings(job, chunks(places.len()), |_| true)).unwrap();
-        let seen = |neighbour: &NearSample| {
-            let position = positions[neighbour.sample as usize];
-            (neighbour.sample, neighbour.mirror.map_or(position, |edge| mirrored(position, connected.ends(edge))))
+        let patches = &context.run(None, |job| Patches::new(job, connected, RADIUS)).unwrap();
+        let side = SampleSearch::cell_side(RADIUS, 1.0, 0.0);
+        let cells = &Cells::new(DVec3::ZERO, side, positions.iter().map(|position| position.as_vec3()));
+        let search = SampleSearch { connected, patches, cells, spacing: RADIUS, radius: 1.0, sight: 0.0 };
+        let seen = |sample: u32| (places[sample as usize].triangle, Vec3::Z);
+        let mut finds = Finds::default();
+        let around = |sample| {
+            let around = search.around(sample, seen, &mut finds);
+            let reached = around.reached.iter().map(|&other| (other, positions[other as usize]));
+            let at = |image: &Image| mirrored(positions[image.sample as usize], connected.ends(image.edge));
+            reached.chain(around.images.iter().map(|image| (image.sample, at(image)))).collect()
         };
-        found.iter().map(|(_, around)| around.neighbours.iter().map(seen).collect()).collect()
+        (0..places.len() as u32).map(around).collect()
     }
 
     fn sorted(mut neighbours: Vec<(u32, DVec3)>) -> Vec<(u32, [i64; 3])> {
@@ -299,8 +250,7 @@ mod tests {
     fn on_a_square_they_are_all_that_are_near_and_the_images_by_its_sides() {
         let mesh = squares(&[0.0]);
         let places = places(&mesh, 400);
-        let positions: Vec<DVec3> =
-            places.iter().map(|place| mesh.point_exact(place.triangle, place.uv.into())).collect();
+        let positions: Vec<DVec3> = places.iter().map(|place| place.position(&mesh)).collect();
         let mut mirrored = 0;
         for (centre, neighbours) in found(&mesh, &places).into_iter().enumerate() {
             let mut expected = Vec::new();

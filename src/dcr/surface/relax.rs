@@ -2,10 +2,10 @@
 
 use glam::DVec2;
 
-use crate::dcr::ground::memory::require_memory;
 use crate::dcr::report::Stopped;
 use crate::dcr::surface::apart::Floor;
 use crate::dcr::surface::connected::ConnectedMesh;
+use crate::dcr::surface::curve::along_curve;
 use crate::dcr::surface::options::{Options, Report};
 use crate::dcr::surface::relaxation::SurfaceRelaxation;
 use crate::dcr::surface::samples::{check, enter, hexagonal_distance, leave};
@@ -14,12 +14,16 @@ use crate::dcr::surface::walk::SurfacePoint;
 use crate::error::{Error, Result};
 use crate::geometry::grid3;
 use crate::job::{Context, Job, Progress};
+use crate::memory;
 use crate::mesh::{Mesh, round_barycentrics};
 use crate::points::SurfaceSamples;
 use crate::rng::{Draw, Rng};
 
 /// The distance by which samples are moved that coincide with others, or lie on an edge of their triangle, in spacings.
 const PARTING: f64 = 1e-3;
+
+/// Memory for a sample and all that is known of it, at the peak.
+const BYTES_PER_SAMPLE: f64 = 600.0;
 
 /// The number of attempts for samples that would get too close to others.
 const ATTEMPTS: u64 = 16;
@@ -36,8 +40,9 @@ const ATTEMPTS: u64 = 16;
 ///
 /// A cancelled call succeeds: it returns the samples after the last whole step, and says so in its report.
 ///
-/// Takes O(triangles log triangles) and then, for each step, O(samples) for samples that are spread about evenly.
-/// Finding neighbours, every few steps, takes O(triangles) besides. Memory is O(triangles + samples).
+/// Takes O(triangles) and then, for each step, O(samples) for samples that are spread about evenly. Memory is
+/// O(triangles + samples). Progress is reported, and the call cancelled, between steps and while neighbours are
+/// searched.
 ///
 /// # Errors
 /// [`Error::InvalidArgument`] for triangles that the mesh does not have, that its mask leaves out or that have no area
@@ -54,17 +59,11 @@ pub fn relax(
 ) -> Result<(SurfaceSamples, Report)> {
     check(mesh, triangles, barycentrics)?;
     options.check()?;
-    require_memory("triangles", triangles.len())?;
+    memory::require(BYTES_PER_SAMPLE * triangles.len() as f64, "triangles", &format!("{} points", triangles.len()))?;
     let connected = ConnectedMesh::new(mesh)?;
     let spacing = hexagonal_distance(mesh, triangles.len());
     let places = enter(triangles, barycentrics);
-    let positions = places.iter().map(|place| place.position(mesh).as_vec3().to_array()).collect::<Vec<_>>();
-    let floor = context.run(None, |job| grid3::smallest_distance(job, &positions))?;
-    let heaped = context.run(None, |job| match options.max_iterations {
-        0 => Ok(None),
-        _ => spread(job, mesh, &places, Floor::new(floor), spacing, options.seed),
-    })?;
-    let mut set = SurfaceRelaxation::new(&connected, spacing, floor, heaped.unwrap_or(places));
+    let mut set = context.run(None, |job| begin(job, &connected, spacing, &places, options))?;
     let steps = context.run(progress, |job| make_steps(job, options, spacing, &mut set));
     let stopped = match steps {
         Err(Error::Cancelled) => Stopped::Cancelled,
@@ -75,9 +74,9 @@ pub fn relax(
             let on_triangle = |&uv: &[f32; 2]| round_barycentrics(uv.map(f64::from));
             mesh.samples(triangles.to_vec(), barycentrics.iter().map(on_triangle).collect())
         }
-        _ => leave(mesh, set.places()),
+        _ => leave(mesh, &set.places()),
     };
-    let smallest_distance = context.run(None, |job| grid3::smallest_distance(job, &samples.positions))?;
+    let smallest_distance = context.run(None, |job| set.smallest_distance(job))?;
     let report = Report {
         iterations: set.iterations(),
         stopped,
@@ -88,13 +87,35 @@ pub fn relax(
     Ok((samples, report))
 }
 
+/// The set before the first step: no two samples will get closer to each other than the closest two are now, and those
+/// that are heaped are dealt out.
+fn begin<'a>(
+    job: &Job,
+    connected: &'a ConnectedMesh<'a>,
+    spacing: f64,
+    places: &[SurfacePoint],
+    options: &Options,
+) -> Result<SurfaceRelaxation<'a>> {
+    let mesh = connected.mesh;
+    // Along the curve what is near is found in the cache.
+    let ordered = along_curve(mesh, places).into_iter().map(|(_, i)| places[i as usize].position(mesh));
+    let positions: Vec<_> = ordered.map(|position| position.as_vec3().to_array()).collect();
+    let floor = Floor::new(grid3::smallest_distance(job, &positions)?);
+    let dealt = match options.max_iterations {
+        0 => None,
+        _ => spread(job, mesh, places, floor, spacing, options.seed)?,
+    };
+    SurfaceRelaxation::new(job, connected, spacing, floor, dealt.as_deref().unwrap_or(places))
+}
+
 /// The points of the set, with those moved that coincide with another or lie on an edge: a sample on the boundary would
 /// coincide with its mirror image. They move a little towards a random point of their triangle. None if none must be
 /// moved.
 fn parted(set: &SurfaceRelaxation, spacing: f64, seed: u64, attempt: u64) -> Option<Vec<SurfacePoint>> {
-    let (mesh, mut places) = (set.mesh(), set.places().to_vec());
+    let (mesh, mut places) = (set.mesh(), set.places());
+    let positions: Vec<_> = places.iter().map(|place| place.position(mesh)).collect();
     let mut order: Vec<u32> = (0..places.len() as u32).collect();
-    let bits = |i: u32| set.positions()[i as usize].to_array().map(f64::to_bits);
+    let bits = |i: u32| positions[i as usize].to_array().map(f64::to_bits);
     order.sort_unstable_by_key(|&i| (bits(i), i));
     let repeated = order.windows(2).filter(|pair| bits(pair[0]) == bits(pair[1])).map(|pair| pair[1]);
     let on_edges = (0..places.len() as u32).filter(|&i| {
@@ -118,7 +139,7 @@ fn parted(set: &SurfaceRelaxation, spacing: f64, seed: u64, attempt: u64) -> Opt
 
 /// Steps until the motion ends or the steps do.
 fn make_steps(job: &Job, options: &Options, spacing: f64, set: &mut SurfaceRelaxation) -> Result<Stopped> {
-    if set.places().len() < 2 {
+    if set.count() < 2 {
         return Ok(Stopped::Converged);
     }
     let attempts = if options.max_iterations > 0 { ATTEMPTS } else { 0 };

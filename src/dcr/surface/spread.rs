@@ -7,6 +7,7 @@
 
 use crate::dcr::ground::heaps::are_heaped;
 use crate::dcr::surface::apart::Floor;
+use crate::dcr::surface::curve::{BITS, along_curve};
 use crate::dcr::surface::walk::SurfacePoint;
 use crate::error::Result;
 use crate::geometry::grid3::Grid3;
@@ -19,9 +20,6 @@ const APART: f64 = 0.6;
 
 /// The number of throws for a sample, each of which gets too close to samples that were dealt before.
 const ATTEMPTS: u64 = 64;
-
-/// Bits of the curve per axis.
-const BITS: u32 = 21;
 
 /// New places for samples that are heaped, no two closer to each other through space than the floor. None if they are
 /// not, or if there is no room for that.
@@ -39,15 +37,15 @@ pub(super) fn spread(
     let throws = Throws::new(mesh, seed);
     let tasks = chunks(places.len());
     let thrown = job.part(0.0, 0.5).concat(tasks.len(), |task| tasks.range(task).map(|i| throws.at(i, 0)).collect())?;
-    let samples = sorted(mesh, places);
+    let samples = along_curve(mesh, places);
     let [along, along_thrown] =
-        [&samples, &sorted(mesh, &thrown)].map(|all| all.iter().map(|&(along, _)| along).collect::<Vec<_>>());
+        [&samples, &along_curve(mesh, &thrown)].map(|all| all.iter().map(|&(along, _)| along).collect::<Vec<_>>());
     if !are_heaped::<3>(&along, &along_thrown, 3 * BITS) {
         return Ok(None);
     }
     let Some(dealt) = throws.apart(&job.part(0.5, 1.0), places.len(), floor, spacing)? else { return Ok(None) };
     let mut spread = places.to_vec();
-    for ((_, sample), (_, point)) in samples.iter().zip(sorted(mesh, &dealt)) {
+    for ((_, sample), (_, point)) in samples.iter().zip(along_curve(mesh, &dealt)) {
         spread[*sample as usize] = dealt[point as usize];
     }
     Ok(Some(spread))
@@ -108,33 +106,6 @@ impl<'a> Throws<'a> {
         }
         Ok(Some(places))
     }
-}
-
-/// The places of points along a Z-curve through the bounds of the mesh, with the points' numbers.
-fn sorted(mesh: &Mesh, places: &[SurfacePoint]) -> Vec<(u64, u32)> {
-    let (low, high) = mesh.bounds();
-    let extent = (0..3).map(|axis| f64::from(high[axis]) - f64::from(low[axis])).fold(f64::MIN_POSITIVE, f64::max);
-    let last = f64::from((1u32 << BITS) - 1);
-    let code = |place: &SurfacePoint| {
-        let position = place.position(mesh).to_array();
-        let along = |axis: usize| ((position[axis] - f64::from(low[axis])) / extent * last) as u64;
-        (0..3).map(|axis| spread_bits(along(axis)) << axis).fold(0, |code, bits| code | bits)
-    };
-    let mut sorted: Vec<(u64, u32)> = places.iter().map(code).zip(0..).collect();
-    sorted.sort_unstable();
-    sorted
-}
-
-/// The bits of a number of [`BITS`], two zeros after each.
-fn spread_bits(x: u64) -> u64 {
-    let masks = [
-        (32, 0x001f_0000_0000_ffff),
-        (16, 0x001f_0000_ff00_00ff),
-        (8, 0x100f_00f0_0f00_f00f),
-        (4, 0x10c3_0c30_c30c_30c3),
-        (2, 0x1249_2492_4924_9249u64),
-    ];
-    masks.into_iter().fold(x, |x, (shift, mask)| (x | x << shift) & mask)
 }
 
 #[cfg(test)]
@@ -232,15 +203,7 @@ mod tests {
         let mesh = squares(20);
         let places = heap(&mesh, 4000, 1.0);
         let dealt = spread_of(&mesh, &places, 0.0).unwrap();
-        let order = |places: &[SurfacePoint]| sorted(&mesh, places).iter().map(|&(_, i)| i).collect::<Vec<_>>();
+        let order = |places: &[SurfacePoint]| along_curve(&mesh, places).iter().map(|&(_, i)| i).collect::<Vec<_>>();
         assert_eq!(order(&places), order(&dealt));
-    }
-
-    #[test]
-    fn bits_are_spread() {
-        for x in [0, 1, 0b101, 0x1f_ffff, 0x12_3456] {
-            let expected = (0..BITS).fold(0, |code, bit| code | (x >> bit & 1) << (3 * bit));
-            assert_eq!(spread_bits(x), expected);
-        }
     }
 }

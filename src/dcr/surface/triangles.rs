@@ -3,14 +3,20 @@
 //! Each sample finds its Delaunay star in its own tangent plane. A triangle that is in the stars of all three of its
 //! corners is one of the mesh; where the surface is bent too much for the samples to agree, there are holes.
 
+use glam::Vec3;
+
+use crate::dcr::surface::cells::Cells;
 use crate::dcr::surface::connected::ConnectedMesh;
-use crate::dcr::surface::near::SampleSearch;
+use crate::dcr::surface::lists::List;
+use crate::dcr::surface::local::Local;
+use crate::dcr::surface::near::{Finds, SampleSearch};
+use crate::dcr::surface::patches::Patches;
 use crate::dcr::surface::samples::{check, enter, hexagonal_distance};
+use crate::dcr::surface::vectors::lanes::{Portable, Position};
 use crate::dcr::surface::view::View;
-use crate::dcr::surface::walk::FlatTriangle;
 use crate::error::Result;
 use crate::job::{Context, Progress, chunks_of};
-use crate::mesh::Mesh;
+use crate::mesh::{Mesh, exact};
 
 /// The distance up to which neighbours are searched, in spacings: triangles of maximal sets are at most 1.6 wide.
 const REACH: f64 = 2.2;
@@ -43,18 +49,35 @@ pub fn triangulate(
     let connected = ConnectedMesh::new(mesh)?;
     let spacing = hexagonal_distance(mesh, triangles.len());
     let places = enter(triangles, barycentrics);
-    let positions: Vec<_> = places.iter().map(|place| mesh.point_exact(place.triangle, place.uv.into())).collect();
-    let search = SampleSearch::new(&connected, &places, &positions, REACH * spacing, 0.0);
+    let positions: Vec<Position> = places.iter().map(|place| place.rounded(mesh)).collect();
+    let patches = context.run(None, |job| Patches::new(job, &connected, spacing))?;
+    let side = SampleSearch::cell_side(spacing, REACH, 0.0);
+    let cells = Cells::new(exact(mesh.bounds().0), side, positions.iter().map(|&[x, y, z, _]| Vec3::new(x, y, z)));
+    let (connected, patches, cells) = (&connected, &patches, &cells);
+    let search = SampleSearch { connected, patches, cells, spacing, radius: REACH, sight: 0.0 };
+    let seen = |sample: u32| {
+        let triangle = places[sample as usize].triangle;
+        (triangle, Vec3::from(mesh.normal(triangle)))
+    };
     let chunks = chunks_of(places.len(), 512);
     let mut found = context.run(progress, |job| {
-        let around = search.surroundings(&job.part(0.0, 0.8), chunks, |_| true)?;
-        job.part(0.8, 1.0).flat_map(chunks.len(), |chunk| {
-            let mut view = View::default();
-            let mut found = Vec::new();
+        job.flat_map(chunks.len(), |chunk| {
+            let (mut finds, mut view, mut found) = (Finds::default(), View::default(), Vec::new());
             for sample in chunks.range(chunk) {
-                let flat = FlatTriangle::new(&connected, places[sample].triangle, spacing);
-                view.project(&connected, &flat, positions[sample], &around[sample].1, &positions);
-                found.extend(view.triangles().map(|[a, b]| Corner::new([sample as u32, a, b])));
+                let around = search.around(sample as u32, seen, &mut finds);
+                let local = Local::on(connected, spacing, places[sample].triangle, around.normal);
+                let list = List::new(sample as u32, around);
+                list.show(Portable, positions[sample], &positions, (1.0 / spacing) as f32, connected, &mut view);
+                view.project(Portable, local.tangents);
+                view.wrap(Portable);
+                let (star, is_closed) = view.star();
+                let neighbours: Vec<Option<u32>> =
+                    star.iter().map(|&neighbour| list.sample(neighbour.into())).collect();
+                let followers = neighbours.iter().cycle().skip(1);
+                let count = neighbours.len() - usize::from(!is_closed && !neighbours.is_empty());
+                // Images are in no triangle.
+                let pairs = neighbours.iter().zip(followers).take(count).filter_map(|(a, b)| a.zip(*b));
+                found.extend(pairs.map(|(a, b)| Corner::new([sample as u32, a, b])));
             }
             found
         })

@@ -7,6 +7,7 @@
 use glam::{DVec2, DVec3};
 
 use crate::dcr::surface::connected::ConnectedMesh;
+use crate::dcr::surface::vectors::lanes::Position;
 use crate::mesh::{Mesh, exact, round_barycentrics};
 
 /// A sample that crosses more edges than this in one step stays in the triangle that it has reached.
@@ -21,8 +22,6 @@ pub(super) struct FlatTriangle {
     corners: [DVec2; 3],
     /// The plane's axes in space.
     axes: [DVec3; 2],
-    /// The unit of length.
-    spacing: f64,
 }
 
 /// A point of the surface.
@@ -38,6 +37,12 @@ impl SurfacePoint {
     pub(super) fn position(self, mesh: &Mesh) -> DVec3 {
         exact(mesh.point(self.triangle, round_barycentrics(self.uv.into())))
     }
+
+    /// Its position, ready for vectors.
+    pub(super) fn rounded(self, mesh: &Mesh) -> Position {
+        let [x, y, z] = mesh.point(self.triangle, round_barycentrics(self.uv.into()));
+        [x, y, z, 0.0]
+    }
 }
 
 /// The end of a walk.
@@ -47,6 +52,8 @@ pub(super) struct WalkEnd {
     /// The displacement in the plane of the last triangle: of the same length, or where a boundary was met its
     /// component along the boundary.
     pub(super) displacement: DVec2,
+    /// Whether the last triangle faces the other side than the first.
+    pub(super) is_turned: bool,
 }
 
 impl FlatTriangle {
@@ -56,7 +63,7 @@ impl FlatTriangle {
         let length = ab.length();
         let (x, cross) = (ab / length, ab.cross(ac));
         let corners = [DVec2::ZERO, DVec2::new(length, 0.0), DVec2::new(ac.dot(x), cross.length() / length)];
-        Self { corners, axes: [x, cross.cross(x).normalize_or_zero()], spacing }
+        Self { corners, axes: [x, cross.cross(x).normalize_or_zero()] }
     }
 
     /// The unit normal; zero for a triangle without area.
@@ -64,19 +71,15 @@ impl FlatTriangle {
         self.axes[0].cross(self.axes[1])
     }
 
-    /// A vector of space, rotated into the triangle's plane without losing its length. In spacings.
-    pub(super) fn turned(&self, offset: DVec3) -> DVec2 {
-        self.projected(offset).normalize_or_zero() * (offset.length() / self.spacing)
+    /// The plane's axes in space.
+    pub(super) fn axes(&self) -> [DVec3; 2] {
+        self.axes
     }
 
-    /// A vector of space, projected into the triangle's plane. In spacings.
-    pub(super) fn projected(&self, offset: DVec3) -> DVec2 {
-        DVec2::new(offset.dot(self.axes[0]), offset.dot(self.axes[1])) / self.spacing
-    }
-
-    /// The unit of length.
-    pub(super) fn spacing(&self) -> f64 {
-        self.spacing
+    /// The barycentrics that a displacement by 1 along each axis adds.
+    pub(super) fn steps(&self) -> [DVec2; 2] {
+        let [_, b, c] = self.corners;
+        [DVec2::new(1.0 / b.x, 0.0), DVec2::new(-c.x / (b.x * c.y), 1.0 / c.y)]
     }
 
     fn point(&self, uv: DVec2) -> DVec2 {
@@ -124,6 +127,7 @@ pub(super) fn walk(mesh: &ConnectedMesh, spacing: f64, start: SurfacePoint, disp
     let mut triangle = start.triangle;
     let mut flat = FlatTriangle::new(mesh, triangle, spacing);
     let (mut point, mut direction, mut left, mut entry) = (flat.point(start.uv), displacement, 1.0, None);
+    let mut is_turned = false;
     for _ in 0..MOST_EDGES {
         let Some((k, time)) = flat.exit(point, direction * left, entry) else {
             point += direction * left;
@@ -139,6 +143,7 @@ pub(super) fn walk(mesh: &ConnectedMesh, spacing: f64, start: SurfacePoint, disp
         };
         let share = ((point + direction * (left * time) - from).dot(edge) / (length * length)).clamp(0.0, 1.0);
         let alike = mesh.run_alike(3 * triangle + k, other);
+        is_turned ^= alike;
         (triangle, flat, entry) = (other / 3, onward, Some(other % 3));
         let (from, edge) = flat.edge(other % 3);
         let ahead = edge / edge.length();
@@ -147,8 +152,8 @@ pub(super) fn walk(mesh: &ConnectedMesh, spacing: f64, start: SurfacePoint, disp
         left *= 1.0 - time;
     }
     match flat.barycentrics(point) {
-        Some(uv) => WalkEnd { place: SurfacePoint { triangle, uv }, displacement: direction },
-        None => WalkEnd { place: start, displacement: DVec2::ZERO },
+        Some(uv) => WalkEnd { place: SurfacePoint { triangle, uv }, displacement: direction, is_turned },
+        None => WalkEnd { place: start, displacement: DVec2::ZERO, is_turned: false },
     }
 }
 
@@ -158,10 +163,15 @@ fn straightest(mesh: &ConnectedMesh, spacing: f64, flat: &FlatTriangle, edge: u3
         let across = flat.edge(edge % 3).1.perp().normalize();
         across.x * flat.axes[0] + across.y * flat.axes[1]
     };
-    let others = mesh.across(edge).map(|other| (other, FlatTriangle::new(mesh, other / 3, spacing)));
-    let mut others = others.map(|(other, onward)| (inwards(flat, edge).dot(inwards(&onward, other)), other, onward));
-    let first = others.next()?;
-    let straightest = others.fold(first, |least, other| if other.0 < least.0 { other } else { least });
+    let mut others = mesh.across(edge).map(|other| (other, FlatTriangle::new(mesh, other / 3, spacing)));
+    let (other, onward) = others.next()?;
+    if mesh.across(edge).nth(1).is_none() {
+        return Some((other, onward));
+    }
+    let bend = |(other, onward): (u32, FlatTriangle)| (inwards(flat, edge).dot(inwards(&onward, other)), other, onward);
+    let mut others = others.map(bend);
+    let first = bend((other, onward));
+    let straightest = others.by_ref().fold(first, |least, other| if other.0 < least.0 { other } else { least });
     Some((straightest.1, straightest.2))
 }
 
@@ -191,6 +201,11 @@ mod tests {
         Mesh::new(places.iter().map(rolled).collect(), triangles.collect()).unwrap()
     }
 
+    /// A displacement along the plane of a triangle, there and in spacings.
+    fn along(flat: &FlatTriangle, displacement: DVec3) -> DVec2 {
+        DVec2::from_array(flat.axes().map(|axis| displacement.dot(axis))) / SPACING
+    }
+
     fn at(mesh: &Mesh, place: SurfacePoint) -> DVec3 {
         mesh.point_exact(place.triangle, place.uv.into())
     }
@@ -205,7 +220,7 @@ mod tests {
             let start = SurfacePoint { triangle: rng.below(512) as u32, uv: DVec2::new(rng.unit(), rng.unit()) / 2.0 };
             let displacement = DVec3::new(rng.unit() - 0.5, rng.unit() - 0.5, 0.0) * 10.0;
             let flat = FlatTriangle::new(&connected, start.triangle, SPACING);
-            let end = walk(&connected, SPACING, start, flat.turned(displacement));
+            let end = walk(&connected, SPACING, start, along(&flat, displacement));
             let (from, to) = (at(&mesh, start), at(&mesh, end.place));
             let expected = from + displacement;
             if expected.abs().max_element() < 4.0 {
@@ -258,7 +273,7 @@ mod tests {
         let flat = FlatTriangle::new(&connected, 0, SPACING);
         for length in [0.1, 0.5, 0.9] {
             let displacement = DVec3::new(0.1, length, 0.0);
-            let end = walk(&connected, SPACING, start, flat.turned(displacement));
+            let end = walk(&connected, SPACING, start, along(&flat, displacement));
             assert!(at(&mesh, end.place).distance(at(&mesh, start) + displacement) < 1e-9);
             assert!(mesh.triangle_area(end.place.triangle) > 0.0);
         }

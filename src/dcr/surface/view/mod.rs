@@ -1,0 +1,355 @@
+//! The tangent plane of one sample: the candidates for its neighbours there, and its Delaunay star among them.
+//!
+//! Offsets are divided by the square of their length: of the points that this makes, those of the star are on the
+//! convex hull (the inversion that maps circles through the sample to straight lines). So a star that is kept from the
+//! step before is still right if no point is outside any edge of it, which takes a few products per edge. Only where it
+//! is not, the star is found anew, by gift wrapping (McLain 1976, "Two dimensional interpolation from random data").
+
+use glam::{Vec2, Vec3};
+
+use crate::dcr::surface::vectors::lanes::{LANES, Lanes};
+
+/// The largest number of candidates.
+pub(super) const MOST: usize = 48;
+
+/// The vectors of them.
+const VECTORS: usize = MOST / LANES;
+
+/// The largest number of neighbours of a star that is kept.
+const KEPT: usize = 15;
+
+/// A value for each candidate.
+#[derive(Clone, Copy)]
+#[repr(align(64))]
+struct PerCandidate([f32; MOST]);
+
+impl PerCandidate {
+    const ZERO: Self = Self([0.0; MOST]);
+
+    #[inline(always)]
+    fn of(&self, candidate: usize) -> f32 {
+        self.0[candidate]
+    }
+
+    /// Sixteen candidates.
+    #[inline(always)]
+    fn vector(&self, vector: usize) -> &[f32; LANES] {
+        &self.0.as_chunks().0[vector]
+    }
+
+    #[inline(always)]
+    fn vector_mut(&mut self, vector: usize) -> &mut [f32; LANES] {
+        &mut self.0.as_chunks_mut().0[vector]
+    }
+}
+
+/// The star of a sample: its neighbours counter-clockwise, by the number of the candidate.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Star {
+    /// 0 if it is not known, or has too many neighbours to be kept.
+    count: u8,
+    ring: [u8; KEPT],
+}
+
+/// The tangent plane of one sample after the other.
+pub(super) struct View {
+    /// The number of candidates.
+    count: usize,
+    /// Their offsets in space, in spacings; 0 beyond the last candidate, for which it stands for none.
+    offsets: [PerCandidate; 3],
+    /// The squared lengths of these.
+    squared: PerCandidate,
+    /// The offsets in the plane.
+    plane: [PerCandidate; 2],
+    /// These over their squared lengths; 0 for a sample at the same position, which is in no direction.
+    inverted: [PerCandidate; 2],
+    /// The star, and whether it surrounds the sample.
+    ring: [u8; MOST],
+    length: usize,
+    is_closed: bool,
+}
+
+impl Default for View {
+    fn default() -> Self {
+        let zero = PerCandidate::ZERO;
+        Self {
+            count: 0,
+            offsets: [zero; 3],
+            squared: zero,
+            plane: [zero; 2],
+            inverted: [zero; 2],
+            ring: [0; MOST],
+            length: 0,
+            is_closed: false,
+        }
+    }
+}
+
+impl View {
+    /// Forgets all candidates.
+    #[inline(always)]
+    pub(super) fn clear(&mut self) {
+        self.count = 0;
+    }
+
+    /// Adds the first `count` of sixteen candidates, by their offsets in spacings; the rest must be 0. All before them
+    /// must be whole vectors.
+    #[inline(always)]
+    pub(super) fn add_vector<L: Lanes>(&mut self, lanes: L, offsets: [L::Floats; 3], count: usize) {
+        let vector = self.count / LANES;
+        lanes.store(offsets[0], self.offsets[0].vector_mut(vector));
+        lanes.store(offsets[1], self.offsets[1].vector_mut(vector));
+        lanes.store(offsets[2], self.offsets[2].vector_mut(vector));
+        self.count += count;
+    }
+
+    /// Adds a candidate, one of [`MOST`] at most.
+    pub(super) fn add(&mut self, offset: Vec3) {
+        let (vector, lane) = (self.count / LANES, self.count % LANES);
+        for axis in 0..3 {
+            let offsets = self.offsets[axis].vector_mut(vector);
+            if lane == 0 {
+                *offsets = [0.0; LANES];
+            }
+            offsets[lane] = offset[axis];
+        }
+        self.count += 1;
+    }
+
+    /// Projects the candidates into the plane of these axes, without changing their distance.
+    #[inline(always)]
+    pub(super) fn project<L: Lanes>(&mut self, lanes: L, axes: [Vec3; 2]) {
+        let zero = lanes.splat(0.0);
+        let mut vector = 0;
+        while vector < self.vectors() {
+            let x = lanes.load(self.offsets[0].vector(vector));
+            let y = lanes.load(self.offsets[1].vector(vector));
+            let z = lanes.load(self.offsets[2].vector(vector));
+            let u = Self::along(lanes, axes[0], x, y, z);
+            let v = Self::along(lanes, axes[1], x, y, z);
+            let squared = lanes.add(lanes.add(lanes.mul(x, x), lanes.mul(y, y)), lanes.mul(z, z));
+            let planar = lanes.add(lanes.mul(u, u), lanes.mul(v, v));
+            // (u, v) / |(u, v)| over the distance.
+            let lengths = lanes.mul(squared, planar);
+            let scale = lanes.only(lanes.less(zero, lengths), lanes.div(lanes.splat(1.0), lanes.sqrt(lengths)));
+            let (u, v) = (lanes.mul(u, scale), lanes.mul(v, scale));
+            lanes.store(squared, self.squared.vector_mut(vector));
+            lanes.store(u, self.inverted[0].vector_mut(vector));
+            lanes.store(v, self.inverted[1].vector_mut(vector));
+            lanes.store(lanes.mul(u, squared), self.plane[0].vector_mut(vector));
+            lanes.store(lanes.mul(v, squared), self.plane[1].vector_mut(vector));
+            vector += 1;
+        }
+    }
+
+    #[inline(always)]
+    fn along<L: Lanes>(lanes: L, axis: Vec3, x: L::Floats, y: L::Floats, z: L::Floats) -> L::Floats {
+        let xy = lanes.add(lanes.mul(x, lanes.splat(axis.x)), lanes.mul(y, lanes.splat(axis.y)));
+        lanes.add(xy, lanes.mul(z, lanes.splat(axis.z)))
+    }
+
+    /// The number of vectors.
+    #[inline(always)]
+    fn vectors(&self) -> usize {
+        self.count.div_ceil(LANES)
+    }
+
+    /// The number of candidates.
+    #[inline(always)]
+    pub(super) fn count(&self) -> usize {
+        self.count
+    }
+
+    /// The offset of a candidate in space, in spacings.
+    #[inline(always)]
+    pub(super) fn offset_in_space(&self, candidate: usize) -> Vec3 {
+        Vec3::from_array([0, 1, 2].map(|axis: usize| self.offsets[axis].of(candidate)))
+    }
+
+    /// The offset of a candidate in the plane, in spacings.
+    #[inline(always)]
+    pub(super) fn offset(&self, candidate: usize) -> Vec2 {
+        Vec2::new(self.plane[0].of(candidate), self.plane[1].of(candidate))
+    }
+
+    #[inline(always)]
+    fn inverted(&self, candidate: usize) -> Vec2 {
+        Vec2::new(self.inverted[0].of(candidate), self.inverted[1].of(candidate))
+    }
+
+    /// The square of the least distance of the first `count` candidates; infinite for none.
+    #[inline(always)]
+    pub(super) fn least_squared<L: Lanes>(&self, lanes: L, count: usize) -> f32 {
+        let mut least = lanes.splat(f32::INFINITY);
+        let mut vector = 0;
+        while vector * LANES < count {
+            let squared = lanes.load(self.squared.vector(vector));
+            let is_one = lanes.less(lanes.load(&NUMBERS[vector]), lanes.splat(count as f32));
+            least = lanes.min(least, lanes.select(is_one, squared, lanes.splat(f32::INFINITY)));
+            vector += 1;
+        }
+        lanes.least(least)
+    }
+
+    /// Those of the first `count` candidates whose squared distance is less than `limit`, as bits.
+    #[inline(always)]
+    pub(super) fn nearer<L: Lanes>(&self, lanes: L, count: usize, limit: f32) -> u64 {
+        let mut near = 0;
+        let mut vector = 0;
+        while vector * LANES < count {
+            let squared = lanes.load(self.squared.vector(vector));
+            near |= u64::from(lanes.bits(lanes.less(squared, lanes.splat(limit)))) << (vector * LANES);
+            vector += 1;
+        }
+        near & ((1 << count) - 1)
+    }
+
+    /// Finds the star: the one that is kept if it is still right, or another, which is kept.
+    #[inline(always)]
+    pub(super) fn find_star<L: Lanes>(&mut self, lanes: L, kept: &mut Star) {
+        let count = usize::from(kept.count);
+        if count > 0 && self.is_star(lanes, &kept.ring[..count]) {
+            self.ring[..KEPT].copy_from_slice(&kept.ring);
+            (self.length, self.is_closed) = (count, true);
+        } else {
+            self.wrap(lanes);
+            kept.count = 0;
+            if self.is_closed && self.length <= KEPT {
+                kept.count = self.length as u8;
+                kept.ring.copy_from_slice(&self.ring[..KEPT]);
+            }
+        }
+    }
+
+    /// Whether a ring is the star, and closed: no candidate, nor the sample itself, is outside any of its edges.
+    #[inline(always)]
+    fn is_star<L: Lanes>(&self, lanes: L, ring: &[u8]) -> bool {
+        match self.vectors() {
+            1 => self.is_star_of::<L, 1>(lanes, ring),
+            2 => self.is_star_of::<L, 2>(lanes, ring),
+            _ => self.is_star_of::<L, VECTORS>(lanes, ring),
+        }
+    }
+
+    /// [`View::is_star`] of so many vectors.
+    #[inline(always)]
+    fn is_star_of<L: Lanes, const N: usize>(&self, lanes: L, ring: &[u8]) -> bool {
+        let mut points = [[lanes.splat(0.0); 2]; N];
+        let mut vector = 0;
+        while vector < N {
+            points[vector] = [lanes.load(self.inverted[0].vector(vector)), lanes.load(self.inverted[1].vector(vector))];
+            vector += 1;
+        }
+        let (mut least, mut is_around) = (lanes.splat(0.0), true);
+        let mut from = self.inverted(ring[ring.len() - 1].into());
+        for &next in ring {
+            let to = self.inverted(next.into());
+            let edge = to - from;
+            is_around &= from.perp_dot(to) > 0.0;
+            let (x, y) = (lanes.splat(from.x), lanes.splat(from.y));
+            let (along_x, along_y) = (lanes.splat(edge.x), lanes.splat(edge.y));
+            let mut vector = 0;
+            while vector < N {
+                let [u, v] = [lanes.sub(points[vector][0], x), lanes.sub(points[vector][1], y)];
+                // Of the ends of the edge it is 0 exactly, as nothing is contracted.
+                let sine = lanes.sub(lanes.mul(along_x, v), lanes.mul(along_y, u));
+                least = lanes.min(sine, least);
+                vector += 1;
+            }
+            from = to;
+        }
+        is_around && lanes.bits(lanes.less(least, lanes.splat(0.0))) == 0
+    }
+
+    /// Finds the star by gift wrapping, from the nearest candidate on: the next neighbour counter-clockwise is the
+    /// candidate that sees the edge to the last under the largest angle. Where neighbours leave a gap of a half turn or
+    /// more, the ring begins after the gap and is not closed.
+    #[inline(always)]
+    pub(super) fn wrap<L: Lanes>(&mut self, lanes: L) {
+        (self.length, self.is_closed) = (0, false);
+        let is_somewhere = |&candidate: &usize| self.inverted(candidate) != Vec2::ZERO;
+        let order = |&a: &usize, &b: &usize| self.squared.of(a).total_cmp(&self.squared.of(b));
+        let Some(nearest) = (0..self.count).filter(is_somewhere).min_by(order) else { return };
+        let mut last = nearest;
+        loop {
+            self.ring[self.length] = last as u8;
+            self.length += 1;
+            match self.following(lanes, last, 1.0) {
+                Some(next) if next == nearest => {
+                    self.is_closed = true;
+                    return;
+                }
+                // Rounding can hide the first neighbour among others on one circle.
+                Some(next) if self.length < self.count => last = next,
+                _ => break,
+            }
+        }
+        let mut first = nearest;
+        while let Some(before) = self.following(lanes, first, -1.0).filter(|&before| !self.has(before)) {
+            self.ring.copy_within(..self.length, 1);
+            self.ring[0] = before as u8;
+            self.length += 1;
+            first = before;
+        }
+    }
+
+    #[inline(always)]
+    fn has(&self, candidate: usize) -> bool {
+        self.ring[..self.length].contains(&(candidate as u8))
+    }
+
+    /// The neighbour after this one: counter-clockwise for a `turn` of 1, clockwise for -1.
+    #[inline(always)]
+    fn following<L: Lanes>(&self, lanes: L, last: usize, turn: f32) -> Option<usize> {
+        let offset = self.offset(last);
+        let (x, y) = (lanes.splat(offset.x), lanes.splat(offset.y));
+        let infinite = lanes.splat(f32::INFINITY);
+        let mut cotangents = [infinite; VECTORS];
+        let mut least = infinite;
+        let mut vector = 0;
+        while vector < self.vectors() {
+            let u = lanes.load(self.plane[0].vector(vector));
+            let v = lanes.load(self.plane[1].vector(vector));
+            let sine = lanes.mul(lanes.splat(turn), lanes.sub(lanes.mul(x, v), lanes.mul(y, u)));
+            // |b|² - a·b, of the candidate b seen from the last neighbour a; falls with the angle at b.
+            let here = lanes.load(self.squared.vector(vector));
+            let cosine = lanes.sub(here, lanes.add(lanes.mul(x, u), lanes.mul(y, v)));
+            let is_ahead = lanes.less(lanes.splat(0.0), sine);
+            cotangents[vector] = lanes.select(is_ahead, lanes.div(cosine, sine), infinite);
+            least = lanes.min(least, cotangents[vector]);
+            vector += 1;
+        }
+        let least = lanes.least(least);
+        let beyond = lanes.splat(least);
+        let mut vector = 0;
+        while least < f32::INFINITY && vector < self.vectors() {
+            let more = lanes.bits(lanes.less(beyond, cotangents[vector]));
+            let lane = (!more).trailing_zeros() as usize;
+            if lane < LANES {
+                return Some(vector * LANES + lane);
+            }
+            vector += 1;
+        }
+        None
+    }
+
+    /// The neighbours, counter-clockwise, and whether they surround the sample.
+    #[inline(always)]
+    pub(super) fn star(&self) -> (&[u8], bool) {
+        (&self.ring[..self.length], self.is_closed)
+    }
+}
+
+/// The numbers of candidates.
+const NUMBERS: [[f32; LANES]; VECTORS] = {
+    let mut numbers = [[0.0; LANES]; VECTORS];
+    let mut candidate = 0;
+    while candidate < MOST {
+        numbers[candidate / LANES][candidate % LANES] = candidate as f32;
+        candidate += 1;
+    }
+    numbers
+};
+
+#[cfg(test)]
+mod tests;
