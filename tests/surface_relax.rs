@@ -242,7 +242,7 @@ fn walls_of_many_triangles_are_relaxed_each_for_itself() {
         let positions = (0..61 * 61).map(|i| [at(i % 61), at(i / 61), z + 0.01 * at(i % 61)]).collect();
         let quads = (0..side * side).map(move |i| i / side * 61 + i % side);
         let halves = quads.flat_map(|a| [[a, a + 1, a + 62], [a, a + 62, a + 61]]);
-        let turned = |(i, [a, b, c]): (usize, [u32; 3])| if i % 3 == 0 { [a, c, b] } else { [a, b, c] };
+        let turned = |(i, [a, b, c]): (usize, [u32; 3])| if i.is_multiple_of(3) { [a, c, b] } else { [a, b, c] };
         (positions, halves.enumerate().map(turned).collect())
     };
     let single = mesh(wall(0.0));
