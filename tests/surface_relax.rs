@@ -63,6 +63,7 @@ fn closed_and_open_surfaces_end_at_the_distances_of_the_plane() {
     for (name, soup, goal) in [
         ("sphere", meshes::sphere(), 0.85),
         ("torus", meshes::torus(), 0.85),
+        ("torus of many triangles", meshes::fine_torus(300, 150), 0.85),
         ("square", meshes::plane(), 0.83),
         ("cube", cube(), 0.80),
     ] {
@@ -230,6 +231,33 @@ fn neither_the_indices_nor_the_winding_of_a_mesh_matter() {
     let turned = mesh((positions, turned.collect()));
     let (_, report) = run(&turned, &darts(&turned, 1000.0));
     assert!(report.rho > 0.85, "{report:?}");
+}
+
+/// Two walls of many triangles each, every third of them turned over: parts of the surface are told apart by their
+/// edges, not by normals.
+#[test]
+fn walls_of_many_triangles_are_relaxed_each_for_itself() {
+    let wall = |z: f32| {
+        let (side, at) = (60, |i: u32| i as f32 / 60.0);
+        let positions = (0..61 * 61).map(|i| [at(i % 61), at(i / 61), z + 0.01 * at(i % 61)]).collect();
+        let quads = (0..side * side).map(move |i| i / side * 61 + i % side);
+        let halves = quads.flat_map(|a| [[a, a + 1, a + 62], [a, a + 62, a + 61]]);
+        let turned = |(i, [a, b, c]): (usize, [u32; 3])| if i.is_multiple_of(3) { [a, c, b] } else { [a, b, c] };
+        (positions, halves.enumerate().map(turned).collect())
+    };
+    let single = mesh(wall(0.0));
+    let samples = darts(&single, 600.0);
+    let double = mesh(meshes::join([wall(0.0), wall(2e-3)]));
+    let above = samples.triangles.iter().map(|triangle| triangle + single.triangles().len() as u32);
+    let triangles: Vec<u32> = samples.triangles.iter().copied().chain(above).collect();
+    let barycentrics = [&samples.barycentrics[..], &samples.barycentrics].concat();
+    let positions = triangles.iter().zip(&barycentrics).map(|(&triangle, &uv)| double.point(triangle, uv)).collect();
+    let twice = SurfaceSamples { triangles, barycentrics, positions, ..Default::default() };
+    let (both, _) = run(&double, &twice);
+    for side in both.positions.chunks(samples.len()) {
+        let side = SurfaceSamples { positions: side.to_vec(), ..Default::default() };
+        assert!(smallest_distance(&side) > 0.8 * d_max(&single, samples.len()));
+    }
 }
 
 #[test]
