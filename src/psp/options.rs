@@ -67,8 +67,8 @@ impl Options {
     }
 
     /// How many iterations [`sample`](super::sample) makes: as many as asked for, and otherwise by a rule. A maximal set is
-    /// only filled, on every mesh and with every radius: that is without bias, and takes about as long as anything else or
-    /// less. A set that is not filled gets one iteration.
+    /// only filled, on every mesh and with every radius: that is without bias, and fast wherever there are few samples on
+    /// a triangle. (Where there are many, one iteration saves some time.) A set that is not filled gets one iteration.
     pub fn iterations_by_rule(&self) -> u32 {
         self.iterations.unwrap_or(if self.maximal { 0 } else { 1 })
     }

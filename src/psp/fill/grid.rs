@@ -77,7 +77,7 @@ impl Grid {
             origin,
             corner: corner.as_vec3().to_array(),
             edges: [to_b.as_vec3().to_array(), to_c.as_vec3().to_array()],
-            centre: (corner + (to_b + to_c) / 3.0).as_vec3().to_array(),
+            centre: (corner + (to_b + to_c) * (1.0 / 3.0)).as_vec3().to_array(),
             reach2: reach * reach * 1.0001,
         };
         let mut covered = 0;

@@ -23,7 +23,7 @@ use crate::rng::Rng;
 pub const TOLERANCE: f64 = 6.0;
 
 /// Patches are no longer than this at first, in radii: their sixteenths can be covered.
-pub(in crate::psp) const PATCH: f64 = 1.5;
+pub(in crate::psp) const PATCH: f64 = 2.0;
 /// Triangles up to this length are kept whole at first.
 pub(in crate::psp) const WHOLE: f32 = 0.5;
 
