@@ -185,6 +185,9 @@
 /// diagonal: a point so close to an edge may hit the triangle on its other side.
 #define AZULEJO_ENGINE_RASTERISER 1
 
+/// The number of iterations of azulejo_psp_options that stands for a rule.
+#define AZULEJO_ITERATIONS_DEFAULT 4294967295
+
 /// A point's neighbours are those of the Delaunay triangulation: they keep their distance and close
 /// holes.
 #define AZULEJO_NEIGHBOURHOOD_DELAUNAY 0
@@ -483,8 +486,9 @@ typedef struct azulejo_psp_options {
     /// The size of the struct in bytes; set by the _init function.
     uint32_t struct_size;
     /// How often azulejo_psp_sample projects its patterns, in 3 directions each time, before it
-    /// fills the gaps. More iterations leave less to the filling, which costs more per sample; the
-    /// default, 1, is the fastest. azulejo_psp_create refuses any value but the default.
+    /// fills the gaps. AZULEJO_ITERATIONS_DEFAULT, the default: 0 if `maximal` is 1, on every mesh
+    /// and with every radius, since a set that is only filled is made sooner and is without bias; 1
+    /// if `maximal` is 0. azulejo_psp_create refuses any value but the default.
     uint32_t iterations;
     /// The smallest straight distance between two samples, in the units of the mesh: above 0, and
     /// at least 64 times the spacing of floats at the largest coordinate. It has no default.

@@ -235,6 +235,18 @@ fn candidates_can_come_in_the_order_of_the_thesis_which_finds_fewer() {
 }
 
 #[test]
+fn a_maximal_set_is_only_filled_unless_iterations_are_asked_for() {
+    let (context, mesh) = (Context::new(2).unwrap(), mesh(meshes::torus()));
+    let options = Options::new(0.1);
+    let sample = |options: &Options| psp::sample(&context, &mesh, options, None).unwrap();
+    let (by_rule, report) = sample(&options);
+    assert_eq!((report.iterations, report.uncovered_before), (0, Some(1.0)));
+    assert_eq!(by_rule, sample(&options.iterations(0)).0);
+    assert_eq!(sample(&options.iterations(2)).1.iterations, 2);
+    assert_eq!(sample(&options.maximal(false)).1.iterations, 1);
+}
+
+#[test]
 fn a_report_says_where_the_time_went_and_how_good_the_set_is() {
     let context = Context::new(2).unwrap();
     let mesh = mesh(meshes::fine_torus(100, 50));
@@ -279,7 +291,7 @@ fn a_report_says_where_the_time_went_and_how_good_the_set_is() {
 #[test]
 fn a_cancelled_call_leaves_a_valid_set_that_can_be_used_on() {
     let mesh = mesh(meshes::torus());
-    let options = Options::new(0.08);
+    let options = Options::new(0.08).iterations(1);
     for threads in [1, 3] {
         let context = Context::new(threads).unwrap();
         let expected = psp::sample(&context, &mesh, &options, None).unwrap().0;
@@ -305,7 +317,7 @@ fn whenever_it_is_cancelled_a_set_stays_valid_and_can_go_on() {
     let mesh = mesh(meshes::torus());
     let context = Context::new(1).unwrap();
     for engine in [Engine::Embree, Engine::Rasteriser] {
-        let options = Options::new(0.13).engine(engine);
+        let options = Options::new(0.13).iterations(1).engine(engine);
         let expected = psp::sample(&context, &mesh, &options, None).unwrap().0;
         let mut lengths = vec![];
         for limit in 1.. {

@@ -8,15 +8,15 @@ use crate::psp::fill::triangles::Measures;
 const DENSITY: f64 = 0.7;
 const _: () = assert!(MAXIMAL_DENSITY < DENSITY && DENSITY < 1.01 * MAXIMAL_DENSITY);
 
-/// An iteration is left out where it would trace more rays than this for each sample that can stand on the surface. Parts
-/// far apart in a large box are hit that rarely. (Filling alone is as fast from 5 rays per sample on, measured on dust, and
-/// nearly twice as fast with 27; up to there an iteration that was asked for is made.) ...
+/// An iteration is left out where it would trace more rays than this for each sample that can stand on the surface.
+/// Parts far apart in a large box are hit that rarely. (Filling alone is as fast from 5 rays per sample on, measured on
+/// dust, and nearly twice as fast with 27; up to there an iteration that was asked for is made.) ...
 const RAYS_PER_SAMPLE: f64 = 20.0;
 /// ... unless it has no more rays than this, a moment's work.
 const RAYS_ALWAYS: f64 = 1e7;
 
-/// How many samples a maximal set has on a part of the surface, rather too many: those of the area, and those along what is
-/// longer than the radius, since a needle has length and hardly any area.
+/// How many samples a maximal set has on a part of the surface, rather too many: those of the area, and those along
+/// what is longer than the radius, since a needle has length and hardly any area.
 pub(super) fn expected_samples_of(radius: f64, area: f64, longest: f64) -> f64 {
     DENSITY * area / (radius * radius) + if longest > radius { longest / radius } else { 0.0 }
 }
@@ -37,8 +37,8 @@ pub(super) fn is_worth_projecting(mesh: &Mesh, radius: f64, samples: f64) -> boo
     mesh.area() > 0.0 && expected_rays(mesh, radius) <= RAYS_ALWAYS.max(RAYS_PER_SAMPLE * samples)
 }
 
-/// What an iteration costs, counted in rays: one for each pattern point in the shadow of the mesh's box, and a sixteenth
-/// for each point that has to be looked at for them.
+/// What an iteration costs, counted in rays: one for each pattern point in the shadow of the mesh's box, and a
+/// sixteenth for each point that has to be looked at for them.
 ///
 /// The shadows on three orthogonal planes are largest along the diagonals of a cube, sqrt(3) times its three sides.
 fn expected_rays(mesh: &Mesh, radius: f64) -> f64 {

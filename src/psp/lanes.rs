@@ -1,10 +1,10 @@
 //! Samples in lanes of eight, and the coarse test, in `f32`, by which merging finds those near a point.
 //!
-//! Lengths are in radii. The test says what is certainly far; the rest is decided in `f64` (`surroundings.rs`). The code here
-//! is portable; `vectors.rs` has the same in AVX2, equal to the bit.
+//! Lengths are in radii. The test says what is certainly far; the rest is decided in `f64` (`surroundings.rs`). The
+//! code here is portable; `vectors.rs` has the same in AVX2, equal to the bit.
 
-/// What rounding can add to a squared distance of about 1, and some more. Places in a cube's surroundings are off by 2^-21 on
-/// each axis, which makes 3.3e-6 for two of them.
+/// What rounding can add to a squared distance of about 1, and some more. Places in a cube's surroundings are off by
+/// 2^-21 on each axis, which makes 3.3e-6 for two of them.
 pub(super) const SLACK: f32 = 1e-5;
 
 /// Points that are tested together.

@@ -20,8 +20,9 @@ pub enum Engine {
     /// Packets of rays through the hierarchy of Embree: it takes the longer the more rays there are.
     #[default]
     Embree,
-    /// Triangles drawn over the pattern in exact integer arithmetic (thesis §3.4.3): it takes the longer the more triangles
-    /// there are. A point on an edge that triangles share hits one of them on either side, never none or both.
+    /// Triangles drawn over the pattern in exact integer arithmetic (thesis §3.4.3): it takes the longer the more
+    /// triangles there are. A point on an edge that triangles share hits one of them on either side, never none or
+    /// both.
     Rasteriser,
 }
 
@@ -66,9 +67,9 @@ impl Options {
         self
     }
 
-    /// How many iterations [`sample`](super::sample) makes: as many as asked for, and otherwise by a rule. A maximal set is
-    /// only filled, on every mesh and with every radius: that is without bias, and takes about as long as anything else or
-    /// less. A set that is not filled gets one iteration.
+    /// How many iterations [`sample`](super::sample) makes: as many as asked for, and otherwise by a rule. A maximal
+    /// set is only filled, on every mesh and with every radius: that is without bias, and sooner done than an iteration
+    /// and a fill of the rest. A set that is not filled gets one iteration.
     pub fn iterations_by_rule(&self) -> u32 {
         self.iterations.unwrap_or(if self.maximal { 0 } else { 1 })
     }

@@ -12,7 +12,7 @@
 //! The darts of patches no longer than that go to their centre. If it is rejected the patch is covered up to
 //! rounding: that of the position (0.9 spacings), of the barycentrics (below 4.4, on a triangle that spans a mesh around
 //! the origin) and the size of the patch (0.7). So no point of the surface is farther from all samples than the
-//! radius and [`TOLERANCE`] float spacings.
+//! radius and [`TOLERANCE`](crate::psp::TOLERANCE) float spacings.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -22,10 +22,6 @@ use crate::psp::fragment::Fragment;
 use crate::psp::patches::{CoverTest, OpenPatch, PatchSearch};
 use crate::psp::samples::Sample;
 use crate::rng::Rng;
-
-/// How far beyond the radius a point of the surface can be from all samples of a maximal set, in spacings of floats at
-/// the largest absolute coordinate of the mesh.
-pub const TOLERANCE: f64 = 6.0;
 
 /// How a cube's surface takes the darts that fall on it.
 pub(super) trait Target: CoverTest {

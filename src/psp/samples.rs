@@ -41,8 +41,8 @@ pub(super) struct SampleSet {
 impl SampleSet {
     /// An empty set. Two samples conflict when they are closer than `radius`.
     ///
-    /// Distances are compared as squares in `f64`. The radius used is larger by 1e-14, dozens of units in the last place:
-    /// the samples keep `radius` in whatever order a caller evaluates their distances.
+    /// Distances are compared as squares in `f64`. The radius used is larger by 1e-14, dozens of units in the last
+    /// place: the samples keep `radius` in whatever order a caller evaluates their distances.
     pub fn new(mesh: &Mesh, radius: f64) -> Self {
         let origin = mesh.bounds().0.map(f64::from);
         Self { radius: radius * (1.0 + 1e-14), origin, samples: Vec::new(), cubes: HashMap::new(), in_cubes: 0 }

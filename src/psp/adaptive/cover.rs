@@ -1,4 +1,4 @@
-//! What samples cover where the radius varies: the general case of `psp/uniform_cover.rs`.
+//! What samples cover where the radius varies: the general case of `psp/fill/grid.rs`.
 //!
 //! A point p is covered by a sample s that is nearer than the mean of their radii. A sixteenth is covered if its centre
 //! is nearer to s than half the radius of s and half the least radius of the fragment, less the sixteenth's extent: then

@@ -12,8 +12,8 @@ use crate::mesh::{Mesh, exact};
 use crate::points::check_resolution;
 use crate::psp::adaptive::limits::Verdict;
 use crate::psp::adaptive::radius::{Radius, RadiusFunction};
+use crate::psp::fill::rounds::TOLERANCE;
 use crate::psp::fragment::{Fragment, Shape};
-use crate::psp::rain::TOLERANCE;
 use crate::psp::samples::Sample;
 
 /// Between which values the radius is on a fragment.

@@ -1,8 +1,8 @@
 //! The surface in blocks, the cubes of `cubes.rs`: what each of them has to fill.
 //!
-//! A triangle belongs to the cube of its first corner. What is longer than a quarter of a cube is cut into pieces before,
-//! which belong to the cubes of their first corners. So nothing reaches far out of its cube, and cubes of one colour do not
-//! matter to each other.
+//! A triangle belongs to the cube of its first corner. What is longer than a quarter of a cube is cut into pieces
+//! before, which belong to the cubes of their first corners. So nothing reaches far out of its cube, and cubes of one
+//! colour do not matter to each other.
 
 use crate::error::Result;
 use crate::geometry::counting_sort::Binned;

@@ -1,5 +1,6 @@
-//! The neighbour search of a fill: a hashed grid of cells of two radii, where each cell lists, on pages of sixteen, every
-//! sample whose ball touches it. So a test of a place, and of a part of the surface that lies in one cell, reads one page.
+//! The neighbour search of a fill: a hashed grid of cells of two radii, where each cell lists, on pages of sixteen,
+//! every sample whose ball touches it. So a test of a place, and of a part of the surface that lies in one cell, reads
+//! one page.
 //!
 //! A page has a lane for each axis; one more would hold a clearance of each sample's own.
 
@@ -64,7 +65,8 @@ impl Grid {
         })
     }
 
-    /// The sixteenths of a triangle, given by its corners in the unit of the space, that no single sample certainly covers.
+    /// The sixteenths of a triangle, given by its corners in the unit of the space, that no single sample certainly
+    /// covers.
     pub fn open_sixteenths(&self, corners: [DVec3; 3], longest: f64) -> u16 {
         let places = corners.map(|corner| corner.as_vec3());
         let [a, b, c] = places;
@@ -77,7 +79,7 @@ impl Grid {
             origin,
             corner: corner.as_vec3().to_array(),
             edges: [to_b.as_vec3().to_array(), to_c.as_vec3().to_array()],
-            centre: (corner + (to_b + to_c) / 3.0).as_vec3().to_array(),
+            centre: (corner + (to_b + to_c) * (1.0 / 3.0)).as_vec3().to_array(),
             reach2: reach * reach * 1.0001,
         };
         let mut covered = 0;
@@ -167,11 +169,8 @@ mod tests {
     fn rejects_what_a_loop_over_all_samples_rejects() {
         for (centre, radius) in PLACES {
             let mut rng = Rng::at(1, Draw::Probe, &[]);
-            let corners = vec![
-                random_point(&mut rng, centre, 0.0),
-                [(centre + 4.0 * radius) as f32; 3],
-                [(centre - 4.0 * radius) as f32, 0.0, 0.0],
-            ];
+            let end = |radii: f64| [(centre + radii * radius) as f32; 3];
+            let corners = vec![random_point(&mut rng, centre, radius), end(4.0), end(-4.0)];
             let mesh = Mesh::new(corners, vec![[0, 1, 2]]).unwrap();
             let mut grid = Grid::new(Space::new(&mesh, radius));
             let mut samples: Vec<[f32; 3]> = Vec::new();

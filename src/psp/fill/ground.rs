@@ -1,7 +1,8 @@
 //! What a fill rains on: a surface of which samples cover a part.
 //!
 //! The rounds (`rounds.rs`) know it by this trait only, so that they serve whatever a sample covers. A ground looks at
-//! fragments and takes darts. Lengths are in radii, areas in squared radii: those of the place, where the radius varies.
+//! fragments and takes darts. Lengths are in radii, areas in squared radii: those of the place, where the radius
+//! varies.
 
 use glam::DVec3;
 

@@ -1,11 +1,12 @@
 //! Filling what is uncovered, until the set is maximal (departs from the thesis, which has no such step).
 //!
-//! On an empty surface darts rain first, about six for each sample that will stand there. Then one pass over the triangles
-//! drops those that a single sample covers, which are nearly all of them, and rounds of darts close what is open. A mesh
-//! thus costs two short passes, and all else is in proportion to the samples.
+//! On an empty surface darts rain first, about six for each sample that will stand there. Then one pass over the
+//! triangles drops those that a single sample covers, which are nearly all of them, and rounds of darts close what is
+//! open. A mesh thus costs two short passes, and all else is in proportion to the samples.
 //!
-//! Where many samples are expected each cube of space does so for itself, in the colours of `cubes.rs`: its samples then stay
-//! in the cache, and threads share the cubes. Few samples are made in one piece, since sorting the triangles costs more.
+//! Where many samples are expected each cube of space does so for itself, in the colours of `cubes.rs`: its samples
+//! then stay in the cache, and threads share the cubes. Few samples are made in one piece, since sorting the triangles
+//! costs more.
 
 mod blocks;
 mod darts;
@@ -59,16 +60,29 @@ impl AddAssign for Filled {
 
 /// Adds samples until the set is maximal.
 pub(super) fn fill(job: &Job, mesh: &Mesh, measures: &Measures, samples: &mut SampleSet, seed: u64) -> Result<Filled> {
+    let in_blocks = expected_samples(mesh, measures, samples.radius()) > ONE_PIECE;
+    fill_either_way(job, mesh, measures, samples, in_blocks, seed)
+}
+
+/// Fills cube by cube or in one piece.
+fn fill_either_way(
+    job: &Job,
+    mesh: &Mesh,
+    measures: &Measures,
+    samples: &mut SampleSet,
+    in_blocks: bool,
+    seed: u64,
+) -> Result<Filled> {
     let is_empty = samples.len() == 0;
-    let mut filled = if expected_samples(mesh, measures, samples.radius()) <= ONE_PIECE {
+    let mut filled = if in_blocks {
+        fill_in_blocks(job, mesh, measures, samples, is_empty, seed)?
+    } else {
         let mut ground = UniformGround::new(mesh, Space::new(mesh, samples.radius()));
         samples.all().iter().for_each(|sample| ground.add(sample.position));
         let open_area = fill_in_one_piece(job, &mut ground, measures, is_empty, seed);
         // What was accepted stays, even where the job is cancelled.
         samples.append(&mut ground.accepted);
         Filled { darts: ground.darts, open_area: open_area? }
-    } else {
-        fill_in_blocks(job, mesh, measures, samples, is_empty, seed)?
     };
     if is_empty {
         filled.open_area = mesh.area();
@@ -167,4 +181,54 @@ fn fill_block(
     let open_area = open_area(&mut ground, &mut open, is_empty);
     let Ok(()) = rounds(&mut ground, open, &mut rng, |_| Ok::<(), std::convert::Infallible>(()));
     (ground.accepted, Filled { darts: ground.darts, open_area })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::job::Context;
+    use crate::mesh::exact;
+
+    /// Triangles of all sizes, and needles, crossing each other: a large one across many cubes, small ones in heaps.
+    fn soup(seed: u64) -> Mesh {
+        let mut rng = Rng::at(seed, Draw::Probe, &[]);
+        let mut positions: Vec<[f32; 3]> = Vec::new();
+        for triangle in 0..300 {
+            let size = [1.0, 0.2, 0.05, 0.01, 1e-3][triangle % 5];
+            let flat = if triangle % 7 == 0 { 1e-5 } else { 1.0 };
+            let at = [(); 3].map(|()| rng.unit() * (1.0 - size));
+            let corner = |rng: &mut Rng| [size, size * flat, size * flat].map(|size| rng.unit() * size);
+            positions.extend([(); 3].map(|()| {
+                let corner = corner(&mut rng);
+                [0, 1, 2].map(|axis| (at[axis] + corner[axis]) as f32)
+            }));
+        }
+        Mesh::new(positions, (0..300).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect()).unwrap()
+    }
+
+    /// Each way, on one thread and on three; then the other way finds nothing left, and nothing conflicts.
+    #[test]
+    fn what_is_filled_in_one_piece_and_by_cubes_is_maximal_to_the_other_way() {
+        for (seed, in_blocks) in (0..2).flat_map(|seed| [(seed, false), (seed, true)]) {
+            let (mesh, radius) = (soup(seed), 0.03);
+            let measures = Measures::of(&mesh);
+            let fill_with = |threads, samples: &mut SampleSet, in_blocks| {
+                let fill = |job: &Job| fill_either_way(job, &mesh, &measures, samples, in_blocks, seed);
+                Context::new(threads).unwrap().run(None, fill).unwrap()
+            };
+            let [mut one, mut three] = [(); 2].map(|()| SampleSet::new(&mesh, radius));
+            let filled = fill_with(1, &mut one, in_blocks);
+            fill_with(3, &mut three, in_blocks);
+            let positions = |set: &SampleSet| set.all().iter().map(|sample| sample.position).collect::<Vec<_>>();
+            let samples = positions(&one);
+            assert_eq!(samples, positions(&three), "depends on the threads");
+            assert!(samples.len() > 1000 && filled.darts > samples.len() as u64 && filled.open_area == mesh.area());
+            for (i, &a) in samples.iter().enumerate() {
+                assert!(samples[..i].iter().all(|&b| exact(a).distance(exact(b)) >= radius));
+            }
+            let again = fill_with(1, &mut one, !in_blocks);
+            assert_eq!(one.len(), samples.len(), "a gap was left");
+            assert!(again.open_area < 0.01 * mesh.area());
+        }
+    }
 }

@@ -1,8 +1,8 @@
 //! Pages of sixteen samples, and the tests on them that nearly all work of a fill goes through, in `f32`.
 //!
-//! The tests say what is certain; what they leave open is decided later, in smaller parts or in `f64` (`grid.rs`). The code
-//! here is plain and portable. `vectors/` has the same functions in the vectors of the processor, equal to the bit: no sum
-//! has another order, no rounding is left out.
+//! The tests say what is certain; what they leave open is decided later, in smaller parts or in `f64` (`grid.rs`). The
+//! code here is plain and portable. `vectors/` has the same functions in the vectors of the processor, equal to the
+//! bit: no sum has another order, no rounding is left out.
 
 use crate::psp::fill::space::Place;
 use crate::psp::sixteenths::{CORNERS, Cover};
@@ -102,8 +102,8 @@ impl Page {
 impl Group {
     pub const EMPTY: Self = Self { triangles: [[[0.0; 3]; 3]; GROUP], pages: [0; GROUP] };
 
-    /// Which triangles lie, with their three corners, nearer to one sample of their page than the square root of `limit`: a
-    /// bit for each.
+    /// Which triangles lie, with their three corners, nearer to one sample of their page than the square root of
+    /// `limit`: a bit for each.
     pub fn covered(&self, pages: &[Page], limit: f32) -> u64 {
         let mut covered = 0;
         for (lane, &page) in self.pages.iter().enumerate() {

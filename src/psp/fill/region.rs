@@ -10,8 +10,8 @@ use crate::psp::fragment::Fragment;
 use crate::psp::pieces::slice;
 use crate::rng::Rng;
 
-/// The first darts on an empty surface, for each squared radius: about six for each sample that will stand there. They are
-/// cheap, as nothing but the triangle that they fall on is known of them, and leave little of the surface open.
+/// The first darts on an empty surface, for each squared radius: about six for each sample that will stand there. They
+/// are cheap, as nothing but the triangle that they fall on is known of them, and leave little of the surface open.
 const FIRST_DARTS: f64 = 4.2;
 
 /// Triangles, and fragments of others that are too long, whose numbers follow.
@@ -48,7 +48,8 @@ impl Items<'_> {
     }
 }
 
-/// On which of some groups of triangles the first darts fall, in order. Of groups that stay dry only the area is needed.
+/// On which of some groups of triangles the first darts fall, in order. Of groups that stay dry only the area is
+/// needed.
 pub(in crate::psp) fn first_darts(
     mesh: &Mesh,
     radius: f64,

@@ -1,16 +1,18 @@
 //! Rounds of darts on what is not covered, until nothing is left: what makes a set maximal.
 //!
-//! As in the flat quadtree of Ebeida et al. 2012 ("A simple algorithm for maximal Poisson-disk sampling in high dimensions"),
-//! with triangles for squares: darts on all open parts, a new look at these, and what is still open is cut up.
+//! As in the flat quadtree of Ebeida et al. 2012 ("A simple algorithm for maximal Poisson-disk sampling in high
+//! dimensions"), with triangles for squares: darts on all open parts, a new look at these, and what is still open is
+//! cut up.
 //!
-//! *Even darts.* The darts of a round are a rain of one density on the whole open area, thrown in random order. So each place
-//! is as likely to be hit as any other, however the surface is cut: a dart on what is left out would be rejected anyway.
+//! *Even darts.* The darts of a round are a rain of one density on the whole open area, thrown in random order. So each
+//! place is as likely to be hit as any other, however the surface is cut: a dart on what is left out would be rejected
+//! anyway.
 //!
-//! *The end.* Each round halves the length up to which open parts are kept whole. Floats cannot tell points apart that are
-//! closer than the float spacing at the mesh's largest coordinate. Where parts no longer than that are still open, one dart
-//! goes to their centre. If it is rejected the part is covered up to rounding: that of the position (0.9 spacings), of the
-//! barycentrics (below 4.4, on a triangle that spans a mesh around the origin) and the size of the part (0.7). So no point
-//! of the surface is farther from all samples than the radius and [`TOLERANCE`] float spacings.
+//! *The end.* Each round halves the length up to which open parts are kept whole. Floats cannot tell points apart that
+//! are closer than the float spacing at the mesh's largest coordinate. Where parts no longer than that are still open,
+//! one dart goes to their centre. If it is rejected the part is covered up to rounding: that of the position (0.9
+//! spacings), of the barycentrics (below 4.4, on a triangle that spans a mesh around the origin) and the size of the
+//! part (0.7). So no point of the surface is farther from all samples than the radius and [`TOLERANCE`] float spacings.
 
 use crate::psp::fill::darts::{Rain, random_point, shuffle};
 use crate::psp::fill::ground::{Ground, Patch, Whole};
@@ -23,7 +25,7 @@ use crate::rng::Rng;
 pub const TOLERANCE: f64 = 6.0;
 
 /// Patches are no longer than this at first, in radii: their sixteenths can be covered.
-pub(in crate::psp) const PATCH: f64 = 1.5;
+pub(in crate::psp) const PATCH: f64 = 2.0;
 /// Triangles up to this length are kept whole at first.
 pub(in crate::psp) const WHOLE: f32 = 0.5;
 

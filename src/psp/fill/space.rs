@@ -1,15 +1,15 @@
 //! Space as the fill sees it, in floats: lengths in a unit near the radius, and cells of two radii.
 //!
-//! The unit is a power of two. So coordinates are exact in it, and neither the square of a distance nor its parts leave the
-//! range of `f32`, whatever the size of the mesh. Differences of two positions are then right to a rounding of their own
-//! size, wherever the mesh lies.
+//! The unit is a power of two. So coordinates are exact in it, and neither the square of a distance nor its parts leave
+//! the range of `f32`, whatever the size of the mesh. Differences of two positions are then right to a rounding of
+//! their own size, wherever the mesh lies.
 
 use glam::DVec3;
 
 use crate::mesh::{Mesh, exact};
 
-/// What rounding can add to a squared distance, as a share of the squared radius, and some more: places are off by a few
-/// roundings of lengths up to a few radii, which is 1.6e-6.
+/// What rounding can add to a squared distance, as a share of the squared radius, and some more: places are off by a
+/// few roundings of lengths up to a few radii, which is 1.6e-6.
 const SLACK: f64 = 1e-5;
 
 /// Sums with it, up to 2^22 more, are integers.
@@ -99,8 +99,8 @@ impl Space {
 
     /// The lowest and the highest cell that the ball around a place touches.
     ///
-    /// Rounding is monotone. So the cells of all floats in the ball, and those of all points in it once they are rounded,
-    /// lie between these two.
+    /// Rounding is monotone. So the cells of all floats in the ball, and those of all points in it once they are
+    /// rounded, lie between these two.
     #[inline]
     pub fn cells_around(&self, place: Place) -> [[u32; 3]; 2] {
         let reach = (self.radius * (1.0 + SLACK)) as f32;
@@ -108,7 +108,8 @@ impl Space {
     }
 }
 
-/// A cell as a key: 21 bits for each axis. A radius has at least 64 float spacings, which makes less than 2^20 cells in a row.
+/// A cell as a key: 21 bits for each axis. A radius has at least 64 float spacings, which makes less than 2^20 cells in
+/// a row.
 #[inline(always)]
 pub(in crate::psp) fn key([x, y, z]: [u32; 3]) -> u64 {
     u64::from(x) | u64::from(y) << 21 | u64::from(z) << 42
