@@ -249,8 +249,8 @@ mod tests {
                 let mut held = window;
                 for (parity, margin) in PHASES {
                     let around = blocks.grown(&window, margin);
-                    for axis in 0..2 {
-                        for (index, _) in blocks.of_parity(&around, axis, parity[axis]) {
+                    for (axis, parity) in parity.into_iter().enumerate() {
+                        for (index, _) in blocks.of_parity(&around, axis, parity) {
                             held.min[axis] = held.min[axis].min(index);
                             held.max[axis] = held.max[axis].max(index + 1);
                         }

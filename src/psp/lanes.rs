@@ -19,8 +19,9 @@ pub(super) type PointLanes = [[f32; LANES]; 3];
 /// Which of some points are no farther than the square root of `reach2` from a point: a bit for each.
 pub(super) fn within(places: &PointLanes, point: [f32; 3], reach2: f32) -> u8 {
     let mut within = 0;
-    for lane in 0..LANES {
-        let [x, y, z] = [0, 1, 2].map(|axis| places[axis][lane] - point[axis]);
+    let [xs, ys, zs] = places;
+    for (lane, ((x, y), z)) in xs.iter().zip(ys).zip(zs).enumerate() {
+        let [x, y, z] = [x - point[0], y - point[1], z - point[2]];
         within |= u8::from(x * x + y * y + z * z <= reach2) << lane;
     }
     within

@@ -144,7 +144,8 @@ mod tests {
     /// Each cell of a coarse grid gets its share.
     #[test]
     fn heaps_are_levelled() {
-        let starts: [fn(usize, [f64; 2]) -> [f64; 2]; 6] = [
+        type Start = fn(usize, [f64; 2]) -> [f64; 2];
+        let starts: [Start; 6] = [
             |_, [x, y]| [0.05 * x, 0.05 * y],
             |_, _| [0.5, 0.5],
             |_, [x, _]| [x, 0.3],

@@ -193,7 +193,7 @@ mod tests {
         for round in 0..3000 {
             let (centre, radius) = PLACES[round % 3];
             let size = [1.0, 0.1, 1e-3][round / 3 % 3] * radius;
-            let corners = vec![(); 3].iter().map(|()| random_point(&mut rng, centre, size)).collect();
+            let corners = (0..3).map(|_| random_point(&mut rng, centre, size)).collect();
             let Ok(mesh) = Mesh::new(corners, vec![[0, 1, 2]]) else { continue };
             let mut grid = Grid::new(Space::new(&mesh, radius));
             let samples: Vec<_> = (0..30).map(|_| random_point(&mut rng, centre, 1.4 * radius)).collect();
