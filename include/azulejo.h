@@ -1132,8 +1132,8 @@ azulejo_status azulejo_maximal_options_init(struct azulejo_maximal_options *opti
 
 /// Makes a maximal, conflict-free set of samples of a rectangle by throwing darts into what is
 /// uncovered, one after the other: about 0.6966 * area / radius^2 samples without any bias. It is
-/// the reference with which other sets are compared. It is much slower than azulejo_kdrt_sample. The
-/// threads of the context share the work; the set is the same for every number of them.
+/// the reference with which other sets are compared. It is much slower than azulejo_kdrt_sample.
+/// The threads of the context share the work; the set is the same for every number of them.
 ///
 /// Source: M. S. Ebeida et al., A Simple Algorithm for Maximal Poisson-Disk Sampling in High
 /// Dimensions, 2012.
@@ -1632,9 +1632,9 @@ azulejo_status azulejo_dcr_surface_report_init(struct azulejo_dcr_surface_report
 ///
 /// report: what the call did, or NULL.
 ///
-/// O(triangles) time once, and for evenly spread samples O(count) for each step, nearly as fast with
-/// many triangles between neighbouring samples as with none. Steps take longer from clustered samples,
-/// and beside many boundaries. O(count + triangles) memory. The call is cancelled between steps.
+/// O(triangles) time once, and for evenly spread samples O(count) for each step, somewhat more with
+/// many triangles between neighbouring samples. Steps take longer beside many boundaries and for
+/// clustered samples. O(count + triangles) memory. The call is cancelled between steps.
 ///
 /// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for triangles that do not exist, have no area or
 /// are left out by the mask, and for barycentrics farther outside; AZULEJO_ERROR_TOO_LARGE.

@@ -61,8 +61,8 @@ pub unsafe extern "C" fn azulejo_maximal_options_init(
 
 /// Makes a maximal, conflict-free set of samples of a rectangle by throwing darts into what is
 /// uncovered, one after the other: about 0.6966 * area / radius^2 samples without any bias. It is
-/// the reference with which other sets are compared. It is much slower than azulejo_kdrt_sample. The
-/// threads of the context share the work; the set is the same for every number of them.
+/// the reference with which other sets are compared. It is much slower than azulejo_kdrt_sample.
+/// The threads of the context share the work; the set is the same for every number of them.
 ///
 /// Source: M. S. Ebeida et al., A Simple Algorithm for Maximal Poisson-Disk Sampling in High
 /// Dimensions, 2012.

@@ -140,9 +140,9 @@ pub unsafe extern "C" fn azulejo_dcr_surface_report_init(
 ///
 /// report: what the call did, or NULL.
 ///
-/// O(triangles) time once, and for evenly spread samples O(count) for each step, nearly as fast with
-/// many triangles between neighbouring samples as with none. Steps take longer from clustered samples,
-/// and beside many boundaries. O(count + triangles) memory. The call is cancelled between steps.
+/// O(triangles) time once, and for evenly spread samples O(count) for each step, somewhat more with
+/// many triangles between neighbouring samples. Steps take longer beside many boundaries and for
+/// clustered samples. O(count + triangles) memory. The call is cancelled between steps.
 ///
 /// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for triangles that do not exist, have no area or
 /// are left out by the mask, and for barycentrics farther outside; AZULEJO_ERROR_TOO_LARGE.
