@@ -239,9 +239,12 @@ fn a_mask_may_leave_out_everything() {
         nothing(advanced);
         nothing(filled);
         assert!(psp.samples().is_empty());
-        let (samples, report) = psp::sample(&context, &masked, &Options::new(0.01), None).unwrap();
-        nothing(report);
-        assert!(samples.is_empty());
+        for iterations in [0, 1] {
+            let options = Options::new(0.01).iterations(iterations);
+            let (samples, report) = psp::sample(&context, &masked, &options, None).unwrap();
+            nothing(report);
+            assert!(samples.is_empty());
+        }
         assert_eq!(surface_uncovered_fraction(&context, &masked, &[], 0.1, 100, 0, None).unwrap(), 0.0);
     }
 }

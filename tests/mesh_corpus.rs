@@ -64,9 +64,12 @@ fn files_of_many_programs_are_loaded_and_sampled_or_refused_with_the_reason() {
             (Ok(mesh), None) => {
                 let mesh = Arc::new(mesh);
                 let radius = (mesh.area() / 1000.0).sqrt();
-                let (samples, _) = psp::sample(&context, &mesh, &Options::new(radius), None).unwrap();
-                assert!(!samples.is_empty(), "{name}");
-                assert_eq!(samples.interpolated_normals.len(), if mesh.has_normals() { samples.len() } else { 0 });
+                for iterations in [0, 1] {
+                    let options = Options::new(radius).iterations(iterations);
+                    let (samples, _) = psp::sample(&context, &mesh, &options, None).unwrap();
+                    assert!(!samples.is_empty(), "{name}");
+                    assert_eq!(samples.interpolated_normals.len(), if mesh.has_normals() { samples.len() } else { 0 });
+                }
                 loaded += 1;
             }
             // Other versions of the package have more of these.

@@ -79,15 +79,18 @@ fn any_size() {
 
 #[test]
 fn powers_of_two_change_nothing_but_the_size() {
-    let sample = |scale: f64| {
-        let mesh = placed(meshes::torus(), [scale; 3], [0.0; 3]);
-        psp::sample(&Context::new(2).unwrap(), &mesh, &Options::new(0.1 * scale), None).unwrap().0
-    };
-    let unit = sample(1.0);
-    for exponent in [-100, -20, -1, 20, 100] {
-        let samples = sample(f64::from(exponent).exp2());
-        assert_eq!((&samples.triangles, &samples.normals), (&unit.triangles, &unit.normals), "2^{exponent}");
-        assert_eq!(samples.barycentrics, unit.barycentrics, "2^{exponent}");
+    for iterations in [0, 1] {
+        let sample = |scale: f64| {
+            let mesh = placed(meshes::torus(), [scale; 3], [0.0; 3]);
+            let options = Options::new(0.1 * scale).iterations(iterations);
+            psp::sample(&Context::new(2).unwrap(), &mesh, &options, None).unwrap().0
+        };
+        let unit = sample(1.0);
+        for exponent in [-100, -20, -1, 20, 100] {
+            let samples = sample(f64::from(exponent).exp2());
+            assert_eq!((&samples.triangles, &samples.normals), (&unit.triangles, &unit.normals), "2^{exponent}");
+            assert_eq!(samples.barycentrics, unit.barycentrics, "2^{exponent}");
+        }
     }
 }
 

@@ -45,6 +45,11 @@ pub(super) const CORNERS: [[f32; 16]; 2] = {
     corners
 };
 
+/// Corners in shares of the fragment's edges, of which each sixteenth has one or more: the three inside, and one for each of
+/// the sixteenths at the fragment's own corners.
+pub(super) const PIERCING: [[f64; 2]; 6] =
+    [[0.25, 0.25], [0.5, 0.25], [0.25, 0.5], [0.25, 0.0], [0.75, 0.25], [0.0, 0.75]];
+
 /// The numbers of the first, second and third corners of the sixteenths.
 pub(super) const CORNERS_OF_SIXTEENTHS: [[i32; 16]; 3] = {
     let mut numbers = [[0; 16]; 3];
@@ -91,6 +96,17 @@ impl Cover {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn each_sixteenth_has_a_piercing_corner() {
+        for corners in SIXTEENTHS {
+            assert!(corners.iter().any(|corner| PIERCING.contains(&corner.map(|quarters| 0.25 * quarters))));
+        }
+        assert!(PIERCING.iter().all(|&piercing| {
+            let others: Vec<_> = PIERCING.into_iter().filter(|&other| other != piercing).collect();
+            SIXTEENTHS.iter().any(|corners| !corners.iter().any(|c| others.contains(&c.map(|q| 0.25 * q))))
+        }));
+    }
 
     /// Every set of corners, against the corners of each sixteenth.
     #[test]

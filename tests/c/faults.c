@@ -62,12 +62,14 @@ static azulejo_status merge(const azulejo_context *context, watcher w, azulejo_p
 
 static azulejo_status psp(const azulejo_context *context, watcher w, azulejo_points **out) {
     azulejo_psp_options o = psp_options(0.1);
+    o.iterations = 1;
     WATCHED(o, w);
     return azulejo_psp_sample(context, cube, &o, out, NULL);
 }
 
 static azulejo_status raster(const azulejo_context *context, watcher w, azulejo_points **out) {
     azulejo_psp_options o = psp_options(0.1);
+    o.iterations = 1;
     o.engine = AZULEJO_ENGINE_RASTERISER;
     WATCHED(o, w);
     return azulejo_psp_sample(context, cube, &o, out, NULL);

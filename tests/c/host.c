@@ -82,12 +82,13 @@ static void trace(RTCScene scene, hit *hits) {
 }
 
 static void hands_over(RTCDevice device, RTCScene scene, const azulejo_embree_geometry *geometries) {
-    const azulejo_psp_options options = psp_options(0.1);
+    azulejo_psp_options options = psp_options(0.1);
     azulejo_mesh *mesh = NULL, *cube = make_cube();
     azulejo_points *points = NULL, *same = NULL;
     const enum RTCSceneFlags flags = rtcGetSceneFlags(scene);
     hit before[RAYS], after[RAYS];
     size_t i;
+    options.iterations = 1;
     trace(scene, before);
 
     ACCEPTED(azulejo_mesh_create_from_embree(scene, geometries, 2, &mesh));

@@ -46,6 +46,7 @@ static azulejo_status maximal(watch *w, azulejo_points **out) {
 
 static azulejo_status psp(watch *w, azulejo_points **out) {
     azulejo_psp_options o = psp_options(0.1);
+    o.iterations = 1;
     o.progress = tell;
     o.progress_user = w;
     return azulejo_psp_sample(context, cube, &o, out, NULL);

@@ -14,6 +14,7 @@ static void sample_all(const azulejo_context *context, azulejo_points *out[KINDS
     azulejo_maximal_options maximal = maximal_options(0.05);
     azulejo_psp_options psp = psp_options(0.05);
     azulejo_dcr_options dcr = dcr_options(20);
+    psp.iterations = 1;
     ACCEPTED(azulejo_kdrt_sample(context, &kdrt, &out[0], NULL));
     ACCEPTED(azulejo_maximal_sample(context, &maximal, &out[1]));
     ACCEPTED(azulejo_psp_sample(context, cube, &psp, &out[2], NULL));
@@ -40,6 +41,7 @@ static void *sample_rounds(void *user) {
     int round;
     azulejo_psp_options_init(&psp, sizeof psp);
     psp.radius = 0.05;
+    psp.iterations = 1;
     for (round = 0; round < ROUNDS; round++)
         w->status[round] = azulejo_psp_sample(w->context, cube, &psp, &w->points[round], NULL);
     /* This thread's own error, while the other thread makes its own. */

@@ -10,6 +10,7 @@ use crate::psp::fill::page::{GROUP, Group, LANES, Page, Part};
 use crate::psp::fill::space::{Place, Space, key};
 use crate::psp::fill::table::Table;
 use crate::psp::fill::vectors;
+use crate::psp::sixteenths::PIERCING;
 use crate::simd::Level;
 
 /// Samples by the cells that their balls touch.
@@ -65,31 +66,38 @@ impl Grid {
         })
     }
 
-    /// The sixteenths of a triangle, given by its corners in the unit of the space, that no single sample certainly
+    /// Which of some sixteenths of a triangle, given by its corners in the unit of the space, no single sample certainly
     /// covers.
-    pub fn open_sixteenths(&self, corners: [DVec3; 3], longest: f64) -> u16 {
-        let places = corners.map(|corner| corner.as_vec3());
-        let [a, b, c] = places;
-        let ends = [a.min(b).min(c), a.max(b).max(c)].map(|place| self.space.cell(place.to_array()));
-        let origin = places[0].to_array();
+    pub fn open_sixteenths(&self, corners: [DVec3; 3], longest: f64, mut open: u16) -> u16 {
+        let a = corners[0].as_vec3();
         let [corner, to_b, to_c] = [corners[0] - a.as_dvec3(), corners[1] - corners[0], corners[2] - corners[0]];
         // No corner is farther from the centre than two thirds of the longest edge.
         let reach = (self.space.radius() + 2.0 / 3.0 * longest) as f32;
         let part = Part {
-            origin,
+            origin: a.to_array(),
             corner: corner.as_vec3().to_array(),
             edges: [to_b.as_vec3().to_array(), to_c.as_vec3().to_array()],
             centre: (corner + (to_b + to_c) * (1.0 / 3.0)).as_vec3().to_array(),
             reach2: reach * reach * 1.0001,
         };
-        let mut covered = 0;
-        each_cell(ends, |cell| {
-            self.any_page(cell, |page| {
-                covered |= vectors::covered_sixteenths(self.level, page, &part, self.space.surely_within);
-                covered == u16::MAX
+        // Samples that cover a sixteenth are on the page of each of its corners.
+        let mut cells = [[0; 3]; PIERCING.len()];
+        for (known, [s, t]) in PIERCING.into_iter().enumerate() {
+            let cell = self.space.cell((corners[0] + (s * to_b + t * to_c)).as_vec3().to_array());
+            let is_known = cells[..known].contains(&cell);
+            cells[known] = cell;
+            if is_known {
+                continue;
+            }
+            let is_covered = self.any_page(cell, |page| {
+                open &= !vectors::covered_sixteenths(self.level, page, &part, self.space.surely_within);
+                open == 0
             });
-        });
-        !covered
+            if is_covered {
+                break;
+            }
+        }
+        open
     }
 
     /// Which triangles of a group no single sample certainly covers: a bit for each. Their pages are looked up here.
@@ -205,7 +213,7 @@ mod tests {
             let is_open = grid.open_triangles(&mut group, 1) == 1;
             let shape = whole.shape(&mesh);
             let scaled = shape.corners.map(|corner| grid.space.scaled(corner));
-            let open = grid.open_sixteenths(scaled, shape.longest * f64::from(grid.space.scale()));
+            let open = grid.open_sixteenths(scaled, shape.longest * f64::from(grid.space.scale()), u16::MAX);
             let parts = (0..16).map(|part| (open >> part & 1 == 1, whole.sixteenth(part)));
             for (is_open, part) in std::iter::once((is_open, whole)).chain(parts) {
                 let corners = part.shape(&mesh).corners;

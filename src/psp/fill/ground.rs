@@ -116,14 +116,14 @@ impl Ground for UniformGround<'_> {
     fn look(&self, fragment: &Fragment) -> Option<Patch> {
         let corners = self.corners(fragment);
         let (area, longest) = self.size(&corners);
-        let open = self.grid.open_sixteenths(corners, longest / self.per_radius);
+        let open = self.grid.open_sixteenths(corners, longest / self.per_radius, u16::MAX);
         let patch = Patch { fragment: *fragment, open, area: area as f32, longest: longest as f32 };
         (open != 0).then_some(patch)
     }
 
     fn open_sixteenths(&self, patch: &Patch) -> u16 {
         let corners = self.corners(&patch.fragment);
-        patch.open & self.grid.open_sixteenths(corners, f64::from(patch.longest) / self.per_radius)
+        self.grid.open_sixteenths(corners, f64::from(patch.longest) / self.per_radius, patch.open)
     }
 
     fn open_wholes(&self, wholes: &[Whole]) -> u64 {
