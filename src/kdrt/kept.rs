@@ -13,7 +13,7 @@ use crate::kdrt::options::{Options, check_leaf_size};
 use crate::kdrt::sample::BYTES_PER_SAMPLE;
 use crate::kdrt::tiling::Tiling;
 
-/// The fewest samples, of some 24 MB, that memory is asked for: to ask takes as long as to make a small window.
+/// The fewest samples, of some 16 MB, that memory is asked for: to ask takes as long as to make a small window.
 const FEWEST_REFUSED: f64 = 1e6;
 
 /// A maximal Poisson-disk set of a rectangle, of which any window can be made at any time: the set of
