@@ -10,17 +10,6 @@
 
 static azulejo_context *two;
 
-/* Tiled planes of about 46,000 samples, off the origin, and one that is made as a whole. */
-static azulejo_kdrt_options plane_options(int32_t boundary, double radius) {
-    azulejo_kdrt_options options = kdrt_options(radius);
-    options.boundary = boundary;
-    options.domain_min[0] = -1.5;
-    options.domain_max[0] = 0.15;
-    options.leaf_size = 8;
-    options.seed = 5;
-    return options;
-}
-
 /* The plane, made with a context that does not live longer. */
 static azulejo_kdrt *make_plane(const azulejo_kdrt_options *options) {
     azulejo_context *context = make_context(2);

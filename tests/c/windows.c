@@ -7,17 +7,6 @@
 
 static azulejo_context *one, *four;
 
-/* A tiled plane of about 46,000 samples. */
-static azulejo_kdrt_options plane_options(int32_t boundary) {
-    azulejo_kdrt_options options = kdrt_options(0.005);
-    options.boundary = boundary;
-    options.domain_min[0] = -1.5;
-    options.domain_max[0] = 0.15;
-    options.leaf_size = 8;
-    options.seed = 5;
-    return options;
-}
-
 static azulejo_points *make_window(const azulejo_context *context, const azulejo_kdrt_options *options, double left,
                                    double bottom, double right, double top) {
     const double low[2] = {left, bottom}, high[2] = {right, top};
@@ -138,7 +127,7 @@ static void progress(const azulejo_context *context, azulejo_kdrt_options option
 /* A visit that makes a window with the context that the stream runs on. */
 static int32_t look_closer(void *user, const float *xy, size_t count) {
     const azulejo_context *context = user;
-    const azulejo_kdrt_options options = plane_options(AZULEJO_BOUNDARY_PERIODIC);
+    const azulejo_kdrt_options options = plane_options(AZULEJO_BOUNDARY_PERIODIC, 0.005);
     azulejo_points *points = make_window(context, &options, xy[0], xy[1], xy[0] + 1e-6, xy[1] + 1e-6);
     CHECK(count > 0 && azulejo_points_count(points) == 1);
     CHECK(memcmp(azulejo_points_positions(points), xy, 8) == 0);
@@ -182,7 +171,7 @@ int main(void) {
     one = make_context(1);
     four = make_context(4);
     for (i = 0; i < 2; i++) {
-        const azulejo_kdrt_options options = plane_options(boundaries[i]);
+        const azulejo_kdrt_options options = plane_options(boundaries[i], 0.005);
         azulejo_points *whole = NULL;
         int parts;
         ACCEPTED(azulejo_kdrt_sample(one, &options, &whole, NULL));
@@ -197,7 +186,7 @@ int main(void) {
         azulejo_points_free(whole);
     }
     {
-        const azulejo_kdrt_options options = plane_options(AZULEJO_BOUNDARY_PERIODIC);
+        const azulejo_kdrt_options options = plane_options(AZULEJO_BOUNDARY_PERIODIC, 0.005);
         ACCEPTED(azulejo_kdrt_stream(one, &options, look_closer, one));
         ACCEPTED(azulejo_kdrt_stream(four, &options, look_closer, four));
     }
