@@ -143,6 +143,25 @@ fn few_coincident_points_do_not_stay_together() {
     }
 }
 
+/// Five points all but on a line are in triangles so flat that none of them may move far, and too far apart to count as
+/// coincident.
+#[test]
+fn chains_of_points_do_not_jam() {
+    for (chains, seed) in [(1, 0), (1, 1), (3, 2), (8, 3)] {
+        for boundary in BOUNDARIES {
+            let options = Options::new(unit_square(boundary), Neighbourhood::Delaunay);
+            let mut set = sets::random_points(1000, 61 + seed);
+            let link = 0.006 * options.domain.hexagonal_distance(set.len());
+            for (point, place) in set[..5 * chains].iter_mut().enumerate() {
+                let (chain, along) = ((point / 5) as f64, (point % 5) as f64 * link);
+                *place = [0.1 + 0.1 * chain + along, 0.3 + 0.07 * chain + 0.1 * chain * along].map(|x| x as f32);
+            }
+            let report = run(&options, &set);
+            assert!(report.rho >= 0.845 && report.coverage <= 0.68, "{chains}, {boundary:?}: {report:?}");
+        }
+    }
+}
+
 #[test]
 fn the_threads_do_not_matter() {
     for boundary in BOUNDARIES {

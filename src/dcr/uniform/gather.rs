@@ -19,6 +19,10 @@ use crate::job::{Job, chunks};
 use crate::rng::{Draw, Rng};
 use crate::simd::Level;
 
+/// The clearance, in spacings, below which a point in conflict is jammed: several such points all but on a line keep each
+/// other in flat triangles, in which none of them gets anywhere.
+const JAMMED: f32 = 0.02;
+
 /// Finds the neighbours of each point.
 pub(super) enum NeighbourSearch {
     Delaunay(Neighbours<FlipMesh>),
@@ -50,8 +54,29 @@ pub(super) struct Step<'a> {
     pub(super) constraints: Constraints,
     /// The displacement of each point by the waves; empty if there is none.
     pub(super) drift: &'a [Vec2],
-    /// The strength with which points are kicked whose constraints are violated, and the number of the kick.
-    pub(super) kick: Option<(f32, u32)>,
+    /// None if this step has none.
+    pub(super) kick: Option<Kick>,
+}
+
+/// Moves points whose constraints are violated in random directions.
+pub(super) struct Kick {
+    /// The key of the directions.
+    pub(super) number: u32,
+    /// Whether all of these points are kicked, or only those that are jammed.
+    pub(super) is_for_all: bool,
+    /// Whether jammed points are kicked, and move as if they were in no mesh.
+    pub(super) frees: bool,
+}
+
+/// The length of a kick, in spacings.
+const KICK: f32 = 0.03;
+
+impl Kick {
+    #[cold]
+    fn displacement(&self, point: usize) -> Vec2 {
+        let mut rng = Rng::at(self.number.into(), Draw::Kick, &[point as u64]);
+        KICK * Vec2::from_angle((std::f64::consts::TAU * rng.unit()) as f32)
+    }
 }
 
 /// The findings while points gathered.
@@ -63,6 +88,8 @@ pub(super) struct Findings {
     pub(super) is_unsound: bool,
     /// The number of points whose constraints were violated before the step; of points in no mesh it is not known.
     pub(super) violated: usize,
+    /// Whether jammed points were moved, over which triangles may have turned over.
+    pub(super) is_torn: bool,
     /// The square of the longest displacement of points that are in no mesh.
     pub(super) longest_squared: f32,
 }
@@ -114,6 +141,7 @@ impl Step<'_> {
         for part in found {
             all.suspects.extend(part.suspects);
             all.is_unsound |= part.is_unsound;
+            all.is_torn |= part.is_torn;
             all.violated += part.violated;
             all.longest_squared = all.longest_squared.max(part.longest_squared);
         }
@@ -126,13 +154,6 @@ impl Step<'_> {
         let limit = SAFE_FRACTION * clearance;
         let velocity = MOMENTUM * velocity + sum;
         (limited(velocity + drift, limit), limited(velocity, limit))
-    }
-
-    /// The kick of a point, in a random direction.
-    #[cold]
-    fn kick(&self, (strength, number): (f32, u32), point: usize) -> Vec2 {
-        let mut rng = Rng::at(number.into(), Draw::Kick, &[point as u64]);
-        strength * Vec2::from_angle((std::f64::consts::TAU * rng.unit()) as f32)
     }
 }
 
@@ -187,11 +208,20 @@ impl Visitor for Gathering<'_> {
                     boundary.force(&self.step.constraints, self.now.places[point], sum).to_array();
             }
         }
+        let mut clearance = gathered.clearance;
         if let Some(kick) = self.step.kick {
             for lane in gathered.violated(points.len()) {
-                let kick = self.step.kick(kick, points.start + lane);
-                force[0][lane] += kick.x;
-                force[1][lane] += kick.y;
+                let is_jammed = kick.frees && clearance[lane] < JAMMED;
+                if !(is_jammed || kick.is_for_all) {
+                    continue;
+                }
+                let kicked = kick.displacement(points.start + lane);
+                force[0][lane] += kicked.x;
+                force[1][lane] += kicked.y;
+                if is_jammed {
+                    clearance[lane] = FREE_CLEARANCE;
+                    self.found.is_torn = true;
+                }
             }
         }
         let lane_of = |lane: usize| points.start + lane.min(points.len() - 1);
@@ -200,7 +230,7 @@ impl Visitor for Gathering<'_> {
         let drifts: [Vec2; LANES] =
             if step.drift.is_empty() { [Vec2::ZERO; LANES] } else { from_fn(|lane| step.drift[lane_of(lane)]) };
         let moved: [(Vec2, Vec2); LANES] = from_fn(|lane| {
-            let force = Force { sum: Vec2::new(force[0][lane], force[1][lane]), clearance: gathered.clearance[lane] };
+            let force = Force { sum: Vec2::new(force[0][lane], force[1][lane]), clearance: clearance[lane] };
             step.moved(velocities[lane], force, drifts[lane])
         });
         let first = points.start - self.part.points.start;

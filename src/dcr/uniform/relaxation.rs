@@ -16,7 +16,7 @@ use crate::dcr::neighbourhood::Neighbourhood;
 use crate::dcr::relaxation::Relaxation;
 use crate::dcr::uniform::cells::VerletCells;
 use crate::dcr::uniform::flip_mesh::FlipMesh;
-use crate::dcr::uniform::gather::{NeighbourSearch, State, Step};
+use crate::dcr::uniform::gather::{Kick, NeighbourSearch, State, Step};
 use crate::error::Result;
 use crate::geometry::delaunay::Delaunay;
 use crate::job::Job;
@@ -39,11 +39,11 @@ const COARSENING: Range<u32> = 60..85;
 const KICK_EVERY: u32 = 8;
 const LAST_KICK: u32 = 56;
 
-/// The length of a kick, in spacings.
-const KICK: f32 = 0.03;
+/// The first kick that frees jammed points, after which the mesh is made anew. Until then most get free by themselves.
+const FIRST_FREE: u32 = 24;
 
-/// The fraction of the points above which violations are not exceptions: no point is kicked, and waves act at the
-/// boundary too.
+/// The fraction of the points above which violations are not exceptions: only jammed points are kicked, and waves act at
+/// the boundary too.
 const FEW: f64 = 0.04;
 
 /// The points, their velocities, and the search for their neighbours.
@@ -155,15 +155,16 @@ impl UniformRelaxation {
 
     /// The parameters of the next step.
     fn parameters<'a>(&'a self, drift: &'a [Vec2]) -> Step<'a> {
-        let kicks =
-            self.are_few_violated() && self.iterations.is_multiple_of(KICK_EVERY) && self.iterations <= LAST_KICK;
+        let kicks = self.iterations.is_multiple_of(KICK_EVERY) && self.iterations <= LAST_KICK;
+        let kick =
+            Kick { number: self.iterations, is_for_all: self.are_few_violated(), frees: self.iterations >= FIRST_FREE };
         Step {
             torus: &self.torus,
             boundary: self.boundary.as_ref(),
             level: self.level,
             constraints: self.constraints(),
             drift,
-            kick: kicks.then_some((KICK, self.iterations)),
+            kick: kicks.then_some(kick),
         }
     }
 }
@@ -204,7 +205,8 @@ impl Relaxation for UniformRelaxation {
         self.motion.after_step(&self.torus, || places[..count].iter().copied());
         match neighbours {
             NeighbourSearch::Delaunay(Neighbours::Kept(mut mesh)) => {
-                self.mesh = mesh.mend(&job.part(0.7, 1.0), places, found.suspects)?.then_some(mesh);
+                let is_mended = !found.is_torn && mesh.mend(&job.part(0.7, 1.0), places, found.suspects)?;
+                self.mesh = is_mended.then_some(mesh);
             }
             NeighbourSearch::Nearest(mut cells) => {
                 let reach = self.constraints().conflict_radius;
