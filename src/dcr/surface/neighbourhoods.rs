@@ -17,7 +17,7 @@ use crate::dcr::surface::relaxation::FARTHEST;
 use crate::dcr::surface::vectors::lanes::Position;
 use crate::dcr::surface::view::Star;
 use crate::error::Result;
-use crate::job::{Job, chunks_of};
+use crate::job::{Job, chunks, chunks_of};
 use crate::mesh::exact;
 
 /// The distance up to which neighbours are needed, in spacings.
@@ -114,14 +114,16 @@ impl<'a> Neighbourhoods<'a> {
     }
 
     /// Notes the samples that have strayed from where they were listed.
-    pub(super) fn follow(&mut self, positions: &[Position]) {
+    pub(super) fn follow(&mut self, job: &Job, positions: &[Position]) -> Result<()> {
         let (unit, most) = ((1.0 / self.spacing) as f32, (SKIN / 2.0) as f32);
-        for (sample, &position) in (0..).zip(positions) {
-            let strayed = (vec3(position) - self.cells.position(sample)) * unit;
-            if strayed.length_squared() >= most * most {
-                self.strayed.push(sample);
-            }
-        }
+        let has_strayed = |&sample: &u32| {
+            let strayed = (vec3(positions[sample as usize]) - self.cells.position(sample)) * unit;
+            strayed.length_squared() >= most * most
+        };
+        let tasks = chunks(positions.len());
+        self.strayed = job
+            .concat(tasks.len(), |task| tasks.range(task).map(|sample| sample as u32).filter(has_strayed).collect())?;
+        Ok(())
     }
 
     /// Lists the samples that have strayed.
@@ -179,7 +181,7 @@ impl<'a> Neighbourhoods<'a> {
             self.lists[sample as usize] = list;
             self.locals[sample as usize] = local;
             // Stars number the samples of the list.
-            movers[sample as usize].star = Star::default();
+            (movers[sample as usize].star, movers[sample as usize].rest) = (Star::default(), 0);
         }
     }
 

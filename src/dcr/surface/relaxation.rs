@@ -28,6 +28,13 @@ const CALMING: f32 = 0.9;
 /// The largest distance by which positions change in a step, in spacings: the stride, and rounding.
 pub(super) const FARTHEST: f32 = 0.41;
 
+/// After so many steps samples come to rest where no force acts on them.
+const FIRST_REST: u32 = 16;
+
+/// They rest for this fraction of the steps made, as motion dies down; never longer than that many.
+const REST_SHARE: u32 = 4;
+const LONGEST_REST: u32 = 12;
+
 /// The samples of one task: few, as each takes long.
 const CHUNK: usize = 512;
 
@@ -153,6 +160,7 @@ impl<'a> SurfaceRelaxation<'a> {
             constraints: Constraints::of_step(self.iterations),
             limits: Limits::of_step(self.iterations, floor),
             stride: STRIDE * CALMING.powi(self.iterations.saturating_sub(STIFFENING) as i32),
+            rest: rest(self.iterations),
         };
         let movers = self.movers.chunks_mut(CHUNK).zip(locals.chunks_mut(CHUNK));
         let moves = (0..).zip(movers.zip(self.wanted.chunks_mut(CHUNK)));
@@ -163,9 +171,16 @@ impl<'a> SurfaceRelaxation<'a> {
             locals,
             wanted,
         });
-        let level = self.level;
-        let doubtful = job.map_each(moves.collect(), |moves| vectors::run(level, moves))?;
-        Ok(doubtful.into_iter().flatten().collect())
+        let (level, rests) = (self.level, situation.rest > 0);
+        let after = job.map_each(moves.collect(), |moves| vectors::run(level, moves))?;
+        let mut doubtful = Vec::new();
+        for part in after {
+            doubtful.extend(part.doubtful);
+            for sample in part.stirring.into_iter().filter(|_| rests) {
+                self.near.in_sight(sample).for_each(|other| self.movers[other as usize].rest = 0);
+            }
+        }
+        Ok(doubtful)
     }
 
     /// Takes back those of the doubtful moves that are not admitted; all others are made.
@@ -186,8 +201,7 @@ impl<'a> SurfaceRelaxation<'a> {
             }
         }
         std::mem::swap(&mut self.positions, &mut self.wanted);
-        self.near.follow(&self.positions);
-        Ok(())
+        self.near.follow(job, &self.positions)
     }
 
     /// Whether the move of a sample ends too close neither to another sample nor to the end of another's move.
@@ -199,6 +213,11 @@ impl<'a> SurfaceRelaxation<'a> {
         };
         from.distance(to) <= self.near.farthest() * self.spacing && self.near.in_sight(sample).all(admits)
     }
+}
+
+/// The number of steps for which samples rest that come to rest in this one.
+fn rest(iterations: u32) -> u8 {
+    if iterations < FIRST_REST { 0 } else { (iterations / REST_SHARE).min(LONGEST_REST) as u8 }
 }
 
 /// A position in `f64`.
