@@ -292,6 +292,37 @@ mod tests {
         assert!(sights > 10_000 && unknown > 1000, "{sights} in sight, {unknown} of them on another side");
     }
 
+    /// Most samples come to rest; no other one is closer to them than the conflict radius, but for what it may have
+    /// moved since they were looked at.
+    #[test]
+    fn samples_that_rest_are_in_no_conflict() {
+        let mesh = Mesh::new(vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]], vec![[0, 1, 2]]).unwrap();
+        let connected = ConnectedMesh::new(&mesh).unwrap();
+        let mut rng = Rng::at(14, Draw::Probe, &[]);
+        let places: Vec<SurfacePoint> =
+            (0..600).map(|_| SurfacePoint { triangle: 0, uv: rng.in_triangle().into() }).collect();
+        let (floor, spacing) = (Floor::new(smallest(&mesh, &places)), (mesh.area() / 519.6).sqrt());
+        let context = Context::new(1).unwrap();
+        let new = |job: &Job| SurfaceRelaxation::new(job, &connected, spacing, floor, &places);
+        let mut set = context.run(None, new).unwrap();
+        let mut resting = 0;
+        for step in 0..80 {
+            let before = set.positions.clone();
+            let rests: Vec<bool> = set.movers.iter().map(|mover| mover.rest > 0).collect();
+            assert!(step >= FIRST_REST || !rests.contains(&true));
+            context.run(None, |job| set.step(job)).unwrap();
+            for (i, _) in rests.iter().enumerate().filter(|(i, rests)| **rests && set.movers[*i].rest > 0) {
+                resting += 1;
+                assert_eq!(set.positions[i], before[i]);
+                let others = (0..places.len()).filter(|&other| other != i);
+                let distance = |other: usize| place(set.positions[i]).distance(place(set.positions[other])) / spacing;
+                let nearest = others.map(distance).fold(f64::INFINITY, f64::min);
+                assert!(nearest > 0.83, "{nearest} in step {step}");
+            }
+        }
+        assert!(resting > 10_000, "{resting}");
+    }
+
     #[test]
     fn all_levels_make_the_same_steps() {
         let positions = vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.2], [0.0, 1.0, 0.1], [1.0, 1.0, 0.0]];
@@ -309,7 +340,7 @@ mod tests {
             let steps = context.run(None, |job| {
                 let mut set = SurfaceRelaxation::new(job, &connected, 0.05, floor, &places)?;
                 set.level = level;
-                (0..40).try_for_each(|_| set.step(job))?;
+                (0..60).try_for_each(|_| set.step(job))?;
                 Ok(set.places())
             });
             steps.unwrap()
