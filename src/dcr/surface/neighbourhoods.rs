@@ -70,7 +70,9 @@ impl<'a> Neighbourhoods<'a> {
         let sight = floor + 2.0 * farthest + SKIN;
         let side = SampleSearch::cell_side(spacing, REACH + SKIN, sight);
         let cells = Cells::new(exact(connected.mesh.bounds().0), side, positions.iter().map(|&place| vec3(place)));
-        let locals = movers.iter().map(|mover| Local::on(connected, spacing, mover.place.triangle, Vec3::ZERO));
+        let local = |mover: &Mover| Local::on(connected, spacing, mover.place.triangle, Vec3::ZERO);
+        let tasks = chunks(movers.len());
+        let locals = job.concat(tasks.len(), |task| movers[tasks.range(task)].iter().map(local).collect())?;
         Ok(Self {
             connected,
             patches: Patches::new(job, connected, spacing)?,
@@ -78,7 +80,7 @@ impl<'a> Neighbourhoods<'a> {
             sight,
             farthest,
             lists: vec![List::default(); movers.len()],
-            locals: locals.collect(),
+            locals,
             cells,
             strayed: (0..movers.len() as u32).collect(),
             searches: vec![0; movers.len()],
@@ -153,7 +155,7 @@ impl<'a> Neighbourhoods<'a> {
         Ok(())
     }
 
-    fn find(&self, job: &Job, samples: &[u32], movers: &[Mover]) -> Result<Vec<(List, Local)>> {
+    fn find(&self, job: &Job, samples: &[u32], movers: &[Mover]) -> Result<Vec<Vec<(List, Local)>>> {
         let search = SampleSearch {
             connected: self.connected,
             patches: &self.patches,
@@ -164,7 +166,7 @@ impl<'a> Neighbourhoods<'a> {
         };
         let seen = |sample: u32| (movers[sample as usize].place.triangle, self.locals[sample as usize].normal());
         let chunks = chunks_of(samples.len(), CHUNK);
-        job.flat_map(chunks.len(), |chunk| {
+        job.map(chunks.len(), |chunk| {
             let mut finds = Finds::default();
             let found = samples[chunks.range(chunk)].iter().map(|&sample| {
                 let around: Surroundings = search.around(sample, seen, &mut finds);
@@ -176,8 +178,8 @@ impl<'a> Neighbourhoods<'a> {
         })
     }
 
-    fn take(&mut self, samples: &[u32], found: Vec<(List, Local)>, movers: &mut [Mover]) {
-        for (&sample, (list, local)) in samples.iter().zip(found) {
+    fn take(&mut self, samples: &[u32], found: Vec<Vec<(List, Local)>>, movers: &mut [Mover]) {
+        for (&sample, (list, local)) in samples.iter().zip(found.into_iter().flatten()) {
             self.lists[sample as usize] = list;
             self.locals[sample as usize] = local;
             // Stars number the samples of the list.
