@@ -320,7 +320,7 @@ mod tests {
                 assert!(nearest > 0.83, "{nearest} in step {step}");
             }
         }
-        assert!(resting > 10_000, "{resting}");
+        assert!(resting > 5000, "{resting}");
     }
 
     #[test]
