@@ -17,7 +17,7 @@ use crate::dcr::ground::constraints::STIFFENING;
 
 /// The distance, in spacings, up to which samples that are near on the surface are held off in the end. It is a little
 /// less than the conflict radius, at which forces stop.
-const NEAR: f32 = 0.855;
+pub(super) const NEAR: f32 = 0.855;
 
 /// The same for samples that are near through space only, over the floor: from that of a maximal set to that of a
 /// relaxed one, but no farther than parts of the surface allow that were sampled independently of each other.

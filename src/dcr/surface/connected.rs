@@ -6,6 +6,8 @@
 //!
 //! Half-edges are numbered `3 t + k`: the edge from corner `k` to the next of triangle `t`.
 
+use std::sync::Arc;
+
 use glam::DVec3;
 
 use crate::dcr::surface::welding::welded;
@@ -16,6 +18,11 @@ use crate::mesh::{Mesh, exact};
 /// A mesh with its edges.
 pub(super) struct ConnectedMesh<'a> {
     pub(super) mesh: &'a Mesh,
+    edges: Arc<Edges>,
+}
+
+/// The edges of a mesh. They are kept with it for the next call.
+struct Edges {
     /// For each vertex the first one of the same position.
     vertices: Vec<u32>,
     /// The half-edges of an edge are linked in a circle. One that is alone, at a boundary, is linked to itself.
@@ -28,7 +35,7 @@ fn next(edge: u32) -> u32 {
 }
 
 impl<'a> ConnectedMesh<'a> {
-    /// Finds the edges. O(n log n).
+    /// Finds the edges, unless an earlier call did. O(n log n).
     ///
     /// # Errors
     /// [`Error::TooLarge`] for a mesh of more triangles than half-edges can be numbered for.
@@ -37,64 +44,19 @@ impl<'a> ConnectedMesh<'a> {
         if count > (u32::MAX / 3) as usize {
             return Err(Error::too_large("mesh", format!("{count} triangles; the limit is {}", u32::MAX / 3)));
         }
-        let mut connected = Self { mesh, vertices: welded(mesh), around: Vec::new() };
-        connected.around = connected.linked();
-        Ok(connected)
-    }
-
-    /// Links the half-edges between the same two vertices.
-    fn linked(&self) -> Vec<u32> {
-        // The edges by their lower vertex, each with its higher one.
-        let ends = self.edges().map(|edge| {
-            let [low, high] = self.vertices_of(edge);
-            (low as usize, (high, edge))
-        });
-        let mut ends = Binned::new(self.vertices.len(), ends);
-        let mut around: Vec<u32> = (0..3 * self.mesh.triangles().len() as u32).collect();
-        for vertex in 0..ends.len() {
-            let ends = ends.bin_mut(vertex);
-            ends.sort_unstable();
-            for same in ends.chunk_by(|a, b| a.0 == b.0) {
-                let others = same.iter().cycle().skip(1);
-                same.iter().zip(others).for_each(|(&(_, edge), &(_, other))| around[edge as usize] = other);
-            }
-        }
-        around
-    }
-
-    /// The half-edges of all triangles that are not ignored.
-    fn edges(&self) -> impl Iterator<Item = u32> + Clone {
-        self.mesh
-            .sampled_triangles()
-            .map(|triangle| 3 * triangle)
-            .filter_map(|first| {
-                let [a, b, c] = [first, first + 1, first + 2].map(|edge| self.origin(edge));
-                (a != b && b != c && c != a).then_some(first..first + 3)
-            })
-            .flatten()
-    }
-
-    /// The vertex at which a half-edge starts.
-    fn origin(&self, edge: u32) -> u32 {
-        let corner = self.mesh.triangles()[(edge / 3) as usize][(edge % 3) as usize];
-        self.vertices[corner as usize]
-    }
-
-    /// The vertices of an edge, the lower number first.
-    fn vertices_of(&self, edge: u32) -> [u32; 2] {
-        let (from, to) = (self.origin(edge), self.origin(next(edge)));
-        [from.min(to), from.max(to)]
+        Ok(Self { mesh, edges: mesh.kept(|| Ok(()), || Ok(Edges::of(mesh)))? })
     }
 
     /// The other half-edges of the same edge: none at a boundary, most often one.
     pub(super) fn across(&self, edge: u32) -> impl Iterator<Item = u32> {
-        std::iter::successors(Some(self.around[edge as usize]), |&other| Some(self.around[other as usize]))
+        let around = &self.edges.around;
+        std::iter::successors(Some(around[edge as usize]), |&other| Some(around[other as usize]))
             .take_while(move |&other| other != edge)
     }
 
     /// Whether two half-edges of an edge have the same direction: then their triangles face opposite sides.
     pub(super) fn run_alike(&self, edge: u32, other: u32) -> bool {
-        self.origin(edge) == self.origin(other)
+        self.edges.origin(self.mesh, edge) == self.edges.origin(self.mesh, other)
     }
 
     /// The ends of a half-edge.
@@ -106,6 +68,53 @@ impl<'a> ConnectedMesh<'a> {
     pub(super) fn end_positions(&self, edge: u32) -> [[f32; 3]; 2] {
         let corners = self.mesh.triangles()[(edge / 3) as usize];
         [edge, next(edge)].map(|end| self.mesh.positions()[corners[(end % 3) as usize] as usize])
+    }
+}
+
+impl Edges {
+    /// Links the half-edges between the same two vertices.
+    fn of(mesh: &Mesh) -> Self {
+        let all: Vec<u32> = (0..3 * mesh.triangles().len() as u32).collect();
+        let mut edges = Self { vertices: welded(mesh), around: all };
+        // The edges by their lower vertex, each with its higher one.
+        let ends = edges.half_edges(mesh).map(|edge| {
+            let [low, high] = edges.vertices_of(mesh, edge);
+            (low as usize, (high, edge))
+        });
+        let mut ends = Binned::new(edges.vertices.len(), ends);
+        for vertex in 0..ends.len() {
+            let ends = ends.bin_mut(vertex);
+            ends.sort_unstable();
+            for same in ends.chunk_by(|a, b| a.0 == b.0) {
+                let others = same.iter().cycle().skip(1);
+                let links = same.iter().zip(others);
+                links.for_each(|(&(_, edge), &(_, other))| edges.around[edge as usize] = other);
+            }
+        }
+        edges
+    }
+
+    /// The half-edges of all triangles that are not ignored.
+    fn half_edges(&self, mesh: &Mesh) -> impl Iterator<Item = u32> + Clone {
+        mesh.sampled_triangles()
+            .map(|triangle| 3 * triangle)
+            .filter_map(|first| {
+                let [a, b, c] = [first, first + 1, first + 2].map(|edge| self.origin(mesh, edge));
+                (a != b && b != c && c != a).then_some(first..first + 3)
+            })
+            .flatten()
+    }
+
+    /// The vertex at which a half-edge starts.
+    fn origin(&self, mesh: &Mesh, edge: u32) -> u32 {
+        let corner = mesh.triangles()[(edge / 3) as usize][(edge % 3) as usize];
+        self.vertices[corner as usize]
+    }
+
+    /// The vertices of an edge, the lower number first.
+    fn vertices_of(&self, mesh: &Mesh, edge: u32) -> [u32; 2] {
+        let (from, to) = (self.origin(mesh, edge), self.origin(mesh, next(edge)));
+        [from.min(to), from.max(to)]
     }
 }
 

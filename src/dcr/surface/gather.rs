@@ -3,7 +3,7 @@
 use glam::{Vec2, Vec3};
 
 use crate::dcr::ground::constraints::{Constraints, Force, MOMENTUM, SAFE_FRACTION};
-use crate::dcr::surface::apart::{Contacts, Limits};
+use crate::dcr::surface::apart::{Contacts, Limits, NEAR};
 use crate::dcr::surface::connected::ConnectedMesh;
 use crate::dcr::surface::forces::Ring;
 use crate::dcr::surface::lists::List;
@@ -16,6 +16,12 @@ use crate::dcr::surface::walk::{SurfacePoint, walk};
 /// What lengths in `f32` may be wrong by, with room to spare.
 const ROUNDING: f32 = 1.0 + 1e-5;
 
+/// A sample comes to rest where no force acts on it and its last move was shorter than this, in spacings.
+const CALM: f32 = 1e-3;
+
+/// A sample that moves farther than this in a step, in spacings, wakes those around it.
+const STIRRING: f32 = 5e-3;
+
 /// A sample on the way.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Mover {
@@ -23,6 +29,8 @@ pub(super) struct Mover {
     /// In the plane of its triangle and in spacings.
     pub(super) velocity: Vec2,
     pub(super) star: Star,
+    /// The number of steps for which it stays at rest.
+    pub(super) rest: u8,
 }
 
 /// A move that may end too close to another sample, and what it began with.
@@ -31,6 +39,14 @@ pub(super) struct Doubtful {
     pub(super) place: SurfacePoint,
     /// What it kept of the triangle that it has left.
     pub(super) left: Option<Box<Local>>,
+}
+
+/// What is left to be done after moves.
+#[derive(Default)]
+pub(super) struct Aftermath {
+    pub(super) doubtful: Vec<Doubtful>,
+    /// The samples that wake those around them.
+    pub(super) stirring: Vec<u32>,
 }
 
 /// The state of all samples that is read while they move, and the rules of the step.
@@ -47,6 +63,8 @@ pub(super) struct Situation<'a> {
     pub(super) limits: Limits,
     /// The largest displacement, in spacings.
     pub(super) stride: f32,
+    /// The number of steps for which samples rest that come to rest.
+    pub(super) rest: u8,
 }
 
 /// The moves of consecutive samples, each made as it is wanted.
@@ -61,16 +79,22 @@ pub(super) struct Moves<'a> {
 }
 
 impl Work for Moves<'_> {
-    type Made = Vec<Doubtful>;
+    type Made = Aftermath;
 
     #[inline(always)]
-    fn run<L: Lanes>(self, lanes: L) -> Vec<Doubtful> {
+    fn run<L: Lanes>(self, lanes: L) -> Aftermath {
         let (mut view, mut ring, mut contacts) = (View::default(), Ring::default(), Contacts::default());
-        let mut doubtful = Vec::new();
+        let mut after = Aftermath::default();
         let situation = self.situation;
         let mut k = 0;
         while k < self.movers.len() {
             let (sample, mover, local) = (self.first + k, &mut self.movers[k], &mut self.locals[k]);
+            if mover.rest > 0 {
+                mover.rest -= 1;
+                self.wanted[k] = situation.positions[sample];
+                k += 1;
+                continue;
+            }
             let (from, list) = (situation.positions[sample], &situation.lists[sample]);
             let count = list.show(lanes, from, situation.positions, situation.unit, situation.connected, &mut view);
             view.project(lanes, local.tangents);
@@ -105,11 +129,17 @@ impl Work for Moves<'_> {
             // Two samples of which each has moved by no more than half of what it was farther away from the nearest
             // other one than the floor are no closer than the floor.
             if length > 0.0 && nearest.sqrt() < (situation.floor + 2.0 * length) * ROUNDING {
-                doubtful.push(Doubtful { sample: sample as u32, place, left });
+                after.doubtful.push(Doubtful { sample: sample as u32, place, left });
+            }
+            // Whom others hold off, now or when limits have grown, has no rest.
+            if situation.rest > 0 && sum == Vec2::ZERO && length < CALM && nearest >= NEAR * NEAR {
+                (mover.rest, mover.velocity) = (situation.rest, Vec2::ZERO);
+            } else if length > STIRRING {
+                after.stirring.push(sample as u32);
             }
             k += 1;
         }
-        doubtful
+        after
     }
 }
 

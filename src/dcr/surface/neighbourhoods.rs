@@ -17,7 +17,7 @@ use crate::dcr::surface::relaxation::FARTHEST;
 use crate::dcr::surface::vectors::lanes::Position;
 use crate::dcr::surface::view::Star;
 use crate::error::Result;
-use crate::job::{Job, chunks_of};
+use crate::job::{Job, chunks, chunks_of};
 use crate::mesh::exact;
 
 /// The distance up to which neighbours are needed, in spacings.
@@ -70,7 +70,9 @@ impl<'a> Neighbourhoods<'a> {
         let sight = floor + 2.0 * farthest + SKIN;
         let side = SampleSearch::cell_side(spacing, REACH + SKIN, sight);
         let cells = Cells::new(exact(connected.mesh.bounds().0), side, positions.iter().map(|&place| vec3(place)));
-        let locals = movers.iter().map(|mover| Local::on(connected, spacing, mover.place.triangle, Vec3::ZERO));
+        let local = |mover: &Mover| Local::on(connected, spacing, mover.place.triangle, Vec3::ZERO);
+        let tasks = chunks(movers.len());
+        let locals = job.concat(tasks.len(), |task| movers[tasks.range(task)].iter().map(local).collect())?;
         Ok(Self {
             connected,
             patches: Patches::new(job, connected, spacing)?,
@@ -78,7 +80,7 @@ impl<'a> Neighbourhoods<'a> {
             sight,
             farthest,
             lists: vec![List::default(); movers.len()],
-            locals: locals.collect(),
+            locals,
             cells,
             strayed: (0..movers.len() as u32).collect(),
             searches: vec![0; movers.len()],
@@ -114,14 +116,16 @@ impl<'a> Neighbourhoods<'a> {
     }
 
     /// Notes the samples that have strayed from where they were listed.
-    pub(super) fn follow(&mut self, positions: &[Position]) {
+    pub(super) fn follow(&mut self, job: &Job, positions: &[Position]) -> Result<()> {
         let (unit, most) = ((1.0 / self.spacing) as f32, (SKIN / 2.0) as f32);
-        for (sample, &position) in (0..).zip(positions) {
-            let strayed = (vec3(position) - self.cells.position(sample)) * unit;
-            if strayed.length_squared() >= most * most {
-                self.strayed.push(sample);
-            }
-        }
+        let has_strayed = |&sample: &u32| {
+            let strayed = (vec3(positions[sample as usize]) - self.cells.position(sample)) * unit;
+            strayed.length_squared() >= most * most
+        };
+        let tasks = chunks(positions.len());
+        self.strayed = job
+            .concat(tasks.len(), |task| tasks.range(task).map(|sample| sample as u32).filter(has_strayed).collect())?;
+        Ok(())
     }
 
     /// Lists the samples that have strayed.
@@ -151,7 +155,7 @@ impl<'a> Neighbourhoods<'a> {
         Ok(())
     }
 
-    fn find(&self, job: &Job, samples: &[u32], movers: &[Mover]) -> Result<Vec<(List, Local)>> {
+    fn find(&self, job: &Job, samples: &[u32], movers: &[Mover]) -> Result<Vec<Vec<(List, Local)>>> {
         let search = SampleSearch {
             connected: self.connected,
             patches: &self.patches,
@@ -162,7 +166,7 @@ impl<'a> Neighbourhoods<'a> {
         };
         let seen = |sample: u32| (movers[sample as usize].place.triangle, self.locals[sample as usize].normal());
         let chunks = chunks_of(samples.len(), CHUNK);
-        job.flat_map(chunks.len(), |chunk| {
+        job.map(chunks.len(), |chunk| {
             let mut finds = Finds::default();
             let found = samples[chunks.range(chunk)].iter().map(|&sample| {
                 let around: Surroundings = search.around(sample, seen, &mut finds);
@@ -174,12 +178,12 @@ impl<'a> Neighbourhoods<'a> {
         })
     }
 
-    fn take(&mut self, samples: &[u32], found: Vec<(List, Local)>, movers: &mut [Mover]) {
-        for (&sample, (list, local)) in samples.iter().zip(found) {
+    fn take(&mut self, samples: &[u32], found: Vec<Vec<(List, Local)>>, movers: &mut [Mover]) {
+        for (&sample, (list, local)) in samples.iter().zip(found.into_iter().flatten()) {
             self.lists[sample as usize] = list;
             self.locals[sample as usize] = local;
             // Stars number the samples of the list.
-            movers[sample as usize].star = Star::default();
+            (movers[sample as usize].star, movers[sample as usize].rest) = (Star::default(), 0);
         }
     }
 

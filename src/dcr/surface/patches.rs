@@ -3,9 +3,11 @@
 //! The triangles of a patch have their centres in one voxel, a little more than half a spacing wide, so that the number
 //! of patches near a sample does not grow with the number of triangles. A triangle larger than a voxel is a patch.
 
-use glam::{DVec3, Vec3};
+use glam::{DVec2, DVec3, Vec3};
 
 use crate::dcr::surface::connected::ConnectedMesh;
+use crate::dcr::surface::curve::along_curve;
+use crate::dcr::surface::walk::SurfacePoint;
 use crate::error::Result;
 use crate::job::{Job, chunks};
 use crate::mesh::{Mesh, exact};
@@ -217,7 +219,25 @@ impl Division {
             }
         }
         starts.push(triangles.len());
-        Ok(Self { sides, triangles, starts })
+        Ok(Self { sides, triangles, starts }.along_curve(connected.mesh))
+    }
+
+    /// The same patches in the order in which samples are: those of one flood are found in the cache.
+    fn along_curve(self, mesh: &Mesh) -> Self {
+        let Self { mut sides, triangles: divided, starts: before } = self;
+        let middle = |&start: &usize| SurfacePoint { triangle: divided[start], uv: DVec2::splat(1.0 / 3.0) };
+        let middles: Vec<_> = before[..before.len() - 1].iter().map(middle).collect();
+        let (mut triangles, mut starts) = (Vec::with_capacity(divided.len()), vec![0]);
+        for (patch, (_, old)) in (0..).zip(along_curve(mesh, &middles)) {
+            let members = &divided[before[old as usize]..before[old as usize + 1]];
+            for &triangle in members {
+                let side = &mut sides[triangle as usize];
+                *side = Side::new(patch, side.is_turned());
+            }
+            triangles.extend_from_slice(members);
+            starts.push(triangles.len());
+        }
+        Self { sides, triangles, starts }
     }
 }
 

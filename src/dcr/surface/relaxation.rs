@@ -28,6 +28,13 @@ const CALMING: f32 = 0.9;
 /// The largest distance by which positions change in a step, in spacings: the stride, and rounding.
 pub(super) const FARTHEST: f32 = 0.41;
 
+/// After so many steps samples come to rest where no force acts on them.
+const FIRST_REST: u32 = 16;
+
+/// They rest for this fraction of the steps made, as motion dies down; never longer than that many.
+const REST_SHARE: u32 = 4;
+const LONGEST_REST: u32 = 12;
+
 /// The samples of one task: few, as each takes long.
 const CHUNK: usize = 512;
 
@@ -153,6 +160,7 @@ impl<'a> SurfaceRelaxation<'a> {
             constraints: Constraints::of_step(self.iterations),
             limits: Limits::of_step(self.iterations, floor),
             stride: STRIDE * CALMING.powi(self.iterations.saturating_sub(STIFFENING) as i32),
+            rest: rest(self.iterations),
         };
         let movers = self.movers.chunks_mut(CHUNK).zip(locals.chunks_mut(CHUNK));
         let moves = (0..).zip(movers.zip(self.wanted.chunks_mut(CHUNK)));
@@ -163,9 +171,16 @@ impl<'a> SurfaceRelaxation<'a> {
             locals,
             wanted,
         });
-        let level = self.level;
-        let doubtful = job.map_each(moves.collect(), |moves| vectors::run(level, moves))?;
-        Ok(doubtful.into_iter().flatten().collect())
+        let (level, rests) = (self.level, situation.rest > 0);
+        let after = job.map_each(moves.collect(), |moves| vectors::run(level, moves))?;
+        let mut doubtful = Vec::new();
+        for part in after {
+            doubtful.extend(part.doubtful);
+            for sample in part.stirring.into_iter().filter(|_| rests) {
+                self.near.in_sight(sample).for_each(|other| self.movers[other as usize].rest = 0);
+            }
+        }
+        Ok(doubtful)
     }
 
     /// Takes back those of the doubtful moves that are not admitted; all others are made.
@@ -186,8 +201,7 @@ impl<'a> SurfaceRelaxation<'a> {
             }
         }
         std::mem::swap(&mut self.positions, &mut self.wanted);
-        self.near.follow(&self.positions);
-        Ok(())
+        self.near.follow(job, &self.positions)
     }
 
     /// Whether the move of a sample ends too close neither to another sample nor to the end of another's move.
@@ -199,6 +213,11 @@ impl<'a> SurfaceRelaxation<'a> {
         };
         from.distance(to) <= self.near.farthest() * self.spacing && self.near.in_sight(sample).all(admits)
     }
+}
+
+/// The number of steps for which samples rest that come to rest in this one.
+fn rest(iterations: u32) -> u8 {
+    if iterations < FIRST_REST { 0 } else { (iterations / REST_SHARE).min(LONGEST_REST) as u8 }
 }
 
 /// A position in `f64`.
@@ -273,6 +292,37 @@ mod tests {
         assert!(sights > 10_000 && unknown > 1000, "{sights} in sight, {unknown} of them on another side");
     }
 
+    /// Most samples come to rest; no other one is closer to them than the conflict radius, but for what it may have
+    /// moved since they were looked at.
+    #[test]
+    fn samples_that_rest_are_in_no_conflict() {
+        let mesh = Mesh::new(vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]], vec![[0, 1, 2]]).unwrap();
+        let connected = ConnectedMesh::new(&mesh).unwrap();
+        let mut rng = Rng::at(14, Draw::Probe, &[]);
+        let places: Vec<SurfacePoint> =
+            (0..600).map(|_| SurfacePoint { triangle: 0, uv: rng.in_triangle().into() }).collect();
+        let (floor, spacing) = (Floor::new(smallest(&mesh, &places)), (mesh.area() / 519.6).sqrt());
+        let context = Context::new(1).unwrap();
+        let new = |job: &Job| SurfaceRelaxation::new(job, &connected, spacing, floor, &places);
+        let mut set = context.run(None, new).unwrap();
+        let mut resting = 0;
+        for step in 0..80 {
+            let before = set.positions.clone();
+            let rests: Vec<bool> = set.movers.iter().map(|mover| mover.rest > 0).collect();
+            assert!(step >= FIRST_REST || !rests.contains(&true));
+            context.run(None, |job| set.step(job)).unwrap();
+            for (i, _) in rests.iter().enumerate().filter(|(i, rests)| **rests && set.movers[*i].rest > 0) {
+                resting += 1;
+                assert_eq!(set.positions[i], before[i]);
+                let others = (0..places.len()).filter(|&other| other != i);
+                let distance = |other: usize| place(set.positions[i]).distance(place(set.positions[other])) / spacing;
+                let nearest = others.map(distance).fold(f64::INFINITY, f64::min);
+                assert!(nearest > 0.83, "{nearest} in step {step}");
+            }
+        }
+        assert!(resting > 5000, "{resting}");
+    }
+
     #[test]
     fn all_levels_make_the_same_steps() {
         let positions = vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.2], [0.0, 1.0, 0.1], [1.0, 1.0, 0.0]];
@@ -290,7 +340,7 @@ mod tests {
             let steps = context.run(None, |job| {
                 let mut set = SurfaceRelaxation::new(job, &connected, 0.05, floor, &places)?;
                 set.level = level;
-                (0..40).try_for_each(|_| set.step(job))?;
+                (0..60).try_for_each(|_| set.step(job))?;
                 Ok(set.places())
             });
             steps.unwrap()
