@@ -159,7 +159,6 @@ impl Grid {
         open
     }
 
-
     /// Which triangles of a group no single sample certainly covers: a bit for each. Their pages are looked up here.
     pub fn open_triangles(&self, group: &mut Group, normals: &[[f32; 3]]) -> u64 {
         let count = normals.len();
@@ -216,5 +215,95 @@ impl Grid {
             page = self.earlier[page as usize];
         }
         false
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::psp::adaptive::field::RadiusField;
+    use crate::psp::adaptive::page::WITHIN;
+    use crate::psp::adaptive::radius::Radius;
+    use crate::psp::fragment::Fragment;
+    use crate::rng::{Draw, Rng};
+
+    /// Against exact distances, in space and with normals, near the origin and far from it.
+    #[test]
+    fn rejects_what_a_loop_over_all_dots_rejects() {
+        for (cosine, ratio, at) in [(-1.0, 1.0, 0.0), (-1.0, 1e3, 0.0), (0.5, 30.0, 0.0), (-1.0, 8.0, 1e3)] {
+            let mut rng = Rng::at(5, Draw::Probe, &[]);
+            let mesh = Mesh::new(vec![[at; 3], [at + 1.0; 3], [at, at, at + 1.0]], vec![[0, 1, 2]]).unwrap();
+            let largest = 0.1;
+            let mut dot = |spread: f64, times: f64| Dot {
+                position: [(); 3].map(|()| (f64::from(at) + 0.5 + spread * (rng.unit() - 0.5)) as f32),
+                radius: times * largest * f64::powf(ratio, -rng.unit()),
+                normal: DVec3::new(rng.unit() - 0.5, rng.unit() - 0.5, 0.3).normalize().as_vec3().to_array(),
+            };
+            let bounds = [DVec3::splat(f64::from(at) + 0.2), DVec3::splat(f64::from(at) + 0.8)];
+            let mut grid = Grid::new(&mesh, ConflictRule { cosine }, bounds, 0.6 * largest, largest);
+            let (mut dots, mut rejected) = (Vec::<Dot>::new(), 0);
+            for step in 0..3000 {
+                // Samples stand outside, too, and can be large; darts are in the box and no larger than was said.
+                let (new, probe) = (dot(1.0, if step % 10 == 0 { 4.0 } else { 1.0 }), dot(0.6, 1.0));
+                if dots.len() < 600 {
+                    grid.add(new);
+                    dots.push(new);
+                }
+                let sees = |other: &Dot| cosine == -1.0 || exact(other.normal).dot(exact(probe.normal)) >= cosine;
+                let expected = dots.iter().any(|other| {
+                    let apart = (exact(other.position) - exact(probe.position)).length();
+                    apart < 0.5 * (other.radius + probe.radius) && sees(other)
+                });
+                assert_eq!(grid.rejects(&probe), expected);
+                rejected += u32::from(expected);
+            }
+            assert!((100..2950).contains(&rejected), "{rejected}");
+        }
+    }
+
+    /// Against exact distances to the corners of a triangle and of its sixteenths: what no single sample covers is open,
+    /// and what one covers with more than rounding to spare is not.
+    #[test]
+    fn only_what_is_covered_is_dropped_and_all_that_is_well_covered() {
+        let (mut rng, mut counts) = (Rng::at(2, Draw::Probe, &[]), [0; 4]);
+        for round in 0..3000 {
+            let (size, ratio) = ([1.0, 0.1, 1e-3][round % 3], [1.0, 8.0, 500.0f64][round / 3 % 3]);
+            let mut corner = || std::array::from_fn(|_| (8.0 + size * rng.unit()) as f32);
+            // The second triangle makes the mesh large: radii are cut at four diagonals.
+            let corners = vec![corner(), corner(), corner(), [4.0; 3], [12.0; 3], [4.0, 12.0, 4.0]];
+            let mesh = Mesh::new(corners, vec![[0, 1, 2], [3, 4, 5]]).unwrap();
+            let radii: [f32; 6] = std::array::from_fn(|_| (1.0 + 0.5 * rng.unit()) as f32);
+            let field = RadiusField::new(&mesh, Radius::PerVertex(&radii)).unwrap();
+            let bounds = [exact(mesh.bounds().0), exact(mesh.bounds().1)];
+            let mut grid = Grid::new(&mesh, ConflictRule { cosine: -1.0 }, bounds, 1.0, 1.5);
+            let mut dots = Vec::new();
+            for _ in 0..20 {
+                let radius = ratio.powf(rng.unit());
+                let position = std::array::from_fn(|_| (8.0 + 1.2 * radius * (2.0 * rng.unit() - 1.0)) as f32);
+                grid.add(Dot { position, radius, normal: [0.0; 3] });
+                dots.push((exact(position), radius));
+            }
+            let whole = Fragment::whole(0);
+            let shape = whole.shape(&mesh);
+            let of = |part: &Fragment| field.radii_from(part, field.all());
+            let shade = Shade { corners: shape.corners, radii: of(&whole), longest: shape.longest, normal: [0.0; 3] };
+            let open = grid.open_sixteenths(&shade, u16::MAX);
+            let mut group = Group::EMPTY;
+            group.triangles[0] = [0, 1, 2].map(|i| grid.ball(mesh.corners(0)[i], radii[i].into()));
+            let is_open = grid.open_triangles(&mut group, &[[0.0; 3]]) == 1;
+            let parts = (0..16).map(|part| (open >> part & 1 == 1, whole.sixteenth(part)));
+            for (is_open, part) in std::iter::once((is_open, whole)).chain(parts) {
+                let (corners, radii) = (part.shape(&mesh).corners, of(&part));
+                let covers = |share: f64| {
+                    dots.iter().any(|&(centre, radius)| {
+                        (0..3).all(|i| corners[i].distance(centre) < share * 0.5 * (radius + radii[i]))
+                    })
+                };
+                assert!(is_open || covers(1.0));
+                assert!(!(is_open && covers(1.0 - 1.2 * f64::from(1.0 - WITHIN))));
+                counts[2 * usize::from(part.corners == whole.corners) + usize::from(is_open)] += 1;
+            }
+        }
+        assert!(counts.into_iter().all(|count| count > 300), "{counts:?}");
     }
 }

@@ -7,9 +7,9 @@ use crate::job::{Context, Job, Progress, chunks_of};
 use crate::memory;
 use crate::mesh::Mesh;
 use crate::points::SurfaceSamples;
+use crate::psp::adaptive::dot::ConflictRule;
 use crate::psp::adaptive::field::RadiusField;
 use crate::psp::adaptive::fill::fill;
-use crate::psp::adaptive::dot::ConflictRule;
 use crate::psp::adaptive::limits::Quota;
 use crate::psp::adaptive::options::Options;
 use crate::psp::estimate::{expected_samples_of, longest_edge};
@@ -87,8 +87,7 @@ fn require(job: &Job, mesh: &Mesh, field: &RadiusField) -> Result<f64> {
                 slice(mesh, triangle, longest, &mut slices);
                 for piece in slices.drain(..).flat_map(|slice| parts_up_to(mesh, &slice, longest).collect::<Vec<_>>()) {
                     let shape = piece.shape(mesh);
-                    estimate +=
-                        expected_samples_of(field.centre(&piece, &shape), piece.area(mesh), shape.longest);
+                    estimate += expected_samples_of(field.centre(&piece, &shape), piece.area(mesh), shape.longest);
                 }
             }
         }

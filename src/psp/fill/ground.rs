@@ -92,7 +92,10 @@ impl<'a> UniformGround<'a> {
     pub fn whole(&self, triangle: u32) -> (Whole, bool) {
         let corners = self.mesh.exact_corners(triangle).map(|corner| self.grid.space.scaled(corner));
         let (area, longest) = self.size(&corners);
-        (Whole { triangle, area: area as f32, longest: longest as f32, local: () }, self.mesh.triangle_area(triangle) > 0.0)
+        (
+            Whole { triangle, area: area as f32, longest: longest as f32, local: () },
+            self.mesh.triangle_area(triangle) > 0.0,
+        )
     }
 
     /// Where the corners of a fragment are, in the unit of the space.
