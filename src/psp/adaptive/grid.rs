@@ -130,8 +130,9 @@ impl Grid {
         let a = corners[0].as_vec3();
         let [corner, to_b, to_c] = [corners[0] - a.as_dvec3(), corners[1] - corners[0], corners[2] - corners[0]];
         let ball = |place: DVec3, half: f64| place.extend(half).as_vec4().to_array();
-        // No corner is farther from the centre than two thirds of the longest edge.
-        let extent = 2.0 / 3.0 * self.space.scale() as f64 * shade.longest;
+        // What covers a sixteenth covers its centre. This is no farther from the centre of all than three quarters of the
+        // way to a corner, which is two thirds of the longest edge.
+        let extent = 0.5 * f64::from(self.space.scale()) * shade.longest;
         let part = Part {
             origin: a.to_array(),
             corner: ball(corner, halves[0]),

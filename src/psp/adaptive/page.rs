@@ -43,7 +43,7 @@ pub(super) struct Part {
     pub corner: Ball,
     /// From there to the balls of the other two.
     pub edges: [Ball; 2],
-    /// A ball that contains those of all corners.
+    /// A ball that overlaps that of any sample which covers a sixteenth.
     pub whole: Ball,
 }
 

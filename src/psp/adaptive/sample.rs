@@ -14,6 +14,7 @@ use crate::psp::adaptive::limits::Quota;
 use crate::psp::adaptive::options::Options;
 use crate::psp::estimate::{expected_samples_of, longest_edge};
 use crate::psp::fill::region::parts_up_to;
+use crate::psp::fragment::{Fragment, Shape};
 use crate::psp::pieces::slice;
 use crate::psp::report::Report;
 use crate::psp::samples::surface_samples;
@@ -83,11 +84,19 @@ fn require(job: &Job, mesh: &Mesh, field: &RadiusField) -> Result<f64> {
     let estimates = job.map(chunks.len(), |chunk| {
         let (mut slices, mut estimate) = (Vec::new(), 0.0);
         for triangle in chunks.range(chunk).map(|triangle| triangle as u32) {
-            if mesh.triangle_area(triangle) > 0.0 {
+            let area = mesh.triangle_area(triangle);
+            let mut count = |piece: &Fragment, shape: &Shape, area: f64| {
+                estimate += expected_samples_of(field.centre(piece, shape), area, shape.longest);
+            };
+            let whole = Fragment::whole(triangle);
+            let shape = whole.shape(mesh);
+            if area > 0.0 && shape.longest <= longest {
+                count(&whole, &shape, area);
+            } else if area > 0.0 {
                 slice(mesh, triangle, longest, &mut slices);
-                for piece in slices.drain(..).flat_map(|slice| parts_up_to(mesh, &slice, longest).collect::<Vec<_>>()) {
-                    let shape = piece.shape(mesh);
-                    estimate += expected_samples_of(field.centre(&piece, &shape), piece.area(mesh), shape.longest);
+                for slice in slices.drain(..) {
+                    parts_up_to(mesh, &slice, longest)
+                        .for_each(|part| count(&part, &part.shape(mesh), part.area(mesh)));
                 }
             }
         }

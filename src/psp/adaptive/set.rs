@@ -36,7 +36,7 @@ fn octave(radius: f64) -> i32 {
 
 /// What all radii of an octave are below.
 fn end_of_octave(octave: i32) -> f64 {
-    f64::from(octave + 1).exp2()
+    libm::scalbn(1.0, octave + 1)
 }
 
 /// A cube of an octave.
@@ -87,7 +87,7 @@ impl AdaptiveSet {
         let own = octave(radius);
         let above = OctaveCube { octave: own + 1, cube: self.cube_of(own + 1, centre) };
         let limit = Rng::at(self.seed, Draw::Octave, &above.key()).unit();
-        if radius > end_of_octave(own) * (limit - 1.0).exp2() {
+        if radius > end_of_octave(own) * libm::exp2(limit - 1.0) {
             above
         } else {
             OctaveCube { octave: own, cube: self.cube_of(own, centre) }
