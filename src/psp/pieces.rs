@@ -1,8 +1,8 @@
 //! Long triangles in slices.
 //!
-//! Parts of a triangle's own shape would do where it is well-shaped. A needle, though, becomes needles of half its length,
-//! two of them side by side: n^1.58 pieces where n are enough. So a triangle that is longer than high is sliced first,
-//! across its longest edge, into slices that are about as long as they are high.
+//! Parts of a triangle's own shape would do where it is well-shaped. A needle, though, becomes needles of half its
+//! length, two of them side by side: n² parts where n are enough. So a triangle that is longer than high is sliced
+//! first, across its longest edge, into slices that are about as long as they are high.
 
 use crate::mesh::{Mesh, exact};
 use crate::psp::fragment::Fragment;

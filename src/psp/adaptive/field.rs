@@ -140,8 +140,8 @@ impl<'a> RadiusField<'a> {
         }
     }
 
-    /// Radii for the corners of a fragment with these bounds, so that no point of it has a smaller one than these, evenly
-    /// changed, make for it.
+    /// Radii for the corners of a fragment with these bounds, such that no point of it has a smaller one than these give
+    /// it when they change evenly.
     pub fn radii_from(&self, fragment: &Fragment, bounds: RadiusBounds) -> [f64; 3] {
         match self.radius {
             Radius::PerVertex(radii) => {

@@ -1,8 +1,8 @@
 //! The neighbour search in one cube where the radius varies: what `psp/fill/grid.rs` is for one radius.
 //!
-//! A cell lists every sample whose ball is near enough to overlap that of any place in the cell, so that a test reads the
-//! pages of one cell here, too. For that the largest radius on the surface of the cube is known beforehand; the cells
-//! are as large as is right for the usual one.
+//! A cell lists every sample whose ball is near enough to overlap that of any place in the cell, so that a test reads
+//! the pages of one cell here, too. For that the largest radius on the surface of the cube is known beforehand; the
+//! cells are as large as is right for the usual one.
 
 use glam::DVec3;
 
@@ -130,8 +130,8 @@ impl Grid {
         let a = corners[0].as_vec3();
         let [corner, to_b, to_c] = [corners[0] - a.as_dvec3(), corners[1] - corners[0], corners[2] - corners[0]];
         let ball = |place: DVec3, half: f64| place.extend(half).as_vec4().to_array();
-        // What covers a sixteenth covers its centre. This is no farther from the centre of all than three quarters of the
-        // way to a corner, which is two thirds of the longest edge.
+        // What covers a sixteenth covers its centre. This is no farther from the centre of all than three quarters of
+        // the way to a corner, which is two thirds of the longest edge.
         let extent = 0.5 * f64::from(self.space.scale()) * shade.longest;
         let part = Part {
             origin: a.to_array(),
@@ -262,8 +262,8 @@ mod tests {
         }
     }
 
-    /// Against exact distances to the corners of a triangle and of its sixteenths: what no single sample covers is open,
-    /// and what one covers with more than rounding to spare is not.
+    /// Against exact distances to the corners of a triangle and of its sixteenths: what no single sample covers is
+    /// open, and what one covers with more than rounding to spare is not.
     #[test]
     fn only_what_is_covered_is_dropped_and_all_that_is_well_covered() {
         let (mut rng, mut counts) = (Rng::at(2, Draw::Probe, &[]), [0; 4]);

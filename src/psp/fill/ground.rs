@@ -19,6 +19,7 @@ pub(in crate::psp) struct Whole<L = ()> {
     pub triangle: u32,
     pub area: f32,
     pub longest: f32,
+    /// What is known of the radius on it.
     pub local: L,
 }
 
@@ -31,6 +32,7 @@ pub(in crate::psp) struct Patch<L = ()> {
     pub area: f32,
     /// The longest edge.
     pub longest: f32,
+    /// What is known of the radius on it.
     pub local: L,
 }
 
