@@ -1,15 +1,17 @@
 //! Filling where the radius varies: octave by octave and cube by cube, each as a surface of one radius is filled.
 
+use glam::DVec3;
+
 use crate::error::Result;
 use crate::job::Job;
 use crate::mesh::Mesh;
-use crate::psp::adaptive::dot::ConflictRule;
+use crate::psp::adaptive::dot::{ConflictRule, Dot};
 use crate::psp::adaptive::field::{RadiusBounds, RadiusField};
 use crate::psp::adaptive::grid::Grid;
 use crate::psp::adaptive::ground::GradedGround;
 use crate::psp::adaptive::limits::Quota;
 use crate::psp::adaptive::pieces::{Piece, pieces};
-use crate::psp::adaptive::set::{AdaptiveSet, Surroundings};
+use crate::psp::adaptive::set::AdaptiveSet;
 use crate::psp::fill::darts::{Rain, random_point, shuffle};
 use crate::psp::fill::ground::{Ground, Whole};
 use crate::psp::fill::page::GROUP;
@@ -31,9 +33,9 @@ pub(super) fn fill(
     let pieces = pieces(&job.part(0.05, 0.2), mesh, field, quota, &set)?;
     field.check()?;
     quota.check(field.argument())?;
-    let darts = set.grow(&job.part(0.2, 1.0), mesh, rule, &pieces, |cube, surroundings, pieces| {
+    let darts = set.grow(&job.part(0.2, 1.0), mesh, rule, &pieces, |cube, dots, pieces| {
         let field = field.apart();
-        let grid = grid(mesh, &field, rule, surroundings, pieces);
+        let grid = grid(mesh, &field, rule, dots, pieces);
         let mut ground = GradedGround::new(mesh, &field, quota, grid, pieces.len());
         fill_cube(&mut ground, pieces, &mut Rng::at(seed, Draw::Adaptive, &cube.key()));
         field.check()?;
@@ -43,14 +45,20 @@ pub(super) fn fill(
 }
 
 /// The samples around a cube in a grid that suits the radii on its pieces.
-fn grid(mesh: &Mesh, field: &RadiusField, rule: ConflictRule, around: Surroundings, pieces: &[&Piece]) -> Grid {
+fn grid(mesh: &Mesh, field: &RadiusField, rule: ConflictRule, dots: Vec<Dot>, pieces: &[&Piece]) -> Grid {
     let largest = pieces.iter().map(|piece| field.above(piece.bounds())).fold(0.0, f64::max);
     // The area by the number of samples that will stand on it gives their usual radius.
     let samples: f64 = pieces.iter().map(|piece| piece.area()).sum();
     let area: f64 = pieces.iter().map(|piece| piece.area() / piece.bounds().density()).sum();
     let usual = if samples > 0.0 { (area / samples).sqrt() } else { largest };
-    let mut grid = Grid::new(mesh, rule, around.bounds, usual, largest);
-    around.dots.into_iter().for_each(|dot| grid.add(dot));
+    let corners = pieces
+        .iter()
+        .map(|piece| piece.fragment())
+        .flat_map(|fragment| fragment.corners.map(|corner| mesh.point_exact(fragment.triangle, corner)));
+    let none = [DVec3::INFINITY, DVec3::NEG_INFINITY];
+    let bounds = corners.fold(none, |[low, high], corner| [low.min(corner), high.max(corner)]);
+    let mut grid = Grid::new(mesh, rule, bounds, usual, largest);
+    dots.into_iter().for_each(|dot| grid.add(dot));
     grid
 }
 

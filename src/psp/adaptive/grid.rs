@@ -6,7 +6,7 @@
 
 use glam::DVec3;
 
-use crate::mesh::{Mesh, exact};
+use crate::mesh::Mesh;
 use crate::psp::adaptive::dot::{ConflictRule, Dot};
 use crate::psp::adaptive::page::{Ball, Group, LANES, Page, Part};
 use crate::psp::adaptive::vectors;
@@ -26,7 +26,7 @@ pub(super) struct Grid {
     space: Space,
     /// Half of the largest radius of darts and of what they fall on, in the unit of the space.
     half: f64,
-    /// Where these are, at least as far as the mesh reaches.
+    /// The box that these are in.
     low: Place,
     high: Place,
     level: Level,
@@ -63,9 +63,9 @@ impl Grid {
         let space = Space::new(mesh, usual.max(0.5 * largest));
         let scale = f64::from(space.scale());
         // Positions are rounded, but by a small part of a radius.
-        let (margin, bounds) = (0.25 * space.radius(), mesh.bounds());
-        let low = (low.max(exact(bounds.0)) * scale - margin).as_vec3().to_array();
-        let high = (high.min(exact(bounds.1)) * scale + margin).as_vec3().to_array();
+        let margin = 0.25 * space.radius();
+        let low = (low * scale - margin).as_vec3().to_array();
+        let high = (high * scale + margin).as_vec3().to_array();
         let (pages, numbers, earlier) = (vec![Page::EMPTY], vec![[0; LANES]], vec![0]);
         let (level, cells, dots) = (Level::widest(), Table::new(), Vec::new());
         Self { rule, space, half: 0.5 * largest * scale, low, high, level, cells, pages, numbers, earlier, dots }
@@ -85,12 +85,17 @@ impl Grid {
         self.space.cell([x, y, z])
     }
 
-    /// Adds a sample.
+    /// Adds a sample, unless it matters to no place in the box.
     pub fn add(&mut self, dot: Dot) {
         let (ball, number) = (self.ball(dot.position, dot.radius), self.dots.len() as u32);
         let reach = ((f64::from(ball[3]) + self.half) * (1.0 + SLACK)) as f32;
-        let end = |sign: f32| [0, 1, 2].map(|axis| (ball[axis] + sign * reach).clamp(self.low[axis], self.high[axis]));
-        let cells = [-1.0, 1.0].map(|sign| self.space.cell(end(sign)));
+        let inside = |by: f32| [0, 1, 2].map(|axis| (ball[axis] + by).clamp(self.low[axis], self.high[axis]));
+        let [x, y, z] = inside(0.0);
+        let squared = (x - ball[0]).powi(2) + (y - ball[1]).powi(2) + (z - ball[2]).powi(2);
+        if squared > reach * reach {
+            return;
+        }
+        let cells = [-reach, reach].map(|reach| self.space.cell(inside(reach)));
         self.dots.push(dot);
         each_cell(cells, |cell| {
             let cell = self.cells.entry(key(cell));
@@ -222,6 +227,7 @@ impl Grid {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::mesh::exact;
     use crate::psp::adaptive::field::RadiusField;
     use crate::psp::adaptive::page::WITHIN;
     use crate::psp::adaptive::radius::Radius;
@@ -275,7 +281,7 @@ mod tests {
             let mesh = Mesh::new(corners, vec![[0, 1, 2], [3, 4, 5]]).unwrap();
             let radii: [f32; 6] = std::array::from_fn(|_| (1.0 + 0.5 * rng.unit()) as f32);
             let field = RadiusField::new(&mesh, Radius::PerVertex(&radii)).unwrap();
-            let bounds = [exact(mesh.bounds().0), exact(mesh.bounds().1)];
+            let bounds = [DVec3::splat(8.0), DVec3::splat(9.0)];
             let mut grid = Grid::new(&mesh, ConflictRule { cosine: -1.0 }, bounds, 1.0, 1.5);
             let mut dots = Vec::new();
             for _ in 0..20 {

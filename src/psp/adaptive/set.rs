@@ -54,14 +54,6 @@ impl OctaveCube {
     }
 }
 
-/// What a cube sees around it.
-pub(super) struct Surroundings {
-    /// The box that its pieces are in.
-    pub bounds: [DVec3; 2],
-    /// The samples that matter there.
-    pub dots: Vec<Dot>,
-}
-
 /// A conflict-free set that only grows.
 pub(super) struct AdaptiveSet {
     origin: DVec3,
@@ -110,7 +102,7 @@ impl AdaptiveSet {
         mesh: &Mesh,
         rule: ConflictRule,
         buckets: &Buckets<OctaveCube, Piece>,
-        task: impl Fn(OctaveCube, Surroundings, &[&Piece]) -> Result<(Vec<(Sample, f64)>, u64)> + Sync,
+        task: impl Fn(OctaveCube, Vec<Dot>, &[&Piece]) -> Result<(Vec<(Sample, f64)>, u64)> + Sync,
     ) -> Result<u64> {
         let key = |&bucket: &usize| (Reverse(buckets.key(bucket).octave), buckets.key(bucket).cube.colour());
         let mut order: Vec<usize> = (0..buckets.len()).collect();
@@ -122,7 +114,7 @@ impl AdaptiveSet {
             let grown = part.map(members.len(), |member| {
                 let cube = buckets.key(members[member]);
                 let pieces: Vec<&Piece> = buckets.items(members[member]).collect();
-                task(cube, self.surroundings(mesh, rule, cube), &pieces)
+                task(cube, self.dots_around(mesh, rule, cube), &pieces)
             })?;
             done += members.len();
             for (&bucket, grown) in members.iter().zip(grown) {
@@ -144,13 +136,14 @@ impl AdaptiveSet {
         Ok(())
     }
 
-    fn surroundings(&self, mesh: &Mesh, rule: ConflictRule, OctaveCube { octave, cube }: OctaveCube) -> Surroundings {
+    /// The samples that can matter in a cube.
+    fn dots_around(&self, mesh: &Mesh, rule: ConflictRule, OctaveCube { octave, cube }: OctaveCube) -> Vec<Dot> {
         let mut dots = Vec::new();
         let end = end_of_octave(octave);
         let low = self.origin + SIDE * end * (DVec3::from_array(cube.0.map(f64::from)) - self.shift);
-        let bounds = [low - OVERHANG * end, low + (SIDE + OVERHANG) * end];
-        // And half of the radius around.
-        let (low, high) = (bounds[0] - HALF * end, bounds[1] + HALF * end);
+        // Where points of the cube's pieces are, and half of their radius around.
+        let margin = DVec3::splat((OVERHANG + HALF) * end);
+        let (low, high) = (low - margin, low + SIDE * end + margin);
         for (&octave, cubes) in self.octaves.range(octave..) {
             let reach = DVec3::splat((OVERHANG + HALF) * end_of_octave(octave));
             let [first, last] = [low - reach, high + reach].map(|corner| self.cube_of(octave, corner).0);
@@ -167,7 +160,7 @@ impl AdaptiveSet {
                 }
             }
         }
-        Surroundings { bounds, dots }
+        dots
     }
 }
 
