@@ -14,8 +14,8 @@ use crate::psp::fill::ground::{Ground, Patch, Whole};
 use crate::psp::fragment::Fragment;
 use crate::psp::samples::Sample;
 
-/// At how many fragments a cube may look for each of its pieces and samples. Slopes of 1 take about a hundred, of 30 a
-/// thousand: stating a far steeper one would mean waiting for hours.
+/// At how many fragments a cube may look for each of its pieces and samples. Slopes of 1 take about forty, of 4 about a
+/// hundred: stating a far steeper one than 30 would mean waiting for hours.
 const LOOKS: u64 = 1 << 12;
 
 /// The surface in a cube.
