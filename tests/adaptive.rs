@@ -269,7 +269,7 @@ fn bad_radii_of_vertices_are_refused() {
     assert!(argument == "vertex_radii" && reason.contains("64 times the float spacing"), "{reason}");
     let many = mesh(meshes::join((0..100).map(|_| meshes::plane())));
     let (argument, reason) = refused(&many, &Options::new(Radius::PerVertex(&[1e-5; 400])));
-    assert!(argument == "vertex_radii" && reason.contains("7.007e11 samples"), "{reason}");
+    assert!(argument == "vertex_radii" && reason.contains("7.010e11 samples"), "{reason}");
 }
 
 #[test]

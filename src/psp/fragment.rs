@@ -60,17 +60,6 @@ impl Fragment {
         })
     }
 
-    /// The two halves on either side of the line from the corner `apex` to the middle of the edge opposite.
-    pub fn bisect(&self, apex: usize) -> [Self; 2] {
-        let (b, c) = ((apex + 1) % 3, (apex + 2) % 3);
-        let middle = std::array::from_fn(|axis| 0.5 * (self.corners[b][axis] + self.corners[c][axis]));
-        [c, b].map(|moved| {
-            let mut half = *self;
-            half.corners[moved] = middle;
-            half
-        })
-    }
-
     /// One of the sixteen parts.
     pub fn sixteenth(&self, index: usize) -> Self {
         let [a, b, c] = SIXTEENTHS[index];
@@ -87,23 +76,5 @@ impl Shape {
         let centre = (a + b + c) / 3.0;
         let squared = centre.distance_squared(a).max(centre.distance_squared(b)).max(centre.distance_squared(c));
         Self { corners, centre, apex, longest: opposite[apex].sqrt(), extent: squared.sqrt() }
-    }
-
-    pub fn bisect(&self) -> [Self; 2] {
-        let (b, c) = ((self.apex + 1) % 3, (self.apex + 2) % 3);
-        let middle = 0.5 * (self.corners[b] + self.corners[c]);
-        [c, b].map(|moved| {
-            let mut corners = self.corners;
-            corners[moved] = middle;
-            Self::of(corners)
-        })
-    }
-
-    /// One of the sixteen parts.
-    pub fn sixteenth(&self, index: usize) -> Self {
-        let [a, e, f] = [self.corners[0], self.corners[1] - self.corners[0], self.corners[2] - self.corners[0]];
-        let corners = SIXTEENTHS[index].map(|[x, y]| a + 0.25 * x * e + 0.25 * y * f);
-        let centre = (corners[0] + corners[1] + corners[2]) / 3.0;
-        Self { corners, centre, longest: 0.25 * self.longest, extent: 0.25 * self.extent, ..*self }
     }
 }

@@ -1,57 +1,11 @@
-//! The pieces that the search for uncovered surface begins with: all triangles, cut until none is much longer than the
-//! radius, and put in buckets.
+//! Long triangles in slices.
 //!
-//! Bisection alone would do for well-shaped triangles. A needle, though, becomes three needles of half its length, two of
-//! them side by side: n^1.58 pieces where n are enough. So a triangle that is longer than high is sliced first, across
-//! its longest edge, into slices that are about as long as they are high.
+//! Parts of a triangle's own shape would do where it is well-shaped. A needle, though, becomes needles of half its
+//! length, two of them side by side: n² parts where n are enough. So a triangle that is longer than high is sliced
+//! first, across its longest edge, into slices that are about as long as they are high.
 
-use crate::error::Result;
-use crate::job::{Job, chunks_of};
 use crate::mesh::{Mesh, exact};
-use crate::psp::buckets::Buckets;
-use crate::psp::fragment::{Fragment, Shape};
-
-/// Triangles per task.
-const CHUNK: usize = 1024;
-
-/// The whole surface, in fragments that are no longer than `longest` says of them, each with its key.
-pub(super) fn pieces<K: Copy + Ord + Send>(
-    job: &Job,
-    mesh: &Mesh,
-    longest: impl Fn(&Fragment, &Shape) -> f64 + Sync,
-    key: impl Fn(&Fragment, &Shape) -> K + Sync,
-) -> Result<Buckets<K, Fragment>> {
-    let chunks = chunks_of(mesh.triangles().len(), CHUNK);
-    let (pieces, _) = Buckets::collect(job, chunks.len(), |chunk, add| {
-        let mut slices = Vec::new();
-        for triangle in chunks.range(chunk).map(|triangle| triangle as u32) {
-            if mesh.triangle_area(triangle) > 0.0 {
-                let whole = Fragment::whole(triangle);
-                slice(mesh, triangle, longest(&whole, &whole.shape(mesh)), &mut slices);
-                for slice in slices.drain(..) {
-                    let mut add = |piece: Fragment, shape: &Shape| add(key(&piece, shape), piece);
-                    cut(&slice, &slice.shape(mesh), &longest, &mut add);
-                }
-            }
-        }
-    })?;
-    Ok(pieces)
-}
-
-/// Bisects a fragment into pieces no longer than `longest`.
-fn cut(
-    fragment: &Fragment,
-    shape: &Shape,
-    longest: &impl Fn(&Fragment, &Shape) -> f64,
-    add: &mut dyn FnMut(Fragment, &Shape),
-) {
-    if shape.longest <= longest(fragment, shape) {
-        return add(*fragment, shape);
-    }
-    for (half, shape) in fragment.bisect(shape.apex).iter().zip(&shape.bisect()) {
-        cut(half, shape, longest, add);
-    }
-}
+use crate::psp::fragment::Fragment;
 
 /// Appends a triangle in slices no shorter than `shortest`, or as a whole if it is not much longer than that or high.
 ///
@@ -93,7 +47,7 @@ fn between(from: [f64; 2], to: [f64; 2], share: f64) -> [f64; 2] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::job::Context;
+    use crate::psp::fill::region::parts_up_to;
 
     /// Well-shaped triangles and needles of every kind: flat, acute, right.
     fn triangles() -> Vec<Mesh> {
@@ -103,9 +57,9 @@ mod tests {
     }
 
     fn all_pieces(mesh: &Mesh, longest: f64) -> Vec<Fragment> {
-        let pieces = |job: &Job| pieces(job, mesh, |_, _| longest, |_, shape| (4.0 * shape.centre.x) as i32);
-        let buckets = Context::new(2).unwrap().run(None, pieces).unwrap();
-        (0..buckets.len()).flat_map(|bucket| buckets.items(bucket)).copied().collect()
+        let mut slices = Vec::new();
+        slice(mesh, 0, longest, &mut slices);
+        slices.iter().flat_map(|slice| parts_up_to(mesh, slice, longest)).collect()
     }
 
     #[test]
@@ -113,7 +67,7 @@ mod tests {
         for mesh in triangles() {
             for longest in [2.0, 0.3, 0.01] {
                 let pieces = all_pieces(&mesh, longest);
-                assert!(pieces.iter().all(|piece| piece.shape(&mesh).longest <= longest));
+                assert!(pieces.iter().all(|piece| piece.shape(&mesh).longest <= longest * (1.0 + 1e-9)));
                 let area: f64 = pieces.iter().map(|piece| piece.area(&mesh)).sum();
                 assert!((area / mesh.area() - 1.0).abs() < 1e-9, "{area} of {}", mesh.area());
             }

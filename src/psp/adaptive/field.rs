@@ -24,17 +24,21 @@ pub(super) struct RadiusBounds {
 }
 
 impl RadiusBounds {
-    /// The radius in the middle.
-    pub fn middle(&self) -> f64 {
-        0.5 * (self.least + self.largest)
-    }
-
-    /// The radius as far as it is known: what pieces are measured by. Where the bounds are far apart the least may
+    /// The radius as far as it is known: what lengths are measured by. Where the bounds are far apart the least may
     /// be due to a distant corner, or to a bad bound; fragments become smaller then, but not by so much.
     pub fn scale(&self) -> f64 {
-        self.least.max(self.largest / 8.0)
+        self.least.max(self.largest / 16.0)
+    }
+
+    /// What areas are measured by: the mean of 1 / radius² where the radius grows evenly.
+    pub fn density(&self) -> f64 {
+        1.0 / (self.least * self.largest)
     }
 }
+
+/// Bounds that are no farther apart than this share of the longest edge of a fragment are good enough for it: what is
+/// proved covered falls short of what is by half of that.
+const FLAT: f64 = 0.1;
 
 /// How much, as a share, rounding can add to a radius.
 const ROUNDING: f64 = 1e-9;
@@ -125,6 +129,47 @@ impl<'a> RadiusField<'a> {
                 RadiusBounds { least, largest }
             }
         }
+    }
+
+    /// Bounds on a fragment that is part of one with bounds `within`: these, where they are good enough.
+    pub fn narrowed(&self, fragment: &Fragment, shape: &Shape, within: RadiusBounds) -> RadiusBounds {
+        if within.largest - within.least <= FLAT * shape.longest {
+            within
+        } else {
+            self.bounds(fragment, shape, within)
+        }
+    }
+
+    /// Radii for the corners of a fragment with these bounds, such that no point of it has a smaller one than these give
+    /// it when they change evenly.
+    pub fn radii_from(&self, fragment: &Fragment, bounds: RadiusBounds) -> [f64; 3] {
+        match self.radius {
+            Radius::PerVertex(radii) => {
+                fragment.corners.map(|corner| self.interpolate(radii, fragment.triangle, corner))
+            }
+            Radius::Function { .. } => [bounds.least; 3],
+        }
+    }
+
+    /// What is known of the radius at a sample of a fragment with these bounds, unless a function is called for it.
+    pub fn known_at(&self, sample: &Sample, bounds: RadiusBounds) -> RadiusBounds {
+        match self.radius {
+            Radius::PerVertex(_) => {
+                let radius = self.at(sample);
+                RadiusBounds { least: radius, largest: radius }
+            }
+            Radius::Function { .. } => bounds,
+        }
+    }
+
+    /// What no radius on a fragment exceeds, even where rounding has moved a sample.
+    pub fn above(&self, bounds: RadiusBounds) -> f64 {
+        let slack = match self.radius {
+            // The barycentrics, with the difference of two corners.
+            Radius::PerVertex(_) => 2f64.powi(-22) * self.all.largest,
+            Radius::Function { slope, .. } => slope * self.rounding,
+        };
+        bounds.largest * (1.0 + ROUNDING) + slack
     }
 
     /// The radius at the centre of a fragment.

@@ -1,22 +1,24 @@
-//! Filling where the radius varies: octave by octave and cube by cube, by the rain of `psp/rain.rs`.
+//! Filling where the radius varies: octave by octave and cube by cube, each as a surface of one radius is filled.
+
+use glam::DVec3;
 
 use crate::error::Result;
 use crate::job::Job;
 use crate::mesh::Mesh;
-use crate::psp::adaptive::cover::GradedCover;
-use crate::psp::adaptive::field::RadiusField;
-use crate::psp::adaptive::grids::{ConflictRule, end_of_octave};
+use crate::psp::adaptive::dot::{ConflictRule, Dot};
+use crate::psp::adaptive::field::{RadiusBounds, RadiusField};
+use crate::psp::adaptive::grid::Grid;
+use crate::psp::adaptive::ground::GradedGround;
 use crate::psp::adaptive::limits::Quota;
+use crate::psp::adaptive::pieces::{Piece, pieces};
 use crate::psp::adaptive::set::AdaptiveSet;
-use crate::psp::fragment::{Fragment, Shape};
-use crate::psp::patches::PatchSearch;
-use crate::psp::pieces::pieces;
-use crate::psp::rain::{Rained, rain};
-use crate::psp::samples::Sample;
+use crate::psp::fill::darts::{Rain, random_point, shuffle};
+use crate::psp::fill::ground::{Ground, Whole};
+use crate::psp::fill::page::GROUP;
+use crate::psp::fill::region::FIRST_DARTS;
+use crate::psp::fill::rounds::{Open, PATCH, WHOLE, rounds, throw};
+use crate::psp::fragment::Fragment;
 use crate::rng::{Draw, Rng};
-
-/// The pieces that the search begins with, in local radii.
-const PIECE: f64 = 2.0;
 
 /// A maximal set, and how many darts it took.
 pub(super) fn fill(
@@ -28,39 +30,93 @@ pub(super) fn fill(
     seed: u64,
 ) -> Result<(AdaptiveSet, u64)> {
     let mut set = AdaptiveSet::new(mesh, seed);
-    let bounds = |fragment: &Fragment, shape: &Shape| field.bounds(fragment, shape, field.all());
-    let longest = |fragment: &Fragment, shape: &Shape| {
-        if quota.is_exceeded() { f64::INFINITY } else { PIECE * bounds(fragment, shape).scale() }
-    };
-    let cube = |fragment: &Fragment, shape: &Shape| {
-        quota.take(1);
-        set.cube(shape.centre, bounds(fragment, shape).largest)
-    };
-    let pieces = pieces(&job.part(0.05, 0.2), mesh, longest, cube)?;
+    let pieces = pieces(&job.part(0.05, 0.2), mesh, field, quota, &set)?;
     field.check()?;
     quota.check(field.argument())?;
-    let darts = set.grow(&job.part(0.2, 1.0), mesh, rule, &pieces, |cube, grids, pieces| {
+    let darts = set.grow(&job.part(0.2, 1.0), mesh, rule, &pieces, |cube, dots, pieces| {
         let field = field.apart();
-        let test = GradedCover::new(mesh, &field, quota, grids, end_of_octave(cube.octave));
-        let rained = fill_cube(mesh, test, Rng::at(seed, Draw::Adaptive, &cube.key()), pieces);
+        let grid = grid(mesh, &field, rule, dots, pieces);
+        let mut ground = GradedGround::new(mesh, &field, quota, grid, pieces.len());
+        fill_cube(&mut ground, pieces, &mut Rng::at(seed, Draw::Adaptive, &cube.key()));
         field.check()?;
-        quota.check(field.argument()).map(|()| (rained.accepted, rained.darts))
+        quota.check(field.argument()).map(|()| (ground.accepted, ground.darts))
     })?;
     Ok((set, darts))
 }
 
-/// The samples that a cube needs to be covered, with their radii, and how many darts that took.
-fn fill_cube(
-    mesh: &Mesh,
-    test: GradedCover,
-    rng: Rng,
-    pieces: &mut dyn Iterator<Item = &Fragment>,
-) -> Rained<(Sample, f64)> {
-    let mut search = PatchSearch { mesh, test, finest: mesh.float_spacing() };
-    let mut patches = Vec::new();
-    pieces.for_each(|piece| {
-        search.test.allow_looks();
-        search.search(piece, &mut patches);
+/// The samples around a cube in a grid that suits the radii on its pieces.
+fn grid(mesh: &Mesh, field: &RadiusField, rule: ConflictRule, dots: Vec<Dot>, pieces: &[&Piece]) -> Grid {
+    let largest = pieces.iter().map(|piece| field.above(piece.bounds())).fold(0.0, f64::max);
+    // The area by the number of samples that will stand on it gives their usual radius.
+    let samples: f64 = pieces.iter().map(|piece| piece.area()).sum();
+    let area: f64 = pieces.iter().map(|piece| piece.area() / piece.bounds().density()).sum();
+    let usual = if samples > 0.0 { (area / samples).sqrt() } else { largest };
+    let corners = pieces
+        .iter()
+        .map(|piece| piece.fragment())
+        .flat_map(|fragment| fragment.corners.map(|corner| mesh.point_exact(fragment.triangle, corner)));
+    let none = [DVec3::INFINITY, DVec3::NEG_INFINITY];
+    let bounds = corners.fold(none, |[low, high], corner| [low.min(corner), high.max(corner)]);
+    let mut grid = Grid::new(mesh, rule, bounds, usual, largest);
+    dots.into_iter().for_each(|dot| grid.add(dot));
+    grid
+}
+
+/// Fills the pieces of a cube.
+fn fill_cube(ground: &mut GradedGround, pieces: &[&Piece], rng: &mut Rng) {
+    let (mut darts, mut rain) = (Vec::new(), Rain::new(rng, FIRST_DARTS));
+    for (number, piece) in (0..).zip(pieces) {
+        darts.extend(std::iter::repeat_n(number, rain.fall(piece.area())));
+    }
+    shuffle(rng, &mut darts);
+    throw(ground, rng, &darts, |number, rng| {
+        let (fragment, bounds) = (pieces[number as usize].fragment(), pieces[number as usize].bounds());
+        (fragment.triangle, fragment.at(random_point(rng)), bounds)
     });
-    rain(search, patches, rng)
+    let Ok(()) = rounds(ground, open(ground, pieces), rng, |_| Ok::<(), std::convert::Infallible>(()));
+}
+
+/// What is open of some pieces.
+fn open(ground: &GradedGround, pieces: &[&Piece]) -> Open<RadiusBounds> {
+    let (mut open, mut wholes) = (Open::default(), Vec::with_capacity(GROUP));
+    for piece in pieces {
+        match piece {
+            Piece::Whole(whole) => wholes.push(*whole),
+            Piece::Part(part) => open_parts(ground, &part.fragment, part.longest, part.local, &mut open),
+        }
+        if wholes.len() == GROUP {
+            open_wholes(ground, &wholes, &mut open);
+            wholes.clear();
+        }
+    }
+    if !wholes.is_empty() {
+        open_wholes(ground, &wholes, &mut open);
+    }
+    open
+}
+
+/// Adds those of a group of triangles that are not covered: whole, if they are small, or in parts.
+fn open_wholes(ground: &GradedGround, wholes: &[Whole<RadiusBounds>], open: &mut Open<RadiusBounds>) {
+    let mut uncovered = ground.open_wholes(wholes);
+    while uncovered != 0 {
+        let whole = wholes[uncovered.trailing_zeros() as usize];
+        uncovered &= uncovered - 1;
+        if whole.longest <= WHOLE {
+            open.wholes.push(whole);
+        } else {
+            open_parts(ground, &Fragment::whole(whole.triangle), whole.longest, whole.local, open);
+        }
+    }
+}
+
+/// Adds what is open of a fragment, in patches that are small enough.
+fn open_parts(
+    ground: &GradedGround,
+    fragment: &Fragment,
+    longest: f32,
+    bounds: RadiusBounds,
+    open: &mut Open<RadiusBounds>,
+) {
+    let count = (f64::from(longest) / PATCH).ceil().max(1.0) as u32;
+    open.patches.extend(fragment.parts(count).filter_map(|part| ground.look(&part, bounds)));
 }

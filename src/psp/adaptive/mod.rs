@@ -13,15 +13,17 @@
 //! * *Deterministic*: the samples and their order depend on mesh, radii and seed only.
 //!
 //! The thesis projects patterns of the smallest radius and thins them, which wastes most rays where radii differ. Here
-//! the set is only filled (see `psp/rain.rs`), octave by octave, without Embree.
+//! the set is only filled (see `psp/fill/mod.rs`), octave by octave, without Embree.
 
-mod cover;
+mod dot;
 mod field;
 mod fill;
-mod grids;
+mod grid;
+mod ground;
 mod limits;
 mod options;
-mod outline;
+mod page;
+mod pieces;
 mod radius;
 mod sample;
 mod set;

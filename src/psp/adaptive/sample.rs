@@ -3,17 +3,19 @@
 use std::time::Instant;
 
 use crate::error::{Error, Result};
-use crate::job::{Context, Job, Progress};
+use crate::job::{Context, Job, Progress, chunks_of};
 use crate::memory;
 use crate::mesh::Mesh;
 use crate::points::SurfaceSamples;
+use crate::psp::adaptive::dot::ConflictRule;
 use crate::psp::adaptive::field::RadiusField;
 use crate::psp::adaptive::fill::fill;
-use crate::psp::adaptive::grids::ConflictRule;
 use crate::psp::adaptive::limits::Quota;
 use crate::psp::adaptive::options::Options;
 use crate::psp::estimate::{expected_samples_of, longest_edge};
-use crate::psp::pieces::pieces;
+use crate::psp::fill::region::parts_up_to;
+use crate::psp::fragment::{Fragment, Shape};
+use crate::psp::pieces::slice;
 use crate::psp::report::Report;
 use crate::psp::samples::surface_samples;
 
@@ -27,6 +29,8 @@ pub struct AdaptiveSamples {
     pub radii: Vec<f64>,
 }
 
+/// Triangles per task of the estimate.
+const CHUNK: usize = 1 << 13;
 /// On how many pieces of the surface the number of samples is estimated, about and at most.
 const ESTIMATES: f64 = 1e5;
 /// Memory per sample at the peak.
@@ -76,14 +80,29 @@ fn require(job: &Job, mesh: &Mesh, field: &RadiusField) -> Result<f64> {
     let lengths: f64 = mesh.sampled_triangles().map(|triangle| longest_edge(mesh, triangle)).sum();
     // Nor is anything learned from pieces that are shorter than every radius.
     let longest = (4.0 * mesh.area() / ESTIMATES).sqrt().max(lengths / ESTIMATES).max(field.all().least);
-    let pieces = pieces(job, mesh, |_, _| longest, |_, _| ())?;
-    let estimate: f64 = (0..pieces.len())
-        .flat_map(|bucket| pieces.items(bucket))
-        .map(|piece| {
-            let shape = piece.shape(mesh);
-            expected_samples_of(field.centre(piece, &shape), piece.area(mesh), shape.longest)
-        })
-        .sum();
+    let chunks = chunks_of(mesh.triangles().len(), CHUNK);
+    let estimates = job.map(chunks.len(), |chunk| {
+        let (mut slices, mut estimate) = (Vec::new(), 0.0);
+        for triangle in chunks.range(chunk).map(|triangle| triangle as u32) {
+            let area = mesh.triangle_area(triangle);
+            let mut count = |piece: &Fragment, shape: &Shape, area: f64| {
+                estimate += expected_samples_of(field.centre(piece, shape), area, shape.longest);
+            };
+            let whole = Fragment::whole(triangle);
+            let shape = whole.shape(mesh);
+            if area > 0.0 && shape.longest <= longest {
+                count(&whole, &shape, area);
+            } else if area > 0.0 {
+                slice(mesh, triangle, longest, &mut slices);
+                for slice in slices.drain(..) {
+                    parts_up_to(mesh, &slice, longest)
+                        .for_each(|part| count(&part, &part.shape(mesh), part.area(mesh)));
+                }
+            }
+        }
+        estimate
+    })?;
+    let estimate: f64 = estimates.iter().sum();
     field.check()?;
     let (argument, all) = (field.argument(), field.all());
     if estimate > f64::from(u32::MAX) {

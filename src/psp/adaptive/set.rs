@@ -14,20 +14,30 @@ use glam::DVec3;
 use crate::error::{Error, Result};
 use crate::job::Job;
 use crate::mesh::{Mesh, exact};
-use crate::psp::adaptive::grids::{ConflictRule, Dot, OctaveGrids, end_of_octave, octave};
+use crate::psp::adaptive::dot::{ConflictRule, Dot};
+use crate::psp::adaptive::pieces::{LONGEST, Piece};
 use crate::psp::buckets::Buckets;
 use crate::psp::cubes::Cube;
-use crate::psp::fragment::Fragment;
 use crate::psp::samples::Sample;
 use crate::rng::{Draw, Rng};
 
 /// The side of a cube, in the largest radius of its octave.
 const SIDE: f64 = 16.0;
-/// How far samples and what they cover can lie outside of their cube, in the same unit: pieces are no longer than two.
-const OVERHANG: f64 = 4.0 / 3.0;
+/// How far samples and what they cover can lie outside of their cube, in the same unit: two thirds of a piece.
+const OVERHANG: f64 = 2.0 / 3.0 * LONGEST;
 /// Half of the radius of a sample, in the same unit, and some more: rounding can bring it above the radii of its piece by
-/// at most a quarter of these (see `radius.rs`).
-pub(super) const HALF: f64 = 0.64;
+/// at most a quarter of these (see `field.rs`).
+const HALF: f64 = 0.64;
+
+/// The octave of a radius: it is in `2^octave .. 2^(octave + 1)`.
+fn octave(radius: f64) -> i32 {
+    (radius.to_bits() >> 52) as i32 - 1023
+}
+
+/// What all radii of an octave are below.
+fn end_of_octave(octave: i32) -> f64 {
+    libm::scalbn(1.0, octave + 1)
+}
 
 /// A cube of an octave.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -69,7 +79,7 @@ impl AdaptiveSet {
         let own = octave(radius);
         let above = OctaveCube { octave: own + 1, cube: self.cube_of(own + 1, centre) };
         let limit = Rng::at(self.seed, Draw::Octave, &above.key()).unit();
-        if radius > end_of_octave(own) * (limit - 1.0).exp2() {
+        if radius > end_of_octave(own) * libm::exp2(limit - 1.0) {
             above
         } else {
             OctaveCube { octave: own, cube: self.cube_of(own, centre) }
@@ -91,13 +101,8 @@ impl AdaptiveSet {
         job: &Job,
         mesh: &Mesh,
         rule: ConflictRule,
-        buckets: &Buckets<OctaveCube, Fragment>,
-        task: impl Fn(
-            OctaveCube,
-            &mut OctaveGrids,
-            &mut dyn Iterator<Item = &Fragment>,
-        ) -> Result<(Vec<(Sample, f64)>, u64)>
-        + Sync,
+        buckets: &Buckets<OctaveCube, Piece>,
+        task: impl Fn(OctaveCube, Vec<Dot>, &[&Piece]) -> Result<(Vec<(Sample, f64)>, u64)> + Sync,
     ) -> Result<u64> {
         let key = |&bucket: &usize| (Reverse(buckets.key(bucket).octave), buckets.key(bucket).cube.colour());
         let mut order: Vec<usize> = (0..buckets.len()).collect();
@@ -108,7 +113,8 @@ impl AdaptiveSet {
             let part = job.part(share(done), share(done + members.len()));
             let grown = part.map(members.len(), |member| {
                 let cube = buckets.key(members[member]);
-                task(cube, &mut self.dots_around(mesh, rule, cube), &mut buckets.items(members[member]))
+                let pieces: Vec<&Piece> = buckets.items(members[member]).collect();
+                task(cube, self.dots_around(mesh, rule, cube), &pieces)
             })?;
             done += members.len();
             for (&bucket, grown) in members.iter().zip(grown) {
@@ -130,9 +136,9 @@ impl AdaptiveSet {
         Ok(())
     }
 
-    /// The dots that matter in a cube.
-    fn dots_around(&self, mesh: &Mesh, rule: ConflictRule, OctaveCube { octave, cube }: OctaveCube) -> OctaveGrids {
-        let mut grids = OctaveGrids::new(rule);
+    /// The samples that can matter in a cube.
+    fn dots_around(&self, mesh: &Mesh, rule: ConflictRule, OctaveCube { octave, cube }: OctaveCube) -> Vec<Dot> {
+        let mut dots = Vec::new();
         let end = end_of_octave(octave);
         let low = self.origin + SIDE * end * (DVec3::from_array(cube.0.map(f64::from)) - self.shift);
         // Where points of the cube's pieces are, and half of their radius around.
@@ -148,11 +154,25 @@ impl AdaptiveSet {
                 for &(sample, radius) in &self.samples[run.start as usize..run.end as usize] {
                     let point = exact(sample.position);
                     if (point - point.clamp(low, high)).length() <= 0.51 * radius {
-                        grids.add(Dot { position: sample.position, radius, normal: mesh.normal(sample.triangle) });
+                        let normal = if rule.asks_normals() { mesh.normal(sample.triangle) } else { [0.0; 3] };
+                        dots.push(Dot { position: sample.position, radius, normal });
                     }
                 }
             }
         }
-        grids
+        dots
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn octaves_begin_at_powers_of_two() {
+        for (radius, expected) in [(1.0, 0), (1.999, 0), (2.0, 1), (0.25, -2), (1e-38, -127), (3e38, 127)] {
+            assert_eq!(octave(radius), expected);
+            assert!(radius < end_of_octave(expected) && 2.0 * radius >= end_of_octave(expected));
+        }
     }
 }

@@ -148,7 +148,7 @@ impl Grid {
 
 /// Calls `visit` with all cells from the lowest to the highest.
 #[inline(always)]
-fn each_cell([low, high]: [[u32; 3]; 2], mut visit: impl FnMut([u32; 3])) {
+pub(in crate::psp) fn each_cell([low, high]: [[u32; 3]; 2], mut visit: impl FnMut([u32; 3])) {
     for z in low[2]..=high[2] {
         for y in low[1]..=high[1] {
             for x in low[0]..=high[0] {

@@ -15,42 +15,49 @@ use crate::psp::samples::Sample;
 
 /// A whole triangle, small beside the radius, that may be uncovered.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::psp) struct Whole {
+pub(in crate::psp) struct Whole<L = ()> {
     pub triangle: u32,
     pub area: f32,
     pub longest: f32,
+    /// What is known of the radius on it.
+    pub local: L,
 }
 
 /// A fragment that may be uncovered.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::psp) struct Patch {
+pub(in crate::psp) struct Patch<L = ()> {
     pub fragment: Fragment,
     /// A bit for each sixteenth that may be; at least one.
     pub open: u16,
     pub area: f32,
     /// The longest edge.
     pub longest: f32,
+    /// What is known of the radius on it.
+    pub local: L,
 }
 
 /// A surface with samples.
 pub(in crate::psp) trait Ground {
+    /// What is known of the radius on a part of the surface.
+    type Local: Copy;
     /// A dart, until it is known whether it is accepted.
     type Dart;
 
     /// Fragments no longer than this are cut up no more.
-    fn finest(&self) -> f32;
+    fn finest(&self, local: Self::Local) -> f32;
 
-    /// A fragment as a patch, unless all of its sixteenths are covered, each by one sample.
-    fn look(&self, fragment: &Fragment) -> Option<Patch>;
+    /// A fragment as a patch, unless all of its sixteenths are covered, each by one sample. What is known of the radius
+    /// is that of a part which the fragment belongs to.
+    fn look(&self, fragment: &Fragment, within: Self::Local) -> Option<Patch<Self::Local>>;
 
     /// Which of the open sixteenths of a patch no single sample certainly covers now.
-    fn open_sixteenths(&self, patch: &Patch) -> u16;
+    fn open_sixteenths(&self, patch: &Patch<Self::Local>) -> u16;
 
     /// Which of at most 64 triangles no single sample certainly covers: a bit for each.
-    fn open_wholes(&self, wholes: &[Whole]) -> u64;
+    fn open_wholes(&self, wholes: &[Whole<Self::Local>]) -> u64;
 
-    /// The dart at a point of a triangle.
-    fn dart(&self, triangle: u32, barycentrics: [f64; 2]) -> Self::Dart;
+    /// The dart at a point of a triangle, which lies in a part of this radius.
+    fn dart(&self, triangle: u32, barycentrics: [f64; 2], local: Self::Local) -> Self::Dart;
 
     /// Makes a dart a sample, unless it conflicts with another one.
     fn throw(&mut self, dart: Self::Dart);
@@ -87,7 +94,10 @@ impl<'a> UniformGround<'a> {
     pub fn whole(&self, triangle: u32) -> (Whole, bool) {
         let corners = self.mesh.exact_corners(triangle).map(|corner| self.grid.space.scaled(corner));
         let (area, longest) = self.size(&corners);
-        (Whole { triangle, area: area as f32, longest: longest as f32 }, self.mesh.triangle_area(triangle) > 0.0)
+        (
+            Whole { triangle, area: area as f32, longest: longest as f32, local: () },
+            self.mesh.triangle_area(triangle) > 0.0,
+        )
     }
 
     /// Where the corners of a fragment are, in the unit of the space.
@@ -107,17 +117,18 @@ impl<'a> UniformGround<'a> {
 }
 
 impl Ground for UniformGround<'_> {
+    type Local = ();
     type Dart = Sample;
 
-    fn finest(&self) -> f32 {
+    fn finest(&self, (): ()) -> f32 {
         (f64::from(self.grid.space.scale()) * self.mesh.float_spacing() * self.per_radius) as f32
     }
 
-    fn look(&self, fragment: &Fragment) -> Option<Patch> {
+    fn look(&self, fragment: &Fragment, (): ()) -> Option<Patch> {
         let corners = self.corners(fragment);
         let (area, longest) = self.size(&corners);
         let open = self.grid.open_sixteenths(corners, longest / self.per_radius, u16::MAX);
-        let patch = Patch { fragment: *fragment, open, area: area as f32, longest: longest as f32 };
+        let patch = Patch { fragment: *fragment, open, area: area as f32, longest: longest as f32, local: () };
         (open != 0).then_some(patch)
     }
 
@@ -135,7 +146,7 @@ impl Ground for UniformGround<'_> {
         self.grid.open_triangles(&mut group, wholes.len())
     }
 
-    fn dart(&self, triangle: u32, barycentrics: [f64; 2]) -> Sample {
+    fn dart(&self, triangle: u32, barycentrics: [f64; 2], (): ()) -> Sample {
         Sample::new(self.mesh, triangle, round_barycentrics(barycentrics))
     }
 

@@ -9,14 +9,14 @@
 //! costs more.
 
 mod blocks;
-mod darts;
-mod grid;
-mod ground;
-mod page;
-mod region;
+pub(super) mod darts;
+pub(super) mod grid;
+pub(super) mod ground;
+pub(super) mod page;
+pub(super) mod region;
 pub(super) mod rounds;
-mod space;
-mod table;
+pub(super) mod space;
+pub(super) mod table;
 pub(super) mod triangles;
 #[allow(unsafe_code)] // Vector instructions.
 mod vectors;

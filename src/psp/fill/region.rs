@@ -12,7 +12,7 @@ use crate::rng::Rng;
 
 /// The first darts on an empty surface, for each squared radius: about six for each sample that will stand there. They
 /// are cheap, as nothing but the triangle that they fall on is known of them, and leave little of the surface open.
-const FIRST_DARTS: f64 = 4.2;
+pub(in crate::psp) const FIRST_DARTS: f64 = 4.2;
 
 /// Triangles, and fragments of others that are too long, whose numbers follow.
 #[derive(Clone, Copy)]
@@ -86,7 +86,7 @@ pub(in crate::psp) fn throw_first(ground: &mut UniformGround, items: Items, mut 
     shuffle(rng, &mut darts);
     throw(ground, rng, &darts, |number, rng| {
         let fragment = items.fragment(number);
-        (fragment.triangle, fragment.at(random_point(rng)))
+        (fragment.triangle, fragment.at(random_point(rng)), ())
     });
 }
 
@@ -127,7 +127,7 @@ fn add(ground: &UniformGround, triangle: u32, open: &mut Open) {
 /// Adds what is open of a fragment, in patches that are small enough.
 pub(in crate::psp) fn open_parts(ground: &UniformGround, fragment: &Fragment, open: &mut Open) {
     let parts = parts_up_to(ground.mesh, fragment, PATCH * ground.radius());
-    open.patches.extend(parts.filter_map(|part| ground.look(&part)));
+    open.patches.extend(parts.filter_map(|part| ground.look(&part, ())));
 }
 
 /// The parts of a fragment, of its own shape, that are no longer than `longest`.

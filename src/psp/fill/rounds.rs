@@ -43,20 +43,25 @@ const DARTS_PER_PATCH: f64 = 0.9;
 const TOGETHER: usize = 32;
 
 /// What may be uncovered.
-#[derive(Default)]
-pub(in crate::psp) struct Open {
-    pub wholes: Vec<Whole>,
-    pub patches: Vec<Patch>,
+pub(in crate::psp) struct Open<L = ()> {
+    pub wholes: Vec<Whole<L>>,
+    pub patches: Vec<Patch<L>>,
 }
 
-impl Patch {
+impl<L> Default for Open<L> {
+    fn default() -> Self {
+        Self { wholes: Vec::new(), patches: Vec::new() }
+    }
+}
+
+impl<L> Patch<L> {
     /// The area that may be uncovered.
     fn open_area(&self) -> f64 {
         f64::from(self.area) * f64::from(self.open.count_ones()) / 16.0
     }
 }
 
-impl Open {
+impl<L: Copy> Open<L> {
     /// The area of all of it, in squared radii.
     pub fn area(&self) -> f64 {
         self.wholes_area() + self.patches.iter().map(Patch::open_area).sum::<f64>()
@@ -88,23 +93,22 @@ impl Open {
     }
 
     /// A random point of a whole triangle or an open part of a patch.
-    fn point(&self, number: u32, rng: &mut Rng) -> (u32, [f64; 2]) {
+    fn point(&self, number: u32, rng: &mut Rng) -> (u32, [f64; 2], L) {
         let number = number as usize;
         match self.wholes.get(number) {
-            Some(whole) => (whole.triangle, random_point(rng)),
+            Some(whole) => (whole.triangle, random_point(rng), whole.local),
             None => {
-                let Patch { fragment, open, .. } = &self.patches[number - self.wholes.len()];
+                let Patch { fragment, open, local, .. } = &self.patches[number - self.wholes.len()];
                 let skipped = rng.below(open.count_ones().into());
                 let part = (0..skipped).fold(*open, |open, _| open & (open - 1)).trailing_zeros();
-                (fragment.triangle, fragment.sixteenth(part as usize).at(random_point(rng)))
+                (fragment.triangle, fragment.sixteenth(part as usize).at(random_point(rng)), *local)
             }
         }
     }
 
     /// Looks again at everything: drops what is covered, and cuts up what is longer than a limit.
-    pub fn update<G: Ground>(&mut self, ground: &mut G, limit: f32) {
-        let finest = ground.finest();
-        let is_kept = |longest: f32| longest <= limit && finest <= limit;
+    pub fn update<G: Ground<Local = L>>(&mut self, ground: &mut G, limit: f32) {
+        let is_kept = |longest: f32, finest: f32| longest <= limit && finest <= limit;
         let (mut kept, mut grown, mut last) = (0, Vec::new(), Vec::new());
         for start in (0..self.wholes.len()).step_by(GROUP) {
             let end = (start + GROUP).min(self.wholes.len());
@@ -112,14 +116,14 @@ impl Open {
             while open != 0 {
                 let whole = self.wholes[start + open.trailing_zeros() as usize];
                 open &= open - 1;
-                let fragment = Fragment::whole(whole.triangle);
-                if is_kept(whole.longest) {
+                let (fragment, finest) = (Fragment::whole(whole.triangle), ground.finest(whole.local));
+                if is_kept(whole.longest, finest) {
                     self.wholes[kept] = whole;
                     kept += 1;
                 } else if whole.longest <= finest {
-                    last.push(fragment);
+                    last.push((fragment, whole.local));
                 } else {
-                    grown.extend(ground.look(&fragment));
+                    grown.extend(ground.look(&fragment, whole.local));
                 }
             }
         }
@@ -127,22 +131,23 @@ impl Open {
         kept = 0;
         for index in 0..self.patches.len() {
             let mut patch = self.patches[index];
+            let finest = ground.finest(patch.local);
             patch.open = ground.open_sixteenths(&patch);
             if patch.open == 0 {
-            } else if is_kept(patch.longest) {
+            } else if is_kept(patch.longest, finest) {
                 self.patches[kept] = patch;
                 kept += 1;
             } else if patch.longest <= finest {
-                last.push(patch.fragment);
+                last.push((patch.fragment, patch.local));
             } else {
                 let parts = (0..16).filter(|part| patch.open >> part & 1 == 1);
-                grown.extend(parts.filter_map(|part| ground.look(&patch.fragment.sixteenth(part))));
+                grown.extend(parts.filter_map(|part| ground.look(&patch.fragment.sixteenth(part), patch.local)));
             }
         }
         self.patches.truncate(kept);
         self.patches.append(&mut grown);
-        for fragment in last {
-            ground.throw(ground.dart(fragment.triangle, fragment.at([1.0 / 3.0; 2])));
+        for (fragment, local) in last {
+            ground.throw(ground.dart(fragment.triangle, fragment.at([1.0 / 3.0; 2]), local));
         }
     }
 }
@@ -152,13 +157,13 @@ pub(in crate::psp) fn throw<G: Ground>(
     ground: &mut G,
     rng: &mut Rng,
     targets: &[u32],
-    point: impl Fn(u32, &mut Rng) -> (u32, [f64; 2]),
+    point: impl Fn(u32, &mut Rng) -> (u32, [f64; 2], G::Local),
 ) {
     let mut darts = Vec::with_capacity(TOGETHER);
     for targets in targets.chunks(TOGETHER) {
         darts.extend(targets.iter().map(|&target| {
-            let (triangle, barycentrics) = point(target, rng);
-            ground.dart(triangle, barycentrics)
+            let (triangle, barycentrics, local) = point(target, rng);
+            ground.dart(triangle, barycentrics, local)
         }));
         darts.drain(..).for_each(|dart| ground.throw(dart));
     }
@@ -167,7 +172,7 @@ pub(in crate::psp) fn throw<G: Ground>(
 /// Throws darts at what is open until it is covered. After each round it is told how many there have been.
 pub(in crate::psp) fn rounds<G: Ground, E>(
     ground: &mut G,
-    mut open: Open,
+    mut open: Open<G::Local>,
     rng: &mut Rng,
     report: impl Fn(i32) -> Result<(), E>,
 ) -> Result<(), E> {

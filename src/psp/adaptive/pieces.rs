@@ -1,0 +1,116 @@
+//! The surface in pieces that the radius does not change much on, by cubes: what is filled together.
+
+use crate::error::Result;
+use crate::job::{Job, chunks_of};
+use crate::mesh::Mesh;
+use crate::psp::adaptive::field::{RadiusBounds, RadiusField};
+use crate::psp::adaptive::limits::Quota;
+use crate::psp::adaptive::set::{AdaptiveSet, OctaveCube};
+use crate::psp::buckets::Buckets;
+use crate::psp::fill::ground::{Patch, Whole};
+use crate::psp::fragment::{Fragment, Shape};
+use crate::psp::pieces::slice;
+
+/// Triangles per task.
+const CHUNK: usize = 1024;
+
+/// Pieces are no longer than this, in local radii.
+pub(super) const LONGEST: f64 = 4.0;
+
+/// A piece of the surface, all of it uncovered.
+pub(super) enum Piece {
+    Whole(Whole<RadiusBounds>),
+    Part(Box<Patch<RadiusBounds>>),
+}
+
+impl Piece {
+    pub fn fragment(&self) -> Fragment {
+        match self {
+            Self::Whole(whole) => Fragment::whole(whole.triangle),
+            Self::Part(part) => part.fragment,
+        }
+    }
+
+    /// In local radii.
+    pub fn area(&self) -> f64 {
+        match self {
+            Self::Whole(whole) => whole.area.into(),
+            Self::Part(part) => part.area.into(),
+        }
+    }
+
+    pub fn bounds(&self) -> RadiusBounds {
+        match self {
+            Self::Whole(whole) => whole.local,
+            Self::Part(part) => part.local,
+        }
+    }
+}
+
+/// All of the surface.
+pub(super) fn pieces(
+    job: &Job,
+    mesh: &Mesh,
+    field: &RadiusField,
+    quota: &Quota,
+    set: &AdaptiveSet,
+) -> Result<Buckets<OctaveCube, Piece>> {
+    let chunks = chunks_of(mesh.triangles().len(), CHUNK);
+    let (pieces, _) = Buckets::collect(job, chunks.len(), |chunk, add| {
+        let (mut slices, mut cuts) = (Vec::new(), Cuts { mesh, field, quota, set, add });
+        for triangle in chunks.range(chunk).map(|triangle| triangle as u32) {
+            let area = mesh.triangle_area(triangle);
+            if area == 0.0 {
+                continue;
+            }
+            let whole = Fragment::whole(triangle);
+            let shape = whole.shape(mesh);
+            let bounds = field.bounds(&whole, &shape, field.all());
+            if cuts.is_small(&shape, bounds) {
+                let (area, longest) = (area * bounds.density(), shape.longest / bounds.scale());
+                let whole = Whole { triangle, area: area as f32, longest: longest as f32, local: bounds };
+                cuts.add(&shape, bounds, Piece::Whole(whole));
+            } else {
+                slice(mesh, triangle, LONGEST * bounds.scale(), &mut slices);
+                if let [whole] = slices[..] {
+                    slices.splice(.., whole.parts(2));
+                }
+                slices.drain(..).for_each(|slice| cuts.cut(&slice, bounds));
+            }
+        }
+    })?;
+    Ok(pieces)
+}
+
+/// How a task cuts triangles.
+struct Cuts<'a> {
+    mesh: &'a Mesh,
+    field: &'a RadiusField<'a>,
+    quota: &'a Quota,
+    set: &'a AdaptiveSet,
+    add: &'a mut dyn FnMut(OctaveCube, Piece),
+}
+
+impl Cuts<'_> {
+    fn is_small(&self, shape: &Shape, bounds: RadiusBounds) -> bool {
+        shape.longest <= LONGEST * bounds.scale() || self.quota.is_exceeded()
+    }
+
+    fn add(&mut self, shape: &Shape, bounds: RadiusBounds, piece: Piece) {
+        self.quota.take(1);
+        (self.add)(self.set.cube(shape.centre, bounds.largest), piece);
+    }
+
+    /// Cuts a fragment of one with bounds `within` into quarters, until they are small enough.
+    fn cut(&mut self, fragment: &Fragment, within: RadiusBounds) {
+        let shape = fragment.shape(self.mesh);
+        let bounds = self.field.bounds(fragment, &shape, within);
+        if !self.is_small(&shape, bounds) {
+            return fragment.parts(2).for_each(|quarter| self.cut(&quarter, bounds));
+        }
+        let (area, longest) = (fragment.area(self.mesh) * bounds.density(), shape.longest / bounds.scale());
+        let (area, longest) = (area as f32, longest as f32);
+        let part = Patch { fragment: *fragment, open: u16::MAX, area, longest, local: bounds };
+        self.add(&shape, bounds, Piece::Part(Box::new(part)));
+    }
+}
