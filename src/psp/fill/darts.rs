@@ -1,9 +1,59 @@
-//! Darts as rain: where a Poisson process of even density falls on a row of areas.
+//! Where darts of even density fall on a row of areas, however the surface is cut into them.
 //!
-//! From one dart to the next the area passed is Exp(1) over the density. So a row of areas has been rained on evenly,
-//! however the surface is cut into them.
+//! A row that is known as a whole takes darts in any number, one by one ([`Row`]). On one that is only passed over darts
+//! fall as rain, a Poisson process ([`Rain`]): from one dart to the next the area passed is Exp(1) over the density.
 
 use crate::rng::Rng;
+
+/// Areas in a row, on which darts fall.
+pub(in crate::psp) struct Row {
+    /// The sum of the areas up to each of them, itself included.
+    ends: Vec<f64>,
+    /// For as many equal parts of the total, the first area that a part can reach (Chen and Asau 1974): from there the
+    /// area of a dart is one step away on average.
+    guide: Vec<u32>,
+}
+
+impl Row {
+    pub fn new(areas: impl Iterator<Item = f64>) -> Self {
+        let mut total = 0.0;
+        let mut end = |area| {
+            total += area;
+            total
+        };
+        let ends: Vec<f64> = areas.map(&mut end).collect();
+        let (mut guide, mut first) = (Vec::with_capacity(ends.len()), 0);
+        for part in 0..ends.len() {
+            let start = part as f64 * (total / ends.len() as f64);
+            while first + 1 < ends.len() && ends[first] <= start {
+                first += 1;
+            }
+            guide.push(first as u32);
+        }
+        Self { ends, guide }
+    }
+
+    /// How many areas there are.
+    pub fn len(&self) -> usize {
+        self.ends.len()
+    }
+
+    /// The sum of all areas.
+    pub fn total(&self) -> f64 {
+        self.ends.last().copied().unwrap_or(0.0)
+    }
+
+    /// The number of the area that a dart falls on.
+    pub fn hit(&self, rng: &mut Rng) -> u32 {
+        let (share, last) = (rng.unit(), self.ends.len() - 1);
+        let mut number = self.guide[(share * self.ends.len() as f64) as usize] as usize;
+        let place = share * self.total();
+        while number < last && self.ends[number] <= place {
+            number += 1;
+        }
+        number as u32
+    }
+}
 
 /// A rain that passes over areas, one after the other.
 pub(in crate::psp) struct Rain<'a> {

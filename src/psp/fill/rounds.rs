@@ -29,9 +29,6 @@ pub(in crate::psp) const PATCH: f64 = 2.0;
 /// Triangles up to this length are kept whole at first.
 pub(in crate::psp) const WHOLE: f32 = 0.5;
 
-/// The open area is measured in triangles up to this length, and in sixteenths of patches up to four times as long.
-pub(in crate::psp) const MEASURED: f32 = 0.25;
-
 /// How many darts a round throws for each whole triangle, ...
 const DARTS_PER_WHOLE: f64 = 0.2;
 /// ... or, where these are tiny, for each squared radius of them, ...
@@ -59,7 +56,12 @@ impl Patch {
 impl Open {
     /// The area of all of it, in squared radii.
     pub fn area(&self) -> f64 {
-        self.wholes_area() + self.patches.iter().map(Patch::open_area).sum::<f64>()
+        self.areas().sum()
+    }
+
+    /// The area of each whole triangle, then that of each patch.
+    pub fn areas(&self) -> impl Iterator<Item = f64> {
+        self.wholes.iter().map(|whole| f64::from(whole.area)).chain(self.patches.iter().map(Patch::open_area))
     }
 
     fn wholes_area(&self) -> f64 {
@@ -78,8 +80,7 @@ impl Open {
         let expected = per_wholes + DARTS_PER_PATCH * self.patches.len() as f64;
         let mut darts = Vec::with_capacity((1.1 * expected) as usize + 16);
         let mut rain = Rain::new(rng, expected / self.area());
-        let areas = self.wholes.iter().map(|whole| f64::from(whole.area));
-        for (number, area) in (0..).zip(areas.chain(self.patches.iter().map(Patch::open_area))) {
+        for (number, area) in (0..).zip(self.areas()) {
             let count = rain.fall(area);
             darts.extend(std::iter::repeat_n(number, count));
         }
@@ -88,7 +89,7 @@ impl Open {
     }
 
     /// A random point of a whole triangle or an open part of a patch.
-    fn point(&self, number: u32, rng: &mut Rng) -> (u32, [f64; 2]) {
+    pub fn point(&self, number: u32, rng: &mut Rng) -> (u32, [f64; 2]) {
         let number = number as usize;
         match self.wholes.get(number) {
             Some(whole) => (whole.triangle, random_point(rng)),
@@ -135,8 +136,7 @@ impl Open {
             } else if patch.longest <= finest {
                 last.push(patch.fragment);
             } else {
-                let parts = (0..16).filter(|part| patch.open >> part & 1 == 1);
-                grown.extend(parts.filter_map(|part| ground.look(&patch.fragment.sixteenth(part))));
+                ground.look_closer(&patch, &mut grown);
             }
         }
         self.patches.truncate(kept);
@@ -147,19 +147,15 @@ impl Open {
     }
 }
 
-/// Throws darts at random points, in order.
-pub(in crate::psp) fn throw<G: Ground>(
-    ground: &mut G,
-    rng: &mut Rng,
-    targets: &[u32],
-    point: impl Fn(u32, &mut Rng) -> (u32, [f64; 2]),
-) {
+/// Throws darts at points of triangles, in order.
+pub(in crate::psp) fn throw<G: Ground>(ground: &mut G, mut points: impl Iterator<Item = (u32, [f64; 2])>) {
     let mut darts = Vec::with_capacity(TOGETHER);
-    for targets in targets.chunks(TOGETHER) {
-        darts.extend(targets.iter().map(|&target| {
-            let (triangle, barycentrics) = point(target, rng);
-            ground.dart(triangle, barycentrics)
-        }));
+    loop {
+        let points = points.by_ref().take(TOGETHER);
+        darts.extend(points.map(|(triangle, barycentrics)| ground.dart(triangle, barycentrics)));
+        if darts.is_empty() {
+            return;
+        }
         darts.drain(..).for_each(|dart| ground.throw(dart));
     }
 }
@@ -175,7 +171,7 @@ pub(in crate::psp) fn rounds<G: Ground, E>(
     let mut round = 0;
     while !(open.wholes.is_empty() && open.patches.is_empty()) {
         let darts = open.rain(rng);
-        throw(ground, rng, &darts, |target, rng| open.point(target, rng));
+        throw(ground, darts.iter().map(|&number| open.point(number, rng)));
         limit *= 0.5;
         open.update(ground, limit);
         round += 1;
