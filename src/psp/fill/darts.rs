@@ -106,3 +106,25 @@ pub(in crate::psp) fn random_point(rng: &mut Rng) -> [f64; 2] {
     let [s, t] = [rng.unit(), rng.unit()];
     if s + t > 1.0 { [1.0 - s, 1.0 - t] } else { [s, t] }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::rng::Draw;
+
+    /// Areas in ratios of up to 1e6, and none at both ends and between.
+    #[test]
+    fn a_row_is_hit_in_proportion_to_its_areas() {
+        let mut rng = Rng::at(5, Draw::Probe, &[]);
+        let area = |i: u32| if i % 3 == 0 { 0.0 } else { [1.0, 1e-6, 0.3, 7.0][i as usize % 4] };
+        let areas: Vec<f64> = (0..100).map(area).collect();
+        let (row, darts) = (Row::new(areas.iter().copied()), 200_000);
+        let mut hits = [0.0; 100];
+        (0..darts).for_each(|_| hits[row.hit(&mut rng) as usize] += 1.0);
+        for (&area, hits) in areas.iter().zip(hits) {
+            let expected = f64::from(darts) * area / row.total();
+            assert!((hits - expected).abs() <= 5.0 * expected.sqrt(), "{hits} for {expected}");
+        }
+        assert_eq!((row.len(), Row::new(std::iter::empty()).total()), (100, 0.0));
+    }
+}

@@ -2,7 +2,7 @@
 
 use crate::mesh::Mesh;
 use crate::psp::fill::darts::{Rain, Row, random_point, shuffle};
-use crate::psp::fill::ground::{Ground, UniformGround};
+use crate::psp::fill::ground::UniformGround;
 use crate::psp::fill::page::{GROUP, Group};
 use crate::psp::fill::rounds::{Open, PATCH, WHOLE, throw};
 use crate::psp::fill::triangles::Triangles;
