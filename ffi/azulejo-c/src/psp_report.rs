@@ -45,7 +45,8 @@ pub struct azulejo_psp_report {
     pub rho: f64,
     /// If the call filled gaps: the fraction of the area that was uncovered before, estimated with
     /// random points on the parts of the surface that no single sample covered when the search came
-    /// to them: at least 1,024, or above about 25,000 samples 64 for each cube of 24 radii. Else -1.
+    /// to them: at least 1,024, or above about 25,000 samples 64 for each cube of 24 radii.
+    /// Else -1.
     pub uncovered_before: f64,
     /// If the call filled gaps: the fraction of the area that is uncovered after it, which is 0.
     /// Else -1.
