@@ -59,6 +59,7 @@ pub(super) struct Step<'a> {
 }
 
 /// Moves points whose constraints are violated in random directions.
+#[derive(Clone, Copy)]
 pub(super) struct Kick {
     /// The key of the directions.
     pub(super) number: u32,

@@ -12,7 +12,7 @@ use crate::psp::adaptive::ground::GradedGround;
 use crate::psp::adaptive::limits::Quota;
 use crate::psp::adaptive::pieces::{Piece, pieces};
 use crate::psp::adaptive::set::AdaptiveSet;
-use crate::psp::fill::darts::{Rain, random_point, shuffle};
+use crate::psp::fill::darts::{Row, random_point};
 use crate::psp::fill::ground::{Ground, Whole};
 use crate::psp::fill::page::GROUP;
 use crate::psp::fill::region::FIRST_DARTS;
@@ -64,15 +64,14 @@ fn grid(mesh: &Mesh, field: &RadiusField, rule: ConflictRule, dots: Vec<Dot>, pi
 
 /// Fills the pieces of a cube.
 fn fill_cube(ground: &mut GradedGround, pieces: &[&Piece], rng: &mut Rng) {
-    let (mut darts, mut rain) = (Vec::new(), Rain::new(rng, FIRST_DARTS));
-    for (number, piece) in (0..).zip(pieces) {
-        darts.extend(std::iter::repeat_n(number, rain.fall(piece.area())));
-    }
-    shuffle(rng, &mut darts);
-    throw(ground, rng, &darts, |number, rng| {
-        let (fragment, bounds) = (pieces[number as usize].fragment(), pieces[number as usize].bounds());
-        (fragment.triangle, fragment.at(random_point(rng)), bounds)
+    let row = Row::new(pieces.iter().map(|piece| piece.area()));
+    let darts = (FIRST_DARTS * row.total() + rng.unit()) as usize;
+    let points = (0..darts).map(|_| {
+        let piece = &pieces[row.hit(rng) as usize];
+        let fragment = piece.fragment();
+        (fragment.triangle, fragment.at(random_point(rng)), piece.bounds())
     });
+    throw(ground, points);
     let Ok(()) = rounds(ground, open(ground, pieces), rng, |_| Ok::<(), std::convert::Infallible>(()));
 }
 

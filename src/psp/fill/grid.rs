@@ -13,6 +13,9 @@ use crate::psp::fill::vectors;
 use crate::psp::sixteenths::PIERCING;
 use crate::simd::Level;
 
+/// Room for so many pages is made at first: a cube of `cubes.rs` hardly has more.
+const PAGES: usize = 1 << 9;
+
 /// Samples by the cells that their balls touch.
 pub(in crate::psp) struct Grid {
     pub space: Space,
@@ -33,7 +36,9 @@ struct Cell {
 
 impl Grid {
     pub fn new(space: Space) -> Self {
-        let (pages, earlier) = (vec![Page::EMPTY], vec![0]);
+        let (mut pages, mut earlier) = (Vec::with_capacity(PAGES), Vec::with_capacity(PAGES));
+        pages.push(Page::EMPTY);
+        earlier.push(0);
         Self { space, level: Level::widest(), cells: Table::new(), pages, earlier }
     }
 
@@ -71,8 +76,9 @@ impl Grid {
     pub fn open_sixteenths(&self, corners: [DVec3; 3], longest: f64, mut open: u16) -> u16 {
         let a = corners[0].as_vec3();
         let [corner, to_b, to_c] = [corners[0] - a.as_dvec3(), corners[1] - corners[0], corners[2] - corners[0]];
-        // No corner is farther from the centre than two thirds of the longest edge.
-        let reach = (self.space.radius() + 2.0 / 3.0 * longest) as f32;
+        // What covers a sixteenth is no farther from its centre than the radius, and this no farther from the centre of
+        // all than three quarters of the way to a corner, which is two thirds of the longest edge.
+        let reach = (self.space.radius() + 0.5 * longest) as f32;
         let part = Part {
             origin: a.to_array(),
             corner: corner.as_vec3().to_array(),

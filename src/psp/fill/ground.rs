@@ -12,6 +12,7 @@ use crate::psp::fill::page::{GROUP, Group};
 use crate::psp::fill::space::Space;
 use crate::psp::fragment::Fragment;
 use crate::psp::samples::Sample;
+use crate::psp::sixteenths::SIXTEENTHS;
 
 /// A whole triangle, small beside the radius, that may be uncovered.
 #[derive(Clone, Copy, Debug)]
@@ -49,6 +50,12 @@ pub(in crate::psp) trait Ground {
     /// A fragment as a patch, unless all of its sixteenths are covered, each by one sample. What is known of the radius
     /// is that of a part which the fragment belongs to.
     fn look(&self, fragment: &Fragment, within: Self::Local) -> Option<Patch<Self::Local>>;
+
+    /// Adds the open sixteenths of a patch that are not covered, as patches.
+    fn look_closer(&self, patch: &Patch<Self::Local>, grown: &mut Vec<Patch<Self::Local>>) {
+        let parts = (0..16).filter(|part| patch.open >> part & 1 == 1);
+        grown.extend(parts.filter_map(|part| self.look(&patch.fragment.sixteenth(part), patch.local)));
+    }
 
     /// Which of the open sixteenths of a patch no single sample certainly covers now.
     fn open_sixteenths(&self, patch: &Patch<Self::Local>) -> u16;
@@ -90,6 +97,11 @@ impl<'a> UniformGround<'a> {
         self.grid.add(self.grid.space.place(position));
     }
 
+    /// Whether a dart conflicts with a sample.
+    pub fn rejects(&self, dart: &Sample) -> bool {
+        self.grid.rejects(self.grid.space.place(dart.position))
+    }
+
     /// A whole triangle, and whether it has any area.
     pub fn whole(&self, triangle: u32) -> (Whole, bool) {
         let corners = self.mesh.exact_corners(triangle).map(|corner| self.grid.space.scaled(corner));
@@ -106,6 +118,34 @@ impl<'a> UniformGround<'a> {
         let at = |[u, v]: [f64; 2]| (1.0 - u - v) * a + u * b + v * c;
         let [p, q, r] = fragment.corners;
         [at(p), at(q), at(r)]
+    }
+
+    /// Adds what is open of the parts of a fragment, `count` along each edge, in patches.
+    pub fn look_at_parts(&self, fragment: &Fragment, count: u32, grown: &mut Vec<Patch>) {
+        let (corners, scale) = (self.corners(fragment), 1.0 / f64::from(count));
+        let (area, longest) = self.size(&corners);
+        let size = ((area * scale * scale) as f32, (longest * scale) as f32);
+        let whole = Fragment::whole(fragment.triangle);
+        let open = |part: Fragment| self.look_at_part(fragment, &corners, part.corners, size);
+        grown.extend(whole.parts(count).filter_map(open));
+    }
+
+    /// A part of a fragment as a patch, unless its sixteenths are covered: the fragment and its corners, those of the
+    /// part in it, area and longest edge of the part.
+    #[inline]
+    fn look_at_part(
+        &self,
+        fragment: &Fragment,
+        [a, b, c]: &[DVec3; 3],
+        part: [[f64; 2]; 3],
+        (area, longest): (f32, f32),
+    ) -> Option<Patch> {
+        let (e, f) = (b - a, c - a);
+        let [p, q, r] = part;
+        let at = |[s, t]: [f64; 2]| a + (s * e + t * f);
+        let open = self.grid.open_sixteenths([at(p), at(q), at(r)], f64::from(longest) / self.per_radius, u16::MAX);
+        let part = || Fragment { corners: [fragment.at(p), fragment.at(q), fragment.at(r)], ..*fragment };
+        (open != 0).then(|| Patch { fragment: part(), open, area, longest, local: () })
     }
 
     /// Area and longest edge.
@@ -130,6 +170,15 @@ impl Ground for UniformGround<'_> {
         let open = self.grid.open_sixteenths(corners, longest / self.per_radius, u16::MAX);
         let patch = Patch { fragment: *fragment, open, area: area as f32, longest: longest as f32, local: () };
         (open != 0).then_some(patch)
+    }
+
+    fn look_closer(&self, patch: &Patch, grown: &mut Vec<Patch>) {
+        let (corners, size) = (self.corners(&patch.fragment), (patch.area / 16.0, patch.longest / 4.0));
+        let parts = (0..16).filter(|part| patch.open >> part & 1 == 1);
+        grown.extend(parts.filter_map(|part| {
+            let part = SIXTEENTHS[part].map(|corner| corner.map(|quarters| 0.25 * quarters));
+            self.look_at_part(&patch.fragment, &corners, part, size)
+        }));
     }
 
     fn open_sixteenths(&self, patch: &Patch) -> u16 {

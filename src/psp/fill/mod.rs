@@ -29,9 +29,10 @@ use crate::mesh::Mesh;
 use crate::psp::cubes::Cube;
 use crate::psp::estimate::expected_samples;
 use crate::psp::fill::blocks::Blocks;
-use crate::psp::fill::ground::UniformGround;
-use crate::psp::fill::region::{Items, first_darts, first_darts_on_pieces, open_parts, open_triangles, throw_first};
-use crate::psp::fill::rounds::{MEASURED, Open, rounds};
+use crate::psp::fill::darts::Row;
+use crate::psp::fill::ground::{Ground, UniformGround};
+use crate::psp::fill::region::{Items, first_darts, open_parts, open_triangles, throw_at, throw_first};
+use crate::psp::fill::rounds::{Open, rounds};
 use crate::psp::fill::space::Space;
 use crate::psp::fill::triangles::{Measures, Triangles};
 use crate::psp::samples::{Sample, SampleSet};
@@ -39,6 +40,11 @@ use crate::rng::{Draw, Rng};
 
 /// Up to so many expected samples a surface is filled in one piece.
 const ONE_PIECE: f64 = 25_000.0;
+
+/// With how many random points, and some more where more is open, the open area of a surface is measured, ...
+const PROBES: usize = 1 << 10;
+/// ... and that of each of its cubes.
+const PROBES_IN_CUBE: usize = 1 << 6;
 
 /// Groups of triangles per task.
 const CHUNK: usize = 1 << 8;
@@ -90,13 +96,20 @@ fn fill_either_way(
     Ok(filled)
 }
 
-/// The area that is open where there were samples before the fill, measured in parts that are fine enough.
-fn open_area(ground: &mut UniformGround, open: &mut Open, is_empty: bool) -> f64 {
-    if is_empty {
+/// The area that is open where there were samples before the fill: the share of random points on what may be uncovered
+/// that no sample covers.
+fn open_area(ground: &UniformGround, open: &Open, probes: usize, rng: &mut Rng) -> f64 {
+    let row = Row::new(open.areas());
+    if row.total() == 0.0 {
         return 0.0;
     }
-    open.update(ground, MEASURED);
-    open.area() * ground.radius() * ground.radius()
+    let probes = probes + row.len() / 8;
+    let is_open = |_: &usize| {
+        let (triangle, barycentrics, ()) = open.point(row.hit(rng), rng);
+        !ground.rejects(&ground.dart(triangle, barycentrics, ()))
+    };
+    let uncovered = (0..probes).filter(is_open).count();
+    row.total() * ground.radius() * ground.radius() * uncovered as f64 / probes as f64
 }
 
 /// Fills the whole surface, and returns the area that was open before the rounds.
@@ -121,7 +134,7 @@ fn fill_in_one_piece(
             darts.append(&mut part);
             Ok(())
         })?;
-        throw_first(ground, Items { triangles, pieces: &[] }, darts, &mut rng);
+        throw_at(ground, triangles, darts, &mut rng);
     }
     let mut open = Open::default();
     let in_chunk = |chunk: usize| open_triangles(ground, triangles, chunks.range(chunk));
@@ -129,7 +142,7 @@ fn fill_in_one_piece(
         open.append(&mut part);
         Ok(())
     })?;
-    let open_area = open_area(ground, &mut open, is_empty);
+    let open_area = if is_empty { 0.0 } else { open_area(ground, &open, PROBES, &mut rng) };
     let job = job.part(0.5, 1.0);
     rounds(ground, open, &mut rng, |round| job.report(1.0 - 0.8f64.powi(round)))?;
     Ok(open_area)
@@ -171,14 +184,11 @@ fn fill_block(
     }
     let triangles = items.triangles;
     if is_empty {
-        let groups = (0..triangles.groups()).map(|group| (group, f64::INFINITY));
-        let mut darts = first_darts(ground.mesh, ground.radius(), triangles, groups, &mut rng);
-        darts.append(&mut first_darts_on_pieces(ground.mesh, ground.radius(), items, &mut rng));
-        throw_first(&mut ground, items, darts, &mut rng);
+        throw_first(&mut ground, items, &mut rng);
     }
     let mut open = open_triangles(&ground, triangles, 0..triangles.groups());
     items.pieces.iter().for_each(|piece| open_parts(&ground, piece, &mut open));
-    let open_area = open_area(&mut ground, &mut open, is_empty);
+    let open_area = if is_empty { 0.0 } else { open_area(&ground, &open, PROBES_IN_CUBE, &mut rng) };
     let Ok(()) = rounds(&mut ground, open, &mut rng, |_| Ok::<(), std::convert::Infallible>(()));
     (ground.accepted, Filled { darts: ground.darts, open_area })
 }

@@ -1,8 +1,8 @@
 //! Filling a part of the surface by itself: the first darts, what they leave open, and the rounds.
 
 use crate::mesh::Mesh;
-use crate::psp::fill::darts::{Rain, random_point, shuffle};
-use crate::psp::fill::ground::{Ground, UniformGround};
+use crate::psp::fill::darts::{Rain, Row, random_point, shuffle};
+use crate::psp::fill::ground::UniformGround;
 use crate::psp::fill::page::{GROUP, Group};
 use crate::psp::fill::rounds::{Open, PATCH, WHOLE, throw};
 use crate::psp::fill::triangles::Triangles;
@@ -48,8 +48,8 @@ impl Items<'_> {
     }
 }
 
-/// On which of some groups of triangles the first darts fall, in order. Of groups that stay dry only the area is
-/// needed.
+/// On which of some groups of triangles the first darts fall as rain, in order. Of groups that stay dry only the area
+/// is needed.
 pub(in crate::psp) fn first_darts(
     mesh: &Mesh,
     radius: f64,
@@ -57,7 +57,7 @@ pub(in crate::psp) fn first_darts(
     groups: impl Iterator<Item = (usize, f64)>,
     rng: &mut Rng,
 ) -> Vec<u32> {
-    let (mut darts, mut rain) = (Vec::new(), first_rain(rng, radius));
+    let (mut darts, mut rain) = (Vec::new(), Rain::new(rng, FIRST_DARTS / (radius * radius)));
     for (group, area) in groups {
         if !rain.passes(area) {
             let (areas, _) = triangles.measure(mesh, group);
@@ -69,25 +69,24 @@ pub(in crate::psp) fn first_darts(
     darts
 }
 
-/// On which pieces they fall.
-pub(in crate::psp) fn first_darts_on_pieces(mesh: &Mesh, radius: f64, items: Items, rng: &mut Rng) -> Vec<u32> {
-    let mut rain = first_rain(rng, radius);
-    let numbers = items.triangles.len() as u32..;
-    let darts = numbers.zip(items.pieces);
-    darts.flat_map(|(number, piece)| std::iter::repeat_n(number, rain.fall(piece.area(mesh)))).collect()
-}
-
-fn first_rain(rng: &mut Rng, radius: f64) -> Rain<'_> {
-    Rain::new(rng, FIRST_DARTS / (radius * radius))
-}
-
-/// Throws the first darts.
-pub(in crate::psp) fn throw_first(ground: &mut UniformGround, items: Items, mut darts: Vec<u32>, rng: &mut Rng) {
+/// Throws the first darts at triangles on which they fall.
+pub(in crate::psp) fn throw_at(ground: &mut UniformGround, triangles: Triangles, mut darts: Vec<u32>, rng: &mut Rng) {
     shuffle(rng, &mut darts);
-    throw(ground, rng, &darts, |number, rng| {
-        let fragment = items.fragment(number);
+    throw(ground, darts.iter().map(|&index| (triangles.at(index as usize), random_point(rng), ())));
+}
+
+/// Throws the first darts at all of some items.
+pub(in crate::psp) fn throw_first(ground: &mut UniformGround, items: Items, rng: &mut Rng) {
+    let (mesh, radius, triangles) = (ground.mesh, ground.radius(), items.triangles);
+    let of_group = |group: usize| triangles.measure(mesh, group).0.into_iter().take(triangles.group(group).len());
+    let of_pieces = items.pieces.iter().map(|piece| piece.area(mesh));
+    let row = Row::new((0..triangles.groups()).flat_map(of_group).chain(of_pieces));
+    let darts = (FIRST_DARTS * row.total() / (radius * radius) + rng.unit()) as usize;
+    let points = (0..darts).map(|_| {
+        let fragment = items.fragment(row.hit(rng));
         (fragment.triangle, fragment.at(random_point(rng)), ())
     });
+    throw(ground, points);
 }
 
 /// What is open of some groups of triangles.
@@ -126,13 +125,18 @@ fn add(ground: &UniformGround, triangle: u32, open: &mut Open) {
 
 /// Adds what is open of a fragment, in patches that are small enough.
 pub(in crate::psp) fn open_parts(ground: &UniformGround, fragment: &Fragment, open: &mut Open) {
-    let parts = parts_up_to(ground.mesh, fragment, PATCH * ground.radius());
-    open.patches.extend(parts.filter_map(|part| ground.look(&part, ())));
+    let count = count_up_to(ground.mesh, fragment, PATCH * ground.radius());
+    ground.look_at_parts(fragment, count, &mut open.patches);
+}
+
+/// How many parts of its own shape along each of its edges a fragment has that are no longer than `longest`.
+fn count_up_to(mesh: &Mesh, fragment: &Fragment, longest: f64) -> u32 {
+    (fragment.shape(mesh).longest / longest).ceil().max(1.0) as u32
 }
 
 /// The parts of a fragment, of its own shape, that are no longer than `longest`.
 pub(in crate::psp) fn parts_up_to(mesh: &Mesh, fragment: &Fragment, longest: f64) -> impl Iterator<Item = Fragment> {
-    fragment.parts((fragment.shape(mesh).longest / longest).ceil().max(1.0) as u32)
+    fragment.parts(count_up_to(mesh, fragment, longest))
 }
 
 const _: () = assert!(GROUP == 64, "a bit for each triangle");

@@ -29,9 +29,6 @@ pub(in crate::psp) const PATCH: f64 = 2.0;
 /// Triangles up to this length are kept whole at first.
 pub(in crate::psp) const WHOLE: f32 = 0.5;
 
-/// The open area is measured in triangles up to this length, and in sixteenths of patches up to four times as long.
-pub(in crate::psp) const MEASURED: f32 = 0.25;
-
 /// How many darts a round throws for each whole triangle, ...
 const DARTS_PER_WHOLE: f64 = 0.2;
 /// ... or, where these are tiny, for each squared radius of them, ...
@@ -64,7 +61,12 @@ impl<L> Patch<L> {
 impl<L: Copy> Open<L> {
     /// The area of all of it, in squared radii.
     pub fn area(&self) -> f64 {
-        self.wholes_area() + self.patches.iter().map(Patch::open_area).sum::<f64>()
+        self.areas().sum()
+    }
+
+    /// The area of each whole triangle, then that of each patch.
+    pub fn areas(&self) -> impl Iterator<Item = f64> {
+        self.wholes.iter().map(|whole| f64::from(whole.area)).chain(self.patches.iter().map(Patch::open_area))
     }
 
     fn wholes_area(&self) -> f64 {
@@ -83,8 +85,7 @@ impl<L: Copy> Open<L> {
         let expected = per_wholes + DARTS_PER_PATCH * self.patches.len() as f64;
         let mut darts = Vec::with_capacity((1.1 * expected) as usize + 16);
         let mut rain = Rain::new(rng, expected / self.area());
-        let areas = self.wholes.iter().map(|whole| f64::from(whole.area));
-        for (number, area) in (0..).zip(areas.chain(self.patches.iter().map(Patch::open_area))) {
+        for (number, area) in (0..).zip(self.areas()) {
             let count = rain.fall(area);
             darts.extend(std::iter::repeat_n(number, count));
         }
@@ -93,7 +94,7 @@ impl<L: Copy> Open<L> {
     }
 
     /// A random point of a whole triangle or an open part of a patch.
-    fn point(&self, number: u32, rng: &mut Rng) -> (u32, [f64; 2], L) {
+    pub fn point(&self, number: u32, rng: &mut Rng) -> (u32, [f64; 2], L) {
         let number = number as usize;
         match self.wholes.get(number) {
             Some(whole) => (whole.triangle, random_point(rng), whole.local),
@@ -140,8 +141,7 @@ impl<L: Copy> Open<L> {
             } else if patch.longest <= finest {
                 last.push((patch.fragment, patch.local));
             } else {
-                let parts = (0..16).filter(|part| patch.open >> part & 1 == 1);
-                grown.extend(parts.filter_map(|part| ground.look(&patch.fragment.sixteenth(part), patch.local)));
+                ground.look_closer(&patch, &mut grown);
             }
         }
         self.patches.truncate(kept);
@@ -152,19 +152,15 @@ impl<L: Copy> Open<L> {
     }
 }
 
-/// Throws darts at random points, in order.
-pub(in crate::psp) fn throw<G: Ground>(
-    ground: &mut G,
-    rng: &mut Rng,
-    targets: &[u32],
-    point: impl Fn(u32, &mut Rng) -> (u32, [f64; 2], G::Local),
-) {
+/// Throws darts at points of triangles, in order.
+pub(in crate::psp) fn throw<G: Ground>(ground: &mut G, mut points: impl Iterator<Item = (u32, [f64; 2], G::Local)>) {
     let mut darts = Vec::with_capacity(TOGETHER);
-    for targets in targets.chunks(TOGETHER) {
-        darts.extend(targets.iter().map(|&target| {
-            let (triangle, barycentrics, local) = point(target, rng);
-            ground.dart(triangle, barycentrics, local)
-        }));
+    loop {
+        let points = points.by_ref().take(TOGETHER);
+        darts.extend(points.map(|(triangle, barycentrics, local)| ground.dart(triangle, barycentrics, local)));
+        if darts.is_empty() {
+            return;
+        }
         darts.drain(..).for_each(|dart| ground.throw(dart));
     }
 }
@@ -180,7 +176,7 @@ pub(in crate::psp) fn rounds<G: Ground, E>(
     let mut round = 0;
     while !(open.wholes.is_empty() && open.patches.is_empty()) {
         let darts = open.rain(rng);
-        throw(ground, rng, &darts, |target, rng| open.point(target, rng));
+        throw(ground, darts.iter().map(|&number| open.point(number, rng)));
         limit *= 0.5;
         open.update(ground, limit);
         round += 1;

@@ -6,12 +6,15 @@ pub(in crate::psp) struct Table<T> {
     len: usize,
 }
 
+/// So many slots are made at first: enough for the cells of a cube of `cubes.rs`, as a rule.
+const SLOTS: usize = 1 << 10;
+
 /// The key of no cell.
 const FREE: u64 = u64::MAX;
 
 impl<T: Copy + Default> Table<T> {
     pub fn new() -> Self {
-        Self { slots: vec![(FREE, T::default()); 64], len: 0 }
+        Self { slots: vec![(FREE, T::default()); SLOTS], len: 0 }
     }
 
     /// Where the search for a key begins.
