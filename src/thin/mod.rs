@@ -27,8 +27,10 @@ pub use options::{Options, Order, Selection};
 
 use selecting::select;
 
-/// The most bytes that a point takes at the peak: two copies of it while the tree is made, half-empty leaves, the result.
-const BYTES_PER_POINT: f64 = 120.0;
+/// The most bytes that a point takes at the peak, and each of its coordinates: there are three copies of it while the tree
+/// is made, and leaves may be half empty.
+const BYTES_PER_POINT: f64 = 70.0;
+const BYTES_PER_COORDINATE: f64 = 24.0;
 
 /// Selects points of a cloud, in the plane (`D` = 2), in space (3) or with any number of coordinates.
 ///
@@ -42,8 +44,8 @@ const BYTES_PER_POINT: f64 = 120.0;
 /// result is the same for every number of threads; these share the making of the tree, the selection itself runs on one
 /// thread.
 ///
-/// O(n log n) for n points of which none has more than a few times as many others near it as most have; at worst
-/// O(n · selected). Memory is O(n).
+/// O(n log n) for n points, whether or not their density varies; O(n · selected) at worst, in clouds made for it, such as a
+/// sphere of points around the first. Memory is O(n).
 ///
 /// # Errors
 /// [`Error::InvalidArgument`] for an option out of range, and for points that are not finite (`positions`, with the
@@ -76,7 +78,8 @@ pub fn thin<const D: usize>(
         let reason = format!("point {index} is {:?}, not finite", positions[index]);
         return Err(Error::invalid("positions", reason));
     }
-    memory::require(count as f64 * BYTES_PER_POINT, "positions", &format!("{count} points"))?;
+    let bytes = BYTES_PER_POINT + D as f64 * BYTES_PER_COORDINATE;
+    memory::require(count as f64 * bytes, "positions", &format!("{count} points"))?;
     context.run(
         progress,
         |job| {
