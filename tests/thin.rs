@@ -55,42 +55,33 @@ fn farthest_first<const D: usize>(cloud: &[[f32; D]], first: u32) -> Vec<(u32, f
 /// Clouds of points of all kinds, each with a radius that keeps some of them.
 fn clouds<const D: usize>(count: usize, seed: u64) -> Vec<(&'static str, Vec<[f32; D]>, f64)> {
     let mut random = Random::new(seed);
-    let mut unit = move || random.unit();
-    let mut cloud = |mut point: Box<dyn FnMut(usize, &mut dyn FnMut() -> f32) -> [f32; D]>| -> Vec<[f32; D]> {
-        (0..count).map(|i| point(i, &mut unit)).collect()
-    };
-    let uniform = cloud(Box::new(|_, unit| std::array::from_fn(|_| unit())));
-    let heaps = cloud(Box::new(|i, unit| std::array::from_fn(|_| (i % 5) as f32 + 1e-3 * unit())));
-    let few_places = cloud(Box::new(|_, unit| std::array::from_fn(|_| (4.0 * unit()).floor())));
-    let line = cloud(Box::new(|_, unit| [unit(); D].map(|_| 0.0)));
-    let on_axis = cloud(Box::new(|_, unit| {
-        let x = unit();
-        std::array::from_fn(|axis| if axis == 0 { x } else { 3.0 })
-    }));
-    let diagonal = cloud(Box::new(|_, unit| [unit(); D]));
-    let lattice = cloud(Box::new(|i, _| std::array::from_fn(|axis| (i / 7usize.pow(axis as u32) % 7) as f32)));
-    let far_away = cloud(Box::new(|_, unit| std::array::from_fn(|_| 1e6 + unit())));
-    let scan = cloud(Box::new(|i, unit| std::array::from_fn(|axis| if axis == 0 { i as f32 / 50.0 } else { unit() })));
-    let tiny = cloud(Box::new(|_, unit| std::array::from_fn(|_| 1e-44 * unit())));
-    let huge = cloud(Box::new(|_, unit| std::array::from_fn(|_| 6.8e38f64.mul_add(f64::from(unit()), -3.4e38) as f32)));
-    let scales = cloud(Box::new(|_, unit| std::array::from_fn(|_| 10f32.powf(60.0 * unit() - 30.0))));
-    let outlier = cloud(Box::new(|i, unit| std::array::from_fn(|_| if i == 3 { 1e20 } else { unit() })));
+    let mut unit = || random.unit();
+    let huge = |x: f32| 6.8e38f64.mul_add(f64::from(x), -3.4e38) as f32;
+    let all = 0..count;
     vec![
-        ("uniform", uniform, 0.13),
-        ("heaps", heaps, 4e-4),
-        ("few places", few_places, 1.5),
-        ("one place", line, 0.5),
-        ("on an axis", on_axis, 0.01),
-        ("diagonal", diagonal, 0.02),
-        ("lattice", lattice, 2.0),
-        ("lattice, exactly apart", (0..count).map(|i| [(i % 9) as f32; D]).collect(), 1.0),
-        ("far away", far_away, 0.125),
-        ("scan", scan, 0.3),
-        ("tiny", tiny, 3e-45),
-        ("huge", huge, 1e38),
-        ("scales", scales, 1e-3),
-        ("an outlier", outlier, 0.2),
+        ("uniform", all.clone().map(|_| [(); D].map(|()| unit())).collect(), 0.13),
+        ("heaps", all.clone().map(|i| [(); D].map(|()| (i % 5) as f32 + 1e-3 * unit())).collect(), 4e-4),
+        ("few places", all.clone().map(|_| [(); D].map(|()| (4.0 * unit()).floor())).collect(), 1.5),
+        ("one place", vec![[0.5; D]; count], 0.5),
+        ("a diagonal", all.clone().map(|_| [unit(); D]).collect(), 0.02),
+        ("along an axis", all.clone().map(|_| along_axis(unit(), || 3.0)).collect(), 0.01),
+        ("a scan", all.clone().map(|i| along_axis(i as f32 / 50.0, &mut unit)).collect(), 0.3),
+        ("a lattice", all.clone().map(on_lattice).collect(), 2.0),
+        ("just apart", all.clone().map(|i| [(i % 9) as f32; D]).collect(), (D as f64).sqrt()),
+        ("far away", all.clone().map(|_| [(); D].map(|()| 1e6 + unit())).collect(), 0.125),
+        ("tiny", all.clone().map(|_| [(); D].map(|()| 1e-44 * unit())).collect(), 3e-45),
+        ("huge", all.clone().map(|_| [(); D].map(|()| huge(unit()))).collect(), 1e38),
+        ("all scales", all.clone().map(|_| [(); D].map(|()| 10f32.powf(60.0 * unit() - 30.0))).collect(), 1e-3),
+        ("an outlier", all.map(|i| [(); D].map(|()| if i == 3 { 1e20 } else { unit() })).collect(), 0.2),
     ]
+}
+
+fn along_axis<const D: usize>(x: f32, mut other: impl FnMut() -> f32) -> [f32; D] {
+    std::array::from_fn(|axis| if axis == 0 { x } else { other() })
+}
+
+fn on_lattice<const D: usize>(i: usize) -> [f32; D] {
+    std::array::from_fn(|axis| (i / 7usize.pow(axis as u32) % 7) as f32)
 }
 
 fn check<const D: usize>(count: usize, seed: u64) {

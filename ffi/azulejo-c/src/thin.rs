@@ -7,7 +7,7 @@ use azulejo_core::thin::{Options, Order, Selection, thin};
 
 use crate::boundary::{self, array, required, rows};
 use crate::context::azulejo_context;
-use crate::growing::{self, Growing, growing};
+use crate::growing::{self, growing};
 use crate::progress::{Watch, azulejo_progress_fn};
 use crate::status::{Failure, azulejo_status};
 
@@ -172,6 +172,7 @@ pub extern "C" fn azulejo_selection_free(selection: Option<Box<azulejo_selection
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::growing::Growing;
 
     #[test]
     fn the_defaults_are_those_of_the_core() {
