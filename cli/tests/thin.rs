@@ -46,7 +46,7 @@ fn points_come_in_the_order_of_the_cloud_or_coarse_to_fine() {
     let progressive = names(&["--order", "progressive"]);
     let counted = names(&["--count", "3"]);
     let mut first = progressive[..4].to_vec();
-    first.sort();
+    first[1..].sort();
     assert_eq!((progressive.len(), progressive[0].as_str(), first), (6, "name", counted));
     assert_eq!(names(&["--order", "progressive", "--radius", "0.3"]), progressive[..4]);
     assert_eq!(names(&["--count", "1e6"]), ["name", "a", "b", "c", "d", "e"]);

@@ -22,6 +22,7 @@ mod vectors;
 use crate::error::{Error, Result};
 use crate::job::{Context, Progress};
 use crate::memory;
+use crate::simd::Level;
 
 pub use options::{Options, Order, Selection};
 
@@ -80,10 +81,7 @@ pub fn thin<const D: usize>(
     }
     let bytes = BYTES_PER_POINT + D as f64 * BYTES_PER_COORDINATE;
     memory::require(count as f64 * bytes, "positions", &format!("{count} points"))?;
-    context.run(
-        progress,
-        |job| {
-            if positions.is_empty() { Ok(Selection::default()) } else { select(job, options, positions) }
-        },
-    )
+    context.run(progress, |job| {
+        if positions.is_empty() { Ok(Selection::default()) } else { select(job, Level::widest(), options, positions) }
+    })
 }

@@ -16,7 +16,12 @@ const REPORTED: usize = 1024;
 const TREE_SHARE: f64 = 0.3;
 
 /// Selects points of a cloud, of which there is at least one.
-pub(super) fn select<const D: usize>(job: &Job, options: &Options, positions: &[[f32; D]]) -> Result<Selection> {
+pub(super) fn select<const D: usize>(
+    job: &Job,
+    level: Level,
+    options: &Options,
+    positions: &[[f32; D]],
+) -> Result<Selection> {
     let count = if options.count == 0 { positions.len() } else { options.count.min(positions.len()) };
     let end = End { squared: least_square(options.radius), count };
     // By radius, a point that is far enough from what is selected is as far as any other, and one that is not is out: so the
@@ -28,7 +33,7 @@ pub(super) fn select<const D: usize>(job: &Job, options: &Options, positions: &[
     if !by_radius {
         selecting.select(Rng::at(options.seed, Draw::Thin, &[]).below(positions.len() as u64) as u32, f64::INFINITY);
     }
-    let (job, level) = (job.part(TREE_SHARE, 1.0), Level::widest());
+    let job = job.part(TREE_SHARE, 1.0);
     while advance(level, &mut selecting, &end, REPORTED) {
         job.report(if by_radius { selecting.share_of_indices() } else { selecting.share_of(&end) })?;
     }

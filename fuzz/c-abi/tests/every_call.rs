@@ -159,8 +159,8 @@ fn clouds() {
     let cloud: [[f32; 2]; 21] = std::array::from_fn(|i| [(i * i % 21) as f32, (i % 5) as f32]);
     let mut options = defaults(azulejo_thin_options_init);
     options.order = AZULEJO_ORDER_PROGRESSIVE;
-    // SAFETY: 21 points of the plane, 14 of space.
     for (count, dimensions) in [(21, 2), (14, 3), (0, 2)] {
+        // SAFETY: 21 points of the plane, 14 of space.
         let selection = made(|out| unsafe {
             azulejo_thin(Some(&context), &options, cloud.as_ptr().cast(), count, dimensions, out)
         });
