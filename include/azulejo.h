@@ -22,9 +22,9 @@
  *
  * What there is: azulejo_kdrt_ maximal Poisson-disk sets in the plane, by radius or by number;
  * azulejo_psp_ the same on triangle meshes, also with a radius that varies; azulejo_dcr_
- * relaxation of point sets, in the plane, with a density, and on meshes; azulejo_maximal_ the slow
- * unbiased reference; azulejo_plane_, azulejo_mesh_, azulejo_spectrum_ and azulejo_differences_
- * analysis.
+ * relaxation of point sets, in the plane, with a density, and on meshes; azulejo_thin points of a
+ * cloud that are far from each other; azulejo_maximal_ the slow unbiased reference; azulejo_plane_,
+ * azulejo_mesh_, azulejo_spectrum_ and azulejo_differences_ analysis.
  *
  * The following holds for every function unless its own text says otherwise.
  *
@@ -48,10 +48,10 @@
  *   Nothing is printed to stdout; a panic prints to stderr.
  *
  * Handles. azulejo_context, azulejo_kdrt, azulejo_mesh, azulejo_psp, azulejo_points,
- *   azulejo_spectrum and azulejo_differences are made by the library. The caller owns them and
- *   frees each with its own _free function, which allows NULL. They may be freed in any order: a
- *   handle keeps what it needs of another one. Accessors return 0 or NULL for NULL. Pointers into
- *   a handle are valid until the handle is freed.
+ *   azulejo_selection, azulejo_spectrum and azulejo_differences are made by the library. The
+ *   caller owns them and frees each with its own _free function, which allows NULL. They may be
+ *   freed in any order: a handle keeps what it needs of another one. Accessors return 0 or NULL
+ *   for NULL. Pointers into a handle are valid until the handle is freed.
  *
  * Pointers. An argument may be NULL only where its text says so. Arrays are packed, and are read
  *   during the call only. The pointer of an empty array may be NULL, with the count 0. Pointers
@@ -86,14 +86,14 @@
  *   threads as well, by several at once, so they must be thread-safe.
  *
  * Threads. Every function may be called from any thread at any time. Several threads may use one
- *   context at once, make windows of one plane, and read one mesh, set of points, spectrum or
- *   differences. A psp handle serves one changing call at a time and refuses a second one. A
- *   handle must not be freed while another thread uses it. The last error belongs to the thread
- *   that made the call. After fork, in the child, contexts with more than one thread and psp
- *   handles made with them return AZULEJO_ERROR_THREADS, since their threads exist in the parent
- *   only; they can still be freed. Planes, contexts of one thread, and contexts made after the
- *   fork work. Embree's own threads are lost as well: a process that used Embree before it forked
- *   should use AZULEJO_ENGINE_RASTERISER in the child.
+ *   context at once, make windows of one plane, and read one mesh, set of points, selection,
+ *   spectrum or differences. A psp handle serves one changing call at a time and refuses a second
+ *   one. A handle must not be freed while another thread uses it. The last error belongs to the
+ *   thread that made the call. After fork, in the child, contexts with more than one thread and
+ *   psp handles made with them return AZULEJO_ERROR_THREADS, since their threads exist in the
+ *   parent only; they can still be freed. Planes, contexts of one thread, and contexts made after
+ *   the fork work. Embree's own threads are lost as well: a process that used Embree before it
+ *   forked should use AZULEJO_ENGINE_RASTERISER in the child.
  *
  * Determinism. The same options and seed give the same bytes, for every number of threads and
  *   whatever was called before.
@@ -245,6 +245,12 @@
 /// The progress callback cancelled the call.
 #define AZULEJO_STOPPED_CANCELLED 2
 
+/// In no particular order.
+#define AZULEJO_ORDER_ANY 0
+
+/// Coarse to fine: the first points are a sparser set of the same kind, whatever their number.
+#define AZULEJO_ORDER_PROGRESSIVE 1
+
 /// The cells per side of the grid of azulejo_differences_density.
 #define AZULEJO_DIFFERENCES_SIZE 128
 
@@ -291,6 +297,11 @@ typedef struct azulejo_points azulejo_points;
 /// One call at a time may change it; another one, from another thread or from the progress
 /// callback, is refused. Several threads may copy its points at once.
 typedef struct azulejo_psp azulejo_psp;
+
+/// Points of a cloud that azulejo_thin selected. Immutable: several threads may read it at once.
+/// Its arrays have one entry per selected point, in the same order, and are valid until
+/// azulejo_selection_free.
+typedef struct azulejo_selection azulejo_selection;
 
 /// The power spectrum of a set of the plane, or the mean of several: |sum of exp(-2 pi i f x)|^2 /
 /// count on a square grid of frequencies f. Its mean is 1 for a Poisson process (Ulichney 1988;
@@ -780,6 +791,35 @@ typedef struct azulejo_dcr_surface_report {
     /// for fewer than two samples.
     double rho;
 } azulejo_dcr_surface_report;
+
+/// Options of azulejo_thin. What is selected follows from `order`, `radius` and `count`:
+///
+///   any order, a radius: in the order of the cloud, each point that no selected one before it is
+///     nearer to than the radius;
+///   any order, a count (and a radius): the points that the progressive order would select, in the
+///     order of the cloud;
+///   progressive order: each next point is the farthest from those before, the lowest index on
+///     ties, until there are `count` points, or no point is left that is at least `radius` from
+///     all of them; all points if both are 0.
+///
+/// Any order with neither is refused.
+typedef struct azulejo_thin_options {
+    /// The size of the struct in bytes; set by the _init function.
+    uint32_t struct_size;
+    /// An AZULEJO_ORDER_ constant; default any.
+    uint32_t order;
+    /// The smallest distance between two selected points, above 0; default 0: none.
+    double radius;
+    /// The number of points to select. A cloud that has fewer is selected whole. Default 0: none.
+    size_t count;
+    /// Any number. It chooses the first point of the progressive order, on which the others depend;
+    /// a selection in any order without a count uses no random numbers. Default 0.
+    uint64_t seed;
+    /// Called during the call; default NULL: the callback of the context, if it has one.
+    azulejo_progress_fn progress;
+    /// Passed to the progress callback.
+    void *progress_user;
+} azulejo_thin_options;
 
 /// How a set covers a domain or a surface with disks of a radius: the result of
 /// azulejo_plane_coverage and azulejo_mesh_coverage.
@@ -1648,6 +1688,55 @@ azulejo_status azulejo_dcr_surface_relax(const struct azulejo_context *context,
                                          size_t count,
                                          struct azulejo_points **out,
                                          struct azulejo_dcr_surface_report *report);
+
+/// Writes the defaults. `struct_size` is sizeof *options.
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
+azulejo_status azulejo_thin_options_init(struct azulejo_thin_options *options, size_t struct_size);
+
+/// Selects points of a cloud that are far from each other and near to all the others.
+///
+/// With a radius, the selected points are at least the radius apart; without a count, every other
+/// point is nearer than the radius to one of them. Without a radius, no other point is farther from
+/// the selected ones than any two of them are from each other. In the progressive order this holds
+/// for the first points of the selection as well, for any number of them. Distances are computed in
+/// double arithmetic from the floats, without tolerance.
+///
+/// positions: the points, x y or x y z each, finite; `count` of them, at most 2^32 - 1. They may
+/// coincide: by radius one of them is selected, in the progressive order they come last.
+///
+/// dimensions: the number of coordinates of a point, 2 or 3.
+///
+/// out: the selected points, to be freed with azulejo_selection_free.
+///
+/// O(count * log(count)) time, whether or not the density of the cloud varies; at worst, in clouds
+/// made for it, O(count * selected). Up to 150 bytes of memory per point. The threads of the
+/// context share the sorting of the points; the selection itself runs on one.
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, for a point that is not finite with its index;
+/// AZULEJO_ERROR_TOO_LARGE; AZULEJO_ERROR_CANCELLED.
+azulejo_status azulejo_thin(const struct azulejo_context *context,
+                            const struct azulejo_thin_options *options,
+                            const float *positions,
+                            size_t count,
+                            uint32_t dimensions,
+                            struct azulejo_selection **out);
+
+/// The number of selected points; 0 for NULL.
+size_t azulejo_selection_count(const struct azulejo_selection *selection);
+
+/// The indices of the selected points in the cloud: ascending in any order, in the order of
+/// selection in the progressive one. NULL for NULL and for an empty selection.
+const uint32_t *azulejo_selection_indices(const struct azulejo_selection *selection);
+
+/// The ranks of the points of a progressive selection: the distance of each from the nearest of
+/// those before it, rounded down to a float. They never rise; the first is infinite, those of
+/// points that coincide with one before are 0. All points with a rank of at least r are at least r
+/// apart. NULL for NULL, an empty selection and AZULEJO_ORDER_ANY.
+const float *azulejo_selection_ranks(const struct azulejo_selection *selection);
+
+/// Frees the selection with its arrays. NULL is allowed.
+void azulejo_selection_free(struct azulejo_selection *selection);
 
 /// The smallest distance between two points of the plane, in double arithmetic; on a periodic
 /// domain around the torus.

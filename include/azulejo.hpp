@@ -678,6 +678,8 @@ using PspOptions = Options<azulejo_psp_options, azulejo_psp_options_init>;
 using DcrOptions = PlaneOptions<azulejo_dcr_options, azulejo_dcr_options_init>;
 /// See azulejo_dcr_surface_options.
 using DcrSurfaceOptions = Options<azulejo_dcr_surface_options, azulejo_dcr_surface_options_init>;
+/// See azulejo_thin_options; `radius`, `count` or `order` is to be set.
+using ThinOptions = Options<azulejo_thin_options, azulejo_thin_options_init>;
 
 /// See azulejo_psp_adaptive_options; the radii of the vertices or a function is to be set.
 class PspAdaptiveOptions
@@ -1048,6 +1050,44 @@ inline Status try_kdrt_merge(const Context &context, const KdrtMergeOptions &opt
     return detail::make(out, [&](auto **points) {
         return azulejo_kdrt_merge(context.get(), &options, c_pieces.data(), c_pieces.size(),
                                   fixed.data(), fixed.size(), points, report);
+    });
+}
+
+/// Points of a cloud that were selected; see azulejo_selection.
+class Selection : public Owner<azulejo_selection, azulejo_selection_free> {
+public:
+    using Owner::Owner;
+
+    /// The number of points; see azulejo_selection_count.
+    std::size_t size() const noexcept { return azulejo_selection_count(get()); }
+    /// Their indices in the cloud; see azulejo_selection_indices.
+    Span<const std::uint32_t> indices() const noexcept {
+        return {azulejo_selection_indices(get()), size()};
+    }
+    /// The ranks of a progressive selection, empty in any order; see azulejo_selection_ranks.
+    Span<const float> ranks() const noexcept {
+        const float *ranks = azulejo_selection_ranks(get());
+        return {ranks, ranks ? size() : 0};
+    }
+};
+
+/// Selects points of a cloud of the plane; see azulejo_thin.
+inline Status try_plane_thin(const Context &context, const ThinOptions &options,
+                             const PlanePoints &positions, Selection &out) {
+    if (Status s = positions.check("positions"); !s.ok()) return s;
+    return detail::make(out, [&](auto **selection) {
+        return azulejo_thin(context.get(), &options, positions.data(), positions.size(), 2,
+                            selection);
+    });
+}
+
+/// Selects points of a cloud in space; see azulejo_thin.
+inline Status try_space_thin(const Context &context, const ThinOptions &options,
+                             const SpacePoints &positions, Selection &out) {
+    if (Status s = positions.check("positions"); !s.ok()) return s;
+    return detail::make(out, [&](auto **selection) {
+        return azulejo_thin(context.get(), &options, positions.data(), positions.size(), 3,
+                            selection);
     });
 }
 
@@ -1458,6 +1498,20 @@ inline Points kdrt_merge(const Context &context, const KdrtMergeOptions &options
     Points points;
     check(try_kdrt_merge(context, options, pieces, fixed, points, report));
     return points;
+}
+
+inline Selection plane_thin(const Context &context, const ThinOptions &options,
+                            const PlanePoints &positions) {
+    Selection selection;
+    check(try_plane_thin(context, options, positions, selection));
+    return selection;
+}
+
+inline Selection space_thin(const Context &context, const ThinOptions &options,
+                            const SpacePoints &positions) {
+    Selection selection;
+    check(try_space_thin(context, options, positions, selection));
+    return selection;
 }
 
 inline Points maximal_sample(const Context &context, const MaximalOptions &options) {

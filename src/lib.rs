@@ -5,6 +5,7 @@
 //! | [`kdrt`] | massive maximal Poisson-disk sets in the plane | thesis ch. 2 |
 //! | [`psp`] | Poisson-disk samples on triangle meshes, maximal if wanted | thesis ch. 3 |
 //! | [`dcr`] | a point set, in the plane or on a mesh, relaxed by distance constraints | thesis ch. 4 |
+//! | [`mod@thin`] | some points of a cloud, far from each other and near to all the others | Gonzalez 1985 |
 //! | [`maximal`] | the unbiased set that the others are measured by | Ebeida et al. 2012 |
 //! | [`analysis`] | spacing, coverage, spectra, distances, triangles and bond order of any set | |
 //!
@@ -51,6 +52,7 @@ pub mod psp;
 mod rng;
 mod setters;
 mod simd;
+pub mod thin;
 #[allow(unsafe_code)]
 pub mod trace;
 

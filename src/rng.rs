@@ -48,6 +48,8 @@ pub(crate) enum Draw {
     Kick,
     /// DCR: random points of a surface, on which heaped samples are dealt out.
     Spread,
+    /// Thinning: which point is the first of the progressive order.
+    Thin,
 }
 
 /// The stream of random numbers of one place.

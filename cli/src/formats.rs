@@ -15,6 +15,7 @@
 mod hostile;
 mod npy;
 mod raw;
+mod records;
 pub mod set;
 pub mod surface;
 mod table;
@@ -27,6 +28,7 @@ use clap::{Args, ValueEnum};
 use crate::input;
 use crate::output::Output;
 use crate::ply;
+use records::Records;
 use set::{PlaneSet, PointSet, SampleSet};
 use surface::SurfaceTable;
 
@@ -105,15 +107,51 @@ impl Input {
         self.read(path)?.into_samples().map_err(|reason| format_error(path, reason))
     }
 
+    /// Reads a cloud of points with all that is known of them.
+    pub fn read_cloud(&self, path: &Path) -> Result<Cloud> {
+        let format = self.format_of(path)?;
+        let bytes = input::bytes(path)?;
+        let set = |bytes| self.parse(path, format, bytes).map(PointSet::into_positions);
+        let (positions, records) = match format {
+            Format::Ply => {
+                let positions = ply::positions(&bytes).map_err(|reason| format_error(path, reason))?;
+                (positions, Records::of_ply(bytes))
+            }
+            Format::Csv | Format::Xyz => {
+                let positions = set(&bytes)?;
+                let count = positions.len();
+                (positions, Records::of_table(bytes, count))
+            }
+            Format::Raw => {
+                let positions = set(&bytes)?;
+                let count = positions.len();
+                (positions, Ok(Records::of_raw(bytes, count)))
+            }
+            Format::Npy => {
+                let reason = "records of NumPy arrays are not copied: give the cloud as .ply, .csv, .xyz or .raw";
+                return Err(format_error(path, reason));
+            }
+        };
+        let records = records.map_err(|reason| format_error(path, reason))?;
+        Ok(Cloud { format, positions, records })
+    }
+
     /// Reads points, of which there is at least one, all finite.
     fn read(&self, path: &Path) -> Result<PointSet> {
-        let format = self.input_format.map_or_else(|| Format::of(path), Ok);
-        let bytes = input::bytes(path)?;
-        let set = match (format?, self.dimensions) {
-            (Format::Ply, _) => ply::parse(&bytes),
-            (Format::Npy, _) => npy::parse(&bytes),
-            (Format::Csv | Format::Xyz, _) => table::parse(&bytes),
-            (Format::Raw, Some(dimensions)) => raw::parse(&bytes, dimensions),
+        let format = self.format_of(path);
+        self.parse(path, format?, &input::bytes(path)?)
+    }
+
+    fn format_of(&self, path: &Path) -> Result<Format> {
+        self.input_format.map_or_else(|| Format::of(path), Ok)
+    }
+
+    fn parse(&self, path: &Path, format: Format, bytes: &[u8]) -> Result<PointSet> {
+        let set = match (format, self.dimensions) {
+            (Format::Ply, _) => ply::parse(bytes),
+            (Format::Npy, _) => npy::parse(bytes),
+            (Format::Csv | Format::Xyz, _) => table::parse(bytes),
+            (Format::Raw, Some(dimensions)) => raw::parse(bytes, dimensions),
             (Format::Raw, None) => {
                 Err("raw floats do not say how many coordinates a point has: give --dimensions 2 or 3".to_owned())
             }
@@ -128,6 +166,33 @@ impl Input {
             }
             _ => Ok(set),
         }
+    }
+}
+
+/// Points of a file, some of which are to be written as they stand in it.
+pub struct Cloud {
+    format: Format,
+    positions: Vec<[f32; 3]>,
+    records: Records,
+}
+
+impl Cloud {
+    /// The positions in space, in the plane z = 0 where there is no z.
+    pub fn positions(&self) -> &[[f32; 3]] {
+        &self.positions
+    }
+
+    /// Refuses a name that says another format than that of the cloud, which is kept.
+    pub fn check_output(&self, path: &Path) -> Result<()> {
+        if path.extension().is_none() || Format::of(path)? == self.format {
+            return Ok(());
+        }
+        Err(format_error(path, "the extension names another format than that of the cloud, which is kept"))
+    }
+
+    /// Writes some of the points, in this order.
+    pub fn write(&self, output: &Output, indices: &[u32]) -> Result<()> {
+        output.write(|writer| self.records.write(writer, indices))
     }
 }
 

@@ -21,5 +21,6 @@ mod shell;
 pub mod stipple;
 pub mod summary;
 pub mod text;
+mod thin;
 
 pub use program::{exit_code, main};

@@ -31,6 +31,20 @@ pub fn parse(bytes: &[u8]) -> Result<PointSet, String> {
     Ok(points)
 }
 
+/// The positions of the vertices, in the plane z = 0 where there is no z. Floats are taken as they are; of coordinates that
+/// are no floats, such as those of a map in doubles, the differences from the first vertex are rounded.
+pub fn positions(bytes: &[u8]) -> Result<Vec<[f32; 3]>, String> {
+    let ply = Ply::read(bytes, |element, property| element == "vertex" && ["x", "y", "z"].contains(&property))?;
+    let vertices = ply.element("vertex").ok_or("has no vertices")?;
+    let [x, y, z] = ["x", "y", "z"].map(|name| vertices.numbers(name));
+    let columns = [Some(x.ok_or("vertices have no x")?), Some(y.ok_or("vertices have no y")?), z];
+    let are_floats =
+        columns.iter().flatten().all(|column| column.iter().all(|&x| f64::from(x as f32) == x || !x.is_finite()));
+    let origin = |column: &[f64]| if are_floats { 0.0 } else { column[0] };
+    let position = |i: usize| columns.map(|column| column.map_or(0.0, |column| (column[i] - origin(column)) as f32));
+    Ok((0..vertices.count()).map(position).collect())
+}
+
 /// The domain of the header's comments, if one is there and is a rectangle.
 fn named_domain(comments: &[String]) -> Option<Domain> {
     comments.iter().find_map(|comment| {

@@ -6,7 +6,7 @@ use std::process::ExitCode;
 use azulejo::{Context, Result};
 use clap::{CommandFactory, Parser, Subcommand};
 
-use crate::{analyze, draw, generate, merge, output, procedural, shell, stipple};
+use crate::{analyze, draw, generate, merge, output, procedural, shell, stipple, thin};
 
 /// What the help of all commands ends with.
 const AFTERWARDS: &str = "\
@@ -14,6 +14,7 @@ Examples:
   azulejo plane --count 65536 -o points.npy
   azulejo relax points.npy -o relaxed.csv
   azulejo surface bunny.obj --radius 0.002 -o samples.ply
+  azulejo thin cloud.ply --count 100000 -o thinned.ply
   azulejo analyze relaxed.csv --plots plots
 
 Files of points are PLY (.ply), NumPy arrays (.npy), text (.csv, .xyz, .txt) or little-endian 32-bit floats (.raw, .f32, .bin). \
@@ -45,6 +46,8 @@ enum Command {
     Relax(generate::Relax),
     /// Merge sets that were sampled separately into one maximal set (KDRT).
     Merge(merge::Merge),
+    /// Select points of a cloud that are far from each other, by number or by distance.
+    Thin(thin::Thin),
     /// Measure sets of the plane or samples of a mesh: a table, JSON, plots.
     Analyze(analyze::Analyze),
     /// Stipple an image: dots, denser where it is darker (PSP, DCR).
@@ -67,6 +70,7 @@ fn run(cli: &Cli) -> Result<()> {
         Command::Surface(surface) => surface.run(&context),
         Command::Relax(relax) => relax.run(&context),
         Command::Merge(merge) => merge.run(&context),
+        Command::Thin(thin) => thin.run(&context),
         Command::Analyze(analyze) => analyze.run(&context),
         Command::Stipple(stipple) => stipple.run(&context),
         Command::Mesh(procedural) => procedural.run(),

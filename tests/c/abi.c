@@ -65,6 +65,15 @@ FIELD(azulejo_kdrt_merge_options, seed, 48);
 FIELD(azulejo_kdrt_merge_options, progress, 56);
 FIELD(azulejo_kdrt_merge_options, progress_user, 64);
 
+SIZE(azulejo_thin_options, 48);
+FIELD(azulejo_thin_options, struct_size, 0);
+FIELD(azulejo_thin_options, order, 4);
+FIELD(azulejo_thin_options, radius, 8);
+FIELD(azulejo_thin_options, count, 16);
+FIELD(azulejo_thin_options, seed, 24);
+FIELD(azulejo_thin_options, progress, 32);
+FIELD(azulejo_thin_options, progress_user, 40);
+
 SIZE(azulejo_kdrt_merge_piece, 48);
 FIELD(azulejo_kdrt_merge_piece, xy, 0);
 FIELD(azulejo_kdrt_merge_piece, count, 8);
@@ -307,6 +316,12 @@ static void signatures(void) {
     azulejo_status (*dcr_surface_relax)(const azulejo_context *, const azulejo_mesh *,
                                         const azulejo_dcr_surface_options *, const uint32_t *, const float *, size_t,
                                         azulejo_points **, azulejo_dcr_surface_report *) = azulejo_dcr_surface_relax;
+    azulejo_status (*thin)(const azulejo_context *, const azulejo_thin_options *, const float *, size_t, uint32_t,
+                           azulejo_selection **) = azulejo_thin;
+    size_t (*selection_count)(const azulejo_selection *) = azulejo_selection_count;
+    const uint32_t *(*selection_indices)(const azulejo_selection *) = azulejo_selection_indices;
+    const float *(*selection_ranks)(const azulejo_selection *) = azulejo_selection_ranks;
+    void (*selection_free)(azulejo_selection *) = azulejo_selection_free;
     azulejo_status (*plane_smallest_distance)(const azulejo_context *, const azulejo_plane_set *, double *) =
         azulejo_plane_smallest_distance;
     azulejo_status (*plane_covering_radius)(const azulejo_context *, const azulejo_plane_set *, double *) =
@@ -328,6 +343,7 @@ static void signatures(void) {
     CHECK(plane_measure && plane_nearest_histogram && plane_radial_distribution && spectrum_create);
     CHECK(mesh_with_normals && mesh_with_mask);
     CHECK(psp_adaptive_sample && kdrt_create && kdrt_window && kdrt_free);
+    CHECK(thin && selection_count && selection_indices && selection_ranks && selection_free);
 }
 
 int main(void) {

@@ -31,6 +31,8 @@ static void defaults(void) {
     azulejo_psp_adaptive_options adaptive;
     azulejo_density density;
     azulejo_plane_set set;
+    azulejo_thin_options thin;
+    memset(&thin, 0x55, sizeof thin);
     memset(&surface, 0x55, sizeof surface);
     memset(&adaptive, 0x55, sizeof adaptive);
     memset(&density, 0x55, sizeof density);
@@ -49,6 +51,7 @@ static void defaults(void) {
     ACCEPTED(azulejo_psp_adaptive_options_init(&adaptive, sizeof adaptive));
     ACCEPTED(azulejo_density_init(&density, sizeof density));
     ACCEPTED(azulejo_plane_set_init(&set, sizeof set));
+    ACCEPTED(azulejo_thin_options_init(&thin, sizeof thin));
 
     CHECK(kdrt.struct_size == sizeof kdrt && maximal.struct_size == sizeof maximal);
     CHECK(psp.struct_size == sizeof psp && dcr.struct_size == sizeof dcr);
@@ -77,6 +80,8 @@ static void defaults(void) {
     CHECK(set.struct_size == sizeof set && set.positions == NULL && set.count == 0);
     CHECK(set.domain_min[0] == 0 && set.domain_min[1] == 0 && set.domain_max[0] == 1 && set.domain_max[1] == 1);
     CHECK(set.boundary == AZULEJO_BOUNDARY_PERIODIC);
+    CHECK(thin.struct_size == sizeof thin && thin.order == AZULEJO_ORDER_ANY && thin.radius == 0 && thin.count == 0);
+    CHECK(thin.seed == 0 && thin.progress == NULL && thin.progress_user == NULL);
 }
 
 static void refused_inits(void) {
@@ -87,6 +92,7 @@ static void refused_inits(void) {
     REFUSED(INVALID, "options", azulejo_maximal_options_init(NULL, sizeof options));
     REFUSED(INVALID, "options", azulejo_kdrt_merge_options_init(NULL, sizeof options));
     REFUSED(INVALID, "options", azulejo_psp_options_init(NULL, sizeof options));
+    REFUSED(INVALID, "options", azulejo_thin_options_init(NULL, sizeof options));
     REFUSED(INVALID, "options", azulejo_dcr_options_init(NULL, sizeof options));
     REFUSED(INVALID, "options", azulejo_dcr_surface_options_init(NULL, sizeof options));
     REFUSED(INVALID, "options", azulejo_psp_adaptive_options_init(NULL, sizeof options));

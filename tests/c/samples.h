@@ -45,6 +45,15 @@ static inline azulejo_kdrt_merge_options merge_options(double radius) {
     return options;
 }
 
+static inline azulejo_thin_options thin_options(double radius, size_t count, uint32_t order) {
+    azulejo_thin_options options;
+    ACCEPTED(azulejo_thin_options_init(&options, sizeof options));
+    options.radius = radius;
+    options.count = count;
+    options.order = order;
+    return options;
+}
+
 static inline azulejo_psp_options psp_options(double radius) {
     azulejo_psp_options options;
     ACCEPTED(azulejo_psp_options_init(&options, sizeof options));

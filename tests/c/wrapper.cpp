@@ -315,6 +315,28 @@ void merging() {
     CHECK(throws(AZULEJO_ERROR_CANCELLED, "cancelled", [&] { azulejo::kdrt_merge(context, options, pieces); }));
 }
 
+void thinning() {
+    const azulejo::Context context(2);
+    const std::vector<std::array<float, 2>> line = {{0, 0}, {0.25f, 0}, {1, 0}, {0.5f, 0}};
+    azulejo::ThinOptions options;
+    options.radius = 0.5;
+    const auto apart = azulejo::plane_thin(context, options, line);
+    const std::array<std::uint32_t, 3> expected = {0, 2, 3};
+    CHECK(std::equal(expected.begin(), expected.end(), apart.indices().begin(), apart.indices().end()));
+    CHECK(apart.size() == 3 && apart.ranks().empty());
+    options.radius = 0;
+    options.order = AZULEJO_ORDER_PROGRESSIVE;
+    const auto ordered = azulejo::space_thin(context, options, positions);
+    CHECK(ordered.size() == positions.size() / 3 && ordered.ranks().size() == ordered.size());
+    CHECK(ordered.ranks()[0] > 1e30f && ordered.ranks()[1] < 1e30f);
+    const std::vector<float> seven(7);
+    CHECK(throws(AZULEJO_ERROR_INVALID_ARGUMENT, "positions: 7", [&] { azulejo::space_thin(context, options, seven); }));
+    const azulejo::Selection none;
+    CHECK(none.size() == 0 && none.indices().empty() && none.ranks().empty());
+    options.set_progress([](double) { return false; });
+    CHECK(throws(AZULEJO_ERROR_CANCELLED, "cancelled", [&] { azulejo::plane_thin(context, options, line); }));
+}
+
 void adaptive() {
     const azulejo::Context context(3);
     const azulejo::Mesh mesh(positions, indices);
@@ -369,6 +391,7 @@ int main() {
     windows();
     streams();
     merging();
+    thinning();
     adaptive();
     return finish();
 }

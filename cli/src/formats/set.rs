@@ -95,6 +95,11 @@ impl PointSet {
         Ok(())
     }
 
+    /// The positions in space, in the plane z = 0 where there is no z.
+    pub fn into_positions(self) -> Vec<[f32; 3]> {
+        self.positions
+    }
+
     pub fn is_empty(&self) -> bool {
         self.positions.is_empty()
     }

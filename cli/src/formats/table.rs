@@ -33,7 +33,7 @@ pub fn parse(bytes: &[u8]) -> Result<PointSet, String> {
     Ok(table.set())
 }
 
-fn is_comment(line: &str) -> bool {
+pub(super) fn is_comment(line: &str) -> bool {
     line.is_empty() || line.starts_with('#') || line.starts_with("//")
 }
 

@@ -21,9 +21,9 @@
 //!
 //! What there is: azulejo_kdrt_ maximal Poisson-disk sets in the plane, by radius or by number;
 //! azulejo_psp_ the same on triangle meshes, also with a radius that varies; azulejo_dcr_
-//! relaxation of point sets, in the plane, with a density, and on meshes; azulejo_maximal_ the slow
-//! unbiased reference; azulejo_plane_, azulejo_mesh_, azulejo_spectrum_ and azulejo_differences_
-//! analysis.
+//! relaxation of point sets, in the plane, with a density, and on meshes; azulejo_thin points of a
+//! cloud that are far from each other; azulejo_maximal_ the slow unbiased reference; azulejo_plane_,
+//! azulejo_mesh_, azulejo_spectrum_ and azulejo_differences_ analysis.
 //!
 //! The following holds for every function unless its own text says otherwise.
 //!
@@ -47,10 +47,10 @@
 //!   Nothing is printed to stdout; a panic prints to stderr.
 //!
 //! Handles. azulejo_context, azulejo_kdrt, azulejo_mesh, azulejo_psp, azulejo_points,
-//!   azulejo_spectrum and azulejo_differences are made by the library. The caller owns them and
-//!   frees each with its own _free function, which allows NULL. They may be freed in any order: a
-//!   handle keeps what it needs of another one. Accessors return 0 or NULL for NULL. Pointers into
-//!   a handle are valid until the handle is freed.
+//!   azulejo_selection, azulejo_spectrum and azulejo_differences are made by the library. The
+//!   caller owns them and frees each with its own _free function, which allows NULL. They may be
+//!   freed in any order: a handle keeps what it needs of another one. Accessors return 0 or NULL
+//!   for NULL. Pointers into a handle are valid until the handle is freed.
 //!
 //! Pointers. An argument may be NULL only where its text says so. Arrays are packed, and are read
 //!   during the call only. The pointer of an empty array may be NULL, with the count 0. Pointers
@@ -85,14 +85,14 @@
 //!   threads as well, by several at once, so they must be thread-safe.
 //!
 //! Threads. Every function may be called from any thread at any time. Several threads may use one
-//!   context at once, make windows of one plane, and read one mesh, set of points, spectrum or
-//!   differences. A psp handle serves one changing call at a time and refuses a second one. A
-//!   handle must not be freed while another thread uses it. The last error belongs to the thread
-//!   that made the call. After fork, in the child, contexts with more than one thread and psp
-//!   handles made with them return AZULEJO_ERROR_THREADS, since their threads exist in the parent
-//!   only; they can still be freed. Planes, contexts of one thread, and contexts made after the
-//!   fork work. Embree's own threads are lost as well: a process that used Embree before it forked
-//!   should use AZULEJO_ENGINE_RASTERISER in the child.
+//!   context at once, make windows of one plane, and read one mesh, set of points, selection,
+//!   spectrum or differences. A psp handle serves one changing call at a time and refuses a second
+//!   one. A handle must not be freed while another thread uses it. The last error belongs to the
+//!   thread that made the call. After fork, in the child, contexts with more than one thread and
+//!   psp handles made with them return AZULEJO_ERROR_THREADS, since their threads exist in the
+//!   parent only; they can still be freed. Planes, contexts of one thread, and contexts made after
+//!   the fork work. Embree's own threads are lost as well: a process that used Embree before it
+//!   forked should use AZULEJO_ENGINE_RASTERISER in the child.
 //!
 //! Determinism. The same options and seed give the same bytes, for every number of threads and
 //!   whatever was called before.
@@ -143,6 +143,8 @@ pub mod density;
 
 pub mod surface;
 
+pub mod thin;
+
 pub mod analysis;
 pub mod statistics;
 
@@ -157,6 +159,7 @@ const _: () = {
     shared::<kept::azulejo_kdrt>();
     shared::<mesh::azulejo_mesh>();
     shared::<points::azulejo_points>();
+    shared::<thin::azulejo_selection>();
     shared::<spectrum::azulejo_spectrum>();
     shared::<differences::azulejo_differences>();
     shared::<std::sync::RwLock<azulejo_core::psp::Psp>>();

@@ -19,6 +19,7 @@ use azulejo_c::points::*;
 use azulejo_c::psp::*;
 use azulejo_c::statistics::*;
 use azulejo_c::status::*;
+use azulejo_c::thin::*;
 use azulejo_c::version::azulejo_version;
 
 type Out<'a, T> = Option<&'a mut MaybeUninit<T>>;
@@ -148,6 +149,28 @@ fn planes() {
         };
         assert!(read_and_free(made(merge)) >= 2);
         assert_eq!(report.kept, 1);
+    }
+    azulejo_context_free(Some(context));
+}
+
+#[test]
+fn clouds() {
+    let context = context();
+    let cloud: [[f32; 2]; 21] = std::array::from_fn(|i| [(i * i % 21) as f32, (i % 5) as f32]);
+    let mut options = defaults(azulejo_thin_options_init);
+    options.order = AZULEJO_ORDER_PROGRESSIVE;
+    for (count, dimensions) in [(21, 2), (14, 3), (0, 2)] {
+        // SAFETY: 21 points of the plane, 14 of space.
+        let selection = made(|out| unsafe {
+            azulejo_thin(Some(&context), &options, cloud.as_ptr().cast(), count, dimensions, out)
+        });
+        assert_eq!(azulejo_selection_count(Some(&selection)), count);
+        let (indices, ranks) = (azulejo_selection_indices(Some(&selection)), azulejo_selection_ranks(Some(&selection)));
+        for i in 0..count {
+            // SAFETY: the arrays have an entry for each point.
+            assert!(unsafe { (*indices.add(i) as usize) < count && *ranks.add(i) >= 0.0 });
+        }
+        azulejo_selection_free(Some(selection));
     }
     azulejo_context_free(Some(context));
 }

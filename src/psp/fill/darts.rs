@@ -116,7 +116,7 @@ mod tests {
     #[test]
     fn a_row_is_hit_in_proportion_to_its_areas() {
         let mut rng = Rng::at(5, Draw::Probe, &[]);
-        let area = |i: u32| if i % 3 == 0 { 0.0 } else { [1.0, 1e-6, 0.3, 7.0][i as usize % 4] };
+        let area = |i: u32| if i.is_multiple_of(3) { 0.0 } else { [1.0, 1e-6, 0.3, 7.0][i as usize % 4] };
         let areas: Vec<f64> = (0..100).map(area).collect();
         let (row, darts) = (Row::new(areas.iter().copied()), 200_000);
         let mut hits = [0.0; 100];

@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use azulejo::dcr::{self, Density};
 use azulejo::kdrt::{self, CountOptions, MergeOptions, Options, Piece};
-use azulejo::{Boundary, Context, Domain, Result, maximal};
+use azulejo::{Boundary, Context, Domain, Result, maximal, thin};
 
 use super::print;
 
@@ -46,7 +46,26 @@ pub fn print(context: &Context) -> Result<Sets> {
     merged(context)?;
     let random = dcr::scatter(context, &TORUS, &Density::Function(&|_| 1.0), 3000, 20, None)?;
     print::points("scatter", &random)?;
+    thinned(context, &random)?;
     Ok(Sets { large, thousand, bounded, random })
+}
+
+/// Of the plane, and of space with all points in it twice.
+fn thinned(context: &Context, points: &[[f32; 2]]) -> Result<()> {
+    let raised: Vec<_> = points.iter().chain(points).map(|&[x, y]| [x, y, x * y]).collect();
+    for (name, options) in [
+        ("by radius", thin::Options::by_radius(0.02)),
+        ("by count", thin::Options::by_count(1000).seed(21)),
+        ("progressive", thin::Options::progressive().seed(22)),
+    ] {
+        let selections = [thin::thin(context, &options, points, None)?, thin::thin(context, &options, &raised, None)?];
+        for (thin::Selection { indices, ranks, .. }, place) in std::iter::zip(&selections, ["plane", "space"]) {
+            let fields =
+                [print::little_endian(indices, u32::to_le_bytes), print::little_endian(ranks, f32::to_le_bytes)];
+            print::bytes(&format!("thin {name}, {place}"), &fields.concat())?;
+        }
+    }
+    Ok(())
 }
 
 fn options(radius: f64, domain: Domain, leaf_size: f64, seed: u64) -> Options {

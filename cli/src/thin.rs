@@ -1,0 +1,69 @@
+//! `azulejo thin`: some points of a cloud, far from each other, with all that the file has of them.
+
+use std::path::PathBuf;
+use std::time::Instant;
+
+use azulejo::thin::{Options, Order, thin};
+use azulejo::{Context, Result};
+use clap::{Args, ValueEnum};
+
+use crate::formats::{Input, blame};
+use crate::generate::count;
+use crate::output::Output;
+use crate::progress::watched;
+use crate::text::grouped;
+
+#[derive(Args)]
+pub struct Thin {
+    /// The cloud: a .ply, .csv, .xyz or .raw file. Of a mesh, the vertices.
+    #[arg(value_name = "CLOUD")]
+    input: PathBuf,
+    #[command(flatten)]
+    format: Input,
+    /// The selected points, in the format of the cloud and with all that it has of them.
+    #[arg(short, long, value_name = "FILE")]
+    output: PathBuf,
+    /// How many points to select, by taking the farthest from those before: `1000000` or `1e6`. A smaller cloud is
+    /// selected whole.
+    #[arg(long, value_name = "N", value_parser = count::<u64>, required_unless_present_any = ["radius", "order"])]
+    count: Option<u64>,
+    /// The smallest distance between selected points.
+    #[arg(long, value_name = "R", allow_negative_numbers = true)]
+    radius: Option<f64>,
+    /// The order of the selected points.
+    #[arg(long, value_enum, default_value = "any")]
+    order: Sequence,
+    /// Which point is the first of the progressive order, and of a count.
+    #[arg(long, value_name = "SEED", default_value_t = 0)]
+    seed: u64,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum Sequence {
+    /// That of the cloud.
+    Any,
+    /// Coarse to fine, the farthest from those before first; all points without a radius and a count.
+    Progressive,
+}
+
+impl Thin {
+    pub fn run(&self, context: &Context) -> Result<()> {
+        let output = Output::at(&self.output)?;
+        let cloud = self.format.read_cloud(&self.input)?;
+        cloud.check_output(&self.output)?;
+        let order = match self.order {
+            Sequence::Any => Order::Any,
+            Sequence::Progressive => Order::Progressive,
+        };
+        let number = self.count.map_or(0, |count| usize::try_from(count).unwrap_or(usize::MAX));
+        let options = Options::default().radius(self.radius.unwrap_or(0.0)).count(number).order(order).seed(self.seed);
+        let start = Instant::now();
+        let select = |progress: &azulejo::Progress| thin(context, &options, cloud.positions(), Some(progress));
+        let selected = watched("thin", select).map_err(|error| blame(&self.input, error))?;
+        let seconds = start.elapsed().as_secs_f64();
+        cloud.write(&output, &selected.indices)?;
+        let [selected, all] = [selected.indices.len(), cloud.positions().len()].map(grouped);
+        output.report(&format!("{selected} of {all} points, {seconds:.2} s"));
+        Ok(())
+    }
+}

@@ -1,0 +1,183 @@
+//! Thinning: some points of a cloud, far from each other and near to all the others.
+
+use std::ffi::c_void;
+use std::mem::MaybeUninit;
+
+use azulejo_core::thin::{Options, Order, Selection, thin};
+
+use crate::boundary::{self, array, required, rows};
+use crate::context::azulejo_context;
+use crate::growing::{self, growing};
+use crate::progress::{Watch, azulejo_progress_fn};
+use crate::status::{Failure, azulejo_status};
+
+/// In no particular order.
+pub const AZULEJO_ORDER_ANY: u32 = 0;
+/// Coarse to fine: the first points are a sparser set of the same kind, whatever their number.
+pub const AZULEJO_ORDER_PROGRESSIVE: u32 = 1;
+
+/// Options of azulejo_thin. What is selected follows from `order`, `radius` and `count`:
+///
+///   any order, a radius: in the order of the cloud, each point that no selected one before it is
+///     nearer to than the radius;
+///   any order, a count (and a radius): the points that the progressive order would select, in the
+///     order of the cloud;
+///   progressive order: each next point is the farthest from those before, the lowest index on
+///     ties, until there are `count` points, or no point is left that is at least `radius` from
+///     all of them; all points if both are 0.
+///
+/// Any order with neither is refused.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct azulejo_thin_options {
+    /// The size of the struct in bytes; set by the _init function.
+    pub struct_size: u32,
+    /// An AZULEJO_ORDER_ constant; default any.
+    pub order: u32,
+    /// The smallest distance between two selected points, above 0; default 0: none.
+    pub radius: f64,
+    /// The number of points to select. A cloud that has fewer is selected whole. Default 0: none.
+    pub count: usize,
+    /// Any number. It chooses the first point of the progressive order, on which the others depend;
+    /// a selection in any order without a count uses no random numbers. Default 0.
+    pub seed: u64,
+    /// Called during the call; default NULL: the callback of the context, if it has one.
+    pub progress: azulejo_progress_fn,
+    /// Passed to the progress callback.
+    pub progress_user: *mut c_void,
+}
+
+growing!(azulejo_thin_options requires count {
+    order: AZULEJO_ORDER_ANY,
+    radius: 0.0,
+    count: 0,
+    seed: 0,
+    progress: None,
+    progress_user: std::ptr::null_mut(),
+});
+
+/// Writes the defaults. `struct_size` is sizeof *options.
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_thin_options_init(
+    options: *mut azulejo_thin_options,
+    struct_size: usize,
+) -> azulejo_status {
+    // SAFETY: handed on from the caller.
+    unsafe { growing::init("options", options, struct_size) }
+}
+
+impl azulejo_thin_options {
+    fn request(&self) -> Result<Options, Failure> {
+        let order = match self.order {
+            AZULEJO_ORDER_ANY => Order::Any,
+            AZULEJO_ORDER_PROGRESSIVE => Order::Progressive,
+            other => return Err(Failure::invalid("order", format!("{other} is no AZULEJO_ORDER_ constant"))),
+        };
+        Ok(Options::default().order(order).radius(self.radius).count(self.count).seed(self.seed))
+    }
+}
+
+/// Points of a cloud that azulejo_thin selected. Immutable: several threads may read it at once.
+/// Its arrays have one entry per selected point, in the same order, and are valid until
+/// azulejo_selection_free.
+pub struct azulejo_selection {
+    selection: Selection,
+}
+
+/// Selects points of a cloud that are far from each other and near to all the others.
+///
+/// With a radius, the selected points are at least the radius apart; without a count, every other
+/// point is nearer than the radius to one of them. Without a radius, no other point is farther from
+/// the selected ones than any two of them are from each other. In the progressive order this holds
+/// for the first points of the selection as well, for any number of them. Distances are computed in
+/// double arithmetic from the floats, without tolerance.
+///
+/// positions: the points, x y or x y z each, finite; `count` of them, at most 2^32 - 1. They may
+/// coincide: by radius one of them is selected, in the progressive order they come last.
+///
+/// dimensions: the number of coordinates of a point, 2 or 3.
+///
+/// out: the selected points, to be freed with azulejo_selection_free.
+///
+/// O(count * log(count)) time, whether or not the density of the cloud varies; at worst, in clouds
+/// made for it, O(count * selected). Up to 150 bytes of memory per point. The threads of the
+/// context share the sorting of the points; the selection itself runs on one.
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, for a point that is not finite with its index;
+/// AZULEJO_ERROR_TOO_LARGE; AZULEJO_ERROR_CANCELLED.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_thin(
+    context: Option<&azulejo_context>,
+    options: *const azulejo_thin_options,
+    positions: *const f32,
+    count: usize,
+    dimensions: u32,
+    out: Option<&mut MaybeUninit<Box<azulejo_selection>>>,
+) -> azulejo_status {
+    boundary::create(out, || {
+        let context = required("context", context)?;
+        // SAFETY: handed on from the caller.
+        let options = unsafe { growing::read("options", options) }?;
+        let selection = match dimensions {
+            // SAFETY: handed on from the caller.
+            2 => select(context, &options, unsafe { rows::<f32, 2>("positions", positions, "count", count) }?),
+            // SAFETY: handed on from the caller.
+            3 => select(context, &options, unsafe { rows::<f32, 3>("positions", positions, "count", count) }?),
+            other => Err(Failure::invalid("dimensions", format!("{other} is neither 2 nor 3"))),
+        }?;
+        Ok(azulejo_selection { selection })
+    })
+}
+
+fn select<const D: usize>(
+    context: &azulejo_context,
+    options: &azulejo_thin_options,
+    positions: &[[f32; D]],
+) -> Result<Selection, Failure> {
+    let request = options.request()?;
+    let watch = Watch::new(options.progress, options.progress_user);
+    context.run(watch, |context, progress| thin(context, &request, positions, progress))
+}
+
+/// The number of selected points; 0 for NULL.
+#[unsafe(no_mangle)]
+pub extern "C" fn azulejo_selection_count(selection: Option<&azulejo_selection>) -> usize {
+    selection.map_or(0, |selection| selection.selection.indices.len())
+}
+
+/// The indices of the selected points in the cloud: ascending in any order, in the order of
+/// selection in the progressive one. NULL for NULL and for an empty selection.
+#[unsafe(no_mangle)]
+pub extern "C" fn azulejo_selection_indices(selection: Option<&azulejo_selection>) -> *const u32 {
+    selection.map_or(std::ptr::null(), |selection| array(&selection.selection.indices))
+}
+
+/// The ranks of the points of a progressive selection: the distance of each from the nearest of
+/// those before it, rounded down to a float. They never rise; the first is infinite, those of
+/// points that coincide with one before are 0. All points with a rank of at least r are at least r
+/// apart. NULL for NULL, an empty selection and AZULEJO_ORDER_ANY.
+#[unsafe(no_mangle)]
+pub extern "C" fn azulejo_selection_ranks(selection: Option<&azulejo_selection>) -> *const f32 {
+    selection.map_or(std::ptr::null(), |selection| array(&selection.selection.ranks))
+}
+
+/// Frees the selection with its arrays. NULL is allowed.
+#[unsafe(no_mangle)]
+pub extern "C" fn azulejo_selection_free(selection: Option<Box<azulejo_selection>>) {
+    boundary::free(selection);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::growing::Growing;
+
+    #[test]
+    fn the_defaults_are_those_of_the_core() {
+        assert_eq!(azulejo_thin_options::DEFAULT.request().unwrap(), Options::default());
+        let options = azulejo_thin_options { order: AZULEJO_ORDER_PROGRESSIVE, ..azulejo_thin_options::DEFAULT };
+        assert_eq!(options.request().unwrap(), Options::progressive());
+    }
+}

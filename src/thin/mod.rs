@@ -1,0 +1,87 @@
+//! Thinning: some points of a cloud are selected, far from each other and near to all the others.
+//!
+//! There are two rules, both exact. *By radius*: a point is selected if no selected one of lower index is nearer than the
+//! radius. *Farthest-first* (Gonzalez 1985): each next point is the farthest from those before. One loop makes both: the
+//! points know how far they are from the selected ones, and the farthest is selected next, the lowest index on ties.
+//! By radius all distances that are large enough count as equal (`selecting.rs`).
+//!
+//! A tree of boxes, each with its farthest point, finds the next one and the few that it is nearer to (`tree.rs`). Its
+//! shape has no effect on the result. A tree that keeps these is that of Han et al. 2023, "QuickFPS"; its wide nodes, and
+//! the rule by radius, are ours.
+//!
+//! Distances are compared as squares, computed in `f64` from the given floats. That rounds, but monotonically: a box is
+//! never farther, as computed, than a point in it, and what the tree skips would not have changed.
+
+mod leaf;
+mod options;
+mod selecting;
+mod tree;
+#[allow(unsafe_code)] // Vector instructions.
+mod vectors;
+
+use crate::error::{Error, Result};
+use crate::job::{Context, Progress};
+use crate::memory;
+use crate::simd::Level;
+
+pub use options::{Options, Order, Selection};
+
+use selecting::select;
+
+/// The most bytes that a point takes at the peak, and each of its coordinates: there are three copies of it while the tree
+/// is made, and leaves may be half empty.
+const BYTES_PER_POINT: f64 = 70.0;
+const BYTES_PER_COORDINATE: f64 = 24.0;
+
+/// Selects points of a cloud, in the plane (`D` = 2), in space (3) or with any number of coordinates.
+///
+/// * [`Options::radius`]: the selected points are at least the radius apart, and every other point is nearer than the radius
+///   to one of them. A distance is `sqrt(dx² + dy² + ..)` in `f64` from the given floats, without tolerance.
+/// * [`Options::count`]: as many points as that, by farthest-first selection. Every other point is no farther from one
+///   of them than any two of them are apart.
+/// * In progressive order all prefixes have these properties.
+///
+/// Points that coincide are allowed: by radius one of them is selected, farthest-first they come last, with rank 0. The
+/// result is the same for every number of threads; these share the making of the tree, the selection itself runs on one
+/// thread.
+///
+/// O(n log n) for n points, whether or not their density varies; O(n · selected) at worst, in clouds made for it, such as a
+/// sphere of points around the first. Memory is O(n).
+///
+/// # Errors
+/// [`Error::InvalidArgument`] for an option out of range, and for points that are not finite (`positions`, with the
+/// index); [`Error::TooLarge`] for more than 2^32 - 1 points or the available memory; [`Error::Cancelled`].
+///
+/// ```
+/// use azulejo::{Context, thin};
+///
+/// let cloud = [[0.0, 0.0, 0.0], [0.1, 0.0, 0.0], [1.0, 0.0, 0.0], [0.4, 0.0, 0.0f32]];
+/// let context = Context::new(0)?;
+/// let apart = thin::thin(&context, &thin::Options::by_radius(0.3), &cloud, None)?;
+/// assert_eq!(apart.indices, [0, 2, 3]);
+/// let ordered = thin::thin(&context, &thin::Options::progressive(), &cloud, None)?;
+/// assert_eq!(ordered.indices.len(), 4);
+/// assert!(ordered.ranks.is_sorted_by(|a, b| a >= b));
+/// # Ok::<(), azulejo::Error>(())
+/// ```
+pub fn thin<const D: usize>(
+    context: &Context,
+    options: &Options,
+    positions: &[[f32; D]],
+    progress: Option<&Progress>,
+) -> Result<Selection> {
+    options.check()?;
+    let count = positions.len();
+    if count > u32::MAX as usize {
+        return Err(Error::too_large("positions", format!("{count} points; the limit is {}", u32::MAX)));
+    }
+    if let Some(index) = positions.iter().position(|position| !position.iter().all(|x| x.is_finite())) {
+        let reason = format!("point {index} is {:?}, not finite", positions[index]);
+        return Err(Error::invalid("positions", reason));
+    }
+    let bytes = BYTES_PER_POINT + D as f64 * BYTES_PER_COORDINATE;
+    memory::require(count as f64 * bytes, "positions", &format!("{count} points"))?;
+    context.run(progress, |job| {
+        if positions.is_empty() { Ok(Selection::default()) } else { select(job, Level::widest(), options, positions) }
+    })
+}
