@@ -503,8 +503,8 @@ typedef struct azulejo_psp_options {
     uint32_t struct_size;
     /// How often azulejo_psp_sample projects its patterns, in 3 directions each time, before it
     /// fills the gaps. AZULEJO_ITERATIONS_DEFAULT, the default: 0 if `maximal` is 1, on every mesh
-    /// and with every radius, since a set that is only filled is made sooner and is without bias; 1
-    /// if `maximal` is 0. azulejo_psp_create refuses any value but the default.
+    /// and with every radius, since a set that is only filled is made sooner and prefers no
+    /// direction; 1 if `maximal` is 0. azulejo_psp_create refuses any value but the default.
     uint32_t iterations;
     /// The smallest straight distance between two samples, in the units of the mesh: above 0, and
     /// at least 64 times the spacing of floats at the largest coordinate. It has no default.

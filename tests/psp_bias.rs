@@ -114,11 +114,11 @@ fn halves() -> Mesh {
 }
 
 /// Two huge triangles get as many samples of a uniform fill as the tiny ones of the same area, both in one piece and by
-/// cubes. (Of many seeds, 0.2 and 0.5 % more stand on the huge ones.)
+/// cubes. These leave up to 1 % more samples at their seams, and seams across huge triangles are longer.
 #[test]
 fn huge_and_tiny_triangles_are_filled_alike() {
     let (mesh, context) = (Arc::new(halves()), Context::new(2).unwrap());
-    for (samples, seeds) in [(20_000.0, 12), (100_000.0, 3)] {
+    for (samples, seeds, bound) in [(10_000.0, 24, 0.004), (100_000.0, 3, 0.008)] {
         let radius = (2.0 * MAXIMAL_DENSITY / samples).sqrt();
         let mut counts = [0.0; 2];
         for seed in 0..seeds {
@@ -128,6 +128,6 @@ fn huge_and_tiny_triangles_are_filled_alike() {
         }
         let [huge, tiny] = counts;
         assert!(huge > 0.45 * samples * seeds as f64);
-        assert!((huge / tiny - 1.0f64).abs() < 0.008, "{samples}: {counts:?}");
+        assert!((huge / tiny - 1.0f64).abs() < bound, "{samples}: {counts:?}");
     }
 }

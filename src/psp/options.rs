@@ -68,8 +68,8 @@ impl Options {
     }
 
     /// How many iterations [`sample`](super::sample) makes: as many as asked for, and otherwise by a rule. A maximal
-    /// set is only filled, on every mesh and with every radius: that is without bias, and sooner done than an iteration
-    /// and a fill of the rest. A set that is not filled gets one iteration.
+    /// set is only filled, on every mesh and with every radius: that is sooner done than an iteration and a fill
+    /// of the rest, and no direction is preferred. A set that is not filled gets one iteration.
     pub fn iterations_by_rule(&self) -> u32 {
         self.iterations.unwrap_or(if self.maximal { 0 } else { 1 })
     }
