@@ -6,7 +6,7 @@
 //!
 //! *Even darts.* The darts of a round are a rain of one density on the whole open area, thrown in random order. So each
 //! place is as likely to be hit as any other, however the surface is cut: a dart on what is left out would be rejected
-//! anyway.
+//! anyway. Only needles that are lines beside the radius take more darts than by their area.
 //!
 //! *The end.* Each round halves the length up to which open parts are kept whole. Floats cannot tell points apart that
 //! are closer than the float spacing at the mesh's largest coordinate. Where parts no longer than that are still open,
@@ -51,26 +51,33 @@ impl<L> Default for Open<L> {
     }
 }
 
+/// Needles that are flatter take as many darts as if their area were this, times the square of their length. They are
+/// lines beside the radius, and by their area alone darts would never hit them where other surface is open, too: they
+/// would be cut up without end.
+const FLAT: f64 = 2e-3;
+
+/// What a round weighs an area by when it throws darts: the area, but of needles.
+fn weight(area: f32, longest: f32) -> f64 {
+    f64::from(area).max(FLAT * f64::from(longest) * f64::from(longest))
+}
+
 impl<L> Patch<L> {
-    /// The area that may be uncovered.
-    fn open_area(&self) -> f64 {
-        f64::from(self.area) * f64::from(self.open.count_ones()) / 16.0
+    /// The part of it that may be uncovered.
+    fn open_share(&self) -> f64 {
+        f64::from(self.open.count_ones()) / 16.0
     }
 }
 
 impl<L: Copy> Open<L> {
-    /// The area of all of it, in squared radii.
-    pub fn area(&self) -> f64 {
-        self.areas().sum()
-    }
-
     /// The area of each whole triangle, then that of each patch.
     pub fn areas(&self) -> impl Iterator<Item = f64> {
-        self.wholes.iter().map(|whole| f64::from(whole.area)).chain(self.patches.iter().map(Patch::open_area))
+        let of_patch = |patch: &Patch<L>| f64::from(patch.area) * patch.open_share();
+        self.wholes.iter().map(|whole| f64::from(whole.area)).chain(self.patches.iter().map(of_patch))
     }
 
-    fn wholes_area(&self) -> f64 {
-        self.wholes.iter().map(|whole| f64::from(whole.area)).sum()
+    fn weights(&self) -> impl Iterator<Item = f64> {
+        let of_patch = |patch: &Patch<L>| weight(patch.area, patch.longest) * patch.open_share();
+        self.wholes.iter().map(|whole| weight(whole.area, whole.longest)).chain(self.patches.iter().map(of_patch))
     }
 
     /// Takes up what is open elsewhere.
@@ -81,12 +88,13 @@ impl<L: Copy> Open<L> {
 
     /// The darts of a round: on which whole triangle, or behind these on which patch, each of them falls.
     fn rain(&self, rng: &mut Rng) -> Vec<u32> {
-        let per_wholes = (DARTS_PER_WHOLE * self.wholes.len() as f64).min(DARTS_PER_AREA * self.wholes_area());
+        let of_wholes: f64 = self.weights().take(self.wholes.len()).sum();
+        let per_wholes = (DARTS_PER_WHOLE * self.wholes.len() as f64).min(DARTS_PER_AREA * of_wholes);
         let expected = per_wholes + DARTS_PER_PATCH * self.patches.len() as f64;
         let mut darts = Vec::with_capacity((1.1 * expected) as usize + 16);
-        let mut rain = Rain::new(rng, expected / self.area());
-        for (number, area) in (0..).zip(self.areas()) {
-            let count = rain.fall(area);
+        let mut rain = Rain::new(rng, expected / self.weights().sum::<f64>());
+        for (number, weight) in (0..).zip(self.weights()) {
+            let count = rain.fall(weight);
             darts.extend(std::iter::repeat_n(number, count));
         }
         shuffle(rng, &mut darts);
