@@ -4,6 +4,9 @@ use glam::{DVec3, Vec3};
 
 const NONE: u32 = u32::MAX;
 
+/// The number of the farthest cell along an axis.
+const FARTHEST: f64 = (1u64 << 60) as f64;
+
 /// A position that is found, and the next in the chain of its bucket.
 #[derive(Clone, Copy)]
 pub(super) struct Entry {
@@ -70,8 +73,10 @@ impl Cells {
 
     fn cell(&self, position: Vec3) -> [u64; 3] {
         let place = (position.as_dvec3() - self.low) * self.per_cell;
-        // One more than the cell, so that the one before it has a number.
-        [place.x as u64 + 1, place.y as u64 + 1, place.z as u64 + 1]
+        // One more than the cell, so that the one before it has a number. Far out floats are farther apart than cells, and
+        // no cell matters but that of a position itself.
+        let index = |along: f64| along.min(FARTHEST) as u64 + 1;
+        [index(place.x), index(place.y), index(place.z)]
     }
 
     #[inline]
@@ -108,6 +113,19 @@ fn number(x: u64, y: u64, z: u64) -> u64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn positions_much_farther_than_cells_are_wide_are_found() {
+        let positions = [Vec3::ZERO, Vec3::splat(1e30), Vec3::new(1e38, 0.0, 1e-20)];
+        for side in [1e-30, 1e-320, 1e300] {
+            let cells = Cells::new(DVec3::ZERO, side, positions.into_iter());
+            for (sample, position) in (0..).zip(positions) {
+                let mut found = Vec::new();
+                cells.around(position, |other, _| found.push(other));
+                assert!(found.contains(&sample), "{side}");
+            }
+        }
+    }
     use crate::rng::{Draw, Rng};
 
     #[test]

@@ -285,7 +285,9 @@ impl View {
             }
         }
         let mut first = nearest;
-        while let Some(before) = self.following(lanes, first, -1.0).filter(|&before| !self.has(before)) {
+        while self.length < self.count
+            && let Some(before) = self.following(lanes, first, -1.0).filter(|&before| !self.has(before))
+        {
             self.ring.copy_within(..self.length, 1);
             self.ring[0] = before as u8;
             self.length += 1;
