@@ -23,7 +23,7 @@ fn mesh((positions, triangles): meshes::Soup) -> Arc<Mesh> {
 }
 
 /// Options for a set that has about `count` samples once it is maximal.
-fn options(mesh: &Mesh, count: f64, engine: Engine) -> Options {
+fn options(mesh: &Mesh, count: f64, engine: Engine) -> Options<'static> {
     Options::new((MAXIMAL_DENSITY * mesh.area() / count).sqrt()).engine(engine)
 }
 

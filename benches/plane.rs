@@ -6,7 +6,7 @@
 use std::hint::black_box;
 use std::time::{Duration, Instant};
 
-use azulejo::{Context, kdrt, maximal};
+use azulejo::{Context, Order, kdrt, maximal};
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 
 const LEAF_SIZES: [f64; 4] = [6.0, 20.0, 40.0, 80.0];
@@ -19,7 +19,7 @@ fn radius(count: u32) -> f64 {
     (0.69656 / f64::from(count)).sqrt()
 }
 
-fn options(count: u32, leaf_size: f64) -> kdrt::Options {
+fn options(count: u32, leaf_size: f64) -> kdrt::Options<'static> {
     kdrt::Options::new(radius(count)).leaf_size(leaf_size).seed(1)
 }
 
@@ -64,6 +64,7 @@ fn plane(criterion: &mut Criterion) {
     print_ratios(&contexts, &counts);
     print_stages(&counts);
     print_windows(&contexts[0]);
+    print_order(&contexts);
 }
 
 fn print_ratios(contexts: &[Context; 2], counts: &[u32]) {
@@ -106,6 +107,36 @@ fn print_stages(counts: &[u32]) {
         times.iter().for_each(|time| print!(" {time:>12.2}"));
         println!(" {copy:>12.2} {:>12.0}", times.iter().sum::<f64>() / copy);
         black_box(&target);
+    }
+}
+
+/// What a sample in progressive order takes, and a window of 2,000 samples of such a plane of 10^9 that is kept.
+fn print_order(contexts: &[Context; 2]) {
+    println!(
+        "{:>10} {:>10} {:>10} {:>10} {:>10} {:>14}",
+        "quotient", "samples", "ns/sample", "times any", "threads", "window, ms"
+    );
+    let any = least_time_per_sample(|| kdrt(&contexts[0], 1_000_000, kdrt::DEFAULT_LEAF_SIZE));
+    for steps in [2.0, 4.0, 8.0] {
+        let ordered =
+            |count| options(count, kdrt::DEFAULT_LEAF_SIZE).order(Order::Progressive).quotient(2f64.powf(1.0 / steps));
+        let [one, all] = contexts.each_ref().map(|context| {
+            least_time_per_sample(|| kdrt::sample(context, &ordered(1_000_000), None).expect("a good domain").len())
+        });
+        let large = ordered(1_000_000_000);
+        let plane = kdrt::Plane::new(&contexts[0], &large.coarsest(16.0 * large.radius), None).expect("a good domain");
+        let window = median_time(5, |i| {
+            let min = [0.618_034, 0.414_214].map(|step| (f64::from(i) * step).fract() * 0.99);
+            plane.window(min, min.map(|x| x + 0.001_414)).expect("a good window").len()
+        });
+        let speed = format!("x{:.2}", one / all);
+        println!(
+            "{:>10} {:>10} {one:>10.0} {:>10.1} {speed:>10} {:>14.1}",
+            format!("2^(1/{steps})"),
+            1_000_000,
+            one / any,
+            window * 1e3
+        );
     }
 }
 

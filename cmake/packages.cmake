@@ -28,7 +28,9 @@ set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS_POLICY ">=")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME ${development_package})
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 # For the static library, which has to be linked with the very Embree that it was compiled for.
-set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS libembree-dev)
+if(azulejo_EMBREE)
+  set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS libembree-dev)
+endif()
 
 # Without a summary the first line of each description is the summary.
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "")

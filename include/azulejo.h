@@ -58,17 +58,17 @@
  *   that are not aligned for their type are refused. The library cannot detect other invalid
  *   pointers or counts that exceed an array.
  *
- * Structs that can grow. Options, reports, azulejo_plane_set and azulejo_density begin with
- *   struct_size and must be filled by their _init function before use: it writes the defaults to
- *   options and zeros to reports. A field exists for the library if struct_size reaches its end:
- *   options that lack a field get its default, and a field that a report lacks is not written. So
- *   a program built against an older header of the same SONAME keeps working. One built against a
- *   newer header works as long as the option fields that this library does not know are zero;
- *   report fields that it does not know stay as _init left them. A struct_size out of range, a
- *   non-zero field beyond the known ones, an unknown constant, a flag other than 0 and 1, and an
- *   option that its text excludes from the call are refused. A reserved field must be 0 in options
- *   and is 0 in reports. The options of azulejo_X and azulejo_X_verb are azulejo_X_options, the
- *   report azulejo_X_report.
+ * Structs that can grow. Options, reports, azulejo_plane_set, azulejo_density and
+ *   azulejo_mesh_density begin with struct_size and must be filled by their _init function before
+ *   use: it writes the defaults to options and zeros to reports. A field exists for the library if
+ *   struct_size reaches its end: options that lack a field get its default, and a field that a
+ *   report lacks is not written. So a program built against an older header of the same SONAME
+ *   keeps working. One built against a newer header works as long as the option fields that this
+ *   library does not know are zero; report fields that it does not know stay as _init left them. A
+ *   struct_size out of range, a non-zero field beyond the known ones, an unknown constant, a flag
+ *   other than 0 and 1, and an option that its text excludes from the call are refused. A reserved
+ *   field must be 0 in options and is 0 in reports. The options of azulejo_X and azulejo_X_verb
+ *   are azulejo_X_options, the report azulejo_X_report.
  *
  * Progress. A call with a context calls a progress callback on the thread that made the call: the
  *   one in its options or, if that is NULL, the one of the context (azulejo_context_watch). It
@@ -96,11 +96,14 @@
  *   forked should use AZULEJO_ENGINE_RASTERISER in the child.
  *
  * Determinism. The same options and seed give the same bytes, for every number of threads and
- *   whatever was called before.
+ *   whatever was called before, on every processor and system: elementary functions are the
+ *   library's own, and vector instructions change nothing. Only AZULEJO_ENGINE_EMBREE depends on
+ *   the version of Embree and on the instruction set. Callbacks must return the same as well.
  *
  * Memory. Requests that memory cannot hold are refused with AZULEJO_ERROR_TOO_LARGE before memory
  *   is taken; the free memory of the machine counts, and the limits of the process (ulimit -v) and
- *   of its control groups. If memory runs out during a call nevertheless, the process is aborted.
+ *   of its control groups. Only Linux is asked for these. If memory runs out during a call
+ *   nevertheless, the process is aborted.
  *
  * Complexity is that of the whole call on one thread; all threads of the context share the work,
  *   except where a text says otherwise. "Evenly spread" points are as dense, up to a small factor,
@@ -167,6 +170,9 @@
 
 /// The domain ends at its edges: samples beyond them neither exist nor cover anything.
 #define AZULEJO_BOUNDARY_BOUNDED 1
+
+/// No set has more classes.
+#define AZULEJO_MAX_CLASSES 16
 
 /// If two candidates of an iteration are too close, the one that its projector faces more squarely
 /// is kept: the default, which finds more samples. Existing samples are always kept.
@@ -278,8 +284,8 @@ typedef struct azulejo_context azulejo_context;
 /// one over that.
 typedef struct azulejo_differences azulejo_differences;
 
-/// A plane: a set of azulejo_kdrt_sample of which any window can be made at any time. Immutable:
-/// several threads may make windows of it at once.
+/// A plane: a set of azulejo_kdrt_sample or azulejo_kdrt_sample_classes of which any window can be
+/// made at any time. Immutable: several threads may make windows of it at once.
 typedef struct azulejo_kdrt azulejo_kdrt;
 
 /// A checked triangle mesh. Immutable: several threads may use it at once. Any triangle soup is
@@ -341,8 +347,34 @@ typedef struct azulejo_plane_set {
     double domain_max[2];
 } azulejo_plane_set;
 
-/// Options of azulejo_kdrt_sample, azulejo_kdrt_sample_window, azulejo_kdrt_stream and
-/// azulejo_kdrt_create.
+/// Classes of samples that stand in each other's way: the matrix of their distances. Samples of
+/// classes i and j are at least r_ij apart, and no class can take another sample: for each class i
+/// every place is within r_ij of some sample of some class j.
+///
+/// Classes of larger own radii r_ii come first, those of smaller ones fill what these leave them;
+/// classes of equal radii are treated alike. So two radii that are nearly equal give other shares
+/// than two equal ones: of own radii 1 and 0.9 the first class has its full density.
+typedef struct azulejo_classes {
+    /// The size of the struct in bytes; set by the _init function.
+    uint32_t struct_size;
+    /// The number of classes, 1 to AZULEJO_MAX_CLASSES. Required.
+    uint32_t count;
+    /// count * count radii, row by row, in the units of the domain or mesh; symmetric, finite, 0 or
+    /// more, and above 0 on the diagonal. Two classes whose radius is 0 ignore each other.
+    /// azulejo_classes_radii makes such a matrix. Required; read during the call only.
+    const double *radii;
+    /// On meshes, where each class may stand: for each triangle a number with a bit for each
+    /// class, the lowest for class 0. A class has no samples, and needs no cover, where its bit is
+    /// 0; other bits are ignored. If the mesh has a mask, both must allow a sample. NULL, the
+    /// default: all classes may stand everywhere. Read during the call only.
+    const uint32_t *masks;
+    /// The number of masks: that of the mesh's triangles, or 0 if there are none. Default 0.
+    size_t mask_count;
+} azulejo_classes;
+
+/// Options of azulejo_kdrt_sample, azulejo_kdrt_sample_window, azulejo_kdrt_stream,
+/// azulejo_kdrt_create and, with classes, azulejo_kdrt_sample_classes and
+/// azulejo_kdrt_create_classes.
 typedef struct azulejo_kdrt_options {
     /// The size of the struct in bytes; set by the _init function.
     uint32_t struct_size;
@@ -350,7 +382,8 @@ typedef struct azulejo_kdrt_options {
     int32_t boundary;
     /// The smallest distance between two samples, in the units of the domain: above 0, and at least
     /// 64 times the spacing of floats at the largest coordinate. It has no default. Must be 0 if
-    /// there is a `count`, from which the radius follows.
+    /// there is a `count`, from which the radius follows, and in calls with classes, which have
+    /// radii of their own.
     double radius;
     /// The lower corner of the domain, x y; finite; default 0 0.
     double domain_min[2];
@@ -374,8 +407,31 @@ typedef struct azulejo_kdrt_options {
     /// the sampling. Default 0. Must be 0 where there is no report: with the report NULL, and in
     /// other calls.
     uint32_t measure_coverage;
-    /// Must be 0.
-    uint32_t reserved;
+    /// An AZULEJO_ORDER_ constant; default any. In progressive order every prefix of the set is
+    /// well spread, and azulejo_points_ranks says how well. Must be any for streams, which come
+    /// place by place.
+    uint32_t order;
+    /// Of a progressive order: how many times longer the radius of each level is than that of the
+    /// next, 1.02 to 1.5. Every prefix of 100 samples and more covers the domain within this times
+    /// its last rank, smaller ones within twice that rank, or the square of the quotient times it
+    /// if that is more. Default 0: 2^(1/8). Windows of large domains are several times as fast with
+    /// 2^(1/4).
+    double quotient;
+    /// Of a progressive order: the radius of the coarsest level, at least `radius`. Default 0: as
+    /// coarse as the domain, so that the first level has one sample. Windows of large domains are
+    /// faster with a shorter one, such as 16 radii.
+    double coarsest;
+    /// Samples that stand already, x y each, finite, anywhere in the plane; on a torus they wrap.
+    /// Read during the call only, but for azulejo_kdrt_create, which copies them. Default NULL:
+    /// none. Must be none where there is a `count`.
+    const float *given_positions;
+    /// The clearance of each, finite and 0 or more, in the units of the domain: new samples are at
+    /// least so far from it, and what is nearer to it is covered. 0 has no effect. Default NULL:
+    /// all have the `radius`. In calls with classes it has a row for each given sample, with a
+    /// clearance for each class.
+    const double *given_clearances;
+    /// The number of given samples; default 0.
+    size_t given_count;
 } azulejo_kdrt_options;
 
 /// What azulejo_kdrt_sample achieved.
@@ -507,7 +563,8 @@ typedef struct azulejo_psp_options {
     /// direction; 1 if `maximal` is 0. azulejo_psp_create refuses any value but the default.
     uint32_t iterations;
     /// The smallest straight distance between two samples, in the units of the mesh: above 0, and
-    /// at least 64 times the spacing of floats at the largest coordinate. It has no default.
+    /// at least 64 times the spacing of floats at the largest coordinate. It has no default; with a
+    /// `count` it must be 0.
     double radius;
     /// Any number; another seed gives another set. Default 0.
     uint64_t seed;
@@ -517,15 +574,46 @@ typedef struct azulejo_psp_options {
     uint32_t maximal;
     /// An AZULEJO_PRIORITY_ constant; default squareness.
     int32_t priority;
-    /// An AZULEJO_ENGINE_ constant; default Embree.
+    /// An AZULEJO_ENGINE_ constant; default Embree, or the rasteriser in a library without Embree
+    /// (azulejo_has_embree).
     int32_t engine;
-    /// Must be 0.
-    uint32_t reserved;
+    /// An AZULEJO_ORDER_ constant; default any. In progressive order every prefix of the set is
+    /// well spread, and azulejo_points_ranks says how well. The set is filled only, as by default:
+    /// `iterations` above 0 and a `maximal` of 0 are refused. Must be any in azulejo_psp_create.
+    uint32_t order;
     /// Called during the call; default NULL: the callback of the context, if it has one. A psp
     /// handle keeps it for all its calls.
     azulejo_progress_fn progress;
     /// Passed to the progress callback.
     void *progress_user;
+    /// The exact number of samples; default 0: as many as the radius gives. The report says which
+    /// radius they have, and a bound of the covering radius. The set is filled only, as in
+    /// progressive order. Must be 0 in azulejo_psp_create.
+    size_t count;
+    /// Of a progressive order: every prefix of 100 samples and more covers the surface within this
+    /// times its last rank, 1.02 to 1.5; smaller ones within twice that rank, or the square of the
+    /// quotient times it if that is more. The smaller, the more levels there are, each of which
+    /// takes time. Default 0: 2^(1/8).
+    double quotient;
+    /// Samples that stand already, around which the set is made, x y z each; NULL, the default,
+    /// for none. They may lie anywhere, on the mesh or not, in any number. They are never moved,
+    /// dropped or compared with each other, and are not returned: new samples are at least the
+    /// clearance from each of them, and every place of the surface is within the radius of a new
+    /// sample or within the clearance of a given one. A psp handle copies what it needs of them.
+    const float *given_positions;
+    /// The clearance of each given sample, finite and 0 or more, in the units of the mesh; 0 has
+    /// no effect. NULL, the default: all have the radius of the set. Must not be NULL with a
+    /// `count`, unless there are no given samples. For azulejo_psp_sample_classes a row for each
+    /// given sample, with a clearance for each class.
+    const double *given_clearances;
+    /// The number of given samples; default 0.
+    size_t given_count;
+    /// Samples on triangles whose normals have a smaller cosine than this ignore each other, so
+    /// that the two sides of a thin wall are sampled as if they were far apart; triangles must be
+    /// wound consistently. From -1, the default, which turns it off, to 1, with which only samples
+    /// with the same normal see each other. Given samples act on all sides. Above -1 iterations are
+    /// refused, as projection does not tell sides apart.
+    double cosine;
 } azulejo_psp_options;
 
 /// What a call that samples a mesh did. Times are wall times.
@@ -572,6 +660,13 @@ typedef struct azulejo_psp_report {
     /// If the call filled gaps: the fraction of the area that is uncovered after it, which is 0.
     /// Else -1.
     double uncovered_after;
+    /// The radius of the set: the one asked for or, for a count, the one that was found. No two
+    /// samples are closer. 0 where radii vary.
+    double radius;
+    /// A bound of the covering radius, where one is known: no place is farther from all samples, up
+    /// to 6 spacings of floats at the largest coordinate. The radius itself after gaps were filled,
+    /// a little more for a count. Else -1.
+    double coverage;
 } azulejo_psp_report;
 
 /// Gives the radius at a position.
@@ -628,7 +723,89 @@ typedef struct azulejo_psp_adaptive_options {
     azulejo_progress_fn progress;
     /// Passed to the progress callback.
     void *progress_user;
+    /// Samples that stand already, around which the set is made, x y z each; NULL, the default,
+    /// for none. They may lie anywhere, on the mesh or not, in any number. They are never moved,
+    /// dropped or compared with each other, and are not returned: new samples are at least the
+    /// clearance from each of them, and every place of the surface is within the radius of a new
+    /// sample or within the clearance of a given one. They act on all sides of a thin wall.
+    const float *given_positions;
+    /// The clearance of each given sample, finite and 0 or more, in the units of the mesh; 0 has
+    /// no effect. NULL, the default, only if there are none: no radius could stand for it.
+    const double *given_clearances;
+    /// The number of given samples; default 0.
+    size_t given_count;
 } azulejo_psp_adaptive_options;
+
+/// Gives the density at a position of a mesh.
+///
+/// With `at_vertices` it is called once for each vertex of the mesh, on the thread that made the
+/// call. Otherwise it is called on other threads, too, by several at once, unless the context has
+/// one thread, and must be thread-safe. It must give the same density for the same position, return
+/// (see "Callbacks" at the top), and must not call the library with the same context.
+///
+/// user: the `user` of the azulejo_mesh_density.
+///
+/// position: x y z of a place on the mesh.
+///
+/// Returns the density, finite and at least 0.
+typedef double (*azulejo_mesh_density_fn)(void *user, const double *position);
+
+/// How many samples a set of a mesh has from place to place, per unit of area. Densities are
+/// finite, at least 0, and not 0 everywhere; where they are 0 there are no samples, and those
+/// beside are none the fewer for it. One of `vertex_values`, `function` and `image` must be set,
+/// and one of `radius` and `count`.
+typedef struct azulejo_mesh_density {
+    /// The size of the struct in bytes; set by the _init function.
+    uint32_t struct_size;
+    /// 1: `function` is called at the vertices only, and interpolated on the triangles; nothing
+    /// need be known of it. Default 0. Must be 0 without a function.
+    uint32_t at_vertices;
+    /// A density for each vertex of the mesh, interpolated on the triangles; used during the call
+    /// only. Default NULL.
+    const float *vertex_values;
+    /// The number of vertex_values: that of the vertices of the mesh. Default 0.
+    size_t vertex_count;
+    /// Gives the density at a position. Default NULL.
+    azulejo_mesh_density_fn function;
+    /// Passed to `function`.
+    void *user;
+    /// The largest value of `function`, above 0. Must be 0, the default, without a function, and
+    /// with `at_vertices`.
+    double largest;
+    /// The most by which `function` changes per unit of distance between two places of a triangle,
+    /// at least 0. Coverage is proved with it, so it must hold: a violation that is detected makes
+    /// the call fail. Where the density is 0, or nearly so, over many times the radius beside it,
+    /// the call would take very many evaluations and is refused: use `at_vertices` there. Must be
+    /// 0, the default, where `largest` must.
+    double slope;
+    /// An image that is laid on the mesh by texture coordinates, linear between the centres of its
+    /// pixels, and repeated: `height` rows of `width` densities, the first row along v = 0. Used
+    /// during the call only. Default NULL.
+    const float *image;
+    /// The number of pixels in a row, which is as long as u goes from 0 to 1; at least 1. Must be
+    /// 0, the default, without an image.
+    size_t width;
+    /// The number of rows, at least 1. Must be 0, the default, without an image.
+    size_t height;
+    /// Texture coordinates, u v each, finite and at most 1e6 in absolute value: one for each
+    /// vertex, or one for each corner of each triangle, three times as many as there are triangles.
+    /// NULL, the default, without an image.
+    const float *texture;
+    /// The number of texture coordinates: that of the vertices or, if `by_corners` is 1, of the
+    /// corners.
+    size_t texture_count;
+    /// 1: `texture` is by corners, so that those along a seam differ. Default 0: by vertices.
+    uint32_t by_corners;
+    /// Must be 0.
+    uint32_t reserved;
+    /// The radius at density 1, above 0: a maximal set of this radius has density 1. The radius at
+    /// a density d is this over sqrt(d). 0, the default, with a count.
+    double radius;
+    /// About how many samples the whole set has, above 0: the radius follows from the integral of
+    /// the density. There are fewer where parts of the surface are nearer to each other than the
+    /// radius, and some more along the boundaries of the surface. 0, the default, with a radius.
+    double count;
+} azulejo_mesh_density;
 
 /// Options of azulejo_dcr_relax, azulejo_dcr_relax_density and azulejo_dcr_scatter. The latter uses
 /// only the domain, the boundary, the seed and the progress callback; the struct is shared so that
@@ -792,6 +969,41 @@ typedef struct azulejo_dcr_surface_report {
     double rho;
 } azulejo_dcr_surface_report;
 
+/// What azulejo_dcr_remesh made: a mesh of samples as a surface. It is a manifold if
+/// `non_manifold_vertices` is 0, and closed if `boundary_edges` is 0 too: no edge has more than two
+/// triangles, and two triangles at an edge are wound alike.
+typedef struct azulejo_dcr_remesh_report {
+    /// The size of the struct in bytes; set by the _init function.
+    uint32_t struct_size;
+    /// Always 0.
+    uint32_t reserved;
+    /// The triangles of the mesh.
+    uint64_t triangles;
+    /// Those of them that not all of their three corners have in their Delaunay stars.
+    uint64_t disputed;
+    /// The triangles of stars that are not in the mesh because they do not go with others.
+    uint64_t left_out;
+    /// The edges with one triangle, which are the boundary.
+    uint64_t boundary_edges;
+    /// The edges with two triangles.
+    uint64_t inner_edges;
+    /// The edges with more than two triangles: always 0.
+    uint64_t non_manifold_edges;
+    /// The samples whose triangles are not all connected by edges at the sample.
+    uint64_t non_manifold_vertices;
+    /// The samples without a triangle.
+    uint64_t unused_vertices;
+    /// Euler's characteristic, vertices - edges + triangles, without unused vertices: 2 for a
+    /// sphere, 0 for a torus, 1 for a disk.
+    int64_t euler;
+    /// The smallest angle of all triangles, in degrees.
+    double smallest_angle;
+    /// The largest angle of all triangles, in degrees.
+    double largest_angle;
+    /// The mean over all triangles of their smallest angle, in degrees.
+    double mean_smallest_angle;
+} azulejo_dcr_remesh_report;
+
 /// Options of azulejo_thin. What is selected follows from `order`, `radius` and `count`:
 ///
 ///   any order, a radius: in the order of the cloud, each point that no selected one before it is
@@ -942,6 +1154,11 @@ size_t azulejo_last_error_message(char *buffer, size_t capacity);
 /// The version of the library that the program runs with, to be compared with AZULEJO_VERSION.
 uint32_t azulejo_version(void);
 
+/// 1 if the library was built with Embree, 0 otherwise. Without it AZULEJO_ENGINE_EMBREE and
+/// azulejo_mesh_create_from_embree are refused with AZULEJO_ERROR_EMBREE, and everything else is
+/// there: sets on meshes are filled, as by default, or projected by the rasteriser.
+int32_t azulejo_has_embree(void);
+
 /// Makes a context and starts its threads.
 ///
 /// num_threads: the number of threads, 1 to 4096, or 0 for one per core. With 1 no thread is
@@ -1027,8 +1244,49 @@ const float *azulejo_points_barycentrics(const struct azulejo_points *points);
 /// NULL, an empty set and all other sets.
 const double *azulejo_points_radii(const struct azulejo_points *points);
 
+/// The ranks of the samples of a set in progressive order, in the units of the domain or the mesh:
+/// for each sample the distance to the nearest one that was there when it was accepted, or on
+/// meshes a little less, rounded down to a float. They never rise. The first i samples are at least
+/// as far apart as the i-th rank. NULL for NULL, an empty set and sets in any order.
+///
+/// No place is farther from the first i samples than the quotient of the options times the i-th
+/// rank, and 6 float spacings at the largest coordinate; if i is below 100, than twice the rank, or
+/// the square of the quotient times it if that is more. In the plane this holds from the samples
+/// of the coarsest level on, those with the rank of the first: one sample only, unless the options
+/// have a shorter `coarsest` radius. On meshes it holds for every i; the first rank is infinite.
+const float *azulejo_points_ranks(const struct azulejo_points *points);
+
+/// The class of each sample of a set of several classes, its row in the matrix of azulejo_classes;
+/// NULL for NULL, an empty set and sets made without classes.
+const uint32_t *azulejo_points_classes(const struct azulejo_points *points);
+
 /// Frees the set with all its arrays. NULL is allowed.
 void azulejo_points_free(struct azulejo_points *points);
+
+/// Writes the defaults. `struct_size` is sizeof *classes.
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
+azulejo_status azulejo_classes_init(struct azulejo_classes *classes, size_t struct_size);
+
+/// Makes a matrix of radii from those of each class alone, as in Wei, "Multi-class blue noise
+/// sampling", 2010: two classes keep the distance that a set of all samples of both, and of all
+/// classes of larger radii, would have.
+///
+/// own: for each class the distance of its samples, positive and finite; `count` numbers.
+///
+/// count: the number of classes, 1 to AZULEJO_MAX_CLASSES.
+///
+/// factor: what the radii of two different classes are multiplied by, finite and 0 or more; 1 for
+/// Wei's. Smaller factors leave each class nearer to the density that it has alone, and let samples
+/// of two classes come nearer to each other.
+///
+/// matrix_out: count * count numbers, row by row.
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT; then matrix_out is not written.
+azulejo_status azulejo_classes_radii(const double *own,
+                                     uint32_t count,
+                                     double factor,
+                                     double *matrix_out);
 
 /// Writes the defaults. `struct_size` is sizeof *options.
 ///
@@ -1054,6 +1312,24 @@ azulejo_status azulejo_kdrt_report_init(struct azulejo_kdrt_report *report, size
 /// found, which is rare, the most crowded samples of a larger set are dropped and `is_maximal` is
 /// 0.
 ///
+/// In progressive order the set is made of nested maximal sets, coarse to fine, each filled around
+/// the one before, and sorted by falling rank (azulejo_points_ranks). The first of its samples, any
+/// number of them, are a set with fewer samples: at least as far apart as the last of their ranks,
+/// and within `quotient` times that of every point of the domain; if they are less than 100, within
+/// twice that, or the square of the quotient times it if that is more. So levels of detail are
+/// nested.
+/// Sets of one domain, quotient, coarsest radius and seed share their levels. With default options
+/// a set is a prefix of those whose radius is half of its own, a quarter and so on, bit for bit;
+/// and with a count, a prefix of those with a larger one. Then `radius` in the report is the last
+/// rank, and `is_maximal` is 0.
+///
+/// Around given samples the set is conflict-free and maximal as well: new samples are at least the
+/// clearance of each given one from it, in double arithmetic from the floats, and every point of
+/// the domain is within the radius of a new sample or the clearance of a given one, up to 6 float
+/// spacings at the largest coordinate. Given samples are not moved, dropped, compared with each
+/// other or part of the result. They take about a microsecond each, more than that only where their
+/// clearances are of very many radii. In progressive order they cover from the first level on.
+///
 /// options: with a radius or a count, not both.
 ///
 /// out: the samples, x y each, to be freed with azulejo_points_free. With a count, samples that
@@ -1062,8 +1338,9 @@ azulejo_status azulejo_kdrt_report_init(struct azulejo_kdrt_report *report, size
 /// report: what the call achieved, or NULL. It costs nothing unless `measure_coverage` is 1; then
 /// progress includes the measuring.
 ///
-/// O(samples) time, and 24 bytes of memory per sample; with a count about twice as much. Measuring
-/// the coverage takes O(samples * log samples).
+/// O(samples) time, and 24 bytes of memory per sample; with a count about twice as much, in
+/// progressive order 64 bytes and about fifteen times the time, more with a smaller quotient.
+/// Measuring the coverage takes O(samples * log samples).
 ///
 /// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for a radius (or a count whose radius is) below 64
 /// times the spacing of floats at the largest coordinate; AZULEJO_ERROR_TOO_LARGE, with the
@@ -1079,6 +1356,14 @@ azulejo_status azulejo_kdrt_sample(const struct azulejo_context *context,
 /// Windows that partition the domain have every sample once, and can be made in any order, by
 /// threads, processes and machines that do not communicate. The samples in a window depend on
 /// nothing farther from it than 22 radii along x and 18 along y.
+///
+/// In progressive order a window has the samples of the whole set that lie in it, with their ranks,
+/// sorted in the same way, so prefixes of equal last rank fit together. Each level adds about 12 of
+/// its radii to the margin in which the levels before are needed: for a level of radius R that is
+/// about 145 R at a quotient of 2^(1/8), 75 R at 2^(1/4) and 41 R at 2^(1/2), in all about 56,000,
+/// 15,000 and 4,500 samples, as long as the domain is larger than that. A level costs about 0.2
+/// microseconds for each of them. From `coarsest` down to `radius` there are 8, 4 or 2 levels for
+/// each factor of two.
 ///
 /// options: those of the whole set, with a radius.
 ///
@@ -1117,11 +1402,70 @@ azulejo_status azulejo_kdrt_sample_window(const struct azulejo_context *context,
 ///
 /// Errors: AZULEJO_ERROR_INVALID_ARGUMENT as azulejo_kdrt_sample, so for more samples than floats
 /// can carry, about 10^11; AZULEJO_ERROR_TOO_LARGE for a domain that is not tiled;
-/// AZULEJO_ERROR_CANCELLED, also if `visit` cancels.
+/// AZULEJO_ERROR_CANCELLED, also if `visit` cancels. A progressive order is refused.
 azulejo_status azulejo_kdrt_stream(const struct azulejo_context *context,
                                    const struct azulejo_kdrt_options *options,
                                    azulejo_kdrt_visit_fn visit,
                                    void *user);
+
+/// Makes samples of several classes in a rectangle: samples of classes i and j are at least r_ij
+/// apart, and for each class i every point of the domain is within r_ij of some sample of some
+/// class j, up to 3 float spacings at the largest coordinate (6 around given samples).
+///
+/// Classes come by falling own radius; those of equal radii are filled together and get equal
+/// shares. The class of the largest own radius, if no other has the same, has all the samples that
+/// it would have alone, and where the domain is tiled (see azulejo_kdrt_sample) it has the very
+/// samples of azulejo_kdrt_sample. Those of smaller radii have what is left: with three classes of
+/// own radii 1, 1/2 and 1/4 and the matrix of azulejo_classes_radii with factor 1, the second and
+/// the third have about 0.82 of the samples that they would have alone. Three classes of equal
+/// radii have 0.79 each, 0.90 with factor 0.85, 0.95 with factor 0.7. Two radii that are nearly
+/// equal give other shares than two equal ones: 1 and 0.9 give 1 and 0.68.
+///
+/// options: `radius` must be 0, since classes have radii of their own; `count` and
+/// `measure_coverage` must be 0 and `order` any. `given_clearances`, if not NULL, has given_count
+/// rows, each with a clearance for each class; NULL: each class's own radius.
+///
+/// classes: with at least one class. A single class has the set of azulejo_kdrt_sample, in its
+/// order.
+///
+/// out: the samples, x y each, with azulejo_points_classes, sorted by class, and within a class by
+/// y and x; to be freed with azulejo_points_free.
+///
+/// O(samples) time, for a given number of classes, and 64 bytes of memory per sample. Where the
+/// domain is a torus narrower than about 10 times the largest r_ij between classes of equal own
+/// radii, these classes are filled by one thread, with 512 bytes per sample.
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for an own radius below 64 times the spacing of
+/// floats at the largest coordinate; AZULEJO_ERROR_TOO_LARGE for 2^32 samples or more, or more than
+/// memory holds; AZULEJO_ERROR_CANCELLED.
+azulejo_status azulejo_kdrt_sample_classes(const struct azulejo_context *context,
+                                           const struct azulejo_kdrt_options *options,
+                                           const struct azulejo_classes *classes,
+                                           struct azulejo_points **out);
+
+/// Makes what all windows of a plane of several classes need. azulejo_kdrt_window then makes any of
+/// its windows: the samples of azulejo_kdrt_sample_classes that lie in it, in the same order, with
+/// azulejo_points_classes.
+///
+/// options, classes: those of the whole set. The progress callback is called during this call only.
+///
+/// out: the plane, to be freed with azulejo_kdrt_free. It keeps neither the context nor any thread.
+///
+/// A window takes O(samples in and around it) time and memory: classes of one own radius depend on
+/// what lies within about 30 times the largest r_ij between two of them, and one between them and
+/// classes of larger radii, and these on what lies around that again.
+///
+/// O(samples of the pattern) time. The plane takes what that of azulejo_kdrt_create takes for the
+/// largest own radius, and 1 byte for each of the other radii on the sides of the domain. On a
+/// torus that is narrower than about 10 times the largest r_ij between classes of equal own radii,
+/// these and the classes before are made as a whole and kept, in 12 bytes per sample.
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT as azulejo_kdrt_sample_classes; AZULEJO_ERROR_CANCELLED.
+/// The domain may have more samples than can be held.
+azulejo_status azulejo_kdrt_create_classes(const struct azulejo_context *context,
+                                           const struct azulejo_kdrt_options *options,
+                                           const struct azulejo_classes *classes,
+                                           struct azulejo_kdrt **out);
 
 /// Makes what all windows of a plane need: its pattern and tables.
 ///
@@ -1133,7 +1477,9 @@ azulejo_status azulejo_kdrt_stream(const struct azulejo_context *context,
 /// O(samples of the pattern) time: about 28,000 samples with the default leaves. The plane takes 32
 /// bytes of memory for each of them, 0.9 MB in all, and 1 byte for each radius of the sides of the
 /// domain, however many samples the domain has. A domain that is not tiled (see
-/// azulejo_kdrt_sample) is made as a whole and kept, in 8 bytes per sample.
+/// azulejo_kdrt_sample) is made as a whole and kept, in 8 bytes per sample. In progressive order
+/// the plane also takes 16 KB per level and, unless its coarsest level is tiled, makes and keeps
+/// the levels that have up to 65,536 samples in the whole domain, in 16 bytes per sample.
 ///
 /// Errors: AZULEJO_ERROR_INVALID_ARGUMENT as azulejo_kdrt_sample, so for more samples than floats
 /// can carry, about 10^11; AZULEJO_ERROR_TOO_LARGE for a domain that is not tiled;
@@ -1143,7 +1489,8 @@ azulejo_status azulejo_kdrt_create(const struct azulejo_context *context,
                                    struct azulejo_kdrt **out);
 
 /// Makes the samples of a plane that lie in a window of its domain: the same floats in the same
-/// order as azulejo_kdrt_sample_window and the whole set.
+/// order as azulejo_kdrt_sample_window and the whole set. Those of several classes have
+/// azulejo_points_classes.
 ///
 /// All work happens on the calling thread, and other threads may make windows of the same plane
 /// meanwhile. Very large windows are made faster by azulejo_kdrt_sample_window, on the threads of a
@@ -1153,7 +1500,9 @@ azulejo_status azulejo_kdrt_create(const struct azulejo_context *context,
 ///
 /// out: the samples, x y each, to be freed with azulejo_points_free.
 ///
-/// O(samples in the window and within about 20 radii of it) time and memory.
+/// O(samples in the window and within about 20 radii of it) time and memory; in progressive order
+/// also those of each level that is not kept, in the margin that azulejo_kdrt_sample_window has for
+/// it.
 ///
 /// Errors: AZULEJO_ERROR_INVALID_ARGUMENT; AZULEJO_ERROR_TOO_LARGE for 2^32 samples or more in the
 /// window, or more than memory holds.
@@ -1307,7 +1656,8 @@ azulejo_status azulejo_mesh_create(const float *positions,
 /// azulejo_mesh_with_normals. Points, lines, materials, texture coordinates, colours and normals of
 /// STL facets are ignored.
 ///
-/// path: the file name in the encoding of the operating system, terminated by a NUL.
+/// path: the file name, terminated by a NUL: in the encoding of the operating system, on Windows in
+/// UTF-8, whatever the code page.
 ///
 /// out: the mesh, to be freed with azulejo_mesh_free.
 ///
@@ -1377,6 +1727,53 @@ azulejo_status azulejo_mesh_with_mask(const struct azulejo_mesh *mesh,
                                       size_t triangle_count,
                                       struct azulejo_mesh **out);
 
+/// Makes a mesh with its vertices moved, such as for the next frame of an animation. Triangles and
+/// mask stay; normals of azulejo_mesh_with_normals or of a file go. With azulejo_mesh_points the
+/// samples of one mesh follow to the other.
+///
+/// mesh: the mesh, which is not changed.
+///
+/// positions: the vertices, x y z each, `stride_bytes` from one to the next; `vertex_count` of
+/// them.
+///
+/// vertex_count: the number of vertices of the mesh.
+///
+/// stride_bytes: a multiple of 4, at least 12.
+///
+/// out: the new mesh, to be freed with azulejo_mesh_free. It shares triangles and mask with `mesh`;
+/// the two may be freed in any order.
+///
+/// O(vertices + triangles).
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT for positions that are not finite or leave no area, and
+/// for another count; AZULEJO_ERROR_OUT_OF_MEMORY.
+azulejo_status azulejo_mesh_deform(const struct azulejo_mesh *mesh,
+                                   const float *positions,
+                                   size_t vertex_count,
+                                   size_t stride_bytes,
+                                   struct azulejo_mesh **out);
+
+/// Evaluates places of a mesh, given by triangle and barycentrics, with the rounding of every
+/// sampler: places of samples of this mesh give the samples, bit for bit, and on a mesh of
+/// azulejo_mesh_deform each sample goes with its triangle.
+///
+/// triangles: the triangle of each place, below azulejo_mesh_triangle_count; `count` of them.
+/// Triangles without area, and those that a mask leaves out, are allowed.
+///
+/// barycentrics: u v of each place, finite; `count` of them.
+///
+/// out: the positions with normals, triangles and barycentrics, in the same order, to be freed with
+/// azulejo_points_free.
+///
+/// O(count).
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT; AZULEJO_ERROR_TOO_LARGE for sizes that overflow.
+azulejo_status azulejo_mesh_points(const struct azulejo_mesh *mesh,
+                                   const uint32_t *triangles,
+                                   const float *barycentrics,
+                                   size_t count,
+                                   struct azulejo_points **out);
+
 /// 1 if the mesh carries normals besides those of its triangles, else 0; 0 for NULL.
 int32_t azulejo_mesh_has_normals(const struct azulejo_mesh *mesh);
 
@@ -1410,14 +1807,16 @@ azulejo_status azulejo_psp_options_init(struct azulejo_psp_options *options, siz
 ///
 /// mesh: kept by the handle as long as it needs it.
 ///
-/// options: `iterations` and `maximal` must have their defaults: here each call says what it does.
+/// options: `iterations`, `maximal`, `count` and `order` must have their defaults: here each call
+/// says what it does.
 ///
 /// out: the handle, to be freed with azulejo_psp_free.
 ///
-/// At most O(triangles) time.
+/// At most O(triangles + given samples) time.
 ///
 /// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for a radius below 64 times the spacing of floats
-/// at the largest coordinate; AZULEJO_ERROR_TOO_LARGE, with the estimated number of samples.
+/// at the largest coordinate, and for a given sample out of range, with its index;
+/// AZULEJO_ERROR_TOO_LARGE, with the estimated number of samples on the surface without given ones.
 azulejo_status azulejo_psp_create(const struct azulejo_context *context,
                                   const struct azulejo_mesh *mesh,
                                   const struct azulejo_psp_options *options,
@@ -1442,9 +1841,9 @@ azulejo_status azulejo_psp_create(const struct azulejo_context *context,
 /// O((diagonal of the mesh / radius)^2 + hits) time for each iteration, and for the first one
 /// O(triangles * log triangles).
 ///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also while another call changes the handle;
-/// AZULEJO_ERROR_EMBREE; AZULEJO_ERROR_CANCELLED: the set then holds what was finished, and can
-/// still grow.
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also while another call changes the handle and for a
+/// `cosine` above -1; AZULEJO_ERROR_EMBREE; AZULEJO_ERROR_CANCELLED: the set then holds what was
+/// finished, and can still grow.
 azulejo_status azulejo_psp_advance(struct azulejo_psp *psp,
                                    uint32_t iterations,
                                    struct azulejo_psp_report *report);
@@ -1476,16 +1875,63 @@ void azulejo_psp_free(struct azulejo_psp *psp);
 /// Samples a mesh in one call: azulejo_psp_create, azulejo_psp_advance by `iterations` and, if
 /// `maximal` is 1, azulejo_psp_fill, with one progress for all.
 ///
+/// With a `count` the set has exactly so many samples: no two are closer than `radius` in the
+/// report, and every place of the surface is within `coverage` of one, in most cases less than 1.1
+/// times that radius. It takes about twice the time of a set of known radius.
+///
+/// In progressive order the samples are sorted coarse to fine (azulejo_points_ranks), from a single
+/// one on: the first of them, any number, are at least as far apart as their last rank, and cover
+/// the surface within `quotient` times that, or, if they are less than 100, within twice that (the
+/// square of the quotient times it if that is more). A set with a smaller count is a prefix of one
+/// with a larger count, bit for bit, for the same mesh, quotient and seed: levels of detail nest.
+/// Sets of two radii share all samples with ranks of at least `quotient` times the larger radius,
+/// of the first 100 those with ranks of at least 2.25 times it. It takes about five times the time
+/// of a set in any order, and more with many triangles per sample: some log(diagonal / radius) /
+/// log(quotient) levels visit all triangles.
+///
 /// out: the samples with normals, triangles and barycentrics, to be freed with azulejo_points_free.
 ///
 /// report: what the call did, or NULL.
 ///
-/// Complexity and errors: those of the three.
+/// Complexity and errors: those of the three; AZULEJO_ERROR_INVALID_ARGUMENT also for a `count`
+/// that is more than floats can carry on the mesh.
 azulejo_status azulejo_psp_sample(const struct azulejo_context *context,
                                   const struct azulejo_mesh *mesh,
                                   const struct azulejo_psp_options *options,
                                   struct azulejo_points **out,
                                   struct azulejo_psp_report *report);
+
+/// Samples a mesh with several classes at once.
+///
+/// No two samples of classes i and j are closer than r_ij. No class can take another sample: for
+/// each class i every place of the surface is within r_ij of a sample of some class j, up to the
+/// tolerance of azulejo_psp_fill.
+///
+/// Shares: of own radii 1, 1/2, 1/4 with the cross radii of azulejo_classes_radii and factor 1 the
+/// classes have about 100, 82 and 82 per cent of the samples that each would have alone. Equal
+/// radii have equal shares: two about 77 per cent each, eight 83, and two with factor 0.7 have 95.
+/// Of 1.1 and 1 the first has 100 and the second 68: shares jump where radii become equal.
+///
+/// options: `radius` must be 0, as the classes have radii. `count`, `order`, `iterations`,
+/// `maximal`, `priority` and `engine` must have their defaults. `given_clearances` has a row for
+/// each given sample with a clearance for each class; NULL stands for each class's own radius.
+///
+/// classes: the radii, and where each class may stand.
+///
+/// out: the samples with normals, triangles, barycentrics and azulejo_points_classes, by which they
+/// are sorted; to be freed with azulejo_points_free.
+///
+/// With two classes each sample takes about twice the time of one of azulejo_psp_sample, with eight
+/// about four times; all triangles are visited once for each class.
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for `radii` above 0 below 64 times the spacing of
+/// floats at the largest coordinate; AZULEJO_ERROR_TOO_LARGE, with the estimated number of samples;
+/// AZULEJO_ERROR_CANCELLED by the progress callback.
+azulejo_status azulejo_psp_sample_classes(const struct azulejo_context *context,
+                                          const struct azulejo_mesh *mesh,
+                                          const struct azulejo_psp_options *options,
+                                          const struct azulejo_classes *classes,
+                                          struct azulejo_points **out);
 
 /// Writes zeros and the size. `struct_size` is sizeof *report.
 ///
@@ -1517,15 +1963,50 @@ azulejo_status azulejo_psp_adaptive_options_init(struct azulejo_psp_adaptive_opt
 /// O(samples + triangles) time for radii that change slowly; see `slope`.
 ///
 /// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for radii that are not positive and finite or below
-/// 64 times the spacing of floats at the largest coordinate, and if `radius` returns a value
-/// outside `smallest` to `largest` or changes faster than `slope`; AZULEJO_ERROR_TOO_LARGE with the
-/// estimated number of samples, or for radii that change so fast that finding out what is covered
-/// would take thousands of evaluations per sample; AZULEJO_ERROR_CANCELLED.
+/// 64 times the spacing of floats at the largest coordinate, for a given sample out of range, with
+/// its index, and if `radius` returns a value outside `smallest` to `largest` or changes faster
+/// than `slope`; AZULEJO_ERROR_TOO_LARGE with the estimated number of samples, or for radii that
+/// change so fast that finding out what is covered would take thousands of evaluations per sample;
+/// AZULEJO_ERROR_CANCELLED.
 azulejo_status azulejo_psp_adaptive_sample(const struct azulejo_context *context,
                                            const struct azulejo_mesh *mesh,
                                            const struct azulejo_psp_adaptive_options *options,
                                            struct azulejo_points **out,
                                            struct azulejo_psp_report *report);
+
+/// Writes the defaults. `struct_size` is sizeof *density.
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
+azulejo_status azulejo_mesh_density_init(struct azulejo_mesh_density *density, size_t struct_size);
+
+/// Makes a maximal set of samples on a mesh with a density: azulejo_psp_adaptive_sample, where the
+/// radius at a density d is that at density 1 over sqrt(d). Embree is not used.
+///
+/// What azulejo_psp_adaptive_sample says of conflicts and of coverage holds for the radii that are
+/// returned. Where the density falls to 0 within a few radii, radii are limited to four times the
+/// least one on a piece of the surface of about that length.
+///
+/// options: those of azulejo_psp_adaptive_sample without any radii: vertex_radii and radius must be
+/// NULL.
+///
+/// density: the density; used during the call only.
+///
+/// out: the samples with normals, triangles, barycentrics and radii, to be freed with
+/// azulejo_points_free.
+///
+/// report: what the call did, or NULL; iterations, rays and hits are 0.
+///
+/// O(samples + triangles) time for densities that change slowly.
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for densities that are negative, not finite, or 0
+/// everywhere, above `largest`, or change faster than `slope`; AZULEJO_ERROR_TOO_LARGE as
+/// azulejo_psp_adaptive_sample; AZULEJO_ERROR_CANCELLED.
+azulejo_status azulejo_psp_adaptive_with_density(const struct azulejo_context *context,
+                                                 const struct azulejo_mesh *mesh,
+                                                 const struct azulejo_psp_adaptive_options *options,
+                                                 const struct azulejo_mesh_density *density,
+                                                 struct azulejo_points **out,
+                                                 struct azulejo_psp_report *report);
 
 /// Writes the defaults. `struct_size` is sizeof *options.
 ///
@@ -1570,6 +2051,48 @@ azulejo_status azulejo_dcr_relax(const struct azulejo_context *context,
                                  size_t count,
                                  struct azulejo_points **out,
                                  struct azulejo_dcr_report *report);
+
+/// Relaxes points of several classes, such as those of azulejo_kdrt_sample_classes: the union
+/// of all points and each class by itself get more even. They cannot be as even as a set of one
+/// class, as a good lattice does not divide into good lattices: from maximal sets of 2 to 7
+/// classes of a periodic domain, rho ends above 0.7 and the covering radius below 0.82 d_max,
+/// in the union and in each class, where before some covering radii were 1 d_max and more. No
+/// distance between points of two classes is promised.
+///
+/// Only AZULEJO_METHOD_MOMENTUM with AZULEJO_NEIGHBOURHOOD_DELAUNAY. The result is the set
+/// after the last whole step; it mostly makes all of them. A class whose points are crowded in
+/// some places and missing in others is levelled before the first step. A call that its
+/// progress callback cancels succeeds with what there is then, and AZULEJO_STOPPED_CANCELLED in
+/// the report.
+///
+/// xy: the points, x y each, with domain_min <= x < domain_max; `count` of them.
+///
+/// classes: the class of each point, below class_count; `count` of them.
+///
+/// class_count: the number of classes, at least 1 and at most AZULEJO_MAX_CLASSES.
+///
+/// out: the points, in the same order, to be freed with azulejo_points_free.
+///
+/// report: what the call did, with the figures of the union, or NULL.
+///
+/// class_rho, class_coverage: class_count numbers each, or NULL: the rho and the coverage of
+/// each class, as in the report, in units of the d_max of its own number of points; infinite
+/// where a class has fewer than two points, or none.
+///
+/// About 2.5 times the time of azulejo_dcr_relax, and O(count) memory. Source: the constraints
+/// of thesis chapter 4 for each of the sets; several classes after Wei 2010.
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_TOO_LARGE.
+azulejo_status azulejo_dcr_relax_classes(const struct azulejo_context *context,
+                                         const struct azulejo_dcr_options *options,
+                                         const float *xy,
+                                         const uint32_t *classes,
+                                         size_t count,
+                                         uint32_t class_count,
+                                         struct azulejo_points **out,
+                                         struct azulejo_dcr_report *report,
+                                         double *class_rho,
+                                         double *class_coverage);
 
 /// Writes the defaults. `struct_size` is sizeof *density.
 ///
@@ -1688,6 +2211,44 @@ azulejo_status azulejo_dcr_surface_relax(const struct azulejo_context *context,
                                          size_t count,
                                          struct azulejo_points **out,
                                          struct azulejo_dcr_surface_report *report);
+
+/// Writes zeros and the size. `struct_size` is sizeof *report.
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
+azulejo_status azulejo_dcr_remesh_report_init(struct azulejo_dcr_remesh_report *report,
+                                              size_t struct_size);
+
+/// Makes a mesh whose vertices are samples of another mesh (thesis fig. 1.12): remeshing, to more
+/// triangles or to fewer. The samples must be spread about evenly, as maximal and relaxed sets are;
+/// relaxed ones give the better angles. The triangles are those of the samples' Delaunay stars that
+/// go together.
+///
+/// No edge has more than two triangles, and two triangles at an edge are wound alike. Samples that
+/// resolve the features of a closed surface, wound alike everywhere, give a closed manifold of the
+/// same topology. Where they do not, as on thin blades and between faces that are wound against
+/// each other, there are holes. Triangles do not cross open boundaries: the new boundary is that of
+/// the outermost samples.
+///
+/// triangles, barycentrics: as for azulejo_dcr_surface_relax.
+///
+/// out: the new mesh, to be freed with azulejo_mesh_free. Vertex i is sample i, also if it has no
+/// triangle; triangles are wound as those of the old mesh under their corners. See
+/// azulejo_mesh_positions and azulejo_mesh_indices.
+///
+/// report: what was made, or NULL.
+///
+/// O(n log n) time and O(n) memory in samples and triangles. Progress is that of
+/// azulejo_context_watch.
+///
+/// Errors: those of azulejo_dcr_surface_relax; AZULEJO_ERROR_INVALID_ARGUMENT for samples that form
+/// no triangle; AZULEJO_ERROR_CANCELLED.
+azulejo_status azulejo_dcr_remesh(const struct azulejo_context *context,
+                                  const struct azulejo_mesh *mesh,
+                                  const uint32_t *triangles,
+                                  const float *barycentrics,
+                                  size_t count,
+                                  struct azulejo_mesh **out,
+                                  struct azulejo_dcr_remesh_report *report);
 
 /// Writes the defaults. `struct_size` is sizeof *options.
 ///

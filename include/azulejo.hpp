@@ -112,6 +112,9 @@ inline void check(azulejo_status code) { check(Status(code)); }
 /// azulejo_version.
 inline std::uint32_t version() noexcept { return azulejo_version(); }
 
+/// azulejo_has_embree.
+inline bool has_embree() noexcept { return azulejo_has_embree() != 0; }
+
 // ---- Arrays ------------------------------------------------------------------------------------
 
 /// An array that belongs to another object: a pointer and a size. What accessors return is valid as
@@ -219,6 +222,14 @@ public:
     /// The radius of each sample of psp_adaptive_sample; empty for other sets. See
     /// azulejo_points_radii.
     Span<const double> radii() const noexcept { return array(azulejo_points_radii(get()), 1); }
+    /// The rank of each sample of a set in progressive order; empty for other sets. See
+    /// azulejo_points_ranks.
+    Span<const float> ranks() const noexcept { return array(azulejo_points_ranks(get()), 1); }
+    /// The class of each sample of a set of several; empty for other sets. See
+    /// azulejo_points_classes.
+    Span<const std::uint32_t> classes() const noexcept {
+        return array(azulejo_points_classes(get()), 1);
+    }
 
 private:
     template <class T>
@@ -667,13 +678,57 @@ public:
 };
 
 /// See azulejo_kdrt_options; `radius` or `count` is to be set.
-using KdrtOptions = PlaneOptions<azulejo_kdrt_options, azulejo_kdrt_options_init>;
+class KdrtOptions : public PlaneOptions<azulejo_kdrt_options, azulejo_kdrt_options_init> {
+public:
+    /// Sets `given_positions`, x y each, `given_count` and `given_clearances`: none, so that all have
+    /// the radius, or as many as positions times the number of classes, 1 in calls without; calls
+    /// refuse the options if they are not. The arrays stay the caller's.
+    void set_given(Span<const float> positions, Span<const double> clearances = {},
+                   std::size_t classes = 1) noexcept {
+        this->given_count = positions.size() / 2;
+        const bool fits =
+            clearances.size() == 0 || clearances.size() == this->given_count * classes;
+        this->given_positions = fits ? positions.data() : nullptr;
+        this->given_clearances = clearances.size() == 0 ? nullptr : clearances.data();
+    }
+};
 /// See azulejo_kdrt_merge_options; `radius` has no default.
 using KdrtMergeOptions = PlaneOptions<azulejo_kdrt_merge_options, azulejo_kdrt_merge_options_init>;
 /// See azulejo_maximal_options; `radius` has no default.
 using MaximalOptions = PlaneOptions<azulejo_maximal_options, azulejo_maximal_options_init>;
-/// See azulejo_psp_options; `radius` has no default.
-using PspOptions = Options<azulejo_psp_options, azulejo_psp_options_init>;
+namespace detail {
+
+/// Sets the given samples of options; NULL for them, which the call refuses, where they do not fit.
+template <class C>
+void set_given(C &options, const SpacePoints &positions, Span<const double> clearances,
+               bool has_clearances, std::size_t classes = 1) {
+    const bool fits = positions.check("given_positions").ok() &&
+                      (!has_clearances || clearances.size() == positions.size() * classes);
+    options.given_positions = fits ? positions.data() : nullptr;
+    options.given_clearances = fits && has_clearances ? clearances.data() : nullptr;
+    options.given_count = positions.size() + !fits;
+}
+
+} // namespace detail
+
+/// See azulejo_psp_options; `radius` or `count` is to be set.
+class PspOptions : public Options<azulejo_psp_options, azulejo_psp_options_init> {
+public:
+    /// Sets the samples that are given, which stay the caller's. All have the radius of the set as
+    /// their clearance.
+    void set_given(const SpacePoints &positions) { detail::set_given(*this, positions, {}, false); }
+
+    /// The same with clearances of their own, one for each: the call refuses another number.
+    void set_given(const SpacePoints &positions, Span<const double> clearances) {
+        detail::set_given(*this, positions, clearances, true);
+    }
+
+    /// The same for psp_sample_classes: each has a row of clearances, one for each class.
+    void set_given(const SpacePoints &positions, Span<const double> clearances,
+                   std::uint32_t classes) {
+        detail::set_given(*this, positions, clearances, true, classes);
+    }
+};
 /// See azulejo_dcr_options.
 using DcrOptions = PlaneOptions<azulejo_dcr_options, azulejo_dcr_options_init>;
 /// See azulejo_dcr_surface_options.
@@ -689,6 +744,12 @@ public:
     void set_vertex_radii(Span<const float> radii) noexcept {
         vertex_radii = radii.data();
         vertex_count = radii.size();
+    }
+
+    /// Sets the samples that are given and the clearance of each, which stay the caller's: the call
+    /// refuses another number of clearances.
+    void set_given(const SpacePoints &positions, Span<const double> clearances) {
+        detail::set_given(*this, positions, clearances, true);
     }
 
     /// Sets `radius` and `radius_user`; an empty function unsets them. Copies share it as
@@ -718,6 +779,72 @@ struct Density {
     DensityFunction function{};
 };
 
+/// How dense samples of a mesh shall be; see azulejo_mesh_density. One of `vertex_values`,
+/// `function` and `image` is to be set, and one of `radius` and `count`. Arrays stay the caller's.
+struct MeshDensity {
+    Span<const float> vertex_values{};
+    RadiusFunction function{};
+    bool at_vertices = false;
+    double largest = 0;
+    double slope = 0;
+    Span<const float> image{};
+    std::size_t width = 0;
+    PlanePoints texture{};
+    bool by_corners = false;
+    double radius = 0;
+    double count = 0;
+};
+
+/// Classes of samples, and how far apart they are; see azulejo_classes. classes_radii makes those
+/// of own radii.
+struct Classes {
+    std::uint32_t count = 0;
+    /// count * count radii, row by row.
+    std::vector<double> radii{};
+    /// Where each class may stand on a mesh; empty for everywhere. They stay the caller's.
+    Span<const std::uint32_t> masks{};
+
+    /// How far apart samples of two classes are at least.
+    double radius(std::uint32_t i, std::uint32_t j) const {
+        return radii[std::size_t{i} * count + j];
+    }
+};
+
+/// Makes classes of own radii, with Wei's cross radii times a factor; see azulejo_classes_radii.
+inline Status try_classes_radii(Span<const double> own, double factor, Classes &out) {
+    if (own.empty() || own.size() > AZULEJO_MAX_CLASSES) {
+        return Status(AZULEJO_ERROR_INVALID_ARGUMENT,
+                      "own: " + std::to_string(own.size()) + " radii; there are 1 to " +
+                          std::to_string(AZULEJO_MAX_CLASSES));
+    }
+    std::vector<double> radii(own.size() * own.size());
+    const auto count = static_cast<std::uint32_t>(own.size());
+    const Status status(azulejo_classes_radii(own.data(), count, factor, radii.data()));
+    if (status.ok()) out = {count, std::move(radii), {}};
+    return status;
+}
+
+namespace detail {
+
+/// Calls with the C struct of classes.
+template <class Call>
+Status with_classes(const Classes &classes, Call call) {
+    azulejo_classes wanted = {};
+    if (Status s{azulejo_classes_init(&wanted, sizeof wanted)}; !s.ok()) return s;
+    if (classes.radii.size() != std::size_t{classes.count} * classes.count) {
+        return Status(AZULEJO_ERROR_INVALID_ARGUMENT,
+                      "radii: " + std::to_string(classes.radii.size()) + " for " +
+                          std::to_string(classes.count) + " classes");
+    }
+    wanted.count = classes.count;
+    wanted.radii = classes.radii.data();
+    wanted.masks = classes.masks.data();
+    wanted.mask_count = classes.masks.size();
+    return call(wanted);
+}
+
+} // namespace detail
+
 // ---- Reports -----------------------------------------------------------------------------------
 
 /// The report of a call: the C struct, initialised.
@@ -732,6 +859,7 @@ using KdrtMergeReport = Report<azulejo_kdrt_merge_report, azulejo_kdrt_merge_rep
 using PspReport = Report<azulejo_psp_report, azulejo_psp_report_init>;
 using DcrReport = Report<azulejo_dcr_report, azulejo_dcr_report_init>;
 using DcrSurfaceReport = Report<azulejo_dcr_surface_report, azulejo_dcr_surface_report_init>;
+using DcrRemeshReport = Report<azulejo_dcr_remesh_report, azulejo_dcr_remesh_report_init>;
 using PlaneReport = Report<azulejo_plane_report, azulejo_plane_report_init>;
 using SpectrumReport = Report<azulejo_spectrum_report, azulejo_spectrum_report_init>;
 using CoverageReport = Report<azulejo_coverage_report, azulejo_coverage_report_init>;
@@ -806,6 +934,16 @@ public:
         });
     }
 
+    /// A plane of several classes; see azulejo_kdrt_create_classes.
+    static Status try_create(const Context &context, const KdrtOptions &options,
+                             const Classes &classes, Kdrt &out) {
+        return detail::with_classes(classes, [&](const azulejo_classes &wanted) {
+            return detail::make(out, [&](auto **plane) {
+                return azulejo_kdrt_create_classes(context.get(), &options, &wanted, plane);
+            });
+        });
+    }
+
     /// The samples in a window, made on the calling thread; see azulejo_kdrt_window.
     Status try_window(const Pair &window_min, const Pair &window_max, Points &out) const {
         return detail::make(out, [&](auto **points) {
@@ -816,6 +954,10 @@ public:
 #ifndef AZULEJO_NO_EXCEPTIONS
     Kdrt(const Context &context, const KdrtOptions &options) {
         check(try_create(context, options, *this));
+    }
+
+    Kdrt(const Context &context, const KdrtOptions &options, const Classes &classes) {
+        check(try_create(context, options, classes, *this));
     }
 
     Points window(const Pair &window_min, const Pair &window_max) const {
@@ -878,6 +1020,30 @@ public:
         });
     }
 
+    /// This mesh with its vertices moved; see azulejo_mesh_deform.
+    Status try_deform(const Vertices &positions, Mesh &out) const {
+        if (Status s = positions.check("positions"); !s.ok()) return s;
+        return detail::make(out, [&](auto **mesh) {
+            return azulejo_mesh_deform(get(), positions.data(), positions.size(),
+                                       positions.stride(), mesh);
+        });
+    }
+
+    /// The places of triangles and barycentrics u v, as samples; see azulejo_mesh_points.
+    Status try_points(Span<const std::uint32_t> triangles, const PlanePoints &barycentrics,
+                      Points &out) const {
+        if (Status s = barycentrics.check("barycentrics"); !s.ok()) return s;
+        if (barycentrics.size() != triangles.size()) {
+            return Status(AZULEJO_ERROR_INVALID_ARGUMENT,
+                          "barycentrics: there are " + std::to_string(barycentrics.size()) +
+                              ", and " + std::to_string(triangles.size()) + " triangles");
+        }
+        return detail::make(out, [&](auto **points) {
+            return azulejo_mesh_points(get(), triangles.data(), barycentrics.data(),
+                                       triangles.size(), points);
+        });
+    }
+
 #ifndef AZULEJO_NO_EXCEPTIONS
     Mesh(const Vertices &positions, const Triangles &indices) {
         check(try_create(positions, indices, *this));
@@ -909,6 +1075,18 @@ public:
         Mesh mesh;
         check(try_with_mask(mask, mesh));
         return mesh;
+    }
+
+    Mesh deform(const Vertices &positions) const {
+        Mesh mesh;
+        check(try_deform(positions, mesh));
+        return mesh;
+    }
+
+    Points points(Span<const std::uint32_t> triangles, const PlanePoints &barycentrics) const {
+        Points points;
+        check(try_points(triangles, barycentrics, points));
+        return points;
     }
 #endif
 
@@ -1003,6 +1181,16 @@ inline Status try_kdrt_sample(const Context &context, const KdrtOptions &options
                               KdrtReport *report = nullptr) {
     return detail::make(out, [&](auto **points) {
         return azulejo_kdrt_sample(context.get(), &options, points, report);
+    });
+}
+
+/// Samples of several classes in a rectangle; see azulejo_kdrt_sample_classes.
+inline Status try_kdrt_sample_classes(const Context &context, const KdrtOptions &options,
+                                      const Classes &classes, Points &out) {
+    return detail::with_classes(classes, [&](const azulejo_classes &wanted) {
+        return detail::make(out, [&](auto **points) {
+            return azulejo_kdrt_sample_classes(context.get(), &options, &wanted, points);
+        });
     });
 }
 
@@ -1107,6 +1295,17 @@ inline Status try_psp_sample(const Context &context, const Mesh &mesh, const Psp
     });
 }
 
+/// Samples of a mesh of several classes at once; see azulejo_psp_sample_classes.
+inline Status try_psp_sample_classes(const Context &context, const Mesh &mesh,
+                                     const PspOptions &options, const Classes &classes,
+                                     Points &out) {
+    return detail::with_classes(classes, [&](const azulejo_classes &wanted) {
+        return detail::make(out, [&](auto **points) {
+            return azulejo_psp_sample_classes(context.get(), mesh.get(), &options, &wanted, points);
+        });
+    });
+}
+
 /// Samples of a mesh, each with a radius of its own; see azulejo_psp_adaptive_sample.
 inline Status try_psp_adaptive_sample(const Context &context, const Mesh &mesh,
                                       const PspAdaptiveOptions &options, Points &out,
@@ -1121,6 +1320,42 @@ inline Status try_psp_adaptive_sample(const Context &context, const Mesh &mesh,
     azulejo_psp_adaptive_options c_options = options;
     c_options.radius_user = &field;
     return detail::make(out, [&](auto **points) { return field.after(sample(c_options, points)); });
+}
+
+/// Samples of a mesh with a density; see azulejo_psp_adaptive_with_density.
+inline Status try_psp_adaptive_with_density(const Context &context, const Mesh &mesh,
+                                              const PspAdaptiveOptions &options,
+                                              const MeshDensity &density, Points &out,
+                                              PspReport *report = nullptr) {
+    if (Status s = density.texture.check("texture"); !s.ok()) return s;
+    if (!density.image.empty() &&
+        (density.width == 0 || density.image.size() % density.width != 0)) {
+        return Status(AZULEJO_ERROR_INVALID_ARGUMENT,
+                      "image: " + std::to_string(density.image.size()) +
+                          " numbers are not a multiple of " + std::to_string(density.width));
+    }
+    detail::Field<3> field(density.function);
+    azulejo_mesh_density wanted = {};
+    if (Status s{azulejo_mesh_density_init(&wanted, sizeof wanted)}; !s.ok()) return s;
+    wanted.vertex_values = density.vertex_values.data();
+    wanted.vertex_count = density.vertex_values.size();
+    wanted.function = density.function ? &detail::Field<3>::call : nullptr;
+    wanted.user = &field;
+    wanted.at_vertices = density.at_vertices;
+    wanted.largest = density.largest;
+    wanted.slope = density.slope;
+    wanted.image = density.image.data();
+    wanted.width = density.width;
+    wanted.height = density.image.empty() ? 0 : density.image.size() / density.width;
+    wanted.texture = density.texture.data();
+    wanted.texture_count = density.texture.size();
+    wanted.by_corners = density.by_corners;
+    wanted.radius = density.radius;
+    wanted.count = density.count;
+    return detail::make(out, [&](auto **points) {
+        return field.after(azulejo_psp_adaptive_with_density(
+            context.get(), mesh.get(), &options, &wanted, points, report));
+    });
 }
 
 // ---- Relaxation: `report` may be null; a cancelled call succeeds, as the report says -----------
@@ -1158,6 +1393,32 @@ inline Status try_dcr_relax(const Context &context, const DcrOptions &options,
     });
 }
 
+/// Relaxes points of the plane of `count` classes; see azulejo_dcr_relax_classes. `figures` gets the
+/// rho and the coverage of each class.
+inline Status try_dcr_relax_classes(const Context &context, const DcrOptions &options,
+                                    const PlanePoints &xy, Span<const std::uint32_t> classes,
+                                    std::uint32_t count, Points &out, DcrReport *report = nullptr,
+                                    std::vector<std::array<double, 2>> *figures = nullptr) {
+    if (Status s = xy.check("xy"); !s.ok()) return s;
+    if (classes.size() != xy.size()) {
+        return Status(AZULEJO_ERROR_INVALID_ARGUMENT,
+                      "classes: there are " + std::to_string(classes.size()) + ", and " +
+                          std::to_string(xy.size()) + " points");
+    }
+    // The call refuses more classes before it writes.
+    std::array<double, AZULEJO_MAX_CLASSES> rho{}, coverage{};
+    Status s = detail::make(out, [&](auto **points) {
+        return azulejo_dcr_relax_classes(context.get(), &options, xy.data(), classes.data(),
+                                         xy.size(), count, points, report, rho.data(),
+                                         coverage.data());
+    });
+    if (s.ok() && figures != nullptr) {
+        figures->clear();
+        for (std::uint32_t i = 0; i < count; i++) figures->push_back({rho[i], coverage[i]});
+    }
+    return s;
+}
+
 /// Random points of the plane, as dense as asked for; see azulejo_dcr_scatter.
 inline Status try_dcr_scatter(const Context &context, const DcrOptions &options,
                               const Density &density, std::size_t count, Points &out) {
@@ -1177,13 +1438,11 @@ inline Status try_dcr_relax_density(const Context &context, const DcrOptions &op
     });
 }
 
-/// Relaxes samples of a mesh, a triangle and the barycentrics u v for each; see
-/// azulejo_dcr_surface_relax.
-inline Status try_dcr_surface_relax(const Context &context, const Mesh &mesh,
-                                    const DcrSurfaceOptions &options,
-                                    Span<const std::uint32_t> triangles,
-                                    const Tuples<float, 2> &barycentrics, Points &out,
-                                    DcrSurfaceReport *report = nullptr) {
+namespace detail {
+
+/// Refuses samples of a mesh that have not a triangle and barycentrics each.
+inline Status check_places(Span<const std::uint32_t> triangles,
+                           const Tuples<float, 2> &barycentrics) {
     if (Status s = barycentrics.check("barycentrics"); !s.ok()) return s;
     if (barycentrics.size() != triangles.size()) {
         return Status(AZULEJO_ERROR_INVALID_ARGUMENT,
@@ -1191,6 +1450,19 @@ inline Status try_dcr_surface_relax(const Context &context, const Mesh &mesh,
                           ", and barycentrics of " + std::to_string(barycentrics.size()) +
                           " samples");
     }
+    return Status();
+}
+
+} // namespace detail
+
+/// Relaxes samples of a mesh, a triangle and the barycentrics u v for each; see
+/// azulejo_dcr_surface_relax.
+inline Status try_dcr_surface_relax(const Context &context, const Mesh &mesh,
+                                    const DcrSurfaceOptions &options,
+                                    Span<const std::uint32_t> triangles,
+                                    const Tuples<float, 2> &barycentrics, Points &out,
+                                    DcrSurfaceReport *report = nullptr) {
+    if (Status s = detail::check_places(triangles, barycentrics); !s.ok()) return s;
     return detail::make(out, [&](auto **points) {
         return azulejo_dcr_surface_relax(context.get(), mesh.get(), &options, triangles.data(),
                                          barycentrics.data(), triangles.size(), points, report);
@@ -1204,6 +1476,25 @@ inline Status try_dcr_surface_relax(const Context &context, const Mesh &mesh,
     if (Status s = SpacePoints(samples).check("samples"); !s.ok()) return s;
     return try_dcr_surface_relax(context, mesh, options, samples.triangles(),
                                  samples.barycentrics(), out, report);
+}
+
+/// Makes a mesh whose vertices are the samples; see azulejo_dcr_remesh.
+inline Status try_dcr_remesh(const Context &context, const Mesh &mesh,
+                             Span<const std::uint32_t> triangles,
+                             const Tuples<float, 2> &barycentrics, Mesh &out,
+                             DcrRemeshReport *report = nullptr) {
+    if (Status s = detail::check_places(triangles, barycentrics); !s.ok()) return s;
+    return detail::make(out, [&](auto **made) {
+        return azulejo_dcr_remesh(context.get(), mesh.get(), triangles.data(), barycentrics.data(),
+                                  triangles.size(), made, report);
+    });
+}
+
+/// The same for a set that was sampled or relaxed on the mesh.
+inline Status try_dcr_remesh(const Context &context, const Mesh &mesh, const Points &samples,
+                             Mesh &out, DcrRemeshReport *report = nullptr) {
+    if (Status s = SpacePoints(samples).check("samples"); !s.ok()) return s;
+    return try_dcr_remesh(context, mesh, samples.triangles(), samples.barycentrics(), out, report);
 }
 
 // ---- Analysis ----------------------------------------------------------------------------------
@@ -1480,6 +1771,19 @@ inline Points kdrt_sample(const Context &context, const KdrtOptions &options,
     return points;
 }
 
+inline Classes classes_radii(Span<const double> own, double factor = 1) {
+    Classes classes;
+    check(try_classes_radii(own, factor, classes));
+    return classes;
+}
+
+inline Points kdrt_sample_classes(const Context &context, const KdrtOptions &options,
+                                  const Classes &classes) {
+    Points points;
+    check(try_kdrt_sample_classes(context, options, classes, points));
+    return points;
+}
+
 inline Points kdrt_sample_window(const Context &context, const KdrtOptions &options,
                                  const Pair &window_min, const Pair &window_max) {
     Points points;
@@ -1527,6 +1831,13 @@ inline Points psp_sample(const Context &context, const Mesh &mesh, const PspOpti
     return points;
 }
 
+inline Points psp_sample_classes(const Context &context, const Mesh &mesh,
+                                 const PspOptions &options, const Classes &classes) {
+    Points points;
+    check(try_psp_sample_classes(context, mesh, options, classes, points));
+    return points;
+}
+
 inline Points psp_adaptive_sample(const Context &context, const Mesh &mesh,
                                   const PspAdaptiveOptions &options, PspReport *report = nullptr) {
     Points points;
@@ -1538,6 +1849,15 @@ inline Points dcr_relax(const Context &context, const DcrOptions &options, const
                         DcrReport *report = nullptr) {
     Points points;
     check(try_dcr_relax(context, options, xy, points, report));
+    return points;
+}
+
+inline Points dcr_relax_classes(const Context &context, const DcrOptions &options,
+                                const PlanePoints &xy, Span<const std::uint32_t> classes,
+                                std::uint32_t count, DcrReport *report = nullptr,
+                                std::vector<std::array<double, 2>> *figures = nullptr) {
+    Points points;
+    check(try_dcr_relax_classes(context, options, xy, classes, count, points, report, figures));
     return points;
 }
 
@@ -1553,6 +1873,15 @@ inline Points dcr_relax_density(const Context &context, const DcrOptions &option
                                 DcrReport *report = nullptr) {
     Points points;
     check(try_dcr_relax_density(context, options, density, xy, points, report));
+    return points;
+}
+
+inline Points psp_adaptive_with_density(const Context &context, const Mesh &mesh,
+                                          const PspAdaptiveOptions &options,
+                                          const MeshDensity &density,
+                                          PspReport *report = nullptr) {
+    Points points;
+    check(try_psp_adaptive_with_density(context, mesh, options, density, points, report));
     return points;
 }
 
@@ -1572,6 +1901,21 @@ inline Points dcr_surface_relax(const Context &context, const Mesh &mesh,
     Points points;
     check(try_dcr_surface_relax(context, mesh, options, samples, points, report));
     return points;
+}
+
+inline Mesh dcr_remesh(const Context &context, const Mesh &mesh,
+                       Span<const std::uint32_t> triangles,
+                       const Tuples<float, 2> &barycentrics, DcrRemeshReport *report = nullptr) {
+    Mesh made;
+    check(try_dcr_remesh(context, mesh, triangles, barycentrics, made, report));
+    return made;
+}
+
+inline Mesh dcr_remesh(const Context &context, const Mesh &mesh, const Points &samples,
+                       DcrRemeshReport *report = nullptr) {
+    Mesh made;
+    check(try_dcr_remesh(context, mesh, samples, made, report));
+    return made;
 }
 
 inline double plane_smallest_distance(const Context &context, const PlaneSet &set) {

@@ -36,16 +36,24 @@
 //! ```
 
 #![deny(unsafe_code)]
+// Elementary functions are those of math.rs; tests may use any.
+#![cfg_attr(not(test), deny(clippy::disallowed_methods))]
+#![cfg_attr(test, allow(clippy::disallowed_methods))]
 
 pub mod analysis;
+mod classes;
 pub mod dcr;
 mod error;
 mod geometry;
+mod given;
+mod host;
 mod job;
 pub mod kdrt;
+mod math;
 pub mod maximal;
 mod memory;
 pub mod mesh;
+mod order;
 mod plane;
 mod points;
 pub mod psp;
@@ -56,8 +64,11 @@ pub mod thin;
 #[allow(unsafe_code)]
 pub mod trace;
 
+pub use classes::Classes;
 pub use error::{Error, Result};
+pub use given::Given;
 pub use job::{Context, Progress};
+pub use order::Order;
 pub use points::{Boundary, Domain, MAXIMAL_DENSITY, SurfaceSamples};
 
 /// The code blocks of the README are compiled with the documentation tests.

@@ -10,7 +10,7 @@ use crate::error::Result;
 use crate::job::{Context, Job, Progress};
 use crate::memory;
 use crate::plane::lattice::Lattice;
-use crate::plane::{CellAxis, CellGrid, Quadtree};
+use crate::plane::{CellAxis, CellGrid, Disk, Quadtree};
 use crate::points::{Boundary, Domain};
 use crate::rng::{Draw, Rng};
 use crate::setters::setters;
@@ -63,12 +63,27 @@ pub fn sample(context: &Context, options: &Options, progress: Option<&Progress>)
 
 /// [`sample`] on a lattice that is at hand.
 pub(crate) fn sample_lattice(job: &Job, lattice: &Lattice, seed: u64) -> Result<Vec<[f32; 2]>> {
-    let samples = sample_points(job, lattice, seed)?;
+    sample_lattice_around(job, lattice, seed, Vec::new())
+}
+
+/// [`sample_lattice`] around disks.
+pub(crate) fn sample_lattice_around(
+    job: &Job,
+    lattice: &Lattice,
+    seed: u64,
+    disks: Vec<Disk>,
+) -> Result<Vec<[f32; 2]>> {
+    let samples = sample_points_around(job, lattice, seed, disks)?;
     Ok(samples.into_iter().map(|sample| lattice.position(sample)).collect())
 }
 
 /// The samples of [`sample`] as lattice points.
 pub(crate) fn sample_points(job: &Job, lattice: &Lattice, seed: u64) -> Result<Vec<[i32; 2]>> {
+    sample_points_around(job, lattice, seed, Vec::new())
+}
+
+/// [`sample_points`] around disks.
+pub(crate) fn sample_points_around(job: &Job, lattice: &Lattice, seed: u64, disks: Vec<Disk>) -> Result<Vec<[i32; 2]>> {
     let rect = lattice.rect();
     let axes = lattice.size.map(|size| CellAxis::new(size, lattice.radius));
     let [columns, rows] = [0, 1].map(|axis: usize| axes[axis].count());
@@ -80,6 +95,7 @@ pub(crate) fn sample_points(job: &Job, lattice: &Lattice, seed: u64) -> Result<V
         Boundary::Periodic => CellGrid::torus(&axes, lattice.separation),
         Boundary::Bounded => CellGrid::new(&axes, &rect, lattice.separation),
     };
+    grid.set_obstacles(disks);
     let mut quadtree = Quadtree::of_all(&job.part(0.0, 0.01), &grid)?;
     let mut rng = Rng::at(seed, Draw::Darts, &[]);
     quadtree.rain(&job.part(0.01, 1.0), &mut grid, &mut rng, expected, |_| ())?;

@@ -8,8 +8,15 @@ use crate::error::{Error, Result};
 /// control groups that it is in (those of a container, say) can give now. `argument` is the option
 /// that asks for them and `what` names what they are for: "3000000 samples".
 ///
-/// Where the operating system does not say (only Linux is asked) nothing is refused.
+/// Where the operating system does not say (only Linux is asked) nothing is refused, but on WebAssembly, where a request
+/// that cannot be met would end all, what cannot be reserved at once.
 pub(crate) fn require(bytes: f64, argument: &'static str, what: &str) -> Result<()> {
+    if !can_be_reserved(bytes) {
+        return Err(Error::too_large(
+            argument,
+            format!("{what} need {bytes:.2e} bytes, which WebAssembly cannot give"),
+        ));
+    }
     match available() {
         Some(limit) if bytes > limit => {
             let gigabytes = |bytes: f64| bytes / (1u64 << 30) as f64;
@@ -20,6 +27,14 @@ pub(crate) fn require(bytes: f64, argument: &'static str, what: &str) -> Result<
         }
         _ => Ok(()),
     }
+}
+
+/// Whether WebAssembly has, or can get, so much memory in one piece; true elsewhere.
+fn can_be_reserved(bytes: f64) -> bool {
+    // A Vec that is not used would never be made.
+    !cfg!(target_family = "wasm")
+        || (bytes < isize::MAX as f64
+            && std::hint::black_box(&mut Vec::<u8>::new()).try_reserve_exact(bytes as usize).is_ok())
 }
 
 /// Bytes of memory that can be had without swapping, where the operating system says.

@@ -123,7 +123,7 @@ impl Domain {
 }
 
 /// Samples on a triangle mesh; entry `i` of each vector belongs to sample `i`. All vectors have the same length, except
-/// that `interpolated_normals` can be empty.
+/// that `interpolated_normals`, `ranks` and `classes` can be empty.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SurfaceSamples {
     /// Positions, recomputed from the barycentrics in `f64` and rounded once.
@@ -137,6 +137,11 @@ pub struct SurfaceSamples {
     /// The mesh's own normals, given with it or read from its file, interpolated to the samples
     /// ([`Mesh::interpolated_normal`](crate::mesh::Mesh::interpolated_normal)). Empty if the mesh carries none.
     pub interpolated_normals: Vec<[f32; 3]>,
+    /// In progressive order ([`Order::Progressive`](crate::Order::Progressive)) the rank of each sample, a distance: the
+    /// samples up to this one are at least so far apart. Ranks never rise; the first is infinite. Empty in any other order.
+    pub ranks: Vec<f32>,
+    /// In a set of several [`Classes`](crate::Classes) the class of each sample. Empty in any other.
+    pub classes: Vec<u32>,
 }
 
 impl SurfaceSamples {
@@ -163,9 +168,14 @@ pub(crate) fn check_radius(radius: f64) -> Result<()> {
 /// How many float spacings a radius has at least: a tolerance of a few spacings is then a small part of it.
 const FINEST_RADIUS: f64 = 64.0;
 
+/// The smallest radius that floats of this spacing carry.
+pub(crate) fn finest_radius(spacing: f64) -> f64 {
+    FINEST_RADIUS * spacing
+}
+
 /// Refuses a radius below 64 times the spacing of floats at a place, such as "the largest coordinate of the mesh".
 pub(crate) fn check_resolution(argument: &'static str, radius: f64, spacing: f64, place: &str) -> Result<()> {
-    let finest = FINEST_RADIUS * spacing;
+    let finest = finest_radius(spacing);
     if radius >= finest {
         return Ok(());
     }

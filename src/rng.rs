@@ -50,6 +50,10 @@ pub(crate) enum Draw {
     Spread,
     /// Thinning: which point is the first of the progressive order.
     Thin,
+    /// The levels of a progressive order: KDRT and PSP.
+    Level,
+    /// The groups of several classes: KDRT and PSP.
+    Group,
 }
 
 /// The stream of random numbers of one place.

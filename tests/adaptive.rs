@@ -4,6 +4,7 @@
 #[allow(dead_code)]
 mod meshes;
 #[path = "common/adaptive_oracle.rs"]
+#[allow(dead_code)]
 mod oracle;
 
 use std::cell::Cell;

@@ -264,3 +264,17 @@ fn triangles_of_space_are_measured_as_if_they_lay_in_the_plane() {
     let [one, other] = [triangle, flat].map(|triangle| TriangleStatistics::of(&[triangle, flat]));
     assert!((one.edge_variation - other.edge_variation).abs() < 1e-12 && one.obtuse == 1.0);
 }
+
+/// What the tests of relaxation and analysis compare with: on a lattice of which the distances are known.
+#[test]
+fn the_oracle_of_distances_notices_points_that_are_moved_and_domains_that_wrap() {
+    let mut points: Vec<[f32; 2]> = (0..16).map(|i| [(i % 4) as f32 / 4.0, (i / 4) as f32 / 4.0]).collect();
+    let [torus, square] = BOUNDARIES.map(unit_square);
+    assert_eq!(nearest_distances(&torus, &points), [0.25; 16]);
+    let diagonals = [torus, square].map(|domain| distance(&domain, points[0], points[15]) / 2f64.sqrt());
+    assert!((diagonals[0] - 0.25).abs() < 1e-15 && (diagonals[1] - 0.75).abs() < 1e-15, "{diagonals:?}");
+    points[3][0] += 0.125;
+    let moved = nearest_distances(&torus, &points);
+    assert_eq!([moved[0], moved[3], moved[2]], [0.125, 0.125, 0.25]);
+    assert_eq!(nearest_distances(&square, &points)[0], 0.25);
+}

@@ -9,6 +9,8 @@ mod meshes;
 #[path = "common/surface_oracle.rs"]
 #[allow(dead_code)]
 mod oracle;
+#[path = "common/relaxed.rs"]
+mod relaxed;
 #[path = "common/sets.rs"]
 #[allow(dead_code)]
 mod sets;
@@ -19,7 +21,7 @@ use std::ops::ControlFlow;
 use azulejo::dcr::{Density, Neighbourhood, Options, Report, Stopped, relax, relax_with_density, scatter, surface};
 use azulejo::mesh::Mesh;
 use azulejo::{Boundary, Context, Domain, SurfaceSamples};
-use sets::{Random, nearest_distances, unit_square};
+use sets::{Random, unit_square};
 
 const BOUNDARIES: [Boundary; 2] = [Boundary::Periodic, Boundary::Bounded];
 const NEIGHBOURHOODS: [Neighbourhood; 2] = [Neighbourhood::Delaunay, Neighbourhood::Nearest];
@@ -68,15 +70,7 @@ fn points(start: Start, domain: &Domain, count: usize) -> Vec<[f32; 2]> {
 fn run(options: &Options, points: &[[f32; 2]]) -> Report {
     let (relaxed, report) = relax(&Context::new(1).unwrap(), options, points, None).unwrap();
     assert_eq!(relaxed.len(), points.len());
-    let domain = &options.domain;
-    let d_max = domain.hexagonal_distance(points.len());
-    let smallest = nearest_distances(domain, &relaxed).into_iter().fold(f64::INFINITY, f64::min);
-    assert!((report.rho - smallest / d_max).abs() < 1e-9, "{smallest}: {report:?}");
-    assert_eq!(
-        common::find_gap(domain, report.coverage * d_max * 1.0001 + common::float_spacing(domain), &relaxed),
-        None
-    );
-    assert!(common::find_gap(domain, report.coverage * d_max * 0.999, &relaxed).is_some(), "{report:?}");
+    relaxed::check(&options.domain, &relaxed, &report);
     report
 }
 

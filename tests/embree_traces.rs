@@ -86,6 +86,27 @@ fn assert_oracle_agrees(mesh: &Mesh, rays: &[Ray], hits: &[Hit]) {
 }
 
 #[test]
+fn the_oracle_notices_hits_that_are_missing_invented_or_moved() {
+    let Trace { mesh, rays, hits } = Trace::load("soup");
+    assert_oracle_agrees(&mesh, &rays, &hits);
+    let notices = |change: &dyn Fn(&mut Vec<Hit>)| {
+        let mut changed = hits.clone();
+        change(&mut changed);
+        std::panic::catch_unwind(|| assert_oracle_agrees(&mesh, &rays, &changed)).is_err()
+    };
+    let ray = |hit: &Hit| &rays[hit.ray as usize];
+    let sure: Vec<usize> = (0..hits.len()).filter(|&i| certain(&mesh, ray(&hits[i]), &hits[i])).collect();
+    assert!(sure.len() > hits.len() / 2);
+    for &i in sure.iter().step_by(sure.len() / 10) {
+        let beside = (hits[i].triangle + 1) % mesh.triangles.len() as u32;
+        assert!(notices(&|hits| _ = hits.remove(i)));
+        assert!(notices(&|hits| hits.insert(i, hits[i])));
+        assert!(notices(&|hits| hits[i].triangle = beside));
+        assert!(notices(&|hits| hits[i].t *= 1.001));
+    }
+}
+
+#[test]
 #[ignore = "rewrites the recorded traces"]
 fn record() {
     for (seed, name) in NAMES.into_iter().enumerate() {

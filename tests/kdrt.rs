@@ -78,16 +78,18 @@ fn domains_that_are_too_small_to_tile_are_sampled_like_maximal() {
     }
 }
 
-/// Elimination and filling add samples at the seams, a known share.
+/// Elimination and filling add samples at the seams, a share that falls as 1 / leaf size. Counts of unbiased sets of this
+/// size scatter by about 0.003: bounds are three standard errors of the mean, which at 40r excludes none and twice as many.
 #[test]
 fn the_density_is_near_that_of_an_unbiased_set() {
-    for (leaf_size, side, excess) in [(6.0, 150.0, 0.014), (20.0, 250.0, 0.005), (40.0, 250.0, 0.0025)] {
-        let radius = 1.0 / side;
+    let sets = 40;
+    for (leaf_size, excess) in [(6.0, 0.0148), (20.0, 0.0048), (40.0, 0.0025)] {
+        let radius = 1.0 / 250.0;
         let domain = Domain::unit(Boundary::Periodic);
-        let counts = (0..10).map(|seed| samples(domain, radius, leaf_size, seed).len()).sum::<usize>();
-        let density = counts as f64 / 10.0 * radius * radius;
+        let counts = (0..sets).map(|seed| samples(domain, radius, leaf_size, seed).len()).sum::<usize>();
+        let density = counts as f64 / sets as f64 * radius * radius;
         let relative = density / 0.69656 - 1.0;
-        assert!((relative - excess).abs() < 0.0025, "{density} at {leaf_size}r");
+        assert!((relative - excess).abs() < 0.0015, "{density} at {leaf_size}r");
     }
 }
 

@@ -182,7 +182,14 @@ fn a_stream_is_the_whole_in_parts_that_do_not_depend_on_the_threads() {
         let domain = domain([1e5, -3e4], [1e5 + 1234.5, -3e4 + 999.9], boundary);
         let options = Options::new(0.9).domain(domain).seed(1);
         let parts = streamed(1, &options);
-        assert!(parts.len() > 10 && parts.iter().all(|part| part.len() < 70_000));
+        assert!(parts.len() > 10 && parts.iter().all(|part| part.len() < 55_000));
+        for part in &parts {
+            let extent = [0, 1].map(|axis| {
+                let along = part.iter().map(|sample| f64::from(sample[axis]));
+                along.clone().fold(f64::NEG_INFINITY, f64::max) - along.fold(f64::INFINITY, f64::min)
+            });
+            assert!(extent.iter().all(|&extent| extent < 275.0 * 0.9), "{extent:?}");
+        }
         assert!(parts.concat() == whole(&options));
         assert!(parts == streamed(4, &options));
     }

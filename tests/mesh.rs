@@ -113,3 +113,39 @@ fn a_mesh_in_memory_is_read_as_its_name_or_its_contents_say() {
     let error = Mesh::parse("a.ply", text).unwrap_err();
     assert_eq!(error.to_string(), "a.ply: is no PLY file: it does not begin with \"ply\"");
 }
+
+#[test]
+fn samples_go_with_their_triangles_to_a_deformed_mesh() {
+    let (positions, triangles) = meshes::sphere();
+    let mesh = Mesh::new(positions.clone(), triangles.clone()).unwrap();
+    let mask: Vec<bool> = (0..triangles.len()).map(|i| i % 5 != 0).collect();
+    let mesh = mesh.with_normals(positions.clone(), None).unwrap().with_mask(mask).unwrap();
+    let (set, _) = azulejo::psp::sample(
+        &azulejo::Context::new(1).unwrap(),
+        &std::sync::Arc::new(mesh.clone()),
+        &azulejo::psp::Options::new(0.2),
+        None,
+    )
+    .unwrap();
+    assert_eq!(mesh.samples_at(&set.triangles, &set.barycentrics).unwrap(), set, "the same floats");
+
+    let moved: Vec<_> = positions.iter().map(|[x, y, z]| [2.0 * x, y - 1.0, 0.5 * z]).collect();
+    let deformed = mesh.deformed(moved.clone()).unwrap();
+    assert!(
+        !deformed.has_normals() && (0..triangles.len() as u32).all(|i| deformed.is_sampled(i) == mesh.is_sampled(i))
+    );
+    let fresh = Mesh::new(moved, triangles.clone()).unwrap();
+    let there = deformed.samples_at(&set.triangles, &set.barycentrics).unwrap();
+    for i in 0..set.len() {
+        assert_eq!(there.positions[i], fresh.point(set.triangles[i], set.barycentrics[i]));
+        assert_eq!(there.normals[i], fresh.normal(set.triangles[i]));
+    }
+
+    let refused = |result: azulejo::Result<Mesh>| result.unwrap_err().to_string();
+    assert!(refused(mesh.deformed(vec![[0.0; 3]; 2])).starts_with("positions: 2 for a mesh of"));
+    assert_eq!(refused(mesh.deformed(vec![[1.0; 3]; positions.len()])), "positions: the triangles have no area");
+    let refused = |triangles: &[u32], uv: &[[f32; 2]]| mesh.samples_at(triangles, uv).unwrap_err().to_string();
+    assert_eq!(refused(&[0], &[]), "barycentrics: there are 0, and 1 triangles");
+    assert!(refused(&[u32::MAX], &[[0.0; 2]]).starts_with("triangles: [0] is 4294967295"));
+    assert_eq!(refused(&[0], &[[0.0, f32::NAN]]), "barycentrics: [0] is [0.0, NaN], not finite");
+}

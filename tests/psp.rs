@@ -39,14 +39,8 @@ fn check(mesh: &Mesh, samples: &SurfaceSamples, radius: f64, maximal: bool) {
 
 /// Samples a mesh with and without iterations and filling, on one thread and on four, and checks all sets.
 fn check_all(mesh: &Arc<Mesh>, radius: f64) {
-    let cases = [
-        (0, true, Engine::Embree),
-        (2, false, Engine::Embree),
-        (2, true, Engine::Embree),
-        (2, false, Engine::Rasteriser),
-        (2, true, Engine::Rasteriser),
-    ];
-    for (iterations, maximal, engine) in cases {
+    let projected = Engine::AVAILABLE.iter().flat_map(|&engine| [(2, false, engine), (2, true, engine)]);
+    for (iterations, maximal, engine) in projected.chain([(0, true, Engine::default())]) {
         let options = Options::new(radius).iterations(iterations).maximal(maximal).engine(engine);
         let [(samples, report), (again, _)] =
             [1, 4].map(|threads| psp::sample(&Context::new(threads).unwrap(), mesh, &options, None).unwrap());
@@ -251,7 +245,7 @@ fn a_maximal_set_is_only_filled_unless_iterations_are_asked_for() {
 fn a_report_says_where_the_time_went_and_how_good_the_set_is() {
     let context = Context::new(2).unwrap();
     let mesh = mesh(meshes::fine_torus(100, 50));
-    for engine in [Engine::Embree, Engine::Rasteriser] {
+    for &engine in Engine::AVAILABLE {
         let options = Options::new(0.01).engine(engine);
         let mut psp = Psp::new(&mesh, &options).unwrap();
         let first = psp.advance(&context, 1, None).unwrap();
@@ -317,7 +311,7 @@ fn a_cancelled_call_leaves_a_valid_set_that_can_be_used_on() {
 fn whenever_it_is_cancelled_a_set_stays_valid_and_can_go_on() {
     let mesh = mesh(meshes::torus());
     let context = Context::new(1).unwrap();
-    for engine in [Engine::Embree, Engine::Rasteriser] {
+    for &engine in Engine::AVAILABLE {
         let options = Options::new(0.13).iterations(1).engine(engine);
         let expected = psp::sample(&context, &mesh, &options, None).unwrap().0;
         let mut lengths = vec![];

@@ -210,11 +210,13 @@ fn few_samples_that_are_far_apart_stay_so() {
 #[test]
 fn on_sharp_edges_and_thin_blades_distances_grow() {
     for (name, soup) in sharp() {
+        // Nearly as far as on smooth surfaces, but on the sides of a blade that is thinner than the distance.
+        let goal: f64 = if name == "blade" { 0.74 } else { 0.82 };
         let mesh = mesh(soup);
         let samples = darts(&mesh, 2500.0);
         let before = smallest_distance(&samples) / d_max(&mesh, samples.len());
         let (_, report) = run(&mesh, &samples);
-        assert!(report.rho > 1.03 * before, "{name}: {before} to {report:?}");
+        assert!(report.rho > goal.max(1.03 * before), "{name}: {before} to {report:?}");
     }
 }
 
@@ -270,7 +272,7 @@ fn random_soups_and_coincident_samples_are_held_out() {
     let samples = SurfaceSamples { triangles: vec![0; 60], barycentrics: vec![[0.25, 0.5]; 60], ..Default::default() };
     let samples = SurfaceSamples { positions: vec![[0.0; 3]; 60], ..samples };
     let (_, report) = run(&mesh, &samples);
-    assert!(report.smallest_distance > 0.0, "{report:?}");
+    assert!(report.rho > 0.8, "{report:?}");
 }
 
 #[test]

@@ -6,8 +6,8 @@ mod random;
 use std::cell::Cell;
 use std::ops::ControlFlow;
 
-use azulejo::thin::{Options, Order, Selection, thin};
-use azulejo::{Context, Error};
+use azulejo::thin::{Options, Selection, thin};
+use azulejo::{Context, Error, Order};
 use random::Random;
 
 fn distance<const D: usize>(a: [f32; D], b: [f32; D]) -> f64 {

@@ -97,6 +97,16 @@ macro_rules! watched {
     };
 }
 
+/// Puts up to two given samples in their place. Pointers and counts are the caller's word, which has to be true.
+macro_rules! put_given {
+    ($memory:ident, $type:ident, $positions:ident, $clearances:ident, $input:ident) => {
+        let clearances = if $input.one_in(2) { $clearances.as_ptr() } else { std::ptr::null() };
+        $memory.put(std::mem::offset_of!($type, given_positions), $positions.as_ptr());
+        $memory.put(std::mem::offset_of!($type, given_clearances), clearances);
+        $memory.put(std::mem::offset_of!($type, given_count), $input.below(3) as usize);
+    };
+}
+
 /// Calls with a struct that has no place for a callback are made with what is refused anyway, or is quick.
 fn quick(memory: &mut Struct, radius: usize) {
     memory.put(radius, 0.3f64);
@@ -108,6 +118,9 @@ fn kdrt(input: &mut Input, patience: &Patience) {
     if !watched!(memory, azulejo_kdrt_options, patience) {
         quick(&mut memory, std::mem::offset_of!(azulejo_kdrt_options, radius));
     }
+    let given = [0.2f32, 0.1, 0.7, 0.1];
+    let clearances = [0.1f64, 0.3];
+    put_given!(memory, azulejo_kdrt_options, given, clearances, input);
     let options = memory.start.cast();
     let corners = [[0.25, 0.25], [0.5f64, 0.5]];
     // SAFETY: the options are of the size that they say.
@@ -153,6 +166,9 @@ fn psp(input: &mut Input, patience: &Patience) {
         memory.put(std::mem::offset_of!(azulejo_psp_options, radius), 0.3f64);
         memory.put(std::mem::offset_of!(azulejo_psp_options, iterations), 2u32);
     }
+    let given = [0.2f32, 0.1, 0.0, 0.7, 0.1, 0.2];
+    let clearances = [0.1f64, 0.3];
+    put_given!(memory, azulejo_psp_options, given, clearances, input);
     let (mesh, options) = (triangle(), memory.start.cast());
     // SAFETY: the options are of the size that they say.
     unsafe {
@@ -179,6 +195,9 @@ fn adaptive(input: &mut Input, patience: &Patience) {
     if !watched!(memory, azulejo_psp_adaptive_options, patience) {
         memory.put(std::mem::offset_of!(azulejo_psp_adaptive_options, slope), 0.0f64);
     }
+    let given = [0.2f32, 0.1, 0.0, 0.7, 0.1, 0.2];
+    let clearances = [0.1f64, 0.3];
+    put_given!(memory, azulejo_psp_adaptive_options, given, clearances, input);
     let mesh = triangle();
     // SAFETY: the options are of the size that they say.
     create(|out| unsafe { azulejo_psp_adaptive_sample(context(), Some(&mesh), memory.start.cast(), out, null_mut()) });

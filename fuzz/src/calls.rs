@@ -114,6 +114,7 @@ pub struct Arrays<'a> {
     pub normals: &'a [f32],
     pub interpolated: &'a [f32],
     pub radii: &'a [f64],
+    pub ranks: &'a [f32],
 }
 
 impl<'a> Arrays<'a> {
@@ -129,6 +130,7 @@ impl<'a> Arrays<'a> {
                 normals: array(azulejo_points_normals(points), 3 * count),
                 interpolated: array(azulejo_points_interpolated_normals(points), 3 * count),
                 radii: array(azulejo_points_radii(points), count),
+                ranks: array(azulejo_points_ranks(points), count),
             }
         }
     }

@@ -5,21 +5,23 @@ use std::ffi::c_void;
 use std::ptr::{NonNull, null_mut};
 
 use azulejo_c::adaptive::*;
-use azulejo_c::analysis::azulejo_mesh_uncovered_fraction;
+use azulejo_c::analysis::{azulejo_coverage_report_init, azulejo_mesh_coverage};
+use azulejo_c::classes::azulejo_classes;
 use azulejo_c::mesh::*;
-use azulejo_c::points::{azulejo_points, azulejo_points_count};
+use azulejo_c::points::{azulejo_points, azulejo_points_classes, azulejo_points_count};
 use azulejo_c::psp::*;
 use azulejo_c::psp_report::azulejo_psp_report_init;
-use azulejo_c::surface::*;
+use azulejo_c::thin::{AZULEJO_ORDER_ANY, AZULEJO_ORDER_PROGRESSIVE};
 
-use crate::calls::{Arrays, Out, Patience, accepted, array, check_distances, context, create, report, value};
+use crate::calls::{Arrays, Out, Patience, accepted, array, check_distances, context, create, report, reported};
 use crate::input::Input;
+use crate::surface_relaxation::relax;
 
 /// About how many samples a set has at most.
 const SAMPLES: f64 = 100.0;
 
 /// Corners of the mesh in `f64`.
-struct Corners(Vec<[[f64; 3]; 3]>);
+pub(crate) struct Corners(pub Vec<[[f64; 3]; 3]>);
 
 impl Corners {
     fn of(mesh: &azulejo_mesh) -> Self {
@@ -47,17 +49,21 @@ impl Corners {
         self.0.iter().flatten().flatten().fold(0.0, |largest, x| x.abs().max(largest))
     }
 
+    /// Where barycentrics of a triangle are.
+    pub fn place(&self, triangle: u32, barycentrics: [f32; 2]) -> [f32; 3] {
+        let [a, b, c] = self.0[triangle as usize];
+        let [u, v] = barycentrics.map(f64::from);
+        std::array::from_fn(|axis| ((1.0 - u - v) * a[axis] + u * b[axis] + v * c[axis]) as f32)
+    }
+
     /// Samples lie on their triangles, where their barycentrics say.
-    fn check(&self, set: &Arrays) {
+    pub(crate) fn check(&self, set: &Arrays) {
         assert_eq!(set.positions.len(), 3 * set.triangles.len());
         for (i, &triangle) in set.triangles.iter().enumerate() {
-            let [a, b, c] = self.0[triangle as usize];
-            let [u, v] = [set.barycentrics[2 * i], set.barycentrics[2 * i + 1]].map(f64::from);
+            let at = [set.barycentrics[2 * i], set.barycentrics[2 * i + 1]];
+            let [u, v] = at.map(f64::from);
             assert!(u >= 0.0 && v >= 0.0 && u + v <= 1.0, "sample {i}: barycentrics {u} {v}");
-            for axis in 0..3 {
-                let x = (1.0 - u - v) * a[axis] + u * b[axis] + v * c[axis];
-                assert_eq!(set.positions[3 * i + axis], x as f32, "sample {i}, axis {axis}");
-            }
+            assert_eq!(set.positions[3 * i..3 * i + 3], self.place(triangle, at), "sample {i}");
             let length: f32 = set.normals[3 * i..3 * i + 3].iter().map(|x| x * x).sum();
             assert!((length - 1.0).abs() < 1e-3, "sample {i}: a normal of squared length {length}");
             assert!(set.interpolated.iter().all(|x| x.is_finite()));
@@ -65,33 +71,111 @@ impl Corners {
     }
 }
 
-/// Samples a mesh by all calls, with a radius that gives few samples.
-pub fn sample(mesh: &azulejo_mesh, input: &mut Input) {
-    let corners = Corners::of(mesh);
-    let samples = 1.0 + f64::from(input.any::<u8>() / 2);
-    let area = azulejo_mesh_area(Some(mesh));
-    let radius = (area / samples).sqrt().max(corners.length() / SAMPLES);
-    let radius = if input.one_in(16) { input.number() } else { radius };
-    if area / (radius * radius) + corners.length() / radius > 10.0 * SAMPLES {
-        return; // refused or made, but not in the time that a fuzz target has
+/// What a mesh is asked for.
+struct Request {
+    corners: Corners,
+    radius: f64,
+    patience: Box<Patience>,
+    given: Given,
+    options: azulejo_psp_options,
+}
+
+impl Request {
+    /// A radius that gives few samples, around some that are given. None if there would be too many for the time that a fuzz
+    /// target has.
+    fn any(mesh: &azulejo_mesh, input: &mut Input) -> Option<Self> {
+        let corners = Corners::of(mesh);
+        let samples = 1.0 + f64::from(input.any::<u8>() / 2);
+        let area = azulejo_mesh_area(Some(mesh));
+        let radius = (area / samples).sqrt().max(corners.length() / SAMPLES);
+        let radius = if input.one_in(16) { input.number() } else { radius };
+        if area / (radius * radius) + corners.length() / radius > 10.0 * SAMPLES {
+            return None;
+        }
+        let patience = Box::new(Patience::new(u32::MAX));
+        let given = Given::any(&corners, radius, input);
+        let options = azulejo_psp_options {
+            struct_size: size_of::<azulejo_psp_options>() as u32,
+            iterations: input.below(3),
+            radius,
+            seed: input.any(),
+            maximal: u32::from(!input.one_in(4)),
+            priority: i32::from(input.one_in(4)),
+            engine: i32::from(input.one_in(2)),
+            order: AZULEJO_ORDER_ANY,
+            progress: Some(Patience::tell),
+            progress_user: patience.user(),
+            count: 0,
+            quotient: 0.0,
+            given_positions: given.positions.as_ptr().cast(),
+            given_clearances: given.clearances.as_ref().map_or(std::ptr::null(), |clearances| clearances.as_ptr()),
+            given_count: given.positions.len(),
+            cosine: if input.one_in(8) { input.number() } else { -1.0 },
+        };
+        Some(Self { corners, radius, patience, given, options })
     }
-    let patience = Patience::new(u32::MAX);
-    let options = azulejo_psp_options {
-        struct_size: size_of::<azulejo_psp_options>() as u32,
-        iterations: input.below(3),
-        radius,
-        seed: input.any(),
-        maximal: u32::from(!input.one_in(4)),
-        priority: i32::from(input.one_in(4)),
-        engine: i32::from(input.one_in(2)),
-        reserved: 0,
-        progress: Some(Patience::tell),
-        progress_user: patience.user(),
-    };
-    at_once(mesh, &corners, &options);
+}
+
+/// Samples a mesh at once, in steps, and with radii that vary, and relaxes what comes out.
+pub fn sample(mesh: &azulejo_mesh, input: &mut Input) {
+    let Some(Request { corners, radius, patience, given, options }) = Request::any(mesh, input) else { return };
+    at_once(mesh, &corners, &options, &given);
     in_steps(mesh, &corners, &options, &patience, input);
-    adaptive(mesh, &corners, radius, input);
+    adaptive(mesh, &corners, radius, &given, input);
     relax(mesh, &corners, input);
+}
+
+/// Samples a mesh by density, in progressive order, or with several classes.
+pub fn sample_kinds(mesh: &azulejo_mesh, input: &mut Input) {
+    let Some(Request { corners, radius, options, .. }) = &Request::any(mesh, input) else { return };
+    match input.below(3) {
+        0 => crate::mesh_density::sample(mesh, corners, *radius, input),
+        1 => ordered(mesh, corners, options, input),
+        _ => of_classes(mesh, corners, options, input),
+    }
+}
+
+/// Samples that are given.
+struct Given {
+    positions: Vec<[f32; 3]>,
+    /// NULL to the call, where there are none.
+    clearances: Option<Vec<f64>>,
+}
+
+impl Given {
+    /// At corners of the mesh, near them, anywhere; with clearances about the radius, or anything.
+    fn any(corners: &Corners, radius: f64, input: &mut Input) -> Self {
+        let count = if input.one_in(2) { 0 } else { input.below(20) };
+        let hostile = input.one_in(16);
+        let position = |input: &mut Input| -> [f32; 3] {
+            if hostile || corners.0.is_empty() {
+                return std::array::from_fn(|_| input.coordinate());
+            }
+            let corner = corners.0[input.below(corners.0.len() as u32) as usize][0];
+            let near = |x: f64, input: &mut Input| x + radius * f64::from(input.any::<i8>()) / 64.0;
+            corner.map(|x| if input.one_in(2) { x } else { near(x, input) } as f32)
+        };
+        let positions: Vec<_> = (0..count).map(|_| position(input)).collect();
+        let clearance = |input: &mut Input| match input.below(8) {
+            0 if hostile => input.number(),
+            kind => radius * 10f64.powi(2 - kind as i32),
+        };
+        let clearances = (!input.one_in(4)).then(|| (0..count).map(|_| clearance(input)).collect());
+        Self { positions, clearances }
+    }
+
+    /// Each sample keeps the clearance of each.
+    fn check(&self, points: &azulejo_points, radius: f64) {
+        let (positions, _) = Arrays::of(points).positions.as_chunks::<3>();
+        for (i, given) in self.positions.iter().enumerate() {
+            let clearance = self.clearances.as_ref().map_or(radius, |clearances| clearances[i]);
+            for (sample, position) in positions.iter().enumerate() {
+                let squared: f64 =
+                    (0..3).map(|axis| (f64::from(position[axis]) - f64::from(given[axis])).powi(2)).sum();
+                assert!(squared.sqrt() >= clearance, "sample {sample} is too close to given {i}");
+            }
+        }
+    }
 }
 
 fn check_uniform(corners: &Corners, points: &azulejo_points, radius: f64) {
@@ -101,28 +185,113 @@ fn check_uniform(corners: &Corners, points: &azulejo_points, radius: f64) {
     check_distances(positions, |a, b| std::array::from_fn(|axis| a[axis] - b[axis]), |_, _| radius);
 }
 
-fn at_once(mesh: &azulejo_mesh, corners: &Corners, options: &azulejo_psp_options) {
+fn at_once(mesh: &azulejo_mesh, corners: &Corners, options: &azulejo_psp_options, given: &Given) {
     let mut report = report(azulejo_psp_report_init);
     // SAFETY: the structs are of the sizes that they say.
     let call = |out: Out<_>| unsafe { azulejo_psp_sample(context(), Some(mesh), options, out, &raw mut report) };
     let Some(points) = create(call) else { return };
     assert_eq!(report.samples, azulejo_points_count(Some(&points)) as u64);
-    check_uniform(corners, &points, options.radius);
-    if options.maximal == 1 {
-        check_covered(mesh, corners, &points, options);
+    given.check(&points, options.radius);
+    if options.cosine == -1.0 {
+        check_uniform(corners, &points, options.radius);
+    }
+    if options.maximal == 1 && given.clearances.is_none() {
+        check_covered(mesh, corners, &points, options, &given.positions);
     }
 }
 
-/// A maximal set leaves no probe uncovered, up to six float spacings.
-fn check_covered(mesh: &azulejo_mesh, corners: &Corners, points: &azulejo_points, options: &azulejo_psp_options) {
+/// A maximal set, with what is given, leaves no place of the mesh uncovered, up to six float spacings.
+fn check_covered(
+    mesh: &azulejo_mesh,
+    corners: &Corners,
+    points: &azulejo_points,
+    options: &azulejo_psp_options,
+    given: &[[f32; 3]],
+) {
     let radius = options.radius + 6.0 * corners.largest_coordinate() * f64::from(f32::EPSILON);
-    let (positions, _) = Arrays::of(points).positions.as_chunks::<3>();
+    let positions = [Arrays::of(points).positions.as_chunks::<3>().0, given].concat();
     let (start, count) = (positions.as_ptr().cast(), positions.len());
     // SAFETY: the array is as long as that.
-    let fraction = value(|out| unsafe {
-        azulejo_mesh_uncovered_fraction(context(), Some(mesh), start, count, radius, 200, options.seed, out)
+    let coverage = reported(azulejo_coverage_report_init, |out| unsafe {
+        azulejo_mesh_coverage(context(), Some(mesh), start, count, radius, out)
     });
-    assert_eq!(fraction, Some(0.0));
+    let coverage = coverage.expect("what is covered can be told");
+    assert!(coverage.gaps == 0 && coverage.covering_radius <= radius, "{}, {radius}", coverage.covering_radius);
+}
+
+/// Sets of exact counts, and in progressive order.
+fn ordered(mesh: &azulejo_mesh, corners: &Corners, options: &azulejo_psp_options, input: &mut Input) {
+    let count = if input.one_in(2) { input.below(60) as usize } else { 0 };
+    let is_progressive = count == 0 || input.one_in(2);
+    let options = &azulejo_psp_options {
+        iterations: AZULEJO_ITERATIONS_DEFAULT,
+        maximal: 1,
+        radius: if count > 0 { 0.0 } else { options.radius },
+        order: if is_progressive { AZULEJO_ORDER_PROGRESSIVE } else { AZULEJO_ORDER_ANY },
+        count,
+        ..*options
+    };
+    let mut report = report(azulejo_psp_report_init);
+    // SAFETY: the structs are of the sizes that they say.
+    let call = |out: Out<_>| unsafe { azulejo_psp_sample(context(), Some(mesh), options, out, &raw mut report) };
+    let Some(points) = create(call) else { return };
+    let set = Arrays::of(&points);
+    corners.check(&set);
+    assert!(count == 0 || set.triangles.len() == count);
+    if options.cosine == -1.0 {
+        let (positions, _) = set.positions.as_chunks::<3>();
+        check_distances(positions, |a, b| std::array::from_fn(|axis| a[axis] - b[axis]), |_, _| report.radius);
+    }
+}
+
+/// Sets of several classes, with any matrix and masks.
+fn of_classes(mesh: &azulejo_mesh, corners: &Corners, options: &azulejo_psp_options, input: &mut Input) {
+    let count = 1 + input.below(4) as usize;
+    let mut radii = vec![0.0; count * count];
+    for i in 0..count {
+        for j in 0..=i {
+            let share = [1.0, 0.7, 2.0, 0.0, 0.3][input.below(5) as usize];
+            let radius = options.radius * if i == j { f64::max(share, 0.6) } else { share };
+            (radii[i * count + j], radii[j * count + i]) = (radius, radius);
+        }
+    }
+    let masks: Vec<u32> = match input.one_in(2) {
+        true => (0..corners.0.len()).map(|_| input.any()).collect(),
+        false => Vec::new(),
+    };
+    let classes = azulejo_classes {
+        struct_size: size_of::<azulejo_classes>() as u32,
+        count: count as u32,
+        radii: radii.as_ptr(),
+        masks: if masks.is_empty() { std::ptr::null() } else { masks.as_ptr() },
+        mask_count: masks.len(),
+    };
+    let options = &azulejo_psp_options {
+        iterations: AZULEJO_ITERATIONS_DEFAULT,
+        maximal: 1,
+        radius: 0.0,
+        priority: AZULEJO_PRIORITY_SQUARENESS,
+        engine: AZULEJO_ENGINE_EMBREE,
+        given_positions: std::ptr::null(),
+        given_clearances: std::ptr::null(),
+        given_count: 0,
+        ..*options
+    };
+    // SAFETY: the structs are of the sizes that they say, and the arrays as long.
+    let call = |out: Out<_>| unsafe { azulejo_psp_sample_classes(context(), Some(mesh), options, &classes, out) };
+    let Some(points) = create(call) else { return };
+    let set = Arrays::of(&points);
+    corners.check(&set);
+    let start = azulejo_points_classes(Some(&points));
+    // SAFETY: there is one for each sample.
+    let class: Vec<usize> = (0..set.triangles.len()).map(|i| unsafe { start.add(i).read() } as usize).collect();
+    let may_stand = |i: usize| masks.get(set.triangles[i] as usize).is_none_or(|mask| mask >> class[i] & 1 == 1);
+    assert!(class.is_sorted() && (0..class.len()).all(may_stand));
+    if options.cosine == -1.0 {
+        let (positions, _) = set.positions.as_chunks::<3>();
+        let difference = |a: [f64; 3], b: [f64; 3]| std::array::from_fn(|axis| a[axis] - b[axis]);
+        check_distances(positions, difference, |i, j| radii[class[i] * count + class[j]]);
+    }
 }
 
 fn in_steps(
@@ -132,7 +301,7 @@ fn in_steps(
     patience: &Patience,
     input: &mut Input,
 ) {
-    let options = &azulejo_psp_options { iterations: 1, maximal: 1, ..*options };
+    let options = &azulejo_psp_options { iterations: 1, maximal: 1, cosine: -1.0, ..*options };
     // SAFETY: the options are of the size that they say.
     let create_set = |out: Out<_>| unsafe { azulejo_psp_create(context(), Some(mesh), options, out) };
     let Some(mut set) = create(create_set) else { return };
@@ -185,7 +354,7 @@ unsafe extern "C-unwind" fn radius_at(user: *mut c_void, position: *const f64) -
     unsafe { (*user.cast::<Guest>()).at(*position.cast()) }
 }
 
-fn adaptive(mesh: &azulejo_mesh, corners: &Corners, radius: f64, input: &mut Input) {
+fn adaptive(mesh: &azulejo_mesh, corners: &Corners, radius: f64, given: &Given, input: &mut Input) {
     let radii: Vec<f32> =
         (0..azulejo_mesh_vertex_count(Some(mesh)))
             .map(|_| {
@@ -212,53 +381,19 @@ fn adaptive(mesh: &azulejo_mesh, corners: &Corners, radius: f64, input: &mut Inp
         seed: input.any(),
         progress: None,
         progress_user: std::ptr::null_mut(),
+        given_positions: given.positions.as_ptr().cast(),
+        given_clearances: given.clearances.as_ref().map_or(std::ptr::null(), |clearances| clearances.as_ptr()),
+        given_count: given.positions.len(),
     };
     // SAFETY: the options are of the size that they say, and so is the array.
     let call = |out: Out<_>| unsafe { azulejo_psp_adaptive_sample(context(), Some(mesh), &options, out, null_mut()) };
     let Some(points) = create(call) else { return };
     let set = Arrays::of(&points);
     corners.check(&set);
+    given.check(&points, f64::NAN);
     if options.cosine == -1.0 {
         let (positions, _) = set.positions.as_chunks::<3>();
         let mean = |i: usize, j: usize| (set.radii[i] + set.radii[j]) / 2.0;
         check_distances(positions, |a, b| std::array::from_fn(|axis| a[axis] - b[axis]), mean);
     }
-}
-
-/// Samples anywhere, some on edges and on each other, walk over the mesh.
-fn relax(mesh: &azulejo_mesh, corners: &Corners, input: &mut Input) {
-    let patience = Patience::new(if input.one_in(4) { input.below(20) } else { u32::MAX });
-    let options = azulejo_dcr_surface_options {
-        struct_size: size_of::<azulejo_dcr_surface_options>() as u32,
-        max_iterations: input.below(12),
-        tolerance: if input.one_in(8) { input.number() } else { -1.0 },
-        seed: input.any(),
-        progress: Some(Patience::tell),
-        progress_user: patience.user(),
-    };
-    let count = input.below(40) as usize;
-    let hostile = input.one_in(8);
-    let triangles: Vec<u32> = (0..count)
-        .map(|_| if hostile { input.any::<u8>().into() } else { input.below(corners.0.len().max(1) as u32) })
-        .collect();
-    let sides = |input: &mut Input| {
-        let [u, v] = [0; 2].map(|_| f32::from(input.any::<u8>() / 15) / 17.0);
-        if hostile {
-            [input.coordinate(), v]
-        } else if u + v > 1.0 {
-            [1.0 - u, 1.0 - v]
-        } else {
-            [u, v]
-        }
-    };
-    let barycentrics: Vec<[f32; 2]> = (0..count).map(|_| sides(input)).collect();
-    let (start, uv) = (triangles.as_ptr(), barycentrics.as_ptr().cast());
-    // SAFETY: the options are of the size that they say, and so are the arrays.
-    let call = |out: Out<_>| unsafe {
-        azulejo_dcr_surface_relax(context(), Some(mesh), &options, start, uv, count, out, null_mut())
-    };
-    let Some(points) = create(call) else { return };
-    let set = Arrays::of(&points);
-    assert_eq!(set.triangles.len(), count);
-    corners.check(&set);
 }

@@ -6,6 +6,7 @@ use crate::error::Result;
 use crate::geometry::delaunay::Delaunay;
 use crate::geometry::frame::Frame;
 use crate::job::{Context, Job, Progress, chunks};
+use crate::math::{atan2, direction};
 use crate::points::Domain;
 
 /// The bond order ψ6 of a set (Nelson and Halperin 1979, "Dislocation-mediated melting in two dimensions"): the mean over
@@ -45,7 +46,7 @@ pub(super) fn mean_order(job: &Job, delaunay: &Delaunay) -> Result<f64> {
 /// The order of a point by the offsets of its neighbours.
 fn order(ring: impl Iterator<Item = DVec2>) -> Option<f64> {
     let add =
-        |(sum, count): (DVec2, f64), offset: DVec2| (sum + DVec2::from_angle(6.0 * offset.to_angle()), count + 1.0);
+        |(sum, count): (DVec2, f64), offset: DVec2| (sum + direction(6.0 * atan2(offset.y, offset.x)), count + 1.0);
     let (sum, count) = ring.fold((DVec2::ZERO, 0.0), add);
     (count > 0.0).then(|| sum.length() / count)
 }

@@ -7,6 +7,7 @@
 use glam::DVec3;
 
 use crate::error::{Error, Result};
+use crate::math::acos;
 use crate::mesh::{Mesh, exact};
 
 /// The part of a surface that faces some directions at about one angle.
@@ -52,7 +53,7 @@ pub fn density_by_facing(mesh: &Mesh, triangles: &[u32], directions: &[[f64; 3]]
     let bin = |triangle: u32| {
         let normal = exact(mesh.normal(triangle));
         let cosine = directions.iter().map(|direction| normal.dot(*direction).abs()).fold(0.0, f64::max);
-        let angle = cosine.min(1.0).acos() / std::f64::consts::FRAC_PI_2;
+        let angle = acos(cosine.min(1.0)) / std::f64::consts::FRAC_PI_2;
         ((angle * bins as f64) as usize).min(bins - 1)
     };
     let of_triangles: Vec<_> = (0..count as u32).map(bin).collect();

@@ -2,6 +2,8 @@
 
 use glam::{DVec2, Vec2};
 
+use crate::math::square;
+
 /// The centre.
 pub(crate) fn circumcentre(a: DVec2, b: DVec2) -> DVec2 {
     (b.length_squared() * a.perp() - a.length_squared() * b.perp()) / (2.0 * a.perp_dot(b))
@@ -17,7 +19,7 @@ pub(crate) fn scaled_circumcentre(a: Vec2, b: Vec2) -> Vec2 {
 /// times the area.
 pub(crate) fn circumradius_squared(a: DVec2, b: DVec2, opposite: DVec2) -> f64 {
     let edges = a.length_squared() * b.length_squared() * opposite.length_squared();
-    edges / (4.0 * a.perp_dot(b).powi(2))
+    edges / (4.0 * square(a.perp_dot(b)))
 }
 
 #[cfg(test)]

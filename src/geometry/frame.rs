@@ -2,6 +2,7 @@
 
 use glam::DVec2;
 
+use crate::math::direction;
 use crate::points::{Boundary, Domain};
 use crate::rng::{Draw, Rng};
 
@@ -78,7 +79,7 @@ impl Frame {
         for i in parted {
             let mut rng = Rng::at(seed, Draw::Part, &[i.into()]);
             let (angle, length) = (std::f64::consts::TAU * rng.unit(), PARTING * (1.0 + rng.unit()));
-            positions[i as usize] = self.fold(positions[i as usize] + length * DVec2::from_angle(angle));
+            positions[i as usize] = self.fold(positions[i as usize] + length * direction(angle));
         }
     }
 

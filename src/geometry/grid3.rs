@@ -2,6 +2,7 @@
 
 use crate::error::Result;
 use crate::job::{Job, chunks_of};
+use crate::math::square;
 
 /// Points in cells of one side, chained in a hash table. Insertion takes a short serial moment between parallel,
 /// read-only searches. Answers are sets: they do not depend on the order of insertion.
@@ -92,7 +93,7 @@ impl Grid3 {
 
 /// The squared distance in f64.
 pub(crate) fn distance_squared(a: [f32; 3], b: [f32; 3]) -> f64 {
-    (0..3).map(|axis| (a[axis] as f64 - b[axis] as f64).powi(2)).sum()
+    (0..3).map(|axis| square(a[axis] as f64 - b[axis] as f64)).sum()
 }
 
 /// The smallest distance between two points; infinite for less than two. O(n log n) for points that are neither

@@ -7,11 +7,13 @@ use std::mem::ManuallyDrop;
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc::{self, RecvTimeoutError};
+use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
 
 use rayon::prelude::*;
 
 use crate::error::{Error, Result};
+use crate::host::process_id;
 
 mod placing;
 
@@ -52,7 +54,7 @@ impl Context {
             0 => std::thread::available_parallelism().map_or(1, usize::from),
             n => n,
         };
-        let process = std::process::id();
+        let process = process_id();
         if threads == 1 {
             return Ok(Self { pool: None, process });
         }
@@ -83,7 +85,7 @@ impl Context {
 
     /// Whether the process was forked since, and the threads are in another one.
     fn was_left_behind(&self) -> bool {
-        self.process != std::process::id()
+        self.process != process_id()
     }
 }
 
@@ -170,46 +172,59 @@ impl<'a> Job<'a> {
 
     /// [`Job::map`] over any items: what tasks write in place, each its own part of it, is handed to them so.
     pub(crate) fn map_each<I: Send, T: Send>(&self, items: Vec<I>, task: impl Fn(I) -> T + Sync) -> Result<Vec<T>> {
-        let count = items.len();
+        // Each task finds its item and leaves its result in a slot of its own, so that what calls the pool is compiled
+        // once and not for each type.
+        let slots: Vec<_> = items.into_iter().map(|item| Mutex::new((Some(item), None))).collect();
+        self.run_all(slots.len(), &|i| {
+            let mut slot = slots[i].lock().unwrap_or_else(PoisonError::into_inner);
+            slot.1 = slot.0.take().map(&task);
+        })?;
+        let result = |slot: Mutex<(Option<I>, Option<T>)>| slot.into_inner().unwrap_or_else(PoisonError::into_inner).1;
+        Ok(slots.into_iter().map(|slot| result(slot).expect("every task has run")).collect())
+    }
+
+    /// The pool, if there are several tasks: one that sleeps takes longer to wake than a small task.
+    fn pool_for(&self, count: usize) -> Option<&'a rayon::ThreadPool> {
+        self.context.pool.as_deref().filter(|_| count > 1)
+    }
+
+    /// Runs `task(0), .., task(count - 1)`, each once, in any order and in parallel.
+    fn run_all(&self, count: usize, task: &(dyn Fn(usize) + Sync)) -> Result<()> {
         let share = |finished: usize| finished as f64 / count.max(1) as f64;
-        match (&self.context.pool, self.progress) {
-            (None, _) => (1..)
-                .zip(items)
-                .map(|(finished, item)| {
-                    let result = task(item);
-                    self.report(share(finished)).map(|()| result)
-                })
-                .collect(),
-            (Some(pool), None) => Ok(pool.install(|| items.into_par_iter().map(&task).collect())),
-            (Some(pool), Some(_)) => self.map_watched(pool, items, &share, task),
+        match (self.pool_for(count), self.progress) {
+            (None, _) => (0..count).try_for_each(|i| {
+                task(i);
+                self.report(share(i + 1))
+            }),
+            (Some(pool), None) => {
+                pool.install(|| (0..count).into_par_iter().for_each(task));
+                Ok(())
+            }
+            (Some(pool), Some(_)) => self.run_watched(pool, count, &share, task),
         }
     }
 
     /// The tasks run on the pool while the calling thread reports how many are finished.
-    fn map_watched<I: Send, T: Send>(
+    fn run_watched(
         &self,
         pool: &rayon::ThreadPool,
-        items: Vec<I>,
+        count: usize,
         share: &dyn Fn(usize) -> f64,
-        task: impl Fn(I) -> T + Sync,
-    ) -> Result<Vec<T>> {
+        task: &(dyn Fn(usize) + Sync),
+    ) -> Result<()> {
         let (finished, cancelled) = (AtomicUsize::new(0), AtomicBool::new(false));
-        let mut results = None;
         // Dropping the sender, at the end or by a panic, is what ends the calling thread's watch.
         let (running, watch) = mpsc::channel::<()>();
         let mut verdict = Ok(());
         pool.in_place_scope(|scope| {
             scope.spawn(|_| {
                 let _running = running;
-                let attempt = |item| {
-                    if cancelled.load(Ordering::Relaxed) {
-                        return None;
+                (0..count).into_par_iter().for_each(|i| {
+                    if !cancelled.load(Ordering::Relaxed) {
+                        task(i);
+                        finished.fetch_add(1, Ordering::Relaxed);
                     }
-                    let result = task(item);
-                    finished.fetch_add(1, Ordering::Relaxed);
-                    Some(result)
-                };
-                results = items.into_par_iter().map(attempt).collect::<Option<Vec<T>>>();
+                });
             });
             while let Err(RecvTimeoutError::Timeout) = watch.recv_timeout(REPORT_INTERVAL) {
                 if verdict.is_ok() {
@@ -219,8 +234,7 @@ impl<'a> Job<'a> {
             }
         });
         verdict?;
-        self.report(1.0)?;
-        results.ok_or(Error::Cancelled)
+        self.report(1.0)
     }
 
     /// Hands `task(0), .., task(count - 1)` to `visit`, in this order and on the calling thread, while the pool makes the
@@ -237,7 +251,7 @@ impl<'a> Job<'a> {
             visited += 1;
             self.report(visited as f64 / count as f64)
         };
-        let Some(pool) = &self.context.pool else {
+        let Some(pool) = self.pool_for(count) else {
             return (0..count).try_for_each(|i| visit(task(i)));
         };
         let size = TASKS_AHEAD * pool.current_num_threads();
@@ -269,7 +283,7 @@ impl<'a> Job<'a> {
         count: usize,
         task: impl Fn(usize) -> Vec<T> + Sync,
     ) -> Result<Vec<T>> {
-        let Some(pool) = &self.context.pool else {
+        let Some(pool) = self.pool_for(count) else {
             let mut all = Vec::new();
             self.stream(count, task, |part| {
                 all.extend_from_slice(&part);

@@ -6,6 +6,7 @@
 //!
 //! Regular edges would leave peaks in the spectrum, so each is moved by up to a quarter of the regular width.
 
+use crate::plane::CellGrid;
 use crate::plane::lattice::Lattice;
 use crate::plane::rect::Rect;
 use crate::points::Boundary;
@@ -76,6 +77,12 @@ impl Blocks {
         self.counts
     }
 
+    /// No block is longer than this.
+    pub fn largest(&self) -> [i32; 2] {
+        let longest = |axis: usize| self.edges[axis].windows(2).map(|edges| edges[1] - edges[0]).max().unwrap_or(0);
+        [longest(0), longest(1)]
+    }
+
     /// Where a column (axis 0) or row (axis 1) begins.
     fn edge(&self, axis: usize, index: i32) -> i32 {
         let (turn, index) = (index.div_euclid(self.counts[axis]), index.rem_euclid(self.counts[axis]));
@@ -142,6 +149,32 @@ impl Blocks {
             }
         }
         filled
+    }
+
+    /// The columns and rows of the blocks that are to be filled in a phase for a window of blocks, row by row.
+    pub fn of_phase(&self, window: &Rect, ([column, row], margin): ([i32; 2], [i32; 2])) -> Vec<[i32; 2]> {
+        let Rect { min, max } = self.grown(window, margin);
+        let of_parity = |axis: usize, parity: i32| (min[axis]..max[axis]).filter(move |index| index & 1 == parity);
+        of_parity(1, row).flat_map(|y| of_parity(0, column).map(move |x| [x, y])).collect()
+    }
+
+    /// Fills all blocks that a window depends on, and its own, phase after phase: `fill` gets each of them, with its
+    /// column and row.
+    pub fn in_phases(&self, grid: &mut CellGrid, window: &Rect, mut fill: impl FnMut(&mut CellGrid, &Block, [i32; 2])) {
+        for (parity, margin) in PHASES {
+            let blocks = self.grown(window, margin);
+            // Cells are found once per column and row, not once per block.
+            let [columns, rows] = [0, 1].map(|axis: usize| {
+                let spans = self.of_parity(&blocks, axis, parity[axis]);
+                spans.map(|(index, points)| (index, points, grid.cells_between(axis, points))).collect::<Vec<_>>()
+            });
+            for (row, y, rows) in rows {
+                for &(column, x, columns) in &columns {
+                    let rect = |x: [i32; 2], y: [i32; 2]| Rect { min: [x[0], y[0]], max: [x[1], y[1]] };
+                    fill(grid, &Block { rect: rect(x, y), cells: rect(columns, rows) }, [column, row]);
+                }
+            }
+        }
     }
 
     /// The random numbers of a block: the same for all its images.

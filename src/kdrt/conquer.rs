@@ -42,14 +42,17 @@ pub(super) fn merge(
     let mut eliminated = Vec::new();
     let depth = seam_depth(grid, reach);
     for leaf in leaves {
-        let deep = leaf.rect.grown(-depth);
+        // What disks take out leaves gaps anywhere.
+        let deep = if grid.has_obstacles() { Rect { min: [0; 2], max: [0; 2] } } else { leaf.rect.grown(-depth) };
         // Deeper inside than this no other leaf's point conflicts.
         let inside = leaf.rect.grown(-reach);
         let mut place = |row: &Row, output: &mut Output| {
             for point in row.points().filter(|&point| row.part.contains(point)) {
                 if !deep.contains(point) {
                     let cell = grid.cell(point);
-                    if !inside.contains(point) && grid.conflicts(cell, point) {
+                    let conflicts =
+                        if inside.contains(point) { grid.is_blocked(cell, point) } else { grid.conflicts(cell, point) };
+                    if conflicts {
                         eliminated.push(point);
                         continue;
                     }
@@ -105,7 +108,25 @@ impl SeamCells {
             let disk = Rect { min: [x, y], max: [x + 1, y + 1] }.grown(reach);
             cells.mark(&grid.cells_of(&disk));
         }
+        cells.unmark_hidden(grid);
         cells
+    }
+
+    /// All cells of a window, where nothing says what is covered.
+    pub fn all(grid: &CellGrid) -> Self {
+        let [width, height] = grid.counts();
+        let stride = width as usize / 64 + 2;
+        let mut cells = Self { stride, seam: vec![0; stride * height as usize] };
+        cells.mark(&Rect { min: [0; 2], max: [width, height] });
+        cells.unmark_hidden(grid);
+        cells
+    }
+
+    /// Takes out the cells that a disk covers.
+    fn unmark_hidden(&mut self, grid: &CellGrid) {
+        for [x, y] in grid.hidden_cells() {
+            self.seam[y * self.stride + x / 64] &= !(1 << (x % 64));
+        }
     }
 
     fn mark(&mut self, cells: &Rect) {

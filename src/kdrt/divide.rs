@@ -28,14 +28,15 @@ pub(super) struct Tree {
     root: Leaf,
     /// The smallest side of a leaf, per axis: sides lie between it and its double.
     shortest: [i32; 2],
-    #[cfg(test)]
+    #[cfg(any(test, feature = "stages"))]
     pub fixed: Fixed,
 }
 
-/// What tests take the randomness from, to see what it is good for (thesis §2.5.2).
-#[cfg(test)]
+/// What tests and studies take the randomness from, to see what it is good for (thesis §2.5.2).
+#[cfg(any(test, feature = "stages"))]
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) enum Fixed {
+pub enum Fixed {
+    /// All is random, as the sampler has it.
     #[default]
     Nothing,
     /// Every node is split in its middle.
@@ -50,7 +51,7 @@ impl Tree {
         Self {
             root: Leaf { rect, key: hash(seed, Draw::Split, &[]) },
             shortest,
-            #[cfg(test)]
+            #[cfg(any(test, feature = "stages"))]
             fixed: Fixed::Nothing,
         }
     }
@@ -68,7 +69,7 @@ impl Tree {
         }
         match self.split(node) {
             Some(halves) => halves.into_iter().for_each(|half| self.descend(half, window, leaves)),
-            #[cfg(test)]
+            #[cfg(any(test, feature = "stages"))]
             None if self.fixed == Fixed::Clips => leaves.push(Leaf { key: self.root.key, ..node }),
             None => leaves.push(node),
         }
@@ -81,7 +82,7 @@ impl Tree {
             .max_by_key(|&axis| node.rect.length(axis))?;
         let choices = node.rect.length(axis) - 2 * self.shortest[axis] + 1;
         let choice = Rng::at(node.key, Draw::Split, &[]).below(choices as u64) as i32;
-        #[cfg(test)]
+        #[cfg(any(test, feature = "stages"))]
         let choice = if self.fixed == Fixed::Splits { choices / 2 } else { choice };
         let edge = node.rect.min[axis] + self.shortest[axis] + choice;
         let mut rects = [node.rect; 2];

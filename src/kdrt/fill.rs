@@ -10,7 +10,6 @@ use crate::rng::Rng;
 use crate::kdrt::bitmap::{Bitmap, VoxelIndex};
 use crate::kdrt::blocks::Block;
 use crate::kdrt::conquer::SeamCells;
-use crate::kdrt::output::Output;
 use crate::kdrt::stamp::Stamps;
 
 /// The filling of the blocks of a window, one after the other.
@@ -33,7 +32,13 @@ impl<'a> Filling<'a> {
 
     /// [`Filling::fill`] in any vectors.
     #[inline(always)]
-    pub fn fill_portable(&mut self, grid: &mut CellGrid, block: &Block, rng: impl Fn() -> Rng, output: &mut Output) {
+    pub fn fill_portable(
+        &mut self,
+        grid: &mut CellGrid,
+        block: &Block,
+        rng: impl Fn() -> Rng,
+        accepted: &mut impl FnMut(&CellGrid, [i32; 2]),
+    ) {
         let Some(marked) = self.seams.marked_in(&block.cells) else { return };
         let mut rng = rng();
         let mut bitmap = Bitmap::of_seams(self.stamps, grid, &self.seams, block);
@@ -41,9 +46,15 @@ impl<'a> Filling<'a> {
         grid.collect(&marked, &around, &mut self.near);
         bitmap.stamp_all(&self.near);
         bitmap.list(&marked, &mut self.open);
+        if grid.has_obstacles() {
+            self.open.retain(|&place| {
+                let (cell, voxel) = bitmap.voxel(grid, place);
+                !grid.is_hidden(cell, &voxel)
+            });
+        }
 
         let width = Bitmap::widest(grid);
-        self.throw(grid, &mut bitmap, width, &mut rng, output);
+        self.throw(grid, &mut bitmap, width, &mut rng, accepted);
         if self.open.is_empty() {
             return;
         }
@@ -52,12 +63,19 @@ impl<'a> Filling<'a> {
             let (cell, voxel) = bitmap.voxel(grid, place);
             self.quadtree.add_sixteenths(grid, &self.near, cell, voxel);
         }
-        self.quadtree.fill(grid, &mut rng, |sample| output.push(sample));
+        self.quadtree.fill(grid, &mut rng, accepted);
     }
 
     /// The darts of the first level: at voxels of the bitmap, picked from the open ones.
     #[inline(always)]
-    fn throw(&mut self, grid: &mut CellGrid, bitmap: &mut Bitmap, width: i32, rng: &mut Rng, output: &mut Output) {
+    fn throw(
+        &mut self,
+        grid: &mut CellGrid,
+        bitmap: &mut Bitmap,
+        width: i32,
+        rng: &mut Rng,
+        accepted: &mut impl FnMut(&CellGrid, [i32; 2]),
+    ) {
         let mut misses = darts(self.open.len());
         while misses > 0 {
             misses -= 1;
@@ -65,7 +83,7 @@ impl<'a> Filling<'a> {
             let (cell, rect) = bitmap.voxel(grid, self.open[pick]);
             if let Some(sample) = grid.throw_among(&mut self.near, cell, &rect, width, rng) {
                 bitmap.stamp(sample);
-                output.push(sample);
+                accepted(grid, sample);
                 bitmap.keep_open(&mut self.open);
                 misses = darts(self.open.len());
             }

@@ -1,16 +1,20 @@
 //! A plane that is kept: what all of its windows need is made once.
 
 use std::ops::ControlFlow;
+use std::sync::Arc;
 
 use crate::error::{Error, Result};
 use crate::job::{Context, Job, Progress};
+use crate::order::Order;
 use crate::plane::CellAxis;
 use crate::plane::lattice::{self, Lattice};
 use crate::points::{Boundary, Domain};
 use crate::{maximal, memory};
 
-use crate::kdrt::options::{Options, check_leaf_size};
-use crate::kdrt::sample::BYTES_PER_SAMPLE;
+use crate::kdrt::around::Around;
+use crate::kdrt::options::{Options, check_ladder, check_leaf_size};
+use crate::kdrt::progressive::{Progressive, Ranked};
+use crate::kdrt::sample::{BYTES_PER_SAMPLE, PATTERN_SHARE};
 use crate::kdrt::tiling::Tiling;
 
 /// The fewest samples, of some 16 MB, that memory is asked for: to ask takes as long as to make a small window.
@@ -23,9 +27,10 @@ const FEWEST_REFUSED: f64 = 1e6;
 /// Windows may be made by any number of threads at once; nothing is changed by them, and no thread is kept.
 ///
 /// Memory: 32 bytes per sample of the pattern, about 0.9 MB with leaves of the default size, and 1 byte per radius of
-/// the domain's sides. The domain may have any number of samples that floats can carry: up to about 10^11
-/// around the origin. One that is not tiled (see [`sample`](super::sample)) is made as a whole and kept, in 8 bytes per
-/// sample.
+/// the domain's sides. The domain may have any number of samples that floats can carry: up to about 10^11 around the
+/// origin. One that is not tiled (see [`sample`](super::sample)) is made as a whole and kept, in 8 bytes per sample. Of
+/// a progressive order also 16 KB per level, and the levels that have up to 65,536 samples in the whole domain, in 16
+/// bytes per sample. Given samples are copied, in 40 bytes each, and a window costs those near it.
 pub struct Plane {
     domain: Domain,
     radius: f64,
@@ -36,6 +41,7 @@ pub struct Plane {
 enum Kept {
     Tiling(Box<Tiling>),
     Whole(Whole),
+    Progressive(Box<Progressive>),
 }
 
 impl Plane {
@@ -47,16 +53,25 @@ impl Plane {
     /// Those of [`sample`](super::sample), but limits of the number of samples only where the domain is not tiled.
     pub fn new(context: &Context, options: &Options, progress: Option<&Progress>) -> Result<Self> {
         let lattice = lattice_of(options)?;
-        context.run(progress, |job| Self::on_lattice(job, lattice, options))
+        context.run(progress, |job| {
+            let mut plane = Self::on_lattice(job, lattice, options)?;
+            if let Kept::Progressive(levels) = &mut plane.kept {
+                levels.keep(&job.part(PATTERN_SHARE, 1.0))?;
+            }
+            Ok(plane)
+        })
     }
 
     /// [`Plane::new`] on the lattice of the options.
     pub(super) fn on_lattice(job: &Job, lattice: Lattice, options: &Options) -> Result<Self> {
-        let &Options { radius, domain, leaf_size, seed } = options;
-        let kept = if Tiling::is_worthwhile(&lattice, leaf_size) {
-            Kept::Tiling(Box::new(Tiling::new(job, lattice, leaf_size, seed)?))
+        let &Options { radius, domain, leaf_size, seed, order, given, .. } = options;
+        let around = Arc::new(Around::new(&domain, &lattice, radius, &given));
+        let kept = if order == Order::Progressive {
+            Kept::Progressive(Box::new(Progressive::new(&job.part(0.0, PATTERN_SHARE), options)?))
+        } else if Tiling::is_worthwhile(&lattice, leaf_size) {
+            Kept::Tiling(Box::new(Tiling::new(job, lattice, leaf_size, seed, around)?))
         } else {
-            Kept::Whole(Whole::new(job, lattice, seed)?)
+            Kept::Whole(Whole::new(job, lattice, seed, &around)?)
         };
         Ok(Self { domain, radius, kept })
     }
@@ -64,21 +79,32 @@ impl Plane {
     /// The samples of the plane that lie in `window_min <= x < window_max`, on the calling thread: the same floats in
     /// the same order as [`sample_window`](super::sample_window) and the whole set have them.
     ///
-    /// O(n) in time and memory for the n samples of the window and those within about 20 radii of it.
+    /// O(n) in time and memory for the n samples of the window and those within about 20 radii of it; in progressive
+    /// order also, for each level, those within about 145 of its radii (see [`Options::quotient`]).
     ///
     /// # Errors
     /// [`Error::InvalidArgument`] for `window_min` and `window_max` if the window is empty or reaches beyond the
     /// domain; [`Error::TooLarge`] above 2^32 samples or the available memory.
     pub fn window(&self, window_min: [f64; 2], window_max: [f64; 2]) -> Result<Vec<[f32; 2]>> {
+        self.window_ranked(window_min, window_max).map(|ranked| ranked.samples)
+    }
+
+    /// [`Plane::window`] with the ranks of its samples, if the plane has a progressive order: those that they have in
+    /// the whole set.
+    ///
+    /// # Errors
+    /// Those of [`Plane::window`].
+    pub fn window_ranked(&self, window_min: [f64; 2], window_max: [f64; 2]) -> Result<Ranked> {
         let window = part(&self.domain, self.radius, window_min, window_max)?;
         Context::new(1)?.run(None, |job| self.window_on(job, &window))
     }
 
     /// A part of the domain.
-    pub(super) fn window_on(&self, job: &Job, window: &Domain) -> Result<Vec<[f32; 2]>> {
+    pub(super) fn window_on(&self, job: &Job, window: &Domain) -> Result<Ranked> {
         match &self.kept {
-            Kept::Tiling(tiling) => tiling.part(job, window),
-            Kept::Whole(whole) => Ok(whole.part(window)),
+            Kept::Tiling(tiling) => tiling.part(job, window).map(Ranked::in_any_order),
+            Kept::Whole(whole) => Ok(Ranked::in_any_order(whole.part(window))),
+            Kept::Progressive(levels) => levels.window(job, window),
         }
     }
 
@@ -93,16 +119,20 @@ impl Plane {
                 job.stream(windows.len(), |i| tiling.window(&windows[i]), |samples| visit(&samples))
             }
             Kept::Whole(whole) => visit(&whole.samples),
+            Kept::Progressive(levels) => visit(&levels.whole(job)?.samples),
         }
     }
 }
 
 /// The lattice of a plane whose samples are not held, if its options are right.
 pub(super) fn lattice_of(options: &Options) -> Result<Lattice> {
-    let &Options { radius, domain, leaf_size, .. } = options;
+    let &Options { radius, domain, leaf_size, order, quotient, coarsest, given, .. } = options;
     check_leaf_size(leaf_size)?;
+    given.check()?;
     let lattice = Lattice::of_any_size(&domain, radius)?;
-    if !Tiling::is_worthwhile(&lattice, leaf_size) {
+    if order == Order::Progressive {
+        check_ladder(quotient, coarsest, radius)?;
+    } else if !Tiling::is_worthwhile(&lattice, leaf_size) {
         lattice::estimate(domain.extent(), radius)?;
     }
     Ok(lattice)
@@ -110,6 +140,16 @@ pub(super) fn lattice_of(options: &Options) -> Result<Lattice> {
 
 /// The part of a domain between two corners, if its samples can be held. It is bounded.
 pub(super) fn part(domain: &Domain, radius: f64, min: [f64; 2], max: [f64; 2]) -> Result<Domain> {
+    let window = window_of(domain, min, max)?;
+    let expected = lattice::estimate(window.extent(), radius)?;
+    if expected >= FEWEST_REFUSED {
+        memory::require(expected * BYTES_PER_SAMPLE, "radius", &format!("about {expected:.0} samples"))?;
+    }
+    Ok(window)
+}
+
+/// The part of a domain between two corners. It is bounded.
+pub(super) fn window_of(domain: &Domain, min: [f64; 2], max: [f64; 2]) -> Result<Domain> {
     domain.check()?;
     for axis in 0..2 {
         let (from, to) = (domain.min[axis], domain.max[axis]);
@@ -123,12 +163,7 @@ pub(super) fn part(domain: &Domain, radius: f64, min: [f64; 2], max: [f64; 2]) -
             return Err(Error::invalid("window_max", reason));
         }
     }
-    let window = Domain { min, max, boundary: Boundary::Bounded };
-    let expected = lattice::estimate(window.extent(), radius)?;
-    if expected >= FEWEST_REFUSED {
-        memory::require(expected * BYTES_PER_SAMPLE, "radius", &format!("about {expected:.0} samples"))?;
-    }
-    Ok(window)
+    Ok(Domain { min, max, boundary: Boundary::Bounded })
 }
 
 /// A domain that is not tiled.
@@ -140,8 +175,9 @@ struct Whole {
 }
 
 impl Whole {
-    fn new(job: &Job, lattice: Lattice, seed: u64) -> Result<Self> {
-        let samples = maximal::sample_lattice(job, &lattice, seed)?;
+    fn new(job: &Job, lattice: Lattice, seed: u64, around: &Around) -> Result<Self> {
+        let disks = around.near(&lattice.rect());
+        let samples = maximal::sample_lattice_around(job, &lattice, seed, disks)?;
         Ok(Self { rows: CellAxis::new(lattice.size[1], lattice.radius), lattice, samples })
     }
 

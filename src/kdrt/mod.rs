@@ -7,11 +7,14 @@
 //!
 //! The thesis goes through the seams in an order of work. Here every step is a function of the place alone, so that a
 //! window of the plane (`tiling/`) can be made without the rest; this is how threads share the work, and how any part
-//! of a plane can be had alone (`kept.rs`, `window.rs`). A number of samples instead of a radius is `count/`; sets that
-//! were made apart are glued into one by the same two steps (`merge/`). Files say where they depart from the thesis.
+//! of a plane can be had alone (`kept.rs`, `window.rs`). A number of samples instead of a radius is `count/`; an order
+//! whose prefixes are well spread is `progressive/`; several classes are `classes/`; sets that were made apart are glued
+//! into one by the same two steps (`merge/`). Files say where they depart from the thesis.
 
+mod around;
 mod bitmap;
 mod blocks;
+mod classes;
 mod clip;
 mod conquer;
 mod count;
@@ -21,6 +24,8 @@ mod kept;
 mod merge;
 mod options;
 mod output;
+mod progressive;
+mod region;
 mod sample;
 #[cfg(feature = "stages")]
 #[doc(hidden)]
@@ -31,9 +36,11 @@ mod tiling;
 mod vectors;
 mod window;
 
+pub use classes::{ClassPlane, Classified, sample_classes};
 pub use count::{CountOptions, CountReport, Counted, sample_count};
 pub use kept::Plane;
 pub use merge::{MergeOptions, MergeReport, Piece, merge};
-pub use options::{DEFAULT_LEAF_SIZE, MIN_LEAF_SIZE, Options};
-pub use sample::sample;
-pub use window::{sample_stream, sample_window};
+pub use options::{DEFAULT_LEAF_SIZE, DEFAULT_QUOTIENT, MIN_LEAF_SIZE, Options, QUOTIENTS};
+pub use progressive::Ranked;
+pub use sample::{sample, sample_ranked};
+pub use window::{sample_stream, sample_window, sample_window_ranked};

@@ -3,13 +3,15 @@
 use std::hint::black_box;
 use std::time::{Duration, Instant};
 
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::job::Context;
 use crate::plane::lattice::Lattice;
 use crate::plane::rect::Rect;
 
-use crate::kdrt::options::Options;
-use crate::kdrt::tiling::Tiling;
+use crate::kdrt::options::{Options, check_leaf_size};
+use crate::kdrt::tiling::{self, Tiling};
+
+pub use crate::kdrt::divide::Fixed;
 
 /// What each stage of KDRT did and took, on one thread.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -46,15 +48,17 @@ pub struct Stages {
 /// # Errors
 /// Those of [`sample`](super::sample).
 pub fn measure(options: &Options) -> Result<Stages> {
-    let &Options { radius, domain, leaf_size, seed } = options;
-    crate::kdrt::options::check_leaf_size(leaf_size)?;
+    let &Options { radius, domain, leaf_size, seed, .. } = options;
+    check_leaf_size(leaf_size)?;
     let lattice = Lattice::new(&domain, radius)?;
     let (context, mut stages) = (Context::new(1)?, Stages::default());
     if !Tiling::is_worthwhile(&lattice, leaf_size) {
         let samples = timed(&mut stages.pattern, || crate::kdrt::sample::sample(&context, options, None))?;
         return Ok(Stages { samples: samples.len() as u64, ..stages });
     }
-    let tiling = timed(&mut stages.pattern, || context.run(None, |job| Tiling::new(job, lattice, leaf_size, seed)))?;
+    let tiling = timed(&mut stages.pattern, || {
+        context.run(None, |job| Tiling::new(job, lattice, leaf_size, seed, Default::default()))
+    })?;
     let mut all = Vec::new();
     for window in tiling.windows() {
         let samples = measure_window(&tiling, &window, &mut stages);
@@ -62,6 +66,59 @@ pub fn measure(options: &Options) -> Result<Stages> {
     }
     stages.samples = all.len() as u64;
     Ok(stages)
+}
+
+/// The leaves of a domain, found at once on one thread: their number, and how long that takes (thesis table 2.1).
+///
+/// # Errors
+/// Those of [`sample`](super::sample).
+pub fn divide(options: &Options) -> Result<(usize, Duration)> {
+    check_leaf_size(options.leaf_size)?;
+    let lattice = Lattice::new(&options.domain, options.radius)?;
+    let mut time = Duration::ZERO;
+    let leaves =
+        timed(&mut time, || tiling::tree(&lattice, options.leaf_size, options.seed).leaves(&lattice.rect()).len());
+    Ok((leaves, time))
+}
+
+/// A set in which something is other than in [`sample`](super::sample), and what it took.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Varied {
+    /// The samples.
+    pub samples: Vec<[f32; 2]>,
+    /// Making the pattern.
+    pub pattern: Duration,
+    /// Everything else.
+    pub tiling: Duration,
+}
+
+/// Samples with a pattern of another side, in radii, or less randomness (thesis §2.5.2), in parallel. With the side and
+/// the randomness of [`sample`](super::sample) it makes the same set.
+///
+/// # Errors
+/// Those of [`sample`](super::sample); [`Error::InvalidArgument`] for a pattern with a side of less than two leaf sizes or
+/// more than the domain's.
+pub fn sample_varied(context: &Context, options: &Options, pattern_side: f64, fixed: Fixed) -> Result<Varied> {
+    let &Options { radius, domain, leaf_size, seed, .. } = options;
+    check_leaf_size(leaf_size)?;
+    let lattice = Lattice::new(&domain, radius)?;
+    let longest = domain.extent().into_iter().fold(f64::INFINITY, f64::min) / radius;
+    if !(2.0 * leaf_size..=longest).contains(&pattern_side) {
+        let reason = format!("{pattern_side:?} is not in {:?} to {longest:?} (radii)", 2.0 * leaf_size);
+        return Err(Error::invalid("pattern_side", reason));
+    }
+    let (mut pattern, mut tiled) = (Duration::ZERO, Duration::ZERO);
+    let samples = context.run(None, |job| {
+        let mut tiling = timed(&mut pattern, || {
+            Tiling::with_pattern(job, lattice.clone(), leaf_size, pattern_side, seed, Default::default())
+        })?;
+        tiling.fix(fixed);
+        timed(&mut tiled, || {
+            let windows = tiling.windows();
+            job.concat_about(lattice.expected_samples() as usize, windows.len(), |i| tiling.window(&windows[i]))
+        })
+    })?;
+    Ok(Varied { samples, pattern, tiling: tiled })
 }
 
 fn measure_window(tiling: &Tiling, window: &Rect, stages: &mut Stages) -> Vec<[f32; 2]> {
@@ -112,5 +169,27 @@ mod tests {
                 assert_eq!(stages.clipped > 0, radius < 0.1);
             }
         }
+    }
+
+    #[test]
+    fn a_set_is_varied_by_what_is_asked_for_only() {
+        let (context, domain) = (Context::new(1).unwrap(), Domain::unit(Boundary::Periodic));
+        let options = Options::new(0.004).domain(domain).leaf_size(10.0).seed(3);
+        let varied = |side, fixed| sample_varied(&context, &options, side, fixed).unwrap().samples;
+        let samples = crate::kdrt::sample::sample(&context, &options, None).unwrap();
+        assert_eq!(varied(crate::kdrt::clip::pattern_side(10.0), Fixed::Nothing), samples);
+        for (side, fixed) in [(60.0, Fixed::Nothing), (108.0, Fixed::Splits), (108.0, Fixed::Clips)] {
+            assert_ne!(varied(side, fixed), samples);
+        }
+        assert!(sample_varied(&context, &options, 19.0, Fixed::Nothing).is_err());
+        assert!(sample_varied(&context, &options, 251.0, Fixed::Nothing).is_err());
+    }
+
+    #[test]
+    fn the_leaves_of_a_domain_are_counted() {
+        let options = Options::new(0.004).domain(Domain::unit(Boundary::Bounded)).seed(3);
+        let (leaves, _) = divide(&options).unwrap();
+        // 250 radii wide, sides between 20 and 40 radii.
+        assert!((39..=156).contains(&leaves), "{leaves}");
     }
 }

@@ -4,6 +4,8 @@
 //! voxel the sample lies; to a sixteenth of a voxel that is looked up in a table. The table holds what is covered for
 //! certain: it may leave out voxels that are covered, but never has one that is not.
 
+use crate::math::square;
+
 /// Voxels along a cell's side.
 pub(super) const PER_CELL: i32 = 4;
 
@@ -42,7 +44,7 @@ impl Stamps {
                 (0..=2 * REACH as usize).filter(covered).map(|column| 1 << column).sum()
             })
         }));
-        Self { places: voxels.map(|voxel| (f64::from(PLACES) / voxel * 32f64.exp2()) as i64), table }
+        Self { places: voxels.map(|voxel| (f64::from(PLACES) / voxel * (1u64 << 32) as f64) as i64), table }
     }
 
     /// For each place along an axis and each voxel: the squared distance to the voxel's farthest point, in units of the
@@ -55,7 +57,7 @@ impl Stamps {
             let (first, last) = (f64::from(place) / places - rounding, f64::from(place + 1) / places + rounding);
             let column = f64::from(column);
             let farthest = (column + 1.0 + edge - first).max(last - column + edge);
-            (farthest * voxel / radius).powi(2) * (1.0 + 1e-9)
+            square(farthest * voxel / radius) * (1.0 + 1e-9)
         };
         (0..PLACES).map(|place| (-REACH..=REACH).map(|column| square(place, column)).collect()).collect()
     }

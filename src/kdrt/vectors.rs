@@ -7,34 +7,51 @@ use crate::simd::Level;
 
 use crate::kdrt::blocks::Block;
 use crate::kdrt::fill::Filling;
-use crate::kdrt::output::Output;
 
 impl Filling<'_> {
-    /// Makes the samples of the grid maximal in `block` and gives the new ones to `output`.
-    /// `rng` makes the random numbers of the block.
-    pub fn fill(&mut self, grid: &mut CellGrid, block: &Block, rng: impl Fn() -> Rng, output: &mut Output) {
+    /// Makes the samples of the grid maximal in `block` and shows each new one to `accepted`, with the grid as it is
+    /// then. `rng` makes the random numbers of the block.
+    pub fn fill(
+        &mut self,
+        grid: &mut CellGrid,
+        block: &Block,
+        rng: impl Fn() -> Rng,
+        accepted: &mut impl FnMut(&CellGrid, [i32; 2]),
+    ) {
         match grid.vectors() {
             // SAFETY: the variants say that the processor has the vectors.
             #[cfg(target_arch = "x86_64")]
-            Level::Avx512(_) => unsafe { self.fill_avx512(grid, block, rng, output) },
+            Level::Avx512(_) => unsafe { self.fill_avx512(grid, block, rng, accepted) },
             // SAFETY: the same.
             #[cfg(target_arch = "x86_64")]
-            Level::Avx2(_) => unsafe { self.fill_avx2(grid, block, rng, output) },
-            Level::Portable => self.fill_portable(grid, block, rng, output),
+            Level::Avx2(_) => unsafe { self.fill_avx2(grid, block, rng, accepted) },
+            Level::Portable => self.fill_portable(grid, block, rng, accepted),
         }
     }
 
     /// The portable code, compiled for AVX-512.
     #[cfg(target_arch = "x86_64")]
     #[target_feature(enable = "avx2,popcnt,bmi1,bmi2,avx512f,avx512vl,avx512dq,avx512bw")]
-    fn fill_avx512(&mut self, grid: &mut CellGrid, block: &Block, rng: impl Fn() -> Rng, output: &mut Output) {
-        self.fill_portable(grid, block, rng, output);
+    fn fill_avx512(
+        &mut self,
+        grid: &mut CellGrid,
+        block: &Block,
+        rng: impl Fn() -> Rng,
+        accepted: &mut impl FnMut(&CellGrid, [i32; 2]),
+    ) {
+        self.fill_portable(grid, block, rng, accepted);
     }
 
     /// The portable code, compiled for AVX2.
     #[cfg(target_arch = "x86_64")]
     #[target_feature(enable = "avx2,popcnt,bmi1,bmi2")]
-    fn fill_avx2(&mut self, grid: &mut CellGrid, block: &Block, rng: impl Fn() -> Rng, output: &mut Output) {
-        self.fill_portable(grid, block, rng, output);
+    fn fill_avx2(
+        &mut self,
+        grid: &mut CellGrid,
+        block: &Block,
+        rng: impl Fn() -> Rng,
+        accepted: &mut impl FnMut(&CellGrid, [i32; 2]),
+    ) {
+        self.fill_portable(grid, block, rng, accepted);
     }
 }

@@ -4,11 +4,13 @@
 
 use std::ops::ControlFlow;
 
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::job::{Context, Progress};
+use crate::order::Order;
 
 use crate::kdrt::kept::{Plane, lattice_of, part};
 use crate::kdrt::options::Options;
+use crate::kdrt::progressive::Ranked;
 use crate::kdrt::sample::PATTERN_SHARE;
 
 /// The samples of [`sample`](super::sample) that lie in `window_min <= x < window_max`: the same floats in the same
@@ -22,6 +24,7 @@ use crate::kdrt::sample::PATTERN_SHARE;
 /// by the leaves' points within 22 radii along x and 18 along y.
 /// These are its fill block with two more along x and one along y, for the phases of filling, and 5 radii for the
 /// chains of elimination.
+/// In progressive order every level adds about 12 of its radii: see [`Options::quotient`] and [`Options::coarsest`].
 ///
 /// O(n) in time and memory for the n samples of the window and those around it, after the making of the pattern, which
 /// is the same for every window (about 28,000 samples with leaves of the default size): a [`Plane`] keeps it for many
@@ -39,6 +42,21 @@ pub fn sample_window(
     window_max: [f64; 2],
     progress: Option<&Progress>,
 ) -> Result<Vec<[f32; 2]>> {
+    sample_window_ranked(context, options, window_min, window_max, progress).map(|ranked| ranked.samples)
+}
+
+/// [`sample_window`] with the ranks of its samples, if the options ask for progressive order: those that they have in
+/// the whole set.
+///
+/// # Errors
+/// Those of [`sample_window`].
+pub fn sample_window_ranked(
+    context: &Context,
+    options: &Options,
+    window_min: [f64; 2],
+    window_max: [f64; 2],
+    progress: Option<&Progress>,
+) -> Result<Ranked> {
     let lattice = lattice_of(options)?;
     let window = part(&options.domain, options.radius, window_min, window_max)?;
     context.run(progress, |job| {
@@ -59,13 +77,17 @@ pub fn sample_window(
 /// [`sample`](super::sample)) is made as a whole and is one part.
 ///
 /// # Errors
-/// Those of [`sample`](super::sample), but limits of the number of samples only where the domain is not tiled.
+/// Those of [`sample`](super::sample), but limits of the number of samples only where the domain is not tiled;
+/// [`Error::InvalidArgument`] for a progressive order, which is not that of places.
 pub fn sample_stream(
     context: &Context,
     options: &Options,
     visit: impl FnMut(&[[f32; 2]]) -> ControlFlow<()>,
     progress: Option<&Progress>,
 ) -> Result<()> {
+    if options.order != Order::Any {
+        return Err(Error::invalid("order", "a stream comes place by place, in no progressive order"));
+    }
     let lattice = lattice_of(options)?;
     context.run(progress, |job| {
         let plane = Plane::on_lattice(&job.part(0.0, PATTERN_SHARE), lattice, options)?;

@@ -10,6 +10,7 @@ use std::thread::{self, ThreadId};
 use std::time::Duration;
 
 use crate::error::Result;
+use crate::host::process_id;
 
 /// How often a thread that waits for another one's work asks whether to go on.
 const INTERVAL: Duration = Duration::from_millis(20);
@@ -44,7 +45,7 @@ impl Kept {
         mut wait: impl FnMut() -> Result<()>,
         make: impl FnOnce() -> Result<T>,
     ) -> Result<Arc<T>> {
-        let (process, thread, kind) = (std::process::id(), thread::current().id(), TypeId::of::<T>());
+        let (process, thread, kind) = (process_id(), thread::current().id(), TypeId::of::<T>());
         let mut slots = self.slots();
         loop {
             match slots.get(&kind) {

@@ -10,6 +10,7 @@ mod load;
 mod normals;
 mod obj;
 pub mod ply;
+mod quality;
 mod rounding;
 mod soup;
 mod source;
@@ -17,5 +18,6 @@ mod stl;
 mod surface;
 mod text;
 
-pub(crate) use rounding::{exact, round_barycentrics};
+pub use quality::Quality;
+pub(crate) use rounding::{exact, round_barycentrics, rounded_down};
 pub use surface::Mesh;

@@ -83,6 +83,28 @@ impl Mesh {
         Ok(self)
     }
 
+    /// The mesh with its vertices moved: triangles and mask stay, normals go. O(n).
+    ///
+    /// # Errors
+    /// [`Error::InvalidArgument`] for `positions` that are not as many as there are vertices, or not finite, and where the
+    /// total area is zero.
+    pub fn deformed(&self, positions: Vec<[f32; 3]>) -> Result<Self> {
+        let vertices = self.positions.len();
+        if positions.len() != vertices {
+            let reason = format!("{} for a mesh of {vertices} vertices", positions.len());
+            return Err(Error::invalid("positions", reason));
+        }
+        check_finite("positions", "vertex", &positions)?;
+        let (triangles, mask) = (self.triangles.clone(), self.mask.clone());
+        let (area, bounds, kept) = Default::default();
+        let mesh = Self { positions: Arc::new(positions), triangles, normals: None, mask, area, bounds, kept };
+        let mesh = mesh.measured();
+        if mesh.area <= 0.0 && self.area > 0.0 {
+            return Err(Error::invalid("positions", "the triangles have no area"));
+        }
+        Ok(mesh)
+    }
+
     /// The mesh with a mask, in place of the one that it may have: triangles whose entry is false are left out. They keep
     /// their number. O(n).
     ///
@@ -200,6 +222,29 @@ impl Mesh {
         self.point_exact(triangle, [u.into(), v.into()]).as_vec3().to_array()
     }
 
+    /// Samples at places of the caller's, evaluated with the rounding of every sampler: on the mesh that they were made on
+    /// the same floats come back, on a [deformed](Mesh::deformed) one each sample goes with its triangle. O(n).
+    ///
+    /// Triangles may have no area, or be left out by a mask; barycentrics may lie outside of the triangle.
+    ///
+    /// # Errors
+    /// [`Error::InvalidArgument`] for `triangles` that do not exist, and for `barycentrics` that are not as many or not
+    /// finite.
+    pub fn samples_at(&self, triangles: &[u32], barycentrics: &[[f32; 2]]) -> Result<SurfaceSamples> {
+        let count = self.triangles.len();
+        if barycentrics.len() != triangles.len() {
+            let reason = format!("there are {}, and {} triangles", barycentrics.len(), triangles.len());
+            return Err(Error::invalid("barycentrics", reason));
+        }
+        if let Some(i) = triangles.iter().position(|&triangle| triangle as usize >= count) {
+            return Err(Error::invalid("triangles", format!("[{i}] is {}, and the mesh has {count}", triangles[i])));
+        }
+        if let Some(i) = barycentrics.iter().position(|[u, v]| !(u.is_finite() && v.is_finite())) {
+            return Err(Error::invalid("barycentrics", format!("[{i}] is {:?}, not finite", barycentrics[i])));
+        }
+        Ok(self.samples(triangles.to_vec(), barycentrics.to_vec()))
+    }
+
     /// The samples at these places, with their positions and normals.
     pub(crate) fn samples(&self, triangles: Vec<u32>, barycentrics: Vec<[f32; 2]>) -> SurfaceSamples {
         let places = || triangles.iter().zip(&barycentrics).map(|(&triangle, &uv)| (triangle, uv));
@@ -212,6 +257,8 @@ impl Mesh {
                 .collect(),
             triangles,
             barycentrics,
+            ranks: Vec::new(),
+            classes: Vec::new(),
         }
     }
 

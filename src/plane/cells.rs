@@ -6,6 +6,7 @@ use crate::plane::rect::Rect;
 use crate::plane::axis::{CellAxis, Finder};
 use crate::plane::list::List;
 use crate::plane::near::{Near, SLACK};
+use crate::plane::obstacles::{Disk, Obstacles};
 use crate::plane::rows::{LANES, NOWHERE, Rows};
 use crate::simd::Level;
 
@@ -32,6 +33,7 @@ pub(crate) struct CellGrid {
     torus: Option<[[i32; 2]; 2]>,
     vectors: Level,
     separation: Separation,
+    obstacles: Obstacles,
 }
 
 impl CellGrid {
@@ -56,6 +58,7 @@ impl CellGrid {
             torus: None,
             vectors: Level::widest(),
             separation,
+            obstacles: Obstacles::default(),
         }
     }
 
@@ -64,6 +67,35 @@ impl CellGrid {
         let size = [0, 1].map(|axis: usize| axes[axis].size);
         let torus = Some([[0, 1].map(|axis: usize| axes[axis].count()), size]);
         Self { torus, ..Self::new(axes, &Rect { min: [0; 2], max: size }, separation) }
+    }
+
+    /// Puts disks in the way of samples, before there are any. Those that do not meet the cells do no harm.
+    pub fn set_obstacles(&mut self, disks: Vec<Disk>) {
+        if !disks.is_empty() {
+            self.obstacles = Obstacles::new(&self.edges, |axis, x| self.finders[axis].cell(x) as usize, disks);
+        }
+    }
+
+    /// Whether disks were put in the way of samples.
+    pub fn has_obstacles(&self) -> bool {
+        !self.obstacles.is_empty()
+    }
+
+    /// The columns and rows of the cells that one disk covers.
+    pub fn hidden_cells(&self) -> impl Iterator<Item = [usize; 2]> {
+        self.obstacles.covered_cells()
+    }
+
+    /// Whether one disk covers all of a rectangle of lattice points in a cell.
+    #[inline(always)]
+    pub fn is_hidden(&self, cell: [i32; 2], rect: &Rect) -> bool {
+        !self.obstacles.is_empty() && self.obstacles.cover(cell, rect)
+    }
+
+    /// Whether a lattice point of a cell lies in a disk.
+    #[inline(always)]
+    pub fn is_blocked(&self, cell: [i32; 2], point: [i32; 2]) -> bool {
+        self.is_hidden(cell, &Rect { min: point, max: point.map(|x| x + 1) })
     }
 
     /// Cells per axis.
@@ -195,10 +227,10 @@ impl CellGrid {
         self.vectors.uncovered(near, voxel, width)
     }
 
-    /// Whether a sample conflicts with `point`, which lies in `cell`.
+    /// Whether a sample conflicts with `point`, which lies in `cell`, or it lies in a disk.
     #[inline(always)]
     pub fn conflicts(&self, cell: [i32; 2], point: [i32; 2]) -> bool {
-        self.conflicts_among(&self.rows_near(cell), point)
+        self.conflicts_among(&self.rows_near(cell), point) || self.is_blocked(cell, point)
     }
 
     /// Whether one of the samples of some rows conflicts with `point`.
@@ -289,7 +321,7 @@ impl CellGrid {
     }
 
     /// The samples in `rect`, by rows of cells.
-    pub fn samples_in(&self, rect: &Rect) -> impl Iterator<Item = [i32; 2]> {
+    pub fn samples_in(&self, rect: &Rect) -> impl Iterator<Item = [i32; 2]> + use<'_> {
         let (cells, rect) = (self.cells_of(rect), *rect);
         (cells.min[1]..cells.max[1])
             .flat_map(move |y| {
@@ -298,6 +330,27 @@ impl CellGrid {
             })
             .map(|(&x, &y)| [x, y])
             .filter(move |&sample| rect.contains(sample))
+    }
+
+    /// The squared distance from a sample to the nearest other one, if that is within a reach along both axes; else it
+    /// may be any larger number.
+    #[inline(always)]
+    pub fn nearest_square(&self, sample: [i32; 2], reach: i32) -> i64 {
+        let around = Rect { min: sample, max: sample.map(|x| x + 1) }.grown(reach);
+        let cells = self.cells_of(&around);
+        let mut nearest = [i64::MAX; LANES];
+        for y in cells.min[1]..cells.max[1] {
+            for x in (cells.min[0]..cells.max[0]).step_by(LANES) {
+                let start = self.index([x, y]);
+                let [xs, ys] = [&self.samples[0][start..start + LANES], &self.samples[1][start..start + LANES]];
+                for lane in 0..LANES {
+                    let [dx, dy] = [xs[lane] - sample[0], ys[lane] - sample[1]].map(i64::from);
+                    let square = dx * dx + dy * dy;
+                    nearest[lane] = nearest[lane].min(if square == 0 { i64::MAX } else { square });
+                }
+            }
+        }
+        nearest.into_iter().fold(i64::MAX, i64::min)
     }
 
     /// The invariants: every sample lies in its cell, and conflicts with nothing but itself and its own images.

@@ -33,7 +33,7 @@ impl CellGrid {
         rng: &mut Rng,
     ) -> Option<[i32; 2]> {
         let point = dart(voxel, width, rng)?;
-        if self.conflicts_among(&list.rows(), point) {
+        if self.conflicts_among(&list.rows(), point) || self.is_blocked(cell, point) {
             return None;
         }
         self.insert(cell, point);

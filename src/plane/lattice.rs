@@ -15,6 +15,7 @@
 //! samples.
 
 use crate::error::{Error, Result};
+use crate::math::{hypot, scalbn};
 use crate::plane::rect::Rect;
 use crate::points::{Boundary, Domain, MAXIMAL_DENSITY, check_radius, check_resolution};
 
@@ -35,7 +36,7 @@ impl Separation {
     pub fn new(radius: f64) -> Self {
         // The guard covers the rounding of the squares here and in the user's own check.
         let threshold = (radius * radius * (1.0 + 1e-14)).ceil() as i64;
-        Self { threshold, reach: (threshold - 1).isqrt() as i32 }
+        Self { threshold, reach: (threshold - 1).max(0).isqrt() as i32 }
     }
 }
 
@@ -84,11 +85,16 @@ impl Lattice {
         for axis in 0..2 {
             (origin[axis], size[axis]) = axis_points(domain, axis, unit)?;
         }
-        // No two lattice points are as far apart as 2^26, so a longer radius means the same and only overflows.
-        let radius = (radius / unit).min((1 << 26) as f64);
         let lattice =
-            Self { unit, origin, size, boundary: domain.boundary, radius, separation: Separation::new(radius) };
-        Ok(lattice)
+            Self { unit, origin, size, boundary: domain.boundary, radius: 0.0, separation: Separation::new(0.0) };
+        Ok(lattice.with_radius(radius))
+    }
+
+    /// The same lattice with another radius, in the units of the domain.
+    pub fn with_radius(&self, radius: f64) -> Self {
+        // No two lattice points are as far apart as 2^26, so a longer radius means the same and only overflows.
+        let radius = (radius / self.unit).min((1 << 26) as f64);
+        Self { radius, separation: Separation::new(radius), ..self.clone() }
     }
 
     /// The same lattice with a radius that is longer by so many units.
@@ -148,6 +154,34 @@ impl Lattice {
         [along(0), along(1)]
     }
 
+    /// The length of a unit.
+    pub fn unit(&self) -> f64 {
+        self.unit
+    }
+
+    /// Where a position is in lattice units, on a torus in its first turn.
+    pub fn place(&self, domain: &Domain, position: [f32; 2]) -> [f64; 2] {
+        std::array::from_fn(|axis| {
+            let mut x = f64::from(position[axis]);
+            if self.boundary == Boundary::Periodic {
+                let (min, extent) = (domain.min[axis], domain.extent()[axis]);
+                x -= extent * ((x - min) / extent).floor();
+            }
+            (x - self.origin[axis]) / self.unit
+        })
+    }
+
+    /// By how many units distances over the seam of a torus can be shorter than on the lattice.
+    pub fn short(&self, domain: &Domain) -> f64 {
+        let short = |axis: usize| (domain.extent()[axis] / self.unit - f64::from(self.size[axis])).max(0.0);
+        if self.boundary == Boundary::Periodic { hypot(short(0), short(1)) } else { 0.0 }
+    }
+
+    /// The length whose square is given in lattice units: the distance in `f64` of two returned floats so far apart.
+    pub fn length(&self, square: i64) -> f64 {
+        (square as f64).sqrt() * self.unit
+    }
+
     /// The lattice point with these coordinates, which are those of one: the inverse of [`Lattice::position`].
     pub fn point(&self, position: [f32; 2]) -> [i32; 2] {
         std::array::from_fn(|axis| ((f64::from(position[axis]) - self.origin[axis]) / self.unit) as i32)
@@ -187,10 +221,10 @@ fn float_spacing<'a>(coordinates: impl Iterator<Item = &'a f64>) -> f64 {
     let largest = coordinates.fold(0.0, |largest: f64, x| largest.max(x.abs()));
     // A float has 24 bits of mantissa; the finest is 2^-149.
     let mut exponent = -149 + 24;
-    while 2f64.powi(exponent) < largest {
+    while scalbn(1.0, exponent) < largest {
         exponent += 1;
     }
-    2f64.powi(exponent - 24)
+    scalbn(1.0, exponent - 24)
 }
 
 /// The coordinate of an axis's first lattice point, and how many points there are.

@@ -17,6 +17,7 @@ pub(super) const SLACK: f32 = 1e-5;
 pub(super) const MOST_NEAR: usize = 16;
 
 /// As many samples near a cell are tested whether they are there or not; seldom are there more.
+#[cfg_attr(not(target_arch = "x86_64"), allow(dead_code))]
 pub(super) const ALWAYS: usize = 4;
 
 /// A coordinate of no sample. Its square is a float.

@@ -53,8 +53,16 @@ impl Quadtree {
     pub fn new(grid: &CellGrid, rect: Rect, cells: impl IntoIterator<Item = [i32; 2]>) -> Self {
         let voxels = cells.into_iter().map(|cell| (cell, grid.rect(cell).intersection(&rect)));
         let mut quadtree = Self::empty();
-        quadtree.restart(grid, grid.widest_cell(), voxels.filter(|(_, rect)| !rect.is_empty()));
+        let voxels = voxels.filter(|(cell, rect)| !rect.is_empty() && !grid.is_hidden(*cell, rect));
+        quadtree.restart(grid, grid.widest_cell(), voxels);
         quadtree
+    }
+
+    /// The cells without a sample, as far as they lie in `rect`.
+    pub fn of_empty_cells(grid: &CellGrid, rect: Rect) -> Self {
+        let cells = grid.cells_of(&rect);
+        let cells = (cells.min[1]..cells.max[1]).flat_map(|y| (cells.min[0]..cells.max[0]).map(move |x| [x, y]));
+        Self::new(grid, rect, cells.filter(|&cell| grid.sample(cell).is_none()))
     }
 
     /// No voxels.
@@ -82,7 +90,8 @@ impl Quadtree {
     pub fn add_sixteenths(&mut self, grid: &CellGrid, list: &List, cell: [i32; 2], voxel: Rect) {
         grid.gather_among(list, voxel, &mut self.cutter.near);
         let open = grid.uncovered(&self.cutter.near, &voxel, self.width);
-        self.voxels.extend(parts(voxel, self.width, open).map(|rect| Voxel { rect, cell }));
+        let parts = parts(voxel, self.width, open).filter(|rect| !grid.is_hidden(cell, rect));
+        self.voxels.extend(parts.map(|rect| Voxel { rect, cell }));
     }
 
     /// How many voxels are left.
@@ -121,17 +130,18 @@ impl Quadtree {
         self.voxels.truncate(left);
     }
 
-    /// Throws darts and cuts voxels until every lattice point is covered, and shows the new samples to `accepted`. For
-    /// few voxels: a new sample is compared with all of them. ([`Quadtree::rain`] is for whole domains.)
+    /// Throws darts and cuts voxels until every lattice point is covered, and shows each new sample to `accepted`, with
+    /// the grid as it is then. For few voxels: a new sample is compared with all of them. ([`Quadtree::rain`] is for
+    /// whole domains.)
     #[inline(always)]
-    pub fn fill(&mut self, grid: &mut CellGrid, rng: &mut Rng, mut accepted: impl FnMut([i32; 2])) {
+    pub fn fill(&mut self, grid: &mut CellGrid, rng: &mut Rng, mut accepted: impl FnMut(&CellGrid, [i32; 2])) {
         while !self.is_empty() {
             let mut misses = darts(self.len());
             while misses > 0 {
                 misses -= 1;
                 if let Some(sample) = self.throw(grid, rng) {
                     self.prune(grid, sample);
-                    accepted(sample);
+                    accepted(grid, sample);
                     misses = darts(self.len());
                 }
             }
@@ -175,12 +185,13 @@ impl Cutter {
                 grid.gather(cell, &mut self.near);
                 for &Voxel { rect, .. } in voxels {
                     let parts = parts(rect, width, grid.uncovered(&self.near, &rect, width));
-                    open.extend(parts.map(|rect| Voxel { rect, cell }));
+                    open.extend(parts.filter(|rect| !grid.is_hidden(cell, rect)).map(|rect| Voxel { rect, cell }));
                 }
             } else {
                 let near = grid.samples_near(cell, &mut self.exactly_near);
                 let quarters = voxels.iter().flat_map(|voxel| quarters(voxel.rect, width));
-                open.extend(quarters.filter(|rect| !grid.covers(near, rect)).map(|rect| Voxel { rect, cell }));
+                let quarters = quarters.filter(|rect| !grid.covers(near, rect) && !grid.is_hidden(cell, rect));
+                open.extend(quarters.map(|rect| Voxel { rect, cell }));
             }
         }
     }

@@ -44,6 +44,9 @@ impl Quadtree {
         })?;
         let mut quadtree = Self::empty();
         quadtree.restart(grid, grid.widest_cell(), std::iter::empty());
+        if grid.has_obstacles() {
+            voxels.retain(|voxel| !grid.is_hidden(voxel.cell, &voxel.rect));
+        }
         quadtree.voxels = voxels;
         Ok(quadtree)
     }

@@ -10,6 +10,7 @@ use crate::error::Result;
 use crate::job::Job;
 use crate::psp::buckets::Buckets;
 use crate::psp::cubes::Cube;
+use crate::psp::given::GivenSamples;
 use crate::psp::samples::{Sample, SampleSet};
 
 /// A point that a projector found.
@@ -20,15 +21,21 @@ pub(super) struct Candidate {
     pub rank: u32,
 }
 
-/// Adds the greedy choice among the candidates, and returns how many samples that are.
+/// Adds the greedy choice among the candidates around given samples, and returns how many samples that are.
 ///
 /// A failed or cancelled job adds nothing.
-pub(super) fn merge(job: &Job, samples: &mut SampleSet, candidates: &Buckets<Cube, Candidate>) -> Result<u64> {
+pub(super) fn merge(
+    job: &Job,
+    given: &GivenSamples,
+    samples: &mut SampleSet,
+    candidates: &Buckets<Cube, Candidate>,
+) -> Result<u64> {
     let before = samples.len();
     let cubes: Vec<Cube> = (0..candidates.len()).map(|bucket| candidates.key(bucket)).collect();
     let merged = samples.grow(job, &cubes, |bucket, samples| {
-        let (mut surroundings, candidates) = (samples.surroundings(cubes[bucket]), candidates.items(bucket));
-        let candidates: Vec<_> = candidates.collect();
+        let mut surroundings = samples.surroundings(cubes[bucket]);
+        let given = given.near(cubes[bucket]);
+        let candidates: Vec<_> = candidates.items(bucket).filter(|new| !given.reject(new.sample.position)).collect();
         let mut order: Vec<u64> = (0..).zip(&candidates).map(|(i, c)| u64::from(c.rank) << 32 | i).collect();
         order.sort_unstable();
         let mut accepted = Vec::with_capacity(candidates.len());
@@ -53,8 +60,10 @@ mod tests {
     use std::sync::Arc;
 
     use super::*;
+    use crate::given::Given;
     use crate::job::Context;
     use crate::mesh::Mesh;
+    use crate::psp::facing::Facing;
     use crate::rng::{Draw, Rng};
 
     /// A hundred sheets above each other: candidates everywhere in space.
@@ -62,6 +71,10 @@ mod tests {
         let sheet = |z: u32| [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]].map(|[x, y]| [x, y, z as f32 * 0.01]);
         let triangles = (0..100).map(|z| [3 * z, 3 * z + 1, 3 * z + 2]).collect();
         Arc::new(Mesh::new((0..100).flat_map(sheet).collect(), triangles).unwrap())
+    }
+
+    fn none_given(mesh: &Mesh, samples: &SampleSet) -> GivenSamples {
+        GivenSamples::new(mesh, Given::default(), samples.radius(), samples, Facing::ANY).unwrap()
     }
 
     fn candidate(mesh: &Mesh, rng: &mut Rng) -> Candidate {
@@ -73,6 +86,7 @@ mod tests {
     /// The set after each of a few merges.
     fn grown(mesh: &Mesh, radius: f64, threads: usize) -> Vec<Vec<Sample>> {
         let mut samples = SampleSet::new(mesh, radius);
+        let given = none_given(mesh, &samples);
         let context = Context::new(threads).unwrap();
         let merge_round = |round: u64| {
             context.run(None, |job| {
@@ -82,7 +96,7 @@ mod tests {
                     (0..300).map(|_| candidate(mesh, &mut rng)).for_each(|new| add(place(&new.sample), new));
                 })?;
                 let before = samples.len() as u64;
-                let added = merge(job, &mut samples, &candidates)?;
+                let added = merge(job, &given, &mut samples, &candidates)?;
                 assert_eq!(samples.len() as u64, before + added);
                 // The greedy choice leaves no candidate without a conflict.
                 for new in (0..candidates.len()).flat_map(|bucket| candidates.items(bucket)) {
@@ -117,13 +131,14 @@ mod tests {
     fn a_lower_rank_comes_first_then_the_older_then_the_earlier() {
         let mesh = sheets();
         let mut samples = SampleSet::new(&mesh, 0.1);
+        let given = none_given(&mesh, &samples);
         let at = |u: f32, rank| Candidate { sample: Sample::new(&mesh, 0, [u, 0.0]), rank };
         let mut merge_these = |candidates: &[Candidate]| -> Vec<f32> {
             let merged = Context::new(1).unwrap().run(None, |job| {
                 let add_all = |_, add: &mut dyn FnMut(Cube, Candidate)| {
                     candidates.iter().for_each(|&candidate| add(Cube([0; 3]), candidate));
                 };
-                merge(job, &mut samples, &Buckets::collect(job, 1, add_all)?.0)
+                merge(job, &given, &mut samples, &Buckets::collect(job, 1, add_all)?.0)
             });
             merged.unwrap();
             samples.all().iter().map(|sample| sample.position[0]).collect()

@@ -9,18 +9,29 @@
 //!   through space (not along the surface).
 //! * *Maximal*: no point of the surface, but for what the mesh's mask leaves out, is farther from every sample than the
 //!   radius and [`TOLERANCE`] float spacings at the largest coordinate of the mesh.
+//! * *Around given samples* ([`Options::given`]): new samples keep the clearance of each, and a place within the clearance
+//!   of one is covered. Given samples are not compared with each other, nor returned.
+//! * *Of several classes* ([`sample_classes`]): the same for every class, around samples of the others.
 //! * *Deterministic*: the samples and their order depend on mesh, radius, seed and the sequence of calls, not on the
 //!   number of threads. Between machines whose Embree traces packets of another width the last bits of a hit can differ.
 
 pub mod adaptive;
 mod buckets;
+mod classes;
+mod count;
 mod cubes;
 mod estimate;
+mod facing;
 mod fill;
 mod fragment;
+mod given;
+mod ladder;
 mod lanes;
+mod levels;
 mod merge;
+mod obstacles;
 mod options;
+mod ordered;
 mod pieces;
 mod progressive;
 mod project;
@@ -31,7 +42,8 @@ mod surroundings;
 #[allow(unsafe_code)] // Vector instructions.
 mod vectors;
 
+pub use classes::sample_classes;
 pub use fill::rounds::TOLERANCE;
-pub use options::{Engine, Options, Priority};
+pub use options::{DEFAULT_QUOTIENT, Engine, Options, Priority};
 pub use progressive::{Psp, sample};
 pub use report::Report;

@@ -1,35 +1,37 @@
 //! A set that grows, call by call: iterations of three projectors, and filling.
 
 use std::sync::Arc;
-use std::time::Instant;
 
 use glam::DMat3;
 
 use crate::error::{Error, Result};
+use crate::host::Stopwatch;
 use crate::job::{Context, Job, Progress};
 use crate::mesh::Mesh;
-use crate::points::{SurfaceSamples, check_radius, check_resolution};
-use crate::psp::estimate::{expected_samples, is_worth_projecting};
-use crate::psp::fill;
+use crate::order::Order;
+use crate::points::SurfaceSamples;
+use crate::psp::estimate::{checked_estimate, is_worth_projecting};
+use crate::psp::facing::Facing;
 use crate::psp::fill::triangles::Measures;
+use crate::psp::fill::{self, Surface};
+use crate::psp::given::GivenSamples;
 use crate::psp::merge;
 use crate::psp::options::Options;
+use crate::psp::ordered;
 use crate::psp::project::collector::Collector;
 use crate::psp::project::projection::Projection;
 use crate::psp::project::projector::{self, Projector};
-use crate::psp::report::Report;
+use crate::psp::report::{Report, rho};
 use crate::psp::samples::SampleSet;
-
-/// Memory per sample at the peak, twice of what was measured (bunny with three million samples: 110 bytes when a fill starts
-/// from nothing, 145 with an iteration, the samples handed out included): what lies scattered takes more.
-const BYTES_PER_SAMPLE: f64 = 300.0;
 
 /// A set of samples on a mesh that grows, call by call.
 ///
 /// After a cancelled or failed call it holds what was accepted until then, which is a valid set, and can be used on.
 pub struct Psp {
     mesh: Arc<Mesh>,
-    options: Options,
+    options: Options<'static>,
+    given: GivenSamples,
+    facing: Facing,
     samples: SampleSet,
     measures: Arc<Measures>,
     /// Whether iterations are worth their rays.
@@ -46,23 +48,25 @@ impl Psp {
     ///
     /// # Errors
     /// [`Error::InvalidArgument`] for a `radius` that is not positive and finite, or below 64 float spacings at the
-    /// largest coordinate of the mesh: floats cannot carry it. [`Error::TooLarge`] where it would ask for more than
-    /// 2^32 samples, or more than memory holds.
+    /// largest coordinate of the mesh: floats cannot carry it; for a `cosine` outside -1 to 1; for `given` samples out
+    /// of range, by their index (`given_positions`, `given_clearances`). [`Error::TooLarge`] where the radius would ask
+    /// for more than 2^32 samples on the bare surface, or more than memory holds.
     pub fn new(mesh: &Arc<Mesh>, options: &Options) -> Result<Self> {
         let radius = options.radius;
-        check_radius(radius)?;
-        let measures = mesh.kept(|| Ok(()), || Ok(Measures::of(mesh)))?;
-        let estimate = expected_samples(mesh, &measures, radius);
-        if estimate > u32::MAX as f64 {
-            let reason = format!("{radius:?} asks for about {estimate:.3e} samples; the limit is {}", u32::MAX);
-            return Err(Error::too_large("radius", reason));
+        for (option, is_asked) in [("count", options.count > 0), ("order", options.order == Order::Progressive)] {
+            if is_asked {
+                return Err(Error::invalid(option, "is of sets that are made in one call, by sample"));
+            }
         }
-        check_resolution("radius", radius, mesh.float_spacing(), "the largest coordinate of the mesh")?;
-        crate::memory::require(estimate * BYTES_PER_SAMPLE, "radius", &format!("about {estimate:.3e} samples"))?;
+        let measures = mesh.kept(|| Ok(()), || Ok(Measures::of(mesh)))?;
+        let estimate = checked_estimate(mesh, &measures, radius)?;
+        let (facing, samples) = (Facing::new(options.cosine)?, SampleSet::new(mesh, radius));
         Ok(Self {
             mesh: mesh.clone(),
-            options: *options,
-            samples: SampleSet::new(mesh, radius),
+            options: options.without_given(),
+            given: GivenSamples::new(mesh, options.given, radius, &samples, facing)?,
+            facing,
+            samples,
             measures,
             projects: is_worth_projecting(mesh, radius, estimate),
             projection: None,
@@ -79,12 +83,12 @@ impl Psp {
     ///
     /// # Errors
     /// [`Error::Cancelled`] by the progress callback: the interrupted iteration adds nothing and is made anew by the next
-    /// call. [`Error::Embree`] where Embree cannot take the mesh.
+    /// call. [`Error::InvalidArgument`] for iterations with a `cosine` above -1. [`Error::Embree`] where Embree cannot take the mesh.
     pub fn advance(&mut self, context: &Context, iterations: u32, progress: Option<&Progress>) -> Result<Report> {
-        let start = Instant::now();
+        let stopwatch = Stopwatch::start();
         let mut report = Report::default();
         context.run(progress, |job| self.iterate(job, iterations, &mut report))?;
-        Ok(self.finish(report, start))
+        Ok(self.finish(report, &stopwatch))
     }
 
     /// Adds samples until the set is maximal. Every part of the mesh, however small, that no other sample covers gets one.
@@ -92,10 +96,10 @@ impl Psp {
     /// # Errors
     /// [`Error::Cancelled`] by the progress callback: samples added until then stay.
     pub fn fill(&mut self, context: &Context, progress: Option<&Progress>) -> Result<Report> {
-        let start = Instant::now();
+        let stopwatch = Stopwatch::start();
         let mut report = Report::default();
         context.run(progress, |job| self.complete(job, &mut report))?;
-        Ok(self.finish(report, start))
+        Ok(self.finish(report, &stopwatch))
     }
 
     /// A copy of the samples, in the order in which they were accepted.
@@ -121,6 +125,11 @@ impl Psp {
     }
 
     fn iterate(&mut self, job: &Job, iterations: u32, report: &mut Report) -> Result<()> {
+        if iterations > 0 && self.facing.asks_normals() {
+            let reason =
+                format!("{:?} with iterations: projection tells no sides apart; only a fill does", self.options.cosine);
+            return Err(Error::invalid("cosine", reason));
+        }
         let iterations = if self.projects { iterations } else { 0 };
         for step in 0..iterations {
             let share = |step: u32| f64::from(step) / f64::from(iterations);
@@ -138,7 +147,7 @@ impl Psp {
             let collector = Collector { mesh: &self.mesh, samples: &self.samples, priority, projectors };
             let (candidates, projected) = projection.project(&job.part(prepared, 0.7), projectors, &collector)?;
             report.project_seconds += stage.lap();
-            let accepted = merge::merge(&job.part(0.7, 1.0), &mut self.samples, &candidates)?;
+            let accepted = merge::merge(&job.part(0.7, 1.0), &self.given, &mut self.samples, &candidates)?;
             report.merge_seconds += stage.lap();
             self.iterations += 1;
             self.frame = Some(frame);
@@ -155,7 +164,9 @@ impl Psp {
 
     fn complete(&mut self, job: &Job, report: &mut Report) -> Result<()> {
         let (mut stage, before) = (Stopwatch::start(), self.len());
-        let filled = fill::fill(job, &self.mesh, &self.measures, &mut self.samples, self.options.seed)?;
+        let Self { mesh, measures, given, facing, .. } = self;
+        let surface = Surface { mesh, measures, given, facing: *facing };
+        let filled = fill::fill(job, &surface, &mut self.samples, self.options.seed)?;
         let accepted = (self.len() - before) as u64;
         report.fill_seconds += stage.lap();
         report.accepted += accepted;
@@ -167,44 +178,46 @@ impl Psp {
         Ok(())
     }
 
-    fn finish(&self, report: Report, start: Instant) -> Report {
-        let hexagonal = (2.0 * self.mesh.area() / (3f64.sqrt() * self.len() as f64)).sqrt();
+    fn finish(&self, report: Report, stopwatch: &Stopwatch) -> Report {
         Report {
             samples: self.len() as u64,
-            seconds: start.elapsed().as_secs_f64(),
-            rho: if self.is_empty() { 0.0 } else { self.options.radius / hexagonal },
+            seconds: stopwatch.seconds(),
+            rho: rho(&self.mesh, self.len(), self.options.radius),
+            radius: self.options.radius,
+            coverage: report.uncovered_after.map(|_| self.options.radius),
             ..report
         }
-    }
-}
-
-/// Wall times of stages that follow each other.
-struct Stopwatch(Instant);
-
-impl Stopwatch {
-    fn start() -> Self {
-        Self(Instant::now())
-    }
-
-    /// The seconds since the start or the last lap.
-    fn lap(&mut self) -> f64 {
-        let start = std::mem::replace(&mut self.0, Instant::now());
-        (self.0 - start).as_secs_f64()
     }
 }
 
 /// Samples a mesh in one call: [`Psp::new`], [`Psp::advance`] by [`Options::iterations_by_rule`] and, if `maximal`,
 /// [`Psp::fill`].
 ///
+/// With [`Options::count`] the set has exactly so many samples, and the report says the radius and a bound of the covering
+/// radius. Takes about twice the time of a set of known radius.
+///
+/// In [`Order::Progressive`] the samples are sorted coarse to fine, and have [ranks](SurfaceSamples::ranks). For every
+/// prefix, from the first sample on: no two samples of it are closer than the rank of its last one, and every place of
+/// the surface is within [`Options::quotient`] times this rank of a sample of it, up to [`TOLERANCE`](super::TOLERANCE).
+/// A set of fewer samples is a prefix of a set of more, on the same mesh with the same quotient and seed, to the bit. Sets
+/// of two radii share the levels above both: all samples with a rank of at least the quotient times the larger radius.
+/// Takes about four times the time of a set in any order, and more with many triangles for each sample, as each of some
+/// `log(diagonal / radius) / log(quotient)` levels visits all triangles.
+///
 /// # Errors
-/// Those of the three. Where the call is cancelled nothing is returned.
+/// Those of the three, and [`Error::InvalidArgument`] for a `count` that is more than floats can carry on the mesh, and
+/// for what does not go with count or order: `iterations`, sets that are not `maximal`, a `radius` beside a count, a
+/// `quotient` out of range. Where the call is cancelled nothing is returned.
 pub fn sample(
     context: &Context,
     mesh: &Arc<Mesh>,
     options: &Options,
     progress: Option<&Progress>,
 ) -> Result<(SurfaceSamples, Report)> {
-    let start = Instant::now();
+    if options.has_levels() {
+        return ordered::sample(context, mesh, options, progress);
+    }
+    let stopwatch = Stopwatch::start();
     let mut psp = Psp::new(mesh, options)?;
     let mut report = Report::default();
     context.run(progress, |job| {
@@ -220,5 +233,5 @@ pub fn sample(
         }
         Ok(())
     })?;
-    Ok((psp.samples(), psp.finish(report, start)))
+    Ok((psp.samples(), psp.finish(report, &stopwatch)))
 }

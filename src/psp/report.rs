@@ -1,5 +1,7 @@
 //! What a call did.
 
+use crate::mesh::Mesh;
+
 /// What a call did.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
@@ -34,11 +36,26 @@ pub struct Report {
     /// The relative radius of the set after the call, `radius / d_max`: `d_max = sqrt(2 A / (sqrt(3) N))` would be the
     /// distance of N neighbours in hexagonal order on the area A. 0.78 for darts until nothing fits (thesis §1.4); 0 for
     /// no samples. The smallest distance is taken to be the radius; that of a large set is less than a millionth above.
+    /// Given samples do not count.
     pub rho: f64,
-    /// For a fill, the share of the mesh's area that was uncovered before it, estimated with random points on the parts
-    /// of the surface that no single sample covers when the search comes to them: at least 1,024 points, or above about
-    /// 25,000 samples 64 for each cube of 24 radii.
+    /// For a fill, the share of the mesh's area that neither samples nor given ones covered before it, estimated with
+    /// random points on the parts of the surface that no single sample covers when the search comes to them: at least
+    /// 1,024 points, or above about 25,000 samples 64 for each cube of 24 radii.
     pub uncovered_before: Option<f64>,
     /// For a fill, the share of the area that is uncovered after it: 0, up to [`TOLERANCE`](super::TOLERANCE).
     pub uncovered_after: Option<f64>,
+    /// No two samples are closer: the radius that was asked for or, for a count, the one that was found. 0 where radii
+    /// vary.
+    pub radius: f64,
+    /// A bound of the covering radius, where one is known: every place of the surface is so near to a sample, up to
+    /// [`TOLERANCE`](super::TOLERANCE). The radius itself after a fill; for a count a little more (mostly below 1.1
+    /// times the radius), in progressive order at most [`Options::quotient`](super::Options::quotient) times the
+    /// radius, from [`Order::FIRST_COUNT`](crate::Order::FIRST_COUNT) samples on.
+    pub coverage: Option<f64>,
+}
+
+/// The relative radius of so many samples.
+pub(super) fn rho(mesh: &Mesh, count: usize, radius: f64) -> f64 {
+    let hexagonal = (2.0 * mesh.area() / (3f64.sqrt() * count as f64)).sqrt();
+    if count == 0 { 0.0 } else { radius / hexagonal }
 }

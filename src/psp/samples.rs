@@ -4,11 +4,12 @@ use std::collections::HashMap;
 use std::ops::{AddAssign, Range};
 
 use crate::error::Result;
+use crate::geometry::counting_sort::Binned;
 use crate::geometry::grid3::distance_squared;
 use crate::job::Job;
 use crate::mesh::Mesh;
 use crate::points::SurfaceSamples;
-use crate::psp::cubes::{Cube, SIDE};
+use crate::psp::cubes::{Cube, Numbers, SIDE};
 use crate::psp::surroundings::Surroundings;
 
 /// A point of the surface.
@@ -17,14 +18,22 @@ pub(super) struct Sample {
     pub position: [f32; 3],
     pub triangle: u32,
     pub barycentrics: [f32; 2],
+    /// In ordered sets, the distance to the nearest sample that was accepted before (`levels.rs`).
+    pub rank: f32,
+    /// In sets of several classes, its class (`classes/`); otherwise 0.
+    pub class: u8,
 }
 
 impl Sample {
     /// The sample at rounded barycentrics: whatever is tested later is tested on the position that is returned.
     pub fn new(mesh: &Mesh, triangle: u32, barycentrics: [f32; 2]) -> Self {
-        Self { position: mesh.point(triangle, barycentrics), triangle, barycentrics }
+        Self { position: mesh.point(triangle, barycentrics), triangle, barycentrics, rank: f32::INFINITY, class: 0 }
     }
 }
+
+/// Distances are compared as squares in `f64`. The radius used is larger by this share, dozens of units in the last
+/// place: the samples keep the radius in whatever order a caller evaluates their distances.
+pub(super) const RADIUS_SLACK: f64 = 1e-14;
 
 /// A conflict-free set of samples that only grows.
 pub(super) struct SampleSet {
@@ -39,13 +48,26 @@ pub(super) struct SampleSet {
 }
 
 impl SampleSet {
-    /// An empty set. Two samples conflict when they are closer than `radius`.
-    ///
-    /// Distances are compared as squares in `f64`. The radius used is larger by 1e-14, dozens of units in the last
-    /// place: the samples keep `radius` in whatever order a caller evaluates their distances.
+    /// An empty set. Two samples conflict when they are closer than `radius`, and [`RADIUS_SLACK`].
     pub fn new(mesh: &Mesh, radius: f64) -> Self {
         let origin = mesh.bounds().0.map(f64::from);
-        Self { radius: radius * (1.0 + 1e-14), origin, samples: Vec::new(), cubes: HashMap::new(), in_cubes: 0 }
+        Self { radius: radius * (1.0 + RADIUS_SLACK), origin, samples: Vec::new(), cubes: HashMap::new(), in_cubes: 0 }
+    }
+
+    /// A set of samples that do not conflict, which are put in the order of their cubes.
+    pub fn of(mesh: &Mesh, radius: f64, samples: &[Sample]) -> Self {
+        let (mut set, mut numbers) = (Self::new(mesh, radius), Numbers::new());
+        let bins: Vec<usize> =
+            samples.iter().map(|sample| numbers.of(set.cube(sample.position.map(f64::from)))).collect();
+        let binned =
+            Binned::new(numbers.cubes.len(), bins.into_iter().zip(0..).map(|(bin, index): (_, u32)| (bin, index)));
+        set.samples = binned.items().iter().map(|&index| samples[index as usize]).collect();
+        set
+    }
+
+    /// The samples, those last that were added last.
+    pub fn into_samples(self) -> Vec<Sample> {
+        self.samples
     }
 
     pub fn len(&self) -> usize {

@@ -51,6 +51,7 @@ pub(super) const PIERCING: [[f64; 2]; 6] =
     [[0.25, 0.25], [0.5, 0.25], [0.25, 0.5], [0.25, 0.0], [0.75, 0.25], [0.0, 0.75]];
 
 /// The numbers of the first, second and third corners of the sixteenths.
+#[cfg_attr(not(target_arch = "x86_64"), allow(dead_code))]
 pub(super) const CORNERS_OF_SIXTEENTHS: [[i32; 16]; 3] = {
     let mut numbers = [[0; 16]; 3];
     let mut index = 0;

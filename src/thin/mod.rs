@@ -24,7 +24,7 @@ use crate::job::{Context, Progress};
 use crate::memory;
 use crate::simd::Level;
 
-pub use options::{Options, Order, Selection};
+pub use options::{Options, Selection};
 
 use selecting::select;
 

@@ -1,19 +1,9 @@
 //! The options of thinning, and what it returns.
 
 use crate::error::{Error, Result};
+use crate::order::Order;
 use crate::points::check_radius;
 use crate::setters::setters;
-
-/// The order of what is selected.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Order {
-    /// That of the cloud: indices ascend.
-    #[default]
-    Any,
-    /// Coarse to fine: each next point is the farthest from those before, the lowest index on ties. So the first points of
-    /// the selection are a thinned cloud as well, whatever their number.
-    Progressive,
-}
 
 /// How to thin, and when to stop.
 ///
@@ -33,7 +23,8 @@ pub struct Options {
     pub radius: f64,
     /// The number of points to select; a cloud that has fewer is selected whole. 0 sets none.
     pub count: usize,
-    /// The order of what is selected.
+    /// The order of what is selected: any is that of the cloud, where indices ascend; progressive is farthest-first, where
+    /// each next point is the farthest from those before, the lowest index on ties.
     pub order: Order,
     /// Which point is the first of the progressive order, and with it which others follow. Selection by a radius in any
     /// order uses no random numbers.

@@ -3,9 +3,10 @@
 use super::leaf::Nearer;
 use super::tree::Tree;
 use super::vectors::advance;
-use super::{Options, Order, Selection};
+use super::{Options, Selection};
 use crate::error::Result;
 use crate::job::Job;
+use crate::order::Order;
 use crate::rng::{Draw, Rng};
 use crate::simd::Level;
 

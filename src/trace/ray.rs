@@ -1,6 +1,7 @@
 //! Rays and their hits.
 
 /// Embree leaves out what is farther from the origin (its `FLT_LARGE` is 1.844e18).
+#[cfg(feature = "embree")]
 pub(super) const LARGEST_COORDINATE: f32 = 1e18;
 
 /// A ray that starts at a point and has no end.

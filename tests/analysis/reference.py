@@ -11,7 +11,9 @@ Each line has the name of a set, that of a figure, and its numbers.
 import numpy as np
 from scipy.spatial import Delaunay, cKDTree
 
-WIDTH = 0.1  # of the annuli, in units of sqrt(density)
+# Of the annuli, in units of sqrt(density): no multiple of it is the length of a frequency, which rounding would put on
+# either side.
+WIDTH = 0.0977
 
 
 def jittered(rng, columns, rows, amount):

@@ -14,6 +14,7 @@ SIZE(azulejo_progress_fn, 8);
 SIZE(azulejo_kdrt_visit_fn, 8);
 SIZE(azulejo_density_fn, 8);
 SIZE(azulejo_radius_fn, 8);
+SIZE(azulejo_mesh_density_fn, 8);
 
 SIZE(azulejo_plane_set, 56);
 FIELD(azulejo_plane_set, struct_size, 0);
@@ -23,7 +24,7 @@ FIELD(azulejo_plane_set, count, 16);
 FIELD(azulejo_plane_set, domain_min, 24);
 FIELD(azulejo_plane_set, domain_max, 40);
 
-SIZE(azulejo_kdrt_options, 96);
+SIZE(azulejo_kdrt_options, 136);
 FIELD(azulejo_kdrt_options, struct_size, 0);
 FIELD(azulejo_kdrt_options, boundary, 4);
 FIELD(azulejo_kdrt_options, radius, 8);
@@ -35,7 +36,12 @@ FIELD(azulejo_kdrt_options, progress, 64);
 FIELD(azulejo_kdrt_options, progress_user, 72);
 FIELD(azulejo_kdrt_options, count, 80);
 FIELD(azulejo_kdrt_options, measure_coverage, 88);
-FIELD(azulejo_kdrt_options, reserved, 92);
+FIELD(azulejo_kdrt_options, order, 92);
+FIELD(azulejo_kdrt_options, quotient, 96);
+FIELD(azulejo_kdrt_options, coarsest, 104);
+FIELD(azulejo_kdrt_options, given_positions, 112);
+FIELD(azulejo_kdrt_options, given_clearances, 120);
+FIELD(azulejo_kdrt_options, given_count, 128);
 
 SIZE(azulejo_kdrt_report, 40);
 FIELD(azulejo_kdrt_report, struct_size, 0);
@@ -65,6 +71,13 @@ FIELD(azulejo_kdrt_merge_options, seed, 48);
 FIELD(azulejo_kdrt_merge_options, progress, 56);
 FIELD(azulejo_kdrt_merge_options, progress_user, 64);
 
+SIZE(azulejo_classes, 32);
+FIELD(azulejo_classes, struct_size, 0);
+FIELD(azulejo_classes, count, 4);
+FIELD(azulejo_classes, radii, 8);
+FIELD(azulejo_classes, masks, 16);
+FIELD(azulejo_classes, mask_count, 24);
+
 SIZE(azulejo_thin_options, 48);
 FIELD(azulejo_thin_options, struct_size, 0);
 FIELD(azulejo_thin_options, order, 4);
@@ -87,7 +100,7 @@ FIELD(azulejo_kdrt_merge_report, kept, 8);
 FIELD(azulejo_kdrt_merge_report, eliminated, 16);
 FIELD(azulejo_kdrt_merge_report, inserted, 24);
 
-SIZE(azulejo_psp_options, 56);
+SIZE(azulejo_psp_options, 104);
 FIELD(azulejo_psp_options, struct_size, 0);
 FIELD(azulejo_psp_options, iterations, 4);
 FIELD(azulejo_psp_options, radius, 8);
@@ -95,9 +108,15 @@ FIELD(azulejo_psp_options, seed, 16);
 FIELD(azulejo_psp_options, maximal, 24);
 FIELD(azulejo_psp_options, priority, 28);
 FIELD(azulejo_psp_options, engine, 32);
-FIELD(azulejo_psp_options, reserved, 36);
+FIELD(azulejo_psp_options, order, 36);
 FIELD(azulejo_psp_options, progress, 40);
 FIELD(azulejo_psp_options, progress_user, 48);
+FIELD(azulejo_psp_options, count, 56);
+FIELD(azulejo_psp_options, quotient, 64);
+FIELD(azulejo_psp_options, given_positions, 72);
+FIELD(azulejo_psp_options, given_clearances, 80);
+FIELD(azulejo_psp_options, given_count, 88);
+FIELD(azulejo_psp_options, cosine, 96);
 
 SIZE(azulejo_embree_geometry, 32);
 FIELD(azulejo_embree_geometry, geometry_id, 0);
@@ -107,7 +126,7 @@ FIELD(azulejo_embree_geometry, reserved, 12);
 FIELD(azulejo_embree_geometry, vertex_count, 16);
 FIELD(azulejo_embree_geometry, triangle_count, 24);
 
-SIZE(azulejo_psp_report, 128);
+SIZE(azulejo_psp_report, 144);
 FIELD(azulejo_psp_report, struct_size, 0);
 FIELD(azulejo_psp_report, iterations, 4);
 FIELD(azulejo_psp_report, samples, 8);
@@ -125,8 +144,10 @@ FIELD(azulejo_psp_report, fill_seconds, 96);
 FIELD(azulejo_psp_report, rho, 104);
 FIELD(azulejo_psp_report, uncovered_before, 112);
 FIELD(azulejo_psp_report, uncovered_after, 120);
+FIELD(azulejo_psp_report, radius, 128);
+FIELD(azulejo_psp_report, coverage, 136);
 
-SIZE(azulejo_psp_adaptive_options, 96);
+SIZE(azulejo_psp_adaptive_options, 120);
 FIELD(azulejo_psp_adaptive_options, struct_size, 0);
 FIELD(azulejo_psp_adaptive_options, reserved, 4);
 FIELD(azulejo_psp_adaptive_options, vertex_radii, 8);
@@ -140,6 +161,9 @@ FIELD(azulejo_psp_adaptive_options, cosine, 64);
 FIELD(azulejo_psp_adaptive_options, seed, 72);
 FIELD(azulejo_psp_adaptive_options, progress, 80);
 FIELD(azulejo_psp_adaptive_options, progress_user, 88);
+FIELD(azulejo_psp_adaptive_options, given_positions, 96);
+FIELD(azulejo_psp_adaptive_options, given_clearances, 104);
+FIELD(azulejo_psp_adaptive_options, given_count, 112);
 
 SIZE(azulejo_dcr_options, 136);
 FIELD(azulejo_dcr_options, struct_size, 0);
@@ -182,6 +206,25 @@ FIELD(azulejo_density, height, 24);
 FIELD(azulejo_density, function, 32);
 FIELD(azulejo_density, user, 40);
 
+SIZE(azulejo_mesh_density, 120);
+FIELD(azulejo_mesh_density, struct_size, 0);
+FIELD(azulejo_mesh_density, at_vertices, 4);
+FIELD(azulejo_mesh_density, vertex_values, 8);
+FIELD(azulejo_mesh_density, vertex_count, 16);
+FIELD(azulejo_mesh_density, function, 24);
+FIELD(azulejo_mesh_density, user, 32);
+FIELD(azulejo_mesh_density, largest, 40);
+FIELD(azulejo_mesh_density, slope, 48);
+FIELD(azulejo_mesh_density, image, 56);
+FIELD(azulejo_mesh_density, width, 64);
+FIELD(azulejo_mesh_density, height, 72);
+FIELD(azulejo_mesh_density, texture, 80);
+FIELD(azulejo_mesh_density, texture_count, 88);
+FIELD(azulejo_mesh_density, by_corners, 96);
+FIELD(azulejo_mesh_density, reserved, 100);
+FIELD(azulejo_mesh_density, radius, 104);
+FIELD(azulejo_mesh_density, count, 112);
+
 SIZE(azulejo_dcr_surface_options, 40);
 FIELD(azulejo_dcr_surface_options, struct_size, 0);
 FIELD(azulejo_dcr_surface_options, max_iterations, 4);
@@ -198,6 +241,21 @@ FIELD(azulejo_dcr_surface_report, reserved, 12);
 FIELD(azulejo_dcr_surface_report, motion, 16);
 FIELD(azulejo_dcr_surface_report, smallest_distance, 24);
 FIELD(azulejo_dcr_surface_report, rho, 32);
+SIZE(azulejo_dcr_remesh_report, 104);
+FIELD(azulejo_dcr_remesh_report, struct_size, 0);
+FIELD(azulejo_dcr_remesh_report, reserved, 4);
+FIELD(azulejo_dcr_remesh_report, triangles, 8);
+FIELD(azulejo_dcr_remesh_report, disputed, 16);
+FIELD(azulejo_dcr_remesh_report, left_out, 24);
+FIELD(azulejo_dcr_remesh_report, boundary_edges, 32);
+FIELD(azulejo_dcr_remesh_report, inner_edges, 40);
+FIELD(azulejo_dcr_remesh_report, non_manifold_edges, 48);
+FIELD(azulejo_dcr_remesh_report, non_manifold_vertices, 56);
+FIELD(azulejo_dcr_remesh_report, unused_vertices, 64);
+FIELD(azulejo_dcr_remesh_report, euler, 72);
+FIELD(azulejo_dcr_remesh_report, smallest_angle, 80);
+FIELD(azulejo_dcr_remesh_report, largest_angle, 88);
+FIELD(azulejo_dcr_remesh_report, mean_smallest_angle, 96);
 
 SIZE(azulejo_coverage_report, 24);
 FIELD(azulejo_coverage_report, struct_size, 0);
@@ -308,14 +366,21 @@ static void signatures(void) {
     azulejo_status (*psp_points)(const azulejo_psp *, azulejo_points **) = azulejo_psp_points;
     azulejo_status (*psp_sample)(const azulejo_context *, const azulejo_mesh *, const azulejo_psp_options *,
                                  azulejo_points **, azulejo_psp_report *) = azulejo_psp_sample;
+    azulejo_status (*psp_sample_classes)(const azulejo_context *, const azulejo_mesh *, const azulejo_psp_options *,
+                                         const azulejo_classes *, azulejo_points **) = azulejo_psp_sample_classes;
     azulejo_status (*psp_adaptive_sample)(const azulejo_context *, const azulejo_mesh *,
                                           const azulejo_psp_adaptive_options *, azulejo_points **, azulejo_psp_report *) =
         azulejo_psp_adaptive_sample;
     azulejo_status (*dcr_relax)(const azulejo_context *, const azulejo_dcr_options *, const float *, size_t,
                                 azulejo_points **, azulejo_dcr_report *) = azulejo_dcr_relax;
+    azulejo_status (*dcr_relax_classes)(const azulejo_context *, const azulejo_dcr_options *, const float *,
+                                        const uint32_t *, size_t, uint32_t, azulejo_points **, azulejo_dcr_report *,
+                                        double *, double *) = azulejo_dcr_relax_classes;
     azulejo_status (*dcr_surface_relax)(const azulejo_context *, const azulejo_mesh *,
                                         const azulejo_dcr_surface_options *, const uint32_t *, const float *, size_t,
                                         azulejo_points **, azulejo_dcr_surface_report *) = azulejo_dcr_surface_relax;
+    azulejo_status (*dcr_remesh)(const azulejo_context *, const azulejo_mesh *, const uint32_t *, const float *, size_t,
+                                 azulejo_mesh **, azulejo_dcr_remesh_report *) = azulejo_dcr_remesh;
     azulejo_status (*thin)(const azulejo_context *, const azulejo_thin_options *, const float *, size_t, uint32_t,
                            azulejo_selection **) = azulejo_thin;
     size_t (*selection_count)(const azulejo_selection *) = azulejo_selection_count;
@@ -338,8 +403,9 @@ static void signatures(void) {
                                       azulejo_spectrum **) = azulejo_spectrum_create;
     size_t (*last_error_message)(char *, size_t) = azulejo_last_error_message;
     CHECK(context_create && kdrt_sample && mesh_create && mesh_load && psp_create && psp_advance && psp_fill);
-    CHECK(psp_points && psp_sample && dcr_relax && last_error_message && kdrt_sample_window && kdrt_stream);
-    CHECK(kdrt_merge && dcr_surface_relax && plane_smallest_distance && plane_covering_radius && plane_coverage);
+    CHECK(psp_points && psp_sample && psp_sample_classes && dcr_relax && dcr_relax_classes && last_error_message && kdrt_sample_window && kdrt_stream);
+    CHECK(dcr_remesh && kdrt_merge && dcr_surface_relax);
+    CHECK(plane_smallest_distance && plane_covering_radius && plane_coverage);
     CHECK(plane_measure && plane_nearest_histogram && plane_radial_distribution && spectrum_create);
     CHECK(mesh_with_normals && mesh_with_mask);
     CHECK(psp_adaptive_sample && kdrt_create && kdrt_window && kdrt_free);

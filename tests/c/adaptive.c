@@ -19,9 +19,12 @@ static azulejo_psp_adaptive_options with_vertices(void) {
     return options;
 }
 
+#define FINE 0.02
+
 /* What a callback is to do, and who called it. */
 typedef struct {
-    double bad; /* given beyond x = 0.9; 0: nothing bad is */
+    double base; /* the radius at z = 0, twice as large at z = 1 */
+    double bad;  /* given beyond x = 0.9; 0: nothing bad is */
     pthread_t thread;
     int strangers;
 } guest;
@@ -29,20 +32,27 @@ typedef struct {
 static double fade(void *user, const double position[3]) {
     guest *g = user;
     if (!pthread_equal(g->thread, pthread_self())) __atomic_add_fetch(&g->strangers, 1, __ATOMIC_RELAXED);
-    return g->bad != 0 && position[0] > 0.9 ? g->bad : 0.1 + 0.1 * position[2];
+    return g->bad != 0 && position[0] > 0.9 ? g->bad : g->base * (1 + position[2]);
 }
 
-static azulejo_psp_adaptive_options with_function(guest *g, double bad) {
+static azulejo_psp_adaptive_options with_fading(guest *g, double base) {
     azulejo_psp_adaptive_options options;
     ACCEPTED(azulejo_psp_adaptive_options_init(&options, sizeof options));
-    g->bad = bad;
+    g->base = base;
+    g->bad = 0;
     g->thread = pthread_self();
     g->strangers = 0;
     options.radius = fade;
     options.radius_user = g;
-    options.smallest = 0.1;
-    options.largest = 0.2;
-    options.slope = 0.1;
+    options.smallest = base;
+    options.largest = 2 * base;
+    options.slope = base;
+    return options;
+}
+
+static azulejo_psp_adaptive_options with_function(guest *g, double bad) {
+    const azulejo_psp_adaptive_options options = with_fading(g, 0.1);
+    g->bad = bad;
     return options;
 }
 
@@ -104,7 +114,8 @@ static void radii_of_vertices(void) {
 
 static void radii_by_position(void) {
     guest g, alone;
-    azulejo_psp_adaptive_options options = with_function(&g, 0), serial = with_function(&alone, 0);
+    /* As many samples as make work for more than one thread. */
+    azulejo_psp_adaptive_options options = with_fading(&g, FINE), serial = with_fading(&alone, FINE);
     azulejo_points *points = NULL, *again = NULL;
     size_t i, wrong = 0;
     ACCEPTED(azulejo_psp_adaptive_sample(context, cube, &options, &points, NULL));
@@ -114,7 +125,7 @@ static void radii_by_position(void) {
     CHECK(alone.strangers == 0); /* one thread: the caller's */
     CHECK(closest(points, -1) >= 1);
     for (i = 0; i < azulejo_points_count(points); i++)
-        wrong += azulejo_points_radii(points)[i] != 0.1 + 0.1 * (double)azulejo_points_positions(points)[3 * i + 2];
+        wrong += azulejo_points_radii(points)[i] != FINE * (1 + (double)azulejo_points_positions(points)[3 * i + 2]);
     CHECK(wrong == 0);
     azulejo_points_free(points);
     azulejo_points_free(again);
@@ -143,6 +154,7 @@ static void bad_arguments(void) {
                                    {1, 1, 1, INFINITY, 1, 1, 1, 1},
                                    {1, 1, 1, 1, 1e-7f, 1, 1, 1}};
     const float tiny[8] = {4e-6f, 4e-6f, 4e-6f, 4e-6f, 4e-6f, 4e-6f, 4e-6f, 4e-6f};
+    const double clearances[2] = {0.1, -2};
     guest g;
     int i;
     UNWRITTEN(report);
@@ -170,6 +182,12 @@ static void bad_arguments(void) {
     ADAPTIVE(AZULEJO_ERROR_TOO_LARGE, "vertex_count", good, o.vertex_count = SIZE_MAX);
     for (i = 0; i < 5; i++) ADAPTIVE(INVALID, "vertex_radii", good, o.vertex_radii = bad_radii[i]);
     ADAPTIVE(AZULEJO_ERROR_TOO_LARGE, "vertex_radii", good, o.vertex_radii = tiny);
+    ADAPTIVE(INVALID, "given_clearances", good, (o.given_positions = cube_positions[0], o.given_count = 8));
+    ADAPTIVE(INVALID, "given_positions: is NULL", good, (o.given_clearances = clearances, o.given_count = 1));
+    ADAPTIVE(INVALID, "given_clearances: [1] is -2.0", good,
+             (o.given_positions = cube_positions[0], o.given_clearances = clearances, o.given_count = 2));
+    ADAPTIVE(AZULEJO_ERROR_TOO_LARGE, "given_count", good,
+             (o.given_positions = cube_positions[0], o.given_clearances = clearances, o.given_count = SIZE_MAX));
     ADAPTIVE(INVALID, "cosine", good, o.cosine = NAN);
     ADAPTIVE(INVALID, "cosine", good, o.cosine = 1.01);
     ADAPTIVE(INVALID, "cosine", good, o.cosine = -1.01);

@@ -231,6 +231,8 @@ static void meshes(void) {
 
 static void psp(void) {
     azulejo_psp_options good = psp_options(0.2);
+    const float bad_given[6] = {0, 0, 0, 0, 0, INFINITY}, good_given[6] = {0, 0, 0, 1, 1, 1};
+    const double bad_clearances[3] = {-1, 0.5, NAN};
     azulejo_points *points = UNTOUCHED;
     azulejo_psp *out = UNTOUCHED;
     azulejo_psp_report report, before;
@@ -262,11 +264,22 @@ static void psp(void) {
     PSP(INVALID, "radius", o.radius = INFINITY);
     PSP(INVALID, "maximal", o.maximal = 2);
     PSP(INVALID, "maximal", o.maximal = -1);
-    PSP(INVALID, "reserved", o.reserved = 1);
+    PSP(INVALID, "order", o.order = 2);
+    PSP(INVALID, "quotient: 1.1 has no effect in any order", o.quotient = 1.1);
+    PSP(INVALID, "count", o.count = 5);
     PSP(INVALID, "priority", o.priority = 2);
     PSP(INVALID, "priority", o.priority = -1);
     PSP(INVALID, "engine", o.engine = 2);
     PSP(INVALID, "engine", o.engine = -1);
+    PSP(INVALID, "cosine: NaN", o.cosine = NAN);
+    PSP(INVALID, "cosine: 1.5", o.cosine = 1.5);
+    PSP(INVALID, "given_positions: is NULL", o.given_count = 1);
+    PSP(INVALID, "given_positions: [1]", (o.given_positions = bad_given, o.given_count = 2));
+    PSP(INVALID, "given_positions", (o.given_positions = (const float *)((const char *)bad_given + 2), o.given_count = 1));
+    PSP(INVALID, "given_clearances: [0] is -1.0", (o.given_positions = bad_given, o.given_clearances = bad_clearances, o.given_count = 1));
+    PSP(INVALID, "given_clearances: [1] is NaN", (o.given_positions = good_given, o.given_clearances = bad_clearances + 1, o.given_count = 2));
+    PSP(AZULEJO_ERROR_TOO_LARGE, "given_count", (o.given_positions = good_given, o.given_count = SIZE_MAX));
+    PSP(AZULEJO_ERROR_TOO_LARGE, "given_count", (o.given_positions = good_given, o.given_count = SIZE_MAX / 4));
     PSP(AZULEJO_ERROR_TOO_LARGE, "radius", o.radius = 2.0443e-6);
     CHECK(largest_number(last_error()) > 0.9e12 && largest_number(last_error()) < 1.1e12);
     PSP(AZULEJO_ERROR_TOO_LARGE, "radius", o.radius = 1e-300);

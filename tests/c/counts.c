@@ -94,10 +94,10 @@ static void coverage_without_a_report(void) {
     REFUSED(INVALID, "measure_coverage: 2", azulejo_kdrt_sample(context, &o, &out, &report));
     REFUSED(INVALID, "measure_coverage: 2", azulejo_kdrt_sample_window(context, &o, low, high, &out));
     o.measure_coverage = 0;
-    o.reserved = 1;
-    REFUSED(INVALID, "reserved: 1", azulejo_kdrt_sample(context, &o, &out, &report));
-    REFUSED(INVALID, "reserved: 1", azulejo_kdrt_sample_window(context, &o, low, high, &out));
-    REFUSED(INVALID, "reserved: 1", azulejo_kdrt_stream(context, &o, never_visited, &visits));
+    o.order = 2;
+    REFUSED(INVALID, "order: 2", azulejo_kdrt_sample(context, &o, &out, &report));
+    REFUSED(INVALID, "order: 2", azulejo_kdrt_sample_window(context, &o, low, high, &out));
+    REFUSED(INVALID, "order: 2", azulejo_kdrt_stream(context, &o, never_visited, &visits));
     CHECK(out == UNTOUCHED && visits == 0);
 }
 

@@ -72,11 +72,40 @@ run_tufts() { # BUILD: a picture of as many bytes as its pixels take, with fur o
         fails "$1/tufts" && fails "$1/tufts" "$work/missing.obj" "$work/missing.ppm" && [ ! -e "$work/missing.ppm" ]
 }
 
+run_forest() { # BUILD: a picture of as many bytes as its pixels take, of three classes of plants
+    "$1/forest" "$work/plants.ppm" 60 64 >"$work/plants.txt" && cat "$work/plants.txt" &&
+        [ "$(stat -c %s "$work/plants.ppm")" = $((13 + 3 * 64 * 64)) ] &&
+        [ "$(tail -c +14 "$work/plants.ppm" | od -An -v -tu1 -w3 | sort -u | wc -l)" -gt 1000 ] &&
+        awk '{ exit !($1 > 20 && $3 > $1 && $5 > $3) }' "$work/plants.txt" && fails "$1/forest" && fails "$1/forest" a 0
+}
+
+run_lights() { # BUILD: errors of both kinds of lights, a sentence that they decide, and a picture
+    "$1/lights" "$work/room.ppm" 100 64 >"$work/lights.txt" && cat "$work/lights.txt" &&
+        [ "$(stat -c %s "$work/room.ppm")" = $((13 + 3 * 64 * 64)) ] &&
+        [ "$(tail -c +14 "$work/room.ppm" | od -An -v -tu1 -w3 | sort -u | wc -l)" -gt 500 ] &&
+        awk '/^blue noise:/ { blue = $4 } /^random:/ { random = $3 } /better/ { said = $0 }
+            END { exit !(blue > 0 && random > 0 && blue < random && said ~ /^Blue-noise lights are better/) }' \
+            "$work/lights.txt" && fails "$1/lights" && fails "$1/lights" "$work/room.ppm" 0
+}
+
+run_lod() { # BUILD: a picture with trees before land and sky, some of them left out
+    "$1/lod" "$work/forest.ppm" 5000 160 >"$work/lod.txt" && cat "$work/lod.txt" &&
+        [ "$(stat -c %s "$work/forest.ppm")" = $((14 + 3 * 160 * 90)) ] &&
+        [ "$(tail -c +15 "$work/forest.ppm" | od -An -v -tu1 -w3 | sort -u | wc -l)" -gt 500 ] &&
+        awk '{ exit !($1 > 500 && $1 < $3 && $3 == 5000) }' "$work/lod.txt" && fails "$1/lod" && fails "$1/lod" a 0
+}
+
 run_camera() { # BUILD: frames in three heights, one of them compared with the window of the plane
     "$1/camera" --check 40 >"$work/camera.txt" && cat "$work/camera.txt" &&
         grep -q '^10000000000 samples' "$work/camera.txt" &&
         tail -n 3 "$work/camera.txt" >"$work/heights.txt" && check_numbers "$work/heights.txt" 7 3 &&
         [ "$(awk '{ sum += $3 } END { print sum }' "$work/heights.txt")" = 40 ] && fails "$1/camera" 0
+}
+
+run_plants() { # BUILD: shrubs and grass, none too close to what stood before
+    "$1/plants" 3 >"$work/plants.txt" && cat "$work/plants.txt" &&
+        awk 'NR == 1 && $2 > 100 { n++ } NR == 2 && $2 > 10000 { n++ } END { exit n != 2 }' "$work/plants.txt" &&
+        grep -q '^0 too close$' "$work/plants.txt" && fails "$1/plants" none
 }
 
 run_ranks() { # BUILD: four processes, or three, make the plane that one makes, without communication

@@ -148,7 +148,7 @@ typedef struct {
     _Static_assert(sizeof(frozen_##name) == (size) && sizeof(azulejo_##name) >= (size), #name);           \
     _Static_assert(offsetof(frozen_##name, last) == offsetof(azulejo_##name, last), #name "." #last)
 FROZEN(plane_set, 56, domain_max);
-FROZEN(kdrt_options, 96, reserved);
+FROZEN(kdrt_options, 96, measure_coverage); /* order has taken the place of reserved */
 FROZEN(kdrt_report, 40, seconds);
 FROZEN(maximal_options, 72, progress_user);
 FROZEN(kdrt_merge_options, 72, progress_user);

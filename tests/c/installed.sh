@@ -34,6 +34,8 @@ step "installed: they run" run_examples "$work/shared"
 step "installed: scatter" run_scatter "$work/shared"
 step "installed: tufts" run_tufts "$work/shared"
 step "installed: camera" run_camera "$work/shared"
+step "installed: plants" run_plants "$work/shared"
+step "installed: lod" run_lod "$work/shared"
 step "installed: examples, static" few_examples "$work/static" "" -DAZULEJO_EXAMPLES_STATIC=ON
 step "installed: they do not need libazulejo.so" is_static "$work/static/plane"
 step "installed: they run" run_examples "$work/static"

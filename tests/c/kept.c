@@ -139,7 +139,9 @@ static void no_planes(void) {
     NO_PLANE(INVALID, "domain_min", o.domain_min[0] = -INFINITY);
     NO_PLANE(INVALID, "count", o.count = 100);
     NO_PLANE(INVALID, "measure_coverage", o.measure_coverage = 1);
-    NO_PLANE(INVALID, "reserved", o.reserved = 1);
+    NO_PLANE(INVALID, "order", o.order = 2);
+    NO_PLANE(INVALID, "quotient", (o.order = AZULEJO_ORDER_PROGRESSIVE, o.quotient = 1.6));
+    NO_PLANE(INVALID, "coarsest", (o.order = AZULEJO_ORDER_PROGRESSIVE, o.coarsest = o.radius / 2));
     NO_PLANE(INVALID, "struct_size", o.struct_size = 3);
     NO_PLANE(AZULEJO_ERROR_TOO_LARGE, "radius", (o.radius = 8.5e-6, o.leaf_size = 1e30));
 #undef NO_PLANE

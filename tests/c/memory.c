@@ -40,7 +40,10 @@ static void one_round(uint32_t num_threads, int32_t engine) {
 
 static void rounds(int count) {
     int i;
-    for (i = 0; i < count; i++) one_round(1 + (uint32_t)(i % 3), i % 2 ? AZULEJO_ENGINE_EMBREE : AZULEJO_ENGINE_RASTERISER);
+    for (i = 0; i < count; i++) {
+        const int embree = azulejo_has_embree() && i % 2;
+        one_round(1 + (uint32_t)(i % 3), embree ? AZULEJO_ENGINE_EMBREE : AZULEJO_ENGINE_RASTERISER);
+    }
 }
 
 static int entries(const char *folder) {

@@ -108,6 +108,10 @@ void surfaces(const azulejo::Context &context) {
     azulejo::DcrSurfaceReport relaxation;
     CHECK(azulejo::try_dcr_surface_relax(context, cube, {}, points, relaxed, &relaxation).ok());
     CHECK(relaxed.size() == points.size() && relaxation.smallest_distance >= 0.1);
+    azulejo::DcrRemeshReport remeshing;
+    azulejo::Mesh made;
+    CHECK(azulejo::try_dcr_remesh(context, cube, relaxed, made, &remeshing).ok());
+    CHECK(made.positions().size() == relaxed.positions().size() && made.indices().size() == 3 * remeshing.triangles);
 
     double distance = 0, uncovered = 1;
     azulejo::CoverageReport coverage;

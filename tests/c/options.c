@@ -60,12 +60,14 @@ static void defaults(void) {
     CHECK(dcr.domain_min[0] == 0 && dcr.domain_min[1] == 0 && dcr.domain_max[0] == 1 && dcr.domain_max[1] == 1);
     CHECK(kdrt.boundary == AZULEJO_BOUNDARY_PERIODIC && dcr.boundary == AZULEJO_BOUNDARY_PERIODIC);
     CHECK(kdrt.leaf_size == 20 && kdrt.seed == 0 && kdrt.progress == NULL && kdrt.progress_user == NULL);
-    CHECK(kdrt.count == 0 && kdrt.measure_coverage == 0 && kdrt.reserved == 0);
+    CHECK(kdrt.count == 0 && kdrt.measure_coverage == 0 && kdrt.order == AZULEJO_ORDER_ANY);
+    CHECK(kdrt.quotient == 0 && kdrt.coarsest == 0);
+    CHECK(kdrt.given_positions == NULL && kdrt.given_clearances == NULL && kdrt.given_count == 0);
     CHECK(merge.struct_size == sizeof merge && merge.radius == 0 && merge.seed == 0 && merge.progress == NULL);
     CHECK(merge.domain_min[0] == 0 && merge.domain_min[1] == 0 && merge.domain_max[0] == 1 && merge.domain_max[1] == 1);
     CHECK(merge.boundary == AZULEJO_BOUNDARY_PERIODIC && merge.progress_user == NULL);
     CHECK(psp.maximal == 1 && psp.iterations == AZULEJO_ITERATIONS_DEFAULT && psp.seed == 0 && psp.progress == NULL);
-    CHECK(psp.priority == AZULEJO_PRIORITY_SQUARENESS && psp.engine == AZULEJO_ENGINE_EMBREE);
+    CHECK(psp.priority == AZULEJO_PRIORITY_SQUARENESS && psp.engine == (azulejo_has_embree() ? AZULEJO_ENGINE_EMBREE : AZULEJO_ENGINE_RASTERISER));
     CHECK(dcr.neighbourhood == AZULEJO_NEIGHBOURHOOD_DELAUNAY && dcr.max_iterations > 0 && dcr.progress == NULL);
     CHECK(dcr.method == AZULEJO_METHOD_MOMENTUM && dcr.conflict_radius == 0.95 && dcr.attraction_radius == 1.05);
     CHECK(dcr.step == 0.05 && dcr.decay == 1 && dcr.neighbours == 6 && dcr.tolerance < 0 && dcr.reserved == 0);

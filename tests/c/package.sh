@@ -65,7 +65,11 @@ step "they run" run_examples "$work/shared"
 step "scatter" run_scatter "$work/shared"
 step "stipple" run_stipple "$work/shared"
 step "tufts" run_tufts "$work/shared"
+step "forest" run_forest "$work/shared"
+step "lights" run_lights "$work/shared"
 step "camera" run_camera "$work/shared"
+step "plants" run_plants "$work/shared"
+step "lod" run_lod "$work/shared"
 if [ -x "$work/shared/ranks" ]; then
     step "ranks" run_ranks "$work/shared"
 else

@@ -49,6 +49,25 @@ void relaxing() {
     CHECK(thrown == 7);
 }
 
+void relaxing_classes() {
+    const azulejo::Context context(1);
+    azulejo::Classes classes;
+    CHECK(azulejo::try_classes_radii(std::vector<double>{0.1, 0.05}, 1, classes).ok());
+    azulejo::KdrtOptions options;
+    const auto set = azulejo::kdrt_sample_classes(context, options, classes);
+    azulejo::DcrOptions relax;
+    azulejo::DcrReport report;
+    std::vector<std::array<double, 2>> figures;
+    const auto points = azulejo::dcr_relax_classes(context, relax, set, set.classes(), 2, &report, &figures);
+    CHECK(points.size() == set.size() && report.rho > 0.6 && figures.size() == 2);
+    for (const auto &figure : figures) CHECK(figure[0] > 0.5 && figure[1] < 0.9);
+    azulejo::Points none;
+    CHECK(azulejo::try_dcr_relax_classes(context, relax, set, {}, 2, none).code() == AZULEJO_ERROR_INVALID_ARGUMENT);
+    CHECK(azulejo::try_dcr_relax_classes(context, relax, set, set.classes(), 17, none).code() ==
+          AZULEJO_ERROR_INVALID_ARGUMENT);
+    CHECK(none.size() == 0);
+}
+
 void relaxing_on_a_mesh() {
     const float corners[] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
     const std::uint32_t triangles[] = {0, 1, 2, 0, 2, 3};
@@ -70,6 +89,16 @@ void relaxing_on_a_mesh() {
         status = error.status();
     }
     CHECK(status == AZULEJO_ERROR_INVALID_ARGUMENT);
+
+    azulejo::DcrRemeshReport remeshing;
+    const auto made = azulejo::dcr_remesh(context, mesh, points, &remeshing);
+    const auto again = azulejo::dcr_remesh(context, mesh, points.triangles(), points.barycentrics());
+    CHECK(made.positions().size() == 3 * points.size() && made.indices().size() == 3 * remeshing.triangles);
+    CHECK(again.indices().size() == made.indices().size() && remeshing.euler == 1);
+    CHECK(remeshing.non_manifold_vertices == 0 && remeshing.boundary_edges > 0 && remeshing.smallest_angle > 10);
+    azulejo::Mesh none;
+    CHECK(azulejo::try_dcr_remesh(context, mesh, {}, points.barycentrics(), none).code() ==
+          AZULEJO_ERROR_INVALID_ARGUMENT);
 }
 
 void relaxing_to_a_density() {
@@ -109,6 +138,7 @@ void relaxing_to_a_density() {
 
 int main() {
     relaxing();
+    relaxing_classes();
     relaxing_on_a_mesh();
     relaxing_to_a_density();
     return finish();

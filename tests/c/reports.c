@@ -118,6 +118,15 @@ static azulejo_status plane_gaps(void *report) {
     return azulejo_plane_coverage(context, PLANE(random_xy, COUNT_OF(random_xy) / 2, low, high, 0), 0.1, report);
 }
 
+static azulejo_status remeshed(void *report) {
+    azulejo_mesh *made = NULL;
+    const azulejo_status status =
+        azulejo_dcr_remesh(context, cube, azulejo_points_triangles(samples), azulejo_points_barycentrics(samples),
+                                   azulejo_points_count(samples), &made, report);
+    azulejo_mesh_free(made);
+    return status;
+}
+
 static azulejo_status surface_gaps(void *report) {
     return azulejo_mesh_coverage(context, cube, azulejo_points_positions(samples), azulejo_points_count(samples), 0.3,
                                  report);
@@ -134,6 +143,7 @@ INIT(kdrt_merge)
 INIT(psp)
 INIT(dcr)
 INIT(dcr_surface)
+INIT(dcr_remesh)
 INIT(plane)
 INIT(coverage)
 INIT(spectrum)
@@ -155,11 +165,12 @@ typedef struct {
 static const entry entries[] = {
     {kdrt, REPORT(kdrt, 16, seconds), offsetof(azulejo_kdrt_report, seconds), sizeof(azulejo_kdrt_report), 1},
     {merge, REPORT(kdrt_merge, 16, inserted), 0, 0, 1},
-    {psp, REPORT(psp, 16, uncovered_after), PSP_TIMES, 1},
-    {adaptive, REPORT(psp, 16, uncovered_after), PSP_TIMES, 1},
+    {psp, REPORT(psp, 16, coverage), PSP_TIMES, 1},
+    {adaptive, REPORT(psp, 16, coverage), PSP_TIMES, 1},
     {dcr, REPORT(dcr, 8, coverage), 0, 0, 1},
     {graded, REPORT(dcr, 8, coverage), 0, 0, 1},
     {surface, REPORT(dcr_surface, 8, rho), 0, 0, 1},
+    {remeshed, REPORT(dcr_remesh, 16, mean_smallest_angle), 0, 0, 1},
     {plane, REPORT(plane, 16, beyond_4_sigma), 0, 0, 0},
     {plane_gaps, REPORT(coverage, 16, gaps), 0, 0, 0},
     {surface_gaps, REPORT(coverage, 16, gaps), 0, 0, 0},

@@ -41,10 +41,10 @@ warnings=(-Wall -Wextra -Wpedantic -Werror)
 bare=(-fno-exceptions -fno-rtti)
 include=(-I "$prefix/include")
 link=(-L "$(dirname "$library")" -Wl,-rpath,"$(dirname "$library")" -lazulejo -lpthread -lm)
-# The Embree that the library was built for, for programs that have a scene of their own.
+# The Embree that the library was built for, for programs that have a scene of their own; empty if it was built without.
 embree=$(readelf --dynamic "$library" | sed -n 's/.*\[libembree\([34]\)\.so.*/\1/p')
-link+=(-Wl,--as-needed "-lembree$embree")
-include+=("-DEMBREE_MAJOR=$embree")
+[ -z "$embree" ] || link+=(-Wl,--as-needed "-lembree$embree")
+include+=("-DEMBREE_MAJOR=${embree:-0}")
 if [ -n "${EMBREE_DIR:-}" ]; then
     include+=(-isystem "$EMBREE_DIR/include")
     link=(-L "$EMBREE_DIR/lib" -L "$EMBREE_DIR/lib64" "-Wl,-rpath,$EMBREE_DIR/lib" "${link[@]}")
@@ -112,6 +112,15 @@ run_valgrind() {
         --errors-for-leak-kinds=definite,indirect --show-leak-kinds=definite,indirect "$built/$(basename "$1")"
 }
 
+# host.c has a scene of Embree's; without.c asks a library without Embree what is left.
+programs=()
+for source in "$here"/*.c "$here"/*.cpp; do
+    case ${embree:-none}-$(basename "$source") in
+        none-host.c | [34]-without.c) ;;
+        *) programs+=("$source") ;;
+    esac
+done
+
 beside step "azulejo.h as C99" header_compiles c c99 azulejo.h
 beside step "azulejo.h as C11" header_compiles c c11 azulejo.h
 beside step "azulejo.h as C++17" header_compiles c++ c++17 azulejo.h
@@ -122,7 +131,7 @@ exports >"$work/symbols.txt"
 beside step "exported symbols" diff "$here/symbols.txt" "$work/symbols.txt"
 beside step "SONAME" has_soname
 beside step "needed libraries" needs_nothing_else
-for source in "$here"/*.c "$here"/*.cpp; do
+for source in "${programs[@]}"; do
     beside build_plain "$source"
 done
 all_done
@@ -130,7 +139,7 @@ for mode in "${modes[@]}"; do
     # Some programs measure what their threads do: plain, they have the machine for themselves.
     how=beside
     [ "$mode" != plain ] || how=apart
-    for source in "$here"/*.c "$here"/*.cpp; do
+    for source in "${programs[@]}"; do
         # Valgrind lets one thread work at a time: there is nothing to measure.
         [ "$mode-$(basename "$source")" != valgrind-num_threads.c ] || continue
         "$how" step "$(basename "$source") ($mode)" "run_$mode" "$source"

@@ -120,6 +120,49 @@ static void refused(void) {
     CHECK(out == UNTOUCHED && memcmp(&report, &before, sizeof report) == 0);
 }
 
+/* The relaxed samples of a cube as a mesh: a closed surface of the same vertices, that of a sphere. */
+static void remeshed(void) {
+    const azulejo_dcr_surface_options options = surface_options();
+    azulejo_dcr_remesh_report report, before;
+    azulejo_points *points = NULL;
+    azulejo_mesh *made = NULL, *untouched = UNTOUCHED;
+    uint32_t bad[3] = {0, 0, 12};
+    const float uv[6] = {0.25f, 0.25f, 0.5f, 0.25f, 0.25f, 0.5f};
+    const uint32_t *indices;
+    size_t i, count, vertices;
+    ACCEPTED(azulejo_dcr_remesh_report_init(&report, sizeof report));
+    if (!ACCEPTED(relax(four, &options, &points, NULL))) return;
+    vertices = azulejo_points_count(points);
+#define CALL(context, mesh, triangles, uv, count, out, report) \
+    azulejo_dcr_remesh(context, mesh, triangles, uv, count, out, report)
+    ACCEPTED(CALL(four, cube, azulejo_points_triangles(points), azulejo_points_barycentrics(points), vertices, &made,
+                  &report));
+    count = azulejo_mesh_triangle_count(made);
+    indices = azulejo_mesh_indices(made);
+    CHECK(azulejo_mesh_vertex_count(made) == vertices && report.triangles == count && report.unused_vertices == 0);
+    CHECK(memcmp(azulejo_mesh_positions(made), azulejo_points_positions(points), vertices * 3 * sizeof(float)) == 0);
+    for (i = 0; i < 3 * count; i++) CHECK(indices[i] < vertices);
+    CHECK(report.boundary_edges == 0 && report.non_manifold_edges == 0 && report.non_manifold_vertices == 0);
+    CHECK(report.euler == 2 && count == 2 * vertices - 4 && report.inner_edges == 3 * vertices - 6);
+    CHECK(report.smallest_angle > 20 && report.largest_angle < 140 && report.mean_smallest_angle > 45);
+    CHECK(fabs(azulejo_mesh_area(made) - 6) < 0.2);
+    azulejo_mesh_free(made);
+
+    UNWRITTEN(report);
+    before = report;
+    REFUSED(INVALID, "context", CALL(NULL, cube, bad, uv, 2, &untouched, &report));
+    REFUSED(INVALID, "mesh", CALL(one, NULL, bad, uv, 2, &untouched, &report));
+    REFUSED(INVALID, "triangles", CALL(one, cube, NULL, uv, 2, &untouched, &report));
+    REFUSED(INVALID, "barycentrics", CALL(one, cube, bad, NULL, 2, &untouched, &report));
+    REFUSED(INVALID, "out", CALL(one, cube, bad, uv, 2, NULL, &report));
+    REFUSED(INVALID, "triangles: [2] is 12", CALL(one, cube, bad, uv, 3, &untouched, &report));
+    REFUSED(INVALID, "triangles: 2 samples form no triangle", CALL(one, cube, bad, uv, 2, &untouched, &report));
+    REFUSED(AZULEJO_ERROR_TOO_LARGE, "count", CALL(one, cube, bad, uv, SIZE_MAX / 2, &untouched, &report));
+#undef CALL
+    CHECK(untouched == UNTOUCHED && memcmp(&report, &before, sizeof report) == 0);
+    azulejo_points_free(points);
+}
+
 int main(void) {
     azulejo_psp_options options = psp_options(0.05);
     one = make_context(1);
@@ -130,6 +173,7 @@ int main(void) {
     cancelled(one);
     cancelled(four);
     refused();
+    remeshed();
     azulejo_points_free(darts);
     azulejo_mesh_free(cube);
     azulejo_context_free(one);

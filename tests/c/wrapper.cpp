@@ -93,7 +93,9 @@ void handles() {
     const azulejo::Context none(nullptr), one(1), all, counted(0);
     CHECK(!points && !no_mesh && !psp && !spectrum && !differences && !none && one);
     CHECK(all.num_threads() >= 1 && counted.num_threads() == all.num_threads());
-    CHECK(points.size() == 0 && points.positions().empty() && points.radii().empty() && spectrum.power().empty());
+    CHECK(points.size() == 0 && points.positions().empty() && points.radii().empty() && points.ranks().empty() &&
+          points.classes().empty());
+    CHECK(spectrum.power().empty());
     CHECK(no_mesh.area() == 0 && differences.density().empty() && none.num_threads() == 0);
     CHECK(refused("psp", [&] { psp.advance(1); }));
     CHECK(refused("mesh", [&] { azulejo::psp_sample(one, no_mesh, {}); }));
@@ -139,6 +141,31 @@ void statuses() {
     CHECK(bins.message().find("bins") != std::string::npos && histogram.size() == 1);
 }
 
+void several_classes() {
+    const azulejo::Context context(2);
+    const azulejo::Mesh mesh(positions, indices);
+    azulejo::Classes classes = azulejo::classes_radii(std::array<double, 2>{0.2, 0.1});
+    CHECK(classes.count == 2 && classes.radius(0, 0) == 0.2 && classes.radius(0, 1) == classes.radius(1, 0));
+    const std::vector<std::uint32_t> masks = {1, 3, 3, 2};
+    classes.masks = masks;
+    azulejo::PspOptions of_classes;
+    const auto both = azulejo::psp_sample_classes(context, mesh, of_classes, classes);
+    CHECK(both.size() > 0 && both.classes().size() == both.size());
+    for (std::size_t i = 0; i < both.size(); i++) CHECK(masks[both.triangles()[i]] >> both.classes()[i] & 1);
+    const std::array<float, 3> one = {0, 0, 0};
+    const std::array<double, 2> clearances = {5, 0.1};
+    of_classes.set_given(one, clearances, 2);
+    const auto second = azulejo::psp_sample_classes(context, mesh, of_classes, classes);
+    CHECK(second.size() > 0 && second.classes()[0] == 1);
+    of_classes.set_given(one, clearances, 3);
+    CHECK(throws(AZULEJO_ERROR_INVALID_ARGUMENT, "given",
+                 [&] { azulejo::psp_sample_classes(context, mesh, of_classes, classes); }));
+    classes.radii.pop_back();
+    CHECK(throws(AZULEJO_ERROR_INVALID_ARGUMENT, "radii: 3 for 2",
+                 [&] { azulejo::psp_sample_classes(context, mesh, {}, classes); }));
+    CHECK(throws(AZULEJO_ERROR_INVALID_ARGUMENT, "own", [] { azulejo::classes_radii({}); }));
+}
+
 void surfaces() {
     const azulejo::Context context(2);
     azulejo::PspOptions options;
@@ -157,6 +184,13 @@ void surfaces() {
     CHECK(whole.barycentrics().size() == 2 * whole.size());
     CHECK(azulejo::space_smallest_distance(context, whole.positions()) >= 0.1);
     CHECK(azulejo::mesh_uncovered_fraction(context, *mesh, whole.positions(), 0.1, 10000) == 0);
+
+    azulejo::PspOptions ordered;
+    ordered.count = 100;
+    ordered.order = AZULEJO_ORDER_PROGRESSIVE;
+    const auto hundred = azulejo::psp_sample(context, *mesh, ordered, &report);
+    CHECK(hundred.size() == 100 && hundred.ranks().size() == 100 && whole.ranks().empty());
+    CHECK(report.radius == hundred.ranks()[99] && report.coverage <= 1.0906 * report.radius);
 
     CHECK(!mesh->has_normals() && whole.interpolated_normals().empty());
     const std::array<float, 3> up = {0, 0, 2};
@@ -196,6 +230,21 @@ void counts() {
     CHECK(report.coverage == azulejo::plane_covering_radius(context, {measured, options}) && report.coverage > 0);
     CHECK(refused("measure_coverage", [&] { azulejo::kdrt_sample(context, options); }));
     options.measure_coverage = 0;
+    options.order = AZULEJO_ORDER_PROGRESSIVE;
+    const auto ordered = azulejo::kdrt_sample(context, options, &report);
+    CHECK(measured.ranks().empty() && ordered.ranks().size() == 777 && ordered.ranks()[776] == report.radius);
+    options.order = AZULEJO_ORDER_ANY;
+    options.count = 0;
+    options.radius = report.radius;
+    options.set_given(ordered.positions());
+    CHECK(azulejo::kdrt_sample(context, options).size() < 200);
+    const std::vector<double> clearances(777, 0.0);
+    options.set_given(ordered.positions(), clearances);
+    CHECK(azulejo::kdrt_sample(context, options).size() > 700);
+    options.set_given(ordered.positions(), {clearances.data(), 776});
+    CHECK(refused("given_positions", [&] { azulejo::kdrt_sample(context, options); }));
+    options.set_given({});
+    options.count = 777;
     options.radius = 0.1;
     CHECK(throws(AZULEJO_ERROR_INVALID_ARGUMENT, "count: 777", [&] { azulejo::kdrt_sample(context, options); }));
 }
@@ -378,7 +427,64 @@ void adaptive() {
     CHECK(throws(AZULEJO_ERROR_CANCELLED, "cancelled", [&] { azulejo::psp_adaptive_sample(context, mesh, options); }));
 }
 
+// Samples that are given: as a set of the library's, as numbers and as arrays.
+void given() {
+    const azulejo::Context context(2);
+    const azulejo::Mesh mesh(positions, indices);
+    azulejo::PspOptions options;
+    options.radius = 0.1;
+    const auto whole = azulejo::psp_sample(context, mesh, options);
+    options.set_given(whole);
+    CHECK(azulejo::psp_sample(context, mesh, options).size() == 0);
+    const std::vector<std::array<float, 3>> centre = {{0.2f, 0.2f, 0.f}};
+    const std::vector<double> clearances = {0.35};
+    options.set_given(centre, clearances);
+    const auto around = azulejo::psp_sample(context, mesh, options);
+    CHECK(around.size() > 0 && around.size() < whole.size());
+    for (std::size_t i = 0; i < around.size(); i++) {
+        const auto xyz = around.positions();
+        CHECK(std::hypot(xyz[3 * i] - 0.2, xyz[3 * i + 1] - 0.2, double{xyz[3 * i + 2]}) > 0.349);
+    }
+    options.set_given(centre, std::vector<double>(2));
+    CHECK(throws(AZULEJO_ERROR_INVALID_ARGUMENT, "given_positions", [&] { azulejo::psp_sample(context, mesh, options); }));
+    options.set_given(azulejo::Points());
+    CHECK(throws(AZULEJO_ERROR_INVALID_ARGUMENT, "given_positions", [&] { azulejo::psp_sample(context, mesh, options); }));
+
+    azulejo::PspAdaptiveOptions varying;
+    const std::vector<float> radii(mesh.vertex_count(), 0.1f);
+    varying.set_vertex_radii(radii);
+    varying.set_given(centre, clearances);
+    CHECK(azulejo::psp_adaptive_sample(context, mesh, varying).size() < whole.size());
+}
+
 } // namespace
+
+void classes_of_planes() {
+    const azulejo::Context context(1);
+    const std::vector<double> own = {0.04, 0.02};
+    const azulejo::Classes two = azulejo::classes_radii(own);
+    CHECK(two.count == 2 && two.radius(0, 0) == 0.04 && two.radius(0, 1) == two.radius(1, 0));
+    azulejo::KdrtOptions options;
+    const azulejo::Points points = azulejo::kdrt_sample_classes(context, options, two);
+    CHECK(points.classes().size() == points.size() && points.classes()[points.size() - 1] == 1);
+    const azulejo::Kdrt plane(context, options, two);
+    const azulejo::Points all = plane.window({0, 0}, {1, 1});
+    CHECK(std::equal(all.classes().begin(), all.classes().end(), points.classes().begin(), points.classes().end()));
+
+    const std::vector<float> given = {0.5F, 0.5F};
+    const std::vector<double> clearances = {0.3, 0.1};
+    options.set_given(given, clearances, 2);
+    CHECK(azulejo::kdrt_sample_classes(context, options, two).size() < points.size());
+    options.set_given(given, clearances);
+    CHECK(throws(AZULEJO_ERROR_INVALID_ARGUMENT, "given_positions",
+                 [&] { azulejo::kdrt_sample_classes(context, options, two); }));
+    azulejo::Classes torn = two;
+    torn.radii.pop_back();
+    CHECK(throws(AZULEJO_ERROR_INVALID_ARGUMENT, "radii: 3 for 2",
+                 [&] { azulejo::kdrt_sample_classes(context, azulejo::KdrtOptions(), torn); }));
+    CHECK(throws(AZULEJO_ERROR_INVALID_ARGUMENT, "radii: 3 for 2",
+                 [&] { azulejo::Kdrt kept(context, azulejo::KdrtOptions(), torn); }));
+}
 
 int main() {
     spans();
@@ -387,11 +493,14 @@ int main() {
     handles();
     statuses();
     surfaces();
+    several_classes();
     counts();
     windows();
     streams();
     merging();
     thinning();
     adaptive();
+    given();
+    classes_of_planes();
     return finish();
 }

@@ -8,6 +8,9 @@ use azulejo::mesh::Mesh;
 
 type Point = [f64; 3];
 
+/// A place and a radius.
+pub type Ball = (Point, f64);
+
 /// The radius on a mesh, as the caller knows it.
 pub enum Field<'a> {
     PerVertex(&'a [f32]),
@@ -114,23 +117,52 @@ pub fn gap(
     cosine: f64,
     tolerance: f64,
 ) -> Option<Point> {
+    gap_around(mesh, field, samples, radii, cosine, tolerance, &[])
+}
+
+/// [`gap`] where places are also covered that are nearer to a given sample than its clearance, whatever their normal.
+pub fn gap_around(
+    mesh: &Mesh,
+    field: &Field,
+    samples: &SurfaceSamples,
+    radii: &[f64],
+    cosine: f64,
+    tolerance: f64,
+    given: &[Ball],
+) -> Option<Point> {
+    let given: Vec<_> = given.iter().copied().filter(|given| given.1 > 0.0).collect();
     (0..mesh.triangles().len() as u32).filter(|&triangle| mesh.triangle_area(triangle) > 0.0).find_map(|triangle| {
         let normal = mesh.normal(triangle);
         let seen = |&i: &usize| sees(samples.normals[i], normal, cosine);
         let balls = (0..radii.len()).filter(seen).map(|i| (exact(samples.positions[i]), radii[i])).collect::<Vec<_>>();
         let [a, b, c] = mesh.corners(triangle).map(exact);
         let whole = Part { triangle, corners: [(a, [0.0, 0.0]), (b, [1.0, 0.0]), (c, [0.0, 1.0])] };
-        gap_in_part(mesh, field, &whole, &balls, tolerance)
+        gap_in_part(mesh, field, &whole, &balls, &given, tolerance)
     })
 }
 
-/// A part is covered when its corners are near enough to one sample; otherwise its parts must be.
-fn gap_in_part(mesh: &Mesh, field: &Field, part: &Part, balls: &[(Point, f64)], tolerance: f64) -> Option<Point> {
+/// A sample that is nearer to a given one than its clearance.
+pub fn too_near(samples: &SurfaceSamples, given: &[Ball]) -> Option<usize> {
+    let is_too_near = |&position: &[f32; 3]| given.iter().any(|given| distance(exact(position), given.0) < given.1);
+    samples.positions.iter().position(is_too_near)
+}
+
+/// A part is covered when its corners are near enough to one sample or given sample; otherwise its parts must be.
+fn gap_in_part(
+    mesh: &Mesh,
+    field: &Field,
+    part: &Part,
+    balls: &[Ball],
+    given: &[Ball],
+    tolerance: f64,
+) -> Option<Point> {
     let least = field.least(mesh, part);
-    let covers = |&(centre, radius): &(Point, f64)| {
+    let covers = |&(centre, radius): &Ball| {
         part.corners.iter().all(|&(corner, _)| distance(corner, centre) <= (least + radius) / 2.0 + tolerance)
     };
-    if balls.iter().any(covers) {
+    let is_clear =
+        |given: &Ball| part.corners.iter().all(|&(corner, _)| distance(corner, given.0) <= given.1 + tolerance);
+    if balls.iter().any(covers) || given.iter().any(is_clear) {
         return None;
     }
     let (corner, longest) = (part.corners[0].0, part.longest());
@@ -145,8 +177,9 @@ fn gap_in_part(mesh: &Mesh, field: &Field, part: &Part, balls: &[(Point, f64)], 
         }
         Field::Function(_, slope) => least + 3.0 * slope * longest,
     };
-    let near =
-        |&&(centre, radius): &&(Point, f64)| distance(corner, centre) <= (largest + radius) / 2.0 + longest + tolerance;
+    let near = |&&(centre, radius): &&Ball| distance(corner, centre) <= (largest + radius) / 2.0 + longest + tolerance;
     let near: Vec<_> = balls.iter().filter(near).copied().collect();
-    part.parts().iter().find_map(|part| gap_in_part(mesh, field, part, &near, tolerance))
+    let reaches = |given: &&Ball| distance(corner, given.0) <= given.1 + longest + tolerance;
+    let given: Vec<_> = given.iter().filter(reaches).copied().collect();
+    part.parts().iter().find_map(|part| gap_in_part(mesh, field, part, &near, &given, tolerance))
 }

@@ -7,6 +7,7 @@ use azulejo_core::psp::adaptive::{self, Radius};
 
 use crate::boundary::{self, check_reserved, check_unused, required, rows};
 use crate::context::azulejo_context;
+use crate::given::given;
 use crate::growing::{self, Output, growing};
 use crate::mesh::azulejo_mesh;
 use crate::points::azulejo_points;
@@ -70,6 +71,17 @@ pub struct azulejo_psp_adaptive_options {
     pub progress: azulejo_progress_fn,
     /// Passed to the progress callback.
     pub progress_user: *mut c_void,
+    /// Samples that stand already, around which the set is made, x y z each; NULL, the default,
+    /// for none. They may lie anywhere, on the mesh or not, in any number. They are never moved,
+    /// dropped or compared with each other, and are not returned: new samples are at least the
+    /// clearance from each of them, and every place of the surface is within the radius of a new
+    /// sample or within the clearance of a given one. They act on all sides of a thin wall.
+    pub given_positions: *const f32,
+    /// The clearance of each given sample, finite and 0 or more, in the units of the mesh; 0 has
+    /// no effect. NULL, the default, only if there are none: no radius could stand for it.
+    pub given_clearances: *const f64,
+    /// The number of given samples; default 0.
+    pub given_count: usize,
 }
 
 growing!(azulejo_psp_adaptive_options requires slope {
@@ -85,6 +97,9 @@ growing!(azulejo_psp_adaptive_options requires slope {
     seed: 0,
     progress: None,
     progress_user: std::ptr::null_mut(),
+    given_positions: std::ptr::null(),
+    given_clearances: std::ptr::null(),
+    given_count: 0,
 });
 
 /// The caller's function with what it is given, where the core can call it.
@@ -134,10 +149,11 @@ pub unsafe extern "C" fn azulejo_psp_adaptive_options_init(
 /// O(samples + triangles) time for radii that change slowly; see `slope`.
 ///
 /// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for radii that are not positive and finite or below
-/// 64 times the spacing of floats at the largest coordinate, and if `radius` returns a value
-/// outside `smallest` to `largest` or changes faster than `slope`; AZULEJO_ERROR_TOO_LARGE with the
-/// estimated number of samples, or for radii that change so fast that finding out what is covered
-/// would take thousands of evaluations per sample; AZULEJO_ERROR_CANCELLED.
+/// 64 times the spacing of floats at the largest coordinate, for a given sample out of range, with
+/// its index, and if `radius` returns a value outside `smallest` to `largest` or changes faster
+/// than `slope`; AZULEJO_ERROR_TOO_LARGE with the estimated number of samples, or for radii that
+/// change so fast that finding out what is covered would take thousands of evaluations per sample;
+/// AZULEJO_ERROR_CANCELLED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_psp_adaptive_sample(
     context: Option<&azulejo_context>,
@@ -155,15 +171,15 @@ pub unsafe extern "C" fn azulejo_psp_adaptive_sample(
         let at = callback.as_ref().map(|callback| |position| callback.call(position));
         // SAFETY: handed on from the caller.
         let radii = unsafe { options.vertex_radii() }?;
-        let azulejo_psp_adaptive_options { smallest, largest, slope, cosine, seed, .. } = options;
+        let azulejo_psp_adaptive_options { smallest, largest, slope, .. } = options;
         let radius = match &at {
             Some(at) => Radius::Function { at, smallest, largest, slope },
             None => Radius::PerVertex(radii),
         };
-        let request = adaptive::Options::new(radius).cosine(cosine).seed(seed);
-        let watch = Watch::new(options.progress, options.progress_user);
+        // SAFETY: handed on from the caller.
+        let request = unsafe { options.request(radius) }?;
         let (set, done) =
-            context.run(watch, |context, progress| adaptive::sample(context, &mesh, &request, progress))?;
+            context.run(options.watch(), |context, progress| adaptive::sample(context, &mesh, &request, progress))?;
         if let Some(report) = report {
             report.write(done);
         }
@@ -172,6 +188,35 @@ pub unsafe extern "C" fn azulejo_psp_adaptive_sample(
 }
 
 impl azulejo_psp_adaptive_options {
+    /// The request with a radius.
+    ///
+    /// # Safety
+    /// Unless the checks fail, the arrays of given samples are as long as is said, and not changed during `'a`.
+    pub(crate) unsafe fn request<'a>(&self, radius: Radius<'a>) -> Result<adaptive::Options<'a>, Failure> {
+        // SAFETY: handed on from the caller.
+        let given = unsafe { given(self.given_positions, self.given_clearances, self.given_count) }?;
+        Ok(adaptive::Options::new(radius).cosine(self.cosine).seed(self.seed).given(given))
+    }
+
+    pub(crate) fn watch(&self) -> Watch {
+        Watch::new(self.progress, self.progress_user)
+    }
+
+    /// Refuses radii, in a call that gets a density.
+    pub(crate) fn check_without_radii(&self) -> Result<(), Failure> {
+        check_reserved(self.reserved)?;
+        for (field, is_set) in [("vertex_radii", !self.vertex_radii.is_null()), ("radius", self.radius.is_some())] {
+            if is_set {
+                return Err(Failure::invalid(field, "is set; it must be NULL with a density"));
+            }
+        }
+        check_unused("vertex_count", self.vertex_count, 0, "with a density")?;
+        for (field, value) in [("smallest", self.smallest), ("largest", self.largest), ("slope", self.slope)] {
+            check_unused(field, value, 0.0, "with a density")?;
+        }
+        Ok(())
+    }
+
     /// The radii of the vertices; none where `radius` is set.
     ///
     /// # Safety

@@ -5,20 +5,23 @@ use std::mem::MaybeUninit;
 use std::ops::ControlFlow;
 use std::time::Instant;
 
-use azulejo_core::Domain;
 use azulejo_core::analysis::coverage::covering_radius_2d;
-use azulejo_core::kdrt::{self, CountOptions, Counted};
+use azulejo_core::kdrt::{self, CountOptions, Counted, Ranked};
+use azulejo_core::{Classes, Domain, Given, Order};
 
-use crate::boundary::{self, check_reserved, flag, pair, required};
+use crate::boundary::{self, check_unused, flag, pair, required};
 use crate::context::azulejo_context;
 use crate::domain::{AZULEJO_BOUNDARY_PERIODIC, domain};
+use crate::given::given_by_class;
 use crate::growing::{self, Growing, Output, growing};
 use crate::points::azulejo_points;
 use crate::progress::{Watch, azulejo_progress_fn};
 use crate::status::{Failure, azulejo_status};
+use crate::thin::{AZULEJO_ORDER_ANY, order};
 
-/// Options of azulejo_kdrt_sample, azulejo_kdrt_sample_window, azulejo_kdrt_stream and
-/// azulejo_kdrt_create.
+/// Options of azulejo_kdrt_sample, azulejo_kdrt_sample_window, azulejo_kdrt_stream,
+/// azulejo_kdrt_create and, with classes, azulejo_kdrt_sample_classes and
+/// azulejo_kdrt_create_classes.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct azulejo_kdrt_options {
@@ -28,7 +31,8 @@ pub struct azulejo_kdrt_options {
     pub boundary: i32,
     /// The smallest distance between two samples, in the units of the domain: above 0, and at least
     /// 64 times the spacing of floats at the largest coordinate. It has no default. Must be 0 if
-    /// there is a `count`, from which the radius follows.
+    /// there is a `count`, from which the radius follows, and in calls with classes, which have
+    /// radii of their own.
     pub radius: f64,
     /// The lower corner of the domain, x y; finite; default 0 0.
     pub domain_min: [f64; 2],
@@ -52,8 +56,31 @@ pub struct azulejo_kdrt_options {
     /// the sampling. Default 0. Must be 0 where there is no report: with the report NULL, and in
     /// other calls.
     pub measure_coverage: u32,
-    /// Must be 0.
-    pub reserved: u32,
+    /// An AZULEJO_ORDER_ constant; default any. In progressive order every prefix of the set is
+    /// well spread, and azulejo_points_ranks says how well. Must be any for streams, which come
+    /// place by place.
+    pub order: u32,
+    /// Of a progressive order: how many times longer the radius of each level is than that of the
+    /// next, 1.02 to 1.5. Every prefix of 100 samples and more covers the domain within this times
+    /// its last rank, smaller ones within twice that rank, or the square of the quotient times it
+    /// if that is more. Default 0: 2^(1/8). Windows of large domains are several times as fast with
+    /// 2^(1/4).
+    pub quotient: f64,
+    /// Of a progressive order: the radius of the coarsest level, at least `radius`. Default 0: as
+    /// coarse as the domain, so that the first level has one sample. Windows of large domains are
+    /// faster with a shorter one, such as 16 radii.
+    pub coarsest: f64,
+    /// Samples that stand already, x y each, finite, anywhere in the plane; on a torus they wrap.
+    /// Read during the call only, but for azulejo_kdrt_create, which copies them. Default NULL:
+    /// none. Must be none where there is a `count`.
+    pub given_positions: *const f32,
+    /// The clearance of each, finite and 0 or more, in the units of the domain: new samples are at
+    /// least so far from it, and what is nearer to it is covered. 0 has no effect. Default NULL:
+    /// all have the `radius`. In calls with classes it has a row for each given sample, with a
+    /// clearance for each class.
+    pub given_clearances: *const f64,
+    /// The number of given samples; default 0.
+    pub given_count: usize,
 }
 
 growing!(azulejo_kdrt_options requires radius {
@@ -67,7 +94,12 @@ growing!(azulejo_kdrt_options requires radius {
     progress_user: std::ptr::null_mut(),
     count: 0,
     measure_coverage: 0,
-    reserved: 0,
+    order: AZULEJO_ORDER_ANY,
+    quotient: 0.0,
+    coarsest: 0.0,
+    given_positions: std::ptr::null(),
+    given_clearances: std::ptr::null(),
+    given_count: 0,
 });
 
 /// Writes the defaults. `struct_size` is sizeof *options.
@@ -136,6 +168,24 @@ pub unsafe extern "C" fn azulejo_kdrt_report_init(
 /// found, which is rare, the most crowded samples of a larger set are dropped and `is_maximal` is
 /// 0.
 ///
+/// In progressive order the set is made of nested maximal sets, coarse to fine, each filled around
+/// the one before, and sorted by falling rank (azulejo_points_ranks). The first of its samples, any
+/// number of them, are a set with fewer samples: at least as far apart as the last of their ranks,
+/// and within `quotient` times that of every point of the domain; if they are less than 100, within
+/// twice that, or the square of the quotient times it if that is more. So levels of detail are
+/// nested.
+/// Sets of one domain, quotient, coarsest radius and seed share their levels. With default options
+/// a set is a prefix of those whose radius is half of its own, a quarter and so on, bit for bit;
+/// and with a count, a prefix of those with a larger one. Then `radius` in the report is the last
+/// rank, and `is_maximal` is 0.
+///
+/// Around given samples the set is conflict-free and maximal as well: new samples are at least the
+/// clearance of each given one from it, in double arithmetic from the floats, and every point of
+/// the domain is within the radius of a new sample or the clearance of a given one, up to 6 float
+/// spacings at the largest coordinate. Given samples are not moved, dropped, compared with each
+/// other or part of the result. They take about a microsecond each, more than that only where their
+/// clearances are of very many radii. In progressive order they cover from the first level on.
+///
 /// options: with a radius or a count, not both.
 ///
 /// out: the samples, x y each, to be freed with azulejo_points_free. With a count, samples that
@@ -144,8 +194,9 @@ pub unsafe extern "C" fn azulejo_kdrt_report_init(
 /// report: what the call achieved, or NULL. It costs nothing unless `measure_coverage` is 1; then
 /// progress includes the measuring.
 ///
-/// O(samples) time, and 24 bytes of memory per sample; with a count about twice as much. Measuring
-/// the coverage takes O(samples * log samples).
+/// O(samples) time, and 24 bytes of memory per sample; with a count about twice as much, in
+/// progressive order 64 bytes and about fifteen times the time, more with a smaller quotient.
+/// Measuring the coverage takes O(samples * log samples).
 ///
 /// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for a radius (or a count whose radius is) below 64
 /// times the spacing of floats at the largest coordinate; AZULEJO_ERROR_TOO_LARGE, with the
@@ -167,20 +218,20 @@ pub unsafe extern "C" fn azulejo_kdrt_sample(
         }
         let start = Instant::now();
         let sampling = if measured { SAMPLING_SHARE } else { 1.0 };
-        let (samples, radius, is_maximal) = options.sample(context, options.watch().part(0.0, sampling))?;
+        let (set, radius, is_maximal) = options.sample(context, options.watch().part(0.0, sampling))?;
         let seconds = start.elapsed().as_secs_f64();
-        let coverage = if measured { options.coverage(context, &samples)? } else { -1.0 };
+        let coverage = if measured { options.coverage(context, &set.samples)? } else { -1.0 };
         if let Some(report) = report {
             report.write(azulejo_kdrt_report {
                 is_maximal: is_maximal.into(),
-                samples: samples.len() as u64,
+                samples: set.samples.len() as u64,
                 radius,
                 coverage,
                 seconds,
                 ..azulejo_kdrt_report::DEFAULT
             });
         }
-        Ok(azulejo_points::plane(samples))
+        Ok(azulejo_points::ranked(set))
     })
 }
 
@@ -193,6 +244,14 @@ const SAMPLING_SHARE: f64 = 0.05;
 /// Windows that partition the domain have every sample once, and can be made in any order, by
 /// threads, processes and machines that do not communicate. The samples in a window depend on
 /// nothing farther from it than 22 radii along x and 18 along y.
+///
+/// In progressive order a window has the samples of the whole set that lie in it, with their ranks,
+/// sorted in the same way, so prefixes of equal last rank fit together. Each level adds about 12 of
+/// its radii to the margin in which the levels before are needed: for a level of radius R that is
+/// about 145 R at a quotient of 2^(1/8), 75 R at 2^(1/4) and 41 R at 2^(1/2), in all about 56,000,
+/// 15,000 and 4,500 samples, as long as the domain is larger than that. A level costs about 0.2
+/// microseconds for each of them. From `coarsest` down to `radius` there are 8, 4 or 2 levels for
+/// each factor of two.
 ///
 /// options: those of the whole set, with a radius.
 ///
@@ -224,9 +283,10 @@ pub unsafe extern "C" fn azulejo_kdrt_sample_window(
             (growing::read("options", options)?, pair("window_min", window_min)?, pair("window_max", window_max)?)
         };
         let request = options.by_radius_only()?;
-        let samples = context
-            .run(options.watch(), |context, progress| kdrt::sample_window(context, &request, min, max, progress))?;
-        Ok(azulejo_points::plane(samples))
+        let samples = context.run(options.watch(), |context, progress| {
+            kdrt::sample_window_ranked(context, &request, min, max, progress)
+        })?;
+        Ok(azulejo_points::ranked(samples))
     })
 }
 
@@ -256,7 +316,7 @@ pub type azulejo_kdrt_visit_fn =
 ///
 /// Errors: AZULEJO_ERROR_INVALID_ARGUMENT as azulejo_kdrt_sample, so for more samples than floats
 /// can carry, about 10^11; AZULEJO_ERROR_TOO_LARGE for a domain that is not tiled;
-/// AZULEJO_ERROR_CANCELLED, also if `visit` cancels.
+/// AZULEJO_ERROR_CANCELLED, also if `visit` cancels. A progressive order is refused.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_kdrt_stream(
     context: Option<&azulejo_context>,
@@ -284,7 +344,6 @@ pub unsafe extern "C" fn azulejo_kdrt_stream(
 impl azulejo_kdrt_options {
     /// The flags, of which one is to be set.
     fn measures_coverage(&self) -> Result<bool, Failure> {
-        check_reserved(self.reserved)?;
         flag("measure_coverage", self.measure_coverage)
     }
 
@@ -296,25 +355,27 @@ impl azulejo_kdrt_options {
     }
 
     /// The samples, their radius and whether they are maximal for it.
-    fn sample(&self, context: &azulejo_context, watch: Watch) -> Result<(Vec<[f32; 2]>, f64, bool), Failure> {
+    fn sample(&self, context: &azulejo_context, watch: Watch) -> Result<(Ranked, f64, bool), Failure> {
         let &Self { radius, leaf_size, seed, count, .. } = self;
         if count == 0 {
             let request = self.by_radius()?;
-            let samples = context.run(watch, |context, progress| kdrt::sample(context, &request, progress))?;
+            let samples = context.run(watch, |context, progress| kdrt::sample_ranked(context, &request, progress))?;
             return Ok((samples, radius, true));
         }
         if radius != 0.0 {
             let reason = format!("{count} samples and radius {radius:?} are asked for at once; one of them must be 0");
             return Err(Failure::invalid("count", reason));
         }
+        check_unused("given_count", self.given_count, 0, "with a count")?;
         let request = CountOptions::new(count as u64).domain(self.domain()?).leaf_size(leaf_size).seed(seed);
-        let Counted { samples, report, .. } =
+        let request = request.order(self.order()?).quotient(self.quotient()).coarsest(self.coarsest());
+        let Counted { samples, ranks, report, .. } =
             context.run(watch, |context, progress| kdrt::sample_count(context, &request, progress))?;
-        Ok((samples, report.radius, report.is_maximal))
+        Ok((Ranked::new(samples, ranks), report.radius, report.is_maximal))
     }
 
     /// The options of calls that cannot have a count.
-    pub(crate) fn by_radius_only(&self) -> Result<kdrt::Options, Failure> {
+    pub(crate) fn by_radius_only(&self) -> Result<kdrt::Options<'_>, Failure> {
         if self.count != 0 {
             let reason = format!("{} is not 0; windows and streams are made by radius, not by number", self.count);
             return Err(Failure::invalid("count", reason));
@@ -325,9 +386,48 @@ impl azulejo_kdrt_options {
         self.by_radius()
     }
 
-    fn by_radius(&self) -> Result<kdrt::Options, Failure> {
+    /// The options of calls with classes, which have their own radii.
+    pub(crate) fn with_classes(&self, classes: &Classes) -> Result<kdrt::Options<'_>, Failure> {
+        check_unused("radius", self.radius, 0.0, "with classes")?;
+        check_unused("count", self.count, 0, "with classes")?;
+        check_unused("measure_coverage", self.measures_coverage()?, false, "with classes")?;
+        self.around(self.given(classes.count())?)
+    }
+
+    fn by_radius(&self) -> Result<kdrt::Options<'_>, Failure> {
+        self.around(self.given(1)?)
+    }
+
+    /// What is asked for around given samples.
+    fn around<'a>(&'a self, given: Given<'a, 2>) -> Result<kdrt::Options<'a>, Failure> {
         let &Self { radius, leaf_size, seed, .. } = self;
-        Ok(kdrt::Options::new(radius).domain(self.domain()?).leaf_size(leaf_size).seed(seed))
+        let request = kdrt::Options::new(radius).domain(self.domain()?).leaf_size(leaf_size).seed(seed);
+        let request = request.order(self.order()?).quotient(self.quotient()).coarsest(self.coarsest());
+        Ok(request.given(given))
+    }
+
+    /// The given samples, with a clearance for each of a number of classes.
+    fn given(&self, classes: usize) -> Result<Given<'_, 2>, Failure> {
+        // SAFETY: the caller's word, for as long as the call.
+        unsafe { given_by_class(self.given_positions, self.given_clearances, self.given_count, classes) }
+    }
+
+    /// The order, and no settings of one that is not asked for.
+    fn order(&self) -> Result<Order, Failure> {
+        let order = order(self.order)?;
+        if order == Order::Any {
+            check_unused("quotient", self.quotient, 0.0, "in any order")?;
+            check_unused("coarsest", self.coarsest, 0.0, "in any order")?;
+        }
+        Ok(order)
+    }
+
+    fn quotient(&self) -> f64 {
+        if self.quotient == 0.0 { kdrt::DEFAULT_QUOTIENT } else { self.quotient }
+    }
+
+    fn coarsest(&self) -> f64 {
+        if self.coarsest == 0.0 { f64::INFINITY } else { self.coarsest }
     }
 
     fn domain(&self) -> Result<Domain, Failure> {

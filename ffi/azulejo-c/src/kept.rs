@@ -2,7 +2,7 @@
 
 use std::mem::MaybeUninit;
 
-use azulejo_core::kdrt::Plane;
+use azulejo_core::kdrt::{ClassPlane, Plane};
 
 use crate::boundary::{self, pair, required};
 use crate::context::azulejo_context;
@@ -11,10 +11,22 @@ use crate::kdrt::azulejo_kdrt_options;
 use crate::points::azulejo_points;
 use crate::status::azulejo_status;
 
-/// A plane: a set of azulejo_kdrt_sample of which any window can be made at any time. Immutable:
-/// several threads may make windows of it at once.
+/// A plane: a set of azulejo_kdrt_sample or azulejo_kdrt_sample_classes of which any window can be
+/// made at any time. Immutable: several threads may make windows of it at once.
 pub struct azulejo_kdrt {
-    plane: Plane,
+    plane: Kept,
+}
+
+enum Kept {
+    One(Plane),
+    Several(ClassPlane),
+}
+
+impl azulejo_kdrt {
+    /// A plane of several classes.
+    pub(crate) fn of_classes(plane: ClassPlane) -> Self {
+        Self { plane: Kept::Several(plane) }
+    }
 }
 
 /// Makes what all windows of a plane need: its pattern and tables.
@@ -27,7 +39,9 @@ pub struct azulejo_kdrt {
 /// O(samples of the pattern) time: about 28,000 samples with the default leaves. The plane takes 32
 /// bytes of memory for each of them, 0.9 MB in all, and 1 byte for each radius of the sides of the
 /// domain, however many samples the domain has. A domain that is not tiled (see
-/// azulejo_kdrt_sample) is made as a whole and kept, in 8 bytes per sample.
+/// azulejo_kdrt_sample) is made as a whole and kept, in 8 bytes per sample. In progressive order
+/// the plane also takes 16 KB per level and, unless its coarsest level is tiled, makes and keeps
+/// the levels that have up to 65,536 samples in the whole domain, in 16 bytes per sample.
 ///
 /// Errors: AZULEJO_ERROR_INVALID_ARGUMENT as azulejo_kdrt_sample, so for more samples than floats
 /// can carry, about 10^11; AZULEJO_ERROR_TOO_LARGE for a domain that is not tiled;
@@ -44,12 +58,13 @@ pub unsafe extern "C" fn azulejo_kdrt_create(
         let options = unsafe { growing::read("options", options) }?;
         let request = options.by_radius_only()?;
         let plane = context.run(options.watch(), |context, progress| Plane::new(context, &request, progress))?;
-        Ok(azulejo_kdrt { plane })
+        Ok(azulejo_kdrt { plane: Kept::One(plane) })
     })
 }
 
 /// Makes the samples of a plane that lie in a window of its domain: the same floats in the same
-/// order as azulejo_kdrt_sample_window and the whole set.
+/// order as azulejo_kdrt_sample_window and the whole set. Those of several classes have
+/// azulejo_points_classes.
 ///
 /// All work happens on the calling thread, and other threads may make windows of the same plane
 /// meanwhile. Very large windows are made faster by azulejo_kdrt_sample_window, on the threads of a
@@ -59,7 +74,9 @@ pub unsafe extern "C" fn azulejo_kdrt_create(
 ///
 /// out: the samples, x y each, to be freed with azulejo_points_free.
 ///
-/// O(samples in the window and within about 20 radii of it) time and memory.
+/// O(samples in the window and within about 20 radii of it) time and memory; in progressive order
+/// also those of each level that is not kept, in the margin that azulejo_kdrt_sample_window has for
+/// it.
 ///
 /// Errors: AZULEJO_ERROR_INVALID_ARGUMENT; AZULEJO_ERROR_TOO_LARGE for 2^32 samples or more in the
 /// window, or more than memory holds.
@@ -74,7 +91,10 @@ pub unsafe extern "C" fn azulejo_kdrt_window(
         let plane = &required("plane", plane)?.plane;
         // SAFETY: handed on from the caller.
         let (min, max) = unsafe { (pair("window_min", window_min)?, pair("window_max", window_max)?) };
-        Ok(azulejo_points::plane(plane.window(min, max)?))
+        match plane {
+            Kept::One(plane) => Ok(azulejo_points::ranked(plane.window_ranked(min, max)?)),
+            Kept::Several(plane) => Ok(azulejo_points::classified(plane.window(min, max)?)),
+        }
     })
 }
 

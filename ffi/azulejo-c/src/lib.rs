@@ -57,17 +57,17 @@
 //!   that are not aligned for their type are refused. The library cannot detect other invalid
 //!   pointers or counts that exceed an array.
 //!
-//! Structs that can grow. Options, reports, azulejo_plane_set and azulejo_density begin with
-//!   struct_size and must be filled by their _init function before use: it writes the defaults to
-//!   options and zeros to reports. A field exists for the library if struct_size reaches its end:
-//!   options that lack a field get its default, and a field that a report lacks is not written. So
-//!   a program built against an older header of the same SONAME keeps working. One built against a
-//!   newer header works as long as the option fields that this library does not know are zero;
-//!   report fields that it does not know stay as _init left them. A struct_size out of range, a
-//!   non-zero field beyond the known ones, an unknown constant, a flag other than 0 and 1, and an
-//!   option that its text excludes from the call are refused. A reserved field must be 0 in options
-//!   and is 0 in reports. The options of azulejo_X and azulejo_X_verb are azulejo_X_options, the
-//!   report azulejo_X_report.
+//! Structs that can grow. Options, reports, azulejo_plane_set, azulejo_density and
+//!   azulejo_mesh_density begin with struct_size and must be filled by their _init function before
+//!   use: it writes the defaults to options and zeros to reports. A field exists for the library if
+//!   struct_size reaches its end: options that lack a field get its default, and a field that a
+//!   report lacks is not written. So a program built against an older header of the same SONAME
+//!   keeps working. One built against a newer header works as long as the option fields that this
+//!   library does not know are zero; report fields that it does not know stay as _init left them. A
+//!   struct_size out of range, a non-zero field beyond the known ones, an unknown constant, a flag
+//!   other than 0 and 1, and an option that its text excludes from the call are refused. A reserved
+//!   field must be 0 in options and is 0 in reports. The options of azulejo_X and azulejo_X_verb
+//!   are azulejo_X_options, the report azulejo_X_report.
 //!
 //! Progress. A call with a context calls a progress callback on the thread that made the call: the
 //!   one in its options or, if that is NULL, the one of the context (azulejo_context_watch). It
@@ -95,11 +95,14 @@
 //!   forked should use AZULEJO_ENGINE_RASTERISER in the child.
 //!
 //! Determinism. The same options and seed give the same bytes, for every number of threads and
-//!   whatever was called before.
+//!   whatever was called before, on every processor and system: elementary functions are the
+//!   library's own, and vector instructions change nothing. Only AZULEJO_ENGINE_EMBREE depends on
+//!   the version of Embree and on the instruction set. Callbacks must return the same as well.
 //!
 //! Memory. Requests that memory cannot hold are refused with AZULEJO_ERROR_TOO_LARGE before memory
 //!   is taken; the free memory of the machine counts, and the limits of the process (ulimit -v) and
-//!   of its control groups. If memory runs out during a call nevertheless, the process is aborted.
+//!   of its control groups. Only Linux is asked for these. If memory runs out during a call
+//!   nevertheless, the process is aborted.
 //!
 //! Complexity is that of the whole call on one thread; all threads of the context share the work,
 //!   except where a text says otherwise. "Evenly spread" points are as dense, up to a small factor,
@@ -114,6 +117,7 @@
 #![allow(clippy::missing_safety_doc)]
 
 mod boundary;
+mod given;
 mod growing;
 
 // In the order of the header.
@@ -126,7 +130,10 @@ pub mod context;
 pub mod domain;
 pub mod points;
 
+pub mod classes;
+
 pub mod kdrt;
+pub mod kdrt_classes;
 pub mod kept;
 pub mod maximal;
 pub mod merge;
@@ -137,11 +144,14 @@ pub mod psp;
 pub mod psp_report;
 
 pub mod adaptive;
+pub mod mesh_density;
 
 pub mod dcr;
 pub mod density;
 
 pub mod surface;
+
+pub mod remesh;
 
 pub mod thin;
 

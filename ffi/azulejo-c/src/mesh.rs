@@ -1,8 +1,7 @@
 //! Triangle meshes: the surfaces to sample.
 
-use std::ffi::{CStr, OsStr, c_char};
+use std::ffi::{CStr, c_char};
 use std::mem::MaybeUninit;
-use std::os::unix::ffi::OsStrExt;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -11,6 +10,7 @@ use azulejo_core::{Context, Progress};
 
 use crate::boundary::{self, array, check_pointer, check_size, required, rows};
 use crate::context::azulejo_context;
+use crate::points::azulejo_points;
 use crate::progress::Watch;
 use crate::status::{AZULEJO_ERROR_OUT_OF_MEMORY, Failure, azulejo_status};
 
@@ -82,7 +82,8 @@ pub unsafe extern "C" fn azulejo_mesh_create(
 /// azulejo_mesh_with_normals. Points, lines, materials, texture coordinates, colours and normals of
 /// STL facets are ignored.
 ///
-/// path: the file name in the encoding of the operating system, terminated by a NUL.
+/// path: the file name, terminated by a NUL: in the encoding of the operating system, on Windows in
+/// UTF-8, whatever the code page.
 ///
 /// out: the mesh, to be freed with azulejo_mesh_free.
 ///
@@ -100,8 +101,21 @@ pub unsafe extern "C" fn azulejo_mesh_load(
         check_pointer("path", path)?;
         // SAFETY: not NULL; the caller ends the string with a NUL.
         let path = unsafe { CStr::from_ptr(path) };
-        Ok(azulejo_mesh { shared: Arc::new(Mesh::load(Path::new(OsStr::from_bytes(path.to_bytes())))?) })
+        Ok(azulejo_mesh { shared: Arc::new(Mesh::load(system_path(path)?)?) })
     })
+}
+
+/// The path that the caller's bytes name.
+#[cfg(unix)]
+fn system_path(bytes: &CStr) -> Result<&Path, Failure> {
+    use std::os::unix::ffi::OsStrExt;
+    Ok(Path::new(std::ffi::OsStr::from_bytes(bytes.to_bytes())))
+}
+
+/// The path that the caller's UTF-8 names.
+#[cfg(not(unix))]
+fn system_path(utf8: &CStr) -> Result<&Path, Failure> {
+    utf8.to_str().map(Path::new).map_err(|error| Failure::invalid("path", error))
 }
 
 /// Makes a mesh with the caller's normals in place of any that it has, such as the smooth ones of a
@@ -191,6 +205,78 @@ pub unsafe extern "C" fn azulejo_mesh_with_mask(
         let mask = unsafe { rows::<u8, 1>("mask", mask, "triangle_count", triangle_count)? };
         let mask = collect("mask", mask.iter().map(|&[entry]| entry != 0))?;
         Ok(azulejo_mesh { shared: Arc::new(Mesh::clone(mesh).with_mask(mask)?) })
+    })
+}
+
+/// Makes a mesh with its vertices moved, such as for the next frame of an animation. Triangles and
+/// mask stay; normals of azulejo_mesh_with_normals or of a file go. With azulejo_mesh_points the
+/// samples of one mesh follow to the other.
+///
+/// mesh: the mesh, which is not changed.
+///
+/// positions: the vertices, x y z each, `stride_bytes` from one to the next; `vertex_count` of
+/// them.
+///
+/// vertex_count: the number of vertices of the mesh.
+///
+/// stride_bytes: a multiple of 4, at least 12.
+///
+/// out: the new mesh, to be freed with azulejo_mesh_free. It shares triangles and mask with `mesh`;
+/// the two may be freed in any order.
+///
+/// O(vertices + triangles).
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT for positions that are not finite or leave no area, and
+/// for another count; AZULEJO_ERROR_OUT_OF_MEMORY.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_mesh_deform(
+    mesh: Option<&azulejo_mesh>,
+    positions: *const f32,
+    vertex_count: usize,
+    stride_bytes: usize,
+    out: Option<&mut MaybeUninit<Box<azulejo_mesh>>>,
+) -> azulejo_status {
+    boundary::create(out, || {
+        let mesh = &required("mesh", mesh)?.shared;
+        // SAFETY: handed on from the caller.
+        let vertices = unsafe { strided("positions", positions, "vertex_count", vertex_count, stride_bytes)? };
+        Ok(azulejo_mesh { shared: Arc::new(mesh.deformed(vertices)?) })
+    })
+}
+
+/// Evaluates places of a mesh, given by triangle and barycentrics, with the rounding of every
+/// sampler: places of samples of this mesh give the samples, bit for bit, and on a mesh of
+/// azulejo_mesh_deform each sample goes with its triangle.
+///
+/// triangles: the triangle of each place, below azulejo_mesh_triangle_count; `count` of them.
+/// Triangles without area, and those that a mask leaves out, are allowed.
+///
+/// barycentrics: u v of each place, finite; `count` of them.
+///
+/// out: the positions with normals, triangles and barycentrics, in the same order, to be freed with
+/// azulejo_points_free.
+///
+/// O(count).
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT; AZULEJO_ERROR_TOO_LARGE for sizes that overflow.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_mesh_points(
+    mesh: Option<&azulejo_mesh>,
+    triangles: *const u32,
+    barycentrics: *const f32,
+    count: usize,
+    out: Option<&mut MaybeUninit<Box<azulejo_points>>>,
+) -> azulejo_status {
+    boundary::create(out, || {
+        let mesh = &required("mesh", mesh)?.shared;
+        // SAFETY: handed on from the caller.
+        let (triangles, barycentrics) = unsafe {
+            (
+                rows::<u32, 1>("triangles", triangles, "count", count)?.as_flattened(),
+                rows::<f32, 2>("barycentrics", barycentrics, "count", count)?,
+            )
+        };
+        Ok(azulejo_points::surface(mesh.samples_at(triangles, barycentrics)?))
     })
 }
 

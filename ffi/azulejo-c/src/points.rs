@@ -1,6 +1,7 @@
 //! Results: samples of the plane or of a mesh.
 
 use azulejo_core::SurfaceSamples;
+use azulejo_core::kdrt::{Classified, Ranked};
 use azulejo_core::psp::adaptive::AdaptiveSamples;
 
 use crate::boundary::{self, array};
@@ -11,6 +12,10 @@ pub struct azulejo_points {
     pub(crate) samples: Samples,
     /// The radius of each sample, where it varies.
     radii: Vec<f64>,
+    /// The rank of each sample of a progressive set.
+    ranks: Vec<f32>,
+    /// The class of each sample of a set of several.
+    classes: Vec<u32>,
 }
 
 pub(crate) enum Samples {
@@ -19,16 +24,31 @@ pub(crate) enum Samples {
 }
 
 impl azulejo_points {
-    pub(crate) fn plane(samples: Vec<[f32; 2]>) -> Self {
-        Self { samples: Samples::Plane(samples), radii: Vec::new() }
+    fn of(samples: Samples) -> Self {
+        Self { samples, radii: Vec::new(), ranks: Vec::new(), classes: Vec::new() }
     }
 
-    pub(crate) fn surface(samples: SurfaceSamples) -> Self {
-        Self { samples: Samples::Surface(samples), radii: Vec::new() }
+    pub(crate) fn plane(samples: Vec<[f32; 2]>) -> Self {
+        Self::of(Samples::Plane(samples))
+    }
+
+    /// Samples of the plane with ranks, if there are any.
+    pub(crate) fn ranked(Ranked { samples, ranks, .. }: Ranked) -> Self {
+        Self { ranks, ..Self::plane(samples) }
+    }
+
+    /// Samples of the plane with classes.
+    pub(crate) fn classified(Classified { samples, classes, .. }: Classified) -> Self {
+        Self { classes, ..Self::plane(samples) }
+    }
+
+    pub(crate) fn surface(mut samples: SurfaceSamples) -> Self {
+        let (ranks, classes) = (std::mem::take(&mut samples.ranks), std::mem::take(&mut samples.classes));
+        Self { ranks, classes, ..Self::of(Samples::Surface(samples)) }
     }
 
     pub(crate) fn adaptive(AdaptiveSamples { samples, radii, .. }: AdaptiveSamples) -> Self {
-        Self { samples: Samples::Surface(samples), radii }
+        Self { radii, ..Self::of(Samples::Surface(samples)) }
     }
 }
 
@@ -109,6 +129,28 @@ pub extern "C" fn azulejo_points_barycentrics(points: Option<&azulejo_points>) -
 #[unsafe(no_mangle)]
 pub extern "C" fn azulejo_points_radii(points: Option<&azulejo_points>) -> *const f64 {
     points.map_or(std::ptr::null(), |points| array(&points.radii))
+}
+
+/// The ranks of the samples of a set in progressive order, in the units of the domain or the mesh:
+/// for each sample the distance to the nearest one that was there when it was accepted, or on
+/// meshes a little less, rounded down to a float. They never rise. The first i samples are at least
+/// as far apart as the i-th rank. NULL for NULL, an empty set and sets in any order.
+///
+/// No place is farther from the first i samples than the quotient of the options times the i-th
+/// rank, and 6 float spacings at the largest coordinate; if i is below 100, than twice the rank, or
+/// the square of the quotient times it if that is more. In the plane this holds from the samples
+/// of the coarsest level on, those with the rank of the first: one sample only, unless the options
+/// have a shorter `coarsest` radius. On meshes it holds for every i; the first rank is infinite.
+#[unsafe(no_mangle)]
+pub extern "C" fn azulejo_points_ranks(points: Option<&azulejo_points>) -> *const f32 {
+    points.map_or(std::ptr::null(), |points| array(&points.ranks))
+}
+
+/// The class of each sample of a set of several classes, its row in the matrix of azulejo_classes;
+/// NULL for NULL, an empty set and sets made without classes.
+#[unsafe(no_mangle)]
+pub extern "C" fn azulejo_points_classes(points: Option<&azulejo_points>) -> *const u32 {
+    points.map_or(std::ptr::null(), |points| array(&points.classes))
 }
 
 /// Frees the set with all its arrays. NULL is allowed.

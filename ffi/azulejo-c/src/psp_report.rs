@@ -51,6 +51,13 @@ pub struct azulejo_psp_report {
     /// If the call filled gaps: the fraction of the area that is uncovered after it, which is 0.
     /// Else -1.
     pub uncovered_after: f64,
+    /// The radius of the set: the one asked for or, for a count, the one that was found. No two
+    /// samples are closer. 0 where radii vary.
+    pub radius: f64,
+    /// A bound of the covering radius, where one is known: no place is farther from all samples, up
+    /// to 6 spacings of floats at the largest coordinate. The radius itself after gaps were filled,
+    /// a little more for a count. Else -1.
+    pub coverage: f64,
 }
 
 growing!(azulejo_psp_report requires samples {
@@ -70,6 +77,8 @@ growing!(azulejo_psp_report requires samples {
     rho: 0.0,
     uncovered_before: 0.0,
     uncovered_after: 0.0,
+    radius: 0.0,
+    coverage: 0.0,
 });
 
 impl From<Report> for azulejo_psp_report {
@@ -91,6 +100,8 @@ impl From<Report> for azulejo_psp_report {
             rho: report.rho,
             uncovered_before: report.uncovered_before.unwrap_or(-1.0),
             uncovered_after: report.uncovered_after.unwrap_or(-1.0),
+            radius: report.radius,
+            coverage: report.coverage.unwrap_or(-1.0),
             ..Self::DEFAULT
         }
     }

@@ -3,7 +3,8 @@
 use std::ffi::c_void;
 use std::mem::MaybeUninit;
 
-use azulejo_core::thin::{Options, Order, Selection, thin};
+use azulejo_core::Order;
+use azulejo_core::thin::{Options, Selection, thin};
 
 use crate::boundary::{self, array, required, rows};
 use crate::context::azulejo_context;
@@ -15,6 +16,15 @@ use crate::status::{Failure, azulejo_status};
 pub const AZULEJO_ORDER_ANY: u32 = 0;
 /// Coarse to fine: the first points are a sparser set of the same kind, whatever their number.
 pub const AZULEJO_ORDER_PROGRESSIVE: u32 = 1;
+
+/// The order that a constant stands for.
+pub(crate) fn order(order: u32) -> Result<Order, Failure> {
+    match order {
+        AZULEJO_ORDER_ANY => Ok(Order::Any),
+        AZULEJO_ORDER_PROGRESSIVE => Ok(Order::Progressive),
+        other => Err(Failure::invalid("order", format!("{other} is no AZULEJO_ORDER_ constant"))),
+    }
+}
 
 /// Options of azulejo_thin. What is selected follows from `order`, `radius` and `count`:
 ///
@@ -70,11 +80,7 @@ pub unsafe extern "C" fn azulejo_thin_options_init(
 
 impl azulejo_thin_options {
     fn request(&self) -> Result<Options, Failure> {
-        let order = match self.order {
-            AZULEJO_ORDER_ANY => Order::Any,
-            AZULEJO_ORDER_PROGRESSIVE => Order::Progressive,
-            other => return Err(Failure::invalid("order", format!("{other} is no AZULEJO_ORDER_ constant"))),
-        };
+        let order = order(self.order)?;
         Ok(Options::default().order(order).radius(self.radius).count(self.count).seed(self.seed))
     }
 }

@@ -1,4 +1,6 @@
-//! The version of the library.
+//! The version of the library, and what it was built with.
+
+use azulejo_core::trace::HAS_EMBREE;
 
 /// The major version of this header. It changes when programs must be changed.
 pub const AZULEJO_VERSION_MAJOR: u32 = 0;
@@ -14,6 +16,14 @@ pub const AZULEJO_VERSION: u32 = 200;
 #[unsafe(no_mangle)]
 pub extern "C" fn azulejo_version() -> u32 {
     AZULEJO_VERSION
+}
+
+/// 1 if the library was built with Embree, 0 otherwise. Without it AZULEJO_ENGINE_EMBREE and
+/// azulejo_mesh_create_from_embree are refused with AZULEJO_ERROR_EMBREE, and everything else is
+/// there: sets on meshes are filled, as by default, or projected by the rasteriser.
+#[unsafe(no_mangle)]
+pub extern "C" fn azulejo_has_embree() -> i32 {
+    i32::from(HAS_EMBREE)
 }
 
 #[cfg(test)]

@@ -7,10 +7,12 @@ use std::ptr::{NonNull, null, null_mut};
 
 use azulejo_c::adaptive::*;
 use azulejo_c::analysis::*;
+use azulejo_c::classes::*;
 use azulejo_c::context::*;
 use azulejo_c::dcr::*;
 use azulejo_c::domain::*;
 use azulejo_c::kdrt::*;
+use azulejo_c::kdrt_classes::*;
 use azulejo_c::kept::*;
 use azulejo_c::maximal::*;
 use azulejo_c::merge::*;
@@ -20,7 +22,7 @@ use azulejo_c::psp::*;
 use azulejo_c::statistics::*;
 use azulejo_c::status::*;
 use azulejo_c::thin::*;
-use azulejo_c::version::azulejo_version;
+use azulejo_c::version::{azulejo_has_embree, azulejo_version};
 
 type Out<'a, T> = Option<&'a mut MaybeUninit<T>>;
 
@@ -79,6 +81,9 @@ fn read_and_free(points: Box<azulejo_points>) -> usize {
     assert!((0..count).all(|i| triangles.is_null() || unsafe { triangles.add(i).read() } < 2));
     // SAFETY: as above.
     assert!((0..count).all(|i| radii.is_null() || unsafe { radii.add(i).read() } > 0.0));
+    let classes = azulejo_points_classes(set);
+    // SAFETY: as above.
+    assert!((0..count).all(|i| classes.is_null() || unsafe { classes.add(i).read() } < AZULEJO_MAX_CLASSES));
     azulejo_points_free(Some(points));
     count
 }
@@ -123,6 +128,16 @@ fn planes() {
         let [low, high] = [corners[0].as_ptr(), corners[1].as_ptr()];
         read_and_free(made(|out| azulejo_kdrt_sample_window(Some(&context), &options, low, high, out)));
         let plane = made(|out| azulejo_kdrt_create(Some(&context), &options, out));
+        read_and_free(made(|out| azulejo_kdrt_window(Some(&plane), low, high, out)));
+        azulejo_kdrt_free(Some(plane));
+        let (mut matrix, mut classes) = ([0f64; 4], defaults(azulejo_classes_init));
+        assert_eq!(azulejo_classes_radii([0.45f64, 0.3].as_ptr(), 2, 1.0, matrix.as_mut_ptr()), AZULEJO_OK);
+        (classes.count, classes.radii) = (2, matrix.as_ptr());
+        let alone = azulejo_kdrt_options { radius: 0.0, ..options };
+        let set = made(|out| azulejo_kdrt_sample_classes(Some(&context), &alone, &classes, out));
+        assert_eq!(azulejo_points_classes(Some(&*set)).read(), 0);
+        read_and_free(set);
+        let plane = made(|out| azulejo_kdrt_create_classes(Some(&context), &alone, &classes, out));
         read_and_free(made(|out| azulejo_kdrt_window(Some(&plane), low, high, out)));
         azulejo_kdrt_free(Some(plane));
         let mut visited = 0u32;
@@ -198,6 +213,13 @@ fn surfaces() {
     unsafe {
         if !cfg!(miri) {
             read_and_free(made(|out| azulejo_psp_sample(Some(&context), Some(&normal), &options, out, null_mut())));
+            let (mut classes, mut radii, masks) = (defaults(azulejo_classes_init), [0.0; 4], [1u32, 3]);
+            assert_eq!(azulejo_classes_radii([0.9, 0.7].as_ptr(), 2, 1.0, radii.as_mut_ptr()), AZULEJO_OK);
+            (classes.count, classes.radii, classes.masks, classes.mask_count) = (2, radii.as_ptr(), masks.as_ptr(), 2);
+            let options = defaults(azulejo_psp_options_init);
+            let sample =
+                |out: Out<_>| azulejo_psp_sample_classes(Some(&context), Some(&normal), &options, &classes, out);
+            read_and_free(made(sample));
         }
         let mut set = made(|out| azulejo_psp_create(Some(&context), Some(&masked), &options, out));
         azulejo_mesh_free(Some(masked));
@@ -257,6 +279,14 @@ fn points() {
             let relax = |out: Out<_>| azulejo_dcr_relax(Some(&context), &options, xy.as_ptr(), 3, out, null_mut());
             assert_eq!(read_and_free(made(relax)), 3);
         }
+        options.method = AZULEJO_METHOD_MOMENTUM;
+        let (classes, mut rho, mut coverage) = ([0u32, 1, 0], [0.0; 2], [0.0; 2]);
+        let (rho, coverage) = (rho.as_mut_ptr(), coverage.as_mut_ptr());
+        let (xy_of, of) = (xy.as_ptr(), classes.as_ptr());
+        let relax = |out: Out<_>| {
+            azulejo_dcr_relax_classes(Some(&context), &options, xy_of, of, 3, 2, out, null_mut(), rho, coverage)
+        };
+        assert_eq!(read_and_free(made(relax)), 3);
         let mut set = defaults(azulejo_plane_set_init);
         (set.positions, set.count, set.boundary) = (xy.as_ptr(), 3, AZULEJO_BOUNDARY_BOUNDED);
         for figure in [azulejo_plane_smallest_distance, azulejo_plane_covering_radius] {
@@ -297,5 +327,5 @@ fn refusals() {
     }
     azulejo_points_free(None);
     azulejo_mesh_free(None);
-    assert!(azulejo_version() > 0);
+    assert!(azulejo_version() > 0 && azulejo_has_embree() == 1);
 }

@@ -10,6 +10,7 @@ use crate::analysis::probes::AreaSampler;
 use crate::error::Result;
 use crate::geometry::grid3::{Grid3, distance_squared};
 use crate::job::{Context, Job, Progress, chunks, chunks_of};
+use crate::math::hypot;
 use crate::mesh::Mesh;
 use crate::points::{Domain, check_radius};
 
@@ -94,7 +95,7 @@ pub(super) fn covering_radius(job: &Job, domain: &Domain, points: &[[f32; 2]]) -
     let tasks = chunks_of(cells.len(), TASK);
     let distance = |cell: usize| {
         let [x, y] = nearest.offset(cells.get(cell).centre);
-        x.hypot(y)
+        hypot(x, y)
     };
     let largest = |distances: Vec<f64>| distances.into_iter().fold(0.0, f64::max);
     let known =
@@ -144,7 +145,7 @@ fn farthest(nearest: &Nearest, mut cells: Vec<SearchCell>, known: f64) -> f64 {
     let mut farthest = known;
     while !cells.is_empty() {
         let offsets: Vec<[f64; 2]> = cells.iter().map(|cell| nearest.offset(cell.centre).map(f64::abs)).collect();
-        farthest = offsets.iter().map(|&[x, y]| x.hypot(y)).fold(farthest, f64::max);
+        farthest = offsets.iter().map(|&[x, y]| hypot(x, y)).fold(farthest, f64::max);
         let could_exceed = |cell: &SearchCell, offset: [f64; 2]| cell.bound(offset) > farthest * (1.0 + PRECISION);
         cells = std::iter::zip(&cells, offsets)
             .filter(|&(cell, offset)| could_exceed(cell, offset))
@@ -158,7 +159,7 @@ impl SearchCell {
     /// A bound for the distances of the cell's points, from the offset of the sample that is nearest to its centre: they
     /// are no farther from this sample than the corner on the other side.
     fn bound(&self, offset: [f64; 2]) -> f64 {
-        (offset[0] + self.half[0]).hypot(offset[1] + self.half[1])
+        hypot(offset[0] + self.half[0], offset[1] + self.half[1])
     }
 
     /// Halves or quarters: divided along each axis that has a large part in the bound. In a thin domain that is the long

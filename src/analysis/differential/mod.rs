@@ -29,6 +29,7 @@ use glam::{DVec2, DVec3};
 use crate::analysis::probes::AreaSampler;
 use crate::error::{Error, Result};
 use crate::job::{Context, Job, Progress, chunks};
+use crate::math::square;
 use crate::mesh::{Mesh, exact};
 use crate::points::{Boundary, Domain};
 
@@ -257,7 +258,7 @@ impl Counts {
 
     /// What `count` points without any structure give.
     fn of_poisson_process(count: usize) -> Self {
-        let cell = (2.0 * GRID_REACH / GRID_SIZE as f64).powi(2);
+        let cell = square(2.0 * GRID_REACH / GRID_SIZE as f64);
         let mut counts = Self::none();
         counts.grid.fill(cell);
         counts.shells = (0..counts.shells.len()).map(radial::shell_area).collect();

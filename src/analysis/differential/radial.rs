@@ -3,9 +3,8 @@
 use std::f64::consts::PI;
 use std::ops::Range;
 
-use libm::j0;
-
 use crate::analysis::differential::{Differences, GRID_REACH, GRID_SIZE, REACH, SHELL_WIDTH, ratio};
+use crate::math::{hypot, j0, square};
 
 /// The differences of about one length.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -44,7 +43,7 @@ impl Differences {
     pub fn power(&self, frequencies: &[f64]) -> Vec<f64> {
         let shells = self.radial();
         let excess = |(i, shell): (usize, &Shell)| {
-            let fade = (1.0 - (shell.distance / REACH).powi(2)).powi(2);
+            let fade = square(1.0 - square(shell.distance / REACH));
             // Where not even a Poisson process has a pair nothing is known.
             let excess = if shell.expected > 0.0 { shell.density - 1.0 } else { 0.0 };
             [shell.distance, shell_area(i) * fade * excess]
@@ -65,7 +64,7 @@ impl Differences {
         let (mut all, mut along) = (0.0, 0.0);
         for (i, density) in self.density().into_iter().enumerate() {
             let (x, y) = (place(i % GRID_SIZE), place(i / GRID_SIZE));
-            if range.contains(&x.hypot(y)) {
+            if range.contains(&hypot(x, y)) {
                 all += density;
                 along += density * (x * x - y * y) / (x * x + y * y);
             }

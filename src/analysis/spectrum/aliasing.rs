@@ -6,6 +6,7 @@
 
 use crate::analysis::spectrum::Periodogram;
 use crate::error::{Error, Result};
+use crate::math::square;
 
 /// The mean power up to a frequency that an image of half that frequency can bear, and the one above which the spectrum
 /// is surely past its empty centre.
@@ -83,9 +84,9 @@ impl Periodogram {
         }
         let range = curve[first..].iter().take_while(|annulus| annulus.frequency <= end);
         let (area, squares) = range.fold((0.0, 0.0), |(area, squares), annulus| {
-            let by_chance = annulus.anisotropy * annulus.power.powi(2) / annulus.count as f64;
-            let square = (annulus.power - 1.0).powi(2) - by_chance;
-            (area + annulus.frequency, squares + annulus.frequency * square)
+            let by_chance = annulus.anisotropy * square(annulus.power) / annulus.count as f64;
+            let squared = square(annulus.power - 1.0) - by_chance;
+            (area + annulus.frequency, squares + annulus.frequency * squared)
         });
         Ok(10.0 * (squares / area).max(0.0).sqrt())
     }

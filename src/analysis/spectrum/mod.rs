@@ -17,6 +17,7 @@ use std::f64::consts::PI;
 
 use crate::error::{Error, Result};
 use crate::job::{Context, Progress};
+use crate::math::{cos, hypot, power, sin, square};
 use crate::points::{Boundary, Domain};
 
 use transform::{Coefficients, Weighted, transform};
@@ -106,7 +107,7 @@ pub fn sparse_periodogram(
             [column, row] => {
                 let [x, y] = [column, row].map(|k| (stride as i64 * k) as f64);
                 let wave = waves.at(column, row);
-                ((wave.re - mean.transform(y, x)).hypot(wave.im).powi(2) / energy) as f32
+                ((square(wave.re - mean.transform(y, x)) + square(wave.im)) / energy) as f32
             }
         });
         power.collect()
@@ -129,7 +130,7 @@ fn weigh(domain: &Domain, points: &[[f32; 2]], stride: f64) -> Vec<Weighted> {
         });
         let weight = match domain.boundary {
             Boundary::Periodic => 1.0,
-            Boundary::Bounded => (1.0 - 4.0 * (turns[0] * turns[0] + turns[1] * turns[1])).max(0.0).powi(2),
+            Boundary::Bounded => square((1.0 - 4.0 * (turns[0] * turns[0] + turns[1] * turns[1])).max(0.0)),
         };
         Weighted { turns: turns.map(|turns| stride * turns), weight }
     });
@@ -145,7 +146,7 @@ struct Mean {
 impl Mean {
     /// Real, because places are counted from the centre.
     fn transform(&self, row: f64, column: f64) -> f64 {
-        let waves = row.hypot(column);
+        let waves = hypot(row, column);
         match self.boundary {
             Boundary::Periodic if waves == 0.0 => self.weight,
             Boundary::Periodic => 0.0,
@@ -163,8 +164,8 @@ fn taper_transform(s: f64) -> f64 {
     let nodes = 16 + s as usize;
     let angles = (0..nodes).map(|i| (i as f64 + 0.5) * PI / nodes as f64);
     let (wave, all) = angles.fold((0.0, 0.0), |(wave, all), angle| {
-        let weight = angle.sin().powi(6);
-        (wave + weight * (s * angle.cos()).cos(), all + weight)
+        let weight = power(sin(angle), 6);
+        (wave + weight * cos(s * cos(angle)), all + weight)
     });
     wave / all
 }

@@ -2,6 +2,7 @@
 
 use crate::analysis::spectrum::Periodogram;
 use crate::error::{Error, Result};
+use crate::math::hypot;
 
 /// The frequencies of about one length: a point of the radial curves.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -129,7 +130,7 @@ impl Periodogram {
 
     /// The length of a frequency, in units of sqrt(density).
     fn frequency(&self, column: i64, row: i64) -> f64 {
-        (column as f64 * self.frequency_step[0]).hypot(row as f64 * self.frequency_step[1])
+        hypot(column as f64 * self.frequency_step[0], row as f64 * self.frequency_step[1])
     }
 
     /// Sums up the power in annuli.

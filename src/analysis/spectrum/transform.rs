@@ -8,11 +8,12 @@
 
 use std::f64::consts::PI;
 
-use rustfft::FftPlanner;
+use rustfft::FftPlannerScalar;
 use rustfft::num_complex::Complex;
 
 use crate::error::Result;
 use crate::job::{Job, chunks_of};
+use crate::math::{cos, exp, sincos};
 
 /// The bump's width in grid points, and its β.
 const WIDTH: usize = 12;
@@ -49,7 +50,7 @@ impl Coefficients {
 /// The sums up to `half` periods. O(points + half² log half).
 pub(super) fn transform(job: &Job, points: &[Weighted], half: usize) -> Result<Coefficients> {
     let side = (4 * half).max(2 * WIDTH).next_power_of_two();
-    let fft = FftPlanner::new().plan_fft_forward(side);
+    let fft = FftPlannerScalar::new().plan_fft_forward(side);
     let scratch = || vec![Complex::default(); fft.get_inplace_scratch_len()];
     let grid = Grid::new(side, points);
     let chunks = chunks_of(side, LINES);
@@ -128,7 +129,7 @@ impl Bump {
         let first = (place - 0.5 * WIDTH as f64).ceil();
         let value = |i: usize| {
             let x = (first + i as f64 - place) * (2.0 / WIDTH as f64);
-            (BETA * ((1.0 - x * x).max(0.0).sqrt() - 1.0)).exp()
+            exp(BETA * ((1.0 - x * x).max(0.0).sqrt() - 1.0))
         };
         Self { first: (first as i64).rem_euclid(side as i64) as usize, values: std::array::from_fn(value) }
     }
@@ -148,8 +149,8 @@ fn bump_transform(frequency: f64) -> f64 {
     let angles = (0..NODES).map(|i| ((i as f64 + 0.5) / NODES as f64 - 0.5) * PI);
     let reach = 0.5 * WIDTH as f64;
     let terms = angles.map(|angle| {
-        let (sin, cos) = angle.sin_cos();
-        (BETA * (cos - 1.0)).exp() * (2.0 * PI * frequency * reach * sin).cos() * cos
+        let (sin, cosine) = sincos(angle);
+        exp(BETA * (cosine - 1.0)) * cos(2.0 * PI * frequency * reach * sin) * cosine
     });
     terms.sum::<f64>() * reach * PI / NODES as f64
 }

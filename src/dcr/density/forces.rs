@@ -9,6 +9,7 @@ use glam::Vec2;
 
 use crate::dcr::ground::constraints::{Constraints, Force};
 use crate::geometry::circumcircle::scaled_circumcentre;
+use crate::math::square;
 
 /// A neighbour in the ring around a point: its offset and its local spacing.
 #[derive(Clone, Copy)]
@@ -45,7 +46,7 @@ fn pull(constraints: &Constraints, least: f32, a: Vec2, b: Vec2, density_at: imp
     let area = a.perp_dot(b);
     // The circumradius is the product of the edges over twice this area.
     let edges = a.length_squared() * b.length_squared() * a.distance_squared(b);
-    if edges <= (2.0 * least * constraints.coverage_radius * area).powi(2) {
+    if edges <= square(2.0 * least * constraints.coverage_radius * area) {
         return Vec2::ZERO;
     }
     let centre = scaled_circumcentre(a, b) / (2.0 * area);

@@ -12,6 +12,7 @@ use crate::dcr::ground::torus::{Torus, TorusPoint};
 use crate::dcr::ground::waves::{Field, LONG_WAVES, WaveGrid};
 use crate::error::Result;
 use crate::job::{Job, chunks};
+use crate::math::{log2, scalbn};
 
 /// The finest grid has at most the square of this times the nodes of that for a constant density.
 const FINEST: f64 = 3.0;
@@ -43,10 +44,10 @@ impl OctaveGrids {
         let finest = least.max(1.0 / FINEST);
         // Beyond the size of the torus there are no waves.
         let largest = largest.min(torus.frame.size().max_element());
-        let octaves = (largest / finest).max(1.0).log2().ceil() as usize;
+        let octaves = log2((largest / finest).max(1.0)).ceil() as usize;
         let mut grids = Vec::new();
         for octave in 0..=octaves {
-            let spacing = finest * 2f64.powi(octave as i32);
+            let spacing = finest * scalbn(1.0, octave as i32);
             let waves = WaveGrid::of_spacing(torus, count, NODES * spacing);
             let weights = raster.weights(torus, spacing / WEIGHTS, count as f64);
             let (places, weights): (Vec<TorusPoint>, Vec<f64>) = weights.into_iter().unzip();
@@ -75,7 +76,7 @@ impl OctaveGrids {
     }
 
     fn read(&self, fields: &[Field], place: TorusPoint, spacing: f32) -> Vec2 {
-        let octave = (f64::from(spacing) / self.finest).log2().clamp(0.0, (self.grids.len() - 1) as f64);
+        let octave = log2(f64::from(spacing) / self.finest).clamp(0.0, (self.grids.len() - 1) as f64);
         let (fine, share) = (octave as usize, octave.fract() as f32);
         let coarse = (fine + 1).min(self.grids.len() - 1);
         let at = |octave: usize| self.grids[octave].waves.read(&fields[octave], place);

@@ -8,7 +8,7 @@
 use glam::Vec2;
 
 use crate::dcr::density::source::{Density, is_density};
-use crate::dcr::ground::torus::{HALF, Torus, TorusPoint};
+use crate::dcr::ground::torus::{HALF, TURN, Torus, TorusPoint};
 use crate::error::{Error, Result};
 use crate::job::{Job, chunks_of};
 use crate::memory;
@@ -163,7 +163,7 @@ impl Raster {
     fn interpolate(&self, values: &[f32], place: TorusPoint) -> f32 {
         let [x, y] = [0, 1].map(|axis| {
             let share = match self.domain.boundary {
-                Boundary::Periodic => f64::from(place[axis]) / 2f64.powi(32),
+                Boundary::Periodic => f64::from(place[axis]) / TURN,
                 Boundary::Bounded => f64::from(place[axis].min(place[axis].wrapping_neg())) / f64::from(HALF),
             };
             Between::of(share, self.cells[axis], self.domain.boundary)
@@ -221,7 +221,7 @@ impl Raster {
     /// The point on the torus at a fraction of the width and of the height.
     pub(super) fn place(&self, share: [f64; 2]) -> TorusPoint {
         let period = match self.domain.boundary {
-            Boundary::Periodic => 2f64.powi(32),
+            Boundary::Periodic => TURN,
             Boundary::Bounded => f64::from(HALF),
         };
         share.map(|share| (share * period) as u64 as u32)

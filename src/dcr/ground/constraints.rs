@@ -9,6 +9,7 @@
 use glam::Vec2;
 
 use crate::geometry::circumcircle::scaled_circumcentre;
+use crate::math::square;
 
 /// The fraction of its last displacement that a point repeats in a step.
 pub(in crate::dcr) const MOMENTUM: f32 = 0.78;
@@ -68,7 +69,7 @@ impl Constraints {
             least = if height.0 * least.1 < least.0 * height.1 { height } else { least };
             sum += self.push(offset, squared);
             // The circumradius is the product of the edges over four times the area.
-            if before_squared * squared * opposite > (2.0 * self.coverage_radius * area).powi(2) {
+            if before_squared * squared * opposite > square(2.0 * self.coverage_radius * area) {
                 sum += self.pull(before, offset, area);
             }
             (before, before_squared) = (offset, squared);

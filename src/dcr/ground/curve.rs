@@ -31,6 +31,11 @@ impl CurveOrder {
         self.order.len()
     }
 
+    /// The user's index of a point.
+    pub(in crate::dcr) fn user(&self, point: u32) -> usize {
+        self.order[point as usize] as usize
+    }
+
     /// Where the points began.
     pub(in crate::dcr) fn start(&self) -> &[TorusPoint] {
         &self.start

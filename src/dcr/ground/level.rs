@@ -15,7 +15,7 @@ use crate::error::Result;
 use crate::job::{Job, chunks};
 
 /// What is too much for forces.
-struct Bounds {
+pub(in crate::dcr) struct Bounds {
     /// The longest displacement of a point, in spacings, or in cells of the grid if these are wider.
     farthest: f32,
     /// The highest density over the mean.
@@ -24,10 +24,10 @@ struct Bounds {
 
 /// Sets beyond these bounds are heaped. A million uniform random points are moved by 3.3 and have a density of 3.6; only
 /// on domains that are very long for their width they may be moved farther.
-const HEAPED: Bounds = Bounds { farthest: 4.0, densest: 5.0 };
+pub(in crate::dcr) const HEAPED: Bounds = Bounds { farthest: 4.0, densest: 5.0 };
 
 /// Heaped sets are levelled until they are within these bounds: from there they need no more time than random sets.
-const LEVEL: Bounds = Bounds { farthest: 0.75, densest: 2.0 };
+pub(in crate::dcr) const LEVEL: Bounds = Bounds { farthest: 0.75, densest: 2.0 };
 
 /// A set is also heaped if so many points that follow each other on the curve are within [`CROWDED`] spacings: too small
 /// a heap for the grid to show, but forces would not get such points apart. Coincident points, once they are parted, are
@@ -48,19 +48,20 @@ struct Excess {
     density: f32,
 }
 
-/// A heaped set after it was levelled, parted so that no two points coincide; `places` are its points in the order of
-/// the curve, and after them their images. None if the set is not heaped.
+/// A set beyond `bounds` after it was levelled, parted so that no two points coincide; `places` are its points in the
+/// order of the curve, and after them their images. None if the set is within the bounds.
 pub(in crate::dcr) fn leveled(
     job: &Job,
     torus: &Torus,
     waves: &WaveGrid,
     places: &[TorusPoint],
+    bounds: &Bounds,
     seed: u64,
 ) -> Result<Option<Vec<TorusPoint>>> {
     let count = places.len() / torus.copies();
     let cell = waves.cell().as_vec2().max_element().max(1.0);
     let longest = torus.frame.size().as_vec2() / 4.0;
-    let mut bounds = HEAPED;
+    let mut bounds = bounds;
     let mut leveled: Option<Vec<TorusPoint>> = None;
     for pass in 0..PASSES {
         let share = |pass: usize| pass as f64 / PASSES as f64;
@@ -72,7 +73,7 @@ pub(in crate::dcr) fn leveled(
         if !excess.iter().any(is_beyond) && !has_crowd(torus, &now[..count]) {
             break;
         }
-        bounds = LEVEL;
+        bounds = &LEVEL;
         let moved =
             |(&place, excess): (&TorusPoint, &Excess)| torus.moved(place, excess.displacement.clamp(-longest, longest));
         let moved: Vec<TorusPoint> = now.iter().zip(&excess).map(moved).collect();
@@ -126,7 +127,7 @@ mod tests {
         let start = torus.with_images(CurveOrder::new(&torus, &points, 1).start());
         let waves = WaveGrid::new(&torus, None, count);
         let [one, three] = [1, 3].map(|threads| {
-            Context::new(threads).unwrap().run(None, |job| leveled(job, &torus, &waves, &start, 1)).unwrap()
+            Context::new(threads).unwrap().run(None, |job| leveled(job, &torus, &waves, &start, &HEAPED, 1)).unwrap()
         });
         assert_eq!(one, three);
         one.map(|places| places.iter().map(|&place| torus.leave(place).map(f64::from)).collect())

@@ -18,6 +18,8 @@ pub(in crate::dcr) type TorusPoint = [u32; 2];
 
 /// Half a period: the far boundary of a domain that is mirrored.
 pub(in crate::dcr) const HALF: u32 = 1 << 31;
+/// A whole one.
+pub(in crate::dcr) const TURN: f64 = (1u64 << 32) as f64;
 
 /// Points of a bounded domain keep this distance from its boundary, so that none meets its mirror image.
 const INSET: u32 = 16;
@@ -69,7 +71,7 @@ impl Torus {
             per_spacing: Vec2::ONE,
         };
         torus.frame = Frame::new(whole, count * torus.copies());
-        torus.unit = torus.frame.size() / 2f64.powi(32);
+        torus.unit = torus.frame.size() / TURN;
         torus.per_spacing = torus.unit.recip().as_vec2();
         torus
     }

@@ -11,12 +11,13 @@ use std::sync::Arc;
 
 use glam::{DVec2, Vec2};
 use rustfft::num_complex::Complex;
-use rustfft::{Fft, FftPlanner};
+use rustfft::{Fft, FftPlannerScalar};
 
 use crate::dcr::ground::boundary::MirrorBoundary;
-use crate::dcr::ground::torus::{Torus, TorusPoint};
+use crate::dcr::ground::torus::{TURN, Torus, TorusPoint};
 use crate::error::Result;
 use crate::job::{Job, chunks, chunks_of};
+use crate::math::{exp, power, sin};
 
 /// Waves are removed up to this frequency, in units of sqrt(density), once points have settled.
 pub(in crate::dcr) const LONG_WAVES: f64 = 0.25;
@@ -58,7 +59,7 @@ impl WaveGrid {
         let limit = (count + 8) as f64 / spacing;
         let along = |length: f64| smooth((length / (CELL * spacing)).ceil().min(limit) as usize);
         let cells = torus.frame.size().to_array().map(along);
-        let mut planner = FftPlanner::new();
+        let mut planner = FftPlannerScalar::new();
         let forward = cells.map(|count| planner.plan_fft_forward(count));
         let back = cells.map(|count| planner.plan_fft_inverse(count));
         Self { torus: *torus, boundary: None, cells, forward, back }
@@ -118,7 +119,7 @@ impl WaveGrid {
         let [width, height] = self.cells;
         let along = |axis: usize| {
             let scaled = u64::from(place[axis]) * self.cells[axis] as u64;
-            let t = scaled as u32 as f32 / 2f32.powi(32);
+            let t = scaled as u32 as f32 / TURN as f32;
             let u = 1.0 - t;
             let inner = |x: f32| ((3.0 * x - 6.0) * x * x + 4.0) / 6.0;
             ((scaled >> 32) as usize + self.cells[axis] - 1, [u * u * u / 6.0, inner(t), inner(u), t * t * t / 6.0])
@@ -189,7 +190,7 @@ impl WaveGrid {
                         // Through the spline, as points are drawn.
                         *wave -= (boundary.wave([x.turns, y.turns]) * f64::sqrt(x.spline * y.spline)) as f32;
                     }
-                    let share = (-relative.powi(4)).exp() / (x.spline * y.spline).max(0.01) / count as f64;
+                    let share = exp(-power(relative, 4)) / (x.spline * y.spline).max(0.01) / count as f64;
                     let integral = DVec2::new(k.y, -k.x) * (share / k.length_squared());
                     *wave *= Complex::new(integral.x as f32, integral.y as f32);
                 }
@@ -212,7 +213,7 @@ impl WaveGrid {
         let bin = |bin: i64| {
             let turns = if 2 * bin > cells { bin - cells } else { bin };
             let half = PI * turns as f64 / cells as f64;
-            let spline = if bin == 0 { 1.0 } else { (half.sin() / half).powi(8) };
+            let spline = if bin == 0 { 1.0 } else { power(sin(half) / half, 8) };
             Bin { turns, number: TAU * turns as f64 / length, spline }
         };
         (0..cells).map(bin).collect()

@@ -113,6 +113,7 @@ fn number(x: u64, y: u64, z: u64) -> u64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::rng::{Draw, Rng};
 
     #[test]
     fn positions_much_farther_than_cells_are_wide_are_found() {
@@ -126,7 +127,6 @@ mod tests {
             }
         }
     }
-    use crate::rng::{Draw, Rng};
 
     #[test]
     fn all_that_is_near_is_found_once_wherever_it_was_put() {

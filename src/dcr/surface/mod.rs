@@ -34,6 +34,7 @@ mod options;
 mod patches;
 mod relax;
 mod relaxation;
+mod remeshing;
 mod samples;
 mod spread;
 mod triangles;
@@ -45,4 +46,5 @@ mod welding;
 
 pub use options::{Options, Report};
 pub use relax::relax;
+pub use remeshing::{RemeshReport, remesh};
 pub use triangles::{Triangulation, triangulate};

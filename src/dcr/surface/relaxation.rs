@@ -15,6 +15,7 @@ use crate::dcr::surface::walk::SurfacePoint;
 use crate::error::Result;
 use crate::geometry::grid3;
 use crate::job::Job;
+use crate::math::power;
 use crate::mesh::{Mesh, exact};
 use crate::simd::Level;
 
@@ -23,7 +24,7 @@ const STRIDE: f32 = 0.4;
 
 /// The factor of that from step to step when constraints no longer grow stiffer. Where the curvature is high for the
 /// density of the samples, the forces of two of them on each other are not opposite, and they would never come to rest.
-const CALMING: f32 = 0.9;
+const CALMING: f64 = 0.9;
 
 /// The largest distance by which positions change in a step, in spacings: the stride, and rounding.
 pub(super) const FARTHEST: f32 = 0.41;
@@ -159,7 +160,7 @@ impl<'a> SurfaceRelaxation<'a> {
             floor,
             constraints: Constraints::of_step(self.iterations),
             limits: Limits::of_step(self.iterations, floor),
-            stride: STRIDE * CALMING.powi(self.iterations.saturating_sub(STIFFENING) as i32),
+            stride: STRIDE * power(CALMING, self.iterations.saturating_sub(STIFFENING)) as f32,
             rest: rest(self.iterations),
         };
         let movers = self.movers.chunks_mut(CHUNK).zip(locals.chunks_mut(CHUNK));

@@ -45,6 +45,21 @@ pub fn triangulate(
     barycentrics: &[[f32; 2]],
     progress: Option<&Progress>,
 ) -> Result<Triangulation> {
+    let found = found_corners(context, mesh, triangles, barycentrics, progress)?;
+    let agreed = found.chunk_by(|a, b| a.sorted == b.sorted).filter(|corners| corners.len() == 3);
+    let triangles: Vec<[u32; 3]> = agreed.map(|corners| corners[0].turned).collect();
+    let agreement = if found.is_empty() { 1.0 } else { 3.0 * triangles.len() as f64 / found.len() as f64 };
+    Ok(Triangulation { triangles, agreement })
+}
+
+/// The triangles of all stars, each as often as it has corners that found it, one after the other.
+pub(super) fn found_corners(
+    context: &Context,
+    mesh: &Mesh,
+    triangles: &[u32],
+    barycentrics: &[[f32; 2]],
+    progress: Option<&Progress>,
+) -> Result<Vec<Corner>> {
     check(mesh, triangles, barycentrics)?;
     let connected = ConnectedMesh::new(mesh)?;
     let spacing = hexagonal_distance(mesh, triangles.len());
@@ -83,20 +98,17 @@ pub fn triangulate(
         })
     })?;
     found.sort_unstable();
-    let agreed = found.chunk_by(|a, b| a.sorted == b.sorted).filter(|corners| corners.len() == 3);
-    let triangles: Vec<[u32; 3]> = agreed.map(|corners| corners[0].turned).collect();
-    let agreement = if found.is_empty() { 1.0 } else { 3.0 * triangles.len() as f64 / found.len() as f64 };
-    Ok(Triangulation { triangles, agreement })
+    Ok(found)
 }
 
 /// A triangle as found by one of its corners.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-struct Corner {
-    sorted: [u32; 3],
+pub(super) struct Corner {
+    pub(super) sorted: [u32; 3],
     /// Whether it was found by another corner than the first.
     is_other: bool,
     /// The corners counter-clockwise, the lowest number first.
-    turned: [u32; 3],
+    pub(super) turned: [u32; 3],
 }
 
 impl Corner {

@@ -9,6 +9,7 @@ use crate::error::Result;
 use crate::geometry::frame::{Frame, Site};
 use crate::geometry::grid2::Grid2;
 use crate::job::{Job, chunks};
+use crate::math::square;
 use crate::points::{Boundary, Domain};
 
 /// The points and their copies in a grid, and the reach of each point's neighbourhood.
@@ -59,7 +60,7 @@ fn reach(grid: &Grid2, sites: &[Site], point: usize, radius: f64, count: usize, 
     if nearest.len() < count {
         return f64::INFINITY;
     }
-    (nearest.select_nth_unstable_by(count - 1, f64::total_cmp).1.sqrt() + ROUNDING).powi(2)
+    square(nearest.select_nth_unstable_by(count - 1, f64::total_cmp).1.sqrt() + ROUNDING)
 }
 
 impl Links for NearestLinks {

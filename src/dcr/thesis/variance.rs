@@ -8,6 +8,7 @@ use crate::error::Result;
 use crate::geometry::frame::Frame;
 use crate::geometry::grid2::Grid2;
 use crate::job::{Job, chunks};
+use crate::math::square;
 use crate::points::Domain;
 
 /// The largest relative change in a step at which the variance rests.
@@ -60,7 +61,7 @@ fn nearest_distances(job: &Job, frame: &Frame, positions: &[DVec2]) -> Result<Ve
 fn variance(values: &[f64]) -> f64 {
     let count = values.len() as f64;
     let mean = values.iter().sum::<f64>() / count;
-    values.iter().map(|value| (value - mean).powi(2)).sum::<f64>() / count
+    values.iter().map(|value| square(value - mean)).sum::<f64>() / count
 }
 
 #[cfg(test)]

@@ -16,12 +16,13 @@ use crate::dcr::uniform::stars::{Gathered, LANES, Visitor};
 use crate::dcr::uniform::vectors::gather_in_cells;
 use crate::error::Result;
 use crate::job::{Job, chunks};
+use crate::math::direction;
 use crate::rng::{Draw, Rng};
 use crate::simd::Level;
 
 /// The clearance, in spacings, below which a point in conflict is jammed: several such points all but on a line keep each
 /// other in flat triangles, in which none of them gets anywhere.
-const JAMMED: f32 = 0.02;
+pub(super) const JAMMED: f32 = 0.02;
 
 /// Finds the neighbours of each point.
 pub(super) enum NeighbourSearch {
@@ -72,12 +73,11 @@ pub(super) struct Kick {
 /// The length of a kick, in spacings.
 const KICK: f32 = 0.03;
 
-impl Kick {
-    #[cold]
-    fn displacement(&self, point: usize) -> Vec2 {
-        let mut rng = Rng::at(self.number.into(), Draw::Kick, &[point as u64]);
-        KICK * Vec2::from_angle((std::f64::consts::TAU * rng.unit()) as f32)
-    }
+/// The displacement of a point by a kick, keyed by its number.
+#[cold]
+pub(super) fn kick(number: u32, point: usize) -> Vec2 {
+    let mut rng = Rng::at(number.into(), Draw::Kick, &[point as u64]);
+    KICK * direction(std::f64::consts::TAU * rng.unit()).as_vec2()
 }
 
 /// The findings while points gathered.
@@ -160,7 +160,7 @@ impl Step<'_> {
 
 /// A vector, cut to a length.
 #[inline(always)]
-fn limited(vector: Vec2, limit: f32) -> Vec2 {
+pub(super) fn limited(vector: Vec2, limit: f32) -> Vec2 {
     let squared = vector.x * vector.x + vector.y * vector.y;
     let scale = if squared > limit * limit { limit / squared.sqrt() } else { 1.0 };
     Vec2::new(vector.x * scale, vector.y * scale)
@@ -216,7 +216,7 @@ impl Visitor for Gathering<'_> {
                 if !(is_jammed || kick.is_for_all) {
                     continue;
                 }
-                let kicked = kick.displacement(points.start + lane);
+                let kicked = self::kick(kick.number, points.start + lane);
                 force[0][lane] += kicked.x;
                 force[1][lane] += kicked.y;
                 if is_jammed {

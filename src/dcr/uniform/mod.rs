@@ -9,11 +9,12 @@
 //!   ones;
 //! * the boundary of a bounded domain is a mirror in which points do not see themselves (`ground/boundary.rs`);
 //! * constraints grow stiffer: soft ones let the set stay irregular while it spreads, stiff ones leave no violations;
-//! * points that block each other for good are kicked;
+//! * points that block each other for good are kicked, and those that flat triangles jam move as if in no mesh;
 //! * the triangulation is kept and repaired by flips (`flip_mesh`). Where it cannot be, with a few points or large
 //!   holes, it is built anew in every step.
 
 mod cells;
+mod classes;
 mod flip_mesh;
 mod gather;
 mod relaxation;
@@ -23,4 +24,5 @@ mod tiles;
 #[allow(unsafe_code)] // Vector instructions.
 mod vectors;
 
+pub(super) use classes::ClassRelaxation;
 pub(super) use relaxation::UniformRelaxation;

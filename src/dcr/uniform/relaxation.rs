@@ -7,7 +7,7 @@ use glam::Vec2;
 use crate::dcr::ground::boundary::MirrorBoundary;
 use crate::dcr::ground::constraints::Constraints;
 use crate::dcr::ground::curve::CurveOrder;
-use crate::dcr::ground::level::leveled;
+use crate::dcr::ground::level::{HEAPED, leveled};
 use crate::dcr::ground::motion::{Motion, STEP};
 use crate::dcr::ground::neighbours::Neighbours;
 use crate::dcr::ground::torus::{Torus, TorusPoint};
@@ -24,7 +24,7 @@ use crate::points::Domain;
 use crate::simd::Level;
 
 /// The number of steps from one removal of waves to the next.
-const WAVES_EVERY: u32 = 5;
+pub(super) const WAVES_EVERY: u32 = 5;
 
 /// Waves are removed up to this frequency, in units of sqrt(density), until the points have spread. That includes finer
 /// waves than low frequencies: it fills holes that the constraints do not see, with nearest neighbours in all steps.
@@ -36,11 +36,11 @@ const COARSENING: Range<u32> = 60..85;
 
 /// The number of steps from one kick to the next, and the step of the last. Points whose constraints are violated are
 /// kicked: where points block each other for good, this moves one of them out.
-const KICK_EVERY: u32 = 8;
-const LAST_KICK: u32 = 56;
+pub(super) const KICK_EVERY: u32 = 8;
+pub(super) const LAST_KICK: u32 = 56;
 
 /// The first kick that frees jammed points, after which the mesh is made anew. Until then most get free by themselves.
-const FIRST_FREE: u32 = 24;
+pub(super) const FIRST_FREE: u32 = 24;
 
 /// The fraction of the points above which violations are not exceptions: only jammed points are kicked, and waves act at
 /// the boundary too.
@@ -131,13 +131,6 @@ impl UniformRelaxation {
         }
     }
 
-    /// The frequency up to which waves are removed in this step.
-    fn highest_wave(&self) -> f64 {
-        let done = self.iterations.clamp(COARSENING.start, COARSENING.end) - COARSENING.start;
-        let share = f64::from(done) / f64::from(COARSENING.end - COARSENING.start);
-        FINE_WAVES + (LONG_WAVES - FINE_WAVES) * share
-    }
-
     /// Takes the next state, and keeps the one before if no other had fewer violated constraints.
     fn keep(&mut self, next: State, violated: Option<usize>) {
         self.next = std::mem::replace(&mut self.state, next);
@@ -169,9 +162,16 @@ impl UniformRelaxation {
     }
 }
 
+/// The frequency up to which waves are removed after so many steps.
+pub(super) fn highest_wave(iterations: u32) -> f64 {
+    let done = iterations.clamp(COARSENING.start, COARSENING.end) - COARSENING.start;
+    let share = f64::from(done) / f64::from(COARSENING.end - COARSENING.start);
+    FINE_WAVES + (LONG_WAVES - FINE_WAVES) * share
+}
+
 impl Relaxation for UniformRelaxation {
     fn begin(&mut self, job: &Job) -> Result<()> {
-        if let Some(leveled) = leveled(job, &self.torus, &self.waves, &self.state.places, self.seed)? {
+        if let Some(leveled) = leveled(job, &self.torus, &self.waves, &self.state.places, &HEAPED, self.seed)? {
             let places;
             (self.order, places) = self.order.reordered(&leveled);
             self.state.places = self.torus.with_images(&places);
@@ -183,7 +183,7 @@ impl Relaxation for UniformRelaxation {
     fn step(&mut self, job: &Job) -> Result<()> {
         let count = self.order.len();
         let mut drift = match self.iterations.is_multiple_of(WAVES_EVERY) {
-            true => self.waves.drift(&job.part(0.0, 0.2), &self.state.places, count, self.highest_wave())?,
+            true => self.waves.drift(&job.part(0.0, 0.2), &self.state.places, count, highest_wave(self.iterations))?,
             false => Vec::new(),
         };
         if let Some(boundary) = &self.boundary

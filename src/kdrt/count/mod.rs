@@ -11,14 +11,18 @@ mod search;
 mod thin;
 mod tune;
 
+use std::sync::Arc;
+
 use crate::error::{Error, Result};
 use crate::job::{Context, Job, Progress};
+use crate::order::Order;
 use crate::plane::lattice::Lattice;
 use crate::points::{Boundary, Domain};
 use crate::rng::{Draw, hash};
 use crate::setters::setters;
 
-use crate::kdrt::options::{DEFAULT_LEAF_SIZE, check_leaf_size};
+use crate::kdrt::options::{DEFAULT_LEAF_SIZE, DEFAULT_QUOTIENT, Options, check_ladder, check_leaf_size};
+use crate::kdrt::progressive::{self, Ranked};
 use crate::kdrt::sample::sample_lattice;
 use search::Search;
 use thin::thin;
@@ -46,16 +50,40 @@ pub struct CountOptions {
     pub leaf_size: f64,
     /// The same options and seed give the same samples.
     pub seed: u64,
+    /// The order of the samples, as in [`Options`](super::Options). In progressive order the sets of all counts are
+    /// prefixes of each other.
+    pub order: Order,
+    /// Of a progressive order, as in [`Options`](super::Options).
+    pub quotient: f64,
+    /// Of a progressive order: the radius of the coarsest level, which must not have more samples than asked for.
+    /// Infinity, the default, or any that is longer than the diagonal of the domain, stands for this diagonal.
+    pub coarsest: f64,
 }
 
 impl CountOptions {
-    /// So many samples on the unit torus, with leaves of [`DEFAULT_LEAF_SIZE`] and seed 0.
+    /// So many samples on the unit torus, with leaves of [`DEFAULT_LEAF_SIZE`], seed 0 and in any order.
     pub fn new(count: u64) -> Self {
-        Self { count, domain: Domain::unit(Boundary::Periodic), leaf_size: DEFAULT_LEAF_SIZE, seed: 0 }
+        Self {
+            count,
+            domain: Domain::unit(Boundary::Periodic),
+            leaf_size: DEFAULT_LEAF_SIZE,
+            seed: 0,
+            order: Order::Any,
+            quotient: DEFAULT_QUOTIENT,
+            coarsest: f64::INFINITY,
+        }
     }
 }
 
-setters!(CountOptions { count: u64, domain: Domain, leaf_size: f64, seed: u64 });
+setters!(CountOptions {
+    count: u64,
+    domain: Domain,
+    leaf_size: f64,
+    seed: u64,
+    order: Order,
+    quotient: f64,
+    coarsest: f64,
+});
 
 /// What [`sample_count`] achieved.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -63,7 +91,8 @@ setters!(CountOptions { count: u64, domain: Domain, leaf_size: f64, seed: u64 })
 pub struct CountReport {
     /// The radius: no two samples are closer.
     pub radius: f64,
-    /// Whether the set is maximal for this radius. Always true where a maximal set of so many samples was found.
+    /// Whether the set is maximal for this radius. True where a maximal set of so many samples was found; false in
+    /// progressive order, where the domain is covered within the quotient times the radius.
     pub is_maximal: bool,
 }
 
@@ -73,6 +102,8 @@ pub struct CountReport {
 pub struct Counted {
     /// The samples: as many as asked for.
     pub samples: Vec<[f32; 2]>,
+    /// Their ranks, as in [`Ranked`]; empty in any order.
+    pub ranks: Vec<f32>,
     /// Their radius.
     pub report: CountReport,
 }
@@ -90,8 +121,12 @@ pub struct Counted {
 /// larger set are dropped and the report says that the set is not maximal. How far the domain is from the samples
 /// exactly says [`covering_radius_2d`](crate::analysis::coverage::covering_radius_2d).
 ///
-/// The samples are in the order of [`sample`](super::sample), with those made anew in the places of others. The same
-/// for every number of threads. O(n) like [`sample`](super::sample), which is called once or a few times.
+/// In progressive order the samples are the first ones of a set whose coarsest radius depends on the domain only
+/// ([`CountOptions::coarsest`]), so that sets of smaller counts are prefixes; the radius in the report is the last
+/// rank.
+///
+/// In any order the samples are in that of [`sample`](super::sample), with those made anew in the places of others. The
+/// same for every number of threads. O(n) like [`sample`](super::sample), which is called once or a few times.
 ///
 /// # Errors
 /// [`Error::InvalidArgument`] for an argument out of range, and for `count` where floats are too coarse for the radius
@@ -106,7 +141,22 @@ pub fn sample_count(context: &Context, options: &CountOptions, progress: Option<
     }
     let search = Search::new(&domain, leaf_size, count);
     lattice(options, search.radius())?;
+    if options.order == Order::Progressive {
+        check_ladder(options.quotient, options.coarsest, 0.0)?;
+        progressive::require_memory(count as f64, "count")?;
+        return context.run(progress, |job| first_of_order(job, options));
+    }
     context.run(progress, |job| attempt(job, options, search, ATTEMPTS))
+}
+
+/// The first samples of a progressive order.
+fn first_of_order(job: &Job, options: &CountOptions) -> Result<Counted> {
+    let &CountOptions { count, domain, leaf_size, seed, quotient, coarsest, .. } = options;
+    let levels = Options { leaf_size, seed, quotient, coarsest, ..Options::new(f64::NAN).domain(domain) };
+    let Ranked { samples, ranks } =
+        progressive::sample_count(job, &levels, count as usize).map_err(|error| of_count(error, count))?;
+    let radius = ranks.last().copied().map_or(0.0, f64::from);
+    Ok(Counted { samples, ranks, report: CountReport { radius, is_maximal: false } })
 }
 
 /// Makes sets of several radii until one can be tuned; after `limit` of them a larger one will do.
@@ -122,7 +172,7 @@ fn attempt(job: &Job, options: &CountOptions, mut search: Search, limit: u64) ->
         attempts += 1;
         let radius = search.radius();
         let lattice = lattice(options, radius)?;
-        let mut samples = sample_lattice(&job.part(0.0, SAMPLING_SHARE), &lattice, leaf_size, seed)
+        let mut samples = sample_lattice(&job.part(0.0, SAMPLING_SHARE), &lattice, leaf_size, seed, Arc::default())
             .map_err(|error| of_count(error, count))?;
         let made = samples.len() as u64;
         if search.is_near(made) {
@@ -130,7 +180,7 @@ fn attempt(job: &Job, options: &CountOptions, mut search: Search, limit: u64) ->
         }
         let difference = samples.len() as i64 - count as i64;
         if difference == 0 {
-            return Ok(Counted { samples, report: CountReport { radius, is_maximal: true } });
+            return Ok(Counted { samples, ranks: Vec::new(), report: CountReport { radius, is_maximal: true } });
         }
         search.correct(made);
         if difference > 0 && closest.as_ref().is_none_or(|(_, closest)| samples.len() < closest.len()) {
@@ -140,7 +190,7 @@ fn attempt(job: &Job, options: &CountOptions, mut search: Search, limit: u64) ->
             && let Some((radius, samples)) = closest.take()
         {
             let samples = thin(&options.domain, samples, count as usize);
-            return Ok(Counted { samples, report: CountReport { radius, is_maximal: false } });
+            return Ok(Counted { samples, ranks: Vec::new(), report: CountReport { radius, is_maximal: false } });
         }
     }
 }
@@ -175,7 +225,7 @@ mod tests {
         for (count, seed) in (2..12).flat_map(|count| (0..30).map(move |seed| (count, seed))) {
             let options = CountOptions::new(count).domain(domain).seed(seed);
             let search = Search::new(&domain, options.leaf_size, count);
-            let Counted { samples, report } = context.run(None, |job| attempt(job, &options, search, 1)).unwrap();
+            let Counted { samples, report, .. } = context.run(None, |job| attempt(job, &options, search, 1)).unwrap();
             assert_eq!(samples.len() as u64, count);
             let smallest = crate::analysis::spacing::smallest_distance_2d(&context, &domain, &samples, None).unwrap();
             let farthest = crate::analysis::coverage::covering_radius_2d(&context, &domain, &samples, None).unwrap();

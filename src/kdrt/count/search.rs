@@ -1,5 +1,6 @@
 //! The radius of a maximal set with a given number of samples, from the density of such sets and from what was made.
 
+use crate::math::{exp, hypot, log};
 use crate::points::MAXIMAL_DENSITY;
 use crate::points::{Boundary, Domain};
 
@@ -30,7 +31,7 @@ impl Search {
         let [width, height] = domain.extent();
         let count = count as f64;
         let mut low = (MAXIMAL_DENSITY * (width / count) * height).sqrt();
-        let mut high = width.hypot(height).max(low);
+        let mut high = hypot(width, height).max(low);
         while high > low * (1.0 + 1e-12) {
             let middle = (low * high).sqrt();
             if middle <= low || middle >= high {
@@ -53,13 +54,13 @@ impl Search {
 
     /// Goes on to the radius that `made`, the number of samples made with the last one, lets expect.
     pub fn correct(&mut self, made: u64) {
-        let here = [self.radius.ln(), (made as f64).ln()];
+        let here = [log(self.radius), log(made as f64)];
         // Counts fall with the square of the radius, on thin domains with the radius; anything else is chance.
         let slope = match self.last {
             Some(last) if here[0] != last[0] => ((here[1] - last[1]) / (here[0] - last[0])).clamp(-2.0, -1.0),
             _ => -2.0,
         };
-        self.radius = (here[0] + (self.count.ln() - here[1]) / slope).exp();
+        self.radius = exp(here[0] + (log(self.count) - here[1]) / slope);
         self.last = Some(here);
     }
 }

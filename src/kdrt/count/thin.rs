@@ -1,5 +1,6 @@
 //! Elimination of samples: where no maximal set has the wanted number.
 
+use crate::math::hypot;
 use crate::points::Domain;
 
 /// Drops those samples that have the nearest neighbours, one after the other, until `count` are left. For a handful of
@@ -7,7 +8,7 @@ use crate::points::Domain;
 pub(super) fn thin(domain: &Domain, mut samples: Vec<[f32; 2]>, count: usize) -> Vec<[f32; 2]> {
     let distance = |a: [f32; 2], b: [f32; 2]| {
         let [dx, dy] = domain.offset(a.map(f64::from), b.map(f64::from));
-        dx.hypot(dy)
+        hypot(dx, dy)
     };
     while samples.len() > count {
         let others = |i: usize| (0..samples.len()).filter(move |&j| j != i);

@@ -10,6 +10,7 @@ use std::cmp::Reverse;
 
 use crate::error::Result;
 use crate::job::{Job, chunks_of};
+use crate::math::power;
 use crate::plane::lattice::Lattice;
 use crate::plane::rect::Rect;
 use crate::plane::{CellAxis, CellGrid, Quadtree};
@@ -55,7 +56,7 @@ pub(super) fn tune(job: &Job, lattice: &Lattice, samples: &mut Vec<[f32; 2]>, co
         if missing == 0 {
             break;
         }
-        let job = job.part(1.0 - 0.5f64.powi(round as i32), 1.0 - 0.5f64.powi(round as i32 + 1));
+        let job = job.part(1.0 - power(0.5, round as u32), 1.0 - power(0.5, round as u32 + 1));
         let mut superfluous = Vec::new();
         for change in changes(&job, lattice, samples, missing, hash(seed, Draw::Tune, &[round]))? {
             if change.helps(missing) {
@@ -149,7 +150,7 @@ fn resample(lattice: &Lattice, plot: &Plot, samples: &[[f32; 2]], members: &[usi
     let all = (cells.min[1]..cells.max[1]).flat_map(|y| (cells.min[0]..cells.max[0]).map(move |x| [x, y]));
     let empty: Vec<_> = all.filter(|&cell| grid.sample(cell).is_none()).collect();
     let mut quadtree = Quadtree::new(&grid, open, empty);
-    quadtree.fill(&mut grid, &mut rng, |point| change.added.push(plot.outward(point)));
+    quadtree.fill(&mut grid, &mut rng, |_, point| change.added.push(plot.outward(point)));
     #[cfg(test)]
     grid.sanity_check();
     change

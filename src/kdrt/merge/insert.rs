@@ -61,8 +61,8 @@ impl Gaps<'_> {
             let rows = blocks.of_parity(&phase, 1, parity[1]);
             for ((row, y), &(column, x)) in rows.flat_map(|row| columns.iter().map(move |column| (row, column))) {
                 let rect = Rect { min: [x[0], y[0]], max: [x[1], y[1]] };
-                let (mut quadtree, mut rng) = (uncovered(&grid, &rect), blocks.rng([column, row]));
-                quadtree.fill(&mut grid, &mut rng, |sample| {
+                let (mut quadtree, mut rng) = (Quadtree::of_empty_cells(&grid, rect), blocks.rng([column, row]));
+                quadtree.fill(&mut grid, &mut rng, |_, sample| {
                     if inside.contains(sample) {
                         samples.push(self.lattice.position(sample));
                     }
@@ -79,7 +79,8 @@ impl Gaps<'_> {
         self.survivors_in(&all, |point| grid.insert(grid.cell(point), point));
         let mut samples = Vec::new();
         let accepted = |sample| samples.push(self.lattice.position(sample));
-        uncovered(&grid, &all).rain(job, &mut grid, &mut rng, self.lattice.expected_samples(), accepted)?;
+        let expected = self.lattice.expected_samples();
+        Quadtree::of_empty_cells(&grid, all).rain(job, &mut grid, &mut rng, expected, accepted)?;
         Ok(samples)
     }
 
@@ -97,13 +98,6 @@ impl Gaps<'_> {
             }
         }
     }
-}
-
-/// What of the empty cells no sample covers in `rect`.
-fn uncovered(grid: &CellGrid, rect: &Rect) -> Quadtree {
-    let cells = grid.cells_of(rect);
-    let cells = (cells.min[1]..cells.max[1]).flat_map(|y| (cells.min[0]..cells.max[0]).map(move |x| [x, y]));
-    Quadtree::new(grid, *rect, cells.filter(|&cell| grid.sample(cell).is_none()))
 }
 
 #[cfg(test)]

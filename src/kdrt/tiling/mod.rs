@@ -5,8 +5,12 @@
 //! or not. The margin is 2 blocks (at most 11 radii) to the left and right and 1 (6 radii) above and below for the
 //! phases of filling, and 5 radii for the chains of elimination around what the filling sees.
 
+use crate::math::square;
+
 #[cfg(test)]
 mod randomness;
+
+use std::sync::Arc;
 
 use crate::error::Result;
 use crate::job::Job;
@@ -15,9 +19,12 @@ use crate::plane::rect::Rect;
 use crate::plane::{CellAxis, CellGrid};
 use crate::points::{Boundary, Domain};
 
-use crate::kdrt::blocks::{Block, Blocks, PHASES};
+use crate::kdrt::around::Around;
+use crate::kdrt::blocks::Blocks;
 use crate::kdrt::clip::{Pattern, pattern_side};
 use crate::kdrt::conquer::{LONGEST_CHAIN, SeamCells, merge};
+#[cfg(feature = "stages")]
+use crate::kdrt::divide::Fixed;
 use crate::kdrt::divide::{Leaf, Tree};
 use crate::kdrt::fill::Filling;
 use crate::kdrt::options::MIN_LEAF_SIZE;
@@ -44,33 +51,47 @@ pub(super) struct Tiling {
     pattern: Pattern,
     blocks: Blocks,
     stamps: Stamps,
+    around: Arc<Around>,
 }
 
 impl Tiling {
     /// Whether a domain can be tiled and is larger than the pattern that it would be tiled with.
     pub fn is_worthwhile(lattice: &Lattice, leaf_size: f64) -> bool {
         let [width, height] = lattice.size.map(|size| f64::from(size) / lattice.radius);
-        width.min(height) > 2.0 * MIN_LEAF_SIZE + 1.0 && width * height > pattern_side(leaf_size).powi(2)
+        is_wide(lattice) && width * height > square(pattern_side(leaf_size))
     }
 
     /// Makes the pattern of the plane. The lattice must be worthwhile to tile.
-    pub fn new(job: &Job, lattice: Lattice, leaf_size: f64, seed: u64) -> Result<Self> {
-        let units = |radii: f64| (radii * lattice.radius).ceil();
-        let pattern = Pattern::new(job, &lattice, units(pattern_side(leaf_size)) as i32, seed)?;
-        let shortest = lattice.size.map(|size| match lattice.boundary {
-            // Nothing may be its own neighbour on a torus: its axes are split at least once.
-            Boundary::Periodic => units(leaf_size).min(f64::from(size / 2)) as i32,
-            Boundary::Bounded => units(leaf_size) as i32,
-        });
+    pub fn new(job: &Job, lattice: Lattice, leaf_size: f64, seed: u64, around: Arc<Around>) -> Result<Self> {
+        Self::with_pattern(job, lattice, leaf_size, pattern_side(leaf_size), seed, around)
+    }
+
+    /// [`Tiling::new`] with a pattern of this side in radii, which must be at least twice the leaf size.
+    pub fn with_pattern(
+        job: &Job,
+        lattice: Lattice,
+        leaf_size: f64,
+        pattern_side: f64,
+        seed: u64,
+        around: Arc<Around>,
+    ) -> Result<Self> {
+        let pattern = Pattern::new(job, &lattice, (pattern_side * lattice.radius).ceil() as i32, seed)?;
         let axes = lattice.size.map(|size| CellAxis::new(size, lattice.radius));
         Ok(Self {
             stamps: Stamps::new(lattice.radius, [0, 1].map(|axis: usize| axes[axis].side())),
             axes,
-            tree: Tree::new(lattice.rect(), shortest, seed),
+            tree: tree(&lattice, leaf_size, seed),
             blocks: Blocks::new(&lattice, seed),
             pattern,
             lattice,
+            around,
         })
+    }
+
+    /// Takes the randomness from something.
+    #[cfg(feature = "stages")]
+    pub fn fix(&mut self, fixed: Fixed) {
+        self.tree.fixed = fixed;
     }
 
     /// The lattice points of a window.
@@ -139,6 +160,20 @@ impl Tiling {
         Ok(ordered)
     }
 
+    /// About how many samples lie in a rectangle.
+    pub fn expected(&self, rect: &Rect) -> f64 {
+        self.lattice.samples_in(rect)
+    }
+
+    /// The samples in a rectangle of the domain, as lattice points.
+    pub fn points(&self, job: &Job, rect: &Rect) -> Result<Vec<[i32; 2]>> {
+        let windows = cut(&self.blocks.holding(rect), WINDOW_BLOCKS);
+        job.flat_map(windows.len(), |i| {
+            let samples = self.window(&windows[i]).into_iter().map(|sample| self.lattice.point(sample));
+            samples.filter(|&point| rect.contains(point)).collect()
+        })
+    }
+
     /// A window, given what is to be known around it.
     fn window_within(&self, known: &Rect, window: &Rect) -> Vec<[f32; 2]> {
         let leaves = self.leaves(known);
@@ -150,6 +185,7 @@ impl Tiling {
     pub fn merge(&self, known: &Rect, window: &Rect, leaves: &[Leaf]) -> Merged<'_> {
         let separation = self.lattice.separation;
         let mut grid = CellGrid::new(&self.axes, known, separation);
+        grid.set_obstacles(self.around.near(known));
         let mut output = Output::new(&self.lattice, self.blocks.rect(window));
         let eliminated = merge(&mut grid, &self.pattern, leaves, known, separation.reach, &mut output);
         Merged { grid, eliminated, output }
@@ -161,21 +197,9 @@ impl Tiling {
         let reach = self.lattice.separation.reach;
         let seams = SeamCells::new(&grid, leaves, &eliminated, reach);
         let mut filling = Filling::new(&self.stamps, seams, reach);
-        for (parity, margin) in PHASES {
-            let blocks = self.blocks.grown(window, margin);
-            // Cells are found once per column and row, not once per block.
-            let [columns, rows] = [0, 1].map(|axis: usize| {
-                let spans = self.blocks.of_parity(&blocks, axis, parity[axis]);
-                spans.map(|(index, points)| (index, points, grid.cells_between(axis, points))).collect::<Vec<_>>()
-            });
-            for (row, y, rows) in rows {
-                for &(column, x, columns) in &columns {
-                    let rect = |x: [i32; 2], y: [i32; 2]| Rect { min: [x[0], y[0]], max: [x[1], y[1]] };
-                    let block = Block { rect: rect(x, y), cells: rect(columns, rows) };
-                    filling.fill(&mut grid, &block, || self.blocks.rng([column, row]), &mut output);
-                }
-            }
-        }
+        self.blocks.in_phases(&mut grid, window, |grid, block, place| {
+            filling.fill(grid, block, || self.blocks.rng(place), &mut |_, sample| output.push(sample));
+        });
         #[cfg(test)]
         grid.sanity_check();
         output.finish()
@@ -214,9 +238,25 @@ impl Tiling {
     }
 }
 
+/// The tree of a plane.
+pub(super) fn tree(lattice: &Lattice, leaf_size: f64, seed: u64) -> Tree {
+    let shortest = (leaf_size * lattice.radius).ceil();
+    let shortest = lattice.size.map(|size| match lattice.boundary {
+        // Nothing may be its own neighbour on a torus: its axes are split at least once.
+        Boundary::Periodic => shortest.min(f64::from(size / 2)) as i32,
+        Boundary::Bounded => shortest as i32,
+    });
+    Tree::new(lattice.rect(), shortest, seed)
+}
+
+/// Whether a lattice is so wide that leaves fit, and that its cells are no less than 0.67 radii wide.
+pub(super) fn is_wide(lattice: &Lattice) -> bool {
+    lattice.size.into_iter().all(|size| f64::from(size) / lattice.radius > 2.0 * MIN_LEAF_SIZE + 1.0)
+}
+
 /// A rectangle of blocks, cut at the multiples of `side`.
 pub(super) fn cut(blocks: &Rect, side: i32) -> Vec<Rect> {
-    let starts = |axis: usize| (blocks.min[axis] / side * side..blocks.max[axis]).step_by(side as usize);
+    let starts = |axis: usize| (blocks.min[axis].div_euclid(side) * side..blocks.max[axis]).step_by(side as usize);
     let cells = starts(1).flat_map(|y| starts(0).map(move |x| Rect { min: [x, y], max: [x + side, y + side] }));
     cells.map(|cell| cell.intersection(blocks)).collect()
 }
@@ -241,7 +281,7 @@ mod tests {
         let lattice = Lattice::new(&domain, radius).unwrap();
         assert!(Tiling::is_worthwhile(&lattice, leaf_size));
         let context = Context::new(1).unwrap();
-        context.run(None, |job| Tiling::new(job, lattice.clone(), leaf_size, seed)).unwrap()
+        context.run(None, |job| Tiling::new(job, lattice.clone(), leaf_size, seed, Arc::default())).unwrap()
     }
 
     #[test]

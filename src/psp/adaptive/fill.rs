@@ -5,20 +5,26 @@ use glam::DVec3;
 use crate::error::Result;
 use crate::job::Job;
 use crate::mesh::Mesh;
-use crate::psp::adaptive::dot::{ConflictRule, Dot};
+use crate::psp::adaptive::dot::Dot;
 use crate::psp::adaptive::field::{RadiusBounds, RadiusField};
 use crate::psp::adaptive::grid::Grid;
 use crate::psp::adaptive::ground::GradedGround;
 use crate::psp::adaptive::limits::Quota;
 use crate::psp::adaptive::pieces::{Piece, pieces};
 use crate::psp::adaptive::set::AdaptiveSet;
+use crate::psp::facing::Facing;
+use crate::psp::fill::RAIN_FROM;
 use crate::psp::fill::darts::{Row, random_point};
 use crate::psp::fill::ground::{Ground, Whole};
 use crate::psp::fill::page::GROUP;
 use crate::psp::fill::region::FIRST_DARTS;
 use crate::psp::fill::rounds::{Open, PATCH, WHOLE, rounds, throw};
 use crate::psp::fragment::Fragment;
+use crate::psp::obstacles::Obstacles;
 use crate::rng::{Draw, Rng};
+
+/// Where samples are given, so many random points tell how much of a cube they leave open.
+const PROBES: usize = 1 << 6;
 
 /// A maximal set, and how many darts it took.
 pub(super) fn fill(
@@ -26,17 +32,18 @@ pub(super) fn fill(
     mesh: &Mesh,
     field: &RadiusField,
     quota: &Quota,
-    rule: ConflictRule,
+    facing: Facing,
+    obstacles: &Obstacles,
     seed: u64,
 ) -> Result<(AdaptiveSet, u64)> {
     let mut set = AdaptiveSet::new(mesh, seed);
     let pieces = pieces(&job.part(0.05, 0.2), mesh, field, quota, &set)?;
     field.check()?;
     quota.check(field.argument())?;
-    let darts = set.grow(&job.part(0.2, 1.0), mesh, rule, &pieces, |cube, dots, pieces| {
+    let darts = set.grow(&job.part(0.2, 1.0), mesh, facing, &pieces, |cube, dots, pieces| {
         let field = field.apart();
-        let grid = grid(mesh, &field, rule, dots, pieces);
-        let mut ground = GradedGround::new(mesh, &field, quota, grid, pieces.len());
+        let grid = grid(mesh, &field, facing, dots, pieces);
+        let mut ground = GradedGround::new(mesh, &field, quota, obstacles, grid, pieces.len());
         fill_cube(&mut ground, pieces, &mut Rng::at(seed, Draw::Adaptive, &cube.key()));
         field.check()?;
         quota.check(field.argument()).map(|()| (ground.accepted, ground.darts))
@@ -45,7 +52,7 @@ pub(super) fn fill(
 }
 
 /// The samples around a cube in a grid that suits the radii on its pieces.
-fn grid(mesh: &Mesh, field: &RadiusField, rule: ConflictRule, dots: Vec<Dot>, pieces: &[&Piece]) -> Grid {
+fn grid(mesh: &Mesh, field: &RadiusField, facing: Facing, dots: Vec<Dot>, pieces: &[&Piece]) -> Grid {
     let largest = pieces.iter().map(|piece| field.above(piece.bounds())).fold(0.0, f64::max);
     // The area by the number of samples that will stand on it gives their usual radius.
     let samples: f64 = pieces.iter().map(|piece| piece.area()).sum();
@@ -57,22 +64,24 @@ fn grid(mesh: &Mesh, field: &RadiusField, rule: ConflictRule, dots: Vec<Dot>, pi
         .flat_map(|fragment| fragment.corners.map(|corner| mesh.point_exact(fragment.triangle, corner)));
     let none = [DVec3::INFINITY, DVec3::NEG_INFINITY];
     let bounds = corners.fold(none, |[low, high], corner| [low.min(corner), high.max(corner)]);
-    let mut grid = Grid::new(mesh, rule, bounds, usual, largest);
+    let mut grid = Grid::new(mesh, facing, bounds, usual, largest);
     dots.into_iter().for_each(|dot| grid.add(dot));
     grid
 }
 
 /// Fills the pieces of a cube.
 fn fill_cube(ground: &mut GradedGround, pieces: &[&Piece], rng: &mut Rng) {
-    let row = Row::new(pieces.iter().map(|piece| piece.area()));
-    let darts = (FIRST_DARTS * row.total() + rng.unit()) as usize;
-    let points = (0..darts).map(|_| {
+    let row = Row::new(pieces.iter().map(|piece| piece.area()).collect());
+    let point = |rng: &mut Rng| {
         let piece = &pieces[row.hit(rng) as usize];
         let fragment = piece.fragment();
         (fragment.triangle, fragment.at(random_point(rng)), piece.bounds())
-    });
-    throw(ground, points);
-    let Ok(()) = rounds(ground, open(ground, pieces), rng, |_| Ok::<(), std::convert::Infallible>(()));
+    };
+    if ground.open_share(PROBES, || point(rng)) >= RAIN_FROM {
+        let darts = (FIRST_DARTS * row.total() + rng.unit()) as usize;
+        throw(ground, (0..darts).map(|_| point(rng)));
+    }
+    let Ok(()) = rounds(ground, open(ground, pieces), PATCH as f32, rng, |_| Ok::<(), std::convert::Infallible>(()));
 }
 
 /// What is open of some pieces.

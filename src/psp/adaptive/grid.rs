@@ -6,15 +6,16 @@
 
 use glam::DVec3;
 
+use crate::math::square;
 use crate::mesh::Mesh;
-use crate::psp::adaptive::dot::{ConflictRule, Dot};
+use crate::psp::adaptive::dot::Dot;
 use crate::psp::adaptive::page::{Ball, Group, LANES, Page, Part};
 use crate::psp::adaptive::vectors;
-use crate::psp::fill::grid::each_cell;
+use crate::psp::facing::Facing;
+use crate::psp::fill::grid::{any_cell, each_cell};
 use crate::psp::fill::page::GROUP;
 use crate::psp::fill::space::{Place, Space, key};
 use crate::psp::fill::table::Table;
-use crate::psp::sixteenths::PIERCING;
 use crate::simd::Level;
 
 /// What rounding can add to the distance at which a sample matters, as a share, and some more.
@@ -22,7 +23,7 @@ const SLACK: f64 = 1e-4;
 
 /// Samples in and around a cube.
 pub(super) struct Grid {
-    pub rule: ConflictRule,
+    pub facing: Facing,
     space: Space,
     /// Half of the largest radius of darts and of what they fall on, in the unit of the space.
     half: f64,
@@ -59,7 +60,7 @@ pub(super) struct Shade {
 
 impl Grid {
     /// A grid for the surface in a box, where no radius is above `largest`, and most are about `usual`.
-    pub fn new(mesh: &Mesh, rule: ConflictRule, [low, high]: [DVec3; 2], usual: f64, largest: f64) -> Self {
+    pub fn new(mesh: &Mesh, facing: Facing, [low, high]: [DVec3; 2], usual: f64, largest: f64) -> Self {
         let space = Space::new(mesh, usual.max(0.5 * largest));
         let scale = f64::from(space.scale());
         // Positions are rounded, but by a small part of a radius.
@@ -68,7 +69,7 @@ impl Grid {
         let high = (high * scale + margin).as_vec3().to_array();
         let (pages, numbers, earlier) = (vec![Page::EMPTY], vec![[0; LANES]], vec![0]);
         let (level, cells, dots) = (Level::widest(), Table::new(), Vec::new());
-        Self { rule, space, half: 0.5 * largest * scale, low, high, level, cells, pages, numbers, earlier, dots }
+        Self { facing, space, half: 0.5 * largest * scale, low, high, level, cells, pages, numbers, earlier, dots }
     }
 
     /// A ball in the unit of the space.
@@ -91,7 +92,7 @@ impl Grid {
         let reach = ((f64::from(ball[3]) + self.half) * (1.0 + SLACK)) as f32;
         let inside = |by: f32| [0, 1, 2].map(|axis| (ball[axis] + by).clamp(self.low[axis], self.high[axis]));
         let [x, y, z] = inside(0.0);
-        let squared = (x - ball[0]).powi(2) + (y - ball[1]).powi(2) + (z - ball[2]).powi(2);
+        let squared = square(x - ball[0]) + square(y - ball[1]) + square(z - ball[2]);
         if squared > reach * reach {
             return;
         }
@@ -119,7 +120,7 @@ impl Grid {
             let mut near = vectors::near(self.level, &self.pages[page], ball);
             while near != 0 {
                 let number = self.numbers[page][near.trailing_zeros() as usize];
-                if self.rule.conflict(dot, &self.dots[number as usize]) {
+                if dot.conflicts(&self.dots[number as usize], self.facing) {
                     return true;
                 }
                 near &= near - 1;
@@ -144,24 +145,13 @@ impl Grid {
             edges: [ball(to_b, halves[1] - halves[0]), ball(to_c, halves[2] - halves[0])],
             whole: ball(corner + (to_b + to_c) * (1.0 / 3.0), halves[0].max(halves[1]).max(halves[2]) + extent),
         };
-        // Samples that cover a sixteenth are on the pages of each of its corners.
-        let mut cells = [[0; 3]; PIERCING.len()];
-        for (known, [s, t]) in PIERCING.into_iter().enumerate() {
-            let cell = self.space.cell((corners[0] + (s * to_b + t * to_c)).as_vec3().to_array());
-            let is_known = cells[..known].contains(&cell);
-            cells[known] = cell;
-            if is_known {
-                continue;
-            }
-            let is_covered = self.any_page(cell, |page| {
+        any_cell(&self.space, corners, |cell| {
+            self.any_page(cell, |page| {
                 let among = self.seen(page, shade.normal);
                 open &= !vectors::covered_sixteenths(self.level, &self.pages[page], &part, among);
                 open == 0
-            });
-            if is_covered {
-                break;
-            }
-        }
+            })
+        });
         open
     }
 
@@ -177,7 +167,7 @@ impl Grid {
         group.pages[count..].fill(0);
         let all = u64::MAX >> (GROUP - count);
         let mut open = all;
-        if self.rule.asks_normals() {
+        if self.facing.asks_normals() {
             chained = all;
         } else {
             open &= !vectors::covered_triangles(self.level, group, &self.pages);
@@ -203,10 +193,10 @@ impl Grid {
     /// The samples on a page that matter to a normal.
     #[inline(always)]
     fn seen(&self, page: usize, normal: [f32; 3]) -> u16 {
-        if !self.rule.asks_normals() {
+        if !self.facing.asks_normals() {
             return u16::MAX;
         }
-        let is_seen = |number: u32| self.rule.sees(self.dots[number as usize].normal, normal);
+        let is_seen = |number: u32| self.facing.sees(self.dots[number as usize].normal, normal);
         self.numbers[page].iter().rev().fold(0, |seen, &number| seen << 1 | u16::from(is_seen(number)))
     }
 
@@ -247,7 +237,7 @@ mod tests {
                 normal: DVec3::new(rng.unit() - 0.5, rng.unit() - 0.5, 0.3).normalize().as_vec3().to_array(),
             };
             let bounds = [DVec3::splat(f64::from(at) + 0.2), DVec3::splat(f64::from(at) + 0.8)];
-            let mut grid = Grid::new(&mesh, ConflictRule { cosine }, bounds, 0.6 * largest, largest);
+            let mut grid = Grid::new(&mesh, Facing::new(cosine).unwrap(), bounds, 0.6 * largest, largest);
             let (mut dots, mut rejected) = (Vec::<Dot>::new(), 0);
             for step in 0..3000 {
                 // Samples stand outside, too, and can be large; darts are in the box and no larger than was said.
@@ -280,9 +270,9 @@ mod tests {
             let corners = vec![corner(), corner(), corner(), [4.0; 3], [12.0; 3], [4.0, 12.0, 4.0]];
             let mesh = Mesh::new(corners, vec![[0, 1, 2], [3, 4, 5]]).unwrap();
             let radii: [f32; 6] = std::array::from_fn(|_| (1.0 + 0.5 * rng.unit()) as f32);
-            let field = RadiusField::new(&mesh, Radius::PerVertex(&radii)).unwrap();
+            let field = RadiusField::new(&mesh, Radius::PerVertex(&radii), None).unwrap();
             let bounds = [DVec3::splat(8.0), DVec3::splat(9.0)];
-            let mut grid = Grid::new(&mesh, ConflictRule { cosine: -1.0 }, bounds, 1.0, 1.5);
+            let mut grid = Grid::new(&mesh, Facing::ANY, bounds, 1.0, 1.5);
             let mut dots = Vec::new();
             for _ in 0..20 {
                 let radius = ratio.powf(rng.unit());

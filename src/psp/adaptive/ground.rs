@@ -12,6 +12,7 @@ use crate::psp::adaptive::limits::Quota;
 use crate::psp::adaptive::page::Group;
 use crate::psp::fill::ground::{Ground, Patch, Whole};
 use crate::psp::fragment::Fragment;
+use crate::psp::obstacles::Obstacles;
 use crate::psp::samples::Sample;
 
 /// At how many fragments a cube may look for each of its pieces and samples. Slopes of 1 take about forty, of 4 about a
@@ -23,6 +24,7 @@ pub(super) struct GradedGround<'a> {
     mesh: &'a Mesh,
     field: &'a RadiusField<'a>,
     quota: &'a Quota,
+    obstacles: &'a Obstacles,
     grid: Grid,
     /// At how many fragments it may still look.
     looks: Cell<u64>,
@@ -34,9 +36,28 @@ pub(super) struct GradedGround<'a> {
 
 impl<'a> GradedGround<'a> {
     /// The surface in so many pieces.
-    pub fn new(mesh: &'a Mesh, field: &'a RadiusField<'a>, quota: &'a Quota, grid: Grid, pieces: usize) -> Self {
-        let looks = Cell::new(LOOKS * pieces as u64);
-        Self { mesh, field, quota, grid, looks, accepted: Vec::new(), darts: 0 }
+    pub fn new(
+        mesh: &'a Mesh,
+        field: &'a RadiusField<'a>,
+        quota: &'a Quota,
+        obstacles: &'a Obstacles,
+        grid: Grid,
+        pieces: usize,
+    ) -> Self {
+        let looks = Cell::new(LOOKS * (pieces + obstacles.listed()) as u64);
+        Self { mesh, field, quota, obstacles, grid, looks, accepted: Vec::new(), darts: 0 }
+    }
+
+    /// The share of so many points that no given sample covers.
+    pub fn open_share(&self, count: usize, mut point: impl FnMut() -> (u32, [f64; 2], RadiusBounds)) -> f64 {
+        if self.obstacles.is_empty() {
+            return 1.0;
+        }
+        let is_open = |_: &usize| {
+            let (triangle, barycentrics, _) = point();
+            !self.obstacles.reject(self.mesh.point(triangle, round_barycentrics(barycentrics)))
+        };
+        (0..count).filter(is_open).count() as f64 / count as f64
     }
 
     /// Whether the rest of the work is in vain.
@@ -54,7 +75,7 @@ impl<'a> GradedGround<'a> {
 
     /// The normal of a triangle, where normals matter.
     fn normal(&self, triangle: u32) -> [f32; 3] {
-        if self.grid.rule.asks_normals() { self.mesh.normal(triangle) } else { [0.0; 3] }
+        self.grid.facing.normal(self.mesh, triangle)
     }
 
     fn shade(&self, fragment: &Fragment, bounds: RadiusBounds, corners: [DVec3; 3], longest: f64) -> Shade {
@@ -79,7 +100,11 @@ impl Ground for GradedGround<'_> {
         let shape = fragment.shape(self.mesh);
         self.count_look(shape.centre);
         let bounds = self.field.narrowed(fragment, &shape, within);
+        if self.field.is_nothing(bounds.least) {
+            return None;
+        }
         let open = self.grid.open_sixteenths(&self.shade(fragment, bounds, shape.corners, shape.longest), u16::MAX);
+        let open = self.obstacles.open_sixteenths(shape.corners, open);
         (open != 0).then(|| Patch {
             fragment: *fragment,
             open,
@@ -96,7 +121,8 @@ impl Ground for GradedGround<'_> {
         let [a, b, c] = self.mesh.exact_corners(patch.fragment.triangle);
         let corners = patch.fragment.corners.map(|[u, v]| (1.0 - u - v) * a + u * b + v * c);
         let longest = f64::from(patch.longest) * patch.local.scale();
-        self.grid.open_sixteenths(&self.shade(&patch.fragment, patch.local, corners, longest), patch.open)
+        let shade = self.shade(&patch.fragment, patch.local, corners, longest);
+        self.obstacles.open_sixteenths(corners, self.grid.open_sixteenths(&shade, patch.open))
     }
 
     fn open_wholes(&self, wholes: &[Whole<RadiusBounds>]) -> u64 {
@@ -110,7 +136,8 @@ impl Ground for GradedGround<'_> {
             group.triangles[lane] = std::array::from_fn(|corner| self.grid.ball(positions[corner], radii[corner]));
             normals.push(self.normal(whole.triangle));
         }
-        self.grid.open_triangles(&mut group, &normals)
+        let open = self.grid.open_triangles(&mut group, &normals);
+        self.obstacles.open_triangles(open, |lane| self.mesh.corners(wholes[lane].triangle))
     }
 
     fn dart(&self, triangle: u32, barycentrics: [f64; 2], bounds: RadiusBounds) -> (Sample, RadiusBounds) {
@@ -125,11 +152,11 @@ impl Ground for GradedGround<'_> {
         self.darts += 1;
         let mut dot = Dot { position: sample.position, radius: bounds.least, normal: self.normal(sample.triangle) };
         // A function is not called where any radius that it may give conflicts.
-        if self.grid.rejects(&dot) {
+        if self.grid.rejects(&dot) || self.obstacles.reject(dot.position) {
             return;
         }
         dot.radius = self.field.at_within(&sample, bounds);
-        if dot.radius > bounds.least && self.grid.rejects(&dot) {
+        if self.field.is_nothing(dot.radius) || dot.radius > bounds.least && self.grid.rejects(&dot) {
             return;
         }
         self.grid.add(dot);

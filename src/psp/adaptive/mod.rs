@@ -1,6 +1,7 @@
 //! Adaptive sampling: maximal Poisson-disk samples on triangle meshes whose radius varies (thesis §3.4.4).
 //!
-//! The radius is given for each vertex of the mesh, or by a function of the position ([`Radius`]).
+//! The radius is given for each vertex of the mesh, or by a function of the position, or follows from a density
+//! ([`Radius`]).
 //!
 //! * *Conflict-free*: two samples are no closer than the mean of their radii, in `f64` from the returned positions and
 //!   radii: disks of half the radius around the samples do not overlap. Where the radius changes evenly the mean is the
@@ -9,17 +10,20 @@
 //!   [`TOLERANCE`](super::TOLERANCE) float spacings at the largest coordinate of the mesh, and what the radius changes
 //!   on that distance; with radii of vertices also 2^-22 of the largest difference of two radii on a triangle, the rounding
 //!   of the barycentrics.
+//! * *Around given samples* ([`Options::given`]), as [`psp`](super) is.
 //! * *Dense*: where the radius changes little from sample to sample there are 0.6966 / radius² samples on an area of 1.
 //! * *Deterministic*: the samples and their order depend on mesh, radii and seed only.
 //!
 //! The thesis projects patterns of the smallest radius and thins them, which wastes most rays where radii differ. Here
 //! the set is only filled (see `psp/fill/mod.rs`), octave by octave, without Embree.
 
+mod density;
 mod dot;
 mod field;
 mod fill;
 mod grid;
 mod ground;
+mod image;
 mod limits;
 mod options;
 mod page;
@@ -31,5 +35,5 @@ mod set;
 mod vectors;
 
 pub use options::Options;
-pub use radius::{Radius, RadiusFunction};
+pub use radius::{Density, DensityFunction, Radius, RadiusFunction, Scale, Texture};
 pub use sample::{AdaptiveSamples, sample};

@@ -1,5 +1,6 @@
 //! What to sample.
 
+use crate::given::Given;
 use crate::psp::adaptive::radius::Radius;
 use crate::setters::setters;
 
@@ -16,13 +17,16 @@ pub struct Options<'a> {
     pub cosine: f64,
     /// Selects one of 2^64 sets.
     pub seed: u64,
+    /// Samples that stand already, each with its clearance: there is no radius that could stand for it. They act on all
+    /// sides of a thin wall.
+    pub given: Given<'a, 3>,
 }
 
 impl<'a> Options<'a> {
     /// No sample ignores others.
     pub fn new(radius: Radius<'a>) -> Self {
-        Self { radius, cosine: -1.0, seed: 0 }
+        Self { radius, cosine: -1.0, seed: 0, given: Given::default() }
     }
 }
 
-setters!(Options<'a> { cosine: f64, seed: u64 });
+setters!(Options<'a> { cosine: f64, seed: u64, given: Given<'a, 3> });

@@ -66,12 +66,16 @@ pub(super) fn pieces(
             let whole = Fragment::whole(triangle);
             let shape = whole.shape(mesh);
             let bounds = field.bounds(&whole, &shape, field.all());
+            if field.is_nothing(bounds.least) {
+                continue;
+            }
             if cuts.is_small(&shape, bounds) {
+                let bounds = field.settled(bounds);
                 let (area, longest) = (area * bounds.density(), shape.longest / bounds.scale());
                 let whole = Whole { triangle, area: area as f32, longest: longest as f32, local: bounds };
                 cuts.add(&shape, bounds, Piece::Whole(whole));
             } else {
-                slice(mesh, triangle, LONGEST * bounds.scale(), &mut slices);
+                slice(mesh, triangle, LONGEST * field.settled(bounds).scale(), &mut slices);
                 if let [whole] = slices[..] {
                     slices.splice(.., whole.parts(2));
                 }
@@ -93,7 +97,7 @@ struct Cuts<'a> {
 
 impl Cuts<'_> {
     fn is_small(&self, shape: &Shape, bounds: RadiusBounds) -> bool {
-        shape.longest <= LONGEST * bounds.scale() || self.quota.is_exceeded()
+        shape.longest <= LONGEST * self.field.settled(bounds).scale() || self.quota.is_exceeded()
     }
 
     fn add(&mut self, shape: &Shape, bounds: RadiusBounds, piece: Piece) {
@@ -105,9 +109,13 @@ impl Cuts<'_> {
     fn cut(&mut self, fragment: &Fragment, within: RadiusBounds) {
         let shape = fragment.shape(self.mesh);
         let bounds = self.field.bounds(fragment, &shape, within);
+        if self.field.is_nothing(bounds.least) {
+            return;
+        }
         if !self.is_small(&shape, bounds) {
             return fragment.parts(2).for_each(|quarter| self.cut(&quarter, bounds));
         }
+        let bounds = self.field.settled(bounds);
         let (area, longest) = (fragment.area(self.mesh) * bounds.density(), shape.longest / bounds.scale());
         let (area, longest) = (area as f32, longest as f32);
         let part = Patch { fragment: *fragment, open: u16::MAX, area, longest, local: bounds };

@@ -1,20 +1,22 @@
 //! Adaptive sampling in one call.
 
-use std::time::Instant;
-
 use crate::error::{Error, Result};
+use crate::host::Stopwatch;
 use crate::job::{Context, Job, Progress, chunks_of};
 use crate::memory;
 use crate::mesh::Mesh;
-use crate::points::SurfaceSamples;
-use crate::psp::adaptive::dot::ConflictRule;
+use crate::points::{MAXIMAL_DENSITY, SurfaceSamples, check_radius};
+use crate::psp::adaptive::density::DensityField;
 use crate::psp::adaptive::field::RadiusField;
 use crate::psp::adaptive::fill::fill;
 use crate::psp::adaptive::limits::Quota;
 use crate::psp::adaptive::options::Options;
+use crate::psp::adaptive::radius::{Radius, Scale};
 use crate::psp::estimate::{expected_samples_of, longest_edge};
+use crate::psp::facing::Facing;
 use crate::psp::fill::region::parts_up_to;
 use crate::psp::fragment::{Fragment, Shape};
+use crate::psp::given::obstacles;
 use crate::psp::pieces::slice;
 use crate::psp::report::Report;
 use crate::psp::samples::surface_samples;
@@ -45,7 +47,8 @@ const BYTES_PER_SAMPLE: f64 = 800.0;
 /// [`Error::InvalidArgument`] for radii that are not positive and finite (`vertex_radii`), not one for each vertex
 /// (`vertex_count`), or below 64 float spacings at the largest coordinate of the mesh; for bad `smallest`, `largest` and
 /// `slope`; for a function that gives what is not in `smallest..=largest` or changes faster than `slope` (`radius`);
-/// for a `cosine` outside -1 to 1. [`Error::TooLarge`] where the radii would ask for more than 2^32 samples, or more than
+/// for a `cosine` outside -1 to 1; for [`given`](Options::given) samples out of range, by their index, or without
+/// clearances (`given_clearances`). [`Error::TooLarge`] where the radii would ask for more than 2^32 samples, or more than
 /// memory holds, and where they change so fast that it takes thousands of looks per sample to find out what is covered
 /// (`slope`, `vertex_radii`). [`Error::Cancelled`] by the progress callback.
 pub fn sample(
@@ -54,23 +57,57 @@ pub fn sample(
     options: &Options,
     progress: Option<&Progress>,
 ) -> Result<(AdaptiveSamples, Report)> {
-    let start = Instant::now();
-    let cosine = options.cosine;
-    if !(-1.0..=1.0).contains(&cosine) {
-        return Err(Error::invalid("cosine", format!("{cosine:?} is not in -1..=1")));
-    }
-    let field = RadiusField::new(mesh, options.radius)?;
+    let stopwatch = Stopwatch::start();
+    let facing = Facing::new(options.cosine)?;
+    let density = match options.radius {
+        Radius::Density { density, scale } => {
+            check_scale(scale)?;
+            Some(DensityField::new(mesh, density)?)
+        }
+        _ => None,
+    };
+    let obstacles = obstacles(mesh, options.given)?;
     let (set, darts) = context.run(progress, |job| {
-        let quota = Quota::new(require(&job.part(0.0, 0.05), mesh, &field)?, mesh);
-        fill(job, mesh, &field, &quota, ConflictRule { cosine }, options.seed)
+        let density = match (&density, options.radius) {
+            (Some(density), Radius::Density { scale, .. }) => {
+                Some((density, unit(&job.part(0.0, 0.02), density, scale)?))
+            }
+            _ => None,
+        };
+        let field = RadiusField::new(mesh, options.radius, density)?;
+        let quota = Quota::new(require(&job.part(0.02, 0.05), mesh, &field)?, mesh);
+        fill(job, mesh, &field, &quota, facing, &obstacles, options.seed)
     })?;
     let (samples, radii): (Vec<_>, Vec<_>) = set.samples.into_iter().unzip();
     let accepted = samples.len() as u64;
-    let seconds = start.elapsed().as_secs_f64();
+    let seconds = stopwatch.seconds();
     let conflicts = darts - accepted;
     let report = Report { samples: accepted, accepted, darts, conflicts, seconds, ..Report::default() };
     let samples = surface_samples(mesh, &samples);
     Ok((AdaptiveSamples { samples, radii }, report))
+}
+
+fn check_scale(scale: Scale) -> Result<()> {
+    match scale {
+        Scale::Radius(radius) => check_radius(radius),
+        Scale::Count(count) if count > 0.0 && count.is_finite() => Ok(()),
+        Scale::Count(count) => Err(Error::invalid("count", format!("{count:?} is not a positive finite number"))),
+    }
+}
+
+/// The radius at density 1.
+fn unit(job: &Job, density: &DensityField, scale: Scale) -> Result<f64> {
+    match scale {
+        Scale::Radius(radius) => Ok(radius),
+        Scale::Count(count) => {
+            let integral = density.integral(job)?;
+            if integral > 0.0 {
+                Ok((MAXIMAL_DENSITY * integral / count).sqrt())
+            } else {
+                Err(Error::invalid("density", "0 everywhere on the mesh; there is no place for a sample"))
+            }
+        }
+    }
 }
 
 /// Estimates the samples and refuses radii that ask for more than can be indexed or held. They are counted on pieces of the

@@ -1,11 +1,11 @@
-//! The samples accepted so far, and how the set grows: octave by octave from large radii to small ones, and cube by
+//! The samples accepted so far, and how the set grows: octave by octave from small radii to large ones, and cube by
 //! cube in each.
 //!
 //! The cubes of an octave measure [`SIDE`] of its largest radius. What is accepted in a cube conflicts with nothing in
-//! another cube of its colour, as in `psp/cubes.rs`; what octaves of larger radii have accepted is there before, and
-//! what those of smaller radii will accept has to fit in.
+//! another cube of its colour, as in `psp/cubes.rs`; what octaves of smaller radii have accepted is there before, and
+//! what those of larger radii will accept has to fit in. In this order a sample of a large radius takes no place from
+//! many of small ones where the radius jumps.
 
-use std::cmp::Reverse;
 use std::collections::{BTreeMap, HashMap};
 use std::ops::Range;
 
@@ -13,11 +13,13 @@ use glam::DVec3;
 
 use crate::error::{Error, Result};
 use crate::job::Job;
+use crate::math::{exp2, scalbn};
 use crate::mesh::{Mesh, exact};
-use crate::psp::adaptive::dot::{ConflictRule, Dot};
+use crate::psp::adaptive::dot::Dot;
 use crate::psp::adaptive::pieces::{LONGEST, Piece};
 use crate::psp::buckets::Buckets;
 use crate::psp::cubes::Cube;
+use crate::psp::facing::Facing;
 use crate::psp::samples::Sample;
 use crate::rng::{Draw, Rng};
 
@@ -36,7 +38,7 @@ fn octave(radius: f64) -> i32 {
 
 /// What all radii of an octave are below.
 fn end_of_octave(octave: i32) -> f64 {
-    libm::scalbn(1.0, octave + 1)
+    scalbn(1.0, octave + 1)
 }
 
 /// A cube of an octave.
@@ -79,7 +81,7 @@ impl AdaptiveSet {
         let own = octave(radius);
         let above = OctaveCube { octave: own + 1, cube: self.cube_of(own + 1, centre) };
         let limit = Rng::at(self.seed, Draw::Octave, &above.key()).unit();
-        if radius > end_of_octave(own) * libm::exp2(limit - 1.0) {
+        if radius > end_of_octave(own) * exp2(limit - 1.0) {
             above
         } else {
             OctaveCube { octave: own, cube: self.cube_of(own, centre) }
@@ -100,11 +102,11 @@ impl AdaptiveSet {
         &mut self,
         job: &Job,
         mesh: &Mesh,
-        rule: ConflictRule,
+        facing: Facing,
         buckets: &Buckets<OctaveCube, Piece>,
         task: impl Fn(OctaveCube, Vec<Dot>, &[&Piece]) -> Result<(Vec<(Sample, f64)>, u64)> + Sync,
     ) -> Result<u64> {
-        let key = |&bucket: &usize| (Reverse(buckets.key(bucket).octave), buckets.key(bucket).cube.colour());
+        let key = |&bucket: &usize| (buckets.key(bucket).octave, buckets.key(bucket).cube.colour());
         let mut order: Vec<usize> = (0..buckets.len()).collect();
         order.sort_by_key(key);
         let (mut done, mut total) = (0, 0);
@@ -114,7 +116,7 @@ impl AdaptiveSet {
             let grown = part.map(members.len(), |member| {
                 let cube = buckets.key(members[member]);
                 let pieces: Vec<&Piece> = buckets.items(members[member]).collect();
-                task(cube, self.dots_around(mesh, rule, cube), &pieces)
+                task(cube, self.dots_around(mesh, facing, cube), &pieces)
             })?;
             done += members.len();
             for (&bucket, grown) in members.iter().zip(grown) {
@@ -137,24 +139,21 @@ impl AdaptiveSet {
     }
 
     /// The samples that can matter in a cube.
-    fn dots_around(&self, mesh: &Mesh, rule: ConflictRule, OctaveCube { octave, cube }: OctaveCube) -> Vec<Dot> {
+    fn dots_around(&self, mesh: &Mesh, facing: Facing, OctaveCube { octave, cube }: OctaveCube) -> Vec<Dot> {
         let mut dots = Vec::new();
         let end = end_of_octave(octave);
         let low = self.origin + SIDE * end * (DVec3::from_array(cube.0.map(f64::from)) - self.shift);
         // Where points of the cube's pieces are, and half of their radius around.
         let margin = DVec3::splat((OVERHANG + HALF) * end);
         let (low, high) = (low - margin, low + SIDE * end + margin);
-        for (&octave, cubes) in self.octaves.range(octave..) {
+        for (&octave, cubes) in self.octaves.range(..=octave) {
             let reach = DVec3::splat((OVERHANG + HALF) * end_of_octave(octave));
-            let [first, last] = [low - reach, high + reach].map(|corner| self.cube_of(octave, corner).0);
-            let all = (first[2]..=last[2]).flat_map(move |z| {
-                (first[1]..=last[1]).flat_map(move |y| (first[0]..=last[0]).map(move |x| Cube([x, y, z])))
-            });
-            for run in all.filter_map(|cube| cubes.get(&cube)) {
+            let bounds = [low - reach, high + reach].map(|corner| self.cube_of(octave, corner).0);
+            for run in runs_in(cubes, bounds) {
                 for &(sample, radius) in &self.samples[run.start as usize..run.end as usize] {
                     let point = exact(sample.position);
                     if (point - point.clamp(low, high)).length() <= 0.51 * radius {
-                        let normal = if rule.asks_normals() { mesh.normal(sample.triangle) } else { [0.0; 3] };
+                        let normal = facing.normal(mesh, sample.triangle);
                         dots.push(Dot { position: sample.position, radius, normal });
                     }
                 }
@@ -162,6 +161,23 @@ impl AdaptiveSet {
         }
         dots
     }
+}
+
+/// The runs of all cubes from the first to the last: looked up, or, where these are more than there are cubes at all,
+/// picked from all.
+fn runs_in(cubes: &HashMap<Cube, Range<u32>>, [first, last]: [[i32; 3]; 2]) -> Vec<Range<u32>> {
+    let count: f64 = (0..3).map(|axis| f64::from(last[axis]) - f64::from(first[axis]) + 1.0).product();
+    let mut runs: Vec<Range<u32>> = if count < cubes.len() as f64 {
+        let all = (first[2]..=last[2]).flat_map(move |z| {
+            (first[1]..=last[1]).flat_map(move |y| (first[0]..=last[0]).map(move |x| Cube([x, y, z])))
+        });
+        all.filter_map(|cube| cubes.get(&cube).cloned()).collect()
+    } else {
+        let is_in = |cube: &Cube| (0..3).all(|axis| (first[axis]..=last[axis]).contains(&cube.0[axis]));
+        cubes.iter().filter(|(cube, _)| is_in(cube)).map(|(_, run)| run.clone()).collect()
+    };
+    runs.sort_by_key(|run| run.start);
+    runs
 }
 
 #[cfg(test)]

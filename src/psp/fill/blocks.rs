@@ -4,15 +4,16 @@
 //! before, which belong to the cubes of their first corners. So nothing reaches far out of its cube, and cubes of one
 //! colour do not matter to each other.
 
+use glam::DVec3;
+
 use crate::error::Result;
 use crate::geometry::counting_sort::Binned;
 use crate::job::{Job, chunks_of};
-use crate::mesh::Mesh;
-use crate::psp::cubes::{Cube, SIDE};
-use crate::psp::fill::region::parts_up_to;
+use crate::mesh::{Mesh, exact};
+use crate::psp::cubes::{Cube, Numbers, SIDE};
+use crate::psp::fill::extent::Extent;
+use crate::psp::fill::region::{Items, parts_up_to};
 use crate::psp::fill::rounds::PATCH;
-use crate::psp::fill::space::key;
-use crate::psp::fill::table::Table;
 use crate::psp::fill::triangles::Triangles;
 use crate::psp::fragment::Fragment;
 use crate::psp::pieces::slice;
@@ -25,16 +26,26 @@ const CHUNK: usize = 1 << 10;
 const LONGEST: f64 = SIDE as f64 / 4.0;
 
 /// The surface by cubes.
-pub(super) struct Blocks {
+pub(in crate::psp) struct Blocks {
     chunks: Vec<Chunk>,
-    /// The cubes, which chunks have something in each, and by what number.
+    /// The cubes, where in each the surface is, which chunks have something there, and by what number.
     pub cubes: Vec<Cube>,
+    extents: Vec<Extent>,
     parts: Binned<(u32, u32)>,
+}
+
+/// The surface in a cube.
+pub(in crate::psp) struct Block {
+    pub cube: Cube,
+    pub extent: Extent,
+    pub triangles: Vec<u32>,
+    pub pieces: Vec<Fragment>,
 }
 
 /// Some of the triangles by cubes.
 struct Chunk {
     cubes: Vec<Cube>,
+    extents: Vec<Extent>,
     triangles: Binned<u32>,
     pieces: Binned<Fragment>,
 }
@@ -43,61 +54,68 @@ impl Blocks {
     pub fn new(job: &Job, mesh: &Mesh, triangles: Triangles, samples: &SampleSet) -> Result<Self> {
         let chunks = chunks_of(triangles.groups(), CHUNK);
         let chunks = job.map(chunks.len(), |chunk| Chunk::new(mesh, triangles, chunks.range(chunk), samples))?;
-        let (mut numbers, mut cubes, mut parts) = (Table::new(), Vec::new(), Vec::new());
+        let (mut numbers, mut extents, mut parts) = (Numbers::new(), Vec::new(), Vec::new());
         for (chunk, part) in (0..).zip(&chunks) {
-            for (number, &cube) in (0..).zip(&part.cubes) {
-                parts.push((number_of(cube, &mut numbers, &mut cubes), (chunk, number)));
+            for ((number, &cube), extent) in (0..).zip(&part.cubes).zip(&part.extents) {
+                let cube = numbers.of(cube);
+                extents.resize(numbers.cubes.len(), Extent::EMPTY);
+                extents[cube].join(extent);
+                parts.push((cube, (chunk, number)));
             }
         }
+        let cubes = numbers.cubes;
         let parts = Binned::new(cubes.len(), parts.iter().copied());
-        Ok(Self { chunks, cubes, parts })
+        Ok(Self { chunks, cubes, extents, parts })
     }
 
-    /// The triangles and the pieces in a cube.
-    pub fn content(&self, cube: usize) -> (Vec<u32>, Vec<Fragment>) {
+    /// What is in one of the cubes.
+    pub fn block(&self, number: usize) -> Block {
         let (mut triangles, mut pieces) = (Vec::new(), Vec::new());
-        for &(chunk, number) in self.parts.bin(cube) {
-            triangles.extend_from_slice(self.chunks[chunk as usize].triangles.bin(number as usize));
-            pieces.extend_from_slice(self.chunks[chunk as usize].pieces.bin(number as usize));
+        for &(chunk, part) in self.parts.bin(number) {
+            triangles.extend_from_slice(self.chunks[chunk as usize].triangles.bin(part as usize));
+            pieces.extend_from_slice(self.chunks[chunk as usize].pieces.bin(part as usize));
         }
-        (triangles, pieces)
+        Block { cube: self.cubes[number], extent: self.extents[number], triangles, pieces }
+    }
+}
+
+impl Block {
+    pub fn items(&self) -> Items<'_> {
+        Items { triangles: Triangles::Listed(&self.triangles), pieces: &self.pieces }
     }
 }
 
 impl Chunk {
     fn new(mesh: &Mesh, triangles: Triangles, groups: std::ops::Range<usize>, samples: &SampleSet) -> Self {
-        let (mut numbers, mut cubes) = (Table::new(), Vec::new());
+        let (mut numbers, mut extents) = (Numbers::new(), Vec::new());
         let (mut whole, mut pieces, mut slices) = (Vec::new(), Vec::new(), Vec::new());
+        let mut place = |point: DVec3, corners: [[f32; 3]; 3]| {
+            let number = numbers.of(samples.cube(point.to_array()));
+            extents.resize(numbers.cubes.len(), Extent::EMPTY);
+            corners.into_iter().for_each(|corner| extents[number].add(corner));
+            number as u32
+        };
         let longest = LONGEST * samples.radius();
         for group in groups {
             let (areas, lengths) = triangles.measure(mesh, group);
             for (lane, index) in triangles.group(group).enumerate().filter(|&(lane, _)| areas[lane] > 0.0) {
                 let triangle = triangles.at(index);
                 if lengths[lane] <= longest * longest {
-                    let cube = samples.cube(mesh.corners(triangle)[0].map(f64::from));
-                    whole.push((number_of(cube, &mut numbers, &mut cubes), triangle));
+                    let corners = mesh.corners(triangle);
+                    whole.push((place(exact(corners[0]), corners), triangle));
                     continue;
                 }
                 slices.clear();
                 slice(mesh, triangle, PATCH * samples.radius(), &mut slices);
                 for piece in slices.iter().flat_map(|slice| parts_up_to(mesh, slice, longest)) {
-                    let cube = samples.cube(mesh.point_exact(triangle, piece.corners[0]).to_array());
-                    pieces.push((number_of(cube, &mut numbers, &mut cubes), piece));
+                    let corners = piece.corners.map(|corner| mesh.point_exact(triangle, corner));
+                    pieces.push((place(corners[0], corners.map(|corner| corner.as_vec3().to_array())), piece));
                 }
             }
         }
-        let triangles = Binned::new(cubes.len(), whole.iter().copied());
-        let pieces = Binned::new(cubes.len(), pieces.iter().copied());
-        Self { cubes, triangles, pieces }
+        let cubes = numbers.cubes;
+        let triangles = Binned::new(cubes.len(), whole.iter().map(|&(number, item)| (number as usize, item)));
+        let pieces = Binned::new(cubes.len(), pieces.iter().map(|&(number, item)| (number as usize, item)));
+        Self { cubes, extents, triangles, pieces }
     }
-}
-
-/// The number of a cube: a new one where it has none.
-fn number_of(cube: Cube, numbers: &mut Table<u32>, cubes: &mut Vec<Cube>) -> usize {
-    let number = numbers.entry(key(cube.0.map(|x| x as u32)));
-    if *number == 0 {
-        cubes.push(cube);
-        *number = cubes.len() as u32;
-    }
-    *number as usize - 1
 }

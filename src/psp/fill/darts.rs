@@ -3,6 +3,7 @@
 //! A row that is known as a whole takes darts in any number, one by one ([`Row`]). On one that is only passed over darts
 //! fall as rain, a Poisson process ([`Rain`]): from one dart to the next the area passed is Exp(1) over the density.
 
+use crate::math::log;
 use crate::rng::Rng;
 
 /// Areas in a row, on which darts fall.
@@ -15,13 +16,12 @@ pub(in crate::psp) struct Row {
 }
 
 impl Row {
-    pub fn new(areas: impl Iterator<Item = f64>) -> Self {
-        let mut total = 0.0;
-        let mut end = |area| {
-            total += area;
-            total
-        };
-        let ends: Vec<f64> = areas.map(&mut end).collect();
+    pub fn new(areas: Vec<f64>) -> Self {
+        let (mut total, mut ends) = (0.0, areas);
+        for end in &mut ends {
+            total += *end;
+            *end = total;
+        }
         let (mut guide, mut first) = (Vec::with_capacity(ends.len()), 0);
         for part in 0..ends.len() {
             let start = part as f64 * (total / ends.len() as f64);
@@ -91,7 +91,7 @@ impl<'a> Rain<'a> {
 }
 
 fn waiting(rng: &mut Rng, per_area: f64) -> f64 {
-    -libm::log(1.0 - rng.unit()) / per_area
+    -log(1.0 - rng.unit()) / per_area
 }
 
 /// Puts items into random order (Fisher and Yates).
@@ -118,13 +118,13 @@ mod tests {
         let mut rng = Rng::at(5, Draw::Probe, &[]);
         let area = |i: u32| if i.is_multiple_of(3) { 0.0 } else { [1.0, 1e-6, 0.3, 7.0][i as usize % 4] };
         let areas: Vec<f64> = (0..100).map(area).collect();
-        let (row, darts) = (Row::new(areas.iter().copied()), 200_000);
+        let (row, darts) = (Row::new(areas.clone()), 200_000);
         let mut hits = [0.0; 100];
         (0..darts).for_each(|_| hits[row.hit(&mut rng) as usize] += 1.0);
         for (&area, hits) in areas.iter().zip(hits) {
             let expected = f64::from(darts) * area / row.total();
             assert!((hits - expected).abs() <= 5.0 * expected.sqrt(), "{hits} for {expected}");
         }
-        assert_eq!((row.len(), Row::new(std::iter::empty()).total()), (100, 0.0));
+        assert_eq!((row.len(), Row::new(Vec::new()).total()), (100, 0.0));
     }
 }

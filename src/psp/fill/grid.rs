@@ -2,10 +2,12 @@
 //! every sample whose ball touches it. So a test of a place, and of a part of the surface that lies in one cell, reads
 //! one page.
 //!
-//! A page has a lane for each axis; one more would hold a clearance of each sample's own.
+//! Where normals matter they are kept beside the pages, and looked at once a sample is near enough to count.
 
 use glam::DVec3;
 
+use crate::mesh::exact;
+use crate::psp::facing::{Facing, NO_NORMAL};
 use crate::psp::fill::page::{GROUP, Group, LANES, Page, Part};
 use crate::psp::fill::space::{Place, Space, key};
 use crate::psp::fill::table::Table;
@@ -25,6 +27,9 @@ pub(in crate::psp) struct Grid {
     pages: Vec<Page>,
     /// For each page, the one of its cell that was full before.
     earlier: Vec<u32>,
+    facing: Facing,
+    /// Where normals matter, those of the samples on each page.
+    normals: Vec<[[f32; 3]; LANES]>,
 }
 
 /// The last page of a cell, and how many samples all of its pages list.
@@ -35,15 +40,18 @@ struct Cell {
 }
 
 impl Grid {
-    pub fn new(space: Space) -> Self {
-        let (mut pages, mut earlier) = (Vec::with_capacity(PAGES), Vec::with_capacity(PAGES));
+    pub fn new(space: Space, facing: Facing) -> Self {
+        let (mut pages, mut earlier, mut normals) = (Vec::with_capacity(PAGES), Vec::with_capacity(PAGES), Vec::new());
         pages.push(Page::EMPTY);
         earlier.push(0);
-        Self { space, level: Level::widest(), cells: Table::new(), pages, earlier }
+        if facing.asks_normals() {
+            normals.push([NO_NORMAL; LANES]);
+        }
+        Self { space, level: Level::widest(), cells: Table::new(), pages, earlier, facing, normals }
     }
 
-    /// Adds a sample.
-    pub fn add(&mut self, place: Place) {
+    /// Adds a sample on a triangle with this normal.
+    pub fn add(&mut self, place: Place, normal: [f32; 3]) {
         each_cell(self.space.cells_around(place), |cell| {
             let cell = self.cells.entry(key(cell));
             let lane = cell.count as usize % LANES;
@@ -51,18 +59,26 @@ impl Grid {
                 self.earlier.push(cell.page);
                 cell.page = self.pages.len() as u32;
                 self.pages.push(Page::EMPTY);
+                if self.facing.asks_normals() {
+                    self.normals.push([NO_NORMAL; LANES]);
+                }
             }
             cell.count += 1;
             self.pages[cell.page as usize].put(lane, place);
+            if self.facing.asks_normals() {
+                self.normals[cell.page as usize][lane] = normal;
+            }
         });
     }
 
-    /// Whether a place is closer to a sample than the radius: in `f64`, without tolerance.
-    pub fn rejects(&self, place: Place) -> bool {
-        self.any_page(self.space.cell(place), |page| {
+    /// Whether a place on a triangle with this normal is closer to a sample than the radius: in `f64`, without tolerance.
+    pub fn rejects(&self, place: Place, normal: [f32; 3]) -> bool {
+        self.any_page(self.space.cell(place), |number| {
+            let page = &self.pages[number];
             let mut near = vectors::near(self.level, page, place, self.space.surely_beyond);
             while near != 0 {
-                if self.space.conflict(place, page.place(near.trailing_zeros() as usize)) {
+                let lane = near.trailing_zeros() as usize;
+                if self.space.conflict(place, page.place(lane)) && self.sees(number, lane, normal) {
                     return true;
                 }
                 near &= near - 1;
@@ -71,9 +87,30 @@ impl Grid {
         })
     }
 
-    /// Which of some sixteenths of a triangle, given by its corners in the unit of the space, no single sample certainly
-    /// covers.
-    pub fn open_sixteenths(&self, corners: [DVec3; 3], longest: f64, mut open: u16) -> u16 {
+    /// The distance of a place on a triangle with this normal to the nearest sample, or `reach` where none is nearer: at
+    /// most twice the radius, in the unit of places.
+    pub fn distance(&self, place: Place, normal: [f32; 3], reach: f64) -> f64 {
+        let mut least = reach * reach;
+        each_cell(self.space.cells_within(place, reach), |cell| {
+            self.any_page(cell, |number| {
+                let page = &self.pages[number];
+                let mut near = vectors::near(self.level, page, place, Space::beyond(least));
+                while near != 0 {
+                    let lane = near.trailing_zeros() as usize;
+                    if self.sees(number, lane, normal) {
+                        least = least.min(exact(place).distance_squared(exact(page.place(lane))));
+                    }
+                    near &= near - 1;
+                }
+                false
+            });
+        });
+        least.sqrt()
+    }
+
+    /// Which of some sixteenths of a fragment, given by its corners in the unit of the space and the normal of its
+    /// triangle, no single sample certainly covers.
+    pub fn open_sixteenths(&self, corners: [DVec3; 3], longest: f64, normal: [f32; 3], mut open: u16) -> u16 {
         let a = corners[0].as_vec3();
         let [corner, to_b, to_c] = [corners[0] - a.as_dvec3(), corners[1] - corners[0], corners[2] - corners[0]];
         // What covers a sixteenth is no farther from its centre than the radius, and this no farther from the centre of
@@ -86,28 +123,25 @@ impl Grid {
             centre: (corner + (to_b + to_c) * (1.0 / 3.0)).as_vec3().to_array(),
             reach2: reach * reach * 1.0001,
         };
-        // Samples that cover a sixteenth are on the page of each of its corners.
-        let mut cells = [[0; 3]; PIERCING.len()];
-        for (known, [s, t]) in PIERCING.into_iter().enumerate() {
-            let cell = self.space.cell((corners[0] + (s * to_b + t * to_c)).as_vec3().to_array());
-            let is_known = cells[..known].contains(&cell);
-            cells[known] = cell;
-            if is_known {
-                continue;
-            }
-            let is_covered = self.any_page(cell, |page| {
+        any_cell(&self.space, corners, |cell| {
+            self.any_page(cell, |number| {
+                let (page, seen);
+                if self.facing.asks_normals() {
+                    seen = self.seen(number, normal);
+                    page = &seen;
+                } else {
+                    page = &self.pages[number];
+                }
                 open &= !vectors::covered_sixteenths(self.level, page, &part, self.space.surely_within);
                 open == 0
-            });
-            if is_covered {
-                break;
-            }
-        }
+            })
+        });
         open
     }
 
-    /// Which triangles of a group no single sample certainly covers: a bit for each. Their pages are looked up here.
-    pub fn open_triangles(&self, group: &mut Group, count: usize) -> u64 {
+    /// Which triangles of a group, with these normals, no single sample certainly covers: a bit for each. Their pages are
+    /// looked up here.
+    pub fn open_triangles(&self, group: &mut Group, count: usize, normal: impl Fn(usize) -> [f32; 3]) -> u64 {
         let mut keys = [0; GROUP];
         for (lane, of) in keys.iter_mut().enumerate() {
             *of = key(self.space.cell(group.triangles[lane][0]));
@@ -118,12 +152,17 @@ impl Grid {
             group.pages[lane] = cell.page;
             chained |= u64::from(cell.count as usize > LANES) << lane;
         }
-        let mut open = !vectors::covered_triangles(self.level, group, &self.pages, self.space.surely_within);
-        open &= u64::MAX >> (64 - count);
+        let all = u64::MAX >> (64 - count);
+        let mut open = all & !vectors::covered_triangles(self.level, group, &self.pages, self.space.surely_within);
         let mut rest = open & chained;
+        if self.facing.asks_normals() {
+            // What may be covered by a sample that faces another way.
+            rest |= all & !open;
+            open = all;
+        }
         while rest != 0 {
             let lane = rest.trailing_zeros() as usize;
-            if self.covers(&group.triangles[lane]) {
+            if self.covers(&group.triangles[lane], normal(lane)) {
                 open &= !(1 << lane);
             }
             rest &= rest - 1;
@@ -132,24 +171,55 @@ impl Grid {
     }
 
     /// Whether one sample certainly covers a triangle.
-    fn covers(&self, corners: &[Place; 3]) -> bool {
-        self.any_page(self.space.cell(corners[0]), |page| {
-            vectors::covering(self.level, page, corners, self.space.surely_within) != 0
+    fn covers(&self, corners: &[Place; 3], normal: [f32; 3]) -> bool {
+        self.any_page(self.space.cell(corners[0]), |number| {
+            let covering = vectors::covering(self.level, &self.pages[number], corners, self.space.surely_within);
+            (0..LANES).any(|lane| covering >> lane & 1 == 1 && self.sees(number, lane, normal))
         })
+    }
+
+    /// Whether a sample matters to a normal.
+    #[inline(always)]
+    fn sees(&self, page: usize, lane: usize, normal: [f32; 3]) -> bool {
+        !self.facing.asks_normals() || self.facing.sees(self.normals[page][lane], normal)
+    }
+
+    /// A page of those samples only that matter to a normal.
+    fn seen(&self, page: usize, normal: [f32; 3]) -> Page {
+        let mut seen = self.pages[page];
+        (0..LANES).filter(|&lane| !self.sees(page, lane, normal)).for_each(|lane| seen.clear(lane));
+        seen
     }
 
     /// Whether the test holds for a page of a cell.
     #[inline(always)]
-    fn any_page(&self, cell: [u32; 3], mut test: impl FnMut(&Page) -> bool) -> bool {
+    fn any_page(&self, cell: [u32; 3], mut test: impl FnMut(usize) -> bool) -> bool {
         let Cell { mut page, count } = self.cells.get(key(cell));
         for _ in 0..count.div_ceil(LANES as u32) {
-            if test(&self.pages[page as usize]) {
+            if test(page as usize) {
                 return true;
             }
             page = self.earlier[page as usize];
         }
         false
     }
+}
+
+/// Whether the test holds for a cell whose pages have to be read for the sixteenths of a fragment: samples that cover
+/// one are on the pages of each of its corners.
+#[inline(always)]
+pub(in crate::psp) fn any_cell(space: &Space, [a, b, c]: [DVec3; 3], mut test: impl FnMut([u32; 3]) -> bool) -> bool {
+    let (to_b, to_c) = (b - a, c - a);
+    let mut cells = [[0; 3]; PIERCING.len()];
+    for (known, [s, t]) in PIERCING.into_iter().enumerate() {
+        let cell = space.cell((a + (s * to_b + t * to_c)).as_vec3().to_array());
+        let is_known = cells[..known].contains(&cell);
+        cells[known] = cell;
+        if !is_known && test(cell) {
+            return true;
+        }
+    }
+    false
 }
 
 /// Calls `visit` with all cells from the lowest to the highest.
@@ -167,7 +237,7 @@ pub(in crate::psp) fn each_cell([low, high]: [[u32; 3]; 2], mut visit: impl FnMu
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mesh::{Mesh, exact};
+    use crate::mesh::Mesh;
     use crate::psp::fragment::Fragment;
     use crate::rng::{Draw, Rng};
 
@@ -186,14 +256,18 @@ mod tests {
             let end = |radii: f64| [(centre + radii * radius) as f32; 3];
             let corners = vec![random_point(&mut rng, centre, radius), end(4.0), end(-4.0)];
             let mesh = Mesh::new(corners, vec![[0, 1, 2]]).unwrap();
-            let mut grid = Grid::new(Space::new(&mesh, radius));
+            let mut grid = Grid::new(Space::new(&mesh, radius), Facing::ANY);
             let mut samples: Vec<[f32; 3]> = Vec::new();
             for _ in 0..2000 {
                 let point = random_point(&mut rng, centre, 4.0 * radius);
                 let conflicts = samples.iter().any(|&sample| exact(sample).distance(exact(point)) < radius);
-                assert_eq!(grid.rejects(grid.space.place(point)), conflicts);
+                assert_eq!(grid.rejects(grid.space.place(point), NO_NORMAL), conflicts);
+                let distances = samples.iter().map(|&sample| exact(sample).distance(exact(point)));
+                let (reach, scale) = (1.5 * grid.space.radius(), f64::from(grid.space.scale()));
+                let nearest = distances.map(|distance| distance * scale).fold(reach, f64::min);
+                assert!((grid.distance(grid.space.place(point), NO_NORMAL, reach) / nearest - 1.0).abs() < 1e-15);
                 if samples.len() < 400 {
-                    grid.add(grid.space.place(point));
+                    grid.add(grid.space.place(point), NO_NORMAL);
                     samples.push(point);
                 }
             }
@@ -209,17 +283,17 @@ mod tests {
             let size = [1.0, 0.1, 1e-3][round / 3 % 3] * radius;
             let corners = (0..3).map(|_| random_point(&mut rng, centre, size)).collect();
             let Ok(mesh) = Mesh::new(corners, vec![[0, 1, 2]]) else { continue };
-            let mut grid = Grid::new(Space::new(&mesh, radius));
+            let mut grid = Grid::new(Space::new(&mesh, radius), Facing::ANY);
             let samples: Vec<_> = (0..30).map(|_| random_point(&mut rng, centre, 1.4 * radius)).collect();
             // A radius far beyond the mesh stands for less.
             let radius = grid.space.radius() / f64::from(grid.space.scale());
-            samples.iter().for_each(|&sample| grid.add(grid.space.place(sample)));
+            samples.iter().for_each(|&sample| grid.add(grid.space.place(sample), NO_NORMAL));
             let (whole, mut group) = (Fragment::whole(0), Group::EMPTY);
             group.triangles[0] = mesh.corners(0).map(|corner| grid.space.place(corner));
-            let is_open = grid.open_triangles(&mut group, 1) == 1;
+            let is_open = grid.open_triangles(&mut group, 1, |_| NO_NORMAL) == 1;
             let shape = whole.shape(&mesh);
             let scaled = shape.corners.map(|corner| grid.space.scaled(corner));
-            let open = grid.open_sixteenths(scaled, shape.longest * f64::from(grid.space.scale()), u16::MAX);
+            let open = grid.open_sixteenths(scaled, shape.longest * f64::from(grid.space.scale()), NO_NORMAL, u16::MAX);
             let parts = (0..16).map(|part| (open >> part & 1 == 1, whole.sixteenth(part)));
             for (is_open, part) in std::iter::once((is_open, whole)).chain(parts) {
                 let corners = part.shape(&mesh).corners;

@@ -6,11 +6,13 @@
 
 use glam::DVec3;
 
-use crate::mesh::{Mesh, round_barycentrics};
+use crate::mesh::{Mesh, round_barycentrics, rounded_down};
+use crate::psp::facing::{Facing, NO_NORMAL};
 use crate::psp::fill::grid::Grid;
 use crate::psp::fill::page::{GROUP, Group};
 use crate::psp::fill::space::Space;
 use crate::psp::fragment::Fragment;
+use crate::psp::obstacles::Obstacles;
 use crate::psp::samples::Sample;
 use crate::psp::sixteenths::SIXTEENTHS;
 
@@ -78,13 +80,33 @@ pub(in crate::psp) struct UniformGround<'a> {
     pub accepted: Vec<Sample>,
     /// How many darts it took.
     pub darts: u64,
+    facing: Facing,
+    obstacles: &'a Obstacles,
+    /// The largest rank, in the unit of places, where samples get ranks.
+    largest_rank: Option<f64>,
     per_radius: f64,
 }
 
 impl<'a> UniformGround<'a> {
-    pub fn new(mesh: &'a Mesh, space: Space) -> Self {
-        let per_radius = 1.0 / space.radius();
-        Self { mesh, grid: Grid::new(space), accepted: Vec::new(), darts: 0, per_radius }
+    /// No samples yet, but what is given with a clearance of its own.
+    pub fn new(mesh: &'a Mesh, space: Space, facing: Facing, obstacles: &'a Obstacles) -> Self {
+        let (grid, per_radius) = (Grid::new(space, facing), 1.0 / space.radius());
+        Self { mesh, grid, accepted: Vec::new(), darts: 0, facing, obstacles, largest_rank: None, per_radius }
+    }
+
+    /// The ground, with ranks for the samples that the fill adds: up to the largest, which is between the radius and
+    /// twice as much.
+    pub fn ranked(self, largest: Option<f64>) -> Self {
+        Self { largest_rank: largest.map(|rank| rank * f64::from(self.grid.space.scale())), ..self }
+    }
+
+    /// The rank of a sample that is added now: its distance to the nearest one, but no more than the largest rank. It is
+    /// no longer than the distance in whatever order a caller evaluates that.
+    fn rank(&self, sample: &Sample) -> f32 {
+        let Some(largest) = self.largest_rank else { return f32::INFINITY };
+        let (place, normal) = (self.grid.space.place(sample.position), self.normal(sample.triangle));
+        let distance = self.grid.distance(place, normal, largest) * (1.0 - 1e-14);
+        rounded_down(distance.max(self.grid.space.radius()) / f64::from(self.grid.space.scale()))
     }
 
     /// The radius, in the unit of the mesh.
@@ -93,13 +115,40 @@ impl<'a> UniformGround<'a> {
     }
 
     /// Tells the ground of a sample that is there already.
-    pub fn add(&mut self, position: [f32; 3]) {
-        self.grid.add(self.grid.space.place(position));
+    pub fn add(&mut self, sample: &Sample) {
+        self.grid.add(self.grid.space.place(sample.position), self.normal(sample.triangle));
+    }
+
+    /// Tells the ground of a given sample that has the clearance of a sample of its own.
+    pub fn add_given(&mut self, position: [f32; 3]) {
+        self.grid.add(self.grid.space.place(position), NO_NORMAL);
     }
 
     /// Whether a dart conflicts with a sample.
     pub fn rejects(&self, dart: &Sample) -> bool {
-        self.grid.rejects(self.grid.space.place(dart.position))
+        self.grid.rejects(self.grid.space.place(dart.position), self.normal(dart.triangle))
+            || self.obstacles.reject(dart.position)
+    }
+
+    /// Which of a group of triangles no single sample certainly covers: a bit for each.
+    pub fn open_triangles(&self, group: &mut Group, count: usize, triangle: impl Fn(usize) -> u32) -> u64 {
+        let open = self.grid.open_triangles(group, count, |lane| self.normal(triangle(lane)));
+        self.obstacles.open_triangles(open, |lane| self.mesh.corners(triangle(lane)))
+    }
+
+    /// The normal of a triangle, where normals matter.
+    #[inline(always)]
+    fn normal(&self, triangle: u32) -> [f32; 3] {
+        self.facing.normal(self.mesh, triangle)
+    }
+
+    /// Which of some sixteenths of a fragment, given by its triangle and its corners in the unit of the space, no single
+    /// sample certainly covers.
+    #[inline(always)]
+    fn uncovered(&self, triangle: u32, corners: [DVec3; 3], longest: f64, open: u16) -> u16 {
+        let open = self.grid.open_sixteenths(corners, longest, self.normal(triangle), open);
+        let scale = f64::from(self.grid.space.scale());
+        self.obstacles.open_sixteenths(corners.map(|corner| corner / scale), open)
     }
 
     /// A whole triangle, and whether it has any area.
@@ -143,7 +192,8 @@ impl<'a> UniformGround<'a> {
         let (e, f) = (b - a, c - a);
         let [p, q, r] = part;
         let at = |[s, t]: [f64; 2]| a + (s * e + t * f);
-        let open = self.grid.open_sixteenths([at(p), at(q), at(r)], f64::from(longest) / self.per_radius, u16::MAX);
+        let longest_edge = f64::from(longest) / self.per_radius;
+        let open = self.uncovered(fragment.triangle, [at(p), at(q), at(r)], longest_edge, u16::MAX);
         let part = || Fragment { corners: [fragment.at(p), fragment.at(q), fragment.at(r)], ..*fragment };
         (open != 0).then(|| Patch { fragment: part(), open, area, longest, local: () })
     }
@@ -167,7 +217,7 @@ impl Ground for UniformGround<'_> {
     fn look(&self, fragment: &Fragment, (): ()) -> Option<Patch> {
         let corners = self.corners(fragment);
         let (area, longest) = self.size(&corners);
-        let open = self.grid.open_sixteenths(corners, longest / self.per_radius, u16::MAX);
+        let open = self.uncovered(fragment.triangle, corners, longest / self.per_radius, u16::MAX);
         let patch = Patch { fragment: *fragment, open, area: area as f32, longest: longest as f32, local: () };
         (open != 0).then_some(patch)
     }
@@ -183,7 +233,7 @@ impl Ground for UniformGround<'_> {
 
     fn open_sixteenths(&self, patch: &Patch) -> u16 {
         let corners = self.corners(&patch.fragment);
-        self.grid.open_sixteenths(corners, f64::from(patch.longest) / self.per_radius, patch.open)
+        self.uncovered(patch.fragment.triangle, corners, f64::from(patch.longest) / self.per_radius, patch.open)
     }
 
     fn open_wholes(&self, wholes: &[Whole]) -> u64 {
@@ -192,7 +242,7 @@ impl Ground for UniformGround<'_> {
         for (lane, whole) in wholes.iter().enumerate() {
             group.triangles[lane] = self.grid.space.places(self.mesh.corners(whole.triangle));
         }
-        self.grid.open_triangles(&mut group, wholes.len())
+        self.open_triangles(&mut group, wholes.len(), |lane| wholes[lane].triangle)
     }
 
     fn dart(&self, triangle: u32, barycentrics: [f64; 2], (): ()) -> Sample {
@@ -201,10 +251,10 @@ impl Ground for UniformGround<'_> {
 
     fn throw(&mut self, sample: Sample) {
         self.darts += 1;
-        let place = self.grid.space.place(sample.position);
-        if !self.grid.rejects(place) {
-            self.grid.add(place);
-            self.accepted.push(sample);
+        if !self.rejects(&sample) {
+            let rank = self.rank(&sample);
+            self.add(&sample);
+            self.accepted.push(Sample { rank, ..sample });
         }
     }
 }

@@ -8,8 +8,9 @@
 //! then stay in the cache, and threads share the cubes. Few samples are made in one piece, since sorting the triangles
 //! costs more.
 
-mod blocks;
+pub(super) mod blocks;
 pub(super) mod darts;
+pub(super) mod extent;
 pub(super) mod grid;
 pub(super) mod ground;
 pub(super) mod page;
@@ -25,29 +26,35 @@ use std::ops::AddAssign;
 
 use crate::error::Result;
 use crate::job::{Job, chunks_of};
+use crate::math::power;
 use crate::mesh::Mesh;
-use crate::psp::cubes::Cube;
 use crate::psp::estimate::expected_samples;
-use crate::psp::fill::blocks::Blocks;
-use crate::psp::fill::darts::Row;
+use crate::psp::facing::Facing;
+use crate::psp::fill::blocks::{Block, Blocks};
+use crate::psp::fill::darts::{Row, random_point};
 use crate::psp::fill::ground::{Ground, UniformGround};
-use crate::psp::fill::region::{Items, first_darts, open_parts, open_triangles, throw_at, throw_first};
-use crate::psp::fill::rounds::{Open, rounds};
+use crate::psp::fill::region::{first_darts, open_parts, open_triangles, throw_at, throw_first};
+use crate::psp::fill::rounds::{Open, PATCH, rounds};
 use crate::psp::fill::space::Space;
-use crate::psp::fill::triangles::{Measures, Triangles};
+use crate::psp::fill::triangles::Measures;
+use crate::psp::given::GivenSamples;
 use crate::psp::samples::{Sample, SampleSet};
 use crate::rng::{Draw, Rng};
 
 /// Up to so many expected samples a surface is filled in one piece.
-const ONE_PIECE: f64 = 25_000.0;
+pub(super) const ONE_PIECE: f64 = 25_000.0;
 
 /// With how many random points, and some more where more is open, the open area of a surface is measured, ...
-const PROBES: usize = 1 << 10;
+pub(super) const PROBES: usize = 1 << 10;
 /// ... and that of each of its cubes.
-const PROBES_IN_CUBE: usize = 1 << 6;
+pub(super) const PROBES_IN_CUBE: usize = 1 << 6;
+
+/// Where samples are given, first darts rain if at least this share of the surface is open. If less is, most of them
+/// would be wasted, and rounds on what is open are faster.
+pub(super) const RAIN_FROM: f64 = 0.15;
 
 /// Groups of triangles per task.
-const CHUNK: usize = 1 << 8;
+pub(super) const CHUNK: usize = 1 << 8;
 
 /// Counts of a fill, or of a part of it.
 #[derive(Default)]
@@ -64,66 +71,128 @@ impl AddAssign for Filled {
     }
 }
 
+/// What is to be filled, and around what.
+#[derive(Clone, Copy)]
+pub(super) struct Surface<'a> {
+    pub mesh: &'a Mesh,
+    pub measures: &'a Measures,
+    pub given: &'a GivenSamples,
+    pub facing: Facing,
+}
+
+impl<'a> Surface<'a> {
+    /// The surface without any sample of the radius.
+    fn ground(&self, radius: f64) -> UniformGround<'a> {
+        UniformGround::new(self.mesh, Space::new(self.mesh, radius), self.facing, &self.given.obstacles)
+    }
+
+    /// The share of it that given samples leave open, roughly: that of random points.
+    fn open_share(&self, ground: &UniformGround, rng: &mut Rng) -> f64 {
+        let (triangles, groups) = (self.measures.triangles(), Row::new(self.measures.areas.clone()));
+        if groups.total() == 0.0 {
+            return 0.0;
+        }
+        let point = |rng: &mut Rng| {
+            let group = groups.hit(rng) as usize;
+            let areas = triangles.measure(self.mesh, group).0;
+            let index = triangles.group(group).start + Row::new(areas.to_vec()).hit(rng) as usize;
+            (triangles.at(index), random_point(rng), ())
+        };
+        open_share(ground, PROBES, || point(rng))
+    }
+}
+
+/// How a surface is filled.
+#[derive(Clone, Copy)]
+pub(super) struct Manner {
+    pub seed: u64,
+    /// Whether darts rain on the surface before it is looked at what is open: where samples cover little of it.
+    pub rains: bool,
+    /// Whether the area that is open at first is measured.
+    pub measures: bool,
+    /// The longest patches that darts are thrown on, in radii: at most [`PATCH`].
+    pub patch: f32,
+    /// The largest rank of the samples that are added, if these get ranks (`levels.rs`).
+    pub largest_rank: Option<f64>,
+}
+
+impl Manner {
+    /// How a set is filled around the samples that it has.
+    fn of(samples: &SampleSet, seed: u64) -> Self {
+        Self { seed, rains: samples.len() == 0, measures: true, patch: PATCH as f32, largest_rank: None }
+    }
+}
+
 /// Adds samples until the set is maximal.
-pub(super) fn fill(job: &Job, mesh: &Mesh, measures: &Measures, samples: &mut SampleSet, seed: u64) -> Result<Filled> {
-    let in_blocks = expected_samples(mesh, measures, samples.radius()) > ONE_PIECE;
-    fill_either_way(job, mesh, measures, samples, in_blocks, seed)
+pub(super) fn fill(job: &Job, surface: &Surface, samples: &mut SampleSet, seed: u64) -> Result<Filled> {
+    fill_in(Manner::of(samples, seed), job, surface, samples)
+}
+
+/// Adds samples in this manner until the set is maximal.
+pub(super) fn fill_in(manner: Manner, job: &Job, surface: &Surface, samples: &mut SampleSet) -> Result<Filled> {
+    let in_blocks = expected_samples(surface.mesh, surface.measures, samples.radius()) > ONE_PIECE;
+    fill_either_way(job, surface, samples, in_blocks, manner)
 }
 
 /// Fills cube by cube or in one piece.
 fn fill_either_way(
     job: &Job,
-    mesh: &Mesh,
-    measures: &Measures,
+    surface: &Surface,
     samples: &mut SampleSet,
     in_blocks: bool,
-    seed: u64,
+    manner: Manner,
 ) -> Result<Filled> {
-    let is_empty = samples.len() == 0;
+    let is_empty = samples.len() == 0 && surface.given.is_empty();
     let mut filled = if in_blocks {
-        fill_in_blocks(job, mesh, measures, samples, is_empty, seed)?
+        fill_in_blocks(job, surface, samples, manner)?
     } else {
-        let mut ground = UniformGround::new(mesh, Space::new(mesh, samples.radius()));
-        samples.all().iter().for_each(|sample| ground.add(sample.position));
-        let open_area = fill_in_one_piece(job, &mut ground, measures, is_empty, seed);
+        let mut ground = surface.ground(samples.radius()).ranked(manner.largest_rank);
+        surface.given.alike().iter().for_each(|&position| ground.add_given(position));
+        samples.all().iter().for_each(|sample| ground.add(sample));
+        let open_area = fill_in_one_piece(job, surface, &mut ground, manner);
         // What was accepted stays, even where the job is cancelled.
         samples.append(&mut ground.accepted);
         Filled { darts: ground.darts, open_area: open_area? }
     };
     if is_empty {
-        filled.open_area = mesh.area();
+        filled.open_area = surface.mesh.area();
     }
     Ok(filled)
+}
+
+/// The share of so many random points that no sample covers.
+fn open_share(ground: &UniformGround, probes: usize, mut point: impl FnMut() -> (u32, [f64; 2], ())) -> f64 {
+    let is_open = |_: &usize| {
+        let (triangle, barycentrics, ()) = point();
+        !ground.rejects(&ground.dart(triangle, barycentrics, ()))
+    };
+    (0..probes).filter(is_open).count() as f64 / probes as f64
 }
 
 /// The area that is open where there were samples before the fill: the share of random points on what may be uncovered
 /// that no sample covers.
 fn open_area(ground: &UniformGround, open: &Open, probes: usize, rng: &mut Rng) -> f64 {
-    let row = Row::new(open.areas());
+    let row = Row::new(open.areas().collect());
     if row.total() == 0.0 {
         return 0.0;
     }
-    let probes = probes + row.len() / 8;
-    let is_open = |_: &usize| {
-        let (triangle, barycentrics, ()) = open.point(row.hit(rng), rng);
-        !ground.rejects(&ground.dart(triangle, barycentrics, ()))
-    };
-    let uncovered = (0..probes).filter(is_open).count();
-    row.total() * ground.radius() * ground.radius() * uncovered as f64 / probes as f64
+    let share = open_share(ground, probes + row.len() / 8, || open.point(row.hit(rng), rng));
+    row.total() * ground.radius() * ground.radius() * share
 }
 
-/// Fills the whole surface, and returns the area that was open before the rounds.
-fn fill_in_one_piece(
-    job: &Job,
-    ground: &mut UniformGround,
-    measures: &Measures,
-    is_empty: bool,
-    seed: u64,
-) -> Result<f64> {
+/// Fills the whole surface, and returns the area that was open before.
+fn fill_in_one_piece(job: &Job, surface: &Surface, ground: &mut UniformGround, manner: Manner) -> Result<f64> {
+    let (measures, seed) = (surface.measures, manner.seed);
     let triangles = measures.triangles();
     let chunks = chunks_of(triangles.groups(), CHUNK);
     let mut rng = Rng::at(seed, Draw::Fill, &[]);
-    if is_empty {
+    let share = match (manner.rains, surface.given.is_empty()) {
+        (false, _) => 0.0,
+        (true, true) => 1.0,
+        (true, false) => surface.open_share(ground, &mut rng),
+    };
+    let rains = share >= RAIN_FROM;
+    if rains {
         let mut darts = Vec::new();
         let in_chunk = |chunk: usize| {
             let groups = chunks.range(chunk).map(|group| (group, measures.areas[group]));
@@ -142,60 +211,59 @@ fn fill_in_one_piece(
         open.append(&mut part);
         Ok(())
     })?;
-    let open_area = if is_empty { 0.0 } else { open_area(ground, &open, PROBES, &mut rng) };
+    let open_area = match (rains, manner.measures) {
+        (true, _) => share * ground.mesh.area(),
+        (false, true) => open_area(ground, &open, PROBES, &mut rng),
+        (false, false) => 0.0,
+    };
     let job = job.part(0.5, 1.0);
-    rounds(ground, open, &mut rng, |round| job.report(1.0 - 0.8f64.powi(round)))?;
+    rounds(ground, open, manner.patch, &mut rng, |round| job.report(1.0 - power(0.8, round as u32)))?;
     Ok(open_area)
 }
 
 /// Fills the surface cube by cube.
-fn fill_in_blocks(
-    job: &Job,
-    mesh: &Mesh,
-    measures: &Measures,
-    samples: &mut SampleSet,
-    is_empty: bool,
-    seed: u64,
-) -> Result<Filled> {
-    let blocks = Blocks::new(&job.part(0.0, 0.1), mesh, measures.triangles(), samples)?;
-    let space = Space::new(mesh, samples.radius());
-    samples.grow(&job.part(0.1, 1.0), &blocks.cubes, |block, samples| {
-        let (triangles, pieces) = blocks.content(block);
-        let items = Items { triangles: Triangles::Listed(&triangles), pieces: &pieces };
-        fill_block(UniformGround::new(mesh, space), items, blocks.cubes[block], samples, is_empty, seed)
+fn fill_in_blocks(job: &Job, surface: &Surface, samples: &mut SampleSet, manner: Manner) -> Result<Filled> {
+    let blocks = Blocks::new(&job.part(0.0, 0.1), surface.mesh, surface.measures.triangles(), samples)?;
+    samples.grow(&job.part(0.1, 1.0), &blocks.cubes, |number, samples| {
+        fill_block(surface, &blocks.block(number), samples, manner)
     })
 }
 
 /// The samples that a cube needs to be covered, and what that took.
-fn fill_block(
-    mut ground: UniformGround,
-    items: Items,
-    cube: Cube,
-    samples: &SampleSet,
-    is_empty: bool,
-    seed: u64,
-) -> (Vec<Sample>, Filled) {
-    let mut rng = Rng::at(seed, Draw::Fill, &cube.key());
-    let (low, high) = items.reached(ground.mesh, ground.radius());
-    for sample in samples.around(cube) {
-        if (0..3).all(|axis| low[axis] <= sample.position[axis] && sample.position[axis] <= high[axis]) {
-            ground.add(sample.position);
-        }
+fn fill_block(surface: &Surface, block: &Block, samples: &SampleSet, manner: Manner) -> (Vec<Sample>, Filled) {
+    let (cube, items) = (block.cube, block.items());
+    let mut ground = surface.ground(samples.radius()).ranked(manner.largest_rank);
+    let mut rng = Rng::at(manner.seed, Draw::Fill, &cube.key());
+    let reach = manner.largest_rank.unwrap_or(ground.radius());
+    let is_near = |position: [f32; 3]| block.extent.is_in_reach(position, reach);
+    surface.given.alike_around(cube).filter(|&position| is_near(position)).for_each(|near| ground.add_given(near));
+    // What given samples leave open, before those of other cubes cover a part of it.
+    let row = manner.rains.then(|| items.row(ground.mesh));
+    let share = row.as_ref().map_or(0.0, |row| match surface.given.is_empty() {
+        true => 1.0,
+        false => open_share(&ground, PROBES_IN_CUBE, || items.point(row, &mut rng)),
+    });
+    samples.around(cube).filter(|sample| is_near(sample.position)).for_each(|sample| ground.add(sample));
+    let first = row.filter(|_| share >= RAIN_FROM);
+    if let Some(row) = &first {
+        throw_first(&mut ground, items, row, &mut rng);
     }
     let triangles = items.triangles;
-    if is_empty {
-        throw_first(&mut ground, items, &mut rng);
-    }
     let mut open = open_triangles(&ground, triangles, 0..triangles.groups());
     items.pieces.iter().for_each(|piece| open_parts(&ground, piece, &mut open));
-    let open_area = if is_empty { 0.0 } else { open_area(&ground, &open, PROBES_IN_CUBE, &mut rng) };
-    let Ok(()) = rounds(&mut ground, open, &mut rng, |_| Ok::<(), std::convert::Infallible>(()));
+    let open_area = match first {
+        Some(row) => share * row.total(),
+        None if manner.measures => open_area(&ground, &open, PROBES_IN_CUBE, &mut rng),
+        None => 0.0,
+    };
+    let Ok(()) = rounds(&mut ground, open, manner.patch, &mut rng, |_| Ok::<(), std::convert::Infallible>(()));
     (ground.accepted, Filled { darts: ground.darts, open_area })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::given::Given;
     use crate::job::Context;
     use crate::mesh::exact;
 
@@ -216,25 +284,50 @@ mod tests {
         Mesh::new(positions, (0..300).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect()).unwrap()
     }
 
-    /// Each way, on one thread and on three; then the other way finds nothing left, and nothing conflicts.
+    /// Given samples near and on the mesh, every second of them with the radius of the set, the others with clearances
+    /// from a hundredth to ten times it.
+    fn obstacles(mesh: &Mesh, radius: f64, count: usize) -> (Vec<[f32; 3]>, Vec<f64>) {
+        let mut rng = Rng::at(9, Draw::Probe, &[]);
+        let mut given = |i: usize| {
+            let triangle = rng.below(mesh.triangles().len() as u64) as u32;
+            let place = mesh.point_exact(triangle, random_point(&mut rng)).to_array();
+            let position = place.map(|x| (x + 0.5 * radius * (rng.unit() - 0.5)) as f32);
+            let own = radius * libm::exp10(4.0 * rng.unit() * rng.unit() - 2.0);
+            (position, if i.is_multiple_of(2) { radius } else { own.min(10.0 * radius) })
+        };
+        (0..count).map(&mut given).unzip()
+    }
+
+    /// Each way, on one thread and on three, with given samples and without; then the other way finds nothing left, and
+    /// nothing conflicts.
     #[test]
     fn what_is_filled_in_one_piece_and_by_cubes_is_maximal_to_the_other_way() {
-        for (seed, in_blocks) in (0..2).flat_map(|seed| [(seed, false), (seed, true)]) {
+        for case in 0..8 {
+            let (seed, in_blocks, count) = (case / 4, case % 2 == 1, [0, 100][case as usize / 2 % 2]);
             let (mesh, radius) = (soup(seed), 0.03);
             let measures = Measures::of(&mesh);
+            let (positions, clearances) = obstacles(&mesh, radius, count);
+            let given = Given::with_clearances(&positions, &clearances);
+            let given = &GivenSamples::new(&mesh, given, radius, &SampleSet::new(&mesh, radius), Facing::ANY).unwrap();
+            assert!(count == 0 || 10 * given.alike().len() > 4 * count && !given.obstacles.is_empty());
+            let surface = Surface { mesh: &mesh, measures: &measures, given, facing: Facing::ANY };
             let fill_with = |threads, samples: &mut SampleSet, in_blocks| {
-                let fill = |job: &Job| fill_either_way(job, &mesh, &measures, samples, in_blocks, seed);
+                let manner = Manner::of(samples, seed);
+                let fill = |job: &Job| fill_either_way(job, &surface, samples, in_blocks, manner);
                 Context::new(threads).unwrap().run(None, fill).unwrap()
             };
             let [mut one, mut three] = [(); 2].map(|()| SampleSet::new(&mesh, radius));
             let filled = fill_with(1, &mut one, in_blocks);
             fill_with(3, &mut three, in_blocks);
-            let positions = |set: &SampleSet| set.all().iter().map(|sample| sample.position).collect::<Vec<_>>();
-            let samples = positions(&one);
-            assert_eq!(samples, positions(&three), "depends on the threads");
-            assert!(samples.len() > 1000 && filled.darts > samples.len() as u64 && filled.open_area == mesh.area());
+            let places = |set: &SampleSet| set.all().iter().map(|sample| sample.position).collect::<Vec<_>>();
+            let samples = places(&one);
+            assert_eq!(samples, places(&three), "depends on the threads");
+            assert!(samples.len() > 500 && filled.darts > samples.len() as u64);
+            assert_eq!(filled.open_area == mesh.area(), count == 0);
             for (i, &a) in samples.iter().enumerate() {
                 assert!(samples[..i].iter().all(|&b| exact(a).distance(exact(b)) >= radius));
+                let mut given = positions.iter().zip(&clearances);
+                assert!(given.all(|(&b, &clearance)| exact(a).distance(exact(b)) >= clearance));
             }
             let again = fill_with(1, &mut one, !in_blocks);
             assert_eq!(one.len(), samples.len(), "a gap was left");

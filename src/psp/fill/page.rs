@@ -47,6 +47,11 @@ impl Page {
         (0..3).for_each(|axis| self.0[axis][lane] = place[axis]);
     }
 
+    /// Takes the sample out of a lane.
+    pub fn clear(&mut self, lane: usize) {
+        self.put(lane, [FAR; 3]);
+    }
+
     /// The sample in a lane.
     pub fn place(&self, lane: usize) -> Place {
         [self.0[0][lane], self.0[1][lane], self.0[2][lane]]

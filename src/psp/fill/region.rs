@@ -29,22 +29,20 @@ impl Items<'_> {
         }
     }
 
-    /// The box that samples are in that can reach any of it.
-    pub fn reached(&self, mesh: &Mesh, radius: f64) -> ([f32; 3], [f32; 3]) {
-        let triangles = (0..self.triangles.len()).flat_map(|index| mesh.corners(self.triangles.at(index)));
-        let pieces = self.pieces.iter().flat_map(|piece| {
-            piece.corners.map(|corner| mesh.point_exact(piece.triangle, corner).as_vec3().to_array())
-        });
-        let (mut low, mut high) = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
-        for corner in triangles.chain(pieces) {
-            for axis in 0..3 {
-                low[axis] = low[axis].min(corner[axis]);
-                high[axis] = high[axis].max(corner[axis]);
-            }
+    /// The areas of all.
+    pub fn row(&self, mesh: &Mesh) -> Row {
+        let mut areas = Vec::with_capacity(self.triangles.len() + self.pieces.len());
+        for group in 0..self.triangles.groups() {
+            areas.extend_from_slice(&self.triangles.measure(mesh, group).0[..self.triangles.group(group).len()]);
         }
-        // Some more, for the rounding of the corners and of the reach.
-        let reach = (1.1 * radius) as f32;
-        (low.map(|x| x - reach), high.map(|x| x + reach))
+        areas.extend(self.pieces.iter().map(|piece| piece.area(mesh)));
+        Row::new(areas)
+    }
+
+    /// A random point of any of it.
+    pub fn point(&self, row: &Row, rng: &mut Rng) -> (u32, [f64; 2], ()) {
+        let fragment = self.fragment(row.hit(rng));
+        (fragment.triangle, fragment.at(random_point(rng)), ())
     }
 }
 
@@ -75,18 +73,11 @@ pub(in crate::psp) fn throw_at(ground: &mut UniformGround, triangles: Triangles,
     throw(ground, darts.iter().map(|&index| (triangles.at(index as usize), random_point(rng), ())));
 }
 
-/// Throws the first darts at all of some items.
-pub(in crate::psp) fn throw_first(ground: &mut UniformGround, items: Items, rng: &mut Rng) {
-    let (mesh, radius, triangles) = (ground.mesh, ground.radius(), items.triangles);
-    let of_group = |group: usize| triangles.measure(mesh, group).0.into_iter().take(triangles.group(group).len());
-    let of_pieces = items.pieces.iter().map(|piece| piece.area(mesh));
-    let row = Row::new((0..triangles.groups()).flat_map(of_group).chain(of_pieces));
+/// Throws the first darts at all of some items, whose areas are in a row.
+pub(in crate::psp) fn throw_first(ground: &mut UniformGround, items: Items, row: &Row, rng: &mut Rng) {
+    let radius = ground.radius();
     let darts = (FIRST_DARTS * row.total() / (radius * radius) + rng.unit()) as usize;
-    let points = (0..darts).map(|_| {
-        let fragment = items.fragment(row.hit(rng));
-        (fragment.triangle, fragment.at(random_point(rng)), ())
-    });
-    throw(ground, points);
+    throw(ground, (0..darts).map(|_| items.point(row, rng)));
 }
 
 /// What is open of some groups of triangles.
@@ -101,9 +92,10 @@ pub(in crate::psp) fn open_triangles(
         for (lane, index) in range.clone().enumerate() {
             lanes.triangles[lane] = space.places(ground.mesh.corners(triangles.at(index)));
         }
-        let mut uncovered = ground.grid.open_triangles(&mut lanes, range.len());
+        let triangle = |lane| triangles.at(range.start + lane);
+        let mut uncovered = ground.open_triangles(&mut lanes, range.len(), triangle);
         while uncovered != 0 {
-            add(ground, triangles.at(range.start + uncovered.trailing_zeros() as usize), &mut open);
+            add(ground, triangle(uncovered.trailing_zeros() as usize), &mut open);
             uncovered &= uncovered - 1;
         }
     }

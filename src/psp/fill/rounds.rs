@@ -115,6 +115,18 @@ impl<L: Copy> Open<L> {
         }
     }
 
+    /// Cuts up the patches that are longer than a limit, without any darts on them.
+    pub fn cut<G: Ground<Local = L>>(&mut self, ground: &G, limit: f32) {
+        let patches = std::mem::take(&mut self.patches);
+        for patch in patches {
+            if patch.longest > limit {
+                ground.look_closer(&patch, &mut self.patches);
+            } else {
+                self.patches.push(patch);
+            }
+        }
+    }
+
     /// Looks again at everything: drops what is covered, and cuts up what is longer than a limit.
     pub fn update<G: Ground<Local = L>>(&mut self, ground: &mut G, limit: f32) {
         let is_kept = |longest: f32, finest: f32| longest <= limit && finest <= limit;
@@ -173,14 +185,18 @@ pub(in crate::psp) fn throw<G: Ground>(ground: &mut G, mut points: impl Iterator
     }
 }
 
-/// Throws darts at what is open until it is covered. After each round it is told how many there have been.
+/// Throws darts at what is open until it is covered; at first on patches up to a limit. After each round it is told how
+/// many there have been.
 pub(in crate::psp) fn rounds<G: Ground, E>(
     ground: &mut G,
     mut open: Open<G::Local>,
+    mut limit: f32,
     rng: &mut Rng,
     report: impl Fn(i32) -> Result<(), E>,
 ) -> Result<(), E> {
-    let mut limit = PATCH as f32;
+    if limit < PATCH as f32 {
+        open.cut(ground, limit);
+    }
     let mut round = 0;
     while !(open.wholes.is_empty() && open.patches.is_empty()) {
         let darts = open.rain(rng);

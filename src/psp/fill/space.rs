@@ -48,7 +48,7 @@ impl Space {
             scale,
             radius,
             surely_within: (square * (1.0 - SLACK)) as f32,
-            surely_beyond: (square * (1.0 + SLACK)) as f32,
+            surely_beyond: Self::beyond(square),
             origin: (low - 2.0 * radius).as_vec3().to_array(),
             per_cell: (0.5 / radius) as f32,
         }
@@ -82,6 +82,11 @@ impl Space {
         point * f64::from(self.scale)
     }
 
+    /// A limit for squared distances in floats, above which none is within the root of `square`.
+    pub fn beyond(square: f64) -> f32 {
+        (square * (1.0 + SLACK)) as f32
+    }
+
     /// Whether two places are closer than the radius: in `f64`, without tolerance.
     #[inline]
     pub fn conflict(&self, a: Place, b: Place) -> bool {
@@ -98,12 +103,18 @@ impl Space {
     }
 
     /// The lowest and the highest cell that the ball around a place touches.
+    #[inline]
+    pub fn cells_around(&self, place: Place) -> [[u32; 3]; 2] {
+        self.cells_within(place, self.radius)
+    }
+
+    /// The lowest and the highest cell of a ball of another radius, up to twice that of the space.
     ///
     /// Rounding is monotone. So the cells of all floats in the ball, and those of all points in it once they are
     /// rounded, lie between these two.
     #[inline]
-    pub fn cells_around(&self, place: Place) -> [[u32; 3]; 2] {
-        let reach = (self.radius * (1.0 + SLACK)) as f32;
+    pub fn cells_within(&self, place: Place, reach: f64) -> [[u32; 3]; 2] {
+        let reach = (reach * (1.0 + SLACK)) as f32;
         [self.cell(place.map(|x| x - reach)), self.cell(place.map(|x| x + reach))]
     }
 }

@@ -3,6 +3,7 @@
 
 use glam::{DMat3, DQuat, DVec3};
 
+use crate::math::sincos;
 use crate::rng::{Draw, Rng};
 
 /// Two axes of successive iterations are too near each other above this cosine: 20 degrees.
@@ -50,8 +51,8 @@ pub(in crate::psp) fn frame(seed: u64, iteration: u32, previous: Option<DMat3>) 
 /// A uniformly random rotation: a uniformly random unit quaternion (Shoemake 1992).
 fn rotation(mut rng: Rng) -> DMat3 {
     let share = rng.unit();
-    let (sin1, cos1) = (std::f64::consts::TAU * rng.unit()).sin_cos();
-    let (sin2, cos2) = (std::f64::consts::TAU * rng.unit()).sin_cos();
+    let (sin1, cos1) = sincos(std::f64::consts::TAU * rng.unit());
+    let (sin2, cos2) = sincos(std::f64::consts::TAU * rng.unit());
     let (a, b) = ((1.0 - share).sqrt(), share.sqrt());
     DMat3::from_quat(DQuat::from_xyzw(a * sin1, a * cos1, b * sin2, b * cos2).normalize())
 }

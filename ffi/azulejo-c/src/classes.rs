@@ -1,0 +1,134 @@
+//! Classes of samples, and how far apart they are.
+
+use std::ptr;
+
+use azulejo_core::Classes;
+
+use crate::boundary::{self, check_pointer, check_unused, rows};
+use crate::growing::{self, growing};
+use crate::status::{Failure, azulejo_status};
+
+/// No set has more classes.
+pub const AZULEJO_MAX_CLASSES: u32 = 16;
+const _: () = assert!(AZULEJO_MAX_CLASSES as usize == Classes::MOST);
+
+/// Classes of samples that stand in each other's way: the matrix of their distances. Samples of
+/// classes i and j are at least r_ij apart, and no class can take another sample: for each class i
+/// every place is within r_ij of some sample of some class j.
+///
+/// Classes of larger own radii r_ii come first, those of smaller ones fill what these leave them;
+/// classes of equal radii are treated alike. So two radii that are nearly equal give other shares
+/// than two equal ones: of own radii 1 and 0.9 the first class has its full density.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct azulejo_classes {
+    /// The size of the struct in bytes; set by the _init function.
+    pub struct_size: u32,
+    /// The number of classes, 1 to AZULEJO_MAX_CLASSES. Required.
+    pub count: u32,
+    /// count * count radii, row by row, in the units of the domain or mesh; symmetric, finite, 0 or
+    /// more, and above 0 on the diagonal. Two classes whose radius is 0 ignore each other.
+    /// azulejo_classes_radii makes such a matrix. Required; read during the call only.
+    pub radii: *const f64,
+    /// On meshes, where each class may stand: for each triangle a number with a bit for each
+    /// class, the lowest for class 0. A class has no samples, and needs no cover, where its bit is
+    /// 0; other bits are ignored. If the mesh has a mask, both must allow a sample. NULL, the
+    /// default: all classes may stand everywhere. Read during the call only.
+    pub masks: *const u32,
+    /// The number of masks: that of the mesh's triangles, or 0 if there are none. Default 0.
+    pub mask_count: usize,
+}
+
+growing!(azulejo_classes requires radii {
+    count: 0,
+    radii: ptr::null(),
+    masks: ptr::null(),
+    mask_count: 0,
+});
+
+/// Writes the defaults. `struct_size` is sizeof *classes.
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_classes_init(classes: *mut azulejo_classes, struct_size: usize) -> azulejo_status {
+    // SAFETY: handed on from the caller.
+    unsafe { growing::init("classes", classes, struct_size) }
+}
+
+impl azulejo_classes {
+    /// The classes that the struct says.
+    ///
+    /// # Safety
+    /// Unless the checks fail, `radii` leads to `count * count` numbers.
+    pub(crate) unsafe fn request(&self) -> Result<Classes, Failure> {
+        let count = checked_count(self.count)?;
+        // SAFETY: handed on from the caller; the count is small.
+        let radii = unsafe { rows::<f64, 1>("radii", self.radii, "count", count * count) }?;
+        Ok(Classes::new(count, radii.as_flattened())?)
+    }
+
+    /// The classes of a plane, which has no triangles for masks.
+    ///
+    /// # Safety
+    /// As [`azulejo_classes::request`].
+    pub(crate) unsafe fn of_plane(&self) -> Result<Classes, Failure> {
+        check_unused("mask_count", self.mask_count, 0, "in the plane")?;
+        check_unused("masks", self.masks, ptr::null(), "in the plane")?;
+        // SAFETY: handed on from the caller.
+        unsafe { self.request() }
+    }
+
+    /// The masks of a mesh's triangles, if there are any.
+    ///
+    /// # Safety
+    /// Unless the check fails, `masks` is NULL or leads to `mask_count` numbers, which are not changed during `'a`.
+    pub(crate) unsafe fn masks<'a>(&self) -> Result<Option<&'a [u32]>, Failure> {
+        if self.masks.is_null() && self.mask_count == 0 {
+            return Ok(None);
+        }
+        // SAFETY: handed on from the caller.
+        let masks = unsafe { rows::<u32, 1>("masks", self.masks, "mask_count", self.mask_count) }?;
+        Ok(Some(masks.as_flattened()))
+    }
+}
+
+fn checked_count(count: u32) -> Result<usize, Failure> {
+    if (1..=AZULEJO_MAX_CLASSES).contains(&count) {
+        return Ok(count as usize);
+    }
+    Err(Failure::invalid("count", format!("{count} classes; there are 1 to {AZULEJO_MAX_CLASSES}")))
+}
+
+/// Makes a matrix of radii from those of each class alone, as in Wei, "Multi-class blue noise
+/// sampling", 2010: two classes keep the distance that a set of all samples of both, and of all
+/// classes of larger radii, would have.
+///
+/// own: for each class the distance of its samples, positive and finite; `count` numbers.
+///
+/// count: the number of classes, 1 to AZULEJO_MAX_CLASSES.
+///
+/// factor: what the radii of two different classes are multiplied by, finite and 0 or more; 1 for
+/// Wei's. Smaller factors leave each class nearer to the density that it has alone, and let samples
+/// of two classes come nearer to each other.
+///
+/// matrix_out: count * count numbers, row by row.
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT; then matrix_out is not written.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_classes_radii(
+    own: *const f64,
+    count: u32,
+    factor: f64,
+    matrix_out: *mut f64,
+) -> azulejo_status {
+    boundary::call(|| {
+        let count = checked_count(count)?;
+        // SAFETY: handed on from the caller.
+        let own = unsafe { rows::<f64, 1>("own", own, "count", count) }?;
+        check_pointer("matrix_out", matrix_out)?;
+        let classes = Classes::of_radii(own.as_flattened(), factor)?;
+        // SAFETY: the caller's array has count * count entries.
+        unsafe { matrix_out.copy_from_nonoverlapping(classes.radii().as_ptr(), count * count) };
+        Ok(())
+    })
+}

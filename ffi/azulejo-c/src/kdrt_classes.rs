@@ -1,0 +1,103 @@
+//! Several classes in the plane.
+
+use std::mem::MaybeUninit;
+
+use azulejo_core::kdrt::{ClassPlane, sample_classes};
+
+use crate::boundary::{self, required};
+use crate::classes::azulejo_classes;
+use crate::context::azulejo_context;
+use crate::growing;
+use crate::kdrt::azulejo_kdrt_options;
+use crate::kept::azulejo_kdrt;
+use crate::points::azulejo_points;
+use crate::status::azulejo_status;
+
+/// Makes samples of several classes in a rectangle: samples of classes i and j are at least r_ij
+/// apart, and for each class i every point of the domain is within r_ij of some sample of some
+/// class j, up to 3 float spacings at the largest coordinate (6 around given samples).
+///
+/// Classes come by falling own radius; those of equal radii are filled together and get equal
+/// shares. The class of the largest own radius, if no other has the same, has all the samples that
+/// it would have alone, and where the domain is tiled (see azulejo_kdrt_sample) it has the very
+/// samples of azulejo_kdrt_sample. Those of smaller radii have what is left: with three classes of
+/// own radii 1, 1/2 and 1/4 and the matrix of azulejo_classes_radii with factor 1, the second and
+/// the third have about 0.82 of the samples that they would have alone. Three classes of equal
+/// radii have 0.79 each, 0.90 with factor 0.85, 0.95 with factor 0.7. Two radii that are nearly
+/// equal give other shares than two equal ones: 1 and 0.9 give 1 and 0.68.
+///
+/// options: `radius` must be 0, since classes have radii of their own; `count` and
+/// `measure_coverage` must be 0 and `order` any. `given_clearances`, if not NULL, has given_count
+/// rows, each with a clearance for each class; NULL: each class's own radius.
+///
+/// classes: with at least one class. A single class has the set of azulejo_kdrt_sample, in its
+/// order.
+///
+/// out: the samples, x y each, with azulejo_points_classes, sorted by class, and within a class by
+/// y and x; to be freed with azulejo_points_free.
+///
+/// O(samples) time, for a given number of classes, and 64 bytes of memory per sample. Where the
+/// domain is a torus narrower than about 10 times the largest r_ij between classes of equal own
+/// radii, these classes are filled by one thread, with 512 bytes per sample.
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for an own radius below 64 times the spacing of
+/// floats at the largest coordinate; AZULEJO_ERROR_TOO_LARGE for 2^32 samples or more, or more than
+/// memory holds; AZULEJO_ERROR_CANCELLED.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_kdrt_sample_classes(
+    context: Option<&azulejo_context>,
+    options: *const azulejo_kdrt_options,
+    classes: *const azulejo_classes,
+    out: Option<&mut MaybeUninit<Box<azulejo_points>>>,
+) -> azulejo_status {
+    boundary::create(out, || {
+        let context = required("context", context)?;
+        // SAFETY: handed on from the caller.
+        let options = unsafe { growing::read("options", options) }?;
+        // SAFETY: the same.
+        let classes = unsafe { growing::read("classes", classes)?.of_plane() }?;
+        let request = options.with_classes(&classes)?;
+        let set =
+            context.run(options.watch(), |context, progress| sample_classes(context, &request, &classes, progress))?;
+        Ok(azulejo_points::classified(set))
+    })
+}
+
+/// Makes what all windows of a plane of several classes need. azulejo_kdrt_window then makes any of
+/// its windows: the samples of azulejo_kdrt_sample_classes that lie in it, in the same order, with
+/// azulejo_points_classes.
+///
+/// options, classes: those of the whole set. The progress callback is called during this call only.
+///
+/// out: the plane, to be freed with azulejo_kdrt_free. It keeps neither the context nor any thread.
+///
+/// A window takes O(samples in and around it) time and memory: classes of one own radius depend on
+/// what lies within about 30 times the largest r_ij between two of them, and one between them and
+/// classes of larger radii, and these on what lies around that again.
+///
+/// O(samples of the pattern) time. The plane takes what that of azulejo_kdrt_create takes for the
+/// largest own radius, and 1 byte for each of the other radii on the sides of the domain. On a
+/// torus that is narrower than about 10 times the largest r_ij between classes of equal own radii,
+/// these and the classes before are made as a whole and kept, in 12 bytes per sample.
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT as azulejo_kdrt_sample_classes; AZULEJO_ERROR_CANCELLED.
+/// The domain may have more samples than can be held.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_kdrt_create_classes(
+    context: Option<&azulejo_context>,
+    options: *const azulejo_kdrt_options,
+    classes: *const azulejo_classes,
+    out: Option<&mut MaybeUninit<Box<azulejo_kdrt>>>,
+) -> azulejo_status {
+    boundary::create(out, || {
+        let context = required("context", context)?;
+        // SAFETY: handed on from the caller.
+        let options = unsafe { growing::read("options", options) }?;
+        // SAFETY: the same.
+        let classes = unsafe { growing::read("classes", classes)?.of_plane() }?;
+        let request = options.with_classes(&classes)?;
+        let plane =
+            context.run(options.watch(), |context, progress| ClassPlane::new(context, &request, &classes, progress))?;
+        Ok(azulejo_kdrt::of_classes(plane))
+    })
+}

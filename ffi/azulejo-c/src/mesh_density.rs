@@ -1,0 +1,268 @@
+//! Densities on meshes: samples that are denser here than there.
+
+use std::ffi::c_void;
+use std::mem::MaybeUninit;
+
+use azulejo_core::psp::adaptive::{self, Density, Radius, Scale, Texture};
+
+use crate::adaptive::azulejo_psp_adaptive_options;
+use crate::boundary::{self, check_pointer, check_reserved, check_unused, flag, required, rows};
+use crate::context::azulejo_context;
+use crate::growing::{self, Output, growing};
+use crate::mesh::azulejo_mesh;
+use crate::points::azulejo_points;
+use crate::psp_report::azulejo_psp_report;
+use crate::status::{Failure, azulejo_status};
+
+/// Gives the density at a position of a mesh.
+///
+/// With `at_vertices` it is called once for each vertex of the mesh, on the thread that made the
+/// call. Otherwise it is called on other threads, too, by several at once, unless the context has
+/// one thread, and must be thread-safe. It must give the same density for the same position, return
+/// (see "Callbacks" at the top), and must not call the library with the same context.
+///
+/// user: the `user` of the azulejo_mesh_density.
+///
+/// position: x y z of a place on the mesh.
+///
+/// Returns the density, finite and at least 0.
+pub type azulejo_mesh_density_fn = Option<unsafe extern "C-unwind" fn(user: *mut c_void, position: *const f64) -> f64>;
+
+/// How many samples a set of a mesh has from place to place, per unit of area. Densities are
+/// finite, at least 0, and not 0 everywhere; where they are 0 there are no samples, and those
+/// beside are none the fewer for it. One of `vertex_values`, `function` and `image` must be set,
+/// and one of `radius` and `count`.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct azulejo_mesh_density {
+    /// The size of the struct in bytes; set by the _init function.
+    pub struct_size: u32,
+    /// 1: `function` is called at the vertices only, and interpolated on the triangles; nothing
+    /// need be known of it. Default 0. Must be 0 without a function.
+    pub at_vertices: u32,
+    /// A density for each vertex of the mesh, interpolated on the triangles; used during the call
+    /// only. Default NULL.
+    pub vertex_values: *const f32,
+    /// The number of vertex_values: that of the vertices of the mesh. Default 0.
+    pub vertex_count: usize,
+    /// Gives the density at a position. Default NULL.
+    pub function: azulejo_mesh_density_fn,
+    /// Passed to `function`.
+    pub user: *mut c_void,
+    /// The largest value of `function`, above 0. Must be 0, the default, without a function, and
+    /// with `at_vertices`.
+    pub largest: f64,
+    /// The most by which `function` changes per unit of distance between two places of a triangle,
+    /// at least 0. Coverage is proved with it, so it must hold: a violation that is detected makes
+    /// the call fail. Where the density is 0, or nearly so, over many times the radius beside it,
+    /// the call would take very many evaluations and is refused: use `at_vertices` there. Must be
+    /// 0, the default, where `largest` must.
+    pub slope: f64,
+    /// An image that is laid on the mesh by texture coordinates, linear between the centres of its
+    /// pixels, and repeated: `height` rows of `width` densities, the first row along v = 0. Used
+    /// during the call only. Default NULL.
+    pub image: *const f32,
+    /// The number of pixels in a row, which is as long as u goes from 0 to 1; at least 1. Must be
+    /// 0, the default, without an image.
+    pub width: usize,
+    /// The number of rows, at least 1. Must be 0, the default, without an image.
+    pub height: usize,
+    /// Texture coordinates, u v each, finite and at most 1e6 in absolute value: one for each
+    /// vertex, or one for each corner of each triangle, three times as many as there are triangles.
+    /// NULL, the default, without an image.
+    pub texture: *const f32,
+    /// The number of texture coordinates: that of the vertices or, if `by_corners` is 1, of the
+    /// corners.
+    pub texture_count: usize,
+    /// 1: `texture` is by corners, so that those along a seam differ. Default 0: by vertices.
+    pub by_corners: u32,
+    /// Must be 0.
+    pub reserved: u32,
+    /// The radius at density 1, above 0: a maximal set of this radius has density 1. The radius at
+    /// a density d is this over sqrt(d). 0, the default, with a count.
+    pub radius: f64,
+    /// About how many samples the whole set has, above 0: the radius follows from the integral of
+    /// the density. There are fewer where parts of the surface are nearer to each other than the
+    /// radius, and some more along the boundaries of the surface. 0, the default, with a radius.
+    pub count: f64,
+}
+
+growing!(azulejo_mesh_density requires count {
+    at_vertices: 0,
+    vertex_values: std::ptr::null(),
+    vertex_count: 0,
+    function: None,
+    user: std::ptr::null_mut(),
+    largest: 0.0,
+    slope: 0.0,
+    image: std::ptr::null(),
+    width: 0,
+    height: 0,
+    texture: std::ptr::null(),
+    texture_count: 0,
+    by_corners: 0,
+    reserved: 0,
+    radius: 0.0,
+    count: 0.0,
+});
+
+/// The caller's function with what it is given, where the core can call it.
+struct Callback {
+    function: unsafe extern "C-unwind" fn(*mut c_void, *const f64) -> f64,
+    user: *mut c_void,
+}
+
+// SAFETY: the caller's word, as the type of the function says: it may be called from several threads at once.
+unsafe impl Sync for Callback {}
+
+impl Callback {
+    fn call(&self, position: [f64; 3]) -> f64 {
+        // SAFETY: the caller gave the two for each other, to be called during this call.
+        unsafe { (self.function)(self.user, position.as_ptr()) }
+    }
+}
+
+impl azulejo_mesh_density {
+    /// Hands the density, as what a radius follows from, to `body`.
+    ///
+    /// # Safety
+    /// Unless the checks fail, the arrays have the lengths that are said of them and are not changed during the call.
+    unsafe fn with<T>(&self, body: impl FnOnce(Radius) -> Result<T, Failure>) -> Result<T, Failure> {
+        check_reserved(self.reserved)?;
+        let (at_vertices, by_corners) = (flag("at_vertices", self.at_vertices)?, flag("by_corners", self.by_corners)?);
+        let scale = match (self.radius == 0.0, self.count == 0.0) {
+            (true, true) => return Err(Failure::invalid("radius", "is 0, and count too; one of them is needed")),
+            (false, false) => return Err(Failure::invalid("count", "is set, and radius too; one of them must be 0")),
+            (false, true) => Scale::Radius(self.radius),
+            (true, false) => Scale::Count(self.count),
+        };
+        let sources = [!self.vertex_values.is_null(), self.function.is_some(), !self.image.is_null()];
+        if sources.into_iter().filter(|&is_set| is_set).count() != 1 {
+            let which = "one of vertex_values, function and image is needed, and not more than one";
+            return Err(Failure::invalid("vertex_values", which));
+        }
+        if !sources[0] {
+            check_unused("vertex_count", self.vertex_count, 0, "without vertex_values")?;
+        }
+        let has_slope = sources[1] && !at_vertices;
+        if !has_slope {
+            let reason = if at_vertices { "with at_vertices" } else { "without function" };
+            check_unused("largest", self.largest, 0.0, reason)?;
+            check_unused("slope", self.slope, 0.0, reason)?;
+        }
+        if !sources[1] {
+            check_unused("at_vertices", self.at_vertices, 0, "without function")?;
+        }
+        if !sources[2] {
+            for (field, value) in
+                [("width", self.width), ("height", self.height), ("texture_count", self.texture_count)]
+            {
+                check_unused(field, value, 0, "without image")?;
+            }
+            check_unused("by_corners", self.by_corners, 0, "without image")?;
+        }
+        let call = |density: Density| body(Radius::Density { density, scale });
+        if let Some(function) = self.function {
+            let callback = Callback { function, user: self.user };
+            let at = |position| callback.call(position);
+            return call(if at_vertices {
+                Density::AtVertices(&at)
+            } else {
+                Density::Function { at: &at, largest: self.largest, slope: self.slope }
+            });
+        }
+        if sources[0] {
+            // SAFETY: the caller's word.
+            let values =
+                unsafe { rows::<f32, 1>("vertex_values", self.vertex_values, "vertex_count", self.vertex_count)? };
+            return call(Density::PerVertex(values.as_flattened()));
+        }
+        let (width, height, count) = (self.width, self.height, self.texture_count);
+        let too_large = || Failure::too_large("width", format!("{width} by {height} pixels exceed the address space"));
+        let pixels = width.checked_mul(height).ok_or_else(too_large)?;
+        check_pointer("texture", self.texture)?;
+        // SAFETY: the caller's word.
+        let (values, places) = unsafe {
+            (
+                rows::<f32, 1>("image", self.image, "width", pixels)?.as_flattened(),
+                rows::<f32, 2>("texture", self.texture, "texture_count", count)?,
+            )
+        };
+        let texture = if by_corners {
+            let (triangles, rest) = places.as_chunks::<3>();
+            if !rest.is_empty() {
+                return Err(Failure::invalid("texture_count", format!("{count} is not a multiple of 3")));
+            }
+            Texture::PerCorner(triangles)
+        } else {
+            Texture::PerVertex(places)
+        };
+        call(Density::Image { values, width, height, texture })
+    }
+}
+
+/// Writes the defaults. `struct_size` is sizeof *density.
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_mesh_density_init(
+    density: *mut azulejo_mesh_density,
+    struct_size: usize,
+) -> azulejo_status {
+    // SAFETY: handed on from the caller.
+    unsafe { growing::init("density", density, struct_size) }
+}
+
+/// Makes a maximal set of samples on a mesh with a density: azulejo_psp_adaptive_sample, where the
+/// radius at a density d is that at density 1 over sqrt(d). Embree is not used.
+///
+/// What azulejo_psp_adaptive_sample says of conflicts and of coverage holds for the radii that are
+/// returned. Where the density falls to 0 within a few radii, radii are limited to four times the
+/// least one on a piece of the surface of about that length.
+///
+/// options: those of azulejo_psp_adaptive_sample without any radii: vertex_radii and radius must be
+/// NULL.
+///
+/// density: the density; used during the call only.
+///
+/// out: the samples with normals, triangles, barycentrics and radii, to be freed with
+/// azulejo_points_free.
+///
+/// report: what the call did, or NULL; iterations, rays and hits are 0.
+///
+/// O(samples + triangles) time for densities that change slowly.
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for densities that are negative, not finite, or 0
+/// everywhere, above `largest`, or change faster than `slope`; AZULEJO_ERROR_TOO_LARGE as
+/// azulejo_psp_adaptive_sample; AZULEJO_ERROR_CANCELLED.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_psp_adaptive_with_density(
+    context: Option<&azulejo_context>,
+    mesh: Option<&azulejo_mesh>,
+    options: *const azulejo_psp_adaptive_options,
+    density: *const azulejo_mesh_density,
+    out: Option<&mut MaybeUninit<Box<azulejo_points>>>,
+    report: *mut azulejo_psp_report,
+) -> azulejo_status {
+    boundary::create(out, || {
+        let context = required("context", context)?;
+        let mesh = required("mesh", mesh)?.shared.clone();
+        // SAFETY: handed on from the caller.
+        let (options, density): (azulejo_psp_adaptive_options, azulejo_mesh_density) =
+            unsafe { (growing::read("options", options)?, growing::read("density", density)?) };
+        // SAFETY: likewise.
+        let report = unsafe { Output::optional("report", report)? };
+        options.check_without_radii()?;
+        let sample = |radius: Radius| {
+            // SAFETY: handed on from the caller.
+            let request = unsafe { options.request(radius) }?;
+            context.run(options.watch(), |context, progress| adaptive::sample(context, &mesh, &request, progress))
+        };
+        // SAFETY: handed on from the caller.
+        let (set, done) = unsafe { density.with(sample) }?;
+        if let Some(report) = report {
+            report.write(done);
+        }
+        Ok(azulejo_points::adaptive(set))
+    })
+}

@@ -1,0 +1,114 @@
+//! Densities on a mesh: by its vertices, by a function, by an image.
+
+use std::cell::Cell;
+use std::ffi::c_void;
+use std::ptr::{null, null_mut};
+
+use azulejo_c::adaptive::azulejo_psp_adaptive_options;
+use azulejo_c::mesh::*;
+use azulejo_c::mesh_density::*;
+
+use crate::calls::{Arrays, Out, check_distances, context, create};
+use crate::input::Input;
+use crate::surface::Corners;
+
+/// Gives densities up to 1, some of them wrong.
+struct Guest {
+    slope: f64,
+    /// Nothing is below this: it takes too long to be refused where a function with a slope is 0 far around.
+    least: Cell<f64>,
+    kind: u32,
+    calls: Cell<u32>,
+}
+
+impl Guest {
+    fn at(&self, [x, y, _]: [f64; 3]) -> f64 {
+        let calls = self.calls.replace(self.calls.get().wrapping_add(1));
+        match self.kind {
+            0 => (x * 4.0 * self.slope).abs().max(self.least.get()),
+            1 if calls.is_multiple_of(7) => [f64::NAN, -1.0, 2.0, f64::INFINITY][calls as usize / 7 % 4],
+            2 => f64::from(x > y).max(self.least.get()),
+            _ => (x * self.slope).clamp(self.least.get(), 1.0),
+        }
+    }
+}
+
+unsafe extern "C-unwind" fn density_at(user: *mut c_void, position: *const f64) -> f64 {
+    // SAFETY: the struct below leads here with these two.
+    unsafe { (*user.cast::<Guest>()).at(*position.cast()) }
+}
+
+/// Samples a mesh with a density of at most 1, for which there are few samples of this radius.
+pub(crate) fn sample(mesh: &azulejo_mesh, corners: &Corners, radius: f64, input: &mut Input) {
+    let value = |input: &mut Input| match input.below(64) {
+        0 => input.coordinate().min(1.0),
+        1..20 => 0.0,
+        _ => f32::from(input.any::<u8>()) / 255.0,
+    };
+    let (vertices, triangles) = (azulejo_mesh_vertex_count(Some(mesh)), azulejo_mesh_triangle_count(Some(mesh)));
+    let values: Vec<f32> = (0..vertices).map(|_| value(input)).collect();
+    let (width, height) = (input.below(5) as usize, input.below(5) as usize);
+    let pixels: Vec<f32> = (0..width * height).map(|_| value(input)).collect();
+    let by_corners = input.one_in(2);
+    let count = if by_corners { 3 * triangles } else { vertices };
+    let place =
+        |input: &mut Input| if input.one_in(64) { input.coordinate() } else { f32::from(input.any::<u8>()) / 64.0 };
+    let texture: Vec<[f32; 2]> = (0..count).map(|_| [place(input), place(input)]).collect();
+    let guest = Guest {
+        slope: f64::from(input.any::<u8>()) / 256.0,
+        kind: input.below(6),
+        least: Cell::new(0.0),
+        calls: Cell::new(0),
+    };
+    let function: azulejo_mesh_density_fn = Some(density_at);
+    let mut density = azulejo_mesh_density {
+        struct_size: size_of::<azulejo_mesh_density>() as u32,
+        at_vertices: 0,
+        vertex_values: null(),
+        vertex_count: 0,
+        function: None,
+        user: (&raw const guest).cast_mut().cast(),
+        largest: 0.0,
+        slope: 0.0,
+        image: null(),
+        width: 0,
+        height: 0,
+        texture: null(),
+        texture_count: 0,
+        by_corners: 0,
+        reserved: 0,
+        radius,
+        count: 0.0,
+    };
+    match input.below(4) {
+        0 => (density.vertex_values, density.vertex_count) = (values.as_ptr(), vertices),
+        1 => (density.function, density.at_vertices) = (function, 1),
+        2 => {
+            (density.function, density.largest, density.slope) = (function, 1.0, guest.slope);
+            guest.least.set(0.05);
+        }
+        _ => {
+            (density.image, density.width, density.height) = (pixels.as_ptr(), width, height);
+            (density.texture, density.texture_count) = (texture.as_ptr().cast(), count);
+            density.by_corners = by_corners.into();
+        }
+    }
+    if input.one_in(8) {
+        (density.radius, density.count) = (0.0, f64::from(input.below(100)));
+    }
+    // SAFETY: the fields of the options are pointers, numbers and `None`, for all of which zeros are good.
+    let mut options: azulejo_psp_adaptive_options = unsafe { std::mem::zeroed() };
+    // SAFETY: the struct has the size that is said.
+    let _ = unsafe { azulejo_c::adaptive::azulejo_psp_adaptive_options_init(&raw mut options, size_of_val(&options)) };
+    options.seed = input.any();
+    // SAFETY: the structs are of the sizes that they say, and the arrays as long.
+    let call = |out: Out<_>| unsafe {
+        azulejo_psp_adaptive_with_density(context(), Some(mesh), &options, &density, out, null_mut())
+    };
+    let Some(points) = create(call) else { return };
+    let set = Arrays::of(&points);
+    corners.check(&set);
+    let (positions, _) = set.positions.as_chunks::<3>();
+    let mean = |i: usize, j: usize| (set.radii[i] + set.radii[j]) / 2.0;
+    check_distances(positions, |a, b| std::array::from_fn(|axis| a[axis] - b[axis]), mean);
+}

@@ -1,0 +1,65 @@
+//! The filling of a block with classes (`group.rs`) once more for each kind of vectors, the same to the bit: the portable
+//! code, compiled for them.
+
+use crate::kdrt::classes::group::{Group, Known, Sample};
+use crate::kdrt::classes::passes::Pass;
+use crate::kdrt::classes::room::Room;
+use crate::simd::Level;
+
+impl Group {
+    /// The samples that a pass adds to a block.
+    pub(super) fn fill_block(&self, room: &mut Room, known: &Known, place: [i32; 2], pass: Pass) -> Vec<Sample> {
+        match self.level {
+            // SAFETY: the variants say that the processor has the vectors.
+            #[cfg(target_arch = "x86_64")]
+            Level::Avx512(_) => unsafe { self.fill_block_avx512(room, known, place, pass) },
+            // SAFETY: the same.
+            #[cfg(target_arch = "x86_64")]
+            Level::Avx2(_) => unsafe { self.fill_block_avx2(room, known, place, pass) },
+            Level::Portable => self.fill_block_portable(room, known, place, pass),
+        }
+    }
+
+    /// The portable code, compiled for AVX-512.
+    #[cfg(target_arch = "x86_64")]
+    #[target_feature(enable = "avx2,popcnt,bmi1,bmi2,avx512f,avx512vl,avx512dq,avx512bw")]
+    fn fill_block_avx512(&self, room: &mut Room, known: &Known, place: [i32; 2], pass: Pass) -> Vec<Sample> {
+        self.fill_block_portable(room, known, place, pass)
+    }
+
+    /// The portable code, compiled for AVX2.
+    #[cfg(target_arch = "x86_64")]
+    #[target_feature(enable = "avx2,popcnt,bmi1,bmi2")]
+    fn fill_block_avx2(&self, room: &mut Room, known: &Known, place: [i32; 2], pass: Pass) -> Vec<Sample> {
+        self.fill_block_portable(room, known, place, pass)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::classes::Classes;
+    use crate::job::Context;
+    use crate::kdrt::classes::{Groups, lattice_of};
+    use crate::kdrt::options::Options;
+
+    #[test]
+    fn all_levels_make_the_same_samples() {
+        let classes = Classes::new(
+            4,
+            &[0.04, 0.0, 0.03, 0.01, 0.0, 0.02, 0.015, 0.03, 0.03, 0.015, 0.02, 0.0, 0.01, 0.03, 0.0, 0.008],
+        );
+        let (classes, options) = (classes.unwrap(), Options::new(0.0).seed(5));
+        let lattice = lattice_of(&options, &classes).unwrap();
+        let set = |level: Level| {
+            Context::new(1).unwrap().run(None, |job| {
+                let mut groups = Groups::new(job, &lattice, &options, &classes)?;
+                groups.filled.iter_mut().for_each(|group| group.level = level);
+                groups.whole(job)
+            })
+        };
+        let portable = set(Level::Portable).unwrap();
+        assert!(portable.samples.len() > 1000);
+        assert!(Level::available().into_iter().all(|level| set(level).unwrap() == portable));
+    }
+}

@@ -1,0 +1,150 @@
+//! Disks that stand in the plane beside the samples of a grid, of any radii and anywhere: no sample may lie in one, and
+//! what lies in one is covered.
+//!
+//! Their centres need not lie on the lattice, so distances to them are numbers in `f64`. A lattice point lies in a disk
+//! if its distance says so, and a rectangle of them if its farthest corner does. Rounding is monotone, so then all of
+//! its points do: both questions have one answer, and a search for what is not covered ends.
+
+use crate::geometry::counting_sort::Binned;
+use crate::plane::rect::Rect;
+
+/// A disk in lattice units, without its boundary.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Disk {
+    pub centre: [f64; 2],
+    pub radius: f64,
+}
+
+impl Disk {
+    /// Whether all lattice points of a rectangle lie in it.
+    pub fn covers(&self, rect: &Rect) -> bool {
+        let along = |axis: usize| {
+            let ends = [f64::from(rect.min[axis]), f64::from(rect.max[axis] - 1)];
+            ends.map(|end| (end - self.centre[axis]).abs()).into_iter().fold(0.0, f64::max)
+        };
+        let [dx, dy] = [along(0), along(1)];
+        dx * dx + dy * dy < self.radius * self.radius
+    }
+
+    /// Whether it may have points of a rectangle of lattice points.
+    pub fn meets(&self, rect: &Rect) -> bool {
+        let along = |axis: usize| {
+            let (first, last) = (f64::from(rect.min[axis]), f64::from(rect.max[axis] - 1));
+            (first - self.centre[axis]).max(self.centre[axis] - last).max(0.0)
+        };
+        let [dx, dy] = [along(0), along(1)];
+        dx * dx + dy * dy < self.radius * self.radius
+    }
+}
+
+/// The disks that matter to the cells of a grid.
+#[derive(Default)]
+pub(crate) struct Obstacles {
+    columns: usize,
+    /// Of each cell whether one disk covers it.
+    covered: Vec<bool>,
+    /// For each other cell the disks that may have points of it.
+    met: Binned<u32>,
+    disks: Vec<Disk>,
+}
+
+impl Obstacles {
+    /// Those of a grid whose columns and rows of cells begin at these lattice points, with the end of the last. `cell`
+    /// is the column (axis 0) or row (axis 1) of a lattice point of the grid.
+    pub fn new(edges: &[Vec<i32>; 2], cell: impl Fn(usize, i32) -> usize, mut disks: Vec<Disk>) -> Self {
+        let [columns, rows] = [0, 1].map(|axis: usize| edges[axis].len() - 1);
+        let span = |axis: usize, place: f64, reach: f64| {
+            let (first, last) = (f64::from(edges[axis][0]), f64::from(*edges[axis].last().unwrap_or(&0)) - 1.0);
+            let (from, to) = ((place - reach).ceil().max(first), (place + reach).floor().min(last));
+            if from > to { 0..0 } else { cell(axis, from as i32)..cell(axis, to as i32) + 1 }
+        };
+        let (mut covered, mut met) = (vec![false; columns * rows], Vec::new());
+        // What is covered by large ones is not looked at again.
+        disks.sort_unstable_by(|a, b| b.radius.total_cmp(&a.radius));
+        for (index, disk) in (0..).zip(&disks) {
+            for y in span(1, disk.centre[1], disk.radius) {
+                // How wide the disk is where it is widest in this row.
+                let rows = [edges[1][y], edges[1][y + 1]];
+                let (low, high) = (f64::from(rows[0]), f64::from(rows[1] - 1));
+                let away = (low - disk.centre[1]).max(disk.centre[1] - high).max(0.0);
+                let half = (disk.radius * disk.radius - away * away).max(0.0).sqrt();
+                let columns_met = span(0, disk.centre[0], half);
+                let row = &mut covered[y * columns..][..columns];
+                if row[columns_met.clone()].iter().all(|&is_covered| is_covered) {
+                    continue;
+                }
+                let covers =
+                    |x: &usize| disk.covers(&Rect { min: [edges[0][*x], rows[0]], max: [edges[0][x + 1], rows[1]] });
+                // What it covers of a row of cells is a run of them.
+                let start = columns_met.clone().find(covers).unwrap_or(columns_met.end);
+                let stop = (start..columns_met.end).rfind(covers).map_or(start, |x| x + 1);
+                row[start..stop].fill(true);
+                let cells = (columns_met.start..start).chain(stop..columns_met.end).filter(|&x| !row[x]);
+                met.extend(cells.map(|x| ((y * columns + x) as u32, index)));
+            }
+        }
+        let met = met.iter().filter(|(cell, _)| !covered[*cell as usize]).map(|&(cell, disk)| (cell as usize, disk));
+        let met = Binned::new(covered.len(), met);
+        Self { columns, covered, met, disks }
+    }
+
+    /// Whether there are none.
+    #[inline(always)]
+    pub fn is_empty(&self) -> bool {
+        self.covered.is_empty()
+    }
+
+    /// The columns and rows of the cells that one disk covers.
+    pub fn covered_cells(&self) -> impl Iterator<Item = [usize; 2]> {
+        let cells = self.covered.iter().enumerate().filter(|(_, is_covered)| **is_covered);
+        cells.map(|(cell, _)| [cell % self.columns, cell / self.columns])
+    }
+
+    /// Whether one disk covers all of a rectangle of lattice points in a cell.
+    pub fn cover(&self, [x, y]: [i32; 2], rect: &Rect) -> bool {
+        let cell = y as usize * self.columns + x as usize;
+        self.covered[cell] || self.met.bin(cell).iter().any(|&disk| self.disks[disk as usize].covers(rect))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::rng::{Draw, Rng};
+
+    /// Random disks of all sizes, and every question against a loop over them.
+    #[test]
+    fn points_and_rectangles_are_covered_as_a_loop_over_all_disks_says() {
+        let mut rng = Rng::at(1, Draw::Probe, &[]);
+        let edges: [Vec<i32>; 2] = [(-3..20).map(|i| i * 37 + i % 3).collect(), (0..15).map(|i| i * 41).collect()];
+        let mut seen = [0; 2];
+        for round in 0..60 {
+            let disks: Vec<_> = (0..1 + round % 7)
+                .map(|_| Disk {
+                    centre: [rng.unit() * 1000.0 - 200.0, rng.unit() * 800.0 - 100.0],
+                    radius: 2000f64.powf(rng.unit()),
+                })
+                .collect();
+            let cell = |axis: usize, x: i32| edges[axis].partition_point(|&edge| edge <= x) - 1;
+            let obstacles = Obstacles::new(&edges, cell, disks.clone());
+            for (y, x) in (0..14).flat_map(|y| (0..22).map(move |x| (y, x))) {
+                let cell = Rect { min: [edges[0][x], edges[1][y]], max: [edges[0][x + 1], edges[1][y + 1]] };
+                for _ in 0..10 {
+                    let min = [0, 1].map(|axis| cell.min[axis] + rng.below(cell.length(axis) as u64) as i32);
+                    let length = 1 + rng.below(30) as i32 * (round % 2);
+                    let rect = Rect { min, max: min.map(|x| x + length) }.intersection(&cell);
+                    let expected = disks.iter().any(|disk| {
+                        let corners = [rect.min, [rect.min[0], rect.max[1] - 1], [rect.max[0] - 1, rect.min[1]]];
+                        corners.into_iter().chain([rect.max.map(|x| x - 1)]).all(|corner| {
+                            let [dx, dy] = [0, 1].map(|axis| f64::from(corner[axis]) - disk.centre[axis]);
+                            dx * dx + dy * dy < disk.radius * disk.radius
+                        })
+                    });
+                    assert_eq!(obstacles.cover([x as i32, y as i32], &rect), expected);
+                    seen[usize::from(expected)] += 1;
+                }
+            }
+        }
+        assert!(seen.into_iter().all(|count| count > 10_000), "{seen:?}");
+    }
+}

@@ -1,0 +1,36 @@
+//! The box that something lies in.
+
+/// The lowest and the highest coordinates of points.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(in crate::psp) struct Extent {
+    low: [f32; 3],
+    high: [f32; 3],
+}
+
+impl Extent {
+    /// That of no point.
+    pub const EMPTY: Self = Self { low: [f32::INFINITY; 3], high: [f32::NEG_INFINITY; 3] };
+
+    /// Adds a point.
+    #[inline(always)]
+    pub fn add(&mut self, point: [f32; 3]) {
+        self.join(&Self { low: point, high: point });
+    }
+
+    /// Adds all that is in another one.
+    #[inline(always)]
+    pub fn join(&mut self, other: &Self) {
+        for axis in 0..3 {
+            self.low[axis] = self.low[axis].min(other.low[axis]);
+            self.high[axis] = self.high[axis].max(other.high[axis]);
+        }
+    }
+
+    /// Whether a sample of this radius can reach anything in it: what cannot is left out, but for a margin that exceeds
+    /// the rounding of the coordinates and of the reach.
+    #[inline]
+    pub fn is_in_reach(&self, sample: [f32; 3], radius: f64) -> bool {
+        let reach = (1.1 * radius) as f32;
+        (0..3).all(|axis| self.low[axis] - reach <= sample[axis] && sample[axis] <= self.high[axis] + reach)
+    }
+}

@@ -1,0 +1,66 @@
+//! SHA-256 sums of what some eighty calls return: the same bytes for any number of threads and on every processor and
+//! system, since `tests/sums.txt` was written. Only hits of Embree are left out.
+//!
+//! `tests/few_sums.txt` has those of calls of the same kinds on small sets, which an emulated processor makes in seconds
+//! (`scripts/platforms.sh`).
+//!
+//! A change that is not meant to alter a set leaves the files as they are. One that does writes them anew, and says so in the
+//! changelog: `AZULEJO_BLESS=1 cargo test --release --test sums`.
+
+#[path = "sums/analysis.rs"]
+mod analysis;
+#[path = "sums/few.rs"]
+mod few;
+#[path = "sums/list.rs"]
+mod list;
+#[path = "sums/meshes.rs"]
+mod meshes;
+#[path = "sums/plane.rs"]
+mod plane;
+#[path = "sums/relaxation.rs"]
+mod relaxation;
+#[path = "sums/surface.rs"]
+mod surface;
+
+use azulejo::{Context, Result};
+
+use list::List;
+
+/// The sums of all calls.
+fn sums() -> Result<List> {
+    let (context, mut list) = (Context::new(0)?, List::default());
+    let sets = plane::sums(&context, &mut list)?;
+    relaxation::sums(&context, &sets, &mut list)?;
+    let surface = surface::sums(&context, &mut list)?;
+    analysis::sums(&context, &sets, &surface, &mut list)?;
+    Ok(list)
+}
+
+/// The sums of small sets.
+fn few_sums() -> Result<List> {
+    let (context, mut list) = (Context::new(0)?, List::default());
+    few::sums(&context, &mut list)?;
+    Ok(list)
+}
+
+/// Compares sums with those of a file, or writes them to it.
+fn check(file: &str, expected: &str, sums: Result<List>) {
+    let sums = sums.unwrap().to_string();
+    if std::env::var_os("AZULEJO_BLESS").is_some() {
+        std::fs::write(std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join(file), &sums).unwrap();
+        return;
+    }
+    let differ: Vec<_> = expected.lines().zip(sums.lines()).filter(|(a, b)| a != b).collect();
+    assert!(differ.is_empty(), "expected and found: {differ:#?}");
+    assert_eq!(expected.lines().count(), sums.lines().count());
+}
+
+#[test]
+fn what_calls_return_has_the_sums_of_the_file() {
+    check("tests/sums.txt", include_str!("sums.txt"), sums());
+}
+
+#[test]
+fn what_calls_return_for_small_sets_has_the_sums_of_its_file() {
+    check("tests/few_sums.txt", include_str!("few_sums.txt"), few_sums());
+}

@@ -1,0 +1,149 @@
+//! Samples of meshes, and their relaxation.
+
+use std::sync::Arc;
+
+use azulejo::dcr::surface::{Options as RelaxOptions, relax, triangulate};
+use azulejo::mesh::Mesh;
+use azulejo::psp::adaptive::{self, Density, Radius, Scale, Texture};
+use azulejo::psp::{self, Engine, Options, Priority};
+use azulejo::{Classes, Context, Given, Order, Result, SurfaceSamples};
+
+use crate::list::{List, little_endian};
+use crate::meshes;
+
+/// What is measured: a closed torus with a maximal set, and an open one with a set of few samples.
+pub struct Surface {
+    pub closed: Arc<Mesh>,
+    pub maximal: SurfaceSamples,
+    pub open: Arc<Mesh>,
+    pub few: SurfaceSamples,
+}
+
+/// Adds the sums.
+pub fn sums(context: &Context, list: &mut List) -> Result<Surface> {
+    let closed = Arc::new(meshes::torus(96, 64, false)?);
+    let open = Arc::new(meshes::torus(40, 24, true)?);
+    let maximal = uniform(context, &closed, &open, list)?;
+    ordered(context, &closed, &open, list)?;
+    in_classes(context, &closed, list)?;
+    adaptive(context, &closed, &open, list)?;
+    with_density(context, &open, list)?;
+    let few = relaxed(context, &closed, &maximal, &open, list)?;
+    Ok(Surface { closed, maximal, open, few })
+}
+
+/// The options of a set, with an engine that is not left to a default.
+fn options(radius: f64, iterations: u32, engine: Engine, seed: u64) -> Options<'static> {
+    Options::new(radius).iterations(iterations).maximal(true).seed(seed).engine(engine)
+}
+
+/// Gives [`Surface::maximal`].
+fn uniform(context: &Context, closed: &Arc<Mesh>, open: &Arc<Mesh>, list: &mut List) -> Result<SurfaceSamples> {
+    use Engine::Rasteriser;
+    let mut sample = |name: &str, mesh: &Arc<Mesh>, options: Options| {
+        let (samples, report) = psp::sample(context, mesh, &options, None)?;
+        list.samples(name, &samples);
+        let counts = [report.samples, report.darts, report.conflicts].map(|count| count as f64);
+        list.numbers(&format!("{name}: report"), &[&counts[..], &[report.rho]].concat());
+        Ok(samples)
+    };
+    let maximal = sample("fill only", closed, options(0.02, 0, Rasteriser, 28))?;
+    sample("rasteriser 1", closed, options(0.02, 1, Rasteriser, 29))?;
+    let by_projector = |options: Options<'static>| options.priority(Priority::Projector);
+    let projected = by_projector(options(0.01, 3, Rasteriser, 30)).maximal(false);
+    sample("rasteriser 3, projector, not maximal", open, projected)?;
+    sample("rasteriser 2, projector", open, by_projector(options(0.01, 2, Rasteriser, 32)))?;
+    let mask = (0..open.triangles().len()).map(|i| i % 7 != 0).collect();
+    let masked = Arc::new(Mesh::clone(open).with_mask(mask)?);
+    sample("masked", &masked, options(0.03, 1, Rasteriser, 33))?;
+    sample("soup", &Arc::new(meshes::soup()?), options(0.05, 1, Rasteriser, 34))?;
+    let (positions, clearances) = obstacles(&maximal);
+    let around = Given::with_clearances(&positions, &clearances);
+    sample("given", closed, options(0.02, 0, Rasteriser, 38).given(around))?;
+    sample("given, rasteriser 1", closed, options(0.03, 1, Rasteriser, 39).given(around))?;
+    sample("given, of the same radius", closed, options(0.02, 0, Rasteriser, 40).given(Given::at(&positions)))?;
+    sample("cosine", open, options(0.05, 0, Rasteriser, 41).given(around).cosine(0.3))?;
+    Ok(maximal)
+}
+
+/// Some samples of a set, with clearances over four orders.
+fn obstacles(set: &SurfaceSamples) -> (Vec<[f32; 3]>, Vec<f64>) {
+    let some = set.positions.iter().step_by(50).copied();
+    some.enumerate().map(|(i, position)| (position, 0.2 / [1.0, 7.0, 60.0, 1000.0, 20000.0][i % 5])).unzip()
+}
+
+/// Sets of exact counts and in progressive order.
+fn ordered(context: &Context, closed: &Arc<Mesh>, open: &Arc<Mesh>, list: &mut List) -> Result<()> {
+    for (name, mesh, options) in [
+        ("count", open, Options::by_count(777).seed(42)),
+        ("ordered", closed, Options::new(0.05).order(Order::Progressive).seed(43)),
+        ("ordered count", closed, Options::by_count(1234).order(Order::Progressive).quotient(1.3).seed(44)),
+    ] {
+        let (samples, report) = psp::sample(context, mesh, &options, None)?;
+        list.samples(name, &samples);
+        list.bytes(&format!("{name}: ranks"), &little_endian(&samples.ranks, f32::to_le_bytes));
+        list.numbers(&format!("{name}: report"), &[report.radius, report.coverage.unwrap_or(-1.0)]);
+    }
+    Ok(())
+}
+
+/// A set of three classes, two of them with equal radii, each on some of the triangles.
+fn in_classes(context: &Context, closed: &Arc<Mesh>, list: &mut List) -> Result<()> {
+    let classes = Classes::of_radii(&[0.05, 0.1, 0.05], 1.0)?;
+    let masks: Vec<u32> = (0..closed.triangles().len() as u32).map(|i| if i % 9 < 5 { 7 } else { i % 8 }).collect();
+    let options = Options::new(0.0).seed(46);
+    let (samples, _) = psp::sample_classes(context, closed, &options, &classes, Some(&masks), None)?;
+    list.samples("classes", &samples);
+    list.bytes("classes: classes", &little_endian(&samples.classes, u32::to_le_bytes));
+    Ok(())
+}
+
+/// Sets that follow densities: a function's, and an image's whose texture coordinates are x and y.
+fn with_density(context: &Context, open: &Mesh, list: &mut List) -> Result<()> {
+    let at = |[x, _, z]: [f64; 3]| 0.4 + 0.2 * x + 0.1 * z;
+    let function = Density::Function { at: &at, largest: 1.0, slope: 0.25 };
+    let values: Vec<f32> = (0..12 * 10).map(|i| if i % 5 == 0 { 0.0 } else { (i % 7) as f32 }).collect();
+    let texture: Vec<[f32; 2]> = open.positions().iter().map(|&[x, y, _]| [x, y]).collect();
+    let image = Density::Image { values: &values, width: 12, height: 10, texture: Texture::PerVertex(&texture) };
+    for (name, density, scale) in
+        [("density function", function, Scale::Radius(0.04)), ("density image", image, Scale::Count(2000.0))]
+    {
+        let options = adaptive::Options::new(Radius::Density { density, scale }).seed(45);
+        list.samples(&format!("adaptive, {name}"), &adaptive::sample(context, open, &options, None)?.0.samples);
+    }
+    Ok(())
+}
+
+fn adaptive(context: &Context, closed: &Mesh, open: &Mesh, list: &mut List) -> Result<()> {
+    let radii: Vec<f32> = closed.positions().iter().map(|[x, ..]| 0.02 + 0.03 * (x + 1.4)).collect();
+    let options = adaptive::Options::new(Radius::PerVertex(&radii)).seed(35);
+    let (set, _) = adaptive::sample(context, closed, &options, None)?;
+    list.samples("adaptive vertices", &set.samples);
+    list.numbers("adaptive radii", &set.radii);
+    let radius = Radius::Function { at: &|[_, _, z]| 0.03 + 0.01 * z, smallest: 0.02, largest: 0.04, slope: 0.011 };
+    let options = adaptive::Options::new(radius).seed(36).cosine(0.5);
+    list.samples("adaptive function", &adaptive::sample(context, open, &options, None)?.0.samples);
+    Ok(())
+}
+
+/// Gives [`Surface::few`].
+fn relaxed(
+    context: &Context,
+    closed: &Mesh,
+    maximal: &SurfaceSamples,
+    open: &Arc<Mesh>,
+    list: &mut List,
+) -> Result<SurfaceSamples> {
+    let options = RelaxOptions::default().max_iterations(30);
+    let (samples, report) = relax(context, closed, &maximal.triangles, &maximal.barycentrics, &options, None)?;
+    list.samples("relax surface", &samples);
+    list.numbers("relax surface: report", &[report.motion, report.rho]);
+    let (few, _) = psp::sample(context, open, &self::options(0.06, 0, Engine::Rasteriser, 37), None)?;
+    let options = RelaxOptions::default();
+    let (samples, _) = relax(context, open, &few.triangles, &few.barycentrics, &options, None)?;
+    list.samples("relax surface open", &samples);
+    let remeshed = triangulate(context, open, &samples.triangles, &samples.barycentrics, None)?;
+    let corners = remeshed.triangles.as_flattened();
+    list.bytes("triangulate", &little_endian(corners, |vertex: u32| vertex.to_le_bytes()));
+    Ok(few)
+}
