@@ -2,9 +2,9 @@
 //!
 //! | format | plane | surface | domain |
 //! |---|---|---|---|
-//! | PLY | `x y` | `x y z nx ny nz triangle u v` and perhaps `radius` | in a comment |
-//! | NPY | array of `(n, 2)` floats | structured array of `position normal triangle barycentrics` and perhaps `radius` | - |
-//! | CSV | columns `x,y` under a header | all columns of PLY under a header | - |
+//! | PLY | `x y` and perhaps `class` | `x y z nx ny nz triangle u v` and perhaps `radius`, `rank`, `class` | in a comment |
+//! | NPY | array of `(n, 2)` floats; structured array of `x y class` | structured array of `position normal triangle barycentrics` and perhaps `radius`, `rank`, `class` | - |
+//! | CSV | columns `x,y` and perhaps `class` under a header | all columns of PLY under a header | - |
 //! | XYZ | lines `x y 0` | lines `x y z nx ny nz` | - |
 //! | raw | `x y` as little-endian floats | - | - |
 //!
@@ -73,9 +73,10 @@ fn format_error(path: &Path, reason: impl Into<String>) -> Error {
 pub fn blame(path: &Path, error: Error) -> Error {
     match error {
         Error::InvalidArgument { argument: "xy" | "positions" | "normals", reason } => format_error(path, reason),
-        Error::InvalidArgument { argument: argument @ ("triangles" | "barycentrics"), reason } => {
-            format_error(path, format!("{argument}: {reason}"))
-        }
+        Error::InvalidArgument {
+            argument: argument @ ("triangles" | "barycentrics" | "given_positions" | "given_clearances"),
+            reason,
+        } => format_error(path, format!("{argument}: {reason}")),
         other => other,
     }
 }
@@ -169,6 +170,12 @@ impl Input {
     }
 }
 
+/// Reads samples in space that are given, in a format by their extension.
+pub fn read_given(path: &Path) -> Result<SampleSet> {
+    let dimensions = (Format::of(path)? == Format::Raw).then_some(3);
+    Input { input_format: None, dimensions }.read_samples(path)
+}
+
 /// Points of a file, some of which are to be written as they stand in it.
 pub struct Cloud {
     format: Format,
@@ -190,9 +197,14 @@ impl Cloud {
         Err(format_error(path, "the extension names another format than that of the cloud, which is kept"))
     }
 
-    /// Writes some of the points, in this order.
-    pub fn write(&self, output: &Output, indices: &[u32]) -> Result<()> {
-        output.write(|writer| self.records.write(writer, indices))
+    /// Refuses a cloud that has ranks already where others are to be written.
+    pub fn check_ranks(&self, path: &Path) -> Result<()> {
+        if self.records.has_ranks() { Err(format_error(path, "has a column rank already")) } else { Ok(()) }
+    }
+
+    /// Writes some of the points, in this order, with their ranks if there are any.
+    pub fn write(&self, output: &Output, indices: &[u32], ranks: &[f32]) -> Result<()> {
+        output.write(|writer| self.records.write(writer, indices, ranks))
     }
 }
 
@@ -215,6 +227,16 @@ impl Destination {
         Ok(PointFile { output, format })
     }
 
+    /// Finds out before the work whether and how there can be a file of a set of the plane of several classes.
+    pub fn open_classes(&self) -> Result<PointFile> {
+        let file = self.open_plane()?;
+        if matches!(file.format, Format::Raw | Format::Xyz) {
+            let reason = "this format has no place for the classes of samples: give .ply, .npy or .csv";
+            return Err(format_error(&self.output, reason));
+        }
+        Ok(file)
+    }
+
     /// Finds out before the work whether and how there can be a file of samples of a surface.
     pub fn open_surface(&self) -> Result<PointFile> {
         let file = self.open_plane()?;
@@ -234,12 +256,13 @@ pub struct PointFile {
 }
 
 impl PointFile {
-    /// Writes a set of the plane, with its domain if the format can name it.
-    pub fn write_plane(&self, domain: &Domain, points: &[[f32; 2]]) -> Result<()> {
+    /// Writes a set of the plane, with its domain and, if there are any, the classes of its points, if the format can name
+    /// them.
+    pub fn write_plane(&self, domain: &Domain, points: &[[f32; 2]], classes: &[u32]) -> Result<()> {
         match self.format {
-            Format::Ply => ply::write_plane(&self.output, domain, points),
-            Format::Npy => self.output.write(|writer| npy::write_plane(writer, points)),
-            Format::Csv => self.output.write(|writer| table::write_csv_plane(writer, points)),
+            Format::Ply => ply::write_plane(&self.output, domain, points, classes),
+            Format::Npy => self.output.write(|writer| npy::write_plane(writer, points, classes)),
+            Format::Csv => self.output.write(|writer| table::write_csv_plane(writer, points, classes)),
             Format::Xyz => self.output.write(|writer| table::write_xyz_plane(writer, points)),
             Format::Raw => self.output.write(|writer| surface::write_floats(writer, points)),
         }

@@ -1,5 +1,5 @@
-//! PLY files: sets of the plane (`x y`), samples of a surface (`x y z nx ny nz triangle u v`, and
-//! `radius` where radii differ), meshes.
+//! PLY files: sets of the plane (`x y`), samples of a surface (`x y z nx ny nz triangle u v`,
+//! `radius` where radii differ, and `rank` in progressive order), both with `class` where there are several; meshes.
 //!
 //! A set of the plane names its domain in a comment, `domain <x0> <y0> <x1> <y1> periodic|bounded`: points alone do
 //! not tell the period of a torus. Files without that comment are read too.
@@ -10,7 +10,7 @@ use azulejo::mesh::ply::Ply;
 use azulejo::{Boundary, Domain};
 
 use crate::formats::set::{self, Columns, NAMES, PointSet};
-use crate::formats::surface::{SurfaceTable, write_floats};
+use crate::formats::surface::{SurfaceTable, write_floats, write_plane_binary};
 use crate::output::Output;
 
 /// The vertices of a PLY file, text or binary, in any order of properties.
@@ -61,8 +61,8 @@ fn named_domain(comments: &[String]) -> Option<Domain> {
     })
 }
 
-/// Writes a set of the plane with its domain.
-pub fn write_plane(output: &Output, domain: &Domain, points: &[[f32; 2]]) -> azulejo::Result<()> {
+/// Writes a set of the plane with its domain, and the class of each point if there are several.
+pub fn write_plane(output: &Output, domain: &Domain, points: &[[f32; 2]], classes: &[u32]) -> azulejo::Result<()> {
     let ([x0, y0], [x1, y1]) = (domain.min, domain.max);
     let boundary = match domain.boundary {
         Boundary::Periodic => "periodic",
@@ -70,28 +70,20 @@ pub fn write_plane(output: &Output, domain: &Domain, points: &[[f32; 2]]) -> azu
     };
     output.write(|writer| {
         let comment = format!("comment domain {x0} {y0} {x1} {y1} {boundary}\n");
-        write_header(writer, &comment, points.len(), &["float x", "float y"])?;
-        write_floats(writer, points)
+        let properties = ["float x", "float y", "uint class"];
+        write_header(writer, &comment, points.len(), &properties[..if classes.is_empty() { 2 } else { 3 }])?;
+        write_plane_binary(writer, points, classes)
     })
 }
 
 /// Writes samples of a surface with all that is known of them.
 pub fn write_surface(output: &Output, table: &SurfaceTable) -> azulejo::Result<()> {
-    const PROPERTIES: [&str; 10] = [
-        "float x",
-        "float y",
-        "float z",
-        "float nx",
-        "float ny",
-        "float nz",
-        "uint triangle",
-        "float u",
-        "float v",
-        "float radius",
-    ];
-    let properties = &PROPERTIES[..if table.radii.is_some() { 10 } else { 9 }];
+    const PROPERTIES: [&str; 9] =
+        ["float x", "float y", "float z", "float nx", "float ny", "float nz", "uint triangle", "float u", "float v"];
+    let more: Vec<_> = table.more_columns().map(|column| format!("{} {}", column.ply_type(), column.name)).collect();
+    let properties: Vec<_> = PROPERTIES.into_iter().chain(more.iter().map(String::as_str)).collect();
     output.write(|writer| {
-        write_header(writer, "", table.samples.len(), properties)?;
+        write_header(writer, "", table.samples.len(), &properties)?;
         table.write_binary(writer)
     })
 }

@@ -1,13 +1,14 @@
-//! `azulejo stipple`: an image in dots of one size, denser where it is darker.
+//! `azulejo stipple`: an image in dots of one size, denser where it is darker, black or in four inks.
 
 pub mod darkness;
 pub mod dots;
-mod drawing;
+pub mod drawing;
+pub mod inks;
 
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use azulejo::{Context, Error, Result};
+use azulejo::{Context, Domain, Error, Given, Result};
 use clap::{Args, ValueEnum};
 
 use crate::generate::{compared, count, report};
@@ -20,7 +21,7 @@ use drawing::Drawing;
 
 #[derive(Args)]
 pub(crate) struct Stipple {
-    /// The image: a PNG file. Colours count by their luminance; transparent parts are white.
+    /// The image: a PNG file. Colours count by their luminance unless there is `--cmyk`; transparent parts are white.
     #[arg(value_name = "IMAGE.png")]
     image: PathBuf,
     /// The dots, in pixels of the image, with y downwards: a drawing (SVG), a picture (PNG) or the centres alone (PLY).
@@ -37,8 +38,13 @@ pub(crate) struct Stipple {
     /// tones of the image.
     #[arg(long)]
     no_relax: bool,
+    /// Dots of black, cyan, magenta and yellow, about as many as asked for: each a maximal Poisson-disk set whose density
+    /// follows its share of the image, around the dots of the inks before it, so that all are well spread together. PLY
+    /// files have the ink as `class`: 0 black, 1 cyan, 2 magenta, 3 yellow.
+    #[arg(long, conflicts_with = "no_relax")]
+    cmyk: bool,
     /// The largest number of steps of the relaxation.
-    #[arg(long, value_name = "STEPS", default_value_t = 100, conflicts_with = "no_relax")]
+    #[arg(long, value_name = "STEPS", default_value_t = 100, conflicts_with_all = ["no_relax", "cmyk"])]
     iterations: u32,
     /// The light of a pixel is its grey value, of which 1 is white, to this power; the share 1 - light is covered with ink.
     #[arg(long, value_name = "EXPONENT", default_value_t = 2.2, allow_negative_numbers = true)]
@@ -78,35 +84,62 @@ impl Format {
     }
 }
 
+/// Dots, and what is to be said of how they were made.
+struct Stippled {
+    /// The paper.
+    domain: Domain,
+    centres: Vec<[f32; 2]>,
+    /// The ink of each; empty if all are black.
+    inks: Vec<u32>,
+    radius: f64,
+    said: String,
+}
+
 impl Stipple {
     pub(crate) fn run(&self, context: &Context) -> Result<()> {
         let format = self.format.map_or_else(|| Format::of(&self.output), Ok)?;
         let output = Output::at(&self.output)?;
-        let darkness = Darkness::load(&self.image, self.gamma)?;
         let start = Instant::now();
-        let (dots, about) = self.dots(context, &darkness)?;
+        let stippled = if self.cmyk { self.in_inks(context)? } else { self.in_black(context)? };
         let seconds = start.elapsed().as_secs_f64();
-        let radius = darkness.dot_radius(dots.len());
-        let drawing = Drawing { size: darkness.size(), dots: &dots, radius };
+        let Stippled { domain, centres, inks, radius, said } = &stippled;
+        let size = domain.max.map(|length| length as usize);
+        let drawing = Drawing { size, dots: centres, inks, radius: *radius };
         match format {
             Format::Svg => drawing.write_svg(&output)?,
             Format::Png => {
-                let twice = 2 * darkness.size()[0] as u32;
+                let twice = 2 * size[0] as u32;
                 let limits = crate::draw::PICTURE_WIDTHS;
                 let width = self.size.unwrap_or(twice.clamp(*limits.start() as u32, *limits.end() as u32));
                 drawing.write_png(width, self.gamma, &output)?;
             }
-            Format::Ply => ply::write_plane(&output, &darkness.domain(), &dots)?,
+            Format::Ply => ply::write_plane(&output, domain, centres, inks)?,
         }
-        report(&output, dots.len(), &format!("{about}dots of radius {}", rounded(radius, 4)), seconds);
+        report(&output, centres.len(), &format!("{said}dots of radius {}", rounded(*radius, 4)), seconds);
         Ok(())
+    }
+
+    fn in_black(&self, context: &Context) -> Result<Stippled> {
+        let darkness = Darkness::load(&self.image, self.gamma)?;
+        let (centres, said) = self.dots(context, &darkness)?;
+        let radius = darkness.dot_radius(centres.len());
+        Ok(Stippled { domain: darkness.domain(), centres, inks: Vec::new(), radius, said })
+    }
+
+    fn in_inks(&self, context: &Context) -> Result<Stippled> {
+        let inks = Darkness::load_inks(&self.image, self.gamma)?;
+        let count = self.count as usize;
+        let (dots, radius) = watched("dots", |progress| inks::dots(context, &inks, count, self.seed, progress))?;
+        let said = compared(dots.centres.len(), self.count.into());
+        Ok(Stippled { domain: inks[0].domain(), centres: dots.centres, inks: dots.inks, radius, said })
     }
 
     /// The dots, and what is to be said of how they were made.
     fn dots(&self, context: &Context, darkness: &Darkness) -> Result<(Vec<[f32; 2]>, String)> {
         if self.no_relax {
-            let set =
-                watched("dots", |progress| dots::poisson(context, darkness, self.count as usize, self.seed, progress))?;
+            let set = watched("dots", |progress| {
+                dots::poisson(context, darkness, self.count.into(), Given::default(), self.seed, progress)
+            })?;
             let about = compared(set.len(), self.count.into());
             return Ok((set, about));
         }

@@ -3,8 +3,8 @@
 use std::path::PathBuf;
 use std::time::Instant;
 
-use azulejo::thin::{Options, Order, thin};
-use azulejo::{Context, Result};
+use azulejo::thin::{Options, thin};
+use azulejo::{Context, Order, Result};
 use clap::{Args, ValueEnum};
 
 use crate::formats::{Input, blame};
@@ -30,7 +30,8 @@ pub struct Thin {
     /// The smallest distance between selected points.
     #[arg(long, value_name = "R", allow_negative_numbers = true)]
     radius: Option<f64>,
-    /// The order of the selected points.
+    /// The order of the selected points. In progressive order they get a column `rank`, the distance of each from the
+    /// nearest of those before it, where the columns of the file have names: not in .xyz and .raw files.
     #[arg(long, value_enum, default_value = "any")]
     order: Sequence,
     /// Which point is the first of the progressive order, and of a count.
@@ -51,6 +52,9 @@ impl Thin {
         let output = Output::at(&self.output)?;
         let cloud = self.format.read_cloud(&self.input)?;
         cloud.check_output(&self.output)?;
+        if matches!(self.order, Sequence::Progressive) {
+            cloud.check_ranks(&self.input)?;
+        }
         let order = match self.order {
             Sequence::Any => Order::Any,
             Sequence::Progressive => Order::Progressive,
@@ -61,7 +65,7 @@ impl Thin {
         let select = |progress: &azulejo::Progress| thin(context, &options, cloud.positions(), Some(progress));
         let selected = watched("thin", select).map_err(|error| blame(&self.input, error))?;
         let seconds = start.elapsed().as_secs_f64();
-        cloud.write(&output, &selected.indices)?;
+        cloud.write(&output, &selected.indices, &selected.ranks)?;
         let [selected, all] = [selected.indices.len(), cloud.positions().len()].map(grouped);
         output.report(&format!("{selected} of {all} points, {seconds:.2} s"));
         Ok(())

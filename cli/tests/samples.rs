@@ -60,6 +60,91 @@ fn plane_fills_the_rectangle_that_it_is_given() {
     assert!(points.iter().all(|p| (-3.0..-1.0).contains(&p[0]) && (2.0..3.0).contains(&p[1])));
 }
 
+/// The points of a PLY file.
+fn points(workshop: &Workshop, name: &str) -> Vec<Vec<f32>> {
+    floats(&fs::read(workshop.path(name)).unwrap(), 2).1
+}
+
+#[test]
+fn plane_sets_in_progressive_order_are_nested() {
+    let workshop = Workshop::new();
+    let made = |name: &str, arguments: &[&str]| {
+        workshop.succeed(&[&["plane", "--order", "progressive", "-o", name], arguments].concat());
+        points(&workshop, name)
+    };
+    let (few, many) = (made("a.ply", &["--count", "200"]), made("b.ply", &["--count", "2000"]));
+    assert!(few.len() == 200 && few == many[..200]);
+    let (coarse, fine) = (made("c.ply", &["--radius", "0.04"]), made("d.ply", &["--radius", "0.02"]));
+    assert!(coarse.len() > 300 && coarse == fine[..coarse.len()]);
+    assert!(made("e.ply", &["--radius", "0.02", "--quotient", "1.4", "--coarsest", "0.05"]) != fine);
+    let said =
+        workshop.refuse(&["plane", "--radius", "0.1", "--order", "progressive", "--quotient", "3", "-o", "f.ply"], 1);
+    assert!(said.starts_with("error: quotient: 3.0 is not in 1.02 to 1.5"), "{said}");
+}
+
+#[test]
+fn plane_samples_around_what_stands_already() {
+    let workshop = Workshop::new();
+    workshop.succeed(&["plane", "--radius", "0.1", "-o", "coarse.ply"]);
+    let coarse = points(&workshop, "coarse.ply");
+    workshop.succeed(&["plane", "--radius", "0.1", "--around", "coarse.ply", "-o", "none.ply"]);
+    assert!(points(&workshop, "none.ply").is_empty());
+    workshop.succeed(&["plane", "--radius", "0.02", "--around", "coarse.ply", "--clearance", "0.03", "-o", "fine.ply"]);
+    let fine = points(&workshop, "fine.ply");
+    assert!(fine.len() > 500);
+    for (a, b) in fine.iter().flat_map(|a| coarse.iter().map(move |b| (a, b))) {
+        let offset = [0, 1].map(|axis| (a[axis] as f64 - b[axis] as f64).abs()).map(|d| d.min(1.0 - d));
+        assert!(offset[0].hypot(offset[1]) >= 0.03, "{a:?} {b:?}");
+    }
+    workshop.refuse(&["plane", "--count", "100", "--around", "coarse.ply", "-o", "a.ply"], 2);
+    workshop.refuse(&["plane", "--radius", "0.1", "--clearance", "1", "-o", "a.ply"], 2);
+}
+
+#[test]
+fn plane_samples_of_several_classes() {
+    let workshop = Workshop::new();
+    let own = [0.04, 0.08, 0.02];
+    let set = ["plane", "--classes", "0.04,0.08,0.02", "--class-factor", "0.8", "--seed", "3"];
+    let said = workshop.succeed(&[&set[..], &["-o", "whole.csv"]].concat());
+    assert!(said.contains(", by classes "), "{said}");
+    let text = fs::read_to_string(workshop.path("whole.csv")).unwrap();
+    assert!(text.starts_with("x,y,class\n"));
+    let rows: Vec<Vec<&str>> = text.lines().skip(1).map(|line| line.split(',').collect()).collect();
+    for class in ["0", "1", "2"] {
+        let own = own[class.parse::<usize>().unwrap()];
+        let samples = rows.iter().filter(|row| row[2] == class).map(|row| [0, 1].map(|axis| row[axis].parse::<f64>()));
+        let samples: Vec<_> = samples.map(|[x, y]| [x.unwrap(), y.unwrap()]).collect();
+        assert!(samples.len() as f64 > 0.5 / (own * own), "{class} has {}", samples.len());
+        for (i, a) in samples.iter().enumerate() {
+            let [dx, dy] = [0, 1].map(|axis| samples[..i].iter().map(move |b| (a[axis] - b[axis]).abs()));
+            let distance = |(dx, dy): (f64, f64)| dx.min(1.0 - dx).hypot(dy.min(1.0 - dy));
+            assert!(dx.zip(dy).map(distance).all(|distance| distance >= own * (1.0 - 1e-12)), "{a:?} of {class}");
+        }
+    }
+    // The other formats have the same rows, and can be read as sets of the plane.
+    for (name, more) in [("whole.ply", &[][..]), ("window.ply", &["--window", "0.25", "0.5", "0.75", "1"])] {
+        workshop.succeed(&[&set[..], more, &["-o", name]].concat());
+        let (header, found) = floats(&fs::read(workshop.path(name)).unwrap(), 3);
+        assert!(header.contains("property uint class"), "{header}");
+        let [min, max] = if more.is_empty() { [[0.0, 0.0], [1.0, 1.0]] } else { [[0.25, 0.5], [0.75, 1.0]] };
+        let of_text = |row: &Vec<&str>| [0, 1].map(|axis| row[axis].parse::<f32>().unwrap());
+        let is_inside = |[x, y]: &[f32; 2]| (min[0]..max[0]).contains(x) && (min[1]..max[1]).contains(y);
+        let expected = rows.iter().map(|row| (of_text(row), row[2].parse::<u32>().unwrap()));
+        let found = found.iter().map(|row| ([row[0], row[1]], row[2].to_bits()));
+        assert!(found.eq(expected.filter(|(sample, _)| is_inside(sample))), "{name}");
+    }
+    workshop.succeed(&[&set[..], &["-o", "whole.npy"]].concat());
+    for name in ["whole.npy", "whole.ply", "whole.csv"] {
+        workshop.succeed(&["plane", "--radius", "0.02", "--around", name, "-o", "none.csv"]);
+        assert_eq!(fs::read_to_string(workshop.path("none.csv")).unwrap(), "x,y\n", "{name}");
+    }
+    workshop.refuse(&[&set[..], &["-o", "a.raw"]].concat(), 1);
+    workshop.refuse(&[&set[..], &["--order", "progressive", "-o", "a.ply"]].concat(), 2);
+    workshop.refuse(&["plane", "--radius", "0.1", "--class-factor", "2", "-o", "a.ply"], 2);
+    let said = workshop.refuse(&["plane", "--classes", "0.1,0", "-o", "a.ply"], 1);
+    assert!(said.starts_with("error: own: [1] is 0.0"), "{said}");
+}
+
 #[test]
 fn a_window_has_the_samples_that_the_whole_set_has_there() {
     let workshop = Workshop::new();
@@ -221,7 +306,7 @@ fn surface_writes_samples_with_normals_triangles_and_barycentrics() {
         };
         assert!((0..3).all(|i| (sample[i] - expected[i]).abs() < 1e-6 && sample[3 + i] == normal[i]), "{sample:?}");
     }
-    let few = ["surface", "roof.obj", "--count", "300", "--iterations", "1", "--no-fill", "-o", "b.ply"];
+    let few = ["surface", "roof.obj", "--radius", "0.0964", "--iterations", "1", "--no-fill", "-o", "b.ply"];
     workshop.succeed(&few);
     let (_, fewer) = floats(&fs::read(workshop.path("b.ply")).unwrap(), 9);
     assert!((150..300).contains(&fewer.len()), "{}", fewer.len());

@@ -5,7 +5,7 @@ mod common;
 use std::fs;
 
 use common::Workshop;
-use image::{GrayImage, Luma};
+use image::{GrayImage, Luma, Rgb, RgbImage};
 
 const SIDE: u32 = 96;
 
@@ -114,4 +114,89 @@ fn what_cannot_be_drawn_is_refused_with_its_name() {
     }
     let both = ["stipple", "ramp.png", "-o", "a.svg", "--count", "9", "--no-relax", "--iterations", "3"];
     workshop.refuse(&both, 2);
+}
+
+/// Bands of red, of a dark blue and of grey that gets lighter, beside white.
+fn bands() -> RgbImage {
+    RgbImage::from_fn(SIDE, SIDE / 2, |x, y| match 4 * x / SIDE {
+        0 => Rgb([255, 60, 60]),
+        1 => Rgb([40, 40, 160]),
+        2 => Rgb([2 * y as u8 + 100; 3]),
+        _ => Rgb([255; 3]),
+    })
+}
+
+#[test]
+fn four_inks_give_the_colours_of_the_image() {
+    let workshop = Workshop::new();
+    let image = bands();
+    image.save(workshop.path("bands.png")).unwrap();
+    workshop.succeed(&[
+        "stipple",
+        "bands.png",
+        "--cmyk",
+        "-o",
+        "a.png",
+        "--count",
+        "4000",
+        "--size",
+        "960",
+        "--gamma",
+        "1",
+    ]);
+    let picture = image::open(workshop.path("a.png")).unwrap().to_rgb8();
+    let light = |image: &RgbImage, band: u32, channel: usize| {
+        let width = image.width() / 4;
+        let pixels = image.enumerate_pixels().filter(|(x, _, _)| x / width == band);
+        let sum: f64 = pixels.map(|(_, _, colour)| f64::from(colour[channel]) / 255.0).sum();
+        sum / f64::from(width * image.height())
+    };
+    for (band, channel) in (0..4).flat_map(|band| (0..3).map(move |channel| (band, channel))) {
+        let (drawn, wanted) = (light(&picture, band, channel), light(&image, band, channel));
+        // Where it is darkest dots of one ink overlap.
+        assert!((drawn - wanted).abs() < 0.1, "band {band}, channel {channel}: {drawn} for {wanted}");
+    }
+}
+
+#[test]
+fn dots_of_inks_keep_apart() {
+    let workshop = Workshop::new();
+    bands().save(workshop.path("bands.png")).unwrap();
+    let draw = |output: &str, threads: &str| {
+        workshop.succeed(&["stipple", "bands.png", "--cmyk", "-o", output, "--count", "1500", "--threads", threads])
+    };
+    let said = draw("a.ply", "1");
+    draw("b.ply", "2");
+    assert_eq!(fs::read(workshop.path("a.ply")).unwrap(), fs::read(workshop.path("b.ply")).unwrap());
+    let bytes = fs::read(workshop.path("a.ply")).unwrap();
+    let body = bytes.windows(11).position(|window| window == b"end_header\n").unwrap() + 11;
+    let dots: Vec<([f64; 2], u32)> = bytes[body..]
+        .chunks_exact(12)
+        .map(|dot| {
+            let word = |i: usize| dot[4 * i..4 * i + 4].try_into().unwrap();
+            ([0, 1].map(|axis| f32::from_le_bytes(word(axis)).into()), u32::from_le_bytes(word(2)))
+        })
+        .collect();
+    assert!((1450..=1550).contains(&dots.len()), "{said}");
+    let radius: f64 = said.split("dots of radius ").nth(1).unwrap().split(',').next().unwrap().parse().unwrap();
+    // 0.75 of Wei's cross radius where they are densest, in the dark blue.
+    for (i, (a, ink)) in dots.iter().enumerate() {
+        for (b, other) in &dots[..i] {
+            let apart = (a[0] - b[0]).hypot(a[1] - b[1]);
+            assert!(ink == other || apart >= 0.69 * radius, "{a:?} {ink}, {b:?} {other}");
+        }
+    }
+    // Red is made of magenta and yellow, blue of cyan and magenta with black; white has nothing.
+    let count =
+        |band: usize, ink: u32| dots.iter().filter(|(at, of)| at[0] as usize / 24 == band && *of == ink).count();
+    assert!(count(0, 0) + count(0, 1) < 20 && count(0, 2) > 100 && count(0, 3) > 100, "{said}");
+    assert!(count(1, 0) > 100 && count(1, 1) > 100 && count(1, 2) > 100 && count(1, 3) < 30, "{said}");
+    assert!(count(2, 0) > 100 && count(2, 1) + count(2, 2) + count(2, 3) < 20, "{said}");
+    assert!((0..4).map(|ink| count(3, ink)).sum::<usize>() < 20, "{said}");
+    workshop.succeed(&["stipple", "bands.png", "--cmyk", "-o", "a.svg", "--count", "500"]);
+    let drawing = fs::read_to_string(workshop.path("a.svg")).unwrap();
+    assert_eq!((drawing.matches("<path").count(), drawing.matches("multiply").count()), (4, 4));
+    let refused =
+        workshop.refuse(&["stipple", "bands.png", "--cmyk", "--no-relax", "-o", "a.svg", "--count", "500"], 2);
+    assert!(refused.contains("--no-relax"), "{refused}");
 }

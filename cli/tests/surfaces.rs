@@ -31,7 +31,7 @@ fn every_shape_can_be_made_and_sampled() {
         let count_text = count.to_string();
         workshop.succeed(&["surface", "mesh.ply", "--count", &count_text, "-o", "samples.ply"]);
         let made = samples(&workshop, "samples.ply");
-        assert!((count / 2..count * 6 / 5).contains(&made.len()), "{} samples of a {shape}", made.len());
+        assert_eq!(made.len(), count, "samples of a {shape}");
         for axis in 0..3 {
             let ends =
                 made.iter().map(|sample| sample[axis]).fold([f32::MAX, f32::MIN], |[a, b], x| [a.min(x), b.max(x)]);
@@ -44,25 +44,86 @@ fn every_shape_can_be_made_and_sampled() {
 }
 
 #[test]
-fn surface_says_how_near_the_count_is() {
+fn surface_has_exactly_the_count_and_says_the_radius() {
     let workshop = Workshop::new();
     workshop.succeed(&["mesh", "sphere", "--detail", "64", "-o", "mesh.ply"]);
     let said = workshop.succeed(&["surface", "mesh.ply", "--count", "4000", "-o", "a.ply"]);
-    let made = samples(&workshop, "a.ply").len();
-    let count = format!("a.ply: {},{:03} samples, ", made / 1000, made % 1000);
-    let rest = said.strip_prefix(&count).unwrap_or_else(|| panic!("{said}"));
-    let (percent, rest) = rest.split_once(' ').unwrap();
-    let told: f64 = percent.parse().unwrap();
-    assert!((told - 100.0 * (made as f64 / 4000.0 - 1.0).abs()).abs() < 0.1 && told < 5.0, "{said}");
-    let how = if made < 4000 { "fewer" } else { "more" };
-    assert!(rest.starts_with(&format!("% {how} than asked for, radius 0.0467")), "{said}");
-    // Two triangles apart, far below the radius: half of what the area lets expect.
+    assert_eq!(samples(&workshop, "a.ply").len(), 4000);
+    assert!(said.starts_with("a.ply: 4,000 samples, radius 0.04") && said.contains(", covered within 0.04"), "{said}");
+    // Two triangles apart, far below the radius.
     let square = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 .001\nv 1 0 .001\nv 0 1 .001\nf 1 2 3\nf 4 5 6\n";
     workshop.write("pair.obj", square);
-    let said = workshop.succeed(&["surface", "pair.obj", "--count", "1000", "-o", "a.ply"]);
-    assert!(said.contains(" % fewer than asked for, radius "), "{said}");
+    workshop.succeed(&["surface", "pair.obj", "--count", "1e3", "-o", "a.ply"]);
+    assert_eq!(samples(&workshop, "a.ply").len(), 1000);
     let said = workshop.succeed(&["surface", "mesh.ply", "--radius", "0.5", "-o", "a.ply"]);
     assert!(said.contains(" samples, radius 0.5, "), "{said}");
+    workshop.refuse(&["surface", "mesh.ply", "--count", "50", "--iterations", "1", "-o", "b.ply"], 2);
+    workshop.refuse(&["surface", "mesh.ply", "--count", "50", "--no-fill", "-o", "b.ply"], 2);
+}
+
+#[test]
+fn progressive_sets_have_their_ranks_in_all_formats() {
+    let workshop = Workshop::new();
+    workshop.succeed(&["mesh", "torus", "--detail", "32", "-o", "mesh.ply"]);
+    let order = |output: &str, more: &[&str]| {
+        workshop.succeed(&[&["surface", "mesh.ply", "--order", "progressive", "-o", output], more].concat())
+    };
+    for output in ["a.ply", "a.npy", "a.csv", "a.xyz"] {
+        order(output, &["--count", "500"]);
+    }
+    order("b.csv", &["--count", "100"]);
+    let [text, fewer] = ["a.csv", "b.csv"].map(|name| fs::read_to_string(workshop.path(name)).unwrap());
+    assert!(text.starts_with("x,y,z,nx,ny,nz,triangle,u,v,rank\n") && text.lines().count() == 501);
+    assert!(fewer.lines().count() == 101 && text.starts_with(&fewer), "not a prefix");
+    let ranks: Vec<f32> = text.lines().skip(1).map(|line| line.rsplit(',').next().unwrap().parse().unwrap()).collect();
+    assert!(ranks[0] == f32::INFINITY && ranks.is_sorted_by(|a, b| a >= b));
+    let ply = fs::read(workshop.path("a.ply")).unwrap();
+    assert!(String::from_utf8_lossy(&ply[..300]).contains("property float v\nproperty float rank\nend_header\n"));
+    assert!(ply.ends_with(&ranks[499].to_le_bytes()));
+    let npy = fs::read(workshop.path("a.npy")).unwrap();
+    assert!(String::from_utf8_lossy(&npy[..256]).contains("('barycentrics', '<f4', (2,)), ('rank', '<f4')]"));
+    let said = order("c.ply", &["--radius", "0.1", "--quotient", "1.3"]);
+    assert!(said.contains(" samples, radius 0.1, "), "{said}");
+    let refuse = |arguments: &[&str], code| {
+        workshop.refuse(&[&["surface", "mesh.ply", "--radius", "0.1", "-o", "d.ply"], arguments].concat(), code)
+    };
+    let said = refuse(&["--order", "progressive", "--quotient", "2"], 1);
+    assert_eq!(said, "error: quotient: 2 is not between 1.02 and 1.5\n");
+    refuse(&["--quotient", "1.2"], 2);
+    refuse(&["--order", "progressive", "--iterations", "1"], 2);
+}
+
+#[test]
+fn sets_of_several_classes_have_them_in_all_formats() {
+    let workshop = Workshop::new();
+    workshop.succeed(&["mesh", "torus", "--detail", "32", "-o", "mesh.ply"]);
+    let sample = |output: &str, more: &[&str]| {
+        workshop.succeed(&[&["surface", "mesh.ply", "--classes", "0.4,0.2,0.2", "-o", output], more].concat())
+    };
+    for output in ["a.ply", "a.npy", "a.csv", "a.xyz"] {
+        let said = sample(output, &[]);
+        assert!(said.contains(" of radius 0.4, ") && said.matches(" of radius 0.2, ").count() == 2, "{said}");
+    }
+    let text = fs::read_to_string(workshop.path("a.csv")).unwrap();
+    assert!(text.starts_with("x,y,z,nx,ny,nz,triangle,u,v,class\n"));
+    let classes: Vec<u32> =
+        text.lines().skip(1).map(|line| line.rsplit(',').next().unwrap().parse().unwrap()).collect();
+    assert!(classes.is_sorted() && classes[0] == 0 && *classes.last().unwrap() == 2);
+    let ply = fs::read(workshop.path("a.ply")).unwrap();
+    assert!(String::from_utf8_lossy(&ply[..300]).contains("property float v\nproperty uint class\nend_header\n"));
+    assert!(ply.ends_with(&2u32.to_le_bytes()));
+    assert!(String::from_utf8_lossy(&ply[..300]).contains(&format!("element vertex {}\n", classes.len())));
+    let npy = fs::read(workshop.path("a.npy")).unwrap();
+    assert!(String::from_utf8_lossy(&npy[..256]).contains("('barycentrics', '<f4', (2,)), ('class', '<u4')]"));
+    sample("b.csv", &["--class-factor", "0.5", "--given", "a.xyz", "--clearance", "0.1"]);
+    let refuse = |arguments: &[&str], code| {
+        workshop.refuse(&[&["surface", "mesh.ply", "-o", "d.ply"], arguments].concat(), code)
+    };
+    refuse(&["--classes", "0.4,0.2", "--radius", "0.1"], 2);
+    refuse(&["--classes", "0.4,0.2", "--iterations", "1"], 2);
+    refuse(&["--radius", "0.4", "--class-factor", "0.5"], 2);
+    let said = refuse(&["--classes", "0.4,0"], 1);
+    assert_eq!(said, "error: own: [1] is 0.0, not a positive finite number\n");
 }
 
 #[test]
@@ -107,6 +168,16 @@ fn samples_are_relaxed_on_their_mesh() {
     assert!(said.starts_with("b.ply: ") && said.contains(" steps, smallest distance 0.1"), "{said}");
     workshop.succeed(&["relax", "a.ply", "--mesh", "mesh.ply", "--iterations", "0", "-o", "c.ply"]);
     assert_eq!(fs::read(workshop.path("a.ply")).unwrap(), fs::read(workshop.path("c.ply")).unwrap());
+    // The mesh of the relaxed samples, which are the same as without it.
+    workshop.succeed(&["surface", "mesh.ply", "--count", "1000", "--seed", "1", "-o", "f.ply"]);
+    workshop.succeed(&["relax", "f.ply", "--mesh", "mesh.ply", "-o", "g.ply"]);
+    let said = workshop.succeed(&["relax", "f.ply", "--mesh", "mesh.ply", "-o", "e.ply", "--remesh", "made.ply"]);
+    assert_eq!(fs::read(workshop.path("e.ply")).unwrap(), fs::read(workshop.path("g.ply")).unwrap());
+    let expected = "made.ply: 1,996 triangles, closed manifold, Euler characteristic 2, angles ";
+    assert!(said.contains(expected) && said.ends_with(", unused samples: 0\n"), "{said}");
+    workshop.succeed(&["surface", "made.ply", "--count", "100", "-o", "again.ply"]);
+    workshop.refuse(&["relax", "plane.ply", "--remesh", "made.ply", "-o", "d.ply"], 2);
+    workshop.refuse(&["relax", "a.ply", "--mesh", "mesh.ply", "-o", "d.ply", "--remesh", "made.obj"], 1);
     let said = workshop.refuse(&["relax", "a.ply", "-o", "d.ply"], 1);
     assert!(
         said.contains(
@@ -184,6 +255,29 @@ fn radii_come_from_an_attribute_of_the_vertices() {
     }
 }
 
+/// An attribute as a density: the attribute x is 0 at one side of the square and 1 at the other.
+#[test]
+fn densities_come_from_an_attribute_of_the_vertices() {
+    let workshop = Workshop::new();
+    square(&workshop);
+    for scale in [["--count", "2000"], ["--radius", "0.0132"]] {
+        workshop.succeed(&[&["surface", "square.ply", "--density-from", "x", "-o", "a.csv"], &scale[..]].concat());
+        let text = fs::read_to_string(workshop.path("a.csv")).unwrap();
+        let x: Vec<f64> = text.lines().skip(1).map(|line| line.split(',').next().unwrap().parse().unwrap()).collect();
+        assert!((1850..2200).contains(&x.len()), "{}", x.len());
+        let left = x.iter().filter(|&&x| x < 0.5).count() as f64 / x.len() as f64;
+        assert!((left - 0.25).abs() < 0.02, "{left}");
+    }
+    let refuse = |arguments: &[&str], code| {
+        workshop.refuse(&[&["surface", "square.ply", "-o", "b.ply"], arguments].concat(), code)
+    };
+    refuse(&["--density-from", "x"], 2);
+    refuse(&["--density-from", "x", "--radius-from", "size"], 2);
+    refuse(&["--density-from", "x", "--count", "10", "--iterations", "1"], 2);
+    let said = refuse(&["--density-from", "z", "--count", "10"], 1);
+    assert!(said.starts_with("error: square.ply: attribute z: 0 everywhere"), "{said}");
+}
+
 #[test]
 fn masked_triangles_get_no_samples() {
     let workshop = Workshop::new();
@@ -208,4 +302,58 @@ fn masked_triangles_get_no_samples() {
     workshop.write("word.txt", mask.replacen("0 0", "0 no", 1));
     assert_eq!(refuse(&["--mask-file", "word.txt"], 1), "error: word.txt: line 9: \"no\" is neither 0 nor 1\n");
     refuse(&["--mask", "kept", "--mask-file", "mask.txt"], 2);
+}
+
+#[test]
+fn samples_keep_clear_of_points_that_are_given() {
+    let workshop = Workshop::new();
+    workshop.write("square.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 4\nf 1 4 3\n");
+    let nearest = |name: &str, from: [f32; 3]| {
+        let distance = |sample: &[f32; 9]| (0..3).map(|axis| (sample[axis] - from[axis]).powi(2)).sum::<f32>().sqrt();
+        samples(&workshop, name).iter().map(distance).fold(f32::MAX, f32::min)
+    };
+    let sample = |arguments: &[&str]| {
+        let all = [&["surface", "square.obj", "--radius", "0.05", "-o", "a.ply"], arguments].concat();
+        workshop.succeed(&all)
+    };
+    // By the column of clearances, by that of radii, and by the radius of the set.
+    workshop.write("clear.csv", "x,y,z,radius,clearance\n0.5,0.5,0,0.01,0.3\n0.9,0.9,0.1,0.02,0.2\n");
+    workshop.write("radii.csv", "x,y,z,radius\n0.5,0.5,0,0.25\n0.9,0.9,0,0.02\n");
+    workshop.write("plain.csv", "x,y,z\n0.5,0.5,0\n0.9,0.9,0\n");
+    for (name, expected) in [("clear.csv", 0.3), ("radii.csv", 0.25), ("plain.csv", 0.05)] {
+        sample(&["--given", name]);
+        let found = nearest("a.ply", [0.5, 0.5, 0.0]);
+        assert!((expected..expected + 0.05).contains(&found), "{name}: {found}");
+    }
+    sample(&["--given", "clear.csv", "--clearance", "0.4"]);
+    assert!((0.4..0.45).contains(&nearest("a.ply", [0.5, 0.5, 0.0])));
+    // A set completes itself: nothing fits into it.
+    sample(&[]);
+    let said = workshop.succeed(&["surface", "square.obj", "--radius", "0.05", "--given", "a.ply", "-o", "b.ply"]);
+    assert!(said.starts_with("b.ply: 0 samples"), "{said}");
+    // What is out of range is named by its index, with the file.
+    let refuse = |arguments: &[&str], status| {
+        workshop.refuse(&[&["surface", "square.obj", "--radius", "0.05", "-o", "c.ply"], arguments].concat(), status)
+    };
+    workshop.write("bad.csv", "x,y,z,clearance\n0,0,0,1\n0,0,1,-2\n");
+    assert_eq!(
+        refuse(&["--given", "bad.csv"], 1),
+        "error: bad.csv: given_clearances: [1] is -2.0; it must be 0 or more and finite\n"
+    );
+    workshop.write("flat.csv", "x,y\n0,0\n");
+    assert!(refuse(&["--given", "flat.csv"], 1).contains("flat.csv: holds points in the plane"));
+    refuse(&["--clearance", "1"], 2);
+    assert!(refuse(&["--cosine", "2"], 1).contains("cosine: 2.0 is not in -1..=1"));
+}
+
+#[test]
+fn both_sides_of_a_thin_wall_are_sampled_with_a_cosine() {
+    let workshop = Workshop::new();
+    let corners = |z: &str| format!("v 0 0 {z}\nv 1 0 {z}\nv 0 1 {z}\n");
+    workshop.write("wall.obj", format!("{}{}f 1 3 2\nf 4 5 6\n", corners("0"), corners("0.001")));
+    let count = |cosine: &[&str]| {
+        workshop.succeed(&[&["surface", "wall.obj", "--radius", "0.05", "-o", "a.ply"], cosine].concat());
+        samples(&workshop, "a.ply").len()
+    };
+    assert!(10 * count(&["--cosine", "0.5"]) > 18 * count(&[]));
 }

@@ -40,7 +40,7 @@ fn points_come_in_the_order_of_the_cloud_or_coarse_to_fine() {
         let arguments = [&["thin", "cloud.csv", "-o", "out.csv"], arguments].concat();
         workshop.succeed(&arguments);
         let text = fs::read_to_string(workshop.path("out.csv")).unwrap();
-        text.lines().map(|line| line.rsplit(',').next().unwrap().to_owned()).collect::<Vec<_>>()
+        text.lines().map(|line| line.split(',').nth(2).unwrap().to_owned()).collect::<Vec<_>>()
     };
     assert_eq!(names(&["--radius", "0.3"]), ["name", "a", "c", "e"]);
     let progressive = names(&["--order", "progressive"]);
@@ -49,6 +49,13 @@ fn points_come_in_the_order_of_the_cloud_or_coarse_to_fine() {
     first[1..].sort();
     assert_eq!((progressive.len(), progressive[0].as_str(), first), (6, "name", counted));
     assert_eq!(names(&["--order", "progressive", "--radius", "0.3"]), progressive[..4]);
+    let text = fs::read_to_string(workshop.path("out.csv")).unwrap();
+    let ranks: Vec<f32> = text.lines().skip(1).map(|line| line.split(',').nth(3).unwrap().parse().unwrap()).collect();
+    assert!(text.starts_with("x,y,name,rank\n") && ranks[0] == f32::INFINITY && ranks.is_sorted_by(|a, b| a >= b));
+    fs::rename(workshop.path("out.csv"), workshop.path("ranked.csv")).unwrap();
+    let said = workshop.refuse(&["thin", "ranked.csv", "--order", "progressive", "-o", "again.csv"], 1);
+    assert_eq!(said, "error: ranked.csv: has a column rank already\n");
+    workshop.succeed(&["thin", "ranked.csv", "--count", "2", "-o", "again.csv"]);
     assert_eq!(names(&["--count", "1e6"]), ["name", "a", "b", "c", "d", "e"]);
     let other = (0..20).any(|seed| names(&["--order", "progressive", "--seed", &seed.to_string()]) != progressive);
     assert!(other);

@@ -87,6 +87,46 @@ def trimesh_even(count, radius, mesh):
     return lambda: trimesh.sample.sample_surface_even(surface, count, radius=radius, seed=1)[0]
 
 
+def cloud_of(path):
+    return numpy.fromfile(path).reshape(-1, 3)
+
+
+def fpsample_kdline(count, radius, path):
+    import fpsample
+
+    points = cloud_of(path).astype(numpy.float32)
+    return lambda: points[fpsample.bucket_fps_kdline_sampling(points, count, h=7, start_idx=0)]
+
+
+def open3d_cloud(path):
+    import open3d
+
+    return open3d.geometry.PointCloud(open3d.utility.Vector3dVector(cloud_of(path)))
+
+
+def open3d_farthest(count, radius, path):
+    cloud = open3d_cloud(path)
+    return lambda: numpy.asarray(cloud.farthest_point_down_sample(count).points)
+
+
+def open3d_elimination_of_cloud(count, radius, path):
+    import open3d
+
+    cloud = open3d_cloud(path)
+    # Of the mesh it uses the area alone: that of which the radius was computed.
+    area = radius**2 * count / 0.69656
+    corners = open3d.utility.Vector3dVector(numpy.array([[0, 0, 0], [2 * area, 0, 0], [0, 1, 0]]))
+    mesh = open3d.geometry.TriangleMesh(corners, open3d.utility.Vector3iVector(numpy.array([[0, 1, 2]])))
+    return lambda: numpy.asarray(mesh.sample_points_poisson_disk(count, pcl=cloud).points)
+
+
+def cloud_thinned(count, radius, path):
+    import point_cloud_utils
+
+    points = cloud_of(path)
+    return lambda: points[point_cloud_utils.downsample_point_cloud_poisson_disk(points, radius, random_seed=1)]
+
+
 def memory(field):
     with open("/proc/self/status") as status:
         return next(int(line.split()[1]) / 1024 for line in status if line.startswith(field))

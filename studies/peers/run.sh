@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Measures azulejo beside what users would pick instead, and writes docs/peers.md. Takes about 15 minutes, 2 GB of disk in
+# Measures azulejo beside what users would pick instead, and writes docs/peers.md. Takes about 20 minutes, 2 GB of disk in
 # target/peers, and crates and Python packages from their registries; the Python packages need Debian's libusb-1.0-0,
 # libgl1 and libegl1.
 #
@@ -9,7 +9,7 @@ cd "$(dirname "$0")/../.."
 
 mesh=${1:-out/dragon.ply}
 place=target/peers
-packages=(scipy==1.17.1 open3d==0.20.0 pymeshlab==2025.7.post1 point-cloud-utils==0.34.0 libigl==2.6.3 trimesh==5.2.0)
+packages=(scipy==1.17.1 open3d==0.20.0 pymeshlab==2025.7.post1 point-cloud-utils==0.34.0 libigl==2.6.3 trimesh==5.2.0 fpsample==0.3.3)
 
 [ -f "$mesh" ] || { echo "run.sh: there is no $mesh: run scripts/demo.sh or name a mesh" >&2; exit 1; }
 if [ ! -x $place/venv/bin/python ]; then

@@ -6,6 +6,7 @@ mod convergence;
 mod density;
 mod distributions;
 mod measured;
+pub mod others;
 mod page;
 mod radii;
 mod remeshing;
@@ -86,7 +87,6 @@ impl Dcr {
         let corners = bounded.iter().filter(|one| one.count == effort.pictured && one.start == Start::Kdrt);
         let corners: Vec<_> = corners.map(|one| (one.name(), &*one.first)).collect();
         bounded::draw_corners(&corners, 2 * PIXELS, &files.picture("corners")?)?;
-        let mut text = page::text(&effort, &measured, &bounded);
         let study = Study {
             context,
             files: &files,
@@ -94,6 +94,9 @@ impl Dcr {
             bunny: self.meshes.bunny.as_deref(),
             dragon: self.meshes.dragon.as_deref(),
         };
+        let others = others::Measured::all(&study)?;
+        let mut text = page::text(&effort, &measured, &others, &bounded);
+        text += &format!("\n{}", others::section(&study, &others)?);
         for section in SECTIONS {
             text += &format!("\n{}", section(&study)?);
         }

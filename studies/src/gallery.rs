@@ -4,7 +4,7 @@ mod measured;
 mod page;
 mod pictures;
 mod samplers;
-mod zone_plate;
+pub mod zone_plate;
 
 use azulejo::{Context, Progress, Result};
 use clap::Args;

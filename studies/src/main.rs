@@ -1,17 +1,22 @@
 //! Measures azulejo and writes the pages of `docs/` that show it, with their pictures.
 //!
-//! `cargo run --release -p azulejo-studies -- kdrt` writes `docs/kdrt.md`; so do `psp`, `dcr` and `gallery` their pages;
-//! `sums` prints SHA-256 sums of what calls return.
+//! `cargo run --release -p azulejo-studies -- kdrt` writes `docs/kdrt.md`; so do `psp`, `dcr`, `classes`, `order`,
+//! `tiling`, `figures` and `gallery` their pages.
 
 mod args;
+mod blue;
 mod chart;
+mod classes;
 mod dcr;
+mod figures;
 mod files;
 mod gallery;
 mod kdrt;
+mod order;
 mod psp;
 mod reference;
-mod sums;
+mod tiling;
+mod timing;
 mod verdict;
 
 use std::process::ExitCode;
@@ -39,10 +44,16 @@ enum Study {
     Psp(psp::Psp),
     /// Measure what DCR makes of random and of KDRT's sets, against others' methods; takes some minutes.
     Dcr(dcr::Dcr),
+    /// Measure shares, spectra and times of several classes, beside Wei's algorithm; takes some minutes.
+    Classes(classes::Study),
+    /// Measure prefixes of progressive sets beside sets of their number, and what the order costs; takes some minutes.
+    Order(order::Study),
+    /// Measure what else the thesis discusses of randomized tiling: seams, counts, patterns, merging; takes some minutes.
+    Tiling(tiling::Tiling),
+    /// Measure figures of the thesis that are on no other page: pair correlation, a rasteriser, two million dots.
+    Figures(figures::Figures),
     /// Show samplers side by side: points, spectra and a zone plate; takes some minutes.
     Gallery(gallery::Gallery),
-    /// Print SHA-256 sums of what some sixty calls return, to compare them before and after a change; takes a minute.
-    Sums(sums::Sums),
 }
 
 fn run(cli: &Cli) -> Result<()> {
@@ -51,8 +62,11 @@ fn run(cli: &Cli) -> Result<()> {
         Study::Kdrt(kdrt) => kdrt.run(&context),
         Study::Psp(psp) => psp.run(&context),
         Study::Dcr(dcr) => dcr.run(&context),
+        Study::Classes(classes) => classes.run(&context),
+        Study::Order(order) => order.run(&context),
+        Study::Tiling(tiling) => tiling.run(&context),
+        Study::Figures(figures) => figures.run(&context),
         Study::Gallery(gallery) => gallery.run(&context),
-        Study::Sums(sums) => sums.run(&context),
     }
 }
 

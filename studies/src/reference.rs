@@ -1,7 +1,7 @@
 //! Samplers that others are compared with: random, jittered and Halton points of the unit square.
 
 /// A stream of random numbers in [0, 1), multiples of 2^-24: SplitMix64 (Steele, Lea and Flood 2014).
-fn stream(seed: u64) -> impl FnMut() -> f32 {
+pub fn stream(seed: u64) -> impl FnMut() -> f32 {
     let mut state = seed;
     move || {
         state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);

@@ -1,6 +1,181 @@
-//! What pages say of a goal.
+//! What pages say of a goal, and by which test.
+//!
+//! A goal that a quantity be no larger than the reference's, or the same, is tested by Welch's t: the difference of the two
+//! means over its standard error, both from independent sets. All tests of a page that are judged together share one level
+//! by Holm's method, so that the chance of even one false "not met" is at most that level.
+
+use std::f64::consts::FRAC_PI_2;
+
+/// The chance of any false verdict among goals that are judged together.
+pub const LEVEL: f64 = 0.01;
 
 /// Whether a goal is met.
 pub fn verdict(is_met: bool) -> &'static str {
     if is_met { "met" } else { "**not met**" }
+}
+
+/// Mean, standard error and number of independent values: what a verdict can be computed from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Mean {
+    pub mean: f64,
+    pub error: f64,
+    pub count: usize,
+}
+
+impl Mean {
+    pub fn of(values: &[f64]) -> Self {
+        let count = values.len();
+        let mean = values.iter().sum::<f64>() / count as f64;
+        let squares: f64 = values.iter().map(|value| (value - mean).powi(2)).sum();
+        Self { mean, error: (squares / count.saturating_sub(1).max(1) as f64 / count as f64).sqrt(), count }
+    }
+
+    /// How far this is above another (Welch 1947). None of fewer than two values each: they have no standard error.
+    pub fn above(&self, other: &Self) -> Option<Difference> {
+        let [own, others] = [self, other].map(|one| one.error.powi(2));
+        let squares = own + others;
+        let freedom =
+            squares.powi(2) / (own.powi(2) / (self.count as f64 - 1.0) + others.powi(2) / (other.count as f64 - 1.0));
+        (self.count > 1 && other.count > 1).then(|| Difference::new(self.mean - other.mean, squares.sqrt(), freedom))
+    }
+
+    /// How far this is above a number that is known.
+    pub fn above_number(&self, number: f64) -> Option<Difference> {
+        (self.count > 1).then(|| Difference::new(self.mean - number, self.error, self.count as f64 - 1.0))
+    }
+}
+
+/// A difference over its standard error, and the degrees of freedom of Student's distribution that it follows by chance.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Difference {
+    pub t: f64,
+    pub freedom: f64,
+}
+
+impl Difference {
+    fn new(difference: f64, error: f64, freedom: f64) -> Self {
+        // Equal values on both sides have no error; nor have they a difference.
+        let t = if difference == 0.0 { 0.0 } else { difference / error };
+        Self { t, freedom: if freedom.is_finite() { freedom.max(1.0) } else { 1.0 } }
+    }
+
+    /// The chance of one at least as large.
+    pub fn chance_of_larger(&self) -> f64 {
+        upper_tail(self.t, self.freedom)
+    }
+
+    /// The chance of one at least as large or as small.
+    pub fn chance_of_farther(&self) -> f64 {
+        (2.0 * upper_tail(self.t.abs(), self.freedom)).min(1.0)
+    }
+}
+
+/// The part of Student's distribution above `t`: with t = √freedom tan θ its density becomes a power of cos θ.
+fn upper_tail(t: f64, freedom: f64) -> f64 {
+    let mass = |from: f64| simpson(from, FRAC_PI_2, |angle| angle.cos().max(0.0).powf(freedom - 1.0));
+    if t < 0.0 {
+        return 1.0 - upper_tail(-t, freedom);
+    }
+    let beyond = if t.is_finite() { mass((t / freedom.sqrt()).atan()) } else { 0.0 };
+    beyond / (2.0 * mass(0.0))
+}
+
+/// The integral of a smooth function by Simpson's rule.
+fn simpson(from: f64, to: f64, function: impl Fn(f64) -> f64) -> f64 {
+    const PARTS: u32 = 2000;
+    let step = (to - from) / f64::from(PARTS);
+    let weight = |i: u32| if i == 0 || i == PARTS { 1.0 } else { f64::from(2 + 2 * (i % 2)) };
+    (0..=PARTS).map(|i| weight(i) * function(from + f64::from(i) * step)).sum::<f64>() * step / 3.0
+}
+
+/// Chances corrected for the number of tests (Holm 1979): those at most [`LEVEL`] are rejected, and the chance that any of
+/// them is so falsely is at most that level.
+pub fn holm(chances: &[f64]) -> Vec<f64> {
+    let mut order: Vec<_> = (0..chances.len()).collect();
+    order.sort_by(|&a, &b| chances[a].total_cmp(&chances[b]));
+    let (mut corrected, mut largest) = (vec![0.0; chances.len()], 0.0f64);
+    for (rank, &i) in order.iter().enumerate() {
+        largest = largest.max(((chances.len() - rank) as f64 * chances[i]).min(1.0));
+        corrected[i] = largest;
+    }
+    corrected
+}
+
+/// How pages write a chance.
+pub fn chance(chance: f64) -> String {
+    if chance < 1e-6 { "< 1e-6".to_owned() } else { format!("{chance:.1e}") }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::PI;
+
+    use super::*;
+
+    #[test]
+    fn tails_are_those_of_printed_tables() {
+        // Student's distribution: t, degrees of freedom, upper tail.
+        for (t, freedom, tail) in
+            [(6.314, 1.0, 0.05), (31.821, 1.0, 0.01), (2.015, 5.0, 0.05), (4.501, 8.0, 0.001), (2.626, 100.0, 0.005)]
+        {
+            assert!((upper_tail(t, freedom) / tail - 1.0).abs() < 2e-3, "{t} {freedom}: {}", upper_tail(t, freedom));
+            assert!((upper_tail(-t, freedom) - 1.0 + tail).abs() < 1e-4);
+        }
+        // With one degree of freedom it is Cauchy's distribution, which is known in closed form.
+        for t in [0.0, 0.3, 2.0, 50.0] {
+            assert!((upper_tail(t, 1.0) - (0.5 - f64::atan(t) / PI)).abs() < 1e-9);
+        }
+        assert!(upper_tail(9.0, 150.0) > 0.0 && upper_tail(9.0, 150.0) < 1e-14);
+        assert_eq!(upper_tail(f64::INFINITY, 3.0), 0.0);
+    }
+
+    #[test]
+    fn a_difference_is_that_of_welch() {
+        // Means 3 and 6, variances 2.5 and 10, of five values each.
+        let low = Mean::of(&[1.0, 2.0, 3.0, 4.0, 5.0]);
+        let high = Mean::of(&[2.0, 4.0, 6.0, 8.0, 10.0]);
+        assert_eq!((low.mean, low.count), (3.0, 5));
+        assert!((low.error - 0.5f64.sqrt()).abs() < 1e-12);
+        let above = high.above(&low).unwrap();
+        assert!((above.t - 3.0 / 2.5f64.sqrt()).abs() < 1e-12);
+        assert!((above.freedom - 6.25 / (0.25 / 4.0 + 4.0 / 4.0)).abs() < 1e-12);
+        assert!((low.above(&high).unwrap().chance_of_farther() - 2.0 * above.chance_of_larger()).abs() < 1e-12);
+        assert!((high.above_number(6.0).unwrap().chance_of_larger() - 0.5).abs() < 1e-9);
+    }
+
+    #[test]
+    fn what_has_no_standard_error_has_no_difference_or_a_certain_one() {
+        let (one, same) = (Mean::of(&[1.0]), Mean::of(&[2.0, 2.0]));
+        assert!(one.above(&same).is_none() && same.above(&one).is_none() && one.above_number(0.0).is_none());
+        assert_eq!(same.above(&same).unwrap().chance_of_farther(), 1.0);
+        assert_eq!(same.above(&Mean::of(&[1.0, 1.0])).unwrap().chance_of_larger(), 0.0);
+        assert_eq!(same.above_number(3.0).unwrap().chance_of_larger(), 1.0);
+    }
+
+    #[test]
+    fn chances_are_corrected_step_by_step() {
+        let corrected = holm(&[0.01, 0.04, 0.03, 0.005]);
+        for (own, expected) in corrected.iter().zip([0.03, 0.06, 0.06, 0.02]) {
+            assert!((own - expected).abs() < 1e-12, "{corrected:?}");
+        }
+        assert_eq!(holm(&[0.9, 0.8]), [1.0, 1.0]);
+        assert!(holm(&[]).is_empty());
+    }
+
+    #[test]
+    fn few_false_verdicts_are_made_where_nothing_differs() {
+        // Twenty comparisons of ten values each of the same distribution, 400 times: the level holds for all twenty.
+        let families = 400u64;
+        let rejected = (0..families).filter(|&family| {
+            let values =
+                |seed| crate::reference::random(10, seed).iter().map(|[x, _]| f64::from(*x)).collect::<Vec<_>>();
+            let chance = |test| {
+                let [own, other] = [0u64, 1].map(|side| Mean::of(&values(2 * (20 * family + test) + side)));
+                own.above(&other).unwrap().chance_of_larger()
+            };
+            holm(&(0..20).map(chance).collect::<Vec<_>>()).iter().any(|&chance| chance <= LEVEL)
+        });
+        // 4 are expected; more than 12 would come by chance once in 3,000 times.
+        assert!(rejected.count() <= 12);
+    }
 }

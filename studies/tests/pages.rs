@@ -61,7 +61,27 @@ fn a_quick_page_of_the_plane_has_every_table_and_picture_that_it_shows() {
     for name in ["reference", "6r", "20r", "40r", "80r"] {
         assert!(page.text.contains(&format!("\n| {name} ")), "{name}");
     }
+    let rows = rows_with(&page.text, 9, 3);
+    // Contrast, and three quantities in three places, for each size of leaves.
+    assert_eq!(rows.len() % (1 + 3 * 3), 0);
+    assert!(!rows.is_empty() && !page.text.contains("NaN"));
+    let columns = |row: &[String]| ([row[4].clone(), row[2].clone()], [6, 7, 8].map(|cell| row[cell].clone()));
+    rows.iter().for_each(|row| check_verdict(columns(row), |p| p > 0.01));
     page.check_pictures(7, 900);
+}
+
+/// Checks that a verdict follows from what is printed: two means with their errors, then t, p and the verdict.
+fn check_verdict((means, [t, p, verdict]): ([String; 2], [String; 3]), is_met: impl Fn(f64) -> bool) {
+    let number = |text: &str| text.trim().parse::<f64>().unwrap();
+    let [[own, own_error], [other, other_error]] = means.each_ref().map(|mean| {
+        let (mean, error) = mean.split_once('±').unwrap();
+        [number(mean), number(error)]
+    });
+    let found = (own - other) / own_error.hypot(other_error);
+    // Errors are printed with few digits.
+    assert!((found - number(&t)).abs() <= 0.1 + 0.4 * found.abs(), "{means:?}: {t}, not {found}");
+    let p = if p.starts_with('<') { 0.0 } else { number(&p) };
+    assert_eq!(verdict == "met", is_met(p), "{means:?} {p}");
 }
 
 /// A knot as an OBJ file.
@@ -84,7 +104,7 @@ fn a_quick_page_of_surfaces_says_what_is_left_out_and_shows_the_rest() {
     for figure in [
         "fig. 3.8 and 3.9",
         "fig. 3.10 and 3.11",
-        "fig. 3.8, 3.12, 3.13 and 3.15",
+        "fig. 3.8, 3.12 and 3.13",
         "fig. 3.14",
         "table 3.1",
         "fig. 3.19",
@@ -94,7 +114,7 @@ fn a_quick_page_of_surfaces_says_what_is_left_out_and_shows_the_rest() {
         assert!(page.text.contains(figure), "{figure}");
     }
     assert!(page.text.contains("**The dragon was not given") && !page.text.contains("The bunny was not given"));
-    assert!(page.text.contains("\n| samples that a second fill adds | 0, met | 0, met |"));
+    assert!(page.text.contains("none farther than r and 6 float spacings | 0, met | 0, met |"));
     assert!(page.text.contains("\n| bunny | ") && page.text.contains("\n| hall | ") && !page.text.contains("NaN"));
     page.check_pictures(10, 400);
     let errors =
@@ -113,6 +133,7 @@ fn a_quick_page_of_relaxation_has_every_method_and_plausible_figures() {
         "momentum-nearest",
         "thesis-delaunay",
         "thesis-nearest",
+        "others",
         "radii-delaunay",
         "radii-nearest",
         "distributions",
@@ -155,8 +176,26 @@ fn a_quick_page_of_relaxation_has_every_method_and_plausible_figures() {
         );
     }
     assert!(page.contains("Sets of 1,000 points and more are left out") && !page.contains("NaN"));
+    check_others(&page);
     check_variations_of_the_thesis(&page);
     check_surfaces(&page);
+}
+
+/// Of the page of relaxation: other methods, and the verdict beside push-pull.
+fn check_others(page: &str) {
+    let rows = rows_with(page, 15, 1);
+    let names: Vec<_> = rows.iter().map(|row| row[0].as_str()).collect();
+    assert_eq!(names, ["push-pull", "push-pull", "CVT", "CVT", "FPO", "FPO", "CCVT", "CCVT"]);
+    assert!(rows.iter().all(|row| row[2] == row[12]), "all come to their end: {rows:?}");
+    let verdicts = rows_with(page, 10, 4);
+    // Six figures from two starts.
+    assert_eq!(verdicts.len(), 6 * 2, "{verdicts:?}");
+    for row in &verdicts {
+        let is_higher_better = row[2] == "ρ";
+        let (own, other) = (row[3].clone(), row[5].clone());
+        let means = if is_higher_better { [own, other] } else { [other, own] };
+        check_verdict((means, [7, 8, 9].map(|cell| row[cell].clone())), |p| p <= 0.01);
+    }
 }
 
 /// Of the page of relaxation: the sphere before and after, and what was not given.
@@ -189,7 +228,7 @@ fn check_variations_of_the_thesis(page: &str) {
         assert!([6, 7].iter().all(|&cell| (0.5..0.9).contains(&number(row[cell]))), "{row:?}");
     }
     // Four radii after three numbers of steps: what is visited from one end only does not come to rest.
-    let variances: Vec<_> = rows.iter().filter(|row| row.len() == 9 && row[1].contains(" and 1.")).collect();
+    let variances: Vec<_> = rows.iter().filter(|row| row.len() == 10 && row[1].contains(" and 1.")).collect();
     let variances: Vec<_> = variances.iter().filter(|row| row[2].parse::<u32>().is_ok()).collect();
     assert_eq!(variances.len(), 12);
     for row in variances.iter().filter(|row| row[1] == "0.95 and 1.05" && row[2] == "400") {
@@ -197,12 +236,126 @@ fn check_variations_of_the_thesis(page: &str) {
         assert!(active < dominant && active < zero && average < dominant && mixed < dominant, "{row:?}");
     }
     let shares = |name: &str| {
-        let row = rows.iter().find(|row| row.len() == 6 && row[1] == name).unwrap();
-        [2, 3, 4].map(|cell| number(row[cell]))
+        let row = rows.iter().find(|row| row.len() == 7 && row[1] == name).unwrap();
+        [2, 3, 4, 5].map(|cell| number(row[cell]))
     };
     for name in ["obtuse triangles", "variance of edge lengths / mean²", "variance of areas / mean²"] {
-        let [thrown, momentum, thesis] = shares(name);
-        assert!(momentum < 0.7 * thrown && thesis < 0.7 * thrown, "{name}");
+        let [thrown, momentum, thesis, capacity] = shares(name);
+        assert!(momentum < 0.7 * thrown && thesis < 0.7 * thrown && capacity < thrown, "{name}");
+    }
+}
+
+/// The cells of the rows of a page that have so many, and a number in one of them.
+fn rows_with(page: &str, cells: usize, number: usize) -> Vec<Vec<String>> {
+    let rows = page.lines().map(|line| line.trim_matches('|').split('|').map(|cell| cell.trim().to_owned()).collect());
+    rows.filter(|row: &Vec<String>| row.len() == cells && row[number].parse::<f64>().is_ok()).collect()
+}
+
+#[test]
+fn a_quick_page_of_classes_has_their_shares_and_those_of_wei() {
+    let directory = tempfile::tempdir().unwrap();
+    fs::write(directory.path().join("knot.obj"), knot_file()).unwrap();
+    let page = Page::of(directory, "classes", &["--bunny", "knot.obj", "--dragon", "knot.obj"]);
+    page.check_pictures(5, 400);
+    let page = page.text;
+    assert!(!page.contains("NaN") && !page.contains("is left out"), "{page}");
+    let shares = |listed: &str| listed.split(" / ").map(|share| share.parse().unwrap()).collect::<Vec<f64>>();
+    // Own radii, factor, shares, all.
+    let own = rows_with(&page, 4, 1);
+    assert_eq!(own.len(), 8 * 3, "{own:?}");
+    for mix in own.chunks_exact(3) {
+        let mean = |row: &Vec<String>| {
+            let shares = shares(&row[2]);
+            shares.iter().sum::<f64>() / shares.len() as f64
+        };
+        assert!(mix.iter().is_sorted_by(|a, b| mean(a) < mean(b)), "smaller factors leave more: {mix:?}");
+        let is_falling = mix[0][0].contains('½');
+        let first = shares(&mix[0][2])[0];
+        assert!(if is_falling { first > 0.9 } else { (0.7..0.9).contains(&first) }, "{mix:?}");
+    }
+    // Own radii, maker, shares, all, and the eight figures.
+    let pairs = rows_with(&page, 12, 3);
+    assert_eq!(pairs.len(), 8 * 2);
+    for pair in pairs.chunks_exact(2) {
+        let ([azulejo, wei], all) = ([&pair[0], &pair[1]], |row: &Vec<String>| row[3].parse::<f64>().unwrap());
+        assert_eq!([&azulejo[1], &wei[1]], ["azulejo", "Wei"]);
+        assert!(all(azulejo) > all(wei) && all(wei) > 0.5, "{pair:?}");
+    }
+    let two = |name: &str| shares(&second_cell(&page, name));
+    assert!(two("1 and 0.99")[1] < two("1 and 1")[1] - 0.05, "the jump at ties");
+}
+
+/// The second cell of the row of this name.
+fn second_cell(page: &str, name: &str) -> String {
+    let row = page.lines().find(|line| line.starts_with(&format!("| {name} |"))).unwrap();
+    row.split('|').nth(2).unwrap().trim().to_owned()
+}
+
+#[test]
+fn a_quick_page_of_progressive_order_has_prefixes_as_promised() {
+    let page = Page::quick("order");
+    page.check_pictures(2, 900);
+    let page = page.text;
+    assert!(!page.contains("NaN"), "{page}");
+    let ratios = page.lines().filter(|line| line.contains("covering radius / smallest distance at most"));
+    assert!(ratios.clone().count() == 3 && ratios.clone().all(|line| line.ends_with("| met |")), "{page}");
+    // Quotient, N·r², two ratios and two ρ: prefixes are worse the larger the quotient is, and none is as good as a set.
+    let distances = rows_with(&page, 6, 2);
+    let distances: Vec<_> = distances.iter().filter(|row| row[5].starts_with("0.")).collect();
+    let names = ["2^(1/8)", "2^(1/4)", "√2", "direct"];
+    assert_eq!(distances.iter().map(|row| row[0].as_str()).collect::<Vec<_>>(), names);
+    let largest: Vec<f64> = distances.iter().map(|row| row[2].parse().unwrap()).collect();
+    assert!(largest[..3].is_sorted() && largest[3] < largest[0], "{largest:?}");
+    // Samples, quotient, ρ, P, ν, anisotropy, from direct.
+    let spectra = rows_with(&page, 7, 2);
+    assert_eq!(spectra.len(), 5 * 4);
+    assert!(spectra.iter().all(|row| (0.6..0.9).contains(&row[2].parse::<f64>().unwrap())), "{spectra:?}");
+}
+
+#[test]
+fn a_quick_page_of_tiling_has_every_item_of_the_thesis_with_verdicts_that_follow() {
+    let page = Page::quick("tiling");
+    page.check_pictures(4, 900);
+    let page = page.text;
+    assert!(!page.contains("NaN") && !page.contains("inf"), "{page}");
+    for item in [
+        "table 2.1",
+        "eq. 2.4",
+        "Algorithms 3 and 4",
+        "(thesis §2.5.3)",
+        "(thesis §2.5.2)",
+        "fig. 2.14",
+        "fig. 2.20",
+        "fig. 2.12",
+    ] {
+        assert!(page.lines().any(|line| line.starts_with("## ") && line.contains(item)), "{item}");
+    }
+    // Claim, the lower mean, n, the higher one, n, t, p, verdict.
+    let claims: Vec<_> = rows_with(&page, 8, 5).into_iter().filter(|row| row[7].contains("met")).collect();
+    assert!(claims.len() > 40, "{}", claims.len());
+    for row in &claims {
+        check_verdict(([row[3].clone(), row[1].clone()], [5, 6, 7].map(|cell| row[cell].clone())), |p| p <= 0.01);
+    }
+    // What must hold exactly.
+    let facts: Vec<_> = page.lines().filter(|line| line.contains("conflict-free, and maximal up to")).collect();
+    assert!(facts.len() == 5 && facts.iter().all(|line| line.ends_with("| met |")), "{facts:?}");
+    let mean = |cell: &str| cell.split('±').next().unwrap().trim().parse::<f64>().unwrap();
+    // R_leaf, bound, processed, tested, eliminated, inserted, excess: seams touch less the larger the leaves are.
+    let seams = rows_with(&page, 7, 1);
+    assert_eq!(seams.iter().map(|row| row[0].as_str()).collect::<Vec<_>>(), ["6r", "10r", "20r", "40r", "80r"]);
+    let inserted: Vec<_> = seams.iter().map(|row| mean(&row[5])).collect();
+    assert!(inserted.is_sorted_by(|a, b| a > b), "{inserted:?}");
+    assert!(seams.iter().zip(&inserted).all(|(row, inserted)| *inserted < mean(&row[1])));
+    // Without one of the randomnesses: contrast, or a peak.
+    let random = |name: &str| -> Vec<_> {
+        let rows = page.lines().map(|line| line.trim_matches('|').split('|').map(str::trim).collect::<Vec<_>>());
+        let own = rows.filter(|row| row.len() == 4 && row[0].ends_with('x') && row[1] == name);
+        own.map(|row| [mean(row[2]), mean(row[3])]).collect()
+    };
+    let [both, subdivision, clipping] = ["both", "subdivision only", "clipping only"].map(random);
+    assert_eq!([both.len(), subdivision.len(), clipping.len()], [2; 3]);
+    for (both, (subdivision, clipping)) in both.iter().zip(subdivision.iter().zip(&clipping)) {
+        assert!(both[0] < 1.2 && subdivision[0] > 1.8 && clipping[1] > 2.0 * both[1], "{both:?} {clipping:?}");
     }
 }
 
@@ -236,10 +389,28 @@ fn a_quick_gallery_shows_every_sampler_with_its_spectrum_and_zone_plate() {
 }
 
 #[test]
+fn a_quick_page_of_other_figures_has_plausible_ones() {
+    let page = Page::quick("figures");
+    page.check_pictures(2, 600);
+    let page = page.text;
+    for figure in ["fig. 4.2)", "fig. 3.18)", "fig. 1.14)"] {
+        assert!(page.lines().any(|line| line.starts_with("## ") && line.contains(figure)), "{figure}");
+    }
+    // Points, sets, hole, peak, height, dip: what is farther apart has the larger hole; random points have none.
+    let holes: Vec<_> = rows_with(&page, 6, 1).iter().map(|row| row[2].parse::<f64>().unwrap()).collect();
+    assert_eq!(holes.len(), 4, "{page}");
+    assert!(holes[0] > 0.5 && holes[1] > 0.7 && holes[2] > holes[1] && holes[3] == 0.0, "{holes:?}");
+    // Scene, triangles, samples, rates of rays and of the rasteriser, ratio, verdict.
+    let engines: Vec<_> = page.lines().filter(|line| line.starts_with("| hall |")).collect();
+    assert!(engines.len() == 1 && engines[0].contains("met"), "{engines:?}");
+    assert!(!page.contains("NaN") && page.contains("**The bunny was not given"));
+}
+
+#[test]
 fn a_page_is_refused_where_it_cannot_be_written() {
     let directory = tempfile::tempdir().unwrap();
     fs::write(directory.path().join("file"), "").unwrap();
-    for page in ["kdrt", "psp", "dcr", "gallery"] {
+    for page in ["kdrt", "psp", "dcr", "classes", "order", "tiling", "figures", "gallery"] {
         let refused = studies(&directory, &[page, "--quick", "--out", "file"]);
         let said = String::from_utf8(refused.stderr).unwrap();
         assert!(refused.status.code() == Some(1) && said.starts_with("error: file"), "{said}");

@@ -4,31 +4,46 @@ use std::collections::HashMap;
 
 use glam::{IVec3, Vec3};
 
-/// Samples in cells four disc radii wide, so that a question rarely asks more than one.
+use super::palette::Colour;
+
+/// A disc around a sample.
+#[derive(Clone, Copy)]
+pub struct Disc {
+    /// The sample.
+    pub centre: Vec3,
+    /// How far it reaches.
+    pub radius: f32,
+    /// Its paint.
+    pub colour: Colour,
+}
+
+/// Discs in cells four times as wide as the radius of the largest, so that a question rarely asks more than one.
 pub struct Discs {
-    radius: f32,
-    cells: HashMap<IVec3, Vec<Vec3>>,
+    largest: f32,
+    cells: HashMap<IVec3, Vec<Disc>>,
 }
 
 impl Discs {
-    pub fn new(samples: impl Iterator<Item = Vec3>, radius: f32) -> Self {
+    pub fn new(discs: Vec<Disc>) -> Self {
+        let largest = discs.iter().map(|disc| disc.radius).fold(0.0, f32::max);
         let mut cells: HashMap<_, Vec<_>> = HashMap::new();
-        for sample in samples {
-            cells.entry(cell(sample, radius)).or_default().push(sample);
+        for disc in discs {
+            cells.entry(cell(disc.centre, largest)).or_default().push(disc);
         }
-        Self { radius, cells }
+        Self { largest, cells }
     }
 
-    /// Whether a point of the surface is within the radius of a sample.
-    pub fn cover(&self, point: Vec3) -> bool {
-        let [low, high] = [-self.radius, self.radius].map(|offset| cell(point + offset, self.radius));
+    /// The paint at a point of the surface, if it lies on a disc.
+    pub fn paint(&self, point: Vec3) -> Option<Colour> {
+        let [low, high] = [-self.largest, self.largest].map(|offset| cell(point + offset, self.largest));
         (low.z..=high.z)
-            .any(|z| (low.y..=high.y).any(|y| (low.x..=high.x).any(|x| self.covers(IVec3::new(x, y, z), point))))
+            .flat_map(|z| (low.y..=high.y).flat_map(move |y| (low.x..=high.x).map(move |x| IVec3::new(x, y, z))))
+            .find_map(|cell| self.paint_in(cell, point))
     }
 
-    fn covers(&self, cell: IVec3, point: Vec3) -> bool {
-        let near = |sample: &Vec3| sample.distance_squared(point) <= self.radius * self.radius;
-        self.cells.get(&cell).is_some_and(|samples| samples.iter().any(near))
+    fn paint_in(&self, cell: IVec3, point: Vec3) -> Option<Colour> {
+        let near = |disc: &&Disc| disc.centre.distance_squared(point) <= disc.radius * disc.radius;
+        self.cells.get(&cell)?.iter().find(near).map(|disc| disc.colour)
     }
 }
 
@@ -41,16 +56,22 @@ mod tests {
     use super::*;
 
     #[test]
-    fn covers_what_a_loop_over_all_samples_finds() {
+    fn paints_what_a_loop_over_all_discs_finds() {
         let place = |i: i32| Vec3::new((i * 37 % 101) as f32, (i * 53 % 97) as f32, (i * 71 % 89) as f32) / 100.0;
-        let samples: Vec<_> = (0..300).map(place).collect();
         for radius in [0.001, 0.03, 0.1] {
-            let discs = Discs::new(samples.iter().copied(), radius);
+            let disc =
+                |i: i32| Disc { centre: place(i), radius: radius / (1 + i % 3) as f32, colour: [(i % 3) as u8; 3] };
+            let all: Vec<_> = (0..300).map(disc).collect();
+            let discs = Discs::new(all.clone());
             for point in (0..500).map(|i| place(7 * i + 3) + 0.01) {
-                let expected = samples.iter().any(|sample| sample.distance_squared(point) <= radius * radius);
-                assert_eq!(discs.cover(point), expected);
+                let near = |disc: &&Disc| disc.centre.distance_squared(point) <= disc.radius * disc.radius;
+                let expected: Vec<_> = all.iter().filter(near).map(|disc| disc.colour).collect();
+                match discs.paint(point) {
+                    Some(colour) => assert!(expected.contains(&colour)),
+                    None => assert!(expected.is_empty()),
+                }
             }
-            assert!(samples.iter().all(|&sample| discs.cover(sample)));
+            assert!(all.iter().all(|disc| discs.paint(disc.centre).is_some()));
         }
     }
 }

@@ -10,7 +10,7 @@ use azulejo::{Progress, Result};
 use glam::{Vec2, Vec3};
 
 use super::camera::Window;
-use super::palette::{COBALT, Colour, PAPER};
+use super::palette::{Colour, PAPER};
 use super::rows;
 use super::stage::{Seen, Stage};
 
@@ -75,7 +75,7 @@ struct Place {
 #[derive(Clone, Copy)]
 enum Ground {
     Glaze,
-    Paint,
+    Paint(Colour),
     /// The page; the shadow fades out with the distance.
     Page {
         shadow: f32,
@@ -104,7 +104,7 @@ impl Row<'_> {
         for (i, (ray, seen)) in rays.iter().zip(self.stage.look(&rays)).enumerate() {
             let (pixel, sample) = (i / samples, i % samples);
             if let Some(seen) = seen {
-                let ground = if self.stage.discs.cover(seen.point) { Ground::Paint } else { Ground::Glaze };
+                let ground = self.stage.discs.paint(seen.point).map_or(Ground::Glaze, Ground::Paint);
                 places.push(Place { pixel, sample, seen, ground });
             } else if let Some((point, shadow)) = self.page(ray) {
                 places.push(Place {
@@ -164,7 +164,7 @@ impl Row<'_> {
                 return linear(PAPER) * (1.0 - shadow * (1.0 - open));
             }
             Ground::Glaze => Vec3::new(0.90, 0.905, 0.91),
-            Ground::Paint => linear(COBALT),
+            Ground::Paint(colour) => linear(colour),
         };
         let view = (self.stage.camera.eye - point).normalize();
         let mirrored = 2.0 * normal.dot(view) * normal - view;
@@ -227,6 +227,7 @@ fn encoded(light: Vec3) -> Colour {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::draw::palette::COBALT;
     use crate::draw::stage;
     use std::ops::ControlFlow;
 

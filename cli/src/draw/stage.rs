@@ -6,10 +6,22 @@ use azulejo::{Context, Error, MAXIMAL_DENSITY, Result};
 use glam::Vec3;
 
 use super::camera::Camera;
-use super::discs::Discs;
+use super::discs::{Disc, Discs};
+use super::palette::{COBALT, Colour};
 
 /// The radius of a painted disc in parts of the radius of a maximal set of as many samples: discs stay apart.
 const DISC: f64 = 0.36;
+
+/// Samples of one kind, and the discs that they are painted as.
+#[derive(Clone, Copy)]
+pub struct Paint<'a> {
+    /// The samples.
+    pub samples: &'a [[f32; 3]],
+    /// The radius of their discs, in the units of the mesh.
+    pub radius: f64,
+    /// Their colour.
+    pub colour: Colour,
+}
 
 /// A mesh, its samples, and rays into both.
 pub struct Stage {
@@ -37,6 +49,12 @@ impl Stage {
     /// With `cutaway` the faces that are turned away from the camera are left out, which shows the inside of a building whose
     /// walls face inwards.
     pub fn new(context: &Context, mesh: &Mesh, samples: &[[f32; 3]], cutaway: bool) -> Result<Self> {
+        let radius = (MAXIMAL_DENSITY * mesh.area() / samples.len() as f64).sqrt();
+        Self::painted(context, mesh, &[Paint { samples, radius: DISC * radius, colour: COBALT }], cutaway)
+    }
+
+    /// As [`new`](Self::new), with samples of several kinds.
+    pub fn painted(context: &Context, mesh: &Mesh, paints: &[Paint], cutaway: bool) -> Result<Self> {
         let (low, high) = mesh.bounds();
         let [low, high] = [low, high].map(|corner| glam::DVec3::from(corner.map(f64::from)));
         let (centre, size) = (0.5 * (low + high), (high - low).max_element());
@@ -56,10 +74,14 @@ impl Stage {
             return Err(Error::InvalidArgument { argument: "MESH", reason });
         }
         let scene = Scene::new(&plain, &triangles, context.num_threads())?;
-        let radius = (MAXIMAL_DENSITY * mesh.area() / samples.len() as f64).sqrt() / size;
-        let discs = Discs::new(samples.iter().map(place), (DISC * radius) as f32);
+        let count = paints.iter().map(|paint| paint.samples.len()).sum();
+        let radius = (MAXIMAL_DENSITY * mesh.area() / count as f64).sqrt() / size;
+        let discs = paints.iter().flat_map(|&Paint { samples, radius, colour }| {
+            samples.iter().map(move |sample| Disc { centre: place(sample), radius: (radius / size) as f32, colour })
+        });
+        let discs = Discs::new(discs.collect());
         let normals = vertex_normals(&positions, &triangles);
-        let counts = [samples.len(), mesh.triangles().len()];
+        let counts = [count, mesh.triangles().len()];
         Ok(Self { scene, triangles, positions, normals, discs, radius: radius as f32, camera, counts })
     }
 
@@ -131,7 +153,7 @@ pub(super) mod tests {
         let stage = square([10.0, 5.0, 7.0]);
         assert_eq!(stage.floor(), -0.5);
         assert!((stage.radius as f64 - (MAXIMAL_DENSITY * 4.0).sqrt() / 2.0).abs() < 1e-6);
-        assert!(stage.discs.cover(Vec3::ZERO) && !stage.discs.cover(Vec3::new(0.5, 0.5, 0.0)));
+        assert_eq!([Vec3::ZERO, Vec3::new(0.5, 0.5, 0.0)].map(|point| stage.discs.paint(point)), [Some(COBALT), None]);
         let ray = |x, y| Ray {
             origin: stage.camera.eye.to_array(),
             direction: (Vec3::new(x, y, 0.0) - stage.camera.eye).to_array(),

@@ -1,6 +1,7 @@
 //! Arrays of NumPy. Sets of the plane are arrays of two floats to a row. Samples of a surface are structured arrays, with
-//! the fields `position` (3 floats), `normal` (3), `triangle` (an unsigned integer), `barycentrics` (2), and `radius` where
-//! radii differ.
+//! the fields `position` (3 floats), `normal` (3), `triangle` (an unsigned integer), `barycentrics` (2), `radius` where
+//! radii differ, `rank` in progressive order, and `class` where there are several. Sets of the plane of several classes are
+//! structured arrays of `x`, `y` and `class`.
 //!
 //! What is read may have floats and integers of any size and byte order: arrays of at least two columns, in C or Fortran
 //! order, of which 2, 3 or 6 are x, y, z, nx, ny and nz, and otherwise the first three; and structured arrays with the
@@ -15,7 +16,7 @@ use serde_json::Value;
 
 use super::set::{self, Columns, NAMES, PointSet};
 use super::shortened;
-use super::surface::{SurfaceTable, write_floats};
+use super::surface::{SurfaceTable, write_plane_binary};
 
 const MAGIC: &[u8] = b"\x93NUMPY";
 
@@ -204,17 +205,23 @@ impl Number {
     }
 }
 
-/// Writes a set of the plane as an array of two columns.
-pub fn write_plane(writer: &mut impl Write, points: &[[f32; 2]]) -> io::Result<()> {
-    write_header(writer, "'<f4'", &format!("({}, 2)", points.len()))?;
-    write_floats(writer, points)
+/// Writes a set of the plane as an array of two columns or, with classes, as a structured one.
+pub fn write_plane(writer: &mut impl Write, points: &[[f32; 2]], classes: &[u32]) -> io::Result<()> {
+    if classes.is_empty() {
+        write_header(writer, "'<f4'", &format!("({}, 2)", points.len()))?;
+    } else {
+        let fields = "[('x', '<f4'), ('y', '<f4'), ('class', '<u4')]";
+        write_header(writer, fields, &format!("({},)", points.len()))?;
+    }
+    write_plane_binary(writer, points, classes)
 }
 
 /// Writes samples of a surface as a structured array.
 pub fn write_surface(writer: &mut impl Write, table: &SurfaceTable) -> io::Result<()> {
-    let radius = if table.radii.is_some() { ", ('radius', '<f4')" } else { "" };
+    let more: String =
+        table.more_columns().map(|column| format!(", ('{}', '{}')", column.name, column.npy_type())).collect();
     let fields = format!(
-        "[('position', '<f4', (3,)), ('normal', '<f4', (3,)), ('triangle', '<u4'), ('barycentrics', '<f4', (2,)){radius}]"
+        "[('position', '<f4', (3,)), ('normal', '<f4', (3,)), ('triangle', '<u4'), ('barycentrics', '<f4', (2,)){more}]"
     );
     write_header(writer, &fields, &format!("({},)", table.samples.len()))?;
     table.write_binary(writer)

@@ -1,5 +1,5 @@
 //! The points of a file as they stand in it, to be copied: whatever a record holds besides its coordinates is kept, in the
-//! format of the file, byte for byte.
+//! format of the file, byte for byte. Where columns have names a rank can be added to each record.
 
 use std::io::{self, Write};
 use std::ops::Range;
@@ -16,12 +16,28 @@ pub struct Records {
     records: Vec<Range<usize>>,
     /// What follows each record.
     separator: &'static [u8],
+    /// How ranks are added.
+    ranks: Ranks,
+}
+
+/// How ranks are added to records.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Ranks {
+    /// Not at all: the columns have no names.
+    None,
+    /// The records have some already.
+    Taken,
+    /// As text, after this character.
+    Text(char),
+    /// As floats, little-endian or big-endian.
+    Little,
+    Big,
 }
 
 impl Records {
     /// The vertices of a PLY file, whose header is in order. Other elements are left out.
     pub fn of_ply(bytes: Vec<u8>) -> Result<Self, String> {
-        let Header { is_text, elements, before, behind, length } = Header::of(&bytes)?;
+        let Header { is_text, is_big, elements, before, behind, length } = Header::of(&bytes)?;
         let vertices = elements.iter().position(|element| element.name == "vertex").ok_or("has no vertices")?;
         let (first, count) = (&elements[..vertices], elements[vertices].count);
         let records: Vec<_> = if is_text {
@@ -43,7 +59,13 @@ impl Records {
             return Err(format!("ends before its {count} vertices do"));
         }
         let separator: &[u8] = if is_text { b"\n" } else { b"" };
-        Ok(Self { bytes, head: before, behind_count: Some(behind), records, separator })
+        let ranks = match (elements[vertices].has_ranks, is_text, is_big) {
+            (true, ..) => Ranks::Taken,
+            (_, true, _) => Ranks::Text(' '),
+            (.., true) => Ranks::Big,
+            _ => Ranks::Little,
+        };
+        Ok(Self { bytes, head: before, behind_count: Some(behind), records, separator, ranks })
     }
 
     /// The lines of a table of so many points, with its header if it has one. Comments are left out.
@@ -53,33 +75,62 @@ impl Records {
             !is_comment(text.trim_start_matches('\u{feff}').trim())
         };
         let mut records: Vec<_> = lines(&bytes, 0).filter(is_row).collect();
-        let mut head = Vec::new();
+        let (mut head, mut ranks) = (Vec::new(), Ranks::None);
         if records.len() == count + 1 {
             head.extend_from_slice(&bytes[records.remove(0)]);
             head.push(b'\n');
+            let names = String::from_utf8_lossy(&head);
+            let separator = [',', ';'].into_iter().find(|&separator| names.contains(separator)).unwrap_or(' ');
+            let is_rank = |name: &str| name.trim().trim_matches('"') == "rank";
+            ranks = if names.split(separator).any(is_rank) { Ranks::Taken } else { Ranks::Text(separator) };
         }
         if records.len() != count {
             return Err(format!("has {} lines for {count} points", records.len()));
         }
-        Ok(Self { bytes, head, behind_count: None, records, separator: b"\n" })
+        Ok(Self { bytes, head, behind_count: None, records, separator: b"\n", ranks })
     }
 
     /// Raw floats.
     pub fn of_raw(bytes: Vec<u8>, count: usize) -> Self {
         let size = bytes.len() / count.max(1);
         let records = (0..count).map(|i| i * size..(i + 1) * size).collect();
-        Self { bytes, head: Vec::new(), behind_count: None, records, separator: b"" }
+        Self { bytes, head: Vec::new(), behind_count: None, records, separator: b"", ranks: Ranks::None }
     }
 
-    /// Writes a file of some of the points, in this order.
-    pub fn write(&self, writer: &mut impl Write, indices: &[u32]) -> io::Result<()> {
-        writer.write_all(&self.head)?;
-        if let Some(behind) = &self.behind_count {
-            write!(writer, "{}", indices.len())?;
-            writer.write_all(behind)?;
+    /// Whether the points have a column of ranks already.
+    pub fn has_ranks(&self) -> bool {
+        self.ranks == Ranks::Taken
+    }
+
+    /// Writes a file of some of the points, in this order, each with its rank if there are any and columns have names.
+    pub fn write(&self, writer: &mut impl Write, indices: &[u32], ranks: &[f32]) -> io::Result<()> {
+        let column = if ranks.is_empty() { Ranks::None } else { self.ranks };
+        match (&self.behind_count, column) {
+            (Some(behind), _) => {
+                writer.write_all(&self.head)?;
+                write!(writer, "{}", indices.len())?;
+                let (properties, end) = behind.split_at(behind.len() - END.len());
+                writer.write_all(properties)?;
+                writer.write_all(if column == Ranks::None { b"" } else { b"property float rank\n" })?;
+                writer.write_all(end)?;
+            }
+            (None, Ranks::Text(separator)) => {
+                writer.write_all(self.head.trim_ascii_end())?;
+                writeln!(writer, "{separator}rank")?;
+            }
+            _ => writer.write_all(&self.head)?,
         }
-        indices.iter().try_for_each(|&index| {
-            writer.write_all(&self.bytes[self.records[index as usize].clone()])?;
+        (0..).zip(indices).try_for_each(|(i, &index): (usize, _)| {
+            let record = &self.bytes[self.records[index as usize].clone()];
+            match column {
+                Ranks::None | Ranks::Taken => writer.write_all(record)?,
+                Ranks::Text(separator) => {
+                    writer.write_all(record.trim_ascii_end())?;
+                    write!(writer, "{separator}{}", ranks[i])?;
+                }
+                Ranks::Little => writer.write_all(&[record, &ranks[i].to_le_bytes()].concat())?,
+                Ranks::Big => writer.write_all(&[record, &ranks[i].to_be_bytes()].concat())?,
+            }
             writer.write_all(self.separator)
         })
     }
@@ -98,6 +149,7 @@ fn lines(bytes: &[u8], start: usize) -> impl Iterator<Item = Range<usize>> {
 /// A header of PLY, cut where the number of vertices stands.
 struct Header {
     is_text: bool,
+    is_big: bool,
     elements: Vec<Element>,
     /// Up to the number of vertices, and from there, both without other elements.
     before: Vec<u8>,
@@ -111,7 +163,11 @@ struct Element {
     count: usize,
     /// The bytes of each property, if it has as many in all elements.
     sizes: Vec<Option<usize>>,
+    has_ranks: bool,
 }
+
+/// The end of a header.
+const END: &[u8] = b"end_header\n";
 
 impl Element {
     /// The bytes of an element.
@@ -124,20 +180,24 @@ impl Element {
 impl Header {
     fn of(bytes: &[u8]) -> Result<Self, String> {
         let mut header =
-            Self { is_text: false, elements: Vec::new(), before: Vec::new(), behind: Vec::new(), length: 0 };
+            Self { is_text: false, is_big: false, elements: vec![], before: vec![], behind: vec![], length: 0 };
         for line in lines(bytes, 0) {
             let text = String::from_utf8_lossy(&bytes[line.clone()]).into_owned();
             let words: Vec<_> = text.split_whitespace().collect();
             header.length = (line.end + 1).min(bytes.len());
             match words[..] {
-                ["format", format, ..] => header.is_text = format == "ascii",
+                ["format", format, ..] => {
+                    header.is_text = format == "ascii";
+                    header.is_big = format == "binary_big_endian";
+                }
                 ["element", name, count] => {
                     let count = count.parse().map_err(|_| format!("{count:?} is no number of elements"))?;
-                    header.elements.push(Element { name: name.to_owned(), count, sizes: Vec::new() });
+                    header.elements.push(Element { name: name.to_owned(), count, sizes: Vec::new(), has_ranks: false });
                 }
                 ["property", kind, ..] => {
                     let element = header.elements.last_mut().ok_or("a property of no element")?;
                     element.sizes.push(size(kind));
+                    element.has_ranks |= words.last() == Some(&"rank");
                 }
                 _ => {}
             }
@@ -182,8 +242,37 @@ mod tests {
 
     fn written(records: &Records, indices: &[u32]) -> String {
         let mut file = Vec::new();
-        records.write(&mut file, indices).unwrap();
+        records.write(&mut file, indices, &[]).unwrap();
         String::from_utf8_lossy(&file).into_owned()
+    }
+
+    fn ranked(records: &Records) -> Vec<u8> {
+        let mut file = Vec::new();
+        records.write(&mut file, &[1, 0], &[f32::INFINITY, 0.5]).unwrap();
+        file
+    }
+
+    #[test]
+    fn ranks_are_added_where_columns_have_names() {
+        let header = "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nend_header\n";
+        let head = header.replace("end_", "property float rank\nend_");
+        let of_ply = |header: &str, body: &[u8]| Records::of_ply([header.as_bytes(), body].concat());
+        let text = of_ply(header, b"1 \r\n2\n").unwrap();
+        assert_eq!(String::from_utf8(ranked(&text)).unwrap(), format!("{head}2 inf\n1 0.5\n"));
+        for (format, bytes) in [
+            ("little", [f32::INFINITY, 0.5].map(f32::to_le_bytes)),
+            ("big", [f32::INFINITY, 0.5].map(f32::to_be_bytes)),
+        ] {
+            let binary = |header: &str| header.replace("ascii", &format!("binary_{format}_endian"));
+            let records = of_ply(&binary(header), b"aaaabbbb").unwrap();
+            assert_eq!(ranked(&records), [binary(&head).as_bytes(), b"bbbb", &bytes[0], b"aaaa", &bytes[1]].concat());
+        }
+        assert!(of_ply(&head, b"1 2\n3 4\n").unwrap().has_ranks() && !text.has_ranks());
+        let table = |text: &str| Records::of_table(text.into(), 2).unwrap();
+        assert_eq!(ranked(&table("x;y\r\n1;2\n3;4\n")), b"x;y;rank\n3;4;inf\n1;2;0.5\n");
+        assert_eq!(ranked(&table("1 2\n3 4\n")), b"3 4\n1 2\n");
+        assert!(table("x,rank\n1,2\n3,4\n").has_ranks());
+        assert_eq!(ranked(&Records::of_raw(b"aabb".to_vec(), 2)), b"bbaa");
     }
 
     #[test]

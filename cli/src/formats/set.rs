@@ -3,7 +3,10 @@
 use azulejo::Domain;
 
 /// The columns of a file that are kept as floats.
-pub const NAMES: [&str; 8] = ["x", "y", "z", "nx", "ny", "nz", "u", "v"];
+pub const NAMES: [&str; 10] = ["x", "y", "z", "nx", "ny", "nz", "u", "v", "clearance", "radius"];
+
+/// So many of them are coordinates, which are finite.
+const COORDINATES: usize = 8;
 
 /// Where a file has what is kept of each point.
 pub struct Columns<T> {
@@ -39,6 +42,7 @@ impl<T> Columns<T> {
             positions: Vec::new(),
             normals: self.has(3..6).then(Vec::new),
             on_mesh: self.on_mesh().map(|_| (Vec::new(), Vec::new())),
+            clearances: (8..10).find(|&column| self.has(column..column + 1)).map(|column| (column, Vec::new())),
             domain: None,
         }
     }
@@ -52,6 +56,8 @@ pub struct PointSet {
     positions: Vec<[f32; 3]>,
     normals: Option<Vec<[f32; 3]>>,
     on_mesh: Option<OnMesh>,
+    /// The numbers of the column of clearances or, without one, of radii; and which column it is.
+    clearances: Option<(usize, Vec<f64>)>,
     /// The domain that the file names.
     pub domain: Option<Domain>,
 }
@@ -75,15 +81,17 @@ pub struct SampleSet {
     pub normals: Vec<[f32; 3]>,
     /// For each sample its triangle and barycentrics, if the file has them.
     pub on_mesh: Option<OnMesh>,
+    /// For each sample its clearance or, where the file names none, its radius, if it has one.
+    pub clearances: Option<Vec<f64>>,
 }
 
 impl PointSet {
     /// Adds a point: the numbers of [`NAMES`], 0 where there is no column, and the triangle.
     pub fn push(&mut self, numbers: [f32; NAMES.len()], triangle: u32) -> Result<(), String> {
-        if let Some(i) = numbers.iter().position(|x| !x.is_finite()) {
+        if let Some(i) = numbers[..COORDINATES].iter().position(|x| !x.is_finite()) {
             return Err(format!("{} is {}, not finite", NAMES[i], numbers[i]));
         }
-        let [x, y, z, nx, ny, nz, u, v] = numbers;
+        let [x, y, z, nx, ny, nz, u, v, ..] = numbers;
         self.positions.push([x, y, z]);
         if let Some(normals) = &mut self.normals {
             normals.push([nx, ny, nz]);
@@ -91,6 +99,9 @@ impl PointSet {
         if let Some((triangles, barycentrics)) = &mut self.on_mesh {
             triangles.push(triangle);
             barycentrics.push([u, v]);
+        }
+        if let Some((column, clearances)) = &mut self.clearances {
+            clearances.push(numbers[*column].into());
         }
         Ok(())
     }
@@ -129,8 +140,9 @@ impl PointSet {
         if !self.has_z {
             return Err("holds points in the plane, without z, and not samples of a mesh".to_owned());
         }
-        let Self { positions, normals, on_mesh, .. } = self;
-        Ok(SampleSet { positions, normals: normals.unwrap_or_default(), on_mesh })
+        let Self { positions, normals, on_mesh, clearances, .. } = self;
+        let clearances = clearances.map(|(_, clearances)| clearances);
+        Ok(SampleSet { positions, normals: normals.unwrap_or_default(), on_mesh, clearances })
     }
 }
 

@@ -128,18 +128,24 @@ impl Layout {
     }
 }
 
-pub fn write_csv_plane(writer: &mut impl Write, points: &[[f32; 2]]) -> io::Result<()> {
-    writeln!(writer, "x,y")?;
-    points.iter().try_for_each(|[x, y]| writeln!(writer, "{x},{y}"))
+pub fn write_csv_plane(writer: &mut impl Write, points: &[[f32; 2]], classes: &[u32]) -> io::Result<()> {
+    if classes.is_empty() {
+        writeln!(writer, "x,y")?;
+        return points.iter().try_for_each(|[x, y]| writeln!(writer, "{x},{y}"));
+    }
+    writeln!(writer, "x,y,class")?;
+    points.iter().zip(classes).try_for_each(|([x, y], class)| writeln!(writer, "{x},{y},{class}"))
 }
 
 pub fn write_csv_surface(writer: &mut impl Write, table: &SurfaceTable) -> io::Result<()> {
-    let SurfaceTable { samples, normals, radii } = table;
-    writeln!(writer, "x,y,z,nx,ny,nz,triangle,u,v{}", if radii.is_some() { ",radius" } else { "" })?;
+    let SurfaceTable { samples, normals, .. } = table;
+    write!(writer, "x,y,z,nx,ny,nz,triangle,u,v")?;
+    table.more_columns().try_for_each(|column| write!(writer, ",{}", column.name))?;
+    writeln!(writer)?;
     (0..samples.len()).try_for_each(|i| {
         let ([x, y, z], [nx, ny, nz], [u, v]) = (samples.positions[i], normals[i], samples.barycentrics[i]);
         write!(writer, "{x},{y},{z},{nx},{ny},{nz},{},{u},{v}", samples.triangles[i])?;
-        radii.map_or(Ok(()), |radii| write!(writer, ",{}", radii[i] as f32))?;
+        table.more_numbers(i).try_for_each(|number| write!(writer, ",{number}"))?;
         writeln!(writer)
     })
 }
@@ -207,7 +213,7 @@ mod tests {
     fn what_is_written_is_read_again_bit_by_bit() {
         let expected = [[0.1f32, 1.0 / 3.0], [1e-30, -7e20]];
         let (mut csv, mut xyz) = (Vec::new(), Vec::new());
-        write_csv_plane(&mut csv, &expected).unwrap();
+        write_csv_plane(&mut csv, &expected, &[]).unwrap();
         write_xyz_plane(&mut xyz, &expected).unwrap();
         for text in [csv, xyz] {
             assert_eq!(points(&String::from_utf8(text).unwrap()), expected);

@@ -1,33 +1,52 @@
 //! `azulejo plane`: maximal Poisson-disk sets of a rectangle, or of a part of it.
 
+use std::path::PathBuf;
 use std::time::Instant;
 
-use azulejo::kdrt::{self, CountOptions};
-use azulejo::{Boundary, Context, Domain, Progress, Result};
-use clap::Args;
+use azulejo::kdrt::{self, ClassPlane, Classified, CountOptions};
+use azulejo::{Boundary, Classes, Context, Domain, Given, Order, Progress, Result};
+use clap::{Args, ValueEnum};
 
 use super::{Common, count, report};
 use crate::domain::DomainArgs;
+use crate::formats::Input;
 use crate::progress::watched;
-use crate::text::rounded;
+use crate::text::{grouped, rounded};
+
+/// What is said of sets that are not of the plane.
+const INSTEAD: &str = "only sets of the plane can be sampled around";
 
 /// The density of a set of the plane.
 #[derive(Args)]
 #[group(required = true, multiple = false)]
-struct RadiusOrCount {
+struct Density {
     /// The smallest distance between samples.
     #[arg(long, value_name = "R", allow_negative_numbers = true)]
     radius: Option<f64>,
     /// The exact number of samples, such as 65536 or 1e6.
     #[arg(long, value_name = "N", value_parser = count::<u64>)]
     count: Option<u64>,
+    /// Several classes of samples that keep from each other, too: the smallest distance within each of them, such as
+    /// 0.04,0.02,0.01. The file has a column class, .ply, .npy and .csv.
+    #[arg(
+        long, value_name = "R,R,..", value_delimiter = ',', allow_negative_numbers = true,
+        conflicts_with_all = ["order", "quotient", "coarsest"]
+    )]
+    classes: Option<Vec<f64>>,
 }
 
 #[derive(Args)]
 #[command(mut_arg("domain", |domain| domain.help("The corners of the rectangle [default: the unit square]")))]
 pub struct Plane {
     #[command(flatten)]
-    density: RadiusOrCount,
+    density: Density,
+    /// What the smallest distances between samples of two classes are multiplied by: less than 1 leaves each class
+    /// nearer to the density that it has alone, and lets samples of two classes come nearer.
+    #[arg(
+        long, value_name = "F", default_value_t = 1.0, conflicts_with_all = ["radius", "count"],
+        allow_negative_numbers = true
+    )]
+    class_factor: f64,
     #[command(flatten)]
     common: Common,
     #[command(flatten)]
@@ -38,9 +57,35 @@ pub struct Plane {
         long, num_args = 4, value_names = ["X0", "Y0", "X1", "Y1"], allow_negative_numbers = true, conflicts_with = "count"
     )]
     window: Option<Vec<f64>>,
+    /// The order of the samples.
+    #[arg(long, value_enum, default_value = "any")]
+    order: Sequence,
+    /// How many times longer the radius of each level of the progressive order is than that of the next, 1.02 to 1.5:
+    /// every prefix covers the rectangle within this times its smallest distance.
+    #[arg(long, value_name = "Q", default_value_t = kdrt::DEFAULT_QUOTIENT, allow_negative_numbers = true)]
+    quotient: f64,
+    /// The radius of the first level of the progressive order [default: one that has a single sample].
+    #[arg(long, value_name = "R", allow_negative_numbers = true)]
+    coarsest: Option<f64>,
+    /// Samples that stand already: new ones keep clear of them and fill what they leave. They are not written.
+    #[arg(long, value_name = "POINTS", conflicts_with = "count")]
+    around: Option<PathBuf>,
+    /// How far new samples keep from those that stand already [default: the radius].
+    #[arg(long, value_name = "C", requires = "around", allow_negative_numbers = true)]
+    clearance: Option<f64>,
+    #[command(flatten)]
+    input: Input,
     /// The size of the tiles of which the plane is made, in radii.
     #[arg(long, value_name = "RADII", default_value_t = kdrt::DEFAULT_LEAF_SIZE, allow_negative_numbers = true)]
     leaf_size: f64,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum Sequence {
+    /// By places.
+    Any,
+    /// Coarse to fine: the first samples, any number of them, are a well-spread set, too.
+    Progressive,
 }
 
 /// A set, its domain, and what is said of it.
@@ -48,6 +93,9 @@ type Made = (Vec<[f32; 2]>, Domain, String);
 
 impl Plane {
     pub fn run(&self, context: &Context) -> Result<()> {
+        if let Some(own) = &self.density.classes {
+            return self.of_classes(&Classes::of_radii(own, self.class_factor)?, context);
+        }
         let output = self.common.destination.open_plane()?;
         let start = Instant::now();
         let (points, domain, about) = match self.density.count {
@@ -55,18 +103,32 @@ impl Plane {
             None => self.at(self.density.radius.unwrap_or(f64::NAN), context)?,
         };
         let seconds = start.elapsed().as_secs_f64();
-        output.write_plane(&domain, &points)?;
+        output.write_plane(&domain, &points, &[])?;
         report(&output.output, points.len(), &about, seconds);
         Ok(())
+    }
+
+    fn order(&self) -> Order {
+        match self.order {
+            Sequence::Any => Order::Any,
+            Sequence::Progressive => Order::Progressive,
+        }
+    }
+
+    fn coarsest(&self) -> f64 {
+        self.coarsest.unwrap_or(f64::INFINITY)
     }
 
     /// A set of this radius, or the part of it in the window.
     fn at(&self, radius: f64, context: &Context) -> Result<Made> {
         let domain = self.domain.or_unit();
         let options = kdrt::Options::new(radius).domain(domain).leaf_size(self.leaf_size).seed(self.common.seed);
+        let positions = self.given()?;
+        let clearances = self.clearance.map(|clearance| vec![clearance; positions.len()]);
+        let given = Given { positions: &positions, clearances: clearances.as_deref() };
+        let options = options.order(self.order()).quotient(self.quotient).coarsest(self.coarsest()).given(given);
         let about = format!("radius {}", rounded(radius, 4));
-        if let Some(&[x0, y0, x1, y1]) = self.window.as_deref() {
-            let window = Domain { min: [x0, y0], max: [x1, y1], boundary: Boundary::Bounded };
+        if let Some(window) = self.window() {
             let sample =
                 |progress: &Progress| kdrt::sample_window(context, &options, window.min, window.max, Some(progress));
             return Ok((watched("plane", sample)?, window, about));
@@ -75,12 +137,62 @@ impl Plane {
         Ok((points, domain, about))
     }
 
+    /// The samples that stand already.
+    fn given(&self) -> Result<Vec<[f32; 2]>> {
+        let around = self.around.as_deref().map(|path| self.input.read_plane(path, INSTEAD)).transpose()?;
+        Ok(around.map_or_else(Vec::new, |set| set.points))
+    }
+
+    /// The part of the rectangle that is to be made, if not all of it.
+    fn window(&self) -> Option<Domain> {
+        match self.window.as_deref() {
+            Some(&[x0, y0, x1, y1]) => Some(Domain { min: [x0, y0], max: [x1, y1], boundary: Boundary::Bounded }),
+            _ => None,
+        }
+    }
+
+    /// Writes a set of several classes, or the part of it in the window.
+    fn of_classes(&self, classes: &Classes, context: &Context) -> Result<()> {
+        let output = self.common.destination.open_classes()?;
+        let start = Instant::now();
+        let positions = self.given()?;
+        let clearances = self.clearance.map(|clearance| vec![clearance; positions.len() * classes.count()]);
+        let given = Given { positions: &positions, clearances: clearances.as_deref() };
+        let domain = self.domain.or_unit();
+        let options = kdrt::Options::new(0.0).domain(domain).leaf_size(self.leaf_size).seed(self.common.seed);
+        let options = options.given(given);
+        let (set, domain) = match self.window() {
+            Some(window) => {
+                let make = |progress: &Progress| ClassPlane::new(context, &options, classes, Some(progress));
+                (watched("plane", make)?.window(window.min, window.max)?, window)
+            }
+            None => {
+                let make = |progress: &Progress| kdrt::sample_classes(context, &options, classes, Some(progress));
+                (watched("plane", make)?, domain)
+            }
+        };
+        let seconds = start.elapsed().as_secs_f64();
+        output.write_plane(&domain, &set.samples, &set.classes)?;
+        report(&output.output, set.samples.len(), &shares(classes, &set), seconds);
+        Ok(())
+    }
+
     /// A set of exactly this many samples.
     fn exactly(&self, count: u64, context: &Context) -> Result<Made> {
         let domain = self.domain.or_unit();
         let options = CountOptions::new(count).domain(domain).leaf_size(self.leaf_size).seed(self.common.seed);
+        let options = options.order(self.order()).quotient(self.quotient).coarsest(self.coarsest());
         let made = watched("plane", |progress| kdrt::sample_count(context, &options, Some(progress)))?;
-        let maximal = if made.report.is_maximal { "" } else { ", not maximal" };
+        // Progressive sets are maximal at their levels only.
+        let is_fault = !made.report.is_maximal && self.order() == Order::Any;
+        let maximal = if is_fault { ", not maximal" } else { "" };
         Ok((made.samples, domain, format!("radius {}{maximal}", rounded(made.report.radius, 4))))
     }
+}
+
+/// How many samples each class has.
+fn shares(classes: &Classes, set: &Classified) -> String {
+    let mut counts = vec![0; classes.count()];
+    set.classes.iter().for_each(|&class| counts[class as usize] += 1);
+    format!("by classes {}", counts.into_iter().map(grouped).collect::<Vec<_>>().join(" + "))
 }

@@ -4,7 +4,8 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use azulejo::dcr::{self, Neighbourhood, surface};
-use azulejo::{Context, Error, Progress, Result};
+use azulejo::mesh::Mesh;
+use azulejo::{Context, Error, Progress, Result, SurfaceSamples};
 use clap::{Args, ValueEnum};
 
 use super::{Common, report};
@@ -12,8 +13,10 @@ use crate::domain::DomainArgs;
 use crate::formats::surface::SurfaceTable;
 use crate::formats::{Input, ON_MESH, blame};
 use crate::input;
+use crate::output::Output;
+use crate::ply;
 use crate::progress::watched;
-use crate::text::rounded;
+use crate::text::{grouped, rounded};
 
 #[derive(Args)]
 pub struct Relax {
@@ -27,6 +30,10 @@ pub struct Relax {
     /// The mesh that the samples lie on and stay on: OBJ, PLY or STL.
     #[arg(long, value_name = "MESH", conflicts_with_all = ["domain", "bounded", "neighbourhood"])]
     mesh: Option<PathBuf>,
+    /// Also write the mesh whose vertices are the relaxed samples, as PLY, and say what it is: whether it is closed, its
+    /// Euler characteristic, its angles.
+    #[arg(long, value_name = "FILE", requires = "mesh")]
+    remesh: Option<PathBuf>,
     #[command(flatten)]
     domain: DomainArgs,
     /// Which points keep each other at a distance.
@@ -71,7 +78,7 @@ impl Relax {
         let relax = |progress: &Progress| dcr::relax(context, &options, &set.points, Some(progress));
         let (relaxed, done) = watched("relax", relax).map_err(|error| blame(&self.input, error))?;
         let seconds = start.elapsed().as_secs_f64();
-        output.write_plane(&domain, &relaxed)?;
+        output.write_plane(&domain, &relaxed, &[])?;
         report(&output.output, relaxed.len(), &about(done.iterations, done.smallest_distance), seconds);
         Ok(())
     }
@@ -79,6 +86,7 @@ impl Relax {
     /// Relaxation on a mesh.
     fn run_on(&self, context: &Context, mesh: &Path) -> Result<()> {
         let output = self.common.destination.open_surface()?;
+        let remeshed = self.remesh.as_deref().map(|path| Output::of_format("ply", path)).transpose()?;
         let set = self.format.read_samples(&self.input)?;
         let mesh = input::mesh(mesh)?;
         let (triangles, barycentrics) = set.on_mesh.as_ref().ok_or_else(|| Error::Format {
@@ -95,8 +103,36 @@ impl Relax {
         let seconds = start.elapsed().as_secs_f64();
         output.write_surface(&SurfaceTable { samples: &relaxed, normals: &relaxed.normals, radii: None })?;
         report(&output.output, relaxed.len(), &about(done.iterations, done.smallest_distance), seconds);
-        Ok(())
+        remeshed.map_or(Ok(()), |output| write_remeshed(context, &mesh, &relaxed, &output))
     }
+}
+
+/// Writes the mesh whose vertices are samples.
+fn write_remeshed(context: &Context, mesh: &Mesh, samples: &SurfaceSamples, output: &Output) -> Result<()> {
+    let (made, done) = watched("remesh", |progress| {
+        surface::remesh(context, mesh, &samples.triangles, &samples.barycentrics, Some(progress))
+    })?;
+    ply::write_mesh(output, made.positions(), made.triangles())?;
+    let quality = done.quality;
+    let kind = match (quality.is_closed_manifold(), quality.is_manifold()) {
+        (true, _) => "closed manifold".to_owned(),
+        (_, true) => format!("manifold with {} boundary edges", grouped(quality.boundary_edges as usize)),
+        _ => format!(
+            "{} boundary edges, {} vertices that are not manifold",
+            grouped(quality.boundary_edges as usize),
+            grouped(quality.non_manifold_vertices as usize)
+        ),
+    };
+    output.report(&format!(
+        "{} triangles, {kind}, Euler characteristic {}, angles {:.1} to {:.1} degrees, mean smallest {:.1}, unused samples: {}",
+        grouped(done.triangles as usize),
+        quality.euler,
+        quality.smallest_angle,
+        quality.largest_angle,
+        quality.mean_smallest_angle,
+        grouped(quality.unused_vertices as usize)
+    ));
+    Ok(())
 }
 
 /// What is said of a relaxation.

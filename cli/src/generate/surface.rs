@@ -1,16 +1,18 @@
-//! `azulejo surface`: maximal Poisson-disk sets of meshes, of one radius or of a radius for each vertex.
+//! `azulejo surface`: maximal Poisson-disk sets of meshes, of one radius, of a radius for each vertex, or of several classes.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use azulejo::mesh::Mesh;
-use azulejo::psp::adaptive::{self, Radius};
-use azulejo::{Context, Error, MAXIMAL_DENSITY, Progress, Result, SurfaceSamples, psp};
+use azulejo::psp::adaptive::{self, Density as MeshDensity, Radius, Scale};
+use azulejo::{Classes, Context, Error, Given, Order, Progress, Result, SurfaceSamples, psp};
 use clap::{Args, ValueEnum};
 
 use super::attributes::{MeshFile, mask_of_text};
-use super::{Common, compared, count, report};
+use super::{Common, count, report};
+use crate::formats::set::SampleSet;
 use crate::formats::surface::SurfaceTable;
+use crate::formats::{blame, read_given};
 use crate::progress::watched;
 use crate::text::rounded;
 
@@ -21,16 +23,28 @@ struct Density {
     /// The smallest distance between samples.
     #[arg(long, value_name = "R", allow_negative_numbers = true)]
     radius: Option<f64>,
-    /// The approximate number of samples, such as 65536 or 1e6: the radius is that of a maximal set of this size on a
-    /// plane of the same area. Usually 2 to 10 % fewer fit, and down to half as many where parts of the surface are
-    /// nearer to each other than the radius.
-    #[arg(long, value_name = "N", value_parser = count::<u64>)]
-    count: Option<u64>,
+    /// The exact number of samples, such as 65536 or 1e6: the radius is found. The gaps are always filled, without
+    /// iterations.
+    #[arg(long, value_name = "N", value_parser = count::<usize>, conflicts_with_all = ["iterations", "no_fill"])]
+    count: Option<usize>,
+    /// Several classes at once by their own radii, such as 1,0.5,0.25: samples of each keep its radius, and those of two
+    /// the radius that Wei 2010 gives these. The output has the class of each sample, from 0 on, except in XYZ.
+    #[arg(long, value_name = "R,..", value_delimiter = ',', allow_negative_numbers = true, conflicts_with_all = NOT_OF_CLASSES)]
+    classes: Option<Vec<f64>>,
     /// The name of a vertex attribute of a PLY mesh that holds the radius there, for adaptive sampling. The distance of two
     /// samples is at least the mean of their radii. The output has the radius of each sample, except in XYZ.
     #[arg(long, value_name = "ATTRIBUTE")]
     radius_from: Option<String>,
 }
+
+/// The arguments that adaptive sampling has no use for.
+const OF_ONE_RADIUS: [&str; 2] = ["radius_from", "density_from"];
+
+/// The arguments that say the density of one class.
+const OF_ONE_CLASS: [&str; 3] = ["radius", "count", "radius_from"];
+
+/// The arguments that sets of several classes have no use for.
+const NOT_OF_CLASSES: [&str; 6] = ["density_from", "iterations", "no_fill", "order", "priority", "engine"];
 
 #[derive(Args)]
 pub struct Surface {
@@ -39,6 +53,15 @@ pub struct Surface {
     mesh: PathBuf,
     #[command(flatten)]
     density: Density,
+    /// What the radii between samples of different classes are multiplied by, 0 or above: 1 for those of Wei; the smaller,
+    /// the more samples each class has, and the nearer two classes come to each other.
+    #[arg(long, value_name = "F", default_value_t = 1.0, allow_negative_numbers = true, conflicts_with_all = OF_ONE_CLASS)]
+    class_factor: f64,
+    /// The name of a vertex attribute of a PLY mesh that holds the density there, in any unit, 0 or above; where it is 0
+    /// there are no samples. --radius is that at density 1; --count the number of samples on an even surface, about. The
+    /// output has the radius of each sample, except in XYZ.
+    #[arg(long, value_name = "ATTRIBUTE", conflicts_with = "radius_from")]
+    density_from: Option<String>,
     /// The name of a face attribute of a PLY mesh. Faces where it is 0 are not sampled.
     #[arg(long, value_name = "ATTRIBUTE")]
     mask: Option<String>,
@@ -46,23 +69,60 @@ pub struct Surface {
     /// polygon counts as the triangles of its fan.
     #[arg(long, value_name = "FILE", conflicts_with = "mask")]
     mask_file: Option<PathBuf>,
+    /// Points that stand already: a .ply, .npy, .csv, .xyz or .raw file, x y z each. Samples keep their clearances, cover
+    /// what is farther than that from all of them, and are alone written. The clearance of a point is in the column
+    /// `clearance` or, without one, `radius`; without either it is the radius of the set.
+    #[arg(long, value_name = "FILE")]
+    given: Option<PathBuf>,
+    /// The clearance of all points of `--given`, whatever their file says.
+    #[arg(long, value_name = "C", requires = "given", allow_negative_numbers = true)]
+    clearance: Option<f64>,
+    /// Samples on triangles whose normals have a smaller cosine ignore each other: both sides of a thin wall are sampled.
+    /// From -1, which is off, to 1. Faces must be wound consistently.
+    #[arg(long, value_name = "COSINE", default_value_t = -1.0, allow_negative_numbers = true)]
+    cosine: f64,
     #[command(flatten)]
     common: Common,
     /// How often to project patterns from three directions before the gaps are filled [default: 0, or 1 with --no-fill].
-    #[arg(long, value_name = "N", conflicts_with = "radius_from")]
+    #[arg(long, value_name = "N", conflicts_with_all = OF_ONE_RADIUS)]
     iterations: Option<u32>,
     /// Do not fill the gaps that the projections leave.
-    #[arg(long, conflicts_with = "radius_from")]
+    #[arg(long, conflicts_with_all = OF_ONE_RADIUS)]
     no_fill: bool,
+    /// The order of the samples. In progressive order the output has the rank of each sample, except in XYZ.
+    #[arg(long, value_enum, default_value = "any", conflicts_with_all = ["radius_from", "density_from", "iterations", "no_fill"])]
+    order: Sequence,
+    /// The largest ratio of the covering radius of the first samples to the rank of the last of them, in progressive
+    /// order: 1.02 to 1.5 [default: 1.0905].
+    #[arg(long, value_name = "Q", requires = "order")]
+    quotient: Option<f64>,
     /// Which normals the samples get.
     #[arg(long, value_enum, default_value = "geometric")]
     normals: Normals,
     /// Which candidates come first where two are too close.
-    #[arg(long, value_enum, default_value = "squareness", conflicts_with = "radius_from")]
+    #[arg(long, value_enum, default_value = "squareness", conflicts_with_all = OF_ONE_RADIUS)]
     priority: Priority,
-    /// What finds the points of the mesh that the patterns are projected to.
-    #[arg(long, value_enum, default_value = "embree", conflicts_with = "radius_from")]
-    engine: Engine,
+    /// What finds the points of the mesh that the patterns are projected to [default: embree, or the rasteriser in a
+    /// build without it].
+    #[arg(long, value_enum, conflicts_with_all = OF_ONE_RADIUS)]
+    engine: Option<Engine>,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum Sequence {
+    /// Whatever is fastest.
+    Any,
+    /// Coarse to fine: the first samples, any number of them, are well spread as well.
+    Progressive,
+}
+
+impl From<Sequence> for Order {
+    fn from(sequence: Sequence) -> Self {
+        match sequence {
+            Sequence::Any => Self::Any,
+            Sequence::Progressive => Self::Progressive,
+        }
+    }
 }
 
 #[derive(Clone, Copy, ValueEnum)]
@@ -107,6 +167,27 @@ enum Normals {
     Interpolated,
 }
 
+/// The samples that are given.
+#[derive(Default)]
+struct Around {
+    positions: Vec<[f32; 3]>,
+    clearances: Option<Vec<f64>>,
+}
+
+impl Around {
+    /// Those of a file, if there is one, with their clearances or all with the same.
+    fn read(path: Option<&Path>, clearance: Option<f64>) -> Result<Self> {
+        let Some(path) = path else { return Ok(Self::default()) };
+        let SampleSet { positions, clearances, .. } = read_given(path)?;
+        let same = clearance.map(|clearance| vec![clearance; positions.len()]);
+        Ok(Self { positions, clearances: same.or(clearances) })
+    }
+
+    fn given(&self) -> Given<'_, 3> {
+        Given { positions: &self.positions, clearances: self.clearances.as_deref() }
+    }
+}
+
 /// Samples, their radii if they differ, and what is said of them.
 struct Made {
     samples: SurfaceSamples,
@@ -124,10 +205,25 @@ impl Surface {
             let reason = format!("{} has none to be interpolated", self.mesh.display());
             return Err(Error::InvalidArgument { argument: "--normals", reason });
         }
-        let Made { samples, radii, about, seconds } = match &self.density.radius_from {
-            Some(attribute) => self.adaptive(context, &mesh, &file, attribute)?,
-            None => self.uniform(context, mesh)?,
+        let around = Around::read(self.given.as_deref(), self.clearance)?;
+        let made = match (&self.density.radius_from, &self.density_from) {
+            (Some(attribute), _) => self.adaptive(context, &mesh, &file, (attribute, None), around.given()),
+            (None, Some(attribute)) => {
+                let scale = match (self.density.radius, self.density.count) {
+                    (Some(radius), _) => Scale::Radius(radius),
+                    (None, count) => Scale::Count(count.unwrap_or_default() as f64),
+                };
+                self.adaptive(context, &mesh, &file, (attribute, Some(scale)), around.given())
+            }
+            (None, None) => match &self.density.classes {
+                Some(own) => self.of_classes(context, mesh, own, &around),
+                None => self.uniform(context, mesh, around.given()),
+            },
         };
+        let Made { samples, radii, about, seconds } = made.map_err(|error| match &self.given {
+            Some(path) => blame(path, error),
+            None => error,
+        })?;
         let normals = match self.normals {
             Normals::Geometric => &samples.normals,
             Normals::Interpolated => &samples.interpolated_normals,
@@ -151,29 +247,69 @@ impl Surface {
     }
 
     /// Samples of one radius.
-    fn uniform(&self, context: &Context, mesh: Mesh) -> Result<Made> {
-        let of_count = |count: u64| (MAXIMAL_DENSITY * mesh.area() / count as f64).sqrt();
-        let radius = self.density.radius.or(self.density.count.map(of_count)).unwrap_or(f64::NAN);
-        let options = psp::Options::new(radius)
+    fn uniform(&self, context: &Context, mesh: Mesh, given: Given<3>) -> Result<Made> {
+        let options = match self.density.count {
+            Some(count) => psp::Options::by_count(count),
+            None => psp::Options::new(self.density.radius.unwrap_or(f64::NAN)),
+        };
+        let options = options
+            .order(self.order.into())
+            .quotient(self.quotient.unwrap_or(psp::DEFAULT_QUOTIENT))
             .iterations(self.iterations)
             .maximal(!self.no_fill)
             .seed(self.common.seed)
             .priority(self.priority.into())
-            .engine(self.engine.into());
+            .engine(self.engine.map_or_else(psp::Engine::default, Into::into))
+            .given(given)
+            .cosine(self.cosine);
         let mesh = Arc::new(mesh);
         let (samples, done) = watched("surface", |progress| psp::sample(context, &mesh, &options, Some(progress)))?;
-        let asked = self.density.count.map(|count| compared(samples.len(), count)).unwrap_or_default();
-        let about = format!("{asked}radius {}", rounded(radius, 4));
+        let covered = match done.coverage {
+            Some(coverage) if coverage > done.radius => format!(", covered within {}", rounded(coverage, 4)),
+            _ => String::new(),
+        };
+        let about = format!("radius {}{covered}", rounded(done.radius, 4));
         Ok(Made { samples, radii: None, about, seconds: done.seconds })
     }
 
-    /// Samples whose radii are interpolated from the radii of the vertices.
-    fn adaptive(&self, context: &Context, mesh: &Mesh, file: &MeshFile, attribute: &str) -> Result<Made> {
-        let radii: Vec<_> = file.vertex_attribute(attribute)?.into_iter().map(|radius| radius as f32).collect();
-        let options = adaptive::Options::new(Radius::PerVertex(&radii)).seed(self.common.seed);
+    /// Samples of several classes, by their own radii.
+    fn of_classes(&self, context: &Context, mesh: Mesh, own: &[f64], around: &Around) -> Result<Made> {
+        let classes = Classes::of_radii(own, self.class_factor)?;
+        // A given sample is as far from all classes.
+        let clearances: Option<Vec<f64>> = around.clearances.as_ref().map(|clearances| {
+            clearances.iter().flat_map(|&clearance| std::iter::repeat_n(clearance, own.len())).collect()
+        });
+        let given = Given { positions: &around.positions, clearances: clearances.as_deref() };
+        let options = psp::Options::new(0.0).seed(self.common.seed).given(given).cosine(self.cosine);
+        let mesh = Arc::new(mesh);
+        let sample =
+            |progress: &Progress| psp::sample_classes(context, &mesh, &options, &classes, None, Some(progress));
+        let (samples, done) = watched("surface", sample)?;
+        let count = |class: usize| samples.classes.iter().filter(|&&other| other as usize == class).count();
+        let each = |class: usize| format!("{} of radius {}", count(class), rounded(own[class], 4));
+        let about = (0..own.len()).map(each).collect::<Vec<_>>().join(", ");
+        Ok(Made { samples, radii: None, about, seconds: done.seconds })
+    }
+
+    /// Samples whose radii are interpolated from an attribute of the vertices or, with a scale, follow from the density
+    /// that it is.
+    fn adaptive(
+        &self,
+        context: &Context,
+        mesh: &Mesh,
+        file: &MeshFile,
+        (attribute, scale): (&str, Option<Scale>),
+        given: Given<3>,
+    ) -> Result<Made> {
+        let values: Vec<_> = file.vertex_attribute(attribute)?.into_iter().map(|value| value as f32).collect();
+        let radius = match scale {
+            None => Radius::PerVertex(&values),
+            Some(scale) => Radius::Density { density: MeshDensity::PerVertex(&values), scale },
+        };
+        let options = adaptive::Options::new(radius).seed(self.common.seed).cosine(self.cosine).given(given);
         let sample = |progress: &Progress| adaptive::sample(context, mesh, &options, Some(progress));
         let (made, done) = watched("surface", sample).map_err(|error| match error {
-            Error::InvalidArgument { argument: "vertex_radii", reason } => file.error(attribute, &reason),
+            Error::InvalidArgument { argument: "vertex_radii" | "density", reason } => file.error(attribute, &reason),
             other => other,
         })?;
         let ends = |choose: fn(f64, f64) -> f64| made.radii.iter().copied().reduce(choose).unwrap_or(f64::NAN);

@@ -74,6 +74,7 @@ pub fn remove_on_signals() -> io::Result<()> {
 }
 
 #[cfg(not(unix))]
+/// Does nothing: only on Unix signals are received.
 pub fn remove_on_signals() -> io::Result<()> {
     Ok(())
 }

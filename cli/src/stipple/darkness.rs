@@ -1,4 +1,4 @@
-//! The darkness of an image: the share of the paper to cover with ink.
+//! The darkness of an image: the share of the paper to cover with ink, with black or with each of four.
 
 use std::io::Cursor;
 use std::path::Path;
@@ -7,6 +7,7 @@ use azulejo::dcr::Density;
 use azulejo::{Boundary, Domain, Error, Result};
 use image::{DynamicImage, ImageFormat, ImageReader, Rgba};
 
+use super::inks::INKS;
 use crate::input;
 
 /// The largest side of an image.
@@ -26,30 +27,41 @@ impl Darkness {
 
     /// That of a PNG file. The light of a pixel is its grey value to the power of `gamma`.
     pub fn load(path: &Path, gamma: f64) -> Result<Self> {
-        if !(gamma > 0.0 && gamma.is_finite()) {
-            let reason = format!("{gamma} is not a positive finite number");
-            return Err(Error::InvalidArgument { argument: "--gamma", reason });
-        }
-        let io_error = |source| Error::Io { path: path.into(), source };
-        let format_error = |reason: String| Error::Format { path: path.into(), reason };
-        let file = Cursor::new(input::bytes(path)?);
-        // By the contents: the name proves nothing.
-        let mut reader = ImageReader::new(file).with_guessed_format().map_err(io_error)?;
-        if reader.format() != Some(ImageFormat::Png) {
-            return Err(format_error("is no PNG file".to_owned()));
-        }
-        let mut limits = image::Limits::default();
-        (limits.max_image_width, limits.max_image_height) = (Some(LARGEST), Some(LARGEST));
-        reader.limits(limits);
-        let image = reader.decode().map_err(|error| match error {
-            image::ImageError::IoError(source) => io_error(source),
-            other => format_error(other.to_string()),
-        })?;
-        let darkness = Self::of(&image, gamma);
-        if darkness.ink() == 0.0 {
-            return Err(format_error("is all white: there is nothing to be drawn with dots".to_owned()));
-        }
+        let darkness = Self::of(&load(path, gamma)?, gamma);
+        check_ink(path, darkness.ink())?;
         Ok(darkness)
+    }
+
+    /// Those of the inks of a PNG file ([`ABSORBS`](super::inks::ABSORBS)). Black is what red, green and blue all lack;
+    /// another ink takes the share of what is left by which its colour is darker than the lightest.
+    pub fn load_inks(path: &Path, gamma: f64) -> Result<[Self; INKS]> {
+        let inks = Self::inks_of(&load(path, gamma)?, gamma);
+        check_ink(path, inks.iter().map(Self::ink).sum())?;
+        Ok(inks)
+    }
+
+    fn inks_of(image: &DynamicImage, gamma: f64) -> [Self; INKS] {
+        let pixels = image.to_rgba32f();
+        let lights = |&Rgba([r, g, b, alpha]): &Rgba<f32>| {
+            [r, g, b].map(|light| f64::from(1.0 - alpha + alpha * light).clamp(0.0, 1.0).powf(gamma))
+        };
+        Self::inks(&pixels.pixels().map(lights).collect::<Vec<_>>(), image.width() as usize)
+    }
+
+    /// Those of the inks that leave rows of pixels these lights: red, green and blue, 0 to 1.
+    pub fn inks(lights: &[[f64; 3]], width: usize) -> [Self; INKS] {
+        std::array::from_fn(|ink| {
+            let dark = |lights: &[f64; 3]| {
+                let lightest = lights.iter().copied().fold(0.0, f64::max);
+                let dark = match ink.checked_sub(1) {
+                    None => 1.0 - lightest,
+                    Some(_) if lightest == 0.0 => 0.0,
+                    Some(colour) => 1.0 - lights[colour] / lightest,
+                };
+                dark as f32
+            };
+            Self::new(lights.iter().map(dark).collect(), width)
+        })
     }
 
     fn of(image: &DynamicImage, gamma: f64) -> Self {
@@ -95,6 +107,38 @@ impl Darkness {
     }
 }
 
+/// A PNG file; `gamma` is checked before.
+fn load(path: &Path, gamma: f64) -> Result<DynamicImage> {
+    if !(gamma > 0.0 && gamma.is_finite()) {
+        let reason = format!("{gamma} is not a positive finite number");
+        return Err(Error::InvalidArgument { argument: "--gamma", reason });
+    }
+    let io_error = |source| Error::Io { path: path.into(), source };
+    let format_error = |reason: String| Error::Format { path: path.into(), reason };
+    let file = Cursor::new(input::bytes(path)?);
+    // By the contents: the name proves nothing.
+    let mut reader = ImageReader::new(file).with_guessed_format().map_err(io_error)?;
+    if reader.format() != Some(ImageFormat::Png) {
+        return Err(format_error("is no PNG file".to_owned()));
+    }
+    let mut limits = image::Limits::default();
+    (limits.max_image_width, limits.max_image_height) = (Some(LARGEST), Some(LARGEST));
+    reader.limits(limits);
+    reader.decode().map_err(|error| match error {
+        image::ImageError::IoError(source) => io_error(source),
+        other => format_error(other.to_string()),
+    })
+}
+
+/// Refuses an image without ink.
+fn check_ink(path: &Path, ink: f64) -> Result<()> {
+    if ink > 0.0 {
+        return Ok(());
+    }
+    let reason = "is all white: there is nothing to be drawn with dots".to_owned();
+    Err(Error::Format { path: path.into(), reason })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -116,5 +160,24 @@ mod tests {
             }
             assert!((darkness.dot_radius(3).powi(2) * 3.0 * std::f64::consts::PI - 1.0 - grey).abs() < 1e-3);
         }
+    }
+
+    /// Light that passes all inks is that of the image.
+    #[test]
+    fn inks_leave_the_light_of_the_image() {
+        let colours = [[255, 0, 0], [10, 200, 30], [0, 0, 0], [255, 255, 255], [90, 90, 90], [12, 0, 250]];
+        let image = RgbaImage::from_fn(6, 1, |x, _| {
+            let [r, g, b] = colours[x as usize];
+            Rgba([r, g, b, 255])
+        });
+        let inks = Darkness::inks_of(&DynamicImage::from(image), 2.2);
+        for (pixel, colour) in colours.into_iter().enumerate() {
+            for (channel, value) in colour.into_iter().enumerate() {
+                let left = (0..INKS).filter(|&ink| super::super::inks::ABSORBS[ink][channel]);
+                let light: f64 = left.map(|ink| 1.0 - inks[ink].at(pixel, 0)).product();
+                assert!((light - (f64::from(value) / 255.0).powf(2.2)).abs() < 1e-5, "{colour:?} {channel}: {light}");
+            }
+        }
+        assert!(inks[0].at(0, 0) == 0.0 && inks[1].at(0, 0) == 0.0 && inks[2].at(0, 0) == 1.0);
     }
 }

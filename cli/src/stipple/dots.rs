@@ -2,14 +2,14 @@
 
 use azulejo::dcr::{self, Neighbourhood, Options, Report};
 use azulejo::psp::adaptive::{self, Radius};
-use azulejo::{Context, Progress, Result};
+use azulejo::{Context, Given, Progress, Result};
 
 use super::darkness::Darkness;
 use crate::sheet::sheet;
 
 /// What is lighter than this, but not white, is sampled by PSP as if it were so dark: the step from white to the next
 /// grey value of a byte.
-const LIGHTEST: f64 = 1.0 / 255.0;
+pub(super) const LIGHTEST: f64 = 1.0 / 255.0;
 
 /// Dots at random.
 pub fn random(context: &Context, darkness: &Darkness, count: usize, seed: u64) -> Result<Vec<[f32; 2]>> {
@@ -28,11 +28,12 @@ pub fn relaxed(
     dcr::relax_with_density(context, &options, &darkness.density(), dots, Some(progress))
 }
 
-/// A maximal Poisson-disk set of about so many dots, on a mesh with a vertex at each corner of a pixel.
+/// A maximal Poisson-disk set of about so many dots around given ones, on a mesh with a vertex at each corner of a pixel.
 pub fn poisson(
     context: &Context,
     darkness: &Darkness,
-    count: usize,
+    count: f64,
+    given: Given<3>,
     seed: u64,
     progress: &Progress,
 ) -> Result<Vec<[f32; 2]>> {
@@ -43,8 +44,8 @@ pub fn poisson(
         rows.flat_map(|row| around(column, width).map(|column| darkness.at(column, row))).sum::<f64>() / 4.0
     };
     let corners = (0..=height).flat_map(|row| (0..=width).map(move |column| corner(column, row)));
-    let (mesh, radii) = sheet(&corners.collect::<Vec<_>>(), width + 1, LIGHTEST, count as f64)?;
-    let options = adaptive::Options::new(Radius::PerVertex(&radii)).seed(seed);
+    let (mesh, radii) = sheet(&corners.collect::<Vec<_>>(), width + 1, LIGHTEST, count)?;
+    let options = adaptive::Options::new(Radius::PerVertex(&radii)).seed(seed).given(given);
     let (set, _) = adaptive::sample(context, &mesh, &options, Some(progress))?;
     // The far boundaries belong to the mesh, but not to the domain.
     let inside = |x: f32, length: usize| x.min(length as f32 * (1.0 - f32::EPSILON));

@@ -31,6 +31,8 @@ pub struct Verdict {
 pub enum Place<'a> {
     Square,
     Surface(&'a Mesh),
+    /// The points to choose from, and the area that they lie on.
+    Cloud(&'a [[f64; 3]], f64),
 }
 
 /// Judges the samples of a file of raw doubles.
@@ -40,6 +42,7 @@ pub fn judge(file: &Path, place: &Place, radius: f64) -> Result<Verdict, Box<dyn
     match place {
         Place::Square => plane(&points(&numbers), radius),
         Place::Surface(mesh) => surface(mesh, &points(&numbers), radius),
+        Place::Cloud(cloud, area) => Ok(thinned(cloud, *area, &points(&numbers), radius)),
     }
 }
 
@@ -79,6 +82,49 @@ fn surface(mesh: &Mesh, points: &[[f64; 3]], radius: f64) -> Result<Verdict, Box
         hexagonal: (2.0 * mesh.area() / (3.0f64.sqrt() * points.len() as f64)).sqrt(),
         bond_order: None,
     })
+}
+
+fn thinned(cloud: &[[f64; 3]], area: f64, points: &[[f64; 3]], radius: f64) -> Verdict {
+    let (conflicts, smallest) = pairs(points, radius);
+    Verdict {
+        samples: points.len(),
+        conflicts,
+        smallest,
+        farthest: farthest(cloud, points, radius),
+        gaps: 0,
+        hexagonal: (2.0 * area / (3.0f64.sqrt() * points.len() as f64)).sqrt(),
+        bond_order: None,
+    }
+}
+
+/// The largest distance of a point of a cloud from the nearest of some points: around each, cells farther and farther
+/// away are searched.
+fn farthest(cloud: &[[f64; 3]], points: &[[f64; 3]], side: f64) -> f64 {
+    let cell = |point: &[f64; 3]| point.map(|x| (x / side).floor() as i64);
+    let mut cells: HashMap<[i64; 3], Vec<[f64; 3]>> = HashMap::new();
+    points.iter().for_each(|point| cells.entry(cell(point)).or_default().push(*point));
+    let squared = |a: &[f64; 3], b: &[f64; 3]| a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum::<f64>();
+    let nearest = |point: &[f64; 3]| {
+        let (home, mut least) = (cell(point), f64::INFINITY);
+        for ring in 0i64.. {
+            // What is nearer than the rings that have been searched is known.
+            if least.sqrt() <= (ring - 1) as f64 * side {
+                break;
+            }
+            for z in -ring..=ring {
+                for y in -ring..=ring {
+                    let on_shell = z.abs() == ring || y.abs() == ring;
+                    for x in (-ring..=ring).filter(|x| on_shell || x.abs() == ring) {
+                        let others = cells.get(&[home[0] + x, home[1] + y, home[2] + z]);
+                        least =
+                            others.into_iter().flatten().fold(least, |least, other| least.min(squared(point, other)));
+                    }
+                }
+            }
+        }
+        least.sqrt()
+    };
+    cloud.iter().map(nearest).fold(0.0, f64::max)
 }
 
 fn rounding<const N: usize>(points: &[[f32; N]]) -> f64 {

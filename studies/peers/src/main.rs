@@ -3,6 +3,9 @@
 //! Each peer runs in a process of its own, which says how long its call took, how busy its threads were and how much memory it
 //! took on top; all that is judged here, from the samples that it wrote.
 
+// Figures on a page need not be the same bytes on every processor.
+#![allow(clippy::disallowed_methods)]
+
 mod judge;
 mod native;
 mod page;

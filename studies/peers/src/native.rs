@@ -7,7 +7,8 @@ use std::path::Path;
 use std::sync::Arc;
 
 use azulejo::mesh::Mesh;
-use azulejo::{Boundary, Context, Domain, dcr, kdrt, maximal, psp};
+use azulejo::thin::{self, thin};
+use azulejo::{Boundary, Context, Domain, Order, dcr, kdrt, maximal, psp};
 use rand_06::SeedableRng as _;
 
 use crate::timing::{Cost, timed};
@@ -19,8 +20,12 @@ pub fn run(name: &str, count: usize, radius: f64, out: &Path, mesh: Option<&Path
         ("azulejo_plane", _) => plane(&Context::new(0)?, radius),
         ("azulejo_maximal", _) => reference(radius),
         ("azulejo_relaxed", _) => relaxed(count),
-        ("azulejo_surface_1", Some(mesh)) => surface(&Context::new(1)?, mesh, radius)?,
-        ("azulejo_surface", Some(mesh)) => surface(&Context::new(0)?, mesh, radius)?,
+        ("azulejo_surface_1", Some(mesh)) => surface(&Context::new(1)?, mesh, psp::Options::new(radius))?,
+        ("azulejo_surface", Some(mesh)) => surface(&Context::new(0)?, mesh, psp::Options::new(radius))?,
+        ("azulejo_counted", Some(mesh)) => surface(&Context::new(0)?, mesh, psp::Options::by_count(count))?,
+        ("azulejo_farthest_1", Some(cloud)) => farthest(&Context::new(1)?, cloud, count)?,
+        ("azulejo_farthest", Some(cloud)) => farthest(&Context::new(0)?, cloud, count)?,
+        ("azulejo_greedy_1", Some(cloud)) => thinned(&Context::new(1)?, cloud, thin::Options::by_radius(radius))?,
         ("bluenoise", _) => bluenoise(radius),
         ("fast_poisson", _) => fast_poisson(radius),
         ("poisson_bridson", _) => poisson(radius, poisson::algorithm::Bridson),
@@ -67,11 +72,24 @@ fn relaxed(count: usize) -> Run {
     flat(timed(|| dcr::relax(&context, &options, &start, None).expect("points of the domain").0))
 }
 
-fn surface(context: &Context, mesh: &Path, radius: f64) -> Result<Run, Box<dyn Error>> {
-    let mesh = Arc::new(Mesh::load(mesh)?);
-    let options = psp::Options::new(radius).seed(1);
+fn surface(context: &Context, mesh: &Path, options: psp::Options) -> Result<Run, Box<dyn Error>> {
+    let (mesh, options) = (Arc::new(Mesh::load(mesh)?), options.seed(1));
     let (sampled, cost) = timed(|| psp::sample(context, &mesh, &options, None));
     Ok(flat((sampled?.0.positions, cost)))
+}
+
+fn farthest(context: &Context, cloud: &Path, count: usize) -> Result<Run, Box<dyn Error>> {
+    thinned(context, cloud, thin::Options::by_count(count).order(Order::Progressive))
+}
+
+fn thinned(context: &Context, cloud: &Path, options: thin::Options) -> Result<Run, Box<dyn Error>> {
+    let bytes = std::fs::read(cloud)?;
+    let number = |bytes: &[u8]| f64::from_le_bytes(bytes.try_into().expect("8 bytes")) as f32;
+    let numbers: Vec<f32> = bytes.chunks_exact(8).map(number).collect();
+    let (points, _) = numbers.as_chunks::<3>();
+    let (selected, cost) = timed(|| thin(context, &options, points, None));
+    let chosen = selected?.indices.iter().map(|&index| points[index as usize]).collect::<Vec<_>>();
+    Ok(flat((chosen, cost)))
 }
 
 fn bluenoise(radius: f64) -> Run {

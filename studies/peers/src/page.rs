@@ -6,31 +6,29 @@ use std::path::Path;
 use std::process::Command;
 
 use crate::judge::Verdict;
-use crate::peers::{Kind, Row, Table};
-use crate::timing::Cost;
+use crate::peers::{Asked, Kind, Outcome, ROUNDS, Row, Table};
 
 const INTRODUCTION: &str = "\
 Each call ran in a process of its own, one after the other. *Seconds* is the time of the call alone: no start of a program, no \
-import, no file, no making of threads; short calls were made five times, and the middle one counts. *Threads* is the time of \
-processors over that time. *MB* is what memory grew by at most. What was returned was judged in double precision as it was returned.
+import, no file, no making of threads; the least of all rounds. *Spread* is how much longer \
+the slowest round took. *Threads* is the time of processors over that time. *MB* is what memory grew by at most. What was returned was judged in double precision as it was returned.
+
+Peers that were asked for a number, not a radius, promise no radius: they are judged by their own spacing and coverage.
 
 * *N / ref*: samples over those of azulejo's set at the same radius; more is denser.
 * *Conflicts*: pairs of samples closer than the radius.
 * *Gaps*: connected places farther than the radius from every sample, by more than 6 times the spacing of floats at the largest \
 coordinate; *farthest* is the worst place, in radii. A set is maximal if there is no gap.
-* *ρ*: the smallest distance over that of the hexagonal arrangement of as many samples.
+* *ρ*: the smallest distance over that of the hexagonal arrangement of as many samples; *cover*: the distance of the worst place \
+over the same.
 ";
 
 const FEATURES: &str = "\
 What the tables do not show:
 
 * **Other dimensions**: fast_poisson, poisson and scipy sample boxes of three and more dimensions; azulejo has planes and surfaces.
-* **Nothing to install**: bluenoise, fast_poisson and poisson are plain Rust, build for WebAssembly and need no C library; azulejo \
-needs Embree, and is tested on x86-64 Linux alone.
-* **A given count on a mesh**: Open3D and point-cloud-utils' Lloyd return exactly as many samples as asked for; azulejo's PSP takes \
-a radius. (In the plane azulejo takes either.)
-* **Volumes, point clouds, geodesic distance**: Open3D, PyMeshLab and point-cloud-utils thin out point clouds, and PyMeshLab and \
-point-cloud-utils can measure along the surface; azulejo measures straight.
+* **Pure Rust**: bluenoise, fast_poisson and poisson need no C library; azulejo needs Embree unless it is built without.
+* **Volumes, geodesic distance**: PyMeshLab and point-cloud-utils can measure along the surface; azulejo measures straight.
 * **What comes with it**: each of the Python packages is a library for much more than samples.
 ";
 
@@ -46,7 +44,7 @@ pub fn page(tables: &[Table], mesh: &Path, packages: &str) -> Result<String, Box
         processor()?,
         packages.split(' ').map(|package| package.replace("==", " ")).collect::<Vec<_>>().join(", "),
     )?;
-    writeln!(page, "{INTRODUCTION}")?;
+    writeln!(page, "The peers of a table took turns, {ROUNDS} rounds of them. {INTRODUCTION}")?;
     for table in tables {
         write_table(&mut page, table, mesh)?;
     }
@@ -83,28 +81,39 @@ fn task(table: &Table, mesh: &Path) -> String {
             let name = mesh.file_stem().unwrap_or_default().to_string_lossy();
             format!("The mesh `{name}`, about {count} samples, radius {:.5}", table.radius)
         }
+        Kind::Cloud => format!("A cloud of {} points, thinned to {count}", grouped(10 * table.count)),
     }
 }
 
 fn write_table(page: &mut String, table: &Table, mesh: &Path) -> std::fmt::Result {
     writeln!(page, "## {}\n", task(table, mesh))?;
     if table.kind == Kind::Relaxation {
-        writeln!(page, "*Cover* is the farthest place in units of the hexagonal distance, ψ6 the bond order.\n")?;
-        writeln!(page, "| | seconds | samples/s | threads | MB | ρ | cover | ψ6 |\n|---|---|---|---|---|---|---|---|")?;
+        writeln!(page, "*ψ6* is the bond order.\n")?;
+        writeln!(page, "| | seconds | spread | samples/s | threads | MB | ρ | cover | ψ6 |")?;
+        writeln!(page, "|---|---|---|---|---|---|---|---|---|")?;
+    } else if table.kind == Kind::Cloud {
+        writeln!(
+            page,
+            "Random points of the mesh. *ρ* is that of the selected points on its area; *cover* the distance of the point \
+             of the cloud that is farthest from them, over their smallest distance. Who takes a radius got {:.5}.\n",
+            table.radius
+        )?;
+        writeln!(page, "| | seconds | spread | points/s | threads | MB | points | ρ | cover |")?;
+        writeln!(page, "|---|---|---|---|---|---|---|---|---|")?;
     } else {
         writeln!(
             page,
-            "| | seconds | samples/s | threads | MB | samples | N / ref | conflicts | gaps | farthest | ρ |"
+            "| | seconds | spread | samples/s | threads | MB | samples | N / ref | conflicts | gaps | farthest | ρ | cover |"
         )?;
-        writeln!(page, "|---|---|---|---|---|---|---|---|---|---|---|")?;
+        writeln!(page, "|---|---|---|---|---|---|---|---|---|---|---|---|---|")?;
     }
     let reference = reference(table);
     for row in &table.rows {
         match &row.result {
             Err(reason) => writeln!(page, "| {} | *failed: {reason}* |", row.title)?,
-            Ok((cost, verdict)) => {
-                write!(page, "| {} | {} |", row.title, cost_cells(cost, verdict))?;
-                writeln!(page, " {} |", worth_cells(table, verdict, reference))?;
+            Ok(outcome) => {
+                write!(page, "| {} | {} |", row.title, cost_cells(outcome))?;
+                writeln!(page, " {} |", worth_cells(table, row.asked, &outcome.verdict, reference))?;
             }
         }
     }
@@ -113,24 +122,32 @@ fn write_table(page: &mut String, table: &Table, mesh: &Path) -> std::fmt::Resul
 
 /// The samples of azulejo's first set.
 fn reference(table: &Table) -> f64 {
-    table.rows.iter().find_map(|row| Some(row.result.as_ref().ok()?.1.samples as f64)).unwrap_or(f64::NAN)
+    table.rows.iter().find_map(|row| Some(row.result.as_ref().ok()?.verdict.samples as f64)).unwrap_or(f64::NAN)
 }
 
-fn cost_cells(cost: &Cost, verdict: &Verdict) -> String {
+fn cost_cells(outcome: &Outcome) -> String {
+    let Outcome { cost, slowest, verdict } = outcome;
     let rate = verdict.samples as f64 / cost.seconds;
+    let spread = 100.0 * (slowest / cost.seconds - 1.0);
     let threads = if cost.seconds < 0.05 { "".to_owned() } else { format!("{:.1}", cost.busy / cost.seconds) };
-    format!("{} | {} | {threads} | {:.0}", significant(cost.seconds), grouped(rate as usize), cost.megabytes)
+    let (seconds, rate) = (significant(cost.seconds), grouped(rate as usize));
+    format!("{seconds} | {spread:.0} % | {rate} | {threads} | {:.0}", cost.megabytes)
 }
 
-fn worth_cells(table: &Table, verdict: &Verdict, reference: f64) -> String {
-    let rho = verdict.smallest / verdict.hexagonal;
+fn worth_cells(table: &Table, asked: Asked, verdict: &Verdict, reference: f64) -> String {
+    let (rho, cover) = (verdict.smallest / verdict.hexagonal, verdict.farthest / verdict.hexagonal);
     if table.kind == Kind::Relaxation {
-        let cover = verdict.farthest / verdict.hexagonal;
         return format!("{rho:.3} | {cover:.3} | {:.3}", verdict.bond_order.unwrap_or(f64::NAN));
     }
+    if table.kind == Kind::Cloud {
+        return format!("{} | {rho:.3} | {:.3}", grouped(verdict.samples), verdict.farthest / verdict.smallest);
+    }
+    let samples = grouped(verdict.samples);
+    if asked == Asked::Count {
+        return format!("{samples} | - | - | - | - | {rho:.3} | {cover:.3}");
+    }
     format!(
-        "{} | {:.3} | {} | {} | {:.4} | {rho:.3}",
-        grouped(verdict.samples),
+        "{samples} | {:.3} | {} | {} | {:.4} | {rho:.3} | {cover:.3}",
         verdict.samples as f64 / reference,
         grouped(verdict.conflicts),
         grouped(verdict.gaps),
@@ -141,28 +158,32 @@ fn worth_cells(table: &Table, verdict: &Verdict, reference: f64) -> String {
 /// In what a peer is better than every row of azulejo's.
 fn won(table: &Table) -> Vec<String> {
     let is_ours = |row: &&Row| row.title.contains("azulejo");
-    let better = |name: &str, unit: &str, key: &dyn Fn(&(Cost, Verdict)) -> f64| {
+    let better = |name: &str, unit: &str, key: &dyn Fn(&Outcome) -> f64| {
         let value = |row: &Row| row.result.as_ref().ok().map(key);
         let ours = table.rows.iter().filter(is_ours).filter_map(value).fold(f64::INFINITY, f64::min);
         let rows = table.rows.iter().filter(|row| !is_ours(row));
         rows.filter_map(|row| value(row).filter(|&value| value < ours).map(|value| (row.title, value)))
             .map(|(title, value)| {
-                let what = if table.kind == Kind::Surface { "samples on the mesh" } else { "samples in the plane" };
+                let what = match table.kind {
+                    Kind::Surface => "samples on the mesh",
+                    Kind::Cloud => "points of a cloud",
+                    Kind::Plane | Kind::Relaxation => "samples in the plane",
+                };
                 let (value, ours) = (significant(value.abs()), significant(ours.abs()));
                 format!("{title}: {name} {value}{unit}, not {ours}{unit} ({} {what})", grouped(table.count))
             })
             .collect::<Vec<_>>()
     };
     let mut lines =
-        better("seconds per million samples", "", &|(cost, verdict)| cost.seconds / verdict.samples as f64 * 1e6);
-    lines.extend(better("memory", " MB", &|(cost, _)| cost.megabytes.max(1.0)));
-    lines.extend(better("ρ", "", &|(_, verdict)| -verdict.smallest / verdict.hexagonal));
-    lines.extend(better("farthest place", " of the hexagonal distance", &|(_, verdict)| {
-        verdict.farthest / verdict.hexagonal
+        better("seconds per million samples", "", &|one| one.cost.seconds / one.verdict.samples as f64 * 1e6);
+    lines.extend(better("memory", " MB", &|one| one.cost.megabytes.max(1.0)));
+    lines.extend(better("ρ", "", &|one| -one.verdict.smallest / one.verdict.hexagonal));
+    lines.extend(better("farthest place", " of the hexagonal distance", &|one| {
+        one.verdict.farthest / one.verdict.hexagonal
     }));
-    if table.kind != Kind::Relaxation {
-        lines.extend(better("samples without conflict", "", &|(_, verdict)| match verdict.conflicts {
-            0 => -(verdict.samples as f64),
+    if matches!(table.kind, Kind::Plane | Kind::Surface) {
+        lines.extend(better("samples without conflict", "", &|one| match one.verdict.conflicts {
+            0 => -(one.verdict.samples as f64),
             _ => f64::INFINITY,
         }));
     }
@@ -180,6 +201,6 @@ fn grouped(value: usize) -> String {
     let digits = value.to_string();
     let head = digits.len() % 3;
     let groups = std::iter::once(&digits[..head])
-        .chain(digits[head..].as_bytes().chunks(3).map(|g| str::from_utf8(g).expect("digits")));
+        .chain(digits.as_bytes()[head..].chunks(3).map(|g| str::from_utf8(g).expect("digits")));
     groups.filter(|group| !group.is_empty()).collect::<Vec<_>>().join(",")
 }

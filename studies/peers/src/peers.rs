@@ -5,6 +5,8 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use azulejo::mesh::Mesh;
+use rand_09::rngs::SmallRng;
+use rand_09::{Rng, SeedableRng};
 
 use crate::judge::{Place, Verdict, judge};
 use crate::timing::Cost;
@@ -12,10 +14,8 @@ use crate::timing::Cost;
 /// The jamming limit: N * radius^2 / area of a maximal set.
 const DENSITY: f64 = 0.69656;
 
-/// Short calls are made so many times, each in a process of its own, and the middle one counts.
-const REPEATS: usize = 5;
-/// What is short, in seconds.
-const SHORT: f64 = 2.0;
+/// The peers of a table take turns so many times, each call in a process of its own, and the best counts.
+pub const ROUNDS: usize = 3;
 
 #[derive(Clone, Copy, PartialEq)]
 enum Language {
@@ -23,53 +23,91 @@ enum Language {
     Python,
 }
 
+/// What a peer is asked for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Asked {
+    /// A smallest distance, which is then a promise.
+    Radius,
+    /// A number of samples.
+    Count,
+}
+
 struct Peer {
     /// As the tables call it.
     title: &'static str,
     name: &'static str,
     language: Language,
+    asked: Asked,
     /// It makes no more samples than this within minutes.
     most: usize,
 }
 
-const fn peer(title: &'static str, name: &'static str, language: Language, most: usize) -> Peer {
-    Peer { title, name, language, most }
+const fn peer(title: &'static str, name: &'static str, language: Language, asked: Asked, most: usize) -> Peer {
+    Peer { title, name, language, asked, most }
 }
 
+use Asked::{Count, Radius};
 use Language::{Python, Rust};
 
 const PLANES: [Peer; 8] = [
-    peer("**azulejo** KDRT, one thread", "azulejo_plane_1", Rust, usize::MAX),
-    peer("**azulejo** KDRT", "azulejo_plane", Rust, usize::MAX),
-    peer("**azulejo** maximal, one thread", "azulejo_maximal", Rust, usize::MAX),
-    peer("bluenoise", "bluenoise", Rust, usize::MAX),
-    peer("poisson, Bridson", "poisson_bridson", Rust, usize::MAX),
-    peer("poisson, Ebeida", "poisson_ebeida", Rust, usize::MAX),
-    peer("fast_poisson", "fast_poisson", Rust, usize::MAX),
-    peer("scipy PoissonDisk", "poisson_disk", Python, 100_000),
+    peer("**azulejo** KDRT, one thread", "azulejo_plane_1", Rust, Radius, usize::MAX),
+    peer("**azulejo** KDRT", "azulejo_plane", Rust, Radius, usize::MAX),
+    peer("**azulejo** maximal, one thread", "azulejo_maximal", Rust, Radius, usize::MAX),
+    peer("bluenoise", "bluenoise", Rust, Radius, usize::MAX),
+    peer("poisson, Bridson", "poisson_bridson", Rust, Radius, usize::MAX),
+    peer("poisson, Ebeida", "poisson_ebeida", Rust, Radius, usize::MAX),
+    peer("fast_poisson", "fast_poisson", Rust, Radius, usize::MAX),
+    peer("scipy PoissonDisk", "poisson_disk", Python, Radius, 100_000),
 ];
 
 const RELAXATIONS: [Peer; 3] = [
-    peer("**azulejo** DCR, 100 steps", "azulejo_relaxed", Rust, usize::MAX),
-    peer("point-cloud-utils lloyd_2d, 100 steps", "lloyd_plane", Python, usize::MAX),
-    peer("scipy Halton, optimization=\"lloyd\"", "halton_lloyd", Python, usize::MAX),
+    peer("**azulejo** DCR, 100 steps", "azulejo_relaxed", Rust, Count, usize::MAX),
+    peer("point-cloud-utils lloyd_2d, 100 steps", "lloyd_plane", Python, Count, usize::MAX),
+    peer("scipy Halton, optimization=\"lloyd\"", "halton_lloyd", Python, Count, usize::MAX),
 ];
 
-const SURFACES: [Peer; 8] = [
-    peer("**azulejo** PSP, one thread", "azulejo_surface_1", Rust, usize::MAX),
-    peer("**azulejo** PSP", "azulejo_surface", Rust, usize::MAX),
-    peer("Open3D sample_points_poisson_disk", "open3d_elimination", Python, usize::MAX),
-    peer("PyMeshLab generate_sampling_poisson_disk", "meshlab", Python, usize::MAX),
-    peer("point-cloud-utils sample_mesh_poisson_disk", "cloud_poisson_disk", Python, usize::MAX),
-    peer("point-cloud-utils sample_mesh_lloyd", "cloud_lloyd", Python, usize::MAX),
-    peer("libigl blue_noise", "igl_blue_noise", Python, usize::MAX),
-    peer("trimesh sample_surface_even", "trimesh_even", Python, usize::MAX),
+const SURFACES: [Peer; 9] = [
+    peer("**azulejo** PSP, one thread", "azulejo_surface_1", Rust, Radius, usize::MAX),
+    peer("**azulejo** PSP", "azulejo_surface", Rust, Radius, usize::MAX),
+    peer("**azulejo** PSP, exactly so many", "azulejo_counted", Rust, Count, usize::MAX),
+    peer("Open3D sample_points_poisson_disk", "open3d_elimination", Python, Count, usize::MAX),
+    peer("PyMeshLab generate_sampling_poisson_disk", "meshlab", Python, Radius, usize::MAX),
+    peer("point-cloud-utils sample_mesh_poisson_disk", "cloud_poisson_disk", Python, Radius, usize::MAX),
+    peer("point-cloud-utils sample_mesh_lloyd", "cloud_lloyd", Python, Count, usize::MAX),
+    peer("libigl blue_noise", "igl_blue_noise", Python, Radius, usize::MAX),
+    peer("trimesh sample_surface_even", "trimesh_even", Python, Radius, usize::MAX),
+];
+
+const CLOUDS: [Peer; 7] = [
+    peer("**azulejo** thin, farthest-first, one thread", "azulejo_farthest_1", Rust, Count, usize::MAX),
+    peer("**azulejo** thin, farthest-first", "azulejo_farthest", Rust, Count, usize::MAX),
+    peer("fpsample bucket_fps_kdline_sampling", "fpsample_kdline", Python, Count, usize::MAX),
+    peer("Open3D farthest_point_down_sample", "open3d_farthest", Python, Count, 10_000),
+    peer(
+        "Open3D sample_points_poisson_disk of the cloud (Yuksel 2015)",
+        "open3d_elimination_of_cloud",
+        Python,
+        Count,
+        usize::MAX,
+    ),
+    peer("**azulejo** thin, by radius, one thread", "azulejo_greedy_1", Rust, Radius, usize::MAX),
+    peer("point-cloud-utils downsample_point_cloud_poisson_disk", "cloud_thinned", Python, Radius, usize::MAX),
 ];
 
 /// What a peer made of a task, or why it did not.
 pub struct Row {
     pub title: &'static str,
-    pub result: Result<(Cost, Verdict), String>,
+    pub asked: Asked,
+    pub result: Result<Outcome, String>,
+}
+
+/// What a peer made of a task.
+pub struct Outcome {
+    /// The least of all rounds, of each quantity.
+    pub cost: Cost,
+    /// The time of the slowest round.
+    pub slowest: f64,
+    pub verdict: Verdict,
 }
 
 /// The peers' work on one task.
@@ -86,6 +124,8 @@ pub enum Kind {
     Plane,
     Relaxation,
     Surface,
+    /// Thinning a cloud of ten times as many points.
+    Cloud,
 }
 
 /// Runs all.
@@ -95,6 +135,14 @@ pub fn run_all(python: &Path, mesh_file: &Path) -> Result<Vec<Table>, Box<dyn Er
     let surface = |count| {
         run_table(Kind::Surface, &SURFACES, count, python, Some(mesh_file), &Place::Surface(&mesh), mesh.area())
     };
+    let cloud = |count: usize| {
+        let file = std::env::temp_dir().join(format!("azulejo-cloud-{}.f64", std::process::id()));
+        let points = write_cloud(&mesh, 10 * count, &file)?;
+        let place = Place::Cloud(&points, mesh.area());
+        let table = run_table(Kind::Cloud, &CLOUDS, count, python, Some(&file), &place, mesh.area());
+        std::fs::remove_file(&file)?;
+        table
+    };
     Ok(vec![
         square(Kind::Plane, &PLANES, 1_000)?,
         square(Kind::Plane, &PLANES, 100_000)?,
@@ -102,7 +150,30 @@ pub fn run_all(python: &Path, mesh_file: &Path) -> Result<Vec<Table>, Box<dyn Er
         square(Kind::Relaxation, &RELAXATIONS, 10_000)?,
         surface(10_000)?,
         surface(100_000)?,
+        cloud(10_000)?,
+        cloud(100_000)?,
     ])
+}
+
+/// A file with random points of a mesh, evenly on its surface: raw doubles.
+fn write_cloud(mesh: &Mesh, count: usize, file: &Path) -> Result<Vec<[f64; 3]>, Box<dyn Error>> {
+    let mut random = SmallRng::seed_from_u64(1);
+    let mut ends = Vec::with_capacity(mesh.triangles().len());
+    let mut total = 0.0;
+    for triangle in 0..mesh.triangles().len() as u32 {
+        total += mesh.triangle_area(triangle);
+        ends.push(total);
+    }
+    let mut point = || {
+        let place = random.random::<f64>() * total;
+        let triangle = ends.partition_point(|&end| end <= place).min(ends.len() - 1);
+        let [u, v]: [f32; 2] = random.random();
+        let uv = if u + v > 1.0 { [1.0 - u, 1.0 - v] } else { [u, v] };
+        mesh.point(triangle as u32, uv).map(f64::from)
+    };
+    let points: Vec<[f64; 3]> = (0..count).map(|_| point()).collect();
+    std::fs::write(file, points.as_flattened().iter().flat_map(|x| x.to_le_bytes()).collect::<Vec<u8>>())?;
+    Ok(points)
 }
 
 fn run_table(
@@ -115,13 +186,37 @@ fn run_table(
     area: f64,
 ) -> Result<Table, Box<dyn Error>> {
     let radius = (DENSITY * area / count as f64).sqrt();
-    let mut rows = Vec::new();
-    for peer in peers.iter().filter(|peer| count <= peer.most) {
-        eprintln!("{count}: {}", peer.name);
-        let result = run_peer(peer, count, radius, python, mesh, place).map_err(|error| error.to_string());
-        rows.push(Row { title: peer.title, result });
+    let peers: Vec<&Peer> = peers.iter().filter(|peer| count <= peer.most).collect();
+    let mut results: Vec<Result<Vec<Run>, String>> = peers.iter().map(|_| Ok(Vec::new())).collect();
+    for round in 1..=ROUNDS {
+        for (peer, result) in peers.iter().zip(&mut results) {
+            let Ok(runs) = result else { continue };
+            eprintln!("{count}: {}, round {round}", peer.name);
+            match run_peer(peer, count, radius, python, mesh, place) {
+                Ok(run) => runs.push(run),
+                Err(error) => *result = Err(error.to_string()),
+            }
+        }
     }
-    Ok(Table { kind, count, radius, rows })
+    let outcomes = results.into_iter().map(|result| result.map(Outcome::of));
+    let row = |(peer, result): (&Peer, _)| Row { title: peer.title, asked: peer.asked, result };
+    Ok(Table { kind, count, radius, rows: peers.into_iter().zip(outcomes).map(row).collect() })
+}
+
+/// One call of a peer.
+type Run = (Cost, Verdict);
+
+impl Outcome {
+    fn of(mut runs: Vec<Run>) -> Self {
+        let least = |key: fn(&Cost) -> f64| runs.iter().map(|run| key(&run.0)).fold(f64::INFINITY, f64::min);
+        let slowest = runs.iter().map(|run| run.0.seconds).fold(0.0, f64::max);
+        let cost = Cost {
+            seconds: least(|cost| cost.seconds),
+            busy: least(|cost| cost.busy),
+            megabytes: least(|cost| cost.megabytes),
+        };
+        Self { cost, slowest, verdict: runs.pop().expect("a round").1 }
+    }
 }
 
 fn run_peer(
@@ -131,16 +226,12 @@ fn run_peer(
     python: &Path,
     mesh: Option<&Path>,
     place: &Place,
-) -> Result<(Cost, Verdict), Box<dyn Error>> {
+) -> Result<Run, Box<dyn Error>> {
     let out = std::env::temp_dir().join(format!("azulejo-peers-{}.f64", std::process::id()));
-    let mut costs: Vec<Cost> = Vec::new();
-    while costs.is_empty() || (costs.len() < REPEATS && costs[0].seconds < SHORT) {
-        costs.push(run_once(peer, count, radius, python, mesh, &out)?);
-    }
-    costs.sort_by(|a, b| a.seconds.total_cmp(&b.seconds));
+    let cost = run_once(peer, count, radius, python, mesh, &out)?;
     let verdict = judge(&out, place, radius);
     std::fs::remove_file(&out)?;
-    Ok((costs[costs.len() / 2], verdict?))
+    Ok((cost, verdict?))
 }
 
 fn run_once(

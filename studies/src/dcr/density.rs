@@ -7,7 +7,7 @@ mod tone;
 use std::fmt::Write;
 use std::time::Instant;
 
-use azulejo::{Context, Progress, Result};
+use azulejo::{Context, Given, Progress, Result};
 
 use super::sets::FIRST_SEED;
 use super::study::Study;
@@ -81,7 +81,7 @@ impl Stippled {
         let points = dots::random(context, image, count, FIRST_SEED)?;
         let random = measure(points, start.elapsed().as_secs_f64())?;
         let start = Instant::now();
-        let points = dots::poisson(context, image, count, FIRST_SEED, progress)?;
+        let points = dots::poisson(context, image, count as f64, Given::default(), FIRST_SEED, progress)?;
         let poisson = measure(points, start.elapsed().as_secs_f64())?;
         let relaxed = [relax(&poisson.points)?, relax(&random.points)?];
         Ok(Self { image: name, count, dots: [random, poisson].into_iter().chain(relaxed).collect() })

@@ -25,6 +25,9 @@ const DISTRIBUTIONS: [(&str, Distribution); 5] = [
 /// Conflict and attraction radii: of fig. 4.19 (a) and (b), then of fig. 4.20.
 const RADII: [[f64; 2]; 4] = [[0.95, 1.05], [0.9, 1.1], [0.85, 1.15], [0.8, 1.2]];
 
+/// The distribution that is lowest in these figures of the thesis.
+const LOWEST: [usize; 4] = [0, 0, 4, 4];
+
 /// The steps after which the table gives the variance.
 const MARKS: [usize; 3] = [50, 150, 400];
 
@@ -109,14 +112,15 @@ fn text(by_radii: &[&[Vec<f64>]], count: usize, sets: usize) -> String {
          every step: *average* gives half of a tension to each end, *dominant* all to the neighbour, *zero* all to the visiting \
          point, *0.8–0.2* most to the visiting point, where the thesis says both that and the reverse. Visited from both \
          ends, as in the thesis's pseudo-code, the four constant ones move every point by the same. The thesis has activeness \
-         lowest in fig. 4.19 and 0.8–0.2 in fig. 4.20; the lowest here are bold.\n\n\
+         lowest in fig. 4.19 and 0.8–0.2 in fig. 4.20; the lowest here are bold, and *thesis* says whether they are \
+         the same.\n\n\
          ![The variance of distances by steps for five distributions](dcr/distributions.png)\n\n\
-         | radii | after steps | {} |\n{}|\n",
+         | radii | after steps | {} | thesis |\n{}|\n",
         grouped(count),
         DISTRIBUTIONS.map(|(name, _)| name).join(" | "),
-        "|---".repeat(2 + DISTRIBUTIONS.len()),
+        "|---".repeat(3 + DISTRIBUTIONS.len()),
     );
-    for (curves, [conflict, attraction]) in by_radii.iter().zip(RADII) {
+    for ((curves, [conflict, attraction]), claimed) in by_radii.iter().zip(RADII).zip(LOWEST) {
         for mark in MARKS {
             let lowest = curves.iter().map(|curve| curve[mark - 1]).fold(f64::INFINITY, f64::min);
             let cell = |curve: &Vec<f64>| match curve[mark - 1] {
@@ -124,7 +128,9 @@ fn text(by_radii: &[&[Vec<f64>]], count: usize, sets: usize) -> String {
                 variance => format!("{variance:.4}"),
             };
             let cells: Vec<_> = curves.iter().map(cell).collect();
-            _ = writeln!(text, "| {conflict} and {attraction} | {mark} | {} |", cells.join(" | "));
+            let is_same = curves[claimed][mark - 1] == lowest;
+            let claim = if is_same { "as here" } else { "**not reproduced**" };
+            _ = writeln!(text, "| {conflict} and {attraction} | {mark} | {} | {claim} |", cells.join(" | "));
         }
     }
     text

@@ -60,7 +60,9 @@ pub fn section(study: &Study) -> Result<String> {
         let rows: Vec<_> = all.iter().filter(|(setting, _)| setting.neighbourhood == neighbourhood).collect();
         let mut canvas = Canvas::new(1760.0, 1180.0, 1200);
         for (column, (setting, outcomes)) in rows.iter().take(DRAWN).enumerate() {
-            draw(&mut canvas, 90.0 + 425.0 * column as f32, setting, outcomes)?;
+            let spectrum = Periodogram::mean(&outcomes.iter().map(|one| one.spectrum.clone()).collect::<Vec<_>>())?;
+            let left = 90.0 + 425.0 * column as f32;
+            draw_column(&mut canvas, left, &setting.name, &outcomes[0].points, &spectrum)?;
         }
         canvas.write(&study.picture(&format!("radii-{name}"))?)?;
         text += &format!(
@@ -118,20 +120,24 @@ fn row(setting: &Setting, outcomes: &[Outcome]) -> String {
     row
 }
 
-/// A column: a part of the first set, and the mean of the spectra and of their radial means.
-fn draw(canvas: &mut Canvas, left: f32, setting: &Setting, outcomes: &[Outcome]) -> Result<()> {
+/// A column: a part of a set, a mean spectrum and its radial mean.
+pub fn draw_column(
+    canvas: &mut Canvas,
+    left: f32,
+    name: &str,
+    points: &[[f32; 2]],
+    spectrum: &Periodogram,
+) -> Result<()> {
     let square = |y| Rect { x: left, y, width: 330.0, height: 330.0 };
     let samples = Panel { rect: square(56.0), x: Axis::linear("", [0.0, 0.5], 0), y: Axis::linear("", [0.0, 0.5], 0) };
     samples.ground(canvas, false);
-    let points = &outcomes[0].points;
     let dots = points.iter().map(|point| samples.place(point.map(f64::from)));
     let radius = 0.26 / (points.len() as f32).sqrt() * 2.0 * samples.rect.width;
     canvas.discs(dots, radius, COBALT, samples.rect);
     samples.axes(canvas);
-    samples.title(canvas, &setting.name, "");
+    samples.title(canvas, name, "");
 
-    let spectrum = Periodogram::mean(&outcomes.iter().map(|one| one.spectrum.clone()).collect::<Vec<_>>())?;
-    draw_power(canvas, square(430.0), &spectrum, "", "");
+    draw_power(canvas, square(430.0), spectrum, "", "");
     let radial = Panel {
         rect: Rect { height: 230.0, ..square(870.0) },
         x: Axis::linear("frequency / √density", [0.0, FREQUENCY_LIMIT], 5),

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use azulejo::analysis::triangles::{Triangle, TriangleStatistics};
-use azulejo::dcr::surface::{Options, Triangulation, relax, triangulate};
+use azulejo::dcr::surface::{Options, RemeshReport, relax, remesh};
 use azulejo::mesh::Mesh;
 use azulejo::{Context, Progress, Result, SurfaceSamples, psp};
 use glam::{DVec2, DVec3};
@@ -25,7 +25,8 @@ const COUNTS: [f64; 2] = [20_000.0, 100_000.0];
 /// Samples of one mesh, with their triangles.
 struct Remeshed {
     samples: SurfaceSamples,
-    triangulation: Triangulation,
+    triangles: Vec<[u32; 3]>,
+    report: RemeshReport,
     statistics: TriangleStatistics,
     /// In units of d_max the smallest distance of two samples through space, and of two that are joined by a triangle; the
     /// mean distance to the nearest sample.
@@ -87,13 +88,13 @@ impl Case {
 
 impl Remeshed {
     fn new(context: &Context, mesh: &Mesh, samples: SurfaceSamples, rho: f64) -> Result<Self> {
-        let triangulation = triangulate(context, mesh, &samples.triangles, &samples.barycentrics, None)?;
+        let (made, report) = remesh(context, mesh, &samples.triangles, &samples.barycentrics, None)?;
+        let faces = made.triangles();
         let corners = |corners: &[u32; 3]| corners.map(|corner| samples.positions[corner as usize]);
-        let triangles: Vec<Triangle> =
-            triangulation.triangles.iter().map(|triangle| Triangle::in_space(corners(triangle))).collect();
+        let triangles: Vec<Triangle> = faces.iter().map(|face| Triangle::in_space(corners(face))).collect();
         // The nearest sample is a neighbour in the triangulation.
         let mut nearest = vec![f64::INFINITY; samples.len()];
-        for (corners, triangle) in triangulation.triangles.iter().zip(&triangles) {
+        for (corners, triangle) in faces.iter().zip(&triangles) {
             for (i, length) in triangle.edges().into_iter().enumerate() {
                 for end in [corners[i], corners[(i + 1) % 3]] {
                     nearest[end as usize] = nearest[end as usize].min(length);
@@ -104,7 +105,8 @@ impl Remeshed {
         let d_max = (2.0 * mesh.area() / (3f64.sqrt() * samples.len() as f64)).sqrt();
         let joined = known.iter().copied().fold(f64::INFINITY, f64::min) / d_max;
         let nearest = known.iter().sum::<f64>() / (known.len() as f64 * d_max);
-        Ok(Self { statistics: TriangleStatistics::of(&triangles), triangulation, samples, rho, joined, nearest })
+        let statistics = TriangleStatistics::of(&triangles);
+        Ok(Self { statistics, triangles: faces.to_vec(), report, samples, rho, joined, nearest })
     }
 }
 
@@ -114,25 +116,26 @@ fn text(study: &Study, cases: &[Case], pictured: &Case) -> String {
          PSP's maximal sets on meshes, before and after they are relaxed on the surface; seed {FIRST_SEED}. d_max is that of a \
          plane of the mesh's area. *ρ* is the smallest straight distance through space of any two samples, on whatever \
          sheets they are, *joined* that of two samples that are joined by a triangle, *nearest* the mean distance to the nearest \
-         of these. The triangles are those in which the local \
-         Delaunay stars of all three corners agree; *agreed* is their share of all that are in the stars. Steps times samples per second \
+         of these. The triangles are those of `remesh` (thesis fig. 1.12); *disputed* is the share of those that are not in the \
+         local Delaunay stars of all three corners, *boundary* the number of edges with one triangle, *bad vertices* that of \
+         samples at which the triangles are not one fan, *unused* that of samples without a triangle. Steps times samples per second \
          are those of one call on {} threads, mesh adjacency included.\n\n\
-         | mesh | triangles | samples | | ρ | joined | nearest | obtuse | below 30° | edge CV² | area CV² | beyond 4σ | agreed | steps | \
+         | mesh | triangles | samples | | ρ | joined | nearest | obtuse | below 30° | edge CV² | area CV² | beyond 4σ | smallest angle | mean smallest | disputed | boundary | bad vertices | unused | Euler | steps | \
          M steps·samples/s |\n{}|\n",
         study.context.num_threads(),
-        "|---".repeat(15),
+        "|---".repeat(21),
     );
     for case in cases {
         for (name, set) in ["PSP", "relaxed"].into_iter().zip(&case.sets) {
-            let Remeshed { samples, triangulation, statistics, rho, joined, nearest } = set;
+            let Remeshed { samples, report, statistics, rho, joined, nearest, .. } = set;
             let (steps, rate) = match name {
                 "PSP" => (String::new(), String::new()),
                 _ => (case.steps.to_string(), rounded(case.rate / 1e6, 2)),
             };
             _ = writeln!(
                 text,
-                "| {} | {} | {} | {name} | {rho:.3} | {joined:.3} | {nearest:.3} | {:.1} % | {:.3} % | {:.4} | {:.4} | {:.3} % | {:.2} % | \
-                 {steps} | {rate} |",
+                "| {} | {} | {} | {name} | {rho:.3} | {joined:.3} | {nearest:.3} | {:.1} % | {:.3} % | {:.4} | {:.4} | {:.3} % | {:.1}° | {:.1}° | {:.2} % | \
+                 {} | {} | {} | {} | {steps} | {rate} |",
                 case.mesh,
                 grouped(case.triangles),
                 grouped(samples.len()),
@@ -141,7 +144,13 @@ fn text(study: &Study, cases: &[Case], pictured: &Case) -> String {
                 statistics.edge_variation,
                 statistics.area_variation,
                 100.0 * statistics.beyond_4_sigma,
-                100.0 * triangulation.agreement,
+                report.quality.smallest_angle,
+                report.quality.mean_smallest_angle,
+                100.0 * report.disputed as f64 / report.triangles as f64,
+                grouped(report.quality.boundary_edges as usize),
+                grouped(report.quality.non_manifold_vertices as usize),
+                grouped(report.quality.unused_vertices as usize),
+                report.quality.euler,
             );
         }
     }
@@ -182,11 +191,8 @@ fn draw(case: &Case, study: &Study) -> Result<()> {
         let panel = Panel { rect, x: axis(), y: axis() };
         panel.ground(&mut canvas, false);
         let offset = |sample: u32| position(set, sample) - from;
-        let near = set
-            .triangulation
-            .triangles
-            .iter()
-            .filter(|corners| corners.iter().all(|&corner| offset(corner).length() < 1.6 * length));
+        let near =
+            set.triangles.iter().filter(|corners| corners.iter().all(|&corner| offset(corner).length() < 1.6 * length));
         let seen: Vec<_> = near
             .map(|corners| {
                 let places = corners.map(|corner| {

@@ -1,11 +1,12 @@
 //! How unbiased the sets of a sampler are: their density, and contrast and peaks of their spectra.
 
+use std::collections::BTreeMap;
+
 use azulejo::analysis::spectrum::{Periodogram, periodogram};
 use azulejo::{Boundary, Context, Domain, Progress, Result};
 
 use super::{Effort, Sampler, radius};
 use azulejo_cli::draw::spectra::FREQUENCY_LIMIT;
-use azulejo_cli::summary::Summary;
 
 /// Groups of sets, in each of which spectra are averaged: the largest value of a few such means is known to chance.
 pub const GROUPS: u64 = 5;
@@ -18,22 +19,36 @@ pub const CONTRAST_RANGE: std::ops::Range<f64> = 0.5..2.0;
 const BLOCK: f64 = 4.8;
 const CELL: f64 = std::f64::consts::FRAC_1_SQRT_2;
 
-/// The largest of some frequencies.
+/// What stands out at some frequencies.
+#[derive(Default)]
 pub struct Peak {
-    /// By power.
-    pub power: Summary,
-    /// By power over the mean of the annulus.
-    pub over_mean: Summary,
+    /// The largest power in the mean spectrum of each group.
+    pub power: Vec<f64>,
+    /// The largest power over the mean of its annulus, of the same spectra.
+    pub over_mean: Vec<f64>,
+    /// The mean power over those of the annuli, of each set.
+    pub level: Vec<f64>,
 }
 
 impl Peak {
-    fn of(spectra: &[Periodogram], waves: &[[i64; 2]]) -> Result<Self> {
-        let power = |spectrum: &Periodogram| waves.iter().map(|&wave| power_of(spectrum, wave)).fold(0.0, f64::max);
-        let over_mean = spectra.iter().map(|spectrum| spectrum.peak(ANNULUS, waves.iter().copied()));
-        Ok(Self {
-            power: Summary::of(&spectra.iter().map(power).collect::<Vec<_>>()),
-            over_mean: Summary::of(&over_mean.collect::<Result<Vec<_>>>()?),
-        })
+    fn add_set(&mut self, spectrum: &Periodogram, waves: &[[i64; 2]]) -> Result<()> {
+        let annulus = |frequency: f64| (frequency / ANNULUS) as usize;
+        let means: BTreeMap<_, _> =
+            spectrum.radial(ANNULUS)?.iter().map(|one| (annulus(one.frequency), one.power)).collect();
+        let [along, up] = spectrum.frequency_step();
+        let over_mean = |&[column, row]: &[i64; 2]| {
+            let mean = means.get(&annulus((column as f64 * along).hypot(row as f64 * up)))?;
+            (*mean > 0.0).then(|| power_of(spectrum, [column, row]) / mean)
+        };
+        let levels: Vec<_> = waves.iter().filter_map(over_mean).collect();
+        self.level.push(levels.iter().sum::<f64>() / levels.len().max(1) as f64);
+        Ok(())
+    }
+
+    fn add_group(&mut self, spectrum: &Periodogram, waves: &[[i64; 2]]) -> Result<()> {
+        self.power.push(waves.iter().map(|&wave| power_of(spectrum, wave)).fold(0.0, f64::max));
+        self.over_mean.push(spectrum.peak(ANNULUS, waves.iter().copied())?);
+        Ok(())
     }
 }
 
@@ -42,11 +57,11 @@ pub struct Statistics {
     pub sampler: Sampler,
     /// Whether the sets are made of tiles: small ones are not.
     pub is_tiled: bool,
-    /// N·r² per area, of all sets.
-    pub density: Summary,
-    /// The contrast of the periodogram, of all sets.
-    pub contrast: Summary,
-    /// The peaks of the mean periodograms of the groups on the axes, the harmonics of the fill blocks and of the cells.
+    /// N·r² per area, of each set.
+    pub density: Vec<f64>,
+    /// The contrast of the periodogram, of each set.
+    pub contrast: Vec<f64>,
+    /// What stands out on the axes, the harmonics of the fill blocks and of the cells.
     pub peaks: [Peak; 3],
     /// The mean periodogram of all sets, and its anisotropy.
     pub spectrum: Periodogram,
@@ -69,28 +84,35 @@ impl Statistics {
         let half = (FREQUENCY_LIMIT * effort.count.sqrt()) as i64 + 3;
         let harmonics = harmonics(radius, half);
         let sets = GROUPS * effort.sets_per_group;
-        let (mut densities, mut contrasts, mut means) = (vec![], vec![], vec![]);
+        let (mut density, mut contrast, mut means) = (vec![], vec![], vec![]);
+        let mut peaks: [Peak; 3] = Default::default();
         for group in 0..GROUPS {
             let mut spectra = Vec::new();
             for seed in group * effort.sets_per_group..(group + 1) * effort.sets_per_group {
                 let samples = sampler.sample(context, effort.count, seed)?;
                 let spectrum = periodogram(context, &domain, &samples, 2 * half as usize + 1, None)?;
-                densities.push(samples.len() as f64 * radius * radius);
-                contrasts.push(spectrum.contrast(ANNULUS, CONTRAST_RANGE)?);
+                density.push(samples.len() as f64 * radius * radius);
+                contrast.push(spectrum.contrast(ANNULUS, CONTRAST_RANGE)?);
+                for (peak, waves) in peaks.iter_mut().zip(&harmonics) {
+                    peak.add_set(&spectrum, waves)?;
+                }
                 spectra.push(spectrum);
                 _ = progress((seed + 1) as f64 / sets as f64);
             }
-            means.push(Periodogram::mean(&spectra)?);
+            let mean = Periodogram::mean(&spectra)?;
+            for (peak, waves) in peaks.iter_mut().zip(&harmonics) {
+                peak.add_group(&mean, waves)?;
+            }
+            means.push(mean);
         }
-        let [axes, blocks, cells] = harmonics.map(|waves| Peak::of(&means, &waves));
         let spectrum = Periodogram::mean(&means)?;
         Ok(Self {
             sampler,
             // What is not tiled is given to the reference as it is.
             is_tiled: sampler.sample(context, effort.count, 0)? != Sampler::Maximal.sample(context, effort.count, 0)?,
-            density: Summary::of(&densities),
-            contrast: Summary::of(&contrasts),
-            peaks: [axes?, blocks?, cells?],
+            density,
+            contrast,
+            peaks,
             anisotropy: spectrum.contrast(ANNULUS, CONTRAST_RANGE)?,
             difference: difference(&spectrum, reference.unwrap_or(&spectrum))?,
             spectrum,

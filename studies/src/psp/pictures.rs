@@ -47,7 +47,7 @@ pub fn draw_rates(measured: &[Measured], output: &Output) -> Result<()> {
     canvas.write(output)
 }
 
-/// Relative radius and uncovered surface against time (thesis fig. 3.12, 3.13 and 3.15).
+/// Relative radius and uncovered surface against time (thesis fig. 3.12 and 3.13).
 pub fn draw_growth(measured: &[Measured], output: &Output) -> Result<()> {
     let mut canvas = Canvas::new(900.0, 900.0, 900);
     let all = || measured.iter().flat_map(|one| one.growth.iterated.iter().flatten().chain([&one.growth.filled]));

@@ -47,6 +47,35 @@ impl Stages {
     }
 }
 
+/// Attempts on one thread and as many on all.
+pub const ATTEMPTS: usize = 3;
+
+/// The seconds of the same work on one thread and on all.
+pub struct SpeedUp {
+    pub one_thread: [f64; ATTEMPTS],
+    pub all_threads: [f64; ATTEMPTS],
+}
+
+impl SpeedUp {
+    /// In turns: what else the machine does comes to both alike.
+    fn measure(context: &Context, scene: &Scene, count: f64) -> Result<Self> {
+        let single = Context::new(1)?;
+        let (mut one_thread, mut all_threads) = ([0.0; ATTEMPTS], [0.0; ATTEMPTS]);
+        for (one, all) in one_thread.iter_mut().zip(&mut all_threads) {
+            for (context, seconds) in [(&single, one), (context, all)] {
+                *seconds = Stages::of(context, scene, count, Priority::Squareness, 1)?.seconds();
+            }
+        }
+        Ok(Self { one_thread, all_threads })
+    }
+
+    /// The least of one thread over the least of all: noise only adds.
+    pub fn factor(&self) -> f64 {
+        let least = |seconds: &[f64]| seconds.iter().copied().fold(f64::INFINITY, f64::min);
+        least(&self.one_thread) / least(&self.all_threads)
+    }
+}
+
 /// The rates on one scene.
 pub struct Rates {
     /// One iteration and a fill, from few samples to many.
@@ -55,10 +84,36 @@ pub struct Rates {
     pub by_iterations: Vec<Stages>,
     /// One iteration and a fill, in order of projectors.
     pub by_projector: Stages,
-    /// One iteration and a fill on one thread.
-    pub one_thread: Stages,
-    /// Darts of a second fill, and samples that it added: none if the first one left nothing.
-    pub again: Report,
+    /// One iteration and a fill on one thread and on all, in turns.
+    pub speed_up: SpeedUp,
+    pub again: Again,
+}
+
+/// What a second fill adds to a set that is maximal.
+pub struct Again {
+    pub samples: usize,
+    /// How much more than the radius the farthest of them is from all samples before, in float spacings at the largest
+    /// coordinate of the mesh: to [`TOLERANCE`](azulejo::psp::TOLERANCE) a surface may be uncovered.
+    pub beyond: f64,
+}
+
+impl Again {
+    fn measure(context: &Context, scene: &Scene, count: f64) -> Result<Self> {
+        let radius = radius(&scene.mesh, count);
+        let mut psp = Psp::new(&scene.mesh, &Options::new(radius))?;
+        psp.advance(context, 1, None)?;
+        psp.fill(context, None)?;
+        let before = psp.samples().positions;
+        psp.fill(context, None)?;
+        let after = psp.samples().positions;
+        let squared = |p: &[f32; 3], q: &[f32; 3]| (0..3).map(|k| (f64::from(p[k]) - f64::from(q[k])).powi(2)).sum();
+        let nearest = |p: &[f32; 3]| before.iter().map(|q| squared(p, q)).fold(f64::INFINITY, f64::min).sqrt();
+        let farthest = after[before.len()..].iter().map(nearest).fold(0.0, f64::max);
+        let (low, high) = scene.mesh.bounds();
+        let largest = low.into_iter().chain(high).fold(0.0f32, |largest, x| largest.max(x.abs()));
+        let spacing = f64::from(largest) - f64::from(largest.next_down());
+        Ok(Self { samples: after.len() - before.len(), beyond: (farthest - radius) / spacing })
+    }
 }
 
 impl Rates {
@@ -71,11 +126,9 @@ impl Rates {
         let by_iterations = by_iterations.collect::<Result<_>>()?;
         _ = progress(0.7);
         let by_projector = stages(effort.samples, Priority::Projector, 1)?;
-        let one_thread = Stages::of(&Context::new(1)?, scene, effort.samples, Priority::Squareness, 1)?;
+        let speed_up = SpeedUp::measure(context, scene, effort.samples)?;
         _ = progress(0.9);
-        let mut psp = Psp::new(&scene.mesh, &Options::new(radius(&scene.mesh, effort.samples)))?;
-        psp.advance(context, 1, None)?;
-        psp.fill(context, None)?;
-        Ok(Self { by_count, by_iterations, by_projector, one_thread, again: psp.fill(context, None)? })
+        let again = Again::measure(context, scene, effort.samples)?;
+        Ok(Self { by_count, by_iterations, by_projector, speed_up, again })
     }
 }

@@ -33,8 +33,11 @@ fn every_type_and_order_gives_the_same_points() {
         assert_eq!(points(&file(&dictionary(element, fortran, "(2, 2)"), &body)), expected, "{element}");
     }
     let mut written = Vec::new();
-    write_plane(&mut written, &expected).unwrap();
+    write_plane(&mut written, &expected, &[]).unwrap();
     assert_eq!(points(&written), expected);
+    let mut classed = Vec::new();
+    write_plane(&mut classed, &expected, &[7, 300]).unwrap();
+    assert!(points(&classed) == expected && classed.ends_with(&[44, 1, 0, 0]));
     // The header of these bytes is what numpy.save writes.
     let start = b"\x93NUMPY\x01\x00v\x00{'descr': '<f4', 'fortran_order': False, 'shape': (2, 2), }  ";
     assert!(written.starts_with(start) && written[..128].ends_with(b" \n") && written.len() == 128 + 16);
@@ -48,6 +51,8 @@ fn a_structured_array_holds_all_that_is_known_of_samples() {
         interpolated_normals: Vec::new(),
         triangles: vec![7, 4_000_000_001],
         barycentrics: vec![[0.25, 0.5], [0.0, 1.0]],
+        ranks: vec![f32::INFINITY, 0.5],
+        classes: vec![1, 0],
     };
     let table = |radii| SurfaceTable { samples: &samples, normals: &samples.normals, radii };
     for radii in [None, Some(&[0.5, 2.0][..])] {

@@ -1,0 +1,123 @@
+//! How long several classes take, against one class in the same run.
+
+use std::sync::Arc;
+
+use azulejo::kdrt::{self, ClassPlane};
+use azulejo::mesh::Mesh;
+use azulejo::{Boundary, Classes, Context, Domain, Result, maximal, psp};
+
+use super::Effort;
+use super::mixes::{MIXES, Mix, PICTURED, density};
+use crate::timing::{Timed, least_seconds};
+use azulejo_cli::summary::Summary;
+
+/// What is timed, and how many times as long as one class a sample may take.
+pub const TIMED: [(Mix, f64); 6] = [
+    (MIXES[0], 2.0),
+    (MIXES[1], 2.0),
+    (MIXES[2], 3.0),
+    (MIXES[3], 3.0),
+    (Mix { name: "four of 1", own: &[1.0; 4] }, 3.0),
+    (Mix { name: "eight of 1", own: &[1.0; 8] }, 5.5),
+];
+
+/// The samples of a window, and the milliseconds that it may take.
+pub const WINDOW: f64 = 1e4;
+pub const WINDOW_GOAL: f64 = 25.0;
+
+/// The samples of the plane whose windows are made.
+pub const PLANE: f64 = 1e9;
+
+/// The times of a mix on one thread.
+pub struct Times {
+    pub mix: Mix,
+    pub goal: f64,
+    pub classes: Timed,
+    /// A plain set of one class.
+    pub one: Timed,
+    /// In the plane: one class by the flat quadtree, which fills all of it as classes are filled.
+    pub filled: Option<Timed>,
+}
+
+impl Times {
+    /// Times in the plane.
+    pub fn plane(effort: &Effort) -> Result<Vec<Self>> {
+        let one = Context::new(1)?;
+        let time = |(mix, goal): (Mix, f64)| {
+            let classes = Classes::of_radii(&mix.radii(effort.timed, 1.0), 1.0)?;
+            let options = kdrt::Options::new(smallest(&classes)).seed(1);
+            let unbiased = maximal::Options::new(smallest(&classes)).seed(1);
+            let least = least_seconds(
+                effort.rounds,
+                &[
+                    &|| Ok(kdrt::sample_classes(&one, &kdrt::Options::new(0.0).seed(1), &classes, None)?.samples.len()),
+                    &|| Ok(kdrt::sample(&one, &options, None)?.len()),
+                    &|| Ok(maximal::sample(&one, &unbiased, None)?.len()),
+                ],
+            )?;
+            Ok(Self { mix, goal, classes: least[0], one: least[1], filled: Some(least[2]) })
+        };
+        TIMED.into_iter().map(time).collect()
+    }
+
+    /// Times on a mesh.
+    pub fn mesh(mesh: &Arc<Mesh>, effort: &Effort) -> Result<Vec<Self>> {
+        let one = Context::new(1)?;
+        let time = |(mix, goal): (Mix, f64)| {
+            let classes = Classes::of_radii(&mix.radii(effort.timed, mesh.area()), 1.0)?;
+            let several = psp::Options::new(0.0).seed(1);
+            let options = psp::Options::new(smallest(&classes)).seed(1);
+            let least = least_seconds(
+                effort.rounds,
+                &[&|| Ok(psp::sample_classes(&one, mesh, &several, &classes, None, None)?.0.positions.len()), &|| {
+                    Ok(psp::sample(&one, mesh, &options, None)?.0.positions.len())
+                }],
+            )?;
+            Ok(Self { mix, goal, classes: least[0], one: least[1], filled: None })
+        };
+        TIMED.into_iter().map(time).collect()
+    }
+}
+
+fn smallest(classes: &Classes) -> f64 {
+    (0..classes.count()).map(|class| classes.own(class)).fold(f64::INFINITY, f64::min)
+}
+
+/// The times of windows of [`PICTURED`] in a kept plane, on one thread.
+pub struct Windows {
+    /// Samples of a window, in the mean.
+    pub samples: f64,
+    /// Milliseconds of a window: each is made a few times, of which the least counts.
+    pub milliseconds: Summary,
+}
+
+impl Windows {
+    /// Makes windows at several places.
+    pub fn measure(effort: &Effort) -> Result<Self> {
+        let classes = Classes::of_radii(PICTURED.own, 1.0)?;
+        // The classes fill what they leave each other; the union's density is found by a set.
+        let found = kdrt::sample_classes(
+            &Context::new(1)?,
+            &kdrt::Options::new(0.0).domain(square(effort.window.sqrt() / density(0.25).sqrt() * 2.0)),
+            &classes,
+            None,
+        )?;
+        let per_area = found.samples.len() as f64 / (4.0 * effort.window / density(0.25));
+        let (side, width) = ((PLANE / per_area).sqrt(), (effort.window / per_area).sqrt());
+        let options = kdrt::Options::new(0.0).domain(square(side));
+        let plane = ClassPlane::new(&Context::new(1)?, &options, &classes, None)?;
+        let (mut times, mut samples) = (Vec::new(), 0);
+        for place in 0..effort.windows {
+            let min = [0.1 + 0.037 * f64::from(place), 0.2 + 0.051 * f64::from(place)].map(|x| side * x);
+            let window = || Ok(plane.window(min, min.map(|x| x + width))?.samples.len());
+            let least = least_seconds(effort.rounds, &[&window])?[0];
+            times.push(1e3 * least.seconds);
+            samples += least.samples;
+        }
+        Ok(Self { samples: samples as f64 / times.len() as f64, milliseconds: Summary::of(&times) })
+    }
+}
+
+fn square(side: f64) -> Domain {
+    Domain { min: [0.0; 2], max: [side; 2], boundary: Boundary::Periodic }
+}

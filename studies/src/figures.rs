@@ -1,0 +1,31 @@
+//! `azulejo-studies figures`: figures of the thesis that belong to none of the other pages.
+
+mod correlation;
+mod engines;
+mod stipple;
+
+use azulejo::{Context, Result};
+use clap::Args;
+
+use crate::args::{MeshArgs, PageArgs};
+
+#[derive(Args)]
+pub struct Figures {
+    #[command(flatten)]
+    page: PageArgs,
+    #[command(flatten)]
+    meshes: MeshArgs,
+}
+
+impl Figures {
+    pub fn run(&self, context: &Context) -> Result<()> {
+        let (files, quick) = (self.page.open("figures")?, self.page.quick);
+        let parts = [
+            "Thesis: Wang 2019.\n".to_owned(),
+            correlation::section(context, &files, quick)?,
+            engines::section(context, &self.meshes, quick)?,
+            stipple::section(context, &files, quick)?,
+        ];
+        files.write("Other figures of the thesis, measured", context.num_threads(), &parts.join("\n"))
+    }
+}

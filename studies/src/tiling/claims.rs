@@ -1,0 +1,114 @@
+//! What a section says, what the thesis claims there, and whether the run shows it.
+
+use std::fmt::Write;
+
+use crate::verdict::{LEVEL, Mean, chance, holm, verdict};
+use azulejo_cli::text::rounded;
+
+/// A section of the page.
+pub struct Part {
+    /// Its text, from its `##` title on.
+    pub text: String,
+    pub claims: Vec<Claim>,
+    pub facts: Vec<Fact>,
+}
+
+/// That a mean is below another mean or a number.
+pub struct Claim {
+    what: String,
+    low: Mean,
+    high: Mean,
+}
+
+impl Claim {
+    pub fn less(what: impl Into<String>, low: Mean, high: Mean) -> Self {
+        Self { what: what.into(), low, high }
+    }
+
+    /// The chance of as large a difference where there is none.
+    fn chance(&self) -> Option<(f64, f64)> {
+        let difference = if self.high.count == 0 {
+            self.low.above_number(self.high.mean).map(|difference| (-difference.t, difference.freedom))
+        } else if self.low.count == 0 {
+            self.high.above_number(self.low.mean).map(|difference| (difference.t, difference.freedom))
+        } else {
+            self.high.above(&self.low).map(|difference| (difference.t, difference.freedom))
+        };
+        difference.map(|(t, freedom)| (t, crate::verdict::Difference { t, freedom }.chance_of_larger()))
+    }
+}
+
+/// What holds or does not, exactly.
+pub struct Fact {
+    pub what: String,
+    pub found: String,
+    pub is_met: bool,
+}
+
+/// A number that is given, not measured: of no values.
+pub fn number(mean: f64) -> Mean {
+    Mean { mean, error: 0.0, count: 0 }
+}
+
+/// A mean with its standard error.
+pub fn cell(Mean { mean, error, .. }: &Mean) -> String {
+    let sign = if *mean < 0.0 { "-" } else { "" };
+    format!("{sign}{} ± {}", rounded(mean.abs(), 5), rounded(*error, 2))
+}
+
+/// The tables of all claims and facts of the page.
+pub fn tables(parts: &[Part]) -> String {
+    let claims: Vec<_> = parts.iter().flat_map(|part| &part.claims).collect();
+    let tests: Vec<_> = claims.iter().map(|claim| claim.chance()).collect();
+    let chances = holm(&tests.iter().map(|test| test.map_or(1.0, |(_, chance)| chance)).collect::<Vec<_>>());
+    let mut text = format!(
+        "## Claims\n\n\
+         That one mean is *below* another, or below a number that is given: ± is the standard error, *n* the number of \
+         independent sets or rounds, *t* the difference over its standard error (Welch), *p* the chance of as large a one where \
+         there is none, corrected for all {} claims of the table (Holm). A claim is met where p is at most {LEVEL}: what is not \
+         met was not shown here, which does not say that the opposite is true.\n\n\
+         | claim | below | n | above | n | t | p | |\n|---|---|---|---|---|---|---|---|\n",
+        claims.len(),
+    );
+    for ((claim, test), &p) in claims.iter().zip(&tests).zip(&chances) {
+        let [low, high] = [&claim.low, &claim.high].map(cell);
+        let [n, m] = [&claim.low, &claim.high]
+            .map(|mean| if mean.count == 0 { "given".to_owned() } else { mean.count.to_string() });
+        let t = test.map_or("-".to_owned(), |(t, _)| format!("{t:+.1}"));
+        _ = writeln!(
+            text,
+            "| {} | {low} | {n} | {high} | {m} | {t} | {} | {} |",
+            claim.what,
+            chance(p),
+            verdict(p <= LEVEL)
+        );
+    }
+    text += "\nWhat must hold exactly, in every set:\n\n| property | found | |\n|---|---|---|\n";
+    for fact in parts.iter().flat_map(|part| &part.facts) {
+        _ = writeln!(text, "| {} | {} | {} |", fact.what, fact.found, verdict(fact.is_met));
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_claim_is_met_where_it_is_shown_and_only_there() {
+        let [low, high] = [[1.0, 1.1, 0.9, 1.0], [2.0, 2.1, 1.9, 2.0]].map(|values| Mean::of(&values));
+        let chance = |low, high| Claim::less("", low, high).chance().unwrap().1;
+        assert!(chance(low, high) < 1e-4 && chance(high, low) > 0.999 && (chance(low, low) - 0.5).abs() < 1e-9);
+        assert!(chance(low, number(2.0)) < 1e-3 && chance(number(2.0), low) > 0.99 && chance(number(0.0), low) < 1e-3);
+        let part = |low, high| Part { text: String::new(), claims: vec![Claim::less("x", low, high)], facts: vec![] };
+        assert!(tables(&[part(low, high)]).contains("| met |") && tables(&[part(high, low)]).contains("**not met**"));
+        // One value shows nothing.
+        assert!(tables(&[part(Mean::of(&[1.0]), high)]).contains("| - | 1.0e0 | **not met** |"));
+    }
+
+    #[test]
+    fn means_are_written_with_their_sign() {
+        assert_eq!(cell(&Mean { mean: -0.25, error: 0.0125, count: 3 }), "-0.25 ± 0.013");
+        assert_eq!(cell(&number(3.0)), "3 ± 0");
+    }
+}
