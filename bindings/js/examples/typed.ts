@@ -1,0 +1,16 @@
+// Checked by `tsc --noEmit`: the types of a whole program.
+import { Mesh, Plane, dcrRelax, init, kdrtSample, pspSample, spectrum, type SurfaceSamples } from "azulejo";
+
+await init();
+const set = kdrtSample({ radius: 0.01, boundary: "bounded", seed: 7n });
+const relaxed: Float32Array = dcrRelax(set.positions, { boundary: "bounded" }).positions;
+const low: number = spectrum(relaxed, { size: 128 }).annuli[1].power;
+const mesh = new Mesh([0, 0, 0, 1, 0, 0, 0, 1, 0], [0, 1, 2]);
+const samples: SurfaceSamples = pspSample(mesh, { count: 100, order: "progressive" });
+mesh.free();
+const plane = new Plane({ radius: 0.01 });
+const part = plane.window([0, 0], [0.5, 0.5]).positions.length;
+plane.free();
+// @ts-expect-error: there is no such boundary
+kdrtSample({ radius: 0.01, boundary: "open" });
+console.log(set.radius, low, samples.triangles.length, part);

@@ -1,0 +1,244 @@
+/**
+ * Blue-noise sampling: maximal Poisson-disk sets of the plane and of triangle meshes, relaxation, thinning, analysis.
+ *
+ * A radius is the smallest distance between two samples, centre to centre. Positions are packed: x y or x y z of each
+ * sample. The same options and seed give the same bytes, everywhere. Calls run to their end on the calling thread; use
+ * a worker for long ones. What is refused is thrown as an Error whose message begins with the name of the argument.
+ */
+
+/** Numbers, packed: a typed array or an ordinary one. They are copied. */
+export type Numbers = ArrayLike<number>;
+
+/** A whole number from 0 to 2^64 - 1; above 2^53 - 1 a bigint. */
+export type Seed = number | bigint;
+
+/**
+ * Loads the module; must be awaited before all other calls. `source`: the module's bytes, the compiled module, a Response
+ * or an address; by default `azulejo.wasm` beside the script.
+ */
+export function init(source?: URL | string | BufferSource | WebAssembly.Module | Response): Promise<void>;
+
+/** A rectangle of the plane; its samples have `domainMin <= x < domainMax`. */
+export interface Domain {
+    /** The lower corner; default [0, 0]. */
+    domainMin?: readonly [number, number];
+    /** The upper corner; default [1, 1]. */
+    domainMax?: readonly [number, number];
+    /** `periodic`, the default: a torus. `bounded`: nothing lies outside. */
+    boundary?: "periodic" | "bounded";
+}
+
+export interface Given {
+    /** Samples that stand already, packed; new ones keep their clearance from them. They are not returned. */
+    givenPositions?: Numbers | null;
+    /** The clearance of each, 0 or more; by default the radius of the set. */
+    givenClearances?: Numbers | null;
+}
+
+export interface Ordering {
+    /** `progressive`: every prefix of the set is well spread, and samples have ranks. Default `any`. */
+    order?: "any" | "progressive";
+    /** Of a progressive order: every prefix covers within this times its last rank, 1.02 to 1.5; default 2^(1/8). */
+    quotient?: number;
+}
+
+export interface PlaneOptions extends Domain, Given, Ordering {
+    /** The smallest distance of two samples, in the units of the domain. Required, unless there is a count. */
+    radius?: number;
+    /** The exact number of samples; 0, the default: as many as the radius gives. */
+    count?: number;
+    /** The shortest side of the leaves that tile the domain, in radii: at least 6, default 20. */
+    leafSize?: number;
+    /** Another seed gives another set. Default 0. */
+    seed?: Seed;
+    /** Of a progressive order: the radius of the coarsest level. Default Infinity: as coarse as the domain. */
+    coarsest?: number;
+}
+
+export interface PlaneSamples {
+    /** x y of each sample. */
+    positions: Float32Array;
+    /** In progressive order the rank of each: samples up to it are at least so far apart. Ranks never rise. */
+    ranks?: Float32Array;
+}
+
+/** A maximal Poisson-disk set: no two samples are closer than the radius, no place is farther than it from all. */
+export function kdrtSample(options: PlaneOptions): PlaneSamples & {
+    /** The radius, that of the options or the one found for the count. */
+    radius: number;
+    /** Whether the set is maximal for the radius. */
+    isMaximal: boolean;
+};
+
+/** The samples of a plane in a window, without the rest of the plane. */
+export function kdrtSampleWindow(
+    options: PlaneOptions,
+    windowMin: readonly [number, number],
+    windowMax: readonly [number, number],
+): PlaneSamples;
+
+/**
+ * Samples of several classes. `radii`: a symmetric matrix, row by row, of the smallest distance of samples of two classes.
+ * The `radius` of the options must be 0.
+ */
+export function kdrtSampleClasses(options: PlaneOptions, radii: Numbers): {
+    /** x y of each sample. */
+    positions: Float32Array;
+    /** The class of each sample: its row in the matrix. */
+    classes: Uint32Array;
+};
+
+/** Something in the module's memory: freed by `free`, by `using`, or some time after nothing refers to it. */
+declare class Handle {
+    /** Frees it; may be called again. */
+    free(): void;
+    [Symbol.dispose](): void;
+}
+
+/** What all windows of a plane have in common, made once. */
+export class Plane extends Handle {
+    constructor(options: PlaneOptions);
+    /** The samples with `windowMin <= x < windowMax`. */
+    window(windowMin: readonly [number, number], windowMax: readonly [number, number]): PlaneSamples;
+}
+
+/** Triangles in space; they need not be connected. */
+export class Mesh extends Handle {
+    /** `positions`: x y z of each vertex. `indices`: three vertices of each triangle. */
+    constructor(positions: Numbers, indices: Numbers);
+    /** The area of all triangles. */
+    readonly area: number;
+}
+
+export interface SurfaceOptions extends Given, Ordering {
+    /** The smallest straight distance of two samples, in the units of the mesh. Required, unless there is a count. */
+    radius?: number;
+    /** The exact number of samples; 0, the default: as many as the radius gives. */
+    count?: number;
+    /** Another seed gives another set. Default 0. */
+    seed?: Seed;
+    /** Samples on triangles whose normals have a smaller cosine ignore each other; -1, the default: none do. */
+    cosine?: number;
+    /** How often patterns are projected before gaps are filled; -1, the default: as the library chooses. */
+    iterations?: number;
+    /** Whether gaps are filled; default true. */
+    maximal?: boolean;
+}
+
+export interface SurfaceSamples {
+    /** x y z of each sample. */
+    positions: Float32Array;
+    /** The unit normal of its triangle, x y z. */
+    normals: Float32Array;
+    /** The triangle that it lies on. */
+    triangles: Uint32Array;
+    /** u v of each sample: its position is (1 - u - v) a + u b + v c of the triangle's corners. */
+    barycentrics: Float32Array;
+    /** As those of PlaneSamples. */
+    ranks?: Float32Array;
+}
+
+/** A Poisson-disk set on a mesh, maximal unless the options say otherwise. */
+export function pspSample(mesh: Mesh, options: SurfaceOptions): SurfaceSamples & {
+    /** The radius, that of the options or the one found for the count. */
+    radius: number;
+    /** A bound of the distance of any place of the surface from the samples, where one is known. */
+    coverage?: number;
+};
+
+export interface RelaxOptions extends Domain {
+    /** `delaunay`, the default: neighbours keep their distance and close holes. `nearest`: they only repel. */
+    neighbourhood?: "delaunay" | "nearest";
+    /** The largest number of steps; default 100. */
+    maxIterations?: number;
+    /** The motion at which the set has converged; default 0.001. */
+    tolerance?: number;
+    /** Used where points coincide only. Default 0. */
+    seed?: Seed;
+}
+
+export interface Relaxation {
+    /** The number of steps made. */
+    iterations: number;
+    /** Why there were no more. */
+    stopped: "converged" | "steps" | "cancelled";
+    /** Half of how far points got over the last steps: root mean square, in units of d_max. */
+    motion: number;
+    /** The smallest distance of two points, in the units of the domain or mesh. */
+    smallestDistance: number;
+    /** The same in units of d_max, the distance of neighbours in hexagonal arrangement. */
+    rho: number;
+}
+
+/** Moves points, x y each, until they are evenly spread. */
+export function dcrRelax(points: Numbers, options?: RelaxOptions): Relaxation & {
+    /** x y of each point, in the order in which they came. */
+    positions: Float32Array;
+    /** The largest distance of a place of the domain from the set, in units of d_max. */
+    coverage: number;
+};
+
+/** Moves samples over their mesh until they are evenly spread. */
+export function dcrRelaxSurface(
+    mesh: Mesh,
+    samples: { triangles: Numbers; barycentrics: Numbers },
+    options?: {
+        /** The largest number of steps; default 100. */
+        maxIterations?: number;
+        /** The motion at which the set has converged; default 0.0005. */
+        tolerance?: number;
+        /** Used where samples coincide only. Default 0. */
+        seed?: Seed;
+    },
+): SurfaceSamples & Relaxation;
+
+/** Points of a cloud, 2 or 3 numbers each, that are far from each other and near to all others. */
+export function thin(
+    positions: Numbers,
+    dimensions: 2 | 3,
+    options: {
+        /** The smallest distance of selected points; 0, the default, sets none. */
+        radius?: number;
+        /** How many to select; 0, the default, sets no number. */
+        count?: number;
+        /** `progressive`: farthest-first. Default `any`: that of the cloud. */
+        order?: "any" | "progressive";
+        /** Selects the first point of the progressive order. Default 0. */
+        seed?: Seed;
+    },
+): {
+    /** The selected points. */
+    indices: Uint32Array;
+    /** In progressive order, the distance of each from those before it. */
+    ranks?: Float32Array;
+};
+
+export interface Spacing {
+    /** The smallest distance of two points; Infinity for less than two. */
+    smallestDistance: number;
+    /** The distance from the set of the place that is farthest from it. */
+    coveringRadius: number;
+}
+
+/** Measures points of the plane, x y each. */
+export function planeMeasure(points: Numbers, options?: Domain): Spacing;
+
+/** Measures positions on a mesh, x y z each; distances are straight. */
+export function meshMeasure(mesh: Mesh, positions: Numbers): Spacing;
+
+/** The power spectrum of points of the plane. */
+export function spectrum(
+    points: Numbers,
+    options?: Domain & {
+        /** Frequencies along each axis, an even number; default 256. */
+        size?: number;
+        /** The width of the annuli, in units of sqrt(density); default 0.02. */
+        width?: number;
+    },
+): {
+    size: number;
+    /** size rows of size powers; frequency 0 is at row and column size / 2. 1 is that of random points. */
+    power: Float32Array;
+    /** The radial mean: `frequency` in units of sqrt(density). */
+    annuli: { frequency: number; power: number; anisotropy: number; count: number }[];
+};

@@ -1,0 +1,367 @@
+// azulejo for JavaScript: blue-noise sampling of planes and triangle meshes, relaxation, analysis, in WebAssembly on one
+// thread. index.d.ts documents all calls. Arrays are copied into the memory of the module and results out of it, so that
+// what a call returns is an ordinary typed array of the caller's.
+
+let wasm;
+
+/** Loads the module, once. `source`: its bytes, a compiled module, a Response or an address; by default azulejo.wasm. */
+export async function init(source = new URL("azulejo.wasm", import.meta.url)) {
+    if (wasm) return;
+    if (source instanceof URL && source.protocol === "file:") {
+        source = await (await import("node:fs/promises")).readFile(source);
+    } else if (source instanceof URL || typeof source === "string") {
+        source = await fetch(source);
+    }
+    if (typeof Response !== "undefined" && source instanceof Response) {
+        if (!source.ok) throw new Error(`source: ${source.url} answers ${source.status}`);
+        source = await source.arrayBuffer();
+    }
+    const made = await WebAssembly.instantiate(source, {});
+    wasm = (made.instance ?? made).exports;
+}
+
+const BOUNDED = { periodic: 0, bounded: 1 };
+const ORDERS = { any: 0, progressive: 1 };
+const NEIGHBOURHOODS = { delaunay: 0, nearest: 1 };
+const STOPPED = ["converged", "steps", "cancelled"];
+const DEFAULT_QUOTIENT = 2 ** (1 / 8);
+
+const DOMAIN = { domainMin: [0, 0], domainMax: [1, 1], boundary: "periodic" };
+const PLANE = {
+    ...DOMAIN, radius: 0, count: 0, leafSize: 20, seed: 0, order: "any", quotient: DEFAULT_QUOTIENT, coarsest: Infinity,
+    givenPositions: null, givenClearances: null,
+};
+const SURFACE = {
+    radius: 0, count: 0, seed: 0, order: "any", quotient: DEFAULT_QUOTIENT, cosine: -1, iterations: -1, maximal: true,
+    givenPositions: null, givenClearances: null,
+};
+const RELAX = { ...DOMAIN, neighbourhood: "delaunay", maxIterations: 100, tolerance: 0.001, seed: 0 };
+const RELAX_SURFACE = { maxIterations: 100, tolerance: 0.0005, seed: 0 };
+const THIN = { radius: 0, count: 0, order: "any", seed: 0 };
+const SPECTRUM = { ...DOMAIN, size: 256, width: 0.02 };
+
+// The caller's options over the defaults. Names and types that no option has are refused.
+function withDefaults(defaults, options = {}) {
+    for (const [name, value] of Object.entries(options)) {
+        if (!(name in defaults)) throw new TypeError(`${name}: no such option`);
+        if (typeof defaults[name] === "number" && typeof value !== "number" && typeof value !== "bigint") {
+            throw new TypeError(`${name}: ${value} is not a number`);
+        }
+    }
+    const all = { ...defaults };
+    for (const [name, value] of Object.entries(options)) if (value !== undefined) all[name] = value;
+    return all;
+}
+
+function constant(name, value, constants) {
+    if (Object.hasOwn(constants, value)) return constants[value];
+    throw new TypeError(`${name}: ${value} is none of ${Object.keys(constants).join(", ")}`);
+}
+
+function whole(name, value, limit = 2 ** 32) {
+    if (Number.isInteger(value) && value >= 0 && value < limit) return value;
+    throw new RangeError(`${name}: ${value} is not a whole number from 0 to ${limit - 1}`);
+}
+
+function seedOf({ seed }) {
+    const isWhole = typeof seed === "bigint" || Number.isSafeInteger(seed);
+    if (isWhole && seed >= 0 && BigInt(seed) < 1n << 64n) return BigInt(seed);
+    throw new RangeError(`seed: ${seed} is not a whole number from 0 to 2^64 - 1`);
+}
+
+function corner(name, value) {
+    if (value?.length === 2 && [...value].every((x) => typeof x === "number")) return [...value];
+    throw new TypeError(`${name}: not two numbers`);
+}
+
+function domainOf({ domainMin, domainMax, boundary }) {
+    const corners = [...corner("domainMin", domainMin), ...corner("domainMax", domainMax)];
+    return [...corners, constant("boundary", boundary, BOUNDED)];
+}
+
+// Arguments in the module's memory, freed with the answer when the call has been made.
+class Call {
+    #taken = [];
+
+    // Bytes of the module's memory.
+    #take(argument, bytes) {
+        const pointer = wasm.azulejo_take(bytes);
+        if (pointer === 0) throw new RangeError(`${argument}: ${bytes} bytes exceed the memory`);
+        this.#taken.push([pointer, bytes]);
+        return pointer;
+    }
+
+    // [pointer, rows] of an array of numbers, `width` in each row. Float32Array, Float64Array and so on, or any array.
+    rows(argument, array, Type, width) {
+        if (array === null) return [0, 0];
+        if (typeof array?.length !== "number") throw new TypeError(`${argument}: not an array of numbers`);
+        if (array.length % width !== 0) {
+            throw new RangeError(`${argument}: ${array.length} numbers are no rows of ${width}`);
+        }
+        const pointer = this.#take(argument, array.length * Type.BYTES_PER_ELEMENT);
+        new Type(wasm.memory.buffer, pointer, array.length).set(array);
+        return [pointer, array.length / width];
+    }
+
+    // A place for a handle.
+    handle() {
+        const [pointer] = this.rows("handle", [0], Uint32Array, 1);
+        return pointer;
+    }
+
+    // Makes a call; its answer as arrays of these types.
+    make(name, args, ...types) {
+        const succeeded = wasm[`azulejo_${name}`](...args);
+        try {
+            if (!succeeded) throw new Error(inJavaScript(new TextDecoder().decode(answer(0, Uint8Array))));
+            return types.map((Type, index) => answer(index, Type));
+        } finally {
+            wasm.azulejo_answer_free();
+        }
+    }
+
+    free() {
+        for (const [pointer, bytes] of this.#taken) wasm.azulejo_give_back(pointer, bytes);
+    }
+}
+
+function answer(index, Type) {
+    const bytes = wasm.azulejo_answer_bytes(index);
+    if (bytes === 0) return new Type(0);
+    return new Type(wasm.memory.buffer, wasm.azulejo_answer(index), bytes / Type.BYTES_PER_ELEMENT).slice();
+}
+
+// The library names arguments as C does, and points of the plane `xy`.
+function inJavaScript(message) {
+    const [argument, ...rest] = message.split(":");
+    const name = argument === "xy" ? "points" : argument.replace(/_([a-z])/g, (_, letter) => letter.toUpperCase());
+    return [name, ...rest].join(":");
+}
+
+function calling(body) {
+    if (!wasm) throw new Error("init: the module is not loaded; await init() first");
+    const call = new Call();
+    try {
+        return body(call);
+    } finally {
+        call.free();
+    }
+}
+
+function planeOptions(call, options) {
+    const { radius, count, leafSize, order, quotient, coarsest } = options;
+    const numbers = [
+        radius, whole("count", count), ...domainOf(options), leafSize, constant("order", order, ORDERS), quotient, coarsest,
+    ];
+    if (count > 0 && radius !== 0) throw new RangeError(`radius: ${radius}, but there is a count, from which it follows`);
+    return call.rows("options", numbers, Float64Array, numbers.length)[0];
+}
+
+function given(call, { givenPositions, givenClearances }, axes) {
+    const positions = call.rows("givenPositions", givenPositions, Float32Array, axes);
+    return [...positions, ...call.rows("givenClearances", givenClearances, Float64Array, 1)];
+}
+
+const withRanks = (set, ranks) => (ranks.length > 0 ? { ...set, ranks } : set);
+
+export function kdrtSample(options) {
+    options = withDefaults(PLANE, options);
+    return calling((call) => {
+        if (options.count > 0 && options.givenPositions?.length) {
+            throw new RangeError("givenPositions: must be none where there is a count");
+        }
+        const args = [planeOptions(call, options), seedOf(options), ...given(call, options, 2)];
+        const types = [Float32Array, Float32Array, Float64Array];
+        const [positions, ranks, [radius, isMaximal]] = call.make("kdrt_sample", args, ...types);
+        return withRanks({ positions, radius, isMaximal: isMaximal === 1 }, ranks);
+    });
+}
+
+export function kdrtSampleWindow(options, windowMin, windowMax) {
+    const plane = new Plane(options);
+    try {
+        return plane.window(windowMin, windowMax);
+    } finally {
+        plane.free();
+    }
+}
+
+export function kdrtSampleClasses(options, radii) {
+    options = withDefaults(PLANE, options);
+    return calling((call) => {
+        if (options.givenPositions?.length) throw new RangeError("givenPositions: must be none in sets of classes");
+        const matrix = call.rows("radii", radii, Float64Array, 1);
+        const args = [planeOptions(call, options), seedOf(options), ...matrix];
+        const [positions, classes] = call.make("kdrt_sample_classes", args, Float32Array, Uint32Array);
+        return { positions, classes };
+    });
+}
+
+// Something in the module's memory, which free() frees, or the garbage collector some day.
+class Handle {
+    #pointer;
+    #kind;
+    static #registry = new FinalizationRegistry(([kind, pointer]) => wasm[`azulejo_${kind}_free`](pointer));
+
+    constructor(kind, pointer) {
+        this.#pointer = pointer;
+        this.#kind = kind;
+        Handle.#registry.register(this, [kind, pointer], this);
+    }
+
+    get pointer() {
+        if (this.#pointer === 0) throw new Error(`${this.#kind}: was freed`);
+        return this.#pointer;
+    }
+
+    free() {
+        if (this.#pointer === 0) return;
+        Handle.#registry.unregister(this);
+        wasm[`azulejo_${this.#kind}_free`](this.#pointer);
+        this.#pointer = 0;
+    }
+}
+if (Symbol.dispose) Handle.prototype[Symbol.dispose] = Handle.prototype.free;
+
+const read = (pointer) => new Uint32Array(wasm.memory.buffer, pointer, 1)[0];
+
+export class Plane extends Handle {
+    constructor(options) {
+        options = withDefaults(PLANE, options);
+        const pointer = calling((call) => {
+            if (options.count > 0) throw new RangeError(`count: ${options.count}, but windows are made by radius`);
+            const out = call.handle();
+            call.make("plane_create", [planeOptions(call, options), seedOf(options), ...given(call, options, 2), out]);
+            return read(out);
+        });
+        super("plane", pointer);
+    }
+
+    window(windowMin, windowMax) {
+        const corners = [...corner("windowMin", windowMin), ...corner("windowMax", windowMax)];
+        return calling((call) => {
+            const types = [Float32Array, Float32Array];
+            const [positions, ranks] = call.make("plane_window", [this.pointer, ...corners], ...types);
+            return withRanks({ positions }, ranks);
+        });
+    }
+}
+
+export class Mesh extends Handle {
+    constructor(positions, indices) {
+        let area;
+        const pointer = calling((call) => {
+            const out = call.handle();
+            const arrays = [
+                ...call.rows("positions", positions, Float32Array, 3), ...call.rows("indices", indices, Uint32Array, 3),
+            ];
+            [[area]] = call.make("mesh_create", [...arrays, out], Float64Array);
+            return read(out);
+        });
+        super("mesh", pointer);
+        this.area = area;
+    }
+}
+
+function meshPointer(mesh) {
+    if (mesh instanceof Mesh) return mesh.pointer;
+    throw new TypeError("mesh: not a Mesh");
+}
+
+const SAMPLES = [Float32Array, Float32Array, Uint32Array, Float32Array, Float32Array];
+
+function surfaceSamples([positions, normals, triangles, barycentrics, ranks]) {
+    return withRanks({ positions, normals, triangles, barycentrics }, ranks);
+}
+
+export function pspSample(mesh, options) {
+    options = withDefaults(SURFACE, options);
+    return calling((call) => {
+        const { radius, count, order, quotient, cosine, iterations, maximal } = options;
+        const numbers = [
+            radius, whole("count", count), constant("order", order, ORDERS), quotient, cosine, iterations, maximal ? 1 : 0,
+        ];
+        const place = call.rows("options", numbers, Float64Array, numbers.length)[0];
+        const args = [meshPointer(mesh), place, seedOf(options), ...given(call, options, 3)];
+        const [[found, coverage], ...samples] = last(call.make("psp_sample", args, ...SAMPLES, Float64Array));
+        return { ...surfaceSamples(samples), radius: found, ...(coverage < 0 ? {} : { coverage }) };
+    });
+}
+
+// The last of some arrays before the others.
+const last = (arrays) => [arrays.at(-1), ...arrays.slice(0, -1)];
+
+export function dcrRelax(points, options) {
+    options = withDefaults(RELAX, options);
+    return calling((call) => {
+        const { neighbourhood, maxIterations, tolerance } = options;
+        const args = [
+            ...domainOf(options), constant("neighbourhood", neighbourhood, NEIGHBOURHOODS),
+            whole("maxIterations", maxIterations), tolerance, seedOf(options), ...call.rows("points", points, Float32Array, 2),
+        ];
+        const [positions, report] = call.make("dcr_relax", args, Float32Array, Float64Array);
+        const [iterations, stopped, motion, smallestDistance, rho, coverage] = report;
+        return { positions, iterations, stopped: STOPPED[stopped], motion, smallestDistance, rho, coverage };
+    });
+}
+
+export function dcrRelaxSurface(mesh, samples, options) {
+    options = withDefaults(RELAX_SURFACE, options);
+    return calling((call) => {
+        const { maxIterations, tolerance } = options;
+        const [triangles, count] = call.rows("triangles", samples.triangles, Uint32Array, 1);
+        const [barycentrics, rows] = call.rows("barycentrics", samples.barycentrics, Float32Array, 2);
+        if (rows !== count) throw new RangeError(`barycentrics: ${rows} rows for ${count} triangles`);
+        const args = [
+            meshPointer(mesh), whole("maxIterations", maxIterations), tolerance, seedOf(options), triangles, barycentrics, count,
+        ];
+        const [report, ...relaxed] = last(call.make("dcr_relax_surface", args, ...SAMPLES, Float64Array));
+        const [iterations, stopped, motion, smallestDistance, rho] = report;
+        return { ...surfaceSamples(relaxed), iterations, stopped: STOPPED[stopped], motion, smallestDistance, rho };
+    });
+}
+
+export function thin(positions, dimensions, options) {
+    options = withDefaults(THIN, options);
+    return calling((call) => {
+        if (dimensions !== 2 && dimensions !== 3) throw new RangeError(`dimensions: ${dimensions} is not 2 or 3`);
+        const { radius, count, order } = options;
+        const cloud = call.rows("positions", positions, Float32Array, dimensions);
+        const args = [
+            ...cloud, dimensions, radius, whole("count", count), constant("order", order, ORDERS), seedOf(options),
+        ];
+        const [indices, ranks] = call.make("thin", args, Uint32Array, Float32Array);
+        return withRanks({ indices }, ranks);
+    });
+}
+
+export function planeMeasure(points, options) {
+    options = withDefaults(DOMAIN, options);
+    return calling((call) => {
+        const args = [...domainOf(options), ...call.rows("points", points, Float32Array, 2)];
+        const [[smallestDistance, coveringRadius]] = call.make("plane_measure", args, Float64Array);
+        return { smallestDistance, coveringRadius };
+    });
+}
+
+export function meshMeasure(mesh, positions) {
+    return calling((call) => {
+        const args = [meshPointer(mesh), ...call.rows("positions", positions, Float32Array, 3)];
+        const [[smallestDistance, coveringRadius]] = call.make("mesh_measure", args, Float64Array);
+        return { smallestDistance, coveringRadius };
+    });
+}
+
+export function spectrum(points, options) {
+    options = withDefaults(SPECTRUM, options);
+    return calling((call) => {
+        const array = call.rows("points", points, Float32Array, 2);
+        const args = [...domainOf(options), ...array, whole("size", options.size), options.width];
+        const [power, numbers] = call.make("spectrum", args, Float32Array, Float64Array);
+        const annuli = Array.from({ length: numbers.length / 4 }, (_, i) => {
+            const [frequency, power, anisotropy, count] = numbers.subarray(4 * i, 4 * i + 4);
+            return { frequency, power, anisotropy, count };
+        });
+        return { size: options.size, power, annuli };
+    });
+}

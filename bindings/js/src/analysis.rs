@@ -1,0 +1,74 @@
+//! Measurements of sets.
+
+use azulejo::analysis::coverage::{covering_radius_2d, surface_covering_radius};
+use azulejo::analysis::spacing::{smallest_distance_2d, smallest_distance_3d};
+use azulejo::analysis::spectrum::periodogram;
+
+use crate::answer::{Answer, call};
+use crate::domain;
+use crate::memory::rows;
+use crate::surface::Handle;
+
+/// The smallest distance and the covering radius of a set of the plane.
+///
+/// # Safety
+/// `points` leads to `count` points.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_plane_measure(
+    min_x: f64,
+    min_y: f64,
+    max_x: f64,
+    max_y: f64,
+    bounded: i32,
+    points: *const [f32; 2],
+    count: usize,
+) -> i32 {
+    // SAFETY: as the caller says.
+    let points = unsafe { rows(points, count) };
+    call(|context| {
+        let domain = domain(min_x, min_y, max_x, max_y, bounded);
+        let smallest = smallest_distance_2d(context, &domain, points, None)?;
+        Ok(Answer::default().and(vec![smallest, covering_radius_2d(context, &domain, points, None)?]))
+    })
+}
+
+/// The smallest straight distance and the covering radius of positions on a mesh.
+///
+/// # Safety
+/// `positions` leads to `count` positions.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_mesh_measure(mesh: &Handle, positions: *const [f32; 3], count: usize) -> i32 {
+    // SAFETY: as the caller says.
+    let positions = unsafe { rows(positions, count) };
+    call(|context| {
+        let smallest = smallest_distance_3d(context, positions, None)?;
+        Ok(Answer::default().and(vec![smallest, surface_covering_radius(context, &mesh.0, positions, None)?]))
+    })
+}
+
+/// The power of each frequency; and of each annulus its frequency, power, anisotropy and number of frequencies.
+///
+/// # Safety
+/// `points` leads to `count` points.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_spectrum(
+    min_x: f64,
+    min_y: f64,
+    max_x: f64,
+    max_y: f64,
+    bounded: i32,
+    points: *const [f32; 2],
+    count: usize,
+    size: usize,
+    width: f64,
+) -> i32 {
+    // SAFETY: as the caller says.
+    let points = unsafe { rows(points, count) };
+    call(|context| {
+        let domain = domain(min_x, min_y, max_x, max_y, bounded);
+        let spectrum = periodogram(context, &domain, points, size, None)?;
+        let annuli = spectrum.radial(width)?;
+        let annuli = annuli.iter().flat_map(|ring| [ring.frequency, ring.power, ring.anisotropy, ring.count as f64]);
+        Ok(Answer::default().and(spectrum.power().to_vec()).and(annuli.collect::<Vec<f64>>()))
+    })
+}

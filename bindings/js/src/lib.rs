@@ -1,0 +1,24 @@
+//! azulejo for JavaScript: the functions that `index.js` calls, on one thread.
+//!
+//! Arguments are numbers, and arrays in memory that [`memory::azulejo_take`] gave. Every call returns whether it has
+//! succeeded; what it returns, or the text of its error, is read from the arrays of its [`answer`].
+
+mod analysis;
+mod answer;
+mod memory;
+mod plane;
+mod surface;
+mod thin;
+
+use azulejo::{Boundary, Domain, Order};
+
+/// A rectangle of five numbers: its corners, and whether it is bounded.
+pub(crate) fn domain(min_x: f64, min_y: f64, max_x: f64, max_y: f64, bounded: i32) -> Domain {
+    let boundary = if bounded == 0 { Boundary::Periodic } else { Boundary::Bounded };
+    Domain { min: [min_x, min_y], max: [max_x, max_y], boundary }
+}
+
+/// The order of a flag.
+pub(crate) fn order(progressive: i32) -> Order {
+    if progressive == 0 { Order::Any } else { Order::Progressive }
+}

@@ -1,0 +1,38 @@
+//! Memory that JavaScript writes arguments to.
+
+use std::alloc::{Layout, alloc, dealloc};
+
+/// Numbers are aligned to their size, of 8 bytes at most.
+fn layout(bytes: usize) -> Option<Layout> {
+    Layout::from_size_align(bytes.max(8), 8).ok()
+}
+
+/// So many bytes, to be given back; null if they cannot be had.
+#[unsafe(no_mangle)]
+pub extern "C" fn azulejo_take(bytes: usize) -> *mut u8 {
+    // SAFETY: the layout is not empty.
+    layout(bytes).map_or(std::ptr::null_mut(), |layout| unsafe { alloc(layout) })
+}
+
+/// Frees what was taken.
+///
+/// # Safety
+/// `pointer` is from [`azulejo_take`] with as many bytes.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_give_back(pointer: *mut u8, bytes: usize) {
+    if let Some(layout) = layout(bytes)
+        && !pointer.is_null()
+    {
+        // SAFETY: allocated with this layout, as the caller says.
+        unsafe { dealloc(pointer, layout) }
+    }
+}
+
+/// The rows of an argument.
+///
+/// # Safety
+/// `pointer` leads to `count` rows, unless there are none, that stay as they are during `'a`.
+pub(crate) unsafe fn rows<'a, T>(pointer: *const T, count: usize) -> &'a [T] {
+    // SAFETY: as the caller says.
+    if count == 0 { &[] } else { unsafe { std::slice::from_raw_parts(pointer, count) } }
+}

@@ -1,0 +1,121 @@
+//! Sets on meshes, and their relaxation.
+
+use std::sync::Arc;
+
+use azulejo::dcr::surface;
+use azulejo::mesh::Mesh;
+use azulejo::psp::{self, Options};
+use azulejo::{Given, SurfaceSamples};
+
+use crate::answer::{Answer, call};
+use crate::memory::rows;
+use crate::order;
+
+/// What JavaScript's `Mesh` refers to.
+pub struct Handle(pub Arc<Mesh>);
+
+/// A mesh of triangles; the handle in `out`, the area in the answer.
+///
+/// # Safety
+/// The pointers are to arguments of these sizes.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_mesh_create(
+    positions: *const [f32; 3],
+    vertex_count: usize,
+    indices: *const [u32; 3],
+    triangle_count: usize,
+    out: &mut Option<Box<Handle>>,
+) -> i32 {
+    // SAFETY: as the caller says.
+    let (positions, triangles) = unsafe { (rows(positions, vertex_count), rows(indices, triangle_count)) };
+    call(|_| {
+        let mesh = Mesh::new(positions.to_vec(), triangles.to_vec())?;
+        let area = vec![mesh.area()];
+        *out = Some(Box::new(Handle(Arc::new(mesh))));
+        Ok(Answer::default().and(area))
+    })
+}
+
+/// Frees a mesh.
+#[unsafe(no_mangle)]
+pub extern "C" fn azulejo_mesh_free(mesh: Option<Box<Handle>>) {
+    drop(mesh);
+}
+
+/// What to sample, as JavaScript writes it.
+#[repr(C)]
+pub struct SurfaceOptions {
+    radius: f64,
+    count: f64,
+    progressive: f64,
+    quotient: f64,
+    cosine: f64,
+    /// Below 0: as many as the rule gives.
+    iterations: f64,
+    maximal: f64,
+}
+
+/// Samples; and the radius and a bound of the covering radius, -1 where none is known.
+///
+/// # Safety
+/// The pointers are to arguments of these sizes.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_psp_sample(
+    mesh: &Handle,
+    options: &SurfaceOptions,
+    seed: u64,
+    positions: *const [f32; 3],
+    count: usize,
+    clearances: *const f64,
+    clearance_count: usize,
+) -> i32 {
+    // SAFETY: as the caller says.
+    let (positions, clearances) = unsafe { (rows(positions, count), rows(clearances, clearance_count)) };
+    let given =
+        if clearances.is_empty() { Given::at(positions) } else { Given::with_clearances(positions, clearances) };
+    call(|context| {
+        let mut sampling = Options::new(options.radius)
+            .count(options.count as usize)
+            .order(order((options.progressive != 0.0).into()))
+            .quotient(options.quotient)
+            .maximal(options.maximal != 0.0)
+            .cosine(options.cosine)
+            .seed(seed)
+            .given(given);
+        if options.iterations >= 0.0 {
+            sampling = sampling.iterations(options.iterations as u32);
+        }
+        let (samples, report) = psp::sample(context, &mesh.0, &sampling, None)?;
+        Ok(answer(samples).and(vec![report.radius, report.coverage.unwrap_or(-1.0)]))
+    })
+}
+
+/// The relaxed samples; iterations, why it stopped, motion, smallest distance and rho.
+///
+/// # Safety
+/// The pointers lead to `count` rows.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_dcr_relax_surface(
+    mesh: &Handle,
+    max_iterations: u32,
+    tolerance: f64,
+    seed: u64,
+    triangles: *const u32,
+    barycentrics: *const [f32; 2],
+    count: usize,
+) -> i32 {
+    // SAFETY: as the caller says.
+    let (triangles, barycentrics) = unsafe { (rows(triangles, count), rows(barycentrics, count)) };
+    call(|context| {
+        let options = surface::Options::default().max_iterations(max_iterations).tolerance(tolerance).seed(seed);
+        let (samples, report) = surface::relax(context, &mesh.0, triangles, barycentrics, &options, None)?;
+        let (iterations, stopped) = (report.iterations.into(), f64::from(report.stopped as u8));
+        Ok(answer(samples).and(vec![iterations, stopped, report.motion, report.smallest_distance, report.rho]))
+    })
+}
+
+/// All that is known of samples.
+fn answer(samples: SurfaceSamples) -> Answer {
+    let SurfaceSamples { positions, normals, triangles, barycentrics, ranks, .. } = samples;
+    Answer::default().and(positions).and(normals).and(triangles).and(barycentrics).and(ranks)
+}

@@ -1,0 +1,33 @@
+//! Thinning of clouds.
+
+use azulejo::thin::{Options, thin};
+
+use crate::answer::{Answer, call};
+use crate::memory::rows;
+use crate::order;
+
+/// Indices of the selected points, and their ranks.
+///
+/// # Safety
+/// `positions` leads to `count` points of 2 or 3 numbers each, as `dimensions` says.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_thin(
+    positions: *const f32,
+    count: usize,
+    dimensions: u32,
+    radius: f64,
+    most: u32,
+    progressive: i32,
+    seed: u64,
+) -> i32 {
+    // SAFETY: as the caller says.
+    let positions = unsafe { rows(positions, count * dimensions as usize) };
+    call(|context| {
+        let options = Options::by_radius(radius).count(most as usize).order(order(progressive)).seed(seed);
+        let selection = match dimensions {
+            2 => thin(context, &options, positions.as_chunks::<2>().0, None)?,
+            _ => thin(context, &options, positions.as_chunks::<3>().0, None)?,
+        };
+        Ok(Answer::default().and(selection.indices).and(selection.ranks))
+    })
+}

@@ -1,0 +1,513 @@
+"""Blue-noise sampling: maximal Poisson-disk sets in the plane and on triangle meshes, and their relaxation."""
+
+from collections.abc import Callable, Sequence
+from os import PathLike
+from typing import Any, Literal, Optional, SupportsFloat, SupportsIndex, Union
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+__version__: str
+
+_Numbers = Union[Sequence[float], NDArray[Any]]
+_Boundary = Literal["periodic", "bounded"]
+_Order = Literal["any", "progressive"]
+_Progress = Optional[Callable[[float], object]]
+
+class Cancelled(Exception): ...
+
+class Points:
+    @property
+    def positions(self) -> NDArray[np.float32]: ...
+    @property
+    def normals(self) -> Optional[NDArray[np.float32]]: ...
+    @property
+    def interpolated_normals(self) -> Optional[NDArray[np.float32]]: ...
+    @property
+    def triangles(self) -> Optional[NDArray[np.uint32]]: ...
+    @property
+    def barycentrics(self) -> Optional[NDArray[np.float32]]: ...
+    @property
+    def radii(self) -> Optional[NDArray[np.float64]]: ...
+    @property
+    def ranks(self) -> Optional[NDArray[np.float32]]: ...
+    @property
+    def classes(self) -> Optional[NDArray[np.uint32]]: ...
+    @property
+    def report(self) -> Any: ...
+    def __len__(self) -> int: ...
+    def __array__(self, dtype: Any = None, copy: Optional[bool] = None) -> NDArray[Any]: ...
+
+
+class KdrtReport:
+    @property
+    def radius(self) -> float: ...
+    @property
+    def is_maximal(self) -> bool: ...
+
+class KdrtMergeReport:
+    @property
+    def kept(self) -> int: ...
+    @property
+    def eliminated(self) -> int: ...
+    @property
+    def inserted(self) -> int: ...
+
+class KdrtPlane:
+    def __init__(
+        self,
+        radius: SupportsFloat = 0.0,
+        *,
+        radii: Optional[ArrayLike] = None,
+        domain_min: _Numbers = [0.0, 0.0],
+        domain_max: _Numbers = [1.0, 1.0],
+        boundary: _Boundary = "periodic",
+        leaf_size: SupportsFloat = 20.0,
+        seed: SupportsIndex = 0,
+        order: _Order = "any",
+        quotient: Optional[SupportsFloat] = None,
+        coarsest: Optional[SupportsFloat] = None,
+        given_positions: Optional[ArrayLike] = None,
+        given_clearances: Optional[ArrayLike] = None,
+        threads: SupportsIndex = 0,
+        progress: _Progress = None,
+    ) -> None: ...
+    def window(self, window_min: _Numbers, window_max: _Numbers) -> Points: ...
+
+class Mesh:
+    def __init__(
+        self,
+        positions: ArrayLike,
+        indices: ArrayLike,
+        *,
+        normals: Optional[ArrayLike] = None,
+        normal_indices: Optional[ArrayLike] = None,
+        mask: Optional[ArrayLike] = None,
+    ) -> None: ...
+    @staticmethod
+    def load(path: Union[str, PathLike[str]]) -> Mesh: ...
+    def with_normals(self, normals: ArrayLike, normal_indices: Optional[ArrayLike] = None) -> Mesh: ...
+    def with_mask(self, mask: ArrayLike) -> Mesh: ...
+    def deform(self, positions: ArrayLike) -> Mesh: ...
+    def points(self, triangles: ArrayLike, barycentrics: ArrayLike) -> Points: ...
+    @property
+    def vertex_count(self) -> int: ...
+    @property
+    def triangle_count(self) -> int: ...
+    @property
+    def positions(self) -> NDArray[np.float32]: ...
+    @property
+    def indices(self) -> NDArray[np.uint32]: ...
+    @property
+    def has_normals(self) -> bool: ...
+    @property
+    def area(self) -> float: ...
+
+class PspReport:
+    @property
+    def radius(self) -> float: ...
+    @property
+    def coverage(self) -> Optional[float]: ...
+    @property
+    def rho(self) -> float: ...
+    @property
+    def iterations(self) -> int: ...
+    @property
+    def darts(self) -> int: ...
+    @property
+    def uncovered_before(self) -> Optional[float]: ...
+    @property
+    def uncovered_after(self) -> Optional[float]: ...
+    @property
+    def seconds(self) -> float: ...
+
+class DcrReport:
+    @property
+    def iterations(self) -> int: ...
+    @property
+    def stopped(self) -> Literal["converged", "steps", "cancelled"]: ...
+    @property
+    def motion(self) -> float: ...
+    @property
+    def smallest_distance(self) -> float: ...
+    @property
+    def rho(self) -> float: ...
+    @property
+    def coverage(self) -> Optional[float]: ...
+
+class Selection:
+    @property
+    def indices(self) -> NDArray[np.uint32]: ...
+    @property
+    def ranks(self) -> Optional[NDArray[np.float32]]: ...
+    def __len__(self) -> int: ...
+
+class CoverageReport:
+    @property
+    def covering_radius(self) -> float: ...
+    @property
+    def gaps(self) -> int: ...
+
+class PlaneReport:
+    @property
+    def count(self) -> int: ...
+    @property
+    def smallest_distance(self) -> float: ...
+    @property
+    def mean_distance(self) -> float: ...
+    @property
+    def hexagonal_distance(self) -> float: ...
+    @property
+    def rho(self) -> float: ...
+    @property
+    def covering_radius(self) -> float: ...
+    @property
+    def bond_order(self) -> float: ...
+    @property
+    def triangles(self) -> int: ...
+    @property
+    def obtuse(self) -> float: ...
+    @property
+    def below_30_degrees(self) -> float: ...
+    @property
+    def angles_below_30_degrees(self) -> float: ...
+    @property
+    def edge_mean(self) -> float: ...
+    @property
+    def edge_variation(self) -> float: ...
+    @property
+    def area_variation(self) -> float: ...
+    @property
+    def beyond_4_sigma(self) -> float: ...
+
+class SpectrumReport:
+    @property
+    def frequency_step(self) -> list[float]: ...
+    @property
+    def effective_nyquist(self) -> Optional[float]: ...
+    @property
+    def oscillation(self) -> Optional[float]: ...
+    @property
+    def contrast(self) -> float: ...
+    @property
+    def peak(self) -> float: ...
+    @property
+    def peak_frequency(self) -> list[float]: ...
+
+class Spectrum:
+    def __init__(
+        self,
+        xy: ArrayLike,
+        size: SupportsIndex,
+        stride: SupportsIndex = 1,
+        *,
+        domain_min: _Numbers = [0.0, 0.0],
+        domain_max: _Numbers = [1.0, 1.0],
+        boundary: _Boundary = "periodic",
+        threads: SupportsIndex = 0,
+        progress: _Progress = None,
+    ) -> None: ...
+    @staticmethod
+    def mean(spectra: Sequence[Spectrum]) -> Spectrum: ...
+    @property
+    def size(self) -> int: ...
+    @property
+    def power(self) -> NDArray[np.float32]: ...
+    def radial(self, width: SupportsFloat = 0.05) -> NDArray[np.float64]: ...
+    def measure(self, low: SupportsFloat, high: SupportsFloat, width: SupportsFloat) -> SpectrumReport: ...
+
+class Differences:
+    def __init__(
+        self,
+        mesh: Mesh,
+        positions: ArrayLike,
+        normals: ArrayLike,
+        direction: _Numbers = [1.0, 0.0, 0.0],
+        *,
+        seed: SupportsIndex = 0,
+        threads: SupportsIndex = 0,
+        progress: _Progress = None,
+    ) -> None: ...
+    @staticmethod
+    def mean(differences: Sequence[Differences]) -> Differences: ...
+    @property
+    def density(self) -> NDArray[np.float64]: ...
+    @property
+    def radial(self) -> NDArray[np.float64]: ...
+    def power(self, frequencies: ArrayLike) -> NDArray[np.float64]: ...
+
+def classes_radii(own: ArrayLike, factor: SupportsFloat = 1.0) -> NDArray[np.float64]: ...
+def kdrt_sample(
+    radius: SupportsFloat = 0.0,
+    *,
+    count: SupportsIndex = 0,
+    domain_min: _Numbers = [0.0, 0.0],
+    domain_max: _Numbers = [1.0, 1.0],
+    boundary: _Boundary = "periodic",
+    leaf_size: SupportsFloat = 20.0,
+    seed: SupportsIndex = 0,
+    order: _Order = "any",
+    quotient: Optional[SupportsFloat] = None,
+    coarsest: Optional[SupportsFloat] = None,
+    given_positions: Optional[ArrayLike] = None,
+    given_clearances: Optional[ArrayLike] = None,
+    threads: SupportsIndex = 0,
+    progress: _Progress = None,
+) -> Points: ...
+def kdrt_sample_window(
+    window_min: _Numbers,
+    window_max: _Numbers,
+    radius: SupportsFloat,
+    *,
+    domain_min: _Numbers = [0.0, 0.0],
+    domain_max: _Numbers = [1.0, 1.0],
+    boundary: _Boundary = "periodic",
+    leaf_size: SupportsFloat = 20.0,
+    seed: SupportsIndex = 0,
+    order: _Order = "any",
+    quotient: Optional[SupportsFloat] = None,
+    coarsest: Optional[SupportsFloat] = None,
+    given_positions: Optional[ArrayLike] = None,
+    given_clearances: Optional[ArrayLike] = None,
+    threads: SupportsIndex = 0,
+    progress: _Progress = None,
+) -> Points: ...
+def kdrt_sample_classes(
+    radii: ArrayLike,
+    *,
+    domain_min: _Numbers = [0.0, 0.0],
+    domain_max: _Numbers = [1.0, 1.0],
+    boundary: _Boundary = "periodic",
+    leaf_size: SupportsFloat = 20.0,
+    seed: SupportsIndex = 0,
+    given_positions: Optional[ArrayLike] = None,
+    given_clearances: Optional[ArrayLike] = None,
+    threads: SupportsIndex = 0,
+    progress: _Progress = None,
+) -> Points: ...
+def maximal_sample(
+    radius: SupportsFloat,
+    *,
+    domain_min: _Numbers = [0.0, 0.0],
+    domain_max: _Numbers = [1.0, 1.0],
+    boundary: _Boundary = "periodic",
+    seed: SupportsIndex = 0,
+    threads: SupportsIndex = 0,
+    progress: _Progress = None,
+) -> Points: ...
+def kdrt_merge(
+    pieces: Sequence[tuple[ArrayLike, _Numbers, _Numbers]],
+    radius: SupportsFloat,
+    *,
+    fixed: Optional[ArrayLike] = None,
+    domain_min: _Numbers = [0.0, 0.0],
+    domain_max: _Numbers = [1.0, 1.0],
+    boundary: _Boundary = "periodic",
+    seed: SupportsIndex = 0,
+    threads: SupportsIndex = 0,
+    progress: _Progress = None,
+) -> Points: ...
+def psp_sample(
+    mesh: Mesh,
+    radius: SupportsFloat = 0.0,
+    *,
+    count: SupportsIndex = 0,
+    order: _Order = "any",
+    quotient: Optional[SupportsFloat] = None,
+    iterations: Optional[SupportsIndex] = None,
+    maximal: bool = True,
+    seed: SupportsIndex = 0,
+    priority: Literal["squareness", "projector"] = "squareness",
+    given_positions: Optional[ArrayLike] = None,
+    given_clearances: Optional[ArrayLike] = None,
+    cosine: SupportsFloat = -1.0,
+    threads: SupportsIndex = 0,
+    progress: _Progress = None,
+) -> Points: ...
+def psp_sample_classes(
+    mesh: Mesh,
+    radii: ArrayLike,
+    *,
+    masks: Optional[ArrayLike] = None,
+    seed: SupportsIndex = 0,
+    given_positions: Optional[ArrayLike] = None,
+    given_clearances: Optional[ArrayLike] = None,
+    cosine: SupportsFloat = -1.0,
+    threads: SupportsIndex = 0,
+    progress: _Progress = None,
+) -> Points: ...
+def psp_adaptive_sample(
+    mesh: Mesh,
+    vertex_radii: ArrayLike,
+    *,
+    seed: SupportsIndex = 0,
+    given_positions: Optional[ArrayLike] = None,
+    given_clearances: Optional[ArrayLike] = None,
+    cosine: SupportsFloat = -1.0,
+    threads: SupportsIndex = 0,
+    progress: _Progress = None,
+) -> Points: ...
+def psp_adaptive_with_density(
+    mesh: Mesh,
+    density: ArrayLike,
+    *,
+    radius: SupportsFloat = 0.0,
+    count: SupportsFloat = 0.0,
+    texture: Optional[ArrayLike] = None,
+    seed: SupportsIndex = 0,
+    given_positions: Optional[ArrayLike] = None,
+    given_clearances: Optional[ArrayLike] = None,
+    cosine: SupportsFloat = -1.0,
+    threads: SupportsIndex = 0,
+    progress: _Progress = None,
+) -> Points: ...
+def dcr_relax(
+    xy: ArrayLike,
+    *,
+    domain_min: _Numbers = [0.0, 0.0],
+    domain_max: _Numbers = [1.0, 1.0],
+    boundary: _Boundary = "periodic",
+    neighbourhood: Literal["delaunay", "nearest"] = "delaunay",
+    method: Literal["momentum", "thesis"] = "momentum",
+    max_iterations: SupportsIndex = 100,
+    tolerance: Optional[SupportsFloat] = None,
+    seed: SupportsIndex = 0,
+    conflict_radius: Optional[SupportsFloat] = None,
+    attraction_radius: Optional[SupportsFloat] = None,
+    step: Optional[SupportsFloat] = None,
+    decay: Optional[SupportsFloat] = None,
+    neighbours: Optional[SupportsIndex] = None,
+    distribution: Optional[Literal["activeness", "average", "dominant", "zero", "eighty_twenty"]] = None,
+    visits: Optional[Literal["both_ends", "one_end"]] = None,
+    convergence: Optional[Literal["motion", "variance"]] = None,
+    threads: SupportsIndex = 0,
+    progress: _Progress = None,
+) -> Points: ...
+def dcr_relax_density(
+    xy: ArrayLike,
+    density: ArrayLike,
+    *,
+    domain_min: _Numbers = [0.0, 0.0],
+    domain_max: _Numbers = [1.0, 1.0],
+    boundary: _Boundary = "periodic",
+    max_iterations: SupportsIndex = 100,
+    tolerance: Optional[SupportsFloat] = None,
+    seed: SupportsIndex = 0,
+    threads: SupportsIndex = 0,
+    progress: _Progress = None,
+) -> Points: ...
+def dcr_scatter(
+    density: ArrayLike,
+    count: SupportsIndex,
+    *,
+    domain_min: _Numbers = [0.0, 0.0],
+    domain_max: _Numbers = [1.0, 1.0],
+    boundary: _Boundary = "periodic",
+    seed: SupportsIndex = 0,
+    threads: SupportsIndex = 0,
+    progress: _Progress = None,
+) -> Points: ...
+def dcr_surface_relax(
+    mesh: Mesh,
+    triangles: ArrayLike,
+    barycentrics: ArrayLike,
+    *,
+    max_iterations: SupportsIndex = 100,
+    tolerance: Optional[SupportsFloat] = None,
+    seed: SupportsIndex = 0,
+    threads: SupportsIndex = 0,
+    progress: _Progress = None,
+) -> Points: ...
+def thin(
+    positions: ArrayLike,
+    *,
+    radius: SupportsFloat = 0.0,
+    count: SupportsIndex = 0,
+    order: _Order = "any",
+    seed: SupportsIndex = 0,
+    threads: SupportsIndex = 0,
+    progress: _Progress = None,
+) -> Selection: ...
+def plane_smallest_distance(
+    xy: ArrayLike,
+    *,
+    domain_min: _Numbers = [0.0, 0.0],
+    domain_max: _Numbers = [1.0, 1.0],
+    boundary: _Boundary = "periodic",
+    threads: SupportsIndex = 0,
+    progress: _Progress = None,
+) -> float: ...
+def plane_covering_radius(
+    xy: ArrayLike,
+    *,
+    domain_min: _Numbers = [0.0, 0.0],
+    domain_max: _Numbers = [1.0, 1.0],
+    boundary: _Boundary = "periodic",
+    threads: SupportsIndex = 0,
+    progress: _Progress = None,
+) -> float: ...
+def space_smallest_distance(
+    positions: ArrayLike,
+    *,
+    threads: SupportsIndex = 0,
+    progress: _Progress = None,
+) -> float: ...
+def plane_coverage(
+    xy: ArrayLike,
+    radius: SupportsFloat,
+    *,
+    domain_min: _Numbers = [0.0, 0.0],
+    domain_max: _Numbers = [1.0, 1.0],
+    boundary: _Boundary = "periodic",
+    threads: SupportsIndex = 0,
+    progress: _Progress = None,
+) -> CoverageReport: ...
+def mesh_coverage(
+    mesh: Mesh,
+    positions: ArrayLike,
+    radius: SupportsFloat,
+    *,
+    threads: SupportsIndex = 0,
+    progress: _Progress = None,
+) -> CoverageReport: ...
+def mesh_uncovered_fraction(
+    mesh: Mesh,
+    positions: ArrayLike,
+    radius: SupportsFloat,
+    *,
+    probes: SupportsIndex = 100000,
+    seed: SupportsIndex = 0,
+    threads: SupportsIndex = 0,
+    progress: _Progress = None,
+) -> float: ...
+def plane_measure(
+    xy: ArrayLike,
+    *,
+    domain_min: _Numbers = [0.0, 0.0],
+    domain_max: _Numbers = [1.0, 1.0],
+    boundary: _Boundary = "periodic",
+    threads: SupportsIndex = 0,
+    progress: _Progress = None,
+) -> PlaneReport: ...
+def plane_nearest_histogram(
+    xy: ArrayLike,
+    reach: SupportsFloat,
+    bins: SupportsIndex,
+    *,
+    domain_min: _Numbers = [0.0, 0.0],
+    domain_max: _Numbers = [1.0, 1.0],
+    boundary: _Boundary = "periodic",
+    threads: SupportsIndex = 0,
+    progress: _Progress = None,
+) -> NDArray[np.uint64]: ...
+def plane_radial_distribution(
+    xy: ArrayLike,
+    reach: SupportsFloat,
+    bins: SupportsIndex,
+    *,
+    domain_min: _Numbers = [0.0, 0.0],
+    domain_max: _Numbers = [1.0, 1.0],
+    boundary: _Boundary = "periodic",
+    threads: SupportsIndex = 0,
+    progress: _Progress = None,
+) -> NDArray[np.float64]: ...

@@ -1,0 +1,319 @@
+//! Measures of any point set.
+
+use azulejo_core::analysis::coverage::{self, Coverage};
+use azulejo_core::analysis::distribution::radial_distribution;
+use azulejo_core::analysis::figures::{Figures, figures_2d};
+use azulejo_core::analysis::spacing::{self, nearest_distances_2d, nearest_histogram_2d, spacing_2d};
+use azulejo_core::{Context, Domain, Error, Progress};
+use numpy::PyArray1;
+use pyo3::prelude::*;
+
+use crate::argument::{domain, natural};
+use crate::array::{Array, line};
+use crate::mesh::Mesh;
+use crate::watch::Watch;
+
+/// Points of the plane in their domain.
+pub(crate) struct PlaneSet<'py> {
+    xy: Array<'py, f32>,
+    domain: Domain,
+}
+
+impl<'py> PlaneSet<'py> {
+    pub(crate) fn read(xy: &Bound<'py, PyAny>, min: [f64; 2], max: [f64; 2], boundary: &str) -> PyResult<Self> {
+        Ok(Self { xy: Array::read("xy", xy)?, domain: domain(min, max, boundary)? })
+    }
+
+    pub(crate) fn run<T: Send>(
+        &self,
+        watch: Watch,
+        call: impl FnOnce(&Context, &Domain, &[[f32; 2]], Option<&Progress>) -> Result<T, Error> + Send,
+    ) -> PyResult<T> {
+        let (points, domain) = (self.xy.rows()?, &self.domain);
+        watch.run(|context, progress| call(context, domain, points, progress))
+    }
+}
+
+/// The smallest distance of two points of the plane; infinite for less than two.
+///
+/// xy: the points, float32, shape (n, 2), in domain_min <= x < domain_max.
+/// domain_min, domain_max: the corners of the domain, two numbers each.
+/// boundary: "periodic" (distances wrap around) or "bounded".
+/// threads: 0 for one per core.
+/// progress: called with the fraction that is done, from 0 to 1; if it returns False the call raises Cancelled.
+#[pyfunction]
+#[pyo3(signature = (
+    xy, *, domain_min=[0.0, 0.0], domain_max=[1.0, 1.0], boundary="periodic", threads=0, progress=None
+))]
+pub(crate) fn plane_smallest_distance(
+    py: Python<'_>,
+    xy: &Bound<'_, PyAny>,
+    domain_min: [f64; 2],
+    domain_max: [f64; 2],
+    boundary: &str,
+    threads: i128,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<f64> {
+    PlaneSet::read(xy, domain_min, domain_max, boundary)?
+        .run(Watch::new(py, threads, progress)?, spacing::smallest_distance_2d)
+}
+
+/// The covering radius of points of the plane: the distance of the place that is farthest from all of them, found exactly
+/// by the Voronoi diagram. The arguments are those of plane_smallest_distance.
+#[pyfunction]
+#[pyo3(signature = (
+    xy, *, domain_min=[0.0, 0.0], domain_max=[1.0, 1.0], boundary="periodic", threads=0, progress=None
+))]
+pub(crate) fn plane_covering_radius(
+    py: Python<'_>,
+    xy: &Bound<'_, PyAny>,
+    domain_min: [f64; 2],
+    domain_max: [f64; 2],
+    boundary: &str,
+    threads: i128,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<f64> {
+    PlaneSet::read(xy, domain_min, domain_max, boundary)?
+        .run(Watch::new(py, threads, progress)?, coverage::covering_radius_2d)
+}
+
+/// The smallest distance of two points of space; infinite for less than two.
+///
+/// positions: float32, shape (n, 3). threads, progress: as in plane_smallest_distance.
+#[pyfunction]
+#[pyo3(signature = (positions, *, threads=0, progress=None))]
+pub(crate) fn space_smallest_distance(
+    py: Python<'_>,
+    positions: &Bound<'_, PyAny>,
+    threads: i128,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<f64> {
+    let positions = Array::read("positions", positions)?;
+    let points = positions.rows()?;
+    Watch::new(py, threads, progress)?.run(|context, progress| spacing::smallest_distance_3d(context, points, progress))
+}
+
+/// How a set covers its domain or mesh.
+#[pyclass(frozen, get_all, module = "azulejo")]
+pub(crate) struct CoverageReport {
+    /// The distance of the place that is farthest from all samples.
+    covering_radius: f64,
+    /// The number of gaps; 0 for a maximal set.
+    gaps: usize,
+}
+
+impl From<Coverage> for CoverageReport {
+    fn from(Coverage { farthest, gaps, .. }: Coverage) -> Self {
+        Self { covering_radius: farthest, gaps }
+    }
+}
+
+/// Counts the gaps that points of the plane leave: the connected parts of the domain that are farther than a radius from
+/// all points.
+///
+/// radius: above 0, in the units of the domain. The others are those of plane_smallest_distance.
+///
+/// Returns a CoverageReport.
+#[pyfunction]
+#[pyo3(signature = (
+    xy, radius, *, domain_min=[0.0, 0.0], domain_max=[1.0, 1.0], boundary="periodic", threads=0, progress=None
+))]
+pub(crate) fn plane_coverage(
+    py: Python<'_>,
+    xy: &Bound<'_, PyAny>,
+    radius: f64,
+    domain_min: [f64; 2],
+    domain_max: [f64; 2],
+    boundary: &str,
+    threads: i128,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<CoverageReport> {
+    let set = PlaneSet::read(xy, domain_min, domain_max, boundary)?;
+    let coverage = set.run(Watch::new(py, threads, progress)?, |context, domain, points, progress| {
+        coverage::coverage_2d(context, domain, points, radius, progress)
+    })?;
+    Ok(coverage.into())
+}
+
+/// Counts the gaps that samples leave on a mesh, by straight distance, and finds the covering radius.
+///
+/// mesh: a Mesh. positions: the samples, float32, shape (n, 3). radius: above 0, in the units of the mesh.
+/// threads, progress: as in plane_smallest_distance.
+///
+/// Returns a CoverageReport.
+#[pyfunction]
+#[pyo3(signature = (mesh, positions, radius, *, threads=0, progress=None))]
+pub(crate) fn mesh_coverage(
+    py: Python<'_>,
+    mesh: &Mesh,
+    positions: &Bound<'_, PyAny>,
+    radius: f64,
+    threads: i128,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<CoverageReport> {
+    let positions = Array::read("positions", positions)?;
+    let points = positions.rows()?;
+    let coverage = Watch::new(py, threads, progress)?
+        .run(|context, progress| coverage::surface_coverage(context, &mesh.shared, points, radius, progress))?;
+    Ok(coverage.into())
+}
+
+/// The share of random points of a mesh that is farther than a radius from all samples: fast, but no proof of coverage.
+///
+/// probes: the number of random points. seed: 0 to 2**64 - 1. The others are those of mesh_coverage.
+#[pyfunction]
+#[pyo3(signature = (mesh, positions, radius, *, probes=100000, seed=0, threads=0, progress=None))]
+pub(crate) fn mesh_uncovered_fraction(
+    py: Python<'_>,
+    mesh: &Mesh,
+    positions: &Bound<'_, PyAny>,
+    radius: f64,
+    probes: i128,
+    seed: i128,
+    threads: i128,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<f64> {
+    let positions = Array::read("positions", positions)?;
+    let points = positions.rows()?;
+    let (probes, seed) = (natural("probes", probes)?, natural("seed", seed)?);
+    Watch::new(py, threads, progress)?.run(|context, progress| {
+        coverage::surface_uncovered_fraction(context, &mesh.shared, points, radius, probes, seed, progress)
+    })
+}
+
+/// What points of the plane are like.
+#[pyclass(frozen, get_all, module = "azulejo")]
+pub(crate) struct PlaneReport {
+    /// The number of points.
+    count: usize,
+    /// The smallest distance of two points.
+    smallest_distance: f64,
+    /// The mean distance of a point to its nearest neighbour.
+    mean_distance: f64,
+    /// d_max, the distance of neighbours if as many points stood in hexagonal order.
+    hexagonal_distance: f64,
+    /// The smallest distance in units of d_max.
+    rho: f64,
+    /// The distance of the place that is farthest from all points.
+    covering_radius: f64,
+    /// The bond order psi6: 1 for a hexagonal lattice.
+    bond_order: f64,
+    /// The number of Delaunay triangles.
+    triangles: u64,
+    /// The share of them that is obtuse.
+    obtuse: f64,
+    /// The share of them whose smallest angle is below 30 degrees.
+    below_30_degrees: f64,
+    /// The share of all angles that is below 30 degrees.
+    angles_below_30_degrees: f64,
+    /// The mean length of their edges.
+    edge_mean: f64,
+    /// The standard deviation of the lengths over their mean.
+    edge_variation: f64,
+    /// The standard deviation of the areas over their mean.
+    area_variation: f64,
+    /// The share of edges whose length is more than 4 standard deviations from the mean.
+    beyond_4_sigma: f64,
+}
+
+/// Measures points of the plane: spacing, covering radius, bond order and Delaunay triangles.
+///
+/// The arguments are those of plane_smallest_distance. Returns a PlaneReport.
+#[pyfunction]
+#[pyo3(signature = (
+    xy, *, domain_min=[0.0, 0.0], domain_max=[1.0, 1.0], boundary="periodic", threads=0, progress=None
+))]
+pub(crate) fn plane_measure(
+    py: Python<'_>,
+    xy: &Bound<'_, PyAny>,
+    domain_min: [f64; 2],
+    domain_max: [f64; 2],
+    boundary: &str,
+    threads: i128,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<PlaneReport> {
+    let set = PlaneSet::read(xy, domain_min, domain_max, boundary)?;
+    let Figures { nearest, covering_radius, bond_order, triangles, .. } =
+        set.run(Watch::new(py, threads, progress)?, figures_2d)?;
+    let spacing = spacing_2d(&set.domain, &nearest);
+    Ok(PlaneReport {
+        count: nearest.len(),
+        smallest_distance: spacing.smallest,
+        mean_distance: spacing.mean,
+        hexagonal_distance: spacing.hexagonal,
+        rho: if nearest.is_empty() { f64::INFINITY } else { spacing.smallest / spacing.hexagonal },
+        covering_radius,
+        bond_order,
+        triangles: triangles.triangles,
+        obtuse: triangles.obtuse,
+        below_30_degrees: triangles.below_30_degrees,
+        angles_below_30_degrees: triangles.angles_below_30_degrees,
+        edge_mean: triangles.edge_mean,
+        edge_variation: triangles.edge_variation,
+        area_variation: triangles.area_variation,
+        beyond_4_sigma: triangles.beyond_4_sigma,
+    })
+}
+
+/// The histogram of the distances of points of the plane to their nearest neighbours.
+///
+/// reach: where the last bin ends, above 0, in units of d_max. bins: their number, 1 to 65536.
+/// The others are those of plane_smallest_distance.
+///
+/// Returns uint64, shape (bins,).
+#[pyfunction]
+#[pyo3(signature = (
+    xy, reach, bins, *, domain_min=[0.0, 0.0], domain_max=[1.0, 1.0], boundary="periodic", threads=0, progress=None
+))]
+pub(crate) fn plane_nearest_histogram(
+    py: Python<'_>,
+    xy: &Bound<'_, PyAny>,
+    reach: f64,
+    bins: i128,
+    domain_min: [f64; 2],
+    domain_max: [f64; 2],
+    boundary: &str,
+    threads: i128,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<Py<PyArray1<u64>>> {
+    let set = PlaneSet::read(xy, domain_min, domain_max, boundary)?;
+    let bins = natural("bins", bins)?;
+    let histogram = set.run(Watch::new(py, threads, progress)?, |context, domain, points, progress| {
+        // Bad bins are refused before any work.
+        nearest_histogram_2d(domain, &[], reach, bins)?;
+        let nearest = nearest_distances_2d(context, domain, points, progress)?;
+        nearest_histogram_2d(domain, &nearest, reach, bins)
+    })?;
+    Ok(line(py, histogram))
+}
+
+/// The radial distribution function of points of the plane, also called pair correlation: the density of other points at a
+/// distance from a point, over the mean density. 1 for a Poisson process.
+///
+/// xy: at least 2 points.
+/// reach: where the last bin ends, in units of d_max, at most half of the domain's width or height.
+/// bins: their number, 1 to 65536. The others are those of plane_smallest_distance.
+///
+/// Returns float64, shape (bins,).
+#[pyfunction]
+#[pyo3(signature = (
+    xy, reach, bins, *, domain_min=[0.0, 0.0], domain_max=[1.0, 1.0], boundary="periodic", threads=0, progress=None
+))]
+pub(crate) fn plane_radial_distribution(
+    py: Python<'_>,
+    xy: &Bound<'_, PyAny>,
+    reach: f64,
+    bins: i128,
+    domain_min: [f64; 2],
+    domain_max: [f64; 2],
+    boundary: &str,
+    threads: i128,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<Py<PyArray1<f64>>> {
+    let set = PlaneSet::read(xy, domain_min, domain_max, boundary)?;
+    let bins = natural("bins", bins)?;
+    let distribution = set.run(Watch::new(py, threads, progress)?, |context, domain, points, progress| {
+        radial_distribution(context, domain, points, reach, bins, progress)
+    })?;
+    Ok(line(py, distribution.density()))
+}

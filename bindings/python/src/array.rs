@@ -1,0 +1,168 @@
+//! numpy arrays in and out.
+
+use azulejo_core::Given;
+use numpy::{
+    Element, PyArray1, PyArray2, PyArrayDyn, PyArrayMethods, PyReadonlyArrayDyn, PyUntypedArrayMethods, dtype,
+};
+use pyo3::exceptions::PyTypeError;
+use pyo3::prelude::*;
+use pyo3::types::IntoPyDict;
+
+use crate::error::invalid;
+
+/// A type of entries, and what is converted to it.
+pub(crate) trait Entry: Element + Copy {
+    /// The kinds of numpy's types.
+    const KINDS: &str;
+    /// What they are.
+    const WHAT: &str;
+    /// The largest entry, where whole numbers are converted; the smallest is 0.
+    const MOST: Option<u32> = None;
+}
+
+impl Entry for f32 {
+    const KINDS: &str = "fiu";
+    const WHAT: &str = "real numbers";
+}
+
+impl Entry for f64 {
+    const KINDS: &str = "fiu";
+    const WHAT: &str = "real numbers";
+}
+
+impl Entry for u32 {
+    const KINDS: &str = "iu";
+    const WHAT: &str = "whole numbers";
+    const MOST: Option<u32> = Some(u32::MAX);
+}
+
+impl Entry for bool {
+    const KINDS: &str = "b";
+    const WHAT: &str = "True and False";
+}
+
+/// An argument that is an array: read in place if it is aligned, C-contiguous and of the right type, a copy otherwise.
+/// Arrays must not be changed during the call, which runs without the interpreter's lock.
+pub(crate) struct Array<'py, T: Entry> {
+    argument: &'static str,
+    array: PyReadonlyArrayDyn<'py, T>,
+}
+
+impl<'py, T: Entry> Array<'py, T> {
+    pub(crate) fn read(argument: &'static str, object: &Bound<'py, PyAny>) -> PyResult<Self> {
+        let array = match object.cast::<PyArrayDyn<T>>() {
+            Ok(array) if array.is_c_contiguous() && array.is_aligned() => array.clone(),
+            _ => converted(argument, object)?,
+        };
+        Ok(Self { argument, array: array.try_readonly().map_err(|error| invalid(argument, error))? })
+    }
+
+    /// All entries, row by row.
+    pub(crate) fn entries(&self) -> &[T] {
+        self.array.as_slice().expect("the array is contiguous")
+    }
+
+    pub(crate) fn shape(&self) -> &[usize] {
+        self.array.shape()
+    }
+
+    /// An array of n entries.
+    pub(crate) fn line(&self) -> PyResult<&[T]> {
+        match self.shape() {
+            [_] => Ok(self.entries()),
+            shape => Err(invalid(self.argument, format!("its shape is {shape:?}, not [n]"))),
+        }
+    }
+
+    /// An image of height rows, as its pixels, width and height.
+    pub(crate) fn image(&self) -> PyResult<(&[T], [usize; 2])> {
+        match *self.shape() {
+            [height, width] => Ok((self.entries(), [width, height])),
+            ref shape => Err(invalid(self.argument, format!("its shape is {shape:?}, not [height, width]"))),
+        }
+    }
+
+    /// An array of n rows of `N`; an empty list is one without rows.
+    pub(crate) fn rows<const N: usize>(&self) -> PyResult<&[[T; N]]> {
+        match self.shape() {
+            [_, columns] if *columns == N => Ok(self.entries().as_chunks().0),
+            [0] => Ok(&[]),
+            shape => Err(invalid(self.argument, format!("its shape is {shape:?}, not [n, {N}]"))),
+        }
+    }
+}
+
+fn converted<'py, T: Entry>(argument: &str, object: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyArrayDyn<T>>> {
+    let py = object.py();
+    let array =
+        py.import("numpy")?.call_method1("asarray", (object,)).map_err(|error| invalid(argument, error.value(py)))?;
+    let kind: String = array.getattr("dtype")?.getattr("kind")?.extract()?;
+    if array.getattr("size")?.extract::<usize>()? > 0 {
+        if !T::KINDS.contains(&kind) {
+            let reason = format!("{argument}: its type is {}, not {}", array.getattr("dtype")?, T::WHAT);
+            return Err(PyTypeError::new_err(reason));
+        }
+        if let Some(most) = T::MOST {
+            for end in ["min", "max"] {
+                let entry: i128 = array.call_method0(end)?.extract()?;
+                if !(0..=most.into()).contains(&entry) {
+                    return Err(invalid(argument, format!("{entry} is not in 0 to {most}")));
+                }
+            }
+        }
+    }
+    let options = [("order", "C")].into_py_dict(py)?;
+    Ok(array.call_method("astype", (dtype::<T>(py),), Some(&options))?.cast_into()?)
+}
+
+/// An argument that may be None.
+pub(crate) fn optional<'py, T: Entry>(
+    argument: &'static str,
+    object: Option<&Bound<'py, PyAny>>,
+) -> PyResult<Option<Array<'py, T>>> {
+    object.map(|object| Array::read(argument, object)).transpose()
+}
+
+/// The arguments `given_positions` and `given_clearances`.
+pub(crate) struct GivenArrays<'py> {
+    positions: Option<Array<'py, f32>>,
+    clearances: Option<Array<'py, f64>>,
+}
+
+impl<'py> GivenArrays<'py> {
+    pub(crate) fn read(
+        positions: Option<&Bound<'py, PyAny>>,
+        clearances: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Self> {
+        let positions = optional("given_positions", positions)?;
+        Ok(Self { positions, clearances: optional("given_clearances", clearances)? })
+    }
+
+    /// The clearances are n numbers or, where there are classes, n rows of one for each class.
+    pub(crate) fn samples<const N: usize>(&self) -> PyResult<Given<'_, N>> {
+        let positions = self.positions.as_ref().map_or(Ok([].as_slice()), Array::rows)?;
+        if let Some(clearances) = &self.clearances
+            && clearances.shape().first() != Some(&positions.len())
+        {
+            let reason = format!("its shape is {:?}, but {} samples are given", clearances.shape(), positions.len());
+            return Err(invalid("given_clearances", reason));
+        }
+        Ok(Given { positions, clearances: self.clearances.as_ref().map(Array::entries) })
+    }
+}
+
+/// A new array of n rows, which takes over the memory.
+pub(crate) fn table<T: Element, const N: usize>(py: Python<'_>, rows: Vec<[T; N]>) -> PyResult<Py<PyArray2<T>>> {
+    let shape = [rows.len(), N];
+    Ok(PyArray1::from_vec(py, rows.into_flattened()).reshape(shape)?.unbind())
+}
+
+/// A new array of n entries, which takes over the memory.
+pub(crate) fn line<T: Element>(py: Python<'_>, entries: Vec<T>) -> Py<PyArray1<T>> {
+    PyArray1::from_vec(py, entries).unbind()
+}
+
+/// [`line()`], or None where the library leaves an array empty because it does not apply.
+pub(crate) fn line_if_any<T: Element>(py: Python<'_>, entries: Vec<T>) -> Option<Py<PyArray1<T>>> {
+    (!entries.is_empty()).then(|| line(py, entries))
+}

@@ -1,0 +1,65 @@
+//! The Python module `azulejo`. What users read is in the doc comments of its functions and classes, and in azulejo.pyi.
+
+mod analysis;
+mod argument;
+mod array;
+mod classes;
+mod error;
+mod mesh;
+mod plane;
+mod points;
+mod psp;
+mod relax;
+mod spectrum;
+mod thin;
+mod watch;
+
+/// Blue-noise sampling: maximal Poisson-disk sets in the plane and on triangle meshes, and their relaxation.
+///
+/// The plane: kdrt_sample, kdrt_sample_window, KdrtPlane, kdrt_sample_classes, kdrt_merge, maximal_sample. Meshes: Mesh,
+/// psp_sample, psp_sample_classes, psp_adaptive_sample, psp_adaptive_with_density. Relaxation: dcr_relax,
+/// dcr_relax_density, dcr_scatter, dcr_surface_relax. Clouds: thin. Analysis: plane_measure, plane_coverage,
+/// mesh_coverage, Spectrum, Differences and others.
+///
+/// A radius is the smallest distance of two samples, centre to centre. The same arguments and seed give the same bytes,
+/// for any number of threads and on every machine.
+///
+/// Arrays are read in place if they are C-contiguous and of the type that is named, and copied otherwise; results are not
+/// copied. Calls release the interpreter's lock: other threads run on, and must not change arrays that are being read.
+///
+/// Bad arguments raise ValueError or TypeError, requests that memory cannot hold MemoryError, files that cannot be read
+/// OSError. Ctrl-C interrupts a call.
+#[pyo3::pymodule]
+mod azulejo {
+    #[pymodule_export]
+    use crate::analysis::{
+        CoverageReport, PlaneReport, mesh_coverage, mesh_uncovered_fraction, plane_coverage, plane_covering_radius,
+        plane_measure, plane_nearest_histogram, plane_radial_distribution, plane_smallest_distance,
+        space_smallest_distance,
+    };
+    #[pymodule_export]
+    use crate::classes::classes_radii;
+    #[pymodule_export]
+    use crate::error::Cancelled;
+    #[pymodule_export]
+    use crate::mesh::Mesh;
+    #[pymodule_export]
+    use crate::plane::{
+        KdrtMergeReport, KdrtPlane, KdrtReport, kdrt_merge, kdrt_sample, kdrt_sample_classes, kdrt_sample_window,
+        maximal_sample,
+    };
+    #[pymodule_export]
+    use crate::points::Points;
+    #[pymodule_export]
+    use crate::psp::{PspReport, psp_adaptive_sample, psp_adaptive_with_density, psp_sample, psp_sample_classes};
+    #[pymodule_export]
+    use crate::relax::{DcrReport, dcr_relax, dcr_relax_density, dcr_scatter, dcr_surface_relax};
+    #[pymodule_export]
+    use crate::spectrum::{Differences, Spectrum, SpectrumReport};
+    #[pymodule_export]
+    use crate::thin::{Selection, thin};
+
+    #[pymodule_export]
+    #[allow(non_upper_case_globals)]
+    const __version__: &str = env!("CARGO_PKG_VERSION");
+}

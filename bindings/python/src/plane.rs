@@ -1,0 +1,349 @@
+//! Maximal sets in the plane.
+
+use azulejo_core::kdrt::{self, ClassPlane, CountOptions, DEFAULT_QUOTIENT, Plane};
+use azulejo_core::{Domain, Order, maximal};
+use pyo3::prelude::*;
+
+use crate::argument::{domain, natural, order};
+use crate::array::{Array, GivenArrays};
+use crate::classes::matrix;
+use crate::error::{invalid, raised};
+use crate::points::Points;
+use crate::watch::Watch;
+
+/// What kdrt_sample did.
+#[pyclass(frozen, get_all, module = "azulejo")]
+pub(crate) struct KdrtReport {
+    /// No two samples are closer: the radius that was asked for or, for a count, the one that was found.
+    radius: f64,
+    /// Whether no sample can be added. Sets of a count that is not reached exactly by a maximal set are not.
+    is_maximal: bool,
+}
+
+/// The arguments that all sets of the plane share.
+struct Request<'py> {
+    domain: Domain,
+    leaf_size: f64,
+    seed: u64,
+    order: Order,
+    quotient: f64,
+    coarsest: f64,
+    given: GivenArrays<'py>,
+}
+
+impl<'py> Request<'py> {
+    fn new(
+        domain: Domain,
+        leaf_size: f64,
+        seed: i128,
+        (order_name, quotient, coarsest): (&str, Option<f64>, Option<f64>),
+        (given_positions, given_clearances): (Option<&Bound<'py, PyAny>>, Option<&Bound<'py, PyAny>>),
+    ) -> PyResult<Self> {
+        Ok(Self {
+            domain,
+            leaf_size,
+            seed: natural("seed", seed)?,
+            order: order(order_name, &[("quotient", quotient), ("coarsest", coarsest)])?,
+            quotient: quotient.unwrap_or(DEFAULT_QUOTIENT),
+            coarsest: coarsest.unwrap_or(f64::INFINITY),
+            given: GivenArrays::read(given_positions, given_clearances)?,
+        })
+    }
+
+    fn by_radius(&self, radius: f64) -> PyResult<kdrt::Options<'_>> {
+        Ok(kdrt::Options::new(radius)
+            .domain(self.domain)
+            .leaf_size(self.leaf_size)
+            .seed(self.seed)
+            .order(self.order)
+            .quotient(self.quotient)
+            .coarsest(self.coarsest)
+            .given(self.given.samples()?))
+    }
+
+    fn by_count(&self, count: u64) -> PyResult<CountOptions> {
+        if !self.given.samples::<2>()?.positions.is_empty() {
+            return Err(invalid("given_positions", "a count does not go with given samples"));
+        }
+        Ok(CountOptions::new(count)
+            .domain(self.domain)
+            .leaf_size(self.leaf_size)
+            .seed(self.seed)
+            .order(self.order)
+            .quotient(self.quotient)
+            .coarsest(self.coarsest))
+    }
+}
+
+/// A maximal Poisson-disk set of a rectangle or torus: no two samples are closer than a radius, and no place is farther
+/// from all of them. Time grows in proportion to the samples.
+///
+/// radius: the smallest distance of two samples, above 0, in the units of the domain. Or:
+/// count: the number of samples, which is met exactly; the radius is found. Twice the work.
+/// domain_min, domain_max: the corners of the domain, two numbers each; samples lie in min <= x < max.
+/// boundary: "periodic" (distances wrap around) or "bounded".
+/// leaf_size: in radii, at least 6. Larger is faster and less biased.
+/// seed: 0 to 2**64 - 1. The same arguments and seed give the same bytes.
+/// order: "any", or "progressive": every prefix is well spread, and the points have ranks.
+/// quotient, coarsest: of a progressive order, the ratio of the radii of its levels (1.02 to 1.5, default 2**(1/8)) and the
+///     radius of the coarsest level (default: so large that it reaches over the domain).
+/// given_positions: float32, shape (m, 2): samples that stay and are not returned.
+/// given_clearances: float64, shape (m,): how far new samples are from each at least; default: the radius.
+/// threads: 0 for one per core. The samples do not depend on it.
+/// progress: called with the fraction that is done, from 0 to 1; if it returns False the call raises Cancelled.
+///
+/// Returns Points with the report KdrtReport.
+#[pyfunction]
+#[pyo3(signature = (
+    radius=0.0, *, count=0, domain_min=[0.0, 0.0], domain_max=[1.0, 1.0], boundary="periodic", leaf_size=20.0, seed=0,
+    order="any", quotient=None, coarsest=None, given_positions=None, given_clearances=None, threads=0, progress=None
+))]
+pub(crate) fn kdrt_sample(
+    py: Python<'_>,
+    radius: f64,
+    count: i128,
+    domain_min: [f64; 2],
+    domain_max: [f64; 2],
+    boundary: &str,
+    leaf_size: f64,
+    seed: i128,
+    order: &str,
+    quotient: Option<f64>,
+    coarsest: Option<f64>,
+    given_positions: Option<&Bound<'_, PyAny>>,
+    given_clearances: Option<&Bound<'_, PyAny>>,
+    threads: i128,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<Points> {
+    let domain = domain(domain_min, domain_max, boundary)?;
+    let given = (given_positions, given_clearances);
+    let request = Request::new(domain, leaf_size, seed, (order, quotient, coarsest), given)?;
+    let watch = Watch::new(py, threads, progress)?;
+    match natural("count", count)? {
+        0 => {
+            let request = request.by_radius(radius)?;
+            let set = watch.run(|context, progress| kdrt::sample_ranked(context, &request, progress))?;
+            Points::ranked(py, set)?.with_report(py, KdrtReport { radius, is_maximal: true })
+        }
+        _ if radius != 0.0 => Err(invalid("count", format!("{count}, and radius {radius}; one of them must be 0"))),
+        count => {
+            let request = request.by_count(count)?;
+            let set = watch.run(|context, progress| kdrt::sample_count(context, &request, progress))?;
+            let report = KdrtReport { radius: set.report.radius, is_maximal: set.report.is_maximal };
+            Points::ranked(py, kdrt::Ranked::new(set.samples, set.ranks))?.with_report(py, report)
+        }
+    }
+}
+
+/// The samples of kdrt_sample in a window, without the rest of the plane: the same bytes.
+///
+/// window_min, window_max: the corners, two numbers each, inside the domain. The others are those of kdrt_sample.
+#[pyfunction]
+#[pyo3(signature = (
+    window_min, window_max, radius, *, domain_min=[0.0, 0.0], domain_max=[1.0, 1.0], boundary="periodic",
+    leaf_size=20.0, seed=0, order="any", quotient=None, coarsest=None, given_positions=None, given_clearances=None,
+    threads=0, progress=None
+))]
+pub(crate) fn kdrt_sample_window(
+    py: Python<'_>,
+    window_min: [f64; 2],
+    window_max: [f64; 2],
+    radius: f64,
+    domain_min: [f64; 2],
+    domain_max: [f64; 2],
+    boundary: &str,
+    leaf_size: f64,
+    seed: i128,
+    order: &str,
+    quotient: Option<f64>,
+    coarsest: Option<f64>,
+    given_positions: Option<&Bound<'_, PyAny>>,
+    given_clearances: Option<&Bound<'_, PyAny>>,
+    threads: i128,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<Points> {
+    let domain = domain(domain_min, domain_max, boundary)?;
+    let given = (given_positions, given_clearances);
+    let request = Request::new(domain, leaf_size, seed, (order, quotient, coarsest), given)?;
+    let request = request.by_radius(radius)?;
+    let set = Watch::new(py, threads, progress)?
+        .run(|context, progress| kdrt::sample_window_ranked(context, &request, window_min, window_max, progress))?;
+    Points::ranked(py, set)
+}
+
+/// A maximal set of several classes: samples of the classes i and j are at least radii[i][j] apart, and for each class i
+/// every place is within radii[i][j] of some sample of some class j.
+///
+/// radii: symmetric, float64, shape (k, k) with k from 1 to 16; classes_radii() makes such matrices.
+/// given_clearances: float64, shape (m, k). The others are those of kdrt_sample.
+///
+/// Returns Points with classes.
+#[pyfunction]
+#[pyo3(signature = (
+    radii, *, domain_min=[0.0, 0.0], domain_max=[1.0, 1.0], boundary="periodic", leaf_size=20.0, seed=0,
+    given_positions=None, given_clearances=None, threads=0, progress=None
+))]
+pub(crate) fn kdrt_sample_classes(
+    py: Python<'_>,
+    radii: &Bound<'_, PyAny>,
+    domain_min: [f64; 2],
+    domain_max: [f64; 2],
+    boundary: &str,
+    leaf_size: f64,
+    seed: i128,
+    given_positions: Option<&Bound<'_, PyAny>>,
+    given_clearances: Option<&Bound<'_, PyAny>>,
+    threads: i128,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<Points> {
+    let classes = matrix(radii)?;
+    let domain = domain(domain_min, domain_max, boundary)?;
+    let request = Request::new(domain, leaf_size, seed, ("any", None, None), (given_positions, given_clearances))?;
+    let request = request.by_radius(0.0)?;
+    let set = Watch::new(py, threads, progress)?
+        .run(|context, progress| kdrt::sample_classes(context, &request, &classes, progress))?;
+    Points::classified(py, set)
+}
+
+/// A plane whose pattern is made once, for many windows of it.
+///
+/// radius, or radii of several classes as in kdrt_sample_classes. The others are those of kdrt_sample.
+#[pyclass(frozen, module = "azulejo")]
+pub(crate) struct KdrtPlane {
+    plane: Kept,
+}
+
+enum Kept {
+    One(Plane),
+    Several(ClassPlane),
+}
+
+#[pymethods]
+impl KdrtPlane {
+    #[new]
+    #[pyo3(signature = (
+        radius=0.0, *, radii=None, domain_min=[0.0, 0.0], domain_max=[1.0, 1.0], boundary="periodic", leaf_size=20.0,
+        seed=0, order="any", quotient=None, coarsest=None, given_positions=None, given_clearances=None, threads=0,
+        progress=None
+    ))]
+    fn new(
+        py: Python<'_>,
+        radius: f64,
+        radii: Option<&Bound<'_, PyAny>>,
+        domain_min: [f64; 2],
+        domain_max: [f64; 2],
+        boundary: &str,
+        leaf_size: f64,
+        seed: i128,
+        order: &str,
+        quotient: Option<f64>,
+        coarsest: Option<f64>,
+        given_positions: Option<&Bound<'_, PyAny>>,
+        given_clearances: Option<&Bound<'_, PyAny>>,
+        threads: i128,
+        progress: Option<Py<PyAny>>,
+    ) -> PyResult<Self> {
+        let domain = domain(domain_min, domain_max, boundary)?;
+        let given = (given_positions, given_clearances);
+        let request = Request::new(domain, leaf_size, seed, (order, quotient, coarsest), given)?;
+        let request = request.by_radius(radius)?;
+        let watch = Watch::new(py, threads, progress)?;
+        let plane = match radii.map(matrix).transpose()? {
+            None => Kept::One(watch.run(|context, progress| Plane::new(context, &request, progress))?),
+            Some(classes) => {
+                Kept::Several(watch.run(|context, progress| ClassPlane::new(context, &request, &classes, progress))?)
+            }
+        };
+        Ok(Self { plane })
+    }
+
+    /// The samples in a window, on the calling thread: those that kdrt_sample has there, to the byte.
+    ///
+    /// window_min, window_max: the corners, two numbers each, inside the domain. Several threads may make windows at
+    /// once.
+    fn window(&self, py: Python<'_>, window_min: [f64; 2], window_max: [f64; 2]) -> PyResult<Points> {
+        match &self.plane {
+            Kept::One(plane) => {
+                let set = py.detach(|| plane.window_ranked(window_min, window_max)).map_err(raised)?;
+                Points::ranked(py, set)
+            }
+            Kept::Several(plane) => {
+                let set = py.detach(|| plane.window(window_min, window_max)).map_err(raised)?;
+                Points::classified(py, set)
+            }
+        }
+    }
+}
+
+/// The unbiased maximal set that the others are measured by; slower than kdrt_sample, on one thread. The arguments are
+/// those of kdrt_sample.
+#[pyfunction]
+#[pyo3(signature = (
+    radius, *, domain_min=[0.0, 0.0], domain_max=[1.0, 1.0], boundary="periodic", seed=0, threads=0, progress=None
+))]
+pub(crate) fn maximal_sample(
+    py: Python<'_>,
+    radius: f64,
+    domain_min: [f64; 2],
+    domain_max: [f64; 2],
+    boundary: &str,
+    seed: i128,
+    threads: i128,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<Points> {
+    let domain = domain(domain_min, domain_max, boundary)?;
+    let request = maximal::Options::new(radius).domain(domain).seed(natural("seed", seed)?);
+    let samples =
+        Watch::new(py, threads, progress)?.run(|context, progress| maximal::sample(context, &request, progress))?;
+    Points::plane(py, samples)
+}
+
+/// What kdrt_merge did.
+#[pyclass(frozen, get_all, module = "azulejo")]
+pub(crate) struct KdrtMergeReport {
+    /// Samples of the pieces that were kept.
+    kept: usize,
+    /// Samples of the pieces that were too close to others.
+    eliminated: usize,
+    /// Samples that were added in gaps.
+    inserted: usize,
+}
+
+/// Merges sets that were made separately, each maximal in its rectangle, into one that is maximal in the domain.
+///
+/// pieces: a sequence of (xy, min, max): samples, float32, shape (n, 2), and the corners of the rectangle they fill.
+/// fixed: float32, shape (m, 2), or None: samples around the domain that stay and are not returned.
+/// The others are those of kdrt_sample.
+///
+/// Returns Points with the report KdrtMergeReport.
+#[pyfunction]
+#[pyo3(signature = (
+    pieces, radius, *, fixed=None, domain_min=[0.0, 0.0], domain_max=[1.0, 1.0], boundary="periodic", seed=0, threads=0,
+    progress=None
+))]
+pub(crate) fn kdrt_merge<'py>(
+    py: Python<'py>,
+    pieces: Vec<(Bound<'py, PyAny>, [f64; 2], [f64; 2])>,
+    radius: f64,
+    fixed: Option<&Bound<'py, PyAny>>,
+    domain_min: [f64; 2],
+    domain_max: [f64; 2],
+    boundary: &str,
+    seed: i128,
+    threads: i128,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<Points> {
+    let domain = domain(domain_min, domain_max, boundary)?;
+    let request = kdrt::MergeOptions::new(radius).domain(domain).seed(natural("seed", seed)?);
+    let arrays: Vec<Array<f32>> = pieces.iter().map(|(xy, ..)| Array::read("pieces", xy)).collect::<PyResult<_>>()?;
+    let pieces: Vec<_> = arrays
+        .iter()
+        .zip(&pieces)
+        .map(|(xy, &(_, min, max))| Ok(kdrt::Piece { samples: xy.rows()?, min, max }))
+        .collect::<PyResult<_>>()?;
+    let fixed = crate::array::optional("fixed", fixed)?;
+    let fixed = fixed.as_ref().map_or(Ok([].as_slice()), Array::rows)?;
+    let (merged, kdrt::MergeReport { kept, eliminated, inserted, .. }) = Watch::new(py, threads, progress)?
+        .run(|context, progress| kdrt::merge(context, &request, &pieces, fixed, progress))?;
+    Points::plane(py, merged)?.with_report(py, KdrtMergeReport { kept, eliminated, inserted })
+}

@@ -1,0 +1,126 @@
+//! Sets of samples as Python sees them.
+
+use azulejo_core::SurfaceSamples;
+use azulejo_core::kdrt::{Classified, Ranked};
+use azulejo_core::psp::adaptive::AdaptiveSamples;
+use numpy::{PyArray1, PyArray2};
+use pyo3::prelude::*;
+use pyo3::types::IntoPyDict;
+use pyo3::{PyClass, PyClassInitializer};
+
+use crate::array::{line, line_if_any, table};
+
+/// Samples. len() is their number n; numpy.asarray() gives their positions. What does not apply is None.
+#[pyclass(frozen, module = "azulejo")]
+pub(crate) struct Points {
+    /// Positions, float32, shape (n, 2) in the plane or (n, 3) on meshes, in the units of the domain or mesh.
+    #[pyo3(get)]
+    positions: Py<PyAny>,
+    /// On meshes: unit normals of the samples' triangles, float32, shape (n, 3).
+    #[pyo3(get)]
+    normals: Option<Py<PyArray2<f32>>>,
+    /// On meshes with normals: these, interpolated to the samples, float32, shape (n, 3).
+    #[pyo3(get)]
+    interpolated_normals: Option<Py<PyArray2<f32>>>,
+    /// On meshes: the triangle of each sample, uint32, shape (n,).
+    #[pyo3(get)]
+    triangles: Option<Py<PyArray1<u32>>>,
+    /// On meshes: u, v of each sample, float32, shape (n, 2): it lies at (1 - u - v) a + u b + v c.
+    #[pyo3(get)]
+    barycentrics: Option<Py<PyArray2<f32>>>,
+    /// Where radii vary: the radius of each sample, float64, shape (n,), in the units of the mesh.
+    #[pyo3(get)]
+    radii: Option<Py<PyArray1<f64>>>,
+    /// In progressive order: the rank of each sample, a distance, float32, shape (n,). The samples up to one are at least
+    /// its rank apart.
+    #[pyo3(get)]
+    ranks: Option<Py<PyArray1<f32>>>,
+    /// Of several classes: the class of each sample, uint32, shape (n,).
+    #[pyo3(get)]
+    classes: Option<Py<PyArray1<u32>>>,
+    /// What the call did.
+    #[pyo3(get)]
+    report: Option<Py<PyAny>>,
+    count: usize,
+}
+
+impl Points {
+    pub(crate) fn plane(py: Python<'_>, samples: Vec<[f32; 2]>) -> PyResult<Self> {
+        let count = samples.len();
+        Ok(Self {
+            positions: table(py, samples)?.into_any(),
+            normals: None,
+            interpolated_normals: None,
+            triangles: None,
+            barycentrics: None,
+            radii: None,
+            ranks: None,
+            classes: None,
+            report: None,
+            count,
+        })
+    }
+
+    pub(crate) fn ranked(py: Python<'_>, Ranked { samples, ranks, .. }: Ranked) -> PyResult<Self> {
+        Ok(Self { ranks: line_if_any(py, ranks), ..Self::plane(py, samples)? })
+    }
+
+    pub(crate) fn classified(py: Python<'_>, Classified { samples, classes, .. }: Classified) -> PyResult<Self> {
+        Ok(Self { classes: Some(line(py, classes)), ..Self::plane(py, samples)? })
+    }
+
+    pub(crate) fn surface(py: Python<'_>, samples: SurfaceSamples) -> PyResult<Self> {
+        let SurfaceSamples { positions, normals, triangles, barycentrics, interpolated_normals, ranks, classes } =
+            samples;
+        let has_normals = !interpolated_normals.is_empty();
+        Ok(Self {
+            count: positions.len(),
+            positions: table(py, positions)?.into_any(),
+            normals: Some(table(py, normals)?),
+            interpolated_normals: has_normals.then(|| table(py, interpolated_normals)).transpose()?,
+            triangles: Some(line(py, triangles)),
+            barycentrics: Some(table(py, barycentrics)?),
+            radii: None,
+            ranks: line_if_any(py, ranks),
+            classes: line_if_any(py, classes),
+            report: None,
+        })
+    }
+
+    pub(crate) fn adaptive(py: Python<'_>, AdaptiveSamples { samples, radii, .. }: AdaptiveSamples) -> PyResult<Self> {
+        Ok(Self { radii: Some(line(py, radii)), ..Self::surface(py, samples)? })
+    }
+
+    pub(crate) fn with_report<R: PyClass + Into<PyClassInitializer<R>>>(
+        self,
+        py: Python<'_>,
+        report: R,
+    ) -> PyResult<Self> {
+        Ok(Self { report: Some(Py::new(py, report)?.into_any()), ..self })
+    }
+}
+
+#[pymethods]
+impl Points {
+    fn __len__(&self) -> usize {
+        self.count
+    }
+
+    #[pyo3(signature = (dtype=None, copy=None))]
+    fn __array__<'py>(
+        &self,
+        py: Python<'py>,
+        dtype: Option<Bound<'py, PyAny>>,
+        copy: Option<bool>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let (numpy, positions) = (py.import("numpy")?, self.positions.bind(py));
+        match copy {
+            None => numpy.call_method1("asarray", (positions, dtype)),
+            Some(copy) => numpy.call_method("array", (positions, dtype), Some(&[("copy", copy)].into_py_dict(py)?)),
+        }
+    }
+
+    fn __repr__(&self) -> String {
+        format!("<azulejo.Points: {}>", self.count)
+    }
+}

@@ -1,0 +1,247 @@
+//! Maximal sets on meshes.
+
+use azulejo_core::Order;
+use azulejo_core::psp::adaptive::{self, Density, Radius, Scale, Texture};
+use azulejo_core::psp::{self, DEFAULT_QUOTIENT, Priority};
+use pyo3::prelude::*;
+
+use crate::argument::{choice, natural, order};
+use crate::array::{Array, GivenArrays, optional};
+use crate::classes::matrix;
+use crate::error::invalid;
+use crate::mesh::Mesh;
+use crate::points::Points;
+use crate::watch::Watch;
+
+/// What a psp_ call did.
+#[pyclass(frozen, get_all, module = "azulejo")]
+pub(crate) struct PspReport {
+    /// No two samples are closer: the radius that was asked for or, for a count, the one that was found. 0 where radii
+    /// vary.
+    radius: f64,
+    /// Every place of the surface is so near to a sample; None where that is not known.
+    coverage: Option<f64>,
+    /// The radius over the distance of neighbours if as many samples stood in hexagonal order on the mesh's area.
+    rho: f64,
+    /// Iterations of projection that were made.
+    iterations: u32,
+    /// Darts that were thrown at uncovered surface.
+    darts: u64,
+    /// The share of the area that was uncovered before the fill; None without one.
+    uncovered_before: Option<f64>,
+    /// The share that is uncovered after it.
+    uncovered_after: Option<f64>,
+    /// Wall time in seconds.
+    seconds: f64,
+}
+
+impl From<psp::Report> for PspReport {
+    fn from(report: psp::Report) -> Self {
+        let psp::Report {
+            radius, coverage, rho, iterations, darts, uncovered_before, uncovered_after, seconds, ..
+        } = report;
+        Self { radius, coverage, rho, iterations, darts, uncovered_before, uncovered_after, seconds }
+    }
+}
+
+/// A maximal Poisson-disk set on a mesh, by straight distance: no two samples are closer than a radius, and no place of the
+/// surface is farther from all of them. Time grows in proportion to the samples and triangles.
+///
+/// mesh: a Mesh.
+/// radius: the smallest distance of two samples, above 0, in the units of the mesh. Or:
+/// count: the number of samples, which is met exactly; the radius is found.
+/// order: "any", or "progressive": every prefix is well spread, and the points have ranks.
+/// quotient: of a progressive order, the ratio of the radii of its levels, 1.02 to 1.5; default 2**(1/8).
+/// iterations: of projection before the set is filled; default: none, or 1 for sets that are not maximal.
+/// maximal: whether to fill what projection leaves.
+/// seed: 0 to 2**64 - 1. The same arguments and seed give the same bytes.
+/// priority: which of two candidates of an iteration is kept, that of the projector which it faces more squarely
+///     ("squareness"), or of the earlier one ("projector").
+/// given_positions: float32, shape (m, 3): samples that stay and are not returned.
+/// given_clearances: float64, shape (m,): how far new samples are from each at least; default: the radius.
+/// cosine: samples on triangles whose normals have a smaller cosine ignore each other: for thin walls. -1: off.
+/// threads: 0 for one per core. The samples do not depend on it.
+/// progress: called with the fraction that is done, from 0 to 1; if it returns False the call raises Cancelled.
+///
+/// Returns Points with the report PspReport.
+#[pyfunction]
+#[pyo3(signature = (
+    mesh, radius=0.0, *, count=0, order="any", quotient=None, iterations=None, maximal=true, seed=0,
+    priority="squareness", given_positions=None, given_clearances=None, cosine=-1.0, threads=0, progress=None
+))]
+pub(crate) fn psp_sample(
+    py: Python<'_>,
+    mesh: &Mesh,
+    radius: f64,
+    count: i128,
+    order: &str,
+    quotient: Option<f64>,
+    iterations: Option<i128>,
+    maximal: bool,
+    seed: i128,
+    priority: &str,
+    given_positions: Option<&Bound<'_, PyAny>>,
+    given_clearances: Option<&Bound<'_, PyAny>>,
+    cosine: f64,
+    threads: i128,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<Points> {
+    let given = GivenArrays::read(given_positions, given_clearances)?;
+    let iterations = iterations.map(|iterations| natural::<u32>("iterations", iterations)).transpose()?;
+    let request = psp::Options::new(radius)
+        .count(natural("count", count)?)
+        .order(self::order(order, &[("quotient", quotient)])?)
+        .quotient(quotient.unwrap_or(DEFAULT_QUOTIENT))
+        .iterations(iterations)
+        .maximal(maximal)
+        .seed(natural("seed", seed)?)
+        .priority(self::priority(priority)?)
+        .given(given.samples()?)
+        .cosine(cosine);
+    let (samples, report) = Watch::new(py, threads, progress)?
+        .run(|context, progress| psp::sample(context, &mesh.shared, &request, progress))?;
+    Points::surface(py, samples)?.with_report(py, PspReport::from(report))
+}
+
+fn priority(name: &str) -> PyResult<Priority> {
+    choice("priority", name, &[("squareness", Priority::Squareness), ("projector", Priority::Projector)])
+}
+
+/// A maximal set of several classes on a mesh: samples of the classes i and j are at least radii[i][j] apart, and for each
+/// class i every place is within radii[i][j] of some sample of some class j.
+///
+/// radii: symmetric, float64, shape (k, k) with k from 1 to 16; classes_radii() makes such matrices.
+/// masks: uint32, shape (t,): of each triangle the classes that it takes, bit i for class i; default: all.
+/// given_clearances: float64, shape (m, k). The others are those of psp_sample.
+///
+/// Returns Points with classes and the report PspReport.
+#[pyfunction]
+#[pyo3(signature = (
+    mesh, radii, *, masks=None, seed=0, given_positions=None, given_clearances=None, cosine=-1.0, threads=0,
+    progress=None
+))]
+pub(crate) fn psp_sample_classes(
+    py: Python<'_>,
+    mesh: &Mesh,
+    radii: &Bound<'_, PyAny>,
+    masks: Option<&Bound<'_, PyAny>>,
+    seed: i128,
+    given_positions: Option<&Bound<'_, PyAny>>,
+    given_clearances: Option<&Bound<'_, PyAny>>,
+    cosine: f64,
+    threads: i128,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<Points> {
+    let classes = matrix(radii)?;
+    let masks = optional("masks", masks)?;
+    let masks = masks.as_ref().map(Array::line).transpose()?;
+    let given = GivenArrays::read(given_positions, given_clearances)?;
+    let request =
+        psp::Options::new(0.0).order(Order::Any).seed(natural("seed", seed)?).given(given.samples()?).cosine(cosine);
+    let (samples, report) = Watch::new(py, threads, progress)?
+        .run(|context, progress| psp::sample_classes(context, &mesh.shared, &request, &classes, masks, progress))?;
+    Points::surface(py, samples)?.with_report(py, PspReport::from(report))
+}
+
+/// The arguments that both adaptive calls share.
+struct Adaptive<'py> {
+    seed: u64,
+    cosine: f64,
+    given: GivenArrays<'py>,
+    watch: Watch<'py>,
+}
+
+impl Adaptive<'_> {
+    fn sample(self, py: Python<'_>, mesh: &Mesh, radius: Radius) -> PyResult<Points> {
+        let Self { seed, cosine, given, watch } = self;
+        let request = adaptive::Options::new(radius).cosine(cosine).seed(seed).given(given.samples()?);
+        let (set, report) =
+            watch.run(|context, progress| adaptive::sample(context, &mesh.shared, &request, progress))?;
+        Points::adaptive(py, set)?.with_report(py, PspReport::from(report))
+    }
+}
+
+/// A maximal set on a mesh whose radius varies: two samples are at least the mean of their radii apart.
+///
+/// vertex_radii: float32, shape (v,), above 0, in the units of the mesh: the radius at each vertex, interpolated on the
+///     triangles.
+/// given_clearances: float64, shape (m,), needed where samples are given. The others are those of psp_sample.
+///
+/// Returns Points with radii and the report PspReport.
+#[pyfunction]
+#[pyo3(signature = (
+    mesh, vertex_radii, *, seed=0, given_positions=None, given_clearances=None, cosine=-1.0, threads=0, progress=None
+))]
+pub(crate) fn psp_adaptive_sample(
+    py: Python<'_>,
+    mesh: &Mesh,
+    vertex_radii: &Bound<'_, PyAny>,
+    seed: i128,
+    given_positions: Option<&Bound<'_, PyAny>>,
+    given_clearances: Option<&Bound<'_, PyAny>>,
+    cosine: f64,
+    threads: i128,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<Points> {
+    let radii = Array::read("vertex_radii", vertex_radii)?;
+    let given = GivenArrays::read(given_positions, given_clearances)?;
+    let watch = Watch::new(py, threads, progress)?;
+    let request = Adaptive { seed: natural("seed", seed)?, cosine, given, watch };
+    request.sample(py, mesh, Radius::PerVertex(radii.line()?))
+}
+
+/// A maximal set on a mesh whose density varies: the radius at a place follows from the density there.
+///
+/// density: in any unit, 0 or above, float32: shape (v,) for the vertices, interpolated on the triangles, or, with
+///     texture, an image of shape (height, width), whose first row lies along v = 0.
+/// radius: that of a density of 1, in the units of the mesh. Or:
+/// count: about how many samples the whole set has.
+/// texture: texture coordinates, float32, shape (v, 2) for vertices or (t, 3, 2) for the corners of triangles.
+/// The others are those of psp_adaptive_sample.
+///
+/// Returns Points with radii and the report PspReport.
+#[pyfunction]
+#[pyo3(signature = (
+    mesh, density, *, radius=0.0, count=0.0, texture=None, seed=0, given_positions=None, given_clearances=None,
+    cosine=-1.0, threads=0, progress=None
+))]
+pub(crate) fn psp_adaptive_with_density(
+    py: Python<'_>,
+    mesh: &Mesh,
+    density: &Bound<'_, PyAny>,
+    radius: f64,
+    count: f64,
+    texture: Option<&Bound<'_, PyAny>>,
+    seed: i128,
+    given_positions: Option<&Bound<'_, PyAny>>,
+    given_clearances: Option<&Bound<'_, PyAny>>,
+    cosine: f64,
+    threads: i128,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<Points> {
+    let scale = match (radius == 0.0, count == 0.0) {
+        (false, true) => Scale::Radius(radius),
+        (true, false) => Scale::Count(count),
+        _ => return Err(invalid("radius", "one of radius and count is needed, and not both")),
+    };
+    let values = Array::read("density", density)?;
+    let texture = optional("texture", texture)?;
+    let density = match &texture {
+        None => Density::PerVertex(values.line()?),
+        Some(texture) => {
+            let (values, [width, height]) = values.image()?;
+            Density::Image { values, width, height, texture: places(texture)? }
+        }
+    };
+    let given = GivenArrays::read(given_positions, given_clearances)?;
+    let watch = Watch::new(py, threads, progress)?;
+    let request = Adaptive { seed: natural("seed", seed)?, cosine, given, watch };
+    request.sample(py, mesh, Radius::Density { density, scale })
+}
+
+fn places<'a>(texture: &'a Array<'_, f32>) -> PyResult<Texture<'a>> {
+    match texture.shape() {
+        [_, 3, 2] => Ok(Texture::PerCorner(texture.entries().as_chunks().0.as_chunks().0)),
+        _ => Ok(Texture::PerVertex(texture.rows()?)),
+    }
+}

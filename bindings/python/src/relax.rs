@@ -1,0 +1,253 @@
+//! Relaxation of point sets.
+
+use azulejo_core::dcr::{
+    self, Convergence, Density, Distribution, Method, Neighbourhood, Stopped, Thesis, Visits, surface,
+};
+use pyo3::prelude::*;
+
+use crate::argument::{choice, domain, natural};
+use crate::array::Array;
+use crate::error::invalid;
+use crate::mesh::Mesh;
+use crate::points::Points;
+use crate::watch::Watch;
+
+/// What a relaxation did.
+#[pyclass(frozen, get_all, module = "azulejo")]
+pub(crate) struct DcrReport {
+    /// Steps that were made.
+    iterations: u32,
+    /// Why it stopped: "converged", "steps" (all were made) or "cancelled" (progress returned False).
+    stopped: &'static str,
+    /// How far points moved in the last step, a mean, in units of d_max.
+    motion: f64,
+    /// The smallest distance of two points.
+    smallest_distance: f64,
+    /// That in units of d_max, the distance of neighbours in hexagonal order; with a density, of that at each place.
+    rho: f64,
+    /// In the plane: the covering radius in units of d_max.
+    coverage: Option<f64>,
+}
+
+fn reason(stopped: Stopped) -> &'static str {
+    match stopped {
+        Stopped::Converged => "converged",
+        Stopped::Steps => "steps",
+        Stopped::Cancelled => "cancelled",
+    }
+}
+
+impl From<dcr::Report> for DcrReport {
+    fn from(report: dcr::Report) -> Self {
+        let dcr::Report { iterations, stopped, motion, smallest_distance, rho, coverage, .. } = report;
+        let coverage = Some(coverage);
+        Self { iterations, stopped: reason(stopped), motion, smallest_distance, rho, coverage }
+    }
+}
+
+impl From<surface::Report> for DcrReport {
+    fn from(report: surface::Report) -> Self {
+        let surface::Report { iterations, stopped, motion, smallest_distance, rho, .. } = report;
+        Self { iterations, stopped: reason(stopped), motion, smallest_distance, rho, coverage: None }
+    }
+}
+
+const DISTRIBUTIONS: &[(&str, Distribution)] = &[
+    ("activeness", Distribution::Activeness),
+    ("average", Distribution::Average),
+    ("dominant", Distribution::Dominant),
+    ("zero", Distribution::Zero),
+    ("eighty_twenty", Distribution::EightyTwenty),
+];
+
+/// Moves points of the plane until they are evenly spread: a blue-noise set without the look of a lattice.
+///
+/// xy: the points, float32, shape (n, 2), in domain_min <= x < domain_max.
+/// domain_min, domain_max, boundary: as in kdrt_sample.
+/// neighbourhood: "delaunay" (neighbours keep their distance and close holes) or "nearest" (they only repel).
+/// method: "momentum", or "thesis" for the algorithm of the thesis.
+/// max_iterations: the most steps.
+/// tolerance: the motion at which a set has converged, in units of d_max; default: that of the method.
+/// seed: 0 to 2**64 - 1. The same arguments and seed give the same bytes.
+/// conflict_radius, attraction_radius, step, decay, neighbours, distribution ("activeness", "average", "dominant", "zero",
+///     "eighty_twenty"), visits ("both_ends", "one_end"), convergence ("motion", "variance"): of the thesis's method only.
+/// threads: 0 for one per core. The result does not depend on it.
+/// progress: called with the fraction that is done, from 0 to 1; if it returns False the call returns the state after the
+///     last whole step.
+///
+/// Returns Points, in the order of xy, with the report DcrReport.
+#[pyfunction]
+#[pyo3(signature = (
+    xy, *, domain_min=[0.0, 0.0], domain_max=[1.0, 1.0], boundary="periodic", neighbourhood="delaunay",
+    method="momentum", max_iterations=100, tolerance=None, seed=0, conflict_radius=None, attraction_radius=None,
+    step=None, decay=None, neighbours=None, distribution=None, visits=None, convergence=None, threads=0, progress=None
+))]
+pub(crate) fn dcr_relax(
+    py: Python<'_>,
+    xy: &Bound<'_, PyAny>,
+    domain_min: [f64; 2],
+    domain_max: [f64; 2],
+    boundary: &str,
+    neighbourhood: &str,
+    method: &str,
+    max_iterations: i128,
+    tolerance: Option<f64>,
+    seed: i128,
+    conflict_radius: Option<f64>,
+    attraction_radius: Option<f64>,
+    step: Option<f64>,
+    decay: Option<f64>,
+    neighbours: Option<i128>,
+    distribution: Option<&str>,
+    visits: Option<&str>,
+    convergence: Option<&str>,
+    threads: i128,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<Points> {
+    let xy = Array::read("xy", xy)?;
+    let points = xy.rows()?;
+    let domain = domain(domain_min, domain_max, boundary)?;
+    let neighbourhoods = [("delaunay", Neighbourhood::Delaunay), ("nearest", Neighbourhood::Nearest)];
+    let neighbourhood = choice("neighbourhood", neighbourhood, &neighbourhoods)?;
+    let mut request = if choice("method", method, &[("momentum", false), ("thesis", true)])? {
+        let mut thesis = Thesis::default();
+        thesis.conflict_radius = conflict_radius.unwrap_or(thesis.conflict_radius);
+        thesis.attraction_radius = attraction_radius.unwrap_or(thesis.attraction_radius);
+        thesis.step = step.unwrap_or(thesis.step);
+        thesis.decay = decay.unwrap_or(thesis.decay);
+        if let Some(count) = neighbours {
+            thesis.neighbours = natural("neighbours", count)?;
+        }
+        if let Some(name) = distribution {
+            thesis.distribution = choice("distribution", name, DISTRIBUTIONS)?;
+        }
+        if let Some(name) = visits {
+            let choices = [("both_ends", Visits::BothEnds), ("one_end", Visits::OneEnd)];
+            thesis.visits = choice("visits", name, &choices)?;
+        }
+        if let Some(name) = convergence {
+            let choices = [("motion", Convergence::Motion), ("variance", Convergence::Variance)];
+            thesis.convergence = choice("convergence", name, &choices)?;
+        }
+        dcr::Options::thesis(domain, neighbourhood).method(Method::Thesis(thesis))
+    } else {
+        let of_thesis = [
+            ("conflict_radius", conflict_radius.is_some()),
+            ("attraction_radius", attraction_radius.is_some()),
+            ("step", step.is_some()),
+            ("decay", decay.is_some()),
+            ("neighbours", neighbours.is_some()),
+            ("distribution", distribution.is_some()),
+            ("visits", visits.is_some()),
+            ("convergence", convergence.is_some()),
+        ];
+        if let Some((argument, _)) = of_thesis.iter().find(|(_, is_set)| *is_set) {
+            return Err(invalid(argument, "is of the method \"thesis\" only"));
+        }
+        dcr::Options::new(domain, neighbourhood)
+    };
+    request = request.max_iterations(natural("max_iterations", max_iterations)?).seed(natural("seed", seed)?);
+    request = request.tolerance(tolerance.unwrap_or(request.tolerance));
+    let (relaxed, report) =
+        Watch::new(py, threads, progress)?.run(|context, progress| dcr::relax(context, &request, points, progress))?;
+    Points::plane(py, relaxed)?.with_report(py, DcrReport::from(report))
+}
+
+/// Moves points of the plane until they are spread as a density wants: stippling.
+///
+/// xy: the points, float32, shape (n, 2), such as those of dcr_scatter.
+/// density: an image, float32, shape (height, width), 0 or above and not 0 everywhere, laid over the domain; its first
+///     row lies along domain_min[1]. The others are those of dcr_relax.
+///
+/// Returns Points, in the order of xy, with the report DcrReport.
+#[pyfunction]
+#[pyo3(signature = (
+    xy, density, *, domain_min=[0.0, 0.0], domain_max=[1.0, 1.0], boundary="periodic", max_iterations=100,
+    tolerance=None, seed=0, threads=0, progress=None
+))]
+pub(crate) fn dcr_relax_density(
+    py: Python<'_>,
+    xy: &Bound<'_, PyAny>,
+    density: &Bound<'_, PyAny>,
+    domain_min: [f64; 2],
+    domain_max: [f64; 2],
+    boundary: &str,
+    max_iterations: i128,
+    tolerance: Option<f64>,
+    seed: i128,
+    threads: i128,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<Points> {
+    let (xy, density) = (Array::read("xy", xy)?, Array::read("density", density)?);
+    let (points, (values, [width, height])) = (xy.rows()?, density.image()?);
+    let mut request = dcr::Options::new(domain(domain_min, domain_max, boundary)?, Neighbourhood::Delaunay)
+        .max_iterations(natural("max_iterations", max_iterations)?)
+        .seed(natural("seed", seed)?);
+    request = request.tolerance(tolerance.unwrap_or(request.tolerance));
+    let (relaxed, report) = Watch::new(py, threads, progress)?.run(|context, progress| {
+        dcr::relax_with_density(context, &request, &Density::Image { values, width, height }, points, progress)
+    })?;
+    Points::plane(py, relaxed)?.with_report(py, DcrReport::from(report))
+}
+
+/// Random points of a density, for dcr_relax_density to start from.
+///
+/// density: as in dcr_relax_density. count: their number. The others are those of kdrt_sample.
+#[pyfunction]
+#[pyo3(signature = (
+    density, count, *, domain_min=[0.0, 0.0], domain_max=[1.0, 1.0], boundary="periodic", seed=0, threads=0,
+    progress=None
+))]
+pub(crate) fn dcr_scatter(
+    py: Python<'_>,
+    density: &Bound<'_, PyAny>,
+    count: i128,
+    domain_min: [f64; 2],
+    domain_max: [f64; 2],
+    boundary: &str,
+    seed: i128,
+    threads: i128,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<Points> {
+    let density = Array::read("density", density)?;
+    let (values, [width, height]) = density.image()?;
+    let domain = domain(domain_min, domain_max, boundary)?;
+    let (count, seed) = (natural("count", count)?, natural("seed", seed)?);
+    let samples = Watch::new(py, threads, progress)?.run(|context, progress| {
+        dcr::scatter(context, &domain, &Density::Image { values, width, height }, count, seed, progress)
+    })?;
+    Points::plane(py, samples)
+}
+
+/// Moves samples along a mesh until they are evenly spread; their smallest distance does not fall.
+///
+/// mesh: a Mesh.
+/// triangles, barycentrics: where the samples are, uint32, shape (n,), and float32, shape (n, 2), as in Points.
+/// The others are those of dcr_relax.
+///
+/// Returns Points, in the order of the samples, with the report DcrReport.
+#[pyfunction]
+#[pyo3(signature = (
+    mesh, triangles, barycentrics, *, max_iterations=100, tolerance=None, seed=0, threads=0, progress=None
+))]
+pub(crate) fn dcr_surface_relax(
+    py: Python<'_>,
+    mesh: &Mesh,
+    triangles: &Bound<'_, PyAny>,
+    barycentrics: &Bound<'_, PyAny>,
+    max_iterations: i128,
+    tolerance: Option<f64>,
+    seed: i128,
+    threads: i128,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<Points> {
+    let (triangles, barycentrics) = (Array::read("triangles", triangles)?, Array::read("barycentrics", barycentrics)?);
+    let (triangles, barycentrics) = (triangles.line()?, barycentrics.rows()?);
+    let mut request = surface::Options::default()
+        .max_iterations(natural("max_iterations", max_iterations)?)
+        .seed(natural("seed", seed)?);
+    request = request.tolerance(tolerance.unwrap_or(request.tolerance));
+    let (relaxed, report) = Watch::new(py, threads, progress)?
+        .run(|context, progress| surface::relax(context, &mesh.shared, triangles, barycentrics, &request, progress))?;
+    Points::surface(py, relaxed)?.with_report(py, DcrReport::from(report))
+}

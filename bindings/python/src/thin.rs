@@ -1,0 +1,77 @@
+//! Some points of a cloud, far from each other.
+
+use azulejo_core::thin::{self as core, Options};
+use numpy::PyArray1;
+use pyo3::prelude::*;
+
+use crate::argument::{natural, order};
+use crate::array::{Array, line, line_if_any};
+use crate::error::invalid;
+use crate::watch::Watch;
+
+/// Points that thin() selected; len() is their number n.
+#[pyclass(frozen, module = "azulejo")]
+pub(crate) struct Selection {
+    /// Their indices in the cloud, uint32, shape (n,).
+    #[pyo3(get)]
+    indices: Py<PyArray1<u32>>,
+    /// In progressive order: the distance of each from the nearest of those before it, float32, shape (n,); infinite for
+    /// the first. None in any other order.
+    #[pyo3(get)]
+    ranks: Option<Py<PyArray1<f32>>>,
+    count: usize,
+}
+
+#[pymethods]
+impl Selection {
+    fn __len__(&self) -> usize {
+        self.count
+    }
+
+    fn __repr__(&self) -> String {
+        format!("<azulejo.Selection: {}>", self.count)
+    }
+}
+
+/// Selects points of a cloud that are far from each other and near to all the others.
+///
+/// positions: float32, shape (n, 2) or (n, 3).
+/// radius: the least distance of selected points; in any order, each point is kept that no kept one of lower index is
+///     nearer to. 0 sets none.
+/// count: the number of points to select, farthest-first. 0 sets none.
+/// order: "any" (indices ascend) or "progressive" (farthest-first: each next point is the farthest from those before).
+/// seed: 0 to 2**64 - 1, selects the first point.
+/// threads: 0 for one per core. The result does not depend on it.
+/// progress: called with the fraction that is done, from 0 to 1; if it returns False the call raises Cancelled.
+///
+/// Returns a Selection.
+#[pyfunction]
+#[pyo3(signature = (positions, *, radius=0.0, count=0, order="any", seed=0, threads=0, progress=None))]
+pub(crate) fn thin(
+    py: Python<'_>,
+    positions: &Bound<'_, PyAny>,
+    radius: f64,
+    count: i128,
+    order: &str,
+    seed: i128,
+    threads: i128,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<Selection> {
+    let positions = Array::read("positions", positions)?;
+    let order = self::order(order, &[])?;
+    let request =
+        Options::default().radius(radius).count(natural("count", count)?).order(order).seed(natural("seed", seed)?);
+    let watch = Watch::new(py, threads, progress)?;
+    let core::Selection { indices, ranks, .. } = match *positions.shape() {
+        [_, 2] => {
+            let points = positions.rows::<2>()?;
+            watch.run(|context, progress| core::thin(context, &request, points, progress))?
+        }
+        [_, 3] | [0] => {
+            let points = positions.rows::<3>()?;
+            watch.run(|context, progress| core::thin(context, &request, points, progress))?
+        }
+        ref shape => return Err(invalid("positions", format!("its shape is {shape:?}, not [n, 2] or [n, 3]"))),
+    };
+    Ok(Selection { count: indices.len(), indices: line(py, indices), ranks: line_if_any(py, ranks) })
+}

@@ -1,0 +1,137 @@
+"""Sets on meshes."""
+
+import numpy as np
+import pytest
+
+import azulejo
+from meshes import torus
+from naive import distances, smallest_distance
+
+
+@pytest.fixture(scope="module")
+def mesh():
+    return azulejo.Mesh(*torus())
+
+
+def random_places(mesh, count=20000, seed=5):
+    rng = np.random.default_rng(seed)
+    corners = mesh.positions[mesh.indices].astype(float)
+    areas = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
+    chosen = corners[rng.choice(len(corners), count, p=areas / areas.sum())]
+    u, v = rng.random((2, count))
+    u, v = np.where(u + v > 1, (1 - u, 1 - v), (u, v))
+    return chosen[:, 0] + u[:, None] * (chosen[:, 1] - chosen[:, 0]) + v[:, None] * (chosen[:, 2] - chosen[:, 0])
+
+
+def test_a_mesh_is_what_was_given(mesh):
+    positions, indices = torus()
+    assert (mesh.positions == positions).all() and (mesh.indices == indices).all()
+    assert (mesh.vertex_count, mesh.triangle_count) == (len(positions), len(indices))
+    assert mesh.area == pytest.approx(4 * np.pi**2 * 0.4, rel=0.01) and not mesh.has_normals
+
+
+def test_a_set_is_conflict_free_and_maximal(mesh):
+    points = azulejo.psp_sample(mesh, 0.15, seed=2)
+    assert smallest_distance(points.positions) >= 0.15
+    assert distances(random_places(mesh), points.positions).min(axis=1).max() <= 0.15 + 1e-6
+    assert azulejo.mesh_coverage(mesh, points.positions, 0.15 + 1e-6).gaps == 0
+    assert azulejo.mesh_uncovered_fraction(mesh, points.positions, 0.15 + 1e-6) == 0
+    assert azulejo.space_smallest_distance(points.positions) == pytest.approx(smallest_distance(points.positions))
+    assert points.report.radius == 0.15 and points.report.uncovered_after == 0
+
+
+def test_samples_lie_on_their_triangles(mesh):
+    points = azulejo.psp_sample(mesh, 0.15, iterations=2, priority="projector")
+    a, b, c = np.moveaxis(mesh.positions[mesh.indices[points.triangles]].astype(float), 1, 0)
+    u, v = points.barycentrics.astype(float).T[:, :, None]
+    np.testing.assert_allclose(points.positions, (1 - u - v) * a + u * b + v * c, atol=1e-6)
+    assert points.normals.shape == (len(points), 3) and points.interpolated_normals is None
+
+
+def test_a_count_and_an_order(mesh):
+    points = azulejo.psp_sample(mesh, count=321, order="progressive")
+    assert len(points) == 321
+    for count in (2, 40, 321):
+        assert smallest_distance(points.positions[:count]) >= points.ranks[count - 1]
+
+
+def test_a_mask_and_normals():
+    positions, indices = torus()
+    mask = positions[indices][:, :, 0].mean(axis=1) > 0
+    normals = positions - 0.1
+    mesh = azulejo.Mesh(positions, indices, normals=normals, mask=mask)
+    points = azulejo.psp_sample(mesh, 0.2)
+    assert mesh.has_normals and points.interpolated_normals.shape == points.positions.shape
+    assert mask[points.triangles].all()
+
+
+def test_classes_keep_their_distances(mesh):
+    radii = azulejo.classes_radii([0.2, 0.3], 0.9)
+    points = azulejo.psp_sample_classes(mesh, radii)
+    for i in range(2):
+        for j in range(2):
+            a, b = (points.positions[points.classes == k] for k in (i, j))
+            assert smallest_distance(a, None if i == j else b) >= radii[i, j]
+
+
+def test_radii_vary(mesh):
+    radii = np.where(mesh.positions[:, 0] > 0, 0.1, 0.3)
+    points = azulejo.psp_adaptive_sample(mesh, radii)
+    mean = (points.radii[:, None] + points.radii) / 2
+    between = distances(points.positions, points.positions)
+    np.fill_diagonal(between, np.inf)
+    assert (between >= mean).all() and points.radii.min() < 0.11 and points.radii.max() > 0.28
+
+
+def test_a_density_at_vertices_and_in_an_image(mesh):
+    density = 1.0 + 3.0 * (mesh.positions[:, 0] > 0)
+    points = azulejo.psp_adaptive_with_density(mesh, density, count=500)
+    assert 400 < len(points) < 600 and (points.positions[:, 0] > 0).mean() > 0.7
+    texture = mesh.positions[:, :2] / 4 + 0.5
+    for places in (texture, texture[mesh.indices]):
+        image = azulejo.psp_adaptive_with_density(mesh, np.ones((4, 8)), radius=0.2, texture=places)
+        assert image.radii == pytest.approx(0.2, rel=1e-6)
+
+
+def test_given_samples(mesh):
+    given = mesh.positions[::100]
+    points = azulejo.psp_sample(mesh, 0.15, given_positions=given)
+    assert smallest_distance(points.positions, given) >= 0.15
+
+
+def test_relaxation_on_a_mesh(mesh):
+    points = azulejo.psp_sample(mesh, 0.2)
+    relaxed = azulejo.dcr_surface_relax(mesh, points.triangles, points.barycentrics, max_iterations=20)
+    assert len(relaxed) == len(points) and relaxed.report.coverage is None
+    assert smallest_distance(relaxed.positions) >= smallest_distance(points.positions)
+
+
+def test_samples_follow_a_deformed_mesh(mesh):
+    points = azulejo.psp_sample(mesh, 0.2)
+    moved = mesh.deform(mesh.positions * np.float32(2.0))
+    np.testing.assert_allclose(
+        moved.points(points.triangles, points.barycentrics).positions, 2 * points.positions, rtol=1e-6
+    )
+
+
+def test_differences(mesh):
+    points = azulejo.psp_sample(mesh, 0.1)
+    differences = azulejo.Differences(mesh, points.positions, points.normals)
+    assert differences.density.shape == (128, 128) and differences.radial.shape == (512,)
+    assert differences.radial[:40].max() == 0
+    together = azulejo.Differences.mean([differences, differences])
+    assert (together.power([0.25, 1.0]) == differences.power([0.25, 1.0])).all()
+
+
+def test_files(tmp_path, mesh):
+    path = tmp_path / "torus.obj"
+    with open(path, "w") as file:
+        file.writelines("v %r %r %r\n" % tuple(map(float, row)) for row in mesh.positions)
+        file.writelines("f %d %d %d\n" % tuple(row + 1) for row in mesh.indices.astype(int))
+    loaded = azulejo.Mesh.load(path)
+    assert (loaded.positions == mesh.positions).all() and (loaded.indices == mesh.indices).all()
+    with pytest.raises(FileNotFoundError, match="nothing.ply"):
+        azulejo.Mesh.load(str(tmp_path / "nothing.ply"))
+    (tmp_path / "bad.obj").write_text("v 0 0\nf 1 2 3\n")
+    with pytest.raises(ValueError, match="bad.obj"):
+        azulejo.Mesh.load(tmp_path / "bad.obj")
