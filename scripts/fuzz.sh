@@ -5,8 +5,8 @@
 #
 # Each target of fuzz/fuzz_targets, or those named, runs for N seconds (60), as many at a time as there are cores. The seed
 # is 1, so that a failure in the tests is due to what has changed; 0 takes a random one. Inputs that fail are kept in
-# target/fuzz/artifacts, and `scripts/fuzz.sh TARGET FILE` runs one of them again. Needs a nightly compiler; without one
-# nothing is done, which is said.
+# target/fuzz/artifacts, and `scripts/fuzz.sh TARGET FILE` runs one of them again. A target that runs too few inputs in ten
+# seconds or more fails, since it has looked at nothing. Needs a nightly compiler; without one nothing is done, which is said.
 set -euo pipefail
 root=$(cd "$(dirname "$0")/.." && pwd)
 cd "$root"
@@ -41,20 +41,33 @@ mapfile -t binaries < <(printf -- '--bin\n%s\n' "${targets[@]}")
 cargo_instrumented build "${binaries[@]}"
 programs=$instrumented
 
+# The fewest inputs that a run of ten seconds may have: about a tenth of what two busy cores reach.
+fewest() {
+    case $1 in
+        mesh | kinds | density | measure | relax) echo 25 ;;
+        *) echo 300 ;;
+    esac
+}
+
 # A target in a corpus of its own, begun with the seeds; says how many inputs it ran.
 fuzz() {
-    local work=target/fuzz/corpus/$1 log=target/fuzz/$1.log
+    local work=target/fuzz/corpus/$1 log=target/fuzz/$1.log runs
     mkdir -p "$work" target/fuzz/artifacts
     if "$programs/$1" "$work" fuzz/corpus/"$1" -max_total_time="$2" -seed="$seed" -timeout=600 -rss_limit_mb=3000 -max_len=4096 \
         -artifact_prefix="target/fuzz/artifacts/$1-" >"$log" 2>&1; then
         printf '%-10s %s\n' "$1" "$(tail -n 1 "$log")"
+        runs=$(sed -n 's/^Done \([0-9]*\) runs .*/\1/p' "$log")
+        [ "$2" -lt 10 ] || [ "${runs:-0}" -ge "$(fewest "$1")" ] || {
+            printf '%-10s FAILED: %s inputs, %s are the fewest\n' "$1" "${runs:-no}" "$(fewest "$1")"
+            return 1
+        }
     else
         printf '%-10s FAILED\n' "$1"
         tail -n 60 "$log" | sed 's/^/    /'
         return 1
     fi
 }
-export -f fuzz
+export -f fuzz fewest
 export programs
 
 if [ -n "$file" ]; then

@@ -4,7 +4,8 @@
 #   scripts/test.sh [--long] [--no-debian13]
 #
 # --long is for once a week. It adds fresh seeds for the property tests, fuzzes each target for a minute instead of ten
-# seconds, and runs all Rust tests on Embree 4.3, also those that do not call Embree.
+# seconds, breaks one guarantee at a time to see a test fail, runs all Rust tests on Embree 4.3, also those that do not call
+# Embree, and on emulated processors and systems all sums and programs.
 # --no-debian13 leaves out the run on Embree 4.3 in a Debian 13 root, and the clean roots in which the Debian packages are
 # installed, for users without root.
 # The last lines list the cost of each stage, and what was left out.
@@ -67,11 +68,14 @@ sanitized_address() {
     tests/c/sanitized.sh address
 }
 
+python_package() { bindings/python/test.sh $(is_long && echo --long || true); }
+
 # Stages that wait for the network or use one core.
 lane() {
     [ $debian13 = no ] || stage "Debian roots" debian_roots
     stage "FFI boundary under Miri" scripts/miri.sh
     stage "C programs with ThreadSanitizer in Rust, too" tests/c/sanitized.sh thread
+    stage "arm64 and Windows" scripts/platforms.sh "${platforms_long[@]}" arm64 windows
 }
 
 # Packages of the registry that the same compiler has compiled are taken over. Of the Rust tests only those run that name
@@ -91,7 +95,14 @@ on_debian13() {
         tests/c/debs.sh /var/cache/package' bash "${what[@]}"
 }
 
-stage "What is missing" scripts/setup.sh --tests
+platforms_long=()
+if is_long; then
+    platforms_long=(--long)
+else
+    leave_out "all sums, and most C and C++ programs, on other processors and systems (--long)"
+fi
+
+stage "What is missing" scripts/setup.sh "$(is_long && echo --long || echo --tests)"
 [ $debian13 = no ] || [ "$(id -u)" = 0 ] || sudo -v
 behind lane
 
@@ -99,8 +110,11 @@ stage "Format, lints, documentation" lints
 stage "Rust tests on this machine's Embree" cargo test --locked --workspace
 if is_long; then
     stage "Property tests with fresh seeds" fresh_seeds
+    stage "Ten thousand relaxed sets" cargo test --locked --package azulejo --test dcr_converged -- --ignored
+    stage "Broken guarantees are noticed" scripts/mutate.sh
 else
     leave_out "fresh seeds for the property tests (--long)"
+    leave_out "ten thousand relaxed sets, and guarantees that are broken to see a test fail (--long)"
 fi
 
 stage "Package: install, find_package, pkg-config, add_subdirectory, shared and static, MPI ranks" \
@@ -108,9 +122,15 @@ stage "Package: install, find_package, pkg-config, add_subdirectory, shared and 
 stage "README and guides: their programs and commands" \
     tests/c/pages.sh $package/prefix README.md docs/integrating.md docs/porting.md
 stage "C and C++ programs: plain, under sanitizers, under valgrind" tests/c/run.sh $package/prefix --asan --valgrind
+stage "Without Embree: sums, meshes, C and C++ programs on nothing but libc" tests/c/without_embree.sh
+stage "Sums on other levels of x86" scripts/platforms.sh "${platforms_long[@]}" x86-levels
 stage "Fuzzing; C and C++ programs with AddressSanitizer in Rust, too" sanitized_address
 is_long || leave_out "a minute of fuzzing for each target, which had ten seconds (--long)"
+stage "Python: a wheel, installed and tested in a clean environment" python_package
+is_long || leave_out "the Python wheels for manylinux2014 on x86-64 and arm64, and their size (--long)"
+stage "Packages of crates, and recipes for vcpkg, conan and conda" packaging/test.sh
 
+stage "JavaScript: WebAssembly in Node and in headless Chromium" bindings/js/test.sh
 stage "Debian packages: what they hold and depend on" tests/c/debs.sh $package
 if has_clean_root; then
     stage "Debian packages: installed, used and removed in a clean root of $release" \
