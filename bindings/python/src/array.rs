@@ -10,6 +10,14 @@ use pyo3::types::IntoPyDict;
 
 use crate::error::invalid;
 
+/// Imports numpy. Left to the first array, its absence or Ctrl-C during the import would be a panic.
+pub(crate) fn load(py: Python<'_>) -> PyResult<()> {
+    py.import("numpy")?;
+    // The crate looks up numpy's functions at the first array, and its own book of borrowed arrays at the first one read.
+    PyArray1::<f32>::zeros(py, 0, false).try_readonly()?;
+    Ok(())
+}
+
 /// A type of entries, and what is converted to it.
 pub(crate) trait Entry: Element + Copy {
     /// The kinds of numpy's types.

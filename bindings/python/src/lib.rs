@@ -31,6 +31,8 @@ mod watch;
 /// OSError. Ctrl-C interrupts a call.
 #[pyo3::pymodule]
 mod azulejo {
+    use pyo3::prelude::*;
+
     #[pymodule_export]
     use crate::analysis::{
         CoverageReport, PlaneReport, mesh_coverage, mesh_uncovered_fraction, plane_coverage, plane_covering_radius,
@@ -62,4 +64,9 @@ mod azulejo {
     #[pymodule_export]
     #[allow(non_upper_case_globals)]
     const __version__: &str = env!("CARGO_PKG_VERSION");
+
+    #[pymodule_init]
+    fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
+        crate::array::load(module.py())
+    }
 }

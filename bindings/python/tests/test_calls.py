@@ -95,6 +95,25 @@ except KeyboardInterrupt:
         child.kill()
 
 
+def test_numpy_comes_with_the_module():
+    # Imported by the first call, it would panic where Ctrl-C interrupts the import, or where it is not installed.
+    program = """
+import sys
+import azulejo
+print("numpy" in sys.modules)
+"""
+    assert subprocess.run([sys.executable, "-c", program], capture_output=True, text=True).stdout == "True\n"
+    program = """
+import sys
+sys.modules["numpy"] = None
+try:
+    import azulejo
+except ImportError:
+    print("refused")
+"""
+    assert subprocess.run([sys.executable, "-c", program], capture_output=True, text=True).stdout == "refused\n"
+
+
 def test_other_threads_run_on():
     done = threading.Event()
     counted = 0
@@ -161,7 +180,7 @@ XY = np.full((3, 2), 0.5, np.float32)
         (lambda: azulejo.kdrt_sample(0.1, quotient=1.2), ValueError, "quotient"),
         (lambda: azulejo.kdrt_sample(0.1, leaf_size=1.0), ValueError, "leaf_size"),
         (lambda: azulejo.kdrt_sample(0.1, domain_max=(0.0, 1.0)), ValueError, "domain_max"),
-        (lambda: azulejo.kdrt_sample(0.1, domain_max=(1.0, 1.0, 1.0)), ValueError, ""),
+        (lambda: azulejo.kdrt_sample(0.1, domain_max=(1.0, 1.0, 1.0)), ValueError, "length 2"),
         (lambda: azulejo.kdrt_sample(0.1, domain_max=3.0), TypeError, "domain_max"),
         (lambda: azulejo.kdrt_sample(0.1, given_positions=np.zeros((2, 3))), ValueError, "given_positions"),
         (lambda: azulejo.kdrt_sample(0.1, given_positions=[[1, 2], [3]]), ValueError, "given_positions"),
