@@ -140,9 +140,12 @@ with_wine() {
 
 on_windows() { with_wine wine64 "$@"; }
 
-# One server for all programs: one that ends when it has no program left may kill the next.
+# The folder is made, and what does so has ended, before a program runs, which it may kill. Then one server for all
+# programs: one that ends when it has no program left may kill the next, too.
 serve_windows() {
     mkdir -p $build/wine
+    with_wine wine64 wineboot --init </dev/null >/dev/null 2>&1
+    with_wine wineserver64 --wait
     with_wine wineserver64 --persistent
     trap 'with_wine wineserver64 --kill; rm -rf "$work"' EXIT
 }
