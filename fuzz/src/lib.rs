@@ -9,5 +9,7 @@ mod mesh_density;
 pub mod relaxation;
 pub mod surface;
 mod surface_relaxation;
+mod varying;
+mod varying_coverage;
 
 pub use azulejo_c as c;

@@ -11,6 +11,7 @@ use azulejo_c::mesh_density::*;
 use crate::calls::{Arrays, Out, check_distances, context, create};
 use crate::input::Input;
 use crate::surface::Corners;
+use crate::varying_coverage::{Ball, Field, check_covered};
 
 /// Gives densities up to 1, some of them wrong.
 struct Guest {
@@ -40,10 +41,13 @@ unsafe extern "C-unwind" fn density_at(user: *mut c_void, position: *const f64) 
 
 /// Samples a mesh with a density of at most 1, for which there are few samples of this radius.
 pub(crate) fn sample(mesh: &azulejo_mesh, corners: &Corners, radius: f64, input: &mut Input) {
+    // Radii are limited where densities fall far; where they do not, it is known what every place has.
+    let falls_far = !input.one_in(4);
     let value = |input: &mut Input| match input.below(64) {
-        0 => input.coordinate().min(1.0),
-        1..20 => 0.0,
-        _ => f32::from(input.any::<u8>()) / 255.0,
+        0 if falls_far => input.coordinate().min(1.0),
+        1..20 if falls_far => 0.0,
+        _ if falls_far => f32::from(input.any::<u8>()) / 255.0,
+        _ => 0.25 + f32::from(input.any::<u8>()) / 340.0,
     };
     let (vertices, triangles) = (azulejo_mesh_vertex_count(Some(mesh)), azulejo_mesh_triangle_count(Some(mesh)));
     let values: Vec<f32> = (0..vertices).map(|_| value(input)).collect();
@@ -111,4 +115,10 @@ pub(crate) fn sample(mesh: &azulejo_mesh, corners: &Corners, radius: f64, input:
     let (positions, _) = set.positions.as_chunks::<3>();
     let mean = |i: usize, j: usize| (set.radii[i] + set.radii[j]) / 2.0;
     check_distances(positions, |a, b| std::array::from_fn(|axis| a[axis] - b[axis]), mean);
+    if !falls_far && density.vertex_count > 0 && density.radius > 0.0 && density.radius < corners.diagonal() {
+        // The radius at a density is that at 1 over its root.
+        let at_vertices: Vec<_> = values.iter().map(|&value| f64::from(value) / density.radius.powi(2)).collect();
+        let field = Field { at_vertices: &at_vertices, radius: |value| 1.0 / value.sqrt() };
+        check_covered(mesh, corners, &field, &Ball::of_samples(&set));
+    }
 }

@@ -1,10 +1,7 @@
 //! What is done with every mesh, whatever it was made of: sampled by both engines, in steps, with radii that vary.
 
-use std::cell::Cell;
-use std::ffi::c_void;
 use std::ptr::{NonNull, null_mut};
 
-use azulejo_c::adaptive::*;
 use azulejo_c::analysis::{azulejo_coverage_report_init, azulejo_mesh_coverage};
 use azulejo_c::classes::azulejo_classes;
 use azulejo_c::mesh::*;
@@ -16,6 +13,7 @@ use azulejo_c::thin::{AZULEJO_ORDER_ANY, AZULEJO_ORDER_PROGRESSIVE};
 use crate::calls::{Arrays, Out, Patience, accepted, array, check_distances, context, create, report, reported};
 use crate::input::Input;
 use crate::surface_relaxation::relax;
+use crate::varying::adaptive;
 
 /// About how many samples a set has at most.
 const SAMPLES: f64 = 100.0;
@@ -45,8 +43,17 @@ impl Corners {
         self.0.iter().map(|[a, b, c]| (edge(*a, *b) + edge(*b, *c) + edge(*c, *a)) / 2.0).sum()
     }
 
-    fn largest_coordinate(&self) -> f64 {
+    pub(crate) fn largest_coordinate(&self) -> f64 {
         self.0.iter().flatten().flatten().fold(0.0, |largest, x| x.abs().max(largest))
+    }
+
+    /// That of the box around all of them.
+    pub(crate) fn diagonal(&self) -> f64 {
+        let side = |axis: usize| {
+            let along = || self.0.iter().flatten().map(|corner| corner[axis]);
+            along().fold(f64::NEG_INFINITY, f64::max) - along().fold(f64::INFINITY, f64::min)
+        };
+        (side(0).powi(2) + side(1).powi(2) + side(2).powi(2)).sqrt()
     }
 
     /// Where barycentrics of a triangle are.
@@ -136,10 +143,10 @@ pub fn sample_kinds(mesh: &azulejo_mesh, input: &mut Input) {
 }
 
 /// Samples that are given.
-struct Given {
-    positions: Vec<[f32; 3]>,
+pub(crate) struct Given {
+    pub positions: Vec<[f32; 3]>,
     /// NULL to the call, where there are none.
-    clearances: Option<Vec<f64>>,
+    pub clearances: Option<Vec<f64>>,
 }
 
 impl Given {
@@ -165,7 +172,7 @@ impl Given {
     }
 
     /// Each sample keeps the clearance of each.
-    fn check(&self, points: &azulejo_points, radius: f64) {
+    pub(crate) fn check(&self, points: &azulejo_points, radius: f64) {
         let (positions, _) = Arrays::of(points).positions.as_chunks::<3>();
         for (i, given) in self.positions.iter().enumerate() {
             let clearance = self.clearances.as_ref().map_or(radius, |clearances| clearances[i]);
@@ -322,78 +329,4 @@ fn in_steps(
     let points = create(|out| azulejo_psp_points(Some(&set), out)).expect("the set is not in use");
     check_uniform(corners, &points, options.radius);
     azulejo_psp_free(Some(set));
-}
-
-/// A function of the caller's: one that is as the options say, or not.
-struct Guest {
-    least: f64,
-    slope: f64,
-    kind: u32,
-    calls: Cell<u32>,
-}
-
-impl Guest {
-    fn at(&self, position: [f64; 3]) -> f64 {
-        let ramp = |slope: f64| self.least + (position[0].abs() * slope).min(self.least);
-        let noise =
-            position.iter().fold(0u64, |bits, x| (bits ^ x.to_bits()).wrapping_mul(0x9e37_79b9_7f4a_7c15)) >> 32;
-        let calls = self.calls.replace(self.calls.get().wrapping_add(1));
-        match self.kind {
-            0 => ramp(4.0),
-            1 => self.least * (1.0 + noise as f64 / 2f64.powi(32)),
-            2 => self.least * if calls.is_multiple_of(3) { 1.0 } else { 1.5 },
-            3 => self.least * if calls < 2000 { 2.0 } else { 1.0 },
-            4 if noise.is_multiple_of(64) => [f64::NAN, 0.0, -1.0, f64::INFINITY][noise as usize / 64 % 4],
-            _ => ramp(self.slope).min(2.0 * self.least),
-        }
-    }
-}
-
-unsafe extern "C-unwind" fn radius_at(user: *mut c_void, position: *const f64) -> f64 {
-    // SAFETY: the options below lead here with these two.
-    unsafe { (*user.cast::<Guest>()).at(*position.cast()) }
-}
-
-fn adaptive(mesh: &azulejo_mesh, corners: &Corners, radius: f64, given: &Given, input: &mut Input) {
-    let radii: Vec<f32> =
-        (0..azulejo_mesh_vertex_count(Some(mesh)))
-            .map(|_| {
-                if input.one_in(64) { input.coordinate() } else { radius as f32 * (1.0 + f32::from(input.any::<u8>())) }
-            })
-            .collect();
-    if radii.iter().any(|&x| x > 0.0 && f64::from(x) < radius / 2.0) {
-        return; // too many samples
-    }
-    let slope = f64::from(input.any::<u8>()) / 256.0;
-    let guest = Guest { least: radius, slope, kind: input.below(10), calls: Cell::new(0) };
-    let by_vertex = input.one_in(2);
-    let options = azulejo_psp_adaptive_options {
-        struct_size: size_of::<azulejo_psp_adaptive_options>() as u32,
-        reserved: 0,
-        vertex_radii: if by_vertex { radii.as_ptr() } else { std::ptr::null() },
-        vertex_count: if by_vertex { radii.len() } else { 0 },
-        radius: (!by_vertex).then_some(radius_at),
-        radius_user: (&raw const guest).cast_mut().cast(),
-        smallest: if by_vertex { 0.0 } else { radius },
-        largest: if by_vertex { 0.0 } else { 2.0 * radius },
-        slope: if by_vertex { 0.0 } else { slope },
-        cosine: if input.one_in(4) { [1.0, input.number()][input.below(2) as usize] } else { -1.0 },
-        seed: input.any(),
-        progress: None,
-        progress_user: std::ptr::null_mut(),
-        given_positions: given.positions.as_ptr().cast(),
-        given_clearances: given.clearances.as_ref().map_or(std::ptr::null(), |clearances| clearances.as_ptr()),
-        given_count: given.positions.len(),
-    };
-    // SAFETY: the options are of the size that they say, and so is the array.
-    let call = |out: Out<_>| unsafe { azulejo_psp_adaptive_sample(context(), Some(mesh), &options, out, null_mut()) };
-    let Some(points) = create(call) else { return };
-    let set = Arrays::of(&points);
-    corners.check(&set);
-    given.check(&points, f64::NAN);
-    if options.cosine == -1.0 {
-        let (positions, _) = set.positions.as_chunks::<3>();
-        let mean = |i: usize, j: usize| (set.radii[i] + set.radii[j]) / 2.0;
-        check_distances(positions, |a, b| std::array::from_fn(|axis| a[axis] - b[axis]), mean);
-    }
 }
