@@ -6,6 +6,7 @@
 use crate::mesh::{Mesh, round_barycentrics};
 use crate::psp::classes::layers::Layers;
 use crate::psp::facing::Facing;
+use crate::psp::fill::cells::Cells;
 use crate::psp::fill::ground::{Ground, Patch, UniformGround, Whole};
 use crate::psp::fill::page::GROUP;
 use crate::psp::fill::rounds::Open;
@@ -39,7 +40,7 @@ impl<'a> ClassGround<'a> {
         };
         let ground = |layer: usize| {
             let space = Space::new(mesh, layers.all[layer].radius * (1.0 + RADIUS_SLACK));
-            UniformGround::new(mesh, space, facing, obstacles(layer))
+            UniformGround::new(mesh, space, Cells::anywhere(), facing, obstacles(layer))
         };
         let grounds = (0..layers.all.len()).map(ground).collect();
         Self { mesh, layers, grounds, accepted: Vec::new(), darts: 0 }

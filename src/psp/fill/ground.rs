@@ -8,7 +8,8 @@ use glam::DVec3;
 
 use crate::mesh::{Mesh, round_barycentrics, rounded_down};
 use crate::psp::facing::{Facing, NO_NORMAL};
-use crate::psp::fill::grid::Grid;
+use crate::psp::fill::cells::Cells;
+use crate::psp::fill::grid::{Cell, Grid};
 use crate::psp::fill::page::{GROUP, Group};
 use crate::psp::fill::space::Space;
 use crate::psp::fragment::Fragment;
@@ -89,8 +90,8 @@ pub(in crate::psp) struct UniformGround<'a> {
 
 impl<'a> UniformGround<'a> {
     /// No samples yet, but what is given with a clearance of its own.
-    pub fn new(mesh: &'a Mesh, space: Space, facing: Facing, obstacles: &'a Obstacles) -> Self {
-        let (grid, per_radius) = (Grid::new(space, facing), 1.0 / space.radius());
+    pub fn new(mesh: &'a Mesh, space: Space, cells: Cells<Cell>, facing: Facing, obstacles: &'a Obstacles) -> Self {
+        let (grid, per_radius) = (Grid::new(space, cells, facing), 1.0 / space.radius());
         Self { mesh, grid, accepted: Vec::new(), darts: 0, facing, obstacles, largest_rank: None, per_radius }
     }
 
@@ -145,7 +146,7 @@ impl<'a> UniformGround<'a> {
     /// Which of some sixteenths of a fragment, given by its triangle and its corners in the unit of the space, no single
     /// sample certainly covers.
     #[inline(always)]
-    fn uncovered(&self, triangle: u32, corners: [DVec3; 3], longest: f64, open: u16) -> u16 {
+    fn uncovered(&self, triangle: u32, corners: &[DVec3; 3], longest: f64, open: u16) -> u16 {
         let open = self.grid.open_sixteenths(corners, longest, self.normal(triangle), open);
         let scale = f64::from(self.grid.space.scale());
         self.obstacles.open_sixteenths(corners.map(|corner| corner / scale), open)
@@ -193,7 +194,7 @@ impl<'a> UniformGround<'a> {
         let [p, q, r] = part;
         let at = |[s, t]: [f64; 2]| a + (s * e + t * f);
         let longest_edge = f64::from(longest) / self.per_radius;
-        let open = self.uncovered(fragment.triangle, [at(p), at(q), at(r)], longest_edge, u16::MAX);
+        let open = self.uncovered(fragment.triangle, &[at(p), at(q), at(r)], longest_edge, u16::MAX);
         let part = || Fragment { corners: [fragment.at(p), fragment.at(q), fragment.at(r)], ..*fragment };
         (open != 0).then(|| Patch { fragment: part(), open, area, longest, local: () })
     }
@@ -217,7 +218,7 @@ impl Ground for UniformGround<'_> {
     fn look(&self, fragment: &Fragment, (): ()) -> Option<Patch> {
         let corners = self.corners(fragment);
         let (area, longest) = self.size(&corners);
-        let open = self.uncovered(fragment.triangle, corners, longest / self.per_radius, u16::MAX);
+        let open = self.uncovered(fragment.triangle, &corners, longest / self.per_radius, u16::MAX);
         let patch = Patch { fragment: *fragment, open, area: area as f32, longest: longest as f32, local: () };
         (open != 0).then_some(patch)
     }
@@ -233,7 +234,7 @@ impl Ground for UniformGround<'_> {
 
     fn open_sixteenths(&self, patch: &Patch) -> u16 {
         let corners = self.corners(&patch.fragment);
-        self.uncovered(patch.fragment.triangle, corners, f64::from(patch.longest) / self.per_radius, patch.open)
+        self.uncovered(patch.fragment.triangle, &corners, f64::from(patch.longest) / self.per_radius, patch.open)
     }
 
     fn open_wholes(&self, wholes: &[Whole]) -> u64 {
