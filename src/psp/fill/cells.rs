@@ -102,7 +102,11 @@ mod tests {
         let (mut box_, mut table) = (Cells::<u32>::around(&extent, &space), Cells::anywhere());
         assert!(matches!(box_.slots, Slots::Box(_)) && matches!(table.slots, Slots::Anywhere(_)));
         let range = box_.clip([[0; 3], [1 << 20; 3]]);
-        assert_eq!([0, 1, 2].map(|axis| range[1][axis] - range[0][axis]), [12, 3, 7], "11, 2 and 6 cells, and one more on each side");
+        assert_eq!(
+            [0, 1, 2].map(|axis| range[1][axis] - range[0][axis]),
+            [12, 3, 7],
+            "11, 2 and 6 cells, and one more on each side"
+        );
         let mut count = 0;
         for _ in 0..2 {
             each_cell(range, |cell| {

@@ -9,7 +9,8 @@ use glam::DVec3;
 use crate::mesh::{Mesh, round_barycentrics, rounded_down};
 use crate::psp::facing::{Facing, NO_NORMAL};
 use crate::psp::fill::cells::Cells;
-use crate::psp::fill::grid::{Cell, Grid};
+use crate::psp::fill::extent::Extent;
+use crate::psp::fill::grid::Grid;
 use crate::psp::fill::page::{GROUP, Group};
 use crate::psp::fill::space::Space;
 use crate::psp::fragment::Fragment;
@@ -40,6 +41,15 @@ pub(in crate::psp) struct Patch<L = ()> {
     pub local: L,
 }
 
+/// A point that a dart is thrown at.
+#[derive(Clone, Copy)]
+pub(in crate::psp) struct Point<L = ()> {
+    pub triangle: u32,
+    pub barycentrics: [f64; 2],
+    /// What is known of the radius there.
+    pub local: L,
+}
+
 /// A surface with samples.
 pub(in crate::psp) trait Ground {
     /// What is known of the radius on a part of the surface.
@@ -66,8 +76,16 @@ pub(in crate::psp) trait Ground {
     /// Which of at most 64 triangles no single sample certainly covers: a bit for each.
     fn open_wholes(&self, wholes: &[Whole<Self::Local>]) -> u64;
 
-    /// The dart at a point of a triangle, which lies in a part of this radius.
-    fn dart(&self, triangle: u32, barycentrics: [f64; 2], local: Self::Local) -> Self::Dart;
+    /// The mesh that it lies on.
+    fn mesh(&self) -> &Mesh;
+
+    /// The dart at a point of a triangle with these corners, which lies in a part of this radius.
+    fn dart(&self, point: Point<Self::Local>, corners: &[[f32; 3]; 3]) -> Self::Dart;
+
+    /// The same, where the corners are not at hand.
+    fn dart_at(&self, point: Point<Self::Local>) -> Self::Dart {
+        self.dart(point, &self.mesh().corners(point.triangle))
+    }
 
     /// Makes a dart a sample, unless it conflicts with another one.
     fn throw(&mut self, dart: Self::Dart);
@@ -89,8 +107,15 @@ pub(in crate::psp) struct UniformGround<'a> {
 }
 
 impl<'a> UniformGround<'a> {
-    /// No samples yet, but what is given with a clearance of its own.
-    pub fn new(mesh: &'a Mesh, space: Space, cells: Cells<Cell>, facing: Facing, obstacles: &'a Obstacles) -> Self {
+    /// No samples yet, but what is given with a clearance of its own: of the mesh, or of the part of it in a box.
+    pub fn new(
+        mesh: &'a Mesh,
+        space: Space,
+        extent: Option<&Extent>,
+        facing: Facing,
+        obstacles: &'a Obstacles,
+    ) -> Self {
+        let cells = extent.map_or_else(Cells::anywhere, |extent| Cells::around(extent, &space));
         let (grid, per_radius) = (Grid::new(space, cells, facing), 1.0 / space.radius());
         Self { mesh, grid, accepted: Vec::new(), darts: 0, facing, obstacles, largest_rank: None, per_radius }
     }
@@ -246,8 +271,12 @@ impl Ground for UniformGround<'_> {
         self.open_triangles(&mut group, wholes.len(), |lane| wholes[lane].triangle)
     }
 
-    fn dart(&self, triangle: u32, barycentrics: [f64; 2], (): ()) -> Sample {
-        Sample::new(self.mesh, triangle, round_barycentrics(barycentrics))
+    fn mesh(&self) -> &Mesh {
+        self.mesh
+    }
+
+    fn dart(&self, point: Point, corners: &[[f32; 3]; 3]) -> Sample {
+        Sample::on(corners, point.triangle, round_barycentrics(point.barycentrics))
     }
 
     fn throw(&mut self, sample: Sample) {

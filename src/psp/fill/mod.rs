@@ -32,10 +32,9 @@ use crate::mesh::Mesh;
 use crate::psp::estimate::expected_samples;
 use crate::psp::facing::Facing;
 use crate::psp::fill::blocks::{Block, Blocks};
-use crate::psp::fill::cells::Cells;
 use crate::psp::fill::darts::{Row, random_point};
 use crate::psp::fill::extent::Extent;
-use crate::psp::fill::ground::{Ground, UniformGround};
+use crate::psp::fill::ground::{Ground, Point, UniformGround};
 use crate::psp::fill::region::{first_darts, open_parts, open_triangles, throw_at, throw_first};
 use crate::psp::fill::rounds::{Open, PATCH, rounds};
 use crate::psp::fill::space::Space;
@@ -84,11 +83,9 @@ pub(super) struct Surface<'a> {
 }
 
 impl<'a> Surface<'a> {
-    /// The surface without any sample of the radius.
+    /// The surface without any sample of the radius, or the part of it in a box.
     fn ground(&self, radius: f64, extent: Option<&Extent>) -> UniformGround<'a> {
-        let space = Space::new(self.mesh, radius);
-        let cells = extent.map_or_else(Cells::anywhere, |extent| Cells::around(extent, &space));
-        UniformGround::new(self.mesh, space, cells, self.facing, &self.given.obstacles)
+        UniformGround::new(self.mesh, Space::new(self.mesh, radius), extent, self.facing, &self.given.obstacles)
     }
 
     /// The share of it that given samples leave open, roughly: that of random points.
@@ -101,7 +98,7 @@ impl<'a> Surface<'a> {
             let group = groups.hit(rng) as usize;
             let areas = triangles.measure(self.mesh, group).0;
             let index = triangles.group(group).start + Row::new(areas.to_vec()).hit(rng) as usize;
-            (triangles.at(index), random_point(rng), ())
+            Point { triangle: triangles.at(index), barycentrics: random_point(rng), local: () }
         };
         open_share(ground, PROBES, || point(rng))
     }
@@ -166,11 +163,8 @@ fn fill_either_way(
 }
 
 /// The share of so many random points that no sample covers.
-fn open_share(ground: &UniformGround, probes: usize, mut point: impl FnMut() -> (u32, [f64; 2], ())) -> f64 {
-    let is_open = |_: &usize| {
-        let (triangle, barycentrics, ()) = point();
-        !ground.rejects(&ground.dart(triangle, barycentrics, ()))
-    };
+fn open_share(ground: &UniformGround, probes: usize, mut point: impl FnMut() -> Point) -> f64 {
+    let is_open = |_: &usize| !ground.rejects(&ground.dart_at(point()));
     (0..probes).filter(is_open).count() as f64 / probes as f64
 }
 
