@@ -8,6 +8,12 @@ pub(crate) fn exact(position: [f32; 3]) -> DVec3 {
     DVec3::new(x.into(), y.into(), z.into())
 }
 
+/// A point of a triangle, before it is rounded.
+pub(crate) fn exact_point(corners: &[[f32; 3]; 3], [u, v]: [f64; 2]) -> DVec3 {
+    let [a, b, c] = corners;
+    (1.0 - u - v) * exact(*a) + u * exact(*b) + v * exact(*c)
+}
+
 /// The largest float below a positive one.
 pub(crate) fn next_below(x: f32) -> f32 {
     f32::from_bits(x.to_bits() - 1)

@@ -9,7 +9,7 @@ use crate::error::{Error, Result};
 use crate::mesh::check::{check_finite, check_indices};
 use crate::mesh::kept::Kept;
 use crate::mesh::normals::Normals;
-use crate::mesh::rounding::{exact, next_below};
+use crate::mesh::rounding::{exact, exact_point, next_below};
 use crate::points::SurfaceSamples;
 
 /// A triangle soup: finite positions, indices in range, and some surface.
@@ -263,9 +263,8 @@ impl Mesh {
     }
 
     /// [`Mesh::point`] before it is rounded.
-    pub(crate) fn point_exact(&self, triangle: u32, [u, v]: [f64; 2]) -> DVec3 {
-        let [a, b, c] = self.exact_corners(triangle);
-        (1.0 - u - v) * a + u * b + v * c
+    pub(crate) fn point_exact(&self, triangle: u32, barycentrics: [f64; 2]) -> DVec3 {
+        exact_point(&self.corners(triangle), barycentrics)
     }
 
     /// What `make` makes of the triangles that are to be sampled, and of nothing else: made by the first call for its type,

@@ -12,6 +12,7 @@ use crate::memory;
 use crate::mesh::{Mesh, exact};
 use crate::psp::cubes::Cube;
 use crate::psp::facing::{Facing, NO_NORMAL};
+use crate::psp::fill::cells::Cells;
 use crate::psp::fill::grid::Grid;
 use crate::psp::fill::space::Space;
 use crate::psp::obstacles::{Obstacles, touches};
@@ -95,7 +96,7 @@ impl GivenSamples {
     pub fn near(&self, cube: Cube) -> NearGiven<'_> {
         let mut alike = self.alike_around(cube).peekable();
         let grid = alike.peek().is_some().then(|| {
-            let mut grid = Grid::new(self.space, Facing::ANY);
+            let mut grid = Grid::new(self.space, Cells::anywhere(), Facing::ANY);
             alike.for_each(|position| grid.add(self.space.place(position), NO_NORMAL));
             grid
         });

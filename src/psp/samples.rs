@@ -7,7 +7,7 @@ use crate::error::Result;
 use crate::geometry::counting_sort::Binned;
 use crate::geometry::grid3::distance_squared;
 use crate::job::Job;
-use crate::mesh::Mesh;
+use crate::mesh::{Mesh, exact_point};
 use crate::points::SurfaceSamples;
 use crate::psp::cubes::{Cube, Numbers, SIDE};
 use crate::psp::surroundings::Surroundings;
@@ -27,7 +27,13 @@ pub(super) struct Sample {
 impl Sample {
     /// The sample at rounded barycentrics: whatever is tested later is tested on the position that is returned.
     pub fn new(mesh: &Mesh, triangle: u32, barycentrics: [f32; 2]) -> Self {
-        Self { position: mesh.point(triangle, barycentrics), triangle, barycentrics, rank: f32::INFINITY, class: 0 }
+        Self::on(&mesh.corners(triangle), triangle, barycentrics)
+    }
+
+    /// The same, where the corners of the triangle are at hand.
+    pub fn on(corners: &[[f32; 3]; 3], triangle: u32, barycentrics: [f32; 2]) -> Self {
+        let position = exact_point(corners, barycentrics.map(f64::from)).as_vec3().to_array();
+        Self { position, triangle, barycentrics, rank: f32::INFINITY, class: 0 }
     }
 }
 

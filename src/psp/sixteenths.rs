@@ -50,6 +50,20 @@ pub(super) const CORNERS: [[f32; 16]; 2] = {
 pub(super) const PIERCING: [[f64; 2]; 6] =
     [[0.25, 0.25], [0.5, 0.25], [0.25, 0.5], [0.25, 0.0], [0.75, 0.25], [0.0, 0.75]];
 
+/// The piercing corners, one edge after the other, in eight lanes: the first one again in the last two.
+#[cfg_attr(not(target_arch = "x86_64"), allow(dead_code))]
+pub(super) const PIERCING_BY_EDGE: [[f64; 8]; 2] = {
+    let mut corners = [[0.0; 8]; 2];
+    let mut lane = 0;
+    while lane < 8 {
+        let corner = PIERCING[if lane < PIERCING.len() { lane } else { 0 }];
+        corners[0][lane] = corner[0];
+        corners[1][lane] = corner[1];
+        lane += 1;
+    }
+    corners
+};
+
 /// The numbers of the first, second and third corners of the sixteenths.
 #[cfg_attr(not(target_arch = "x86_64"), allow(dead_code))]
 pub(super) const CORNERS_OF_SIXTEENTHS: [[i32; 16]; 3] = {

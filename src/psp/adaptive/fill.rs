@@ -15,7 +15,7 @@ use crate::psp::adaptive::set::AdaptiveSet;
 use crate::psp::facing::Facing;
 use crate::psp::fill::RAIN_FROM;
 use crate::psp::fill::darts::{Row, random_point};
-use crate::psp::fill::ground::{Ground, Whole};
+use crate::psp::fill::ground::{Ground, Point, Whole};
 use crate::psp::fill::page::GROUP;
 use crate::psp::fill::region::FIRST_DARTS;
 use crate::psp::fill::rounds::{Open, PATCH, WHOLE, rounds, throw};
@@ -75,7 +75,7 @@ fn fill_cube(ground: &mut GradedGround, pieces: &[&Piece], rng: &mut Rng) {
     let point = |rng: &mut Rng| {
         let piece = &pieces[row.hit(rng) as usize];
         let fragment = piece.fragment();
-        (fragment.triangle, fragment.at(random_point(rng)), piece.bounds())
+        Point { triangle: fragment.triangle, barycentrics: fragment.at(random_point(rng)), local: piece.bounds() }
     };
     if ground.open_share(PROBES, || point(rng)) >= RAIN_FROM {
         let darts = (FIRST_DARTS * row.total() + rng.unit()) as usize;

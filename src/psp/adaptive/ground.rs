@@ -10,7 +10,7 @@ use crate::psp::adaptive::field::{RadiusBounds, RadiusField};
 use crate::psp::adaptive::grid::{Grid, Shade};
 use crate::psp::adaptive::limits::Quota;
 use crate::psp::adaptive::page::Group;
-use crate::psp::fill::ground::{Ground, Patch, Whole};
+use crate::psp::fill::ground::{Ground, Patch, Point, Whole};
 use crate::psp::fragment::Fragment;
 use crate::psp::obstacles::Obstacles;
 use crate::psp::samples::Sample;
@@ -49,12 +49,12 @@ impl<'a> GradedGround<'a> {
     }
 
     /// The share of so many points that no given sample covers.
-    pub fn open_share(&self, count: usize, mut point: impl FnMut() -> (u32, [f64; 2], RadiusBounds)) -> f64 {
+    pub fn open_share(&self, count: usize, mut point: impl FnMut() -> Point<RadiusBounds>) -> f64 {
         if self.obstacles.is_empty() {
             return 1.0;
         }
         let is_open = |_: &usize| {
-            let (triangle, barycentrics, _) = point();
+            let Point { triangle, barycentrics, .. } = point();
             !self.obstacles.reject(self.mesh.point(triangle, round_barycentrics(barycentrics)))
         };
         (0..count).filter(is_open).count() as f64 / count as f64
@@ -140,9 +140,13 @@ impl Ground for GradedGround<'_> {
         self.obstacles.open_triangles(open, |lane| self.mesh.corners(wholes[lane].triangle))
     }
 
-    fn dart(&self, triangle: u32, barycentrics: [f64; 2], bounds: RadiusBounds) -> (Sample, RadiusBounds) {
-        let sample = Sample::new(self.mesh, triangle, round_barycentrics(barycentrics));
-        (sample, self.field.known_at(&sample, bounds))
+    fn mesh(&self) -> &Mesh {
+        self.mesh
+    }
+
+    fn dart(&self, point: Point<RadiusBounds>, corners: &[[f32; 3]; 3]) -> (Sample, RadiusBounds) {
+        let sample = Sample::on(corners, point.triangle, round_barycentrics(point.barycentrics));
+        (sample, self.field.known_at(&sample, point.local))
     }
 
     fn throw(&mut self, (sample, bounds): (Sample, RadiusBounds)) {

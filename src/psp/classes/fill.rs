@@ -13,6 +13,8 @@ use crate::psp::estimate::expected_samples;
 use crate::psp::facing::Facing;
 use crate::psp::fill::blocks::{Block, Blocks};
 use crate::psp::fill::darts::{Row, random_point, shuffle};
+use crate::psp::fill::extent::Extent;
+use crate::psp::fill::ground::Point;
 use crate::psp::fill::region::{FIRST_DARTS, first_darts, open_parts, open_triangles};
 use crate::psp::fill::rounds::{Open, PATCH, rounds, throw};
 use crate::psp::fill::triangles::{Measures, Triangles};
@@ -71,7 +73,7 @@ impl<'a> Group<'a> {
     /// Fills cube by cube or in one piece.
     fn fill_either_way(&self, job: &Job, samples: &mut Vec<Sample>, in_blocks: bool) -> Result<u64> {
         if !in_blocks {
-            let mut ground = self.ground();
+            let mut ground = self.ground(None);
             samples.iter().for_each(|sample| ground.add(sample));
             self.fill_in_one_piece(job, &mut ground)?;
             samples.append(&mut ground.accepted);
@@ -88,9 +90,9 @@ impl<'a> Group<'a> {
     }
 
     /// The surface without any sample.
-    fn ground(&self) -> ClassGround<'_> {
+    fn ground(&self, extent: Option<&Extent>) -> ClassGround<'_> {
         let Places { mesh, facing, given, none, .. } = self.places;
-        ClassGround::new(mesh, &self.layers, facing, given, none)
+        ClassGround::new(mesh, extent, &self.layers, facing, given, none)
     }
 
     /// The share of so many random points, each of a random class of the group, where a sample could stand.
@@ -143,7 +145,9 @@ impl<'a> Group<'a> {
                 Ok(())
             })?;
             shuffle(&mut rng, &mut darts);
-            throw(ground, darts.iter().map(|&(triangle, class)| (triangle, random_point(&mut rng), class)));
+            let mut point =
+                |triangle: u32, class: u8| Point { triangle, barycentrics: random_point(&mut rng), local: class };
+            throw(ground, darts.iter().map(|&(triangle, class)| point(triangle, class)));
         }
         // Class by class: what is looked at together is mostly of one.
         let mut open: Vec<Open<u8>> = self.members.iter().map(|_| Open::default()).collect();
@@ -160,23 +164,23 @@ impl<'a> Group<'a> {
 
     /// The samples that a cube needs, and how many darts these took.
     fn fill_block(&self, block: &Block, set: &SampleSet) -> (Vec<Sample>, u64) {
-        let (mesh, mut ground) = (self.places.mesh, self.ground());
+        let (mesh, mut ground) = (self.places.mesh, self.ground(Some(&block.extent)));
         let mut rng = Rng::at(self.seed, Draw::Fill, &block.cube.key());
         let (items, pieces) = (block.items(), &block.pieces);
         let is_near = |sample: &&Sample| block.extent.is_in_reach(sample.position, self.layers.largest());
         set.around(block.cube).filter(is_near).for_each(|sample| ground.add(sample));
         let (row, radius) = (items.row(mesh), ground.own(self.members[0]).radius());
         let point = |rng: &mut Rng| {
-            let (triangle, barycentrics, ()) = items.point(&row, rng);
+            let Point { triangle, barycentrics, .. } = items.point(&row, rng);
             (triangle, barycentrics)
         };
         if row.total() > 0.0 && self.open_share(&ground, PROBES_IN_CUBE, &mut rng, &point) >= RAIN_FROM {
             let expected = self.members.len() as f64 * FIRST_DARTS * row.total() / (radius * radius);
             let darts = (0..(expected + rng.unit()) as usize).map(|_| {
                 let ((triangle, barycentrics), class) = (point(&mut rng), self.random_class(&mut rng));
-                (triangle, barycentrics, class)
+                Point { triangle, barycentrics, local: class }
             });
-            throw(&mut ground, darts.filter(|&(triangle, _, class)| self.places.allow(class, triangle)));
+            throw(&mut ground, darts.filter(|point| self.places.allow(point.local, point.triangle)));
         }
         let open = |&class: &u8| match self.places.masks {
             None => self.open_of(&ground, class, items.triangles, 0..items.triangles.groups(), pieces),

@@ -6,7 +6,8 @@
 use crate::mesh::{Mesh, round_barycentrics};
 use crate::psp::classes::layers::Layers;
 use crate::psp::facing::Facing;
-use crate::psp::fill::ground::{Ground, Patch, UniformGround, Whole};
+use crate::psp::fill::extent::Extent;
+use crate::psp::fill::ground::{Ground, Patch, Point, UniformGround, Whole};
 use crate::psp::fill::page::GROUP;
 use crate::psp::fill::rounds::Open;
 use crate::psp::fill::space::Space;
@@ -29,6 +30,7 @@ impl<'a> ClassGround<'a> {
     /// No samples yet, but those given for each class.
     pub fn new(
         mesh: &'a Mesh,
+        extent: Option<&Extent>,
         layers: &'a Layers,
         facing: Facing,
         given: &'a [Obstacles],
@@ -39,7 +41,7 @@ impl<'a> ClassGround<'a> {
         };
         let ground = |layer: usize| {
             let space = Space::new(mesh, layers.all[layer].radius * (1.0 + RADIUS_SLACK));
-            UniformGround::new(mesh, space, facing, obstacles(layer))
+            UniformGround::new(mesh, space, extent, facing, obstacles(layer))
         };
         let grounds = (0..layers.all.len()).map(ground).collect();
         Self { mesh, layers, grounds, accepted: Vec::new(), darts: 0 }
@@ -66,7 +68,7 @@ impl<'a> ClassGround<'a> {
 
     /// Whether a sample of a class cannot stand at a point of a triangle.
     pub fn is_taken(&self, triangle: u32, barycentrics: [f64; 2], class: u8) -> bool {
-        self.rejects(&self.dart(triangle, barycentrics, class))
+        self.rejects(&self.dart_at(Point { triangle, barycentrics, local: class }))
     }
 
     /// Of what is open in the own layer of a class, that which is open in all others.
@@ -166,8 +168,13 @@ impl Ground for ClassGround<'_> {
         open
     }
 
-    fn dart(&self, triangle: u32, barycentrics: [f64; 2], class: u8) -> Sample {
-        Sample { class, ..Sample::new(self.mesh, triangle, round_barycentrics(barycentrics)) }
+    fn mesh(&self) -> &Mesh {
+        self.mesh
+    }
+
+    fn dart(&self, point: Point<u8>, corners: &[[f32; 3]; 3]) -> Sample {
+        let barycentrics = round_barycentrics(point.barycentrics);
+        Sample { class: point.local, ..Sample::on(corners, point.triangle, barycentrics) }
     }
 
     fn throw(&mut self, sample: Sample) {

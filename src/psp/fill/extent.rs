@@ -26,6 +26,11 @@ impl Extent {
         }
     }
 
+    /// The lowest and the highest coordinates.
+    pub fn corners(&self) -> [[f32; 3]; 2] {
+        [self.low, self.high]
+    }
+
     /// Whether a sample of this radius can reach anything in it: what cannot is left out, but for a margin that exceeds
     /// the rounding of the coordinates and of the reach.
     #[inline]

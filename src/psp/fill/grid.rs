@@ -8,9 +8,9 @@ use glam::DVec3;
 
 use crate::mesh::exact;
 use crate::psp::facing::{Facing, NO_NORMAL};
+use crate::psp::fill::cells::Cells;
 use crate::psp::fill::page::{GROUP, Group, LANES, Page, Part};
-use crate::psp::fill::space::{Place, Space, key};
-use crate::psp::fill::table::Table;
+use crate::psp::fill::space::{Place, Space};
 use crate::psp::fill::vectors;
 use crate::psp::sixteenths::PIERCING;
 use crate::simd::Level;
@@ -22,11 +22,11 @@ const PAGES: usize = 1 << 9;
 pub(in crate::psp) struct Grid {
     pub space: Space,
     level: Level,
-    cells: Table<Cell>,
+    pub(super) cells: Cells<Cell>,
     /// The first page is empty: that of all cells without samples.
-    pages: Vec<Page>,
+    pub(super) pages: Vec<Page>,
     /// For each page, the one of its cell that was full before.
-    earlier: Vec<u32>,
+    pub(super) earlier: Vec<u32>,
     facing: Facing,
     /// Where normals matter, those of the samples on each page.
     normals: Vec<[[f32; 3]; LANES]>,
@@ -34,26 +34,26 @@ pub(in crate::psp) struct Grid {
 
 /// The last page of a cell, and how many samples all of its pages list.
 #[derive(Clone, Copy, Default)]
-struct Cell {
-    page: u32,
-    count: u32,
+pub(in crate::psp) struct Cell {
+    pub(super) page: u32,
+    pub(super) count: u32,
 }
 
 impl Grid {
-    pub fn new(space: Space, facing: Facing) -> Self {
+    pub fn new(space: Space, cells: Cells<Cell>, facing: Facing) -> Self {
         let (mut pages, mut earlier, mut normals) = (Vec::with_capacity(PAGES), Vec::with_capacity(PAGES), Vec::new());
         pages.push(Page::EMPTY);
         earlier.push(0);
         if facing.asks_normals() {
             normals.push([NO_NORMAL; LANES]);
         }
-        Self { space, level: Level::widest(), cells: Table::new(), pages, earlier, facing, normals }
+        Self { space, level: Level::widest(), cells, pages, earlier, facing, normals }
     }
 
     /// Adds a sample on a triangle with this normal.
     pub fn add(&mut self, place: Place, normal: [f32; 3]) {
-        each_cell(self.space.cells_around(place), |cell| {
-            let cell = self.cells.entry(key(cell));
+        each_cell(self.cells.clip(self.space.cells_around(place)), |cell| {
+            let cell = self.cells.entry(cell);
             let lane = cell.count as usize % LANES;
             if lane == 0 {
                 self.earlier.push(cell.page);
@@ -91,7 +91,7 @@ impl Grid {
     /// most twice the radius, in the unit of places.
     pub fn distance(&self, place: Place, normal: [f32; 3], reach: f64) -> f64 {
         let mut least = reach * reach;
-        each_cell(self.space.cells_within(place, reach), |cell| {
+        each_cell(self.cells.clip(self.space.cells_within(place, reach - self.space.radius())), |cell| {
             self.any_page(cell, |number| {
                 let page = &self.pages[number];
                 let mut near = vectors::near(self.level, page, place, Space::beyond(least));
@@ -110,29 +110,27 @@ impl Grid {
 
     /// Which of some sixteenths of a fragment, given by its corners in the unit of the space and the normal of its
     /// triangle, no single sample certainly covers.
-    pub fn open_sixteenths(&self, corners: [DVec3; 3], longest: f64, normal: [f32; 3], mut open: u16) -> u16 {
-        let a = corners[0].as_vec3();
-        let [corner, to_b, to_c] = [corners[0] - a.as_dvec3(), corners[1] - corners[0], corners[2] - corners[0]];
+    #[inline(always)]
+    pub fn open_sixteenths(&self, corners: &[DVec3; 3], longest: f64, normal: [f32; 3], open: u16) -> u16 {
         // What covers a sixteenth is no farther from its centre than the radius, and this no farther from the centre of
         // all than three quarters of the way to a corner, which is two thirds of the longest edge.
         let reach = (self.space.radius() + 0.5 * longest) as f32;
-        let part = Part {
-            origin: a.to_array(),
-            corner: corner.as_vec3().to_array(),
-            edges: [to_b.as_vec3().to_array(), to_c.as_vec3().to_array()],
-            centre: (corner + (to_b + to_c) * (1.0 / 3.0)).as_vec3().to_array(),
-            reach2: reach * reach * 1.0001,
-        };
-        any_cell(&self.space, corners, |cell| {
+        vectors::open_sixteenths(self.level, self, corners, reach, &normal, open)
+    }
+
+    /// The same without vectors.
+    pub(super) fn open_sixteenths_portable(
+        &self,
+        corners: &[DVec3; 3],
+        reach: f32,
+        normal: &[f32; 3],
+        mut open: u16,
+    ) -> u16 {
+        let part = Part::new(*corners, reach);
+        any_cell(&self.space, *corners, |cell| {
             self.any_page(cell, |number| {
-                let (page, seen);
-                if self.facing.asks_normals() {
-                    seen = self.seen(number, normal);
-                    page = &seen;
-                } else {
-                    page = &self.pages[number];
-                }
-                open &= !vectors::covered_sixteenths(self.level, page, &part, self.space.surely_within);
+                let seen = self.seen(number, normal);
+                open &= !self.pages[number].covered(&part, seen, self.space.surely_within);
                 open == 0
             })
         });
@@ -142,13 +140,12 @@ impl Grid {
     /// Which triangles of a group, with these normals, no single sample certainly covers: a bit for each. Their pages are
     /// looked up here.
     pub fn open_triangles(&self, group: &mut Group, count: usize, normal: impl Fn(usize) -> [f32; 3]) -> u64 {
-        let mut keys = [0; GROUP];
-        for (lane, of) in keys.iter_mut().enumerate() {
-            *of = key(self.space.cell(group.triangles[lane][0]));
+        let (mut numbers, mut chained) = ([0; GROUP], 0);
+        for (lane, number) in numbers.iter_mut().enumerate() {
+            *number = self.cells.number(self.space.cell(group.triangles[lane][0]));
         }
-        let mut chained = 0;
-        for (lane, &key) in keys.iter().enumerate() {
-            let cell = self.cells.get(key);
+        for (lane, &number) in numbers.iter().enumerate() {
+            let cell = self.cells.get(number);
             group.pages[lane] = cell.page;
             chained |= u64::from(cell.count as usize > LANES) << lane;
         }
@@ -184,17 +181,21 @@ impl Grid {
         !self.facing.asks_normals() || self.facing.sees(self.normals[page][lane], normal)
     }
 
-    /// A page of those samples only that matter to a normal.
-    fn seen(&self, page: usize, normal: [f32; 3]) -> Page {
-        let mut seen = self.pages[page];
-        (0..LANES).filter(|&lane| !self.sees(page, lane, normal)).for_each(|lane| seen.clear(lane));
-        seen
+    /// Which samples of a page matter to a normal: a bit for each.
+    #[inline(always)]
+    pub(super) fn seen(&self, page: usize, normal: &[f32; 3]) -> u16 {
+        if self.facing.asks_normals() { self.seen_from(page, *normal) } else { u16::MAX }
+    }
+
+    #[inline(never)]
+    fn seen_from(&self, page: usize, normal: [f32; 3]) -> u16 {
+        (0..LANES).fold(0, |seen, lane| seen | u16::from(self.sees(page, lane, normal)) << lane)
     }
 
     /// Whether the test holds for a page of a cell.
     #[inline(always)]
     fn any_page(&self, cell: [u32; 3], mut test: impl FnMut(usize) -> bool) -> bool {
-        let Cell { mut page, count } = self.cells.get(key(cell));
+        let Cell { mut page, count } = self.cells.get(self.cells.number(cell));
         for _ in 0..count.div_ceil(LANES as u32) {
             if test(page as usize) {
                 return true;
@@ -238,6 +239,7 @@ pub(in crate::psp) fn each_cell([low, high]: [[u32; 3]; 2], mut visit: impl FnMu
 mod tests {
     use super::*;
     use crate::mesh::Mesh;
+    use crate::psp::fill::extent::Extent;
     use crate::psp::fragment::Fragment;
     use crate::rng::{Draw, Rng};
 
@@ -256,7 +258,7 @@ mod tests {
             let end = |radii: f64| [(centre + radii * radius) as f32; 3];
             let corners = vec![random_point(&mut rng, centre, radius), end(4.0), end(-4.0)];
             let mesh = Mesh::new(corners, vec![[0, 1, 2]]).unwrap();
-            let mut grid = Grid::new(Space::new(&mesh, radius), Facing::ANY);
+            let mut grid = Grid::new(Space::new(&mesh, radius), Cells::anywhere(), Facing::ANY);
             let mut samples: Vec<[f32; 3]> = Vec::new();
             for _ in 0..2000 {
                 let point = random_point(&mut rng, centre, 4.0 * radius);
@@ -283,7 +285,10 @@ mod tests {
             let size = [1.0, 0.1, 1e-3][round / 3 % 3] * radius;
             let corners = (0..3).map(|_| random_point(&mut rng, centre, size)).collect();
             let Ok(mesh) = Mesh::new(corners, vec![[0, 1, 2]]) else { continue };
-            let mut grid = Grid::new(Space::new(&mesh, radius), Facing::ANY);
+            let (space, mut extent) = (Space::new(&mesh, radius), Extent::EMPTY);
+            mesh.corners(0).into_iter().for_each(|corner| extent.add(corner));
+            let cells = if round % 2 == 0 { Cells::anywhere() } else { Cells::around(&extent, &space) };
+            let mut grid = Grid::new(space, cells, Facing::ANY);
             let samples: Vec<_> = (0..30).map(|_| random_point(&mut rng, centre, 1.4 * radius)).collect();
             // A radius far beyond the mesh stands for less.
             let radius = grid.space.radius() / f64::from(grid.space.scale());
@@ -293,7 +298,12 @@ mod tests {
             let is_open = grid.open_triangles(&mut group, 1, |_| NO_NORMAL) == 1;
             let shape = whole.shape(&mesh);
             let scaled = shape.corners.map(|corner| grid.space.scaled(corner));
-            let open = grid.open_sixteenths(scaled, shape.longest * f64::from(grid.space.scale()), NO_NORMAL, u16::MAX);
+            let mut open_at = |level| {
+                grid.level = level;
+                grid.open_sixteenths(&scaled, shape.longest * f64::from(grid.space.scale()), NO_NORMAL, u16::MAX)
+            };
+            let open = open_at(Level::Portable);
+            assert!(Level::available().into_iter().all(|level| open_at(level) == open), "vectors find something else");
             let parts = (0..16).map(|part| (open >> part & 1 == 1, whole.sixteenth(part)));
             for (is_open, part) in std::iter::once((is_open, whole)).chain(parts) {
                 let corners = part.shape(&mesh).corners;

@@ -8,6 +8,8 @@ use glam::DVec3;
 
 use crate::mesh::{Mesh, round_barycentrics, rounded_down};
 use crate::psp::facing::{Facing, NO_NORMAL};
+use crate::psp::fill::cells::Cells;
+use crate::psp::fill::extent::Extent;
 use crate::psp::fill::grid::Grid;
 use crate::psp::fill::page::{GROUP, Group};
 use crate::psp::fill::space::Space;
@@ -39,6 +41,15 @@ pub(in crate::psp) struct Patch<L = ()> {
     pub local: L,
 }
 
+/// A point that a dart is thrown at.
+#[derive(Clone, Copy)]
+pub(in crate::psp) struct Point<L = ()> {
+    pub triangle: u32,
+    pub barycentrics: [f64; 2],
+    /// What is known of the radius there.
+    pub local: L,
+}
+
 /// A surface with samples.
 pub(in crate::psp) trait Ground {
     /// What is known of the radius on a part of the surface.
@@ -65,8 +76,16 @@ pub(in crate::psp) trait Ground {
     /// Which of at most 64 triangles no single sample certainly covers: a bit for each.
     fn open_wholes(&self, wholes: &[Whole<Self::Local>]) -> u64;
 
-    /// The dart at a point of a triangle, which lies in a part of this radius.
-    fn dart(&self, triangle: u32, barycentrics: [f64; 2], local: Self::Local) -> Self::Dart;
+    /// The mesh that it lies on.
+    fn mesh(&self) -> &Mesh;
+
+    /// The dart at a point of a triangle with these corners, which lies in a part of this radius.
+    fn dart(&self, point: Point<Self::Local>, corners: &[[f32; 3]; 3]) -> Self::Dart;
+
+    /// The same, where the corners are not at hand.
+    fn dart_at(&self, point: Point<Self::Local>) -> Self::Dart {
+        self.dart(point, &self.mesh().corners(point.triangle))
+    }
 
     /// Makes a dart a sample, unless it conflicts with another one.
     fn throw(&mut self, dart: Self::Dart);
@@ -88,9 +107,16 @@ pub(in crate::psp) struct UniformGround<'a> {
 }
 
 impl<'a> UniformGround<'a> {
-    /// No samples yet, but what is given with a clearance of its own.
-    pub fn new(mesh: &'a Mesh, space: Space, facing: Facing, obstacles: &'a Obstacles) -> Self {
-        let (grid, per_radius) = (Grid::new(space, facing), 1.0 / space.radius());
+    /// No samples yet, but what is given with a clearance of its own: of the mesh, or of the part of it in a box.
+    pub fn new(
+        mesh: &'a Mesh,
+        space: Space,
+        extent: Option<&Extent>,
+        facing: Facing,
+        obstacles: &'a Obstacles,
+    ) -> Self {
+        let cells = extent.map_or_else(Cells::anywhere, |extent| Cells::around(extent, &space));
+        let (grid, per_radius) = (Grid::new(space, cells, facing), 1.0 / space.radius());
         Self { mesh, grid, accepted: Vec::new(), darts: 0, facing, obstacles, largest_rank: None, per_radius }
     }
 
@@ -145,7 +171,7 @@ impl<'a> UniformGround<'a> {
     /// Which of some sixteenths of a fragment, given by its triangle and its corners in the unit of the space, no single
     /// sample certainly covers.
     #[inline(always)]
-    fn uncovered(&self, triangle: u32, corners: [DVec3; 3], longest: f64, open: u16) -> u16 {
+    fn uncovered(&self, triangle: u32, corners: &[DVec3; 3], longest: f64, open: u16) -> u16 {
         let open = self.grid.open_sixteenths(corners, longest, self.normal(triangle), open);
         let scale = f64::from(self.grid.space.scale());
         self.obstacles.open_sixteenths(corners.map(|corner| corner / scale), open)
@@ -193,7 +219,7 @@ impl<'a> UniformGround<'a> {
         let [p, q, r] = part;
         let at = |[s, t]: [f64; 2]| a + (s * e + t * f);
         let longest_edge = f64::from(longest) / self.per_radius;
-        let open = self.uncovered(fragment.triangle, [at(p), at(q), at(r)], longest_edge, u16::MAX);
+        let open = self.uncovered(fragment.triangle, &[at(p), at(q), at(r)], longest_edge, u16::MAX);
         let part = || Fragment { corners: [fragment.at(p), fragment.at(q), fragment.at(r)], ..*fragment };
         (open != 0).then(|| Patch { fragment: part(), open, area, longest, local: () })
     }
@@ -217,7 +243,7 @@ impl Ground for UniformGround<'_> {
     fn look(&self, fragment: &Fragment, (): ()) -> Option<Patch> {
         let corners = self.corners(fragment);
         let (area, longest) = self.size(&corners);
-        let open = self.uncovered(fragment.triangle, corners, longest / self.per_radius, u16::MAX);
+        let open = self.uncovered(fragment.triangle, &corners, longest / self.per_radius, u16::MAX);
         let patch = Patch { fragment: *fragment, open, area: area as f32, longest: longest as f32, local: () };
         (open != 0).then_some(patch)
     }
@@ -233,7 +259,7 @@ impl Ground for UniformGround<'_> {
 
     fn open_sixteenths(&self, patch: &Patch) -> u16 {
         let corners = self.corners(&patch.fragment);
-        self.uncovered(patch.fragment.triangle, corners, f64::from(patch.longest) / self.per_radius, patch.open)
+        self.uncovered(patch.fragment.triangle, &corners, f64::from(patch.longest) / self.per_radius, patch.open)
     }
 
     fn open_wholes(&self, wholes: &[Whole]) -> u64 {
@@ -245,8 +271,12 @@ impl Ground for UniformGround<'_> {
         self.open_triangles(&mut group, wholes.len(), |lane| wholes[lane].triangle)
     }
 
-    fn dart(&self, triangle: u32, barycentrics: [f64; 2], (): ()) -> Sample {
-        Sample::new(self.mesh, triangle, round_barycentrics(barycentrics))
+    fn mesh(&self) -> &Mesh {
+        self.mesh
+    }
+
+    fn dart(&self, point: Point, corners: &[[f32; 3]; 3]) -> Sample {
+        Sample::on(corners, point.triangle, round_barycentrics(point.barycentrics))
     }
 
     fn throw(&mut self, sample: Sample) {

@@ -9,6 +9,7 @@
 //! costs more.
 
 pub(super) mod blocks;
+pub(super) mod cells;
 pub(super) mod darts;
 pub(super) mod extent;
 pub(super) mod grid;
@@ -32,7 +33,8 @@ use crate::psp::estimate::expected_samples;
 use crate::psp::facing::Facing;
 use crate::psp::fill::blocks::{Block, Blocks};
 use crate::psp::fill::darts::{Row, random_point};
-use crate::psp::fill::ground::{Ground, UniformGround};
+use crate::psp::fill::extent::Extent;
+use crate::psp::fill::ground::{Ground, Point, UniformGround};
 use crate::psp::fill::region::{first_darts, open_parts, open_triangles, throw_at, throw_first};
 use crate::psp::fill::rounds::{Open, PATCH, rounds};
 use crate::psp::fill::space::Space;
@@ -81,9 +83,9 @@ pub(super) struct Surface<'a> {
 }
 
 impl<'a> Surface<'a> {
-    /// The surface without any sample of the radius.
-    fn ground(&self, radius: f64) -> UniformGround<'a> {
-        UniformGround::new(self.mesh, Space::new(self.mesh, radius), self.facing, &self.given.obstacles)
+    /// The surface without any sample of the radius, or the part of it in a box.
+    fn ground(&self, radius: f64, extent: Option<&Extent>) -> UniformGround<'a> {
+        UniformGround::new(self.mesh, Space::new(self.mesh, radius), extent, self.facing, &self.given.obstacles)
     }
 
     /// The share of it that given samples leave open, roughly: that of random points.
@@ -96,7 +98,7 @@ impl<'a> Surface<'a> {
             let group = groups.hit(rng) as usize;
             let areas = triangles.measure(self.mesh, group).0;
             let index = triangles.group(group).start + Row::new(areas.to_vec()).hit(rng) as usize;
-            (triangles.at(index), random_point(rng), ())
+            Point { triangle: triangles.at(index), barycentrics: random_point(rng), local: () }
         };
         open_share(ground, PROBES, || point(rng))
     }
@@ -146,7 +148,7 @@ fn fill_either_way(
     let mut filled = if in_blocks {
         fill_in_blocks(job, surface, samples, manner)?
     } else {
-        let mut ground = surface.ground(samples.radius()).ranked(manner.largest_rank);
+        let mut ground = surface.ground(samples.radius(), None).ranked(manner.largest_rank);
         surface.given.alike().iter().for_each(|&position| ground.add_given(position));
         samples.all().iter().for_each(|sample| ground.add(sample));
         let open_area = fill_in_one_piece(job, surface, &mut ground, manner);
@@ -161,11 +163,8 @@ fn fill_either_way(
 }
 
 /// The share of so many random points that no sample covers.
-fn open_share(ground: &UniformGround, probes: usize, mut point: impl FnMut() -> (u32, [f64; 2], ())) -> f64 {
-    let is_open = |_: &usize| {
-        let (triangle, barycentrics, ()) = point();
-        !ground.rejects(&ground.dart(triangle, barycentrics, ()))
-    };
+fn open_share(ground: &UniformGround, probes: usize, mut point: impl FnMut() -> Point) -> f64 {
+    let is_open = |_: &usize| !ground.rejects(&ground.dart_at(point()));
     (0..probes).filter(is_open).count() as f64 / probes as f64
 }
 
@@ -232,7 +231,7 @@ fn fill_in_blocks(job: &Job, surface: &Surface, samples: &mut SampleSet, manner:
 /// The samples that a cube needs to be covered, and what that took.
 fn fill_block(surface: &Surface, block: &Block, samples: &SampleSet, manner: Manner) -> (Vec<Sample>, Filled) {
     let (cube, items) = (block.cube, block.items());
-    let mut ground = surface.ground(samples.radius()).ranked(manner.largest_rank);
+    let mut ground = surface.ground(samples.radius(), Some(&block.extent)).ranked(manner.largest_rank);
     let mut rng = Rng::at(manner.seed, Draw::Fill, &cube.key());
     let reach = manner.largest_rank.unwrap_or(ground.radius());
     let is_near = |position: [f32; 3]| block.extent.is_in_reach(position, reach);

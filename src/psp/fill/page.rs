@@ -4,6 +4,8 @@
 //! code here is plain and portable. `vectors/` has the same functions in the vectors of the processor, equal to the
 //! bit: no sum has another order, no rounding is left out.
 
+use glam::DVec3;
+
 use crate::psp::fill::space::Place;
 use crate::psp::sixteenths::{CORNERS, Cover};
 
@@ -17,6 +19,10 @@ const FAR: f32 = 1e18;
 #[derive(Clone, Copy)]
 #[repr(align(64))]
 pub(in crate::psp) struct Page(pub [[f32; LANES]; 3]);
+
+pub(super) const THIRD: f64 = 1.0 / 3.0;
+/// What rounding adds to the square of a reach, and more.
+pub(super) const REACH_SLACK: f32 = 1.0001;
 
 /// Triangles that are tested together.
 pub(in crate::psp) const GROUP: usize = 64;
@@ -38,6 +44,21 @@ pub(in crate::psp) struct Part {
     pub reach2: f32,
 }
 
+impl Part {
+    /// A fragment by its corners, where `reach` is how far from its centre the samples are at most that cover any of it.
+    pub fn new([a, b, c]: [DVec3; 3], reach: f32) -> Self {
+        let origin = a.as_vec3();
+        let [corner, to_b, to_c] = [a - origin.as_dvec3(), b - a, c - a];
+        Self {
+            origin: origin.to_array(),
+            corner: corner.as_vec3().to_array(),
+            edges: [to_b.as_vec3().to_array(), to_c.as_vec3().to_array()],
+            centre: (corner + (to_b + to_c) * THIRD).as_vec3().to_array(),
+            reach2: reach * reach * REACH_SLACK,
+        }
+    }
+}
+
 impl Page {
     /// A page without samples.
     pub const EMPTY: Self = Self([[FAR; LANES]; 3]);
@@ -45,11 +66,6 @@ impl Page {
     /// Puts a sample into a lane.
     pub fn put(&mut self, lane: usize, place: Place) {
         (0..3).for_each(|axis| self.0[axis][lane] = place[axis]);
-    }
-
-    /// Takes the sample out of a lane.
-    pub fn clear(&mut self, lane: usize) {
-        self.put(lane, [FAR; 3]);
     }
 
     /// The sample in a lane.
@@ -81,8 +97,9 @@ impl Page {
         std::array::from_fn(|lane| square([0, 1, 2].map(|axis| self.0[axis][lane] - place[axis])))
     }
 
-    /// The sixteenths of a fragment whose three corners are nearer to one sample than the square root of `limit`.
-    pub fn covered(&self, part: &Part, limit: f32) -> u16 {
+    /// The sixteenths of a fragment whose three corners are nearer to one sample, among those in some lanes, than the
+    /// square root of `limit`.
+    pub fn covered(&self, part: &Part, among: u16, limit: f32) -> u16 {
         let mut cover = Cover::default();
         let corners: [[f32; 3]; 16] = std::array::from_fn(|i| {
             [0, 1, 2].map(|axis| {
@@ -91,7 +108,8 @@ impl Page {
         });
         for lane in 0..LANES {
             let sample = [0, 1, 2].map(|axis| self.0[axis][lane] - part.origin[axis]);
-            if square([0, 1, 2].map(|axis| sample[axis] - part.centre[axis])) <= part.reach2 {
+            let square_to_centre = square([0, 1, 2].map(|axis| sample[axis] - part.centre[axis]));
+            if among >> lane & 1 == 1 && square_to_centre <= part.reach2 {
                 let mut inside = 0;
                 for (bit, corner) in corners.iter().enumerate() {
                     let offset = [0, 1, 2].map(|axis| corner[axis] - sample[axis]);

@@ -2,7 +2,7 @@
 
 use crate::mesh::Mesh;
 use crate::psp::fill::darts::{Rain, Row, random_point, shuffle};
-use crate::psp::fill::ground::UniformGround;
+use crate::psp::fill::ground::{Point, UniformGround};
 use crate::psp::fill::page::{GROUP, Group};
 use crate::psp::fill::rounds::{Open, PATCH, WHOLE, throw};
 use crate::psp::fill::triangles::Triangles;
@@ -40,9 +40,9 @@ impl Items<'_> {
     }
 
     /// A random point of any of it.
-    pub fn point(&self, row: &Row, rng: &mut Rng) -> (u32, [f64; 2], ()) {
+    pub fn point(&self, row: &Row, rng: &mut Rng) -> Point {
         let fragment = self.fragment(row.hit(rng));
-        (fragment.triangle, fragment.at(random_point(rng)), ())
+        Point { triangle: fragment.triangle, barycentrics: fragment.at(random_point(rng)), local: () }
     }
 }
 
@@ -70,7 +70,9 @@ pub(in crate::psp) fn first_darts(
 /// Throws the first darts at triangles on which they fall.
 pub(in crate::psp) fn throw_at(ground: &mut UniformGround, triangles: Triangles, mut darts: Vec<u32>, rng: &mut Rng) {
     shuffle(rng, &mut darts);
-    throw(ground, darts.iter().map(|&index| (triangles.at(index as usize), random_point(rng), ())));
+    let mut point =
+        |index: u32| Point { triangle: triangles.at(index as usize), barycentrics: random_point(rng), local: () };
+    throw(ground, darts.iter().map(|&index| point(index)));
 }
 
 /// Throws the first darts at all of some items, whose areas are in a row.

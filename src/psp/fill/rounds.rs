@@ -15,7 +15,7 @@
 //! part (0.7). So no point of the surface is farther from all samples than the radius and [`TOLERANCE`] float spacings.
 
 use crate::psp::fill::darts::{Rain, random_point, shuffle};
-use crate::psp::fill::ground::{Ground, Patch, Whole};
+use crate::psp::fill::ground::{Ground, Patch, Point, Whole};
 use crate::psp::fill::page::GROUP;
 use crate::psp::fragment::Fragment;
 use crate::rng::Rng;
@@ -36,7 +36,7 @@ const DARTS_PER_AREA: f64 = 20.0;
 /// ... and how many for each patch.
 const DARTS_PER_PATCH: f64 = 0.9;
 
-/// Darts whose positions are computed together: the processor waits for the memory of several triangles at once.
+/// Darts whose triangles are looked up together: the processor waits for the memory of many at once.
 const TOGETHER: usize = 32;
 
 /// What may be uncovered.
@@ -102,15 +102,16 @@ impl<L: Copy> Open<L> {
     }
 
     /// A random point of a whole triangle or an open part of a patch.
-    pub fn point(&self, number: u32, rng: &mut Rng) -> (u32, [f64; 2], L) {
+    pub fn point(&self, number: u32, rng: &mut Rng) -> Point<L> {
         let number = number as usize;
         match self.wholes.get(number) {
-            Some(whole) => (whole.triangle, random_point(rng), whole.local),
+            Some(&Whole { triangle, local, .. }) => Point { triangle, barycentrics: random_point(rng), local },
             None => {
                 let Patch { fragment, open, local, .. } = &self.patches[number - self.wholes.len()];
                 let skipped = rng.below(open.count_ones().into());
                 let part = (0..skipped).fold(*open, |open, _| open & (open - 1)).trailing_zeros();
-                (fragment.triangle, fragment.sixteenth(part as usize).at(random_point(rng)), *local)
+                let barycentrics = fragment.sixteenth(part as usize).at(random_point(rng));
+                Point { triangle: fragment.triangle, barycentrics, local: *local }
             }
         }
     }
@@ -167,20 +168,23 @@ impl<L: Copy> Open<L> {
         self.patches.truncate(kept);
         self.patches.append(&mut grown);
         for (fragment, local) in last {
-            ground.throw(ground.dart(fragment.triangle, fragment.at([1.0 / 3.0; 2]), local));
+            let barycentrics = fragment.at([1.0 / 3.0; 2]);
+            ground.throw(ground.dart_at(Point { triangle: fragment.triangle, barycentrics, local }));
         }
     }
 }
 
 /// Throws darts at points of triangles, in order.
-pub(in crate::psp) fn throw<G: Ground>(ground: &mut G, mut points: impl Iterator<Item = (u32, [f64; 2], G::Local)>) {
+pub(in crate::psp) fn throw<G: Ground>(ground: &mut G, mut targets: impl Iterator<Item = Point<G::Local>>) {
+    let (mut points, mut corners) = (Vec::with_capacity(TOGETHER), Vec::with_capacity(TOGETHER));
     let mut darts = Vec::with_capacity(TOGETHER);
     loop {
-        let points = points.by_ref().take(TOGETHER);
-        darts.extend(points.map(|(triangle, barycentrics, local)| ground.dart(triangle, barycentrics, local)));
-        if darts.is_empty() {
+        points.extend(targets.by_ref().take(TOGETHER));
+        if points.is_empty() {
             return;
         }
+        corners.extend(points.iter().map(|point: &Point<_>| ground.mesh().corners(point.triangle)));
+        darts.extend(points.drain(..).zip(corners.drain(..)).map(|(point, corners)| ground.dart(point, &corners)));
         darts.drain(..).for_each(|dart| ground.throw(dart));
     }
 }

@@ -1,10 +1,11 @@
-//! The tests of `page.rs` in AVX2: sixteen lanes in two halves.
+//! The tests of `grid.rs` and `page.rs` in AVX2: sixteen lanes in two halves.
 
 use std::arch::x86_64::*;
 
-use crate::psp::fill::page::{Group, LANES, Page, Part};
-use crate::psp::fill::space::Place;
-use crate::psp::sixteenths::{CORNERS, Cover};
+use crate::psp::fill::grid::{Cell, Grid};
+use crate::psp::fill::page::{Group, LANES, Page, REACH_SLACK, THIRD};
+use crate::psp::fill::space::{MASK, Place, ROUNDER};
+use crate::psp::sixteenths::{CORNERS, Cover, PIERCING, PIERCING_BY_EDGE};
 
 /// The lanes of a vector.
 const HALF: usize = 8;
@@ -88,39 +89,144 @@ pub fn covered_triangles(group: &Group, pages: &[Page], limit: f32) -> u64 {
     covered
 }
 
-/// [`Page::covered`].
+/// One place in every lane.
+type Broad = [__m256d; 3];
+
+#[inline]
+#[target_feature(enable = "avx2")]
+fn broad(x: f64, y: f64, z: f64) -> Broad {
+    [_mm256_set1_pd(x), _mm256_set1_pd(y), _mm256_set1_pd(z)]
+}
+
+#[inline]
+#[target_feature(enable = "avx2")]
+fn minus(a: Broad, b: Broad) -> Broad {
+    [_mm256_sub_pd(a[0], b[0]), _mm256_sub_pd(a[1], b[1]), _mm256_sub_pd(a[2], b[2])]
+}
+
+/// Doubles, the same in all lanes, as floats.
+#[inline]
+#[target_feature(enable = "avx2")]
+fn narrow(a: Broad) -> [__m256; 3] {
+    [0, 1, 2].map(|axis| _mm256_broadcastss_ps(_mm256_cvtpd_ps(a[axis])))
+}
+
+#[inline]
+#[target_feature(enable = "avx2")]
+fn minus_floats(a: [__m256; 3], b: [__m256; 3]) -> [__m256; 3] {
+    [_mm256_sub_ps(a[0], b[0]), _mm256_sub_ps(a[1], b[1]), _mm256_sub_ps(a[2], b[2])]
+}
+
+/// The numbers of the cells of a fragment's piercing corners, given one of its corners and the edges from there.
+#[inline]
+#[target_feature(enable = "avx2")]
+fn cells(grid: &Grid, a: Broad, e: Broad, f: Broad) -> [__m256i; 2] {
+    let (space, (first, shifts)) = (&grid.space, grid.cells.numbering());
+    let place = |axis: usize, half: usize| {
+        let half = half * HALF / 2;
+        // SAFETY: four doubles are read, from slices of four; no alignment is asked for.
+        let [s, t] = [0, 1].map(|edge| unsafe { _mm256_loadu_pd(PIERCING_BY_EDGE[edge][half..][..4].as_ptr()) });
+        let offset = _mm256_add_pd(_mm256_mul_pd(s, e[axis]), _mm256_mul_pd(t, f[axis]));
+        _mm256_cvtpd_ps(_mm256_add_pd(a[axis], offset))
+    };
+    let along = |axis: usize| {
+        let place = _mm256_set_m128(place(axis, 1), place(axis, 0));
+        let place = _mm256_sub_ps(place, _mm256_set1_ps(space.origin[axis]));
+        let rounded = _mm256_add_ps(_mm256_mul_ps(place, _mm256_set1_ps(space.per_cell)), _mm256_set1_ps(ROUNDER));
+        let cell = _mm256_and_si256(_mm256_castps_si256(rounded), _mm256_set1_epi32(MASK as i32));
+        _mm256_sub_epi32(cell, _mm256_set1_epi32(first[axis] as i32))
+    };
+    let [x, y, z] = [along(0), along(1), along(2)];
+    let [row, layer] = [0, 1].map(|axis| _mm_cvtsi32_si128(shifts[axis] as i32));
+    let number = |x: __m128i, y: __m128i, z: __m128i| {
+        let y = _mm256_sll_epi64(_mm256_cvtepu32_epi64(y), row);
+        let z = _mm256_sll_epi64(_mm256_cvtepu32_epi64(z), layer);
+        _mm256_or_si256(_mm256_cvtepu32_epi64(x), _mm256_or_si256(y, z))
+    };
+    let low = number(_mm256_castsi256_si128(x), _mm256_castsi256_si128(y), _mm256_castsi256_si128(z));
+    let high = |a: __m256i| _mm256_extracti128_si256::<1>(a);
+    [low, number(high(x), high(y), high(z))]
+}
+
+/// [`Grid::open_sixteenths_portable`].
 #[target_feature(enable = "avx2,bmi1")]
-pub fn covered_sixteenths(page: &Page, part: &Part, limit: f32) -> u16 {
-    let samples = [0, 1].map(|half| offsets(samples(page, half), part.origin));
-    let mut reaching = up_to(samples.map(|samples| squares(offsets(samples, part.centre))), part.reach2);
-    if reaching == 0 {
-        return 0;
+#[expect(clippy::too_many_arguments, reason = "the coordinates come in registers")]
+pub fn open_sixteenths(
+    grid: &Grid,
+    ax: f64,
+    ay: f64,
+    az: f64,
+    bx: f64,
+    by: f64,
+    bz: f64,
+    cx: f64,
+    cy: f64,
+    cz: f64,
+    reach: f32,
+    normal: &[f32; 3],
+    open: u16,
+) -> u16 {
+    let [a, b, c] = [broad(ax, ay, az), broad(bx, by, bz), broad(cx, cy, cz)];
+    let (e, f) = (minus(b, a), minus(c, a));
+    let cells = cells(grid, a, e, f);
+    let mut numbers = [0_u64; HALF];
+    for (half, cells) in cells.into_iter().enumerate() {
+        let numbers = &mut numbers[half * HALF / 2..][..HALF / 2];
+        // SAFETY: four integers are written, to a slice of four; no alignment is asked for.
+        unsafe { _mm256_storeu_si256(numbers.as_mut_ptr().cast(), cells) };
     }
-    let mut places = [[0.0; LANES]; 3];
-    for (half, samples) in samples.into_iter().enumerate() {
-        for (places, samples) in places.iter_mut().zip(samples) {
-            let places = &mut places[half * HALF..][..HALF];
-            // SAFETY: eight floats are written, to a slice of eight; no alignment is asked for.
-            unsafe { _mm256_storeu_ps(places.as_mut_ptr(), samples) };
-        }
-    }
+    let origin = narrow(a);
+    let corner = minus(a, [0, 1, 2].map(|axis| _mm256_cvtps_pd(_mm256_castps256_ps128(origin[axis]))));
+    let third = |axis: usize| _mm256_mul_pd(_mm256_add_pd(e[axis], f[axis]), _mm256_set1_pd(THIRD));
+    let centre = narrow([0, 1, 2].map(|axis| _mm256_add_pd(corner[axis], third(axis))));
+    let (corner, e, f) = (narrow(corner), narrow(e), narrow(f));
     let corners = [0, 1].map(|half| {
         let (s, t) = (load(&CORNERS[0], half), load(&CORNERS[1], half));
         [0, 1, 2].map(|axis| {
-            let e = _mm256_mul_ps(s, _mm256_set1_ps(part.edges[0][axis]));
-            let f = _mm256_mul_ps(t, _mm256_set1_ps(part.edges[1][axis]));
-            _mm256_add_ps(_mm256_set1_ps(part.corner[axis]), _mm256_add_ps(e, f))
+            let offset = _mm256_add_ps(_mm256_mul_ps(s, e[axis]), _mm256_mul_ps(t, f[axis]));
+            _mm256_add_ps(corner[axis], offset)
         })
     });
-    let (limit, mut cover) = (_mm256_set1_ps(limit), Cover::default());
-    while reaching != 0 {
-        let lane = reaching.trailing_zeros() as usize;
-        let sample = [places[0][lane], places[1][lane], places[2][lane]];
-        let [low, high] = corners.map(|corners| {
-            _mm256_movemask_ps(_mm256_cmp_ps::<_CMP_LT_OQ>(squares(offsets(corners, sample)), limit)) as u16
-        });
-        cover.add(low | high << HALF);
-        reaching &= reaching - 1;
+    let (limit, reach2) = (_mm256_set1_ps(grid.space.surely_within), reach * reach * REACH_SLACK);
+    let mut cover = Cover::default();
+    let mut unseen = (1 << PIERCING.len()) - 1;
+    while unseen != 0 {
+        let number = numbers[i32::trailing_zeros(unseen) as usize];
+        let same = |half: usize| {
+            let same = _mm256_cmpeq_epi64(cells[half], _mm256_set1_epi64x(number as i64));
+            _mm256_movemask_pd(_mm256_castsi256_pd(same)) << (half * HALF / 2)
+        };
+        unseen &= !(same(0) | same(1));
+        let Cell { mut page, count } = grid.cells.get(number);
+        for _ in 0..count.div_ceil(LANES as u32) {
+            let samples = [0, 1].map(|half| minus_floats(samples(&grid.pages[page as usize], half), origin));
+            let distances = samples.map(|samples| squares(minus_floats(samples, centre)));
+            let mut reaching = up_to(distances, reach2) & grid.seen(page as usize, normal);
+            page = grid.earlier[page as usize];
+            if reaching == 0 {
+                continue;
+            }
+            let mut places = [[0.0; LANES]; 3];
+            for (half, samples) in samples.into_iter().enumerate() {
+                for (places, samples) in places.iter_mut().zip(samples) {
+                    let places = &mut places[half * HALF..][..HALF];
+                    // SAFETY: eight floats are written, to a slice of eight; no alignment is asked for.
+                    unsafe { _mm256_storeu_ps(places.as_mut_ptr(), samples) };
+                }
+            }
+            while reaching != 0 {
+                let lane = reaching.trailing_zeros() as usize;
+                let sample = [places[0][lane], places[1][lane], places[2][lane]];
+                let [low, high] = corners.map(|corners| {
+                    _mm256_movemask_ps(_mm256_cmp_ps::<_CMP_LT_OQ>(squares(offsets(corners, sample)), limit)) as u16
+                });
+                cover.add(low | high << HALF);
+                reaching &= reaching - 1;
+            }
+            if open & !cover.sixteenths() == 0 {
+                return 0;
+            }
+        }
     }
-    cover.sixteenths()
+    open & !cover.sixteenths()
 }
