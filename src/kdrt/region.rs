@@ -1,7 +1,5 @@
 //! Samples of a part of the plane, from which those of any smaller part can be had.
 
-use std::ops::ControlFlow;
-
 use crate::geometry::counting_sort::Binned;
 use crate::plane::lattice::Lattice;
 use crate::plane::rect::Rect;
@@ -94,16 +92,8 @@ impl<S: Placed> Region<S> {
     }
 
     /// Visits the samples in a rectangle, which lies in the part or in images of all of it.
-    pub fn visit(&self, rect: &Rect, mut visit: impl FnMut(S)) {
-        let _ = self.try_visit(rect, |sample| {
-            visit(sample);
-            ControlFlow::Continue(())
-        });
-    }
-
-    /// [`Region::visit`] until one is enough.
     #[inline(always)]
-    pub fn try_visit(&self, rect: &Rect, mut visit: impl FnMut(S) -> ControlFlow<()>) -> ControlFlow<()> {
+    pub fn visit(&self, rect: &Rect, mut visit: impl FnMut(S)) {
         for (piece, shift) in self.part.images(rect).filter(|(piece, _)| !piece.is_empty()) {
             let min = self.part.rect.min;
             let [columns, rows] = [0, 1].map(|axis: usize| {
@@ -114,11 +104,10 @@ impl<S: Placed> Region<S> {
                 let run = self.tiles.range(first + columns.start as usize..first + columns.end as usize);
                 for sample in self.tiles.items()[run].iter().filter(|sample| piece.contains(sample.point())) {
                     let [x, y] = sample.point();
-                    visit(sample.moved_to([x + shift[0], y + shift[1]]))?;
+                    visit(sample.moved_to([x + shift[0], y + shift[1]]));
                 }
             }
         }
-        ControlFlow::Continue(())
     }
 
     /// The samples of a part of this part.

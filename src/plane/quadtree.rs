@@ -90,8 +90,7 @@ impl Quadtree {
     pub fn add_sixteenths(&mut self, grid: &CellGrid, list: &List, cell: [i32; 2], voxel: Rect) {
         grid.gather_among(list, voxel, &mut self.cutter.near);
         let open = grid.uncovered(&self.cutter.near, &voxel, self.width);
-        let parts = parts(voxel, self.width, open).filter(|rect| !grid.is_hidden(cell, rect));
-        self.voxels.extend(parts.map(|rect| Voxel { rect, cell }));
+        add_parts(grid, &Voxel { rect: voxel, cell }, self.width, open, &mut self.voxels);
     }
 
     /// How many voxels are left.
@@ -183,9 +182,8 @@ impl Cutter {
             }
             if is_coarse {
                 grid.gather(cell, &mut self.near);
-                for &Voxel { rect, .. } in voxels {
-                    let parts = parts(rect, width, grid.uncovered(&self.near, &rect, width));
-                    open.extend(parts.filter(|rect| !grid.is_hidden(cell, rect)).map(|rect| Voxel { rect, cell }));
+                for voxel in voxels {
+                    add_parts(grid, voxel, width, grid.uncovered(&self.near, &voxel.rect, width), open);
                 }
             } else {
                 let near = grid.samples_near(cell, &mut self.exactly_near);
@@ -208,17 +206,18 @@ fn part(width: i32) -> i32 {
     (width + 3) / 4
 }
 
-/// The sixteenths of a voxel, as wide as given, whose bit is set in `open`.
+/// Appends the sixteenths of a voxel, as wide as given, whose bit is set in `open`, unless they are hidden.
 #[inline(always)]
-fn parts(voxel: Rect, width: i32, mut open: u16) -> impl Iterator<Item = Rect> {
-    std::iter::from_fn(move || {
-        (open != 0).then(|| {
-            let i = open.trailing_zeros() as i32;
-            open &= open - 1;
-            let min = [voxel.min[0] + i % 4 * width, voxel.min[1] + i / 4 * width];
-            Rect { min, max: [0, 1].map(|axis: usize| (min[axis] + width).min(voxel.max[axis])) }
-        })
-    })
+fn add_parts(grid: &CellGrid, &Voxel { rect, cell }: &Voxel, width: i32, mut open: u16, voxels: &mut Vec<Voxel>) {
+    while open != 0 {
+        let i = open.trailing_zeros() as i32;
+        open &= open - 1;
+        let min = [rect.min[0] + i % 4 * width, rect.min[1] + i / 4 * width];
+        let part = Rect { min, max: [0, 1].map(|axis: usize| (min[axis] + width).min(rect.max[axis])) };
+        if !grid.is_hidden(cell, &part) {
+            voxels.push(Voxel { rect: part, cell });
+        }
+    }
 }
 
 /// The quarters of a voxel, as wide as given; of one that is no wider, itself.

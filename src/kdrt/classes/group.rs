@@ -5,8 +5,6 @@
 //! nothing; each is filled with regard to the groups before and to what the blocks around it have so far. A torus that is
 //! too narrow for blocks is filled as a whole.
 
-use std::ops::ControlFlow;
-
 use crate::classes::Classes;
 use crate::error::Result;
 use crate::given::Given;
@@ -220,36 +218,33 @@ impl Group {
         let block = Rect { min: place, max: place.map(|index| index + 1) };
         let rect = blocks.rect(&block);
         self.begin(room, &rect);
-        let seen = before.try_visit(&self.seen_from(&rect), |sample| {
-            self.keep_out(room, &sample);
-            if room.is_covered() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-        });
-        if seen.is_break() {
-            return Vec::new();
+        // Loops, since a closure as large as this is not compiled for the vectors of `vectors.rs`.
+        let mut seen = Vec::new();
+        before.visit(&self.seen_from(&rect), |sample| seen.push(sample));
+        for sample in &seen {
+            self.keep_out(room, sample);
+            if room.is_covered() {
+                return Vec::new();
+            }
         }
         let near = rect.grown(self.reach);
-        made.of_blocks(&block.grown(1))
-            .filter(|sample| near.contains(sample.point))
-            .for_each(|sample| self.keep_out(room, &sample));
+        for sample in made.of_blocks(&block.grown(1)).filter(|sample| near.contains(sample.point)) {
+            self.keep_out(room, &sample);
+        }
         let rng = &mut Rng::at(blocks.rng(place).bits(), Draw::Darts, &[pass as u64]);
-        self.throw(room, rng, pass, |room, sample| self.keep_out(room, &sample))
+        self.throw(room, rng, pass, &[[0, 0]])
     }
 
     /// Fills a narrow torus as a whole.
     fn fill_torus(&self, job: &Job, before: &[Sample]) -> Result<Vec<Sample>> {
         self.require_rooms(self.lattice.size, 1)?;
-        let keep_out_images = |room: &mut Room, sample: &Sample| {
-            for [x, y] in (-1..=1).flat_map(|y| (-1..=1).map(move |x| [x, y])) {
-                let [width, height] = self.lattice.size;
-                let point = [sample.point[0] + x * width, sample.point[1] + y * height];
-                self.keep_out(room, &Sample { point, ..*sample });
-            }
-        };
+        let [width, height] = self.lattice.size;
+        let images: Vec<_> = (-1..=1).flat_map(|y| (-1..=1).map(move |x| [x * width, y * height])).collect();
         let mut room = Room::default();
         self.begin(&mut room, &self.lattice.rect());
-        before.iter().for_each(|sample| keep_out_images(&mut room, sample));
+        before.iter().for_each(|sample| self.keep_out_images(&mut room, sample, &images));
         let mut rng = Rng::at(self.seed, Draw::Darts, &[]);
-        let samples = self.throw(&mut room, &mut rng, Pass::Only, |room, sample| keep_out_images(room, &sample));
+        let samples = self.throw(&mut room, &mut rng, Pass::Only, &images);
         job.report(1.0)?;
         Ok(samples)
     }
@@ -284,9 +279,17 @@ impl Group {
         }
     }
 
-    /// Throws the darts of a pass, and puts the circles of each new sample in the room.
+    /// Puts the circles of images of a sample in a room.
     #[inline(always)]
-    fn throw(&self, room: &mut Room, rng: &mut Rng, pass: Pass, keep_out: impl Fn(&mut Room, Sample)) -> Vec<Sample> {
+    fn keep_out_images(&self, room: &mut Room, sample: &Sample, images: &[[i32; 2]]) {
+        for [x, y] in images {
+            self.keep_out(room, &Sample { point: [sample.point[0] + x, sample.point[1] + y], ..*sample });
+        }
+    }
+
+    /// Throws the darts of a pass, and puts the circles of the images of each new sample in the room.
+    #[inline(always)]
+    fn throw(&self, room: &mut Room, rng: &mut Rng, pass: Pass, images: &[[i32; 2]]) -> Vec<Sample> {
         let mut samples = Vec::new();
         room.open(if pass == Pass::Last { 0 } else { FIRST_DARTS });
         let next = |room: &mut Room, rng: &mut Rng| match pass {
@@ -295,7 +298,7 @@ impl Group {
         };
         while let Some((class, point)) = next(room, rng) {
             let sample = Sample { point, class: self.classes[class] as u32 };
-            keep_out(room, sample);
+            self.keep_out_images(room, &sample, images);
             samples.push(sample);
         }
         samples

@@ -174,9 +174,10 @@ impl Room {
         let edges = &self.edges[axis];
         let (count, first) = ((edges.len() - 1) as f64, f64::from(edges[0]));
         let per_point = count / (f64::from(edges[edges.len() - 1]) - first);
-        let from = ((circle.centre[axis] - circle.radius - first) * per_point).floor().max(0.0);
-        let to = ((circle.centre[axis] + circle.radius - first + 1.0) * per_point).floor().min(count - 1.0);
-        if from <= to { from as usize..to as usize + 1 } else { 0..0 }
+        let from = (circle.centre[axis] - circle.radius - first) * per_point;
+        let to = (circle.centre[axis] + circle.radius - first + 1.0) * per_point;
+        // Where they are not negative a conversion rounds down; the function `floor` is a call.
+        if from < count && to >= 0.0 { from as usize..to.min(count - 1.0) as usize + 1 } else { 0..0 }
     }
 
     /// Starts to fill what the circles leave, with so many darts for each cell that is not covered before any is cut.
