@@ -3,6 +3,7 @@
 #![no_main]
 
 use std::alloc::{Layout, alloc_zeroed, dealloc, handle_alloc_error};
+use std::ffi::c_void;
 use std::ptr::null_mut;
 
 use azulejo_c::adaptive::*;
@@ -13,13 +14,14 @@ use azulejo_c::merge::*;
 use azulejo_c::mesh::{azulejo_mesh, azulejo_mesh_create};
 use azulejo_c::psp::*;
 use azulejo_c::status::{AZULEJO_OK, azulejo_status};
-use azulejo_fuzz::calls::{Patience, accepted, context, create};
+use azulejo_fuzz::calls::{Arrays, Patience, accepted, array, context, create};
 use azulejo_fuzz::input::Input;
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|bytes: &[u8]| {
     let mut input = Input::new(bytes);
-    // Every call ends with its first report of progress: sizes do not matter here, and a set may be as large as it likes.
+    // Every call ends with its first report of progress, but streams: sizes do not matter here, and a set may be as large
+    // as it likes.
     let patience = Patience::new(0);
     match input.below(6) {
         0 => kdrt(&mut input, &patience),
@@ -130,7 +132,34 @@ fn kdrt(input: &mut Input, patience: &Patience) {
         create(|out| azulejo_kdrt_sample_window(context(), options, corners[0].as_ptr(), corners[1].as_ptr(), out));
         patience.again(0);
         accepted(azulejo_kdrt_stream(context(), options, None, null_mut()));
+        let mut visitor = Visitor::default();
+        patience.again(if input.one_in(2) { PATIENCE } else { 0 });
+        if accepted(azulejo_kdrt_stream(context(), options, Some(visit), (&raw mut visitor).cast())) {
+            patience.again(u32::MAX);
+            let set = create(|out| azulejo_kdrt_sample(context(), options, out, null_mut()));
+            let set = set.expect("what is streamed can be sampled");
+            assert_eq!(Arrays::of(&set).positions, visitor.xy, "the parts are not the set");
+        }
     }
+}
+
+/// Reports of progress that a stream is let go on for: its visitor ends it before, unless it is small.
+const PATIENCE: u32 = 1000;
+/// The coordinates that a visitor takes.
+const MOST: usize = 4000;
+
+/// What takes the parts of a set.
+#[derive(Default)]
+struct Visitor {
+    xy: Vec<f32>,
+}
+
+unsafe extern "C-unwind" fn visit(user: *mut c_void, xy: *const f32, count: usize) -> i32 {
+    assert!(count > 0, "a part without samples");
+    // SAFETY: the call above leads here with its visitor, and the header says how long the array is.
+    let (visitor, part) = unsafe { (&mut *user.cast::<Visitor>(), array(xy, 2 * count)) };
+    visitor.xy.extend(part);
+    i32::from(visitor.xy.len() > MOST)
 }
 
 fn maximal(input: &mut Input, patience: &Patience) {
