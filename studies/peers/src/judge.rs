@@ -25,6 +25,8 @@ pub struct Verdict {
     pub hexagonal: f64,
     /// Of sets in the plane.
     pub bond_order: Option<f64>,
+    /// Of thinned clouds, for the first tenth of the points: the farthest point of the cloud over the smallest distance.
+    pub of_first_tenth: Option<f64>,
 }
 
 /// Where samples lie.
@@ -65,6 +67,7 @@ fn plane(points: &[[f64; 2]], radius: f64) -> Result<Verdict, Box<dyn Error>> {
         gaps: covered.gaps,
         hexagonal: domain.hexagonal_distance(points.len()),
         bond_order: Some(bonds::bond_order(&context, &domain, &rounded, None)?),
+        of_first_tenth: None,
     })
 }
 
@@ -81,11 +84,15 @@ fn surface(mesh: &Mesh, points: &[[f64; 3]], radius: f64) -> Result<Verdict, Box
         gaps: covered.gaps,
         hexagonal: (2.0 * mesh.area() / (3.0f64.sqrt() * points.len() as f64)).sqrt(),
         bond_order: None,
+        of_first_tenth: None,
     })
 }
 
 fn thinned(cloud: &[[f64; 3]], area: f64, points: &[[f64; 3]], radius: f64) -> Verdict {
     let (conflicts, smallest) = pairs(points, radius);
+    let first_tenth = &points[..points.len() / 10];
+    let wide = radius * 10.0f64.sqrt();
+    let of_first_tenth = farthest(cloud, first_tenth, wide) / pairs(first_tenth, wide).1;
     Verdict {
         samples: points.len(),
         conflicts,
@@ -94,6 +101,7 @@ fn thinned(cloud: &[[f64; 3]], area: f64, points: &[[f64; 3]], radius: f64) -> V
         gaps: 0,
         hexagonal: (2.0 * area / (3.0f64.sqrt() * points.len() as f64)).sqrt(),
         bond_order: None,
+        of_first_tenth: Some(of_first_tenth),
     }
 }
 

@@ -6,6 +6,7 @@
 // Figures on a page need not be the same bytes on every processor.
 #![allow(clippy::disallowed_methods)]
 
+mod elimination;
 mod judge;
 mod native;
 mod page;

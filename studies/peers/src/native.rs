@@ -11,6 +11,8 @@ use azulejo::thin::{self, thin};
 use azulejo::{Boundary, Context, Domain, Order, dcr, kdrt, maximal, psp};
 use rand_06::SeedableRng as _;
 
+use crate::elimination;
+use crate::peers::DENSITY;
 use crate::timing::{Cost, timed};
 
 /// Runs the peer of this name, writes its samples as raw doubles and prints what it cost.
@@ -26,6 +28,8 @@ pub fn run(name: &str, count: usize, radius: f64, out: &Path, mesh: Option<&Path
         ("azulejo_farthest_1", Some(cloud)) => farthest(&Context::new(1)?, cloud, count)?,
         ("azulejo_farthest", Some(cloud)) => farthest(&Context::new(0)?, cloud, count)?,
         ("azulejo_greedy_1", Some(cloud)) => thinned(&Context::new(1)?, cloud, thin::Options::by_radius(radius))?,
+        ("elimination", Some(cloud)) => eliminated(cloud, count, radius, false)?,
+        ("elimination_ordered", Some(cloud)) => eliminated(cloud, count, radius, true)?,
         ("bluenoise", _) => bluenoise(radius),
         ("fast_poisson", _) => fast_poisson(radius),
         ("poisson_bridson", _) => poisson(radius, poisson::algorithm::Bridson),
@@ -82,12 +86,26 @@ fn farthest(context: &Context, cloud: &Path, count: usize) -> Result<Run, Box<dy
     thinned(context, cloud, thin::Options::by_count(count).order(Order::Progressive))
 }
 
-fn thinned(context: &Context, cloud: &Path, options: thin::Options) -> Result<Run, Box<dyn Error>> {
+fn points_of(cloud: &Path) -> Result<Vec<[f32; 3]>, Box<dyn Error>> {
     let bytes = std::fs::read(cloud)?;
     let number = |bytes: &[u8]| f64::from_le_bytes(bytes.try_into().expect("8 bytes")) as f32;
     let numbers: Vec<f32> = bytes.chunks_exact(8).map(number).collect();
-    let (points, _) = numbers.as_chunks::<3>();
-    let (selected, cost) = timed(|| thin(context, &options, points, None));
+    Ok(numbers.as_chunks().0.to_vec())
+}
+
+/// The radius stands for the area that the points lie on.
+fn eliminated(cloud: &Path, count: usize, radius: f64, ordered: bool) -> Result<Run, Box<dyn Error>> {
+    let (points, area) = (points_of(cloud)?, radius * radius * count as f64 / DENSITY);
+    let (chosen, cost) = timed(|| {
+        let chosen = elimination::eliminate(&points, area, count);
+        if ordered { elimination::ordered(&points, area, &chosen) } else { chosen }
+    });
+    Ok(flat((chosen.iter().map(|&index| points[index as usize]).collect::<Vec<_>>(), cost)))
+}
+
+fn thinned(context: &Context, cloud: &Path, options: thin::Options) -> Result<Run, Box<dyn Error>> {
+    let points = points_of(cloud)?;
+    let (selected, cost) = timed(|| thin(context, &options, &points, None));
     let chosen = selected?.indices.iter().map(|&index| points[index as usize]).collect::<Vec<_>>();
     Ok(flat((chosen, cost)))
 }

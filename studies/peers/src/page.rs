@@ -95,11 +95,12 @@ fn write_table(page: &mut String, table: &Table, mesh: &Path) -> std::fmt::Resul
         writeln!(
             page,
             "Random points of the mesh. *ρ* is that of the selected points on its area; *cover* the distance of the point \
-             of the cloud that is farthest from them, over their smallest distance. Who takes a radius got {:.5}.\n",
+             of the cloud that is farthest from them, over their smallest distance; *tenth* the same for the first tenth of \
+             them, where they have an order. Those that take a radius got {:.5}.\n",
             table.radius
         )?;
-        writeln!(page, "| | seconds | spread | points/s | threads | MB | points | ρ | cover |")?;
-        writeln!(page, "|---|---|---|---|---|---|---|---|---|")?;
+        writeln!(page, "| | seconds | spread | points/s | threads | MB | points | ρ | cover | tenth |")?;
+        writeln!(page, "|---|---|---|---|---|---|---|---|---|---|")?;
     } else {
         writeln!(
             page,
@@ -140,7 +141,12 @@ fn worth_cells(table: &Table, asked: Asked, verdict: &Verdict, reference: f64) -
         return format!("{rho:.3} | {cover:.3} | {:.3}", verdict.bond_order.unwrap_or(f64::NAN));
     }
     if table.kind == Kind::Cloud {
-        return format!("{} | {rho:.3} | {:.3}", grouped(verdict.samples), verdict.farthest / verdict.smallest);
+        let cover = verdict.farthest / verdict.smallest;
+        let tenth = match (asked, verdict.of_first_tenth) {
+            (Asked::Order, Some(tenth)) => format!("{tenth:.3}"),
+            _ => "-".to_owned(),
+        };
+        return format!("{} | {rho:.3} | {cover:.3} | {tenth}", grouped(verdict.samples));
     }
     let samples = grouped(verdict.samples);
     if asked == Asked::Count {

@@ -12,7 +12,7 @@ use crate::judge::{Place, Verdict, judge};
 use crate::timing::Cost;
 
 /// The jamming limit: N * radius^2 / area of a maximal set.
-const DENSITY: f64 = 0.69656;
+pub const DENSITY: f64 = 0.69656;
 
 /// The peers of a table take turns so many times, each call in a process of its own, and the best counts.
 pub const ROUNDS: usize = 3;
@@ -30,6 +30,8 @@ pub enum Asked {
     Radius,
     /// A number of samples.
     Count,
+    /// A number of samples, in an order of which each beginning is well spread.
+    Order,
 }
 
 struct Peer {
@@ -46,7 +48,7 @@ const fn peer(title: &'static str, name: &'static str, language: Language, asked
     Peer { title, name, language, asked, most }
 }
 
-use Asked::{Count, Radius};
+use Asked::{Count, Order, Radius};
 use Language::{Python, Rust};
 
 const PLANES: [Peer; 8] = [
@@ -78,11 +80,11 @@ const SURFACES: [Peer; 9] = [
     peer("trimesh sample_surface_even", "trimesh_even", Python, Radius, usize::MAX),
 ];
 
-const CLOUDS: [Peer; 7] = [
-    peer("**azulejo** thin, farthest-first, one thread", "azulejo_farthest_1", Rust, Count, usize::MAX),
-    peer("**azulejo** thin, farthest-first", "azulejo_farthest", Rust, Count, usize::MAX),
-    peer("fpsample bucket_fps_kdline_sampling", "fpsample_kdline", Python, Count, usize::MAX),
-    peer("Open3D farthest_point_down_sample", "open3d_farthest", Python, Count, 10_000),
+const CLOUDS: [Peer; 9] = [
+    peer("**azulejo** thin, farthest-first, one thread", "azulejo_farthest_1", Rust, Order, usize::MAX),
+    peer("**azulejo** thin, farthest-first", "azulejo_farthest", Rust, Order, usize::MAX),
+    peer("fpsample bucket_fps_kdline_sampling", "fpsample_kdline", Python, Order, usize::MAX),
+    peer("Open3D farthest_point_down_sample", "open3d_farthest", Python, Order, 10_000),
     peer(
         "Open3D sample_points_poisson_disk of the cloud (Yuksel 2015)",
         "open3d_elimination_of_cloud",
@@ -90,6 +92,8 @@ const CLOUDS: [Peer; 7] = [
         Count,
         usize::MAX,
     ),
+    peer("Sample elimination (Yuksel 2015), written from the paper", "elimination", Rust, Count, usize::MAX),
+    peer("The same, with its progressive order", "elimination_ordered", Rust, Order, usize::MAX),
     peer("**azulejo** thin, by radius, one thread", "azulejo_greedy_1", Rust, Radius, usize::MAX),
     peer("point-cloud-utils downsample_point_cloud_poisson_disk", "cloud_thinned", Python, Radius, usize::MAX),
 ];
