@@ -60,16 +60,19 @@ static inline size_t naive_gaps(const naive_disk *disks, size_t count, const dou
         for (k = 0; k < found; k++) {
             const naive_disk *other = &disks[near[k]];
             const double x = other->x - disk->x, y = other->y - disk->y, distance = hypot(x, y);
-            const double along = (distance + (disk->radius - other->radius) * (disk->radius + other->radius) / distance) / 2;
+            const double power = (disk->radius - other->radius) * (disk->radius + other->radius);
+            const double along = (distance + power / distance) / 2;
             const double across = sqrt(disk->radius * disk->radius - along * along);
             if (other <= disk || !(across >= 0)) continue;
             for (sign = -1; sign <= 1; sign += 2)
-                gaps += naive_is_open(disks, near, found, disk, other, disk->x + (along * x - sign * across * y) / distance,
+                gaps += naive_is_open(disks, near, found, disk, other,
+                                      disk->x + (along * x - sign * across * y) / distance,
                                       disk->y + (along * y + sign * across * x) / distance, low, high);
         }
         for (side = 0; side < 4; side++) {
             const double at = side % 2 ? high[side / 2] : low[side / 2];
-            const double off = at - (side / 2 ? disk->y : disk->x), half = sqrt(disk->radius * disk->radius - off * off);
+            const double off = at - (side / 2 ? disk->y : disk->x);
+            const double half = sqrt(disk->radius * disk->radius - off * off);
             for (sign = -1; sign <= 1 && half >= 0; sign += 2) {
                 const double x = side / 2 ? disk->x + sign * half : at, y = side / 2 ? at : disk->y + sign * half;
                 gaps += naive_is_open(disks, near, found, disk, disk, x, y, low, high);
@@ -85,7 +88,7 @@ static inline size_t naive_gaps(const naive_disk *disks, size_t count, const dou
     return gaps;
 }
 
-/* The gaps of disks of one radius around points of the plane, on a torus also around their copies next to the domain. */
+/* The gaps of disks of one radius around points of a domain, and if it is periodic around their copies next to it. */
 static inline size_t naive_gaps_of_plane(const float *xy, size_t count, double radius, const double *low,
                                          const double *high, int is_periodic) {
     naive_disk *disks = malloc((9 * count + 1) * sizeof *disks);
@@ -94,7 +97,8 @@ static inline size_t naive_gaps_of_plane(const float *xy, size_t count, double r
     int copy;
     for (i = 0; i < count; i++)
         for (copy = 0; copy < 9; copy++) {
-            const naive_disk disk = {xy[2 * i] + (copy % 3 - 1) * width, xy[2 * i + 1] + (copy / 3 - 1) * height, radius};
+            const double x = xy[2 * i] + (copy % 3 - 1) * width, y = xy[2 * i + 1] + (copy / 3 - 1) * height;
+            const naive_disk disk = {x, y, radius};
             if (copy != 4 && (!is_periodic || disk.x < low[0] - radius || disk.x > high[0] + radius ||
                               disk.y < low[1] - radius || disk.y > high[1] + radius))
                 continue;
