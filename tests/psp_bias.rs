@@ -15,6 +15,30 @@ use azulejo::{Context, MAXIMAL_DENSITY};
 /// Degrees of a bin.
 const BIN: usize = 6;
 
+type Point = [f64; 3];
+
+fn dot(a: Point, b: Point) -> f64 {
+    (0..3).map(|axis| a[axis] * b[axis]).sum()
+}
+
+/// The oracle of `density_by_facing`: samples and area of each bin, all from the corners of triangles.
+fn naive_facings(mesh: &Mesh, triangles: &[u32], directions: &[Point]) -> Vec<[f64; 2]> {
+    let mut samples_of = vec![0.0; mesh.triangles().len()];
+    triangles.iter().for_each(|&triangle| samples_of[triangle as usize] += 1.0);
+    let mut bins = vec![[0.0; 2]; 90 / BIN];
+    for (triangle, samples) in mesh.triangles().iter().zip(samples_of) {
+        let [a, b, c] = triangle.map(|vertex| mesh.positions()[vertex as usize].map(f64::from));
+        let [u, v]: [Point; 2] = [b, c].map(|corner| std::array::from_fn(|axis| corner[axis] - a[axis]));
+        let cross = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
+        let length = dot(cross, cross).sqrt();
+        let turned = |d: &Point| (dot(cross, *d).abs() / (length * dot(*d, *d).sqrt())).min(1.0).acos().to_degrees();
+        let least = directions.iter().map(turned).fold(90.0, f64::min);
+        let bin = ((least / BIN as f64) as usize).min(bins.len() - 1);
+        bins[bin] = [bins[bin][0] + samples, bins[bin][1] + 0.5 * length];
+    }
+    bins
+}
+
 /// N·r²/A by the angle to the nearest projector, 0 to 54 degrees, after one iteration and after filling, of a few seeds.
 fn densities(priority: Priority) -> [Vec<f64>; 2] {
     let (positions, triangles) = meshes::fine_torus(400, 160);
@@ -30,12 +54,49 @@ fn densities(priority: Priority) -> [Vec<f64>; 2] {
             let directions = psp.directions().unwrap();
             let facings = density_by_facing(&mesh, &psp.samples().triangles, &directions, 90 / BIN).unwrap();
             assert!(facings[10..].iter().all(|facing| facing.area == 0.0), "a direction is missing");
-            for (sum, facing) in sums.iter_mut().zip(facings) {
-                *sum = [sum[0] + facing.samples as f64, sum[1] + facing.area];
+            let naive = naive_facings(&mesh, &psp.samples().triangles, &directions);
+            for ((sum, facing), [samples, area]) in sums.iter_mut().zip(facings).zip(naive) {
+                // Normals that are rounded to floats put a few triangles into the bin beside.
+                assert!((facing.area - area).abs() < 1e-3 * area, "{facing:?}, {area}");
+                assert!((facing.samples as f64 - samples).abs() < 1e-3 * samples + 5.0, "{facing:?}, {samples}");
+                *sum = [sum[0] + samples, sum[1] + area];
             }
         }
     }
     sums.map(|bins| bins.into_iter().map(|[samples, area]| samples * radius * radius / area).collect())
+}
+
+/// Squares at known angles to two directions, each of another area and with another number of samples, and an odd one out.
+#[test]
+fn the_oracle_puts_areas_and_samples_where_they_face() {
+    let (mut positions, mut triangles, mut samples) = (Vec::new(), Vec::new(), Vec::new());
+    for bin in 0..90 / BIN {
+        let first = positions.len() as u32;
+        let angle = ((bin as f64 + 0.5) * BIN as f64).to_radians();
+        let (length, sine, cosine) = ((bin + 1) as f64, angle.sin(), angle.cos());
+        let corners = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+        positions.extend(corners.map(|[x, y]: [f64; 2]| [x * length * cosine, y, x * length * sine].map(|x| x as f32)));
+        samples.extend(std::iter::repeat_n(triangles.len() as u32, 10 * bin));
+        triangles.extend([[first, first + 1, first + 2], [first, first + 2, first + 3]]);
+    }
+    let mesh = Mesh::new(positions, triangles).unwrap();
+    let check = |directions: &[Point], expected: &dyn Fn(usize) -> [usize; 2]| {
+        for (bin, [samples, area]) in naive_facings(&mesh, &samples, directions).into_iter().enumerate() {
+            let [samples_here, area_here] = expected(bin);
+            assert_eq!(samples, samples_here as f64, "{directions:?}, {bin}");
+            assert!((area - area_here as f64).abs() < 1e-5, "{directions:?}, {bin}: {area}");
+        }
+    };
+    let last = 90 / BIN - 1;
+    check(&[[0.0, 0.0, -3.0]], &|bin| [10 * bin, bin + 1]);
+    check(&[[0.5, 0.0, 0.0]], &|bin| [10 * (last - bin), last - bin + 1]);
+    // Of two directions it is the nearer; the square halfway is as far from both.
+    let both = |bin: usize| match bin.cmp(&(last / 2)) {
+        std::cmp::Ordering::Less => [10 * last, last + 2],
+        std::cmp::Ordering::Equal => [10 * bin, bin + 1],
+        std::cmp::Ordering::Greater => [0, 0],
+    };
+    check(&[[0.0, 0.0, 1.0], [1.0, 0.0, 0.0]], &both);
 }
 
 /// What one iteration finds depends on the angle; what is filled makes up for all of it but a few percent.

@@ -1,12 +1,13 @@
 /* Merging: windows of planes of different seeds become one set, fixed points stay, and each bad input is refused with a
    message that names it, leaving the outputs alone. */
 
-#include <math.h>
-
+#include "naive.h"
 #include "samples.h"
 
 #define INVALID AZULEJO_ERROR_INVALID_ARGUMENT
 #define RADIUS 0.01
+/* The radius within which every place has a sample. */
+#define COVERED (RADIUS + 6.0 / (1 << 24))
 
 static azulejo_context *one, *four;
 
@@ -32,14 +33,35 @@ static azulejo_kdrt_merge_piece piece_of(const azulejo_points *points, const dou
     return piece;
 }
 
+/* By the naive oracles, which the library's figures agree with. */
 static void is_maximal(const azulejo_points *points, const azulejo_kdrt_merge_options *o) {
+    const int is_periodic = o->boundary == AZULEJO_BOUNDARY_PERIODIC;
     const float *xy = azulejo_points_positions(points);
+    const double *low = o->domain_min, *high = o->domain_max, periods[2] = {high[0] - low[0], high[1] - low[1]};
     const size_t count = azulejo_points_count(points);
-    double distance = 0, covering = 0;
-    ACCEPTED(azulejo_plane_smallest_distance(four, PLANE(xy, count, o->domain_min, o->domain_max, o->boundary), &distance));
-    ACCEPTED(azulejo_plane_covering_radius(four, PLANE(xy, count, o->domain_min, o->domain_max, o->boundary), &covering));
-    CHECK(distance >= RADIUS);
-    CHECK(covering <= RADIUS + 6.0 / (1 << 24));
+    double distance = 0, covering = 0, smallest = naive_smallest(xy, count, 2, is_periodic ? periods : NULL);
+    CHECK(smallest >= RADIUS);
+    CHECK(naive_gaps_of_plane(xy, count, COVERED, low, high, is_periodic) == 0);
+    ACCEPTED(azulejo_plane_smallest_distance(four, PLANE(xy, count, low, high, o->boundary), &distance));
+    ACCEPTED(azulejo_plane_covering_radius(four, PLANE(xy, count, low, high, o->boundary), &covering));
+    CHECK(fabs(distance - smallest) < 1e-12 && covering <= COVERED);
+    CHECK(naive_gaps_of_plane(xy, count, covering * (1 - 1e-9), low, high, is_periodic) > 0);
+    CHECK(naive_gaps_of_plane(xy, count, covering * (1 + 1e-9), low, high, is_periodic) == 0);
+}
+
+/* The oracles notice one sample that is missing, and one that is moved by half the radius or by all of it. */
+static void oracles_notice(const azulejo_points *points, const azulejo_kdrt_merge_options *o) {
+    const int is_periodic = o->boundary == AZULEJO_BOUNDARY_PERIODIC;
+    const double periods[2] = {o->domain_max[0] - o->domain_min[0], o->domain_max[1] - o->domain_min[1]};
+    const size_t count = azulejo_points_count(points);
+    float *xy = malloc(8 * count);
+    memcpy(xy, azulejo_points_positions(points), 8 * count);
+    CHECK(naive_gaps_of_plane(xy, count - 1, COVERED, o->domain_min, o->domain_max, is_periodic) > 0);
+    xy[0] += 0.5f * (float)RADIUS;
+    CHECK(naive_gaps_of_plane(xy, count, COVERED, o->domain_min, o->domain_max, is_periodic) > 0);
+    xy[0] += 0.5f * (float)RADIUS;
+    CHECK(naive_smallest(xy, count, 2, is_periodic ? periods : NULL) < RADIUS);
+    free(xy);
 }
 
 static void four_windows(int32_t boundary) {
@@ -65,6 +87,7 @@ static void four_windows(int32_t boundary) {
     CHECK(report.eliminated > 20 && report.inserted > 20 && report.kept > given * 9 / 10);
     CHECK(memcmp(azulejo_points_positions(points), fixed, sizeof fixed) == 0);
     is_maximal(points, &options);
+    oracles_notice(points, &options);
     azulejo_points_free(same);
 
     same = NULL;
