@@ -29,6 +29,12 @@ def lloyd_plane(count, radius, mesh):
     return lambda: point_cloud_utils.lloyd_2d(count, num_lloyd=100)
 
 
+def blue_sampler(count, radius, mesh):
+    import blue_sampler
+
+    return lambda: blue_sampler.sample_points(N=count, D=2, method="nufft", verbose=0)
+
+
 def open3d_elimination(count, radius, mesh):
     import open3d
 
@@ -85,6 +91,37 @@ def trimesh_even(count, radius, mesh):
 
     surface = trimesh.load(mesh)
     return lambda: trimesh.sample.sample_surface_even(surface, count, radius=radius, seed=1)[0]
+
+
+def blender(count, radius, mesh):
+    import bpy
+
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    bpy.ops.wm.ply_import(filepath=mesh)
+    surface = bpy.context.object
+    tree = bpy.data.node_groups.new("samples", "GeometryNodeTree")
+    tree.interface.new_socket("Geometry", in_out="INPUT", socket_type="NodeSocketGeometry")
+    tree.interface.new_socket("Geometry", in_out="OUTPUT", socket_type="NodeSocketGeometry")
+    first, last = tree.nodes.new("NodeGroupInput"), tree.nodes.new("NodeGroupOutput")
+    points = tree.nodes.new("GeometryNodeDistributePointsOnFaces")
+    points.distribute_method = "POISSON"
+    points.inputs["Distance Min"].default_value = radius
+    # It draws so many points per area and drops those too near. Ten times as many as can stay.
+    points.inputs["Density Max"].default_value = 10 * 0.69656 / radius**2
+    points.inputs["Seed"].default_value = 1
+    vertices = tree.nodes.new("GeometryNodePointsToVertices")
+    tree.links.new(first.outputs[0], points.inputs["Mesh"])
+    tree.links.new(points.outputs["Points"], vertices.inputs["Points"])
+    tree.links.new(vertices.outputs[0], last.inputs[0])
+
+    def sample():
+        surface.modifiers.new("samples", "NODES").node_group = tree
+        made = surface.evaluated_get(bpy.context.evaluated_depsgraph_get()).to_mesh()
+        places = numpy.empty(3 * len(made.vertices), dtype=numpy.float32)
+        made.vertices.foreach_get("co", places)
+        return places
+
+    return sample
 
 
 def cloud_of(path):

@@ -30,9 +30,8 @@ enum Command {
     One { name: String, count: usize, radius: f64, out: PathBuf, mesh: Option<PathBuf> },
     /// Runs all and writes the page.
     All {
-        /// The Python that has the packages.
-        #[arg(long)]
-        python: PathBuf,
+        #[command(flatten)]
+        pythons: peers::Pythons,
         #[arg(long)]
         mesh: PathBuf,
         #[arg(long)]
@@ -46,8 +45,8 @@ enum Command {
 fn main() -> Result<(), Box<dyn Error>> {
     match Cli::parse().command {
         Command::One { name, count, radius, out, mesh } => native::run(&name, count, radius, &out, mesh.as_deref()),
-        Command::All { python, mesh, page, packages } => {
-            let tables = peers::run_all(&python, &mesh)?;
+        Command::All { pythons, mesh, page, packages } => {
+            let tables = peers::run_all(&pythons, &mesh)?;
             Ok(std::fs::write(page, page::page(&tables, &mesh, &packages)?)?)
         }
     }

@@ -29,6 +29,8 @@ What the tables do not show:
 * **Other dimensions**: fast_poisson, poisson and scipy sample boxes of three and more dimensions; azulejo has planes and surfaces.
 * **Pure Rust**: bluenoise, fast_poisson and poisson need no C library; azulejo needs Embree unless it is built without.
 * **Volumes, geodesic distance**: PyMeshLab and point-cloud-utils can measure along the surface; azulejo measures straight.
+* **What was not run**: CGAL's `poisson_eliminate`, which the CGAL of no registry in reach has yet (Debian's is 5.5, that \
+ of PyPI 6.0; it came with 6.1), and the author's own code of sample elimination, which is no package.
 * **What comes with it**: each of the Python packages is a library for much more than samples.
 ";
 

@@ -21,6 +21,8 @@ pub const ROUNDS: usize = 3;
 enum Language {
     Rust,
     Python,
+    /// With a Python of its own, since its package needs other versions.
+    Blender,
 }
 
 /// What a peer is asked for.
@@ -49,7 +51,7 @@ const fn peer(title: &'static str, name: &'static str, language: Language, asked
 }
 
 use Asked::{Count, Order, Radius};
-use Language::{Python, Rust};
+use Language::{Blender, Python, Rust};
 
 const PLANES: [Peer; 8] = [
     peer("**azulejo** KDRT, one thread", "azulejo_plane_1", Rust, Radius, usize::MAX),
@@ -62,13 +64,14 @@ const PLANES: [Peer; 8] = [
     peer("scipy PoissonDisk", "poisson_disk", Python, Radius, 100_000),
 ];
 
-const RELAXATIONS: [Peer; 3] = [
+const RELAXATIONS: [Peer; 4] = [
     peer("**azulejo** DCR, 100 steps", "azulejo_relaxed", Rust, Count, usize::MAX),
     peer("point-cloud-utils lloyd_2d, 100 steps", "lloyd_plane", Python, Count, usize::MAX),
+    peer("blue-sampler nufft (for a torus)", "blue_sampler", Python, Count, usize::MAX),
     peer("scipy Halton, optimization=\"lloyd\"", "halton_lloyd", Python, Count, usize::MAX),
 ];
 
-const SURFACES: [Peer; 9] = [
+const SURFACES: [Peer; 10] = [
     peer("**azulejo** PSP, one thread", "azulejo_surface_1", Rust, Radius, usize::MAX),
     peer("**azulejo** PSP", "azulejo_surface", Rust, Radius, usize::MAX),
     peer("**azulejo** PSP, exactly so many", "azulejo_counted", Rust, Count, usize::MAX),
@@ -77,6 +80,7 @@ const SURFACES: [Peer; 9] = [
     peer("point-cloud-utils sample_mesh_poisson_disk", "cloud_poisson_disk", Python, Radius, usize::MAX),
     peer("point-cloud-utils sample_mesh_lloyd", "cloud_lloyd", Python, Count, usize::MAX),
     peer("libigl blue_noise", "igl_blue_noise", Python, Radius, usize::MAX),
+    peer("Blender Distribute Points on Faces, Poisson disk", "blender", Blender, Radius, usize::MAX),
     peer("trimesh sample_surface_even", "trimesh_even", Python, Radius, usize::MAX),
 ];
 
@@ -132,18 +136,29 @@ pub enum Kind {
     Cloud,
 }
 
+/// The Pythons that have the packages.
+#[derive(clap::Args)]
+pub struct Pythons {
+    /// The one with most of them.
+    #[arg(long)]
+    python: PathBuf,
+    /// The one with Blender.
+    #[arg(long)]
+    blender: PathBuf,
+}
+
 /// Runs all.
-pub fn run_all(python: &Path, mesh_file: &Path) -> Result<Vec<Table>, Box<dyn Error>> {
+pub fn run_all(pythons: &Pythons, mesh_file: &Path) -> Result<Vec<Table>, Box<dyn Error>> {
     let mesh = Mesh::load(mesh_file)?;
-    let square = |kind, peers, count| run_table(kind, peers, count, python, None, &Place::Square, 1.0);
+    let square = |kind, peers, count| run_table(kind, peers, count, pythons, None, &Place::Square, 1.0);
     let surface = |count| {
-        run_table(Kind::Surface, &SURFACES, count, python, Some(mesh_file), &Place::Surface(&mesh), mesh.area())
+        run_table(Kind::Surface, &SURFACES, count, pythons, Some(mesh_file), &Place::Surface(&mesh), mesh.area())
     };
     let cloud = |count: usize| {
         let file = std::env::temp_dir().join(format!("azulejo-cloud-{}.f64", std::process::id()));
         let points = write_cloud(&mesh, 10 * count, &file)?;
         let place = Place::Cloud(&points, mesh.area());
-        let table = run_table(Kind::Cloud, &CLOUDS, count, python, Some(&file), &place, mesh.area());
+        let table = run_table(Kind::Cloud, &CLOUDS, count, pythons, Some(&file), &place, mesh.area());
         std::fs::remove_file(&file)?;
         table
     };
@@ -184,7 +199,7 @@ fn run_table(
     kind: Kind,
     peers: &[Peer],
     count: usize,
-    python: &Path,
+    pythons: &Pythons,
     mesh: Option<&Path>,
     place: &Place,
     area: f64,
@@ -196,7 +211,7 @@ fn run_table(
         for (peer, result) in peers.iter().zip(&mut results) {
             let Ok(runs) = result else { continue };
             eprintln!("{count}: {}, round {round}", peer.name);
-            match run_peer(peer, count, radius, python, mesh, place) {
+            match run_peer(peer, count, radius, pythons, mesh, place) {
                 Ok(run) => runs.push(run),
                 Err(error) => *result = Err(error.to_string()),
             }
@@ -227,12 +242,12 @@ fn run_peer(
     peer: &Peer,
     count: usize,
     radius: f64,
-    python: &Path,
+    pythons: &Pythons,
     mesh: Option<&Path>,
     place: &Place,
 ) -> Result<Run, Box<dyn Error>> {
     let out = std::env::temp_dir().join(format!("azulejo-peers-{}.f64", std::process::id()));
-    let cost = run_once(peer, count, radius, python, mesh, &out)?;
+    let cost = run_once(peer, count, radius, pythons, mesh, &out)?;
     let verdict = judge(&out, place, radius);
     std::fs::remove_file(&out)?;
     Ok((cost, verdict?))
@@ -242,7 +257,7 @@ fn run_once(
     peer: &Peer,
     count: usize,
     radius: f64,
-    python: &Path,
+    pythons: &Pythons,
     mesh: Option<&Path>,
     out: &PathBuf,
 ) -> Result<Cost, Box<dyn Error>> {
@@ -252,7 +267,8 @@ fn run_once(
             command.arg("one");
             command
         }
-        Python => {
+        Python | Blender => {
+            let python = if peer.language == Python { &pythons.python } else { &pythons.blender };
             let mut command = Command::new(python);
             command.arg("studies/peers/peers.py");
             command
