@@ -1,5 +1,6 @@
 //! `azulejo-studies figures`: figures of the thesis that belong to none of the other pages.
 
+mod chains;
 mod correlation;
 mod engines;
 mod stipple;
@@ -24,6 +25,7 @@ impl Figures {
             "Thesis: Wang 2019.\n".to_owned(),
             correlation::section(context, &files, quick)?,
             engines::section(context, &self.meshes, quick)?,
+            chains::section(context, &self.meshes, quick)?,
             stipple::section(context, &files, quick)?,
         ];
         files.write("Other figures of the thesis, measured", context.num_threads(), &parts.join("\n"))
