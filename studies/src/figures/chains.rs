@@ -142,7 +142,7 @@ pub fn section(context: &Context, meshes: &MeshArgs, quick: bool) -> Result<Stri
          in the thesis's algorithm 6, so many projectors at once, each with a priority of its own: the same candidates on \
          every row, at the radius of {} samples of a maximal set; means of {trials} trials. A check of a candidate checks \
          those of higher priority near it, and remembers nothing. The thesis draws the relative performance without \
-         numbers, and has chains \"above 20\" for elimination from a pool.\n\n",
+         numbers.\n\n",
         grouped(count as usize)
     );
     let Some(dragon) = meshes.dragon.as_deref() else {
