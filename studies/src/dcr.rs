@@ -1,7 +1,7 @@
 //! `azulejo-studies dcr`: what relaxation makes of sets of the torus and of a bounded square (thesis chapter 4), beside
 //! others' methods.
 
-mod bounded;
+pub mod bounded;
 mod convergence;
 mod density;
 mod distributions;

@@ -3,6 +3,7 @@
 mod chains;
 mod correlation;
 mod engines;
+mod pins;
 mod stipple;
 
 use azulejo::{Context, Result};
@@ -26,6 +27,7 @@ impl Figures {
             correlation::section(context, &files, quick)?,
             engines::section(context, &self.meshes, quick)?,
             chains::section(context, &self.meshes, quick)?,
+            pins::section(context, &files, quick)?,
             stipple::section(context, &files, quick)?,
         ];
         files.write("Other figures of the thesis, measured", context.num_threads(), &parts.join("\n"))

@@ -37,7 +37,7 @@ pub struct Quality {
 
 impl Quality {
     /// The figures of points of the unit square.
-    fn of(context: &Context, points: &[[f32; 2]]) -> Result<Self> {
+    pub fn of(context: &Context, points: &[[f32; 2]]) -> Result<Self> {
         let domain = Domain::unit(Boundary::Bounded);
         let unit = domain.hexagonal_distance(points.len());
         let distances = nearest_distances_2d(context, &domain, points, None)?;
