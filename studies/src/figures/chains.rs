@@ -140,7 +140,8 @@ pub fn section(context: &Context, meshes: &MeshArgs, quick: bool) -> Result<Stri
     let mut text = format!(
         "## Projectors at once (thesis fig. 3.16)\n\nThe candidates of {PROJECTORS} projectors in random directions, merged as \
          in the thesis's algorithm 6, so many projectors at once, each with a priority of its own: the same candidates on \
-         every row, at the radius of {} samples of a maximal set; means of {trials} trials. A check of a candidate checks \
+         every row, at the radius of {} samples of a maximal set; means of {trials} trials, in which the rows \
+         take turns to be first. A check of a candidate checks \
          those of higher priority near it, and remembers nothing. The thesis draws the relative performance without \
          numbers.\n\n",
         grouped(count as usize)
@@ -180,8 +181,10 @@ fn measure(context: &Context, scene: &Scene, count: f64, trials: u64) -> Result<
     let mut totals = vec![(0, Checks::default()); SIZES.len()];
     for seed in 0..trials {
         let batches = batches(context, &tracer, radius, seed)?;
-        for (size, (candidates, total)) in SIZES.iter().zip(&mut totals) {
-            let checks = merged(context, &batches, *size, radius as f32)?;
+        // Each size goes first as often as any other.
+        for number in (0..SIZES.len()).map(|turn| (turn + seed as usize) % SIZES.len()) {
+            let (candidates, total) = &mut totals[number];
+            let checks = merged(context, &batches, SIZES[number], radius as f32)?;
             *candidates += batches.iter().map(Vec::len).sum::<usize>();
             total.samples += checks.samples;
             total.checks += checks.checks;
