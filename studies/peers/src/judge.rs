@@ -14,6 +14,7 @@ use azulejo::{Boundary, Context, Domain};
 const ROUNDING: f64 = 6.0;
 
 /// What a set is worth.
+#[derive(Clone, Copy)]
 pub struct Verdict {
     pub samples: usize,
     /// Pairs closer than the radius.
@@ -25,7 +26,7 @@ pub struct Verdict {
     pub hexagonal: f64,
     /// Of sets in the plane.
     pub bond_order: Option<f64>,
-    /// Of thinned clouds, for the first tenth of the points: the farthest point of the cloud over the smallest distance.
+    /// Of thinned clouds that have an order, for the first tenth of the points: the farthest point of the cloud over the smallest distance.
     pub of_first_tenth: Option<f64>,
 }
 
@@ -38,13 +39,13 @@ pub enum Place<'a> {
 }
 
 /// Judges the samples of a file of raw doubles.
-pub fn judge(file: &Path, place: &Place, radius: f64) -> Result<Verdict, Box<dyn Error>> {
+pub fn judge(file: &Path, place: &Place, radius: f64, is_ordered: bool) -> Result<Verdict, Box<dyn Error>> {
     let bytes = fs::read(file)?;
     let numbers: Vec<f64> = bytes.chunks_exact(8).map(|b| f64::from_le_bytes(b.try_into().expect("8 bytes"))).collect();
     match place {
         Place::Square => plane(&points(&numbers), radius),
         Place::Surface(mesh) => surface(mesh, &points(&numbers), radius),
-        Place::Cloud(cloud, area) => Ok(thinned(cloud, *area, &points(&numbers), radius)),
+        Place::Cloud(cloud, area) => Ok(thinned(cloud, *area, &points(&numbers), radius, is_ordered)),
     }
 }
 
@@ -88,11 +89,12 @@ fn surface(mesh: &Mesh, points: &[[f64; 3]], radius: f64) -> Result<Verdict, Box
     })
 }
 
-fn thinned(cloud: &[[f64; 3]], area: f64, points: &[[f64; 3]], radius: f64) -> Verdict {
+fn thinned(cloud: &[[f64; 3]], area: f64, points: &[[f64; 3]], radius: f64, is_ordered: bool) -> Verdict {
     let (conflicts, smallest) = pairs(points, radius);
-    let first_tenth = &points[..points.len() / 10];
-    let wide = radius * 10.0f64.sqrt();
-    let of_first_tenth = farthest(cloud, first_tenth, wide) / pairs(first_tenth, wide).1;
+    let of_first_tenth = is_ordered.then(|| {
+        let (first_tenth, wide) = (&points[..points.len() / 10], radius * 10.0f64.sqrt());
+        farthest(cloud, first_tenth, wide) / pairs(first_tenth, wide).1
+    });
     Verdict {
         samples: points.len(),
         conflicts,
@@ -101,7 +103,7 @@ fn thinned(cloud: &[[f64; 3]], area: f64, points: &[[f64; 3]], radius: f64) -> V
         gaps: 0,
         hexagonal: (2.0 * area / (3.0f64.sqrt() * points.len() as f64)).sqrt(),
         bond_order: None,
-        of_first_tenth: Some(of_first_tenth),
+        of_first_tenth,
     }
 }
 

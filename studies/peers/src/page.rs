@@ -144,10 +144,7 @@ fn worth_cells(table: &Table, asked: Asked, verdict: &Verdict, reference: f64) -
     }
     if table.kind == Kind::Cloud {
         let cover = verdict.farthest / verdict.smallest;
-        let tenth = match (asked, verdict.of_first_tenth) {
-            (Asked::Order, Some(tenth)) => format!("{tenth:.3}"),
-            _ => "-".to_owned(),
-        };
+        let tenth = verdict.of_first_tenth.map_or("-".to_owned(), |tenth| format!("{tenth:.3}"));
         return format!("{} | {rho:.3} | {cover:.3} | {tenth}", grouped(verdict.samples));
     }
     let samples = grouped(verdict.samples);
