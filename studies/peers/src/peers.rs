@@ -88,7 +88,7 @@ const CLOUDS: [Peer; 9] = [
     peer("**azulejo** thin, farthest-first, one thread", "azulejo_farthest_1", Rust, Order, usize::MAX),
     peer("**azulejo** thin, farthest-first", "azulejo_farthest", Rust, Order, usize::MAX),
     peer("fpsample bucket_fps_kdline_sampling", "fpsample_kdline", Python, Order, usize::MAX),
-    peer("Open3D farthest_point_down_sample", "open3d_farthest", Python, Order, 10_000),
+    peer("Open3D farthest_point_down_sample", "open3d_farthest", Python, Count, 10_000),
     peer(
         "Open3D sample_points_poisson_disk of the cloud (Yuksel 2015)",
         "open3d_elimination_of_cloud",
