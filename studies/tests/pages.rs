@@ -390,10 +390,12 @@ fn a_quick_gallery_shows_every_sampler_with_its_spectrum_and_zone_plate() {
 
 #[test]
 fn a_quick_page_of_other_figures_has_plausible_ones() {
-    let page = Page::quick("figures");
-    page.check_pictures(2, 600);
+    let directory = tempfile::tempdir().unwrap();
+    fs::write(directory.path().join("knot.obj"), knot_file()).unwrap();
+    let page = Page::of(directory, "figures", &["--dragon", "knot.obj"]);
+    page.check_pictures(3, 600);
     let page = page.text;
-    for figure in ["fig. 4.2)", "fig. 3.18)", "fig. 1.14)"] {
+    for figure in ["fig. 4.2)", "fig. 3.18)", "fig. 3.16)", "fig. 4.12)", "fig. 1.14)"] {
         assert!(page.lines().any(|line| line.starts_with("## ") && line.contains(figure)), "{figure}");
     }
     // Points, sets, hole, peak, height, dip: what is farther apart has the larger hole; random points have none.
@@ -403,7 +405,39 @@ fn a_quick_page_of_other_figures_has_plausible_ones() {
     // Scene, triangles, samples, rates of rays and of the rasteriser, ratio, verdict.
     let engines: Vec<_> = page.lines().filter(|line| line.starts_with("| hall |")).collect();
     assert!(engines.len() == 1 && engines[0].contains("met"), "{engines:?}");
+    check_chains(&page);
+    // What is beyond, rho, cover, that on the boundary, density, spacing: mirrored points keep the boundary covered.
+    let means = |row: &String| -> Vec<f64> {
+        row.split(" | ").skip(1).map(|cell| cell.split(' ').next().unwrap().parse().unwrap()).collect()
+    };
+    let rows: Vec<_> = ["(a)", "(b)"]
+        .map(|kind| page.lines().find(|line| line.starts_with(&format!("| {kind}"))).unwrap().to_owned())
+        .iter()
+        .map(means)
+        .collect();
+    let [pins, mirrored] = &rows[..] else { panic!("{rows:?}") };
+    assert!(pins[1] > mirrored[1] && pins[2] > mirrored[2] && mirrored[0] > pins[0], "{rows:?}");
     assert!(!page.contains("NaN") && page.contains("**The bunny was not given"));
+}
+
+/// Checks the table of priorities, samples, checks per candidate, longest chain and relative rate.
+fn check_chains(page: &str) {
+    let start = page.find("| priorities |").unwrap();
+    let rows: Vec<Vec<f64>> = page[start..]
+        .lines()
+        .skip(2)
+        .take_while(|line| line.starts_with('|'))
+        .map(|line| {
+            line.trim_matches('|').split('|').map(|cell| cell.trim().replace(',', "").parse().unwrap()).collect()
+        })
+        .collect();
+    assert_eq!(rows.iter().map(|row| row[0]).collect::<Vec<_>>(), [1.0, 2.0, 3.0, 4.0, 6.0, 12.0]);
+    // One projector at a time needs no chains; with more the checks grow, and a chain ends at the lowest priority.
+    assert_eq!(rows[0][2..], [1.0, 1.0, 1.0]);
+    assert!(rows.windows(2).all(|pair| pair[0][2] < pair[1][2] && pair[0][3] <= pair[1][3]), "{rows:?}");
+    assert!(rows.iter().all(|row| row[3] <= row[0]), "{rows:?}");
+    // All at once or one after the other: the same set.
+    assert_eq!(rows[0][1], rows[5][1]);
 }
 
 #[test]
