@@ -6,14 +6,16 @@ mod meshes;
 #[path = "common/adaptive_oracle.rs"]
 #[allow(dead_code)]
 mod oracle;
+#[path = "common/tolerance.rs"]
+mod tolerance;
 
 use std::cell::Cell;
 use std::collections::HashSet;
 use std::ops::ControlFlow;
 
 use azulejo::mesh::Mesh;
+use azulejo::psp::Report;
 use azulejo::psp::adaptive::{self, AdaptiveSamples, Options, Radius};
-use azulejo::psp::{self, Report};
 use azulejo::{Context, Error, MAXIMAL_DENSITY, Result};
 use meshes::Soup;
 use oracle::Field;
@@ -28,11 +30,9 @@ fn radii(mesh: &Mesh, radius: impl Fn([f64; 3]) -> f64) -> Vec<f32> {
     mesh.positions().iter().map(|position| radius(position.map(f64::from)) as f32).collect()
 }
 
-/// The documented tolerance of a maximal set.
+/// The documented tolerance of a maximal set: the field changes over it.
 fn tolerance(mesh: &Mesh, field: &Field) -> f64 {
-    let (low, high) = mesh.bounds();
-    let largest = low.into_iter().chain(high).fold(0.0f32, |largest, x| largest.max(x.abs()));
-    let way = psp::TOLERANCE * (f64::from(largest) - f64::from(f32::from_bits(largest.to_bits() - 1)));
+    let way = tolerance::tolerance(mesh);
     let radii = match field {
         Field::PerVertex(radii) => radii,
         Field::Function(_, slope) => return way * (1.0 + slope),

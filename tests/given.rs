@@ -8,6 +8,8 @@ mod meshes;
 mod oracle;
 #[path = "common/random.rs"]
 mod random;
+#[path = "common/tolerance.rs"]
+mod tolerance;
 
 use std::sync::Arc;
 
@@ -19,16 +21,10 @@ use meshes::Soup;
 use oracle::{Ball, Field};
 use proptest::prelude::*;
 use random::Random;
+use tolerance::tolerance;
 
 fn mesh((positions, triangles): Soup) -> Arc<Mesh> {
     Arc::new(Mesh::new(positions, triangles).unwrap())
-}
-
-/// The documented tolerance of a maximal set.
-fn tolerance(mesh: &Mesh) -> f64 {
-    let (low, high) = mesh.bounds();
-    let largest = low.into_iter().chain(high).fold(0.0f32, |largest, x| largest.max(x.abs()));
-    psp::TOLERANCE * (f64::from(largest) - f64::from(f32::from_bits(largest.to_bits() - 1)))
 }
 
 fn balls(given: Given<3>, radius: f64) -> Vec<Ball> {

@@ -1,5 +1,11 @@
 //! The models that the Open Asset Import Library is tested with, as Debian packs them (assimp-testmodels): files of many
-//! programs, odd ones among them. Every OBJ, PLY and STL file is loaded, and what is a mesh is sampled.
+//! programs, odd ones among them. Every OBJ, PLY and STL file is loaded, and what is a mesh is sampled, and the sets are
+//! proved maximal.
+
+#[path = "common/surface_oracle.rs"]
+mod oracle;
+#[path = "common/tolerance.rs"]
+mod tolerance;
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -7,6 +13,7 @@ use std::sync::Arc;
 use azulejo::mesh::Mesh;
 use azulejo::psp::{self, Options};
 use azulejo::{Context, Error};
+use tolerance::tolerance;
 
 const MODELS: &str = "/usr/share/assimp/models";
 
@@ -63,7 +70,9 @@ fn files_of_many_programs_are_loaded_and_sampled_or_refused_with_the_reason() {
                 for iterations in [0, 1] {
                     let options = Options::new(radius).iterations(iterations);
                     let (samples, _) = psp::sample(&context, &mesh, &options, None).unwrap();
-                    assert!(!samples.is_empty(), "{name}");
+                    assert_eq!(oracle::misplaced(&mesh, &samples), None, "{name}");
+                    assert_eq!(oracle::conflict(&samples, radius), None, "{name}");
+                    assert_eq!(oracle::gap(&mesh, &samples, radius, tolerance(&mesh)), None, "{name}");
                     assert_eq!(samples.interpolated_normals.len(), if mesh.has_normals() { samples.len() } else { 0 });
                 }
                 loaded += 1;

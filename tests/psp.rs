@@ -4,6 +4,8 @@
 mod meshes;
 #[path = "common/surface_oracle.rs"]
 mod oracle;
+#[path = "common/tolerance.rs"]
+mod tolerance;
 
 use std::cell::Cell;
 use std::ops::ControlFlow;
@@ -15,16 +17,10 @@ use azulejo::psp::{self, Engine, Options, Priority, Psp};
 use azulejo::{Context, Error, MAXIMAL_DENSITY, SurfaceSamples};
 use meshes::Soup;
 use proptest::prelude::*;
+use tolerance::tolerance;
 
 fn mesh((positions, triangles): Soup) -> Arc<Mesh> {
     Arc::new(Mesh::new(positions, triangles).unwrap())
-}
-
-/// The documented tolerance of a maximal set.
-fn tolerance(mesh: &Mesh) -> f64 {
-    let (low, high) = mesh.bounds();
-    let largest = low.into_iter().chain(high).fold(0.0f32, |largest, x| largest.max(x.abs()));
-    psp::TOLERANCE * (f64::from(largest) - f64::from(f32::from_bits(largest.to_bits() - 1)))
 }
 
 /// Everything that a set owes.

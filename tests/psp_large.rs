@@ -6,11 +6,14 @@
 mod meshes;
 #[path = "common/surface_oracle.rs"]
 mod oracle;
+#[path = "common/tolerance.rs"]
+mod tolerance;
 
 use std::sync::Arc;
 
 use azulejo::mesh::Mesh;
 use azulejo::{Context, SurfaceSamples, psp};
+use tolerance::tolerance;
 
 const RADIUS: f64 = 0.01;
 
@@ -19,10 +22,7 @@ fn sample(threads: usize, mesh: &Arc<Mesh>, options: psp::Options) -> SurfaceSam
 }
 
 fn gap(mesh: &Mesh, samples: &SurfaceSamples) -> Option<[f64; 3]> {
-    let (low, high) = mesh.bounds();
-    let largest = low.into_iter().chain(high).fold(0.0f32, |largest, x| largest.max(x.abs()));
-    let spacing = f64::from(largest) - f64::from(largest.next_down());
-    oracle::gap(mesh, samples, RADIUS, psp::TOLERANCE * spacing)
+    oracle::gap(mesh, samples, RADIUS, tolerance(mesh))
 }
 
 #[test]

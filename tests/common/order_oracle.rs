@@ -3,20 +3,16 @@
 #[path = "surface_oracle.rs"]
 #[allow(dead_code)]
 mod surface_oracle;
+#[path = "tolerance.rs"]
+mod tolerance;
 
 use azulejo::analysis::coverage::surface_covering_radius;
 use azulejo::mesh::Mesh;
 use azulejo::{Context, Order, SurfaceSamples};
+use tolerance::tolerance;
 
 pub fn distance(a: [f32; 3], b: [f32; 3]) -> f64 {
     (0..3).map(|axis| (f64::from(a[axis]) - f64::from(b[axis])).powi(2)).sum::<f64>().sqrt()
-}
-
-/// Six spacings of floats at the largest coordinate of a mesh: `TOLERANCE`.
-pub fn tolerance(mesh: &Mesh) -> f64 {
-    let (low, high) = mesh.bounds();
-    let largest = low.into_iter().chain(high).fold(0.0f32, |largest, x| largest.max(x.abs()));
-    azulejo::psp::TOLERANCE * (f64::from(largest) - f64::from(largest.next_down()))
 }
 
 /// Whether every place of a mesh is within a distance of one of the positions: by the naive oracle on few triangles, and by
