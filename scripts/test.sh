@@ -70,14 +70,6 @@ sanitized_address() {
 
 python_package() { bindings/python/test.sh $(is_long && echo --long || true); }
 
-# Stages that wait for the network or use one core.
-lane() {
-    [ $debian13 = no ] || stage "Debian roots" debian_roots
-    stage "FFI boundary under Miri" scripts/miri.sh
-    stage "C programs with ThreadSanitizer in Rust, too" tests/c/sanitized.sh thread
-    stage "arm64 and Windows" scripts/platforms.sh "${platforms_long[@]}" arm64 windows
-}
-
 # Packages of the registry that the same compiler has compiled are taken over. Of the Rust tests only those run that name
 # Embree, tracing or samplers of meshes, except in a long run: the others would repeat what they did on the machine.
 on_debian13() {
@@ -93,6 +85,23 @@ on_debian13() {
         tests/c/package.sh --keep /var/cache/package
         tests/c/run.sh /var/cache/package/prefix
         tests/c/debs.sh /var/cache/package' bash "${what[@]}"
+}
+
+# Stages that wait for the network or use one core, then those in the Debian 13 root, which take over what was compiled.
+lane() {
+    [ $debian13 = no ] || stage "Debian roots" debian_roots
+    stage "FFI boundary under Miri" scripts/miri.sh
+    stage "C programs with ThreadSanitizer in Rust, too" tests/c/sanitized.sh thread
+    stage "arm64 and Windows" scripts/platforms.sh "${platforms_long[@]}" arm64 windows
+    if [ $debian13 = yes ]; then
+        until [ -e "$work/packaged" ]; do sleep 1; done
+        stage "Rust tests, package, C and C++ programs on Embree 4.3, in a Debian 13 root" on_debian13
+        is_long || leave_out "the Rust tests on Embree 4.3 that do not call it, and those of the command line (--long)"
+        stage "Debian packages: installed, used and removed in a clean Debian 13 root" scripts/clean-root.sh 13 \
+            "${AZULEJO_DEBIAN13_DIR:-target/debian13}/root/var/cache/package/debs" tests/c/installed.sh
+    else
+        leave_out "everything on Embree 4.3 (--no-debian13)"
+    fi
 }
 
 platforms_long=()
@@ -119,6 +128,7 @@ fi
 
 stage "Package: install, find_package, pkg-config, add_subdirectory, shared and static, MPI ranks" \
     tests/c/package.sh --keep $package
+touch "$work/packaged"
 stage "README and guides: their programs and commands" \
     tests/c/pages.sh $package/prefix README.md docs/integrating.md docs/porting.md
 stage "C and C++ programs: plain, under sanitizers, under valgrind" tests/c/run.sh $package/prefix --asan --valgrind
@@ -137,15 +147,6 @@ if has_clean_root; then
         scripts/clean-root.sh "${release#debian }" $package/debs tests/c/installed.sh
 else
     leave_out "Debian packages installed in a clean root of $release"
-fi
-
-if [ $debian13 = yes ]; then
-    stage "Rust tests, package, C and C++ programs on Embree 4.3, in a Debian 13 root" on_debian13
-    is_long || leave_out "the Rust tests on Embree 4.3 that do not call it, and those of the command line (--long)"
-    stage "Debian packages: installed, used and removed in a clean Debian 13 root" scripts/clean-root.sh 13 \
-        "${AZULEJO_DEBIAN13_DIR:-target/debian13}/root/var/cache/package/debs" tests/c/installed.sh
-else
-    leave_out "everything on Embree 4.3 (--no-debian13)"
 fi
 
 lane_ended
