@@ -1,5 +1,6 @@
 //! Progress bars: on a terminal, and nowhere else.
 
+use std::borrow::Cow;
 use std::ops::ControlFlow;
 use std::time::Duration;
 
@@ -14,7 +15,7 @@ pub fn part(progress: &azulejo::Progress, from: f64, to: f64) -> impl Fn(f64) ->
 }
 
 /// Runs `work` under a progress bar on the standard error, if that is a terminal (indicatif hides it otherwise).
-pub fn watched<T>(what: &'static str, work: impl FnOnce(&azulejo::Progress) -> Result<T>) -> Result<T> {
+pub fn watched<T>(what: impl Into<Cow<'static, str>>, work: impl FnOnce(&azulejo::Progress) -> Result<T>) -> Result<T> {
     let style = ProgressStyle::with_template("{msg:>12} {wide_bar:.blue} {percent:>3} %  {elapsed}")
         .expect("the template is well formed");
     let bar = ProgressBar::new(STEPS).with_style(style).with_message(what);

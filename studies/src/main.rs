@@ -12,6 +12,7 @@ mod figures;
 mod files;
 mod gallery;
 mod kdrt;
+mod near;
 mod order;
 mod psp;
 mod reference;

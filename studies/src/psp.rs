@@ -3,12 +3,15 @@
 pub mod adaptive;
 mod bias;
 mod growth;
+mod others;
 mod page;
 mod pictures;
 mod rates;
 mod rays;
 pub mod scenes;
 mod variants;
+
+use std::path::PathBuf;
 
 use azulejo::{Context, Progress, Result};
 use clap::Args;
@@ -27,6 +30,9 @@ pub struct Psp {
     page: PageArgs,
     #[command(flatten)]
     meshes: MeshArgs,
+    /// A further mesh, named like its file; may be given several times.
+    #[arg(long = "mesh", value_name = "MESH")]
+    further: Vec<PathBuf>,
 }
 
 /// How much is measured.
@@ -106,10 +112,13 @@ impl Psp {
 
         let (found, missing) = scenes(self.meshes.bunny.as_deref(), self.meshes.dragon.as_deref(), effort.detail)?;
         let mut measured = Vec::new();
-        for scene in found {
-            let name = scene.name;
-            measured.push(watched(name, |progress| Measured::of(context, scene, &effort, progress))?);
+        let in_parts = found.iter().find(|scene| scene.name == "dragon").map(scenes::in_parts);
+        let further = self.further.iter().map(|path| scenes::further(path));
+        for scene in found.into_iter().map(Ok).chain(in_parts).chain(further) {
+            let scene = scene?;
+            measured.push(watched(scene.name.clone(), |progress| Measured::of(context, scene, &effort, progress))?);
         }
+        let others = watched("others", |_| others::section(context, &measured[0].scene, effort.growth))?;
         let bias = watched("bias", |progress| Bias::measure(context, &effort, progress))?;
 
         pictures::draw_rates(&measured, &files.picture("rates")?)?;
@@ -118,10 +127,10 @@ impl Psp {
         pictures::draw_spectra(&bias, &files.picture("spectra")?)?;
         pictures::draw_differences(&bias, &files.picture("differences")?)?;
         for Measured { scene, .. } in &measured {
-            pictures::draw_scene(context, scene, &effort, &files.picture(scene.name)?)?;
+            pictures::draw_scene(context, scene, &effort, &files.picture(&scene.name)?)?;
         }
         let threads = context.num_threads();
-        let text = page::text(threads, &effort, &measured, &missing, &bias);
+        let text = page::text(threads, &effort, &measured, &missing, &others, &bias);
         let text = text + "\n" + &adaptive::section(context, &files, self.page.quick)?;
         files.write("PSP, measured", threads, &text)
     }

@@ -6,6 +6,8 @@
 
 use std::f64::consts::FRAC_PI_2;
 
+use azulejo_cli::text::rounded;
+
 /// The chance of any false verdict among goals that are judged together.
 pub const LEVEL: f64 = 0.01;
 
@@ -103,7 +105,11 @@ pub fn holm(chances: &[f64]) -> Vec<f64> {
 
 /// How pages write a chance.
 pub fn chance(chance: f64) -> String {
-    if chance < 1e-6 { "< 1e-6".to_owned() } else { format!("{chance:.1e}") }
+    match chance {
+        ..1e-6 => "< 1e-6".to_owned(),
+        ..0.01 => format!("{chance:.1e}"),
+        _ => rounded(chance, 3),
+    }
 }
 
 #[cfg(test)]

@@ -1,6 +1,5 @@
 //! How many projectors at once: chains of validity checks by the number of priorities (thesis §3.4.3, fig. 3.16).
 
-use std::collections::HashMap;
 use std::fmt::Write;
 use std::ops::ControlFlow;
 use std::time::Instant;
@@ -10,9 +9,10 @@ use azulejo::{Boundary, Context, Domain, Result, kdrt};
 use azulejo_cli::draw::rows;
 use azulejo_cli::progress::watched;
 use azulejo_cli::text::{grouped, rounded};
-use glam::{IVec3, Vec3};
+use glam::Vec3;
 
 use crate::args::MeshArgs;
+use crate::near::Near;
 use crate::psp::scenes::{Scene, radius, scenes};
 use crate::reference::stream;
 
@@ -22,34 +22,6 @@ const PROJECTORS: usize = 12;
 const SIZES: [usize; 6] = [1, 2, 3, 4, 6, 12];
 /// Candidates of a parallel task.
 const TASK: usize = 1024;
-
-/// Points in cells as wide as the radius, with the number of their projector.
-struct Cells {
-    radius: f32,
-    cells: HashMap<IVec3, Vec<(Vec3, usize)>>,
-}
-
-impl Cells {
-    fn new(radius: f32) -> Self {
-        Self { radius, cells: HashMap::new() }
-    }
-
-    fn cell(&self, point: Vec3) -> IVec3 {
-        (point / self.radius).floor().as_ivec3()
-    }
-
-    fn add(&mut self, point: Vec3, projector: usize) {
-        self.cells.entry(self.cell(point)).or_default().push((point, projector));
-    }
-
-    /// Those closer to a point than the radius.
-    fn near(&self, point: Vec3) -> impl Iterator<Item = (Vec3, usize)> + '_ {
-        let cell = self.cell(point);
-        let around = (0..27).map(move |i| cell + IVec3::new(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1));
-        let items = around.filter_map(|cell| self.cells.get(&cell)).flatten().copied();
-        items.filter(move |(other, _)| other.distance_squared(point) < self.radius * self.radius)
-    }
-}
 
 /// What checks of validity took.
 #[derive(Clone, Copy, Default)]
@@ -63,10 +35,10 @@ struct Checks {
 
 /// Whether no valid candidate of higher priority is too close (algorithm 6, `IsValid`), and the length of the chain. Like
 /// the thesis's threads it remembers nothing.
-fn is_valid(candidates: &Cells, (point, projector): (Vec3, usize), checks: &mut u64) -> (bool, u32) {
+fn is_valid(candidates: &Near<usize>, (point, projector): (Vec3, usize), checks: &mut u64) -> (bool, u32) {
     *checks += 1;
     let mut longest = 0;
-    for other in candidates.near(point).filter(|other| other.1 < projector) {
+    for other in candidates.around(point).filter(|other| other.1 < projector) {
         let (valid, length) = is_valid(candidates, other, checks);
         longest = longest.max(length);
         if valid {
@@ -79,11 +51,11 @@ fn is_valid(candidates: &Cells, (point, projector): (Vec3, usize), checks: &mut 
 /// Merges the candidates of all projectors, so many projectors at once (algorithm 6).
 fn merged(context: &Context, batches: &[Vec<Vec3>], size: usize, radius: f32) -> Result<Checks> {
     let start = Instant::now();
-    let (mut samples, mut total) = (Cells::new(radius), Checks::default());
+    let (mut samples, mut total) = (Near::new(radius), Checks::default());
     for batches in batches.chunks(size) {
         let current: Vec<_> =
             batches.iter().enumerate().flat_map(|(i, batch)| batch.iter().map(move |&point| (point, i))).collect();
-        let mut candidates = Cells::new(radius);
+        let mut candidates = Near::new(radius);
         current.iter().for_each(|&(point, projector)| candidates.add(point, projector));
         let tasks: Vec<_> = current.chunks(TASK).collect();
         let quiet = |_| ControlFlow::Continue(());
@@ -92,7 +64,7 @@ fn merged(context: &Context, batches: &[Vec<Vec3>], size: usize, radius: f32) ->
             for &candidate in tasks[i] {
                 let (is_valid, length) = is_valid(&candidates, candidate, &mut checks);
                 longest = longest.max(length);
-                if is_valid && samples.near(candidate.0).next().is_none() {
+                if is_valid && samples.around(candidate.0).next().is_none() {
                     valid.push(candidate);
                 }
             }
@@ -102,7 +74,7 @@ fn merged(context: &Context, batches: &[Vec<Vec3>], size: usize, radius: f32) ->
             total.checks += checks;
             total.longest = total.longest.max(longest);
             total.samples += valid.len();
-            valid.into_iter().for_each(|(point, projector)| samples.add(point, projector));
+            valid.into_iter().for_each(|(point, _)| samples.add(point, ()));
         }
     }
     Ok(Checks { seconds: start.elapsed().as_secs_f64(), ..total })

@@ -29,7 +29,7 @@ pub fn section(context: &Context, meshes: &MeshArgs, quick: bool) -> Result<Stri
     );
     for scene in &found {
         for &count in counts {
-            text += &watched(scene.name, |_| row(context, scene, count))?;
+            text += &watched(scene.name.clone(), |_| row(context, scene, count))?;
         }
     }
     for one in missing {

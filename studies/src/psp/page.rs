@@ -23,7 +23,14 @@ const FILL_GOAL: f64 = 1.0;
 const RHO: [f64; 3] = [0.9, 0.95, 0.98];
 
 /// The text of the page.
-pub fn text(threads: usize, effort: &Effort, measured: &[Measured], missing: &[Missing], bias: &[Bias]) -> String {
+pub fn text(
+    threads: usize,
+    effort: &Effort,
+    measured: &[Measured],
+    missing: &[Missing],
+    others: &str,
+    bias: &[Bias],
+) -> String {
     let introduction = "Thesis: Wang 2019, chapter 3; its machine was a Core i7-7700K with a GTX 1080, on which PSP ran. `r` is the \
         radius, the smallest distance. An *iteration* is three orthogonal directions; *relative radius* is the square root \
         of the samples over those of the reference, a set that is only filled: darts into what is uncovered. Times are the \
@@ -37,6 +44,7 @@ pub fn text(threads: usize, effort: &Effort, measured: &[Measured], missing: &[M
         scenes(effort, measured),
         rates(measured),
         growth(effort, measured),
+        others.to_owned(),
         directions(effort, measured),
         priority(effort, measured),
         bias_by_variant(effort, bias),
@@ -50,7 +58,7 @@ type Cell<'a> = &'a dyn Fn(&Measured) -> String;
 
 /// A table with a column for each scene.
 fn table(corner: &str, measured: &[Measured], rows: &[(String, Cell)]) -> String {
-    let names: Vec<_> = measured.iter().map(|one| one.scene.name).collect();
+    let names: Vec<_> = measured.iter().map(|one| &*one.scene.name).collect();
     let mut text = format!("| {corner} | {} |\n|---{}|\n", names.join(" | "), "|---".repeat(names.len()));
     for (name, cell) in rows {
         let cells: Vec<_> = measured.iter().map(cell).collect();
@@ -193,7 +201,7 @@ fn to_quality(measured: &[Measured]) -> String {
     };
     let mut text =
         "Seconds to a relative radius, by the iterations of the tables above. The thesis calls 0.9 enough for most \
-        uses and 0.98 close to maximal; its fig. 3.15 compares others' methods so: see [peers.md](peers.md) for those that can be had.\n\n| scene, method | 0.9 | 0.95 | 0.98 |\n|---|---|---|---|\n"
+        uses and 0.98 close to maximal; its fig. 3.15 compares others' methods so, as does the next section.\n\n| scene, method | 0.9 | 0.95 | 0.98 |\n|---|---|---|---|\n"
             .to_owned();
     for one in measured {
         let [squareness, projector] = &one.growth.iterated;
@@ -330,7 +338,10 @@ fn rays(measured: &[Measured]) -> String {
         |---|---|---|---|---|---|---|---|\n"
         .to_owned();
     for Measured { scene, rays, .. } in measured {
-        let [embree, optix] = scene.thesis;
+        let [embree, optix] = match scene.thesis {
+            Some(thesis) => thesis.map(|rate| rate.to_string()),
+            None => ["–".to_owned(), "–".to_owned()],
+        };
         _ = writeln!(
             text,
             "| {} | {} | {} | {} | {} | {} | {embree} | {optix} |",

@@ -40,7 +40,7 @@ pub fn draw_rates(measured: &[Measured], output: &Output) -> Result<()> {
         curve(&mut canvas, &panel, places(|stage| stage.iterated_rate()), 1.6, colour);
         curve(&mut canvas, &panel, places(|stage| stage.rate()), 4.0, colour);
         dots(&mut canvas, &panel, places(|stage| stage.rate()), 5.0, colour);
-        legend(&mut canvas, [136.0, 92.0 + 28.0 * row as f32], one.scene.name, 4.0, colour);
+        legend(&mut canvas, [136.0, 92.0 + 28.0 * row as f32], &one.scene.name, 4.0, colour);
     }
     panel.axes(&mut canvas);
     panel.title(&mut canvas, "Rate against samples", "thick: maximal sets; thin: one iteration");
@@ -72,7 +72,7 @@ pub fn draw_growth(measured: &[Measured], output: &Output) -> Result<()> {
     density.axes(&mut canvas);
     uncovered.axes(&mut canvas);
     for ((one, colour), row) in measured.iter().zip(SERIES).zip(0..) {
-        legend(&mut canvas, [720.0, 322.0 + 26.0 * row as f32], one.scene.name, 3.6, colour);
+        legend(&mut canvas, [720.0, 322.0 + 26.0 * row as f32], &one.scene.name, 3.6, colour);
     }
     density.title(&mut canvas, "Density against time", "thick: by squareness; thin: by projector; disc: filled");
     uncovered.title(&mut canvas, "Uncovered surface against time", "what is filled is below the axis");
@@ -167,5 +167,5 @@ pub fn draw_scene(context: &Context, scene: &Scene, effort: &Effort, output: &Ou
     let options = Options::new(radius(&scene.mesh, effort.pictured));
     let (samples, _) = psp::sample(context, &scene.mesh, &options, None)?;
     let stage = Stage::new(context, &scene.mesh, &samples.positions, scene.is_room)?;
-    surface::picture(context, scene.name, &stage, effort.pixels, output)
+    surface::picture(context, &scene.name, &stage, effort.pixels, output)
 }
