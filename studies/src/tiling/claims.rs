@@ -103,7 +103,7 @@ mod tests {
         let part = |low, high| Part { text: String::new(), claims: vec![Claim::less("x", low, high)], facts: vec![] };
         assert!(tables(&[part(low, high)]).contains("| met |") && tables(&[part(high, low)]).contains("**not met**"));
         // One value shows nothing.
-        assert!(tables(&[part(Mean::of(&[1.0]), high)]).contains("| - | 1.0e0 | **not met** |"));
+        assert!(tables(&[part(Mean::of(&[1.0]), high)]).contains("| - | 1 | **not met** |"));
     }
 
     #[test]
