@@ -20,7 +20,7 @@ use crate::psp::pieces::slice;
 use crate::psp::samples::SampleSet;
 
 /// Groups of triangles per task.
-const CHUNK: usize = 1 << 10;
+const CHUNK: usize = 1 << 12;
 
 /// What is longer, in radii, is cut. A sample then lies no farther than this from its cube.
 const LONGEST: f64 = SIDE as f64 / 4.0;

@@ -56,7 +56,7 @@ pub(super) const PROBES_IN_CUBE: usize = 1 << 6;
 pub(super) const RAIN_FROM: f64 = 0.15;
 
 /// Groups of triangles per task.
-pub(super) const CHUNK: usize = 1 << 8;
+pub(super) const CHUNK: usize = 1 << 10;
 
 /// Counts of a fill, or of a part of it.
 #[derive(Default)]

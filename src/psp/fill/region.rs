@@ -89,8 +89,9 @@ pub(in crate::psp) fn open_triangles(
     groups: std::ops::Range<usize>,
 ) -> Open {
     let (mut open, mut lanes, space) = (Open::default(), Group::EMPTY, ground.grid.space);
-    for group in groups {
-        let range = triangles.group(group);
+    let all = triangles.indices(groups);
+    for start in all.clone().step_by(GROUP) {
+        let range = start..(start + GROUP).min(all.end);
         for (lane, index) in range.clone().enumerate() {
             lanes.triangles[lane] = space.places(ground.mesh.corners(triangles.at(index)));
         }

@@ -1,7 +1,11 @@
-//! Triangles in groups of 64, and what passes over all of them have to know: areas and longest edges.
+//! Triangles in groups, and what passes over all of them have to know: areas and longest edges.
+
+use std::ops::Range;
 
 use crate::mesh::Mesh;
-use crate::psp::fill::page::GROUP;
+
+/// Triangles in a group. Of smaller groups more stay dry when the first darts fall; larger ones need less memory.
+const GROUP: usize = 16;
 
 /// Some triangles of a mesh.
 #[derive(Clone, Copy)]
@@ -35,8 +39,13 @@ impl Triangles<'_> {
     }
 
     /// The indices of a group.
-    pub fn group(self, group: usize) -> std::ops::Range<usize> {
-        group * GROUP..((group + 1) * GROUP).min(self.len())
+    pub fn group(self, group: usize) -> Range<usize> {
+        self.indices(group..group + 1)
+    }
+
+    /// The indices of some groups.
+    pub fn indices(self, groups: Range<usize>) -> Range<usize> {
+        groups.start * GROUP..(groups.end * GROUP).min(self.len())
     }
 
     /// The areas of a group, and the squares of the longest edges; zero behind its end.
