@@ -87,6 +87,13 @@ impl Grid {
         })
     }
 
+    /// Whether a place is seen, on one page of its cell, to be no farther from a sample than the square root of `limit`.
+    #[inline(always)]
+    pub fn is_seen_within(&self, place: Place, limit: f32) -> bool {
+        let Cell { page, .. } = self.cells.get(self.cells.number(self.space.cell(place)));
+        vectors::near(self.level, &self.pages[page as usize], place, limit) != 0
+    }
+
     /// The distance of a place on a triangle with this normal to the nearest sample, or `reach` where none is nearer: at
     /// most twice the radius, in the unit of places.
     pub fn distance(&self, place: Place, normal: [f32; 3], reach: f64) -> f64 {

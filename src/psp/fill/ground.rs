@@ -87,6 +87,10 @@ pub(in crate::psp) trait Ground {
         self.dart(point, &self.mesh().corners(point.triangle))
     }
 
+    /// Leaves out darts, given by points and the corners of their triangles, that certainly conflict with a sample: most
+    /// of them, at a fraction of the price of [`Ground::throw`].
+    fn leave_out(&mut self, _points: &mut Vec<Point<Self::Local>>, _corners: &mut Vec<[[f32; 3]; 3]>) {}
+
     /// Makes a dart a sample, unless it conflicts with another one.
     fn throw(&mut self, dart: Self::Dart);
 }
@@ -104,7 +108,15 @@ pub(in crate::psp) struct UniformGround<'a> {
     /// The largest rank, in the unit of places, where samples get ranks.
     largest_rank: Option<f64>,
     per_radius: f64,
+    /// The spacing of floats at the mesh's largest coordinate, in radii.
+    float_spacing: f32,
+    /// A dart whose place in floats has a squared distance from a sample up to here certainly conflicts with it.
+    surely_conflicting: f32,
 }
+
+/// By how many float spacings at the largest coordinate the place of a dart computed in floats is off at most: 46 along
+/// each axis, by the rounding of barycentrics, of edges, which are up to twice as long, and of their sums.
+const PLACE_ERROR: f64 = 80.0;
 
 impl<'a> UniformGround<'a> {
     /// No samples yet, but what is given with a clearance of its own: of the mesh, or of the part of it in a box.
@@ -117,7 +129,20 @@ impl<'a> UniformGround<'a> {
     ) -> Self {
         let cells = extent.map_or_else(Cells::anywhere, |extent| Cells::around(extent, &space));
         let (grid, per_radius) = (Grid::new(space, cells, facing), 1.0 / space.radius());
-        Self { mesh, grid, accepted: Vec::new(), darts: 0, facing, obstacles, largest_rank: None, per_radius }
+        let float_spacing = f64::from(space.scale()) * mesh.float_spacing();
+        let within = (space.radius() - PLACE_ERROR * float_spacing).max(0.0);
+        Self {
+            mesh,
+            grid,
+            accepted: Vec::new(),
+            darts: 0,
+            facing,
+            obstacles,
+            largest_rank: None,
+            per_radius,
+            float_spacing: (float_spacing * per_radius) as f32,
+            surely_conflicting: Space::within(within * within),
+        }
     }
 
     /// The ground, with ranks for the samples that the fill adds: up to the largest, which is between the radius and
@@ -181,10 +206,9 @@ impl<'a> UniformGround<'a> {
     pub fn whole(&self, triangle: u32) -> (Whole, bool) {
         let corners = self.mesh.exact_corners(triangle).map(|corner| self.grid.space.scaled(corner));
         let (area, longest) = self.size(&corners);
-        (
-            Whole { triangle, area: area as f32, longest: longest as f32, local: () },
-            self.mesh.triangle_area(triangle) > 0.0,
-        )
+        // Only of slivers it depends on the rounding of lengths in radii.
+        let has_area = area > 1e-9 * longest * longest || self.mesh.triangle_area(triangle) > 0.0;
+        (Whole { triangle, area: area as f32, longest: longest as f32, local: () }, has_area)
     }
 
     /// Where the corners of a fragment are, in the unit of the space.
@@ -237,7 +261,7 @@ impl Ground for UniformGround<'_> {
     type Dart = Sample;
 
     fn finest(&self, (): ()) -> f32 {
-        (f64::from(self.grid.space.scale()) * self.mesh.float_spacing() * self.per_radius) as f32
+        self.float_spacing
     }
 
     fn look(&self, fragment: &Fragment, (): ()) -> Option<Patch> {
@@ -279,6 +303,25 @@ impl Ground for UniformGround<'_> {
         Sample::on(corners, point.triangle, round_barycentrics(point.barycentrics))
     }
 
+    fn leave_out(&mut self, points: &mut Vec<Point>, corners: &mut Vec<[[f32; 3]; 3]>) {
+        if self.facing.asks_normals() {
+            return;
+        }
+        let mut kept = 0;
+        for index in 0..points.len() {
+            let [a, b, c] = self.grid.space.places(corners[index]);
+            let [u, v] = points[index].barycentrics.map(|x| x as f32);
+            let place = [0, 1, 2].map(|axis| a[axis] + (u * (b[axis] - a[axis]) + v * (c[axis] - a[axis])));
+            // Without a branch, since nobody can predict it.
+            points[kept] = points[index];
+            corners[kept] = corners[index];
+            kept += usize::from(!self.grid.is_seen_within(place, self.surely_conflicting));
+        }
+        self.darts += (points.len() - kept) as u64;
+        points.truncate(kept);
+        corners.truncate(kept);
+    }
+
     fn throw(&mut self, sample: Sample) {
         self.darts += 1;
         if !self.rejects(&sample) {
@@ -286,5 +329,65 @@ impl Ground for UniformGround<'_> {
             self.add(&sample);
             self.accepted.push(Sample { rank, ..sample });
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::given::Given;
+    use crate::mesh::exact;
+    use crate::psp::fill::darts::random_point;
+    use crate::psp::given::GivenSamples;
+    use crate::psp::samples::SampleSet;
+    use crate::rng::{Draw, Rng};
+
+    /// Small and large triangles, at the origin and far from it, up to radii of 64 float spacings.
+    #[test]
+    fn only_darts_that_conflict_are_left_out() {
+        let mut rng = Rng::at(4, Draw::Probe, &[]);
+        let mut counts = [0; 2];
+        for (offset, size, radius) in [
+            (0.0, 1.0, 0.3),
+            (0.0, 1.0, 0.02),
+            (1.0, 1e-3, 1e-3),
+            (1.0, 1.0, 1e-4),
+            (1.0, 1.0, 8e-6),
+            (-300.0, 5.0, 2e-2),
+        ] {
+            let mut corner = || [(); 3].map(|()| (offset + size * rng.unit()) as f32);
+            let corners: Vec<_> = (0..60).map(|_| corner()).collect();
+            let triangles = (0..20).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
+            let mesh = Mesh::new(corners, triangles).unwrap();
+            let set = SampleSet::new(&mesh, radius);
+            let given = GivenSamples::new(&mesh, Given::default(), radius, &set, Facing::ANY).unwrap();
+            let space = Space::new(&mesh, radius);
+            let mut ground = UniformGround::new(&mesh, space, None, Facing::ANY, &given.obstacles);
+            for _ in 0..200 {
+                // Darts around one place, so that there are conflicts however small the radius is.
+                let (triangle, [u, v]) = (rng.below(20) as u32, random_point(&mut rng));
+                let near = |x: f64, rng: &mut Rng| (x + 2.0 * radius / size * (rng.unit() - 0.5)).clamp(0.0, 0.5);
+                let point = |rng: &mut Rng| Point { triangle, barycentrics: [near(u, rng), near(v, rng)], local: () };
+                let points: Vec<_> = (0..32).map(|_| point(&mut rng)).collect();
+                let mut left = points.clone();
+                let mut corners = points.iter().map(|point| mesh.corners(point.triangle)).collect();
+                let before = ground.darts;
+                ground.leave_out(&mut left, &mut corners);
+                assert_eq!((left.len(), (ground.darts - before) as usize), (corners.len(), points.len() - left.len()));
+                let mut left = left.iter().map(|point| point.barycentrics).peekable();
+                for &point in &points {
+                    let dart = ground.dart_at(point);
+                    let conflicts = |other: &Sample| exact(other.position).distance(exact(dart.position)) < radius;
+                    if left.next_if_eq(&point.barycentrics).is_none() {
+                        assert!(ground.accepted.iter().any(conflicts), "{offset} {size} {radius}");
+                        counts[0] += 1;
+                    }
+                    counts[1] += 1;
+                }
+                ground.throw(ground.dart_at(points[0]));
+                ground.throw(ground.dart_at(points[31]));
+            }
+        }
+        assert!(4 * counts[0] > counts[1], "most conflicts are seen: {counts:?}");
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::mesh::Mesh;
 use crate::psp::fill::darts::{Rain, Row, random_point, shuffle};
-use crate::psp::fill::ground::{Point, UniformGround};
+use crate::psp::fill::ground::{Ground, Point, UniformGround};
 use crate::psp::fill::page::{GROUP, Group};
 use crate::psp::fill::rounds::{Open, PATCH, WHOLE, throw};
 use crate::psp::fill::triangles::Triangles;
@@ -111,6 +111,9 @@ fn add(ground: &UniformGround, triangle: u32, open: &mut Open) {
     if !has_area {
     } else if whole.longest <= WHOLE {
         open.wholes.push(whole);
+    } else if f64::from(whole.longest) < 0.999 * PATCH {
+        // One patch, which nothing has to be cut for.
+        open.patches.extend(ground.look(&Fragment::whole(triangle), ()));
     } else {
         let (mut slices, radius) = (Vec::new(), ground.radius());
         slice(ground.mesh, triangle, PATCH * radius, &mut slices);

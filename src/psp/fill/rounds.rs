@@ -88,12 +88,13 @@ impl<L: Copy> Open<L> {
 
     /// The darts of a round: on which whole triangle, or behind these on which patch, each of them falls.
     fn rain(&self, rng: &mut Rng) -> Vec<u32> {
-        let of_wholes: f64 = self.weights().take(self.wholes.len()).sum();
+        let weights: Vec<f64> = self.weights().collect();
+        let of_wholes: f64 = weights[..self.wholes.len()].iter().sum();
         let per_wholes = (DARTS_PER_WHOLE * self.wholes.len() as f64).min(DARTS_PER_AREA * of_wholes);
         let expected = per_wholes + DARTS_PER_PATCH * self.patches.len() as f64;
         let mut darts = Vec::with_capacity((1.1 * expected) as usize + 16);
-        let mut rain = Rain::new(rng, expected / self.weights().sum::<f64>());
-        for (number, weight) in (0..).zip(self.weights()) {
+        let mut rain = Rain::new(rng, expected / weights.iter().sum::<f64>());
+        for (number, weight) in (0..).zip(weights) {
             let count = rain.fall(weight);
             darts.extend(std::iter::repeat_n(number, count));
         }
@@ -184,6 +185,7 @@ pub(in crate::psp) fn throw<G: Ground>(ground: &mut G, mut targets: impl Iterato
             return;
         }
         corners.extend(points.iter().map(|point: &Point<_>| ground.mesh().corners(point.triangle)));
+        ground.leave_out(&mut points, &mut corners);
         darts.extend(points.drain(..).zip(corners.drain(..)).map(|(point, corners)| ground.dart(point, &corners)));
         darts.drain(..).for_each(|dart| ground.throw(dart));
     }

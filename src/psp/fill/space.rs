@@ -47,7 +47,7 @@ impl Space {
         Self {
             scale,
             radius,
-            surely_within: (square * (1.0 - SLACK)) as f32,
+            surely_within: Self::within(square),
             surely_beyond: Self::beyond(square),
             origin: (low - 2.0 * radius).as_vec3().to_array(),
             per_cell: (0.5 / radius) as f32,
@@ -80,6 +80,11 @@ impl Space {
     #[inline(always)]
     pub fn scaled(&self, point: DVec3) -> DVec3 {
         point * f64::from(self.scale)
+    }
+
+    /// A limit for squared distances in floats, up to which all are within the root of `square`.
+    pub fn within(square: f64) -> f32 {
+        (square * (1.0 - SLACK)) as f32
     }
 
     /// A limit for squared distances in floats, above which none is within the root of `square`.
