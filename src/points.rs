@@ -138,7 +138,8 @@ pub struct SurfaceSamples {
     /// ([`Mesh::interpolated_normal`](crate::mesh::Mesh::interpolated_normal)). Empty if the mesh carries none.
     pub interpolated_normals: Vec<[f32; 3]>,
     /// In progressive order ([`Order::Progressive`](crate::Order::Progressive)) the rank of each sample, a distance: the
-    /// samples up to this one are at least so far apart. Ranks never rise; the first is infinite. Empty in any other order.
+    /// samples up to this one are at least so far apart. Ranks never rise; the first is infinite. Where radii vary, ranks
+    /// are what these are multiplied by ([`adaptive::sample`](crate::psp::adaptive::sample)). Empty in any other order.
     pub ranks: Vec<f32>,
     /// In a set of several [`Classes`](crate::Classes) the class of each sample. Empty in any other.
     pub classes: Vec<u32>,

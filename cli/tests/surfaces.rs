@@ -278,6 +278,35 @@ fn densities_come_from_an_attribute_of_the_vertices() {
     assert!(said.starts_with("error: square.ply: attribute z: 0 everywhere"), "{said}");
 }
 
+/// Exactly so many samples of a density, and fewer of them, and all of a radius for each vertex.
+#[test]
+fn sets_of_varying_radii_have_ranks_in_progressive_order() {
+    let workshop = Workshop::new();
+    square(&workshop);
+    let order = |output: &str, more: &[&str]| {
+        workshop.succeed(&[&["surface", "square.ply", "--order", "progressive", "-o", output], more].concat())
+    };
+    let said = order("a.csv", &["--density-from", "x", "--count", "700"]);
+    assert!(said.contains("700 samples, radii ") && said.contains(" at density 1, "), "{said}");
+    order("b.csv", &["--density-from", "x", "--count", "300"]);
+    order("c.csv", &["--radius-from", "size", "--quotient", "1.3"]);
+    let [all, fewer, sizes] = ["a.csv", "b.csv", "c.csv"].map(|name| {
+        let text = fs::read_to_string(workshop.path(name)).unwrap();
+        assert!(text.starts_with("x,y,z,nx,ny,nz,triangle,u,v,radius,rank\n"), "{text:.60}");
+        text.lines().skip(1).map(|line| line.split(',').map(str::to_owned).collect::<Vec<_>>()).collect::<Vec<_>>()
+    });
+    assert_eq!((all.len(), fewer.len()), (700, 300));
+    // But for the radii, which are those of each set.
+    assert!(all.iter().zip(&fewer).all(|(a, b)| a[..9] == b[..9] && a[10] == b[10]), "not a prefix");
+    let ranks: Vec<f32> = sizes.iter().map(|row| row[10].parse().unwrap()).collect();
+    assert!(ranks.len() > 50 && ranks.is_sorted_by(|a, b| a >= b) && ranks.iter().all(|&rank| rank >= 1.0));
+    let said = workshop.refuse(
+        &["surface", "square.ply", "--radius-from", "size", "--order", "progressive", "--quotient", "2", "-o", "d.csv"],
+        1,
+    );
+    assert_eq!(said, "error: quotient: 2 is not between 1.02 and 1.5\n");
+}
+
 #[test]
 fn masked_triangles_get_no_samples() {
     let workshop = Workshop::new();

@@ -9,9 +9,8 @@
 use crate::error::{Error, Result};
 use crate::job::Job;
 use crate::math::{exp, log, power};
-use crate::psp::estimate::{expected_samples, require_memory};
-use crate::psp::levels::{Levels, top};
-use crate::psp::samples::Sample;
+use crate::psp::estimate::require_memory;
+use crate::psp::levels::{Levelled, Levels, Ranked};
 
 /// The covering radius of a set may be so many times its radius.
 const LOOSE: f64 = 1.1;
@@ -26,8 +25,8 @@ const BEYOND: f64 = 1.05;
 const _: () = assert!(NEAR * BEYOND <= LOOSE);
 
 /// A set that was asked for.
-pub(super) struct Found {
-    pub samples: Vec<Sample>,
+pub(super) struct Found<S> {
+    pub samples: Vec<S>,
     /// No two samples are closer.
     pub radius: f64,
     /// No place of the surface is farther from all samples.
@@ -35,13 +34,13 @@ pub(super) struct Found {
     pub darts: u64,
 }
 
-impl Found {
+impl<S: Ranked> Found<S> {
     /// The best of some levels, of which there are enough; all but the last cover the surface within `former`.
-    pub fn cut(levels: Levels, count: usize, former: f64) -> Self {
+    pub fn cut(levels: Levels<impl Levelled<Sample = S>>, count: usize, former: f64) -> Self {
         let (len, last, darts) = (levels.len(), levels.radius(), levels.darts);
         let mut samples = levels.into_sorted();
         samples.truncate(count);
-        let rank = samples.last().map_or(last, |sample| f64::from(sample.rank));
+        let rank = samples.last().map_or(last, |sample| f64::from(sample.sample().rank));
         let coverage = if len == count { last } else { former };
         Self { samples, radius: if rank.is_finite() { rank } else { last }, coverage, darts }
     }
@@ -55,7 +54,12 @@ struct Known {
 }
 
 /// Exactly `count` samples.
-pub(super) fn sample(job: &Job, mut levels: Levels, count: usize, finest: f64) -> Result<Found> {
+pub(super) fn sample<S: Levelled>(
+    job: &Job,
+    mut levels: Levels<S>,
+    count: usize,
+    finest: f64,
+) -> Result<Found<S::Sample>> {
     let mut above: Option<Known> = None;
     let mut taken_back = 0;
     for key in 0.. {
@@ -65,7 +69,7 @@ pub(super) fn sample(job: &Job, mut levels: Levels, count: usize, finest: f64) -
         }
         let radius = next_radius(&levels, above, taken_back, count, finest).max(finest);
         let part = job.part(1.0 - power(0.4, key), 1.0 - power(0.4, key + 1));
-        check_room(&levels, radius, count)?;
+        check_room(&levels.surface, radius, count)?;
         levels.refine(&part, radius, key as u64)?;
         let len = levels.len();
         if len == 0 {
@@ -88,15 +92,21 @@ pub(super) fn sample(job: &Job, mut levels: Levels, count: usize, finest: f64) -
 }
 
 /// The radius of the next level.
-fn next_radius(levels: &Levels, above: Option<Known>, taken_back: u32, count: usize, finest: f64) -> f64 {
-    let top = top(levels.surface.mesh);
+fn next_radius(
+    levels: &Levels<impl Levelled>,
+    above: Option<Known>,
+    taken_back: u32,
+    count: usize,
+    finest: f64,
+) -> f64 {
+    let top = levels.surface.top();
     let below = match levels.len() {
         // One sample covers the mesh.
         0 if count == 1 => return top,
         0 if above.is_none() => {
             // Few samples may be more than expected: along open boundaries.
             let count = count as f64;
-            return expected_radius(levels, AIM * count / (1.0 + 2.0 / count.sqrt()), finest);
+            return expected_radius(&levels.surface, AIM * count / (1.0 + 2.0 / count.sqrt()), finest);
         }
         0 => Known { radius: top, len: 1 },
         len => Known { radius: levels.radius(), len },
@@ -123,26 +133,22 @@ fn next_radius(levels: &Levels, above: Option<Known>, taken_back: u32, count: us
 }
 
 /// The radius for which so many samples are expected, by areas and edges alone.
-pub(super) fn expected_radius(levels: &Levels, count: f64, finest: f64) -> f64 {
-    let (mut low, mut high) = (finest, top(levels.surface.mesh).max(finest));
+pub(super) fn expected_radius(surface: &impl Levelled, count: f64, finest: f64) -> f64 {
+    let (mut low, mut high) = (finest, surface.top().max(finest));
     while high > 1.001 * low {
         let middle = (low * high).sqrt();
-        if expected_samples(levels.surface.mesh, levels.surface.measures, middle) > count {
-            low = middle
-        } else {
-            high = middle
-        }
+        if surface.expected(middle) > count { low = middle } else { high = middle }
     }
     high
 }
 
 /// Refuses a count where given samples leave so little of the surface that it takes a radius with which the bare surface
 /// could not be filled: the work grows with all of it.
-pub(super) fn check_room(levels: &Levels, radius: f64, count: usize) -> Result<()> {
-    if levels.surface.given.is_empty() {
+pub(super) fn check_room(surface: &impl Levelled, radius: f64, count: usize) -> Result<()> {
+    if !surface.has_given() {
         return Ok(());
     }
-    let estimate = expected_samples(levels.surface.mesh, levels.surface.measures, radius);
+    let estimate = surface.expected(radius);
     let what = format!("{count} samples beside the given ones: on the whole surface about {estimate:.3e}");
     if estimate > f64::from(u32::MAX) {
         return Err(Error::too_large("count", format!("{what}; the limit is {}", u32::MAX)));

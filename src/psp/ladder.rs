@@ -14,11 +14,11 @@ use crate::job::Job;
 use crate::math::{power, square};
 use crate::order::{Order, first_stride};
 use crate::psp::count::{Found, check_room, expected_radius, no_place, none_finer};
-use crate::psp::levels::{Levels, top};
+use crate::psp::levels::{Levelled, Levels};
 
 /// Levels, down to a radius.
-struct Ladder<'a> {
-    levels: Levels<'a>,
+struct Ladder<S: Levelled> {
+    levels: Levels<S>,
     quotient: f64,
     /// The quotient of the first levels, until one has too many samples.
     first: Option<f64>,
@@ -31,8 +31,8 @@ struct Ladder<'a> {
     done: f64,
 }
 
-impl<'a> Ladder<'a> {
-    fn new(levels: Levels<'a>, quotient: f64, finest: f64, last: f64) -> Self {
+impl<S: Levelled> Ladder<S> {
+    fn new(levels: Levels<S>, quotient: f64, finest: f64, last: f64) -> Self {
         let first = Some(power(quotient, first_stride(quotient)));
         Self { levels, quotient, first, finest, key: 0, last, done: 0.0 }
     }
@@ -40,11 +40,8 @@ impl<'a> Ladder<'a> {
     /// The radius of the next level, if that has no more samples than the first levels may have.
     fn next(&self) -> f64 {
         let former = self.levels.radius();
-        let next = if former.is_finite() {
-            former / self.first.unwrap_or(self.quotient)
-        } else {
-            top(self.levels.surface.mesh)
-        };
+        let next =
+            if former.is_finite() { former / self.first.unwrap_or(self.quotient) } else { self.levels.surface.top() };
         next.max(self.finest)
     }
 
@@ -71,7 +68,12 @@ impl<'a> Ladder<'a> {
 }
 
 /// A maximal set of a radius: the levels above it, and one at the radius itself.
-pub(super) fn by_radius(job: &Job, levels: Levels, quotient: f64, radius: f64) -> Result<Found> {
+pub(super) fn by_radius<S: Levelled>(
+    job: &Job,
+    levels: Levels<S>,
+    quotient: f64,
+    radius: f64,
+) -> Result<Found<S::Sample>> {
     let mut ladder = Ladder::new(levels, quotient, radius, radius);
     while ladder.levels.radius() > radius {
         ladder.descend(job)?;
@@ -81,15 +83,21 @@ pub(super) fn by_radius(job: &Job, levels: Levels, quotient: f64, radius: f64) -
 }
 
 /// As many samples of the ladder as asked for. No radius is below the finest.
-pub(super) fn by_count(job: &Job, levels: Levels, quotient: f64, count: usize, finest: f64) -> Result<Found> {
-    let expected = expected_radius(&levels, count as f64, finest);
+pub(super) fn by_count<S: Levelled>(
+    job: &Job,
+    levels: Levels<S>,
+    quotient: f64,
+    count: usize,
+    finest: f64,
+) -> Result<Found<S::Sample>> {
+    let expected = expected_radius(&levels.surface, count as f64, finest);
     let mut ladder = Ladder::new(levels, quotient, finest, expected);
     loop {
         let former = ladder.levels.radius();
         if former == finest {
             return Err(none_finer(count, ladder.levels.len(), finest));
         }
-        check_room(&ladder.levels, ladder.next(), count)?;
+        check_room(&ladder.levels.surface, ladder.next(), count)?;
         ladder.descend(job)?;
         if ladder.levels.len() == 0 {
             return Err(no_place(count));

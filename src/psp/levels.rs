@@ -8,10 +8,14 @@
 //!
 //! Given samples keep their clearances on all levels, and ranks do not count them; nor do they count samples that a
 //! sample ignores, since they face another way.
+//!
+//! Where the radius varies (`adaptive/levels.rs`) distances are measured by the mean of two local radii, and the radius
+//! of a level is what these are multiplied by.
 
 use crate::error::Result;
 use crate::job::Job;
 use crate::mesh::{Mesh, exact, rounded_down};
+use crate::psp::estimate::expected_samples;
 use crate::psp::fill::rounds::PATCH;
 use crate::psp::fill::{Manner, Surface, fill_in};
 use crate::psp::samples::{Sample, SampleSet};
@@ -33,21 +37,78 @@ pub(super) fn top(mesh: &Mesh) -> f64 {
     TOP * exact(low).distance(exact(high))
 }
 
+/// What levels are filled on.
+pub(super) trait Levelled {
+    /// A sample, with what is known of it beside its place and its rank.
+    type Sample: Copy + Ranked;
+
+    /// A radius within which any sample covers all of it.
+    fn top(&self) -> f64;
+
+    /// About how many samples a radius gives where none are given.
+    fn expected(&self, radius: f64) -> f64;
+
+    /// Whether samples are given.
+    fn has_given(&self) -> bool;
+
+    /// The samples with those that a fill at this radius adds, which are last, and the darts that it took.
+    fn fill(
+        &self,
+        job: &Job,
+        manner: Manner,
+        radius: f64,
+        samples: &[Self::Sample],
+    ) -> Result<(Vec<Self::Sample>, u64)>;
+}
+
+/// What has a place and a rank.
+pub(super) trait Ranked {
+    fn sample(&self) -> &Sample;
+}
+
+impl Ranked for Sample {
+    fn sample(&self) -> &Sample {
+        self
+    }
+}
+
+impl Levelled for Surface<'_> {
+    type Sample = Sample;
+
+    fn top(&self) -> f64 {
+        top(self.mesh)
+    }
+
+    fn expected(&self, radius: f64) -> f64 {
+        expected_samples(self.mesh, self.measures, radius)
+    }
+
+    fn has_given(&self) -> bool {
+        !self.given.is_empty()
+    }
+
+    fn fill(&self, job: &Job, manner: Manner, radius: f64, samples: &[Sample]) -> Result<(Vec<Sample>, u64)> {
+        let mut set = SampleSet::of(self.mesh, radius, samples);
+        let darts = fill_in(manner, job, self, &mut set)?.darts;
+        Ok((set.into_samples(), darts))
+    }
+}
+
 /// A set of samples that is refined, level by level.
-pub(super) struct Levels<'a> {
-    pub surface: Surface<'a>,
+pub(super) struct Levels<S: Levelled> {
+    pub surface: S,
     seed: u64,
     /// Those of the last level last.
-    samples: Vec<Sample>,
+    samples: Vec<S::Sample>,
     /// The radius of the last level; infinite before the first.
     radius: f64,
     /// Darts thrown so far.
     pub darts: u64,
 }
 
-impl<'a> Levels<'a> {
+impl<S: Levelled> Levels<S> {
     /// No level yet.
-    pub fn new(surface: Surface<'a>, seed: u64) -> Self {
+    pub fn new(surface: S, seed: u64) -> Self {
         Self { surface, seed, samples: Vec::new(), radius: f64::INFINITY, darts: 0 }
     }
 
@@ -73,9 +134,8 @@ impl<'a> Levels<'a> {
             patch: if rains { PATCH as f32 } else { FIRST_PATCH },
             largest_rank: former.is_finite().then_some(below(former).min(LARGEST_RANK * radius)),
         };
-        let mut set = SampleSet::of(self.surface.mesh, radius, &self.samples);
-        self.darts += fill_in(manner, job, &self.surface, &mut set)?.darts;
-        self.samples = set.into_samples();
+        let (samples, darts) = self.surface.fill(job, manner, radius, &self.samples)?;
+        (self.samples, self.darts) = (samples, self.darts + darts);
         Ok(())
     }
 
@@ -86,16 +146,19 @@ impl<'a> Levels<'a> {
     }
 
     /// The samples by falling rank, those of equal rank by their places.
-    pub fn into_sorted(self) -> Vec<Sample> {
+    pub fn into_sorted(self) -> Vec<S::Sample> {
         let Self { mut samples, .. } = self;
         let place = |sample: &Sample| (sample.triangle, sample.barycentrics.map(f32::to_bits));
-        samples.sort_unstable_by(|a, b| b.rank.total_cmp(&a.rank).then_with(|| place(a).cmp(&place(b))));
+        samples.sort_unstable_by(|a, b| {
+            let (a, b) = (a.sample(), b.sample());
+            b.rank.total_cmp(&a.rank).then_with(|| place(a).cmp(&place(b)))
+        });
         samples
     }
 
     /// The smallest rank of the `count` samples of the largest ranks; there are as many.
     pub fn rank_of(&self, count: usize) -> f64 {
-        let mut ranks: Vec<f32> = self.samples.iter().map(|sample| sample.rank).collect();
+        let mut ranks: Vec<f32> = self.samples.iter().map(|sample| sample.sample().rank).collect();
         let (_, &mut rank, _) = ranks.select_nth_unstable_by(count - 1, |a, b| b.total_cmp(a));
         f64::from(rank)
     }

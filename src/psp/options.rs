@@ -150,11 +150,19 @@ impl Options<'_> {
         if self.count > u32::MAX as usize {
             return Err(Error::too_large("count", format!("{}; the limit is {}", self.count, u32::MAX)));
         }
-        if self.order == Order::Progressive && !(1.02..=1.5).contains(&self.quotient) {
-            return Err(Error::invalid("quotient", format!("{} is not between 1.02 and 1.5", self.quotient)));
+        if self.order == Order::Progressive {
+            check_quotient(self.quotient)?;
         }
         Ok(())
     }
+}
+
+/// Refuses a quotient that is out of range.
+pub(super) fn check_quotient(quotient: f64) -> Result<()> {
+    if (1.02..=1.5).contains(&quotient) {
+        return Ok(());
+    }
+    Err(Error::invalid("quotient", format!("{quotient} is not between 1.02 and 1.5")))
 }
 
 setters!(Options<'a> {

@@ -45,12 +45,13 @@ pub struct Report {
     /// For a fill, the share of the area that is uncovered after it: 0, up to [`TOLERANCE`](super::TOLERANCE).
     pub uncovered_after: Option<f64>,
     /// No two samples are closer: the radius that was asked for or, for a count, the one that was found. 0 where radii
-    /// vary.
+    /// vary; in progressive order then what they are multiplied by: 1, or for a density the radius at density 1.
     pub radius: f64,
     /// A bound of the covering radius, where one is known: every place of the surface is so near to a sample, up to
     /// [`TOLERANCE`](super::TOLERANCE). The radius itself after a fill; for a count a little more (mostly below 1.1
     /// times the radius), in progressive order at most [`Options::quotient`](super::Options::quotient) times the
-    /// radius, from [`Order::FIRST_COUNT`](crate::Order::FIRST_COUNT) samples on.
+    /// radius, from [`Order::FIRST_COUNT`](crate::Order::FIRST_COUNT) samples on. Where radii vary, a bound of what they
+    /// are multiplied by.
     pub coverage: Option<f64>,
 }
 

@@ -147,9 +147,9 @@ FIELD(azulejo_psp_report, uncovered_after, 120);
 FIELD(azulejo_psp_report, radius, 128);
 FIELD(azulejo_psp_report, coverage, 136);
 
-SIZE(azulejo_psp_adaptive_options, 120);
+SIZE(azulejo_psp_adaptive_options, 128);
 FIELD(azulejo_psp_adaptive_options, struct_size, 0);
-FIELD(azulejo_psp_adaptive_options, reserved, 4);
+FIELD(azulejo_psp_adaptive_options, order, 4);
 FIELD(azulejo_psp_adaptive_options, vertex_radii, 8);
 FIELD(azulejo_psp_adaptive_options, vertex_count, 16);
 FIELD(azulejo_psp_adaptive_options, radius, 24);
@@ -164,6 +164,7 @@ FIELD(azulejo_psp_adaptive_options, progress_user, 88);
 FIELD(azulejo_psp_adaptive_options, given_positions, 96);
 FIELD(azulejo_psp_adaptive_options, given_clearances, 104);
 FIELD(azulejo_psp_adaptive_options, given_count, 112);
+FIELD(azulejo_psp_adaptive_options, quotient, 120);
 
 SIZE(azulejo_dcr_options, 136);
 FIELD(azulejo_dcr_options, struct_size, 0);

@@ -131,6 +131,38 @@ static void radii_by_position(void) {
     azulejo_points_free(again);
 }
 
+/* Ranks are what the radii of a prefix are multiplied by; the whole set has the radii themselves. */
+static void order(void) {
+    azulejo_psp_adaptive_options options = with_vertices();
+    azulejo_points *points = NULL, *again = NULL;
+    azulejo_psp_report report = psp_report();
+    const float *p, *ranks;
+    const double *r;
+    size_t i, j, k, count;
+    options.order = AZULEJO_ORDER_PROGRESSIVE;
+    ACCEPTED(azulejo_psp_adaptive_sample(context, cube, &options, &points, &report));
+    ACCEPTED(azulejo_psp_adaptive_sample(one, cube, &options, &again, NULL));
+    p = azulejo_points_positions(points);
+    r = azulejo_points_radii(points);
+    ranks = azulejo_points_ranks(points);
+    count = azulejo_points_count(points);
+    if (!CHECK(ranks != NULL && count > 100 && count == report.samples)) return;
+    CHECK(same_points(points, again) && memcmp(ranks, azulejo_points_ranks(again), count * sizeof *ranks) == 0);
+    CHECK(report.radius == 1 && report.coverage == 1 && isinf(ranks[0]) && ranks[count - 1] >= 1);
+    for (i = 1; i < count; i++)
+        for (j = 0; j < i; j++) {
+            double squared = 0;
+            for (k = 0; k < 3; k++) squared += pow((double)p[3 * i + k] - p[3 * j + k], 2);
+            if (!CHECK(ranks[i] <= ranks[j] && sqrt(squared) >= (double)ranks[i] * 0.5 * (r[i] + r[j]))) return;
+        }
+    azulejo_points_free(again);
+    options.order = AZULEJO_ORDER_ANY;
+    ACCEPTED(azulejo_psp_adaptive_sample(context, cube, &options, &again, NULL));
+    CHECK(azulejo_points_ranks(again) == NULL);
+    azulejo_points_free(points);
+    azulejo_points_free(again);
+}
+
 static void no_radii(void) {
     azulejo_kdrt_options plane = kdrt_options(0.1);
     azulejo_psp_options uniform = psp_options(0.3);
@@ -173,7 +205,11 @@ static void bad_arguments(void) {
         REFUSED(status, part, azulejo_psp_adaptive_sample(one, cube, &o, &points, &report));              \
     } while (0)
     ADAPTIVE(INVALID, "struct_size", good, o.struct_size = 0);
-    ADAPTIVE(INVALID, "reserved: 1", good, o.reserved = 1);
+    ADAPTIVE(INVALID, "order: 2 is no AZULEJO_ORDER_", good, o.order = 2);
+    ADAPTIVE(INVALID, "quotient: 1.2 has no effect in any order", good, o.quotient = 1.2);
+    ADAPTIVE(INVALID, "quotient: 1.01", good, (o.order = AZULEJO_ORDER_PROGRESSIVE, o.quotient = 1.01));
+    ADAPTIVE(INVALID, "quotient: 1.6", good, (o.order = AZULEJO_ORDER_PROGRESSIVE, o.quotient = 1.6));
+    ADAPTIVE(INVALID, "quotient", good, (o.order = AZULEJO_ORDER_PROGRESSIVE, o.quotient = NAN));
     ADAPTIVE(INVALID, "radius: is NULL", good, o.vertex_radii = NULL);
     ADAPTIVE(INVALID, "radius: is set", good, (o.radius = fade, o.radius_user = &g));
     ADAPTIVE(INVALID, "vertex_radii", good, o.vertex_radii = (const float *)((const char *)corner_radii + 1));
@@ -239,6 +275,7 @@ int main(void) {
     cube = make_cube();
     radii_of_vertices();
     radii_by_position();
+    order();
     no_radii();
     bad_arguments();
     cancelled();

@@ -155,7 +155,7 @@ FROZEN(kdrt_merge_options, 72, progress_user);
 FROZEN(kdrt_merge_report, 32, inserted);
 FROZEN(psp_options, 56, progress_user);
 FROZEN(psp_report, 128, uncovered_after);
-FROZEN(psp_adaptive_options, 96, progress_user);
+FROZEN(psp_adaptive_options, 96, progress_user); /* order has taken the place of reserved */
 FROZEN(dcr_options, 136, convergence);
 FROZEN(dcr_report, 48, coverage);
 FROZEN(density, 48, user);

@@ -143,6 +143,33 @@ static void densities(void) {
     azulejo_points_free(points);
 }
 
+/* Exactly so many samples, of which the first are the set of a smaller count. */
+static void order(void) {
+    azulejo_psp_adaptive_options o = options();
+    azulejo_mesh_density d = by_vertices();
+    azulejo_points *points = NULL, *fewer = NULL;
+    azulejo_psp_report report = psp_report();
+    const float *ranks;
+    size_t i, rising = 0;
+    o.order = AZULEJO_ORDER_PROGRESSIVE;
+    o.quotient = 1.2;
+    d.count = 3000;
+    ACCEPTED(azulejo_psp_adaptive_with_density(context, cube, &o, &d, &points, &report));
+    ranks = azulejo_points_ranks(points);
+    if (!CHECK(azulejo_points_count(points) == 3000 && ranks != NULL)) return;
+    CHECK(report.samples == 3000 && report.radius == (double)ranks[2999]);
+    CHECK(report.coverage >= report.radius && report.coverage < 1.2001 * report.radius);
+    for (i = 1; i < 3000; i++) rising += ranks[i] > ranks[i - 1];
+    CHECK(rising == 0 && fabs((double)below(points, 0.5f) / 3000 - 1.0 / 6) < 0.02);
+    d.count = 1234;
+    ACCEPTED(azulejo_psp_adaptive_with_density(one, cube, &o, &d, &fewer, NULL));
+    CHECK(azulejo_points_count(fewer) == 1234);
+    CHECK(memcmp(azulejo_points_positions(fewer), azulejo_points_positions(points), 1234 * 3 * sizeof(float)) == 0);
+    CHECK(memcmp(azulejo_points_ranks(fewer), ranks, 1234 * sizeof *ranks) == 0);
+    azulejo_points_free(points);
+    azulejo_points_free(fewer);
+}
+
 static void bad_densities(void) {
     azulejo_psp_adaptive_options o = options();
     azulejo_points *points = UNTOUCHED;
@@ -173,6 +200,14 @@ static void bad_densities(void) {
         REFUSED(status, part, azulejo_psp_adaptive_with_density(context, cube, &o, &d, &points, &report));      \
     } while (0)
     DENSITY(INVALID, "struct_size", by_vertices(), d.struct_size = 0);
+    o.order = AZULEJO_ORDER_PROGRESSIVE;
+    DENSITY(INVALID, "count: 10.5 is not a whole number", by_vertices(), d.count = 10.5);
+    o.quotient = 1.55;
+    DENSITY(INVALID, "quotient: 1.55", by_vertices(), 0);
+    o = options();
+    o.order = 7;
+    DENSITY(INVALID, "order: 7", by_vertices(), 0);
+    o = options();
     DENSITY(INVALID, "reserved: 1", by_vertices(), d.reserved = 1);
     DENSITY(INVALID, "radius: is 0", by_vertices(), d.count = 0);
     DENSITY(INVALID, "count: is set", by_vertices(), d.radius = 1);
@@ -259,6 +294,7 @@ int main(void) {
     one = make_context(1);
     cube = make_cube();
     densities();
+    order();
     bad_densities();
     samples_follow_a_mesh();
     azulejo_mesh_free(cube);

@@ -75,7 +75,7 @@ static void defaults(void) {
     CHECK(dcr.convergence == AZULEJO_CONVERGENCE_MOTION);
     CHECK(surface.struct_size == sizeof surface && surface.max_iterations == 100 && surface.tolerance < 0);
     CHECK(surface.seed == 0 && surface.progress == NULL && surface.progress_user == NULL);
-    CHECK(adaptive.struct_size == sizeof adaptive && adaptive.reserved == 0 && adaptive.vertex_radii == NULL);
+    CHECK(adaptive.struct_size == sizeof adaptive && adaptive.order == AZULEJO_ORDER_ANY && adaptive.quotient == 0 && adaptive.vertex_radii == NULL);
     CHECK(adaptive.vertex_count == 0 && adaptive.radius == NULL && adaptive.slope == 0 && adaptive.cosine == -1);
     CHECK(density.struct_size == sizeof density && density.values == NULL && density.width == 0 && density.height == 0);
     CHECK(density.function == NULL && density.user == NULL && density.reserved == 0);

@@ -398,6 +398,12 @@ void adaptive() {
     const auto points = azulejo::psp_adaptive_sample(context, mesh, options, &report);
     CHECK(points.size() > 100 && points.size() == report.samples && points.radii().size() == points.size());
     for (double radius : points.radii()) CHECK(radius >= 0.05f && radius <= 0.2f);
+    CHECK(points.ranks().empty());
+    options.order = AZULEJO_ORDER_PROGRESSIVE;
+    const auto ordered = azulejo::psp_adaptive_sample(context, mesh, options);
+    CHECK(ordered.ranks().size() == ordered.size() && ordered.radii().size() == ordered.size());
+    CHECK(ordered.ranks()[ordered.size() - 1] >= 1);
+    options.order = AZULEJO_ORDER_ANY;
     CHECK(azulejo::Points(nullptr).radii().empty());
 
     options.set_vertex_radii({});

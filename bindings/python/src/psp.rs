@@ -17,7 +17,7 @@ use crate::watch::Watch;
 #[pyclass(frozen, get_all, module = "azulejo")]
 pub(crate) struct PspReport {
     /// No two samples are closer: the radius that was asked for or, for a count, the one that was found. 0 where radii
-    /// vary.
+    /// vary; in progressive order then what they are multiplied by: 1, or for a density the radius at density 1.
     radius: f64,
     /// Every place of the surface is so near to a sample; None where that is not known.
     coverage: Option<f64>,
@@ -145,6 +145,8 @@ pub(crate) fn psp_sample_classes(
 
 /// The arguments that both adaptive calls share.
 struct Adaptive<'py> {
+    order: Order,
+    quotient: Option<f64>,
     seed: u64,
     cosine: f64,
     given: GivenArrays<'py>,
@@ -153,8 +155,13 @@ struct Adaptive<'py> {
 
 impl Adaptive<'_> {
     fn sample(self, py: Python<'_>, mesh: &Mesh, radius: Radius) -> PyResult<Points> {
-        let Self { seed, cosine, given, watch } = self;
-        let request = adaptive::Options::new(radius).cosine(cosine).seed(seed).given(given.samples()?);
+        let Self { order, quotient, seed, cosine, given, watch } = self;
+        let request = adaptive::Options::new(radius)
+            .order(order)
+            .quotient(quotient.unwrap_or(DEFAULT_QUOTIENT))
+            .cosine(cosine)
+            .seed(seed)
+            .given(given.samples()?);
         let (set, report) =
             watch.run(|context, progress| adaptive::sample(context, &mesh.shared, &request, progress))?;
         Points::adaptive(py, set)?.with_report(py, PspReport::from(report))
@@ -165,17 +172,22 @@ impl Adaptive<'_> {
 ///
 /// vertex_radii: float32, shape (v,), above 0, in the units of the mesh: the radius at each vertex, interpolated on the
 ///     triangles.
+/// order: "any", or "progressive": every prefix is well spread, and the points have ranks, what the radii are multiplied
+///     by for the points up to each.
 /// given_clearances: float64, shape (m,), needed where samples are given. The others are those of psp_sample.
 ///
 /// Returns Points with radii and the report PspReport.
 #[pyfunction]
 #[pyo3(signature = (
-    mesh, vertex_radii, *, seed=0, given_positions=None, given_clearances=None, cosine=-1.0, threads=0, progress=None
+    mesh, vertex_radii, *, order="any", quotient=None, seed=0, given_positions=None, given_clearances=None, cosine=-1.0,
+    threads=0, progress=None
 ))]
 pub(crate) fn psp_adaptive_sample(
     py: Python<'_>,
     mesh: &Mesh,
     vertex_radii: &Bound<'_, PyAny>,
+    order: &str,
+    quotient: Option<f64>,
     seed: i128,
     given_positions: Option<&Bound<'_, PyAny>>,
     given_clearances: Option<&Bound<'_, PyAny>>,
@@ -186,7 +198,8 @@ pub(crate) fn psp_adaptive_sample(
     let radii = Array::read("vertex_radii", vertex_radii)?;
     let given = GivenArrays::read(given_positions, given_clearances)?;
     let watch = Watch::new(py, threads, progress)?;
-    let request = Adaptive { seed: natural("seed", seed)?, cosine, given, watch };
+    let order = self::order(order, &[("quotient", quotient)])?;
+    let request = Adaptive { order, quotient, seed: natural("seed", seed)?, cosine, given, watch };
     request.sample(py, mesh, Radius::PerVertex(radii.line()?))
 }
 
@@ -195,15 +208,17 @@ pub(crate) fn psp_adaptive_sample(
 /// density: in any unit, 0 or above, float32: shape (v,) for the vertices, interpolated on the triangles, or, with
 ///     texture, an image of shape (height, width), whose first row lies along v = 0.
 /// radius: that of a density of 1, in the units of the mesh. Or:
-/// count: about how many samples the whole set has.
+/// count: about how many samples the whole set has, exactly in progressive order.
+/// order: "any", or "progressive": every prefix is well spread, and the points have ranks, radii at density 1. Sets of
+///     smaller counts are prefixes, but for their radii.
 /// texture: texture coordinates, float32, shape (v, 2) for vertices or (t, 3, 2) for the corners of triangles.
 /// The others are those of psp_adaptive_sample.
 ///
 /// Returns Points with radii and the report PspReport.
 #[pyfunction]
 #[pyo3(signature = (
-    mesh, density, *, radius=0.0, count=0.0, texture=None, seed=0, given_positions=None, given_clearances=None,
-    cosine=-1.0, threads=0, progress=None
+    mesh, density, *, radius=0.0, count=0.0, texture=None, order="any", quotient=None, seed=0, given_positions=None,
+    given_clearances=None, cosine=-1.0, threads=0, progress=None
 ))]
 pub(crate) fn psp_adaptive_with_density(
     py: Python<'_>,
@@ -212,6 +227,8 @@ pub(crate) fn psp_adaptive_with_density(
     radius: f64,
     count: f64,
     texture: Option<&Bound<'_, PyAny>>,
+    order: &str,
+    quotient: Option<f64>,
     seed: i128,
     given_positions: Option<&Bound<'_, PyAny>>,
     given_clearances: Option<&Bound<'_, PyAny>>,
@@ -235,7 +252,8 @@ pub(crate) fn psp_adaptive_with_density(
     };
     let given = GivenArrays::read(given_positions, given_clearances)?;
     let watch = Watch::new(py, threads, progress)?;
-    let request = Adaptive { seed: natural("seed", seed)?, cosine, given, watch };
+    let order = self::order(order, &[("quotient", quotient)])?;
+    let request = Adaptive { order, quotient, seed: natural("seed", seed)?, cosine, given, watch };
     request.sample(py, mesh, Radius::Density { density, scale })
 }
 

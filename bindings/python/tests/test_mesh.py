@@ -93,6 +93,19 @@ def test_a_density_at_vertices_and_in_an_image(mesh):
         assert image.radii == pytest.approx(0.2, rel=1e-6)
 
 
+def test_varying_radii_in_progressive_order(mesh):
+    density = 1.0 + 3.0 * (mesh.positions[:, 0] > 0)
+    points = azulejo.psp_adaptive_with_density(mesh, density, count=400, order="progressive")
+    fewer = azulejo.psp_adaptive_with_density(mesh, density, count=150, order="progressive")
+    assert (len(points), len(fewer)) == (400, 150) and (points.positions[:150] == fewer.positions).all()
+    assert (np.diff(points.ranks[1:]) <= 0).all() and points.report.radius == points.ranks[-1]
+    radii = np.where(mesh.positions[:, 0] > 0, 0.1, 0.3)
+    ranks = azulejo.psp_adaptive_sample(mesh, radii, order="progressive", quotient=1.3).ranks
+    assert ranks[-1] >= 1 and azulejo.psp_adaptive_sample(mesh, radii).ranks is None
+    with pytest.raises(ValueError, match="quotient"):
+        azulejo.psp_adaptive_sample(mesh, radii, order="progressive", quotient=2)
+
+
 def test_given_samples(mesh):
     given = mesh.positions[::100]
     points = azulejo.psp_sample(mesh, 0.15, given_positions=given)

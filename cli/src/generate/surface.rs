@@ -58,8 +58,8 @@ pub struct Surface {
     #[arg(long, value_name = "F", default_value_t = 1.0, allow_negative_numbers = true, conflicts_with_all = OF_ONE_CLASS)]
     class_factor: f64,
     /// The name of a vertex attribute of a PLY mesh that holds the density there, in any unit, 0 or above; where it is 0
-    /// there are no samples. --radius is that at density 1; --count the number of samples on an even surface, about. The
-    /// output has the radius of each sample, except in XYZ.
+    /// there are no samples. --radius is that at density 1; --count the number of samples: about, on an even surface, and
+    /// exactly in progressive order. The output has the radius of each sample, except in XYZ.
     #[arg(long, value_name = "ATTRIBUTE", conflicts_with = "radius_from")]
     density_from: Option<String>,
     /// The name of a face attribute of a PLY mesh. Faces where it is 0 are not sampled.
@@ -89,8 +89,9 @@ pub struct Surface {
     /// Do not fill the gaps that the projections leave.
     #[arg(long, conflicts_with_all = OF_ONE_RADIUS)]
     no_fill: bool,
-    /// The order of the samples. In progressive order the output has the rank of each sample, except in XYZ.
-    #[arg(long, value_enum, default_value = "any", conflicts_with_all = ["radius_from", "density_from", "iterations", "no_fill"])]
+    /// The order of the samples. In progressive order the output has the rank of each sample, except in XYZ: with
+    /// --radius-from what the radii of a prefix are multiplied by, with --density-from the radius at density 1.
+    #[arg(long, value_enum, default_value = "any", conflicts_with_all = ["iterations", "no_fill"])]
     order: Sequence,
     /// The largest ratio of the covering radius of the first samples to the rank of the last of them, in progressive
     /// order: 1.02 to 1.5 [default: 1.0905].
@@ -306,7 +307,12 @@ impl Surface {
             None => Radius::PerVertex(&values),
             Some(scale) => Radius::Density { density: MeshDensity::PerVertex(&values), scale },
         };
-        let options = adaptive::Options::new(radius).seed(self.common.seed).cosine(self.cosine).given(given);
+        let options = adaptive::Options::new(radius)
+            .order(self.order.into())
+            .quotient(self.quotient.unwrap_or(psp::DEFAULT_QUOTIENT))
+            .seed(self.common.seed)
+            .cosine(self.cosine)
+            .given(given);
         let sample = |progress: &Progress| adaptive::sample(context, mesh, &options, Some(progress));
         let (made, done) = watched("surface", sample).map_err(|error| match error {
             Error::InvalidArgument { argument: "vertex_radii" | "density", reason } => file.error(attribute, &reason),
@@ -314,7 +320,11 @@ impl Surface {
         })?;
         let ends = |choose: fn(f64, f64) -> f64| made.radii.iter().copied().reduce(choose).unwrap_or(f64::NAN);
         let [least, largest] = [ends(f64::min), ends(f64::max)].map(|radius| rounded(radius, 4));
-        let about = format!("radii {least} to {largest}");
+        let unit = match (scale, done.radius) {
+            (Some(_), radius) if radius > 0.0 => format!(", {} at density 1", rounded(radius, 4)),
+            _ => String::new(),
+        };
+        let about = format!("radii {least} to {largest}{unit}");
         Ok(Made { samples: made.samples, radii: Some(made.radii), about, seconds: done.seconds })
     }
 }

@@ -83,7 +83,8 @@ pub struct azulejo_mesh_density {
     pub radius: f64,
     /// About how many samples the whole set has, above 0: the radius follows from the integral of
     /// the density. There are fewer where parts of the surface are nearer to each other than the
-    /// radius, and some more along the boundaries of the surface. 0, the default, with a radius.
+    /// radius, and some more along the boundaries of the surface. In progressive order there are
+    /// exactly so many, and it must be a whole number. 0, the default, with a radius.
     pub count: f64,
 }
 
@@ -220,13 +221,20 @@ pub unsafe extern "C" fn azulejo_mesh_density_init(
 /// returned. Where the density falls to 0 within a few radii, radii are limited to four times the
 /// least one on a piece of the surface of about that length.
 ///
+/// In progressive order ranks are radii at density 1, and a `count` is exact: the report has the
+/// radius at density 1, which is the last rank, and a bound of the radius at density 1 at which the
+/// set is maximal. All else is as azulejo_psp_adaptive_sample says. Sets of smaller counts are
+/// prefixes, bit for bit but for the radii, which are those of each set: levels of detail nest. A
+/// set with a radius shares all samples with ranks of at least `quotient` times that radius, of the
+/// first 100 those with ranks of at least 2.25 times it.
+///
 /// options: those of azulejo_psp_adaptive_sample without any radii: vertex_radii and radius must be
 /// NULL.
 ///
 /// density: the density; used during the call only.
 ///
-/// out: the samples with normals, triangles, barycentrics and radii, to be freed with
-/// azulejo_points_free.
+/// out: the samples with normals, triangles, barycentrics and radii, and ranks in progressive
+/// order, to be freed with azulejo_points_free.
 ///
 /// report: what the call did, or NULL; iterations, rays and hits are 0.
 ///

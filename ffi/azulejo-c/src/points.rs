@@ -48,7 +48,7 @@ impl azulejo_points {
     }
 
     pub(crate) fn adaptive(AdaptiveSamples { samples, radii, .. }: AdaptiveSamples) -> Self {
-        Self { radii, ..Self::of(Samples::Surface(samples)) }
+        Self { radii, ..Self::surface(samples) }
     }
 }
 
@@ -141,6 +141,9 @@ pub extern "C" fn azulejo_points_radii(points: Option<&azulejo_points>) -> *cons
 /// the square of the quotient times it if that is more. In the plane this holds from the samples
 /// of the coarsest level on, those with the rank of the first: one sample only, unless the options
 /// have a shorter `coarsest` radius. On meshes it holds for every i; the first rank is infinite.
+///
+/// Where radii vary, distances are divided by the mean of two radii: see
+/// azulejo_psp_adaptive_sample, and for a density azulejo_psp_adaptive_with_density.
 #[unsafe(no_mangle)]
 pub extern "C" fn azulejo_points_ranks(points: Option<&azulejo_points>) -> *const f32 {
     points.map_or(std::ptr::null(), |points| array(&points.ranks))

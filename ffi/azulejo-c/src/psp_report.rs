@@ -52,11 +52,13 @@ pub struct azulejo_psp_report {
     /// Else -1.
     pub uncovered_after: f64,
     /// The radius of the set: the one asked for or, for a count, the one that was found. No two
-    /// samples are closer. 0 where radii vary.
+    /// samples are closer. 0 where radii vary; in progressive order then what they are multiplied
+    /// by, which is 1, or for a density the radius at density 1.
     pub radius: f64,
     /// A bound of the covering radius, where one is known: no place is farther from all samples, up
     /// to 6 spacings of floats at the largest coordinate. The radius itself after gaps were filled,
-    /// a little more for a count. Else -1.
+    /// a little more for a count. Where `radius` is not a distance, the bound of what radii are
+    /// multiplied by. Else -1.
     pub coverage: f64,
 }
 

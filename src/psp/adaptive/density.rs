@@ -5,8 +5,9 @@ use std::borrow::Cow;
 use crate::error::{Error, Result};
 use crate::job::{Job, chunks_of};
 use crate::mesh::Mesh;
+use crate::points::MAXIMAL_DENSITY;
 use crate::psp::adaptive::image::{Image, Range};
-use crate::psp::adaptive::radius::{Density, DensityFunction, Texture};
+use crate::psp::adaptive::radius::{Density, DensityFunction, Scale, Texture};
 use crate::psp::fill::region::parts_up_to;
 use crate::psp::fragment::{Fragment, Shape};
 use crate::psp::pieces::slice;
@@ -122,8 +123,23 @@ impl<'a> DensityField<'a> {
         }
     }
 
+    /// The radius at density 1 that a scale asks for.
+    pub fn unit(&self, job: &Job, scale: Scale) -> Result<f64> {
+        match scale {
+            Scale::Radius(radius) => Ok(radius),
+            Scale::Count(count) => {
+                let integral = self.integral(job)?;
+                if integral > 0.0 {
+                    Ok((MAXIMAL_DENSITY * integral / count).sqrt())
+                } else {
+                    Err(Error::invalid("density", "0 everywhere on the mesh; there is no place for a sample"))
+                }
+            }
+        }
+    }
+
     /// The integral over the surface: by the values at the centres of about [`PIECES`] pieces.
-    pub fn integral(&self, job: &Job) -> Result<f64> {
+    fn integral(&self, job: &Job) -> Result<f64> {
         let longest = (4.0 * self.mesh.area() / PIECES).sqrt();
         let chunks = chunks_of(self.mesh.triangles().len(), CHUNK);
         let parts = job.map(chunks.len(), |chunk| {

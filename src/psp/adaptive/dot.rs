@@ -19,6 +19,11 @@ impl Dot {
         0.5 * (1.0 + 1e-14) * (a + b)
     }
 
+    /// How far two samples are apart, as a multiple of the mean of their radii.
+    pub fn ratio(&self, other: &Self) -> f64 {
+        distance_squared(self.position, other.position).sqrt() / (0.5 * (self.radius + other.radius))
+    }
+
     /// Whether two samples are too close to each other.
     pub fn conflicts(&self, other: &Self, facing: Facing) -> bool {
         let distance = Self::distance(self.radius, other.radius);

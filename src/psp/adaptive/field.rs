@@ -4,6 +4,9 @@
 //! out of the bounds of its fragment, but by no more than a quarter of the least radius. Of a function the slope is
 //! limited for this. Of vertices, the barycentrics change the radius by 2^-24 of the difference of two corners, at most
 //! four diagonals; these are at most 14 float spacings, and no radius is below 64.
+//!
+//! Levels of an ordered set (`levels.rs`) multiply all radii with a *scale*. Radii without it are *relative*; those
+//! of a sample are. Whatever is compared with lengths has been multiplied: bounds, and what follows from them.
 
 use glam::DVec3;
 
@@ -11,32 +14,13 @@ use crate::error::{Error, Result};
 use crate::math::{scalbn, square};
 use crate::mesh::{Mesh, exact};
 use crate::points::check_resolution;
+use crate::psp::adaptive::bounds::{RadiusBounds, of_function, of_vertices};
 use crate::psp::adaptive::density::DensityField;
 use crate::psp::adaptive::limits::Verdict;
 use crate::psp::adaptive::radius::{Radius, RadiusFunction};
 use crate::psp::fill::rounds::TOLERANCE;
 use crate::psp::fragment::{Fragment, Shape};
 use crate::psp::samples::Sample;
-
-/// Between which values the radius is on a fragment.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct RadiusBounds {
-    pub least: f64,
-    pub largest: f64,
-}
-
-impl RadiusBounds {
-    /// The radius as far as it is known: what lengths are measured by. Where the bounds are far apart the least may
-    /// be due to a distant corner, or to a bad bound; fragments become smaller then, but not by so much.
-    pub fn scale(&self) -> f64 {
-        self.least.max(self.largest / 16.0)
-    }
-
-    /// What areas are measured by: the mean of 1 / radius² where the radius grows evenly.
-    pub fn density(&self) -> f64 {
-        1.0 / (self.least * self.largest)
-    }
-}
 
 /// Bounds that are no farther apart than this share of the longest edge of a fragment are good enough for it: what is
 /// proved covered falls short of what is by half of that.
@@ -62,7 +46,7 @@ enum Source<'a> {
     },
     Density {
         density: &'a DensityField<'a>,
-        /// The radius at density 1.
+        /// The relative radius at density 1.
         unit: f64,
     },
 }
@@ -71,10 +55,12 @@ enum Source<'a> {
 pub(super) struct RadiusField<'a> {
     mesh: &'a Mesh,
     source: Source<'a>,
-    /// RadiusBounds for the whole surface.
+    /// What all radii are multiplied by: 1, but on levels.
+    scale: f64,
+    /// Relative bounds for the whole surface.
     all: RadiusBounds,
-    /// A sample of twice this radius excludes all others, so larger radii are taken as this. A density that asks for it
-    /// asks for nothing.
+    /// A relative radius. At the finest scale a sample of twice this radius excludes all others, so larger radii are
+    /// taken as this. A density that asks for it asks for nothing.
     limit: f64,
     /// How far rounding moves a sample at most.
     rounding: f64,
@@ -85,13 +71,19 @@ pub(super) struct RadiusField<'a> {
 impl<'a> RadiusField<'a> {
     /// Checks the radii of the caller.
     ///
-    /// `density` is the density where the radius follows from one, with the radius at density 1.
-    pub fn new(mesh: &'a Mesh, radius: Radius<'a>, density: Option<(&'a DensityField<'a>, f64)>) -> Result<Self> {
+    /// `density` is the density where the radius follows from one, with the relative radius at density 1. The scale is
+    /// the finest.
+    pub fn new(
+        mesh: &'a Mesh,
+        radius: Radius<'a>,
+        density: Option<(&'a DensityField<'a>, f64)>,
+        scale: f64,
+    ) -> Result<Self> {
         let (source, all) = match (radius, density) {
-            (Radius::PerVertex(radii), _) => (Source::Vertices(radii), bounds_of_vertices(mesh, radii)?),
+            (Radius::PerVertex(radii), _) => (Source::Vertices(radii), of_vertices(mesh, radii)?),
             (Radius::Function { at, smallest, largest, slope }, _) => {
                 let source = Source::Function { at, smallest, largest, slope };
-                (source, bounds_of_function(smallest, largest, slope)?)
+                (source, of_function(smallest, largest, slope)?)
             }
             (Radius::Density { .. }, Some((density, unit))) => {
                 let least = unit / density.largest.sqrt();
@@ -100,14 +92,14 @@ impl<'a> RadiusField<'a> {
             (Radius::Density { .. }, None) => unreachable!("a density is checked first"),
         };
         let (low, high) = mesh.bounds();
-        let limit = 4.0 * (exact(high) - exact(low)).length();
+        let limit = 4.0 * (exact(high) - exact(low)).length() / scale;
         let argument = match source {
             Source::Vertices(_) => "vertex_radii",
             Source::Function { .. } => "smallest",
             Source::Density { .. } => "density",
         };
         let spacing = mesh.float_spacing();
-        check_resolution(argument, all.least, spacing, "the largest coordinate of the mesh")?;
+        check_resolution(argument, scale * all.least, spacing, "the largest coordinate of the mesh")?;
         let rounding = TOLERANCE * spacing;
         if let Source::Function { smallest, slope, .. } = source
             && 4.0 * slope * rounding > smallest
@@ -118,7 +110,7 @@ impl<'a> RadiusField<'a> {
             return Err(Error::invalid("slope", reason));
         }
         let all = RadiusBounds { least: all.least.min(limit), largest: all.largest.min(limit) };
-        Ok(Self { mesh, source, all, limit, rounding, verdict: Verdict::default() })
+        Ok(Self { mesh, source, scale, all, limit, rounding, verdict: Verdict::default() })
     }
 
     /// The argument that asks for too many samples where there are too many.
@@ -130,12 +122,27 @@ impl<'a> RadiusField<'a> {
         }
     }
 
-    /// RadiusBounds for the whole surface.
-    pub fn all(&self) -> RadiusBounds {
-        self.all
+    /// The same radii at another scale.
+    pub fn at_scale(&self, scale: f64) -> Self {
+        Self { scale, ..self.apart() }
     }
 
-    /// The radius at a sample.
+    /// What relative radii are multiplied by.
+    pub fn scale(&self) -> f64 {
+        self.scale
+    }
+
+    /// The least relative radius.
+    pub fn least(&self) -> f64 {
+        self.all.least
+    }
+
+    /// RadiusBounds for the whole surface.
+    pub fn all(&self) -> RadiusBounds {
+        RadiusBounds { least: self.scale * self.all.least, largest: self.scale * self.all.largest }
+    }
+
+    /// The relative radius at a sample.
     pub fn at(&self, sample: &Sample) -> f64 {
         let uv = sample.barycentrics.map(f64::from);
         match self.source {
@@ -148,16 +155,18 @@ impl<'a> RadiusField<'a> {
     /// [`RadiusField::at`] for a sample of a fragment with these bounds, which are tested with it.
     pub fn at_within(&self, sample: &Sample, bounds: RadiusBounds) -> f64 {
         let radius = self.at(sample);
-        self.test_slope(exact(sample.position), radius, bounds);
+        self.test_slope(exact(sample.position), self.scale * radius, bounds);
         match self.source {
-            Source::Density { .. } if !self.is_nothing(radius) => radius.clamp(bounds.least, bounds.largest),
+            Source::Density { .. } if !self.is_nothing(self.scale * radius) => {
+                radius.clamp(bounds.least / self.scale, bounds.largest / self.scale)
+            }
             _ => radius,
         }
     }
 
     /// Whether a radius is that of a density which asks for no samples.
     pub fn is_nothing(&self, radius: f64) -> bool {
-        matches!(self.source, Source::Density { .. }) && radius >= self.limit
+        matches!(self.source, Source::Density { .. }) && radius >= self.scale * self.limit
     }
 
     /// Bounds for a piece of the surface that the radius does not change much on: of density, no farther apart than
@@ -173,13 +182,14 @@ impl<'a> RadiusField<'a> {
     pub fn bounds(&self, fragment: &Fragment, shape: &Shape, within: RadiusBounds) -> RadiusBounds {
         match self.source {
             Source::Vertices(radii) => {
-                let [a, b, c] = fragment.corners.map(|corner| self.interpolate(radii, fragment.triangle, corner));
+                let [a, b, c] =
+                    fragment.corners.map(|corner| self.scale * self.interpolate(radii, fragment.triangle, corner));
                 RadiusBounds { least: a.min(b).min(c), largest: a.max(b).max(c) }
             }
             Source::Function { at, slope, .. } => {
-                let radius = self.call(at, shape.centre.to_array());
+                let radius = self.scale * self.call(at, shape.centre.to_array());
                 self.test_slope(shape.centre, radius, within);
-                let change = slope * shape.extent;
+                let change = self.scale * slope * shape.extent;
                 let [least, largest] =
                     [radius - change, radius + change].map(|x| x.clamp(within.least, within.largest));
                 RadiusBounds { least, largest }
@@ -188,12 +198,13 @@ impl<'a> RadiusField<'a> {
                 let mut centre = 0.0;
                 if density.slope().is_some() {
                     centre = self.density(fragment.triangle, fragment.at([1.0 / 3.0; 2]), shape.centre);
-                    self.test_slope(shape.centre, self.radius_of(centre), within);
+                    self.test_slope(shape.centre, self.scale * self.radius_of(centre), within);
                 }
-                let [largest, least] = density.bounds(fragment, shape, centre).map(|density| self.radius_of(density));
+                let [largest, least] =
+                    density.bounds(fragment, shape, centre).map(|density| self.scale * self.radius_of(density));
                 // What asks for nothing is told from what asks for little. On a settled piece even the least radius of
                 // a part may be above what is taken for the largest.
-                if least >= self.limit {
+                if self.is_nothing(least) {
                     return RadiusBounds { least, largest: least };
                 }
                 let [least, largest] = [least, largest].map(|radius| radius.min(within.largest).max(within.least));
@@ -216,7 +227,7 @@ impl<'a> RadiusField<'a> {
     pub fn radii_from(&self, fragment: &Fragment, bounds: RadiusBounds) -> [f64; 3] {
         match self.source {
             Source::Vertices(radii) => {
-                fragment.corners.map(|corner| self.interpolate(radii, fragment.triangle, corner))
+                fragment.corners.map(|corner| self.scale * self.interpolate(radii, fragment.triangle, corner))
             }
             Source::Function { .. } | Source::Density { .. } => [bounds.least; 3],
         }
@@ -227,7 +238,7 @@ impl<'a> RadiusField<'a> {
         if self.calls_functions() {
             return bounds;
         }
-        let radius = self.at_within(sample, bounds);
+        let radius = self.scale * self.at_within(sample, bounds);
         RadiusBounds { least: radius, largest: radius }
     }
 
@@ -235,8 +246,8 @@ impl<'a> RadiusField<'a> {
     pub fn above(&self, bounds: RadiusBounds) -> f64 {
         let slack = match self.source {
             // The barycentrics, with the difference of two corners.
-            Source::Vertices(_) => scalbn(1.0, -22) * self.all.largest,
-            Source::Function { slope, .. } => slope * self.rounding,
+            Source::Vertices(_) => scalbn(1.0, -22) * self.all().largest,
+            Source::Function { slope, .. } => self.scale * slope * self.rounding,
             Source::Density { .. } => 0.0,
         };
         bounds.largest * (1.0 + ROUNDING) + slack
@@ -245,11 +256,12 @@ impl<'a> RadiusField<'a> {
     /// The radius at the centre of a fragment.
     pub fn centre(&self, fragment: &Fragment, shape: &Shape) -> f64 {
         let uv = fragment.at([1.0 / 3.0; 2]);
-        match self.source {
-            Source::Vertices(radii) => self.interpolate(radii, fragment.triangle, uv),
-            Source::Function { at, .. } => self.call(at, shape.centre.to_array()),
-            Source::Density { .. } => self.radius_of(self.density(fragment.triangle, uv, shape.centre)),
-        }
+        self.scale
+            * match self.source {
+                Source::Vertices(radii) => self.interpolate(radii, fragment.triangle, uv),
+                Source::Function { at, .. } => self.call(at, shape.centre.to_array()),
+                Source::Density { .. } => self.radius_of(self.density(fragment.triangle, uv, shape.centre)),
+            }
     }
 
     /// The same radii with a verdict of their own, for one task: what it finds out depends on no other.
@@ -297,7 +309,7 @@ impl<'a> RadiusField<'a> {
         }
     }
 
-    /// What the caller's function gives, or the least it may give if that is nothing good.
+    /// The relative radius that the caller's function gives, or the least it may give if that is nothing good.
     fn call(&self, at: &RadiusFunction, position: [f64; 3]) -> f64 {
         let Source::Function { smallest, largest, .. } = self.source else { return self.all.least };
         let radius = at(position);
@@ -320,7 +332,7 @@ impl<'a> RadiusField<'a> {
         })
     }
 
-    /// The radius of a density.
+    /// The relative radius of a density.
     fn radius_of(&self, density: f64) -> f64 {
         match self.source {
             Source::Density { unit, .. } if density > 0.0 => (unit / density.sqrt()).min(self.limit),
@@ -333,11 +345,12 @@ impl<'a> RadiusField<'a> {
         let (slope, lowest, highest) = match self.source {
             Source::Vertices(_) => return,
             Source::Function { slope, .. } => {
-                let slack = ROUNDING * radius + slope * self.rounding;
+                let slack = ROUNDING * radius + self.scale * slope * self.rounding;
                 (slope, least - slack, largest + slack)
             }
             Source::Density { density, unit } => {
                 let Some(slope) = density.slope() else { return };
+                let unit = self.scale * unit;
                 let highest = square(unit / least) * (1.0 + ROUNDING) + slope * self.rounding;
                 (slope, unit / highest.sqrt(), f64::INFINITY)
             }
@@ -350,31 +363,4 @@ impl<'a> RadiusField<'a> {
             self.verdict.add(place, Error::invalid(argument, reason));
         }
     }
-}
-
-fn bounds_of_vertices(mesh: &Mesh, radii: &[f32]) -> Result<RadiusBounds> {
-    let count = mesh.positions().len();
-    if radii.len() != count {
-        return Err(Error::invalid("vertex_count", format!("{} radii for {count} vertices", radii.len())));
-    }
-    if let Some(vertex) = radii.iter().position(|radius| !(radius.is_finite() && *radius > 0.0)) {
-        let reason = format!("vertex {vertex} has {:?}, not a positive finite number", radii[vertex]);
-        return Err(Error::invalid("vertex_radii", reason));
-    }
-    let used = mesh.triangles().iter().flatten().map(|&vertex| f64::from(radii[vertex as usize]));
-    let start = RadiusBounds { least: f64::INFINITY, largest: 0.0 };
-    Ok(used.fold(start, |all, x| RadiusBounds { least: all.least.min(x), largest: all.largest.max(x) }))
-}
-
-fn bounds_of_function(smallest: f64, largest: f64, slope: f64) -> Result<RadiusBounds> {
-    if !(smallest > 0.0 && smallest.is_finite()) {
-        return Err(Error::invalid("smallest", format!("{smallest:?} is not a positive finite number")));
-    }
-    if !(largest >= smallest && largest.is_finite()) {
-        return Err(Error::invalid("largest", format!("{largest:?} is not a finite number from {smallest:?} on")));
-    }
-    if !(slope >= 0.0 && slope.is_finite()) {
-        return Err(Error::invalid("slope", format!("{slope:?} is not a finite number from 0 on")));
-    }
-    Ok(RadiusBounds { least: smallest, largest })
 }

@@ -27,6 +27,8 @@ pub(super) struct Grid {
     space: Space,
     /// Half of the largest radius of darts and of what they fall on, in the unit of the space.
     half: f64,
+    /// How far samples are listed, as a multiple of what conflicts ask for.
+    stretch: f64,
     /// The box that these are in.
     low: Place,
     high: Place,
@@ -59,8 +61,9 @@ pub(super) struct Shade {
 }
 
 impl Grid {
-    /// A grid for the surface in a box, where no radius is above `largest`, and most are about `usual`.
-    pub fn new(mesh: &Mesh, facing: Facing, [low, high]: [DVec3; 2], usual: f64, largest: f64) -> Self {
+    /// A grid for the surface in a box, where no radius is above `largest`, and most are about `usual`. Ratios of samples
+    /// are known up to `stretch`, at least 1.
+    pub fn new(mesh: &Mesh, facing: Facing, [low, high]: [DVec3; 2], [usual, largest]: [f64; 2], stretch: f64) -> Self {
         let space = Space::new(mesh, usual.max(0.5 * largest));
         let scale = f64::from(space.scale());
         // Positions are rounded, but by a small part of a radius.
@@ -69,7 +72,8 @@ impl Grid {
         let high = (high * scale + margin).as_vec3().to_array();
         let (pages, numbers, earlier) = (vec![Page::EMPTY], vec![[0; LANES]], vec![0]);
         let (level, cells, dots) = (Level::widest(), Table::new(), Vec::new());
-        Self { facing, space, half: 0.5 * largest * scale, low, high, level, cells, pages, numbers, earlier, dots }
+        let half = 0.5 * largest * scale;
+        Self { facing, space, half, stretch, low, high, level, cells, pages, numbers, earlier, dots }
     }
 
     /// A ball in the unit of the space.
@@ -89,7 +93,7 @@ impl Grid {
     /// Adds a sample, unless it matters to no place in the box.
     pub fn add(&mut self, dot: Dot) {
         let (ball, number) = (self.ball(dot.position, dot.radius), self.dots.len() as u32);
-        let reach = ((f64::from(ball[3]) + self.half) * (1.0 + SLACK)) as f32;
+        let reach = (self.stretch * (f64::from(ball[3]) + self.half) * (1.0 + SLACK)) as f32;
         let inside = |by: f32| [0, 1, 2].map(|axis| (ball[axis] + by).clamp(self.low[axis], self.high[axis]));
         let [x, y, z] = inside(0.0);
         let squared = square(x - ball[0]) + square(y - ball[1]) + square(z - ball[2]);
@@ -127,6 +131,23 @@ impl Grid {
             }
             false
         })
+    }
+
+    /// The least ratio of a dot to the samples that it sees, or the stretch if that is less.
+    pub fn ratio(&self, dot: &Dot) -> f64 {
+        let mut least = self.stretch;
+        let Cell { mut page, count } = self.cells.get(key(self.cell_of(self.ball(dot.position, dot.radius))));
+        for number in (0..count).rev() {
+            let lane = number as usize % LANES;
+            let other = &self.dots[self.numbers[page as usize][lane] as usize];
+            if self.facing.sees(other.normal, dot.normal) {
+                least = least.min(dot.ratio(other));
+            }
+            if lane == 0 {
+                page = self.earlier[page as usize];
+            }
+        }
+        least
     }
 
     /// Which of some sixteenths of a fragment no single sample certainly covers.
@@ -226,8 +247,10 @@ mod tests {
 
     /// Against exact distances, in space and with normals, near the origin and far from it.
     #[test]
-    fn rejects_what_a_loop_over_all_dots_rejects() {
-        for (cosine, ratio, at) in [(-1.0, 1.0, 0.0), (-1.0, 1e3, 0.0), (0.5, 30.0, 0.0), (-1.0, 8.0, 1e3)] {
+    fn rejects_and_ratios_are_those_of_a_loop_over_all_dots() {
+        for (cosine, ratio, at, stretch) in
+            [(-1.0, 1.0, 0.0, 1.0), (-1.0, 1e3, 0.0, 1.1), (0.5, 30.0, 0.0, 2.0), (-1.0, 8.0, 1e3, 1.3)]
+        {
             let mut rng = Rng::at(5, Draw::Probe, &[]);
             let mesh = Mesh::new(vec![[at; 3], [at + 1.0; 3], [at, at, at + 1.0]], vec![[0, 1, 2]]).unwrap();
             let largest = 0.1;
@@ -237,7 +260,8 @@ mod tests {
                 normal: DVec3::new(rng.unit() - 0.5, rng.unit() - 0.5, 0.3).normalize().as_vec3().to_array(),
             };
             let bounds = [DVec3::splat(f64::from(at) + 0.2), DVec3::splat(f64::from(at) + 0.8)];
-            let mut grid = Grid::new(&mesh, Facing::new(cosine).unwrap(), bounds, 0.6 * largest, largest);
+            let facing = Facing::new(cosine).unwrap();
+            let mut grid = Grid::new(&mesh, facing, bounds, [0.6 * largest, largest], stretch);
             let (mut dots, mut rejected) = (Vec::<Dot>::new(), 0);
             for step in 0..3000 {
                 // Samples stand outside, too, and can be large; darts are in the box and no larger than was said.
@@ -253,6 +277,12 @@ mod tests {
                 });
                 assert_eq!(grid.rejects(&probe), expected);
                 rejected += u32::from(expected);
+                let ratio = |other: &Dot| {
+                    let apart = (exact(other.position) - exact(probe.position)).length();
+                    2.0 * apart / (other.radius + probe.radius)
+                };
+                let least = dots.iter().filter(|other| sees(other)).map(ratio).fold(stretch, f64::min);
+                assert!((grid.ratio(&probe) / least - 1.0).abs() < 1e-12);
             }
             assert!((100..2950).contains(&rejected), "{rejected}");
         }
@@ -270,9 +300,9 @@ mod tests {
             let corners = vec![corner(), corner(), corner(), [4.0; 3], [12.0; 3], [4.0, 12.0, 4.0]];
             let mesh = Mesh::new(corners, vec![[0, 1, 2], [3, 4, 5]]).unwrap();
             let radii: [f32; 6] = std::array::from_fn(|_| (1.0 + 0.5 * rng.unit()) as f32);
-            let field = RadiusField::new(&mesh, Radius::PerVertex(&radii), None).unwrap();
+            let field = RadiusField::new(&mesh, Radius::PerVertex(&radii), None, 1.0).unwrap();
             let bounds = [DVec3::splat(8.0), DVec3::splat(9.0)];
-            let mut grid = Grid::new(&mesh, Facing::ANY, bounds, 1.0, 1.5);
+            let mut grid = Grid::new(&mesh, Facing::ANY, bounds, [1.0, 1.5], 1.0);
             let mut dots = Vec::new();
             for _ in 0..20 {
                 let radius = ratio.powf(rng.unit());

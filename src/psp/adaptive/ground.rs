@@ -4,9 +4,10 @@ use std::cell::Cell;
 
 use glam::DVec3;
 
-use crate::mesh::{Mesh, round_barycentrics};
+use crate::mesh::{Mesh, round_barycentrics, rounded_down};
+use crate::psp::adaptive::bounds::RadiusBounds;
 use crate::psp::adaptive::dot::Dot;
-use crate::psp::adaptive::field::{RadiusBounds, RadiusField};
+use crate::psp::adaptive::field::RadiusField;
 use crate::psp::adaptive::grid::{Grid, Shade};
 use crate::psp::adaptive::limits::Quota;
 use crate::psp::adaptive::page::Group;
@@ -28,24 +29,39 @@ pub(super) struct GradedGround<'a> {
     grid: Grid,
     /// At how many fragments it may still look.
     looks: Cell<u64>,
-    /// The samples that the fill has added, with their radii.
+    /// The largest rank of the samples that the fill adds, if these get ranks (`psp/levels.rs`).
+    largest_rank: Option<f64>,
+    /// The samples that the fill has added, with their relative radii.
     pub accepted: Vec<(Sample, f64)>,
     /// How many darts it took.
     pub darts: u64,
 }
 
 impl<'a> GradedGround<'a> {
-    /// The surface in so many pieces.
+    /// The surface, at so many pieces of which it may look a few thousand times each.
     pub fn new(
         mesh: &'a Mesh,
         field: &'a RadiusField<'a>,
         quota: &'a Quota,
         obstacles: &'a Obstacles,
         grid: Grid,
-        pieces: usize,
+        pieces: u64,
     ) -> Self {
-        let looks = Cell::new(LOOKS * (pieces + obstacles.listed()) as u64);
-        Self { mesh, field, quota, obstacles, grid, looks, accepted: Vec::new(), darts: 0 }
+        let looks = Cell::new(LOOKS * (pieces + obstacles.listed() as u64));
+        Self { mesh, field, quota, obstacles, grid, looks, largest_rank: None, accepted: Vec::new(), darts: 0 }
+    }
+
+    /// The ground, with ranks for the samples that the fill adds: up to the largest.
+    pub fn ranked(self, largest: Option<f64>) -> Self {
+        Self { largest_rank: largest, ..self }
+    }
+
+    /// The rank of a sample that is added now. The distances that it stands for are kept in whatever order a caller
+    /// evaluates them.
+    fn rank(&self, dot: &Dot) -> f32 {
+        let Some(largest) = self.largest_rank else { return f32::INFINITY };
+        let scale = self.field.scale();
+        rounded_down((scale * self.grid.ratio(dot) * (1.0 - 1e-14)).min(largest).max(scale))
     }
 
     /// The share of so many points that no given sample covers.
@@ -159,12 +175,14 @@ impl Ground for GradedGround<'_> {
         if self.grid.rejects(&dot) || self.obstacles.reject(dot.position) {
             return;
         }
-        dot.radius = self.field.at_within(&sample, bounds);
+        let relative = self.field.at_within(&sample, bounds);
+        dot.radius = self.field.scale() * relative;
         if self.field.is_nothing(dot.radius) || dot.radius > bounds.least && self.grid.rejects(&dot) {
             return;
         }
+        let rank = self.rank(&dot);
         self.grid.add(dot);
-        self.accepted.push((sample, dot.radius));
+        self.accepted.push((Sample { rank, ..sample }, relative));
         self.quota.take(1);
         self.looks.set(self.looks.get() + LOOKS);
     }

@@ -12,18 +12,22 @@
 //!   of the barycentrics.
 //! * *Around given samples* ([`Options::given`]), as [`psp`](super) is.
 //! * *Dense*: where the radius changes little from sample to sample there are 0.6966 / radius² samples on an area of 1.
+//! * *In progressive order* ([`Options::order`]): every prefix is such a set as well, of larger radii.
 //! * *Deterministic*: the samples and their order depend on mesh, radii and seed only.
 //!
 //! The thesis projects patterns of the smallest radius and thins them, which wastes most rays where radii differ. Here
 //! the set is only filled (see `psp/fill/mod.rs`), octave by octave, without Embree.
 
+mod bounds;
 mod density;
 mod dot;
+mod estimate;
 mod field;
 mod fill;
 mod grid;
 mod ground;
 mod image;
+mod levels;
 mod limits;
 mod options;
 mod page;

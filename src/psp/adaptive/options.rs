@@ -1,7 +1,9 @@
 //! What to sample.
 
 use crate::given::Given;
+use crate::order::Order;
 use crate::psp::adaptive::radius::Radius;
+use crate::psp::options::DEFAULT_QUOTIENT;
 use crate::setters::setters;
 
 /// What to sample.
@@ -20,13 +22,19 @@ pub struct Options<'a> {
     /// Samples that stand already, each with its clearance: there is no radius that could stand for it. They act on all
     /// sides of a thin wall.
     pub given: Given<'a, 3>,
+    /// The order of the samples; by default any.
+    pub order: Order,
+    /// In progressive order, the largest ratio of the covering radius of the first samples to their rank: see
+    /// [`psp::Options::quotient`](crate::psp::Options::quotient).
+    pub quotient: f64,
 }
 
 impl<'a> Options<'a> {
-    /// No sample ignores others.
+    /// No sample ignores others; any order.
     pub fn new(radius: Radius<'a>) -> Self {
-        Self { radius, cosine: -1.0, seed: 0, given: Given::default() }
+        let given = Given::default();
+        Self { radius, cosine: -1.0, seed: 0, given, order: Order::Any, quotient: DEFAULT_QUOTIENT }
     }
 }
 
-setters!(Options<'a> { cosine: f64, seed: u64, given: Given<'a, 3> });
+setters!(Options<'a> { cosine: f64, seed: u64, given: Given<'a, 3>, order: Order, quotient: f64 });

@@ -3,7 +3,8 @@
 use crate::error::Result;
 use crate::job::{Job, chunks_of};
 use crate::mesh::Mesh;
-use crate::psp::adaptive::field::{RadiusBounds, RadiusField};
+use crate::psp::adaptive::bounds::RadiusBounds;
+use crate::psp::adaptive::field::RadiusField;
 use crate::psp::adaptive::limits::Quota;
 use crate::psp::adaptive::set::{AdaptiveSet, OctaveCube};
 use crate::psp::buckets::Buckets;

@@ -86,6 +86,7 @@ pub enum Scale {
     /// the square root of d.
     Radius(f64),
     /// About how many samples the whole set has; above 0. The radius follows from the integral of the density, for an even
-    /// surface: where parts of it are nearer to each other than the radius, there are fewer.
+    /// surface: where parts of it are nearer to each other than the radius, there are fewer. In progressive order there
+    /// are exactly so many, and it is a whole number.
     Count(f64),
 }

@@ -5,6 +5,8 @@
 //! another cube of its colour, as in `psp/cubes.rs`; what octaves of smaller radii have accepted is there before, and
 //! what those of larger radii will accept has to fit in. In this order a sample of a large radius takes no place from
 //! many of small ones where the radius jumps.
+//!
+//! Samples that were there before the set grows are listed by their octaves and cubes as well, and are seen everywhere.
 
 use std::collections::{BTreeMap, HashMap};
 use std::ops::Range;
@@ -62,17 +64,39 @@ pub(super) struct AdaptiveSet {
     /// Where the cubes of each octave begin, in cubes: seams of many sets average out.
     shift: DVec3,
     seed: u64,
-    /// In the order in which they were accepted, with their radii.
+    /// What relative radii are multiplied by.
+    scale: f64,
+    /// In the order in which they were accepted, with their relative radii.
     pub samples: Vec<(Sample, f64)>,
     /// Which samples were accepted in each cube of each octave.
-    octaves: BTreeMap<i32, HashMap<Cube, Range<u32>>>,
+    octaves: BTreeMap<i32, HashMap<Cube, Vec<Range<u32>>>>,
 }
 
 impl AdaptiveSet {
-    pub fn new(mesh: &Mesh, seed: u64) -> Self {
+    /// A set with some samples that do not conflict at this scale, which are put in the order of their cubes.
+    pub fn new(mesh: &Mesh, seed: u64, scale: f64, samples: &[(Sample, f64)]) -> Self {
         let mut rng = Rng::at(seed, Draw::Adaptive, &[]);
         let shift = DVec3::from_array(std::array::from_fn(|_| rng.unit()));
-        Self { origin: exact(mesh.bounds().0), shift, seed, samples: Vec::new(), octaves: BTreeMap::new() }
+        let (none, octaves) = (Vec::with_capacity(samples.len()), BTreeMap::new());
+        let mut set = Self { origin: exact(mesh.bounds().0), shift, seed, scale, samples: none, octaves };
+        let mut places: Vec<(OctaveCube, usize)> = (0..samples.len()).map(|i| (set.place(&samples[i]), i)).collect();
+        places.sort_unstable();
+        for run in places.chunk_by(|a, b| a.0 == b.0) {
+            let start = set.samples.len() as u32;
+            set.samples.extend(run.iter().map(|&(_, i)| samples[i]));
+            set.list(run[0].0, start..set.samples.len() as u32);
+        }
+        set
+    }
+
+    /// Where a sample is listed that was there before.
+    fn place(&self, (sample, radius): &(Sample, f64)) -> OctaveCube {
+        let octave = octave(self.scale * radius);
+        OctaveCube { octave, cube: self.cube_of(octave, exact(sample.position)) }
+    }
+
+    fn list(&mut self, cube: OctaveCube, run: Range<u32>) {
+        self.octaves.entry(cube.octave).or_default().entry(cube.cube).or_default().push(run);
     }
 
     /// Where a piece of the surface belongs: to the octave of its radius or, where that is above a limit that is random
@@ -94,7 +118,8 @@ impl AdaptiveSet {
         Cube(place.floor().as_ivec3().to_array())
     }
 
-    /// Adds what `task` makes of each cube's pieces, given the dots around it, and returns the sum of its counts.
+    /// Adds what `task` makes of each cube's pieces, given the dots around it, and returns the sum of its counts. Dots
+    /// whose ratio to one in the cube is below `stretch`, from 1 to 2, are there.
     ///
     /// The task returns samples that conflict neither with each other nor with any of these dots, whose radii are
     /// at most a quarter above the end of the octave, no farther than [`OVERHANG`] from the cube.
@@ -104,6 +129,7 @@ impl AdaptiveSet {
         mesh: &Mesh,
         facing: Facing,
         buckets: &Buckets<OctaveCube, Piece>,
+        stretch: f64,
         task: impl Fn(OctaveCube, Vec<Dot>, &[&Piece]) -> Result<(Vec<(Sample, f64)>, u64)> + Sync,
     ) -> Result<u64> {
         let key = |&bucket: &usize| (buckets.key(bucket).octave, buckets.key(bucket).cube.colour());
@@ -116,7 +142,7 @@ impl AdaptiveSet {
             let grown = part.map(members.len(), |member| {
                 let cube = buckets.key(members[member]);
                 let pieces: Vec<&Piece> = buckets.items(members[member]).collect();
-                task(cube, self.dots_around(mesh, facing, cube), &pieces)
+                task(cube, self.dots_around(mesh, facing, cube, stretch), &pieces)
             })?;
             done += members.len();
             for (&bucket, grown) in members.iter().zip(grown) {
@@ -134,25 +160,31 @@ impl AdaptiveSet {
             return Err(Error::too_large("radius", format!("it asks for more than {} samples", u32::MAX)));
         };
         self.samples.extend(samples);
-        self.octaves.entry(cube.octave).or_default().insert(cube.cube, start..end);
+        self.list(cube, start..end);
         Ok(())
     }
 
     /// The samples that can matter in a cube.
-    fn dots_around(&self, mesh: &Mesh, facing: Facing, OctaveCube { octave, cube }: OctaveCube) -> Vec<Dot> {
+    fn dots_around(
+        &self,
+        mesh: &Mesh,
+        facing: Facing,
+        OctaveCube { octave, cube }: OctaveCube,
+        stretch: f64,
+    ) -> Vec<Dot> {
         let mut dots = Vec::new();
         let end = end_of_octave(octave);
         let low = self.origin + SIDE * end * (DVec3::from_array(cube.0.map(f64::from)) - self.shift);
         // Where points of the cube's pieces are, and half of their radius around.
-        let margin = DVec3::splat((OVERHANG + HALF) * end);
+        let margin = DVec3::splat((OVERHANG + stretch * HALF) * end);
         let (low, high) = (low - margin, low + SIDE * end + margin);
-        for (&octave, cubes) in self.octaves.range(..=octave) {
-            let reach = DVec3::splat((OVERHANG + HALF) * end_of_octave(octave));
+        for (&octave, cubes) in &self.octaves {
+            let reach = DVec3::splat((OVERHANG + stretch * HALF) * end_of_octave(octave));
             let bounds = [low - reach, high + reach].map(|corner| self.cube_of(octave, corner).0);
             for run in runs_in(cubes, bounds) {
                 for &(sample, radius) in &self.samples[run.start as usize..run.end as usize] {
-                    let point = exact(sample.position);
-                    if (point - point.clamp(low, high)).length() <= 0.51 * radius {
+                    let (point, radius) = (exact(sample.position), self.scale * radius);
+                    if (point - point.clamp(low, high)).length() <= stretch * 0.51 * radius {
                         let normal = facing.normal(mesh, sample.triangle);
                         dots.push(Dot { position: sample.position, radius, normal });
                     }
@@ -165,16 +197,16 @@ impl AdaptiveSet {
 
 /// The runs of all cubes from the first to the last: looked up, or, where these are more than there are cubes at all,
 /// picked from all.
-fn runs_in(cubes: &HashMap<Cube, Range<u32>>, [first, last]: [[i32; 3]; 2]) -> Vec<Range<u32>> {
+fn runs_in(cubes: &HashMap<Cube, Vec<Range<u32>>>, [first, last]: [[i32; 3]; 2]) -> Vec<Range<u32>> {
     let count: f64 = (0..3).map(|axis| f64::from(last[axis]) - f64::from(first[axis]) + 1.0).product();
     let mut runs: Vec<Range<u32>> = if count < cubes.len() as f64 {
         let all = (first[2]..=last[2]).flat_map(move |z| {
             (first[1]..=last[1]).flat_map(move |y| (first[0]..=last[0]).map(move |x| Cube([x, y, z])))
         });
-        all.filter_map(|cube| cubes.get(&cube).cloned()).collect()
+        all.filter_map(|cube| cubes.get(&cube)).flatten().cloned().collect()
     } else {
         let is_in = |cube: &Cube| (0..3).all(|axis| (first[axis]..=last[axis]).contains(&cube.0[axis]));
-        cubes.iter().filter(|(cube, _)| is_in(cube)).map(|(_, run)| run.clone()).collect()
+        cubes.iter().filter(|(cube, _)| is_in(cube)).flat_map(|(_, runs)| runs).cloned().collect()
     };
     runs.sort_by_key(|run| run.start);
     runs

@@ -119,9 +119,14 @@ pub(super) struct Manner {
 }
 
 impl Manner {
+    /// How an empty surface is filled.
+    pub fn from_nothing(seed: u64) -> Self {
+        Self { seed, rains: true, measures: true, patch: PATCH as f32, largest_rank: None }
+    }
+
     /// How a set is filled around the samples that it has.
     fn of(samples: &SampleSet, seed: u64) -> Self {
-        Self { seed, rains: samples.len() == 0, measures: true, patch: PATCH as f32, largest_rank: None }
+        Self { rains: samples.len() == 0, ..Self::from_nothing(seed) }
     }
 }
 

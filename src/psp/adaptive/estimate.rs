@@ -1,0 +1,60 @@
+//! How many samples radii ask for, before any work is done.
+
+use crate::error::{Error, Result};
+use crate::job::{Job, chunks_of};
+use crate::memory;
+use crate::mesh::Mesh;
+use crate::psp::adaptive::field::RadiusField;
+use crate::psp::estimate::{expected_samples_of, longest_edge};
+use crate::psp::fill::region::parts_up_to;
+use crate::psp::fragment::{Fragment, Shape};
+use crate::psp::pieces::slice;
+
+/// Triangles per task of the estimate.
+const CHUNK: usize = 1 << 13;
+/// On how many pieces of the surface the number of samples is estimated, about and at most.
+const ESTIMATES: f64 = 1e5;
+/// Memory per sample at the peak.
+const BYTES_PER_SAMPLE: f64 = 800.0;
+
+/// Estimates the samples and refuses radii that ask for more than can be indexed or held. They are counted on pieces of the
+/// surface, each as if it had the radius of its centre: those of the area, and those along what is longer than the radius.
+pub(super) fn require(job: &Job, mesh: &Mesh, field: &RadiusField) -> Result<f64> {
+    // Needles have next to no area: their lengths bound the pieces as well.
+    let lengths: f64 = mesh.sampled_triangles().map(|triangle| longest_edge(mesh, triangle)).sum();
+    // Nor is anything learned from pieces that are shorter than every radius.
+    let longest = (4.0 * mesh.area() / ESTIMATES).sqrt().max(lengths / ESTIMATES).max(field.all().least);
+    let chunks = chunks_of(mesh.triangles().len(), CHUNK);
+    let estimates = job.map(chunks.len(), |chunk| {
+        let (mut slices, mut estimate) = (Vec::new(), 0.0);
+        for triangle in chunks.range(chunk).map(|triangle| triangle as u32) {
+            let area = mesh.triangle_area(triangle);
+            let mut count = |piece: &Fragment, shape: &Shape, area: f64| {
+                estimate += expected_samples_of(field.centre(piece, shape), area, shape.longest);
+            };
+            let whole = Fragment::whole(triangle);
+            let shape = whole.shape(mesh);
+            if area > 0.0 && shape.longest <= longest {
+                count(&whole, &shape, area);
+            } else if area > 0.0 {
+                slice(mesh, triangle, longest, &mut slices);
+                for slice in slices.drain(..) {
+                    parts_up_to(mesh, &slice, longest)
+                        .for_each(|part| count(&part, &part.shape(mesh), part.area(mesh)));
+                }
+            }
+        }
+        estimate
+    })?;
+    let estimate: f64 = estimates.iter().sum();
+    field.check()?;
+    let (argument, all) = (field.argument(), field.all());
+    if estimate > f64::from(u32::MAX) {
+        let [least, largest] = [all.least, all.largest];
+        let reason =
+            format!("{least:?} to {largest:?} asks for about {estimate:.3e} samples; the limit is {}", u32::MAX);
+        return Err(Error::too_large(argument, reason));
+    }
+    memory::require(estimate * BYTES_PER_SAMPLE, argument, &format!("about {estimate:.3e} samples"))?;
+    Ok(estimate)
+}
