@@ -70,7 +70,7 @@ fn plane_sets_in_progressive_order_are_nested() {
     let workshop = Workshop::new();
     let made = |name: &str, arguments: &[&str]| {
         workshop.succeed(&[&["plane", "--order", "progressive", "-o", name], arguments].concat());
-        points(&workshop, name)
+        floats(&fs::read(workshop.path(name)).unwrap(), 3).1
     };
     let (few, many) = (made("a.ply", &["--count", "200"]), made("b.ply", &["--count", "2000"]));
     assert!(few.len() == 200 && few == many[..200]);
@@ -80,6 +80,73 @@ fn plane_sets_in_progressive_order_are_nested() {
     let said =
         workshop.refuse(&["plane", "--radius", "0.1", "--order", "progressive", "--quotient", "3", "-o", "f.ply"], 1);
     assert!(said.starts_with("error: quotient: 3.0 is not in 1.02 to 1.5"), "{said}");
+}
+
+/// x, y and rank of each sample of a file in progressive order.
+fn ranked(workshop: &Workshop, name: &str) -> Vec<[f32; 3]> {
+    let bytes = fs::read(workshop.path(name)).unwrap();
+    let row = |row: &[f32]| [row[0], row[1], row[2]];
+    match name.rsplit('.').next().unwrap() {
+        "ply" => {
+            let (header, rows) = floats(&bytes, 3);
+            assert!(header.contains("property float y\nproperty float rank\nend_header"), "{header}");
+            rows.iter().map(|floats| row(floats)).collect()
+        }
+        "csv" => {
+            let text = String::from_utf8(bytes).unwrap();
+            assert!(text.starts_with("x,y,rank\n"), "{text}");
+            let numbers = |line: &str| line.split(',').map(|word| word.parse().unwrap()).collect::<Vec<_>>();
+            text.lines().skip(1).map(|line| row(&numbers(line))).collect()
+        }
+        _ => {
+            let (header, body) = bytes.split_at(128);
+            let fields = "'descr': [('x', '<f4'), ('y', '<f4'), ('rank', '<f4')]";
+            assert!(String::from_utf8_lossy(header).contains(fields), "{header:?}");
+            let numbers: Vec<f32> = body.as_chunks().0.iter().map(|bytes| f32::from_le_bytes(*bytes)).collect();
+            numbers.chunks(3).map(row).collect()
+        }
+    }
+}
+
+/// Every prefix is at least as far apart as its last rank, on the unit torus; a window is a part of such a set.
+#[test]
+fn progressive_sets_have_ranks_that_never_rise_and_that_prefixes_keep() {
+    let workshop = Workshop::new();
+    let radius = ["--radius", "0.03"];
+    for (arguments, least) in [
+        (&radius[..], 0.03),
+        (&["--count", "700"], 0.02),
+        (&["--radius", "0.01", "--window", "0.5", "0.25", "0.75", "0.5"], 0.01),
+    ] {
+        let mut found = Vec::new();
+        for name in ["a.ply", "a.csv", "a.npy"] {
+            workshop.succeed(&[&["plane", "--order", "progressive", "-o", name], arguments].concat());
+            found.push(ranked(&workshop, name));
+        }
+        let [samples, csv, npy] = &found[..] else { unreachable!() };
+        assert!(samples == csv && samples == npy && samples.len() > 400, "{}", samples.len());
+        assert!(samples[0][2] > 3.0 * samples.last().unwrap()[2]);
+        for (i, a) in samples.iter().enumerate() {
+            let rank = f64::from(a[2]);
+            assert!(rank >= least * (1.0 - 1e-6) && (i == 0 || samples[i - 1][2] >= a[2]), "{i}: {a:?}");
+            for b in &samples[..i] {
+                let offset = [0, 1].map(|axis| (a[axis] as f64 - b[axis] as f64).abs()).map(|d| d.min(1.0 - d));
+                assert!(offset[0].hypot(offset[1]) >= rank, "{a:?} {b:?}");
+            }
+        }
+    }
+    // Formats without names of columns have the order alone; sets in any order have no ranks.
+    workshop.succeed(&[&["plane", "--order", "progressive", "-o", "a.raw"], &radius[..]].concat());
+    workshop.succeed(&[&["plane", "--order", "progressive", "-o", "a.ply"], &radius[..]].concat());
+    let raw = fs::read(workshop.path("a.raw")).unwrap();
+    let positions = ranked(&workshop, "a.ply").into_iter().flat_map(|[x, y, _]| [x, y]).flat_map(f32::to_le_bytes);
+    assert!(raw == positions.collect::<Vec<_>>());
+    // Points with ranks are read as others are.
+    for name in ["a.ply", "a.csv", "a.npy"] {
+        workshop.succeed(&[&["plane", "--order", "progressive", "-o", name], &radius[..]].concat());
+        workshop.succeed(&["relax", name, "--iterations", "0", "-o", "back.raw"]);
+        assert!(fs::read(workshop.path("back.raw")).unwrap() == raw, "{name}");
+    }
 }
 
 #[test]

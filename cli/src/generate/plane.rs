@@ -3,13 +3,14 @@
 use std::path::PathBuf;
 use std::time::Instant;
 
-use azulejo::kdrt::{self, ClassPlane, Classified, CountOptions};
+use azulejo::kdrt::{self, ClassPlane, Classified, CountOptions, Ranked};
 use azulejo::{Boundary, Classes, Context, Domain, Given, Order, Progress, Result};
 use clap::{Args, ValueEnum};
 
 use super::{Common, count, report};
 use crate::domain::DomainArgs;
 use crate::formats::Input;
+use crate::formats::plane::PlaneTable;
 use crate::progress::watched;
 use crate::text::{grouped, rounded};
 
@@ -57,7 +58,7 @@ pub struct Plane {
         long, num_args = 4, value_names = ["X0", "Y0", "X1", "Y1"], allow_negative_numbers = true, conflicts_with = "count"
     )]
     window: Option<Vec<f64>>,
-    /// The order of the samples.
+    /// The order of the samples. In progressive order the output has the rank of each sample, except in XYZ and raw floats.
     #[arg(long, value_enum, default_value = "any")]
     order: Sequence,
     /// How many times longer the radius of each level of the progressive order is than that of the next, 1.02 to 1.5:
@@ -89,7 +90,7 @@ enum Sequence {
 }
 
 /// A set, its domain, and what is said of it.
-type Made = (Vec<[f32; 2]>, Domain, String);
+type Made = (Ranked, Domain, String);
 
 impl Plane {
     pub fn run(&self, context: &Context) -> Result<()> {
@@ -98,13 +99,13 @@ impl Plane {
         }
         let output = self.common.destination.open_plane()?;
         let start = Instant::now();
-        let (points, domain, about) = match self.density.count {
+        let (made, domain, about) = match self.density.count {
             Some(count) => self.exactly(count, context)?,
             None => self.at(self.density.radius.unwrap_or(f64::NAN), context)?,
         };
         let seconds = start.elapsed().as_secs_f64();
-        output.write_plane(&domain, &points, &[])?;
-        report(&output.output, points.len(), &about, seconds);
+        output.write_plane(&domain, &PlaneTable { ranks: &made.ranks, ..PlaneTable::of(&made.samples) })?;
+        report(&output.output, made.samples.len(), &about, seconds);
         Ok(())
     }
 
@@ -129,12 +130,13 @@ impl Plane {
         let options = options.order(self.order()).quotient(self.quotient).coarsest(self.coarsest()).given(given);
         let about = format!("radius {}", rounded(radius, 4));
         if let Some(window) = self.window() {
-            let sample =
-                |progress: &Progress| kdrt::sample_window(context, &options, window.min, window.max, Some(progress));
+            let sample = |progress: &Progress| {
+                kdrt::sample_window_ranked(context, &options, window.min, window.max, Some(progress))
+            };
             return Ok((watched("plane", sample)?, window, about));
         }
-        let points = watched("plane", |progress| kdrt::sample(context, &options, Some(progress)))?;
-        Ok((points, domain, about))
+        let made = watched("plane", |progress| kdrt::sample_ranked(context, &options, Some(progress)))?;
+        Ok((made, domain, about))
     }
 
     /// The samples that stand already.
@@ -172,7 +174,7 @@ impl Plane {
             }
         };
         let seconds = start.elapsed().as_secs_f64();
-        output.write_plane(&domain, &set.samples, &set.classes)?;
+        output.write_plane(&domain, &PlaneTable { classes: &set.classes, ..PlaneTable::of(&set.samples) })?;
         report(&output.output, set.samples.len(), &shares(classes, &set), seconds);
         Ok(())
     }
@@ -186,7 +188,8 @@ impl Plane {
         // Progressive sets are maximal at their levels only.
         let is_fault = !made.report.is_maximal && self.order() == Order::Any;
         let maximal = if is_fault { ", not maximal" } else { "" };
-        Ok((made.samples, domain, format!("radius {}{maximal}", rounded(made.report.radius, 4))))
+        let about = format!("radius {}{maximal}", rounded(made.report.radius, 4));
+        Ok((Ranked::new(made.samples, made.ranks), domain, about))
     }
 }
 

@@ -10,6 +10,7 @@ use clap::{Args, ValueEnum};
 
 use super::{Common, report};
 use crate::domain::DomainArgs;
+use crate::formats::plane::PlaneTable;
 use crate::formats::surface::SurfaceTable;
 use crate::formats::{Input, ON_MESH, blame};
 use crate::input;
@@ -78,7 +79,7 @@ impl Relax {
         let relax = |progress: &Progress| dcr::relax(context, &options, &set.points, Some(progress));
         let (relaxed, done) = watched("relax", relax).map_err(|error| blame(&self.input, error))?;
         let seconds = start.elapsed().as_secs_f64();
-        output.write_plane(&domain, &relaxed, &[])?;
+        output.write_plane(&domain, &PlaneTable::of(&relaxed))?;
         report(&output.output, relaxed.len(), &about(done.iterations, done.smallest_distance), seconds);
         Ok(())
     }
