@@ -149,22 +149,74 @@ fn progressive_sets_have_ranks_that_never_rise_and_that_prefixes_keep() {
     }
 }
 
+/// The smallest distance on the unit torus of points from a place.
+fn nearest(points: &[Vec<f32>], place: [f64; 2]) -> f64 {
+    let distance = |point: &Vec<f32>| {
+        let [dx, dy] = [0, 1].map(|axis| (f64::from(point[axis]) - place[axis]).abs()).map(|d| d.min(1.0 - d));
+        dx.hypot(dy)
+    };
+    points.iter().map(distance).fold(f64::MAX, f64::min)
+}
+
 #[test]
 fn plane_samples_around_what_stands_already() {
     let workshop = Workshop::new();
     workshop.succeed(&["plane", "--radius", "0.1", "-o", "coarse.ply"]);
-    let coarse = points(&workshop, "coarse.ply");
-    workshop.succeed(&["plane", "--radius", "0.1", "--around", "coarse.ply", "-o", "none.ply"]);
+    workshop.succeed(&["plane", "--radius", "0.1", "--given", "coarse.ply", "-o", "none.ply"]);
     assert!(points(&workshop, "none.ply").is_empty());
-    workshop.succeed(&["plane", "--radius", "0.02", "--around", "coarse.ply", "--clearance", "0.03", "-o", "fine.ply"]);
+    workshop.succeed(&["plane", "--radius", "0.02", "--given", "coarse.ply", "--clearance", "0.03", "-o", "fine.ply"]);
     let fine = points(&workshop, "fine.ply");
     assert!(fine.len() > 500);
-    for (a, b) in fine.iter().flat_map(|a| coarse.iter().map(move |b| (a, b))) {
-        let offset = [0, 1].map(|axis| (a[axis] as f64 - b[axis] as f64).abs()).map(|d| d.min(1.0 - d));
-        assert!(offset[0].hypot(offset[1]) >= 0.03, "{a:?} {b:?}");
+    for place in points(&workshop, "coarse.ply") {
+        assert!(nearest(&fine, [place[0].into(), place[1].into()]) >= 0.03, "{place:?}");
     }
-    workshop.refuse(&["plane", "--count", "100", "--around", "coarse.ply", "-o", "a.ply"], 2);
+    // The name that the option had first.
+    workshop.succeed(&["plane", "--radius", "0.02", "--around", "coarse.ply", "--clearance", "0.03", "-o", "old.ply"]);
+    assert_eq!(points(&workshop, "old.ply"), fine);
+    workshop.refuse(&["plane", "--count", "100", "--given", "coarse.ply", "-o", "a.ply"], 2);
     workshop.refuse(&["plane", "--radius", "0.1", "--clearance", "1", "-o", "a.ply"], 2);
+}
+
+/// By the column of clearances, by that of radii, and by the radius of the set; in all ways to make a set.
+#[test]
+fn plane_keeps_the_clearances_of_the_file_that_is_given() {
+    let workshop = Workshop::new();
+    workshop.write("clear.csv", "x,y,radius,clearance\n0.5,0.5,0.01,0.2\n0.1,0.9,0.02,0.1\n");
+    workshop.write("radii.csv", "x,y,radius\n0.5,0.5,0.15\n0.1,0.9,0\n");
+    workshop.write("plain.csv", "x,y\n0.5,0.5\n0.1,0.9\n");
+    let square = ["--window", "0.25", "0.25", "0.75", "0.75"];
+    for (name, more, expected) in [
+        ("clear.csv", &[][..], [0.2, 0.1]),
+        ("radii.csv", &[], [0.15, 0.0]),
+        ("plain.csv", &[], [0.02, 0.02]),
+        ("clear.csv", &["--clearance", "0.05"], [0.05, 0.05]),
+    ] {
+        for (density, way) in [
+            (["--radius", "0.02"], &[][..]),
+            (["--radius", "0.02"], &["--order", "progressive"]),
+            (["--classes", "0.02,0.02"], &[]),
+            (["--radius", "0.02"], &square),
+            (["--classes", "0.02,0.02"], &square),
+        ] {
+            let arguments = [&["plane", "--given", name, "-o", "a.csv"], &density[..], more, way].concat();
+            workshop.succeed(&arguments);
+            let text = fs::read_to_string(workshop.path("a.csv")).unwrap();
+            let row = |line: &str| line.split(',').map(|word| word.parse().unwrap()).collect::<Vec<f32>>();
+            let points: Vec<_> = text.lines().skip(1).map(row).collect();
+            for (place, clearance) in [[0.5, 0.5], [0.1, 0.9]].into_iter().zip(expected) {
+                let found = nearest(&points, place);
+                let is_there = way != &square[..] || place == [0.5, 0.5];
+                assert!(found >= clearance && (!is_there || found < clearance + 0.04), "{arguments:?}: {found}");
+            }
+        }
+    }
+    workshop.write("bad.csv", "x,y,clearance\n0,0,1\n0,1,-2\n");
+    for density in [["--radius", "0.1"], ["--classes", "0.1,0.1"]] {
+        let said = workshop.refuse(&[&["plane", "--given", "bad.csv", "-o", "b.ply"], &density[..]].concat(), 1);
+        let index = if density[0] == "--classes" { 2 } else { 1 };
+        let reason = format!("given_clearances: [{index}] is -2.0; it must be 0 or more and finite");
+        assert_eq!(said, format!("error: bad.csv: {reason}\n"));
+    }
 }
 
 #[test]
@@ -202,7 +254,7 @@ fn plane_samples_of_several_classes() {
     }
     workshop.succeed(&[&set[..], &["-o", "whole.npy"]].concat());
     for name in ["whole.npy", "whole.ply", "whole.csv"] {
-        workshop.succeed(&["plane", "--radius", "0.02", "--around", name, "-o", "none.csv"]);
+        workshop.succeed(&["plane", "--radius", "0.02", "--given", name, "-o", "none.csv"]);
         assert_eq!(fs::read_to_string(workshop.path("none.csv")).unwrap(), "x,y\n", "{name}");
     }
     workshop.refuse(&[&set[..], &["-o", "a.raw"]].concat(), 1);

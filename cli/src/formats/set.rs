@@ -69,6 +69,8 @@ pub type OnMesh = (Vec<u32>, Vec<[f32; 2]>);
 #[derive(Debug, Default)]
 pub struct PlaneSet {
     pub points: Vec<[f32; 2]>,
+    /// For each point its clearance or, where the file names none, its radius, if it has one.
+    pub clearances: Option<Vec<f64>>,
     /// The domain that the file names.
     pub domain: Option<Domain>,
 }
@@ -132,7 +134,8 @@ impl PointSet {
         if !self.is_plane() {
             return Err(format!("holds points in three dimensions, not in the plane: {instead}"));
         }
-        Ok(PlaneSet { points: self.positions.iter().map(|&[x, y, _]| [x, y]).collect(), domain: self.domain })
+        let points = self.positions.iter().map(|&[x, y, _]| [x, y]).collect();
+        Ok(PlaneSet { points, clearances: self.clearances.map(|(_, clearances)| clearances), domain: self.domain })
     }
 
     /// The set as one of samples in space.
