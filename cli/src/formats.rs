@@ -79,7 +79,7 @@ pub fn blame(path: &Path, error: Error) -> Error {
     match error {
         Error::InvalidArgument { argument: "xy" | "positions" | "normals", reason } => format_error(path, reason),
         Error::InvalidArgument {
-            argument: argument @ ("triangles" | "barycentrics" | "given_positions" | "given_clearances"),
+            argument: argument @ ("triangles" | "barycentrics" | "given_positions" | "given_clearances" | "classes"),
             reason,
         } => format_error(path, format!("{argument}: {reason}")),
         other => other,

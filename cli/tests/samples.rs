@@ -308,6 +308,69 @@ fn relax_moves_points_apart_and_keeps_their_number_and_domain() {
     assert!(fs::read(workshop.path("a.ply")).unwrap() == fs::read(workshop.path("b.ply")).unwrap());
 }
 
+/// The smallest distance on the unit torus within each of three classes, of rows of x, y and class as bits.
+fn distances_of_classes(rows: &[Vec<f32>]) -> [f64; 3] {
+    [0, 1, 2].map(|class| {
+        let own: Vec<Vec<f32>> = rows.iter().filter(|row| row[2].to_bits() == class).cloned().collect();
+        let pairs = own.iter().enumerate().skip(1);
+        pairs.map(|(i, a)| nearest(&own[..i], [a[0].into(), a[1].into()])).fold(f64::MAX, f64::min)
+    })
+}
+
+/// Classes stay with their points, and each is spread more evenly, which relaxation of the union does not do.
+#[test]
+fn relax_keeps_the_classes_of_a_file_and_spreads_each() {
+    let workshop = Workshop::new();
+    workshop.succeed(&["plane", "--classes", "0.06,0.06,0.06", "-o", "a.ply"]);
+    let rows = |name: &str| floats(&fs::read(workshop.path(name)).unwrap(), 3);
+    let said = workshop.succeed(&["relax", "a.ply", "--iterations", "60", "-o", "b.ply"]);
+    assert!(said.contains(" 60 steps, smallest distance 0.0") && said.contains(", ρ 0."), "{said}");
+    let ((header, before), (same, after)) = (rows("a.ply"), rows("b.ply"));
+    assert!(header == same && header.contains("property uint class"), "{header}");
+    assert!(before.iter().map(|row| row[2].to_bits()).eq(after.iter().map(|row| row[2].to_bits())));
+    workshop.succeed(&["relax", "a.ply", "--iterations", "60", "--no-classes", "-o", "union.ply"]);
+    let union = points(&workshop, "union.ply");
+    assert_eq!(union.len(), before.len());
+    let union: Vec<Vec<f32>> = union.iter().zip(&before).map(|(at, of)| vec![at[0], at[1], of[2]]).collect();
+    let [before, after, union] = [&before, &after, &union].map(|rows| distances_of_classes(rows));
+    for class in 0..3 {
+        assert!(
+            after[class] > 1.05 * before[class] && after[class] > 1.2 * union[class],
+            "{before:?} {after:?} {union:?}"
+        );
+    }
+    // The other formats with columns, and without steps the file as it was.
+    for name in ["a.csv", "a.npy"] {
+        workshop.succeed(&["plane", "--classes", "0.06,0.06,0.06", "-o", name]);
+        workshop.succeed(&["relax", name, "--iterations", "0", "-o", "back.ply"]);
+        assert!(fs::read(workshop.path("back.ply")).unwrap() == fs::read(workshop.path("a.ply")).unwrap(), "{name}");
+    }
+}
+
+#[test]
+fn classes_that_cannot_be_relaxed_are_refused_and_not_dropped() {
+    let workshop = Workshop::new();
+    workshop.succeed(&["plane", "--classes", "0.1,0.1", "-o", "a.ply"]);
+    let refuse = |arguments: &[&str]| workshop.refuse(&[&["relax"], arguments].concat(), 1);
+    let said = refuse(&["a.ply", "-o", "b.xyz"]);
+    assert_eq!(said, "error: b.xyz: this format has no place for the classes of samples: give .ply, .npy or .csv\n");
+    let said = refuse(&["a.ply", "--neighbourhood", "nearest", "-o", "b.ply"]);
+    assert!(said.starts_with("error: neighbourhood: classes are relaxed"), "{said}");
+    workshop.write("names.csv", "x,y,class\n0.1,0.1,oak\n0.9,0.9,elm\n");
+    let said = refuse(&["names.csv", "--domain", "0", "0", "1", "1", "-o", "b.ply"]);
+    let reason = "point 0: its class is no whole number: --no-classes takes the points for one set";
+    assert_eq!(said, format!("error: names.csv: {reason}\n"));
+    workshop.succeed(&["relax", "names.csv", "--domain", "0", "0", "1", "1", "--no-classes", "-o", "b.xyz"]);
+    workshop.write("many.csv", "x,y,class\n0.1,0.1,3\n0.9,0.9,16\n");
+    let said = refuse(&["many.csv", "--domain", "0", "0", "1", "1", "-o", "c.ply"]);
+    assert_eq!(said, "error: many.csv: classes: [1] is 16, not below 16\n");
+    workshop.write("roof.obj", "v 0 0 0\nv 2 0 0\nv 0 2 0\nv 0 0 2\nf 1 2 3\nf 1 4 2\n");
+    workshop.succeed(&["surface", "roof.obj", "--classes", "0.3,0.3", "-o", "s.ply"]);
+    let said = refuse(&["s.ply", "--mesh", "roof.obj", "-o", "c.ply"]);
+    assert!(said.starts_with("error: s.ply: has classes, which are relaxed in the plane only"), "{said}");
+    workshop.succeed(&["relax", "s.ply", "--mesh", "roof.obj", "--no-classes", "-o", "c.ply"]);
+}
+
 #[test]
 fn mesh_writes_a_closed_mesh() {
     let workshop = Workshop::new();

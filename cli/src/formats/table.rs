@@ -9,7 +9,7 @@ use std::io::{self, Write};
 
 use csv::{ReaderBuilder, StringRecord, Trim};
 
-use super::columns::{Column, Number};
+use super::columns::{CLASS, Column, Number};
 use super::plane::PlaneTable;
 use super::set::{Columns, NAMES, PointSet};
 use super::shortened;
@@ -118,9 +118,14 @@ impl Layout {
             return Err(format!("has {} columns, and line {} has {}", words.len(), self.line, self.width));
         }
         let mut numbers = [0.0f32; NAMES.len()];
-        for (number, column) in numbers.iter_mut().zip(self.columns.floats) {
+        for ((number, column), name) in numbers.iter_mut().zip(self.columns.floats).zip(NAMES) {
             let Some(column) = column else { continue };
-            *number = words[column].parse().map_err(|_| format!("{:?} is not a number", shortened(words[column])))?;
+            *number = match words[column].parse() {
+                Ok(number) => number,
+                // Classes may have names, as long as no command needs them.
+                Err(_) if name == CLASS.name => f32::NAN,
+                Err(_) => return Err(format!("{:?} is not a number", shortened(words[column]))),
+            };
         }
         let triangle = |column: &usize| {
             let word = words[*column];
