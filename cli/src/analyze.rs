@@ -1,5 +1,6 @@
 //! `azulejo analyze`: figures of sets, as a table, as JSON and as pictures.
 
+mod classes;
 mod figures;
 mod page;
 mod plane;
@@ -22,6 +23,7 @@ use crate::output::{Output, print};
 #[command(mut_arg("domain", |domain| domain.help(OF_OR_AROUND)))]
 pub struct Analyze {
     /// The samples: .ply, .npy, .csv, .xyz or .raw files. Several files are sets of one kind, whose figures are averaged.
+    /// Where they have a column `class` each class is measured alone, too.
     #[arg(value_name = "SAMPLES", required = true)]
     files: Vec<PathBuf>,
     #[command(flatten)]

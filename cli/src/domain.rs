@@ -85,7 +85,7 @@ mod tests {
     use super::*;
 
     fn set(corners: [[f32; 2]; 2], domain: Option<Domain>) -> PlaneSet {
-        PlaneSet { points: corners.to_vec(), domain }
+        PlaneSet { points: corners.to_vec(), domain, ..PlaneSet::default() }
     }
 
     #[test]

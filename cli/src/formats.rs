@@ -2,18 +2,21 @@
 //!
 //! | format | plane | surface | domain |
 //! |---|---|---|---|
-//! | PLY | `x y` and perhaps `class` | `x y z nx ny nz triangle u v` and perhaps `radius`, `rank`, `class` | in a comment |
-//! | NPY | array of `(n, 2)` floats; structured array of `x y class` | structured array of `position normal triangle barycentrics` and perhaps `radius`, `rank`, `class` | - |
-//! | CSV | columns `x,y` and perhaps `class` under a header | all columns of PLY under a header | - |
+//! | PLY | `x y` and perhaps `rank`, `class` | `x y z nx ny nz triangle u v` and perhaps `radius`, `rank`, `class` | in a comment |
+//! | NPY | array of `(n, 2)` floats; structured array of `x y` and `rank` or `class` | structured array of `position normal triangle barycentrics` and perhaps `radius`, `rank`, `class` | - |
+//! | CSV | columns `x,y` and perhaps `rank`, `class` under a header | all columns of PLY under a header | - |
 //! | XYZ | lines `x y 0` | lines `x y z nx ny nz` | - |
 //! | raw | `x y` as little-endian floats | - | - |
 //!
 //! What is read may have more: integers and doubles, big-endian arrays, other columns, comments. A set knows whether its
-//! points have two or three dimensions; raw floats do not say it, and so the user has to.
+//! points have two or three dimensions; raw floats do not say it, and so the user has to. Ranks are not read: the order
+//! of the points says as much.
 
+pub mod columns;
 #[cfg(test)]
 mod hostile;
 mod npy;
+pub mod plane;
 mod raw;
 mod records;
 pub mod set;
@@ -28,6 +31,8 @@ use clap::{Args, ValueEnum};
 use crate::input;
 use crate::output::Output;
 use crate::ply;
+use columns::write_floats;
+use plane::PlaneTable;
 use records::Records;
 use set::{PlaneSet, PointSet, SampleSet};
 use surface::SurfaceTable;
@@ -74,7 +79,7 @@ pub fn blame(path: &Path, error: Error) -> Error {
     match error {
         Error::InvalidArgument { argument: "xy" | "positions" | "normals", reason } => format_error(path, reason),
         Error::InvalidArgument {
-            argument: argument @ ("triangles" | "barycentrics" | "given_positions" | "given_clearances"),
+            argument: argument @ ("triangles" | "barycentrics" | "given_positions" | "given_clearances" | "classes"),
             reason,
         } => format_error(path, format!("{argument}: {reason}")),
         other => other,
@@ -256,15 +261,14 @@ pub struct PointFile {
 }
 
 impl PointFile {
-    /// Writes a set of the plane, with its domain and, if there are any, the classes of its points, if the format can name
-    /// them.
-    pub fn write_plane(&self, domain: &Domain, points: &[[f32; 2]], classes: &[u32]) -> Result<()> {
+    /// Writes a set of the plane, with its domain and every column that the format has.
+    pub fn write_plane(&self, domain: &Domain, table: &PlaneTable) -> Result<()> {
         match self.format {
-            Format::Ply => ply::write_plane(&self.output, domain, points, classes),
-            Format::Npy => self.output.write(|writer| npy::write_plane(writer, points, classes)),
-            Format::Csv => self.output.write(|writer| table::write_csv_plane(writer, points, classes)),
-            Format::Xyz => self.output.write(|writer| table::write_xyz_plane(writer, points)),
-            Format::Raw => self.output.write(|writer| surface::write_floats(writer, points)),
+            Format::Ply => ply::write_plane(&self.output, domain, table),
+            Format::Npy => self.output.write(|writer| npy::write_plane(writer, table)),
+            Format::Csv => self.output.write(|writer| table::write_csv_plane(writer, table)),
+            Format::Xyz => self.output.write(|writer| table::write_xyz_plane(writer, table.points)),
+            Format::Raw => self.output.write(|writer| write_floats(writer, table.points)),
         }
     }
 

@@ -1,5 +1,6 @@
 //! `azulejo plane`, `surface` and `relax`: the samplers of the library, from files and into files.
 
+mod around;
 mod attributes;
 mod plane;
 mod relax;

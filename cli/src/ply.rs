@@ -1,5 +1,5 @@
-//! PLY files: sets of the plane (`x y`), samples of a surface (`x y z nx ny nz triangle u v`,
-//! `radius` where radii differ, and `rank` in progressive order), both with `class` where there are several; meshes.
+//! PLY files: sets of the plane (`x y`), samples of a surface (`x y z nx ny nz triangle u v`, and `radius` where radii
+//! differ), both with `rank` in progressive order and `class` where there are several; meshes.
 //!
 //! A set of the plane names its domain in a comment, `domain <x0> <y0> <x1> <y1> periodic|bounded`: points alone do
 //! not tell the period of a torus. Files without that comment are read too.
@@ -9,8 +9,10 @@ use std::io::{self, Write};
 use azulejo::mesh::ply::Ply;
 use azulejo::{Boundary, Domain};
 
+use crate::formats::columns::{Column, write_floats};
+use crate::formats::plane::PlaneTable;
 use crate::formats::set::{self, Columns, NAMES, PointSet};
-use crate::formats::surface::{SurfaceTable, write_floats, write_plane_binary};
+use crate::formats::surface::SurfaceTable;
 use crate::output::Output;
 
 /// The vertices of a PLY file, text or binary, in any order of properties.
@@ -61,8 +63,8 @@ fn named_domain(comments: &[String]) -> Option<Domain> {
     })
 }
 
-/// Writes a set of the plane with its domain, and the class of each point if there are several.
-pub fn write_plane(output: &Output, domain: &Domain, points: &[[f32; 2]], classes: &[u32]) -> azulejo::Result<()> {
+/// Writes a set of the plane with its domain and all that is known of its points.
+pub fn write_plane(output: &Output, domain: &Domain, table: &PlaneTable) -> azulejo::Result<()> {
     let ([x0, y0], [x1, y1]) = (domain.min, domain.max);
     let boundary = match domain.boundary {
         Boundary::Periodic => "periodic",
@@ -70,9 +72,8 @@ pub fn write_plane(output: &Output, domain: &Domain, points: &[[f32; 2]], classe
     };
     output.write(|writer| {
         let comment = format!("comment domain {x0} {y0} {x1} {y1} {boundary}\n");
-        let properties = ["float x", "float y", "uint class"];
-        write_header(writer, &comment, points.len(), &properties[..if classes.is_empty() { 2 } else { 3 }])?;
-        write_plane_binary(writer, points, classes)
+        write_header(writer, &comment, table.points.len(), &["float x", "float y"], table.more_columns())?;
+        table.write_binary(writer)
     })
 }
 
@@ -80,10 +81,8 @@ pub fn write_plane(output: &Output, domain: &Domain, points: &[[f32; 2]], classe
 pub fn write_surface(output: &Output, table: &SurfaceTable) -> azulejo::Result<()> {
     const PROPERTIES: [&str; 9] =
         ["float x", "float y", "float z", "float nx", "float ny", "float nz", "uint triangle", "float u", "float v"];
-    let more: Vec<_> = table.more_columns().map(|column| format!("{} {}", column.ply_type(), column.name)).collect();
-    let properties: Vec<_> = PROPERTIES.into_iter().chain(more.iter().map(String::as_str)).collect();
     output.write(|writer| {
-        write_header(writer, "", table.samples.len(), &properties)?;
+        write_header(writer, "", table.samples.len(), &PROPERTIES, table.more_columns())?;
         table.write_binary(writer)
     })
 }
@@ -102,8 +101,15 @@ pub fn write_mesh(output: &Output, positions: &[[f32; 3]], triangles: &[[u32; 3]
     })
 }
 
-fn write_header(writer: &mut impl Write, comment: &str, count: usize, properties: &[&str]) -> io::Result<()> {
+fn write_header(
+    writer: &mut impl Write,
+    comment: &str,
+    count: usize,
+    properties: &[&str],
+    mut more: impl Iterator<Item = Column>,
+) -> io::Result<()> {
     write!(writer, "ply\nformat binary_little_endian 1.0\n{comment}element vertex {count}\n")?;
     properties.iter().try_for_each(|property| writeln!(writer, "property {property}"))?;
+    more.try_for_each(|column| writeln!(writer, "property {} {}", column.ply_type(), column.name))?;
     writeln!(writer, "end_header")
 }

@@ -81,6 +81,53 @@ fn the_table_says_what_the_json_says() {
     assert_eq!(mean(&found, "gaps"), 0.0);
 }
 
+/// Each class is measured as the file of its points alone is, and the union as the file without classes.
+#[test]
+fn sets_of_several_classes_are_measured_by_class_too() {
+    let workshop = Workshop::new();
+    workshop.succeed(&["plane", "--classes", "0.04,0.08", "-o", "a.csv"]);
+    workshop.write("roof.obj", "v 0 0 0\nv 2 0 0\nv 0 2 0\nv 0 0 2\nf 1 2 3\nf 1 4 2\n");
+    workshop.succeed(&["surface", "roof.obj", "--classes", "0.1,0.2", "-o", "s.csv"]);
+    for (name, options) in [("a.csv", &["--domain", "0", "0", "1", "1"][..]), ("s.csv", &["--mesh", "roof.obj"])] {
+        let text = std::fs::read_to_string(workshop.path(name)).unwrap();
+        let of = |keep: &dyn Fn(&str) -> bool| {
+            let lines = text.lines().filter(|line| line.starts_with('x') || keep(line));
+            lines.map(|line| format!("{}\n", line.rsplit_once(',').unwrap().0)).collect::<String>()
+        };
+        let analyzed = |file: &str| json(&workshop, &[&[file], options].concat());
+        workshop.write("union.csv", of(&|_| true));
+        let (found, union) = (analyzed(name), analyzed("union.csv"));
+        assert!(found["figures"] == union["figures"] && union["classes"].is_null(), "{found}");
+        let said = workshop.succeed(&[&["analyze", name], options].concat());
+        assert!(said.contains("of each class alone:\n\nclass 0\n"), "{said}");
+        for class in 0..2 {
+            workshop.write("own.csv", of(&|line| line.ends_with(&format!(",{class}"))));
+            let (found, alone) = (&found["classes"][class], analyzed("own.csv"));
+            assert_eq!(found["class"], class);
+            let figures = found["figures"].as_object().unwrap();
+            assert!(
+                figures.len() >= 5 && figures.iter().all(|(key, figure)| alone["figures"][key] == *figure),
+                "{found}"
+            );
+        }
+    }
+    // A class that a file lacks is not known there; classes that are none are left out, and that is said.
+    workshop.write("one.csv", "x,y,class\n0.1,0.1,0\n0.9,0.9,0\n");
+    workshop.write("two.csv", "x,y,class\n0.1,0.1,0\n0.9,0.9,3\n");
+    workshop.write("names.csv", "x,y,class\n0.1,0.1,oak\n0.9,0.9,elm\n");
+    let square = ["--domain", "0", "0", "1", "1"];
+    let found = json(&workshop, &[&["one.csv", "two.csv"], &square[..]].concat());
+    assert!(found["classes"][1]["class"] == 3 && found["classes"][1]["figures"]["points"]["values"][0].is_null());
+    for (files, reason) in [
+        (&["names.csv"][..], "names.csv: point 0: its class is no whole number"),
+        (&["one.csv", "names.csv"], "names.csv: point 0: its class is no whole number"),
+    ] {
+        let said = workshop.succeed(&[&["analyze"], files, &square].concat());
+        assert!(said.ends_with(&format!("\nOf all points together, without classes: {reason}.\n")), "{said}");
+        assert!(json(&workshop, &[files, &square].concat())["classes"].is_null());
+    }
+}
+
 #[test]
 fn several_files_are_averaged() {
     let workshop = Workshop::new();

@@ -70,7 +70,7 @@ fn plane_sets_in_progressive_order_are_nested() {
     let workshop = Workshop::new();
     let made = |name: &str, arguments: &[&str]| {
         workshop.succeed(&[&["plane", "--order", "progressive", "-o", name], arguments].concat());
-        points(&workshop, name)
+        floats(&fs::read(workshop.path(name)).unwrap(), 3).1
     };
     let (few, many) = (made("a.ply", &["--count", "200"]), made("b.ply", &["--count", "2000"]));
     assert!(few.len() == 200 && few == many[..200]);
@@ -82,22 +82,141 @@ fn plane_sets_in_progressive_order_are_nested() {
     assert!(said.starts_with("error: quotient: 3.0 is not in 1.02 to 1.5"), "{said}");
 }
 
+/// x, y and rank of each sample of a file in progressive order.
+fn ranked(workshop: &Workshop, name: &str) -> Vec<[f32; 3]> {
+    let bytes = fs::read(workshop.path(name)).unwrap();
+    let row = |row: &[f32]| [row[0], row[1], row[2]];
+    match name.rsplit('.').next().unwrap() {
+        "ply" => {
+            let (header, rows) = floats(&bytes, 3);
+            assert!(header.contains("property float y\nproperty float rank\nend_header"), "{header}");
+            rows.iter().map(|floats| row(floats)).collect()
+        }
+        "csv" => {
+            let text = String::from_utf8(bytes).unwrap();
+            assert!(text.starts_with("x,y,rank\n"), "{text}");
+            let numbers = |line: &str| line.split(',').map(|word| word.parse().unwrap()).collect::<Vec<_>>();
+            text.lines().skip(1).map(|line| row(&numbers(line))).collect()
+        }
+        _ => {
+            let (header, body) = bytes.split_at(128);
+            let fields = "'descr': [('x', '<f4'), ('y', '<f4'), ('rank', '<f4')]";
+            assert!(String::from_utf8_lossy(header).contains(fields), "{header:?}");
+            let numbers: Vec<f32> = body.as_chunks().0.iter().map(|bytes| f32::from_le_bytes(*bytes)).collect();
+            numbers.chunks(3).map(row).collect()
+        }
+    }
+}
+
+/// Every prefix is at least as far apart as its last rank, on the unit torus; a window is a part of such a set.
+#[test]
+fn progressive_sets_have_ranks_that_never_rise_and_that_prefixes_keep() {
+    let workshop = Workshop::new();
+    let radius = ["--radius", "0.03"];
+    for (arguments, least) in [
+        (&radius[..], 0.03),
+        (&["--count", "700"], 0.02),
+        (&["--radius", "0.01", "--window", "0.5", "0.25", "0.75", "0.5"], 0.01),
+    ] {
+        let mut found = Vec::new();
+        for name in ["a.ply", "a.csv", "a.npy"] {
+            workshop.succeed(&[&["plane", "--order", "progressive", "-o", name], arguments].concat());
+            found.push(ranked(&workshop, name));
+        }
+        let [samples, csv, npy] = &found[..] else { unreachable!() };
+        assert!(samples == csv && samples == npy && samples.len() > 400, "{}", samples.len());
+        assert!(samples[0][2] > 3.0 * samples.last().unwrap()[2]);
+        for (i, a) in samples.iter().enumerate() {
+            let rank = f64::from(a[2]);
+            assert!(rank >= least * (1.0 - 1e-6) && (i == 0 || samples[i - 1][2] >= a[2]), "{i}: {a:?}");
+            for b in &samples[..i] {
+                let offset = [0, 1].map(|axis| (a[axis] as f64 - b[axis] as f64).abs()).map(|d| d.min(1.0 - d));
+                assert!(offset[0].hypot(offset[1]) >= rank, "{a:?} {b:?}");
+            }
+        }
+    }
+    // Formats without names of columns have the order alone; sets in any order have no ranks.
+    workshop.succeed(&[&["plane", "--order", "progressive", "-o", "a.raw"], &radius[..]].concat());
+    workshop.succeed(&[&["plane", "--order", "progressive", "-o", "a.ply"], &radius[..]].concat());
+    let raw = fs::read(workshop.path("a.raw")).unwrap();
+    let positions = ranked(&workshop, "a.ply").into_iter().flat_map(|[x, y, _]| [x, y]).flat_map(f32::to_le_bytes);
+    assert!(raw == positions.collect::<Vec<_>>());
+    // Points with ranks are read as others are.
+    for name in ["a.ply", "a.csv", "a.npy"] {
+        workshop.succeed(&[&["plane", "--order", "progressive", "-o", name], &radius[..]].concat());
+        workshop.succeed(&["relax", name, "--iterations", "0", "-o", "back.raw"]);
+        assert!(fs::read(workshop.path("back.raw")).unwrap() == raw, "{name}");
+    }
+}
+
+/// The smallest distance on the unit torus of points from a place.
+fn nearest(points: &[Vec<f32>], place: [f64; 2]) -> f64 {
+    let distance = |point: &Vec<f32>| {
+        let [dx, dy] = [0, 1].map(|axis| (f64::from(point[axis]) - place[axis]).abs()).map(|d| d.min(1.0 - d));
+        dx.hypot(dy)
+    };
+    points.iter().map(distance).fold(f64::MAX, f64::min)
+}
+
 #[test]
 fn plane_samples_around_what_stands_already() {
     let workshop = Workshop::new();
     workshop.succeed(&["plane", "--radius", "0.1", "-o", "coarse.ply"]);
-    let coarse = points(&workshop, "coarse.ply");
-    workshop.succeed(&["plane", "--radius", "0.1", "--around", "coarse.ply", "-o", "none.ply"]);
+    workshop.succeed(&["plane", "--radius", "0.1", "--given", "coarse.ply", "-o", "none.ply"]);
     assert!(points(&workshop, "none.ply").is_empty());
-    workshop.succeed(&["plane", "--radius", "0.02", "--around", "coarse.ply", "--clearance", "0.03", "-o", "fine.ply"]);
+    workshop.succeed(&["plane", "--radius", "0.02", "--given", "coarse.ply", "--clearance", "0.03", "-o", "fine.ply"]);
     let fine = points(&workshop, "fine.ply");
     assert!(fine.len() > 500);
-    for (a, b) in fine.iter().flat_map(|a| coarse.iter().map(move |b| (a, b))) {
-        let offset = [0, 1].map(|axis| (a[axis] as f64 - b[axis] as f64).abs()).map(|d| d.min(1.0 - d));
-        assert!(offset[0].hypot(offset[1]) >= 0.03, "{a:?} {b:?}");
+    for place in points(&workshop, "coarse.ply") {
+        assert!(nearest(&fine, [place[0].into(), place[1].into()]) >= 0.03, "{place:?}");
     }
-    workshop.refuse(&["plane", "--count", "100", "--around", "coarse.ply", "-o", "a.ply"], 2);
+    // The name that the option had first.
+    workshop.succeed(&["plane", "--radius", "0.02", "--around", "coarse.ply", "--clearance", "0.03", "-o", "old.ply"]);
+    assert_eq!(points(&workshop, "old.ply"), fine);
+    workshop.refuse(&["plane", "--count", "100", "--given", "coarse.ply", "-o", "a.ply"], 2);
     workshop.refuse(&["plane", "--radius", "0.1", "--clearance", "1", "-o", "a.ply"], 2);
+}
+
+/// By the column of clearances, by that of radii, and by the radius of the set; in all ways to make a set.
+#[test]
+fn plane_keeps_the_clearances_of_the_file_that_is_given() {
+    let workshop = Workshop::new();
+    workshop.write("clear.csv", "x,y,radius,clearance\n0.5,0.5,0.01,0.2\n0.1,0.9,0.02,0.1\n");
+    workshop.write("radii.csv", "x,y,radius\n0.5,0.5,0.15\n0.1,0.9,0\n");
+    workshop.write("plain.csv", "x,y\n0.5,0.5\n0.1,0.9\n");
+    let square = ["--window", "0.25", "0.25", "0.75", "0.75"];
+    for (name, more, expected) in [
+        ("clear.csv", &[][..], [0.2, 0.1]),
+        ("radii.csv", &[], [0.15, 0.0]),
+        ("plain.csv", &[], [0.02, 0.02]),
+        ("clear.csv", &["--clearance", "0.05"], [0.05, 0.05]),
+    ] {
+        for (density, way) in [
+            (["--radius", "0.02"], &[][..]),
+            (["--radius", "0.02"], &["--order", "progressive"]),
+            (["--classes", "0.02,0.02"], &[]),
+            (["--radius", "0.02"], &square),
+            (["--classes", "0.02,0.02"], &square),
+        ] {
+            let arguments = [&["plane", "--given", name, "-o", "a.csv"], &density[..], more, way].concat();
+            workshop.succeed(&arguments);
+            let text = fs::read_to_string(workshop.path("a.csv")).unwrap();
+            let row = |line: &str| line.split(',').map(|word| word.parse().unwrap()).collect::<Vec<f32>>();
+            let points: Vec<_> = text.lines().skip(1).map(row).collect();
+            for (place, clearance) in [[0.5, 0.5], [0.1, 0.9]].into_iter().zip(expected) {
+                let found = nearest(&points, place);
+                let is_there = way != &square[..] || place == [0.5, 0.5];
+                assert!(found >= clearance && (!is_there || found < clearance + 0.04), "{arguments:?}: {found}");
+            }
+        }
+    }
+    workshop.write("bad.csv", "x,y,clearance\n0,0,1\n0,1,-2\n");
+    for density in [["--radius", "0.1"], ["--classes", "0.1,0.1"]] {
+        let said = workshop.refuse(&[&["plane", "--given", "bad.csv", "-o", "b.ply"], &density[..]].concat(), 1);
+        let index = if density[0] == "--classes" { 2 } else { 1 };
+        let reason = format!("given_clearances: [{index}] is -2.0; it must be 0 or more and finite");
+        assert_eq!(said, format!("error: bad.csv: {reason}\n"));
+    }
 }
 
 #[test]
@@ -135,7 +254,7 @@ fn plane_samples_of_several_classes() {
     }
     workshop.succeed(&[&set[..], &["-o", "whole.npy"]].concat());
     for name in ["whole.npy", "whole.ply", "whole.csv"] {
-        workshop.succeed(&["plane", "--radius", "0.02", "--around", name, "-o", "none.csv"]);
+        workshop.succeed(&["plane", "--radius", "0.02", "--given", name, "-o", "none.csv"]);
         assert_eq!(fs::read_to_string(workshop.path("none.csv")).unwrap(), "x,y\n", "{name}");
     }
     workshop.refuse(&[&set[..], &["-o", "a.raw"]].concat(), 1);
@@ -187,6 +306,69 @@ fn relax_moves_points_apart_and_keeps_their_number_and_domain() {
     }
     workshop.succeed(&["relax", "a.ply", "--iterations", "0", "-o", "b.ply"]);
     assert!(fs::read(workshop.path("a.ply")).unwrap() == fs::read(workshop.path("b.ply")).unwrap());
+}
+
+/// The smallest distance on the unit torus within each of three classes, of rows of x, y and class as bits.
+fn distances_of_classes(rows: &[Vec<f32>]) -> [f64; 3] {
+    [0, 1, 2].map(|class| {
+        let own: Vec<Vec<f32>> = rows.iter().filter(|row| row[2].to_bits() == class).cloned().collect();
+        let pairs = own.iter().enumerate().skip(1);
+        pairs.map(|(i, a)| nearest(&own[..i], [a[0].into(), a[1].into()])).fold(f64::MAX, f64::min)
+    })
+}
+
+/// Classes stay with their points, and each is spread more evenly, which relaxation of the union does not do.
+#[test]
+fn relax_keeps_the_classes_of_a_file_and_spreads_each() {
+    let workshop = Workshop::new();
+    workshop.succeed(&["plane", "--classes", "0.06,0.06,0.06", "-o", "a.ply"]);
+    let rows = |name: &str| floats(&fs::read(workshop.path(name)).unwrap(), 3);
+    let said = workshop.succeed(&["relax", "a.ply", "--iterations", "60", "-o", "b.ply"]);
+    assert!(said.contains(" 60 steps, smallest distance 0.0") && said.contains(", ρ 0."), "{said}");
+    let ((header, before), (same, after)) = (rows("a.ply"), rows("b.ply"));
+    assert!(header == same && header.contains("property uint class"), "{header}");
+    assert!(before.iter().map(|row| row[2].to_bits()).eq(after.iter().map(|row| row[2].to_bits())));
+    workshop.succeed(&["relax", "a.ply", "--iterations", "60", "--no-classes", "-o", "union.ply"]);
+    let union = points(&workshop, "union.ply");
+    assert_eq!(union.len(), before.len());
+    let union: Vec<Vec<f32>> = union.iter().zip(&before).map(|(at, of)| vec![at[0], at[1], of[2]]).collect();
+    let [before, after, union] = [&before, &after, &union].map(|rows| distances_of_classes(rows));
+    for class in 0..3 {
+        assert!(
+            after[class] > 1.05 * before[class] && after[class] > 1.2 * union[class],
+            "{before:?} {after:?} {union:?}"
+        );
+    }
+    // The other formats with columns, and without steps the file as it was.
+    for name in ["a.csv", "a.npy"] {
+        workshop.succeed(&["plane", "--classes", "0.06,0.06,0.06", "-o", name]);
+        workshop.succeed(&["relax", name, "--iterations", "0", "-o", "back.ply"]);
+        assert!(fs::read(workshop.path("back.ply")).unwrap() == fs::read(workshop.path("a.ply")).unwrap(), "{name}");
+    }
+}
+
+#[test]
+fn classes_that_cannot_be_relaxed_are_refused_and_not_dropped() {
+    let workshop = Workshop::new();
+    workshop.succeed(&["plane", "--classes", "0.1,0.1", "-o", "a.ply"]);
+    let refuse = |arguments: &[&str]| workshop.refuse(&[&["relax"], arguments].concat(), 1);
+    let said = refuse(&["a.ply", "-o", "b.xyz"]);
+    assert_eq!(said, "error: b.xyz: this format has no place for the classes of samples: give .ply, .npy or .csv\n");
+    let said = refuse(&["a.ply", "--neighbourhood", "nearest", "-o", "b.ply"]);
+    assert!(said.starts_with("error: neighbourhood: classes are relaxed"), "{said}");
+    workshop.write("names.csv", "x,y,class\n0.1,0.1,oak\n0.9,0.9,elm\n");
+    let said = refuse(&["names.csv", "--domain", "0", "0", "1", "1", "-o", "b.ply"]);
+    let reason = "point 0: its class is no whole number: --no-classes takes the points for one set";
+    assert_eq!(said, format!("error: names.csv: {reason}\n"));
+    workshop.succeed(&["relax", "names.csv", "--domain", "0", "0", "1", "1", "--no-classes", "-o", "b.xyz"]);
+    workshop.write("many.csv", "x,y,class\n0.1,0.1,3\n0.9,0.9,16\n");
+    let said = refuse(&["many.csv", "--domain", "0", "0", "1", "1", "-o", "c.ply"]);
+    assert_eq!(said, "error: many.csv: classes: [1] is 16, not below 16\n");
+    workshop.write("roof.obj", "v 0 0 0\nv 2 0 0\nv 0 2 0\nv 0 0 2\nf 1 2 3\nf 1 4 2\n");
+    workshop.succeed(&["surface", "roof.obj", "--classes", "0.3,0.3", "-o", "s.ply"]);
+    let said = refuse(&["s.ply", "--mesh", "roof.obj", "-o", "c.ply"]);
+    assert!(said.starts_with("error: s.ply: has classes, which are relaxed in the plane only"), "{said}");
+    workshop.succeed(&["relax", "s.ply", "--mesh", "roof.obj", "--no-classes", "-o", "c.ply"]);
 }
 
 #[test]

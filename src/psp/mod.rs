@@ -1,9 +1,13 @@
-//! Progressive sample projection (PSP): Poisson-disk samples on triangle meshes (thesis chapter 3).
+//! Poisson-disk samples on triangle meshes: by filling, and by progressive sample projection (PSP; thesis chapter 3).
 //!
-//! A planar Poisson-disk pattern is projected along three orthogonal directions through the mesh; all hits on all rays
-//! are candidates; those that conflict with nothing of higher priority become samples. More iterations from other
-//! directions only add. [`Psp::fill`] then finds what is still uncovered and closes it, which makes the set maximal. It can
-//! do so from nothing: that is how [`sample`] makes a set unless it is asked for iterations.
+//! [`sample`] fills a mesh from nothing: darts fall on all that may be uncovered, which is found by subdividing triangles,
+//! round after round until nothing is left open (`fill/`). No rays are traced.
+//!
+//! Iterations of projection come before it only where they are asked for ([`Options::iterations`], [`Psp::advance`]), or
+//! in place of it in sets that need not be maximal. A planar Poisson-disk pattern is projected along three orthogonal
+//! directions through the mesh, by rays of Embree or by a rasteriser ([`Engine`]); all hits are candidates; those that
+//! conflict with nothing of higher priority become samples. More iterations from other directions only add, and
+//! [`Psp::fill`] closes what they leave.
 //!
 //! * *Conflict-free*: no two samples are closer than the radius, in `f64` from the returned floats, in straight lines
 //!   through space (not along the surface).

@@ -40,6 +40,15 @@ fn plane(context: &Context, list: &mut List) -> Result<Vec<[f32; 2]>> {
     let in_classes = kdrt::sample_classes(context, &kdrt::Options::new(0.0).domain(SQUARE).seed(3), &classes, None)?;
     list.points("classes", &in_classes.samples);
     list.bytes("classes: classes", &little_endian(&in_classes.classes, u32::to_le_bytes));
+    let plane = kdrt::ClassPlane::new(
+        context,
+        &kdrt::Options::new(0.0).seed(14).given(Given::at(&given[..9])),
+        &classes,
+        None,
+    )?;
+    let part = plane.window([0.2, 0.5], [0.7, 1.0])?;
+    list.points("classes around, window", &part.samples);
+    list.bytes("classes around, window: classes", &little_endian(&part.classes, u32::to_le_bytes));
     let half = Domain { min: [0.0; 2], max: [0.5, 1.0], boundary: Boundary::Bounded };
     let samples = kdrt::sample(context, &options.radius(0.02).domain(half), None)?;
     let piece = Piece { samples: &samples, min: half.min, max: half.max };
@@ -63,6 +72,9 @@ fn relaxation(context: &Context, set: &[[f32; 2]], list: &mut List) -> Result<()
     let relaxed = relax("relax", dcr::Options::new(TORUS, Neighbourhood::Delaunay).seed(7))?;
     relax("relax nearest", dcr::Options::new(SQUARE, Neighbourhood::Nearest).seed(8))?;
     relax("relax, thesis", dcr::Options::thesis(TORUS, Neighbourhood::Delaunay))?;
+    let options = dcr::Options::new(TORUS, Neighbourhood::Delaunay).seed(15).max_iterations(40);
+    let classes: Vec<u32> = (0..set.len() as u32).map(|i| i % 3).collect();
+    list.points("relax classes", &dcr::relax_classes(context, &options, set, &classes, None)?.0);
     let density = |[x, y]: [f64; 2]| 0.1 + x * y;
     let density = Density::Function(&density);
     let start = dcr::scatter(context, &SQUARE, &density, 300, 9, None)?;
@@ -92,6 +104,15 @@ fn surface(context: &Context, list: &mut List) -> Result<()> {
     let classes = Classes::of_radii(&[0.1, 0.2], 1.0)?;
     let (in_classes, _) = psp::sample_classes(context, &mesh, &psp::Options::new(0.0).seed(12), &classes, None, None)?;
     list.samples("classes on the mesh", &in_classes);
+    let given = psp::Options::new(0.0).seed(16).given(Given::at(&filled.positions[..20]));
+    list.samples("classes around on the mesh", &psp::sample_classes(context, &mesh, &given, &classes, None, None)?.0);
+    let moved = mesh.deformed(mesh.positions().iter().map(|&[x, y, z]| [x, 2.0 * y, z - 0.1 * x * y]).collect())?;
+    list.samples("deformed", &moved.samples_at(&filled.triangles, &filled.barycentrics)?);
+    let weights: Vec<f32> = mesh.positions().iter().map(|[x, ..]| x.max(0.0)).collect();
+    let density = adaptive::Density::PerVertex(&weights);
+    let by_density = adaptive::Radius::Density { density, scale: adaptive::Scale::Count(300.0) };
+    let options = adaptive::Options::new(by_density).seed(17);
+    list.samples("adaptive, density", &adaptive::sample(context, &mesh, &options, None)?.0.samples);
     let radii: Vec<f32> = mesh.positions().iter().map(|[x, ..]| 0.1 + 0.05 * (x + 1.4)).collect();
     let by_vertex = adaptive::Options::new(adaptive::Radius::PerVertex(&radii)).seed(13);
     list.samples("adaptive", &adaptive::sample(context, &mesh, &by_vertex, None)?.0.samples);

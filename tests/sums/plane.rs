@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 
 use azulejo::dcr::{self, Density};
-use azulejo::kdrt::{self, CountOptions, MergeOptions, Options, Piece};
+use azulejo::kdrt::{self, ClassPlane, Classified, CountOptions, MergeOptions, Options, Piece};
 use azulejo::{Boundary, Classes, Context, Domain, Given, Order, Result, maximal, thin};
 
 use crate::list::{List, little_endian};
@@ -86,18 +86,33 @@ fn ordered(context: &Context, list: &mut List) -> Result<()> {
     Ok(())
 }
 
-/// Sets of several classes: with a radius each, and of equal radii.
+/// Sets of several classes: with a radius each, and of equal radii; around given samples; windows of kept planes.
 fn in_classes(context: &Context, list: &mut List) -> Result<()> {
+    let mut set = |name: &str, set: Classified| {
+        list.points(name, &set.samples);
+        list.bytes(&format!("{name}: classes"), &little_endian(&set.classes, u32::to_le_bytes));
+    };
+    let options = |domain| Options::new(0.0).domain(domain).seed(26);
     for (name, own, factor, domain) in [
-        ("falling", &[0.004, 0.008, 0.016][..], 1.0, TORUS),
-        ("equal", &[0.01; 4][..], 0.7, SQUARE),
-        ("far", &[0.03, 0.02, 0.03][..], 1.0, FAR),
+        ("classes falling", &[0.004, 0.008, 0.016][..], 1.0, TORUS),
+        ("classes equal", &[0.01; 4][..], 0.7, SQUARE),
+        ("classes far", &[0.03, 0.02, 0.03][..], 1.0, FAR),
     ] {
         let classes = Classes::of_radii(own, factor)?;
-        let set = kdrt::sample_classes(context, &Options::new(0.0).domain(domain).seed(26), &classes, None)?;
-        list.points(&format!("classes {name}"), &set.samples);
-        list.bytes(&format!("classes {name}: classes"), &little_endian(&set.classes, u32::to_le_bytes));
+        set(name, kdrt::sample_classes(context, &options(domain), &classes, None)?);
     }
+    let positions: Vec<_> =
+        (0..300u32).map(|i| [(i * 619 % 307) as f32 / 300.0, (i * 41 % 301) as f32 / 301.0]).collect();
+    let clearances: Vec<_> = (0..600u32).map(|i| 1e-3 * f64::from(i % 23) * f64::from(i % 2)).collect();
+    let classes = Classes::of_radii(&[0.015, 0.008], 0.9)?;
+    let given = options(TORUS).given(Given::with_clearances(&positions, &clearances));
+    set("classes around", kdrt::sample_classes(context, &given, &classes, None)?);
+    set("classes around equal", kdrt::sample_classes(context, &given.given(Given::at(&positions)), &classes, None)?);
+    let around = ClassPlane::new(context, &given, &classes, None)?;
+    set("classes around, window", around.window([0.8, 0.3], [1.0, 0.6])?);
+    let classes = Classes::of_radii(&[0.0002, 0.0004, 0.0002], 1.0)?;
+    let plane = ClassPlane::new(context, &options(SQUARE), &classes, None)?;
+    set("classes window", plane.window([0.31, 0.52], [0.34, 0.55])?);
     Ok(())
 }
 

@@ -35,7 +35,27 @@ pub fn sums(context: &Context, sets: &Sets, list: &mut List) -> Result<()> {
         .visits(Visits::OneEnd)
         .convergence(Convergence::Variance);
     relax("thesis one end", thesis(TORUS, DELAUNAY).method(Method::Thesis(variant)), &sets.random)?;
-    by_density(context, list)
+    by_density(context, list)?;
+    in_classes(context, sets, list)
+}
+
+/// Several classes at once: of equal shares from a maximal set, and of unequal ones from random points.
+fn in_classes(context: &Context, sets: &Sets, list: &mut List) -> Result<()> {
+    for (name, domain, points, classes) in [
+        ("relax classes", TORUS, &sets.thousand, &[0, 1, 2][..]),
+        ("relax classes bounded", SQUARE, &sets.random, &[0, 3, 0, 0, 1]),
+    ] {
+        let of: Vec<u32> = classes.iter().copied().cycle().take(points.len()).collect();
+        let options = Options::new(domain, DELAUNAY).seed(28);
+        let (relaxed, report, each) = dcr::relax_classes(context, &options, points, &of, None)?;
+        list.points(name, &relaxed);
+        let each = each.iter().flat_map(|class| [class.rho, class.coverage]);
+        list.numbers(
+            &format!("{name}: report"),
+            &[report.motion, report.rho].into_iter().chain(each).collect::<Vec<_>>(),
+        );
+    }
+    Ok(())
 }
 
 fn by_density(context: &Context, list: &mut List) -> Result<()> {

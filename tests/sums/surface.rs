@@ -25,9 +25,10 @@ pub fn sums(context: &Context, list: &mut List) -> Result<Surface> {
     let open = Arc::new(meshes::torus(40, 24, true)?);
     let maximal = uniform(context, &closed, &open, list)?;
     ordered(context, &closed, &open, list)?;
-    in_classes(context, &closed, list)?;
+    in_classes(context, &closed, &maximal, list)?;
     adaptive(context, &closed, &open, list)?;
     with_density(context, &open, list)?;
+    deformed(&closed, &maximal, list)?;
     let few = relaxed(context, &closed, &maximal, &open, list)?;
     Ok(Surface { closed, maximal, open, few })
 }
@@ -87,27 +88,46 @@ fn ordered(context: &Context, closed: &Arc<Mesh>, open: &Arc<Mesh>, list: &mut L
     Ok(())
 }
 
-/// A set of three classes, two of them with equal radii, each on some of the triangles.
-fn in_classes(context: &Context, closed: &Arc<Mesh>, list: &mut List) -> Result<()> {
+/// A set of three classes, two of them with equal radii: each on some of the triangles, and around given samples.
+fn in_classes(context: &Context, closed: &Arc<Mesh>, maximal: &SurfaceSamples, list: &mut List) -> Result<()> {
     let classes = Classes::of_radii(&[0.05, 0.1, 0.05], 1.0)?;
     let masks: Vec<u32> = (0..closed.triangles().len() as u32).map(|i| if i % 9 < 5 { 7 } else { i % 8 }).collect();
     let options = Options::new(0.0).seed(46);
-    let (samples, _) = psp::sample_classes(context, closed, &options, &classes, Some(&masks), None)?;
-    list.samples("classes", &samples);
-    list.bytes("classes: classes", &little_endian(&samples.classes, u32::to_le_bytes));
+    let mut sample = |name: &str, options: Options, masks: Option<&[u32]>| {
+        let (samples, _) = psp::sample_classes(context, closed, &options, &classes, masks, None)?;
+        list.samples(name, &samples);
+        list.bytes(&format!("{name}: classes"), &little_endian(&samples.classes, u32::to_le_bytes));
+        Ok(())
+    };
+    sample("classes", options, Some(&masks))?;
+    let (positions, clearances) = obstacles(maximal);
+    let of_classes: Vec<f64> = clearances.iter().flat_map(|&clearance| [clearance, 0.0, 0.5 * clearance]).collect();
+    sample("classes, given", options.given(Given::with_clearances(&positions, &of_classes)).cosine(0.3), None)?;
+    sample("classes, given, of their radii", options.given(Given::at(&positions)), Some(&masks))
+}
+
+/// Samples that go with the triangles of a mesh whose vertices move.
+fn deformed(closed: &Mesh, maximal: &SurfaceSamples, list: &mut List) -> Result<()> {
+    let bent = closed.positions().iter().map(|&[x, y, z]| [x + 0.3 * z * z, y * (1.0 - 0.2 * x), z - 0.1 * x * y]);
+    let bent = closed.deformed(bent.collect())?;
+    list.samples("deformed", &bent.samples_at(&maximal.triangles, &maximal.barycentrics)?);
     Ok(())
 }
 
-/// Sets that follow densities: a function's, and an image's whose texture coordinates are x and y.
+/// Sets that follow densities: a function's, an image's whose texture coordinates are x and y, and one of the vertices.
 fn with_density(context: &Context, open: &Mesh, list: &mut List) -> Result<()> {
     let at = |[x, _, z]: [f64; 3]| 0.4 + 0.2 * x + 0.1 * z;
     let function = Density::Function { at: &at, largest: 1.0, slope: 0.25 };
     let values: Vec<f32> = (0..12 * 10).map(|i| if i % 5 == 0 { 0.0 } else { (i % 7) as f32 }).collect();
     let texture: Vec<[f32; 2]> = open.positions().iter().map(|&[x, y, _]| [x, y]).collect();
     let image = Density::Image { values: &values, width: 12, height: 10, texture: Texture::PerVertex(&texture) };
-    for (name, density, scale) in
-        [("density function", function, Scale::Radius(0.04)), ("density image", image, Scale::Count(2000.0))]
-    {
+    let weights: Vec<f32> = open.positions().iter().map(|[x, _, z]| (x + 0.5 * z).max(0.0)).collect();
+    let vertices = Density::PerVertex(&weights);
+    for (name, density, scale) in [
+        ("density function", function, Scale::Radius(0.04)),
+        ("density image", image, Scale::Count(2000.0)),
+        ("density of vertices", vertices, Scale::Count(1500.0)),
+    ] {
         let options = adaptive::Options::new(Radius::Density { density, scale }).seed(45);
         list.samples(&format!("adaptive, {name}"), &adaptive::sample(context, open, &options, None)?.0.samples);
     }

@@ -31,7 +31,8 @@ fn boundary(domain: &Domain) -> &'static str {
 pub fn plane_table(domain: &Domain, sets: &[Set<PlaneSet>], measured: &plane::Measured) -> String {
     let [x, y] = [0, 1].map(|axis| format!("{} to {}", rounded(domain.min[axis], 6), rounded(domain.max[axis], 6)));
     let rows = table(&measured.rows, sets.len());
-    format!("{}: x {x}, y {y}, {}\n\n{rows}", title(sets), boundary(domain))
+    let classes = measured.classes.text(sets.len());
+    format!("{}: x {x}, y {y}, {}\n\n{rows}{classes}", title(sets), boundary(domain))
 }
 
 pub fn surface_table(path: &Path, mesh: &Mesh, sets: &[Set<SampleSet>], measured: &surface::Measured) -> String {
@@ -42,7 +43,9 @@ pub fn surface_table(path: &Path, mesh: &Mesh, sets: &[Set<SampleSet>], measured
     } else {
         ""
     };
-    format!("{}: on {} of {triangles} triangles, area {area}\n\n{rows}{missing}", title(sets), path.display())
+    let classes = measured.classes.text(sets.len());
+    let about = format!("{}: on {} of {triangles} triangles, area {area}", title(sets), path.display());
+    format!("{about}\n\n{rows}{missing}{classes}")
 }
 
 fn files<Points>(sets: &[Set<Points>]) -> Vec<String> {
@@ -67,6 +70,7 @@ pub fn plane_json(domain: &Domain, sets: &[Set<PlaneSet>], measured: &plane::Mea
         "files": files(sets),
         "domain": { "min": domain.min, "max": domain.max, "boundary": boundary(domain) },
         "figures": object(&measured.rows),
+        "classes": measured.classes.json(),
         "radial": { "columns": ["frequency / √density", "power", "anisotropy"], "rows": radial.collect::<Vec<_>>() },
         "distances": { "columns": ["distance / d_max", "density of pairs"], "rows": distribution },
         "nearest": { "columns": ["distance / d_max", "share of points"], "rows": nearest.collect::<Vec<_>>() },
@@ -83,6 +87,7 @@ pub fn surface_json(path: &Path, mesh: &Mesh, sets: &[Set<SampleSet>], measured:
         "files": files(sets),
         "mesh": { "file": path.display().to_string(), "triangles": mesh.triangles().len(), "area": mesh.area() },
         "figures": object(&measured.rows),
+        "classes": measured.classes.json(),
         "radial": { "columns": ["frequency / √density", "power"], "rows": radial },
         "distances": { "columns": ["distance / mean spacing", "density of pairs"], "rows": distances },
     }))

@@ -3,11 +3,12 @@
 use azulejo::analysis::coverage::coverage_2d;
 use azulejo::analysis::distribution::{RadialDistribution, radial_distribution};
 use azulejo::analysis::figures::figures_2d;
-use azulejo::analysis::spacing::nearest_histogram_2d;
+use azulejo::analysis::spacing::{nearest_histogram_2d, spacing_2d};
 use azulejo::analysis::spectrum::{Annulus, Periodogram};
 use azulejo::{Context, Domain, Error, Progress, Result};
 
 use super::Set;
+use super::classes::ByClass;
 use super::figures::{Figure, Row};
 use crate::draw::spectra::spectrum_up_to;
 use crate::formats::blame;
@@ -48,6 +49,10 @@ const FIGURES: [Figure; 12] = [
     Figure::new("low_power", "power below 0.25 √density", ""),
     Figure::new("contrast", "contrast of the spectrum", ""),
 ];
+
+/// So many of them are measured of each class alone.
+const OF_CLASSES: usize = 6;
+
 pub const RADIUS_FIGURES: [Figure; 3] = [
     Figure::new("smallest_over_radius", "smallest distance / radius", ""),
     Figure::new("covering_over_radius", "covering radius / radius", ""),
@@ -70,6 +75,7 @@ pub struct Measured {
     pub distribution: Option<RadialDistribution>,
     /// The share of the points in each bin of distances to the nearest neighbour.
     pub nearest: Vec<f64>,
+    pub classes: ByClass,
 }
 
 /// What is known of one set.
@@ -114,8 +120,19 @@ impl Measured {
             annuli: spectrum.radial(width)?,
             distribution: distributions.map(|all| RadialDistribution::mean(&all)).transpose()?,
             nearest: (0..NEAREST_BINS).map(share).collect(),
+            classes: ByClass::of(sets, &FIGURES[..OF_CLASSES], |points, progress| {
+                of_class(context, domain, points, progress)
+            })?,
         })
     }
+}
+
+/// The figures of a class by itself.
+fn of_class(context: &Context, domain: &Domain, points: &[[f32; 2]], progress: &Progress) -> Result<Vec<f64>> {
+    let figured = figures_2d(context, domain, points, Some(progress))?;
+    let (spacing, covering) = (spacing_2d(domain, &figured.nearest), figured.covering_radius);
+    let [rho, mean, cover] = [spacing.smallest, spacing.mean, covering].map(|length| length / spacing.hexagonal);
+    Ok(vec![points.len() as f64, spacing.smallest, rho, mean, covering, cover])
 }
 
 impl One {

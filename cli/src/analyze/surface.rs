@@ -7,6 +7,7 @@ use azulejo::mesh::Mesh;
 use azulejo::{Context, Error, MAXIMAL_DENSITY, Progress, Result};
 
 use super::Set;
+use super::classes::ByClass;
 use super::figures::{Figure, Row};
 use super::plane::{RADIUS_FIGURES, SHALLOW};
 use crate::formats::blame;
@@ -38,6 +39,7 @@ pub struct Measured {
     pub rows: Vec<Row>,
     /// The differences of all pairs; none if a file has no normals.
     pub differences: Option<Differences>,
+    pub classes: ByClass,
 }
 
 impl Measured {
@@ -48,7 +50,7 @@ impl Measured {
                 let blamed = |error| blame(&set.path, error);
                 let share = |done: f64| (i as f64 + done) / sets.len() as f64;
                 let measuring = part(progress, share(0.0), share(0.4));
-                figures.push(measure(context, mesh, set, radius, &measuring).map_err(blamed)?);
+                figures.push(measure(context, mesh, &set.loaded.positions, radius, &measuring).map_err(blamed)?);
                 if !set.loaded.normals.is_empty() {
                     let comparing = part(progress, share(0.4), share(1.0));
                     differences.push(differences_of(context, mesh, set, &comparing).map_err(blamed)?);
@@ -63,7 +65,9 @@ impl Measured {
             if differences.len() == sets.len() { Some(Differences::together(&differences)?) } else { None };
         let elongation = differences.as_ref().map(|differences| differences.elongation(NEIGHBOURS));
         rows.extend(elongation.map(|value| Row { figure: ELONGATION, values: vec![value] }));
-        Ok(Self { rows, differences })
+        let classes =
+            ByClass::of(sets, &FIGURES, |positions, progress| measure(context, mesh, positions, None, progress))?;
+        Ok(Self { rows, differences, classes })
     }
 
     /// Frequency and power of the differential spectrum.
@@ -77,11 +81,10 @@ impl Measured {
 fn measure(
     context: &Context,
     mesh: &Mesh,
-    set: &Set<SampleSet>,
+    positions: &[[f32; 3]],
     radius: Option<f64>,
     progress: &Progress,
 ) -> Result<Vec<f64>> {
-    let positions = &set.loaded.positions;
     let smallest = smallest_distance_3d(context, positions, Some(&part(progress, 0.0, 0.1)))?;
     let covering = surface_covering_radius(context, mesh, positions, Some(&part(progress, 0.1, 0.5)))?;
     let maximal = (MAXIMAL_DENSITY * mesh.area() / positions.len() as f64).sqrt();

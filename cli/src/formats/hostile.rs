@@ -1,8 +1,9 @@
 //! Files that are no files of points: good ones with some bytes changed, cut out, doubled, in every format. Each is read or
 //! refused in a line; a panic would be neither, and numbers of a header are not believed.
 
+use super::columns::write_floats;
+use super::plane::PlaneTable;
 use super::set::PointSet;
-use super::surface::write_floats;
 use super::{npy, raw, table};
 use crate::ply;
 
@@ -12,7 +13,7 @@ type Parse = fn(&[u8]) -> Result<PointSet, String>;
 fn good_files() -> Vec<(Parse, Vec<u8>)> {
     let (plane, space) = ([[0.5f32, -1.25], [3.0, 4e-3]], [[0.5f32, -1.25, 7.0], [3.0, 4e-3, 1e9]]);
     let mut array = Vec::new();
-    npy::write_plane(&mut array, &plane, &[]).unwrap();
+    npy::write_plane(&mut array, &PlaneTable::of(&plane)).unwrap();
     let fields =
         "[('x', '<f4'), ('y', '<f4'), ('normal', '<f4', (3,)), ('triangle', '<u4'), ('barycentrics', '<f4', (2,))]";
     let header = format!("{:<246}", format!("{{'descr': {fields}, 'fortran_order': False, 'shape': (1,), }}"));

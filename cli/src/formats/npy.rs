@@ -1,7 +1,7 @@
 //! Arrays of NumPy. Sets of the plane are arrays of two floats to a row. Samples of a surface are structured arrays, with
 //! the fields `position` (3 floats), `normal` (3), `triangle` (an unsigned integer), `barycentrics` (2), `radius` where
-//! radii differ, `rank` in progressive order, and `class` where there are several. Sets of the plane of several classes are
-//! structured arrays of `x`, `y` and `class`.
+//! radii differ, `rank` in progressive order, and `class` where there are several. Sets of the plane in progressive order or
+//! of several classes are structured arrays of `x`, `y`, and `rank` or `class`.
 //!
 //! What is read may have floats and integers of any size and byte order: arrays of at least two columns, in C or Fortran
 //! order, of which 2, 3 or 6 are x, y, z, nx, ny and nz, and otherwise the first three; and structured arrays with the
@@ -14,9 +14,11 @@ use std::io::{self, Write};
 
 use serde_json::Value;
 
+use super::columns::Column as FileColumn;
+use super::plane::PlaneTable;
 use super::set::{self, Columns, NAMES, PointSet};
 use super::shortened;
-use super::surface::{SurfaceTable, write_plane_binary};
+use super::surface::SurfaceTable;
 
 const MAGIC: &[u8] = b"\x93NUMPY";
 
@@ -205,26 +207,30 @@ impl Number {
     }
 }
 
-/// Writes a set of the plane as an array of two columns or, with classes, as a structured one.
-pub fn write_plane(writer: &mut impl Write, points: &[[f32; 2]], classes: &[u32]) -> io::Result<()> {
-    if classes.is_empty() {
-        write_header(writer, "'<f4'", &format!("({}, 2)", points.len()))?;
+/// Writes a set of the plane as an array of two columns or, with ranks or classes, as a structured one.
+pub fn write_plane(writer: &mut impl Write, table: &PlaneTable) -> io::Result<()> {
+    let (more, count) = (fields(table.more_columns()), table.points.len());
+    if more.is_empty() {
+        write_header(writer, "'<f4'", &format!("({count}, 2)"))?;
     } else {
-        let fields = "[('x', '<f4'), ('y', '<f4'), ('class', '<u4')]";
-        write_header(writer, fields, &format!("({},)", points.len()))?;
+        write_header(writer, &format!("[('x', '<f4'), ('y', '<f4'){more}]"), &format!("({count},)"))?;
     }
-    write_plane_binary(writer, points, classes)
+    table.write_binary(writer)
 }
 
 /// Writes samples of a surface as a structured array.
 pub fn write_surface(writer: &mut impl Write, table: &SurfaceTable) -> io::Result<()> {
-    let more: String =
-        table.more_columns().map(|column| format!(", ('{}', '{}')", column.name, column.npy_type())).collect();
+    let more = fields(table.more_columns());
     let fields = format!(
         "[('position', '<f4', (3,)), ('normal', '<f4', (3,)), ('triangle', '<u4'), ('barycentrics', '<f4', (2,)){more}]"
     );
     write_header(writer, &fields, &format!("({},)", table.samples.len()))?;
     table.write_binary(writer)
+}
+
+/// The fields of columns, behind others.
+fn fields(columns: impl Iterator<Item = FileColumn>) -> String {
+    columns.map(|column| format!(", ('{}', '{}')", column.name, column.npy_type())).collect()
 }
 
 /// The header of a file of version 1.0.

@@ -2,8 +2,10 @@
 
 use azulejo::Domain;
 
+use super::columns::CLASS;
+
 /// The columns of a file that are kept as floats.
-pub const NAMES: [&str; 10] = ["x", "y", "z", "nx", "ny", "nz", "u", "v", "clearance", "radius"];
+pub const NAMES: [&str; 11] = ["x", "y", "z", "nx", "ny", "nz", "u", "v", "clearance", "radius", CLASS.name];
 
 /// So many of them are coordinates, which are finite.
 const COORDINATES: usize = 8;
@@ -43,6 +45,7 @@ impl<T> Columns<T> {
             normals: self.has(3..6).then(Vec::new),
             on_mesh: self.on_mesh().map(|_| (Vec::new(), Vec::new())),
             clearances: (8..10).find(|&column| self.has(column..column + 1)).map(|column| (column, Vec::new())),
+            classes: self.has(10..11).then(Vec::new),
             domain: None,
         }
     }
@@ -58,6 +61,8 @@ pub struct PointSet {
     on_mesh: Option<OnMesh>,
     /// The numbers of the column of clearances or, without one, of radii; and which column it is.
     clearances: Option<(usize, Vec<f64>)>,
+    /// The numbers of the column of classes.
+    classes: Option<Vec<f32>>,
     /// The domain that the file names.
     pub domain: Option<Domain>,
 }
@@ -69,9 +74,16 @@ pub type OnMesh = (Vec<u32>, Vec<[f32; 2]>);
 #[derive(Debug, Default)]
 pub struct PlaneSet {
     pub points: Vec<[f32; 2]>,
+    /// For each point its clearance or, where the file names none, its radius, if it has one.
+    pub clearances: Option<Vec<f64>>,
+    /// The class of each point.
+    pub classes: OfClasses,
     /// The domain that the file names.
     pub domain: Option<Domain>,
 }
+
+/// The class of each point, if a file has them; the reason where its column of this name has other than whole numbers.
+pub type OfClasses = Option<Result<Vec<u32>, String>>;
 
 /// Samples in space, such as those of a mesh.
 #[derive(Debug)]
@@ -83,6 +95,8 @@ pub struct SampleSet {
     pub on_mesh: Option<OnMesh>,
     /// For each sample its clearance or, where the file names none, its radius, if it has one.
     pub clearances: Option<Vec<f64>>,
+    /// The class of each sample.
+    pub classes: OfClasses,
 }
 
 impl PointSet {
@@ -102,6 +116,9 @@ impl PointSet {
         }
         if let Some((column, clearances)) = &mut self.clearances {
             clearances.push(numbers[*column].into());
+        }
+        if let Some(classes) = &mut self.classes {
+            classes.push(numbers[10]);
         }
         Ok(())
     }
@@ -132,7 +149,9 @@ impl PointSet {
         if !self.is_plane() {
             return Err(format!("holds points in three dimensions, not in the plane: {instead}"));
         }
-        Ok(PlaneSet { points: self.positions.iter().map(|&[x, y, _]| [x, y]).collect(), domain: self.domain })
+        let points = self.positions.iter().map(|&[x, y, _]| [x, y]).collect();
+        let clearances = self.clearances.map(|(_, clearances)| clearances);
+        Ok(PlaneSet { points, clearances, classes: whole(self.classes), domain: self.domain })
     }
 
     /// The set as one of samples in space.
@@ -140,10 +159,23 @@ impl PointSet {
         if !self.has_z {
             return Err("holds points in the plane, without z, and not samples of a mesh".to_owned());
         }
-        let Self { positions, normals, on_mesh, clearances, .. } = self;
+        let Self { positions, normals, on_mesh, clearances, classes, .. } = self;
         let clearances = clearances.map(|(_, clearances)| clearances);
-        Ok(SampleSet { positions, normals: normals.unwrap_or_default(), on_mesh, clearances })
+        Ok(SampleSet { positions, normals: normals.unwrap_or_default(), on_mesh, clearances, classes: whole(classes) })
     }
+}
+
+/// Classes by the numbers of their column.
+fn whole(numbers: Option<Vec<f32>>) -> OfClasses {
+    let class = |(point, number): (usize, f32)| {
+        let class = number as u32;
+        if f64::from(class) == f64::from(number) {
+            Ok(class)
+        } else {
+            Err(format!("point {point}: its class is no whole number"))
+        }
+    };
+    numbers.map(|numbers| numbers.into_iter().enumerate().map(class).collect())
 }
 
 /// The number of a triangle that a file has among floats.

@@ -1,60 +1,10 @@
 //! Samples of a surface as a table: what files of them hold, and in which order.
 
-use std::fmt::{self, Display, Formatter};
 use std::io::{self, Write};
 
 use azulejo::SurfaceSamples;
 
-/// A column that only some sets have.
-#[derive(Clone, Copy)]
-pub struct Column {
-    pub name: &'static str,
-    /// Whether its numbers are unsigned integers; otherwise they are floats.
-    is_whole: bool,
-}
-
-const RADIUS: Column = Column { name: "radius", is_whole: false };
-const RANK: Column = Column { name: "rank", is_whole: false };
-/// The class of each sample, in a set of several.
-pub const CLASS: Column = Column { name: "class", is_whole: true };
-
-impl Column {
-    /// The type of its numbers in PLY files.
-    pub fn ply_type(self) -> &'static str {
-        if self.is_whole { "uint" } else { "float" }
-    }
-
-    /// The type of its numbers in arrays of NumPy.
-    pub fn npy_type(self) -> &'static str {
-        if self.is_whole { "<u4" } else { "<f4" }
-    }
-}
-
-/// A number in such a column.
-#[derive(Clone, Copy)]
-pub enum Number {
-    Float(f32),
-    Whole(u32),
-}
-
-impl Number {
-    /// Little-endian.
-    pub fn bytes(self) -> [u8; 4] {
-        match self {
-            Self::Float(number) => number.to_le_bytes(),
-            Self::Whole(number) => number.to_le_bytes(),
-        }
-    }
-}
-
-impl Display for Number {
-    fn fmt(&self, formatter: &mut Formatter) -> fmt::Result {
-        match self {
-            Self::Float(number) => number.fmt(formatter),
-            Self::Whole(number) => number.fmt(formatter),
-        }
-    }
-}
+use super::columns::{CLASS, Column, Number, RADIUS, RANK, write_floats};
 
 /// Samples with all that is known of them.
 pub struct SurfaceTable<'a> {
@@ -94,20 +44,4 @@ impl SurfaceTable<'_> {
             self.more_numbers(i).try_for_each(|number| writer.write_all(&number.bytes()))
         })
     }
-}
-
-/// Writes vectors as little-endian floats.
-pub fn write_floats<const N: usize>(writer: &mut impl Write, vectors: &[[f32; N]]) -> io::Result<()> {
-    vectors.iter().flatten().try_for_each(|x| writer.write_all(&x.to_le_bytes()))
-}
-
-/// Writes points of the plane and the class of each, little-endian and without gaps; no classes are left out.
-pub fn write_plane_binary(writer: &mut impl Write, points: &[[f32; 2]], classes: &[u32]) -> io::Result<()> {
-    if classes.is_empty() {
-        return write_floats(writer, points);
-    }
-    points.iter().zip(classes).try_for_each(|(&point, class)| {
-        write_floats(writer, &[point])?;
-        writer.write_all(&class.to_le_bytes())
-    })
 }

@@ -9,6 +9,8 @@ use std::io::{self, Write};
 
 use csv::{ReaderBuilder, StringRecord, Trim};
 
+use super::columns::{CLASS, Column, Number};
+use super::plane::PlaneTable;
 use super::set::{Columns, NAMES, PointSet};
 use super::shortened;
 use super::surface::SurfaceTable;
@@ -116,9 +118,14 @@ impl Layout {
             return Err(format!("has {} columns, and line {} has {}", words.len(), self.line, self.width));
         }
         let mut numbers = [0.0f32; NAMES.len()];
-        for (number, column) in numbers.iter_mut().zip(self.columns.floats) {
+        for ((number, column), name) in numbers.iter_mut().zip(self.columns.floats).zip(NAMES) {
             let Some(column) = column else { continue };
-            *number = words[column].parse().map_err(|_| format!("{:?} is not a number", shortened(words[column])))?;
+            *number = match words[column].parse() {
+                Ok(number) => number,
+                // Classes may have names, as long as no command needs them.
+                Err(_) if name == CLASS.name => f32::NAN,
+                Err(_) => return Err(format!("{:?} is not a number", shortened(words[column]))),
+            };
         }
         let triangle = |column: &usize| {
             let word = words[*column];
@@ -128,26 +135,33 @@ impl Layout {
     }
 }
 
-pub fn write_csv_plane(writer: &mut impl Write, points: &[[f32; 2]], classes: &[u32]) -> io::Result<()> {
-    if classes.is_empty() {
-        writeln!(writer, "x,y")?;
-        return points.iter().try_for_each(|[x, y]| writeln!(writer, "{x},{y}"));
-    }
-    writeln!(writer, "x,y,class")?;
-    points.iter().zip(classes).try_for_each(|([x, y], class)| writeln!(writer, "{x},{y},{class}"))
+pub fn write_csv_plane(writer: &mut impl Write, table: &PlaneTable) -> io::Result<()> {
+    write_csv_header(writer, "x,y", table.more_columns())?;
+    table.points.iter().enumerate().try_for_each(|(i, [x, y])| {
+        write!(writer, "{x},{y}")?;
+        end_csv_row(writer, table.more_numbers(i))
+    })
 }
 
 pub fn write_csv_surface(writer: &mut impl Write, table: &SurfaceTable) -> io::Result<()> {
     let SurfaceTable { samples, normals, .. } = table;
-    write!(writer, "x,y,z,nx,ny,nz,triangle,u,v")?;
-    table.more_columns().try_for_each(|column| write!(writer, ",{}", column.name))?;
-    writeln!(writer)?;
+    write_csv_header(writer, "x,y,z,nx,ny,nz,triangle,u,v", table.more_columns())?;
     (0..samples.len()).try_for_each(|i| {
         let ([x, y, z], [nx, ny, nz], [u, v]) = (samples.positions[i], normals[i], samples.barycentrics[i]);
         write!(writer, "{x},{y},{z},{nx},{ny},{nz},{},{u},{v}", samples.triangles[i])?;
-        table.more_numbers(i).try_for_each(|number| write!(writer, ",{number}"))?;
-        writeln!(writer)
+        end_csv_row(writer, table.more_numbers(i))
     })
+}
+
+fn write_csv_header(writer: &mut impl Write, names: &str, mut more: impl Iterator<Item = Column>) -> io::Result<()> {
+    write!(writer, "{names}")?;
+    more.try_for_each(|column| write!(writer, ",{}", column.name))?;
+    writeln!(writer)
+}
+
+fn end_csv_row(writer: &mut impl Write, mut more: impl Iterator<Item = Number>) -> io::Result<()> {
+    more.try_for_each(|number| write!(writer, ",{number}"))?;
+    writeln!(writer)
 }
 
 pub fn write_xyz_plane(writer: &mut impl Write, points: &[[f32; 2]]) -> io::Result<()> {
@@ -213,7 +227,7 @@ mod tests {
     fn what_is_written_is_read_again_bit_by_bit() {
         let expected = [[0.1f32, 1.0 / 3.0], [1e-30, -7e20]];
         let (mut csv, mut xyz) = (Vec::new(), Vec::new());
-        write_csv_plane(&mut csv, &expected, &[]).unwrap();
+        write_csv_plane(&mut csv, &PlaneTable::of(&expected)).unwrap();
         write_xyz_plane(&mut xyz, &expected).unwrap();
         for text in [csv, xyz] {
             assert_eq!(points(&String::from_utf8(text).unwrap()), expected);

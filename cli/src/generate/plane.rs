@@ -3,13 +3,15 @@
 use std::path::PathBuf;
 use std::time::Instant;
 
-use azulejo::kdrt::{self, ClassPlane, Classified, CountOptions};
-use azulejo::{Boundary, Classes, Context, Domain, Given, Order, Progress, Result};
+use azulejo::kdrt::{self, ClassPlane, Classified, CountOptions, Ranked};
+use azulejo::{Boundary, Classes, Context, Domain, Order, Progress, Result};
 use clap::{Args, ValueEnum};
 
+use super::around::Around;
 use super::{Common, count, report};
 use crate::domain::DomainArgs;
-use crate::formats::Input;
+use crate::formats::plane::PlaneTable;
+use crate::formats::{Input, blame};
 use crate::progress::watched;
 use crate::text::{grouped, rounded};
 
@@ -57,7 +59,7 @@ pub struct Plane {
         long, num_args = 4, value_names = ["X0", "Y0", "X1", "Y1"], allow_negative_numbers = true, conflicts_with = "count"
     )]
     window: Option<Vec<f64>>,
-    /// The order of the samples.
+    /// The order of the samples. In progressive order the output has the rank of each sample, except in XYZ and raw floats.
     #[arg(long, value_enum, default_value = "any")]
     order: Sequence,
     /// How many times longer the radius of each level of the progressive order is than that of the next, 1.02 to 1.5:
@@ -67,11 +69,13 @@ pub struct Plane {
     /// The radius of the first level of the progressive order [default: one that has a single sample].
     #[arg(long, value_name = "R", allow_negative_numbers = true)]
     coarsest: Option<f64>,
-    /// Samples that stand already: new ones keep clear of them and fill what they leave. They are not written.
-    #[arg(long, value_name = "POINTS", conflicts_with = "count")]
-    around: Option<PathBuf>,
-    /// How far new samples keep from those that stand already [default: the radius].
-    #[arg(long, value_name = "C", requires = "around", allow_negative_numbers = true)]
+    /// Points that stand already: a .ply, .npy, .csv, .xyz or .raw file. Samples keep their clearances, cover what is
+    /// farther than that from all of them, and are alone written. The clearance of a point is in the column `clearance`
+    /// or, without one, `radius`; without either it is the radius of the set.
+    #[arg(long, visible_alias = "around", value_name = "FILE", conflicts_with = "count")]
+    given: Option<PathBuf>,
+    /// The clearance of all points of `--given`, whatever their file says.
+    #[arg(long, value_name = "C", requires = "given", allow_negative_numbers = true)]
     clearance: Option<f64>,
     #[command(flatten)]
     input: Input,
@@ -89,7 +93,7 @@ enum Sequence {
 }
 
 /// A set, its domain, and what is said of it.
-type Made = (Vec<[f32; 2]>, Domain, String);
+type Made = (Ranked, Domain, String);
 
 impl Plane {
     pub fn run(&self, context: &Context) -> Result<()> {
@@ -98,13 +102,13 @@ impl Plane {
         }
         let output = self.common.destination.open_plane()?;
         let start = Instant::now();
-        let (points, domain, about) = match self.density.count {
+        let (made, domain, about) = match self.density.count {
             Some(count) => self.exactly(count, context)?,
             None => self.at(self.density.radius.unwrap_or(f64::NAN), context)?,
         };
         let seconds = start.elapsed().as_secs_f64();
-        output.write_plane(&domain, &points, &[])?;
-        report(&output.output, points.len(), &about, seconds);
+        output.write_plane(&domain, &PlaneTable { ranks: &made.ranks, ..PlaneTable::of(&made.samples) })?;
+        report(&output.output, made.samples.len(), &about, seconds);
         Ok(())
     }
 
@@ -123,24 +127,33 @@ impl Plane {
     fn at(&self, radius: f64, context: &Context) -> Result<Made> {
         let domain = self.domain.or_unit();
         let options = kdrt::Options::new(radius).domain(domain).leaf_size(self.leaf_size).seed(self.common.seed);
-        let positions = self.given()?;
-        let clearances = self.clearance.map(|clearance| vec![clearance; positions.len()]);
-        let given = Given { positions: &positions, clearances: clearances.as_deref() };
-        let options = options.order(self.order()).quotient(self.quotient).coarsest(self.coarsest()).given(given);
+        let around = self.around()?;
+        let options =
+            options.order(self.order()).quotient(self.quotient).coarsest(self.coarsest()).given(around.given());
         let about = format!("radius {}", rounded(radius, 4));
         if let Some(window) = self.window() {
-            let sample =
-                |progress: &Progress| kdrt::sample_window(context, &options, window.min, window.max, Some(progress));
-            return Ok((watched("plane", sample)?, window, about));
+            let sample = |progress: &Progress| {
+                kdrt::sample_window_ranked(context, &options, window.min, window.max, Some(progress))
+            };
+            return Ok((self.blaming(watched("plane", sample))?, window, about));
         }
-        let points = watched("plane", |progress| kdrt::sample(context, &options, Some(progress)))?;
-        Ok((points, domain, about))
+        let made = self.blaming(watched("plane", |progress| kdrt::sample_ranked(context, &options, Some(progress))))?;
+        Ok((made, domain, about))
     }
 
-    /// The samples that stand already.
-    fn given(&self) -> Result<Vec<[f32; 2]>> {
-        let around = self.around.as_deref().map(|path| self.input.read_plane(path, INSTEAD)).transpose()?;
-        Ok(around.map_or_else(Vec::new, |set| set.points))
+    /// The points that stand already.
+    fn around(&self) -> Result<Around<2>> {
+        let Some(path) = &self.given else { return Ok(Around::default()) };
+        let given = self.input.read_plane(path, INSTEAD)?;
+        Ok(Around::new(given.points, given.clearances, self.clearance))
+    }
+
+    /// An error about the points that stand already, with their file.
+    fn blaming<T>(&self, made: Result<T>) -> Result<T> {
+        made.map_err(|error| match &self.given {
+            Some(path) => blame(path, error),
+            None => error,
+        })
     }
 
     /// The part of the rectangle that is to be made, if not all of it.
@@ -155,24 +168,23 @@ impl Plane {
     fn of_classes(&self, classes: &Classes, context: &Context) -> Result<()> {
         let output = self.common.destination.open_classes()?;
         let start = Instant::now();
-        let positions = self.given()?;
-        let clearances = self.clearance.map(|clearance| vec![clearance; positions.len() * classes.count()]);
-        let given = Given { positions: &positions, clearances: clearances.as_deref() };
+        let around = self.around()?;
+        let around = around.of_classes(classes.count());
         let domain = self.domain.or_unit();
         let options = kdrt::Options::new(0.0).domain(domain).leaf_size(self.leaf_size).seed(self.common.seed);
-        let options = options.given(given);
+        let options = options.given(around.given());
         let (set, domain) = match self.window() {
             Some(window) => {
                 let make = |progress: &Progress| ClassPlane::new(context, &options, classes, Some(progress));
-                (watched("plane", make)?.window(window.min, window.max)?, window)
+                (self.blaming(watched("plane", make))?.window(window.min, window.max)?, window)
             }
             None => {
                 let make = |progress: &Progress| kdrt::sample_classes(context, &options, classes, Some(progress));
-                (watched("plane", make)?, domain)
+                (self.blaming(watched("plane", make))?, domain)
             }
         };
         let seconds = start.elapsed().as_secs_f64();
-        output.write_plane(&domain, &set.samples, &set.classes)?;
+        output.write_plane(&domain, &PlaneTable { classes: &set.classes, ..PlaneTable::of(&set.samples) })?;
         report(&output.output, set.samples.len(), &shares(classes, &set), seconds);
         Ok(())
     }
@@ -186,7 +198,8 @@ impl Plane {
         // Progressive sets are maximal at their levels only.
         let is_fault = !made.report.is_maximal && self.order() == Order::Any;
         let maximal = if is_fault { ", not maximal" } else { "" };
-        Ok((made.samples, domain, format!("radius {}{maximal}", rounded(made.report.radius, 4))))
+        let about = format!("radius {}{maximal}", rounded(made.report.radius, 4));
+        Ok((Ranked::new(made.samples, made.ranks), domain, about))
     }
 }
 

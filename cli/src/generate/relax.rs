@@ -10,6 +10,8 @@ use clap::{Args, ValueEnum};
 
 use super::{Common, report};
 use crate::domain::DomainArgs;
+use crate::formats::plane::PlaneTable;
+use crate::formats::set::OfClasses;
 use crate::formats::surface::SurfaceTable;
 use crate::formats::{Input, ON_MESH, blame};
 use crate::input;
@@ -39,6 +41,10 @@ pub struct Relax {
     /// Which points keep each other at a distance.
     #[arg(long, value_enum, default_value = "delaunay")]
     neighbourhood: Neighbours,
+    /// Take the points for one set, whatever classes the file has, and write none. Otherwise each class of a set of the
+    /// plane is spread evenly as well as all points together.
+    #[arg(long)]
+    no_classes: bool,
     /// The largest number of steps [default: as many as the library takes].
     #[arg(long, value_name = "STEPS")]
     iterations: Option<u32>,
@@ -61,11 +67,14 @@ impl Relax {
     }
 
     fn run_in_plane(&self, context: &Context) -> Result<()> {
-        let output = self.common.destination.open_plane()?;
         let set = self.format.read_plane(&self.input, ON_MESH)?;
-        let domain = self.domain.of(&set).ok_or_else(|| Error::Format {
-            path: self.input.clone(),
-            reason: "does not name its domain, and does not fill the unit square: give --domain".to_owned(),
+        let classes = self.classes(&set.classes)?;
+        let output = match classes {
+            Some(_) => self.common.destination.open_classes()?,
+            None => self.common.destination.open_plane()?,
+        };
+        let domain = self.domain.of(&set).ok_or_else(|| {
+            self.refused("does not name its domain, and does not fill the unit square: give --domain")
         })?;
         let neighbourhood = match self.neighbourhood {
             Neighbours::Delaunay => Neighbourhood::Delaunay,
@@ -75,12 +84,36 @@ impl Relax {
         options.seed = self.common.seed;
         options.max_iterations = self.iterations.unwrap_or(options.max_iterations);
         let start = Instant::now();
-        let relax = |progress: &Progress| dcr::relax(context, &options, &set.points, Some(progress));
-        let (relaxed, done) = watched("relax", relax).map_err(|error| blame(&self.input, error))?;
+        let relax = |progress: &Progress| match classes {
+            Some(classes) => dcr::relax_classes(context, &options, &set.points, classes, Some(progress)),
+            None => {
+                let (relaxed, done) = dcr::relax(context, &options, &set.points, Some(progress))?;
+                Ok((relaxed, done, Vec::new()))
+            }
+        };
+        let (relaxed, done, each) = watched("relax", relax).map_err(|error| blame(&self.input, error))?;
         let seconds = start.elapsed().as_secs_f64();
-        output.write_plane(&domain, &relaxed, &[])?;
-        report(&output.output, relaxed.len(), &about(done.iterations, done.smallest_distance), seconds);
+        let table = PlaneTable { classes: classes.unwrap_or_default(), ..PlaneTable::of(&relaxed) };
+        output.write_plane(&domain, &table)?;
+        let of_classes: Vec<_> = each.iter().map(|class| rounded(class.rho, 3)).collect();
+        let of_classes = if each.is_empty() { String::new() } else { format!(", ρ {}", of_classes.join(" + ")) };
+        let about = about(done.iterations, done.smallest_distance) + &of_classes;
+        report(&output.output, relaxed.len(), &about, seconds);
         Ok(())
+    }
+
+    /// The classes that are to be kept, if there are any.
+    fn classes<'a>(&self, classes: &'a OfClasses) -> Result<Option<&'a [u32]>> {
+        match classes {
+            None => Ok(None),
+            _ if self.no_classes => Ok(None),
+            Some(Ok(classes)) => Ok(Some(classes)),
+            Some(Err(reason)) => Err(self.refused(&format!("{reason}: --no-classes takes the points for one set"))),
+        }
+    }
+
+    fn refused(&self, reason: &str) -> Error {
+        Error::Format { path: self.input.clone(), reason: reason.to_owned() }
     }
 
     /// Relaxation on a mesh.
@@ -88,10 +121,13 @@ impl Relax {
         let output = self.common.destination.open_surface()?;
         let remeshed = self.remesh.as_deref().map(|path| Output::of_format("ply", path)).transpose()?;
         let set = self.format.read_samples(&self.input)?;
+        if self.classes(&set.classes)?.is_some() {
+            let reason = "has classes, which are relaxed in the plane only: --no-classes takes the samples for one set";
+            return Err(self.refused(reason));
+        }
         let mesh = input::mesh(mesh)?;
-        let (triangles, barycentrics) = set.on_mesh.as_ref().ok_or_else(|| Error::Format {
-            path: self.input.clone(),
-            reason: "does not say on which triangle each sample is, and where: no triangle, u and v".to_owned(),
+        let (triangles, barycentrics) = set.on_mesh.as_ref().ok_or_else(|| {
+            self.refused("does not say on which triangle each sample is, and where: no triangle, u and v")
         })?;
         let mut options = surface::Options::default().seed(self.common.seed);
         options.max_iterations = self.iterations.unwrap_or(options.max_iterations);

@@ -1,6 +1,6 @@
 //! `azulejo surface`: maximal Poisson-disk sets of meshes, of one radius, of a radius for each vertex, or of several classes.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use azulejo::mesh::Mesh;
@@ -8,9 +8,9 @@ use azulejo::psp::adaptive::{self, Density as MeshDensity, Radius, Scale};
 use azulejo::{Classes, Context, Error, Given, Order, Progress, Result, SurfaceSamples, psp};
 use clap::{Args, ValueEnum};
 
+use super::around::Around;
 use super::attributes::{MeshFile, mask_of_text};
 use super::{Common, count, report};
-use crate::formats::set::SampleSet;
 use crate::formats::surface::SurfaceTable;
 use crate::formats::{blame, read_given};
 use crate::progress::watched;
@@ -168,27 +168,6 @@ enum Normals {
     Interpolated,
 }
 
-/// The samples that are given.
-#[derive(Default)]
-struct Around {
-    positions: Vec<[f32; 3]>,
-    clearances: Option<Vec<f64>>,
-}
-
-impl Around {
-    /// Those of a file, if there is one, with their clearances or all with the same.
-    fn read(path: Option<&Path>, clearance: Option<f64>) -> Result<Self> {
-        let Some(path) = path else { return Ok(Self::default()) };
-        let SampleSet { positions, clearances, .. } = read_given(path)?;
-        let same = clearance.map(|clearance| vec![clearance; positions.len()]);
-        Ok(Self { positions, clearances: same.or(clearances) })
-    }
-
-    fn given(&self) -> Given<'_, 3> {
-        Given { positions: &self.positions, clearances: self.clearances.as_deref() }
-    }
-}
-
 /// Samples, their radii if they differ, and what is said of them.
 struct Made {
     samples: SurfaceSamples,
@@ -206,7 +185,7 @@ impl Surface {
             let reason = format!("{} has none to be interpolated", self.mesh.display());
             return Err(Error::InvalidArgument { argument: "--normals", reason });
         }
-        let around = Around::read(self.given.as_deref(), self.clearance)?;
+        let around = self.around()?;
         let made = match (&self.density.radius_from, &self.density_from) {
             (Some(attribute), _) => self.adaptive(context, &mesh, &file, (attribute, None), around.given()),
             (None, Some(attribute)) => {
@@ -232,6 +211,13 @@ impl Surface {
         output.write_surface(&SurfaceTable { samples: &samples, normals, radii: radii.as_deref() })?;
         report(&output.output, samples.len(), &about, seconds);
         Ok(())
+    }
+
+    /// The points that stand already.
+    fn around(&self) -> Result<Around<3>> {
+        let Some(path) = &self.given else { return Ok(Around::default()) };
+        let given = read_given(path)?;
+        Ok(Around::new(given.positions, given.clearances, self.clearance))
     }
 
     /// The mesh without the triangles that are to be left out.
@@ -274,14 +260,10 @@ impl Surface {
     }
 
     /// Samples of several classes, by their own radii.
-    fn of_classes(&self, context: &Context, mesh: Mesh, own: &[f64], around: &Around) -> Result<Made> {
+    fn of_classes(&self, context: &Context, mesh: Mesh, own: &[f64], around: &Around<3>) -> Result<Made> {
         let classes = Classes::of_radii(own, self.class_factor)?;
-        // A given sample is as far from all classes.
-        let clearances: Option<Vec<f64>> = around.clearances.as_ref().map(|clearances| {
-            clearances.iter().flat_map(|&clearance| std::iter::repeat_n(clearance, own.len())).collect()
-        });
-        let given = Given { positions: &around.positions, clearances: clearances.as_deref() };
-        let options = psp::Options::new(0.0).seed(self.common.seed).given(given).cosine(self.cosine);
+        let around = around.of_classes(own.len());
+        let options = psp::Options::new(0.0).seed(self.common.seed).given(around.given()).cosine(self.cosine);
         let mesh = Arc::new(mesh);
         let sample =
             |progress: &Progress| psp::sample_classes(context, &mesh, &options, &classes, None, Some(progress));

@@ -1,0 +1,43 @@
+//! Sets of the plane as a table: what files of them hold, and in which order.
+
+use std::io::{self, Write};
+
+use super::columns::{CLASS, Column, Number, RANK, write_floats};
+
+/// Points of the plane with what is known of them.
+#[derive(Clone, Copy, Default)]
+pub struct PlaneTable<'a> {
+    pub points: &'a [[f32; 2]],
+    /// The rank of each point, in progressive order; otherwise empty.
+    pub ranks: &'a [f32],
+    /// The class of each point, where there are several; otherwise empty.
+    pub classes: &'a [u32],
+}
+
+impl<'a> PlaneTable<'a> {
+    /// Points of which no more is known.
+    pub fn of(points: &'a [[f32; 2]]) -> Self {
+        Self { points, ..Self::default() }
+    }
+
+    /// The columns that only some sets have.
+    pub fn more_columns(&self) -> impl Iterator<Item = Column> {
+        let (rank, class) = ((!self.ranks.is_empty()).then_some(RANK), (!self.classes.is_empty()).then_some(CLASS));
+        [rank, class].into_iter().flatten()
+    }
+
+    /// The numbers of a point in these columns.
+    pub fn more_numbers(&self, point: usize) -> impl Iterator<Item = Number> {
+        let rank = self.ranks.get(point).map(|&rank| Number::Float(rank));
+        let class = self.classes.get(point).map(|&class| Number::Whole(class));
+        [rank, class].into_iter().flatten()
+    }
+
+    /// Writes all rows as binary numbers, little-endian and without gaps: x y, and rank and class if there are any.
+    pub fn write_binary(&self, writer: &mut impl Write) -> io::Result<()> {
+        (0..self.points.len()).try_for_each(|i| {
+            write_floats(writer, &self.points[i..=i])?;
+            self.more_numbers(i).try_for_each(|number| writer.write_all(&number.bytes()))
+        })
+    }
+}
