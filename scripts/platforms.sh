@@ -184,6 +184,10 @@ command_line() {
 windows() {
     local target=$windows sources
     has_std $target || return 0
+    if [ ${#std[@]} -gt 0 ] && ! command -v x86_64-w64-mingw32-dlltool >/dev/null; then
+        echo "SKIPPED: $target, whose standard library nightly cannot build without MinGW's dlltool"
+        return
+    fi
     if ! is_long; then
         run_cargo check --package azulejo-c --package azulejo-cli
         echo "SKIPPED: programs under wine (--long)"
