@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
-# Checks what can be checked of the recipes without vcpkg and conda: the crates are packaged, the port is run with an
-# imitation of vcpkg's helpers, conan builds and tests its package, and conda's build step is run by hand. All take the
-# library that the tests have compiled (cargo's profile dev, without Embree), or compile it.
+# Checks what can be checked of the recipes without vcpkg and conda: the crates are packaged and compile as they are
+# packaged, the port is run with an imitation of vcpkg's helpers, conan builds and tests its package, rattler-build reads
+# conda's recipe, and its build step is run by hand. All take the library that the tests have compiled (cargo's profile
+# dev, without Embree), or compile it.
 #
 #   packaging/test.sh
 set -euo pipefail
@@ -15,10 +16,35 @@ export CONAN_HOME=$work/conan-home AZULEJO_CARGO_PROFILE=dev
 # Cargo finds what the tests have compiled.
 share_cargo() { mkdir -p "$1" && ln -sfn "$root/target" "$1/cargo"; }
 
+# Cargo refuses what is not committed, which a change at hand may be.
 crates() {
-    (cd "$root" && cargo package --quiet --workspace --exclude azulejo-studies --no-verify --locked --allow-dirty \
+    local dirty=() crate unpacked=$work/unpacked
+    [ -z "$(git -C "$root" status --porcelain)" ] || dirty=(--allow-dirty)
+    rm -rf "$work/crates/package" "$unpacked"
+    (cd "$root" && cargo package --quiet --workspace --exclude azulejo-studies --no-verify --locked "${dirty[@]}" \
         --target-dir "$work/crates")
-    ls "$work"/crates/package/*.crate
+    mkdir "$unpacked"
+    for crate in "$work"/crates/package/*.crate; do
+        echo "$crate"
+        tar -xzf "$crate" -C "$unpacked"
+    done
+    check_unpacked
+}
+
+# The packages hold all that they need to compile: cargo's own verification would compile what they depend on anew for
+# each. Theirs are the profiles of the workspace, with which the lints have checked the dependencies.
+check_unpacked() {
+    local folder
+    {
+        printf '[workspace]\nmembers = ["azulejo*"]\nresolver = "3"\n\n[patch.crates-io]\n'
+        for folder in azulejo azulejo-cli azulejo-embree-sys; do
+            printf '%s = { path = "%s" }\n' $folder "$(cd "$unpacked" && echo $folder-[0-9]*)"
+        done
+        sed -n '/^\[profile\./,$p' "$root/Cargo.toml"
+    } >"$unpacked/Cargo.toml"
+    cp "$root/Cargo.lock" "$unpacked"
+    (cd "$unpacked" && cargo check --quiet --offline --workspace --exclude azulejo-embree-sys --no-default-features \
+        --target-dir "$root/target")
 }
 
 port() {

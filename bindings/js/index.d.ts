@@ -179,7 +179,7 @@ export function dcrRelax(points: Numbers, options?: RelaxOptions): Relaxation & 
 };
 
 /** Moves samples over their mesh until they are evenly spread. */
-export function dcrRelaxSurface(
+export function dcrSurfaceRelax(
     mesh: Mesh,
     samples: { triangles: Numbers; barycentrics: Numbers },
     options?: {

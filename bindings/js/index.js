@@ -305,7 +305,7 @@ export function dcrRelax(points, options) {
     });
 }
 
-export function dcrRelaxSurface(mesh, samples, options) {
+export function dcrSurfaceRelax(mesh, samples, options) {
     options = withDefaults(RELAX_SURFACE, options);
     return calling((call) => {
         const { maxIterations, tolerance } = options;
@@ -315,7 +315,7 @@ export function dcrRelaxSurface(mesh, samples, options) {
         const args = [
             meshPointer(mesh), whole("maxIterations", maxIterations), tolerance, seedOf(options), triangles, barycentrics, count,
         ];
-        const [report, ...relaxed] = last(call.make("dcr_relax_surface", args, ...SAMPLES, Float64Array));
+        const [report, ...relaxed] = last(call.make("dcr_surface_relax", args, ...SAMPLES, Float64Array));
         const [iterations, stopped, motion, smallestDistance, rho] = report;
         return { ...surfaceSamples(relaxed), iterations, stopped: STOPPED[stopped], motion, smallestDistance, rho };
     });

@@ -111,6 +111,10 @@ class PspReport:
     @property
     def rho(self) -> float: ...
     @property
+    def samples(self) -> int: ...
+    @property
+    def accepted(self) -> int: ...
+    @property
     def iterations(self) -> int: ...
     @property
     def darts(self) -> int: ...
@@ -120,6 +124,24 @@ class PspReport:
     def uncovered_after(self) -> Optional[float]: ...
     @property
     def seconds(self) -> float: ...
+
+class Psp:
+    def __init__(
+        self,
+        mesh: Mesh,
+        radius: SupportsFloat,
+        *,
+        seed: SupportsIndex = 0,
+        priority: Literal["squareness", "projector"] = "squareness",
+        given_positions: Optional[ArrayLike] = None,
+        given_clearances: Optional[ArrayLike] = None,
+        cosine: SupportsFloat = -1.0,
+    ) -> None: ...
+    def advance(
+        self, iterations: SupportsIndex, *, threads: SupportsIndex = 0, progress: _Progress = None
+    ) -> PspReport: ...
+    def fill(self, *, threads: SupportsIndex = 0, progress: _Progress = None) -> PspReport: ...
+    def points(self) -> Points: ...
 
 class DcrReport:
     @property
@@ -134,6 +156,36 @@ class DcrReport:
     def rho(self) -> float: ...
     @property
     def coverage(self) -> Optional[float]: ...
+    @property
+    def class_rho(self) -> Optional[NDArray[np.float64]]: ...
+    @property
+    def class_coverage(self) -> Optional[NDArray[np.float64]]: ...
+
+class DcrRemeshReport:
+    @property
+    def triangles(self) -> int: ...
+    @property
+    def disputed(self) -> int: ...
+    @property
+    def left_out(self) -> int: ...
+    @property
+    def boundary_edges(self) -> int: ...
+    @property
+    def inner_edges(self) -> int: ...
+    @property
+    def non_manifold_edges(self) -> int: ...
+    @property
+    def non_manifold_vertices(self) -> int: ...
+    @property
+    def unused_vertices(self) -> int: ...
+    @property
+    def euler(self) -> int: ...
+    @property
+    def smallest_angle(self) -> float: ...
+    @property
+    def largest_angle(self) -> float: ...
+    @property
+    def mean_smallest_angle(self) -> float: ...
 
 class Selection:
     @property
@@ -285,6 +337,20 @@ def kdrt_sample_classes(
     threads: SupportsIndex = 0,
     progress: _Progress = None,
 ) -> Points: ...
+def kdrt_stream(
+    visit: Callable[[NDArray[np.float32]], object],
+    radius: SupportsFloat,
+    *,
+    domain_min: _Numbers = [0.0, 0.0],
+    domain_max: _Numbers = [1.0, 1.0],
+    boundary: _Boundary = "periodic",
+    leaf_size: SupportsFloat = 20.0,
+    seed: SupportsIndex = 0,
+    given_positions: Optional[ArrayLike] = None,
+    given_clearances: Optional[ArrayLike] = None,
+    threads: SupportsIndex = 0,
+    progress: _Progress = None,
+) -> None: ...
 def maximal_sample(
     radius: SupportsFloat,
     *,
@@ -387,6 +453,19 @@ def dcr_relax(
     threads: SupportsIndex = 0,
     progress: _Progress = None,
 ) -> Points: ...
+def dcr_relax_classes(
+    xy: ArrayLike,
+    classes: ArrayLike,
+    *,
+    domain_min: _Numbers = [0.0, 0.0],
+    domain_max: _Numbers = [1.0, 1.0],
+    boundary: _Boundary = "periodic",
+    max_iterations: SupportsIndex = 100,
+    tolerance: Optional[SupportsFloat] = None,
+    seed: SupportsIndex = 0,
+    threads: SupportsIndex = 0,
+    progress: _Progress = None,
+) -> Points: ...
 def dcr_relax_density(
     xy: ArrayLike,
     density: ArrayLike,
@@ -422,6 +501,14 @@ def dcr_surface_relax(
     threads: SupportsIndex = 0,
     progress: _Progress = None,
 ) -> Points: ...
+def dcr_remesh(
+    mesh: Mesh,
+    triangles: ArrayLike,
+    barycentrics: ArrayLike,
+    *,
+    threads: SupportsIndex = 0,
+    progress: _Progress = None,
+) -> tuple[Mesh, DcrRemeshReport]: ...
 def thin(
     positions: ArrayLike,
     *,

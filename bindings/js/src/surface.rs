@@ -95,7 +95,7 @@ pub unsafe extern "C" fn azulejo_psp_sample(
 /// # Safety
 /// The pointers lead to `count` rows.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn azulejo_dcr_relax_surface(
+pub unsafe extern "C" fn azulejo_dcr_surface_relax(
     mesh: &Handle,
     max_iterations: u32,
     tolerance: f64,

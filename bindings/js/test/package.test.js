@@ -134,7 +134,7 @@ test("sets on meshes are conflict-free, maximal, and can be relaxed", () => {
     const samples = pspChecked(mesh, { radius: 0.15, seed: 3 });
     assert.ok(azulejo.meshMeasure(mesh, samples.positions).coveringRadius <= 0.15 + 1e-5);
     assert.deepEqual(samples, azulejo.pspSample(mesh, { radius: 0.15, seed: 3 }));
-    const relaxed = azulejo.dcrRelaxSurface(mesh, samples, { maxIterations: 30 });
+    const relaxed = azulejo.dcrSurfaceRelax(mesh, samples, { maxIterations: 30 });
     assert.equal(relaxed.triangles.length, samples.triangles.length);
     assert.ok(Math.abs(relaxed.smallestDistance - smallest(relaxed.positions, 3)) < 1e-9);
     assert.ok(relaxed.smallestDistance > 0.15);

@@ -5,21 +5,24 @@ mod argument;
 mod array;
 mod classes;
 mod error;
+mod growing;
 mod mesh;
 mod plane;
 mod points;
 mod psp;
 mod relax;
+mod remesh;
 mod spectrum;
+mod stream;
 mod thin;
 mod watch;
 
 /// Blue-noise sampling: maximal Poisson-disk sets in the plane and on triangle meshes, and their relaxation.
 ///
-/// The plane: kdrt_sample, kdrt_sample_window, KdrtPlane, kdrt_sample_classes, kdrt_merge, maximal_sample. Meshes: Mesh,
-/// psp_sample, psp_sample_classes, psp_adaptive_sample, psp_adaptive_with_density. Relaxation: dcr_relax,
-/// dcr_relax_density, dcr_scatter, dcr_surface_relax. Clouds: thin. Analysis: plane_measure, plane_coverage,
-/// mesh_coverage, Spectrum, Differences and others.
+/// The plane: kdrt_sample, kdrt_sample_window, KdrtPlane, kdrt_sample_classes, kdrt_stream, kdrt_merge, maximal_sample.
+/// Meshes: Mesh, psp_sample, psp_sample_classes, psp_adaptive_sample, psp_adaptive_with_density, Psp. Relaxation:
+/// dcr_relax, dcr_relax_classes, dcr_relax_density, dcr_scatter, dcr_surface_relax, dcr_remesh. Clouds: thin. Analysis:
+/// plane_measure, plane_coverage, mesh_coverage, Spectrum, Differences and others.
 ///
 /// A radius is the smallest distance of two samples, centre to centre. The same arguments and seed give the same bytes,
 /// for any number of threads and on every machine.
@@ -44,6 +47,8 @@ mod azulejo {
     #[pymodule_export]
     use crate::error::Cancelled;
     #[pymodule_export]
+    use crate::growing::Psp;
+    #[pymodule_export]
     use crate::mesh::Mesh;
     #[pymodule_export]
     use crate::plane::{
@@ -55,9 +60,13 @@ mod azulejo {
     #[pymodule_export]
     use crate::psp::{PspReport, psp_adaptive_sample, psp_adaptive_with_density, psp_sample, psp_sample_classes};
     #[pymodule_export]
-    use crate::relax::{DcrReport, dcr_relax, dcr_relax_density, dcr_scatter, dcr_surface_relax};
+    use crate::relax::{DcrReport, dcr_relax, dcr_relax_classes, dcr_relax_density, dcr_scatter, dcr_surface_relax};
+    #[pymodule_export]
+    use crate::remesh::{DcrRemeshReport, dcr_remesh};
     #[pymodule_export]
     use crate::spectrum::{Differences, Spectrum, SpectrumReport};
+    #[pymodule_export]
+    use crate::stream::kdrt_stream;
     #[pymodule_export]
     use crate::thin::{Selection, thin};
 

@@ -21,7 +21,7 @@ pub(crate) struct KdrtReport {
 }
 
 /// The arguments that all sets of the plane share.
-struct Request<'py> {
+pub(crate) struct Request<'py> {
     domain: Domain,
     leaf_size: f64,
     seed: u64,
@@ -32,7 +32,7 @@ struct Request<'py> {
 }
 
 impl<'py> Request<'py> {
-    fn new(
+    pub(crate) fn new(
         domain: Domain,
         leaf_size: f64,
         seed: i128,
@@ -50,7 +50,7 @@ impl<'py> Request<'py> {
         })
     }
 
-    fn by_radius(&self, radius: f64) -> PyResult<kdrt::Options<'_>> {
+    pub(crate) fn by_radius(&self, radius: f64) -> PyResult<kdrt::Options<'_>> {
         Ok(kdrt::Options::new(radius)
             .domain(self.domain)
             .leaf_size(self.leaf_size)

@@ -66,7 +66,7 @@ impl Points {
     }
 
     pub(crate) fn classified(py: Python<'_>, Classified { samples, classes, .. }: Classified) -> PyResult<Self> {
-        Ok(Self { classes: Some(line(py, classes)), ..Self::plane(py, samples)? })
+        Ok(Self::plane(py, samples)?.with_classes(py, classes))
     }
 
     pub(crate) fn surface(py: Python<'_>, samples: SurfaceSamples) -> PyResult<Self> {
@@ -89,6 +89,10 @@ impl Points {
 
     pub(crate) fn adaptive(py: Python<'_>, AdaptiveSamples { samples, radii, .. }: AdaptiveSamples) -> PyResult<Self> {
         Ok(Self { radii: Some(line(py, radii)), ..Self::surface(py, samples)? })
+    }
+
+    pub(crate) fn with_classes(self, py: Python<'_>, classes: Vec<u32>) -> Self {
+        Self { classes: Some(line(py, classes)), ..self }
     }
 
     pub(crate) fn with_report<R: PyClass + Into<PyClassInitializer<R>>>(

@@ -23,6 +23,10 @@ pub(crate) struct PspReport {
     coverage: Option<f64>,
     /// The radius over the distance of neighbours if as many samples stood in hexagonal order on the mesh's area.
     rho: f64,
+    /// Samples of the set after the call.
+    samples: u64,
+    /// Samples that the call added.
+    accepted: u64,
     /// Iterations of projection that were made.
     iterations: u32,
     /// Darts that were thrown at uncovered surface.
@@ -37,10 +41,9 @@ pub(crate) struct PspReport {
 
 impl From<psp::Report> for PspReport {
     fn from(report: psp::Report) -> Self {
-        let psp::Report {
-            radius, coverage, rho, iterations, darts, uncovered_before, uncovered_after, seconds, ..
-        } = report;
-        Self { radius, coverage, rho, iterations, darts, uncovered_before, uncovered_after, seconds }
+        let psp::Report { radius, coverage, rho, samples, accepted, iterations, darts, .. } = report;
+        let psp::Report { uncovered_before, uncovered_after, seconds, .. } = report;
+        Self { radius, coverage, rho, samples, accepted, iterations, darts, uncovered_before, uncovered_after, seconds }
     }
 }
 
@@ -103,7 +106,7 @@ pub(crate) fn psp_sample(
     Points::surface(py, samples)?.with_report(py, PspReport::from(report))
 }
 
-fn priority(name: &str) -> PyResult<Priority> {
+pub(crate) fn priority(name: &str) -> PyResult<Priority> {
     choice("priority", name, &[("squareness", Priority::Squareness), ("projector", Priority::Projector)])
 }
 

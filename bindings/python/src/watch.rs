@@ -56,21 +56,31 @@ impl Looking {
         if (is_end && self.progress.is_none()) || (!is_end && self.last.get().elapsed() < INTERVAL) {
             return ControlFlow::Continue(());
         }
-        let goes_on = Python::attach(|py| {
-            py.check_signals()?;
-            let Some(progress) = &self.progress else { return Ok(true) };
-            // Anything but False goes on, so that a callable need not return anything.
-            let answer = progress.bind(py).call1((done,))?;
-            Ok(answer.extract::<bool>().unwrap_or(true))
+        let goes_on = Python::attach(|py| match &self.progress {
+            Some(progress) => ask(py, progress, done),
+            None => py.check_signals().map(|()| true),
         });
         self.last.set(Instant::now());
-        match goes_on {
-            Ok(true) => ControlFlow::Continue(()),
-            Ok(false) => ControlFlow::Break(()),
-            Err(error) => {
-                self.failed.replace(Some(error));
-                ControlFlow::Break(())
-            }
+        flow(goes_on, &mut self.failed.borrow_mut())
+    }
+}
+
+/// Asks a callable, after Python's signal handlers, whether to go on. Anything but False does, so that it need not return
+/// anything.
+pub(crate) fn ask<'py>(py: Python<'py>, callable: &Py<PyAny>, argument: impl IntoPyObject<'py>) -> PyResult<bool> {
+    py.check_signals()?;
+    let answer = callable.bind(py).call1((argument,))?;
+    Ok(answer.extract::<bool>().unwrap_or(true))
+}
+
+/// The answer as the library takes it; what was raised is kept.
+pub(crate) fn flow(goes_on: PyResult<bool>, failed: &mut Option<PyErr>) -> ControlFlow<()> {
+    match goes_on {
+        Ok(true) => ControlFlow::Continue(()),
+        Ok(false) => ControlFlow::Break(()),
+        Err(error) => {
+            *failed = Some(error);
+            ControlFlow::Break(())
         }
     }
 }

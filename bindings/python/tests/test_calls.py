@@ -67,8 +67,37 @@ def test_progress_cancels(threads):
 def test_relaxation_that_is_cancelled_has_a_result():
     xy = azulejo.kdrt_sample(0.01).positions
     assert azulejo.dcr_relax(xy, progress=lambda done: False).report.stopped == "cancelled"
+    classes = np.arange(len(xy)) % 2
+    assert azulejo.dcr_relax_classes(xy, classes, progress=lambda done: False).report.stopped == "cancelled"
     with pytest.raises(ZeroDivisionError):
         azulejo.dcr_relax(xy, progress=lambda done: 1 / 0)
+
+
+def test_a_stream_that_is_stopped():
+    parts = []
+
+    def stop(part):
+        parts.append(part)
+        return len(parts) < 2
+
+    with pytest.raises(azulejo.Cancelled):
+        azulejo.kdrt_stream(stop, **LONG)
+    assert len(parts) == 2
+    with pytest.raises(ZeroDivisionError):
+        azulejo.kdrt_stream(lambda part: 1 / 0, **LONG)
+    with pytest.raises(azulejo.Cancelled):
+        azulejo.kdrt_stream(parts.append, **LONG, progress=lambda done: done < 0.1)
+
+
+def test_a_growing_set_is_changed_by_one_call_at_a_time():
+    growing = azulejo.Psp(MESH, 0.02)
+    for call in (growing.points, growing.fill, lambda: growing.advance(1)):
+        with pytest.raises(RuntimeError, match="in use"):
+            growing.fill(progress=lambda done: call())
+    with pytest.raises(azulejo.Cancelled):
+        growing.fill(progress=lambda done: False)
+    growing.fill()
+    assert azulejo.mesh_coverage(MESH, growing.points().positions, 0.02 + 1e-6).gaps == 0
 
 
 @pytest.mark.parametrize("threads", [1, 2])
@@ -212,6 +241,17 @@ XY = np.full((3, 2), 0.5, np.float32)
         (lambda: azulejo.dcr_relax(XY, tolerance=-1), ValueError, "tolerance"),
         (lambda: azulejo.dcr_relax_density(XY, np.zeros(4)), ValueError, "density"),
         (lambda: azulejo.dcr_surface_relax(MESH, [99999999], [[0, 0]]), ValueError, "triangles"),
+        (lambda: azulejo.dcr_relax_classes(XY, [0, 1]), ValueError, "classes"),
+        (lambda: azulejo.dcr_relax_classes(XY, [0, 1, 16]), ValueError, "classes"),
+        (lambda: azulejo.dcr_relax_classes(XY, [0.0, 1.0, 1.0]), TypeError, "classes"),
+        (lambda: azulejo.dcr_remesh(MESH, [0], [[0.2, 0.2]]), ValueError, "triangles"),
+        (lambda: azulejo.dcr_remesh(MESH, [0, 1], [[0.2, 0.2]]), ValueError, "barycentrics"),
+        (lambda: azulejo.kdrt_stream(None, 0.1), TypeError, "NoneType"),
+        (lambda: azulejo.kdrt_stream(print, 0.0), ValueError, "radius"),
+        (lambda: azulejo.Psp(MESH, 0.0), ValueError, "radius"),
+        (lambda: azulejo.Psp(MESH, 0.1, seed=-1), ValueError, "seed"),
+        (lambda: azulejo.Psp(MESH, 0.1).advance(-1), ValueError, "iterations"),
+        (lambda: azulejo.Psp(MESH, 0.1, cosine=0.5).advance(1), ValueError, "cosine"),
         (lambda: azulejo.thin(np.zeros((3, 4)), radius=1), ValueError, "positions"),
         (lambda: azulejo.thin(XY), ValueError, "radius"),
         (lambda: azulejo.plane_coverage(XY, 0.0), ValueError, "radius"),

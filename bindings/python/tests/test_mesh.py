@@ -4,23 +4,13 @@ import numpy as np
 import pytest
 
 import azulejo
-from meshes import torus
+from meshes import random_places, torus
 from naive import distances, smallest_distance
 
 
 @pytest.fixture(scope="module")
 def mesh():
     return azulejo.Mesh(*torus())
-
-
-def random_places(mesh, count=20000, seed=5):
-    rng = np.random.default_rng(seed)
-    corners = mesh.positions[mesh.indices].astype(float)
-    areas = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
-    chosen = corners[rng.choice(len(corners), count, p=areas / areas.sum())]
-    u, v = rng.random((2, count))
-    u, v = np.where(u + v > 1, (1 - u, 1 - v), (u, v))
-    return chosen[:, 0] + u[:, None] * (chosen[:, 1] - chosen[:, 0]) + v[:, None] * (chosen[:, 2] - chosen[:, 0])
 
 
 def test_a_mesh_is_what_was_given(mesh):
@@ -38,6 +28,20 @@ def test_a_set_is_conflict_free_and_maximal(mesh):
     assert azulejo.mesh_uncovered_fraction(mesh, points.positions, 0.15 + 1e-6) == 0
     assert azulejo.space_smallest_distance(points.positions) == pytest.approx(smallest_distance(points.positions))
     assert points.report.radius == 0.15 and points.report.uncovered_after == 0
+
+
+def test_a_set_that_grows(mesh):
+    growing = azulejo.Psp(mesh, 0.15, seed=2)
+    assert len(growing.points()) == 0
+    first = growing.advance(1)
+    second = growing.advance(2, threads=1)
+    assert (first.iterations, second.iterations) == (1, 2) and second.samples == first.samples + second.accepted
+    projected = azulejo.psp_sample(mesh, 0.15, seed=2, iterations=3, maximal=False)
+    assert growing.points().positions.tobytes() == projected.positions.tobytes()
+    assert growing.fill().uncovered_after == 0
+    filled = azulejo.psp_sample(mesh, 0.15, seed=2, iterations=3)
+    assert growing.points().positions.tobytes() == filled.positions.tobytes()
+    assert growing.fill().accepted == 0
 
 
 def test_samples_lie_on_their_triangles(mesh):
@@ -117,6 +121,26 @@ def test_relaxation_on_a_mesh(mesh):
     relaxed = azulejo.dcr_surface_relax(mesh, points.triangles, points.barycentrics, max_iterations=20)
     assert len(relaxed) == len(points) and relaxed.report.coverage is None
     assert smallest_distance(relaxed.positions) >= smallest_distance(points.positions)
+
+
+def test_samples_become_a_mesh(mesh):
+    points = azulejo.psp_sample(mesh, 0.2)
+    made, report = azulejo.dcr_remesh(mesh, points.triangles, points.barycentrics)
+    assert (made.positions == points.positions).all()
+    corners = made.indices.astype(int)
+    sides = np.vstack([corners[:, [0, 1]], corners[:, [1, 2]], corners[:, [2, 0]]])
+    # Closed, and wound alike: each side once in each direction.
+    assert len(set(map(tuple, sides))) == len(sides)
+    assert set(map(tuple, sides)) == set(map(tuple, sides[:, ::-1]))
+    assert report.triangles == made.triangle_count and report.inner_edges == len(sides) // 2
+    assert (report.boundary_edges, report.non_manifold_edges, report.non_manifold_vertices) == (0, 0, 0)
+    assert report.euler == len(points) - len(sides) // 2 + len(corners) == 0
+    places = made.positions.astype(float)[corners]
+    a, b = (np.roll(places, -step, axis=1) - places for step in (1, 2))
+    angles = np.degrees(np.arccos((a * b).sum(axis=2) / np.linalg.norm(a, axis=2) / np.linalg.norm(b, axis=2)))
+    assert report.smallest_angle == pytest.approx(angles.min(), abs=1e-6)
+    assert report.largest_angle == pytest.approx(angles.max(), abs=1e-6)
+    assert report.mean_smallest_angle == pytest.approx(angles.min(axis=1).mean(), abs=1e-6)
 
 
 def test_samples_follow_a_deformed_mesh(mesh):

@@ -74,6 +74,17 @@ def test_classes_keep_their_distances():
     assert set(window.classes) == {0, 1}
 
 
+def test_a_stream_is_the_plane_part_by_part():
+    parts = []
+    for threads in (1, 3):
+        parts.append([])
+        assert azulejo.kdrt_stream(parts[-1].append, 0.003, seed=3, threads=threads) is None
+    one, three = parts
+    assert [len(part) for part in one] == [len(part) for part in three] and len(one) > 1
+    whole = azulejo.kdrt_sample(0.003, seed=3).positions
+    assert one[0].dtype == np.float32 and np.vstack(one).tobytes() == np.vstack(three).tobytes() == whole.tobytes()
+
+
 def test_pieces_are_merged():
     halves = [((0.0, 0.0), (0.5, 1.0)), ((0.5, 0.0), (1.0, 1.0))]
     pieces = [
@@ -94,6 +105,21 @@ def test_relaxation_spreads_points():
     assert relaxed.report.smallest_distance == pytest.approx(smallest_distance(relaxed.positions, period=1.0), rel=1e-6)
     thesis = azulejo.dcr_relax(random, method="thesis", neighbourhood="nearest", distribution="average", max_iterations=5)
     assert thesis.report.iterations <= 5
+
+
+def test_relaxation_spreads_classes():
+    before = azulejo.kdrt_sample_classes(azulejo.classes_radii([0.08, 0.05]))
+    after = azulejo.dcr_relax_classes(before.positions, before.classes)
+    assert (after.classes == before.classes).all()
+    assert after.report.rho > 0.7 and after.report.class_rho.dtype == np.float64
+    sets = [slice(None), before.classes == 0, before.classes == 1]
+    rhos, coverages = [after.report.rho, *after.report.class_rho], [after.report.coverage, *after.report.class_coverage]
+    for members, rho, coverage in zip(sets, rhos, coverages):
+        points = after.positions[members]
+        hexagonal = np.sqrt(2 / (np.sqrt(3) * len(points)))
+        assert rho == pytest.approx(smallest_distance(points, period=1.0) / hexagonal, rel=1e-6)
+        assert coverage - 0.005 / hexagonal < covering_radius(points, period=1.0) / hexagonal <= coverage + 1e-6
+    assert azulejo.dcr_relax(before.positions, max_iterations=1).report.class_rho is None
 
 
 def test_stippling_follows_an_image():

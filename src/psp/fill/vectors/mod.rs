@@ -53,6 +53,7 @@ pub(super) fn open_sixteenths(
     normal: &[f32; 3],
     open: u16,
 ) -> u16 {
+    #[cfg(target_arch = "x86_64")]
     let [a, b, c] = corners;
     match level {
         Level::Portable => grid.open_sixteenths_portable(corners, reach, normal, open),

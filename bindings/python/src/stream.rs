@@ -1,0 +1,48 @@
+//! Planes that are passed on part by part.
+
+use azulejo_core::kdrt;
+use pyo3::prelude::*;
+
+use crate::argument::domain;
+use crate::array::table;
+use crate::plane::Request;
+use crate::watch::{Watch, ask, flow};
+
+/// Makes the set of kdrt_sample and passes it on part by part, in its order, instead of keeping it: for sets of any size.
+/// Memory is that of a few parts per thread.
+///
+/// visit: called with each part, float32, shape (n, 2): windows of at most about 50,000 samples, the same for any number
+///     of threads. If it returns False the call raises Cancelled; what it raises passes through. Meanwhile other threads
+///     make the next parts. A domain that is too small to be tiled is one part.
+/// The others are those of kdrt_sample.
+#[pyfunction]
+#[pyo3(signature = (
+    visit, radius, *, domain_min=[0.0, 0.0], domain_max=[1.0, 1.0], boundary="periodic", leaf_size=20.0, seed=0,
+    given_positions=None, given_clearances=None, threads=0, progress=None
+))]
+pub(crate) fn kdrt_stream(
+    py: Python<'_>,
+    visit: Py<PyAny>,
+    radius: f64,
+    domain_min: [f64; 2],
+    domain_max: [f64; 2],
+    boundary: &str,
+    leaf_size: f64,
+    seed: i128,
+    given_positions: Option<&Bound<'_, PyAny>>,
+    given_clearances: Option<&Bound<'_, PyAny>>,
+    threads: i128,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<()> {
+    let domain = domain(domain_min, domain_max, boundary)?;
+    let given = (given_positions, given_clearances);
+    let request = Request::new(domain, leaf_size, seed, ("any", None, None), given)?;
+    let request = request.by_radius(radius)?;
+    let mut failed = None;
+    let done = Watch::new(py, threads, progress)?.run(|context, progress| {
+        let pass =
+            |part: &[[f32; 2]]| flow(Python::attach(|py| ask(py, &visit, table(py, part.to_vec())?)), &mut failed);
+        kdrt::sample_stream(context, &request, pass, progress)
+    });
+    failed.map_or(done, Err)
+}
