@@ -16,6 +16,7 @@ mod near;
 mod order;
 mod psp;
 mod reference;
+mod repeated;
 mod tiling;
 mod timing;
 mod verdict;
