@@ -3,6 +3,7 @@
 mod recomputed;
 
 use std::fs;
+use std::os::unix::fs::PermissionsExt;
 use std::process::{Command, Output};
 
 use azulejo_cli::procedural::knot::knot;
@@ -415,15 +416,27 @@ fn a_quick_gallery_shows_every_sampler_with_its_spectrum_and_zone_plate() {
     assert!(!page.contains("NaN"));
 }
 
+/// What stands for the example program of this name.
+const LIGHTS: &str = "#!/bin/sh
+echo \"$2 lights, 240 places, 40 sets each, reference of 100000 lights\"
+echo 'blue noise: error 0.0512 +- 0.0004'
+echo 'random:     error 0.0712 +- 0.0011'
+";
+
 #[test]
 fn a_quick_page_of_other_figures_has_plausible_ones() {
     let directory = tempfile::tempdir().unwrap();
     fs::write(directory.path().join("knot.obj"), knot_file()).unwrap();
-    let page = Page::of(directory, "figures", &["--dragon", "knot.obj"]);
+    fs::write(directory.path().join("lights"), LIGHTS).unwrap();
+    fs::set_permissions(directory.path().join("lights"), fs::Permissions::from_mode(0o755)).unwrap();
+    let page = Page::of(directory, "figures", &["--dragon", "knot.obj", "--lights", "./lights"]);
     page.check_pictures(3, 600);
     page.check_verdicts();
     let page = page.text;
-    for figure in ["fig. 4.2)", "fig. 3.18)", "fig. 3.16)", "fig. 4.12)", "fig. 1.14)"] {
+    assert!(page.contains(
+        "| error of 100 lights: blue noise below random | 0.0512 ± 0.0004 | 40 | 0.0712 ± 0.0011 | 40 | +17.1 |"
+    ));
+    for figure in ["fig. 4.2)", "fig. 3.18)", "fig. 3.16)", "fig. 4.12)", "fig. 1.14)", "fig. 3.22)"] {
         assert!(page.lines().any(|line| line.starts_with("## ") && line.contains(figure)), "{figure}");
     }
     // Points, sets, hole, peak, height, dip: what is farther apart has the larger hole; random points have none.

@@ -36,7 +36,8 @@ pub fn text(
         radius, the smallest distance. An *iteration* is three orthogonal directions; *relative radius* is the square root \
         of the samples over those of the reference, a set that is only filled: darts into what is uncovered. Times \
         and rates are medians of some rounds, with their range in brackets, on a machine that may have had other work; what \
-        a table compares takes turns.\n";
+        a table compares takes turns. [figures.md](figures.md) times whole calls on a ray tracer's scene that is kept, \
+        [peers.md](peers.md) each call in a process of its own.\n";
     let absent =
         |one: &Missing| format!("\n**The {} was not given (`{} MESH`) and is left out.**\n", one.name, one.option);
     let parts = [
