@@ -16,6 +16,7 @@ use azulejo::{Context, Result};
 use clap::Args;
 
 use crate::args::{MeshArgs, PageArgs};
+use crate::repeated::ROUNDS;
 use azulejo_cli::progress::watched;
 use relaxed::Relaxed;
 use sets::{Measured, Tie};
@@ -51,7 +52,7 @@ const FULL: Effort = Effort {
     count: 5e3,
     sets: 5,
     timed: 1e5,
-    rounds: 3,
+    rounds: ROUNDS,
     window: times::WINDOW,
     windows: 8,
     pictured: 3e4,
@@ -63,7 +64,7 @@ const QUICK: Effort = Effort {
     count: 6e2,
     sets: 2,
     timed: 1e3,
-    rounds: 1,
+    rounds: 2,
     window: 5e2,
     windows: 1,
     pictured: 2e3,

@@ -3,8 +3,11 @@
 mod chains;
 mod correlation;
 mod engines;
+mod lights;
 mod pins;
 mod stipple;
+
+use std::path::PathBuf;
 
 use azulejo::{Context, Result};
 use clap::Args;
@@ -17,6 +20,9 @@ pub struct Figures {
     page: PageArgs,
     #[command(flatten)]
     meshes: MeshArgs,
+    /// The program `lights` of `examples_c/`; left out if it is not given.
+    #[arg(long, value_name = "PROGRAM")]
+    lights: Option<PathBuf>,
 }
 
 impl Figures {
@@ -29,6 +35,7 @@ impl Figures {
             chains::section(context, &self.meshes, quick)?,
             pins::section(context, &files, quick)?,
             stipple::section(context, &files, quick)?,
+            lights::section(self.lights.as_deref(), quick)?,
         ];
         files.write("Other figures of the thesis, measured", context.num_threads(), &parts.join("\n"))
     }

@@ -24,16 +24,19 @@ pub struct Kdrt {
 
 /// How much is measured.
 pub struct Effort {
-    /// Samples of a set whose statistics are measured, and sets in each of the groups.
+    /// Samples of a set whose statistics are measured.
     pub count: f64,
+    /// Groups of sets, in each of which spectra are averaged for their largest value, and sets in each of them.
+    pub groups: u64,
     pub sets_per_group: u64,
-    /// Samples of the sets whose stages are measured, and of the largest that is timed.
+    /// Samples of the sets whose stages and rates are measured, a power of ten, and of the largest that is timed.
     pub timed: f64,
     pub largest: f64,
+    pub rounds: usize,
 }
 
-const FULL: Effort = Effort { count: 1e5, sets_per_group: 20, timed: 1e6, largest: 1e7 };
-const QUICK: Effort = Effort { count: 2e4, sets_per_group: 1, timed: 3e4, largest: 3e4 };
+const FULL: Effort = Effort { count: 1e5, groups: 20, sets_per_group: 5, timed: 1e6, largest: 1e7, rounds: 5 };
+const QUICK: Effort = Effort { count: 2e4, groups: 5, sets_per_group: 1, timed: 1e4, largest: 3e4, rounds: 2 };
 
 /// What makes a set.
 #[derive(Clone, Copy, PartialEq)]

@@ -16,6 +16,7 @@ mod near;
 mod order;
 mod psp;
 mod reference;
+mod repeated;
 mod tiling;
 mod timing;
 mod verdict;
@@ -51,7 +52,7 @@ enum Study {
     Order(order::Study),
     /// Measure what else the thesis discusses of randomized tiling: seams, counts, patterns, merging; takes some minutes.
     Tiling(tiling::Tiling),
-    /// Measure figures of the thesis that are on no other page: pair correlation, a rasteriser, two million dots.
+    /// Measure figures of the thesis that are on no other page: pair correlation, a rasteriser, two million dots, lights.
     Figures(figures::Figures),
     /// Show samplers side by side: points, spectra and a zone plate; takes some minutes.
     Gallery(gallery::Gallery),

@@ -17,6 +17,7 @@ use azulejo::{Context, Progress, Result};
 use clap::Args;
 
 use crate::args::{MeshArgs, PageArgs};
+use crate::repeated::ROUNDS;
 use azulejo_cli::progress::watched;
 use bias::Bias;
 use growth::Growth;
@@ -46,9 +47,14 @@ pub struct Effort {
     /// Samples of the sets that are timed, and of others for the rate by radius.
     pub samples: f64,
     pub counts: &'static [f64],
+    /// How often sets are made that verdicts and sentences are about, and others.
+    pub judged_rounds: usize,
+    pub rounds: usize,
     /// Samples of the sets whose growth is watched, and after which iterations.
     pub growth: f64,
     pub marks: &'static [u32],
+    /// Samples of the sets beside which methods of others are measured: fewer, as their darts take long.
+    pub others: f64,
     /// Rays along each axis.
     pub rays: f64,
     /// The detail of the hall.
@@ -65,8 +71,11 @@ const FULL: Effort = Effort {
     probes: 1_000_000,
     samples: 1e6,
     counts: &[1e4, 3.2e4, 1e5, 3.2e5, 1e6, 3.2e6],
+    judged_rounds: ROUNDS,
+    rounds: 3,
     growth: 3e5,
-    marks: &[1, 2, 3, 5, 10, 20, 30, 50],
+    marks: &[1, 2, 3, 5, 10, 20, 30],
+    others: 1e5,
     rays: 1e6,
     detail: 48,
     pictured: 4e4,
@@ -80,8 +89,11 @@ const QUICK: Effort = Effort {
     probes: 20_000,
     samples: 5e3,
     counts: &[2e3, 5e3],
+    judged_rounds: 2,
+    rounds: 2,
     growth: 3e3,
     marks: &[1, 2, 3],
+    others: 3e3,
     rays: 5e3,
     detail: 8,
     pictured: 5e3,
@@ -118,7 +130,7 @@ impl Psp {
             let scene = scene?;
             measured.push(watched(scene.name.clone(), |progress| Measured::of(context, scene, &effort, progress))?);
         }
-        let others = watched("others", |_| others::section(context, &measured[0].scene, effort.growth))?;
+        let others = watched("others", |_| others::section(context, &measured[0].scene, &effort))?;
         let bias = watched("bias", |progress| Bias::measure(context, &effort, progress))?;
 
         pictures::draw_rates(&measured, &files.picture("rates")?)?;

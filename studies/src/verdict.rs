@@ -16,6 +16,11 @@ pub fn verdict(is_met: bool) -> &'static str {
     if is_met { "met" } else { "**not met**" }
 }
 
+/// Whether a goal is met, if that is known.
+pub fn judged(is_met: Option<bool>) -> &'static str {
+    is_met.map_or("not decided", verdict)
+}
+
 /// Mean, standard error and number of independent values: what a verdict can be computed from.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Mean {
@@ -44,6 +49,12 @@ impl Mean {
     /// How far this is above a number that is known.
     pub fn above_number(&self, number: f64) -> Option<Difference> {
         (self.count > 1).then(|| Difference::new(self.mean - number, self.error, self.count as f64 - 1.0))
+    }
+
+    /// The mean with its standard error: "0.8618 ± 4e-5". Of a single value the error is not known.
+    pub fn cell(&self, digits: usize) -> String {
+        let error = if self.count > 1 { rounded(self.error, 1) } else { "?".to_owned() };
+        format!("{} ± {error}", rounded(self.mean, digits))
     }
 }
 
@@ -103,6 +114,21 @@ pub fn holm(chances: &[f64]) -> Vec<f64> {
     corrected
 }
 
+/// The verdicts on claims that differences are above zero, each after its corrected chance. A claim is met where its chance
+/// is at most [`LEVEL`], not met where that of the opposite is, and otherwise not decided.
+pub fn claims(differences: &[Option<Difference>]) -> Vec<(f64, &'static str)> {
+    let corrected = |chance: fn(&Difference) -> f64| {
+        holm(&differences.iter().map(|it| it.as_ref().map_or(1.0, chance)).collect::<Vec<_>>())
+    };
+    let opposite = |it: &Difference| Difference { t: -it.t, ..*it }.chance_of_larger();
+    let (own, opposite) = (corrected(Difference::chance_of_larger), corrected(opposite));
+    let verdict = |(own, opposite): (f64, f64)| match (own <= LEVEL, opposite <= LEVEL) {
+        (false, false) => (own, judged(None)),
+        (is_met, _) => (own, judged(Some(is_met))),
+    };
+    own.into_iter().zip(opposite).map(verdict).collect()
+}
+
 /// How pages write a chance.
 pub fn chance(chance: f64) -> String {
     match chance {
@@ -136,6 +162,12 @@ mod tests {
     }
 
     #[test]
+    fn means_are_written_with_their_errors() {
+        assert_eq!(Mean::of(&[0.25, 0.27]).cell(4), "0.26 ± 0.01");
+        assert_eq!(Mean::of(&[-1e-9]).cell(2), "-1e-9 ± ?");
+    }
+
+    #[test]
     fn a_difference_is_that_of_welch() {
         // Means 3 and 6, variances 2.5 and 10, of five values each.
         let low = Mean::of(&[1.0, 2.0, 3.0, 4.0, 5.0]);
@@ -166,6 +198,20 @@ mod tests {
         }
         assert_eq!(holm(&[0.9, 0.8]), [1.0, 1.0]);
         assert!(holm(&[]).is_empty());
+    }
+
+    #[test]
+    fn a_claim_is_met_or_refuted_or_not_decided() {
+        let difference = |t| Some(Difference { t, freedom: 20.0 });
+        let claims = claims(&[difference(9.0), difference(-9.0), difference(1.0), None]);
+        assert_eq!(
+            claims.iter().map(|it| it.1).collect::<Vec<_>>(),
+            ["met", "**not met**", "not decided", "not decided"]
+        );
+        assert!(claims[0].0 < 1e-6 && claims[1].0 == 1.0 && claims[3].0 == 1.0);
+        // Decided alone, but not among many: t of 3 has a chance of 0.0035.
+        assert_eq!(super::claims(&[difference(3.0)])[0].1, "met");
+        assert_eq!(super::claims(&[difference(3.0); 4])[0].1, "not decided");
     }
 
     #[test]

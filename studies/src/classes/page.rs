@@ -7,14 +7,15 @@ use super::relaxed::{Figures, Relaxed, Set};
 use super::sets::{Maker, Measured, Tie, ends};
 use super::times::{PLANE, Times, WINDOW_GOAL, Windows};
 use super::{Effort, Results};
-use crate::verdict::verdict;
-use azulejo_cli::text::{grouped, rounded};
+use crate::repeated::cell;
+use crate::timing::Rounds;
+use azulejo_cli::text::grouped;
 
 /// The text of the page.
 pub fn text(effort: &Effort, results: &Results, has_dragon: bool) -> String {
     let parts = [
         introduction(effort),
-        goals(results),
+        goals(effort, results),
         shares(&results.sets),
         ties(&results.ties),
         spectra(&results.sets),
@@ -38,33 +39,34 @@ fn introduction(effort: &Effort) -> String {
     )
 }
 
-fn goals(results: &Results) -> String {
-    let mut text =
-        "## Goals\n\nTime per sample against one class of the smallest own radius, in the same run, on one thread; \
-         Wei's cross radii.\n\n| goal | found | |\n|---|---|---|\n"
-            .to_owned();
-    let mut ratio = |what: &str, times: &[Times], one: fn(&Times) -> f64| {
+fn goals(effort: &Effort, results: &Results) -> String {
+    let mut text = format!(
+        "## Goals\n\nHow many times as long a sample takes as one of a single class of the smallest own radius, in the same run, on \
+         one thread; Wei's cross radii. The median of {} rounds, with their range: a goal is met where every round meets it, \
+         not met where none does, and otherwise not decided.\n\n| goal | found |\n|---|---|\n",
+        effort.rounds
+    );
+    let mut ratio = |what: &str, times: &[Times], one: fn(&Times) -> Option<&Rounds>| {
         for times in times {
-            let found = times.classes.per_sample() / one(times);
+            let Some(one) = one(times) else { continue };
+            let found = times.classes.per_sample().over(&one.per_sample());
             let (name, goal) = (times.mix.name, times.goal);
-            _ = writeln!(text, "| {what}, own radii {name}: {goal} × | {found:.2} × | {} |", verdict(found <= goal));
+            let verdict = found.verdict(|found| found <= goal);
+            _ = writeln!(text, "| {what}, own radii {name}; goal: at most {goal} | {}, {verdict} |", cell(&found, 3));
         }
     };
-    ratio("plane, against filling one class", &results.plane, |times| {
-        times.filled.map_or(f64::NAN, |t| t.per_sample())
-    });
-    ratio("plane, against tiling one class", &results.plane, |times| times.one.per_sample());
+    ratio("plane, against filling one class", &results.plane, |times| times.filled.as_ref());
+    ratio("plane, against tiling one class", &results.plane, |times| Some(&times.one));
     if let Some(bunny) = &results.bunny {
-        ratio("bunny", bunny, |times| times.one.per_sample());
+        ratio("bunny", bunny, |times| Some(&times.one));
     }
     let Windows { samples, milliseconds } = &results.windows;
-    let window = grouped(samples.round() as usize);
-    let is_met = milliseconds.mean <= WINDOW_GOAL;
     _ = writeln!(
         text,
-        "| a window of {window} samples of three classes in a kept plane: {WINDOW_GOAL} ms | {:.1} ms | {} |",
-        milliseconds.mean,
-        verdict(is_met)
+        "| ms of a window of {} samples of three classes in a kept plane; goal: at most {WINDOW_GOAL} | {}, {} |",
+        grouped(samples.round() as usize),
+        cell(milliseconds, 3),
+        milliseconds.verdict(|milliseconds| milliseconds <= WINDOW_GOAL),
     );
     text
 }
@@ -217,18 +219,18 @@ fn beside_wei(sets: &[Measured]) -> String {
 
 fn times(effort: &Effort, results: &Results) -> String {
     let mut text = format!(
-        "## Times\n\nNanoseconds per sample on one thread, the least of {} rounds in which all are made in turn; the smallest class \
+        "## Times\n\nNanoseconds per sample on one thread, medians of {} rounds in which all are made in turn, with their range; the smallest class \
          alone would have about {} samples. *Tiled* is a plain set of KDRT, *filled* a set of the flat quadtree, both of the \
          smallest own radius.\n\n| | own radii | samples | classes | one, tiled | one, filled |\n|---|---|---|---|---|---|\n",
         effort.rounds,
         grouped(effort.timed as usize),
     );
-    let nanoseconds = |seconds: f64| rounded(1e9 * seconds, 3);
+    let nanoseconds = |timed: &Rounds| cell(&timed.per_sample().map(|seconds| 1e9 * seconds), 3);
     let bunny = results.bunny.iter().flatten().map(|times| ("bunny", times));
     for (place, times) in results.plane.iter().map(|times| ("plane", times)).chain(bunny) {
-        let one = nanoseconds(times.one.per_sample());
-        let [tiled, filled] = match times.filled {
-            Some(filled) => [one, nanoseconds(filled.per_sample())],
+        let one = nanoseconds(&times.one);
+        let [tiled, filled] = match &times.filled {
+            Some(filled) => [one, nanoseconds(filled)],
             None => ["-".to_owned(), one],
         };
         _ = writeln!(
@@ -236,7 +238,7 @@ fn times(effort: &Effort, results: &Results) -> String {
             "| {place} | {} | {} | {} | {tiled} | {filled} |",
             times.mix.name,
             grouped(times.classes.samples),
-            nanoseconds(times.classes.per_sample()),
+            nanoseconds(&times.classes),
         );
     }
     if results.bunny.is_none() {
@@ -245,12 +247,11 @@ fn times(effort: &Effort, results: &Results) -> String {
     let Windows { samples, milliseconds } = &results.windows;
     _ = writeln!(
         text,
-        "\nWindows of {} samples of the classes 1, ½, ¼ in a kept plane of about {} take {:.1} ms, {:.1} to {:.1} by place.",
+        "\nWindows of {} samples of the classes 1, ½, ¼ in a kept plane of about {} take {} ms, the mean of {} places.",
         grouped(samples.round() as usize),
         grouped(PLANE as usize),
-        milliseconds.mean,
-        milliseconds.low,
-        milliseconds.high,
+        cell(milliseconds, 3),
+        effort.windows,
     );
     text
 }

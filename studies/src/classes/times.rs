@@ -8,8 +8,8 @@ use azulejo::{Boundary, Classes, Context, Domain, Result, maximal, psp};
 
 use super::Effort;
 use super::mixes::{MIXES, Mix, PICTURED, density};
-use crate::timing::{Timed, least_seconds};
-use azulejo_cli::summary::Summary;
+use crate::repeated::Repeated;
+use crate::timing::{Rounds, in_turns};
 
 /// What is timed, and how many times as long as one class a sample may take.
 pub const TIMED: [(Mix, f64); 6] = [
@@ -32,11 +32,11 @@ pub const PLANE: f64 = 1e9;
 pub struct Times {
     pub mix: Mix,
     pub goal: f64,
-    pub classes: Timed,
+    pub classes: Rounds,
     /// A plain set of one class.
-    pub one: Timed,
+    pub one: Rounds,
     /// In the plane: one class by the flat quadtree, which fills all of it as classes are filled.
-    pub filled: Option<Timed>,
+    pub filled: Option<Rounds>,
 }
 
 impl Times {
@@ -47,7 +47,7 @@ impl Times {
             let classes = Classes::of_radii(&mix.radii(effort.timed, 1.0), 1.0)?;
             let options = kdrt::Options::new(smallest(&classes)).seed(1);
             let unbiased = maximal::Options::new(smallest(&classes)).seed(1);
-            let least = least_seconds(
+            let timed = in_turns(
                 effort.rounds,
                 &[
                     &|| Ok(kdrt::sample_classes(&one, &kdrt::Options::new(0.0).seed(1), &classes, None)?.samples.len()),
@@ -55,7 +55,8 @@ impl Times {
                     &|| Ok(maximal::sample(&one, &unbiased, None)?.len()),
                 ],
             )?;
-            Ok(Self { mix, goal, classes: least[0], one: least[1], filled: Some(least[2]) })
+            let [classes, one, filled] = [0, 1, 2].map(|call: usize| timed[call].clone());
+            Ok(Self { mix, goal, classes, one, filled: Some(filled) })
         };
         TIMED.into_iter().map(time).collect()
     }
@@ -67,13 +68,14 @@ impl Times {
             let classes = Classes::of_radii(&mix.radii(effort.timed, mesh.area()), 1.0)?;
             let several = psp::Options::new(0.0).seed(1);
             let options = psp::Options::new(smallest(&classes)).seed(1);
-            let least = least_seconds(
+            let timed = in_turns(
                 effort.rounds,
                 &[&|| Ok(psp::sample_classes(&one, mesh, &several, &classes, None, None)?.0.positions.len()), &|| {
                     Ok(psp::sample(&one, mesh, &options, None)?.0.positions.len())
                 }],
             )?;
-            Ok(Self { mix, goal, classes: least[0], one: least[1], filled: None })
+            let [classes, one] = [0, 1].map(|call: usize| timed[call].clone());
+            Ok(Self { mix, goal, classes, one, filled: None })
         };
         TIMED.into_iter().map(time).collect()
     }
@@ -87,8 +89,8 @@ fn smallest(classes: &Classes) -> f64 {
 pub struct Windows {
     /// Samples of a window, in the mean.
     pub samples: f64,
-    /// Milliseconds of a window: each is made a few times, of which the least counts.
-    pub milliseconds: Summary,
+    /// Milliseconds of a window in the mean of all places, one value of each round.
+    pub milliseconds: Repeated,
 }
 
 impl Windows {
@@ -106,15 +108,14 @@ impl Windows {
         let (side, width) = ((PLANE / per_area).sqrt(), (effort.window / per_area).sqrt());
         let options = kdrt::Options::new(0.0).domain(square(side));
         let plane = ClassPlane::new(&Context::new(1)?, &options, &classes, None)?;
-        let (mut times, mut samples) = (Vec::new(), 0);
-        for place in 0..effort.windows {
+        let window = |place: u32| {
             let min = [0.1 + 0.037 * f64::from(place), 0.2 + 0.051 * f64::from(place)].map(|x| side * x);
-            let window = || Ok(plane.window(min, min.map(|x| x + width))?.samples.len());
-            let least = least_seconds(effort.rounds, &[&window])?[0];
-            times.push(1e3 * least.seconds);
-            samples += least.samples;
-        }
-        Ok(Self { samples: samples as f64 / times.len() as f64, milliseconds: Summary::of(&times) })
+            Ok(plane.window(min, min.map(|x| x + width))?.samples.len())
+        };
+        let all = || (0..effort.windows).map(window).sum::<Result<usize>>();
+        let timed = in_turns(effort.rounds, &[&all])?.remove(0);
+        let windows = f64::from(effort.windows);
+        Ok(Self { samples: timed.samples as f64 / windows, milliseconds: timed.seconds(1e3 / windows) })
     }
 }
 

@@ -17,6 +17,7 @@ use super::radii::draw_column;
 use super::sets::{FIRST_SEED, STARTS, Start};
 use super::study::Study;
 use crate::reference::random;
+use crate::verdict::Mean;
 use azulejo_cli::draw::canvas::Canvas;
 use azulejo_cli::draw::spectra::FREQUENCY_LIMIT;
 use azulejo_cli::quality::Quality;
@@ -192,22 +193,22 @@ fn text(measured: &[Measured]) -> String {
         "|---".repeat(15),
     );
     for one in measured {
-        let figure = |of: fn(&Quality) -> f64| one.mean(|set| of(&set.quality));
+        let figure = |of: fn(&Quality) -> f64| Mean::of(&one.figures(of));
         let seconds = one.mean(|set| set.seconds);
         _ = writeln!(
             text,
-            "| {} | {} | {} | {} | {:.3} | {:.3} | {:.3} | {:.3} | {:.1e} | {:.1} % | {:.4} | {:.0} | {} | {} | {} |",
+            "| {} | {} | {} | {} | {} | {} | {} | {} | {} | {} % | {} | {:.0} | {} | {} | {} |",
             one.method.name(),
             grouped(one.count),
             one.sets.len(),
             one.start.name(),
-            figure(|set| set.rho),
-            figure(|set| set.mean_distance),
-            figure(|set| set.cover),
-            figure(|set| set.order),
-            figure(|set| set.low_power),
-            100.0 * figure(|set| set.obtuse),
-            figure(|set| set.edge_variation),
+            figure(|set| set.rho).cell(3),
+            figure(|set| set.mean_distance).cell(3),
+            figure(|set| set.cover).cell(3),
+            figure(|set| set.order).cell(3),
+            figure(|set| set.low_power).cell(2),
+            figure(|set| 100.0 * set.obtuse).cell(3),
+            figure(|set| set.edge_variation).cell(4),
             one.mean(|set| set.steps.into()),
             one.sets.iter().filter(|set| set.is_met).count(),
             rounded(seconds, 2),

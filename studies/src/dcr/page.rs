@@ -9,7 +9,7 @@ use super::bounded;
 use super::measured::Measured;
 use super::others;
 use super::sets::{FIRST_SEED, METHODS};
-use crate::verdict::{Difference, LEVEL, Mean, chance, holm, verdict};
+use crate::verdict::{self, Difference, LEVEL, Mean, chance};
 use azulejo_cli::quality::Quality;
 use azulejo_cli::text::{grouped, rounded};
 
@@ -40,7 +40,7 @@ pub fn text(
 ) -> String {
     let introduction = format!(
         "Thesis: Wang 2019, chapter 4. Sets of the unit torus, and under *Bounded* of the unit square with a boundary, from seed {FIRST_SEED} on; no \
-         setting was chosen by what these seeds gave. Figures are means over the sets of a size. Seconds are those of one call, on a machine that may \
+         setting was chosen by what these seeds gave. Figures are means over the sets of a size, ± their standard error, which of a single set is not known. Seconds are those of one call, on a machine that may \
          have had other work.\n\n\
          Lengths are in units of d_max = √(2 A / (√3 N)), the distance of neighbours in the hexagonal arrangement. *ρ* is the \
          smallest distance of a set, *least* the smallest in any of the sets; *nearest* is the mean distance to the nearest \
@@ -74,27 +74,20 @@ fn goals(measured: &[Measured], others: &[others::Measured]) -> String {
             comparisons.push(Comparison { one, figure, own, push_pull, difference });
         }
     }
-    let chances: Vec<_> =
-        comparisons.iter().map(|it| it.difference.map_or(1.0, |difference| difference.chance_of_larger())).collect();
+    let verdicts = verdict::claims(&comparisons.iter().map(|it| it.difference).collect::<Vec<_>>());
     let mut text = format!(
         "## Goal\n\n\
          The momentum method with Delaunay neighbours shall be better than push-pull in every figure, from the same starts; see \
-         *Others* for what push-pull aims at. ± is the standard error of the mean. *t* is the difference in favour of the \
+         *Others* for what push-pull aims at. *t* is the difference in favour of the \
          momentum method over its standard error (Welch), *p* the chance of as large a one between methods that do not differ, \
-         corrected for all {} comparisons of the table (Holm): the goal is met where p is at most {LEVEL}.\n\n\
+         corrected for all {} comparisons of the table (Holm): the goal is met where p is at most {LEVEL}, not met where that of the opposite is, and otherwise not decided.\n\n\
          | points | start | figure | momentum | sets | push-pull | sets | t | p | |\n{}|\n",
         comparisons.len(),
         "|---".repeat(10),
     );
-    for (comparison, &p) in comparisons.iter().zip(&holm(&chances)) {
+    for (comparison, (p, verdict)) in comparisons.iter().zip(verdicts) {
         let Comparison { one, figure, own, push_pull, difference } = comparison;
-        let cell = |Mean { mean, error, count }: &Mean| {
-            format!(
-                "{} ± {} | {count}",
-                rounded(*mean, 4),
-                if *count > 1 { rounded(*error, 1) } else { "?".to_owned() }
-            )
-        };
+        let cell = |mean: &Mean| format!("{} | {}", mean.cell(4), mean.count);
         let t = difference.map_or("-".to_owned(), |difference| format!("{:+.1}", difference.t));
         _ = writeln!(
             text,
@@ -105,7 +98,7 @@ fn goals(measured: &[Measured], others: &[others::Measured]) -> String {
             cell(own),
             cell(push_pull),
             chance(p),
-            verdict(p <= LEVEL),
+            verdict,
         );
     }
     let judged: Vec<_> = comparisons.iter().map(|comparison| comparison.one.count).collect();
@@ -147,21 +140,21 @@ fn section(name: &str, effort: &Effort, measured: &[Measured]) -> String {
     );
     let of_method = || measured.iter().filter(|one| one.method.name == name);
     for one in of_method() {
-        let mean = |figure: fn(&Quality) -> f64| one.summary(figure).mean;
+        let mean = |figure: fn(&Quality) -> f64| Mean::of(&one.sets.iter().map(figure).collect::<Vec<_>>());
         _ = writeln!(
             text,
-            "| {} | {} | {} | {:.3} | {:.3} | {:.3} | {:.3} | {:.3} | {:.1e} | {:.1} % | {:.4} | {:.0} | {} |",
+            "| {} | {} | {} | {} | {:.3} | {} | {} | {} | {} | {} % | {} | {:.0} | {} |",
             grouped(one.count),
             one.sets.len(),
             one.start.name(),
-            mean(|set| set.rho),
+            mean(|set| set.rho).cell(3),
             one.summary(|set| set.rho).low,
-            mean(|set| set.mean_distance),
-            mean(|set| set.cover),
-            mean(|set| set.order),
-            mean(|set| set.low_power),
-            100.0 * mean(|set| set.obtuse),
-            mean(|set| set.edge_variation),
+            mean(|set| set.mean_distance).cell(3),
+            mean(|set| set.cover).cell(3),
+            mean(|set| set.order).cell(3),
+            mean(|set| set.low_power).cell(2),
+            mean(|set| 100.0 * set.obtuse).cell(3),
+            mean(|set| set.edge_variation).cell(4),
             one.steps,
             rounded(one.seconds, 2),
         );
@@ -193,23 +186,24 @@ fn boundaries(effort: &Effort, measured: &[bounded::Measured]) -> String {
         "|---".repeat(14),
     );
     for one in measured {
-        let mean = |figure: fn(&bounded::Quality) -> f64| one.summary(figure).mean;
-        let densities: Vec<_> =
-            (0..bounded::STRIPS).map(|strip| format!("{:.3}", one.summary(|set| set.densities[strip]).mean)).collect();
+        let mean = |figure: &dyn Fn(&bounded::Quality) -> f64| {
+            Mean::of(&one.sets.iter().map(figure).collect::<Vec<_>>()).cell(3)
+        };
+        let densities: Vec<_> = (0..bounded::STRIPS).map(|strip| mean(&|set| set.densities[strip])).collect();
         _ = writeln!(
             text,
-            "| {} | {} | {} | {} | {:.3} | {:.3} | {:.3} | {:.3} | {:.3} | {} | {:.3} |",
+            "| {} | {} | {} | {} | {} | {:.3} | {} | {:.3} | {} | {} | {} |",
             one.name(),
             grouped(one.count),
             one.sets.len(),
             one.start.name(),
-            mean(|set| set.rho),
+            mean(&|set| set.rho),
             one.summary(|set| set.rho).low,
-            mean(|set| set.cover),
+            mean(&|set| set.cover),
             one.summary(|set| set.cover).high,
-            mean(|set| set.boundary_cover),
+            mean(&|set| set.boundary_cover),
             densities.join(" | "),
-            mean(|set| set.spacing),
+            mean(&|set| set.spacing),
         );
     }
     let pictured = grouped(effort.pictured);

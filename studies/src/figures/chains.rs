@@ -15,6 +15,7 @@ use crate::args::MeshArgs;
 use crate::near::Near;
 use crate::psp::scenes::{Scene, radius, scenes};
 use crate::reference::stream;
+use crate::repeated::{Repeated, cell, lowest};
 
 /// Projectors of a set, a multiple of all [`SIZES`]: the same for each, so that all sets get the same candidates.
 const PROJECTORS: usize = 12;
@@ -23,7 +24,7 @@ const SIZES: [usize; 6] = [1, 2, 3, 4, 6, 12];
 /// Candidates of a parallel task.
 const TASK: usize = 1024;
 
-/// What checks of validity took.
+/// What checks of validity found, and their time.
 #[derive(Clone, Copy, Default)]
 struct Checks {
     samples: usize,
@@ -114,35 +115,43 @@ pub fn section(context: &Context, meshes: &MeshArgs, quick: bool) -> Result<Stri
          in the thesis's algorithm 6, so many projectors at once, each with a priority of its own: the same candidates on \
          every row, at the radius of {} samples of a maximal set; means of {trials} trials, in which the rows \
          take turns to be first. A check of a candidate checks \
-         those of higher priority near it, and remembers nothing. The thesis draws the relative performance without \
-         numbers.\n\n",
+         those of higher priority near it, and remembers nothing. *Seconds per sample* are those of a trial over those of one \
+         priority in it: the median and the range. A number of priorities is the fastest where its range is below all \
+         others. The thesis draws the relative performance without numbers.\n\n",
         grouped(count as usize)
     );
     let Some(dragon) = meshes.dragon.as_deref() else {
         return Ok(text + "**The dragon was not given (`--dragon MESH`) and this is left out.**\n");
     };
     let scene = scenes(None, Some(dragon), 8)?.0.remove(0);
-    let totals = watched("chains", |_| measure(context, &scene, count, trials))?;
-    text += "| priorities | samples | checks per candidate | longest chain | samples/s over that of one priority |\n\
+    let sizes = watched("chains", |_| measure(context, &scene, count, trials))?;
+    text += "| priorities | samples | checks per candidate | longest chain | seconds per sample over those of one priority |\n\
              |---|---|---|---|---|\n";
-    let rate = |checks: &Checks| checks.samples as f64 / checks.seconds;
-    for (size, (candidates, total)) in SIZES.iter().zip(&totals) {
+    let per_sample =
+        |checks: &[Checks]| Repeated::new(checks.iter().map(|checks| checks.seconds / checks.samples as f64).collect());
+    let one = per_sample(&sizes[0].1);
+    let ratios: Vec<_> = sizes.iter().map(|(_, checks)| per_sample(checks).over(&one)).collect();
+    for ((size, (candidates, checks)), ratio) in SIZES.iter().zip(&sizes).zip(&ratios) {
+        let samples: usize = checks.iter().map(|checks| checks.samples).sum();
+        let all: u64 = checks.iter().map(|checks| checks.checks).sum();
         _ = writeln!(
             text,
             "| {size} | {} | {} | {} | {} |",
-            grouped(total.samples / trials as usize),
-            rounded(total.checks as f64 / *candidates as f64, 3),
-            total.longest,
-            rounded(rate(total) / rate(&totals[0].1), 3)
+            grouped(samples / trials as usize),
+            rounded(all as f64 / *candidates as f64, 3),
+            checks.iter().map(|checks| checks.longest).max().unwrap_or(0),
+            if *size == 1 { "1".to_owned() } else { cell(ratio, 3) },
         );
     }
-    let fastest = (0..SIZES.len()).max_by(|&a, &b| rate(&totals[a].1).total_cmp(&rate(&totals[b].1))).unwrap_or(0);
-    _ = writeln!(text, "\nThe thesis takes 3 priorities; here {} had the largest rate.", SIZES[fastest]);
+    _ = match lowest(&ratios.iter().collect::<Vec<_>>()) {
+        Some(fastest) => writeln!(text, "\nThe thesis takes 3 priorities; here {} is the fastest.", SIZES[fastest]),
+        None => writeln!(text, "\nThe thesis takes 3 priorities; which is the fastest is not decided here."),
+    };
     Ok(text)
 }
 
-/// The candidates of all trials, and the sums of their checks, of each size.
-fn measure(context: &Context, scene: &Scene, count: f64, trials: u64) -> Result<Vec<(usize, Checks)>> {
+/// The candidates of all trials, and the checks of each, for each size.
+fn measure(context: &Context, scene: &Scene, count: f64, trials: u64) -> Result<Vec<(usize, Vec<Checks>)>> {
     let (low, high) = scene.mesh.bounds();
     let (low, high) = (Vec3::from(low), Vec3::from(high));
     let scale = (high - low).length().recip();
@@ -150,21 +159,17 @@ fn measure(context: &Context, scene: &Scene, count: f64, trials: u64) -> Result<
     let positions: Vec<_> = scene.mesh.positions().iter().map(place).collect();
     let tracer = Tracer::new(&positions, scene.mesh.triangles(), context.num_threads())?;
     let radius = radius(&scene.mesh, count) * f64::from(scale);
-    let mut totals = vec![(0, Checks::default()); SIZES.len()];
+    let mut sizes = vec![(0, Vec::new()); SIZES.len()];
     for seed in 0..trials {
         let batches = batches(context, &tracer, radius, seed)?;
         // Each size goes first as often as any other.
         for number in (0..SIZES.len()).map(|turn| (turn + seed as usize) % SIZES.len()) {
-            let (candidates, total) = &mut totals[number];
-            let checks = merged(context, &batches, SIZES[number], radius as f32)?;
+            let (candidates, checks) = &mut sizes[number];
             *candidates += batches.iter().map(Vec::len).sum::<usize>();
-            total.samples += checks.samples;
-            total.checks += checks.checks;
-            total.longest = total.longest.max(checks.longest);
-            total.seconds += checks.seconds;
+            checks.push(merged(context, &batches, SIZES[number], radius as f32)?);
         }
     }
-    Ok(totals)
+    Ok(sizes)
 }
 
 #[cfg(test)]

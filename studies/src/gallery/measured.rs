@@ -6,9 +6,9 @@ use azulejo::{Boundary, Context, Domain, Progress, Result};
 use super::Effort;
 use super::samplers::Sampler;
 use super::zone_plate;
+use crate::verdict::Mean;
 use azulejo_cli::draw::spectra::{FREQUENCY_LIMIT, spectrum_up_to};
 use azulejo_cli::quality::Quality;
-use azulejo_cli::summary::Summary;
 
 /// How far the spectrum goes that effective Nyquist frequency and oscillation are found by, in units of sqrt(density), and
 /// the width of its annuli.
@@ -71,12 +71,12 @@ impl Measured {
     }
 
     /// A figure in the mean of the sets.
-    pub fn mean(&self, figure: impl Fn(&Quality) -> f64) -> f64 {
-        Summary::of(&self.quality.iter().map(figure).collect::<Vec<_>>()).mean
+    pub fn mean(&self, figure: impl Fn(&Quality) -> f64) -> Mean {
+        Mean::of(&self.quality.iter().map(figure).collect::<Vec<_>>())
     }
 
     /// An error in the mean of the sets.
-    pub fn error(&self, error: impl Fn(&zone_plate::Errors) -> f64) -> f64 {
-        Summary::of(&self.errors.iter().map(error).collect::<Vec<_>>()).mean
+    pub fn error(&self, error: impl Fn(&zone_plate::Errors) -> f64) -> Mean {
+        Mean::of(&self.errors.iter().map(error).collect::<Vec<_>>())
     }
 }

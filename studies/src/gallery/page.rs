@@ -36,7 +36,7 @@ fn spectra() -> String {
 
 fn figures(measured: &[Measured]) -> String {
     let mut text = "## Figures\n\n\
-        Means over the sets, as in [docs/dcr.md](dcr.md): *ρ* is the smallest distance, *nearest* the mean distance to the \
+        Means over the sets ± their standard errors, as in [docs/dcr.md](dcr.md), whose sets have other seeds and numbers: *ρ* is the smallest distance, *nearest* the mean distance to the \
         nearest neighbour, *cover* the largest distance of a place from the set, in units of the distance in the hexagonal \
         arrangement; *ψ6* is the bond order, *P* the mean power below ¼ √density. Of the mean spectrum: *ν* is the effective \
         Nyquist frequency in units of √density, *Ω* the oscillation (Heck et al. 2013).\n\n\
@@ -45,14 +45,14 @@ fn figures(measured: &[Measured]) -> String {
     for one in measured {
         _ = writeln!(
             text,
-            "| {} | {:.3} | {:.3} | {:.3} | {:.3} | {:.1e} | {:.1} % | {} | {} |",
+            "| {} | {} | {} | {} | {} | {} | {} % | {} | {} |",
             one.sampler.name(),
-            one.mean(|set| set.rho),
-            one.mean(|set| set.mean_distance),
-            one.mean(|set| set.cover),
-            one.mean(|set| set.order),
-            one.mean(|set| set.low_power),
-            100.0 * one.mean(|set| set.obtuse),
+            one.mean(|set| set.rho).cell(3),
+            one.mean(|set| set.mean_distance).cell(3),
+            one.mean(|set| set.cover).cell(3),
+            one.mean(|set| set.order).cell(3),
+            one.mean(|set| set.low_power).cell(2),
+            one.mean(|set| 100.0 * set.obtuse).cell(3),
             or_dash(one.nyquist),
             or_dash(one.oscillation),
         );
@@ -77,8 +77,8 @@ fn plates(effort: &Effort, measured: &[Measured]) -> String {
         effort.side
     );
     for one in measured {
-        let [low, high] = [one.error(|errors| errors.low), one.error(|errors| errors.high)];
-        _ = writeln!(text, "| {} | {low:.4} | {high:.4} |", one.sampler.name());
+        let [low, high] = [one.error(|errors| errors.low), one.error(|errors| errors.high)].map(|mean| mean.cell(4));
+        _ = writeln!(text, "| {} | {low} | {high} |", one.sampler.name());
     }
     text
 }

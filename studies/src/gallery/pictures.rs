@@ -108,7 +108,7 @@ pub fn draw_plates(sets: &[Measured], side: usize, output: &Output) -> Result<()
     let mut canvas = Canvas::new(width, height, width as u32);
     let errors = |set: &Measured| {
         let [low, high] = [set.error(|errors| errors.low), set.error(|errors| errors.high)];
-        format!("error {low:.3} low, {high:.3} high")
+        format!("error {:.3} low, {:.3} high", low.mean, high.mean)
     };
     let exact = ("exact".to_owned(), "low and high frequencies".to_owned(), zone_plate::reference(side));
     let plates = sets.iter().map(|set| (set.sampler.name(), errors(set), set.plate.clone()));

@@ -5,12 +5,14 @@ use std::fmt::Write;
 use azulejo::MAXIMAL_DENSITY;
 
 use super::pictures::{STAGES, stage_times};
-use super::statistics::{ANNULUS, CONTRAST_RANGE, GROUPS, Peak, Statistics};
+use super::statistics::{ANNULUS, CONTRAST_RANGE, Peak, Statistics};
 use super::times::{LeafTimes, Times};
 use super::{Effort, Sampler};
-use crate::verdict::{Difference, LEVEL, Mean, chance, holm, verdict};
+use crate::repeated;
+use crate::timing::Rounds;
+use crate::verdict::{Difference, LEVEL, Mean, chance, holm, judged, verdict};
 use azulejo_cli::summary::Summary;
-use azulejo_cli::text::{grouped, rounded};
+use azulejo_cli::text::grouped;
 
 /// The thesis's figures for its leaf sizes: table 2.2 in percent, and million samples per second on its CPU (Core
 /// i7-4930K) and GPU (GTX 1080) from the captions of fig. 2.16 to 2.19.
@@ -47,8 +49,9 @@ pub fn text(effort: &Effort, statistics: &[Statistics], times: &Times) -> String
 }
 
 fn introduction() -> String {
-    "Thesis: Wang 2019, chapter 2. `r` is the radius, the smallest distance; frequencies are in units of √density. Times are \
-     the least of three, on a machine that may have had other work.\n"
+    "Thesis: Wang 2019, chapter 2. `r` is the radius, the smallest distance; frequencies are in units of √density. Times \
+     and rates are medians of some rounds in which all leaf sizes take turns, with their range in brackets, on a machine that may \
+     have had other work. Sets are of the unit torus, from their radius to the samples in memory.\n"
         .to_owned()
 }
 
@@ -108,8 +111,8 @@ fn goals(statistics: &[Statistics]) -> String {
          The sets of each leaf size beside those of the reference, mean against mean: ± is the standard error, *n* the number of \
          sets or of groups of sets, *t* the difference over its standard error (Welch), *p* the chance of as large a one \
          between samplers that do not differ, corrected for all {} comparisons of the table (Holm). A goal is not met where p \
-         is at most {LEVEL}; *met* says that no difference was shown, which is as sharp as the errors are small. The \
-         quantities are explained under *Bias*.\n\n\
+         is at most {LEVEL}. Elsewhere no difference was shown, which does not say that there is none: it is as sharp as the \
+         errors are small. The quantities are explained under *Bias*.\n\n\
          | goal | leaves | reference | n | found | n | t | p | |\n|---|---|---|---|---|---|---|---|---|\n",
         comparisons.len(),
     );
@@ -122,7 +125,7 @@ fn goals(statistics: &[Statistics]) -> String {
             text,
             "| {goal} | {name} | {other} | {n} | {found} | {m} | {t} | {} | {} |",
             chance(p),
-            verdict(p > LEVEL)
+            if p <= LEVEL { verdict(false) } else { "no difference shown" },
         );
     }
     let is_default = |one: &&Statistics| one.sampler == Sampler::Leaves(azulejo::kdrt::DEFAULT_LEAF_SIZE);
@@ -143,11 +146,11 @@ fn density_goal(one: &Statistics) -> String {
     let verdict = match chance_within {
         chance if chance >= 1.0 - LEVEL => verdict(true),
         chance if chance <= LEVEL => verdict(false),
-        _ => "**not decided**: nearer to the limit than can be told",
+        _ => judged(None),
     };
     format!(
         "\nDensity of leaves of {} within {DENSITY_GOAL} % of {MAXIMAL_DENSITY:.5} / r²: {:+.3} ± {:.3} %, n = {}, t = {:+.1} \
-         from the limit, {verdict}.\n",
+         from the limit, {verdict} (one-sided, at {LEVEL} either way).\n",
         one.sampler.name(),
         excess.mean,
         excess.error,
@@ -182,10 +185,10 @@ fn bias(effort: &Effort, statistics: &[Statistics]) -> String {
          frequencies ({:.1} dB without any).\n\n\
          | leaves | N·r² | over unbiased | contrast | radial mean | anisotropy |\n|---|---|---|---|---|---|\n",
         grouped(effort.count as usize),
-        GROUPS * effort.sets_per_group,
+        effort.groups * effort.sets_per_group,
         CONTRAST_RANGE.start,
         CONTRAST_RANGE.end,
-        decibels(1.0 / (GROUPS * effort.sets_per_group) as f64),
+        decibels(1.0 / (effort.groups * effort.sets_per_group) as f64),
     );
     for one in statistics {
         let (density, contrast) = (Summary::of(&one.density), Summary::of(&one.contrast));
@@ -215,9 +218,9 @@ fn bias(effort: &Effort, statistics: &[Statistics]) -> String {
         text,
         "\n*Power* is taken on the axes, where seams are, and on the harmonics of what is regular: the fill blocks, at most \
          4.8 r wide before jitter, and the cells, at most r/√2. The *largest* is that of the mean spectrum of {} sets, one of \
-         each of {GROUPS} such groups; the *mean over annuli* is that of each set, of all these frequencies, each over the mean \
+         each of {} such groups; the *mean over annuli* is that of each set, of all these frequencies, each over the mean \
          of its annulus. Means with their standard errors and ranges.\n",
-        effort.sets_per_group,
+        effort.sets_per_group, effort.groups,
     );
     for (what, figure) in PEAKS {
         _ = write!(text, "\n| {what}, leaves | {} |\n|---|---|---|---|\n", PLACES.join(" | "));
@@ -237,19 +240,26 @@ fn name(one: &Statistics) -> String {
     one.sampler.name() + if is_as_asked { "" } else { " (not tiled)" }
 }
 
+/// Million samples per second.
+fn rate(timed: &Rounds) -> String {
+    repeated::cell(&timed.per_sample().map(|seconds| 1e-6 / seconds), 3)
+}
+
 fn spectra(statistics: &[Statistics], times: &Times) -> String {
     let mut text = format!(
         "## Spectra and rates (thesis fig. 2.15 to 2.19)\n\n\
-         Million samples per second, for sets of about {}; the pattern is made anew in each call. The thesis's machine was \
+         Million samples per second, for sets of about {}; the pattern is made anew in each call. Other pages have other \
+         calls: [order.md](order.md) `sample_ranked`, which returns ranks as well, [classes.md](classes.md) fewer samples, \
+         [tiling.md](tiling.md) other seeds, [peers.md](peers.md) bounded sets, each in a process of its own. The thesis's machine was \
          a Core i7-4930K of 2013 with a GTX 1080, and its reference ran on that GPU.\n\n\
          | leaves | thesis, CPU | thesis, GPU | one thread | {} threads |\n|---|---|---|---|---|\n\
-         | reference | | 4.3 | {:.2} | |\n",
-        grouped(times.reference[0] as usize),
+         | reference | | 4.3 | {} | |\n",
+        grouped(times.reference.samples),
         times.threads,
-        times.reference[0] / times.reference[1] / 1e6,
+        rate(&times.reference),
     );
     for (leaf, [_, cpu, gpu]) in times.leaves.iter().zip(THESIS) {
-        let [one, all] = leaf.rates.map(|rate| rounded(rate / 1e6, 3));
+        let [one, all] = [&leaf.one_thread[times.timed], &leaf.all_threads].map(rate);
         _ = writeln!(text, "| {}r | {cpu} | {gpu} | {one} | {all} |", leaf.leaf_size);
     }
     for one in statistics {
@@ -285,9 +295,10 @@ fn time_against_samples(times: &Times) -> String {
         .to_owned();
     times.leaves.iter().for_each(|leaf| _ = write!(text, " | {}r", leaf.leaf_size));
     _ = writeln!(text, " |\n|---{}|", "|---".repeat(times.leaves.len()));
-    for (row, [samples, _]) in times.leaves[0].one_thread.iter().enumerate() {
-        _ = write!(text, "| {}", grouped(*samples as usize));
-        times.leaves.iter().for_each(|leaf| _ = write!(text, " | {}", rounded(1e3 * leaf.one_thread[row][1], 3)));
+    for (row, Rounds { samples, .. }) in times.leaves[0].one_thread.iter().enumerate() {
+        _ = write!(text, "| {}", grouped(*samples));
+        let milliseconds = |leaf: &LeafTimes| leaf.one_thread[row].seconds(1e3);
+        times.leaves.iter().for_each(|leaf| _ = write!(text, " | {}", repeated::cell(&milliseconds(leaf), 3)));
         text.push_str(" |\n");
     }
     text + "\n![Time against samples](kdrt/times.png)\n"
@@ -297,7 +308,7 @@ fn time_by_stage(times: &Times) -> String {
     let samples = times.leaves.iter().map(|leaf| leaf.stages.samples).max().unwrap_or(0);
     let mut text = format!(
         "## Time by stage (thesis fig. 2.13)\n\n\
-         Nanoseconds per sample on one thread, for sets of about {}. In the thesis elimination and the first insertion take \
+         Nanoseconds per sample on one thread, of one call with clocks between its stages, for sets of about {}. In the thesis elimination and the first insertion take \
          the longest.\n\n| leaves | {} | all |\n|---{}|---|\n",
         grouped(samples as usize),
         STAGES.join(" | "),

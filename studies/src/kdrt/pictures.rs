@@ -7,6 +7,7 @@ use azulejo::kdrt::stages::Stages;
 use super::statistics::Statistics;
 use super::times::Times;
 use crate::chart::{curve, dots, legend, range, single};
+use crate::timing::Rounds;
 use azulejo_cli::draw::canvas::{Align, Canvas, Rect, Style};
 use azulejo_cli::draw::palette::{COBALT, Colour, INK, SERIES, SLATE, glaze_to_cobalt};
 use azulejo_cli::draw::plot::{Axis, Panel};
@@ -35,12 +36,13 @@ fn label(size: f32, align: Align) -> Style {
 
 /// Seconds against samples on one thread (thesis fig. 2.11).
 pub fn draw_times(times: &Times, output: &Output) -> Result<()> {
-    let points = || times.leaves.iter().flat_map(|leaf| &leaf.one_thread);
-    let x = Axis::logarithmic("samples", range(points().map(|[samples, _]| *samples), 1.4));
-    let y = Axis::logarithmic("time / s", range(points().map(|[_, seconds]| *seconds), 1.4));
+    let place = |timed: &Rounds| [timed.samples as f64, timed.seconds(1.0).median()];
+    let points = || times.leaves.iter().flat_map(|leaf| leaf.one_thread.iter().map(place));
+    let x = Axis::logarithmic("samples", range(points().map(|[samples, _]| samples), 1.4));
+    let y = Axis::logarithmic("time / s", range(points().map(|[_, seconds]| seconds), 1.4));
     let (mut canvas, panel) = single(x, y);
     for ((leaf, colour), row) in times.leaves.iter().zip(SERIES).zip(0..) {
-        let points = || leaf.one_thread.iter().copied();
+        let points = || leaf.one_thread.iter().map(place);
         curve(&mut canvas, &panel, points(), 2.6, colour);
         dots(&mut canvas, &panel, points(), 4.5, colour);
         let name = format!("leaves of {}r", leaf.leaf_size);

@@ -8,9 +8,6 @@ use azulejo::{Boundary, Context, Domain, Progress, Result};
 use super::{Effort, Sampler, radius};
 use azulejo_cli::draw::spectra::FREQUENCY_LIMIT;
 
-/// Groups of sets, in each of which spectra are averaged: the largest value of a few such means is known to chance.
-pub const GROUPS: u64 = 5;
-
 /// The annuli of contrast and peaks, and where contrast is measured, in units of sqrt(density).
 pub const ANNULUS: f64 = 0.01;
 pub const CONTRAST_RANGE: std::ops::Range<f64> = 0.5..2.0;
@@ -83,10 +80,10 @@ impl Statistics {
         let (domain, radius) = (Domain::unit(Boundary::Periodic), radius(effort.count));
         let half = (FREQUENCY_LIMIT * effort.count.sqrt()) as i64 + 3;
         let harmonics = harmonics(radius, half);
-        let sets = GROUPS * effort.sets_per_group;
+        let sets = effort.groups * effort.sets_per_group;
         let (mut density, mut contrast, mut means) = (vec![], vec![], vec![]);
         let mut peaks: [Peak; 3] = Default::default();
-        for group in 0..GROUPS {
+        for group in 0..effort.groups {
             let mut spectra = Vec::new();
             for seed in group * effort.sets_per_group..(group + 1) * effort.sets_per_group {
                 let samples = sampler.sample(context, effort.count, seed)?;

@@ -6,13 +6,14 @@ use azulejo::{Context, Progress, Result};
 
 use super::Effort;
 use super::scenes::{Scene, radius};
+use crate::repeated::Repeated;
 
 /// A set in the making.
-#[derive(Clone, Copy)]
+#[derive(Clone)]
 pub struct Moment {
     pub iterations: u32,
-    /// Time so far, without that of measuring.
-    pub seconds: f64,
+    /// Time so far in each round, without that of measuring.
+    pub seconds: Repeated,
     pub samples: f64,
     /// The square root of the samples over those of the reference: the thesis's relative radius.
     pub rho: f64,
@@ -33,13 +34,35 @@ pub struct Growth {
 impl Growth {
     pub fn measure(context: &Context, scene: &Scene, effort: &Effort, progress: &Progress) -> Result<Self> {
         let measure = Measure { context, scene, effort };
-        let reference = measure.filled(0, None)?;
-        let by_priority = |priority| measure.iterated(priority, reference.samples);
-        let by_squareness = by_priority(Priority::Squareness)?;
-        _ = progress(0.5);
-        let iterated = [by_squareness, by_priority(Priority::Projector)?];
-        Ok(Self { reference, iterated, filled: measure.filled(1, Some(reference.samples))? })
+        let mut rounds = Vec::new();
+        for round in 0..effort.rounds {
+            // All rounds make the same sets: what they leave uncovered is measured once.
+            let probes = if round == 0 { effort.probes } else { 0 };
+            rounds.push([
+                vec![measure.filled(0, probes)?],
+                measure.iterated(Priority::Squareness, probes)?,
+                measure.iterated(Priority::Projector, probes)?,
+                vec![measure.filled(1, probes)?],
+            ]);
+            _ = progress((round + 1) as f64 / effort.rounds as f64);
+        }
+        let reference = rounds[0][0][0].samples;
+        let moment = |way: usize, mark: usize| {
+            let Look { iterations, samples, uncovered, .. } = rounds[0][way][mark];
+            let seconds = Repeated::new(rounds.iter().map(|ways| ways[way][mark].seconds).collect());
+            Moment { iterations, seconds, samples, rho: (samples / reference).sqrt(), uncovered }
+        };
+        let iterated = [1, 2].map(|way| (0..effort.marks.len()).map(|mark| moment(way, mark)).collect());
+        Ok(Self { reference: moment(0, 0), iterated, filled: moment(3, 0) })
     }
+}
+
+/// A look at a set in one round.
+struct Look {
+    iterations: u32,
+    seconds: f64,
+    samples: f64,
+    uncovered: f64,
 }
 
 struct Measure<'a> {
@@ -57,27 +80,26 @@ impl Measure<'_> {
         radius(&self.scene.mesh, self.effort.growth)
     }
 
-    fn moment(&self, psp: &Psp, iterations: u32, seconds: f64, reference: Option<f64>) -> Result<Moment> {
-        let (samples, positions) = (psp.len() as f64, psp.samples().positions);
-        let (mesh, radius, probes) = (&self.scene.mesh, self.radius(), self.effort.probes);
+    fn look(&self, psp: &Psp, iterations: u32, seconds: f64, probes: u64) -> Result<Look> {
+        let positions = psp.samples().positions;
+        let (mesh, radius, samples) = (&self.scene.mesh, self.radius(), positions.len() as f64);
         let uncovered = surface_uncovered_fraction(self.context, mesh, &positions, radius, probes, 1, None)?;
-        let rho = (samples / reference.unwrap_or(samples)).sqrt();
-        Ok(Moment { iterations, seconds, samples, rho, uncovered })
+        Ok(Look { iterations, seconds, samples, uncovered })
     }
 
-    fn filled(&self, iterations: u32, reference: Option<f64>) -> Result<Moment> {
+    fn filled(&self, iterations: u32, probes: u64) -> Result<Look> {
         let mut psp = self.empty(Priority::Squareness)?;
         let seconds = psp.advance(self.context, iterations, None)?.seconds + psp.fill(self.context, None)?.seconds;
-        self.moment(&psp, iterations, seconds, reference)
+        self.look(&psp, iterations, seconds, probes)
     }
 
-    fn iterated(&self, priority: Priority, reference: f64) -> Result<Vec<Moment>> {
+    fn iterated(&self, priority: Priority, probes: u64) -> Result<Vec<Look>> {
         let mut psp = self.empty(priority)?;
         let (mut done, mut seconds) = (0, 0.0);
         let mark = |&mark: &u32| {
             seconds += psp.advance(self.context, mark - done, None)?.seconds;
             done = mark;
-            self.moment(&psp, mark, seconds, Some(reference))
+            self.look(&psp, mark, seconds, probes)
         };
         self.effort.marks.iter().map(mark).collect()
     }

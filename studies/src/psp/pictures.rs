@@ -6,9 +6,11 @@ use azulejo::{Context, Result};
 
 use super::bias::{Bias, FACING_BIN, TILTS, frequencies};
 use super::growth::{Growth, Moment};
+use super::rates::Stages;
 use super::scenes::{Scene, radius};
 use super::{Effort, Measured};
 use crate::chart::{curve, dots, legend, range, single};
+use crate::repeated::Repeated;
 use azulejo_cli::draw::canvas::{Align, Canvas, Rect, Style};
 use azulejo_cli::draw::palette::{Colour, INK, SERIES, SLATE, glaze_to_cobalt};
 use azulejo_cli::draw::plot::{Axis, Panel};
@@ -27,16 +29,15 @@ const SHOWN_REACH: f64 = GRID_REACH / 2.0;
 /// Samples per second against their number (thesis fig. 3.14).
 pub fn draw_rates(measured: &[Measured], output: &Output) -> Result<()> {
     let stages = || measured.iter().flat_map(|one| &one.rates.by_count);
-    let highest = stages().flat_map(|stage| [stage.iterated_rate(), stage.rate()]).fold(0.0, f64::max) / 1e6;
-    let x =
-        Axis::logarithmic("samples of the maximal set", range(stages().map(|stage| stage.filled.samples as f64), 1.3));
+    let highest = stages().flat_map(|stage| [stage.iterated_rate(), stage.rate()].map(|rate| rate.median()));
+    let highest = highest.fold(0.0, f64::max) / 1e6;
+    let x = Axis::logarithmic("samples of the maximal set", range(stages().map(|stage| stage.filled), 1.3));
     let y = Axis::linear("rate / million samples per s", [0.0, 1.1 * highest], 5);
     let (mut canvas, panel) = single(x, y);
     for ((one, colour), row) in measured.iter().zip(SERIES).zip(0..) {
         let stages = &one.rates.by_count;
-        let places = |rate: fn(&super::rates::Stages) -> f64| {
-            stages.iter().map(move |stage| [stage.filled.samples as f64, rate(stage) / 1e6])
-        };
+        let places =
+            |rate: fn(&Stages) -> Repeated| stages.iter().map(move |stage| [stage.filled, rate(stage).median() / 1e6]);
         curve(&mut canvas, &panel, places(|stage| stage.iterated_rate()), 1.6, colour);
         curve(&mut canvas, &panel, places(|stage| stage.rate()), 4.0, colour);
         dots(&mut canvas, &panel, places(|stage| stage.rate()), 5.0, colour);
@@ -51,7 +52,7 @@ pub fn draw_rates(measured: &[Measured], output: &Output) -> Result<()> {
 pub fn draw_growth(measured: &[Measured], output: &Output) -> Result<()> {
     let mut canvas = Canvas::new(900.0, 900.0, 900);
     let all = || measured.iter().flat_map(|one| one.growth.iterated.iter().flatten().chain([&one.growth.filled]));
-    let seconds = range(all().map(|moment| moment.seconds), 1.5);
+    let seconds = range(all().map(|moment| moment.seconds.median()), 1.5);
     let left = range(all().map(|moment| moment.uncovered).filter(|&uncovered| uncovered > 0.0), 2.0);
     let density = Panel {
         rect: Rect { x: 110.0, y: 60.0, width: 750.0, height: 330.0 },
@@ -81,12 +82,12 @@ pub fn draw_growth(measured: &[Measured], output: &Output) -> Result<()> {
 
 fn draw_moments(canvas: &mut Canvas, panel: &Panel, of: &Growth, colour: Colour, value: fn(&Moment) -> f64) {
     for (moments, width) in of.iterated.iter().zip([3.6, 1.4]) {
-        let places = || moments.iter().filter(|moment| value(moment) > 0.0).map(|m| [m.seconds, value(m)]);
+        let places = || moments.iter().filter(|moment| value(moment) > 0.0).map(|m| [m.seconds.median(), value(m)]);
         curve(canvas, panel, places(), width, colour);
         dots(canvas, panel, places(), width + 0.6, colour);
     }
     if value(&of.filled) > 0.0 {
-        dots(canvas, panel, [[of.filled.seconds, value(&of.filled)]].into_iter(), 9.0, colour);
+        dots(canvas, panel, [[of.filled.seconds.median(), value(&of.filled)]].into_iter(), 9.0, colour);
     }
 }
 

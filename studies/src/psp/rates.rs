@@ -1,78 +1,77 @@
 //! How fast sets are made: by radius, by iterations before filling, on one thread and on all.
 
+use std::ops::RangeInclusive;
+
+use azulejo::analysis::coverage::surface_covering_radius;
 use azulejo::psp::{Options, Priority, Psp, Report};
 use azulejo::{Context, Progress, Result};
 
 use super::Effort;
 use super::scenes::{Scene, radius};
+use crate::repeated::Repeated;
 
 /// How many iterations before filling are tried, of three directions each.
-pub const ITERATIONS: std::ops::RangeInclusive<u32> = 0..=4;
+pub const ITERATIONS: RangeInclusive<u32> = 0..=4;
 
-/// A maximal set in the making: after the iterations, and filled.
-#[derive(Clone, Copy)]
+/// A maximal set that is made in some rounds: after the iterations, and filled.
+#[derive(Clone)]
 pub struct Stages {
     pub radius: f64,
-    pub iterated: Report,
-    pub filled: Report,
+    /// Samples after the iterations, and in the end.
+    pub iterated: f64,
+    pub filled: f64,
+    /// The seconds of both stages.
+    pub iterating: Repeated,
+    pub filling: Repeated,
 }
 
 impl Stages {
-    fn of(context: &Context, scene: &Scene, count: f64, priority: Priority, iterations: u32) -> Result<Self> {
-        let radius = radius(&scene.mesh, count);
-        let mut psp = Psp::new(&scene.mesh, &Options::new(radius).priority(priority))?;
-        let iterated = psp.advance(context, iterations, None)?;
-        Ok(Self { radius, iterated, filled: psp.fill(context, None)? })
+    fn new(radius: f64, rounds: &[[Report; 2]]) -> Self {
+        let [iterated, filled] = rounds[0].each_ref().map(|report| report.samples as f64);
+        let [iterating, filling] =
+            [0, 1].map(|stage| Repeated::new(rounds.iter().map(|reports| reports[stage].seconds).collect()));
+        Self { radius, iterated, filled, iterating, filling }
     }
 
-    /// The faster of two attempts: noise only adds.
-    fn least(context: &Context, scene: &Scene, count: f64, priority: Priority, iterations: u32) -> Result<Self> {
-        let [first, second] = [(); 2].map(|()| Self::of(context, scene, count, priority, iterations));
-        let (first, second) = (first?, second?);
-        Ok(if first.seconds() < second.seconds() { first } else { second })
-    }
-
-    pub fn seconds(&self) -> f64 {
-        self.iterated.seconds + self.filled.seconds
+    pub fn seconds(&self) -> Repeated {
+        self.iterating.with(&self.filling, |iterating, filling| iterating + filling)
     }
 
     /// Samples per second of the iterations alone.
-    pub fn iterated_rate(&self) -> f64 {
-        self.iterated.samples as f64 / self.iterated.seconds
+    pub fn iterated_rate(&self) -> Repeated {
+        self.iterating.map(|seconds| self.iterated / seconds)
     }
 
     /// Samples per second to the end.
-    pub fn rate(&self) -> f64 {
-        self.filled.samples as f64 / self.seconds()
+    pub fn rate(&self) -> Repeated {
+        self.seconds().map(|seconds| self.filled / seconds)
     }
 }
 
-/// Attempts on one thread and as many on all.
-pub const ATTEMPTS: usize = 3;
-
-/// The seconds of the same work on one thread and on all.
-pub struct SpeedUp {
-    pub one_thread: [f64; ATTEMPTS],
-    pub all_threads: [f64; ATTEMPTS],
+/// A way to make a set.
+struct Way<'a> {
+    context: &'a Context,
+    count: f64,
+    priority: Priority,
+    iterations: u32,
 }
 
-impl SpeedUp {
-    /// In turns: what else the machine does comes to both alike.
-    fn measure(context: &Context, scene: &Scene, count: f64) -> Result<Self> {
-        let single = Context::new(1)?;
-        let (mut one_thread, mut all_threads) = ([0.0; ATTEMPTS], [0.0; ATTEMPTS]);
-        for (one, all) in one_thread.iter_mut().zip(&mut all_threads) {
-            for (context, seconds) in [(&single, one), (context, all)] {
-                *seconds = Stages::of(context, scene, count, Priority::Squareness, 1)?.seconds();
+impl Way<'_> {
+    fn make(&self, scene: &Scene) -> Result<[Report; 2]> {
+        let mut psp = Psp::new(&scene.mesh, &Options::new(radius(&scene.mesh, self.count)).priority(self.priority))?;
+        Ok([psp.advance(self.context, self.iterations, None)?, psp.fill(self.context, None)?])
+    }
+
+    /// Makes sets in all of these ways, in turns.
+    fn make_all(ways: &[Self], scene: &Scene, rounds: usize) -> Result<Vec<Stages>> {
+        let mut reports = vec![Vec::new(); ways.len()];
+        for _ in 0..rounds {
+            for (way, reports) in ways.iter().zip(&mut reports) {
+                reports.push(way.make(scene)?);
             }
         }
-        Ok(Self { one_thread, all_threads })
-    }
-
-    /// The least of one thread over the least of all: noise only adds.
-    pub fn factor(&self) -> f64 {
-        let least = |seconds: &[f64]| seconds.iter().copied().fold(f64::INFINITY, f64::min);
-        least(&self.one_thread) / least(&self.all_threads)
+        let all = ways.iter().zip(&reports);
+        Ok(all.map(|(way, reports)| Stages::new(radius(&scene.mesh, way.count), reports)).collect())
     }
 }
 
@@ -84,16 +83,53 @@ pub struct Rates {
     pub by_iterations: Vec<Stages>,
     /// One iteration and a fill, in order of projectors.
     pub by_projector: Stages,
-    /// One iteration and a fill on one thread and on all, in turns.
-    pub speed_up: SpeedUp,
+    /// One iteration and a fill on one thread.
+    pub one_thread: Stages,
     pub again: Again,
 }
 
-/// What a second fill adds to a set that is maximal.
+impl Rates {
+    pub fn measure(context: &Context, scene: &Scene, effort: &Effort, progress: &Progress) -> Result<Self> {
+        let (single, count) = (Context::new(1)?, effort.samples);
+        let usual = |iterations| Way { context, count, priority: Priority::Squareness, iterations };
+        // What verdicts and sentences are about.
+        let judged = [
+            usual(0),
+            usual(1),
+            Way { priority: Priority::Projector, ..usual(1) },
+            Way { context: &single, ..usual(1) },
+        ];
+        let mut judged = Way::make_all(&judged, scene, effort.judged_rounds)?.into_iter();
+        let mut next = || judged.next().expect("a set is made in each way");
+        let [none, one, by_projector, one_thread] = [(); 4].map(|()| next());
+        _ = progress(0.5);
+        let more: Vec<_> = ITERATIONS.skip(2).map(usual).collect();
+        let by_iterations = [none, one.clone()].into_iter().chain(Way::make_all(&more, scene, effort.rounds)?);
+        let by_iterations = by_iterations.collect();
+        _ = progress(0.7);
+        let others = effort.counts.iter().filter(|&&other| other != count);
+        let others: Vec<_> = others.map(|&count| Way { count, ..usual(1) }).collect();
+        // The set of the verdicts is one of these.
+        let mut by_count = Way::make_all(&others, scene, effort.rounds)?;
+        by_count.push(one);
+        by_count.sort_by(|a, b| b.radius.total_cmp(&a.radius));
+        _ = progress(0.9);
+        let again = Again::measure(context, scene, count)?;
+        Ok(Self { by_count, by_iterations, by_projector, one_thread, again })
+    }
+
+    /// One iteration and a fill on all threads, by squareness.
+    pub fn usual(&self) -> &Stages {
+        &self.by_iterations[1]
+    }
+}
+
+/// What is left to find in a set that is maximal: to [`TOLERANCE`](azulejo::psp::TOLERANCE) float spacings at the largest
+/// coordinate of the mesh a surface may be uncovered.
 pub struct Again {
+    /// Samples that a second fill adds.
     pub samples: usize,
-    /// How much more than the radius the farthest of them is from all samples before, in float spacings at the largest
-    /// coordinate of the mesh: to [`TOLERANCE`](azulejo::psp::TOLERANCE) a surface may be uncovered.
+    /// The covering radius less the radius, in float spacings: of the place farthest from all samples.
     pub beyond: f64,
 }
 
@@ -103,32 +139,12 @@ impl Again {
         let mut psp = Psp::new(&scene.mesh, &Options::new(radius))?;
         psp.advance(context, 1, None)?;
         psp.fill(context, None)?;
-        let before = psp.samples().positions;
+        let farthest = surface_covering_radius(context, &scene.mesh, &psp.samples().positions, None)?;
+        let before = psp.len();
         psp.fill(context, None)?;
-        let after = psp.samples().positions;
-        let squared = |p: &[f32; 3], q: &[f32; 3]| (0..3).map(|k| (f64::from(p[k]) - f64::from(q[k])).powi(2)).sum();
-        let nearest = |p: &[f32; 3]| before.iter().map(|q| squared(p, q)).fold(f64::INFINITY, f64::min).sqrt();
-        let farthest = after[before.len()..].iter().map(nearest).fold(0.0, f64::max);
         let (low, high) = scene.mesh.bounds();
         let largest = low.into_iter().chain(high).fold(0.0f32, |largest, x| largest.max(x.abs()));
         let spacing = f64::from(largest) - f64::from(largest.next_down());
-        Ok(Self { samples: after.len() - before.len(), beyond: (farthest - radius) / spacing })
-    }
-}
-
-impl Rates {
-    pub fn measure(context: &Context, scene: &Scene, effort: &Effort, progress: &Progress) -> Result<Self> {
-        let stages = |count, priority, iterations| Stages::least(context, scene, count, priority, iterations);
-        let by_count = effort.counts.iter().map(|&count| stages(count, Priority::Squareness, 1));
-        let by_count = by_count.collect::<Result<_>>()?;
-        _ = progress(0.35);
-        let by_iterations = ITERATIONS.map(|iterations| stages(effort.samples, Priority::Squareness, iterations));
-        let by_iterations = by_iterations.collect::<Result<_>>()?;
-        _ = progress(0.7);
-        let by_projector = stages(effort.samples, Priority::Projector, 1)?;
-        let speed_up = SpeedUp::measure(context, scene, effort.samples)?;
-        _ = progress(0.9);
-        let again = Again::measure(context, scene, effort.samples)?;
-        Ok(Self { by_count, by_iterations, by_projector, speed_up, again })
+        Ok(Self { samples: psp.len() - before, beyond: (farthest - radius) / spacing })
     }
 }

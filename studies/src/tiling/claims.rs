@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use crate::verdict::{LEVEL, Mean, chance, holm, verdict};
+use crate::verdict::{self, Difference, LEVEL, Mean, chance};
 use azulejo_cli::text::rounded;
 
 /// A section of the page.
@@ -25,16 +25,16 @@ impl Claim {
         Self { what: what.into(), low, high }
     }
 
-    /// The chance of as large a difference where there is none.
-    fn chance(&self) -> Option<(f64, f64)> {
-        let difference = if self.high.count == 0 {
-            self.low.above_number(self.high.mean).map(|difference| (-difference.t, difference.freedom))
+    /// How far the higher mean is above the lower one.
+    fn difference(&self) -> Option<Difference> {
+        if self.high.count == 0 {
+            let above = self.low.above_number(self.high.mean);
+            above.map(|difference| Difference { t: -difference.t, ..difference })
         } else if self.low.count == 0 {
-            self.high.above_number(self.low.mean).map(|difference| (difference.t, difference.freedom))
+            self.high.above_number(self.low.mean)
         } else {
-            self.high.above(&self.low).map(|difference| (difference.t, difference.freedom))
-        };
-        difference.map(|(t, freedom)| (t, crate::verdict::Difference { t, freedom }.chance_of_larger()))
+            self.high.above(&self.low)
+        }
     }
 }
 
@@ -59,33 +59,28 @@ pub fn cell(Mean { mean, error, .. }: &Mean) -> String {
 /// The tables of all claims and facts of the page.
 pub fn tables(parts: &[Part]) -> String {
     let claims: Vec<_> = parts.iter().flat_map(|part| &part.claims).collect();
-    let tests: Vec<_> = claims.iter().map(|claim| claim.chance()).collect();
-    let chances = holm(&tests.iter().map(|test| test.map_or(1.0, |(_, chance)| chance)).collect::<Vec<_>>());
+    let differences: Vec<_> = claims.iter().map(|claim| claim.difference()).collect();
     let mut text = format!(
         "## Claims\n\n\
          That one mean is *below* another, or below a number that is given: ± is the standard error, *n* the number of \
          independent sets or rounds, *t* the difference over its standard error (Welch), *p* the chance of as large a one where \
-         there is none, corrected for all {} claims of the table (Holm). A claim is met where p is at most {LEVEL}: what is not \
-         met was not shown here, which does not say that the opposite is true.\n\n\
+         there is none, corrected for all {} claims of the table (Holm). A claim is met where p is at most {LEVEL}, not \
+         met where that of the opposite is, corrected in the same way, and otherwise not decided.\n\n\
          | claim | below | n | above | n | t | p | |\n|---|---|---|---|---|---|---|---|\n",
         claims.len(),
     );
-    for ((claim, test), &p) in claims.iter().zip(&tests).zip(&chances) {
+    let verdicts = verdict::claims(&differences);
+    for ((claim, difference), (p, verdict)) in claims.iter().zip(&differences).zip(verdicts) {
         let [low, high] = [&claim.low, &claim.high].map(cell);
         let [n, m] = [&claim.low, &claim.high]
             .map(|mean| if mean.count == 0 { "given".to_owned() } else { mean.count.to_string() });
-        let t = test.map_or("-".to_owned(), |(t, _)| format!("{t:+.1}"));
-        _ = writeln!(
-            text,
-            "| {} | {low} | {n} | {high} | {m} | {t} | {} | {} |",
-            claim.what,
-            chance(p),
-            verdict(p <= LEVEL)
-        );
+        let t = difference.map_or("-".to_owned(), |difference| format!("{:+.1}", difference.t));
+        let (what, p) = (&claim.what, chance(p));
+        _ = writeln!(text, "| {what} | {low} | {n} | {high} | {m} | {t} | {p} | {verdict} |");
     }
     text += "\nWhat must hold exactly, in every set:\n\n| property | found | |\n|---|---|---|\n";
     for fact in parts.iter().flat_map(|part| &part.facts) {
-        _ = writeln!(text, "| {} | {} | {} |", fact.what, fact.found, verdict(fact.is_met));
+        _ = writeln!(text, "| {} | {} | {} |", fact.what, fact.found, verdict::verdict(fact.is_met));
     }
     text
 }
@@ -97,13 +92,13 @@ mod tests {
     #[test]
     fn a_claim_is_met_where_it_is_shown_and_only_there() {
         let [low, high] = [[1.0, 1.1, 0.9, 1.0], [2.0, 2.1, 1.9, 2.0]].map(|values| Mean::of(&values));
-        let chance = |low, high| Claim::less("", low, high).chance().unwrap().1;
+        let chance = |low, high| Claim::less("", low, high).difference().unwrap().chance_of_larger();
         assert!(chance(low, high) < 1e-4 && chance(high, low) > 0.999 && (chance(low, low) - 0.5).abs() < 1e-9);
         assert!(chance(low, number(2.0)) < 1e-3 && chance(number(2.0), low) > 0.99 && chance(number(0.0), low) < 1e-3);
         let part = |low, high| Part { text: String::new(), claims: vec![Claim::less("x", low, high)], facts: vec![] };
         assert!(tables(&[part(low, high)]).contains("| met |") && tables(&[part(high, low)]).contains("**not met**"));
         // One value shows nothing.
-        assert!(tables(&[part(Mean::of(&[1.0]), high)]).contains("| - | 1 | **not met** |"));
+        assert!(tables(&[part(Mean::of(&[1.0]), high)]).contains("| - | 1 | not decided |"));
     }
 
     #[test]
