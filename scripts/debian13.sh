@@ -10,8 +10,8 @@ PATH=$PATH:/usr/sbin:/sbin
 
 . "$(dirname "$0")/debian-root.sh"
 
-# In addition to the packages of every root; cpack needs dpkg-dev and file to make Debian packages.
-packages=(libembree-dev libclang-dev dpkg-dev file)
+# In addition to the packages of every root; cpack needs dpkg-dev and file to make Debian packages, examples_c/ranks.c MPI.
+packages=(libembree-dev libclang-dev dpkg-dev file openmpi-bin libopenmpi-dev)
 
 # --- Outside: as the user, whose environment names the Rust toolchain and cargo's registry ---
 

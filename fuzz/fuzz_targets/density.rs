@@ -24,11 +24,11 @@ fuzz_target!(|bytes: &[u8]| {
         let image = Image::new(&mut input);
         let density =
             azulejo_density { values: image.values.as_ptr(), width: image.width, height: image.height, ..none() };
-        relax(&options, &density, &points);
+        relax(&options, &density, &points, image.is_constant());
     } else {
         let guest = Guest::new(&options, &mut input);
         let user = (&raw const guest).cast_mut().cast();
-        relax(&options, &azulejo_density { function: Some(density_at), user, ..none() }, &points);
+        relax(&options, &azulejo_density { function: Some(density_at), user, ..none() }, &points, guest.kind == 7);
     }
 });
 
@@ -77,7 +77,16 @@ impl Image {
         let hostile = input.one_in(8);
         let pixel = |_| if hostile { input.coordinate() } else { f32::from(input.any::<u8>() / 2) };
         // At least one, for a pointer that is not NULL.
-        Self { values: (0..(width * height).max(1)).map(pixel).collect(), width, height }
+        let mut values: Vec<f32> = (0..(width * height).max(1)).map(pixel).collect();
+        if input.one_in(4) {
+            let first = values[0];
+            values.fill(first);
+        }
+        Self { values, width, height }
+    }
+
+    fn is_constant(&self) -> bool {
+        self.values.iter().all(|value| value == &self.values[0])
     }
 }
 
@@ -94,7 +103,7 @@ impl Guest {
     fn new(options: &azulejo_dcr_options, input: &mut Input) -> Self {
         let (low, high) = (options.domain_min, options.domain_max);
         let scale = std::array::from_fn(|axis| 1.0 / (high[axis] - low[axis]));
-        Self { low, scale, factor: input.number(), kind: input.below(7), calls: Cell::new(0) }
+        Self { low, scale, factor: input.number(), kind: input.below(8), calls: Cell::new(0) }
     }
 
     fn at(&self, position: [f64; 2]) -> f64 {
@@ -107,6 +116,7 @@ impl Guest {
             3 => (self.factor * x).sin().abs().powi(30),
             4 => f64::from(calls % 5),
             5 => (x - 0.5).powi(2) * self.factor,
+            7 => self.factor,
             _ => f64::from(u8::from((x - 0.5).abs() < 0.01 && (y - 0.5).abs() < 0.01)) * 1e30,
         }
     }
@@ -117,7 +127,8 @@ unsafe extern "C-unwind" fn density_at(user: *mut c_void, position: *const f64) 
     unsafe { (*user.cast::<Guest>()).at(*position.cast()) }
 }
 
-fn relax(options: &azulejo_dcr_options, density: &azulejo_density, points: &[[f32; 2]]) {
+/// Where the density is the same everywhere, the figures are those of sets without one.
+fn relax(options: &azulejo_dcr_options, density: &azulejo_density, points: &[[f32; 2]], is_constant: bool) {
     let (xy, count) = (points.as_ptr().cast(), points.len());
     // SAFETY: options and density are of the sizes that they say, and their arrays too.
     let call = |out: Out<_>| unsafe { azulejo_dcr_scatter(context(), options, density, count, out) };
@@ -137,4 +148,10 @@ fn relax(options: &azulejo_dcr_options, density: &azulejo_density, points: &[[f3
     relaxation::check(options, relaxed);
     assert!(report.iterations <= options.max_iterations && report.motion >= 0.0 && report.rho >= 0.0, "{}", report.rho);
     assert!(report.coverage >= 0.0, "{}", report.coverage);
+    if is_constant {
+        // The spacing is that of floats.
+        let rho = report.smallest_distance / relaxation::unit(options, count);
+        assert!(count < 2 || (report.rho / rho - 1.0).abs() < 1e-5, "{} is not {rho}", report.rho);
+        relaxation::check_report(options, relaxed, &azulejo_dcr_report { rho, ..report });
+    }
 }

@@ -3,13 +3,18 @@
 
 pub mod arrays;
 pub mod calls;
+mod coverage;
+#[path = "../../tests/common/disks.rs"]
+pub mod disks;
 pub mod files;
 pub mod input;
 mod mesh_density;
+pub mod plane;
 pub mod relaxation;
 pub mod surface;
 mod surface_relaxation;
 mod varying;
-mod varying_coverage;
 
 pub use azulejo_c as c;
+// The oracles of the tests know the crate by this name.
+extern crate azulejo_core as azulejo;

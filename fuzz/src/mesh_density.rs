@@ -9,9 +9,9 @@ use azulejo_c::mesh::*;
 use azulejo_c::mesh_density::*;
 
 use crate::calls::{Arrays, Out, check_distances, context, create};
+use crate::coverage::{Ball, Field, uncovered};
 use crate::input::Input;
 use crate::surface::Corners;
-use crate::varying_coverage::{Ball, Field, check_covered};
 
 /// Gives densities up to 1, some of them wrong.
 struct Guest {
@@ -118,7 +118,7 @@ pub(crate) fn sample(mesh: &azulejo_mesh, corners: &Corners, radius: f64, input:
     if !falls_far && density.vertex_count > 0 && density.radius > 0.0 && density.radius < corners.diagonal() {
         // The radius at a density is that at 1 over its root.
         let at_vertices: Vec<_> = values.iter().map(|&value| f64::from(value) / density.radius.powi(2)).collect();
-        let field = Field { at_vertices: &at_vertices, radius: |value| 1.0 / value.sqrt() };
-        check_covered(mesh, corners, &field, &Ball::of_samples(&set));
+        let field = Field::AtVertices { values: &at_vertices, radius: |value| 1.0 / value.sqrt() };
+        assert_eq!(uncovered(mesh, corners, &field, &Ball::of_samples(&set), |_| true), None);
     }
 }

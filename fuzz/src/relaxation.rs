@@ -1,8 +1,10 @@
-//! Requests to relax points of the plane, for the targets that do.
+//! Requests to relax points of the plane, for the targets that do, and what the results owe.
 
-use azulejo_c::dcr::{AZULEJO_METHOD_THESIS, azulejo_dcr_options};
+use azulejo_c::dcr::{AZULEJO_METHOD_THESIS, azulejo_dcr_options, azulejo_dcr_report};
+use azulejo_core::{Boundary, Domain};
 
 use crate::calls::Patience;
+use crate::disks::{distance, find_gap};
 use crate::input::Input;
 
 /// Options of all kinds, with few steps.
@@ -64,5 +66,88 @@ pub fn check(options: &azulejo_dcr_options, points: &[[f32; 2]]) {
         let is_inside =
             |axis: usize| (options.domain_min[axis]..options.domain_max[axis]).contains(&f64::from(point[axis]));
         assert!(is_inside(0) && is_inside(1), "{point:?}");
+    }
+}
+
+/// d_max: the distance of a hexagonal arrangement of so many points.
+pub fn unit(options: &azulejo_dcr_options, count: usize) -> f64 {
+    let [width, height] = [0, 1].map(|axis| options.domain_max[axis] - options.domain_min[axis]);
+    (2.0 / 3f64.sqrt() * width * height / count as f64).sqrt()
+}
+
+/// The figures of a report are those of the points that are returned, where all of the domain is alike: the smallest distance
+/// by all pairs, the covering radius by cutting the domain into pieces.
+pub fn check_report(options: &azulejo_dcr_options, points: &[[f32; 2]], report: &azulejo_dcr_report) {
+    if let Some(fault) = fault(options, points, report) {
+        panic!("{fault}: rho {}, coverage {}, {points:?}", report.rho, report.coverage);
+    }
+}
+
+/// Which figure is not true, if one is not.
+fn fault(options: &azulejo_dcr_options, points: &[[f32; 2]], report: &azulejo_dcr_report) -> Option<String> {
+    let boundary = if options.boundary == 0 { Boundary::Periodic } else { Boundary::Bounded };
+    let domain = Domain { min: options.domain_min, max: options.domain_max, boundary };
+    let unit = unit(options, points.len());
+    let pairs = (0..points.len()).flat_map(|i| (0..i).map(move |j| (i, j)));
+    let smallest = pairs.map(|(i, j)| distance(&domain, points[i], points[j])).fold(f64::INFINITY, f64::min);
+    let largest = domain.min.iter().chain(&domain.max).fold(0.0, |most: f64, x| x.abs().max(most));
+    // Distances are computed in f64, coverage of places that are rounded to floats.
+    let (rounding, spacing) = (1e-9 * smallest + 1e-12 * largest, 4.0 * f64::from(f32::EPSILON) * largest);
+    if points.len() > 1
+        && ((report.smallest_distance - smallest).abs() > rounding || (report.rho * unit - smallest).abs() > rounding)
+    {
+        return Some(format!("the smallest distance is {smallest}, {} times {unit}", smallest / unit));
+    }
+    if points.is_empty() {
+        return None;
+    }
+    let (coverage, slack) = (report.coverage * unit, 1e-6 * (1.0 + report.coverage) * unit + spacing);
+    let gap = |radius: f64| find_gap(&domain, points.iter().map(|&point| (point, radius)), 0.0, slack / 16.0);
+    if let Some(gap) = gap(coverage + slack) {
+        return Some(format!("{gap:?} is farther than {coverage} from all points"));
+    }
+    let is_less = coverage > slack && gap(coverage - slack).is_none();
+    is_less.then(|| format!("less than {coverage} is enough"))
+}
+
+#[cfg(test)]
+mod tests {
+    use azulejo_c::dcr::{azulejo_dcr_options_init, azulejo_dcr_report_init};
+
+    use super::*;
+    use crate::calls::report;
+
+    #[test]
+    fn points_that_are_missing_or_moved_and_figures_that_are_not_true_are_noticed() {
+        for boundary in [0, 1] {
+            let options = azulejo_dcr_options { boundary, ..report(azulejo_dcr_options_init) };
+            let at = |i: usize| (i as f32 + 0.5) / 7.0;
+            let points: Vec<[f32; 2]> = (0..49).map(|i| [at(i % 7), at(i / 7)]).collect();
+            let unit = (2.0 / 3f64.sqrt() / 49.0).sqrt();
+            let told = |distance: f64, coverage: f64| azulejo_dcr_report {
+                smallest_distance: distance,
+                rho: distance / unit,
+                coverage: coverage / unit,
+                ..report(azulejo_dcr_report_init)
+            };
+            let smallest = (0..49).flat_map(|i| (0..i).map(move |j| (i, j)));
+            let smallest = smallest.map(|(i, j)| {
+                let between = |axis: usize| f64::from(points[i][axis]) - f64::from(points[j][axis]);
+                between(0).hypot(between(1))
+            });
+            let (smallest, coverage) = (smallest.fold(f64::INFINITY, f64::min), 0.5f64.sqrt() / 7.0);
+            let says = |points: &[[f32; 2]], distance, coverage| fault(&options, points, &told(distance, coverage));
+            assert_eq!(says(&points, smallest, coverage), None);
+            for factor in [0.9999, 1.0001] {
+                assert!(says(&points, factor * smallest, coverage).is_some());
+                assert!(says(&points, smallest, factor * coverage).is_some());
+            }
+            for index in 0..49 {
+                let (mut fewer, mut moved) = (points.clone(), points.clone());
+                fewer.remove(index);
+                moved[index] = moved[index].map(|x| x + 0.01);
+                assert!(says(&fewer, smallest, coverage).is_some() && says(&moved, smallest, coverage).is_some());
+            }
+        }
     }
 }

@@ -2,7 +2,6 @@
 
 use std::ptr::{NonNull, null_mut};
 
-use azulejo_c::analysis::{azulejo_coverage_report_init, azulejo_mesh_coverage};
 use azulejo_c::classes::azulejo_classes;
 use azulejo_c::mesh::*;
 use azulejo_c::points::{azulejo_points, azulejo_points_classes, azulejo_points_count};
@@ -10,7 +9,8 @@ use azulejo_c::psp::*;
 use azulejo_c::psp_report::azulejo_psp_report_init;
 use azulejo_c::thin::{AZULEJO_ORDER_ANY, AZULEJO_ORDER_PROGRESSIVE};
 
-use crate::calls::{Arrays, Out, Patience, accepted, array, check_distances, context, create, report, reported};
+use crate::calls::{Arrays, Out, Patience, accepted, array, check_distances, context, create, report};
+use crate::coverage::{Ball, Field, uncovered};
 use crate::input::Input;
 use crate::surface_relaxation::relax;
 use crate::varying::adaptive;
@@ -127,17 +127,17 @@ impl Request {
 pub fn sample(mesh: &azulejo_mesh, input: &mut Input) {
     let Some(Request { corners, radius, patience, given, options }) = Request::any(mesh, input) else { return };
     at_once(mesh, &corners, &options, &given);
-    in_steps(mesh, &corners, &options, &patience, input);
+    in_steps(mesh, &corners, &options, &given, &patience, input);
     adaptive(mesh, &corners, radius, &given, input);
     relax(mesh, &corners, input);
 }
 
 /// Samples a mesh by density, in progressive order, or with several classes.
 pub fn sample_kinds(mesh: &azulejo_mesh, input: &mut Input) {
-    let Some(Request { corners, radius, options, .. }) = &Request::any(mesh, input) else { return };
+    let Some(Request { corners, radius, given, options, .. }) = &Request::any(mesh, input) else { return };
     match input.below(3) {
         0 => crate::mesh_density::sample(mesh, corners, *radius, input),
-        1 => ordered(mesh, corners, options, input),
+        1 => ordered(mesh, corners, options, given, input),
         _ => of_classes(mesh, corners, options, input),
     }
 }
@@ -202,32 +202,27 @@ fn at_once(mesh: &azulejo_mesh, corners: &Corners, options: &azulejo_psp_options
     if options.cosine == -1.0 {
         check_uniform(corners, &points, options.radius);
     }
-    if options.maximal == 1 && given.clearances.is_none() {
-        check_covered(mesh, corners, &points, options, &given.positions);
+    if options.maximal == 1 {
+        check_covered(mesh, corners, &points, report.coverage, given, options.radius);
     }
 }
 
-/// A maximal set, with what is given, leaves no place of the mesh uncovered, up to six float spacings.
+/// No place of the mesh is farther from the samples than a distance, unless what is given covers it.
 fn check_covered(
     mesh: &azulejo_mesh,
     corners: &Corners,
     points: &azulejo_points,
-    options: &azulejo_psp_options,
-    given: &[[f32; 3]],
+    coverage: f64,
+    given: &Given,
+    radius: f64,
 ) {
-    let radius = options.radius + 6.0 * corners.largest_coordinate() * f64::from(f32::EPSILON);
-    let positions = [Arrays::of(points).positions.as_chunks::<3>().0, given].concat();
-    let (start, count) = (positions.as_ptr().cast(), positions.len());
-    // SAFETY: the array is as long as that.
-    let coverage = reported(azulejo_coverage_report_init, |out| unsafe {
-        azulejo_mesh_coverage(context(), Some(mesh), start, count, radius, out)
-    });
-    let coverage = coverage.expect("what is covered can be told");
-    assert!(coverage.gaps == 0 && coverage.covering_radius <= radius, "{}, {radius}", coverage.covering_radius);
+    let samples = Ball::of_positions(Arrays::of(points).positions.as_chunks::<3>().0, |_| coverage);
+    let balls = [samples, Ball::of_given(given, radius)].concat();
+    assert_eq!(uncovered(mesh, corners, &Field::None, &balls, |_| true), None, "within {coverage}");
 }
 
 /// Sets of exact counts, and in progressive order.
-fn ordered(mesh: &azulejo_mesh, corners: &Corners, options: &azulejo_psp_options, input: &mut Input) {
+fn ordered(mesh: &azulejo_mesh, corners: &Corners, options: &azulejo_psp_options, given: &Given, input: &mut Input) {
     let count = if input.one_in(2) { input.below(60) as usize } else { 0 };
     let is_progressive = count == 0 || input.one_in(2);
     let options = &azulejo_psp_options {
@@ -245,6 +240,8 @@ fn ordered(mesh: &azulejo_mesh, corners: &Corners, options: &azulejo_psp_options
     let set = Arrays::of(&points);
     corners.check(&set);
     assert!(count == 0 || set.triangles.len() == count);
+    assert!(report.coverage >= report.radius, "{} {}", report.coverage, report.radius);
+    check_covered(mesh, corners, &points, report.coverage, given, report.radius);
     if options.cosine == -1.0 {
         let (positions, _) = set.positions.as_chunks::<3>();
         check_distances(positions, |a, b| std::array::from_fn(|axis| a[axis] - b[axis]), |_, _| report.radius);
@@ -299,12 +296,20 @@ fn of_classes(mesh: &azulejo_mesh, corners: &Corners, options: &azulejo_psp_opti
         let difference = |a: [f64; 3], b: [f64; 3]| std::array::from_fn(|axis| a[axis] - b[axis]);
         check_distances(positions, difference, |i, j| radii[class[i] * count + class[j]]);
     }
+    for own in 0..count {
+        let (positions, _) = set.positions.as_chunks::<3>();
+        let balls = Ball::of_positions(positions, |i| radii[class[i] * count + own]);
+        let is_asked = |triangle: usize| masks.get(triangle).is_none_or(|mask| mask >> own & 1 == 1);
+        let gap = uncovered(mesh, corners, &Field::None, &balls, is_asked);
+        assert_eq!(gap, None, "another sample of class {own} fits");
+    }
 }
 
 fn in_steps(
     mesh: &azulejo_mesh,
     corners: &Corners,
     options: &azulejo_psp_options,
+    given: &Given,
     patience: &Patience,
     input: &mut Input,
 ) {
@@ -312,21 +317,22 @@ fn in_steps(
     // SAFETY: the options are of the size that they say.
     let create_set = |out: Out<_>| unsafe { azulejo_psp_create(context(), Some(mesh), options, out) };
     let Some(mut set) = create(create_set) else { return };
+    let mut is_filled = false;
     for _ in 0..input.below(4) {
         let left = if input.one_in(2) { input.below(20) } else { u32::MAX };
         patience.again(left);
         let handle = Some(NonNull::from(&mut *set));
+        let fills = input.one_in(2);
         // SAFETY: the handle is alive; nobody else uses it.
         let status = unsafe {
-            if input.one_in(2) {
-                azulejo_psp_fill(handle, null_mut())
-            } else {
-                azulejo_psp_advance(handle, 1, null_mut())
-            }
+            if fills { azulejo_psp_fill(handle, null_mut()) } else { azulejo_psp_advance(handle, 1, null_mut()) }
         };
-        accepted(status);
+        is_filled |= accepted(status) && fills;
     }
     let points = create(|out| azulejo_psp_points(Some(&set), out)).expect("the set is not in use");
     check_uniform(corners, &points, options.radius);
+    if is_filled {
+        check_covered(mesh, corners, &points, options.radius, given, options.radius);
+    }
     azulejo_psp_free(Some(set));
 }

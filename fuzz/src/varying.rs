@@ -8,9 +8,9 @@ use azulejo_c::adaptive::*;
 use azulejo_c::mesh::*;
 
 use crate::calls::{Arrays, Out, check_distances, context, create};
+use crate::coverage::{Ball, Field, uncovered};
 use crate::input::Input;
 use crate::surface::{Corners, Given};
-use crate::varying_coverage::{Ball, Field, check_covered};
 
 /// A function of the caller's: one that is as the options say, or not.
 struct Guest {
@@ -21,6 +21,11 @@ struct Guest {
 }
 
 impl Guest {
+    /// Whether it changes no faster than its slope.
+    fn is_as_told(&self) -> bool {
+        self.kind > 4
+    }
+
     fn at(&self, position: [f64; 3]) -> f64 {
         let ramp = |slope: f64| self.least + (position[0].abs() * slope).min(self.least);
         let noise =
@@ -83,11 +88,16 @@ pub(crate) fn adaptive(mesh: &azulejo_mesh, corners: &Corners, radius: f64, give
         let (positions, _) = set.positions.as_chunks::<3>();
         let mean = |i: usize, j: usize| (set.radii[i] + set.radii[j]) / 2.0;
         check_distances(positions, |a, b| std::array::from_fn(|axis| a[axis] - b[axis]), mean);
-        if by_vertex {
-            let diagonal = corners.diagonal();
-            let at_vertices: Vec<_> = radii.iter().map(|&radius| f64::from(radius).min(4.0 * diagonal)).collect();
-            let field = Field { at_vertices: &at_vertices, radius: |radius| radius };
-            check_covered(mesh, corners, &field, &[Ball::of_samples(&set), Ball::of_given(given)].concat());
+        let limit = 4.0 * corners.diagonal();
+        let values: Vec<_> = radii.iter().map(|&radius| f64::from(radius).min(limit)).collect();
+        let at = |place| guest.at(place).min(limit);
+        let field = match by_vertex {
+            true => Field::AtVertices { values: &values, radius: |radius| radius },
+            false => Field::Function { at: &at, slope },
+        };
+        if by_vertex || guest.is_as_told() {
+            let balls = [Ball::of_samples(&set), Ball::of_given(given, f64::NAN)].concat();
+            assert_eq!(uncovered(mesh, corners, &field, &balls, |_| true), None);
         }
     }
 }

@@ -2,6 +2,7 @@
 
 #include <math.h>
 
+#include "naive.h"
 #include "samples.h"
 
 #define INVALID AZULEJO_ERROR_INVALID_ARGUMENT
@@ -123,6 +124,8 @@ static void masks(void) {
         wrong += azulejo_points_positions(points)[3 * i + 2] != 1; /* the two are the cube's upper face */
     }
     CHECK(wrong == 0 && azulejo_points_count(points) > 60);
+    CHECK(naive_gaps_of_face(azulejo_points_positions(points), azulejo_points_count(points), 0.1 + 1e-6, 5) == 0);
+    CHECK(naive_gaps_of_face(azulejo_points_positions(points), azulejo_points_count(points) - 1, 0.1 - 1e-6, 5) > 0);
     ACCEPTED(azulejo_mesh_uncovered_fraction(context, part, azulejo_points_positions(points),
                                              azulejo_points_count(points), 0.1, 10000, 1, &uncovered));
     CHECK(uncovered == 0);

@@ -109,22 +109,28 @@ static inline size_t naive_gaps_of_plane(const float *xy, size_t count, double r
     return gaps;
 }
 
-/* The gaps of balls of one radius around points on the faces of the unit cube: balls cut a face in disks. */
-static inline size_t naive_gaps_of_cube(const float *xyz, size_t count, double radius) {
+/* The gaps of balls of one radius around points on a face of the unit cube, of which they cut disks: face 2 * axis is at 0
+   along the axis, the next one at 1. */
+static inline size_t naive_gaps_of_face(const float *xyz, size_t count, double radius, size_t face) {
     const double low[2] = {0, 0}, high[2] = {1, 1};
     naive_disk *disks = malloc((count + 1) * sizeof *disks);
-    size_t gaps = 0, found, face, i;
-    for (face = 0; face < 6; face++) {
-        const size_t axis = face / 2;
-        for (found = 0, i = 0; i < count; i++) {
-            const float *p = &xyz[3 * i];
-            const double off = p[axis] - (double)(face % 2), square = radius * radius - off * off;
-            const naive_disk disk = {p[(axis + 1) % 3], p[(axis + 2) % 3], sqrt(fmax(square, 0))};
-            if (square > 0) disks[found++] = disk;
-        }
-        gaps += naive_gaps(disks, found, low, high);
+    const size_t axis = face / 2;
+    size_t gaps, found = 0, i;
+    for (i = 0; i < count; i++) {
+        const float *p = &xyz[3 * i];
+        const double off = p[axis] - (double)(face % 2), square = radius * radius - off * off;
+        const naive_disk disk = {p[(axis + 1) % 3], p[(axis + 2) % 3], sqrt(fmax(square, 0))};
+        if (square > 0) disks[found++] = disk;
     }
+    gaps = naive_gaps(disks, found, low, high);
     free(disks);
+    return gaps;
+}
+
+/* The gaps on all six faces. */
+static inline size_t naive_gaps_of_cube(const float *xyz, size_t count, double radius) {
+    size_t gaps = 0, face;
+    for (face = 0; face < 6; face++) gaps += naive_gaps_of_face(xyz, count, radius, face);
     return gaps;
 }
 

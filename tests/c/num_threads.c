@@ -70,7 +70,7 @@ static double now_in_ns(void) {
 static azulejo_context *context;
 static azulejo_mesh *cube;
 static float *random_xy;
-enum { POINTS = 100000 };
+enum { POINTS = 100000, TRIES = 10 };
 
 static azulejo_status kdrt(azulejo_points **out) {
     const azulejo_kdrt_options o = kdrt_options(0.0008);
@@ -161,41 +161,49 @@ static azulejo_status measures(azulejo_points **out) {
 static azulejo_status (*const calls[])(azulejo_points **) = {kdrt,     counted, window, stream,  maximal, merge,
                                                             raster,   adaptive, dcr,   nearest, measures, psp};
 
+/* How many threads a call had work: never more than `expected`, and never more at once than `num_threads`. */
+static int worked_in(size_t call, int num_threads, int expected) {
+    azulejo_points *points = NULL;
+    census before, after;
+    unsigned long long work;
+    double time;
+    int worked;
+    take(&before);
+    time = now_in_ns();
+    ACCEPTED(calls[call](&points));
+    time = now_in_ns() - time;
+    take(&after);
+    azulejo_points_free(points);
+    worked = workers(&before, &after, &work);
+    if (!CHECK(worked <= expected)) printf("    call %d: %d threads worked, not %d\n", (int)call, worked, expected);
+    if (!CHECK((double)work <= (num_threads + 0.1) * time + 5e6))
+        printf("    call %d: %.2f threads at once instead of %d\n", (int)call, (double)work / time, num_threads);
+    CHECK(after.ours == expected);
+    /* Only TBB, with Embree, brings threads of its own. */
+    CHECK(after.count == before.count || calls[call] == psp);
+    return worked;
+}
+
 static void honoured(int num_threads) {
     /* With one there is none: the caller's works, which otherwise waits, prepares and tells. */
     const int expected = num_threads > 1 ? num_threads : 0;
-    census start, before, after;
-    size_t i, shared = 0;
+    census start, before;
+    size_t i;
     take(&start);
     context = make_context((uint32_t)num_threads);
     take(&before);
     CHECK(azulejo_context_num_threads(context) == (uint32_t)num_threads);
     CHECK(before.count == start.count + expected);
     for (i = 0; i < COUNT_OF(calls); i++) {
-        azulejo_points *points = NULL;
-        unsigned long long work;
-        double time;
-        int worked;
-        take(&before);
-        time = now_in_ns();
-        ACCEPTED(calls[i](&points));
-        time = now_in_ns() - time;
-        take(&after);
-        azulejo_points_free(points);
-        worked = workers(&before, &after, &work);
-        if (!CHECK(worked <= expected && (worked > 0) == (num_threads > 1)))
-            printf("    call %d: %d threads worked instead of %d\n", (int)i, worked, expected);
-        shared += worked == expected;
-        /* Never more at once. */
-        if (!CHECK((double)work <= (num_threads + 0.1) * time + 5e6))
-            printf("    call %d: %.2f threads at once instead of %d\n", (int)i, (double)work / time, num_threads);
-        CHECK(after.ours == expected);
-        /* Only TBB, with Embree, brings threads of its own. */
-        CHECK(after.count == before.count || calls[i] == psp);
+        /* A short call on a busy machine may end before the last thread has had its turn, but not again and again. */
+        int tries, most = -1;
+        for (tries = 0; tries < TRIES && most < expected; tries++) {
+            const int worked = worked_in(i, num_threads, expected);
+            if (worked > most) most = worked;
+        }
+        if (!CHECK(most == expected))
+            printf("    call %d: %d of %d threads worked in %d tries\n", (int)i, most, expected, tries);
     }
-    /* A short call may end before the last thread has had its turn, but not most of them. */
-    if (!CHECK(2 * shared > COUNT_OF(calls)))
-        printf("    all %d threads worked in %d of %d calls\n", num_threads, (int)shared, (int)COUNT_OF(calls));
     azulejo_context_free(context);
 }
 

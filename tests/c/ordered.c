@@ -2,6 +2,7 @@
 
 #include <math.h>
 
+#include "naive.h"
 #include "samples.h"
 
 #define INVALID AZULEJO_ERROR_INVALID_ARGUMENT
@@ -29,10 +30,12 @@ static double distance(const float *a, const float *b) {
     return sqrt(pow((double)a[0] - b[0], 2) + pow((double)a[1] - b[1], 2) + pow((double)a[2] - b[2], 2));
 }
 
-static double covering_radius(const azulejo_points *points, size_t count) {
+/* Whether the first samples cover the cube within a distance: by the crossings of circles, and azulejo says so, too. */
+static int covers(const azulejo_points *points, size_t count, double within) {
     azulejo_coverage_report report = coverage_report();
-    ACCEPTED(azulejo_mesh_coverage(one, cube, azulejo_points_positions(points), count, 10, &report));
-    return report.covering_radius;
+    const float *at = azulejo_points_positions(points);
+    ACCEPTED(azulejo_mesh_coverage(one, cube, at, count, 10, &report));
+    return naive_gaps_of_cube(at, count, within + 1e-6) == 0 && report.covering_radius <= within + 1e-6;
 }
 
 static void counts(void) {
@@ -49,7 +52,8 @@ static void counts(void) {
             for (j = 0; j < i && distance(at + 3 * i, at + 3 * j) >= report.radius; j++) {}
             if (!CHECK(j == i)) break;
         }
-        CHECK(covering_radius(points, numbers[n]) <= report.coverage + 1e-6);
+        CHECK(covers(points, numbers[n], report.coverage));
+        CHECK(!covers(points, numbers[n] - 1, report.radius - 2e-6));
         azulejo_points_free(points);
     }
 }
@@ -67,7 +71,7 @@ static void order(void) {
         if (!CHECK(j == i && ranks[i] <= ranks[i - 1])) break;
     }
     for (i = 2; i < 3000; i += i / 2) {
-        CHECK(covering_radius(points, i) <= (i < 100 ? 2.0 : 1.0906) * (double)ranks[i - 1]);
+        CHECK(covers(points, i, (i < 100 ? 2.0 : 1.0906) * (double)ranks[i - 1]));
     }
     options.count = 777;
     fewer = sample(&options, NULL);
@@ -79,7 +83,7 @@ static void order(void) {
     options.quotient = 1.3;
     by_radius = sample(&options, &report);
     CHECK(report.coverage == options.radius && report.radius == options.radius);
-    CHECK(covering_radius(by_radius, azulejo_points_count(by_radius)) <= options.radius + 1e-6);
+    CHECK(covers(by_radius, azulejo_points_count(by_radius), options.radius));
     azulejo_points_free(points);
     azulejo_points_free(fewer);
     azulejo_points_free(by_radius);

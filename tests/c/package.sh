@@ -70,11 +70,7 @@ step "lights" run_lights "$work/shared"
 step "camera" run_camera "$work/shared"
 step "plants" run_plants "$work/shared"
 step "lod" run_lod "$work/shared"
-if [ -x "$work/shared/ranks" ]; then
-    step "ranks" run_ranks "$work/shared"
-else
-    echo "SKIPPED: ranks, since there is no MPI here"
-fi
+step "ranks" run_ranks "$work/shared"
 step "examples, static" examples "$work/static" "$prefix" -DAZULEJO_EXAMPLES_STATIC=ON
 step "they do not need libazulejo.so" is_static "$work/static/plane"
 step "they run" run_examples "$work/static"

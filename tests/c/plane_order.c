@@ -3,6 +3,7 @@
 
 #include <math.h>
 
+#include "naive.h"
 #include "samples.h"
 
 #define INVALID AZULEJO_ERROR_INVALID_ARGUMENT
@@ -29,7 +30,7 @@ static double torus_distance(const float *a, const float *b) {
     return sqrt(dx * dx + dy * dy);
 }
 
-/* The promise of some prefixes, by all pairs and by azulejo's own measure of coverage. */
+/* The promise of some prefixes, by all pairs and by the crossings of circles, and by azulejo's own measure of coverage. */
 static void prefixes(void) {
     azulejo_kdrt_options options = progressive(0.03);
     const double quotients[2] = {0, 1.3}, low[2] = {0, 0}, high[2] = {1, 1};
@@ -50,9 +51,12 @@ static void prefixes(void) {
             for (j = 0; j < i; j++) CHECK(torus_distance(xy + 2 * i, xy + 2 * j) >= ranks[i]);
         }
         for (i = 1; i <= count; i += 1 + i / 3) {
+            const double bound = (i < 100 ? 2 : quotient) * ranks[i - 1] + 1e-6;
             double covering = 0;
+            CHECK(i == 1 || naive_gaps_of_plane(xy, i, bound, low, high, 1) == 0);
+            CHECK(i == 1 || naive_gaps_of_plane(xy, i - 1, ranks[i - 1] - 1e-6, low, high, 1) > 0);
             ACCEPTED(azulejo_plane_covering_radius(context, PLANE(xy, i, low, high, AZULEJO_BOUNDARY_PERIODIC), &covering));
-            CHECK(covering <= (i < 100 ? 2 : quotient) * ranks[i - 1] + 1e-6);
+            CHECK(covering <= bound);
         }
         azulejo_points_free(points);
     }

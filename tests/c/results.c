@@ -3,6 +3,7 @@
 
 #include <math.h>
 
+#include "naive.h"
 #include "samples.h"
 
 static azulejo_context *context;
@@ -178,6 +179,8 @@ static void surface_measures(const azulejo_mesh *cube, const azulejo_points *poi
     CHECK(smallest >= radius);
     ACCEPTED(azulejo_space_smallest_distance(context, positions, count, &told));
     CHECK(fabs(told - smallest) <= 1e-12 * smallest);
+    CHECK(naive_gaps_of_cube(positions, count, radius + 1e-6) == 0);
+    CHECK(naive_gaps_of_cube(positions, count - 1, radius - 1e-6) > 0);
     ACCEPTED(azulejo_mesh_uncovered_fraction(context, cube, positions, count, radius, 50000, 1, &uncovered));
     CHECK(uncovered == 0);
     /* One sample covers a disk of pi / 100 of the cube's area of 6, or less at an edge. */
