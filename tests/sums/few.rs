@@ -116,6 +116,9 @@ fn surface(context: &Context, list: &mut List) -> Result<()> {
     let radii: Vec<f32> = mesh.positions().iter().map(|[x, ..]| 0.1 + 0.05 * (x + 1.4)).collect();
     let by_vertex = adaptive::Options::new(adaptive::Radius::PerVertex(&radii)).seed(13);
     list.samples("adaptive", &adaptive::sample(context, &mesh, &by_vertex, None)?.0.samples);
+    let (ordered, _) = adaptive::sample(context, &mesh, &by_vertex.order(Order::Progressive).quotient(1.3), None)?;
+    list.samples("adaptive, ordered", &ordered.samples);
+    list.bytes("adaptive, ordered: ranks", &little_endian(&ordered.samples.ranks, f32::to_le_bytes));
     let options = dcr::surface::Options::default().max_iterations(20);
     let (relaxed, _) = dcr::surface::relax(context, &mesh, &filled.triangles, &filled.barycentrics, &options, None)?;
     list.samples("relax on the mesh", &relaxed);

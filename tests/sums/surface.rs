@@ -131,6 +131,13 @@ fn with_density(context: &Context, open: &Mesh, list: &mut List) -> Result<()> {
         let options = adaptive::Options::new(Radius::Density { density, scale }).seed(45);
         list.samples(&format!("adaptive, {name}"), &adaptive::sample(context, open, &options, None)?.0.samples);
     }
+    let by_count = Radius::Density { density: function, scale: Scale::Count(1500.0) };
+    let options = adaptive::Options::new(by_count).seed(47).order(Order::Progressive);
+    let (ordered, report) = adaptive::sample(context, open, &options, None)?;
+    list.samples("adaptive, ordered count", &ordered.samples);
+    list.bytes("adaptive, ordered count: ranks", &little_endian(&ordered.samples.ranks, f32::to_le_bytes));
+    list.numbers("adaptive, ordered count: radii", &ordered.radii);
+    list.numbers("adaptive, ordered count: report", &[report.radius, report.coverage.unwrap_or(-1.0)]);
     Ok(())
 }
 

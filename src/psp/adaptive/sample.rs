@@ -42,9 +42,9 @@ pub struct AdaptiveSamples {
 /// what all radii are multiplied by; for a [density](Radius::Density), the radius at density 1. For every prefix, from the
 /// first sample on: two samples are no closer than the mean of their radii times the rank of its last one, and no place is
 /// farther from all of its samples than the mean of the two radii times [`Options::quotient`] times this rank, up to the
-/// tolerance of this times the rank. (With fewer than [`Order::FIRST_COUNT`] samples it is as
-/// [`psp::Options::quotient`](crate::psp::Options::quotient) says.) The radius of a place is that of the caller, and those of
-/// samples are the returned ones over [`Report::radius`]. These can be below what the density asks for where it falls by
+/// tolerance of a set of these radii. (With fewer than [`Order::FIRST_COUNT`] samples it is as
+/// [`psp::Options::quotient`](crate::psp::Options::quotient) says.) The radius of a place is that of the caller, and those
+/// of samples are the returned ones over [`Report::radius`]. These can be below what the density asks for where it falls by
 /// more than 16 within a few radii of the level that a sample came with.
 ///
 /// The whole set is maximal at the caller's radii, or has exactly as many samples as [`Scale::Count`] asks for. Of a
