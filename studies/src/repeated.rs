@@ -74,13 +74,13 @@ impl Repeated {
 
 impl Rounds {
     /// The seconds of each round, times a number.
-    pub fn seconds(&self, scale: f64) -> Repeated {
+    pub fn scaled(&self, scale: f64) -> Repeated {
         Repeated::new(self.seconds.iter().map(|seconds| scale * seconds).collect())
     }
 
     /// Seconds per sample.
     pub fn per_sample(&self) -> Repeated {
-        self.seconds(1.0 / self.samples.max(1) as f64)
+        self.scaled(1.0 / self.samples.max(1) as f64)
     }
 }
 

@@ -45,10 +45,11 @@ impl Page {
         names.map(|name| (name.to_owned(), open(name))).collect()
     }
 
-    /// Checks that there are verdicts, and that all follow from the tables.
-    fn check_verdicts(&self) {
+    /// Checks that there are verdicts, and that those that can be computed anew follow from the tables.
+    fn check_verdicts(&self, least: usize) -> Recomputed {
         let all = Recomputed::of(&self.text);
-        assert!(all.right > 0 && all.wrong.is_empty() && all.unknown.is_empty(), "{all:#?}");
+        assert!(all.right >= least && all.wrong.is_empty(), "{all:#?}");
+        all
     }
 
     /// Checks that there are `count` pictures, all at least so wide and with something dark.
@@ -79,7 +80,7 @@ fn a_quick_page_of_the_plane_has_every_table_and_picture_that_it_shows() {
     assert!(rows.iter().all(|row| ["**not met**", "no difference shown"].contains(&&*row[8])), "{rows:?}");
     rows.iter().for_each(|row| check_verdict(columns(row), "no difference shown", |p| p > 0.01));
     page.check_pictures(7, 900);
-    page.check_verdicts();
+    assert_eq!(page.check_verdicts(10).unknown, [""; 0]);
 }
 
 const VERDICTS: [&str; 3] = ["met", "**not met**", "not decided"];
@@ -136,7 +137,7 @@ fn a_quick_page_of_surfaces_says_what_is_left_out_and_shows_the_rest() {
     assert!(page.text.contains("the bunny took the least time is not decided"));
     assert!(page.text.contains("\n| bunny | ") && page.text.contains("\n| hall | ") && !page.text.contains("NaN"));
     page.check_pictures(10, 400);
-    page.check_verdicts();
+    page.check_verdicts(10);
     let errors =
         page.text.lines().filter_map(|line| line.strip_suffix(" % |")?.rsplit("| ").next()?.parse::<f64>().ok());
     let errors: Vec<_> = errors.collect();
@@ -282,7 +283,7 @@ fn a_quick_page_of_classes_has_their_shares_and_those_of_wei() {
     fs::write(directory.path().join("knot.obj"), knot_file()).unwrap();
     let page = Page::of(directory, "classes", &["--bunny", "knot.obj", "--dragon", "knot.obj"]);
     page.check_pictures(5, 400);
-    page.check_verdicts();
+    assert_eq!(page.check_verdicts(19).unknown, [""; 0]);
     let page = page.text;
     assert!(!page.contains("NaN") && !page.contains("is left out"), "{page}");
     let shares = |listed: &str| listed.split(" / ").map(|share| share.parse().unwrap()).collect::<Vec<f64>>();
@@ -342,7 +343,7 @@ fn a_quick_page_of_progressive_order_has_prefixes_as_promised() {
 fn a_quick_page_of_tiling_has_every_item_of_the_thesis_with_verdicts_that_follow() {
     let page = Page::quick("tiling");
     page.check_pictures(4, 900);
-    page.check_verdicts();
+    assert_eq!(page.check_verdicts(40).unknown, [""; 0]);
     let page = page.text;
     assert!(!page.contains("NaN") && !page.contains("inf"), "{page}");
     for item in [
@@ -431,7 +432,7 @@ fn a_quick_page_of_other_figures_has_plausible_ones() {
     fs::set_permissions(directory.path().join("lights"), fs::Permissions::from_mode(0o755)).unwrap();
     let page = Page::of(directory, "figures", &["--dragon", "knot.obj", "--lights", "./lights"]);
     page.check_pictures(3, 600);
-    page.check_verdicts();
+    assert_eq!(page.check_verdicts(2).unknown, [""; 0]);
     let page = page.text;
     assert!(page.contains(
         "| error of 100 lights: blue noise below random | 0.0512 ± 0.0004 | 40 | 0.0712 ± 0.0011 | 40 | +17.1 |"

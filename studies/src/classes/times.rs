@@ -115,7 +115,7 @@ impl Windows {
         let all = || (0..effort.windows).map(window).sum::<Result<usize>>();
         let timed = in_turns(effort.rounds, &[&all])?.remove(0);
         let windows = f64::from(effort.windows);
-        Ok(Self { samples: timed.samples as f64 / windows, milliseconds: timed.seconds(1e3 / windows) })
+        Ok(Self { samples: timed.samples as f64 / windows, milliseconds: timed.scaled(1e3 / windows) })
     }
 }
 

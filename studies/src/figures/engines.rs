@@ -51,8 +51,8 @@ fn row(context: &Context, scene: &Scene, count: f64, rounds: usize) -> Result<St
     let [rays, rasteriser] = &in_turns(rounds, &[&|| made(Engine::Embree), &|| made(Engine::Rasteriser)])?[..] else {
         unreachable!("two calls have two times");
     };
-    let ratio = rasteriser.seconds(1.0).over(&rays.seconds(1.0));
-    let [rays_ms, rasteriser_ms] = [rays, rasteriser].map(|it| cell(&it.seconds(1e3), 3));
+    let ratio = rasteriser.scaled(1.0).over(&rays.scaled(1.0));
+    let [rays_ms, rasteriser_ms] = [rays, rasteriser].map(|it| cell(&it.scaled(1e3), 3));
     Ok(format!(
         "| {} | {} | {} | {rays_ms} | {rasteriser_ms} | {}, {} |\n",
         scene.name,

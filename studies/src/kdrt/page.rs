@@ -297,7 +297,7 @@ fn time_against_samples(times: &Times) -> String {
     _ = writeln!(text, " |\n|---{}|", "|---".repeat(times.leaves.len()));
     for (row, Rounds { samples, .. }) in times.leaves[0].one_thread.iter().enumerate() {
         _ = write!(text, "| {}", grouped(*samples));
-        let milliseconds = |leaf: &LeafTimes| leaf.one_thread[row].seconds(1e3);
+        let milliseconds = |leaf: &LeafTimes| leaf.one_thread[row].scaled(1e3);
         times.leaves.iter().for_each(|leaf| _ = write!(text, " | {}", repeated::cell(&milliseconds(leaf), 3)));
         text.push_str(" |\n");
     }

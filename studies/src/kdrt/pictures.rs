@@ -36,7 +36,7 @@ fn label(size: f32, align: Align) -> Style {
 
 /// Seconds against samples on one thread (thesis fig. 2.11).
 pub fn draw_times(times: &Times, output: &Output) -> Result<()> {
-    let place = |timed: &Rounds| [timed.samples as f64, timed.seconds(1.0).median()];
+    let place = |timed: &Rounds| [timed.samples as f64, timed.scaled(1.0).median()];
     let points = || times.leaves.iter().flat_map(|leaf| leaf.one_thread.iter().map(place));
     let x = Axis::logarithmic("samples", range(points().map(|[samples, _]| samples), 1.4));
     let y = Axis::logarithmic("time / s", range(points().map(|[_, seconds]| seconds), 1.4));

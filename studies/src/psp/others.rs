@@ -298,7 +298,7 @@ fn measure(context: &Context, mesh: &std::sync::Arc<Mesh>, radius: f64, rounds: 
         let calls: Vec<&dyn Fn() -> Result<usize>> = calls.iter().map(|call| call as &dyn Fn() -> _).collect();
         let timed = in_turns(rounds, &calls)?;
         let reached = all.iter_mut().filter(|method| method.parameters[column].is_some());
-        reached.zip(timed).for_each(|(method, timed)| method.seconds[column] = Some(timed.seconds(1.0)));
+        reached.zip(timed).for_each(|(method, timed)| method.seconds[column] = Some(timed.scaled(1.0)));
     }
     Ok(Methods { reference, all })
 }

@@ -77,9 +77,9 @@ fn millions(rate: &Repeated) -> String {
 
 fn goals(effort: &Effort, measured: &[Measured], threads: usize) -> String {
     // Goals of rates were set for the bunny.
-    let judged = |one: &Measured, rate: &Repeated, goal: f64| {
-        let verdict = if one.scene.name == "bunny" { rate.verdict(|rate| rate >= 1e6 * goal) } else { "" };
-        millions(rate) + if verdict.is_empty() { "" } else { ", " } + verdict
+    let judged = |one: &Measured, rate: &Repeated, goal: f64| match &*one.scene.name {
+        "bunny" => format!("{}, {}", millions(rate), rate.verdict(|rate| rate >= 1e6 * goal)),
+        _ => millions(rate),
     };
     let speed_up_goal = SPEED_UP_GOAL * threads as f64;
     let rows: [(String, Cell); 8] = [

@@ -15,7 +15,9 @@ pub struct Columns {
 impl Columns {
     pub fn of(table: &Table) -> Option<Self> {
         let t = table.head.iter().position(|head| head == "t")?;
-        (t >= 4 && table.head.get(t + 1)? == "p" && table.head.len() == t + 3).then_some(Self { t })
+        let is_count = |before: usize| t >= 4 && ["n", "sets"].contains(&&*table.head[t - before]);
+        let is_claim = is_count(3) && is_count(1) && table.head.get(t + 1)? == "p" && table.head.len() == t + 3;
+        is_claim.then_some(Self { t })
     }
 }
 
