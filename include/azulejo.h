@@ -1240,8 +1240,8 @@ const uint32_t *azulejo_points_triangles(const struct azulejo_points *points);
 /// same manner. NULL for NULL, an empty set and samples of the plane.
 const float *azulejo_points_barycentrics(const struct azulejo_points *points);
 
-/// The radius of each sample of azulejo_psp_adaptive_sample, in the units of the mesh; NULL for
-/// NULL, an empty set and all other sets.
+/// The radius of each sample of azulejo_psp_adaptive_sample and azulejo_psp_adaptive_with_density,
+/// in the units of the mesh; NULL for NULL, an empty set and all other sets.
 const double *azulejo_points_radii(const struct azulejo_points *points);
 
 /// The ranks of the samples of a set in progressive order, in the units of the domain or the mesh:

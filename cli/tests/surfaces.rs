@@ -334,6 +334,38 @@ fn masked_triangles_get_no_samples() {
 }
 
 #[test]
+fn each_class_has_a_mask_of_its_own() {
+    let workshop = Workshop::new();
+    square(&workshop);
+    // The left half, and the lower one.
+    let text = fs::read_to_string(workshop.path("square.ply")).unwrap();
+    let text = text.replace("uchar kept\n", "uchar kept\nproperty uchar low\n");
+    let mut face = 0;
+    let lines = text.lines().map(|line| {
+        let is_face = line.starts_with("4 ");
+        face += u32::from(is_face);
+        if is_face { format!("{line} {}\n", u8::from(face <= 128)) } else { format!("{line}\n") }
+    });
+    workshop.write("square.ply", lines.collect::<String>());
+    let classes = ["surface", "square.ply", "--classes", "0.05,0.03,0.04"];
+    workshop.succeed(&[&classes[..], &["--class-masks", "kept,low,low", "-o", "a.csv"]].concat());
+    let text = fs::read_to_string(workshop.path("a.csv")).unwrap();
+    let rows = text.lines().skip(1).map(|line| line.split(',').map(|word| word.parse().unwrap()).collect::<Vec<f64>>());
+    let rows: Vec<_> = rows.map(|row| ([row[0], row[1]], row[9])).collect();
+    let all = |class: f64| rows.iter().filter(move |(_, of)| *of == class).map(|(at, _)| *at);
+    assert!(all(0.0).all(|[x, _]| x <= 0.5) && all(0.0).filter(|[_, y]| *y > 0.5).count() > 40);
+    for class in [1.0, 2.0] {
+        assert!(all(class).all(|[_, y]| y <= 0.5) && all(class).filter(|[x, _]| *x > 0.5).count() > 40);
+    }
+    let refuse =
+        |arguments: &[&str], code| workshop.refuse(&[&classes[..], arguments, &["-o", "b.ply"]].concat(), code);
+    let said = refuse(&["--class-masks", "kept,low"], 1);
+    assert_eq!(said, "error: --class-masks: 2 attributes for 3 classes\n");
+    assert!(refuse(&["--class-masks", "kept,low,high"], 1).contains("attribute high: element face has no such number"));
+    workshop.refuse(&["surface", "square.ply", "--radius", "0.1", "--class-masks", "kept", "-o", "b.ply"], 2);
+}
+
+#[test]
 fn samples_keep_clear_of_points_that_are_given() {
     let workshop = Workshop::new();
     workshop.write("square.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 4\nf 1 4 3\n");

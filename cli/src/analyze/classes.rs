@@ -9,14 +9,14 @@ use serde_json::{Value, json};
 use super::Set;
 use super::figures::{Figure, Row, object, table};
 use crate::formats::blame;
-use crate::formats::set::{OfClasses, PlaneSet, SampleSet};
+use crate::formats::set::{ClassColumn, PlaneSet, SampleSet};
 use crate::progress::{part, watched};
 
 /// A set whose points may have classes.
 pub trait Classified {
     type Point: Copy;
     fn points(&self) -> &[Self::Point];
-    fn classes(&self) -> &OfClasses;
+    fn classes(&self) -> &ClassColumn;
 }
 
 impl Classified for PlaneSet {
@@ -24,7 +24,7 @@ impl Classified for PlaneSet {
     fn points(&self) -> &[[f32; 2]] {
         &self.points
     }
-    fn classes(&self) -> &OfClasses {
+    fn classes(&self) -> &ClassColumn {
         &self.classes
     }
 }
@@ -34,7 +34,7 @@ impl Classified for SampleSet {
     fn points(&self) -> &[[f32; 3]] {
         &self.positions
     }
-    fn classes(&self) -> &OfClasses {
+    fn classes(&self) -> &ClassColumn {
         &self.classes
     }
 }

@@ -77,13 +77,13 @@ pub struct PlaneSet {
     /// For each point its clearance or, where the file names none, its radius, if it has one.
     pub clearances: Option<Vec<f64>>,
     /// The class of each point.
-    pub classes: OfClasses,
+    pub classes: ClassColumn,
     /// The domain that the file names.
     pub domain: Option<Domain>,
 }
 
 /// The class of each point, if a file has them; the reason where its column of this name has other than whole numbers.
-pub type OfClasses = Option<Result<Vec<u32>, String>>;
+pub type ClassColumn = Option<Result<Vec<u32>, String>>;
 
 /// Samples in space, such as those of a mesh.
 #[derive(Debug)]
@@ -96,7 +96,7 @@ pub struct SampleSet {
     /// For each sample its clearance or, where the file names none, its radius, if it has one.
     pub clearances: Option<Vec<f64>>,
     /// The class of each sample.
-    pub classes: OfClasses,
+    pub classes: ClassColumn,
 }
 
 impl PointSet {
@@ -166,7 +166,7 @@ impl PointSet {
 }
 
 /// Classes by the numbers of their column.
-fn whole(numbers: Option<Vec<f32>>) -> OfClasses {
+fn whole(numbers: Option<Vec<f32>>) -> ClassColumn {
     let class = |(point, number): (usize, f32)| {
         let class = number as u32;
         if f64::from(class) == f64::from(number) {

@@ -11,7 +11,7 @@ use clap::{Args, ValueEnum};
 use super::{Common, report};
 use crate::domain::DomainArgs;
 use crate::formats::plane::PlaneTable;
-use crate::formats::set::OfClasses;
+use crate::formats::set::ClassColumn;
 use crate::formats::surface::SurfaceTable;
 use crate::formats::{Input, ON_MESH, blame};
 use crate::input;
@@ -96,14 +96,14 @@ impl Relax {
         let table = PlaneTable { classes: classes.unwrap_or_default(), ..PlaneTable::of(&relaxed) };
         output.write_plane(&domain, &table)?;
         let of_classes: Vec<_> = each.iter().map(|class| rounded(class.rho, 3)).collect();
-        let of_classes = if each.is_empty() { String::new() } else { format!(", ρ {}", of_classes.join(" + ")) };
+        let of_classes = if each.is_empty() { String::new() } else { format!(", ρ {}", of_classes.join(" / ")) };
         let about = about(done.iterations, done.smallest_distance) + &of_classes;
         report(&output.output, relaxed.len(), &about, seconds);
         Ok(())
     }
 
     /// The classes that are to be kept, if there are any.
-    fn classes<'a>(&self, classes: &'a OfClasses) -> Result<Option<&'a [u32]>> {
+    fn classes<'a>(&self, classes: &'a ClassColumn) -> Result<Option<&'a [u32]>> {
         match classes {
             None => Ok(None),
             _ if self.no_classes => Ok(None),

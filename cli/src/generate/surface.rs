@@ -57,6 +57,10 @@ pub struct Surface {
     /// the more samples each class has, and the nearer two classes come to each other.
     #[arg(long, value_name = "F", default_value_t = 1.0, allow_negative_numbers = true, conflicts_with_all = OF_ONE_CLASS)]
     class_factor: f64,
+    /// The names of face attributes of a PLY mesh, one for each class, such as is_wet,is_steep: faces where it is 0 get no
+    /// samples of the class.
+    #[arg(long, value_name = "ATTRIBUTE,..", value_delimiter = ',', conflicts_with_all = OF_ONE_CLASS)]
+    class_masks: Option<Vec<String>>,
     /// The name of a vertex attribute of a PLY mesh that holds the density there, in any unit, 0 or above; where it is 0
     /// there are no samples. --radius is that at density 1; --count the number of samples: about, on an even surface, and
     /// exactly in progressive order. The output has the radius of each sample, except in XYZ.
@@ -196,7 +200,7 @@ impl Surface {
                 self.adaptive(context, &mesh, &file, (attribute, Some(scale)), around.given())
             }
             (None, None) => match &self.density.classes {
-                Some(own) => self.of_classes(context, mesh, own, &around),
+                Some(own) => self.of_classes(context, mesh, &file, own, &around),
                 None => self.uniform(context, mesh, around.given()),
             },
         };
@@ -259,14 +263,38 @@ impl Surface {
         Ok(Made { samples, radii: None, about, seconds: done.seconds })
     }
 
-    /// Samples of several classes, by their own radii.
-    fn of_classes(&self, context: &Context, mesh: Mesh, own: &[f64], around: &Around<3>) -> Result<Made> {
+    /// For each triangle the bits of the classes that it may have.
+    fn class_masks(&self, file: &MeshFile, classes: usize) -> Result<Option<Vec<u32>>> {
+        let Some(attributes) = &self.class_masks else { return Ok(None) };
+        if attributes.len() != classes {
+            let reason = format!("{} attributes for {classes} classes", attributes.len());
+            return Err(Error::InvalidArgument { argument: "--class-masks", reason });
+        }
+        let masks = attributes.iter().map(|attribute| file.face_mask(attribute)).collect::<Result<Vec<_>>>()?;
+        let of_triangle = |triangle: usize| {
+            let allowed = (0..).zip(&masks).filter(|(_, mask)| mask[triangle]);
+            allowed.fold(0, |bits, (class, _)| bits | 1u32 << class)
+        };
+        Ok(Some((0..masks.first().map_or(0, Vec::len)).map(of_triangle).collect()))
+    }
+
+    /// Samples of several classes, by their own radii, on the triangles of their masks.
+    fn of_classes(
+        &self,
+        context: &Context,
+        mesh: Mesh,
+        file: &MeshFile,
+        own: &[f64],
+        around: &Around<3>,
+    ) -> Result<Made> {
         let classes = Classes::of_radii(own, self.class_factor)?;
+        let masks = self.class_masks(file, own.len())?;
         let around = around.of_classes(own.len());
         let options = psp::Options::new(0.0).seed(self.common.seed).given(around.given()).cosine(self.cosine);
         let mesh = Arc::new(mesh);
-        let sample =
-            |progress: &Progress| psp::sample_classes(context, &mesh, &options, &classes, None, Some(progress));
+        let sample = |progress: &Progress| {
+            psp::sample_classes(context, &mesh, &options, &classes, masks.as_deref(), Some(progress))
+        };
         let (samples, done) = watched("surface", sample)?;
         let count = |class: usize| samples.classes.iter().filter(|&&other| other as usize == class).count();
         let each = |class: usize| format!("{} of radius {}", count(class), rounded(own[class], 4));

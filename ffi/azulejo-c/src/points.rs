@@ -124,8 +124,8 @@ pub extern "C" fn azulejo_points_barycentrics(points: Option<&azulejo_points>) -
     surface(points).map_or(std::ptr::null(), |samples| array(&samples.barycentrics))
 }
 
-/// The radius of each sample of azulejo_psp_adaptive_sample, in the units of the mesh; NULL for
-/// NULL, an empty set and all other sets.
+/// The radius of each sample of azulejo_psp_adaptive_sample and azulejo_psp_adaptive_with_density,
+/// in the units of the mesh; NULL for NULL, an empty set and all other sets.
 #[unsafe(no_mangle)]
 pub extern "C" fn azulejo_points_radii(points: Option<&azulejo_points>) -> *const f64 {
     points.map_or(std::ptr::null(), |points| array(&points.radii))
