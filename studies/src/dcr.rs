@@ -11,6 +11,7 @@ mod page;
 mod radii;
 mod remeshing;
 pub mod sets;
+mod spacing;
 mod study;
 mod surfaces;
 

@@ -18,16 +18,16 @@ pub struct Files {
 }
 
 impl Files {
-    /// The page of this name in a directory. The folder of its pictures is made.
+    /// The page of this name in a directory, which is made.
     pub fn open(directory: &Path, name: &'static str, quick: bool) -> Result<Self> {
-        let pictures = directory.join(name);
-        fs::create_dir_all(&pictures).map_err(|source| Error::Io { path: pictures.clone(), source })?;
+        make(directory)?;
         let page = Output::at(&directory.join(format!("{name}.md")))?;
-        Ok(Self { name, quick, page, pictures })
+        Ok(Self { name, quick, page, pictures: directory.join(name) })
     }
 
-    /// The picture of this name. The page calls it `<page>/<name>.png`.
+    /// The picture of this name. The page calls it `<page>/<name>.png`; the folder is made.
     pub fn picture(&self, name: &str) -> Result<Output> {
+        make(&self.pictures)?;
         Output::at(&self.pictures.join(format!("{name}.png")))
     }
 
@@ -41,6 +41,10 @@ impl Files {
             write!(writer, "on {threads} threads of {processor}. {text}")
         })
     }
+}
+
+fn make(directory: &Path) -> Result<()> {
+    fs::create_dir_all(directory).map_err(|source| Error::Io { path: directory.to_owned(), source })
 }
 
 /// The name of the processor, where the system tells it.

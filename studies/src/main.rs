@@ -1,7 +1,7 @@
 //! Measures azulejo and writes the pages of `docs/` that show it, with their pictures.
 //!
 //! `cargo run --release -p azulejo-studies -- kdrt` writes `docs/kdrt.md`; so do `psp`, `dcr`, `classes`, `order`,
-//! `tiling`, `figures` and `gallery` their pages.
+//! `tiling`, `figures`, `gallery` and `goals` their pages.
 
 mod args;
 mod blue;
@@ -11,6 +11,7 @@ mod dcr;
 mod figures;
 mod files;
 mod gallery;
+mod goals;
 mod kdrt;
 mod near;
 mod order;
@@ -54,6 +55,8 @@ enum Study {
     Tiling(tiling::Tiling),
     /// Measure figures of the thesis that are on no other page: pair correlation, a rasteriser, two million dots, lights.
     Figures(figures::Figures),
+    /// Measure what was asked of version 0.2 and is on no other page; takes some minutes.
+    Goals(goals::Goals),
     /// Show samplers side by side: points, spectra and a zone plate; takes some minutes.
     Gallery(gallery::Gallery),
 }
@@ -69,6 +72,7 @@ fn run(cli: &Cli) -> Result<()> {
         Study::Tiling(tiling) => tiling.run(&context),
         Study::Figures(figures) => figures.run(&context),
         Study::Gallery(gallery) => gallery.run(&context),
+        Study::Goals(goals) => goals.run(&context),
     }
 }
 

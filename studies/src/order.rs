@@ -3,6 +3,7 @@
 mod page;
 mod pictures;
 mod prefixes;
+mod surfaces;
 mod times;
 
 use std::f64::consts::SQRT_2;
@@ -16,6 +17,7 @@ use crate::args::{MeshArgs, PageArgs};
 use crate::psp::scenes::sphere;
 use azulejo_cli::progress::watched;
 use prefixes::{Direct, Prefixes};
+use surfaces::Surface;
 use times::Times;
 
 /// A quotient of the radii of two levels.
@@ -45,6 +47,8 @@ pub struct Effort {
     /// Samples of the sets whose prefixes are measured, and sets of each kind.
     pub count: f64,
     pub sets: u64,
+    /// Samples of the sets on a mesh that have exactly so many.
+    pub exact: &'static [usize],
     /// Samples of the sets that are timed, and how often they are.
     pub counts: &'static [f64],
     pub rounds: usize,
@@ -53,14 +57,23 @@ pub struct Effort {
     pub plane: f64,
 }
 
-const FULL: Effort =
-    Effort { count: 2e4, sets: 5, counts: &[1e4, 1e5, 1e6], rounds: 3, window: times::WINDOW, plane: times::PLANE };
-const QUICK: Effort = Effort { count: 1e3, sets: 2, counts: &[1e3], rounds: 1, window: 1e2, plane: 1e4 };
+const FULL: Effort = Effort {
+    count: 2e4,
+    sets: 5,
+    exact: &[100, 1000, 10_000, 100_000],
+    counts: &[1e4, 1e5, 1e6],
+    rounds: 3,
+    window: times::WINDOW,
+    plane: times::PLANE,
+};
+const QUICK: Effort =
+    Effort { count: 1e3, sets: 2, exact: &[100, 500], counts: &[1e3], rounds: 1, window: 1e2, plane: 1e4 };
 
 /// All that was measured.
 struct Results {
     prefixes: Vec<Prefixes>,
     direct: Direct,
+    surface: Surface,
     plane: Vec<Times>,
     /// The name of the mesh, and its times.
     mesh: (&'static str, Vec<Times>),
@@ -79,6 +92,7 @@ impl Study {
         let results = Results {
             prefixes: watched("prefixes", |progress| Prefixes::all(context, &effort, progress))?,
             direct: watched("direct", |_| Direct::measure(context, &effort))?,
+            surface: watched("surface", |progress| Surface::measure(context, (name, &mesh), &effort, progress))?,
             plane: watched("plane", |_| Times::plane(&effort))?,
             mesh: (name, watched("mesh", |_| Times::mesh(&mesh, &effort))?),
             window: watched("window", |_| Times::window(&effort))?,

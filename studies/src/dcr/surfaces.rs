@@ -11,6 +11,7 @@ use azulejo::{Context, Progress, Result, SurfaceSamples, psp};
 use glam::{DVec2, DVec3};
 
 use super::sets::FIRST_SEED;
+use super::spacing::{self, SETS, Spacing};
 use super::study::Study;
 use crate::psp::scenes;
 use azulejo_cli::draw::canvas::{Align, Canvas, Rect, Style};
@@ -62,10 +63,16 @@ pub fn section(study: &Study) -> Result<String> {
         measured.collect::<Result<Vec<_>>>()
     };
     let cases = watched("surfaces", measure)?;
+    let sets = if study.quick { 2 } else { SETS };
+    let spacings = watched("spacing", |_| {
+        let measured =
+            kinds.iter().map(|((name, mesh), count)| Spacing::measure(study.context, name, mesh, *count, sets));
+        measured.collect::<Result<Vec<_>>>()
+    })?;
     // The first set of the bunny, or of the sphere where there is none.
     let pictured = cases.iter().find(|case| case.mesh == "bunny").unwrap_or(&cases[0]);
     draw(pictured, study)?;
-    Ok(text(study, &cases, pictured))
+    Ok(text(study, &cases, &spacings, pictured))
 }
 
 impl Case {
@@ -110,7 +117,7 @@ impl Remeshed {
     }
 }
 
-fn text(study: &Study, cases: &[Case], pictured: &Case) -> String {
+fn text(study: &Study, cases: &[Case], spacings: &[Spacing], pictured: &Case) -> String {
     let mut text = format!(
         "## Surfaces\n\n\
          PSP's maximal sets on meshes, before and after they are relaxed on the surface; seed {FIRST_SEED}. d_max is that of a \
@@ -154,6 +161,7 @@ fn text(study: &Study, cases: &[Case], pictured: &Case) -> String {
             );
         }
     }
+    text += &spacing::table(spacings);
     for (name, path) in [("bunny", study.bunny), ("dragon", study.dragon)] {
         if path.is_none() {
             _ = writeln!(text, "\nThe {name} is left out: it was not given (`--{name}`).");

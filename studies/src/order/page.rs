@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use super::prefixes::{Direct, Prefixes, part_counts};
+use super::surfaces::{self, Exact, Surface};
 use super::times::Times;
 use super::{Effort, QUOTIENTS, Results};
 use crate::blue::Blue;
@@ -21,12 +22,19 @@ const MESH_GOAL: f64 = 4.0;
 /// The anisotropy of isotropic sets, as many as are measured here, is within this.
 const ISOTROPIC: f64 = 0.5;
 
+/// Why windows have the quotient of all others, where the project once planned another.
+const WINDOWS: &str = "## The quotient of windows\n\nWindows of kept planes have the same quotient by default as whole sets, 2^(1/8), not \
+    2^(1/4), with which they would be faster (*Times*): with defaults that differ a window would not be a part of the whole \
+    set that the same options give ([why](design/rejected.md#plane)). Who wants speed sets the quotient for both.\n";
+
 /// The text of the page.
 pub fn text(effort: &Effort, results: &Results) -> String {
     let parts = [
         introduction(effort),
         goals(results),
         distances(results),
+        on_mesh(effort, &results.surface),
+        WINDOWS.to_owned(),
         spectra(effort, &results.prefixes, &results.direct),
         times(effort, results),
         "## A set\n\n![Prefixes of a set, quotient 2^(1/8)](order/prefixes.png)\n".to_owned(),
@@ -56,6 +64,7 @@ fn goals(results: &Results) -> String {
             verdict(is_met)
         );
     }
+    text += &goals_on_mesh(&results.surface);
     for one in &results.prefixes {
         let worst = one.blue.iter().map(|blue| blue.anisotropy.abs()).fold(0.0, f64::max);
         _ = writeln!(
@@ -83,6 +92,60 @@ fn goals(results: &Results) -> String {
             text,
             "| {mesh}, {count} samples, quotient {name}: at most {MESH_GOAL} × the time per sample of a plain set | {found:.2} × | {is_met} |"
         );
+    }
+    text
+}
+
+/// Prefixes on the mesh, and sets of exactly so many samples there.
+fn goals_on_mesh(Surface { mesh, prefixes, exact }: &Surface) -> String {
+    let mut text = String::new();
+    for one in prefixes {
+        let (name, quotient, worst) = (one.quotient.name, one.quotient.value, one.ratio.high);
+        _ = writeln!(
+            text,
+            "| {mesh}, quotient {name}: covering radius / smallest distance at most {quotient:.4} in all prefixes below, up to {ROUNDING} of \
+             it for rounding | {worst:.4} | {} |",
+            verdict(worst <= quotient * (1.0 + ROUNDING))
+        );
+    }
+    let [right, sets] = [exact.iter().map(|one| one.right).sum::<usize>(), exact.iter().map(|one| one.sets).sum()];
+    _ = writeln!(text, "| {mesh}, sets of exactly N samples have N | {right} of {sets} | {} |", verdict(right == sets));
+    let beyond = exact.iter().map(|one| one.beyond).fold(f64::NEG_INFINITY, f64::max);
+    _ = writeln!(
+        text,
+        "| {mesh}, the same: covering radius at most the bound in the report, up to {ROUNDING} of it for rounding | {:.4} of \
+         it | {} |",
+        1.0 + beyond,
+        verdict(beyond <= ROUNDING)
+    );
+    text
+}
+
+fn on_mesh(effort: &Effort, Surface { mesh, prefixes, exact }: &Surface) -> String {
+    let mut text = format!(
+        "## On a mesh\n\nThe same of sets of about {} samples on the {mesh}, {} of each quotient, over {} prefixes of each set. \
+         Distances are straight ones through space; d_max is that of a plane of the mesh's area.\n\n\
+         | quotient | N·r² / area | ratio, largest | ratio, mean | ρ, least | ρ, mean |\n|---|---|---|---|---|---|\n",
+        grouped(effort.count as usize),
+        effort.sets,
+        surfaces::PREFIXES,
+    );
+    for one in prefixes {
+        let [high, mean, low, rho] =
+            [one.ratio.high, one.ratio.mean, one.rho.low, one.rho.mean].map(|x| format!("{x:.3}"));
+        _ = writeln!(text, "| {} | {:.3} | {high} | {mean} | {low} | {rho} |", one.quotient.name, one.density);
+    }
+    _ = write!(
+        text,
+        "\nSets of exactly N samples, {} of each N. What they lose of maximality is the ratio above 1; *bound* is that of the \
+         covering radius in the report, over the radius there.\n\n\
+         | N | sets with N | ratio, largest | ratio, mean | bound, largest | bound, mean | ρ, least | ρ, mean |\n\
+         |---|---|---|---|---|---|---|---|\n",
+        effort.sets,
+    );
+    for Exact { count, right, rho, ratio, bound, .. } in exact {
+        let cells = [ratio.high, ratio.mean, bound.high, bound.mean, rho.low, rho.mean].map(|x| format!("{x:.3}"));
+        _ = writeln!(text, "| {} | {right} | {} |", grouped(*count), cells.join(" | "));
     }
     text
 }

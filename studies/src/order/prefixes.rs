@@ -48,7 +48,7 @@ impl Prefixes {
         let sets: Vec<Vec<[f32; 2]>> = (0..effort.sets).map(set).collect::<Result<_>>()?;
         let (mut ratio, mut rho) = (Vec::new(), Vec::new());
         for set in &sets {
-            for count in counts(set.len()) {
+            for count in counts(set.len(), PREFIXES) {
                 let of = Distances::of(context, &set[..count])?;
                 ratio.push(of.ratio);
                 rho.push(of.rho);
@@ -116,11 +116,11 @@ impl Distances {
     }
 }
 
-/// Numbers of samples, evenly on a scale of powers.
-fn counts(most: usize) -> impl Iterator<Item = usize> {
+/// So many numbers of samples, evenly on a scale of powers.
+pub fn counts(most: usize, numbers: u32) -> impl Iterator<Item = usize> {
     let first = FIRST.min(most as f64);
-    let step = (most as f64 / first).powf(1.0 / f64::from(PREFIXES - 1));
-    (0..PREFIXES).map(move |i| ((first * step.powi(i as i32)) as usize).min(most))
+    let step = (most as f64 / first).powf(1.0 / f64::from(numbers - 1));
+    (0..numbers).map(move |i| ((first * step.powi(i as i32)) as usize).min(most))
 }
 
 /// The radius of a maximal set of about so many samples.
@@ -134,9 +134,9 @@ mod tests {
 
     #[test]
     fn prefixes_reach_from_the_first_count_to_all_samples() {
-        let all: Vec<_> = counts(40_000).collect();
+        let all: Vec<_> = counts(40_000, 50).collect();
         assert_eq!((all.len(), all[0]), (50, 100));
         assert!(all.is_sorted() && all[49] >= 39_990 && all[49] <= 40_000);
-        assert!(counts(30).all(|count| count == 30));
+        assert!(counts(30, 50).all(|count| count == 30));
     }
 }

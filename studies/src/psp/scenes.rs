@@ -64,6 +64,42 @@ pub fn in_parts(scene: &Scene) -> Result<Scene> {
     Ok(Scene { name: format!("{}-in-16-parts", scene.name), mesh, thesis: None, is_room: scene.is_room })
 }
 
+/// Up to so many expected samples the library fills a set in one piece.
+const ONE_PIECE: f64 = 25_000.0;
+
+/// A mesh, its triangles in parts if need be, on which the library fills sets of a radius in one piece: it expects samples
+/// on the area, and along what is longer than the radius.
+pub fn in_one_piece(mesh: &Arc<Mesh>, radius: f64) -> Result<Arc<Mesh>> {
+    let on_area = 0.7 * mesh.area() / (radius * radius);
+    let mut mesh = mesh.clone();
+    // On too large an area no parts are small enough.
+    while on_area <= ONE_PIECE && on_area + along_edges(&mesh, radius) > ONE_PIECE {
+        mesh = divided(&mesh, 4 * mesh.triangles().len())?;
+    }
+    Ok(mesh)
+}
+
+/// How many samples the library expects along what is longer than the radius, which is rather too many.
+fn along_edges(mesh: &Mesh, radius: f64) -> f64 {
+    let longest = |triangle: u32| {
+        let [a, b, c] = mesh.corners(triangle).map(Vec3::from);
+        f64::from(a.distance(b).max(b.distance(c)).max(c.distance(a)))
+    };
+    let long = (0..mesh.triangles().len() as u32).map(longest).filter(|&length| length > radius);
+    long.map(|length| length / radius).sum()
+}
+
+/// A mesh in about so many triangles: all of its triangles in four parts, again and again, and at last as many as it takes.
+pub fn divided(mesh: &Mesh, count: usize) -> Result<Arc<Mesh>> {
+    let (mut positions, mut triangles) = (mesh.positions().to_vec(), mesh.triangles().to_vec());
+    while triangles.len() < count {
+        let whole = triangles.split_off(((count - triangles.len()) / 3).clamp(1, triangles.len()));
+        (positions, triangles) = quartered((positions, triangles));
+        triangles.extend(whole);
+    }
+    Ok(Arc::new(Mesh::new(positions, triangles)?))
+}
+
 /// Each triangle in four, by the midpoints of its edges.
 fn quartered((mut positions, triangles): Soup) -> Soup {
     let mut midpoints: HashMap<[u32; 2], u32, BuildHasherDefault<FxHasher>> = HashMap::default();
@@ -117,6 +153,27 @@ mod tests {
         assert_eq!(parts.mesh.triangles().len(), 16 * scene.mesh.triangles().len());
         assert!((parts.mesh.area() / scene.mesh.area() - 1.0).abs() < 1e-5);
         assert!(parts.mesh.positions().len() < 16 * scene.mesh.positions().len());
+    }
+
+    #[test]
+    fn a_divided_mesh_has_the_triangles_asked_for_and_its_area() {
+        let mesh = &scenes(None, None, 8).unwrap().0[0].mesh;
+        let whole = mesh.triangles().len();
+        for (asked, found) in [(1, whole), (whole, whole), (4 * whole, 4 * whole), (5 * whole, 5 * whole)] {
+            let divided = divided(mesh, asked).unwrap();
+            assert!(divided.triangles().len().abs_diff(found) <= 3, "{asked}: {}", divided.triangles().len());
+            assert!((divided.area() / mesh.area() - 1.0).abs() < 1e-5);
+        }
+    }
+
+    #[test]
+    fn a_mesh_is_divided_until_its_edges_are_short_enough_for_one_piece() {
+        let sphere = sphere().unwrap();
+        let [many, few] = [24_200.0, 2000.0].map(|count| radius(&sphere, count));
+        assert!(Arc::ptr_eq(&in_one_piece(&sphere, few).unwrap(), &sphere));
+        let divided = in_one_piece(&sphere, many).unwrap();
+        assert!(along_edges(&sphere, many) > 1000.0 && along_edges(&divided, many) < 100.0);
+        assert_eq!(divided.triangles().len(), 4 * sphere.triangles().len());
     }
 
     #[test]
