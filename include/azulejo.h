@@ -661,11 +661,13 @@ typedef struct azulejo_psp_report {
     /// Else -1.
     double uncovered_after;
     /// The radius of the set: the one asked for or, for a count, the one that was found. No two
-    /// samples are closer. 0 where radii vary.
+    /// samples are closer. 0 where radii vary; in progressive order then what they are multiplied
+    /// by, which is 1, or for a density the radius at density 1.
     double radius;
     /// A bound of the covering radius, where one is known: no place is farther from all samples, up
     /// to 6 spacings of floats at the largest coordinate. The radius itself after gaps were filled,
-    /// a little more for a count. Else -1.
+    /// a little more for a count. Where `radius` is not a distance, the bound of what radii are
+    /// multiplied by. Else -1.
     double coverage;
 } azulejo_psp_report;
 
@@ -687,8 +689,9 @@ typedef double (*azulejo_radius_fn)(void *user, const double *position);
 typedef struct azulejo_psp_adaptive_options {
     /// The size of the struct in bytes; set by the _init function.
     uint32_t struct_size;
-    /// Must be 0.
-    uint32_t reserved;
+    /// An AZULEJO_ORDER_ constant; default any. In progressive order every prefix of the set is
+    /// well spread, and azulejo_points_ranks says how well.
+    uint32_t order;
     /// A radius for each vertex of the mesh, above 0, in its units; used during the call only. At
     /// the barycentrics u v of a sample on the triangle (a, b, c) it is (1-u-v)*a + u*b + v*c, in
     /// double arithmetic. It may change arbitrarily steeply. NULL, the default, if `radius` is set.
@@ -734,6 +737,11 @@ typedef struct azulejo_psp_adaptive_options {
     const double *given_clearances;
     /// The number of given samples; default 0.
     size_t given_count;
+    /// Of a progressive order: every prefix of 100 samples and more covers the surface at this
+    /// times its last rank, 1.02 to 1.5; smaller ones at twice that rank, or the square of the
+    /// quotient times it if that is more. The smaller, the more levels there are, each of which
+    /// takes time. Default 0: 2^(1/8).
+    double quotient;
 } azulejo_psp_adaptive_options;
 
 /// Gives the density at a position of a mesh.
@@ -803,7 +811,8 @@ typedef struct azulejo_mesh_density {
     double radius;
     /// About how many samples the whole set has, above 0: the radius follows from the integral of
     /// the density. There are fewer where parts of the surface are nearer to each other than the
-    /// radius, and some more along the boundaries of the surface. 0, the default, with a radius.
+    /// radius, and some more along the boundaries of the surface. In progressive order there are
+    /// exactly so many, and it must be a whole number. 0, the default, with a radius.
     double count;
 } azulejo_mesh_density;
 
@@ -1254,6 +1263,9 @@ const double *azulejo_points_radii(const struct azulejo_points *points);
 /// the square of the quotient times it if that is more. In the plane this holds from the samples
 /// of the coarsest level on, those with the rank of the first: one sample only, unless the options
 /// have a shorter `coarsest` radius. On meshes it holds for every i; the first rank is infinite.
+///
+/// Where radii vary, distances are divided by the mean of two radii: see
+/// azulejo_psp_adaptive_sample, and for a density azulejo_psp_adaptive_with_density.
 const float *azulejo_points_ranks(const struct azulejo_points *points);
 
 /// The class of each sample of a set of several classes, its row in the matrix of azulejo_classes;
@@ -1955,10 +1967,20 @@ azulejo_status azulejo_psp_adaptive_options_init(struct azulejo_psp_adaptive_opt
 /// sample there are about 0.6966 / radius^2 samples per unit of area. Radii above four times the
 /// diagonal of the mesh's box are reduced to that, those of vertices before interpolation.
 ///
-/// out: the samples with normals, triangles, barycentrics and radii, to be freed with
-/// azulejo_points_free.
+/// In progressive order the samples are sorted coarse to fine. Ranks are what all radii are
+/// multiplied by: with its radii times the i-th rank the prefix of i samples is conflict-free, and
+/// with all radii times `quotient` times that rank it is maximal (see there for i below 100). Ranks
+/// never rise, and the last one is 1 or a little more. `vertex_radii` and `radius` keep their
+/// meaning: the whole set is maximal at them. Some log(diagonal / smallest radius) / log(quotient)
+/// levels visit all triangles and call `radius`; where radii are small beside the triangles it
+/// takes about five times the time of a set in any order. Where the radius jumps, samples of the
+/// larger radius that came first leave fewer on the other side than in any order.
 ///
-/// report: what the call did, or NULL; iterations, rays and hits are 0.
+/// out: the samples with normals, triangles, barycentrics and radii, and ranks in progressive
+/// order, to be freed with azulejo_points_free.
+///
+/// report: what the call did, or NULL; iterations, rays and hits are 0. In progressive order its
+/// `radius` is 1, as the radii are those asked for, and `coverage` as well.
 ///
 /// O(samples + triangles) time for radii that change slowly; see `slope`.
 ///
@@ -1986,13 +2008,20 @@ azulejo_status azulejo_mesh_density_init(struct azulejo_mesh_density *density, s
 /// returned. Where the density falls to 0 within a few radii, radii are limited to four times the
 /// least one on a piece of the surface of about that length.
 ///
+/// In progressive order ranks are radii at density 1, and a `count` is exact: the report has the
+/// radius at density 1, which is the last rank, and a bound of the radius at density 1 at which the
+/// set is maximal. All else is as azulejo_psp_adaptive_sample says. Sets of smaller counts are
+/// prefixes, bit for bit but for the radii, which are those of each set: levels of detail nest. A
+/// set with a radius shares all samples with ranks of at least `quotient` times that radius, of the
+/// first 100 those with ranks of at least 2.25 times it.
+///
 /// options: those of azulejo_psp_adaptive_sample without any radii: vertex_radii and radius must be
 /// NULL.
 ///
 /// density: the density; used during the call only.
 ///
-/// out: the samples with normals, triangles, barycentrics and radii, to be freed with
-/// azulejo_points_free.
+/// out: the samples with normals, triangles, barycentrics and radii, and ranks in progressive
+/// order, to be freed with azulejo_points_free.
 ///
 /// report: what the call did, or NULL; iterations, rays and hits are 0.
 ///
