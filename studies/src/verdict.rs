@@ -32,6 +32,18 @@ impl Mean {
         Self { mean, error: (squares / count.saturating_sub(1).max(1) as f64 / count as f64).sqrt(), count }
     }
 
+    /// This over a number that is known.
+    pub fn over_number(&self, number: f64) -> Self {
+        Self { mean: self.mean / number, error: self.error / number, count: self.count }
+    }
+
+    /// This over another of independent values: relative errors add in squares.
+    pub fn over(&self, other: &Self) -> Self {
+        let mean = self.mean / other.mean;
+        let error = mean * (self.error / self.mean).hypot(other.error / other.mean);
+        Self { mean, error, count: self.count.min(other.count) }
+    }
+
     /// How far this is above another (Welch 1947). None of fewer than two values each: they have no standard error.
     pub fn above(&self, other: &Self) -> Option<Difference> {
         let [own, others] = [self, other].map(|one| one.error.powi(2));
@@ -156,6 +168,15 @@ mod tests {
         assert_eq!(same.above(&same).unwrap().chance_of_farther(), 1.0);
         assert_eq!(same.above(&Mean::of(&[1.0, 1.0])).unwrap().chance_of_larger(), 0.0);
         assert_eq!(same.above_number(3.0).unwrap().chance_of_larger(), 1.0);
+    }
+
+    #[test]
+    fn a_ratio_has_the_relative_errors_of_both() {
+        let (own, other) = (Mean { mean: 6.0, error: 0.3, count: 9 }, Mean { mean: 3.0, error: 0.36, count: 4 });
+        let ratio = own.over(&other);
+        assert_eq!((ratio.mean, ratio.count), (2.0, 4));
+        assert!((ratio.error / 2.0 - 0.13).abs() < 1e-12);
+        assert_eq!(own.over_number(3.0), Mean { mean: 2.0, error: 0.3 / 3.0, count: 9 });
     }
 
     #[test]
