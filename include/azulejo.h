@@ -560,7 +560,11 @@ typedef struct azulejo_psp_options {
     /// How often azulejo_psp_sample projects its patterns, in 3 directions each time, before it
     /// fills the gaps. AZULEJO_ITERATIONS_DEFAULT, the default: 0 if `maximal` is 1, on every mesh
     /// and with every radius, since a set that is only filled is made sooner and prefers no
-    /// direction; 1 if `maximal` is 0. azulejo_psp_create refuses any value but the default.
+    /// direction; 1 if `maximal` is 0. Where no more than 25,000 samples are expected, on the area
+    /// and along edges longer than the radius, a set that is only filled is filled in one piece and
+    /// is unbiased; a larger one is filled cube by cube and holds up to about 0.8 % more samples
+    /// than unbiased darts give, at the seams of the cubes. azulejo_psp_create refuses any value
+    /// but the default.
     uint32_t iterations;
     /// The smallest straight distance between two samples, in the units of the mesh: above 0, and
     /// at least 64 times the spacing of floats at the largest coordinate. It has no default; with a

@@ -61,7 +61,10 @@ pub struct Options<'a> {
     /// this if that is more. The smaller, the more levels, each of which takes time.
     pub quotient: f64,
     /// Iterations of three projectors each, 0 and up; `None`, the default, goes by the rule of
-    /// [`Options::iterations_by_rule`]. Used by [`sample`](super::sample) only.
+    /// [`Options::iterations_by_rule`]. Where no more than 25,000 samples are expected, on the area and along edges longer
+    /// than the radius, a set that is only filled is filled in one piece and is unbiased; a larger one is filled cube by
+    /// cube and holds up to about 0.8 % more samples than unbiased darts give, at the seams of the cubes. Used by
+    /// [`sample`](super::sample) only.
     pub iterations: Option<u32>,
     /// Whether to fill what the projectors leave uncovered. Used by [`sample`](super::sample) only.
     pub maximal: bool,

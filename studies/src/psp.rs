@@ -2,6 +2,7 @@
 
 pub mod adaptive;
 mod bias;
+mod density;
 mod growth;
 mod others;
 mod page;
@@ -42,6 +43,8 @@ pub struct Effort {
     pub bias: f64,
     pub planes: f64,
     pub seeds: u64,
+    /// Sets of each way whose density is measured.
+    pub sets: u64,
     /// Random points by which uncovered surface is estimated.
     pub probes: u64,
     /// Samples of the sets that are timed, and of others for the rate by radius.
@@ -66,8 +69,9 @@ pub struct Effort {
 
 const FULL: Effort = Effort {
     bias: 1e5,
-    planes: 2e4,
+    planes: 24_800.0,
     seeds: 4,
+    sets: 40,
     probes: 1_000_000,
     samples: 1e6,
     counts: &[1e4, 3.2e4, 1e5, 3.2e5, 1e6, 3.2e6],
@@ -86,6 +90,7 @@ const QUICK: Effort = Effort {
     bias: 4e3,
     planes: 1e3,
     seeds: 2,
+    sets: 3,
     probes: 20_000,
     samples: 5e3,
     counts: &[2e3, 5e3],
@@ -123,6 +128,7 @@ impl Psp {
         let files = self.page.open("psp")?;
 
         let (found, missing) = scenes(self.meshes.bunny.as_deref(), self.meshes.dragon.as_deref(), effort.detail)?;
+        let density = watched("density", |progress| density::measure(context, &found, &effort, progress))?;
         let mut measured = Vec::new();
         let in_parts = found.iter().find(|scene| scene.name == "dragon").map(scenes::in_parts);
         let further = self.further.iter().map(|path| scenes::further(path));
@@ -142,7 +148,7 @@ impl Psp {
             pictures::draw_scene(context, scene, &effort, &files.picture(&scene.name)?)?;
         }
         let threads = context.num_threads();
-        let text = page::text(threads, &effort, &measured, &missing, &others, &bias);
+        let text = page::text(threads, &effort, &measured, &missing, &others, &density::section(&density), &bias);
         let text = text + "\n" + &adaptive::section(context, &files, self.page.quick)?;
         files.write("PSP, measured", threads, &text)
     }

@@ -11,6 +11,12 @@ use azulejo_cli::text::rounded;
 /// The chance of any false verdict among goals that are judged together.
 pub const LEVEL: f64 = 0.01;
 
+/// The verdict of a goal that is missed where a difference is shown, by the chance of one as large. A test that shows none
+/// does not prove that there is none.
+pub fn unless_different(p: f64) -> &'static str {
+    if p <= LEVEL { verdict(false) } else { "no difference shown" }
+}
+
 /// Whether a goal is met.
 pub fn verdict(is_met: bool) -> &'static str {
     if is_met { "met" } else { "**not met**" }
@@ -35,6 +41,18 @@ impl Mean {
         let mean = values.iter().sum::<f64>() / count as f64;
         let squares: f64 = values.iter().map(|value| (value - mean).powi(2)).sum();
         Self { mean, error: (squares / count.saturating_sub(1).max(1) as f64 / count as f64).sqrt(), count }
+    }
+
+    /// This over a number that is known.
+    pub fn over_number(&self, number: f64) -> Self {
+        Self { mean: self.mean / number, error: self.error / number, count: self.count }
+    }
+
+    /// This over another of independent values: relative errors add in squares.
+    pub fn over(&self, other: &Self) -> Self {
+        let mean = self.mean / other.mean;
+        let error = mean * (self.error / self.mean).hypot(other.error / other.mean);
+        Self { mean, error, count: self.count.min(other.count) }
     }
 
     /// How far this is above another (Welch 1947). None of fewer than two values each: they have no standard error.
@@ -188,6 +206,15 @@ mod tests {
         assert_eq!(same.above(&same).unwrap().chance_of_farther(), 1.0);
         assert_eq!(same.above(&Mean::of(&[1.0, 1.0])).unwrap().chance_of_larger(), 0.0);
         assert_eq!(same.above_number(3.0).unwrap().chance_of_larger(), 1.0);
+    }
+
+    #[test]
+    fn a_ratio_has_the_relative_errors_of_both() {
+        let (own, other) = (Mean { mean: 6.0, error: 0.3, count: 9 }, Mean { mean: 3.0, error: 0.36, count: 4 });
+        let ratio = own.over(&other);
+        assert_eq!((ratio.mean, ratio.count), (2.0, 4));
+        assert!((ratio.error / 2.0 - 0.13).abs() < 1e-12);
+        assert_eq!(own.over_number(3.0), Mean { mean: 2.0, error: 0.3 / 3.0, count: 9 });
     }
 
     #[test]

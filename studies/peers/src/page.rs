@@ -29,10 +29,9 @@ What the tables do not show:
 * **Other dimensions**: fast_poisson, poisson and scipy sample boxes of three and more dimensions; azulejo has planes and surfaces.
 * **Pure Rust**: bluenoise, fast_poisson and poisson need no C library; azulejo needs Embree unless it is built without.
 * **Volumes, geodesic distance**: PyMeshLab and point-cloud-utils can measure along the surface; azulejo measures straight.
-* **What was not run**: CGAL's `poisson_eliminate`, which the CGAL of no registry in reach has yet (Debian's is 5.5, that \
- of PyPI 6.0; it came with 6.1), and the author's own code of sample elimination, which is no package.
 * **What comes with it**: each of the Python packages is a library for much more than samples.
-";
+* **What was not run**: CGAL's `poisson_eliminate`, which the CGAL of no registry in reach has yet (Debian's is 5.5, that \
+ of PyPI 6.0; it came with 6.1), and the author's own code of sample elimination, which is no package.";
 
 pub fn page(tables: &[Table], mesh: &Path, packages: &str) -> Result<String, Box<dyn Error>> {
     let mut page = String::new();
@@ -60,8 +59,36 @@ pub fn page(tables: &[Table], mesh: &Path, packages: &str) -> Result<String, Box
     if !any {
         writeln!(page, "* nowhere.")?;
     }
-    write!(page, "\n{FEATURES}")?;
+    writeln!(page, "\n{FEATURES}{}", tables.iter().filter_map(|table| absent(table, tables)).collect::<String>())?;
     Ok(page)
+}
+
+/// Says which peers were left out of a table, with their times in the tables of fewer samples.
+fn absent(table: &Table, tables: &[Table]) -> Option<String> {
+    let named = |title: &&str| {
+        let smaller = tables.iter().filter(|one| one.kind == table.kind && one.count < table.count);
+        let outcome = |one: &Table| {
+            let row = one.rows.iter().find(|row| row.title == *title)?;
+            Some((one.count, row.result.as_ref().ok()?.cost.seconds))
+        };
+        let known = smaller.filter_map(outcome).max_by_key(|(count, _)| *count);
+        let time = known.map(|(count, seconds)| format!(" ({} s for {})", significant(seconds), grouped(count)));
+        format!("{title}{}", time.unwrap_or_default())
+    };
+    let names: Vec<_> = table.absent.iter().map(named).collect();
+    let (last, others) = names.split_last()?;
+    let names = if others.is_empty() { last.clone() } else { format!("{} and {last}", others.join("; ")) };
+    let (count, what) = (grouped(table.count), kind(table.kind));
+    Some(format!(" For {count} {what}, to save time, also these were not: {names}."))
+}
+
+/// What a count counts.
+fn kind(kind: Kind) -> &'static str {
+    match kind {
+        Kind::Surface => "samples on the mesh",
+        Kind::Cloud => "points of a cloud",
+        Kind::Plane | Kind::Relaxation => "samples in the plane",
+    }
 }
 
 fn told(program: &str, arguments: &[&str]) -> Result<String, Box<dyn Error>> {
@@ -168,14 +195,11 @@ fn won(table: &Table) -> Vec<String> {
         let ours = table.rows.iter().filter(is_ours).filter_map(value).fold(f64::INFINITY, f64::min);
         let rows = table.rows.iter().filter(|row| !is_ours(row));
         rows.filter_map(|row| value(row).filter(|&value| value < ours).map(|value| (row.title, value)))
-            .map(|(title, value)| {
-                let what = match table.kind {
-                    Kind::Surface => "samples on the mesh",
-                    Kind::Cloud => "points of a cloud",
-                    Kind::Plane | Kind::Relaxation => "samples in the plane",
-                };
+            .filter_map(|(title, value)| {
                 let (value, ours) = (significant(value.abs()), significant(ours.abs()));
-                format!("{title}: {name} {value}{unit}, not {ours}{unit} ({} {what})", grouped(table.count))
+                let (count, what) = (grouped(table.count), kind(table.kind));
+                // What is better by less than is printed is no better.
+                (value != ours).then(|| format!("{title}: {name} {value}{unit}, not {ours}{unit} ({count} {what})"))
             })
             .collect::<Vec<_>>()
     };

@@ -42,7 +42,7 @@ struct Peer {
     name: &'static str,
     language: Language,
     asked: Asked,
-    /// It makes no more samples than this within half a minute.
+    /// It is left out of tasks of more samples than this, to save time.
     most: usize,
 }
 
@@ -125,6 +125,8 @@ pub struct Table {
     pub count: usize,
     pub radius: f64,
     pub rows: Vec<Row>,
+    /// The titles of peers that were left out, to save time.
+    pub absent: Vec<&'static str>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -205,7 +207,7 @@ fn run_table(
     area: f64,
 ) -> Result<Table, Box<dyn Error>> {
     let radius = (DENSITY * area / count as f64).sqrt();
-    let peers: Vec<&Peer> = peers.iter().filter(|peer| count <= peer.most).collect();
+    let (peers, absent): (Vec<&Peer>, Vec<&Peer>) = peers.iter().partition(|peer| count <= peer.most);
     let mut results: Vec<Result<Vec<Run>, String>> = peers.iter().map(|_| Ok(Vec::new())).collect();
     for round in 1..=ROUNDS {
         for (peer, result) in peers.iter().zip(&mut results) {
@@ -219,7 +221,8 @@ fn run_table(
     }
     let outcomes = results.into_iter().map(|result| result.map(Outcome::of));
     let row = |(peer, result): (&Peer, _)| Row { title: peer.title, asked: peer.asked, result };
-    Ok(Table { kind, count, radius, rows: peers.into_iter().zip(outcomes).map(row).collect() })
+    let rows = peers.into_iter().zip(outcomes).map(row).collect();
+    Ok(Table { kind, count, radius, rows, absent: absent.into_iter().map(|peer| peer.title).collect() })
 }
 
 /// One call of a peer.

@@ -10,7 +10,7 @@ use super::times::{LeafTimes, Times};
 use super::{Effort, Sampler};
 use crate::repeated;
 use crate::timing::Rounds;
-use crate::verdict::{Difference, LEVEL, Mean, chance, holm, judged, verdict};
+use crate::verdict::{Difference, LEVEL, Mean, chance, holm, judged, unless_different, verdict};
 use azulejo_cli::summary::Summary;
 use azulejo_cli::text::grouped;
 
@@ -129,7 +129,7 @@ fn goals(statistics: &[Statistics]) -> String {
             text,
             "| {goal} | {name} | {other} | {n} | {found} | {m} | {t} | {} | {} |",
             chance(p),
-            if p <= LEVEL { verdict(false) } else { "no difference shown" },
+            unless_different(p),
         );
     }
     let is_default = |one: &&Statistics| one.sampler == Sampler::Leaves(azulejo::kdrt::DEFAULT_LEAF_SIZE);

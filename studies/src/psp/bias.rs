@@ -7,13 +7,13 @@ use azulejo::analysis::differential::{Differences, surface_differences};
 use azulejo::analysis::facing::density_by_facing;
 use azulejo::mesh::Mesh;
 use azulejo::psp::{Options, Psp};
-use azulejo::{Context, Progress, Result, SurfaceSamples};
+use azulejo::{Context, MAXIMAL_DENSITY, Progress, Result, SurfaceSamples};
 use glam::DVec3;
 
 use super::Effort;
-use super::scenes::{radius, sphere};
+use super::scenes::{in_one_piece, radius, sphere};
 use super::variants::Variant;
-use azulejo_cli::summary::Summary;
+use crate::verdict::Mean;
 
 /// The bins of the density by facing angle, in degrees. No normal is farther than 54.7 degrees from the nearest of three
 /// orthogonal directions, and hardly any as far.
@@ -34,12 +34,12 @@ pub fn frequencies() -> Vec<f64> {
 /// What the sets of one variant are like.
 pub struct Bias {
     pub variant: Variant,
-    /// Samples on a sphere over those of the reference.
-    pub count: Summary,
+    /// Samples on a sphere, over those of the jamming limit.
+    pub count: Mean,
     /// The part of the sphere that is left uncovered.
     pub uncovered: f64,
-    /// Density over the reference's by facing angle, from 0 degrees.
-    pub facing: Vec<f64>,
+    /// Density over that of the jamming limit by facing angle, from 0 degrees.
+    pub facing: Vec<Mean>,
     /// The power at the [`frequencies`], on the sphere.
     pub power: Vec<f64>,
     /// On planes at the [`TILTS`].
@@ -48,8 +48,8 @@ pub struct Bias {
 
 /// Sets on planes at one angle to their nearest projector.
 pub struct Tilted {
-    /// Samples over those of the reference.
-    pub count: f64,
+    /// Samples over those of the jamming limit. More of them fit along the boundary of the plane.
+    pub count: Mean,
     /// The differences; x is the direction in which the pattern is stretched.
     pub differences: Differences,
 }
@@ -68,36 +68,12 @@ impl Bias {
 
     /// The bias of each of the variants, of which the first is the reference.
     pub fn measure(context: &Context, effort: &Effort, progress: &Progress) -> Result<Vec<Self>> {
-        let (variants, sphere) = (Variant::COMPARED, sphere()?);
-        let directions =
-            (0..effort.seeds).map(|seed| directions(context, &sphere, seed)).collect::<Result<Vec<_>>>()?;
-        let measure = Measure { context, effort, sphere, directions };
-        let mut references = None;
-        let mut all = Vec::new();
-        for (i, variant) in variants.into_iter().enumerate() {
-            let raw = measure.of(variant, &|done| progress((i as f64 + done) / variants.len() as f64))?;
-            let reference = references.get_or_insert_with(|| raw.densities());
-            all.push(raw.over(reference)?);
-        }
-        Ok(all)
+        let (variants, measure) = (Variant::COMPARED, Measure { context, effort, sphere: sphere()? });
+        let of = |(i, variant): (usize, Variant)| {
+            measure.of(variant, &|done| progress((i as f64 + done) / variants.len() as f64))
+        };
+        variants.into_iter().enumerate().map(of).collect()
     }
-}
-
-/// What was measured of a variant, before it is compared with the reference.
-struct Raw {
-    variant: Variant,
-    counts: Vec<f64>,
-    uncovered: f64,
-    facing: Vec<f64>,
-    power: Vec<f64>,
-    planes: Vec<(f64, Differences)>,
-}
-
-/// The densities of the reference.
-struct Reference {
-    counts: Vec<f64>,
-    facing: Vec<f64>,
-    planes: Vec<f64>,
 }
 
 /// What all measurements share.
@@ -105,42 +81,46 @@ struct Measure<'a> {
     context: &'a Context,
     effort: &'a Effort,
     sphere: Arc<Mesh>,
-    /// Where the projectors of each seed's first iteration look.
-    directions: Vec<[[f64; 3]; 3]>,
 }
 
 impl Measure<'_> {
-    fn of(&self, variant: Variant, progress: &Progress) -> Result<Raw> {
-        let Self { context, effort, sphere: mesh, .. } = self;
-        let radius = radius(mesh, effort.bias);
-        let mut facing = vec![[0.0; 2]; FACING_BINS];
+    fn of(&self, variant: Variant, progress: &Progress) -> Result<Bias> {
+        let Self { context, effort, sphere } = self;
+        let radius = radius(sphere, variant.count(effort.bias));
+        let mesh = if variant.is_one_piece { &in_one_piece(sphere, radius)? } else { sphere };
         let (mut counts, mut differences, mut uncovered) = (Vec::new(), Vec::new(), 0.0);
-        let mut planes: Vec<_> = TILTS.iter().map(|_| (0.0, Vec::new())).collect();
-        for (directions, seed) in self.directions.iter().zip(0..) {
+        let mut facing = vec![Vec::new(); FACING_BINS];
+        let mut planes: Vec<_> = TILTS.iter().map(|_| (Vec::new(), Vec::new())).collect();
+        let seeds = variant.seeds(effort.seeds);
+        let sets = (seeds.end - seeds.start) as f64;
+        for (i, seed) in seeds.enumerate() {
+            let directions = directions(context, mesh, seed)?;
             let samples = variant.sample(context, mesh, radius, seed)?;
-            counts.push(samples.len() as f64);
+            let over_limit = |samples: f64, area: f64| samples * radius * radius / (area * MAXIMAL_DENSITY);
+            counts.push(over_limit(samples.len() as f64, mesh.area()));
             let bins = (90.0 / FACING_BIN) as usize;
-            let facings = density_by_facing(mesh, &samples.triangles, directions, bins)?;
-            for (sum, one) in facing.iter_mut().zip(facings) {
-                *sum = [sum[0] + one.samples as f64, sum[1] + one.area];
-            }
+            let facings = density_by_facing(mesh, &samples.triangles, &directions, bins)?;
+            facing.iter_mut().zip(&facings).for_each(|(all, one)| all.push(over_limit(one.samples as f64, one.area)));
             uncovered +=
                 surface_uncovered_fraction(context, mesh, &samples.positions, radius, effort.probes, seed, None)?;
             differences.push(self.differences(mesh, &samples, [0.0, 0.0, 1.0], seed)?);
-            for (tilt, (count, differences)) in TILTS.into_iter().zip(&mut planes) {
-                let (mesh, towards) = plane(directions, (seed % 3) as usize, tilt.to_radians())?;
-                let samples = variant.sample(context, &mesh, self::radius(&mesh, effort.planes), seed)?;
-                *count += samples.len() as f64;
+            for (tilt, (counts, differences)) in TILTS.into_iter().zip(&mut planes) {
+                let (mesh, towards) = plane(&directions, (seed % 3) as usize, tilt.to_radians())?;
+                let count = variant.count(effort.planes);
+                let samples = variant.sample(context, &mesh, self::radius(&mesh, count), seed)?;
+                counts.push(samples.len() as f64 / count);
                 differences.push(self.differences(&mesh, &samples, towards, seed)?);
             }
-            _ = progress((seed + 1) as f64 / effort.seeds as f64);
+            _ = progress((i + 1) as f64 / sets);
         }
-        let together = |(count, differences): (f64, Vec<_>)| Ok((count, Differences::together(&differences)?));
-        Ok(Raw {
+        let together = |(counts, differences): (Vec<f64>, Vec<_>)| {
+            Ok(Tilted { count: Mean::of(&counts), differences: Differences::together(&differences)? })
+        };
+        Ok(Bias {
             variant,
-            counts,
-            uncovered: uncovered / effort.seeds as f64,
-            facing: facing.into_iter().map(|[samples, area]| samples / area).collect(),
+            count: Mean::of(&counts),
+            uncovered: uncovered / sets,
+            facing: facing.iter().map(|densities| Mean::of(densities)).collect(),
             power: Differences::together(&differences)?.power(&frequencies()),
             planes: planes.into_iter().map(together).collect::<Result<_>>()?,
         })
@@ -148,28 +128,6 @@ impl Measure<'_> {
 
     fn differences(&self, mesh: &Mesh, of: &SurfaceSamples, towards: [f64; 3], seed: u64) -> Result<Differences> {
         surface_differences(self.context, mesh, &of.positions, &of.normals, towards, seed, None)
-    }
-}
-
-impl Raw {
-    fn densities(&self) -> Reference {
-        let planes = self.planes.iter().map(|plane| plane.0).collect();
-        Reference { counts: self.counts.clone(), facing: self.facing.clone(), planes }
-    }
-
-    fn over(self, reference: &Reference) -> Result<Bias> {
-        let ratios = |own: &[f64], others: &[f64]| own.iter().zip(others).map(|(a, b)| a / b).collect::<Vec<_>>();
-        let planes = self.planes.into_iter().zip(&reference.planes);
-        Ok(Bias {
-            variant: self.variant,
-            count: Summary::of(&ratios(&self.counts, &reference.counts)),
-            uncovered: self.uncovered,
-            facing: ratios(&self.facing, &reference.facing),
-            power: self.power,
-            planes: planes
-                .map(|((count, differences), others)| Tilted { count: count / others, differences })
-                .collect(),
-        })
     }
 }
 

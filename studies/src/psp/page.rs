@@ -10,7 +10,7 @@ use super::rates::{Again, ITERATIONS, Stages};
 use super::scenes::Missing;
 use super::{Effort, Measured};
 use crate::repeated::{ROUNDS, Repeated, cell, lowest};
-use crate::verdict::verdict;
+use crate::verdict::{Mean, verdict};
 use azulejo_cli::text::{grouped, rounded};
 
 /// Goals: million samples per second on the bunny, after one iteration and maximal; all threads over one, for each of them,
@@ -30,11 +30,13 @@ pub fn text(
     measured: &[Measured],
     missing: &[Missing],
     others: &str,
+    density: &str,
     bias: &[Bias],
 ) -> String {
     let introduction = "Thesis: Wang 2019, chapter 3; its machine was a Core i7-7700K with a GTX 1080, on which PSP ran. `r` is the \
         radius, the smallest distance. An *iteration* is three orthogonal directions; *relative radius* is the square root \
-        of the samples over those of the reference, a set that is only filled: darts into what is uncovered. Times \
+        of the samples over those of the reference, a set that is only filled: darts into what is uncovered, cube by cube, which \
+         gives a little more than unbiased darts (*Density of maximal sets*). Times \
         and rates are medians of some rounds, with their range in brackets, on a machine that may have had other work; what \
         a table compares takes turns. [figures.md](figures.md) times whole calls on a ray tracer's scene that is kept, \
         [peers.md](peers.md) each call in a process of its own.\n";
@@ -50,6 +52,7 @@ pub fn text(
         others.to_owned(),
         directions(effort, measured),
         priority(effort, measured),
+        density.to_owned(),
         bias_by_variant(effort, bias),
         rays(measured),
     ];
@@ -235,7 +238,7 @@ fn directions(effort: &Effort, measured: &[Measured]) -> String {
         "## Directions before filling\n\nSeconds to a maximal set of about {} samples, by the number of directions from \
          which patterns are projected before the rest is filled: all, then iterations + fill. Of 0 and 3 directions there are {} \
          rounds, of more {}. A number of directions took the least time where its range is below all others (rank-sum test). \
-         The default is 0, on every mesh and with every radius: a set that is only filled is the reference. Iterations have \
+         The default is 0, on every mesh and with every radius, see *Density of maximal sets*. Iterations have \
          to be asked for.\n\n{}\n{}",
         grouped(effort.samples as usize),
         effort.judged_rounds,
@@ -300,36 +303,44 @@ fn bias_by_variant(effort: &Effort, bias: &[Bias]) -> String {
     let reference = &bias[0];
     let mut text = format!(
         "## Bias (thesis fig. 3.10 and 3.11)\n\nOn a sphere, {} sets of about {} \
-         samples of each kind: samples over those of the reference (± standard error), their square root, the uncovered part \
-         of the surface; from the lowest to the highest density by facing angle, the angle between the normal and the \
-         nearest projector of the first iteration, over the reference's; the first ring of the spectrum and how far the \
+         samples of each kind, and {} of about {} for the reference, which have seeds of their own: samples over those of the \
+         jamming limit (± standard error), their square root over the reference's, the uncovered part \
+         of the surface; the lowest and the highest density by facing angle over the jamming limit, the angle between the normal \
+         and the nearest projector of the first iteration; the first ring of the spectrum and how far the \
          spectrum is from the reference's at most. The spectrum is that of the differences of the samples (Wei and Wang \
          2011): the Hankel transform of their radial distribution function.\n\n\
          | variant | samples | relative radius | uncovered | density by angle | first ring | spectrum |\n|---|---|---|---|---|---|---|\n",
         effort.seeds,
         grouped(effort.bias as usize),
+        reference.count.count,
+        grouped(reference.variant.count(effort.bias) as usize),
     );
+    let error = |mean: &Mean| format!("{:.4} ± {:.4}", mean.mean, mean.error);
     for one in bias {
-        let (low, high) = one.facing.iter().fold((f64::INFINITY, 0.0), |(a, b): (f64, f64), &x| (a.min(x), b.max(x)));
+        let by_density = |a: &&Mean, b: &&Mean| a.mean.total_cmp(&b.mean);
+        let extremes = [one.facing.iter().min_by(by_density), one.facing.iter().max_by(by_density)];
+        let extremes = extremes.map(|extreme| extreme.map_or("–".to_owned(), error)).join(" to ");
         let [frequency, power] = one.peak();
+        let spectrum =
+            if one.variant.is_one_piece { "–".to_owned() } else { format!("{:.3}", one.difference(reference)) };
         _ = writeln!(
             text,
-            "| {} | {:.4} ± {:.4} | {:.4} | {:.2} % | {low:.3} to {high:.3} | {power:.3} at {frequency:.2} | {:.3} |",
+            "| {} | {} | {:.4} | {:.2} % | {extremes} | {power:.3} at {frequency:.2} | {spectrum} |",
             one.variant.name(),
-            one.count.mean,
-            one.count.error,
-            one.count.mean.sqrt(),
+            error(&one.count),
+            one.count.over(&reference.count).mean.sqrt(),
             100.0 * one.uncovered,
-            one.difference(reference),
         );
     }
     text.push_str("\n![Density by facing angle](psp/facing.png)\n\n![Spectra](psp/spectra.png)\n\n");
     _ = write!(
         text,
-        "On planes, whose normal has this angle to the nearest projector, of about {} samples: samples over those of the \
-         reference, and how uneven neighbours ({} to {} mean spacings apart) are all around: 0 if they are the same in all \
+        "On planes, whose normal has this angle to the nearest projector, of about {} samples ({} for the reference): samples over those of the \
+         reference (± standard error of the ratio; for the reference, of its own mean), and how uneven neighbours ({} to {} mean \
+         spacings apart) are all around: 0 if they are the same in all \
          directions, negative where there are fewer along the direction in which the pattern is stretched.\n\n| variant",
         grouped(effort.planes as usize),
+        grouped(reference.variant.count(effort.planes) as usize),
         NEIGHBOURS.start,
         NEIGHBOURS.end,
     );
@@ -337,8 +348,12 @@ fn bias_by_variant(effort: &Effort, bias: &[Bias]) -> String {
     _ = writeln!(text, " |\n|---{}|", "|---".repeat(TILTS.len()));
     for one in bias {
         _ = write!(text, "| {}", one.variant.name());
-        for tilted in &one.planes {
-            _ = write!(text, " | {:.4}, {:+.3}", tilted.count, tilted.differences.elongation(NEIGHBOURS));
+        for (tilted, other) in one.planes.iter().zip(&reference.planes) {
+            let ratio = match one.variant.is_one_piece {
+                true => other.count.over_number(other.count.mean),
+                false => tilted.count.over(&other.count),
+            };
+            _ = write!(text, " | {}, {:+.3}", error(&ratio), tilted.differences.elongation(NEIGHBOURS));
         }
         text.push_str(" |\n");
     }

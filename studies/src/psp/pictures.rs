@@ -94,13 +94,13 @@ fn draw_moments(canvas: &mut Canvas, panel: &Panel, of: &Growth, colour: Colour,
 /// Density by facing angle (what thesis fig. 3.11 sketches).
 pub fn draw_facing(bias: &[Bias], output: &Output) -> Result<()> {
     let x = Axis::linear("angle between normal and nearest projector / degrees", [0.0, 55.0], 11);
-    let y = Axis::linear("density / that of the reference", [0.45, 1.05], 6);
+    let y = Axis::linear("density / jamming limit", [0.45, 1.05], 6);
     let (mut canvas, panel) = single(x, y);
     for ((one, colour), row) in bias.iter().zip(SERIES).zip(0..) {
         let width = if one.variant.maximal { 3.6 } else { 1.6 };
         let angles = (0..).map(|bin| (f64::from(bin) + 0.5) * FACING_BIN);
-        curve(&mut canvas, &panel, angles.zip(&one.facing).map(|(x, &y)| [x, y]), width, colour);
-        legend(&mut canvas, [136.0, 348.0 + 22.0 * row as f32], &one.variant.name(), width, colour);
+        curve(&mut canvas, &panel, angles.zip(&one.facing).map(|(x, density)| [x, density.mean]), width, colour);
+        legend(&mut canvas, [136.0, 332.0 + 22.0 * row as f32], &one.variant.name(), width, colour);
     }
     panel.axes(&mut canvas);
     panel.title(&mut canvas, "Density by facing angle", "sphere");

@@ -1,10 +1,15 @@
 //! The variants of PSP that are compared.
 
+use std::ops::Range;
 use std::sync::Arc;
 
 use azulejo::mesh::Mesh;
 use azulejo::psp::{self, Options, Priority};
 use azulejo::{Context, Result, SurfaceSamples};
+
+/// Up to about so many samples a set can be filled in one piece, also on a square: what the library expects, which is rather
+/// too many, is just below its limit (`scenes::in_one_piece`).
+pub const ONE_PIECE: f64 = 24_200.0;
 
 /// How a set is made.
 #[derive(Clone, Copy, PartialEq)]
@@ -12,15 +17,21 @@ pub struct Variant {
     pub priority: Priority,
     pub iterations: u32,
     pub maximal: bool,
+    /// Whether sets are so small that they are filled in one piece.
+    pub is_one_piece: bool,
 }
 
 impl Variant {
     /// Only filled: darts into what is uncovered.
-    pub const REFERENCE: Self = Self { priority: Priority::Squareness, iterations: 0, maximal: true };
+    pub const FILLED: Self = Self::iterated(Priority::Squareness, 0, true);
+
+    /// The same in one piece, which is unbiased.
+    pub const REFERENCE: Self = Self { is_one_piece: true, ..Self::FILLED };
 
     /// The variants of the comparison of the priorities.
-    pub const COMPARED: [Self; 6] = [
+    pub const COMPARED: [Self; 7] = [
         Self::REFERENCE,
+        Self::FILLED,
         Self::iterated(Priority::Squareness, 1, true),
         Self::iterated(Priority::Projector, 1, true),
         Self::iterated(Priority::Squareness, 1, false),
@@ -29,20 +40,31 @@ impl Variant {
     ];
 
     pub const fn iterated(priority: Priority, iterations: u32, maximal: bool) -> Self {
-        Self { priority, iterations, maximal }
+        Self { priority, iterations, maximal, is_one_piece: false }
     }
 
     pub fn name(self) -> String {
         if self.iterations == 0 {
-            return "reference (fill only)".to_owned();
+            return if self.is_one_piece { "filled in one piece (reference)" } else { "filled, the default" }
+                .to_owned();
         }
         let plural = if self.iterations == 1 { "" } else { "s" };
         let fill = if self.maximal { ", fill" } else { "" };
         format!("{}, {} iteration{plural}{fill}", priority_name(self.priority), self.iterations)
     }
 
+    /// About how many samples its sets have where those of others have `count`.
+    pub fn count(self, count: f64) -> f64 {
+        if self.is_one_piece { count.min(ONE_PIECE) } else { count }
+    }
+
+    /// The seeds of its sets where there are `sets` of others: the reference has seeds of its own, and more of them.
+    pub fn seeds(self, sets: u64) -> Range<u64> {
+        if self.is_one_piece { 1000..1000 + 4 * sets } else { 0..sets }
+    }
+
     pub fn sample(self, context: &Context, mesh: &Arc<Mesh>, radius: f64, seed: u64) -> Result<SurfaceSamples> {
-        let Self { priority, iterations, maximal } = self;
+        let Self { priority, iterations, maximal, .. } = self;
         let options = Options::new(radius).priority(priority).iterations(iterations).maximal(maximal).seed(seed);
         Ok(psp::sample(context, mesh, &options, None)?.0)
     }
