@@ -3,6 +3,7 @@
 
 pub mod arrays;
 pub mod calls;
+pub mod deformed;
 pub mod files;
 pub mod input;
 mod mesh_density;
