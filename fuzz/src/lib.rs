@@ -4,6 +4,7 @@
 pub mod arrays;
 pub mod calls;
 mod coverage;
+pub mod deformed;
 #[path = "../../tests/common/disks.rs"]
 pub mod disks;
 pub mod files;

@@ -22,7 +22,7 @@ const SAMPLES: f64 = 100.0;
 pub(crate) struct Corners(pub Vec<[[f64; 3]; 3]>);
 
 impl Corners {
-    fn of(mesh: &azulejo_mesh) -> Self {
+    pub(crate) fn of(mesh: &azulejo_mesh) -> Self {
         let (positions, triangles) = {
             let mesh = Some(mesh);
             // SAFETY: the header says how long the arrays are; the mesh is borrowed.

@@ -207,6 +207,18 @@ fn surfaces() {
         assert_eq!(azulejo_mesh_positions(Some(&mesh)).add(11).read(), 0.5);
         assert_eq!(azulejo_mesh_indices(Some(&mesh)).add(5).read(), 3);
     }
+    let moved = [[0.0f32, 0.0, 1.0], [2.0, 0.0, 1.0], [2.0, 2.0, 1.0], [0.0, 2.0, 1.0]];
+    let (triangles, places) = ([1u32, 0], [[0.5f32, 0.25], [0.0, 1.0]]);
+    // SAFETY: four vertices without gaps, and two places.
+    unsafe {
+        let deformed = made(|out| azulejo_mesh_deform(Some(&mesh), moved.as_ptr().cast(), 4, 12, out));
+        let places = places.as_ptr().cast();
+        let points = made(|out| azulejo_mesh_points(Some(&deformed), triangles.as_ptr(), places, 2, out));
+        let positions = azulejo_points_positions(Some(&points)).cast::<[f32; 3]>();
+        assert_eq!((positions.read(), positions.add(1).read()), ([1.0, 1.5, 1.0], [2.0, 2.0, 1.0]));
+        assert_eq!(read_and_free(points), 2);
+        azulejo_mesh_free(Some(deformed));
+    }
     let mut options = defaults(azulejo_psp_options_init);
     (options.radius, options.engine) = (0.9, AZULEJO_ENGINE_RASTERISER);
     // SAFETY: the options are of the size that they say; the handle lives.
@@ -257,7 +269,7 @@ fn adaptive_surfaces() {
             return;
         }
         read_and_free(made(|out| azulejo_psp_adaptive_sample(Some(&context), Some(&mesh), &options, out, null_mut())));
-        options.vertex_radii = null();
+        (options.vertex_radii, options.vertex_count) = (null(), 0);
         options.radius = Some(radius_at);
         (options.smallest, options.largest, options.slope, options.radius_user) = (0.8, 1.0, 0.1, null_mut());
         read_and_free(made(|out| azulejo_psp_adaptive_sample(Some(&context), Some(&mesh), &options, out, null_mut())));
