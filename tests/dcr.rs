@@ -74,8 +74,36 @@ fn the_thesis_spreads_random_sets_and_the_report_says_so() {
         assert!(report.stopped == Stopped::Converged && report.iterations < options.max_iterations, "{report:?}");
         assert!(report.motion > 0.0 && report.motion <= options.tolerance, "{report:?}");
         assert!(smallest(&before) / d_max < 0.1);
-        assert!(report.rho > if options.neighbourhood == Neighbourhood::Delaunay { 0.5 } else { 0.75 }, "{report:?}");
+        // Of twelve seeds 0.63 to 0.70, and 0.80 to 0.89.
+        assert!(report.rho > if options.neighbourhood == Neighbourhood::Delaunay { 0.6 } else { 0.77 }, "{report:?}");
         assert!(variation(&after) < 0.03 * variation(&before), "{} {}", variation(&before), variation(&after));
+    }
+}
+
+#[test]
+fn the_oracle_of_reports_notices_points_that_are_missing_or_moved_and_figures_that_are_not_true() {
+    for boundary in BOUNDARIES {
+        let options = Options::new(unit_square(boundary), Neighbourhood::Delaunay);
+        let (relaxed, report) = run(&options, &random_points(300, 24));
+        let fault = |points: &[[f32; 2]], report: &Report| relaxed::fault(&options.domain, points, report);
+        assert_eq!(fault(&relaxed, &report), None);
+        for index in 0..relaxed.len() {
+            let mut fewer = relaxed.clone();
+            fewer.remove(index);
+            let mut moved = relaxed.clone();
+            moved[index] = relaxed[(index + 1) % relaxed.len()].map(|x| 0.5 * (x + 0.5));
+            assert!(fault(&fewer, &report).is_some() && fault(&moved, &report).is_some(), "{boundary:?}, {index}");
+        }
+        for factor in [0.99999, 1.00001] {
+            let scaled = |change: &dyn Fn(&mut Report)| {
+                let mut report = report;
+                change(&mut report);
+                fault(&relaxed, &report)
+            };
+            assert!(scaled(&|report| report.rho *= factor).is_some());
+            assert!(scaled(&|report| report.smallest_distance *= factor).is_some());
+            assert!(scaled(&|report| report.coverage *= factor).is_some());
+        }
     }
 }
 
@@ -86,9 +114,7 @@ fn a_hundred_steps_are_enough_for_any_set() {
         for start in [random_points(1000, 20), darts(1000, 21), random_points(4000, 22), random_points(4000, 23)] {
             let options = Options::new(unit_square(boundary), Neighbourhood::Delaunay);
             let (relaxed, report) = run(&options, &start);
-            if start.len() < 2000 {
-                relaxed::check(&options.domain, &relaxed, &report);
-            }
+            assert_eq!(relaxed::fault(&options.domain, &relaxed, &report), None, "{options:?}");
             assert!(report.iterations <= 100 && report.motion < 0.01, "{report:?}");
             assert!(report.rho >= rho && report.coverage <= coverage, "{boundary:?}, {}: {report:?}", start.len());
         }
@@ -101,9 +127,7 @@ fn nearest_neighbours_raise_rho_without_holes() {
         for start in [darts(1500, 30), darts(1500, 31), random_points(1500, 32), random_points(4000, 33)] {
             let options = Options::new(unit_square(boundary), Neighbourhood::Nearest);
             let (relaxed, report) = run(&options, &start);
-            if start.len() < 2000 {
-                relaxed::check(&options.domain, &relaxed, &report);
-            }
+            assert_eq!(relaxed::fault(&options.domain, &relaxed, &report), None, "{options:?}");
             assert!(report.iterations <= 100, "{report:?}");
             assert!(report.rho >= 0.905 && report.coverage <= 0.9, "{boundary:?}, {}: {report:?}", start.len());
         }
@@ -335,9 +359,17 @@ fn strips_narrower_than_the_hexagonal_distance_are_relaxed() {
         let points: Vec<_> = random_points(120, 9).iter().map(|p| [p[0] * 200.0, p[1]]).collect();
         let (relaxed, _) = run(&options.max_iterations(400).domain(domain), &points);
         let smallest = smallest(&nearest_distances(&domain, &relaxed));
-        // In a row they would be 200 / 120 = 1.67 apart. The thesis's steps end before.
-        let is_thesis = matches!(options.method, Method::Thesis(_));
-        assert!(smallest > if is_thesis { 0.9 } else { 1.2 }, "{options:?}: {smallest}");
+        // In a row they would be 200 / 120 = 1.67 apart, and in zigzag farther. The thesis's steps end before, of other seeds at
+        // 0.73 to 1.4; momentum within 0.04 of what it ends
+        // at here.
+        let least = match (options.method, options.neighbourhood, domain.boundary) {
+            (Method::Thesis(_), ..) => 0.9,
+            (_, Neighbourhood::Delaunay, Boundary::Periodic) => 1.69,
+            (_, Neighbourhood::Delaunay, Boundary::Bounded) => 1.45,
+            (_, Neighbourhood::Nearest, Boundary::Periodic) => 1.65,
+            (_, Neighbourhood::Nearest, Boundary::Bounded) => 1.25,
+        };
+        assert!(smallest > least, "{options:?}: {smallest}");
     }
 }
 

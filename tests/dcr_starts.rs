@@ -70,7 +70,7 @@ fn points(start: Start, domain: &Domain, count: usize) -> Vec<[f32; 2]> {
 fn run(options: &Options, points: &[[f32; 2]]) -> Report {
     let (relaxed, report) = relax(&Context::new(1).unwrap(), options, points, None).unwrap();
     assert_eq!(relaxed.len(), points.len());
-    relaxed::check(&options.domain, &relaxed, &report);
+    assert_eq!(relaxed::fault(&options.domain, &relaxed, &report), None, "{options:?}");
     report
 }
 

@@ -1,6 +1,8 @@
 //! `kdrt::merge` against naive oracles.
 
 mod common;
+#[path = "common/merge_oracle.rs"]
+mod merge_oracle;
 #[path = "common/pieces.rs"]
 mod pieces;
 #[path = "common/random.rs"]
@@ -8,7 +10,7 @@ mod random;
 
 use azulejo::kdrt::{self, MergeOptions, MergeReport, Piece, merge};
 use azulejo::{Boundary, Context, Domain, Error};
-use common::{BOUNDARIES, distance, domain, find_conflict, find_gap, float_spacing, hard_domains};
+use common::{BOUNDARIES, domain, float_spacing, hard_domains};
 use pieces::{HOLES, PINWHEEL, Part, darts, outline, part, parts, tiles};
 use proptest::prelude::*;
 use random::Random;
@@ -27,84 +29,83 @@ fn merged(options: &MergeOptions, parts: &[Part], fixed: &[[f32; 2]]) -> Result<
 /// Merges and checks everything that is promised whatever is given. Gives the result and how many samples of each piece
 /// went.
 fn check(options: &MergeOptions, parts: &[Part], fixed: &[[f32; 2]]) -> (Vec<[f32; 2]>, Vec<usize>) {
-    let MergeOptions { radius, domain, .. } = *options;
     let (samples, report) = merged(options, parts, fixed).unwrap();
-    let inside =
-        |sample: &[f32; 2]| (0..2).all(|axis| (domain.min[axis]..domain.max[axis]).contains(&f64::from(sample[axis])));
-    assert!(samples.iter().all(inside), "a sample outside of {domain:?}");
-    assert_eq!(find_conflict(&domain, radius, &samples), None, "conflict: {options:?}");
-    assert_eq!(find_gap(&domain, radius + 6.0 * float_spacing(&domain), &samples), None, "uncovered: {options:?}");
-
-    let bits = |samples: &[[f32; 2]]| samples.iter().map(|sample| sample.map(f32::to_bits)).collect::<Vec<_>>();
-    assert_eq!(bits(&samples[..fixed.len()]), bits(fixed));
-    let given: usize = parts.iter().map(|part| part.samples.len()).sum();
-    let inserted = samples.len() - fixed.len() - report.kept;
-    assert_eq!((report.eliminated, report.inserted), (given - report.kept, inserted));
-
-    // Those kept follow each other as they were given. Those that went stand against one that is kept (of their own piece
-    // only over the seam of a torus: the piece has no other conflict), and no two pieces against each other both ways.
-    let mut kept = samples[fixed.len()..fixed.len() + report.kept].iter().peekable();
-    let mut owners = vec![None; fixed.len()];
-    let mut eliminated = Vec::new();
-    for (i, part) in parts.iter().enumerate() {
-        for sample in &part.samples {
-            match kept.next_if(|kept| kept.map(f32::to_bits) == sample.map(f32::to_bits)) {
-                Some(_) => owners.push(Some(i)),
-                None => eliminated.push((i, *sample)),
-            }
-        }
+    let counts = [report.kept, report.eliminated, report.inserted];
+    match merge_oracle::fault(options, parts, fixed, &samples, counts) {
+        Ok(went) => (samples, went),
+        Err(fault) => panic!("{fault}: {options:?}"),
     }
-    assert_eq!((kept.next(), eliminated.len()), (None, report.eliminated));
-    let mut wins = vec![vec![false; parts.len()]; parts.len()];
-    for &(loser, sample) in &eliminated {
-        let rivals = owners.iter().zip(&samples).filter(|(_, other)| distance(&domain, sample, **other) < radius);
-        let winners: Vec<_> = rivals.map(|(owner, _)| *owner).collect();
-        assert!(!winners.is_empty(), "{sample:?} went without need");
-        // If a fixed point is among them, it alone may be the reason.
-        if !winners.contains(&None) {
-            let strict = winners.len() == 1;
-            winners
-                .into_iter()
-                .flatten()
-                .filter(|winner| strict && *winner != loser)
-                .for_each(|winner| wins[winner][loser] = true);
-        }
-    }
-    for (i, j) in (0..parts.len()).flat_map(|i| (0..i).map(move |j| (i, j))) {
-        assert!(!(wins[i][j] && wins[j][i]), "{i} and {j} eliminate each other's samples");
-    }
-    let went = |i| eliminated.iter().filter(|(owner, _)| *owner == i).count();
-    (samples, (0..parts.len()).map(went).collect())
 }
 
 /// The pieces are maximal: only the seams may change.
 fn check_seams(options: &MergeOptions, parts: &[Part], fixed: &[[f32; 2]]) -> Vec<[f32; 2]> {
-    let MergeOptions { radius, domain, .. } = *options;
     let (samples, _) = check(options, parts, fixed);
-    let kept: Vec<[u32; 2]> = samples.iter().map(|sample| sample.map(f32::to_bits)).collect();
-    let is_kept = |sample: &[f32; 2]| kept.contains(&sample.map(f32::to_bits));
-    let border = |part: &Part, sample: [f32; 2]| {
-        let Domain { min, max, .. } = part.rectangle;
-        let sides = (0..2).flat_map(|axis| [f64::from(sample[axis]) - min[axis], max[axis] - f64::from(sample[axis])]);
-        sides.fold(f64::INFINITY, f64::min)
-    };
-    let given: Vec<[f32; 2]> = parts.iter().flat_map(|part| part.samples.iter().copied()).collect();
-    let mut gone = Vec::new();
-    for part in parts {
-        for &sample in part.samples.iter().filter(|sample| !is_kept(sample)) {
-            let near_fixed = fixed.iter().any(|&fixed| distance(&domain, sample, fixed) < radius);
-            assert!(near_fixed || border(part, sample) < radius, "{sample:?} of the interior went");
-            gone.push(sample);
-        }
-    }
-    let new = samples.iter().filter(|sample| !given.contains(sample) && !fixed.contains(sample));
-    for &sample in new {
-        let inside = parts.iter().find(|part| border(part, sample) > 0.0);
-        let is_seam = inside.is_none_or(|part| border(part, sample) < radius)
-            || gone.iter().any(|&gone| distance(&domain, sample, gone) < radius);
-        assert!(is_seam, "{sample:?} is new in the interior");
-    }
+    assert_eq!(merge_oracle::fault_of_seams(options, parts, fixed, &samples), None, "{options:?}");
     samples
+}
+
+/// Each promise is broken by hand in a result that keeps all of them.
+#[test]
+fn the_oracles_notice_every_broken_promise() {
+    let domain = domain([0.0; 2], [1.0, 0.8], Boundary::Periodic);
+    let (options, parts) = (MergeOptions::new(0.03).domain(domain).seed(2), parts(&domain, 0.03, &PINWHEEL, 2));
+    let fixed = darts(&domain, 0.03, 12, 3);
+    let (samples, report) = merged(&options, &parts, &fixed).unwrap();
+    let counts = [report.kept, report.eliminated, report.inserted];
+    let said = |samples: &[[f32; 2]], counts| merge_oracle::fault(&options, &parts, &fixed, samples, counts);
+    let fails = |samples: &[[f32; 2]], counts, with: &str| {
+        let fault = said(samples, counts).unwrap_err();
+        assert!(fault.contains(with), "{fault}, not {with}");
+    };
+    assert!(said(&samples, counts).is_ok() && report.inserted > 5 && report.eliminated > 5 && report.kept > 100);
+    let changed = |index: usize, sample: [f32; 2]| {
+        let mut samples = samples.clone();
+        samples[index] = sample;
+        samples
+    };
+    let last = samples.len() - 1;
+    fails(&changed(last, [1.0, 0.3]), counts, "outside");
+    fails(&changed(last, samples[0].map(|x| x + 0.01)), counts, "conflict");
+    for missing in 0..samples.len() {
+        let mut samples = samples.clone();
+        samples.remove(missing);
+        fails(&samples, counts, "uncovered");
+    }
+    // A fixed point that moves by one float, two that change places, and kept samples in another order.
+    fails(&changed(0, [samples[0][0].next_up(), samples[0][1]]), counts, "fixed");
+    let swapped = |i: usize, j: usize| {
+        let mut samples = samples.clone();
+        samples.swap(i, j);
+        samples
+    };
+    fails(&swapped(0, 1), counts, "fixed");
+    fails(&swapped(fixed.len(), fixed.len() + 1), counts, "kept");
+    let [kept, eliminated, inserted] = counts;
+    for counts in [[kept, eliminated + 1, inserted], [kept, eliminated, inserted + 1], [kept + 1, eliminated, inserted]]
+    {
+        fails(&samples, counts, "counts");
+    }
+    // One that was kept moves by a float, and is said to be new.
+    let moved = |index: usize| {
+        let mut samples = samples.clone();
+        let sample = samples.remove(index);
+        samples.push([sample[0].next_up(), sample[1]]);
+        samples
+    };
+    fails(&moved(fixed.len()), [kept - 1, eliminated + 1, inserted + 1], "without need");
+
+    let of_seams = |samples: &[[f32; 2]]| merge_oracle::fault_of_seams(&options, &parts, &fixed, samples);
+    assert_eq!(of_seams(&samples), None);
+    let is_inner = |sample: &[f32; 2]| {
+        let Domain { min, max, .. } = parts[4].rectangle;
+        let is_far = fixed.iter().all(|&fixed| common::distance(&domain, *sample, fixed) > 0.03);
+        is_far && (0..2).all(|axis| (min[axis] + 0.06..max[axis] - 0.06).contains(&f64::from(sample[axis])))
+    };
+    let inner = samples.iter().position(is_inner).unwrap();
+    let fault = of_seams(&moved(inner)).unwrap();
+    assert!(fault.contains("of the interior went"), "{fault}");
+    let fault = of_seams(&[&samples[..], &[[samples[inner][0].next_up(), samples[inner][1]]]].concat()).unwrap();
+    assert!(fault.contains("new in the interior"), "{fault}");
 }
 
 #[test]

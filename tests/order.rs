@@ -16,7 +16,7 @@ use azulejo::analysis::spectrum::{Periodogram, periodogram};
 use azulejo::mesh::Mesh;
 use azulejo::psp::{self, Options, Report};
 use azulejo::{Boundary, Context, Domain, Error, Order, SurfaceSamples};
-use order_oracle::{covers, disorder, distance};
+use order_oracle::{conflict, covers, disorder, distance};
 
 const QUOTIENT: f64 = 1.090_507_732_665_257_7;
 
@@ -136,11 +136,10 @@ fn large_sets_nest_and_are_spread_as_well() {
     assert!(long.len() == 60_000 && short.len() == 33_333 && is_prefix(&short, &long));
     assert!(long.ranks.is_sorted_by(|a, b| a >= b));
     assert_eq!(long, sample_on(1, &mesh, of_count(60_000)).0);
-    let context = Context::new(1).unwrap();
     for prefix in [20_000, 28_000, 47_000, 60_000] {
         let (positions, rank) = (&long.positions[..prefix], f64::from(long.ranks[prefix - 1]));
-        let nearest = azulejo::analysis::spacing::smallest_distance_3d(&context, positions, None).unwrap();
-        assert!(nearest >= rank);
+        let samples = SurfaceSamples { positions: positions.to_vec(), ..SurfaceSamples::default() };
+        assert_eq!(conflict(&samples, rank), None);
         assert!(covers(&mesh, positions, QUOTIENT * rank), "{prefix}");
     }
 }

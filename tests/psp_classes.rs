@@ -10,6 +10,9 @@ mod parts;
 mod random;
 #[path = "common/tolerance.rs"]
 mod tolerance;
+#[path = "common/triangle.rs"]
+#[allow(dead_code)]
+mod triangle;
 
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -20,6 +23,7 @@ use azulejo::{Classes, Context, Error, Given, Order, SurfaceSamples};
 use meshes::Soup;
 use random::Random;
 use tolerance::tolerance;
+use triangle::{has_area, normal};
 
 type Point = [f64; 3];
 
@@ -107,7 +111,9 @@ impl<'a> Case<'a> {
         let points: Vec<Point> = samples.positions.iter().map(|&position| exact(position)).collect();
         for i in 0..points.len() {
             assert!(self.allows(class(i), samples.triangles[i]), "a class stands where it may not");
-            let place = self.mesh.point(samples.triangles[i], samples.barycentrics[i]);
+            let [a, b, c] = self.mesh.corners(samples.triangles[i]).map(exact);
+            let [u, v] = samples.barycentrics[i].map(f64::from);
+            let place = std::array::from_fn(|axis| ((1.0 - u - v) * a[axis] + u * b[axis] + v * c[axis]) as f32);
             assert_eq!(samples.positions[i], place);
             for j in (0..i).filter(|&j| self.sees(samples.normals[i], samples.normals[j])) {
                 let (near, radius) = (distance(points[i], points[j]), self.classes.radius(class(i), class(j)));
@@ -120,12 +126,13 @@ impl<'a> Case<'a> {
         let tolerance = tolerance(self.mesh);
         for class_j in 0..self.classes.count() {
             for triangle in (0..self.mesh.triangles().len() as u32).filter(|&triangle| self.allows(class_j, triangle)) {
-                if self.mesh.triangle_area(triangle) == 0.0 {
+                let corners = self.mesh.corners(triangle).map(exact);
+                if !has_area(corners) {
                     continue;
                 }
-                let corners = self.mesh.corners(triangle).map(exact);
+                let normal = normal(self.mesh, triangle);
                 let ball = |i: usize| (points[i], self.classes.radius(class(i), class_j));
-                let seen = |&i: &usize| self.sees(samples.normals[i], self.mesh.normal(triangle));
+                let seen = |&i: &usize| self.sees(samples.normals[i], normal);
                 let mut balls: Vec<_> = (0..points.len()).filter(seen).map(ball).collect();
                 let given = self.options.given.positions.iter().enumerate();
                 balls.extend(given.map(|(given, &position)| (exact(position), self.clearance(given, class_j))));

@@ -1,6 +1,9 @@
 //! Sets of a hundred thousand samples on a mesh, which are filled by many cubes on several threads: maximal by proof, not by
 //! random probes.
 
+#[path = "common/adaptive_oracle.rs"]
+#[allow(dead_code)]
+mod adaptive_oracle;
 #[path = "common/meshes.rs"]
 #[allow(dead_code)]
 mod meshes;
@@ -11,7 +14,9 @@ mod tolerance;
 
 use std::sync::Arc;
 
+use adaptive_oracle::Field;
 use azulejo::mesh::Mesh;
+use azulejo::psp::adaptive::{self, Radius};
 use azulejo::{Context, SurfaceSamples, psp};
 use tolerance::tolerance;
 
@@ -25,10 +30,14 @@ fn gap(mesh: &Mesh, samples: &SurfaceSamples) -> Option<[f64; 3]> {
     oracle::gap(mesh, samples, RADIUS, tolerance(mesh))
 }
 
+fn torus() -> Arc<Mesh> {
+    let (positions, triangles) = meshes::fine_torus(300, 150);
+    Arc::new(Mesh::new(positions, triangles).unwrap())
+}
+
 #[test]
 fn a_hundred_thousand_samples_conflict_nowhere_and_leave_no_gap_on_any_number_of_threads() {
-    let (positions, triangles) = meshes::fine_torus(300, 150);
-    let mesh = Arc::new(Mesh::new(positions, triangles).unwrap());
+    let mesh = torus();
     let options = psp::Options::new(RADIUS);
     let mut samples = sample(1, &mesh, options);
     assert!(samples.len() > 100_000, "{}", samples.len());
@@ -43,4 +52,54 @@ fn a_hundred_thousand_samples_conflict_nowhere_and_leave_no_gap_on_any_number_of
     samples.positions.push(last);
     samples.positions[1] = last.map(|x| x + (0.4 * RADIUS) as f32);
     assert!(oracle::conflict(&samples, RADIUS).is_some());
+}
+
+/// Projected samples first, then the fill of what they leave.
+#[test]
+fn a_hundred_thousand_samples_of_which_most_are_projected_leave_no_gap() {
+    let mesh = torus();
+    let mut samples = sample(2, &mesh, psp::Options::new(RADIUS).iterations(1).seed(1));
+    assert!(samples.len() > 100_000, "{}", samples.len());
+    assert_eq!(oracle::misplaced(&mesh, &samples), None);
+    assert_eq!(oracle::conflict(&samples, RADIUS), None);
+    assert_eq!(gap(&mesh, &samples), None);
+    samples.positions.swap_remove(0);
+    assert!(gap(&mesh, &samples).is_some());
+}
+
+/// Few large triangles that cross each other, so that samples keep others away from surface that is far from theirs.
+#[test]
+fn a_hundred_thousand_samples_of_a_soup_leave_no_gap() {
+    let (positions, triangles) = meshes::random_soup(6, 60);
+    let mesh = Arc::new(Mesh::new(positions, triangles).unwrap());
+    let radius = (0.66 * mesh.area() / 100_000.0).sqrt();
+    let mut samples = sample(2, &mesh, psp::Options::new(radius));
+    assert!(samples.len() > 100_000, "{}", samples.len());
+    assert_eq!(oracle::misplaced(&mesh, &samples), None);
+    assert_eq!(oracle::conflict(&samples, radius), None);
+    assert_eq!(oracle::gap(&mesh, &samples, radius, tolerance(&mesh)), None);
+    samples.positions.pop();
+    assert!(oracle::gap(&mesh, &samples, radius, tolerance(&mesh)).is_some());
+}
+
+#[test]
+fn a_hundred_thousand_samples_whose_radii_vary_leave_no_gap() {
+    let mesh = torus();
+    let (low, high) = mesh.bounds();
+    let radius = |position: &[f32; 3]| 0.007 + 0.006 * (position[0] - low[0]) / (high[0] - low[0]);
+    let radii: Vec<f32> = mesh.positions().iter().map(radius).collect();
+    let options = adaptive::Options::new(Radius::PerVertex(&radii));
+    let (set, _) = adaptive::sample(&Context::new(2).unwrap(), &mesh, &options, None).unwrap();
+    let (mut samples, field) = (set.samples, Field::PerVertex(&radii));
+    assert!(samples.len() > 100_000, "{}", samples.len());
+    assert_eq!(oracle::misplaced(&mesh, &samples), None);
+    assert_eq!(adaptive_oracle::wrong_radius(&mesh, &field, &samples, &set.radii), None);
+    assert_eq!(adaptive_oracle::conflict(&samples, &set.radii, -1.0), None);
+    // The radius changes by less than a hundredth of the way.
+    let tolerance = 1.01 * tolerance(&mesh);
+    let gap = |samples: &SurfaceSamples| adaptive_oracle::gap(&mesh, &field, samples, &set.radii, -1.0, tolerance);
+    assert_eq!(gap(&samples), None);
+    samples.positions[1] = samples.positions[0].map(|x| x + 0.001);
+    assert!(adaptive_oracle::conflict(&samples, &set.radii, -1.0).is_some());
+    assert!(gap(&samples).is_some());
 }

@@ -38,24 +38,27 @@ fn checked(mesh: &Mesh, samples: &SurfaceSamples) -> (Mesh, RemeshReport) {
     let ((made, report), (same, again)) = (call(1), call(3));
     assert_eq!((made.triangles(), &report), (same.triangles(), &again));
     assert_eq!(made.positions(), samples.positions);
-    assert_eq!(report.triangles as usize, made.triangles().len());
+    assert_eq!(fault(samples.len(), made.triangles(), &report), None);
+    (made, report)
+}
+
+/// What is wrong with triangles of so many samples, or with what is said of them, if anything is.
+fn fault(samples: usize, triangles: &[[u32; 3]], report: &RemeshReport) -> Option<String> {
     let quality = report.quality;
     let mut edges: BTreeMap<BTreeSet<u32>, Vec<bool>> = BTreeMap::new();
     let mut fans: BTreeMap<u32, Vec<BTreeSet<u32>>> = BTreeMap::new();
-    for &[a, b, c] in made.triangles() {
+    for &[a, b, c] in triangles {
         for [a, b, c] in [[a, b, c], [b, c, a], [c, a, b]] {
             edges.entry(BTreeSet::from([a, b])).or_default().push(a < b);
             fans.entry(a).or_default().push(BTreeSet::from([b, c]));
         }
     }
-    let with = |triangles: usize| edges.values().filter(|sides| sides.len() == triangles).count() as u64;
-    assert_eq!((quality.boundary_edges, quality.inner_edges), (with(1), with(2)));
-    assert_eq!(with(1) + with(2), edges.len() as u64, "an edge has more than two triangles");
-    assert!(
-        edges.values().all(|sides| sides.len() == 1 || sides[0] != sides[1]),
-        "a triangle is wound against another"
-    );
-    assert_eq!((quality.non_manifold_edges, quality.twisted_edges), (0, 0));
+    if edges.values().any(|sides| sides.len() > 2) {
+        return Some("an edge has more than two triangles".into());
+    }
+    if edges.values().any(|sides| sides.len() == 2 && sides[0] == sides[1]) {
+        return Some("a triangle is wound against another".into());
+    }
     let is_split = |fan: &&Vec<BTreeSet<u32>>| {
         let mut fan = fan.to_vec();
         let mut joined = fan.pop().unwrap();
@@ -64,10 +67,70 @@ fn checked(mesh: &Mesh, samples: &SurfaceSamples) -> (Mesh, RemeshReport) {
         }
         !fan.is_empty()
     };
-    assert_eq!(quality.non_manifold_vertices, fans.values().filter(is_split).count() as u64);
-    assert_eq!(quality.unused_vertices, (samples.len() - fans.len()) as u64);
-    assert_eq!(quality.euler, fans.len() as i64 - edges.len() as i64 + made.triangles().len() as i64);
-    (made, report)
+    let with = |triangles: usize| edges.values().filter(|sides| sides.len() == triangles).count() as u64;
+    let found = [
+        triangles.len() as u64,
+        with(1),
+        with(2),
+        0,
+        0,
+        fans.values().filter(is_split).count() as u64,
+        (samples - fans.len()) as u64,
+    ];
+    let said = [
+        report.triangles,
+        quality.boundary_edges,
+        quality.inner_edges,
+        quality.non_manifold_edges,
+        quality.twisted_edges,
+        quality.non_manifold_vertices,
+        quality.unused_vertices,
+    ];
+    let euler = fans.len() as i64 - edges.len() as i64 + triangles.len() as i64;
+    (found != said || quality.euler != euler).then(|| format!("{found:?}, {euler} and not {said:?}, {}", quality.euler))
+}
+
+#[test]
+fn the_oracle_notices_broken_meshes_and_counts_that_are_wrong() {
+    let mesh = mesh(meshes::torus());
+    let samples = relaxed(&mesh, 500.0, 7);
+    let (made, report) = checked(&mesh, &samples);
+    let fault = |change: &dyn Fn(&mut Vec<[u32; 3]>, &mut RemeshReport)| {
+        let (mut triangles, mut report) = (made.triangles().to_vec(), report);
+        change(&mut triangles, &mut report);
+        fault(samples.len(), &triangles, &report)
+    };
+    assert_eq!(fault(&|_, _| ()), None);
+    for index in (0..made.triangles().len()).step_by(17) {
+        assert!(
+            fault(&|triangles, _| {
+                triangles.remove(index);
+            })
+            .is_some()
+        );
+        assert!(fault(&|triangles, _| triangles[index].swap(0, 1)).unwrap().contains("wound"));
+        assert!(fault(&|triangles, _| triangles.push(triangles[index])).unwrap().contains("more than two"));
+        // A corner at another sample.
+        assert!(
+            fault(&|triangles, _| triangles[index][0] = (triangles[index][0] + 250) % samples.len() as u32).is_some()
+        );
+    }
+    let wrong: [&dyn Fn(&mut RemeshReport); 8] = [
+        &|report| report.triangles -= 1,
+        &|report| report.quality.boundary_edges += 1,
+        &|report| report.quality.inner_edges += 1,
+        &|report| report.quality.non_manifold_edges += 1,
+        &|report| report.quality.twisted_edges += 1,
+        &|report| report.quality.non_manifold_vertices += 1,
+        &|report| report.quality.unused_vertices += 1,
+        &|report| report.quality.euler += 2,
+    ];
+    wrong.iter().for_each(|wrong| assert!(fault(&|_, report| wrong(report)).is_some()));
+    // Two fans that meet at one vertex alone.
+    let pair = [[0, 1, 2], [0, 3, 4]];
+    let mut told = report;
+    (told.triangles, told.quality) = (2, Mesh::new(samples.positions[..5].to_vec(), pair.to_vec()).unwrap().quality());
+    assert_eq!((told.quality.non_manifold_vertices, self::fault(5, &pair, &told)), (1, None));
 }
 
 /// Wherever samples resolve a closed surface, the result is one of the same kind.

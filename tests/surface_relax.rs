@@ -65,7 +65,7 @@ fn closed_and_open_surfaces_end_at_the_distances_of_the_plane() {
         ("torus", meshes::torus(), 0.85),
         ("torus of many triangles", meshes::fine_torus(300, 150), 0.85),
         ("square", meshes::plane(), 0.83),
-        ("cube", cube(), 0.80),
+        ("cube", cube(), 0.85),
     ] {
         let mesh = mesh(soup);
         let samples = darts(&mesh, 3000.0);
@@ -157,15 +157,16 @@ fn urchin() -> Soup {
     meshes::join((0..30).map(needle))
 }
 
-/// Meshes on which forces along the surface lead samples together through space.
-fn sharp() -> [(&'static str, Soup); 6] {
+/// Meshes on which forces along the surface lead samples together through space; and what rho they reach at least, on each
+/// less than the least of six seeds by as much as these differ.
+fn sharp() -> [(&'static str, Soup, f64); 6] {
     [
-        ("blade", fin(0.03)),
-        ("thick blade", fin(0.15)),
-        ("cone", cone(0.08)),
-        ("cube", cube()),
-        ("thin wall", meshes::sheets(0.03)),
-        ("crossing triangles", meshes::random_soup(5, 12)),
+        ("blade", fin(0.03), 0.74),
+        ("thick blade", fin(0.15), 0.823),
+        ("cone", cone(0.08), 0.832),
+        ("cube", cube(), 0.85),
+        ("thin wall", meshes::sheets(0.03), 0.827),
+        ("crossing triangles", meshes::random_soup(5, 12), 0.831),
     ]
 }
 
@@ -173,7 +174,7 @@ fn sharp() -> [(&'static str, Soup); 6] {
 #[test]
 fn no_two_samples_get_nearer_than_the_nearest_two_were() {
     let torn = [("needles", urchin()), ("slivers", meshes::slivers()), ("book", meshes::book(4))];
-    for (name, soup) in sharp().into_iter().chain(torn) {
+    for (name, soup) in sharp().map(|(name, soup, _)| (name, soup)).into_iter().chain(torn) {
         let mesh = mesh(soup);
         for count in [5.0, 60.0, 1200.0] {
             let maximal = darts(&mesh, count);
@@ -209,14 +210,12 @@ fn few_samples_that_are_far_apart_stay_so() {
 
 #[test]
 fn on_sharp_edges_and_thin_blades_distances_grow() {
-    for (name, soup) in sharp() {
-        // Nearly as far as on smooth surfaces, but on the sides of a blade that is thinner than the distance.
-        let goal: f64 = if name == "blade" { 0.74 } else { 0.82 };
+    for (name, soup, goal) in sharp() {
         let mesh = mesh(soup);
         let samples = darts(&mesh, 2500.0);
         let before = smallest_distance(&samples) / d_max(&mesh, samples.len());
         let (_, report) = run(&mesh, &samples);
-        assert!(report.rho > goal.max(1.03 * before), "{name}: {before} to {report:?}");
+        assert!(report.rho > goal && goal > before, "{name}: {before} to {report:?}");
     }
 }
 

@@ -52,6 +52,31 @@ fn farthest_first<const D: usize>(cloud: &[[f32; D]], first: u32) -> Vec<(u32, f
     }
 }
 
+/// Selections that are known: by hand, of points on a line with two at one place and ties.
+#[test]
+fn the_oracles_are_those_of_known_clouds() {
+    let line = [0.0, 1.0, 5.0, 1.0, 2.0, 10.0, 3.0].map(|x: f32| [x, 0.0]);
+    for (radius, kept) in [
+        (0.5, vec![0, 1, 2, 4, 5, 6]),
+        (1.0, vec![0, 1, 2, 4, 5, 6]),
+        (1.5, vec![0, 2, 4, 5]),
+        (2.0, vec![0, 2, 4, 5]),
+        (2.0001, vec![0, 2, 5]),
+        (11.0, vec![0]),
+    ] {
+        assert_eq!(kept_by_radius(&line, radius), kept, "{radius}");
+    }
+    // Ranks along the line from its start; 1 and 3 at one place; of equal distances that of the lowest index first.
+    let expected = [(0, f64::INFINITY), (5, 10.0), (2, 5.0), (4, 2.0), (1, 1.0), (6, 1.0), (3, 0.0)];
+    assert_eq!(farthest_first(&line, 0), expected);
+    assert_eq!(farthest_first(&line, 2)[..3], [(2, f64::INFINITY), (0, 5.0), (5, 5.0)]);
+    // One point that moves is noticed.
+    let mut moved = line;
+    moved[4][0] = 2.75;
+    assert_ne!(farthest_first(&moved, 0), expected);
+    assert_ne!(kept_by_radius(&moved, 0.5), kept_by_radius(&line, 0.5));
+}
+
 /// Clouds of points of all kinds, each with a radius that keeps some of them.
 fn clouds<const D: usize>(count: usize, seed: u64) -> Vec<(&'static str, Vec<[f32; D]>, f64)> {
     let mut random = Random::new(seed);

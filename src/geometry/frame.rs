@@ -24,6 +24,7 @@ const INSET: f64 = 1e-6;
 pub(crate) struct Frame {
     domain: Domain,
     spacing: f64,
+    in_d_max: f64,
     size: DVec2,
 }
 
@@ -48,8 +49,9 @@ impl Frame {
     /// The frame of `count` points.
     pub(crate) fn new(domain: Domain, count: usize) -> Self {
         let extent = DVec2::from_array(domain.extent());
-        let spacing = domain.hexagonal_distance(count).min(extent.min_element());
-        Self { domain, spacing, size: extent / spacing }
+        let d_max = domain.hexagonal_distance(count);
+        let spacing = d_max.min(extent.min_element());
+        Self { domain, spacing, in_d_max: spacing / d_max, size: extent / spacing }
     }
 
     pub(crate) fn boundary(&self) -> Boundary {
@@ -59,6 +61,11 @@ impl Frame {
     /// The unit of length.
     pub(crate) fn spacing(&self) -> f64 {
         self.spacing
+    }
+
+    /// The unit of length over `d_max`: 1, but less in a strip that is thinner than `d_max`.
+    pub(crate) fn in_d_max(&self) -> f64 {
+        self.in_d_max
     }
 
     /// Width and height, at least 1 each.

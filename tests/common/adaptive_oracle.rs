@@ -1,10 +1,17 @@
-//! What a set with its own radius for each sample owes, checked in the plainest way. Slow: O(n²) and more.
+//! What a set with its own radius for each sample owes, checked in the plainest way.
 
+#[path = "buckets.rs"]
+mod buckets;
 #[path = "parts.rs"]
 mod parts;
+#[path = "triangle.rs"]
+#[allow(dead_code)]
+mod triangle;
 
 use azulejo::SurfaceSamples;
 use azulejo::mesh::Mesh;
+use buckets::Buckets;
+use triangle::{has_area, normal};
 
 type Point = [f64; 3];
 
@@ -67,6 +74,17 @@ impl Field<'_> {
             Self::Function(_, slope) => least - slope * part.longest(),
         }
     }
+
+    /// No radius on the part is more.
+    fn largest(&self, mesh: &Mesh, part: &Part) -> f64 {
+        match self {
+            Self::PerVertex(_) => {
+                let radius = |(position, uv)| self.at(mesh, part.triangle, position, uv);
+                part.corners.map(radius).into_iter().fold(0.0, f64::max)
+            }
+            Self::Function(_, slope) => self.least(mesh, part) + 3.0 * slope * part.longest(),
+        }
+    }
 }
 
 impl Part {
@@ -97,14 +115,18 @@ pub fn wrong_radius(mesh: &Mesh, field: &Field, samples: &SurfaceSamples, radii:
 
 /// The first two samples found that are closer than the mean of their radii, unless their normals are too different.
 pub fn conflict(samples: &SurfaceSamples, radii: &[f64], cosine: f64) -> Option<(usize, usize)> {
-    let points: Vec<_> = samples.positions.iter().map(|&position| exact(position)).collect();
-    let normals = &samples.normals;
-    (0..points.len()).find_map(|i| {
-        let conflicts = |&j: &usize| {
-            distance(points[i], points[j]) < (radii[i] + radii[j]) / 2.0 && sees(normals[i], normals[j], cosine)
+    let (normals, largest) = (&samples.normals, largest(radii));
+    let buckets = Buckets::new(&samples.positions, 1.01 * largest);
+    buckets.all().iter().find_map(|&(i, point)| {
+        let conflicts = |&(j, other): &(usize, Point)| {
+            j < i && distance(point, other) < (radii[i] + radii[j]) / 2.0 && sees(normals[i], normals[j], cosine)
         };
-        (0..i).find(conflicts).map(|j| (j, i))
+        buckets.near(&[point], largest).into_iter().find(conflicts).map(|(j, _)| (j, i))
     })
+}
+
+fn largest(radii: &[f64]) -> f64 {
+    radii.iter().copied().fold(0.0, f64::max)
 }
 
 /// A point of the surface for which it could not be proved that a sample is nearer than the mean of the two radii, up to
@@ -131,12 +153,18 @@ pub fn gap_around(
     given: &[Ball],
 ) -> Option<Point> {
     let given: Vec<_> = given.iter().copied().filter(|given| given.1 > 0.0).collect();
-    (0..mesh.triangles().len() as u32).filter(|&triangle| mesh.triangle_area(triangle) > 0.0).find_map(|triangle| {
-        let normal = mesh.normal(triangle);
-        let seen = |&i: &usize| sees(samples.normals[i], normal, cosine);
-        let balls = (0..radii.len()).filter(seen).map(|i| (exact(samples.positions[i]), radii[i])).collect::<Vec<_>>();
+    let buckets = Buckets::new(&samples.positions, 2.0 * (largest(radii) + tolerance));
+    (0..mesh.triangles().len() as u32).filter(|&triangle| mesh.is_sampled(triangle)).find_map(|triangle| {
         let [a, b, c] = mesh.corners(triangle).map(exact);
+        if !has_area([a, b, c]) {
+            return None;
+        }
+        let normal = normal(mesh, triangle);
         let whole = Part { triangle, corners: [(a, [0.0, 0.0]), (b, [1.0, 0.0]), (c, [0.0, 1.0])] };
+        let reach = (field.largest(mesh, &whole) + largest(radii)) / 2.0 + tolerance;
+        let seen = |&(i, _): &(usize, Point)| sees(samples.normals[i], normal, cosine);
+        let near = buckets.near(&[a, b, c], reach).into_iter().filter(seen);
+        let balls = near.map(|(i, point)| (point, radii[i])).collect::<Vec<_>>();
         gap_in_part(mesh, field, &whole, &balls, &given, tolerance)
     })
 }
@@ -169,14 +197,7 @@ fn gap_in_part(
     if longest < tolerance / 100.0 {
         return Some(corner);
     }
-    // A sample reaches a point whose radius is at most that of a corner and what it changes on the way.
-    let largest = match field {
-        Field::PerVertex(_) => {
-            let radius = |(position, uv)| field.at(mesh, part.triangle, position, uv);
-            part.corners.map(radius).into_iter().fold(0.0, f64::max)
-        }
-        Field::Function(_, slope) => least + 3.0 * slope * longest,
-    };
+    let largest = field.largest(mesh, part);
     let near = |&&(centre, radius): &&Ball| distance(corner, centre) <= (largest + radius) / 2.0 + longest + tolerance;
     let near: Vec<_> = balls.iter().filter(near).copied().collect();
     let reaches = |given: &&Ball| distance(corner, given.0) <= given.1 + longest + tolerance;

@@ -6,24 +6,19 @@ mod surface_oracle;
 #[path = "tolerance.rs"]
 mod tolerance;
 
-use azulejo::analysis::coverage::surface_covering_radius;
 use azulejo::mesh::Mesh;
-use azulejo::{Context, Order, SurfaceSamples};
+use azulejo::{Order, SurfaceSamples};
+pub use surface_oracle::conflict;
 use tolerance::tolerance;
 
 pub fn distance(a: [f32; 3], b: [f32; 3]) -> f64 {
     (0..3).map(|axis| (f64::from(a[axis]) - f64::from(b[axis])).powi(2)).sum::<f64>().sqrt()
 }
 
-/// Whether every place of a mesh is within a distance of one of the positions: by the naive oracle on few triangles, and by
-/// the library's own measurement on many.
+/// Whether every place of a mesh is within a distance of one of the positions.
 pub fn covers(mesh: &Mesh, positions: &[[f32; 3]], within: f64) -> bool {
-    if mesh.triangles().len() < 100 {
-        let samples = SurfaceSamples { positions: positions.to_vec(), ..SurfaceSamples::default() };
-        return surface_oracle::gap(mesh, &samples, within, tolerance(mesh)).is_none();
-    }
-    let radius = surface_covering_radius(&Context::new(1).unwrap(), mesh, positions, None).unwrap();
-    radius <= within + tolerance(mesh)
+    let samples = SurfaceSamples { positions: positions.to_vec(), ..SurfaceSamples::default() };
+    surface_oracle::gap(mesh, &samples, within, tolerance(mesh)).is_none()
 }
 
 /// The largest ratio of the covering radius to the last rank that a prefix may have. Ranks are rounded down.

@@ -1,14 +1,19 @@
 //! What a set of samples on a mesh owes, checked in the plainest way: all that is used of the library are the corners of
-//! triangles and the mask. Buckets bring only what is near to a place, so that large sets can be checked, too.
+//! triangles and the mask.
 
+#[path = "buckets.rs"]
+mod buckets;
 #[path = "parts.rs"]
 mod parts;
-
-use std::collections::HashMap;
+#[path = "triangle.rs"]
+#[allow(dead_code)]
+mod triangle;
 
 use azulejo::SurfaceSamples;
 use azulejo::mesh::Mesh;
+use buckets::Buckets;
 use parts::parts;
+use triangle::{has_area, is_normal};
 
 type Point = [f64; 3];
 
@@ -24,77 +29,23 @@ fn middle(a: Point, b: Point) -> Point {
     std::array::from_fn(|axis| (a[axis] + b[axis]) / 2.0)
 }
 
-/// Points by the cubes of a grid that they are in.
-struct Buckets {
-    side: f64,
-    cubes: HashMap<[i64; 3], Vec<(usize, Point)>>,
-    all: Vec<(usize, Point)>,
-}
-
-impl Buckets {
-    fn new(samples: &SurfaceSamples, side: f64) -> Self {
-        let all: Vec<_> = samples.positions.iter().map(|&position| exact(position)).enumerate().collect();
-        let mut buckets = Self { side, cubes: HashMap::new(), all: all.clone() };
-        for (index, point) in all {
-            buckets.cubes.entry(buckets.cube(point)).or_default().push((index, point));
-        }
-        buckets
-    }
-
-    fn cube(&self, point: Point) -> [i64; 3] {
-        point.map(|x| (x / self.side).floor() as i64)
-    }
-
-    /// All points of a box, and some around it.
-    fn near(&self, low: Point, high: Point) -> Vec<(usize, Point)> {
-        let [low, high] = [self.cube(low), self.cube(high)];
-        if (0..3).map(|axis| (high[axis] as f64) - (low[axis] as f64) + 1.0).product::<f64>() > self.cubes.len() as f64
-        {
-            return self.all.clone();
-        }
-        let cubes = (low[0]..=high[0])
-            .flat_map(|x| (low[1]..=high[1]).flat_map(move |y| (low[2]..=high[2]).map(move |z| [x, y, z])));
-        cubes.filter_map(|cube| self.cubes.get(&cube)).flatten().copied().collect()
-    }
-}
-
 /// The first two samples found that are closer than the radius.
 pub fn conflict(samples: &SurfaceSamples, radius: f64) -> Option<(usize, usize)> {
-    let buckets = Buckets::new(samples, 1.01 * radius);
-    let reach = |point: Point, by: f64| point.map(|x| x + by);
-    buckets.all.iter().find_map(|&(i, point)| {
-        let near = buckets.near(reach(point, -1.001 * radius), reach(point, 1.001 * radius));
-        near.into_iter().find(|&(j, other)| j < i && distance(point, other) < radius).map(|(j, _)| (j, i))
+    let buckets = Buckets::new(&samples.positions, 1.01 * radius);
+    buckets.all().iter().find_map(|&(i, point)| {
+        let mut near = buckets.near(&[point], radius).into_iter();
+        near.find(|&(j, other)| j < i && distance(point, other) < radius).map(|(j, _)| (j, i))
     })
 }
 
 /// A point of the surface for which it could not be proved that a sample is within the radius, up to a tolerance.
 pub fn gap(mesh: &Mesh, samples: &SurfaceSamples, radius: f64, tolerance: f64) -> Option<Point> {
     let reach = radius + tolerance;
-    let buckets = Buckets::new(samples, 2.0 * reach);
+    let buckets = Buckets::new(&samples.positions, 2.0 * reach);
     (0..mesh.triangles().len() as u32).filter(|&triangle| mesh.is_sampled(triangle)).find_map(|triangle| {
         let corners = mesh.corners(triangle).map(exact);
-        let bound = |pick: fn(f64, f64) -> f64, by: f64| -> Point {
-            std::array::from_fn(|axis| corners.map(|corner| corner[axis]).into_iter().reduce(pick).unwrap() + by)
-        };
-        let near = buckets.near(bound(f64::min, -1.001 * reach), bound(f64::max, 1.001 * reach));
-        let near: Vec<Point> = near.into_iter().map(|(_, point)| point).collect();
+        let near: Vec<Point> = buckets.near(&corners, reach).into_iter().map(|(_, point)| point).collect();
         has_area(corners).then(|| gap_in_part(corners, &near, reach, tolerance / 100.0)).flatten()
-    })
-}
-
-/// Whether a triangle is more than a segment, up to the rounding of its area.
-fn has_area(corners: [Point; 3]) -> bool {
-    let longest = (0..3).map(|i| distance(corners[i], corners[(i + 1) % 3])).fold(0.0, f64::max);
-    distance(cross(corners), [0.0; 3]) > 1e-14 * longest * longest
-}
-
-/// The vector product of two edges.
-fn cross([a, b, c]: [Point; 3]) -> Point {
-    let [ab, ac] = [b, c].map(|corner| -> Point { std::array::from_fn(|axis| corner[axis] - a[axis]) });
-    std::array::from_fn(|axis| {
-        let (next, last) = ((axis + 1) % 3, (axis + 2) % 3);
-        ab[next] * ac[last] - ab[last] * ac[next]
     })
 }
 
@@ -123,10 +74,7 @@ pub fn misplaced(mesh: &Mesh, samples: &SurfaceSamples) -> Option<usize> {
         let [u, v] = samples.barycentrics[i].map(f64::from);
         let expected: [f32; 3] =
             std::array::from_fn(|axis| ((1.0 - u - v) * a[axis] + u * b[axis] + v * c[axis]) as f32);
-        let cross = cross([a, b, c]);
-        let length = distance(cross, [0.0; 3]);
-        let normal = exact(samples.normals[i]);
-        let turned = (0..3).any(|axis| (normal[axis] - cross[axis] / length).abs() > 1e-6);
+        let turned = !is_normal([a, b, c], samples.normals[i]);
         samples.positions[i] != expected || !(u >= 0.0 && v >= 0.0 && u + v <= 1.0) || turned
     })
 }

@@ -240,6 +240,30 @@ mod tests {
         (0..2).map(|part| (sum[part] - weight / all * mean[part]).powi(2)).sum::<f64>() / energy
     }
 
+    /// Of a lattice it leaves its peaks, of a set twice over twice the power, and one point that is moved shows.
+    #[test]
+    fn the_double_loop_is_that_of_known_sets() {
+        for boundary in [Boundary::Periodic, Boundary::Bounded] {
+            let domain = Domain { min: [3.0, -1.0], max: [5.0, 7.0], boundary };
+            let at = |i: usize| [3.0 + (i % 16) as f32 / 8.0 + 0.0625, -1.0 + (i / 16) as f32 / 2.0 + 0.25];
+            let mut lattice: Vec<_> = (0..256).map(at).collect();
+            let low = |points: &[[f32; 2]]| double_loop(&domain, points, 3.0, 5.0);
+            // Of a periodic set all is in the peak; tapered, the square of the mean weight over its mean square.
+            let share = if boundary == Boundary::Periodic { 1.0 } else { (PI / 12.0).powi(2) / (PI / 20.0) };
+            let peak = double_loop(&domain, &lattice, 16.0, 0.0) / 256.0;
+            assert!((peak / share - 1.0).abs() < 0.01, "{boundary:?}: {peak}, not {share}");
+            assert!(low(&lattice) < 1e-4, "{boundary:?}: {}", low(&lattice));
+            let points = random_points(5, 80, &domain);
+            let twice = [&points[..], &points].concat();
+            for (column, row) in [(1.0, 0.0), (3.0, 5.0), (-7.0, 2.0)] {
+                let [once, twice] = [&points, &twice].map(|points| double_loop(&domain, points, column, row));
+                assert!((twice / once - 2.0).abs() < 1e-9, "{boundary:?}: {once}, {twice}");
+            }
+            lattice[120] = [4.1, 2.8];
+            assert!(low(&lattice) > 1e-3, "{boundary:?}: {}", low(&lattice));
+        }
+    }
+
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(24))]
         #[test]

@@ -207,27 +207,40 @@ impl Relaxation for DensityRelaxation {
         self.order.leave(&self.torus, &self.places, points)
     }
 
-    /// The smallest distance over the mean spacing of the two points. The spacing grows by no more than the distance,
-    /// so of two points the one with the smaller spacing finds the other within twice that.
+    /// The smallest distance over the mean spacing of the two points. The spacing grows by no more than half of the distance,
+    /// so of two points whose ratio is at most 4/3 the one with the smaller spacing finds the other within twice that. Where
+    /// all are farther apart, as a few points in a strip, the largest of all spacings tells how far to search.
     fn relative_spacing(&self, job: &Job, points: &[[f32; 2]]) -> Result<Option<f64>> {
+        if points.len() < 2 {
+            return Ok(Some(f64::INFINITY));
+        }
         let unit = self.torus.frame.spacing();
         let position = |point: &[f32; 2]| point.map(f64::from);
         let entered = self.torus.enter(points, 0);
         let spacings: Vec<f64> = entered.iter().map(|&place| unit * f64::from(self.raster.spacing(place))).collect();
+        let widest = spacings.iter().copied().fold(0.0, f64::max);
         let grid = Grid2::new(self.domain, points.iter().map(position), unit);
         let chunks = chunks(points.len());
-        let least = job.map(chunks.len(), |chunk| {
-            let mut least = f64::INFINITY;
-            for i in chunks.range(chunk) {
-                grid.for_each_within(position(&points[i]), 2.0 * spacings[i], |j, _, squared| {
-                    if j as usize != i {
-                        least = least.min(squared.sqrt() / (0.5 * (spacings[i] + spacings[j as usize])));
-                    }
-                });
-            }
-            least
-        })?;
-        Ok(Some(least.into_iter().fold(f64::INFINITY, f64::min)))
+        let least_within = |reach: &(dyn Fn(f64) -> f64 + Sync)| {
+            let least = job.map(chunks.len(), |chunk| {
+                let mut least = f64::INFINITY;
+                for i in chunks.range(chunk) {
+                    grid.for_each_within(position(&points[i]), reach(spacings[i]), |j, _, squared| {
+                        if j as usize != i {
+                            least = least.min(squared.sqrt() / (0.5 * (spacings[i] + spacings[j as usize])));
+                        }
+                    });
+                }
+                least
+            })?;
+            Ok(least.into_iter().fold(f64::INFINITY, f64::min))
+        };
+        let (mut bound, mut least) = (4.0 / 3.0, least_within(&|spacing| 2.0 * spacing)?);
+        while least > bound {
+            bound *= 2.0;
+            least = least_within(&|spacing| 0.5 * bound * (spacing + widest))?;
+        }
+        Ok(Some(least * self.torus.frame.in_d_max()))
     }
 
     /// The largest circumradius in units of what the density at its centre asks for.
@@ -236,6 +249,6 @@ impl Relaxation for DensityRelaxation {
         let relative =
             |(centre, radius): (DVec2, f64)| radius * f64::from(self.raster.density(self.torus.place(centre))).sqrt();
         let largest = delaunay.circumcircles().map(relative).fold(0.0, f64::max);
-        Ok(largest * self.domain.hexagonal_distance(self.order.len()))
+        Ok(largest * self.torus.frame.in_d_max() * self.domain.hexagonal_distance(self.order.len()))
     }
 }

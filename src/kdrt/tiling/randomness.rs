@@ -56,15 +56,16 @@ fn figures_of_planes(fixed: Fixed) -> Figures {
     })
 }
 
+/// Powers are about exponentially distributed. The contrast of a set, of 320,000 of them, has therefore a standard error of 2 /
+/// sqrt(320,000), which is 0.0036; the mean of six 0.0015, and the difference of two means 0.0021. The largest of the 58
+/// harmonics' means of six exceeds 3.05 once in 67 times.
 #[test]
 fn with_both_randomnesses_a_plane_is_like_the_unbiased_reference() {
-    let reference = figures(maximal::sample_lattice);
-    assert!((reference.contrast - 1.0).abs() < 0.02, "{reference:?}");
-    let tiling = figures_of_planes(Fixed::Nothing);
-    assert!(
-        (tiling.contrast - reference.contrast).abs() < 0.02 && tiling.peak < 1.3 * reference.peak,
-        "{tiling:?} {reference:?}"
-    );
+    let (reference, tiling) = (figures(maximal::sample_lattice), figures_of_planes(Fixed::Nothing));
+    // Four standard errors; and two of them above the 0.004 by which the pattern's repetition raises the contrast.
+    assert!((reference.contrast - 1.0).abs() < 0.006, "{reference:?}");
+    assert!((tiling.contrast - reference.contrast).abs() < 0.008, "{tiling:?} {reference:?}");
+    assert!(reference.peak < 3.05 && tiling.peak < 3.05, "{tiling:?} {reference:?}");
 }
 
 #[test]
