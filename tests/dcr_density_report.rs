@@ -115,8 +115,10 @@ fn circumcircle(a: Place, b: Place, c: Place) -> Option<(Place, f64)> {
     radius.is_finite().then_some(([a[0] + offset[0], a[1] + offset[1]], radius))
 }
 
+type NamedDensity = (&'static str, fn(Place) -> f64);
+
 /// Densities without details that are lost; the last one is 0 in places, where the increase of the spacing is limited.
-const DENSITIES: [(&str, fn(Place) -> f64); 4] = [
+const DENSITIES: [NamedDensity; 4] = [
     ("constant", |_| 7.0),
     ("wave", |[x, _]| 2.0 + (x * std::f64::consts::TAU).sin()),
     ("hill", |[x, y]| 0.05 + ((x * std::f64::consts::PI).sin() * (y * std::f64::consts::PI).sin()).powi(4)),

@@ -75,6 +75,34 @@ fn run(options: &Options, points: &[[f32; 2]]) -> Report {
 }
 
 #[test]
+fn the_oracle_of_reports_notices_points_that_are_missing_or_moved_and_figures_that_are_not_true() {
+    for boundary in BOUNDARIES {
+        let options = Options::new(unit_square(boundary), Neighbourhood::Delaunay);
+        let start = points(|_, _, place| place, &options.domain, 300);
+        let (relaxed, report) = relax(&Context::new(1).unwrap(), &options, &start, None).unwrap();
+        let fault = |points: &[[f32; 2]], report: &Report| relaxed::fault(&options.domain, points, report);
+        assert_eq!(fault(&relaxed, &report), None);
+        for index in 0..relaxed.len() {
+            let mut fewer = relaxed.clone();
+            fewer.remove(index);
+            let mut moved = relaxed.clone();
+            moved[index] = relaxed[(index + 1) % relaxed.len()].map(|x| 0.5 * (x + 0.5));
+            assert!(fault(&fewer, &report).is_some() && fault(&moved, &report).is_some(), "{boundary:?}, {index}");
+        }
+        for factor in [0.99999, 1.00001] {
+            let scaled = |change: &dyn Fn(&mut Report)| {
+                let mut report = report;
+                change(&mut report);
+                fault(&relaxed, &report)
+            };
+            assert!(scaled(&|report| report.rho *= factor).is_some());
+            assert!(scaled(&|report| report.smallest_distance *= factor).is_some());
+            assert!(scaled(&|report| report.coverage *= factor).is_some());
+        }
+    }
+}
+
+#[test]
 fn any_start_reaches_what_a_random_one_does() {
     for boundary in BOUNDARIES {
         for neighbourhood in NEIGHBOURHOODS {

@@ -1,9 +1,6 @@
 //! Sets of a hundred thousand samples on a mesh, which are filled by many cubes on several threads: maximal by proof, not by
 //! random probes.
 
-#[path = "common/adaptive_oracle.rs"]
-#[allow(dead_code)]
-mod adaptive_oracle;
 #[path = "common/meshes.rs"]
 #[allow(dead_code)]
 mod meshes;
@@ -14,9 +11,7 @@ mod tolerance;
 
 use std::sync::Arc;
 
-use adaptive_oracle::Field;
 use azulejo::mesh::Mesh;
-use azulejo::psp::adaptive::{self, Radius};
 use azulejo::{Context, SurfaceSamples, psp};
 use tolerance::tolerance;
 
@@ -80,26 +75,4 @@ fn a_hundred_thousand_samples_of_a_soup_leave_no_gap() {
     assert_eq!(oracle::gap(&mesh, &samples, radius, tolerance(&mesh)), None);
     samples.positions.pop();
     assert!(oracle::gap(&mesh, &samples, radius, tolerance(&mesh)).is_some());
-}
-
-#[test]
-fn a_hundred_thousand_samples_whose_radii_vary_leave_no_gap() {
-    let mesh = torus();
-    let (low, high) = mesh.bounds();
-    let radius = |position: &[f32; 3]| 0.007 + 0.006 * (position[0] - low[0]) / (high[0] - low[0]);
-    let radii: Vec<f32> = mesh.positions().iter().map(radius).collect();
-    let options = adaptive::Options::new(Radius::PerVertex(&radii));
-    let (set, _) = adaptive::sample(&Context::new(2).unwrap(), &mesh, &options, None).unwrap();
-    let (mut samples, field) = (set.samples, Field::PerVertex(&radii));
-    assert!(samples.len() > 100_000, "{}", samples.len());
-    assert_eq!(oracle::misplaced(&mesh, &samples), None);
-    assert_eq!(adaptive_oracle::wrong_radius(&mesh, &field, &samples, &set.radii), None);
-    assert_eq!(adaptive_oracle::conflict(&samples, &set.radii, -1.0), None);
-    // The radius changes by less than a hundredth of the way.
-    let tolerance = 1.01 * tolerance(&mesh);
-    let gap = |samples: &SurfaceSamples| adaptive_oracle::gap(&mesh, &field, samples, &set.radii, -1.0, tolerance);
-    assert_eq!(gap(&samples), None);
-    samples.positions[1] = samples.positions[0].map(|x| x + 0.001);
-    assert!(adaptive_oracle::conflict(&samples, &set.radii, -1.0).is_some());
-    assert!(gap(&samples).is_some());
 }
