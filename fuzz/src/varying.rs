@@ -6,6 +6,7 @@ use std::ptr::null_mut;
 
 use azulejo_c::adaptive::*;
 use azulejo_c::mesh::*;
+use azulejo_c::thin::AZULEJO_ORDER_ANY;
 
 use crate::calls::{Arrays, Out, check_distances, context, create};
 use crate::coverage::{Ball, Field, uncovered};
@@ -62,7 +63,6 @@ pub(crate) fn adaptive(mesh: &azulejo_mesh, corners: &Corners, radius: f64, give
     let by_vertex = input.one_in(2);
     let options = azulejo_psp_adaptive_options {
         struct_size: size_of::<azulejo_psp_adaptive_options>() as u32,
-        reserved: 0,
         vertex_radii: if by_vertex { radii.as_ptr() } else { std::ptr::null() },
         vertex_count: if by_vertex { radii.len() } else { 0 },
         radius: (!by_vertex).then_some(radius_at),
@@ -77,6 +77,9 @@ pub(crate) fn adaptive(mesh: &azulejo_mesh, corners: &Corners, radius: f64, give
         given_positions: given.positions.as_ptr().cast(),
         given_clearances: given.clearances.as_ref().map_or(std::ptr::null(), |clearances| clearances.as_ptr()),
         given_count: given.positions.len(),
+        // Refused are other orders, and a quotient of no order.
+        order: if input.one_in(4) { input.below(3) } else { AZULEJO_ORDER_ANY },
+        quotient: if input.one_in(4) { [1.5, 1.3, input.number()][input.below(3) as usize] } else { 0.0 },
     };
     // SAFETY: the options are of the size that they say, and so is the array.
     let call = |out: Out<_>| unsafe { azulejo_psp_adaptive_sample(context(), Some(mesh), &options, out, null_mut()) };
