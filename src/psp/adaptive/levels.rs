@@ -71,7 +71,7 @@ impl Levelled for ScaledSurface<'_> {
     }
 }
 
-/// A set in progressive order: with all radii of the caller, or with the density and the scale that he asks for.
+/// A set in progressive order: at the radii of the options, or at their density and its scale.
 pub(super) fn ordered(
     job: &Job,
     mesh: &Mesh,

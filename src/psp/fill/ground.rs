@@ -312,7 +312,7 @@ impl Ground for UniformGround<'_> {
             let [a, b, c] = self.grid.space.places(corners[index]);
             let [u, v] = points[index].barycentrics.map(|x| x as f32);
             let place = [0, 1, 2].map(|axis| a[axis] + (u * (b[axis] - a[axis]) + v * (c[axis] - a[axis])));
-            // Without a branch, since nobody can predict it.
+            // Without a branch, which would be mispredicted.
             points[kept] = points[index];
             corners[kept] = corners[index];
             kept += usize::from(!self.grid.is_seen_within(place, self.surely_conflicting));
