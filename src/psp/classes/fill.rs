@@ -82,7 +82,7 @@ impl<'a> Group<'a> {
         let Places { mesh, measures, .. } = self.places;
         let radius_of_cubes = self.radius.max(self.layers.largest() / LARGEST);
         let mut set = SampleSet::of(mesh, radius_of_cubes, samples);
-        let blocks = Blocks::new(&job.part(0.0, 0.1), mesh, measures.triangles(), &set)?;
+        let blocks = Blocks::new(&job.part(0.0, 0.1), mesh, measures, &set)?;
         let darts =
             set.grow(&job.part(0.1, 1.0), &blocks.cubes, |number, set| self.fill_block(&blocks.block(number), set))?;
         *samples = set.into_samples();
@@ -149,10 +149,16 @@ impl<'a> Group<'a> {
                 |triangle: u32, class: u8| Point { triangle, barycentrics: random_point(&mut rng), local: class };
             throw(ground, darts.iter().map(|&(triangle, class)| point(triangle, class)));
         }
+        let balls = measures.balls(mesh, self.radius);
         // Class by class: what is looked at together is mostly of one.
         let mut open: Vec<Open<u8>> = self.members.iter().map(|_| Open::default()).collect();
         let in_chunk = |chunk: usize| -> Vec<Open<u8>> {
-            self.members.iter().map(|&class| self.open_of(ground, class, triangles, chunks.range(chunk), &[])).collect()
+            let open_to = |&class: &u8| {
+                let own = ground.own(class);
+                let left = |&group: &usize| balls.is_none_or(|balls| !own.covers(&balls[group]));
+                self.open_of(ground, class, triangles, chunks.range(chunk).filter(left), &[])
+            };
+            self.members.iter().map(open_to).collect()
         };
         job.part(0.2, 0.5).stream(chunks.len(), in_chunk, |mut part| {
             open.iter_mut().zip(&mut part).for_each(|(open, part)| open.append(part));
@@ -203,7 +209,7 @@ impl<'a> Group<'a> {
         ground: &ClassGround,
         class: u8,
         triangles: Triangles,
-        groups: std::ops::Range<usize>,
+        groups: impl Iterator<Item = usize>,
         pieces: &[Fragment],
     ) -> Open<u8> {
         let own = ground.own(class);

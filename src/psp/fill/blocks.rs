@@ -14,7 +14,7 @@ use crate::psp::cubes::{Cube, Numbers, SIDE};
 use crate::psp::fill::extent::Extent;
 use crate::psp::fill::region::{Items, parts_up_to};
 use crate::psp::fill::rounds::PATCH;
-use crate::psp::fill::triangles::Triangles;
+use crate::psp::fill::triangles::{GROUP, Measures, Triangles};
 use crate::psp::fragment::Fragment;
 use crate::psp::pieces::slice;
 use crate::psp::samples::SampleSet;
@@ -51,9 +51,9 @@ struct Chunk {
 }
 
 impl Blocks {
-    pub fn new(job: &Job, mesh: &Mesh, triangles: Triangles, samples: &SampleSet) -> Result<Self> {
-        let chunks = chunks_of(triangles.groups(), CHUNK);
-        let chunks = job.map(chunks.len(), |chunk| Chunk::new(mesh, triangles, chunks.range(chunk), samples))?;
+    pub fn new(job: &Job, mesh: &Mesh, measures: &Measures, samples: &SampleSet) -> Result<Self> {
+        let chunks = chunks_of(measures.triangles().groups(), CHUNK);
+        let chunks = job.map(chunks.len(), |chunk| Chunk::new(mesh, measures, chunks.range(chunk), samples))?;
         let (mut numbers, mut extents, mut parts) = (Numbers::new(), Vec::new(), Vec::new());
         for (chunk, part) in (0..).zip(&chunks) {
             for ((number, &cube), extent) in (0..).zip(&part.cubes).zip(&part.extents) {
@@ -86,18 +86,22 @@ impl Block {
 }
 
 impl Chunk {
-    fn new(mesh: &Mesh, triangles: Triangles, groups: std::ops::Range<usize>, samples: &SampleSet) -> Self {
+    fn new(mesh: &Mesh, measures: &Measures, groups: std::ops::Range<usize>, samples: &SampleSet) -> Self {
         let (mut numbers, mut extents) = (Numbers::new(), Vec::new());
         let (mut whole, mut pieces, mut slices) = (Vec::new(), Vec::new(), Vec::new());
         let mut place = |point: DVec3, corners: [[f32; 3]; 3]| {
             let number = numbers.of(samples.cube(point.to_array()));
-            extents.resize(numbers.cubes.len(), Extent::EMPTY);
+            if number == extents.len() {
+                extents.push(Extent::EMPTY);
+            }
             corners.into_iter().for_each(|corner| extents[number].add(corner));
             number as u32
         };
-        let longest = LONGEST * samples.radius();
+        let (triangles, longest) = (measures.triangles(), LONGEST * samples.radius());
+        let cuts = measures.longest() > longest;
         for group in groups {
-            let (areas, lengths) = triangles.measure(mesh, group);
+            // Where nothing is cut no size is needed: triangles without area are left out later.
+            let (areas, lengths) = if cuts { triangles.measure(mesh, group) } else { ([1.0; GROUP], [0.0; GROUP]) };
             for (lane, index) in triangles.group(group).enumerate().filter(|&(lane, _)| areas[lane] > 0.0) {
                 let triangle = triangles.at(index);
                 if lengths[lane] <= longest * longest {

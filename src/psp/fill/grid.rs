@@ -94,6 +94,13 @@ impl Grid {
         vectors::near(self.level, &self.pages[page as usize], place, limit) != 0
     }
 
+    /// Whether a place is seen to be no farther from a sample than the square root of `limit`.
+    pub fn is_within(&self, place: Place, limit: f32) -> bool {
+        self.any_page(self.space.cell(place), |number| {
+            vectors::near(self.level, &self.pages[number], place, limit) != 0
+        })
+    }
+
     /// The distance of a place on a triangle with this normal to the nearest sample, or `reach` where none is nearer: at
     /// most twice the radius, in the unit of places.
     pub fn distance(&self, place: Place, normal: [f32; 3], reach: f64) -> f64 {

@@ -8,6 +8,7 @@ use glam::DVec3;
 
 use crate::mesh::{Mesh, round_barycentrics, rounded_down};
 use crate::psp::facing::{Facing, NO_NORMAL};
+use crate::psp::fill::balls::Ball;
 use crate::psp::fill::cells::Cells;
 use crate::psp::fill::extent::Extent;
 use crate::psp::fill::grid::Grid;
@@ -181,6 +182,13 @@ impl<'a> UniformGround<'a> {
             || self.obstacles.reject(dart.position)
     }
 
+    /// Whether one sample certainly covers a ball, whatever lies in it.
+    pub fn covers(&self, ball: &Ball) -> bool {
+        let within = self.grid.space.radius() - f64::from(ball.radius) * f64::from(self.grid.space.scale());
+        let (place, limit) = (self.grid.space.place(ball.centre), Space::within(within * within));
+        within > 0.0 && !self.facing.asks_normals() && self.grid.is_within(place, limit)
+    }
+
     /// Which of a group of triangles no single sample certainly covers: a bit for each.
     pub fn open_triangles(&self, group: &mut Group, count: usize, triangle: impl Fn(usize) -> u32) -> u64 {
         let open = self.grid.open_triangles(group, count, |lane| self.normal(triangle(lane)));
@@ -239,8 +247,7 @@ impl<'a> UniformGround<'a> {
         part: [[f64; 2]; 3],
         (area, longest): (f32, f32),
     ) -> Option<Patch> {
-        let (e, f) = (b - a, c - a);
-        let [p, q, r] = part;
+        let ([p, q, r], e, f) = (part, b - a, c - a);
         let at = |[s, t]: [f64; 2]| a + (s * e + t * f);
         let longest_edge = f64::from(longest) / self.per_radius;
         let open = self.uncovered(fragment.triangle, &[at(p), at(q), at(r)], longest_edge, u16::MAX);

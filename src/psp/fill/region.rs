@@ -86,21 +86,28 @@ pub(in crate::psp) fn throw_first(ground: &mut UniformGround, items: Items, row:
 pub(in crate::psp) fn open_triangles(
     ground: &UniformGround,
     triangles: Triangles,
-    groups: std::ops::Range<usize>,
+    groups: impl Iterator<Item = usize>,
 ) -> Open {
-    let (mut open, mut lanes, space) = (Open::default(), Group::EMPTY, ground.grid.space);
-    let all = triangles.indices(groups);
-    for start in all.clone().step_by(GROUP) {
-        let range = start..(start + GROUP).min(all.end);
-        for (lane, index) in range.clone().enumerate() {
-            lanes.triangles[lane] = space.places(ground.mesh.corners(triangles.at(index)));
-        }
-        let triangle = |lane| triangles.at(range.start + lane);
-        let mut uncovered = ground.open_triangles(&mut lanes, range.len(), triangle);
+    let (mut open, mut lanes, mut numbers, space) = (Open::default(), Group::EMPTY, [0; GROUP], ground.grid.space);
+    let mut count = 0;
+    let mut look = |lanes: &mut Group, numbers: &[u32]| {
+        let mut uncovered = ground.open_triangles(lanes, numbers.len(), |lane| numbers[lane]);
         while uncovered != 0 {
-            add(ground, triangle(uncovered.trailing_zeros() as usize), &mut open);
+            add(ground, numbers[uncovered.trailing_zeros() as usize], &mut open);
             uncovered &= uncovered - 1;
         }
+    };
+    for index in groups.flat_map(|group| triangles.group(group)) {
+        numbers[count] = triangles.at(index);
+        lanes.triangles[count] = space.places(ground.mesh.corners(numbers[count]));
+        count += 1;
+        if count == GROUP {
+            look(&mut lanes, &numbers);
+            count = 0;
+        }
+    }
+    if count > 0 {
+        look(&mut lanes, &numbers[..count]);
     }
     open
 }

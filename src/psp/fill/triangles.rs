@@ -3,9 +3,19 @@
 use std::ops::Range;
 
 use crate::mesh::Mesh;
+use crate::psp::estimate::expected_samples;
+use crate::psp::fill::balls::{Ball, Balls};
+use crate::psp::fill::vectors;
+use crate::simd::Level;
 
 /// Triangles in a group. Of smaller groups more stay dry when the first darts fall; larger ones need less memory.
-const GROUP: usize = 16;
+pub(in crate::psp) const GROUP: usize = 16;
+
+/// So many groups for each expected sample are worth balls around them.
+const GROUPS_PER_SAMPLE: f64 = 2.0;
+
+/// The areas of a group of triangles, and the squares of their longest edges.
+pub(in crate::psp) type Sizes = ([f64; GROUP], [f64; GROUP]);
 
 /// Some triangles of a mesh.
 #[derive(Clone, Copy)]
@@ -49,7 +59,13 @@ impl Triangles<'_> {
     }
 
     /// The areas of a group, and the squares of the longest edges; zero behind its end.
-    pub fn measure(self, mesh: &Mesh, group: usize) -> ([f64; GROUP], [f64; GROUP]) {
+    pub fn measure(self, mesh: &Mesh, group: usize) -> Sizes {
+        vectors::measure(Level::widest(), self, mesh, group)
+    }
+
+    /// The same without vectors.
+    #[inline(always)]
+    pub(super) fn measure_portable(self, mesh: &Mesh, group: usize) -> Sizes {
         let mut edges = [[[0.0f64; GROUP]; 3]; 2];
         for (lane, index) in self.group(group).enumerate() {
             let [a, b, c] = mesh.corners(self.at(index));
@@ -81,14 +97,15 @@ pub(in crate::psp) struct Measures {
     pub areas: Vec<f64>,
     /// How many triangles have a longest edge up to a length, and above the length before it.
     lengths: Vec<(f64, u32)>,
+    balls: Balls,
 }
 
 impl Measures {
     pub fn of(mesh: &Mesh) -> Self {
         let count = mesh.sampled_triangles().count();
         let sampled = (count < mesh.triangles().len()).then(|| mesh.sampled_triangles().collect());
-        let mut measures =
-            Self { sampled, count, areas: Vec::with_capacity(count.div_ceil(GROUP)), lengths: Vec::new() };
+        let areas = Vec::with_capacity(count.div_ceil(GROUP));
+        let mut measures = Self { sampled, count, areas, lengths: Vec::new(), balls: Balls::default() };
         // By the exponents of their squares, half an octave each.
         let mut counts = vec![0u32; 1 << 11];
         for group in 0..measures.triangles().groups() {
@@ -105,6 +122,17 @@ impl Measures {
     /// The triangles that are to be sampled.
     pub fn triangles(&self) -> Triangles<'_> {
         self.sampled.as_deref().map_or(Triangles::All(self.count), Triangles::Listed)
+    }
+
+    /// A length that no edge exceeds: at most sqrt(2) times too much.
+    pub fn longest(&self) -> f64 {
+        self.lengths.last().map_or(0.0, |&(end, _)| end)
+    }
+
+    /// A ball around each group, for a pass at a radius: where a few groups fit into a sample's ball.
+    pub fn balls(&self, mesh: &Mesh, radius: f64) -> Option<&[Ball]> {
+        let groups_per_sample = self.areas.len() as f64 / expected_samples(mesh, self, radius);
+        if groups_per_sample < GROUPS_PER_SAMPLE { None } else { self.balls.get(mesh, self.triangles()) }
     }
 
     /// The sum of the longest edges of all triangles that are longer than a length; at most sqrt(2) times too much.
@@ -136,12 +164,16 @@ mod tests {
             );
             for (group, triangles) in triangles.chunks(GROUP).enumerate() {
                 let (areas, longest) = measures.triangles().measure(&mesh, group);
+                let at = |level| vectors::measure(level, measures.triangles(), &mesh, group);
+                assert!(Level::available().into_iter().all(|level| at(level) == (areas, longest)));
                 for (lane, &triangle) in triangles.iter().enumerate() {
                     assert!((areas[lane] / mesh.triangle_area(triangle) - 1.0).abs() < 1e-12);
                     assert!((longest[lane].sqrt() / longest_edge(&mesh, triangle) - 1.0).abs() < 1e-12);
                 }
                 assert!((measures.areas[group] / areas.iter().sum::<f64>() - 1.0).abs() < 1e-12);
             }
+            let longest = triangles.iter().map(|&triangle| longest_edge(&mesh, triangle)).fold(0.0, f64::max);
+            assert!((1.0..1.42).contains(&(measures.longest() / longest)));
             for length in [0.0, 1.0, 100.0, 1000.0] {
                 let longest = triangles.iter().map(|&triangle| longest_edge(&mesh, triangle));
                 let expected: f64 = longest.filter(|&longest| longest > length).sum();

@@ -2,9 +2,11 @@
 
 use std::arch::x86_64::*;
 
+use crate::mesh::Mesh;
 use crate::psp::fill::grid::{Cell, Grid};
 use crate::psp::fill::page::{Group, LANES, Page, REACH_SLACK, THIRD};
 use crate::psp::fill::space::{MASK, Place, ROUNDER};
+use crate::psp::fill::triangles::{Sizes, Triangles};
 use crate::psp::sixteenths::{CORNERS, Cover, PIERCING, PIERCING_BY_EDGE};
 
 /// The lanes of a vector.
@@ -87,6 +89,12 @@ pub fn covered_triangles(group: &Group, pages: &[Page], limit: f32) -> u64 {
         covered |= u64::from(nearer != 0) << lane;
     }
     covered
+}
+
+/// [`Triangles::measure`].
+#[target_feature(enable = "avx2")]
+pub fn measure(triangles: Triangles, mesh: &Mesh, group: usize) -> Sizes {
+    triangles.measure_portable(mesh, group)
 }
 
 /// One place in every lane.

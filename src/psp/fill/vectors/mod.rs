@@ -5,9 +5,11 @@
 
 use glam::DVec3;
 
+use crate::mesh::Mesh;
 use crate::psp::fill::grid::Grid;
 use crate::psp::fill::page::{Group, Page};
 use crate::psp::fill::space::Place;
+use crate::psp::fill::triangles::{Sizes, Triangles};
 use crate::simd::Level;
 
 #[cfg(target_arch = "x86_64")]
@@ -40,6 +42,20 @@ pub(super) fn covering(level: Level, page: &Page, corners: &[Place; 3], limit: f
         // SAFETY: the same.
         #[cfg(target_arch = "x86_64")]
         Level::Avx512(_) => unsafe { avx512::covering(page, corners, limit) },
+    }
+}
+
+/// [`Triangles::measure`]: the same code, for wider registers.
+#[inline]
+pub(super) fn measure(level: Level, triangles: Triangles, mesh: &Mesh, group: usize) -> Sizes {
+    match level {
+        Level::Portable => triangles.measure_portable(mesh, group),
+        // SAFETY: the token is proof that the processor has the instructions.
+        #[cfg(target_arch = "x86_64")]
+        Level::Avx2(_) => unsafe { avx2::measure(triangles, mesh, group) },
+        // SAFETY: the same.
+        #[cfg(target_arch = "x86_64")]
+        Level::Avx512(_) => unsafe { avx512::measure(triangles, mesh, group) },
     }
 }
 
