@@ -15,6 +15,12 @@ packages=(scipy==1.17.1 open3d==0.20.0 pymeshlab==2025.7.post1 point-cloud-utils
 blender=bpy==5.0.1
 
 [ -f "$mesh" ] || { echo "run.sh: there is no $mesh: run scripts/demo.sh or name a mesh" >&2; exit 1; }
+for library in libusb-1.0.so.0 libGL.so.1 libEGL.so.1; do
+    /sbin/ldconfig -p | grep "$library" >/dev/null || {
+        echo "run.sh: there is no $library: install libusb-1.0-0, libgl1 and libegl1" >&2
+        exit 1
+    }
+done
 for venv in venv blender; do
     [ -x $place/$venv/bin/python ] || python3 -m venv $place/$venv
 done

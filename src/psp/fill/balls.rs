@@ -1,10 +1,10 @@
 //! Balls around groups of triangles: where one sample covers the ball, a pass need not look at the triangles.
 //!
-//! They are kept with the mesh from its second pass on, which gains more by them than they cost. One pass alone would not.
-//! They help as far as triangles that follow each other lie together. What a pass finds open is the same without them.
+//! They are kept with the mesh from its second pass on, which gains more by them than they cost, if triangles that follow
+//! each other lie together. One pass alone would not. What a pass finds open is the same with them and without.
 
 use std::sync::OnceLock;
-use std::sync::atomic::{AtomicU32, Ordering};
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use glam::Vec3A;
 
@@ -18,23 +18,40 @@ pub(in crate::psp) struct Ball {
     pub radius: f32,
 }
 
+/// How many balls are looked at to see whether all are worth making, ...
+const PROBES: usize = 64;
+/// ... and which part of a sample's radius half of them may have at most.
+const LARGEST: f64 = 0.5;
+
 /// A ball around each group of the triangles of a mesh, once there are any.
 #[derive(Default)]
 pub(in crate::psp) struct Balls {
-    /// How many times they were asked for.
-    passes: AtomicU32,
+    /// Whether there was a pass.
+    is_second: AtomicBool,
+    /// Whether a thread makes them, or has made them.
+    is_begun: AtomicBool,
     made: OnceLock<Vec<Ball>>,
 }
 
 impl Balls {
-    /// The balls, by groups: none in the first pass. No thread waits while another one makes them.
-    pub fn get(&self, mesh: &Mesh, triangles: Triangles) -> Option<&[Ball]> {
-        if self.passes.fetch_add(1, Ordering::Relaxed) == 1 {
+    /// The balls, by groups, for a pass at a radius: none in the first one. No thread waits while another one makes them.
+    pub fn get(&self, mesh: &Mesh, triangles: Triangles, radius: f64) -> Option<&[Ball]> {
+        let is_second = self.is_second.swap(true, Ordering::Relaxed);
+        if is_second && self.made.get().is_none() && are_small(mesh, triangles, radius) {
+            let is_begun = self.is_begun.swap(true, Ordering::Relaxed);
             let balls = || (0..triangles.groups()).map(|group| Ball::around(mesh, triangles, group)).collect();
-            return Some(self.made.get_or_init(balls));
+            return (!is_begun).then(|| self.made.get_or_init(balls).as_slice());
         }
         self.made.get().map(Vec::as_slice)
     }
+}
+
+/// Whether balls are small beside the radius: half of some, all over the mesh.
+fn are_small(mesh: &Mesh, triangles: Triangles, radius: f64) -> bool {
+    let probes = PROBES.min(triangles.groups());
+    let ball = |probe: usize| Ball::around(mesh, triangles, probe * triangles.groups() / probes);
+    let small = (0..probes).filter(|&probe| f64::from(ball(probe).radius) <= LARGEST * radius).count();
+    2 * small >= probes
 }
 
 impl Ball {
@@ -70,9 +87,10 @@ mod tests {
                 .collect();
             let mesh = Mesh::new(positions, (0..100).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect()).unwrap();
             let (balls, triangles) = (Balls::default(), Triangles::All(100));
-            assert!(balls.get(&mesh, triangles).is_none());
+            assert!(balls.get(&mesh, triangles, size).is_none(), "in the first pass");
+            assert!(balls.get(&mesh, triangles, 1e-3 * size).is_none(), "larger than samples");
             for _ in 0..2 {
-                let balls = balls.get(&mesh, triangles).unwrap();
+                let balls = balls.get(&mesh, triangles, size).unwrap();
                 assert_eq!(balls.len(), triangles.groups());
                 for (group, ball) in balls.iter().enumerate() {
                     let corners = triangles.group(group).flat_map(|index| mesh.exact_corners(index as u32));

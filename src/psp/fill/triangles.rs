@@ -132,7 +132,7 @@ impl Measures {
     /// A ball around each group, for a pass at a radius: where a few groups fit into a sample's ball.
     pub fn balls(&self, mesh: &Mesh, radius: f64) -> Option<&[Ball]> {
         let groups_per_sample = self.areas.len() as f64 / expected_samples(mesh, self, radius);
-        if groups_per_sample < GROUPS_PER_SAMPLE { None } else { self.balls.get(mesh, self.triangles()) }
+        if groups_per_sample < GROUPS_PER_SAMPLE { None } else { self.balls.get(mesh, self.triangles(), radius) }
     }
 
     /// The sum of the longest edges of all triangles that are longer than a length; at most sqrt(2) times too much.

@@ -80,7 +80,7 @@ fn merged(context: &Context, radius: f64, seed: u64) -> Result<Merged> {
 }
 
 pub fn section(study: &Study) -> Result<Part> {
-    let (count, rounds) = study.effort((1e6, 4), (2e4, 2));
+    let (count, rounds) = study.effort((1e6, 10), (2e4, 2));
     let (one, radius) = (Context::new(1)?, radius(count));
     let (domain, _) = domains();
     let mut all = Vec::new();
@@ -157,7 +157,7 @@ fn text(study: &Study, count: f64, all: &[Round]) -> String {
     let figure = |of: Figure<Round>| cell(&mean_of(all, of));
     let mut text = format!(
         "## Nine sets merged (thesis §2.4.4 and fig. 2.14)\n\n\
-         Nine bounded sets by the unbiased sampler, which uses one thread, become one of about {} by `kdrt::merge`; beside them one set of the \
+         Nine bounded sets by the unbiased sampler, on one thread, become one of about {} by `kdrt::merge`; beside them one set of the \
          same sampler. {} rounds. The thesis says \"only very small overhead\" and \"only minor loss of samples in the margin area\", \
          without figures. In the picture, of a smaller set, samples of pieces are coloured, those eliminated small and grey, new ones dark.\n\n\
          ![Nine sets merged](tiling/pieces.png)\n\n\
