@@ -27,7 +27,7 @@ pub fn section(study: &Study) -> Result<String> {
         let rates = measured?[0].seconds.iter().map(|seconds| megabytes / seconds).collect::<Vec<_>>();
         rows.push(Row::new(
             format!("{name}: an OBJ file of {megabytes:.1} MB, read per second"),
-            Figure::largest(rates),
+            Figure::of_rounds(rates),
             "MB/s",
             Goal::AtLeast(RATE),
         ));

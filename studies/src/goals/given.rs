@@ -53,9 +53,8 @@ fn cost(study: &Study, what: &str, obstacles: usize, calls: [&dyn Fn() -> Result
     let each = |with: f64, without: f64| 1e6 * (with - without) / obstacles as f64;
     let [without, with] = [&measured[0], &measured[1]];
     let rounds = with.seconds.iter().zip(&without.seconds).map(|(&with, &without)| each(with, without));
-    let figure = Figure { value: each(with.least(), without.least()), ..Figure::least(rounds) };
     let asked = format!("{what}: each of {} obstacles", grouped(obstacles));
-    Ok(Row::new(asked, figure, "µs", Goal::AtMost(COST)))
+    Ok(Row::new(asked, Figure::of_rounds(rounds), "µs", Goal::AtMost(COST)))
 }
 
 fn in_plane(study: &Study) -> Result<Vec<Row>> {
