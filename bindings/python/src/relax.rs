@@ -83,6 +83,17 @@ const DISTRIBUTIONS: &[(&str, Distribution)] = &[
     ("eighty_twenty", Distribution::EightyTwenty),
 ];
 
+/// Options with the arguments that every relaxation in the plane has.
+fn with_steps(
+    request: dcr::Options,
+    max_iterations: i128,
+    tolerance: Option<f64>,
+    seed: i128,
+) -> PyResult<dcr::Options> {
+    let request = request.max_iterations(natural("max_iterations", max_iterations)?).seed(natural("seed", seed)?);
+    Ok(request.tolerance(tolerance.unwrap_or(request.tolerance)))
+}
+
 /// Moves points of the plane until they are evenly spread: a blue-noise set without the look of a lattice.
 ///
 /// xy: the points, float32, shape (n, 2), in domain_min <= x < domain_max.
@@ -132,7 +143,7 @@ pub(crate) fn dcr_relax(
     let domain = domain(domain_min, domain_max, boundary)?;
     let neighbourhoods = [("delaunay", Neighbourhood::Delaunay), ("nearest", Neighbourhood::Nearest)];
     let neighbourhood = choice("neighbourhood", neighbourhood, &neighbourhoods)?;
-    let mut request = if choice("method", method, &[("momentum", false), ("thesis", true)])? {
+    let request = if choice("method", method, &[("momentum", false), ("thesis", true)])? {
         let mut thesis = Thesis::default();
         thesis.conflict_radius = conflict_radius.unwrap_or(thesis.conflict_radius);
         thesis.attraction_radius = attraction_radius.unwrap_or(thesis.attraction_radius);
@@ -169,8 +180,7 @@ pub(crate) fn dcr_relax(
         }
         dcr::Options::new(domain, neighbourhood)
     };
-    request = request.max_iterations(natural("max_iterations", max_iterations)?).seed(natural("seed", seed)?);
-    request = request.tolerance(tolerance.unwrap_or(request.tolerance));
+    let request = with_steps(request, max_iterations, tolerance, seed)?;
     let (relaxed, report) =
         Watch::new(py, threads, progress)?.run(|context, progress| dcr::relax(context, &request, points, progress))?;
     Points::plane(py, relaxed)?.with_report(py, DcrReport::from(report))
@@ -206,10 +216,8 @@ pub(crate) fn dcr_relax_classes(
 ) -> PyResult<Points> {
     let (xy, classes) = (Array::read("xy", xy)?, Array::read("classes", classes)?);
     let (points, classes) = (xy.rows()?, classes.line()?);
-    let mut request = dcr::Options::new(domain(domain_min, domain_max, boundary)?, Neighbourhood::Delaunay)
-        .max_iterations(natural("max_iterations", max_iterations)?)
-        .seed(natural("seed", seed)?);
-    request = request.tolerance(tolerance.unwrap_or(request.tolerance));
+    let request = dcr::Options::new(domain(domain_min, domain_max, boundary)?, Neighbourhood::Delaunay);
+    let request = with_steps(request, max_iterations, tolerance, seed)?;
     let (samples, report, each) = Watch::new(py, threads, progress)?
         .run(|context, progress| dcr::relax_classes(context, &request, points, classes, progress))?;
     let report = DcrReport {
@@ -247,10 +255,8 @@ pub(crate) fn dcr_relax_density(
 ) -> PyResult<Points> {
     let (xy, density) = (Array::read("xy", xy)?, Array::read("density", density)?);
     let (points, (values, [width, height])) = (xy.rows()?, density.image()?);
-    let mut request = dcr::Options::new(domain(domain_min, domain_max, boundary)?, Neighbourhood::Delaunay)
-        .max_iterations(natural("max_iterations", max_iterations)?)
-        .seed(natural("seed", seed)?);
-    request = request.tolerance(tolerance.unwrap_or(request.tolerance));
+    let request = dcr::Options::new(domain(domain_min, domain_max, boundary)?, Neighbourhood::Delaunay);
+    let request = with_steps(request, max_iterations, tolerance, seed)?;
     let (relaxed, report) = Watch::new(py, threads, progress)?.run(|context, progress| {
         dcr::relax_with_density(context, &request, &Density::Image { values, width, height }, points, progress)
     })?;

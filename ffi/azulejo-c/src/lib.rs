@@ -141,6 +141,7 @@ pub mod merge;
 pub mod embree;
 pub mod mesh;
 pub mod psp;
+pub mod psp_classes;
 pub mod psp_report;
 
 pub mod adaptive;

@@ -13,7 +13,8 @@ fn a_quick_page_of_goals_says_what_follows_from_its_figures() {
     assert!(!page.contains("NaN") && !page.contains("inf"), "{page}");
     // What is asked, what was measured, the range, the goal, the verdict.
     let rows = page.lines().map(|line| line.trim_matches('|').split('|').map(str::trim).collect::<Vec<_>>());
-    let rows: Vec<_> = rows.filter(|row| row.len() == 5 && (row[4].contains("met") || row[4] == "not decided")).collect();
+    let rows: Vec<_> =
+        rows.filter(|row| row.len() == 5 && (row[4].contains("met") || row[4] == "not decided")).collect();
     let number = |text: &str| text.split(' ').next().unwrap().parse::<f64>().unwrap();
     for row in &rows {
         let (measured, goal) = (row[1], row[3]);
