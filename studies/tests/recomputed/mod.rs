@@ -154,6 +154,9 @@ fn of_whole_row(table: &Table, row: &[String]) -> Option<Vec<&'static str>> {
     if let Some(column) = table.head.iter().position(|head| head == "goal").filter(|&column| column > 0) {
         let bound = numbers(&row[column])[0].value;
         let goal = if row[column].starts_with("at least") { Goal::AtLeast(bound) } else { Goal::AtMost(bound) };
+        if let Some(range) = table.head.iter().position(|head| head == "range") {
+            return Some(of_range(goal, found[0], &numbers(&row[range])));
+        }
         let [may_meet, may_miss] = goal.may(found[0]);
         return Some(
             [("met", may_meet), ("**not met**", may_miss)].into_iter().filter(|it| it.1).map(|it| it.0).collect(),
@@ -162,6 +165,18 @@ fn of_whole_row(table: &Table, row: &[String]) -> Option<Vec<&'static str>> {
     let stated = stated(what)?;
     let [may_meet, may_miss] = stated.may(*found.first()?);
     Some([("met", may_meet), ("**not met**", may_miss)].into_iter().filter(|it| it.1).map(|it| it.0).collect())
+}
+
+/// The verdicts that a figure allows whose range has a column of its own: of a median, which all rounds or none decide, or
+/// of the worst of all, which decides by itself.
+fn of_range(goal: Goal, figure: table::Number, range: &[table::Number]) -> Vec<&'static str> {
+    let [low, high] = [range[0], range[1]].map(|end| goal.may(end));
+    let worst = if matches!(goal, Goal::AtLeast(_)) { range[0] } else { range[1] };
+    let is_worst = (figure.value - worst.value).abs() <= figure.rounding + worst.rounding;
+    let spans = low[0] && high[1] || low[1] && high[0];
+    let allowed =
+        [("met", low[0] && high[0]), ("**not met**", low[1] && high[1] || is_worst && spans), ("not decided", spans)];
+    allowed.into_iter().filter(|it| it.1).map(|it| it.0).collect()
 }
 
 /// A goal in words: "at most 4 ×", "within 0.5 dB", "1 million per second", "of one class: 2 ×".
@@ -233,6 +248,18 @@ mod tests {
         let facts = "nine sets: conflict-free, and maximal up to 1e-3 r";
         assert!(of(facts, "distances from 1.000000 r, all places within 1.000096 r", "met"));
         assert!(!of(facts, "distances from 0.999900 r, all places within 1.000096 r", "met"));
+    }
+
+    #[test]
+    fn a_range_in_a_column_of_its_own_decides_or_does_not() {
+        let head = "| asked | measured | range | goal | |";
+        let of = |row: &str| is_right("", head, &format!("| a call | {row} |"));
+        assert!(of("2 s | 1.5 to 2.5 | at most 3 s | met") && of("4 s | 3.5 to 5 | at most 3 s | **not met**"));
+        assert!(of("2 s | 1.5 to 3.5 | at most 3 s | not decided"));
+        assert!(!of("2 s | 1.5 to 3.5 | at most 3 s | met") && !of("2 s | 1.5 to 3.5 | at most 3 s | **not met**"));
+        // The worst of all decides.
+        assert!(of("0.84 | 0.84 to 0.86 | at least 0.85 | **not met**"));
+        assert!(!of("0.84 | 0.84 to 0.86 | at least 0.85 | met"));
     }
 
     #[test]
