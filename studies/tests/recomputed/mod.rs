@@ -99,12 +99,17 @@ impl Goal {
     }
 }
 
+/// The verdicts "met", "not met" and "not decided", as far as each is possible.
+fn allowed(possible: [bool; 3]) -> Vec<&'static str> {
+    VERDICTS.into_iter().zip(possible).filter(|it| it.1).map(|it| it.0).collect()
+}
+
 /// The verdicts that a figure allows: of a median with its range, or of a number that is exact.
 fn of_figure(table: &Table, figure: &str, goal: Goal) -> Vec<&'static str> {
     let all = numbers(figure);
     let [_, low, high] = all[..] else {
         let [may_meet, may_miss] = goal.may(all[0]);
-        return [("met", may_meet), ("**not met**", may_miss)].into_iter().filter(|it| it.1).map(|it| it.0).collect();
+        return allowed([may_meet, may_miss, false]);
     };
     assert!(figure.contains(" to "), "{figure} has three numbers, but no range");
     if table.rounds().is_none_or(|rounds| rounds < DECIDING_ROUNDS) {
@@ -158,13 +163,11 @@ fn of_whole_row(table: &Table, row: &[String]) -> Option<Vec<&'static str>> {
             return Some(of_range(goal, found[0], &numbers(&row[range])));
         }
         let [may_meet, may_miss] = goal.may(found[0]);
-        return Some(
-            [("met", may_meet), ("**not met**", may_miss)].into_iter().filter(|it| it.1).map(|it| it.0).collect(),
-        );
+        return Some(allowed([may_meet, may_miss, false]));
     }
     let stated = stated(what)?;
     let [may_meet, may_miss] = stated.may(*found.first()?);
-    Some([("met", may_meet), ("**not met**", may_miss)].into_iter().filter(|it| it.1).map(|it| it.0).collect())
+    Some(allowed([may_meet, may_miss, false]))
 }
 
 /// The verdicts that a figure allows whose range has a column of its own: of a median, which all rounds or none decide, or
@@ -174,9 +177,7 @@ fn of_range(goal: Goal, figure: table::Number, range: &[table::Number]) -> Vec<&
     let worst = if matches!(goal, Goal::AtLeast(_)) { range[0] } else { range[1] };
     let is_worst = (figure.value - worst.value).abs() <= figure.rounding + worst.rounding;
     let spans = low[0] && high[1] || low[1] && high[0];
-    let allowed =
-        [("met", low[0] && high[0]), ("**not met**", low[1] && high[1] || is_worst && spans), ("not decided", spans)];
-    allowed.into_iter().filter(|it| it.1).map(|it| it.0).collect()
+    allowed([low[0] && high[0], low[1] && high[1] || is_worst && spans, spans])
 }
 
 /// A goal in words: "at most 4 ×", "within 0.5 dB", "1 million per second", "of one class: 2 ×".
