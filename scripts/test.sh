@@ -38,9 +38,13 @@ is_long() { [ $long = yes ]; }
 # Packages are installed in a clean root of this release.
 has_clean_root() { [ $debian13 = yes ] && [[ $release =~ ^debian\ 1[23]$ ]]; }
 
+# The fuzz targets and the tests for Miri have a workspace of their own, and are compiled by other stages much later.
 lints() {
-    cargo fmt --all --check
-    cargo clippy --quiet --locked --workspace --all-targets -- -D warnings
+    local manifest
+    for manifest in Cargo.toml fuzz/Cargo.toml; do
+        cargo fmt --manifest-path $manifest --all --check
+        cargo clippy --quiet --locked --manifest-path $manifest --workspace --all-targets --target-dir target -- -D warnings
+    done
     scripts/docs.sh
 }
 

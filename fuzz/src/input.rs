@@ -13,10 +13,7 @@ impl<'a> Input<'a> {
     }
 
     /// A number of any value.
-    pub fn any<T: Arbitrary<'a>>(&mut self) -> T
-    where
-        T: Default,
-    {
+    pub fn any<T: Arbitrary<'a> + Default>(&mut self) -> T {
         self.bytes.arbitrary().unwrap_or_default()
     }
 

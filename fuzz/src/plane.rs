@@ -217,7 +217,7 @@ mod tests {
                 assert!(is_refused(|| check(&options, &moved)), "{index}");
             }
             let mut outside = samples.clone();
-            outside[0][0] = 1.0 + outside[0][0];
+            outside[0][0] += 1.0;
             assert!(is_refused(|| check(&options, &outside)));
         }
     }

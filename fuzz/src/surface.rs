@@ -6,6 +6,7 @@ use azulejo_c::classes::azulejo_classes;
 use azulejo_c::mesh::*;
 use azulejo_c::points::{azulejo_points, azulejo_points_classes, azulejo_points_count};
 use azulejo_c::psp::*;
+use azulejo_c::psp_classes::*;
 use azulejo_c::psp_report::azulejo_psp_report_init;
 use azulejo_c::thin::{AZULEJO_ORDER_ANY, AZULEJO_ORDER_PROGRESSIVE};
 

@@ -19,6 +19,7 @@ use azulejo_c::merge::*;
 use azulejo_c::mesh::*;
 use azulejo_c::points::*;
 use azulejo_c::psp::*;
+use azulejo_c::psp_classes::*;
 use azulejo_c::statistics::*;
 use azulejo_c::status::*;
 use azulejo_c::thin::*;
@@ -331,7 +332,7 @@ fn refusals() {
         assert_eq!(azulejo_mesh_load(null(), Some(&mut mesh)), AZULEJO_ERROR_INVALID_ARGUMENT);
         assert_eq!(azulejo_psp_fill(None, null_mut()), AZULEJO_ERROR_INVALID_ARGUMENT);
         // A struct that ends where it says, in memory that ends there, too.
-        let mut short = vec![0u32; 4];
+        let mut short = [0u32; 4];
         short[0] = 16;
         let context = context();
         assert!(azulejo_kdrt_sample(Some(&context), short.as_ptr().cast(), Some(&mut out), null_mut()) < 0);
