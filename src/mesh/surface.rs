@@ -21,9 +21,8 @@ use crate::points::SurfaceSamples;
 ///
 /// What a call makes of a mesh whatever the radius and the seed is kept with it for the next call, on any thread, and
 /// freed with the last clone. For any set of samples that is a summary of areas and edges, half a byte per
-/// triangle, and from the second set of few samples on one byte more (with a mask, 4 bytes more for each that it keeps).
-/// For relaxation and triangulation
-/// ([`dcr::surface`](crate::dcr::surface)) it is which edges are shared, 12 bytes per triangle and 4 per vertex. For
+/// triangle, and one byte more from the second set of few samples or the first of many on (with a mask, 4 bytes more for
+/// each that it keeps). For relaxation and triangulation ([`dcr::surface`](crate::dcr::surface)) it is which edges are shared, 12 bytes per triangle and 4 per vertex. For
 /// [`Psp::advance`](crate::psp::Psp::advance) by ray packets it is Embree's scene, about 100 bytes per triangle, and a
 /// device with the threads of the context that builds it (see [`Scene::new`](crate::trace::Scene::new)). A mesh with
 /// other normals shares all that; one with another mask does not.

@@ -101,7 +101,7 @@ impl<'a> Group<'a> {
         ground: &ClassGround,
         probes: usize,
         rng: &mut Rng,
-        point: &dyn Fn(&mut Rng) -> (u32, [f64; 2]),
+        point: &mut dyn FnMut(&mut Rng) -> (u32, [f64; 2]),
     ) -> f64 {
         let mut is_open = || {
             let ((triangle, barycentrics), class) = (point(rng), self.random_class(rng));
@@ -122,12 +122,12 @@ impl<'a> Group<'a> {
         if areas.total() == 0.0 {
             return Ok(());
         }
-        let point = |rng: &mut Rng| {
+        let mut point = |rng: &mut Rng| {
             let group = areas.hit(rng) as usize;
             let of_group = Row::new(triangles.measure(mesh, group).0.to_vec());
             (triangles.at(triangles.group(group).start + of_group.hit(rng) as usize), random_point(rng))
         };
-        if self.open_share(ground, PROBES, &mut rng, &point) >= RAIN_FROM {
+        if self.open_share(ground, PROBES, &mut rng, &mut point) >= RAIN_FROM {
             let mut darts = Vec::new();
             let in_chunk = |chunk: usize| {
                 let mut darts = Vec::new();
@@ -149,18 +149,19 @@ impl<'a> Group<'a> {
                 |triangle: u32, class: u8| Point { triangle, barycentrics: random_point(&mut rng), local: class };
             throw(ground, darts.iter().map(|&(triangle, class)| point(triangle, class)));
         }
-        let balls = measures.balls(mesh, self.radius);
+        let balls = measures.balls(&job.part(0.2, 0.25), mesh, self.radius)?;
         // Class by class: what is looked at together is mostly of one.
         let mut open: Vec<Open<u8>> = self.members.iter().map(|_| Open::default()).collect();
         let in_chunk = |chunk: usize| -> Vec<Open<u8>> {
             let open_to = |&class: &u8| {
                 let own = ground.own(class);
                 let left = |&group: &usize| balls.is_none_or(|balls| !own.covers(&balls[group]));
-                self.open_of(ground, class, triangles, chunks.range(chunk).filter(left), &[])
+                let indices = chunks.range(chunk).filter(left).flat_map(|group| triangles.group(group));
+                self.open_of(ground, class, triangles, indices, &[])
             };
             self.members.iter().map(open_to).collect()
         };
-        job.part(0.2, 0.5).stream(chunks.len(), in_chunk, |mut part| {
+        job.part(0.25, 0.5).stream(chunks.len(), in_chunk, |mut part| {
             open.iter_mut().zip(&mut part).for_each(|(open, part)| open.append(part));
             Ok(())
         })?;
@@ -172,16 +173,17 @@ impl<'a> Group<'a> {
     fn fill_block(&self, block: &Block, set: &SampleSet) -> (Vec<Sample>, u64) {
         let (mesh, mut ground) = (self.places.mesh, self.ground(Some(&block.extent)));
         let mut rng = Rng::at(self.seed, Draw::Fill, &block.cube.key());
-        let (items, pieces) = (block.items(), &block.pieces);
+        let items = &block.items;
         let is_near = |sample: &&Sample| block.extent.is_in_reach(sample.position, self.layers.largest());
         set.around(block.cube).filter(is_near).for_each(|sample| ground.add(sample));
-        let (row, radius) = (items.row(mesh), ground.own(self.members[0]).radius());
-        let point = |rng: &mut Rng| {
-            let Point { triangle, barycentrics, .. } = items.point(&row, rng);
+        let (mut row, radius) = (items.row(mesh), ground.own(self.members[0]).radius());
+        let area = row.total();
+        let mut point = |rng: &mut Rng| {
+            let Point { triangle, barycentrics, .. } = row.point(rng);
             (triangle, barycentrics)
         };
-        if row.total() > 0.0 && self.open_share(&ground, PROBES_IN_CUBE, &mut rng, &point) >= RAIN_FROM {
-            let expected = self.members.len() as f64 * FIRST_DARTS * row.total() / (radius * radius);
+        if area > 0.0 && self.open_share(&ground, PROBES_IN_CUBE, &mut rng, &mut point) >= RAIN_FROM {
+            let expected = self.members.len() as f64 * FIRST_DARTS * area / (radius * radius);
             let darts = (0..(expected + rng.unit()) as usize).map(|_| {
                 let ((triangle, barycentrics), class) = (point(&mut rng), self.random_class(&mut rng));
                 Point { triangle, barycentrics, local: class }
@@ -189,13 +191,17 @@ impl<'a> Group<'a> {
             throw(&mut ground, darts.filter(|point| self.places.allow(point.local, point.triangle)));
         }
         let open = |&class: &u8| match self.places.masks {
-            None => self.open_of(&ground, class, items.triangles, 0..items.triangles.groups(), pieces),
+            None => {
+                let own = ground.own(class);
+                let left = items.indices_but(|ball| own.covers(ball));
+                self.open_of(&ground, class, Triangles::Listed(&items.triangles), left, &items.pieces)
+            }
             Some(_) => {
                 let is_allowed = |&triangle: &u32| self.places.allow(class, triangle);
-                let triangles: Vec<u32> = block.triangles.iter().copied().filter(is_allowed).collect();
-                let pieces: Vec<_> = pieces.iter().copied().filter(|piece| is_allowed(&piece.triangle)).collect();
+                let triangles: Vec<u32> = items.triangles.iter().copied().filter(is_allowed).collect();
+                let pieces: Vec<_> = items.pieces.iter().copied().filter(|piece| is_allowed(&piece.triangle)).collect();
                 let triangles = Triangles::Listed(&triangles);
-                self.open_of(&ground, class, triangles, 0..triangles.groups(), &pieces)
+                self.open_of(&ground, class, triangles, 0..triangles.len(), &pieces)
             }
         };
         let open = joined(self.members.iter().map(open).collect());
@@ -203,17 +209,17 @@ impl<'a> Group<'a> {
         (ground.accepted, ground.darts)
     }
 
-    /// What is open to a class of some groups of triangles and some pieces of others.
+    /// What is open to a class of some triangles, by their indices, and of some pieces of others.
     fn open_of(
         &self,
         ground: &ClassGround,
         class: u8,
         triangles: Triangles,
-        groups: impl Iterator<Item = usize>,
+        indices: impl Iterator<Item = usize>,
         pieces: &[Fragment],
     ) -> Open<u8> {
         let own = ground.own(class);
-        let mut open = open_triangles(own, triangles, groups);
+        let mut open = open_triangles(own, triangles, indices);
         pieces.iter().for_each(|piece| open_parts(own, piece, &mut open));
         if self.places.masks.is_some() {
             open.wholes.retain(|whole| self.places.allow(class, whole.triangle));

@@ -45,13 +45,19 @@ impl Row {
 
     /// The number of the area that a dart falls on.
     pub fn hit(&self, rng: &mut Rng) -> u32 {
+        self.place(rng).0
+    }
+
+    /// The same, and how far behind the start of the area it falls.
+    pub fn place(&self, rng: &mut Rng) -> (u32, f64) {
         let (share, last) = (rng.unit(), self.ends.len() - 1);
         let mut number = self.guide[(share * self.ends.len() as f64) as usize] as usize;
         let place = share * self.total();
         while number < last && self.ends[number] <= place {
             number += 1;
         }
-        number as u32
+        let start = if number == 0 { 0.0 } else { self.ends[number - 1] };
+        (number as u32, place - start)
     }
 }
 

@@ -11,6 +11,14 @@ impl Extent {
     /// That of no point.
     pub const EMPTY: Self = Self { low: [f32::INFINITY; 3], high: [f32::NEG_INFINITY; 3] };
 
+    /// That of some points.
+    #[inline(always)]
+    pub fn of<const N: usize>(points: [[f32; 3]; N]) -> Self {
+        let mut extent = Self::EMPTY;
+        points.into_iter().for_each(|point| extent.add(point));
+        extent
+    }
+
     /// Adds a point.
     #[inline(always)]
     pub fn add(&mut self, point: [f32; 3]) {
@@ -24,6 +32,14 @@ impl Extent {
             // No coordinate is NaN, so that one instruction will do, unlike for `f32::min`.
             self.low[axis] = if other.low[axis] < self.low[axis] { other.low[axis] } else { self.low[axis] };
             self.high[axis] = if other.high[axis] > self.high[axis] { other.high[axis] } else { self.high[axis] };
+        }
+    }
+
+    /// Leaves out what is beyond another one.
+    pub fn clip(&mut self, other: &Self) {
+        for axis in 0..3 {
+            self.low[axis] = self.low[axis].max(other.low[axis]);
+            self.high[axis] = self.high[axis].min(other.high[axis]);
         }
     }
 

@@ -15,6 +15,7 @@ pub(super) mod darts;
 pub(super) mod extent;
 pub(super) mod grid;
 pub(super) mod ground;
+pub(super) mod items;
 pub(super) mod page;
 pub(super) mod region;
 pub(super) mod rounds;
@@ -39,7 +40,7 @@ use crate::psp::fill::ground::{Ground, Point, UniformGround};
 use crate::psp::fill::region::{first_darts, open_parts, open_triangles, throw_at, throw_first};
 use crate::psp::fill::rounds::{Open, PATCH, rounds};
 use crate::psp::fill::space::Space;
-use crate::psp::fill::triangles::Measures;
+use crate::psp::fill::triangles::{Measures, Triangles};
 use crate::psp::given::GivenSamples;
 use crate::psp::samples::{Sample, SampleSet};
 use crate::rng::{Draw, Rng};
@@ -211,12 +212,13 @@ fn fill_in_one_piece(job: &Job, surface: &Surface, ground: &mut UniformGround, m
         throw_at(ground, triangles, darts, &mut rng);
     }
     let mut open = Open::default();
-    let balls = measures.balls(ground.mesh, ground.radius());
+    let balls = measures.balls(&job.part(0.2, 0.25), ground.mesh, ground.radius())?;
     let in_chunk = |chunk: usize| {
         let left = |&group: &usize| balls.is_none_or(|balls| !ground.covers(&balls[group]));
-        open_triangles(ground, triangles, chunks.range(chunk).filter(left))
+        let groups = chunks.range(chunk).filter(left);
+        open_triangles(ground, triangles, groups.flat_map(|group| triangles.group(group)))
     };
-    job.part(0.2, 0.5).stream(chunks.len(), in_chunk, |mut part| {
+    job.part(0.25, 0.5).stream(chunks.len(), in_chunk, |mut part| {
         open.append(&mut part);
         Ok(())
     })?;
@@ -240,25 +242,25 @@ fn fill_in_blocks(job: &Job, surface: &Surface, samples: &mut SampleSet, manner:
 
 /// The samples that a cube needs to be covered, and what that took.
 fn fill_block(surface: &Surface, block: &Block, samples: &SampleSet, manner: Manner) -> (Vec<Sample>, Filled) {
-    let (cube, items) = (block.cube, block.items());
+    let (cube, items) = (block.cube, &block.items);
     let mut ground = surface.ground(samples.radius(), Some(&block.extent)).ranked(manner.largest_rank);
     let mut rng = Rng::at(manner.seed, Draw::Fill, &cube.key());
     let reach = manner.largest_rank.unwrap_or(ground.radius());
     let is_near = |position: [f32; 3]| block.extent.is_in_reach(position, reach);
     surface.given.alike_around(cube).filter(|&position| is_near(position)).for_each(|near| ground.add_given(near));
     // What given samples leave open, before those of other cubes cover a part of it.
-    let row = manner.rains.then(|| items.row(ground.mesh));
-    let share = row.as_ref().map_or(0.0, |row| match surface.given.is_empty() {
+    let mut row = manner.rains.then(|| items.row(ground.mesh));
+    let share = row.as_mut().map_or(0.0, |row| match surface.given.is_empty() {
         true => 1.0,
-        false => open_share(&ground, PROBES_IN_CUBE, || items.point(row, &mut rng)),
+        false => open_share(&ground, PROBES_IN_CUBE, || row.point(&mut rng)),
     });
     samples.around(cube).filter(|sample| is_near(sample.position)).for_each(|sample| ground.add(sample));
-    let first = row.filter(|_| share >= RAIN_FROM);
-    if let Some(row) = &first {
-        throw_first(&mut ground, items, row, &mut rng);
+    let mut first = row.filter(|_| share >= RAIN_FROM);
+    if let Some(row) = &mut first {
+        throw_first(&mut ground, row, &mut rng);
     }
-    let triangles = items.triangles;
-    let mut open = open_triangles(&ground, triangles, 0..triangles.groups());
+    let left = items.indices_but(|ball| ground.covers(ball));
+    let mut open = open_triangles(&ground, Triangles::Listed(&items.triangles), left);
     items.pieces.iter().for_each(|piece| open_parts(&ground, piece, &mut open));
     let open_area = match first {
         Some(row) => share * row.total(),
@@ -307,33 +309,65 @@ mod tests {
         (0..count).map(&mut given).unzip()
     }
 
-    /// Of 20,000 triangles in rows, for a few dozen samples: the balls spare most looks, and nothing changes.
+    /// 20,000 triangles in rows.
+    pub(super) fn rows() -> (Vec<[f32; 3]>, Vec<[u32; 3]>) {
+        let at = |i: u32, j: u32| i * 101 + j;
+        let place = |i: u32, j: u32| [i as f32, j as f32, ((i * j) % 7) as f32 / 9.0];
+        let halves =
+            |i: u32, j: u32| [[at(i, j), at(i + 1, j), at(i, j + 1)], [at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)]];
+        let positions = (0..=100).flat_map(|i| (0..=100).map(move |j| place(i, j)));
+        let triangles = (0..100).flat_map(|i| (0..100).flat_map(move |j| halves(i, j)));
+        (positions.collect(), triangles.collect())
+    }
+
+    /// Does something with the surface of a mesh, around nothing that is given.
+    fn with_surface<T>(mesh: &Mesh, measures: &Measures, radius: f64, does: impl FnOnce(&Surface) -> T) -> T {
+        let given =
+            &GivenSamples::new(mesh, Given::default(), radius, &SampleSet::new(mesh, radius), Facing::ANY).unwrap();
+        does(&Surface { mesh, measures, given, facing: Facing::ANY })
+    }
+
+    /// The positions of a set that is made from nothing.
+    fn filled(mesh: &Mesh, measures: &Measures, radius: f64, in_blocks: bool) -> Vec<[f32; 3]> {
+        let (mut samples, manner) = (SampleSet::new(mesh, radius), Manner::from_nothing(5));
+        with_surface(mesh, measures, radius, |surface| {
+            let fill = |job: &Job| fill_either_way(job, surface, &mut samples, in_blocks, manner);
+            Context::new(2).unwrap().run(None, fill).unwrap();
+        });
+        samples.all().iter().map(|sample| sample.position).collect()
+    }
+
+    /// For a few dozen samples the balls spare most looks, and nothing changes.
     #[test]
     fn the_passes_with_balls_find_what_the_first_one_finds() {
-        let (side, at) = (100, |i: u32, j: u32| i * 101 + j);
-        let positions =
-            (0..=side).flat_map(|i| (0..=side).map(move |j| [i as f32, j as f32, ((i * j) % 7) as f32 / 9.0]));
-        let squares = (0..side).flat_map(|i| (0..side).map(move |j| (i, j)));
-        let halves = squares.flat_map(|(i, j)| {
-            [[at(i, j), at(i + 1, j), at(i, j + 1)], [at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)]]
-        });
-        let (mesh, radius) = (Mesh::new(positions.collect(), halves.collect()).unwrap(), 17.0);
-        let (measures, set) = (Measures::of(&mesh), SampleSet::new(&mesh, radius));
-        let given = &GivenSamples::new(&mesh, Given::default(), radius, &set, Facing::ANY).unwrap();
-        let surface = Surface { mesh: &mesh, measures: &measures, given, facing: Facing::ANY };
-        let places = [(); 3].map(|()| {
-            let (mut samples, manner) = (SampleSet::new(&mesh, radius), Manner::from_nothing(5));
-            let fill = |job: &Job| fill_either_way(job, &surface, &mut samples, false, manner);
-            Context::new(1).unwrap().run(None, fill).unwrap();
-            samples.all().iter().map(|sample| sample.position).collect::<Vec<_>>()
-        });
+        let (positions, triangles) = rows();
+        let (mesh, radius) = (Mesh::new(positions, triangles).unwrap(), 17.0);
+        let measures = Measures::of(&mesh);
+        let places = [(); 3].map(|()| filled(&mesh, &measures, radius, false));
         assert!(places[0].len() > 20 && places[1] == places[0] && places[2] == places[0]);
-        let mut ground = surface.ground(radius, None);
-        places[0].iter().for_each(|&place| ground.add_given(place));
-        let balls = measures.balls(&mesh, radius).unwrap();
-        let covered: Vec<usize> = (0..balls.len()).filter(|&group| ground.covers(&balls[group])).collect();
-        assert!(2 * covered.len() > balls.len());
-        assert!(open_triangles(&ground, measures.triangles(), covered.into_iter()).areas().next().is_none());
+        let balls = Context::new(1).unwrap().run(None, |job| measures.balls(job, &mesh, radius)).unwrap().unwrap();
+        with_surface(&mesh, &measures, radius, |surface| {
+            let (mut ground, triangles) = (surface.ground(radius, None), measures.triangles());
+            places[0].iter().for_each(|&place| ground.add_given(place));
+            let covered: Vec<usize> = (0..balls.len()).filter(|&group| ground.covers(&balls[group])).collect();
+            assert!(2 * covered.len() > balls.len());
+            let indices = covered.into_iter().flat_map(|group| triangles.group(group));
+            assert!(open_triangles(&ground, triangles, indices).areas().next().is_none());
+        });
+    }
+
+    /// Sets of many radii, one after the other, on what is kept from earlier ones: balls, which are too large for the last
+    /// radii. Each is what it is on a mesh that keeps nothing.
+    #[test]
+    fn cubes_are_filled_alike_whatever_balls_are_kept() {
+        let (positions, triangles) = rows();
+        let mesh = Mesh::new(positions, triangles).unwrap();
+        let kept = Measures::of(&mesh);
+        for radius in [17.0, 17.0, 4.0, 2.0, 1.0, 0.5] {
+            let in_blocks = radius < 17.0;
+            let fresh = filled(&mesh, &Measures::of(&mesh), radius, in_blocks);
+            assert!(filled(&mesh, &kept, radius, in_blocks) == fresh, "{radius}");
+        }
     }
 
     /// Each way, on one thread and on three, with given samples and without; then the other way finds nothing left, and

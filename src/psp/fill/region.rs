@@ -1,8 +1,9 @@
 //! Filling a part of the surface by itself: the first darts, what they leave open, and the rounds.
 
 use crate::mesh::Mesh;
-use crate::psp::fill::darts::{Rain, Row, random_point, shuffle};
+use crate::psp::fill::darts::{Rain, random_point, shuffle};
 use crate::psp::fill::ground::{Ground, Point, UniformGround};
+use crate::psp::fill::items::ItemRow;
 use crate::psp::fill::page::{GROUP, Group};
 use crate::psp::fill::rounds::{Open, PATCH, WHOLE, throw};
 use crate::psp::fill::triangles::Triangles;
@@ -13,38 +14,6 @@ use crate::rng::Rng;
 /// The first darts on an empty surface, for each squared radius: about six for each sample that will stand there. They
 /// are cheap, as nothing but the triangle that they fall on is known of them, and leave little of the surface open.
 pub(in crate::psp) const FIRST_DARTS: f64 = 4.2;
-
-/// Triangles, and fragments of others that are too long, whose numbers follow.
-#[derive(Clone, Copy)]
-pub(in crate::psp) struct Items<'a> {
-    pub triangles: Triangles<'a>,
-    pub pieces: &'a [Fragment],
-}
-
-impl Items<'_> {
-    fn fragment(&self, number: u32) -> Fragment {
-        match (number as usize).checked_sub(self.triangles.len()) {
-            None => Fragment::whole(self.triangles.at(number as usize)),
-            Some(piece) => self.pieces[piece],
-        }
-    }
-
-    /// The areas of all.
-    pub fn row(&self, mesh: &Mesh) -> Row {
-        let mut areas = Vec::with_capacity(self.triangles.len() + self.pieces.len());
-        for group in 0..self.triangles.groups() {
-            areas.extend_from_slice(&self.triangles.measure(mesh, group).0[..self.triangles.group(group).len()]);
-        }
-        areas.extend(self.pieces.iter().map(|piece| piece.area(mesh)));
-        Row::new(areas)
-    }
-
-    /// A random point of any of it.
-    pub fn point(&self, row: &Row, rng: &mut Rng) -> Point {
-        let fragment = self.fragment(row.hit(rng));
-        Point { triangle: fragment.triangle, barycentrics: fragment.at(random_point(rng)), local: () }
-    }
-}
 
 /// On which of some groups of triangles the first darts fall as rain, in order. Of groups that stay dry only the area
 /// is needed.
@@ -75,18 +44,18 @@ pub(in crate::psp) fn throw_at(ground: &mut UniformGround, triangles: Triangles,
     throw(ground, darts.iter().map(|&index| point(index)));
 }
 
-/// Throws the first darts at all of some items, whose areas are in a row.
-pub(in crate::psp) fn throw_first(ground: &mut UniformGround, items: Items, row: &Row, rng: &mut Rng) {
+/// Throws the first darts at all of some items.
+pub(in crate::psp) fn throw_first(ground: &mut UniformGround, row: &mut ItemRow, rng: &mut Rng) {
     let radius = ground.radius();
     let darts = (FIRST_DARTS * row.total() / (radius * radius) + rng.unit()) as usize;
-    throw(ground, (0..darts).map(|_| items.point(row, rng)));
+    throw(ground, (0..darts).map(|_| row.point(rng)));
 }
 
-/// What is open of some groups of triangles.
+/// What is open of some triangles, by their indices.
 pub(in crate::psp) fn open_triangles(
     ground: &UniformGround,
     triangles: Triangles,
-    groups: impl Iterator<Item = usize>,
+    indices: impl Iterator<Item = usize>,
 ) -> Open {
     let (mut open, mut lanes, mut numbers, space) = (Open::default(), Group::EMPTY, [0; GROUP], ground.grid.space);
     let mut count = 0;
@@ -97,7 +66,7 @@ pub(in crate::psp) fn open_triangles(
             uncovered &= uncovered - 1;
         }
     };
-    for index in groups.flat_map(|group| triangles.group(group)) {
+    for index in indices {
         numbers[count] = triangles.at(index);
         lanes.triangles[count] = space.places(ground.mesh.corners(numbers[count]));
         count += 1;

@@ -2,6 +2,8 @@
 
 use std::ops::Range;
 
+use crate::error::Result;
+use crate::job::Job;
 use crate::mesh::Mesh;
 use crate::psp::estimate::expected_samples;
 use crate::psp::fill::balls::{Ball, Balls};
@@ -11,8 +13,10 @@ use crate::simd::Level;
 /// Triangles in a group. Of smaller groups more stay dry when the first darts fall; larger ones need less memory.
 pub(in crate::psp) const GROUP: usize = 16;
 
-/// So many groups for each expected sample are worth balls around them.
+/// So many groups for each expected sample are worth balls around them, ...
 const GROUPS_PER_SAMPLE: f64 = 2.0;
+/// ... which are made if most are no larger than this part of the radius.
+const LARGEST: f64 = 0.5;
 
 /// The areas of a group of triangles, and the squares of their longest edges.
 pub(in crate::psp) type Sizes = ([f64; GROUP], [f64; GROUP]);
@@ -130,9 +134,17 @@ impl Measures {
     }
 
     /// A ball around each group, for a pass at a radius: where a few groups fit into a sample's ball.
-    pub fn balls(&self, mesh: &Mesh, radius: f64) -> Option<&[Ball]> {
+    pub fn balls(&self, job: &Job, mesh: &Mesh, radius: f64) -> Result<Option<&[Ball]>> {
         let groups_per_sample = self.areas.len() as f64 / expected_samples(mesh, self, radius);
-        if groups_per_sample < GROUPS_PER_SAMPLE { None } else { self.balls.get(mesh, self.triangles(), radius) }
+        if groups_per_sample < GROUPS_PER_SAMPLE {
+            return Ok(None);
+        }
+        self.balls.for_pass(job, mesh, self.triangles(), LARGEST * radius)
+    }
+
+    /// A ball around each group, if most are no larger than this.
+    pub fn balls_up_to(&self, job: &Job, mesh: &Mesh, largest: f64) -> Result<Option<&[Ball]>> {
+        self.balls.get(job, mesh, self.triangles(), largest)
     }
 
     /// The sum of the longest edges of all triangles that are longer than a length; at most sqrt(2) times too much.
