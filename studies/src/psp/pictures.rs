@@ -72,8 +72,10 @@ pub fn draw_growth(measured: &[Measured], output: &Output) -> Result<()> {
     }
     density.axes(&mut canvas);
     uncovered.axes(&mut canvas);
+    // The curves fall: below their beginnings there is nothing.
+    let first = uncovered.rect.y + uncovered.rect.height - 26.0 * measured.len() as f32 + 10.0;
     for ((one, colour), row) in measured.iter().zip(SERIES).zip(0..) {
-        legend(&mut canvas, [720.0, 322.0 + 26.0 * row as f32], &one.scene.name, 3.6, colour);
+        legend(&mut canvas, [136.0, first + 26.0 * row as f32], &one.scene.name, 3.6, colour);
     }
     density.title(&mut canvas, "Density against time", "thick: by squareness; thin: by projector; disc: filled");
     uncovered.title(&mut canvas, "Uncovered surface against time", "what is filled is below the axis");
