@@ -38,8 +38,8 @@ pub fn text(
         of the samples over those of the reference, a set that is only filled: darts into what is uncovered, cube by cube, which \
          gives a little more than unbiased darts (*Density of maximal sets*). Times \
         and rates are medians of some rounds, with their range in brackets, on a machine that may have had other work; what \
-        a table compares takes turns. [figures.md](figures.md) times whole calls on a ray tracer's scene that is kept, \
-        [peers.md](peers.md) each call in a process of its own.\n";
+        a table compares takes turns. Embree's scene is kept, as in [figures.md](figures.md), which times whole calls; \
+        [peers.md](peers.md) times each call in a process of its own.\n";
     let absent =
         |one: &Missing| format!("\n**The {} was not given (`{} MESH`) and is left out.**\n", one.name, one.option);
     let parts = [
@@ -85,7 +85,7 @@ fn goals(effort: &Effort, measured: &[Measured], threads: usize) -> String {
         _ => millions(rate),
     };
     let speed_up_goal = SPEED_UP_GOAL * threads as f64;
-    let rows: [(String, Cell); 8] = [
+    let rows: [(String, Cell); 9] = [
         (format!("first iteration, M samples/s; goal: at least {ITERATED_GOAL} on the bunny"), &|one| {
             judged(one, &one.rates.usual().iterated_rate(), ITERATED_GOAL)
         }),
@@ -94,6 +94,7 @@ fn goals(effort: &Effort, measured: &[Measured], threads: usize) -> String {
         }),
         ("one thread, seconds".to_owned(), &|one| cell(&one.rates.one_thread.seconds(), 3)),
         (format!("{threads} threads, seconds"), &|one| cell(&one.rates.usual().seconds(), 3)),
+        (format!("{threads} threads, first call on the mesh, seconds"), &|one| rounded(one.rates.first_call, 3)),
         (format!("{threads} threads, times as fast as one; goal: at least {}", rounded(speed_up_goal, 3)), &|one| {
             let factor = one.rates.one_thread.seconds().over(&one.rates.usual().seconds());
             format!("{}, {}", cell(&factor, 3), factor.verdict(|factor| factor >= speed_up_goal))
@@ -110,7 +111,8 @@ fn goals(effort: &Effort, measured: &[Measured], threads: usize) -> String {
     ];
     format!(
         "## Goals\n\nSets of about {} samples: one iteration, then filled; medians of {} rounds, in each of which one thread \
-         and all take turns with what is under *Directions* and *Priority*. A goal of time or rate is met where \
+         and all take turns with what is under *Directions* and *Priority*. The first call on a mesh builds Embree's scene, \
+         which is kept with it, and is in no round. A goal of time or rate is met where \
          every round meets it, not met where none does, and otherwise not decided: on the wrong side of a median all of \
          {ROUNDS} rounds, the fewest that decide, are in one of {} cases. That the set leaves nothing uncovered is \
          proven for the whole surface by its covering radius (`surface_covering_radius`), which may be beyond r by no more \
@@ -138,7 +140,7 @@ fn scenes(effort: &Effort, measured: &[Measured]) -> String {
 fn rates(effort: &Effort, measured: &[Measured]) -> String {
     let mut text = format!(
         "## Rate against radius (thesis fig. 3.14)\n\n\
-        Million samples per second on all threads, with the building of scene and pattern; \
+        Million samples per second on all threads, with the making of the pattern; Embree's scene is kept with the mesh; \
         {} rounds, those of *Goals* at its number of samples. The radius is in parts of the \
         diagonal of the mesh's box. Of its GPU the thesis says: up to 11.5 with one iteration on the bunny at a radius of \
         0.0001 (§3.4.2), but up to 11.1 under the picture of the bunny (fig. 3.7); 6.6 under that of the Dragon, the Happy \

@@ -86,12 +86,16 @@ pub struct Rates {
     /// One iteration and a fill on one thread.
     pub one_thread: Stages,
     pub again: Again,
+    /// The seconds of the first set by projection, which builds Embree's scene.
+    pub first_call: f64,
 }
 
 impl Rates {
     pub fn measure(context: &Context, scene: &Scene, effort: &Effort, progress: &Progress) -> Result<Self> {
         let (single, count) = (Context::new(1)?, effort.samples);
         let usual = |iterations| Way { context, count, priority: Priority::Squareness, iterations };
+        // What is kept with the mesh is made by no round: it would be that of one way, on one thread or on all.
+        let first_call = usual(1).make(scene)?.iter().map(|report| report.seconds).sum();
         // What verdicts and sentences are about.
         let judged = [
             usual(0),
@@ -115,7 +119,7 @@ impl Rates {
         by_count.sort_by(|a, b| b.radius.total_cmp(&a.radius));
         _ = progress(0.9);
         let again = Again::measure(context, scene, count)?;
-        Ok(Self { by_count, by_iterations, by_projector, one_thread, again })
+        Ok(Self { by_count, by_iterations, by_projector, one_thread, again, first_call })
     }
 
     /// One iteration and a fill on all threads, by squareness.
