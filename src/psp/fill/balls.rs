@@ -3,7 +3,7 @@
 //!
 //! They are kept with the mesh, if triangles that follow each other lie together. Sorting triangles into cubes gains more by
 //! them than they cost, and so does the second pass over a mesh that is filled in one piece; the first pass alone would
-//! not. What a fill finds is the same with them and without.
+//! not. What a pass finds open is the same with them and without; cubes use them by mesh and radius alone, whatever is kept.
 
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, Ordering};

@@ -166,14 +166,24 @@ impl Chunk {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use std::collections::HashMap;
 
     use super::*;
     use crate::job::Context;
     use crate::psp::fill::darts::shuffle;
-    use crate::psp::fill::tests::rows;
     use crate::rng::{Draw, Rng};
+
+    /// 20,000 triangles in rows.
+    pub fn rows() -> (Vec<[f32; 3]>, Vec<[u32; 3]>) {
+        let at = |i: u32, j: u32| i * 101 + j;
+        let place = |i: u32, j: u32| [i as f32, j as f32, ((i * j) % 7) as f32 / 9.0];
+        let halves =
+            |i: u32, j: u32| [[at(i, j), at(i + 1, j), at(i, j + 1)], [at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)]];
+        let positions = (0..=100).flat_map(|i| (0..=100).map(move |j| place(i, j)));
+        let triangles = (0..100).flat_map(|i| (0..100).flat_map(move |j| halves(i, j)));
+        (positions.collect(), triangles.collect())
+    }
 
     /// In rows and in random order, some without area, masked and not. In rows most triangles come in groups, in random
     /// order none.

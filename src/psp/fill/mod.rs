@@ -277,6 +277,7 @@ mod tests {
     use crate::given::Given;
     use crate::job::Context;
     use crate::mesh::exact;
+    use crate::psp::fill::blocks::tests::rows;
 
     /// Triangles of all sizes, and needles, crossing each other: a large one across many cubes, small ones in heaps.
     fn soup(seed: u64) -> Mesh {
@@ -307,17 +308,6 @@ mod tests {
             (position, if i.is_multiple_of(2) { radius } else { own.min(10.0 * radius) })
         };
         (0..count).map(&mut given).unzip()
-    }
-
-    /// 20,000 triangles in rows.
-    pub(super) fn rows() -> (Vec<[f32; 3]>, Vec<[u32; 3]>) {
-        let at = |i: u32, j: u32| i * 101 + j;
-        let place = |i: u32, j: u32| [i as f32, j as f32, ((i * j) % 7) as f32 / 9.0];
-        let halves =
-            |i: u32, j: u32| [[at(i, j), at(i + 1, j), at(i, j + 1)], [at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)]];
-        let positions = (0..=100).flat_map(|i| (0..=100).map(move |j| place(i, j)));
-        let triangles = (0..100).flat_map(|i| (0..100).flat_map(move |j| halves(i, j)));
-        (positions.collect(), triangles.collect())
     }
 
     /// Does something with the surface of a mesh, around nothing that is given.
