@@ -69,7 +69,7 @@ pub use error::{Error, Result};
 pub use given::Given;
 pub use job::{Context, Progress};
 pub use order::Order;
-pub use points::{Boundary, Domain, MAXIMAL_DENSITY, SurfaceSamples};
+pub use points::{Boundary, Domain, MAXIMAL_DENSITY, Points};
 
 /// The code blocks of the README are compiled with the documentation tests.
 #[cfg(doctest)]

@@ -122,30 +122,47 @@ impl Domain {
     }
 }
 
-/// Samples on a triangle mesh; entry `i` of each vector belongs to sample `i`. All vectors have the same length, except
-/// that `interpolated_normals`, `ranks` and `classes` can be empty.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct SurfaceSamples {
-    /// Positions, recomputed from the barycentrics in `f64` and rounded once.
-    pub positions: Vec<[f32; 3]>,
-    /// Unit normals of the triangles, counter-clockwise front.
+/// Samples of the plane (`D` = 2) or of space (3), with all that is known of them: entry `i` of each vector belongs to
+/// sample `i`. A vector is empty where its field does not apply.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Points<const D: usize> {
+    /// Positions. On a mesh they are recomputed from the barycentrics in `f64` and rounded once.
+    pub positions: Vec<[f32; D]>,
+    /// On a mesh: unit normals of the triangles, counter-clockwise front.
     pub normals: Vec<[f32; 3]>,
-    /// The triangle that each sample lies on.
+    /// On a mesh: the triangle that each sample lies on.
     pub triangles: Vec<u32>,
-    /// `(u, v)`: the position is `(1 - u - v) * a + u * b + v * c` of the triangle's vertices, as in Embree.
+    /// On a mesh: `(u, v)`: the position is `(1 - u - v) * a + u * b + v * c` of the triangle's vertices, as in Embree.
     pub barycentrics: Vec<[f32; 2]>,
-    /// The mesh's own normals, given with it or read from its file, interpolated to the samples
-    /// ([`Mesh::interpolated_normal`](crate::mesh::Mesh::interpolated_normal)). Empty if the mesh carries none.
+    /// On a mesh that carries normals of its own, given with it or read from its file: these, interpolated to the samples
+    /// ([`Mesh::interpolated_normal`](crate::mesh::Mesh::interpolated_normal)).
     pub interpolated_normals: Vec<[f32; 3]>,
     /// In progressive order ([`Order::Progressive`](crate::Order::Progressive)) the rank of each sample, a distance: the
     /// samples up to this one are at least so far apart. Ranks never rise; the first is infinite. Where radii vary, ranks
-    /// are what these are multiplied by ([`adaptive::sample`](crate::psp::adaptive::sample)). Empty in any other order.
+    /// are what these are multiplied by ([`adaptive::sample`](crate::psp::adaptive::sample)).
     pub ranks: Vec<f32>,
-    /// In a set of several [`Classes`](crate::Classes) the class of each sample. Empty in any other.
+    /// In a set of several [`Classes`](crate::Classes) the class of each sample.
     pub classes: Vec<u32>,
+    /// Where radii vary ([`adaptive::sample`](crate::psp::adaptive::sample)) the radius of each sample.
+    pub radii: Vec<f64>,
 }
 
-impl SurfaceSamples {
+impl<const D: usize> Default for Points<D> {
+    fn default() -> Self {
+        Self {
+            positions: Vec::new(),
+            normals: Vec::new(),
+            triangles: Vec::new(),
+            barycentrics: Vec::new(),
+            interpolated_normals: Vec::new(),
+            ranks: Vec::new(),
+            classes: Vec::new(),
+            radii: Vec::new(),
+        }
+    }
+}
+
+impl<const D: usize> Points<D> {
     /// The number of samples.
     pub fn len(&self) -> usize {
         self.positions.len()

@@ -11,7 +11,7 @@ mod tolerance;
 
 use azulejo::mesh::Mesh;
 use azulejo::psp::adaptive::{self, Radius};
-use azulejo::{Context, SurfaceSamples};
+use azulejo::{Context, Points};
 use oracle::Field;
 use tolerance::tolerance;
 
@@ -30,7 +30,7 @@ fn a_hundred_thousand_samples_whose_radii_vary_leave_no_gap() {
     assert_eq!(oracle::conflict(&samples, &set.radii, -1.0), None);
     // The radius changes by less than a hundredth of the way.
     let tolerance = 1.01 * tolerance(&mesh);
-    let gap = |samples: &SurfaceSamples| oracle::gap(&mesh, &field, samples, &set.radii, -1.0, tolerance);
+    let gap = |samples: &Points<3>| oracle::gap(&mesh, &field, samples, &set.radii, -1.0, tolerance);
     assert_eq!(gap(&samples), None);
     samples.positions[1] = samples.positions[0].map(|x| x + 0.001);
     assert!(oracle::conflict(&samples, &set.radii, -1.0).is_some());

@@ -14,7 +14,7 @@ use azulejo::mesh::Mesh;
 use azulejo::psp::Report;
 use azulejo::psp::adaptive::{self, AdaptiveSamples, Density, Options, Radius, Scale};
 use azulejo::psp::{DEFAULT_QUOTIENT, TOLERANCE};
-use azulejo::{Context, Error, Given, Order, SurfaceSamples};
+use azulejo::{Context, Error, Given, Order, Points};
 use oracle::Field;
 use random::Random;
 
@@ -57,7 +57,7 @@ fn sample(mesh: &Mesh, options: &Options) -> (AdaptiveSamples, Report) {
     (set, report)
 }
 
-fn prefix(samples: &SurfaceSamples, count: usize) -> SurfaceSamples {
+fn prefix(samples: &Points<3>, count: usize) -> Points<3> {
     let mut first = samples.clone();
     first.positions.truncate(count);
     first.normals.truncate(count);
@@ -78,7 +78,7 @@ fn relative(set: &AdaptiveSamples, report: &Report) -> Vec<f64> {
 
 /// Ranks never rise, and no sample is nearer to one before it than its rank allows. So all prefixes keep their ranks.
 fn check_ranks(set: &AdaptiveSamples, report: &Report, cosine: f64) {
-    let AdaptiveSamples { samples: SurfaceSamples { positions, ranks, normals, .. }, .. } = set;
+    let AdaptiveSamples { samples: Points { positions, ranks, normals, .. }, .. } = set;
     let radii = relative(set, report);
     assert_eq!(ranks.len(), positions.len());
     assert!(ranks.is_sorted_by(|a, b| a >= b) && ranks.iter().all(|&rank| f64::from(rank.next_up()) >= report.radius));

@@ -20,7 +20,7 @@ use std::ops::ControlFlow;
 
 use azulejo::dcr::{Density, Neighbourhood, Options, Report, Stopped, relax, relax_with_density, scatter, surface};
 use azulejo::mesh::Mesh;
-use azulejo::{Boundary, Context, Domain, SurfaceSamples};
+use azulejo::{Boundary, Context, Domain, Points};
 use sets::{Random, unit_square};
 
 const BOUNDARIES: [Boundary; 2] = [Boundary::Periodic, Boundary::Bounded];
@@ -276,7 +276,7 @@ fn heaps(mesh: &Mesh, count: usize) -> Vec<(Vec<u32>, Vec<[f32; 2]>)> {
     vec![(vec![one; count], uvs.clone()), (vec![one; count], vec![[0.3, 0.4]; count]), (half, uvs)]
 }
 
-fn relax_on(mesh: &Mesh, triangles: &[u32], uvs: &[[f32; 2]], threads: usize) -> (SurfaceSamples, surface::Report) {
+fn relax_on(mesh: &Mesh, triangles: &[u32], uvs: &[[f32; 2]], threads: usize) -> (Points<3>, surface::Report) {
     let context = Context::new(threads).unwrap();
     surface::relax(&context, mesh, triangles, uvs, &surface::Options::default(), None).unwrap()
 }

@@ -16,7 +16,7 @@ use std::sync::Arc;
 use azulejo::mesh::Mesh;
 use azulejo::psp::adaptive::{self, AdaptiveSamples, Radius};
 use azulejo::psp::{self, Engine, Options, Psp, Report};
-use azulejo::{Context, Error, Given, SurfaceSamples};
+use azulejo::{Context, Error, Given, Points};
 use meshes::Soup;
 use oracle::{Ball, Field};
 use proptest::prelude::*;
@@ -33,7 +33,7 @@ fn balls(given: Given<3>, radius: f64) -> Vec<Ball> {
 }
 
 /// Everything that a set of one radius owes.
-fn check(mesh: &Mesh, samples: &SurfaceSamples, options: &Options) {
+fn check(mesh: &Mesh, samples: &Points<3>, options: &Options) {
     let (balls, radii) = (balls(options.given, options.radius), vec![options.radius; samples.len()]);
     assert_eq!(oracle::conflict(samples, &radii, options.cosine), None);
     assert_eq!(oracle::too_near(samples, &balls), None);
@@ -46,7 +46,7 @@ fn check(mesh: &Mesh, samples: &SurfaceSamples, options: &Options) {
 }
 
 /// A set on one thread and on three, checked.
-fn sample(mesh: &Arc<Mesh>, options: &Options) -> (SurfaceSamples, Report) {
+fn sample(mesh: &Arc<Mesh>, options: &Options) -> (Points<3>, Report) {
     let [(samples, report), (again, _)] =
         [1, 3].map(|threads| psp::sample(&Context::new(threads).unwrap(), mesh, options, None).unwrap());
     assert_eq!(samples, again, "depends on the number of threads");

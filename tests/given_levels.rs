@@ -11,7 +11,7 @@ use std::sync::Arc;
 
 use azulejo::mesh::Mesh;
 use azulejo::psp::{self, Options, Report};
-use azulejo::{Context, Error, Given, Order, SurfaceSamples};
+use azulejo::{Context, Error, Given, Order, Points};
 use oracle::{Ball, Field};
 
 /// More than the documented tolerance, on the meshes below.
@@ -27,7 +27,7 @@ fn balls(given: Given<3>, radius: f64) -> Vec<Ball> {
 }
 
 /// A set on one thread and on three.
-fn sample(mesh: &Arc<Mesh>, options: &Options) -> (SurfaceSamples, Report) {
+fn sample(mesh: &Arc<Mesh>, options: &Options) -> (Points<3>, Report) {
     let [(samples, report), (again, _)] =
         [1, 3].map(|threads| psp::sample(&Context::new(threads).unwrap(), mesh, options, None).unwrap());
     assert_eq!(samples, again, "depends on the number of threads");
@@ -35,7 +35,7 @@ fn sample(mesh: &Arc<Mesh>, options: &Options) -> (SurfaceSamples, Report) {
 }
 
 /// The first samples of a set keep their distances, and cover the surface within a radius.
-fn check(mesh: &Mesh, samples: &SurfaceSamples, [apart, cover]: [f64; 2], cosine: f64, balls: &[Ball]) {
+fn check(mesh: &Mesh, samples: &Points<3>, [apart, cover]: [f64; 2], cosine: f64, balls: &[Ball]) {
     assert_eq!(oracle::conflict(samples, &vec![apart; samples.len()], cosine), None);
     assert_eq!(oracle::too_near(samples, balls), None);
     let at = |_: [f64; 3]| cover;
@@ -45,7 +45,7 @@ fn check(mesh: &Mesh, samples: &SurfaceSamples, [apart, cover]: [f64; 2], cosine
 }
 
 /// The first samples of a set.
-fn prefix(samples: &SurfaceSamples, count: usize) -> SurfaceSamples {
+fn prefix(samples: &Points<3>, count: usize) -> Points<3> {
     let mut first = samples.clone();
     first.positions.truncate(count);
     first.normals.truncate(count);

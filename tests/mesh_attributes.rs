@@ -11,7 +11,7 @@ use std::sync::Arc;
 use azulejo::analysis::coverage::surface_uncovered_fraction;
 use azulejo::mesh::Mesh;
 use azulejo::psp::{self, Options, Psp, Report};
-use azulejo::{Context, Error, SurfaceSamples};
+use azulejo::{Context, Error, Points};
 use meshes::Soup;
 
 fn mesh((positions, triangles): Soup) -> Mesh {
@@ -61,7 +61,7 @@ fn normals_are_interpolated_and_normalised() {
     let sample = |mesh: &Mesh| psp::sample(&context, &Arc::new(mesh.clone()), &Options::new(0.1), None).unwrap().0;
     let (without, with) = (sample(&plain), sample(&smooth));
     assert!(without.interpolated_normals.is_empty());
-    assert_eq!(with, SurfaceSamples { interpolated_normals: with.interpolated_normals.clone(), ..without.clone() });
+    assert_eq!(with, Points { interpolated_normals: with.interpolated_normals.clone(), ..without.clone() });
     for (normal, position) in with.interpolated_normals.iter().zip(&with.positions) {
         assert!((length(*normal) - 1.0).abs() < 1e-6);
         let expected = position.map(|x| f64::from(x) / length(*position));
@@ -133,7 +133,7 @@ fn removed((positions, triangles): &Soup, mask: &[bool]) -> (Mesh, Vec<u32>) {
 }
 
 /// Samples with and without iterations and filling.
-fn all_ways(mesh: &Mesh, radius: f64) -> [(SurfaceSamples, Report); 3] {
+fn all_ways(mesh: &Mesh, radius: f64) -> [(Points<3>, Report); 3] {
     let context = Context::new(2).unwrap();
     [(0, true), (2, false), (1, true)].map(|(iterations, maximal)| {
         let options = Options::new(radius).iterations(iterations).maximal(maximal);

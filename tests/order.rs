@@ -15,7 +15,7 @@ use std::sync::Arc;
 use azulejo::analysis::spectrum::{Periodogram, periodogram};
 use azulejo::mesh::Mesh;
 use azulejo::psp::{self, Options, Report};
-use azulejo::{Boundary, Context, Domain, Error, Order, SurfaceSamples};
+use azulejo::{Boundary, Context, Domain, Error, Order, Points};
 use order_oracle::{conflict, covers, disorder, distance};
 
 const QUOTIENT: f64 = 1.090_507_732_665_257_7;
@@ -24,7 +24,7 @@ fn mesh((positions, triangles): meshes::Soup) -> Arc<Mesh> {
     Arc::new(Mesh::new(positions, triangles).unwrap())
 }
 
-fn sample_on(threads: usize, mesh: &Arc<Mesh>, options: Options) -> (SurfaceSamples, Report) {
+fn sample_on(threads: usize, mesh: &Arc<Mesh>, options: Options) -> (Points<3>, Report) {
     psp::sample(&Context::new(threads).unwrap(), mesh, &options, None).unwrap()
 }
 
@@ -94,7 +94,7 @@ fn masked_parts_are_as_if_they_were_not_there() {
     assert_eq!(sample_on(1, &nothing, progressive(0.1)).0.len(), 0);
 }
 
-fn is_prefix(short: &SurfaceSamples, long: &SurfaceSamples) -> bool {
+fn is_prefix(short: &Points<3>, long: &Points<3>) -> bool {
     long.positions.starts_with(&short.positions)
         && long.ranks.starts_with(&short.ranks)
         && long.triangles.starts_with(&short.triangles)
@@ -138,7 +138,7 @@ fn large_sets_nest_and_are_spread_as_well() {
     assert_eq!(long, sample_on(1, &mesh, of_count(60_000)).0);
     for prefix in [20_000, 28_000, 47_000, 60_000] {
         let (positions, rank) = (&long.positions[..prefix], f64::from(long.ranks[prefix - 1]));
-        let samples = SurfaceSamples { positions: positions.to_vec(), ..SurfaceSamples::default() };
+        let samples = Points { positions: positions.to_vec(), ..Points::<3>::default() };
         assert_eq!(conflict(&samples, rank), None);
         assert!(covers(&mesh, positions, QUOTIENT * rank), "{prefix}");
     }
@@ -149,7 +149,7 @@ fn the_oracle_notices_ranks_that_are_swapped_and_samples_that_are_missing() {
     let mesh = mesh(meshes::torus());
     let (samples, _) = sample_on(1, &mesh, progressive(0.1));
     let all: Vec<usize> = (1..200).collect();
-    let disorder = |samples: &SurfaceSamples| disorder(&mesh, samples, QUOTIENT, &all);
+    let disorder = |samples: &Points<3>| disorder(&mesh, samples, QUOTIENT, &all);
     assert_eq!(disorder(&samples), None);
     let mut swapped = samples.clone();
     swapped.ranks.swap(40, 90);
@@ -214,7 +214,7 @@ fn prefixes_have_no_preferred_directions() {
     let sets: Vec<_> = (0..8).map(|seed| sample_on(1, &square, of_count(480).seed(seed)).0).collect();
     for count in [240, 480] {
         let size = 2 * (2.1 * (count as f64).sqrt()) as usize + 1;
-        let spectrum = |set: &SurfaceSamples| {
+        let spectrum = |set: &Points<3>| {
             let flat: Vec<_> = set.positions[..count].iter().map(|&[x, y, _]| [x, y]).collect();
             periodogram(&context, &Domain::unit(Boundary::Bounded), &flat, size, None).unwrap()
         };

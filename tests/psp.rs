@@ -14,7 +14,7 @@ use std::sync::Arc;
 use azulejo::analysis::{coverage, spacing};
 use azulejo::mesh::Mesh;
 use azulejo::psp::{self, Engine, Options, Priority, Psp};
-use azulejo::{Context, Error, MAXIMAL_DENSITY, SurfaceSamples};
+use azulejo::{Context, Error, MAXIMAL_DENSITY, Points};
 use meshes::Soup;
 use proptest::prelude::*;
 use tolerance::tolerance;
@@ -24,7 +24,7 @@ fn mesh((positions, triangles): Soup) -> Arc<Mesh> {
 }
 
 /// Everything that a set owes.
-fn check(mesh: &Mesh, samples: &SurfaceSamples, radius: f64, maximal: bool) {
+fn check(mesh: &Mesh, samples: &Points<3>, radius: f64, maximal: bool) {
     assert!(!maximal || !samples.is_empty());
     assert_eq!(oracle::misplaced(mesh, samples), None);
     assert_eq!(oracle::conflict(samples, radius), None);
@@ -186,7 +186,7 @@ fn iterations_only_add_and_can_be_made_in_pieces() {
     let mut whole = Psp::new(&mesh, &options).unwrap();
     let mut pieces = Psp::new(&mesh, &options).unwrap();
     whole.advance(&context, 4, None).unwrap();
-    let mut before = SurfaceSamples::default();
+    let mut before = Points::<3>::default();
     for iterations in [1, 0, 2, 1] {
         let report = pieces.advance(&context, iterations, None).unwrap();
         let samples = pieces.samples();

@@ -19,7 +19,7 @@ use std::sync::Arc;
 
 use azulejo::mesh::Mesh;
 use azulejo::psp::{self, Engine, Options, Priority};
-use azulejo::{Classes, Context, Error, Given, Order, SurfaceSamples};
+use azulejo::{Classes, Context, Error, Given, Order, Points};
 use meshes::Soup;
 use random::Random;
 use tolerance::tolerance;
@@ -73,7 +73,7 @@ impl<'a> Case<'a> {
         Self { mesh, classes, options: Options::new(0.0).seed(3), masks: None, own_mask: None }
     }
 
-    fn sample_on(&self, threads: usize) -> Result<SurfaceSamples, Error> {
+    fn sample_on(&self, threads: usize) -> Result<Points<3>, Error> {
         let context = Context::new(threads).unwrap();
         let (samples, report) =
             psp::sample_classes(&context, self.mesh, &self.options, self.classes, self.masks, None)?;
@@ -82,7 +82,7 @@ impl<'a> Case<'a> {
     }
 
     /// The set, which is the same on one thread and on three, and keeps every promise.
-    fn checked(&self) -> SurfaceSamples {
+    fn checked(&self) -> Points<3> {
         let samples = self.sample_on(1).unwrap();
         assert_eq!(samples, self.sample_on(3).unwrap(), "depends on the number of threads");
         assert_eq!([samples.positions.len(), samples.normals.len(), samples.classes.len()], [samples.len(); 3]);
@@ -105,7 +105,7 @@ impl<'a> Case<'a> {
         self.options.given.clearances.map_or(self.classes.own(class), |clearances| clearances[given * count + class])
     }
 
-    fn check(&self, samples: &SurfaceSamples) {
+    fn check(&self, samples: &Points<3>) {
         let class = |i: usize| samples.classes[i] as usize;
         assert!(samples.classes.is_sorted() && samples.classes.iter().all(|&i| (i as usize) < self.classes.count()));
         let points: Vec<Point> = samples.positions.iter().map(|&position| exact(position)).collect();
@@ -145,7 +145,7 @@ impl<'a> Case<'a> {
     }
 }
 
-fn counts(samples: &SurfaceSamples, classes: usize) -> Vec<usize> {
+fn counts(samples: &Points<3>, classes: usize) -> Vec<usize> {
     (0..classes).map(|i| samples.classes.iter().filter(|&&class| class as usize == i).count()).collect()
 }
 
@@ -213,14 +213,14 @@ fn every_matrix_on_awkward_meshes_keeps_all_distances_and_leaves_no_gap() {
 /// The samples of a case, by cells in which all that is near to a point is found.
 struct Near<'a> {
     classes: &'a Classes,
-    samples: &'a SurfaceSamples,
+    samples: &'a Points<3>,
     points: Vec<Point>,
     width: f64,
     cells: std::collections::HashMap<[i32; 3], Vec<usize>>,
 }
 
 impl<'a> Near<'a> {
-    fn new(classes: &'a Classes, samples: &'a SurfaceSamples) -> Self {
+    fn new(classes: &'a Classes, samples: &'a Points<3>) -> Self {
         let width = classes.radii().iter().copied().fold(0.0, f64::max);
         let points: Vec<Point> = samples.positions.iter().map(|&position| exact(position)).collect();
         let mut cells = std::collections::HashMap::<[i32; 3], Vec<usize>>::new();

@@ -11,13 +11,13 @@ use std::sync::Arc;
 
 use azulejo::mesh::Mesh;
 use azulejo::psp::{self, Options, Report};
-use azulejo::{Context, Error, SurfaceSamples};
+use azulejo::{Context, Error, Points};
 
 fn mesh((positions, triangles): meshes::Soup) -> Arc<Mesh> {
     Arc::new(Mesh::new(positions, triangles).unwrap())
 }
 
-fn sample_on(threads: usize, mesh: &Arc<Mesh>, options: Options) -> (SurfaceSamples, Report) {
+fn sample_on(threads: usize, mesh: &Arc<Mesh>, options: Options) -> (Points<3>, Report) {
     psp::sample(&Context::new(threads).unwrap(), mesh, &options, None).unwrap()
 }
 

@@ -12,16 +12,16 @@ mod tolerance;
 use std::sync::Arc;
 
 use azulejo::mesh::Mesh;
-use azulejo::{Context, SurfaceSamples, psp};
+use azulejo::{Context, Points, psp};
 use tolerance::tolerance;
 
 const RADIUS: f64 = 0.01;
 
-fn sample(threads: usize, mesh: &Arc<Mesh>, options: psp::Options) -> SurfaceSamples {
+fn sample(threads: usize, mesh: &Arc<Mesh>, options: psp::Options) -> Points<3> {
     psp::sample(&Context::new(threads).unwrap(), mesh, &options, None).unwrap().0
 }
 
-fn gap(mesh: &Mesh, samples: &SurfaceSamples) -> Option<[f64; 3]> {
+fn gap(mesh: &Mesh, samples: &Points<3>) -> Option<[f64; 3]> {
     oracle::gap(mesh, samples, RADIUS, tolerance(mesh))
 }
 

@@ -10,7 +10,7 @@ use std::sync::Arc;
 
 use azulejo::mesh::Mesh;
 use azulejo::psp::{self, Options, Psp};
-use azulejo::{Context, Error, SurfaceSamples};
+use azulejo::{Context, Error, Points};
 use meshes::Soup;
 
 /// Scaled along each axis, then moved.
@@ -34,7 +34,7 @@ fn largest_spacing(mesh: &Mesh) -> f64 {
 }
 
 /// Every sample is a point of its triangle, rounded once.
-fn check_positions(mesh: &Mesh, samples: &SurfaceSamples) {
+fn check_positions(mesh: &Mesh, samples: &Points<3>) {
     for (i, position) in samples.positions.iter().enumerate() {
         let [u, v] = samples.barycentrics[i];
         assert!(u >= 0.0 && v >= 0.0 && f64::from(u) + f64::from(v) <= 1.0, "sample {i} has barycentrics {u}, {v}");

@@ -10,7 +10,7 @@ use std::sync::Arc;
 
 use azulejo::dcr::surface::{Options, RemeshReport, relax, remesh};
 use azulejo::mesh::Mesh;
-use azulejo::{Context, Error, SurfaceSamples, psp};
+use azulejo::{Context, Error, Points, psp};
 use glam::{DVec2, Vec3};
 use meshes::Soup;
 
@@ -19,19 +19,19 @@ fn mesh((positions, triangles): Soup) -> Arc<Mesh> {
 }
 
 /// About `count` samples, relaxed.
-fn relaxed(mesh: &Arc<Mesh>, count: f64, seed: u64) -> SurfaceSamples {
+fn relaxed(mesh: &Arc<Mesh>, count: f64, seed: u64) -> Points<3> {
     let context = Context::new(2).unwrap();
     let darts = darts(mesh, count, seed);
     relax(&context, mesh, &darts.triangles, &darts.barycentrics, &Options::default(), None).unwrap().0
 }
 
-fn darts(mesh: &Arc<Mesh>, count: f64, seed: u64) -> SurfaceSamples {
+fn darts(mesh: &Arc<Mesh>, count: f64, seed: u64) -> Points<3> {
     let radius = (0.7 * mesh.area() / count).sqrt();
     psp::sample(&Context::new(2).unwrap(), mesh, &psp::Options::new(radius).seed(seed), None).unwrap().0
 }
 
 /// The mesh of samples, of which all that is said is verified by a naive count.
-fn checked(mesh: &Mesh, samples: &SurfaceSamples) -> (Mesh, RemeshReport) {
+fn checked(mesh: &Mesh, samples: &Points<3>) -> (Mesh, RemeshReport) {
     let call = |threads| {
         remesh(&Context::new(threads).unwrap(), mesh, &samples.triangles, &samples.barycentrics, None).unwrap()
     };

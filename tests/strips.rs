@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use azulejo::mesh::Mesh;
 use azulejo::psp::{self, Options};
-use azulejo::{Context, SurfaceSamples};
+use azulejo::{Context, Points};
 
 const RADIUS: f64 = 1.0;
 const LENGTH: f32 = 2000.0;
@@ -40,12 +40,12 @@ fn blade(width: f32, thickness: f32) -> Arc<Mesh> {
     mesh((positions, triangles))
 }
 
-fn sample(mesh: &Arc<Mesh>, seed: u64, cosine: f64) -> SurfaceSamples {
+fn sample(mesh: &Arc<Mesh>, seed: u64, cosine: f64) -> Points<3> {
     let options = Options::new(RADIUS).iterations(0).seed(seed).cosine(cosine);
     psp::sample(&Context::new(2).unwrap(), mesh, &options, None).unwrap().0
 }
 
-fn gap(mesh: &Mesh, samples: &SurfaceSamples) -> Option<[f64; 3]> {
+fn gap(mesh: &Mesh, samples: &Points<3>) -> Option<[f64; 3]> {
     let spacing = f64::from(LENGTH) - f64::from(LENGTH.next_down());
     oracle::gap(mesh, samples, RADIUS, psp::TOLERANCE * spacing)
 }
@@ -94,7 +94,7 @@ fn sides_of_a_blade_are_one_street_or_two() {
         let samples = sample(&blade, seed, 0.0);
         for (side, (mesh, counts)) in sides.iter().zip(&mut apart).enumerate() {
             let on_side = samples.positions.iter().zip(&samples.triangles).filter(|(_, t)| (**t >= 6) == (side == 1));
-            let of_side = SurfaceSamples { positions: on_side.map(|(p, _)| *p).collect(), ..Default::default() };
+            let of_side = Points { positions: on_side.map(|(p, _)| *p).collect(), ..Default::default() };
             assert_eq!(oracle::conflict(&of_side, RADIUS), None);
             assert!(seed > 0 || gap(mesh, &of_side).is_none());
             counts.push(of_side.positions.len());

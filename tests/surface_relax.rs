@@ -14,7 +14,7 @@ use std::sync::Arc;
 use azulejo::dcr::Stopped;
 use azulejo::dcr::surface::{Options, Report, relax, triangulate};
 use azulejo::mesh::Mesh;
-use azulejo::{Context, Error, SurfaceSamples, psp};
+use azulejo::{Context, Error, Points, psp};
 use meshes::Soup;
 
 fn mesh((positions, triangles): Soup) -> Arc<Mesh> {
@@ -22,16 +22,16 @@ fn mesh((positions, triangles): Soup) -> Arc<Mesh> {
 }
 
 /// A maximal set of about `count` samples.
-fn darts(mesh: &Arc<Mesh>, count: f64) -> SurfaceSamples {
+fn darts(mesh: &Arc<Mesh>, count: f64) -> Points<3> {
     let radius = (0.7 * mesh.area() / count).sqrt();
     psp::sample(&Context::new(1).unwrap(), mesh, &psp::Options::new(radius), None).unwrap().0
 }
 
-fn run(mesh: &Mesh, samples: &SurfaceSamples) -> (SurfaceSamples, Report) {
+fn run(mesh: &Mesh, samples: &Points<3>) -> (Points<3>, Report) {
     run_steps(mesh, samples, Options::default().max_iterations)
 }
 
-fn run_steps(mesh: &Mesh, samples: &SurfaceSamples, steps: u32) -> (SurfaceSamples, Report) {
+fn run_steps(mesh: &Mesh, samples: &Points<3>, steps: u32) -> (Points<3>, Report) {
     let context = Context::new(2).unwrap();
     let options = Options::default().max_iterations(steps);
     let (relaxed, report) = relax(&context, mesh, &samples.triangles, &samples.barycentrics, &options, None).unwrap();
@@ -52,7 +52,7 @@ fn distance(a: [f32; 3], b: [f32; 3]) -> f64 {
     (0..3).map(|axis| (f64::from(a[axis]) - f64::from(b[axis])).powi(2)).sum::<f64>().sqrt()
 }
 
-fn smallest_distance(samples: &SurfaceSamples) -> f64 {
+fn smallest_distance(samples: &Points<3>) -> f64 {
     let of = |i: usize| samples.positions[..i].iter().map(move |&other| distance(samples.positions[i], other));
     (0..samples.len()).flat_map(of).fold(f64::INFINITY, f64::min)
 }
@@ -91,7 +91,7 @@ fn samples_neither_leave_an_open_square_nor_crowd_at_its_boundary() {
     assert!(
         relaxed.positions.iter().all(|&[x, y, z]| (0.0..=1.0).contains(&x) && (0.0..=1.0).contains(&y) && z == 0.0)
     );
-    let margin = |samples: &SurfaceSamples| {
+    let margin = |samples: &Points<3>| {
         let at_boundary = |&&[x, y, _]: &&[f32; 3]| x.min(y).min(1.0 - x).min(1.0 - y) < 0.1;
         samples.positions.iter().filter(at_boundary).count() as f64 / samples.len() as f64
     };
@@ -105,7 +105,7 @@ fn the_two_sides_of_a_thin_wall_do_not_know_of_each_other() {
     let single = mesh(meshes::plane());
     let samples = darts(&single, 700.0);
     let double = mesh(meshes::sheets(1e-3));
-    let twice = SurfaceSamples {
+    let twice = Points {
         triangles: samples
             .triangles
             .iter()
@@ -124,7 +124,7 @@ fn the_two_sides_of_a_thin_wall_do_not_know_of_each_other() {
     assert!(report.rho > 0.8 && joint.smallest_distance <= 1.001e-3, "{joint:?}");
     let (low, high) = both.positions.split_at(samples.len());
     for side in [low, high] {
-        let side = SurfaceSamples { positions: side.to_vec(), ..alone.clone() };
+        let side = Points { positions: side.to_vec(), ..alone.clone() };
         assert!(smallest_distance(&side) > 0.8 * d_max(&single, samples.len()));
     }
 }
@@ -184,7 +184,7 @@ fn no_two_samples_get_nearer_than_the_nearest_two_were() {
                 let triangles = kept.iter().map(|&i| maximal.triangles[i]).collect();
                 let barycentrics = kept.iter().map(|&i| maximal.barycentrics[i]).collect();
                 let positions = kept.iter().map(|&i| maximal.positions[i]).collect();
-                SurfaceSamples { triangles, barycentrics, positions, ..Default::default() }
+                Points { triangles, barycentrics, positions, ..Default::default() }
             };
             for (steps, samples) in [(1, &maximal), (9, &maximal), (100, &maximal), (30, &every(2)), (100, &every(3))] {
                 let (relaxed, _) = run_steps(&mesh, samples, steps);
@@ -203,7 +203,7 @@ fn few_samples_that_are_far_apart_stay_so() {
     // The first triangle's corners, two of them far away; their distance is hundreds of spacings.
     let barycentrics = vec![[0.1, 0.1], [0.8, 0.1], [0.4, 0.3]];
     let positions = barycentrics.iter().map(|&uv| strip.point(0, uv)).collect();
-    let samples = SurfaceSamples { triangles: vec![0; 3], barycentrics, positions, ..Default::default() };
+    let samples = Points { triangles: vec![0; 3], barycentrics, positions, ..Default::default() };
     let (_, report) = run(&strip, &samples);
     assert!(report.rho > 50.0, "{report:?}");
 }
@@ -253,10 +253,10 @@ fn walls_of_many_triangles_are_relaxed_each_for_itself() {
     let triangles: Vec<u32> = samples.triangles.iter().copied().chain(above).collect();
     let barycentrics = [&samples.barycentrics[..], &samples.barycentrics].concat();
     let positions = triangles.iter().zip(&barycentrics).map(|(&triangle, &uv)| double.point(triangle, uv)).collect();
-    let twice = SurfaceSamples { triangles, barycentrics, positions, ..Default::default() };
+    let twice = Points { triangles, barycentrics, positions, ..Default::default() };
     let (both, _) = run(&double, &twice);
     for side in both.positions.chunks(samples.len()) {
-        let side = SurfaceSamples { positions: side.to_vec(), ..Default::default() };
+        let side = Points { positions: side.to_vec(), ..Default::default() };
         assert!(smallest_distance(&side) > 0.8 * d_max(&single, samples.len()));
     }
 }
@@ -268,8 +268,8 @@ fn random_soups_and_coincident_samples_are_held_out() {
         run(&mesh, &darts(&mesh, 500.0));
     }
     let mesh = mesh(meshes::plane());
-    let samples = SurfaceSamples { triangles: vec![0; 60], barycentrics: vec![[0.25, 0.5]; 60], ..Default::default() };
-    let samples = SurfaceSamples { positions: vec![[0.0; 3]; 60], ..samples };
+    let samples = Points { triangles: vec![0; 60], barycentrics: vec![[0.25, 0.5]; 60], ..Default::default() };
+    let samples = Points { positions: vec![[0.0; 3]; 60], ..samples };
     let (_, report) = run(&mesh, &samples);
     assert!(report.rho > 0.8, "{report:?}");
 }

@@ -10,7 +10,7 @@ use crate::mesh::check::{check_finite, check_indices};
 use crate::mesh::kept::Kept;
 use crate::mesh::normals::Normals;
 use crate::mesh::rounding::{exact, exact_point, next_below};
-use crate::points::SurfaceSamples;
+use crate::points::Points;
 
 /// A triangle soup: finite positions, indices in range, and some surface.
 ///
@@ -230,7 +230,7 @@ impl Mesh {
     /// # Errors
     /// [`Error::InvalidArgument`] for `triangles` that do not exist, and for `barycentrics` that are not as many or not
     /// finite.
-    pub fn samples_at(&self, triangles: &[u32], barycentrics: &[[f32; 2]]) -> Result<SurfaceSamples> {
+    pub fn samples_at(&self, triangles: &[u32], barycentrics: &[[f32; 2]]) -> Result<Points<3>> {
         let count = self.triangles.len();
         if barycentrics.len() != triangles.len() {
             let reason = format!("there are {}, and {} triangles", barycentrics.len(), triangles.len());
@@ -246,9 +246,9 @@ impl Mesh {
     }
 
     /// The samples at these places, with their positions and normals.
-    pub(crate) fn samples(&self, triangles: Vec<u32>, barycentrics: Vec<[f32; 2]>) -> SurfaceSamples {
+    pub(crate) fn samples(&self, triangles: Vec<u32>, barycentrics: Vec<[f32; 2]>) -> Points<3> {
         let places = || triangles.iter().zip(&barycentrics).map(|(&triangle, &uv)| (triangle, uv));
-        SurfaceSamples {
+        Points {
             positions: places().map(|(triangle, uv)| self.point(triangle, uv)).collect(),
             normals: triangles.iter().map(|&triangle| self.normal(triangle)).collect(),
             // None if the mesh carries no normals.
@@ -257,8 +257,7 @@ impl Mesh {
                 .collect(),
             triangles,
             barycentrics,
-            ranks: Vec::new(),
-            classes: Vec::new(),
+            ..Points::default()
         }
     }
 

@@ -7,7 +7,7 @@ use crate::host::Stopwatch;
 use crate::job::{Context, Progress};
 use crate::mesh::Mesh;
 use crate::order::Order;
-use crate::points::{SurfaceSamples, finest_radius};
+use crate::points::{Points, finest_radius};
 use crate::psp::estimate::{checked_estimate, require_memory};
 use crate::psp::facing::Facing;
 use crate::psp::fill::Surface;
@@ -25,7 +25,7 @@ pub(super) fn sample(
     mesh: &Arc<Mesh>,
     options: &Options,
     progress: Option<&Progress>,
-) -> Result<(SurfaceSamples, Report)> {
+) -> Result<(Points<3>, Report)> {
     let stopwatch = Stopwatch::start();
     options.check_levels()?;
     let facing = Facing::new(options.cosine)?;

@@ -9,7 +9,7 @@ use crate::host::Stopwatch;
 use crate::job::{Context, Job, Progress};
 use crate::mesh::Mesh;
 use crate::order::Order;
-use crate::points::SurfaceSamples;
+use crate::points::Points;
 use crate::psp::estimate::{checked_estimate, is_worth_projecting};
 use crate::psp::facing::Facing;
 use crate::psp::fill::triangles::Measures;
@@ -103,7 +103,7 @@ impl Psp {
     }
 
     /// A copy of the samples, in the order in which they were accepted.
-    pub fn samples(&self) -> SurfaceSamples {
+    pub fn samples(&self) -> Points<3> {
         self.samples.to_surface_samples(&self.mesh)
     }
 
@@ -196,7 +196,7 @@ impl Psp {
 /// With [`Options::count`] the set has exactly so many samples, and the report says the radius and a bound of the covering
 /// radius. Takes about twice the time of a set of known radius.
 ///
-/// In [`Order::Progressive`] the samples are sorted coarse to fine, and have [ranks](SurfaceSamples::ranks). For every
+/// In [`Order::Progressive`] the samples are sorted coarse to fine, and have [ranks](Points::ranks). For every
 /// prefix, from the first sample on: no two samples of it are closer than the rank of its last one, and every place of
 /// the surface is within [`Options::quotient`] times this rank of a sample of it, up to [`TOLERANCE`](super::TOLERANCE).
 /// A set of fewer samples is a prefix of a set of more, on the same mesh with the same quotient and seed, to the bit. Sets
@@ -213,7 +213,7 @@ pub fn sample(
     mesh: &Arc<Mesh>,
     options: &Options,
     progress: Option<&Progress>,
-) -> Result<(SurfaceSamples, Report)> {
+) -> Result<(Points<3>, Report)> {
     if options.has_levels() {
         return ordered::sample(context, mesh, options, progress);
     }

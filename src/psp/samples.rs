@@ -8,7 +8,7 @@ use crate::geometry::counting_sort::Binned;
 use crate::geometry::grid3::distance_squared;
 use crate::job::Job;
 use crate::mesh::{Mesh, exact_point};
-use crate::points::SurfaceSamples;
+use crate::points::Points;
 use crate::psp::cubes::{Cube, Numbers, SIDE};
 use crate::psp::surroundings::Surroundings;
 
@@ -182,13 +182,13 @@ impl SampleSet {
     }
 
     /// The samples in the order in which they were accepted, with their normals.
-    pub fn to_surface_samples(&self, mesh: &Mesh) -> SurfaceSamples {
+    pub fn to_surface_samples(&self, mesh: &Mesh) -> Points<3> {
         surface_samples(mesh, &self.samples)
     }
 }
 
 /// Samples with their normals.
-pub(super) fn surface_samples(mesh: &Mesh, samples: &[Sample]) -> SurfaceSamples {
+pub(super) fn surface_samples(mesh: &Mesh, samples: &[Sample]) -> Points<3> {
     let triangles = samples.iter().map(|sample| sample.triangle).collect();
     mesh.samples(triangles, samples.iter().map(|sample| sample.barycentrics).collect())
 }

@@ -8,7 +8,7 @@ mod parts;
 #[allow(dead_code)]
 mod triangle;
 
-use azulejo::SurfaceSamples;
+use azulejo::Points;
 use azulejo::mesh::Mesh;
 use buckets::Buckets;
 use triangle::{has_area, normal};
@@ -105,7 +105,7 @@ impl Part {
 }
 
 /// A sample whose radius is not what the field says.
-pub fn wrong_radius(mesh: &Mesh, field: &Field, samples: &SurfaceSamples, radii: &[f64]) -> Option<usize> {
+pub fn wrong_radius(mesh: &Mesh, field: &Field, samples: &Points<3>, radii: &[f64]) -> Option<usize> {
     assert_eq!(samples.len(), radii.len());
     (0..radii.len()).find(|&i| {
         let uv = samples.barycentrics[i].map(f64::from);
@@ -114,7 +114,7 @@ pub fn wrong_radius(mesh: &Mesh, field: &Field, samples: &SurfaceSamples, radii:
 }
 
 /// The first two samples found that are closer than the mean of their radii, unless their normals are too different.
-pub fn conflict(samples: &SurfaceSamples, radii: &[f64], cosine: f64) -> Option<(usize, usize)> {
+pub fn conflict(samples: &Points<3>, radii: &[f64], cosine: f64) -> Option<(usize, usize)> {
     let (normals, largest) = (&samples.normals, largest(radii));
     let buckets = Buckets::new(&samples.positions, 1.01 * largest);
     buckets.all().iter().find_map(|&(i, point)| {
@@ -134,7 +134,7 @@ fn largest(radii: &[f64]) -> f64 {
 pub fn gap(
     mesh: &Mesh,
     field: &Field,
-    samples: &SurfaceSamples,
+    samples: &Points<3>,
     radii: &[f64],
     cosine: f64,
     tolerance: f64,
@@ -146,7 +146,7 @@ pub fn gap(
 pub fn gap_around(
     mesh: &Mesh,
     field: &Field,
-    samples: &SurfaceSamples,
+    samples: &Points<3>,
     radii: &[f64],
     cosine: f64,
     tolerance: f64,
@@ -170,7 +170,7 @@ pub fn gap_around(
 }
 
 /// A sample that is nearer to a given one than its clearance.
-pub fn too_near(samples: &SurfaceSamples, given: &[Ball]) -> Option<usize> {
+pub fn too_near(samples: &Points<3>, given: &[Ball]) -> Option<usize> {
     let is_too_near = |&position: &[f32; 3]| given.iter().any(|given| distance(exact(position), given.0) < given.1);
     samples.positions.iter().position(is_too_near)
 }

@@ -7,7 +7,7 @@ mod surface_oracle;
 mod tolerance;
 
 use azulejo::mesh::Mesh;
-use azulejo::{Order, SurfaceSamples};
+use azulejo::{Order, Points};
 pub use surface_oracle::conflict;
 use tolerance::tolerance;
 
@@ -17,7 +17,7 @@ pub fn distance(a: [f32; 3], b: [f32; 3]) -> f64 {
 
 /// Whether every place of a mesh is within a distance of one of the positions.
 pub fn covers(mesh: &Mesh, positions: &[[f32; 3]], within: f64) -> bool {
-    let samples = SurfaceSamples { positions: positions.to_vec(), ..SurfaceSamples::default() };
+    let samples = Points { positions: positions.to_vec(), ..Points::<3>::default() };
     surface_oracle::gap(mesh, &samples, within, tolerance(mesh)).is_none()
 }
 
@@ -28,8 +28,8 @@ fn largest_ratio(quotient: f64, prefix: usize) -> f64 {
 
 /// What is wrong with the order of some samples, if anything is: with the ranks, the distances of each sample from those
 /// before it, or the covering radius of the first `prefixes` samples.
-pub fn disorder(mesh: &Mesh, samples: &SurfaceSamples, quotient: f64, prefixes: &[usize]) -> Option<String> {
-    let SurfaceSamples { positions, ranks, .. } = samples;
+pub fn disorder(mesh: &Mesh, samples: &Points<3>, quotient: f64, prefixes: &[usize]) -> Option<String> {
+    let Points { positions, ranks, .. } = samples;
     if ranks.len() != positions.len() || ranks.first().is_some_and(|rank| *rank != f32::INFINITY) {
         return Some(format!("{} ranks for {} samples, from {:?} on", ranks.len(), positions.len(), ranks.first()));
     }

@@ -9,7 +9,7 @@ mod parts;
 #[allow(dead_code)]
 mod triangle;
 
-use azulejo::SurfaceSamples;
+use azulejo::Points;
 use azulejo::mesh::Mesh;
 use buckets::Buckets;
 use parts::parts;
@@ -30,7 +30,7 @@ fn middle(a: Point, b: Point) -> Point {
 }
 
 /// The first two samples found that are closer than the radius.
-pub fn conflict(samples: &SurfaceSamples, radius: f64) -> Option<(usize, usize)> {
+pub fn conflict(samples: &Points<3>, radius: f64) -> Option<(usize, usize)> {
     let buckets = Buckets::new(&samples.positions, 1.01 * radius);
     buckets.all().iter().find_map(|&(i, point)| {
         let mut near = buckets.near(&[point], radius).into_iter();
@@ -39,7 +39,7 @@ pub fn conflict(samples: &SurfaceSamples, radius: f64) -> Option<(usize, usize)>
 }
 
 /// A point of the surface for which it could not be proved that a sample is within the radius, up to a tolerance.
-pub fn gap(mesh: &Mesh, samples: &SurfaceSamples, radius: f64, tolerance: f64) -> Option<Point> {
+pub fn gap(mesh: &Mesh, samples: &Points<3>, radius: f64, tolerance: f64) -> Option<Point> {
     let reach = radius + tolerance;
     let buckets = Buckets::new(&samples.positions, 2.0 * reach);
     (0..mesh.triangles().len() as u32).filter(|&triangle| mesh.is_sampled(triangle)).find_map(|triangle| {
@@ -66,7 +66,7 @@ fn gap_in_part(part: [Point; 3], samples: &[Point], reach: f64, smallest: f64) -
 }
 
 /// A sample that is not where its triangle and barycentrics say, or whose normal is not its triangle's.
-pub fn misplaced(mesh: &Mesh, samples: &SurfaceSamples) -> Option<usize> {
+pub fn misplaced(mesh: &Mesh, samples: &Points<3>) -> Option<usize> {
     let count = samples.len();
     assert_eq!([samples.normals.len(), samples.triangles.len(), samples.barycentrics.len()], [count; 3]);
     (0..count).find(|&i| {

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use azulejo::SurfaceSamples;
+use azulejo::Points;
 use sha2::{Digest, Sha256};
 
 /// Sums, in the order in which they were taken.
@@ -29,7 +29,7 @@ impl List {
     }
 
     /// Adds that of all that is known of samples.
-    pub fn samples(&mut self, name: &str, samples: &SurfaceSamples) {
+    pub fn samples(&mut self, name: &str, samples: &Points<3>) {
         let fields = [
             little_endian(samples.positions.as_flattened(), f32::to_le_bytes),
             little_endian(samples.normals.as_flattened(), f32::to_le_bytes),

@@ -6,7 +6,7 @@ use azulejo::dcr::surface::{Options as RelaxOptions, relax, triangulate};
 use azulejo::mesh::Mesh;
 use azulejo::psp::adaptive::{self, Density, Radius, Scale, Texture};
 use azulejo::psp::{self, Engine, Options, Priority};
-use azulejo::{Classes, Context, Given, Order, Result, SurfaceSamples};
+use azulejo::{Classes, Context, Given, Order, Points, Result};
 
 use crate::list::{List, little_endian};
 use crate::meshes;
@@ -14,9 +14,9 @@ use crate::meshes;
 /// What is measured: a closed torus with a maximal set, and an open one with a set of few samples.
 pub struct Surface {
     pub closed: Arc<Mesh>,
-    pub maximal: SurfaceSamples,
+    pub maximal: Points<3>,
     pub open: Arc<Mesh>,
-    pub few: SurfaceSamples,
+    pub few: Points<3>,
 }
 
 /// Adds the sums.
@@ -39,7 +39,7 @@ fn options(radius: f64, iterations: u32, engine: Engine, seed: u64) -> Options<'
 }
 
 /// Gives [`Surface::maximal`].
-fn uniform(context: &Context, closed: &Arc<Mesh>, open: &Arc<Mesh>, list: &mut List) -> Result<SurfaceSamples> {
+fn uniform(context: &Context, closed: &Arc<Mesh>, open: &Arc<Mesh>, list: &mut List) -> Result<Points<3>> {
     use Engine::Rasteriser;
     let mut sample = |name: &str, mesh: &Arc<Mesh>, options: Options| {
         let (samples, report) = psp::sample(context, mesh, &options, None)?;
@@ -68,7 +68,7 @@ fn uniform(context: &Context, closed: &Arc<Mesh>, open: &Arc<Mesh>, list: &mut L
 }
 
 /// Some samples of a set, with clearances over four orders.
-fn obstacles(set: &SurfaceSamples) -> (Vec<[f32; 3]>, Vec<f64>) {
+fn obstacles(set: &Points<3>) -> (Vec<[f32; 3]>, Vec<f64>) {
     let some = set.positions.iter().step_by(50).copied();
     some.enumerate().map(|(i, position)| (position, 0.2 / [1.0, 7.0, 60.0, 1000.0, 20000.0][i % 5])).unzip()
 }
@@ -89,7 +89,7 @@ fn ordered(context: &Context, closed: &Arc<Mesh>, open: &Arc<Mesh>, list: &mut L
 }
 
 /// A set of three classes, two of them with equal radii: each on some of the triangles, and around given samples.
-fn in_classes(context: &Context, closed: &Arc<Mesh>, maximal: &SurfaceSamples, list: &mut List) -> Result<()> {
+fn in_classes(context: &Context, closed: &Arc<Mesh>, maximal: &Points<3>, list: &mut List) -> Result<()> {
     let classes = Classes::of_radii(&[0.05, 0.1, 0.05], 1.0)?;
     let masks: Vec<u32> = (0..closed.triangles().len() as u32).map(|i| if i % 9 < 5 { 7 } else { i % 8 }).collect();
     let options = Options::new(0.0).seed(46);
@@ -107,7 +107,7 @@ fn in_classes(context: &Context, closed: &Arc<Mesh>, maximal: &SurfaceSamples, l
 }
 
 /// Samples that go with the triangles of a mesh whose vertices move.
-fn deformed(closed: &Mesh, maximal: &SurfaceSamples, list: &mut List) -> Result<()> {
+fn deformed(closed: &Mesh, maximal: &Points<3>, list: &mut List) -> Result<()> {
     let bent = closed.positions().iter().map(|&[x, y, z]| [x + 0.3 * z * z, y * (1.0 - 0.2 * x), z - 0.1 * x * y]);
     let bent = closed.deformed(bent.collect())?;
     list.samples("deformed", &bent.samples_at(&maximal.triangles, &maximal.barycentrics)?);
@@ -157,10 +157,10 @@ fn adaptive(context: &Context, closed: &Mesh, open: &Mesh, list: &mut List) -> R
 fn relaxed(
     context: &Context,
     closed: &Mesh,
-    maximal: &SurfaceSamples,
+    maximal: &Points<3>,
     open: &Arc<Mesh>,
     list: &mut List,
-) -> Result<SurfaceSamples> {
+) -> Result<Points<3>> {
     let options = RelaxOptions::default().max_iterations(30);
     let (samples, report) = relax(context, closed, &maximal.triangles, &maximal.barycentrics, &options, None)?;
     list.samples("relax surface", &samples);

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use azulejo::dcr::surface;
 use azulejo::mesh::Mesh;
 use azulejo::psp::{self, Options};
-use azulejo::{Given, SurfaceSamples};
+use azulejo::{Given, Points};
 
 use crate::answer::{Answer, call};
 use crate::memory::rows;
@@ -115,7 +115,7 @@ pub unsafe extern "C" fn azulejo_dcr_surface_relax(
 }
 
 /// All that is known of samples.
-fn answer(samples: SurfaceSamples) -> Answer {
-    let SurfaceSamples { positions, normals, triangles, barycentrics, ranks, .. } = samples;
+fn answer(samples: Points<3>) -> Answer {
+    let Points { positions, normals, triangles, barycentrics, ranks, .. } = samples;
     Answer::default().and(positions).and(normals).and(triangles).and(barycentrics).and(ranks)
 }

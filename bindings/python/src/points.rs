@@ -1,6 +1,5 @@
 //! Sets of samples as Python sees them.
 
-use azulejo_core::SurfaceSamples;
 use azulejo_core::kdrt::{Classified, Ranked};
 use azulejo_core::psp::adaptive::AdaptiveSamples;
 use numpy::{PyArray1, PyArray2};
@@ -69,9 +68,17 @@ impl Points {
         Ok(Self::plane(py, samples)?.with_classes(py, classes))
     }
 
-    pub(crate) fn surface(py: Python<'_>, samples: SurfaceSamples) -> PyResult<Self> {
-        let SurfaceSamples { positions, normals, triangles, barycentrics, interpolated_normals, ranks, classes } =
-            samples;
+    pub(crate) fn surface(py: Python<'_>, samples: azulejo_core::Points<3>) -> PyResult<Self> {
+        let azulejo_core::Points {
+            positions,
+            normals,
+            triangles,
+            barycentrics,
+            interpolated_normals,
+            ranks,
+            classes,
+            radii,
+        } = samples;
         let has_normals = !interpolated_normals.is_empty();
         Ok(Self {
             count: positions.len(),
@@ -80,7 +87,7 @@ impl Points {
             interpolated_normals: has_normals.then(|| table(py, interpolated_normals)).transpose()?,
             triangles: Some(line(py, triangles)),
             barycentrics: Some(table(py, barycentrics)?),
-            radii: None,
+            radii: line_if_any(py, radii),
             ranks: line_if_any(py, ranks),
             classes: line_if_any(py, classes),
             report: None,

@@ -2,13 +2,13 @@
 
 use std::io::{self, Write};
 
-use azulejo::SurfaceSamples;
+use azulejo::Points;
 
 use super::columns::{CLASS, Column, Number, RADIUS, RANK, write_floats};
 
 /// Samples with all that is known of them.
 pub struct SurfaceTable<'a> {
-    pub samples: &'a SurfaceSamples,
+    pub samples: &'a Points<3>,
     /// The normals to write: geometric or interpolated.
     pub normals: &'a [[f32; 3]],
     /// The radius of each sample, where they differ.
@@ -18,7 +18,7 @@ pub struct SurfaceTable<'a> {
 impl SurfaceTable<'_> {
     /// The columns that only some sets have.
     pub fn more_columns(&self) -> impl Iterator<Item = Column> {
-        let SurfaceSamples { ranks, classes, .. } = self.samples;
+        let Points { ranks, classes, .. } = self.samples;
         let radius = self.radii.is_some().then_some(RADIUS);
         let (rank, class) = ((!ranks.is_empty()).then_some(RANK), (!classes.is_empty()).then_some(CLASS));
         [radius, rank, class].into_iter().flatten()
@@ -26,7 +26,7 @@ impl SurfaceTable<'_> {
 
     /// The numbers of a sample in these columns.
     pub fn more_numbers(&self, sample: usize) -> impl Iterator<Item = Number> {
-        let SurfaceSamples { ranks, classes, .. } = self.samples;
+        let Points { ranks, classes, .. } = self.samples;
         let radius = self.radii.map(|radii| Number::Float(radii[sample] as f32));
         let rank = ranks.get(sample).map(|&rank| Number::Float(rank));
         let class = classes.get(sample).map(|&class| Number::Whole(class));
@@ -37,7 +37,7 @@ impl SurfaceTable<'_> {
     /// integer, u v, and radius, rank and class if there are any.
     pub fn write_binary(&self, writer: &mut impl Write) -> io::Result<()> {
         (0..self.samples.len()).try_for_each(|i| {
-            let SurfaceSamples { positions, triangles, barycentrics, .. } = self.samples;
+            let Points { positions, triangles, barycentrics, .. } = self.samples;
             write_floats(writer, &[positions[i], self.normals[i]])?;
             writer.write_all(&triangles[i].to_le_bytes())?;
             write_floats(writer, &[barycentrics[i]])?;

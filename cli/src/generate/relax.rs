@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use azulejo::dcr::{self, Neighbourhood, surface};
 use azulejo::mesh::Mesh;
-use azulejo::{Context, Error, Progress, Result, SurfaceSamples};
+use azulejo::{Context, Error, Points, Progress, Result};
 use clap::{Args, ValueEnum};
 
 use super::{Common, report};
@@ -144,7 +144,7 @@ impl Relax {
 }
 
 /// Writes the mesh whose vertices are samples.
-fn write_remeshed(context: &Context, mesh: &Mesh, samples: &SurfaceSamples, output: &Output) -> Result<()> {
+fn write_remeshed(context: &Context, mesh: &Mesh, samples: &Points<3>, output: &Output) -> Result<()> {
     let (made, done) = watched("remesh", |progress| {
         surface::remesh(context, mesh, &samples.triangles, &samples.barycentrics, Some(progress))
     })?;

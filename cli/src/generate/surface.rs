@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use azulejo::mesh::Mesh;
 use azulejo::psp::adaptive::{self, Density as MeshDensity, Radius, Scale};
-use azulejo::{Classes, Context, Error, Given, Order, Progress, Result, SurfaceSamples, psp};
+use azulejo::{Classes, Context, Error, Given, Order, Points, Progress, Result, psp};
 use clap::{Args, ValueEnum};
 
 use super::around::Around;
@@ -174,7 +174,7 @@ enum Normals {
 
 /// Samples, their radii if they differ, and what is said of them.
 struct Made {
-    samples: SurfaceSamples,
+    samples: Points<3>,
     radii: Option<Vec<f64>>,
     about: String,
     seconds: f64,

@@ -1,6 +1,6 @@
 //! Results: samples of the plane or of a mesh.
 
-use azulejo_core::SurfaceSamples;
+use azulejo_core::Points;
 use azulejo_core::kdrt::{Classified, Ranked};
 use azulejo_core::psp::adaptive::AdaptiveSamples;
 
@@ -20,7 +20,7 @@ pub struct azulejo_points {
 
 pub(crate) enum Samples {
     Plane(Vec<[f32; 2]>),
-    Surface(SurfaceSamples),
+    Surface(Points<3>),
 }
 
 impl azulejo_points {
@@ -42,7 +42,7 @@ impl azulejo_points {
         Self { classes, ..Self::plane(samples) }
     }
 
-    pub(crate) fn surface(mut samples: SurfaceSamples) -> Self {
+    pub(crate) fn surface(mut samples: Points<3>) -> Self {
         let (ranks, classes) = (std::mem::take(&mut samples.ranks), std::mem::take(&mut samples.classes));
         Self { ranks, classes, ..Self::of(Samples::Surface(samples)) }
     }
@@ -52,7 +52,7 @@ impl azulejo_points {
     }
 }
 
-fn surface(points: Option<&azulejo_points>) -> Option<&SurfaceSamples> {
+fn surface(points: Option<&azulejo_points>) -> Option<&Points<3>> {
     match points.map(|points| &points.samples) {
         Some(Samples::Surface(samples)) => Some(samples),
         _ => None,

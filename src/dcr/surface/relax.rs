@@ -16,7 +16,7 @@ use crate::geometry::grid3;
 use crate::job::{Context, Job, Progress};
 use crate::memory;
 use crate::mesh::{Mesh, round_barycentrics};
-use crate::points::SurfaceSamples;
+use crate::points::Points;
 use crate::rng::{Draw, Rng};
 
 /// The distance by which samples are moved that coincide with others, or lie on an edge of their triangle, in spacings.
@@ -28,7 +28,7 @@ const BYTES_PER_SAMPLE: f64 = 600.0;
 /// The number of attempts for samples that would get too close to others.
 const ATTEMPTS: u64 = 16;
 
-/// Relaxes samples on a mesh: sample `i` is the point `barycentrics[i]` of `triangles[i]`, as in [`SurfaceSamples`], and
+/// Relaxes samples on a mesh: sample `i` is the point `barycentrics[i]` of `triangles[i]`, as in [`Points`], and
 /// of any density. The samples are returned in their order, each with the triangle that it is on.
 ///
 /// Samples that are heaped on a part of the surface are dealt out before the first step: random points are thrown on
@@ -56,7 +56,7 @@ pub fn relax(
     barycentrics: &[[f32; 2]],
     options: &Options,
     progress: Option<&Progress>,
-) -> Result<(SurfaceSamples, Report)> {
+) -> Result<(Points<3>, Report)> {
     check(mesh, triangles, barycentrics)?;
     options.check()?;
     memory::require(BYTES_PER_SAMPLE * triangles.len() as f64, "triangles", &format!("{} points", triangles.len()))?;

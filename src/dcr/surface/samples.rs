@@ -5,7 +5,7 @@ use glam::DVec2;
 use crate::dcr::surface::walk::SurfacePoint;
 use crate::error::{Error, Result};
 use crate::mesh::{Mesh, round_barycentrics};
-use crate::points::SurfaceSamples;
+use crate::points::Points;
 
 /// The amount by which rounding may have moved barycentrics out of their triangle.
 const ROUNDING: f64 = 1e-6;
@@ -53,7 +53,7 @@ fn point((&triangle, &uv): (&u32, &[f32; 2])) -> SurfacePoint {
 }
 
 /// The points as samples, by rounded barycentrics.
-pub(super) fn leave(mesh: &Mesh, points: &[SurfacePoint]) -> SurfaceSamples {
+pub(super) fn leave(mesh: &Mesh, points: &[SurfacePoint]) -> Points<3> {
     let triangles = points.iter().map(|point| point.triangle).collect();
     mesh.samples(triangles, points.iter().map(|point| round_barycentrics(point.uv.into())).collect())
 }

@@ -5,7 +5,7 @@ use crate::host::Stopwatch;
 use crate::job::{Context, Job, Progress};
 use crate::mesh::Mesh;
 use crate::order::Order;
-use crate::points::{SurfaceSamples, check_radius};
+use crate::points::{Points, check_radius};
 use crate::psp::adaptive::density::DensityField;
 use crate::psp::adaptive::estimate::require;
 use crate::psp::adaptive::field::RadiusField;
@@ -28,7 +28,7 @@ use crate::psp::samples::{Sample, surface_samples};
 #[non_exhaustive]
 pub struct AdaptiveSamples {
     /// In the order in which they were accepted, or in progressive order, with their ranks.
-    pub samples: SurfaceSamples,
+    pub samples: Points<3>,
     /// The radius of each sample.
     pub radii: Vec<f64>,
 }
@@ -38,7 +38,7 @@ pub struct AdaptiveSamples {
 /// Time grows with the samples and the triangles, and with the square of how much the radius changes along a radius.
 /// The report counts no iterations, rays and hits.
 ///
-/// In [`Order::Progressive`] the samples are sorted coarse to fine, and have [ranks](SurfaceSamples::ranks). A rank is
+/// In [`Order::Progressive`] the samples are sorted coarse to fine, and have [ranks](Points::ranks). A rank is
 /// what all radii are multiplied by; for a [density](Radius::Density), the radius at density 1. For every prefix, from the
 /// first sample on: two samples are no closer than the mean of their radii times the rank of its last one, and no place is
 /// farther from all of its samples than the mean of the two radii times [`Options::quotient`] times this rank, up to the

@@ -18,7 +18,7 @@ use crate::host::Stopwatch;
 use crate::job::{Context, Progress};
 use crate::mesh::Mesh;
 use crate::order::Order;
-use crate::points::{SurfaceSamples, check_resolution};
+use crate::points::{Points, check_resolution};
 use crate::psp::classes::fill::{Group, Places};
 use crate::psp::classes::layers::Layers;
 use crate::psp::estimate::require_memory;
@@ -35,7 +35,7 @@ use crate::rng::{Draw, hash};
 /// No two samples of classes i and j are closer than `classes.radius(i, j)`, in `f64` from the returned floats. And no class
 /// can take another sample: for each class i every place of the surface is within `radius(i, j)` of a sample of some
 /// class j, up to [`TOLERANCE`](super::TOLERANCE). The samples are sorted by class, which
-/// [`SurfaceSamples::classes`] says of each. They do not depend on the number of threads.
+/// [`Points::classes`] says of each. They do not depend on the number of threads.
 ///
 /// *Shares.* Classes of larger own radii come first and take what they would have alone; those of smaller ones fill
 /// what is left. With [`Classes::of_radii`] and factor 1, own radii 1, 1/2, 1/4 give about 100, 82 and 82 per cent of
@@ -68,7 +68,7 @@ pub fn sample_classes(
     classes: &Classes,
     masks: Option<&[u32]>,
     progress: Option<&Progress>,
-) -> Result<(SurfaceSamples, Report)> {
+) -> Result<(Points<3>, Report)> {
     let stopwatch = Stopwatch::start();
     check_options(options)?;
     check_masks(mesh, masks)?;

@@ -7,7 +7,7 @@ use std::time::Instant;
 use azulejo::analysis::triangles::{Triangle, TriangleStatistics};
 use azulejo::dcr::surface::{Options, RemeshReport, relax, remesh};
 use azulejo::mesh::Mesh;
-use azulejo::{Context, Progress, Result, SurfaceSamples, psp};
+use azulejo::{Context, Points, Progress, Result, psp};
 use glam::{DVec2, DVec3};
 
 use super::sets::FIRST_SEED;
@@ -25,7 +25,7 @@ const COUNTS: [f64; 2] = [20_000.0, 100_000.0];
 
 /// Samples of one mesh, with their triangles.
 struct Remeshed {
-    samples: SurfaceSamples,
+    samples: Points<3>,
     triangles: Vec<[u32; 3]>,
     report: RemeshReport,
     statistics: TriangleStatistics,
@@ -94,7 +94,7 @@ impl Case {
 }
 
 impl Remeshed {
-    fn new(context: &Context, mesh: &Mesh, samples: SurfaceSamples, rho: f64) -> Result<Self> {
+    fn new(context: &Context, mesh: &Mesh, samples: Points<3>, rho: f64) -> Result<Self> {
         let (made, report) = remesh(context, mesh, &samples.triangles, &samples.barycentrics, None)?;
         let faces = made.triangles();
         let corners = |corners: &[u32; 3]| corners.map(|corner| samples.positions[corner as usize]);

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use azulejo::psp::{self, Options};
-use azulejo::{Context, Error, Result, SurfaceSamples};
+use azulejo::{Context, Error, Points, Result};
 
 use super::Dragon;
 use crate::psp::scenes::radius;
@@ -37,8 +37,8 @@ pub fn of_fill(Dragon { mesh, .. }: &Dragon, count: f64) -> Result<f64> {
     Ok((resident("VmHWM")? - before - bytes(&samples) as f64) / 1e6)
 }
 
-fn bytes(samples: &SurfaceSamples) -> usize {
-    let SurfaceSamples { positions, normals, triangles, barycentrics, .. } = samples;
+fn bytes(samples: &Points<3>) -> usize {
+    let Points { positions, normals, triangles, barycentrics, .. } = samples;
     size_of_val(&**positions) + size_of_val(&**normals) + size_of_val(&**triangles) + size_of_val(&**barycentrics)
 }
 

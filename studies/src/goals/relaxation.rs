@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use azulejo::dcr::surface::{Options, relax};
 use azulejo::mesh::Mesh;
-use azulejo::{Context, Result, SurfaceSamples, psp};
+use azulejo::{Context, Points, Result, psp};
 
 use super::Study;
 use super::row::{Figure, Goal, Row, section as rows_in};
@@ -42,11 +42,11 @@ pub fn section(study: &Study) -> Result<String> {
     Ok(rows_in("Relaxation on meshes", &about, &rows))
 }
 
-fn start(study: &Study, mesh: &Arc<Mesh>, count: f64) -> Result<SurfaceSamples> {
+fn start(study: &Study, mesh: &Arc<Mesh>, count: f64) -> Result<Points<3>> {
     Ok(psp::sample(&study.two, mesh, &psp::Options::new(radius(mesh, count)).seed(1), None)?.0)
 }
 
-fn relaxed(context: &Context, mesh: &Mesh, start: &SurfaceSamples, options: &Options) -> Result<usize> {
+fn relaxed(context: &Context, mesh: &Mesh, start: &Points<3>, options: &Options) -> Result<usize> {
     Ok(relax(context, mesh, &start.triangles, &start.barycentrics, options, None)?.0.len())
 }
 

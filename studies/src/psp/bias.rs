@@ -7,7 +7,7 @@ use azulejo::analysis::differential::{Differences, surface_differences};
 use azulejo::analysis::facing::density_by_facing;
 use azulejo::mesh::Mesh;
 use azulejo::psp::{Options, Psp};
-use azulejo::{Context, MAXIMAL_DENSITY, Progress, Result, SurfaceSamples};
+use azulejo::{Context, MAXIMAL_DENSITY, Points, Progress, Result};
 use glam::DVec3;
 
 use super::Effort;
@@ -126,7 +126,7 @@ impl Measure<'_> {
         })
     }
 
-    fn differences(&self, mesh: &Mesh, of: &SurfaceSamples, towards: [f64; 3], seed: u64) -> Result<Differences> {
+    fn differences(&self, mesh: &Mesh, of: &Points<3>, towards: [f64; 3], seed: u64) -> Result<Differences> {
         surface_differences(self.context, mesh, &of.positions, &of.normals, towards, seed, None)
     }
 }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use azulejo::mesh::Mesh;
 use azulejo::psp::{self, Options, Priority};
-use azulejo::{Context, Result, SurfaceSamples};
+use azulejo::{Context, Points, Result};
 
 /// Up to about so many samples a set can be filled in one piece, also on a square: what the library expects, which is rather
 /// too many, is just below its limit (`scenes::in_one_piece`).
@@ -63,7 +63,7 @@ impl Variant {
         if self.is_one_piece { 1000..1000 + 4 * sets } else { 0..sets }
     }
 
-    pub fn sample(self, context: &Context, mesh: &Arc<Mesh>, radius: f64, seed: u64) -> Result<SurfaceSamples> {
+    pub fn sample(self, context: &Context, mesh: &Arc<Mesh>, radius: f64, seed: u64) -> Result<Points<3>> {
         let Self { priority, iterations, maximal, .. } = self;
         let options = Options::new(radius).priority(priority).iterations(iterations).maximal(maximal).seed(seed);
         Ok(psp::sample(context, mesh, &options, None)?.0)

@@ -1,5 +1,5 @@
 use super::*;
-use azulejo::SurfaceSamples;
+use azulejo::Points;
 
 /// A file of version 1.0 with this description and body.
 fn file(description: &str, body: &[u8]) -> Vec<u8> {
@@ -48,7 +48,7 @@ fn every_type_and_order_gives_the_same_points() {
 
 #[test]
 fn a_structured_array_holds_all_that_is_known_of_samples() {
-    let samples = SurfaceSamples {
+    let samples = Points {
         positions: vec![[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]],
         normals: vec![[0.0, 0.0, 1.0], [0.0, 1.0, 0.0]],
         interpolated_normals: Vec::new(),
@@ -56,6 +56,7 @@ fn a_structured_array_holds_all_that_is_known_of_samples() {
         barycentrics: vec![[0.25, 0.5], [0.0, 1.0]],
         ranks: vec![f32::INFINITY, 0.5],
         classes: vec![1, 0],
+        radii: Vec::new(),
     };
     let table = |radii| SurfaceTable { samples: &samples, normals: &samples.normals, radii };
     for radii in [None, Some(&[0.5, 2.0][..])] {
