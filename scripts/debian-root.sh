@@ -18,7 +18,7 @@ die() {
 needs_tools() {
     local tool
     for tool in debootstrap unshare flock; do
-        command -v "$tool" >/dev/null || die "$tool is not installed; run scripts/setup.sh --tests"
+        command -v "$tool" >/dev/null || die "$tool is not installed; run scripts/setup.sh --all"
     done
 }
 

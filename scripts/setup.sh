@@ -2,7 +2,8 @@
 # Installs what azulejo needs to be built on Debian 12 or 13 and Ubuntu 24.04, and only what is missing.
 #
 #   scripts/setup.sh            to build it
-#   scripts/setup.sh --tests    to run its tests, too
+#   scripts/setup.sh --tests    to run scripts/test.sh, too
+#   scripts/setup.sh --all      to run scripts/test.sh --all, too
 #   scripts/setup.sh --long     to run scripts/test.sh --long, too
 #
 # Says what it installs, and nothing if there is nothing to install. Needs root, or asks sudo for it. Rust is checked,
@@ -10,9 +11,11 @@
 set -euo pipefail
 
 packages=(libembree-dev libclang-dev g++ make cmake pkg-config)
-test_packages=(valgrind debootstrap debian-archive-keyring dpkg-dev file openmpi-bin libopenmpi-dev
-               assimp-testmodels doxygen qemu-user-static g++-aarch64-linux-gnu python3-venv
-               chromium)
+# Meshes of tests/mesh_corpus.rs.
+test_packages=(assimp-testmodels)
+all_packages=(valgrind debootstrap debian-archive-keyring dpkg-dev file openmpi-bin libopenmpi-dev
+              doxygen qemu-user-static g++-aarch64-linux-gnu python3-venv
+              chromium)
 # What only a long run needs.
 long_packages=(g++-mingw-w64-x86-64-posix wine64 patch)
 
@@ -77,10 +80,11 @@ add_nightly_components() {
 case "${1:-}" in
 "") ;;
 --tests) packages+=("${test_packages[@]}") ;;
---long) packages+=("${test_packages[@]}" "${long_packages[@]}") ;;
-*) die "unknown argument $1; there are --tests and --long" ;;
+--all) packages+=("${test_packages[@]}" "${all_packages[@]}") ;;
+--long) packages+=("${test_packages[@]}" "${all_packages[@]}" "${long_packages[@]}") ;;
+*) die "unknown argument $1; there are --tests, --all and --long" ;;
 esac
 command -v apt-get >/dev/null || die "no apt-get here: install Embree (4, or 3.13), libclang, a C++ compiler and CMake"
 check_rust
 install_missing "${packages[@]}"
-[ -z "${1:-}" ] || add_nightly_components
+case "${1:-}" in --all | --long) add_nightly_components ;; esac

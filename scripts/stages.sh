@@ -47,12 +47,19 @@ lane_ended() {
 # WHAT: for the last line. A stage that lacks a tool prints a line of the same form.
 leave_out() { echo "SKIPPED: $*" | tee -a "$work/said"; }
 
-# What each stage has cost, the most expensive last, and what was left out.
+# What each stage has cost, the most expensive last, and what was left out; target/checked keeps the verdict.
 summary() {
-    local but
+    local but tree=clean
     printf '\n  wall    CPU  stage (seconds)\n'
     sort -n -k 2 "$work/rows"
     awk -v wall="$SECONDS" '{ cpu += $2 } END { printf "%6d %6d  all\n", wall, cpu }' "$work/rows"
     but=$(sed -n 's/^SKIPPED: //p' "$work/said" | sort -u | paste -s -d ';' | sed 's/;/; /g')
+    [ -z "$(git status --porcelain 2>/dev/null)" ] || tree=changed
+    {
+        echo "commit: $(git rev-parse HEAD 2>/dev/null || echo unknown), tree: $tree"
+        echo "passed in $SECONDS s, stages:"
+        cut -c 17- "$work/rows"
+        [ -z "$but" ] || echo "left out: $but"
+    } >target/checked
     printf '\n== All checks passed%s\n' "${but:+, all but: $but}"
 }

@@ -1,28 +1,32 @@
 #!/usr/bin/env bash
-# Every check of the project, from a fresh machine.
+# Tests the project, from a fresh machine.
 #
-#   scripts/test.sh [--long] [--no-debian13]
+#   scripts/test.sh          what a change must pass on the machine of whoever makes it: format, lints, all Rust tests, the C
+#                            package, C and C++ programs, the code in README and guides
+#   scripts/test.sh --all    what a change must pass to land (.ci/run): also documentation, sanitizers, valgrind, Miri, fuzzing,
+#                            Python, JavaScript, other processors and systems, Embree 4.3, packages in clean roots
+#   scripts/test.sh --long   once a week: also fresh seeds for the property tests, a minute of fuzzing for each target,
+#                            guarantees that are broken to see a test fail, all Rust tests and sums everywhere
 #
-# --long is for once a week. It adds fresh seeds for the property tests, fuzzes each target for a minute instead of ten
-# seconds, breaks one guarantee at a time to see a test fail, runs all Rust tests on Embree 4.3, also those that do not call
-# Embree, and on emulated processors and systems all sums and programs.
-# --no-debian13 leaves out the run on Embree 4.3 in a Debian 13 root, and the clean roots in which the Debian packages are
-# installed, for users without root.
-# The last lines list the cost of each stage, and what was left out.
+# The first needs root only for packages that are missing (scripts/setup.sh lists them), the others for their Debian roots.
+# What fails often comes first: every workspace and program is compiled before any long stage. The last lines list the cost
+# of each stage, and what was left out; target/checked says which commit passed which stages.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-debian13=yes long=no
-for argument; do
-    case $argument in
-        --long) long=yes ;;
-        --no-debian13) debian13=no ;;
-        *)
-            sed -n '4s/^# *//p' "$0" >&2
-            exit 2
-            ;;
-    esac
-done
+extent=quick
+case ${1:-} in
+    "") ;;
+    --all | --long) extent=${1#--} ;;
+    *)
+        sed -n '/^#   /s/^# *//p' "$0" >&2
+        exit 2
+        ;;
+esac
+is_quick() { [ $extent = quick ]; }
+is_long() { [ $extent = long ]; }
+# A word of the command line of a stage that has more to do in a long run.
+if_long() { ! is_long || echo --long; }
 
 # The cases of the property tests: what fails is due to what has changed.
 export PROPTEST_RNG_SEED=${PROPTEST_RNG_SEED:-1}
@@ -33,19 +37,32 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 . scripts/stages.sh
 
-is_long() { [ $long = yes ]; }
-
 # Packages are installed in a clean root of this release.
-has_clean_root() { [ $debian13 = yes ] && [[ $release =~ ^debian\ 1[23]$ ]]; }
+has_clean_root() { [[ $release =~ ^debian\ 1[23]$ ]]; }
 
-# The fuzz targets and the tests for Miri have a workspace of their own, and are compiled by other stages much later.
+# The fuzz targets, the tests for Miri and the bindings have workspaces of their own, and are built by other stages much later.
 lints() {
-    local manifest
-    for manifest in Cargo.toml fuzz/Cargo.toml; do
-        cargo fmt --manifest-path $manifest --all --check
-        cargo clippy --quiet --locked --manifest-path $manifest --workspace --all-targets --target-dir target -- -D warnings
+    local manifest manifests=(Cargo.toml fuzz/Cargo.toml)
+    is_quick || manifests+=(bindings/python/Cargo.toml bindings/js/Cargo.toml)
+    for manifest in "${manifests[@]}"; do
+        cargo fmt --manifest-path "$manifest" --all --check
     done
-    scripts/docs.sh
+    for manifest in "${manifests[@]}"; do
+        cargo clippy --quiet --locked --manifest-path "$manifest" --workspace --all-targets --target-dir target -- -D warnings
+    done
+}
+
+# Of the C and C++ programs, which are compiled and run much later.
+syntax() {
+    local source strict
+    for source in tests/c/*.c tests/c/*.cpp examples_c/*.c examples_c/*.cpp; do
+        case $source in
+            examples_c/ranks.c | tests/c/host.c) continue ;; # They need more headers than those of the project.
+            *.c) strict=(cc -std=gnu11 -Wstrict-prototypes) ;;
+            *) strict=(c++ -std=c++17) ;;
+        esac
+        "${strict[@]}" -Wall -Wextra -Wpedantic -Werror -Iinclude -DEMBREE_MAJOR=3 -fsyntax-only "$source"
+    done
 }
 
 # Names of files become arguments of cargo.
@@ -72,8 +89,6 @@ sanitized_address() {
     tests/c/sanitized.sh address
 }
 
-python_package() { bindings/python/test.sh $(is_long && echo --long || true); }
-
 # Packages of the registry that the same compiler has compiled are taken over. Of the Rust tests only those run that name
 # Embree, tracing or samplers of meshes, except in a long run: the others would repeat what they did on the machine.
 on_debian13() {
@@ -93,65 +108,67 @@ on_debian13() {
 
 # Stages that wait for the network or use one core, then those in the Debian 13 root, which take over what was compiled.
 lane() {
-    [ $debian13 = no ] || stage "Debian roots" debian_roots
+    stage "Debian roots" debian_roots
     stage "FFI boundary under Miri" scripts/miri.sh
     stage "C programs with ThreadSanitizer in Rust, too" tests/c/sanitized.sh thread
-    stage "arm64 and Windows" scripts/platforms.sh "${platforms_long[@]}" arm64 windows
-    if [ $debian13 = yes ]; then
-        until [ -e "$work/packaged" ]; do sleep 1; done
-        stage "Rust tests, package, C and C++ programs on Embree 4.3, in a Debian 13 root" on_debian13
-        is_long || leave_out "the Rust tests on Embree 4.3 that do not call it, and those of the command line (--long)"
-        stage "Debian packages: installed, used and removed in a clean Debian 13 root" scripts/clean-root.sh 13 \
-            "${AZULEJO_DEBIAN13_DIR:-target/debian13}/root/var/cache/package/debs" tests/c/installed.sh
-    else
-        leave_out "everything on Embree 4.3 (--no-debian13)"
-    fi
+    stage "arm64 and Windows" scripts/platforms.sh $(if_long) arm64 windows
+    until [ -e "$work/packaged" ]; do sleep 1; done
+    stage "Rust tests, package, C and C++ programs on Embree 4.3, in a Debian 13 root" on_debian13
+    stage "Debian packages: installed, used and removed in a clean Debian 13 root" scripts/clean-root.sh 13 \
+        "${AZULEJO_DEBIAN13_DIR:-target/debian13}/root/var/cache/package/debs" tests/c/installed.sh
 }
 
-platforms_long=()
-if is_long; then
-    platforms_long=(--long)
-else
-    leave_out "all sums, and most C and C++ programs, on other processors and systems (--long)"
-fi
+early_stages() {
+    stage "Format and lints" lints
+    stage "C and C++ programs compile" syntax
+}
 
-stage "What is missing" scripts/setup.sh "$(is_long && echo --long || echo --tests)"
-[ $debian13 = no ] || [ "$(id -u)" = 0 ] || sudo -v
-behind lane
+quick_stages() {
+    stage "What is missing" scripts/setup.sh --tests
+    early_stages
+    stage "Rust tests" cargo test --locked --workspace
+    stage "Package: install, find_package, pkg-config" tests/c/package.sh --quick --keep target/quick
+    stage "README and guides: their programs and commands" \
+        tests/c/pages.sh target/quick/prefix README.md docs/integrating.md docs/porting.md
+    stage "C and C++ programs" tests/c/run.sh target/quick/prefix
+    leave_out "what scripts/test.sh --all adds"
+}
 
-stage "Format, lints, documentation" lints
-stage "Rust tests on this machine's Embree" cargo test --locked --workspace
-if is_long; then
-    stage "Property tests with fresh seeds" fresh_seeds
-    stage "Ten thousand relaxed sets" cargo test --locked --package azulejo --test dcr_converged -- --ignored
-    stage "Broken guarantees are noticed" scripts/mutate.sh
-else
-    leave_out "fresh seeds for the property tests (--long)"
-    leave_out "ten thousand relaxed sets, and guarantees that are broken to see a test fail (--long)"
-fi
+all_stages() {
+    stage "What is missing" scripts/setup.sh "$(is_long && echo --long || echo --all)"
+    [ "$(id -u)" = 0 ] || sudo -v
+    early_stages
+    behind lane
+    stage "Documentation" scripts/docs.sh
+    stage "Rust tests on this machine's Embree" cargo test --locked --workspace
+    stage "Package: install, find_package, pkg-config, add_subdirectory, shared and static, MPI ranks" \
+        tests/c/package.sh --keep $package
+    touch "$work/packaged"
+    stage "README and guides: their programs and commands" \
+        tests/c/pages.sh $package/prefix README.md docs/integrating.md docs/porting.md
+    stage "C and C++ programs: plain, under sanitizers, under valgrind" tests/c/run.sh $package/prefix --asan --valgrind
+    stage "Without Embree: sums, meshes, C and C++ programs on nothing but libc" tests/c/without_embree.sh
+    stage "Sums on other levels of x86" scripts/platforms.sh $(if_long) x86-levels
+    stage "Fuzzing; C and C++ programs with AddressSanitizer in Rust, too" sanitized_address
+    stage "Python: a wheel, installed and tested in a clean environment" bindings/python/test.sh $(if_long)
+    stage "Packages of crates, and recipes for vcpkg, conan and conda" packaging/test.sh
+    stage "JavaScript: WebAssembly in Node and in headless Chromium" bindings/js/test.sh
+    stage "Debian packages: what they hold and depend on" tests/c/debs.sh $package
+    if has_clean_root; then
+        stage "Debian packages: installed, used and removed in a clean root of $release" \
+            scripts/clean-root.sh "${release#debian }" $package/debs tests/c/installed.sh
+    else
+        leave_out "Debian packages installed in a clean root of $release"
+    fi
+    if is_long; then
+        stage "Property tests with fresh seeds" fresh_seeds
+        stage "Ten thousand relaxed sets" cargo test --locked --package azulejo --test dcr_converged -- --ignored
+        stage "Broken guarantees are noticed" scripts/mutate.sh
+    else
+        leave_out "what scripts/test.sh --long adds"
+    fi
+    lane_ended
+}
 
-stage "Package: install, find_package, pkg-config, add_subdirectory, shared and static, MPI ranks" \
-    tests/c/package.sh --keep $package
-touch "$work/packaged"
-stage "README and guides: their programs and commands" \
-    tests/c/pages.sh $package/prefix README.md docs/integrating.md docs/porting.md
-stage "C and C++ programs: plain, under sanitizers, under valgrind" tests/c/run.sh $package/prefix --asan --valgrind
-stage "Without Embree: sums, meshes, C and C++ programs on nothing but libc" tests/c/without_embree.sh
-stage "Sums on other levels of x86" scripts/platforms.sh "${platforms_long[@]}" x86-levels
-stage "Fuzzing; C and C++ programs with AddressSanitizer in Rust, too" sanitized_address
-is_long || leave_out "a minute of fuzzing for each target, which had ten seconds (--long)"
-stage "Python: a wheel, installed and tested in a clean environment" python_package
-is_long || leave_out "the Python wheels for manylinux2014 on x86-64 and arm64, and their size (--long)"
-stage "Packages of crates, and recipes for vcpkg, conan and conda" packaging/test.sh
-
-stage "JavaScript: WebAssembly in Node and in headless Chromium" bindings/js/test.sh
-stage "Debian packages: what they hold and depend on" tests/c/debs.sh $package
-if has_clean_root; then
-    stage "Debian packages: installed, used and removed in a clean root of $release" \
-        scripts/clean-root.sh "${release#debian }" $package/debs tests/c/installed.sh
-else
-    leave_out "Debian packages installed in a clean root of $release"
-fi
-
-lane_ended
+if is_quick; then quick_stages; else all_stages; fi
 summary
