@@ -59,6 +59,7 @@ mod points;
 pub mod psp;
 mod rng;
 mod setters;
+#[allow(unsafe_code)] // Vector instructions.
 mod simd;
 pub mod thin;
 #[allow(unsafe_code)]

@@ -3,8 +3,8 @@
 use glam::Vec2;
 
 use crate::dcr::ground::constraints::{Constraints, FREE_CLEARANCE, Force, STRONGEST_PULL};
-use crate::dcr::surface::vectors::lanes::{LANES, Lanes};
 use crate::dcr::surface::view::{MOST, View};
+use crate::simd::{LANES, Lanes};
 
 /// The offsets of the neighbours of a sample, the last of them before the first too.
 pub(super) struct Ring {
@@ -120,10 +120,9 @@ const FIRST: [f32; LANES] = {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::dcr::surface::vectors::{Work, run};
     use crate::dcr::surface::view::Star;
     use crate::rng::{Draw, Rng};
-    use crate::simd::Level;
+    use crate::simd::{Level, Work, run};
     use glam::Vec3;
     use std::f32::consts::TAU;
 
@@ -131,7 +130,7 @@ mod tests {
     struct Both<'a>(&'a Constraints, &'a [Vec2]);
 
     impl Work for Both<'_> {
-        type Made = ([Force; 2], bool);
+        type Out = ([Force; 2], bool);
 
         fn run<L: Lanes>(self, lanes: L) -> ([Force; 2], bool) {
             let mut view = View::default();

@@ -8,10 +8,9 @@ use crate::dcr::surface::connected::ConnectedMesh;
 use crate::dcr::surface::forces::Ring;
 use crate::dcr::surface::lists::List;
 use crate::dcr::surface::local::Local;
-use crate::dcr::surface::vectors::Work;
-use crate::dcr::surface::vectors::lanes::{Lanes, Position};
 use crate::dcr::surface::view::{Star, View};
 use crate::dcr::surface::walk::{SurfacePoint, walk};
+use crate::simd::{Lanes, Position, Work};
 
 /// What lengths in `f32` may be wrong by, with room to spare.
 const ROUNDING: f32 = 1.0 + 1e-5;
@@ -79,7 +78,7 @@ pub(super) struct Moves<'a> {
 }
 
 impl Work for Moves<'_> {
-    type Made = Aftermath;
+    type Out = Aftermath;
 
     #[inline(always)]
     fn run<L: Lanes>(self, lanes: L) -> Aftermath {

@@ -4,8 +4,8 @@ use glam::DVec3;
 
 use crate::dcr::surface::connected::ConnectedMesh;
 use crate::dcr::surface::near::{Image, Surroundings, mirrored};
-use crate::dcr::surface::vectors::lanes::{LANES, Lanes, Position};
 use crate::dcr::surface::view::View;
+use crate::simd::{LANES, Lanes, Position};
 
 /// The vectors of samples that are kept in place.
 const VECTORS: usize = 2;

@@ -3,9 +3,9 @@
 use glam::{DQuat, DVec2, Vec2, Vec3};
 
 use crate::dcr::surface::connected::ConnectedMesh;
-use crate::dcr::surface::vectors::lanes::Position;
 use crate::dcr::surface::walk::FlatTriangle;
 use crate::mesh::{exact, round_barycentrics};
+use crate::simd::Position;
 
 /// A triangle as the samples on it see it.
 #[derive(Clone, Copy, Default)]

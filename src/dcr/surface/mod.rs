@@ -14,7 +14,7 @@
 //! * long waves of the density stay: there is no Fourier transform on a mesh.
 //!
 //! What is near a sample is listed for several steps (`neighbourhoods.rs`), and a step (`relaxation.rs`, `gather.rs`)
-//! works on sixteen neighbours at a time (`vectors/`).
+//! works on sixteen neighbours at a time (`simd/`).
 //!
 //! Triangles are connected by common edges (`connected.rs`). A crack is a boundary: samples on its two sides are not
 //! neighbours, but keep their distance through space.
@@ -38,8 +38,6 @@ mod remeshing;
 mod samples;
 mod spread;
 mod triangles;
-#[allow(unsafe_code)] // Vector instructions.
-mod vectors;
 mod view;
 mod walk;
 mod welding;

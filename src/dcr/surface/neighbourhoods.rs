@@ -14,11 +14,11 @@ use crate::dcr::surface::local::Local;
 use crate::dcr::surface::near::{Finds, Image, SampleSearch, Surroundings};
 use crate::dcr::surface::patches::Patches;
 use crate::dcr::surface::relaxation::FARTHEST;
-use crate::dcr::surface::vectors::lanes::Position;
 use crate::dcr::surface::view::Star;
 use crate::error::Result;
 use crate::job::{Job, chunks, chunks_of};
 use crate::mesh::exact;
+use crate::simd::Position;
 
 /// The distance up to which neighbours are needed, in spacings.
 const REACH: f64 = 1.7;

@@ -9,15 +9,13 @@ use crate::dcr::surface::connected::ConnectedMesh;
 use crate::dcr::surface::curve::along_curve;
 use crate::dcr::surface::gather::{Doubtful, Mover, Moves, Situation};
 use crate::dcr::surface::neighbourhoods::Neighbourhoods;
-use crate::dcr::surface::vectors;
-use crate::dcr::surface::vectors::lanes::Position;
 use crate::dcr::surface::walk::SurfacePoint;
 use crate::error::Result;
 use crate::geometry::grid3;
 use crate::job::Job;
 use crate::math::power;
 use crate::mesh::{Mesh, exact};
-use crate::simd::Level;
+use crate::simd::{self, Level, Position};
 
 /// The largest displacement of samples in a step, in spacings.
 const STRIDE: f32 = 0.4;
@@ -173,7 +171,7 @@ impl<'a> SurfaceRelaxation<'a> {
             wanted,
         });
         let (level, rests) = (self.level, situation.rest > 0);
-        let after = job.map_each(moves.collect(), |moves| vectors::run(level, moves))?;
+        let after = job.map_each(moves.collect(), |moves| simd::run(level, moves))?;
         let mut doubtful = Vec::new();
         for part in after {
             doubtful.extend(part.doubtful);

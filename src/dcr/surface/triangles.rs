@@ -12,11 +12,11 @@ use crate::dcr::surface::local::Local;
 use crate::dcr::surface::near::{Finds, SampleSearch};
 use crate::dcr::surface::patches::Patches;
 use crate::dcr::surface::samples::{check, enter, hexagonal_distance};
-use crate::dcr::surface::vectors::lanes::{Portable, Position};
 use crate::dcr::surface::view::View;
 use crate::error::Result;
 use crate::job::{Context, Progress, chunks_of};
 use crate::mesh::{Mesh, exact};
+use crate::simd::{Portable, Position};
 
 /// The distance up to which neighbours are searched, in spacings: triangles of maximal sets are at most 1.6 wide.
 const REACH: f64 = 2.2;

@@ -7,8 +7,8 @@
 use glam::{DVec2, DVec3};
 
 use crate::dcr::surface::connected::ConnectedMesh;
-use crate::dcr::surface::vectors::lanes::Position;
 use crate::mesh::{Mesh, exact, round_barycentrics};
+use crate::simd::Position;
 
 /// A sample that crosses more edges than this in one step stays in the triangle that it has reached.
 const MOST_EDGES: u32 = 10_000;

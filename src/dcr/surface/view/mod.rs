@@ -7,7 +7,7 @@
 
 use glam::{Vec2, Vec3};
 
-use crate::dcr::surface::vectors::lanes::{LANES, Lanes};
+use crate::simd::{LANES, Lanes};
 
 /// The largest number of candidates.
 pub(super) const MOST: usize = 48;

@@ -1,9 +1,8 @@
 //! Stars as they are found and kept.
 
-use crate::dcr::surface::vectors::{Work, run};
 use crate::dcr::surface::view::*;
 use crate::rng::{Draw, Rng};
-use crate::simd::Level;
+use crate::simd::{Level, Work, run};
 
 /// The neighbours by definition: those in a triangle with the centre whose circumcircle holds no point.
 fn neighbours(points: &[Vec2]) -> Vec<usize> {
@@ -23,7 +22,7 @@ fn neighbours(points: &[Vec2]) -> Vec<usize> {
 struct Find<'a>(&'a [Vec2], &'a mut Star);
 
 impl Work for Find<'_> {
-    type Made = (Vec<usize>, bool);
+    type Out = (Vec<usize>, bool);
 
     fn run<L: Lanes>(self, lanes: L) -> (Vec<usize>, bool) {
         let mut view = View::default();

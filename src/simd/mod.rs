@@ -1,27 +1,82 @@
-//! Work on sixteen candidates at a time, in each level of vector instructions, the same to the bit.
+//! Vector instructions: code is written once over [`Lanes`], as [`Work`], and [`run`] at a [`Level`] that the processor has.
+//!
+//! A level other than the portable one holds a token that only detection makes: code that has the token may run the
+//! instructions, and no safe code can ask for instructions that the processor lacks. All levels compute the same bits.
+//! Plain loops that a compiler vectorizes by itself are work as well, which leaves the token unused: they are compiled
+//! once for each level.
 
 #[cfg(target_arch = "x86_64")]
 mod avx2;
 #[cfg(target_arch = "x86_64")]
 mod avx512;
-pub(super) mod lanes;
+mod lanes;
+mod portable;
 
-use crate::dcr::surface::vectors::lanes::{Lanes, Portable};
-use crate::simd::Level;
+pub use lanes::{LANES, Lanes, Position};
+pub use portable::Portable;
+
+/// Proof that the processor has AVX2, POPCNT, BMI1 and BMI2.
 #[cfg(target_arch = "x86_64")]
-use crate::simd::{Avx2, Avx512};
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Avx2(());
 
-/// Work that is written over [`Lanes`]. All of its hot code is inlined into [`Work::run`].
-pub(super) trait Work {
-    /// What it makes.
-    type Made;
+/// Proof that the processor has what [`Avx2`] says, and AVX-512 F, VL, DQ and BW.
+#[cfg(target_arch = "x86_64")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Avx512(());
 
-    /// Does it.
-    fn run<L: Lanes>(self, lanes: L) -> Self::Made;
+/// A level of vector instructions that the processor has.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Level {
+    Portable,
+    #[cfg(target_arch = "x86_64")]
+    Avx2(Avx2),
+    #[cfg(target_arch = "x86_64")]
+    Avx512(Avx512),
 }
 
-/// Does work at a level.
-pub(super) fn run<W: Work>(level: Level, work: W) -> W::Made {
+impl Level {
+    /// The widest level.
+    pub fn widest() -> Self {
+        #[cfg(target_arch = "x86_64")]
+        if is_x86_feature_detected!("avx2")
+            && is_x86_feature_detected!("popcnt")
+            && is_x86_feature_detected!("bmi1")
+            && is_x86_feature_detected!("bmi2")
+        {
+            let is_wide = is_x86_feature_detected!("avx512f")
+                && is_x86_feature_detected!("avx512vl")
+                && is_x86_feature_detected!("avx512dq")
+                && is_x86_feature_detected!("avx512bw");
+            return if is_wide { Self::Avx512(Avx512(())) } else { Self::Avx2(Avx2(())) };
+        }
+        Self::Portable
+    }
+
+    /// All levels, from the portable one to the widest.
+    #[cfg(test)]
+    pub fn available() -> Vec<Self> {
+        match Self::widest() {
+            Self::Portable => vec![Self::Portable],
+            #[cfg(target_arch = "x86_64")]
+            Self::Avx2(_) => vec![Self::Portable, Self::widest()],
+            #[cfg(target_arch = "x86_64")]
+            Self::Avx512(_) => vec![Self::Portable, Self::Avx2(Avx2(())), Self::widest()],
+        }
+    }
+}
+
+/// Work that is written over [`Lanes`]. All of its hot code is inlined into [`Work::run`].
+pub trait Work {
+    /// The result.
+    type Out;
+
+    /// Does the work.
+    fn run<L: Lanes>(self, lanes: L) -> Self::Out;
+}
+
+/// Does work at a level: the one place where code is chosen by the level.
+pub fn run<W: Work>(level: Level, work: W) -> W::Out {
     match level {
         Level::Portable => work.run(Portable),
         // SAFETY: the level holds the proof that the processor has the features.
@@ -35,27 +90,26 @@ pub(super) fn run<W: Work>(level: Level, work: W) -> W::Made {
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2,popcnt,bmi1,bmi2")]
-fn run_avx2<W: Work>(proof: Avx2, work: W) -> W::Made {
+fn run_avx2<W: Work>(proof: Avx2, work: W) -> W::Out {
     work.run(proof)
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx512f,avx512vl,avx512dq,avx512bw,avx2,popcnt,bmi1,bmi2")]
-fn run_avx512<W: Work>(proof: Avx512, work: W) -> W::Made {
+fn run_avx512<W: Work>(proof: Avx512, work: W) -> W::Out {
     work.run(proof)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::dcr::surface::vectors::lanes::{LANES, Position};
     use crate::rng::{Draw, Rng};
 
     /// All operations on two vectors, as bits.
     struct All<'a>([[f32; LANES]; 2], &'a [Position], [u32; LANES]);
 
     impl Work for All<'_> {
-        type Made = Vec<u32>;
+        type Out = Vec<u32>;
 
         fn run<L: Lanes>(self, lanes: L) -> Vec<u32> {
             let [a, b] = [lanes.load(&self.0[0]), lanes.load(&self.0[1])];

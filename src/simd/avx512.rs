@@ -2,8 +2,8 @@
 
 use std::arch::x86_64::*;
 
-use crate::dcr::surface::vectors::lanes::{LANES, Lanes, Position};
 use crate::simd::Avx512;
+use crate::simd::lanes::{LANES, Lanes, Position};
 
 // SAFETY of all intrinsics here: an `Avx512` proves that the processor has AVX-512 F, VL, DQ and BW. References to
 // sixteen floats are valid for loads and stores of 64 bytes, which ask for no alignment.

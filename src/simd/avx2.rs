@@ -2,8 +2,8 @@
 
 use std::arch::x86_64::*;
 
-use crate::dcr::surface::vectors::lanes::{LANES, Lanes, Position};
 use crate::simd::Avx2;
+use crate::simd::lanes::{LANES, Lanes, Position};
 
 type Floats = [__m256; 2];
 
