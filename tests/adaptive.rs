@@ -15,8 +15,8 @@ use std::ops::ControlFlow;
 
 use azulejo::mesh::Mesh;
 use azulejo::psp::Report;
-use azulejo::psp::adaptive::{self, AdaptiveSamples, Options, Radius};
-use azulejo::{Context, Error, MAXIMAL_DENSITY, Result};
+use azulejo::psp::adaptive::{self, Options, Radius};
+use azulejo::{Context, Error, MAXIMAL_DENSITY, Points, Result};
 use meshes::Soup;
 use oracle::Field;
 use proptest::prelude::*;
@@ -51,15 +51,15 @@ fn tolerance(mesh: &Mesh, field: &Field) -> f64 {
     triangles.map(of_triangle).fold(0.0, f64::max)
 }
 
-fn sample(mesh: &Mesh, options: &Options) -> AdaptiveSamples {
+fn sample(mesh: &Mesh, options: &Options) -> Points<3> {
     adaptive::sample(&Context::new(2).unwrap(), mesh, options, None).unwrap().0
 }
 
 /// Samples a mesh on one thread and on three, and checks everything that the set owes.
-fn check_all(mesh: &Mesh, options: &Options, field: &Field) -> AdaptiveSamples {
+fn check_all(mesh: &Mesh, options: &Options, field: &Field) -> Points<3> {
     let [(set, report), (again, _)] =
         [1, 3].map(|threads| adaptive::sample(&Context::new(threads).unwrap(), mesh, options, None).unwrap());
-    let (samples, radii) = (&set.samples, &set.radii);
+    let (samples, radii) = (&set, &set.radii);
     assert_eq!(set, again, "depends on the number of threads");
     assert_eq!(oracle::wrong_radius(mesh, field, samples, radii), None);
     assert_eq!(oracle::conflict(samples, radii, options.cosine), None);
@@ -71,7 +71,7 @@ fn check_all(mesh: &Mesh, options: &Options, field: &Field) -> AdaptiveSamples {
 }
 
 /// [`check_all`] with radii of vertices.
-fn check_vertices(mesh: &Mesh, radii: &[f32]) -> AdaptiveSamples {
+fn check_vertices(mesh: &Mesh, radii: &[f32]) -> Points<3> {
     check_all(mesh, &Options::new(Radius::PerVertex(radii)), &Field::PerVertex(radii))
 }
 
@@ -81,7 +81,7 @@ fn radii_of_vertices_that_differ_by_up_to_a_thousand() {
         let sphere = mesh(meshes::sphere());
         let least = 0.1 / ratio.powf(0.45);
         let set = check_vertices(&sphere, &radii(&sphere, |[_, _, z]| least * ratio.powf(0.5 * (z + 1.0))));
-        assert!(set.samples.len() > 300, "{}", set.samples.len());
+        assert!(set.len() > 300, "{}", set.len());
         let plane = mesh(meshes::plane());
         check_vertices(&plane, &radii(&plane, |[x, y, _]| if x + y == 0.0 { 0.3 / ratio.sqrt() } else { 0.3 }));
     }
@@ -130,7 +130,7 @@ fn radii_larger_than_the_mesh_give_one_sample() {
     for large in [20.0, 1e30f32] {
         let radii = radii(&torus, |[x, ..]| f64::from(large) * (2.0 + x));
         let set = sample(&torus, &Options::new(Radius::PerVertex(&radii)));
-        assert_eq!(set.samples.len(), 1);
+        assert_eq!(set.len(), 1);
         assert!(set.radii[0] <= f64::from(large) * 4.0);
     }
     // Large radii among small ones, cut at four diagonals.
@@ -141,11 +141,11 @@ fn radii_larger_than_the_mesh_give_one_sample() {
     for seed in 0..20 {
         let options = |radii| Options::new(Radius::PerVertex(radii)).seed(seed);
         let set = check_all(&torus, &options(&cut), &Field::PerVertex(&cut));
-        most[0] = most[0].max(set.samples.len());
+        most[0] = most[0].max(set.len());
         let set = sample(&torus, &options(&large));
-        assert_eq!(oracle::conflict(&set.samples, &set.radii, -1.0), None);
+        assert_eq!(oracle::conflict(&set, &set.radii, -1.0), None);
         assert!(set.radii.iter().all(|&radius| radius <= 4.001 * diagonal));
-        most[1] = most[1].max(set.samples.len());
+        most[1] = most[1].max(set.len());
     }
     // Mostly the first sample is so large that it stands alone.
     assert!(most.into_iter().all(|samples| samples > 100), "{most:?}");
@@ -177,12 +177,11 @@ fn sides_of_a_thin_wall_ignore_each_other_if_wanted() {
     let with = |cosine| Options::new(Radius::PerVertex(&radii)).cosine(cosine);
     let field = Field::PerVertex(&radii);
     let [shared, apart, together] = [-1.0, 0.0, -0.999].map(|cosine| check_all(&wall, &with(cosine), &field));
-    let side =
-        |set: &AdaptiveSamples| set.samples.triangles.iter().filter(|&&triangle| triangle % 2 == 0).count() as f64;
-    let ratio = apart.samples.len() as f64 / shared.samples.len() as f64;
+    let side = |set: &Points<3>| set.triangles.iter().filter(|&&triangle| triangle % 2 == 0).count() as f64;
+    let ratio = apart.len() as f64 / shared.len() as f64;
     assert!((1.8..2.1).contains(&ratio), "{ratio}");
-    assert!((0.47..0.53).contains(&(side(&apart) / apart.samples.len() as f64)));
-    assert_eq!(apart.samples.len(), together.samples.len());
+    assert!((0.47..0.53).contains(&(side(&apart) / apart.len() as f64)));
+    assert_eq!(apart.len(), together.len());
     // Normals of one side agree exactly.
     assert_eq!(check_all(&wall, &with(1.0), &field), apart);
     // A bent surface, where neighbours differ by some degrees.
@@ -199,7 +198,7 @@ fn with_a_cosine_of_one_triangles_are_sampled_each_for_itself() {
     let radii = vec![0.05; torus.positions().len()];
     let options = Options::new(Radius::PerVertex(&radii)).cosine(1.0);
     let set = check_all(&torus, &options, &Field::PerVertex(&radii));
-    let triangles: HashSet<_> = set.samples.triangles.iter().collect();
+    let triangles: HashSet<_> = set.triangles.iter().collect();
     assert_eq!(triangles.len(), torus.triangles().len());
 }
 
@@ -209,7 +208,7 @@ fn one_radius_gives_the_density_of_the_uniform_set() {
     let radius = 0.02f32;
     let radii = vec![radius; sphere.positions().len()];
     let set = sample(&sphere, &Options::new(Radius::PerVertex(&radii)));
-    let ratio = set.samples.len() as f64 * f64::from(radius).powi(2) / sphere.area() / MAXIMAL_DENSITY;
+    let ratio = set.len() as f64 * f64::from(radius).powi(2) / sphere.area() / MAXIMAL_DENSITY;
     assert!((0.997..1.012).contains(&ratio), "{ratio}");
     assert!(set.radii.iter().all(|&r| (r / f64::from(radius) - 1.0).abs() < 1e-15));
 }
@@ -223,7 +222,7 @@ fn needles_among_other_triangles_are_hit() {
     for seed in 0..20 {
         let options = Options::new(Radius::PerVertex(&radii)).seed(seed);
         let (set, report) = adaptive::sample(&Context::new(2).unwrap(), &sphere, &options, None).unwrap();
-        assert!(report.darts < 10 * set.samples.len() as u64, "{seed}: {report:?}");
+        assert!(report.darts < 10 * set.len() as u64, "{seed}: {report:?}");
     }
 }
 
@@ -250,7 +249,7 @@ fn a_ramp_of_density_is_met_in_every_band() {
     let seeds = 4;
     for seed in 0..seeds {
         let set = sample(&plane, &Options::new(Radius::PerVertex(&radii)).seed(seed));
-        for [x, y, _] in set.samples.positions.iter().map(|position| position.map(f64::from)) {
+        for [x, y, _] in set.positions.iter().map(|position| position.map(f64::from)) {
             if (margin..1.0 - margin).contains(&y) {
                 counts[(x / 4.0 * BANDS as f64) as usize] += 1.0;
             }
@@ -364,20 +363,20 @@ fn the_checkers_see_what_is_wrong() {
         let good = sample(&wall, &Options::new(Radius::PerVertex(&radii)).cosine(cosine));
         for removed in (0..good.radii.len()).step_by(10) {
             let mut bad = good.clone();
-            bad.samples.positions.remove(removed);
-            bad.samples.normals.remove(removed);
+            bad.positions.remove(removed);
+            bad.normals.remove(removed);
             bad.radii.remove(removed);
-            let gap = oracle::gap(&wall, &field, &bad.samples, &bad.radii, cosine, tolerance(&wall, &field));
+            let gap = oracle::gap(&wall, &field, &bad, &bad.radii, cosine, tolerance(&wall, &field));
             assert!(gap.is_some(), "sample {removed} is missing");
         }
         let mut bad = good.clone();
         bad.radii.iter_mut().for_each(|radius| *radius *= 1.05);
-        assert!(oracle::conflict(&bad.samples, &bad.radii, cosine).is_some());
-        assert_eq!(oracle::wrong_radius(&wall, &field, &bad.samples, &bad.radii), Some(0));
+        assert!(oracle::conflict(&bad, &bad.radii, cosine).is_some());
+        assert_eq!(oracle::wrong_radius(&wall, &field, &bad, &bad.radii), Some(0));
     }
     // What is good if the sides ignore each other is not if they do not.
     let apart = sample(&wall, &Options::new(Radius::PerVertex(&radii)).cosine(0.0));
-    assert!(oracle::conflict(&apart.samples, &apart.radii, -1.0).is_some());
+    assert!(oracle::conflict(&apart, &apart.radii, -1.0).is_some());
 }
 
 proptest! {

@@ -23,16 +23,16 @@ fn a_hundred_thousand_samples_whose_radii_vary_leave_no_gap() {
     let radius = |position: &[f32; 3]| 0.007 + 0.006 * (position[0] - low[0]) / (high[0] - low[0]);
     let radii: Vec<f32> = mesh.positions().iter().map(radius).collect();
     let options = adaptive::Options::new(Radius::PerVertex(&radii));
-    let (set, _) = adaptive::sample(&Context::new(2).unwrap(), &mesh, &options, None).unwrap();
-    let (mut samples, field) = (set.samples, Field::PerVertex(&radii));
+    let (mut samples, _) = adaptive::sample(&Context::new(2).unwrap(), &mesh, &options, None).unwrap();
+    let field = Field::PerVertex(&radii);
     assert!(samples.len() > 100_000, "{}", samples.len());
-    assert_eq!(oracle::wrong_radius(&mesh, &field, &samples, &set.radii), None);
-    assert_eq!(oracle::conflict(&samples, &set.radii, -1.0), None);
+    assert_eq!(oracle::wrong_radius(&mesh, &field, &samples, &samples.radii), None);
+    assert_eq!(oracle::conflict(&samples, &samples.radii, -1.0), None);
     // The radius changes by less than a hundredth of the way.
     let tolerance = 1.01 * tolerance(&mesh);
-    let gap = |samples: &Points<3>| oracle::gap(&mesh, &field, samples, &set.radii, -1.0, tolerance);
+    let gap = |samples: &Points<3>| oracle::gap(&mesh, &field, samples, &samples.radii, -1.0, tolerance);
     assert_eq!(gap(&samples), None);
     samples.positions[1] = samples.positions[0].map(|x| x + 0.001);
-    assert!(oracle::conflict(&samples, &set.radii, -1.0).is_some());
+    assert!(oracle::conflict(&samples, &samples.radii, -1.0).is_some());
     assert!(gap(&samples).is_some());
 }

@@ -12,7 +12,7 @@ mod random;
 
 use azulejo::mesh::Mesh;
 use azulejo::psp::Report;
-use azulejo::psp::adaptive::{self, AdaptiveSamples, Density, Options, Radius, Scale};
+use azulejo::psp::adaptive::{self, Density, Options, Radius, Scale};
 use azulejo::psp::{DEFAULT_QUOTIENT, TOLERANCE};
 use azulejo::{Context, Error, Given, Order, Points};
 use oracle::Field;
@@ -50,7 +50,7 @@ fn of_density(density: Density, scale: Scale) -> Options {
 }
 
 /// A set in progressive order, on one thread and on two.
-fn sample(mesh: &Mesh, options: &Options) -> (AdaptiveSamples, Report) {
+fn sample(mesh: &Mesh, options: &Options) -> (Points<3>, Report) {
     let [(set, report), (again, _)] =
         [1, 2].map(|threads| adaptive::sample(&Context::new(threads).unwrap(), mesh, options, None).unwrap());
     assert_eq!(set, again, "depends on the number of threads");
@@ -72,13 +72,13 @@ fn distance(a: [f32; 3], b: [f32; 3]) -> f64 {
 }
 
 /// The radii of the samples where all are multiplied with 1.
-fn relative(set: &AdaptiveSamples, report: &Report) -> Vec<f64> {
+fn relative(set: &Points<3>, report: &Report) -> Vec<f64> {
     set.radii.iter().map(|radius| radius / report.radius).collect()
 }
 
 /// Ranks never rise, and no sample is nearer to one before it than its rank allows. So all prefixes keep their ranks.
-fn check_ranks(set: &AdaptiveSamples, report: &Report, cosine: f64) {
-    let AdaptiveSamples { samples: Points { positions, ranks, normals, .. }, .. } = set;
+fn check_ranks(set: &Points<3>, report: &Report, cosine: f64) {
+    let Points { positions, ranks, normals, .. } = set;
     let radii = relative(set, report);
     assert_eq!(ranks.len(), positions.len());
     assert!(ranks.is_sorted_by(|a, b| a >= b) && ranks.iter().all(|&rank| f64::from(rank.next_up()) >= report.radius));
@@ -93,7 +93,7 @@ fn check_ranks(set: &AdaptiveSamples, report: &Report, cosine: f64) {
         assert!(least >= rank * (1.0 - 1e-15), "{i}: {rank} and {least}");
     }
     // Nor do two conflict at the radii that are returned.
-    assert_eq!(oracle::conflict(&set.samples, &set.radii, cosine), None);
+    assert_eq!(oracle::conflict(&set, &set.radii, cosine), None);
 }
 
 /// The largest ratio of cover and rank that a prefix may have. Ranks are rounded down.
@@ -107,12 +107,12 @@ fn counts(len: usize) -> impl Iterator<Item = usize> {
 }
 
 /// Every prefix covers the surface, where radii are those of a field of relative radii.
-fn check_cover(mesh: &Mesh, set: &AdaptiveSamples, report: &Report, quotient: f64, field: &Field, cosine: f64) {
+fn check_cover(mesh: &Mesh, set: &Points<3>, report: &Report, quotient: f64, field: &Field, cosine: f64) {
     let radii = relative(set, report);
-    for count in counts(radii.len()).filter(|&count| set.samples.ranks[count - 1].is_finite()) {
-        let within = ratio(quotient, count) * f64::from(set.samples.ranks[count - 1]);
+    for count in counts(radii.len()).filter(|&count| set.ranks[count - 1].is_finite()) {
+        let within = ratio(quotient, count) * f64::from(set.ranks[count - 1]);
         let scaled: Vec<_> = radii[..count].iter().map(|radius| within * radius).collect();
-        let first = prefix(&set.samples, count);
+        let first = prefix(&set, count);
         let gap = match field {
             Field::Function(at, slope) => {
                 let at = |place| within * at(place);
@@ -128,9 +128,9 @@ fn check_cover(mesh: &Mesh, set: &AdaptiveSamples, report: &Report, quotient: f6
 }
 
 /// Random places of density above 0 are as near as prefixes promise; the radius of a place is `1 / sqrt(density)`.
-fn probe(mesh: &Mesh, set: &AdaptiveSamples, report: &Report, density: impl Fn(Point) -> f64, seed: u64) {
+fn probe(mesh: &Mesh, set: &Points<3>, report: &Report, density: impl Fn(Point) -> f64, seed: u64) {
     let (radii, mut random, mut probes) = (relative(set, report), Random::new(seed), 0);
-    let ranks = &set.samples.ranks;
+    let ranks = &set.ranks;
     while probes < 3000 {
         let triangle = (random.unit() * mesh.triangles().len() as f32) as u32;
         let [s, t] = [random.unit(), random.unit()];
@@ -141,7 +141,7 @@ fn probe(mesh: &Mesh, set: &AdaptiveSamples, report: &Report, density: impl Fn(P
             probes += 1;
             let radius = 1.0 / wanted.sqrt();
             let mut nearest = f64::INFINITY;
-            for (i, &position) in set.samples.positions.iter().enumerate() {
+            for (i, &position) in set.positions.iter().enumerate() {
                 nearest = nearest.min((distance(place, position) - WITHIN) / (0.5 * (radius + radii[i])));
                 let within = ratio(DEFAULT_QUOTIENT, i + 1) * f64::from(ranks[i]);
                 assert!(i == 0 || nearest <= within, "{place:?}: {nearest} after {}, {within}", i + 1);
@@ -160,7 +160,7 @@ fn every_prefix_is_a_set_of_its_rank_by_a_density_that_falls_to_a_fiftieth() {
         let values = at_vertices(&mesh, ramp);
         for density in [Density::PerVertex(&values), Density::Function { at: &ramp, largest: 1.0, slope: 0.25 }] {
             let (set, report) = sample(&mesh, &of_density(density, Scale::Count(2000.0)).seed(seed));
-            assert_eq!((set.samples.len(), report.samples), (2000, 2000));
+            assert_eq!((set.len(), report.samples), (2000, 2000));
             assert!(report.coverage.unwrap() <= DEFAULT_QUOTIENT * report.radius * (1.0 + 1e-6));
             assert_eq!(report.accepted + report.conflicts, report.darts);
             check_ranks(&set, &report, -1.0);
@@ -181,26 +181,26 @@ fn sets_of_smaller_counts_are_prefixes_to_the_bit() {
         check_ranks(&whole, &sample(&mesh, &options(3000.0)).1, -1.0);
         for count in [1, 2, 7, 99, 100, 101, 640, 1999, 2999] {
             let (set, report) = sample(&mesh, &options(count as f64));
-            assert_eq!(set.samples.len(), count);
-            assert_eq!(set.samples.ranks, whole.samples.ranks[..count]);
-            assert_eq!(set.samples.positions, whole.samples.positions[..count]);
-            assert_eq!(set.samples.triangles, whole.samples.triangles[..count]);
-            assert_eq!(set.samples.barycentrics, whole.samples.barycentrics[..count]);
-            let last = f64::from(whole.samples.ranks[count - 1]);
+            assert_eq!(set.len(), count);
+            assert_eq!(set.ranks, whole.ranks[..count]);
+            assert_eq!(set.positions, whole.positions[..count]);
+            assert_eq!(set.triangles, whole.triangles[..count]);
+            assert_eq!(set.barycentrics, whole.barycentrics[..count]);
+            let last = f64::from(whole.ranks[count - 1]);
             assert!(count == 1 || report.radius == last, "the radius at density 1 is the last rank");
-            let scale = report.radius / f64::from(*whole.samples.ranks.last().unwrap());
+            let scale = report.radius / f64::from(*whole.ranks.last().unwrap());
             let pairs = set.radii.iter().zip(&whole.radii);
             assert!(pairs.into_iter().all(|(a, b)| (a / (b * scale) - 1.0).abs() < 1e-12));
         }
         // A set by its radius shares the levels above.
-        let radius = f64::from(whole.samples.ranks[1500]);
+        let radius = f64::from(whole.ranks[1500]);
         let (by_radius, report) = sample(
             &mesh,
             &of_density(Density::PerVertex(&values), Scale::Radius(radius)).seed(seed).quotient(quotient),
         );
         assert_eq!(report.radius, radius);
-        let common = whole.samples.ranks.iter().filter(|&&rank| f64::from(rank) >= quotient * radius).count();
-        assert!(common > 100 && by_radius.samples.positions[..common] == whole.samples.positions[..common]);
+        let common = whole.ranks.iter().filter(|&&rank| f64::from(rank) >= quotient * radius).count();
+        assert!(common > 100 && by_radius.positions[..common] == whole.positions[..common]);
         check_ranks(&by_radius, &report, -1.0);
     }
 }
@@ -213,7 +213,7 @@ fn zeros_stay_empty_and_what_is_beside_them_is_covered() {
         let cap = |[_, _, z]: Point| (z - 0.2).max(0.0);
         let (set, report) = sample(&mesh, &of_density(Density::AtVertices(&cap), Scale::Count(700.0)).seed(seed));
         // Between vertices, of which some are above the edge of the cap, the density is interpolated.
-        assert!(set.samples.len() == 700 && set.samples.positions.iter().all(|position| position[2] > 0.1));
+        assert!(set.len() == 700 && set.positions.iter().all(|position| position[2] > 0.1));
         check_ranks(&set, &report, -1.0);
         probe(&mesh, &set, &report, cap, seed);
     }
@@ -232,11 +232,11 @@ fn radii_of_vertices_and_of_a_function_end_with_a_set_of_these_radii() {
             let options = Options::new(how).order(Order::Progressive).seed(8).quotient(quotient);
             let (set, report) = sample(&torus, &options);
             assert_eq!((report.radius, report.coverage), (1.0, Some(1.0)));
-            assert!(set.samples.len() > 700, "{}", set.samples.len());
-            assert_eq!(oracle::wrong_radius(&torus, &field, &set.samples, &set.radii), None);
+            assert!(set.len() > 700, "{}", set.len());
+            assert_eq!(oracle::wrong_radius(&torus, &field, &set, &set.radii), None);
             check_ranks(&set, &report, -1.0);
             check_cover(&torus, &set, &report, quotient, &field, -1.0);
-            assert_eq!(oracle::gap(&torus, &field, &set.samples, &set.radii, -1.0, WITHIN), None, "is not maximal");
+            assert_eq!(oracle::gap(&torus, &field, &set, &set.radii, -1.0, WITHIN), None, "is not maximal");
         }
     }
 }
@@ -266,17 +266,17 @@ fn given_samples_keep_their_clearances_in_every_prefix() {
     let given = Given::with_clearances(&positions, &clearances);
     let options = of_density(by_function, Scale::Count(900.0)).given(given);
     let (set, report) = sample(&torus, &options);
-    assert_eq!(set.samples.len(), 900);
-    assert_eq!(oracle::too_near(&set.samples, &balls), None);
+    assert_eq!(set.len(), 900);
+    assert_eq!(oracle::too_near(&set, &balls), None);
     check_ranks(&set, &report, -1.0);
     let radii = relative(&set, &report);
     for count in counts(900) {
-        let within = ratio(DEFAULT_QUOTIENT, count) * f64::from(set.samples.ranks[count - 1]);
+        let within = ratio(DEFAULT_QUOTIENT, count) * f64::from(set.ranks[count - 1]);
         let scaled: Vec<_> = radii[..count].iter().map(|radius| within * radius).collect();
         let at = |place| within / density(place).sqrt();
         // Densities are 0.08 and more.
         let field = Field::Function(&at, within * 0.5 * 0.08f64.powf(-1.5) * 0.3);
-        let first = prefix(&set.samples, count);
+        let first = prefix(&set, count);
         assert_eq!(oracle::gap_around(&torus, &field, &first, &scaled, -1.0, WITHIN, &balls), None, "{count}");
     }
     let everywhere = Given::with_clearances(&positions[..1], &[100.0]);
@@ -285,9 +285,9 @@ fn given_samples_keep_their_clearances_in_every_prefix() {
 }
 
 /// How many of the first samples of some sets are in each quarter of the ramp, over how many the density asks for.
-fn quarters(sets: &[AdaptiveSamples], count: usize) -> [f64; 4] {
+fn quarters(sets: &[Points<3>], count: usize) -> [f64; 4] {
     let mut shares = [0.0; 4];
-    for position in sets.iter().flat_map(|set| &set.samples.positions[..count]) {
+    for position in sets.iter().flat_map(|set| &set.positions[..count]) {
         let quarter = (position[0] as usize).min(3);
         // The integral of the density over it, of that over all.
         let x = quarter as f64;
@@ -333,7 +333,7 @@ fn what_does_not_go_with_order_is_refused_by_name() {
     assert_eq!(refused(&options(Scale::Radius(1e-7))).0, "density", "floats do not carry it");
     // In any order neither matters.
     let any = options(Scale::Count(10.5)).order(Order::Any).quotient(7.0);
-    assert!(adaptive::sample(&Context::new(1).unwrap(), &mesh, &any, None).unwrap().0.samples.ranks.is_empty());
+    assert!(adaptive::sample(&Context::new(1).unwrap(), &mesh, &any, None).unwrap().0.ranks.is_empty());
     // A mesh so far from the origin that floats carry a few hundred samples.
     let (positions, triangles) = meshes::placed(meshes::plane(), 1.0, 16384.0);
     let far = Mesh::new(positions, triangles).unwrap();

@@ -14,7 +14,7 @@ mod tolerance;
 use std::sync::Arc;
 
 use azulejo::mesh::Mesh;
-use azulejo::psp::adaptive::{self, AdaptiveSamples, Radius};
+use azulejo::psp::adaptive::{self, Radius};
 use azulejo::psp::{self, Engine, Options, Psp, Report};
 use azulejo::{Context, Error, Given, Points};
 use meshes::Soup;
@@ -57,11 +57,11 @@ fn sample(mesh: &Arc<Mesh>, options: &Options) -> (Points<3>, Report) {
 }
 
 /// A set of radii that vary on one thread and on three, checked.
-fn sample_adaptive(mesh: &Mesh, options: &adaptive::Options, field: &Field) -> AdaptiveSamples {
+fn sample_adaptive(mesh: &Mesh, options: &adaptive::Options, field: &Field) -> Points<3> {
     let [(set, _), (again, _)] =
         [1, 3].map(|threads| adaptive::sample(&Context::new(threads).unwrap(), mesh, options, None).unwrap());
     assert_eq!(set, again, "depends on the number of threads");
-    let (samples, radii, balls) = (&set.samples, &set.radii, balls(options.given, f64::NAN));
+    let (samples, radii, balls) = (&set, &set.radii, balls(options.given, f64::NAN));
     assert_eq!(oracle::conflict(samples, radii, options.cosine), None);
     assert_eq!(oracle::too_near(samples, &balls), None);
     // More than the documented one: that of the radii, which change by no more than the lengths.

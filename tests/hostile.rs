@@ -16,7 +16,7 @@ fn samples_of_a_needle_are_estimated_on_few_pieces() {
     let mesh = Mesh::new(vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1e-30, 0.0]], vec![[0, 1, 2]]).unwrap();
     let options = Options::new(Radius::PerVertex(&[0.01; 3]));
     let (set, _) = adaptive::sample(&Context::new(1).unwrap(), &mesh, &options, None).unwrap();
-    assert!((50..=101).contains(&set.samples.len()), "{} samples on a line of 100 radii", set.samples.len());
+    assert!((50..=101).contains(&set.len()), "{} samples on a line of 100 radii", set.len());
 }
 
 /// Cells as thin as the domain were halved along both sides, until they were a billion along the short one.

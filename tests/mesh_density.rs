@@ -10,8 +10,8 @@ mod oracle;
 mod random;
 
 use azulejo::mesh::Mesh;
-use azulejo::psp::adaptive::{self, AdaptiveSamples, Density, Options, Radius, Scale, Texture};
-use azulejo::{Context, Error, MAXIMAL_DENSITY};
+use azulejo::psp::adaptive::{self, Density, Options, Radius, Scale, Texture};
+use azulejo::{Context, Error, MAXIMAL_DENSITY, Points};
 use oracle::Field;
 use random::Random;
 
@@ -19,7 +19,7 @@ fn options(density: Density, scale: Scale) -> Options {
     Options::new(Radius::Density { density, scale })
 }
 
-fn sample_only(mesh: &Mesh, options: &Options) -> AdaptiveSamples {
+fn sample_only(mesh: &Mesh, options: &Options) -> Points<3> {
     let made = [1, 3].map(|threads| adaptive::sample(&Context::new(threads).unwrap(), mesh, options, None).unwrap().0);
     let [set, again] = made;
     assert_eq!(set, again, "depends on the number of threads");
@@ -27,9 +27,9 @@ fn sample_only(mesh: &Mesh, options: &Options) -> AdaptiveSamples {
 }
 
 /// A set that has been checked against all pairs of samples.
-fn sample(mesh: &Mesh, options: &Options) -> AdaptiveSamples {
+fn sample(mesh: &Mesh, options: &Options) -> Points<3> {
     let set = sample_only(mesh, options);
-    assert_eq!(oracle::conflict(&set.samples, &set.radii, options.cosine), None);
+    assert_eq!(oracle::conflict(&set, &set.radii, options.cosine), None);
     set
 }
 
@@ -47,9 +47,9 @@ fn at_vertices(mesh: &Mesh, density: impl Fn([f64; 3]) -> f64) -> Vec<f32> {
 
 /// How many samples of some sets are in bands along x, over how many the density asks for; a margin above and below is
 /// left out, where samples stand closer.
-fn bands(sets: &[AdaptiveSamples], count: usize, margin: f64, density: impl Fn(f64) -> f64) -> Vec<f64> {
+fn bands(sets: &[Points<3>], count: usize, margin: f64, density: impl Fn(f64) -> f64) -> Vec<f64> {
     let mut counts = vec![0.0; count];
-    for [x, y, _] in sets.iter().flat_map(|set| &set.samples.positions).map(|position| position.map(f64::from)) {
+    for [x, y, _] in sets.iter().flat_map(|set| &set.positions).map(|position| position.map(f64::from)) {
         if (margin..1.0 - margin).contains(&y) {
             counts[((x / 4.0 * count as f64) as usize).min(count - 1)] += 1.0;
         }
@@ -110,11 +110,11 @@ fn radii_are_those_of_the_density_and_every_place_is_covered() {
         let by_function = Density::Function { at: &density, largest: 4.0, slope: 3.0 };
         let set = sample(&sphere, &options(by_function, Scale::Radius(unit)).seed(seed));
         let wrong = (0..set.radii.len()).find(|&i| {
-            let expected = radius(set.samples.positions[i].map(f64::from));
+            let expected = radius(set.positions[i].map(f64::from));
             (set.radii[i] / expected - 1.0).abs() > 1e-5
         });
         assert_eq!(wrong, None);
-        assert_eq!(oracle::gap(&sphere, &field, &set.samples, &set.radii, -1.0, 1e-4), None);
+        assert_eq!(oracle::gap(&sphere, &field, &set, &set.radii, -1.0, 1e-4), None);
     }
 }
 
@@ -135,12 +135,12 @@ fn zeros_take_nothing_from_what_is_beside_them() {
         let masked = masked.with_mask(mask.clone()).unwrap();
         let ones = vec![1.0; values.len()];
         let alone = sample(&masked, &options(Density::PerVertex(&ones), Scale::Radius(unit)));
-        let inside = set.samples.triangles.iter().filter(|&&triangle| mask[triangle as usize]).count();
-        let share = inside as f64 / alone.samples.len() as f64;
-        assert!((0.97..1.01).contains(&share), "{floor}: {inside} of {}", alone.samples.len());
+        let inside = set.triangles.iter().filter(|&&triangle| mask[triangle as usize]).count();
+        let share = inside as f64 / alone.len() as f64;
+        assert!((0.97..1.01).contains(&share), "{floor}: {inside} of {}", alone.len());
         let is_empty = |corners: &[u32; 3]| corners.iter().all(|&vertex| values[vertex as usize] == 0.0);
         let in_nothing = |&&triangle: &&u32| is_empty(&mesh.triangles()[triangle as usize]);
-        assert_eq!(set.samples.triangles.iter().filter(in_nothing).count(), 0);
+        assert_eq!(set.triangles.iter().filter(in_nothing).count(), 0);
     }
 }
 
@@ -182,9 +182,9 @@ fn a_count_is_met_also_with_zeros() {
     let cap = |[_, _, z]: [f64; 3]| (z - 0.2).max(0.0);
     for count in [500.0, 5_000.0, 20_000.0] {
         let set = sample(&sphere, &options(Density::AtVertices(&cap), Scale::Count(count)));
-        let share = set.samples.len() as f64 / count;
-        assert!((0.95..1.06).contains(&share), "{} of {count}", set.samples.len());
-        assert!(set.samples.positions.iter().all(|position| position[2] > 0.1));
+        let share = set.len() as f64 / count;
+        assert!((0.95..1.06).contains(&share), "{} of {count}", set.len());
+        assert!(set.positions.iter().all(|position| position[2] > 0.1));
     }
 }
 

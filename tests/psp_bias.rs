@@ -144,7 +144,7 @@ fn the_size_of_triangles_does_not_matter() {
     for seed in 0..seeds {
         let options = adaptive::Options::new(Radius::PerVertex(&radii)).seed(seed);
         let (set, _) = adaptive::sample(&context, &mesh, &options, None).unwrap();
-        for (position, &triangle) in set.samples.positions.iter().zip(&set.samples.triangles) {
+        for (position, &triangle) in set.positions.iter().zip(&set.triangles) {
             // Samples stand closer at the boundary of the square.
             if position[..2].iter().all(|x| (4.0..36.0).contains(x)) {
                 counts[usize::from(is_whole[triangle as usize])] += 1.0;

@@ -112,13 +112,13 @@ fn surface(context: &Context, list: &mut List) -> Result<()> {
     let density = adaptive::Density::PerVertex(&weights);
     let by_density = adaptive::Radius::Density { density, scale: adaptive::Scale::Count(300.0) };
     let options = adaptive::Options::new(by_density).seed(17);
-    list.samples("adaptive, density", &adaptive::sample(context, &mesh, &options, None)?.0.samples);
+    list.samples("adaptive, density", &adaptive::sample(context, &mesh, &options, None)?.0);
     let radii: Vec<f32> = mesh.positions().iter().map(|[x, ..]| 0.1 + 0.05 * (x + 1.4)).collect();
     let by_vertex = adaptive::Options::new(adaptive::Radius::PerVertex(&radii)).seed(13);
-    list.samples("adaptive", &adaptive::sample(context, &mesh, &by_vertex, None)?.0.samples);
+    list.samples("adaptive", &adaptive::sample(context, &mesh, &by_vertex, None)?.0);
     let (ordered, _) = adaptive::sample(context, &mesh, &by_vertex.order(Order::Progressive).quotient(1.3), None)?;
-    list.samples("adaptive, ordered", &ordered.samples);
-    list.bytes("adaptive, ordered: ranks", &little_endian(&ordered.samples.ranks, f32::to_le_bytes));
+    list.samples("adaptive, ordered", &ordered);
+    list.bytes("adaptive, ordered: ranks", &little_endian(&ordered.ranks, f32::to_le_bytes));
     let options = dcr::surface::Options::default().max_iterations(20);
     let (relaxed, _) = dcr::surface::relax(context, &mesh, &filled.triangles, &filled.barycentrics, &options, None)?;
     list.samples("relax on the mesh", &relaxed);

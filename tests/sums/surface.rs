@@ -129,13 +129,13 @@ fn with_density(context: &Context, open: &Mesh, list: &mut List) -> Result<()> {
         ("density of vertices", vertices, Scale::Count(1500.0)),
     ] {
         let options = adaptive::Options::new(Radius::Density { density, scale }).seed(45);
-        list.samples(&format!("adaptive, {name}"), &adaptive::sample(context, open, &options, None)?.0.samples);
+        list.samples(&format!("adaptive, {name}"), &adaptive::sample(context, open, &options, None)?.0);
     }
     let by_count = Radius::Density { density: function, scale: Scale::Count(1500.0) };
     let options = adaptive::Options::new(by_count).seed(47).order(Order::Progressive);
     let (ordered, report) = adaptive::sample(context, open, &options, None)?;
-    list.samples("adaptive, ordered count", &ordered.samples);
-    list.bytes("adaptive, ordered count: ranks", &little_endian(&ordered.samples.ranks, f32::to_le_bytes));
+    list.samples("adaptive, ordered count", &ordered);
+    list.bytes("adaptive, ordered count: ranks", &little_endian(&ordered.ranks, f32::to_le_bytes));
     list.numbers("adaptive, ordered count: radii", &ordered.radii);
     list.numbers("adaptive, ordered count: report", &[report.radius, report.coverage.unwrap_or(-1.0)]);
     Ok(())
@@ -145,11 +145,11 @@ fn adaptive(context: &Context, closed: &Mesh, open: &Mesh, list: &mut List) -> R
     let radii: Vec<f32> = closed.positions().iter().map(|[x, ..]| 0.02 + 0.03 * (x + 1.4)).collect();
     let options = adaptive::Options::new(Radius::PerVertex(&radii)).seed(35);
     let (set, _) = adaptive::sample(context, closed, &options, None)?;
-    list.samples("adaptive vertices", &set.samples);
+    list.samples("adaptive vertices", &set);
     list.numbers("adaptive radii", &set.radii);
     let radius = Radius::Function { at: &|[_, _, z]| 0.03 + 0.01 * z, smallest: 0.02, largest: 0.04, slope: 0.011 };
     let options = adaptive::Options::new(radius).seed(36).cosine(0.5);
-    list.samples("adaptive function", &adaptive::sample(context, open, &options, None)?.0.samples);
+    list.samples("adaptive function", &adaptive::sample(context, open, &options, None)?.0);
     Ok(())
 }
 

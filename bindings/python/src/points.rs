@@ -1,7 +1,6 @@
 //! Sets of samples as Python sees them.
 
 use azulejo_core::kdrt::{Classified, Ranked};
-use azulejo_core::psp::adaptive::AdaptiveSamples;
 use numpy::{PyArray1, PyArray2};
 use pyo3::prelude::*;
 use pyo3::types::IntoPyDict;
@@ -94,7 +93,9 @@ impl Points {
         })
     }
 
-    pub(crate) fn adaptive(py: Python<'_>, AdaptiveSamples { samples, radii, .. }: AdaptiveSamples) -> PyResult<Self> {
+    /// Samples of a call whose radius varies: an empty set has radii too.
+    pub(crate) fn adaptive(py: Python<'_>, mut samples: azulejo_core::Points<3>) -> PyResult<Self> {
+        let radii = std::mem::take(&mut samples.radii);
         Ok(Self { radii: Some(line(py, radii)), ..Self::surface(py, samples)? })
     }
 

@@ -324,7 +324,7 @@ impl Surface {
             .cosine(self.cosine)
             .given(given);
         let sample = |progress: &Progress| adaptive::sample(context, mesh, &options, Some(progress));
-        let (made, done) = watched("surface", sample).map_err(|error| match error {
+        let (mut made, done) = watched("surface", sample).map_err(|error| match error {
             Error::InvalidArgument { argument: "vertex_radii" | "density", reason } => file.error(attribute, &reason),
             other => other,
         })?;
@@ -335,6 +335,7 @@ impl Surface {
             _ => String::new(),
         };
         let about = format!("radii {least} to {largest}{unit}");
-        Ok(Made { samples: made.samples, radii: Some(made.radii), about, seconds: done.seconds })
+        let radii = std::mem::take(&mut made.radii);
+        Ok(Made { samples: made, radii: Some(radii), about, seconds: done.seconds })
     }
 }

@@ -49,5 +49,5 @@ pub fn poisson(
     let (set, _) = adaptive::sample(context, &mesh, &options, Some(progress))?;
     // The far boundaries belong to the mesh, but not to the domain.
     let inside = |x: f32, length: usize| x.min(length as f32 * (1.0 - f32::EPSILON));
-    Ok(set.samples.positions.iter().map(|&[x, y, _]| [inside(x, width), inside(y, height)]).collect())
+    Ok(set.positions.iter().map(|&[x, y, _]| [inside(x, width), inside(y, height)]).collect())
 }

@@ -203,7 +203,7 @@ pub unsafe extern "C" fn azulejo_psp_adaptive_sample(
         if let Some(report) = report {
             report.write(done);
         }
-        Ok(azulejo_points::adaptive(set))
+        Ok(azulejo_points::surface(set))
     })
 }
 

@@ -2,7 +2,6 @@
 
 use azulejo_core::Points;
 use azulejo_core::kdrt::{Classified, Ranked};
-use azulejo_core::psp::adaptive::AdaptiveSamples;
 
 use crate::boundary::{self, array};
 
@@ -44,11 +43,8 @@ impl azulejo_points {
 
     pub(crate) fn surface(mut samples: Points<3>) -> Self {
         let (ranks, classes) = (std::mem::take(&mut samples.ranks), std::mem::take(&mut samples.classes));
-        Self { ranks, classes, ..Self::of(Samples::Surface(samples)) }
-    }
-
-    pub(crate) fn adaptive(AdaptiveSamples { samples, radii, .. }: AdaptiveSamples) -> Self {
-        Self { radii, ..Self::surface(samples) }
+        let radii = std::mem::take(&mut samples.radii);
+        Self { ranks, classes, radii, ..Self::of(Samples::Surface(samples)) }
     }
 }
 

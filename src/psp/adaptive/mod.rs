@@ -40,4 +40,4 @@ mod vectors;
 
 pub use options::Options;
 pub use radius::{Density, DensityFunction, Radius, RadiusFunction, Scale, Texture};
-pub use sample::{AdaptiveSamples, sample};
+pub use sample::sample;

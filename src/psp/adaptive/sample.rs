@@ -23,17 +23,8 @@ use crate::psp::options::check_quotient;
 use crate::psp::report::Report;
 use crate::psp::samples::{Sample, surface_samples};
 
-/// Samples and their radii.
-#[derive(Clone, Debug, PartialEq)]
-#[non_exhaustive]
-pub struct AdaptiveSamples {
-    /// In the order in which they were accepted, or in progressive order, with their ranks.
-    pub samples: Points<3>,
-    /// The radius of each sample.
-    pub radii: Vec<f64>,
-}
-
-/// A maximal set of samples, each with its own radius.
+/// A maximal set of samples, each with its own radius ([`Points::radii`]): in the order in which they were accepted, or in
+/// progressive order.
 ///
 /// Time grows with the samples and the triangles, and with the square of how much the radius changes along a radius.
 /// The report counts no iterations, rays and hits.
@@ -67,7 +58,7 @@ pub fn sample(
     mesh: &Mesh,
     options: &Options,
     progress: Option<&Progress>,
-) -> Result<(AdaptiveSamples, Report)> {
+) -> Result<(Points<3>, Report)> {
     let stopwatch = Stopwatch::start();
     let facing = Facing::new(options.cosine)?;
     if options.order == Order::Progressive {
@@ -91,9 +82,9 @@ pub fn sample(
     let (accepted, darts, seconds) = (samples.len() as u64, found.darts, stopwatch.seconds());
     let mut report =
         Report { samples: accepted, accepted, darts, conflicts: darts - accepted, seconds, ..Report::default() };
-    let mut set = AdaptiveSamples { samples: surface_samples(mesh, &samples), radii };
+    let mut set = Points { radii, ..surface_samples(mesh, &samples) };
     if options.order == Order::Progressive {
-        set.samples.ranks = samples.iter().map(|sample| sample.rank).collect();
+        set.ranks = samples.iter().map(|sample| sample.rank).collect();
         (report.radius, report.coverage) = (found.radius, Some(found.coverage));
     }
     Ok((set, report))

@@ -77,7 +77,7 @@ fn draw(
     let darkest = radii.iter().copied().fold(f32::INFINITY, f32::min);
     let rect = Rect { x: 0.0, y: 0.0, width: pixels, height: pixels };
     let mut canvas = Canvas::new(pixels, pixels, pixels as u32);
-    let centres = set.samples.positions.iter().map(|&[x, y, _]| [scale * (x - first[0]), scale * (y - first[1])]);
+    let centres = set.positions.iter().map(|&[x, y, _]| [scale * (x - first[0]), scale * (y - first[1])]);
     canvas.discs(centres, 0.5 * scale * darkest, INK, rect);
     canvas.write(output)?;
     Ok(Stippled { dots: set.radii.len(), seconds: Repeated::new(seconds) })

@@ -4,8 +4,8 @@
 use std::fmt::Write as _;
 
 use azulejo::mesh::Mesh;
-use azulejo::psp::adaptive::{self, AdaptiveSamples, Options, Radius};
-use azulejo::{Context, MAXIMAL_DENSITY, Progress, Result};
+use azulejo::psp::adaptive::{self, Options, Radius};
+use azulejo::{Context, MAXIMAL_DENSITY, Points, Progress, Result};
 
 use super::scenes::radius;
 use crate::files::Files;
@@ -73,7 +73,7 @@ fn draw_fading(context: &Context, effort: &Effort, output: &Output, progress: &P
     };
     let radii: Vec<_> = mesh.positions().iter().map(fading).collect();
     let (set, _) = adaptive::sample(context, &mesh, &Options::new(Radius::PerVertex(&radii)), None)?;
-    let stage = Stage::new(context, &mesh, &set.samples.positions, false)?;
+    let stage = Stage::new(context, &mesh, &set.positions, false)?;
     let mut canvas = Canvas::new(900.0, 900.0, 900);
     canvas.image(
         &square(&stage, 900, context.num_threads(), progress)?,
@@ -106,7 +106,7 @@ fn draw_stipple(context: &Context, effort: &Effort, output: &Output, progress: &
     let darkest = radii.iter().copied().fold(f32::INFINITY, f32::min);
     let mut canvas = Canvas::new(size as f32, size as f32, 2 * size as u32);
     let rect = Rect { x: 0.0, y: 0.0, width: size as f32, height: size as f32 };
-    let centres = set.samples.positions.iter().map(|&[x, y, _]| [x + 0.5, y + 0.5]);
+    let centres = set.positions.iter().map(|&[x, y, _]| [x + 0.5, y + 0.5]);
     canvas.discs(centres, 0.62 * darkest, INK, rect);
     canvas.write(output)?;
     Ok(set.radii.len())
@@ -126,7 +126,7 @@ const HEIGHT: usize = LENGTH / 4;
 /// Dots against a ramp from white to black.
 struct Ramp {
     /// One of the sets.
-    set: AdaptiveSamples,
+    set: Points<3>,
     sets: u64,
     /// Dots in each band, and how many there should be, in the mean of all sets.
     found: [f64; BANDS],
@@ -150,12 +150,12 @@ impl Ramp {
             let options = Options::new(Radius::PerVertex(&radii)).seed(seed);
             let (mut set, _) = adaptive::sample(context, &mesh, &options, None)?;
             let on_ramp = |[x, y, _]: [f32; 3]| [x, y].map(|x| f64::from(x) - MARGIN as f64);
-            for [x, y] in set.samples.positions.iter().map(|&position| on_ramp(position)) {
+            for [x, y] in set.positions.iter().map(|&position| on_ramp(position)) {
                 if (0.0..HEIGHT as f64).contains(&y) && (0.0..LENGTH as f64).contains(&x) {
                     found[x as usize / COLUMNS] += 1.0 / effort.sets as f64;
                 }
             }
-            set.samples.positions.iter_mut().for_each(|place| {
+            set.positions.iter_mut().for_each(|place| {
                 let [x, y] = on_ramp(*place);
                 *place = [x as f32, y as f32, 0.0];
             });
@@ -205,7 +205,7 @@ impl Ramp {
         panel.ground(&mut canvas, false);
         let scale = strip.width / LENGTH as f32;
         let darkest = self.set.radii.iter().copied().fold(f64::INFINITY, f64::min) as f32;
-        let places = self.set.samples.positions.iter().map(|&[x, y, _]| [strip.x + scale * x, strip.y + scale * y]);
+        let places = self.set.positions.iter().map(|&[x, y, _]| [strip.x + scale * x, strip.y + scale * y]);
         canvas.discs(places, 0.55 * scale * darkest, COBALT, strip);
         panel.axes(&mut canvas);
         panel.title(&mut canvas, "A ramp in dots", &format!("one of {} sets", self.sets));
