@@ -47,6 +47,7 @@ mod error;
 mod geometry;
 mod given;
 mod host;
+mod index;
 mod job;
 pub mod kdrt;
 mod math;

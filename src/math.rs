@@ -27,6 +27,23 @@ pub(crate) fn square<T: Copy + Mul<Output = T>>(x: T) -> T {
     x * x
 }
 
+/// The squared distance of two points in space, in `f64`.
+pub(crate) fn distance_squared(a: [f32; 3], b: [f32; 3]) -> f64 {
+    (0..3).map(|axis| square(a[axis] as f64 - b[axis] as f64)).sum()
+}
+
+/// The largest float that is not above a number.
+pub(crate) fn rounded_down(x: f64) -> f32 {
+    let nearest = x as f32;
+    if f64::from(nearest) > x { nearest.next_down() } else { nearest }
+}
+
+/// The smallest float that is not below a number: infinity beyond all.
+pub(crate) fn rounded_up(x: f64) -> f32 {
+    let nearest = x as f32;
+    if f64::from(nearest) < x { nearest.next_up() } else { nearest }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -35,6 +52,16 @@ mod tests {
     fn powers_are_products() {
         assert_eq!((power(3.0, 0), power(3.0, 1), power(3.0, 5), power(0.5, 40)), (1.0, 3.0, 243.0, 0.5f64.powi(40)));
         assert_eq!((power(0.0, 0), power(-2.0, 3), power(1.5, 7)), (1.0, -8.0, 17.0859375));
+    }
+
+    #[test]
+    fn floats_are_rounded_one_way() {
+        assert_eq!((rounded_down(0.25), rounded_up(0.25)), (0.25, 0.25));
+        for x in [0.0, 0.1, 1.0 + 1e-9, 3e38, 1e300, 1e-44, -1e-60, -0.1, f64::from(f32::MAX), f64::INFINITY] {
+            let (down, up) = (rounded_down(x), rounded_up(x));
+            assert!(f64::from(down) <= x && (f64::from(down.next_up()) > x || down >= f32::MAX), "{x}");
+            assert!(f64::from(up) >= x && f64::from(up.next_down()) < x, "{x}");
+        }
     }
 
     #[test]

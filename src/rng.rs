@@ -105,6 +105,7 @@ impl Rng {
 
     /// The barycentrics of a uniformly random point of a triangle.
     pub(crate) fn in_triangle(&mut self) -> [f64; 2] {
+        // The square root makes the triangle's tip as dense as its base (Turk 1990).
         let (along, across) = (self.unit().sqrt(), self.unit());
         [along * (1.0 - across), along * across]
     }

@@ -3,8 +3,8 @@
 use glam::DVec2;
 
 use crate::error::Result;
-use crate::geometry::delaunay::Delaunay;
-use crate::geometry::frame::Frame;
+use crate::geometry::Delaunay;
+use crate::geometry::Frame;
 use crate::job::{Context, Job, Progress, chunks};
 use crate::math::{atan2, direction};
 use crate::points::Domain;

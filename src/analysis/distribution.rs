@@ -12,7 +12,7 @@
 use std::f64::consts::PI;
 
 use crate::error::{Error, Result};
-use crate::geometry::grid2::Grid2;
+use crate::index::Grid2;
 use crate::job::{Context, Progress, chunks_of};
 use crate::points::{Boundary, Domain};
 

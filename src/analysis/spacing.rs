@@ -2,8 +2,8 @@
 
 use crate::analysis::distribution::check_bins;
 use crate::error::Result;
-use crate::geometry::grid2::Grid2;
-use crate::geometry::grid3;
+use crate::index::Grid2;
+use crate::index::smallest_distance;
 use crate::job::{Context, Job, Progress, chunks_of};
 use crate::points::Domain;
 
@@ -111,5 +111,5 @@ pub fn nearest_histogram_2d(domain: &Domain, nearest: &[f64], reach: f64, bins: 
 /// [`Error::Cancelled`](crate::Error::Cancelled).
 pub fn smallest_distance_3d(context: &Context, positions: &[[f32; 3]], progress: Option<&Progress>) -> Result<f64> {
     crate::analysis::check_positions(positions)?;
-    context.run(progress, |job| grid3::smallest_distance(job, positions))
+    context.run(progress, |job| smallest_distance(job, positions))
 }

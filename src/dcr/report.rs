@@ -2,7 +2,7 @@
 
 use crate::dcr::relaxation::Relaxation;
 use crate::error::Result;
-use crate::geometry::grid2::Grid2;
+use crate::index::Grid2;
 use crate::job::{Job, chunks};
 use crate::points::Domain;
 

@@ -5,19 +5,19 @@ use glam::{DVec2, Vec2};
 use crate::math::square;
 
 /// The centre.
-pub(crate) fn circumcentre(a: DVec2, b: DVec2) -> DVec2 {
+pub fn circumcentre(a: DVec2, b: DVec2) -> DVec2 {
     (b.length_squared() * a.perp() - a.length_squared() * b.perp()) / (2.0 * a.perp_dot(b))
 }
 
 /// The centre in single precision, times `2 a × b`: the caller divides, as the triangle may have no area.
 #[inline(always)]
-pub(crate) fn scaled_circumcentre(a: Vec2, b: Vec2) -> Vec2 {
+pub fn scaled_circumcentre(a: Vec2, b: Vec2) -> Vec2 {
     b.length_squared() * a.perp() - a.length_squared() * b.perp()
 }
 
 /// The square of the radius, of the triangle with the edges `a`, `b` and `a - b`: the product of the edges over four
 /// times the area.
-pub(crate) fn circumradius_squared(a: DVec2, b: DVec2, opposite: DVec2) -> f64 {
+pub fn circumradius_squared(a: DVec2, b: DVec2, opposite: DVec2) -> f64 {
     let edges = a.length_squared() * b.length_squared() * opposite.length_squared();
     edges / (4.0 * square(a.perp_dot(b)))
 }

@@ -14,8 +14,8 @@ use spade::handles::{FaceHandle, FixedVertexHandle, PossiblyOuterTag, VertexHand
 use spade::{DelaunayTriangulation, HasPosition, Point2, Triangulation};
 
 use crate::error::Result;
-use crate::geometry::circumcircle::{circumcentre, circumradius_squared};
-use crate::geometry::frame::{Frame, Site};
+use crate::geometry::{Frame, Site};
+use crate::geometry::{circumcentre, circumradius_squared};
 use crate::job::{Job, chunks};
 
 /// The first margin, in spacings: slightly more than the diameter of the largest empty circle of a million random
@@ -41,7 +41,7 @@ impl HasPosition for Site {
 type Star<'a> = VertexHandle<'a, Site>;
 
 /// The triangulation of the points and of enough of their copies.
-pub(crate) struct Delaunay {
+pub struct Delaunay {
     triangulation: DelaunayTriangulation<Site>,
     /// The vertex of each point; none for a point that coincides with another.
     vertices: Vec<Option<FixedVertexHandle>>,
@@ -49,7 +49,7 @@ pub(crate) struct Delaunay {
 
 impl Delaunay {
     /// Triangulates in O(n log n); every original vertex has the star that it has among all copies.
-    pub(crate) fn new(job: &Job, frame: &Frame, positions: impl Iterator<Item = DVec2> + Clone) -> Result<Self> {
+    pub fn new(job: &Job, frame: &Frame, positions: impl Iterator<Item = DVec2> + Clone) -> Result<Self> {
         let (mut margin, mut rest) = (MARGIN, *job);
         loop {
             // The first margin is nearly always enough.
@@ -79,7 +79,7 @@ impl Delaunay {
     }
 
     /// The number of points.
-    pub(crate) fn len(&self) -> usize {
+    pub fn len(&self) -> usize {
         self.vertices.len()
     }
 
@@ -113,7 +113,7 @@ impl Delaunay {
     }
 
     /// The neighbours of a point, among them copies, and their offsets from it, counter-clockwise.
-    pub(crate) fn star(&self, point: usize) -> impl Iterator<Item = (Site, DVec2)> {
+    pub fn star(&self, point: usize) -> impl Iterator<Item = (Site, DVec2)> {
         let edges = self.vertex(point).into_iter().flat_map(|star| star.out_edges());
         edges.map(|edge| {
             let neighbour = *edge.to().data();
@@ -122,22 +122,22 @@ impl Delaunay {
     }
 
     /// The offsets of the neighbours of a point, counter-clockwise.
-    pub(crate) fn ring(&self, point: usize) -> impl Iterator<Item = DVec2> {
+    pub fn ring(&self, point: usize) -> impl Iterator<Item = DVec2> {
         self.star(point).map(|(_, offset)| offset)
     }
 
     /// The points that a point has as neighbours, themselves or as copies, counter-clockwise.
-    pub(crate) fn neighbours(&self, point: usize) -> impl Iterator<Item = u32> {
+    pub fn neighbours(&self, point: usize) -> impl Iterator<Item = u32> {
         self.star(point).map(|(neighbour, _)| neighbour.source)
     }
 
     /// The largest distance from the points: the largest circumradius of the triangles that touch one.
-    pub(crate) fn coverage(&self) -> f64 {
+    pub fn coverage(&self) -> f64 {
         self.circumcircles().map(|(_, radius)| radius).fold(0.0, f64::max)
     }
 
     /// Centres and radii of the circumcircles of the triangles that touch a point of the domain.
-    pub(crate) fn circumcircles(&self) -> impl Iterator<Item = (DVec2, f64)> {
+    pub fn circumcircles(&self) -> impl Iterator<Item = (DVec2, f64)> {
         self.triangles().map(|corners| {
             let [a, b, c] = corners.map(|corner| corner.position);
             let (ab, ac) = (b - a, c - a);
@@ -146,7 +146,7 @@ impl Delaunay {
     }
 
     /// The edges from a point with their duals, those to other points from the first of the two only.
-    pub(crate) fn duals(&self, point: usize) -> impl Iterator<Item = Dual> {
+    pub fn duals(&self, point: usize) -> impl Iterator<Item = Dual> {
         let edges = self.vertex(point).into_iter().flat_map(|star| star.out_edges());
         let is_first = move |end: &Site| !end.is_original() || point < end.source as usize;
         edges.filter(move |edge| is_first(edge.to().data())).filter_map(|edge| {
@@ -160,13 +160,13 @@ impl Delaunay {
     }
 
     /// The triangles that touch a point.
-    pub(crate) fn triangles_at(&self, point: usize) -> impl Iterator<Item = [Site; 3]> {
+    pub fn triangles_at(&self, point: usize) -> impl Iterator<Item = [Site; 3]> {
         let edges = self.vertex(point).into_iter().flat_map(|star| star.out_edges());
         edges.filter_map(|edge| Some(edge.face().as_inner()?.vertices().map(|vertex| *vertex.data())))
     }
 
     /// The triangles that touch a point of the domain.
-    pub(crate) fn triangles(&self) -> impl Iterator<Item = [Site; 3]> {
+    pub fn triangles(&self) -> impl Iterator<Item = [Site; 3]> {
         self.triangulation
             .inner_faces()
             .map(|face| face.vertices().map(|vertex| *vertex.data()))
@@ -175,11 +175,11 @@ impl Delaunay {
 }
 
 /// An edge of the triangulation and its dual edge of the Voronoi diagram.
-pub(crate) struct Dual {
+pub struct Dual {
     /// The ends of the edge.
-    pub(crate) ends: [DVec2; 2],
+    pub ends: [DVec2; 2],
     /// The circumcircles, centre and radius, of the triangles on its sides: their centres are the ends of the dual edge.
-    pub(crate) circles: [(DVec2, f64); 2],
+    pub circles: [(DVec2, f64); 2],
 }
 
 /// The triangulation of sites.

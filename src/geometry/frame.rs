@@ -21,7 +21,7 @@ const INSET: f64 = 1e-6;
 /// The reference spacing is `d_max = sqrt(2 A / (sqrt(3) N))`, the distance of `N` points in hexagonal arrangement on
 /// the area `A`; in a strip narrower than that it is the width of the strip, which no set on the torus can exceed.
 #[derive(Clone, Copy)]
-pub(crate) struct Frame {
+pub struct Frame {
     domain: Domain,
     spacing: f64,
     in_d_max: f64,
@@ -30,58 +30,58 @@ pub(crate) struct Frame {
 
 /// A point, or a copy of one beyond the boundary.
 #[derive(Clone, Copy)]
-pub(crate) struct Site {
-    pub(crate) position: DVec2,
+pub struct Site {
+    pub position: DVec2,
     /// The point.
-    pub(crate) source: u32,
+    pub source: u32,
     /// Per axis: 0 for the point itself, -1 and 1 for its copy beyond the lower and the upper side.
-    pub(crate) side: [i8; 2],
+    pub side: [i8; 2],
 }
 
 impl Site {
     /// Whether this is a point of the domain and not a copy.
-    pub(crate) fn is_original(&self) -> bool {
+    pub fn is_original(&self) -> bool {
         self.side == [0, 0]
     }
 }
 
 impl Frame {
     /// The frame of `count` points.
-    pub(crate) fn new(domain: Domain, count: usize) -> Self {
+    pub fn new(domain: Domain, count: usize) -> Self {
         let extent = DVec2::from_array(domain.extent());
         let d_max = domain.hexagonal_distance(count);
         let spacing = d_max.min(extent.min_element());
         Self { domain, spacing, in_d_max: spacing / d_max, size: extent / spacing }
     }
 
-    pub(crate) fn boundary(&self) -> Boundary {
+    pub fn boundary(&self) -> Boundary {
         self.domain.boundary
     }
 
     /// The unit of length.
-    pub(crate) fn spacing(&self) -> f64 {
+    pub fn spacing(&self) -> f64 {
         self.spacing
     }
 
     /// The unit of length over `d_max`: 1, but less in a strip that is thinner than `d_max`.
-    pub(crate) fn in_d_max(&self) -> f64 {
+    pub fn in_d_max(&self) -> f64 {
         self.in_d_max
     }
 
     /// Width and height, at least 1 each.
-    pub(crate) fn size(&self) -> DVec2 {
+    pub fn size(&self) -> DVec2 {
         self.size
     }
 
     /// Points of the domain in the units of the frame.
-    pub(crate) fn enter(&self, points: &[[f32; 2]]) -> Vec<DVec2> {
+    pub fn enter(&self, points: &[[f32; 2]]) -> Vec<DVec2> {
         let min = DVec2::from_array(self.domain.min);
         points.iter().map(|&[x, y]| self.fold((DVec2::new(x.into(), y.into()) - min) / self.spacing)).collect()
     }
 
     /// Breaks the symmetry of degenerate arrangements, whose forces have no direction or none that leads out of a line:
     /// moves all but the first of coincident points, and all points of a set that lies on one line.
-    pub(crate) fn part(&self, positions: &mut [DVec2], seed: u64) {
+    pub fn part(&self, positions: &mut [DVec2], seed: u64) {
         let parted = if lie_on_a_line(positions) { (0..positions.len() as u32).collect() } else { repeated(positions) };
         for i in parted {
             let mut rng = Rng::at(seed, Draw::Part, &[i.into()]);
@@ -91,7 +91,7 @@ impl Frame {
     }
 
     /// Moves a point that has left the domain back: around the torus, or reflected by the boundary.
-    pub(crate) fn fold(&self, position: DVec2) -> DVec2 {
+    pub fn fold(&self, position: DVec2) -> DVec2 {
         let axis = |x: f64, length: f64| match self.domain.boundary {
             // Rounding can turn a small negative remainder into the length itself.
             Boundary::Periodic => Some(x.rem_euclid(length)).filter(|&x| x < length).unwrap_or(0.0),
@@ -104,7 +104,7 @@ impl Frame {
     }
 
     /// The offset from one point to another, the shortest on a torus.
-    pub(crate) fn offset(&self, from: DVec2, to: DVec2) -> DVec2 {
+    pub fn offset(&self, from: DVec2, to: DVec2) -> DVec2 {
         match self.domain.boundary {
             Boundary::Bounded => to - from,
             Boundary::Periodic => {
@@ -118,7 +118,7 @@ impl Frame {
     ///
     /// Copies are translated by a period, or mirrored by the boundary (thesis, Fig. 4.12 (b)). The margin is cut to the
     /// size of the domain, so there is at most one ring of copies.
-    pub(crate) fn sites(&self, positions: impl Iterator<Item = DVec2> + Clone, margin: f64) -> Vec<Site> {
+    pub fn sites(&self, positions: impl Iterator<Item = DVec2> + Clone, margin: f64) -> Vec<Site> {
         let copy = |axis: usize, x: f64, side: i8| {
             let (length, margin) = (self.size[axis], margin.min(self.size[axis]));
             let x = match self.domain.boundary {
@@ -142,7 +142,7 @@ impl Frame {
     }
 
     /// The point in the user's domain, with `min <= x < max` whatever the rounding.
-    pub(crate) fn leave(&self, position: DVec2) -> [f32; 2] {
+    pub fn leave(&self, position: DVec2) -> [f32; 2] {
         std::array::from_fn(|axis| {
             let (min, max) = (self.domain.min[axis], self.domain.max[axis]);
             let x = (min + position[axis] * self.spacing) as f32;
@@ -157,7 +157,7 @@ impl Frame {
 }
 
 /// An order in which consecutive points are close to each other, so that neighbours share cache lines.
-pub(crate) fn along_strips(positions: &[DVec2]) -> Vec<u32> {
+pub fn along_strips(positions: &[DVec2]) -> Vec<u32> {
     let mut order: Vec<u32> = (0..positions.len() as u32).collect();
     let key = |i: u32| ((positions[i as usize].y / STRIP).floor(), positions[i as usize].x);
     order.sort_unstable_by(|&i, &j| {

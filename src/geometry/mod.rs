@@ -1,9 +1,9 @@
-//! Geometry in floats, shared by relaxation, analysis and mesh sampling: Delaunay triangulations, circumcircles, frames,
-//! grids, and the counting sort behind grids and lists of neighbours.
+//! Geometry in floats, shared by relaxation and analysis: Delaunay triangulations, circumcircles, and the frame of a domain.
 
-pub(crate) mod circumcircle;
-pub(crate) mod counting_sort;
-pub(crate) mod delaunay;
-pub(crate) mod frame;
-pub(crate) mod grid2;
-pub(crate) mod grid3;
+mod circumcircle;
+mod delaunay;
+mod frame;
+
+pub use circumcircle::{circumcentre, circumradius_squared, scaled_circumcentre};
+pub use delaunay::{Delaunay, Dual};
+pub use frame::{Frame, Site, along_strips};

@@ -5,7 +5,7 @@
 //! is what lies *inside* the leaf, without the thesis's margin of 2r, because the gaps along its boundary are filled anyway.
 
 use crate::error::Result;
-use crate::geometry::counting_sort::Binned;
+use crate::index::Binned;
 use crate::job::Job;
 use crate::maximal;
 use crate::plane::lattice::Lattice;

@@ -1,6 +1,6 @@
 //! Samples of a part of the plane, from which those of any smaller part can be had.
 
-use crate::geometry::counting_sort::Binned;
+use crate::index::Binned;
 use crate::plane::lattice::Lattice;
 use crate::plane::rect::Rect;
 use crate::points::Boundary;

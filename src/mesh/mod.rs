@@ -19,5 +19,5 @@ mod surface;
 mod text;
 
 pub use quality::Quality;
-pub(crate) use rounding::{exact, exact_point, round_barycentrics, rounded_down, rounded_up};
+pub(crate) use rounding::{exact, exact_point, round_barycentrics};
 pub use surface::Mesh;

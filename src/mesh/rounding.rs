@@ -19,18 +19,6 @@ pub(crate) fn next_below(x: f32) -> f32 {
     f32::from_bits(x.to_bits() - 1)
 }
 
-/// The largest float that is not above a finite number.
-pub(crate) fn rounded_down(x: f64) -> f32 {
-    let nearest = x as f32;
-    if f64::from(nearest) > x { nearest.next_down() } else { nearest }
-}
-
-/// The smallest float that is not below a number: infinity beyond all.
-pub(crate) fn rounded_up(x: f64) -> f32 {
-    let nearest = x as f32;
-    if f64::from(nearest) < x { nearest.next_up() } else { nearest }
-}
-
 /// Barycentrics rounded to floats that name a point of the triangle: not negative, and their sum (in `f64`) not above 1.
 pub(crate) fn round_barycentrics([u, v]: [f64; 2]) -> [f32; 2] {
     let [mut u, mut v] = [u, v].map(|x| x.clamp(0.0, 1.0) as f32);

@@ -5,7 +5,7 @@
 //! if its distance says so, and a rectangle of them if its farthest corner does. Rounding is monotone, so then all of
 //! its points do: both questions have one answer, and a search for what is not covered ends.
 
-use crate::geometry::counting_sort::Binned;
+use crate::index::Binned;
 use crate::plane::rect::Rect;
 
 /// A disk in lattice units, without its boundary.

@@ -6,8 +6,8 @@
 use std::collections::HashMap;
 
 use crate::error::{Error, Result};
-use crate::geometry::counting_sort::Binned;
 use crate::given::Given;
+use crate::index::Binned;
 use crate::memory;
 use crate::mesh::{Mesh, exact};
 use crate::psp::cubes::Cube;

@@ -14,7 +14,8 @@
 
 use crate::error::Result;
 use crate::job::Job;
-use crate::mesh::{Mesh, exact, rounded_down};
+use crate::math::rounded_down;
+use crate::mesh::{Mesh, exact};
 use crate::psp::estimate::expected_samples;
 use crate::psp::fill::rounds::PATCH;
 use crate::psp::fill::{Manner, Surface, fill_in};

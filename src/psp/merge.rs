@@ -7,8 +7,8 @@
 //! maximal in the plane, is stretched least. (Or, by option, those of the lower projector, as in the thesis.)
 
 use crate::error::Result;
+use crate::index::Buckets;
 use crate::job::Job;
-use crate::psp::buckets::Buckets;
 use crate::psp::cubes::Cube;
 use crate::psp::given::GivenSamples;
 use crate::psp::samples::{Sample, SampleSet};

@@ -20,7 +20,6 @@
 //!   number of threads. Between machines whose Embree traces packets of another width the last bits of a hit can differ.
 
 pub mod adaptive;
-mod buckets;
 mod classes;
 mod count;
 mod cubes;

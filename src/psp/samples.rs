@@ -4,9 +4,9 @@ use std::collections::HashMap;
 use std::ops::{AddAssign, Range};
 
 use crate::error::Result;
-use crate::geometry::counting_sort::Binned;
-use crate::geometry::grid3::distance_squared;
+use crate::index::Binned;
 use crate::job::Job;
+use crate::math::distance_squared;
 use crate::mesh::{Mesh, exact_point};
 use crate::points::Points;
 use crate::psp::cubes::{Cube, Numbers, SIDE};

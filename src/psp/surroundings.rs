@@ -2,7 +2,7 @@
 
 use glam::{DVec3, Vec3A};
 
-use crate::geometry::grid3::distance_squared;
+use crate::math::distance_squared;
 use crate::mesh::exact;
 use crate::psp::cubes::{Cube, SIDE};
 use crate::psp::lanes::{FAR, LANES, PointLanes, SLACK};

@@ -6,6 +6,7 @@ use super::vectors::advance;
 use super::{Options, Selection};
 use crate::error::Result;
 use crate::job::Job;
+use crate::math::rounded_down;
 use crate::order::Order;
 use crate::rng::{Draw, Rng};
 use crate::simd::Level;
@@ -126,9 +127,7 @@ fn least_square(radius: f64) -> f64 {
 
 /// A squared distance as a rank: the largest float that is no longer than the distance.
 fn rank(squared: f64) -> f32 {
-    let distance = squared.sqrt();
-    let nearest = distance as f32;
-    if f64::from(nearest) > distance { nearest.next_down() } else { nearest }
+    rounded_down(squared.sqrt())
 }
 
 #[cfg(test)]

@@ -12,9 +12,9 @@ use glam::DVec2;
 
 use crate::analysis::coverage::disjoint_sets::DisjointSets;
 use crate::error::Result;
-use crate::geometry::delaunay::{Delaunay, Dual};
-use crate::geometry::frame::Frame;
-use crate::geometry::grid2::Grid2;
+use crate::geometry::Frame;
+use crate::geometry::{Delaunay, Dual};
+use crate::index::Grid2;
 use crate::job::{Job, chunks, chunks_of};
 use crate::points::Domain;
 

@@ -4,12 +4,12 @@ mod disjoint_sets;
 mod gaps;
 mod nearest;
 mod surface;
-mod tree;
 
 use crate::analysis::probes::AreaSampler;
 use crate::error::Result;
-use crate::geometry::grid3::{Grid3, distance_squared};
+use crate::index::Grid3;
 use crate::job::{Context, Job, Progress, chunks, chunks_of};
+use crate::math::distance_squared;
 use crate::math::hypot;
 use crate::mesh::Mesh;
 use crate::points::{Domain, check_radius};

@@ -2,9 +2,9 @@
 
 use glam::DVec3;
 
-use crate::analysis::coverage::tree::PointTree;
 use crate::error::Result;
-use crate::geometry::grid2::Grid2;
+use crate::index::Grid2;
+use crate::index::PointTree;
 use crate::job::Job;
 use crate::points::{Boundary, Domain};
 

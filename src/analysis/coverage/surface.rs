@@ -6,11 +6,11 @@ use std::collections::HashMap;
 use glam::DVec3;
 
 use crate::analysis::coverage::disjoint_sets::DisjointSets;
-use crate::analysis::coverage::tree::PointTree;
 use crate::analysis::coverage::{Coverage, PRECISION};
 use crate::error::{Error, Result};
-use crate::geometry::grid3::distance_squared;
+use crate::index::PointTree;
 use crate::job::{Context, Job, Progress, chunks_of};
+use crate::math::distance_squared;
 use crate::mesh::Mesh;
 use crate::points::check_radius;
 

@@ -8,7 +8,7 @@
 use glam::Vec2;
 
 use crate::dcr::ground::constraints::{Constraints, Force};
-use crate::geometry::circumcircle::scaled_circumcentre;
+use crate::geometry::scaled_circumcentre;
 use crate::math::square;
 
 /// A neighbour in the ring around a point: its offset and its local spacing.

@@ -13,8 +13,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use crate::dcr::ground::flips::must_flip;
 use crate::dcr::ground::torus::{Torus, TorusPoint};
 use crate::error::Result;
-use crate::geometry::counting_sort::Binned;
-use crate::geometry::delaunay::Delaunay;
+use crate::geometry::Delaunay;
+use crate::index::Binned;
 use crate::job::{Job, chunks_of};
 
 /// The sum of two cotangents in `f32` below which it may be negative in `f64`.

@@ -10,6 +10,7 @@ use glam::Vec2;
 use crate::dcr::density::source::{Density, is_density};
 use crate::dcr::ground::torus::{HALF, TURN, Torus, TorusPoint};
 use crate::error::{Error, Result};
+use crate::index::Weights;
 use crate::job::{Job, chunks_of};
 use crate::memory;
 use crate::points::{Boundary, Domain};
@@ -201,16 +202,10 @@ impl Raster {
 
     /// Random points with this density.
     pub(super) fn scatter(&self, torus: &Torus, count: usize, seed: u64) -> Vec<[f32; 2]> {
-        let add = |sum: &mut f64, &density: &f32| {
-            *sum += f64::from(density);
-            Some(*sum)
-        };
-        let sums: Vec<f64> = self.density.iter().scan(0.0, add).collect();
-        let whole = sums.last().copied().unwrap_or(0.0);
+        let weights = Weights::new(self.density.iter().map(|&density| density.into()).collect());
         let point = |index: u64| {
             let mut rng = Rng::at(seed, Draw::Scatter, &[index]);
-            let at = rng.unit() * whole;
-            let cell = sums.partition_point(|&sum| sum <= at).min(sums.len() - 1);
+            let cell = weights.pick(&mut rng) as usize;
             let cell = [cell % self.cells[0], cell / self.cells[0]];
             let share = [0, 1].map(|axis| (cell[axis] as f64 + rng.unit()) / self.cells[axis] as f64);
             torus.leave(self.place(share))

@@ -16,8 +16,8 @@ use crate::dcr::ground::neighbours::Neighbours;
 use crate::dcr::ground::torus::{Torus, TorusPoint};
 use crate::dcr::relaxation::Relaxation;
 use crate::error::Result;
-use crate::geometry::delaunay::Delaunay;
-use crate::geometry::grid2::Grid2;
+use crate::geometry::Delaunay;
+use crate::index::Grid2;
 use crate::job::{Job, chunks};
 use crate::points::{Boundary, Domain};
 

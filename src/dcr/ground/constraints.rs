@@ -8,7 +8,7 @@
 
 use glam::Vec2;
 
-use crate::geometry::circumcircle::scaled_circumcentre;
+use crate::geometry::scaled_circumcentre;
 use crate::math::square;
 
 /// The fraction of its last displacement that a point repeats in a step.

@@ -1,6 +1,7 @@
 //! The points of a set in the order of a Z-curve: points that are close in the plane are close in memory.
 
 use crate::dcr::ground::torus::{Torus, TorusPoint};
+use crate::index::curve::{morton2, sorted};
 
 /// Where the points of a set began, in the order of the curve.
 pub(in crate::dcr) struct CurveOrder {
@@ -56,33 +57,10 @@ impl CurveOrder {
 
 /// How far along the Z-curve each of these places is.
 pub(in crate::dcr) fn along_curve(places: &[TorusPoint]) -> Vec<u64> {
-    places.iter().map(|&[x, y]| spread(x) | spread(y) << 1).collect()
+    places.iter().map(|&place| morton2(place)).collect()
 }
 
 /// The order of places along the curve.
 fn order_along_curve(places: &[TorusPoint]) -> Vec<u32> {
-    let mut keyed: Vec<(u64, u32)> = along_curve(places).into_iter().zip(0..).collect();
-    keyed.sort_unstable();
-    keyed.into_iter().map(|(_, i)| i).collect()
-}
-
-/// The bits of a number on the even bits of a longer one.
-fn spread(x: u32) -> u64 {
-    let masks = [(16, 0x0000_ffff_0000_ffff), (8, 0x00ff_00ff_00ff_00ff), (4, 0x0f0f_0f0f_0f0f_0f0f)];
-    let masks = masks.into_iter().chain([(2, 0x3333_3333_3333_3333), (1, 0x5555_5555_5555_5555u64)]);
-    masks.fold(u64::from(x), |x, (shift, mask)| (x | x << shift) & mask)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_curve_visits_quarter_after_quarter() {
-        const HALF: u32 = 1 << 31;
-        let corners = [[0, 0], [HALF, 0], [0, HALF], [HALF, HALF]];
-        let places: Vec<TorusPoint> = (0..16).map(|i| corners[i % 4].map(|x| x + (i as u32 / 4) * 1000)).collect();
-        let quarters: Vec<u32> = order_along_curve(&places).iter().map(|i| i % 4).collect();
-        assert_eq!(quarters, [0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3]);
-    }
+    sorted(places.iter().map(|&place| morton2(place))).into_iter().map(|(_, i)| i).collect()
 }

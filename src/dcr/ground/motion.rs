@@ -11,7 +11,7 @@
 use glam::DVec2;
 
 use crate::dcr::ground::torus::{Torus, TorusPoint};
-use crate::geometry::frame::Frame;
+use crate::geometry::Frame;
 
 /// The sum of the step sizes in one span.
 const SPAN: f64 = 2.0;

@@ -1,6 +1,6 @@
 //! Where points have their Delaunay neighbours from.
 
-use crate::geometry::delaunay::Delaunay;
+use crate::geometry::Delaunay;
 
 /// The Delaunay neighbours of all points in one step.
 pub(in crate::dcr) enum Neighbours<Mesh> {

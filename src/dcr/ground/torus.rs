@@ -8,7 +8,7 @@
 use glam::{DVec2, Vec2};
 
 use crate::error::Result;
-use crate::geometry::frame::Frame;
+use crate::geometry::Frame;
 use crate::job::{Job, chunks};
 use crate::points::{Boundary, Domain};
 use crate::rng::{Draw, Rng};

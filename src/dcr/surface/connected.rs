@@ -12,7 +12,7 @@ use glam::DVec3;
 
 use crate::dcr::surface::welding::welded;
 use crate::error::{Error, Result};
-use crate::geometry::counting_sort::Binned;
+use crate::index::Binned;
 use crate::mesh::{Mesh, exact};
 
 /// A mesh with its edges.

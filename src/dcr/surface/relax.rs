@@ -12,7 +12,7 @@ use crate::dcr::surface::samples::{check, enter, hexagonal_distance, leave};
 use crate::dcr::surface::spread::spread;
 use crate::dcr::surface::walk::SurfacePoint;
 use crate::error::{Error, Result};
-use crate::geometry::grid3;
+use crate::index::smallest_distance;
 use crate::job::{Context, Job, Progress};
 use crate::memory;
 use crate::mesh::{Mesh, round_barycentrics};
@@ -100,7 +100,7 @@ fn begin<'a>(
     // Along the curve what is near is found in the cache.
     let ordered = along_curve(mesh, places).into_iter().map(|(_, i)| places[i as usize].position(mesh));
     let positions: Vec<_> = ordered.map(|position| position.as_vec3().to_array()).collect();
-    let floor = Floor::new(grid3::smallest_distance(job, &positions)?);
+    let floor = Floor::new(smallest_distance(job, &positions)?);
     let dealt = match options.max_iterations {
         0 => None,
         _ => spread(job, mesh, places, floor, spacing, options.seed)?,

@@ -11,7 +11,7 @@ use crate::dcr::surface::gather::{Doubtful, Mover, Moves, Situation};
 use crate::dcr::surface::neighbourhoods::Neighbourhoods;
 use crate::dcr::surface::walk::SurfacePoint;
 use crate::error::Result;
-use crate::geometry::grid3;
+use crate::index::smallest_distance;
 use crate::job::Job;
 use crate::math::power;
 use crate::mesh::{Mesh, exact};
@@ -104,7 +104,7 @@ impl<'a> SurfaceRelaxation<'a> {
     /// The smallest distance of two samples; infinite for less than two.
     pub(super) fn smallest_distance(&self, job: &Job) -> Result<f64> {
         let positions: Vec<_> = self.positions.iter().map(|&[x, y, z, _]| [x, y, z]).collect();
-        grid3::smallest_distance(job, &positions)
+        smallest_distance(job, &positions)
     }
 
     /// The number of samples.

@@ -7,10 +7,11 @@
 
 use crate::dcr::ground::heaps::are_heaped;
 use crate::dcr::surface::apart::Floor;
-use crate::dcr::surface::curve::{BITS, along_curve};
+use crate::dcr::surface::curve::along_curve;
 use crate::dcr::surface::walk::SurfacePoint;
 use crate::error::Result;
-use crate::geometry::grid3::Grid3;
+use crate::index::curve::SPACE_BITS;
+use crate::index::{Grid3, Weights};
 use crate::job::{Job, chunks};
 use crate::mesh::Mesh;
 use crate::rng::{Draw, Rng};
@@ -40,7 +41,7 @@ pub(super) fn spread(
     let samples = along_curve(mesh, places);
     let [along, along_thrown] =
         [&samples, &along_curve(mesh, &thrown)].map(|all| all.iter().map(|&(along, _)| along).collect::<Vec<_>>());
-    if !are_heaped::<3>(&along, &along_thrown, 3 * BITS) {
+    if !are_heaped::<3>(&along, &along_thrown, 3 * SPACE_BITS) {
         return Ok(None);
     }
     let Some(dealt) = throws.apart(&job.part(0.5, 1.0), places.len(), floor, spacing)? else { return Ok(None) };
@@ -56,31 +57,22 @@ struct Throws<'a> {
     mesh: &'a Mesh,
     seed: u64,
     triangles: Vec<u32>,
-    /// The sums of the areas up to each of these triangles.
-    areas: Vec<f64>,
+    /// The areas of these triangles.
+    areas: Weights,
 }
 
 impl<'a> Throws<'a> {
     fn new(mesh: &'a Mesh, seed: u64) -> Self {
-        let (mut triangles, mut areas, mut sum) = (Vec::new(), Vec::new(), 0.0);
-        for triangle in mesh.sampled_triangles() {
-            let area = mesh.triangle_area(triangle);
-            if area > 0.0 {
-                sum += area;
-                triangles.push(triangle);
-                areas.push(sum);
-            }
-        }
-        Self { mesh, seed, triangles, areas }
+        let areas = mesh.sampled_triangles().map(|triangle| (triangle, mesh.triangle_area(triangle)));
+        let (triangles, areas) = areas.filter(|&(_, area)| area > 0.0).unzip();
+        Self { mesh, seed, triangles, areas: Weights::new(areas) }
     }
 
     /// The point of a sample in one of its attempts.
     fn at(&self, sample: usize, attempt: u64) -> SurfacePoint {
         let mut rng = Rng::at(self.seed, Draw::Spread, &[sample as u64, attempt]);
-        let whole = self.areas.last().copied().unwrap_or(0.0);
-        let area = rng.unit() * whole;
-        let triangle = self.areas.partition_point(|&sum| sum <= area).min(self.areas.len() - 1);
-        SurfacePoint { triangle: self.triangles[triangle], uv: rng.in_triangle().into() }
+        let triangle = self.triangles[self.areas.pick(&mut rng) as usize];
+        SurfacePoint { triangle, uv: rng.in_triangle().into() }
     }
 
     /// The points of so many samples, each the first of its sample that is far enough from those before; none if a

@@ -4,8 +4,8 @@ use glam::DVec2;
 
 use crate::dcr::thesis::links::{Link, Links};
 use crate::error::Result;
-use crate::geometry::delaunay::Delaunay;
-use crate::geometry::frame::Frame;
+use crate::geometry::Delaunay;
+use crate::geometry::Frame;
 use crate::job::Job;
 use crate::points::Boundary;
 

@@ -6,8 +6,8 @@ use glam::DVec2;
 
 use crate::dcr::thesis::links::{Link, Links};
 use crate::error::Result;
-use crate::geometry::frame::{Frame, Site};
-use crate::geometry::grid2::Grid2;
+use crate::geometry::{Frame, Site};
+use crate::index::Grid2;
 use crate::job::{Job, chunks};
 use crate::math::square;
 use crate::points::{Boundary, Domain};

@@ -12,8 +12,8 @@ use crate::dcr::thesis::nearest::NearestLinks;
 use crate::dcr::thesis::settings::{Convergence, Thesis};
 use crate::dcr::thesis::variance::Variance;
 use crate::error::Result;
-use crate::geometry::delaunay::Delaunay;
-use crate::geometry::frame::{Frame, along_strips};
+use crate::geometry::Delaunay;
+use crate::geometry::{Frame, along_strips};
 use crate::job::{Job, chunks};
 use crate::points::Domain;
 

@@ -5,8 +5,8 @@
 use glam::DVec2;
 
 use crate::error::Result;
-use crate::geometry::frame::Frame;
-use crate::geometry::grid2::Grid2;
+use crate::geometry::Frame;
+use crate::index::Grid2;
 use crate::job::{Job, chunks};
 use crate::math::square;
 use crate::points::Domain;

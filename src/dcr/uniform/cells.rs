@@ -13,7 +13,7 @@ use glam::Vec2;
 use crate::dcr::ground::constraints::Constraints;
 use crate::dcr::ground::torus::{Torus, TorusPoint};
 use crate::error::Result;
-use crate::geometry::counting_sort::Binned;
+use crate::index::Binned;
 use crate::job::{Job, chunks};
 
 /// The width of cells beyond the reach of the forces, in spacings.

@@ -26,7 +26,7 @@ use crate::dcr::uniform::relaxation::{FIRST_FREE, KICK_EVERY, LAST_KICK, WAVES_E
 use crate::dcr::uniform::rings::Rings;
 use crate::dcr::uniform::stars::{Gathered, Visitor};
 use crate::error::Result;
-use crate::geometry::delaunay::Delaunay;
+use crate::geometry::Delaunay;
 use crate::job::{Job, chunks};
 use crate::points::Domain;
 use crate::simd::Level;

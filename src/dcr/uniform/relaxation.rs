@@ -18,7 +18,7 @@ use crate::dcr::uniform::cells::VerletCells;
 use crate::dcr::uniform::flip_mesh::FlipMesh;
 use crate::dcr::uniform::gather::{Kick, NeighbourSearch, State, Step};
 use crate::error::Result;
-use crate::geometry::delaunay::Delaunay;
+use crate::geometry::Delaunay;
 use crate::job::Job;
 use crate::points::Domain;
 use crate::simd::Level;

@@ -11,7 +11,7 @@ use spade::{DelaunayTriangulation, HasPosition, Point2, Triangulation};
 use crate::dcr::ground::torus::{Torus, TorusPoint, nudge};
 use crate::dcr::uniform::rings::RingList;
 use crate::error::Result;
-use crate::geometry::counting_sort::Binned;
+use crate::index::Binned;
 use crate::job::Job;
 
 /// The least number of points of a tile on average; it can be four times as high.

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use crate::error::{Error, Result};
-use crate::geometry::counting_sort::Binned;
+use crate::index::Binned;
 use crate::job::Job;
 use crate::plane::CellAxis;
 use crate::plane::lattice::Lattice;

@@ -1,8 +1,8 @@
 //! Samples in progressive order.
 
-use crate::plane::lattice::Lattice;
-
 use crate::kdrt::progressive::Sample;
+use crate::math::rounded_down;
+use crate::plane::lattice::Lattice;
 
 /// Samples of the plane with their ranks.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -56,25 +56,5 @@ impl Ranked {
         let mut kept = self.samples.iter().map(|&sample| is_kept(sample));
         self.ranks.retain(|_| kept.next() == Some(true));
         self.samples.retain(|&sample| is_kept(sample));
-    }
-}
-
-/// The largest float that is not above a number, which is positive.
-fn rounded_down(x: f64) -> f32 {
-    let nearest = x as f32;
-    if f64::from(nearest) > x { nearest.next_down() } else { nearest }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn ranks_are_rounded_down() {
-        assert_eq!(rounded_down(0.25), 0.25);
-        for x in [0.1, 1.0 + 1e-9, 3e38, 1e300, 1e-44, f64::from(f32::MAX)] {
-            let down = rounded_down(x);
-            assert!(f64::from(down) <= x && (f64::from(down.next_up()) > x || down == f32::MAX), "{x}");
-        }
     }
 }

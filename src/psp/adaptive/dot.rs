@@ -1,6 +1,6 @@
 //! Samples as they matter to each other.
 
-use crate::geometry::grid3::distance_squared;
+use crate::math::distance_squared;
 use crate::psp::facing::Facing;
 
 /// A sample as others see it.

@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use crate::error::Result;
+use crate::index::Weights;
 use crate::job::Job;
 use crate::math::square;
 use crate::mesh::Mesh;
@@ -15,7 +16,7 @@ use crate::psp::adaptive::limits::Quota;
 use crate::psp::adaptive::pieces::{Piece, pieces};
 use crate::psp::adaptive::set::AdaptiveSet;
 use crate::psp::facing::Facing;
-use crate::psp::fill::darts::{Row, random_point};
+use crate::psp::fill::darts::random_point;
 use crate::psp::fill::ground::{Ground, Point, Whole};
 use crate::psp::fill::page::GROUP;
 use crate::psp::fill::region::FIRST_DARTS;
@@ -91,9 +92,9 @@ fn grid(mesh: &Mesh, field: &RadiusField, facing: Facing, dots: Vec<Dot>, pieces
 
 /// Fills the pieces of a cube.
 fn fill_cube(ground: &mut GradedGround, pieces: &[&Piece], manner: Manner, rng: &mut Rng) {
-    let row = Row::new(pieces.iter().map(|piece| piece.area()).collect());
+    let row = Weights::new(pieces.iter().map(|piece| piece.area()).collect());
     let point = |rng: &mut Rng| {
-        let piece = &pieces[row.hit(rng) as usize];
+        let piece = &pieces[row.pick(rng) as usize];
         let fragment = piece.fragment();
         Point { triangle: fragment.triangle, barycentrics: fragment.at(random_point(rng)), local: piece.bounds() }
     };

@@ -4,7 +4,8 @@ use std::cell::Cell;
 
 use glam::DVec3;
 
-use crate::mesh::{Mesh, round_barycentrics, rounded_down};
+use crate::math::rounded_down;
+use crate::mesh::{Mesh, round_barycentrics};
 use crate::psp::adaptive::bounds::RadiusBounds;
 use crate::psp::adaptive::dot::Dot;
 use crate::psp::adaptive::field::RadiusField;

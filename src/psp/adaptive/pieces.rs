@@ -1,13 +1,13 @@
 //! The surface in pieces that the radius does not change much on, by cubes: what is filled together.
 
 use crate::error::Result;
+use crate::index::Buckets;
 use crate::job::{Job, chunks_of};
 use crate::mesh::Mesh;
 use crate::psp::adaptive::bounds::RadiusBounds;
 use crate::psp::adaptive::field::RadiusField;
 use crate::psp::adaptive::limits::Quota;
 use crate::psp::adaptive::set::{AdaptiveSet, OctaveCube};
-use crate::psp::buckets::Buckets;
 use crate::psp::fill::ground::{Patch, Whole};
 use crate::psp::fragment::{Fragment, Shape};
 use crate::psp::pieces::slice;

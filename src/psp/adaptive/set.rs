@@ -14,12 +14,12 @@ use std::ops::Range;
 use glam::DVec3;
 
 use crate::error::{Error, Result};
+use crate::index::Buckets;
 use crate::job::Job;
 use crate::math::{exp2, scalbn};
 use crate::mesh::{Mesh, exact};
 use crate::psp::adaptive::dot::Dot;
 use crate::psp::adaptive::pieces::{LONGEST, Piece};
-use crate::psp::buckets::Buckets;
 use crate::psp::cubes::Cube;
 use crate::psp::facing::Facing;
 use crate::psp::samples::Sample;

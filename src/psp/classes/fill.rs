@@ -4,6 +4,7 @@
 //! none of them has an advantage.
 
 use crate::error::Result;
+use crate::index::Weights;
 use crate::job::{Job, chunks_of};
 use crate::math::power;
 use crate::mesh::Mesh;
@@ -12,7 +13,7 @@ use crate::psp::classes::layers::Layers;
 use crate::psp::estimate::expected_samples;
 use crate::psp::facing::Facing;
 use crate::psp::fill::blocks::{Block, Blocks};
-use crate::psp::fill::darts::{Row, random_point, shuffle};
+use crate::psp::fill::darts::{random_point, shuffle};
 use crate::psp::fill::extent::Extent;
 use crate::psp::fill::ground::Point;
 use crate::psp::fill::region::{FIRST_DARTS, first_darts, open_parts, open_triangles};
@@ -117,15 +118,15 @@ impl<'a> Group<'a> {
     /// Fills the whole surface.
     fn fill_in_one_piece(&self, job: &Job, ground: &mut ClassGround) -> Result<()> {
         let (Places { mesh, measures, .. }, seed) = (self.places, self.seed);
-        let (triangles, areas) = (measures.triangles(), Row::new(measures.areas.clone()));
+        let (triangles, areas) = (measures.triangles(), Weights::new(measures.areas.clone()));
         let (chunks, mut rng) = (chunks_of(triangles.groups(), CHUNK), Rng::at(seed, Draw::Fill, &[]));
         if areas.total() == 0.0 {
             return Ok(());
         }
         let mut point = |rng: &mut Rng| {
-            let group = areas.hit(rng) as usize;
-            let of_group = Row::new(triangles.measure(mesh, group).0.to_vec());
-            (triangles.at(triangles.group(group).start + of_group.hit(rng) as usize), random_point(rng))
+            let group = areas.pick(rng) as usize;
+            let of_group = Weights::new(triangles.measure(mesh, group).0.to_vec());
+            (triangles.at(triangles.group(group).start + of_group.pick(rng) as usize), random_point(rng))
         };
         if self.open_share(ground, PROBES, &mut rng, &mut point) >= RAIN_FROM {
             let mut darts = Vec::new();

@@ -12,7 +12,8 @@ use glam::Vec3A;
 
 use crate::error::Result;
 use crate::job::{Job, chunks_of};
-use crate::mesh::{Mesh, exact, rounded_up};
+use crate::math::rounded_up;
+use crate::mesh::{Mesh, exact};
 use crate::psp::fill::triangles::Triangles;
 
 /// A ball, in the unit of the mesh.

@@ -7,7 +7,7 @@
 //! Most triangles are not looked at: where the ball around a group lies in a cube, so does the group.
 
 use crate::error::Result;
-use crate::geometry::counting_sort::Binned;
+use crate::index::Binned;
 use crate::job::{Job, chunks_of};
 use crate::mesh::{Mesh, exact};
 use crate::psp::cubes::{Cube, Numbers, SIDE};

@@ -6,7 +6,8 @@
 
 use glam::DVec3;
 
-use crate::mesh::{Mesh, round_barycentrics, rounded_down};
+use crate::math::rounded_down;
+use crate::mesh::{Mesh, round_barycentrics};
 use crate::psp::facing::{Facing, NO_NORMAL};
 use crate::psp::fill::balls::Ball;
 use crate::psp::fill::cells::Cells;

@@ -2,9 +2,10 @@
 
 use std::ops::Range;
 
+use crate::index::Weights;
 use crate::mesh::Mesh;
 use crate::psp::fill::balls::Ball;
-use crate::psp::fill::darts::{Row, random_point};
+use crate::psp::fill::darts::random_point;
 use crate::psp::fill::ground::Point;
 use crate::psp::fill::triangles::{GROUP, Triangles};
 use crate::psp::fragment::Fragment;
@@ -56,7 +57,7 @@ impl Items {
         add(next..end, None);
         areas.extend(self.pieces.iter().map(|piece| piece.area(mesh)));
         entries.extend((end..).take(self.pieces.len()).map(Entry::Item));
-        ItemRow { items: self, mesh, row: Row::new(areas), entries, ends: vec![[0.0; GROUP]; self.groups.len()] }
+        ItemRow { items: self, mesh, row: Weights::new(areas), entries, ends: vec![[0.0; GROUP]; self.groups.len()] }
     }
 
     fn fragment(&self, number: usize) -> Fragment {
@@ -71,7 +72,7 @@ impl Items {
 pub(in crate::psp) struct ItemRow<'a> {
     items: &'a Items,
     mesh: &'a Mesh,
-    row: Row,
+    row: Weights,
     entries: Vec<Entry>,
     /// For each group on which a dart fell, the sums of its areas up to each of them.
     ends: Vec<[f64; GROUP]>,
@@ -91,7 +92,7 @@ impl ItemRow<'_> {
 
     /// A random point of any of it.
     pub fn point(&mut self, rng: &mut Rng) -> Point {
-        let (number, place) = self.row.place(rng);
+        let (number, place) = self.row.pick_within(rng);
         let item = match self.entries[number as usize] {
             Entry::Item(item) => item as usize,
             Entry::Group(group) => self.in_group(group as usize, place),
@@ -141,12 +142,12 @@ mod tests {
     fn a_dart_falls_where_it_would_in_a_row_of_single_areas() {
         let (mesh, items) = items();
         let areas = items.triangles.iter().map(|&triangle| mesh.triangle_area(triangle));
-        let single = Row::new(areas.chain(items.pieces.iter().map(|piece| piece.area(&mesh))).collect());
+        let single = Weights::new(areas.chain(items.pieces.iter().map(|piece| piece.area(&mesh))).collect());
         let (mut row, mut rng) = (items.row(&mesh), Rng::at(1, Draw::Probe, &[]));
         assert!((row.total() / single.total() - 1.0).abs() < 1e-15);
         for _ in 0..10_000 {
             let mut same = rng.clone();
-            let number = single.hit(&mut same) as usize;
+            let number = single.pick(&mut same) as usize;
             let expected = items.triangles.get(number).copied().unwrap_or_else(|| items.pieces[number - 40].triangle);
             assert_eq!(row.point(&mut rng).triangle, expected);
         }

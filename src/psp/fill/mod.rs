@@ -28,13 +28,14 @@ mod vectors;
 use std::ops::AddAssign;
 
 use crate::error::Result;
+use crate::index::Weights;
 use crate::job::{Job, chunks_of};
 use crate::math::power;
 use crate::mesh::Mesh;
 use crate::psp::estimate::expected_samples;
 use crate::psp::facing::Facing;
 use crate::psp::fill::blocks::{Block, Blocks};
-use crate::psp::fill::darts::{Row, random_point};
+use crate::psp::fill::darts::random_point;
 use crate::psp::fill::extent::Extent;
 use crate::psp::fill::ground::{Ground, Point, UniformGround};
 use crate::psp::fill::region::{first_darts, open_parts, open_triangles, throw_at, throw_first};
@@ -92,14 +93,14 @@ impl<'a> Surface<'a> {
 
     /// The share of it that given samples leave open, roughly: that of random points.
     fn open_share(&self, ground: &UniformGround, rng: &mut Rng) -> f64 {
-        let (triangles, groups) = (self.measures.triangles(), Row::new(self.measures.areas.clone()));
+        let (triangles, groups) = (self.measures.triangles(), Weights::new(self.measures.areas.clone()));
         if groups.total() == 0.0 {
             return 0.0;
         }
         let point = |rng: &mut Rng| {
-            let group = groups.hit(rng) as usize;
+            let group = groups.pick(rng) as usize;
             let areas = triangles.measure(self.mesh, group).0;
-            let index = triangles.group(group).start + Row::new(areas.to_vec()).hit(rng) as usize;
+            let index = triangles.group(group).start + Weights::new(areas.to_vec()).pick(rng) as usize;
             Point { triangle: triangles.at(index), barycentrics: random_point(rng), local: () }
         };
         open_share(ground, PROBES, || point(rng))
@@ -178,11 +179,11 @@ fn open_share(ground: &UniformGround, probes: usize, mut point: impl FnMut() -> 
 /// The area that is open where there were samples before the fill: the share of random points on what may be uncovered
 /// that no sample covers.
 fn open_area(ground: &UniformGround, open: &Open, probes: usize, rng: &mut Rng) -> f64 {
-    let row = Row::new(open.areas().collect());
+    let row = Weights::new(open.areas().collect());
     if row.total() == 0.0 {
         return 0.0;
     }
-    let share = open_share(ground, probes + row.len() / 8, || open.point(row.hit(rng), rng));
+    let share = open_share(ground, probes + row.len() / 8, || open.point(row.pick(rng), rng));
     row.total() * ground.radius() * ground.radius() * share
 }
 

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use crate::geometry::counting_sort::Binned;
+use crate::index::Binned;
 use crate::mesh::{Mesh, exact};
 use crate::psp::fill::grid::{any_cell, each_cell};
 use crate::psp::fill::space::{Place, Space, key};

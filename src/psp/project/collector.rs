@@ -2,9 +2,9 @@
 //! name of the thesis, *restart conflicts*.
 
 use crate::error::Result;
+use crate::index::Buckets;
 use crate::job::Job;
 use crate::mesh::{Mesh, exact, round_barycentrics};
-use crate::psp::buckets::Buckets;
 use crate::psp::cubes::Cube;
 use crate::psp::merge::Candidate;
 use crate::psp::options::Priority;

@@ -7,10 +7,10 @@
 use std::ops::ControlFlow;
 
 use crate::error::Result;
+use crate::index::Buckets;
 use crate::job::{Job, chunks_of};
 use crate::kdrt;
 use crate::points::{Boundary, Domain};
-use crate::psp::buckets::Buckets;
 
 /// Points per chunk: enough rays to keep a task busy, few enough to stay together on the surface.
 const CHUNK: usize = 4096;

@@ -15,8 +15,8 @@ use crate::dcr::uniform::stars::{Gathered, Stars, Visitor};
 use crate::dcr::uniform::tiles;
 use crate::dcr::uniform::vectors::gather_in_stars;
 use crate::error::Result;
-use crate::geometry::circumcircle::circumradius_squared;
-use crate::geometry::delaunay::Delaunay;
+use crate::geometry::Delaunay;
+use crate::geometry::circumradius_squared;
 use crate::job::{Job, chunks};
 use crate::simd::Level;
 

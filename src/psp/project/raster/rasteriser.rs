@@ -1,9 +1,9 @@
 //! The rasteriser: sorts the triangles by the tiles of the projectors that they come near, then draws tile by tile.
 
 use crate::error::Result;
+use crate::index::Buckets;
 use crate::job::{Job, chunks_of};
 use crate::mesh::{Mesh, exact};
-use crate::psp::buckets::Buckets;
 use crate::psp::project::collector::{Collector, Found};
 use crate::psp::project::pattern;
 use crate::psp::project::projector::Projector;

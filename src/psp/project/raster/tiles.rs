@@ -2,9 +2,9 @@
 //! triangle can cover in a row are neighbours in memory.
 
 use crate::error::Result;
-use crate::geometry::counting_sort::Binned;
+use crate::index::Binned;
+use crate::index::Buckets;
 use crate::job::{Job, chunks_of};
-use crate::psp::buckets::Buckets;
 
 /// The side of the largest tile in radii: its points stay in the cache while triangles are drawn over them.
 const LARGEST_TILE: f64 = 48.0;

@@ -8,7 +8,7 @@ use crate::job::Job;
 use crate::mesh::exact;
 
 /// Points in a binary tree without pointers: the middle one of a range divides the others along an axis.
-pub(super) struct PointTree {
+pub struct PointTree {
     points: Vec<DVec3>,
     /// The axis along which the middle of a range divides it.
     axes: Vec<u8>,

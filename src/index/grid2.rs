@@ -1,10 +1,10 @@
 //! Uniform grid over points of the plane, sorted by cell: the neighbour search in 2D.
 
-use crate::geometry::counting_sort::Binned;
+use crate::index::Binned;
 use crate::points::{Boundary, Domain};
 
 /// Points of a domain, sorted by the cells of a uniform grid. Built in O(n), never changed.
-pub(crate) struct Grid2 {
+pub struct Grid2 {
     domain: Domain,
     /// Cells per axis.
     cells: [usize; 2],
@@ -16,7 +16,7 @@ pub(crate) struct Grid2 {
 
 impl Grid2 {
     /// Sorts `points`, which lie in the domain, into cells of about `cell_size`, but not many more cells than points.
-    pub(crate) fn new(domain: Domain, points: impl ExactSizeIterator<Item = [f64; 2]> + Clone, cell_size: f64) -> Self {
+    pub fn new(domain: Domain, points: impl ExactSizeIterator<Item = [f64; 2]> + Clone, cell_size: f64) -> Self {
         let extent = domain.extent();
         let limit = (4 * points.len()).max(64) as f64;
         let finest = (domain.area() / limit).sqrt().max(extent[0].max(extent[1]) / limit);
@@ -29,7 +29,7 @@ impl Grid2 {
     }
 
     /// The points with their ids, those of a cell together.
-    pub(crate) fn entries(&self) -> &[(u32, [f64; 2])] {
+    pub fn entries(&self) -> &[(u32, [f64; 2])] {
         self.entries.items()
     }
 
@@ -59,7 +59,7 @@ impl Grid2 {
     ///
     /// Offsets are from `point` to the neighbour, the shortest on a torus: `radius` must not exceed half
     /// the period for all images to be seen. A point that is itself in the grid is visited too.
-    pub(crate) fn for_each_within(&self, point: [f64; 2], radius: f64, mut visit: impl FnMut(u32, [f64; 2], f64)) {
+    pub fn for_each_within(&self, point: [f64; 2], radius: f64, mut visit: impl FnMut(u32, [f64; 2], f64)) {
         let columns = self.cells_near(0, point[0], radius);
         for row in self.cells_near(1, point[1], radius) {
             for column in columns.clone() {
@@ -77,7 +77,7 @@ impl Grid2 {
 
     /// The squared distance from `point` to the nearest point of the grid other than `except`; infinite if there is
     /// none. On a torus the shortest images count.
-    pub(crate) fn nearest_squared(&self, point: [f64; 2], except: Option<u32>) -> f64 {
+    pub fn nearest_squared(&self, point: [f64; 2], except: Option<u32>) -> f64 {
         let [width, height] = self.domain.extent();
         let mut radius = 1.0 / self.scale[0].max(self.scale[1]);
         loop {

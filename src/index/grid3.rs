@@ -2,11 +2,11 @@
 
 use crate::error::Result;
 use crate::job::{Job, chunks_of};
-use crate::math::square;
+use crate::math::distance_squared;
 
 /// Points in cells of one side, chained in a hash table. Insertion takes a short serial moment between parallel,
 /// read-only searches. Answers are sets: they do not depend on the order of insertion.
-pub(crate) struct Grid3 {
+pub struct Grid3 {
     cell_size: f64,
     origin: [f64; 3],
     /// Head of the chain of each bucket, `NONE` if empty; a power of two, at least as many as points.
@@ -26,12 +26,12 @@ const REPORTED: usize = 1 << 14;
 
 impl Grid3 {
     /// An empty grid. `cell_size` is the radius of the usual search; cells count from `origin`.
-    pub(crate) fn new(origin: [f64; 3], cell_size: f64) -> Self {
+    pub fn new(origin: [f64; 3], cell_size: f64) -> Self {
         Self { cell_size, origin, heads: vec![NONE; 64], next: Vec::new(), points: Vec::new() }
     }
 
     /// The grid of many points.
-    pub(crate) fn of(job: &Job, origin: [f64; 3], cell_size: f64, points: &[[f32; 3]]) -> Result<Self> {
+    pub fn of(job: &Job, origin: [f64; 3], cell_size: f64, points: &[[f32; 3]]) -> Result<Self> {
         let mut grid = Self::new(origin, cell_size);
         for (chunk, done) in points.chunks(REPORTED).zip(0..) {
             job.report((done * REPORTED) as f64 / points.len() as f64)?;
@@ -53,7 +53,7 @@ impl Grid3 {
     }
 
     /// Adds a point and returns its id.
-    pub(crate) fn insert(&mut self, point: [f32; 3]) -> u32 {
+    pub fn insert(&mut self, point: [f32; 3]) -> u32 {
         let id = self.points.len() as u32;
         self.points.push(point);
         self.next.push(NONE);
@@ -74,7 +74,7 @@ impl Grid3 {
 
     /// The ids of all points in the cells that a ball touches, and of some others: the caller tests the distance.
     /// An id can come twice when two of the cells share a bucket.
-    pub(crate) fn candidates(&self, centre: [f64; 3], radius: f64) -> impl Iterator<Item = u32> {
+    pub fn candidates(&self, centre: [f64; 3], radius: f64) -> impl Iterator<Item = u32> {
         // Cell boundaries are compared in f64 as computed on insertion; the margin covers the rounding of `centre`.
         let reach = radius * (1.0 + 1e-9);
         let low = self.cell(centre.map(|x| x - reach));
@@ -91,14 +91,9 @@ impl Grid3 {
     }
 }
 
-/// The squared distance in f64.
-pub(crate) fn distance_squared(a: [f32; 3], b: [f32; 3]) -> f64 {
-    (0..3).map(|axis| square(a[axis] as f64 - b[axis] as f64)).sum()
-}
-
 /// The smallest distance between two points; infinite for less than two. O(n log n) for points that are neither
 /// clustered in space nor lined up in planes across their longest extent.
-pub(crate) fn smallest_distance(job: &Job, positions: &[[f32; 3]]) -> Result<f64> {
+pub fn smallest_distance(job: &Job, positions: &[[f32; 3]]) -> Result<f64> {
     let bound = neighbours_in_order(positions);
     job.report(0.1)?;
     if bound == 0.0 || bound == f64::INFINITY {

@@ -1,0 +1,35 @@
+//! Spatial indices, and what they are made of. Look here before you write another one.
+//!
+//! | what is asked | of what | index |
+//! |---|---|---|
+//! | what is within a radius, and nearest | points of a plane or torus, all known at first | [`Grid2`] |
+//! | what is within a radius | points in space whose number grows | [`Grid3`] |
+//! | what is nearest, however far | points in space, clustered or not, all known at first | [`PointTree`] |
+//! | which items have this number | items that are known at first, of few numbers | [`Binned`] |
+//! | which items have this key | items that parallel tasks find, of any keys | [`Buckets`] |
+//! | a random item by its weight | triangles, cells | [`Weights`] |
+//! | an order in which neighbours are close in memory | cells of the plane and of space | [`curve`] |
+//!
+//! Some indices stay with the algorithm that they were made for, as they hold more than places:
+//!
+//! | index | why it is none of the above |
+//! |---|---|
+//! | `plane/cells`, `plane/quadtree` | integers, a cell holds at most one sample; exactness rests on both |
+//! | `kdrt/region`, `kdrt/bitmap`, `kdrt/classes` | rows of exact integers that are swept in order; bits of a block |
+//! | `psp/fill/grid`, `psp/adaptive/grid` | pages of coordinates for vector code, and which of their cells are covered |
+//! | `psp/obstacles` | balls of very different sizes, a grid for each tier of sizes |
+//! | `dcr/uniform/cells`, `dcr/surface/cells` | points that move: those of the torus are sorted anew, those of surfaces re-linked |
+//! | `thin/tree` | each node knows the point of it that is farthest from all selected ones, and loses it |
+
+mod binned;
+pub mod curve;
+mod grid2;
+mod grid3;
+mod point_tree;
+mod weighted;
+
+pub use binned::{Binned, Buckets};
+pub use grid2::Grid2;
+pub use grid3::{Grid3, smallest_distance};
+pub use point_tree::PointTree;
+pub use weighted::Weights;
