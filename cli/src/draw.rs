@@ -4,6 +4,7 @@ mod camera;
 pub mod canvas;
 mod detail;
 mod discs;
+pub mod indexed;
 pub mod palette;
 pub mod panels;
 pub mod plot;

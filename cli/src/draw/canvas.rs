@@ -2,15 +2,12 @@
 
 use ab_glyph::{Font, FontRef, OutlineCurve, Point};
 use azulejo::Result;
-use image::{
-    ExtendedColorType, ImageEncoder,
-    codecs::png::{CompressionType, FilterType, PngEncoder},
-};
 use tiny_skia::{
     Color, FillRule, FilterQuality, IntSize, LineCap, LineJoin, Mask, Paint, Path, PathBuilder, Pixmap, PixmapPaint,
     Stroke, Transform,
 };
 
+use super::indexed::write_png;
 use super::palette::{Colour, PAPER};
 use crate::output::Output;
 
@@ -238,14 +235,10 @@ impl Canvas {
         self.pixmap.fill_path(&path, &paint(style.colour), FillRule::Winding, transform, None);
     }
 
-    /// Writes the page as a PNG file.
+    /// Writes the page as a PNG file with a palette.
     pub fn write(&self, output: &Output) -> Result<()> {
-        let rgb: Vec<u8> = self.pixmap.pixels().iter().flat_map(|p| [p.red(), p.green(), p.blue()]).collect();
-        output.write(|writer| {
-            PngEncoder::new_with_quality(writer, CompressionType::Best, FilterType::NoFilter)
-                .write_image(&rgb, self.pixmap.width(), self.pixmap.height(), ExtendedColorType::Rgb8)
-                .map_err(std::io::Error::other)
-        })
+        let pixels: Vec<Colour> = self.pixmap.pixels().iter().map(|p| [p.red(), p.green(), p.blue()]).collect();
+        output.write(|writer| write_png(writer, &pixels, self.pixmap.width()))
     }
 }
 

@@ -8,6 +8,8 @@ use image::{ExtendedColorType, ImageEncoder};
 use tiny_skia::{FillRule, Mask, PathBuilder, Transform};
 
 use super::inks::{ABSORBS, INKS};
+use crate::draw::indexed::write_png;
+use crate::draw::palette::Colour;
 use crate::output::Output;
 
 /// The colours of the inks in a drawing.
@@ -59,28 +61,22 @@ impl Drawing<'_> {
         let [width, height] = self.size.map(|length| length as f32);
         let scale = columns as f32 / width;
         let rows = ((height * scale).round() as u32).max(1);
-        let (pixels, colour) = if self.inks.is_empty() {
-            (
-                self.covered(0, columns, rows, scale).into_iter().map(|ink| value(light(ink), gamma)).collect(),
-                ExtendedColorType::L8,
-            )
-        } else {
-            let inks: [Vec<u8>; INKS] = std::array::from_fn(|ink| self.covered(ink, columns, rows, scale));
-            let mut pixels = Vec::with_capacity(3 * inks[0].len());
-            for pixel in 0..inks[0].len() {
-                for channel in 0..3 {
-                    let inks = inks.iter().zip(ABSORBS).filter(|(_, absorbs)| absorbs[channel]);
-                    pixels.push(value(inks.map(|(ink, _)| light(ink[pixel])).product(), gamma));
-                }
-            }
-            (pixels, ExtendedColorType::Rgb8)
+        if self.inks.is_empty() {
+            let covered = self.covered(0, columns, rows, scale);
+            let pixels: Vec<u8> = covered.into_iter().map(|ink| value(light(ink), gamma)).collect();
+            return output.write(|writer| {
+                PngEncoder::new_with_quality(writer, CompressionType::Best, FilterType::NoFilter)
+                    .write_image(&pixels, columns, rows, ExtendedColorType::L8)
+                    .map_err(std::io::Error::other)
+            });
+        }
+        let inks: [Vec<u8>; INKS] = std::array::from_fn(|ink| self.covered(ink, columns, rows, scale));
+        let channel = |pixel: usize, channel: usize| {
+            let inks = inks.iter().zip(ABSORBS).filter(|(_, absorbs)| absorbs[channel]);
+            value(inks.map(|(ink, _)| light(ink[pixel])).product(), gamma)
         };
-        let pixels: Vec<u8> = pixels;
-        output.write(|writer| {
-            PngEncoder::new_with_quality(writer, CompressionType::Best, FilterType::NoFilter)
-                .write_image(&pixels, columns, rows, colour)
-                .map_err(std::io::Error::other)
-        })
+        let pixels: Vec<Colour> = (0..inks[0].len()).map(|pixel| [0, 1, 2].map(|of| channel(pixel, of))).collect();
+        output.write(|writer| write_png(writer, &pixels, columns))
     }
 
     /// How much of each pixel the dots of an ink cover, in 255ths.
