@@ -28,14 +28,17 @@ impl List {
         self.bytes(name, &little_endian(numbers, f64::to_le_bytes));
     }
 
-    /// Adds that of all that is known of samples.
-    pub fn samples(&mut self, name: &str, samples: &Points<3>) {
+    /// Adds that of all that is known of samples, one field after the other.
+    pub fn samples<const D: usize>(&mut self, name: &str, samples: &Points<D>) {
         let fields = [
             little_endian(samples.positions.as_flattened(), f32::to_le_bytes),
             little_endian(samples.normals.as_flattened(), f32::to_le_bytes),
             little_endian(samples.interpolated_normals.as_flattened(), f32::to_le_bytes),
             little_endian(&samples.triangles, u32::to_le_bytes),
             little_endian(samples.barycentrics.as_flattened(), f32::to_le_bytes),
+            little_endian(&samples.ranks, f32::to_le_bytes),
+            little_endian(&samples.classes, u32::to_le_bytes),
+            little_endian(&samples.radii, f64::to_le_bytes),
         ];
         self.bytes(name, &fields.concat());
     }

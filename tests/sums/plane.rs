@@ -3,8 +3,8 @@
 use std::ops::ControlFlow;
 
 use azulejo::dcr::{self, Density};
-use azulejo::kdrt::{self, ClassPlane, Classified, CountOptions, MergeOptions, Options, Piece};
-use azulejo::{Boundary, Classes, Context, Domain, Given, Order, Result, maximal, thin};
+use azulejo::kdrt::{self, ClassPlane, Classified, CountOptions, Counted, MergeOptions, Options, Piece, Ranked};
+use azulejo::{Boundary, Classes, Context, Domain, Given, Order, Points, Result, maximal, thin};
 
 use crate::list::{List, little_endian};
 
@@ -20,18 +20,28 @@ const fn rectangle(min: [f64; 2], max: [f64; 2], boundary: Boundary) -> Domain {
     Domain { min, max, boundary }
 }
 
-/// Points of the plane.
-type Points = Vec<[f32; 2]>;
+/// Positions in the plane.
+type Positions = Vec<[f32; 2]>;
 
 /// Sets that are relaxed and measured.
 pub struct Sets {
     /// A large maximal set, and one of 1000 samples, on the [`TORUS`].
-    pub large: Points,
-    pub thousand: Points,
+    pub large: Positions,
+    pub thousand: Positions,
     /// A maximal set of 30,000 samples of the [`SQUARE`].
-    pub bounded: Points,
+    pub bounded: Positions,
     /// Random points of the [`TORUS`].
-    pub random: Points,
+    pub random: Positions,
+}
+
+/// A set with its ranks.
+pub fn ranked(set: Ranked) -> Points<2> {
+    Points { positions: set.samples, ranks: set.ranks, ..Points::default() }
+}
+
+/// A set with its classes.
+pub fn classified(set: Classified) -> Points<2> {
+    Points { positions: set.samples, classes: set.classes, ..Points::default() }
 }
 
 /// Adds the sums.
@@ -64,16 +74,13 @@ fn around(context: &Context, list: &mut List) -> Result<()> {
     list.points("around bounded", &kdrt::sample(context, &options.domain(SQUARE).radius(0.02), None)?);
     list.points("around equal", &kdrt::sample(context, &options.given(Given::at(&positions)), None)?);
     let ordered = options.order(Order::Progressive).quotient(1.3);
-    list.points("around, ordered", &kdrt::sample(context, &ordered, None)?);
+    list.samples("around, ordered", &ranked(kdrt::sample_ranked(context, &ordered, None)?));
     Ok(())
 }
 
 /// Sets in progressive order, with their ranks, whole and in parts.
 fn ordered(context: &Context, list: &mut List) -> Result<()> {
-    let mut set = |name: &str, ranked: kdrt::Ranked| {
-        let rows: Vec<_> = ranked.samples.iter().zip(&ranked.ranks).map(|(&[x, y], &rank)| [x, y, rank]).collect();
-        list.bytes(name, &little_endian(rows.as_flattened(), f32::to_le_bytes))
-    };
+    let mut set = |name: &str, set| list.samples(name, &ranked(set));
     let options = Options::new(0.004).order(Order::Progressive).seed(23);
     set("ordered periodic", kdrt::sample_ranked(context, &options.domain(TORUS), None)?);
     set("ordered bounded", kdrt::sample_ranked(context, &options.domain(FLAT).quotient(1.5), None)?);
@@ -82,16 +89,14 @@ fn ordered(context: &Context, list: &mut List) -> Result<()> {
     let far = Options::new(0.02).domain(FAR).order(Order::Progressive).coarsest(0.1);
     set("ordered window", kdrt::sample_window_ranked(context, &far, [1000.0, -2.5], [1000.4, -1.5], None)?);
     let counted = CountOptions::new(5000).domain(TORUS).order(Order::Progressive).seed(24);
-    list.points("ordered count", &kdrt::sample_count(context, &counted, None)?.samples);
+    let Counted { samples, ranks, .. } = kdrt::sample_count(context, &counted, None)?;
+    list.samples("ordered count", &Points { positions: samples, ranks, ..Points::default() });
     Ok(())
 }
 
 /// Sets of several classes: with a radius each, and of equal radii; around given samples; windows of kept planes.
 fn in_classes(context: &Context, list: &mut List) -> Result<()> {
-    let mut set = |name: &str, set: Classified| {
-        list.points(name, &set.samples);
-        list.bytes(&format!("{name}: classes"), &little_endian(&set.classes, u32::to_le_bytes));
-    };
+    let mut set = |name: &str, set| list.samples(name, &classified(set));
     let options = |domain| Options::new(0.0).domain(domain).seed(26);
     for (name, own, factor, domain) in [
         ("classes falling", &[0.004, 0.008, 0.016][..], 1.0, TORUS),
@@ -137,7 +142,7 @@ fn options(radius: f64, domain: Domain, leaf_size: f64, seed: u64) -> Options<'s
     Options::new(radius).domain(domain).leaf_size(leaf_size).seed(seed)
 }
 
-fn tiled(context: &Context, list: &mut List) -> Result<Points> {
+fn tiled(context: &Context, list: &mut List) -> Result<Positions> {
     let sample =
         |radius, domain, leaf_size, seed| kdrt::sample(context, &options(radius, domain, leaf_size, seed), None);
     let large = sample(0.002, TORUS, 20.0, 3)?;
@@ -167,7 +172,7 @@ fn windows(context: &Context, list: &mut List) -> Result<()> {
 }
 
 /// Gives [`Sets::thousand`] and [`Sets::bounded`].
-fn counted(context: &Context, list: &mut List) -> Result<(Points, Points)> {
+fn counted(context: &Context, list: &mut List) -> Result<(Positions, Positions)> {
     let sample = |count, domain, seed| {
         kdrt::sample_count(context, &CountOptions::new(count).domain(domain).leaf_size(20.0).seed(seed), None)
     };

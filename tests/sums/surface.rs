@@ -82,7 +82,6 @@ fn ordered(context: &Context, closed: &Arc<Mesh>, open: &Arc<Mesh>, list: &mut L
     ] {
         let (samples, report) = psp::sample(context, mesh, &options, None)?;
         list.samples(name, &samples);
-        list.bytes(&format!("{name}: ranks"), &little_endian(&samples.ranks, f32::to_le_bytes));
         list.numbers(&format!("{name}: report"), &[report.radius, report.coverage.unwrap_or(-1.0)]);
     }
     Ok(())
@@ -96,7 +95,6 @@ fn in_classes(context: &Context, closed: &Arc<Mesh>, maximal: &Points<3>, list: 
     let mut sample = |name: &str, options: Options, masks: Option<&[u32]>| {
         let (samples, _) = psp::sample_classes(context, closed, &options, &classes, masks, None)?;
         list.samples(name, &samples);
-        list.bytes(&format!("{name}: classes"), &little_endian(&samples.classes, u32::to_le_bytes));
         Ok(())
     };
     sample("classes", options, Some(&masks))?;
@@ -135,8 +133,6 @@ fn with_density(context: &Context, open: &Mesh, list: &mut List) -> Result<()> {
     let options = adaptive::Options::new(by_count).seed(47).order(Order::Progressive);
     let (ordered, report) = adaptive::sample(context, open, &options, None)?;
     list.samples("adaptive, ordered count", &ordered);
-    list.bytes("adaptive, ordered count: ranks", &little_endian(&ordered.ranks, f32::to_le_bytes));
-    list.numbers("adaptive, ordered count: radii", &ordered.radii);
     list.numbers("adaptive, ordered count: report", &[report.radius, report.coverage.unwrap_or(-1.0)]);
     Ok(())
 }
@@ -146,7 +142,6 @@ fn adaptive(context: &Context, closed: &Mesh, open: &Mesh, list: &mut List) -> R
     let options = adaptive::Options::new(Radius::PerVertex(&radii)).seed(35);
     let (set, _) = adaptive::sample(context, closed, &options, None)?;
     list.samples("adaptive vertices", &set);
-    list.numbers("adaptive radii", &set.radii);
     let radius = Radius::Function { at: &|[_, _, z]| 0.03 + 0.01 * z, smallest: 0.02, largest: 0.04, slope: 0.011 };
     let options = adaptive::Options::new(radius).seed(36).cosine(0.5);
     list.samples("adaptive function", &adaptive::sample(context, open, &options, None)?.0);

@@ -16,12 +16,13 @@ FAR = dict(domain_min=(1000.0, -3.0), domain_max=(1004.0, -1.0))
 def ordered_window(threads):
     window = ((1000.0, -2.5), (1000.4, -1.5))
     points = azulejo.kdrt_sample_window(*window, 0.02, order="progressive", coarsest=0.1, threads=threads, **FAR)
-    return np.column_stack([points.positions, points.ranks])
+    return np.concatenate([points.positions.ravel(), points.ranks])
 
 
 def equal_classes(threads):
     radii = azulejo.classes_radii([0.01] * 4, 0.7)
-    return azulejo.kdrt_sample_classes(radii, seed=26, boundary="bounded", threads=threads).positions
+    points = azulejo.kdrt_sample_classes(radii, seed=26, boundary="bounded", threads=threads)
+    return np.concatenate([points.positions.ravel(), points.classes.astype("<u4").view("<f4")])
 
 
 CALLS = {

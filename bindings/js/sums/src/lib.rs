@@ -8,10 +8,14 @@ use azulejo::{Context, Result};
 mod analysis;
 #[path = "../../../../tests/sums/list.rs"]
 mod list;
+#[path = "../../../../tests/sums/mesh_grid.rs"]
+mod mesh_grid;
 #[path = "../../../../tests/sums/meshes.rs"]
 mod meshes;
 #[path = "../../../../tests/sums/plane.rs"]
 mod plane;
+#[path = "../../../../tests/sums/plane_grid.rs"]
+mod plane_grid;
 #[path = "../../../../tests/sums/relaxation.rs"]
 mod relaxation;
 #[path = "../../../../tests/sums/surface.rs"]
@@ -24,6 +28,8 @@ fn sums() -> Result<String> {
     relaxation::sums(&context, &sets, &mut list)?;
     let surface = surface::sums(&context, &mut list)?;
     analysis::sums(&context, &sets, &surface, &mut list)?;
+    plane_grid::sums(&context, false, &mut list)?;
+    mesh_grid::sums(&context, false, &mut list)?;
     Ok(list.to_string())
 }
 
