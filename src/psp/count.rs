@@ -25,7 +25,7 @@ const BEYOND: f64 = 1.05;
 const _: () = assert!(NEAR * BEYOND <= LOOSE);
 
 /// A set that was asked for.
-pub(super) struct Found<S> {
+pub struct Found<S> {
     pub samples: Vec<S>,
     /// No two samples are closer.
     pub radius: f64,
@@ -54,12 +54,7 @@ struct Known {
 }
 
 /// Exactly `count` samples.
-pub(super) fn sample<S: Levelled>(
-    job: &Job,
-    mut levels: Levels<S>,
-    count: usize,
-    finest: f64,
-) -> Result<Found<S::Sample>> {
+pub fn sample<S: Levelled>(job: &Job, mut levels: Levels<S>, count: usize, finest: f64) -> Result<Found<S::Sample>> {
     let mut above: Option<Known> = None;
     let mut taken_back = 0;
     for key in 0.. {
@@ -133,7 +128,7 @@ fn next_radius(
 }
 
 /// The radius for which so many samples are expected, by areas and edges alone.
-pub(super) fn expected_radius(surface: &impl Levelled, count: f64, finest: f64) -> f64 {
+pub fn expected_radius(surface: &impl Levelled, count: f64, finest: f64) -> f64 {
     let (mut low, mut high) = (finest, surface.top().max(finest));
     while high > 1.001 * low {
         let middle = (low * high).sqrt();
@@ -144,7 +139,7 @@ pub(super) fn expected_radius(surface: &impl Levelled, count: f64, finest: f64) 
 
 /// Refuses a count where given samples leave so little of the surface that it takes a radius with which the bare surface
 /// could not be filled: the work grows with all of it.
-pub(super) fn check_room(surface: &impl Levelled, radius: f64, count: usize) -> Result<()> {
+pub fn check_room(surface: &impl Levelled, radius: f64, count: usize) -> Result<()> {
     if !surface.has_given() {
         return Ok(());
     }
@@ -157,12 +152,12 @@ pub(super) fn check_room(surface: &impl Levelled, radius: f64, count: usize) -> 
 }
 
 /// The refusal of any count where given samples cover all of the surface.
-pub(super) fn no_place(count: usize) -> Error {
+pub fn no_place(count: usize) -> Error {
     Error::invalid("count", format!("{count}, but given samples cover all of the surface"))
 }
 
 /// The refusal of a count for which floats are not fine enough.
-pub(super) fn none_finer(count: usize, len: usize, finest: f64) -> Error {
+pub fn none_finer(count: usize, len: usize, finest: f64) -> Error {
     let reason = format!("{count} samples are more than the mesh can carry: {len} at radius {finest:?}, the smallest");
     Error::invalid("count", reason)
 }

@@ -9,11 +9,11 @@ use crate::psp::fill::table::Table;
 
 /// The side of a cube in radii: large beside the samples around it that a task sees too, small enough for many cubes and
 /// for the `u16` that counts the points of [`Surroundings`](crate::psp::surroundings::Surroundings).
-pub(super) const SIDE: u32 = 24;
+pub const SIDE: u32 = 24;
 
 /// A cube, by its number on each axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub(super) struct Cube(pub [i32; 3]);
+pub struct Cube(pub [i32; 3]);
 
 impl Cube {
     /// Which of the eight colours.
@@ -34,7 +34,7 @@ impl Cube {
 }
 
 /// Cubes by numbers: from 0, in the order in which they are met.
-pub(super) struct Numbers {
+pub struct Numbers {
     numbers: Table<u32>,
     /// The number that was given last: most cubes are met again at once.
     last: usize,

@@ -2,12 +2,8 @@
 
 use crate::error::{Error, Result};
 use crate::mesh::{Mesh, exact};
-use crate::points::{MAXIMAL_DENSITY, check_radius, check_resolution};
-use crate::psp::fill::triangles::Measures;
-
-/// Samples of a maximal set on an area of radius²: [`MAXIMAL_DENSITY`], rounded up.
-const DENSITY: f64 = 0.7;
-const _: () = assert!(MAXIMAL_DENSITY < DENSITY && DENSITY < 1.01 * MAXIMAL_DENSITY);
+use crate::points::{check_radius, check_resolution};
+use crate::psp::fill::measures::{DENSITY, Measures};
 
 /// Memory per sample at the peak, twice of what was measured (bunny with three million samples: 110 bytes when a fill starts
 /// from nothing, 145 with an iteration, the samples handed out included): what lies scattered takes more.
@@ -20,23 +16,6 @@ const RAYS_PER_SAMPLE: f64 = 20.0;
 /// ... unless it has no more rays than this, a moment's work.
 const RAYS_ALWAYS: f64 = 1e7;
 
-/// How many samples a maximal set has on a part of the surface, rather too many: those of the area, and those along
-/// what is longer than the radius, since a needle has length and hardly any area.
-pub(super) fn expected_samples_of(radius: f64, area: f64, longest: f64) -> f64 {
-    DENSITY * area / (radius * radius) + if longest > radius { longest / radius } else { 0.0 }
-}
-
-/// How many samples a maximal set has, rather too many.
-pub(super) fn expected_samples(mesh: &Mesh, measures: &Measures, radius: f64) -> f64 {
-    DENSITY * mesh.area() / (radius * radius) + measures.longer_than(radius) / radius
-}
-
-/// The length of the longest edge of a triangle.
-pub(super) fn longest_edge(mesh: &Mesh, triangle: u32) -> f64 {
-    let [a, b, c] = mesh.corners(triangle).map(exact);
-    (b - a).length().max((c - b).length()).max((a - c).length())
-}
-
 /// Memory for so many samples. Refuses more than there is.
 pub(super) fn require_memory(samples: f64, argument: &'static str, what: &str) -> Result<()> {
     crate::memory::require(samples * BYTES_PER_SAMPLE, argument, what)
@@ -45,7 +24,7 @@ pub(super) fn require_memory(samples: f64, argument: &'static str, what: &str) -
 /// How many samples a radius gives, rather too many. Refuses one that cannot be had.
 pub(super) fn checked_estimate(mesh: &Mesh, measures: &Measures, radius: f64) -> Result<f64> {
     check_radius(radius)?;
-    let estimate = expected_samples(mesh, measures, radius);
+    let estimate = measures.expected_samples(mesh, radius);
     if estimate > u32::MAX as f64 {
         let reason = format!("{radius:?} asks for about {estimate:.3e} samples; the limit is {}", u32::MAX);
         return Err(Error::too_large("radius", reason));

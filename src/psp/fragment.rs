@@ -7,7 +7,7 @@ use crate::psp::sixteenths::SIXTEENTHS;
 
 /// A part of a triangle.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Fragment {
+pub struct Fragment {
     pub triangle: u32,
     /// Barycentrics `(u, v)` of the corners.
     pub corners: [[f64; 2]; 3],
@@ -15,7 +15,7 @@ pub(super) struct Fragment {
 
 /// Where a fragment lies in space.
 #[derive(Clone, Copy)]
-pub(super) struct Shape {
+pub struct Shape {
     pub corners: [DVec3; 3],
     pub centre: DVec3,
     /// The corner opposite the longest edge.
@@ -58,6 +58,16 @@ impl Fragment {
             let turned = || Self { corners: [at(x + 1, y + 1), at(x, y + 1), at(x + 1, y)], ..*self };
             [Some(standing), (x + y + 1 < count).then(turned)].into_iter().flatten()
         })
+    }
+
+    /// The number of parts of its own shape along each of its edges that makes them no longer than `longest`.
+    pub fn count_up_to(&self, mesh: &Mesh, longest: f64) -> u32 {
+        (self.shape(mesh).longest / longest).ceil().max(1.0) as u32
+    }
+
+    /// The parts of its own shape that are no longer than `longest`.
+    pub fn parts_up_to(&self, mesh: &Mesh, longest: f64) -> impl Iterator<Item = Self> {
+        self.parts(self.count_up_to(mesh, longest))
     }
 
     /// One of the sixteen parts.

@@ -68,12 +68,7 @@ impl<S: Levelled> Ladder<S> {
 }
 
 /// A maximal set of a radius: the levels above it, and one at the radius itself.
-pub(super) fn by_radius<S: Levelled>(
-    job: &Job,
-    levels: Levels<S>,
-    quotient: f64,
-    radius: f64,
-) -> Result<Found<S::Sample>> {
+pub fn by_radius<S: Levelled>(job: &Job, levels: Levels<S>, quotient: f64, radius: f64) -> Result<Found<S::Sample>> {
     let mut ladder = Ladder::new(levels, quotient, radius, radius);
     while ladder.levels.radius() > radius {
         ladder.descend(job)?;
@@ -83,7 +78,7 @@ pub(super) fn by_radius<S: Levelled>(
 }
 
 /// As many samples of the ladder as asked for. No radius is below the finest.
-pub(super) fn by_count<S: Levelled>(
+pub fn by_count<S: Levelled>(
     job: &Job,
     levels: Levels<S>,
     quotient: f64,

@@ -16,14 +16,15 @@ use crate::error::Result;
 use crate::job::Job;
 use crate::math::rounded_down;
 use crate::mesh::{Mesh, exact};
-use crate::psp::estimate::expected_samples;
+use crate::psp::fill::FillOptions;
 use crate::psp::fill::rounds::PATCH;
-use crate::psp::fill::{Manner, Surface, fill_in};
+use crate::psp::fill::uniform::Surface;
 use crate::psp::samples::{Sample, SampleSet};
 use crate::rng::{Draw, hash};
 
-/// From this quotient of two radii on, a level is begun by rain, as on an empty surface: the level before covers too little.
-const RAINS: f64 = 1.3;
+/// From this quotient of two radii on, a level begins with first darts, as on an empty surface: the level before covers too
+/// little.
+const FIRST_DARTS_FROM: f64 = 1.3;
 /// Otherwise little is open. Patches are cut up to this length, in radii, before darts are thrown.
 const FIRST_PATCH: f32 = 1.0;
 /// Ranks are looked for no farther than this, in radii.
@@ -33,13 +34,13 @@ const LARGEST_RANK: f64 = 2.0;
 const TOP: f64 = 1.001;
 
 /// A radius within which any sample covers the mesh.
-pub(super) fn top(mesh: &Mesh) -> f64 {
+pub fn top(mesh: &Mesh) -> f64 {
     let (low, high) = mesh.bounds();
     TOP * exact(low).distance(exact(high))
 }
 
 /// What levels are filled on.
-pub(super) trait Levelled {
+pub trait Levelled {
     /// A sample, with what is known of it beside its place and its rank.
     type Sample: Copy + Ranked;
 
@@ -56,14 +57,14 @@ pub(super) trait Levelled {
     fn fill(
         &self,
         job: &Job,
-        manner: Manner,
+        options: FillOptions,
         radius: f64,
         samples: &[Self::Sample],
     ) -> Result<(Vec<Self::Sample>, u64)>;
 }
 
 /// What has a place and a rank.
-pub(super) trait Ranked {
+pub trait Ranked {
     fn sample(&self) -> &Sample;
 }
 
@@ -81,22 +82,22 @@ impl Levelled for Surface<'_> {
     }
 
     fn expected(&self, radius: f64) -> f64 {
-        expected_samples(self.mesh, self.measures, radius)
+        self.measures.expected_samples(self.mesh, radius)
     }
 
     fn has_given(&self) -> bool {
         !self.given.is_empty()
     }
 
-    fn fill(&self, job: &Job, manner: Manner, radius: f64, samples: &[Sample]) -> Result<(Vec<Sample>, u64)> {
+    fn fill(&self, job: &Job, options: FillOptions, radius: f64, samples: &[Sample]) -> Result<(Vec<Sample>, u64)> {
         let mut set = SampleSet::of(self.mesh, radius, samples);
-        let darts = fill_in(manner, job, self, &mut set)?.darts;
+        let darts = Surface::fill(self, job, &mut set, options)?.darts;
         Ok((set.into_samples(), darts))
     }
 }
 
 /// A set of samples that is refined, level by level.
-pub(super) struct Levels<S: Levelled> {
+pub struct Levels<S: Levelled> {
     pub surface: S,
     seed: u64,
     /// Those of the last level last.
@@ -127,15 +128,15 @@ impl<S: Levelled> Levels<S> {
     /// ranks.
     pub fn refine(&mut self, job: &Job, radius: f64, key: u64) -> Result<()> {
         let former = std::mem::replace(&mut self.radius, radius);
-        let rains = former > RAINS * radius;
-        let manner = Manner {
+        let throws_first = former > FIRST_DARTS_FROM * radius;
+        let options = FillOptions {
             seed: hash(self.seed, Draw::Level, &[key]),
-            rains,
+            throws_first,
             measures: false,
-            patch: if rains { PATCH as f32 } else { FIRST_PATCH },
+            patch: if throws_first { PATCH as f32 } else { FIRST_PATCH },
             largest_rank: former.is_finite().then_some(below(former).min(LARGEST_RANK * radius)),
         };
-        let (samples, darts) = self.surface.fill(job, manner, radius, &self.samples)?;
+        let (samples, darts) = self.surface.fill(job, options, radius, &self.samples)?;
         (self.samples, self.darts) = (samples, self.darts + darts);
         Ok(())
     }
@@ -175,7 +176,7 @@ mod tests {
     use super::*;
     use crate::job::Context;
     use crate::psp::facing::Facing;
-    use crate::psp::fill::triangles::Measures;
+    use crate::psp::fill::measures::Measures;
     use crate::psp::given::GivenSamples;
 
     /// A triangle of this area.

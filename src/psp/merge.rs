@@ -47,7 +47,7 @@ pub(super) fn merge(
             }
         }
         let count = accepted.len() as u64;
-        (accepted, count)
+        Ok((accepted, count))
     });
     if merged.is_err() {
         samples.truncate(before);

@@ -10,8 +10,8 @@ use crate::order::Order;
 use crate::points::{Points, finest_radius};
 use crate::psp::estimate::{checked_estimate, require_memory};
 use crate::psp::facing::Facing;
-use crate::psp::fill::Surface;
-use crate::psp::fill::triangles::Measures;
+use crate::psp::fill::measures::Measures;
+use crate::psp::fill::uniform::Surface;
 use crate::psp::given::GivenSamples;
 use crate::psp::levels::Levels;
 use crate::psp::options::Options;
@@ -20,7 +20,7 @@ use crate::psp::samples::surface_samples;
 use crate::psp::{count, ladder};
 
 /// A set of a count, or in progressive order.
-pub(super) fn sample(
+pub fn sample(
     context: &Context,
     mesh: &Arc<Mesh>,
     options: &Options,

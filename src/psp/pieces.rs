@@ -47,7 +47,6 @@ fn between(from: [f64; 2], to: [f64; 2], share: f64) -> [f64; 2] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::psp::fill::region::parts_up_to;
 
     /// Well-shaped triangles and needles of every kind: flat, acute, right.
     fn triangles() -> Vec<Mesh> {
@@ -59,7 +58,7 @@ mod tests {
     fn all_pieces(mesh: &Mesh, longest: f64) -> Vec<Fragment> {
         let mut slices = Vec::new();
         slice(mesh, 0, longest, &mut slices);
-        slices.iter().flat_map(|slice| parts_up_to(mesh, slice, longest)).collect()
+        slices.iter().flat_map(|slice| slice.parts_up_to(mesh, longest)).collect()
     }
 
     #[test]

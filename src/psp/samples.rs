@@ -14,7 +14,7 @@ use crate::psp::surroundings::Surroundings;
 
 /// A point of the surface.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Sample {
+pub struct Sample {
     pub position: [f32; 3],
     pub triangle: u32,
     pub barycentrics: [f32; 2],
@@ -39,10 +39,10 @@ impl Sample {
 
 /// Distances are compared as squares in `f64`. The radius used is larger by this share, dozens of units in the last
 /// place: the samples keep the radius in whatever order a caller evaluates their distances.
-pub(super) const RADIUS_SLACK: f64 = 1e-14;
+pub const RADIUS_SLACK: f64 = 1e-14;
 
 /// A conflict-free set of samples that only grows.
-pub(super) struct SampleSet {
+pub struct SampleSet {
     radius: f64,
     origin: [f64; 3],
     /// In the order in which they were accepted.
@@ -69,6 +69,11 @@ impl SampleSet {
             Binned::new(numbers.cubes.len(), bins.into_iter().zip(0..).map(|(bin, index): (_, u32)| (bin, index)));
         set.samples = binned.items().iter().map(|&index| samples[index as usize]).collect();
         set
+    }
+
+    /// A set of samples that do not conflict, in their order.
+    pub fn in_order(mesh: &Mesh, radius: f64, samples: Vec<Sample>) -> Self {
+        Self { samples, ..Self::new(mesh, radius) }
     }
 
     /// The samples, those last that were added last.
@@ -112,7 +117,7 @@ impl SampleSet {
         &mut self,
         job: &Job,
         cubes: &[Cube],
-        task: impl Fn(usize, &Self) -> (Vec<Sample>, C) + Sync,
+        task: impl Fn(usize, &Self) -> Result<(Vec<Sample>, C)> + Sync,
     ) -> Result<C> {
         self.sort_into_cubes();
         let mut colours: [Vec<usize>; 8] = Default::default();
@@ -123,7 +128,8 @@ impl SampleSet {
             let part = job.part(share(done), share(done + members.len()));
             let grown = part.map(members.len(), |member| task(members[member], self))?;
             done += members.len();
-            for (&number, (samples, count)) in members.iter().zip(grown) {
+            for (&number, grown) in members.iter().zip(grown) {
+                let (samples, count) = grown?;
                 total += count;
                 if !samples.is_empty() {
                     let start = self.len();
@@ -188,7 +194,7 @@ impl SampleSet {
 }
 
 /// Samples with their normals.
-pub(super) fn surface_samples(mesh: &Mesh, samples: &[Sample]) -> Points<3> {
+pub fn surface_samples(mesh: &Mesh, samples: &[Sample]) -> Points<3> {
     let triangles = samples.iter().map(|sample| sample.triangle).collect();
     mesh.samples(triangles, samples.iter().map(|sample| sample.barycentrics).collect())
 }

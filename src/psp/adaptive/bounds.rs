@@ -5,7 +5,7 @@ use crate::mesh::Mesh;
 
 /// Between which values the radius is on a fragment.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct RadiusBounds {
+pub struct RadiusBounds {
     pub least: f64,
     pub largest: f64,
 }
@@ -24,7 +24,7 @@ impl RadiusBounds {
 }
 
 /// Checks radii of vertices, and gives their bounds.
-pub(super) fn of_vertices(mesh: &Mesh, radii: &[f32]) -> Result<RadiusBounds> {
+pub fn of_vertices(mesh: &Mesh, radii: &[f32]) -> Result<RadiusBounds> {
     let count = mesh.positions().len();
     if radii.len() != count {
         return Err(Error::invalid("vertex_count", format!("{} radii for {count} vertices", radii.len())));
@@ -39,7 +39,7 @@ pub(super) fn of_vertices(mesh: &Mesh, radii: &[f32]) -> Result<RadiusBounds> {
 }
 
 /// Checks what is said of a function, and gives its bounds.
-pub(super) fn of_function(smallest: f64, largest: f64, slope: f64) -> Result<RadiusBounds> {
+pub fn of_function(smallest: f64, largest: f64, slope: f64) -> Result<RadiusBounds> {
     if !(smallest > 0.0 && smallest.is_finite()) {
         return Err(Error::invalid("smallest", format!("{smallest:?} is not a positive finite number")));
     }

@@ -8,7 +8,6 @@ use crate::mesh::Mesh;
 use crate::points::MAXIMAL_DENSITY;
 use crate::psp::adaptive::image::{Image, Range};
 use crate::psp::adaptive::radius::{Density, DensityFunction, Scale, Texture};
-use crate::psp::fill::region::parts_up_to;
 use crate::psp::fragment::{Fragment, Shape};
 use crate::psp::pieces::slice;
 
@@ -150,7 +149,7 @@ impl<'a> DensityField<'a> {
                 }
                 slice(self.mesh, triangle, longest, &mut slices);
                 for slice in slices.drain(..) {
-                    for part in parts_up_to(self.mesh, &slice, longest) {
+                    for part in slice.parts_up_to(self.mesh, longest) {
                         let place = part.shape(self.mesh).centre.to_array();
                         let density = self.at(triangle, part.at([1.0 / 3.0; 2]), place).unwrap_or(0.0);
                         sum += density * part.area(self.mesh);

@@ -5,8 +5,7 @@ use crate::job::{Job, chunks_of};
 use crate::memory;
 use crate::mesh::Mesh;
 use crate::psp::adaptive::field::RadiusField;
-use crate::psp::estimate::{expected_samples_of, longest_edge};
-use crate::psp::fill::region::parts_up_to;
+use crate::psp::fill::measures::{expected_samples_of, longest_edge};
 use crate::psp::fragment::{Fragment, Shape};
 use crate::psp::pieces::slice;
 
@@ -39,8 +38,7 @@ pub(super) fn require(job: &Job, mesh: &Mesh, field: &RadiusField) -> Result<f64
             } else if area > 0.0 {
                 slice(mesh, triangle, longest, &mut slices);
                 for slice in slices.drain(..) {
-                    parts_up_to(mesh, &slice, longest)
-                        .for_each(|part| count(&part, &part.shape(mesh), part.area(mesh)));
+                    slice.parts_up_to(mesh, longest).for_each(|part| count(&part, &part.shape(mesh), part.area(mesh)));
                 }
             }
         }

@@ -12,13 +12,13 @@ use crate::points::{check_resolution, finest_radius};
 use crate::psp::adaptive::density::DensityField;
 use crate::psp::adaptive::estimate::require;
 use crate::psp::adaptive::field::RadiusField;
-use crate::psp::adaptive::fill::GradedSurface;
 use crate::psp::adaptive::limits::Quota;
 use crate::psp::adaptive::options::Options;
 use crate::psp::adaptive::radius::{Radius, Scale};
+use crate::psp::adaptive::site::GradedSurface;
 use crate::psp::count::Found;
 use crate::psp::facing::Facing;
-use crate::psp::fill::Manner;
+use crate::psp::fill::FillOptions;
 use crate::psp::ladder;
 use crate::psp::levels::{Levelled, Levels, Ranked, top};
 use crate::psp::obstacles::Obstacles;
@@ -59,20 +59,20 @@ impl Levelled for ScaledSurface<'_> {
     fn fill(
         &self,
         job: &Job,
-        manner: Manner,
+        options: FillOptions,
         scale: f64,
         samples: &[Self::Sample],
     ) -> Result<(Vec<Self::Sample>, u64)> {
         let &Self { mesh, facing, obstacles, last, estimate, .. } = self;
         let (field, quota) = (&self.field.at_scale(scale), &Quota::new(self.expected(scale).max(estimate), mesh));
         let surface = GradedSurface { mesh, field, quota, facing, obstacles, finest: last };
-        let (set, darts) = surface.fill(job, manner, samples)?;
+        let (set, darts) = surface.fill(job, options, samples)?;
         Ok((set.samples, darts))
     }
 }
 
 /// A set in progressive order: at the radii of the options, or at their density and its scale.
-pub(super) fn ordered(
+pub fn ordered(
     job: &Job,
     mesh: &Mesh,
     options: &Options,

@@ -23,9 +23,7 @@ mod density;
 mod dot;
 mod estimate;
 mod field;
-mod fill;
 mod grid;
-mod ground;
 mod image;
 mod levels;
 mod limits;
@@ -35,6 +33,7 @@ mod pieces;
 mod radius;
 mod sample;
 mod set;
+mod site;
 #[allow(unsafe_code)] // Vector instructions.
 mod vectors;
 

@@ -8,7 +8,7 @@ use crate::psp::adaptive::bounds::RadiusBounds;
 use crate::psp::adaptive::field::RadiusField;
 use crate::psp::adaptive::limits::Quota;
 use crate::psp::adaptive::set::{AdaptiveSet, OctaveCube};
-use crate::psp::fill::ground::{Patch, Whole};
+use crate::psp::fill::rounds::{Patch, Whole};
 use crate::psp::fragment::{Fragment, Shape};
 use crate::psp::pieces::slice;
 
@@ -16,10 +16,10 @@ use crate::psp::pieces::slice;
 const CHUNK: usize = 1024;
 
 /// Pieces are no longer than this, in local radii.
-pub(super) const LONGEST: f64 = 4.0;
+pub const LONGEST: f64 = 4.0;
 
 /// A piece of the surface, all of it uncovered.
-pub(super) enum Piece {
+pub enum Piece {
     Whole(Whole<RadiusBounds>),
     Part(Box<Patch<RadiusBounds>>),
 }
@@ -49,7 +49,7 @@ impl Piece {
 }
 
 /// All of the surface.
-pub(super) fn pieces(
+pub fn pieces(
     job: &Job,
     mesh: &Mesh,
     field: &RadiusField,

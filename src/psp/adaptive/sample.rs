@@ -9,14 +9,14 @@ use crate::points::{Points, check_radius};
 use crate::psp::adaptive::density::DensityField;
 use crate::psp::adaptive::estimate::require;
 use crate::psp::adaptive::field::RadiusField;
-use crate::psp::adaptive::fill::GradedSurface;
 use crate::psp::adaptive::levels::ordered;
 use crate::psp::adaptive::limits::Quota;
 use crate::psp::adaptive::options::Options;
 use crate::psp::adaptive::radius::{Radius, Scale};
+use crate::psp::adaptive::site::GradedSurface;
 use crate::psp::count::Found;
 use crate::psp::facing::Facing;
-use crate::psp::fill::Manner;
+use crate::psp::fill::FillOptions;
 use crate::psp::given::obstacles;
 use crate::psp::obstacles::Obstacles;
 use crate::psp::options::check_quotient;
@@ -106,7 +106,7 @@ fn filled(
     let field = &RadiusField::new(mesh, options.radius, density, 1.0)?;
     let quota = &Quota::new(require(&job.part(0.02, 0.05), mesh, field)?, mesh);
     let surface = GradedSurface { mesh, field, quota, facing, obstacles, finest: 1.0 };
-    let (set, darts) = surface.fill(job, Manner::from_nothing(options.seed), &[])?;
+    let (set, darts) = surface.fill(job, FillOptions::from_nothing(options.seed), &[])?;
     Ok(Found { samples: set.samples, radius: 1.0, coverage: 1.0, darts })
 }
 

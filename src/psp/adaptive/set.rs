@@ -45,7 +45,7 @@ fn end_of_octave(octave: i32) -> f64 {
 
 /// A cube of an octave.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) struct OctaveCube {
+pub struct OctaveCube {
     pub octave: i32,
     pub cube: Cube,
 }
@@ -59,7 +59,7 @@ impl OctaveCube {
 }
 
 /// A conflict-free set that only grows.
-pub(super) struct AdaptiveSet {
+pub struct AdaptiveSet {
     origin: DVec3,
     /// Where the cubes of each octave begin, in cubes: seams of many sets average out.
     shift: DVec3,

@@ -10,7 +10,7 @@ use crate::classes::Classes;
 
 /// Balls of one radius around the samples of some classes.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Layer {
+pub struct Layer {
     pub radius: f64,
     /// A bit for each class whose samples have balls.
     pub of: u32,
@@ -20,7 +20,7 @@ pub(super) struct Layer {
 
 /// The layers of a group of classes that have one own radius.
 #[derive(Debug)]
-pub(super) struct Layers {
+pub struct Layers {
     pub all: Vec<Layer>,
     /// The layers of each class of the group, by the number of the class. The first one has the own radius and is of this
     /// class alone; the others follow by falling radius.

@@ -2,28 +2,28 @@
 //! future work, §3.4.6).
 //!
 //! Classes of larger own radii come first. Each group of equal radii is filled around the samples of all earlier groups,
-//! with the cross radii as clearances (`fill.rs`, `ground.rs`, `layers.rs`). Within a group darts of all classes rain
+//! with the cross radii as clearances (`site.rs`, `layers.rs`). Within a group darts of all classes are thrown
 //! at equal rates.
 
-mod fill;
-mod given;
-mod ground;
 mod layers;
+mod site;
 
 use std::sync::Arc;
 
 use crate::classes::Classes;
 use crate::error::{Error, Result};
+use crate::given::Given;
 use crate::host::Stopwatch;
 use crate::job::{Context, Progress};
 use crate::mesh::Mesh;
 use crate::order::Order;
 use crate::points::{Points, check_resolution};
-use crate::psp::classes::fill::{Group, Places};
 use crate::psp::classes::layers::Layers;
+use crate::psp::classes::site::{Group, Places};
 use crate::psp::estimate::require_memory;
 use crate::psp::facing::Facing;
-use crate::psp::fill::triangles::Measures;
+use crate::psp::fill::measures::Measures;
+use crate::psp::given::obstacles_of;
 use crate::psp::obstacles::Obstacles;
 use crate::psp::options::{Engine, Options, Priority};
 use crate::psp::report::Report;
@@ -74,7 +74,7 @@ pub fn sample_classes(
     check_masks(mesh, masks)?;
     check_radii(mesh, classes)?;
     let facing = Facing::new(options.cosine)?;
-    let given = given::obstacles(mesh, options.given, classes)?;
+    let given = obstacles_of_classes(mesh, options.given, classes)?;
     let measures = &*mesh.kept(|| Ok(()), || Ok(Measures::of(mesh)))?;
     let none = &Obstacles::new(mesh, std::iter::empty());
     let places = Places { mesh, measures, masks, given: &given, none, facing };
@@ -92,7 +92,9 @@ pub fn sample_classes(
         let (mut samples, mut darts, mut done) = (Vec::new(), 0, 0.0);
         for group in &groups {
             let next = (done + group.expected_samples() / expected.max(1.0)).min(1.0);
-            darts += group.fill(&job.part(done, next), &mut samples)?;
+            let thrown;
+            (samples, thrown) = group.fill(&job.part(done, next), samples)?;
+            darts += thrown;
             done = next;
         }
         Ok((samples, darts))
@@ -114,6 +116,18 @@ pub fn sample_classes(
     let mut set = surface_samples(mesh, &samples);
     set.classes = samples.iter().map(|sample| sample.class.into()).collect();
     Ok((set, report))
+}
+
+/// For each class the given samples with their clearances from it, of which each sample has a row; without clearances
+/// they are the class's own radius.
+fn obstacles_of_classes(mesh: &Mesh, given: Given<3>, classes: &Classes) -> Result<Vec<Obstacles>> {
+    given.check_classes(classes.count())?;
+    let of_class = |class: usize| {
+        let clearances = given.clearances_of_class(class, classes.count());
+        let clearances = clearances.unwrap_or_else(|| vec![classes.own(class); given.positions.len()]);
+        obstacles_of(mesh, Given::with_clearances(given.positions, &clearances))
+    };
+    (0..classes.count()).map(of_class).collect()
 }
 
 /// Refuses what does not go with classes.

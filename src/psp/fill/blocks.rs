@@ -1,27 +1,29 @@
-//! The surface in blocks, the cubes of `cubes.rs`: what each of them has to fill.
+//! The surface in blocks, the cubes of `cubes.rs`: the triangles that each of them has to fill, and where darts fall on
+//! them.
 //!
-//! A triangle belongs to the cube of its first corner. What is longer than a quarter of a cube is cut into pieces
+//! A triangle belongs to the cube of its first corner. Triangles longer than a quarter of a cube are cut into pieces
 //! before, which belong to the cubes of their first corners. So nothing reaches far out of its cube, and cubes of one
-//! colour do not matter to each other.
+//! colour are independent.
 //!
-//! Most triangles are not looked at: where the ball around a group lies in a cube, so does the group.
+//! Most triangles are not read: where the ball around a cluster lies in a cube, so does the cluster.
+
+use std::ops::Range;
 
 use crate::error::Result;
-use crate::index::Binned;
+use crate::index::{Binned, Weights};
 use crate::job::{Job, chunks_of};
 use crate::mesh::{Mesh, exact};
 use crate::psp::cubes::{Cube, Numbers, SIDE};
-use crate::psp::fill::balls::Ball;
+use crate::psp::fill::darts::random_point;
 use crate::psp::fill::extent::Extent;
-use crate::psp::fill::items::{Group, Items};
-use crate::psp::fill::region::parts_up_to;
-use crate::psp::fill::rounds::PATCH;
-use crate::psp::fill::triangles::{GROUP, Measures};
+use crate::psp::fill::measures::{Ball, CLUSTER, Measures, Triangles};
+use crate::psp::fill::rounds::{PATCH, Point};
 use crate::psp::fragment::Fragment;
 use crate::psp::pieces::slice;
 use crate::psp::samples::SampleSet;
+use crate::rng::Rng;
 
-/// Groups of triangles per task.
+/// Clusters per task.
 const CHUNK: usize = 1 << 12;
 
 /// What is longer, in radii, is cut. A sample then lies no farther than this from its cube.
@@ -31,7 +33,7 @@ const LONGEST: f64 = SIDE as f64 / 4.0;
 const LARGEST_BALL: f64 = SIDE as f64 / 8.0;
 
 /// The surface by cubes.
-pub(in crate::psp) struct Blocks<'a> {
+pub struct Blocks<'a> {
     measures: &'a Measures,
     balls: Option<&'a [Ball]>,
     chunks: Vec<Chunk>,
@@ -42,7 +44,7 @@ pub(in crate::psp) struct Blocks<'a> {
 }
 
 /// The surface in a cube.
-pub(in crate::psp) struct Block {
+pub struct Block {
     pub cube: Cube,
     pub extent: Extent,
     pub items: Items,
@@ -52,8 +54,8 @@ pub(in crate::psp) struct Block {
 struct Chunk {
     cubes: Vec<Cube>,
     extents: Vec<Extent>,
-    /// Groups that lie in one cube, and the indices of triangles of all other groups.
-    groups: Binned<u32>,
+    /// Clusters that lie in one cube, and the indices of triangles of all other clusters.
+    clusters: Binned<u32>,
     indices: Binned<u32>,
     pieces: Binned<Fragment>,
 }
@@ -61,7 +63,7 @@ struct Chunk {
 impl<'a> Blocks<'a> {
     pub fn new(job: &Job, mesh: &Mesh, measures: &'a Measures, samples: &SampleSet) -> Result<Self> {
         let balls = measures.balls_up_to(&job.part(0.0, 0.2), mesh, LARGEST_BALL * samples.radius())?;
-        let chunks = chunks_of(measures.triangles().groups(), CHUNK);
+        let chunks = chunks_of(measures.triangles().clusters(), CHUNK);
         let chunk = |chunk: usize| Chunk::new(mesh, measures, balls, chunks.range(chunk), samples);
         let chunks = job.part(0.2, 1.0).map(chunks.len(), chunk)?;
         let (mut numbers, mut extents, mut parts) = (Numbers::new(), Vec::new(), Vec::new());
@@ -87,16 +89,16 @@ impl<'a> Blocks<'a> {
         for &(chunk, part) in self.parts.bin(number) {
             let (chunk, part) = (&self.chunks[chunk as usize], part as usize);
             let mut single = chunk.indices.bin(part).iter().map(|&index| index as usize).peekable();
-            let groups = chunk.groups.bin(part).iter().map(|&group| group as usize);
-            for (group, ball) in groups.flat_map(|group| self.balls.map(|balls| (group, balls[group]))) {
-                let indices = measured.group(group);
+            let clusters = chunk.clusters.bin(part).iter().map(|&cluster| cluster as usize);
+            for (cluster, ball) in clusters.flat_map(|cluster| self.balls.map(|balls| (cluster, balls[cluster]))) {
+                let indices = measured.cluster(cluster);
                 while let Some(index) = single.next_if(|&index| index < indices.start) {
                     items.triangles.push(measured.at(index));
                 }
                 let start = items.triangles.len() as u32;
                 items.triangles.extend(indices.map(|index| measured.at(index)));
                 let indices = start..items.triangles.len() as u32;
-                items.groups.push(Group { indices, area: self.measures.areas[group], ball });
+                items.clusters.push(Cluster { indices, area: self.measures.areas[cluster], ball });
             }
             items.triangles.extend(single.map(|index| measured.at(index)));
             items.pieces.extend_from_slice(chunk.pieces.bin(part));
@@ -110,7 +112,7 @@ impl Chunk {
         mesh: &Mesh,
         measures: &Measures,
         balls: Option<&[Ball]>,
-        groups: std::ops::Range<usize>,
+        clusters: std::ops::Range<usize>,
         samples: &SampleSet,
     ) -> Self {
         let (mut numbers, mut extents) = (Numbers::new(), Vec::new());
@@ -132,14 +134,15 @@ impl Chunk {
             is_in_one.then(|| (low, Extent::of(ends.map(|end| end.map(|x| x as f32)))))
         };
         // Without area, no cube is needed.
-        for group in groups.filter(|&group| measures.areas[group] > 0.0) {
-            if let Some((cube, extent)) = balls.and_then(|balls| in_one_cube(&balls[group])) {
-                in_one.push((place(cube, &extent), group as u32));
+        for cluster in clusters.filter(|&cluster| measures.areas[cluster] > 0.0) {
+            if let Some((cube, extent)) = balls.and_then(|balls| in_one_cube(&balls[cluster])) {
+                in_one.push((place(cube, &extent), cluster as u32));
                 continue;
             }
             // Where nothing is cut no size is needed: triangles without area are left out later.
-            let (areas, lengths) = if cuts { triangles.measure(mesh, group) } else { ([1.0; GROUP], [0.0; GROUP]) };
-            for (lane, index) in triangles.group(group).enumerate().filter(|&(lane, _)| areas[lane] > 0.0) {
+            let (areas, lengths) =
+                if cuts { triangles.measure(mesh, cluster) } else { ([1.0; CLUSTER], [0.0; CLUSTER]) };
+            for (lane, index) in triangles.cluster(cluster).enumerate().filter(|&(lane, _)| areas[lane] > 0.0) {
                 let triangle = triangles.at(index);
                 if lengths[lane] <= longest * longest {
                     let corners = mesh.corners(triangle);
@@ -149,7 +152,7 @@ impl Chunk {
                 }
                 slices.clear();
                 slice(mesh, triangle, PATCH * samples.radius(), &mut slices);
-                for piece in slices.iter().flat_map(|slice| parts_up_to(mesh, slice, longest)) {
+                for piece in slices.iter().flat_map(|slice| slice.parts_up_to(mesh, longest)) {
                     let corners = piece.corners.map(|corner| mesh.point_exact(triangle, corner));
                     let extent = Extent::of(corners.map(|corner| corner.as_vec3().to_array()));
                     pieces.push((place(samples.cube(corners[0].to_array()), &extent), piece));
@@ -158,21 +161,137 @@ impl Chunk {
         }
         let cubes = numbers.cubes;
         let bins = cubes.len();
-        let groups = Binned::new(bins, in_one.iter().map(|&(number, group)| (number as usize, group)));
+        let clusters = Binned::new(bins, in_one.iter().map(|&(number, cluster)| (number as usize, cluster)));
         let indices = Binned::new(bins, whole.iter().map(|&(number, index)| (number as usize, index)));
         let pieces = Binned::new(bins, pieces.iter().map(|&(number, piece)| (number as usize, piece)));
-        Self { cubes, extents, groups, indices, pieces }
+        Self { cubes, extents, clusters, indices, pieces }
+    }
+}
+
+/// Triangles, and fragments of others that are too long, whose numbers follow.
+#[derive(Default)]
+pub struct Items {
+    pub triangles: Vec<u32>,
+    /// The clusters among the triangles, in order.
+    pub clusters: Vec<Cluster>,
+    pub pieces: Vec<Fragment>,
+}
+
+/// Triangles that follow each other and lie together.
+pub struct Cluster {
+    /// Where they stand.
+    pub indices: Range<u32>,
+    pub area: f64,
+    pub ball: Ball,
+}
+
+impl Items {
+    /// The indices of the triangles, but for those of clusters whose ball is covered.
+    pub fn indices_but(&self, is_covered: impl Fn(&Ball) -> bool) -> impl Iterator<Item = usize> {
+        let (mut next, end) = (0, self.triangles.len() as u32);
+        let covered = self
+            .clusters
+            .iter()
+            .filter(move |cluster| is_covered(&cluster.ball))
+            .map(|cluster| cluster.indices.clone());
+        let between = move |covered: Range<u32>| std::mem::replace(&mut next, covered.end)..covered.start;
+        covered.chain(std::iter::once(end..end)).flat_map(between).map(|index| index as usize)
+    }
+
+    /// The areas of all.
+    pub fn row<'a>(&'a self, mesh: &'a Mesh) -> ItemRow<'a> {
+        let (mut areas, mut entries, mut next) = (Vec::new(), Vec::new(), 0);
+        let mut add = |single: Range<u32>, cluster: Option<(u32, &Cluster)>| {
+            for some in self.triangles[single.start as usize..single.end as usize].chunks(CLUSTER) {
+                areas.extend_from_slice(&Triangles::Listed(some).measure(mesh, 0).0[..some.len()]);
+            }
+            entries.extend(single.map(Entry::Item));
+            areas.extend(cluster.map(|(_, cluster)| cluster.area));
+            entries.extend(cluster.map(|(number, _)| Entry::Cluster(number)));
+        };
+        for (number, cluster) in (0..).zip(&self.clusters) {
+            add(next..cluster.indices.start, Some((number, cluster)));
+            next = cluster.indices.end;
+        }
+        let end = self.triangles.len() as u32;
+        add(next..end, None);
+        areas.extend(self.pieces.iter().map(|piece| piece.area(mesh)));
+        entries.extend((end..).take(self.pieces.len()).map(Entry::Item));
+        ItemRow {
+            items: self,
+            mesh,
+            row: Weights::new(areas),
+            entries,
+            ends: vec![[0.0; CLUSTER]; self.clusters.len()],
+        }
+    }
+
+    fn fragment(&self, number: usize) -> Fragment {
+        match number.checked_sub(self.triangles.len()) {
+            None => Fragment::whole(self.triangles[number]),
+            Some(piece) => self.pieces[piece],
+        }
+    }
+}
+
+/// The areas of items in a row. A cluster has one area until a dart falls on it: many stay dry where triangles are small.
+pub struct ItemRow<'a> {
+    items: &'a Items,
+    mesh: &'a Mesh,
+    row: Weights,
+    entries: Vec<Entry>,
+    /// For each cluster on which a dart fell, the sums of its areas up to each of them.
+    ends: Vec<[f64; CLUSTER]>,
+}
+
+/// What an area of the row belongs to, by its number.
+#[derive(Clone, Copy)]
+enum Entry {
+    Item(u32),
+    Cluster(u32),
+}
+
+impl ItemRow<'_> {
+    pub fn total(&self) -> f64 {
+        self.row.total()
+    }
+
+    /// A random point of any of it.
+    pub fn point(&mut self, rng: &mut Rng) -> Point {
+        let (number, place) = self.row.pick_within(rng);
+        let item = match self.entries[number as usize] {
+            Entry::Item(item) => item as usize,
+            Entry::Cluster(cluster) => self.in_cluster(cluster as usize, place),
+        };
+        let fragment = self.items.fragment(item);
+        Point { triangle: fragment.triangle, barycentrics: fragment.at(random_point(rng)), local: () }
+    }
+
+    /// The triangle at a place in the row of a cluster's areas.
+    fn in_cluster(&mut self, cluster: usize, place: f64) -> usize {
+        let (ends, indices) = (&mut self.ends[cluster], &self.items.clusters[cluster].indices);
+        let [first, end] = [indices.start, indices.end].map(|index| index as usize);
+        if ends[CLUSTER - 1] == 0.0 {
+            let mut total = 0.0;
+            *ends = Triangles::Listed(&self.items.triangles[first..end]).measure(self.mesh, 0).0.map(|area| {
+                total += area;
+                total
+            });
+        }
+        // The place may be rounded beyond the last area.
+        let place = place.min(ends[CLUSTER - 1].next_down());
+        first + ends.iter().take_while(|&&end| end <= place).count()
     }
 }
 
 #[cfg(test)]
-pub(super) mod tests {
+pub mod tests {
     use std::collections::HashMap;
 
     use super::*;
     use crate::job::Context;
     use crate::psp::fill::darts::shuffle;
-    use crate::rng::{Draw, Rng};
+    use crate::rng::Draw;
 
     /// 20,000 triangles in rows.
     pub fn rows() -> (Vec<[f32; 3]>, Vec<[u32; 3]>) {
@@ -185,7 +304,7 @@ pub(super) mod tests {
         (positions.collect(), triangles.collect())
     }
 
-    /// In rows and in random order, some without area, masked and not. In rows most triangles come in groups, in random
+    /// In rows and in random order, some without area, masked and not. In rows most triangles come in clusters, in random
     /// order none.
     #[test]
     fn cubes_have_the_triangles_that_begin_in_them() {
@@ -205,31 +324,74 @@ pub(super) mod tests {
                     let first = exact(mesh.corners(triangle)[0]).to_array();
                     expected.entry(samples.cube(first)).or_default().push(triangle);
                 }
-                // A whole group without area needs no cube.
+                // A whole cluster without area needs no cube.
                 let with_area = |triangles: &[u32]| -> Vec<u32> {
                     triangles.iter().copied().filter(|&triangle| mesh.triangle_area(triangle) > 0.0).collect()
                 };
-                let mut in_groups = 0;
+                let mut in_clusters = 0;
                 for (number, cube) in blocks.cubes.iter().enumerate() {
                     let Block { extent, items, .. } = blocks.block(number);
                     assert_eq!(with_area(&items.triangles), with_area(&expected.remove(cube).unwrap()));
                     let is_inside = |point: [f32; 3]| extent.is_in_reach(point, 1e-6);
                     let mut corners = items.triangles.iter().flat_map(|&triangle| mesh.corners(triangle));
                     assert!(corners.all(is_inside) && items.pieces.is_empty());
-                    for group in &items.groups {
-                        let triangles = &items.triangles[group.indices.start as usize..group.indices.end as usize];
+                    for cluster in &items.clusters {
+                        let triangles = &items.triangles[cluster.indices.start as usize..cluster.indices.end as usize];
                         let area: f64 = triangles.iter().map(|&triangle| mesh.triangle_area(triangle)).sum();
-                        assert!((group.area / area - 1.0).abs() < 1e-12);
+                        assert!((cluster.area / area - 1.0).abs() < 1e-12);
                         let corners = triangles.iter().flat_map(|&triangle| mesh.corners(triangle)).map(exact);
-                        let mut distances = corners.map(|corner| corner.distance(exact(group.ball.centre)));
-                        assert!(distances.all(|distance| distance <= group.ball.radius.into()));
-                        in_groups += triangles.len();
+                        let mut distances = corners.map(|corner| corner.distance(exact(cluster.ball.centre)));
+                        assert!(distances.all(|distance| distance <= cluster.ball.radius.into()));
+                        in_clusters += triangles.len();
                     }
                 }
                 assert!(expected.values().all(|triangles| with_area(triangles).is_empty()));
                 let count = measures.triangles().len();
-                assert!(if is_ordered { 2 * in_groups > count } else { in_groups == 0 }, "{in_groups} of {count}");
+                assert!(
+                    if is_ordered { 2 * in_clusters > count } else { in_clusters == 0 },
+                    "{in_clusters} of {count}"
+                );
             }
         }
+    }
+
+    /// Forty triangles in two clusters, one of them short, and single ones before, between and behind them; some have no area.
+    fn items() -> (Mesh, Items) {
+        let size = |i: u32| [1.0, 0.0, 7.0, 1e-3][i as usize % 4];
+        let corners = |i: u32| [[0.0, 0.0, i as f32], [size(i), 0.0, i as f32], [0.0, size(i), i as f32]];
+        let mesh =
+            Mesh::new((0..40).flat_map(corners).collect(), (0..40).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect());
+        let (mesh, triangles): (_, Vec<u32>) = (mesh.unwrap(), (0..40).rev().collect());
+        let area = |range: &Range<u32>| range.clone().map(|i| mesh.triangle_area(triangles[i as usize])).sum();
+        let ball = |radius: f32| Ball { centre: [0.0; 3], radius };
+        let clusters =
+            [3..19, 25..32].map(|indices| Cluster { area: area(&indices), ball: ball(indices.end as f32), indices });
+        let pieces = vec![Fragment::whole(5), Fragment::whole(2)];
+        (mesh, Items { triangles, clusters: clusters.into(), pieces })
+    }
+
+    #[test]
+    fn a_dart_falls_where_it_would_in_a_row_of_single_areas() {
+        let (mesh, items) = items();
+        let areas = items.triangles.iter().map(|&triangle| mesh.triangle_area(triangle));
+        let single = Weights::new(areas.chain(items.pieces.iter().map(|piece| piece.area(&mesh))).collect());
+        let (mut row, mut rng) = (items.row(&mesh), Rng::at(1, Draw::Probe, &[]));
+        assert!((row.total() / single.total() - 1.0).abs() < 1e-15);
+        for _ in 0..10_000 {
+            let mut same = rng.clone();
+            let number = single.pick(&mut same) as usize;
+            let expected = items.triangles.get(number).copied().unwrap_or_else(|| items.pieces[number - 40].triangle);
+            assert_eq!(row.point(&mut rng).triangle, expected);
+        }
+    }
+
+    #[test]
+    fn the_triangles_of_covered_clusters_are_left_out() {
+        let (_, items) = items();
+        let left = |covered: &[f32]| items.indices_but(|ball| covered.contains(&ball.radius)).collect::<Vec<_>>();
+        assert_eq!(left(&[]), (0..40).collect::<Vec<_>>());
+        assert_eq!(left(&[19.0]), (0..3).chain(19..40).collect::<Vec<_>>());
+        assert_eq!(left(&[32.0]), (0..25).chain(32..40).collect::<Vec<_>>());
+        assert_eq!(left(&[19.0, 32.0]), (0..3).chain(19..25).chain(32..40).collect::<Vec<_>>());
     }
 }

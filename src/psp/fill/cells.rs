@@ -11,7 +11,7 @@ use crate::psp::fill::table::Table;
 const MOST: u32 = 1 << 15;
 
 /// Something for each cell.
-pub(in crate::psp) struct Cells<T> {
+pub struct Cells<T> {
     /// The first and the last cell along each axis.
     range: [[u32; 3]; 2],
     /// How far the numbers of a cell along the second and the third axis are shifted in its number.

@@ -2,7 +2,7 @@
 
 /// The lowest and the highest coordinates of points.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(in crate::psp) struct Extent {
+pub struct Extent {
     low: [f32; 3],
     high: [f32; 3],
 }

@@ -19,14 +19,14 @@ use crate::simd::Level;
 const PAGES: usize = 1 << 9;
 
 /// Samples by the cells that their balls touch.
-pub(in crate::psp) struct Grid {
+pub struct Grid {
     pub space: Space,
     level: Level,
-    pub(super) cells: Cells<Cell>,
+    pub cells: Cells<Cell>,
     /// The first page is empty: that of all cells without samples.
-    pub(super) pages: Vec<Page>,
+    pub pages: Vec<Page>,
     /// For each page, the one of its cell that was full before.
-    pub(super) earlier: Vec<u32>,
+    pub earlier: Vec<u32>,
     facing: Facing,
     /// Where normals matter, those of the samples on each page.
     normals: Vec<[[f32; 3]; LANES]>,
@@ -34,9 +34,9 @@ pub(in crate::psp) struct Grid {
 
 /// The last page of a cell, and how many samples all of its pages list.
 #[derive(Clone, Copy, Default)]
-pub(in crate::psp) struct Cell {
-    pub(super) page: u32,
-    pub(super) count: u32,
+pub struct Cell {
+    pub page: u32,
+    pub count: u32,
 }
 
 impl Grid {
@@ -133,13 +133,7 @@ impl Grid {
     }
 
     /// The same without vectors.
-    pub(super) fn open_sixteenths_portable(
-        &self,
-        corners: &[DVec3; 3],
-        reach: f32,
-        normal: &[f32; 3],
-        mut open: u16,
-    ) -> u16 {
+    pub fn open_sixteenths_portable(&self, corners: &[DVec3; 3], reach: f32, normal: &[f32; 3], mut open: u16) -> u16 {
         let part = Part::new(*corners, reach);
         any_cell(&self.space, *corners, |cell| {
             self.any_page(cell, |number| {
@@ -197,7 +191,7 @@ impl Grid {
 
     /// Which samples of a page matter to a normal: a bit for each.
     #[inline(always)]
-    pub(super) fn seen(&self, page: usize, normal: &[f32; 3]) -> u16 {
+    pub fn seen(&self, page: usize, normal: &[f32; 3]) -> u16 {
         if self.facing.asks_normals() { self.seen_from(page, *normal) } else { u16::MAX }
     }
 
@@ -223,7 +217,7 @@ impl Grid {
 /// Whether the test holds for a cell whose pages have to be read for the sixteenths of a fragment: samples that cover
 /// one are on the pages of each of its corners.
 #[inline(always)]
-pub(in crate::psp) fn any_cell(space: &Space, [a, b, c]: [DVec3; 3], mut test: impl FnMut([u32; 3]) -> bool) -> bool {
+pub fn any_cell(space: &Space, [a, b, c]: [DVec3; 3], mut test: impl FnMut([u32; 3]) -> bool) -> bool {
     let (to_b, to_c) = (b - a, c - a);
     let mut cells = [[0; 3]; PIERCING.len()];
     for (known, [s, t]) in PIERCING.into_iter().enumerate() {
@@ -239,7 +233,7 @@ pub(in crate::psp) fn any_cell(space: &Space, [a, b, c]: [DVec3; 3], mut test: i
 
 /// Calls `visit` with all cells from the lowest to the highest.
 #[inline(always)]
-pub(in crate::psp) fn each_cell([low, high]: [[u32; 3]; 2], mut visit: impl FnMut([u32; 3])) {
+pub fn each_cell([low, high]: [[u32; 3]; 2], mut visit: impl FnMut([u32; 3])) {
     for z in low[2]..=high[2] {
         for y in low[1]..=high[1] {
             for x in low[0]..=high[0] {

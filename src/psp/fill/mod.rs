@@ -1,27 +1,28 @@
-//! Filling what is uncovered, until the set is maximal (departs from the thesis, which has no such step).
+//! Filling a surface until the set of samples on it is maximal (departs from the thesis, which has no such step).
 //!
-//! On an empty surface darts rain first, about six for each sample that will stand there. Then one pass over the
-//! triangles drops those that a single sample covers, which are nearly all of them, and rounds of darts close what is
-//! open. A mesh thus costs two short passes, and all else is in proportion to the samples.
+//! On an empty surface first darts are thrown, about six for each sample that will stand there. Then one pass over the
+//! triangles drops those that a single sample covers, which are nearly all of them, and rounds of darts close the parts
+//! that are open. A mesh thus costs two short passes, and all else is in proportion to the samples.
 //!
 //! Where many samples are expected each cube of space does so for itself, in the colours of `cubes.rs`: its samples
 //! then stay in the cache, and threads share the cubes. Few samples are made in one piece, since sorting the triangles
 //! costs more.
+//!
+//! A [`Zone`] is filled by [`fill_zone`]: it is all of a surface or one cube of it. Surfaces whose radii are constant are
+//! [`Site`]s, filled in either way by [`fill`]: one radius (`uniform.rs`) or several classes (`psp/classes/`). Where the
+//! radius varies the zones are the cubes of octaves (`psp/adaptive/`).
 
-pub(super) mod balls;
-pub(super) mod blocks;
-pub(super) mod cells;
-pub(super) mod darts;
-pub(super) mod extent;
-pub(super) mod grid;
-pub(super) mod ground;
-pub(super) mod items;
-pub(super) mod page;
-pub(super) mod region;
-pub(super) mod rounds;
-pub(super) mod space;
-pub(super) mod table;
-pub(super) mod triangles;
+pub mod blocks;
+pub mod cells;
+pub mod darts;
+pub mod extent;
+pub mod grid;
+pub mod measures;
+pub mod page;
+pub mod rounds;
+pub mod space;
+pub mod table;
+pub mod uniform;
 #[allow(unsafe_code)] // Vector instructions.
 mod vectors;
 
@@ -29,41 +30,40 @@ use std::ops::AddAssign;
 
 use crate::error::Result;
 use crate::index::Weights;
-use crate::job::{Job, chunks_of};
+use crate::job::{Chunks, Job, chunks_of};
 use crate::math::power;
 use crate::mesh::Mesh;
-use crate::psp::estimate::expected_samples;
-use crate::psp::facing::Facing;
-use crate::psp::fill::blocks::{Block, Blocks};
-use crate::psp::fill::darts::random_point;
-use crate::psp::fill::extent::Extent;
-use crate::psp::fill::ground::{Ground, Point, UniformGround};
-use crate::psp::fill::region::{first_darts, open_parts, open_triangles, throw_at, throw_first};
-use crate::psp::fill::rounds::{Open, PATCH, rounds};
-use crate::psp::fill::space::Space;
-use crate::psp::fill::triangles::{Measures, Triangles};
-use crate::psp::given::GivenSamples;
+use crate::psp::fill::blocks::{Block, Blocks, ItemRow};
+use crate::psp::fill::darts::{PoissonProcess, random_point, shuffle};
+use crate::psp::fill::measures::{Measures, Triangles};
+use crate::psp::fill::rounds::{Ground, Open, PATCH, Point, rounds, throw};
+use crate::psp::fill::uniform::UniformGround;
+use crate::psp::fragment::Fragment;
 use crate::psp::samples::{Sample, SampleSet};
 use crate::rng::{Draw, Rng};
 
 /// Up to so many expected samples a surface is filled in one piece.
-pub(super) const ONE_PIECE: f64 = 25_000.0;
+pub const ONE_PIECE: f64 = 25_000.0;
 
-/// With how many random points, and some more where more is open, the open area of a surface is measured, ...
-pub(super) const PROBES: usize = 1 << 10;
-/// ... and that of each of its cubes.
-pub(super) const PROBES_IN_CUBE: usize = 1 << 6;
+/// Random points that tell how much of a surface is open; there are more where more is open.
+const PROBES: usize = 1 << 10;
+/// Those that tell it of a cube.
+pub const PROBES_IN_CUBE: usize = 1 << 6;
 
-/// Where samples are given, first darts rain if at least this share of the surface is open. If less is, most of them
-/// would be wasted, and rounds on what is open are faster.
-pub(super) const RAIN_FROM: f64 = 0.15;
+/// Where samples are given, first darts are thrown if at least this share of a zone is open. If less is, most of them
+/// would be wasted, and rounds on the open parts are faster.
+const FIRST_DARTS_FROM: f64 = 0.15;
 
-/// Groups of triangles per task.
-pub(super) const CHUNK: usize = 1 << 10;
+/// The first darts on an empty surface, for each squared radius: about six for each sample that will stand there. They
+/// are cheap, as nothing but the triangle that they fall on is known of them, and leave little of the surface open.
+pub const FIRST_DARTS: f64 = 4.2;
+
+/// Clusters of triangles per task.
+const CHUNK: usize = 1 << 10;
 
 /// Counts of a fill, or of a part of it.
 #[derive(Default)]
-pub(super) struct Filled {
+pub struct Filled {
     pub darts: u64,
     /// The area that was open at first.
     pub open_area: f64,
@@ -76,44 +76,13 @@ impl AddAssign for Filled {
     }
 }
 
-/// What is to be filled, and around what.
+/// Options of a fill.
 #[derive(Clone, Copy)]
-pub(super) struct Surface<'a> {
-    pub mesh: &'a Mesh,
-    pub measures: &'a Measures,
-    pub given: &'a GivenSamples,
-    pub facing: Facing,
-}
-
-impl<'a> Surface<'a> {
-    /// The surface without any sample of the radius, or the part of it in a box.
-    fn ground(&self, radius: f64, extent: Option<&Extent>) -> UniformGround<'a> {
-        UniformGround::new(self.mesh, Space::new(self.mesh, radius), extent, self.facing, &self.given.obstacles)
-    }
-
-    /// The share of it that given samples leave open, roughly: that of random points.
-    fn open_share(&self, ground: &UniformGround, rng: &mut Rng) -> f64 {
-        let (triangles, groups) = (self.measures.triangles(), Weights::new(self.measures.areas.clone()));
-        if groups.total() == 0.0 {
-            return 0.0;
-        }
-        let point = |rng: &mut Rng| {
-            let group = groups.pick(rng) as usize;
-            let areas = triangles.measure(self.mesh, group).0;
-            let index = triangles.group(group).start + Weights::new(areas.to_vec()).pick(rng) as usize;
-            Point { triangle: triangles.at(index), barycentrics: random_point(rng), local: () }
-        };
-        open_share(ground, PROBES, || point(rng))
-    }
-}
-
-/// How a surface is filled.
-#[derive(Clone, Copy)]
-pub(super) struct Manner {
+pub struct FillOptions {
     pub seed: u64,
-    /// Whether darts rain on the surface before it is looked at what is open: where samples cover little of it.
-    pub rains: bool,
-    /// Whether the area that is open at first is measured.
+    /// True if first darts are thrown before the open parts are searched: where samples cover little of the surface.
+    pub throws_first: bool,
+    /// True if the area that is open at first is measured.
     pub measures: bool,
     /// The longest patches that darts are thrown on, in radii: at most [`PATCH`].
     pub patch: f32,
@@ -121,155 +90,379 @@ pub(super) struct Manner {
     pub largest_rank: Option<f64>,
 }
 
-impl Manner {
-    /// How an empty surface is filled.
+impl FillOptions {
+    /// The options for an empty surface.
     pub fn from_nothing(seed: u64) -> Self {
-        Self { seed, rains: true, measures: true, patch: PATCH as f32, largest_rank: None }
+        Self { seed, throws_first: true, measures: true, patch: PATCH as f32, largest_rank: None }
     }
 
-    /// How a set is filled around the samples that it has.
-    fn of(samples: &SampleSet, seed: u64) -> Self {
-        Self { rains: samples.len() == 0, ..Self::from_nothing(seed) }
+    /// The options for a set with the samples that it has.
+    pub fn around(samples: &SampleSet, seed: u64) -> Self {
+        Self { throws_first: samples.len() == 0, ..Self::from_nothing(seed) }
     }
 }
 
-/// Adds samples until the set is maximal.
-pub(super) fn fill(job: &Job, surface: &Surface, samples: &mut SampleSet, seed: u64) -> Result<Filled> {
-    fill_in(Manner::of(samples, seed), job, surface, samples)
+/// What is known of a place of a zone.
+type Local<Z> = <<Z as Zone>::Ground as Ground>::Local;
+
+/// A part of a surface that is filled by itself: a cube, or all of it.
+pub trait Zone {
+    type Ground: Ground;
+
+    /// True if all of it is open, without a look at any point.
+    fn is_bare(&self) -> bool;
+
+    /// The number of random points that measure its open share.
+    fn probes(&self) -> usize;
+
+    /// Its area, in a unit of its own.
+    fn area(&self) -> f64;
+
+    /// A random point.
+    fn point(&mut self, rng: &mut Rng) -> Point<Local<Self>>;
+
+    /// Throws the first darts.
+    fn throw_first(&mut self, ground: &mut Self::Ground, rng: &mut Rng) -> Result<()>;
+
+    /// The parts that no single sample covers.
+    fn open(&self, ground: &Self::Ground) -> Result<Open<Local<Self>>>;
+
+    /// The open area, where these parts may be open: by random points on them. 0 where it is never asked for.
+    fn open_area(&self, _ground: &Self::Ground, _open: &Open<Local<Self>>, _rng: &mut Rng) -> f64 {
+        0.0
+    }
+
+    /// Reports the number of rounds so far.
+    fn report(&self, _round: i32) -> Result<()> {
+        Ok(())
+    }
 }
 
-/// Adds samples in this manner until the set is maximal.
-pub(super) fn fill_in(manner: Manner, job: &Job, surface: &Surface, samples: &mut SampleSet) -> Result<Filled> {
-    let in_blocks = expected_samples(surface.mesh, surface.measures, samples.radius()) > ONE_PIECE;
-    fill_either_way(job, surface, samples, in_blocks, manner)
+/// The share of a zone that is open before the fill, roughly: that of random points. 0 if no first darts are asked for.
+pub fn open_share<Z: Zone>(zone: &mut Z, ground: &Z::Ground, options: FillOptions, rng: &mut Rng) -> f64 {
+    if !options.throws_first {
+        return 0.0;
+    }
+    if zone.is_bare() {
+        return 1.0;
+    }
+    if zone.area() == 0.0 {
+        return 0.0;
+    }
+    share_of(zone.probes(), || ground.is_open(zone.point(rng)))
 }
 
-/// Fills cube by cube or in one piece.
-fn fill_either_way(
+/// The share of so many trials that succeed.
+fn share_of(trials: usize, mut succeeds: impl FnMut() -> bool) -> f64 {
+    (0..trials).filter(|_| succeeds()).count() as f64 / trials as f64
+}
+
+/// Fills a zone of which this share is open: first darts, where that is much, and rounds on the parts that are open then.
+/// Returns the area that was open before, in the zone's unit, if it is measured.
+pub fn fill_zone<Z: Zone>(
+    zone: &mut Z,
+    ground: &mut Z::Ground,
+    share: f64,
+    options: FillOptions,
+    rng: &mut Rng,
+) -> Result<f64> {
+    let throws_first = share >= FIRST_DARTS_FROM;
+    if throws_first {
+        zone.throw_first(ground, rng)?;
+    }
+    let open = zone.open(ground)?;
+    let open_area = match (throws_first, options.measures) {
+        (true, _) => share * zone.area(),
+        (false, true) => zone.open_area(ground, &open, rng),
+        (false, false) => 0.0,
+    };
+    rounds(ground, open, options.patch, rng, |round| zone.report(round))?;
+    Ok(open_area)
+}
+
+/// A surface to be filled with samples of constant radii: of one kind, or of several classes.
+pub trait Site: Sync {
+    /// A kind of samples: a class, or nothing where all are alike.
+    type Kind: Copy + Send + Sync;
+    type Ground<'a>: Ground<Local = Self::Kind, Dart = Sample, Sample = Sample> + Sync
+    where
+        Self: 'a;
+    /// True if samples of other cubes count when the open share of a cube is measured.
+    const NEIGHBOURS_COUNT: bool;
+
+    fn mesh(&self) -> &Mesh;
+
+    fn measures(&self) -> &Measures;
+
+    /// True if all of it is open for certain.
+    fn is_bare(&self) -> bool;
+
+    /// The kinds that are filled together, with one radius.
+    fn kinds(&self) -> &[Self::Kind];
+
+    fn random_kind(&self, rng: &mut Rng) -> Self::Kind;
+
+    /// True if samples of a kind may stand on a triangle.
+    fn allows(&self, kind: Self::Kind, triangle: u32) -> bool;
+
+    /// Random numbers for the first darts of a kind on a chunk of the triangles.
+    fn chunk_rng(&self, seed: u64, chunk: usize, kind: Self::Kind) -> Rng;
+
+    /// The largest distance at which a sample matters to another one.
+    fn reach(&self) -> f64;
+
+    /// The surface, or the part of it in a block, with the samples that are given.
+    fn ground(&self, block: Option<&Block>) -> Self::Ground<'_>;
+
+    /// Adds a sample that is there already.
+    fn add(ground: &mut Self::Ground<'_>, sample: &Sample);
+
+    /// The ground as samples of one kind and its radius see it.
+    fn layer<'g>(ground: &'g Self::Ground<'_>, kind: Self::Kind) -> &'g UniformGround<'g>;
+
+    /// Those of the open parts of the layer of a kind that are open to it on the whole ground.
+    fn narrowed(ground: &Self::Ground<'_>, kind: Self::Kind, open: Open) -> Open<Self::Kind>;
+}
+
+/// Adds samples until the set is maximal, cube by cube or in one piece.
+pub fn fill<S: Site>(
     job: &Job,
-    surface: &Surface,
+    site: &S,
     samples: &mut SampleSet,
     in_blocks: bool,
-    manner: Manner,
+    options: FillOptions,
 ) -> Result<Filled> {
-    let is_empty = samples.len() == 0 && surface.given.is_empty();
-    let mut filled = if in_blocks {
-        fill_in_blocks(job, surface, samples, manner)?
-    } else {
-        let mut ground = surface.ground(samples.radius(), None).ranked(manner.largest_rank);
-        surface.given.alike().iter().for_each(|&position| ground.add_given(position));
-        samples.all().iter().for_each(|sample| ground.add(sample));
-        let open_area = fill_in_one_piece(job, surface, &mut ground, manner);
-        // What was accepted stays, even where the job is cancelled.
-        samples.append(&mut ground.accepted);
-        Filled { darts: ground.darts, open_area: open_area? }
-    };
-    if is_empty {
-        filled.open_area = surface.mesh.area();
+    if in_blocks {
+        let blocks = Blocks::new(&job.part(0.0, 0.1), site.mesh(), site.measures(), samples)?;
+        let fill_block = |number: usize, samples: &SampleSet| fill_block(site, &blocks.block(number), samples, options);
+        return samples.grow(&job.part(0.1, 1.0), &blocks.cubes, fill_block);
     }
-    Ok(filled)
+    let mut ground = site.ground(None);
+    samples.all().iter().for_each(|sample| S::add(&mut ground, sample));
+    let chunks = chunks_of(site.measures().triangles().clusters(), CHUNK);
+    let (mut zone, mut rng) =
+        (Whole { site, job: *job, seed: options.seed, chunks, areas: None }, Rng::at(options.seed, Draw::Fill, &[]));
+    let share = open_share(&mut zone, &ground, options, &mut rng);
+    let open_area = fill_zone(&mut zone, &mut ground, share, options, &mut rng);
+    // Accepted samples stay, even where the job is cancelled.
+    let (mut accepted, darts) = ground.into_accepted();
+    samples.append(&mut accepted);
+    Ok(Filled { darts, open_area: open_area? })
 }
 
-/// The share of so many random points that no sample covers.
-fn open_share(ground: &UniformGround, probes: usize, mut point: impl FnMut() -> Point) -> f64 {
-    let is_open = |_: &usize| !ground.rejects(&ground.dart_at(point()));
-    (0..probes).filter(is_open).count() as f64 / probes as f64
+/// The samples that a cube needs to be covered, and the counts of its fill.
+fn fill_block<S: Site>(
+    site: &S,
+    block: &Block,
+    samples: &SampleSet,
+    options: FillOptions,
+) -> Result<(Vec<Sample>, Filled)> {
+    let (mut ground, mut rng) = (site.ground(Some(block)), Rng::at(options.seed, Draw::Fill, &block.cube.key()));
+    let add_neighbours = |ground: &mut S::Ground<'_>| {
+        let is_near = |sample: &&Sample| block.extent.is_in_reach(sample.position, site.reach());
+        samples.around(block.cube).filter(is_near).for_each(|sample| S::add(ground, sample));
+    };
+    let mut zone = BlockZone { site, block, row: options.throws_first.then(|| block.items.row(site.mesh())) };
+    if S::NEIGHBOURS_COUNT {
+        add_neighbours(&mut ground);
+    }
+    let share = open_share(&mut zone, &ground, options, &mut rng);
+    if !S::NEIGHBOURS_COUNT {
+        add_neighbours(&mut ground);
+    }
+    let open_area = fill_zone(&mut zone, &mut ground, share, options, &mut rng)?;
+    let (accepted, darts) = ground.into_accepted();
+    Ok((accepted, Filled { darts, open_area }))
 }
 
-/// The area that is open where there were samples before the fill: the share of random points on what may be uncovered
-/// that no sample covers.
-fn open_area(ground: &UniformGround, open: &Open, probes: usize, rng: &mut Rng) -> f64 {
+/// The radius of a site as a ground has it.
+fn radius<S: Site>(site: &S, ground: &S::Ground<'_>) -> f64 {
+    S::layer(ground, site.kinds()[0]).radius()
+}
+
+/// The open parts of some triangles, by their indices, and of fragments of others, for samples of a kind.
+fn open_to<S: Site>(
+    site: &S,
+    ground: &S::Ground<'_>,
+    kind: S::Kind,
+    (triangles, indices): (Triangles, impl Iterator<Item = usize>),
+    pieces: &[Fragment],
+) -> Open<S::Kind> {
+    let layer = S::layer(ground, kind);
+    let mut open = layer.open_triangles(triangles, indices.filter(|&index| site.allows(kind, triangles.at(index))));
+    let pieces = pieces.iter().filter(|piece| site.allows(kind, piece.triangle));
+    pieces.for_each(|piece| layer.open_parts(piece, &mut open));
+    S::narrowed(ground, kind, open)
+}
+
+/// The area of parts that are open, with this many random points and some more where these are many.
+fn open_area<S: Site>(site: &S, ground: &S::Ground<'_>, open: &Open<S::Kind>, probes: usize, rng: &mut Rng) -> f64 {
     let row = Weights::new(open.areas().collect());
     if row.total() == 0.0 {
         return 0.0;
     }
-    let share = open_share(ground, probes + row.len() / 8, || open.point(row.pick(rng), rng));
-    row.total() * ground.radius() * ground.radius() * share
+    let share = share_of(probes + row.len() / 8, || ground.is_open(open.point(row.pick(rng), rng)));
+    row.total() * radius(site, ground) * radius(site, ground) * share
 }
 
-/// Fills the whole surface, and returns the area that was open before.
-fn fill_in_one_piece(job: &Job, surface: &Surface, ground: &mut UniformGround, manner: Manner) -> Result<f64> {
-    let (measures, seed) = (surface.measures, manner.seed);
-    let triangles = measures.triangles();
-    let chunks = chunks_of(triangles.groups(), CHUNK);
-    let mut rng = Rng::at(seed, Draw::Fill, &[]);
-    let share = match (manner.rains, surface.given.is_empty()) {
-        (false, _) => 0.0,
-        (true, true) => 1.0,
-        (true, false) => surface.open_share(ground, &mut rng),
-    };
-    let rains = share >= RAIN_FROM;
-    if rains {
-        let mut darts = Vec::new();
+/// All of a surface.
+struct Whole<'a, S> {
+    site: &'a S,
+    job: Job<'a>,
+    seed: u64,
+    chunks: Chunks,
+    /// The areas of the clusters, where points have been asked for.
+    areas: Option<Weights>,
+}
+
+impl<'a, S: Site> Zone for Whole<'a, S> {
+    type Ground = S::Ground<'a>;
+
+    fn is_bare(&self) -> bool {
+        self.site.is_bare()
+    }
+
+    fn probes(&self) -> usize {
+        PROBES
+    }
+
+    fn area(&self) -> f64 {
+        self.site.mesh().area()
+    }
+
+    fn point(&mut self, rng: &mut Rng) -> Point<S::Kind> {
+        let (site, measures) = (self.site, self.site.measures());
+        let (areas, triangles) =
+            (self.areas.get_or_insert_with(|| Weights::new(measures.areas.clone())), measures.triangles());
+        let cluster = areas.pick(rng) as usize;
+        let of_cluster = Weights::new(triangles.measure(site.mesh(), cluster).0.to_vec());
+        let triangle = triangles.at(triangles.cluster(cluster).start + of_cluster.pick(rng) as usize);
+        Point { triangle, barycentrics: random_point(rng), local: site.random_kind(rng) }
+    }
+
+    fn throw_first(&mut self, ground: &mut S::Ground<'a>, rng: &mut Rng) -> Result<()> {
+        let (site, mut darts) = (self.site, Vec::new());
+        let (mesh, triangles, areas) = (site.mesh(), site.measures().triangles(), &site.measures().areas);
+        let per_area = FIRST_DARTS / (radius(site, ground) * radius(site, ground));
         let in_chunk = |chunk: usize| {
-            let groups = chunks.range(chunk).map(|group| (group, measures.areas[group]));
-            let rng = &mut Rng::at(seed, Draw::Fill, &[chunk as u64]);
-            first_darts(ground.mesh, ground.radius(), triangles, groups, rng)
+            let mut darts = Vec::new();
+            for &kind in site.kinds() {
+                let rng = &mut site.chunk_rng(self.seed, chunk, kind);
+                let mut process = PoissonProcess::new(rng, per_area);
+                for cluster in self.chunks.range(chunk) {
+                    // Of clusters without a dart only the area is needed.
+                    if process.passes(areas[cluster]) {
+                        continue;
+                    }
+                    for (index, area) in triangles.cluster(cluster).zip(triangles.measure(mesh, cluster).0) {
+                        let (count, triangle) = (process.darts_on(area), triangles.at(index));
+                        if count > 0 && site.allows(kind, triangle) {
+                            darts.extend(std::iter::repeat_n((triangle, kind), count));
+                        }
+                    }
+                }
+            }
+            darts
         };
-        job.part(0.0, 0.2).stream(chunks.len(), in_chunk, |mut part| {
+        self.job.part(0.0, 0.2).stream(self.chunks.len(), in_chunk, |mut part| {
             darts.append(&mut part);
             Ok(())
         })?;
-        throw_at(ground, triangles, darts, &mut rng);
-    }
-    let mut open = Open::default();
-    let balls = measures.balls(&job.part(0.2, 0.25), ground.mesh, ground.radius())?;
-    let in_chunk = |chunk: usize| {
-        let left = |&group: &usize| balls.is_none_or(|balls| !ground.covers(&balls[group]));
-        let groups = chunks.range(chunk).filter(left);
-        open_triangles(ground, triangles, groups.flat_map(|group| triangles.group(group)))
-    };
-    job.part(0.25, 0.5).stream(chunks.len(), in_chunk, |mut part| {
-        open.append(&mut part);
+        shuffle(rng, &mut darts);
+        throw(
+            ground,
+            darts.iter().map(|&(triangle, local)| Point { triangle, barycentrics: random_point(rng), local }),
+        );
         Ok(())
-    })?;
-    let open_area = match (rains, manner.measures) {
-        (true, _) => share * ground.mesh.area(),
-        (false, true) => open_area(ground, &open, PROBES, &mut rng),
-        (false, false) => 0.0,
-    };
-    let job = job.part(0.5, 1.0);
-    rounds(ground, open, manner.patch, &mut rng, |round| job.report(1.0 - power(0.8, round as u32)))?;
-    Ok(open_area)
-}
-
-/// Fills the surface cube by cube.
-fn fill_in_blocks(job: &Job, surface: &Surface, samples: &mut SampleSet, manner: Manner) -> Result<Filled> {
-    let blocks = Blocks::new(&job.part(0.0, 0.1), surface.mesh, surface.measures, samples)?;
-    samples.grow(&job.part(0.1, 1.0), &blocks.cubes, |number, samples| {
-        fill_block(surface, &blocks.block(number), samples, manner)
-    })
-}
-
-/// The samples that a cube needs to be covered, and what that took.
-fn fill_block(surface: &Surface, block: &Block, samples: &SampleSet, manner: Manner) -> (Vec<Sample>, Filled) {
-    let (cube, items) = (block.cube, &block.items);
-    let mut ground = surface.ground(samples.radius(), Some(&block.extent)).ranked(manner.largest_rank);
-    let mut rng = Rng::at(manner.seed, Draw::Fill, &cube.key());
-    let reach = manner.largest_rank.unwrap_or(ground.radius());
-    let is_near = |position: [f32; 3]| block.extent.is_in_reach(position, reach);
-    surface.given.alike_around(cube).filter(|&position| is_near(position)).for_each(|near| ground.add_given(near));
-    // What given samples leave open, before those of other cubes cover a part of it.
-    let mut row = manner.rains.then(|| items.row(ground.mesh));
-    let share = row.as_mut().map_or(0.0, |row| match surface.given.is_empty() {
-        true => 1.0,
-        false => open_share(&ground, PROBES_IN_CUBE, || row.point(&mut rng)),
-    });
-    samples.around(cube).filter(|sample| is_near(sample.position)).for_each(|sample| ground.add(sample));
-    let mut first = row.filter(|_| share >= RAIN_FROM);
-    if let Some(row) = &mut first {
-        throw_first(&mut ground, row, &mut rng);
     }
-    let left = items.indices_but(|ball| ground.covers(ball));
-    let mut open = open_triangles(&ground, Triangles::Listed(&items.triangles), left);
-    items.pieces.iter().for_each(|piece| open_parts(&ground, piece, &mut open));
-    let open_area = match first {
-        Some(row) => share * row.total(),
-        None if manner.measures => open_area(&ground, &open, PROBES_IN_CUBE, &mut rng),
-        None => 0.0,
-    };
-    let Ok(()) = rounds(&mut ground, open, manner.patch, &mut rng, |_| Ok::<(), std::convert::Infallible>(()));
-    (ground.accepted, Filled { darts: ground.darts, open_area })
+
+    fn open(&self, ground: &S::Ground<'a>) -> Result<Open<S::Kind>> {
+        let (site, measures) = (self.site, self.site.measures());
+        let (triangles, chunks) = (measures.triangles(), self.chunks);
+        let balls = measures.balls(&self.job.part(0.2, 0.25), site.mesh(), radius(site, ground))?;
+        // Kind by kind: triangles that are tested together are mostly of one.
+        let mut open: Vec<Open<S::Kind>> = site.kinds().iter().map(|_| Open::default()).collect();
+        let in_chunk = |chunk: usize| -> Vec<Open<S::Kind>> {
+            let open_to_kind = |&kind: &S::Kind| {
+                let layer = S::layer(ground, kind);
+                let is_left = |&cluster: &usize| balls.is_none_or(|balls| !layer.covers(&balls[cluster]));
+                let left = chunks.range(chunk).filter(is_left).flat_map(|cluster| triangles.cluster(cluster));
+                open_to(site, ground, kind, (triangles, left), &[])
+            };
+            site.kinds().iter().map(open_to_kind).collect()
+        };
+        self.job.part(0.25, 0.5).stream(chunks.len(), in_chunk, |mut part| {
+            open.iter_mut().zip(&mut part).for_each(|(open, part)| open.append(part));
+            Ok(())
+        })?;
+        Ok(joined(open))
+    }
+
+    fn open_area(&self, ground: &S::Ground<'a>, open: &Open<S::Kind>, rng: &mut Rng) -> f64 {
+        open_area(self.site, ground, open, PROBES, rng)
+    }
+
+    fn report(&self, round: i32) -> Result<()> {
+        self.job.part(0.5, 1.0).report(1.0 - power(0.8, round as u32))
+    }
+}
+
+/// A cube of a surface.
+struct BlockZone<'a, S> {
+    site: &'a S,
+    block: &'a Block,
+    /// The areas, where first darts may be thrown.
+    row: Option<ItemRow<'a>>,
+}
+
+impl<'a, S: Site> Zone for BlockZone<'a, S> {
+    type Ground = S::Ground<'a>;
+
+    fn is_bare(&self) -> bool {
+        self.site.is_bare()
+    }
+
+    fn probes(&self) -> usize {
+        PROBES_IN_CUBE
+    }
+
+    fn area(&self) -> f64 {
+        self.row.as_ref().map_or(0.0, ItemRow::total)
+    }
+
+    fn point(&mut self, rng: &mut Rng) -> Point<S::Kind> {
+        let Point { triangle, barycentrics, .. } = self.row.as_mut().expect("asked for").point(rng);
+        Point { triangle, barycentrics, local: self.site.random_kind(rng) }
+    }
+
+    fn throw_first(&mut self, ground: &mut S::Ground<'a>, rng: &mut Rng) -> Result<()> {
+        let (site, radius) = (self.site, radius(self.site, ground));
+        let expected = site.kinds().len() as f64 * FIRST_DARTS * self.area() / (radius * radius);
+        let darts = (0..(expected + rng.unit()) as usize).map(|_| self.point(rng));
+        throw(ground, darts.filter(|point| site.allows(point.local, point.triangle)));
+        Ok(())
+    }
+
+    fn open(&self, ground: &S::Ground<'a>) -> Result<Open<S::Kind>> {
+        let (site, items) = (self.site, &self.block.items);
+        let open_to_kind = |&kind: &S::Kind| {
+            let layer = S::layer(ground, kind);
+            let left = items.indices_but(|ball| layer.covers(ball));
+            open_to(site, ground, kind, (Triangles::Listed(&items.triangles), left), &items.pieces)
+        };
+        Ok(joined(site.kinds().iter().map(open_to_kind).collect()))
+    }
+
+    fn open_area(&self, ground: &S::Ground<'a>, open: &Open<S::Kind>, rng: &mut Rng) -> f64 {
+        open_area(self.site, ground, open, PROBES_IN_CUBE, rng)
+    }
+}
+
+/// The open parts of several kinds, one after the other.
+fn joined<L: Copy>(parts: Vec<Open<L>>) -> Open<L> {
+    let mut open = Open::default();
+    parts.into_iter().for_each(|mut part| open.append(&mut part));
+    open
 }
 
 #[cfg(test)]
@@ -278,7 +471,10 @@ mod tests {
     use crate::given::Given;
     use crate::job::Context;
     use crate::mesh::exact;
+    use crate::psp::facing::Facing;
     use crate::psp::fill::blocks::tests::rows;
+    use crate::psp::fill::uniform::{Surface, Uniform};
+    use crate::psp::given::GivenSamples;
 
     /// Triangles of all sizes, and needles, crossing each other: a large one across many cubes, small ones in heaps.
     fn soup(seed: u64) -> Mesh {
@@ -320,9 +516,9 @@ mod tests {
 
     /// The positions of a set that is made from nothing.
     fn filled(mesh: &Mesh, measures: &Measures, radius: f64, in_blocks: bool) -> Vec<[f32; 3]> {
-        let (mut samples, manner) = (SampleSet::new(mesh, radius), Manner::from_nothing(5));
+        let (mut samples, options) = (SampleSet::new(mesh, radius), FillOptions::from_nothing(5));
         with_surface(mesh, measures, radius, |surface| {
-            let fill = |job: &Job| fill_either_way(job, surface, &mut samples, in_blocks, manner);
+            let fill = |job: &Job| surface.fill_either_way(job, &mut samples, in_blocks, options);
             Context::new(2).unwrap().run(None, fill).unwrap();
         });
         samples.all().iter().map(|sample| sample.position).collect()
@@ -338,12 +534,13 @@ mod tests {
         assert!(places[0].len() > 20 && places[1] == places[0] && places[2] == places[0]);
         let balls = Context::new(1).unwrap().run(None, |job| measures.balls(job, &mesh, radius)).unwrap().unwrap();
         with_surface(&mesh, &measures, radius, |surface| {
-            let (mut ground, triangles) = (surface.ground(radius, None), measures.triangles());
+            let (site, triangles) = (Uniform { surface: *surface, radius, largest_rank: None }, measures.triangles());
+            let mut ground = site.ground(None);
             places[0].iter().for_each(|&place| ground.add_given(place));
-            let covered: Vec<usize> = (0..balls.len()).filter(|&group| ground.covers(&balls[group])).collect();
+            let covered: Vec<usize> = (0..balls.len()).filter(|&cluster| ground.covers(&balls[cluster])).collect();
             assert!(2 * covered.len() > balls.len());
-            let indices = covered.into_iter().flat_map(|group| triangles.group(group));
-            assert!(open_triangles(&ground, triangles, indices).areas().next().is_none());
+            let indices = covered.into_iter().flat_map(|cluster| triangles.cluster(cluster));
+            assert!(ground.open_triangles(triangles, indices).areas().next().is_none());
         });
     }
 
@@ -375,8 +572,8 @@ mod tests {
             assert!(count == 0 || 10 * given.alike().len() > 4 * count && !given.obstacles.is_empty());
             let surface = Surface { mesh: &mesh, measures: &measures, given, facing: Facing::ANY };
             let fill_with = |threads, samples: &mut SampleSet, in_blocks| {
-                let manner = Manner::of(samples, seed);
-                let fill = |job: &Job| fill_either_way(job, &surface, samples, in_blocks, manner);
+                let options = FillOptions::around(samples, seed);
+                let fill = |job: &Job| surface.fill_either_way(job, samples, in_blocks, options);
                 Context::new(threads).unwrap().run(None, fill).unwrap()
             };
             let [mut one, mut three] = [(); 2].map(|()| SampleSet::new(&mesh, radius));

@@ -10,7 +10,7 @@ use crate::psp::fill::space::Place;
 use crate::psp::sixteenths::{CORNERS, Cover};
 
 /// The samples on a page.
-pub(in crate::psp) const LANES: usize = 16;
+pub const LANES: usize = 16;
 
 /// A coordinate of no sample. Its square is a float.
 const FAR: f32 = 1e18;
@@ -18,23 +18,23 @@ const FAR: f32 = 1e18;
 /// The places of up to sixteen samples, one axis after the other; lanes without a sample are far away.
 #[derive(Clone, Copy)]
 #[repr(align(64))]
-pub(in crate::psp) struct Page(pub [[f32; LANES]; 3]);
+pub struct Page(pub [[f32; LANES]; 3]);
 
-pub(super) const THIRD: f64 = 1.0 / 3.0;
+pub const THIRD: f64 = 1.0 / 3.0;
 /// What rounding adds to the square of a reach, and more.
-pub(super) const REACH_SLACK: f32 = 1.0001;
+pub const REACH_SLACK: f32 = 1.0001;
 
 /// Triangles that are tested together.
-pub(in crate::psp) const GROUP: usize = 64;
+pub const GROUP: usize = 64;
 
 /// Some triangles, by their corners, and a page for each.
-pub(in crate::psp) struct Group {
+pub struct Group {
     pub triangles: [[Place; 3]; GROUP],
     pub pages: [u32; GROUP],
 }
 
 /// A fragment as seen from a place near it.
-pub(in crate::psp) struct Part {
+pub struct Part {
     pub origin: Place,
     pub corner: [f32; 3],
     /// From the corner to the other two.

@@ -1,10 +1,9 @@
 //! Rounds of darts on what is not covered, until nothing is left: what makes a set maximal.
 //!
 //! As in the flat quadtree of Ebeida et al. 2012 ("A simple algorithm for maximal Poisson-disk sampling in high
-//! dimensions"), with triangles for squares: darts on all open parts, a new look at these, and what is still open is
-//! cut up.
+//! dimensions"), with triangles for squares: darts on all open parts, then those that are still open are cut up.
 //!
-//! *Even darts.* The darts of a round are a rain of one density on the whole open area, thrown in random order. So each
+//! *Even darts.* The darts of a round are a Poisson process of one density on the whole open area, thrown in random order. So each
 //! place is as likely to be hit as any other, however the surface is cut: a dart on what is left out would be rejected
 //! anyway. Only needles that are lines beside the radius take more darts than by their area.
 //!
@@ -14,8 +13,9 @@
 //! spacings), of the barycentrics (below 4.4, on a triangle that spans a mesh around the origin) and the size of the
 //! part (0.7). So no point of the surface is farther from all samples than the radius and [`TOLERANCE`] float spacings.
 
-use crate::psp::fill::darts::{Rain, random_point, shuffle};
-use crate::psp::fill::ground::{Ground, Patch, Point, Whole};
+use crate::error::Result;
+use crate::mesh::Mesh;
+use crate::psp::fill::darts::{PoissonProcess, random_point, shuffle};
 use crate::psp::fill::page::GROUP;
 use crate::psp::fragment::Fragment;
 use crate::rng::Rng;
@@ -25,22 +25,109 @@ use crate::rng::Rng;
 pub const TOLERANCE: f64 = 6.0;
 
 /// Patches are no longer than this at first, in radii: their sixteenths can be covered.
-pub(in crate::psp) const PATCH: f64 = 2.0;
+pub const PATCH: f64 = 2.0;
 /// Triangles up to this length are kept whole at first.
-pub(in crate::psp) const WHOLE: f32 = 0.5;
+pub const WHOLE: f32 = 0.5;
 
-/// How many darts a round throws for each whole triangle, ...
+/// Darts of a round for each whole triangle.
 const DARTS_PER_WHOLE: f64 = 0.2;
-/// ... or, where these are tiny, for each squared radius of them, ...
+/// Their limit, where whole triangles are tiny: darts for each squared radius of them.
 const DARTS_PER_AREA: f64 = 20.0;
-/// ... and how many for each patch.
+/// Darts of a round for each patch.
 const DARTS_PER_PATCH: f64 = 0.9;
 
 /// Darts whose triangles are looked up together: the processor waits for the memory of many at once.
 const TOGETHER: usize = 32;
 
-/// What may be uncovered.
-pub(in crate::psp) struct Open<L = ()> {
+/// A whole triangle, small beside the radius, that may be uncovered.
+#[derive(Clone, Copy, Debug)]
+pub struct Whole<L = ()> {
+    pub triangle: u32,
+    pub area: f32,
+    pub longest: f32,
+    /// The bounds of the radius on it, or its class.
+    pub local: L,
+}
+
+/// A fragment that may be uncovered.
+#[derive(Clone, Copy, Debug)]
+pub struct Patch<L = ()> {
+    pub fragment: Fragment,
+    /// A bit for each sixteenth that may be; at least one.
+    pub open: u16,
+    pub area: f32,
+    /// The longest edge.
+    pub longest: f32,
+    /// The bounds of the radius on it, or its class.
+    pub local: L,
+}
+
+/// A point that a dart is thrown at.
+#[derive(Clone, Copy)]
+pub struct Point<L = ()> {
+    pub triangle: u32,
+    pub barycentrics: [f64; 2],
+    /// The bounds of the radius there, or its class.
+    pub local: L,
+}
+
+/// A surface of which samples cover a part: the interface between the fill and whatever its samples cover.
+///
+/// Lengths are in radii, areas in squared radii: those of the place, where the radius varies.
+pub trait Ground {
+    /// What differs from place to place: bounds of the radius, or the class that a dart is of.
+    type Local: Copy;
+    /// A dart, until it is known whether it is accepted.
+    type Dart;
+    /// A sample that the fill adds.
+    type Sample;
+
+    /// The length up to which fragments are cut up no more.
+    fn finest(&self, local: Self::Local) -> f32;
+
+    /// A fragment as a patch, unless all of its sixteenths are covered, each by one sample. The bounds of the radius
+    /// are those of a fragment that it is part of.
+    fn patch(&self, fragment: &Fragment, within: Self::Local) -> Option<Patch<Self::Local>>;
+
+    /// Adds the open sixteenths of a patch that are not covered, as patches.
+    fn subdivide(&self, patch: &Patch<Self::Local>, parts: &mut Vec<Patch<Self::Local>>) {
+        let open = (0..16).filter(|part| patch.open >> part & 1 == 1);
+        parts.extend(open.filter_map(|part| self.patch(&patch.fragment.sixteenth(part), patch.local)));
+    }
+
+    /// The open sixteenths of a patch that no single sample certainly covers now: a bit for each.
+    fn open_sixteenths(&self, patch: &Patch<Self::Local>) -> u16;
+
+    /// Those of at most 64 triangles that no single sample certainly covers: a bit for each.
+    fn open_wholes(&self, wholes: &[Whole<Self::Local>]) -> u64;
+
+    /// The mesh that it lies on.
+    fn mesh(&self) -> &Mesh;
+
+    /// The dart at a point of a triangle with these corners, which lies in a part of this radius.
+    fn dart(&self, point: Point<Self::Local>, corners: &[[f32; 3]; 3]) -> Self::Dart;
+
+    /// The same, where the corners are not at hand.
+    fn dart_at(&self, point: Point<Self::Local>) -> Self::Dart {
+        self.dart(point, &self.mesh().corners(point.triangle))
+    }
+
+    /// True if given samples, and others that the share of open surface is measured with, leave a point open.
+    fn is_open(&self, point: Point<Self::Local>) -> bool;
+
+    /// Drops darts, given by points and the corners of their triangles, that certainly conflict with a sample: most
+    /// of them, at a fraction of the price of [`Ground::throw`].
+    fn drop_conflicting(&mut self, _points: &mut Vec<Point<Self::Local>>, _corners: &mut Vec<[[f32; 3]; 3]>) {}
+
+    /// Makes a dart a sample, unless it conflicts with another one.
+    fn throw(&mut self, dart: Self::Dart);
+
+    /// The samples that the fill has added, and how many darts it took.
+    fn into_accepted(self) -> (Vec<Self::Sample>, u64);
+}
+
+/// The parts of a surface that may be uncovered.
+pub struct Open<L = ()> {
     pub wholes: Vec<Whole<L>>,
     pub patches: Vec<Patch<L>>,
 }
@@ -56,7 +143,7 @@ impl<L> Default for Open<L> {
 /// would be cut up without end.
 const FLAT: f64 = 2e-3;
 
-/// What a round weighs an area by when it throws darts: the area, but of needles.
+/// The weight of an area when a round throws darts: the area, but of needles.
 fn weight(area: f32, longest: f32) -> f64 {
     f64::from(area).max(FLAT * f64::from(longest) * f64::from(longest))
 }
@@ -86,16 +173,16 @@ impl<L: Copy> Open<L> {
         self.patches.append(&mut other.patches);
     }
 
-    /// The darts of a round: on which whole triangle, or behind these on which patch, each of them falls.
-    fn rain(&self, rng: &mut Rng) -> Vec<u32> {
+    /// The darts of a round, each by the number of the whole triangle or, behind these, of the patch that it falls on.
+    fn darts(&self, rng: &mut Rng) -> Vec<u32> {
         let weights: Vec<f64> = self.weights().collect();
         let of_wholes: f64 = weights[..self.wholes.len()].iter().sum();
         let per_wholes = (DARTS_PER_WHOLE * self.wholes.len() as f64).min(DARTS_PER_AREA * of_wholes);
         let expected = per_wholes + DARTS_PER_PATCH * self.patches.len() as f64;
         let mut darts = Vec::with_capacity((1.1 * expected) as usize + 16);
-        let mut rain = Rain::new(rng, expected / weights.iter().sum::<f64>());
+        let mut process = PoissonProcess::new(rng, expected / weights.iter().sum::<f64>());
         for (number, weight) in (0..).zip(weights) {
-            let count = rain.fall(weight);
+            let count = process.darts_on(weight);
             darts.extend(std::iter::repeat_n(number, count));
         }
         shuffle(rng, &mut darts);
@@ -122,14 +209,14 @@ impl<L: Copy> Open<L> {
         let patches = std::mem::take(&mut self.patches);
         for patch in patches {
             if patch.longest > limit {
-                ground.look_closer(&patch, &mut self.patches);
+                ground.subdivide(&patch, &mut self.patches);
             } else {
                 self.patches.push(patch);
             }
         }
     }
 
-    /// Looks again at everything: drops what is covered, and cuts up what is longer than a limit.
+    /// Drops all parts that are covered by now, and cuts up those that are longer than a limit.
     pub fn update<G: Ground<Local = L>>(&mut self, ground: &mut G, limit: f32) {
         let is_kept = |longest: f32, finest: f32| longest <= limit && finest <= limit;
         let (mut kept, mut grown, mut last) = (0, Vec::new(), Vec::new());
@@ -146,7 +233,7 @@ impl<L: Copy> Open<L> {
                 } else if whole.longest <= finest {
                     last.push((fragment, whole.local));
                 } else {
-                    grown.extend(ground.look(&fragment, whole.local));
+                    grown.extend(ground.patch(&fragment, whole.local));
                 }
             }
         }
@@ -157,13 +244,15 @@ impl<L: Copy> Open<L> {
             let finest = ground.finest(patch.local);
             patch.open = ground.open_sixteenths(&patch);
             if patch.open == 0 {
-            } else if is_kept(patch.longest, finest) {
+                continue;
+            }
+            if is_kept(patch.longest, finest) {
                 self.patches[kept] = patch;
                 kept += 1;
             } else if patch.longest <= finest {
                 last.push((patch.fragment, patch.local));
             } else {
-                ground.look_closer(&patch, &mut grown);
+                ground.subdivide(&patch, &mut grown);
             }
         }
         self.patches.truncate(kept);
@@ -176,7 +265,7 @@ impl<L: Copy> Open<L> {
 }
 
 /// Throws darts at points of triangles, in order.
-pub(in crate::psp) fn throw<G: Ground>(ground: &mut G, mut targets: impl Iterator<Item = Point<G::Local>>) {
+pub fn throw<G: Ground>(ground: &mut G, mut targets: impl Iterator<Item = Point<G::Local>>) {
     let (mut points, mut corners) = (Vec::with_capacity(TOGETHER), Vec::with_capacity(TOGETHER));
     let mut darts = Vec::with_capacity(TOGETHER);
     loop {
@@ -185,27 +274,27 @@ pub(in crate::psp) fn throw<G: Ground>(ground: &mut G, mut targets: impl Iterato
             return;
         }
         corners.extend(points.iter().map(|point: &Point<_>| ground.mesh().corners(point.triangle)));
-        ground.leave_out(&mut points, &mut corners);
+        ground.drop_conflicting(&mut points, &mut corners);
         darts.extend(points.drain(..).zip(corners.drain(..)).map(|(point, corners)| ground.dart(point, &corners)));
         darts.drain(..).for_each(|dart| ground.throw(dart));
     }
 }
 
-/// Throws darts at what is open until it is covered; at first on patches up to a limit. After each round it is told how
-/// many there have been.
-pub(in crate::psp) fn rounds<G: Ground, E>(
+/// Throws darts at all open parts until they are covered; at first on patches up to a limit. After each round the number
+/// of rounds is reported.
+pub fn rounds<G: Ground>(
     ground: &mut G,
     mut open: Open<G::Local>,
     mut limit: f32,
     rng: &mut Rng,
-    report: impl Fn(i32) -> Result<(), E>,
-) -> Result<(), E> {
+    report: impl Fn(i32) -> Result<()>,
+) -> Result<()> {
     if limit < PATCH as f32 {
         open.cut(ground, limit);
     }
     let mut round = 0;
     while !(open.wholes.is_empty() && open.patches.is_empty()) {
-        let darts = open.rain(rng);
+        let darts = open.darts(rng);
         throw(ground, darts.iter().map(|&number| open.point(number, rng)));
         limit *= 0.5;
         open.update(ground, limit);

@@ -13,16 +13,16 @@ use crate::mesh::{Mesh, exact};
 const SLACK: f64 = 1e-5;
 
 /// Sums with it, up to 2^22 more, are integers.
-pub(super) const ROUNDER: f32 = (1 << 23) as f32;
+pub const ROUNDER: f32 = (1 << 23) as f32;
 /// The bits of the cell's number along an axis.
-pub(super) const MASK: u32 = (1 << 21) - 1;
+pub const MASK: u32 = (1 << 21) - 1;
 
 /// A place in the unit of a [`Space`].
-pub(in crate::psp) type Place = [f32; 3];
+pub type Place = [f32; 3];
 
 /// The unit, the cells, and the radius in both.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::psp) struct Space {
+pub struct Space {
     /// The coordinates of the mesh times this, a power of two, are places.
     scale: f32,
     /// The radius in the unit.
@@ -31,8 +31,8 @@ pub(in crate::psp) struct Space {
     pub surely_within: f32,
     pub surely_beyond: f32,
     /// Cells count from here.
-    pub(super) origin: Place,
-    pub(super) per_cell: f32,
+    pub origin: Place,
+    pub per_cell: f32,
 }
 
 impl Space {
@@ -125,11 +125,11 @@ impl Space {
 }
 
 /// The shifts of the second and the third axis in a [`key`].
-pub(super) const KEY: [u32; 2] = [21, 42];
+pub const KEY: [u32; 2] = [21, 42];
 
 /// A cell as a key: 21 bits for each axis. A radius has at least 64 float spacings, which makes less than 2^20 cells in
 /// a row.
 #[inline(always)]
-pub(in crate::psp) fn key([x, y, z]: [u32; 3]) -> u64 {
+pub fn key([x, y, z]: [u32; 3]) -> u64 {
     u64::from(x) | u64::from(y) << KEY[0] | u64::from(z) << KEY[1]
 }

@@ -1,7 +1,7 @@
 //! A hash table with cells as keys, which a test reads in one place.
 
 /// Entries by their key, with linear probing, at most half full.
-pub(in crate::psp) struct Table<T> {
+pub struct Table<T> {
     slots: Vec<(u64, T)>,
     len: usize,
 }

@@ -4,9 +4,9 @@ use std::arch::x86_64::*;
 
 use crate::mesh::Mesh;
 use crate::psp::fill::grid::{Cell, Grid};
+use crate::psp::fill::measures::{Sizes, Triangles};
 use crate::psp::fill::page::{Group, LANES, Page, REACH_SLACK, THIRD};
 use crate::psp::fill::space::{MASK, Place, ROUNDER};
-use crate::psp::fill::triangles::{Sizes, Triangles};
 use crate::psp::sixteenths::{CORNERS, CORNERS_OF_SIXTEENTHS, PIERCING, PIERCING_BY_EDGE};
 
 #[inline]

@@ -7,9 +7,9 @@ use glam::DVec3;
 
 use crate::mesh::Mesh;
 use crate::psp::fill::grid::Grid;
+use crate::psp::fill::measures::{Sizes, Triangles};
 use crate::psp::fill::page::{Group, Page};
 use crate::psp::fill::space::Place;
-use crate::psp::fill::triangles::{Sizes, Triangles};
 use crate::simd::Level;
 
 #[cfg(target_arch = "x86_64")]

@@ -1,110 +1,147 @@
-//! What a fill rains on: a surface of which samples cover a part.
-//!
-//! The rounds (`rounds.rs`) know it by this trait only, so that they serve whatever a sample covers. A ground looks at
-//! fragments and takes darts. Lengths are in radii, areas in squared radii: those of the place, where the radius
-//! varies.
+//! A surface whose samples all have one radius.
 
 use glam::DVec3;
 
+use crate::error::Result;
+use crate::job::Job;
 use crate::math::rounded_down;
 use crate::mesh::{Mesh, round_barycentrics};
 use crate::psp::facing::{Facing, NO_NORMAL};
-use crate::psp::fill::balls::Ball;
+use crate::psp::fill::blocks::Block;
 use crate::psp::fill::cells::Cells;
 use crate::psp::fill::extent::Extent;
 use crate::psp::fill::grid::Grid;
+use crate::psp::fill::measures::{Ball, Measures, Triangles};
 use crate::psp::fill::page::{GROUP, Group};
+use crate::psp::fill::rounds::{Ground, Open, PATCH, Patch, Point, WHOLE, Whole};
 use crate::psp::fill::space::Space;
+use crate::psp::fill::{FillOptions, Filled, ONE_PIECE, Site, fill};
 use crate::psp::fragment::Fragment;
+use crate::psp::given::GivenSamples;
 use crate::psp::obstacles::Obstacles;
-use crate::psp::samples::Sample;
+use crate::psp::pieces::slice;
+use crate::psp::samples::{Sample, SampleSet};
 use crate::psp::sixteenths::SIXTEENTHS;
+use crate::rng::{Draw, Rng};
 
-/// A whole triangle, small beside the radius, that may be uncovered.
-#[derive(Clone, Copy, Debug)]
-pub(in crate::psp) struct Whole<L = ()> {
-    pub triangle: u32,
-    pub area: f32,
-    pub longest: f32,
-    /// What is known of the radius on it.
-    pub local: L,
-}
-
-/// A fragment that may be uncovered.
-#[derive(Clone, Copy, Debug)]
-pub(in crate::psp) struct Patch<L = ()> {
-    pub fragment: Fragment,
-    /// A bit for each sixteenth that may be; at least one.
-    pub open: u16,
-    pub area: f32,
-    /// The longest edge.
-    pub longest: f32,
-    /// What is known of the radius on it.
-    pub local: L,
-}
-
-/// A point that a dart is thrown at.
+/// A surface to be filled with samples of one radius, and the given samples around which it is filled.
 #[derive(Clone, Copy)]
-pub(in crate::psp) struct Point<L = ()> {
-    pub triangle: u32,
-    pub barycentrics: [f64; 2],
-    /// What is known of the radius there.
-    pub local: L,
+pub struct Surface<'a> {
+    pub mesh: &'a Mesh,
+    pub measures: &'a Measures,
+    pub given: &'a GivenSamples,
+    pub facing: Facing,
 }
 
-/// A surface with samples.
-pub(in crate::psp) trait Ground {
-    /// What is known of the radius on a part of the surface.
-    type Local: Copy;
-    /// A dart, until it is known whether it is accepted.
-    type Dart;
-
-    /// Fragments no longer than this are cut up no more.
-    fn finest(&self, local: Self::Local) -> f32;
-
-    /// A fragment as a patch, unless all of its sixteenths are covered, each by one sample. What is known of the radius
-    /// is that of a part which the fragment belongs to.
-    fn look(&self, fragment: &Fragment, within: Self::Local) -> Option<Patch<Self::Local>>;
-
-    /// Adds the open sixteenths of a patch that are not covered, as patches.
-    fn look_closer(&self, patch: &Patch<Self::Local>, grown: &mut Vec<Patch<Self::Local>>) {
-        let parts = (0..16).filter(|part| patch.open >> part & 1 == 1);
-        grown.extend(parts.filter_map(|part| self.look(&patch.fragment.sixteenth(part), patch.local)));
+impl Surface<'_> {
+    /// Adds samples until the set is maximal.
+    pub fn fill(&self, job: &Job, samples: &mut SampleSet, options: FillOptions) -> Result<Filled> {
+        let in_blocks = self.measures.expected_samples(self.mesh, samples.radius()) > ONE_PIECE;
+        self.fill_either_way(job, samples, in_blocks, options)
     }
 
-    /// Which of the open sixteenths of a patch no single sample certainly covers now.
-    fn open_sixteenths(&self, patch: &Patch<Self::Local>) -> u16;
+    /// Fills cube by cube or in one piece.
+    pub fn fill_either_way(
+        &self,
+        job: &Job,
+        samples: &mut SampleSet,
+        in_blocks: bool,
+        options: FillOptions,
+    ) -> Result<Filled> {
+        let is_empty = samples.len() == 0 && self.given.is_empty();
+        let site = Uniform { surface: *self, radius: samples.radius(), largest_rank: options.largest_rank };
+        let filled = fill(job, &site, samples, in_blocks, options)?;
+        Ok(if is_empty { Filled { open_area: self.mesh.area(), ..filled } } else { filled })
+    }
+}
 
-    /// Which of at most 64 triangles no single sample certainly covers: a bit for each.
-    fn open_wholes(&self, wholes: &[Whole<Self::Local>]) -> u64;
+/// A surface to be filled at a radius.
+pub struct Uniform<'a> {
+    pub surface: Surface<'a>,
+    pub radius: f64,
+    /// The largest rank of the samples that are added, if these get ranks.
+    pub largest_rank: Option<f64>,
+}
 
-    /// The mesh that it lies on.
-    fn mesh(&self) -> &Mesh;
+impl Uniform<'_> {
+    fn empty_ground(&self, extent: Option<&Extent>) -> UniformGround<'_> {
+        let Surface { mesh, given, facing, .. } = self.surface;
+        let ground = UniformGround::new(mesh, Space::new(mesh, self.radius), extent, facing, &given.obstacles);
+        ground.ranked(self.largest_rank)
+    }
+}
 
-    /// The dart at a point of a triangle with these corners, which lies in a part of this radius.
-    fn dart(&self, point: Point<Self::Local>, corners: &[[f32; 3]; 3]) -> Self::Dart;
+impl Site for Uniform<'_> {
+    type Kind = ();
+    type Ground<'b>
+        = UniformGround<'b>
+    where
+        Self: 'b;
+    const NEIGHBOURS_COUNT: bool = false;
 
-    /// The same, where the corners are not at hand.
-    fn dart_at(&self, point: Point<Self::Local>) -> Self::Dart {
-        self.dart(point, &self.mesh().corners(point.triangle))
+    fn mesh(&self) -> &Mesh {
+        self.surface.mesh
     }
 
-    /// Leaves out darts, given by points and the corners of their triangles, that certainly conflict with a sample: most
-    /// of them, at a fraction of the price of [`Ground::throw`].
-    fn leave_out(&mut self, _points: &mut Vec<Point<Self::Local>>, _corners: &mut Vec<[[f32; 3]; 3]>) {}
+    fn measures(&self) -> &Measures {
+        self.surface.measures
+    }
 
-    /// Makes a dart a sample, unless it conflicts with another one.
-    fn throw(&mut self, dart: Self::Dart);
+    fn is_bare(&self) -> bool {
+        self.surface.given.is_empty()
+    }
+
+    fn kinds(&self) -> &[()] {
+        &[()]
+    }
+
+    fn random_kind(&self, _: &mut Rng) {}
+
+    fn allows(&self, (): (), _: u32) -> bool {
+        true
+    }
+
+    fn chunk_rng(&self, seed: u64, chunk: usize, (): ()) -> Rng {
+        Rng::at(seed, Draw::Fill, &[chunk as u64])
+    }
+
+    fn reach(&self) -> f64 {
+        self.largest_rank.unwrap_or(self.radius)
+    }
+
+    fn ground(&self, block: Option<&Block>) -> UniformGround<'_> {
+        let (mut ground, given) = (self.empty_ground(block.map(|block| &block.extent)), self.surface.given);
+        match block {
+            None => given.alike().iter().for_each(|&position| ground.add_given(position)),
+            Some(Block { cube, extent, .. }) => {
+                let near = given.alike_around(*cube).filter(|&position| extent.is_in_reach(position, self.reach()));
+                near.for_each(|position| ground.add_given(position));
+            }
+        }
+        ground
+    }
+
+    fn add(ground: &mut UniformGround, sample: &Sample) {
+        ground.add(sample);
+    }
+
+    fn layer<'g>(ground: &'g UniformGround<'_>, (): ()) -> &'g UniformGround<'g> {
+        ground
+    }
+
+    fn narrowed(_: &UniformGround, (): (), open: Open) -> Open {
+        open
+    }
 }
 
 /// A surface whose samples all have one radius.
-pub(in crate::psp) struct UniformGround<'a> {
-    pub mesh: &'a Mesh,
-    pub grid: Grid,
+pub struct UniformGround<'a> {
+    mesh: &'a Mesh,
+    grid: Grid,
     /// The samples that the fill has added.
-    pub accepted: Vec<Sample>,
-    /// How many darts it took.
-    pub darts: u64,
+    accepted: Vec<Sample>,
+    /// The number of darts thrown.
+    darts: u64,
     facing: Facing,
     obstacles: &'a Obstacles,
     /// The largest rank, in the unit of places, where samples get ranks.
@@ -116,12 +153,12 @@ pub(in crate::psp) struct UniformGround<'a> {
     surely_conflicting: f32,
 }
 
-/// By how many float spacings at the largest coordinate the place of a dart computed in floats is off at most: 46 along
+/// The largest error of the place of a dart computed in floats, in float spacings at the largest coordinate: 46 along
 /// each axis, by the rounding of barycentrics, of edges, which are up to twice as long, and of their sums.
 const PLACE_ERROR: f64 = 80.0;
 
 impl<'a> UniformGround<'a> {
-    /// No samples yet, but what is given with a clearance of its own: of the mesh, or of the part of it in a box.
+    /// A ground without samples but those given with a clearance of their own: of the mesh, or of the part of it in a box.
     pub fn new(
         mesh: &'a Mesh,
         space: Space,
@@ -167,32 +204,32 @@ impl<'a> UniformGround<'a> {
         self.grid.space.radius() / f64::from(self.grid.space.scale())
     }
 
-    /// Tells the ground of a sample that is there already.
+    /// Adds a sample that is there already.
     pub fn add(&mut self, sample: &Sample) {
         self.grid.add(self.grid.space.place(sample.position), self.normal(sample.triangle));
     }
 
-    /// Tells the ground of a given sample that has the clearance of a sample of its own.
+    /// Adds a given sample that has the clearance of a sample of the set.
     pub fn add_given(&mut self, position: [f32; 3]) {
         self.grid.add(self.grid.space.place(position), NO_NORMAL);
     }
 
-    /// Whether a dart conflicts with a sample.
+    /// True if a dart conflicts with a sample.
     pub fn rejects(&self, dart: &Sample) -> bool {
         self.grid.rejects(self.grid.space.place(dart.position), self.normal(dart.triangle))
             || self.obstacles.reject(dart.position)
     }
 
-    /// Whether one sample certainly covers a ball, whatever lies in it.
+    /// True if one sample certainly covers a ball, whatever lies in it.
     pub fn covers(&self, ball: &Ball) -> bool {
         let within = self.grid.space.radius() - f64::from(ball.radius) * f64::from(self.grid.space.scale());
         let (place, limit) = (self.grid.space.place(ball.centre), Space::within(within * within));
         within > 0.0 && !self.facing.asks_normals() && self.grid.is_within(place, limit)
     }
 
-    /// Which of a group of triangles no single sample certainly covers: a bit for each.
-    pub fn open_triangles(&self, group: &mut Group, count: usize, triangle: impl Fn(usize) -> u32) -> u64 {
-        let open = self.grid.open_triangles(group, count, |lane| self.normal(triangle(lane)));
+    /// The triangles of a batch that no single sample certainly covers: a bit for each.
+    fn open_of_batch(&self, batch: &mut Group, count: usize, triangle: impl Fn(usize) -> u32) -> u64 {
+        let open = self.grid.open_triangles(batch, count, |lane| self.normal(triangle(lane)));
         self.obstacles.open_triangles(open, |lane| self.mesh.corners(triangle(lane)))
     }
 
@@ -202,8 +239,8 @@ impl<'a> UniformGround<'a> {
         self.facing.normal(self.mesh, triangle)
     }
 
-    /// Which of some sixteenths of a fragment, given by its triangle and its corners in the unit of the space, no single
-    /// sample certainly covers.
+    /// Those of some sixteenths of a fragment, given by its triangle and its corners in the unit of the space, that no
+    /// single sample certainly covers.
     #[inline(always)]
     fn uncovered(&self, triangle: u32, corners: &[DVec3; 3], longest: f64, open: u16) -> u16 {
         let open = self.grid.open_sixteenths(corners, longest, self.normal(triangle), open);
@@ -220,7 +257,7 @@ impl<'a> UniformGround<'a> {
         (Whole { triangle, area: area as f32, longest: longest as f32, local: () }, has_area)
     }
 
-    /// Where the corners of a fragment are, in the unit of the space.
+    /// The corners of a fragment, in the unit of the space.
     fn corners(&self, fragment: &Fragment) -> [DVec3; 3] {
         let [a, b, c] = self.mesh.exact_corners(fragment.triangle).map(|corner| self.grid.space.scaled(corner));
         let at = |[u, v]: [f64; 2]| (1.0 - u - v) * a + u * b + v * c;
@@ -228,20 +265,20 @@ impl<'a> UniformGround<'a> {
         [at(p), at(q), at(r)]
     }
 
-    /// Adds what is open of the parts of a fragment, `count` along each edge, in patches.
-    pub fn look_at_parts(&self, fragment: &Fragment, count: u32, grown: &mut Vec<Patch>) {
+    /// Adds the open ones of the parts of a fragment, `count` along each edge, as patches.
+    fn open_parts_of(&self, fragment: &Fragment, count: u32, patches: &mut Vec<Patch>) {
         let (corners, scale) = (self.corners(fragment), 1.0 / f64::from(count));
         let (area, longest) = self.size(&corners);
         let size = ((area * scale * scale) as f32, (longest * scale) as f32);
         let whole = Fragment::whole(fragment.triangle);
-        let open = |part: Fragment| self.look_at_part(fragment, &corners, part.corners, size);
-        grown.extend(whole.parts(count).filter_map(open));
+        let open = |part: Fragment| self.patch_of_part(fragment, &corners, part.corners, size);
+        patches.extend(whole.parts(count).filter_map(open));
     }
 
     /// A part of a fragment as a patch, unless its sixteenths are covered: the fragment and its corners, those of the
     /// part in it, area and longest edge of the part.
     #[inline]
-    fn look_at_part(
+    fn patch_of_part(
         &self,
         fragment: &Fragment,
         [a, b, c]: &[DVec3; 3],
@@ -256,6 +293,56 @@ impl<'a> UniformGround<'a> {
         (open != 0).then(|| Patch { fragment: part(), open, area, longest, local: () })
     }
 
+    /// The open parts of some triangles, by their indices.
+    pub fn open_triangles(&self, triangles: Triangles, indices: impl Iterator<Item = usize>) -> Open {
+        let (mut open, mut batch, mut numbers, space) = (Open::default(), Group::EMPTY, [0; GROUP], self.grid.space);
+        let mut count = 0;
+        let mut test = |batch: &mut Group, numbers: &[u32]| {
+            let mut uncovered = self.open_of_batch(batch, numbers.len(), |lane| numbers[lane]);
+            while uncovered != 0 {
+                self.add_open(numbers[uncovered.trailing_zeros() as usize], &mut open);
+                uncovered &= uncovered - 1;
+            }
+        };
+        for index in indices {
+            numbers[count] = triangles.at(index);
+            batch.triangles[count] = space.places(self.mesh.corners(numbers[count]));
+            count += 1;
+            if count == GROUP {
+                test(&mut batch, &numbers);
+                count = 0;
+            }
+        }
+        if count > 0 {
+            test(&mut batch, &numbers[..count]);
+        }
+        open
+    }
+
+    /// Adds a triangle that is not covered: whole, if it is small and has any area, or in parts.
+    fn add_open(&self, triangle: u32, open: &mut Open) {
+        let (whole, has_area) = self.whole(triangle);
+        if !has_area {
+            return;
+        }
+        if whole.longest <= WHOLE {
+            open.wholes.push(whole);
+        } else if f64::from(whole.longest) < 0.999 * PATCH {
+            // One patch, which nothing has to be cut for.
+            open.patches.extend(self.patch(&Fragment::whole(triangle), ()));
+        } else {
+            let (mut slices, radius) = (Vec::new(), self.radius());
+            slice(self.mesh, triangle, PATCH * radius, &mut slices);
+            slices.iter().for_each(|slice| self.open_parts(slice, open));
+        }
+    }
+
+    /// Adds the open parts of a fragment, in patches that are small enough.
+    pub fn open_parts(&self, fragment: &Fragment, open: &mut Open) {
+        let count = fragment.count_up_to(self.mesh, PATCH * self.radius());
+        self.open_parts_of(fragment, count, &mut open.patches);
+    }
+
     /// Area and longest edge.
     fn size(&self, &[a, b, c]: &[DVec3; 3]) -> (f64, f64) {
         let (e, f) = ((b - a) * self.per_radius, (c - a) * self.per_radius);
@@ -267,12 +354,13 @@ impl<'a> UniformGround<'a> {
 impl Ground for UniformGround<'_> {
     type Local = ();
     type Dart = Sample;
+    type Sample = Sample;
 
     fn finest(&self, (): ()) -> f32 {
         self.float_spacing
     }
 
-    fn look(&self, fragment: &Fragment, (): ()) -> Option<Patch> {
+    fn patch(&self, fragment: &Fragment, (): ()) -> Option<Patch> {
         let corners = self.corners(fragment);
         let (area, longest) = self.size(&corners);
         let open = self.uncovered(fragment.triangle, &corners, longest / self.per_radius, u16::MAX);
@@ -280,12 +368,12 @@ impl Ground for UniformGround<'_> {
         (open != 0).then_some(patch)
     }
 
-    fn look_closer(&self, patch: &Patch, grown: &mut Vec<Patch>) {
+    fn subdivide(&self, patch: &Patch, patches: &mut Vec<Patch>) {
         let (corners, size) = (self.corners(&patch.fragment), (patch.area / 16.0, patch.longest / 4.0));
         let parts = (0..16).filter(|part| patch.open >> part & 1 == 1);
-        grown.extend(parts.filter_map(|part| {
+        patches.extend(parts.filter_map(|part| {
             let part = SIXTEENTHS[part].map(|corner| corner.map(|quarters| 0.25 * quarters));
-            self.look_at_part(&patch.fragment, &corners, part, size)
+            self.patch_of_part(&patch.fragment, &corners, part, size)
         }));
     }
 
@@ -296,11 +384,11 @@ impl Ground for UniformGround<'_> {
 
     fn open_wholes(&self, wholes: &[Whole]) -> u64 {
         debug_assert!(wholes.len() <= GROUP);
-        let mut group = Group::EMPTY;
+        let mut batch = Group::EMPTY;
         for (lane, whole) in wholes.iter().enumerate() {
-            group.triangles[lane] = self.grid.space.places(self.mesh.corners(whole.triangle));
+            batch.triangles[lane] = self.grid.space.places(self.mesh.corners(whole.triangle));
         }
-        self.open_triangles(&mut group, wholes.len(), |lane| wholes[lane].triangle)
+        self.open_of_batch(&mut batch, wholes.len(), |lane| wholes[lane].triangle)
     }
 
     fn mesh(&self) -> &Mesh {
@@ -311,7 +399,11 @@ impl Ground for UniformGround<'_> {
         Sample::on(corners, point.triangle, round_barycentrics(point.barycentrics))
     }
 
-    fn leave_out(&mut self, points: &mut Vec<Point>, corners: &mut Vec<[[f32; 3]; 3]>) {
+    fn is_open(&self, point: Point) -> bool {
+        !self.rejects(&self.dart_at(point))
+    }
+
+    fn drop_conflicting(&mut self, points: &mut Vec<Point>, corners: &mut Vec<[[f32; 3]; 3]>) {
         if self.facing.asks_normals() {
             return;
         }
@@ -338,7 +430,13 @@ impl Ground for UniformGround<'_> {
             self.accepted.push(Sample { rank, ..sample });
         }
     }
+
+    fn into_accepted(self) -> (Vec<Sample>, u64) {
+        (self.accepted, self.darts)
+    }
 }
+
+const _: () = assert!(GROUP == 64, "a bit for each triangle");
 
 #[cfg(test)]
 mod tests {
@@ -380,7 +478,7 @@ mod tests {
                 let mut left = points.clone();
                 let mut corners = points.iter().map(|point| mesh.corners(point.triangle)).collect();
                 let before = ground.darts;
-                ground.leave_out(&mut left, &mut corners);
+                ground.drop_conflicting(&mut left, &mut corners);
                 assert_eq!((left.len(), (ground.darts - before) as usize), (corners.len(), points.len() - left.len()));
                 let mut left = left.iter().map(|point| point.barycentrics).peekable();
                 for &point in &points {

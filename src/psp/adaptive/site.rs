@@ -1,0 +1,350 @@
+//! Filling where the radius varies: octave by octave and cube by cube, each as a surface of one radius is filled.
+
+use std::cell::Cell;
+
+use glam::DVec3;
+
+use crate::error::Result;
+use crate::index::Weights;
+use crate::job::Job;
+use crate::math::{rounded_down, square};
+use crate::mesh::{Mesh, round_barycentrics};
+use crate::psp::adaptive::bounds::RadiusBounds;
+use crate::psp::adaptive::dot::Dot;
+use crate::psp::adaptive::field::RadiusField;
+use crate::psp::adaptive::grid::{Grid, Shade};
+use crate::psp::adaptive::limits::Quota;
+use crate::psp::adaptive::page::Group;
+use crate::psp::adaptive::pieces::{Piece, pieces};
+use crate::psp::adaptive::set::AdaptiveSet;
+use crate::psp::facing::Facing;
+use crate::psp::fill::darts::random_point;
+use crate::psp::fill::page::GROUP;
+use crate::psp::fill::rounds::{Ground, Open, PATCH, Patch, Point, WHOLE, Whole, throw};
+use crate::psp::fill::{FIRST_DARTS, FillOptions, PROBES_IN_CUBE, Zone, fill_zone, open_share};
+use crate::psp::fragment::Fragment;
+use crate::psp::obstacles::Obstacles;
+use crate::psp::samples::Sample;
+use crate::rng::{Draw, Rng};
+
+/// A surface to be filled where the radius varies, and what is given on it.
+#[derive(Clone, Copy)]
+pub struct GradedSurface<'a> {
+    pub mesh: &'a Mesh,
+    pub field: &'a RadiusField<'a>,
+    pub quota: &'a Quota,
+    pub facing: Facing,
+    pub obstacles: &'a Obstacles,
+    /// The finest scale that is expected.
+    pub finest: f64,
+}
+
+impl GradedSurface<'_> {
+    /// A maximal set around some samples, and the number of darts.
+    pub fn fill(&self, job: &Job, options: FillOptions, samples: &[(Sample, f64)]) -> Result<(AdaptiveSet, u64)> {
+        let &Self { mesh, field, quota, facing, obstacles, .. } = self;
+        let mut set = AdaptiveSet::new(mesh, options.seed, field.scale(), samples);
+        let stretch = options.largest_rank.map_or(1.0, |rank| (rank / field.scale()).max(1.0));
+        let pieces = pieces(&job.part(0.05, 0.2), mesh, field, quota, &set)?;
+        field.check()?;
+        quota.check(field.argument())?;
+        let darts = set.grow(&job.part(0.2, 1.0), mesh, facing, &pieces, stretch, |cube, dots, pieces| {
+            let field = field.apart();
+            let grid = grid(mesh, &field, facing, dots, pieces, stretch);
+            let mut ground = GradedGround::new(mesh, &field, quota, obstacles, grid, self.limit(pieces));
+            ground = ground.ranked(options.largest_rank);
+            let (row, mut rng) = (
+                Weights::new(pieces.iter().map(|piece| piece.area()).collect()),
+                Rng::at(options.seed, Draw::Adaptive, &cube.key()),
+            );
+            let mut zone = CubeZone { pieces, row, obstacles };
+            let share = open_share(&mut zone, &ground, options, &mut rng);
+            fill_zone(&mut zone, &mut ground, share, options, &mut rng)?;
+            field.check()?;
+            quota.check(field.argument()).map(|()| ground.into_accepted())
+        })?;
+        Ok((set, darts))
+    }
+
+    /// The number of pieces that the work limit counts: those of a cube, and at a coarser scale than the finest as many as
+    /// there will be samples on them. Radii are steeper there by as much as samples are fewer.
+    fn limit(&self, pieces: &[&Piece]) -> u64 {
+        let growth = square(self.field.scale() / self.finest);
+        let samples: f64 = pieces.iter().map(|piece| piece.area()).sum();
+        pieces.len() as u64 + if growth > 1.0 { (growth * samples) as u64 } else { 0 }
+    }
+}
+
+/// The samples around a cube in a grid that suits the radii on its pieces.
+fn grid(mesh: &Mesh, field: &RadiusField, facing: Facing, dots: Vec<Dot>, pieces: &[&Piece], stretch: f64) -> Grid {
+    let largest = pieces.iter().map(|piece| field.above(piece.bounds())).fold(0.0, f64::max);
+    // The area by the number of samples that will stand on it gives their usual radius.
+    let samples: f64 = pieces.iter().map(|piece| piece.area()).sum();
+    let area: f64 = pieces.iter().map(|piece| piece.area() / piece.bounds().density()).sum();
+    let usual = if samples > 0.0 { (area / samples).sqrt() } else { largest };
+    let corners = pieces
+        .iter()
+        .map(|piece| piece.fragment())
+        .flat_map(|fragment| fragment.corners.map(|corner| mesh.point_exact(fragment.triangle, corner)));
+    let none = [DVec3::INFINITY, DVec3::NEG_INFINITY];
+    let bounds = corners.fold(none, |[low, high], corner| [low.min(corner), high.max(corner)]);
+    let mut grid = Grid::new(mesh, facing, bounds, [usual, largest], stretch);
+    dots.into_iter().for_each(|dot| grid.add(dot));
+    grid
+}
+
+/// The pieces of a cube.
+struct CubeZone<'a, 'g> {
+    pieces: &'a [&'a Piece],
+    /// Their areas.
+    row: Weights,
+    obstacles: &'g Obstacles,
+}
+
+impl<'g> Zone for CubeZone<'_, 'g> {
+    type Ground = GradedGround<'g>;
+
+    fn is_bare(&self) -> bool {
+        self.obstacles.is_empty()
+    }
+
+    fn probes(&self) -> usize {
+        PROBES_IN_CUBE
+    }
+
+    /// The area, in squared radii.
+    fn area(&self) -> f64 {
+        self.row.total()
+    }
+
+    fn point(&mut self, rng: &mut Rng) -> Point<RadiusBounds> {
+        let piece = &self.pieces[self.row.pick(rng) as usize];
+        let fragment = piece.fragment();
+        Point { triangle: fragment.triangle, barycentrics: fragment.at(random_point(rng)), local: piece.bounds() }
+    }
+
+    fn throw_first(&mut self, ground: &mut GradedGround<'g>, rng: &mut Rng) -> Result<()> {
+        let darts = (FIRST_DARTS * self.row.total() + rng.unit()) as usize;
+        throw(ground, (0..darts).map(|_| self.point(rng)));
+        Ok(())
+    }
+
+    fn open(&self, ground: &GradedGround<'g>) -> Result<Open<RadiusBounds>> {
+        Ok(open_pieces(ground, self.pieces))
+    }
+}
+
+/// The open parts of some pieces.
+fn open_pieces(ground: &GradedGround, pieces: &[&Piece]) -> Open<RadiusBounds> {
+    let (mut open, mut wholes) = (Open::default(), Vec::with_capacity(GROUP));
+    for piece in pieces {
+        match piece {
+            Piece::Whole(whole) => wholes.push(*whole),
+            Piece::Part(part) => open_parts(ground, &part.fragment, part.longest, part.local, &mut open),
+        }
+        if wholes.len() == GROUP {
+            open_wholes(ground, &wholes, &mut open);
+            wholes.clear();
+        }
+    }
+    if !wholes.is_empty() {
+        open_wholes(ground, &wholes, &mut open);
+    }
+    open
+}
+
+/// Adds those of a group of triangles that are not covered: whole, if they are small, or in parts.
+fn open_wholes(ground: &GradedGround, wholes: &[Whole<RadiusBounds>], open: &mut Open<RadiusBounds>) {
+    let mut uncovered = ground.open_wholes(wholes);
+    while uncovered != 0 {
+        let whole = wholes[uncovered.trailing_zeros() as usize];
+        uncovered &= uncovered - 1;
+        if whole.longest <= WHOLE {
+            open.wholes.push(whole);
+        } else {
+            open_parts(ground, &Fragment::whole(whole.triangle), whole.longest, whole.local, open);
+        }
+    }
+}
+
+/// Adds the open parts of a fragment, in patches that are small enough.
+fn open_parts(
+    ground: &GradedGround,
+    fragment: &Fragment,
+    longest: f32,
+    bounds: RadiusBounds,
+    open: &mut Open<RadiusBounds>,
+) {
+    let count = (f64::from(longest) / PATCH).ceil().max(1.0) as u32;
+    open.patches.extend(fragment.parts(count).filter_map(|part| ground.patch(&part, bounds)));
+}
+
+/// The fragments that may be tested in a cube for each of its pieces and samples. Slopes of 1 take about forty, of 4 about
+/// a hundred: a far steeper one than 30 would take hours.
+const TESTS: u64 = 1 << 12;
+
+/// The surface in a cube.
+pub struct GradedGround<'a> {
+    mesh: &'a Mesh,
+    field: &'a RadiusField<'a>,
+    quota: &'a Quota,
+    obstacles: &'a Obstacles,
+    grid: Grid,
+    /// The number of fragments that may still be tested.
+    tests: Cell<u64>,
+    /// The largest rank of the samples that the fill adds, if these get ranks (`psp/levels.rs`).
+    largest_rank: Option<f64>,
+    /// The samples that the fill has added, with their relative radii.
+    accepted: Vec<(Sample, f64)>,
+    /// The number of darts thrown.
+    darts: u64,
+}
+
+impl<'a> GradedGround<'a> {
+    /// The surface, with a work limit of a few thousand tests for each of so many pieces.
+    pub fn new(
+        mesh: &'a Mesh,
+        field: &'a RadiusField<'a>,
+        quota: &'a Quota,
+        obstacles: &'a Obstacles,
+        grid: Grid,
+        pieces: u64,
+    ) -> Self {
+        let tests = Cell::new(TESTS * (pieces + obstacles.listed() as u64));
+        Self { mesh, field, quota, obstacles, grid, tests, largest_rank: None, accepted: Vec::new(), darts: 0 }
+    }
+
+    /// The ground, with ranks for the samples that the fill adds: up to the largest.
+    pub fn ranked(self, largest: Option<f64>) -> Self {
+        Self { largest_rank: largest, ..self }
+    }
+
+    /// The rank of a sample that is added now. The distances that it stands for are kept in whatever order a caller
+    /// evaluates them.
+    fn rank(&self, dot: &Dot) -> f32 {
+        let Some(largest) = self.largest_rank else { return f32::INFINITY };
+        let scale = self.field.scale();
+        rounded_down((scale * self.grid.ratio(dot) * (1.0 - 1e-14)).min(largest).max(scale))
+    }
+
+    /// True if the call has failed already.
+    fn has_failed(&self) -> bool {
+        self.field.has_failed() || self.quota.is_exceeded()
+    }
+
+    /// Counts the test of a fragment; the call fails where there are too many.
+    fn count_test(&self, place: DVec3) {
+        match self.tests.get().checked_sub(1) {
+            Some(tests) => self.tests.set(tests),
+            None => self.field.give_up(place),
+        }
+    }
+
+    /// The normal of a triangle, where normals matter.
+    fn normal(&self, triangle: u32) -> [f32; 3] {
+        self.grid.facing.normal(self.mesh, triangle)
+    }
+
+    fn shade(&self, fragment: &Fragment, bounds: RadiusBounds, corners: [DVec3; 3], longest: f64) -> Shade {
+        let radii = self.field.radii_from(fragment, bounds);
+        Shade { corners, radii, longest, normal: self.normal(fragment.triangle) }
+    }
+}
+
+impl Ground for GradedGround<'_> {
+    type Local = RadiusBounds;
+    /// A sample, and what its radius is between.
+    type Dart = (Sample, RadiusBounds);
+    type Sample = (Sample, f64);
+
+    fn finest(&self, bounds: RadiusBounds) -> f32 {
+        (self.mesh.float_spacing() / bounds.scale()) as f32
+    }
+
+    fn patch(&self, fragment: &Fragment, within: RadiusBounds) -> Option<Patch<RadiusBounds>> {
+        if self.has_failed() {
+            return None;
+        }
+        let shape = fragment.shape(self.mesh);
+        self.count_test(shape.centre);
+        let bounds = self.field.narrowed(fragment, &shape, within);
+        if self.field.is_nothing(bounds.least) {
+            return None;
+        }
+        let open = self.grid.open_sixteenths(&self.shade(fragment, bounds, shape.corners, shape.longest), u16::MAX);
+        let open = self.obstacles.open_sixteenths(shape.corners, open);
+        (open != 0).then(|| Patch {
+            fragment: *fragment,
+            open,
+            area: (fragment.area(self.mesh) * bounds.density()) as f32,
+            longest: (shape.longest / bounds.scale()) as f32,
+            local: bounds,
+        })
+    }
+
+    fn open_sixteenths(&self, patch: &Patch<RadiusBounds>) -> u16 {
+        if self.has_failed() {
+            return 0;
+        }
+        let [a, b, c] = self.mesh.exact_corners(patch.fragment.triangle);
+        let corners = patch.fragment.corners.map(|[u, v]| (1.0 - u - v) * a + u * b + v * c);
+        let longest = f64::from(patch.longest) * patch.local.scale();
+        let shade = self.shade(&patch.fragment, patch.local, corners, longest);
+        self.obstacles.open_sixteenths(corners, self.grid.open_sixteenths(&shade, patch.open))
+    }
+
+    fn open_wholes(&self, wholes: &[Whole<RadiusBounds>]) -> u64 {
+        if self.has_failed() {
+            return 0;
+        }
+        let (mut group, mut normals) = (Group::EMPTY, Vec::with_capacity(wholes.len()));
+        for (lane, whole) in wholes.iter().enumerate() {
+            let positions = self.mesh.corners(whole.triangle);
+            let radii = self.field.radii_from(&Fragment::whole(whole.triangle), whole.local);
+            group.triangles[lane] = std::array::from_fn(|corner| self.grid.ball(positions[corner], radii[corner]));
+            normals.push(self.normal(whole.triangle));
+        }
+        let open = self.grid.open_triangles(&mut group, &normals);
+        self.obstacles.open_triangles(open, |lane| self.mesh.corners(wholes[lane].triangle))
+    }
+
+    fn mesh(&self) -> &Mesh {
+        self.mesh
+    }
+
+    fn dart(&self, point: Point<RadiusBounds>, corners: &[[f32; 3]; 3]) -> (Sample, RadiusBounds) {
+        let sample = Sample::on(corners, point.triangle, round_barycentrics(point.barycentrics));
+        (sample, self.field.known_at(&sample, point.local))
+    }
+
+    fn throw(&mut self, (sample, bounds): (Sample, RadiusBounds)) {
+        if self.has_failed() {
+            return;
+        }
+        self.darts += 1;
+        let mut dot = Dot { position: sample.position, radius: bounds.least, normal: self.normal(sample.triangle) };
+        // A function is not called where any radius that it may give conflicts.
+        if self.grid.rejects(&dot) || self.obstacles.reject(dot.position) {
+            return;
+        }
+        let relative = self.field.at_within(&sample, bounds);
+        dot.radius = self.field.scale() * relative;
+        if self.field.is_nothing(dot.radius) || dot.radius > bounds.least && self.grid.rejects(&dot) {
+            return;
+        }
+        let rank = self.rank(&dot);
+        self.grid.add(dot);
+        self.accepted.push((Sample { rank, ..sample }, relative));
+        self.quota.take(1);
+        self.tests.set(self.tests.get() + TESTS);
+    }
+
+    /// True if no given sample covers the point.
+    fn is_open(&self, point: Point<RadiusBounds>) -> bool {
+        !self.obstacles.reject(self.mesh.point(point.triangle, round_barycentrics(point.barycentrics)))
+    }
+
+    fn into_accepted(self) -> (Vec<(Sample, f64)>, u64) {
+        (self.accepted, self.darts)
+    }
+}
