@@ -16,22 +16,17 @@
 
 mod density;
 mod ground;
-mod neighbourhood;
 mod options;
 mod relax;
 mod relax_classes;
 mod relaxation;
-mod report;
-mod run;
 pub mod surface;
 mod thesis;
 mod uniform;
 
 pub use density::{Density, DensityFunction, relax_with_density, scatter};
-pub use neighbourhood::Neighbourhood;
-pub use options::{Method, Options};
-pub use relax::{relax, relax_observed};
+pub use options::{Method, Neighbourhood, Options};
+pub use relax::{Observer, Report, relax, relax_observed};
 pub use relax_classes::{ClassReport, relax_classes};
-pub use report::{Report, Stopped};
-pub use run::Observer;
+pub use relaxation::Stopped;
 pub use thesis::{Convergence, Distribution, Thesis, Visits};

@@ -2,10 +2,9 @@
 
 use crate::classes::Classes;
 use crate::dcr::ground::memory::require_memory;
-use crate::dcr::neighbourhood::Neighbourhood;
-use crate::dcr::options::{Method, Options};
-use crate::dcr::report::{Report, Stopped, measure};
-use crate::dcr::run::run;
+use crate::dcr::options::{Method, Neighbourhood, Options};
+use crate::dcr::relax::{Report, measure, relax_set};
+use crate::dcr::relaxation::{Steps, Stopped};
 use crate::dcr::uniform::{ClassRelaxation, UniformRelaxation};
 use crate::error::{Error, Result};
 use crate::job::{Context, Progress};
@@ -65,7 +64,7 @@ pub fn relax_classes(
     }
     require_memory("xy", points.len())?;
     let mut set = ClassRelaxation::new(options.domain, options.seed, points, classes);
-    let (relaxed, report) = run(context, options, points, &mut set, progress, None)?;
+    let (relaxed, report) = relax_set(context, options, points, &mut set, progress, None)?;
     let count = classes.iter().max().map_or(0, |&last| last + 1);
     let reports =
         (0..count).map(|class| of_class(context, options, &relaxed, classes, class)).collect::<Result<_>>()?;
@@ -83,6 +82,7 @@ fn of_class(
     let own = points.iter().zip(classes).filter(|&(_, &of)| of == class);
     let own: Vec<[f32; 2]> = own.map(|(&point, _)| point).collect();
     let mut set = UniformRelaxation::new(options.domain, Neighbourhood::Delaunay, options.seed, &own);
-    let (_, report) = context.run(None, |job| measure(job, &options.domain, &own, &mut set, Stopped::Steps))?;
+    let steps = Steps { iterations: 0, stopped: Stopped::Steps, motion: 0.0 };
+    let (_, report) = context.run(None, |job| measure(job, &options.domain, &own, &mut set, steps))?;
     Ok(ClassReport { count: own.len(), rho: report.rho, coverage: report.coverage })
 }

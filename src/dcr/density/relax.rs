@@ -5,10 +5,8 @@ use crate::dcr::density::relaxation::DensityRelaxation;
 use crate::dcr::density::source::Density;
 use crate::dcr::ground::memory::require_memory;
 use crate::dcr::ground::torus::Torus;
-use crate::dcr::neighbourhood::Neighbourhood;
-use crate::dcr::options::{Method, Options};
-use crate::dcr::report::Report;
-use crate::dcr::run::run;
+use crate::dcr::options::{Method, Neighbourhood, Options};
+use crate::dcr::relax::{Report, relax_set};
 use crate::error::{Error, Result};
 use crate::job::{Context, Progress};
 use crate::points::Domain;
@@ -59,7 +57,7 @@ pub fn relax_with_density(
         let raster = Raster::new(&job.part(0.0, 0.5), &options.domain, density, points.len())?;
         DensityRelaxation::new(&job.part(0.5, 1.0), options.domain, options.seed, raster, points)
     })?;
-    run(context, options, points, &mut set, progress, None)
+    relax_set(context, options, points, &mut set, progress, None)
 }
 
 /// Random points of a domain, as dense as asked for: a start for [`relax_with_density`]. Point `i` depends on the

@@ -11,9 +11,9 @@ use crate::dcr::ground::boundary::MirrorBoundary;
 use crate::dcr::ground::constraints::{Constraints, FREE_CLEARANCE, Force, MOMENTUM, SAFE_FRACTION};
 use crate::dcr::ground::curve::{CurveOrder, along_curve};
 use crate::dcr::ground::heaps::are_heaped;
-use crate::dcr::ground::motion::{Motion, STEP};
 use crate::dcr::ground::neighbours::Neighbours;
 use crate::dcr::ground::torus::{Torus, TorusPoint};
+use crate::dcr::relax::PlaneRelaxation;
 use crate::dcr::relaxation::Relaxation;
 use crate::error::Result;
 use crate::geometry::Delaunay;
@@ -41,8 +41,6 @@ pub(super) struct DensityRelaxation {
     velocities: Vec<Vec2>,
     /// The mesh of the points, once there is one.
     mesh: Option<HalfEdgeMesh>,
-    motion: Motion<TorusPoint>,
-    iterations: u32,
 }
 
 impl DensityRelaxation {
@@ -59,8 +57,6 @@ impl DensityRelaxation {
             spacings: start.iter().map(|&place| raster.spacing(place)).collect(),
             velocities: vec![Vec2::ZERO; start.len()],
             mesh: None,
-            motion: Motion::new(STEP, start.to_vec()),
-            iterations: 0,
             torus,
             raster,
             seed,
@@ -72,7 +68,6 @@ impl DensityRelaxation {
     fn restart(&mut self, places: &[TorusPoint]) {
         self.places = self.torus.with_images(places);
         self.spacings = places.iter().map(|&place| self.raster.spacing(place)).collect();
-        self.motion = Motion::new(STEP, places.to_vec());
     }
 
     fn neighbours(&mut self, job: &Job) -> Result<Neighbours<HalfEdgeMesh>> {
@@ -123,9 +118,9 @@ impl DensityRelaxation {
         &self,
         job: &Job,
         neighbours: &Neighbours<HalfEdgeMesh>,
+        constraints: &Constraints,
         drift: &[Vec2],
     ) -> Result<Vec<(TorusPoint, Vec2)>> {
-        let constraints = Constraints::of_step(self.iterations);
         let chunks = chunks(self.order.len());
         job.concat(chunks.len(), |chunk| {
             let mut ring = Vec::new();
@@ -133,14 +128,14 @@ impl DensityRelaxation {
                 self.surround(neighbours, point, &mut ring);
                 let spacing = self.spacings[point];
                 let density_at = |offset| self.raster.density(self.torus.moved(self.places[point], offset));
-                let Force { sum, clearance } = force(&constraints, spacing, &ring, density_at);
+                let Force { sum, clearance } = force(constraints, spacing, &ring, density_at);
                 let limit = SAFE_FRACTION
                     * if matches!(neighbours, Neighbours::Kept(_)) { clearance } else { FREE_CLEARANCE * spacing };
                 let sum = match self.domain.boundary {
                     Boundary::Periodic => sum,
                     Boundary::Bounded => {
                         let images = self.torus.own_images(self.places[point]).map(|image| image / spacing);
-                        MirrorBoundary::force_by_images(&constraints, images, sum)
+                        MirrorBoundary::force_by_images(constraints, images, sum)
                     }
                 };
                 let velocity = MOMENTUM * self.velocities[point] + spacing * sum;
@@ -153,6 +148,17 @@ impl DensityRelaxation {
 }
 
 impl Relaxation for DensityRelaxation {
+    type Position = TorusPoint;
+    type Space = Torus;
+
+    fn space(&self) -> Torus {
+        self.torus
+    }
+
+    fn positions(&self) -> impl ExactSizeIterator<Item = TorusPoint> {
+        self.places[..self.order.len()].iter().copied()
+    }
+
     /// Deals heaped points out on random points of the density, which are in the order of the curve too.
     fn begin(&mut self, _: &Job) -> Result<()> {
         let scattered = self.raster.scatter(&self.torus, self.order.len(), self.seed);
@@ -164,45 +170,33 @@ impl Relaxation for DensityRelaxation {
     }
 
     /// Without any step, the points are those with which the set began.
-    fn finish(&mut self, _: &Job) -> Result<()> {
-        if self.iterations == 0 {
+    fn finish(&mut self, _: &Job, iterations: u32) -> Result<()> {
+        if iterations == 0 {
             let start = self.order.start().to_vec();
             self.restart(&start);
         }
         Ok(())
     }
 
-    fn step(&mut self, job: &Job) -> Result<()> {
+    fn step(&mut self, job: &Job, iteration: u32) -> Result<()> {
         let count = self.order.len();
-        let drift = match self.iterations.is_multiple_of(WAVES_EVERY) {
+        let drift = match iteration.is_multiple_of(WAVES_EVERY) {
             true => self.octaves.drift(&job.part(0.0, 0.2), &self.places, &self.spacings)?,
             false => vec![Vec2::ZERO; count],
         };
         let neighbours = self.neighbours(&job.part(0.2, 0.4))?;
-        let moved = self.gather(&job.part(0.4, 0.7), &neighbours, &drift)?;
+        let moved = self.gather(&job.part(0.4, 0.7), &neighbours, &Constraints::of_step(iteration), &drift)?;
         let (places, velocities): (Vec<TorusPoint>, Vec<Vec2>) = moved.into_iter().unzip();
         self.spacings = places.iter().map(|&place| self.raster.spacing(place)).collect();
         (self.places, self.velocities) = (self.torus.with_images(&places), velocities);
-        self.iterations += 1;
-        self.motion.after_step(&self.torus, || places.iter().copied());
         if let Neighbours::Kept(mut mesh) = neighbours {
             self.mesh = mesh.repair(&job.part(0.7, 1.0), &self.corners())?.then_some(mesh);
         }
         Ok(())
     }
+}
 
-    fn iterations(&self) -> u32 {
-        self.iterations
-    }
-
-    fn motion(&self) -> f64 {
-        self.motion.last(&self.torus, self.places[..self.order.len()].iter().copied())
-    }
-
-    fn has_settled(&self, tolerance: f64) -> bool {
-        self.motion.has_settled(tolerance)
-    }
-
+impl PlaneRelaxation for DensityRelaxation {
     fn points(&self, points: &[[f32; 2]]) -> Vec<[f32; 2]> {
         self.order.leave(&self.torus, &self.places, points)
     }

@@ -16,7 +16,7 @@ use glam::Vec2;
 
 use crate::dcr::ground::constraints::{Constraints, STIFFENING};
 use crate::dcr::ground::torus::{Torus, TorusPoint};
-use crate::dcr::neighbourhood::Neighbourhood;
+use crate::dcr::options::Neighbourhood;
 
 /// The distance, in spacings, below which a point and its own image push each other: enough to keep triangles between
 /// them from getting flat, in which points could not move.

@@ -8,7 +8,6 @@ pub(super) mod flips;
 pub(super) mod heaps;
 pub(super) mod level;
 pub(super) mod memory;
-pub(super) mod motion;
 pub(super) mod neighbours;
 pub(super) mod torus;
 #[cfg(test)]

@@ -7,6 +7,7 @@
 
 use glam::{DVec2, Vec2};
 
+use crate::dcr::relaxation::Space;
 use crate::error::Result;
 use crate::geometry::Frame;
 use crate::job::{Job, chunks};
@@ -187,6 +188,12 @@ impl Torus {
     pub(in crate::dcr) fn moved(&self, place: TorusPoint, displacement: Vec2) -> TorusPoint {
         let by = (displacement * self.per_spacing).to_array();
         self.inside(std::array::from_fn(|axis| place[axis].wrapping_add((by[axis] as i32).cast_unsigned())))
+    }
+}
+
+impl Space<TorusPoint> for Torus {
+    fn distance_squared(&self, from: TorusPoint, to: TorusPoint) -> f64 {
+        self.frame.offset(self.position(from), self.position(to)).length_squared()
     }
 }
 

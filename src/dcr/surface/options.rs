@@ -1,6 +1,6 @@
 //! The options and the report of relaxation on meshes.
 
-use crate::dcr::report::Stopped;
+use crate::dcr::relaxation::Stopped;
 use crate::error::{Error, Result};
 use crate::setters::setters;
 

@@ -1,8 +1,6 @@
 //! Relaxation of samples on a mesh.
 
-use glam::DVec2;
-
-use crate::dcr::report::Stopped;
+use crate::dcr::relaxation::{Limits, Steps, run};
 use crate::dcr::surface::apart::Floor;
 use crate::dcr::surface::connected::ConnectedMesh;
 use crate::dcr::surface::curve::along_curve;
@@ -11,22 +9,15 @@ use crate::dcr::surface::relaxation::SurfaceRelaxation;
 use crate::dcr::surface::samples::{check, enter, hexagonal_distance, leave};
 use crate::dcr::surface::spread::spread;
 use crate::dcr::surface::walk::SurfacePoint;
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::index::smallest_distance;
 use crate::job::{Context, Job, Progress};
 use crate::memory;
 use crate::mesh::{Mesh, round_barycentrics};
 use crate::points::Points;
-use crate::rng::{Draw, Rng};
-
-/// The distance by which samples are moved that coincide with others, or lie on an edge of their triangle, in spacings.
-const PARTING: f64 = 1e-3;
 
 /// Memory for a sample and all that is known of it, at the peak.
 const BYTES_PER_SAMPLE: f64 = 600.0;
-
-/// The number of attempts for samples that would get too close to others.
-const ATTEMPTS: u64 = 16;
 
 /// Relaxes samples on a mesh: sample `i` is the point `barycentrics[i]` of `triangles[i]`, as in [`Points`], and
 /// of any density. The samples are returned in their order, each with the triangle that it is on.
@@ -64,27 +55,26 @@ pub fn relax(
     let spacing = hexagonal_distance(mesh, triangles.len());
     let places = enter(triangles, barycentrics);
     let mut set = context.run(None, |job| begin(job, &connected, spacing, &places, options))?;
-    let steps = context.run(progress, |job| make_steps(job, options, spacing, &mut set));
-    let stopped = match steps {
-        Err(Error::Cancelled) => Stopped::Cancelled,
-        steps => steps?,
-    };
-    let samples = match set.iterations() {
-        0 => {
-            let on_triangle = |&uv: &[f32; 2]| round_barycentrics(uv.map(f64::from));
-            mesh.samples(triangles.to_vec(), barycentrics.iter().map(on_triangle).collect())
-        }
-        _ => leave(mesh, &set.places()),
-    };
-    let smallest_distance = context.run(None, |job| set.smallest_distance(job))?;
-    let report = Report {
-        iterations: set.iterations(),
-        stopped,
-        motion: set.motion(),
-        smallest_distance,
-        rho: smallest_distance / spacing,
-    };
-    Ok((samples, report))
+    let limits = Limits { max_iterations: options.max_iterations, tolerance: options.tolerance };
+    run(
+        context,
+        limits,
+        &mut set,
+        progress,
+        |_| {},
+        |job, set, Steps { iterations, stopped, motion }| {
+            let samples = match iterations {
+                0 => {
+                    let on_triangle = |&uv: &[f32; 2]| round_barycentrics(uv.map(f64::from));
+                    mesh.samples(triangles.to_vec(), barycentrics.iter().map(on_triangle).collect())
+                }
+                _ => leave(mesh, &set.places()),
+            };
+            let smallest_distance = set.smallest_distance(job)?;
+            let rho = smallest_distance / spacing;
+            Ok((samples, Report { iterations, stopped, motion, smallest_distance, rho }))
+        },
+    )
 }
 
 /// The set before the first step: no two samples will get closer to each other than the closest two are now, and those
@@ -105,54 +95,5 @@ fn begin<'a>(
         0 => None,
         _ => spread(job, mesh, places, floor, spacing, options.seed)?,
     };
-    SurfaceRelaxation::new(job, connected, spacing, floor, dealt.as_deref().unwrap_or(places))
-}
-
-/// The points of the set, with those moved that coincide with another or lie on an edge: a sample on the boundary would
-/// coincide with its mirror image. They move a little towards a random point of their triangle. None if none must be
-/// moved.
-fn parted(set: &SurfaceRelaxation, spacing: f64, seed: u64, attempt: u64) -> Option<Vec<SurfacePoint>> {
-    let (mesh, mut places) = (set.mesh(), set.places());
-    let positions: Vec<_> = places.iter().map(|place| place.position(mesh)).collect();
-    let mut order: Vec<u32> = (0..places.len() as u32).collect();
-    let bits = |i: u32| positions[i as usize].to_array().map(f64::to_bits);
-    order.sort_unstable_by_key(|&i| (bits(i), i));
-    let repeated = order.windows(2).filter(|pair| bits(pair[0]) == bits(pair[1])).map(|pair| pair[1]);
-    let on_edges = (0..places.len() as u32).filter(|&i| {
-        let uv = places[i as usize].uv;
-        uv.min_element() == 0.0 || uv.element_sum() == 1.0
-    });
-    let mut parted: Vec<u32> = repeated.chain(on_edges).collect();
-    parted.sort_unstable();
-    parted.dedup();
-    for &i in &parted {
-        let place = &mut places[i as usize];
-        let mut rng = Rng::at(seed, Draw::Part, &[i.into(), attempt]);
-        let (along, across) = (rng.unit().sqrt(), rng.unit());
-        let aim = DVec2::new(along * (1.0 - across), along * across);
-        let at = |uv: DVec2| mesh.point_exact(place.triangle, uv.into());
-        let distance = at(place.uv).distance(at(aim));
-        place.uv = place.uv.lerp(aim, (PARTING * spacing / distance).min(1.0));
-    }
-    (!parted.is_empty()).then_some(places)
-}
-
-/// Steps until the motion ends or the steps do.
-fn make_steps(job: &Job, options: &Options, spacing: f64, set: &mut SurfaceRelaxation) -> Result<Stopped> {
-    if set.count() < 2 {
-        return Ok(Stopped::Converged);
-    }
-    let attempts = if options.max_iterations > 0 { ATTEMPTS } else { 0 };
-    for attempt in 0..attempts {
-        let Some(places) = parted(set, spacing, options.seed, attempt) else { break };
-        set.shift(&job.part(0.0, 0.0), &places)?;
-    }
-    let share = |iteration: u32| f64::from(iteration) / f64::from(options.max_iterations);
-    for iteration in 0..options.max_iterations {
-        set.step(&job.part(share(iteration), share(iteration + 1)))?;
-        if set.has_settled(options.tolerance) {
-            return Ok(Stopped::Converged);
-        }
-    }
-    Ok(Stopped::Steps)
+    SurfaceRelaxation::new(job, connected, spacing, floor, dealt.as_deref().unwrap_or(places), options.seed)
 }

@@ -1,9 +1,9 @@
 //! A set of samples that is being relaxed on a surface.
 
-use glam::{DVec3, Vec2};
+use glam::{DVec2, DVec3, Vec2};
 
 use crate::dcr::ground::constraints::{Constraints, STIFFENING};
-use crate::dcr::ground::motion::{Motion, STEP, Space};
+use crate::dcr::relaxation::{Relaxation, Space};
 use crate::dcr::surface::apart::{Floor, Limits};
 use crate::dcr::surface::connected::ConnectedMesh;
 use crate::dcr::surface::curve::along_curve;
@@ -14,8 +14,15 @@ use crate::error::Result;
 use crate::index::smallest_distance;
 use crate::job::Job;
 use crate::math::power;
-use crate::mesh::{Mesh, exact};
+use crate::mesh::exact;
+use crate::rng::{Draw, Rng};
 use crate::simd::{self, Level, Position};
+
+/// The distance by which samples are moved that coincide with others, or lie on an edge of their triangle, in spacings.
+const PARTING: f64 = 1e-3;
+
+/// The number of attempts for samples that would get too close to others.
+const ATTEMPTS: u64 = 16;
 
 /// The largest displacement of samples in a step, in spacings.
 const STRIDE: f32 = 0.4;
@@ -51,8 +58,7 @@ pub(super) struct SurfaceRelaxation<'a> {
     /// The positions after the step, while it is made.
     wanted: Vec<Position>,
     near: Neighbourhoods<'a>,
-    motion: Motion<Position>,
-    iterations: u32,
+    seed: u64,
 }
 
 impl<'a> SurfaceRelaxation<'a> {
@@ -63,6 +69,7 @@ impl<'a> SurfaceRelaxation<'a> {
         spacing: f64,
         floor: Floor,
         places: &[SurfacePoint],
+        seed: u64,
     ) -> Result<Self> {
         let order: Vec<u32> = along_curve(connected.mesh, places).into_iter().map(|(_, i)| i).collect();
         let movers: Vec<Mover> =
@@ -74,42 +81,18 @@ impl<'a> SurfaceRelaxation<'a> {
             spacing,
             floor,
             near: Neighbourhoods::new(job, connected, spacing, floor.distance() / spacing, &movers, &positions)?,
-            motion: Motion::new(STEP, positions.clone()),
             wanted: positions.clone(),
             positions,
             movers,
             order,
-            iterations: 0,
+            seed,
         })
-    }
-
-    pub(super) fn iterations(&self) -> u32 {
-        self.iterations
-    }
-
-    /// Half of the distance that samples covered in the last span of steps, in spacings.
-    pub(super) fn motion(&self) -> f64 {
-        self.motion.last(&Unit(self.spacing), self.positions.iter().copied())
-    }
-
-    /// Whether a whole span of steps was made, and the motion in the last is at most the tolerance.
-    pub(super) fn has_settled(&self, tolerance: f64) -> bool {
-        self.motion.has_settled(tolerance)
-    }
-
-    pub(super) fn mesh(&self) -> &'a Mesh {
-        self.connected.mesh
     }
 
     /// The smallest distance of two samples; infinite for less than two.
     pub(super) fn smallest_distance(&self, job: &Job) -> Result<f64> {
         let positions: Vec<_> = self.positions.iter().map(|&[x, y, z, _]| [x, y, z]).collect();
         smallest_distance(job, &positions)
-    }
-
-    /// The number of samples.
-    pub(super) fn count(&self) -> usize {
-        self.movers.len()
     }
 
     /// The samples, in the user's order.
@@ -119,20 +102,37 @@ impl<'a> SurfaceRelaxation<'a> {
         places
     }
 
-    /// Moves all samples. If it is cancelled, all have moved or none.
-    pub(super) fn step(&mut self, job: &Job) -> Result<()> {
-        self.near.search(&job.part(0.0, 0.5), &mut self.movers, &self.positions)?;
-        job.context().run(None, |whole| {
-            let doubtful = self.gather(whole)?;
-            self.settle(whole, doubtful)
-        })?;
-        self.iterations += 1;
-        self.motion.after_step(&Unit(self.spacing), || self.positions.iter().copied());
-        job.report(1.0)
+    /// The points of the set, with those moved that coincide with another or lie on an edge: a sample on the boundary
+    /// would coincide with its mirror image. They move a little towards a random point of their triangle. None if none
+    /// must be moved.
+    fn parted(&self, attempt: u64) -> Option<Vec<SurfacePoint>> {
+        let (mesh, mut places) = (self.connected.mesh, self.places());
+        let positions: Vec<_> = places.iter().map(|place| place.position(mesh)).collect();
+        let mut order: Vec<u32> = (0..places.len() as u32).collect();
+        let bits = |i: u32| positions[i as usize].to_array().map(f64::to_bits);
+        order.sort_unstable_by_key(|&i| (bits(i), i));
+        let repeated = order.windows(2).filter(|pair| bits(pair[0]) == bits(pair[1])).map(|pair| pair[1]);
+        let on_edges = (0..places.len() as u32).filter(|&i| {
+            let uv = places[i as usize].uv;
+            uv.min_element() == 0.0 || uv.element_sum() == 1.0
+        });
+        let mut parted: Vec<u32> = repeated.chain(on_edges).collect();
+        parted.sort_unstable();
+        parted.dedup();
+        for &i in &parted {
+            let place = &mut places[i as usize];
+            let mut rng = Rng::at(self.seed, Draw::Part, &[i.into(), attempt]);
+            let (along, across) = (rng.unit().sqrt(), rng.unit());
+            let aim = DVec2::new(along * (1.0 - across), along * across);
+            let at = |uv: DVec2| mesh.point_exact(place.triangle, uv.into());
+            let distance = at(place.uv).distance(at(aim));
+            place.uv = place.uv.lerp(aim, (PARTING * self.spacing / distance).min(1.0));
+        }
+        (!parted.is_empty()).then_some(places)
     }
 
     /// Moves samples to these points close to theirs, where that is admitted. This does not count as a step.
-    pub(super) fn shift(&mut self, job: &Job, places: &[SurfacePoint]) -> Result<()> {
+    fn shift(&mut self, job: &Job, places: &[SurfacePoint]) -> Result<()> {
         self.near.search(job, &mut self.movers, &self.positions)?;
         job.context().run(None, |whole| {
             let mut doubtful = Vec::new();
@@ -146,7 +146,7 @@ impl<'a> SurfaceRelaxation<'a> {
     }
 
     /// Moves samples as forces ask for. Returns those that may end too close to others.
-    fn gather(&mut self, job: &Job) -> Result<Vec<Doubtful>> {
+    fn gather(&mut self, job: &Job, iteration: u32) -> Result<Vec<Doubtful>> {
         let floor = (self.floor.distance() / self.spacing) as f32;
         let (lists, locals) = self.near.lists_and_locals();
         let situation = Situation {
@@ -156,10 +156,10 @@ impl<'a> SurfaceRelaxation<'a> {
             spacing: self.spacing,
             unit: (1.0 / self.spacing) as f32,
             floor,
-            constraints: Constraints::of_step(self.iterations),
-            limits: Limits::of_step(self.iterations, floor),
-            stride: STRIDE * power(CALMING, self.iterations.saturating_sub(STIFFENING)) as f32,
-            rest: rest(self.iterations),
+            constraints: Constraints::of_step(iteration),
+            limits: Limits::of_step(iteration, floor),
+            stride: STRIDE * power(CALMING, iteration.saturating_sub(STIFFENING)) as f32,
+            rest: rest(iteration),
         };
         let movers = self.movers.chunks_mut(CHUNK).zip(locals.chunks_mut(CHUNK));
         let moves = (0..).zip(movers.zip(self.wanted.chunks_mut(CHUNK)));
@@ -214,6 +214,34 @@ impl<'a> SurfaceRelaxation<'a> {
     }
 }
 
+impl Relaxation for SurfaceRelaxation<'_> {
+    type Position = Position;
+    type Space = Unit;
+
+    fn space(&self) -> Unit {
+        Unit(self.spacing)
+    }
+
+    fn positions(&self) -> impl ExactSizeIterator<Item = Position> {
+        self.positions.iter().copied()
+    }
+
+    fn step(&mut self, job: &Job, iteration: u32) -> Result<()> {
+        if iteration == 0 {
+            for attempt in 0..ATTEMPTS {
+                let Some(places) = self.parted(attempt) else { break };
+                self.shift(&job.part(0.0, 0.0), &places)?;
+            }
+        }
+        self.near.search(&job.part(0.0, 0.5), &mut self.movers, &self.positions)?;
+        job.context().run(None, |whole| {
+            let doubtful = self.gather(whole, iteration)?;
+            self.settle(whole, doubtful)
+        })?;
+        job.report(1.0)
+    }
+}
+
 /// The number of steps for which samples rest that come to rest in this one.
 fn rest(iterations: u32) -> u8 {
     if iterations < FIRST_REST { 0 } else { (iterations / REST_SHARE).min(LONGEST_REST) as u8 }
@@ -225,7 +253,7 @@ fn place([x, y, z, _]: Position) -> DVec3 {
 }
 
 /// Space, with this as the unit of length.
-struct Unit(f64);
+pub(super) struct Unit(f64);
 
 impl Space<Position> for Unit {
     fn distance_squared(&self, from: Position, to: Position) -> f64 {
@@ -237,8 +265,7 @@ impl Space<Position> for Unit {
 mod tests {
     use super::*;
     use crate::job::Context;
-    use crate::rng::{Draw, Rng};
-    use glam::DVec2;
+    use crate::mesh::Mesh;
 
     /// The smallest distance of two points.
     fn smallest(mesh: &Mesh, places: &[SurfacePoint]) -> f64 {
@@ -266,10 +293,10 @@ mod tests {
         let pairs = || (0..places.len()).flat_map(|i| (0..i).map(move |j| (i, j)));
         let floor = smallest(&mesh, &places);
         let context = Context::new(1).unwrap();
-        let new = |job: &Job| SurfaceRelaxation::new(job, &connected, spacing, Floor::new(floor), &places);
+        let new = |job: &Job| SurfaceRelaxation::new(job, &connected, spacing, Floor::new(floor), &places, 0);
         let mut set = context.run(None, new).unwrap();
         let (mut sights, mut unknown) = (0, 0);
-        for _ in 0..30 {
+        for iteration in 0..30 {
             context.run(None, |job| set.near.search(job, &mut set.movers, &set.positions)).unwrap();
             for (i, j) in pairs() {
                 let distance = place(set.positions[i]).distance(place(set.positions[j]));
@@ -280,7 +307,7 @@ mod tests {
                     unknown += usize::from(set.near.others(i as u32).contains(&(j as u32)));
                 }
             }
-            context.run(None, |job| set.step(job)).unwrap();
+            context.run(None, |job| set.step(job, iteration)).unwrap();
             assert!(pairs().all(|(i, j)| place(set.positions[i]).distance(place(set.positions[j])) >= floor));
             assert_eq!(set.places().iter().map(|at| at.position(&mesh)).collect::<Vec<_>>(), {
                 let mut positions = vec![DVec3::ZERO; places.len()];
@@ -302,14 +329,14 @@ mod tests {
             (0..600).map(|_| SurfacePoint { triangle: 0, uv: rng.in_triangle().into() }).collect();
         let (floor, spacing) = (Floor::new(smallest(&mesh, &places)), (mesh.area() / 519.6).sqrt());
         let context = Context::new(1).unwrap();
-        let new = |job: &Job| SurfaceRelaxation::new(job, &connected, spacing, floor, &places);
+        let new = |job: &Job| SurfaceRelaxation::new(job, &connected, spacing, floor, &places, 0);
         let mut set = context.run(None, new).unwrap();
         let mut resting = 0;
         for step in 0..80 {
             let before = set.positions.clone();
             let rests: Vec<bool> = set.movers.iter().map(|mover| mover.rest > 0).collect();
             assert!(step >= FIRST_REST || !rests.contains(&true));
-            context.run(None, |job| set.step(job)).unwrap();
+            context.run(None, |job| set.step(job, step)).unwrap();
             for (i, _) in rests.iter().enumerate().filter(|(i, rests)| **rests && set.movers[*i].rest > 0) {
                 resting += 1;
                 assert_eq!(set.positions[i], before[i]);
@@ -337,9 +364,9 @@ mod tests {
         let relaxed = Level::available().into_iter().map(|level| {
             let context = Context::new(1).unwrap();
             let steps = context.run(None, |job| {
-                let mut set = SurfaceRelaxation::new(job, &connected, 0.05, floor, &places)?;
+                let mut set = SurfaceRelaxation::new(job, &connected, 0.05, floor, &places, 0)?;
                 set.level = level;
-                (0..60).try_for_each(|_| set.step(job))?;
+                (0..60).try_for_each(|iteration| set.step(job, iteration))?;
                 Ok(set.places())
             });
             steps.unwrap()

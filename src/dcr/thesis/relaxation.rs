@@ -2,9 +2,9 @@
 
 use glam::DVec2;
 
-use crate::dcr::ground::motion::Motion;
-use crate::dcr::neighbourhood::Neighbourhood;
-use crate::dcr::relaxation::Relaxation;
+use crate::dcr::options::Neighbourhood;
+use crate::dcr::relax::PlaneRelaxation;
+use crate::dcr::relaxation::{Relaxation, Space};
 use crate::dcr::thesis::delaunay::DelaunayLinks;
 use crate::dcr::thesis::forces::{Forces, Particle};
 use crate::dcr::thesis::links::Links;
@@ -26,10 +26,8 @@ pub(in crate::dcr) struct ThesisRelaxation {
     /// The user's index of each particle.
     order: Vec<u32>,
     particles: Vec<Particle>,
-    motion: Motion<DVec2>,
     /// The thesis's test, if that is what ends the steps.
     variance: Option<Variance>,
-    iterations: u32,
 }
 
 impl ThesisRelaxation {
@@ -53,9 +51,7 @@ impl ThesisRelaxation {
             frame,
             order,
             particles: positions.iter().copied().map(Particle::new).collect(),
-            motion: Motion::new(thesis.step, positions),
             variance: (thesis.convergence == Convergence::Variance).then(Variance::default),
-            iterations: 0,
         }
     }
 
@@ -71,21 +67,45 @@ impl ThesisRelaxation {
         })
     }
 
-    fn positions(&self) -> impl ExactSizeIterator<Item = DVec2> + Clone {
+    fn particle_positions(&self) -> impl ExactSizeIterator<Item = DVec2> + Clone {
         self.particles.iter().map(|particle| particle.position)
     }
 }
 
+impl Space<DVec2> for Frame {
+    fn distance_squared(&self, from: DVec2, to: DVec2) -> f64 {
+        self.offset(from, to).length_squared()
+    }
+}
+
 impl Relaxation for ThesisRelaxation {
-    fn step(&mut self, job: &Job) -> Result<()> {
+    type Position = DVec2;
+    type Space = Frame;
+
+    fn space(&self) -> Frame {
+        self.frame
+    }
+
+    fn positions(&self) -> impl ExactSizeIterator<Item = DVec2> {
+        self.particle_positions()
+    }
+
+    fn step_size(&self) -> f64 {
+        self.forces.step
+    }
+
+    fn step(&mut self, job: &Job, _: u32) -> Result<()> {
         let (prepare, gather, judge) = (job.part(0.0, 0.5), job.part(0.5, 0.9), job.part(0.9, 1.0));
         let moved = match self.neighbourhood {
             Neighbourhood::Delaunay => {
-                self.gather(&gather, &DelaunayLinks::new(&prepare, &self.frame, self.positions())?)?
+                self.gather(&gather, &DelaunayLinks::new(&prepare, &self.frame, self.particle_positions())?)?
             }
             Neighbourhood::Nearest => {
                 let (radius, count) = (self.thesis.conflict_radius, self.thesis.neighbours as usize);
-                self.gather(&gather, &NearestLinks::new(&prepare, &self.frame, self.positions(), radius, count)?)?
+                self.gather(
+                    &gather,
+                    &NearestLinks::new(&prepare, &self.frame, self.particle_positions(), radius, count)?,
+                )?
             }
         };
         if let Some(variance) = &mut self.variance {
@@ -93,29 +113,16 @@ impl Relaxation for ThesisRelaxation {
             variance.after_step(&judge, &self.frame, &positions(&self.particles), &positions(&moved))?;
         }
         self.particles = moved;
-        self.iterations += 1;
-        let particles = &self.particles;
-        self.motion.after_step(&self.frame, || particles.iter().map(|particle| particle.position));
         self.forces.step *= self.thesis.decay;
-        self.motion.set_step(self.forces.step);
         Ok(())
     }
 
-    fn iterations(&self) -> u32 {
-        self.iterations
+    fn has_converged(&self, is_at_rest: bool) -> bool {
+        self.variance.as_ref().map_or(is_at_rest, Variance::has_settled)
     }
+}
 
-    fn motion(&self) -> f64 {
-        self.motion.last(&self.frame, self.positions())
-    }
-
-    fn has_settled(&self, tolerance: f64) -> bool {
-        match &self.variance {
-            Some(variance) => variance.has_settled(),
-            None => self.motion.has_settled(tolerance),
-        }
-    }
-
+impl PlaneRelaxation for ThesisRelaxation {
     fn points(&self, points: &[[f32; 2]]) -> Vec<[f32; 2]> {
         let mut relaxed = points.to_vec();
         for (&point, particle) in self.order.iter().zip(&self.particles) {
@@ -125,6 +132,6 @@ impl Relaxation for ThesisRelaxation {
     }
 
     fn coverage(&mut self, job: &Job) -> Result<f64> {
-        Ok(Delaunay::new(job, &self.frame, self.positions())?.coverage() * self.frame.spacing())
+        Ok(Delaunay::new(job, &self.frame, self.particle_positions())?.coverage() * self.frame.spacing())
     }
 }

@@ -15,10 +15,10 @@ use crate::dcr::ground::boundary::MirrorBoundary;
 use crate::dcr::ground::constraints::{Constraints, FREE_CLEARANCE, MOMENTUM, SAFE_FRACTION};
 use crate::dcr::ground::curve::CurveOrder;
 use crate::dcr::ground::level::{LEVEL, leveled};
-use crate::dcr::ground::motion::{Motion, STEP};
 use crate::dcr::ground::torus::{Torus, TorusPoint};
 use crate::dcr::ground::waves::WaveGrid;
-use crate::dcr::neighbourhood::Neighbourhood;
+use crate::dcr::options::Neighbourhood;
+use crate::dcr::relax::PlaneRelaxation;
 use crate::dcr::relaxation::Relaxation;
 use crate::dcr::uniform::flip_mesh::{Edge, FlipMesh};
 use crate::dcr::uniform::gather::{JAMMED, kick, limited};
@@ -119,10 +119,10 @@ impl Subset {
     }
 
     /// The displacements of the members by long waves.
-    fn drift(&self, job: &Job, iterations: u32) -> Result<Vec<Vec2>> {
-        let mut drift = self.waves.drift(job, &self.places, self.members.len(), highest_wave(iterations))?;
+    fn drift(&self, job: &Job, iteration: u32) -> Result<Vec<Vec2>> {
+        let mut drift = self.waves.drift(job, &self.places, self.members.len(), highest_wave(iteration))?;
         if let Some(boundary) = &self.boundary {
-            boundary.calm(iterations, &self.places, &mut drift);
+            boundary.calm(iteration, &self.places, &mut drift);
         }
         Ok(drift)
     }
@@ -191,8 +191,6 @@ pub(in crate::dcr) struct ClassRelaxation {
     subsets: Vec<Subset>,
     places: Vec<TorusPoint>,
     velocities: Vec<Vec2>,
-    motion: Motion<TorusPoint>,
-    iterations: u32,
 }
 
 impl ClassRelaxation {
@@ -204,17 +202,11 @@ impl ClassRelaxation {
             subsets: subsets(domain, &order, classes),
             places: order.start().to_vec(),
             velocities: vec![Vec2::ZERO; order.len()],
-            motion: Motion::new(STEP, order.start().to_vec()),
-            iterations: 0,
             classes: classes.to_vec(),
             domain,
             seed,
             order,
         }
-    }
-
-    fn torus(&self) -> Torus {
-        self.subsets[0].torus
     }
 
     /// Levels some of the subsets, if they are heaped, one by one.
@@ -230,16 +222,15 @@ impl ClassRelaxation {
             }
         }
         if is_heaped {
-            (self.order, self.places) = self.order.reordered(&self.torus().parted(&places, self.seed));
+            (self.order, self.places) = self.order.reordered(&self.space().parted(&places, self.seed));
             self.subsets = self::subsets(self.domain, &self.order, &self.classes);
-            self.motion = Motion::new(STEP, self.places.clone());
         }
         Ok(())
     }
 
-    fn gather(&mut self, job: &Job) -> Result<Sums> {
+    fn gather(&mut self, job: &Job, iteration: u32) -> Result<Sums> {
         let (conflict_radius, coverage_radius) = (CONFLICT_RADIUS, COVERAGE_RADIUS);
-        let constraints = Constraints { conflict_radius, coverage_radius, ..Constraints::of_step(self.iterations) };
+        let constraints = Constraints { conflict_radius, coverage_radius, ..Constraints::of_step(iteration) };
         let mut sums = vec![Pull { clearance: f32::INFINITY, ..Pull::default() }; self.places.len()];
         let mut drifts = vec![Vec2::ZERO; self.places.len()];
         let mut suspects = Vec::with_capacity(self.subsets.len());
@@ -248,8 +239,8 @@ impl ClassRelaxation {
             let job = job.part(i as f64 / parts, (i + 1) as f64 / parts);
             subset.follow(&self.places);
             let scale = subset.weight * subset.spacing;
-            if self.iterations.is_multiple_of(WAVES_EVERY) {
-                let drift = subset.drift(&job.part(0.0, 0.4), self.iterations)?;
+            if iteration.is_multiple_of(WAVES_EVERY) {
+                let drift = subset.drift(&job.part(0.0, 0.4), iteration)?;
                 subset.members.iter().zip(drift).for_each(|(&point, drift)| drifts[point as usize] += scale * drift);
             }
             let gathered = subset.gather(&job.part(0.4, 1.0), &constraints)?;
@@ -275,20 +266,31 @@ fn subsets(domain: Domain, order: &CurveOrder, classes: &[u32]) -> Vec<Subset> {
 }
 
 impl Relaxation for ClassRelaxation {
+    type Position = TorusPoint;
+    type Space = Torus;
+
+    fn space(&self) -> Torus {
+        self.subsets[0].torus
+    }
+
+    fn positions(&self) -> impl ExactSizeIterator<Item = TorusPoint> {
+        self.places.iter().copied()
+    }
+
     fn begin(&mut self, job: &Job) -> Result<()> {
         self.level(&job.part(0.0, 0.5), 1..self.subsets.len())?;
         self.level(&job.part(0.5, 1.0), 0..1)
     }
 
-    fn step(&mut self, job: &Job) -> Result<()> {
-        let Sums { pulls, drifts, suspects } = self.gather(&job.part(0.0, 0.8))?;
-        let torus = self.torus();
-        let frees = self.iterations.is_multiple_of(KICK_EVERY) && (FIRST_FREE..=LAST_KICK).contains(&self.iterations);
+    fn step(&mut self, job: &Job, iteration: u32) -> Result<()> {
+        let Sums { pulls, drifts, suspects } = self.gather(&job.part(0.0, 0.8), iteration)?;
+        let torus = self.space();
+        let frees = iteration.is_multiple_of(KICK_EVERY) && (FIRST_FREE..=LAST_KICK).contains(&iteration);
         let mut is_torn = false;
         let points = self.places.iter_mut().zip(&mut self.velocities).zip(pulls.into_iter().zip(drifts)).enumerate();
         for (point, ((place, velocity), (mut sum, drift))) in points {
             if frees && sum.clearance < JAMMED {
-                sum.force += kick(self.iterations, point);
+                sum.force += kick(iteration, point);
                 sum.clearance = FREE_CLEARANCE;
                 is_torn = true;
             }
@@ -297,8 +299,6 @@ impl Relaxation for ClassRelaxation {
             *place = torus.moved(*place, limited(moved + drift, limit));
             *velocity = limited(moved, limit);
         }
-        self.iterations += 1;
-        self.motion.after_step(&torus, || self.places.iter().copied());
         let parts = self.subsets.len() as f64;
         for (i, (subset, suspects)) in self.subsets.iter_mut().zip(suspects).enumerate() {
             let job = job.part(0.8 + 0.2 * i as f64 / parts, 0.8 + 0.2 * (i + 1) as f64 / parts);
@@ -312,26 +312,22 @@ impl Relaxation for ClassRelaxation {
         Ok(())
     }
 
-    fn iterations(&self) -> u32 {
-        self.iterations
+    fn finish(&mut self, _: &Job, iterations: u32) -> Result<()> {
+        if iterations == 0 {
+            self.places = self.order.start().to_vec();
+        }
+        Ok(())
     }
+}
 
-    fn motion(&self) -> f64 {
-        self.motion.last(&self.torus(), self.places.iter().copied())
-    }
-
-    fn has_settled(&self, tolerance: f64) -> bool {
-        self.motion.has_settled(tolerance)
-    }
-
+impl PlaneRelaxation for ClassRelaxation {
     fn points(&self, points: &[[f32; 2]]) -> Vec<[f32; 2]> {
-        self.order.leave(&self.torus(), &self.places, points)
+        self.order.leave(&self.space(), &self.places, points)
     }
 
     fn coverage(&mut self, job: &Job) -> Result<f64> {
         let union = &mut self.subsets[0];
-        let places = if self.iterations > 0 { &self.places } else { self.order.start() };
-        union.follow(places);
+        union.follow(&self.places);
         Ok(union.triangulate(job)?.coverage() * union.torus.frame.spacing())
     }
 }

@@ -8,11 +8,11 @@ use crate::dcr::ground::boundary::MirrorBoundary;
 use crate::dcr::ground::constraints::Constraints;
 use crate::dcr::ground::curve::CurveOrder;
 use crate::dcr::ground::level::{HEAPED, leveled};
-use crate::dcr::ground::motion::{Motion, STEP};
 use crate::dcr::ground::neighbours::Neighbours;
 use crate::dcr::ground::torus::{Torus, TorusPoint};
 use crate::dcr::ground::waves::{LONG_WAVES, WaveGrid};
-use crate::dcr::neighbourhood::Neighbourhood;
+use crate::dcr::options::Neighbourhood;
+use crate::dcr::relax::PlaneRelaxation;
 use crate::dcr::relaxation::Relaxation;
 use crate::dcr::uniform::cells::VerletCells;
 use crate::dcr::uniform::flip_mesh::FlipMesh;
@@ -68,8 +68,6 @@ pub(in crate::dcr) struct UniformRelaxation {
     mesh: Option<FlipMesh>,
     /// The cells of the points, while they are valid.
     cells: Option<VerletCells>,
-    motion: Motion<TorusPoint>,
-    iterations: u32,
 }
 
 impl UniformRelaxation {
@@ -90,18 +88,16 @@ impl UniformRelaxation {
             state: State { places: torus.with_images(order.start()), velocities: vec![Vec2::ZERO; order.len()] },
             mesh: None,
             cells: None,
-            motion: Motion::new(STEP, order.start().to_vec()),
-            iterations: 0,
             torus,
             seed,
             order,
         }
     }
 
-    fn neighbours(&mut self, job: &Job) -> Result<NeighbourSearch> {
+    fn neighbours(&mut self, job: &Job, iteration: u32) -> Result<NeighbourSearch> {
         let places = &self.state.places;
         if self.neighbourhood == Neighbourhood::Nearest {
-            let reach = self.constraints().conflict_radius;
+            let reach = self.constraints(iteration).conflict_radius;
             let mut cells = self.cells.take().unwrap_or_else(|| VerletCells::new(&self.torus, places, reach));
             cells.update(job, places)?;
             return Ok(NeighbourSearch::Nearest(cells));
@@ -120,14 +116,12 @@ impl UniformRelaxation {
         Delaunay::new(job, &self.torus.frame, self.torus.nudged(&self.state.places).into_iter())
     }
 
-    fn constraints(&self) -> Constraints {
+    fn constraints(&self, iteration: u32) -> Constraints {
         match self.neighbourhood {
-            Neighbourhood::Delaunay => Constraints::of_step(self.iterations),
-            Neighbourhood::Nearest => Constraints {
-                conflict_radius: 0.92,
-                coverage_radius: f32::INFINITY,
-                ..Constraints::of_step(self.iterations)
-            },
+            Neighbourhood::Delaunay => Constraints::of_step(iteration),
+            Neighbourhood::Nearest => {
+                Constraints { conflict_radius: 0.92, coverage_radius: f32::INFINITY, ..Constraints::of_step(iteration) }
+            }
         }
     }
 
@@ -147,15 +141,14 @@ impl UniformRelaxation {
     }
 
     /// The parameters of the next step.
-    fn parameters<'a>(&'a self, drift: &'a [Vec2]) -> Step<'a> {
-        let kicks = self.iterations.is_multiple_of(KICK_EVERY) && self.iterations <= LAST_KICK;
-        let kick =
-            Kick { number: self.iterations, is_for_all: self.are_few_violated(), frees: self.iterations >= FIRST_FREE };
+    fn parameters<'a>(&'a self, iteration: u32, drift: &'a [Vec2]) -> Step<'a> {
+        let kicks = iteration.is_multiple_of(KICK_EVERY) && iteration <= LAST_KICK;
+        let kick = Kick { number: iteration, is_for_all: self.are_few_violated(), frees: iteration >= FIRST_FREE };
         Step {
             torus: &self.torus,
             boundary: self.boundary.as_ref(),
             level: self.level,
-            constraints: self.constraints(),
+            constraints: self.constraints(iteration),
             drift,
             kick: kicks.then_some(kick),
         }
@@ -170,46 +163,60 @@ pub(super) fn highest_wave(iterations: u32) -> f64 {
 }
 
 impl Relaxation for UniformRelaxation {
+    type Position = TorusPoint;
+    type Space = Torus;
+
+    fn space(&self) -> Torus {
+        self.torus
+    }
+
+    fn positions(&self) -> impl ExactSizeIterator<Item = TorusPoint> {
+        self.state.places[..self.order.len()].iter().copied()
+    }
+
     fn begin(&mut self, job: &Job) -> Result<()> {
         if let Some(leveled) = leveled(job, &self.torus, &self.waves, &self.state.places, &HEAPED, self.seed)? {
             let places;
             (self.order, places) = self.order.reordered(&leveled);
             self.state.places = self.torus.with_images(&places);
-            self.motion = Motion::new(STEP, places);
         }
         Ok(())
     }
 
-    fn step(&mut self, job: &Job) -> Result<()> {
+    fn step(&mut self, job: &Job, iteration: u32) -> Result<()> {
         let count = self.order.len();
-        let mut drift = match self.iterations.is_multiple_of(WAVES_EVERY) {
-            true => self.waves.drift(&job.part(0.0, 0.2), &self.state.places, count, highest_wave(self.iterations))?,
+        let mut drift = match iteration.is_multiple_of(WAVES_EVERY) {
+            true => self.waves.drift(&job.part(0.0, 0.2), &self.state.places, count, highest_wave(iteration))?,
             false => Vec::new(),
         };
         if let Some(boundary) = &self.boundary
             && self.are_few_violated()
         {
-            boundary.calm(self.iterations, &self.state.places, &mut drift);
+            boundary.calm(iteration, &self.state.places, &mut drift);
         }
         let mut next = std::mem::take(&mut self.next);
         next.fit(&self.state);
-        let mut neighbours = self.neighbours(&job.part(0.2, 0.4))?;
-        let mut found = self.parameters(&drift).advance(&job.part(0.4, 0.6), &neighbours, &self.state, &mut next)?;
+        let mut neighbours = self.neighbours(&job.part(0.2, 0.4), iteration)?;
+        let mut found =
+            self.parameters(iteration, &drift).advance(&job.part(0.4, 0.6), &neighbours, &self.state, &mut next)?;
         if found.is_unsound {
             neighbours = NeighbourSearch::Delaunay(Neighbours::Built(self.triangulate(&job.part(0.6, 0.65))?));
-            found = self.parameters(&drift).advance(&job.part(0.65, 0.7), &neighbours, &self.state, &mut next)?;
+            found = self.parameters(iteration, &drift).advance(
+                &job.part(0.65, 0.7),
+                &neighbours,
+                &self.state,
+                &mut next,
+            )?;
         }
         self.keep(next, matches!(neighbours, NeighbourSearch::Delaunay(Neighbours::Kept(_))).then_some(found.violated));
-        self.iterations += 1;
         let places = &self.state.places;
-        self.motion.after_step(&self.torus, || places[..count].iter().copied());
         match neighbours {
             NeighbourSearch::Delaunay(Neighbours::Kept(mut mesh)) => {
                 let is_mended = !found.is_torn && mesh.mend(&job.part(0.7, 1.0), places, found.suspects)?;
                 self.mesh = is_mended.then_some(mesh);
             }
             NeighbourSearch::Nearest(mut cells) => {
-                let reach = self.constraints().conflict_radius;
+                let reach = self.constraints(iteration + 1).conflict_radius;
                 self.cells = cells.still_serve(found.longest_squared.sqrt(), reach).then_some(cells);
             }
             NeighbourSearch::Delaunay(Neighbours::Built(_)) => {}
@@ -217,21 +224,12 @@ impl Relaxation for UniformRelaxation {
         Ok(())
     }
 
-    fn iterations(&self) -> u32 {
-        self.iterations
+    fn has_converged(&self, is_at_rest: bool) -> bool {
+        is_at_rest && (self.neighbourhood == Neighbourhood::Nearest || self.violated == 0)
     }
 
-    fn motion(&self) -> f64 {
-        self.motion.last(&self.torus, self.state.places[..self.order.len()].iter().copied())
-    }
-
-    fn has_settled(&self, tolerance: f64) -> bool {
-        let is_met = self.neighbourhood == Neighbourhood::Nearest || self.violated == 0;
-        is_met && self.motion.has_settled(tolerance)
-    }
-
-    fn finish(&mut self, job: &Job) -> Result<()> {
-        if self.iterations == 0 {
+    fn finish(&mut self, job: &Job, iterations: u32) -> Result<()> {
+        if iterations == 0 {
             self.state.places = self.torus.with_images(self.order.start());
             self.mesh = None;
         }
@@ -253,7 +251,9 @@ impl Relaxation for UniformRelaxation {
         }
         Ok(())
     }
+}
 
+impl PlaneRelaxation for UniformRelaxation {
     fn points(&self, points: &[[f32; 2]]) -> Vec<[f32; 2]> {
         self.order.leave(&self.torus, &self.state.places, points)
     }
@@ -292,13 +292,13 @@ mod tests {
                 context
                     .run(None, |job| {
                         let mut set = UniformRelaxation::new(domain, Neighbourhood::Delaunay, 0, &points);
-                        (0..steps).try_for_each(|_| set.step(job))?;
+                        (0..steps).try_for_each(|iteration| set.step(job, iteration))?;
                         let violated = |set: &UniformRelaxation| {
                             let places = &set.state.places;
                             FlipMesh::new(job, &set.torus, places)?.unwrap().violated(job, places, points.len())
                         };
                         let last = violated(&set)?;
-                        set.finish(job)?;
+                        set.finish(job, steps)?;
                         let least = violated(&set)?;
                         assert!(least <= last && least <= before, "{boundary:?}, {steps}: {least}, {last}, {before}");
                         kicked_back += usize::from(least < last);
