@@ -26,7 +26,7 @@ fn main() {
         for seed in 0..seeds {
             row(&context, count, seed, "tuning", || {
                 let options = CountOptions::new(count as u64).domain(DOMAIN).seed(seed);
-                sample_count(&context, &options, None).expect("a good domain").samples
+                sample_count(&context, &options, None).expect("a good domain").0.positions
             });
             row(&context, count, seed, "insertion", || inserted(start(&context, count, seed, Ordering::Less), count));
             row(&context, count, seed, "elimination", || {
@@ -52,7 +52,7 @@ fn start(context: &Context, count: usize, seed: u64, wanted: Ordering) -> Vec<[f
     let radius = (0.69656 * 1.0045 / count as f64).sqrt();
     let set = |attempt: u64| {
         let options = Options::new(radius).domain(DOMAIN).seed(seed + (attempt << 32));
-        sample(context, &options, None).expect("a good domain")
+        sample(context, &options, None).expect("a good domain").positions
     };
     (0..).map(set).find(|samples| samples.len().cmp(&count) == wanted).expect("either happens")
 }

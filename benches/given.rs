@@ -43,7 +43,7 @@ fn compare<const AXES: usize>(
 fn plane(criterion: &mut Criterion) {
     let (context, radius) = (Context::new(1).expect("a thread"), (MAXIMAL_DENSITY / SAMPLES).sqrt());
     let options = kdrt::Options::new(radius);
-    let whole = kdrt::sample(&context, &options, None).expect("samples");
+    let whole = kdrt::sample(&context, &options, None).expect("samples").positions;
     let half: Vec<_> = whole.into_iter().step_by(2).collect();
     let mut random = Random::new(1);
     let positions: Vec<_> = (0..OBSTACLES).map(|_| [random.unit(), random.unit()]).collect();

@@ -6,7 +6,7 @@
 use std::hint::black_box;
 use std::time::{Duration, Instant};
 
-use azulejo::{Context, Order, kdrt, maximal};
+use azulejo::{Context, kdrt, maximal};
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 
 const LEAF_SIZES: [f64; 4] = [6.0, 20.0, 40.0, 80.0];
@@ -118,13 +118,14 @@ fn print_order(contexts: &[Context; 2]) {
     );
     let any = least_time_per_sample(|| kdrt(&contexts[0], 1_000_000, kdrt::DEFAULT_LEAF_SIZE));
     for steps in [2.0, 4.0, 8.0] {
-        let ordered =
-            |count| options(count, kdrt::DEFAULT_LEAF_SIZE).order(Order::Progressive).quotient(2f64.powf(1.0 / steps));
+        let levels = kdrt::Progressive::new().quotient(2f64.powf(1.0 / steps));
+        let ordered = kdrt::Options::progressive(radius(1_000_000), levels).seed(1);
         let [one, all] = contexts.each_ref().map(|context| {
-            least_time_per_sample(|| kdrt::sample(context, &ordered(1_000_000), None).expect("a good domain").len())
+            least_time_per_sample(|| kdrt::sample(context, &ordered, None).expect("a good domain").len())
         });
-        let large = ordered(1_000_000_000);
-        let plane = kdrt::Plane::new(&contexts[0], &large.coarsest(16.0 * large.radius), None).expect("a good domain");
+        let fine = radius(1_000_000_000);
+        let large = kdrt::Options::progressive(fine, levels.coarsest(16.0 * fine)).seed(1);
+        let plane = kdrt::Plane::new(&contexts[0], &large, None).expect("a good domain");
         let window = median_time(5, |i| {
             let min = [0.618_034, 0.414_214].map(|step| (f64::from(i) * step).fract() * 0.99);
             plane.window(min, min.map(|x| x + 0.001_414)).expect("a good window").len()

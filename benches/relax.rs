@@ -80,7 +80,7 @@ fn whole_calls(domain: Domain, contexts: &[(&str, Context)]) {
         "whole calls from KDRT", "threads", "samples/s", "steps", "rho", "cover"
     );
     let count = CountOptions::new(1_000_000).domain(domain).seed(1);
-    let points = kdrt::sample_count(&contexts[1].1, &count, None).unwrap().samples;
+    let points = kdrt::sample_count(&contexts[1].1, &count, None).unwrap().0.positions;
     for (name, neighbourhood) in [("Delaunay", Neighbourhood::Delaunay), ("nearest", Neighbourhood::Nearest)] {
         for (threads, context) in contexts {
             let start = Instant::now();

@@ -24,11 +24,11 @@ fn main() -> Result<(), Box<dyn Error>> {
         eprint!("\r{:3.0} %", 100.0 * done);
         ControlFlow::Continue(()) // Break cancels the call.
     };
-    let counted = kdrt::sample_count(&context, &options, Some(&progress))?;
-    eprintln!("\nno two of the {} samples are closer than {}", counted.samples.len(), counted.report.radius);
+    let (points, report) = kdrt::sample_count(&context, &options, Some(&progress))?;
+    eprintln!("\nno two of the {} samples are closer than {}", points.len(), report.radius);
 
     let mut out = BufWriter::new(io::stdout().lock());
-    for [x, y] in counted.samples {
+    for [x, y] in points.positions {
         writeln!(out, "{x} {y}")?;
     }
     out.flush()?;

@@ -11,7 +11,7 @@ use crate::job::{Context, Job, Progress};
 use crate::memory;
 use crate::plane::lattice::Lattice;
 use crate::plane::{CellAxis, CellGrid, Disk, Quadtree};
-use crate::points::{Boundary, Domain};
+use crate::points::{Boundary, Domain, Points};
 use crate::rng::{Draw, Rng};
 use crate::setters::setters;
 
@@ -56,9 +56,9 @@ setters!(Options { radius: f64, domain: Domain, seed: u64 });
 /// [`Error::InvalidArgument`](crate::Error::InvalidArgument) for a radius or domain out of range or floats too coarse
 /// for the radius, [`Error::TooLarge`](crate::Error::TooLarge) above 2^32 samples or the available memory, both before
 /// any work; [`Error::Cancelled`](crate::Error::Cancelled).
-pub fn sample(context: &Context, options: &Options, progress: Option<&Progress>) -> Result<Vec<[f32; 2]>> {
+pub fn sample(context: &Context, options: &Options, progress: Option<&Progress>) -> Result<Points<2>> {
     let lattice = Lattice::new(&options.domain, options.radius)?;
-    context.run(progress, |job| sample_lattice(job, &lattice, options.seed))
+    context.run(progress, |job| sample_lattice(job, &lattice, options.seed)).map(Points::from)
 }
 
 /// [`sample`] on a lattice that is at hand.

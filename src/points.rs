@@ -162,6 +162,13 @@ impl<const D: usize> Default for Points<D> {
     }
 }
 
+impl<const D: usize> From<Vec<[f32; D]>> for Points<D> {
+    /// Samples of which only positions are known.
+    fn from(positions: Vec<[f32; D]>) -> Self {
+        Self { positions, ..Self::default() }
+    }
+}
+
 impl<const D: usize> Points<D> {
     /// The number of samples.
     pub fn len(&self) -> usize {

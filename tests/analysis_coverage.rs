@@ -89,7 +89,7 @@ fn a_maximal_set_has_no_gap_and_one_for_each_sample_that_is_taken_away() {
     for boundary in BOUNDARIES {
         let (radius, domain) = (0.02, unit_square(boundary));
         let mut samples =
-            maximal::sample(&context(), &maximal::Options::new(radius).domain(domain).seed(3), None).unwrap();
+            maximal::sample(&context(), &maximal::Options::new(radius).domain(domain).seed(3), None).unwrap().positions;
         let reach = radius + 1e-6;
         let whole = coverage_2d(&context(), &domain, &samples, reach, None).unwrap();
         assert_eq!(whole.gaps, 0);
@@ -168,7 +168,8 @@ proptest! {
 #[test]
 fn a_flat_surface_is_covered_as_the_plane_is() {
     let domain = unit_square(Boundary::Bounded);
-    let mut points = maximal::sample(&context(), &maximal::Options::new(0.03).domain(domain).seed(9), None).unwrap();
+    let mut points =
+        maximal::sample(&context(), &maximal::Options::new(0.03).domain(domain).seed(9), None).unwrap().positions;
     points.retain(|&point| {
         [[0.2, 0.2], [0.8, 0.3], [0.5, 1.0]].iter().all(|&hole| distance(&domain, point, hole) > 0.04)
     });

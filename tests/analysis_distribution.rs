@@ -145,8 +145,9 @@ fn maximal_sets_have_a_nyquist_frequency_and_an_oscillation() {
         .map(|seed| {
             let domain = unit_square(Boundary::Periodic);
             let radius = (0.69656f64 / 2000.0).sqrt();
-            let points =
-                maximal::sample(&context(), &maximal::Options::new(radius).domain(domain).seed(seed), None).unwrap();
+            let points = maximal::sample(&context(), &maximal::Options::new(radius).domain(domain).seed(seed), None)
+                .unwrap()
+                .positions;
             periodogram(&context(), &domain, &points, 640, None).unwrap()
         })
         .collect();

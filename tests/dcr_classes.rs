@@ -26,9 +26,9 @@ fn run(options: &Options, points: &[[f32; 2]], classes: &[u32]) -> Relaxed {
 /// A maximal set of these own radii, and the class of each sample.
 fn maximal(own: &[f64], boundary: Boundary) -> (Vec<[f32; 2]>, Vec<u32>) {
     let classes = Classes::of_radii(own, 1.0).unwrap();
-    let options = kdrt::Options::new(0.0).domain(unit_square(boundary)).seed(7);
-    let set = kdrt::sample_classes(&Context::new(1).unwrap(), &options, &classes, None).unwrap();
-    (set.samples, set.classes)
+    let options = kdrt::Options::classes(&classes).domain(unit_square(boundary)).seed(7);
+    let set = kdrt::sample(&Context::new(1).unwrap(), &options, None).unwrap();
+    (set.positions, set.classes)
 }
 
 fn of_class(points: &[[f32; 2]], classes: &[u32], class: u32) -> Vec<[f32; 2]> {

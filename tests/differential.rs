@@ -52,7 +52,7 @@ fn deviation(of: &Differences) -> [f64; 2] {
 /// A maximal set of about this many points on the unit torus.
 fn blue_noise(count: f64, seed: u64) -> Vec<[f32; 2]> {
     let (radius, domain) = ((0.69656 / count).sqrt(), unit_square(Boundary::Periodic));
-    maximal::sample(&context(), &maximal::Options::new(radius).domain(domain).seed(seed), None).unwrap()
+    maximal::sample(&context(), &maximal::Options::new(radius).domain(domain).seed(seed), None).unwrap().positions
 }
 
 #[test]

@@ -12,7 +12,7 @@ use rayon::prelude::*;
 
 fn plane(context: &Context, seed: u64) -> Vec<[f32; 2]> {
     let options = kdrt::Options::new(0.02).leaf_size(6.0).seed(seed);
-    kdrt::sample(context, &options, Some(&|_| std::ops::ControlFlow::Continue(()))).unwrap()
+    kdrt::sample(context, &options, Some(&|_| std::ops::ControlFlow::Continue(()))).unwrap().positions
 }
 
 fn surface(context: &Context, seed: u64) -> Vec<[f32; 3]> {

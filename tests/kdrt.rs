@@ -4,7 +4,7 @@ mod common;
 #[path = "common/tiled.rs"]
 mod tiled;
 
-use azulejo::kdrt::{DEFAULT_LEAF_SIZE, Options, sample};
+use azulejo::kdrt::{DEFAULT_LEAF_SIZE, Kind, Options, sample};
 use azulejo::{Boundary, Context, Domain, Error, maximal};
 use common::{BOUNDARIES, check, domain, float_spacing, hard_domains};
 use proptest::prelude::*;
@@ -14,6 +14,7 @@ use tiled::tiled_radius;
 fn samples(domain: Domain, radius: f64, leaf_size: f64, seed: u64) -> Vec<[f32; 2]> {
     sample(&Context::new(2).unwrap(), &Options::new(radius).domain(domain).leaf_size(leaf_size).seed(seed), None)
         .unwrap()
+        .positions
 }
 
 #[test]
@@ -69,8 +70,9 @@ fn domains_that_are_too_small_to_tile_are_sampled_like_maximal() {
         for (extent, radius) in [([1.0, 1.0], 0.3), ([1.0, 1.0], 5.0), ([1.0, 0.01], 0.02), ([1.0, 1.0], 0.01)] {
             let domain = domain([0.0; 2], extent, boundary);
             let context = Context::new(1).unwrap();
-            let expected =
-                maximal::sample(&context, &maximal::Options::new(radius).domain(domain).seed(3), None).unwrap();
+            let expected = maximal::sample(&context, &maximal::Options::new(radius).domain(domain).seed(3), None)
+                .unwrap()
+                .positions;
             assert_eq!(samples(domain, radius, DEFAULT_LEAF_SIZE, 3), expected);
         }
         let domain = domain([0.0; 2], [1.0; 2], boundary);
@@ -127,17 +129,17 @@ fn bad_arguments_are_refused_by_name() {
         assert!(matches!(error, Error::InvalidArgument { argument: "leaf_size", .. }), "{error}");
     }
     for radius in [f64::NAN, 0.0, -1.0, f64::INFINITY] {
-        let error = refuse(good.radius(radius));
+        let error = refuse(good.kind(Kind::Plain(radius)));
         assert!(matches!(error, Error::InvalidArgument { argument: "radius", .. }), "{error}");
     }
     let swapped = domain([1.0; 2], [0.0; 2], Boundary::Periodic);
     let error = refuse(good.domain(swapped));
     assert!(matches!(error, Error::InvalidArgument { argument: "domain_max", .. }), "{error}");
-    let error = refuse(good.radius(8.346e-7));
+    let error = refuse(good.kind(Kind::Plain(8.346e-7)));
     assert!(matches!(error, Error::TooLarge { argument: "radius", .. }));
     assert!(error.to_string().contains("about 1.00e12 samples"), "{error}");
     let coarse = domain([1e7; 2], [1e7 + 1e4; 2], Boundary::Periodic);
-    let error = refuse(good.radius(10.0).domain(coarse));
+    let error = refuse(good.kind(Kind::Plain(10.0)).domain(coarse));
     assert!(matches!(error, Error::InvalidArgument { argument: "radius", .. }), "{error}");
 }
 

@@ -18,15 +18,15 @@ mod tiled;
 #[allow(dead_code)]
 mod windows;
 
-use azulejo::kdrt::{ClassPlane, Classified, Options, sample, sample_classes};
-use azulejo::{Boundary, Classes, Context, Domain, Given, Order};
+use azulejo::kdrt::{Kind, Options, Plane, sample};
+use azulejo::{Boundary, Classes, Context, Domain, Error, Given, Points};
 use common::{BOUNDARIES, domain, float_spacing, hard_domains};
 use oracle::{Set, fault};
 use sets::Random;
 use windows::random_window;
 
-fn whole(options: &Options, classes: &Classes) -> Classified {
-    sample_classes(&Context::new(1).unwrap(), options, classes, None).unwrap()
+fn whole(options: &Options) -> Points<2> {
+    sample(&Context::new(1).unwrap(), options, None).unwrap()
 }
 
 fn between(random: &mut Random, from: f64, to: f64) -> f64 {
@@ -80,24 +80,24 @@ fn random_given(random: &mut Random, domain: &Domain, classes: &Classes, count: 
 fn the_oracle_notices_what_is_missing_moved_or_of_another_class() {
     let domain = domain([0.0; 2], [1.0; 2], Boundary::Periodic);
     let classes = Classes::of_radii(&[0.2, 0.1, 0.05], 1.0).unwrap();
-    let set = whole(&Options::new(0.0).domain(domain), &classes);
-    let is_wrong = |change: &dyn Fn(&mut Classified)| {
+    let set = whole(&Options::classes(&classes).domain(domain));
+    let is_wrong = |change: &dyn Fn(&mut Points<2>)| {
         let mut changed = set.clone();
         change(&mut changed);
         fault(&domain, &classes, &Set::default(), &changed).is_some()
     };
     assert!(!is_wrong(&|_| ()));
-    for i in 0..set.samples.len() {
+    for i in 0..set.positions.len() {
         assert!(is_wrong(&|set| {
-            set.samples.remove(i);
+            set.positions.remove(i);
             set.classes.remove(i);
         }));
         // The first class covers everything alone.
         assert!(set.classes[i] == 0 || is_wrong(&|set| set.classes[i] = 0));
-        let j = (i + 1) % set.samples.len();
-        assert!(is_wrong(&|set| set.samples[i] = set.samples[j]));
+        let j = (i + 1) % set.positions.len();
+        assert!(is_wrong(&|set| set.positions[i] = set.positions[j]));
     }
-    let given = (vec![set.samples[0]], vec![0.01, 0.0, 0.0]);
+    let given = (vec![set.positions[0]], vec![0.01, 0.0, 0.0]);
     assert!(fault(&domain, &classes, &given, &set).is_some());
 }
 
@@ -112,12 +112,12 @@ fn no_two_classes_conflict_and_none_can_take_another_sample() {
                 let finest = area.max(64.0 * float_spacing(&domain));
                 let spread = [1.0, 2.0, 8.0][count % 3];
                 let classes = random_classes(&mut random, count, finest, spread);
-                let options = Options::new(0.0).domain(domain).leaf_size(6.0).seed(count as u64);
-                let set = whole(&options, &classes);
+                let options = Options::classes(&classes).domain(domain).leaf_size(6.0).seed(count as u64);
+                let set = whole(&options);
                 assert_eq!(fault(&domain, &classes, &Set::default(), &set), None, "{domain:?} {classes:?}");
                 let given = random_given(&mut random, &domain, &classes, 12);
                 let around = options.given(Given::with_clearances(&given.0, &given.1));
-                let set = whole(&around, &classes);
+                let set = whole(&around);
                 assert_eq!(fault(&domain, &classes, &given, &set), None, "{domain:?} {classes:?} {given:?}");
             }
         }
@@ -125,8 +125,8 @@ fn no_two_classes_conflict_and_none_can_take_another_sample() {
 }
 
 /// The samples of a class by rows.
-fn of_class(set: &Classified, class: u32) -> Vec<[f32; 2]> {
-    let samples = set.samples.iter().zip(&set.classes).filter(|(_, of)| **of == class);
+fn of_class(set: &Points<2>, class: u32) -> Vec<[f32; 2]> {
+    let samples = set.positions.iter().zip(&set.classes).filter(|(_, of)| **of == class);
     samples.map(|(sample, _)| *sample).collect()
 }
 
@@ -137,21 +137,22 @@ fn a_lone_class_of_the_largest_radius_is_the_set_of_kdrt() {
         let domain = domain([0.3, -0.2], [1.5, 0.8], boundary);
         let radius = tiled::tiled_radius(&domain, 6.0);
         let classes = Classes::of_radii(&[0.8 * radius, radius, 0.8 * radius], 1.0).unwrap();
-        let options = Options::new(0.0).domain(domain).leaf_size(6.0).seed(seed as u64);
-        let set = whole(&options, &classes);
+        let options = Options::classes(&classes).domain(domain).leaf_size(6.0).seed(seed as u64);
+        let set = whole(&options);
         assert_eq!(fault(&domain, &classes, &Set::default(), &set), None);
-        let mut expected = sample(&Context::new(1).unwrap(), &options.radius(radius), None).unwrap();
+        let mut expected =
+            sample(&Context::new(1).unwrap(), &options.kind(Kind::Plain(radius)), None).unwrap().positions;
         expected.sort_unstable_by(|a, b| a[1].total_cmp(&b[1]).then(a[0].total_cmp(&b[0])));
         assert_eq!(of_class(&set, 1), expected);
     }
 }
 
 /// Samples of a set that lie in a window.
-fn part_of(set: &Classified, (min, max): windows::Rect) -> (Vec<[f32; 2]>, Vec<u32>) {
+fn part_of(set: &Points<2>, (min, max): windows::Rect) -> (Vec<[f32; 2]>, Vec<u32>) {
     let inside = |sample: &[f32; 2]| {
         (0..2).all(|axis| min[axis] <= f64::from(sample[axis]) && f64::from(sample[axis]) < max[axis])
     };
-    set.samples.iter().zip(&set.classes).filter(|(sample, _)| inside(sample)).unzip()
+    set.positions.iter().zip(&set.classes).filter(|(sample, _)| inside(sample)).unzip()
 }
 
 #[test]
@@ -167,16 +168,16 @@ fn windows_and_threads_make_the_same_set() {
                     _ => random_classes(&mut random, count, 0.006, 3.0),
                 };
                 let given = random_given(&mut random, &domain, &classes, 40);
-                let options = Options::new(0.0).domain(domain).leaf_size(6.0).seed(seed);
+                let options = Options::classes(&classes).domain(domain).leaf_size(6.0).seed(seed);
                 let options = options.given(Given::with_clearances(&given.0, &given.1));
-                let set = whole(&options, &classes);
-                assert!(sample_classes(&threads, &options, &classes, None).unwrap() == set);
-                let plane = ClassPlane::new(&threads, &options, &classes, None).unwrap();
+                let set = whole(&options);
+                assert!(sample(&threads, &options, None).unwrap() == set);
+                let plane = Plane::new(&threads, &options, None).unwrap();
                 let windows = (0..12).map(|_| random_window(&mut random, &domain));
                 for window in windows.chain([(domain.min, domain.max)]) {
                     let found = plane.window(window.0, window.1).unwrap();
                     assert!(
-                        (found.samples, found.classes) == part_of(&set, window),
+                        (found.positions, found.classes) == part_of(&set, window),
                         "{window:?} {options:?} {classes:?}"
                     );
                 }
@@ -189,19 +190,19 @@ fn windows_and_threads_make_the_same_set() {
 fn radii_beyond_the_domain_leave_one_sample_or_none() {
     for boundary in BOUNDARIES {
         let domain = domain([0.0; 2], [1.0, 0.01], boundary);
-        let options = Options::new(0.0).domain(domain);
         // Either class keeps the other away.
         let classes = Classes::new(2, &[1e3, 1e6, 1e6, 1e3]).unwrap();
-        assert_eq!(whole(&options, &classes).samples.len(), 1);
+        assert_eq!(whole(&Options::classes(&classes).domain(domain)).positions.len(), 1);
         let classes = Classes::new(2, &[1e3, 0.0, 0.0, 1e2]).unwrap();
-        assert_eq!(whole(&options, &classes).classes, [0, 1]);
+        let options = Options::classes(&classes).domain(domain);
+        assert_eq!(whole(&options).classes, [0, 1]);
         let given = options.given(Given::with_clearances(&[[0.5, 0.0]], &[2.0, 0.0]));
-        assert_eq!(whole(&given, &classes).classes, [1]);
+        assert_eq!(whole(&given).classes, [1]);
         let given = options.given(Given::at(&[[0.5, 0.0]]));
-        assert!(whole(&given, &classes).samples.is_empty());
+        assert!(whole(&given).positions.is_empty());
         // Fine classes of equal radii that keep each other away over the whole domain.
         let classes = Classes::new(3, &[0.01, 3.0, 0.004, 3.0, 0.01, 0.0, 0.004, 0.0, 0.3]).unwrap();
-        let set = whole(&options, &classes);
+        let set = whole(&Options::classes(&classes).domain(domain));
         assert_eq!(fault(&domain, &classes, &Set::default(), &set), None);
         assert!(of_class(&set, 0).is_empty() != of_class(&set, 1).is_empty());
     }
@@ -212,7 +213,7 @@ fn shares(own: &[f64], factor: f64) -> Vec<f64> {
     let classes = Classes::of_radii(own, factor).unwrap();
     let mut counts = vec![0; own.len()];
     for seed in 0..2 {
-        let set = whole(&Options::new(0.0).seed(seed), &classes);
+        let set = whole(&Options::classes(&classes).seed(seed));
         set.classes.iter().for_each(|&class| counts[class as usize] += 1);
     }
     let full = |own: f64| 2.0 * azulejo::MAXIMAL_DENSITY / (own * own);
@@ -244,9 +245,9 @@ fn classes_are_as_dense_as_by_darts_one_after_the_other() {
     let per_class = |own: &[f64], factor: f64| {
         let own: Vec<f64> = own.iter().map(|own| own * radius).collect();
         let classes = Classes::of_radii(&own, factor).unwrap();
-        let sets = (0..4).map(|seed| whole(&Options::new(0.0).seed(seed), &classes));
-        let count = |set: &Classified, class| set.classes.iter().filter(|&&other| other == class).count() as f64;
-        let counts = |set: Classified| (0..own.len() as u32).map(|class| count(&set, class)).collect::<Vec<_>>();
+        let sets = (0..4).map(|seed| whole(&Options::classes(&classes).seed(seed)));
+        let count = |set: &Points<2>, class| set.classes.iter().filter(|&&other| other == class).count() as f64;
+        let counts = |set: Points<2>| (0..own.len() as u32).map(|class| count(&set, class)).collect::<Vec<_>>();
         let counts: Vec<_> = sets.map(counts).collect();
         (0..own.len()).map(|class| counts.iter().map(|counts| counts[class]).sum::<f64>() / 4.0).collect::<Vec<_>>()
     };
@@ -271,12 +272,13 @@ fn classes_are_as_dense_as_by_darts_one_after_the_other() {
 fn one_class_is_the_set_of_its_radius() {
     for boundary in BOUNDARIES {
         for radius in [0.005, 0.03, 2.0] {
-            let options = Options::new(0.0).domain(Domain::unit(boundary)).leaf_size(6.0).seed(4);
-            let context = Context::new(1).unwrap();
             let classes = Classes::new(1, &[radius]).unwrap();
-            let set = whole(&options, &classes);
-            assert_eq!(set.samples, sample(&context, &options.radius(radius), None).unwrap());
-            assert_eq!(set.classes, vec![0; set.samples.len()]);
+            let options = Options::classes(&classes).domain(Domain::unit(boundary)).leaf_size(6.0).seed(4);
+            let set = whole(&options);
+            assert_eq!(set.positions, whole(&options.kind(Kind::Plain(radius))).positions);
+            assert_eq!(set.classes, vec![0; set.positions.len()]);
+            let plane = Plane::new(&Context::new(1).unwrap(), &options, None).unwrap();
+            assert_eq!(plane.window([0.0; 2], [1.0; 2]).unwrap(), set);
         }
     }
 }
@@ -285,26 +287,27 @@ fn one_class_is_the_set_of_its_radius() {
 fn what_classes_cannot_have_is_refused() {
     let context = Context::new(1).unwrap();
     let classes = Classes::of_radii(&[0.1, 0.05], 1.0).unwrap();
-    let said = |options: &Options, classes: &Classes| {
-        let error = sample_classes(&context, options, classes, None).unwrap_err().to_string();
-        assert_eq!(ClassPlane::new(&context, options, classes, None).err().unwrap().to_string(), error);
+    let said = |options: &Options| {
+        let error = sample(&context, options, None).unwrap_err().to_string();
+        assert_eq!(Plane::new(&context, options, None).err().unwrap().to_string(), error);
         error
     };
-    let none = Options::new(0.0);
-    assert_eq!(said(&none.radius(0.1), &classes), "radius: 0.1 is not 0; classes have radii of their own");
-    let ordered = "order: sets of several classes have no progressive order";
-    assert_eq!(said(&none.order(Order::Progressive), &classes), ordered);
-    let given = none.given(Given::with_clearances(&[[0.5; 2]], &[0.1]));
-    assert_eq!(said(&given, &classes), "given_clearances: 1 for 1 positions and 2 classes");
+    let options = Options::classes(&classes);
+    let given = options.given(Given::with_clearances(&[[0.5; 2]], &[0.1]));
+    assert_eq!(said(&given), "given_clearances: 1 for 1 positions and 2 classes");
     let fine = Classes::of_radii(&[0.1, 1e-7], 1.0).unwrap();
-    assert!(said(&none, &fine).starts_with("radii: 1e-7 is below"));
-    let far = none.domain(domain([0.0; 2], [1.0, f64::INFINITY], Boundary::Bounded));
-    assert!(said(&far, &classes).starts_with("domain_max: "));
+    assert!(said(&Options::classes(&fine)).starts_with("radii: 1e-7 is below"));
+    let far = options.domain(domain([0.0; 2], [1.0, f64::INFINITY], Boundary::Bounded));
+    assert!(said(&far).starts_with("domain_max: "));
+    let plane = Plane::new(&context, &options, None).unwrap();
+    let streamed = plane.stream(&context, |_| panic!("visited"), None);
+    assert!(matches!(streamed, Err(Error::InvalidArgument { argument: "classes", .. })));
     // More samples than can be held are refused where they are asked for.
     let many = Classes::of_radii(&[1.0, 4e-6], 1.0).unwrap();
-    let error = sample_classes(&context, &none, &many, None).unwrap_err().to_string();
+    let options = Options::classes(&many);
+    let error = sample(&context, &options, None).unwrap_err().to_string();
     assert!(error.contains("4e-6") || error.starts_with("radi"), "{error}");
-    let plane = ClassPlane::new(&context, &none, &many, None).unwrap();
-    assert!(!plane.window([0.5; 2], [0.5001; 2]).unwrap().samples.is_empty());
+    let plane = Plane::new(&context, &options, None).unwrap();
+    assert!(!plane.window([0.5; 2], [0.5001; 2]).unwrap().positions.is_empty());
     assert!(plane.window([0.5; 2], [1.5; 2]).unwrap_err().to_string().starts_with("window_max: "));
 }

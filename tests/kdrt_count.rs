@@ -4,8 +4,8 @@ mod common;
 
 use std::ops::ControlFlow;
 
-use azulejo::kdrt::{CountOptions, Counted, sample_count};
-use azulejo::{Boundary, Context, Domain, Error};
+use azulejo::kdrt::{CountOptions, CountReport, sample_count};
+use azulejo::{Boundary, Context, Domain, Error, Points};
 use common::{BOUNDARIES, check, domain, find_conflict, find_gap, float_spacing, hard_domains};
 use proptest::prelude::*;
 
@@ -13,12 +13,13 @@ fn options(domain: Domain, count: u64, seed: u64) -> CountOptions {
     CountOptions::new(count).domain(domain).seed(seed)
 }
 
-fn counted(domain: Domain, count: u64, seed: u64) -> Counted {
+fn counted(domain: Domain, count: u64, seed: u64) -> (Points<2>, CountReport) {
     sample_count(&Context::new(2).unwrap(), &options(domain, count, seed), None).unwrap()
 }
 
 /// As many as asked for, conflict-free at the radius of the report, and maximal if and only if the report says so.
-fn check_report(domain: &Domain, count: u64, Counted { samples, report, .. }: &Counted) {
+fn check_report(domain: &Domain, count: u64, (points, report): &(Points<2>, CountReport)) {
+    let samples = &points.positions;
     assert_eq!(samples.len() as u64, count);
     if report.is_maximal {
         check(domain, report.radius, samples);
@@ -36,7 +37,7 @@ fn few_samples_are_exactly_as_many_as_asked_for() {
                 for seed in 0..8 {
                     let counted = counted(domain, count, seed);
                     check_report(&domain, count, &counted);
-                    assert!(count < 50 || counted.report.is_maximal, "{count} samples, seed {seed}");
+                    assert!(count < 50 || counted.1.is_maximal, "{count} samples, seed {seed}");
                 }
             }
         }
@@ -49,7 +50,7 @@ fn hard_domains_get_exact_counts() {
         for domain in hard_domains(boundary) {
             for (seed, count) in [(0, 1), (1, 7), (2, 60), (3, 999), (4, 8_000)] {
                 let counted = counted(domain, count, seed);
-                assert!(counted.report.is_maximal);
+                assert!(counted.1.is_maximal);
                 check_report(&domain, count, &counted);
             }
         }
@@ -63,13 +64,13 @@ fn tiled_domains_get_exact_counts_and_stay_maximal() {
         let thin = domain([2.0, -7.0], [2.5, 8.0], boundary);
         for (seed, count, domain) in [(0, 12_345, small), (1, 12_346, thin), (2, 40_001, small)] {
             let counted = counted(domain, count, seed);
-            assert!(counted.report.is_maximal);
+            assert!(counted.1.is_maximal);
             check_report(&domain, count, &counted);
         }
     }
     let square = Domain::unit(Boundary::Periodic);
     let counted = counted(square, 200_000, 9);
-    assert!(counted.report.is_maximal);
+    assert!(counted.1.is_maximal);
     check_report(&square, 200_000, &counted);
 }
 
@@ -78,7 +79,7 @@ fn tiled_domains_get_exact_counts_and_stay_maximal() {
 fn the_radius_is_that_of_the_density() {
     for (count, tolerance) in [(1_000, 0.02), (50_000, 0.006)] {
         for seed in 0..5 {
-            let radius = counted(Domain::unit(Boundary::Periodic), count, seed).report.radius;
+            let radius = counted(Domain::unit(Boundary::Periodic), count, seed).1.radius;
             let density = count as f64 * radius * radius;
             assert!((density / 0.69656 - 1.004).abs() < tolerance, "{density}");
         }
@@ -95,7 +96,7 @@ fn seeds_and_not_threads_or_earlier_calls_decide() {
             assert!(one == four);
             let context = Context::new(3).unwrap();
             let other = sample_count(&context, &options.seed(2), None).unwrap();
-            assert!(one.samples != other.samples);
+            assert!(one.0 != other.0);
             assert!(one == sample_count(&context, &options, Some(&|_| ControlFlow::Continue(()))).unwrap());
         }
     }
@@ -141,6 +142,6 @@ proptest! {
         let options = options(domain, count, seed).leaf_size(leaf_size);
         let counted = sample_count(&Context::new(2).unwrap(), &options, None).unwrap();
         check_report(&domain, count, &counted);
-        prop_assert!(count < 50 || counted.report.is_maximal);
+        prop_assert!(count < 50 || counted.1.is_maximal);
     }
 }

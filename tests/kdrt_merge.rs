@@ -23,7 +23,7 @@ fn as_pieces(parts: &[Part]) -> Vec<Piece<'_>> {
 fn merged(options: &MergeOptions, parts: &[Part], fixed: &[[f32; 2]]) -> Result<(Vec<[f32; 2]>, MergeReport), Error> {
     // Not the pool's size decides; see also the test of threads.
     let context = Context::new(1 + options.seed as usize % 2)?;
-    merge(&context, options, &as_pieces(parts), fixed, None)
+    merge(&context, options, &as_pieces(parts), fixed, None).map(|(points, report)| (points.positions, report))
 }
 
 /// Merges and checks everything that is promised whatever is given. Gives the result and how many samples of each piece
@@ -159,7 +159,7 @@ fn windows_of_planes_are_zipped() {
         let domain = domain([-1.0, 0.0], [1.0, 0.7], boundary);
         let window = |seed, min, max| {
             let options = kdrt::Options::new(0.006).domain(domain).seed(seed);
-            let samples = kdrt::sample_window(&context, &options, min, max, None).unwrap();
+            let samples = kdrt::sample_window(&context, &options, min, max, None).unwrap().positions;
             Part { samples, rectangle: Domain { min, max, boundary: Boundary::Bounded } }
         };
         let options = MergeOptions::new(0.006).domain(domain).seed(5);
@@ -232,7 +232,7 @@ fn fixed_points_stay() {
         let frame = [[-0.09, 0.21], [0.89, 0.21], [0.89, 1.19], [-0.09, 1.19]];
         let whole = part(domain.min, domain.max, radius, 9).samples;
         let whole_torus = kdrt::Options::new(radius).domain(domain).leaf_size(6.0).seed(9);
-        let whole_torus = kdrt::sample(&Context::new(1).unwrap(), &whole_torus, None).unwrap();
+        let whole_torus = kdrt::sample(&Context::new(1).unwrap(), &whole_torus, None).unwrap().positions;
         let sets = [
             outline(&polygon, radius),
             if boundary == Boundary::Bounded { outline(&frame, radius) } else { Vec::new() },

@@ -22,7 +22,7 @@ fn empty(min: [f64; 2], max: [f64; 2]) -> Piece<'static> {
 }
 
 fn merged(options: MergeOptions, pieces: &[Piece], fixed: &[[f32; 2]]) -> Result<(Vec<[f32; 2]>, MergeReport), Error> {
-    merge(&Context::new(1)?, &options, pieces, fixed, None)
+    merge(&Context::new(1)?, &options, pieces, fixed, None).map(|(points, report)| (points.positions, report))
 }
 
 fn refusal(options: MergeOptions, pieces: &[Piece], fixed: &[[f32; 2]]) -> String {

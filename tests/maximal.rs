@@ -9,7 +9,7 @@ use proptest::prelude::*;
 use std::ops::ControlFlow;
 
 fn samples(domain: Domain, radius: f64, seed: u64) -> Vec<[f32; 2]> {
-    sample(&Context::new(1).unwrap(), &Options::new(radius).domain(domain).seed(seed), None).unwrap()
+    sample(&Context::new(1).unwrap(), &Options::new(radius).domain(domain).seed(seed), None).unwrap().positions
 }
 
 #[test]
@@ -96,7 +96,7 @@ fn seeds_and_not_threads_or_earlier_calls_decide() {
     let first = samples(domain, 0.05, 1);
     assert_ne!(first, samples(domain, 0.05, 2));
     let four = Context::new(4).unwrap();
-    assert_eq!(first, sample(&four, &Options::new(0.05).domain(domain).seed(1), None).unwrap());
+    assert_eq!(first, sample(&four, &Options::new(0.05).domain(domain).seed(1), None).unwrap().positions);
 }
 
 #[test]

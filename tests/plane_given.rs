@@ -11,7 +11,7 @@ mod tiled;
 #[path = "common/windows.rs"]
 mod windows;
 
-use azulejo::kdrt::{Options, Plane, sample, sample_ranked, sample_stream, sample_window};
+use azulejo::kdrt::{Kind, Options, Plane, Progressive, sample, sample_window};
 use azulejo::{Boundary, Context, Domain, Error, Given, Order};
 use common::{BOUNDARIES, domain, find_conflict, float_spacing, hard_domains};
 use disks::{distance, find_gap};
@@ -64,7 +64,8 @@ fn random_given(random: &mut Random, domain: &Domain, radius: f64, count: usize)
 }
 
 fn around<'a>(options: Options<'_>, given: &'a Set) -> Options<'a> {
-    Options::new(options.radius)
+    let Kind::Plain(radius) = options.kind else { panic!("{options:?}") };
+    Options::new(radius)
         .domain(options.domain)
         .leaf_size(options.leaf_size)
         .seed(options.seed)
@@ -72,7 +73,7 @@ fn around<'a>(options: Options<'_>, given: &'a Set) -> Options<'a> {
 }
 
 fn whole(options: &Options) -> Vec<[f32; 2]> {
-    sample(&Context::new(1).unwrap(), options, None).unwrap()
+    sample(&Context::new(1).unwrap(), options, None).unwrap().positions
 }
 
 #[test]
@@ -114,7 +115,7 @@ fn clearances_of_all_kinds() {
         assert!(sample(&context, &options.given(Given::at(&free)), None).unwrap().is_empty());
         // A part of it: what is missing is filled.
         let half: Vec<_> = free.iter().copied().filter(|sample| sample[0] < 0.5).collect();
-        let new = sample(&context, &options.given(Given::at(&half)), None).unwrap();
+        let new = sample(&context, &options.given(Given::at(&half)), None).unwrap().positions;
         let clearances = vec![radius; half.len()];
         assert_eq!(fault(&domain, radius, &(half, clearances), &new), None);
         assert!(new.len() > free.len() / 3);
@@ -148,7 +149,7 @@ fn given_floats_off_the_lattice_keep_their_clearance() {
             }
             let options = around(Options::new(radius).domain(domain).leaf_size(6.0).seed(round), &given);
             let samples = whole(&options);
-            assert_eq!(fault(&domain, options.radius, &given, &samples), None, "{round}");
+            assert_eq!(fault(&domain, radius, &given, &samples), None, "{round}");
         }
     }
 }
@@ -169,19 +170,19 @@ fn windows_planes_and_streams_are_parts_of_the_whole() {
                     let rect = random_window(&mut random, &domain);
                     let expected = part_of(&whole, rect);
                     assert!(
-                        sample_window(&context, &options, rect.0, rect.1, None).unwrap() == expected,
+                        sample_window(&context, &options, rect.0, rect.1, None).unwrap().positions == expected,
                         "{options:?}"
                     );
-                    assert!(plane.window(rect.0, rect.1).unwrap() == expected);
+                    assert!(plane.window(rect.0, rect.1).unwrap().positions == expected);
                 }
                 let mut streamed = Vec::new();
                 let visit = |part: &[[f32; 2]]| {
                     streamed.extend_from_slice(part);
                     ControlFlow::Continue(())
                 };
-                sample_stream(&context, &options, visit, None).unwrap();
+                plane.stream(&context, visit, None).unwrap();
                 assert!(streamed == whole);
-                assert!(sample(&Context::new(3).unwrap(), &options, None).unwrap() == whole);
+                assert!(sample(&Context::new(3).unwrap(), &options, None).unwrap().positions == whole);
             }
         }
     }
@@ -207,7 +208,7 @@ fn a_hole_is_filled_around_what_is_left() {
         let options = Options::new(0.01).domain(Domain::unit(boundary)).seed(6);
         let all = whole(&options);
         let left: Vec<_> = all.iter().copied().filter(|[x, y]| (x - 0.4).hypot(y - 0.6) > 0.1).collect();
-        let new = sample(&Context::new(1).unwrap(), &options.given(Given::at(&left)), None).unwrap();
+        let new = sample(&Context::new(1).unwrap(), &options.given(Given::at(&left)), None).unwrap().positions;
         // A place that only a missing sample covered is within the radius of it.
         assert!(new.len() > 100 && new.iter().all(|[x, y]| (x - 0.4).hypot(y - 0.6) < 0.1101));
         common::check(&options.domain, 0.01, &[left, new].concat());
@@ -223,13 +224,14 @@ fn progressive_order_around_given_samples() {
         for coarsest in [f64::INFINITY, 0.012] {
             let given = random_given(&mut random, &Domain::unit(boundary), 0.008, 150);
             let options = around(Options::new(0.008).domain(Domain::unit(boundary)).leaf_size(6.0).seed(8), &given);
-            let options = options.order(Order::Progressive).coarsest(coarsest).quotient(1.2);
-            let set = sample_ranked(&context, &options, None).unwrap();
+            let levels = Progressive::new().coarsest(coarsest).quotient(1.2);
+            let options = options.kind(Kind::Progressive(0.008, levels));
+            let set = sample(&context, &options, None).unwrap();
             assert!(set.ranks.is_sorted_by(|a, b| a >= b));
             let first = set.ranks.partition_point(|&rank| rank == set.ranks[0]);
-            let all = set.samples.len();
+            let all = set.positions.len();
             for count in [first, (first + 20).min(all), all / 2, all] {
-                let samples = &set.samples[..count];
+                let samples = &set.positions[..count];
                 let rank = f64::from(set.ranks[count - 1]);
                 assert_eq!(find_conflict(&options.domain, rank, samples), None);
                 // Covered within the quotient times the rank, so conflicts are those of the whole.
@@ -237,10 +239,10 @@ fn progressive_order_around_given_samples() {
                 let gap = fault(&options.domain, ratio * rank * (1.0 + 1e-6), &given, samples);
                 assert!(gap.is_none_or(|fault| fault.contains("closer than the radius")), "{count}");
             }
-            assert_eq!(fault(&options.domain, 0.008, &given, &set.samples), None);
+            assert_eq!(fault(&options.domain, 0.008, &given, &set.positions), None);
             let rect = random_window(&mut random, &options.domain);
             let window = sample_window(&context, &options, rect.0, rect.1, None).unwrap();
-            assert!(window == part_of(&set.samples, rect));
+            assert!(window.positions == part_of(&set.positions, rect));
         }
     }
 }
@@ -289,6 +291,5 @@ fn what_is_out_of_range_is_refused_by_its_index() {
         refused(sample(&context, &options, None).map(|_| ()));
         refused(Plane::new(&context, &options, None).map(|_| ()));
         refused(sample_window(&context, &options, [0.0; 2], [1.0; 2], None).map(|_| ()));
-        refused(sample_stream(&context, &options, |_| ControlFlow::Continue(()), None));
     }
 }

@@ -59,7 +59,7 @@ fn rays(context: &Context, half_box: DVec3, radius: f64) -> Vec<Ray> {
     let side = (1.0 / radius).clamp(8.0, 2390.0);
     let domain = Domain { min: [0.0; 2], max: [side; 2], boundary: Boundary::Periodic };
     let options = kdrt::Options::new(1.0).domain(domain).seed(1);
-    let mut points = kdrt::sample(context, &options, None).expect("a pattern");
+    let mut points = kdrt::sample(context, &options, None).expect("a pattern").positions;
     points.sort_by_cached_key(|point| {
         let [x, y] = point.map(|x| (f64::from(x) / side * 65536.0) as u32);
         (0..16).fold(0u32, |key, bit| key | (x >> bit & 1) << (2 * bit) | (y >> bit & 1) << (2 * bit + 1))

@@ -59,7 +59,7 @@ impl Merge {
         let merge = |progress: &azulejo::Progress| kdrt::merge(context, &options, &pieces, &fixed, Some(progress));
         let (samples, done) = watched("merge", merge).map_err(|error| self.name_pieces(error))?;
         let seconds = start.elapsed().as_secs_f64();
-        output.write_plane(&domain, &PlaneTable::of(&samples))?;
+        output.write_plane(&domain, &PlaneTable::of(&samples.positions))?;
         let [kept, eliminated, inserted] = [done.kept, done.eliminated, done.inserted].map(grouped);
         let about =
             format!("radius {}, {kept} kept, {eliminated} eliminated, {inserted} inserted", rounded(self.radius, 4));

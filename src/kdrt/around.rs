@@ -27,7 +27,7 @@ const BIN: f64 = 32.0;
 
 /// The disks of given samples by octaves of their radii.
 #[derive(Default)]
-pub(super) struct Around {
+pub struct Around {
     octaves: Vec<Octave>,
     /// Of a torus the size.
     periods: Option<[i32; 2]>,

@@ -18,7 +18,7 @@ const MARGIN: i32 = 2 * REACH;
 const LONGEST: i32 = u64::BITS as i32 - MARGIN;
 
 /// The most cells along the side of a block.
-pub(super) const MOST_CELLS: i32 = LONGEST / PER_CELL;
+pub const MOST_CELLS: i32 = LONGEST / PER_CELL;
 
 /// OpenRows of a bitmap: those of the longest block with the margin before it, and a stamp that begins in the last one.
 const ROWS: usize = (MARGIN + LONGEST) as usize + stamp::ROWS;
@@ -28,7 +28,7 @@ const ROWS: usize = (MARGIN + LONGEST) as usize + stamp::ROWS;
 struct OpenRows([u64; ROWS]);
 
 /// The voxels of a block that may be uncovered.
-pub(super) struct Bitmap<'a> {
+pub struct Bitmap<'a> {
     stamps: &'a Stamps,
     block: Rect,
     /// The cells that hold the block, and the first of their lattice points.
@@ -38,7 +38,7 @@ pub(super) struct Bitmap<'a> {
 }
 
 /// The column and row of a voxel in the bitmap.
-pub(super) type VoxelIndex = [u8; 2];
+pub type VoxelIndex = [u8; 2];
 
 impl<'a> Bitmap<'a> {
     /// The voxels of the block in cells at seams, as if nothing covered them.

@@ -26,18 +26,17 @@ const JITTER: f64 = 0.25;
 /// block is wider than r). Parities change one at a time from phase to phase, so (0, 1) depends on (1, 1) in the next
 /// columns, this on (1, 0) in the next rows, this on (0, 0) in the next columns; and (0, 1) on (1, 0) and (1, 1) on
 /// (0, 0) at the corners.
-pub(super) const PHASES: [([i32; 2], [i32; 2]); 4] =
-    [([0, 0], [2, 1]), ([1, 0], [1, 1]), ([1, 1], [1, 0]), ([0, 1], [0, 0])];
+pub const PHASES: [([i32; 2], [i32; 2]); 4] = [([0, 0], [2, 1]), ([1, 0], [1, 1]), ([1, 1], [1, 0]), ([0, 1], [0, 0])];
 
 /// A fill block: its lattice points, and the cells that hold them.
-pub(super) struct Block {
+pub struct Block {
     pub rect: Rect,
     pub cells: Rect,
 }
 
 /// The blocks of a plane. Columns and rows count from 0; on a torus they go on beyond its edges.
 #[derive(Clone, Debug)]
-pub(super) struct Blocks {
+pub struct Blocks {
     size: [i32; 2],
     counts: [i32; 2],
     /// Where the columns (axis 0) and rows (axis 1) of the domain begin, and where the last ends.

@@ -27,12 +27,12 @@ const SIDES: [f64; 2] = [108.0, 200.0];
 const FEWEST_LEAF_SIZES: f64 = 4.0;
 
 /// The side of the pattern for leaves of at least `leaf_size`, both in radii.
-pub(super) fn pattern_side(leaf_size: f64) -> f64 {
+pub fn pattern_side(leaf_size: f64) -> f64 {
     (LEAF_SIZES * leaf_size).clamp(SIDES[0], SIDES[1]).max(FEWEST_LEAF_SIZES * leaf_size)
 }
 
 /// A maximal set on a square torus of lattice points, with its points in rows that can be clipped.
-pub(super) struct Pattern {
+pub struct Pattern {
     side: i32,
     /// The height of a row.
     height: i32,
@@ -54,7 +54,7 @@ fn by_rows(points: &[[i32; 2]], rows: usize, height: i32) -> Binned<[i32; 2]> {
 }
 
 /// A run of points of one row of the pattern, from left to right, where it is laid on the plane.
-pub(super) struct Row<'a> {
+pub struct Row<'a> {
     points: &'a [[i32; 2]],
     shift: [i32; 2],
     /// The part of the plane that the run stands for.

@@ -21,17 +21,17 @@ use crate::kdrt::divide::Leaf;
 use crate::kdrt::output::Output;
 
 /// How many radii (in lattice units: reaches) around a region decide which points survive in it.
-pub(super) const LONGEST_CHAIN: i32 = 3;
+pub const LONGEST_CHAIN: i32 = 3;
 
 /// How far inside its leaf, per axis, a point has no part in any test: gaps lie within 2 reaches of a boundary (see
 /// [`SeamCells`]), in cells that may go a cell farther, and what conflicts with a point there is a reach away.
-pub(super) fn seam_depth(grid: &CellGrid, reach: i32) -> i32 {
+pub fn seam_depth(grid: &CellGrid, reach: i32) -> i32 {
     3 * reach + grid.widest_cell()
 }
 
 /// Clips the leaves, which are sorted by falling rank. What survives in `window`, the grid's rectangle, goes to
 /// `output`, and into the grid if it is near a seam; what does not is returned.
-pub(super) fn merge(
+pub fn merge(
     grid: &mut CellGrid,
     pattern: &Pattern,
     leaves: &[Leaf],
@@ -80,7 +80,7 @@ pub(super) fn merge(
 /// In the pattern every point is covered, by a sample at most a reach away. If that is missing from the plane, it lay
 /// outside the leaf, so the point is within a reach of the leaf's boundary, or it was eliminated. Both are the same for
 /// all windows that know what survives around the cell, so they agree on it.
-pub(super) struct SeamCells {
+pub struct SeamCells {
     /// Words of a row of cells, each with a bit per cell, and one more.
     stride: usize,
     seam: Vec<u64>,

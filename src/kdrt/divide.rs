@@ -9,7 +9,7 @@ use crate::rng::{Draw, Rng, hash};
 
 /// A leaf of the tree.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Leaf {
+pub struct Leaf {
     pub rect: Rect,
     /// The key of all random numbers of this leaf: the hash of its path.
     pub key: u64,
@@ -24,7 +24,7 @@ impl Leaf {
 
 /// The tree, which is nowhere stored.
 #[derive(Clone, Debug)]
-pub(super) struct Tree {
+pub struct Tree {
     root: Leaf,
     /// The smallest side of a leaf, per axis: sides lie between it and its double.
     shortest: [i32; 2],

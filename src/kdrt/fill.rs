@@ -13,7 +13,7 @@ use crate::kdrt::conquer::SeamCells;
 use crate::kdrt::stamp::Stamps;
 
 /// The filling of the blocks of a window, one after the other.
-pub(super) struct Filling<'a> {
+pub struct Filling<'a> {
     stamps: &'a Stamps,
     seams: SeamCells,
     /// The largest distance along an axis at which samples conflict.

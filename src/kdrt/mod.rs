@@ -7,11 +7,13 @@
 //!
 //! The thesis goes through the seams in an order of work. Here every step is a function of the place alone, so that a
 //! window of the plane (`tiling/`) can be made without the rest; this is how threads share the work, and how any part
-//! of a plane can be had alone (`kept.rs`, `window.rs`). A number of samples instead of a radius is `count/`; an order
-//! whose prefixes are well spread is `progressive/`; several classes are `classes/`; sets that were made apart are glued
-//! into one by the same two steps (`merge/`). Files say where they depart from the thesis.
+//! of a plane can be had alone (`plane.rs`). An order whose prefixes are well spread (`progressive/`) and several classes
+//! (`classes/`) are layers, each filled around those before (`stack.rs`). A number of samples instead of a radius is
+//! `count/`; sets that were made apart are glued into one by the same two steps (`merge/`). Files say where they depart
+//! from the thesis.
 
 mod around;
+mod base;
 mod bitmap;
 mod blocks;
 mod classes;
@@ -20,13 +22,13 @@ mod conquer;
 mod count;
 mod divide;
 mod fill;
-mod kept;
 mod merge;
 mod options;
 mod output;
+mod plane;
 mod progressive;
 mod region;
-mod sample;
+mod stack;
 #[cfg(feature = "stages")]
 #[doc(hidden)]
 pub mod stages;
@@ -34,13 +36,8 @@ mod stamp;
 mod tiling;
 #[allow(unsafe_code)] // Vector instructions.
 mod vectors;
-mod window;
 
-pub use classes::{ClassPlane, Classified, sample_classes};
-pub use count::{CountOptions, CountReport, Counted, sample_count};
-pub use kept::Plane;
+pub use count::{CountOptions, CountReport, sample_count};
 pub use merge::{MergeOptions, MergeReport, Piece, merge};
-pub use options::{DEFAULT_LEAF_SIZE, DEFAULT_QUOTIENT, MIN_LEAF_SIZE, Options, QUOTIENTS};
-pub use progressive::Ranked;
-pub use sample::{sample, sample_ranked};
-pub use window::{sample_stream, sample_window, sample_window_ranked};
+pub use options::{DEFAULT_LEAF_SIZE, DEFAULT_QUOTIENT, Kind, MIN_LEAF_SIZE, Options, Progressive, QUOTIENTS};
+pub use plane::{Plane, sample, sample_window};

@@ -7,12 +7,12 @@ use crate::kdrt::clip::Row;
 
 /// For how many samples there should be memory where an unbiased set would have so many: seams make a set up to 2 %
 /// denser; that much again for chance.
-pub(super) fn capacity(expected: f64) -> usize {
+pub fn capacity(expected: f64) -> usize {
     (expected * 1.04) as usize
 }
 
 /// Collects the samples that lie in a rectangle.
-pub(super) struct Output<'a> {
+pub struct Output<'a> {
     lattice: &'a Lattice,
     rect: Rect,
     samples: Vec<[f32; 2]>,

@@ -11,7 +11,7 @@ const TILE: f64 = 16.0;
 /// A rectangle of lattice points, anywhere on the images of a torus. Along an axis of the torus it is at most all of
 /// it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Part {
+pub struct Part {
     pub rect: Rect,
     /// The period along the axes of which it is all.
     periods: [Option<i32>; 2],
@@ -55,7 +55,7 @@ impl Part {
 }
 
 /// A sample with what else is known of it.
-pub(super) trait Placed: Copy + Default {
+pub trait Placed: Copy + Default {
     /// Where it is.
     fn point(&self) -> [i32; 2];
 
@@ -64,7 +64,7 @@ pub(super) trait Placed: Copy + Default {
 }
 
 /// The samples of a part, by tiles.
-pub(super) struct Region<S> {
+pub struct Region<S> {
     part: Part,
     /// The side of a tile in lattice points, and how many there are along each axis.
     side: i32,

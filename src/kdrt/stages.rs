@@ -8,7 +8,7 @@ use crate::job::Context;
 use crate::plane::lattice::Lattice;
 use crate::plane::rect::Rect;
 
-use crate::kdrt::options::{Options, check_leaf_size};
+use crate::kdrt::options::{Kind, Options, check_leaf_size};
 use crate::kdrt::tiling::{self, Tiling};
 
 pub use crate::kdrt::divide::Fixed;
@@ -48,12 +48,12 @@ pub struct Stages {
 /// # Errors
 /// Those of [`sample`](super::sample).
 pub fn measure(options: &Options) -> Result<Stages> {
-    let &Options { radius, domain, leaf_size, seed, .. } = options;
+    let (radius, &Options { domain, leaf_size, seed, .. }) = (radius(options)?, options);
     check_leaf_size(leaf_size)?;
     let lattice = Lattice::new(&domain, radius)?;
     let (context, mut stages) = (Context::new(1)?, Stages::default());
     if !Tiling::is_worthwhile(&lattice, leaf_size) {
-        let samples = timed(&mut stages.pattern, || crate::kdrt::sample::sample(&context, options, None))?;
+        let samples = timed(&mut stages.pattern, || crate::kdrt::sample(&context, options, None))?;
         return Ok(Stages { samples: samples.len() as u64, ..stages });
     }
     let tiling = timed(&mut stages.pattern, || {
@@ -74,7 +74,7 @@ pub fn measure(options: &Options) -> Result<Stages> {
 /// Those of [`sample`](super::sample).
 pub fn divide(options: &Options) -> Result<(usize, Duration)> {
     check_leaf_size(options.leaf_size)?;
-    let lattice = Lattice::new(&options.domain, options.radius)?;
+    let lattice = Lattice::new(&options.domain, radius(options)?)?;
     let mut time = Duration::ZERO;
     let leaves =
         timed(&mut time, || tiling::tree(&lattice, options.leaf_size, options.seed).leaves(&lattice.rect()).len());
@@ -99,7 +99,7 @@ pub struct Varied {
 /// Those of [`sample`](super::sample); [`Error::InvalidArgument`] for a pattern with a side of less than two leaf sizes or
 /// more than the domain's.
 pub fn sample_varied(context: &Context, options: &Options, pattern_side: f64, fixed: Fixed) -> Result<Varied> {
-    let &Options { radius, domain, leaf_size, seed, .. } = options;
+    let (radius, &Options { domain, leaf_size, seed, .. }) = (radius(options)?, options);
     check_leaf_size(leaf_size)?;
     let lattice = Lattice::new(&domain, radius)?;
     let longest = domain.extent().into_iter().fold(f64::INFINITY, f64::min) / radius;
@@ -119,6 +119,14 @@ pub fn sample_varied(context: &Context, options: &Options, pattern_side: f64, fi
         })
     })?;
     Ok(Varied { samples, pattern, tiling: tiled })
+}
+
+/// The radius of a set without layers.
+fn radius(options: &Options) -> Result<f64> {
+    match options.kind {
+        Kind::Plain(radius) => Ok(radius),
+        _ => Err(Error::invalid("kind", "only sets of one radius in any order have stages")),
+    }
 }
 
 fn measure_window(tiling: &Tiling, window: &Rect, stages: &mut Stages) -> Vec<[f32; 2]> {
@@ -160,7 +168,7 @@ mod tests {
             for (radius, leaf_size) in [(0.004, 20.0), (0.007, 6.0), (0.2, 20.0)] {
                 let options = Options::new(radius).domain(Domain::unit(boundary)).leaf_size(leaf_size).seed(3);
                 let stages = measure(&options).unwrap();
-                let samples = crate::kdrt::sample::sample(&Context::new(1).unwrap(), &options, None).unwrap();
+                let samples = crate::kdrt::sample(&Context::new(1).unwrap(), &options, None).unwrap();
                 assert_eq!(stages.samples, samples.len() as u64);
                 if stages.clipped > 0 {
                     assert_eq!(stages.samples, stages.clipped - stages.eliminated + stages.filled);
@@ -176,7 +184,7 @@ mod tests {
         let (context, domain) = (Context::new(1).unwrap(), Domain::unit(Boundary::Periodic));
         let options = Options::new(0.004).domain(domain).leaf_size(10.0).seed(3);
         let varied = |side, fixed| sample_varied(&context, &options, side, fixed).unwrap().samples;
-        let samples = crate::kdrt::sample::sample(&context, &options, None).unwrap();
+        let samples = crate::kdrt::sample(&context, &options, None).unwrap().positions;
         assert_eq!(varied(crate::kdrt::clip::pattern_side(10.0), Fixed::Nothing), samples);
         for (side, fixed) in [(60.0, Fixed::Nothing), (108.0, Fixed::Splits), (108.0, Fixed::Clips)] {
             assert_ne!(varied(side, fixed), samples);

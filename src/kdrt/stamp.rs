@@ -7,23 +7,23 @@
 use crate::math::square;
 
 /// Voxels along a cell's side.
-pub(super) const PER_CELL: i32 = 4;
+pub const PER_CELL: i32 = 4;
 
 /// Positions in a voxel that the table distinguishes, per axis.
-pub(super) const PLACES: u32 = 16;
+pub const PLACES: u32 = 16;
 
 /// Voxels on each side of a sample's own that its disk can cover: r is at most 6 voxels (see [`Stamps::new`]).
-pub(super) const REACH: i32 = 6;
+pub const REACH: i32 = 6;
 
 /// Rows that a stamp is laid on: it begins in one of the first eight, and some are empty.
-pub(super) const ROWS: usize = 24;
+pub const ROWS: usize = 24;
 
 /// Voxels around a sample, one per bit, by rows: bit 0 of row 8 is [`REACH`] columns and rows before the sample's own.
 /// The rows before are empty.
-pub(super) type Stamp = [u16; 8 + ROWS];
+pub type Stamp = [u16; 8 + ROWS];
 
 /// The stamps of a plane.
-pub(super) struct Stamps {
+pub struct Stamps {
     /// Places per lattice point, per axis, in units of 2^-32.
     places: [i64; 2],
     /// By the row and the column of the place in the voxel.

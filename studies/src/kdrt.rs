@@ -58,12 +58,13 @@ impl Sampler {
     /// A set of about `count` samples on the unit torus.
     pub fn sample(self, context: &Context, count: f64, seed: u64) -> Result<Vec<[f32; 2]>> {
         let (radius, domain) = (radius(count), Domain::unit(Boundary::Periodic));
-        match self {
+        let set = match self {
             Self::Maximal => maximal::sample(context, &maximal::Options::new(radius).domain(domain).seed(seed), None),
             Self::Leaves(leaf_size) => {
                 kdrt::sample(context, &kdrt::Options::new(radius).domain(domain).leaf_size(leaf_size).seed(seed), None)
             }
-        }
+        };
+        Ok(set?.positions)
     }
 }
 

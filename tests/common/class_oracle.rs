@@ -1,7 +1,6 @@
 //! What sets of several classes owe, over all pairs and all places.
 
-use azulejo::kdrt::Classified;
-use azulejo::{Classes, Domain};
+use azulejo::{Classes, Domain, Points};
 
 use crate::common::{distance, float_spacing};
 use crate::disks::{distance as distance_to_given, find_gap};
@@ -10,15 +9,15 @@ use crate::disks::{distance as distance_to_given, find_gap};
 pub type Set = (Vec<[f32; 2]>, Vec<f64>);
 
 /// What is wrong with a set around given samples, if anything is.
-pub fn fault(domain: &Domain, classes: &Classes, given: &Set, set: &Classified) -> Option<String> {
+pub fn fault(domain: &Domain, classes: &Classes, given: &Set, set: &Points<2>) -> Option<String> {
     let inside = |sample: &[f32; 2]| {
         (0..2).all(|axis| domain.min[axis] <= f64::from(sample[axis]) && f64::from(sample[axis]) < domain.max[axis])
     };
-    if let Some(sample) = set.samples.iter().find(|sample| !inside(sample)) {
+    if let Some(sample) = set.positions.iter().find(|sample| !inside(sample)) {
         return Some(format!("{sample:?} is outside of {domain:?}"));
     }
     let count = classes.count();
-    let all: Vec<_> = std::iter::zip(&set.samples, &set.classes).map(|(&s, &class)| (s, class as usize)).collect();
+    let all: Vec<_> = std::iter::zip(&set.positions, &set.classes).map(|(&s, &class)| (s, class as usize)).collect();
     for (i, &(a, class)) in all.iter().enumerate() {
         let conflict = all[..i].iter().find(|&&(b, other)| distance(domain, a, b) < classes.radius(class, other));
         if let Some(conflict) = conflict {

@@ -17,7 +17,7 @@ pub struct Part {
 pub fn part(min: [f64; 2], max: [f64; 2], radius: f64, seed: u64) -> Part {
     let rectangle = domain(min, max, Boundary::Bounded);
     let options = Options::new(radius).domain(rectangle).leaf_size(6.0).seed(seed);
-    let samples = kdrt::sample(&Context::new(1).unwrap(), &options, None).unwrap();
+    let samples = kdrt::sample(&Context::new(1).unwrap(), &options, None).unwrap().positions;
     check(&rectangle, radius, &samples);
     Part { samples, rectangle }
 }

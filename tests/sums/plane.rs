@@ -3,8 +3,8 @@
 use std::ops::ControlFlow;
 
 use azulejo::dcr::{self, Density};
-use azulejo::kdrt::{self, ClassPlane, Classified, CountOptions, Counted, MergeOptions, Options, Piece, Ranked};
-use azulejo::{Boundary, Classes, Context, Domain, Given, Order, Points, Result, maximal, thin};
+use azulejo::kdrt::{self, CountOptions, Kind, MergeOptions, Options, Piece, Plane, Progressive};
+use azulejo::{Boundary, Classes, Context, Domain, Given, Points, Result, maximal, thin};
 
 use crate::list::{List, little_endian};
 
@@ -34,22 +34,12 @@ pub struct Sets {
     pub random: Positions,
 }
 
-/// A set with its ranks.
-pub fn ranked(set: Ranked) -> Points<2> {
-    Points { positions: set.samples, ranks: set.ranks, ..Points::default() }
-}
-
-/// A set with its classes.
-pub fn classified(set: Classified) -> Points<2> {
-    Points { positions: set.samples, classes: set.classes, ..Points::default() }
-}
-
 /// Adds the sums.
 pub fn sums(context: &Context, list: &mut List) -> Result<Sets> {
     let maximal =
         |radius, domain, seed| maximal::sample(context, &maximal::Options::new(radius).domain(domain).seed(seed), None);
-    list.points("maximal periodic", &maximal(0.01, TORUS, 1)?);
-    list.points("maximal bounded", &maximal(0.004, FLAT, 2)?);
+    list.points("maximal periodic", &maximal(0.01, TORUS, 1)?.positions);
+    list.points("maximal bounded", &maximal(0.004, FLAT, 2)?.positions);
     let large = tiled(context, list)?;
     windows(context, list)?;
     ordered(context, list)?;
@@ -70,53 +60,52 @@ fn around(context: &Context, list: &mut List) -> Result<()> {
     let clearances: Vec<_> = (0..2000u32).map(|i| 1e-6 * f64::from(i % 500) * f64::from(i % 40)).collect();
     let given = Given::with_clearances(&positions, &clearances);
     let options = Options::new(0.004).given(given).seed(25);
-    list.points("around periodic", &kdrt::sample(context, &options.domain(TORUS), None)?);
-    list.points("around bounded", &kdrt::sample(context, &options.domain(SQUARE).radius(0.02), None)?);
-    list.points("around equal", &kdrt::sample(context, &options.given(Given::at(&positions)), None)?);
-    let ordered = options.order(Order::Progressive).quotient(1.3);
-    list.samples("around, ordered", &ranked(kdrt::sample_ranked(context, &ordered, None)?));
+    list.points("around periodic", &kdrt::sample(context, &options.domain(TORUS), None)?.positions);
+    list.points("around bounded", &kdrt::sample(context, &options.domain(SQUARE).kind(Kind::Plain(0.02)), None)?.positions);
+    list.points("around equal", &kdrt::sample(context, &options.given(Given::at(&positions)), None)?.positions);
+    let ordered = options.kind(Kind::Progressive(0.004, Progressive::new().quotient(1.3)));
+    list.samples("around, ordered", &kdrt::sample(context, &ordered, None)?);
     Ok(())
 }
 
 /// Sets in progressive order, with their ranks, whole and in parts.
 fn ordered(context: &Context, list: &mut List) -> Result<()> {
-    let mut set = |name: &str, set| list.samples(name, &ranked(set));
-    let options = Options::new(0.004).order(Order::Progressive).seed(23);
-    set("ordered periodic", kdrt::sample_ranked(context, &options.domain(TORUS), None)?);
-    set("ordered bounded", kdrt::sample_ranked(context, &options.domain(FLAT).quotient(1.5), None)?);
-    let tiled = options.radius(0.003).domain(SQUARE).quotient(1.2).coarsest(0.005);
-    set("ordered tiled", kdrt::sample_ranked(context, &tiled, None)?);
-    let far = Options::new(0.02).domain(FAR).order(Order::Progressive).coarsest(0.1);
-    set("ordered window", kdrt::sample_window_ranked(context, &far, [1000.0, -2.5], [1000.4, -1.5], None)?);
-    let counted = CountOptions::new(5000).domain(TORUS).order(Order::Progressive).seed(24);
-    let Counted { samples, ranks, .. } = kdrt::sample_count(context, &counted, None)?;
-    list.samples("ordered count", &Points { positions: samples, ranks, ..Points::default() });
+    let mut set = |name: &str, set: Points<2>| list.samples(name, &set);
+    let options = |radius, levels, domain| Options::progressive(radius, levels).domain(domain);
+    let levels = Progressive::new();
+    set("ordered periodic", kdrt::sample(context, &options(0.004, levels, TORUS).seed(23), None)?);
+    set("ordered bounded", kdrt::sample(context, &options(0.004, levels.quotient(1.5), FLAT).seed(23), None)?);
+    let tiled = options(0.003, levels.quotient(1.2).coarsest(0.005), SQUARE).seed(23);
+    set("ordered tiled", kdrt::sample(context, &tiled, None)?);
+    let far = options(0.02, levels.coarsest(0.1), FAR);
+    set("ordered window", kdrt::sample_window(context, &far, [1000.0, -2.5], [1000.4, -1.5], None)?);
+    let counted = CountOptions::new(5000).domain(TORUS).levels(Some(levels)).seed(24);
+    set("ordered count", kdrt::sample_count(context, &counted, None)?.0);
     Ok(())
 }
 
 /// Sets of several classes: with a radius each, and of equal radii; around given samples; windows of kept planes.
 fn in_classes(context: &Context, list: &mut List) -> Result<()> {
-    let mut set = |name: &str, set| list.samples(name, &classified(set));
-    let options = |domain| Options::new(0.0).domain(domain).seed(26);
-    for (name, own, factor, domain) in [
+    let mut set = |name: &str, set: Points<2>| list.samples(name, &set);
+        for (name, own, factor, domain) in [
         ("classes falling", &[0.004, 0.008, 0.016][..], 1.0, TORUS),
         ("classes equal", &[0.01; 4][..], 0.7, SQUARE),
         ("classes far", &[0.03, 0.02, 0.03][..], 1.0, FAR),
     ] {
         let classes = Classes::of_radii(own, factor)?;
-        set(name, kdrt::sample_classes(context, &options(domain), &classes, None)?);
+        set(name, kdrt::sample(context, &Options::classes(&classes).domain(domain).seed(26), None)?);
     }
     let positions: Vec<_> =
         (0..300u32).map(|i| [(i * 619 % 307) as f32 / 300.0, (i * 41 % 301) as f32 / 301.0]).collect();
     let clearances: Vec<_> = (0..600u32).map(|i| 1e-3 * f64::from(i % 23) * f64::from(i % 2)).collect();
     let classes = Classes::of_radii(&[0.015, 0.008], 0.9)?;
-    let given = options(TORUS).given(Given::with_clearances(&positions, &clearances));
-    set("classes around", kdrt::sample_classes(context, &given, &classes, None)?);
-    set("classes around equal", kdrt::sample_classes(context, &given.given(Given::at(&positions)), &classes, None)?);
-    let around = ClassPlane::new(context, &given, &classes, None)?;
+    let given = Options::classes(&classes).seed(26).given(Given::with_clearances(&positions, &clearances));
+    set("classes around", kdrt::sample(context, &given, None)?);
+    set("classes around equal", kdrt::sample(context, &given.given(Given::at(&positions)), None)?);
+    let around = Plane::new(context, &given, None)?;
     set("classes around, window", around.window([0.8, 0.3], [1.0, 0.6])?);
     let classes = Classes::of_radii(&[0.0002, 0.0004, 0.0002], 1.0)?;
-    let plane = ClassPlane::new(context, &options(SQUARE), &classes, None)?;
+    let plane = Plane::new(context, &Options::classes(&classes).domain(SQUARE).seed(26), None)?;
     set("classes window", plane.window([0.31, 0.52], [0.34, 0.55])?);
     Ok(())
 }
@@ -143,8 +132,9 @@ fn options(radius: f64, domain: Domain, leaf_size: f64, seed: u64) -> Options<'s
 }
 
 fn tiled(context: &Context, list: &mut List) -> Result<Positions> {
-    let sample =
-        |radius, domain, leaf_size, seed| kdrt::sample(context, &options(radius, domain, leaf_size, seed), None);
+    let sample = |radius, domain, leaf_size, seed| {
+        kdrt::sample(context, &options(radius, domain, leaf_size, seed), None).map(|set| set.positions)
+    };
     let large = sample(0.002, TORUS, 20.0, 3)?;
     list.points("kdrt 20r", &large);
     list.points("kdrt 6r", &sample(0.002, TORUS, 6.0, 4)?);
@@ -158,15 +148,15 @@ fn tiled(context: &Context, list: &mut List) -> Result<Positions> {
 
 fn windows(context: &Context, list: &mut List) -> Result<()> {
     let torus = options(0.0001, TORUS, 20.0, 10);
-    list.points("window", &kdrt::sample_window(context, &torus, [0.93, 0.0], [1.0, 0.05], None)?);
+    list.points("window", &kdrt::sample_window(context, &torus, [0.93, 0.0], [1.0, 0.05], None)?.positions);
     let square = options(0.0001, SQUARE, 40.0, 11);
-    list.points("window bounded", &kdrt::sample_window(context, &square, [0.31, 0.52], [0.37, 0.55], None)?);
+    list.points("window bounded", &kdrt::sample_window(context, &square, [0.31, 0.52], [0.37, 0.55], None)?.positions);
     let mut all = Vec::new();
     let collect = |samples: &[[f32; 2]]| {
         all.extend_from_slice(samples);
         ControlFlow::Continue(())
     };
-    kdrt::sample_stream(context, &options(0.0045, FAR, 20.0, 12), collect, None)?;
+    Plane::new(context, &options(0.0045, FAR, 20.0, 12), None)?.stream(context, collect, None)?;
     list.points("stream", &all);
     Ok(())
 }
@@ -176,19 +166,19 @@ fn counted(context: &Context, list: &mut List) -> Result<(Positions, Positions)>
     let sample = |count, domain, seed| {
         kdrt::sample_count(context, &CountOptions::new(count).domain(domain).leaf_size(20.0).seed(seed), None)
     };
-    list.points("count 1", &sample(1, TORUS, 13)?.samples);
-    let thousand = sample(1000, TORUS, 14)?.samples;
+    list.points("count 1", &sample(1, TORUS, 13)?.0.positions);
+    let thousand = sample(1000, TORUS, 14)?.0.positions;
     list.points("count 1000", &thousand);
-    let bounded = sample(30_000, SQUARE, 15)?;
-    list.points("count 30000 bounded", &bounded.samples);
-    list.numbers("count 30000 radius", &[bounded.report.radius]);
-    Ok((thousand, bounded.samples))
+    let (bounded, report) = sample(30_000, SQUARE, 15)?;
+    list.points("count 30000 bounded", &bounded.positions);
+    list.numbers("count 30000 radius", &[report.radius]);
+    Ok((thousand, bounded.positions))
 }
 
 fn merged(context: &Context, list: &mut List) -> Result<()> {
     let half = |min, max, seed| {
         let domain = rectangle(min, max, Boundary::Bounded);
-        kdrt::sample(context, &options(0.005, domain, 20.0, seed), None)
+        kdrt::sample(context, &options(0.005, domain, 20.0, seed), None).map(|set| set.positions)
     };
     let left = half([0.0, 0.0], [0.5, 1.0], 16)?;
     let right = half([0.5, 0.0], [1.0, 1.0], 17)?;
@@ -199,7 +189,7 @@ fn merged(context: &Context, list: &mut List) -> Result<()> {
     let merge = |domain, seed, pieces: &[Piece], fixed: &[[f32; 2]]| {
         kdrt::merge(context, &MergeOptions::new(0.005).domain(domain).seed(seed), pieces, fixed, None)
     };
-    list.points("merge", &merge(TORUS, 18, &pieces, &[[0.25, 0.75], [0.5, 0.5]])?.0);
-    list.points("merge bounded", &merge(SQUARE, 19, &pieces[..1], &[])?.0);
+    list.points("merge", &merge(TORUS, 18, &pieces, &[[0.25, 0.75], [0.5, 0.5]])?.0.positions);
+    list.points("merge bounded", &merge(SQUARE, 19, &pieces[..1], &[])?.0.positions);
     Ok(())
 }

@@ -7,11 +7,11 @@ use azulejo::analysis::distribution::radial_distribution;
 use azulejo::analysis::figures::figures_2d;
 use azulejo::analysis::spectrum::periodogram;
 use azulejo::dcr::{self, Density, Neighbourhood};
-use azulejo::kdrt::{self, ClassPlane, CountOptions, MergeOptions, Options, Piece, Plane};
-use azulejo::{Boundary, Classes, Context, Domain, Given, Order, Points, Result, maximal, thin};
+use azulejo::kdrt::{self, CountOptions, Kind, MergeOptions, Options, Piece, Plane, Progressive};
+use azulejo::{Boundary, Classes, Context, Domain, Given, Points, Result, maximal, thin};
 
 use crate::list::{List, little_endian};
-use crate::plane::{SQUARE, TORUS, classified, ranked};
+use crate::plane::{SQUARE, TORUS};
 
 /// Both halves of the grid have the same calls, on domains of this many radii and with this many samples.
 struct Size {
@@ -37,34 +37,27 @@ const WINDOW: [[f64; 2]; 2] = [[0.8, 0.3], [1.0, 0.6]];
 const ITERATIONS: u32 = 40;
 
 type Make = fn(&Context, &Options) -> Result<Points<2>>;
-type MakeOfClasses = fn(&Context, &Options, &Classes) -> Result<Points<2>>;
 
 /// The ways to make a set, or a part of one, and whether samples come in an order of theirs.
 const SAMPLERS: [(&str, bool, Make); 4] = [
-    ("whole", true, |context, options| kdrt::sample_ranked(context, options, None).map(ranked)),
-    ("window", true, |context, options| {
-        kdrt::sample_window_ranked(context, options, WINDOW[0], WINDOW[1], None).map(ranked)
-    }),
-    ("kept window", true, |context, options| {
-        Plane::new(context, options, None)?.window_ranked(WINDOW[0], WINDOW[1]).map(ranked)
-    }),
+    ("whole", true, |context, options| kdrt::sample(context, options, None)),
+    ("window", true, |context, options| kdrt::sample_window(context, options, WINDOW[0], WINDOW[1], None)),
+    ("kept window", true, |context, options| Plane::new(context, options, None)?.window(WINDOW[0], WINDOW[1])),
     ("stream", false, |context, options| {
         let mut points = Points::default();
         let collect = |samples: &[[f32; 2]]| {
             points.positions.extend_from_slice(samples);
             ControlFlow::Continue(())
         };
-        kdrt::sample_stream(context, options, collect, None)?;
+        Plane::new(context, options, None)?.stream(context, collect, None)?;
         Ok(points)
     }),
 ];
 
 /// Those that make sets of several classes.
-const CLASS_SAMPLERS: [(&str, MakeOfClasses); 2] = [
-    ("whole", |context, options, classes| kdrt::sample_classes(context, options, classes, None).map(classified)),
-    ("window", |context, options, classes| {
-        ClassPlane::new(context, options, classes, None)?.window(WINDOW[0], WINDOW[1]).map(classified)
-    }),
+const CLASS_SAMPLERS: [(&str, Make); 2] = [
+    ("whole", |context, options| kdrt::sample(context, options, None)),
+    ("window", |context, options| Plane::new(context, options, None)?.window(WINDOW[0], WINDOW[1])),
 ];
 
 /// Adds the sums of small sets or of large ones.
@@ -72,8 +65,7 @@ pub fn sums(context: &Context, is_small: bool, list: &mut List) -> Result<()> {
     let size = if is_small { &SMALL } else { &LARGE };
     for (place, domain) in [("torus", TORUS), ("square", SQUARE)] {
         let untiled = maximal::Options::new(size.untiled).domain(domain).seed(61);
-        let positions = maximal::sample(context, &untiled, None)?;
-        list.samples(&format!("{place} untiled"), &Points { positions, ..Points::default() });
+        list.samples(&format!("{place} untiled"), &maximal::sample(context, &untiled, None)?);
         around_nothing_and_given(context, place, domain, size, list)?;
         counted(context, place, domain, size, list)?;
         merged(context, place, domain, size, list)?;
@@ -100,28 +92,27 @@ fn around_nothing_and_given(
         (", given", own, Given::with_clearances(&positions, &clearances)),
         (", given alike", Given::at(&positions), Given::at(&positions)),
     ] {
-        for (in_order, order, radius) in [("", Order::Any, size.tiled), (", ordered", Order::Progressive, size.untiled)]
-        {
-            let options = Options::new(radius).domain(domain).leaf_size(size.leaf_size).seed(62).given(given);
-            for (name, _, make) in SAMPLERS.iter().filter(|(_, has_order, _)| order == Order::Any || *has_order) {
-                list.samples(&format!("{place} {name}{in_order}{around}"), &make(context, &options.order(order))?);
+        let ordered = Kind::Progressive(size.untiled, Progressive::new());
+        for (in_order, is_ordered, kind) in [("", false, Kind::Plain(size.tiled)), (", ordered", true, ordered)] {
+            let options = Options::of(kind).domain(domain).leaf_size(size.leaf_size).seed(62).given(given);
+            for (name, _, make) in SAMPLERS.iter().filter(|(_, has_order, _)| !is_ordered || *has_order) {
+                list.samples(&format!("{place} {name}{in_order}{around}"), &make(context, &options)?);
             }
         }
-        let options = Options::new(0.0).domain(domain).leaf_size(size.leaf_size).seed(63).given(of_classes);
+        let options = Options::classes(&classes).domain(domain).leaf_size(size.leaf_size).seed(63).given(of_classes);
         for (name, make) in CLASS_SAMPLERS {
-            list.samples(&format!("{place} {name}, classes{around}"), &make(context, &options, &classes)?);
+            list.samples(&format!("{place} {name}, classes{around}"), &make(context, &options)?);
         }
     }
     Ok(())
 }
 
 fn counted(context: &Context, place: &str, domain: Domain, size: &Size, list: &mut List) -> Result<()> {
-    for (in_order, order) in [("", Order::Any), (", ordered", Order::Progressive)] {
-        let options = CountOptions::new(size.count).domain(domain).leaf_size(size.leaf_size).order(order).seed(64);
-        let set = kdrt::sample_count(context, &options, None)?;
-        let points = Points { positions: set.samples, ranks: set.ranks, ..Points::default() };
+    for (in_order, levels) in [("", None), (", ordered", Some(Progressive::new()))] {
+        let options = CountOptions::new(size.count).domain(domain).leaf_size(size.leaf_size).levels(levels).seed(64);
+        let (points, report) = kdrt::sample_count(context, &options, None)?;
         list.samples(&format!("{place} count{in_order}"), &points);
-        list.numbers(&format!("{place} count{in_order}: radius"), &[set.report.radius]);
+        list.numbers(&format!("{place} count{in_order}: radius"), &[report.radius]);
     }
     Ok(())
 }
@@ -129,11 +120,11 @@ fn counted(context: &Context, place: &str, domain: Domain, size: &Size, list: &m
 /// Of the left half's samples, and around fixed points.
 fn merged(context: &Context, place: &str, domain: Domain, size: &Size, list: &mut List) -> Result<()> {
     let half = Domain { min: [0.0; 2], max: [0.5, 1.0], boundary: Boundary::Bounded };
-    let samples = kdrt::sample(context, &Options::new(size.untiled).domain(half).seed(65), None)?;
+    let samples = kdrt::sample(context, &Options::new(size.untiled).domain(half).seed(65), None)?.positions;
     let piece = Piece { samples: &samples, min: half.min, max: half.max };
     let options = MergeOptions::new(size.untiled).domain(domain).seed(66);
-    let (positions, report) = kdrt::merge(context, &options, &[piece], &[[0.5; 2], [0.25, 0.75]], None)?;
-    list.samples(&format!("{place} merge"), &Points { positions, ..Points::default() });
+    let (points, report) = kdrt::merge(context, &options, &[piece], &[[0.5; 2], [0.25, 0.75]], None)?;
+    list.samples(&format!("{place} merge"), &points);
     let counts = [report.kept, report.eliminated, report.inserted].map(|count| count as f64);
     list.numbers(&format!("{place} merge: report"), &counts);
     Ok(())

@@ -1,8 +1,8 @@
 //! Sets of the plane, and their relaxation.
 
 use azulejo::dcr::{self, Neighbourhood};
-use azulejo::kdrt::{self, CountOptions, Options, Plane};
-use azulejo::{Boundary, Classes, Domain, Given, Order};
+use azulejo::kdrt::{self, CountOptions, Kind, Options, Plane, Progressive};
+use azulejo::{Boundary, Classes, Domain, Given};
 
 use crate::answer::{Answer, call};
 use crate::domain;
@@ -28,30 +28,26 @@ impl PlaneOptions {
         Domain { min: self.min, max: self.max, boundary }
     }
 
-    fn order(&self) -> Order {
-        if self.progressive == 0.0 { Order::Any } else { Order::Progressive }
+    /// The levels of a progressive order.
+    fn levels(&self) -> Option<Progressive> {
+        (self.progressive != 0.0).then(|| Progressive::new().quotient(self.quotient).coarsest(self.coarsest))
     }
 
     fn by_radius<'a>(&self, seed: u64, given: Given<'a, 2>) -> Options<'a> {
-        Options::new(self.radius)
-            .domain(self.domain())
-            .leaf_size(self.leaf_size)
-            .seed(seed)
-            .order(self.order())
-            .quotient(self.quotient)
-            .coarsest(self.coarsest)
-            .given(given)
+        let kind = match self.levels() {
+            None => Kind::Plain(self.radius),
+            Some(levels) => Kind::Progressive(self.radius, levels),
+        };
+        self.of(kind, seed).given(given)
+    }
+
+    fn of<'a>(&self, kind: Kind<'a>, seed: u64) -> Options<'a> {
+        Options::of(kind).domain(self.domain()).leaf_size(self.leaf_size).seed(seed)
     }
 
     fn by_count(&self, seed: u64) -> CountOptions {
-        let mut options = CountOptions::new(self.count as u64);
-        options.domain = self.domain();
-        options.leaf_size = self.leaf_size;
-        options.seed = seed;
-        options.order = self.order();
-        options.quotient = self.quotient;
-        options.coarsest = self.coarsest;
-        options
+        let options = CountOptions::new(self.count as u64).domain(self.domain()).leaf_size(self.leaf_size);
+        options.seed(seed).levels(self.levels())
     }
 }
 
@@ -87,12 +83,12 @@ pub unsafe extern "C" fn azulejo_kdrt_sample(
     let given = unsafe { given(positions, count, clearances, clearance_count) };
     call(|context| {
         if options.count > 0.0 {
-            let counted = kdrt::sample_count(context, &options.by_count(seed), None)?;
-            let report = vec![counted.report.radius, f64::from(u8::from(counted.report.is_maximal))];
-            return Ok(Answer::default().and(counted.samples).and(counted.ranks).and(report));
+            let (set, report) = kdrt::sample_count(context, &options.by_count(seed), None)?;
+            let report = vec![report.radius, f64::from(u8::from(report.is_maximal))];
+            return Ok(Answer::default().and(set.positions).and(set.ranks).and(report));
         }
-        let set = kdrt::sample_ranked(context, &options.by_radius(seed, given), None)?;
-        Ok(Answer::default().and(set.samples).and(set.ranks).and(vec![options.radius, 1.0]))
+        let set = kdrt::sample(context, &options.by_radius(seed, given), None)?;
+        Ok(Answer::default().and(set.positions).and(set.ranks).and(vec![options.radius, 1.0]))
     })
 }
 
@@ -111,8 +107,8 @@ pub unsafe extern "C" fn azulejo_kdrt_sample_classes(
     let radii = unsafe { rows(radii, radius_count) };
     call(|context| {
         let classes = Classes::new(radii.len().isqrt(), radii)?;
-        let set = kdrt::sample_classes(context, &options.by_radius(seed, Given::default()), &classes, None)?;
-        Ok(Answer::default().and(set.samples).and(set.classes))
+        let set = kdrt::sample(context, &options.of(Kind::Classes(&classes), seed), None)?;
+        Ok(Answer::default().and(set.positions).and(set.classes))
     })
 }
 
@@ -142,8 +138,8 @@ pub unsafe extern "C" fn azulejo_plane_create(
 #[unsafe(no_mangle)]
 pub extern "C" fn azulejo_plane_window(plane: &Plane, min_x: f64, min_y: f64, max_x: f64, max_y: f64) -> i32 {
     call(|_| {
-        let set = plane.window_ranked([min_x, min_y], [max_x, max_y])?;
-        Ok(Answer::default().and(set.samples).and(set.ranks))
+        let set = plane.window([min_x, min_y], [max_x, max_y])?;
+        Ok(Answer::default().and(set.positions).and(set.ranks))
     })
 }
 

@@ -1,7 +1,7 @@
 //! Maximal sets in the plane.
 
-use azulejo_core::kdrt::{self, ClassPlane, CountOptions, DEFAULT_QUOTIENT, Plane};
-use azulejo_core::{Domain, Order, maximal};
+use azulejo_core::kdrt::{self, CountOptions, Kind, Plane, Progressive};
+use azulejo_core::{Classes, Domain, Order, maximal};
 use pyo3::prelude::*;
 
 use crate::argument::{domain, natural, order};
@@ -25,9 +25,8 @@ pub(crate) struct Request<'py> {
     domain: Domain,
     leaf_size: f64,
     seed: u64,
-    order: Order,
-    quotient: f64,
-    coarsest: f64,
+    /// Of a progressive order.
+    levels: Option<Progressive>,
     given: GivenArrays<'py>,
 }
 
@@ -39,26 +38,36 @@ impl<'py> Request<'py> {
         (order_name, quotient, coarsest): (&str, Option<f64>, Option<f64>),
         (given_positions, given_clearances): (Option<&Bound<'py, PyAny>>, Option<&Bound<'py, PyAny>>),
     ) -> PyResult<Self> {
-        Ok(Self {
-            domain,
-            leaf_size,
-            seed: natural("seed", seed)?,
-            order: order(order_name, &[("quotient", quotient), ("coarsest", coarsest)])?,
-            quotient: quotient.unwrap_or(DEFAULT_QUOTIENT),
-            coarsest: coarsest.unwrap_or(f64::INFINITY),
-            given: GivenArrays::read(given_positions, given_clearances)?,
-        })
+        let seed = natural("seed", seed)?;
+        let levels = match order(order_name, &[("quotient", quotient), ("coarsest", coarsest)])? {
+            Order::Any => None,
+            Order::Progressive => {
+                let Progressive { quotient: usual, coarsest: longest, .. } = Progressive::new();
+                let levels = Progressive::new().quotient(quotient.unwrap_or(usual));
+                Some(levels.coarsest(coarsest.unwrap_or(longest)))
+            }
+        };
+        Ok(Self { domain, leaf_size, seed, levels, given: GivenArrays::read(given_positions, given_clearances)? })
     }
 
     pub(crate) fn by_radius(&self, radius: f64) -> PyResult<kdrt::Options<'_>> {
-        Ok(kdrt::Options::new(radius)
-            .domain(self.domain)
-            .leaf_size(self.leaf_size)
-            .seed(self.seed)
-            .order(self.order)
-            .quotient(self.quotient)
-            .coarsest(self.coarsest)
-            .given(self.given.samples()?))
+        self.of(self.levels.map_or(Kind::Plain(radius), |levels| Kind::Progressive(radius, levels)))
+    }
+
+    /// A set of several classes, which have radii of their own.
+    fn by_classes<'a>(&'a self, radius: f64, classes: &'a Classes) -> PyResult<kdrt::Options<'a>> {
+        if radius != 0.0 {
+            return Err(invalid("radius", format!("{radius:?} is not 0; classes have radii of their own")));
+        }
+        if self.levels.is_some() {
+            return Err(invalid("order", "sets of several classes have no progressive order"));
+        }
+        self.of(Kind::Classes(classes))
+    }
+
+    fn of<'a>(&'a self, kind: Kind<'a>) -> PyResult<kdrt::Options<'a>> {
+        let options = kdrt::Options::of(kind).domain(self.domain).leaf_size(self.leaf_size).seed(self.seed);
+        Ok(options.given(self.given.samples()?))
     }
 
     fn by_count(&self, count: u64) -> PyResult<CountOptions> {
@@ -69,9 +78,7 @@ impl<'py> Request<'py> {
             .domain(self.domain)
             .leaf_size(self.leaf_size)
             .seed(self.seed)
-            .order(self.order)
-            .quotient(self.quotient)
-            .coarsest(self.coarsest))
+            .levels(self.levels))
     }
 }
 
@@ -122,15 +129,15 @@ pub(crate) fn kdrt_sample(
     match natural("count", count)? {
         0 => {
             let request = request.by_radius(radius)?;
-            let set = watch.run(|context, progress| kdrt::sample_ranked(context, &request, progress))?;
-            Points::ranked(py, set)?.with_report(py, KdrtReport { radius, is_maximal: true })
+            let set = watch.run(|context, progress| kdrt::sample(context, &request, progress))?;
+            Points::plane(py, set)?.with_report(py, KdrtReport { radius, is_maximal: true })
         }
         _ if radius != 0.0 => Err(invalid("count", format!("{count}, and radius {radius}; one of them must be 0"))),
         count => {
             let request = request.by_count(count)?;
-            let set = watch.run(|context, progress| kdrt::sample_count(context, &request, progress))?;
-            let report = KdrtReport { radius: set.report.radius, is_maximal: set.report.is_maximal };
-            Points::ranked(py, kdrt::Ranked::new(set.samples, set.ranks))?.with_report(py, report)
+            let (set, done) = watch.run(|context, progress| kdrt::sample_count(context, &request, progress))?;
+            let report = KdrtReport { radius: done.radius, is_maximal: done.is_maximal };
+            Points::plane(py, set)?.with_report(py, report)
         }
     }
 }
@@ -167,8 +174,8 @@ pub(crate) fn kdrt_sample_window(
     let request = Request::new(domain, leaf_size, seed, (order, quotient, coarsest), given)?;
     let request = request.by_radius(radius)?;
     let set = Watch::new(py, threads, progress)?
-        .run(|context, progress| kdrt::sample_window_ranked(context, &request, window_min, window_max, progress))?;
-    Points::ranked(py, set)
+        .run(|context, progress| kdrt::sample_window(context, &request, window_min, window_max, progress))?;
+    Points::plane(py, set)
 }
 
 /// A maximal set of several classes: samples of the classes i and j are at least radii[i][j] apart, and for each class i
@@ -199,9 +206,8 @@ pub(crate) fn kdrt_sample_classes(
     let classes = matrix(radii)?;
     let domain = domain(domain_min, domain_max, boundary)?;
     let request = Request::new(domain, leaf_size, seed, ("any", None, None), (given_positions, given_clearances))?;
-    let request = request.by_radius(0.0)?;
-    let set = Watch::new(py, threads, progress)?
-        .run(|context, progress| kdrt::sample_classes(context, &request, &classes, progress))?;
+    let request = request.by_classes(0.0, &classes)?;
+    let set = Watch::new(py, threads, progress)?.run(|context, progress| kdrt::sample(context, &request, progress))?;
     Points::classified(py, set)
 }
 
@@ -210,12 +216,8 @@ pub(crate) fn kdrt_sample_classes(
 /// radius, or radii of several classes as in kdrt_sample_classes. The others are those of kdrt_sample.
 #[pyclass(frozen, module = "azulejo")]
 pub(crate) struct KdrtPlane {
-    plane: Kept,
-}
-
-enum Kept {
-    One(Plane),
-    Several(ClassPlane),
+    plane: Plane,
+    has_classes: bool,
 }
 
 #[pymethods]
@@ -246,15 +248,14 @@ impl KdrtPlane {
         let domain = domain(domain_min, domain_max, boundary)?;
         let given = (given_positions, given_clearances);
         let request = Request::new(domain, leaf_size, seed, (order, quotient, coarsest), given)?;
-        let request = request.by_radius(radius)?;
         let watch = Watch::new(py, threads, progress)?;
-        let plane = match radii.map(matrix).transpose()? {
-            None => Kept::One(watch.run(|context, progress| Plane::new(context, &request, progress))?),
-            Some(classes) => {
-                Kept::Several(watch.run(|context, progress| ClassPlane::new(context, &request, &classes, progress))?)
-            }
+        let classes = radii.map(matrix).transpose()?;
+        let request = match &classes {
+            None => request.by_radius(radius)?,
+            Some(classes) => request.by_classes(radius, classes)?,
         };
-        Ok(Self { plane })
+        let plane = watch.run(|context, progress| Plane::new(context, &request, progress))?;
+        Ok(Self { plane, has_classes: classes.is_some() })
     }
 
     /// The samples in a window, on the calling thread: those that kdrt_sample has there, to the byte.
@@ -262,16 +263,8 @@ impl KdrtPlane {
     /// window_min, window_max: the corners, two numbers each, inside the domain. Several threads may make windows at
     /// once.
     fn window(&self, py: Python<'_>, window_min: [f64; 2], window_max: [f64; 2]) -> PyResult<Points> {
-        match &self.plane {
-            Kept::One(plane) => {
-                let set = py.detach(|| plane.window_ranked(window_min, window_max)).map_err(raised)?;
-                Points::ranked(py, set)
-            }
-            Kept::Several(plane) => {
-                let set = py.detach(|| plane.window(window_min, window_max)).map_err(raised)?;
-                Points::classified(py, set)
-            }
-        }
+        let set = py.detach(|| self.plane.window(window_min, window_max)).map_err(raised)?;
+        if self.has_classes { Points::classified(py, set) } else { Points::plane(py, set) }
     }
 }
 

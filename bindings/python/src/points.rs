@@ -1,6 +1,5 @@
 //! Sets of samples as Python sees them.
 
-use azulejo_core::kdrt::{Classified, Ranked};
 use numpy::{PyArray1, PyArray2};
 use pyo3::prelude::*;
 use pyo3::types::IntoPyDict;
@@ -43,28 +42,27 @@ pub(crate) struct Points {
 }
 
 impl Points {
-    pub(crate) fn plane(py: Python<'_>, samples: Vec<[f32; 2]>) -> PyResult<Self> {
-        let count = samples.len();
+    pub(crate) fn plane(py: Python<'_>, points: impl Into<azulejo_core::Points<2>>) -> PyResult<Self> {
+        let azulejo_core::Points { positions, ranks, classes, .. } = points.into();
+        let count = positions.len();
         Ok(Self {
-            positions: table(py, samples)?.into_any(),
+            positions: table(py, positions)?.into_any(),
             normals: None,
             interpolated_normals: None,
             triangles: None,
             barycentrics: None,
             radii: None,
-            ranks: None,
-            classes: None,
+            ranks: line_if_any(py, ranks),
+            classes: line_if_any(py, classes),
             report: None,
             count,
         })
     }
 
-    pub(crate) fn ranked(py: Python<'_>, Ranked { samples, ranks, .. }: Ranked) -> PyResult<Self> {
-        Ok(Self { ranks: line_if_any(py, ranks), ..Self::plane(py, samples)? })
-    }
-
-    pub(crate) fn classified(py: Python<'_>, Classified { samples, classes, .. }: Classified) -> PyResult<Self> {
-        Ok(Self::plane(py, samples)?.with_classes(py, classes))
+    /// Samples of the plane that have classes even if there are none of them.
+    pub(crate) fn classified(py: Python<'_>, points: azulejo_core::Points<2>) -> PyResult<Self> {
+        let classes = points.classes.clone();
+        Ok(Self::plane(py, points)?.with_classes(py, classes))
     }
 
     pub(crate) fn surface(py: Python<'_>, samples: azulejo_core::Points<3>) -> PyResult<Self> {

@@ -1,12 +1,17 @@
 //! Planes that are passed on part by part.
 
-use azulejo_core::kdrt;
+use std::ops::ControlFlow;
+
+use azulejo_core::kdrt::Plane;
 use pyo3::prelude::*;
 
 use crate::argument::domain;
 use crate::array::table;
 use crate::plane::Request;
 use crate::watch::{Watch, ask, flow};
+
+/// The share of the progress that the plane takes.
+const PATTERN_SHARE: f64 = 0.05;
 
 /// Makes the set of kdrt_sample and passes it on part by part, in its order, instead of keeping it: for sets of any size.
 /// Memory is that of a few parts per thread.
@@ -42,7 +47,11 @@ pub(crate) fn kdrt_stream(
     let done = Watch::new(py, threads, progress)?.run(|context, progress| {
         let pass =
             |part: &[[f32; 2]]| flow(Python::attach(|py| ask(py, &visit, table(py, part.to_vec())?)), &mut failed);
-        kdrt::sample_stream(context, &request, pass, progress)
+        let part = |from: f64, to: f64| {
+            move |done: f64| progress.map_or(ControlFlow::Continue(()), |tell| tell(from + (to - from) * done))
+        };
+        let plane = Plane::new(context, &request, Some(&part(0.0, PATTERN_SHARE)))?;
+        plane.stream(context, pass, Some(&part(PATTERN_SHARE, 1.0)))
     });
     failed.map_or(done, Err)
 }

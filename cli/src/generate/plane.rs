@@ -3,8 +3,8 @@
 use std::path::PathBuf;
 use std::time::Instant;
 
-use azulejo::kdrt::{self, ClassPlane, Classified, CountOptions, Ranked};
-use azulejo::{Boundary, Classes, Context, Domain, Order, Progress, Result};
+use azulejo::kdrt::{self, CountOptions, Kind, Progressive};
+use azulejo::{Boundary, Classes, Context, Domain, Points, Progress, Result};
 use clap::{Args, ValueEnum};
 
 use super::around::Around;
@@ -93,7 +93,7 @@ enum Sequence {
 }
 
 /// A set, its domain, and what is said of it.
-type Made = (Ranked, Domain, String);
+type Made = (Points<2>, Domain, String);
 
 impl Plane {
     pub fn run(&self, context: &Context) -> Result<()> {
@@ -107,37 +107,34 @@ impl Plane {
             None => self.at(self.density.radius.unwrap_or(f64::NAN), context)?,
         };
         let seconds = start.elapsed().as_secs_f64();
-        output.write_plane(&domain, &PlaneTable { ranks: &made.ranks, ..PlaneTable::of(&made.samples) })?;
-        report(&output.output, made.samples.len(), &about, seconds);
+        output.write_plane(&domain, &PlaneTable { ranks: &made.ranks, ..PlaneTable::of(&made.positions) })?;
+        report(&output.output, made.len(), &about, seconds);
         Ok(())
     }
 
-    fn order(&self) -> Order {
+    /// The levels of a progressive order.
+    fn levels(&self) -> Option<Progressive> {
+        let levels = Progressive::new().quotient(self.quotient);
         match self.order {
-            Sequence::Any => Order::Any,
-            Sequence::Progressive => Order::Progressive,
+            Sequence::Any => None,
+            Sequence::Progressive => Some(self.coarsest.map_or(levels, |coarsest| levels.coarsest(coarsest))),
         }
-    }
-
-    fn coarsest(&self) -> f64 {
-        self.coarsest.unwrap_or(f64::INFINITY)
     }
 
     /// A set of this radius, or the part of it in the window.
     fn at(&self, radius: f64, context: &Context) -> Result<Made> {
         let domain = self.domain.or_unit();
-        let options = kdrt::Options::new(radius).domain(domain).leaf_size(self.leaf_size).seed(self.common.seed);
+        let kind = self.levels().map_or(Kind::Plain(radius), |levels| Kind::Progressive(radius, levels));
         let around = self.around()?;
-        let options =
-            options.order(self.order()).quotient(self.quotient).coarsest(self.coarsest()).given(around.given());
+        let options = kdrt::Options::of(kind).domain(domain).leaf_size(self.leaf_size).seed(self.common.seed);
+        let options = options.given(around.given());
         let about = format!("radius {}", rounded(radius, 4));
         if let Some(window) = self.window() {
-            let sample = |progress: &Progress| {
-                kdrt::sample_window_ranked(context, &options, window.min, window.max, Some(progress))
-            };
+            let sample =
+                |progress: &Progress| kdrt::sample_window(context, &options, window.min, window.max, Some(progress));
             return Ok((self.blaming(watched("plane", sample))?, window, about));
         }
-        let made = self.blaming(watched("plane", |progress| kdrt::sample_ranked(context, &options, Some(progress))))?;
+        let made = self.blaming(watched("plane", |progress| kdrt::sample(context, &options, Some(progress))))?;
         Ok((made, domain, about))
     }
 
@@ -171,21 +168,21 @@ impl Plane {
         let around = self.around()?;
         let around = around.of_classes(classes.count());
         let domain = self.domain.or_unit();
-        let options = kdrt::Options::new(0.0).domain(domain).leaf_size(self.leaf_size).seed(self.common.seed);
+        let options = kdrt::Options::classes(classes).domain(domain).leaf_size(self.leaf_size).seed(self.common.seed);
         let options = options.given(around.given());
         let (set, domain) = match self.window() {
             Some(window) => {
-                let make = |progress: &Progress| ClassPlane::new(context, &options, classes, Some(progress));
+                let make = |progress: &Progress| kdrt::Plane::new(context, &options, Some(progress));
                 (self.blaming(watched("plane", make))?.window(window.min, window.max)?, window)
             }
             None => {
-                let make = |progress: &Progress| kdrt::sample_classes(context, &options, classes, Some(progress));
+                let make = |progress: &Progress| kdrt::sample(context, &options, Some(progress));
                 (self.blaming(watched("plane", make))?, domain)
             }
         };
         let seconds = start.elapsed().as_secs_f64();
-        output.write_plane(&domain, &PlaneTable { classes: &set.classes, ..PlaneTable::of(&set.samples) })?;
-        report(&output.output, set.samples.len(), &shares(classes, &set), seconds);
+        output.write_plane(&domain, &PlaneTable { classes: &set.classes, ..PlaneTable::of(&set.positions) })?;
+        report(&output.output, set.len(), &shares(classes, &set), seconds);
         Ok(())
     }
 
@@ -193,18 +190,18 @@ impl Plane {
     fn exactly(&self, count: u64, context: &Context) -> Result<Made> {
         let domain = self.domain.or_unit();
         let options = CountOptions::new(count).domain(domain).leaf_size(self.leaf_size).seed(self.common.seed);
-        let options = options.order(self.order()).quotient(self.quotient).coarsest(self.coarsest());
-        let made = watched("plane", |progress| kdrt::sample_count(context, &options, Some(progress)))?;
+        let options = options.levels(self.levels());
+        let (made, about) = watched("plane", |progress| kdrt::sample_count(context, &options, Some(progress)))?;
         // Progressive sets are maximal at their levels only.
-        let is_fault = !made.report.is_maximal && self.order() == Order::Any;
+        let is_fault = !about.is_maximal && options.levels.is_none();
         let maximal = if is_fault { ", not maximal" } else { "" };
-        let about = format!("radius {}{maximal}", rounded(made.report.radius, 4));
-        Ok((Ranked::new(made.samples, made.ranks), domain, about))
+        let about = format!("radius {}{maximal}", rounded(about.radius, 4));
+        Ok((made, domain, about))
     }
 }
 
 /// How many samples each class has.
-fn shares(classes: &Classes, set: &Classified) -> String {
+fn shares(classes: &Classes, set: &Points<2>) -> String {
     let mut counts = vec![0; classes.count()];
     set.classes.iter().for_each(|&class| counts[class as usize] += 1);
     format!("by classes {}", counts.into_iter().map(grouped).collect::<Vec<_>>().join(" + "))

@@ -6,8 +6,8 @@ use std::ops::ControlFlow;
 use std::time::Instant;
 
 use azulejo_core::analysis::coverage::covering_radius_2d;
-use azulejo_core::kdrt::{self, CountOptions, Counted, Ranked};
-use azulejo_core::{Classes, Domain, Given, Order};
+use azulejo_core::kdrt::{self, CountOptions, Kind, Plane, Progressive};
+use azulejo_core::{Classes, Domain, Given, Order, Points};
 
 use crate::boundary::{self, check_unused, flag, pair, required};
 use crate::context::azulejo_context;
@@ -220,23 +220,26 @@ pub unsafe extern "C" fn azulejo_kdrt_sample(
         let sampling = if measured { SAMPLING_SHARE } else { 1.0 };
         let (set, radius, is_maximal) = options.sample(context, options.watch().part(0.0, sampling))?;
         let seconds = start.elapsed().as_secs_f64();
-        let coverage = if measured { options.coverage(context, &set.samples)? } else { -1.0 };
+        let coverage = if measured { options.coverage(context, &set.positions)? } else { -1.0 };
         if let Some(report) = report {
             report.write(azulejo_kdrt_report {
                 is_maximal: is_maximal.into(),
-                samples: set.samples.len() as u64,
+                samples: set.len() as u64,
                 radius,
                 coverage,
                 seconds,
                 ..azulejo_kdrt_report::DEFAULT
             });
         }
-        Ok(azulejo_points::ranked(set))
+        Ok(azulejo_points::plane(set))
     })
 }
 
 /// What fraction of a call is the sampling where coverage is measured, which takes longer.
 const SAMPLING_SHARE: f64 = 0.05;
+
+/// The share of the progress of a stream that its plane takes.
+const PATTERN_SHARE: f64 = 0.05;
 
 /// Makes the part of a set of azulejo_kdrt_sample that lies in a window of the domain, without
 /// making the rest: the same floats in the same order.
@@ -283,10 +286,9 @@ pub unsafe extern "C" fn azulejo_kdrt_sample_window(
             (growing::read("options", options)?, pair("window_min", window_min)?, pair("window_max", window_max)?)
         };
         let request = options.by_radius_only()?;
-        let samples = context.run(options.watch(), |context, progress| {
-            kdrt::sample_window_ranked(context, &request, min, max, progress)
-        })?;
-        Ok(azulejo_points::ranked(samples))
+        let samples = context
+            .run(options.watch(), |context, progress| kdrt::sample_window(context, &request, min, max, progress))?;
+        Ok(azulejo_points::plane(samples))
     })
 }
 
@@ -330,6 +332,9 @@ pub unsafe extern "C" fn azulejo_kdrt_stream(
         let options = unsafe { growing::read("options", options) }?;
         let request = options.by_radius_only()?;
         let visit = required("visit", visit)?;
+        if !matches!(request.kind, Kind::Plain(_)) {
+            return Err(Failure::invalid("order", "a stream comes place by place, in no progressive order"));
+        }
         let visit = |samples: &[[f32; 2]]| {
             // SAFETY: the caller gave the two for each other, to be called on this thread during this call.
             match unsafe { visit(user, samples.as_ptr().cast(), samples.len()) } {
@@ -337,7 +342,9 @@ pub unsafe extern "C" fn azulejo_kdrt_stream(
                 _ => ControlFlow::Break(()),
             }
         };
-        context.run(options.watch(), |context, progress| kdrt::sample_stream(context, &request, visit, progress))
+        let (made, streamed) = (options.watch().part(0.0, PATTERN_SHARE), options.watch().part(PATTERN_SHARE, 1.0));
+        let plane = context.run(made, |context, progress| Plane::new(context, &request, progress))?;
+        context.run(streamed, |context, progress| plane.stream(context, visit, progress))
     })
 }
 
@@ -355,11 +362,11 @@ impl azulejo_kdrt_options {
     }
 
     /// The samples, their radius and whether they are maximal for it.
-    fn sample(&self, context: &azulejo_context, watch: Watch) -> Result<(Ranked, f64, bool), Failure> {
+    fn sample(&self, context: &azulejo_context, watch: Watch) -> Result<(Points<2>, f64, bool), Failure> {
         let &Self { radius, leaf_size, seed, count, .. } = self;
         if count == 0 {
             let request = self.by_radius()?;
-            let samples = context.run(watch, |context, progress| kdrt::sample_ranked(context, &request, progress))?;
+            let samples = context.run(watch, |context, progress| kdrt::sample(context, &request, progress))?;
             return Ok((samples, radius, true));
         }
         if radius != 0.0 {
@@ -368,10 +375,10 @@ impl azulejo_kdrt_options {
         }
         check_unused("given_count", self.given_count, 0, "with a count")?;
         let request = CountOptions::new(count as u64).domain(self.domain()?).leaf_size(leaf_size).seed(seed);
-        let request = request.order(self.order()?).quotient(self.quotient()).coarsest(self.coarsest());
-        let Counted { samples, ranks, report, .. } =
+        let request = request.levels(self.levels()?);
+        let (points, report) =
             context.run(watch, |context, progress| kdrt::sample_count(context, &request, progress))?;
-        Ok((Ranked::new(samples, ranks), report.radius, report.is_maximal))
+        Ok((points, report.radius, report.is_maximal))
     }
 
     /// The options of calls that cannot have a count.
@@ -387,22 +394,27 @@ impl azulejo_kdrt_options {
     }
 
     /// The options of calls with classes, which have their own radii.
-    pub(crate) fn with_classes(&self, classes: &Classes) -> Result<kdrt::Options<'_>, Failure> {
+    pub(crate) fn with_classes<'a>(&'a self, classes: &'a Classes) -> Result<kdrt::Options<'a>, Failure> {
         check_unused("radius", self.radius, 0.0, "with classes")?;
         check_unused("count", self.count, 0, "with classes")?;
         check_unused("measure_coverage", self.measures_coverage()?, false, "with classes")?;
-        self.around(self.given(classes.count())?)
+        if self.levels()?.is_some() {
+            return Err(Failure::invalid("order", "sets of several classes have no progressive order"));
+        }
+        self.request(Kind::Classes(classes), self.given(classes.count())?)
     }
 
     fn by_radius(&self) -> Result<kdrt::Options<'_>, Failure> {
-        self.around(self.given(1)?)
+        let kind = match self.levels()? {
+            None => Kind::Plain(self.radius),
+            Some(levels) => Kind::Progressive(self.radius, levels),
+        };
+        self.request(kind, self.given(1)?)
     }
 
-    /// What is asked for around given samples.
-    fn around<'a>(&'a self, given: Given<'a, 2>) -> Result<kdrt::Options<'a>, Failure> {
-        let &Self { radius, leaf_size, seed, .. } = self;
-        let request = kdrt::Options::new(radius).domain(self.domain()?).leaf_size(leaf_size).seed(seed);
-        let request = request.order(self.order()?).quotient(self.quotient()).coarsest(self.coarsest());
+    /// The options of a set around given samples.
+    fn request<'a>(&'a self, kind: Kind<'a>, given: Given<'a, 2>) -> Result<kdrt::Options<'a>, Failure> {
+        let request = kdrt::Options::of(kind).domain(self.domain()?).leaf_size(self.leaf_size).seed(self.seed);
         Ok(request.given(given))
     }
 
@@ -412,22 +424,17 @@ impl azulejo_kdrt_options {
         unsafe { given_by_class(self.given_positions, self.given_clearances, self.given_count, classes) }
     }
 
-    /// The order, and no settings of one that is not asked for.
-    fn order(&self) -> Result<Order, Failure> {
-        let order = order(self.order)?;
-        if order == Order::Any {
-            check_unused("quotient", self.quotient, 0.0, "in any order")?;
-            check_unused("coarsest", self.coarsest, 0.0, "in any order")?;
+    /// The levels of a progressive order; none in any order, which must not have settings of one.
+    fn levels(&self) -> Result<Option<Progressive>, Failure> {
+        let &Self { quotient, coarsest, .. } = self;
+        if order(self.order)? == Order::Any {
+            check_unused("quotient", quotient, 0.0, "in any order")?;
+            check_unused("coarsest", coarsest, 0.0, "in any order")?;
+            return Ok(None);
         }
-        Ok(order)
-    }
-
-    fn quotient(&self) -> f64 {
-        if self.quotient == 0.0 { kdrt::DEFAULT_QUOTIENT } else { self.quotient }
-    }
-
-    fn coarsest(&self) -> f64 {
-        if self.coarsest == 0.0 { f64::INFINITY } else { self.coarsest }
+        let levels = Progressive::new();
+        let levels = if quotient == 0.0 { levels } else { levels.quotient(quotient) };
+        Ok(Some(if coarsest == 0.0 { levels } else { levels.coarsest(coarsest) }))
     }
 
     fn domain(&self) -> Result<Domain, Failure> {

@@ -2,7 +2,7 @@
 
 use std::mem::MaybeUninit;
 
-use azulejo_core::kdrt::{ClassPlane, sample_classes};
+use azulejo_core::kdrt::{Plane, sample};
 
 use crate::boundary::{self, required};
 use crate::classes::azulejo_classes;
@@ -57,9 +57,8 @@ pub unsafe extern "C" fn azulejo_kdrt_sample_classes(
         // SAFETY: the same.
         let classes = unsafe { growing::read("classes", classes)?.of_plane() }?;
         let request = options.with_classes(&classes)?;
-        let set =
-            context.run(options.watch(), |context, progress| sample_classes(context, &request, &classes, progress))?;
-        Ok(azulejo_points::classified(set))
+        let set = context.run(options.watch(), |context, progress| sample(context, &request, progress))?;
+        Ok(azulejo_points::plane(set))
     })
 }
 
@@ -96,8 +95,7 @@ pub unsafe extern "C" fn azulejo_kdrt_create_classes(
         // SAFETY: the same.
         let classes = unsafe { growing::read("classes", classes)?.of_plane() }?;
         let request = options.with_classes(&classes)?;
-        let plane =
-            context.run(options.watch(), |context, progress| ClassPlane::new(context, &request, &classes, progress))?;
-        Ok(azulejo_kdrt::of_classes(plane))
+        let plane = context.run(options.watch(), |context, progress| Plane::new(context, &request, progress))?;
+        Ok(azulejo_kdrt { plane })
     })
 }

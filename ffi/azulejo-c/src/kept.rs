@@ -2,7 +2,7 @@
 
 use std::mem::MaybeUninit;
 
-use azulejo_core::kdrt::{ClassPlane, Plane};
+use azulejo_core::kdrt::Plane;
 
 use crate::boundary::{self, pair, required};
 use crate::context::azulejo_context;
@@ -14,19 +14,7 @@ use crate::status::azulejo_status;
 /// A plane: a set of azulejo_kdrt_sample or azulejo_kdrt_sample_classes of which any window can be
 /// made at any time. Immutable: several threads may make windows of it at once.
 pub struct azulejo_kdrt {
-    plane: Kept,
-}
-
-enum Kept {
-    One(Plane),
-    Several(ClassPlane),
-}
-
-impl azulejo_kdrt {
-    /// A plane of several classes.
-    pub(crate) fn of_classes(plane: ClassPlane) -> Self {
-        Self { plane: Kept::Several(plane) }
-    }
+    pub(crate) plane: Plane,
 }
 
 /// Makes what all windows of a plane need: its pattern and tables.
@@ -58,7 +46,7 @@ pub unsafe extern "C" fn azulejo_kdrt_create(
         let options = unsafe { growing::read("options", options) }?;
         let request = options.by_radius_only()?;
         let plane = context.run(options.watch(), |context, progress| Plane::new(context, &request, progress))?;
-        Ok(azulejo_kdrt { plane: Kept::One(plane) })
+        Ok(azulejo_kdrt { plane })
     })
 }
 
@@ -91,10 +79,7 @@ pub unsafe extern "C" fn azulejo_kdrt_window(
         let plane = &required("plane", plane)?.plane;
         // SAFETY: handed on from the caller.
         let (min, max) = unsafe { (pair("window_min", window_min)?, pair("window_max", window_max)?) };
-        match plane {
-            Kept::One(plane) => Ok(azulejo_points::ranked(plane.window_ranked(min, max)?)),
-            Kept::Several(plane) => Ok(azulejo_points::classified(plane.window(min, max)?)),
-        }
+        Ok(azulejo_points::plane(plane.window(min, max)?))
     })
 }
 

@@ -1,7 +1,6 @@
 //! Results: samples of the plane or of a mesh.
 
 use azulejo_core::Points;
-use azulejo_core::kdrt::{Classified, Ranked};
 
 use crate::boundary::{self, array};
 
@@ -27,18 +26,10 @@ impl azulejo_points {
         Self { samples, radii: Vec::new(), ranks: Vec::new(), classes: Vec::new() }
     }
 
-    pub(crate) fn plane(samples: Vec<[f32; 2]>) -> Self {
-        Self::of(Samples::Plane(samples))
-    }
-
-    /// Samples of the plane with ranks, if there are any.
-    pub(crate) fn ranked(Ranked { samples, ranks, .. }: Ranked) -> Self {
-        Self { ranks, ..Self::plane(samples) }
-    }
-
-    /// Samples of the plane with classes.
-    pub(crate) fn classified(Classified { samples, classes, .. }: Classified) -> Self {
-        Self { classes, ..Self::plane(samples) }
+    /// Samples of the plane, with their ranks or classes if they have any.
+    pub(crate) fn plane(points: impl Into<Points<2>>) -> Self {
+        let Points { positions, ranks, classes, .. } = points.into();
+        Self { ranks, classes, ..Self::of(Samples::Plane(positions)) }
     }
 
     pub(crate) fn surface(mut samples: Points<3>) -> Self {

@@ -21,6 +21,7 @@ use crate::kdrt::blocks::{Blocks, PHASES};
 use crate::kdrt::classes::passes::{Made, Pass, first_window};
 use crate::kdrt::classes::room::{Circle, Room};
 use crate::kdrt::region::{Part, Placed, Region};
+use crate::kdrt::stack::Layer;
 use crate::simd::Level;
 
 /// Blocks that one task fills, one after the other.
@@ -39,7 +40,7 @@ const FEWEST_BYTES: f64 = 1e7;
 
 /// A sample of a class.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct Sample {
+pub struct Sample {
     pub point: [i32; 2],
     pub class: u32,
 }
@@ -55,7 +56,7 @@ impl Placed for Sample {
 }
 
 /// A group of a plane.
-pub(super) struct Group {
+pub struct Group {
     /// With the own radius of the classes.
     lattice: Lattice,
     classes: Vec<usize>,
@@ -73,11 +74,11 @@ pub(super) struct Group {
     /// None on a torus on which blocks could see themselves: it is filled as a whole.
     blocks: Option<Blocks>,
     seed: u64,
-    pub(super) level: Level,
+    pub level: Level,
 }
 
 /// What is known where a block is filled.
-pub(super) struct Known<'a> {
+pub struct Known<'a> {
     blocks: &'a Blocks,
     /// The samples of the groups before.
     before: &'a Region<Sample>,
@@ -141,79 +142,15 @@ impl Group {
         }
     }
 
-    /// About how many samples of the group there are at most in a part.
-    pub fn expected(&self, part: &Part) -> f64 {
-        self.classes.len() as f64 * self.lattice.samples_in(&part.rect)
-    }
-
-    /// Whether no part of it can be made without the rest.
-    pub fn is_whole(&self) -> bool {
-        self.blocks.is_none()
-    }
-
-    /// What of the groups before decides which samples there are in a part.
-    pub fn around(&self, part: &Part) -> Part {
-        match &self.blocks {
-            Some(blocks) => {
-                let filled = blocks.filled(&first_window(blocks, &blocks.holding(&part.rect)));
-                Part::new(&self.lattice, &self.seen_from(&blocks.rect(&filled)))
-            }
-            None => Part::whole(&self.lattice),
-        }
-    }
-
     /// The lattice points whose samples of the groups before matter to a rectangle.
     fn seen_from(&self, rect: &Rect) -> Rect {
         let [x, y] = self.sight;
         Rect { min: [rect.min[0] - x, rect.min[1] - y], max: [rect.max[0] + x, rect.max[1] + y] }
     }
 
-    /// The samples of the groups before, sorted for this one.
-    pub fn sorted(&self, part: Part, before: &[Sample]) -> Region<Sample> {
-        Region::new(part, before, TILE * self.before)
-    }
-
-    /// The samples of this group in a part, around those of the groups before in [`Group::around`] it.
-    pub fn fill(&self, job: &Job, before: &Region<Sample>, part: &Part) -> Result<Vec<Sample>> {
-        let Some(blocks) = &self.blocks else {
-            let samples = self.fill_torus(job, before.samples())?;
-            return Ok(Region::new(Part::whole(&self.lattice), &samples, self.lattice.radius).samples_of(part));
-        };
-        self.require_rooms(blocks.largest(), job.context().num_threads())?;
-        let window = blocks.holding(&part.rect);
-        let first = first_window(blocks, &window);
-        let mut made = Made::new(&self.lattice, blocks, &window, &blocks.filled(&first));
-        for (pass, window, [from, to]) in [(Pass::First, first, [0.0, 0.4]), (Pass::Last, window, [0.4, 1.0])] {
-            let job = job.part(from, to);
-            for (share, phase) in (0..).zip(PHASES) {
-                let mut places = blocks.of_phase(&window, phase);
-                places.retain(|&place| made.holds(place));
-                let known = Known { blocks, before, made: &made };
-                let tasks = chunks_of(places.len(), BLOCKS_PER_TASK);
-                let job = job.part(f64::from(share) / 4.0, f64::from(share + 1) / 4.0);
-                let filled = job.map(tasks.len(), |task| {
-                    let mut room = Room::default();
-                    let places = places[tasks.range(task)].iter();
-                    places.map(|&place| self.fill_block(&mut room, &known, place, pass)).collect::<Vec<_>>()
-                })?;
-                places
-                    .into_iter()
-                    .zip(filled.into_iter().flatten())
-                    .for_each(|(place, samples)| made.add(place, samples));
-            }
-        }
-        Ok(made.of_blocks(&window).filter(|sample| part.rect.contains(sample.point)).collect())
-    }
-
     /// The samples that a pass adds to a block.
     #[inline(always)]
-    pub(super) fn fill_block_portable(
-        &self,
-        room: &mut Room,
-        known: &Known,
-        place: [i32; 2],
-        pass: Pass,
-    ) -> Vec<Sample> {
+    pub fn fill_block_portable(&self, room: &mut Room, known: &Known, place: [i32; 2], pass: Pass) -> Vec<Sample> {
         let &Known { blocks, before, made } = known;
         let block = Rect { min: place, max: place.map(|index| index + 1) };
         let rect = blocks.rect(&block);
@@ -302,5 +239,63 @@ impl Group {
             samples.push(sample);
         }
         samples
+    }
+}
+
+impl Layer for Group {
+    type Sample = Sample;
+
+    fn expected(&self, part: &Part) -> f64 {
+        self.classes.len() as f64 * self.lattice.samples_in(&part.rect)
+    }
+
+    /// True if no part of it can be made without the rest.
+    fn is_kept(&self) -> bool {
+        self.blocks.is_none()
+    }
+
+    fn around(&self, part: &Part) -> Part {
+        match &self.blocks {
+            Some(blocks) => {
+                let filled = blocks.filled(&first_window(blocks, &blocks.holding(&part.rect)));
+                Part::new(&self.lattice, &self.seen_from(&blocks.rect(&filled)))
+            }
+            None => Part::whole(&self.lattice),
+        }
+    }
+
+    fn sorted(&self, part: Part, before: &[Sample]) -> Region<Sample> {
+        Region::new(part, before, TILE * self.before)
+    }
+
+    fn fill(&self, job: &Job, before: &Region<Sample>, part: &Part) -> Result<Vec<Sample>> {
+        let Some(blocks) = &self.blocks else {
+            let samples = self.fill_torus(job, before.samples())?;
+            return Ok(Region::new(Part::whole(&self.lattice), &samples, self.lattice.radius).samples_of(part));
+        };
+        self.require_rooms(blocks.largest(), job.context().num_threads())?;
+        let window = blocks.holding(&part.rect);
+        let first = first_window(blocks, &window);
+        let mut made = Made::new(&self.lattice, blocks, &window, &blocks.filled(&first));
+        for (pass, window, [from, to]) in [(Pass::First, first, [0.0, 0.4]), (Pass::Last, window, [0.4, 1.0])] {
+            let job = job.part(from, to);
+            for (share, phase) in (0..).zip(PHASES) {
+                let mut places = blocks.of_phase(&window, phase);
+                places.retain(|&place| made.holds(place));
+                let known = Known { blocks, before, made: &made };
+                let tasks = chunks_of(places.len(), BLOCKS_PER_TASK);
+                let job = job.part(f64::from(share) / 4.0, f64::from(share + 1) / 4.0);
+                let filled = job.map(tasks.len(), |task| {
+                    let mut room = Room::default();
+                    let places = places[tasks.range(task)].iter();
+                    places.map(|&place| self.fill_block(&mut room, &known, place, pass)).collect::<Vec<_>>()
+                })?;
+                places
+                    .into_iter()
+                    .zip(filled.into_iter().flatten())
+                    .for_each(|(place, samples)| made.add(place, samples));
+            }
+        }
+        Ok(made.of_blocks(&window).filter(|sample| part.rect.contains(sample.point)).collect())
     }
 }

@@ -13,7 +13,7 @@ use crate::points::Boundary;
 
 /// What is thrown at a block.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Pass {
+pub enum Pass {
     /// A few darts for each cell.
     First,
     /// Darts until nothing is left, after the first pass.
@@ -24,12 +24,12 @@ pub(super) enum Pass {
 
 /// The blocks in which the first pass must be done for the last to fill a window of blocks: those that it fills, and
 /// those that touch them.
-pub(super) fn first_window(blocks: &Blocks, window: &Rect) -> Rect {
+pub fn first_window(blocks: &Blocks, window: &Rect) -> Rect {
     blocks.grown(&blocks.filled(window), [1, 1])
 }
 
 /// The samples that a rectangle of blocks has so far.
-pub(super) struct Made {
+pub struct Made {
     /// Along an axis on which the window has all blocks of a torus, each of them once.
     blocks: Rect,
     /// How many blocks, and lattice points, such an axis has.

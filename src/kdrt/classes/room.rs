@@ -21,7 +21,7 @@ const BITS: usize = u64::BITS as usize;
 
 /// What is nearer to a place than a radius.
 #[derive(Clone, Copy)]
-pub(super) struct Circle {
+pub struct Circle {
     centre: [f64; 2],
     square: f64,
     radius: f64,
@@ -65,7 +65,7 @@ struct Voxel {
 
 /// A rectangle that is being filled, and the memory for it and those after it.
 #[derive(Default)]
-pub(super) struct Room {
+pub struct Room {
     /// Where the columns (axis 0) and rows (axis 1) of cells begin, and where the last ends.
     edges: [Vec<i32>; 2],
     /// The cells of the first class by rows, those of the next class, and so on.

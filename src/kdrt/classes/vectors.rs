@@ -8,7 +8,7 @@ use crate::simd::Level;
 
 impl Group {
     /// The samples that a pass adds to a block.
-    pub(super) fn fill_block(&self, room: &mut Room, known: &Known, place: [i32; 2], pass: Pass) -> Vec<Sample> {
+    pub fn fill_block(&self, room: &mut Room, known: &Known, place: [i32; 2], pass: Pass) -> Vec<Sample> {
         match self.level {
             // SAFETY: the variants say that the processor has the vectors.
             #[cfg(target_arch = "x86_64")]
@@ -40,8 +40,10 @@ mod tests {
     use super::*;
     use crate::classes::Classes;
     use crate::job::Context;
-    use crate::kdrt::classes::{Groups, lattice_of};
+    use crate::kdrt::classes::stack;
     use crate::kdrt::options::Options;
+    use crate::plane::lattice::Lattice;
+    use crate::points::{Boundary, Domain};
 
     #[test]
     fn all_levels_make_the_same_samples() {
@@ -49,17 +51,18 @@ mod tests {
             4,
             &[0.04, 0.0, 0.03, 0.01, 0.0, 0.02, 0.015, 0.03, 0.03, 0.015, 0.02, 0.0, 0.01, 0.03, 0.0, 0.008],
         );
-        let (classes, options) = (classes.unwrap(), Options::new(0.0).seed(5));
-        let lattice = lattice_of(&options, &classes).unwrap();
+        let classes = classes.unwrap();
+        let options = Options::classes(&classes).seed(5);
+        let lattice = Lattice::of_any_size(&Domain::unit(Boundary::Periodic), f64::MAX).unwrap();
         let set = |level: Level| {
             Context::new(1).unwrap().run(None, |job| {
-                let mut groups = Groups::new(job, &lattice, &options, &classes)?;
-                groups.filled.iter_mut().for_each(|group| group.level = level);
+                let mut groups = stack(job, &lattice, &options, &classes)?;
+                groups.layers_mut().iter_mut().for_each(|group| group.level = level);
                 groups.whole(job)
             })
         };
         let portable = set(Level::Portable).unwrap();
-        assert!(portable.samples.len() > 1000);
+        assert!(portable.len() > 1000);
         assert!(Level::available().into_iter().all(|level| set(level).unwrap() == portable));
     }
 }

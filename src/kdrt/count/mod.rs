@@ -15,15 +15,15 @@ use std::sync::Arc;
 
 use crate::error::{Error, Result};
 use crate::job::{Context, Job, Progress};
-use crate::order::Order;
+use crate::kdrt::base::Base;
+use crate::kdrt::options::{DEFAULT_LEAF_SIZE, Options, Progressive, check_leaf_size};
+use crate::kdrt::progressive;
+use crate::memory;
 use crate::plane::lattice::Lattice;
-use crate::points::{Boundary, Domain};
+use crate::points::{Boundary, Domain, Points};
 use crate::rng::{Draw, hash};
 use crate::setters::setters;
 
-use crate::kdrt::options::{DEFAULT_LEAF_SIZE, DEFAULT_QUOTIENT, Options, check_ladder, check_leaf_size};
-use crate::kdrt::progressive::{self, Ranked};
-use crate::kdrt::sample::sample_lattice;
 use search::Search;
 use thin::thin;
 use tune::tune;
@@ -50,28 +50,16 @@ pub struct CountOptions {
     pub leaf_size: f64,
     /// The same options and seed give the same samples.
     pub seed: u64,
-    /// The order of the samples, as in [`Options`](super::Options). In progressive order the sets of all counts are
-    /// prefixes of each other.
-    pub order: Order,
-    /// Of a progressive order, as in [`Options`](super::Options).
-    pub quotient: f64,
-    /// Of a progressive order: the radius of the coarsest level, which must not have more samples than asked for.
-    /// Infinity, the default, or any that is longer than the diagonal of the domain, stands for this diagonal.
-    pub coarsest: f64,
+    /// The levels of a set in progressive order; none, the default, for any order. The sets of all counts with the same
+    /// levels are prefixes of each other. The coarsest must not have more samples than asked for; infinity, its default,
+    /// or any radius that is longer than the diagonal of the domain, stands for this diagonal.
+    pub levels: Option<Progressive>,
 }
 
 impl CountOptions {
     /// So many samples on the unit torus, with leaves of [`DEFAULT_LEAF_SIZE`], seed 0 and in any order.
     pub fn new(count: u64) -> Self {
-        Self {
-            count,
-            domain: Domain::unit(Boundary::Periodic),
-            leaf_size: DEFAULT_LEAF_SIZE,
-            seed: 0,
-            order: Order::Any,
-            quotient: DEFAULT_QUOTIENT,
-            coarsest: f64::INFINITY,
-        }
+        Self { count, domain: Domain::unit(Boundary::Periodic), leaf_size: DEFAULT_LEAF_SIZE, seed: 0, levels: None }
     }
 }
 
@@ -80,9 +68,7 @@ setters!(CountOptions {
     domain: Domain,
     leaf_size: f64,
     seed: u64,
-    order: Order,
-    quotient: f64,
-    coarsest: f64,
+    levels: Option<Progressive>,
 });
 
 /// What [`sample_count`] achieved.
@@ -94,18 +80,6 @@ pub struct CountReport {
     /// Whether the set is maximal for this radius. True where a maximal set of so many samples was found; false in
     /// progressive order, where the domain is covered within the quotient times the radius.
     pub is_maximal: bool,
-}
-
-/// Samples, and what holds for them.
-#[derive(Clone, Debug, PartialEq)]
-#[non_exhaustive]
-pub struct Counted {
-    /// The samples: as many as asked for.
-    pub samples: Vec<[f32; 2]>,
-    /// Their ranks, as in [`Ranked`]; empty in any order.
-    pub ranks: Vec<f32>,
-    /// Their radius.
-    pub report: CountReport,
 }
 
 /// A maximal Poisson-disk set of exactly `count` samples, in parallel.
@@ -122,7 +96,7 @@ pub struct Counted {
 /// exactly says [`covering_radius_2d`](crate::analysis::coverage::covering_radius_2d).
 ///
 /// In progressive order the samples are the first ones of a set whose coarsest radius depends on the domain only
-/// ([`CountOptions::coarsest`]), so that sets of smaller counts are prefixes; the radius in the report is the last
+/// ([`CountOptions::levels`]), so that sets of smaller counts are prefixes; the radius in the report is the last
 /// rank.
 ///
 /// In any order the samples are in that of [`sample`](super::sample), with those made anew in the places of others. The
@@ -132,7 +106,11 @@ pub struct Counted {
 /// [`Error::InvalidArgument`] for an argument out of range, and for `count` where floats are too coarse for the radius
 /// of so many samples; [`Error::TooLarge`] above 2^32 samples or the available memory; both before any work, unless the
 /// expected radius is hardly above the limit; [`Error::Cancelled`].
-pub fn sample_count(context: &Context, options: &CountOptions, progress: Option<&Progress>) -> Result<Counted> {
+pub fn sample_count(
+    context: &Context,
+    options: &CountOptions,
+    progress: Option<&Progress>,
+) -> Result<(Points<2>, CountReport)> {
     let &CountOptions { count, domain, leaf_size, .. } = options;
     check_leaf_size(leaf_size)?;
     domain.check()?;
@@ -141,26 +119,25 @@ pub fn sample_count(context: &Context, options: &CountOptions, progress: Option<
     }
     let search = Search::new(&domain, leaf_size, count);
     lattice(options, search.radius())?;
-    if options.order == Order::Progressive {
-        check_ladder(options.quotient, options.coarsest, 0.0)?;
-        progressive::require_memory(count as f64, "count")?;
-        return context.run(progress, |job| first_of_order(job, options));
+    if let Some(levels) = &options.levels {
+        levels.check(0.0)?;
+        memory::require(count as f64 * progressive::BYTES_PER_SAMPLE, "count", &format!("{count} samples"))?;
+        return context.run(progress, |job| first_of_order(job, options, levels));
     }
     context.run(progress, |job| attempt(job, options, search, ATTEMPTS))
 }
 
 /// The first samples of a progressive order.
-fn first_of_order(job: &Job, options: &CountOptions) -> Result<Counted> {
-    let &CountOptions { count, domain, leaf_size, seed, quotient, coarsest, .. } = options;
-    let levels = Options { leaf_size, seed, quotient, coarsest, ..Options::new(f64::NAN).domain(domain) };
-    let Ranked { samples, ranks } =
-        progressive::sample_count(job, &levels, count as usize).map_err(|error| of_count(error, count))?;
-    let radius = ranks.last().copied().map_or(0.0, f64::from);
-    Ok(Counted { samples, ranks, report: CountReport { radius, is_maximal: false } })
+fn first_of_order(job: &Job, options: &CountOptions, levels: &Progressive) -> Result<(Points<2>, CountReport)> {
+    let &CountOptions { count, domain, leaf_size, seed, .. } = options;
+    let plane = Options { leaf_size, seed, ..Options::new(f64::NAN).domain(domain) };
+    let points = progressive::first(job, &plane, levels, count as usize).map_err(|error| of_count(error, count))?;
+    let radius = points.ranks.last().copied().map_or(0.0, f64::from);
+    Ok((points, CountReport { radius, is_maximal: false }))
 }
 
 /// Makes sets of several radii until one can be tuned; after `limit` of them a larger one will do.
-fn attempt(job: &Job, options: &CountOptions, mut search: Search, limit: u64) -> Result<Counted> {
+fn attempt(job: &Job, options: &CountOptions, mut search: Search, limit: u64) -> Result<(Points<2>, CountReport)> {
     let &CountOptions { count, leaf_size, seed, .. } = options;
     let mut remaining = 1.0;
     let mut attempts = 0;
@@ -172,7 +149,7 @@ fn attempt(job: &Job, options: &CountOptions, mut search: Search, limit: u64) ->
         attempts += 1;
         let radius = search.radius();
         let lattice = lattice(options, radius)?;
-        let mut samples = sample_lattice(&job.part(0.0, SAMPLING_SHARE), &lattice, leaf_size, seed, Arc::default())
+        let mut samples = Base::sample(&job.part(0.0, SAMPLING_SHARE), &lattice, leaf_size, seed, Arc::default())
             .map_err(|error| of_count(error, count))?;
         let made = samples.len() as u64;
         if search.is_near(made) {
@@ -180,7 +157,7 @@ fn attempt(job: &Job, options: &CountOptions, mut search: Search, limit: u64) ->
         }
         let difference = samples.len() as i64 - count as i64;
         if difference == 0 {
-            return Ok(Counted { samples, ranks: Vec::new(), report: CountReport { radius, is_maximal: true } });
+            return Ok((samples.into(), CountReport { radius, is_maximal: true }));
         }
         search.correct(made);
         if difference > 0 && closest.as_ref().is_none_or(|(_, closest)| samples.len() < closest.len()) {
@@ -190,7 +167,7 @@ fn attempt(job: &Job, options: &CountOptions, mut search: Search, limit: u64) ->
             && let Some((radius, samples)) = closest.take()
         {
             let samples = thin(&options.domain, samples, count as usize);
-            return Ok(Counted { samples, ranks: Vec::new(), report: CountReport { radius, is_maximal: false } });
+            return Ok((samples.into(), CountReport { radius, is_maximal: false }));
         }
     }
 }
@@ -225,7 +202,8 @@ mod tests {
         for (count, seed) in (2..12).flat_map(|count| (0..30).map(move |seed| (count, seed))) {
             let options = CountOptions::new(count).domain(domain).seed(seed);
             let search = Search::new(&domain, options.leaf_size, count);
-            let Counted { samples, report, .. } = context.run(None, |job| attempt(job, &options, search, 1)).unwrap();
+            let (points, report) = context.run(None, |job| attempt(job, &options, search, 1)).unwrap();
+            let samples = points.positions;
             assert_eq!(samples.len() as u64, count);
             let smallest = crate::analysis::spacing::smallest_distance_2d(&context, &domain, &samples, None).unwrap();
             let farthest = crate::analysis::coverage::covering_radius_2d(&context, &domain, &samples, None).unwrap();

@@ -27,7 +27,7 @@ struct Cuts {
 
 /// The part of an axis that a plot has.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Span {
+pub struct Span {
     /// The first lattice point; beyond the end of a circle its first points follow.
     pub start: i32,
     pub length: i32,
@@ -85,12 +85,12 @@ impl Cuts {
 }
 
 /// The plots of a domain in one round.
-pub(super) struct Plots {
+pub struct Plots {
     axes: [Cuts; 2],
 }
 
 /// A plot; its own lattice points count from its corner.
-pub(super) struct Plot {
+pub struct Plot {
     pub axes: [Span; 2],
     size: [i32; 2],
 }

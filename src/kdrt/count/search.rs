@@ -18,7 +18,7 @@ const NEAR: f64 = 0.01;
 const NEAR_ROOTS: f64 = 1.5;
 
 /// Secant steps on the logarithms of radius and count.
-pub(super) struct Search {
+pub struct Search {
     count: f64,
     radius: f64,
     /// The logarithms of the radius and of the count at the step before.

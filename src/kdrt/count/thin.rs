@@ -5,7 +5,7 @@ use crate::points::Domain;
 
 /// Drops those samples that have the nearest neighbours, one after the other, until `count` are left. For a handful of
 /// samples: O(n²) for each.
-pub(super) fn thin(domain: &Domain, mut samples: Vec<[f32; 2]>, count: usize) -> Vec<[f32; 2]> {
+pub fn thin(domain: &Domain, mut samples: Vec<[f32; 2]>, count: usize) -> Vec<[f32; 2]> {
     let distance = |a: [f32; 2], b: [f32; 2]| {
         let [dx, dy] = domain.offset(a.map(f64::from), b.map(f64::from));
         hypot(dx, dy)

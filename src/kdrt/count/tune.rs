@@ -50,7 +50,7 @@ impl Change {
 }
 
 /// Brings a maximal set to `count` samples, or as near as it gets in [`ROUNDS`].
-pub(super) fn tune(job: &Job, lattice: &Lattice, samples: &mut Vec<[f32; 2]>, count: u64, seed: u64) -> Result<()> {
+pub fn tune(job: &Job, lattice: &Lattice, samples: &mut Vec<[f32; 2]>, count: u64, seed: u64) -> Result<()> {
     for round in 0..ROUNDS {
         let mut missing = count as i64 - samples.len() as i64;
         if missing == 0 {

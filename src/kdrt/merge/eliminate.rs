@@ -15,7 +15,7 @@ use crate::kdrt::merge::given::Given;
 const CELLS: usize = 1 << 14;
 
 /// For each of the given points, in the order of its sites, whether it survives.
-pub(super) fn survivors(job: &Job, given: &Given, seed: u64) -> Result<Vec<bool>> {
+pub fn survivors(job: &Job, given: &Given, seed: u64) -> Result<Vec<bool>> {
     let ranks = ranks(given.set_count(), seed);
     let rank = |site: usize| (ranks[given.sites()[site].set as usize], given.sites()[site].index);
     let chunks = chunks_of(given.cells(), CELLS);

@@ -16,11 +16,11 @@ use crate::kdrt::merge::NARROWING;
 const POINTS: usize = 1 << 14;
 
 /// The set of the points that must stay.
-pub(super) const FIXED: u32 = 0;
+pub const FIXED: u32 = 0;
 
 /// A point of a set, and which one it is.
 #[derive(Clone, Copy, Default)]
-pub(super) struct Site {
+pub struct Site {
     pub position: [f32; 2],
     /// [`FIXED`], or `i + 1` for piece `i`.
     pub set: u32,
@@ -28,7 +28,7 @@ pub(super) struct Site {
 }
 
 /// All points of all sets, sorted by cell and in it by set.
-pub(super) struct Given<'a> {
+pub struct Given<'a> {
     domain: Domain,
     radius: f64,
     lattice: Lattice,

@@ -18,13 +18,7 @@ use crate::kdrt::merge::given::Given;
 use crate::kdrt::tiling::{WINDOW_BLOCKS, cut};
 
 /// The samples that make the survivors maximal.
-pub(super) fn insert(
-    job: &Job,
-    given: &Given,
-    survives: &[bool],
-    lattice: &Lattice,
-    seed: u64,
-) -> Result<Vec<[f32; 2]>> {
+pub fn insert(job: &Job, given: &Given, survives: &[bool], lattice: &Lattice, seed: u64) -> Result<Vec<[f32; 2]>> {
     let lattice = lattice.widened(WIDENING);
     let gaps = Gaps { given, survives, lattice: &lattice };
     if !Blocks::fit(&lattice) {

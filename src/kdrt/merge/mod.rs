@@ -34,7 +34,7 @@ use crate::error::{Error, Result};
 use crate::job::{Context, Progress};
 use crate::memory;
 use crate::plane::lattice::Lattice;
-use crate::points::{Boundary, Domain};
+use crate::points::{Boundary, Domain, Points};
 use crate::rng::{Draw, hash};
 use crate::setters::setters;
 
@@ -140,13 +140,13 @@ pub struct MergeReport {
 /// };
 /// let (left, right) = (half([0.0, 0.0], [0.5, 1.0], 1)?, half([0.5, 0.0], [1.0, 1.0], 2)?);
 /// let pieces = [
-///     kdrt::Piece { samples: &left, min: [0.0, 0.0], max: [0.5, 1.0] },
-///     kdrt::Piece { samples: &right, min: [0.5, 0.0], max: [1.0, 1.0] },
+///     kdrt::Piece { samples: &left.positions, min: [0.0, 0.0], max: [0.5, 1.0] },
+///     kdrt::Piece { samples: &right.positions, min: [0.5, 0.0], max: [1.0, 1.0] },
 /// ];
 /// let options = kdrt::MergeOptions::new(0.01).seed(7);
-/// let (samples, report) = kdrt::merge(&context, &options, &pieces, &[[0.25, 0.75]], None)?;
-/// assert_eq!(samples[0], [0.25, 0.75]);
-/// assert_eq!(samples.len(), 1 + report.kept + report.inserted);
+/// let (points, report) = kdrt::merge(&context, &options, &pieces, &[[0.25, 0.75]], None)?;
+/// assert_eq!(points.positions[0], [0.25, 0.75]);
+/// assert_eq!(points.len(), 1 + report.kept + report.inserted);
 /// # Ok::<(), azulejo::Error>(())
 /// ```
 pub fn merge(
@@ -155,7 +155,7 @@ pub fn merge(
     pieces: &[Piece],
     fixed: &[[f32; 2]],
     progress: Option<&Progress>,
-) -> Result<(Vec<[f32; 2]>, MergeReport)> {
+) -> Result<(Points<2>, MergeReport)> {
     let &MergeOptions { radius, domain, seed } = options;
     let lattice = Lattice::new(&domain, radius)?;
     check_points("fixed", "point", &domain, fixed)?;
@@ -178,7 +178,7 @@ pub fn merge(
         let kept = samples.len() - fixed.len();
         let report = MergeReport { kept, eliminated: count - samples.len(), inserted: inserted.len() };
         samples.extend(inserted);
-        Ok((samples, report))
+        Ok((samples.into(), report))
     })
 }
 

@@ -16,7 +16,7 @@ const ROUNDING: f64 = 1e-9;
 ///
 /// If the quotient is a root of two, every octave has the same radii to the bit, halved: so a radius that is a power of
 /// two times another one stands in the ladder of the other as it is.
-pub(super) struct Ladder {
+pub struct Ladder {
     coarsest: f64,
     quotient: f64,
     /// Levels per octave, if the quotient is a root of two.
@@ -71,14 +71,14 @@ impl Ladder {
 
 /// No more than [`Order::FIRST_COUNT`] samples of a rectangle, or of a torus of its size, are so far apart: by Oler's
 /// inequality (1961) there are at most 2/sqrt(3) area / r^2 + perimeter / (2 r) + 1 at distances of at least r.
-pub(super) fn crowded_radius([width, height]: [f64; 2]) -> f64 {
+pub fn crowded_radius([width, height]: [f64; 2]) -> f64 {
     let (square, linear, others) =
         (2.0 / 3f64.sqrt() * width * height, width + height, Order::FIRST_COUNT as f64 - 1.0);
     (linear + (linear * linear + 4.0 * square * others).sqrt()) / (2.0 * others)
 }
 
 /// The smallest power of two times `radius` that is not below `length`.
-pub(super) fn octaves_above(radius: f64, length: f64) -> f64 {
+pub fn octaves_above(radius: f64, length: f64) -> f64 {
     let mut coarsest = radius;
     while coarsest < length {
         coarsest *= 2.0;

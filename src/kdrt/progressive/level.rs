@@ -24,6 +24,7 @@ use crate::kdrt::fill::Filling;
 use crate::kdrt::progressive::Sample;
 use crate::kdrt::progressive::ladder::crowded_radius;
 use crate::kdrt::region::{Part, Region};
+use crate::kdrt::stack::Layer;
 use crate::kdrt::stamp::Stamps;
 use crate::kdrt::tiling::{cut, is_wide};
 
@@ -31,11 +32,15 @@ use crate::kdrt::tiling::{cut, is_wide};
 const WINDOW_BLOCKS: i32 = 256;
 
 /// A level of a plane.
-pub(super) struct Level {
+pub struct Level {
     lattice: Lattice,
     axes: [CellAxis; 2],
     /// The largest distance along an axis to the nearest sample of the levels before.
     sight: i32,
+    /// The radius of the level before.
+    before: f64,
+    /// A plane that is kept has all samples of the levels that have no more than this in the whole domain.
+    most_kept: f64,
     /// None for one of the first levels, and on a torus on which blocks could see themselves: these are filled as a
     /// whole.
     blocks: Option<Blocks>,
@@ -47,7 +52,7 @@ pub(super) struct Level {
 
 impl Level {
     /// The level of a lattice's radius, after one of a longer radius in lattice units.
-    pub fn new(lattice: Lattice, before: &Lattice, seed: u64, around: Arc<Around>) -> Self {
+    pub fn new(lattice: Lattice, before: &Lattice, seed: u64, around: Arc<Around>, most_kept: f64) -> Self {
         let axes = lattice.size.map(|size| CellAxis::new(size, lattice.radius));
         let is_wide = is_wide(&lattice);
         // With a reserve, as radii are rounded.
@@ -57,6 +62,8 @@ impl Level {
         let sides = [0, 1].map(|axis: usize| axes[axis].side());
         Self {
             sight: before.separation.reach,
+            before: before.radius,
+            most_kept,
             stamps: is_wide.then(|| Stamps::new(lattice.radius, sides)),
             axes,
             blocks,
@@ -69,29 +76,6 @@ impl Level {
     /// The radius in lattice units.
     pub fn radius(&self) -> f64 {
         self.lattice.radius
-    }
-
-    /// About how many samples there are in a part after this level.
-    pub fn expected(&self, part: &Part) -> f64 {
-        self.lattice.samples_in(&part.rect)
-    }
-
-    /// What of the levels before decides which samples there are in a part.
-    pub fn around(&self, part: &Part) -> Part {
-        match &self.blocks {
-            Some(blocks) => Part::new(&self.lattice, &self.known(blocks, &blocks.holding(&part.rect))),
-            None => Part::whole(&self.lattice),
-        }
-    }
-
-    /// The samples of this level in a part, around those of the levels before in [`Level::around`] it.
-    pub fn fill(&self, job: &Job, before: &Region<Sample>, part: &Part) -> Result<Vec<Sample>> {
-        let Some(blocks) = &self.blocks else {
-            let samples = self.fill_whole(job, before)?;
-            return Ok(Region::new(Part::whole(&self.lattice), &samples, self.radius()).samples_of(part));
-        };
-        let windows = cut(&blocks.holding(&part.rect), WINDOW_BLOCKS);
-        job.flat_map(windows.len(), |i| self.fill_window(blocks, before, &windows[i], &part.rect))
     }
 
     /// The lattice points whose samples a window of blocks depends on.
@@ -178,5 +162,37 @@ impl Level {
         let pieces = whole.images(&part.rect);
         let squares = pieces.flat_map(|(piece, _)| grid.samples_in(&piece)).map(square);
         squares.min().unwrap_or(i64::MAX)
+    }
+}
+
+impl Layer for Level {
+    type Sample = Sample;
+
+    fn is_kept(&self) -> bool {
+        self.expected(&Part::whole(&self.lattice)) <= self.most_kept
+    }
+
+    fn expected(&self, part: &Part) -> f64 {
+        self.lattice.samples_in(&part.rect)
+    }
+
+    fn around(&self, part: &Part) -> Part {
+        match &self.blocks {
+            Some(blocks) => Part::new(&self.lattice, &self.known(blocks, &blocks.holding(&part.rect))),
+            None => Part::whole(&self.lattice),
+        }
+    }
+
+    fn sorted(&self, part: Part, before: &[Sample]) -> Region<Sample> {
+        Region::new(part, before, self.before.min(self.radius() * 2.0))
+    }
+
+    fn fill(&self, job: &Job, before: &Region<Sample>, part: &Part) -> Result<Vec<Sample>> {
+        let Some(blocks) = &self.blocks else {
+            let samples = self.fill_whole(job, before)?;
+            return Ok(Region::new(Part::whole(&self.lattice), &samples, self.radius()).samples_of(part));
+        };
+        let windows = cut(&blocks.holding(&part.rect), WINDOW_BLOCKS);
+        job.flat_map(windows.len(), |i| self.fill_window(blocks, before, &windows[i], &part.rect))
     }
 }

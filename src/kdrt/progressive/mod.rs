@@ -13,45 +13,45 @@
 //! The first levels, up to [`Order::FIRST_COUNT`](crate::Order::FIRST_COUNT) samples, have a larger quotient.
 //!
 //! # Parts
-//! All levels lie on one lattice, and each is made by windows of blocks (`tiling/`): a part of a level depends on the
-//! levels before in a part that is larger by a margin of about 12 of its radii. So a part of the plane is made from the
-//! finest level back to the coarsest, to find what of each is needed, and then forth.
+//! Each level is made by windows of blocks (`tiling/`): a part of a level depends on the levels before in a part that is
+//! larger by a margin of about 12 of its radii (`stack.rs`).
 
 mod ladder;
 mod level;
-mod ranked;
 
 use std::sync::Arc;
 
 use crate::error::{Error, Result};
 use crate::job::Job;
+use crate::kdrt::around::Around;
+use crate::kdrt::base::Base;
+use crate::kdrt::options::{Options, Progressive};
+use crate::kdrt::region::{Part, Placed, Region};
+use crate::kdrt::stack::{Layer, Stack, images};
 use crate::math::hypot;
 use crate::plane::lattice::Lattice;
-use crate::points::Domain;
+use crate::points::{Domain, Points};
 use crate::rng::{Draw, hash};
-use crate::{maximal, memory};
 
-use crate::kdrt::around::Around;
-use crate::kdrt::options::Options;
-use crate::kdrt::region::{Part, Placed, Region};
-use crate::kdrt::tiling::Tiling;
 use ladder::{Ladder, crowded_radius, octaves_above};
-use level::Level;
-pub use ranked::Ranked;
+pub use level::Level;
 
 /// The most bytes that a sample takes while levels are made.
-const BYTES_PER_SAMPLE: f64 = 64.0;
+pub const BYTES_PER_SAMPLE: f64 = 64.0;
 
-/// The share of the progress that the coarsest level takes.
+/// The share of the progress of a count that the coarsest level takes.
 const COARSEST_SHARE: f64 = 0.05;
 
 /// A plane that is kept keeps the whole of the levels that have no more samples than this: what a window needs of its
 /// surroundings in each level at a quotient of 2^(1/8).
 const KEPT_SAMPLES: f64 = 65_536.0;
 
+/// A sample of the coarsest level, but for its place.
+const COARSEST: Sample = Sample { point: [0; 2], square: i64::MAX };
+
 /// A sample of a level.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct Sample {
+pub struct Sample {
     pub point: [i32; 2],
     /// The squared distance to the nearest sample that was there when it was accepted, in lattice units. Those of the
     /// coarsest level have the largest number.
@@ -68,120 +68,57 @@ impl Placed for Sample {
     }
 }
 
-/// The levels of a plane, of which any part can be made.
-pub(super) struct Progressive {
-    /// The lattice of the finest radius.
-    lattice: Lattice,
-    coarsest: Coarsest,
-    /// From coarse to fine.
-    levels: Vec<Level>,
-    /// The number of levels that are kept, and their samples.
-    kept: Option<(usize, Region<Sample>)>,
-}
-
 /// The coarsest level.
 struct Coarsest {
     lattice: Lattice,
     /// The rank of its samples.
     rank: f64,
-    ground: Ground,
+    base: Base,
 }
 
-/// What its samples come from.
-enum Ground {
-    Tiling(Box<Tiling>),
-    Whole(Vec<[i32; 2]>),
+/// The levels of a plane around given samples, and the rank of the samples of the coarsest one.
+pub fn stack(
+    job: &Job,
+    options: &Options,
+    radius: f64,
+    levels: &Progressive,
+    around: Arc<Around>,
+) -> Result<(Stack<Level>, f64)> {
+    let &Options { domain, seed, .. } = options;
+    let finest = Lattice::of_any_size(&domain, radius)?;
+    let longest = longest(&domain);
+    let from = if levels.coarsest.is_finite() { levels.coarsest } else { octaves_above(radius, longest) };
+    let ladder = Ladder::new(from, levels.quotient, domain.extent());
+    let radii = ladder.down_to(ladder.step_above(longest), radius);
+    let Coarsest { lattice: mut before, rank, base } = Coarsest::new(job, options, radii[0], Arc::clone(&around))?;
+    let most_kept = if matches!(base, Base::Whole(_)) { KEPT_SAMPLES } else { 0.0 };
+    let mut levels: Vec<Level> = Vec::with_capacity(radii.len() - 1);
+    for (step, &radius) in (1..).zip(&radii[1..]) {
+        let lattice = Lattice::of_any_size(&domain, radius)?;
+        let seed = level_seed(seed, step);
+        levels.push(Level::new(lattice.clone(), &before, seed, Arc::clone(&around), most_kept));
+        before = lattice;
+    }
+    Ok((Stack::new(finest, Some((base, COARSEST)), levels), rank))
 }
 
-impl Progressive {
-    /// The levels of a plane.
-    pub fn new(job: &Job, options: &Options) -> Result<Self> {
-        let &Options { radius, domain, quotient, seed, .. } = options;
-        let finest = Lattice::of_any_size(&domain, radius)?;
-        let longest = longest(&domain);
-        let from = if options.coarsest.is_finite() { options.coarsest } else { octaves_above(radius, longest) };
-        let ladder = Ladder::new(from, quotient, domain.extent());
-        let radii = ladder.down_to(ladder.step_above(longest), radius);
-        let around = Arc::new(Around::new(&domain, &finest, radius, &options.given));
-        let coarsest = Coarsest::new(job, options, radii[0], Arc::clone(&around))?;
-        let mut levels: Vec<Level> = Vec::with_capacity(radii.len() - 1);
-        let mut before = coarsest.lattice.clone();
-        for (step, &radius) in (1..).zip(&radii[1..]) {
-            let lattice = Lattice::of_any_size(&domain, radius)?;
-            levels.push(Level::new(lattice.clone(), &before, level_seed(seed, step), Arc::clone(&around)));
-            before = lattice;
-        }
-        Ok(Self { lattice: finest, coarsest, levels, kept: None })
+/// Puts samples in order. Those of the coarsest level have the given rank.
+pub fn ordered(lattice: &Lattice, coarsest: f64, mut samples: Vec<Sample>) -> Points<2> {
+    samples.sort_unstable_by(|a, b| {
+        b.square.cmp(&a.square).then(a.point[1].cmp(&b.point[1])).then(a.point[0].cmp(&b.point[0]))
+    });
+    let rank = |square: i64| if square == i64::MAX { coarsest } else { lattice.length(square) };
+    Points {
+        ranks: samples.iter().map(|sample| rounded_down(rank(sample.square))).collect(),
+        positions: samples.iter().map(|sample| lattice.position(sample.point)).collect(),
+        ..Points::default()
     }
+}
 
-    /// Makes those first levels that are small as a whole, for all windows.
-    pub fn keep(&mut self, job: &Job) -> Result<()> {
-        if matches!(self.coarsest.ground, Ground::Tiling(_)) {
-            return Ok(());
-        }
-        let whole = Part::whole(&self.lattice);
-        let count = self.levels.iter().take_while(|level| level.expected(&whole) <= KEPT_SAMPLES).count();
-        let samples = self.up_to(job, count, &whole)?;
-        let radius = self.levels[..count].last().map_or(self.coarsest.lattice.radius, Level::radius);
-        self.kept = Some((count, Region::new(whole, &samples, radius)));
-        Ok(())
-    }
-
-    /// All samples.
-    pub fn whole(&self, job: &Job) -> Result<Ranked> {
-        let samples = self.up_to(job, self.levels.len(), &Part::whole(&self.lattice))?;
-        Ok(self.ranked(samples))
-    }
-
-    /// The samples in a window of the domain.
-    pub fn window(&self, job: &Job, window: &Domain) -> Result<Ranked> {
-        let rect = self.lattice.points_in(window);
-        if rect.is_empty() {
-            return Ok(Ranked::default());
-        }
-        let samples = self.up_to(job, self.levels.len(), &Part::new(&self.lattice, &rect))?;
-        let mut ranked = self.ranked(samples);
-        ranked.retain(|sample| window.contains(sample));
-        Ok(ranked)
-    }
-
-    fn ranked(&self, samples: Vec<Sample>) -> Ranked {
-        Ranked::in_order(&self.lattice, self.coarsest.rank, samples)
-    }
-
-    /// The samples of the first `count` levels after the coarsest in a part.
-    fn up_to(&self, job: &Job, count: usize, part: &Part) -> Result<Vec<Sample>> {
-        let (kept, kept_region) = match &self.kept {
-            Some((kept, region)) => (*kept, Some(region)),
-            None => (0, None),
-        };
-        // From fine to coarse, what of each level is needed.
-        let levels = &self.levels[kept..count];
-        let mut parts = vec![*part];
-        for level in levels.iter().rev() {
-            parts.push(level.around(&parts[parts.len() - 1]));
-        }
-        parts.reverse();
-        let (first, parts) = (parts[0], &parts[1..]);
-
-        // From coarse to fine, each in its part.
-        let mut samples = match kept_region {
-            Some(region) => region.samples_of(&first),
-            None => self.coarsest.samples(&job.part(0.0, COARSEST_SHARE), &first)?,
-        };
-        let costs: Vec<f64> = levels.iter().zip(parts).map(|(level, part)| 1.0 + level.expected(part)).collect();
-        let total: f64 = costs.iter().sum();
-        let (mut within, mut radius, mut done) = (first, self.coarsest.lattice.radius, 0.0);
-        for ((level, part), cost) in levels.iter().zip(parts).zip(costs) {
-            let share = |done: f64| COARSEST_SHARE + (1.0 - COARSEST_SHARE) * done / total;
-            let before = Region::new(within, &samples, radius.min(level.radius() * 2.0));
-            let filled = level.fill(&job.part(share(done), share(done + cost)), &before, part)?;
-            samples = before.samples_of(part);
-            samples.extend(filled);
-            (within, radius, done) = (*part, level.radius(), done + cost);
-        }
-        Ok(samples)
-    }
+/// The largest float that is not above a number, which is positive.
+fn rounded_down(x: f64) -> f32 {
+    let nearest = x as f32;
+    if f64::from(nearest) > x { nearest.next_down() } else { nearest }
 }
 
 impl Coarsest {
@@ -191,69 +128,45 @@ impl Coarsest {
         // A radius that reaches over the domain gives one sample, which is the same for all of them.
         let reach = if radius >= longest { f64::MAX } else { radius };
         let lattice = Lattice::of_any_size(&domain, reach)?;
-        let ground = if Tiling::is_worthwhile(&lattice, leaf_size) {
-            Ground::Tiling(Box::new(Tiling::new(job, lattice.clone(), leaf_size, seed, around)?))
-        } else {
-            let disks = around.near(&lattice.rect());
-            Ground::Whole(maximal::sample_points_around(job, &lattice, seed, disks)?)
-        };
-        Ok(Self { lattice, rank: radius.min(longest), ground })
-    }
-
-    /// The samples in a part.
-    fn samples(&self, job: &Job, part: &Part) -> Result<Vec<Sample>> {
-        let mut samples = Vec::new();
-        let pieces: Vec<_> = Part::whole(&self.lattice).images(&part.rect).collect();
-        for (piece, [along, up]) in pieces.into_iter().filter(|(piece, _)| !piece.is_empty()) {
-            let image = |&[x, y]: &[i32; 2]| Sample { point: [x + along, y + up], square: i64::MAX };
-            match &self.ground {
-                Ground::Tiling(tiling) => samples.extend(tiling.points(job, &piece)?.iter().map(image)),
-                Ground::Whole(points) => {
-                    samples.extend(points.iter().filter(|point| piece.contains(**point)).map(image));
-                }
-            }
-        }
-        Ok(samples)
+        let base = Base::new(job, lattice.clone(), leaf_size, seed, around)?;
+        Ok(Self { lattice, rank: radius.min(longest), base })
     }
 }
 
 /// The first `count` samples of the progressive order of a domain: those of all counts are nested.
-pub(super) fn sample_count(job: &Job, options: &Options, count: usize) -> Result<Ranked> {
-    let &Options { domain, quotient, seed, .. } = options;
+pub fn first(job: &Job, options: &Options, levels: &Progressive, count: usize) -> Result<Points<2>> {
+    let (&Options { domain, seed, .. }, &Progressive { quotient, coarsest }) = (options, levels);
     let longest = longest(&domain);
-    let reaches_over = options.coarsest >= longest;
-    let from = if reaches_over { octaves_above(crowded_radius(domain.extent()), longest) } else { options.coarsest };
+    let reaches_over = coarsest >= longest;
+    let from = if reaches_over { octaves_above(crowded_radius(domain.extent()), longest) } else { coarsest };
     let ladder = Ladder::new(from, quotient, domain.extent());
     let made = COARSEST_SHARE / 2.0;
-    let coarsest = Coarsest::new(&job.part(0.0, made), options, ladder.radius(0), Arc::default())?;
-    let whole = Part::whole(&coarsest.lattice);
-    let mut samples = coarsest.samples(&job.part(made, COARSEST_SHARE), &whole)?;
+    let Coarsest { lattice, rank, base } =
+        Coarsest::new(&job.part(0.0, made), options, ladder.radius(0), Arc::default())?;
+    let whole = Part::whole(&lattice);
+    let mut samples = images(&job.part(made, COARSEST_SHARE), &lattice, &base, COARSEST, &whole)?;
     if samples.len() > count {
-        let reason = format!("{:?} gives {} samples, more than count {count}", options.coarsest, samples.len());
+        let reason = format!("{:?} gives {} samples, more than count {count}", coarsest, samples.len());
         return Err(Error::invalid("coarsest", reason));
     }
-    let (mut before, mut done) = (coarsest.lattice.clone(), COARSEST_SHARE);
+    let (mut before, mut done) = (lattice.clone(), COARSEST_SHARE);
     for (step, radius) in (1..).zip(ladder.radii(0).skip(1)) {
         if samples.len() >= count {
             break;
         }
-        let lattice = Lattice::of_any_size(&domain, radius)?;
-        let level = Level::new(lattice.clone(), &before, level_seed(seed, step), Arc::default());
+        let finer = Lattice::of_any_size(&domain, radius)?;
+        let level = Level::new(finer.clone(), &before, level_seed(seed, step), Arc::default(), 0.0);
         let known = Region::new(whole, &samples, level.radius());
         // A level may have fewer samples than expected, but progress does not fall.
         let expected = (samples.len() as f64 * quotient * quotient / count as f64).min(1.0);
         let next = done.max(COARSEST_SHARE + (1.0 - COARSEST_SHARE) * expected);
         samples.extend(level.fill(&job.part(done, next), &known, &whole)?);
-        (before, done) = (lattice, next);
+        (before, done) = (finer, next);
     }
-    let mut ranked = Ranked::in_order(&coarsest.lattice, coarsest.rank, samples);
-    ranked.truncate(count);
-    Ok(ranked)
-}
-
-/// Refuses more samples than memory holds while their levels are made. `argument` asks for them.
-pub(super) fn require_memory(samples: f64, argument: &'static str) -> Result<()> {
-    memory::require(samples * BYTES_PER_SAMPLE, argument, &format!("about {samples:.0} samples"))
+    let mut points = ordered(&lattice, rank, samples);
+    points.positions.truncate(count);
+    points.ranks.truncate(count);
+    Ok(points)
 }
 
 /// The seed of a level by its number.
@@ -265,4 +178,18 @@ fn level_seed(seed: u64, step: u64) -> u64 {
 fn longest(domain: &Domain) -> f64 {
     let [width, height] = domain.extent();
     hypot(width, height)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ranks_are_rounded_down() {
+        assert_eq!(rounded_down(0.25), 0.25);
+        for x in [0.1, 1.0 + 1e-9, 3e38, 1e300, 1e-44, f64::from(f32::MAX)] {
+            let down = rounded_down(x);
+            assert!(f64::from(down) <= x && (f64::from(down.next_up()) > x || down == f32::MAX), "{x}");
+        }
+    }
 }

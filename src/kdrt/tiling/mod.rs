@@ -32,10 +32,10 @@ use crate::kdrt::output::{Output, capacity};
 use crate::kdrt::stamp::Stamps;
 
 /// Fill blocks along the side of a window: about 50,000 samples, which fit a core's own cache.
-pub(super) const WINDOW_BLOCKS: i32 = 56;
+pub const WINDOW_BLOCKS: i32 = 56;
 
 /// A window between elimination and filling.
-pub(super) struct Merged<'a> {
+pub struct Merged<'a> {
     /// Everything that survived near seams.
     pub grid: CellGrid,
     pub eliminated: Vec<[i32; 2]>,
@@ -44,7 +44,7 @@ pub(super) struct Merged<'a> {
 }
 
 /// A maximal set of a whole domain, of which any window can be made.
-pub(super) struct Tiling {
+pub struct Tiling {
     lattice: Lattice,
     axes: [CellAxis; 2],
     tree: Tree,
@@ -160,6 +160,11 @@ impl Tiling {
         Ok(ordered)
     }
 
+    /// The lattice of the domain.
+    pub fn lattice(&self) -> &Lattice {
+        &self.lattice
+    }
+
     /// About how many samples lie in a rectangle.
     pub fn expected(&self, rect: &Rect) -> f64 {
         self.lattice.samples_in(rect)
@@ -239,7 +244,7 @@ impl Tiling {
 }
 
 /// The tree of a plane.
-pub(super) fn tree(lattice: &Lattice, leaf_size: f64, seed: u64) -> Tree {
+pub fn tree(lattice: &Lattice, leaf_size: f64, seed: u64) -> Tree {
     let shortest = (leaf_size * lattice.radius).ceil();
     let shortest = lattice.size.map(|size| match lattice.boundary {
         // Nothing may be its own neighbour on a torus: its axes are split at least once.
@@ -250,12 +255,12 @@ pub(super) fn tree(lattice: &Lattice, leaf_size: f64, seed: u64) -> Tree {
 }
 
 /// Whether a lattice is so wide that leaves fit, and that its cells are no less than 0.67 radii wide.
-pub(super) fn is_wide(lattice: &Lattice) -> bool {
+pub fn is_wide(lattice: &Lattice) -> bool {
     lattice.size.into_iter().all(|size| f64::from(size) / lattice.radius > 2.0 * MIN_LEAF_SIZE + 1.0)
 }
 
 /// A rectangle of blocks, cut at the multiples of `side`.
-pub(super) fn cut(blocks: &Rect, side: i32) -> Vec<Rect> {
+pub fn cut(blocks: &Rect, side: i32) -> Vec<Rect> {
     let starts = |axis: usize| (blocks.min[axis].div_euclid(side) * side..blocks.max[axis]).step_by(side as usize);
     let cells = starts(1).flat_map(|y| starts(0).map(move |x| Rect { min: [x, y], max: [x + side, y + side] }));
     cells.map(|cell| cell.intersection(blocks)).collect()

@@ -25,7 +25,7 @@ pub(super) fn torus(job: &Job, extent: f64, seed: u64) -> Result<(f64, Vec<[f32;
     let domain = Domain { min: [0.0; 2], max: [side; 2], boundary: Boundary::Periodic };
     let options = kdrt::Options::new(1.0).domain(domain).seed(seed);
     let progress = |share| job.report(share).map_or(ControlFlow::Break(()), ControlFlow::Continue);
-    Ok((side, kdrt::sample(job.context(), &options, Some(&progress))?))
+    Ok((side, kdrt::sample(job.context(), &options, Some(&progress))?.positions))
 }
 
 /// Points on the torus of a given side, in units of the radius, in the order in which rays are traced.

@@ -57,13 +57,13 @@ fn domain() -> Domain {
 
 fn plane(context: &Context, radius: f64) -> Run {
     let options = kdrt::Options::new(radius).domain(domain()).seed(1);
-    flat(timed(|| kdrt::sample(context, &options, None).expect("a plane")))
+    flat(timed(|| kdrt::sample(context, &options, None).expect("a plane").positions))
 }
 
 fn reference(radius: f64) -> Run {
     let options = maximal::Options::new(radius).domain(domain()).seed(1);
     let context = Context::new(1).expect("one thread");
-    flat(timed(|| maximal::sample(&context, &options, None).expect("a plane")))
+    flat(timed(|| maximal::sample(&context, &options, None).expect("a plane").positions))
 }
 
 /// From random points, as the Lloyd relaxations that it is compared with.

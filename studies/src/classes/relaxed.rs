@@ -47,16 +47,16 @@ impl Relaxed {
     }
 
     fn of(context: &Context, mix: Mix, effort: &Effort) -> Result<Self> {
-        let set = kdrt::sample_classes(context, &kdrt::Options::new(0.0), &mix.classes(effort.count, 1.0)?, None)?;
+        let set = kdrt::sample(context, &kdrt::Options::classes(&mix.classes(effort.count, 1.0)?), None)?;
         let domain = Domain { min: [0.0; 2], max: [1.0; 2], boundary: Boundary::Periodic };
         let options = Options::new(domain, Neighbourhood::Delaunay);
         let relaxed = |steps: u32| -> Result<Set> {
             let options = options.max_iterations(steps);
-            let (_, union, each) = dcr::relax_classes(context, &options, &set.samples, &set.classes, None)?;
+            let (_, union, each) = dcr::relax_classes(context, &options, &set.positions, &set.classes, None)?;
             let classes = each.iter().map(|of| Figures { rho: of.rho, coverage: of.coverage });
             Ok(Set { union: Figures { rho: union.rho, coverage: union.coverage }, classes: classes.collect() })
         };
-        let (_, alone) = dcr::relax(context, &options, &set.samples, None)?;
+        let (_, alone) = dcr::relax(context, &options, &set.positions, None)?;
         let alone = Figures { rho: alone.rho, coverage: alone.coverage };
         Ok(Self { mix, before: relaxed(0)?, after: relaxed(options.max_iterations)?, alone })
     }

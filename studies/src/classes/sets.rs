@@ -89,9 +89,9 @@ fn make(context: &Context, maker: Maker, classes: &Classes, sets: u64) -> Result
 
 /// A set of the library, by class.
 fn sampled(context: &Context, classes: &Classes, seed: u64) -> Result<Vec<Vec<[f32; 2]>>> {
-    let set = kdrt::sample_classes(context, &Options::new(0.0).seed(seed), classes, None)?;
+    let set = kdrt::sample(context, &Options::classes(classes).seed(seed), None)?;
     let mut by_class = vec![Vec::new(); classes.count()];
-    set.samples.iter().zip(&set.classes).for_each(|(sample, &class)| by_class[class as usize].push(*sample));
+    set.positions.iter().zip(&set.classes).for_each(|(sample, &class)| by_class[class as usize].push(*sample));
     Ok(by_class)
 }
 

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use azulejo::kdrt::{self, ClassPlane};
+use azulejo::kdrt;
 use azulejo::mesh::Mesh;
 use azulejo::{Boundary, Classes, Context, Domain, Result, maximal, psp};
 
@@ -50,7 +50,7 @@ impl Times {
             let timed = in_turns(
                 effort.rounds,
                 &[
-                    &|| Ok(kdrt::sample_classes(&one, &kdrt::Options::new(0.0).seed(1), &classes, None)?.samples.len()),
+                    &|| Ok(kdrt::sample(&one, &kdrt::Options::classes(&classes).seed(1), None)?.len()),
                     &|| Ok(kdrt::sample(&one, &options, None)?.len()),
                     &|| Ok(maximal::sample(&one, &unbiased, None)?.len()),
                 ],
@@ -98,19 +98,15 @@ impl Windows {
     pub fn measure(effort: &Effort) -> Result<Self> {
         let classes = Classes::of_radii(PICTURED.own, 1.0)?;
         // The classes fill what they leave each other; the union's density is found by a set.
-        let found = kdrt::sample_classes(
-            &Context::new(1)?,
-            &kdrt::Options::new(0.0).domain(square(effort.window.sqrt() / density(0.25).sqrt() * 2.0)),
-            &classes,
-            None,
-        )?;
-        let per_area = found.samples.len() as f64 / (4.0 * effort.window / density(0.25));
+        let some = square(effort.window.sqrt() / density(0.25).sqrt() * 2.0);
+        let found = kdrt::sample(&Context::new(1)?, &kdrt::Options::classes(&classes).domain(some), None)?;
+        let per_area = found.len() as f64 / (4.0 * effort.window / density(0.25));
         let (side, width) = ((PLANE / per_area).sqrt(), (effort.window / per_area).sqrt());
-        let options = kdrt::Options::new(0.0).domain(square(side));
-        let plane = ClassPlane::new(&Context::new(1)?, &options, &classes, None)?;
+        let options = kdrt::Options::classes(&classes).domain(square(side));
+        let plane = kdrt::Plane::new(&Context::new(1)?, &options, None)?;
         let window = |place: u32| {
             let min = [0.1 + 0.037 * f64::from(place), 0.2 + 0.051 * f64::from(place)].map(|x| side * x);
-            Ok(plane.window(min, min.map(|x| x + width))?.samples.len())
+            Ok(plane.window(min, min.map(|x| x + width))?.len())
         };
         let all = || (0..effort.windows).map(window).sum::<Result<usize>>();
         let timed = in_turns(effort.rounds, &[&all])?.remove(0);

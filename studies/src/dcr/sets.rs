@@ -70,7 +70,7 @@ impl Start {
             Self::Kdrt => {
                 let leaf_size = kdrt::DEFAULT_LEAF_SIZE;
                 let options = CountOptions::new(count as u64).domain(domain).leaf_size(leaf_size).seed(seed);
-                Ok(kdrt::sample_count(context, &options, None)?.samples)
+                Ok(kdrt::sample_count(context, &options, None)?.0.positions)
             }
             Self::Psp => {
                 let corners = vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];

@@ -93,7 +93,7 @@ fn batches(context: &Context, tracer: &Tracer, radius: f64, seed: u64) -> Result
         let (right, up) = direction.any_orthonormal_pair();
         let options = kdrt::Options::new(radius).domain(domain).seed(PROJECTORS as u64 * seed + projector as u64);
         let mut points = Vec::new();
-        for [x, y] in kdrt::sample(context, &options, None)? {
+        for [x, y] in kdrt::sample(context, &options, None)?.positions {
             let origin = x * right + y * up - direction;
             let mut hits = Vec::new();
             tracer.all_hits(&[Ray { origin: origin.to_array(), direction: direction.to_array() }], &mut hits);

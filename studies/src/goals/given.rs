@@ -59,11 +59,12 @@ fn cost(study: &Study, what: &str, obstacles: usize, calls: [&dyn Fn() -> Result
 
 fn in_plane(study: &Study) -> Result<Vec<Row>> {
     let (samples, count) = (study.effort.of(SAMPLES), study.effort.of(OBSTACLES) as usize);
-    let options = kdrt::Options::new((MAXIMAL_DENSITY / samples).sqrt()).seed(1);
+    let radius = (MAXIMAL_DENSITY / samples).sqrt();
+    let options = kdrt::Options::new(radius).seed(1);
     let mut unit = stream(3);
     let positions: Vec<_> = (0..count).map(|_| [unit(), unit()]).collect();
     let row = |bounds: [f64; 2]| {
-        let clearances = clearances(bounds, options.radius, count);
+        let clearances = clearances(bounds, radius, count);
         let around = options.given(Given::with_clearances(&positions, &clearances));
         let what = format!("plane, {} samples, {} to {} r", grouped(samples as usize), bounds[0], bounds[1]);
         let set = |options: &kdrt::Options| Ok(kdrt::sample(&study.one, options, None)?.len());

@@ -2,8 +2,8 @@
 
 use azulejo::analysis::coverage::covering_radius_2d;
 use azulejo::analysis::spacing::smallest_distance_2d;
-use azulejo::kdrt::{self, CountOptions, Options};
-use azulejo::{Boundary, Context, Domain, MAXIMAL_DENSITY, Order, Progress, Result};
+use azulejo::kdrt::{self, CountOptions, Options, Progressive};
+use azulejo::{Boundary, Context, Domain, MAXIMAL_DENSITY, Progress, Result};
 
 use super::{Effort, QUOTIENTS, Quotient};
 use crate::blue::Blue;
@@ -43,8 +43,9 @@ impl Prefixes {
 
     fn of(context: &Context, quotient: Quotient, effort: &Effort) -> Result<Self> {
         let radius = radius(effort.count);
-        let options = |seed| Options::new(radius).order(Order::Progressive).quotient(quotient.value).seed(seed);
-        let set = |seed| Ok(kdrt::sample_ranked(context, &options(seed), None)?.samples);
+        let levels = Progressive::new().quotient(quotient.value);
+        let options = |seed| Options::progressive(radius, levels).seed(seed);
+        let set = |seed| Ok(kdrt::sample(context, &options(seed), None)?.positions);
         let sets: Vec<Vec<[f32; 2]>> = (0..effort.sets).map(set).collect::<Result<_>>()?;
         let (mut ratio, mut rho) = (Vec::new(), Vec::new());
         for set in &sets {
@@ -88,7 +89,7 @@ impl Direct {
         let (mut ratio, mut rho, mut blue) = (Vec::new(), Vec::new(), Vec::new());
         for count in part_counts(effort) {
             let set =
-                |seed| Ok(kdrt::sample_count(context, &CountOptions::new(count as u64).seed(seed), None)?.samples);
+                |seed| Ok(kdrt::sample_count(context, &CountOptions::new(count as u64).seed(seed), None)?.0.positions);
             let sets: Vec<Vec<[f32; 2]>> = (0..effort.sets).map(set).collect::<Result<_>>()?;
             for set in &sets {
                 let of = Distances::of(context, set)?;

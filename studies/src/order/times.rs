@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use azulejo::kdrt::{self, Options, Plane};
+use azulejo::kdrt::{self, Kind, Options, Plane, Progressive};
 use azulejo::mesh::Mesh;
 use azulejo::{Boundary, Context, Domain, Order, Result, psp};
 
@@ -45,7 +45,7 @@ impl Times {
     pub fn plane(effort: &Effort) -> Result<Vec<Self>> {
         let one = Context::new(1)?;
         let time = |&count: &f64| {
-            let set = |quotient| Ok(kdrt::sample_ranked(&one, &plane_options(count, quotient), None)?.samples.len());
+            let set = |quotient| Ok(kdrt::sample(&one, &plane_options(count, quotient), None)?.len());
             Self::measure(effort.rounds, count, set)
         };
         effort.counts.iter().map(time).collect()
@@ -78,13 +78,14 @@ impl Times {
         Self::measure(effort.rounds, effort.window, |quotient| {
             let place = quotient.and_then(|quotient| QUOTIENTS.iter().position(|&other| other == quotient));
             let plane = place.map_or(&plain, |place| &ordered[place]);
-            Ok(plane.window_ranked(corners[0], corners[1])?.samples.len())
+            Ok(plane.window(corners[0], corners[1])?.len())
         })
     }
 }
 
 /// The options of a set of about so many samples per unit of area.
 fn plane_options(count: f64, quotient: Option<Quotient>) -> Options<'static> {
-    let plain = Options::new(radius(count)).seed(1);
-    quotient.map_or(plain, |quotient| plain.order(Order::Progressive).quotient(quotient.value))
+    let levels = |quotient: Quotient| Progressive::new().quotient(quotient.value);
+    let radius = radius(count);
+    Options::of(quotient.map_or(Kind::Plain(radius), |quotient| Kind::Progressive(radius, levels(quotient)))).seed(1)
 }

@@ -59,7 +59,7 @@ fn along(context: &Context, axis: usize, half: Vec3, count: f64) -> Result<Vec<R
     let domain = Domain { min: reach.map(|reach| -reach), max: reach, boundary: Boundary::Bounded };
     let radius = (MAXIMAL_DENSITY * domain.area() / count).sqrt();
     let options = kdrt::Options::new(radius).domain(domain).seed(1);
-    let mut points = kdrt::sample(context, &options, None)?;
+    let mut points = kdrt::sample(context, &options, None)?.positions;
     let tile = TILE * (domain.area() / count).sqrt();
     points.sort_by_cached_key(|point| {
         let [column, row] = point.map(|x| (f64::from(x) / tile).floor() as i64);

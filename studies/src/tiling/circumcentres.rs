@@ -133,7 +133,7 @@ fn make(context: &Context, repair: Repair, (leaf_size, side): (f64, f64), count:
             let ((samples, report), seconds) = timed(|| merge(context, &options, &pieces, &[], None))?;
             let changes =
                 Changes { eliminated: report.eliminated, inserted: report.inserted, processed: None, iterations: None };
-            Ok(Made { samples, changes: Some(changes), seconds })
+            Ok(Made { samples: samples.positions, changes: Some(changes), seconds })
         }
     }
 }

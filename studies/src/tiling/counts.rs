@@ -56,7 +56,7 @@ impl Way {
             }
             Self::Azulejo => {
                 let options = CountOptions::new(count as u64).domain(Domain::unit(Boundary::Periodic)).seed(seed);
-                sample_count(context, &options, None).map(|counted| (counted.samples, counted.report.radius))
+                sample_count(context, &options, None).map(|(points, report)| (points.positions, report.radius))
             }
         }
     }

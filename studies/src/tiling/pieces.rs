@@ -69,6 +69,7 @@ fn merged(context: &Context, radius: f64, seed: u64) -> Result<Merged> {
         let make = |i: usize| {
             let seed = seed * (SIDE * SIDE) as u64 + i as u64;
             maximal::sample(&single, &maximal::Options::new(radius).domain(parts[i]).seed(seed), None)
+                .map(|set| set.positions)
         };
         in_parallel(threads, parts.len(), &quiet, make)?.into_iter().collect::<Result<Vec<_>>>()
     })?;
@@ -76,7 +77,7 @@ fn merged(context: &Context, radius: f64, seed: u64) -> Result<Merged> {
     let pieces: Vec<_> = parts.iter().zip(sets.iter().map(Vec::as_slice)).map(piece).collect();
     let options = MergeOptions::new(radius).domain(domain).seed(seed);
     let ((samples, report), merging) = timed(|| merge(context, &options, &pieces, &[], None))?;
-    Ok(Merged { sets, samples, report, seconds: [making, merging] })
+    Ok(Merged { sets, samples: samples.positions, report, seconds: [making, merging] })
 }
 
 pub fn section(study: &Study) -> Result<Part> {

@@ -30,7 +30,7 @@ impl Pattern {
         let side = side * radius;
         let domain = Domain { min: [0.0; 2], max: [side; 2], boundary: Boundary::Periodic };
         let options = maximal::Options::new(radius * (1.0 + GUARD)).domain(domain).seed(seed);
-        Ok(Self { side, samples: maximal::sample(context, &options, None)? })
+        Ok(Self { side, samples: maximal::sample(context, &options, None)?.positions })
     }
 
     /// Lays a random part of the pattern in each block and a margin around it.

@@ -1,0 +1,359 @@
+//! Planes: sets of which any part can be made at any time. What all parts need is made once.
+
+use std::ops::ControlFlow;
+use std::sync::Arc;
+
+use crate::classes::Classes;
+use crate::error::{Error, Result};
+use crate::job::{Context, Job, Progress};
+use crate::kdrt::around::Around;
+use crate::kdrt::base::{Base, PATTERN_SHARE};
+use crate::kdrt::classes::{self, Group};
+use crate::kdrt::options::{Kind, Options, Progressive, check_leaf_size};
+use crate::kdrt::progressive::{self, Level};
+use crate::kdrt::stack::Stack;
+use crate::kdrt::tiling::Tiling;
+use crate::memory;
+use crate::plane::lattice::{Lattice, estimate};
+use crate::points::{Boundary, Domain, Points, check_resolution};
+
+/// The fewest samples, of some 16 MB, that memory is asked for: to query it takes about 0.1 ms, as long as to make a
+/// small window.
+const FEWEST_REFUSED: f64 = 1e6;
+
+/// The most bytes that a sample takes: in the result, and a part of those windows at work.
+const BYTES_PER_SAMPLE: f64 = 16.0;
+
+/// A maximal Poisson-disk set of a rectangle, in parallel: [`Plane::new`] and [`Plane::whole`] in one call.
+///
+/// * Conflict-free: all distances of the returned floats are at least the radius, in `f64`, without tolerance. On a torus
+///   they wrap with the period `domain.max - domain.min`.
+/// * Maximal: no point of the domain is farther from all samples than the radius + 3 float spacings at the domain's
+///   largest coordinate.
+/// * `domain.min <= x < domain.max`; the samples come by windows of about 270 radii, in these by leaves; or in
+///   [progressive order](super::Progressive), with [ranks](Points::ranks); or by [classes](Kind::Classes).
+/// * The same for every number of threads.
+/// * Its only bias is at the seams: somewhat more samples than an unbiased set, the fewer the larger the leaves.
+///
+/// O(n) for n samples, after the making of a pattern, whose side is 10 leaf sizes, but at least 108 radii and at most 200
+/// radii or 4 leaf sizes, whichever is longer: about 28,000 samples with leaves of the default size. A domain of
+/// less area than the pattern, or narrower than about two of the smallest leaves (13 radii), is not tiled: it is
+/// given to [`crate::maximal`]. In progressive order it takes about fifteen times as long.
+///
+/// # Errors
+/// [`Error::InvalidArgument`] for an argument out of range or floats too coarse for the radius, [`Error::TooLarge`] above
+/// 2^32 samples or the available memory, both before any work; [`Error::Cancelled`].
+pub fn sample(context: &Context, options: &Options, progress: Option<&Progress>) -> Result<Points<2>> {
+    let set = Set::new(options, true)?;
+    set.require_whole()?;
+    context.run(progress, |job| match &set.radii {
+        Radii::One { radius, .. } => {
+            let around = Around::new(&options.domain, &set.lattice, *radius, &options.given);
+            let samples = Base::sample(job, &set.lattice, options.leaf_size, options.seed, around.into())?;
+            Ok(set.in_any_order(samples))
+        }
+        _ => {
+            let layers = Layers::new(&job.part(0.0, PATTERN_SHARE), &set, options)?;
+            layers.whole(&job.part(PATTERN_SHARE, 1.0), &set)
+        }
+    })
+}
+
+/// The samples of a single window, in parallel: [`Plane::new`] and [`Plane::window`] in one call, which keeps nothing.
+///
+/// O(n) in time and memory for the n samples of the window and those around it, after the making of the pattern, which
+/// is the same for every window: a [`Plane`] keeps it for many windows. The domain may have any number of samples that
+/// floats can carry: up to about 10^11 around the origin. One that is not tiled (see [`sample`]) is made as a whole.
+///
+/// # Errors
+/// Those of [`Plane::new`] and [`Plane::window`], arguments before any work.
+pub fn sample_window(
+    context: &Context,
+    options: &Options,
+    window_min: [f64; 2],
+    window_max: [f64; 2],
+    progress: Option<&Progress>,
+) -> Result<Points<2>> {
+    let set = Set::new(options, false)?;
+    let window = set.window(window_min, window_max)?;
+    context.run(progress, |job| {
+        let layers = Layers::new(&job.part(0.0, PATTERN_SHARE), &set, options)?;
+        layers.window(&job.part(PATTERN_SHARE, 1.0), &set, &window)
+    })
+}
+
+/// A set of [`sample`], of which all or any window can be made at any time. The pattern and all tables are made once, so
+/// that a window costs its samples and those around it.
+///
+/// Windows may be made by any number of threads at once; nothing is changed by them, and no thread is kept.
+///
+/// Memory: 32 bytes per sample of the pattern, about 0.9 MB with leaves of the default size, and 1 byte per radius of
+/// the domain's sides, for each radius. The domain may have any number of samples that floats can carry: up to about 10^11
+/// around the origin. One that is not tiled (see [`sample`]) is made as a whole and kept, in 8 bytes per sample. Of a
+/// progressive order also 16 KB per level, and the levels that have up to 65,536 samples in the whole domain, in 16 bytes
+/// per sample. Given samples are copied for each class, in 40 bytes each, and a window costs those near it. Groups of
+/// classes that fill a torus of less than two blocks (see [`Kind::Classes`]) are kept with those before, in 12 bytes per
+/// sample.
+pub struct Plane {
+    set: Set,
+    layers: Layers,
+}
+
+impl Plane {
+    /// A plane, on the threads of `context`, which it does not need afterwards.
+    ///
+    /// O(pattern) in time; O(n) for the n samples that are made as a whole.
+    ///
+    /// # Errors
+    /// Those of [`sample`], but limits of the number of samples only where the domain is not tiled.
+    pub fn new(context: &Context, options: &Options, progress: Option<&Progress>) -> Result<Self> {
+        let set = Set::new(options, false)?;
+        let layers = context.run(progress, |job| {
+            let made = if matches!(set.radii, Radii::One { .. }) { 1.0 } else { PATTERN_SHARE };
+            let mut layers = Layers::new(&job.part(0.0, made), &set, options)?;
+            layers.keep(&job.part(made, 1.0))?;
+            Ok(layers)
+        })?;
+        Ok(Self { set, layers })
+    }
+
+    /// All samples: those of [`sample`] with the same options, in parallel.
+    ///
+    /// # Errors
+    /// [`Error::TooLarge`] above 2^32 samples or the available memory; [`Error::Cancelled`].
+    pub fn whole(&self, context: &Context, progress: Option<&Progress>) -> Result<Points<2>> {
+        self.set.require_whole()?;
+        context.run(progress, |job| self.layers.whole(job, &self.set))
+    }
+
+    /// The samples that lie in `window_min <= x < window_max`, on the calling thread: the same floats in the same order
+    /// as the whole set has them, with their ranks or classes.
+    ///
+    /// So windows that partition the domain hold each sample once, and a window is made without the others. It may be of
+    /// any size, also smaller than the radius, and may have no sample. On a torus it lies in one period, as samples do.
+    ///
+    /// # The surroundings of a window
+    /// Beyond its options a window depends only on its surroundings, as tiled: whether and where a sample lies is decided
+    /// by the leaves' points within 22 radii along x and 18 along y. These are its fill block with two more along x and one
+    /// along y, for the phases of filling, and 5 radii for the chains of elimination. In progressive order every level adds
+    /// about 12 of its radii: see [`Progressive`](super::Progressive). Each group of classes of equal own radii adds about
+    /// 30 times the largest distance within it, and one to the groups before.
+    ///
+    /// O(n) in time and memory for the n samples of the window and its surroundings.
+    ///
+    /// # Errors
+    /// [`Error::InvalidArgument`] for `window_min` and `window_max` if the window is empty or reaches beyond the
+    /// domain; [`Error::TooLarge`] above 2^32 samples or the available memory.
+    pub fn window(&self, window_min: [f64; 2], window_max: [f64; 2]) -> Result<Points<2>> {
+        let window = self.set.window(window_min, window_max)?;
+        Context::new(1)?.run(None, |job| self.layers.window(job, &self.set, &window))
+    }
+
+    /// Hands all samples of a set in any order to `visit`, in the order of [`Plane::whole`], part by part, for sets that
+    /// cannot or need not be held.
+    ///
+    /// The parts are windows of at most about 270 radii, 50,000 samples, and never empty. `visit` is called on the calling
+    /// thread and may use the library; meanwhile the threads of the context make the next parts. What the parts are, and
+    /// their order, depends on the options only. `Break` ends the call with [`Error::Cancelled`].
+    ///
+    /// Memory: at most 8 parts per thread, however many samples there are. A domain that is not tiled (see [`sample`]) is
+    /// one part.
+    ///
+    /// # Errors
+    /// [`Error::InvalidArgument`] for a progressive order and for several classes, which do not come place by place;
+    /// [`Error::Cancelled`].
+    pub fn stream(
+        &self,
+        context: &Context,
+        visit: impl FnMut(&[[f32; 2]]) -> ControlFlow<()>,
+        progress: Option<&Progress>,
+    ) -> Result<()> {
+        match &self.layers {
+            Layers::None(base) => context.run(progress, |job| base.stream(job, visit)),
+            Layers::Progressive(..) => {
+                Err(Error::invalid("order", "a stream comes place by place, in no progressive order"))
+            }
+            Layers::Classes(_) => Err(Error::invalid("classes", "a stream comes place by place, not class by class")),
+        }
+    }
+}
+
+/// A set that is not made yet: options that are right, without given samples.
+struct Set {
+    domain: Domain,
+    /// Of a set of several classes with any radius, else with that of the set.
+    lattice: Lattice,
+    radii: Radii,
+}
+
+/// The radii of a set.
+enum Radii {
+    /// In any order; `is_class` if it is the set of the only class of several.
+    One {
+        radius: f64,
+        is_class: bool,
+    },
+    Progressive {
+        radius: f64,
+        levels: Progressive,
+    },
+    Classes(Classes),
+}
+
+impl Set {
+    /// Checks everything but the memory for the samples; their number if all are to be held.
+    fn new(options: &Options, is_held: bool) -> Result<Self> {
+        let &Options { kind, domain, leaf_size, given, .. } = options;
+        check_leaf_size(leaf_size)?;
+        let lattice_of =
+            |radius| if is_held { Lattice::new(&domain, radius) } else { Lattice::of_any_size(&domain, radius) };
+        let (lattice, radii) = match kind {
+            Kind::Plain(radius) => (lattice_of(radius)?, Radii::One { radius, is_class: false }),
+            Kind::Progressive(radius, levels) => (lattice_of(radius)?, Radii::Progressive { radius, levels }),
+            Kind::Classes(classes) => {
+                given.check_classes(classes.count())?;
+                let smallest = (0..classes.count()).map(|class| classes.own(class)).fold(f64::INFINITY, f64::min);
+                // Floats of any spacing carry the longest radius.
+                let lattice = Lattice::of_any_size(&domain, f64::MAX)?;
+                check_resolution("radii", smallest, lattice.unit(), "the domain's largest coordinate")?;
+                match classes.count() {
+                    1 => (lattice_of(smallest)?, Radii::One { radius: smallest, is_class: true }),
+                    _ => (lattice, Radii::Classes(classes.clone())),
+                }
+            }
+        };
+        match &radii {
+            Radii::One { radius, .. } => {
+                given.check()?;
+                if !Tiling::is_worthwhile(&lattice, leaf_size) {
+                    estimate(domain.extent(), *radius)?;
+                }
+            }
+            Radii::Progressive { radius, levels } => {
+                given.check()?;
+                levels.check(*radius)?;
+            }
+            Radii::Classes(_) => (),
+        }
+        Ok(Self { domain, lattice, radii })
+    }
+
+    /// Refuses all samples of a domain that cannot be held.
+    fn require_whole(&self) -> Result<()> {
+        let extent = self.domain.extent();
+        match &self.radii {
+            Radii::One { radius, .. } => require(estimate(extent, *radius)?, BYTES_PER_SAMPLE, "radius"),
+            Radii::Progressive { radius, .. } => {
+                estimate(extent, *radius)?;
+                require(self.lattice.expected_samples(), progressive::BYTES_PER_SAMPLE, "radius")
+            }
+            Radii::Classes(classes) => require_classes(classes, extent),
+        }
+    }
+
+    /// The part of the domain between two corners, if its samples can be held. It is bounded.
+    fn window(&self, min: [f64; 2], max: [f64; 2]) -> Result<Domain> {
+        let window = window_of(&self.domain, min, max)?;
+        match &self.radii {
+            Radii::One { radius, .. } | Radii::Progressive { radius, .. } => {
+                require(estimate(window.extent(), *radius)?, BYTES_PER_SAMPLE, "radius")?;
+            }
+            Radii::Classes(classes) => require_classes(classes, window.extent())?,
+        }
+        Ok(window)
+    }
+
+    /// Samples of one radius.
+    fn in_any_order(&self, samples: Vec<[f32; 2]>) -> Points<2> {
+        let has_classes = matches!(self.radii, Radii::One { is_class: true, .. });
+        let classes = if has_classes { vec![0; samples.len()] } else { Vec::new() };
+        Points { classes, ..samples.into() }
+    }
+}
+
+/// Refuses samples that memory does not hold. `argument` asks for them.
+fn require(samples: f64, bytes_per_sample: f64, argument: &'static str) -> Result<()> {
+    if samples < FEWEST_REFUSED {
+        return Ok(());
+    }
+    memory::require(samples * bytes_per_sample, argument, &format!("about {samples:.0} samples"))
+}
+
+/// Refuses more samples of several classes in a rectangle than can be held.
+fn require_classes(classes: &Classes, extent: [f64; 2]) -> Result<()> {
+    let samples = (0..classes.count()).map(|class| estimate(extent, classes.own(class))).sum::<Result<f64>>()?;
+    require(samples, progressive::BYTES_PER_SAMPLE, "radii")
+}
+
+/// The part of a domain between two corners. It is bounded.
+fn window_of(domain: &Domain, min: [f64; 2], max: [f64; 2]) -> Result<Domain> {
+    for axis in 0..2 {
+        let (from, to) = (domain.min[axis], domain.max[axis]);
+        for (argument, x) in [("window_min", min[axis]), ("window_max", max[axis])] {
+            if !(from..=to).contains(&x) {
+                return Err(Error::invalid(argument, format!("[{axis}] is {x}, outside the domain {from} to {to}")));
+            }
+        }
+        if min[axis] >= max[axis] {
+            let reason = format!("[{axis}] is {}, not above window_min {}", max[axis], min[axis]);
+            return Err(Error::invalid("window_max", reason));
+        }
+    }
+    Ok(Domain { min, max, boundary: Boundary::Bounded })
+}
+
+/// What the parts of a set are made of.
+enum Layers {
+    /// No layers: a set of one radius in any order.
+    None(Base),
+    /// The levels of a progressive order, and the rank of the samples of the coarsest one.
+    Progressive(Stack<Level>, f64),
+    /// Groups of classes.
+    Classes(Stack<Group>),
+}
+
+impl Layers {
+    fn new(job: &Job, set: &Set, options: &Options) -> Result<Self> {
+        let &Options { domain, leaf_size, seed, given, .. } = options;
+        let around = |radius| Arc::new(Around::new(&domain, &set.lattice, radius, &given));
+        match &set.radii {
+            Radii::One { radius, .. } => {
+                Ok(Self::None(Base::new(job, set.lattice.clone(), leaf_size, seed, around(*radius))?))
+            }
+            Radii::Progressive { radius, levels } => {
+                let (stack, rank) = progressive::stack(job, options, *radius, levels, around(*radius))?;
+                Ok(Self::Progressive(stack, rank))
+            }
+            Radii::Classes(classes) => Ok(Self::Classes(classes::stack(job, &set.lattice, options, classes)?)),
+        }
+    }
+
+    /// Makes what all windows need.
+    fn keep(&mut self, job: &Job) -> Result<()> {
+        match self {
+            Self::None(_) => Ok(()),
+            Self::Progressive(stack, _) => stack.keep(job),
+            Self::Classes(stack) => stack.keep(job),
+        }
+    }
+
+    /// All samples.
+    fn whole(&self, job: &Job, set: &Set) -> Result<Points<2>> {
+        match self {
+            Self::None(base) => Ok(set.in_any_order(base.whole(job)?)),
+            Self::Progressive(stack, rank) => Ok(progressive::ordered(stack.lattice(), *rank, stack.whole(job)?)),
+            Self::Classes(stack) => Ok(classes::ordered(stack.lattice(), stack.whole(job)?)),
+        }
+    }
+
+    /// The samples in a window.
+    fn window(&self, job: &Job, set: &Set, window: &Domain) -> Result<Points<2>> {
+        match self {
+            Self::None(base) => Ok(set.in_any_order(base.window(job, window)?)),
+            Self::Progressive(stack, rank) => {
+                Ok(progressive::ordered(stack.lattice(), *rank, stack.window(job, window)?))
+            }
+            Self::Classes(stack) => Ok(classes::ordered(stack.lattice(), stack.window(job, window)?)),
+        }
+    }
+}

@@ -1,0 +1,137 @@
+//! Stacks of layers: sets that are made one after the other, each filled around those before.
+//!
+//! The levels of a progressive order (`progressive/`) are layers, and so are the groups of classes (`classes/`). All lie on
+//! one lattice. A part of a layer depends on the layers before in a part that is larger by a margin. So a part of the plane
+//! is made from the last layer back to the first, to find which part of each is needed, and then forth.
+
+use crate::error::Result;
+use crate::job::Job;
+use crate::kdrt::base::Base;
+use crate::kdrt::region::{Part, Placed, Region};
+use crate::plane::lattice::Lattice;
+use crate::points::Domain;
+
+/// The speed at which samples come by tiling, in samples of a layer.
+const TILING_SPEED: f64 = 10.0;
+
+/// A layer, which can be filled in any part of the plane.
+pub trait Layer {
+    type Sample: Placed;
+
+    /// True if a plane that is kept has all samples of this layer and of those before.
+    fn is_kept(&self) -> bool;
+
+    /// The number of samples that there are in a part after this layer, about and at most: the cost of making them.
+    fn expected(&self, part: &Part) -> f64;
+
+    /// The part of the layers before that decides which samples there are in a part.
+    fn around(&self, part: &Part) -> Part;
+
+    /// The samples of the layers before, sorted for this one.
+    fn sorted(&self, part: Part, before: &[Self::Sample]) -> Region<Self::Sample>;
+
+    /// The samples of this layer in a part, around those of the layers before in [`Layer::around`] it.
+    fn fill(&self, job: &Job, before: &Region<Self::Sample>, part: &Part) -> Result<Vec<Self::Sample>>;
+}
+
+/// The layers of a plane, of which any part can be made.
+pub struct Stack<L: Layer> {
+    lattice: Lattice,
+    /// The samples that the first layer is filled around, if there are any, with what they have beside their places.
+    base: Option<(Base, L::Sample)>,
+    layers: Vec<L>,
+    /// The number of layers that are kept, and the samples up to the last of them.
+    kept: Option<(usize, Region<L::Sample>)>,
+}
+
+impl<L: Layer> Stack<L> {
+    /// Layers around the samples of a base, which are all as the given one but for its place.
+    pub fn new(lattice: Lattice, base: Option<(Base, L::Sample)>, layers: Vec<L>) -> Self {
+        Self { lattice, base, layers, kept: None }
+    }
+
+    /// The lattice of all layers.
+    pub fn lattice(&self) -> &Lattice {
+        &self.lattice
+    }
+
+    /// The layers, for tests of their vectors.
+    #[cfg(test)]
+    pub fn layers_mut(&mut self) -> &mut [L] {
+        &mut self.layers
+    }
+
+    /// Makes those layers for all windows that are kept as a whole.
+    pub fn keep(&mut self, job: &Job) -> Result<()> {
+        let Some(last) = self.layers.iter().rposition(Layer::is_kept) else { return Ok(()) };
+        let whole = Part::whole(&self.lattice);
+        let samples = self.up_to(job, last + 1, &whole)?;
+        self.kept = Some((last + 1, self.layers[last].sorted(whole, &samples)));
+        Ok(())
+    }
+
+    /// All samples.
+    pub fn whole(&self, job: &Job) -> Result<Vec<L::Sample>> {
+        self.up_to(job, self.layers.len(), &Part::whole(&self.lattice))
+    }
+
+    /// The samples in a window of the domain.
+    pub fn window(&self, job: &Job, window: &Domain) -> Result<Vec<L::Sample>> {
+        let rect = self.lattice.points_in(window);
+        if rect.is_empty() {
+            return Ok(Vec::new());
+        }
+        let mut samples = self.up_to(job, self.layers.len(), &Part::new(&self.lattice, &rect))?;
+        samples.retain(|sample| window.contains(self.lattice.position(sample.point())));
+        Ok(samples)
+    }
+
+    /// The samples of the base and of the first `count` layers in a part.
+    fn up_to(&self, job: &Job, count: usize, part: &Part) -> Result<Vec<L::Sample>> {
+        // From the last layer to the first, the part of each that is needed.
+        let layers = &self.layers[self.kept.as_ref().map_or(0, |(kept, _)| *kept)..count];
+        let mut parts = vec![*part];
+        for layer in layers.iter().rev() {
+            parts.push(layer.around(&parts[parts.len() - 1]));
+        }
+        parts.reverse();
+
+        // From the first to the last, each in its part.
+        let base = self.base.as_ref().map_or(0.0, |(base, _)| base.expected(&parts[0].rect) / TILING_SPEED);
+        let costs: Vec<f64> = layers.iter().zip(&parts[1..]).map(|(layer, part)| 1.0 + layer.expected(part)).collect();
+        let total = 1.0 + base + costs.iter().sum::<f64>();
+        let mut samples = match &self.kept {
+            Some((_, kept)) => kept.samples_of(&parts[0]),
+            None => self.base_in(&job.part(0.0, base / total), &parts[0])?,
+        };
+        let mut done = base;
+        for ((layer, parts), cost) in layers.iter().zip(parts.windows(2)).zip(costs) {
+            let job = job.part(done / total, (done + cost) / total);
+            let before = layer.sorted(parts[0], &samples);
+            let filled = layer.fill(&job, &before, &parts[1])?;
+            samples = before.samples_of(&parts[1]);
+            samples.extend(filled);
+            done += cost;
+        }
+        Ok(samples)
+    }
+
+    /// The samples of the base in a part.
+    fn base_in(&self, job: &Job, part: &Part) -> Result<Vec<L::Sample>> {
+        match &self.base {
+            Some((base, sample)) => images(job, &self.lattice, base, *sample, part),
+            None => Ok(Vec::new()),
+        }
+    }
+}
+
+/// The samples of a base in a part; on a torus their images. They are all as the given one but for its place.
+pub fn images<S: Placed>(job: &Job, lattice: &Lattice, base: &Base, sample: S, part: &Part) -> Result<Vec<S>> {
+    let mut samples = Vec::new();
+    let pieces: Vec<_> = Part::whole(lattice).images(&part.rect).collect();
+    for (piece, [along, up]) in pieces.into_iter().filter(|(piece, _)| !piece.is_empty()) {
+        let points = base.points(job, &piece)?;
+        samples.extend(points.into_iter().map(|[x, y]| sample.moved_to([x + along, y + up])));
+    }
+    Ok(samples)
+}
