@@ -28,7 +28,7 @@ use crate::kdrt::base::Base;
 use crate::kdrt::options::{Options, Progressive};
 use crate::kdrt::region::{Part, Placed, Region};
 use crate::kdrt::stack::{Layer, Stack, images};
-use crate::math::hypot;
+use crate::math::{hypot, rounded_down};
 use crate::plane::lattice::Lattice;
 use crate::points::{Domain, Points};
 use crate::rng::{Draw, hash};
@@ -115,12 +115,6 @@ pub fn ordered(lattice: &Lattice, coarsest: f64, mut samples: Vec<Sample>) -> Po
     }
 }
 
-/// The largest float that is not above a number, which is positive.
-fn rounded_down(x: f64) -> f32 {
-    let nearest = x as f32;
-    if f64::from(nearest) > x { nearest.next_down() } else { nearest }
-}
-
 impl Coarsest {
     fn new(job: &Job, options: &Options, radius: f64, around: Arc<Around>) -> Result<Self> {
         let &Options { domain, leaf_size, seed, .. } = options;
@@ -178,18 +172,4 @@ fn level_seed(seed: u64, step: u64) -> u64 {
 fn longest(domain: &Domain) -> f64 {
     let [width, height] = domain.extent();
     hypot(width, height)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn ranks_are_rounded_down() {
-        assert_eq!(rounded_down(0.25), 0.25);
-        for x in [0.1, 1.0 + 1e-9, 3e38, 1e300, 1e-44, f64::from(f32::MAX)] {
-            let down = rounded_down(x);
-            assert!(f64::from(down) <= x && (f64::from(down.next_up()) > x || down == f32::MAX), "{x}");
-        }
-    }
 }
