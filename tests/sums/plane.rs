@@ -61,7 +61,10 @@ fn around(context: &Context, list: &mut List) -> Result<()> {
     let given = Given::with_clearances(&positions, &clearances);
     let options = Options::new(0.004).given(given).seed(25);
     list.points("around periodic", &kdrt::sample(context, &options.domain(TORUS), None)?.positions);
-    list.points("around bounded", &kdrt::sample(context, &options.domain(SQUARE).kind(Kind::Plain(0.02)), None)?.positions);
+    list.points(
+        "around bounded",
+        &kdrt::sample(context, &options.domain(SQUARE).kind(Kind::Plain(0.02)), None)?.positions,
+    );
     list.points("around equal", &kdrt::sample(context, &options.given(Given::at(&positions)), None)?.positions);
     let ordered = options.kind(Kind::Progressive(0.004, Progressive::new().quotient(1.3)));
     list.samples("around, ordered", &kdrt::sample(context, &ordered, None)?);
@@ -87,7 +90,7 @@ fn ordered(context: &Context, list: &mut List) -> Result<()> {
 /// Sets of several classes: with a radius each, and of equal radii; around given samples; windows of kept planes.
 fn in_classes(context: &Context, list: &mut List) -> Result<()> {
     let mut set = |name: &str, set: Points<2>| list.samples(name, &set);
-        for (name, own, factor, domain) in [
+    for (name, own, factor, domain) in [
         ("classes falling", &[0.004, 0.008, 0.016][..], 1.0, TORUS),
         ("classes equal", &[0.01; 4][..], 0.7, SQUARE),
         ("classes far", &[0.03, 0.02, 0.03][..], 1.0, FAR),
