@@ -5,7 +5,7 @@ use crate::psp::facing::Facing;
 
 /// A sample as others see it.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Dot {
+pub struct Dot {
     pub position: [f32; 3],
     pub radius: f64,
     /// The normal of its triangle, where normals matter.

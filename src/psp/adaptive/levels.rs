@@ -67,7 +67,7 @@ impl Levelled for ScaledSurface<'_> {
         let (field, quota) = (&self.field.at_scale(scale), &Quota::new(self.expected(scale).max(estimate), mesh));
         let surface = GradedSurface { mesh, field, quota, facing, obstacles, finest: last };
         let (set, darts) = surface.fill(job, options, samples)?;
-        Ok((set.samples, darts))
+        Ok((set.into_samples(), darts))
     }
 }
 

@@ -7,7 +7,8 @@ use crate::mesh::Mesh;
 use crate::psp::adaptive::bounds::RadiusBounds;
 use crate::psp::adaptive::field::RadiusField;
 use crate::psp::adaptive::limits::Quota;
-use crate::psp::adaptive::set::{AdaptiveSet, OctaveCube};
+use crate::psp::adaptive::set::OctaveCubes;
+use crate::psp::cubes::OctaveCube;
 use crate::psp::fill::rounds::{Patch, Whole};
 use crate::psp::fragment::{Fragment, Shape};
 use crate::psp::pieces::slice;
@@ -54,11 +55,11 @@ pub fn pieces(
     mesh: &Mesh,
     field: &RadiusField,
     quota: &Quota,
-    set: &AdaptiveSet,
+    cubes: &OctaveCubes,
 ) -> Result<Buckets<OctaveCube, Piece>> {
     let chunks = chunks_of(mesh.triangles().len(), CHUNK);
     let (pieces, _) = Buckets::collect(job, chunks.len(), |chunk, add| {
-        let (mut slices, mut cuts) = (Vec::new(), Cuts { mesh, field, quota, set, add });
+        let (mut slices, mut cuts) = (Vec::new(), Cuts { mesh, field, quota, cubes, add });
         for triangle in chunks.range(chunk).map(|triangle| triangle as u32) {
             let area = mesh.triangle_area(triangle);
             if area == 0.0 {
@@ -92,7 +93,7 @@ struct Cuts<'a> {
     mesh: &'a Mesh,
     field: &'a RadiusField<'a>,
     quota: &'a Quota,
-    set: &'a AdaptiveSet,
+    cubes: &'a OctaveCubes,
     add: &'a mut dyn FnMut(OctaveCube, Piece),
 }
 
@@ -103,7 +104,7 @@ impl Cuts<'_> {
 
     fn add(&mut self, shape: &Shape, bounds: RadiusBounds, piece: Piece) {
         self.quota.take(1);
-        (self.add)(self.set.cube(shape.centre, bounds.largest), piece);
+        (self.add)(self.cubes.cube_of_piece(shape.centre, bounds.largest), piece);
     }
 
     /// Cuts a fragment of one with bounds `within` into quarters, until they are small enough.

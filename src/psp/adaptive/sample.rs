@@ -107,7 +107,7 @@ fn filled(
     let quota = &Quota::new(require(&job.part(0.02, 0.05), mesh, field)?, mesh);
     let surface = GradedSurface { mesh, field, quota, facing, obstacles, finest: 1.0 };
     let (set, darts) = surface.fill(job, FillOptions::from_nothing(options.seed), &[])?;
-    Ok(Found { samples: set.samples, radius: 1.0, coverage: 1.0, darts })
+    Ok(Found { samples: set.into_samples(), radius: 1.0, coverage: 1.0, darts })
 }
 
 fn check_scale(scale: Scale) -> Result<()> {

@@ -17,6 +17,7 @@ use crate::psp::adaptive::limits::Quota;
 use crate::psp::adaptive::page::Group;
 use crate::psp::adaptive::pieces::{Piece, pieces};
 use crate::psp::adaptive::set::AdaptiveSet;
+use crate::psp::cubes::OctaveCube;
 use crate::psp::facing::Facing;
 use crate::psp::fill::darts::random_point;
 use crate::psp::fill::page::GROUP;
@@ -45,19 +46,21 @@ impl GradedSurface<'_> {
         let &Self { mesh, field, quota, facing, obstacles, .. } = self;
         let mut set = AdaptiveSet::new(mesh, options.seed, field.scale(), samples);
         let stretch = options.largest_rank.map_or(1.0, |rank| (rank / field.scale()).max(1.0));
-        let pieces = pieces(&job.part(0.05, 0.2), mesh, field, quota, &set)?;
+        let pieces = pieces(&job.part(0.05, 0.2), mesh, field, quota, &set.cubes)?;
         field.check()?;
         quota.check(field.argument())?;
-        let darts = set.grow(&job.part(0.2, 1.0), mesh, facing, &pieces, stretch, |cube, dots, pieces| {
-            let field = field.apart();
-            let grid = grid(mesh, &field, facing, dots, pieces, stretch);
-            let mut ground = GradedGround::new(mesh, &field, quota, obstacles, grid, self.limit(pieces));
+        let cubes: Vec<OctaveCube> = (0..pieces.len()).map(|number| pieces.key(number)).collect();
+        let darts = set.grow(&job.part(0.2, 1.0), &cubes, |number, set| {
+            let (cube, field) = (cubes[number], field.apart());
+            let pieces: Vec<&Piece> = pieces.items(number).collect();
+            let grid = grid(mesh, &field, facing, set.dots_around(mesh, facing, cube, stretch), &pieces, stretch);
+            let mut ground = GradedGround::new(mesh, &field, quota, obstacles, grid, self.limit(&pieces));
             ground = ground.ranked(options.largest_rank);
-            let (row, mut rng) = (
+            let (areas, mut rng) = (
                 Weights::new(pieces.iter().map(|piece| piece.area()).collect()),
                 Rng::at(options.seed, Draw::Adaptive, &cube.key()),
             );
-            let mut zone = CubeZone { pieces, row, obstacles };
+            let mut zone = CubeZone { pieces: &pieces, areas, obstacles };
             let share = open_share(&mut zone, &ground, options, &mut rng);
             fill_zone(&mut zone, &mut ground, share, options, &mut rng)?;
             field.check()?;
@@ -96,8 +99,7 @@ fn grid(mesh: &Mesh, field: &RadiusField, facing: Facing, dots: Vec<Dot>, pieces
 /// The pieces of a cube.
 struct CubeZone<'a, 'g> {
     pieces: &'a [&'a Piece],
-    /// Their areas.
-    row: Weights,
+    areas: Weights,
     obstacles: &'g Obstacles,
 }
 
@@ -114,17 +116,17 @@ impl<'g> Zone for CubeZone<'_, 'g> {
 
     /// The area, in squared radii.
     fn area(&self) -> f64 {
-        self.row.total()
+        self.areas.total()
     }
 
     fn point(&mut self, rng: &mut Rng) -> Point<RadiusBounds> {
-        let piece = &self.pieces[self.row.pick(rng) as usize];
+        let piece = &self.pieces[self.areas.pick(rng) as usize];
         let fragment = piece.fragment();
         Point { triangle: fragment.triangle, barycentrics: fragment.at(random_point(rng)), local: piece.bounds() }
     }
 
     fn throw_first(&mut self, ground: &mut GradedGround<'g>, rng: &mut Rng) -> Result<()> {
-        let darts = (FIRST_DARTS * self.row.total() + rng.unit()) as usize;
+        let darts = (FIRST_DARTS * self.areas.total() + rng.unit()) as usize;
         throw(ground, (0..darts).map(|_| self.point(rng)));
         Ok(())
     }

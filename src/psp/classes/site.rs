@@ -73,7 +73,7 @@ impl Group<'_> {
         let mut set = if in_blocks {
             SampleSet::of(mesh, radius_of_cubes, &samples)
         } else {
-            SampleSet::in_order(mesh, radius_of_cubes, samples)
+            SampleSet::with(mesh, radius_of_cubes, samples)
         };
         let options = FillOptions { measures: false, ..FillOptions::from_nothing(self.seed) };
         let darts = fill(job, self, &mut set, in_blocks, options)?.darts;
