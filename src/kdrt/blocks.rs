@@ -186,7 +186,7 @@ impl Blocks {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::kdrt::bitmap::MOST_CELLS;
+    use crate::kdrt::fill::MOST_CELLS;
     use crate::plane::CellAxis;
     use crate::points::Domain;
 

@@ -13,12 +13,11 @@
 //! the square's side as far as there is one.) Chains end after three hops: knowing all points within 3·reach of p0 is
 //! enough.
 
-use crate::plane::CellGrid;
-use crate::plane::rect::Rect;
-
-use crate::kdrt::clip::{Pattern, Row};
-use crate::kdrt::divide::Leaf;
-use crate::kdrt::output::Output;
+use crate::kdrt::{
+    clip::{Pattern, Row},
+    divide::Leaf,
+};
+use crate::plane::{CellGrid, lattice::Lattice, rect::Rect};
 
 /// How many radii (in lattice units: reaches) around a region decide which points survive in it.
 pub const LONGEST_CHAIN: i32 = 3;
@@ -160,5 +159,57 @@ impl SeamCells {
         let (word, bit) = (row as usize * self.stride + first as usize / 64, first % 64);
         let bits = self.seam[word] >> bit | self.seam[word + 1] << 1 << (63 - bit);
         bits & !(u64::MAX << (end - first))
+    }
+}
+
+// # The samples of a window
+//
+// The samples of a window, as floats in the order in which they are found.
+
+/// For how many samples there should be memory where an unbiased set would have so many: seams make a set up to 2 %
+/// denser; that much again for chance.
+pub fn capacity(expected: f64) -> usize {
+    (expected * 1.04) as usize
+}
+
+/// Collects the samples that lie in a rectangle.
+pub struct Output<'a> {
+    lattice: &'a Lattice,
+    rect: Rect,
+    samples: Vec<[f32; 2]>,
+}
+
+impl<'a> Output<'a> {
+    /// An empty collection for the samples in `rect`.
+    pub fn new(lattice: &'a Lattice, rect: Rect) -> Self {
+        Self { lattice, rect, samples: Vec::with_capacity(capacity(lattice.samples_in(&rect))) }
+    }
+
+    /// Adds a sample if it lies in the rectangle.
+    pub fn push(&mut self, sample: [i32; 2]) {
+        if self.rect.contains(sample) {
+            self.samples.push(self.lattice.position(sample));
+        }
+    }
+
+    /// Adds the samples of a row of the pattern that lie in the rectangle. The row must be whole.
+    pub fn copy(&mut self, row: &Row) {
+        let inside = self.rect.intersection(&row.part);
+        if inside == row.part {
+            self.samples.extend(row.points().map(|point| self.lattice.position(point)));
+        } else if !inside.is_empty() {
+            row.points().for_each(|point| self.push(point));
+        }
+    }
+
+    /// How many samples there are so far.
+    #[cfg(feature = "stages")]
+    pub fn len(&self) -> usize {
+        self.samples.len()
+    }
+
+    /// The samples.
+    pub fn finish(self) -> Vec<[f32; 2]> {
+        self.samples
     }
 }

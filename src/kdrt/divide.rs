@@ -22,18 +22,18 @@ impl Leaf {
     }
 }
 
-/// The tree, which is nowhere stored.
+/// The implicit tree: a node is its rectangle and the hash of its path from the root.
 #[derive(Clone, Debug)]
 pub struct Tree {
     root: Leaf,
     /// The smallest side of a leaf, per axis: sides lie between it and its double.
     shortest: [i32; 2],
-    #[cfg(any(test, feature = "stages"))]
+    #[cfg(feature = "stages")]
     pub fixed: Fixed,
 }
 
 /// What tests and studies take the randomness from, to see what it is good for (thesis §2.5.2).
-#[cfg(any(test, feature = "stages"))]
+#[cfg(feature = "stages")]
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Fixed {
     /// All is random, as the sampler has it.
@@ -51,7 +51,7 @@ impl Tree {
         Self {
             root: Leaf { rect, key: hash(seed, Draw::Split, &[]) },
             shortest,
-            #[cfg(any(test, feature = "stages"))]
+            #[cfg(feature = "stages")]
             fixed: Fixed::Nothing,
         }
     }
@@ -69,7 +69,7 @@ impl Tree {
         }
         match self.split(node) {
             Some(halves) => halves.into_iter().for_each(|half| self.descend(half, window, leaves)),
-            #[cfg(any(test, feature = "stages"))]
+            #[cfg(feature = "stages")]
             None if self.fixed == Fixed::Clips => leaves.push(Leaf { key: self.root.key, ..node }),
             None => leaves.push(node),
         }
@@ -82,7 +82,7 @@ impl Tree {
             .max_by_key(|&axis| node.rect.length(axis))?;
         let choices = node.rect.length(axis) - 2 * self.shortest[axis] + 1;
         let choice = Rng::at(node.key, Draw::Split, &[]).below(choices as u64) as i32;
-        #[cfg(any(test, feature = "stages"))]
+        #[cfg(feature = "stages")]
         let choice = if self.fixed == Fixed::Splits { choices / 2 } else { choice };
         let edge = node.rect.min[axis] + self.shortest[axis] + choice;
         let mut rects = [node.rect; 2];

@@ -6,15 +6,13 @@
 //! eliminated (`conquer.rs`) and gaps filled (`fill.rs`). Most samples are copies that nothing needs to look at.
 //!
 //! The thesis goes through the seams in an order of work. Here every step is a function of the place alone, so that a
-//! window of the plane (`tiling/`) can be made without the rest; this is how threads share the work, and how any part
-//! of a plane can be had alone (`plane.rs`). An order whose prefixes are well spread (`progressive/`) and several classes
+//! window of the plane (`tiling.rs`) can be made without the rest; this is how threads share the work, and how any part
+//! of a plane can be had alone (`plane.rs`). An order whose prefixes are well spread (`progressive.rs`) and several classes
 //! (`classes/`) are layers, each filled around those before (`stack.rs`). A number of samples instead of a radius is
-//! `count/`; sets that were made apart are glued into one by the same two steps (`merge/`). Files say where they depart
+//! `count.rs`; sets that were made apart are glued into one by the same two steps (`merge.rs`). Files say where they depart
 //! from the thesis.
 
 mod around;
-mod base;
-mod bitmap;
 mod blocks;
 mod classes;
 mod clip;
@@ -24,7 +22,6 @@ mod divide;
 mod fill;
 mod merge;
 mod options;
-mod output;
 mod plane;
 mod progressive;
 mod region;
@@ -32,7 +29,6 @@ mod stack;
 #[cfg(feature = "stages")]
 #[doc(hidden)]
 pub mod stages;
-mod stamp;
 mod tiling;
 #[allow(unsafe_code)] // Vector instructions.
 mod vectors;

@@ -1,37 +1,37 @@
-//! The filling of a block with classes (`group.rs`) once more for each kind of vectors, the same to the bit: the portable
+//! The filling of a block with classes (`mod.rs`) once more for each kind of vectors, the same to the bit: the portable
 //! code, compiled for them.
 
-use crate::kdrt::classes::group::{Group, Known, Sample};
-use crate::kdrt::classes::passes::Pass;
-use crate::kdrt::classes::room::Room;
+use crate::kdrt::classes::Pass;
+use crate::kdrt::classes::filling::ClassFilling;
+use crate::kdrt::classes::{Group, Known, Sample};
 use crate::simd::Level;
 
 impl Group {
     /// The samples that a pass adds to a block.
-    pub fn fill_block(&self, room: &mut Room, known: &Known, place: [i32; 2], pass: Pass) -> Vec<Sample> {
+    pub fn fill_block(&self, filling: &mut ClassFilling, known: &Known, place: [i32; 2], pass: Pass) -> Vec<Sample> {
         match self.level {
             // SAFETY: the variants say that the processor has the vectors.
             #[cfg(target_arch = "x86_64")]
-            Level::Avx512(_) => unsafe { self.fill_block_avx512(room, known, place, pass) },
+            Level::Avx512(_) => unsafe { self.fill_block_avx512(filling, known, place, pass) },
             // SAFETY: the same.
             #[cfg(target_arch = "x86_64")]
-            Level::Avx2(_) => unsafe { self.fill_block_avx2(room, known, place, pass) },
-            Level::Portable => self.fill_block_portable(room, known, place, pass),
+            Level::Avx2(_) => unsafe { self.fill_block_avx2(filling, known, place, pass) },
+            Level::Portable => self.fill_block_portable(filling, known, place, pass),
         }
     }
 
     /// The portable code, compiled for AVX-512.
     #[cfg(target_arch = "x86_64")]
     #[target_feature(enable = "avx2,popcnt,bmi1,bmi2,avx512f,avx512vl,avx512dq,avx512bw")]
-    fn fill_block_avx512(&self, room: &mut Room, known: &Known, place: [i32; 2], pass: Pass) -> Vec<Sample> {
-        self.fill_block_portable(room, known, place, pass)
+    fn fill_block_avx512(&self, filling: &mut ClassFilling, known: &Known, place: [i32; 2], pass: Pass) -> Vec<Sample> {
+        self.fill_block_portable(filling, known, place, pass)
     }
 
     /// The portable code, compiled for AVX2.
     #[cfg(target_arch = "x86_64")]
     #[target_feature(enable = "avx2,popcnt,bmi1,bmi2")]
-    fn fill_block_avx2(&self, room: &mut Room, known: &Known, place: [i32; 2], pass: Pass) -> Vec<Sample> {
-        self.fill_block_portable(room, known, place, pass)
+    fn fill_block_avx2(&self, filling: &mut ClassFilling, known: &Known, place: [i32; 2], pass: Pass) -> Vec<Sample> {
+        self.fill_block_portable(filling, known, place, pass)
     }
 }
 

@@ -1,14 +1,14 @@
 //! The filling of a rectangle with samples of several classes at once: darts at what each class has left, and cuts of
 //! it until nothing is left, as in the flat quadtree (`plane/quadtree.rs`).
 //!
-//! A class has *circles*: what the samples of any class, and given samples, keep from its own samples. They have all
+//! A class has *exclusion disks*: what the samples of any class, and given samples, keep from its own samples. They have all
 //! radii, so no grid of cells of one sample each can find them. Instead the rectangle is cut into cells, and each cell
-//! knows for each class the circles that meet it, or that one covers it.
+//! knows for each class the disks that meet it, or that one covers it.
 //!
 //! # Exactness
-//! The centre of a sample's circle is a lattice point and its squared radius an integer below 2^53. Squared distances
+//! The centre of a sample's disk is a lattice point and its squared radius an integer below 2^53. Squared distances
 //! in `f64` are exact where they are below that, and where they are not, rounding keeps them above it: so the tests of
-//! points and rectangles are exact, and one is enough. The circles of given samples are anywhere; rounding is monotone,
+//! points and rectangles are exact, and one is enough. The disks of given samples are anywhere; rounding is monotone,
 //! so the points of a rectangle that lies in one lie in it too, and filling ends.
 
 use crate::math::square;
@@ -19,23 +19,23 @@ use crate::rng::Rng;
 /// Cells of a row that a word has a bit for.
 const BITS: usize = u64::BITS as usize;
 
-/// What is nearer to a place than a radius.
+/// A disk in which a class has no sample: the points nearer to a place than a radius.
 #[derive(Clone, Copy)]
-pub struct Circle {
+pub struct ExclusionDisk {
     centre: [f64; 2],
     square: f64,
     radius: f64,
 }
 
-impl Circle {
+impl ExclusionDisk {
     /// The points whose squared distance from a lattice point is below a threshold.
     pub fn around(point: [i32; 2], threshold: i64) -> Self {
         let square = threshold as f64;
         Self { centre: point.map(f64::from), square, radius: square.sqrt() }
     }
 
-    /// The circle of a given sample.
-    pub fn of_disk(disk: &Disk) -> Self {
+    /// The disk of a given sample.
+    pub fn of_given(disk: &Disk) -> Self {
         Self { centre: disk.centre, square: disk.radius * disk.radius, radius: disk.radius }
     }
 
@@ -50,10 +50,10 @@ impl Circle {
 /// A cell for one class.
 #[derive(Default)]
 struct Slot {
-    /// Whether one circle covers the cell.
+    /// Whether one disk covers the cell.
     is_covered: bool,
     /// Else those that meet it.
-    circles: Vec<Circle>,
+    disks: Vec<ExclusionDisk>,
 }
 
 /// A part of a cell that a class may have left.
@@ -65,7 +65,7 @@ struct Voxel {
 
 /// A rectangle that is being filled, and the memory for it and those after it.
 #[derive(Default)]
-pub struct Room {
+pub struct ClassFilling {
     /// Where the columns (axis 0) and rows (axis 1) of cells begin, and where the last ends.
     edges: [Vec<i32>; 2],
     /// The cells of the first class by rows, those of the next class, and so on.
@@ -81,11 +81,11 @@ pub struct Room {
     darts: usize,
     /// The memory of the next level's voxels.
     next: Vec<Voxel>,
-    /// The memory of the squared distances from a circle's centre to columns: the nearest and the farthest.
+    /// The memory of the squared distances from a disk's centre to columns: the nearest and the farthest.
     squares: Vec<[f64; 2]>,
 }
 
-impl Room {
+impl ClassFilling {
     /// Begins with a rectangle of lattice points and a number of classes, whose samples are all at least a radius apart
     /// within each class.
     #[inline(always)]
@@ -101,7 +101,7 @@ impl Room {
         let [columns, rows] = self.counts();
         for slot in &mut self.slots {
             slot.is_covered = false;
-            slot.circles.clear();
+            slot.disks.clear();
         }
         self.slots.resize_with(classes * columns * rows, Slot::default);
         self.left = self.slots.len();
@@ -125,10 +125,10 @@ impl Room {
         [0, 1].map(|axis: usize| self.edges[axis].len() - 1)
     }
 
-    /// Keeps a circle from the samples of a class, given by its number in the room.
+    /// Excludes a disk for the samples of a class, given by its number in the filling.
     #[inline(always)]
-    pub fn keep_out(&mut self, class: usize, circle: &Circle) {
-        let (columns, rows) = (self.met(0, circle), self.met(1, circle));
+    pub fn exclude(&mut self, class: usize, disk: &ExclusionDisk) {
+        let (columns, rows) = (self.met(0, disk), self.met(1, disk));
         if columns.is_empty() || rows.is_empty() {
             return;
         }
@@ -139,11 +139,11 @@ impl Room {
         };
         self.squares.clear();
         let edges = &self.edges[0][columns.start..columns.end + 1];
-        self.squares.extend(edges.windows(2).map(|edges| squares(edges, circle.centre[0])));
+        self.squares.extend(edges.windows(2).map(|edges| squares(edges, disk.centre[0])));
         let [width, height] = self.counts();
         let words = width.div_ceil(BITS);
         for row in rows {
-            let [nearest_y, farthest_y] = squares(&self.edges[1][row..row + 2], circle.centre[1]);
+            let [nearest_y, farthest_y] = squares(&self.edges[1][row..row + 2], disk.centre[1]);
             let slots = &mut self.slots[(class * height + row) * width..][..width];
             let open = &mut self.open[(class * height + row) * words..][..words];
             let met = columns.start / BITS..(columns.end - 1) / BITS + 1;
@@ -153,34 +153,34 @@ impl Room {
                     let column = word * BITS + bits.trailing_zeros() as usize;
                     bits &= bits - 1;
                     let [nearest_x, farthest_x] = self.squares[column - columns.start];
-                    if nearest_x + nearest_y >= circle.square {
+                    if nearest_x + nearest_y >= disk.square {
                         continue;
                     }
-                    if farthest_x + farthest_y < circle.square {
+                    if farthest_x + farthest_y < disk.square {
                         slots[column].is_covered = true;
                         *open &= !(1 << (column % BITS));
                         self.left -= 1;
                     } else {
-                        slots[column].circles.push(*circle);
+                        slots[column].disks.push(*disk);
                     }
                 }
             }
         }
     }
 
-    /// The columns (axis 0) or rows (axis 1) that a circle may meet.
+    /// The columns (axis 0) or rows (axis 1) that a disk may meet.
     #[inline(always)]
-    fn met(&self, axis: usize, circle: &Circle) -> std::ops::Range<usize> {
+    fn met(&self, axis: usize, disk: &ExclusionDisk) -> std::ops::Range<usize> {
         let edges = &self.edges[axis];
         let (count, first) = ((edges.len() - 1) as f64, f64::from(edges[0]));
         let per_point = count / (f64::from(edges[edges.len() - 1]) - first);
-        let from = (circle.centre[axis] - circle.radius - first) * per_point;
-        let to = (circle.centre[axis] + circle.radius - first + 1.0) * per_point;
+        let from = (disk.centre[axis] - disk.radius - first) * per_point;
+        let to = (disk.centre[axis] + disk.radius - first + 1.0) * per_point;
         // Where they are not negative a conversion rounds down; the function `floor` is a call.
         if from < count && to >= 0.0 { from as usize..to.min(count - 1.0) as usize + 1 } else { 0..0 }
     }
 
-    /// Starts to fill what the circles leave, with so many darts for each cell that is not covered before any is cut.
+    /// Starts to fill what the disks leave, with so many darts for each cell that is not covered before any is cut.
     /// After that [`darts()`] says how many.
     #[inline(always)]
     pub fn open(&mut self, darts: usize) {
@@ -197,7 +197,7 @@ impl Room {
         self.darts = darts * self.voxels.len();
     }
 
-    /// Throws darts until one lies in no circle of its class: a new sample, with the number of the class, whose circles
+    /// Throws darts until one lies in no disk of its class: a new sample, with the number of the class, whose disks
     /// are to be put in before the next call. None when nothing is left.
     ///
     /// A dart falls on any class with the same probability for each of its lattice points that may be left.
@@ -213,19 +213,19 @@ impl Room {
         }
     }
 
-    /// [`Room::next_sample`], but also None when there are no darts left before something is cut.
+    /// [`ClassFilling::next_sample`], but also None when there are no darts left before something is cut.
     #[inline(always)]
     pub fn next_before_cut(&mut self, rng: &mut Rng) -> Option<(usize, [i32; 2])> {
         while self.darts > 0 {
             self.darts -= 1;
             let Voxel { rect, slot } = self.voxels[rng.below(self.voxels.len() as u64) as usize];
-            let Slot { is_covered, circles } = &self.slots[slot as usize];
+            let Slot { is_covered, disks } = &self.slots[slot as usize];
             if *is_covered {
                 continue;
             }
             let [x, y] = rng.pair_below(self.width as u32);
             let point = [rect.min[0] + x as i32, rect.min[1] + y as i32];
-            if rect.contains(point) && !circles.iter().any(|circle| circle.holds(point.map(f64::from))) {
+            if rect.contains(point) && !disks.iter().any(|disk| disk.holds(point.map(f64::from))) {
                 let [width, height] = self.counts();
                 return Some((slot as usize / (width * height), point));
             }
@@ -233,17 +233,17 @@ impl Room {
         None
     }
 
-    /// Cuts the voxels in sixteen and drops those that one circle covers. Single lattice points are not cut.
+    /// Cuts the voxels in sixteen and drops those that one disk covers. Single lattice points are not cut.
     #[inline(always)]
     fn cut(&mut self) {
         let width = (self.width + 3) / 4;
         self.next.clear();
         for &Voxel { rect, slot } in &self.voxels {
-            let Slot { is_covered, circles } = &self.slots[slot as usize];
+            let Slot { is_covered, disks } = &self.slots[slot as usize];
             if *is_covered {
                 continue;
             }
-            let mut open = open_parts(circles, &rect, width);
+            let mut open = open_parts(disks, &rect, width);
             while open != 0 {
                 let part = open.trailing_zeros() as i32;
                 open &= open - 1;
@@ -271,9 +271,9 @@ fn farthest(centre: f64, first: f64, last: f64) -> f64 {
 }
 
 /// The sixteenths of a voxel, four by four of the given width from its corner on: bit `4·row + column` says that this
-/// one is not empty and no circle covers it.
+/// one is not empty and no disk covers it.
 #[inline(always)]
-fn open_parts(circles: &[Circle], voxel: &Rect, width: i32) -> u16 {
+fn open_parts(disks: &[ExclusionDisk], voxel: &Rect, width: i32) -> u16 {
     let first = |axis: usize, part: usize| voxel.min[axis] + part as i32 * width;
     let last = |axis: usize, part: usize| (first(axis, part) + width).min(voxel.max[axis]) - 1;
     let ends: [[[f64; 4]; 2]; 2] = std::array::from_fn(|axis| {
@@ -282,16 +282,16 @@ fn open_parts(circles: &[Circle], voxel: &Rect, width: i32) -> u16 {
             std::array::from_fn(|part| f64::from(last(axis, part))),
         ]
     });
-    // By how much the farthest corner of each part lies outside of the circle that it lies in the deepest.
+    // By how much the farthest corner of each part lies outside of the disk that it lies in the deepest.
     let mut outside = [[f64::MAX; 4]; 4];
-    for circle in circles {
+    for disk in disks {
         let squares: [[f64; 4]; 2] = std::array::from_fn(|axis| {
             let [first, last] = &ends[axis];
-            std::array::from_fn(|part| square(farthest(circle.centre[axis], first[part], last[part])))
+            std::array::from_fn(|part| square(farthest(disk.centre[axis], first[part], last[part])))
         });
         for row in 0..4 {
             for column in 0..4 {
-                let beyond = squares[0][column] + squares[1][row] - circle.square;
+                let beyond = squares[0][column] + squares[1][row] - disk.square;
                 // Two branches that vectors have as one instruction.
                 outside[row][column] = if beyond < outside[row][column] { beyond } else { outside[row][column] };
             }
@@ -311,92 +311,91 @@ mod tests {
     use super::*;
     use crate::rng::Draw;
 
-    /// The farthest lattice point of a rectangle from a circle's centre, and the nearest, as a loop finds them.
-    fn squares(circle: &Circle, rect: &Rect) -> [f64; 2] {
+    /// The farthest lattice point of a rectangle from a disk's centre, and the nearest, as a loop finds them.
+    fn squares(disk: &ExclusionDisk, rect: &Rect) -> [f64; 2] {
         let mut found = [f64::MAX, 0.0];
         for (y, x) in (rect.min[1]..rect.max[1]).flat_map(|y| (rect.min[0]..rect.max[0]).map(move |x| (y, x))) {
-            let square = (f64::from(x) - circle.centre[0]).powi(2) + (f64::from(y) - circle.centre[1]).powi(2);
+            let square = (f64::from(x) - disk.centre[0]).powi(2) + (f64::from(y) - disk.centre[1]).powi(2);
             found = [found[0].min(square), found[1].max(square)];
         }
         found
     }
 
     /// Circles of samples and of given ones, of any size, in and around a rectangle.
-    fn random_circle(rng: &mut Rng, rect: &Rect) -> Circle {
+    fn random_disk(rng: &mut Rng, rect: &Rect) -> ExclusionDisk {
         let place =
             |axis: usize, rng: &mut Rng| rect.min[axis] - 50 + rng.below((rect.length(axis) + 100) as u64) as i32;
         let radius = 300f64.powf(rng.unit());
         let point = [place(0, rng), place(1, rng)];
         if rng.below(2) == 0 {
-            return Circle::around(point, (radius * radius).ceil() as i64);
+            return ExclusionDisk::around(point, (radius * radius).ceil() as i64);
         }
-        Circle::of_disk(&Disk { centre: point.map(|x| f64::from(x) + rng.unit()), radius })
+        ExclusionDisk::of_given(&Disk { centre: point.map(|x| f64::from(x) + rng.unit()), radius })
     }
 
     /// Rooms of more cells than a word has bits, and of one.
-    const ROOMS: [([i32; 2], f64); 4] = [([900, 60], 10.0), ([100, 130], 25.3), ([7, 300], 3.0), ([40, 30], 1e6)];
+    const RECTANGLES: [([i32; 2], f64); 4] = [([900, 60], 10.0), ([100, 130], 25.3), ([7, 300], 3.0), ([40, 30], 1e6)];
 
     #[test]
     fn cells_know_what_loops_over_their_points_know() {
         let mut rng = Rng::at(0, Draw::Probe, &[]);
-        let (mut room, mut covered) = (Room::default(), [0; 2]);
+        let (mut filling, mut covered) = (ClassFilling::default(), [0; 2]);
         for round in 0..40 {
-            let (size, radius) = ROOMS[round % 4];
+            let (size, radius) = RECTANGLES[round % 4];
             let min = [0, 1].map(|_| rng.below(2000) as i32 - 1000);
             let rect = Rect { min, max: [min[0] + size[0], min[1] + size[1]] };
-            room.begin(&rect, 2, radius);
-            let [width, height] = room.counts();
-            let circles: Vec<_> = (0..12).map(|_| (rng.below(2) as usize, random_circle(&mut rng, &rect))).collect();
-            circles.iter().for_each(|(class, circle)| room.keep_out(*class, circle));
+            filling.begin(&rect, 2, radius);
+            let [width, height] = filling.counts();
+            let disks: Vec<_> = (0..12).map(|_| (rng.below(2) as usize, random_disk(&mut rng, &rect))).collect();
+            disks.iter().for_each(|(class, disk)| filling.exclude(*class, disk));
             let mut left = 0;
-            for (index, slot) in room.slots.iter().enumerate() {
+            for (index, slot) in filling.slots.iter().enumerate() {
                 let (class, x, y) = (index / (width * height), index % width, index / width % height);
-                let [columns, rows] = [&room.edges[0][x..x + 2], &room.edges[1][y..y + 2]];
+                let [columns, rows] = [&filling.edges[0][x..x + 2], &filling.edges[1][y..y + 2]];
                 let cell = Rect { min: [columns[0], rows[0]], max: [columns[1], rows[1]] };
-                let of_class = circles.iter().filter(|(of, _)| *of == class).map(|(_, circle)| circle);
-                let is_covered = of_class.clone().any(|circle| squares(circle, &cell)[1] < circle.square);
+                let of_class = disks.iter().filter(|(of, _)| *of == class).map(|(_, disk)| disk);
+                let is_covered = of_class.clone().any(|disk| squares(disk, &cell)[1] < disk.square);
                 assert_eq!(slot.is_covered, is_covered);
                 left += usize::from(!is_covered);
                 covered[usize::from(is_covered)] += 1;
                 if !is_covered {
-                    // The nearest place may lie between lattice points only in circles around such places.
-                    let meets = |circle: &&Circle| squares(circle, &cell)[0] < circle.square;
-                    let known = |circle: &Circle| slot.circles.iter().any(|other| other.centre == circle.centre);
+                    // The nearest place may lie between lattice points only in disks around such places.
+                    let meets = |disk: &&ExclusionDisk| squares(disk, &cell)[0] < disk.square;
+                    let known = |disk: &ExclusionDisk| slot.disks.iter().any(|other| other.centre == disk.centre);
                     assert!(of_class.filter(meets).all(known));
                 }
             }
-            assert_eq!(room.left, left);
+            assert_eq!(filling.left, left);
         }
         assert!(covered.into_iter().all(|count| count > 1000), "{covered:?}");
     }
 
-    /// Every lattice point of a filled room, for each class.
+    /// Every lattice point of a filled filling, for each class.
     #[test]
-    fn a_room_is_filled_until_every_point_lies_in_a_circle() {
+    fn a_rectangle_is_filled_until_every_point_lies_in_a_disk() {
         let mut rng = Rng::at(1, Draw::Probe, &[]);
-        let mut room = Room::default();
+        let mut filling = ClassFilling::default();
         for round in 0..40 {
-            let (size, radius) = ROOMS[round % 4];
+            let (size, radius) = RECTANGLES[round % 4];
             let rect = Rect { min: [-20, 3], max: [size[0] - 20, size[1] + 3] };
-            room.begin(&rect, 2, radius);
-            let mut circles: Vec<_> = (0..6).map(|_| (rng.below(2) as usize, random_circle(&mut rng, &rect))).collect();
-            circles.iter().for_each(|(class, circle)| room.keep_out(*class, circle));
-            room.open(2);
+            filling.begin(&rect, 2, radius);
+            let mut disks: Vec<_> = (0..6).map(|_| (rng.below(2) as usize, random_disk(&mut rng, &rect))).collect();
+            disks.iter().for_each(|(class, disk)| filling.exclude(*class, disk));
+            filling.open(2);
             // The classes keep half a radius from each other.
             let squares = [radius * radius, 0.25 * radius * radius].map(|square| square.ceil() as i64);
-            while let Some((class, point)) = room.next_sample(&mut rng) {
+            while let Some((class, point)) = filling.next_sample(&mut rng) {
                 let place = point.map(f64::from);
                 assert!(rect.contains(point));
-                assert!(!circles.iter().any(|(of, circle)| *of == class && circle.holds(place)));
+                assert!(!disks.iter().any(|(of, disk)| *of == class && disk.holds(place)));
                 for other in 0..2 {
-                    let circle = Circle::around(point, squares[usize::from(other != class)]);
-                    room.keep_out(other, &circle);
-                    circles.push((other, circle));
+                    let disk = ExclusionDisk::around(point, squares[usize::from(other != class)]);
+                    filling.exclude(other, &disk);
+                    disks.push((other, disk));
                 }
             }
             for [x, y] in (rect.min[1]..rect.max[1]).flat_map(|y| (rect.min[0]..rect.max[0]).map(move |x| [x, y])) {
-                let holds =
-                    |class| circles.iter().any(|(of, circle)| *of == class && circle.holds([x, y].map(f64::from)));
+                let holds = |class| disks.iter().any(|(of, disk)| *of == class && disk.holds([x, y].map(f64::from)));
                 assert!(holds(0) && holds(1), "{x} {y} is left");
             }
         }
@@ -404,15 +403,15 @@ mod tests {
 
     #[test]
     fn first_samples_are_even_over_classes_and_points() {
-        let (mut rng, mut room) = (Rng::at(2, Draw::Probe, &[]), Room::default());
+        let (mut rng, mut filling) = (Rng::at(2, Draw::Probe, &[]), ClassFilling::default());
         let mut histogram = [[0u32; 61]; 2];
         for _ in 0..61_000 {
-            room.begin(&Rect { min: [0; 2], max: [61, 9] }, 2, 30.0);
-            room.open(2);
+            filling.begin(&Rect { min: [0; 2], max: [61, 9] }, 2, 30.0);
+            filling.open(2);
             // Cut once or twice first: nothing may be preferred at any level.
-            (0..rng.below(3)).for_each(|_| room.cut());
-            room.darts = usize::MAX;
-            let (class, [x, _]) = room.next_sample(&mut rng).unwrap();
+            (0..rng.below(3)).for_each(|_| filling.cut());
+            filling.darts = usize::MAX;
+            let (class, [x, _]) = filling.next_sample(&mut rng).unwrap();
             histogram[class][x as usize] += 1;
         }
         let chi2: f64 = histogram.iter().flatten().map(|&count| (f64::from(count) - 500.0).powi(2) / 500.0).sum();

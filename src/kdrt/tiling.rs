@@ -7,9 +7,6 @@
 
 use crate::math::square;
 
-#[cfg(test)]
-mod randomness;
-
 use std::sync::Arc;
 
 use crate::error::Result;
@@ -23,13 +20,13 @@ use crate::kdrt::around::Around;
 use crate::kdrt::blocks::Blocks;
 use crate::kdrt::clip::{Pattern, pattern_side};
 use crate::kdrt::conquer::{LONGEST_CHAIN, SeamCells, merge};
+use crate::kdrt::conquer::{Output, capacity};
 #[cfg(feature = "stages")]
 use crate::kdrt::divide::Fixed;
 use crate::kdrt::divide::{Leaf, Tree};
 use crate::kdrt::fill::Filling;
+use crate::kdrt::fill::Footprints;
 use crate::kdrt::options::MIN_LEAF_SIZE;
-use crate::kdrt::output::{Output, capacity};
-use crate::kdrt::stamp::Stamps;
 
 /// Fill blocks along the side of a window: about 50,000 samples, which fit a core's own cache.
 pub const WINDOW_BLOCKS: i32 = 56;
@@ -50,7 +47,7 @@ pub struct Tiling {
     tree: Tree,
     pattern: Pattern,
     blocks: Blocks,
-    stamps: Stamps,
+    footprints: Footprints,
     around: Arc<Around>,
 }
 
@@ -78,7 +75,7 @@ impl Tiling {
         let pattern = Pattern::new(job, &lattice, (pattern_side * lattice.radius).ceil() as i32, seed)?;
         let axes = lattice.size.map(|size| CellAxis::new(size, lattice.radius));
         Ok(Self {
-            stamps: Stamps::new(lattice.radius, [0, 1].map(|axis: usize| axes[axis].side())),
+            footprints: Footprints::new(lattice.radius, [0, 1].map(|axis: usize| axes[axis].side())),
             axes,
             tree: tree(&lattice, leaf_size, seed),
             blocks: Blocks::new(&lattice, seed),
@@ -201,7 +198,7 @@ impl Tiling {
         let Merged { mut grid, eliminated, mut output } = merged;
         let reach = self.lattice.separation.reach;
         let seams = SeamCells::new(&grid, leaves, &eliminated, reach);
-        let mut filling = Filling::new(&self.stamps, seams, reach);
+        let mut filling = Filling::new(&self.footprints, seams, reach);
         self.blocks.in_phases(&mut grid, window, |grid, block, place| {
             filling.fill(grid, block, || self.blocks.rng(place), &mut |_, sample| output.push(sample));
         });
