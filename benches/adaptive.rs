@@ -1,7 +1,7 @@
 //! Adaptive sampling on a torus against the uniform fill at the same number of samples: by radii of vertices and by a
 //! function, for several ratios of the largest to the smallest radius. One thread.
 
-#[path = "../tests/common/meshes.rs"]
+#[path = "../tests/all/common/meshes.rs"]
 #[allow(dead_code)]
 mod meshes;
 

@@ -4,7 +4,7 @@
 //! rasteriser looks at each triangle, hit or not. The table takes tori from coarse to fine, a hall, and the bunny and the
 //! dragon (`AZULEJO_BENCH_DRAGON`, or out/dragon.ply, which the demo fetches) where they are found.
 
-#[path = "../tests/common/meshes.rs"]
+#[path = "../tests/all/common/meshes.rs"]
 #[allow(dead_code)]
 mod meshes;
 

@@ -2,10 +2,10 @@
 //! samples, and 10^5 obstacles with clearances from a thousandth to thirty times the radius, scattered where the set is. In
 //! the plane and on a torus, one thread.
 
-#[path = "../tests/common/meshes.rs"]
+#[path = "../tests/all/common/meshes.rs"]
 #[allow(dead_code)]
 mod meshes;
-#[path = "../tests/common/random.rs"]
+#[path = "../tests/all/common/random.rs"]
 mod random;
 
 use std::hint::black_box;

@@ -1,7 +1,7 @@
 //! Sets of meshes of exactly so many samples, and in progressive order, against a fill of a known radius: on a torus of
 //! few and of many triangles per sample. One thread.
 
-#[path = "../tests/common/meshes.rs"]
+#[path = "../tests/all/common/meshes.rs"]
 #[allow(dead_code)]
 mod meshes;
 

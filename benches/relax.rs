@@ -3,7 +3,7 @@
 //!
 //! Wall times of a shared machine vary: the least of several runs is printed, and ratios of one program.
 
-#[path = "../tests/common/meshes.rs"]
+#[path = "../tests/all/common/meshes.rs"]
 #[allow(dead_code)]
 mod meshes;
 

@@ -6,7 +6,7 @@
 
 #[path = "surface/bare.rs"]
 mod bare;
-#[path = "../tests/common/meshes.rs"]
+#[path = "../tests/all/common/meshes.rs"]
 #[allow(dead_code)]
 mod meshes;
 #[path = "surface/tracing.rs"]

@@ -2,7 +2,7 @@
 //!
 //! Wall times of a shared machine vary: the least of several runs is printed.
 
-#[path = "../tests/common/random.rs"]
+#[path = "../tests/all/common/random.rs"]
 mod random;
 
 use std::hint::black_box;

@@ -65,17 +65,19 @@ syntax() {
     done
 }
 
-# Names of files become arguments of cargo.
+# Names of files become names of test programs, and those of tests/all become beginnings of names of tests.
 as_tests() { xargs basename -s .rs | sed 's/^/--test=/'; }
+as_modules() { xargs basename -s .rs | sed 's/$/::/'; }
 
 # Runs the files that have property tests; scripts/test.sh with the same PROPTEST_RNG_SEED repeats a failure.
 fresh_seeds() {
-    local round tests
-    mapfile -t tests < <(grep -l 'proptest!' tests/*.rs | as_tests)
+    local round modules
+    mapfile -t modules < <(grep -l 'proptest!' tests/all/*.rs | as_modules)
     for round in 1 2 3 4 5; do
         PROPTEST_RNG_SEED=$(od -An -N4 -tu4 /dev/urandom | tr -d ' ')
         echo "PROPTEST_RNG_SEED=$PROPTEST_RNG_SEED"
-        cargo test --quiet --locked --package azulejo --lib "${tests[@]}"
+        cargo test --quiet --locked --package azulejo --lib
+        cargo test --quiet --locked --package azulejo --test all -- "${modules[@]}"
     done
 }
 
@@ -92,18 +94,20 @@ sanitized_address() {
 # Packages of the registry that the same compiler has compiled are taken over. Of the Rust tests only those run that name
 # Embree, tracing or samplers of meshes, except in a long run: the others would repeat what they did on the machine.
 on_debian13() {
-    local what=()
+    local what=() modules=()
     if ! is_long; then
         mapfile -t what < <(grep -lE '\b(psp|trace|embree|surface)' tests/*.rs ffi/*/tests/*.rs | as_tests)
+        mapfile -t modules < <(grep -lE '\b(psp|trace|embree|surface)' tests/all/*.rs | as_modules)
         what+=(--lib)
     fi
     scripts/debian13.sh bash -ec '
         scripts/share-packages.sh target/debug /var/cache/azulejo/debug
         scripts/share-packages.sh target/package/build/cargo/release /var/cache/package/build/cargo/release
-        cargo test --offline --locked --workspace "$@"
+        cargo test --offline --locked --workspace $1
+        [ -z "$2" ] || cargo test --offline --locked --package azulejo --test all -- $2
         tests/c/package.sh --keep /var/cache/package
         tests/c/run.sh /var/cache/package/prefix
-        tests/c/debs.sh /var/cache/package' bash "${what[@]}"
+        tests/c/debs.sh /var/cache/package' bash "${what[*]}" "${modules[*]}"
 }
 
 # Stages that wait for the network or use one core, then those in the Debian 13 root, which take over what was compiled.
@@ -162,7 +166,7 @@ all_stages() {
     fi
     if is_long; then
         stage "Property tests with fresh seeds" fresh_seeds
-        stage "Ten thousand relaxed sets" cargo test --locked --package azulejo --test dcr_converged -- --ignored
+        stage "Ten thousand relaxed sets" cargo test --locked --package azulejo --test all -- --ignored dcr_converged::
         stage "Broken guarantees are noticed" scripts/mutate.sh
     else
         leave_out "what scripts/test.sh --long adds"

@@ -1,7 +1,7 @@
 //! Whose threads build a scene, and that a build can be watched and cancelled. All in one test of a process of its own, where
 //! nothing else uses Embree: its tasks run in one pool for all of the process.
 
-#[path = "common/meshes.rs"]
+#[path = "all/common/meshes.rs"]
 #[allow(dead_code)]
 mod meshes;
 

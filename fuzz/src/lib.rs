@@ -5,7 +5,7 @@ pub mod arrays;
 pub mod calls;
 mod coverage;
 pub mod deformed;
-#[path = "../../tests/common/disks.rs"]
+#[path = "../../tests/all/common/disks.rs"]
 pub mod disks;
 pub mod files;
 pub mod input;

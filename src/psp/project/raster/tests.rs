@@ -12,7 +12,7 @@ use crate::psp::project::projection::Projection;
 use crate::psp::project::projector::{Projector, frame};
 use crate::psp::samples::{Sample, SampleSet};
 
-#[path = "../../../../tests/common/meshes.rs"]
+#[path = "../../../../tests/all/common/meshes.rs"]
 #[allow(dead_code)]
 mod meshes;
 

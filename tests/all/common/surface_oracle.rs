@@ -1,0 +1,73 @@
+//! What a set of samples on a mesh owes, checked in the plainest way: all that is used of the library are the corners of
+//! triangles and the mask.
+
+use azulejo::Points;
+use azulejo::mesh::Mesh;
+
+use crate::common::buckets::Buckets;
+use crate::common::parts::parts;
+use crate::common::triangle::{has_area, is_normal};
+
+type Point = [f64; 3];
+
+fn exact(position: [f32; 3]) -> Point {
+    position.map(f64::from)
+}
+
+fn distance(a: Point, b: Point) -> f64 {
+    ((a[0] - b[0]).powi(2) + (a[1] - b[1]).powi(2) + (a[2] - b[2]).powi(2)).sqrt()
+}
+
+fn middle(a: Point, b: Point) -> Point {
+    std::array::from_fn(|axis| (a[axis] + b[axis]) / 2.0)
+}
+
+/// The first two samples found that are closer than the radius.
+pub fn conflict(samples: &Points<3>, radius: f64) -> Option<(usize, usize)> {
+    let buckets = Buckets::new(&samples.positions, 1.01 * radius);
+    buckets.all().iter().find_map(|&(i, point)| {
+        let mut near = buckets.near(&[point], radius).into_iter();
+        near.find(|&(j, other)| j < i && distance(point, other) < radius).map(|(j, _)| (j, i))
+    })
+}
+
+/// A point of the surface for which it could not be proved that a sample is within the radius, up to a tolerance.
+pub fn gap(mesh: &Mesh, samples: &Points<3>, radius: f64, tolerance: f64) -> Option<Point> {
+    let reach = radius + tolerance;
+    let buckets = Buckets::new(&samples.positions, 2.0 * reach);
+    (0..mesh.triangles().len() as u32).filter(|&triangle| mesh.is_sampled(triangle)).find_map(|triangle| {
+        let corners = mesh.corners(triangle).map(exact);
+        let near: Vec<Point> = buckets.near(&corners, reach).into_iter().map(|(_, point)| point).collect();
+        has_area(corners).then(|| gap_in_part(corners, &near, reach, tolerance / 100.0)).flatten()
+    })
+}
+
+/// A part is covered when one sample is near to its three corners; otherwise four quarters of it must be, or two halves
+/// where it is much longer than wide.
+fn gap_in_part(part: [Point; 3], samples: &[Point], reach: f64, smallest: f64) -> Option<Point> {
+    if samples.iter().any(|&sample| part.iter().all(|&corner| distance(corner, sample) <= reach)) {
+        return None;
+    }
+    let [a, b, c] = part;
+    let sides = [distance(b, c), distance(c, a), distance(a, b)];
+    let longest = sides.into_iter().fold(0.0, f64::max);
+    if longest < smallest {
+        return Some(a);
+    }
+    let near: Vec<_> = samples.iter().copied().filter(|&sample| distance(a, sample) <= reach + longest).collect();
+    parts(part, sides, middle).into_iter().find_map(|part| gap_in_part(part, &near, reach, smallest))
+}
+
+/// A sample that is not where its triangle and barycentrics say, or whose normal is not its triangle's.
+pub fn misplaced(mesh: &Mesh, samples: &Points<3>) -> Option<usize> {
+    let count = samples.len();
+    assert_eq!([samples.normals.len(), samples.triangles.len(), samples.barycentrics.len()], [count; 3]);
+    (0..count).find(|&i| {
+        let [a, b, c] = mesh.corners(samples.triangles[i]).map(exact);
+        let [u, v] = samples.barycentrics[i].map(f64::from);
+        let expected: [f32; 3] =
+            std::array::from_fn(|axis| ((1.0 - u - v) * a[axis] + u * b[axis] + v * c[axis]) as f32);
+        let turned = !is_normal([a, b, c], samples.normals[i]);
+        samples.positions[i] != expected || !(u >= 0.0 && v >= 0.0 && u + v <= 1.0) || turned
+    })
+}
