@@ -1,4 +1,5 @@
-//! Levels: maximal sets of ever smaller radii, each filled around the samples of those before.
+//! Levels: maximal sets of ever smaller radii, each filled around the samples of those before. They give sets in
+//! progressive order and sets of an exact count.
 //!
 //! Each sample has a *rank*: its distance to the nearest sample that was accepted before it, but no more than the radius
 //! of the level before, which it exceeds by a tolerance at most. Of any two samples the later one's rank is no more than
@@ -11,11 +12,29 @@
 //!
 //! Where the radius varies (`adaptive/levels.rs`) distances are measured by the mean of two local radii, and the radius
 //! of a level is what these are multiplied by.
+//!
+//! *Progressive order* is a ladder of levels, each a quotient below the one before. It begins where one sample covers the
+//! mesh. As long as a level has no more than [`Order::FIRST_COUNT`] samples it falls by about two instead (see
+//! [`first_stride`]). The next level does not depend on where the ladder ends. So sets of different radii and counts share their levels, and a set of fewer samples is a prefix of
+//! one of more: to the bit, where both are cut out of the ladder by their counts, and down to the last common level,
+//! where one ends with a level at its radius.
+//!
+//! For any prefix, let k be the level in which it ends. It holds all of the level before, which covers the surface within
+//! the quotient times the radius of level k; and no rank of level k is below this radius.
+//!
+//! *An exact count* is a maximal set that has somewhat fewer samples, and the best of one more level. A level that ends
+//! above the count is sorted by rank and cut. The rest is conflict-free at the last rank, and covers the surface within the
+//! radius of the level before. So the closer that radius, the smaller the loss of maximality. The number of samples of a
+//! radius is known for large even surfaces only. So the search goes from large
+//! radii to small ones, which never wastes a level that ends below the count, and takes back a level that ends above
+//! it if it began too far above.
 
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::job::Job;
-use crate::math::rounded_down;
+use crate::math::{exp, log, power, rounded_down, square};
 use crate::mesh::{Mesh, exact};
+use crate::order::{Order, first_stride};
+use crate::psp::estimate::require_memory;
 use crate::psp::fill::FillOptions;
 use crate::psp::fill::rounds::PATCH;
 use crate::psp::fill::uniform::Surface;
@@ -27,7 +46,7 @@ use crate::rng::{Draw, hash};
 const FIRST_DARTS_FROM: f64 = 1.3;
 /// Otherwise little is open. Patches are cut up to this length, in radii, before darts are thrown.
 const FIRST_PATCH: f32 = 1.0;
-/// Ranks are looked for no farther than this, in radii.
+/// The largest rank, in radii.
 const LARGEST_RANK: f64 = 2.0;
 
 /// [`top`] in diagonals of the mesh's box: a little more than any distance on it.
@@ -39,18 +58,18 @@ pub fn top(mesh: &Mesh) -> f64 {
     TOP * exact(low).distance(exact(high))
 }
 
-/// What levels are filled on.
+/// A surface that can be filled level by level.
 pub trait Levelled {
-    /// A sample, with what is known of it beside its place and its rank.
+    /// A ranked sample, and its radius where that varies.
     type Sample: Copy + Ranked;
 
     /// A radius within which any sample covers all of it.
     fn top(&self) -> f64;
 
-    /// About how many samples a radius gives where none are given.
+    /// An estimate of the samples of a radius where none are given.
     fn expected(&self, radius: f64) -> f64;
 
-    /// Whether samples are given.
+    /// True if samples are given.
     fn has_given(&self) -> bool;
 
     /// The samples with those that a fill at this radius adds, which are last, and the darts that it took.
@@ -63,7 +82,7 @@ pub trait Levelled {
     ) -> Result<(Vec<Self::Sample>, u64)>;
 }
 
-/// What has a place and a rank.
+/// A sample with a rank.
 pub trait Ranked {
     fn sample(&self) -> &Sample;
 }
@@ -169,6 +188,253 @@ impl<S: Levelled> Levels<S> {
 /// The largest rank below those of a level of this radius, so that sorted ranks keep levels apart.
 fn below(radius: f64) -> f64 {
     f64::from(rounded_down(radius).next_down())
+}
+
+/// Levels, down to a radius.
+struct Ladder<S: Levelled> {
+    levels: Levels<S>,
+    quotient: f64,
+    /// The quotient of the first levels, until one has too many samples.
+    first: Option<f64>,
+    /// No level has a smaller radius.
+    finest: f64,
+    /// The number of the next level.
+    key: u64,
+    /// The radius at which all work is expected to be done, and the share that is.
+    last: f64,
+    done: f64,
+}
+
+impl<S: Levelled> Ladder<S> {
+    fn new(levels: Levels<S>, quotient: f64, finest: f64, last: f64) -> Self {
+        let first = Some(power(quotient, first_stride(quotient)));
+        Self { levels, quotient, first, finest, key: 0, last, done: 0.0 }
+    }
+
+    /// The radius of the next level, if that has no more samples than the first levels may have.
+    fn next(&self) -> f64 {
+        let former = self.levels.radius();
+        let next =
+            if former.is_finite() { former / self.first.unwrap_or(self.quotient) } else { self.levels.surface.top() };
+        next.max(self.finest)
+    }
+
+    /// Adds a level.
+    fn descend(&mut self, job: &Job) -> Result<()> {
+        let (len, former) = (self.levels.len(), self.levels.radius());
+        self.add(job)?;
+        if self.first.is_some() && former.is_finite() && self.levels.len() > Order::FIRST_COUNT {
+            self.levels.take_back(len, former);
+            (self.first, self.key) = (None, self.key - 1);
+            self.add(job)?;
+        }
+        Ok(())
+    }
+
+    /// Adds a level of the next radius. The work that is done by then grows as the samples do.
+    fn add(&mut self, job: &Job) -> Result<()> {
+        let radius = self.next();
+        let done = square(self.last / radius).clamp(self.done, 1.0);
+        self.levels.refine(&job.part(self.done, done), radius, self.key)?;
+        (self.key, self.done) = (self.key + 1, done);
+        Ok(())
+    }
+}
+
+/// A maximal set of a radius: the levels above it, and one at the radius itself.
+pub fn by_radius<S: Levelled>(
+    job: &Job,
+    levels: Levels<S>,
+    quotient: f64,
+    radius: f64,
+) -> Result<LevelledSet<S::Sample>> {
+    let mut ladder = Ladder::new(levels, quotient, radius, radius);
+    while ladder.levels.radius() > radius {
+        ladder.descend(job)?;
+    }
+    let darts = ladder.levels.darts;
+    Ok(LevelledSet { samples: ladder.levels.into_sorted(), radius, coverage: radius, darts })
+}
+
+/// As many samples of the ladder as asked for. No radius is below the finest.
+pub fn by_count<S: Levelled>(
+    job: &Job,
+    levels: Levels<S>,
+    quotient: f64,
+    count: usize,
+    finest: f64,
+) -> Result<LevelledSet<S::Sample>> {
+    let expected = expected_radius(&levels.surface, count as f64, finest);
+    let mut ladder = Ladder::new(levels, quotient, finest, expected);
+    loop {
+        let former = ladder.levels.radius();
+        if former == finest {
+            return Err(none_finer(count, ladder.levels.len(), finest));
+        }
+        check_work(&ladder.levels.surface, ladder.next(), count)?;
+        ladder.descend(job)?;
+        if ladder.levels.len() == 0 {
+            return Err(no_place(count));
+        }
+        if ladder.levels.len() >= count {
+            return Ok(LevelledSet::cut(ladder.levels, count, former));
+        }
+    }
+}
+
+/// The covering radius of a set may be so many times its radius.
+const LOOSE: f64 = 1.1;
+/// The number of levels that may be taken back for that.
+const ATTEMPTS: u32 = 40;
+/// The share of the count that levels but the last one aim at.
+const AIM: f64 = 0.96;
+/// The last level begins at most by this quotient above the radius where the count is expected.
+const NEAR: f64 = 1.0475;
+/// It ends by this quotient below, since nested sets are sparser than others.
+const BEYOND: f64 = 1.05;
+const _: () = assert!(NEAR * BEYOND <= LOOSE);
+
+/// A set that is made of levels.
+pub struct LevelledSet<S> {
+    pub samples: Vec<S>,
+    /// No two samples are closer.
+    pub radius: f64,
+    /// No place of the surface is farther from all samples.
+    pub coverage: f64,
+    pub darts: u64,
+}
+
+impl<S: Ranked> LevelledSet<S> {
+    /// The best of some levels, of which there are enough; all but the last cover the surface within `former`.
+    pub fn cut(levels: Levels<impl Levelled<Sample = S>>, count: usize, former: f64) -> Self {
+        let (len, last, darts) = (levels.len(), levels.radius(), levels.darts);
+        let mut samples = levels.into_sorted();
+        samples.truncate(count);
+        let rank = samples.last().map_or(last, |sample| f64::from(sample.sample().rank));
+        let coverage = if len == count { last } else { former };
+        Self { samples, radius: if rank.is_finite() { rank } else { last }, coverage, darts }
+    }
+}
+
+/// A radius, and the number of samples of a set of this radius.
+#[derive(Clone, Copy)]
+struct Known {
+    radius: f64,
+    len: usize,
+}
+
+/// Exactly `count` samples.
+pub fn exactly<S: Levelled>(
+    job: &Job,
+    mut levels: Levels<S>,
+    count: usize,
+    finest: f64,
+) -> Result<LevelledSet<S::Sample>> {
+    let mut above: Option<Known> = None;
+    let mut taken_back = 0;
+    for key in 0.. {
+        let former = Known { radius: levels.radius(), len: levels.len() };
+        if former.radius == finest {
+            return Err(none_finer(count, former.len, finest));
+        }
+        let radius = next_radius(&levels, above, taken_back, count, finest).max(finest);
+        let part = job.part(1.0 - power(0.4, key), 1.0 - power(0.4, key + 1));
+        check_work(&levels.surface, radius, count)?;
+        levels.refine(&part, radius, key as u64)?;
+        let len = levels.len();
+        if len == 0 {
+            return Err(no_place(count));
+        }
+        if len < count {
+            // What is known of smaller radii may no longer hold, since sets vary.
+            above = above.filter(|above| above.radius < radius);
+        } else if len == count
+            || former.len > 0 && (former.radius <= LOOSE * levels.rank_of(count) || taken_back >= ATTEMPTS)
+        {
+            return Ok(LevelledSet::cut(levels, count, former.radius));
+        } else {
+            levels.take_back(former.len, former.radius);
+            above = Some(Known { radius, len });
+            taken_back += 1;
+        }
+    }
+    unreachable!("radii end at the finest")
+}
+
+/// The radius of the next level.
+fn next_radius(
+    levels: &Levels<impl Levelled>,
+    above: Option<Known>,
+    taken_back: u32,
+    count: usize,
+    finest: f64,
+) -> f64 {
+    let top = levels.surface.top();
+    let below = match levels.len() {
+        // One sample covers the mesh.
+        0 if count == 1 => return top,
+        0 if above.is_none() => {
+            // Few samples may be more than expected: along open boundaries.
+            let count = count as f64;
+            return expected_radius(&levels.surface, AIM * count / (1.0 + 2.0 / count.sqrt()), finest);
+        }
+        0 => Known { radius: top, len: 1 },
+        len => Known { radius: levels.radius(), len },
+    };
+    let growth = (count as f64 / below.len as f64).sqrt();
+    match above {
+        None if growth <= NEAR => below.radius / (growth * BEYOND),
+        None => below.radius / (growth * AIM.sqrt()),
+        Some(above) if below.radius <= LOOSE * above.radius => {
+            if levels.len() == 0 {
+                top
+            } else {
+                above.radius
+            }
+        }
+        // Between what is known on both sides, on the line of their logarithms, and now and then in the middle.
+        Some(above) => {
+            let logarithm = |count: f64| log(count / below.len as f64);
+            let share = logarithm(AIM * count as f64) / logarithm(above.len as f64);
+            let share = if taken_back.is_multiple_of(3) { 0.5 } else { share.clamp(0.02, 0.98) };
+            below.radius * exp(share * log(above.radius / below.radius))
+        }
+    }
+}
+
+/// The radius for which so many samples are expected, by areas and edges alone.
+pub fn expected_radius(surface: &impl Levelled, count: f64, finest: f64) -> f64 {
+    let (mut low, mut high) = (finest, surface.top().max(finest));
+    while high > 1.001 * low {
+        let middle = (low * high).sqrt();
+        if surface.expected(middle) > count { low = middle } else { high = middle }
+    }
+    high
+}
+
+/// Refuses a count where given samples leave so little of the surface that it takes a radius with which the bare surface
+/// could not be filled: the work grows with all of it.
+pub fn check_work(surface: &impl Levelled, radius: f64, count: usize) -> Result<()> {
+    if !surface.has_given() {
+        return Ok(());
+    }
+    let estimate = surface.expected(radius);
+    let what = format!("{count} samples beside the given ones: on the whole surface about {estimate:.3e}");
+    if estimate > f64::from(u32::MAX) {
+        return Err(Error::too_large("count", format!("{what}; the limit is {}", u32::MAX)));
+    }
+    require_memory(estimate, "count", &what)
+}
+
+/// The refusal of any count where given samples cover all of the surface.
+pub fn no_place(count: usize) -> Error {
+    Error::invalid("count", format!("{count}, but given samples cover all of the surface"))
+}
+
+/// The refusal of a count for which floats are not fine enough.
+pub fn none_finer(count: usize, len: usize, finest: f64) -> Error {
+    let reason = format!("{count} samples are more than the mesh can carry: {len} at radius {finest:?}, the smallest");
+    Error::invalid("count", reason)
 }
 
 #[cfg(test)]

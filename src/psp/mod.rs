@@ -21,14 +21,12 @@
 
 pub mod adaptive;
 mod classes;
-mod count;
 mod cubes;
 mod estimate;
 mod facing;
 mod fill;
 mod fragment;
 mod given;
-mod ladder;
 mod lanes;
 mod levels;
 mod merge;

@@ -13,11 +13,10 @@ use crate::psp::facing::Facing;
 use crate::psp::fill::measures::Measures;
 use crate::psp::fill::uniform::Surface;
 use crate::psp::given::GivenSamples;
-use crate::psp::levels::Levels;
+use crate::psp::levels::{self, Levels};
 use crate::psp::options::Options;
 use crate::psp::report::{Report, rho};
 use crate::psp::samples::surface_samples;
-use crate::psp::{count, ladder};
 
 /// A set of a count, or in progressive order.
 pub fn sample(
@@ -42,9 +41,9 @@ pub fn sample(
     let surface = Surface { mesh, measures: &measures, given: &given, facing };
     let (levels, finest) = (Levels::new(surface, seed), finest_radius(mesh.float_spacing()));
     let found = context.run(progress, |job| match (order, count) {
-        (Order::Progressive, 0) => ladder::by_radius(job, levels, quotient, radius),
-        (Order::Progressive, _) => ladder::by_count(job, levels, quotient, count, finest),
-        (Order::Any, _) => count::sample(job, levels, count, finest),
+        (Order::Progressive, 0) => levels::by_radius(job, levels, quotient, radius),
+        (Order::Progressive, _) => levels::by_count(job, levels, quotient, count, finest),
+        (Order::Any, _) => levels::exactly(job, levels, count, finest),
     })?;
     let mut samples = surface_samples(mesh, &found.samples);
     if order == Order::Progressive {

@@ -16,11 +16,9 @@ use crate::psp::adaptive::limits::Quota;
 use crate::psp::adaptive::options::Options;
 use crate::psp::adaptive::radius::{Radius, Scale};
 use crate::psp::adaptive::site::GradedSurface;
-use crate::psp::count::Found;
 use crate::psp::facing::Facing;
 use crate::psp::fill::FillOptions;
-use crate::psp::ladder;
-use crate::psp::levels::{Levelled, Levels, Ranked, top};
+use crate::psp::levels::{self, Levelled, LevelledSet, Levels, Ranked, top};
 use crate::psp::obstacles::Obstacles;
 use crate::psp::samples::Sample;
 
@@ -79,7 +77,7 @@ pub fn ordered(
     density: Option<&DensityField>,
     facing: Facing,
     obstacles: &Obstacles,
-) -> Result<Found<(Sample, f64)>> {
+) -> Result<LevelledSet<(Sample, f64)>> {
     let spacing = mesh.float_spacing();
     let (last, count) = match (density, options.radius) {
         (Some(density), Radius::Density { scale, .. }) => {
@@ -95,10 +93,10 @@ pub fn ordered(
     }
     let estimate = require(&job.part(0.02, 0.05), mesh, &field.at_scale(last))?;
     let surface = ScaledSurface { mesh, field, facing, obstacles, last, estimate };
-    let (job, levels) = (&job.part(0.05, 1.0), Levels::new(surface, options.seed));
+    let (job, start) = (&job.part(0.05, 1.0), Levels::new(surface, options.seed));
     match count {
-        0 => ladder::by_radius(job, levels, options.quotient, last),
-        _ => ladder::by_count(job, levels, options.quotient, count, finest),
+        0 => levels::by_radius(job, start, options.quotient, last),
+        _ => levels::by_count(job, start, options.quotient, count, finest),
     }
 }
 

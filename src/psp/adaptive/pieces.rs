@@ -88,7 +88,7 @@ pub fn pieces(
     Ok(pieces)
 }
 
-/// How a task cuts triangles.
+/// The state of a task that cuts triangles.
 struct Cuts<'a> {
     mesh: &'a Mesh,
     field: &'a RadiusField<'a>,

@@ -14,10 +14,10 @@ use crate::psp::adaptive::limits::Quota;
 use crate::psp::adaptive::options::Options;
 use crate::psp::adaptive::radius::{Radius, Scale};
 use crate::psp::adaptive::site::GradedSurface;
-use crate::psp::count::Found;
 use crate::psp::facing::Facing;
 use crate::psp::fill::FillOptions;
 use crate::psp::given::obstacles;
+use crate::psp::levels::LevelledSet;
 use crate::psp::obstacles::Obstacles;
 use crate::psp::options::check_quotient;
 use crate::psp::report::Report;
@@ -98,7 +98,7 @@ fn filled(
     density: Option<&DensityField>,
     facing: Facing,
     obstacles: &Obstacles,
-) -> Result<Found<(Sample, f64)>> {
+) -> Result<LevelledSet<(Sample, f64)>> {
     let density = match (density, options.radius) {
         (Some(density), Radius::Density { scale, .. }) => Some((density, density.unit(&job.part(0.0, 0.02), scale)?)),
         _ => None,
@@ -107,7 +107,7 @@ fn filled(
     let quota = &Quota::new(require(&job.part(0.02, 0.05), mesh, field)?, mesh);
     let surface = GradedSurface { mesh, field, quota, facing, obstacles, finest: 1.0 };
     let (set, darts) = surface.fill(job, FillOptions::from_nothing(options.seed), &[])?;
-    Ok(Found { samples: set.into_samples(), radius: 1.0, coverage: 1.0, darts })
+    Ok(LevelledSet { samples: set.into_samples(), radius: 1.0, coverage: 1.0, darts })
 }
 
 fn check_scale(scale: Scale) -> Result<()> {

@@ -26,7 +26,7 @@ use crate::rng::Rng;
 /// Clusters per task.
 const CHUNK: usize = 1 << 12;
 
-/// What is longer, in radii, is cut. A sample then lies no farther than this from its cube.
+/// Triangles that are longer, in radii, are cut. A sample then lies no farther than this from its cube.
 const LONGEST: f64 = SIDE as f64 / 4.0;
 
 /// Of balls that are no larger than this, in radii, most lie in one cube.
@@ -37,9 +37,10 @@ pub struct Blocks<'a> {
     measures: &'a Measures,
     balls: Option<&'a [Ball]>,
     chunks: Vec<Chunk>,
-    /// The cubes, where in each the surface is, which chunks have something there, and by what number.
     pub cubes: Vec<Cube>,
+    /// The box of the surface in each cube.
     extents: Vec<Extent>,
+    /// The chunks with triangles in each cube, and the cube's number in them.
     parts: Binned<(u32, u32)>,
 }
 
@@ -83,7 +84,7 @@ impl<'a> Blocks<'a> {
         Ok(Self { measures, balls, chunks, cubes, extents, parts })
     }
 
-    /// What is in one of the cubes, in the order of the mesh.
+    /// The triangles of one of the cubes, in the order of the mesh.
     pub fn block(&self, number: usize) -> Block {
         let (measured, mut items) = (self.measures.triangles(), Items::default());
         for &(chunk, part) in self.parts.bin(number) {
@@ -179,7 +180,7 @@ pub struct Items {
 
 /// Triangles that follow each other and lie together.
 pub struct Cluster {
-    /// Where they stand.
+    /// Their indices.
     pub indices: Range<u32>,
     pub area: f64,
     pub ball: Ball,
@@ -244,7 +245,7 @@ pub struct ItemRow<'a> {
     ends: Vec<[f64; CLUSTER]>,
 }
 
-/// What an area of the row belongs to, by its number.
+/// The owner of an area of the row, by its number.
 #[derive(Clone, Copy)]
 enum Entry {
     Item(u32),

@@ -24,9 +24,9 @@ use crate::simd::Level;
 /// Triangles in a cluster. Of smaller ones more are passed by the first darts; larger ones need less memory.
 pub const CLUSTER: usize = 16;
 
-/// So many clusters for each expected sample are worth balls around them, ...
+/// The clusters for each expected sample that are worth balls around them.
 const CLUSTERS_PER_SAMPLE: f64 = 2.0;
-/// ... which are made if most are no larger than this part of the radius.
+/// Balls are made if most are no larger than this part of the radius.
 const LARGEST: f64 = 0.5;
 
 /// The areas of a cluster of triangles, and the squares of their longest edges.
@@ -102,7 +102,7 @@ impl Triangles<'_> {
     }
 }
 
-/// What a fill has to know of a mesh, whatever the radius: one pass over the triangles.
+/// The measures of a mesh, whatever the radius: one pass over the triangles.
 pub struct Measures {
     /// Those that the mask does not leave out, where there is a mask.
     sampled: Option<Vec<u32>>,
@@ -110,7 +110,7 @@ pub struct Measures {
     count: usize,
     /// The area of each cluster of them.
     pub areas: Vec<f64>,
-    /// How many triangles have a longest edge up to a length, and above the length before it.
+    /// The number of triangles with a longest edge up to a length, and above the length before it.
     lengths: Vec<(f64, u32)>,
     balls: Balls,
 }
@@ -192,7 +192,7 @@ pub struct Ball {
     pub radius: f32,
 }
 
-/// How many balls are looked at to see whether all are worth making.
+/// The number of balls that decide if all are worth making.
 const PROBES: usize = 64;
 
 /// Clusters per task.
@@ -201,7 +201,7 @@ const CHUNK: usize = 1 << 12;
 /// A ball around each cluster of the triangles of a mesh, once there are any.
 #[derive(Default)]
 pub struct Balls {
-    /// Whether there was a pass.
+    /// True if there was a pass.
     is_second: AtomicBool,
     made: OnceLock<Vec<Ball>>,
 }
@@ -231,7 +231,7 @@ impl Balls {
     }
 }
 
-/// Whether half of some balls, all over the mesh, have this radius at most.
+/// True if half of some balls, all over the mesh, have this radius at most.
 fn are_small(mesh: &Mesh, triangles: Triangles, largest: f64) -> bool {
     let probes = PROBES.min(triangles.clusters());
     let ball = |probe: usize| Ball::around(mesh, triangles, probe * triangles.clusters() / probes);

@@ -102,7 +102,7 @@ impl FillOptions {
     }
 }
 
-/// What is known of a place of a zone.
+/// The bounds of the radius in a part of a zone, or the class of a dart.
 type Local<Z> = <<Z as Zone>::Ground as Ground>::Local;
 
 /// A part of a surface that is filled by itself: a cube, or all of it.

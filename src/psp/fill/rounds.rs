@@ -20,8 +20,8 @@ use crate::psp::fill::page::GROUP;
 use crate::psp::fragment::Fragment;
 use crate::rng::Rng;
 
-/// How far beyond the radius a point of the surface can be from all samples of a maximal set, in spacings of floats at
-/// the largest absolute coordinate of the mesh.
+/// The largest excess over the radius of the distance of a point of the surface from a maximal set, in spacings of floats
+/// at the largest absolute coordinate of the mesh.
 pub const TOLERANCE: f64 = 6.0;
 
 /// Patches are no longer than this at first, in radii: their sixteenths can be covered.
@@ -75,7 +75,7 @@ pub struct Point<L = ()> {
 ///
 /// Lengths are in radii, areas in squared radii: those of the place, where the radius varies.
 pub trait Ground {
-    /// What differs from place to place: bounds of the radius, or the class that a dart is of.
+    /// The values that differ from place to place: bounds of the radius, or the class that a dart is of.
     type Local: Copy;
     /// A dart, until it is known whether it is accepted.
     type Dart;
