@@ -98,7 +98,7 @@ pub(crate) fn sample_points_around(job: &Job, lattice: &Lattice, seed: u64, disk
     grid.set_obstacles(disks);
     let mut quadtree = Quadtree::of_all(&job.part(0.0, 0.01), &grid)?;
     let mut rng = Rng::at(seed, Draw::Darts, &[]);
-    quadtree.rain(&job.part(0.01, 1.0), &mut grid, &mut rng, expected, |_| ())?;
+    quadtree.fill_domain(&job.part(0.01, 1.0), &mut grid, &mut rng, expected, |_| ())?;
     #[cfg(test)]
     grid.sanity_check();
     Ok(grid.samples_in(&rect).collect())

@@ -540,7 +540,7 @@ impl Gaps<'_> {
         let mut samples = Vec::new();
         let accepted = |sample| samples.push(self.lattice.position(sample));
         let expected = self.lattice.expected_samples();
-        Quadtree::of_empty_cells(&grid, all).rain(job, &mut grid, &mut rng, expected, accepted)?;
+        Quadtree::of_empty_cells(&grid, all).fill_domain(job, &mut grid, &mut rng, expected, accepted)?;
         Ok(samples)
     }
 

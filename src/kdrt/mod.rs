@@ -12,7 +12,6 @@
 //! `count.rs`; sets that were made apart are glued into one by the same two steps (`merge.rs`). Files say where they depart
 //! from the thesis.
 
-mod around;
 mod blocks;
 mod classes;
 mod clip;

@@ -6,15 +6,18 @@ use std::sync::Arc;
 use crate::classes::Classes;
 use crate::error::{Error, Result};
 use crate::job::{Context, Job, Progress};
-use crate::kdrt::around::Around;
-use crate::kdrt::classes::{self, Group};
-use crate::kdrt::options::{Kind, Options, Progressive, check_leaf_size};
-use crate::kdrt::progressive::{self, Level};
-use crate::kdrt::stack::Stack;
-use crate::kdrt::stack::{Base, PATTERN_SHARE};
-use crate::kdrt::tiling::Tiling;
+use crate::kdrt::{
+    classes::{self, Group},
+    options::{Kind, Options, Progressive, check_leaf_size},
+    progressive::{self, Level},
+    stack::{Base, PATTERN_SHARE, Stack},
+    tiling::Tiling,
+};
 use crate::memory;
-use crate::plane::lattice::{Lattice, estimate};
+use crate::plane::{
+    GivenDisks,
+    lattice::{Lattice, estimate},
+};
 use crate::points::{Boundary, Domain, Points, check_resolution};
 
 /// The fewest samples, of some 16 MB, that memory is asked for: to query it takes about 0.1 ms, as long as to make a
@@ -48,7 +51,7 @@ pub fn sample(context: &Context, options: &Options, progress: Option<&Progress>)
     set.require_whole()?;
     context.run(progress, |job| match &set.radii {
         Radii::One { radius, .. } => {
-            let around = Around::new(&options.domain, &set.lattice, *radius, &options.given);
+            let around = GivenDisks::new(&options.domain, &set.lattice, *radius, &options.given);
             let samples = Base::sample(job, &set.lattice, options.leaf_size, options.seed, around.into())?;
             Ok(set.in_any_order(samples))
         }
@@ -315,7 +318,7 @@ enum Layers {
 impl Layers {
     fn new(job: &Job, set: &Set, options: &Options) -> Result<Self> {
         let &Options { domain, leaf_size, seed, given, .. } = options;
-        let around = |radius| Arc::new(Around::new(&domain, &set.lattice, radius, &given));
+        let around = |radius| Arc::new(GivenDisks::new(&domain, &set.lattice, radius, &given));
         match &set.radii {
             Radii::One { radius, .. } => {
                 Ok(Self::None(Base::new(job, set.lattice.clone(), leaf_size, seed, around(*radius))?))

@@ -21,7 +21,6 @@ use std::sync::Arc;
 use crate::error::{Error, Result};
 use crate::job::Job;
 use crate::kdrt::{
-    around::Around,
     blocks::Blocks,
     conquer::SeamCells,
     fill::{Filling, Footprints},
@@ -32,7 +31,7 @@ use crate::kdrt::{
 };
 use crate::math::{exp2, hypot, log2, pow, rounded_down};
 use crate::order::{Order, first_stride};
-use crate::plane::{CellAxis, CellGrid, Quadtree, lattice::Lattice, rect::Rect};
+use crate::plane::{CellAxis, CellGrid, GivenDisks, Quadtree, lattice::Lattice, rect::Rect};
 use crate::points::{Boundary, Domain, Points};
 use crate::rng::{Draw, Rng, hash};
 
@@ -82,7 +81,7 @@ pub fn stack(
     options: &Options,
     radius: f64,
     levels: &Progressive,
-    around: Arc<Around>,
+    around: Arc<GivenDisks>,
 ) -> Result<(Stack<Level>, f64)> {
     let &Options { domain, seed, .. } = options;
     let finest = Lattice::of_any_size(&domain, radius)?;
@@ -116,7 +115,7 @@ pub fn ordered(lattice: &Lattice, coarsest: f64, mut samples: Vec<Sample>) -> Po
 }
 
 impl Coarsest {
-    fn new(job: &Job, options: &Options, radius: f64, around: Arc<Around>) -> Result<Self> {
+    fn new(job: &Job, options: &Options, radius: f64, around: Arc<GivenDisks>) -> Result<Self> {
         let &Options { domain, leaf_size, seed, .. } = options;
         let longest = longest(&domain);
         // A radius that reaches over the domain gives one sample, which is the same for all of them.
@@ -291,12 +290,12 @@ pub struct Level {
     /// Where cells are as wide as footprints need them.
     footprints: Option<Footprints>,
     seed: u64,
-    around: Arc<Around>,
+    around: Arc<GivenDisks>,
 }
 
 impl Level {
     /// The level of a lattice's radius, after one of a longer radius in lattice units.
-    pub fn new(lattice: Lattice, before: &Lattice, seed: u64, around: Arc<Around>, most_kept: f64) -> Self {
+    pub fn new(lattice: Lattice, before: &Lattice, seed: u64, around: Arc<GivenDisks>, most_kept: f64) -> Self {
         let axes = lattice.size.map(|size| CellAxis::new(size, lattice.radius));
         let is_wide = is_wide(&lattice);
         // With a reserve, as radii are rounded.
@@ -373,7 +372,8 @@ impl Level {
         let (mut grid, mut points) = (grid_before(), Vec::new());
         let mut rng = Rng::at(self.seed, Draw::Darts, &[]);
         let expected = self.lattice.expected_samples();
-        Quadtree::of_empty_cells(&grid, rect).rain(job, &mut grid, &mut rng, expected, |point| points.push(point))?;
+        Quadtree::of_empty_cells(&grid, rect)
+            .fill_domain(job, &mut grid, &mut rng, expected, |point| points.push(point))?;
 
         // Once more in their order, for the distances.
         let mut grid = grid_before();

@@ -10,13 +10,12 @@ use std::sync::Arc;
 use crate::error::{Error, Result};
 use crate::job::Job;
 use crate::kdrt::{
-    around::Around,
     conquer::capacity,
     region::{Part, Placed, Region},
     tiling::Tiling,
 };
 use crate::maximal;
-use crate::plane::{CellAxis, lattice::Lattice, rect::Rect};
+use crate::plane::{CellAxis, GivenDisks, lattice::Lattice, rect::Rect};
 use crate::points::Domain;
 
 /// The speed at which samples come by tiling, in samples of a layer.
@@ -170,7 +169,7 @@ pub struct Whole {
 
 impl Base {
     /// The set of a lattice's radius.
-    pub fn new(job: &Job, lattice: Lattice, leaf_size: f64, seed: u64, around: Arc<Around>) -> Result<Self> {
+    pub fn new(job: &Job, lattice: Lattice, leaf_size: f64, seed: u64, around: Arc<GivenDisks>) -> Result<Self> {
         if Tiling::is_worthwhile(&lattice, leaf_size) {
             return Ok(Self::Tiled(Box::new(Tiling::new(job, lattice, leaf_size, seed, around)?)));
         }
@@ -184,7 +183,7 @@ impl Base {
         lattice: &Lattice,
         leaf_size: f64,
         seed: u64,
-        around: Arc<Around>,
+        around: Arc<GivenDisks>,
     ) -> Result<Vec<[f32; 2]>> {
         let made = if Tiling::is_worthwhile(lattice, leaf_size) { PATTERN_SHARE } else { 1.0 };
         match Self::new(&job.part(0.0, made), lattice.clone(), leaf_size, seed, around)? {

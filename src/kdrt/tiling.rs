@@ -5,28 +5,21 @@
 //! or not. The margin is 2 blocks (at most 11 radii) to the left and right and 1 (6 radii) above and below for the
 //! phases of filling, and 5 radii for the chains of elimination around what the filling sees.
 
-use crate::math::square;
-
 use std::sync::Arc;
 
 use crate::error::Result;
 use crate::job::Job;
-use crate::plane::lattice::Lattice;
-use crate::plane::rect::Rect;
-use crate::plane::{CellAxis, CellGrid};
+use crate::kdrt::{
+    blocks::Blocks,
+    clip::{Pattern, pattern_side},
+    conquer::{LONGEST_CHAIN, Output, SeamCells, capacity, merge},
+    divide::{Leaf, Tree},
+    fill::{Filling, Footprints},
+    options::MIN_LEAF_SIZE,
+};
+use crate::math::square;
+use crate::plane::{CellAxis, CellGrid, GivenDisks, lattice::Lattice, rect::Rect};
 use crate::points::{Boundary, Domain};
-
-use crate::kdrt::around::Around;
-use crate::kdrt::blocks::Blocks;
-use crate::kdrt::clip::{Pattern, pattern_side};
-use crate::kdrt::conquer::{LONGEST_CHAIN, SeamCells, merge};
-use crate::kdrt::conquer::{Output, capacity};
-#[cfg(feature = "stages")]
-use crate::kdrt::divide::Fixed;
-use crate::kdrt::divide::{Leaf, Tree};
-use crate::kdrt::fill::Filling;
-use crate::kdrt::fill::Footprints;
-use crate::kdrt::options::MIN_LEAF_SIZE;
 
 /// Fill blocks along the side of a window: about 50,000 samples, which fit a core's own cache.
 pub const WINDOW_BLOCKS: i32 = 56;
@@ -48,7 +41,7 @@ pub struct Tiling {
     pattern: Pattern,
     blocks: Blocks,
     footprints: Footprints,
-    around: Arc<Around>,
+    around: Arc<GivenDisks>,
 }
 
 impl Tiling {
@@ -59,7 +52,7 @@ impl Tiling {
     }
 
     /// Makes the pattern of the plane. The lattice must be worthwhile to tile.
-    pub fn new(job: &Job, lattice: Lattice, leaf_size: f64, seed: u64, around: Arc<Around>) -> Result<Self> {
+    pub fn new(job: &Job, lattice: Lattice, leaf_size: f64, seed: u64, around: Arc<GivenDisks>) -> Result<Self> {
         Self::with_pattern(job, lattice, leaf_size, pattern_side(leaf_size), seed, around)
     }
 
@@ -70,7 +63,7 @@ impl Tiling {
         leaf_size: f64,
         pattern_side: f64,
         seed: u64,
-        around: Arc<Around>,
+        around: Arc<GivenDisks>,
     ) -> Result<Self> {
         let pattern = Pattern::new(job, &lattice, (pattern_side * lattice.radius).ceil() as i32, seed)?;
         let axes = lattice.size.map(|size| CellAxis::new(size, lattice.radius));
@@ -87,7 +80,7 @@ impl Tiling {
 
     /// Takes the randomness from something.
     #[cfg(feature = "stages")]
-    pub fn fix(&mut self, fixed: Fixed) {
+    pub fn fix(&mut self, fixed: crate::kdrt::divide::Fixed) {
         self.tree.fixed = fixed;
     }
 

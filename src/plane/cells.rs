@@ -1,13 +1,13 @@
 //! Cells of one sample at most: the exact conflict and coverage tests of everything that happens in the plane.
 
-use crate::plane::lattice::Separation;
-use crate::plane::rect::Rect;
-
-use crate::plane::axis::{CellAxis, Finder};
-use crate::plane::list::List;
-use crate::plane::near::{Near, SLACK};
-use crate::plane::obstacles::{Disk, Obstacles};
-use crate::plane::rows::{LANES, NOWHERE, Rows};
+use crate::plane::{
+    lattice::Separation,
+    list::List,
+    near::{Near, SLACK},
+    obstacles::{Disk, Obstacles},
+    rect::Rect,
+    rows::{LANES, NOWHERE, Rows},
+};
 use crate::simd::Level;
 
 /// The most cells away that a conflict can be: cells are narrower than r / sqrt(2) by half at most.
@@ -109,7 +109,7 @@ impl CellGrid {
     }
 
     /// Squared distances below this are below the threshold, also when they are computed in `f32`.
-    pub(super) fn certain(&self) -> f32 {
+    pub fn certain(&self) -> f32 {
         self.separation.threshold as f32 * (1.0 - SLACK)
     }
 
@@ -209,21 +209,21 @@ impl CellGrid {
 
     /// Gathers the samples that cover something of a cell, for the coarse tests.
     #[inline(always)]
-    pub(super) fn gather(&self, cell: [i32; 2], near: &mut Near) {
+    pub fn gather(&self, cell: [i32; 2], near: &mut Near) {
         near.limit = self.certain();
         self.vectors.gather(near, &self.rows_near(cell), self.rect(cell), self.separation.threshold as f32);
     }
 
     /// Gathers from a list the samples that cover something of a voxel.
     #[inline(always)]
-    pub(super) fn gather_among(&self, list: &List, voxel: Rect, near: &mut Near) {
+    pub fn gather_among(&self, list: &List, voxel: Rect, near: &mut Near) {
         near.limit = self.certain();
         self.vectors.gather(near, &list.rows(), voxel, self.separation.threshold as f32);
     }
 
     /// [`Near::uncovered`].
     #[inline(always)]
-    pub(super) fn uncovered(&self, near: &Near, voxel: &Rect, width: i32) -> u16 {
+    pub fn uncovered(&self, near: &Near, voxel: &Rect, width: i32) -> u16 {
         self.vectors.uncovered(near, voxel, width)
     }
 
@@ -235,7 +235,7 @@ impl CellGrid {
 
     /// Whether one of the samples of some rows conflicts with `point`.
     #[inline(always)]
-    pub(super) fn conflicts_among(&self, rows: &Rows, point: [i32; 2]) -> bool {
+    pub fn conflicts_among(&self, rows: &Rows, point: [i32; 2]) -> bool {
         let nearest = self.vectors.nearest(rows, point);
         if nearest >= self.separation.threshold as f32 * (1.0 + SLACK) {
             return false;
@@ -370,6 +370,93 @@ impl CellGrid {
     }
 }
 
+// # The cuts of an axis
+//
+// The cuts of an axis into cells.
+
+/// How one axis of a plane is cut into cells: at the multiples of size / count, rounded down to lattice points. Cell `i`
+/// holds the lattice points from `edge(i)` to before `edge(i + 1)`; on a torus `i` may be any integer.
+#[derive(Clone, Debug)]
+pub(crate) struct CellAxis {
+    pub size: i32,
+    count: i32,
+}
+
+impl CellAxis {
+    /// Cells so small that any two points of one of them conflict at `radius`.
+    pub fn new(size: i32, radius: f64) -> Self {
+        let widest = radius * std::f64::consts::FRAC_1_SQRT_2 * (1.0 - 1e-9);
+        Self { size, count: (f64::from(size) / widest).ceil().max(1.0) as i32 }
+    }
+
+    /// The side of a cell, in lattice points, before edges are rounded.
+    pub fn side(&self) -> f64 {
+        f64::from(self.size) / f64::from(self.count)
+    }
+
+    /// The number of cells in the domain.
+    pub fn count(&self) -> i32 {
+        self.count
+    }
+
+    /// The first lattice point of a cell. Edges repeat exactly with the period of the torus.
+    pub fn edge(&self, cell: i32) -> i32 {
+        (i64::from(cell) * i64::from(self.size)).div_euclid(i64::from(self.count)) as i32
+    }
+
+    /// The cell that a lattice point lies in.
+    pub fn cell(&self, point: i32) -> i32 {
+        // The last one with cell · size / count < point + 1, without rounding.
+        ((i64::from(point) + 1) * i64::from(self.count) - 1).div_euclid(i64::from(self.size)) as i32
+    }
+
+    /// Finds the cells of points from `first` on, for many of them.
+    pub fn finder(&self, first: i32) -> Finder {
+        let turns = i64::from(-first.div_euclid(self.size));
+        // Twice each, so that the shift is never negative.
+        let [size, count] = [self.size, self.count].map(|x| 2 * i64::from(x));
+        let shift = size.ilog2() - 1;
+        Finder {
+            points: count,
+            offset: (1 + turns * i64::from(self.size)) * count - 2,
+            reciprocal: ((1u128 << (64 + shift)) / size as u128 + 1) as u64,
+            shift,
+            first: (self.cell(first) as i64 + turns * i64::from(self.count)) as i32,
+        }
+    }
+
+    /// How many cells away a conflict can be, when points conflict up to `reach` apart.
+    pub fn cells_within(&self, reach: i32) -> i32 {
+        (1..self.count).find(|&cells| self.gap(cells) > f64::from(reach)).map_or(self.count, |cells| cells - 1)
+    }
+
+    /// A lower bound of the distance between points of two cells that are `cells` apart.
+    fn gap(&self, cells: i32) -> f64 {
+        if cells == 0 { 0.0 } else { (f64::from(cells - 1) * self.side() * (1.0 - 1e-9)).floor() + 1.0 }
+    }
+}
+
+/// [`CellAxis::cell`] with the division as a multiplication, counted from the cell of a first point. Points are up to
+/// 2^26 on either side of it.
+pub struct Finder {
+    points: i64,
+    offset: i64,
+    /// 2^(64 + shift) / divisor, rounded up. As the divisor is below 2^(shift + 2), the quotients of numbers below 2^62 are
+    /// exact (Granlund and Montgomery 1994).
+    reciprocal: u64,
+    shift: u32,
+    first: i32,
+}
+
+impl Finder {
+    #[inline(always)]
+    pub fn cell(&self, point: i32) -> i32 {
+        let dividend = (i64::from(point) * self.points + self.offset) as u128;
+        let high = ((dividend * u128::from(self.reciprocal)) >> 64) as u64;
+        (high >> self.shift) as i32 - self.first
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -440,5 +527,24 @@ mod tests {
         assert!(!covers([200, 200], [312, 331]));
         assert!(!covers([169, 189], [311, 311]));
         assert!(covers([300, 300], [300, 400]), "the empty rectangle");
+    }
+
+    const SIZES: [i32; 7] = [1, 2, 63, 64, 1000, 99_991, 1 << 25];
+    const RADII: [f64; 5] = [64.0, 64.5, 100.1, 12_345.6, (1 << 26) as f64];
+
+    #[test]
+    fn cells_fill_an_axis_and_two_points_of_one_conflict() {
+        for (size, radius) in SIZES.into_iter().flat_map(|size| RADII.map(|radius| (size, radius))) {
+            let axis = CellAxis::new(size, radius);
+            assert_eq!((axis.edge(0), axis.edge(axis.count)), (0, size));
+            let finder = axis.finder(axis.edge(-4));
+            for cell in (-3..axis.count.min(3)).chain(axis.count - 3..axis.count + 3) {
+                let (first, end) = (axis.edge(cell), axis.edge(cell + 1));
+                assert!(first < end && 2.0 * f64::from(end - 1 - first).powi(2) < radius * radius);
+                assert_eq!((axis.cell(first), axis.cell(end - 1)), (cell, cell));
+                assert_eq!((finder.cell(first), finder.cell(end - 1)), (cell + 4, cell + 4));
+                assert_eq!(axis.edge(cell + axis.count), first + size);
+            }
+        }
     }
 }

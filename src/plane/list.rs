@@ -7,14 +7,14 @@ use crate::plane::rows::{LANES, NOWHERE, Rows};
 #[derive(Default)]
 pub(crate) struct List {
     /// The first `count` are samples, the eight after them are [`NOWHERE`].
-    pub(super) x: Vec<i32>,
-    pub(super) y: Vec<i32>,
-    pub(super) count: usize,
+    pub x: Vec<i32>,
+    pub y: Vec<i32>,
+    pub count: usize,
 }
 
 impl List {
     /// Empties the list for [`collect`], with capacity for so many samples in all.
-    pub(super) fn clear(&mut self, capacity: usize) {
+    pub fn clear(&mut self, capacity: usize) {
         self.count = 0;
         // Vectors of sixteen are written from any place on.
         if self.x.len() < capacity + 2 * LANES {
@@ -24,20 +24,20 @@ impl List {
     }
 
     /// Ends what was collected.
-    pub(super) fn end(&mut self) {
+    pub fn end(&mut self) {
         self.x[self.count..self.count + LANES].fill(NOWHERE);
         self.y[self.count..self.count + LANES].fill(NOWHERE);
     }
 
     /// Adds a sample; the list must have capacity for it.
-    pub(super) fn push(&mut self, [x, y]: [i32; 2]) {
+    pub fn push(&mut self, [x, y]: [i32; 2]) {
         (self.x[self.count], self.y[self.count]) = (x, y);
         (self.x[self.count + LANES], self.y[self.count + LANES]) = (NOWHERE, NOWHERE);
         self.count += 1;
     }
 
     /// The samples by eights, for the tests in `near.rs`.
-    pub(super) fn rows(&self) -> Rows<'_> {
+    pub fn rows(&self) -> Rows<'_> {
         let count = self.count.div_ceil(LANES).max(1);
         Rows { samples: [&self.x, &self.y], first: 0, stride: LANES, count }
     }
@@ -51,7 +51,7 @@ impl List {
 }
 
 /// Appends the samples in the first `width` cells of each row that lie in a rectangle to a list that has capacity for all.
-pub(super) fn collect(rows: &Rows, width: usize, rect: &Rect, list: &mut List) {
+pub fn collect(rows: &Rows, width: usize, rect: &Rect, list: &mut List) {
     let [xs, ys] = rows.samples;
     for row in 0..rows.count {
         let cells = rows.first + row * rows.stride..rows.first + row * rows.stride + width;

@@ -1,22 +1,18 @@
 //! The plane in exact integers, shared by [`maximal`](crate::maximal) and [`kdrt`](crate::kdrt): a lattice of floats, cells
 //! that hold one sample at most, and the flat quadtree of voxels in which darts are thrown (Ebeida et al. 2012).
 
-mod axis;
 mod cells;
-mod darts;
 pub(crate) mod lattice;
 mod list;
 mod near;
 mod obstacles;
 mod quadtree;
-mod rain;
 pub(crate) mod rect;
 mod rows;
 #[allow(unsafe_code)] // Vector instructions.
 mod vectors;
 
-pub(crate) use axis::CellAxis;
-pub(crate) use cells::CellGrid;
+pub(crate) use cells::{CellAxis, CellGrid};
 pub(crate) use list::List;
-pub(crate) use obstacles::Disk;
+pub(crate) use obstacles::{Disk, GivenDisks};
 pub(crate) use quadtree::{Quadtree, darts};

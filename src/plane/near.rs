@@ -10,21 +10,21 @@ use crate::plane::rows::{LANES, Rows};
 
 /// The share of the squared radius that rounding can add up to, and some more: coordinates are below 5 radii, and each
 /// of a handful of operations is off by at most 2^-24 of its result.
-pub(super) const SLACK: f32 = 1e-5;
+pub const SLACK: f32 = 1e-5;
 
 /// At most 13 samples cover something of a cell (Oler's inequality for points r apart that lie at most r from a square of
 /// side r / sqrt(2)), a few more where a torus is so narrow that images of one sample do. Any more are left out.
-pub(super) const MOST_NEAR: usize = 16;
+pub const MOST_NEAR: usize = 16;
 
 /// As many samples near a cell are tested whether they are there or not; seldom are there more.
 #[cfg_attr(not(target_arch = "x86_64"), allow(dead_code))]
-pub(super) const ALWAYS: usize = 4;
+pub const ALWAYS: usize = 4;
 
 /// A coordinate of no sample. Its square is a float.
-pub(super) const FAR: f32 = 1e18;
+pub const FAR: f32 = 1e18;
 
 /// The samples that cover something of a cell, as seen from its corner.
-pub(super) struct Near {
+pub struct Near {
     pub origin: [i32; 2],
     /// The first `count` are samples; [`ALWAYS`] and more after them are [`FAR`], so that a few can be tested whether they
     /// are there or not. How many there are is not predictable. (Vectors of sixteen are written from any place on.)

@@ -1,14 +1,14 @@
 //! Rows of cells around a place, as all coarse tests of the plane read them.
 
 /// The coordinates of a cell without a sample: far beyond every threshold.
-pub(super) const NOWHERE: i32 = -(1 << 29);
+pub const NOWHERE: i32 = -(1 << 29);
 
 /// The cells of a row that are read together: at least as many as conflicts can reach over.
-pub(super) const LANES: usize = 8;
+pub const LANES: usize = 8;
 
 /// The rows of cells around a place in which samples can conflict with its points. What lies in a row beyond the reach
 /// of conflicts is read too; it is what it is, and cannot conflict. The place of a cell without sample is far away.
-pub(super) struct Rows<'a> {
+pub struct Rows<'a> {
     /// The x and the y of the samples of all cells.
     pub samples: [&'a [i32]; 2],
     /// Where the first row begins.

@@ -21,9 +21,8 @@ use crate::error::Result;
 use crate::given::Given;
 use crate::job::{Job, chunks_of};
 use crate::kdrt::{
-    around::Around,
     blocks::{Blocks, PHASES},
-    classes::filling::{ClassFilling, ExclusionDisk},
+    classes::{filling::ClassFilling, filling::ExclusionDisk},
     options::Options,
     region::{Part, Placed, Region},
     stack::{Base, Layer, Stack},
@@ -31,7 +30,7 @@ use crate::kdrt::{
 };
 use crate::memory;
 use crate::plane::{
-    CellAxis,
+    CellAxis, GivenDisks,
     lattice::{Lattice, Separation},
     rect::Rect,
 };
@@ -48,7 +47,7 @@ pub fn stack(job: &Job, lattice: &Lattice, options: &Options, classes: &Classes)
             let (radius, lattice) = (classes.own(class), lattice.with_radius(classes.own(class)));
             let clearances = given.clearances_of_class(class, classes.count());
             let given = Given { positions: given.positions, clearances: clearances.as_deref() };
-            let around = || Around::new(domain, &lattice, radius, &given);
+            let around = || GivenDisks::new(domain, &lattice, radius, &given);
             let is_tiled = Tiling::is_worthwhile(&lattice, leaf_size);
             is_tiled.then(|| Base::new(job, lattice.clone(), leaf_size, seed, around().into())).transpose()?
         }
@@ -120,7 +119,7 @@ pub struct Group {
     /// former. None where they ignore each other and where there is no sample yet.
     separations: Vec<Vec<Option<Separation>>>,
     /// For each class of the group, what given samples keep from it.
-    around: Vec<Around>,
+    around: Vec<GivenDisks>,
     /// Along each axis the largest distance at which samples of the groups before matter.
     sight: [i32; 2],
     /// Along an axis the largest distance at which samples of the group matter.
@@ -180,7 +179,7 @@ impl Group {
         let around = |&class: &usize| {
             let clearances = given.clearances_of_class(class, classes.count());
             let given = Given { positions: given.positions, clearances: clearances.as_deref() };
-            Around::new(domain, &lattice, classes.own(class), &given)
+            GivenDisks::new(domain, &lattice, classes.own(class), &given)
         };
         Self {
             around: members.iter().map(around).collect(),
