@@ -2,6 +2,7 @@
 //!
 //! Wei 2010, "Multi-class blue noise sampling", §3; the thesis names them as future work (§3.4.6, ch. 5).
 
+use crate::check;
 use crate::error::{Error, Result};
 use crate::math::square;
 
@@ -64,9 +65,7 @@ impl Classes {
             let reason = format!("[{index}] is {:?}, not a positive finite number", own[index]);
             return Err(Error::invalid("own", reason));
         }
-        if !(0.0..f64::INFINITY).contains(&factor) {
-            return Err(Error::invalid("factor", format!("{factor:?} is not a finite number from 0 on")));
-        }
+        check::from_zero("factor", factor)?;
         // The density of all classes whose radii are no smaller, relative to that of the smallest radius: squares of
         // quotients stay in range.
         let smallest = own.iter().copied().fold(f64::INFINITY, f64::min);

@@ -41,6 +41,7 @@
 #![cfg_attr(test, allow(clippy::disallowed_methods))]
 
 pub mod analysis;
+mod check;
 mod classes;
 pub mod dcr;
 mod error;

@@ -1,6 +1,9 @@
 //! Domains and point containers.
 
+use crate::check;
 use crate::error::{Error, Result};
+
+pub(crate) use crate::check::{finest_radius, radius as check_radius, resolution as check_resolution};
 
 /// N·r² of an unbiased maximal set of N samples on an area of 1, 0.69656: the jamming limit of random sequential placement,
 /// 0.5470735 (Zhang and Torquato 2013), is the share of the area that disks of *diameter* r cover.
@@ -84,9 +87,7 @@ impl Domain {
 
     /// Refuses points (`xy`) that do not lie in `min <= x < max`, and more of them than can be indexed.
     pub(crate) fn check_points(&self, points: &[[f32; 2]]) -> Result<()> {
-        if points.len() > u32::MAX as usize {
-            return Err(Error::too_large("xy", format!("{} points; the limit is {}", points.len(), u32::MAX)));
-        }
+        check::indexable("xy", "points", points.len())?;
         match points.iter().position(|&point| !self.contains(point)) {
             None => Ok(()),
             Some(index) => {
@@ -179,32 +180,4 @@ impl<const D: usize> Points<D> {
     pub fn is_empty(&self) -> bool {
         self.positions.is_empty()
     }
-}
-
-/// Refuses a radius that is not a positive finite number.
-pub(crate) fn check_radius(radius: f64) -> Result<()> {
-    if radius > 0.0 && radius.is_finite() {
-        Ok(())
-    } else {
-        Err(Error::invalid("radius", format!("{radius} is not a positive finite number")))
-    }
-}
-
-/// How many float spacings a radius has at least: a tolerance of a few spacings is then a small part of it.
-const FINEST_RADIUS: f64 = 64.0;
-
-/// The smallest radius that floats of this spacing carry.
-pub(crate) fn finest_radius(spacing: f64) -> f64 {
-    FINEST_RADIUS * spacing
-}
-
-/// Refuses a radius below 64 times the spacing of floats at a place, such as "the largest coordinate of the mesh".
-pub(crate) fn check_resolution(argument: &'static str, radius: f64, spacing: f64, place: &str) -> Result<()> {
-    let finest = finest_radius(spacing);
-    if radius >= finest {
-        return Ok(());
-    }
-    let reason =
-        format!("{radius:?} is below {finest:?}, {FINEST_RADIUS} times the float spacing {spacing:?} at {place}");
-    Err(Error::invalid(argument, reason))
 }

@@ -3,8 +3,7 @@
 use glam::DVec2;
 
 use crate::error::Result;
-use crate::geometry::Delaunay;
-use crate::geometry::Frame;
+use crate::geometry::{Delaunay, Frame};
 use crate::job::{Context, Job, Progress, chunks};
 use crate::math::{atan2, direction};
 use crate::points::Domain;

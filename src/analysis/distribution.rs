@@ -11,6 +11,7 @@
 
 use std::f64::consts::PI;
 
+use crate::check;
 use crate::error::{Error, Result};
 use crate::index::Grid2;
 use crate::job::{Context, Progress, chunks_of};
@@ -96,13 +97,8 @@ pub fn radial_distribution(
 
 /// Refuses bins that are none.
 pub(super) fn check_bins(reach: f64, bins: usize) -> Result<()> {
-    if !(1..=MAX_BINS).contains(&bins) {
-        return Err(Error::invalid("bins", format!("{bins} is not in 1..={MAX_BINS}")));
-    }
-    if !(reach > 0.0 && reach.is_finite()) {
-        return Err(Error::invalid("reach", format!("{reach} is not a positive finite number")));
-    }
-    Ok(())
+    check::range("bins", bins, 1..=MAX_BINS)?;
+    check::positive("reach", reach)
 }
 
 impl RadialDistribution {

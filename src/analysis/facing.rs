@@ -6,6 +6,7 @@
 
 use glam::DVec3;
 
+use crate::check;
 use crate::error::{Error, Result};
 use crate::math::acos;
 use crate::mesh::{Mesh, exact};
@@ -45,10 +46,7 @@ pub fn density_by_facing(mesh: &Mesh, triangles: &[u32], directions: &[[f64; 3]]
     if let Some(i) = directions.iter().position(|&direction| DVec3::from(direction).try_normalize().is_none()) {
         return Err(Error::invalid("directions", format!("[{i}] is {:?}, no direction", directions[i])));
     }
-    let count = mesh.triangles().len();
-    if let Some(i) = triangles.iter().position(|&triangle| triangle as usize >= count) {
-        return Err(Error::invalid("triangles", format!("[{i}] is {}, and the mesh has {count}", triangles[i])));
-    }
+    check::triangles(triangles, mesh.triangles().len())?;
     let directions: Vec<_> = directions.iter().map(|&direction| DVec3::from(direction).normalize()).collect();
     let bin = |triangle: u32| {
         let normal = exact(mesh.normal(triangle));
@@ -56,7 +54,7 @@ pub fn density_by_facing(mesh: &Mesh, triangles: &[u32], directions: &[[f64; 3]]
         let angle = acos(cosine.min(1.0)) / std::f64::consts::FRAC_PI_2;
         ((angle * bins as f64) as usize).min(bins - 1)
     };
-    let of_triangles: Vec<_> = (0..count as u32).map(bin).collect();
+    let of_triangles: Vec<_> = (0..mesh.triangles().len() as u32).map(bin).collect();
     let mut facings = vec![Facing::default(); bins];
     of_triangles.iter().zip(0..).for_each(|(&bin, triangle)| facings[bin].area += mesh.triangle_area(triangle));
     triangles.iter().for_each(|&triangle| facings[of_triangles[triangle as usize]].samples += 1);

@@ -5,8 +5,7 @@ use crate::analysis::coverage::covering_radius;
 use crate::analysis::spacing::nearest_distances;
 use crate::analysis::triangles::{TriangleStatistics, triangles_of};
 use crate::error::Result;
-use crate::geometry::Delaunay;
-use crate::geometry::Frame;
+use crate::geometry::{Delaunay, Frame};
 use crate::job::{Context, Job, Progress};
 use crate::points::Domain;
 

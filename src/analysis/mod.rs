@@ -9,20 +9,30 @@ pub mod differential;
 pub mod distribution;
 pub mod facing;
 pub mod figures;
-mod probes;
 pub mod spacing;
 pub mod spectrum;
 pub mod triangles;
 
-use crate::error::{Error, Result};
+use crate::index::Weights;
+use crate::mesh::Mesh;
+use crate::rng::{Draw, Rng};
 
-/// Refuses positions that are not finite.
-fn check_positions(positions: &[[f32; 3]]) -> Result<()> {
-    match positions.iter().position(|position| position.iter().any(|x| !x.is_finite())) {
-        None => Ok(()),
-        Some(index) => {
-            let reason = format!("position {index} is {:?}, not finite", positions[index]);
-            Err(Error::invalid("positions", reason))
-        }
+/// A mesh from which points are drawn uniformly by area.
+struct AreaSampler<'a> {
+    mesh: &'a Mesh,
+    areas: Weights,
+}
+
+impl<'a> AreaSampler<'a> {
+    pub fn new(mesh: &'a Mesh) -> Self {
+        let triangles = 0..mesh.triangles().len() as u32;
+        Self { mesh, areas: Weights::new(triangles.map(|triangle| mesh.triangle_area(triangle)).collect()) }
+    }
+
+    /// The point of this number among those of a seed.
+    pub fn probe(&self, seed: u64, number: u64) -> [f32; 3] {
+        let mut rng = Rng::at(seed, Draw::Probe, &[number]);
+        let triangle = self.areas.pick(&mut rng);
+        self.mesh.point(triangle, rng.in_triangle().map(|x| x as f32))
     }
 }

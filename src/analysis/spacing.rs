@@ -1,9 +1,9 @@
 //! Spacing: the distances between samples, in `f64` from the floats, around the torus on a periodic domain.
 
 use crate::analysis::distribution::check_bins;
+use crate::check;
 use crate::error::Result;
-use crate::index::Grid2;
-use crate::index::smallest_distance;
+use crate::index::{Grid2, smallest_distance};
 use crate::job::{Context, Job, Progress, chunks_of};
 use crate::points::Domain;
 
@@ -110,6 +110,6 @@ pub fn nearest_histogram_2d(domain: &Domain, nearest: &[f64], reach: f64, bins: 
 /// [`Error::InvalidArgument`](crate::Error::InvalidArgument) for positions that are not finite (`positions`);
 /// [`Error::Cancelled`](crate::Error::Cancelled).
 pub fn smallest_distance_3d(context: &Context, positions: &[[f32; 3]], progress: Option<&Progress>) -> Result<f64> {
-    crate::analysis::check_positions(positions)?;
+    check::finite("positions", "position", positions)?;
     context.run(progress, |job| smallest_distance(job, positions))
 }

@@ -3,8 +3,7 @@
 use glam::DVec2;
 
 use crate::error::Result;
-use crate::geometry::Delaunay;
-use crate::geometry::{Frame, Site};
+use crate::geometry::{Delaunay, Frame, Site};
 use crate::job::{Context, Job, Progress, chunks, chunks_of};
 use crate::mesh::exact;
 use crate::points::{Boundary, Domain};

@@ -9,14 +9,14 @@
 //! Were q more than a period away along an axis, the chord of the circle through p or the one through q would be
 //! longer than a period and contain another copy of its point. On mirrored domains the mirror images play that part.
 
-use glam::DVec2;
+use glam::{DVec2, Vec2};
 use spade::handles::{FaceHandle, FixedVertexHandle, PossiblyOuterTag, VertexHandle};
 use spade::{DelaunayTriangulation, HasPosition, Point2, Triangulation};
 
 use crate::error::Result;
 use crate::geometry::{Frame, Site};
-use crate::geometry::{circumcentre, circumradius_squared};
 use crate::job::{Job, chunks};
+use crate::math::square;
 
 /// The first margin, in spacings: slightly more than the diameter of the largest empty circle of a million random
 /// points.
@@ -219,6 +219,24 @@ fn along_columns(sites: &mut [Site]) {
     }
 }
 
+/// The centre.
+fn circumcentre(a: DVec2, b: DVec2) -> DVec2 {
+    (b.length_squared() * a.perp() - a.length_squared() * b.perp()) / (2.0 * a.perp_dot(b))
+}
+
+/// The centre in single precision, times `2 a × b`: the caller divides, as the triangle may have no area.
+#[inline(always)]
+pub fn scaled_circumcentre(a: Vec2, b: Vec2) -> Vec2 {
+    b.length_squared() * a.perp() - a.length_squared() * b.perp()
+}
+
+/// The square of the radius, of the triangle with the edges `a`, `b` and `a - b`: the product of the edges over four
+/// times the area.
+pub fn circumradius_squared(a: DVec2, b: DVec2, opposite: DVec2) -> f64 {
+    let edges = a.length_squared() * b.length_squared() * opposite.length_squared();
+    edges / (4.0 * square(a.perp_dot(b)))
+}
+
 #[cfg(test)]
 mod tests {
     use std::cell::Cell;
@@ -332,6 +350,19 @@ mod tests {
                 let back = |&(f, t, o): &(u32, u32, DVec2)| (f, t) == (to, from) && (o + offset).length() < 1e-9;
                 assert_eq!(links.iter().filter(|link| back(link)).count(), 1);
             }
+        }
+    }
+
+    #[test]
+    fn all_corners_are_as_far_from_the_centre_as_the_radius_says() {
+        for (a, b) in [(DVec2::X, DVec2::Y), (DVec2::new(3.0, -1.0), DVec2::new(0.5, 2.0)), (DVec2::Y, DVec2::X)] {
+            let centre = circumcentre(a, b);
+            let radius = circumradius_squared(a, b, a - b).sqrt();
+            for corner in [DVec2::ZERO, a, b] {
+                assert!((corner.distance(centre) - radius).abs() < 1e-12);
+            }
+            let scaled = scaled_circumcentre(a.as_vec2(), b.as_vec2()).as_dvec2() / (2.0 * a.perp_dot(b));
+            assert!(scaled.distance(centre) < 1e-6);
         }
     }
 }

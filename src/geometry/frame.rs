@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use crate::math::direction;
+use crate::math::{direction, rounded_down, rounded_up};
 use crate::points::{Boundary, Domain};
 use crate::rng::{Draw, Rng};
 
@@ -146,7 +146,7 @@ impl Frame {
         std::array::from_fn(|axis| {
             let (min, max) = (self.domain.min[axis], self.domain.max[axis]);
             let x = (min + position[axis] * self.spacing) as f32;
-            let (first, last) = (first_float_from(min), last_float_below(max));
+            let (first, last) = (rounded_up(min), last_float_below(max));
             match self.domain.boundary {
                 // What rounds up to the upper side is, on the torus, at the lower one.
                 Boundary::Periodic if x > last => first,
@@ -182,23 +182,10 @@ fn lie_on_a_line(positions: &[DVec2]) -> bool {
     offsets().all(|offset| end.perp_dot(offset).abs() <= PARTING * end.length())
 }
 
-fn first_float_from(min: f64) -> f32 {
-    let nearest = min as f32;
-    if f64::from(nearest) < min { float_after(nearest) } else { nearest }
-}
-
+/// The largest float below a number.
 fn last_float_below(max: f64) -> f32 {
-    let nearest = max as f32;
-    if f64::from(nearest) >= max { -float_after(-nearest) } else { nearest }
-}
-
-/// The next larger float; `f32::next_up` is younger than the compiler that this crate promises to build with.
-fn float_after(x: f32) -> f32 {
-    match x.to_bits() {
-        _ if x == 0.0 => f32::from_bits(1),
-        bits if x > 0.0 => f32::from_bits(bits + 1),
-        bits => f32::from_bits(bits - 1),
-    }
+    let down = rounded_down(max);
+    if f64::from(down) < max { down } else { down.next_down() }
 }
 
 #[cfg(test)]

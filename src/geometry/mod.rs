@@ -1,9 +1,7 @@
 //! Geometry in floats, shared by relaxation and analysis: Delaunay triangulations, circumcircles, and the frame of a domain.
 
-mod circumcircle;
 mod delaunay;
 mod frame;
 
-pub use circumcircle::{circumcentre, circumradius_squared, scaled_circumcentre};
-pub use delaunay::{Delaunay, Dual};
+pub use delaunay::{Delaunay, Dual, circumradius_squared, scaled_circumcentre};
 pub use frame::{Frame, Site, along_strips};

@@ -5,7 +5,6 @@ use std::io::Cursor;
 use std::path::Path;
 
 use crate::error::{Error, Result};
-use crate::mesh::soup::Soup;
 use crate::mesh::source::{Input, Source};
 use crate::mesh::surface::Mesh;
 use crate::mesh::{obj, ply, stl};
@@ -77,4 +76,15 @@ fn checked(mut soup: Soup) -> Result<Mesh> {
         }
     }
     mesh.with_normals(soup.normals, soup.normal_indices)
+}
+
+/// What a file holds, not yet checked.
+#[derive(Default)]
+pub(super) struct Soup {
+    pub positions: Vec<[f32; 3]>,
+    pub triangles: Vec<[u32; 3]>,
+    /// Normals, as [`Mesh::with_normals`](crate::mesh::Mesh::with_normals) takes them, except that they need not be
+    /// finite; none at all if it is empty.
+    pub normals: Vec<[f32; 3]>,
+    pub normal_indices: Option<Vec<[u32; 3]>>,
 }

@@ -3,21 +3,16 @@
 //! Nothing is asked of the topology: open, non-manifold, self-intersecting, duplicated and oppositely wound faces are
 //! all welcome. What is asked is checked once, here, so that no later stage meets a bad number or index.
 
-mod check;
-mod decimal;
 mod kept;
 mod load;
-mod normals;
 mod obj;
 pub mod ply;
 mod quality;
-mod rounding;
-mod soup;
 mod source;
 mod stl;
 mod surface;
 mod text;
 
 pub use quality::Quality;
-pub(crate) use rounding::{exact, exact_point, round_barycentrics};
 pub use surface::Mesh;
+pub(crate) use surface::{exact, exact_point, round_barycentrics};

@@ -6,7 +6,7 @@
 //! Not by a crate: stl_io 0.11 takes a binary file whose header begins with "solid" for text, reads the first of several
 //! solids only, and refuses text whose normals are "nan".
 
-use crate::mesh::soup::Soup;
+use crate::mesh::load::Soup;
 use crate::mesh::source::Source;
 use crate::mesh::text::{next_vector, shown, skip_blanks, split_line, split_word};
 

@@ -1,15 +1,14 @@
 //! A checked triangle soup, and the points on it.
 
 use std::any::Any;
+use std::ops::Range;
 use std::sync::Arc;
 
 use glam::{DVec3, Vec3};
 
+use crate::check;
 use crate::error::{Error, Result};
-use crate::mesh::check::{check_finite, check_indices};
 use crate::mesh::kept::Kept;
-use crate::mesh::normals::Normals;
-use crate::mesh::rounding::{exact, exact_point, next_below};
 use crate::points::Points;
 
 /// A triangle soup: finite positions, indices in range, and some surface.
@@ -53,8 +52,8 @@ impl Mesh {
                 return Err(Error::too_large(argument, format!("{count} entries; the limit is {}", u32::MAX - 1)));
             }
         }
-        check_finite("positions", "vertex", &positions)?;
-        check_indices("indices", "vertex", "vertices", &triangles, positions.len())?;
+        check::finite("positions", "vertex", &positions)?;
+        check::corners("indices", "vertex", "vertices", &triangles, positions.len())?;
         if triangles.is_empty() {
             return Err(Error::invalid("indices", "0 triangles; at least one is needed"));
         }
@@ -94,7 +93,7 @@ impl Mesh {
             let reason = format!("{} for a mesh of {vertices} vertices", positions.len());
             return Err(Error::invalid("positions", reason));
         }
-        check_finite("positions", "vertex", &positions)?;
+        check::finite("positions", "vertex", &positions)?;
         let (triangles, mask) = (self.triangles.clone(), self.mask.clone());
         let (area, bounds, kept) = Default::default();
         let mesh = Self { positions: Arc::new(positions), triangles, normals: None, mask, area, bounds, kept };
@@ -192,6 +191,12 @@ impl Mesh {
         (0..self.triangles.len() as u32).filter(|&triangle| self.is_sampled(triangle))
     }
 
+    /// The triangles of a range that are to be sampled and have an area, with it: all that samples can lie on.
+    pub(crate) fn triangles_with_area(&self, range: Range<usize>) -> impl Iterator<Item = (u32, f64)> {
+        let measured = range.map(|triangle| (triangle as u32, self.triangle_area(triangle as u32)));
+        measured.filter(|&(_, area)| area > 0.0)
+    }
+
     /// The area of a triangle that is to be sampled; zero for one that the mask leaves out.
     pub fn triangle_area(&self, triangle: u32) -> f64 {
         if self.is_sampled(triangle) { self.cross(triangle).length() / 2.0 } else { 0.0 }
@@ -231,17 +236,12 @@ impl Mesh {
     /// [`Error::InvalidArgument`] for `triangles` that do not exist, and for `barycentrics` that are not as many or not
     /// finite.
     pub fn samples_at(&self, triangles: &[u32], barycentrics: &[[f32; 2]]) -> Result<Points<3>> {
-        let count = self.triangles.len();
         if barycentrics.len() != triangles.len() {
             let reason = format!("there are {}, and {} triangles", barycentrics.len(), triangles.len());
             return Err(Error::invalid("barycentrics", reason));
         }
-        if let Some(i) = triangles.iter().position(|&triangle| triangle as usize >= count) {
-            return Err(Error::invalid("triangles", format!("[{i}] is {}, and the mesh has {count}", triangles[i])));
-        }
-        if let Some(i) = barycentrics.iter().position(|[u, v]| !(u.is_finite() && v.is_finite())) {
-            return Err(Error::invalid("barycentrics", format!("[{i}] is {:?}, not finite", barycentrics[i])));
-        }
+        check::triangles(triangles, self.triangles.len())?;
+        check::finite("barycentrics", "sample", barycentrics)?;
         Ok(self.samples(triangles.to_vec(), barycentrics.to_vec()))
     }
 
@@ -289,7 +289,7 @@ impl Mesh {
     /// The spacing of floats at the largest coordinate.
     pub(crate) fn float_spacing(&self) -> f64 {
         let largest = self.largest_coordinate();
-        f64::from(largest) - f64::from(next_below(largest))
+        f64::from(largest) - f64::from(largest.next_down())
     }
 
     /// The cross product of two edges: twice the area, along the normal.
@@ -304,5 +304,100 @@ impl Mesh {
     pub(crate) fn exact_corners(&self, triangle: u32) -> [DVec3; 3] {
         let [a, b, c] = self.corners(triangle);
         [exact(a), exact(b), exact(c)]
+    }
+}
+
+/// Interpolated normals shorter than this share of the longest normal have no direction: it would be that of roundings.
+const SHORTEST: f64 = 1e-6;
+
+/// Normals at the corners of all triangles.
+#[derive(Debug)]
+pub(super) struct Normals {
+    vectors: Vec<[f32; 3]>,
+    /// The normals of each triangle's corners; those of its vertices, without.
+    indices: Option<Vec<[u32; 3]>>,
+}
+
+impl Normals {
+    /// Checks and takes normals for a mesh of so many vertices and triangles.
+    pub fn new(
+        vertices: usize,
+        triangles: usize,
+        vectors: Vec<[f32; 3]>,
+        indices: Option<Vec<[u32; 3]>>,
+    ) -> Result<Self> {
+        let count = vectors.len();
+        if count >= u32::MAX as usize {
+            return Err(Error::too_large("normals", format!("{count} entries; the limit is {}", u32::MAX - 1)));
+        }
+        check::finite("normals", "normal", &vectors)?;
+        match &indices {
+            None if count != vertices => {
+                let reason = format!("{count} of them without indices, but there are {vertices} vertices");
+                return Err(Error::invalid("normals", reason));
+            }
+            None => {}
+            Some(indices) if indices.len() != triangles => {
+                let reason = format!("{} entries, but there are {} triangles", indices.len(), triangles);
+                return Err(Error::invalid("normal_indices", reason));
+            }
+            Some(indices) => check::corners("normal_indices", "normal", "normals", indices, count)?,
+        }
+        Ok(Self { vectors, indices })
+    }
+
+    /// The unit normal at a point of one of the mesh's triangles, if it has a direction.
+    pub fn interpolated(&self, triangles: &[[u32; 3]], triangle: u32, uv: [f32; 2]) -> Option<DVec3> {
+        let corners = self.indices.as_deref().unwrap_or(triangles)[triangle as usize];
+        let [a, b, c] = corners.map(|corner| exact(self.vectors[corner as usize]));
+        let [u, v] = uv.map(f64::from);
+        let sum = (1.0 - u - v) * a + u * b + v * c;
+        let longest = a.length().max(b.length()).max(c.length());
+        (sum.length() > SHORTEST * longest).then(|| sum.normalize())
+    }
+}
+
+/// A position in `f64`.
+pub(crate) fn exact(position: [f32; 3]) -> DVec3 {
+    let [x, y, z] = position;
+    DVec3::new(x.into(), y.into(), z.into())
+}
+
+/// A point of a triangle, before it is rounded.
+pub(crate) fn exact_point(corners: &[[f32; 3]; 3], [u, v]: [f64; 2]) -> DVec3 {
+    let [a, b, c] = corners;
+    (1.0 - u - v) * exact(*a) + u * exact(*b) + v * exact(*c)
+}
+
+/// Barycentrics rounded to floats that name a point of the triangle: not negative, and their sum (in `f64`) not above 1.
+pub(crate) fn round_barycentrics([u, v]: [f64; 2]) -> [f32; 2] {
+    let [mut u, mut v] = [u, v].map(|x| x.clamp(0.0, 1.0) as f32);
+    let (larger, smaller) = if u > v { (&mut u, v) } else { (&mut v, u) };
+    if f64::from(*larger) + f64::from(smaller) > 1.0 {
+        let rest = 1.0 - f64::from(smaller);
+        *larger = rest as f32;
+        if f64::from(*larger) > rest {
+            *larger = larger.next_down();
+        }
+    }
+    [u, v]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::rng::{Draw, Rng};
+
+    #[test]
+    fn rounded_barycentrics_stay_on_the_triangle_and_move_by_a_rounding() {
+        let mut rng = Rng::at(1, Draw::Probe, &[]);
+        let edge = (0..1000).map(|_| rng.unit()).map(|u| [u, 1.0 - u]).collect::<Vec<_>>();
+        for [u, v] in edge.into_iter().chain([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [0.5, 0.5], [1.0 / 3.0, 2.0 / 3.0]]) {
+            let rounded = round_barycentrics([u, v]).map(f64::from);
+            assert!(rounded[0] >= 0.0 && rounded[1] >= 0.0 && rounded[0] + rounded[1] <= 1.0);
+            assert!((rounded[0] - u).abs() <= 6e-8 && (rounded[1] - v).abs() <= 6e-8, "{u} {v}");
+        }
+        assert_eq!(round_barycentrics([-1e-9, 1.0 + 1e-7]), [0.0, 1.0]);
+        assert_eq!(round_barycentrics([0.7, 0.7]).map(|x| x as f64).iter().sum::<f64>(), 1.0);
     }
 }

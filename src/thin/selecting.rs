@@ -1,7 +1,6 @@
 //! The loop that selects, by either rule.
 
-use super::leaf::Nearer;
-use super::tree::Tree;
+use super::tree::{Nearer, Tree};
 use super::vectors::advance;
 use super::{Options, Selection};
 use crate::error::Result;

@@ -6,7 +6,7 @@ use std::ptr::NonNull;
 
 use crate::error::{Error, Result};
 use crate::job::Job;
-use crate::trace::ray::{Hit, Ray};
+use crate::trace::{Hit, Ray};
 
 fn refusal() -> Error {
     Error::Embree("this build has none (feature embree, AZULEJO_EMBREE)".to_owned())

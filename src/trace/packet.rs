@@ -1,15 +1,14 @@
 //! Packets of rays that Embree traces.
 
 use std::ffi::c_int;
-use std::{ptr, slice};
+use std::mem::offset_of;
+use std::{mem, ptr, slice};
 
 use embree4_sys::*;
 
-use crate::trace::build::Built;
-use crate::trace::layout::{MAX_WIDTH, RayHits, Valid, field};
-use crate::trace::ray::{Hit, LARGEST_COORDINATE, Ray};
 use crate::trace::recorder::{Recorder, record};
-use crate::trace::settle::settle;
+use crate::trace::scene::Built;
+use crate::trace::{Hit, LARGEST_COORDINATE, Ray};
 
 /// Up to N rays of the caller, in Embree's layout. Hits that come from here count rays by lanes.
 pub(super) struct Packet<P> {
@@ -189,6 +188,97 @@ fn coherent() -> RTCIntersectArguments {
     arguments
 }
 
+/// The widest packet.
+pub(super) const MAX_WIDTH: usize = 16;
+
+/// Which array of a struct of N rays and their hits is which: word `field * N + lane`.
+pub(super) mod field {
+    pub const ORIGIN: usize = 0;
+    pub const DIRECTION: usize = 4;
+    pub const TFAR: usize = 8;
+    pub const MASK: usize = 9;
+    pub const ID: usize = 10;
+    /// The first field of the hit.
+    pub const HIT: usize = 12;
+    pub const U: usize = 15;
+    pub const V: usize = 16;
+    pub const TRIANGLE: usize = 17;
+    pub const GEOMETRY: usize = 18;
+    pub const COUNT: usize = 19;
+}
+
+/// One of Embree's structs of N rays and their hits.
+///
+/// # Safety
+/// The struct begins with the arrays of N words (`f32` or `u32`) that [`field`] names, and nothing between them.
+pub(super) unsafe trait RayHits: Default {
+    /// N.
+    const WIDTH: usize;
+
+    /// Traces the rays of the lanes where `valid` is -1. A struct of one ray does not look at `valid`.
+    ///
+    /// # Safety
+    /// The scene is committed, the valid rays are finite, the arguments and what they point to are initialised.
+    unsafe fn intersect(&mut self, valid: &Valid, scene: RTCScene, arguments: &mut RTCIntersectArguments);
+}
+
+/// Which lanes of a packet are traced: -1 those, 0 the others. Embree faults on a mask that is not aligned.
+#[derive(Default)]
+#[repr(C, align(64))]
+pub(super) struct Valid(pub [c_int; MAX_WIDTH]);
+
+macro_rules! ray_hits {
+    ($struct:ty, $width:literal, |$valid:pat_param, $scene:ident, $rays:ident, $arguments:ident| $intersect:expr) => {
+        const _: () = assert!(offset_of!($struct, hit) == 4 * field::HIT * $width);
+
+        // SAFETY: by the layout of Embree's own accessors (RTCRayN_org_x and so on), and the assertion above.
+        unsafe impl RayHits for $struct {
+            const WIDTH: usize = $width;
+
+            unsafe fn intersect(&mut self, $valid: &Valid, $scene: RTCScene, $arguments: &mut RTCIntersectArguments) {
+                let $rays = self;
+                // SAFETY: by the contract; mask and struct are aligned by their types.
+                unsafe { $intersect }
+            }
+        }
+    };
+}
+
+ray_hits!(RTCRayHit, 1, |_, scene, ray, arguments| rtcIntersect1(scene, ray, arguments));
+ray_hits!(RTCRayHit4, 4, |valid, scene, rays, arguments| rtcIntersect4(valid.0.as_ptr(), scene, rays, arguments));
+ray_hits!(RTCRayHit8, 8, |valid, scene, rays, arguments| rtcIntersect8(valid.0.as_ptr(), scene, rays, arguments));
+ray_hits!(RTCRayHit16, 16, |valid, scene, rays, arguments| rtcIntersect16(valid.0.as_ptr(), scene, rays, arguments));
+
+/// A place for a hit.
+const NO_HIT: Hit = Hit { ray: 0, triangle: 0, uv: [0.0; 2], t: 0.0 };
+
+/// Appends what `finish` makes of the hits of one packet, ordered by lane, `t` and triangle and without repetitions: a
+/// triangle that is met twice is met at the same `t`.
+pub(super) fn settle<const LANES: usize>(found: &[Hit], finish: impl Fn(&Hit) -> Hit, hits: &mut Vec<Hit>) {
+    // By lanes first. Then most packets are in order, since Embree goes from near to far.
+    let mut places = [0; LANES];
+    found.iter().for_each(|hit| places[hit.ray as usize % LANES] += 1);
+    let start = hits.len();
+    let mut end = start;
+    for place in &mut places {
+        end += mem::replace(place, end);
+    }
+    hits.resize(end, NO_HIT);
+    for hit in found {
+        let place = &mut places[hit.ray as usize % LANES];
+        hits[*place] = finish(hit);
+        *place += 1;
+    }
+    // The bits of floats above zero are in the order of the floats.
+    let key = |hit: &Hit| ((hit.ray as u64) << 32 | hit.t.to_bits() as u64, hit.triangle);
+    if !hits[start..].is_sorted_by(|a, b| key(a) < key(b)) {
+        let mut unsettled = hits.split_off(start);
+        unsettled.sort_unstable_by_key(key);
+        unsettled.dedup_by_key(|hit| (hit.ray, hit.triangle));
+        hits.append(&mut unsettled);
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -260,5 +350,20 @@ mod tests {
             }
         }
         assert!(!traced(Ray { origin: [0.0; 3], direction: [0.0; 3] }));
+    }
+
+    #[test]
+    fn hits_are_ordered_and_repetitions_dropped() {
+        let hit = |ray, t, triangle| Hit { ray, triangle, uv: [0.0; 2], t };
+        let expected =
+            [hit(0, 0.5, 9), hit(0, 0.5, 10), hit(0, 2.0, 1), hit(1, f32::MIN_POSITIVE, 1), hit(1, 30.0, 10)];
+        for order in [&[3, 1, 4, 0, 1, 2, 0, 3], &[0, 1, 2, 3, 3, 3, 4, 4], &[3, 0, 4, 0, 1, 1, 1, 2]] {
+            let found = order.map(|i: usize| expected[i]);
+            let before = hit(7, 1.0, 1);
+            let mut hits = vec![before];
+            settle::<2>(&found, |hit| Hit { t: 2.0 * hit.t, ..*hit }, &mut hits);
+            assert_eq!(hits[0], before);
+            assert_eq!(hits[1..], expected.map(|hit| Hit { t: 2.0 * hit.t, ..hit }));
+        }
     }
 }

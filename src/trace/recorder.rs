@@ -6,8 +6,8 @@ use std::slice;
 use embree4_sys::*;
 
 use crate::simd::Level;
-use crate::trace::layout::{MAX_WIDTH, field};
-use crate::trace::ray::Hit;
+use crate::trace::Hit;
+use crate::trace::packet::{MAX_WIDTH, field};
 #[cfg(target_arch = "x86_64")]
 use crate::trace::wide;
 

@@ -85,7 +85,7 @@ mod tests {
 
     use super::*;
     use crate::job::{Context, Progress};
-    use crate::trace::ray::Ray;
+    use crate::trace::Ray;
     use crate::trace::scene::Scene;
 
     /// A staircase of squares.

@@ -4,8 +4,8 @@ use std::arch::x86_64::*;
 use std::ffi::c_int;
 
 use crate::simd::Avx512;
-use crate::trace::layout::field;
-use crate::trace::ray::Hit;
+use crate::trace::Hit;
+use crate::trace::packet::field;
 
 /// Rays of a packet.
 pub(super) const WIDTH: usize = 16;
@@ -45,7 +45,7 @@ unsafe fn note_lanes(valid: *mut c_int, ray: *const u32, hit: *const u32, hits: 
     let [rays, triangles, u, v, t] = packed;
     hits.reserve(WIDTH);
     let end = hits.spare_capacity_mut();
-    // Four at a time, some of them in vain: the number of turns is nearly always the same.
+    // Four at a time, over-reading up to three: the number of turns is nearly always the same.
     for start in (0..count).step_by(4) {
         for lane in start..start + 4 {
             let [u, v, t] = [u, v, t].map(|field: [u32; WIDTH]| f32::from_bits(field[lane]));

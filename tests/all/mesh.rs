@@ -145,5 +145,5 @@ fn samples_go_with_their_triangles_to_a_deformed_mesh() {
     let refused = |triangles: &[u32], uv: &[[f32; 2]]| mesh.samples_at(triangles, uv).unwrap_err().to_string();
     assert_eq!(refused(&[0], &[]), "barycentrics: there are 0, and 1 triangles");
     assert!(refused(&[u32::MAX], &[[0.0; 2]]).starts_with("triangles: [0] is 4294967295"));
-    assert_eq!(refused(&[0], &[[0.0, f32::NAN]]), "barycentrics: [0] is [0.0, NaN], not finite");
+    assert_eq!(refused(&[0], &[[0.0, f32::NAN]]), "barycentrics: sample 0 is [0.0, NaN], not finite");
 }

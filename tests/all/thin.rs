@@ -216,7 +216,7 @@ fn what_makes_no_sense_is_refused_by_name() {
         other => panic!("{options:?}: {other:?}"),
     };
     for (options, expected) in [
-        (Options::by_radius(0.0), "radius: 0, as is count; any order needs one of them to stop at"),
+        (Options::by_radius(0.0), "radius: 0, and so is count; give one of them, or ask for progressive order"),
         (Options::by_radius(-1.0), "radius: -1 is not a positive finite number"),
         (Options::by_radius(f64::NAN), "radius: NaN is not a positive finite number"),
         (Options::progressive().radius(f64::INFINITY), "radius: inf is not a positive finite number"),

@@ -10,10 +10,8 @@
 
 use glam::DVec2;
 
-use crate::analysis::coverage::disjoint_sets::DisjointSets;
 use crate::error::Result;
-use crate::geometry::Frame;
-use crate::geometry::{Delaunay, Dual};
+use crate::geometry::{Delaunay, Dual, Frame};
 use crate::index::Grid2;
 use crate::job::{Job, chunks, chunks_of};
 use crate::points::Domain;
@@ -95,5 +93,47 @@ impl Dual {
     fn crosses_its_edge(&self) -> bool {
         let side = |(centre, _): (DVec2, f64)| (self.ends[1] - self.ends[0]).perp_dot(centre - self.ends[0]);
         side(self.circles[0]) * side(self.circles[1]) <= 0.0
+    }
+}
+
+/// Members that are linked, and how many groups they form: a forest with a tree for each group (Tarjan 1975, "Efficiency of a
+/// good but not linear set union algorithm").
+pub(super) struct DisjointSets {
+    parents: Vec<u32>,
+    count: usize,
+}
+
+impl DisjointSets {
+    /// As many groups of one.
+    pub fn new(members: usize) -> Self {
+        Self { parents: (0..members as u32).collect(), count: members }
+    }
+
+    /// The number of groups.
+    pub fn count(&self) -> usize {
+        self.count
+    }
+
+    /// Whether two members are of one group.
+    pub fn are_linked(&mut self, a: u32, b: u32) -> bool {
+        self.root(a) == self.root(b)
+    }
+
+    /// Makes one group of those of two members.
+    pub fn link(&mut self, a: u32, b: u32) {
+        let [a, b] = [self.root(a), self.root(b)];
+        if a != b {
+            self.parents[a.max(b) as usize] = a.min(b);
+            self.count -= 1;
+        }
+    }
+
+    fn root(&mut self, mut member: u32) -> u32 {
+        while self.parents[member as usize] != member {
+            let grandparent = self.parents[self.parents[member as usize] as usize];
+            self.parents[member as usize] = grandparent;
+            member = grandparent;
+        }
+        member
     }
 }

@@ -5,14 +5,14 @@ use std::collections::HashMap;
 
 use glam::DVec3;
 
-use crate::analysis::coverage::disjoint_sets::DisjointSets;
+use crate::analysis::coverage::gaps::DisjointSets;
 use crate::analysis::coverage::{Coverage, PRECISION};
+use crate::check;
 use crate::error::{Error, Result};
 use crate::index::PointTree;
 use crate::job::{Context, Job, Progress, chunks_of};
 use crate::math::distance_squared;
 use crate::mesh::Mesh;
-use crate::points::check_radius;
 
 /// Triangles are cut before work on them is shared, until none has more than this share of the area.
 const SHARE: f64 = 1.0 / 2048.0;
@@ -46,7 +46,7 @@ pub fn surface_covering_radius(
     positions: &[[f32; 3]],
     progress: Option<&Progress>,
 ) -> Result<f64> {
-    crate::analysis::check_positions(positions)?;
+    check::finite("positions", "position", positions)?;
     context.run(progress, |job| {
         let tree = PointTree::of(&job.part(0.0, 0.1), positions)?;
         farthest(&job.part(0.1, 1.0), &tree, &TrianglePart::of(mesh))
@@ -72,8 +72,8 @@ pub fn surface_coverage(
     radius: f64,
     progress: Option<&Progress>,
 ) -> Result<Coverage> {
-    check_radius(radius)?;
-    crate::analysis::check_positions(positions)?;
+    check::radius(radius)?;
+    check::finite("positions", "position", positions)?;
     context.run(progress, |job| {
         let tree = PointTree::of(&job.part(0.0, 0.1), positions)?;
         let fragments = TrianglePart::of(mesh);
@@ -192,10 +192,9 @@ struct TrianglePart {
 impl TrianglePart {
     /// The triangles that have an area and that the mask does not leave out, the large ones cut.
     fn of(mesh: &Mesh) -> Vec<Self> {
-        let triangles = mesh.sampled_triangles().filter(|&triangle| mesh.triangle_area(triangle) > 0.0);
         let limit = SHARE * mesh.area();
         let mut fragments = Vec::new();
-        for triangle in triangles {
+        for (triangle, _) in mesh.triangles_with_area(0..mesh.triangles().len()) {
             Self::new(mesh.exact_corners(triangle)).cut(limit, &mut fragments);
         }
         fragments

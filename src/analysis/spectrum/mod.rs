@@ -15,6 +15,7 @@ mod transform;
 
 use std::f64::consts::PI;
 
+use crate::check;
 use crate::error::{Error, Result};
 use crate::job::{Context, Progress};
 use crate::math::{cos, hypot, power, sin, square};
@@ -80,15 +81,9 @@ pub fn sparse_periodogram(
     progress: Option<&Progress>,
 ) -> Result<Periodogram> {
     domain.check()?;
-    if !(1..=MAX_STRIDE).contains(&stride) {
-        return Err(Error::invalid("stride", format!("{stride} is not in 1..={MAX_STRIDE}")));
-    }
-    if !(2..=MAX_SIZE).contains(&size) {
-        return Err(Error::invalid("size", format!("{size} is not in 2..={MAX_SIZE}")));
-    }
-    if let Some(i) = points.iter().position(|point| !point.iter().all(|x| x.is_finite())) {
-        return Err(Error::invalid("xy", format!("[{i}] is {:?}, not finite", points[i])));
-    }
+    check::range("stride", stride, 1..=MAX_STRIDE)?;
+    check::range("size", size, 2..=MAX_SIZE)?;
+    check::finite("xy", "point", points)?;
     let weighted = weigh(domain, points, stride as f64);
     let energy: f64 = weighted.iter().map(|point| point.weight * point.weight).sum();
     if energy == 0.0 {

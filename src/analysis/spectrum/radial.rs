@@ -1,7 +1,8 @@
 //! Radial mean, anisotropy, contrast and peaks of a periodogram (Ulichney 1988; thesis fig. 1.10).
 
 use crate::analysis::spectrum::Periodogram;
-use crate::error::{Error, Result};
+use crate::check;
+use crate::error::Result;
 use crate::math::hypot;
 
 /// The frequencies of about one length: a point of the radial curves.
@@ -135,9 +136,7 @@ impl Periodogram {
 
     /// Sums up the power in annuli.
     pub(super) fn annuli(&self, width: f64) -> Result<Annuli> {
-        if !(width > 0.0 && width.is_finite()) {
-            return Err(Error::invalid("width", format!("{width} is not a positive finite number")));
-        }
+        check::positive("width", width)?;
         let half = (self.size / 2) as i64;
         let end = self.size as i64 - half;
         let last = (end - 1) as f64 * self.frequency_step[0].min(self.frequency_step[1]);

@@ -63,8 +63,7 @@ struct Throws<'a> {
 
 impl<'a> Throws<'a> {
     fn new(mesh: &'a Mesh, seed: u64) -> Self {
-        let areas = mesh.sampled_triangles().map(|triangle| (triangle, mesh.triangle_area(triangle)));
-        let (triangles, areas) = areas.filter(|&(_, area)| area > 0.0).unzip();
+        let (triangles, areas) = mesh.triangles_with_area(0..mesh.triangles().len()).unzip();
         Self { mesh, seed, triangles, areas: Weights::new(areas) }
     }
 

@@ -26,16 +26,15 @@ pub(super) fn require(job: &Job, mesh: &Mesh, field: &RadiusField) -> Result<f64
     let chunks = chunks_of(mesh.triangles().len(), CHUNK);
     let estimates = job.map(chunks.len(), |chunk| {
         let (mut slices, mut estimate) = (Vec::new(), 0.0);
-        for triangle in chunks.range(chunk).map(|triangle| triangle as u32) {
-            let area = mesh.triangle_area(triangle);
+        for (triangle, area) in mesh.triangles_with_area(chunks.range(chunk)) {
             let mut count = |piece: &Fragment, shape: &Shape, area: f64| {
                 estimate += expected_samples_of(field.centre(piece, shape), area, shape.longest);
             };
             let whole = Fragment::whole(triangle);
             let shape = whole.shape(mesh);
-            if area > 0.0 && shape.longest <= longest {
+            if shape.longest <= longest {
                 count(&whole, &shape, area);
-            } else if area > 0.0 {
+            } else {
                 slice(mesh, triangle, longest, &mut slices);
                 for slice in slices.drain(..) {
                     slice.parts_up_to(mesh, longest).for_each(|part| count(&part, &part.shape(mesh), part.area(mesh)));

@@ -60,11 +60,7 @@ pub fn pieces(
     let chunks = chunks_of(mesh.triangles().len(), CHUNK);
     let (pieces, _) = Buckets::collect(job, chunks.len(), |chunk, add| {
         let (mut slices, mut cuts) = (Vec::new(), Cuts { mesh, field, quota, cubes, add });
-        for triangle in chunks.range(chunk).map(|triangle| triangle as u32) {
-            let area = mesh.triangle_area(triangle);
-            if area == 0.0 {
-                continue;
-            }
+        for (triangle, area) in mesh.triangles_with_area(chunks.range(chunk)) {
             let whole = Fragment::whole(triangle);
             let shape = whole.shape(mesh);
             let bounds = field.bounds(&whole, &shape, field.all());

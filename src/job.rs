@@ -3,6 +3,7 @@
 //! All parallel code of the crate goes through [`Job::map`]: tasks that share nothing, results in the order of the
 //! tasks. That is what makes every result independent of the number of threads.
 
+use std::collections::BTreeMap;
 use std::mem::ManuallyDrop;
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -15,11 +16,7 @@ use rayon::prelude::*;
 use crate::error::{Error, Result};
 use crate::host::process_id;
 
-mod placing;
-
-use placing::Placing;
-
-/// How often the calling thread looks up from waiting to report progress.
+/// The polling interval of progress, on the calling thread.
 const REPORT_INTERVAL: Duration = Duration::from_millis(20);
 
 /// How many results of [`Job::stream`] each thread makes while those before them are visited.
@@ -329,5 +326,201 @@ impl<'a> Job<'a> {
     }
 }
 
+/// The vector that the parts become, while they are made.
+struct Placing<'a, T>(Mutex<State<'a, T>>);
+
+struct State<'a, T> {
+    /// What is left of the vector's memory.
+    free: &'a mut [T],
+    /// How many parts have a place.
+    placed: usize,
+    /// Parts that were made before their turn.
+    early: BTreeMap<usize, Vec<T>>,
+    /// The parts from the first one on that the memory was too short for.
+    beyond: Vec<Vec<T>>,
+}
+
+impl<'a, T: Copy> Placing<'a, T> {
+    /// No parts yet, and memory for them.
+    pub fn new(memory: &'a mut [T]) -> Self {
+        Self(Mutex::new(State { free: memory, placed: 0, early: BTreeMap::new(), beyond: Vec::new() }))
+    }
+
+    /// Puts a part in its place, or keeps it until those before it have one. The copy happens outside of the lock, by
+    /// the thread that has the part in its cache: so the page faults of memory that is new are shared as well.
+    pub fn put(&self, index: usize, part: Vec<T>) {
+        // A panic in another thread ends the call; what is placed after it does not matter.
+        let mut state = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        state.early.insert(index, part);
+        let mut ready = Vec::new();
+        while let Some((place, part)) = state.next() {
+            ready.push((place, part));
+        }
+        drop(state);
+        ready.into_iter().for_each(|(place, part)| place.copy_from_slice(&part));
+    }
+
+    /// How much of the memory is left, and the parts that found no place in it.
+    pub fn finish(self) -> (usize, Vec<Vec<T>>) {
+        let state = self.0.into_inner().unwrap_or_else(PoisonError::into_inner);
+        (state.free.len(), state.beyond)
+    }
+}
+
+impl<'a, T> State<'a, T> {
+    /// The part whose turn it is, if it is made, and its place.
+    fn next(&mut self) -> Option<(&'a mut [T], Vec<T>)> {
+        loop {
+            let part = self.early.remove(&self.placed)?;
+            self.placed += 1;
+            if self.beyond.is_empty() && part.len() <= self.free.len() {
+                let (place, free) = std::mem::take(&mut self.free).split_at_mut(part.len());
+                self.free = free;
+                return Some((place, part));
+            }
+            self.beyond.push(part);
+        }
+    }
+}
+
 #[cfg(test)]
-mod tests;
+mod tests {
+    use std::cell::{Cell, RefCell};
+    use std::thread::{self, ThreadId};
+
+    use super::*;
+
+    fn squares(context: &Context, progress: Option<&Progress>) -> Result<Vec<usize>> {
+        context.run(progress, |job| {
+            let first = job.part(0.0, 0.5).map(100, |i| i * i)?;
+            let second = job.part(0.5, 1.0).flat_map(100, |i| {
+                thread::sleep(Duration::from_millis(1));
+                vec![i * i; i % 3]
+            })?;
+            Ok(first.into_iter().chain(second).collect())
+        })
+    }
+
+    #[test]
+    fn results_do_not_depend_on_the_threads() {
+        let expected = squares(&Context::new(1).unwrap(), None).unwrap();
+        for threads in [2, 3, 8] {
+            let context = Context::new(threads).unwrap();
+            assert_eq!(context.num_threads(), threads);
+            assert_eq!(squares(&context, None).unwrap(), expected);
+            assert_eq!(squares(&context, Some(&|_| ControlFlow::Continue(()))).unwrap(), expected);
+        }
+    }
+
+    /// The first parts take the longest, so that others come before their turn.
+    #[test]
+    fn parts_are_put_in_order_whatever_is_expected_of_them() {
+        let part = |i: usize| {
+            thread::sleep(Duration::from_micros(if i.is_multiple_of(8) { 500 } else { 10 }));
+            (0..i % 5).map(|j| 1 + 10 * i + j).collect::<Vec<_>>()
+        };
+        let expected: Vec<_> = (0..50).flat_map(part).collect();
+        for threads in [1, 2, 5] {
+            let context = Context::new(threads).unwrap();
+            for about in [0, 1, 30, expected.len() - 1, expected.len(), 500] {
+                for progress in [None, Some(&(|_| ControlFlow::Continue(())) as &Progress)] {
+                    let found = context.run(progress, |job| job.concat_about(about, 50, part)).unwrap();
+                    assert_eq!(found, expected, "{threads} threads, {about} expected");
+                }
+            }
+            assert!(context.run(None, |job| job.concat_about(9, 0, part)).unwrap().is_empty());
+        }
+    }
+
+    #[test]
+    fn progress_is_told_on_the_calling_thread_and_grows_from_zero_to_one() {
+        for threads in [1, 3] {
+            let told: RefCell<Vec<(f64, ThreadId)>> = RefCell::default();
+            let progress = |share| {
+                told.borrow_mut().push((share, thread::current().id()));
+                ControlFlow::Continue(())
+            };
+            squares(&Context::new(threads).unwrap(), Some(&progress)).unwrap();
+            let told = told.into_inner();
+            assert!(told.iter().all(|&(_, id)| id == thread::current().id()));
+            assert!(told.windows(2).all(|pair| pair[0].0 <= pair[1].0));
+            assert_eq!((told[0].0, told[told.len() - 1].0), (0.0, 1.0));
+        }
+    }
+
+    #[test]
+    fn a_call_can_be_cancelled_at_its_start_in_its_middle_and_at_its_end() {
+        for threads in [1, 3] {
+            for limit in [0.0, 0.4, 0.8, 1.0] {
+                let stopped = Cell::new(false);
+                let progress = |share| {
+                    assert!(!stopped.get(), "called after it was cancelled");
+                    stopped.set(share >= limit);
+                    if stopped.get() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+                };
+                let result = squares(&Context::new(threads).unwrap(), Some(&progress));
+                assert!(matches!(result, Err(Error::Cancelled)), "{threads} threads, limit {limit}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_stream_is_visited_in_order_on_the_calling_thread_and_never_far_behind() {
+        for threads in [1, 3] {
+            let context = Context::new(threads).unwrap();
+            for count in [0, 1, 11, 12, 13, 100] {
+                let (made, mut visited) = (AtomicUsize::new(0), 0);
+                let (caller, told) = (thread::current().id(), Cell::new(0.0));
+                let progress = |share| {
+                    assert!(share >= told.replace(share) && thread::current().id() == caller);
+                    ControlFlow::Continue(())
+                };
+                let task = |i| {
+                    made.fetch_add(1, Ordering::Relaxed);
+                    i
+                };
+                let visit = |i| {
+                    assert!(i == visited && thread::current().id() == caller);
+                    assert!(made.load(Ordering::Relaxed) - visited <= 2 * TASKS_AHEAD * threads);
+                    visited += 1;
+                    Ok(())
+                };
+                context.run(Some(&progress), |job| job.stream(count, task, visit)).unwrap();
+                assert_eq!((visited, told.get()), (count, 1.0));
+            }
+        }
+    }
+
+    #[test]
+    fn a_stream_ends_where_a_visit_fails_or_panics() {
+        for threads in [1, 3] {
+            let context = Context::new(threads).unwrap();
+            for last in [0, 40, 99] {
+                let mut seen = 0;
+                let failing = |i| {
+                    seen += 1;
+                    if i == last { Err(Error::Cancelled) } else { Ok(()) }
+                };
+                let result = context.run(None, |job| job.stream(100, |i| i, failing));
+                assert!(matches!(result, Err(Error::Cancelled)) && seen == last + 1);
+                let panicking = |i| if i == last { panic!("on purpose") } else { Ok(()) };
+                let panicking = || context.run(None, |job| job.stream(100, |i| i, panicking));
+                assert!(std::panic::catch_unwind(std::panic::AssertUnwindSafe(panicking)).is_err());
+            }
+        }
+    }
+
+    #[test]
+    fn a_panic_in_a_task_reaches_the_caller() {
+        for progress in [None, Some(&(|_| ControlFlow::Continue(())) as &Progress)] {
+            let context = Context::new(2).unwrap();
+            let call = || context.run(progress, |job| job.map(10, |i| assert_ne!(i, 5)));
+            assert!(std::panic::catch_unwind(std::panic::AssertUnwindSafe(call)).is_err());
+        }
+    }
+
+    #[test]
+    fn too_many_threads_are_refused() {
+        assert!(matches!(Context::new(5000), Err(Error::InvalidArgument { argument: "num_threads", .. })));
+    }
+}
