@@ -1,4 +1,4 @@
-/* Several classes in the plane: what they keep from each other and from given samples, kept planes, refusals. */
+/* Several classes in the plane: refusals, and relaxation with its reports for each class. */
 
 #include <math.h>
 #include <string.h>
@@ -29,76 +29,6 @@ static azulejo_kdrt_options around(void) {
     options.given_clearances = &clearances[0][0];
     options.given_count = 2;
     return options;
-}
-
-/* The distance on the unit torus, of points anywhere. */
-static double torus_distance(const float *a, const float *b) {
-    double along[2];
-    int axis;
-    for (axis = 0; axis < 2; axis++) {
-        along[axis] = fmod(fabs((double)a[axis] - b[axis]), 1);
-        along[axis] = fmin(along[axis], 1 - along[axis]);
-    }
-    return sqrt(along[0] * along[0] + along[1] * along[1]);
-}
-
-static void sets(void) {
-    const azulejo_kdrt_options options = around();
-    const azulejo_classes classes = three_classes();
-    const double low[2] = {0.1, 0.3}, high[2] = {0.6, 0.5};
-    azulejo_points *points = NULL, *part = NULL;
-    azulejo_kdrt *plane = NULL;
-    const uint32_t *of;
-    const float *xy;
-    size_t counts[CLASSES] = {0}, count, i, j, next = 0;
-    if (!ACCEPTED(azulejo_kdrt_sample_classes(context, &options, &classes, &points))) exit(finish());
-    count = azulejo_points_count(points);
-    xy = azulejo_points_positions(points);
-    of = azulejo_points_classes(points);
-    CHECK(azulejo_points_dimension(points) == 2 && azulejo_points_ranks(points) == NULL);
-    for (i = 0; i < count; i++) {
-        CHECK(of[i] < CLASSES && (i == 0 || of[i - 1] <= of[i]));
-        counts[of[i]]++;
-        for (j = 0; j < i; j++)
-            CHECK(torus_distance(xy + 2 * i, xy + 2 * j) >= matrix[of[i] * CLASSES + of[j]]);
-        for (j = 0; j < 2; j++) CHECK(torus_distance(xy + 2 * i, given[j]) >= clearances[j][of[i]]);
-    }
-    CHECK(counts[0] > 200 && counts[1] > counts[0] && counts[2] > counts[1]);
-
-    if (!ACCEPTED(azulejo_kdrt_create_classes(context, &options, &classes, &plane))) exit(finish());
-    ACCEPTED(azulejo_kdrt_window(plane, low, high, &part));
-    CHECK(azulejo_points_count(part) > 100);
-    for (i = 0; i < count; i++) {
-        const float *sample = xy + 2 * i;
-        if (sample[0] < low[0] || sample[0] >= high[0] || sample[1] < low[1] || sample[1] >= high[1]) continue;
-        CHECK(next < azulejo_points_count(part) && azulejo_points_classes(part)[next] == of[i]);
-        CHECK(memcmp(azulejo_points_positions(part) + 2 * next, sample, 2 * sizeof *sample) == 0);
-        next++;
-    }
-    CHECK(next == azulejo_points_count(part));
-    azulejo_points_free(part);
-    azulejo_kdrt_free(plane);
-    azulejo_points_free(points);
-}
-
-/* A single class is the set of its radius, with a class for each sample. */
-static void one_class(void) {
-    const azulejo_kdrt_options options = kdrt_options(0.02), none = kdrt_options(0);
-    const double radius = 0.02;
-    azulejo_classes classes = three_classes();
-    azulejo_points *points = NULL, *same = NULL;
-    size_t i;
-    classes.count = 1;
-    classes.radii = &radius;
-    if (!ACCEPTED(azulejo_kdrt_sample(context, &options, &points, NULL))) exit(finish());
-    if (!ACCEPTED(azulejo_kdrt_sample_classes(context, &none, &classes, &same))) exit(finish());
-    CHECK(azulejo_points_classes(points) == NULL);
-    CHECK(azulejo_points_count(points) == azulejo_points_count(same));
-    CHECK(memcmp(azulejo_points_positions(points), azulejo_points_positions(same),
-                 2 * sizeof(float) * azulejo_points_count(same)) == 0);
-    for (i = 0; i < azulejo_points_count(same); i++) CHECK(azulejo_points_classes(same)[i] == 0);
-    azulejo_points_free(points);
-    azulejo_points_free(same);
 }
 
 static void refused(void) {
@@ -199,8 +129,6 @@ int main(void) {
     const double own[CLASSES] = {0.04, 0.02, 0.01};
     context = make_context(2);
     ACCEPTED(azulejo_classes_radii(own, CLASSES, 1, matrix));
-    sets();
-    one_class();
     refused();
     relaxed();
     azulejo_context_free(context);

@@ -101,34 +101,12 @@ static void coverage_without_a_report(void) {
     CHECK(out == UNTOUCHED && visits == 0);
 }
 
-/* Awkward numbers, of sets that are tiled and that are not. */
-static void exactness(void) {
-    const uint64_t numbers[] = {1, 2, 3, 5, 8, 13, 31, 97, 1009, 8190, 12345, 65537};
-    size_t i;
-    for (i = 0; i < COUNT_OF(numbers); i++) {
-        azulejo_kdrt_options o = of_count(numbers[i]);
-        azulejo_points *points = NULL, *again = NULL;
-        azulejo_kdrt_report report = kdrt_report();
-        o.seed = i;
-        o.measure_coverage = 1;
-        ACCEPTED(azulejo_kdrt_sample(context, &o, &points, &report));
-        o.measure_coverage = 0;
-        ACCEPTED(azulejo_kdrt_sample(context, &o, &again, NULL));
-        CHECK(azulejo_points_count(points) == numbers[i] && same_points(points, again));
-        CHECK(report.samples == numbers[i] && report.radius > 0 && report.is_maximal == 1);
-        CHECK(report.coverage <= report.radius * (1 + 1e-4));
-        azulejo_points_free(points);
-        azulejo_points_free(again);
-    }
-}
-
 int main(void) {
     context = make_context(2);
     pointers();
     options();
     windows_and_streams();
     coverage_without_a_report();
-    exactness();
     azulejo_context_free(context);
     return finish();
 }

@@ -1,5 +1,5 @@
-/* Samples around given ones: each clearance is kept, what a clearance covers stays empty, and what is given may be freed
-   once a call has returned or a handle is made. Bad input is refused in arguments.c and adaptive.c. */
+/* Samples around given ones, which may be freed once a call has returned or a handle is made; with a cosine no handle
+   projects. Bad input is refused in arguments.c and adaptive.c. */
 
 #include <math.h>
 
@@ -28,24 +28,6 @@ static void make_given(void) {
     positions[8][0] = 3e38f;
 }
 
-static double distance(const float *a, const float *b) {
-    const double x = (double)a[0] - b[0], y = (double)a[1] - b[1], z = (double)a[2] - b[2];
-    return sqrt(x * x + y * y + z * z);
-}
-
-/* Whether all samples keep `radius` from each other and from given samples their clearances, or `radius`. */
-static int keeps_clear(const azulejo_points *points, double radius, const double *from_given, size_t given) {
-    const float *xyz = azulejo_points_positions(points);
-    size_t i, j, count = azulejo_points_count(points);
-    for (i = 0; i < count; i++) {
-        for (j = 0; j < i; j++)
-            if (distance(xyz + 3 * i, xyz + 3 * j) < radius) return 0;
-        for (j = 0; j < given; j++)
-            if (distance(xyz + 3 * i, positions[j]) < (from_given ? from_given[j] : radius)) return 0;
-    }
-    return count > 0;
-}
-
 static int same(const azulejo_points *a, const azulejo_points *b) {
     const size_t count = azulejo_points_count(a);
     return count == azulejo_points_count(b) &&
@@ -58,67 +40,6 @@ static azulejo_psp_options options_with(const double *own) {
     options.given_clearances = own;
     options.given_count = COUNT;
     return options;
-}
-
-static void around_given(void) {
-    const double *both[2] = {clearances, NULL};
-    azulejo_psp_report report;
-    int i;
-    ACCEPTED(azulejo_psp_report_init(&report, sizeof report));
-    for (i = 0; i < 2; i++) {
-        azulejo_psp_options options = options_with(both[i]);
-        azulejo_points *points = NULL, *again = NULL;
-        ACCEPTED(azulejo_psp_sample(three, cube, &options, &points, &report));
-        ACCEPTED(azulejo_psp_sample(one, cube, &options, &again, NULL));
-        CHECK(keeps_clear(points, 0.06, both[i], COUNT) && same(points, again));
-        CHECK(report.uncovered_before > 0.3 && report.uncovered_before < 1 && report.uncovered_after == 0);
-        azulejo_points_free(points);
-        azulejo_points_free(again);
-    }
-}
-
-/* A ball that holds the cube leaves no room. */
-static void all_covered(void) {
-    azulejo_psp_options options = psp_options(0.1);
-    azulejo_points *points = NULL;
-    const float centre[3] = {0.5f, 0.5f, 0.5f};
-    const double clearance = 2;
-    options.given_positions = centre;
-    options.given_clearances = &clearance;
-    options.given_count = 1;
-    ACCEPTED(azulejo_psp_sample(three, cube, &options, &points, NULL));
-    CHECK(azulejo_points_count(points) == 0);
-    azulejo_points_free(points);
-}
-
-/* What is left of a set after an edit is given, and what fills the hole fits to it. */
-static void hole(void) {
-    azulejo_psp_options options = psp_options(0.06);
-    azulejo_points *before = NULL, *after = NULL;
-    size_t i, j, count, kept = 0;
-    float *outside;
-    const float *xyz;
-    int clear = 1;
-    ACCEPTED(azulejo_psp_sample(three, cube, &options, &before, NULL));
-    count = azulejo_points_count(before);
-    xyz = azulejo_points_positions(before);
-    outside = malloc(count * 3 * sizeof *outside);
-    if (outside == NULL) exit(EXIT_FAILURE);
-    for (i = 0; i < count; i++)
-        if (xyz[3 * i] < 0.7f) memcpy(outside + 3 * kept++, xyz + 3 * i, 3 * sizeof *outside);
-    options.given_positions = outside;
-    options.given_count = kept;
-    options.seed = 5;
-    ACCEPTED(azulejo_psp_sample(three, cube, &options, &after, NULL));
-    xyz = azulejo_points_positions(after);
-    for (i = 0; i < azulejo_points_count(after); i++)
-        for (j = 0; j < kept; j++)
-            clear = clear && distance(xyz + 3 * i, outside + 3 * j) >= 0.06 && xyz[3 * i] > 0.6f;
-    CHECK(clear);
-    CHECK(azulejo_points_count(after) > (count - kept) / 2 && azulejo_points_count(after) < 2 * (count - kept));
-    free(outside);
-    azulejo_points_free(before);
-    azulejo_points_free(after);
 }
 
 /* A handle keeps what it needs: the arrays of the caller may go. */
@@ -145,21 +66,6 @@ static void handle(void) {
     azulejo_points_free(points);
     azulejo_points_free(expected);
     azulejo_psp_free(psp);
-}
-
-static void varying(void) {
-    const float radii[8] = {0.06f, 0.06f, 0.06f, 0.06f, 0.09f, 0.09f, 0.09f, 0.09f};
-    azulejo_psp_adaptive_options options;
-    azulejo_points *points = NULL;
-    ACCEPTED(azulejo_psp_adaptive_options_init(&options, sizeof options));
-    options.vertex_radii = radii;
-    options.vertex_count = 8;
-    options.given_positions = positions[0];
-    options.given_clearances = clearances;
-    options.given_count = COUNT;
-    ACCEPTED(azulejo_psp_adaptive_sample(three, cube, &options, &points, NULL));
-    CHECK(keeps_clear(points, 0.06, clearances, COUNT));
-    azulejo_points_free(points);
 }
 
 /* Two squares back to back: with a normal cone both are sampled. */
@@ -192,11 +98,7 @@ int main(void) {
     three = make_context(3);
     cube = make_cube();
     make_given();
-    around_given();
-    all_covered();
-    hole();
     handle();
-    varying();
     thin_wall();
     azulejo_mesh_free(cube);
     azulejo_context_free(one);

@@ -1,5 +1,4 @@
-/* Planes that are kept: their windows are those of azulejo_kdrt_sample_window and parts of the whole, for planes that
-   are tiled and that are not, on several threads at once, without their context; bad arguments are refused. */
+/* Planes that are kept: windows on several threads at once, without the context of the plane; bad arguments are refused. */
 
 #include <math.h>
 #include <pthread.h>
@@ -31,32 +30,6 @@ static void window_of(const azulejo_kdrt_options *options, const float *sample, 
         high[axis] = i % 4 == 0 ? nextafterf(sample[axis], 1) : sample[axis] + sides[axis];
         if (high[axis] > max) high[axis] = max;
     }
-}
-
-static void windows(const azulejo_kdrt_options *options) {
-    azulejo_kdrt *plane = make_plane(options);
-    azulejo_points *whole = NULL, *window = NULL, *again;
-    size_t i;
-    ACCEPTED(azulejo_kdrt_sample(two, options, &whole, NULL));
-    ACCEPTED(azulejo_kdrt_window(plane, options->domain_min, options->domain_max, &window));
-    CHECK(same_points(window, whole));
-    azulejo_points_free(window);
-    for (i = 0; i < 60; i++) {
-        const float *sample = azulejo_points_positions(whole) + 2 * (i * 7919 % azulejo_points_count(whole));
-        double low[2], high[2];
-        window_of(options, sample, i, low, high);
-        ACCEPTED(azulejo_kdrt_window(plane, low, high, &window));
-        CHECK(azulejo_points_count(window) > 0);
-        CHECK(is_part(window, whole, low[0], low[1], high[0], high[1]));
-        if (i < 4) {
-            ACCEPTED(azulejo_kdrt_sample_window(two, options, low, high, &again));
-            CHECK(same_points(window, again));
-            azulejo_points_free(again);
-        }
-        azulejo_points_free(window);
-    }
-    azulejo_points_free(whole);
-    azulejo_kdrt_free(plane);
 }
 
 /* What one of several threads makes of a plane; the checks count in the main thread. */
@@ -97,22 +70,6 @@ static void threads_on_one_plane(const azulejo_kdrt_options *options) {
     }
     for (i = 0; i < 4; i++) CHECK(pthread_join(threads[i], NULL) == 0 && works[i].wrong == 0);
     azulejo_points_free(whole);
-    azulejo_kdrt_free(plane);
-}
-
-/* 10^10 samples. */
-static void a_huge_plane(void) {
-    const azulejo_kdrt_options options = kdrt_options(8.5e-6);
-    const double low[2] = {0.8, 0.1}, high[2] = {0.8005, 0.1005}, all[2][2] = {{0, 0}, {1, 1}};
-    azulejo_kdrt *plane = make_plane(&options);
-    azulejo_points *window = NULL, *same = NULL, *out = UNTOUCHED;
-    ACCEPTED(azulejo_kdrt_window(plane, low, high, &window));
-    ACCEPTED(azulejo_kdrt_sample_window(two, &options, low, high, &same));
-    CHECK(azulejo_points_count(window) > 2300 && same_points(window, same));
-    REFUSED(AZULEJO_ERROR_TOO_LARGE, "radius", azulejo_kdrt_window(plane, all[0], all[1], &out));
-    CHECK(out == UNTOUCHED);
-    azulejo_points_free(window);
-    azulejo_points_free(same);
     azulejo_kdrt_free(plane);
 }
 
@@ -224,8 +181,6 @@ int main(void) {
     for (i = 0; i < 2; i++) {
         const azulejo_kdrt_options tiled = plane_options(boundaries[i], 0.005);
         const azulejo_kdrt_options whole = plane_options(boundaries[i], 0.05);
-        windows(&tiled);
-        windows(&whole);
         threads_on_one_plane(&tiled);
         threads_on_one_plane(&whole);
         no_windows(&tiled);
@@ -233,7 +188,6 @@ int main(void) {
         progress(tiled);
         progress(whole);
     }
-    a_huge_plane();
     azulejo_context_free(two);
     return finish();
 }

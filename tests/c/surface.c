@@ -1,5 +1,5 @@
-/* Relaxation on a mesh: samples end farther apart, each on its triangle, a cancelled call returns what it has, and each bad
-   input is refused with a message that names it, leaving the outputs alone. */
+/* Relaxation on a mesh: a cancelled call returns what it has, a set becomes the vertices of a mesh, and each bad input is
+   refused with a message that names it, leaving the outputs alone. */
 
 #include <math.h>
 
@@ -40,32 +40,6 @@ static int on_triangles(const azulejo_points *points) {
         }
     }
     return count > 0;
-}
-
-static void relaxed(void) {
-    azulejo_dcr_surface_options options = surface_options();
-    azulejo_dcr_surface_report report = surface_report();
-    azulejo_points *points = NULL, *same = NULL;
-    const size_t count = azulejo_points_count(darts);
-    double distance = 0;
-    if (!ACCEPTED(relax(four, &options, &points, &report)) || !ACCEPTED(relax(one, &options, &same, NULL))) return;
-    CHECK(azulejo_points_count(points) == count && on_triangles(points));
-    ACCEPTED(azulejo_space_smallest_distance(four, azulejo_points_positions(points), count, &distance));
-    CHECK(distance == report.smallest_distance && report.rho > 0.8 && report.iterations <= 100);
-    CHECK(fabs(report.rho - distance / sqrt(12 / (sqrt(3) * (double)count))) < 1e-6);
-    CHECK(report.stopped == AZULEJO_STOPPED_STEPS || report.stopped == AZULEJO_STOPPED_CONVERGED);
-    CHECK(memcmp(azulejo_points_positions(points), azulejo_points_positions(same), count * 3 * sizeof(float)) == 0);
-    azulejo_points_free(points);
-    azulejo_points_free(same);
-    points = NULL;
-    options.max_iterations = 0;
-    ACCEPTED(relax(four, &options, &points, NULL));
-    CHECK(memcmp(azulejo_points_positions(points), azulejo_points_positions(darts), count * 3 * sizeof(float)) == 0);
-    azulejo_points_free(points);
-    points = NULL;
-    ACCEPTED(azulejo_dcr_surface_relax(one, cube, &options, NULL, NULL, 0, &points, &report));
-    CHECK(azulejo_points_count(points) == 0 && report.smallest_distance == INFINITY);
-    azulejo_points_free(points);
 }
 
 static int32_t stop_at(void *user, double done) { return done >= *(const double *)user; }
@@ -169,7 +143,6 @@ int main(void) {
     four = make_context(4);
     cube = make_cube();
     if (!ACCEPTED(azulejo_psp_sample(four, cube, &options, &darts, NULL))) return finish();
-    relaxed();
     cancelled(one);
     cancelled(four);
     refused();

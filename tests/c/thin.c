@@ -1,5 +1,5 @@
-/* Thinning: selections are what the definitions say, the same for any number of threads, and each bad input is refused
-   with a message that names it, leaving the output alone. */
+/* Thinning: points in one place, no points, cancelling; each bad input is refused with a message that names it, leaving the
+   output alone. */
 
 #include <math.h>
 
@@ -10,85 +10,6 @@
 
 static azulejo_context *one, *four;
 static float cloud[POINTS * 3];
-
-static double distance(const float *a, const float *b, uint32_t dimensions) {
-    double squared = 0;
-    uint32_t axis;
-    for (axis = 0; axis < dimensions; axis++) {
-        const double difference = (double)a[axis] - (double)b[axis];
-        squared += difference * difference;
-    }
-    return sqrt(squared);
-}
-
-static azulejo_selection *select_from(const azulejo_thin_options *options, size_t count, uint32_t dimensions) {
-    azulejo_selection *selection = NULL, *same = NULL;
-    ACCEPTED(azulejo_thin(one, options, cloud, count, dimensions, &selection));
-    ACCEPTED(azulejo_thin(four, options, cloud, count, dimensions, &same));
-    CHECK(azulejo_selection_count(selection) == azulejo_selection_count(same));
-    CHECK(memcmp(azulejo_selection_indices(selection), azulejo_selection_indices(same),
-                 azulejo_selection_count(selection) * sizeof(uint32_t)) == 0);
-    azulejo_selection_free(same);
-    return selection;
-}
-
-static void by_radius(uint32_t dimensions) {
-    const double radius = dimensions == 2 ? 0.04 : 0.11;
-    const azulejo_thin_options options = thin_options(radius, 0, AZULEJO_ORDER_ANY);
-    azulejo_selection *selection = select_from(&options, POINTS, dimensions);
-    const uint32_t *indices = azulejo_selection_indices(selection);
-    const size_t count = azulejo_selection_count(selection);
-    size_t kept = 0, i, j;
-    for (i = 0; i < POINTS; i++) {
-        for (j = 0; j < kept; j++) {
-            if (distance(cloud + dimensions * indices[j], cloud + dimensions * i, dimensions) < radius) break;
-        }
-        if (j < kept) continue;
-        if (!CHECK(kept < count && indices[kept] == i)) break;
-        kept++;
-    }
-    CHECK(kept == count && count > 100 && count < POINTS / 2);
-    CHECK(azulejo_selection_ranks(selection) == NULL);
-    azulejo_selection_free(selection);
-}
-
-static void progressive(uint32_t dimensions) {
-    azulejo_thin_options options = thin_options(0, 0, AZULEJO_ORDER_PROGRESSIVE);
-    azulejo_selection *all = select_from(&options, POINTS, dimensions), *first;
-    const uint32_t *indices = azulejo_selection_indices(all);
-    const float *ranks = azulejo_selection_ranks(all);
-    static double nearest[POINTS];
-    size_t i, point;
-    CHECK(azulejo_selection_count(all) == POINTS && isinf(ranks[0]));
-    for (point = 0; point < POINTS; point++) nearest[point] = INFINITY;
-    for (i = 0; i + 1 < POINTS; i++) {
-        size_t farthest = indices[i];
-        nearest[indices[i]] = -1;
-        for (point = 0; point < POINTS; point++) {
-            const double d = distance(cloud + dimensions * indices[i], cloud + dimensions * point, dimensions);
-            if (d < nearest[point]) nearest[point] = d;
-            if (nearest[point] > nearest[farthest]) farthest = point;
-        }
-        if (!CHECK(indices[i + 1] == farthest && ranks[i + 1] <= nearest[farthest] && ranks[i + 1] <= ranks[i])) break;
-        CHECK(nextafterf(ranks[i + 1], INFINITY) > nearest[farthest]);
-    }
-    options.count = 300;
-    first = select_from(&options, POINTS, dimensions);
-    CHECK(azulejo_selection_count(first) == 300);
-    CHECK(memcmp(azulejo_selection_indices(first), indices, 300 * sizeof *indices) == 0);
-    azulejo_selection_free(first);
-    options.radius = (double)ranks[100];
-    first = select_from(&options, POINTS, dimensions);
-    CHECK(azulejo_selection_count(first) > 100 && azulejo_selection_count(first) < 110);
-    azulejo_selection_free(first);
-    options.order = AZULEJO_ORDER_ANY;
-    options.radius = 0;
-    first = select_from(&options, POINTS, dimensions);
-    CHECK(azulejo_selection_count(first) == 300 && azulejo_selection_ranks(first) == NULL);
-    for (i = 1; i < 300; i++) CHECK(azulejo_selection_indices(first)[i - 1] < azulejo_selection_indices(first)[i]);
-    azulejo_selection_free(first);
-    azulejo_selection_free(all);
-}
 
 static void small_clouds(void) {
     const float same[8] = {3, 4, 3, 4, 3, 4, 3, 4};
@@ -165,10 +86,6 @@ int main(void) {
     }
     one = make_context(1);
     four = make_context(4);
-    by_radius(2);
-    by_radius(3);
-    progressive(2);
-    progressive(3);
     small_clouds();
     refused();
     cancelled(one);

@@ -1,5 +1,5 @@
-/* Windows of a plane and streams of it: the same bytes as the whole, for every partition and number of threads; streams
-   that are left at their start, in their middle and at their end. */
+/* Streams of a plane: the bytes of the whole on any number of threads; streams that are left at their start, in their middle
+   and at their end, and calls from within a visit. */
 
 #include <pthread.h>
 
@@ -13,31 +13,6 @@ static azulejo_points *make_window(const azulejo_context *context, const azulejo
     azulejo_points *points = NULL;
     ACCEPTED(azulejo_kdrt_sample_window(context, options, low, high, &points));
     return points;
-}
-
-/* Every row and column of windows, cut where nothing else is. */
-static void windows(const azulejo_kdrt_options *options, const azulejo_points *whole) {
-    const double x[] = {options->domain_min[0], -1.4999, -1.1, -0.3, -0.25, options->domain_max[0]};
-    const double y[] = {options->domain_min[1], 0.37, 0.3712, 0.99, options->domain_max[1]};
-    size_t i, j, sum = 0;
-    for (j = 0; j + 1 < COUNT_OF(y); j++)
-        for (i = 0; i + 1 < COUNT_OF(x); i++) {
-            azulejo_points *mine = make_window(one, options, x[i], y[j], x[i + 1], y[j + 1]);
-            azulejo_points *theirs = make_window(four, options, x[i], y[j], x[i + 1], y[j + 1]);
-            CHECK(same_points(mine, theirs));
-            CHECK(is_part(mine, whole, x[i], y[j], x[i + 1], y[j + 1]));
-            sum += azulejo_points_count(mine);
-            azulejo_points_free(mine);
-            azulejo_points_free(theirs);
-        }
-    CHECK(sum == azulejo_points_count(whole));
-}
-
-static void the_whole_as_a_window(const azulejo_kdrt_options *options, const azulejo_points *whole) {
-    azulejo_points *window = NULL;
-    ACCEPTED(azulejo_kdrt_sample_window(four, options, options->domain_min, options->domain_max, &window));
-    CHECK(same_points(window, whole));
-    azulejo_points_free(window);
 }
 
 /* Where a stream goes, and when it is to be left. */
@@ -135,36 +110,6 @@ static int32_t look_closer(void *user, const float *xy, size_t count) {
     return 0;
 }
 
-/* 1.7e9 samples, more than anyone wants to hold here. */
-static void a_huge_plane(void) {
-    azulejo_kdrt_options options = kdrt_options(2e-5);
-    azulejo_points *window = make_window(four, &options, 0.8, 0.1, 0.801, 0.101);
-    azulejo_points *same = make_window(one, &options, 0.7999, 0.0999, 0.8011, 0.1011);
-    sink s = make_sink(0, 3);
-    CHECK(azulejo_points_count(window) > 1700 && azulejo_points_count(window) < 1800); /* 1741 */
-    CHECK(is_part(window, same, 0.8, 0.1, 0.801, 0.101));
-    azulejo_points_free(window);
-    azulejo_points_free(same);
-    REFUSED(AZULEJO_ERROR_CANCELLED, "cancelled", azulejo_kdrt_stream(four, &options, keep, &s));
-    CHECK(s.visits == 3 && s.count > 50000);
-    free(s.xy);
-}
-
-/* Less than the pattern: not tiled. */
-static void a_small_plane(void) {
-    const azulejo_kdrt_options options = kdrt_options(0.1);
-    azulejo_points *whole = NULL, *window;
-    ACCEPTED(azulejo_kdrt_sample(one, &options, &whole, NULL));
-    CHECK(streams(four, &options, whole) == 1);
-    window = make_window(four, &options, 0.25, 0, 0.8, 1);
-    CHECK(is_part(window, whole, 0.25, 0, 0.8, 1));
-    azulejo_points_free(window);
-    window = make_window(one, &options, 0.5, 0.5, 0.5000001, 0.5000001);
-    CHECK(azulejo_points_count(window) == 0 && azulejo_points_positions(window) == NULL);
-    azulejo_points_free(window);
-    azulejo_points_free(whole);
-}
-
 int main(void) {
     const int32_t boundaries[] = {AZULEJO_BOUNDARY_PERIODIC, AZULEJO_BOUNDARY_BOUNDED};
     size_t i;
@@ -175,8 +120,6 @@ int main(void) {
         azulejo_points *whole = NULL;
         int parts;
         ACCEPTED(azulejo_kdrt_sample(one, &options, &whole, NULL));
-        windows(&options, whole);
-        the_whole_as_a_window(&options, whole);
         parts = streams(one, &options, whole);
         CHECK(parts > 1 && streams(four, &options, whole) == parts);
         streams_that_are_left(one, &options, parts);
@@ -190,8 +133,6 @@ int main(void) {
         ACCEPTED(azulejo_kdrt_stream(one, &options, look_closer, one));
         ACCEPTED(azulejo_kdrt_stream(four, &options, look_closer, four));
     }
-    a_huge_plane();
-    a_small_plane();
     azulejo_context_free(one);
     azulejo_context_free(four);
     return finish();
