@@ -119,6 +119,8 @@
 mod boundary;
 mod given;
 mod growing;
+#[cfg(all(test, not(miri)))]
+mod option_table;
 
 // In the order of the header.
 pub mod status;
