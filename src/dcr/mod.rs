@@ -14,19 +14,20 @@
 //! Convergence is judged by motion ([`Report::motion`]), unless [`Convergence::Variance`] asks for the thesis's own
 //! test.
 
+mod clustering;
 mod density;
-mod ground;
+mod law;
 mod options;
 mod relax;
-mod relax_classes;
 mod relaxation;
 pub mod surface;
 mod thesis;
+mod torus;
 mod uniform;
 
 pub use density::{Density, DensityFunction, relax_with_density, scatter};
 pub use options::{Method, Neighbourhood, Options};
 pub use relax::{Observer, Report, relax, relax_observed};
-pub use relax_classes::{ClassReport, relax_classes};
 pub use relaxation::Stopped;
 pub use thesis::{Convergence, Distribution, Thesis, Visits};
+pub use uniform::{ClassReport, relax_classes};

@@ -5,7 +5,7 @@ use crate::error::{Error, Result};
 use crate::points::Domain;
 use crate::setters::setters;
 
-/// Which points are the neighbours of a point.
+/// The points that are the neighbours of a point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Neighbourhood {
     /// Its neighbours in the Delaunay triangulation: they keep their distance and close holes (§4.3.3).
@@ -15,7 +15,7 @@ pub enum Neighbourhood {
     Nearest,
 }
 
-/// How points are moved.
+/// The law by which points move.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Method {
     /// Push, pull, momentum and waves; see the page of this module.
@@ -30,14 +30,14 @@ pub enum Method {
 pub struct Options {
     /// The rectangle in which the points lie and stay.
     pub domain: Domain,
-    /// Which points are neighbours.
+    /// The points that are neighbours.
     pub neighbourhood: Neighbourhood,
-    /// How points are moved.
+    /// The law by which points move.
     pub method: Method,
     /// The largest number of steps. 0 returns the points as they are.
     pub max_iterations: u32,
-    /// Where coincident points are moved, and those of a set that lies on one line; with a density, where heaped points
-    /// are dealt out. Used for nothing else.
+    /// The key of the moves of coincident points, and of those of a set that lies on one line; with a density, of the
+    /// redistribution of clustered points. Used for nothing else.
     pub seed: u64,
     /// The motion ([`Report::motion`](super::Report::motion)) at which the set has converged, if the constraints are met
     /// ([`Stopped::Converged`](super::Stopped::Converged)); 0 makes all steps unless nothing moves at all. Not used with
@@ -63,8 +63,8 @@ impl Options {
         Self { domain, neighbourhood, method, max_iterations: 1000, seed: 0, tolerance }
     }
 
-    /// Refuses what is out of its range.
-    pub(super) fn check(&self) -> Result<()> {
+    /// Refuses values out of their range.
+    pub fn check(&self) -> Result<()> {
         self.domain.check()?;
         if let Method::Thesis(thesis) = &self.method {
             thesis.check()?;

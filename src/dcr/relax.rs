@@ -1,6 +1,5 @@
 //! Relaxation in the plane: the call at a constant density, and what all calls in the plane share.
 
-use crate::dcr::ground::memory::require_memory;
 use crate::dcr::options::{Method, Options};
 use crate::dcr::relaxation::{Limits, Relaxation, Steps, Stopped, run};
 use crate::dcr::thesis::ThesisRelaxation;
@@ -8,6 +7,7 @@ use crate::dcr::uniform::UniformRelaxation;
 use crate::error::Result;
 use crate::index::Grid2;
 use crate::job::{Context, Job, Progress, chunks};
+use crate::memory;
 use crate::points::Domain;
 
 /// Receives the points after a step, in the user's order.
@@ -42,10 +42,10 @@ pub struct Report {
 /// are. Coincident points, and all points of a set on one line, are first moved by 0.001 to 0.002 `d_max` in
 /// directions keyed by `seed` and index: the forces alone would not separate them.
 ///
-/// The momentum method levels a heaped set before the first step: one in which points are crowded in some places and
+/// The momentum method levels a clustered set before the first step: one in which points are crowded in some places and
 /// missing in others, as in a corner, on a line, at a single place. It is spread by the long waves of its density, as
 /// smoothly as that goes, in up to 24 passes that take about the time of a step each. So any set ends with the figures
-/// of a random one, and after about its time. Uniform random sets are not heaped, except on domains that are very long
+/// of a random one, and after about its time. Uniform random sets are not clustered, except on domains that are very long
 /// for their width. A call that makes all of its steps succeeds whatever it has reached; the report says what that is.
 ///
 /// The momentum method with Delaunay neighbours returns, of the set before the first step and the states after whole steps, the one
@@ -165,4 +165,12 @@ fn smallest_distance(job: &Job, domain: &Domain, points: &[[f32; 2]]) -> Result<
         chunks.range(chunk).map(squared).fold(f64::INFINITY, f64::min)
     })?;
     Ok(nearest.into_iter().fold(f64::INFINITY, f64::min).sqrt())
+}
+
+/// Memory for a point or a sample and all that is known of it, at the peak.
+const BYTES_PER_POINT: f64 = 300.0;
+
+/// Refuses more points than memory holds.
+pub fn require_memory(argument: &'static str, count: usize) -> Result<()> {
+    memory::require(BYTES_PER_POINT * count as f64, argument, &format!("{count} points"))
 }

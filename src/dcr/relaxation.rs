@@ -3,7 +3,7 @@
 //! A [`Relaxation`] is a set with its law of motion. All else is here: how many steps are made, how far points move,
 //! what is reported, and that a cancelled call succeeds.
 //!
-//! The thesis's test of convergence (`thesis/variance.rs`) depends on the step size and fires early: halving λ halves
+//! The thesis's test of convergence (`thesis/mod.rs`) depends on the step size and fires early: halving λ halves
 //! the change per step. Motion per step does not work either: activeness keeps points jittering for ever, the more per
 //! step the larger λ is. So the distance covered is measured: the root mean square distance from where the points were,
 //! over a span of steps whose step sizes add up to 2, divided by that sum. The jitter cancels out over longer spans, and
@@ -172,7 +172,7 @@ impl<P: Copy> Course<P> {
 
 /// The motion of points, measured over span after span.
 struct Motion<P> {
-    /// Where the points were when the span began.
+    /// The positions when the span began.
     start: Vec<P>,
     /// The sum of the step sizes since then.
     steps: f64,

@@ -1,17 +1,16 @@
-//! The Delaunay triangulation of a torus, kept while its points move and repaired by flips (`ground/flips.rs`), in
+//! The Delaunay triangulation of a torus, kept while its points move and repaired by flips (`torus::must_flip`), in
 //! half-edges.
 //!
 //! The forces hold points back so that no triangle turns over; if one does all the same, the mesh says so and must be
 //! built anew.
 //!
 //! Where the spacing varies, points have few neighbours or hundreds, as anchors and points beside dark edges do:
-//! half-edges support both, rings of equally many slots (`uniform/rings.rs`) do not. Half-edges are numbered `4 t + k`:
+//! half-edges support both, rings of equally many slots (`uniform/flip_mesh.rs`) do not. Half-edges are numbered `4 t + k`:
 //! the edge from corner `k` to the next of triangle `t`, counter-clockwise.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use crate::dcr::ground::flips::must_flip;
-use crate::dcr::ground::torus::{Torus, TorusPoint};
+use crate::dcr::torus::{Torus, TorusPoint, must_flip};
 use crate::error::Result;
 use crate::geometry::Delaunay;
 use crate::index::Binned;
@@ -31,7 +30,7 @@ struct HalfEdgeTriangle {
 }
 
 /// A triangulation of a torus, all of whose edges are short.
-pub(super) struct HalfEdgeMesh {
+pub struct HalfEdgeMesh {
     torus: Torus,
     triangles: Vec<HalfEdgeTriangle>,
     /// A half-edge that starts at each point.
@@ -52,7 +51,7 @@ impl HalfEdgeMesh {
     /// The mesh of a triangulation of the torus with its copies. None if edges are too long, as in sets of a few points
     /// or with large holes, or if copies are not triangulated alike, which happens to four points on one circle unless
     /// they are nudged.
-    pub(super) fn new(delaunay: &Delaunay, torus: &Torus, places: &[TorusPoint]) -> Option<Self> {
+    pub fn new(delaunay: &Delaunay, torus: &Torus, places: &[TorusPoint]) -> Option<Self> {
         // Exactly one of the translates of a triangle has its first point in the domain.
         let corners = delaunay.triangles().filter_map(|sites| {
             let least = sites.iter().min_by_key(|site| site.source)?;
@@ -69,7 +68,7 @@ impl HalfEdgeMesh {
             .then_some(mesh)
     }
 
-    /// Matches the half-edges; whether all could be.
+    /// Matches the half-edges; true if all could be.
     fn find_twins(&mut self) -> bool {
         let edges = || (0..self.triangles.len() as u32).flat_map(|triangle| (0..3).map(move |k| 4 * triangle + k));
         let outgoing = Binned::new(self.first.len(), edges().map(|edge| (self.origin(edge) as usize, edge)));
@@ -117,7 +116,7 @@ impl HalfEdgeMesh {
         sound.then(|| [b.dot(c), c.dot(a), a.dot(b)].map(|cosine| -cosine / area))
     }
 
-    /// Whether an edge is not locally Delaunay.
+    /// True if an edge is not locally Delaunay.
     fn must_flip(&self, edge: u32, places: &[TorusPoint]) -> bool {
         let twin = self.twin(edge);
         let corners = [edge, twin, previous(edge), previous(twin)];
@@ -142,7 +141,7 @@ impl HalfEdgeMesh {
     }
 
     /// Makes the mesh the Delaunay triangulation of points that have moved; false if a triangle has turned over.
-    pub(super) fn repair(&mut self, job: &Job, places: &[TorusPoint]) -> Result<bool> {
+    pub fn repair(&mut self, job: &Job, places: &[TorusPoint]) -> Result<bool> {
         let chunks = chunks_of(self.triangles.len(), 4096);
         let sound = AtomicBool::new(true);
         let cotangents = job.part(0.0, 0.5).concat(chunks.len(), |chunk| {
@@ -176,7 +175,7 @@ impl HalfEdgeMesh {
     }
 
     /// Visits the neighbours of a point, counter-clockwise.
-    pub(super) fn for_each_neighbour(&self, point: usize, mut visit: impl FnMut(u32)) {
+    pub fn for_each_neighbour(&self, point: usize, mut visit: impl FnMut(u32)) {
         let start = self.first[point];
         let mut edge = start;
         loop {
@@ -193,7 +192,8 @@ impl HalfEdgeMesh {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::dcr::ground::wandering::{random_places, wander, with_and_without_mesh};
+
+    use crate::dcr::torus::random_sets::{random_places, wander, with_and_without_mesh};
     use crate::job::Context;
     use crate::points::Boundary;
     use crate::rng::{Draw, Rng};

@@ -7,11 +7,12 @@
 
 use glam::Vec2;
 
-use crate::dcr::density::source::{Density, is_density};
-use crate::dcr::ground::torus::{HALF, TURN, Torus, TorusPoint};
+use crate::dcr::density::{Density, is_density};
+use crate::dcr::torus::{Field, HALF, LONG_WAVES, TURN, Torus, TorusPoint, WaveGrid};
 use crate::error::{Error, Result};
 use crate::index::Weights;
-use crate::job::{Job, chunks_of};
+use crate::job::{Job, chunks, chunks_of};
+use crate::math::{log2, scalbn};
 use crate::memory;
 use crate::points::{Boundary, Domain};
 use crate::rng::{Draw, Rng};
@@ -30,7 +31,7 @@ const BYTES_PER_CELL: f64 = 12.0;
 const FEWEST: usize = 64;
 
 /// A grid over the domain.
-pub(super) struct Raster {
+pub struct Raster {
     domain: Domain,
     /// Columns and rows.
     cells: [usize; 2],
@@ -42,7 +43,7 @@ pub(super) struct Raster {
 
 impl Raster {
     /// Samples a density that has been checked, for `count` points of a domain.
-    pub(super) fn new(job: &Job, domain: &Domain, density: &Density, count: usize) -> Result<Self> {
+    pub fn new(job: &Job, domain: &Domain, density: &Density, count: usize) -> Result<Self> {
         let torus = Torus::new(*domain, count.max(1));
         let extent = domain.extent().map(|length| length / torus.frame.spacing());
         let pixels = match *density {
@@ -152,12 +153,12 @@ impl Raster {
     }
 
     /// The local spacing at a point.
-    pub(super) fn spacing(&self, place: TorusPoint) -> f32 {
+    pub fn spacing(&self, place: TorusPoint) -> f32 {
         self.interpolate(&self.spacing, place)
     }
 
     /// The density at a point, in units of the mean.
-    pub(super) fn density(&self, place: TorusPoint) -> f32 {
+    pub fn density(&self, place: TorusPoint) -> f32 {
         self.interpolate(&self.density, place)
     }
 
@@ -177,14 +178,14 @@ impl Raster {
     }
 
     /// The smallest and the largest spacing.
-    pub(super) fn range(&self) -> [f32; 2] {
+    pub fn range(&self) -> [f32; 2] {
         let range = [f32::INFINITY, 0.0];
         self.spacing.iter().fold(range, |[low, high], &spacing| [low.min(spacing), high.max(spacing)])
     }
 
     /// The density as weighted points, whose weights sum up to `total`: one for each block of cells no wider than
     /// `width`.
-    pub(super) fn weights(&self, torus: &Torus, width: f64, total: f64) -> Vec<(TorusPoint, f64)> {
+    pub fn weights(&self, torus: &Torus, width: f64, total: f64) -> Vec<(TorusPoint, f64)> {
         let extent = self.domain.extent().map(|length| length / torus.frame.spacing());
         let block = [0, 1].map(|axis| ((width * self.cells[axis] as f64 / extent[axis]) as usize).max(1));
         let unit = total / self.density.len() as f64;
@@ -201,7 +202,7 @@ impl Raster {
     }
 
     /// Random points with this density.
-    pub(super) fn scatter(&self, torus: &Torus, count: usize, seed: u64) -> Vec<[f32; 2]> {
+    pub fn scatter(&self, torus: &Torus, count: usize, seed: u64) -> Vec<[f32; 2]> {
         let weights = Weights::new(self.density.iter().map(|&density| density.into()).collect());
         let point = |index: u64| {
             let mut rng = Rng::at(seed, Draw::Scatter, &[index]);
@@ -214,7 +215,7 @@ impl Raster {
     }
 
     /// The point on the torus at a fraction of the width and of the height.
-    pub(super) fn place(&self, share: [f64; 2]) -> TorusPoint {
+    pub fn place(&self, share: [f64; 2]) -> TorusPoint {
         let period = match self.domain.boundary {
             Boundary::Periodic => TURN,
             Boundary::Bounded => f64::from(HALF),
@@ -241,5 +242,92 @@ impl Between {
             Boundary::Bounded => index.clamp(0.0, (count - 1) as f64) as usize,
         };
         Self { first: cell(first), second: cell(first + 1.0), share: place - first }
+    }
+}
+
+// Removes long waves of the excess over the density, where "long" depends on the position.
+//
+// As in `torus/waves.rs`, the points are drawn on a grid, but so is the density; the difference drives a flow whose
+// divergence it is, and the displacement of a point is the flow over the local density. A wave is long if it has four
+// local spacings or more. So there is a grid for each octave of the spacing, with the waves that are long there, and a
+// point reads the two that its own spacing is between. The denser the points, the shorter are the waves removed.
+
+/// The finest grid has at most the square of this times the nodes of that for a constant density.
+const FINEST: f64 = 3.0;
+
+/// The distance of nodes over that of the weights by which the density is drawn.
+const WEIGHTS: f64 = 2.0;
+
+/// The spacing of the points that a grid is made for, over that of its octave: three nodes per wavelength of the
+/// shortest waves are enough.
+const NODES: f64 = 1.4;
+
+/// The grids, from fine to coarse.
+pub struct OctaveGrids {
+    grids: Vec<OctaveGrid>,
+    /// The spacing of the first octave.
+    finest: f64,
+}
+
+struct OctaveGrid {
+    spacing: f64,
+    waves: WaveGrid,
+    wanted: Field,
+}
+
+impl OctaveGrids {
+    /// The grids for `count` points.
+    pub fn new(job: &Job, torus: &Torus, raster: &Raster, count: usize) -> Result<Self> {
+        let [least, largest] = raster.range().map(f64::from);
+        let finest = least.max(1.0 / FINEST);
+        // Beyond the size of the torus there are no waves.
+        let largest = largest.min(torus.frame.size().max_element());
+        let octaves = log2((largest / finest).max(1.0)).ceil() as usize;
+        let mut grids = Vec::new();
+        for octave in 0..=octaves {
+            let spacing = finest * scalbn(1.0, octave as i32);
+            let waves = WaveGrid::of_spacing(torus, count, NODES * spacing);
+            let weights = raster.weights(torus, spacing / WEIGHTS, count as f64);
+            let (places, weights): (Vec<TorusPoint>, Vec<f64>) = weights.into_iter().unzip();
+            let places = torus.with_images(&places);
+            let share = |octave: usize| octave as f64 / (octaves + 1) as f64;
+            let weighted = |index: usize| (places[index], weights[index % weights.len()] as f32);
+            let wanted = waves.draw(&job.part(share(octave), share(octave + 1)), places.len(), weighted)?;
+            grids.push(OctaveGrid { spacing, wanted, waves });
+        }
+        Ok(Self { grids, finest })
+    }
+
+    /// The displacements, in spacings of the torus, of the first points of `places`: those whose local spacings are
+    /// given.
+    pub fn drift(&self, job: &Job, places: &[TorusPoint], spacings: &[f32]) -> Result<Vec<Vec2>> {
+        let count = self.grids.len() as f64;
+        let mut fields = Vec::new();
+        for (index, grid) in self.grids.iter().enumerate() {
+            let share = |index: usize| 0.9 * index as f64 / count;
+            fields.push(grid.flow(&job.part(share(index), share(index + 1)), places)?);
+        }
+        let chunks = chunks(spacings.len());
+        job.part(0.9, 1.0).concat(chunks.len(), |chunk| {
+            chunks.range(chunk).map(|point| self.read(&fields, places[point], spacings[point])).collect()
+        })
+    }
+
+    fn read(&self, fields: &[Field], place: TorusPoint, spacing: f32) -> Vec2 {
+        let octave = log2(f64::from(spacing) / self.finest).clamp(0.0, (self.grids.len() - 1) as f64);
+        let (fine, share) = (octave as usize, octave.fract() as f32);
+        let coarse = (fine + 1).min(self.grids.len() - 1);
+        let at = |octave: usize| self.grids[octave].waves.read(&fields[octave], place);
+        let flow = if share == 0.0 { at(fine) } else { (1.0 - share) * at(fine) + share * at(coarse) };
+        spacing * spacing * flow
+    }
+}
+
+impl OctaveGrid {
+    /// The flow that moves points to where they are wanted, over the mean density.
+    fn flow(&self, job: &Job, places: &[TorusPoint]) -> Result<Field> {
+        let mut excess = self.waves.draw(&job.part(0.0, 0.2), places.len(), |point| (places[point], 1.0))?;
+        excess.iter_mut().zip(&self.wanted).for_each(|(excess, wanted)| *excess -= wanted);
+        self.waves.displacements(&job.part(0.2, 1.0), excess, places.len(), LONG_WAVES / self.spacing)
     }
 }

@@ -13,38 +13,38 @@
 
 use glam::{DVec3, Vec2, Vec3};
 
-use crate::dcr::ground::constraints::STIFFENING;
+use crate::dcr::law::STIFFENING;
 
 /// The distance, in spacings, up to which samples that are near on the surface are held off in the end. It is a little
 /// less than the conflict radius, at which forces stop.
-pub(super) const NEAR: f32 = 0.855;
+pub const NEAR: f32 = 0.855;
 
 /// The same for samples that are near through space only, over the floor: from that of a maximal set to that of a
 /// relaxed one, but no farther than parts of the surface allow that were sampled independently of each other.
 const FAR: f32 = 1.1;
 
-/// How often a displacement is corrected by all close samples.
+/// The number of times that a displacement is corrected by all close samples.
 const ROUNDS: usize = 2;
 
 /// The least distance of samples, in the units of the mesh.
 #[derive(Clone, Copy)]
-pub(super) struct Floor {
+pub struct Floor {
     distance: f64,
     /// A square that is above that of the distance, whatever the rounding.
     above: f64,
 }
 
 impl Floor {
-    pub(super) fn new(distance: f64) -> Self {
+    pub fn new(distance: f64) -> Self {
         Self { distance, above: distance * distance * (1.0 + 1e-9) }
     }
 
-    pub(super) fn distance(self) -> f64 {
+    pub fn distance(self) -> f64 {
         self.distance
     }
 
-    /// Whether two positions are far enough from each other.
-    pub(super) fn admits(self, a: DVec3, b: DVec3) -> bool {
+    /// True if two positions are far enough from each other.
+    pub fn admits(self, a: DVec3, b: DVec3) -> bool {
         let squared = a.distance_squared(b);
         squared > self.above || squared.sqrt() >= self.distance
     }
@@ -52,16 +52,16 @@ impl Floor {
 
 /// The distances up to which samples are held off in a step, in spacings.
 #[derive(Clone, Copy)]
-pub(super) struct Limits {
+pub struct Limits {
     /// From samples near on the surface; it grows as constraints get stiffer.
-    pub(super) near: f32,
+    pub near: f32,
     /// From all others.
-    pub(super) far: f32,
+    pub far: f32,
 }
 
 impl Limits {
     /// The limits of a step, of samples that are no closer than `floor` spacings.
-    pub(super) fn of_step(iterations: u32, floor: f32) -> Self {
+    pub fn of_step(iterations: u32, floor: f32) -> Self {
         let stiff = iterations.min(STIFFENING) as f32 / STIFFENING as f32;
         let near = floor.max(NEAR * stiff);
         Self { near, far: near.min(FAR * floor) }
@@ -70,7 +70,7 @@ impl Limits {
 
 /// The samples that are close to one sample.
 #[derive(Default)]
-pub(super) struct Contacts(Vec<Contact>);
+pub struct Contacts(Vec<Contact>);
 
 struct Contact {
     squared: f32,
@@ -82,13 +82,13 @@ struct Contact {
 
 impl Contacts {
     /// Forgets all samples.
-    pub(super) fn clear(&mut self) {
+    pub fn clear(&mut self) {
         self.0.clear();
     }
 
     /// Adds a sample at `offset`, seen in the plane of these axes, that is held off up to the distance `limit`, both in
     /// spacings.
-    pub(super) fn add(&mut self, axes: [Vec3; 2], offset: Vec3, limit: f32) {
+    pub fn add(&mut self, axes: [Vec3; 2], offset: Vec3, limit: f32) {
         let projected = Vec2::new(offset.dot(axes[0]), offset.dot(axes[1]));
         let (across_squared, squared) = (projected.length_squared(), offset.length_squared());
         // A sample straight above or below is in no direction.
@@ -104,7 +104,7 @@ impl Contacts {
 
     /// The displacement, corrected. The nearest sample comes last: where not all can be held off, it is. (In the order
     /// of their numbers, pairs stay stuck.)
-    pub(super) fn hold_off(&mut self, mut displacement: Vec2) -> Vec2 {
+    pub fn hold_off(&mut self, mut displacement: Vec2) -> Vec2 {
         let is_free = |contact: &Contact| displacement.dot(contact.direction) <= contact.most;
         if self.0.iter().all(is_free) {
             return displacement;
@@ -123,7 +123,7 @@ impl Contacts {
 mod tests {
     use super::*;
 
-    /// What is left of a displacement along the plane z = 0, with others at these offsets that are held off up to 1.
+    /// The remaining displacement along the plane z = 0, with others at these offsets that are held off up to 1.
     fn held_off(others: &[Vec3], displacement: Vec2) -> Vec2 {
         let mut contacts = Contacts::default();
         others.iter().for_each(|&other| contacts.add([Vec3::X, Vec3::Y], other, 1.0));

@@ -9,15 +9,15 @@ const FARTHEST: f64 = (1u64 << 60) as f64;
 
 /// A position that is found, and the next in the chain of its bucket.
 #[derive(Clone, Copy)]
-pub(super) struct Entry {
-    pub(super) position: Vec3,
+pub struct Entry {
+    pub position: Vec3,
     next: u32,
     /// The cell. Cells far from each other may have the same number.
     cell: u64,
 }
 
 /// Samples in cells as wide as the radius of a search.
-pub(super) struct Cells {
+pub struct Cells {
     low: DVec3,
     per_cell: f64,
     heads: Vec<u32>,
@@ -26,7 +26,7 @@ pub(super) struct Cells {
 
 impl Cells {
     /// The cells of all samples. No position may be below `low`. O(n).
-    pub(super) fn new(low: DVec3, side: f64, positions: impl ExactSizeIterator<Item = Vec3>) -> Self {
+    pub fn new(low: DVec3, side: f64, positions: impl ExactSizeIterator<Item = Vec3>) -> Self {
         let buckets = (2 * positions.len()).next_power_of_two().max(64);
         let mut cells = Self {
             low,
@@ -43,12 +43,12 @@ impl Cells {
 
     /// The position at which a sample is found.
     #[inline]
-    pub(super) fn position(&self, sample: u32) -> Vec3 {
+    pub fn position(&self, sample: u32) -> Vec3 {
         self.entries[sample as usize].position
     }
 
     /// From now on the sample is found here.
-    pub(super) fn put(&mut self, sample: u32, position: Vec3) {
+    pub fn put(&mut self, sample: u32, position: Vec3) {
         let Entry { next, cell, .. } = self.entries[sample as usize];
         let bucket = self.bucket(cell);
         let mut before = self.heads[bucket];
@@ -86,7 +86,7 @@ impl Cells {
 
     /// Visits the samples in the cell of a position and in those around it, and where they are found.
     #[inline]
-    pub(super) fn around(&self, position: Vec3, mut visit: impl FnMut(u32, Vec3)) {
+    pub fn around(&self, position: Vec3, mut visit: impl FnMut(u32, Vec3)) {
         let [x, y, z] = self.cell(position);
         for z in z - 1..=z + 1 {
             for y in y - 1..=y + 1 {
@@ -113,6 +113,7 @@ fn number(x: u64, y: u64, z: u64) -> u64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
     use crate::rng::{Draw, Rng};
 
     #[test]

@@ -1,6 +1,6 @@
 //! The edges that triangles share: which part of a surface is connected to which.
 //!
-//! Vertices at the same position are one (`welding.rs`). Triangles without a common edge are not connected, however
+//! Vertices at the same position are one ([`welded`]). Triangles without a common edge are not connected, however
 //! close they are: the two sides of a thin wall are far from each other on the surface, and a crack is a boundary.
 //! Triangles left out by the mesh's mask are ignored, as are those two of whose corners coincide.
 //!
@@ -10,14 +10,13 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use crate::dcr::surface::welding::welded;
 use crate::error::{Error, Result};
 use crate::index::Binned;
 use crate::mesh::{Mesh, exact};
 
 /// A mesh with its edges.
-pub(super) struct ConnectedMesh<'a> {
-    pub(super) mesh: &'a Mesh,
+pub struct ConnectedMesh<'a> {
+    pub mesh: &'a Mesh,
     edges: Arc<Edges>,
 }
 
@@ -39,7 +38,7 @@ impl<'a> ConnectedMesh<'a> {
     ///
     /// # Errors
     /// [`Error::TooLarge`] for a mesh of more triangles than half-edges can be numbered for.
-    pub(super) fn new(mesh: &'a Mesh) -> Result<Self> {
+    pub fn new(mesh: &'a Mesh) -> Result<Self> {
         let count = mesh.triangles().len();
         if count > (u32::MAX / 3) as usize {
             return Err(Error::too_large("mesh", format!("{count} triangles; the limit is {}", u32::MAX / 3)));
@@ -48,24 +47,24 @@ impl<'a> ConnectedMesh<'a> {
     }
 
     /// The other half-edges of the same edge: none at a boundary, most often one.
-    pub(super) fn across(&self, edge: u32) -> impl Iterator<Item = u32> {
+    pub fn across(&self, edge: u32) -> impl Iterator<Item = u32> {
         let around = &self.edges.around;
         std::iter::successors(Some(around[edge as usize]), |&other| Some(around[other as usize]))
             .take_while(move |&other| other != edge)
     }
 
-    /// Whether two half-edges of an edge have the same direction: then their triangles face opposite sides.
-    pub(super) fn run_alike(&self, edge: u32, other: u32) -> bool {
+    /// True if two half-edges of an edge have the same direction: then their triangles face opposite sides.
+    pub fn run_alike(&self, edge: u32, other: u32) -> bool {
         self.edges.origin(self.mesh, edge) == self.edges.origin(self.mesh, other)
     }
 
     /// The ends of a half-edge.
-    pub(super) fn ends(&self, edge: u32) -> [DVec3; 2] {
+    pub fn ends(&self, edge: u32) -> [DVec3; 2] {
         self.end_positions(edge).map(exact)
     }
 
     /// The ends of a half-edge, in floats.
-    pub(super) fn end_positions(&self, edge: u32) -> [[f32; 3]; 2] {
+    pub fn end_positions(&self, edge: u32) -> [[f32; 3]; 2] {
         let corners = self.mesh.triangles()[(edge / 3) as usize];
         [edge, next(edge)].map(|end| self.mesh.positions()[corners[(end % 3) as usize] as usize])
     }
@@ -118,11 +117,72 @@ impl Edges {
     }
 }
 
+// Vertices at the same position are one, as needed for files that repeat their vertices in each triangle (STL), and
+// where a seam was computed twice.
+
+/// The side of the cells in which vertices are found, in tolerances: wide, so that few vertices are near two of them.
+const CELL: f64 = 256.0;
+
+const NONE: u32 = u32::MAX;
+
+/// For each vertex the first one at its position, up to a float spacing at the largest coordinate. O(n).
+pub fn welded(mesh: &Mesh) -> Vec<u32> {
+    let tolerance = f64::from(mesh.largest_coordinate()) * f64::from(f32::EPSILON);
+    let positions = mesh.positions();
+    let low = exact(mesh.bounds().0);
+    // Vertices that no triangle uses may be outside the bounds; whole numbers saturate there.
+    let cell = |place: DVec3| {
+        let cell = (place - low) / (CELL * tolerance);
+        [cell.x as i64, cell.y as i64, cell.z as i64]
+    };
+    let bits = (2 * positions.len()).next_power_of_two().ilog2().max(1);
+    let bucket = |[x, y, z]: [i64; 3]| {
+        // Large primes of Teschner et al. 2003; the product brings the mixed bits to the top.
+        let mixed = (x as u64).wrapping_mul(73_856_093)
+            ^ (y as u64).wrapping_mul(19_349_663)
+            ^ (z as u64).wrapping_mul(83_492_791);
+        (mixed.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> (64 - bits)) as usize
+    };
+    // The first vertices, in chains from the buckets of their cells.
+    let mut heads = vec![NONE; 1 << bits];
+    let mut chain = vec![NONE; positions.len()];
+    let mut firsts = Vec::with_capacity(positions.len());
+    for (vertex, &position) in (0..).zip(positions) {
+        let place = exact(position);
+        let (from, to) = (cell(place - tolerance), cell(place + tolerance));
+        let mut first = NONE;
+        for z in from[2]..=to[2] {
+            for y in from[1]..=to[1] {
+                for x in from[0]..=to[0] {
+                    let mut other = heads[bucket([x, y, z])];
+                    while other != NONE {
+                        let squared = exact(positions[other as usize]).distance_squared(place);
+                        if squared <= tolerance * tolerance {
+                            first = first.min(other);
+                        }
+                        other = chain[other as usize];
+                    }
+                }
+            }
+        }
+        if first == NONE {
+            first = vertex;
+            let bucket = bucket(cell(place));
+            chain[vertex as usize] = heads[bucket];
+            heads[bucket] = vertex;
+        }
+        firsts.push(first);
+    }
+    firsts
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    /// How many half-edges each edge of the mesh has, from the most to the fewest.
+    use crate::rng::{Draw, Rng};
+
+    /// The number of half-edges that each edge of the mesh has, from the most to the fewest.
     fn degrees(connected: &ConnectedMesh) -> Vec<usize> {
         let edges = 0..3 * connected.mesh.triangles().len() as u32;
         let firsts = edges.filter(|&edge| connected.across(edge).all(|other| other > edge));
@@ -162,5 +222,37 @@ mod tests {
         let connected = ConnectedMesh::new(&mesh).unwrap();
         assert_eq!(degrees(&connected)[..2], [2, 1]);
         assert_eq!(connected.across(2).collect::<Vec<_>>(), [3]);
+    }
+
+    #[test]
+    fn vertices_are_welded_as_in_a_loop_over_all() {
+        let mut rng = Rng::at(12, Draw::Probe, &[]);
+        let tolerance = f64::from(f32::EPSILON);
+        // Places in many and in few cells, each several times, about as far apart as the tolerance.
+        for scale in [1.0, 1e-5] {
+            let mut positions = vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+            for _ in 0..300 {
+                let place: [f64; 3] = std::array::from_fn(|_| rng.unit() * scale);
+                for _ in 0..3 {
+                    positions.push(place.map(|x| (x + 2.0 * tolerance * (rng.unit() - 0.5)) as f32));
+                }
+            }
+            let mut firsts: Vec<u32> = Vec::new();
+            let expected = (0..positions.len() as u32).map(|vertex| {
+                let here = |first: &&u32| {
+                    let [a, b] = [**first, vertex].map(|vertex| exact(positions[vertex as usize]));
+                    a.distance_squared(b) <= tolerance * tolerance
+                };
+                let first = firsts.iter().find(here).copied();
+                first.unwrap_or_else(|| {
+                    firsts.push(vertex);
+                    vertex
+                })
+            });
+            let expected: Vec<u32> = expected.collect();
+            let mesh = Mesh::new(positions.clone(), vec![[0, 1, 2]]).unwrap();
+            assert_eq!(welded(&mesh), expected);
+            assert!(firsts.len() < positions.len() - 100);
+        }
     }
 }

@@ -2,13 +2,13 @@
 
 use glam::{DVec2, DVec3, Vec2};
 
-use crate::dcr::ground::constraints::{Constraints, STIFFENING};
+use crate::dcr::law::{Constraints, STIFFENING};
 use crate::dcr::relaxation::{Relaxation, Space};
 use crate::dcr::surface::apart::{Floor, Limits};
 use crate::dcr::surface::connected::ConnectedMesh;
-use crate::dcr::surface::curve::along_curve;
-use crate::dcr::surface::gather::{Doubtful, Mover, Moves, Situation};
-use crate::dcr::surface::neighbourhoods::Neighbourhoods;
+use crate::dcr::surface::lists::Neighbourhoods;
+use crate::dcr::surface::moves::{Mover, Moves, StepState, UncheckedMove};
+use crate::dcr::surface::spread::along_curve;
 use crate::dcr::surface::walk::SurfacePoint;
 use crate::error::Result;
 use crate::index::smallest_distance;
@@ -32,7 +32,7 @@ const STRIDE: f32 = 0.4;
 const CALMING: f64 = 0.9;
 
 /// The largest distance by which positions change in a step, in spacings: the stride, and rounding.
-pub(super) const FARTHEST: f32 = 0.41;
+pub const FARTHEST: f32 = 0.41;
 
 /// After so many steps samples come to rest where no force acts on them.
 const FIRST_REST: u32 = 16;
@@ -45,7 +45,7 @@ const LONGEST_REST: u32 = 12;
 const CHUNK: usize = 512;
 
 /// Samples on a surface, moving. They are in the order of a curve; the user's order is that of `order`.
-pub(super) struct SurfaceRelaxation<'a> {
+pub struct SurfaceRelaxation<'a> {
     connected: &'a ConnectedMesh<'a>,
     level: Level,
     spacing: f64,
@@ -63,7 +63,7 @@ pub(super) struct SurfaceRelaxation<'a> {
 
 impl<'a> SurfaceRelaxation<'a> {
     /// Samples no two of which are closer to each other than the floor, now and after each step.
-    pub(super) fn new(
+    pub fn new(
         job: &Job,
         connected: &'a ConnectedMesh<'a>,
         spacing: f64,
@@ -90,13 +90,13 @@ impl<'a> SurfaceRelaxation<'a> {
     }
 
     /// The smallest distance of two samples; infinite for less than two.
-    pub(super) fn smallest_distance(&self, job: &Job) -> Result<f64> {
+    pub fn smallest_distance(&self, job: &Job) -> Result<f64> {
         let positions: Vec<_> = self.positions.iter().map(|&[x, y, z, _]| [x, y, z]).collect();
         smallest_distance(job, &positions)
     }
 
     /// The samples, in the user's order.
-    pub(super) fn places(&self) -> Vec<SurfacePoint> {
+    pub fn places(&self) -> Vec<SurfacePoint> {
         let mut places = vec![SurfacePoint::default(); self.order.len()];
         self.order.iter().zip(&self.movers).for_each(|(&i, mover)| places[i as usize] = mover.place);
         places
@@ -135,21 +135,21 @@ impl<'a> SurfaceRelaxation<'a> {
     fn shift(&mut self, job: &Job, places: &[SurfacePoint]) -> Result<()> {
         self.near.search(job, &mut self.movers, &self.positions)?;
         job.context().run(None, |whole| {
-            let mut doubtful = Vec::new();
+            let mut unchecked = Vec::new();
             for (sample, (&i, mover)) in (0..).zip(self.order.iter().zip(&mut self.movers)) {
-                doubtful.push(Doubtful { sample, place: mover.place, left: None });
+                unchecked.push(UncheckedMove { sample, place: mover.place, left: None });
                 *mover = Mover { place: places[i as usize], ..Mover::default() };
                 self.wanted[sample as usize] = mover.place.rounded(self.connected.mesh);
             }
-            self.settle(whole, doubtful)
+            self.settle(whole, unchecked)
         })
     }
 
     /// Moves samples as forces ask for. Returns those that may end too close to others.
-    fn gather(&mut self, job: &Job, iteration: u32) -> Result<Vec<Doubtful>> {
+    fn gather(&mut self, job: &Job, iteration: u32) -> Result<Vec<UncheckedMove>> {
         let floor = (self.floor.distance() / self.spacing) as f32;
         let (lists, locals) = self.near.lists_and_locals();
-        let situation = Situation {
+        let state = StepState {
             connected: self.connected,
             positions: &self.positions,
             lists,
@@ -164,31 +164,31 @@ impl<'a> SurfaceRelaxation<'a> {
         let movers = self.movers.chunks_mut(CHUNK).zip(locals.chunks_mut(CHUNK));
         let moves = (0..).zip(movers.zip(self.wanted.chunks_mut(CHUNK)));
         let moves = moves.map(|(chunk, ((movers, locals), wanted))| Moves {
-            situation: &situation,
+            state: &state,
             first: chunk * CHUNK,
             movers,
             locals,
             wanted,
         });
-        let (level, rests) = (self.level, situation.rest > 0);
+        let (level, rests) = (self.level, state.rest > 0);
         let after = job.map_each(moves.collect(), |moves| simd::run(level, moves))?;
-        let mut doubtful = Vec::new();
+        let mut unchecked = Vec::new();
         for part in after {
-            doubtful.extend(part.doubtful);
+            unchecked.extend(part.unchecked);
             for sample in part.stirring.into_iter().filter(|_| rests) {
                 self.near.in_sight(sample).for_each(|other| self.movers[other as usize].rest = 0);
             }
         }
-        Ok(doubtful)
+        Ok(unchecked)
     }
 
-    /// Takes back those of the doubtful moves that are not admitted; all others are made.
-    fn settle(&mut self, job: &Job, doubtful: Vec<Doubtful>) -> Result<()> {
-        let parts = doubtful.chunks(CHUNK).collect();
-        let refused = job.map_each(parts, |part: &[Doubtful]| -> Vec<bool> {
+    /// Takes back those of the unchecked moves that are not admitted; all others are made.
+    fn settle(&mut self, job: &Job, unchecked: Vec<UncheckedMove>) -> Result<()> {
+        let parts = unchecked.chunks(CHUNK).collect();
+        let refused = job.map_each(parts, |part: &[UncheckedMove]| -> Vec<bool> {
             part.iter().map(|doubt| !self.admits(doubt.sample)).collect()
         })?;
-        for (doubt, is_refused) in doubtful.into_iter().zip(refused.into_iter().flatten()) {
+        for (doubt, is_refused) in unchecked.into_iter().zip(refused.into_iter().flatten()) {
             if is_refused {
                 let sample = doubt.sample as usize;
                 self.movers[sample].place = doubt.place;
@@ -203,7 +203,7 @@ impl<'a> SurfaceRelaxation<'a> {
         self.near.follow(job, &self.positions)
     }
 
-    /// Whether the move of a sample ends too close neither to another sample nor to the end of another's move.
+    /// True if the move of a sample ends too close neither to another sample nor to the end of another's move.
     fn admits(&self, sample: u32) -> bool {
         let (from, to) = (place(self.positions[sample as usize]), place(self.wanted[sample as usize]));
         let admits = |other: u32| {
@@ -235,8 +235,8 @@ impl Relaxation for SurfaceRelaxation<'_> {
         }
         self.near.search(&job.part(0.0, 0.5), &mut self.movers, &self.positions)?;
         job.context().run(None, |whole| {
-            let doubtful = self.gather(whole, iteration)?;
-            self.settle(whole, doubtful)
+            let unchecked = self.gather(whole, iteration)?;
+            self.settle(whole, unchecked)
         })?;
         job.report(1.0)
     }
@@ -253,7 +253,7 @@ fn place([x, y, z, _]: Position) -> DVec3 {
 }
 
 /// Space, with this as the unit of length.
-pub(super) struct Unit(f64);
+pub struct Unit(f64);
 
 impl Space<Position> for Unit {
     fn distance_squared(&self, from: Position, to: Position) -> f64 {
@@ -264,6 +264,7 @@ impl Space<Position> for Unit {
 #[cfg(test)]
 mod tests {
     use super::*;
+
     use crate::job::Context;
     use crate::mesh::Mesh;
 

@@ -1,30 +1,29 @@
-//! Spreads samples that are heaped on one part of the surface and missing on others.
+//! Spreads samples that are clustered on one part of the surface and missing on others.
 //!
-//! There is no Fourier transform on a mesh that would level a heap, and forces move a sample by a fraction of the
-//! spacing in a step. So before the first step such samples are dealt out (`ground/heaps.rs`): as many points are thrown
+//! There is no Fourier transform on a mesh that would level a cluster, and forces move a sample by a fraction of the
+//! spacing in a step. So before the first step such samples are redistributed (`dcr/clustering.rs`): as many points are thrown
 //! on the surface at random, both are sorted along a Z-curve through space, and each sample is put on the point of its
 //! rank. Each part of the surface, connected with others or not, receives samples by its area.
 
-use crate::dcr::ground::heaps::are_heaped;
+use crate::dcr::clustering::is_clustered;
 use crate::dcr::surface::apart::Floor;
-use crate::dcr::surface::curve::along_curve;
 use crate::dcr::surface::walk::SurfacePoint;
 use crate::error::Result;
-use crate::index::curve::SPACE_BITS;
+use crate::index::curve::{SPACE_BITS, morton3, sorted};
 use crate::index::{Grid3, Weights};
 use crate::job::{Job, chunks};
-use crate::mesh::Mesh;
+use crate::mesh::{Mesh, exact};
 use crate::rng::{Draw, Rng};
 
 /// Samples that are all this far apart, in spacings, are left where they are: random points would be too close.
 const APART: f64 = 0.6;
 
-/// The number of throws for a sample, each of which gets too close to samples that were dealt before.
+/// The number of throws for a sample, each of which gets too close to samples that were placed before.
 const ATTEMPTS: u64 = 64;
 
-/// New places for samples that are heaped, no two closer to each other through space than the floor. None if they are
+/// New places for samples that are clustered, no two closer to each other through space than the floor. None if they are
 /// not, or if there is no room for that.
-pub(super) fn spread(
+pub fn spread(
     job: &Job,
     mesh: &Mesh,
     places: &[SurfacePoint],
@@ -41,13 +40,13 @@ pub(super) fn spread(
     let samples = along_curve(mesh, places);
     let [along, along_thrown] =
         [&samples, &along_curve(mesh, &thrown)].map(|all| all.iter().map(|&(along, _)| along).collect::<Vec<_>>());
-    if !are_heaped::<3>(&along, &along_thrown, 3 * SPACE_BITS) {
+    if !is_clustered::<3>(&along, &along_thrown, 3 * SPACE_BITS) {
         return Ok(None);
     }
-    let Some(dealt) = throws.apart(&job.part(0.5, 1.0), places.len(), floor, spacing)? else { return Ok(None) };
+    let Some(placed) = throws.apart(&job.part(0.5, 1.0), places.len(), floor, spacing)? else { return Ok(None) };
     let mut spread = places.to_vec();
-    for ((_, sample), (_, point)) in samples.iter().zip(along_curve(mesh, &dealt)) {
-        spread[*sample as usize] = dealt[point as usize];
+    for ((_, sample), (_, point)) in samples.iter().zip(along_curve(mesh, &placed)) {
+        spread[*sample as usize] = placed[point as usize];
     }
     Ok(Some(spread))
 }
@@ -99,9 +98,23 @@ impl<'a> Throws<'a> {
     }
 }
 
+// A Z-curve through the bounds of a mesh: what is close on the surface is mostly close along it.
+
+/// The places of points along the curve, in order, with the points' numbers.
+pub fn along_curve(mesh: &Mesh, points: &[SurfacePoint]) -> Vec<(u64, u32)> {
+    let (low, high) = mesh.bounds();
+    let extent = (exact(high) - exact(low)).max_element().max(f64::MIN_POSITIVE);
+    let last = f64::from((1u32 << SPACE_BITS) - 1);
+    sorted(points.iter().map(|point| {
+        let place = (point.position(mesh) - exact(low)) / extent * last;
+        morton3(place.to_array().map(|x| x as u32))
+    }))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
     use crate::job::Context;
 
     /// A unit square of `side`² cells and, far from it, another of twice its size.
@@ -136,24 +149,24 @@ mod tests {
     }
 
     /// The samples of a uniform set on triangle 0 alone, or with a share of them elsewhere.
-    fn heap(mesh: &Mesh, count: usize, share: f64) -> Vec<SurfacePoint> {
+    fn clustered(mesh: &Mesh, count: usize, share: f64) -> Vec<SurfacePoint> {
         let mut places = uniform(mesh, count);
-        let heaped = (share * count as f64) as usize;
-        places[..heaped].iter_mut().for_each(|place| place.triangle = 0);
+        let moved = (share * count as f64) as usize;
+        places[..moved].iter_mut().for_each(|place| place.triangle = 0);
         places
     }
 
     #[test]
-    fn heaps_are_dealt_out_by_area() {
+    fn clusters_are_redistributed_by_area() {
         let mesh = squares(20);
         for share in [1.0, 0.5, 0.2] {
-            let dealt = spread_of(&mesh, &heap(&mesh, 5000, share), 0.0).unwrap();
-            let on_small = dealt.iter().filter(|place| place.triangle < 800).count();
+            let placed = spread_of(&mesh, &clustered(&mesh, 5000, share), 0.0).unwrap();
+            let on_small = placed.iter().filter(|place| place.triangle < 800).count();
             assert!(on_small.abs_diff(1000) < 120, "{on_small}");
             let mut per_triangle = vec![0; 1600];
-            dealt.iter().for_each(|place| per_triangle[place.triangle as usize] += 1);
+            placed.iter().for_each(|place| per_triangle[place.triangle as usize] += 1);
             assert!(per_triangle.iter().all(|&count| count < 20), "{share}");
-            assert!(dealt.iter().all(|place| place.uv.min_element() >= 0.0 && place.uv.element_sum() <= 1.0));
+            assert!(placed.iter().all(|place| place.uv.min_element() >= 0.0 && place.uv.element_sum() <= 1.0));
         }
     }
 
@@ -163,17 +176,17 @@ mod tests {
         for count in [1, 50, 400, 5000, 40_000] {
             assert_eq!(spread_of(&mesh, &uniform(&mesh, count), 0.0), None, "{count}");
         }
-        assert_eq!(spread_of(&mesh, &heap(&mesh, 50, 1.0), 0.0), None);
+        assert_eq!(spread_of(&mesh, &clustered(&mesh, 50, 1.0), 0.0), None);
     }
 
     #[test]
-    fn none_are_dealt_closer_than_the_floor() {
+    fn none_are_placed_closer_than_the_floor() {
         let mesh = squares(20);
-        let places = heap(&mesh, 1500, 1.0);
+        let places = clustered(&mesh, 1500, 1.0);
         let spacing = (2.0 * mesh.area() / (3f64.sqrt() * 1500.0)).sqrt();
         let floor = 0.5 * spacing;
-        let dealt = spread_of(&mesh, &places, floor).unwrap();
-        let positions: Vec<_> = dealt.iter().map(|place| place.position(&mesh)).collect();
+        let placed = spread_of(&mesh, &places, floor).unwrap();
+        let positions: Vec<_> = placed.iter().map(|place| place.position(&mesh)).collect();
         for i in 0..positions.len() {
             assert!((0..i).all(|j| positions[i].distance(positions[j]) >= floor));
         }
@@ -185,16 +198,16 @@ mod tests {
         let triangles = (0..3).flat_map(|k| sheet.triangles().iter().map(move |t| t.map(|corner| corner + k * count)));
         let sheets = Mesh::new(positions.collect(), triangles.collect()).unwrap();
         let spacing = (2.0 * sheets.area() / (3f64.sqrt() * 1500.0)).sqrt();
-        assert_eq!(spread_of(&sheets, &heap(&sheets, 1500, 1.0), 0.59 * spacing), None);
+        assert_eq!(spread_of(&sheets, &clustered(&sheets, 1500, 1.0), 0.59 * spacing), None);
     }
 
     /// Samples keep their order along the curve.
     #[test]
-    fn neighbours_in_the_heap_are_neighbours_after_it() {
+    fn neighbours_in_the_cluster_are_neighbours_after_it() {
         let mesh = squares(20);
-        let places = heap(&mesh, 4000, 1.0);
-        let dealt = spread_of(&mesh, &places, 0.0).unwrap();
+        let places = clustered(&mesh, 4000, 1.0);
+        let placed = spread_of(&mesh, &places, 0.0).unwrap();
         let order = |places: &[SurfacePoint]| along_curve(&mesh, places).iter().map(|&(_, i)| i).collect::<Vec<_>>();
-        assert_eq!(order(&places), order(&dealt));
+        assert_eq!(order(&places), order(&placed));
     }
 }

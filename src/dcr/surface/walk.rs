@@ -18,7 +18,7 @@ const SHORT_OF_BORDER: f64 = 0.99;
 
 /// A triangle in the plane: the first corner at 0, the second on the x axis, the third above it. Lengths in spacings.
 #[derive(Clone, Copy)]
-pub(super) struct FlatTriangle {
+pub struct FlatTriangle {
     corners: [DVec2; 3],
     /// The plane's axes in space.
     axes: [DVec3; 2],
@@ -26,20 +26,20 @@ pub(super) struct FlatTriangle {
 
 /// A point of the surface.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct SurfacePoint {
-    pub(super) triangle: u32,
+pub struct SurfacePoint {
+    pub triangle: u32,
     /// Barycentrics u and v.
-    pub(super) uv: DVec2,
+    pub uv: DVec2,
 }
 
 impl SurfacePoint {
     /// Its position in space, in the floats in which samples are returned.
-    pub(super) fn position(self, mesh: &Mesh) -> DVec3 {
+    pub fn position(self, mesh: &Mesh) -> DVec3 {
         exact(mesh.point(self.triangle, round_barycentrics(self.uv.into())))
     }
 
     /// Its position, ready for vectors.
-    pub(super) fn rounded(self, mesh: &Mesh) -> Position {
+    pub fn rounded(self, mesh: &Mesh) -> Position {
         let [x, y, z] = mesh.point(self.triangle, round_barycentrics(self.uv.into()));
         [x, y, z, 0.0]
     }
@@ -47,17 +47,17 @@ impl SurfacePoint {
 
 /// The end of a walk.
 #[derive(Clone, Copy)]
-pub(super) struct WalkEnd {
-    pub(super) place: SurfacePoint,
+pub struct WalkEnd {
+    pub place: SurfacePoint,
     /// The displacement in the plane of the last triangle: of the same length, or where a boundary was met its
     /// component along the boundary.
-    pub(super) displacement: DVec2,
-    /// Whether the last triangle faces the other side than the first.
-    pub(super) is_turned: bool,
+    pub displacement: DVec2,
+    /// True if the last triangle faces the other side than the first.
+    pub is_turned: bool,
 }
 
 impl FlatTriangle {
-    pub(super) fn new(mesh: &ConnectedMesh, triangle: u32, spacing: f64) -> Self {
+    pub fn new(mesh: &ConnectedMesh, triangle: u32, spacing: f64) -> Self {
         let [a, b, c] = mesh.mesh.exact_corners(triangle);
         let (ab, ac) = ((b - a) / spacing, (c - a) / spacing);
         let length = ab.length();
@@ -67,17 +67,17 @@ impl FlatTriangle {
     }
 
     /// The unit normal; zero for a triangle without area.
-    pub(super) fn normal(&self) -> DVec3 {
+    pub fn normal(&self) -> DVec3 {
         self.axes[0].cross(self.axes[1])
     }
 
     /// The plane's axes in space.
-    pub(super) fn axes(&self) -> [DVec3; 2] {
+    pub fn axes(&self) -> [DVec3; 2] {
         self.axes
     }
 
     /// The barycentrics that a displacement by 1 along each axis adds.
-    pub(super) fn steps(&self) -> [DVec2; 2] {
+    pub fn steps(&self) -> [DVec2; 2] {
         let [_, b, c] = self.corners;
         [DVec2::new(1.0 / b.x, 0.0), DVec2::new(-c.x / (b.x * c.y), 1.0 / c.y)]
     }
@@ -123,7 +123,7 @@ impl FlatTriangle {
 
 /// Walks from a point, in a triangle with area, by a displacement, which is in the plane of its triangle and in
 /// spacings.
-pub(super) fn walk(mesh: &ConnectedMesh, spacing: f64, start: SurfacePoint, displacement: DVec2) -> WalkEnd {
+pub fn walk(mesh: &ConnectedMesh, spacing: f64, start: SurfacePoint, displacement: DVec2) -> WalkEnd {
     let mut triangle = start.triangle;
     let mut flat = FlatTriangle::new(mesh, triangle, spacing);
     let (mut point, mut direction, mut left, mut entry) = (flat.point(start.uv), displacement, 1.0, None);
@@ -178,6 +178,7 @@ fn straightest(mesh: &ConnectedMesh, spacing: f64, flat: &FlatTriangle, edge: u3
 #[cfg(test)]
 mod tests {
     use super::*;
+
     use crate::rng::{Draw, Rng};
 
     const SPACING: f64 = 0.25;

@@ -12,7 +12,7 @@ use glam::DVec2;
 
 use crate::dcr::options::Neighbourhood;
 use crate::dcr::thesis::links::{Link, Links};
-use crate::dcr::thesis::settings::{Distribution, Thesis, Visits};
+use crate::dcr::thesis::{Distribution, Thesis, Visits};
 use crate::rng::{Draw, hash};
 
 /// A force within this cosine of the reverse of the one before: the point oscillates (δ of §4.4.2; §4.3.5 says 0.9).
@@ -20,35 +20,35 @@ const OSCILLATION_COSINE: f64 = 0.95;
 
 /// A point in motion, in units of the reference spacing.
 #[derive(Clone, Copy)]
-pub(super) struct Particle {
-    pub(super) position: DVec2,
+pub struct Particle {
+    pub position: DVec2,
     /// The inverse of the activeness.
-    pub(super) yielding: f64,
+    pub yielding: f64,
     /// The sum of the tensions in the step before.
-    pub(super) tension: DVec2,
+    pub tension: DVec2,
 }
 
 impl Particle {
     /// A point at rest, of activeness 1.
-    pub(super) fn new(position: DVec2) -> Self {
+    pub fn new(position: DVec2) -> Self {
         Self { position, yielding: 1.0, tension: DVec2::ZERO }
     }
 }
 
 /// The constants of the forces.
-pub(super) struct Forces {
+pub struct Forces {
     conflict_radius: f64,
     /// Infinite where neighbours do not attract.
     attraction_radius: f64,
     /// λ.
-    pub(super) step: f64,
+    pub step: f64,
     distribution: Distribution,
     visits: Visits,
     seed: u64,
 }
 
 impl Forces {
-    pub(super) fn new(neighbourhood: Neighbourhood, thesis: &Thesis, seed: u64) -> Self {
+    pub fn new(neighbourhood: Neighbourhood, thesis: &Thesis, seed: u64) -> Self {
         Self {
             conflict_radius: thesis.conflict_radius,
             attraction_radius: match neighbourhood {
@@ -76,7 +76,7 @@ impl Forces {
         strength * offset.normalize_or_zero()
     }
 
-    /// How often the point visits a link, and how often the neighbour does.
+    /// The number of visits to a link by the point, and by the neighbour.
     fn visits(&self, point: u32, link: &Link) -> [f64; 2] {
         let is_mutual = link.outgoing && link.incoming;
         match self.visits {
@@ -106,7 +106,7 @@ impl Forces {
     }
 
     /// The point after one step; its position has not been folded back into the domain.
-    pub(super) fn advance(&self, links: &impl Links, particles: &[Particle], point: usize) -> Particle {
+    pub fn advance(&self, links: &impl Links, particles: &[Particle], point: usize) -> Particle {
         let particle = particles[point];
         let (mut displacement, mut tension, mut tensions) = (DVec2::ZERO, DVec2::ZERO, 0.0);
         links.for_each(point, |link| {
@@ -133,6 +133,7 @@ impl Forces {
 #[cfg(test)]
 mod tests {
     use super::*;
+
     use crate::rng::Rng;
 
     const COUNT: usize = 24;

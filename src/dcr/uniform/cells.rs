@@ -10,8 +10,8 @@ use std::ops::Range;
 
 use glam::Vec2;
 
-use crate::dcr::ground::constraints::Constraints;
-use crate::dcr::ground::torus::{Torus, TorusPoint};
+use crate::dcr::law::Constraints;
+use crate::dcr::torus::{Torus, TorusPoint};
 use crate::error::Result;
 use crate::index::Binned;
 use crate::job::{Job, chunks};
@@ -20,10 +20,10 @@ use crate::job::{Job, chunks};
 const SKIN: f32 = 0.2;
 
 /// The number of points that are processed at a time.
-pub(super) const LANES: usize = 8;
+pub const LANES: usize = 8;
 
 /// The least square of a distance, so that even that of a point from itself has a finite inverse.
-pub(super) const LEAST: f32 = f32::MIN_POSITIVE;
+pub const LEAST: f32 = f32::MIN_POSITIVE;
 
 /// The number of cells along a row that the forces on a point reach on either side of its own.
 const NEAR: usize = 3;
@@ -33,7 +33,7 @@ const NEAR: usize = 3;
 /// Rows are so high that forces on a point in the upper half of one come from it and the next row only, and those in
 /// the lower half from it and the row below: two runs of cells hold all neighbours. The cells at each end of a row are
 /// repeated beyond its other end, so that no run is cut.
-pub(super) struct VerletCells {
+pub struct VerletCells {
     torus: Torus,
     rows: usize,
     /// Cells from one row to the next, and those of a run.
@@ -54,7 +54,7 @@ pub(super) struct VerletCells {
 
 impl VerletCells {
     /// Sorts points into cells for forces of this reach, in spacings. Takes O(n).
-    pub(super) fn new(torus: &Torus, places: &[TorusPoint], reach: f32) -> Self {
+    pub fn new(torus: &Torus, places: &[TorusPoint], reach: f32) -> Self {
         let (size, width) = (torus.frame.size(), f64::from(reach + SKIN));
         // A strip that is thinner than the distance of its points has no more cells than points.
         let limit = (places.len() + 8) as f64;
@@ -83,14 +83,14 @@ impl VerletCells {
         Self { torus: *torus, rows, stride, width: 2 * near + 1, reach, travelled: 0.0, runs, points, x, y }
     }
 
-    /// Whether all forces of this reach are still found after a step in which points have moved by up to `distance`.
-    pub(super) fn still_serve(&mut self, distance: f32, reach: f32) -> bool {
+    /// True if all forces of this reach are still found after a step in which points have moved by up to `distance`.
+    pub fn still_serve(&mut self, distance: f32, reach: f32) -> bool {
         self.travelled += distance;
         reach + 2.0 * self.travelled <= self.reach + SKIN
     }
 
     /// Updates the coordinates.
-    pub(super) fn update(&mut self, job: &Job, places: &[TorusPoint]) -> Result<()> {
+    pub fn update(&mut self, job: &Job, places: &[TorusPoint]) -> Result<()> {
         let points = self.points.items();
         let chunks = chunks(points.len());
         let parts = points.chunks(chunks.size()).zip(self.x.chunks_mut(chunks.size()));
@@ -105,7 +105,7 @@ impl VerletCells {
 
     /// The points that may be in reach of a point, as ranges.
     #[inline(always)]
-    pub(super) fn around(&self, point: usize) -> [Range<usize>; 2] {
+    pub fn around(&self, point: usize) -> [Range<usize>; 2] {
         let (first, half) = (self.runs[point] as usize / 2, self.runs[point] % 2);
         let all = self.rows * self.stride;
         let run = |first: usize| self.points.range(first..first + self.width);
@@ -121,18 +121,18 @@ impl VerletCells {
 
     /// The `x` and `y` of eight points from `first` on.
     #[inline(always)]
-    pub(super) fn lanes(&self, first: usize) -> [&[u32; LANES]; 2] {
+    pub fn lanes(&self, first: usize) -> [&[u32; LANES]; 2] {
         [&self.x, &self.y].map(|all| all[first..first + LANES].try_into().expect("eight of them"))
     }
 
     /// The lengths of 2^-32 of the periods.
     #[inline(always)]
-    pub(super) fn unit(&self) -> Vec2 {
+    pub fn unit(&self) -> Vec2 {
         self.torus.unit_and_longest().0
     }
 
     /// The force on a point by all points of these ranges that conflict with it.
-    pub(super) fn force(&self, here: TorusPoint, constraints: &Constraints, around: [Range<usize>; 2]) -> Vec2 {
+    pub fn force(&self, here: TorusPoint, constraints: &Constraints, around: [Range<usize>; 2]) -> Vec2 {
         let &Constraints { conflict_radius, push, .. } = constraints;
         let unit = self.unit();
         let mut sum = [[0.0; LANES]; 2];

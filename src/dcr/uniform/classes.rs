@@ -4,30 +4,27 @@
 //! Each of these sets has a torus of its own spacing, a triangulation of its own, and long waves of its own. A point
 //! moves by the sum of the forces in the two sets that it belongs to. They cannot all come to rest: a hexagonal lattice
 //! divides into three or four hexagonal ones, but not into two or five, and with the radii of a single set
-//! (`ground/constraints.rs`) all points are pulled to and fro. So the constraints are weaker here, and the set that is
+//! ([`Constraints::of_step`]) all points are pulled to and fro. So the constraints are weaker here, and the set that is
 //! returned is the last.
 
 use std::ops::Range;
 
 use glam::Vec2;
 
-use crate::dcr::ground::boundary::MirrorBoundary;
-use crate::dcr::ground::constraints::{Constraints, FREE_CLEARANCE, MOMENTUM, SAFE_FRACTION};
-use crate::dcr::ground::curve::CurveOrder;
-use crate::dcr::ground::level::{LEVEL, leveled};
-use crate::dcr::ground::torus::{Torus, TorusPoint};
-use crate::dcr::ground::waves::WaveGrid;
-use crate::dcr::options::Neighbourhood;
-use crate::dcr::relax::PlaneRelaxation;
-use crate::dcr::relaxation::Relaxation;
-use crate::dcr::uniform::flip_mesh::{Edge, FlipMesh};
-use crate::dcr::uniform::gather::{JAMMED, kick, limited};
-use crate::dcr::uniform::relaxation::{FIRST_FREE, KICK_EVERY, LAST_KICK, WAVES_EVERY, highest_wave};
-use crate::dcr::uniform::rings::Rings;
+use crate::classes::Classes;
+use crate::dcr::law::{Constraints, FREE_CLEARANCE, MOMENTUM, SAFE_FRACTION};
+use crate::dcr::options::{Method, Neighbourhood, Options};
+use crate::dcr::relax::{PlaneRelaxation, Report, measure, relax_set, require_memory};
+use crate::dcr::relaxation::{Relaxation, Steps, Stopped};
+use crate::dcr::torus::{CurveOrder, LEVEL, MirrorBoundary, Torus, TorusPoint, WaveGrid, leveled};
+use crate::dcr::uniform::flip_mesh::{Edge, FlipMesh, Rings};
 use crate::dcr::uniform::stars::{Gathered, Visitor};
-use crate::error::Result;
+use crate::dcr::uniform::{
+    FIRST_FREE, JAMMED, KICK_EVERY, LAST_KICK, UniformRelaxation, WAVES_EVERY, highest_wave, kick, limited,
+};
+use crate::error::{Error, Result};
 use crate::geometry::Delaunay;
-use crate::job::{Job, chunks};
+use crate::job::{Context, Job, Progress, chunks};
 use crate::points::Domain;
 use crate::simd::Level;
 
@@ -48,7 +45,7 @@ struct Subset {
     torus: Torus,
     boundary: Option<MirrorBoundary>,
     waves: WaveGrid,
-    /// Where the members are, and after them their images.
+    /// The positions of the members, and after them their images.
     places: Vec<TorusPoint>,
     /// The triangulation, where one can be kept.
     mesh: Option<FlipMesh>,
@@ -58,14 +55,14 @@ struct Subset {
     weight: f32,
 }
 
-/// What acts on a point, in spacings.
+/// The force on a point, in spacings.
 #[derive(Clone, Copy, Default)]
 struct Pull {
     force: Vec2,
     clearance: f32,
 }
 
-/// What a range of members gathers.
+/// The forces on a range of members.
 #[derive(Default)]
 struct Gathering {
     pulls: Vec<Pull>,
@@ -73,9 +70,9 @@ struct Gathering {
     is_unsound: bool,
 }
 
-/// What a step is made of.
+/// The parts of a step.
 struct Sums {
-    /// What acts on each point, by all of its subsets.
+    /// The force on each point, by all of its subsets.
     pulls: Vec<Pull>,
     /// The displacement of each by long waves.
     drifts: Vec<Vec2>,
@@ -131,7 +128,7 @@ impl Subset {
         Delaunay::new(job, &self.torus.frame, self.torus.nudged(&self.places).into_iter())
     }
 
-    /// What acts on the members, and the edges that may have to be flipped.
+    /// The forces on the members, and the edges that may have to be flipped.
     fn gather(&mut self, job: &Job, constraints: &Constraints) -> Result<Gathering> {
         if self.mesh.is_none() {
             self.mesh = FlipMesh::new(&job.part(0.0, 0.5), &self.torus, &self.places)?;
@@ -181,7 +178,7 @@ impl Subset {
 }
 
 /// The points, their velocities, and the sets that they form.
-pub(in crate::dcr) struct ClassRelaxation {
+pub struct ClassRelaxation {
     domain: Domain,
     seed: u64,
     /// The class of each point, in the user's order.
@@ -195,7 +192,7 @@ pub(in crate::dcr) struct ClassRelaxation {
 
 impl ClassRelaxation {
     /// The points before the first step; `classes` has the class of each.
-    pub(in crate::dcr) fn new(domain: Domain, seed: u64, points: &[[f32; 2]], classes: &[u32]) -> Self {
+    pub fn new(domain: Domain, seed: u64, points: &[[f32; 2]], classes: &[u32]) -> Self {
         let torus = Torus::new(domain, points.len());
         let order = CurveOrder::new(&torus, points, seed);
         Self {
@@ -209,19 +206,19 @@ impl ClassRelaxation {
         }
     }
 
-    /// Levels some of the subsets, if they are heaped, one by one.
+    /// Levels some of the subsets, if they are clustered, one by one.
     fn level(&mut self, job: &Job, subsets: Range<usize>) -> Result<()> {
-        let (mut places, mut is_heaped) = (self.places.clone(), false);
+        let (mut places, mut is_clustered) = (self.places.clone(), false);
         for (part, i) in subsets.clone().enumerate() {
             let job = job.part(part as f64 / subsets.len() as f64, (part + 1) as f64 / subsets.len() as f64);
             let subset = &mut self.subsets[i];
             subset.follow(&places);
             if let Some(leveled) = leveled(&job, &subset.torus, &subset.waves, &subset.places, &LEVEL, self.seed)? {
                 subset.members.iter().zip(leveled).for_each(|(&point, place)| places[point as usize] = place);
-                is_heaped = true;
+                is_clustered = true;
             }
         }
-        if is_heaped {
+        if is_clustered {
             (self.order, self.places) = self.order.reordered(&self.space().parted(&places, self.seed));
             self.subsets = self::subsets(self.domain, &self.order, &self.classes);
         }
@@ -330,4 +327,82 @@ impl PlaneRelaxation for ClassRelaxation {
         union.follow(&self.places);
         Ok(union.triangulate(job)?.coverage() * union.torus.frame.spacing())
     }
+}
+
+/// The figures of one class after [`relax_classes`]. The unit d_max is that of a set of its points alone.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct ClassReport {
+    /// The number of its points.
+    pub count: usize,
+    /// The smallest distance between two of its points, in units of d_max; infinite for less than two.
+    pub rho: f64,
+    /// The largest distance of a position in the domain from its points, in units of d_max; infinite for no point.
+    pub coverage: f64,
+}
+
+/// Relaxes points of several classes: spread more evenly are the union of all, and each class by itself. Returns as many
+/// points, in the same order, the report of the union, and one for each class up to the highest.
+///
+/// `classes` has the class of each point, below [`Classes::MOST`]; they may be of any number and density, as those of
+/// [`kdrt::sample_classes`](fn@crate::kdrt::sample_classes) are. They cannot all be as even as the set of a single class:
+/// a good lattice does not divide into good lattices. From maximal sets of 2 to 7 classes of a periodic domain, rho ends
+/// above 0.7 and the coverage below 0.82, those of the union and those of each class; before, some classes cover 1 or
+/// more. Where the points of a class are crowded in some places and missing in others it is levelled before the first
+/// step. No distance between points of two classes is promised.
+///
+/// Always the momentum method with Delaunay neighbours. The set after the last whole step is returned; it converges if its
+/// motion ends, which it mostly does not within 100 steps. The points are the same for every number of threads.
+///
+/// About 2.5 times the time of [`relax`](fn@super::relax) and its memory.
+///
+/// # Errors
+/// [`Error::InvalidArgument`] as [`relax`](fn@super::relax), and for another method or other neighbours, for classes of
+/// another number than that of the points, and for one that is too high (`classes`, with its index);
+/// [`Error::TooLarge`](crate::Error::TooLarge).
+pub fn relax_classes(
+    context: &Context,
+    options: &Options,
+    points: &[[f32; 2]],
+    classes: &[u32],
+    progress: Option<&Progress>,
+) -> Result<(Vec<[f32; 2]>, Report, Vec<ClassReport>)> {
+    options.check()?;
+    if options.method != Method::Momentum {
+        return Err(Error::invalid("method", "classes are relaxed by the momentum method only".to_owned()));
+    }
+    if options.neighbourhood != Neighbourhood::Delaunay {
+        return Err(Error::invalid("neighbourhood", "classes are relaxed with Delaunay neighbours only".to_owned()));
+    }
+    options.domain.check_points(points)?;
+    if classes.len() != points.len() {
+        return Err(Error::invalid("classes", format!("{} for {} points", classes.len(), points.len())));
+    }
+    if let Some(index) = classes.iter().position(|&class| class as usize >= Classes::MOST) {
+        let reason = format!("[{index}] is {}, not below {}", classes[index], Classes::MOST);
+        return Err(Error::invalid("classes", reason));
+    }
+    require_memory("xy", points.len())?;
+    let mut set = ClassRelaxation::new(options.domain, options.seed, points, classes);
+    let (relaxed, report) = relax_set(context, options, points, &mut set, progress, None)?;
+    let count = classes.iter().max().map_or(0, |&last| last + 1);
+    let reports =
+        (0..count).map(|class| of_class(context, options, &relaxed, classes, class)).collect::<Result<_>>()?;
+    Ok((relaxed, report, reports))
+}
+
+/// The figures of one class.
+fn of_class(
+    context: &Context,
+    options: &Options,
+    points: &[[f32; 2]],
+    classes: &[u32],
+    class: u32,
+) -> Result<ClassReport> {
+    let own = points.iter().zip(classes).filter(|&(_, &of)| of == class);
+    let own: Vec<[f32; 2]> = own.map(|(&point, _)| point).collect();
+    let mut set = UniformRelaxation::new(options.domain, Neighbourhood::Delaunay, options.seed, &own);
+    let steps = Steps { iterations: 0, stopped: Stopped::Steps, motion: 0.0 };
+    let (_, report) = context.run(None, |job| measure(job, &options.domain, &own, &mut set, steps))?;
+    Ok(ClassReport { count: own.len(), rho: report.rho, coverage: report.coverage })
 }

@@ -1,16 +1,16 @@
-//! Forces in the stars of eight points at a time: [`Constraints::force`] in vectors, the same to the bit.
+//! Forces in the Delaunay stars of eight points at a time: [`Constraints::force`] in vectors, the same to the bit.
 //!
 //! The loops over eight lanes are plain; the compiler makes vectors of them.
 
 use std::array::from_fn;
 use std::ops::Range;
 
-use crate::dcr::ground::constraints::{Constraints, STRONGEST_PULL};
-use crate::dcr::ground::torus::{Torus, TorusPoint};
-use crate::dcr::uniform::rings::Rings;
+use crate::dcr::law::{Constraints, STRONGEST_PULL};
+use crate::dcr::torus::{Torus, TorusPoint};
+use crate::dcr::uniform::flip_mesh::Rings;
 
 /// The number of points that are processed at a time.
-pub(super) const LANES: usize = 8;
+pub const LANES: usize = 8;
 
 type Lanes = [f32; LANES];
 
@@ -25,12 +25,12 @@ const TOO_WIDE: f32 = 0.67;
 /// The sum of two cotangents below which an edge may have to be flipped after its points have moved once more.
 const SUSPECT: f32 = 0.05;
 
-/// What eight points gather in their stars.
-pub(super) struct Gathered {
+/// The forces on eight points in their stars.
+pub struct Gathered {
     /// The forces, along `x` and along `y`.
-    pub(super) force: [Lanes; 2],
+    pub force: [Lanes; 2],
     /// The least heights of the triangles around the points.
-    pub(super) clearance: Lanes,
+    pub clearance: Lanes,
     /// 1 if no triangle is turned over or has an edge so long that its double would be ambiguous, else 0.
     is_sound: [u32; LANES],
     /// 1 if a neighbour, not counting own images, is too close or a triangle too wide, else 0.
@@ -41,27 +41,27 @@ pub(super) struct Gathered {
 }
 
 /// Receives what points gather.
-pub(super) trait Visitor {
+pub trait Visitor {
     /// Visits up to eight consecutive points, the first in the first lane.
     fn visit(&mut self, rings: &Rings, points: Range<usize>, gathered: &Gathered);
 }
 
 impl Gathered {
-    /// Whether all triangles around the first `count` points are sound.
+    /// True if all triangles around the first `count` points are sound.
     #[inline(always)]
-    pub(super) fn are_sound(&self, count: usize) -> bool {
+    pub fn are_sound(&self, count: usize) -> bool {
         self.is_sound[..count].iter().all(|&is| is != 0)
     }
 
     /// Those of the first `count` lanes in which constraints are violated.
     #[inline(always)]
-    pub(super) fn violated(&self, count: usize) -> impl Iterator<Item = usize> {
+    pub fn violated(&self, count: usize) -> impl Iterator<Item = usize> {
         (0..count).filter(|&lane| self.is_violated[lane] != 0)
     }
 
     /// Adds the suspect edges of `points` to others of higher index, so that each edge is named by one of its ends.
     #[inline(always)]
-    pub(super) fn suspects(&self, rings: &Rings, points: Range<usize>, suspects: &mut Vec<[u32; 2]>) {
+    pub fn suspects(&self, rings: &Rings, points: Range<usize>, suspects: &mut Vec<[u32; 2]>) {
         for (point, &mask) in points.zip(&self.suspects).filter(|&(_, &mask)| mask != 0) {
             let ring = rings.ring(point);
             let others = (0..ring.len())
@@ -72,7 +72,7 @@ impl Gathered {
     }
 }
 
-/// What eight points have gathered in the triangles up to the last one.
+/// The sums of eight points over the triangles up to the last one.
 struct Accumulator<'a> {
     constraints: &'a Constraints,
     /// The longest edges along the axes, in spacings.
@@ -95,18 +95,18 @@ struct Accumulator<'a> {
 }
 
 /// The stars of all points in a triangulation of the torus.
-pub(super) struct Stars<'a> {
-    pub(super) rings: &'a Rings,
-    pub(super) torus: &'a Torus,
-    pub(super) places: &'a [TorusPoint],
-    pub(super) constraints: &'a Constraints,
+pub struct Stars<'a> {
+    pub rings: &'a Rings,
+    pub torus: &'a Torus,
+    pub places: &'a [TorusPoint],
+    pub constraints: &'a Constraints,
 }
 
 impl Stars<'_> {
     /// Gathers for a range of points and passes the results to `visitor`. Code of its own for each level of vectors is
     /// in `vectors`.
     #[inline(always)]
-    pub(super) fn gather(&self, points: Range<usize>, visitor: &mut impl Visitor) {
+    pub fn gather(&self, points: Range<usize>, visitor: &mut impl Visitor) {
         for first in points.clone().step_by(LANES) {
             let eight = first..points.end.min(first + LANES);
             let lanes = from_fn(|lane| (first + lane).min(points.end - 1));

@@ -5,8 +5,8 @@ use std::ops::Range;
 
 use glam::Vec2;
 
-use crate::dcr::ground::constraints::Constraints;
-use crate::dcr::ground::torus::TorusPoint;
+use crate::dcr::law::Constraints;
+use crate::dcr::torus::TorusPoint;
 use crate::dcr::uniform::cells::{LANES, LEAST, VerletCells};
 
 /// Eight coordinates.
@@ -20,12 +20,7 @@ fn load(coordinates: &[u32; LANES]) -> __m256i {
 /// [`VerletCells::force`].
 #[inline]
 #[target_feature(enable = "avx2")]
-pub(super) fn force(
-    cells: &VerletCells,
-    here: TorusPoint,
-    constraints: &Constraints,
-    around: [Range<usize>; 2],
-) -> Vec2 {
+pub fn force(cells: &VerletCells, here: TorusPoint, constraints: &Constraints, around: [Range<usize>; 2]) -> Vec2 {
     let unit = cells.unit().to_array().map(|unit| _mm256_set1_ps(unit));
     let here = here.map(|coordinate| _mm256_set1_epi32(coordinate.cast_signed()));
     let still = _mm256_set1_ps(constraints.conflict_radius.recip());

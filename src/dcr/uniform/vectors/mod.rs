@@ -6,8 +6,8 @@ use std::ops::Range;
 
 use glam::Vec2;
 
-use crate::dcr::ground::constraints::Constraints;
-use crate::dcr::ground::torus::TorusPoint;
+use crate::dcr::law::Constraints;
+use crate::dcr::torus::TorusPoint;
 use crate::dcr::uniform::cells::VerletCells;
 use crate::dcr::uniform::stars::{Stars, Visitor};
 use crate::simd::Level;
@@ -16,7 +16,7 @@ use crate::simd::Level;
 mod avx2;
 
 /// Gathers in the stars of a range of points and passes the results to `visitor`.
-pub(super) fn gather_in_stars(level: Level, stars: &Stars, points: Range<usize>, visitor: &mut impl Visitor) {
+pub fn gather_in_stars(level: Level, stars: &Stars, points: Range<usize>, visitor: &mut impl Visitor) {
     match level {
         // SAFETY: both levels hold the proof that the processor has AVX2, POPCNT, BMI1 and BMI2.
         #[cfg(target_arch = "x86_64")]
@@ -33,7 +33,7 @@ fn gather_in_stars_avx2(stars: &Stars, points: Range<usize>, visitor: &mut impl 
 }
 
 /// Adds the forces on a range of points by all others that conflict with them to `forces`.
-pub(super) fn gather_in_cells(
+pub fn gather_in_cells(
     level: Level,
     cells: &VerletCells,
     places: &[TorusPoint],
@@ -71,7 +71,8 @@ fn gather_in_cells_avx2(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::dcr::ground::torus::Torus;
+
+    use crate::dcr::torus::Torus;
     use crate::job::Context;
     use crate::points::{Boundary, Domain};
     use crate::rng::{Draw, Rng};

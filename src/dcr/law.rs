@@ -1,4 +1,4 @@
-//! What neighbours do to a point: two constraints, neither of which exerts a force when it is met.
+//! The push–pull law of the forces between neighbours: two constraints, neither of which exerts a force when it is met.
 //!
 //! * *Conflict*: neighbours closer than the conflict radius push the point away, as in the thesis (eq. 4.10).
 //! * *Coverage*: triangles with a circumradius above the coverage radius pull the point towards their circumcentre,
@@ -12,51 +12,51 @@ use crate::geometry::scaled_circumcentre;
 use crate::math::square;
 
 /// The fraction of its last displacement that a point repeats in a step.
-pub(in crate::dcr) const MOMENTUM: f32 = 0.78;
+pub const MOMENTUM: f32 = 0.78;
 
 /// The fraction of its clearance that a point may move by: less than half, so that no triangle turns over.
-pub(in crate::dcr) const SAFE_FRACTION: f32 = 0.45;
+pub const SAFE_FRACTION: f32 = 0.45;
 
 /// The clearance, in spacings, of points that are in no mesh.
-pub(in crate::dcr) const FREE_CLEARANCE: f32 = 1.0;
+pub const FREE_CLEARANCE: f32 = 1.0;
 
 /// The tension at which a pull stops growing: otherwise the wide holes of random sets would draw the points around them
 /// too far in.
-pub(in crate::dcr) const STRONGEST_PULL: f32 = 1.0;
+pub const STRONGEST_PULL: f32 = 1.0;
 
 /// The steps over which constraints grow stiffer.
-pub(in crate::dcr) const STIFFENING: u32 = 60;
+pub const STIFFENING: u32 = 60;
 
 /// The constraints and how stiff they are, in spacings.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(in crate::dcr) struct Constraints {
-    pub(in crate::dcr) conflict_radius: f32,
-    pub(in crate::dcr) coverage_radius: f32,
+pub struct Constraints {
+    pub conflict_radius: f32,
+    pub coverage_radius: f32,
     /// The displacement by a conflict of tension 1.
-    pub(in crate::dcr) push: f32,
+    pub push: f32,
     /// The displacement by a hole of tension 1.
-    pub(in crate::dcr) pull: f32,
+    pub pull: f32,
 }
 
 /// The sum of forces on a point, and how far it may move.
-pub(in crate::dcr) struct Force {
-    pub(in crate::dcr) sum: Vec2,
+pub struct Force {
+    pub sum: Vec2,
     /// The least height of the triangles around the point. If no corner of a triangle moves by half of its least
     /// height, it cannot turn over: three points that close to a line form no triangle of that height.
-    pub(in crate::dcr) clearance: f32,
+    pub clearance: f32,
 }
 
 impl Constraints {
     /// The constraints of a step with Delaunay neighbours. Radii, stiffness and momentum were chosen on sets of 1,000 to
     /// 65,536 points: with more momentum or stiffer pulls sets get more regular.
-    pub(in crate::dcr) fn of_step(iterations: u32) -> Self {
+    pub fn of_step(iterations: u32) -> Self {
         let stiff = iterations.min(STIFFENING) as f32 / STIFFENING as f32;
         let (push, pull) = (0.1 + 0.3 * stiff, 0.1 + 0.1 * stiff);
         Self { conflict_radius: 0.862, coverage_radius: 0.66, push, pull }
     }
 
     /// The force by the neighbours, which form a ring around the point, in counter-clockwise order.
-    pub(in crate::dcr) fn force(&self, ring: &[Vec2]) -> Force {
+    pub fn force(&self, ring: &[Vec2]) -> Force {
         // The square of the least height is a fraction: one division is enough for all.
         let (mut sum, mut least) = (Vec2::ZERO, (f32::INFINITY, 1f32));
         let mut before = *ring.last().unwrap_or(&Vec2::ZERO);
@@ -78,7 +78,7 @@ impl Constraints {
     }
 
     /// The force by one neighbour.
-    pub(in crate::dcr) fn push(&self, offset: Vec2, squared: f32) -> Vec2 {
+    pub fn push(&self, offset: Vec2, squared: f32) -> Vec2 {
         if squared >= self.conflict_radius * self.conflict_radius || squared == 0.0 {
             return Vec2::ZERO;
         }
@@ -87,7 +87,7 @@ impl Constraints {
     }
 
     /// The force by a hole: the triangle between two neighbours, of twice this area.
-    pub(in crate::dcr) fn pull(&self, a: Vec2, b: Vec2, area: f32) -> Vec2 {
+    pub fn pull(&self, a: Vec2, b: Vec2, area: f32) -> Vec2 {
         let centre = scaled_circumcentre(a, b) * (2.0 * area).recip();
         let radius = centre.length();
         // Infinite or NaN for triangles without area, and 0 by rounding where two neighbours all but coincide.
@@ -95,6 +95,63 @@ impl Constraints {
             return Vec2::ZERO;
         }
         self.pull * (self.coverage_radius.recip() - radius.recip()).min(STRONGEST_PULL * radius.recip()) * centre
+    }
+}
+
+// Forces where the spacing varies: the constraints of the momentum method, with distances in units of the mean spacing
+// of the two points, circumradii in units of the spacing that the density at the centre asks for, and displacements in
+// units of the point's own spacing.
+//
+// Holes are judged by the density itself because a spacing whose growth is limited is too small beside edges: with it,
+// holes would pull dots out of dark areas, and the error of tone is three to ten times as large.
+
+/// A neighbour in the ring around a point: its offset and its local spacing.
+#[derive(Clone, Copy)]
+pub struct RingPoint {
+    pub offset: Vec2,
+    pub spacing: f32,
+}
+
+/// The force on a point, in units of its spacing, by the neighbours in the ring around it, in counter-clockwise order;
+/// `density_at` gives the density, in units of the mean, at an offset from the point.
+pub fn graded_force(
+    constraints: &Constraints,
+    spacing: f32,
+    ring: &[RingPoint],
+    density_at: impl Fn(Vec2) -> f32,
+) -> Force {
+    let (mut sum, mut clearance) = (Vec2::ZERO, f32::INFINITY);
+    let Some(&(mut before)) = ring.last() else { return Force { sum, clearance } };
+    for &neighbour in ring {
+        let offset = neighbour.offset / (0.5 * (spacing + neighbour.spacing));
+        sum += constraints.push(offset, offset.length_squared());
+        let (a, b) = (before.offset, neighbour.offset);
+        let (area, longest) = (a.perp_dot(b), a.length_squared().max(b.length_squared()).max(a.distance_squared(b)));
+        clearance = clearance.min(area.max(0.0) / longest.sqrt());
+        sum += pull(constraints, spacing.min(before.spacing).min(neighbour.spacing), a, b, &density_at);
+        before = neighbour;
+    }
+    Force { sum, clearance }
+}
+
+/// The force by the triangle of a point and two neighbours, the least of whose spacings is given: none unless its
+/// circumradius is too large for the spacing at its centre.
+fn pull(constraints: &Constraints, least: f32, a: Vec2, b: Vec2, density_at: impl Fn(Vec2) -> f32) -> Vec2 {
+    let area = a.perp_dot(b);
+    // The circumradius is the product of the edges over twice this area.
+    let edges = a.length_squared() * b.length_squared() * a.distance_squared(b);
+    if edges <= square(2.0 * least * constraints.coverage_radius * area) {
+        return Vec2::ZERO;
+    }
+    let centre = scaled_circumcentre(a, b) / (2.0 * area);
+    if !centre.is_finite() {
+        return Vec2::ZERO;
+    }
+    let scale = density_at(centre).sqrt();
+    if scale * centre.length() > constraints.coverage_radius {
+        constraints.pull(scale * a, scale * b, scale * scale * area)
+    } else {
+        Vec2::ZERO
     }
 }
 

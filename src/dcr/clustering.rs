@@ -1,11 +1,11 @@
-//! Heaps: whether a set is far denser in some places than it shall be, and thinner in others.
+//! Clustered sets: far denser in some places than they shall be, and thinner in others.
 //!
-//! Where no Fourier transform can level a heap (`level.rs`), on meshes and where the density varies, heaped sets are
-//! dealt out: random points that have the density wanted are thrown, and both are sorted along a Z-curve. The point of
-//! each rank goes to the random point of that rank. So points that were near each other mostly stay so. Whether a set is
-//! heaped is seen from the same points, in the cells of the quadtree or octree that the curve passes through.
+//! Where no Fourier transform can level a cluster (`torus/waves.rs`), on meshes and where the density varies, clustered
+//! sets are redistributed: random points that have the density wanted are thrown, and both are sorted along a Z-curve.
+//! The point of each rank goes to the random point of that rank. So points that were near each other mostly stay so. The
+//! same points tell clustered sets from others, in the cells of the quadtree or octree that the curve passes through.
 
-/// A set is heaped if points and random points in a cell differ in number by more than this times the square root of the
+/// A set is clustered if points and random points in a cell differ in number by more than this times the square root of the
 /// latter. If `n` points belong into a square of `√n` spacings, its points have to move by four spacings to get there.
 /// Random sets differ by 1.4 times the root, root mean square.
 const EXCESS: f64 = 16.0;
@@ -16,9 +16,9 @@ const LEAST: f64 = 0.25;
 /// The least number of random points that are reckoned with in a cell.
 const FEWEST: usize = 16;
 
-/// Whether points are heaped in a cell or in a part of it. Given are their sorted places along the curve and those of
+/// True if points are clustered in a cell or in a part of it. Given are their sorted places along the curve and those of
 /// the random points; in this cell they differ only in the lowest `bits`, which are those of `AXES` coordinates.
-pub(in crate::dcr) fn are_heaped<const AXES: u32>(points: &[u64], random: &[u64], bits: u32) -> bool {
+pub fn is_clustered<const AXES: u32>(points: &[u64], random: &[u64], bits: u32) -> bool {
     let difference = points.len().abs_diff(random.len()) as f64;
     let expected = random.len().max(FEWEST) as f64;
     if difference > (EXCESS * expected.sqrt()).max(LEAST * expected) {
@@ -34,13 +34,14 @@ pub(in crate::dcr) fn are_heaped<const AXES: u32>(points: &[u64], random: &[u64]
         let (own, others) = points.split_at(points.partition_point(is_before));
         let (wanted, rest) = random.split_at(random.partition_point(is_before));
         (points, random) = (others, rest);
-        are_heaped::<AXES>(own, wanted, bits)
+        is_clustered::<AXES>(own, wanted, bits)
     })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
     use crate::rng::{Draw, Rng};
 
     const BITS: u32 = 40;
@@ -59,27 +60,27 @@ mod tests {
     }
 
     #[test]
-    fn heaps_are_told_from_random_sets() {
+    fn clusters_are_told_from_random_sets() {
         for count in [0, 1, 10, 100, 1000, 10_000, 100_000] {
             for seed in 0..20 {
                 let [points, random] = [0, 1].map(|k| places(count, 2 * seed + k, 0.5, 1.0));
-                assert!(!are_heaped::<2>(&points, &random, BITS), "{count} {seed}");
+                assert!(!is_clustered::<2>(&points, &random, BITS), "{count} {seed}");
             }
         }
         let random = places(10_000, 1, 0.5, 1.0);
-        let is_heaped = |share, density| {
+        let differ = |share, density| {
             let points = places(10_000, 2, share, density);
-            let is = are_heaped::<2>(&points, &random, BITS);
-            // The mirror image along the curve is as heaped.
+            let is = is_clustered::<2>(&points, &random, BITS);
+            // The mirror image along the curve is as clustered.
             let turned = |all: &[u64]| all.iter().rev().map(|place| (1 << BITS) - 1 - place).collect::<Vec<_>>();
-            assert_eq!(are_heaped::<2>(&turned(&points), &turned(&random), BITS), is);
+            assert_eq!(is_clustered::<2>(&turned(&points), &turned(&random), BITS), is);
             is
         };
         for (share, density) in [(1e-9, 1e12), (1e-3, 20.0), (0.1, 5.0), (0.25, 0.1), (0.5, 3.0)] {
-            assert!(is_heaped(share, density), "{share} {density}");
+            assert!(differ(share, density), "{share} {density}");
         }
         for (share, density) in [(1e-3, 3.0), (0.5, 1.1)] {
-            assert!(!is_heaped(share, density), "{share} {density}");
+            assert!(!differ(share, density), "{share} {density}");
         }
     }
 }

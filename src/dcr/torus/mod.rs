@@ -5,22 +5,29 @@
 //! width and height, on which its three mirror images stand beside it (thesis Fig. 4.12 (b)): whatever treats a point
 //! and its images alike keeps the mirrors where they are, and with them the boundary.
 
+mod boundary;
+mod waves;
+
+pub use boundary::MirrorBoundary;
+pub use waves::{CLUSTERED, Field, LEVEL, LONG_WAVES, WaveGrid, leveled};
+
 use glam::{DVec2, Vec2};
 
 use crate::dcr::relaxation::Space;
 use crate::error::Result;
-use crate::geometry::Frame;
+use crate::geometry::{Delaunay, Frame};
+use crate::index::curve::{morton2, sorted};
 use crate::job::{Job, chunks};
 use crate::points::{Boundary, Domain};
 use crate::rng::{Draw, Rng};
 
 /// A point on the torus, in 2^-32 of the periods.
-pub(in crate::dcr) type TorusPoint = [u32; 2];
+pub type TorusPoint = [u32; 2];
 
 /// Half a period: the far boundary of a domain that is mirrored.
-pub(in crate::dcr) const HALF: u32 = 1 << 31;
+pub const HALF: u32 = 1 << 31;
 /// A whole one.
-pub(in crate::dcr) const TURN: f64 = (1u64 << 32) as f64;
+pub const TURN: f64 = (1u64 << 32) as f64;
 
 /// Points of a bounded domain keep this distance from its boundary, so that none meets its mirror image.
 const INSET: u32 = 16;
@@ -29,10 +36,10 @@ const INSET: u32 = 16;
 /// offset.
 const LONGEST: f32 = 0.9999 * (1u32 << 30) as f32;
 
-/// How far positions are nudged, in spacings.
+/// The distance by which positions are nudged, in spacings.
 const NUDGE: f64 = 1e-7;
 
-/// Where a point and its images are on a torus that a domain is mirrored on.
+/// The positions of a point and its images on a torus that a domain is mirrored on.
 const MIRRORS: [fn(TorusPoint) -> TorusPoint; 4] = [
     |place| place,
     |[x, y]| [x.wrapping_neg(), y],
@@ -42,20 +49,20 @@ const MIRRORS: [fn(TorusPoint) -> TorusPoint; 4] = [
 
 /// The torus that a domain is, or on which it is mirrored.
 #[derive(Clone, Copy)]
-pub(in crate::dcr) struct Torus {
+pub struct Torus {
     /// The domain as the user sees it.
     domain: Frame,
     /// The whole torus; its unit of length is that of all forces.
-    pub(in crate::dcr) frame: Frame,
+    pub frame: Frame,
     /// The length of 2^-32 of each period.
     unit: DVec2,
-    /// How often it fits into a spacing.
+    /// The number of them in a spacing.
     per_spacing: Vec2,
 }
 
 impl Torus {
     /// The torus for `count` points of a domain.
-    pub(in crate::dcr) fn new(domain: Domain, count: usize) -> Self {
+    pub fn new(domain: Domain, count: usize) -> Self {
         let [width, height] = domain.extent();
         let whole = match domain.boundary {
             Boundary::Periodic => domain,
@@ -77,8 +84,8 @@ impl Torus {
         torus
     }
 
-    /// How often each point occurs on the torus.
-    pub(in crate::dcr) fn copies(&self) -> usize {
+    /// The number of times that each point occurs on the torus.
+    pub fn copies(&self) -> usize {
         match self.domain.boundary() {
             Boundary::Periodic => 1,
             Boundary::Bounded => 4,
@@ -86,25 +93,25 @@ impl Torus {
     }
 
     /// The points of a domain on the torus, parted so that no two coincide and not all lie on one line.
-    pub(in crate::dcr) fn enter(&self, points: &[[f32; 2]], seed: u64) -> Vec<TorusPoint> {
+    pub fn enter(&self, points: &[[f32; 2]], seed: u64) -> Vec<TorusPoint> {
         let entered = self.frame.enter(points).into_iter();
         self.parted(&entered.map(|position| self.place(position)).collect::<Vec<_>>(), seed)
     }
 
     /// Points of the torus, parted so that no two coincide and not all lie on one line.
-    pub(in crate::dcr) fn parted(&self, places: &[TorusPoint], seed: u64) -> Vec<TorusPoint> {
+    pub fn parted(&self, places: &[TorusPoint], seed: u64) -> Vec<TorusPoint> {
         let mut positions: Vec<DVec2> = places.iter().map(|&place| self.position(place)).collect();
         self.frame.part(&mut positions, seed);
         positions.into_iter().map(|position| self.place(position)).collect()
     }
 
     /// A point in the user's coordinates.
-    pub(in crate::dcr) fn leave(&self, place: TorusPoint) -> [f32; 2] {
+    pub fn leave(&self, place: TorusPoint) -> [f32; 2] {
         self.domain.leave(self.position(place) * (self.frame.spacing() / self.domain.spacing()))
     }
 
     /// The point of the domain at a position of the torus, or the one that it is the image of.
-    pub(in crate::dcr) fn place(&self, position: DVec2) -> TorusPoint {
+    pub fn place(&self, position: DVec2) -> TorusPoint {
         // What rounds up to a whole period wraps to 0.
         let fractions = (position / self.unit).round().to_array().map(|x| x as i64 as u32);
         self.inside(fractions)
@@ -119,17 +126,17 @@ impl Torus {
     }
 
     /// The position in spacings.
-    pub(in crate::dcr) fn position(&self, place: TorusPoint) -> DVec2 {
+    pub fn position(&self, place: TorusPoint) -> DVec2 {
         DVec2::new(place[0].into(), place[1].into()) * self.unit
     }
 
     /// The points and, where the domain is mirrored, after them their images.
-    pub(in crate::dcr) fn with_images(&self, points: &[TorusPoint]) -> Vec<TorusPoint> {
+    pub fn with_images(&self, points: &[TorusPoint]) -> Vec<TorusPoint> {
         MIRRORS[..self.copies()].iter().flat_map(|mirror| points.iter().copied().map(mirror)).collect()
     }
 
     /// Moves the images, which follow the first `count` places, to where their points are.
-    pub(in crate::dcr) fn mirror(&self, job: &Job, places: &mut [TorusPoint], count: usize) -> Result<()> {
+    pub fn mirror(&self, job: &Job, places: &mut [TorusPoint], count: usize) -> Result<()> {
         let (points, images) = places.split_at_mut(count);
         let size = chunks(count).size();
         let parts = images.chunks_mut(count.max(1)).zip(&MIRRORS[1..]).flat_map(|(images, mirror)| {
@@ -144,7 +151,7 @@ impl Torus {
     /// The distances from a point to its own images across the boundary, along `x` and along `y`; NaN on a periodic
     /// domain.
     #[inline(always)]
-    pub(in crate::dcr) fn image_distances(&self, place: TorusPoint) -> [f32; 2] {
+    pub fn image_distances(&self, place: TorusPoint) -> [f32; 2] {
         match self.domain.boundary() {
             Boundary::Periodic => [f32::NAN; 2],
             Boundary::Bounded => {
@@ -155,37 +162,37 @@ impl Torus {
     }
 
     /// The offsets from a point of a bounded domain to its own images across the nearest sides.
-    pub(in crate::dcr) fn own_images(&self, place: TorusPoint) -> [Vec2; 2] {
+    pub fn own_images(&self, place: TorusPoint) -> [Vec2; 2] {
         let [x, y] = place;
         [[x.wrapping_neg(), y], [x, y.wrapping_neg()]].map(|image| self.offset_f32(place, image))
     }
 
     /// The positions of points, nudged by so little that it changes one thing only: where four are on one circle, as
     /// points and their mirror images are, all copies of them agree on the diagonal that is an edge.
-    pub(in crate::dcr) fn nudged(&self, places: &[TorusPoint]) -> Vec<DVec2> {
+    pub fn nudged(&self, places: &[TorusPoint]) -> Vec<DVec2> {
         (0..).zip(places).map(|(point, &place)| self.position(place) + nudge(point)).collect()
     }
 
     /// The length of 2^-32 of each period, and the longest edges whose double is unambiguous: a quarter of each.
-    pub(in crate::dcr) fn unit_and_longest(&self) -> (Vec2, [f32; 2]) {
+    pub fn unit_and_longest(&self) -> (Vec2, [f32; 2]) {
         let unit = self.unit.as_vec2();
         (unit, (unit * LONGEST).to_array())
     }
 
     /// The shortest offset between two points.
-    pub(in crate::dcr) fn offset(&self, from: TorusPoint, to: TorusPoint) -> DVec2 {
+    pub fn offset(&self, from: TorusPoint, to: TorusPoint) -> DVec2 {
         let along = |axis: usize| f64::from(to[axis].wrapping_sub(from[axis]).cast_signed());
         DVec2::new(along(0), along(1)) * self.unit
     }
 
     /// [`Torus::offset`] to seven digits, which is faster.
-    pub(in crate::dcr) fn offset_f32(&self, from: TorusPoint, to: TorusPoint) -> Vec2 {
+    pub fn offset_f32(&self, from: TorusPoint, to: TorusPoint) -> Vec2 {
         let along = |axis: usize| to[axis].wrapping_sub(from[axis]).cast_signed() as f32;
         Vec2::new(along(0), along(1)) * self.unit.as_vec2()
     }
 
     /// A point of the domain after a displacement.
-    pub(in crate::dcr) fn moved(&self, place: TorusPoint, displacement: Vec2) -> TorusPoint {
+    pub fn moved(&self, place: TorusPoint, displacement: Vec2) -> TorusPoint {
         let by = (displacement * self.per_spacing).to_array();
         self.inside(std::array::from_fn(|axis| place[axis].wrapping_add((by[axis] as i32).cast_unsigned())))
     }
@@ -198,9 +205,154 @@ impl Space<TorusPoint> for Torus {
 }
 
 /// The displacement by which a point is nudged.
-pub(in crate::dcr) fn nudge(point: u32) -> DVec2 {
+pub fn nudge(point: u32) -> DVec2 {
     let mut rng = Rng::at(0, Draw::Part, &[point.into(), point.into()]);
     NUDGE * DVec2::new(rng.unit(), rng.unit())
+}
+
+// The points of a set in the order of a Z-curve: points that are close in the plane are close in memory.
+
+/// The starting positions of a set, in the order of the curve.
+pub struct CurveOrder {
+    /// The user's index of each point.
+    order: Vec<u32>,
+    start: Vec<TorusPoint>,
+}
+
+impl CurveOrder {
+    /// Orders points of the domain. Those that coincide are parted, keyed by the seed.
+    pub fn new(torus: &Torus, points: &[[f32; 2]], seed: u64) -> Self {
+        let entered = torus.enter(points, seed);
+        let order = order_along_curve(&entered);
+        let start = order.iter().map(|&point| entered[point as usize]).collect();
+        Self { order, start }
+    }
+
+    /// The order after the points have been moved to `places` before the first step, and `places` in that order.
+    pub fn reordered(&self, places: &[TorusPoint]) -> (Self, Vec<TorusPoint>) {
+        let order = order_along_curve(places);
+        let of = |all: &[u32]| order.iter().map(|&point| all[point as usize]).collect();
+        let at = |all: &[TorusPoint]| order.iter().map(|&point| all[point as usize]).collect();
+        (Self { order: of(&self.order), start: at(&self.start) }, at(places))
+    }
+
+    /// The number of points.
+    pub fn len(&self) -> usize {
+        self.order.len()
+    }
+
+    /// The user's index of a point.
+    pub fn user(&self, point: u32) -> usize {
+        self.order[point as usize] as usize
+    }
+
+    /// The starting positions.
+    pub fn start(&self) -> &[TorusPoint] {
+        &self.start
+    }
+
+    /// The points, which are now at `places`, in the user's order; `points` are those with which the set began. Points
+    /// that have not moved are returned as they came.
+    pub fn leave(&self, torus: &Torus, places: &[TorusPoint], points: &[[f32; 2]]) -> Vec<[f32; 2]> {
+        let mut relaxed = points.to_vec();
+        for ((&point, &start), &place) in self.order.iter().zip(&self.start).zip(places) {
+            if place != start {
+                relaxed[point as usize] = torus.leave(place);
+            }
+        }
+        relaxed
+    }
+}
+
+/// The place of each of these points along the Z-curve.
+pub fn along_curve(places: &[TorusPoint]) -> Vec<u64> {
+    places.iter().map(|&place| morton2(place)).collect()
+}
+
+/// The order of places along the curve.
+fn order_along_curve(places: &[TorusPoint]) -> Vec<u32> {
+    sorted(places.iter().map(|&place| morton2(place))).into_iter().map(|(_, i)| i).collect()
+}
+
+// When an edge of a triangulation of the torus must be flipped.
+//
+// As long as no triangle turns over, a triangulation of moving points stays one, and flipping the edges that are not
+// locally Delaunay, in any order, makes it the Delaunay triangulation again (Lawson 1977). No exact predicates are
+// needed: forces do not feel the difference, and flips end because edges within rounding of 180 degrees are left
+// alone.
+
+/// The sum of two cotangents that counts as negative: below the rounding of `f64`, flips could go on for ever.
+const NEGATIVE: f64 = -1e-7;
+
+/// True if the angles that face the edge from `p` to `q`, at `r` and at `s`, sum up to more than 180 degrees: the sum of
+/// their cotangents is negative.
+pub fn must_flip(torus: &Torus, [p, q, r, s]: [TorusPoint; 4]) -> bool {
+    let angle = |apex: TorusPoint, from: TorusPoint, to: TorusPoint| -> [f64; 2] {
+        let (from, to): (DVec2, DVec2) = (torus.offset(apex, from), torus.offset(apex, to));
+        [from.dot(to), from.perp_dot(to)]
+    };
+    let ([cos_r, sin_r], [cos_s, sin_s]) = (angle(r, p, q), angle(s, q, p));
+    cos_r * sin_s + cos_s * sin_r < NEGATIVE * sin_r * sin_s
+}
+
+/// The Delaunay neighbours of all points in one step.
+pub enum Neighbours<Mesh> {
+    /// In a mesh that is kept from step to step and repaired by flips.
+    Kept(Mesh),
+    /// In a triangulation built for this step, where no mesh can be kept: sets of a few points, or with large holes.
+    Built(Delaunay),
+}
+
+/// Sets for the tests of meshes that are kept: random ones, random moves as far as a mesh allows, and sets without a mesh.
+#[cfg(test)]
+pub mod random_sets {
+    use glam::Vec2;
+
+    use super::{Torus, TorusPoint};
+    use crate::points::{Boundary, Domain};
+    use crate::rng::{Draw, Rng};
+
+    /// Random places of the torus that a domain is or is mirrored on, and the torus. The images come after the points.
+    pub fn random_places(boundary: Boundary, width: f64, count: usize) -> (Torus, Vec<TorusPoint>) {
+        let torus = Torus::new(Domain { min: [0.0; 2], max: [width, 1.0], boundary }, count);
+        let mut rng = Rng::at(3, Draw::Probe, &[count as u64]);
+        let points: Vec<_> = (0..count).map(|_| [rng.unit() * width, rng.unit()].map(|x| x as f32)).collect();
+        let places = torus.with_images(&torus.enter(&points, 0));
+        (torus, places)
+    }
+
+    /// Moves the first `count` points as far as their triangles allow, and their images with them. `offsets` gives those of
+    /// the neighbours of a point, counter-clockwise.
+    pub fn wander(
+        torus: &Torus,
+        places: &mut Vec<TorusPoint>,
+        count: usize,
+        offsets: impl Fn(usize) -> Vec<Vec2>,
+        rng: &mut Rng,
+    ) {
+        let clearance = |point: usize| {
+            let ring = offsets(point);
+            let height = |(a, b): (&Vec2, &Vec2)| a.perp_dot(*b) / a.length().max(b.length()).max(a.distance(*b));
+            ring.iter().zip(ring.iter().cycle().skip(1)).map(height).fold(f32::INFINITY, f32::min)
+        };
+        let clearances: Vec<f32> = (0..count).map(clearance).collect();
+        let moved = |(&place, clearance): (&TorusPoint, f32)| {
+            torus.moved(place, Vec2::from_angle(rng.unit() as f32 * 6.3) * 0.45 * clearance)
+        };
+        let points: Vec<TorusPoint> = places[..count].iter().zip(clearances).map(moved).collect();
+        *places = torus.with_images(&points);
+    }
+
+    /// Sets of the unit torus, and whether they have a mesh: a few points, a set with a large hole, and one without.
+    pub fn with_and_without_mesh() -> [(Torus, Vec<TorusPoint>, bool); 3] {
+        let mut rng = Rng::at(4, Draw::Probe, &[]);
+        [(5, 1.0, false), (500, 0.5, false), (500, 1.0, true)].map(|(count, part, has_mesh)| {
+            let points: Vec<_> = (0..count).map(|_| [rng.unit() * part, rng.unit() * part].map(|x| x as f32)).collect();
+            let torus = Torus::new(Domain::unit(Boundary::Periodic), count);
+            let places = torus.enter(&points, 0);
+            (torus, places, has_mesh)
+        })
+    }
 }
 
 #[cfg(test)]

@@ -7,16 +7,16 @@
 //!
 //! * A point's own image pushes only to keep the two from meeting.
 //! * So points are nearer to the boundary, on disks that are partly outside. A density that is constant for the long
-//!   waves (`waves.rs`) would leave them too sparse: the density wanted at the boundary is a little higher.
+//!   waves (`torus/waves.rs`) would leave them too sparse: the density wanted at the boundary is a little higher.
 //! * In the last steps only the constraints move the points along the boundary. A point too many there is one too many
 //!   in its image as well: waves push it and its neighbours apart by 0.05 to 0.1 spacings, constraints need five steps
 //!   to move them back, and this repeats. Two points were left in conflict in three of a hundred sets of 1,000.
 
 use glam::Vec2;
 
-use crate::dcr::ground::constraints::{Constraints, STIFFENING};
-use crate::dcr::ground::torus::{Torus, TorusPoint};
+use crate::dcr::law::{Constraints, STIFFENING};
 use crate::dcr::options::Neighbourhood;
+use crate::dcr::torus::{Torus, TorusPoint};
 
 /// The distance, in spacings, below which a point and its own image push each other: enough to keep triangles between
 /// them from getting flat, in which points could not move.
@@ -34,24 +34,24 @@ const STRIP: f32 = 4.0;
 
 /// The boundary of a domain that is on a torus beside its mirror images.
 #[derive(Clone, Copy)]
-pub(in crate::dcr) struct MirrorBoundary {
+pub struct MirrorBoundary {
     torus: Torus,
     neighbourhood: Neighbourhood,
 }
 
 impl MirrorBoundary {
     /// None for a periodic domain.
-    pub(in crate::dcr) fn new(torus: &Torus, neighbourhood: Neighbourhood) -> Option<Self> {
+    pub fn new(torus: &Torus, neighbourhood: Neighbourhood) -> Option<Self> {
         (torus.copies() > 1).then_some(Self { torus: *torus, neighbourhood })
     }
 
     /// The force on a point, from the sum by all neighbours, its own images among them.
-    pub(in crate::dcr) fn force(&self, constraints: &Constraints, place: TorusPoint, sum: Vec2) -> Vec2 {
+    pub fn force(&self, constraints: &Constraints, place: TorusPoint, sum: Vec2) -> Vec2 {
         Self::force_by_images(constraints, self.torus.own_images(place), sum)
     }
 
     /// The same, given the offsets to its own images.
-    pub(in crate::dcr) fn force_by_images(constraints: &Constraints, images: [Vec2; 2], sum: Vec2) -> Vec2 {
+    pub fn force_by_images(constraints: &Constraints, images: [Vec2; 2], sum: Vec2) -> Vec2 {
         let meeting = Constraints { conflict_radius: MEETING, ..*constraints };
         let mut force = sum;
         for image in images {
@@ -68,7 +68,7 @@ impl MirrorBoundary {
 
     /// Once constraints are stiff, removes the drift of points along the boundary; not with nearest neighbours, whose
     /// constraints do not see holes.
-    pub(in crate::dcr) fn calm(&self, iterations: u32, places: &[TorusPoint], drift: &mut [Vec2]) {
+    pub fn calm(&self, iterations: u32, places: &[TorusPoint], drift: &mut [Vec2]) {
         if self.neighbourhood == Neighbourhood::Nearest || iterations < STIFFENING {
             return;
         }
@@ -81,7 +81,7 @@ impl MirrorBoundary {
 
     /// The Fourier sum of the excess points for so many waves along the axes of the torus. They are spread evenly over
     /// the boundary and those of the images: along each axis on two lines, at 0 and at half the period.
-    pub(in crate::dcr) fn wave(&self, turns: [i64; 2]) -> f64 {
+    pub fn wave(&self, turns: [i64; 2]) -> f64 {
         let size = self.torus.frame.size();
         let excess = self.excess();
         let lines = |axis: usize| {
@@ -102,9 +102,10 @@ impl MirrorBoundary {
 
 #[cfg(test)]
 mod tests {
+    use super::*;
+
     use std::f64::consts::TAU;
 
-    use super::*;
     use crate::points::{Boundary, Domain};
 
     fn domain(boundary: Boundary) -> Domain {
@@ -116,7 +117,7 @@ mod tests {
         assert!(MirrorBoundary::new(&Torus::new(domain(Boundary::Periodic), 100), Neighbourhood::Delaunay).is_none());
     }
 
-    /// What is left of the push of a point's own image, against the distance from each side.
+    /// The remaining push of a point's own image, against the distance from each side.
     #[test]
     fn images_push_when_they_are_about_to_meet() {
         let torus = Torus::new(domain(Boundary::Bounded), 100);

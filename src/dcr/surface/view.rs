@@ -10,7 +10,7 @@ use glam::{Vec2, Vec3};
 use crate::simd::{LANES, Lanes};
 
 /// The largest number of candidates.
-pub(super) const MOST: usize = 48;
+pub const MOST: usize = 48;
 
 /// The vectors of them.
 const VECTORS: usize = MOST / LANES;
@@ -45,14 +45,14 @@ impl PerCandidate {
 
 /// The star of a sample: its neighbours counter-clockwise, by the number of the candidate.
 #[derive(Clone, Copy, Default)]
-pub(super) struct Star {
+pub struct Star {
     /// 0 if it is not known, or has too many neighbours to be kept.
     count: u8,
     ring: [u8; KEPT],
 }
 
 /// The tangent plane of one sample after the other.
-pub(super) struct View {
+pub struct View {
     /// The number of candidates.
     count: usize,
     /// Their offsets in space, in spacings; 0 beyond the last candidate, for which it stands for none.
@@ -88,14 +88,14 @@ impl Default for View {
 impl View {
     /// Forgets all candidates.
     #[inline(always)]
-    pub(super) fn clear(&mut self) {
+    pub fn clear(&mut self) {
         self.count = 0;
     }
 
     /// Adds the first `count` of sixteen candidates, by their offsets in spacings; the rest must be 0. All before them
     /// must be whole vectors.
     #[inline(always)]
-    pub(super) fn add_vector<L: Lanes>(&mut self, lanes: L, offsets: [L::Floats; 3], count: usize) {
+    pub fn add_vector<L: Lanes>(&mut self, lanes: L, offsets: [L::Floats; 3], count: usize) {
         let vector = self.count / LANES;
         lanes.store(offsets[0], self.offsets[0].vector_mut(vector));
         lanes.store(offsets[1], self.offsets[1].vector_mut(vector));
@@ -104,7 +104,7 @@ impl View {
     }
 
     /// Adds a candidate, one of [`MOST`] at most.
-    pub(super) fn add(&mut self, offset: Vec3) {
+    pub fn add(&mut self, offset: Vec3) {
         let (vector, lane) = (self.count / LANES, self.count % LANES);
         for axis in 0..3 {
             let offsets = self.offsets[axis].vector_mut(vector);
@@ -118,7 +118,7 @@ impl View {
 
     /// Projects the candidates into the plane of these axes, without changing their distance.
     #[inline(always)]
-    pub(super) fn project<L: Lanes>(&mut self, lanes: L, axes: [Vec3; 2]) {
+    pub fn project<L: Lanes>(&mut self, lanes: L, axes: [Vec3; 2]) {
         let zero = lanes.splat(0.0);
         let mut vector = 0;
         while vector < self.vectors() {
@@ -156,19 +156,19 @@ impl View {
 
     /// The number of candidates.
     #[inline(always)]
-    pub(super) fn count(&self) -> usize {
+    pub fn count(&self) -> usize {
         self.count
     }
 
     /// The offset of a candidate in space, in spacings.
     #[inline(always)]
-    pub(super) fn offset_in_space(&self, candidate: usize) -> Vec3 {
+    pub fn offset_in_space(&self, candidate: usize) -> Vec3 {
         Vec3::from_array([0, 1, 2].map(|axis: usize| self.offsets[axis].of(candidate)))
     }
 
     /// The offset of a candidate in the plane, in spacings.
     #[inline(always)]
-    pub(super) fn offset(&self, candidate: usize) -> Vec2 {
+    pub fn offset(&self, candidate: usize) -> Vec2 {
         Vec2::new(self.plane[0].of(candidate), self.plane[1].of(candidate))
     }
 
@@ -179,7 +179,7 @@ impl View {
 
     /// The square of the least distance of the first `count` candidates; infinite for none.
     #[inline(always)]
-    pub(super) fn least_squared<L: Lanes>(&self, lanes: L, count: usize) -> f32 {
+    pub fn least_squared<L: Lanes>(&self, lanes: L, count: usize) -> f32 {
         let mut least = lanes.splat(f32::INFINITY);
         let mut vector = 0;
         while vector * LANES < count {
@@ -193,7 +193,7 @@ impl View {
 
     /// Those of the first `count` candidates whose squared distance is less than `limit`, as bits.
     #[inline(always)]
-    pub(super) fn nearer<L: Lanes>(&self, lanes: L, count: usize, limit: f32) -> u64 {
+    pub fn nearer<L: Lanes>(&self, lanes: L, count: usize, limit: f32) -> u64 {
         let mut near = 0;
         let mut vector = 0;
         while vector * LANES < count {
@@ -206,7 +206,7 @@ impl View {
 
     /// Finds the star: the one that is kept if it is still right, or another, which is kept.
     #[inline(always)]
-    pub(super) fn find_star<L: Lanes>(&mut self, lanes: L, kept: &mut Star) {
+    pub fn find_star<L: Lanes>(&mut self, lanes: L, kept: &mut Star) {
         let count = usize::from(kept.count);
         if count > 0 && self.is_star(lanes, &kept.ring[..count]) {
             self.ring[..KEPT].copy_from_slice(&kept.ring);
@@ -221,7 +221,7 @@ impl View {
         }
     }
 
-    /// Whether a ring is the star, and closed: no candidate, nor the sample itself, is outside any of its edges.
+    /// True if a ring is the star, and closed: no candidate, nor the sample itself, is outside any of its edges.
     #[inline(always)]
     fn is_star<L: Lanes>(&self, lanes: L, ring: &[u8]) -> bool {
         match self.vectors() {
@@ -265,7 +265,7 @@ impl View {
     /// candidate that sees the edge to the last under the largest angle. Where neighbours leave a gap of a half turn or
     /// more, the ring begins after the gap and is not closed.
     #[inline(always)]
-    pub(super) fn wrap<L: Lanes>(&mut self, lanes: L) {
+    pub fn wrap<L: Lanes>(&mut self, lanes: L) {
         (self.length, self.is_closed) = (0, false);
         let is_somewhere = |&candidate: &usize| self.inverted(candidate) != Vec2::ZERO;
         let order = |&a: &usize, &b: &usize| self.squared.of(a).total_cmp(&self.squared.of(b));
@@ -337,7 +337,7 @@ impl View {
 
     /// The neighbours, counter-clockwise, and whether they surround the sample.
     #[inline(always)]
-    pub(super) fn star(&self) -> (&[u8], bool) {
+    pub fn star(&self) -> (&[u8], bool) {
         (&self.ring[..self.length], self.is_closed)
     }
 }
@@ -354,4 +354,104 @@ const NUMBERS: [[f32; LANES]; VECTORS] = {
 };
 
 #[cfg(test)]
-mod tests;
+mod tests {
+    use super::*;
+
+    use crate::rng::{Draw, Rng};
+    use crate::simd::{Level, Work, run};
+
+    /// The neighbours by definition: those in a triangle with the centre whose circumcircle holds no point.
+    fn neighbours(points: &[Vec2]) -> Vec<usize> {
+        let is_empty = |a: Vec2, b: Vec2| {
+            let [a, b] = [a, b].map(|point| point.as_dvec2());
+            let centre = (b.length_squared() * a.perp() - a.length_squared() * b.perp()) / (2.0 * a.perp_dot(b));
+            let others = points.iter().map(|point| point.as_dvec2()).filter(|&point| point != a && point != b);
+            let others: Vec<_> = others.collect();
+            others.iter().all(|point| point.distance(centre) > centre.length())
+        };
+        let is_neighbour =
+            |&point: &usize| (0..points.len()).any(|other| other != point && is_empty(points[point], points[other]));
+        (0..points.len()).filter(is_neighbour).collect()
+    }
+
+    /// Finds the star of points, after the star that is kept.
+    struct Find<'a>(&'a [Vec2], &'a mut Star);
+
+    impl Work for Find<'_> {
+        type Out = (Vec<usize>, bool);
+
+        fn run<L: Lanes>(self, lanes: L) -> (Vec<usize>, bool) {
+            let mut view = View::default();
+            self.0.iter().for_each(|point| view.add(point.extend(0.0)));
+            view.project(lanes, [Vec3::X, Vec3::Y]);
+            view.find_star(lanes, self.1);
+            (view.star().0.iter().map(|&neighbour| neighbour.into()).collect(), view.star().1)
+        }
+    }
+
+    /// The star, which is the same at all levels.
+    fn star_after(points: &[Vec2], kept: &mut Star) -> (Vec<usize>, bool) {
+        let found = Level::available().into_iter().map(|level| {
+            let mut kept = *kept;
+            (run(level, Find(points, &mut kept)), kept)
+        });
+        let found: Vec<_> = found.collect();
+        assert!(found.iter().all(|other| other.0 == found[0].0));
+        *kept = found[0].1;
+        found[0].0.clone()
+    }
+
+    fn star(points: &[Vec2]) -> (Vec<usize>, bool) {
+        star_after(points, &mut Star::default())
+    }
+
+    #[test]
+    fn the_star_is_that_of_the_delaunay_triangulation() {
+        let (mut closed, mut open) = (0, 0);
+        for case in 0..400 {
+            let mut rng = Rng::at(5, Draw::Probe, &[case]);
+            let count = 2 + case as usize % 25;
+            let points: Vec<Vec2> =
+                (0..count).map(|_| Vec2::new(rng.unit() as f32 - 0.5, rng.unit() as f32 - 0.5)).collect();
+            let (ring, is_closed) = star(&points);
+            let mut sorted = ring.clone();
+            sorted.sort_unstable();
+            assert_eq!(sorted, neighbours(&points), "{points:?}");
+            let turns_left = |pair: [usize; 2]| points[pair[0]].perp_dot(points[pair[1]]) > 0.0;
+            assert!(ring.windows(2).all(|pair| turns_left([pair[0], pair[1]])));
+            assert_eq!(is_closed, turns_left([ring[ring.len() - 1], ring[0]]) && ring.len() > 2);
+            (closed, open) = if is_closed { (closed + 1, open) } else { (closed, open + 1) };
+        }
+        assert!(closed > 100 && open > 20, "{closed} closed, {open} open");
+    }
+
+    #[test]
+    fn few_points_leave_a_gap() {
+        assert_eq!(star(&[]), (vec![], false));
+        assert_eq!(star(&[Vec2::X]), (vec![0], false));
+        assert!(!star(&[Vec2::X, -Vec2::X]).1);
+        assert_eq!(star(&[Vec2::Y, Vec2::X]), (vec![1, 0], false));
+    }
+
+    #[test]
+    fn a_star_is_kept_while_it_is_right_and_no_longer() {
+        let (mut kept, mut found_anew) = (0, 0);
+        for case in 0..100 {
+            let mut rng = Rng::at(7, Draw::Probe, &[case]);
+            let mut random = |scale: f64| Vec2::new(rng.unit() as f32 - 0.5, rng.unit() as f32 - 0.5) * scale as f32;
+            let mut points: Vec<Vec2> = (0..30).map(|_| random(1.0)).collect();
+            let mut star = Star::default();
+            let mut before = star_after(&points, &mut star);
+            for _ in 0..20 {
+                points.iter_mut().for_each(|point| *point += random(0.01));
+                let after = star_after(&points, &mut star);
+                let mut sorted = after.0.clone();
+                sorted.sort_unstable();
+                assert_eq!(sorted, neighbours(&points));
+                (kept, found_anew) = if after == before { (kept + 1, found_anew) } else { (kept, found_anew + 1) };
+                before = after;
+            }
+        }
+        assert!(kept > 500 && found_anew > 100, "{kept} kept, {found_anew} found anew");
+    }
+}

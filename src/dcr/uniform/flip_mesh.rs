@@ -1,0 +1,757 @@
+//! The Delaunay triangulation of a torus, kept while its points move and repaired by flips (`torus::must_flip`), in
+//! rings.
+//!
+//! The forces hold points back so that no triangle turns over; if one does all the same, the mesh says so and must be
+//! built anew. The edges that may have to be flipped are found while points gather, so that flips need no pass over the
+//! whole mesh: see [`FlipMesh::mend`].
+
+use std::ops::Range;
+
+use glam::DVec2;
+use spade::handles::VertexHandle;
+use spade::{DelaunayTriangulation, HasPosition, Point2, Triangulation};
+
+use crate::dcr::law::Constraints;
+use crate::dcr::torus::{Torus, TorusPoint, must_flip, nudge};
+use crate::dcr::uniform::stars::{Gathered, Stars, Visitor};
+use crate::dcr::uniform::vectors::gather_in_stars;
+use crate::error::Result;
+use crate::geometry::{Delaunay, circumradius_squared};
+use crate::index::Binned;
+use crate::job::{Job, chunks};
+use crate::simd::Level;
+
+/// The number of consecutive points that form a patch. Flips in different patches are made in parallel.
+const PATCH: usize = 4096;
+
+/// An edge, from point to point.
+pub type Edge = [u32; 2];
+
+/// A triangulation of a torus, all of whose edges are short.
+pub struct FlipMesh {
+    torus: Torus,
+    rings: Rings,
+}
+
+/// The result of flipping the edges of a patch.
+struct Mended {
+    /// Edges that may have to be flipped, with points of other patches.
+    left: Vec<Edge>,
+    is_sound: bool,
+}
+
+/// The result of a pass over all points that moves none.
+#[derive(Default)]
+struct Inspection {
+    suspects: Vec<Edge>,
+    is_unsound: bool,
+    violated: usize,
+}
+
+impl Visitor for Inspection {
+    #[inline(always)]
+    fn visit(&mut self, rings: &Rings, points: Range<usize>, gathered: &Gathered) {
+        self.is_unsound |= !gathered.are_sound(points.len());
+        self.violated += gathered.violated(points.len()).count();
+        gathered.suspects(rings, points, &mut self.suspects);
+    }
+}
+
+impl FlipMesh {
+    /// The Delaunay triangulation of points. None in sets of a few points or with large holes or with points that have
+    /// too many neighbours, or if copies are not triangulated alike, which happens to four points on one circle unless
+    /// they are nudged.
+    pub fn new(job: &Job, torus: &Torus, places: &[TorusPoint]) -> Result<Option<Self>> {
+        match triangulate_by_tiles(&job.part(0.0, 0.8), torus, places)? {
+            Some(stars) => Self::of_stars(&job.part(0.8, 1.0), torus, places, &stars),
+            None => {
+                let delaunay = Delaunay::new(&job.part(0.0, 0.8), &torus.frame, torus.nudged(places).into_iter())?;
+                Self::of_delaunay(&job.part(0.8, 1.0), torus, places, &delaunay)
+            }
+        }
+    }
+
+    /// The mesh of a triangulation of the torus and its copies.
+    pub fn of_delaunay(job: &Job, torus: &Torus, places: &[TorusPoint], delaunay: &Delaunay) -> Result<Option<Self>> {
+        let mut stars = RingList::default();
+        for point in 0..places.len() {
+            stars.neighbours.extend(delaunay.neighbours(point));
+            stars.points.push((point as u32, stars.neighbours.len()));
+        }
+        Self::of_stars(job, torus, places, &[stars])
+    }
+
+    /// The mesh of rings, if they are those of a triangulation of the torus.
+    fn of_stars(job: &Job, torus: &Torus, places: &[TorusPoint], stars: &[RingList]) -> Result<Option<Self>> {
+        let Some(rings) = Rings::new(places.len(), stars) else { return Ok(None) };
+        let mut mesh = Self { torus: *torus, rings };
+        let chunks = chunks(places.len());
+        let agree =
+            job.part(0.0, 0.5).map(chunks.len(), |chunk| chunks.range(chunk).all(|point| mesh.rings.agree(point)))?;
+        // Triangles that agree form a surface without boundary; with three edges per point it is a torus.
+        let is_torus = agree.into_iter().all(|agree| agree) && mesh.rings.edges() == 3 * places.len();
+        Ok((is_torus && mesh.repair(&job.part(0.5, 1.0), places)?).then_some(mesh))
+    }
+
+    /// Gathers for a range of points and passes the results to `visitor`.
+    pub fn gather(
+        &self,
+        level: Level,
+        places: &[TorusPoint],
+        constraints: &Constraints,
+        points: Range<usize>,
+        visitor: &mut impl Visitor,
+    ) {
+        let stars = Stars { rings: &self.rings, torus: &self.torus, places, constraints };
+        gather_in_stars(level, &stars, points, visitor);
+    }
+
+    /// Makes the mesh the Delaunay triangulation of these points; false if a triangle has turned over.
+    pub fn repair(&mut self, job: &Job, places: &[TorusPoint]) -> Result<bool> {
+        let found = self.inspect(&job.part(0.0, 0.5), places, places.len())?;
+        Ok(!found.is_unsound && self.mend(&job.part(0.5, 1.0), places, found.suspects)?)
+    }
+
+    /// The number of the first `count` points whose constraints are violated.
+    pub fn violated(&self, job: &Job, places: &[TorusPoint], count: usize) -> Result<usize> {
+        Ok(self.inspect(job, places, count)?.violated)
+    }
+
+    /// Inspects the first `count` points.
+    fn inspect(&self, job: &Job, places: &[TorusPoint], count: usize) -> Result<Inspection> {
+        let chunks = chunks(count);
+        let level = Level::widest();
+        let still = Constraints { conflict_radius: 0.0, coverage_radius: f32::INFINITY, push: 0.0, pull: 0.0 };
+        let parts = job.map(chunks.len(), |chunk| {
+            let mut found = Inspection::default();
+            self.gather(level, places, &still, chunks.range(chunk), &mut found);
+            found
+        })?;
+        let mut all = Inspection::default();
+        for part in parts {
+            all.suspects.extend(part.suspects);
+            all.is_unsound |= part.is_unsound;
+            all.violated += part.violated;
+        }
+        Ok(all)
+    }
+
+    /// Flips edges that must be, and those around them, until all are locally Delaunay; false if one could not be
+    /// flipped.
+    ///
+    /// `suspects` are those of before the points moved, ordered by the points at which they start. An edge that was not
+    /// suspect then and must be flipped now is left for the next step.
+    pub fn mend(&mut self, job: &Job, places: &[TorusPoint], suspects: Vec<Edge>) -> Result<bool> {
+        let torus = self.torus;
+        let mut rest = suspects.as_slice();
+        let tasks = self.rings.patches(PATCH).map(|patch| {
+            let count = rest.partition_point(|&[from, _]| (from as usize) < patch.end());
+            let (own, others) = rest.split_at(count);
+            rest = others;
+            (patch, own.to_vec())
+        });
+        let tasks: Vec<_> = tasks.collect();
+        let mended =
+            job.part(0.0, 0.7).map_each(tasks, |(mut patch, edges)| mend(&mut patch, &torus, places, edges))?;
+        let mut is_sound = mended.iter().all(|mended| mended.is_sound);
+        let left = mended.into_iter().flat_map(|mended| mended.left).collect();
+        let whole = self.rings.patches(places.len()).next();
+        if let Some(mut whole) = whole {
+            is_sound &= mend(&mut whole, &torus, places, left).is_sound;
+        }
+        Ok(is_sound)
+    }
+
+    /// The largest circumradius.
+    pub fn coverage(&self, job: &Job, places: &[TorusPoint]) -> Result<f64> {
+        let chunks = chunks(self.rings.len());
+        let largest = job.map(chunks.len(), |chunk| {
+            let squared = |point: usize| {
+                let ring = self.rings.ring(point);
+                let offset = |other: u32| self.torus.offset(places[point], places[other as usize]);
+                let triangle = |(&q, &r): (&u32, &u32)| {
+                    let (a, b) = (offset(q), offset(r));
+                    circumradius_squared(a, b, a - b)
+                };
+                ring.iter().zip(ring.iter().cycle().skip(1)).map(triangle).fold(0.0, f64::max)
+            };
+            chunks.range(chunk).map(squared).fold(0.0, f64::max)
+        })?;
+        Ok(largest.into_iter().fold(0.0, f64::max).sqrt())
+    }
+}
+
+/// Flips the edges that must be, and those around them, if their points are in the patch.
+fn mend(patch: &mut Patch, torus: &Torus, places: &[TorusPoint], mut edges: Vec<Edge>) -> Mended {
+    let mut left = Vec::new();
+    while let Some(edge) = edges.pop() {
+        let [p, q] = edge;
+        if !patch.holds(p) {
+            left.push(edge);
+            continue;
+        }
+        let Some([r, s]) = patch.apices(edge) else { continue };
+        if !must_flip(torus, [p, q, r, s].map(|point| places[point as usize])) {
+            continue;
+        }
+        if ![q, r, s].into_iter().all(|point| patch.holds(point)) {
+            left.push(edge);
+            continue;
+        }
+        if patch.flip(edge, [r, s]).is_err() {
+            return Mended { left, is_sound: false };
+        }
+        edges.extend([[p, r], [r, q], [q, s], [s, p]]);
+    }
+    Mended { left, is_sound: true }
+}
+
+// A triangulation without boundary, as the ring of neighbours of each point, counter-clockwise.
+//
+// A point gathers from its ring, which is one run of memory. A flip changes the rings of four points, so flips in
+// different [`Patch`]es, the rings of consecutive points, can be made in parallel.
+//
+// Rings have few slots, as points have few neighbours at a constant density. Where the density varies, some points have
+// hundreds, and every ring would need as many slots: there the mesh is one of half-edges
+// (`density/half_edge_mesh.rs`).
+
+/// The number of neighbours that any point can gain by flips before the slots are full.
+const SPARE: usize = 3;
+
+/// The number of slots is a multiple of this, which is a cache line.
+const LINE: usize = 16;
+
+/// The largest number of slots: for points with more neighbours all others would waste too much memory.
+const MOST: usize = 64;
+
+/// Rings of some points, in no order: the form in which a mesh is built.
+#[derive(Default)]
+pub struct RingList {
+    /// The points, and where their rings end in `neighbours`.
+    pub points: Vec<(u32, usize)>,
+    pub neighbours: Vec<u32>,
+}
+
+/// The neighbours of every point.
+pub struct Rings {
+    /// The number of neighbours that a point can have.
+    slots: usize,
+    degrees: Vec<u8>,
+    /// Those of point `p` from `slots · p` on. Slots after the last neighbour hold any point.
+    neighbours: Vec<u32>,
+}
+
+/// The rings of consecutive points, mutable.
+pub struct Patch<'a> {
+    first: u32,
+    slots: usize,
+    degrees: &'a mut [u8],
+    neighbours: &'a mut [u32],
+}
+
+/// A flip is impossible: a ring has no slot left, or too few neighbours.
+#[derive(Debug)]
+pub struct Impossible;
+
+impl Rings {
+    /// The rings of `count` points; none if a point has less than three neighbours, or more than there are slots.
+    pub fn new(count: usize, stars: &[RingList]) -> Option<Self> {
+        let rings = || {
+            stars.iter().flat_map(|stars| {
+                let starts = std::iter::once(0).chain(stars.points.iter().map(|&(_, end)| end));
+                starts.zip(&stars.points).map(|(start, &(point, end))| (point as usize, &stars.neighbours[start..end]))
+            })
+        };
+        let longest = rings().map(|(_, ring)| ring.len()).max()?;
+        let slots = (longest + SPARE).next_multiple_of(LINE);
+        if slots > MOST {
+            return None;
+        }
+        let (mut degrees, mut neighbours) = (vec![0; count], vec![0; count * slots]);
+        for (point, ring) in rings() {
+            let slots_of_point = &mut neighbours[point * slots..(point + 1) * slots];
+            slots_of_point[..ring.len()].copy_from_slice(ring);
+            slots_of_point[ring.len()..].fill(*ring.first()?);
+            degrees[point] = ring.len() as u8;
+        }
+        degrees.iter().all(|&degree| degree >= 3).then_some(Self { slots, degrees, neighbours })
+    }
+
+    /// The number of points.
+    pub fn len(&self) -> usize {
+        self.degrees.len()
+    }
+
+    /// The number of edges.
+    pub fn edges(&self) -> usize {
+        self.degrees.iter().map(|&degree| usize::from(degree)).sum::<usize>() / 2
+    }
+
+    /// The neighbours of a point.
+    #[inline]
+    pub fn ring(&self, point: usize) -> &[u32] {
+        &self.slots_of(point)[..self.degree(point)]
+    }
+
+    /// The number of neighbours of a point.
+    #[inline]
+    pub fn degree(&self, point: usize) -> usize {
+        self.degrees[point].into()
+    }
+
+    /// The slots of a point, the first of which hold its neighbours.
+    #[inline]
+    pub fn slots_of(&self, point: usize) -> &[u32] {
+        &self.neighbours[point * self.slots..][..self.slots]
+    }
+
+    /// True if for every neighbour `q` of a point and the one that follows it, `r`, the point follows `r` in the ring
+    /// of `q`: then the rings describe triangles on which all corners agree.
+    pub fn agree(&self, point: usize) -> bool {
+        let ring = self.ring(point);
+        let is_distinct = (1..ring.len()).all(|k| !ring[..k].contains(&ring[k]));
+        is_distinct
+            && ring.iter().zip(ring.iter().cycle().skip(1)).all(|(&q, &r)| {
+                let ring = self.ring(q as usize);
+                ring.iter().position(|&p| p == r).is_some_and(|k| ring[(k + 1) % ring.len()] as usize == point)
+            })
+    }
+
+    /// The rings in patches of `size` points.
+    pub fn patches(&mut self, size: usize) -> impl Iterator<Item = Patch<'_>> {
+        let slots = self.slots;
+        let parts = self.degrees.chunks_mut(size).zip(self.neighbours.chunks_mut(size * slots));
+        parts.enumerate().map(move |(i, (degrees, neighbours))| {
+            let first = (i * size) as u32;
+            Patch { first, slots, degrees, neighbours }
+        })
+    }
+}
+
+impl Patch<'_> {
+    /// True if the ring of a point is in the patch.
+    pub fn holds(&self, point: u32) -> bool {
+        (point.wrapping_sub(self.first) as usize) < self.degrees.len()
+    }
+
+    /// The index after the last point of the patch.
+    pub fn end(&self) -> usize {
+        self.first as usize + self.degrees.len()
+    }
+
+    fn ring(&self, point: u32) -> &[u32] {
+        let index = (point - self.first) as usize;
+        &self.neighbours[index * self.slots..][..self.degrees[index].into()]
+    }
+
+    /// The points on the left and on the right of the edge from `p` to `q`; none if that is no edge.
+    pub fn apices(&self, [p, q]: [u32; 2]) -> Option<[u32; 2]> {
+        let ring = self.ring(p);
+        let k = ring.iter().position(|&other| other == q)?;
+        Some([ring[(k + 1) % ring.len()], ring[(k + ring.len() - 1) % ring.len()]])
+    }
+
+    /// Replaces the edge from `p` to `q` by the one between the points on its left and on its right. All four are held.
+    pub fn flip(&mut self, [p, q]: [u32; 2], [r, s]: [u32; 2]) -> std::result::Result<(), Impossible> {
+        let is_full = |point: u32| self.ring(point).len() == self.slots;
+        if self.ring(p).len() == 3 || self.ring(q).len() == 3 || is_full(r) || is_full(s) {
+            return Err(Impossible);
+        }
+        self.remove(p, q);
+        self.remove(q, p);
+        self.insert(r, s, p);
+        self.insert(s, r, q);
+        Ok(())
+    }
+
+    /// Takes `other` out of a ring.
+    fn remove(&mut self, point: u32, other: u32) {
+        let index = (point - self.first) as usize;
+        let degree = usize::from(self.degrees[index]);
+        let ring = &mut self.neighbours[index * self.slots..][..degree];
+        let k = ring.iter().position(|&neighbour| neighbour == other).expect("both ends know an edge");
+        ring.copy_within(k + 1.., k);
+        self.degrees[index] -= 1;
+    }
+
+    /// Puts `other` into a ring, after `before`.
+    fn insert(&mut self, point: u32, other: u32, before: u32) {
+        let index = (point - self.first) as usize;
+        let degree = usize::from(self.degrees[index]);
+        let ring = &mut self.neighbours[index * self.slots..][..=degree];
+        let k = ring.iter().position(|&neighbour| neighbour == before).expect("corners of a triangle are neighbours");
+        ring.copy_within(k + 1..degree, k + 2);
+        ring[k + 1] = other;
+        self.degrees[index] += 1;
+    }
+}
+
+// The first triangulation of large sets, tile by tile.
+//
+// Each tile of the torus is triangulated with the points in a margin around it. The star of a point is that of the
+// whole set if the circumcircles of its triangles lie where all points are known; if one does not, there is no result,
+// and the set must be triangulated as a whole.
+
+/// The least number of points of a tile on average; it can be four times as high.
+const POINTS: usize = 2000;
+
+/// The margin, in spacings: slightly more than the diameter of the largest empty circle of a million random points.
+const MARGIN: f64 = 4.0;
+
+/// A point in a tile or its margin.
+#[derive(Clone, Copy)]
+struct Vertex {
+    /// From the lower corner of the tile, in spacings.
+    position: DVec2,
+    point: u32,
+    is_inside: bool,
+}
+
+impl HasPosition for Vertex {
+    type Scalar = f64;
+
+    fn position(&self) -> Point2<f64> {
+        // spade refuses coordinates below 2^-142.
+        spade::mitigate_underflow(Point2::new(self.position.x, self.position.y))
+    }
+}
+
+/// A torus cut into 2^`level` tiles along each axis, and the points of each.
+struct Tiles<'a> {
+    torus: &'a Torus,
+    places: &'a [TorusPoint],
+    level: u32,
+    /// The points by tiles.
+    points: Binned<u32>,
+}
+
+/// The rings of all points. None for sets that are too small, and if a star is not enclosed in the margin of its tile.
+pub fn triangulate_by_tiles(job: &Job, torus: &Torus, places: &[TorusPoint]) -> Result<Option<Vec<RingList>>> {
+    let level = (places.len() / POINTS).max(1).ilog2() / 2;
+    let narrow = torus.frame.size().min_element() / f64::from(1u32 << level) < 2.0 * MARGIN;
+    // With three tiles along an axis, those on both sides of one are different.
+    if level < 2 || narrow {
+        return Ok(None);
+    }
+    let tiles = Tiles::new(torus, places, level);
+    let stars = job.map(1 << (2 * level), |tile| tiles.stars(tile as u32))?;
+    Ok(stars.into_iter().collect())
+}
+
+impl<'a> Tiles<'a> {
+    fn new(torus: &'a Torus, places: &'a [TorusPoint], level: u32) -> Self {
+        let tiles = Self { torus, places, level, points: Binned::default() };
+        let points = (0..).zip(places).map(|(point, &place)| (tiles.tile(place), point));
+        let points = Binned::new(1 << (2 * level), points);
+        Self { points, ..tiles }
+    }
+
+    fn tile(&self, place: TorusPoint) -> usize {
+        let [x, y] = place.map(|x| x >> (32 - self.level));
+        (y << self.level | x) as usize
+    }
+
+    /// The size of a tile in spacings.
+    fn size(&self) -> DVec2 {
+        self.torus.frame.size() / f64::from(1u32 << self.level)
+    }
+
+    /// The rings of the points of a tile.
+    fn stars(&self, tile: u32) -> Option<RingList> {
+        let size = self.size();
+        let knows = |centre: DVec2, radius: f64| {
+            (centre - radius).cmpge(DVec2::splat(-MARGIN)).all() && (centre + radius).cmple(size + MARGIN).all()
+        };
+        let triangulation = DelaunayTriangulation::<Vertex>::bulk_load(self.vertices(tile)).ok()?;
+        let is_enclosed = |star: &VertexHandle<'_, Vertex>| {
+            star.out_edges().all(|edge| {
+                edge.face().as_inner().is_some_and(|face| {
+                    let (centre, radius_squared) = face.circumcircle();
+                    knows(DVec2::new(centre.x, centre.y), radius_squared.sqrt())
+                })
+            })
+        };
+        let mut stars = RingList::default();
+        for star in triangulation.vertices().filter(|star| star.data().is_inside) {
+            if !is_enclosed(&star) {
+                return None;
+            }
+            stars.neighbours.extend(star.out_edges().map(|edge| edge.to().data().point));
+            stars.points.push((star.data().point, stars.neighbours.len()));
+        }
+        Some(stars)
+    }
+
+    /// The points of a tile and of its margin.
+    fn vertices(&self, tile: u32) -> Vec<Vertex> {
+        let (size, side) = (self.size(), 1 << self.level);
+        let [column, row] = [tile % side, tile / side];
+        // The middle of the tile: no point of the margin is half a period away from it.
+        let middle = [column, row].map(|index| (2 * index + 1) << (31 - self.level));
+        let around = [side - 1, 0, 1].map(|dy| [side - 1, 0, 1].map(|dx| [(column + dx) % side, (row + dy) % side]));
+        let mut vertices = Vec::new();
+        for [column, row] in around.into_iter().flatten() {
+            let tile = (row * side + column) as usize;
+            for &point in self.points.bin(tile) {
+                let offset = self.torus.offset(middle, self.places[point as usize]) + nudge(point);
+                let position = offset + 0.5 * size;
+                if position.cmpge(DVec2::splat(-MARGIN)).all() && position.cmple(size + MARGIN).all() {
+                    let is_inside = self.tile(self.places[point as usize]) == self.tile(middle);
+                    vertices.push(Vertex { position, point, is_inside });
+                }
+            }
+        }
+        vertices
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    use glam::Vec2;
+
+    use crate::dcr::law::Force;
+    use crate::dcr::torus::random_sets::{self, random_places, with_and_without_mesh};
+    use crate::job::Context;
+    use crate::points::{Boundary, Domain};
+    use crate::rng::{Draw, Rng};
+
+    /// The torus of 4 × 4 points whose squares are cut along one diagonal.
+    fn lattice() -> Rings {
+        let mut stars = RingList::default();
+        for point in 0..16 {
+            let (x, y) = (point % 4, point / 4);
+            let at = |dx: u32, dy: u32| (x + dx) % 4 + (y + dy) % 4 * 4;
+            stars.neighbours.extend([at(1, 0), at(1, 1), at(0, 1), at(3, 0), at(3, 3), at(0, 3)]);
+            stars.points.push((point, stars.neighbours.len()));
+        }
+        Rings::new(16, &[stars]).unwrap()
+    }
+
+    #[test]
+    fn a_flip_turns_an_edge_and_another_turns_it_back() {
+        let mut rings = lattice();
+        assert_eq!(rings.edges(), 48);
+        let flip = |rings: &mut Rings, edge| {
+            let mut patch = rings.patches(16).next().unwrap();
+            let apices = patch.apices(edge).unwrap();
+            patch.flip(edge, apices).unwrap();
+            apices
+        };
+        let edge = flip(&mut rings, [0, 5]);
+        assert_eq!(edge, [4, 1]);
+        assert!(rings.ring(4).contains(&1) && !rings.ring(0).contains(&5));
+        assert_eq!([0, 1, 4, 5].map(|point| rings.degree(point)), [5, 7, 7, 5]);
+        assert!((0..16).all(|point| rings.agree(point)) && rings.edges() == 48);
+        assert_eq!(rings.patches(16).next().unwrap().apices([0, 5]), None);
+        flip(&mut rings, edge);
+        assert!((0..16).all(|point| rings.agree(point) && rings.degree(point) == 6));
+    }
+
+    #[test]
+    fn patches_hold_their_points_and_rings_that_are_full_refuse_flips() {
+        let mut rings = lattice();
+        let patches: Vec<_> = rings.patches(6).map(|patch| [0, 5, 6, 11, 12, 15].map(|p| patch.holds(p))).collect();
+        let (yes, no) = (true, false);
+        assert_eq!(patches, [[yes, yes, no, no, no, no], [no, no, yes, yes, no, no], [no, no, no, no, yes, yes]]);
+        rings.slots = 6;
+        rings.neighbours = (0..16).flat_map(|point| lattice().ring(point).to_vec()).collect();
+        assert!(rings.patches(16).next().unwrap().flip([0, 5], [4, 1]).is_err());
+    }
+
+    #[test]
+    fn rings_that_disagree_are_found() {
+        let mut rings = lattice();
+        rings.neighbours.swap(0, 1);
+        assert!(!rings.agree(0));
+        assert!(Rings::new(17, &[RingList::default()]).is_none());
+    }
+
+    /// The triangulation by spade of all points at once.
+    fn anew(job: &Job, torus: &Torus, places: &[TorusPoint]) -> (FlipMesh, f64) {
+        let delaunay = Delaunay::new(job, &torus.frame, torus.nudged(places).into_iter()).unwrap();
+        let mesh = FlipMesh::of_delaunay(job, torus, places, &delaunay).unwrap().expect("there is a mesh");
+        (mesh, delaunay.coverage())
+    }
+
+    /// The rings, each from its least neighbour on.
+    fn rings(mesh: &FlipMesh) -> Vec<Vec<u32>> {
+        let turned = |point: usize| {
+            let mut ring = mesh.rings.ring(point).to_vec();
+            let least = (0..ring.len()).min_by_key(|&k| ring[k]).unwrap();
+            ring.rotate_left(least);
+            ring
+        };
+        (0..mesh.rings.len()).map(turned).collect()
+    }
+
+    fn offsets(mesh: &FlipMesh, places: &[TorusPoint], point: usize) -> Vec<Vec2> {
+        mesh.rings
+            .ring(point)
+            .iter()
+            .map(|&other| mesh.torus.offset_f32(places[point], places[other as usize]))
+            .collect()
+    }
+
+    /// Points wander; after every repair the mesh is a torus, locally Delaunay, and what spade builds from nothing.
+    #[test]
+    fn repaired_meshes_are_those_that_are_built_anew() {
+        let context = Context::new(1).unwrap();
+        for (boundary, width, count) in
+            [(Boundary::Periodic, 1.0, 600), (Boundary::Periodic, 3.0, 9000), (Boundary::Bounded, 1.5, 300)]
+        {
+            let (torus, mut places) = random_places(boundary, width, count);
+            let mut rng = Rng::at(4, Draw::Probe, &[]);
+            context
+                .run(None, |job| {
+                    let (mut mesh, _) = anew(job, &torus, &places);
+                    let mut flipped = 0;
+                    for _ in 0..25 {
+                        wander(&mesh, &mut places, count, &mut rng);
+                        let before = rings(&mesh);
+                        assert!(mesh.repair(job, &places)?, "a triangle turned over");
+                        flipped += usize::from(before != rings(&mesh));
+                        assert!((0..places.len()).all(|point| mesh.rings.agree(point)));
+                        assert!(is_delaunay(&mut mesh, &places));
+                        let (built, coverage) = anew(job, &torus, &places);
+                        // The corners of a mirrored rectangle lie on one circle: there spade may take the other diagonal.
+                        if boundary == Boundary::Periodic {
+                            assert!(rings(&mesh) == rings(&built));
+                        }
+                        assert!((mesh.coverage(job, &places)? - coverage).abs() < 1e-5);
+                    }
+                    assert!(flipped > 10);
+                    Ok(())
+                })
+                .unwrap();
+        }
+    }
+
+    /// Moves the points as far as their triangles allow, and their images with them.
+    fn wander(mesh: &FlipMesh, places: &mut Vec<TorusPoint>, count: usize, rng: &mut Rng) {
+        let before = places.clone();
+        random_sets::wander(&mesh.torus, places, count, |point| offsets(mesh, &before, point), rng);
+    }
+
+    fn is_delaunay(mesh: &mut FlipMesh, places: &[TorusPoint]) -> bool {
+        let edges: Vec<Edge> = (0..places.len())
+            .flat_map(|point| mesh.rings.ring(point).iter().map(move |&other| [point as u32, other]))
+            .collect();
+        let torus = mesh.torus;
+        let whole = mesh.rings.patches(places.len()).next().unwrap();
+        edges.into_iter().all(|[p, q]| {
+            let [r, s] = whole.apices([p, q]).unwrap();
+            !must_flip(&torus, [p, q, r, s].map(|point| places[point as usize]))
+        })
+    }
+
+    /// Tile by tile, and with flips patch by patch, meshes are the same as those of all points at once, for any threads.
+    #[test]
+    fn meshes_are_the_same_by_tiles_and_by_threads() {
+        let (torus, mut places) = random_places(Boundary::Periodic, 1.0, 50_000);
+        let (one, four) = (Context::new(1).unwrap(), Context::new(4).unwrap());
+        let mut whole = one.run(None, |job| Ok(anew(job, &torus, &places).0)).unwrap();
+        assert!(one.run(None, |job| triangulate_by_tiles(job, &torus, &places)).unwrap().is_some());
+        let build = |context: &Context| context.run(None, |job| FlipMesh::new(job, &torus, &places)).unwrap().unwrap();
+        let (mut alone, mut together) = (build(&one), build(&four));
+        assert!(rings(&alone) == rings(&whole) && rings(&together) == rings(&whole));
+        wander(&whole, &mut places, 50_000, &mut Rng::at(5, Draw::Probe, &[]));
+        let before = rings(&whole);
+        for (mesh, context) in [(&mut whole, &one), (&mut alone, &one), (&mut together, &four)] {
+            assert!(context.run(None, |job| mesh.repair(job, &places)).unwrap());
+        }
+        assert!(before != rings(&whole) && mesh_slots(&alone) == mesh_slots(&together));
+    }
+
+    /// The slots as they are: the threads must not even turn a ring.
+    fn mesh_slots(mesh: &FlipMesh) -> Vec<Vec<u32>> {
+        (0..mesh.rings.len()).map(|point| mesh.rings.ring(point).to_vec()).collect()
+    }
+
+    /// Records what points gather.
+    #[derive(Default)]
+    struct Record {
+        forces: Vec<(Vec2, f32)>,
+        violated: Vec<usize>,
+        is_unsound: bool,
+    }
+
+    impl Visitor for Record {
+        fn visit(&mut self, _: &Rings, points: Range<usize>, gathered: &Gathered) {
+            let force =
+                |lane: usize| (Vec2::new(gathered.force[0][lane], gathered.force[1][lane]), gathered.clearance[lane]);
+            self.forces.extend((0..points.len()).map(force));
+            self.violated.extend(gathered.violated(points.len()).map(|lane| points.start + lane));
+            self.is_unsound |= !gathered.are_sound(points.len());
+        }
+    }
+
+    /// Eight points at a time gather to the bit what each gathers alone, at any level of vectors.
+    #[test]
+    fn vectors_change_nothing() {
+        let context = Context::new(1).unwrap();
+        for boundary in [Boundary::Periodic, Boundary::Bounded] {
+            let (torus, places) = random_places(boundary, 1.0, 1003);
+            let mesh = context.run(None, |job| Ok(anew(job, &torus, &places).0)).unwrap();
+            let constraints = Constraints { conflict_radius: 0.862, coverage_radius: 0.66, push: 0.4, pull: 0.2 };
+            for level in Level::available() {
+                let mut record = Record::default();
+                mesh.gather(level, &places, &constraints, 0..places.len(), &mut record);
+                assert!(!record.is_unsound && record.forces.len() == places.len());
+                for (point, &(sum, clearance)) in record.forces.iter().enumerate() {
+                    let alone: Force = constraints.force(&offsets(&mesh, &places, point));
+                    assert!(
+                        (sum, clearance) == (alone.sum, alone.clearance),
+                        "{level:?}, {point}: {sum} {}",
+                        alone.sum
+                    );
+                    let violated = is_violated(&mesh, &places, point);
+                    assert_eq!(record.violated.contains(&point), violated, "{level:?}, {point}");
+                }
+            }
+        }
+    }
+
+    /// True if another point is closer than 0.85, or a triangle wider than 0.67.
+    fn is_violated(mesh: &FlipMesh, places: &[TorusPoint], point: usize) -> bool {
+        let offsets = offsets(mesh, places, point);
+        let own = mesh.torus.image_distances(places[point]);
+        let is_own = |offset: &Vec2| offset.to_array() == [own[0], 0.0] || offset.to_array() == [0.0, own[1]];
+        let wide = |(a, b): (&Vec2, &Vec2)| a.length() * b.length() * a.distance(*b) / (2.0 * a.perp_dot(*b)) > 0.67;
+        let pairs = || offsets.iter().zip(offsets.iter().cycle().skip(1));
+        offsets.iter().any(|offset| offset.length() < 0.85 && !is_own(offset)) || pairs().any(wide)
+    }
+
+    #[test]
+    fn few_points_and_large_holes_have_no_mesh_and_turned_triangles_end_one() {
+        let context = Context::new(1).unwrap();
+        for (torus, mut places, has_mesh) in with_and_without_mesh() {
+            context
+                .run(None, |job| {
+                    let mesh = FlipMesh::new(job, &torus, &places)?;
+                    assert_eq!(mesh.is_some(), has_mesh);
+                    if let Some(mut mesh) = mesh {
+                        places.swap(0, 250);
+                        assert!(!mesh.repair(job, &places)?);
+                    }
+                    Ok(())
+                })
+                .unwrap();
+        }
+    }
+
+    /// A point with more neighbours than there are slots is in no mesh.
+    #[test]
+    fn hubs_have_no_mesh() {
+        let torus = Torus::new(Domain::unit(Boundary::Periodic), 1000);
+        let ring = (0..100).map(|i| glam::DVec2::from_angle(f64::from(i) * std::f64::consts::TAU / 100.0) * 0.1 + 0.5);
+        let mut rng = Rng::at(4, Draw::Probe, &[]);
+        let others = (0..400).map(|_| glam::DVec2::new(rng.unit(), rng.unit()));
+        let others = others.filter(|point| point.distance(glam::DVec2::splat(0.5)) > 0.11);
+        let points = ring.chain(others).chain([glam::DVec2::splat(0.5)]).map(|point| point.as_vec2().to_array());
+        let places = torus.enter(&points.collect::<Vec<_>>(), 0);
+        let mesh = Context::new(1).unwrap().run(None, |job| FlipMesh::new(job, &torus, &places)).unwrap();
+        assert!(mesh.is_none());
+    }
+}
