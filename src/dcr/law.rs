@@ -10,6 +10,7 @@ use glam::Vec2;
 
 use crate::geometry::scaled_circumcentre;
 use crate::math::square;
+use crate::simd::Lanes;
 
 /// The fraction of its last displacement that a point repeats in a step.
 pub const MOMENTUM: f32 = 0.78;
@@ -22,7 +23,7 @@ pub const FREE_CLEARANCE: f32 = 1.0;
 
 /// The tension at which a pull stops growing: otherwise the wide holes of random sets would draw the points around them
 /// too far in.
-pub const STRONGEST_PULL: f32 = 1.0;
+const STRONGEST_PULL: f32 = 1.0;
 
 /// The steps over which constraints grow stiffer.
 pub const STIFFENING: u32 = 60;
@@ -38,12 +39,32 @@ pub struct Constraints {
     pub pull: f32,
 }
 
-/// The sum of forces on a point, and how far it may move.
+/// The sum of forces on a point, and the bound of its move.
+#[derive(Clone, Copy, Default)]
 pub struct Force {
     pub sum: Vec2,
     /// The least height of the triangles around the point. If no corner of a triangle moves by half of its least
     /// height, it cannot turn over: three points that close to a line form no triangle of that height.
     pub clearance: f32,
+}
+
+impl Force {
+    /// The displacement of a point in a step, and its velocity after it; `drift` is the part of the displacement that is
+    /// not repeated.
+    #[inline(always)]
+    pub fn moves(self, velocity: Vec2, drift: Vec2) -> (Vec2, Vec2) {
+        let limit = SAFE_FRACTION * self.clearance;
+        let velocity = MOMENTUM * velocity + self.sum;
+        (limited(velocity + drift, limit), limited(velocity, limit))
+    }
+}
+
+/// A vector, cut to a length.
+#[inline(always)]
+fn limited(vector: Vec2, limit: f32) -> Vec2 {
+    let squared = vector.x * vector.x + vector.y * vector.y;
+    let scale = if squared > limit * limit { limit / squared.sqrt() } else { 1.0 };
+    Vec2::new(vector.x * scale, vector.y * scale)
 }
 
 impl Constraints {
@@ -82,8 +103,34 @@ impl Constraints {
         if squared >= self.conflict_radius * self.conflict_radius || squared == 0.0 {
             return Vec2::ZERO;
         }
-        let distance = squared.sqrt();
-        self.push * (self.conflict_radius.recip() - distance.recip()) * offset
+        self.conflict(squared.sqrt()) * offset
+    }
+
+    /// The factor of the offset of a neighbour in conflict, at a distance from the point: below 0.
+    #[inline(always)]
+    pub fn conflict(&self, distance: f32) -> f32 {
+        self.push * (self.conflict_radius.recip() - distance.recip())
+    }
+
+    /// [`Constraints::conflict`] in vectors.
+    #[inline(always)]
+    pub fn conflicts<L: Lanes>(&self, lanes: L, distance: L::Floats) -> L::Floats {
+        let near = lanes.div(lanes.splat(1.0), distance);
+        lanes.mul(lanes.splat(self.push), lanes.sub(lanes.splat(self.conflict_radius.recip()), near))
+    }
+
+    /// The factor of the offset of a circumcentre, of this circumradius.
+    #[inline(always)]
+    pub fn hole(&self, radius: f32) -> f32 {
+        self.pull * (self.coverage_radius.recip() - radius.recip()).min(STRONGEST_PULL * radius.recip())
+    }
+
+    /// [`Constraints::hole`] in vectors.
+    #[inline(always)]
+    pub fn holes<L: Lanes>(&self, lanes: L, radius: L::Floats) -> L::Floats {
+        let near = lanes.div(lanes.splat(1.0), radius);
+        let tension = lanes.sub(lanes.splat(self.coverage_radius.recip()), near);
+        lanes.mul(lanes.splat(self.pull), lanes.min(tension, lanes.mul(lanes.splat(STRONGEST_PULL), near)))
     }
 
     /// The force by a hole: the triangle between two neighbours, of twice this area.
@@ -94,7 +141,7 @@ impl Constraints {
         if !(radius.is_finite() && radius > 0.0) {
             return Vec2::ZERO;
         }
-        self.pull * (self.coverage_radius.recip() - radius.recip()).min(STRONGEST_PULL * radius.recip()) * centre
+        self.hole(radius) * centre
     }
 }
 

@@ -2,7 +2,7 @@
 
 use glam::{DQuat, DVec2, Vec2, Vec3};
 
-use crate::dcr::law::{Constraints, FREE_CLEARANCE, Force, MOMENTUM, SAFE_FRACTION, STRONGEST_PULL};
+use crate::dcr::law::{Constraints, FREE_CLEARANCE, Force, MOMENTUM, SAFE_FRACTION};
 use crate::dcr::surface::apart::{Contacts, Limits, NEAR};
 use crate::dcr::surface::connected::ConnectedMesh;
 use crate::dcr::surface::lists::List;
@@ -239,8 +239,7 @@ impl Ring {
 
         let radius = constraints.conflict_radius;
         let is_near = lanes.less(squared, lanes.splat(radius * radius));
-        let tension = lanes.sub(lanes.splat(radius.recip()), lanes.div(one, lanes.sqrt(squared)));
-        let pushed = lanes.only(is_near, lanes.mul(lanes.splat(constraints.push), tension));
+        let pushed = lanes.only(is_near, constraints.conflicts(lanes, lanes.sqrt(squared)));
         let mut x = lanes.mul(pushed, bx);
         let mut y = lanes.mul(pushed, by);
 
@@ -254,10 +253,7 @@ impl Ring {
             let centre_x = lanes.mul(lanes.sub(lanes.mul(a_squared, by), lanes.mul(squared, ay)), half);
             let centre_y = lanes.mul(lanes.sub(lanes.mul(squared, ax), lanes.mul(a_squared, bx)), half);
             let distance = lanes.sqrt(squared_of(centre_x, centre_y));
-            let near = lanes.div(one, distance);
-            let tension = lanes.sub(lanes.splat(constraints.coverage_radius.recip()), near);
-            let tension = lanes.min(tension, lanes.mul(lanes.splat(STRONGEST_PULL), near));
-            let pulled = lanes.mul(lanes.splat(constraints.pull), tension);
+            let pulled = constraints.holes(lanes, distance);
             // Triangles without area have no centre, and by rounding some have it in the sample.
             let is_there = lanes.less(distance, lanes.splat(f32::INFINITY));
             let is_apart = lanes.less(lanes.splat(0.0), distance);

@@ -133,7 +133,6 @@ impl VerletCells {
 
     /// The force on a point by all points of these ranges that conflict with it.
     pub fn force(&self, here: TorusPoint, constraints: &Constraints, around: [Range<usize>; 2]) -> Vec2 {
-        let &Constraints { conflict_radius, push, .. } = constraints;
         let unit = self.unit();
         let mut sum = [[0.0; LANES]; 2];
         for run in around {
@@ -144,7 +143,7 @@ impl VerletCells {
                     let y = ys[i].wrapping_sub(here[1]).cast_signed() as f32 * unit.y;
                     let distance = (x * x + y * y).max(LEAST).sqrt();
                     // Without conflict it is 0; and so is the offset of a point from itself.
-                    let pushed = push * (conflict_radius.recip() - distance.recip()).min(0.0);
+                    let pushed = constraints.conflict(distance).min(0.0);
                     sum[0][i] += pushed * x;
                     sum[1][i] += pushed * y;
                 }

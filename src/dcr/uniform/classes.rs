@@ -12,7 +12,7 @@ use std::ops::Range;
 use glam::Vec2;
 
 use crate::classes::Classes;
-use crate::dcr::law::{Constraints, FREE_CLEARANCE, MOMENTUM, SAFE_FRACTION};
+use crate::dcr::law::{Constraints, FREE_CLEARANCE, Force};
 use crate::dcr::options::{Method, Neighbourhood, Options};
 use crate::dcr::relax::{PlaneRelaxation, Report, measure, relax_set, require_memory};
 use crate::dcr::relaxation::{Relaxation, Steps, Stopped};
@@ -20,7 +20,7 @@ use crate::dcr::torus::{CurveOrder, LEVEL, MirrorBoundary, Torus, TorusPoint, Wa
 use crate::dcr::uniform::flip_mesh::{Edge, FlipMesh, Rings};
 use crate::dcr::uniform::stars::{Gathered, Visitor};
 use crate::dcr::uniform::{
-    FIRST_FREE, JAMMED, KICK_EVERY, LAST_KICK, UniformRelaxation, WAVES_EVERY, highest_wave, kick, limited,
+    FIRST_FREE, JAMMED, KICK_EVERY, LAST_KICK, UniformRelaxation, WAVES_EVERY, highest_wave, kick,
 };
 use crate::error::{Error, Result};
 use crate::geometry::Delaunay;
@@ -55,17 +55,10 @@ struct Subset {
     weight: f32,
 }
 
-/// The force on a point, in spacings.
-#[derive(Clone, Copy, Default)]
-struct Pull {
-    force: Vec2,
-    clearance: f32,
-}
-
 /// The forces on a range of members.
 #[derive(Default)]
 struct Gathering {
-    pulls: Vec<Pull>,
+    forces: Vec<Force>,
     suspects: Vec<Edge>,
     is_unsound: bool,
 }
@@ -73,7 +66,7 @@ struct Gathering {
 /// The parts of a step.
 struct Sums {
     /// The force on each point, by all of its subsets.
-    pulls: Vec<Pull>,
+    forces: Vec<Force>,
     /// The displacement of each by long waves.
     drifts: Vec<Vec2>,
     /// The edges of each subset that may have to be flipped.
@@ -86,9 +79,9 @@ impl Visitor for Gathering {
         self.is_unsound |= !gathered.are_sound(points.len());
         gathered.suspects(rings, points.clone(), &mut self.suspects);
         let [x, y] = gathered.force;
-        self.pulls.extend(
+        self.forces.extend(
             (0..points.len())
-                .map(|lane| Pull { force: Vec2::new(x[lane], y[lane]), clearance: gathered.clearance[lane] }),
+                .map(|lane| Force { sum: Vec2::new(x[lane], y[lane]), clearance: gathered.clearance[lane] }),
         );
     }
 }
@@ -143,7 +136,7 @@ impl Subset {
                     gathering
                 })?;
                 parts.into_iter().fold(Gathering::default(), |mut all, part| {
-                    all.pulls.extend(part.pulls);
+                    all.forces.extend(part.forces);
                     all.suspects.extend(part.suspects);
                     all.is_unsound |= part.is_unsound;
                     all
@@ -155,10 +148,10 @@ impl Subset {
             self.mesh = None;
             all = self.gather_anew(&job.part(0.9, 1.0), constraints)?;
         }
-        all.pulls.truncate(self.members.len());
+        all.forces.truncate(self.members.len());
         if let Some(boundary) = &self.boundary {
-            for (pull, &place) in all.pulls.iter_mut().zip(&self.places) {
-                pull.force = boundary.force(constraints, place, pull.force);
+            for (force, &place) in all.forces.iter_mut().zip(&self.places) {
+                force.sum = boundary.force(constraints, place, force.sum);
             }
         }
         Ok(all)
@@ -168,12 +161,12 @@ impl Subset {
     fn gather_anew(&self, job: &Job, constraints: &Constraints) -> Result<Gathering> {
         let delaunay = self.triangulate(job)?;
         let mut ring = Vec::new();
-        let pulls = (0..self.members.len()).map(|point| {
+        let forces = (0..self.members.len()).map(|point| {
             ring.clear();
             ring.extend(delaunay.ring(point).map(|offset| offset.as_vec2()));
-            Pull { force: constraints.force(&ring).sum, clearance: FREE_CLEARANCE }
+            Force { sum: constraints.force(&ring).sum, clearance: FREE_CLEARANCE }
         });
-        Ok(Gathering { pulls: pulls.collect(), ..Gathering::default() })
+        Ok(Gathering { forces: forces.collect(), ..Gathering::default() })
     }
 }
 
@@ -228,7 +221,7 @@ impl ClassRelaxation {
     fn gather(&mut self, job: &Job, iteration: u32) -> Result<Sums> {
         let (conflict_radius, coverage_radius) = (CONFLICT_RADIUS, COVERAGE_RADIUS);
         let constraints = Constraints { conflict_radius, coverage_radius, ..Constraints::of_step(iteration) };
-        let mut sums = vec![Pull { clearance: f32::INFINITY, ..Pull::default() }; self.places.len()];
+        let mut forces = vec![Force { clearance: f32::INFINITY, ..Force::default() }; self.places.len()];
         let mut drifts = vec![Vec2::ZERO; self.places.len()];
         let mut suspects = Vec::with_capacity(self.subsets.len());
         let parts = self.subsets.len() as f64;
@@ -241,14 +234,14 @@ impl ClassRelaxation {
                 subset.members.iter().zip(drift).for_each(|(&point, drift)| drifts[point as usize] += scale * drift);
             }
             let gathered = subset.gather(&job.part(0.4, 1.0), &constraints)?;
-            for (&point, pull) in subset.members.iter().zip(&gathered.pulls) {
-                let sum = &mut sums[point as usize];
-                sum.force += scale * pull.force;
-                sum.clearance = sum.clearance.min(subset.spacing * pull.clearance);
+            for (&point, force) in subset.members.iter().zip(&gathered.forces) {
+                let sum = &mut forces[point as usize];
+                sum.sum += scale * force.sum;
+                sum.clearance = sum.clearance.min(subset.spacing * force.clearance);
             }
             suspects.push(gathered.suspects);
         }
-        Ok(Sums { pulls: sums, drifts, suspects })
+        Ok(Sums { forces, drifts, suspects })
     }
 }
 
@@ -280,21 +273,20 @@ impl Relaxation for ClassRelaxation {
     }
 
     fn step(&mut self, job: &Job, iteration: u32) -> Result<()> {
-        let Sums { pulls, drifts, suspects } = self.gather(&job.part(0.0, 0.8), iteration)?;
+        let Sums { forces, drifts, suspects } = self.gather(&job.part(0.0, 0.8), iteration)?;
         let torus = self.space();
         let frees = iteration.is_multiple_of(KICK_EVERY) && (FIRST_FREE..=LAST_KICK).contains(&iteration);
         let mut is_torn = false;
-        let points = self.places.iter_mut().zip(&mut self.velocities).zip(pulls.into_iter().zip(drifts)).enumerate();
+        let points = self.places.iter_mut().zip(&mut self.velocities).zip(forces.into_iter().zip(drifts)).enumerate();
         for (point, ((place, velocity), (mut sum, drift))) in points {
             if frees && sum.clearance < JAMMED {
-                sum.force += kick(iteration, point);
+                sum.sum += kick(iteration, point);
                 sum.clearance = FREE_CLEARANCE;
                 is_torn = true;
             }
-            let limit = SAFE_FRACTION * sum.clearance;
-            let moved = MOMENTUM * *velocity + sum.force;
-            *place = torus.moved(*place, limited(moved + drift, limit));
-            *velocity = limited(moved, limit);
+            let displacement;
+            (displacement, *velocity) = sum.moves(*velocity, drift);
+            *place = torus.moved(*place, displacement);
         }
         let parts = self.subsets.len() as f64;
         for (i, (subset, suspects)) in self.subsets.iter_mut().zip(suspects).enumerate() {

@@ -27,7 +27,7 @@ use std::ops::Range;
 
 use glam::Vec2;
 
-use crate::dcr::law::{Constraints, FREE_CLEARANCE, Force, MOMENTUM, SAFE_FRACTION};
+use crate::dcr::law::{Constraints, FREE_CLEARANCE, Force};
 use crate::dcr::options::Neighbourhood;
 use crate::dcr::relax::PlaneRelaxation;
 use crate::dcr::relaxation::Relaxation;
@@ -417,22 +417,6 @@ impl Step<'_> {
         }
         Ok(all)
     }
-
-    /// The displacement and the velocity of a point after a force.
-    #[inline(always)]
-    fn moved(&self, velocity: Vec2, Force { sum, clearance }: Force, drift: Vec2) -> (Vec2, Vec2) {
-        let limit = SAFE_FRACTION * clearance;
-        let velocity = MOMENTUM * velocity + sum;
-        (limited(velocity + drift, limit), limited(velocity, limit))
-    }
-}
-
-/// A vector, cut to a length.
-#[inline(always)]
-pub fn limited(vector: Vec2, limit: f32) -> Vec2 {
-    let squared = vector.x * vector.x + vector.y * vector.y;
-    let scale = if squared > limit * limit { limit / squared.sqrt() } else { 1.0 };
-    Vec2::new(vector.x * scale, vector.y * scale)
 }
 
 /// A step of a part of the points.
@@ -454,7 +438,7 @@ impl Gathering<'_> {
                 |boundary: &MirrorBoundary| boundary.force(&self.step.constraints, self.now.places[point], sum);
             let force = Force { sum: self.step.boundary.map_or(sum, at_boundary), clearance };
             let displacement;
-            (displacement, *velocity) = self.step.moved(self.now.velocities[point], force, drift);
+            (displacement, *velocity) = force.moves(self.now.velocities[point], drift);
             self.found.longest_squared = self.found.longest_squared.max(displacement.length_squared());
             *place = self.step.torus.moved(self.now.places[point], displacement);
         }
@@ -501,7 +485,7 @@ impl Visitor for Gathering<'_> {
             if step.drift.is_empty() { [Vec2::ZERO; LANES] } else { from_fn(|lane| step.drift[lane_of(lane)]) };
         let moved: [(Vec2, Vec2); LANES] = from_fn(|lane| {
             let force = Force { sum: Vec2::new(force[0][lane], force[1][lane]), clearance: clearance[lane] };
-            step.moved(velocities[lane], force, drifts[lane])
+            force.moves(velocities[lane], drifts[lane])
         });
         let first = points.start - self.part.points.start;
         for (lane, (displacement, velocity)) in moved.into_iter().enumerate().take(points.len()) {

@@ -5,7 +5,7 @@
 use std::array::from_fn;
 use std::ops::Range;
 
-use crate::dcr::law::{Constraints, STRONGEST_PULL};
+use crate::dcr::law::Constraints;
 use crate::dcr::torus::{Torus, TorusPoint};
 use crate::dcr::uniform::flip_mesh::Rings;
 
@@ -202,7 +202,7 @@ impl<'a> Accumulator<'a> {
     /// Gathers in the triangles between the last neighbours and the `k`-th.
     #[inline(always)]
     fn add_triangles(&mut self, [xs, ys]: [Lanes; 2], k: u32) {
-        let &Constraints { conflict_radius, coverage_radius, push, pull, .. } = self.constraints;
+        let &Constraints { conflict_radius, coverage_radius, .. } = self.constraints;
         for i in 0..LANES {
             let is = k < self.degrees[i];
             let (x, y) = (xs[i], ys[i]);
@@ -221,7 +221,7 @@ impl<'a> Accumulator<'a> {
 
             let distance = squared.sqrt();
             let is_close = is & (squared < conflict_radius * conflict_radius) & (squared != 0.0);
-            let pushed = if is_close { push * (conflict_radius.recip() - distance.recip()) } else { 0.0 };
+            let pushed = if is_close { self.constraints.conflict(distance) } else { 0.0 };
 
             let product = before_squared * squared * opposite;
             let is_wide = |radius: f32| product > (2.0 * radius * area) * (2.0 * radius * area);
@@ -230,7 +230,7 @@ impl<'a> Accumulator<'a> {
             let centre_y = (squared * before_x - before_squared * x) * share;
             let radius = (centre_x * centre_x + centre_y * centre_y).sqrt();
             let is_pulled = is & is_wide(coverage_radius) & (radius > 0.0) & (radius < f32::INFINITY);
-            let pulled = pull * (coverage_radius.recip() - radius.recip()).min(STRONGEST_PULL * radius.recip());
+            let pulled = self.constraints.hole(radius);
             self.force[0][i] += pushed * x;
             self.force[1][i] += pushed * y;
             self.force[0][i] += if is_pulled { pulled * centre_x } else { 0.0 };
