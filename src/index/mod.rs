@@ -4,6 +4,7 @@
 //! |---|---|---|
 //! | what is within a radius, and nearest | points of a plane or torus, all known at first | [`Grid2`] |
 //! | what is within a radius | points in space whose number grows | [`Grid3`] |
+//! | what is within a radius | points in space that move | [`MovingGrid3`] |
 //! | what is nearest, however far | points in space, clustered or not, all known at first | [`PointTree`] |
 //! | which items have this number | items that are known at first, of few numbers | [`Binned`] |
 //! | which items have this key | items that parallel tasks find, of any keys | [`Buckets`] |
@@ -18,18 +19,20 @@
 //! | `kdrt/region`, `kdrt/bitmap`, `kdrt/classes` | rows of exact integers that are swept in order; bits of a block |
 //! | `psp/fill/grid`, `psp/adaptive/grid` | pages of coordinates for vector code, and which of their cells are covered |
 //! | `psp/obstacles` | balls of very different sizes, a grid for each tier of sizes |
-//! | `dcr/uniform/cells`, `dcr/surface/cells` | points that move: those of the torus are sorted anew, those of surfaces re-linked |
+//! | `dcr/uniform/cells` | points of a torus that move, coordinates for vector code; they are sorted anew, not re-linked |
 //! | `thin/tree` | each node knows the point of it that is farthest from all selected ones, and loses it |
 
 mod binned;
 pub mod curve;
 mod grid2;
 mod grid3;
+mod moving_grid3;
 mod point_tree;
 mod weighted;
 
 pub use binned::{Binned, Buckets};
 pub use grid2::Grid2;
 pub use grid3::{Grid3, smallest_distance};
+pub use moving_grid3::MovingGrid3;
 pub use point_tree::PointTree;
 pub use weighted::Weights;

@@ -6,13 +6,13 @@
 
 use glam::{DVec3, Vec3};
 
-use crate::dcr::surface::cells::Cells;
 use crate::dcr::surface::connected::ConnectedMesh;
 use crate::dcr::surface::moves::{Local, Mover};
 use crate::dcr::surface::near::{Finds, Image, Patches, SampleSearch, Surroundings, mirrored};
 use crate::dcr::surface::relaxation::FARTHEST;
 use crate::dcr::surface::view::{Star, View};
 use crate::error::Result;
+use crate::index::MovingGrid3;
 use crate::job::{Job, chunks, chunks_of};
 use crate::mesh::exact;
 use crate::simd::{LANES, Lanes, Position};
@@ -44,7 +44,7 @@ pub struct Neighbourhoods<'a> {
     lists: Vec<List>,
     locals: Vec<Local>,
     /// The positions in which samples were listed.
-    cells: Cells,
+    cells: MovingGrid3,
     /// The samples that are to be listed.
     strayed: Vec<u32>,
     /// The last search by which each was listed.
@@ -66,7 +66,8 @@ impl<'a> Neighbourhoods<'a> {
         let farthest = ((REACH - floor) / 2.0).clamp(LEAST_STRIDE, most);
         let sight = floor + 2.0 * farthest + SKIN;
         let side = SampleSearch::cell_side(spacing, REACH + SKIN, sight);
-        let cells = Cells::new(exact(connected.mesh.bounds().0), side, positions.iter().map(|&place| vec3(place)));
+        let cells =
+            MovingGrid3::new(exact(connected.mesh.bounds().0), side, positions.iter().map(|&place| vec3(place)));
         let local = |mover: &Mover| Local::on(connected, spacing, mover.place.triangle, Vec3::ZERO);
         let tasks = chunks(movers.len());
         let locals = job.concat(tasks.len(), |task| movers[tasks.range(task)].iter().map(local).collect())?;

@@ -20,7 +20,6 @@
 //! neighbours, but keep their distance through space.
 
 mod apart;
-mod cells;
 mod connected;
 mod lists;
 mod moves;

@@ -8,12 +8,12 @@
 
 use glam::{DVec2, DVec3, Vec3};
 
-use crate::dcr::surface::cells::Cells;
 use crate::dcr::surface::connected::ConnectedMesh;
 use crate::dcr::surface::spread::along_curve;
 use crate::dcr::surface::view::MOST;
 use crate::dcr::surface::walk::SurfacePoint;
 use crate::error::Result;
+use crate::index::MovingGrid3;
 use crate::job::{Job, chunks};
 use crate::mesh::{Mesh, exact};
 
@@ -45,7 +45,7 @@ pub struct Surroundings {
 pub struct SampleSearch<'a> {
     pub connected: &'a ConnectedMesh<'a>,
     pub patches: &'a Patches,
-    pub cells: &'a Cells,
+    pub cells: &'a MovingGrid3,
     pub spacing: f64,
     /// The radius of the ball, and how far others are in sight; in spacings.
     pub radius: f64,
@@ -577,7 +577,7 @@ mod tests {
         let context = Context::new(1).unwrap();
         let patches = &context.run(None, |job| Patches::new(job, connected, RADIUS)).unwrap();
         let side = SampleSearch::cell_side(RADIUS, 1.0, 0.0);
-        let cells = &Cells::new(DVec3::ZERO, side, positions.iter().map(|position| position.as_vec3()));
+        let cells = &MovingGrid3::new(DVec3::ZERO, side, positions.iter().map(|position| position.as_vec3()));
         let search = SampleSearch { connected, patches, cells, spacing: RADIUS, radius: 1.0, sight: 0.0 };
         let seen = |sample: u32| (places[sample as usize].triangle, Vec3::Z);
         let mut finds = Finds::default();

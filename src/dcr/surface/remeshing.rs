@@ -8,7 +8,6 @@
 
 use glam::Vec3;
 
-use crate::dcr::surface::cells::Cells;
 use crate::dcr::surface::connected::ConnectedMesh;
 use crate::dcr::surface::lists::List;
 use crate::dcr::surface::moves::Local;
@@ -16,6 +15,7 @@ use crate::dcr::surface::near::{Finds, Patches, SampleSearch};
 use crate::dcr::surface::view::View;
 use crate::dcr::surface::{check, enter, hexagonal_distance};
 use crate::error::{Error, Result};
+use crate::index::MovingGrid3;
 use crate::job::{Context, Progress, chunks_of};
 use crate::mesh::{Mesh, Quality, exact};
 use crate::simd::{Portable, Position};
@@ -179,7 +179,8 @@ pub fn found_corners(
     let positions: Vec<Position> = places.iter().map(|place| place.rounded(mesh)).collect();
     let patches = context.run(None, |job| Patches::new(job, &connected, spacing))?;
     let side = SampleSearch::cell_side(spacing, REACH, 0.0);
-    let cells = Cells::new(exact(mesh.bounds().0), side, positions.iter().map(|&[x, y, z, _]| Vec3::new(x, y, z)));
+    let cells =
+        MovingGrid3::new(exact(mesh.bounds().0), side, positions.iter().map(|&[x, y, z, _]| Vec3::new(x, y, z)));
     let (connected, patches, cells) = (&connected, &patches, &cells);
     let search = SampleSearch { connected, patches, cells, spacing, radius: REACH, sight: 0.0 };
     let seen = |sample: u32| {

@@ -1,4 +1,4 @@
-//! Samples found by their position: cells in a hash table, from which a sample can be taken and put elsewhere.
+//! Hash grid over points in space that move: a point can be taken from its cell and put elsewhere.
 
 use glam::{DVec3, Vec3};
 
@@ -16,15 +16,15 @@ pub struct Entry {
     cell: u64,
 }
 
-/// Samples in cells as wide as the radius of a search.
-pub struct Cells {
+/// Points in cells as wide as the radius of a search.
+pub struct MovingGrid3 {
     low: DVec3,
     per_cell: f64,
     heads: Vec<u32>,
     entries: Vec<Entry>,
 }
 
-impl Cells {
+impl MovingGrid3 {
     /// The cells of all samples. No position may be below `low`. O(n).
     pub fn new(low: DVec3, side: f64, positions: impl ExactSizeIterator<Item = Vec3>) -> Self {
         let buckets = (2 * positions.len()).next_power_of_two().max(64);
@@ -120,7 +120,7 @@ mod tests {
     fn positions_much_farther_than_cells_are_wide_are_found() {
         let positions = [Vec3::ZERO, Vec3::splat(1e30), Vec3::new(1e38, 0.0, 1e-20)];
         for side in [1e-30, 1e-320, 1e300] {
-            let cells = Cells::new(DVec3::ZERO, side, positions.into_iter());
+            let cells = MovingGrid3::new(DVec3::ZERO, side, positions.into_iter());
             for (sample, position) in (0..).zip(positions) {
                 let mut found = Vec::new();
                 cells.around(position, |other, _| found.push(other));
@@ -135,7 +135,7 @@ mod tests {
             let mut rng = Rng::at(10, Draw::Probe, &[]);
             let mut place = || Vec3::new(rng.unit() as f32, rng.unit() as f32, rng.unit() as f32) - 1.0;
             let mut places: Vec<Vec3> = (0..300).map(|_| place()).collect();
-            let mut cells = Cells::new(DVec3::splat(-1.0), side, places.iter().copied());
+            let mut cells = MovingGrid3::new(DVec3::splat(-1.0), side, places.iter().copied());
             for round in 0..5 {
                 for (sample, &centre) in places.iter().enumerate() {
                     let mut found = Vec::new();
