@@ -49,8 +49,14 @@ pub trait Relaxation {
         Ok(())
     }
 
-    /// Moves all points; `iteration` is the number of steps made before. If it is cancelled, all have moved or none.
+    /// Moves all points; `iteration` is the number of steps made before. If it is cancelled, none has moved.
     fn step(&mut self, job: &Job, iteration: u32) -> Result<()>;
+
+    /// Lets what is kept of the points' neighbours follow a step, in the rest of its job. The step counts even if this is
+    /// cancelled.
+    fn follow(&mut self, job: &Job) -> Result<()> {
+        job.report(1.0)
+    }
 
     /// The size of the next step, in the units of [`Report::motion`](super::Report::motion).
     fn step_size(&self) -> f64 {
@@ -146,9 +152,11 @@ impl<P: Copy> Course<P> {
         let share = |iteration: u32| BEGIN + (1.0 - BEGIN) * f64::from(iteration) / f64::from(limits.max_iterations);
         while self.iterations < limits.max_iterations {
             let (iteration, size) = (self.iterations, set.step_size());
-            set.step(&job.part(share(iteration), share(iteration + 1)), iteration)?;
+            let job = job.part(share(iteration), share(iteration + 1));
+            set.step(&job, iteration)?;
             self.iterations += 1;
             motion.add(size, set);
+            set.follow(&job)?;
             observe(set);
             if set.has_converged(motion.has_ended(limits.tolerance)) {
                 return Ok(Stopped::Converged);
@@ -214,5 +222,70 @@ impl<P: Copy> Motion<P> {
         let (space, pairs) = (set.space(), self.start.iter().zip(set.positions()));
         let squares: f64 = pairs.map(|(&from, to)| space.distance_squared(from, to)).sum();
         (squares / self.start.len() as f64).sqrt() / self.steps
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::ops::ControlFlow;
+
+    use super::*;
+
+    /// Two points that move by 1 in each step, along the axis of numbers.
+    struct Walkers([f64; 2]);
+
+    struct Axis;
+
+    impl Space<f64> for Axis {
+        fn distance_squared(&self, from: f64, to: f64) -> f64 {
+            (to - from) * (to - from)
+        }
+    }
+
+    impl Relaxation for Walkers {
+        type Position = f64;
+        type Space = Axis;
+
+        fn space(&self) -> Axis {
+            Axis
+        }
+
+        fn positions(&self) -> impl ExactSizeIterator<Item = f64> {
+            self.0.into_iter()
+        }
+
+        fn step(&mut self, _: &Job, iteration: u32) -> Result<()> {
+            assert_eq!(f64::from(iteration), self.0[0]);
+            self.0 = self.0.map(|x| x + 1.0);
+            Ok(())
+        }
+    }
+
+    /// The steps of walkers until the progress is that share, and where they are then.
+    fn walk(tolerance: f64, cancelled_at: f64) -> (Steps, f64) {
+        let limits = Limits { max_iterations: 25, tolerance };
+        let progress = |share| if share >= cancelled_at { ControlFlow::Break(()) } else { ControlFlow::Continue(()) };
+        let (context, mut walkers) = (Context::new(1).unwrap(), Walkers([0.0, 7.0]));
+        let measure = |_: &Job, walkers: &mut Walkers, steps: Steps| Ok((steps, walkers.0[0]));
+        run(&context, limits, &mut walkers, Some(&progress), |_| {}, measure).unwrap()
+    }
+
+    #[test]
+    fn a_step_counts_once_its_points_have_moved() {
+        for cancelled_at in [0.02, 0.1, 0.3, 0.9] {
+            let (steps, walked) = walk(0.0, cancelled_at);
+            assert!(steps.stopped == Stopped::Cancelled && walked >= 1.0, "{cancelled_at}: {walked}");
+            assert_eq!(f64::from(steps.iterations), walked, "{cancelled_at}");
+        }
+    }
+
+    /// In steps of size 0.2, a span of 10 steps by 1 is a motion of 5.
+    #[test]
+    fn steps_end_with_the_motion_or_all_are_made() {
+        for (tolerance, stopped, iterations) in [(4.9, Stopped::Steps, 25), (5.1, Stopped::Converged, 10)] {
+            let (steps, walked) = walk(tolerance, 2.0);
+            assert_eq!((steps.stopped, steps.iterations, walked), (stopped, iterations, f64::from(iterations)));
+            assert!((steps.motion - 5.0).abs() < 1e-9, "{}", steps.motion);
+        }
     }
 }

@@ -324,7 +324,14 @@ impl Relaxation for DensityRelaxation {
         let (places, velocities): (Vec<TorusPoint>, Vec<Vec2>) = moved.into_iter().unzip();
         self.spacings = places.iter().map(|&place| self.raster.spacing(place)).collect();
         (self.places, self.velocities) = (self.torus.with_images(&places), velocities);
-        if let Neighbours::Kept(mut mesh) = neighbours {
+        if let Neighbours::Kept(mesh) = neighbours {
+            self.mesh = Some(mesh);
+        }
+        Ok(())
+    }
+
+    fn follow(&mut self, job: &Job) -> Result<()> {
+        if let Some(mut mesh) = self.mesh.take() {
             self.mesh = mesh.repair(&job.part(0.7, 1.0), &self.corners())?.then_some(mesh);
         }
         Ok(())

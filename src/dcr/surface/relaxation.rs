@@ -237,8 +237,7 @@ impl Relaxation for SurfaceRelaxation<'_> {
         job.context().run(None, |whole| {
             let unchecked = self.gather(whole, iteration)?;
             self.settle(whole, unchecked)
-        })?;
-        job.report(1.0)
+        })
     }
 }
 

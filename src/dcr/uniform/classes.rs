@@ -49,6 +49,8 @@ struct Subset {
     places: Vec<TorusPoint>,
     /// The triangulation, where one can be kept.
     mesh: Option<FlipMesh>,
+    /// The edges of the mesh that may have to be flipped after the last step.
+    suspects: Vec<Edge>,
     /// The spacing, in those of the union.
     spacing: f32,
     /// The share of its forces in the displacement of a point.
@@ -95,6 +97,7 @@ impl Subset {
             boundary,
             places: Vec::new(),
             mesh: None,
+            suspects: Vec::new(),
             spacing: (of as f32 / members.len() as f32).sqrt(),
             weight,
             torus,
@@ -288,13 +291,20 @@ impl Relaxation for ClassRelaxation {
             (displacement, *velocity) = sum.moves(*velocity, drift);
             *place = torus.moved(*place, displacement);
         }
+        for (subset, suspects) in self.subsets.iter_mut().zip(suspects) {
+            subset.suspects = suspects;
+            subset.mesh = subset.mesh.take().filter(|_| !is_torn);
+        }
+        Ok(())
+    }
+
+    fn follow(&mut self, job: &Job) -> Result<()> {
         let parts = self.subsets.len() as f64;
-        for (i, (subset, suspects)) in self.subsets.iter_mut().zip(suspects).enumerate() {
+        for (i, subset) in self.subsets.iter_mut().enumerate() {
             let job = job.part(0.8 + 0.2 * i as f64 / parts, 0.8 + 0.2 * (i + 1) as f64 / parts);
             subset.follow(&self.places);
-            if let Some(mut mesh) = subset.mesh.take()
-                && !is_torn
-            {
+            if let Some(mut mesh) = subset.mesh.take() {
+                let suspects = std::mem::take(&mut subset.suspects);
                 subset.mesh = mesh.mend(&job, &subset.places, suspects)?.then_some(mesh);
             }
         }

@@ -89,6 +89,8 @@ pub struct UniformRelaxation {
     violated: usize,
     /// The mesh of the points, once there is one.
     mesh: Option<FlipMesh>,
+    /// The edges of the mesh that may have to be flipped after the last step.
+    suspects: Vec<Edge>,
     /// The cells of the points, while they are valid.
     cells: Option<VerletCells>,
 }
@@ -110,6 +112,7 @@ impl UniformRelaxation {
             violated: usize::MAX,
             state: State { places: torus.with_images(order.start()), velocities: vec![Vec2::ZERO; order.len()] },
             mesh: None,
+            suspects: Vec::new(),
             cells: None,
             torus,
             seed,
@@ -232,17 +235,24 @@ impl Relaxation for UniformRelaxation {
             )?;
         }
         self.keep(next, matches!(neighbours, NeighbourSearch::Delaunay(Neighbours::Kept(_))).then_some(found.violated));
-        let places = &self.state.places;
         match neighbours {
-            NeighbourSearch::Delaunay(Neighbours::Kept(mut mesh)) => {
-                let is_mended = !found.is_torn && mesh.mend(&job.part(0.7, 1.0), places, found.suspects)?;
-                self.mesh = is_mended.then_some(mesh);
+            NeighbourSearch::Delaunay(Neighbours::Kept(mesh)) => {
+                self.mesh = (!found.is_torn).then_some(mesh);
+                self.suspects = found.suspects;
             }
             NeighbourSearch::Nearest(mut cells) => {
                 let reach = self.constraints(iteration + 1).conflict_radius;
                 self.cells = cells.still_serve(found.longest_squared.sqrt(), reach).then_some(cells);
             }
             NeighbourSearch::Delaunay(Neighbours::Built(_)) => {}
+        }
+        Ok(())
+    }
+
+    fn follow(&mut self, job: &Job) -> Result<()> {
+        if let Some(mut mesh) = self.mesh.take() {
+            let suspects = std::mem::take(&mut self.suspects);
+            self.mesh = mesh.mend(&job.part(0.7, 1.0), &self.state.places, suspects)?.then_some(mesh);
         }
         Ok(())
     }
@@ -260,7 +270,7 @@ impl Relaxation for UniformRelaxation {
             return Ok(());
         }
         let places = &self.state.places;
-        // A step that was cancelled has lost the mesh.
+        // A call that was cancelled may have lost the mesh.
         let mesh = match self.mesh.take() {
             Some(mut mesh) => mesh.repair(&job.part(0.0, 0.5), places)?.then_some(mesh),
             None => FlipMesh::new(&job.part(0.0, 0.5), &self.torus, places)?,
@@ -530,7 +540,10 @@ mod tests {
                 context
                     .run(None, |job| {
                         let mut set = UniformRelaxation::new(domain, Neighbourhood::Delaunay, 0, &points);
-                        (0..steps).try_for_each(|iteration| set.step(job, iteration))?;
+                        (0..steps).try_for_each(|iteration| {
+                            set.step(job, iteration)?;
+                            set.follow(job)
+                        })?;
                         let violated = |set: &UniformRelaxation| {
                             let places = &set.state.places;
                             FlipMesh::new(job, &set.torus, places)?.unwrap().violated(job, places, points.len())
