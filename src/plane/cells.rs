@@ -1,14 +1,13 @@
 //! Cells of one sample at most: the exact conflict and coverage tests of everything that happens in the plane.
 
-use crate::plane::{
-    lattice::Separation,
-    list::List,
-    near::{Near, SLACK},
-    obstacles::{Disk, Obstacles},
-    rect::Rect,
-    rows::{LANES, NOWHERE, Rows},
-};
-use crate::simd::Level;
+use crate::plane::lattice::Separation;
+use crate::plane::rect::Rect;
+
+use crate::plane::list::{Collect, List};
+use crate::plane::near::{Gather, Near, SLACK, Uncovered};
+use crate::plane::obstacles::{Disk, Obstacles};
+use crate::plane::rows::{LANES, NOWHERE, Nearest, Rows};
+use crate::simd::{Level, run};
 
 /// The most cells away that a conflict can be: cells are narrower than r / sqrt(2) by half at most.
 const MAX_MARGIN: i32 = 3;
@@ -51,7 +50,7 @@ impl CellGrid {
             // That of the plane, whether this grid has such a cell or not: what is thrown must not depend on the window.
             widest_cell: axes[0].side().max(axes[1].side()).ceil() as i32,
             finders: [0, 1].map(|axis: usize| axes[axis].finder(rect.min[axis])),
-            samples: [0, 1].map(|_| vec![NOWHERE; width * height + LANES]),
+            samples: [0, 1].map(|_| vec![NOWHERE; width * height + 2 * LANES]),
             stride: width,
             edges,
             margin,
@@ -211,20 +210,22 @@ impl CellGrid {
     #[inline(always)]
     pub fn gather(&self, cell: [i32; 2], near: &mut Near) {
         near.limit = self.certain();
-        self.vectors.gather(near, &self.rows_near(cell), self.rect(cell), self.separation.threshold as f32);
+        let (rows, threshold) = (&self.rows_near(cell), self.separation.threshold as f32);
+        run(self.vectors, Gather { near, rows, cell: self.rect(cell), threshold });
     }
 
     /// Gathers from a list the samples that cover something of a voxel.
     #[inline(always)]
     pub fn gather_among(&self, list: &List, voxel: Rect, near: &mut Near) {
         near.limit = self.certain();
-        self.vectors.gather(near, &list.rows(), voxel, self.separation.threshold as f32);
+        let (rows, threshold) = (&list.rows(), self.separation.threshold as f32);
+        run(self.vectors, Gather { near, rows, cell: voxel, threshold });
     }
 
-    /// [`Near::uncovered`].
+    /// [`Uncovered`].
     #[inline(always)]
     pub fn uncovered(&self, near: &Near, voxel: &Rect, width: i32) -> u16 {
-        self.vectors.uncovered(near, voxel, width)
+        run(self.vectors, Uncovered { near, voxel, width })
     }
 
     /// Whether a sample conflicts with `point`, which lies in `cell`, or it lies in a disk.
@@ -236,7 +237,7 @@ impl CellGrid {
     /// Whether one of the samples of some rows conflicts with `point`.
     #[inline(always)]
     pub fn conflicts_among(&self, rows: &Rows, point: [i32; 2]) -> bool {
-        let nearest = self.vectors.nearest(rows, point);
+        let nearest = run(self.vectors, Nearest { rows, point });
         if nearest >= self.separation.threshold as f32 * (1.0 + SLACK) {
             return false;
         }
@@ -316,7 +317,7 @@ impl CellGrid {
         let first = self.index([cells.min[0] - x, cells.min[1] - y]);
         list.clear(width * height);
         let rows = Rows { samples: [&self.samples[0], &self.samples[1]], first, stride: self.stride, count: height };
-        self.vectors.collect(&rows, width, rect, list);
+        run(self.vectors, Collect { rows: &rows, width, rect, list });
         list.end();
     }
 

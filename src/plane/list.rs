@@ -2,6 +2,7 @@
 
 use crate::plane::rect::Rect;
 use crate::plane::rows::{LANES, NOWHERE, Rows};
+use crate::simd::{Lanes, Work};
 
 /// Samples, by their coordinates.
 #[derive(Default)]
@@ -13,7 +14,7 @@ pub(crate) struct List {
 }
 
 impl List {
-    /// Empties the list for [`collect`], with capacity for so many samples in all.
+    /// Empties the list for [`Collect`], with capacity for so many samples in all.
     pub fn clear(&mut self, capacity: usize) {
         self.count = 0;
         // Vectors of sixteen are written from any place on.
@@ -51,16 +52,54 @@ impl List {
 }
 
 /// Appends the samples in the first `width` cells of each row that lie in a rectangle to a list that has capacity for all.
-pub fn collect(rows: &Rows, width: usize, rect: &Rect, list: &mut List) {
-    let [xs, ys] = rows.samples;
-    for row in 0..rows.count {
-        let cells = rows.first + row * rows.stride..rows.first + row * rows.stride + width;
-        for (&x, &y) in xs[cells.clone()].iter().zip(&ys[cells]) {
-            // Written in any case and counted only if it is one: which cells have one is not predictable.
-            (list.x[list.count], list.y[list.count]) = (x, y);
-            list.count += usize::from(rect.contains([x, y]));
+/// Behind the rows are sixteen cells that can be read.
+pub struct Collect<'a> {
+    pub rows: &'a Rows<'a>,
+    pub width: usize,
+    pub rect: &'a Rect,
+    pub list: &'a mut List,
+}
+
+/// The cells that are read at a time.
+const WIDE: usize = 2 * LANES;
+
+const NUMBERS: [i32; WIDE] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15];
+
+impl Work for Collect<'_> {
+    type Out = ();
+
+    #[inline(always)]
+    fn run<L: Lanes>(self, lanes: L) {
+        let Self { rows, width, rect, list } = self;
+        // A sample is beyond the lattice points before the rectangle, and before its end.
+        let before = [lanes.splat_int(rect.min[0] - 1), lanes.splat_int(rect.min[1] - 1)];
+        let end = [lanes.splat_int(rect.max[0]), lanes.splat_int(rect.max[1])];
+        let numbers = lanes.load_ints(&NUMBERS);
+        let mut row = 0;
+        while row < rows.count {
+            let (first, mut column) = (rows.first + row * rows.stride, 0);
+            while column < width {
+                let [x, y] = [wide(rows.samples[0], first + column), wide(rows.samples[1], first + column)];
+                let (x, y) = (lanes.load_ints(x), lanes.load_ints(y));
+                let inside = lanes.both(
+                    lanes.both(lanes.less_ints(before[0], x), lanes.less_ints(x, end[0])),
+                    lanes.both(lanes.less_ints(before[1], y), lanes.less_ints(y, end[1])),
+                );
+                let inside = lanes.both(inside, lanes.less_ints(numbers, lanes.splat_int((width - column) as i32)));
+                let count = list.count;
+                lanes.compress_ints(inside, x, (&mut list.x[count..count + WIDE]).try_into().expect("sixteen places"));
+                lanes.compress_ints(inside, y, (&mut list.y[count..count + WIDE]).try_into().expect("sixteen places"));
+                list.count += lanes.bits(inside).count_ones() as usize;
+                column += WIDE;
+            }
+            row += 1;
         }
     }
+}
+
+#[inline(always)]
+fn wide(samples: &[i32], start: usize) -> &[i32; WIDE] {
+    samples[start..start + WIDE].try_into().expect("sixteen cells")
 }
 
 #[cfg(test)]

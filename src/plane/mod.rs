@@ -9,8 +9,6 @@ mod obstacles;
 mod quadtree;
 pub(crate) mod rect;
 mod rows;
-#[allow(unsafe_code)] // Vector instructions.
-mod vectors;
 
 pub(crate) use cells::{CellAxis, CellGrid};
 pub(crate) use list::List;

@@ -1,12 +1,11 @@
 //! What is near a place of the grid: the coarse tests, in `f32`, that nearly all work of the plane goes through.
 //!
-//! They say what is certain; what they leave open is decided in integers by `cells.rs`. The code here is plain and
-//! portable. [`Level`](crate::simd::Level) picks, once for a grid, the same functions in the widest vectors of the
-//! processor, whose results are the same to the bit: no sum has another order, no rounding is left out.
+//! They say what is certain; what they leave open is decided in integers by `cells.rs`. All levels of
+//! vector instructions give the same bits.
 
 use crate::plane::rect::Rect;
-
 use crate::plane::rows::{LANES, Rows};
+use crate::simd::{Lanes, Work};
 
 /// The share of the squared radius that rounding can add up to, and some more: coordinates are below 5 radii, and each
 /// of a handful of operations is off by at most 2^-24 of its result.
@@ -17,8 +16,7 @@ pub const SLACK: f32 = 1e-5;
 pub const MOST_NEAR: usize = 16;
 
 /// As many samples near a cell are tested whether they are there or not; seldom are there more.
-#[cfg_attr(not(target_arch = "x86_64"), allow(dead_code))]
-pub const ALWAYS: usize = 4;
+const ALWAYS: usize = 4;
 
 /// A coordinate of no sample. Its square is a float.
 pub const FAR: f32 = 1e18;
@@ -40,49 +38,95 @@ impl Near {
     pub fn new() -> Self {
         Self { origin: [0; 2], x: [FAR; MOST_NEAR + 2 * LANES], y: [FAR; MOST_NEAR + 2 * LANES], count: 0, limit: 0.0 }
     }
+}
 
-    /// Takes the samples of the rows that are closer than the square root of `threshold` to the lattice points of `cell`.
-    pub fn gather(&mut self, rows: &Rows, cell: Rect, threshold: f32) {
-        (self.origin, self.count) = (cell.min, 0);
-        let [width, height] = [0, 1].map(|axis| (cell.length(axis) - 1) as f32);
-        for [xs, ys] in rows.iter() {
-            for (x, y) in xs.iter().zip(ys) {
-                let (x, y) = ((x - self.origin[0]) as f32, (y - self.origin[1]) as f32);
-                // To the nearest point of the cell.
-                let (dx, dy) = (x - x.max(0.0).min(width), y - y.max(0.0).min(height));
-                if dx * dx + dy * dy < threshold && self.count < MOST_NEAR {
-                    (self.x[self.count], self.y[self.count]) = (x, y);
-                    self.count += 1;
-                }
-            }
+/// Takes the samples of the rows that are closer than the square root of `threshold` to the lattice points of `cell`.
+pub(super) struct Gather<'a> {
+    pub near: &'a mut Near,
+    pub rows: &'a Rows<'a>,
+    pub cell: Rect,
+    pub threshold: f32,
+}
+
+impl Work for Gather<'_> {
+    type Out = ();
+
+    #[inline(always)]
+    fn run<L: Lanes>(self, lanes: L) {
+        let Self { near, rows, cell, threshold } = self;
+        (near.origin, near.count) = (cell.min, 0);
+        let (zero, threshold) = (lanes.splat(0.0), lanes.splat(threshold));
+        let origin = [lanes.splat_int(cell.min[0]), lanes.splat_int(cell.min[1])];
+        let end = [lanes.splat((cell.length(0) - 1) as f32), lanes.splat((cell.length(1) - 1) as f32)];
+        let mut row = 0;
+        while row < rows.count {
+            let [xs, ys] = rows.two(lanes, row);
+            let x = lanes.floats(lanes.sub_ints(xs, origin[0]));
+            let y = lanes.floats(lanes.sub_ints(ys, origin[1]));
+            // To the nearest point of the cell.
+            let dx = lanes.sub(x, lanes.min(lanes.max(x, zero), end[0]));
+            let dy = lanes.sub(y, lanes.min(lanes.max(y, zero), end[1]));
+            let covers = lanes.less(lanes.add(lanes.mul(dx, dx), lanes.mul(dy, dy)), threshold);
+            let count = near.count;
+            lanes.compress(covers, x, FAR, (&mut near.x[count..count + 2 * LANES]).try_into().expect("sixteen places"));
+            lanes.compress(covers, y, FAR, (&mut near.y[count..count + 2 * LANES]).try_into().expect("sixteen places"));
+            near.count = (near.count + lanes.bits(covers).count_ones() as usize).min(MOST_NEAR);
+            row += 2;
         }
-        self.x[self.count..self.count + LANES].fill(FAR);
-        self.y[self.count..self.count + LANES].fill(FAR);
     }
+}
 
-    /// The sixteenths of a voxel, four by four of the given width from its corner on: bit `4·row + column` of the result
-    /// says that this one is not empty and no single sample certainly covers all of its lattice points.
-    pub fn uncovered(&self, voxel: &Rect, width: i32) -> u16 {
-        let mut open = 0;
-        for i in 0..16 {
-            // The distance to the farthest point along an axis is the distance to the centre and half the extent.
-            let (mut centre, mut extent) = ([0.0; 2], [0.0; 2]);
-            for axis in 0..2 {
-                let first = voxel.min[axis] - self.origin[axis] + [i % 4, i / 4][axis] * width;
-                let last = (first + width).min(voxel.max[axis] - self.origin[axis]) - 1;
-                centre[axis] = 0.5 * (first as f32 + last as f32);
-                extent[axis] = 0.5 * (last as f32 - first as f32);
-            }
-            let farthest = |(x, y): (&f32, &f32)| {
-                let (dx, dy) = ((x - centre[0]).abs() + extent[0], (y - centre[1]).abs() + extent[1]);
-                dx * dx + dy * dy
-            };
-            let nearest = self.x[..self.count].iter().zip(&self.y[..self.count]).map(farthest).fold(f32::MAX, f32::min);
-            // One beyond the end of the voxel has an extent below zero.
-            let is_open = nearest >= self.limit && extent[0] >= 0.0 && extent[1] >= 0.0;
-            open |= u16::from(is_open) << i;
+/// The sixteenths of a voxel, four by four of the given width from its corner on: bit `4·row + column` of the result says
+/// that this one is not empty and no single sample certainly covers all of its lattice points.
+pub(super) struct Uncovered<'a> {
+    pub near: &'a Near,
+    pub voxel: &'a Rect,
+    pub width: i32,
+}
+
+/// The column and the row of each sixteenth.
+const SIXTEENTHS: [[i32; 16]; 2] =
+    [[0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3], [0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3]];
+
+impl Uncovered<'_> {
+    /// The centres and half extents along an axis of the sixteenths.
+    #[inline(always)]
+    fn parts<L: Lanes>(&self, lanes: L, axis: usize) -> [L::Floats; 2] {
+        let [min, max] = [self.voxel.min[axis] - self.near.origin[axis], self.voxel.max[axis] - self.near.origin[axis]];
+        let width = lanes.splat_int(self.width);
+        let before = lanes.mul_ints(lanes.load_ints(&SIXTEENTHS[axis]), width);
+        let first = lanes.add_ints(lanes.splat_int(min), before);
+        let end = lanes.min_ints(lanes.add_ints(first, width), lanes.splat_int(max));
+        let (first, last) = (lanes.floats(first), lanes.floats(lanes.sub_ints(end, lanes.splat_int(1))));
+        let half = lanes.splat(0.5);
+        [lanes.mul(half, lanes.add(first, last)), lanes.mul(half, lanes.sub(last, first))]
+    }
+}
+
+/// The squares of the distances along an axis from `x` to the farthest points of the sixteenths: the distance to the centre
+/// and half the extent.
+#[inline(always)]
+fn farthest<L: Lanes>(lanes: L, x: f32, [centres, extents]: [L::Floats; 2]) -> L::Floats {
+    let farthest = lanes.add(lanes.abs(lanes.sub(lanes.splat(x), centres)), extents);
+    lanes.mul(farthest, farthest)
+}
+
+impl Work for Uncovered<'_> {
+    type Out = u16;
+
+    #[inline(always)]
+    fn run<L: Lanes>(self, lanes: L) -> u16 {
+        let (columns, rows) = (self.parts(lanes, 0), self.parts(lanes, 1));
+        let mut nearest = lanes.splat(f32::MAX);
+        let count = self.near.count.max(ALWAYS);
+        for (&x, &y) in self.near.x[..count].iter().zip(&self.near.y[..count]) {
+            nearest = lanes.min(nearest, lanes.add(farthest(lanes, x, columns), farthest(lanes, y, rows)));
         }
-        open
+        let zero = lanes.splat(0.0);
+        let is_far = lanes.at_most(lanes.splat(self.near.limit), nearest);
+        // One beyond the end of the voxel has an extent below zero.
+        let is_part = lanes.both(lanes.at_most(zero, columns[1]), lanes.at_most(zero, rows[1]));
+        lanes.bits(lanes.both(is_far, is_part)) as u16
     }
 }
 
@@ -91,9 +135,10 @@ mod tests {
     use super::*;
     use std::array::from_fn;
 
-    use crate::plane::list::List;
+    use crate::plane::list::{Collect, List};
+    use crate::plane::rows::Nearest;
     use crate::rng::{Draw, Rng};
-    use crate::simd::Level;
+    use crate::simd::{Level, run};
 
     const RADII: [i32; 4] = [64, 1000, 1 << 16, 1 << 22];
 
@@ -139,16 +184,23 @@ mod tests {
 
                 let point = from_fn(|_| rng.below(side as u64) as i32);
                 let exact = all.iter().map(|&[x, y]| square([x - point[0], y - point[1]])).min().unwrap();
-                assert!((f64::from(rows(&samples).nearest(point)) / exact as f64 - 1.0).abs() < 1e-6);
+                assert!(
+                    (f64::from(run(Level::widest(), Nearest { rows: &rows(&samples), point })) / exact as f64 - 1.0)
+                        .abs()
+                        < 1e-6
+                );
 
                 let mut near = Near::new();
                 near.limit = threshold as f32 * (1.0 - SLACK);
-                near.gather(&rows(&samples), cell, threshold as f32);
+                run(
+                    Level::widest(),
+                    Gather { near: &mut near, rows: &rows(&samples), cell, threshold: threshold as f32 },
+                );
                 if near.count == MOST_NEAR {
                     continue; // Random points stand closer than samples do.
                 }
                 let (voxel, width) = random_voxel(&mut rng, side);
-                let open = near.uncovered(&voxel, width);
+                let open = run(Level::widest(), Uncovered { near: &near, voxel: &voxel, width });
                 for (column, row) in (0..4).flat_map(|row| (0..4).map(move |column| (column, row))) {
                     let min = [voxel.min[0] + column * width, voxel.min[1] + row * width];
                     let part = Rect { min, max: min.map(|x| x + width) }.intersection(&voxel);
@@ -180,21 +232,22 @@ mod tests {
         let mut empty = List::default();
         empty.clear(0);
         empty.end();
-        for vectors in Level::available() {
+        for level in Level::available() {
             let (mut near, limit) = (Near::new(), 1e6);
             near.limit = limit;
             let everywhere = [vec![250; 5 * LANES], vec![250; 5 * LANES]];
-            vectors.gather(&mut near, &rows(&everywhere), cell, limit);
-            assert_eq!(vectors.uncovered(&near, &cell, 125), 0);
-            vectors.gather(&mut near, &empty.rows(), cell, limit);
-            assert_eq!((near.count, vectors.uncovered(&near, &cell, 125)), (0, u16::MAX));
+            run(level, Gather { near: &mut near, rows: &rows(&everywhere), cell, threshold: limit });
+            assert_eq!(run(level, Uncovered { near: &near, voxel: &cell, width: 125 }), 0);
+            run(level, Gather { near: &mut near, rows: &empty.rows(), cell, threshold: limit });
+            assert_eq!(near.count, 0);
+            assert_eq!(run(level, Uncovered { near: &near, voxel: &cell, width: 125 }), u16::MAX);
         }
     }
 
     #[test]
     fn all_vectors_give_the_same_bits() {
         let mut rng = Rng::at(1, Draw::Probe, &[]);
-        for vectors in Level::available() {
+        for level in Level::available() {
             for radius in RADII {
                 let (threshold, side) = ((radius as f32).powi(2), radius / 2);
                 let cell = Rect { min: [0; 2], max: [side, side - 3] };
@@ -202,29 +255,30 @@ mod tests {
                     let samples = random_rows(&mut rng, radius);
                     let rows = rows(&samples);
                     let point = from_fn(|_| rng.below(2 * radius as u64) as i32 - radius);
-                    assert_eq!(vectors.nearest(&rows, point), rows.nearest(point));
+                    let nearest = |level| run(level, Nearest { rows: &rows, point });
+                    assert_eq!(nearest(level), nearest(Level::Portable));
 
-                    let [mut found, mut expected] = [Near::new(), Near::new()];
-                    (found.limit, expected.limit) = (threshold, threshold);
-                    vectors.gather(&mut found, &rows, cell, threshold);
-                    expected.gather(&rows, cell, threshold);
-                    assert_eq!(found.count, expected.count);
                     let (voxel, width) = random_voxel(&mut rng, side);
-                    assert_eq!(vectors.uncovered(&found, &voxel, width), expected.uncovered(&voxel, width));
-                    let (count, filled) = (expected.count, expected.count.max(ALWAYS));
-                    assert_eq!(found.x[..count], expected.x[..count]);
-                    assert_eq!(found.y[..count], expected.y[..count]);
-                    assert!(count == MOST_NEAR || found.x[count..filled].iter().all(|&x| x == FAR));
+                    let gather = |level| {
+                        let mut near = Near::new();
+                        near.limit = threshold;
+                        run(level, Gather { near: &mut near, rows: &rows, cell, threshold });
+                        let uncovered = run(level, Uncovered { near: &near, voxel: &voxel, width });
+                        let filled = near.count.max(ALWAYS);
+                        (near.count, near.x[..filled].to_vec(), near.y[..filled].to_vec(), uncovered)
+                    };
+                    assert_eq!(gather(level), gather(Level::Portable));
 
                     let rect = Rect { min: [-radius; 2], max: [point[0].max(0), radius] };
                     let (rows, width) = (Rows { count: 2, ..rows }, rng.below(20) as usize);
-                    let [found, expected] = [vectors, Level::Portable].map(|vectors| {
-                        let mut list = List::default();
-                        list.clear(40);
-                        vectors.collect(&rows, width, &rect, &mut list);
-                        [list.x[..list.count].to_vec(), list.y[..list.count].to_vec()]
-                    });
-                    assert_eq!(found, expected);
+                    let cells = (0..2).flat_map(|row| row * LANES..row * LANES + width);
+                    let all = cells.map(|cell| [samples[0][cell], samples[1][cell]]).filter(|&at| rect.contains(at));
+                    let all: Vec<_> = all.collect();
+                    let mut list = List::default();
+                    list.clear(40);
+                    run(level, Collect { rows: &rows, width, rect: &rect, list: &mut list });
+                    let collected = list.x[..list.count].iter().zip(&list.y[..list.count]);
+                    assert_eq!(collected.map(|(&x, &y)| [x, y]).collect::<Vec<_>>(), all);
                 }
             }
         }

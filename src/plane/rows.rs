@@ -1,10 +1,12 @@
 //! Rows of cells around a place, as all coarse tests of the plane read them.
 
+use crate::simd::{HALF, Lanes, Work};
+
 /// The coordinates of a cell without a sample: far beyond every threshold.
 pub const NOWHERE: i32 = -(1 << 29);
 
 /// The cells of a row that are read together: at least as many as conflicts can reach over.
-pub const LANES: usize = 8;
+pub const LANES: usize = HALF;
 
 /// The rows of cells around a place in which samples can conflict with its points. What lies in a row beyond the reach
 /// of conflicts is read too; it is what it is, and cannot conflict. The place of a cell without sample is far away.
@@ -28,15 +30,49 @@ impl<'a> Rows<'a> {
         })
     }
 
-    /// The squared distance from a point to the nearest sample of the rows.
-    pub fn nearest(&self, point: [i32; 2]) -> f32 {
-        let mut nearest = [f32::MAX; LANES];
-        for [xs, ys] in self.iter() {
-            for lane in 0..LANES {
-                let (dx, dy) = ((xs[lane] - point[0]) as f32, (ys[lane] - point[1]) as f32);
-                nearest[lane] = nearest[lane].min(dx * dx + dy * dy);
-            }
+    /// The row and the next one, each as the x and the y of its cells; after the last one there are cells of no sample.
+    #[inline(always)]
+    pub fn two<L: Lanes>(&self, lanes: L, row: usize) -> [L::Ints; 2] {
+        let start = self.first + row * self.stride;
+        let next = start + self.stride;
+        let is_last = row + 1 == self.count;
+        let mut two = [lanes.splat_int(NOWHERE); 2];
+        let mut axis = 0;
+        while axis < 2 {
+            let samples = self.samples[axis];
+            let lower = eight(samples, start);
+            let upper = if is_last { &[NOWHERE; LANES] } else { eight(samples, next) };
+            two[axis] = lanes.load_halves([lower, upper]);
+            axis += 1;
         }
-        nearest.into_iter().fold(f32::MAX, f32::min)
+        two
+    }
+}
+
+#[inline(always)]
+fn eight(samples: &[i32], start: usize) -> &[i32; LANES] {
+    samples[start..start + LANES].try_into().expect("eight cells")
+}
+
+/// The squared distance from a point to the nearest sample of the rows.
+pub struct Nearest<'a> {
+    pub rows: &'a Rows<'a>,
+    pub point: [i32; 2],
+}
+
+impl Work for Nearest<'_> {
+    type Out = f32;
+
+    #[inline(always)]
+    fn run<L: Lanes>(self, lanes: L) -> f32 {
+        let (px, py) = (lanes.splat_int(self.point[0]), lanes.splat_int(self.point[1]));
+        let (mut nearest, mut row) = (lanes.splat(f32::MAX), 0);
+        while row < self.rows.count {
+            let [xs, ys] = self.rows.two(lanes, row);
+            let (dx, dy) = (lanes.floats(lanes.sub_ints(xs, px)), lanes.floats(lanes.sub_ints(ys, py)));
+            nearest = lanes.min(nearest, lanes.add(lanes.mul(dx, dx), lanes.mul(dy, dy)));
+            row += 2;
+        }
+        lanes.least(nearest)
     }
 }

@@ -3,14 +3,19 @@
 use std::arch::x86_64::*;
 
 use crate::simd::Avx2;
-use crate::simd::lanes::{LANES, Lanes, Position};
+use crate::simd::lanes::{HALF, LANES, Lanes, Position};
 
 type Floats = [__m256; 2];
+type Ints = [__m256i; 2];
+type Doubles = [__m256d; 2];
 
 // SAFETY of all intrinsics here: an `Avx2` proves that the processor has AVX2. References to sixteen floats are valid
 // for two loads or stores of 32 bytes, which ask for no alignment.
 impl Lanes for Avx2 {
     type Floats = Floats;
+    type Ints = Ints;
+    type Doubles = Doubles;
+    type Longs = Ints;
     type Mask = Floats;
 
     #[inline(always)]
@@ -67,9 +72,22 @@ impl Lanes for Avx2 {
         unsafe { [_mm256_max_ps(a[0], b[0]), _mm256_max_ps(a[1], b[1])] }
     }
     #[inline(always)]
+    fn abs(self, x: Floats) -> Floats {
+        // SAFETY: see above.
+        unsafe {
+            let sign = _mm256_set1_ps(-0.0);
+            [_mm256_andnot_ps(sign, x[0]), _mm256_andnot_ps(sign, x[1])]
+        }
+    }
+    #[inline(always)]
     fn less(self, a: Floats, b: Floats) -> Floats {
         // SAFETY: see above.
         unsafe { [_mm256_cmp_ps::<_CMP_LT_OQ>(a[0], b[0]), _mm256_cmp_ps::<_CMP_LT_OQ>(a[1], b[1])] }
+    }
+    #[inline(always)]
+    fn at_most(self, a: Floats, b: Floats) -> Floats {
+        // SAFETY: see above.
+        unsafe { [_mm256_cmp_ps::<_CMP_LE_OQ>(a[0], b[0]), _mm256_cmp_ps::<_CMP_LE_OQ>(a[1], b[1])] }
     }
     #[inline(always)]
     fn only(self, mask: Floats, x: Floats) -> Floats {
@@ -80,6 +98,11 @@ impl Lanes for Avx2 {
     fn select(self, mask: Floats, a: Floats, b: Floats) -> Floats {
         // SAFETY: see above.
         unsafe { [_mm256_blendv_ps(b[0], a[0], mask[0]), _mm256_blendv_ps(b[1], a[1], mask[1])] }
+    }
+    #[inline(always)]
+    fn both(self, a: Floats, b: Floats) -> Floats {
+        // SAFETY: see above.
+        unsafe { [_mm256_and_ps(a[0], b[0]), _mm256_and_ps(a[1], b[1])] }
     }
     #[inline(always)]
     fn bits(self, mask: Floats) -> u32 {
@@ -127,4 +150,185 @@ impl Lanes for Avx2 {
         }
         gathered
     }
+
+    #[inline(always)]
+    fn splat_int(self, x: i32) -> Ints {
+        // SAFETY: see above.
+        unsafe { [_mm256_set1_epi32(x); 2] }
+    }
+    #[inline(always)]
+    fn load_ints(self, from: &[i32; LANES]) -> Ints {
+        // SAFETY: see above.
+        unsafe {
+            let from = from.as_ptr();
+            [_mm256_loadu_si256(from.cast()), _mm256_loadu_si256(from.add(8).cast())]
+        }
+    }
+    #[inline(always)]
+    fn load_halves(self, from: [&[i32; HALF]; 2]) -> Ints {
+        // SAFETY: see above.
+        unsafe { [_mm256_loadu_si256(from[0].as_ptr().cast()), _mm256_loadu_si256(from[1].as_ptr().cast())] }
+    }
+    #[inline(always)]
+    fn add_ints(self, a: Ints, b: Ints) -> Ints {
+        // SAFETY: see above.
+        unsafe { [_mm256_add_epi32(a[0], b[0]), _mm256_add_epi32(a[1], b[1])] }
+    }
+    #[inline(always)]
+    fn sub_ints(self, a: Ints, b: Ints) -> Ints {
+        // SAFETY: see above.
+        unsafe { [_mm256_sub_epi32(a[0], b[0]), _mm256_sub_epi32(a[1], b[1])] }
+    }
+    #[inline(always)]
+    fn mul_ints(self, a: Ints, b: Ints) -> Ints {
+        // SAFETY: see above.
+        unsafe { [_mm256_mullo_epi32(a[0], b[0]), _mm256_mullo_epi32(a[1], b[1])] }
+    }
+    #[inline(always)]
+    fn min_ints(self, a: Ints, b: Ints) -> Ints {
+        // SAFETY: see above.
+        unsafe { [_mm256_min_epi32(a[0], b[0]), _mm256_min_epi32(a[1], b[1])] }
+    }
+    #[inline(always)]
+    fn and_ints(self, a: Ints, b: Ints) -> Ints {
+        // SAFETY: see above.
+        unsafe { [_mm256_and_si256(a[0], b[0]), _mm256_and_si256(a[1], b[1])] }
+    }
+    #[inline(always)]
+    fn less_ints(self, a: Ints, b: Ints) -> Floats {
+        // SAFETY: see above.
+        unsafe {
+            let greater = [_mm256_cmpgt_epi32(b[0], a[0]), _mm256_cmpgt_epi32(b[1], a[1])];
+            [_mm256_castsi256_ps(greater[0]), _mm256_castsi256_ps(greater[1])]
+        }
+    }
+    #[inline(always)]
+    fn floats(self, x: Ints) -> Floats {
+        // SAFETY: see above.
+        unsafe { [_mm256_cvtepi32_ps(x[0]), _mm256_cvtepi32_ps(x[1])] }
+    }
+    #[inline(always)]
+    fn float_bits(self, x: Floats) -> Ints {
+        // SAFETY: see above.
+        unsafe { [_mm256_castps_si256(x[0]), _mm256_castps_si256(x[1])] }
+    }
+    #[inline(always)]
+    fn compress_ints(self, mask: Floats, x: Ints, to: &mut [i32; LANES]) {
+        // SAFETY: see above; up to eight lanes are before the last eight that are written.
+        unsafe {
+            let (order, count) = to_front(mask[0]);
+            _mm256_storeu_si256(to.as_mut_ptr().cast(), _mm256_permutevar8x32_epi32(x[0], order));
+            let upper = _mm256_permutevar8x32_epi32(x[1], to_front(mask[1]).0);
+            _mm256_storeu_si256(to.as_mut_ptr().add(count).cast(), upper);
+        }
+    }
+    #[inline(always)]
+    fn compress(self, mask: Floats, x: Floats, rest: f32, to: &mut [f32; LANES]) {
+        // SAFETY: see above; up to eight lanes are before the last eight that are written.
+        unsafe {
+            let rest = _mm256_set1_ps(rest);
+            let (order, count) = to_front(mask[0]);
+            // The sign of an unused lane's number is set.
+            let front =
+                |x, order| _mm256_blendv_ps(_mm256_permutevar8x32_ps(x, order), rest, _mm256_castsi256_ps(order));
+            _mm256_storeu_ps(to.as_mut_ptr(), front(x[0], order));
+            _mm256_storeu_ps(to.as_mut_ptr().add(8), rest);
+            _mm256_storeu_ps(to.as_mut_ptr().add(count), front(x[1], to_front(mask[1]).0));
+        }
+    }
+
+    #[inline(always)]
+    fn splat_double(self, x: f64) -> Doubles {
+        // SAFETY: see above.
+        unsafe { [_mm256_set1_pd(x); 2] }
+    }
+    #[inline(always)]
+    fn load_doubles(self, from: &[f64; HALF]) -> Doubles {
+        // SAFETY: see above.
+        unsafe { [_mm256_loadu_pd(from.as_ptr()), _mm256_loadu_pd(from.as_ptr().add(4))] }
+    }
+    #[inline(always)]
+    fn add_doubles(self, a: Doubles, b: Doubles) -> Doubles {
+        // SAFETY: see above.
+        unsafe { [_mm256_add_pd(a[0], b[0]), _mm256_add_pd(a[1], b[1])] }
+    }
+    #[inline(always)]
+    fn mul_doubles(self, a: Doubles, b: Doubles) -> Doubles {
+        // SAFETY: see above.
+        unsafe { [_mm256_mul_pd(a[0], b[0]), _mm256_mul_pd(a[1], b[1])] }
+    }
+    #[inline(always)]
+    fn narrow(self, x: Doubles) -> Floats {
+        // SAFETY: see above.
+        unsafe { [_mm256_set_m128(_mm256_cvtpd_ps(x[1]), _mm256_cvtpd_ps(x[0])); 2] }
+    }
+
+    #[inline(always)]
+    fn widen(self, x: Ints) -> Ints {
+        // SAFETY: see above.
+        unsafe {
+            let (low, high) = (_mm256_castsi256_si128(x[0]), _mm256_extracti128_si256::<1>(x[0]));
+            [_mm256_cvtepu32_epi64(low), _mm256_cvtepu32_epi64(high)]
+        }
+    }
+    #[inline(always)]
+    fn store_longs(self, x: Ints, to: &mut [u64; HALF]) {
+        // SAFETY: see above.
+        unsafe {
+            _mm256_storeu_si256(to.as_mut_ptr().cast(), x[0]);
+            _mm256_storeu_si256(to.as_mut_ptr().add(4).cast(), x[1]);
+        }
+    }
+    #[inline(always)]
+    fn or_longs(self, a: Ints, b: Ints) -> Ints {
+        // SAFETY: see above.
+        unsafe { [_mm256_or_si256(a[0], b[0]), _mm256_or_si256(a[1], b[1])] }
+    }
+    #[inline(always)]
+    fn shift_longs(self, x: Ints, by: u32) -> Ints {
+        // SAFETY: see above.
+        unsafe {
+            let by = _mm_cvtsi32_si128(by.cast_signed());
+            [_mm256_sll_epi64(x[0], by), _mm256_sll_epi64(x[1], by)]
+        }
+    }
+    #[inline(always)]
+    fn equal_longs(self, x: Ints, to: u64) -> u8 {
+        // SAFETY: see above.
+        unsafe {
+            let to = _mm256_set1_epi64x(to.cast_signed());
+            let equal = |x| _mm256_movemask_pd(_mm256_castsi256_pd(_mm256_cmpeq_epi64(x, to))) as u8;
+            equal(x[0]) | equal(x[1]) << 4
+        }
+    }
 }
+
+/// The numbers of the lanes where a mask of eight is, in order, and -1 after them; how many they are.
+#[inline(always)]
+fn to_front(mask: __m256) -> (__m256i, usize) {
+    // SAFETY: called by the operations of [`Lanes`] only, as above.
+    unsafe {
+        let mask = _mm256_movemask_ps(mask) as usize;
+        let numbers = _mm_cvtsi64_si128(LANES_TO_FRONT[mask]);
+        (_mm256_cvtepi8_epi32(numbers), mask.count_ones() as usize)
+    }
+}
+
+/// For each choice of lanes, one per bit: the numbers of these lanes, in order, in the bytes from the lowest on; -1 in
+/// the others.
+const LANES_TO_FRONT: [i64; 256] = {
+    let mut table = [-1; 256];
+    let mut choice = 0;
+    while choice < 256 {
+        let (mut lane, mut byte) = (0, 0);
+        while lane < 8 {
+            if choice >> lane & 1 == 1 {
+                table[choice] &= !(0xff << (8 * byte)) | lane << (8 * byte);
+                byte += 1;
+            }
+            lane += 1;
+        }
+        choice += 1;
+    }
+    table
+};

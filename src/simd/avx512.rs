@@ -3,12 +3,15 @@
 use std::arch::x86_64::*;
 
 use crate::simd::Avx512;
-use crate::simd::lanes::{LANES, Lanes, Position};
+use crate::simd::lanes::{HALF, LANES, Lanes, Position};
 
 // SAFETY of all intrinsics here: an `Avx512` proves that the processor has AVX-512 F, VL, DQ and BW. References to
 // sixteen floats are valid for loads and stores of 64 bytes, which ask for no alignment.
 impl Lanes for Avx512 {
     type Floats = __m512;
+    type Ints = __m512i;
+    type Doubles = __m512d;
+    type Longs = __m512i;
     type Mask = __mmask16;
 
     #[inline(always)]
@@ -62,9 +65,19 @@ impl Lanes for Avx512 {
         unsafe { _mm512_max_ps(a, b) }
     }
     #[inline(always)]
+    fn abs(self, x: __m512) -> __m512 {
+        // SAFETY: see above.
+        unsafe { _mm512_abs_ps(x) }
+    }
+    #[inline(always)]
     fn less(self, a: __m512, b: __m512) -> __mmask16 {
         // SAFETY: see above.
         unsafe { _mm512_cmp_ps_mask::<_CMP_LT_OQ>(a, b) }
+    }
+    #[inline(always)]
+    fn at_most(self, a: __m512, b: __m512) -> __mmask16 {
+        // SAFETY: see above.
+        unsafe { _mm512_cmp_ps_mask::<_CMP_LE_OQ>(a, b) }
     }
     #[inline(always)]
     fn only(self, mask: __mmask16, x: __m512) -> __m512 {
@@ -75,6 +88,10 @@ impl Lanes for Avx512 {
     fn select(self, mask: __mmask16, a: __m512, b: __m512) -> __m512 {
         // SAFETY: see above.
         unsafe { _mm512_mask_blend_ps(mask, b, a) }
+    }
+    #[inline(always)]
+    fn both(self, a: __mmask16, b: __mmask16) -> __mmask16 {
+        a & b
     }
     #[inline(always)]
     fn bits(self, mask: __mmask16) -> u32 {
@@ -123,5 +140,132 @@ impl Lanes for Avx512 {
                 _mm512_shuffle_ps::<0b01_00_01_00>(ab_z, cd_z),
             ]
         }
+    }
+
+    #[inline(always)]
+    fn splat_int(self, x: i32) -> __m512i {
+        // SAFETY: see above.
+        unsafe { _mm512_set1_epi32(x) }
+    }
+    #[inline(always)]
+    fn load_ints(self, from: &[i32; LANES]) -> __m512i {
+        // SAFETY: see above.
+        unsafe { _mm512_loadu_si512(from.as_ptr().cast()) }
+    }
+    #[inline(always)]
+    fn load_halves(self, from: [&[i32; HALF]; 2]) -> __m512i {
+        // SAFETY: see above.
+        unsafe {
+            let [lower, upper] = from.map(|half| _mm256_loadu_si256(half.as_ptr().cast()));
+            _mm512_inserti64x4::<1>(_mm512_castsi256_si512(lower), upper)
+        }
+    }
+    #[inline(always)]
+    fn add_ints(self, a: __m512i, b: __m512i) -> __m512i {
+        // SAFETY: see above.
+        unsafe { _mm512_add_epi32(a, b) }
+    }
+    #[inline(always)]
+    fn sub_ints(self, a: __m512i, b: __m512i) -> __m512i {
+        // SAFETY: see above.
+        unsafe { _mm512_sub_epi32(a, b) }
+    }
+    #[inline(always)]
+    fn mul_ints(self, a: __m512i, b: __m512i) -> __m512i {
+        // SAFETY: see above.
+        unsafe { _mm512_mullo_epi32(a, b) }
+    }
+    #[inline(always)]
+    fn min_ints(self, a: __m512i, b: __m512i) -> __m512i {
+        // SAFETY: see above.
+        unsafe { _mm512_min_epi32(a, b) }
+    }
+    #[inline(always)]
+    fn and_ints(self, a: __m512i, b: __m512i) -> __m512i {
+        // SAFETY: see above.
+        unsafe { _mm512_and_si512(a, b) }
+    }
+    #[inline(always)]
+    fn less_ints(self, a: __m512i, b: __m512i) -> __mmask16 {
+        // SAFETY: see above.
+        unsafe { _mm512_cmplt_epi32_mask(a, b) }
+    }
+    #[inline(always)]
+    fn floats(self, x: __m512i) -> __m512 {
+        // SAFETY: see above.
+        unsafe { _mm512_cvtepi32_ps(x) }
+    }
+    #[inline(always)]
+    fn float_bits(self, x: __m512) -> __m512i {
+        // SAFETY: see above.
+        unsafe { _mm512_castps_si512(x) }
+    }
+    #[inline(always)]
+    fn compress_ints(self, mask: __mmask16, x: __m512i, to: &mut [i32; LANES]) {
+        // SAFETY: see above.
+        unsafe {
+            _mm512_storeu_si512(to.as_mut_ptr().cast(), _mm512_maskz_compress_epi32(mask, x));
+        }
+    }
+    #[inline(always)]
+    fn compress(self, mask: __mmask16, x: __m512, rest: f32, to: &mut [f32; LANES]) {
+        // SAFETY: see above.
+        unsafe {
+            _mm512_storeu_ps(to.as_mut_ptr(), _mm512_mask_compress_ps(_mm512_set1_ps(rest), mask, x));
+        }
+    }
+
+    #[inline(always)]
+    fn splat_double(self, x: f64) -> __m512d {
+        // SAFETY: see above.
+        unsafe { _mm512_set1_pd(x) }
+    }
+    #[inline(always)]
+    fn load_doubles(self, from: &[f64; HALF]) -> __m512d {
+        // SAFETY: see above.
+        unsafe { _mm512_loadu_pd(from.as_ptr()) }
+    }
+    #[inline(always)]
+    fn add_doubles(self, a: __m512d, b: __m512d) -> __m512d {
+        // SAFETY: see above.
+        unsafe { _mm512_add_pd(a, b) }
+    }
+    #[inline(always)]
+    fn mul_doubles(self, a: __m512d, b: __m512d) -> __m512d {
+        // SAFETY: see above.
+        unsafe { _mm512_mul_pd(a, b) }
+    }
+    #[inline(always)]
+    fn narrow(self, x: __m512d) -> __m512 {
+        // SAFETY: see above.
+        unsafe { _mm512_castps256_ps512(_mm512_cvtpd_ps(x)) }
+    }
+
+    #[inline(always)]
+    fn widen(self, x: __m512i) -> __m512i {
+        // SAFETY: see above.
+        unsafe { _mm512_cvtepu32_epi64(_mm512_castsi512_si256(x)) }
+    }
+    #[inline(always)]
+    fn store_longs(self, x: __m512i, to: &mut [u64; HALF]) {
+        // SAFETY: see above.
+        unsafe {
+            _mm512_storeu_si512(to.as_mut_ptr().cast(), x);
+        }
+    }
+    #[inline(always)]
+    fn or_longs(self, a: __m512i, b: __m512i) -> __m512i {
+        // SAFETY: see above.
+        unsafe { _mm512_or_si512(a, b) }
+    }
+    #[inline(always)]
+    fn shift_longs(self, x: __m512i, by: u32) -> __m512i {
+        // SAFETY: see above.
+        unsafe { _mm512_sll_epi64(x, _mm_cvtsi32_si128(by.cast_signed())) }
+    }
+    #[inline(always)]
+    fn equal_longs(self, x: __m512i, to: u64) -> u8 {
+        // SAFETY: see above.
+        unsafe { _mm512_cmpeq_epi64_mask(x, _mm512_set1_epi64(to.cast_signed())) }
     }
 }

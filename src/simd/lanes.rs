@@ -1,10 +1,13 @@
-//! Sixteen floats at a time, whatever the processor has for it.
+//! Sixteen floats or integers at a time, or eight of twice the size, whatever the processor has for it.
 //!
 //! Code is written once, over a [`Lanes`], and compiled for each level. All operations are those of IEEE 754, none is
 //! contracted and sums have one order, so that every level computes the same bits.
 
-/// The number of floats.
+/// The number of lanes, of floats and integers of 32 bits.
 pub const LANES: usize = 16;
+
+/// Half of them: the number of doubles.
+pub const HALF: usize = LANES / 2;
 
 /// A position in the floats in which samples are returned, and a fourth that is not used: one load in vectors.
 pub type Position = [f32; 4];
@@ -13,6 +16,12 @@ pub type Position = [f32; 4];
 pub trait Lanes: Copy {
     /// Sixteen floats.
     type Floats: Copy;
+    /// Sixteen integers.
+    type Ints: Copy;
+    /// Eight doubles.
+    type Doubles: Copy;
+    /// Eight integers of 64 bits.
+    type Longs: Copy;
     /// Sixteen truth values.
     type Mask: Copy;
 
@@ -28,12 +37,17 @@ pub trait Lanes: Copy {
     fn min(self, a: Self::Floats, b: Self::Floats) -> Self::Floats;
     /// `a` where it is more than `b`, else `b`.
     fn max(self, a: Self::Floats, b: Self::Floats) -> Self::Floats;
+    fn abs(self, x: Self::Floats) -> Self::Floats;
     /// Where `a` is less than `b`; nowhere for NaN.
     fn less(self, a: Self::Floats, b: Self::Floats) -> Self::Mask;
+    /// Where `a` is at most `b`; nowhere for NaN.
+    fn at_most(self, a: Self::Floats, b: Self::Floats) -> Self::Mask;
     /// `x` where the mask is, else 0.
     fn only(self, mask: Self::Mask, x: Self::Floats) -> Self::Floats;
     /// `a` where the mask is, else `b`.
     fn select(self, mask: Self::Mask, a: Self::Floats, b: Self::Floats) -> Self::Floats;
+    /// Where both masks are.
+    fn both(self, a: Self::Mask, b: Self::Mask) -> Self::Mask;
     /// The mask as bits, lane 0 the lowest.
     fn bits(self, mask: Self::Mask) -> u32;
     /// Lanes `k` and `k + 8` are added, of these `k` and `k + 4`, and so on.
@@ -45,4 +59,43 @@ pub trait Lanes: Copy {
     /// # Panics
     /// Where a position is named that there is not.
     fn gather(self, positions: &[Position], named: &[u32; LANES]) -> [Self::Floats; 3];
+
+    fn splat_int(self, x: i32) -> Self::Ints;
+    fn load_ints(self, from: &[i32; LANES]) -> Self::Ints;
+    /// Eight integers, and eight more.
+    fn load_halves(self, from: [&[i32; HALF]; 2]) -> Self::Ints;
+    /// The integers are added, and wrap around.
+    fn add_ints(self, a: Self::Ints, b: Self::Ints) -> Self::Ints;
+    fn sub_ints(self, a: Self::Ints, b: Self::Ints) -> Self::Ints;
+    fn mul_ints(self, a: Self::Ints, b: Self::Ints) -> Self::Ints;
+    fn min_ints(self, a: Self::Ints, b: Self::Ints) -> Self::Ints;
+    /// The bits that both have.
+    fn and_ints(self, a: Self::Ints, b: Self::Ints) -> Self::Ints;
+    /// Where `a` is less than `b`.
+    fn less_ints(self, a: Self::Ints, b: Self::Ints) -> Self::Mask;
+    /// The nearest floats.
+    fn floats(self, x: Self::Ints) -> Self::Floats;
+    /// The bits of floats.
+    fn float_bits(self, x: Self::Floats) -> Self::Ints;
+    /// The integers where the mask is are stored side by side; what follows them is not specified.
+    fn compress_ints(self, mask: Self::Mask, x: Self::Ints, to: &mut [i32; LANES]);
+    /// The floats where the mask is are stored side by side, and `rest` after them.
+    fn compress(self, mask: Self::Mask, x: Self::Floats, rest: f32, to: &mut [f32; LANES]);
+
+    fn splat_double(self, x: f64) -> Self::Doubles;
+    fn load_doubles(self, from: &[f64; HALF]) -> Self::Doubles;
+    fn add_doubles(self, a: Self::Doubles, b: Self::Doubles) -> Self::Doubles;
+    fn mul_doubles(self, a: Self::Doubles, b: Self::Doubles) -> Self::Doubles;
+    /// The nearest floats in the lower eight lanes; those in the others are not specified.
+    fn narrow(self, x: Self::Doubles) -> Self::Floats;
+
+    /// The lower eight integers, without sign.
+    fn widen(self, x: Self::Ints) -> Self::Longs;
+    fn store_longs(self, x: Self::Longs, to: &mut [u64; HALF]);
+    /// The bits that one of them has.
+    fn or_longs(self, a: Self::Longs, b: Self::Longs) -> Self::Longs;
+    /// The integers times 2 to the power of `by`, below 64.
+    fn shift_longs(self, x: Self::Longs, by: u32) -> Self::Longs;
+    /// A bit for each that equals `to`, lane 0 the lowest.
+    fn equal_longs(self, x: Self::Longs, to: u64) -> u8;
 }

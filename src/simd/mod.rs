@@ -12,7 +12,7 @@ mod avx512;
 mod lanes;
 mod portable;
 
-pub use lanes::{LANES, Lanes, Position};
+pub use lanes::{HALF, LANES, Lanes, Position};
 pub use portable::Portable;
 
 /// Proof that the processor has AVX2, POPCNT, BMI1 and BMI2.
@@ -76,6 +76,7 @@ pub trait Work {
 }
 
 /// Does work at a level: the one place where code is chosen by the level.
+#[inline(always)]
 pub fn run<W: Work>(level: Level, work: W) -> W::Out {
     match level {
         Level::Portable => work.run(Portable),
@@ -89,12 +90,14 @@ pub fn run<W: Work>(level: Level, work: W) -> W::Out {
 }
 
 #[cfg(target_arch = "x86_64")]
+#[inline]
 #[target_feature(enable = "avx2,popcnt,bmi1,bmi2")]
 fn run_avx2<W: Work>(proof: Avx2, work: W) -> W::Out {
     work.run(proof)
 }
 
 #[cfg(target_arch = "x86_64")]
+#[inline]
 #[target_feature(enable = "avx512f,avx512vl,avx512dq,avx512bw,avx2,popcnt,bmi1,bmi2")]
 fn run_avx512<W: Work>(proof: Avx512, work: W) -> W::Out {
     work.run(proof)
@@ -105,10 +108,10 @@ mod tests {
     use super::*;
     use crate::rng::{Draw, Rng};
 
-    /// All operations on two vectors, as bits.
-    struct All<'a>([[f32; LANES]; 2], &'a [Position], [u32; LANES]);
+    /// All operations on floats, as bits.
+    struct OfFloats<'a>([[f32; LANES]; 2], &'a [Position], [u32; LANES]);
 
-    impl Work for All<'_> {
+    impl Work for OfFloats<'_> {
         type Out = Vec<u32>;
 
         fn run<L: Lanes>(self, lanes: L) -> Vec<u32> {
@@ -117,38 +120,136 @@ mod tests {
             let [x, y, z] = lanes.gather(self.1, &self.2);
             let of_two = [lanes.add(a, b), lanes.sub(a, b), lanes.mul(a, b), lanes.div(a, b)];
             let chosen = [lanes.min(a, b), lanes.max(a, b), lanes.select(mask, a, b), lanes.only(mask, a)];
-            let others = [lanes.sqrt(a), lanes.splat(self.0[0][3]), x, y, z];
+            let others = [lanes.abs(b), lanes.sqrt(a), lanes.splat(self.0[0][3]), x, y, z];
             let mut bits = vec![lanes.bits(mask), lanes.sum(a).to_bits(), lanes.least(b).to_bits()];
+            bits.push(lanes.bits(lanes.at_most(a, b)));
+            bits.push(lanes.bits(lanes.both(lanes.at_most(a, b), lanes.at_most(b, a))));
             for floats in of_two.into_iter().chain(chosen).chain(others) {
                 let mut stored = [0.0; LANES];
                 lanes.store(floats, &mut stored);
                 // A NaN is one, whatever its bits.
                 bits.extend(stored.map(|x| if x.is_nan() { u32::MAX } else { x.to_bits() }));
             }
+            let mut compressed = [0.0; LANES];
+            lanes.compress(mask, lanes.abs(b), 5.0, &mut compressed);
+            bits.extend(compressed.map(f32::to_bits));
             bits
         }
     }
 
-    #[test]
-    fn all_levels_make_the_same_bits() {
-        let mut rng = Rng::at(9, Draw::Probe, &[]);
+    /// All operations on integers.
+    struct OfInts([[i32; LANES]; 2]);
+
+    impl Work for OfInts {
+        type Out = (Vec<u32>, Vec<u32>);
+
+        fn run<L: Lanes>(self, lanes: L) -> (Vec<u32>, Vec<u32>) {
+            let [a, b] = [lanes.load_ints(&self.0[0]), lanes.load_ints(&self.0[1])];
+            let (low, high) = (self.0[1][8..].try_into().unwrap(), self.0[0][..8].try_into().unwrap());
+            let of_two = [lanes.add_ints(a, b), lanes.sub_ints(a, b), lanes.mul_ints(a, b), lanes.min_ints(a, b)];
+            let others = [lanes.and_ints(a, b), lanes.splat_int(self.0[0][3]), lanes.load_halves([low, high])];
+            let mut bits = Vec::new();
+            for ints in of_two.into_iter().chain(others) {
+                // Parts of the bits, which floats hold exactly.
+                for mask in [0xffff, -0x10000] {
+                    let mut stored = [0.0; LANES];
+                    lanes.store(lanes.floats(lanes.and_ints(ints, lanes.splat_int(mask))), &mut stored);
+                    bits.extend(stored.map(f32::to_bits));
+                }
+            }
+            let mut rounded = [0.0; LANES];
+            lanes.store(lanes.floats(a), &mut rounded);
+            bits.extend(rounded.map(f32::to_bits));
+            let (mask, mut compressed) = (lanes.less_ints(a, b), [0; LANES]);
+            bits.push(lanes.bits(mask));
+            lanes.compress_ints(mask, a, &mut compressed);
+            let count = lanes.bits(mask).count_ones() as usize;
+            (bits, compressed[..count].iter().map(|&x| x.cast_unsigned()).collect())
+        }
+    }
+
+    /// All operations on what has twice the size.
+    struct OfDoubles([[f64; HALF]; 2], [f32; LANES]);
+
+    impl Work for OfDoubles {
+        type Out = Vec<u64>;
+
+        fn run<L: Lanes>(self, lanes: L) -> Vec<u64> {
+            let [a, b] = [lanes.load_doubles(&self.0[0]), lanes.load_doubles(&self.0[1])];
+            let mut bits = Vec::new();
+            for doubles in [lanes.add_doubles(a, b), lanes.mul_doubles(a, b), lanes.splat_double(self.0[0][3])] {
+                let mut stored = [0.0; LANES];
+                lanes.store(lanes.narrow(doubles), &mut stored);
+                bits.extend(stored[..HALF].iter().map(|x| u64::from(x.to_bits())));
+            }
+            let longs = lanes.widen(lanes.float_bits(lanes.load(&self.1)));
+            let shifted = lanes.or_longs(longs, lanes.shift_longs(longs, 21));
+            let mut stored = [0; HALF];
+            lanes.store_longs(shifted, &mut stored);
+            bits.extend(stored);
+            bits.extend(stored.map(|number| u64::from(lanes.equal_longs(shifted, number))));
+            bits
+        }
+    }
+
+    /// Calls `test` with random floats of some size, of which half of the times every other one is special.
+    fn with_floats(mut test: impl FnMut(&mut dyn FnMut() -> f32, &mut Rng)) {
+        let (mut rng, mut others) = (Rng::at(9, Draw::Probe, &[]), Rng::at(10, Draw::Probe, &[]));
         let special = [0.0, -0.0, 1.0, f32::INFINITY, f32::MIN_POSITIVE, 1e-42, 3e38, -1.0];
         for case in 0..200 {
             let mut float = || match rng.below(if case % 2 == 0 { 2 } else { 1 << 40 }) {
                 0 => special[rng.below(8) as usize],
                 _ => (rng.unit() as f32 - 0.5) * 4.0,
             };
+            test(&mut float, &mut others);
+        }
+    }
+
+    #[test]
+    fn all_levels_make_the_same_floats() {
+        with_floats(|float, rng| {
             let vectors = std::array::from_fn(|_| std::array::from_fn(|_| float()));
             let positions: Vec<Position> = (0..40).map(|_| std::array::from_fn(|_| float())).collect();
             let named = std::array::from_fn(|_| rng.below(40) as u32);
-            let portable = run(Level::Portable, All(vectors, &positions, named));
+            let portable = run(Level::Portable, OfFloats(vectors, &positions, named));
             let least = vectors[1].iter().fold(f32::INFINITY, |least, &x| least.min(x));
             assert_eq!(f32::from_bits(portable[2]), least);
-            assert_eq!(portable[portable.len() - LANES], positions[named[0] as usize][2].to_bits());
+            let [a, b] = vectors;
+            let compressed = (0..LANES).filter(|&k| a[k] < b[k]).map(|k| b[k].abs());
+            let compressed = compressed.chain([5.0; LANES]).take(LANES).map(f32::to_bits).collect::<Vec<_>>();
+            let rest = portable.len() - LANES;
+            assert_eq!(portable[rest..], compressed);
+            assert_eq!(portable[rest - LANES], positions[named[0] as usize][2].to_bits());
             for level in Level::available() {
-                assert_eq!(run(level, All(vectors, &positions, named)), portable, "{level:?}");
+                assert_eq!(run(level, OfFloats(vectors, &positions, named)), portable, "{level:?}");
             }
-        }
+        });
+    }
+
+    #[test]
+    fn all_levels_make_the_same_integers_and_doubles() {
+        with_floats(|float, rng| {
+            let ints: [[i32; LANES]; 2] =
+                [30, 3].map(|bits| std::array::from_fn(|_| rng.below(1 << bits) as i32 - (1 << (bits - 1))));
+            let portable = run(Level::Portable, OfInts(ints));
+            let [a, b] = ints;
+            let less: Vec<_> = (0..LANES).filter(|&k| a[k] < b[k]).map(|k| a[k].cast_unsigned()).collect();
+            assert_eq!(portable.1, less);
+            let doubles = std::array::from_fn(|_| std::array::from_fn(|_| f64::from(float()) * (1.0 + rng.unit())));
+            let floats: [f32; LANES] = std::array::from_fn(|_| float());
+            let of_doubles = run(Level::Portable, OfDoubles(doubles, floats));
+            let number = u64::from(floats[5].to_bits());
+            assert_eq!(of_doubles[3 * HALF + 5], number | number << 21);
+            assert!((0..HALF).all(|k| of_doubles[4 * HALF + k] >> k & 1 == 1));
+            for level in Level::available() {
+                assert_eq!(run(level, OfInts(ints)), portable, "{level:?}");
+                // Infinity times 0 is the one NaN, whatever its sign.
+                let bits = run(level, OfDoubles(doubles, floats));
+                let is_nan = |bits: u64| bits <= u64::from(u32::MAX) && f32::from_bits(bits as u32).is_nan();
+                let mut pairs = bits.iter().zip(&of_doubles);
+                assert!(pairs.all(|(&a, &b)| a == b || is_nan(a) && is_nan(b)), "{level:?}");
+            }
+        });
     }
 
     #[test]
@@ -156,7 +257,7 @@ mod tests {
         for level in Level::available() {
             let mut named = [0; LANES];
             named[11] = 3;
-            let gather = || run(level, All([[0.0; LANES]; 2], &[[0.0; 4]; 3], named));
+            let gather = || run(level, OfFloats([[0.0; LANES]; 2], &[[0.0; 4]; 3], named));
             assert!(std::panic::catch_unwind(gather).is_err(), "{level:?}");
         }
     }
