@@ -51,7 +51,6 @@ pub(super) const PIERCING: [[f64; 2]; 6] =
     [[0.25, 0.25], [0.5, 0.25], [0.25, 0.5], [0.25, 0.0], [0.75, 0.25], [0.0, 0.75]];
 
 /// The piercing corners, one edge after the other, in eight lanes: the first one again in the last two.
-#[cfg_attr(not(target_arch = "x86_64"), allow(dead_code))]
 pub(super) const PIERCING_BY_EDGE: [[f64; 8]; 2] = {
     let mut corners = [[0.0; 8]; 2];
     let mut lane = 0;
@@ -62,20 +61,6 @@ pub(super) const PIERCING_BY_EDGE: [[f64; 8]; 2] = {
         lane += 1;
     }
     corners
-};
-
-/// The numbers of the first, second and third corners of the sixteenths.
-#[cfg_attr(not(target_arch = "x86_64"), allow(dead_code))]
-pub(super) const CORNERS_OF_SIXTEENTHS: [[i32; 16]; 3] = {
-    let mut numbers = [[0; 16]; 3];
-    let mut index = 0;
-    while index < 48 {
-        let [column, row] = SIXTEENTHS[index / 3][index % 3];
-        let (column, row) = (column as i32, row as i32);
-        numbers[index % 3][index / 3] = row * (11 - row) / 2 + column;
-        index += 1;
-    }
-    numbers
 };
 
 /// Which sixteenths are covered, gathered ball by ball. Bit `5·row + column` is the sixteenth whose lowest corner, or for

@@ -9,14 +9,13 @@ use glam::DVec3;
 use crate::math::square;
 use crate::mesh::Mesh;
 use crate::psp::adaptive::dot::Dot;
-use crate::psp::adaptive::page::{Ball, Group, LANES, Page, Part};
-use crate::psp::adaptive::vectors;
+use crate::psp::adaptive::page::{Ball, CoveredSixteenths, CoveredTriangles, Covering, Group, LANES, Near, Page, Part};
 use crate::psp::facing::Facing;
 use crate::psp::fill::grid::{any_cell, each_cell};
 use crate::psp::fill::page::GROUP;
 use crate::psp::fill::space::{Place, Space, key};
 use crate::psp::fill::table::Table;
-use crate::simd::Level;
+use crate::simd::{Level, run};
 
 /// What rounding can add to the distance at which a sample matters, as a share, and some more.
 const SLACK: f64 = 1e-4;
@@ -121,7 +120,7 @@ impl Grid {
     pub fn rejects(&self, dot: &Dot) -> bool {
         let ball = self.ball(dot.position, dot.radius);
         self.any_page(self.cell_of(ball), |page| {
-            let mut near = vectors::near(self.level, &self.pages[page], ball);
+            let mut near = run(self.level, Near { page: &self.pages[page], ball });
             while near != 0 {
                 let number = self.numbers[page][near.trailing_zeros() as usize];
                 if dot.conflicts(&self.dots[number as usize], self.facing) {
@@ -169,7 +168,7 @@ impl Grid {
         any_cell(&self.space, corners, |cell| {
             self.any_page(cell, |page| {
                 let among = self.seen(page, shade.normal);
-                open &= !vectors::covered_sixteenths(self.level, &self.pages[page], &part, among);
+                open &= !run(self.level, CoveredSixteenths { page: &self.pages[page], part: &part, among });
                 open == 0
             })
         });
@@ -191,7 +190,7 @@ impl Grid {
         if self.facing.asks_normals() {
             chained = all;
         } else {
-            open &= !vectors::covered_triangles(self.level, group, &self.pages);
+            open &= !run(self.level, CoveredTriangles { group, pages: &self.pages });
         }
         let mut rest = open & chained;
         while rest != 0 {
@@ -207,7 +206,7 @@ impl Grid {
     /// Whether one sample certainly covers a triangle.
     fn covers(&self, corners: &[Ball; 3], normal: [f32; 3]) -> bool {
         self.any_page(self.cell_of(corners[0]), |page| {
-            vectors::covering(self.level, &self.pages[page], corners) & self.seen(page, normal) != 0
+            run(self.level, Covering { page: &self.pages[page], corners }) & self.seen(page, normal) != 0
         })
     }
 

@@ -34,8 +34,6 @@ mod radius;
 mod sample;
 mod set;
 mod site;
-#[allow(unsafe_code)] // Vector instructions.
-mod vectors;
 
 pub use options::Options;
 pub use radius::{Density, DensityFunction, Radius, RadiusFunction, Scale, Texture};

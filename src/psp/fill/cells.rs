@@ -51,7 +51,6 @@ impl<T: Copy + Default> Cells<T> {
     }
 
     /// The first cell along each axis, from which the numbers count, and their shifts.
-    #[cfg_attr(not(target_arch = "x86_64"), allow(dead_code))]
     #[inline(always)]
     pub fn numbering(&self) -> ([u32; 3], [u32; 2]) {
         (self.range[0], self.shifts)

@@ -9,11 +9,10 @@ use glam::DVec3;
 use crate::mesh::exact;
 use crate::psp::facing::{Facing, NO_NORMAL};
 use crate::psp::fill::cells::Cells;
-use crate::psp::fill::page::{GROUP, Group, LANES, Page, Part};
-use crate::psp::fill::space::{Place, Space};
-use crate::psp::fill::vectors;
-use crate::psp::sixteenths::PIERCING;
-use crate::simd::Level;
+use crate::psp::fill::page::{CoveredTriangles, Covering, GROUP, Group, LANES, Near, Page, Part, samples, squares};
+use crate::psp::fill::space::{MASK, Place, ROUNDER, Space};
+use crate::psp::sixteenths::{CORNERS, Cover, PIERCING, PIERCING_BY_EDGE};
+use crate::simd::{HALF, Lanes, Level, Work, run};
 
 /// Room for so many pages is made at first: a cube of `cubes.rs` hardly has more.
 const PAGES: usize = 1 << 9;
@@ -75,7 +74,7 @@ impl Grid {
     pub fn rejects(&self, place: Place, normal: [f32; 3]) -> bool {
         self.any_page(self.space.cell(place), |number| {
             let page = &self.pages[number];
-            let mut near = vectors::near(self.level, page, place, self.space.surely_beyond);
+            let mut near = run(self.level, Near { page, place, limit: self.space.surely_beyond });
             while near != 0 {
                 let lane = near.trailing_zeros() as usize;
                 if self.space.conflict(place, page.place(lane)) && self.sees(number, lane, normal) {
@@ -91,13 +90,13 @@ impl Grid {
     #[inline(always)]
     pub fn is_seen_within(&self, place: Place, limit: f32) -> bool {
         let Cell { page, .. } = self.cells.get(self.cells.number(self.space.cell(place)));
-        vectors::near(self.level, &self.pages[page as usize], place, limit) != 0
+        run(self.level, Near { page: &self.pages[page as usize], place, limit }) != 0
     }
 
     /// Whether a place is seen to be no farther from a sample than the square root of `limit`.
     pub fn is_within(&self, place: Place, limit: f32) -> bool {
         self.any_page(self.space.cell(place), |number| {
-            vectors::near(self.level, &self.pages[number], place, limit) != 0
+            run(self.level, Near { page: &self.pages[number], place, limit }) != 0
         })
     }
 
@@ -108,7 +107,7 @@ impl Grid {
         each_cell(self.cells.clip(self.space.cells_within(place, reach - self.space.radius())), |cell| {
             self.any_page(cell, |number| {
                 let page = &self.pages[number];
-                let mut near = vectors::near(self.level, page, place, Space::beyond(least));
+                let mut near = run(self.level, Near { page, place, limit: Space::beyond(least) });
                 while near != 0 {
                     let lane = near.trailing_zeros() as usize;
                     if self.sees(number, lane, normal) {
@@ -129,20 +128,7 @@ impl Grid {
         // What covers a sixteenth is no farther from its centre than the radius, and this no farther from the centre of
         // all than three quarters of the way to a corner, which is two thirds of the longest edge.
         let reach = (self.space.radius() + 0.5 * longest) as f32;
-        vectors::open_sixteenths(self.level, self, corners, reach, &normal, open)
-    }
-
-    /// The same without vectors.
-    pub fn open_sixteenths_portable(&self, corners: &[DVec3; 3], reach: f32, normal: &[f32; 3], mut open: u16) -> u16 {
-        let part = Part::new(*corners, reach);
-        any_cell(&self.space, *corners, |cell| {
-            self.any_page(cell, |number| {
-                let seen = self.seen(number, normal);
-                open &= !self.pages[number].covered(&part, seen, self.space.surely_within);
-                open == 0
-            })
-        });
-        open
+        run(self.level, OpenSixteenths { grid: self, corners, reach, normal: &normal, open })
     }
 
     /// Which triangles of a group, with these normals, no single sample certainly covers: a bit for each. Their pages are
@@ -158,7 +144,8 @@ impl Grid {
             chained |= u64::from(cell.count as usize > LANES) << lane;
         }
         let all = u64::MAX >> (64 - count);
-        let mut open = all & !vectors::covered_triangles(self.level, group, &self.pages, self.space.surely_within);
+        let mut open =
+            all & !run(self.level, CoveredTriangles { group, pages: &self.pages, limit: self.space.surely_within });
         let mut rest = open & chained;
         if self.facing.asks_normals() {
             // What may be covered by a sample that faces another way.
@@ -178,7 +165,8 @@ impl Grid {
     /// Whether one sample certainly covers a triangle.
     fn covers(&self, corners: &[Place; 3], normal: [f32; 3]) -> bool {
         self.any_page(self.space.cell(corners[0]), |number| {
-            let covering = vectors::covering(self.level, &self.pages[number], corners, self.space.surely_within);
+            let (page, limit) = (&self.pages[number], self.space.surely_within);
+            let covering = run(self.level, Covering { page, corners, limit });
             (0..LANES).any(|lane| covering >> lane & 1 == 1 && self.sees(number, lane, normal))
         })
     }
@@ -212,6 +200,97 @@ impl Grid {
         }
         false
     }
+}
+
+/// The sixteenths of a fragment, of some `open` ones, that no single sample certainly covers. Samples beyond `reach` of its
+/// centre cover nothing.
+///
+/// The cells and the tests of their pages are one function, in which the corners stay in registers: a load across two fresh
+/// stores waits for both.
+struct OpenSixteenths<'a> {
+    grid: &'a Grid,
+    corners: &'a [DVec3; 3],
+    reach: f32,
+    normal: &'a [f32; 3],
+    open: u16,
+}
+
+impl Work for OpenSixteenths<'_> {
+    type Out = u16;
+
+    #[inline(always)]
+    fn run<L: Lanes>(self, lanes: L) -> u16 {
+        let Self { grid, corners, reach, normal, open } = self;
+        let cells = piercing_cells(lanes, grid, corners);
+        let mut numbers = [0; HALF];
+        lanes.store_longs(cells, &mut numbers);
+        let part = Part::new(*corners, reach);
+        let (s, t) = (lanes.load(&CORNERS[0]), lanes.load(&CORNERS[1]));
+        let corners = [0, 1, 2].map(|axis| [part.corner[axis], part.edges[0][axis], part.edges[1][axis]]);
+        let corners =
+            [along(lanes, [s, t], corners[0]), along(lanes, [s, t], corners[1]), along(lanes, [s, t], corners[2])];
+        let origin = [lanes.splat(part.origin[0]), lanes.splat(part.origin[1]), lanes.splat(part.origin[2])];
+        let (limit, reach2) = (lanes.splat(grid.space.surely_within), lanes.splat(part.reach2));
+        let (mut cover, mut unseen) = (Cover::default(), u8::MAX >> (HALF - PIERCING.len()));
+        while unseen != 0 {
+            let number = numbers[unseen.trailing_zeros() as usize % HALF];
+            unseen &= !lanes.equal_longs(cells, number);
+            let Cell { mut page, count } = grid.cells.get(number);
+            for _ in 0..count.div_ceil(LANES as u32) {
+                let [x, y, z] = samples(lanes, &grid.pages[page as usize]);
+                let seen = [lanes.sub(x, origin[0]), lanes.sub(y, origin[1]), lanes.sub(z, origin[2])];
+                let near = lanes.bits(lanes.at_most(squares(lanes, seen, part.centre), reach2)) as u16;
+                let mut reaching = near & grid.seen(page as usize, normal);
+                page = grid.earlier[page as usize];
+                if reaching == 0 {
+                    continue;
+                }
+                let mut places = [[0.0; LANES]; 3];
+                lanes.store(seen[0], &mut places[0]);
+                lanes.store(seen[1], &mut places[1]);
+                lanes.store(seen[2], &mut places[2]);
+                while reaching != 0 {
+                    let lane = reaching.trailing_zeros() as usize % LANES;
+                    let squares = squares(lanes, corners, [places[0][lane], places[1][lane], places[2][lane]]);
+                    cover.add(lanes.bits(lanes.less(squares, limit)) as u16);
+                    reaching &= reaching - 1;
+                }
+                if open & !cover.sixteenths() == 0 {
+                    return 0;
+                }
+            }
+        }
+        open & !cover.sixteenths()
+    }
+}
+
+/// A corner and shares of the edges from there, along one axis.
+#[inline(always)]
+fn along<L: Lanes>(lanes: L, [s, t]: [L::Floats; 2], [corner, e, f]: [f32; 3]) -> L::Floats {
+    let offset = lanes.add(lanes.mul(s, lanes.splat(e)), lanes.mul(t, lanes.splat(f)));
+    lanes.add(lanes.splat(corner), offset)
+}
+
+/// The numbers of the cells of a fragment's piercing corners: what [`Space::cell`] and [`Cells::number`] say.
+#[inline(always)]
+fn piercing_cells<L: Lanes>(lanes: L, grid: &Grid, &[a, b, c]: &[DVec3; 3]) -> L::Longs {
+    let (space, (first, shifts)) = (&grid.space, grid.cells.numbering());
+    let (a, e, f) = (a.to_array(), (b - a).to_array(), (c - a).to_array());
+    let [s, t] = [lanes.load_doubles(&PIERCING_BY_EDGE[0]), lanes.load_doubles(&PIERCING_BY_EDGE[1])];
+    let mut cells = [lanes.widen(lanes.splat_int(0)); 3];
+    let mut axis = 0;
+    while axis < 3 {
+        let (e, f) = (lanes.splat_double(e[axis]), lanes.splat_double(f[axis]));
+        let offset = lanes.add_doubles(lanes.mul_doubles(s, e), lanes.mul_doubles(t, f));
+        let place = lanes.narrow(lanes.add_doubles(lanes.splat_double(a[axis]), offset));
+        let scaled = lanes.mul(lanes.sub(place, lanes.splat(space.origin[axis])), lanes.splat(space.per_cell));
+        let rounded = lanes.float_bits(lanes.add(scaled, lanes.splat(ROUNDER)));
+        let cell = lanes.and_ints(rounded, lanes.splat_int(MASK.cast_signed()));
+        cells[axis] = lanes.widen(lanes.sub_ints(cell, lanes.splat_int(first[axis].cast_signed())));
+        axis += 1;
+    }
+    let (y, z) = (lanes.shift_longs(cells[1], shifts[0]), lanes.shift_longs(cells[2], shifts[1]));
+    lanes.or_longs(cells[0], lanes.or_longs(y, z))
 }
 
 /// Whether the test holds for a cell whose pages have to be read for the sixteenths of a fragment: samples that cover

@@ -18,8 +18,7 @@ use crate::job::{Job, chunks_of};
 use crate::math::rounded_up;
 use crate::mesh::{Mesh, exact};
 use crate::points::MAXIMAL_DENSITY;
-use crate::psp::fill::vectors;
-use crate::simd::Level;
+use crate::simd::{Lanes, Level, Work, run};
 
 /// Triangles in a cluster. Of smaller ones more are passed by the first darts; larger ones need less memory.
 pub const CLUSTER: usize = 16;
@@ -75,15 +74,26 @@ impl Triangles<'_> {
 
     /// The areas of a cluster, and the squares of the longest edges; zero behind its end.
     pub fn measure(self, mesh: &Mesh, cluster: usize) -> Sizes {
-        vectors::measure(Level::widest(), self, mesh, cluster)
+        run(Level::widest(), Measure { triangles: self, mesh, cluster })
     }
+}
 
-    /// The same without vectors.
+/// [`Triangles::measure`]: loops over lanes, of which compilers make vectors.
+struct Measure<'a> {
+    triangles: Triangles<'a>,
+    mesh: &'a Mesh,
+    cluster: usize,
+}
+
+impl Work for Measure<'_> {
+    type Out = Sizes;
+
     #[inline(always)]
-    pub fn measure_portable(self, mesh: &Mesh, cluster: usize) -> Sizes {
+    fn run<L: Lanes>(self, _: L) -> Sizes {
+        let Self { triangles, mesh, cluster } = self;
         let mut edges = [[[0.0f64; CLUSTER]; 3]; 2];
-        for (lane, index) in self.cluster(cluster).enumerate() {
-            let [a, b, c] = mesh.corners(self.at(index));
+        for (lane, index) in triangles.cluster(cluster).enumerate() {
+            let [a, b, c] = mesh.corners(triangles.at(index));
             for axis in 0..3 {
                 edges[0][axis][lane] = f64::from(b[axis]) - f64::from(a[axis]);
                 edges[1][axis][lane] = f64::from(c[axis]) - f64::from(a[axis]);
@@ -288,7 +298,8 @@ mod tests {
             );
             for (cluster, triangles) in triangles.chunks(CLUSTER).enumerate() {
                 let (areas, longest) = measures.triangles().measure(&mesh, cluster);
-                let at = |level| vectors::measure(level, measures.triangles(), &mesh, cluster);
+                let triangles_of = measures.triangles();
+                let at = |level| run(level, Measure { triangles: triangles_of, mesh: &mesh, cluster });
                 assert!(Level::available().into_iter().all(|level| at(level) == (areas, longest)));
                 for (lane, &triangle) in triangles.iter().enumerate() {
                     assert!((areas[lane] / mesh.triangle_area(triangle) - 1.0).abs() < 1e-12);

@@ -23,8 +23,6 @@ pub mod rounds;
 pub mod space;
 pub mod table;
 pub mod uniform;
-#[allow(unsafe_code)] // Vector instructions.
-mod vectors;
 
 use std::ops::AddAssign;
 

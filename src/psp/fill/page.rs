@@ -1,16 +1,15 @@
 //! Pages of sixteen samples, and the tests on them that nearly all work of a fill goes through, in `f32`.
 //!
-//! The tests say what is certain; what they leave open is decided later, in smaller parts or in `f64` (`grid.rs`). The
-//! code here is plain and portable. `vectors/` has the same functions in the vectors of the processor, equal to the
-//! bit: no sum has another order, no rounding is left out.
+//! The tests say what is certain; what they leave open is decided later, in smaller parts or in `f64` (`grid.rs`). All
+//! levels of vector instructions give the same bits.
 
 use glam::DVec3;
 
 use crate::psp::fill::space::Place;
-use crate::psp::sixteenths::{CORNERS, Cover};
+use crate::simd::{self, Lanes, Work};
 
 /// The samples on a page.
-pub const LANES: usize = 16;
+pub const LANES: usize = simd::LANES;
 
 /// A coordinate of no sample. Its square is a float.
 const FAR: f32 = 1e18;
@@ -20,9 +19,9 @@ const FAR: f32 = 1e18;
 #[repr(align(64))]
 pub struct Page(pub [[f32; LANES]; 3]);
 
-pub const THIRD: f64 = 1.0 / 3.0;
+const THIRD: f64 = 1.0 / 3.0;
 /// What rounding adds to the square of a reach, and more.
-pub const REACH_SLACK: f32 = 1.0001;
+const REACH_SLACK: f32 = 1.0001;
 
 /// Triangles that are tested together.
 pub const GROUP: usize = 64;
@@ -46,6 +45,7 @@ pub struct Part {
 
 impl Part {
     /// A fragment by its corners, where `reach` is how far from its centre the samples are at most that cover any of it.
+    #[inline(always)]
     pub fn new([a, b, c]: [DVec3; 3], reach: f32) -> Self {
         let origin = a.as_vec3();
         let [corner, to_b, to_c] = [a - origin.as_dvec3(), b - a, c - a];
@@ -72,71 +72,122 @@ impl Page {
     pub fn place(&self, lane: usize) -> Place {
         [self.0[0][lane], self.0[1][lane], self.0[2][lane]]
     }
-
-    /// Which samples are no farther from a place than the square root of `limit`: a bit for each.
-    pub fn near(&self, place: Place, limit: f32) -> u16 {
-        let mut near = 0;
-        for (lane, square) in self.squares(place).into_iter().enumerate() {
-            near |= u16::from(square <= limit) << lane;
-        }
-        near
-    }
-
-    /// Which samples are nearer to all three places.
-    pub fn covering(&self, corners: &[Place; 3], limit: f32) -> u16 {
-        let [a, b, c] = corners.map(|corner| self.squares(corner));
-        let mut covering = 0;
-        for lane in 0..LANES {
-            covering |= u16::from(a[lane] < limit && b[lane] < limit && c[lane] < limit) << lane;
-        }
-        covering
-    }
-
-    /// The squared distances of all samples from a place.
-    fn squares(&self, place: Place) -> [f32; LANES] {
-        std::array::from_fn(|lane| square([0, 1, 2].map(|axis| self.0[axis][lane] - place[axis])))
-    }
-
-    /// The sixteenths of a fragment whose three corners are nearer to one sample, among those in some lanes, than the
-    /// square root of `limit`.
-    pub fn covered(&self, part: &Part, among: u16, limit: f32) -> u16 {
-        let mut cover = Cover::default();
-        let corners: [[f32; 3]; 16] = std::array::from_fn(|i| {
-            [0, 1, 2].map(|axis| {
-                part.corner[axis] + (CORNERS[0][i] * part.edges[0][axis] + CORNERS[1][i] * part.edges[1][axis])
-            })
-        });
-        for lane in 0..LANES {
-            let sample = [0, 1, 2].map(|axis| self.0[axis][lane] - part.origin[axis]);
-            let square_to_centre = square([0, 1, 2].map(|axis| sample[axis] - part.centre[axis]));
-            if among >> lane & 1 == 1 && square_to_centre <= part.reach2 {
-                let mut inside = 0;
-                for (bit, corner) in corners.iter().enumerate() {
-                    let offset = [0, 1, 2].map(|axis| corner[axis] - sample[axis]);
-                    inside |= u16::from(square(offset) < limit) << bit;
-                }
-                cover.add(inside);
-            }
-        }
-        cover.sixteenths()
-    }
 }
 
 impl Group {
     pub const EMPTY: Self = Self { triangles: [[[0.0; 3]; 3]; GROUP], pages: [0; GROUP] };
+}
 
-    /// Which triangles lie, with their three corners, nearer to one sample of their page than the square root of
-    /// `limit`: a bit for each.
-    pub fn covered(&self, pages: &[Page], limit: f32) -> u64 {
-        let mut covered = 0;
-        for (lane, &page) in self.pages.iter().enumerate() {
-            let covering = pages[page as usize].covering(&self.triangles[lane], limit);
-            covered |= u64::from(covering != 0) << lane;
+/// The samples of a page, one axis after the other.
+#[inline(always)]
+pub fn samples<L: Lanes>(lanes: L, page: &Page) -> [L::Floats; 3] {
+    [lanes.load(&page.0[0]), lanes.load(&page.0[1]), lanes.load(&page.0[2])]
+}
+
+/// The squared distances of sixteen places from one.
+#[inline(always)]
+pub fn squares<L: Lanes>(lanes: L, places: [L::Floats; 3], from: Place) -> L::Floats {
+    let x = lanes.sub(places[0], lanes.splat(from[0]));
+    let y = lanes.sub(places[1], lanes.splat(from[1]));
+    let z = lanes.sub(places[2], lanes.splat(from[2]));
+    lanes.add(lanes.add(lanes.mul(x, x), lanes.mul(y, y)), lanes.mul(z, z))
+}
+
+/// The samples of a page that are no farther from a place than the square root of `limit`: a bit for each.
+pub struct Near<'a> {
+    pub page: &'a Page,
+    pub place: Place,
+    pub limit: f32,
+}
+
+impl Work for Near<'_> {
+    type Out = u16;
+
+    #[inline(always)]
+    fn run<L: Lanes>(self, lanes: L) -> u16 {
+        let squares = squares(lanes, samples(lanes, self.page), self.place);
+        lanes.bits(lanes.at_most(squares, lanes.splat(self.limit))) as u16
+    }
+}
+
+/// The samples of a page that are nearer to all three corners than the square root of `limit`.
+pub struct Covering<'a> {
+    pub page: &'a Page,
+    pub corners: &'a [Place; 3],
+    pub limit: f32,
+}
+
+impl Work for Covering<'_> {
+    type Out = u16;
+
+    #[inline(always)]
+    fn run<L: Lanes>(self, lanes: L) -> u16 {
+        let (samples, [a, b, c]) = (samples(lanes, self.page), *self.corners);
+        // The farthest corner decides.
+        let farthest = lanes.max(squares(lanes, samples, a), squares(lanes, samples, b));
+        let farthest = lanes.max(farthest, squares(lanes, samples, c));
+        lanes.bits(lanes.less(farthest, lanes.splat(self.limit))) as u16
+    }
+}
+
+/// The triangles of a group that lie, with their three corners, nearer to one sample of their page than the square root of
+/// `limit`: a bit for each.
+pub struct CoveredTriangles<'a> {
+    pub group: &'a Group,
+    pub pages: &'a [Page],
+    pub limit: f32,
+}
+
+impl Work for CoveredTriangles<'_> {
+    type Out = u64;
+
+    #[inline(always)]
+    fn run<L: Lanes>(self, lanes: L) -> u64 {
+        let (mut covered, limit) = (0, self.limit);
+        for (lane, &page) in self.group.pages.iter().enumerate() {
+            let (page, corners) = (&self.pages[page as usize], &self.group.triangles[lane]);
+            covered |= u64::from(Covering { page, corners, limit }.run(lanes) != 0) << lane;
         }
         covered
     }
 }
 
-fn square([x, y, z]: [f32; 3]) -> f32 {
-    x * x + y * y + z * z
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::rng::{Draw, Rng};
+    use crate::simd::{Level, run};
+
+    #[test]
+    fn all_vectors_give_the_same_bits() {
+        let mut rng = Rng::at(3, Draw::Probe, &[]);
+        let mut counts = [0; 2];
+        for _ in 0..1000 {
+            let mut coordinate = |size: f64| (size * (2.0 * rng.unit() - 1.0)) as f32;
+            let mut pages = [Page::EMPTY; 4];
+            for page in &mut pages[1..] {
+                (0..13).for_each(|lane| page.put(lane, std::array::from_fn(|_| coordinate(1.5))));
+            }
+            let mut group = Group::EMPTY;
+            for lane in 0..60 {
+                let (at, size) = ([(); 3].map(|()| coordinate(1.0)), [0.5, 0.1, 1e-4][lane % 3]);
+                let corners = [(); 3].map(|()| std::array::from_fn(|axis| at[axis] + coordinate(size)));
+                group.triangles[lane] = corners;
+                group.pages[lane] = lane as u32 % 4;
+            }
+            let place = [(); 3].map(|()| coordinate(1.0));
+            let all = |level: Level| {
+                let corners = [0, 1, 2].map(|page| {
+                    run(level, Covering { page: &pages[page], corners: &group.triangles[page], limit: 1.0 })
+                });
+                let triangles = run(level, CoveredTriangles { group: &group, pages: &pages, limit: 1.0 });
+                (run(level, Near { page: &pages[1], place, limit: 1.0 }), corners, triangles)
+            };
+            let expected = all(Level::Portable);
+            assert!(Level::available().into_iter().all(|level| all(level) == expected));
+            counts[0] += expected.0.count_ones();
+            counts[1] += expected.2.count_ones();
+        }
+        assert!(counts.into_iter().all(|count| count > 1000), "{counts:?}");
+    }
 }
