@@ -63,6 +63,19 @@ pub(super) const PIERCING_BY_EDGE: [[f64; 8]; 2] = {
     corners
 };
 
+/// The numbers of the first, second and third corners of the sixteenths.
+pub(super) const CORNERS_OF_SIXTEENTHS: [[i32; 16]; 3] = {
+    let mut numbers = [[0; 16]; 3];
+    let mut index = 0;
+    while index < 48 {
+        let [column, row] = SIXTEENTHS[index / 3][index % 3];
+        let (column, row) = (column as i32, row as i32);
+        numbers[index % 3][index / 3] = row * (11 - row) / 2 + column;
+        index += 1;
+    }
+    numbers
+};
+
 /// Which sixteenths are covered, gathered ball by ball. Bit `5·row + column` is the sixteenth whose lowest corner, or for
 /// those turned over whose missing corner, is the one in this row and column.
 #[derive(Default)]

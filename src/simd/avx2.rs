@@ -18,6 +18,8 @@ impl Lanes for Avx2 {
     type Longs = Ints;
     type Mask = Floats;
 
+    const PERMUTES: bool = false;
+
     #[inline(always)]
     fn splat(self, x: f32) -> Floats {
         // SAFETY: see above.
@@ -103,6 +105,12 @@ impl Lanes for Avx2 {
     fn both(self, a: Floats, b: Floats) -> Floats {
         // SAFETY: see above.
         unsafe { [_mm256_and_ps(a[0], b[0]), _mm256_and_ps(a[1], b[1])] }
+    }
+    #[inline(always)]
+    fn permute(self, x: Floats, numbers: &[i32; LANES]) -> Floats {
+        let mut lanes = [0.0; LANES];
+        self.store(x, &mut lanes);
+        self.load(&numbers.map(|number| lanes[number as usize % LANES]))
     }
     #[inline(always)]
     fn bits(self, mask: Floats) -> u32 {

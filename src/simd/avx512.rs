@@ -14,6 +14,8 @@ impl Lanes for Avx512 {
     type Longs = __m512i;
     type Mask = __mmask16;
 
+    const PERMUTES: bool = true;
+
     #[inline(always)]
     fn splat(self, x: f32) -> __m512 {
         // SAFETY: see above.
@@ -92,6 +94,11 @@ impl Lanes for Avx512 {
     #[inline(always)]
     fn both(self, a: __mmask16, b: __mmask16) -> __mmask16 {
         a & b
+    }
+    #[inline(always)]
+    fn permute(self, x: __m512, numbers: &[i32; LANES]) -> __m512 {
+        // SAFETY: see above.
+        unsafe { _mm512_permutexvar_ps(_mm512_loadu_si512(numbers.as_ptr().cast()), x) }
     }
     #[inline(always)]
     fn bits(self, mask: __mmask16) -> u32 {

@@ -25,6 +25,9 @@ pub trait Lanes: Copy {
     /// Sixteen truth values.
     type Mask: Copy;
 
+    /// True if [`Lanes::permute`] is one instruction.
+    const PERMUTES: bool;
+
     fn splat(self, x: f32) -> Self::Floats;
     fn load(self, from: &[f32; LANES]) -> Self::Floats;
     fn store(self, x: Self::Floats, to: &mut [f32; LANES]);
@@ -48,6 +51,8 @@ pub trait Lanes: Copy {
     fn select(self, mask: Self::Mask, a: Self::Floats, b: Self::Floats) -> Self::Floats;
     /// Where both masks are.
     fn both(self, a: Self::Mask, b: Self::Mask) -> Self::Mask;
+    /// The lanes of `x` with these numbers.
+    fn permute(self, x: Self::Floats, numbers: &[i32; LANES]) -> Self::Floats;
     /// The mask as bits, lane 0 the lowest.
     fn bits(self, mask: Self::Mask) -> u32;
     /// Lanes `k` and `k + 8` are added, of these `k` and `k + 4`, and so on.

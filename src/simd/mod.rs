@@ -120,7 +120,9 @@ mod tests {
             let [x, y, z] = lanes.gather(self.1, &self.2);
             let of_two = [lanes.add(a, b), lanes.sub(a, b), lanes.mul(a, b), lanes.div(a, b)];
             let chosen = [lanes.min(a, b), lanes.max(a, b), lanes.select(mask, a, b), lanes.only(mask, a)];
-            let others = [lanes.abs(b), lanes.sqrt(a), lanes.splat(self.0[0][3]), x, y, z];
+            let numbers = self.2.map(|number| (number % LANES as u32).cast_signed());
+            let permuted = lanes.permute(a, &numbers);
+            let others = [permuted, lanes.abs(b), lanes.sqrt(a), lanes.splat(self.0[0][3]), x, y, z];
             let mut bits = vec![lanes.bits(mask), lanes.sum(a).to_bits(), lanes.least(b).to_bits()];
             bits.push(lanes.bits(lanes.at_most(a, b)));
             bits.push(lanes.bits(lanes.both(lanes.at_most(a, b), lanes.at_most(b, a))));

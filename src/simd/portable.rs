@@ -52,6 +52,8 @@ impl Lanes for Portable {
     /// All bits of a lane, or none.
     type Mask = [u32; LANES];
 
+    const PERMUTES: bool = false;
+
     #[inline(always)]
     fn splat(self, x: f32) -> [f32; LANES] {
         [x; LANES]
@@ -115,6 +117,10 @@ impl Lanes for Portable {
     #[inline(always)]
     fn both(self, a: [u32; LANES], b: [u32; LANES]) -> [u32; LANES] {
         each(|k| a[k] & b[k])
+    }
+    #[inline(always)]
+    fn permute(self, x: [f32; LANES], numbers: &[i32; LANES]) -> [f32; LANES] {
+        each(|k| x[numbers[k] as usize % LANES])
     }
     #[inline(always)]
     fn bits(self, mask: [u32; LANES]) -> u32 {

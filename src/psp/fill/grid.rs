@@ -11,7 +11,7 @@ use crate::psp::facing::{Facing, NO_NORMAL};
 use crate::psp::fill::cells::Cells;
 use crate::psp::fill::page::{CoveredTriangles, Covering, GROUP, Group, LANES, Near, Page, Part, samples, squares};
 use crate::psp::fill::space::{MASK, Place, ROUNDER, Space};
-use crate::psp::sixteenths::{CORNERS, Cover, PIERCING, PIERCING_BY_EDGE};
+use crate::psp::sixteenths::{CORNERS, CORNERS_OF_SIXTEENTHS, Cover, PIERCING, PIERCING_BY_EDGE};
 use crate::simd::{HALF, Lanes, Level, Work, run};
 
 /// Room for so many pages is made at first: a cube of `cubes.rs` hardly has more.
@@ -231,6 +231,9 @@ impl Work for OpenSixteenths<'_> {
             [along(lanes, [s, t], corners[0]), along(lanes, [s, t], corners[1]), along(lanes, [s, t], corners[2])];
         let origin = [lanes.splat(part.origin[0]), lanes.splat(part.origin[1]), lanes.splat(part.origin[2])];
         let (limit, reach2) = (lanes.splat(grid.space.surely_within), lanes.splat(part.reach2));
+        // What is covered: where lanes can be permuted by the squared distance of each sixteenth's farthest corner from a
+        // sample, least of all; elsewhere by bits of corners. By bits the whole fill takes 5 % longer in AVX-512.
+        let mut least = lanes.splat(f32::INFINITY);
         let (mut cover, mut unseen) = (Cover::default(), u8::MAX >> (HALF - PIERCING.len()));
         while unseen != 0 {
             let number = numbers[unseen.trailing_zeros() as usize % HALF];
@@ -252,16 +255,29 @@ impl Work for OpenSixteenths<'_> {
                 while reaching != 0 {
                     let lane = reaching.trailing_zeros() as usize % LANES;
                     let squares = squares(lanes, corners, [places[0][lane], places[1][lane], places[2][lane]]);
-                    cover.add(lanes.bits(lanes.less(squares, limit)) as u16);
+                    if L::PERMUTES {
+                        let first = lanes.permute(squares, &CORNERS_OF_SIXTEENTHS[0]);
+                        let two = lanes.max(first, lanes.permute(squares, &CORNERS_OF_SIXTEENTHS[1]));
+                        let farthest = lanes.max(two, lanes.permute(squares, &CORNERS_OF_SIXTEENTHS[2]));
+                        least = lanes.min(least, farthest);
+                    } else {
+                        cover.add(lanes.bits(lanes.less(squares, limit)) as u16);
+                    }
                     reaching &= reaching - 1;
                 }
-                if open & !cover.sixteenths() == 0 {
+                if open & !covered(lanes, least, limit, &cover) == 0 {
                     return 0;
                 }
             }
         }
-        open & !cover.sixteenths()
+        open & !covered(lanes, least, limit, &cover)
     }
+}
+
+/// The sixteenths that are covered, by either account.
+#[inline(always)]
+fn covered<L: Lanes>(lanes: L, least: L::Floats, limit: L::Floats, cover: &Cover) -> u16 {
+    if L::PERMUTES { lanes.bits(lanes.less(least, limit)) as u16 } else { cover.sixteenths() }
 }
 
 /// A corner and shares of the edges from there, along one axis.
