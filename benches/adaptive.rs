@@ -40,7 +40,7 @@ fn adaptive(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("adaptive");
     group.sample_size(10).throughput(Throughput::Elements(SAMPLES as u64));
 
-    let options = psp::Options::new(least(&mesh, 1.0)).iterations(0);
+    let options = psp::Options::new(least(&mesh, 1.0));
     group.bench_function("uniform fill", |bencher| {
         bencher.iter(|| psp::sample(&context, &mesh, &options, None).expect("samples"))
     });

@@ -12,7 +12,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use azulejo::mesh::Mesh;
-use azulejo::psp::{Engine, Options, Psp, Report};
+use azulejo::psp::{Engine, ProjectionOptions, Psp, Report};
 use azulejo::{Context, MAXIMAL_DENSITY};
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 
@@ -22,12 +22,12 @@ fn mesh((positions, triangles): meshes::Soup) -> Arc<Mesh> {
     Arc::new(Mesh::new(positions, triangles).expect("a good mesh"))
 }
 
-/// Options for a set that has about `count` samples once it is maximal.
-fn options(mesh: &Mesh, count: f64, engine: Engine) -> Options<'static> {
-    Options::new((MAXIMAL_DENSITY * mesh.area() / count).sqrt()).engine(engine)
+/// ProjectionOptions for a set that has about `count` samples once it is maximal.
+fn options(mesh: &Mesh, count: f64, engine: Engine) -> ProjectionOptions<'static> {
+    ProjectionOptions::new((MAXIMAL_DENSITY * mesh.area() / count).sqrt()).engine(engine)
 }
 
-fn iterate(context: &Context, mesh: &Arc<Mesh>, options: &Options) -> Report {
+fn iterate(context: &Context, mesh: &Arc<Mesh>, options: &ProjectionOptions) -> Report {
     Psp::new(mesh, options).expect("a good radius").advance(context, 1, None).expect("an iteration")
 }
 

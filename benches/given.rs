@@ -57,7 +57,7 @@ fn surface(criterion: &mut Criterion) {
     let (positions, triangles) = meshes::fine_torus(500, 200);
     let mesh = Arc::new(Mesh::new(positions, triangles).expect("a good mesh"));
     let (context, radius) = (Context::new(1).expect("a thread"), (MAXIMAL_DENSITY * mesh.area() / SAMPLES).sqrt());
-    let options = psp::Options::new(radius).iterations(0);
+    let options = psp::Options::new(radius);
     let (whole, _) = psp::sample(&context, &mesh, &options, None).expect("samples");
     let half: Vec<_> = whole.positions.iter().copied().step_by(2).collect();
     let mut random = Random::new(2);

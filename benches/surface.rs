@@ -17,7 +17,7 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use azulejo::mesh::Mesh;
-use azulejo::psp::{self, Options, Psp};
+use azulejo::psp::{self, ProjectionOptions, Psp};
 use azulejo::{Context, MAXIMAL_DENSITY};
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 
@@ -32,19 +32,19 @@ fn mesh((positions, triangles): meshes::Soup) -> Arc<Mesh> {
 
 fn surface(criterion: &mut Criterion) {
     let mesh = mesh(meshes::fine_torus(500, 200));
-    let options = Options::new(radius(&mesh, 1e5));
+    let options = ProjectionOptions::new(radius(&mesh, 1e5));
     let cases = [
-        ("one iteration", options.iterations(1).maximal(false)),
-        ("three iterations", options.iterations(3).maximal(false)),
-        ("maximal after one iteration", options.iterations(1)),
-        ("maximal, filled only", options.iterations(0)),
+        ("one iteration", 1, false),
+        ("three iterations", 3, false),
+        ("maximal after one iteration", 1, true),
+        ("maximal, filled only", 0, true),
     ];
     let contexts = [1, 0].map(|threads| Context::new(threads).expect("threads"));
     let mut group = criterion.benchmark_group("surface");
     group.sample_size(10);
     for context in &contexts {
-        for (name, options) in cases {
-            let sample = || psp::sample(context, &mesh, &options, None).expect("samples");
+        for (name, iterations, maximal) in cases {
+            let sample = || psp::project(context, &mesh, &options, iterations, maximal, None).expect("samples");
             group.throughput(Throughput::Elements(sample().1.samples));
             group.bench_function(format!("{name}, {} threads", context.num_threads()), |bencher| bencher.iter(sample));
         }
@@ -80,7 +80,7 @@ struct Times {
 
 impl Times {
     fn of(context: &Context, mesh: &Arc<Mesh>, radius: f64) -> Self {
-        let mut psp = Psp::new(mesh, &Options::new(radius)).expect("a good radius");
+        let mut psp = Psp::new(mesh, &ProjectionOptions::new(radius)).expect("a good radius");
         let first = psp.advance(context, 1, None).expect("an iteration");
         let filled = psp.fill(context, None).expect("a maximal set");
         let start = Instant::now();

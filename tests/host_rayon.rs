@@ -18,8 +18,8 @@ fn plane(context: &Context, seed: u64) -> Vec<[f32; 2]> {
 fn surface(context: &Context, seed: u64) -> Vec<[f32; 3]> {
     let corners = vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
     let mesh = Arc::new(Mesh::new(corners, vec![[0, 1, 2], [0, 2, 3]]).unwrap());
-    let options = psp::Options::new(0.1).iterations(1).seed(seed);
-    psp::sample(context, &mesh, &options, None).unwrap().0.positions
+    let options = psp::ProjectionOptions::new(0.1).seed(seed);
+    psp::project(context, &mesh, &options, 1, true, None).unwrap().0.positions
 }
 
 #[test]

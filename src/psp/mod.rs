@@ -3,8 +3,8 @@
 //! [`sample`] fills a mesh from nothing: darts fall on all that may be uncovered, which is found by subdividing triangles,
 //! round after round until nothing is left open (`fill/`). No rays are traced.
 //!
-//! Iterations of projection come before it only where they are asked for ([`Options::iterations`], [`Psp::advance`]), or
-//! in place of it in sets that need not be maximal. A planar Poisson-disk pattern is projected along three orthogonal
+//! Iterations of projection come before it only where they are asked for ([`project`], [`Psp::advance`]), or in place of it
+//! in sets that need not be maximal. A planar Poisson-disk pattern is projected along three orthogonal
 //! directions through the mesh, by rays of Embree or by a rasteriser ([`Engine`]); all hits are candidates; those that
 //! conflict with nothing of higher priority become samples. More iterations from other directions only add, and
 //! [`Psp::fill`] closes what they leave.
@@ -25,6 +25,7 @@ mod cubes;
 mod estimate;
 mod facing;
 mod fill;
+mod flat;
 mod fragment;
 mod given;
 mod lanes;
@@ -45,6 +46,7 @@ mod vectors;
 
 pub use classes::sample_classes;
 pub use fill::rounds::TOLERANCE;
-pub use options::{DEFAULT_QUOTIENT, Engine, Options, Priority};
-pub use progressive::{Psp, sample};
+pub use flat::FlatOptions;
+pub use options::{Amount, ClassOptions, DEFAULT_QUOTIENT, Engine, Options, Priority, ProjectionOptions};
+pub use progressive::{Psp, project, sample};
 pub use report::Report;

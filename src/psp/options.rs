@@ -1,4 +1,5 @@
-//! What to sample, and how.
+//! The options of the calls: a type for each, with the fields that the call reads; and those of flat interfaces, of which not
+//! all go together.
 
 use crate::error::{Error, Result};
 use crate::given::Given;
@@ -6,17 +7,18 @@ use crate::order::Order;
 use crate::setters::setters;
 use crate::trace::HAS_EMBREE;
 
-/// Which of an iteration's candidates comes first where two of them are too close. Existing samples come before all.
+/// The order of an iteration's candidates: of two that are too close the first one is kept. Existing samples come before
+/// all.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Priority {
-    /// That which its projector faces more squarely: there the pattern is stretched less. Finds more samples.
+    /// By how squarely their projector faces them: there the pattern is stretched less. Finds more samples.
     #[default]
     Squareness,
-    /// That of the projector with the lower number (thesis §3.3.2).
+    /// By the number of their projector (thesis §3.3.2).
     Projector,
 }
 
-/// What finds the hits of the projectors. Both find the same ones, up to rounding: points and edges move against each
+/// The engine that finds the hits of the projectors. Both find the same ones, up to rounding: points and edges move against each
 /// other by up to 2e-7 of the mesh's diagonal, as their projector sees them. A point that near to an edge may fall on
 /// the other side, and barycentrics differ by up to this over the height of their triangle.
 ///
@@ -32,7 +34,7 @@ pub enum Engine {
 }
 
 impl Engine {
-    /// Those that this build has.
+    /// The engines that this build has.
     pub const AVAILABLE: &[Self] = if HAS_EMBREE { &[Self::Embree, Self::Rasteriser] } else { &[Self::Rasteriser] };
 }
 
@@ -42,141 +44,124 @@ impl Default for Engine {
     }
 }
 
-/// [`Options::quotient`] by default: 2^(1/8).
+/// The default of [`Options::quotient`]: 2^(1/8).
 pub const DEFAULT_QUOTIENT: f64 = 1.090_507_732_665_257_7;
 
-/// What to sample.
+/// How many samples there are.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Amount {
+    /// As many as fit with this smallest distance, in the units of the mesh; positive and finite.
+    Radius(f64),
+    /// Exactly so many, at least 1: the radius is found, and [`Report::radius`](super::Report::radius) says it.
+    Count(usize),
+}
+
+/// The options of [`sample`](super::sample).
+///
+/// Where no more than 25,000 samples are expected, on the area and along edges longer than the radius, a set is filled in one
+/// piece and is unbiased; a larger one is filled cube by cube and holds up to about 0.8 % more samples than unbiased darts
+/// give, at the seams of the cubes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Options<'a> {
-    /// The smallest distance of two samples, in the units of the mesh; positive and finite, or 0 where there is a count.
-    pub radius: f64,
-    /// How many samples there are to be, exactly: the radius is found, and [`Report::radius`](super::Report::radius)
-    /// says it. 0, the default: as many as the radius gives. Used by [`sample`](super::sample) only.
-    pub count: usize,
-    /// The order of the samples; by default any. Used by [`sample`](super::sample) only.
+    /// The radius or the number of samples.
+    pub amount: Amount,
+    /// The order of the samples; by default any.
     pub order: Order,
     /// In progressive order, the largest ratio of the covering radius of the first samples to their rank, from
     /// [`Order::FIRST_COUNT`] samples on: 1.02 to 1.5, by default 2^(1/8). For fewer it is up to two, or the square of
     /// this if that is more. The smaller, the more levels, each of which takes time.
     pub quotient: f64,
-    /// Iterations of three projectors each, 0 and up; `None`, the default, goes by the rule of
-    /// [`Options::iterations_by_rule`]. Where no more than 25,000 samples are expected, on the area and along edges longer
-    /// than the radius, a set that is only filled is filled in one piece and is unbiased; a larger one is filled cube by
-    /// cube and holds up to about 0.8 % more samples than unbiased darts give, at the seams of the cubes. Used by
-    /// [`sample`](super::sample) only.
-    pub iterations: Option<u32>,
-    /// Whether to fill what the projectors leave uncovered. Used by [`sample`](super::sample) only.
-    pub maximal: bool,
     /// Selects one of 2^64 sets.
     pub seed: u64,
-    /// Which candidates come first.
-    pub priority: Priority,
-    /// What finds the hits.
-    pub engine: Engine,
     /// Samples that stand already: new ones keep their clearances, and cover what is farther than that from all of
-    /// them. They are not among the samples that are returned.
+    /// them. They are not among the samples that are returned. With a count they must have clearances.
     pub given: Given<'a, 3>,
     /// Samples on triangles whose normals have a smaller cosine ignore each other, and so do samples and uncovered
     /// surface: the sides of a thin wall are sampled as if they were far apart. From -1, which is off, to 1, where only
     /// samples with the same normal see each other. The triangles must be wound consistently. Given samples have no
-    /// normal: they act on all sides. Not with iterations.
+    /// normal: they act on all sides.
     pub cosine: f64,
 }
 
 impl Options<'_> {
-    /// A maximal set.
+    /// A set of this radius.
     pub fn new(radius: f64) -> Self {
-        Self {
-            radius,
-            count: 0,
-            order: Order::Any,
-            quotient: DEFAULT_QUOTIENT,
-            iterations: None,
-            maximal: true,
-            seed: 0,
-            priority: Priority::default(),
-            engine: Engine::default(),
-            given: Given::default(),
-            cosine: -1.0,
-        }
+        Self::of(Amount::Radius(radius))
     }
 
     /// A set of so many samples.
     pub fn by_count(count: usize) -> Self {
-        Self { count, ..Self::new(0.0) }
+        Self::of(Amount::Count(count))
+    }
+
+    fn of(amount: Amount) -> Self {
+        let (order, given) = (Order::Any, Given::default());
+        Self { amount, order, quotient: DEFAULT_QUOTIENT, seed: 0, given, cosine: -1.0 }
+    }
+}
+
+setters!(Options<'a> { order: Order, quotient: f64, seed: u64, given: Given<'a, 3>, cosine: f64 });
+
+/// The options of [`Psp`](super::Psp) and of [`project`](super::project).
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct ProjectionOptions<'a> {
+    /// The smallest distance of two samples, in the units of the mesh; positive and finite.
+    pub radius: f64,
+    /// Selects one of 2^64 sets.
+    pub seed: u64,
+    /// The candidates that come first.
+    pub priority: Priority,
+    /// The engine that finds the hits.
+    pub engine: Engine,
+    /// As in [`Options::given`].
+    pub given: Given<'a, 3>,
+    /// As in [`Options::cosine`], for [`Psp::fill`](super::Psp::fill). Projection tells no sides apart: iterations require -1.
+    pub cosine: f64,
+}
+
+impl ProjectionOptions<'_> {
+    /// Sets of this radius.
+    pub fn new(radius: f64) -> Self {
+        let (priority, engine, given) = (Priority::default(), Engine::default(), Given::default());
+        Self { radius, seed: 0, priority, engine, given, cosine: -1.0 }
     }
 
     /// These options without the samples that are given.
-    pub(super) fn without_given(&self) -> Options<'static> {
-        let &Self { radius, count, order, quotient, iterations, maximal, seed, priority, engine, given: _, cosine } =
-            self;
-        let given = Given::default();
-        Options { radius, count, order, quotient, iterations, maximal, seed, priority, engine, given, cosine }
+    pub(crate) fn without_given(&self) -> ProjectionOptions<'static> {
+        let &Self { radius, seed, priority, engine, given: _, cosine } = self;
+        ProjectionOptions { radius, seed, priority, engine, given: Given::default(), cosine }
     }
 }
 
-impl Options<'_> {
-    /// These options with another [`iterations`](Self::iterations): a number, or `None`.
-    #[must_use]
-    pub fn iterations(mut self, iterations: impl Into<Option<u32>>) -> Self {
-        self.iterations = iterations.into();
-        self
-    }
+setters!(ProjectionOptions<'a> { seed: u64, priority: Priority, engine: Engine, given: Given<'a, 3>, cosine: f64 });
 
-    /// How many iterations [`sample`](super::sample) makes: as many as asked for, and otherwise by a rule. A maximal
-    /// set is only filled, on every mesh and with every radius: that is sooner done than an iteration and a fill
-    /// of the rest, and no direction is preferred. A set that is not filled gets one iteration.
-    pub fn iterations_by_rule(&self) -> u32 {
-        self.iterations.unwrap_or(if self.maximal { 0 } else { 1 })
-    }
+/// The options of [`sample_classes`](super::sample_classes).
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct ClassOptions<'a> {
+    /// Selects one of 2^64 sets.
+    pub seed: u64,
+    /// Samples that stand already. They keep each class's own radius clear, or have clearances row by row: for each
+    /// sample one for each class.
+    pub given: Given<'a, 3>,
+    /// As in [`Options::cosine`].
+    pub cosine: f64,
+}
 
-    /// Whether the set is made level by level: its number of samples or their order is asked for.
-    pub(super) fn has_levels(&self) -> bool {
-        self.count > 0 || self.order == Order::Progressive
-    }
-
-    /// Refuses what does not go with levels.
-    pub(super) fn check_levels(&self) -> Result<()> {
-        let asked = if self.count > 0 { "a count" } else { "progressive order" };
-        if self.iterations_by_rule() != 0 {
-            let reason = format!("{} are asked for; {asked} is had by filling alone", self.iterations_by_rule());
-            return Err(Error::invalid("iterations", reason));
-        }
-        if !self.maximal {
-            return Err(Error::invalid("maximal", format!("is off; {asked} is had by filling alone")));
-        }
-        if self.count > 0 && self.radius != 0.0 {
-            let (count, radius) = (self.count, self.radius);
-            return Err(Error::invalid("count", format!("{count} samples and radius {radius} are asked for at once")));
-        }
-        if self.count > u32::MAX as usize {
-            return Err(Error::too_large("count", format!("{}; the limit is {}", self.count, u32::MAX)));
-        }
-        if self.order == Order::Progressive {
-            check_quotient(self.quotient)?;
-        }
-        Ok(())
+impl Default for ClassOptions<'_> {
+    fn default() -> Self {
+        Self { seed: 0, given: Given::default(), cosine: -1.0 }
     }
 }
+
+setters!(ClassOptions<'a> { seed: u64, given: Given<'a, 3>, cosine: f64 });
 
 /// Refuses a quotient that is out of range.
-pub(super) fn check_quotient(quotient: f64) -> Result<()> {
+pub fn check_quotient(quotient: f64) -> Result<()> {
     if (1.02..=1.5).contains(&quotient) {
         return Ok(());
     }
     Err(Error::invalid("quotient", format!("{quotient} is not between 1.02 and 1.5")))
 }
-
-setters!(Options<'a> {
-    radius: f64,
-    count: usize,
-    order: Order,
-    quotient: f64,
-    maximal: bool,
-    seed: u64,
-    priority: Priority,
-    engine: Engine,
-    given: Given<'a, 3>,
-    cosine: f64,
-});

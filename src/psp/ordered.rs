@@ -14,9 +14,12 @@ use crate::psp::fill::measures::Measures;
 use crate::psp::fill::uniform::Surface;
 use crate::psp::given::GivenSamples;
 use crate::psp::levels::{self, Levels};
-use crate::psp::options::Options;
+use crate::psp::options::{Amount, Options, check_quotient};
 use crate::psp::report::{Report, rho};
 use crate::psp::samples::surface_samples;
+
+/// The largest number of samples that can be indexed.
+const INDEXABLE: usize = u32::MAX as usize;
 
 /// A set of a count, or in progressive order.
 pub fn sample(
@@ -26,43 +29,58 @@ pub fn sample(
     progress: Option<&Progress>,
 ) -> Result<(Points<3>, Report)> {
     let stopwatch = Stopwatch::start();
-    options.check_levels()?;
-    let facing = Facing::new(options.cosine)?;
-    let measures = mesh.kept(|| Ok(()), || Ok(Measures::of(mesh)))?;
-    let &Options { radius, count, order, quotient, seed, .. } = options;
-    let given = GivenSamples::of_levels(mesh, options.given, (count == 0).then_some(radius))?;
-    if count == 0 {
-        checked_estimate(mesh, &measures, radius)?;
-    } else if mesh.area() == 0.0 {
-        return Err(Error::invalid("count", format!("{count}, but the mesh's mask leaves no surface")));
-    } else {
-        require_memory(count as f64, "count", &format!("{count} samples"))?;
+    let &Options { amount, order, quotient, seed, given, cosine } = options;
+    if let Amount::Count(count) = amount {
+        check_count(count)?;
     }
+    if order == Order::Progressive {
+        check_quotient(quotient)?;
+    }
+    let facing = Facing::new(cosine)?;
+    let measures = mesh.kept(|| Ok(()), || Ok(Measures::of(mesh)))?;
+    let given = match amount {
+        Amount::Radius(radius) => {
+            let given = GivenSamples::of_levels(mesh, given, Some(radius))?;
+            checked_estimate(mesh, &measures, radius)?;
+            given
+        }
+        Amount::Count(count) => {
+            let given = GivenSamples::of_levels(mesh, given, None)?;
+            if mesh.area() == 0.0 {
+                return Err(Error::invalid("count", format!("{count}, but the mesh's mask leaves no surface")));
+            }
+            require_memory(count as f64, "count", &format!("{count} samples"))?;
+            given
+        }
+    };
     let surface = Surface { mesh, measures: &measures, given: &given, facing };
     let (levels, finest) = (Levels::new(surface, seed), finest_radius(mesh.float_spacing()));
-    let found = context.run(progress, |job| match (order, count) {
-        (Order::Progressive, 0) => levels::by_radius(job, levels, quotient, radius),
-        (Order::Progressive, _) => levels::by_count(job, levels, quotient, count, finest),
-        (Order::Any, _) => levels::exactly(job, levels, count, finest),
+    let found = context.run(progress, |job| match (amount, order) {
+        (Amount::Radius(radius), _) => levels::by_radius(job, levels, quotient, radius),
+        (Amount::Count(count), Order::Progressive) => levels::by_count(job, levels, quotient, count, finest),
+        (Amount::Count(count), Order::Any) => levels::exactly(job, levels, count, finest),
     })?;
     let mut samples = surface_samples(mesh, &found.samples);
     if order == Order::Progressive {
         samples.ranks = found.samples.iter().map(|sample| sample.rank).collect();
     }
-    let (len, area, seconds) = (samples.len(), mesh.area(), stopwatch.seconds());
+    let len = samples.len();
     let report = Report {
-        samples: len as u64,
-        accepted: len as u64,
-        darts: found.darts,
-        conflicts: found.darts - len as u64,
-        seconds,
-        fill_seconds: seconds,
         rho: rho(mesh, len, found.radius),
-        uncovered_before: given.is_empty().then_some(if area > 0.0 { 1.0 } else { 0.0 }),
-        uncovered_after: (count == 0).then_some(0.0),
+        uncovered_before: given.is_empty().then_some(if mesh.area() > 0.0 { 1.0 } else { 0.0 }),
+        uncovered_after: matches!(amount, Amount::Radius(_)).then_some(0.0),
         radius: found.radius,
         coverage: Some(found.coverage),
-        ..Report::default()
+        ..Report::of_fill(len, found.darts, &stopwatch)
     };
     Ok((samples, report))
+}
+
+/// Refuses a count that is 0 or cannot be indexed.
+fn check_count(count: usize) -> Result<()> {
+    match count {
+        0 => Err(Error::invalid("count", "0 is not at least 1")),
+        1..=INDEXABLE => Ok(()),
+        _ => Err(Error::too_large("count", format!("{count}; the limit is {INDEXABLE}"))),
+    }
 }

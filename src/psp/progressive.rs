@@ -17,7 +17,7 @@ use crate::psp::fill::measures::Measures;
 use crate::psp::fill::uniform::Surface;
 use crate::psp::given::GivenSamples;
 use crate::psp::merge;
-use crate::psp::options::Options;
+use crate::psp::options::{Amount, Options, ProjectionOptions};
 use crate::psp::ordered;
 use crate::psp::project::collector::Collector;
 use crate::psp::project::projection::Projection;
@@ -30,7 +30,7 @@ use crate::psp::samples::SampleSet;
 /// After a cancelled or failed call it holds what was accepted until then, which is a valid set, and can be used on.
 pub struct Psp {
     mesh: Arc<Mesh>,
-    options: Options<'static>,
+    options: ProjectionOptions<'static>,
     given: GivenSamples,
     facing: Facing,
     samples: SampleSet,
@@ -52,13 +52,8 @@ impl Psp {
     /// largest coordinate of the mesh: floats cannot carry it; for a `cosine` outside -1 to 1; for `given` samples out
     /// of range, by their index (`given_positions`, `given_clearances`). [`Error::TooLarge`] where the radius would ask
     /// for more than 2^32 samples on the bare surface, or more than memory holds.
-    pub fn new(mesh: &Arc<Mesh>, options: &Options) -> Result<Self> {
+    pub fn new(mesh: &Arc<Mesh>, options: &ProjectionOptions) -> Result<Self> {
         let radius = options.radius;
-        for (option, is_asked) in [("count", options.count > 0), ("order", options.order == Order::Progressive)] {
-            if is_asked {
-                return Err(Error::invalid(option, "is of sets that are made in one call, by sample"));
-            }
-        }
         let measures = mesh.kept(|| Ok(()), || Ok(Measures::of(mesh)))?;
         let estimate = checked_estimate(mesh, &measures, radius)?;
         let (facing, samples) = (Facing::new(options.cosine)?, SampleSet::new(mesh, radius));
@@ -127,8 +122,7 @@ impl Psp {
 
     fn iterate(&mut self, job: &Job, iterations: u32, report: &mut Report) -> Result<()> {
         if iterations > 0 && self.facing.asks_normals() {
-            let reason =
-                format!("{:?} with iterations: projection tells no sides apart; only a fill does", self.options.cosine);
+            let reason = format!("{:?} with iterations; iterations require cosine = -1", self.options.cosine);
             return Err(Error::invalid("cosine", reason));
         }
         let iterations = if self.projects { iterations } else { 0 };
@@ -142,7 +136,7 @@ impl Psp {
                 none => none.insert(Projection::new(&job.part(0.0, prepared), &self.mesh, &self.options)?),
             };
             report.prepare_seconds += stage.lap();
-            let Options { seed, priority, .. } = self.options;
+            let ProjectionOptions { seed, priority, .. } = self.options;
             let frame = projector::frame(seed, self.iterations, self.frame);
             let projectors = &Projector::all(frame, seed, self.iterations);
             let collector = Collector { mesh: &self.mesh, samples: &self.samples, priority, projectors };
@@ -192,10 +186,9 @@ impl Psp {
     }
 }
 
-/// Samples a mesh in one call: [`Psp::new`], [`Psp::advance`] by [`Options::iterations_by_rule`] and, if `maximal`,
-/// [`Psp::fill`].
+/// A maximal set in one call, by filling.
 ///
-/// With [`Options::count`] the set has exactly so many samples, and the report says the radius and a bound of the covering
+/// With [`Amount::Count`] the set has exactly so many samples, and the report says the radius and a bound of the covering
 /// radius. Takes about twice the time of a set of known radius.
 ///
 /// In [`Order::Progressive`] the samples are sorted coarse to fine, and have [ranks](Points::ranks). For every
@@ -207,30 +200,47 @@ impl Psp {
 /// `log(diagonal / radius) / log(quotient)` levels visits all triangles.
 ///
 /// # Errors
-/// Those of the three, and [`Error::InvalidArgument`] for a `count` that is more than floats can carry on the mesh, and
-/// for what does not go with count or order: `iterations`, sets that are not `maximal`, a `radius` beside a count, a
-/// `quotient` out of range. Where the call is cancelled nothing is returned.
+/// Those of [`Psp::new`] and [`Psp::fill`], and [`Error::InvalidArgument`] for a count of 0 or of more than floats can carry
+/// on the mesh, and for a `quotient` out of range in progressive order. Where the call is cancelled nothing is returned.
 pub fn sample(
     context: &Context,
     mesh: &Arc<Mesh>,
     options: &Options,
     progress: Option<&Progress>,
 ) -> Result<(Points<3>, Report)> {
-    if options.has_levels() {
-        return ordered::sample(context, mesh, options, progress);
+    match (options.amount, options.order) {
+        (Amount::Radius(radius), Order::Any) => {
+            let &Options { seed, given, cosine, .. } = options;
+            let filled = ProjectionOptions::new(radius).seed(seed).given(given).cosine(cosine);
+            project(context, mesh, &filled, 0, true, progress)
+        }
+        _ => ordered::sample(context, mesh, options, progress),
     }
+}
+
+/// A set in one call: [`Psp::new`], [`Psp::advance`] by so many `iterations` and, if it is to be `maximal`, [`Psp::fill`].
+///
+/// # Errors
+/// Those of the three. Where the call is cancelled nothing is returned.
+pub fn project(
+    context: &Context,
+    mesh: &Arc<Mesh>,
+    options: &ProjectionOptions,
+    iterations: u32,
+    maximal: bool,
+    progress: Option<&Progress>,
+) -> Result<(Points<3>, Report)> {
     let stopwatch = Stopwatch::start();
     let mut psp = Psp::new(mesh, options)?;
     let mut report = Report::default();
     context.run(progress, |job| {
-        let iterations = options.iterations_by_rule();
-        let share = match (options.maximal, iterations) {
+        let share = match (maximal, iterations) {
             (false, _) => 1.0,
             (true, 0) => 0.0,
             (true, _) => 0.5,
         };
         psp.iterate(&job.part(0.0, share), iterations, &mut report)?;
-        if options.maximal {
+        if maximal {
             psp.complete(&job.part(share, 1.0), &mut report)?;
         }
         Ok(())

@@ -1,8 +1,9 @@
-//! What a call did.
+//! The report of a call: its counts, its times and the guarantees of its set.
 
+use crate::host::Stopwatch;
 use crate::mesh::Mesh;
 
-/// What a call did.
+/// The counts and times of a call, and the guarantees of its set.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct Report {
@@ -55,8 +56,17 @@ pub struct Report {
     pub coverage: Option<f64>,
 }
 
+impl Report {
+    /// The report of a set that was filled from nothing with so many samples and darts.
+    pub(crate) fn of_fill(samples: usize, darts: u64, stopwatch: &Stopwatch) -> Self {
+        let (samples, seconds) = (samples as u64, stopwatch.seconds());
+        let conflicts = darts - samples;
+        Self { samples, accepted: samples, darts, conflicts, seconds, fill_seconds: seconds, ..Self::default() }
+    }
+}
+
 /// The relative radius of so many samples.
-pub(super) fn rho(mesh: &Mesh, count: usize, radius: f64) -> f64 {
+pub fn rho(mesh: &Mesh, count: usize, radius: f64) -> f64 {
     let hexagonal = (2.0 * mesh.area() / (3f64.sqrt() * count as f64)).sqrt();
     if count == 0 { 0.0 } else { radius / hexagonal }
 }

@@ -183,7 +183,7 @@ fn a_flat_surface_is_covered_as_the_plane_is() {
 #[test]
 fn a_maximal_set_on_a_torus_has_no_gap_and_holes_in_it_are_counted() {
     let (radius, torus) = (0.1, Arc::new(mesh(meshes::torus())));
-    let options = psp::Options::new(radius).iterations(0).seed(5);
+    let options = psp::Options::new(radius).seed(5);
     let samples = psp::sample(&context(), &torus, &options, None).unwrap().0.positions;
     let reach = radius + 1e-6;
     let coverage = surface_coverage(&context(), &torus, &samples, reach, None).unwrap();

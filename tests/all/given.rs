@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use azulejo::mesh::Mesh;
 use azulejo::psp::adaptive::{self, Radius};
-use azulejo::psp::{self, Engine, Options, Psp, Report};
+use azulejo::psp::{self, Engine, Options, ProjectionOptions, Psp, Report};
 use azulejo::{Context, Error, Given, Points};
 use proptest::prelude::*;
 
@@ -24,11 +24,11 @@ fn balls(given: Given<3>, radius: f64) -> Vec<Ball> {
 }
 
 /// Everything that a set of one radius owes.
-fn check(mesh: &Mesh, samples: &Points<3>, options: &Options) {
+fn check(mesh: &Mesh, samples: &Points<3>, options: &ProjectionOptions, maximal: bool) {
     let (balls, radii) = (balls(options.given, options.radius), vec![options.radius; samples.len()]);
     assert_eq!(oracle::conflict(samples, &radii, options.cosine), None);
     assert_eq!(oracle::too_near(samples, &balls), None);
-    if options.maximal {
+    if maximal {
         let at = |_: [f64; 3]| options.radius;
         let field = Field::Function(&at, 0.0);
         let gap = oracle::gap_around(mesh, &field, samples, &radii, options.cosine, tolerance(mesh), &balls);
@@ -36,12 +36,28 @@ fn check(mesh: &Mesh, samples: &Points<3>, options: &Options) {
     }
 }
 
-/// A set on one thread and on three, checked.
-fn sample(mesh: &Arc<Mesh>, options: &Options) -> (Points<3>, Report) {
-    let [(samples, report), (again, _)] =
-        [1, 3].map(|threads| psp::sample(&Context::new(threads).unwrap(), mesh, options, None).unwrap());
+/// A set that is only filled on one thread and on three, checked.
+fn sample(mesh: &Arc<Mesh>, options: &ProjectionOptions) -> (Points<3>, Report) {
+    let &ProjectionOptions { radius, seed, given, cosine, .. } = options;
+    let filled = Options::new(radius).seed(seed).given(given).cosine(cosine);
+    let on = |threads| psp::sample(&Context::new(threads).unwrap(), mesh, &filled, None).unwrap();
+    checked(mesh, [on(1), on(3)], options, true)
+}
+
+/// A set after an iteration on one thread and on three, checked.
+fn project(mesh: &Arc<Mesh>, options: &ProjectionOptions, maximal: bool) -> (Points<3>, Report) {
+    let on = |threads| psp::project(&Context::new(threads).unwrap(), mesh, options, 1, maximal, None).unwrap();
+    checked(mesh, [on(1), on(3)], options, maximal)
+}
+
+fn checked(
+    mesh: &Mesh,
+    [(samples, report), (again, _)]: [(Points<3>, Report); 2],
+    options: &ProjectionOptions,
+    maximal: bool,
+) -> (Points<3>, Report) {
     assert_eq!(samples, again, "depends on the number of threads");
-    check(mesh, &samples, options);
+    check(mesh, &samples, options, maximal);
     assert_eq!((report.samples, report.accepted), (samples.len() as u64, samples.len() as u64));
     assert_eq!(report.hits + report.darts, report.accepted + report.conflicts + report.restart_conflicts);
     (samples, report)
@@ -63,12 +79,12 @@ fn sample_adaptive(mesh: &Mesh, options: &adaptive::Options, field: &Field) -> P
 
 /// All kinds of sets on a mesh around given samples: filled, projected, both, with radii of vertices and of a function.
 fn check_all(mesh: &Arc<Mesh>, radius: f64, given: Given<3>) {
-    let options = Options::new(radius).given(given);
+    let options = ProjectionOptions::new(radius).given(given);
     sample(mesh, &options);
     for &engine in Engine::AVAILABLE {
-        let options = options.iterations(1).engine(engine);
-        sample(mesh, &options.maximal(false));
-        sample(mesh, &options);
+        let options = options.engine(engine);
+        project(mesh, &options, false);
+        project(mesh, &options, true);
     }
     if radius > 1e3 {
         return;
@@ -150,7 +166,7 @@ fn any_size_and_any_place() {
 #[test]
 fn what_a_clearance_of_zero_or_a_ball_elsewhere_changes_is_nothing() {
     let mesh = mesh(meshes::torus());
-    let options = Options::new(0.1).seed(2);
+    let options = ProjectionOptions::new(0.1).seed(2);
     let expected = sample(&mesh, &options).0;
     let mut positions = points_near(&mesh, 0.0, 50, 1);
     positions.extend([[9.0; 3], [f32::MAX; 3]]);
@@ -167,8 +183,9 @@ fn a_ball_around_everything_leaves_no_sample() {
         for iterations in [0, 1] {
             let (positions, clearances) = ([position], [clearance]);
             let given = Given::with_clearances(&positions, &clearances);
-            let options = Options::new(0.2).iterations(iterations).given(given);
-            let (samples, report) = psp::sample(&Context::new(2).unwrap(), &mesh, &options, None).unwrap();
+            let options = ProjectionOptions::new(0.2).given(given);
+            let context = Context::new(2).unwrap();
+            let (samples, report) = psp::project(&context, &mesh, &options, iterations, true, None).unwrap();
             assert_eq!((samples.len(), report.uncovered_before), (0, Some(0.0)));
         }
     }
@@ -184,7 +201,7 @@ fn a_ball_as_large_as_the_mesh() {
     });
     let farthest = radii.fold(0.0, f64::max);
     for (clearance, covers) in [(farthest * (1.0 + 1e-12), true), (0.99, false), (1e-3, false)] {
-        let options = Options::new(0.3);
+        let options = ProjectionOptions::new(0.3);
         let clearances = [clearance];
         let (samples, report) = sample(&mesh, &options.given(Given::with_clearances(&[[0.0; 3]], &clearances)));
         assert_eq!(samples.is_empty(), covers);
@@ -193,7 +210,7 @@ fn a_ball_as_large_as_the_mesh() {
     // Seen from far away it is a plane through the mesh.
     for distance in [1e3f32, 1e7] {
         let (positions, clearances) = ([[0.0, 0.0, distance]], [f64::from(distance)]);
-        let options = Options::new(0.2).given(Given::with_clearances(&positions, &clearances));
+        let options = ProjectionOptions::new(0.2).given(Given::with_clearances(&positions, &clearances));
         let samples = sample(&mesh, &options).0;
         assert!(samples.positions.iter().all(|position| position[2] < 1e-3), "{distance}");
         assert!(!samples.is_empty());
@@ -216,7 +233,7 @@ fn radii_far_above_the_mesh_count_from_given_samples_as_well() {
 #[test]
 fn a_hole_is_filled_and_nothing_else_changes() {
     let mesh = mesh(meshes::torus());
-    let options = Options::new(0.08);
+    let options = ProjectionOptions::new(0.08);
     let before = sample(&mesh, &options).0;
     let is_outside = |position: &&[f32; 3]| position[0] < 0.8;
     let outside: Vec<[f32; 3]> = before.positions.iter().filter(is_outside).copied().collect();
@@ -228,17 +245,17 @@ fn a_hole_is_filled_and_nothing_else_changes() {
     let mut union = new.clone();
     union.positions.extend(&outside);
     union.normals.extend(vec![[0.0; 3]; outside.len()]);
-    check(&mesh, &union, &options);
+    check(&mesh, &union, &options, true);
 }
 
 /// A set of twice the radius is given, and the finer one around it completes it.
 #[test]
 fn a_set_is_refined() {
     let mesh = mesh(meshes::torus());
-    let coarse = sample(&mesh, &Options::new(0.16)).0;
-    let options = Options::new(0.08).given(Given::at(&coarse.positions));
+    let coarse = sample(&mesh, &ProjectionOptions::new(0.16)).0;
+    let options = ProjectionOptions::new(0.08).given(Given::at(&coarse.positions));
     let fine = sample(&mesh, &options).0;
-    let direct = sample(&mesh, &Options::new(0.08)).0;
+    let direct = sample(&mesh, &ProjectionOptions::new(0.08)).0;
     let ratio = (coarse.len() + fine.len()) as f64 / direct.len() as f64;
     assert!((0.95..1.05).contains(&ratio), "{ratio}");
 }
@@ -251,7 +268,8 @@ fn grass_keeps_clear_of_plants_and_roads() {
     let half_width = 0.04;
     let road = (0..=100).map(|i| ([0.5 + 0.4 * (0.05 * i as f32).sin(), 0.01 * i as f32, 0.0], half_width));
     let (positions, clearances): (Vec<[f32; 3]>, Vec<f64>) = plants.into_iter().chain(road).unzip();
-    let (grass, report) = sample(&mesh, &Options::new(0.03).given(Given::with_clearances(&positions, &clearances)));
+    let (grass, report) =
+        sample(&mesh, &ProjectionOptions::new(0.03).given(Given::with_clearances(&positions, &clearances)));
     assert!(grass.len() > 300);
     assert!((0.5..0.9).contains(&report.uncovered_before.unwrap()));
 }
@@ -280,7 +298,7 @@ fn the_uncovered_area_before_is_that_of_the_given_samples() {
 #[test]
 fn a_handle_keeps_what_is_given_for_all_its_calls() {
     let (context, mesh) = (Context::new(2).unwrap(), mesh(meshes::torus()));
-    let options = Options::new(0.15);
+    let options = ProjectionOptions::new(0.15);
     let mut psp = {
         let positions = points_near(&mesh, 0.0, 20, 2);
         let clearances = clearances(0.01, 0.5, 20, 3);
@@ -290,9 +308,9 @@ fn a_handle_keeps_what_is_given_for_all_its_calls() {
     let clearances = clearances(0.01, 0.5, 20, 3);
     let options = options.given(Given::with_clearances(&positions, &clearances));
     psp.advance(&context, 2, None).unwrap();
-    check(&mesh, &psp.samples(), &options.maximal(false));
+    check(&mesh, &psp.samples(), &options, false);
     psp.fill(&context, None).unwrap();
-    check(&mesh, &psp.samples(), &options);
+    check(&mesh, &psp.samples(), &options, true);
     assert_eq!(psp.fill(&context, None).unwrap().accepted, 0);
 }
 
@@ -305,20 +323,20 @@ fn both_sides_of_a_thin_wall() {
         high.1.iter_mut().for_each(|triangle| triangle.swap(1, 2));
         mesh(meshes::join([low, high]))
     };
-    let one_side = sample(&mesh(meshes::plane()), &Options::new(0.05)).0.len() as f64;
+    let one_side = sample(&mesh(meshes::plane()), &ProjectionOptions::new(0.05)).0.len() as f64;
     for cosine in [-1.0, 0.0, 0.9, 1.0] {
-        let both = sample(&wall, &Options::new(0.05).cosine(cosine)).0.len() as f64;
+        let both = sample(&wall, &ProjectionOptions::new(0.05).cosine(cosine)).0.len() as f64;
         let expected = if cosine > -1.0 { 2.0 * one_side } else { one_side };
         assert!((both / expected - 1.0).abs() < 0.1, "{cosine}: {both} for {expected}");
     }
     let positions = [[0.5, 0.5, 0.002], [0.1, 0.2, 0.001]];
-    let options = Options::new(0.05).cosine(0.5);
+    let options = ProjectionOptions::new(0.05).cosine(0.5);
     sample(&wall, &options.given(Given::with_clearances(&positions, &[0.3, 0.01])));
     sample(&wall, &options.given(Given::at(&positions)));
     for soup in [meshes::torus(), meshes::random_soup(5, 9)] {
-        sample(&mesh(soup), &Options::new(0.1).cosine(0.7));
+        sample(&mesh(soup), &ProjectionOptions::new(0.1).cosine(0.7));
     }
-    let mut psp = Psp::new(&wall, &Options::new(0.05).cosine(0.5)).unwrap();
+    let mut psp = Psp::new(&wall, &ProjectionOptions::new(0.05).cosine(0.5)).unwrap();
     let context = Context::new(1).unwrap();
     psp.fill(&context, None).unwrap();
     assert_eq!(psp.fill(&context, None).unwrap().accepted, 0);
@@ -327,10 +345,11 @@ fn both_sides_of_a_thin_wall() {
 #[test]
 fn what_cannot_be_is_refused() {
     let (context, mesh) = (Context::new(1).unwrap(), mesh(meshes::plane()));
-    let refused = |options: Options| match psp::sample(&context, &mesh, &options, None) {
+    let invalid = |result| match result {
         Err(Error::InvalidArgument { argument, reason }) => (argument, reason),
         other => panic!("{other:?}"),
     };
+    let refused = |options: Options| invalid(psp::sample(&context, &mesh, &options, None));
     let options = Options::new(0.1);
     let positions = [[0.0; 3], [0.0, f32::NAN, 0.0]];
     let (argument, reason) = refused(options.given(Given::at(&positions)));
@@ -341,9 +360,11 @@ fn what_cannot_be_is_refused() {
     for cosine in [f64::NAN, -1.1, 1.1] {
         assert_eq!(refused(options.cosine(cosine)).0, "cosine");
     }
-    let (argument, reason) = refused(options.cosine(0.5).iterations(1));
-    assert!(argument == "cosine" && reason.contains("iterations"), "{reason}");
-    assert_eq!(refused(options.cosine(0.5).maximal(false)).0, "cosine");
+    for maximal in [false, true] {
+        let options = ProjectionOptions::new(0.1).cosine(0.5);
+        let (argument, reason) = invalid(psp::project(&context, &mesh, &options, 1, maximal, None));
+        assert!(argument == "cosine" && reason.contains("iterations"), "{reason}");
+    }
     let varying = adaptive::Options::new(Radius::PerVertex(&[0.1; 4])).given(Given::at(&positions[..1]));
     let Err(Error::InvalidArgument { argument, .. }) = adaptive::sample(&context, &mesh, &varying, None) else {
         panic!("no clearances");
@@ -358,7 +379,7 @@ fn the_checkers_see_a_given_sample_that_is_moved_or_left_out() {
     let positions = points_near(&mesh, 0.0, 12, 4);
     let clearances = clearances(0.3, 0.6, 12, 5);
     let given = Given::with_clearances(&positions, &clearances);
-    let samples = sample(&mesh, &Options::new(radius).given(given)).0;
+    let samples = sample(&mesh, &ProjectionOptions::new(radius).given(given)).0;
     let good = balls(given, radius);
     let gap = |balls: &[Ball]| {
         let (at, radii) = (|_: [f64; 3]| radius, vec![radius; samples.len()]);
@@ -386,9 +407,9 @@ proptest! {
         let radius = (mesh.area().sqrt() * 10f64.powf(size)).max(0.02);
         let positions = points_near(&mesh, radius, count, seed);
         let clearances = clearances(radius * 10f64.powf(-spread), radius * 2.0, count, seed);
-        let options = Options::new(radius).given(Given::with_clearances(&positions, &clearances)).seed(seed);
+        let options = ProjectionOptions::new(radius).given(Given::with_clearances(&positions, &clearances)).seed(seed);
         sample(&mesh, &options);
-        sample(&mesh, &options.iterations(1));
+        project(&mesh, &options, true);
         sample(&mesh, &options.cosine(0.5));
     }
 }

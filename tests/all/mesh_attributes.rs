@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use azulejo::analysis::coverage::surface_uncovered_fraction;
 use azulejo::mesh::Mesh;
-use azulejo::psp::{self, Options, Psp, Report};
+use azulejo::psp::{self, Options, ProjectionOptions, Psp, Report};
 use azulejo::{Context, Error, Points};
 
 use crate::common::meshes::{self, Soup};
@@ -132,8 +132,9 @@ fn removed((positions, triangles): &Soup, mask: &[bool]) -> (Mesh, Vec<u32>) {
 fn all_ways(mesh: &Mesh, radius: f64) -> [(Points<3>, Report); 3] {
     let context = Context::new(2).unwrap();
     [(0, true), (2, false), (1, true)].map(|(iterations, maximal)| {
-        let options = Options::new(radius).iterations(iterations).maximal(maximal);
-        let (samples, report) = psp::sample(&context, &Arc::new(mesh.clone()), &options, None).unwrap();
+        let options = ProjectionOptions::new(radius);
+        let mesh = Arc::new(mesh.clone());
+        let (samples, report) = psp::project(&context, &mesh, &options, iterations, maximal, None).unwrap();
         (samples, timeless(report))
     })
 }
@@ -222,7 +223,7 @@ fn a_mask_may_leave_out_everything() {
         let mut mask = vec![false; count];
         mask[count - 1] = last;
         let masked = Arc::new(whole.clone().with_mask(mask).unwrap());
-        let mut psp = Psp::new(&masked, &Options::new(0.01)).unwrap();
+        let mut psp = Psp::new(&masked, &ProjectionOptions::new(0.01)).unwrap();
         let advanced = psp.advance(&context, 3, None).unwrap();
         let filled = psp.fill(&context, None).unwrap();
         let nothing = |report: Report| {
@@ -238,8 +239,8 @@ fn a_mask_may_leave_out_everything() {
         nothing(filled);
         assert!(psp.samples().is_empty());
         for iterations in [0, 1] {
-            let options = Options::new(0.01).iterations(iterations);
-            let (samples, report) = psp::sample(&context, &masked, &options, None).unwrap();
+            let options = ProjectionOptions::new(0.01);
+            let (samples, report) = psp::project(&context, &masked, &options, iterations, true, None).unwrap();
             nothing(report);
             assert!(samples.is_empty());
         }

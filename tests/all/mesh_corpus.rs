@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use azulejo::mesh::Mesh;
-use azulejo::psp::{self, Options};
+use azulejo::psp::{self, ProjectionOptions};
 use azulejo::{Context, Error};
 
 use crate::common::surface_oracle as oracle;
@@ -65,8 +65,8 @@ fn files_of_many_programs_are_loaded_and_sampled_or_refused_with_the_reason() {
                 let mesh = Arc::new(mesh);
                 let radius = (mesh.area() / 1000.0).sqrt();
                 for iterations in [0, 1] {
-                    let options = Options::new(radius).iterations(iterations);
-                    let (samples, _) = psp::sample(&context, &mesh, &options, None).unwrap();
+                    let options = ProjectionOptions::new(radius);
+                    let (samples, _) = psp::project(&context, &mesh, &options, iterations, true, None).unwrap();
                     assert_eq!(oracle::misplaced(&mesh, &samples), None, "{name}");
                     assert_eq!(oracle::conflict(&samples, radius), None, "{name}");
                     assert_eq!(oracle::gap(&mesh, &samples, radius, tolerance(&mesh)), None, "{name}");

@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use azulejo::analysis::{coverage, spacing};
 use azulejo::mesh::Mesh;
-use azulejo::psp::{self, Engine, Options, Priority, Psp};
+use azulejo::psp::{self, Engine, FlatOptions, Options, Priority, ProjectionOptions, Psp};
 use azulejo::{Context, Error, MAXIMAL_DENSITY, Points};
 use proptest::prelude::*;
 
@@ -32,9 +32,10 @@ fn check(mesh: &Mesh, samples: &Points<3>, radius: f64, maximal: bool) {
 fn check_all(mesh: &Arc<Mesh>, radius: f64) {
     let projected = Engine::AVAILABLE.iter().flat_map(|&engine| [(2, false, engine), (2, true, engine)]);
     for (iterations, maximal, engine) in projected.chain([(0, true, Engine::default())]) {
-        let options = Options::new(radius).iterations(iterations).maximal(maximal).engine(engine);
-        let [(samples, report), (again, _)] =
-            [1, 4].map(|threads| psp::sample(&Context::new(threads).unwrap(), mesh, &options, None).unwrap());
+        let options = ProjectionOptions::new(radius).engine(engine);
+        let project =
+            |threads| psp::project(&Context::new(threads).unwrap(), mesh, &options, iterations, maximal, None);
+        let [(samples, report), (again, _)] = [1, 4].map(|threads| project(threads).unwrap());
         check(mesh, &samples, radius, maximal);
         assert_eq!(samples, again, "depends on the number of threads");
         assert_eq!(report.samples, samples.len() as u64);
@@ -118,8 +119,8 @@ fn nothing_is_left_uncovered_on_any_kind_of_mesh() {
         let mesh = mesh(soup);
         for (seed, iterations) in (0..6).flat_map(|seed| [(seed, 0), (seed, 1), (seed, 3)]) {
             println!("{kind}, seed {seed}, {iterations} iterations");
-            let options = Options::new(radius).iterations(iterations).seed(seed);
-            let (samples, report) = psp::sample(&context, &mesh, &options, None).unwrap();
+            let options = ProjectionOptions::new(radius).seed(seed);
+            let (samples, report) = psp::project(&context, &mesh, &options, iterations, true, None).unwrap();
             assert_eq!(report.iterations, iterations);
             check(&mesh, &samples, radius, true);
         }
@@ -132,8 +133,8 @@ fn small_parts_far_apart_are_filled_without_projection() {
     let triangle = |x: f32| vec![[x, x, -x], [x + 1.0, x, -x], [x, x + 1.0, 1.0 - x]];
     let positions = [triangle(0.0), triangle(1e3), triangle(2e3)].concat();
     let mesh = mesh((positions, vec![[0, 1, 2], [3, 4, 5], [6, 7, 8]]));
-    let (samples, report) =
-        psp::sample(&Context::new(2).unwrap(), &mesh, &Options::new(0.02).iterations(1), None).unwrap();
+    let options = ProjectionOptions::new(0.02);
+    let (samples, report) = psp::project(&Context::new(2).unwrap(), &mesh, &options, 1, true, None).unwrap();
     check(&mesh, &samples, 0.02, true);
     assert_eq!((report.iterations, report.rays), (0, 0));
 }
@@ -163,8 +164,8 @@ fn a_maximal_set_is_as_dense_as_darts_become() {
     let sphere = mesh(meshes::sphere());
     for (mesh, radius, boundary) in [(mesh(meshes::plane()), 0.005, 4.0), (sphere, 0.02, 0.0)] {
         for iterations in [0, 3] {
-            let options = Options::new(radius).iterations(iterations);
-            let (samples, _) = psp::sample(&context, &mesh, &options, None).unwrap();
+            let options = ProjectionOptions::new(radius);
+            let (samples, _) = psp::project(&context, &mesh, &options, iterations, true, None).unwrap();
             let expected = MAXIMAL_DENSITY * (mesh.area() + 0.5 * boundary * radius) / (radius * radius);
             let ratio = samples.len() as f64 / expected;
             let tolerance = if iterations == 0 { 0.02 } else { 0.04 };
@@ -177,7 +178,7 @@ fn a_maximal_set_is_as_dense_as_darts_become() {
 fn iterations_only_add_and_can_be_made_in_pieces() {
     let context = Context::new(2).unwrap();
     let mesh = mesh(meshes::torus());
-    let options = Options::new(0.05).seed(7);
+    let options = ProjectionOptions::new(0.05).seed(7);
     let mut whole = Psp::new(&mesh, &options).unwrap();
     let mut pieces = Psp::new(&mesh, &options).unwrap();
     whole.advance(&context, 4, None).unwrap();
@@ -197,7 +198,7 @@ fn iterations_only_add_and_can_be_made_in_pieces() {
     // Nothing fits into a maximal set.
     assert_eq!(whole.advance(&context, 1, None).unwrap().accepted, 0);
     assert_eq!(whole.fill(&context, None).unwrap().accepted, 0);
-    let other = psp::sample(&context, &mesh, &options.seed(8), None).unwrap().0;
+    let other = psp::sample(&context, &mesh, &Options::new(0.05).seed(8), None).unwrap().0;
     assert_ne!(other.positions[..20], before.positions[..20], "another seed gives another set");
 }
 
@@ -208,7 +209,7 @@ fn candidates_can_come_in_the_order_of_the_thesis_which_finds_fewer() {
     let mesh = mesh(meshes::torus());
     let radius = 0.03;
     let found = [Priority::Squareness, Priority::Projector].map(|priority| {
-        let options = Options::new(radius).priority(priority);
+        let options = ProjectionOptions::new(radius).priority(priority);
         let mut psp = Psp::new(&mesh, &options).unwrap();
         psp.advance(&context, 1, None).unwrap();
         check(&mesh, &psp.samples(), radius, false);
@@ -223,13 +224,16 @@ fn candidates_can_come_in_the_order_of_the_thesis_which_finds_fewer() {
 #[test]
 fn a_maximal_set_is_only_filled_unless_iterations_are_asked_for() {
     let (context, mesh) = (Context::new(2).unwrap(), mesh(meshes::torus()));
-    let options = Options::new(0.1);
-    let sample = |options: &Options| psp::sample(&context, &mesh, options, None).unwrap();
-    let (by_rule, report) = sample(&options);
+    let (filled, _) = psp::sample(&context, &mesh, &Options::new(0.1), None).unwrap();
+    let options = FlatOptions::new(0.1);
+    let sample = |options: FlatOptions| options.sample(&context, &mesh, None).unwrap();
+    let (by_rule, report) = sample(options);
     assert_eq!((report.iterations, report.uncovered_before), (0, Some(1.0)));
-    assert_eq!(by_rule, sample(&options.iterations(0)).0);
-    assert_eq!(sample(&options.iterations(2)).1.iterations, 2);
-    assert_eq!(sample(&options.maximal(false)).1.iterations, 1);
+    assert_eq!(by_rule, filled);
+    assert_eq!(by_rule, sample(options.iterations(Some(0))).0);
+    assert_eq!(sample(options.iterations(Some(2))).1.iterations, 2);
+    assert_eq!(sample(options.maximal(false)).1.iterations, 1);
+    assert!(sample(options.maximal(false).iterations(Some(0))).0.is_empty());
 }
 
 #[test]
@@ -237,7 +241,7 @@ fn a_report_says_where_the_time_went_and_how_good_the_set_is() {
     let context = Context::new(2).unwrap();
     let mesh = mesh(meshes::fine_torus(100, 50));
     for &engine in Engine::AVAILABLE {
-        let options = Options::new(0.01).engine(engine);
+        let options = ProjectionOptions::new(0.01).engine(engine);
         let mut psp = Psp::new(&mesh, &options).unwrap();
         let first = psp.advance(&context, 1, None).unwrap();
         let second = psp.advance(&context, 1, None).unwrap();
@@ -277,13 +281,13 @@ fn a_report_says_where_the_time_went_and_how_good_the_set_is() {
 #[test]
 fn a_cancelled_call_leaves_a_valid_set_that_can_be_used_on() {
     let mesh = mesh(meshes::torus());
-    let options = Options::new(0.08).iterations(1);
+    let options = ProjectionOptions::new(0.08);
     for threads in [1, 3] {
         let context = Context::new(threads).unwrap();
-        let expected = psp::sample(&context, &mesh, &options, None).unwrap().0;
+        let expected = psp::project(&context, &mesh, &options, 1, true, None).unwrap().0;
         for limit in [0.0, 0.2, 0.5, 0.95, 1.0] {
             let stop = |share: f64| if share >= limit { ControlFlow::Break(()) } else { ControlFlow::Continue(()) };
-            assert!(matches!(psp::sample(&context, &mesh, &options, Some(&stop)), Err(Error::Cancelled)));
+            assert!(matches!(psp::project(&context, &mesh, &options, 1, true, Some(&stop)), Err(Error::Cancelled)));
             let mut psp = Psp::new(&mesh, &options).unwrap();
             assert!(matches!(psp.advance(&context, 1, Some(&stop)), Err(Error::Cancelled)));
             check(&mesh, &psp.samples(), options.radius, false);
@@ -303,8 +307,8 @@ fn whenever_it_is_cancelled_a_set_stays_valid_and_can_go_on() {
     let mesh = mesh(meshes::torus());
     let context = Context::new(1).unwrap();
     for &engine in Engine::AVAILABLE {
-        let options = Options::new(0.13).iterations(1).engine(engine);
-        let expected = psp::sample(&context, &mesh, &options, None).unwrap().0;
+        let options = ProjectionOptions::new(0.13).engine(engine);
+        let expected = psp::project(&context, &mesh, &options, 1, true, None).unwrap().0;
         let mut lengths = vec![];
         for limit in 1.. {
             let calls = Cell::new(0);
@@ -378,8 +382,8 @@ proptest! {
     fn random_soups(seed: u64, triangles in 1u32..8, size in -3.0f64..0.5, iterations in 0u32..3, offset in 0.0f64..30.0) {
         let mesh = mesh(meshes::placed(meshes::random_soup(seed, triangles), 1.0, offset));
         let radius = (mesh.area().sqrt() * 10f64.powf(size)).max(0.01);
-        let options = Options::new(radius).iterations(iterations).seed(seed);
-        let (samples, _) = psp::sample(&Context::new(2).unwrap(), &mesh, &options, None).unwrap();
+        let options = ProjectionOptions::new(radius).seed(seed);
+        let (samples, _) = psp::project(&Context::new(2).unwrap(), &mesh, &options, iterations, true, None).unwrap();
         check(&mesh, &samples, radius, true);
     }
 }

@@ -5,8 +5,8 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use azulejo::mesh::Mesh;
-use azulejo::psp::{self, Engine, Options, Priority};
-use azulejo::{Classes, Context, Error, Given, Order, Points};
+use azulejo::psp::{self, ClassOptions, Options};
+use azulejo::{Classes, Context, Error, Given, Points};
 
 use crate::common::meshes::{self, Soup};
 use crate::common::parts;
@@ -51,7 +51,7 @@ fn gap(part: [Point; 3], balls: &[(Point, f64)], smallest: f64) -> Option<Point>
 struct Case<'a> {
     mesh: &'a Arc<Mesh>,
     classes: &'a Classes,
-    options: Options<'a>,
+    options: ClassOptions<'a>,
     masks: Option<&'a [u32]>,
     /// The mesh's own.
     own_mask: Option<&'a [bool]>,
@@ -59,7 +59,7 @@ struct Case<'a> {
 
 impl<'a> Case<'a> {
     fn new(mesh: &'a Arc<Mesh>, classes: &'a Classes) -> Self {
-        Self { mesh, classes, options: Options::new(0.0).seed(3), masks: None, own_mask: None }
+        Self { mesh, classes, options: ClassOptions::default().seed(3), masks: None, own_mask: None }
     }
 
     fn sample_on(&self, threads: usize) -> Result<Points<3>, Error> {
@@ -376,7 +376,7 @@ fn equal_radii_have_equal_shares() {
             let classes = Classes::of_radii(&vec![radius; count], 1.0).unwrap();
             let mut totals = vec![0; count];
             for seed in 0..seeds {
-                let samples = Case { options: Options::new(0.0).seed(seed), ..Case::new(&mesh, &classes) };
+                let samples = Case { options: ClassOptions::default().seed(seed), ..Case::new(&mesh, &classes) };
                 let samples = counts(&samples.sample_on(2).unwrap(), count);
                 totals.iter_mut().zip(samples).for_each(|(total, count)| *total += count);
             }
@@ -411,14 +411,7 @@ fn what_does_not_go_with_classes_is_refused() {
     let classes = Classes::of_radii(&[0.2, 0.1], 1.0).unwrap();
     let case = Case::new(&mesh, &classes);
     let said = |options| Case { options, ..case }.sample_on(1).unwrap_err().to_string();
-    let options = Options::new(0.0);
-    assert_eq!(said(options.radius(0.1)), "radius: 0.1; several classes have radii of their own, so it must be 0");
-    assert!(said(options.count(7)).starts_with("count: "));
-    assert!(said(options.order(Order::Progressive)).starts_with("order: "));
-    assert!(said(options.iterations(1)).starts_with("iterations: "));
-    assert!(said(options.maximal(false)).starts_with("maximal: "));
-    assert!(said(options.priority(Priority::Projector)).starts_with("priority: "));
-    assert!(said(options.engine(Engine::Rasteriser)).starts_with("engine: "));
+    let options = ClassOptions::default();
     assert!(said(options.cosine(2.0)).starts_with("cosine: "));
     let positions = [[0.0; 3], [f32::NAN, 0.0, 0.0]];
     assert!(said(options.given(Given::at(&positions))).starts_with("given_positions: [1]"));

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use azulejo::mesh::Mesh;
-use azulejo::psp::{self, Options, Report};
+use azulejo::psp::{self, FlatOptions, Options, Report};
 use azulejo::{Context, Error, Points};
 
 use crate::common::meshes;
@@ -88,10 +88,12 @@ fn what_cannot_be_had_is_refused() {
     let refused = |mesh: &Arc<Mesh>, options: Options| psp::sample(&context, mesh, &options, None).unwrap_err();
     let plane = mesh(meshes::plane());
     let said = |options: Options| refused(&plane, options).to_string();
-    assert_eq!(said(Options::by_count(9).radius(0.1)), "count: 9 samples and radius 0.1 are asked for at once");
-    assert!(said(Options::by_count(9).radius(f64::NAN)).starts_with("count: "));
-    assert!(said(Options::by_count(9).iterations(2)).starts_with("iterations: 2"));
-    assert!(said(Options::by_count(9).maximal(false).iterations(0)).starts_with("maximal: "));
+    assert_eq!(said(Options::by_count(0)), "count: 0 is not at least 1");
+    let flat = |options: FlatOptions| options.count(9).sample(&context, &plane, None).unwrap_err().to_string();
+    assert_eq!(flat(FlatOptions::new(0.1)), "count: 9 with radius 0.1; give one of the two");
+    assert!(flat(FlatOptions::new(f64::NAN)).starts_with("count: "));
+    assert_eq!(flat(FlatOptions::new(0.0).iterations(Some(2))), "iterations: 2; count requires iterations = 0");
+    assert!(flat(FlatOptions::new(0.0).maximal(false).iterations(Some(0))).starts_with("maximal: "));
     assert!(matches!(refused(&plane, Options::by_count(1 << 40)), Error::TooLarge { .. }));
     // A mesh so far from the origin that floats carry a few hundred samples.
     let far = mesh(meshes::placed(meshes::plane(), 1.0, 16384.0));

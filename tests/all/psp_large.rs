@@ -48,7 +48,8 @@ fn a_hundred_thousand_samples_conflict_nowhere_and_leave_no_gap_on_any_number_of
 #[test]
 fn a_hundred_thousand_samples_of_which_most_are_projected_leave_no_gap() {
     let mesh = torus();
-    let mut samples = sample(2, &mesh, psp::Options::new(RADIUS).iterations(1).seed(1));
+    let options = psp::ProjectionOptions::new(RADIUS).seed(1);
+    let (mut samples, _) = psp::project(&Context::new(2).unwrap(), &mesh, &options, 1, true, None).unwrap();
     assert!(samples.len() > 100_000, "{}", samples.len());
     assert_eq!(oracle::misplaced(&mesh, &samples), None);
     assert_eq!(oracle::conflict(&samples, RADIUS), None);

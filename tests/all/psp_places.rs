@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use azulejo::mesh::Mesh;
-use azulejo::psp::{self, Options, Psp};
+use azulejo::psp::{self, Options, ProjectionOptions, Psp};
 use azulejo::{Context, Error, Points};
 
 use crate::common::meshes::{self, Soup};
@@ -49,8 +49,8 @@ fn check(mesh: &Arc<Mesh>, radius: f64) {
     let context = Context::new(2).unwrap();
     let mut counts = Vec::new();
     for (iterations, maximal) in [(0, true), (2, false), (1, true)] {
-        let options = Options::new(radius).iterations(iterations).maximal(maximal);
-        let (samples, report) = psp::sample(&context, mesh, &options, None).unwrap();
+        let options = ProjectionOptions::new(radius);
+        let (samples, report) = psp::project(&context, mesh, &options, iterations, maximal, None).unwrap();
         assert_eq!(report.iterations, iterations);
         check_positions(mesh, &samples);
         assert_eq!(oracle::misplaced(mesh, &samples), None);
@@ -78,8 +78,8 @@ fn powers_of_two_change_nothing_but_the_size() {
     for iterations in [0, 1] {
         let sample = |scale: f64| {
             let mesh = placed(meshes::torus(), [scale; 3], [0.0; 3]);
-            let options = Options::new(0.1 * scale).iterations(iterations);
-            psp::sample(&Context::new(2).unwrap(), &mesh, &options, None).unwrap().0
+            let options = ProjectionOptions::new(0.1 * scale);
+            psp::project(&Context::new(2).unwrap(), &mesh, &options, iterations, true, None).unwrap().0
         };
         let unit = sample(1.0);
         for exponent in [-100, -20, -1, 20, 100] {
@@ -107,7 +107,7 @@ fn any_place() {
 fn what_floats_cannot_carry_is_refused() {
     let far = placed(meshes::torus(), [1.0; 3], [1e6; 3]);
     assert_eq!(largest_spacing(&far), 0.0625);
-    match Psp::new(&far, &Options::new(3.99)).err() {
+    match Psp::new(&far, &ProjectionOptions::new(3.99)).err() {
         Some(Error::InvalidArgument { argument: "radius", reason }) => {
             assert!(reason.contains("64 times the float spacing 0.0625"), "{reason}")
         }
@@ -123,19 +123,19 @@ fn bad_radii_are_refused_before_work_starts() {
     let mesh = |soup| placed(soup, [1.0; 3], [0.0; 3]);
     let near = mesh(meshes::plane());
     for radius in [0.0, -1.0, f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
-        let refused = Psp::new(&near, &Options::new(radius)).err();
+        let refused = Psp::new(&near, &ProjectionOptions::new(radius)).err();
         assert!(matches!(refused, Some(Error::InvalidArgument { argument: "radius", .. })), "{radius}");
     }
     // Floats cannot carry it: the plane is 1000 away from the origin, where they are 6e-5 apart.
     let far = placed(meshes::plane(), [1.0; 3], [1000.0; 3]);
-    assert!(Psp::new(&far, &Options::new(0.004)).is_ok());
-    match Psp::new(&far, &Options::new(0.0038)).err() {
+    assert!(Psp::new(&far, &ProjectionOptions::new(0.004)).is_ok());
+    match Psp::new(&far, &ProjectionOptions::new(0.0038)).err() {
         Some(Error::InvalidArgument { argument: "radius", reason }) => assert!(reason.contains("spacing"), "{reason}"),
         other => panic!("{other:?}"),
     }
     // 10^10 samples: a thousand large sheets.
     let large = mesh(meshes::join((0..1000).map(|_| meshes::plane())));
-    match Psp::new(&large, &Options::new(1e-5)).err() {
+    match Psp::new(&large, &ProjectionOptions::new(1e-5)).err() {
         Some(Error::TooLarge { argument: "radius", reason }) => assert!(reason.contains("7.000e12"), "{reason}"),
         other => panic!("{other:?}"),
     }

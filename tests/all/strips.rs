@@ -40,7 +40,7 @@ fn blade(width: f32, thickness: f32) -> Arc<Mesh> {
 }
 
 fn sample(mesh: &Arc<Mesh>, seed: u64, cosine: f64) -> Points<3> {
-    let options = Options::new(RADIUS).iterations(0).seed(seed).cosine(cosine);
+    let options = Options::new(RADIUS).seed(seed).cosine(cosine);
     psp::sample(&Context::new(2).unwrap(), mesh, &options, None).unwrap().0
 }
 

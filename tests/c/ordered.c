@@ -24,7 +24,7 @@ static void refusals(void) {
     (o = of_count(100, AZULEJO_ORDER_PROGRESSIVE), (void)(change), \
      REFUSED(status, part, azulejo_psp_sample(one, cube, &o, &out, NULL)))
     COUNTED(INVALID, "radius", o.count = 0);
-    COUNTED(INVALID, "count: 100 samples and radius 0.1 are asked for at once", o.radius = 0.1);
+    COUNTED(INVALID, "count: 100 with radius 0.1; give one of the two", o.radius = 0.1);
     COUNTED(INVALID, "count", o.radius = NAN);
     COUNTED(INVALID, "order: 2", o.order = 2);
     COUNTED(INVALID, "quotient: 1.6", o.quotient = 1.6);

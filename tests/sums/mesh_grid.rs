@@ -7,7 +7,7 @@ use azulejo::analysis::differential::surface_differences;
 use azulejo::dcr::surface::{self, relax, triangulate};
 use azulejo::mesh::Mesh;
 use azulejo::psp::adaptive::{self, Density, Radius, Scale, Texture};
-use azulejo::psp::{self, Engine, Options, Report};
+use azulejo::psp::{self, ClassOptions, Engine, Options, ProjectionOptions, Report};
 use azulejo::{Classes, Context, Given, Order, Points, Result};
 
 use crate::list::{List, little_endian};
@@ -41,7 +41,7 @@ pub fn sums(context: &Context, is_small: bool, list: &mut List) -> Result<()> {
     let masked = Mesh::clone(&open).with_mask(mask)?;
     for (place, mesh, cosine) in [("closed", closed, -1.0), ("masked", masked, -1.0), ("cosine", open, COSINE)] {
         let mesh = Arc::new(mesh);
-        let options = Options::new(size.coarse).engine(Engine::Rasteriser).seed(80);
+        let options = Options::new(size.coarse).seed(80);
         let (start, _) = psp::sample(context, &mesh, &options, None)?;
         let given: Vec<_> = start.positions.iter().step_by(30).copied().collect();
         uniform(context, place, &mesh, (cosine, &given), size, list)?;
@@ -92,7 +92,7 @@ fn uniform(
             let options = options.seed(81).cosine(cosine).given(given);
             add(list, &format!("{place}, {name}{around}"), psp::sample(context, mesh, &options, None)?);
         }
-        let options = Options::new(0.0).seed(82).cosine(cosine).given(of_classes);
+        let options = ClassOptions::default().seed(82).cosine(cosine).given(of_classes);
         for (name, masks) in [("classes", None), ("classes of triangles", Some(&masks[..]))] {
             let set = psp::sample_classes(context, mesh, &options, &classes, masks, None)?;
             add(list, &format!("{place}, {name}{around}"), set);
@@ -117,8 +117,8 @@ fn projected(
         (", given alike", Given::at(positions)),
     ] {
         for (name, iterations, maximal) in [("projected", 2, false), ("projected and filled", 1, true)] {
-            let options = Options::new(size.coarse).iterations(iterations).maximal(maximal).seed(83).given(given);
-            let set = psp::sample(context, mesh, &options.engine(Engine::Rasteriser), None)?;
+            let options = ProjectionOptions::new(size.coarse).seed(83).given(given).engine(Engine::Rasteriser);
+            let set = psp::project(context, mesh, &options, iterations, maximal, None)?;
             add(list, &format!("{place}, {name}{around}"), set);
         }
     }

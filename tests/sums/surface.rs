@@ -5,7 +5,7 @@ use std::sync::Arc;
 use azulejo::dcr::surface::{Options as RelaxOptions, relax, triangulate};
 use azulejo::mesh::Mesh;
 use azulejo::psp::adaptive::{self, Density, Radius, Scale, Texture};
-use azulejo::psp::{self, Engine, Options, Priority};
+use azulejo::psp::{self, ClassOptions, Engine, Options, Priority, ProjectionOptions};
 use azulejo::{Classes, Context, Given, Order, Points, Result};
 
 use crate::list::{List, little_endian};
@@ -34,36 +34,34 @@ pub fn sums(context: &Context, list: &mut List) -> Result<Surface> {
 }
 
 /// The options of a set, with an engine that is not left to a default.
-fn options(radius: f64, iterations: u32, engine: Engine, seed: u64) -> Options<'static> {
-    Options::new(radius).iterations(iterations).maximal(true).seed(seed).engine(engine)
+fn options(radius: f64, seed: u64) -> ProjectionOptions<'static> {
+    ProjectionOptions::new(radius).seed(seed).engine(Engine::Rasteriser)
 }
 
 /// Gives [`Surface::maximal`].
 fn uniform(context: &Context, closed: &Arc<Mesh>, open: &Arc<Mesh>, list: &mut List) -> Result<Points<3>> {
-    use Engine::Rasteriser;
-    let mut sample = |name: &str, mesh: &Arc<Mesh>, options: Options| {
-        let (samples, report) = psp::sample(context, mesh, &options, None)?;
+    let mut project = |name: &str, mesh: &Arc<Mesh>, options: ProjectionOptions, iterations, maximal| {
+        let (samples, report) = psp::project(context, mesh, &options, iterations, maximal, None)?;
         list.samples(name, &samples);
         let counts = [report.samples, report.darts, report.conflicts].map(|count| count as f64);
         list.numbers(&format!("{name}: report"), &[&counts[..], &[report.rho]].concat());
         Ok(samples)
     };
-    let maximal = sample("fill only", closed, options(0.02, 0, Rasteriser, 28))?;
-    sample("rasteriser 1", closed, options(0.02, 1, Rasteriser, 29))?;
-    let by_projector = |options: Options<'static>| options.priority(Priority::Projector);
-    let projected = by_projector(options(0.01, 3, Rasteriser, 30)).maximal(false);
-    sample("rasteriser 3, projector, not maximal", open, projected)?;
-    sample("rasteriser 2, projector", open, by_projector(options(0.01, 2, Rasteriser, 32)))?;
+    let maximal = project("fill only", closed, options(0.02, 28), 0, true)?;
+    project("rasteriser 1", closed, options(0.02, 29), 1, true)?;
+    let by_projector = |options: ProjectionOptions<'static>| options.priority(Priority::Projector);
+    project("rasteriser 3, projector, not maximal", open, by_projector(options(0.01, 30)), 3, false)?;
+    project("rasteriser 2, projector", open, by_projector(options(0.01, 32)), 2, true)?;
     let mask = (0..open.triangles().len()).map(|i| i % 7 != 0).collect();
     let masked = Arc::new(Mesh::clone(open).with_mask(mask)?);
-    sample("masked", &masked, options(0.03, 1, Rasteriser, 33))?;
-    sample("soup", &Arc::new(meshes::soup()?), options(0.05, 1, Rasteriser, 34))?;
+    project("masked", &masked, options(0.03, 33), 1, true)?;
+    project("soup", &Arc::new(meshes::soup()?), options(0.05, 34), 1, true)?;
     let (positions, clearances) = obstacles(&maximal);
     let around = Given::with_clearances(&positions, &clearances);
-    sample("given", closed, options(0.02, 0, Rasteriser, 38).given(around))?;
-    sample("given, rasteriser 1", closed, options(0.03, 1, Rasteriser, 39).given(around))?;
-    sample("given, of the same radius", closed, options(0.02, 0, Rasteriser, 40).given(Given::at(&positions)))?;
-    sample("cosine", open, options(0.05, 0, Rasteriser, 41).given(around).cosine(0.3))?;
+    project("given", closed, options(0.02, 38).given(around), 0, true)?;
+    project("given, rasteriser 1", closed, options(0.03, 39).given(around), 1, true)?;
+    project("given, of the same radius", closed, options(0.02, 40).given(Given::at(&positions)), 0, true)?;
+    project("cosine", open, options(0.05, 41).given(around).cosine(0.3), 0, true)?;
     Ok(maximal)
 }
 
@@ -91,8 +89,8 @@ fn ordered(context: &Context, closed: &Arc<Mesh>, open: &Arc<Mesh>, list: &mut L
 fn in_classes(context: &Context, closed: &Arc<Mesh>, maximal: &Points<3>, list: &mut List) -> Result<()> {
     let classes = Classes::of_radii(&[0.05, 0.1, 0.05], 1.0)?;
     let masks: Vec<u32> = (0..closed.triangles().len() as u32).map(|i| if i % 9 < 5 { 7 } else { i % 8 }).collect();
-    let options = Options::new(0.0).seed(46);
-    let mut sample = |name: &str, options: Options, masks: Option<&[u32]>| {
+    let options = ClassOptions::default().seed(46);
+    let mut sample = |name: &str, options: ClassOptions, masks: Option<&[u32]>| {
         let (samples, _) = psp::sample_classes(context, closed, &options, &classes, masks, None)?;
         list.samples(name, &samples);
         Ok(())
@@ -160,7 +158,7 @@ fn relaxed(
     let (samples, report) = relax(context, closed, &maximal.triangles, &maximal.barycentrics, &options, None)?;
     list.samples("relax surface", &samples);
     list.numbers("relax surface: report", &[report.motion, report.rho]);
-    let (few, _) = psp::sample(context, open, &self::options(0.06, 0, Engine::Rasteriser, 37), None)?;
+    let (few, _) = psp::sample(context, open, &Options::new(0.06).seed(37), None)?;
     let options = RelaxOptions::default();
     let (samples, _) = relax(context, open, &few.triangles, &few.barycentrics, &options, None)?;
     list.samples("relax surface open", &samples);

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use azulejo::dcr::surface;
 use azulejo::mesh::Mesh;
-use azulejo::psp::{self, Options};
+use azulejo::psp::FlatOptions;
 use azulejo::{Given, Points};
 
 use crate::answer::{Answer, call};
@@ -74,7 +74,7 @@ pub unsafe extern "C" fn azulejo_psp_sample(
     let given =
         if clearances.is_empty() { Given::at(positions) } else { Given::with_clearances(positions, clearances) };
     call(|context| {
-        let mut sampling = Options::new(options.radius)
+        let mut sampling = FlatOptions::new(options.radius)
             .count(options.count as usize)
             .order(order((options.progressive != 0.0).into()))
             .quotient(options.quotient)
@@ -83,9 +83,9 @@ pub unsafe extern "C" fn azulejo_psp_sample(
             .seed(seed)
             .given(given);
         if options.iterations >= 0.0 {
-            sampling = sampling.iterations(options.iterations as u32);
+            sampling = sampling.iterations(Some(options.iterations as u32));
         }
-        let (samples, report) = psp::sample(context, &mesh.0, &sampling, None)?;
+        let (samples, report) = sampling.sample(context, &mesh.0, None)?;
         Ok(answer(samples).and(vec![report.radius, report.coverage.unwrap_or(-1.0)]))
     })
 }

@@ -60,7 +60,7 @@ impl Psp {
         cosine: f64,
     ) -> PyResult<Self> {
         let given = GivenArrays::read(given_positions, given_clearances)?;
-        let request = psp::Options::new(radius)
+        let request = psp::ProjectionOptions::new(radius)
             .seed(natural("seed", seed)?)
             .priority(self::priority(priority)?)
             .given(given.samples()?)

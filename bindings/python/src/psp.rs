@@ -91,7 +91,7 @@ pub(crate) fn psp_sample(
 ) -> PyResult<Points> {
     let given = GivenArrays::read(given_positions, given_clearances)?;
     let iterations = iterations.map(|iterations| natural::<u32>("iterations", iterations)).transpose()?;
-    let request = psp::Options::new(radius)
+    let request = psp::FlatOptions::new(radius)
         .count(natural("count", count)?)
         .order(self::order(order, &[("quotient", quotient)])?)
         .quotient(quotient.unwrap_or(DEFAULT_QUOTIENT))
@@ -102,7 +102,7 @@ pub(crate) fn psp_sample(
         .given(given.samples()?)
         .cosine(cosine);
     let (samples, report) = Watch::new(py, threads, progress)?
-        .run(|context, progress| psp::sample(context, &mesh.shared, &request, progress))?;
+        .run(|context, progress| request.sample(context, &mesh.shared, progress))?;
     Points::surface(py, samples)?.with_report(py, PspReport::from(report))
 }
 
@@ -140,7 +140,7 @@ pub(crate) fn psp_sample_classes(
     let masks = masks.as_ref().map(Array::line).transpose()?;
     let given = GivenArrays::read(given_positions, given_clearances)?;
     let request =
-        psp::Options::new(0.0).order(Order::Any).seed(natural("seed", seed)?).given(given.samples()?).cosine(cosine);
+        psp::ClassOptions::default().seed(natural("seed", seed)?).given(given.samples()?).cosine(cosine);
     let (samples, report) = Watch::new(py, threads, progress)?
         .run(|context, progress| psp::sample_classes(context, &mesh.shared, &request, &classes, masks, progress))?;
     Points::surface(py, samples)?.with_report(py, PspReport::from(report))

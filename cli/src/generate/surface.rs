@@ -239,11 +239,9 @@ impl Surface {
 
     /// Samples of one radius.
     fn uniform(&self, context: &Context, mesh: Mesh, given: Given<3>) -> Result<Made> {
-        let options = match self.density.count {
-            Some(count) => psp::Options::by_count(count),
-            None => psp::Options::new(self.density.radius.unwrap_or(f64::NAN)),
-        };
-        let options = options
+        let radius = if self.density.count.is_some() { 0.0 } else { self.density.radius.unwrap_or(f64::NAN) };
+        let options = psp::FlatOptions::new(radius)
+            .count(self.density.count.unwrap_or(0))
             .order(self.order.into())
             .quotient(self.quotient.unwrap_or(psp::DEFAULT_QUOTIENT))
             .iterations(self.iterations)
@@ -254,7 +252,7 @@ impl Surface {
             .given(given)
             .cosine(self.cosine);
         let mesh = Arc::new(mesh);
-        let (samples, done) = watched("surface", |progress| psp::sample(context, &mesh, &options, Some(progress)))?;
+        let (samples, done) = watched("surface", |progress| options.sample(context, &mesh, Some(progress)))?;
         let covered = match done.coverage {
             Some(coverage) if coverage > done.radius => format!(", covered within {}", rounded(coverage, 4)),
             _ => String::new(),
@@ -290,7 +288,7 @@ impl Surface {
         let classes = Classes::of_radii(own, self.class_factor)?;
         let masks = self.class_masks(file, own.len())?;
         let around = around.of_classes(own.len());
-        let options = psp::Options::new(0.0).seed(self.common.seed).given(around.given()).cosine(self.cosine);
+        let options = psp::ClassOptions::default().seed(self.common.seed).given(around.given()).cosine(self.cosine);
         let mesh = Arc::new(mesh);
         let sample = |progress: &Progress| {
             psp::sample_classes(context, &mesh, &options, &classes, masks.as_deref(), Some(progress))

@@ -5,9 +5,11 @@ use std::mem::MaybeUninit;
 use std::ptr::NonNull;
 use std::sync::{RwLock, TryLockError};
 
-use azulejo_core::psp::{self, Engine, Priority, Psp, Report};
+use azulejo_core::psp::{
+    ClassOptions, DEFAULT_QUOTIENT, Engine, FlatOptions, Priority, ProjectionOptions, Psp, Report,
+};
 use azulejo_core::trace::HAS_EMBREE;
-use azulejo_core::{Context, Order, Progress};
+use azulejo_core::{Context, Given, Order, Progress};
 
 use crate::boundary::{self, check_unused, flag, required};
 use crate::context::azulejo_context;
@@ -137,21 +139,21 @@ growing!(azulejo_psp_options requires radius {
 });
 
 impl azulejo_psp_options {
-    /// What the core is asked for.
+    /// The request of azulejo_psp_sample.
     ///
     /// # Safety
     /// As [`given`] for the given samples.
-    pub(crate) unsafe fn request<'a>(&self) -> Result<psp::Options<'a>, Failure> {
+    unsafe fn request<'a>(&self) -> Result<FlatOptions<'a>, Failure> {
         // SAFETY: handed on from the caller.
         let given = unsafe { given(self.given_positions, self.given_clearances, self.given_count) }?;
         let order = order(self.order)?;
         if order == Order::Any {
             check_unused("quotient", self.quotient, 0.0, "in any order")?;
         }
-        Ok(psp::Options::new(self.radius)
+        Ok(FlatOptions::new(self.radius)
             .count(self.count)
             .order(order)
-            .quotient(if self.quotient == 0.0 { psp::DEFAULT_QUOTIENT } else { self.quotient })
+            .quotient(if self.quotient == 0.0 { DEFAULT_QUOTIENT } else { self.quotient })
             .iterations(Some(self.iterations).filter(|&count| count != AZULEJO_ITERATIONS_DEFAULT))
             .maximal(flag("maximal", self.maximal)?)
             .seed(self.seed)
@@ -161,13 +163,41 @@ impl azulejo_psp_options {
             .cosine(self.cosine))
     }
 
-    /// Refuses what a handle has no use for: its calls say how often, and whether gaps are filled.
-    fn check_create(&self) -> Result<(), Failure> {
+    /// The request of a handle, whose calls say how often, and whether gaps are filled.
+    ///
+    /// # Safety
+    /// As [`given`] for the given samples.
+    unsafe fn request_of_handle<'a>(&self) -> Result<ProjectionOptions<'a>, Failure> {
         let (default, call) = (Self::DEFAULT, "in azulejo_psp_create");
         check_unused("iterations", self.iterations, default.iterations, call)?;
         check_unused("maximal", self.maximal, default.maximal, call)?;
         check_unused("count", self.count, default.count, call)?;
-        check_unused("order", self.order, default.order, call)
+        check_unused("order", self.order, default.order, call)?;
+        check_unused("quotient", self.quotient, default.quotient, call)?;
+        // SAFETY: handed on from the caller.
+        let given = unsafe { given(self.given_positions, self.given_clearances, self.given_count) }?;
+        Ok(ProjectionOptions::new(self.radius)
+            .seed(self.seed)
+            .priority(priority(self.priority)?)
+            .engine(engine(self.engine)?)
+            .given(given)
+            .cosine(self.cosine))
+    }
+
+    /// The request of azulejo_psp_sample_classes, with given samples that have a clearance for each class.
+    pub(crate) fn request_of_classes<'a>(&self, given: Given<'a, 3>) -> Result<ClassOptions<'a>, Failure> {
+        let (default, call) = (Self::DEFAULT, "with classes");
+        check_unused("radius", self.radius, 0.0, "beside those of the classes")?;
+        check_unused("count", self.count, default.count, call)?;
+        check_unused("order", self.order, default.order, call)?;
+        check_unused("quotient", self.quotient, default.quotient, call)?;
+        if self.iterations != 0 {
+            check_unused("iterations", self.iterations, default.iterations, call)?;
+        }
+        check_unused("maximal", self.maximal, default.maximal, call)?;
+        check_unused("priority", self.priority, default.priority, call)?;
+        check_unused("engine", self.engine, default.engine, call)?;
+        Ok(ClassOptions::default().seed(self.seed).given(given).cosine(self.cosine))
     }
 
     pub(crate) fn watch(&self) -> Watch {
@@ -229,9 +259,8 @@ pub unsafe extern "C" fn azulejo_psp_create(
         let mesh = &required("mesh", mesh)?.shared;
         // SAFETY: handed on from the caller.
         let options = unsafe { growing::read("options", options) }?;
-        options.check_create()?;
         // SAFETY: handed on from the caller.
-        let request = unsafe { options.request() }?;
+        let request = unsafe { options.request_of_handle() }?;
         let state = RwLock::new(Psp::new(mesh, &request)?);
         Ok(azulejo_psp { context, watch: options.watch(), state })
     })
@@ -351,7 +380,7 @@ pub unsafe extern "C" fn azulejo_psp_sample(
         // SAFETY: handed on from the caller.
         let request = unsafe { options.request() }?;
         let (samples, done) =
-            context.run(options.watch(), |context, progress| psp::sample(context, &mesh, &request, progress))?;
+            context.run(options.watch(), |context, progress| request.sample(context, &mesh, progress))?;
         if let Some(report) = report {
             report.write(done);
         }

@@ -60,7 +60,7 @@ pub unsafe extern "C" fn azulejo_psp_sample_classes(
         // SAFETY: handed on from the caller.
         let request = unsafe {
             let given = given_by_class(given_positions, given_clearances, given_count, radii.count())?;
-            options.request()?.given(given)
+            options.request_of_classes(given)?
         };
         let sample = |context: &Context, progress: Option<&Progress>| {
             sample_classes(context, &mesh, &request, &radii, masks, progress)

@@ -79,9 +79,7 @@ pub fn sample(
     let found = context.run(progress, |job| make(job, mesh, options, density.as_ref(), facing, &obstacles))?;
     let radii = found.samples.iter().map(|(_, relative)| found.radius * relative).collect();
     let samples: Vec<Sample> = found.samples.iter().map(|&(sample, _)| sample).collect();
-    let (accepted, darts, seconds) = (samples.len() as u64, found.darts, stopwatch.seconds());
-    let mut report =
-        Report { samples: accepted, accepted, darts, conflicts: darts - accepted, seconds, ..Report::default() };
+    let mut report = Report::of_fill(samples.len(), found.darts, &stopwatch);
     let mut set = Points { radii, ..surface_samples(mesh, &samples) };
     if options.order == Order::Progressive {
         set.ranks = samples.iter().map(|sample| sample.rank).collect();

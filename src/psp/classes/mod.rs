@@ -16,7 +16,6 @@ use crate::given::Given;
 use crate::host::Stopwatch;
 use crate::job::{Context, Progress};
 use crate::mesh::Mesh;
-use crate::order::Order;
 use crate::points::{Points, check_resolution};
 use crate::psp::classes::layers::Layers;
 use crate::psp::classes::site::{Group, Places};
@@ -25,7 +24,7 @@ use crate::psp::facing::Facing;
 use crate::psp::fill::measures::Measures;
 use crate::psp::given::obstacles_of;
 use crate::psp::obstacles::Obstacles;
-use crate::psp::options::{Engine, Options, Priority};
+use crate::psp::options::ClassOptions;
 use crate::psp::report::Report;
 use crate::psp::samples::surface_samples;
 use crate::rng::{Draw, hash};
@@ -47,30 +46,26 @@ use crate::rng::{Draw, hash};
 /// no cover, on triangles where its bit is 0. Other bits are ignored. Where the mesh has a
 /// [mask](Mesh::with_mask) of its own, both must allow a sample. `None`: all classes may stand everywhere.
 ///
-/// Of the options, `radius` must be 0, as the classes have radii; [`seed`](Options::seed) and
-/// [`cosine`](Options::cosine) work as in [`sample`](super::sample). [`given`](Options::given) samples keep each
-/// class's own radius clear, or have clearances row by row: for each sample one for each class. A set of classes has no
-/// `count`, no progressive `order`, no `iterations`, and is always `maximal`. In the [`Report`] the radius is the
-/// smallest own radius, and `rho`, which is of one class, is 0.
+/// A set of classes is in no order, and always maximal. In the [`Report`] the radius is the smallest own radius, and `rho`,
+/// which is of one class, is 0.
 ///
 /// Time: with Wei's radii and two classes about twice that of [`sample`](super::sample) for each sample, with eight four
 /// times; all triangles are visited once for each class.
 ///
 /// # Errors
-/// [`Error::InvalidArgument`] for options that do not go with classes, `radii` above 0 below 64 float spacings at the
+/// [`Error::InvalidArgument`] for `radii` above 0 below 64 float spacings at the
 /// largest coordinate of the mesh, `masks` that are not one for each triangle (`mask_count`), a `cosine` outside -1 to 1,
 /// and `given` samples out of range. [`Error::TooLarge`] where the radii would ask for more than 2^32 samples, or more than
 /// memory holds. [`Error::Cancelled`] by the progress callback: nothing is returned.
 pub fn sample_classes(
     context: &Context,
     mesh: &Arc<Mesh>,
-    options: &Options,
+    options: &ClassOptions,
     classes: &Classes,
     masks: Option<&[u32]>,
     progress: Option<&Progress>,
 ) -> Result<(Points<3>, Report)> {
     let stopwatch = Stopwatch::start();
-    check_options(options)?;
     check_masks(mesh, masks)?;
     check_radii(mesh, classes)?;
     let facing = Facing::new(options.cosine)?;
@@ -101,17 +96,10 @@ pub fn sample_classes(
     })?;
     // Stable: within a class they stay in the order of the fill.
     samples.sort_by_key(|sample| sample.class);
-    let (accepted, seconds) = (samples.len() as u64, stopwatch.seconds());
     let report = Report {
-        samples: accepted,
-        accepted,
-        darts,
-        conflicts: darts - accepted,
-        seconds,
-        fill_seconds: seconds,
         uncovered_after: Some(0.0),
         radius: (0..classes.count()).map(|class| classes.own(class)).fold(f64::INFINITY, f64::min),
-        ..Report::default()
+        ..Report::of_fill(samples.len(), darts, &stopwatch)
     };
     let mut set = surface_samples(mesh, &samples);
     set.classes = samples.iter().map(|sample| sample.class.into()).collect();
@@ -128,36 +116,6 @@ fn obstacles_of_classes(mesh: &Mesh, given: Given<3>, classes: &Classes) -> Resu
         obstacles_of(mesh, Given::with_clearances(given.positions, &clearances))
     };
     (0..classes.count()).map(of_class).collect()
-}
-
-/// Refuses what does not go with classes.
-fn check_options(options: &Options) -> Result<()> {
-    let refuse = |option: &'static str, reason: &str| Err(Error::invalid(option, reason.to_owned()));
-    if options.radius != 0.0 {
-        return refuse(
-            "radius",
-            &format!("{:?}; several classes have radii of their own, so it must be 0", options.radius),
-        );
-    }
-    if options.count != 0 {
-        return refuse("count", "is of one class; the radii of several say how many samples there are");
-    }
-    if options.order != Order::Any {
-        return refuse("order", "is progressive; several classes are in no order");
-    }
-    if options.iterations.is_some_and(|iterations| iterations > 0) {
-        return refuse("iterations", "are asked for; several classes are had by filling alone");
-    }
-    if !options.maximal {
-        return refuse("maximal", "is off; several classes are had by filling alone");
-    }
-    if options.priority != Priority::default() {
-        return refuse("priority", "is of iterations; several classes are had by filling alone");
-    }
-    if options.engine != Engine::default() {
-        return refuse("engine", "is of iterations; several classes are had by filling alone");
-    }
-    Ok(())
 }
 
 fn check_masks(mesh: &Mesh, masks: Option<&[u32]>) -> Result<()> {

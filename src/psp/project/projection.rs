@@ -4,7 +4,7 @@
 use crate::error::Result;
 use crate::job::Job;
 use crate::mesh::Mesh;
-use crate::psp::options::{Engine, Options};
+use crate::psp::options::{Engine, ProjectionOptions};
 use crate::psp::project::collector::{Collector, Found};
 use crate::psp::project::projector::Projector;
 use crate::psp::project::raster::Rasteriser;
@@ -18,8 +18,8 @@ pub(in crate::psp) enum Projection {
 
 impl Projection {
     /// Makes the pattern, and prepares the mesh for the engine.
-    pub fn new(job: &Job, mesh: &Mesh, options: &Options) -> Result<Self> {
-        let Options { radius, seed, .. } = *options;
+    pub fn new(job: &Job, mesh: &Mesh, options: &ProjectionOptions) -> Result<Self> {
+        let ProjectionOptions { radius, seed, .. } = *options;
         Ok(match options.engine {
             Engine::Embree => Self::Embree(Rays::new(job, mesh, radius, seed)?),
             Engine::Rasteriser => Self::Rasteriser(Rasteriser::new(job, mesh, radius, seed)?),

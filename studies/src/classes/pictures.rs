@@ -112,7 +112,7 @@ pub fn draw_ties(ties: &[Tie], output: &Output) -> Result<()> {
 /// A mesh with the pictured mix.
 pub fn draw_mesh(context: &Context, name: &str, mesh: &Arc<Mesh>, effort: &Effort, output: &Output) -> Result<()> {
     let classes = Classes::of_radii(&PICTURED.radii(effort.pictured, mesh.area()), 1.0)?;
-    let (samples, _) = psp::sample_classes(context, mesh, &psp::Options::new(0.0), &classes, None, None)?;
+    let (samples, _) = psp::sample_classes(context, mesh, &psp::ClassOptions::default(), &classes, None, None)?;
     let of = |class: usize| -> Vec<[f32; 3]> {
         let pairs = samples.positions.iter().zip(&samples.classes);
         pairs.filter(|&(_, &of)| of as usize == class).map(|(position, _)| *position).collect()

@@ -66,7 +66,7 @@ impl Times {
         let one = Context::new(1)?;
         let time = |(mix, goal): (Mix, f64)| {
             let classes = Classes::of_radii(&mix.radii(effort.timed, mesh.area()), 1.0)?;
-            let several = psp::Options::new(0.0).seed(1);
+            let several = psp::ClassOptions::default().seed(1);
             let options = psp::Options::new(smallest(&classes)).seed(1);
             let timed = in_turns(
                 effort.rounds,

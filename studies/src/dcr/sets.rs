@@ -75,8 +75,8 @@ impl Start {
             Self::Psp => {
                 let corners = vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
                 let square = Mesh::new(corners, vec![[0, 1, 2], [0, 2, 3]])?.into();
-                let options = psp::Options::new(radius(count as f64)).iterations(PROJECTIONS).maximal(false).seed(seed);
-                let (samples, _) = psp::sample(context, &square, &options, None)?;
+                let options = psp::ProjectionOptions::new(radius(count as f64)).seed(seed);
+                let (samples, _) = psp::project(context, &square, &options, PROJECTIONS, false, None)?;
                 let inside = |&[x, y]: &[f32; 2]| x < 1.0 && y < 1.0;
                 Ok(samples.positions.iter().map(|&[x, y, _]| [x, y]).filter(inside).collect())
             }

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use azulejo::psp::{Engine, Options, sample};
+use azulejo::psp::{Engine, ProjectionOptions, project};
 use azulejo::{Context, Result};
 
 use crate::args::MeshArgs;
@@ -44,8 +44,8 @@ pub fn section(context: &Context, meshes: &MeshArgs, quick: bool) -> Result<Stri
 
 fn row(context: &Context, scene: &Scene, count: f64, rounds: usize) -> Result<String> {
     let made = |engine: Engine| -> Result<usize> {
-        let options = Options::new(radius(&scene.mesh, count)).iterations(1).maximal(false).engine(engine);
-        Ok(sample(context, &scene.mesh, &options, None)?.0.len())
+        let options = ProjectionOptions::new(radius(&scene.mesh, count)).engine(engine);
+        Ok(project(context, &scene.mesh, &options, 1, false, None)?.0.len())
     };
     made(Engine::Embree)?;
     let [rays, rasteriser] = &in_turns(rounds, &[&|| made(Engine::Embree), &|| made(Engine::Rasteriser)])?[..] else {

@@ -76,7 +76,8 @@ fn in_plane(study: &Study) -> Result<Vec<Row>> {
 fn on_mesh(study: &Study) -> Result<Vec<Row>> {
     let (name, mesh) = &study.small;
     let (samples, count) = (study.effort.of(SAMPLES), study.effort.of(OBSTACLES) as usize);
-    let options = psp::Options::new(radius(mesh, samples)).seed(1);
+    let radius_of_set = radius(mesh, samples);
+    let options = psp::Options::new(radius_of_set).seed(1);
     // Samples of another set scatter over the surface.
     let other = psp::sample(&study.two, mesh, &psp::Options::new(radius(mesh, 1.2 * count as f64)).seed(2), None)?.0;
     let on_surface: Vec<_> = other.positions.into_iter().take(count).collect();
@@ -87,7 +88,7 @@ fn on_mesh(study: &Study) -> Result<Vec<Row>> {
     let kinds = [("on it", &on_surface), ("anywhere in its box", &in_box)];
     let rows = kinds.into_iter().flat_map(|kind| CLEARANCES.map(|bounds| (kind, bounds)));
     let row = |((where_, positions), bounds): ((&str, &Vec<[f32; 3]>), [f64; 2])| {
-        let clearances = clearances(bounds, options.radius, positions.len());
+        let clearances = clearances(bounds, radius_of_set, positions.len());
         let around = options.given(Given::with_clearances(positions, &clearances));
         let what = format!("{name}, {} samples, {} to {} r, {where_}", grouped(samples as usize), bounds[0], bounds[1]);
         let set = |options: &psp::Options| Ok(psp::sample(&study.one, mesh, options, None)?.0.len());

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use azulejo::mesh::Mesh;
-use azulejo::psp::{self, Options};
+use azulejo::psp::{self, ProjectionOptions};
 use azulejo::{Context, MAXIMAL_DENSITY, Progress, Result};
 use azulejo_cli::procedural::shapes;
 
@@ -66,8 +66,8 @@ pub fn measure(context: &Context, scenes: &[Scene], effort: &Effort, progress: &
             let radius = radius(mesh, count);
             let mesh = if way.is_one_piece { &in_one_piece(mesh, radius)? } else { mesh };
             let set = |seed: u64| {
-                let options = Options::new(radius).iterations(way.iterations).seed(seed);
-                let samples = psp::sample(context, mesh, &options, None)?.0.len();
+                let options = ProjectionOptions::new(radius).seed(seed);
+                let samples = psp::project(context, mesh, &options, way.iterations, true, None)?.0.len();
                 Ok(samples as f64 * radius * radius / mesh.area())
             };
             // As many samples of each way.

@@ -7,7 +7,7 @@ use std::hash::BuildHasherDefault;
 use std::ops::ControlFlow;
 
 use azulejo::mesh::Mesh;
-use azulejo::psp::{self, Options, Psp};
+use azulejo::psp::{self, ProjectionOptions, Psp};
 use azulejo::{Context, Result};
 use azulejo_cli::draw::rows::in_parallel;
 use azulejo_cli::text::{grouped, rounded};
@@ -233,8 +233,8 @@ impl Methods {
 /// The parameters, then the seconds with them.
 fn measure(context: &Context, mesh: &std::sync::Arc<Mesh>, radius: f64, rounds: usize) -> Result<Methods> {
     let (single, surface, narrow) = (Context::new(1)?, Surface::new(mesh), radius as f32);
-    let options = Options::new(radius);
-    let filled = |context: &Context| Ok(psp::sample(context, mesh, &options, None)?.0.positions.len());
+    let options = ProjectionOptions::new(radius);
+    let filled = |context: &Context| Ok(psp::project(context, mesh, &options, 0, true, None)?.0.positions.len());
     let reference = filled(context)?;
     let targets = RHO.map(|rho| (rho * rho * reference as f64).ceil() as usize);
     let max_darts = (MAX_DARTS * reference as f64) as usize;

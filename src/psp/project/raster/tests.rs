@@ -6,7 +6,7 @@ use glam::{DVec2, DVec3};
 
 use crate::job::Context;
 use crate::mesh::{Mesh, exact};
-use crate::psp::options::{Engine, Options, Priority};
+use crate::psp::options::{Engine, Priority, ProjectionOptions};
 use crate::psp::project::collector::Collector;
 use crate::psp::project::projection::Projection;
 use crate::psp::project::projector::{Projector, frame};
@@ -27,7 +27,7 @@ fn hits(
     projectors: &[Projector; 3],
     threads: usize,
 ) -> HashMap<(u32, u32), Vec<Sample>> {
-    let options = Options::new(radius).engine(engine);
+    let options = ProjectionOptions::new(radius).engine(engine);
     let samples = &SampleSet::new(mesh, radius);
     let collector = Collector { mesh, samples, priority: Priority::Projector, projectors };
     let found = Context::new(threads)
