@@ -30,7 +30,6 @@ mod fragment;
 mod given;
 mod lanes;
 mod levels;
-mod merge;
 mod obstacles;
 mod options;
 mod ordered;

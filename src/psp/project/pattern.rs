@@ -20,7 +20,7 @@ const LARGEST_SIDE: f64 = 2390.0;
 const SMALLEST_SIDE: f64 = 8.0;
 
 /// Points for a square of side `extent` that repeat with a side, which is returned with them; in radii.
-pub(super) fn torus(job: &Job, extent: f64, seed: u64) -> Result<(f64, Vec<[f32; 2]>)> {
+pub fn torus(job: &Job, extent: f64, seed: u64) -> Result<(f64, Vec<[f32; 2]>)> {
     let side = extent.clamp(SMALLEST_SIDE, LARGEST_SIDE);
     let domain = Domain { min: [0.0; 2], max: [side; 2], boundary: Boundary::Periodic };
     let options = kdrt::Options::new(1.0).domain(domain).seed(seed);
@@ -29,7 +29,7 @@ pub(super) fn torus(job: &Job, extent: f64, seed: u64) -> Result<(f64, Vec<[f32;
 }
 
 /// Points on the torus of a given side, in units of the radius, in the order in which rays are traced.
-pub(super) struct RayPattern {
+pub struct RayPattern {
     pub side: f64,
     /// In Morton order, so that rays of a packet and packets of a task meet the same part of the mesh.
     points: Vec<[f32; 2]>,

@@ -10,7 +10,7 @@ use crate::rng::{Draw, Rng};
 const NEAREST_AXES: f64 = 0.94;
 
 /// A plane through the centre of the mesh that carries the pattern along its normal.
-pub(in crate::psp) struct Projector {
+pub struct Projector {
     pub right: DVec3,
     pub up: DVec3,
     pub forward: DVec3,
@@ -36,7 +36,7 @@ impl Projector {
 
 /// The frame of an iteration: a uniformly random rotation none of whose axes is near one of the frame before. Near
 /// projectors find little that is new (thesis §3.3.3).
-pub(in crate::psp) fn frame(seed: u64, iteration: u32, previous: Option<DMat3>) -> DMat3 {
+pub fn frame(seed: u64, iteration: u32, previous: Option<DMat3>) -> DMat3 {
     let mut attempt = 0;
     loop {
         let frame = rotation(Rng::at(seed, Draw::Rotation, &[iteration.into(), attempt]));

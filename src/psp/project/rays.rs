@@ -14,7 +14,7 @@ use glam::DVec3;
 use crate::error::Result;
 use crate::job::Job;
 use crate::mesh::{Mesh, exact};
-use crate::psp::project::collector::{Collector, Found};
+use crate::psp::project::candidates::{Candidates, Collector};
 use crate::psp::project::pattern::RayPattern;
 use crate::psp::project::projector::Projector;
 use crate::trace::{Hit, Ray, Scene};
@@ -27,7 +27,7 @@ const DISTANCE: f64 = 1.0;
 const MAX_TASKS: u64 = 1 << 16;
 
 /// A mesh in trace space and the pattern that is projected onto it.
-pub(in crate::psp) struct Rays {
+pub struct Rays {
     space: Arc<TraceSpace>,
     pattern: RayPattern,
     /// The radius (trace space).
@@ -65,7 +65,7 @@ impl Rays {
     }
 
     /// Traces three projectors and collects all hits.
-    pub fn project(&self, job: &Job, projectors: &[Projector; 3], collector: &Collector) -> Result<Found> {
+    pub fn project(&self, job: &Job, projectors: &[Projector; 3], collector: &Collector) -> Result<Candidates> {
         let repetitions = projectors.each_ref().map(|projector| self.repetitions(projector));
         // A unit is one chunk of one repetition of the pattern on one projector.
         let chunks = self.pattern.chunks() as u64;

@@ -7,12 +7,12 @@ use glam::{DVec2, DVec3};
 use crate::job::Context;
 use crate::mesh::{Mesh, exact};
 use crate::psp::options::{Engine, Priority, ProjectionOptions};
-use crate::psp::project::collector::Collector;
-use crate::psp::project::projection::Projection;
+use crate::psp::project::Projection;
+use crate::psp::project::candidates::Collector;
 use crate::psp::project::projector::{Projector, frame};
 use crate::psp::samples::{Sample, SampleSet};
 
-#[path = "../../../../tests/all/common/meshes.rs"]
+#[path = "../../../tests/all/common/meshes.rs"]
 #[allow(dead_code)]
 mod meshes;
 
