@@ -6,22 +6,21 @@ use crate::error::{Error, Result};
 use crate::job::{Job, chunks_of};
 use crate::mesh::Mesh;
 use crate::points::MAXIMAL_DENSITY;
-use crate::psp::adaptive::image::{Image, Range};
-use crate::psp::adaptive::radius::{Density, DensityFunction, Scale, Texture};
+use crate::psp::adaptive::options::{Density, DensityFunction, Scale, Texture};
 use crate::psp::fragment::{Fragment, Shape};
 use crate::psp::pieces::slice;
 
 /// Triangles per task of the integral.
 const CHUNK: usize = 1 << 13;
-/// In how many pieces the surface is integrated, about.
+/// The number of pieces over which the surface is integrated, about.
 const PIECES: f64 = 1e5;
-/// How much, as a share, a function may exceed its largest value: places are rounded.
+/// The share by which a function may exceed its largest value: places are rounded.
 const ROUNDING: f64 = 1e-9;
 /// Texture coordinates are no larger: pixels are told apart.
 const FARTHEST: f32 = 1e6;
 
 /// A density that has been checked.
-pub(super) struct DensityField<'a> {
+pub struct DensityField<'a> {
     mesh: &'a Mesh,
     of: Of<'a>,
     /// The largest value.
@@ -83,7 +82,7 @@ impl<'a> DensityField<'a> {
     /// The density at a place of a triangle.
     ///
     /// # Errors
-    /// What a function gives that is no density, or more than its largest.
+    /// The value of a function that is no density, or more than its largest.
     pub fn at(&self, triangle: u32, uv: [f64; 2], position: [f64; 3]) -> std::result::Result<f64, f64> {
         match &self.of {
             Of::Vertices(values) => {
@@ -99,7 +98,7 @@ impl<'a> DensityField<'a> {
         }
     }
 
-    /// What no density on a fragment is below and above, where a function gives `centre` at its centre.
+    /// The least and the largest density on a fragment, where a function gives `centre` at its centre.
     pub fn bounds(&self, fragment: &Fragment, shape: &Shape, centre: f64) -> Range {
         let joined = |[low, high]: Range, x: f64| [low.min(x), high.max(x)];
         let none = [f64::INFINITY, f64::NEG_INFINITY];
@@ -234,5 +233,199 @@ fn check_texture(mesh: &Mesh, texture: Texture) -> Result<()> {
         Some((place, uv)) => {
             Err(Error::invalid("texture", format!("{place} has {uv:?}, not finite and up to {FARTHEST:e}")))
         }
+    }
+}
+
+/// Least and largest value.
+pub type Range = [f64; 2];
+
+/// Up to so many cells along an axis are looked at one by one.
+const FEW: f64 = 4.0;
+
+/// Values, and for squares of 2, 4, 8... of them their least and largest.
+pub struct Image<'a> {
+    values: &'a [f32],
+    size: [usize; 2],
+    /// Each half as wide and as high as the one before, rounded up; the last has one entry.
+    levels: Vec<Level>,
+}
+
+struct Level {
+    size: [usize; 2],
+    ranges: Vec<[f32; 2]>,
+}
+
+impl<'a> Image<'a> {
+    /// `values` are `width * height`, at least one of each. O(n).
+    pub fn new(values: &'a [f32], [width, height]: [usize; 2]) -> Self {
+        let mut image = Self { values, size: [width, height], levels: Vec::new() };
+        let mut size = image.size;
+        while size != [1, 1] {
+            let finer = image.levels.len();
+            let coarser = size.map(|length| length.div_ceil(2));
+            let of_square = |x: usize, y: usize| {
+                let columns = 2 * x..(2 * x + 2).min(size[0]);
+                let all = (2 * y..(2 * y + 2).min(size[1])).flat_map(|y| columns.clone().map(move |x| (x, y)));
+                all.map(|(x, y)| image.range(finer, [x, y])).fold([f32::INFINITY, f32::NEG_INFINITY], joined)
+            };
+            let ranges =
+                (0..coarser[1]).flat_map(|y| (0..coarser[0]).map(move |x| (x, y))).map(|(x, y)| of_square(x, y));
+            let ranges = ranges.collect();
+            image.levels.push(Level { size: coarser, ranges });
+            size = coarser;
+        }
+        image
+    }
+
+    /// The range of an entry of a level; level 0 are the values.
+    fn range(&self, level: usize, [x, y]: [usize; 2]) -> [f32; 2] {
+        match level.checked_sub(1) {
+            None => [self.values[y * self.size[0] + x]; 2],
+            Some(level) => self.levels[level].ranges[y * self.levels[level].size[0] + x],
+        }
+    }
+
+    /// The place of texture coordinates in pixels, where centres of pixels are whole numbers.
+    fn place(&self, [u, v]: [f64; 2]) -> [f64; 2] {
+        [u * self.size[0] as f64 - 0.5, v * self.size[1] as f64 - 0.5]
+    }
+
+    /// The value at texture coordinates: that of the four nearest centres, interpolated.
+    pub fn at(&self, uv: [f64; 2]) -> f64 {
+        let place = self.place(uv);
+        self.in_cell(place.map(f64::floor), place)
+    }
+
+    /// The value at a place in a cell, a square between four centres of pixels, given by its lower corner.
+    fn in_cell(&self, low: [f64; 2], place: [f64; 2]) -> f64 {
+        let [s, t] = [place[0] - low[0], place[1] - low[1]];
+        let wrapped = |axis: usize, next: i64| (low[axis] as i64 + next).rem_euclid(self.size[axis] as i64) as usize;
+        let value = |x: i64, y: i64| f64::from(self.values[wrapped(1, y) * self.size[0] + wrapped(0, x)]);
+        let [a, b, c, d] = [value(0, 0), value(1, 0), value(0, 1), value(1, 1)];
+        let mixed = (1.0 - t) * ((1.0 - s) * a + s * b) + t * ((1.0 - s) * c + s * d);
+        // Rounding does not bring it beyond those that it is mixed of.
+        mixed.clamp(a.min(b).min(c.min(d)), a.max(b).max(c.max(d)))
+    }
+
+    /// What no value at texture coordinates in a box is below and above: of few cells the values at the corners, which
+    /// come together as boxes shrink, and otherwise those of all pixels around.
+    pub fn bounds(&self, low: [f64; 2], high: [f64; 2]) -> Range {
+        let [low, high] = [self.place(low), self.place(high)];
+        let cells = |axis: usize| (low[axis].floor(), high[axis].floor());
+        let (columns, rows) = (cells(0), cells(1));
+        if columns.1 - columns.0 < FEW && rows.1 - rows.0 < FEW {
+            return self.bounds_in_cells([columns, rows], low, high);
+        }
+        let runs = [0, 1].map(|axis| runs(low[axis], high[axis], self.size[axis]));
+        let mut range = [f32::INFINITY, f32::NEG_INFINITY];
+        for y in runs[1].iter().flatten() {
+            for x in runs[0].iter().flatten() {
+                range = joined(range, self.range_of([x.0, y.0], [x.1, y.1]));
+            }
+        }
+        range.map(f64::from)
+    }
+
+    /// The range of the values in a box that lies in some columns and rows of cells. In a cell the extremes of what is
+    /// linear along both axes are at corners.
+    fn bounds_in_cells(&self, [columns, rows]: [(f64, f64); 2], low: [f64; 2], high: [f64; 2]) -> Range {
+        let mut range = [f64::INFINITY, f64::NEG_INFINITY];
+        for row in 0..=(rows.1 - rows.0) as i32 {
+            for column in 0..=(columns.1 - columns.0) as i32 {
+                let cell = [columns.0 + f64::from(column), rows.0 + f64::from(row)];
+                let end = |axis: usize, x: f64| x.clamp(cell[axis], cell[axis] + 1.0);
+                for x in [end(0, low[0]), end(0, high[0])] {
+                    for y in [end(1, low[1]), end(1, high[1])] {
+                        let value = self.in_cell(cell, [x, y]);
+                        range = [range[0].min(value), range[1].max(value)];
+                    }
+                }
+            }
+        }
+        range
+    }
+
+    /// The range of the values in a rectangle, its last column and row included: or of some more around it.
+    fn range_of(&self, first: [usize; 2], last: [usize; 2]) -> [f32; 2] {
+        let longest = (last[0] - first[0]).max(last[1] - first[1]);
+        // At most three entries along each axis.
+        let level = (usize::BITS - longest.leading_zeros()).saturating_sub(1) as usize;
+        let level = level.min(self.levels.len());
+        let entries = [0, 1].map(|axis| first[axis] >> level..=last[axis] >> level);
+        let [columns, rows] = entries;
+        let all = rows.flat_map(|y| columns.clone().map(move |x| [x, y]));
+        all.map(|entry| self.range(level, entry)).fold([f32::INFINITY, f32::NEG_INFINITY], joined)
+    }
+}
+
+fn joined(a: [f32; 2], b: [f32; 2]) -> [f32; 2] {
+    [a[0].min(b[0]), a[1].max(b[1])]
+}
+
+/// The pixels whose centres matter between two places along an axis: first and last of one run, or of two where it wraps.
+fn runs(low: f64, high: f64, size: usize) -> [Option<(usize, usize)>; 2] {
+    let (first, last) = (low.floor() as i64, high.floor() as i64 + 1);
+    if last - first + 1 >= size as i64 {
+        return [Some((0, size - 1)), None];
+    }
+    let start = first.rem_euclid(size as i64) as usize;
+    let end = start + (last - first) as usize;
+    if end < size { [Some((start, end)), None] } else { [Some((start, size - 1)), Some((0, end - size))] }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::rng::{Draw, Rng};
+
+    /// Boxes of all sizes, across the seams of the image, too.
+    #[test]
+    fn bounds_hold_all_values_and_are_not_much_wider() {
+        let mut rng = Rng::at(3, Draw::Probe, &[]);
+        for size in [[1, 1], [1, 7], [2, 2], [64, 64], [37, 5], [100, 129]] {
+            let values: Vec<f32> = (0..size[0] * size[1]).map(|_| rng.unit() as f32).collect();
+            let image = Image::new(&values, size);
+            for round in 0..300 {
+                let width = [0.001, 0.02, 0.3, 1.5][round % 4];
+                let low = [(); 2].map(|()| 6.0 * rng.unit() - 3.0);
+                let high = low.map(|x| x + width * rng.unit());
+                let [least, largest] = image.bounds(low, high);
+                for _ in 0..50 {
+                    let value = image.at([0, 1].map(|axis| low[axis] + (high[axis] - low[axis]) * rng.unit()));
+                    assert!((least..=largest).contains(&value), "{size:?} {low:?} {high:?}");
+                }
+                // All pixels within the level's squares around the box.
+                let pixels = |axis: usize| ((high[axis] - low[axis]) * size[axis] as f64).max(2.0);
+                let reach = 4.0 * pixels(0).max(pixels(1));
+                let near = (0..values.len()).filter(|&i| {
+                    let centre = [i % size[0], i / size[0]];
+                    (0..2).all(|axis| {
+                        let length = size[axis] as f64;
+                        let middle = 0.5 * (low[axis] + high[axis]) * length - 0.5;
+                        let away = (centre[axis] as f64 - middle).rem_euclid(length);
+                        away.min(length - away) <= reach
+                    })
+                });
+                let near: Vec<f64> = near.map(|i| f64::from(values[i])).collect();
+                let all = near.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], &x| [a.min(x), b.max(x)]);
+                assert!(all[0] <= least && largest <= all[1]);
+                let pointlike = image.bounds(low, low.map(|x| x + 1e-9));
+                assert!(pointlike[1] - pointlike[0] < 1e-6);
+            }
+        }
+    }
+
+    #[test]
+    fn centres_of_pixels_have_their_values_and_between_them_it_is_linear() {
+        let values = [0.0, 1.0, 4.0, 9.0, 2.0, 5.0f32];
+        let image = Image::new(&values, [3, 2]);
+        for (i, &value) in values.iter().enumerate() {
+            let centre = [((i % 3) as f64 + 0.5) / 3.0, ((i / 3) as f64 + 0.5) / 2.0];
+            assert_eq!(image.at(centre), value.into());
+            assert_eq!(image.at([centre[0] + 7.0, centre[1] - 2.0]), f64::from(value));
+        }
+        assert_eq!(image.at([1.0 / 3.0, 0.25]), 0.5);
+        assert_eq!(image.at([0.0, 0.25]), 2.0, "the last pixel of a row and the first");
+        assert_eq!(image.at([1.0 / 6.0, 0.5]), 4.5);
     }
 }

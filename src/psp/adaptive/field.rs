@@ -8,16 +8,18 @@
 //! Levels of an ordered set (`levels.rs`) multiply all radii with a *scale*. Radii without it are *relative*; those
 //! of a sample are. Whatever is compared with lengths has been multiplied: bounds, and what follows from them.
 
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::{Mutex, PoisonError};
+
 use glam::DVec3;
 
 use crate::error::{Error, Result};
 use crate::math::{scalbn, square};
+use crate::memory;
 use crate::mesh::{Mesh, exact};
 use crate::points::check_resolution;
-use crate::psp::adaptive::bounds::{RadiusBounds, of_function, of_vertices};
 use crate::psp::adaptive::density::DensityField;
-use crate::psp::adaptive::limits::Verdict;
-use crate::psp::adaptive::radius::{Radius, RadiusFunction};
+use crate::psp::adaptive::options::{Radius, RadiusFunction};
 use crate::psp::fill::rounds::TOLERANCE;
 use crate::psp::fragment::{Fragment, Shape};
 use crate::psp::samples::Sample;
@@ -26,7 +28,7 @@ use crate::psp::samples::Sample;
 /// proved covered falls short of what is by half of that.
 const FLAT: f64 = 0.1;
 
-/// How much, as a share, rounding can add to a radius.
+/// The share of a radius that rounding can add.
 const ROUNDING: f64 = 1e-9;
 
 /// On a piece of the surface where a density falls to nothing radii are at most this many times the least one: it has
@@ -34,7 +36,7 @@ const ROUNDING: f64 = 1e-9;
 /// piece's largest density.
 const STEEPEST: f64 = 4.0;
 
-/// Where the radius comes from.
+/// The source of the radius.
 #[derive(Clone, Copy)]
 enum Source<'a> {
     Vertices(&'a [f32]),
@@ -52,20 +54,20 @@ enum Source<'a> {
 }
 
 /// The radius on a mesh.
-pub(super) struct RadiusField<'a> {
+pub struct RadiusField<'a> {
     mesh: &'a Mesh,
     source: Source<'a>,
-    /// What all radii are multiplied by: 1, but on levels.
+    /// The factor of all radii: 1, but on levels.
     scale: f64,
     /// Relative bounds for the whole surface.
     all: RadiusBounds,
     /// A relative radius. At the finest scale a sample of twice this radius excludes all others, so larger radii are
-    /// taken as this. A density that asks for it asks for nothing.
+    /// taken as this. A density of this radius counts as 0: no samples.
     limit: f64,
-    /// How far rounding moves a sample at most.
+    /// The largest distance by which rounding moves a sample.
     rounding: f64,
-    /// What is wrong with the radii.
-    verdict: Verdict,
+    /// The error of the radii, if they have failed.
+    first_error: FirstError,
 }
 
 impl<'a> RadiusField<'a> {
@@ -110,7 +112,7 @@ impl<'a> RadiusField<'a> {
             return Err(Error::invalid("slope", reason));
         }
         let all = RadiusBounds { least: all.least.min(limit), largest: all.largest.min(limit) };
-        Ok(Self { mesh, source, scale, all, limit, rounding, verdict: Verdict::default() })
+        Ok(Self { mesh, source, scale, all, limit, rounding, first_error: FirstError::default() })
     }
 
     /// The argument that asks for too many samples where there are too many.
@@ -127,7 +129,7 @@ impl<'a> RadiusField<'a> {
         Self { scale, ..self.apart() }
     }
 
-    /// What relative radii are multiplied by.
+    /// The factor of relative radii.
     pub fn scale(&self) -> f64 {
         self.scale
     }
@@ -137,7 +139,7 @@ impl<'a> RadiusField<'a> {
         self.all.least
     }
 
-    /// RadiusBounds for the whole surface.
+    /// Bounds for the whole surface.
     pub fn all(&self) -> RadiusBounds {
         RadiusBounds { least: self.scale * self.all.least, largest: self.scale * self.all.largest }
     }
@@ -157,15 +159,15 @@ impl<'a> RadiusField<'a> {
         let radius = self.at(sample);
         self.test_slope(exact(sample.position), self.scale * radius, bounds);
         match self.source {
-            Source::Density { .. } if !self.is_nothing(self.scale * radius) => {
+            Source::Density { .. } if !self.is_empty_radius(self.scale * radius) => {
                 radius.clamp(bounds.least / self.scale, bounds.largest / self.scale)
             }
             _ => radius,
         }
     }
 
-    /// Whether a radius is that of a density which asks for no samples.
-    pub fn is_nothing(&self, radius: f64) -> bool {
+    /// True if a radius is that of a density of 0: no samples.
+    pub fn is_empty_radius(&self, radius: f64) -> bool {
         matches!(self.source, Source::Density { .. }) && radius >= self.scale * self.limit
     }
 
@@ -178,7 +180,7 @@ impl<'a> RadiusField<'a> {
         }
     }
 
-    /// RadiusBounds on a fragment that is part of one with bounds `within`.
+    /// Bounds on a fragment that is part of one with bounds `within`.
     pub fn bounds(&self, fragment: &Fragment, shape: &Shape, within: RadiusBounds) -> RadiusBounds {
         match self.source {
             Source::Vertices(radii) => {
@@ -204,7 +206,7 @@ impl<'a> RadiusField<'a> {
                     density.bounds(fragment, shape, centre).map(|density| self.scale * self.radius_of(density));
                 // What asks for nothing is told from what asks for little. On a settled piece even the least radius of
                 // a part may be above what is taken for the largest.
-                if self.is_nothing(least) {
+                if self.is_empty_radius(least) {
                     return RadiusBounds { least, largest: least };
                 }
                 let [least, largest] = [least, largest].map(|radius| radius.min(within.largest).max(within.least));
@@ -233,7 +235,7 @@ impl<'a> RadiusField<'a> {
         }
     }
 
-    /// What is known of the radius at a sample of a fragment with these bounds, unless a function is called for it.
+    /// The radius at a sample of a fragment with these bounds; the bounds, where a function would be called for it.
     pub fn known_at(&self, sample: &Sample, bounds: RadiusBounds) -> RadiusBounds {
         if self.calls_functions() {
             return bounds;
@@ -242,7 +244,7 @@ impl<'a> RadiusField<'a> {
         RadiusBounds { least: radius, largest: radius }
     }
 
-    /// What no radius on a fragment exceeds, even where rounding has moved a sample.
+    /// An upper bound of the radius on a fragment, even where rounding has moved a sample.
     pub fn above(&self, bounds: RadiusBounds) -> f64 {
         let slack = match self.source {
             // The barycentrics, with the difference of two corners.
@@ -264,23 +266,23 @@ impl<'a> RadiusField<'a> {
             }
     }
 
-    /// The same radii with a verdict of their own, for one task: what it finds out depends on no other.
+    /// The same radii with a first error of their own, for one task: its result depends on no other task.
     pub fn apart(&self) -> Self {
-        Self { verdict: Verdict::default(), ..*self }
+        Self { first_error: FirstError::default(), ..*self }
     }
 
     /// Fails where the radii have failed.
     pub fn check(&self) -> Result<()> {
-        self.verdict.check()
+        self.first_error.check()
     }
 
-    /// Whether the radii have failed: the rest of the work is in vain.
+    /// True if the call has failed already.
     pub fn has_failed(&self) -> bool {
-        self.verdict.is_given()
+        self.first_error.has_failed()
     }
 
-    /// Fails since too much work is of no avail.
-    pub fn give_up(&self, place: DVec3) {
+    /// Reports that the work limit was exceeded.
+    pub fn exceed_work(&self, place: DVec3) {
         let (argument, what) = match self.source {
             Source::Vertices(_) => ("vertex_radii", "the radii".to_owned()),
             Source::Function { slope, .. } => ("slope", format!("{slope:?}: radii of this slope, or a steeper one,")),
@@ -291,7 +293,7 @@ impl<'a> RadiusField<'a> {
         };
         let place = place.to_array();
         let reason = format!("{what} change too fast at {place:?} to find out what is covered");
-        self.verdict.add(place, Error::too_large(argument, reason));
+        self.first_error.add(place, Error::too_large(argument, reason));
     }
 
     fn interpolate(&self, radii: &[f32], triangle: u32, [u, v]: [f64; 2]) -> f64 {
@@ -300,7 +302,7 @@ impl<'a> RadiusField<'a> {
         (1.0 - u - v) * a + u * b + v * c
     }
 
-    /// Whether the caller's function is called for a radius.
+    /// True if the caller's function is called for a radius.
     fn calls_functions(&self) -> bool {
         match self.source {
             Source::Vertices(_) => false,
@@ -315,7 +317,7 @@ impl<'a> RadiusField<'a> {
         let radius = at(position);
         if !(smallest..=largest).contains(&radius) {
             let reason = format!("{radius:?} at {position:?} is not in {smallest:?}..={largest:?}");
-            self.verdict.add(position, Error::invalid("radius", reason));
+            self.first_error.add(position, Error::invalid("radius", reason));
             return self.all.least;
         }
         radius.min(self.limit)
@@ -327,7 +329,7 @@ impl<'a> RadiusField<'a> {
         density.at(triangle, uv, position.to_array()).unwrap_or_else(|found| {
             let (place, largest) = (position.to_array(), density.largest);
             let reason = format!("{found:?} at {place:?} is not in 0..={largest:?}");
-            self.verdict.add(place, Error::invalid("density", reason));
+            self.first_error.add(place, Error::invalid("density", reason));
             largest
         })
     }
@@ -360,7 +362,155 @@ impl<'a> RadiusField<'a> {
             let reason =
                 format!("{radius:?} at {place:?} is farther than slope {slope:?} allows from the values around");
             let argument = if self.argument() == "density" { "density" } else { "radius" };
-            self.verdict.add(place, Error::invalid(argument, reason));
+            self.first_error.add(place, Error::invalid(argument, reason));
         }
+    }
+}
+
+/// The least and the largest radius on a fragment.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RadiusBounds {
+    pub least: f64,
+    pub largest: f64,
+}
+
+impl RadiusBounds {
+    /// The unit of lengths: the radius as far as it is known. Where the bounds are far apart the least may
+    /// be due to a distant corner, or to a bad bound; fragments become smaller then, but not by so much.
+    pub fn scale(&self) -> f64 {
+        self.least.max(self.largest / 16.0)
+    }
+
+    /// The unit of areas: the mean of 1 / radius² where the radius grows evenly.
+    pub fn density(&self) -> f64 {
+        1.0 / (self.least * self.largest)
+    }
+}
+
+/// Checks radii of vertices, and gives their bounds.
+pub fn of_vertices(mesh: &Mesh, radii: &[f32]) -> Result<RadiusBounds> {
+    let count = mesh.positions().len();
+    if radii.len() != count {
+        return Err(Error::invalid("vertex_count", format!("{} radii for {count} vertices", radii.len())));
+    }
+    if let Some(vertex) = radii.iter().position(|radius| !(radius.is_finite() && *radius > 0.0)) {
+        let reason = format!("vertex {vertex} has {:?}, not a positive finite number", radii[vertex]);
+        return Err(Error::invalid("vertex_radii", reason));
+    }
+    let used = mesh.triangles().iter().flatten().map(|&vertex| f64::from(radii[vertex as usize]));
+    let start = RadiusBounds { least: f64::INFINITY, largest: 0.0 };
+    Ok(used.fold(start, |all, x| RadiusBounds { least: all.least.min(x), largest: all.largest.max(x) }))
+}
+
+/// Checks the stated bounds of a function, and gives them.
+pub fn of_function(smallest: f64, largest: f64, slope: f64) -> Result<RadiusBounds> {
+    if !(smallest > 0.0 && smallest.is_finite()) {
+        return Err(Error::invalid("smallest", format!("{smallest:?} is not a positive finite number")));
+    }
+    if !(largest >= smallest && largest.is_finite()) {
+        return Err(Error::invalid("largest", format!("{largest:?} is not a finite number from {smallest:?} on")));
+    }
+    if !(slope >= 0.0 && slope.is_finite()) {
+        return Err(Error::invalid("slope", format!("{slope:?} is not a finite number from 0 on")));
+    }
+    Ok(RadiusBounds { least: smallest, largest })
+}
+
+/// The first error of a radius function that breaks its stated bounds: of several the one at the first place, axis by axis,
+/// so that the order in which they are found does not matter.
+#[derive(Default)]
+pub struct FirstError {
+    first: Mutex<Option<([f64; 3], Error)>>,
+    has_failed: AtomicBool,
+}
+
+impl FirstError {
+    /// Adds a failure at a place.
+    pub fn add(&self, place: [f64; 3], failure: Error) {
+        let mut first = self.first.lock().unwrap_or_else(PoisonError::into_inner);
+        if first.as_ref().is_none_or(|(other, _)| place < *other) {
+            *first = Some((place, failure));
+        }
+        self.has_failed.store(true, Ordering::Relaxed);
+    }
+
+    /// True if the call has failed.
+    pub fn has_failed(&self) -> bool {
+        self.has_failed.load(Ordering::Relaxed)
+    }
+
+    /// Fails where there is a failure.
+    pub fn check(&self) -> Result<()> {
+        let first = self.first.lock().unwrap_or_else(PoisonError::into_inner).take();
+        first.map_or(Ok(()), |(_, failure)| Err(failure))
+    }
+}
+
+/// The least limit of pieces and samples.
+const FEWEST: f64 = 1e6;
+/// Pieces and samples per sample that was estimated and per triangle. Where radii are as steep as they can be there are about
+/// ten.
+const FACTOR: f64 = 64.0;
+/// Memory per piece or sample.
+const BYTES: f64 = 150.0;
+
+/// The limit of pieces of the surface and samples: by far more than was estimated, but what memory holds.
+pub struct Quota {
+    used: AtomicU64,
+    limit: u64,
+}
+
+impl Quota {
+    /// The quota of about so many samples.
+    pub fn new(estimate: f64, mesh: &Mesh) -> Self {
+        let limit = FEWEST + FACTOR * (estimate + mesh.triangles().len() as f64);
+        let held = memory::available().map_or(f64::INFINITY, |bytes| bytes / BYTES);
+        Self { used: AtomicU64::new(0), limit: limit.min(held) as u64 }
+    }
+
+    pub fn take(&self, count: u64) {
+        self.used.fetch_add(count, Ordering::Relaxed);
+    }
+
+    pub fn is_exceeded(&self) -> bool {
+        self.used.load(Ordering::Relaxed) > self.limit
+    }
+
+    /// Fails where it is exceeded, by what `argument` has asked for.
+    pub fn check(&self, argument: &'static str) -> Result<()> {
+        if !self.is_exceeded() {
+            return Ok(());
+        }
+        let limit = self.limit;
+        Err(Error::too_large(argument, format!("asks for more than {limit} samples, and for far fewer at first sight")))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_failure_at_the_first_place_counts() {
+        let places = [[0.5, 1.0, 2.0], [0.5, 0.25, 7.0], [0.5, 0.25, 8.0], [3.0, -1.0, 0.0]];
+        for first in 0..4 {
+            let error = FirstError::default();
+            assert!(!error.has_failed() && error.check().is_ok());
+            for i in (first..4).chain(0..first) {
+                error.add(places[i], Error::invalid("radius", i.to_string()));
+            }
+            assert!(error.has_failed());
+            assert_eq!(error.check().unwrap_err().to_string(), "radius: 1");
+        }
+    }
+
+    #[test]
+    fn a_quota_is_exceeded_by_one_more() {
+        let quota = Quota { used: AtomicU64::new(0), limit: 1000 };
+        quota.take(1000);
+        assert!(quota.check("radius").is_ok());
+        quota.take(1);
+        let said = quota.check("radius").unwrap_err().to_string();
+        assert!(quota.is_exceeded() && said.starts_with("radius: asks for more than 1000 samples"), "{said}");
     }
 }

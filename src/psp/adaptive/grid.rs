@@ -239,8 +239,8 @@ mod tests {
     use super::*;
     use crate::mesh::exact;
     use crate::psp::adaptive::field::RadiusField;
+    use crate::psp::adaptive::options::Radius;
     use crate::psp::adaptive::page::WITHIN;
-    use crate::psp::adaptive::radius::Radius;
     use crate::psp::fragment::Fragment;
     use crate::rng::{Draw, Rng};
 

@@ -18,23 +18,18 @@
 //! The thesis projects patterns of the smallest radius and thins them, which wastes most rays where radii differ. Here
 //! the set is only filled (see `psp/fill/mod.rs`), octave by octave, without Embree.
 
-mod bounds;
 mod density;
 mod dot;
 mod estimate;
 mod field;
 mod grid;
-mod image;
 mod levels;
-mod limits;
 mod options;
 mod page;
 mod pieces;
-mod radius;
 mod sample;
 mod set;
 mod site;
 
-pub use options::Options;
-pub use radius::{Density, DensityFunction, Radius, RadiusFunction, Scale, Texture};
+pub use options::{Density, DensityFunction, Options, Radius, RadiusFunction, Scale, Texture};
 pub use sample::sample;

@@ -1,12 +1,11 @@
-//! What to sample.
+//! The options of sets whose radius varies: the radius, or the density that it follows from, and the rest.
 
 use crate::given::Given;
 use crate::order::Order;
-use crate::psp::adaptive::radius::Radius;
 use crate::psp::options::DEFAULT_QUOTIENT;
 use crate::setters::setters;
 
-/// What to sample.
+/// The options of [`sample`](super::sample).
 #[derive(Clone, Copy)]
 #[non_exhaustive]
 pub struct Options<'a> {
@@ -38,3 +37,94 @@ impl<'a> Options<'a> {
 }
 
 setters!(Options<'a> { cosine: f64, seed: u64, given: Given<'a, 3>, order: Order, quotient: f64 });
+
+/// A radius for every place of space; called from several threads at once, unless the context has only one.
+pub type RadiusFunction<'a> = dyn Fn([f64; 3]) -> f64 + Sync + 'a;
+
+/// A density for every place of space, finite and 0 or above; called like a [`RadiusFunction`].
+pub type DensityFunction<'a> = dyn Fn([f64; 3]) -> f64 + Sync + 'a;
+
+/// The radius from place to place.
+#[derive(Clone, Copy)]
+pub enum Radius<'a> {
+    /// A radius for each vertex of the mesh, positive and finite, interpolated on the triangles: at the barycentrics
+    /// `(u, v)` of a sample it is `(1 - u - v) * a + u * b + v * c` in `f64`. It may change as steeply as it likes.
+    PerVertex(&'a [f32]),
+    /// A radius for each position.
+    Function {
+        /// Gives the radius at a position; for a sample, at the floats that are returned.
+        at: &'a RadiusFunction<'a>,
+        /// The least that it gives.
+        smallest: f64,
+        /// The largest that it gives.
+        largest: f64,
+        /// How much the radius changes at most per unit of distance between two positions on a triangle: 0 and up. What
+        /// is covered is proved with it, so it must hold; where a violation is seen, the call fails. The work grows
+        /// with its square from about 1 on; from about 30 on it may be too much, which is refused. At most `smallest` /
+        /// 24 per float spacing at the largest coordinate of the mesh.
+        slope: f64,
+    },
+    /// The radius that gives each place a density of samples.
+    Density {
+        /// The density, in any unit.
+        density: Density<'a>,
+        /// The meaning of a density of 1.
+        scale: Scale,
+    },
+}
+
+/// The density of samples from place to place, per unit of area. Densities are finite, 0 or above, and not 0
+/// everywhere. Where they are 0 there are no samples, and those beside are none the fewer for it.
+#[derive(Clone, Copy)]
+pub enum Density<'a> {
+    /// A density for each vertex of the mesh, interpolated on the triangles.
+    PerVertex(&'a [f32]),
+    /// The density at each vertex of the mesh, interpolated on the triangles: the function is called once for each
+    /// vertex, in their order, before any work. Nothing need be known of it, and what it does between vertices does not
+    /// matter.
+    AtVertices(&'a DensityFunction<'a>),
+    /// A density for each position.
+    Function {
+        /// Gives the density at a position.
+        at: &'a DensityFunction<'a>,
+        /// The largest that it gives, above 0.
+        largest: f64,
+        /// How much the density changes at most per unit of distance between two positions on a triangle: 0 and up. What
+        /// is covered is proved with it, so it must hold; where a violation is seen, the call fails. Where the density
+        /// is 0, or nearly so, over many times the radius beside it, that takes very many calls, which is refused: use
+        /// [`Density::AtVertices`] there.
+        slope: f64,
+    },
+    /// An image that is laid on the mesh by texture coordinates, linear between the centres of its pixels, and repeated.
+    Image {
+        /// The pixels, row by row; the first row lies along v = 0.
+        values: &'a [f32],
+        /// Pixels in a row, which is as long as u goes from 0 to 1; at least 1.
+        width: usize,
+        /// Rows; at least 1.
+        height: usize,
+        /// Where the vertices lie in the image.
+        texture: Texture<'a>,
+    },
+}
+
+/// Texture coordinates u, v: finite, at most 1e6 in absolute value.
+#[derive(Clone, Copy)]
+pub enum Texture<'a> {
+    /// For each vertex of the mesh.
+    PerVertex(&'a [[f32; 2]]),
+    /// For each corner of each triangle: those along seams differ.
+    PerCorner(&'a [[[f32; 2]; 3]]),
+}
+
+/// The meaning of a density of 1.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Scale {
+    /// The radius at density 1: a maximal set of that radius has this density. The radius at a density d is this over
+    /// the square root of d.
+    Radius(f64),
+    /// About how many samples the whole set has; above 0. The radius follows from the integral of the density, for an even
+    /// surface: where parts of it are nearer to each other than the radius, there are fewer. In progressive order there
+    /// are exactly so many, and it is a whole number.
+    Count(f64),
+}

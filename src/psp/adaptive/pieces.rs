@@ -4,9 +4,7 @@ use crate::error::Result;
 use crate::index::Buckets;
 use crate::job::{Job, chunks_of};
 use crate::mesh::Mesh;
-use crate::psp::adaptive::bounds::RadiusBounds;
-use crate::psp::adaptive::field::RadiusField;
-use crate::psp::adaptive::limits::Quota;
+use crate::psp::adaptive::field::{Quota, RadiusBounds, RadiusField};
 use crate::psp::adaptive::set::OctaveCubes;
 use crate::psp::cubes::OctaveCube;
 use crate::psp::fill::rounds::{Patch, Whole};
@@ -64,7 +62,7 @@ pub fn pieces(
             let whole = Fragment::whole(triangle);
             let shape = whole.shape(mesh);
             let bounds = field.bounds(&whole, &shape, field.all());
-            if field.is_nothing(bounds.least) {
+            if field.is_empty_radius(bounds.least) {
                 continue;
             }
             if cuts.is_small(&shape, bounds) {
@@ -107,7 +105,7 @@ impl Cuts<'_> {
     fn cut(&mut self, fragment: &Fragment, within: RadiusBounds) {
         let shape = fragment.shape(self.mesh);
         let bounds = self.field.bounds(fragment, &shape, within);
-        if self.field.is_nothing(bounds.least) {
+        if self.field.is_empty_radius(bounds.least) {
             return;
         }
         if !self.is_small(&shape, bounds) {

@@ -9,11 +9,9 @@ use crate::index::Weights;
 use crate::job::Job;
 use crate::math::{rounded_down, square};
 use crate::mesh::{Mesh, round_barycentrics};
-use crate::psp::adaptive::bounds::RadiusBounds;
 use crate::psp::adaptive::dot::Dot;
-use crate::psp::adaptive::field::RadiusField;
+use crate::psp::adaptive::field::{Quota, RadiusBounds, RadiusField};
 use crate::psp::adaptive::grid::{Grid, Shade};
-use crate::psp::adaptive::limits::Quota;
 use crate::psp::adaptive::page::Group;
 use crate::psp::adaptive::pieces::{Piece, pieces};
 use crate::psp::adaptive::set::AdaptiveSet;
@@ -238,7 +236,7 @@ impl<'a> GradedGround<'a> {
     fn count_test(&self, place: DVec3) {
         match self.tests.get().checked_sub(1) {
             Some(tests) => self.tests.set(tests),
-            None => self.field.give_up(place),
+            None => self.field.exceed_work(place),
         }
     }
 
@@ -270,7 +268,7 @@ impl Ground for GradedGround<'_> {
         let shape = fragment.shape(self.mesh);
         self.count_test(shape.centre);
         let bounds = self.field.narrowed(fragment, &shape, within);
-        if self.field.is_nothing(bounds.least) {
+        if self.field.is_empty_radius(bounds.least) {
             return None;
         }
         let open = self.grid.open_sixteenths(&self.shade(fragment, bounds, shape.corners, shape.longest), u16::MAX);
@@ -331,7 +329,7 @@ impl Ground for GradedGround<'_> {
         }
         let relative = self.field.at_within(&sample, bounds);
         dot.radius = self.field.scale() * relative;
-        if self.field.is_nothing(dot.radius) || dot.radius > bounds.least && self.grid.rejects(&dot) {
+        if self.field.is_empty_radius(dot.radius) || dot.radius > bounds.least && self.grid.rejects(&dot) {
             return;
         }
         let rank = self.rank(&dot);

@@ -19,10 +19,10 @@ use crate::psp::project::projector::Projector;
 use crate::psp::samples::{Sample, SampleSet};
 use crate::trace::Hit;
 
-/// How finely the squareness of a hit is resolved.
+/// The resolution of the squareness of a hit.
 const RANKS: f64 = 1e6;
 
-/// Counts of what some projectors met.
+/// The counts of rays and hits of some projectors.
 #[derive(Clone, Copy, Default)]
 pub struct Projected {
     pub rays: u64,
