@@ -1,4 +1,4 @@
-//! How much work a radius asks for, before any is done.
+//! Estimates of samples, memory and rays, before any work is done.
 
 use crate::error::{Error, Result};
 use crate::mesh::{Mesh, exact};
@@ -11,9 +11,9 @@ const BYTES_PER_SAMPLE: f64 = 300.0;
 
 /// An iteration is left out where it would trace more rays than this for each sample that can stand on the surface.
 /// Parts far apart in a large box are hit that rarely. (Filling alone is as fast from 5 rays per sample on, measured on
-/// dust, and nearly twice as fast with 27; up to there an iteration that was asked for is made.) ...
+/// dust, and nearly twice as fast with 27; up to there an iteration that was asked for is made.)
 const RAYS_PER_SAMPLE: f64 = 20.0;
-/// ... unless it has no more rays than this, a moment's work.
+/// An iteration of no more rays than this is never left out: its cost is negligible.
 const RAYS_ALWAYS: f64 = 1e7;
 
 /// Memory for so many samples. Refuses more than there is.
@@ -21,7 +21,7 @@ pub(super) fn require_memory(samples: f64, argument: &'static str, what: &str) -
     crate::memory::require(samples * BYTES_PER_SAMPLE, argument, what)
 }
 
-/// How many samples a radius gives, rather too many. Refuses one that cannot be had.
+/// An upper estimate of the samples of a radius. Refuses one that is out of range or asks for too many.
 pub(super) fn checked_estimate(mesh: &Mesh, measures: &Measures, radius: f64) -> Result<f64> {
     check_radius(radius)?;
     let estimate = measures.expected_samples(mesh, radius);
@@ -34,12 +34,12 @@ pub(super) fn checked_estimate(mesh: &Mesh, measures: &Measures, radius: f64) ->
     Ok(estimate)
 }
 
-/// Whether iterations are worth their rays, where so many samples are expected.
+/// True if iterations are worth their rays, where so many samples are expected.
 pub(super) fn is_worth_projecting(mesh: &Mesh, radius: f64, samples: f64) -> bool {
     mesh.area() > 0.0 && expected_rays(mesh, radius) <= RAYS_ALWAYS.max(RAYS_PER_SAMPLE * samples)
 }
 
-/// What an iteration costs, counted in rays: one for each pattern point in the shadow of the mesh's box, and a
+/// The cost of an iteration in rays: one for each pattern point in the shadow of the mesh's box, and a
 /// sixteenth for each point that has to be looked at for them.
 ///
 /// The shadows on three orthogonal planes are largest along the diagonals of a cube, sqrt(3) times its three sides.

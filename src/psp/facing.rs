@@ -1,9 +1,9 @@
-//! Which samples ignore each other because their triangles face different ways: the sides of a thin wall.
+//! The normal cone: samples on triangles that face different ways, such as the sides of a thin wall, ignore each other.
 
 use crate::error::{Error, Result};
 use crate::mesh::{Mesh, exact};
 
-/// What stands for a normal where normals do not matter.
+/// The normal of all samples where normals do not matter.
 pub(super) const NO_NORMAL: [f32; 3] = [0.0; 3];
 
 /// Samples on triangles whose normals have a smaller cosine ignore each other, unless the normals are the same; -1:
@@ -24,7 +24,7 @@ impl Facing {
         }
     }
 
-    /// Whether normals matter at all.
+    /// True if normals matter at all.
     #[inline(always)]
     pub fn asks_normals(self) -> bool {
         self.0 > -1.0
@@ -36,7 +36,7 @@ impl Facing {
         if self.asks_normals() { mesh.normal(triangle) } else { NO_NORMAL }
     }
 
-    /// Whether two samples with these normals matter to each other. Those of one triangle do: the square of a rounded
+    /// True if two samples with these normals matter to each other. Those of one triangle do: the square of a rounded
     /// normal can be below a cosine of 1, and a triangle would be sampled without end.
     pub fn sees(self, a: [f32; 3], b: [f32; 3]) -> bool {
         !self.asks_normals() || a == b || exact(a).dot(exact(b)) >= self.0

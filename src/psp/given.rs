@@ -1,4 +1,4 @@
-//! Given samples as a set sees them: they stand already, stay, and are not among its own.
+//! Pre-existing samples: obstacles that are never returned.
 //!
 //! Those whose clearance is the radius of the set do what its own samples do. They are put into the same grids, cube by
 //! cube, which is as fast. All others are obstacles.
@@ -20,9 +20,9 @@ use crate::psp::samples::SampleSet;
 
 /// Given samples around which a set of one radius grows.
 pub(super) struct GivenSamples {
-    /// The numbers of the cubes that have some of the same radius, ...
+    /// The numbers of the cubes that have given samples of the same radius.
     cubes: HashMap<Cube, usize>,
-    /// ... and the positions of these.
+    /// The positions of the given samples of the same radius, by these numbers.
     alike: Binned<[f32; 3]>,
     space: Space,
     /// All others.
@@ -64,7 +64,7 @@ impl GivenSamples {
     pub fn of_levels(mesh: &Mesh, given: Given<3>, radius: Option<f64>) -> Result<Self> {
         check(given)?;
         if radius.is_none() && given.clearances.is_none() && !given.positions.is_empty() {
-            return Err(Error::invalid("given_clearances", "are needed with a count, which no radius is known of"));
+            return Err(Error::invalid("given_clearances", "are required with a count, as no radius stands for them"));
         }
         let obstacles = Obstacles::new(mesh, balls(given, radius.unwrap_or(0.0)));
         Ok(Self { obstacles, ..Self::none(mesh) })
@@ -82,7 +82,7 @@ impl GivenSamples {
         }
     }
 
-    /// Whether there are none that matter.
+    /// True if there are none that matter.
     pub fn is_empty(&self) -> bool {
         self.alike.items().is_empty() && self.obstacles.is_empty()
     }
@@ -92,7 +92,7 @@ impl GivenSamples {
         self.alike.items()
     }
 
-    /// What keeps candidates out of a cube.
+    /// The given samples that keep candidates out of a cube.
     pub fn near(&self, cube: Cube) -> NearGiven<'_> {
         let mut alike = self.alike_around(cube).peekable();
         let grid = alike.peek().is_some().then(|| {
@@ -110,7 +110,7 @@ impl GivenSamples {
 }
 
 impl NearGiven<'_> {
-    /// Whether a position in the cube is too close to one of them.
+    /// True if a position in the cube is too close to one of them.
     pub fn reject(&self, position: [f32; 3]) -> bool {
         let rejects = |grid: &Grid| grid.rejects(grid.space.place(position), NO_NORMAL);
         self.grid.as_ref().is_some_and(rejects) || self.obstacles.reject(position)
@@ -120,7 +120,7 @@ impl NearGiven<'_> {
 /// The given samples of a set that has no radius of its own.
 pub(super) fn obstacles(mesh: &Mesh, given: Given<3>) -> Result<Obstacles> {
     if given.clearances.is_none() && !given.positions.is_empty() {
-        return Err(Error::invalid("given_clearances", "are needed where the radius varies"));
+        return Err(Error::invalid("given_clearances", "are required where the radius varies"));
     }
     obstacles_of(mesh, given)
 }

@@ -47,7 +47,7 @@ impl Default for Engine {
 /// The default of [`Options::quotient`]: 2^(1/8).
 pub const DEFAULT_QUOTIENT: f64 = 1.090_507_732_665_257_7;
 
-/// How many samples there are.
+/// The amount of samples: by their radius or by their number.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Amount {
     /// As many as fit with this smallest distance, in the units of the mesh; positive and finite.

@@ -34,7 +34,7 @@ pub struct Psp {
     facing: Facing,
     samples: SampleSet,
     measures: Arc<Measures>,
-    /// Whether iterations are worth their rays.
+    /// True if iterations are worth their rays.
     projects: bool,
     /// Made by the first iteration.
     projection: Option<Projection>,
@@ -107,7 +107,7 @@ impl Psp {
         self.samples.len()
     }
 
-    /// Whether there is no sample yet.
+    /// True if there is no sample yet.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }

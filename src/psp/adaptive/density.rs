@@ -307,7 +307,7 @@ impl<'a> Image<'a> {
         mixed.clamp(a.min(b).min(c.min(d)), a.max(b).max(c.max(d)))
     }
 
-    /// What no value at texture coordinates in a box is below and above: of few cells the values at the corners, which
+    /// The least and the largest value at texture coordinates in a box: of few cells the values at the corners, which
     /// come together as boxes shrink, and otherwise those of all pixels around.
     pub fn bounds(&self, low: [f64; 2], high: [f64; 2]) -> Range {
         let [low, high] = [self.place(low), self.place(high)];

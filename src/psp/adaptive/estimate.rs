@@ -1,4 +1,4 @@
-//! How many samples radii ask for, before any work is done.
+//! The estimate of the samples that varying radii ask for, before any work is done.
 
 use crate::error::{Error, Result};
 use crate::job::{Job, chunks_of};

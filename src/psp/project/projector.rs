@@ -14,7 +14,7 @@ pub struct Projector {
     pub right: DVec3,
     pub up: DVec3,
     pub forward: DVec3,
-    /// How far the pattern is shifted on the torus, as a share of its side.
+    /// The shift of the pattern on the torus, as a share of its side.
     shift: [f64; 2],
 }
 

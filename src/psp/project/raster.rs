@@ -111,9 +111,9 @@ const POINTS: usize = 1 << 16;
 pub struct PatternTiles {
     /// The side of the pattern, in radii.
     pub side: f64,
-    /// How many tiles the pattern has along each axis.
+    /// The number of tiles of the pattern along each axis.
     pub count: i32,
-    /// How many cells a tile has along each axis, none of them wider than a radius.
+    /// The number of cells of a tile along each axis, none of them wider than a radius.
     pub cells: usize,
     /// Row by row.
     tiles: Vec<PatternTile>,
@@ -170,7 +170,7 @@ pub type LatticePoint = [i64; 2];
 /// By how much rounding can move a point against the boundary of its cell or tile, in units of the lattice, and some more.
 pub const MARGIN: f64 = 2.0;
 
-/// How a mesh is seen on a projector.
+/// The map from the space of a mesh to the lattice of a projector.
 pub struct ProjectorLattice {
     centre: DVec3,
     per_radius: f64,

@@ -1,26 +1,26 @@
 //! Given samples with a clearance of their own: balls that keep darts out and cover what lies in them.
 //!
-//! What they do does not depend on the radius of a set. So one structure serves all cubes, octaves and threads of a
+//! Their effect does not depend on the radius of a set. So one structure serves all cubes, octaves and threads of a
 //! call, which only read it.
 //!
 //! Everything is decided in `f64`: a ball can be as large as the mesh and end just beyond a part of it that is as large.
 //! Floats could not tell that this is covered, however finely it is cut.
 
-mod tier;
-
 use std::collections::BTreeMap;
 
 use glam::DVec3;
 
+use crate::index::Binned;
 use crate::math::scalbn;
 use crate::mesh::{Mesh, exact};
-use crate::psp::obstacles::tier::Tier;
+use crate::psp::fill::grid::{any_cell, each_cell};
+use crate::psp::fill::space::{Place, Space, key};
+use crate::psp::fill::table::Table;
 use crate::psp::sixteenths::{CORNERS, Cover};
 
-/// Clearances of one tier differ by less than this power of two, and cells of tiers by it, ...
+/// Clearances of one tier differ by less than this power of two, and cells of tiers by it.
 const OCTAVES: i32 = 2;
-/// ... unless no more obstacles than this are in a cell, on average: then those of two tiers are together in one, and
-/// cells are larger. A cell is looked up in the time of some tests.
+/// The largest average number of obstacles in a cell. With fewer, those of two tiers are together in one, and cells are larger. A cell is looked up in the time of some tests.
 const CROWD: usize = 8;
 
 /// Balls smaller than so many float spacings are with those of this size: they cover nothing that counts.
@@ -36,21 +36,21 @@ struct Obstacle {
 }
 
 /// Obstacles that can touch a mesh.
-pub(super) struct Obstacles {
+pub struct Obstacles {
     /// By clearance, the largest first.
     tiers: Vec<Tier>,
     /// Those with larger clearances than the mesh's box: any cell would hold them all.
     wide: Vec<Obstacle>,
 }
 
-/// Whether the ball around a position touches the box of a mesh.
-pub(super) fn touches(mesh: &Mesh, position: [f32; 3], clearance: f64) -> bool {
+/// True if the ball around a position touches the box of a mesh.
+pub fn touches(mesh: &Mesh, position: [f32; 3], clearance: f64) -> bool {
     let (low, high) = mesh.bounds();
     Obstacle::new(position, clearance).touches([exact(low), exact(high)])
 }
 
-/// A fragment as obstacles see it.
-struct Outline {
+/// The bounds of a fragment, by which most obstacles are told from those that may cover a part of it.
+struct FragmentBounds {
     centre: DVec3,
     /// All of it is this near to the centre.
     extent: f64,
@@ -66,20 +66,20 @@ impl Obstacle {
         Self { centre: exact(position), reach: clearance.max(1e-60) * (1.0 + 1e-14) }
     }
 
-    /// Whether the ball touches a box.
+    /// True if the ball touches a box.
     fn touches(&self, [low, high]: [DVec3; 2]) -> bool {
         self.holds(self.centre.clamp(low, high))
     }
 
-    /// Whether a point is in the ball: in `f64`, without tolerance.
+    /// True if a point is in the ball: in `f64`, without tolerance.
     #[inline(always)]
     fn holds(&self, point: DVec3) -> bool {
         self.centre.distance_squared(point) < self.reach * self.reach
     }
 
-    /// Whether the ball can hold a sixteenth of a fragment.
+    /// True if the ball can hold a sixteenth of a fragment.
     #[inline(always)]
-    fn may_cover(&self, outline: &Outline) -> bool {
+    fn may_cover(&self, outline: &FragmentBounds) -> bool {
         let (reach2, most) = (self.reach * self.reach, self.reach + outline.extent);
         // No ball holds what is longer than its diameter, and the longest edge of a sixteenth is a quarter.
         outline.longest2 <= 64.0 * reach2 && self.centre.distance_squared(outline.centre) < most * most
@@ -116,18 +116,18 @@ impl Obstacles {
         Self { tiers: tiers_of(mesh, tiers), wide }
     }
 
-    /// Whether there are none.
+    /// True if there are none.
     #[inline]
     pub fn is_empty(&self) -> bool {
         self.tiers.is_empty() && self.wide.is_empty()
     }
 
-    /// How many there are, each as often as it is listed.
+    /// The number of obstacles, each as often as it is listed.
     pub fn listed(&self) -> usize {
         self.wide.len() + self.tiers.iter().map(Tier::listed).sum::<usize>()
     }
 
-    /// Whether a position is nearer to one of them than its clearance: in `f64`, without tolerance.
+    /// True if a position is nearer to one of them than its clearance: in `f64`, without tolerance.
     #[inline]
     pub fn reject(&self, position: [f32; 3]) -> bool {
         if self.is_empty() {
@@ -138,7 +138,7 @@ impl Obstacles {
         self.wide.iter().any(holds) || self.tiers.iter().any(|tier| tier.at(position).iter().any(holds))
     }
 
-    /// Which of the open triangles of a group none of them covers by itself: a bit for each.
+    /// The open triangles of a group that none of them covers by itself: a bit for each.
     #[inline]
     pub fn open_triangles(&self, mut open: u64, corners: impl Fn(usize) -> [[f32; 3]; 3]) -> u64 {
         if self.is_empty() {
@@ -155,7 +155,7 @@ impl Obstacles {
         open
     }
 
-    /// Whether one of them covers a triangle.
+    /// True if one of them covers a triangle.
     fn cover(&self, corners: [[f32; 3]; 3]) -> bool {
         let [a, b, c] = corners.map(exact);
         let longest2 = a.distance_squared(b).max(b.distance_squared(c)).max(c.distance_squared(a));
@@ -167,14 +167,14 @@ impl Obstacles {
             })
     }
 
-    /// Which of the open sixteenths of a fragment, given by its corners, none of them covers by itself.
+    /// The open sixteenths of a fragment, given by its corners, that none of them covers by itself.
     #[inline]
     pub fn open_sixteenths(&self, corners: [DVec3; 3], open: u16) -> u16 {
         if open == 0 || self.is_empty() { open } else { self.uncovered(corners, open) }
     }
 
     fn uncovered(&self, corners: [DVec3; 3], open: u16) -> u16 {
-        let (outline, mut points, mut cover) = (Outline::of(corners), None, Cover::default());
+        let (outline, mut points, mut cover) = (FragmentBounds::of(corners), None, Cover::default());
         let mut is_covered_with = |obstacles: &[Obstacle]| {
             for obstacle in obstacles.iter().filter(|obstacle| obstacle.may_cover(&outline)) {
                 obstacle.cover(points.get_or_insert_with(|| points_of(corners)), &mut cover);
@@ -196,7 +196,7 @@ fn tiers_of(mesh: &Mesh, octaves: BTreeMap<i32, Vec<Obstacle>>) -> Vec<Tier> {
         let end = scalbn(1.0, OCTAVES * (octave + 1));
         let count = smaller.len();
         smaller.extend(obstacles);
-        if count > 0 && tier::is_crowded(mesh, end, &smaller) {
+        if count > 0 && is_crowded(mesh, end, &smaller) {
             let larger = smaller.split_off(count);
             tiers.push(Tier::new(mesh, smaller_end, &smaller));
             smaller = larger;
@@ -210,7 +210,7 @@ fn tiers_of(mesh: &Mesh, octaves: BTreeMap<i32, Vec<Obstacle>>) -> Vec<Tier> {
     tiers
 }
 
-impl Outline {
+impl FragmentBounds {
     fn of([a, b, c]: [DVec3; 3]) -> Self {
         let longest2 = a.distance_squared(b).max(b.distance_squared(c)).max(c.distance_squared(a));
         // Two thirds of the longest edge, and some more for rounding.
@@ -228,6 +228,99 @@ fn points_of([a, b, c]: [DVec3; 3]) -> Points {
         }
     }
     points
+}
+
+/// The share by which the cells of a ball are taken too large: rounding adds less.
+const SLACK: f64 = 1e-6;
+
+/// The factor by which cells become larger.
+const GROWTH: f64 = (1 << OCTAVES) as f64;
+
+/// Obstacles whose clearances are below an end. Cells are at least twice as large as that.
+struct Tier {
+    pub end: f64,
+    space: Space,
+    /// The number of each cell that has obstacles, from 1 on.
+    cells: Table<u32>,
+    /// The obstacles of the cell with number 0, which has none, and of all others.
+    obstacles: Binned<Obstacle>,
+}
+
+/// True if a cell has more obstacles than it should, on average, where cells are twice as large as `size`.
+fn is_crowded(mesh: &Mesh, size: f64, obstacles: &[Obstacle]) -> bool {
+    let (space, mut cells, mut count) = (Space::new(mesh, size), Table::<bool>::new(), 0);
+    let (low, high) = mesh.bounds();
+    for obstacle in obstacles {
+        let inside = obstacle.centre.clamp(exact(low), exact(high)).as_vec3().to_array();
+        let is_known = cells.entry(key(space.cell(space.place(inside))));
+        count += usize::from(!std::mem::replace(is_known, true));
+    }
+    obstacles.len() > CROWD * count
+}
+
+impl Tier {
+    pub fn new(mesh: &Mesh, end: f64, obstacles: &[Obstacle]) -> Self {
+        let (low, high) = mesh.bounds();
+        let (mut size, largest) = (end, exact(low).distance(exact(high)));
+        while size < largest && !is_crowded(mesh, GROWTH * size, obstacles) {
+            size *= GROWTH;
+        }
+        let space = Space::new(mesh, size);
+        let bounds = [space.place(low), space.place(high)];
+        let (mut cells, mut count, mut listed) = (Table::<u32>::new(), 0, Vec::new());
+        for &obstacle in obstacles {
+            each_cell(cells_of(&space, bounds, obstacle), |cell| {
+                let number = cells.entry(key(cell));
+                if *number == 0 {
+                    count += 1;
+                    *number = count;
+                }
+                listed.push((*number as usize, obstacle));
+            });
+        }
+        let obstacles = Binned::new(count as usize + 1, listed.iter().copied());
+        Self { end, space, cells, obstacles }
+    }
+
+    /// The number of obstacles that all cells list.
+    pub fn listed(&self) -> usize {
+        self.obstacles.items().len()
+    }
+
+    /// The obstacles whose balls can hold a position of the mesh.
+    #[inline]
+    pub fn at(&self, position: [f32; 3]) -> &[Obstacle] {
+        self.of_cell(self.space.cell(self.space.place(position)))
+    }
+
+    #[inline]
+    fn of_cell(&self, cell: [u32; 3]) -> &[Obstacle] {
+        self.obstacles.bin(self.cells.get(key(cell)) as usize)
+    }
+
+    /// True if a test holds for the obstacles of a cell in which there may be some that cover a sixteenth of a fragment.
+    pub fn any_cell(&self, corners: [DVec3; 3], mut test: impl FnMut(&[Obstacle]) -> bool) -> bool {
+        let [a, b, c] = corners;
+        // Most fragments lie in one cell.
+        let [low, high] = [a.min(b).min(c), a.max(b).max(c)].map(|end| end.as_vec3().to_array());
+        let [low, high] = [low, high].map(|end| self.space.cell(self.space.place(end)));
+        if low == high {
+            return test(self.of_cell(low));
+        }
+        any_cell(&self.space, corners.map(|corner| self.space.scaled(corner)), |cell| test(self.of_cell(cell)))
+    }
+}
+
+/// The lowest and the highest cell that the part of a ball inside of the mesh's box touches, where all that is asked for is.
+///
+/// Rounding is monotone, as for [`Space::cells_around`].
+fn cells_of(space: &Space, [low, high]: [Place; 2], obstacle: Obstacle) -> [[u32; 3]; 2] {
+    let (centre, reach) = (space.scaled(obstacle.centre), obstacle.reach * f64::from(space.scale()) * (1.0 + SLACK));
+    let corner = |by: f64| {
+        let end = (centre + by).as_vec3().to_array();
+        space.cell([0, 1, 2].map(|axis| end[axis].clamp(low[axis], high[axis])))
+    };
+    [corner(-reach), corner(reach)]
 }
 
 #[cfg(test)]
@@ -305,7 +398,7 @@ mod tests {
                 assert_eq!(is_open, !in_one(&corners));
                 counts[2 + usize::from(is_open)] += 1;
                 let open = obstacles.open_sixteenths(corners, u16::MAX);
-                let extent = Outline::of(corners).extent;
+                let extent = FragmentBounds::of(corners).extent;
                 for sixteenth in 0..16 {
                     let is_open = open >> sixteenth & 1 == 1;
                     let covered = in_one(&whole.sixteenth(sixteenth).shape(&mesh).corners);
