@@ -37,11 +37,14 @@ pub fn range<T: PartialOrd + Display>(argument: &'static str, value: T, range: R
     }
 }
 
-/// Refuses vectors that are not finite; `item` is what one of them is called.
+/// Refuses vectors that are not finite; `item` is what one of them is called, or "" where the argument says it.
 pub fn finite<const D: usize>(argument: &'static str, item: &str, vectors: &[[f32; D]]) -> Result<()> {
     match vectors.iter().position(|vector| !vector.iter().all(|x| x.is_finite())) {
         None => Ok(()),
-        Some(index) => Err(Error::invalid(argument, format!("{item} {index} is {:?}, not finite", vectors[index]))),
+        Some(index) => {
+            let place = if item.is_empty() { format!("[{index}]") } else { format!("{item} {index}") };
+            Err(Error::invalid(argument, format!("{place} is {:?}, not finite", vectors[index])))
+        }
     }
 }
 

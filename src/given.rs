@@ -69,7 +69,7 @@ impl<'a, const AXES: usize> Given<'a, AXES> {
             }
             check_clearances(clearances)?;
         }
-        check::finite("given_positions", "position", self.positions)
+        check::finite("given_positions", "", self.positions)
     }
 }
 
@@ -92,7 +92,7 @@ mod tests {
     fn what_is_out_of_range_is_refused_by_its_index() {
         let positions = [[0.0, 1.0], [2.0, f32::NAN]];
         let said = |given: Given<2>| given.check().unwrap_err().to_string();
-        assert_eq!(said(Given::at(&positions)), "given_positions: position 1 is [2.0, NaN], not finite");
+        assert_eq!(said(Given::at(&positions)), "given_positions: [1] is [2.0, NaN], not finite");
         let with = |clearances| Given::with_clearances(&positions[..1], clearances);
         assert_eq!(said(with(&[])), "given_clearances: 0 for 1 positions");
         assert_eq!(said(with(&[-0.5])), "given_clearances: [0] is -0.5; it must be 0 or more and finite");

@@ -25,7 +25,7 @@ fn soups_that_are_none_are_refused_with_the_place() {
             positions[3][axis] = bad;
             let (argument, reason) = refusal(positions, vec![[0, 1, 2]]);
             assert_eq!(argument, "positions");
-            assert!(reason.starts_with("vertex 3 is ("), "{reason}");
+            assert!(reason.starts_with("vertex 3 is ["), "{reason}");
         }
     }
     let (argument, reason) = refusal(CORNERS.to_vec(), vec![[0, 1, 2], [0, 1, 3]]);

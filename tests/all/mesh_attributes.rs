@@ -43,7 +43,7 @@ fn normals_that_do_not_fit_are_refused() {
     assert_eq!(normals(7, Some(vec![[6, 6, 6], [0, 7, 0]])), ("normal_indices", reason));
     for bad in [f32::NAN, f32::INFINITY] {
         let (argument, reason) = refusal(plane().with_normals(vec![up, up, up, [0.0, bad, 0.0]], None));
-        assert!(argument == "normals" && reason.starts_with("normal 3 is ("), "{argument} {reason}");
+        assert!(argument == "normals" && reason.starts_with("normal 3 is ["), "{argument} {reason}");
     }
 }
 
