@@ -63,7 +63,7 @@ inside() {
     for part in registry git config.toml; do
         [ ! -e "$cargo_home/$part" ] || show "$cargo_home/$part" "$root$cargo_home/$part"
     done
-    # The meshes of tests/mesh_corpus.rs.
+    # The meshes of tests/all/mesh_corpus.rs.
     [ ! -d /usr/share/assimp/models ] || show /usr/share/assimp/models "$root/usr/share/assimp/models"
     mapfile -t settings < <(settings)
     exec chroot "$root" env -i "${settings[@]}" HOME=/root LC_ALL=C.UTF-8 \

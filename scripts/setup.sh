@@ -11,7 +11,7 @@
 set -euo pipefail
 
 packages=(libembree-dev libclang-dev g++ make cmake pkg-config)
-# Meshes of tests/mesh_corpus.rs.
+# Meshes of tests/all/mesh_corpus.rs.
 test_packages=(assimp-testmodels)
 all_packages=(valgrind debootstrap debian-archive-keyring dpkg-dev file openmpi-bin libopenmpi-dev
               doxygen qemu-user-static g++-aarch64-linux-gnu python3-venv
