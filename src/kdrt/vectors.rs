@@ -1,5 +1,5 @@
 //! The filling of a block (`fill.rs`) once more for each kind of vectors, the same to the bit: compiled for them, so that the
-//! small functions in these vectors (`plane/vectors/`) become a part of it, and its loops over bits and footprints use them.
+//! small functions over `Lanes` (`plane/near.rs`) become a part of it, and its loops over bits and footprints use them.
 
 use crate::plane::CellGrid;
 use crate::rng::Rng;
