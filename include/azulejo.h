@@ -20,7 +20,7 @@
  *   }
  *   azulejo_context_free(context);
  *
- * What there is: azulejo_kdrt_ maximal Poisson-disk sets in the plane, by radius or by number;
+ * Contents: azulejo_kdrt_ maximal Poisson-disk sets in the plane, by radius or by number;
  * azulejo_psp_ the same on triangle meshes, also with a radius that varies; azulejo_dcr_
  * relaxation of point sets, in the plane, with a density, and on meshes; azulejo_thin points of a
  * cloud that are far from each other; azulejo_maximal_ the slow unbiased reference; azulejo_plane_,
@@ -260,7 +260,7 @@
 /// The cells per side of the grid of azulejo_differences_density.
 #define AZULEJO_DIFFERENCES_SIZE 128
 
-/// How far the grid extends from the difference 0 along both axes, in mean spacings.
+/// The extent of the grid from the difference 0 along both axes, in mean spacings.
 #define AZULEJO_DIFFERENCES_GRID_REACH 4
 
 /// The shells of equal width of azulejo_differences_radial.
@@ -434,7 +434,7 @@ typedef struct azulejo_kdrt_options {
     size_t given_count;
 } azulejo_kdrt_options;
 
-/// What azulejo_kdrt_sample achieved.
+/// The report of azulejo_kdrt_sample.
 typedef struct azulejo_kdrt_report {
     /// The size of the struct in bytes; set by the _init function.
     uint32_t struct_size;
@@ -506,7 +506,7 @@ typedef struct azulejo_kdrt_merge_options {
     void *progress_user;
 } azulejo_kdrt_merge_options;
 
-/// What became of the samples of the pieces. The result has the fixed points first, then the kept
+/// The fate of the samples of the pieces. The result has the fixed points first, then the kept
 /// samples, then the inserted ones.
 typedef struct azulejo_kdrt_merge_report {
     /// The size of the struct in bytes; set by the _init function.
@@ -620,7 +620,7 @@ typedef struct azulejo_psp_options {
     double cosine;
 } azulejo_psp_options;
 
-/// What a call that samples a mesh did. Times are wall times.
+/// The report of a call that samples a mesh. Times are wall times.
 typedef struct azulejo_psp_report {
     /// The size of the struct in bytes; set by the _init function.
     uint32_t struct_size;
@@ -865,7 +865,7 @@ typedef struct azulejo_dcr_options {
     double attraction_radius;
     /// The displacement by a tension of 1, in units of d_max; above 0, at most 1; default 0.05.
     double step;
-    /// What `step` is multiplied by after every step; above 0, at most 1; default 1. All steps
+    /// The factor of `step` from one step to the next; above 0, at most 1; default 1. All steps
     /// together are no longer than step / (1 - decay); from a random start about 10 are needed.
     double decay;
     /// The number of neighbours of AZULEJO_NEIGHBOURHOOD_NEAREST; at least 1; default 6.
@@ -878,7 +878,7 @@ typedef struct azulejo_dcr_options {
     int32_t convergence;
 } azulejo_dcr_options;
 
-/// What azulejo_dcr_relax or azulejo_dcr_relax_density did.
+/// The report of azulejo_dcr_relax and azulejo_dcr_relax_density.
 typedef struct azulejo_dcr_report {
     /// The size of the struct in bytes; set by the _init function.
     uint32_t struct_size;
@@ -959,7 +959,7 @@ typedef struct azulejo_dcr_surface_options {
     void *progress_user;
 } azulejo_dcr_surface_options;
 
-/// What azulejo_dcr_surface_relax did. Its d_max is that of a plane of the mesh's area.
+/// The report of azulejo_dcr_surface_relax. Its d_max is that of a plane of the mesh's area.
 typedef struct azulejo_dcr_surface_report {
     /// The size of the struct in bytes; set by the _init function.
     uint32_t struct_size;
@@ -982,7 +982,7 @@ typedef struct azulejo_dcr_surface_report {
     double rho;
 } azulejo_dcr_surface_report;
 
-/// What azulejo_dcr_remesh made: a mesh of samples as a surface. It is a manifold if
+/// The report of azulejo_dcr_remesh. The mesh is a manifold if
 /// `non_manifold_vertices` is 0, and closed if `boundary_edges` is 0 too: no edge has more than two
 /// triangles, and two triangles at an edge are wound alike.
 typedef struct azulejo_dcr_remesh_report {
@@ -1046,7 +1046,7 @@ typedef struct azulejo_thin_options {
     void *progress_user;
 } azulejo_thin_options;
 
-/// How a set covers a domain or a surface with disks of a radius: the result of
+/// The coverage of a domain or a surface by disks of a radius: the result of
 /// azulejo_plane_coverage and azulejo_mesh_coverage.
 typedef struct azulejo_coverage_report {
     /// The size of the struct in bytes; set by the _init function.
@@ -1902,9 +1902,9 @@ void azulejo_psp_free(struct azulejo_psp *psp);
 /// square of the quotient times it if that is more). A set with a smaller count is a prefix of one
 /// with a larger count, bit for bit, for the same mesh, quotient and seed: levels of detail nest.
 /// Sets of two radii share all samples with ranks of at least `quotient` times the larger radius,
-/// of the first 100 those with ranks of at least 2.25 times it. It takes about five times the time
-/// of a set in any order, and more with many triangles per sample: some log(diagonal / radius) /
-/// log(quotient) levels visit all triangles.
+/// of the first 100 those with ranks of at least 2.25 times it. It takes several times
+/// as long as a set in any order (docs/order.md), and more with many triangles per sample: some
+/// log(diagonal / radius) / log(quotient) levels visit all triangles.
 ///
 /// out: the samples with normals, triangles and barycentrics, to be freed with azulejo_points_free.
 ///
@@ -1978,7 +1978,7 @@ azulejo_status azulejo_psp_adaptive_options_init(struct azulejo_psp_adaptive_opt
 /// never rise, and the last one is 1 or a little more. `vertex_radii` and `radius` keep their
 /// meaning: the whole set is maximal at them. Some log(diagonal / smallest radius) / log(quotient)
 /// levels visit all triangles and call `radius`; where radii are small beside the triangles it
-/// takes about five times the time of a set in any order. Where the radius jumps, samples of the
+/// takes several times as long as a set in any order. Where the radius jumps, samples of the
 /// larger radius that came first leave fewer on the other side than in any order.
 ///
 /// out: the samples with normals, triangles, barycentrics and radii, and ranks in progressive

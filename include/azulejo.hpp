@@ -63,7 +63,7 @@ inline std::string last_error() {
     return message;
 }
 
-/// How a call ended: a code and, unless that is AZULEJO_OK, a message.
+/// The outcome of a call: a code and, unless that is AZULEJO_OK, a message.
 class [[nodiscard]] Status {
 public:
     /// AZULEJO_OK.
@@ -177,7 +177,7 @@ public:
     /// Gives the handle up to the caller, who frees it. Callbacks that it has (of a Context made by
     /// watch(), of a Psp) stay this object's, which must outlive the handle then.
     [[nodiscard]] C *release() noexcept { return handle_.release(); }
-    /// Whether there is a handle.
+    /// True if there is a handle.
     explicit operator bool() const noexcept { return handle_ != nullptr; }
 
 private:
@@ -258,14 +258,14 @@ template <class V, class T, std::size_t... i>
 inline constexpr bool made_of<V, T, std::index_sequence<i...>,
                               std::void_t<decltype(V{((void)i, std::declval<T>())...})>> = true;
 
-/// Whether V is `width` numbers T and nothing else: an array of them, or a struct or class such as
+/// True if V is `width` numbers T and nothing else: an array of them, or a struct or class such as
 /// { T x, y, z; } that is laid out as one.
 template <class V, class T, std::size_t width>
 inline constexpr bool is_tuple =
     sizeof(V) == width * sizeof(T) && std::is_standard_layout_v<V> &&
     (indexes_to<V, T> || has_x<V, T> || made_of<V, T, std::make_index_sequence<width>>);
 
-/// What a container or a C array has for elements.
+/// The element type of a container or a C array.
 template <class Container>
 using Element = std::remove_cv_t<
     std::remove_pointer_t<decltype(std::data(std::declval<const Container &>()))>>;
@@ -407,7 +407,7 @@ template <class P>
 inline constexpr bool
     has_z<P, std::void_t<decltype(static_cast<double>(std::declval<const P &>().z))>> = true;
 
-/// Whether P has x and y, and z just where there are three coordinates.
+/// True if P has x and y, and z just where there are three coordinates.
 template <class P, std::size_t width>
 inline constexpr bool is_named = has_y<P> && has_z<P> == (width == 3);
 
@@ -771,7 +771,7 @@ private:
     std::shared_ptr<Function> function_;
 };
 
-/// How dense points shall be; see azulejo_density. Either an image of `width` pixels a row, which
+/// The density of points; see azulejo_density. Either an image of `width` pixels a row, which
 /// stays the caller's, or a function.
 struct Density {
     Span<const float> values{};
@@ -779,7 +779,7 @@ struct Density {
     DensityFunction function{};
 };
 
-/// How dense samples of a mesh shall be; see azulejo_mesh_density. One of `vertex_values`,
+/// The density of samples of a mesh; see azulejo_mesh_density. One of `vertex_values`,
 /// `function` and `image` is to be set, and one of `radius` and `count`. Arrays stay the caller's.
 struct MeshDensity {
     Span<const float> vertex_values{};
@@ -804,7 +804,7 @@ struct Classes {
     /// Where each class may stand on a mesh; empty for everywhere. They stay the caller's.
     Span<const std::uint32_t> masks{};
 
-    /// How far apart samples of two classes are at least.
+    /// The smallest distance between samples of two classes.
     double radius(std::uint32_t i, std::uint32_t j) const {
         return radii[std::size_t{i} * count + j];
     }
@@ -1090,7 +1090,7 @@ public:
     }
 #endif
 
-    /// Whether the mesh has normals besides those of its triangles; see azulejo_mesh_has_normals.
+    /// True if the mesh has normals besides those of its triangles; see azulejo_mesh_has_normals.
     bool has_normals() const noexcept { return azulejo_mesh_has_normals(get()) != 0; }
     /// See azulejo_mesh_vertex_count.
     std::size_t vertex_count() const noexcept { return azulejo_mesh_vertex_count(get()); }

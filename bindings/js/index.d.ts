@@ -36,7 +36,7 @@ export interface Given {
 }
 
 export interface Ordering {
-    /** `progressive`: every prefix of the set is well spread, and samples have ranks. Default `any`. */
+    /** `progressive`: every prefix of the set is blue noise, and samples have ranks. Default `any`. */
     order?: "any" | "progressive";
     /** Of a progressive order: every prefix covers within this times its last rank, 1.02 to 1.5; default 2^(1/8). */
     quotient?: number;
@@ -66,7 +66,7 @@ export interface PlaneSamples {
 export function kdrtSample(options: PlaneOptions): PlaneSamples & {
     /** The radius, that of the options or the one found for the count. */
     radius: number;
-    /** Whether the set is maximal for the radius. */
+    /** True if the set is maximal for the radius. */
     isMaximal: boolean;
 };
 
@@ -95,7 +95,7 @@ declare class Handle {
     [Symbol.dispose](): void;
 }
 
-/** What all windows of a plane have in common, made once. */
+/** The common part of all windows of a plane, made once. */
 export class Plane extends Handle {
     constructor(options: PlaneOptions);
     /** The samples with `windowMin <= x < windowMax`. */
@@ -119,9 +119,9 @@ export interface SurfaceOptions extends Given, Ordering {
     seed?: Seed;
     /** Samples on triangles whose normals have a smaller cosine ignore each other; -1, the default: none do. */
     cosine?: number;
-    /** How often patterns are projected before gaps are filled; -1, the default: as the library chooses. */
+    /** The number of projections of patterns before gaps are filled; -1, the default: as the library chooses. */
     iterations?: number;
-    /** Whether gaps are filled; default true. */
+    /** True: gaps are filled; default true. */
     maximal?: boolean;
 }
 
@@ -162,7 +162,7 @@ export interface Relaxation {
     iterations: number;
     /** Why there were no more. */
     stopped: "converged" | "steps" | "cancelled";
-    /** Half of how far points got over the last steps: root mean square, in units of d_max. */
+    /** Half of the distance that points moved over the last 10 steps, root mean square, in units of d_max. */
     motion: number;
     /** The smallest distance of two points, in the units of the domain or mesh. */
     smallestDistance: number;
@@ -199,7 +199,7 @@ export function thin(
     options: {
         /** The smallest distance of selected points; 0, the default, sets none. */
         radius?: number;
-        /** How many to select; 0, the default, sets no number. */
+        /** The number of points to select; 0, the default, sets no number. */
         count?: number;
         /** `progressive`: farthest-first. Default `any`: that of the cloud. */
         order?: "any" | "progressive";

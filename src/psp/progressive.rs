@@ -195,7 +195,7 @@ impl Psp {
 /// the surface is within [`Options::quotient`] times this rank of a sample of it, up to [`TOLERANCE`](super::TOLERANCE).
 /// A set of fewer samples is a prefix of a set of more, on the same mesh with the same quotient and seed, to the bit. Sets
 /// of two radii share the levels above both: all samples with a rank of at least the quotient times the larger radius.
-/// Takes about four times the time of a set in any order, and more with many triangles for each sample, as each of some
+/// Takes several times as long as a set in any order (docs/order.md), and more with many triangles for each sample, as each of some
 /// `log(diagonal / radius) / log(quotient)` levels visits all triangles.
 ///
 /// # Errors

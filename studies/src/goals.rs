@@ -83,7 +83,7 @@ const SECTIONS: [(&str, Section); 7] = [
     ("clouds", clouds::section),
 ];
 
-const INTRODUCTION: &str = "What was asked of version 0.2 in figures, one thread if nothing else is said. *Measured* is the median \
+const INTRODUCTION: &str = "Performance targets of 0.2, one thread if nothing else is said. *Measured* is the median \
     of 7 rounds, in which calls that are held against each other take turns, and the *range* is theirs: a goal is met where \
     every round meets it, not met where none does, and otherwise not decided. Of memory and of several starts *measured* is the \
     worst, which decides. Nothing else should run on the machine.\n";

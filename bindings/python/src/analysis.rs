@@ -93,7 +93,7 @@ pub(crate) fn space_smallest_distance(
     Watch::new(py, threads, progress)?.run(|context, progress| spacing::smallest_distance_3d(context, points, progress))
 }
 
-/// How a set covers its domain or mesh.
+/// The covering radius and the gaps of a set.
 #[pyclass(frozen, get_all, module = "azulejo")]
 pub(crate) struct CoverageReport {
     /// The distance of the place that is farthest from all samples.
@@ -181,7 +181,7 @@ pub(crate) fn mesh_uncovered_fraction(
     })
 }
 
-/// What points of the plane are like.
+/// Spacing, order and triangles of points of the plane.
 #[pyclass(frozen, get_all, module = "azulejo")]
 pub(crate) struct PlaneReport {
     /// The number of points.

@@ -122,7 +122,7 @@ impl Mesh {
         table(py, self.shared.triangles().to_vec())
     }
 
-    /// Whether the mesh carries normals.
+    /// True if the mesh carries normals.
     #[getter]
     fn has_normals(&self) -> bool {
         self.shared.has_normals()

@@ -11,12 +11,12 @@ use crate::error::{invalid, raised};
 use crate::points::Points;
 use crate::watch::Watch;
 
-/// What kdrt_sample did.
+/// The report of kdrt_sample.
 #[pyclass(frozen, get_all, module = "azulejo")]
 pub(crate) struct KdrtReport {
     /// No two samples are closer: the radius that was asked for or, for a count, the one that was found.
     radius: f64,
-    /// Whether no sample can be added. Sets of a count that is not reached exactly by a maximal set are not.
+    /// True if no sample can be added. Sets of a count that is not reached exactly by a maximal set are not maximal.
     is_maximal: bool,
 }
 
@@ -268,8 +268,8 @@ impl KdrtPlane {
     }
 }
 
-/// The unbiased maximal set that the others are measured by; slower than kdrt_sample, on one thread. The arguments are
-/// those of kdrt_sample.
+/// The unbiased maximal set that the others are measured by; slower than kdrt_sample. The arguments are those of
+/// kdrt_sample.
 #[pyfunction]
 #[pyo3(signature = (
     radius, *, domain_min=[0.0, 0.0], domain_max=[1.0, 1.0], boundary="periodic", seed=0, threads=0, progress=None
@@ -291,7 +291,7 @@ pub(crate) fn maximal_sample(
     Points::plane(py, samples)
 }
 
-/// What kdrt_merge did.
+/// The report of kdrt_merge.
 #[pyclass(frozen, get_all, module = "azulejo")]
 pub(crate) struct KdrtMergeReport {
     /// Samples of the pieces that were kept.
@@ -305,7 +305,7 @@ pub(crate) struct KdrtMergeReport {
 /// Merges sets that were made separately, each maximal in its rectangle, into one that is maximal in the domain.
 ///
 /// pieces: a sequence of (xy, min, max): samples, float32, shape (n, 2), and the corners of the rectangle they fill.
-/// fixed: float32, shape (m, 2), or None: samples around the domain that stay and are not returned.
+/// fixed: float32, shape (m, 2), or None: points of the domain that must stay; they are the first of the result.
 /// The others are those of kdrt_sample.
 ///
 /// Returns Points with the report KdrtMergeReport.

@@ -35,7 +35,7 @@ pub(crate) struct Points {
     /// Of several classes: the class of each sample, uint32, shape (n,).
     #[pyo3(get)]
     classes: Option<Py<PyArray1<u32>>>,
-    /// What the call did.
+    /// The report of the call.
     #[pyo3(get)]
     report: Option<Py<PyAny>>,
     count: usize,

@@ -13,7 +13,7 @@ use crate::mesh::Mesh;
 use crate::points::Points;
 use crate::watch::Watch;
 
-/// What a psp_ call did.
+/// The report of a psp_ call.
 #[pyclass(frozen, get_all, module = "azulejo")]
 pub(crate) struct PspReport {
     /// No two samples are closer: the radius that was asked for or, for a count, the one that was found. 0 where radii

@@ -13,14 +13,14 @@ use crate::mesh::Mesh;
 use crate::points::Points;
 use crate::watch::Watch;
 
-/// What a relaxation did.
+/// The report of a relaxation.
 #[pyclass(frozen, get_all, module = "azulejo")]
 pub(crate) struct DcrReport {
     /// Steps that were made.
     iterations: u32,
     /// Why it stopped: "converged", "steps" (all were made) or "cancelled" (progress returned False).
     stopped: &'static str,
-    /// How far points moved in the last step, a mean, in units of d_max.
+    /// Half of the distance that points moved over the last span of 10 steps, root mean square, in units of d_max.
     motion: f64,
     /// The smallest distance of two points.
     smallest_distance: f64,

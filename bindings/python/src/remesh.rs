@@ -7,7 +7,7 @@ use crate::array::Array;
 use crate::mesh::Mesh;
 use crate::watch::Watch;
 
-/// What dcr_remesh made: a surface if non_manifold_vertices is 0, and a closed one if boundary_edges is 0 too.
+/// The mesh that dcr_remesh returns: a surface if non_manifold_vertices is 0, and a closed one if boundary_edges is 0 too.
 #[pyclass(frozen, get_all, module = "azulejo")]
 pub(crate) struct DcrRemeshReport {
     /// Triangles of the mesh.

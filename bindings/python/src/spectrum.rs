@@ -31,9 +31,9 @@ pub(crate) struct SpectrumReport {
     frequency_step: [f64; 2],
     /// Below this frequency there is almost no power (Heck et al. 2013); None if the spectrum is too small to tell.
     effective_nyquist: Option<f64>,
-    /// How much the power varies above it; None likewise.
+    /// The variation of the power above it; None likewise.
     oscillation: Option<f64>,
-    /// How much the power varies within annuli.
+    /// The variation of the power within annuli.
     contrast: f64,
     /// The highest power in the range over the mean of its annulus; 0 for none.
     peak: f64,

@@ -157,7 +157,7 @@ pub unsafe extern "C" fn azulejo_psp_adaptive_options_init(
 /// never rise, and the last one is 1 or a little more. `vertex_radii` and `radius` keep their
 /// meaning: the whole set is maximal at them. Some log(diagonal / smallest radius) / log(quotient)
 /// levels visit all triangles and call `radius`; where radii are small beside the triangles it
-/// takes about five times the time of a set in any order. Where the radius jumps, samples of the
+/// takes several times as long as a set in any order. Where the radius jumps, samples of the
 /// larger radius that came first leave fewer on the other side than in any order.
 ///
 /// out: the samples with normals, triangles, barycentrics and radii, and ranks in progressive

@@ -125,7 +125,7 @@ pub unsafe extern "C" fn azulejo_mesh_uncovered_fraction(
     })
 }
 
-/// How a set covers a domain or a surface with disks of a radius: the result of
+/// The coverage of a domain or a surface by disks of a radius: the result of
 /// azulejo_plane_coverage and azulejo_mesh_coverage.
 #[repr(C)]
 #[derive(Clone, Copy)]

@@ -99,7 +99,7 @@ pub struct azulejo_dcr_options {
     pub attraction_radius: f64,
     /// The displacement by a tension of 1, in units of d_max; above 0, at most 1; default 0.05.
     pub step: f64,
-    /// What `step` is multiplied by after every step; above 0, at most 1; default 1. All steps
+    /// The factor of `step` from one step to the next; above 0, at most 1; default 1. All steps
     /// together are no longer than step / (1 - decay); from a random start about 10 are needed.
     pub decay: f64,
     /// The number of neighbours of AZULEJO_NEIGHBOURHOOD_NEAREST; at least 1; default 6.
@@ -235,7 +235,7 @@ pub const AZULEJO_STOPPED_STEPS: i32 = 1;
 /// The progress callback cancelled the call.
 pub const AZULEJO_STOPPED_CANCELLED: i32 = 2;
 
-/// What azulejo_dcr_relax or azulejo_dcr_relax_density did.
+/// The report of azulejo_dcr_relax and azulejo_dcr_relax_density.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct azulejo_dcr_report {

@@ -11,7 +11,7 @@ use crate::status::{Failure, azulejo_status};
 
 /// The cells per side of the grid of azulejo_differences_density.
 pub const AZULEJO_DIFFERENCES_SIZE: u32 = 128;
-/// How far the grid extends from the difference 0 along both axes, in mean spacings.
+/// The extent of the grid from the difference 0 along both axes, in mean spacings.
 pub const AZULEJO_DIFFERENCES_GRID_REACH: u32 = 4;
 /// The shells of equal width of azulejo_differences_radial.
 pub const AZULEJO_DIFFERENCES_SHELLS: u32 = 512;

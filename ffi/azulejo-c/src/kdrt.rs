@@ -114,7 +114,7 @@ pub unsafe extern "C" fn azulejo_kdrt_options_init(
     unsafe { growing::init("options", options, struct_size) }
 }
 
-/// What azulejo_kdrt_sample achieved.
+/// The report of azulejo_kdrt_sample.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct azulejo_kdrt_report {

@@ -19,7 +19,7 @@
 //!   }
 //!   azulejo_context_free(context);
 //!
-//! What there is: azulejo_kdrt_ maximal Poisson-disk sets in the plane, by radius or by number;
+//! Contents: azulejo_kdrt_ maximal Poisson-disk sets in the plane, by radius or by number;
 //! azulejo_psp_ the same on triangle meshes, also with a radius that varies; azulejo_dcr_
 //! relaxation of point sets, in the plane, with a density, and on meshes; azulejo_thin points of a
 //! cloud that are far from each other; azulejo_maximal_ the slow unbiased reference; azulejo_plane_,

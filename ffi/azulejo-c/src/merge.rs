@@ -77,7 +77,7 @@ pub struct azulejo_kdrt_merge_piece {
     pub max: [f64; 2],
 }
 
-/// What became of the samples of the pieces. The result has the fixed points first, then the kept
+/// The fate of the samples of the pieces. The result has the fixed points first, then the kept
 /// samples, then the inserted ones.
 #[repr(C)]
 #[derive(Clone, Copy)]

@@ -354,9 +354,9 @@ pub extern "C" fn azulejo_psp_free(psp: Option<Box<azulejo_psp>>) {
 /// square of the quotient times it if that is more). A set with a smaller count is a prefix of one
 /// with a larger count, bit for bit, for the same mesh, quotient and seed: levels of detail nest.
 /// Sets of two radii share all samples with ranks of at least `quotient` times the larger radius,
-/// of the first 100 those with ranks of at least 2.25 times it. It takes about five times the time
-/// of a set in any order, and more with many triangles per sample: some log(diagonal / radius) /
-/// log(quotient) levels visit all triangles.
+/// of the first 100 those with ranks of at least 2.25 times it. It takes several times
+/// as long as a set in any order (docs/order.md), and more with many triangles per sample: some
+/// log(diagonal / radius) / log(quotient) levels visit all triangles.
 ///
 /// out: the samples with normals, triangles and barycentrics, to be freed with azulejo_points_free.
 ///

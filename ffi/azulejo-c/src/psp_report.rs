@@ -5,7 +5,7 @@ use azulejo_core::psp::Report;
 use crate::growing::{self, Growing, growing};
 use crate::status::azulejo_status;
 
-/// What a call that samples a mesh did. Times are wall times.
+/// The report of a call that samples a mesh. Times are wall times.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct azulejo_psp_report {

@@ -12,7 +12,7 @@ use crate::mesh::azulejo_mesh;
 use crate::progress::Watch;
 use crate::status::azulejo_status;
 
-/// What azulejo_dcr_remesh made: a mesh of samples as a surface. It is a manifold if
+/// The report of azulejo_dcr_remesh. The mesh is a manifold if
 /// `non_manifold_vertices` is 0, and closed if `boundary_edges` is 0 too: no edge has more than two
 /// triangles, and two triangles at an edge are wound alike.
 #[repr(C)]

@@ -52,7 +52,7 @@ impl azulejo_dcr_surface_options {
     }
 }
 
-/// What azulejo_dcr_surface_relax did. Its d_max is that of a plane of the mesh's area.
+/// The report of azulejo_dcr_surface_relax. Its d_max is that of a plane of the mesh's area.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct azulejo_dcr_surface_report {
