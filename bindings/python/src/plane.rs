@@ -74,11 +74,7 @@ impl<'py> Request<'py> {
         if !self.given.samples::<2>()?.positions.is_empty() {
             return Err(invalid("given_positions", "a count does not go with given samples"));
         }
-        Ok(CountOptions::new(count)
-            .domain(self.domain)
-            .leaf_size(self.leaf_size)
-            .seed(self.seed)
-            .levels(self.levels))
+        Ok(CountOptions::new(count).domain(self.domain).leaf_size(self.leaf_size).seed(self.seed).levels(self.levels))
     }
 }
 

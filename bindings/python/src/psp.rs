@@ -101,8 +101,8 @@ pub(crate) fn psp_sample(
         .priority(self::priority(priority)?)
         .given(given.samples()?)
         .cosine(cosine);
-    let (samples, report) = Watch::new(py, threads, progress)?
-        .run(|context, progress| request.sample(context, &mesh.shared, progress))?;
+    let (samples, report) =
+        Watch::new(py, threads, progress)?.run(|context, progress| request.sample(context, &mesh.shared, progress))?;
     Points::surface(py, samples)?.with_report(py, PspReport::from(report))
 }
 
@@ -139,8 +139,7 @@ pub(crate) fn psp_sample_classes(
     let masks = optional("masks", masks)?;
     let masks = masks.as_ref().map(Array::line).transpose()?;
     let given = GivenArrays::read(given_positions, given_clearances)?;
-    let request =
-        psp::ClassOptions::default().seed(natural("seed", seed)?).given(given.samples()?).cosine(cosine);
+    let request = psp::ClassOptions::default().seed(natural("seed", seed)?).given(given.samples()?).cosine(cosine);
     let (samples, report) = Watch::new(py, threads, progress)?
         .run(|context, progress| psp::sample_classes(context, &mesh.shared, &request, &classes, masks, progress))?;
     Points::surface(py, samples)?.with_report(py, PspReport::from(report))

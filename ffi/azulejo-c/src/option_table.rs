@@ -1,6 +1,5 @@
 //! `docs/options.md` against all that names options: the header and the defaults that the `_init` functions write,
-//! azulejo.hpp, the stubs of Python, the types of JavaScript, the constants of the core, and the guides. The command line
-//! is compared in `cli/tests/options.rs`.
+//! azulejo.hpp, the stubs of Python, the types of JavaScript, the constants of the core, and the guides.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -173,7 +172,7 @@ fn expected(header: &str, name: &str, row: &Row) -> Vec<f64> {
     if matches!(text.as_str(), "required" | "none") {
         return vec![0.0];
     }
-    if name == "engine" && !cfg!(feature = "embree") {
+    if name == "engine" && !azulejo_core::trace::HAS_EMBREE {
         return constant(header, "AZULEJO_ENGINE_RASTERISER").into_iter().collect();
     }
     let numbers: Option<Vec<f64>> = text.split(' ').map(|number| number.parse().ok()).collect();
