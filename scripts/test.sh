@@ -94,16 +94,16 @@ sanitized_address() {
 # Packages of the registry that the same compiler has compiled are taken over. Of the Rust tests only those run that name
 # Embree, tracing or samplers of meshes, except in a long run: the others would repeat what they did on the machine.
 on_debian13() {
-    local what=() modules=()
+    local what=(--workspace) modules=()
     if ! is_long; then
         mapfile -t what < <(grep -lE '\b(psp|trace|embree|surface)' tests/*.rs ffi/*/tests/*.rs | as_tests)
         mapfile -t modules < <(grep -lE '\b(psp|trace|embree|surface)' tests/all/*.rs | as_modules)
-        what+=(--lib)
+        what+=(--package azulejo --package azulejo-c --package azulejo-embree-sys --lib)
     fi
     scripts/debian13.sh bash -ec '
         scripts/share-packages.sh target/debug /var/cache/azulejo/debug
         scripts/share-packages.sh target/package/build/cargo/release /var/cache/package/build/cargo/release
-        cargo test --offline --locked --workspace $1
+        cargo test --offline --locked $1
         [ -z "$2" ] || cargo test --offline --locked --package azulejo --test all -- $2
         tests/c/package.sh --keep /var/cache/package
         tests/c/run.sh /var/cache/package/prefix
