@@ -26,6 +26,7 @@ mod embree_traces;
 mod given;
 mod given_levels;
 mod hostile;
+mod house;
 mod kdrt;
 mod kdrt_classes;
 mod kdrt_count;

@@ -50,7 +50,7 @@ impl Periodogram {
     /// Annuli of fewer than two frequencies are left out.
     ///
     /// # Errors
-    /// [`Error::InvalidArgument`] if `width` is not a positive finite number.
+    /// [`Error::InvalidArgument`](crate::Error::InvalidArgument) if `width` is not a positive finite number.
     pub fn radial(&self, width: f64) -> Result<Vec<Annulus>> {
         let annuli = self.annuli(width)?;
         let curve = annuli.sums.iter().filter(|sums| sums[0] >= 2.0).map(|&[count, frequency, power, square]| {

@@ -346,9 +346,9 @@ pub struct ClassReport {
 /// Relaxes points of several classes: spread more evenly are the union of all, and each class by itself. Returns as many
 /// points, in the same order, the report of the union, and one for each class up to the highest.
 ///
-/// `classes` has the class of each point, below [`Classes::MOST`]; they may be of any number and density, as those of
-/// [`kdrt::sample_classes`](fn@crate::kdrt::sample_classes) are. They cannot all be as even as the set of a single class:
-/// a good lattice does not divide into good lattices. From maximal sets of 2 to 7 classes of a periodic domain, rho ends
+/// `classes` has the class of each point, below [`Classes::MOST`]; they may be of any number and density, as in sets of
+/// [`kdrt`](crate::kdrt::Options::classes). They cannot all be as even as the set of a single class: a good lattice does
+/// not divide into good lattices. From maximal sets of 2 to 7 classes of a periodic domain, rho ends
 /// above 0.7 and the coverage below 0.82, those of the union and those of each class; before, some classes cover 1 or
 /// more. Where the points of a class are crowded in some places and missing in others it is levelled before the first
 /// step. No distance between points of two classes is promised.
@@ -356,10 +356,10 @@ pub struct ClassReport {
 /// Always the momentum method with Delaunay neighbours. The set after the last whole step is returned; it converges if its
 /// motion ends, which it mostly does not within 100 steps. The points are the same for every number of threads.
 ///
-/// About 2.5 times the time of [`relax`](fn@super::relax) and its memory.
+/// About 2.5 times the time of [`relax`](fn@crate::dcr::relax) and its memory.
 ///
 /// # Errors
-/// [`Error::InvalidArgument`] as [`relax`](fn@super::relax), and for another method or other neighbours, for classes of
+/// [`Error::InvalidArgument`] as [`relax`](fn@crate::dcr::relax), and for another method or other neighbours, for classes of
 /// another number than that of the points, and for one that is too high (`classes`, with its index);
 /// [`Error::TooLarge`](crate::Error::TooLarge).
 pub fn relax_classes(
