@@ -1,12 +1,12 @@
-//! Items sorted by bins or keys: counting sort, which stands behind every grid and adjacency list here, and buckets that
-//! parallel tasks collect.
+//! Items sorted by bins or keys: the counting sort behind every grid and adjacency list here, and buckets that parallel
+//! tasks collect.
 
 use std::ops::Range;
 
 use crate::error::Result;
 use crate::job::Job;
 
-/// Items sorted by bin, by counting in one pass over them and sorting in a second; those of a bin follow each other in the
+/// Items sorted by bin, by counting in a first pass over them and sorting in a second; the items of a bin keep the
 /// order in which they came.
 #[derive(Clone, Debug, Default)]
 pub struct Binned<T> {
@@ -39,7 +39,7 @@ impl<T> Binned<T> {
         self.starts.len() - 1
     }
 
-    /// Where the items of a run of bins stand in [`Binned::items`].
+    /// The range of a run of bins in [`Binned::items`].
     #[inline]
     pub fn range(&self, bins: Range<usize>) -> Range<usize> {
         self.starts[bins.start] as usize..self.starts[bins.end] as usize
@@ -51,29 +51,29 @@ impl<T> Binned<T> {
         &self.items[self.range(bin..bin + 1)]
     }
 
-    /// The items of a bin, to be put in an order of their own.
+    /// The items of a bin, to be reordered.
     pub fn bin_mut(&mut self, bin: usize) -> &mut [T] {
         let range = self.range(bin..bin + 1);
         &mut self.items[range]
     }
 
-    /// All items, by bins.
+    /// All items, by bin.
     #[inline]
     pub fn items(&self) -> &[T] {
         &self.items
     }
 }
 
-/// Items sorted by their key: those of a bucket are the items of a run of parts.
+/// Items sorted by key: the items of a bucket are those of a run of parts.
 pub struct Buckets<K, T> {
-    /// Keys with some of their items, sorted by key; parts of one key in the order in which they were made.
+    /// Keys with some of their items, sorted by key; parts of one key are in the order in which they were made.
     parts: Vec<(K, Vec<T>)>,
-    /// Where the parts of each key end.
+    /// The end of each key's parts.
     ends: Vec<usize>,
 }
 
 impl<K: Copy + Ord + Send, T: Send> Buckets<K, T> {
-    /// The items that each task hands to its second argument with their keys.
+    /// The items that each task passes to its second argument with their keys.
     pub fn collect<R: Send>(
         job: &Job,
         count: usize,

@@ -1,6 +1,6 @@
-//! The Z-curve (Morton 1966): what is close along it is close in space, and the other way round mostly.
+//! The Z-curve (Morton 1966): places close to each other along it are close in space, and mostly the reverse.
 
-/// The place of a cell of the plane along the curve.
+/// The position along the curve of a cell of the plane.
 pub fn morton2([x, y]: [u32; 2]) -> u64 {
     let masks = [
         (16, 0x0000_ffff_0000_ffff),
@@ -15,7 +15,7 @@ pub fn morton2([x, y]: [u32; 2]) -> u64 {
 /// Bits per axis of the curve through space.
 pub const SPACE_BITS: u32 = 21;
 
-/// The place of a cell of space along the curve; its coordinates have [`SPACE_BITS`] bits.
+/// The position along the curve of a cell of space; its coordinates have [`SPACE_BITS`] bits.
 pub fn morton3([x, y, z]: [u32; 3]) -> u64 {
     let masks = [
         (32, 0x001f_0000_0000_ffff),
@@ -27,12 +27,12 @@ pub fn morton3([x, y, z]: [u32; 3]) -> u64 {
     spread(x.into(), masks) | spread(y.into(), masks) << 1 | spread(z.into(), masks) << 2
 }
 
-/// The bits of a number, zeros between them: halves are moved apart, then their halves, down to single bits.
+/// The bits of a number, with zeros between them: halves are moved apart, then their halves, down to single bits.
 fn spread(x: u64, masks: [(u32, u64); 5]) -> u64 {
     masks.into_iter().fold(x, |x, (shift, mask)| (x | x << shift) & mask)
 }
 
-/// Places along a curve in order, each with the number that it had before.
+/// Positions along a curve in order, each with its former number.
 pub fn sorted(places: impl Iterator<Item = u64>) -> Vec<(u64, u32)> {
     let mut sorted: Vec<(u64, u32)> = places.zip(0..).collect();
     sorted.sort_unstable();

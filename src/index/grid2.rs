@@ -57,8 +57,8 @@ impl Grid2 {
 
     /// Calls `visit(id, offset, squared distance)` for every point within `radius` of `point` (inclusive).
     ///
-    /// Offsets are from `point` to the neighbour, the shortest on a torus: `radius` must not exceed half
-    /// the period for all images to be seen. A point that is itself in the grid is visited too.
+    /// Offsets are from `point` to the neighbour, on a torus the shortest: `radius` must not exceed half the period if
+    /// all images are to be seen. A point that is itself in the grid is visited too.
     pub fn for_each_within(&self, point: [f64; 2], radius: f64, mut visit: impl FnMut(u32, [f64; 2], f64)) {
         let columns = self.cells_near(0, point[0], radius);
         for row in self.cells_near(1, point[1], radius) {

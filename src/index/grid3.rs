@@ -4,14 +4,14 @@ use crate::error::Result;
 use crate::job::{Job, chunks_of};
 use crate::math::distance_squared;
 
-/// Points in cells of one side, chained in a hash table. Insertion takes a short serial moment between parallel,
-/// read-only searches. Answers are sets: they do not depend on the order of insertion.
+/// Points in cells of one size, chained in a hash table. Insertion is a short serial phase between parallel, read-only
+/// searches. Results are sets: they do not depend on the order of insertion.
 pub struct Grid3 {
     cell_size: f64,
     origin: [f64; 3],
     /// Head of the chain of each bucket, `NONE` if empty; a power of two, at least as many as points.
     heads: Vec<u32>,
-    /// The next point in the chain of each point.
+    /// For each point, the next one in its chain.
     next: Vec<u32>,
     points: Vec<[f32; 3]>,
 }
@@ -25,7 +25,7 @@ const TASK: usize = 256;
 const REPORTED: usize = 1 << 14;
 
 impl Grid3 {
-    /// An empty grid. `cell_size` is the radius of the usual search; cells count from `origin`.
+    /// An empty grid. `cell_size` is the radius of the usual search; cells are counted from `origin`.
     pub fn new(origin: [f64; 3], cell_size: f64) -> Self {
         Self { cell_size, origin, heads: vec![NONE; 64], next: Vec::new(), points: Vec::new() }
     }
@@ -72,8 +72,8 @@ impl Grid3 {
         self.heads[bucket] = id;
     }
 
-    /// The ids of all points in the cells that a ball touches, and of some others: the caller tests the distance.
-    /// An id can come twice when two of the cells share a bucket.
+    /// The ids of all points in the cells that a ball touches, and of some others: the caller tests the distance. An id
+    /// can occur twice if two of the cells share a bucket.
     pub fn candidates(&self, centre: [f64; 3], radius: f64) -> impl Iterator<Item = u32> {
         // Cell boundaries are compared in f64 as computed on insertion; the margin covers the rounding of `centre`.
         let reach = radius * (1.0 + 1e-9);
@@ -91,7 +91,7 @@ impl Grid3 {
     }
 }
 
-/// The smallest distance between two points; infinite for less than two. O(n log n) for points that are neither
+/// The smallest distance between two points; infinite for fewer than two. O(n log n) for points that are neither
 /// clustered in space nor lined up in planes across their longest extent.
 pub fn smallest_distance(job: &Job, positions: &[[f32; 3]]) -> Result<f64> {
     let bound = neighbours_in_order(positions);
@@ -99,7 +99,7 @@ pub fn smallest_distance(job: &Job, positions: &[[f32; 3]]) -> Result<f64> {
     if bound == 0.0 || bound == f64::INFINITY {
         return Ok(bound);
     }
-    // Of n points there is a pair in order about as close as n points are on a surface, so cells hold few points.
+    // Of n points, some pair in this order is about as close as n points on a surface are, so cells hold few points.
     let grid = Grid3::of(&job.part(0.1, 0.4), [0.0; 3], bound, positions)?;
     let chunks = chunks_of(positions.len(), TASK);
     let nearest = job.part(0.4, 1.0).map(chunks.len(), |chunk| {
@@ -114,7 +114,7 @@ pub fn smallest_distance(job: &Job, positions: &[[f32; 3]]) -> Result<f64> {
     Ok(nearest.into_iter().fold(f64::INFINITY, f64::min).sqrt())
 }
 
-/// A first bound: the smallest distance of points that follow each other along the longest extent.
+/// A first bound: the smallest distance of points that are consecutive along the longest extent.
 fn neighbours_in_order(positions: &[[f32; 3]]) -> f64 {
     let extent = |axis: usize| {
         let (low, high) = positions

@@ -1,4 +1,4 @@
-//! Spatial indices, and what they are made of. Look here before you write another one.
+//! Spatial indices and their building blocks. Look here before you write another one.
 //!
 //! | what is asked | of what | index |
 //! |---|---|---|
@@ -11,15 +11,15 @@
 //! | a random item by its weight | triangles, cells | [`Weights`] |
 //! | an order in which neighbours are close in memory | cells of the plane and of space | [`curve`] |
 //!
-//! Some indices stay with the algorithm that they were made for, as they hold more than places:
+//! Some indices stay with the algorithm that they were made for, as they hold more than positions:
 //!
 //! | index | why it is none of the above |
 //! |---|---|
 //! | `plane/cells`, `plane/quadtree` | integers, a cell holds at most one sample; exactness rests on both |
 //! | `kdrt/region`, `kdrt/bitmap`, `kdrt/classes` | rows of exact integers that are swept in order; bits of a block |
-//! | `psp/fill/grid`, `psp/adaptive/grid` | pages of coordinates for vector code, and which of their cells are covered |
+//! | `psp/fill/grid`, `psp/adaptive/grid` | pages of coordinates for vector code, and their covered cells |
 //! | `psp/obstacles` | balls of very different sizes, a grid for each tier of sizes |
-//! | `dcr/uniform/cells` | points of a torus that move, coordinates for vector code; they are sorted anew, not re-linked |
+//! | `dcr/uniform/cells` | moving points of a torus, coordinates for vector code; sorted anew, not re-linked |
 //! | `thin/tree` | each node knows the point of it that is farthest from all selected ones, and loses it |
 
 mod binned;

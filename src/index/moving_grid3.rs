@@ -7,7 +7,7 @@ const NONE: u32 = u32::MAX;
 /// The number of the farthest cell along an axis.
 const FARTHEST: f64 = (1u64 << 60) as f64;
 
-/// A position that is found, and the next in the chain of its bucket.
+/// An indexed position, and the next entry in the chain of its bucket.
 #[derive(Clone, Copy)]
 pub struct Entry {
     pub position: Vec3,
@@ -41,13 +41,13 @@ impl MovingGrid3 {
         cells
     }
 
-    /// The position at which a sample is found.
+    /// The indexed position of a sample.
     #[inline]
     pub fn position(&self, sample: u32) -> Vec3 {
         self.entries[sample as usize].position
     }
 
-    /// From now on the sample is found here.
+    /// Moves a sample to a position.
     pub fn put(&mut self, sample: u32, position: Vec3) {
         let Entry { next, cell, .. } = self.entries[sample as usize];
         let bucket = self.bucket(cell);
@@ -73,8 +73,8 @@ impl MovingGrid3 {
 
     fn cell(&self, position: Vec3) -> [u64; 3] {
         let place = (position.as_dvec3() - self.low) * self.per_cell;
-        // One more than the cell, so that the one before it has a number. Far out floats are farther apart than cells, and
-        // no cell matters but that of a position itself.
+        // One more than the cell, so that the cell before it has a number. Far out, floats are farther apart than
+        // cells, and no cell matters but that of the position itself.
         let index = |along: f64| along.min(FARTHEST) as u64 + 1;
         [index(place.x), index(place.y), index(place.z)]
     }
@@ -84,7 +84,7 @@ impl MovingGrid3 {
         (cell.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> (64 - self.heads.len().ilog2())) as usize
     }
 
-    /// Visits the samples in the cell of a position and in those around it, and where they are found.
+    /// Visits the samples in the cell of a position and in those around it, with their indexed positions.
     #[inline]
     pub fn around(&self, position: Vec3, mut visit: impl FnMut(u32, Vec3)) {
         let [x, y, z] = self.cell(position);

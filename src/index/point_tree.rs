@@ -1,5 +1,5 @@
-//! Nearest neighbours in space, however the points are spread (Bentley 1975, "Multidimensional binary search trees used for
-//! associative searching").
+//! Nearest neighbours in space, for any distribution of the points (Bentley 1975, "Multidimensional binary search trees
+//! used for associative searching").
 
 use glam::DVec3;
 
@@ -7,7 +7,7 @@ use crate::error::Result;
 use crate::job::Job;
 use crate::mesh::exact;
 
-/// Points in a binary tree without pointers: the middle one of a range divides the others along an axis.
+/// Points in a binary tree without pointers: the middle point of a range divides the others along an axis.
 pub struct PointTree {
     points: Vec<DVec3>,
     /// The axis along which the middle of a range divides it.
@@ -16,14 +16,14 @@ pub struct PointTree {
     bounds: [DVec3; 2],
 }
 
-/// Ranges of no more points are not divided.
+/// The largest number of points in a range that is not divided.
 const LEAF: usize = 8;
 
-/// Ranges of no more points are divided further by one task.
+/// The largest number of points in a range that one task divides further.
 const TASK: usize = 1 << 13;
 
 impl PointTree {
-    /// The tree of positions as they are given by callers.
+    /// The tree of positions as callers give them.
     pub fn of(job: &Job, positions: &[[f32; 3]]) -> Result<Self> {
         Self::new(job, positions.iter().map(|&position| exact(position)).collect())
     }
@@ -55,8 +55,8 @@ impl PointTree {
         self.search(place, -1.0).point
     }
 
-    /// The distance of the nearest point, or None if a point is no farther than `enough`, which most often takes much less
-    /// to find.
+    /// The distance of the nearest point, or None if a point is no farther than `enough`, which mostly takes much less
+    /// time to find out.
     pub fn nearest_beyond(&self, place: DVec3, enough: f64) -> Option<f64> {
         let nearest = self.search(place, enough.abs() * enough);
         (nearest.squared > nearest.enough).then(|| nearest.squared.sqrt())
@@ -74,7 +74,7 @@ impl PointTree {
 struct Found {
     squared: f64,
     point: Option<DVec3>,
-    /// The search ends when the nearest is no farther: the square of a distance, or negative.
+    /// The squared distance of the nearest point at which the search ends, or a negative number.
     enough: f64,
 }
 
@@ -91,7 +91,7 @@ fn bounds(points: &[DVec3]) -> [DVec3; 2] {
     [DVec3::min, DVec3::max].map(|choose| points.iter().copied().reduce(choose).unwrap_or_default())
 }
 
-/// A part of the tree that is being made.
+/// A part of the tree under construction.
 struct Range<'a> {
     points: &'a mut [DVec3],
     axes: &'a mut [u8],
@@ -102,7 +102,7 @@ impl<'a> Range<'a> {
         self.points.len() > TASK
     }
 
-    /// What is on either side of the middle point; nothing if there are too few points.
+    /// The ranges on either side of the middle point; none if there are too few points.
     fn halves(self) -> Option<[Self; 2]> {
         let Self { points, axes } = self;
         if points.len() <= LEAF {
@@ -117,15 +117,15 @@ impl<'a> Range<'a> {
         Some([Self { points: low, axes: low_axes }, Self { points: &mut high[1..], axes: &mut high_axes[1..] }])
     }
 
-    /// Divides it to the end.
+    /// Divides the range to the end.
     fn divide(self) {
         self.halves().into_iter().flatten().for_each(Self::divide);
     }
 }
 
-/// Looks at what may be nearer in a range. `away` is how far along each axis the place is
-/// from the part of space that the range fills (Arya and Mount 1993, "Algorithms for fast vector quantization"): from far
-/// away no single axis shows that a part is too far.
+/// Searches a range for nearer points. `away` is the distance along each axis of the place from the part of space that
+/// the range fills (Arya and Mount 1993, "Algorithms for fast vector quantization"): from far away no single axis shows
+/// that a part is too far.
 fn search(points: &[DVec3], axes: &[u8], place: DVec3, away: DVec3, nearest: &mut Found) {
     if points.len() <= LEAF {
         points.iter().for_each(|&point| nearest.look_at(point, place));

@@ -1,18 +1,18 @@
-//! A random one of many items, in proportion to their weights: of triangles by area, of cells by density.
+//! Random choice among many items in proportion to their weights: of triangles by area, of cells by density.
 
 use crate::rng::Rng;
 
 /// The guide is moved back by a few roundings, so that it never passes the item that is picked.
 const MARGIN: f64 = 1.0 - 4.0 * f64::EPSILON;
 
-/// Weights of items, from which items are picked by the guide table method (Chen and Asau 1974): the item is one step away
-/// from the guide's entry on average.
+/// Weights of items, from which items are picked by the guide table method (Chen and Asau 1974): on average the item is
+/// one step away from the guide's entry.
 ///
-/// What is picked for a random number u is the first item whose running sum is above u times the total.
+/// The item picked for a random number u is the first one whose running sum is above u times the total.
 pub struct Weights {
     /// The sum of the weights up to each item, itself included.
     ends: Vec<f64>,
-    /// For as many equal parts of the total, the first item that a part can reach.
+    /// For each of as many equal parts of the total, the first item that the part can reach.
     guide: Vec<u32>,
 }
 
@@ -50,7 +50,7 @@ impl Weights {
         self.pick_within(rng).0
     }
 
-    /// A random item, and a place within its weight: from 0 up to it.
+    /// A random item, and a place within its weight, from 0 up to the weight.
     pub fn pick_within(&self, rng: &mut Rng) -> (u32, f64) {
         let (share, last) = (rng.unit(), self.ends.len() - 1);
         let mut item = self.guide[(share * self.ends.len() as f64) as usize] as usize;
@@ -68,7 +68,7 @@ mod tests {
     use super::*;
     use crate::rng::Draw;
 
-    /// Weights in ratios of up to 1e6, and none at both ends and between.
+    /// Weights in ratios of up to 1e6, with zeros at both ends and between.
     fn weights() -> Vec<f64> {
         let weight = |i: u32| if i.is_multiple_of(3) { 0.0 } else { [1.0, 1e-6, 0.3, 7.0][i as usize % 4] };
         (0..100).map(weight).collect()

@@ -1,10 +1,10 @@
 //! Space cut into cubes, and sets of samples that grow cube by cube.
 //!
-//! Whatever is accepted in a cube depends on the samples in and around it. Two cubes that do not touch are far enough apart
-//! not to matter to each other; so all cubes of one *colour*, every second one along each axis, are filled at once,
-//! and eight colours are all cubes. The colours make the result independent of the threads.
+//! The samples accepted in a cube depend on those in and around it. Two cubes that do not touch are far enough apart
+//! not to affect each other; so all cubes of one *colour*, every second one along each axis, are filled at once, and
+//! eight colours make up all cubes. The colours make the result independent of the threads.
 //!
-//! Where the radius varies each octave of radii has cubes of its own. Those of small radii are filled first.
+//! If the radius varies, each octave of radii has cubes of its own. Those of small radii are filled first.
 
 use std::collections::{BTreeMap, HashMap};
 use std::ops::{AddAssign, Range};
@@ -14,8 +14,8 @@ use crate::job::Job;
 use crate::psp::fill::space::key;
 use crate::psp::fill::table::Table;
 
-/// The side of a cube in radii: large beside the samples around it that a task sees too, small enough for many cubes and
-/// for the `u16` that counts the points of [`Surroundings`](crate::psp::surroundings::Surroundings).
+/// The side of a cube in radii: large compared with the margin of samples around it that a task reads too, small enough
+/// for many cubes and for the `u16` that counts the points of [`Surroundings`](crate::psp::surroundings::Surroundings).
 pub const SIDE: u32 = 24;
 
 /// A cube, by its number on each axis.
@@ -54,7 +54,7 @@ impl OctaveCube {
         [self.octave as u64, x, y, z]
     }
 
-    /// Cubes of which this is the same are filled at once, smaller ones first.
+    /// The turn of a cube: cubes of the same turn are filled at once, smaller ones first.
     fn turn(self) -> (i32, usize) {
         (self.octave, self.cube.colour())
     }
@@ -71,16 +71,16 @@ impl From<Cube> for OctaveCube {
 pub trait Cubes: Sync {
     type Sample: Copy + Send + Sync;
 
-    /// The cube that a sample is listed in, unless it was accepted in another one.
+    /// The cube that a sample is listed in, unless another one accepted it.
     fn cube_of(&self, sample: &Self::Sample) -> OctaveCube;
 }
 
 /// A conflict-free set of samples that only grows.
 pub struct Growing<C: Cubes> {
     pub cubes: C,
-    /// In the order in which they were accepted.
+    /// The samples in the order in which they were accepted.
     samples: Vec<C::Sample>,
-    /// The samples of each cube, by octave. They lie in it, or not much outside: it is the cube that accepted them.
+    /// The samples of each cube, by octave. They lie in it or slightly outside: it is the cube that accepted them.
     octaves: BTreeMap<i32, HashMap<Cube, Vec<Range<u32>>>>,
     /// The number of samples that are listed by their cubes.
     listed: usize,
@@ -92,7 +92,7 @@ impl<C: Cubes> Growing<C> {
         Self { cubes, samples, octaves: BTreeMap::new(), listed: 0 }
     }
 
-    /// The samples, those last that were added last.
+    /// The samples, the last added last.
     pub fn into_samples(self) -> Vec<C::Sample> {
         self.samples
     }
@@ -107,11 +107,12 @@ impl<C: Cubes> Growing<C> {
         &self.samples
     }
 
-    /// Adds the samples that `task` returns for each of the cubes, all of them different, given the number of the cube and
-    /// the set so far, and returns the sum of its counts.
+    /// Calls `task` for each of the cubes, all of them different, with the number of the cube and the set so far; adds
+    /// the samples that it returns, and returns the sum of its counts.
     ///
-    /// The task returns samples that conflict neither with each other nor with any sample in and around the cube, and lie
-    /// not much outside of it. A failed or cancelled job leaves what complete colours have added.
+    /// The task must return samples that conflict neither with each other nor with any sample in and around the cube,
+    /// and lie at most slightly outside of it. If the job fails or is cancelled, the samples of complete colours
+    /// remain.
     pub fn grow<T: AddAssign + Default + Send>(
         &mut self,
         job: &Job,
@@ -186,7 +187,7 @@ impl<C: Cubes> Growing<C> {
     pub fn in_range(&self, octave: i32, [Cube(first), Cube(last)]: [Cube; 2]) -> impl Iterator<Item = &C::Sample> {
         let cubes = &self.octaves[&octave];
         let count: f64 = (0..3).map(|axis| f64::from(last[axis]) - f64::from(first[axis]) + 1.0).product();
-        // Each cube is looked up, or picked from all cubes where these are fewer.
+        // Each cube is looked up, or selected from all cubes if these are fewer.
         let mut runs: Vec<Range<u32>> = if count < cubes.len() as f64 {
             let all = (first[2]..=last[2]).flat_map(move |z| {
                 (first[1]..=last[1]).flat_map(move |y| (first[0]..=last[0]).map(move |x| Cube([x, y, z])))
@@ -200,7 +201,7 @@ impl<C: Cubes> Growing<C> {
         runs.into_iter().flat_map(|run| &self.samples[run.start as usize..run.end as usize])
     }
 
-    /// Takes back all but the first samples.
+    /// Removes all but the first samples.
     pub fn truncate(&mut self, len: usize) {
         self.samples.truncate(len);
         self.listed = self.listed.min(len);
@@ -210,10 +211,10 @@ impl<C: Cubes> Growing<C> {
     }
 }
 
-/// Cubes by numbers: from 0, in the order in which they are met.
+/// Cubes by number: from 0, in the order in which they are first encountered.
 pub struct Numbers {
     numbers: Table<u32>,
-    /// The number that was given last: most cubes are met again at once.
+    /// The number that was returned last: most cubes are repeated immediately.
     last: usize,
     /// The cubes that have numbers.
     pub cubes: Vec<Cube>,
@@ -224,7 +225,7 @@ impl Numbers {
         Self { numbers: Table::new(), last: 0, cubes: Vec::new() }
     }
 
-    /// The number of a cube: a new one where it has none.
+    /// The number of a cube: a new one if it has none.
     #[inline]
     pub fn of(&mut self, cube: Cube) -> usize {
         if self.cubes.get(self.last) != Some(&cube) {

@@ -6,8 +6,8 @@ use crate::mesh::{Mesh, exact};
 /// The normal of all samples where normals do not matter.
 pub(super) const NO_NORMAL: [f32; 3] = [0.0; 3];
 
-/// Samples on triangles whose normals have a smaller cosine ignore each other, unless the normals are the same; -1:
-/// none do.
+/// Samples on triangles whose normals have a smaller cosine ignore each other, unless the normals are the same; with
+/// -1, none do.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Facing(f64);
 
@@ -15,7 +15,7 @@ impl Facing {
     /// No sample ignores others.
     pub const ANY: Self = Self(-1.0);
 
-    /// Refuses what is no cosine.
+    /// Refuses a value that is not a cosine.
     pub fn new(cosine: f64) -> Result<Self> {
         if (-1.0..=1.0).contains(&cosine) {
             Ok(Self(cosine))
@@ -36,8 +36,8 @@ impl Facing {
         if self.asks_normals() { mesh.normal(triangle) } else { NO_NORMAL }
     }
 
-    /// True if two samples with these normals matter to each other. Those of one triangle do: the square of a rounded
-    /// normal can be below a cosine of 1, and a triangle would be sampled without end.
+    /// True if two samples with these normals matter to each other. Those of one triangle always do: the square of a
+    /// rounded normal can be below a cosine of 1, and such a triangle would be sampled without end.
     pub fn sees(self, a: [f32; 3], b: [f32; 3]) -> bool {
         !self.asks_normals() || a == b || exact(a).dot(exact(b)) >= self.0
     }

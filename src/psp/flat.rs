@@ -1,6 +1,6 @@
-//! The options of flat interfaces: C, Python, JavaScript and the command line have one list of options for all sets of one
-//! radius, of which not all go together. Here, and only here, combinations are refused; the calls have types that cannot be
-//! combined wrongly (`options.rs`).
+//! The options of flat interfaces: C, Python, JavaScript and the command line have one list of options for all sets of
+//! one radius, not all of which can be combined. Combinations are refused here, and only here; the calls have types
+//! that cannot be combined wrongly (`options.rs`).
 
 use std::sync::Arc;
 
@@ -15,8 +15,8 @@ use crate::psp::progressive::{project, sample};
 use crate::psp::report::Report;
 use crate::setters::setters;
 
-/// All options of sets of one radius or count, for interfaces without types. In Rust, [`Options`] and [`ProjectionOptions`]
-/// say the same, and cannot be combined wrongly.
+/// All options of sets of one radius or count, for interfaces without types. In Rust, [`Options`] and
+/// [`ProjectionOptions`] say the same, and cannot be combined wrongly.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct FlatOptions<'a> {
@@ -24,14 +24,15 @@ pub struct FlatOptions<'a> {
     pub radius: f64,
     /// The number of samples; 0, the default: as many as the radius gives.
     pub count: usize,
-    /// The order; by default any. Progressive order, like a count, requires that the set is filled only.
+    /// The order; by default any. Progressive order, like a count, requires a set that is only filled.
     pub order: Order,
     /// As [`Options::quotient`].
     pub quotient: f64,
-    /// The number of iterations. `None`, the default: 0 for a maximal set, which is sooner filled than projected and filled,
-    /// on every mesh and with every radius, and prefers no direction; 1 for one that is not.
+    /// The number of iterations. `None`, the default: 0 for a maximal set, which takes less time to fill than to
+    /// project and fill, on every mesh and with every radius, and prefers no direction; 1 for a set that is not
+    /// maximal.
     pub iterations: Option<u32>,
-    /// True, the default, if what the projectors leave uncovered is filled.
+    /// True, the default, if the surface that the projectors leave uncovered is filled.
     pub maximal: bool,
     /// Selects one of 2^64 sets.
     pub seed: u64,
@@ -66,8 +67,8 @@ impl<'a> FlatOptions<'a> {
     /// Samples a mesh: by [`sample`], or by [`project`] where there are iterations or the set is not maximal.
     ///
     /// # Errors
-    /// Those of the two, and [`Error::InvalidArgument`] for `iterations`, sets that are not `maximal` and a `radius` beside a
-    /// `count`, and for the first two in progressive order.
+    /// Those of the two calls, and [`Error::InvalidArgument`] for `iterations`, sets that are not `maximal` and a
+    /// `radius` beside a `count`, and for the first two in progressive order.
     pub fn sample(
         &self,
         context: &Context,
@@ -92,7 +93,7 @@ impl<'a> FlatOptions<'a> {
         ProjectionOptions { radius, seed, priority, engine, given, cosine }
     }
 
-    /// Refuses what does not go with a count or progressive order.
+    /// Refuses options that cannot be combined with a count or progressive order.
     fn check_filled(&self, iterations: u32) -> Result<()> {
         let asked = if self.count > 0 { "count" } else { "progressive order" };
         if iterations != 0 {

@@ -1,4 +1,4 @@
-//! Parts of triangles: by their barycentrics, and where they lie in space.
+//! Parts of triangles: their barycentrics, and their geometry in space.
 
 use glam::{DVec2, DVec3};
 
@@ -13,7 +13,7 @@ pub struct Fragment {
     pub corners: [[f64; 2]; 3],
 }
 
-/// Where a fragment lies in space.
+/// The geometry of a fragment in space.
 #[derive(Clone, Copy)]
 pub struct Shape {
     pub corners: [DVec3; 3],
@@ -22,7 +22,7 @@ pub struct Shape {
     pub apex: usize,
     /// The length of the longest edge.
     pub longest: f64,
-    /// All of the fragment is this near to its centre.
+    /// The largest distance of its points from its centre.
     pub extent: f64,
 }
 
@@ -31,7 +31,7 @@ impl Fragment {
         Self { triangle, corners: [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]] }
     }
 
-    /// The area: the whole triangle's, by the share of its barycentrics.
+    /// The area: that of the whole triangle, times the share of its barycentrics.
     pub fn area(&self, mesh: &Mesh) -> f64 {
         let [a, b, c] = self.corners.map(DVec2::from_array);
         mesh.triangle_area(self.triangle) * (b - a).perp_dot(c - a).abs()
@@ -50,7 +50,7 @@ impl Fragment {
         Shape::of([at(p), at(q), at(r)])
     }
 
-    /// The parts of its own shape that lines in parallel to its edges cut it into, `count` along each edge.
+    /// The parts of its own shape that lines parallel to its edges cut it into, `count` along each edge.
     pub fn parts(&self, count: u32) -> impl Iterator<Item = Self> {
         let at = move |x: u32, y: u32| self.at([x, y].map(|x| f64::from(x) / f64::from(count)));
         (0..count).flat_map(move |y| (0..count - y).map(move |x| (x, y))).flat_map(move |(x, y)| {

@@ -1,6 +1,6 @@
 //! Pre-existing samples: obstacles that are never returned.
 //!
-//! Those whose clearance is the radius of the set do what its own samples do. They are put into the same grids, cube by
+//! Samples whose clearance is the radius of the set act like its own samples. They are put into the same grids, cube by
 //! cube, which is as fast. All others are obstacles.
 
 use std::collections::HashMap;
@@ -25,25 +25,24 @@ pub(super) struct GivenSamples {
     /// The positions of the given samples of the same radius, by these numbers.
     alike: Binned<[f32; 3]>,
     space: Space,
-    /// All others.
+    /// All other given samples.
     pub obstacles: Obstacles,
 }
 
 /// Given samples in and around a cube.
 pub(super) struct NearGiven<'a> {
-    /// Those of the radius of the set.
+    /// The samples with the radius of the set.
     grid: Option<Grid>,
     obstacles: &'a Obstacles,
 }
 
 impl GivenSamples {
-    /// Those of the caller's given samples that can matter to a set, where samples that face different ways ignore each
-    /// other or not.
+    /// The caller's given samples that can matter to a set, in which samples may ignore each other by their facing.
     pub fn new(mesh: &Mesh, given: Given<3>, radius: f64, set: &SampleSet, facing: Facing) -> Result<Self> {
         check(given)?;
         let (low, high) = mesh.bounds();
-        // The grids of a set take larger radii for smaller ones, as they hold samples of the mesh only. And they know
-        // the samples by their normals, where these matter.
+        // The grids of a set replace large radii by smaller ones, since they hold samples of the mesh only. And they
+        // compare samples by their normals, where these matter.
         let are_alike = radius <= exact(low).distance(exact(high)) && !facing.asks_normals();
         let is_alike = |clearance: f64| are_alike && clearance == radius;
         let (mut cubes, mut alike) = (HashMap::new(), Vec::new());
@@ -59,8 +58,8 @@ impl GivenSamples {
         Ok(Self { cubes, alike, space: Space::new(mesh, set.radius()), obstacles })
     }
 
-    /// Those of the caller's given samples that can matter to a set that is made level by level, whatever the radius of a
-    /// level; `radius` is that of the whole set, where it is known.
+    /// The caller's given samples that can matter to a set that is made level by level, for any radius of a level;
+    /// `radius` is that of the whole set, if it is known.
     pub fn of_levels(mesh: &Mesh, given: Given<3>, radius: Option<f64>) -> Result<Self> {
         check(given)?;
         if radius.is_none() && given.clearances.is_none() && !given.positions.is_empty() {
@@ -82,7 +81,7 @@ impl GivenSamples {
         }
     }
 
-    /// True if there are none that matter.
+    /// True if no given samples matter.
     pub fn is_empty(&self) -> bool {
         self.alike.items().is_empty() && self.obstacles.is_empty()
     }
@@ -103,14 +102,14 @@ impl GivenSamples {
         NearGiven { grid, obstacles: &self.obstacles }
     }
 
-    /// Of these, those of a cube and of the cubes that touch it.
+    /// The given samples of the same radius in a cube and in the cubes that touch it.
     pub fn alike_around(&self, cube: Cube) -> impl Iterator<Item = [f32; 3]> {
         cube.around().filter_map(|cube| self.cubes.get(&cube)).flat_map(|&number| self.alike.bin(number)).copied()
     }
 }
 
 impl NearGiven<'_> {
-    /// True if a position in the cube is too close to one of them.
+    /// True if a position in the cube is too close to a given sample.
     pub fn reject(&self, position: [f32; 3]) -> bool {
         let rejects = |grid: &Grid| grid.rejects(grid.space.place(position), NO_NORMAL);
         self.grid.as_ref().is_some_and(rejects) || self.obstacles.reject(position)
@@ -131,14 +130,14 @@ pub(super) fn obstacles_of(mesh: &Mesh, given: Given<3>) -> Result<Obstacles> {
     Ok(Obstacles::new(mesh, balls(given, 0.0)))
 }
 
-/// Position and clearance of each.
+/// The position and the clearance of each.
 fn balls<'a>(given: Given<'a, 3>, radius: f64) -> impl Iterator<Item = ([f32; 3], f64)> + 'a {
     (0..).zip(given.positions).map(move |(index, &position)| (position, given.clearance(index, radius)))
 }
 
-/// More cannot be indexed, as each is listed up to eight times.
+/// The largest number that can be indexed, as each is listed up to eight times.
 const MOST: usize = (u32::MAX / 8) as usize;
-/// Memory for each at the peak, about.
+/// Peak memory for each, approximately.
 const BYTES_PER_GIVEN: f64 = 300.0;
 
 fn check(given: Given<3>) -> Result<()> {

@@ -1,22 +1,22 @@
-//! Samples in lanes of eight, and the coarse test, in `f32`, by which merging finds those near a point.
+//! Samples in lanes of eight, and the coarse test, in `f32`, by which merging finds the samples near a point.
 //!
-//! Lengths are in radii. The test says what is certainly far; the rest is decided in `f64` (`surroundings.rs`). The
-//! code here is portable; `vectors.rs` has the same in AVX2, equal to the bit.
+//! Lengths are in radii. The test finds the points that are certainly far; the rest is decided in `f64`
+//! (`surroundings.rs`). The code here is portable; `vectors.rs` has the same in AVX2, equal to the bit.
 
-/// What rounding can add to a squared distance of about 1, and some more. Places in a cube's surroundings are off by
-/// 2^-21 on each axis, which makes 3.3e-6 for two of them.
+/// The amount that rounding can add to a squared distance of about 1, and some more. Places in a cube's surroundings
+/// are off by 2^-21 on each axis, which makes 3.3e-6 for two of them.
 pub(super) const SLACK: f32 = 1e-5;
 
-/// Points that are tested together.
+/// The number of points that are tested together.
 pub(super) const LANES: usize = 8;
 
-/// A coordinate of no point. Its square is a float.
+/// A coordinate for lanes without a point. Its square is a float.
 pub(super) const FAR: f32 = 1e18;
 
 /// A few points, one axis after the other; places without a point are [`FAR`] away.
 pub(super) type PointLanes = [[f32; LANES]; 3];
 
-/// Which of some points are no farther than the square root of `reach2` from a point: a bit for each.
+/// The points that are no farther than the square root of `reach2` from a point: a bit for each.
 pub(super) fn within(places: &PointLanes, point: [f32; 3], reach2: f32) -> u8 {
     let mut within = 0;
     let [xs, ys, zs] = places;

@@ -1,33 +1,33 @@
-//! Levels: maximal sets of ever smaller radii, each filled around the samples of those before. They give sets in
+//! Levels: maximal sets of ever smaller radii, each filled around the samples of the levels before. They give sets in
 //! progressive order and sets of an exact count.
 //!
-//! Each sample has a *rank*: its distance to the nearest sample that was accepted before it, but no more than the radius
-//! of the level before, which it exceeds by a tolerance at most. Of any two samples the later one's rank is no more than
-//! their distance. So all samples whose ranks are at least some distance are that far apart, whatever their order. And
-//! the ranks of a level lie between its own radius and that of the level before: sorted by falling rank, all levels are
-//! in order, and a prefix that ends within a level covers the surface within the radius of the level before.
+//! Each sample has a *rank*: its distance to the nearest sample that was accepted before it, but no more than the
+//! radius of the level before, which it exceeds by a tolerance at most. Of any two samples the later one's rank is no
+//! more than their distance. So all samples whose ranks are at least some distance are that far apart, whatever their
+//! order. And the ranks of a level lie between its own radius and that of the level before: sorted by decreasing rank,
+//! all levels are in order, and a prefix that ends within a level covers the surface within the radius of the level
+//! before.
 //!
-//! Given samples keep their clearances on all levels, and ranks do not count them; nor do they count samples that a
-//! sample ignores, since they face another way.
+//! Given samples keep their clearances on all levels and do not affect ranks; nor do samples that a sample ignores
+//! because they face another way.
 //!
-//! Where the radius varies (`adaptive/levels.rs`) distances are measured by the mean of two local radii, and the radius
-//! of a level is what these are multiplied by.
+//! If the radius varies (`adaptive/levels.rs`), distances are measured by the mean of two local radii, and the radius
+//! of a level is the factor of these.
 //!
-//! *Progressive order* is a ladder of levels, each a quotient below the one before. It begins where one sample covers the
-//! mesh. As long as a level has no more than [`Order::FIRST_COUNT`] samples it falls by about two instead (see
-//! [`first_stride`]). The next level does not depend on where the ladder ends. So sets of different radii and counts share their levels, and a set of fewer samples is a prefix of
-//! one of more: to the bit, where both are cut out of the ladder by their counts, and down to the last common level,
-//! where one ends with a level at its radius.
+//! *Progressive order* is a ladder of levels, each a quotient below the one before. It begins where one sample covers
+//! the mesh. As long as a level has no more than [`Order::FIRST_COUNT`] samples it falls by about two instead (see
+//! [`first_stride`]). The next level does not depend on where the ladder ends. So sets of different radii and counts
+//! share their levels, and a set of fewer samples is a prefix of one of more: to the bit if both are cut from the
+//! ladder by their counts, and down to the last common level if one ends with a level at its radius.
 //!
-//! For any prefix, let k be the level in which it ends. It holds all of the level before, which covers the surface within
-//! the quotient times the radius of level k; and no rank of level k is below this radius.
+//! For any prefix, let k be the level in which it ends. It holds all of the level before, which covers the surface
+//! within the quotient times the radius of level k; and no rank of level k is below this radius.
 //!
 //! *An exact count* is a maximal set that has somewhat fewer samples, and the best of one more level. A level that ends
-//! above the count is sorted by rank and cut. The rest is conflict-free at the last rank, and covers the surface within the
-//! radius of the level before. So the closer that radius, the smaller the loss of maximality. The number of samples of a
-//! radius is known for large even surfaces only. So the search goes from large
-//! radii to small ones, which never wastes a level that ends below the count, and takes back a level that ends above
-//! it if it began too far above.
+//! above the count is sorted by rank and cut. The rest is conflict-free at the last rank, and covers the surface within
+//! the radius of the level before. So the closer that radius, the smaller the loss of maximality. The number of samples
+//! of a radius is known for large even surfaces only. So the search goes from large radii to small ones, which never
+//! wastes a level that ends below the count, and takes back a level that ends above it if it began too far above.
 
 use crate::error::{Error, Result};
 use crate::job::Job;
@@ -41,15 +41,16 @@ use crate::psp::fill::uniform::Surface;
 use crate::psp::samples::{Sample, SampleSet};
 use crate::rng::{Draw, hash};
 
-/// From this quotient of two radii on, a level begins with first darts, as on an empty surface: the level before covers too
-/// little.
+/// The quotient of two radii from which a level begins with first darts, as on an empty surface: the level before
+/// covers too little.
 const FIRST_DARTS_FROM: f64 = 1.3;
-/// Otherwise little is open. Patches are cut up to this length, in radii, before darts are thrown.
+/// The length, in radii, to which patches are cut before darts are thrown on a level without first darts, where little
+/// is open.
 const FIRST_PATCH: f32 = 1.0;
 /// The largest rank, in radii.
 const LARGEST_RANK: f64 = 2.0;
 
-/// [`top`] in diagonals of the mesh's box: a little more than any distance on it.
+/// [`top`] in diagonals of the mesh's box: slightly more than any distance on it.
 const TOP: f64 = 1.001;
 
 /// A radius within which any sample covers the mesh.
@@ -72,7 +73,7 @@ pub trait Levelled {
     /// True if samples are given.
     fn has_given(&self) -> bool;
 
-    /// The samples with those that a fill at this radius adds, which are last, and the darts that it took.
+    /// The samples with those that a fill at this radius adds, which are last, and the number of darts thrown.
     fn fill(
         &self,
         job: &Job,
@@ -119,7 +120,7 @@ impl Levelled for Surface<'_> {
 pub struct Levels<S: Levelled> {
     pub surface: S,
     seed: u64,
-    /// Those of the last level last.
+    /// The samples, those of the last level last.
     samples: Vec<S::Sample>,
     /// The radius of the last level; infinite before the first.
     radius: f64,
@@ -128,7 +129,7 @@ pub struct Levels<S: Levelled> {
 }
 
 impl<S: Levelled> Levels<S> {
-    /// No level yet.
+    /// A set without levels.
     pub fn new(surface: S, seed: u64) -> Self {
         Self { surface, seed, samples: Vec::new(), radius: f64::INFINITY, darts: 0 }
     }
@@ -160,13 +161,13 @@ impl<S: Levelled> Levels<S> {
         Ok(())
     }
 
-    /// Takes the last level back: the state before it had so many samples and this radius.
+    /// Removes the last level: the state before it had so many samples and this radius.
     pub fn take_back(&mut self, len: usize, radius: f64) {
         self.samples.truncate(len);
         self.radius = radius;
     }
 
-    /// The samples by falling rank, those of equal rank by their places.
+    /// The samples by decreasing rank, those of equal rank by position.
     pub fn into_sorted(self) -> Vec<S::Sample> {
         let Self { mut samples, .. } = self;
         let place = |sample: &Sample| (sample.triangle, sample.barycentrics.map(f32::to_bits));
@@ -177,7 +178,7 @@ impl<S: Levelled> Levels<S> {
         samples
     }
 
-    /// The smallest rank of the `count` samples of the largest ranks; there are as many.
+    /// The smallest of the `count` largest ranks; there are as many.
     pub fn rank_of(&self, count: usize) -> f64 {
         let mut ranks: Vec<f32> = self.samples.iter().map(|sample| sample.sample().rank).collect();
         let (_, &mut rank, _) = ranks.select_nth_unstable_by(count - 1, |a, b| b.total_cmp(a));
@@ -196,11 +197,11 @@ struct Ladder<S: Levelled> {
     quotient: f64,
     /// The quotient of the first levels, until one has too many samples.
     first: Option<f64>,
-    /// No level has a smaller radius.
+    /// The smallest radius of a level.
     finest: f64,
     /// The number of the next level.
     key: u64,
-    /// The radius at which all work is expected to be done, and the share that is.
+    /// The radius at which all work is expected to be done, and the share that is done.
     last: f64,
     done: f64,
 }
@@ -231,7 +232,7 @@ impl<S: Levelled> Ladder<S> {
         Ok(())
     }
 
-    /// Adds a level of the next radius. The work that is done by then grows as the samples do.
+    /// Adds a level of the next radius. The work done by then grows as the samples do.
     fn add(&mut self, job: &Job) -> Result<()> {
         let radius = self.next();
         let done = square(self.last / radius).clamp(self.done, 1.0);
@@ -256,7 +257,7 @@ pub fn by_radius<S: Levelled>(
     Ok(LevelledSet { samples: ladder.levels.into_sorted(), radius, coverage: radius, darts })
 }
 
-/// As many samples of the ladder as asked for. No radius is below the finest.
+/// The first `count` samples of the ladder. No radius is below the finest.
 pub fn by_count<S: Levelled>(
     job: &Job,
     levels: Levels<S>,
@@ -282,30 +283,30 @@ pub fn by_count<S: Levelled>(
     }
 }
 
-/// The covering radius of a set may be so many times its radius.
+/// The largest accepted ratio of the covering radius of a set to its radius.
 const LOOSE: f64 = 1.1;
-/// The number of levels that may be taken back for that.
+/// The number of levels that may be removed to achieve that ratio.
 const ATTEMPTS: u32 = 40;
-/// The share of the count that levels but the last one aim at.
+/// The share of the count that all levels but the last one aim at.
 const AIM: f64 = 0.96;
-/// The last level begins at most by this quotient above the radius where the count is expected.
+/// The largest quotient between the radius at which the last level begins and that at which the count is expected.
 const NEAR: f64 = 1.0475;
-/// It ends by this quotient below, since nested sets are sparser than others.
+/// The quotient by which the last level ends below that radius, since nested sets are sparser than others.
 const BEYOND: f64 = 1.05;
 const _: () = assert!(NEAR * BEYOND <= LOOSE);
 
 /// A set that is made of levels.
 pub struct LevelledSet<S> {
     pub samples: Vec<S>,
-    /// No two samples are closer.
+    /// A lower bound of the distance of two samples.
     pub radius: f64,
-    /// No place of the surface is farther from all samples.
+    /// An upper bound of the distance of a place of the surface from the nearest sample.
     pub coverage: f64,
     pub darts: u64,
 }
 
 impl<S: Ranked> LevelledSet<S> {
-    /// The best of some levels, of which there are enough; all but the last cover the surface within `former`.
+    /// The best samples of some levels, which have enough; all levels but the last cover the surface within `former`.
     pub fn cut(levels: Levels<impl Levelled<Sample = S>>, count: usize, former: f64) -> Self {
         let (len, last, darts) = (levels.len(), levels.radius(), levels.darts);
         let mut samples = levels.into_sorted();
@@ -346,7 +347,7 @@ pub fn exactly<S: Levelled>(
             return Err(no_place(count));
         }
         if len < count {
-            // What is known of smaller radii may no longer hold, since sets vary.
+            // The counts known for smaller radii may no longer hold, since sets vary.
             above = above.filter(|above| above.radius < radius);
         } else if len == count
             || former.len > 0 && (former.radius <= LOOSE * levels.rank_of(count) || taken_back >= ATTEMPTS)
@@ -374,7 +375,7 @@ fn next_radius(
         // One sample covers the mesh.
         0 if count == 1 => return top,
         0 if above.is_none() => {
-            // Few samples may be more than expected: along open boundaries.
+            // Small sets may have more samples than expected: along open boundaries.
             let count = count as f64;
             return expected_radius(&levels.surface, AIM * count / (1.0 + 2.0 / count.sqrt()), finest);
         }
@@ -392,7 +393,7 @@ fn next_radius(
                 above.radius
             }
         }
-        // Between what is known on both sides, on the line of their logarithms, and now and then in the middle.
+        // Between the known counts on both sides, on the line through their logarithms, and occasionally in the middle.
         Some(above) => {
             let logarithm = |count: f64| log(count / below.len as f64);
             let share = logarithm(AIM * count as f64) / logarithm(above.len as f64);
@@ -402,7 +403,7 @@ fn next_radius(
     }
 }
 
-/// The radius for which so many samples are expected, by areas and edges alone.
+/// The radius at which so many samples are expected, by areas and edges alone.
 pub fn expected_radius(surface: &impl Levelled, count: f64, finest: f64) -> f64 {
     let (mut low, mut high) = (finest, surface.top().max(finest));
     while high > 1.001 * low {
@@ -412,8 +413,8 @@ pub fn expected_radius(surface: &impl Levelled, count: f64, finest: f64) -> f64 
     high
 }
 
-/// Refuses a count where given samples leave so little of the surface that it takes a radius with which the bare surface
-/// could not be filled: the work grows with all of it.
+/// Refuses a count if given samples leave so little of the surface that it takes a radius with which the bare surface
+/// could not be filled: the work grows with the whole surface.
 pub fn check_work(surface: &impl Levelled, radius: f64, count: usize) -> Result<()> {
     if !surface.has_given() {
         return Ok(());
@@ -431,7 +432,7 @@ pub fn no_place(count: usize) -> Error {
     Error::invalid("count", format!("{count}, but given samples cover all of the surface"))
 }
 
-/// The refusal of a count for which floats are not fine enough.
+/// The refusal of a count for which the precision of floats is too low.
 pub fn none_finer(count: usize, len: usize, finest: f64) -> Error {
     let reason = format!("{count} samples are more than the mesh can carry: {len} at radius {finest:?}, the smallest");
     Error::invalid("count", reason)
@@ -450,7 +451,7 @@ mod tests {
         Mesh::new(vec![[0.0, 0.0, 1.0], [2.0, 0.0, 1.0], [0.0, area, 1.2]], vec![[0, 1, 2]]).unwrap()
     }
 
-    /// In one piece, and where cubes are filled by themselves: against all samples before.
+    /// Tested in one piece, and where cubes are filled by themselves: against all samples before.
     #[test]
     fn a_rank_is_the_distance_to_the_nearest_sample_before() {
         for (radius, least) in [(0.05, 250), (0.005, 25_500)] {
@@ -471,7 +472,7 @@ mod tests {
                 added += 1;
             }
             assert!(levels.len() > least && 8 * added > levels.len(), "{added} of {}", levels.len());
-            // But for those that tolerance leaves beyond the former radius, and near to it.
+            // Except for those that the tolerance leaves beyond the former radius, and near to it.
             assert!(added - equal <= added / 1000, "{equal} of {added}");
             let sorted = levels.into_sorted();
             assert!(sorted.is_sorted_by(|a, b| a.rank >= b.rank));

@@ -1,23 +1,23 @@
 //! Poisson-disk samples on triangle meshes: by filling, and by progressive sample projection (PSP; thesis chapter 3).
 //!
-//! [`sample`] fills a mesh from nothing: darts fall on all that may be uncovered, which is found by subdividing triangles,
-//! round after round until nothing is left open (`fill/`). No rays are traced.
+//! [`sample`] fills a mesh from nothing: darts fall on all parts that may be uncovered, which are found by subdividing
+//! triangles, round after round until none is open (`fill/`). No rays are traced.
 //!
-//! Iterations of projection come before it only where they are asked for ([`project`], [`Psp::advance`]), or in place of it
-//! in sets that need not be maximal. A planar Poisson-disk pattern is projected along three orthogonal
-//! directions through the mesh, by rays of Embree or by a rasteriser ([`Engine`]); all hits are candidates; those that
-//! conflict with nothing of higher priority become samples. More iterations from other directions only add, and
-//! [`Psp::fill`] closes what they leave.
+//! Iterations of projection precede it only on request ([`project`], [`Psp::advance`]), or replace it in sets that need
+//! not be maximal. A planar Poisson-disk pattern is projected along three orthogonal directions through the mesh, by
+//! rays of Embree or by a rasteriser ([`Engine`]); all hits are candidates; those that conflict with nothing of higher
+//! priority become samples. More iterations from other directions only add samples, and [`Psp::fill`] closes the gaps.
 //!
 //! * *Conflict-free*: no two samples are closer than the radius, in `f64` from the returned floats, in straight lines
 //!   through space (not along the surface).
-//! * *Maximal*: no point of the surface, but for what the mesh's mask leaves out, is farther from every sample than the
-//!   radius and [`TOLERANCE`] float spacings at the largest coordinate of the mesh.
-//! * *Around given samples* ([`Options::given`]): new samples keep the clearance of each, and a place within the clearance
-//!   of one is covered. Given samples are not compared with each other, nor returned.
+//! * *Maximal*: no point of the surface, except where the mesh's mask excludes it, is farther from every sample than
+//!   the radius and [`TOLERANCE`] float spacings at the largest coordinate of the mesh.
+//! * *Around given samples* ([`Options::given`]): new samples keep the clearance of each, and a place within the
+//!   clearance of one is covered. Given samples are not compared with each other, nor returned.
 //! * *Of several classes* ([`sample_classes`]): the same for every class, around samples of the others.
 //! * *Deterministic*: the samples and their order depend on mesh, radius, seed and the sequence of calls, not on the
-//!   number of threads. Between machines whose Embree traces packets of another width the last bits of a hit can differ.
+//!   number of threads. Between machines whose Embree traces packets of another width the last bits of a hit can
+//!   differ.
 
 pub mod adaptive;
 mod classes;

@@ -1,10 +1,10 @@
-//! Given samples with a clearance of their own: balls that keep darts out and cover what lies in them.
+//! Given samples with a clearance of their own: balls that keep darts out and cover the surface in them.
 //!
 //! Their effect does not depend on the radius of a set. So one structure serves all cubes, octaves and threads of a
 //! call, which only read it.
 //!
-//! Everything is decided in `f64`: a ball can be as large as the mesh and end just beyond a part of it that is as large.
-//! Floats could not tell that this is covered, however finely it is cut.
+//! Everything is decided in `f64`: a ball can be as large as the mesh and end just beyond a part of it that is as
+//! large. In floats this would not be found covered, however finely it is cut.
 
 use std::collections::BTreeMap;
 
@@ -18,15 +18,18 @@ use crate::psp::fill::space::{Place, Space, key};
 use crate::psp::fill::table::Table;
 use crate::psp::sixteenths::{CORNERS, Cover};
 
-/// Clearances of one tier differ by less than this power of two, and cells of tiers by it.
+/// The exponent of the power of two by which the cells of successive tiers differ; clearances of one tier differ by
+/// less.
 const OCTAVES: i32 = 2;
-/// The largest average number of obstacles in a cell. With fewer, those of two tiers are together in one, and cells are larger. A cell is looked up in the time of some tests.
+/// The largest average number of obstacles in a cell. If there are fewer, two tiers are joined, and cells are larger.
+/// The lookup of a cell takes the time of some tests.
 const CROWD: usize = 8;
 
-/// Balls smaller than so many float spacings are with those of this size: they cover nothing that counts.
+/// The clearance in float spacings below which balls are listed with those of this size: they cover nothing that
+/// counts.
 const FINEST: f64 = 64.0;
 
-/// A ball that keeps darts out and covers what lies in it.
+/// A ball that keeps darts out and covers the surface in it.
 #[derive(Clone, Copy, Debug, Default)]
 struct Obstacle {
     centre: DVec3,
@@ -39,7 +42,7 @@ struct Obstacle {
 pub struct Obstacles {
     /// By clearance, the largest first.
     tiers: Vec<Tier>,
-    /// Those with larger clearances than the mesh's box: any cell would hold them all.
+    /// The obstacles with larger clearances than the mesh's box: any cell would hold them all.
     wide: Vec<Obstacle>,
 }
 
@@ -49,10 +52,10 @@ pub fn touches(mesh: &Mesh, position: [f32; 3], clearance: f64) -> bool {
     Obstacle::new(position, clearance).touches([exact(low), exact(high)])
 }
 
-/// The bounds of a fragment, by which most obstacles are told from those that may cover a part of it.
+/// The bounds of a fragment, which exclude most obstacles that cover no part of it.
 struct FragmentBounds {
     centre: DVec3,
-    /// All of it is this near to the centre.
+    /// The largest distance of its points from the centre.
     extent: f64,
     /// The square of the length of the longest edge.
     longest2: f64,
@@ -81,7 +84,7 @@ impl Obstacle {
     #[inline(always)]
     fn may_cover(&self, outline: &FragmentBounds) -> bool {
         let (reach2, most) = (self.reach * self.reach, self.reach + outline.extent);
-        // No ball holds what is longer than its diameter, and the longest edge of a sixteenth is a quarter.
+        // No ball contains a part longer than its diameter, and the longest edge of a sixteenth is a quarter.
         outline.longest2 <= 64.0 * reach2 && self.centre.distance_squared(outline.centre) < most * most
     }
 
@@ -116,18 +119,18 @@ impl Obstacles {
         Self { tiers: tiers_of(mesh, tiers), wide }
     }
 
-    /// True if there are none.
+    /// True if there are no obstacles.
     #[inline]
     pub fn is_empty(&self) -> bool {
         self.tiers.is_empty() && self.wide.is_empty()
     }
 
-    /// The number of obstacles, each as often as it is listed.
+    /// The number of obstacles, each counted as often as it is listed.
     pub fn listed(&self) -> usize {
         self.wide.len() + self.tiers.iter().map(Tier::listed).sum::<usize>()
     }
 
-    /// True if a position is nearer to one of them than its clearance: in `f64`, without tolerance.
+    /// True if a position is nearer to an obstacle than its clearance: in `f64`, without tolerance.
     #[inline]
     pub fn reject(&self, position: [f32; 3]) -> bool {
         if self.is_empty() {
@@ -138,7 +141,7 @@ impl Obstacles {
         self.wide.iter().any(holds) || self.tiers.iter().any(|tier| tier.at(position).iter().any(holds))
     }
 
-    /// The open triangles of a group that none of them covers by itself: a bit for each.
+    /// The open triangles of a group that no obstacle covers by itself: a bit for each.
     #[inline]
     pub fn open_triangles(&self, mut open: u64, corners: impl Fn(usize) -> [[f32; 3]; 3]) -> u64 {
         if self.is_empty() {
@@ -155,19 +158,19 @@ impl Obstacles {
         open
     }
 
-    /// True if one of them covers a triangle.
+    /// True if one obstacle covers a triangle.
     fn cover(&self, corners: [[f32; 3]; 3]) -> bool {
         let [a, b, c] = corners.map(exact);
         let longest2 = a.distance_squared(b).max(b.distance_squared(c)).max(c.distance_squared(a));
         let holds = |obstacle: &Obstacle| obstacle.holds(a) && obstacle.holds(b) && obstacle.holds(c);
         self.wide.iter().any(holds)
             || self.tiers.iter().any(|tier| {
-                // No ball holds what is longer than its diameter.
+                // No ball contains a triangle longer than its diameter.
                 longest2 <= 4.0 * tier.end * tier.end && tier.at(corners[0]).iter().any(holds)
             })
     }
 
-    /// The open sixteenths of a fragment, given by its corners, that none of them covers by itself.
+    /// The open sixteenths of a fragment, given by its corners, that no obstacle covers by itself.
     #[inline]
     pub fn open_sixteenths(&self, corners: [DVec3; 3], open: u16) -> u16 {
         if open == 0 || self.is_empty() { open } else { self.uncovered(corners, open) }
@@ -189,7 +192,7 @@ impl Obstacles {
     }
 }
 
-/// Obstacles by their octaves, in tiers; the largest first.
+/// Obstacles by octave, in tiers; the largest first.
 fn tiers_of(mesh: &Mesh, octaves: BTreeMap<i32, Vec<Obstacle>>) -> Vec<Tier> {
     let (mut tiers, mut smaller_end, mut smaller) = (Vec::new(), 0.0, Vec::new());
     for (octave, obstacles) in octaves {
@@ -230,10 +233,10 @@ fn points_of([a, b, c]: [DVec3; 3]) -> Points {
     points
 }
 
-/// The share by which the cells of a ball are taken too large: rounding adds less.
+/// The share by which the cells of a ball are extended: rounding adds less.
 const SLACK: f64 = 1e-6;
 
-/// The factor by which cells become larger.
+/// The factor by which cells grow.
 const GROWTH: f64 = (1 << OCTAVES) as f64;
 
 /// Obstacles whose clearances are below an end. Cells are at least twice as large as that.
@@ -287,7 +290,7 @@ impl Tier {
         self.obstacles.items().len()
     }
 
-    /// The obstacles whose balls can hold a position of the mesh.
+    /// The obstacles whose balls can contain a position of the mesh.
     #[inline]
     pub fn at(&self, position: [f32; 3]) -> &[Obstacle] {
         self.of_cell(self.space.cell(self.space.place(position)))
@@ -298,7 +301,7 @@ impl Tier {
         self.obstacles.bin(self.cells.get(key(cell)) as usize)
     }
 
-    /// True if a test holds for the obstacles of a cell in which there may be some that cover a sixteenth of a fragment.
+    /// True if a test holds for the obstacles of a cell that may list some that cover a sixteenth of a fragment.
     pub fn any_cell(&self, corners: [DVec3; 3], mut test: impl FnMut(&[Obstacle]) -> bool) -> bool {
         let [a, b, c] = corners;
         // Most fragments lie in one cell.
@@ -311,7 +314,7 @@ impl Tier {
     }
 }
 
-/// The lowest and the highest cell that the part of a ball inside of the mesh's box touches, where all that is asked for is.
+/// The lowest and the highest cell that the part of a ball inside the mesh's box touches, which contains all queries.
 ///
 /// Rounding is monotone, as for [`Space::cells_around`].
 fn cells_of(space: &Space, [low, high]: [Place; 2], obstacle: Obstacle) -> [[u32; 3]; 2] {
@@ -329,7 +332,7 @@ mod tests {
     use crate::psp::fragment::Fragment;
     use crate::rng::{Draw, Rng};
 
-    /// Where the tests look, and the size of the mesh: near the origin, far from it, tiny, and huge.
+    /// The places of the tests, and the size of the mesh: near the origin, far from it, tiny, and huge.
     const PLACES: [(f64, f64); 4] = [(0.0, 1.0), (1e3, 1.0), (0.0, 1e-36), (3e31, 1e31)];
 
     fn random_point(rng: &mut Rng, centre: f64, size: f64) -> [f32; 3] {
@@ -347,8 +350,8 @@ mod tests {
         Mesh::new(positions, (0..60).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect()).unwrap()
     }
 
-    /// Clearances over ten orders, some larger than the mesh, some smaller than any distance of floats; the balls of the
-    /// large ones end near the mesh.
+    /// Clearances over ten orders of magnitude, some larger than the mesh, some smaller than any distance of floats;
+    /// the balls of the large ones end near the mesh.
     fn given(rng: &mut Rng, mesh: &Mesh, centre: f64, size: f64, count: usize) -> Vec<([f32; 3], f64)> {
         let one = |i: usize| {
             let clearance = size * libm::exp10(9.0 * rng.unit() - 8.0);
@@ -367,7 +370,7 @@ mod tests {
         (0..count).map(one).collect()
     }
 
-    /// Everything against a loop over all: positions, triangles, and sixteenths of fragments.
+    /// Everything is compared with a loop over all: positions, triangles, and sixteenths of fragments.
     #[test]
     fn rejects_and_covers_what_a_loop_over_all_does() {
         let mut counts = [0; 6];
@@ -379,7 +382,7 @@ mod tests {
             let count = [1, 20, 300, 2000][round as usize / 4 % 4];
             let mut given = given(&mut rng, &mesh, centre, size, count);
             if round >= 40 {
-                // Most of what is left is open.
+                // Most of the remaining surface is open.
                 given.iter_mut().for_each(|given| given.1 = given.1.min(0.05 * size));
             }
             let obstacles = Obstacles::new(&mesh, given.iter().copied());

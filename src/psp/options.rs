@@ -1,5 +1,5 @@
-//! The options of the calls: a type for each, with the fields that the call reads; and those of flat interfaces, of which not
-//! all go together.
+//! The options of the calls: a type for each, with the fields that the call reads. (`flat.rs` has those of flat
+//! interfaces, not all of which can be combined.)
 
 use crate::error::{Error, Result};
 use crate::given::Given;
@@ -7,8 +7,8 @@ use crate::order::Order;
 use crate::setters::setters;
 use crate::trace::HAS_EMBREE;
 
-/// The order of an iteration's candidates: of two that are too close the first one is kept. Existing samples come before
-/// all.
+/// The order of an iteration's candidates: of two that are too close the first one is kept. Existing samples come
+/// before all.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Priority {
     /// By how squarely their projector faces them: there the pattern is stretched less. Finds more samples.
@@ -18,18 +18,17 @@ pub enum Priority {
     Projector,
 }
 
-/// The engine that finds the hits of the projectors. Both find the same ones, up to rounding: points and edges move against each
-/// other by up to 2e-7 of the mesh's diagonal, as their projector sees them. A point that near to an edge may fall on
-/// the other side, and barycentrics differ by up to this over the height of their triangle.
+/// The engine that finds the hits of the projectors. Both find the same ones, up to rounding: points and edges move
+/// against each other by up to 2e-7 of the mesh's diagonal, as their projector sees them. A point that near to an edge
+/// may fall on the other side, and barycentrics differ by up to this over the height of their triangle.
 ///
 /// The default is Embree, where a build has it ([`HAS_EMBREE`](crate::trace::HAS_EMBREE)).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Engine {
-    /// Packets of rays through the hierarchy of Embree: it takes the longer the more rays there are.
+    /// Packets of rays through the hierarchy of Embree: the time grows with the number of rays.
     Embree,
-    /// Triangles drawn over the pattern in exact integer arithmetic (thesis §3.4.3): it takes the longer the more
-    /// triangles there are. A point on an edge that triangles share hits one of them on either side, never none or
-    /// both.
+    /// Triangles drawn over the pattern in exact integer arithmetic (thesis §3.4.3): the time grows with the number of
+    /// triangles. A point on an edge that triangles share hits one of them on either side, never none or both.
     Rasteriser,
 }
 
@@ -47,20 +46,20 @@ impl Default for Engine {
 /// The default of [`Options::quotient`]: 2^(1/8).
 pub const DEFAULT_QUOTIENT: f64 = 1.090_507_732_665_257_7;
 
-/// The amount of samples: by their radius or by their number.
+/// The number of samples: by their radius or directly.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Amount {
     /// As many as fit with this smallest distance, in the units of the mesh; positive and finite.
     Radius(f64),
-    /// Exactly so many, at least 1: the radius is found, and [`Report::radius`](super::Report::radius) says it.
+    /// Exactly so many, at least 1: the radius is found, and returned in [`Report::radius`](super::Report::radius).
     Count(usize),
 }
 
 /// The options of [`sample`](super::sample).
 ///
-/// Where no more than 25,000 samples are expected, on the area and along edges longer than the radius, a set is filled in one
-/// piece and is unbiased; a larger one is filled cube by cube and holds up to about 0.8 % more samples than unbiased darts
-/// give, at the seams of the cubes.
+/// If no more than 25,000 samples are expected, on the area and along edges longer than the radius, a set is filled in
+/// one piece and is unbiased; a larger one is filled cube by cube and holds up to about 0.8 % more samples than
+/// unbiased darts give, at the seams of the cubes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Options<'a> {
@@ -70,17 +69,17 @@ pub struct Options<'a> {
     pub order: Order,
     /// In progressive order, the largest ratio of the covering radius of the first samples to their rank, from
     /// [`Order::FIRST_COUNT`] samples on: 1.02 to 1.5, by default 2^(1/8). For fewer it is up to two, or the square of
-    /// this if that is more. The smaller, the more levels, each of which takes time.
+    /// this if that is more. The smaller it is, the more levels there are, each of which takes time.
     pub quotient: f64,
     /// Selects one of 2^64 sets.
     pub seed: u64,
-    /// Samples that stand already: new ones keep their clearances, and cover what is farther than that from all of
+    /// Existing samples: new ones keep their clearances, and cover the surface that is farther than that from all of
     /// them. They are not among the samples that are returned. With a count they must have clearances.
     pub given: Given<'a, 3>,
     /// Samples on triangles whose normals have a smaller cosine ignore each other, and so do samples and uncovered
     /// surface: the sides of a thin wall are sampled as if they were far apart. From -1, which is off, to 1, where only
-    /// samples with the same normal see each other. The triangles must be wound consistently. Given samples have no
-    /// normal: they act on all sides.
+    /// samples with the same normal interact. The triangles must be wound consistently. Given samples have no normal:
+    /// they act on all sides.
     pub cosine: f64,
 }
 
@@ -117,7 +116,8 @@ pub struct ProjectionOptions<'a> {
     pub engine: Engine,
     /// As in [`Options::given`].
     pub given: Given<'a, 3>,
-    /// As in [`Options::cosine`], for [`Psp::fill`](super::Psp::fill). Projection tells no sides apart: iterations require -1.
+    /// As in [`Options::cosine`], for [`Psp::fill`](super::Psp::fill). Projection does not distinguish sides:
+    /// iterations require -1.
     pub cosine: f64,
 }
 
@@ -128,7 +128,7 @@ impl ProjectionOptions<'_> {
         Self { radius, seed: 0, priority, engine, given, cosine: -1.0 }
     }
 
-    /// These options without the samples that are given.
+    /// These options without the given samples.
     pub(crate) fn without_given(&self) -> ProjectionOptions<'static> {
         let &Self { radius, seed, priority, engine, given: _, cosine } = self;
         ProjectionOptions { radius, seed, priority, engine, given: Given::default(), cosine }
@@ -143,8 +143,8 @@ setters!(ProjectionOptions<'a> { seed: u64, priority: Priority, engine: Engine, 
 pub struct ClassOptions<'a> {
     /// Selects one of 2^64 sets.
     pub seed: u64,
-    /// Samples that stand already. They keep each class's own radius clear, or have clearances row by row: for each
-    /// sample one for each class.
+    /// Existing samples. They keep each class's own radius clear, or have clearances row by row: for each sample one
+    /// for each class.
     pub given: Given<'a, 3>,
     /// As in [`Options::cosine`].
     pub cosine: f64,

@@ -1,4 +1,4 @@
-//! Sets that are made level by level: of exactly so many samples, or in progressive order.
+//! Sets that are made level by level: with an exact number of samples, or in progressive order.
 
 use std::sync::Arc;
 

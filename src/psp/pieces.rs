@@ -1,6 +1,6 @@
 //! Long triangles in slices.
 //!
-//! Parts of a triangle's own shape would do where it is well-shaped. A needle, though, becomes needles of half its
+//! Parts of a triangle's own shape would suffice for a well-shaped one. A needle, though, becomes needles of half its
 //! length, two of them side by side: n² parts where n are enough. So a triangle that is longer than high is sliced
 //! first, across its longest edge, into slices that are about as long as they are high.
 
@@ -9,7 +9,7 @@ use crate::psp::fragment::Fragment;
 
 /// Appends a triangle in slices no shorter than `shortest`, or as a whole if it is not much longer than that or high.
 ///
-/// The height on the longest edge makes two right triangles. Each is sliced in parallel to the height, which gives one
+/// The height on the longest edge makes two right triangles. Each is sliced parallel to the height, which gives one
 /// triangle at the tip and quadrilaterals, cut in two. Slices that meet have the same corners, bit for bit.
 pub(super) fn slice(mesh: &Mesh, triangle: u32, shortest: f64, slices: &mut Vec<Fragment>) {
     let whole = Fragment::whole(triangle);

@@ -26,7 +26,8 @@ use crate::psp::samples::SampleSet;
 
 /// A set of samples on a mesh that grows, call by call.
 ///
-/// After a cancelled or failed call it holds what was accepted until then, which is a valid set, and can be used on.
+/// After a cancelled or failed call it holds the samples accepted until then, which are a valid set, and remains
+/// usable.
 pub struct Psp {
     mesh: Arc<Mesh>,
     options: ProjectionOptions<'static>,
@@ -48,9 +49,9 @@ impl Psp {
     ///
     /// # Errors
     /// [`Error::InvalidArgument`] for a `radius` that is not positive and finite, or below 64 float spacings at the
-    /// largest coordinate of the mesh: floats cannot carry it; for a `cosine` outside -1 to 1; for `given` samples out
-    /// of range, by their index (`given_positions`, `given_clearances`). [`Error::TooLarge`] where the radius would ask
-    /// for more than 2^32 samples on the bare surface, or more than memory holds.
+    /// largest coordinate of the mesh: floats are too coarse for it; for a `cosine` outside -1 to 1; for `given`
+    /// samples out of range, by their index (`given_positions`, `given_clearances`). [`Error::TooLarge`] if the radius
+    /// would require more than 2^32 samples on the bare surface, or more than memory holds.
     pub fn new(mesh: &Arc<Mesh>, options: &ProjectionOptions) -> Result<Self> {
         let radius = options.radius;
         let measures = mesh.kept(|| Ok(()), || Ok(Measures::of(mesh)))?;
@@ -70,15 +71,17 @@ impl Psp {
         })
     }
 
-    /// Makes more iterations. Samples are only added; two calls add what one call with the sum of their iterations adds.
+    /// Makes more iterations. Samples are only added; two calls add the same samples as one call with the sum of their
+    /// iterations.
     ///
     /// Time grows with the area of the mesh's box over the squared radius, and with the hits. Where that is out of all
-    /// proportion to the surface, as for small parts far apart (more than 20 rays for each sample that can stand
-    /// on the surface, and 10 million rays in all), nothing is done and the report counts no iteration: use [`Psp::fill`].
+    /// proportion to the surface, as for small parts far apart (more than 20 rays for each sample that can stand on the
+    /// surface, and 10 million rays in all), nothing is done and the report counts no iteration: use [`Psp::fill`].
     ///
     /// # Errors
-    /// [`Error::Cancelled`] by the progress callback: the interrupted iteration adds nothing and is made anew by the next
-    /// call. [`Error::InvalidArgument`] for iterations with a `cosine` above -1. [`Error::Embree`] where Embree cannot take the mesh.
+    /// [`Error::Cancelled`] by the progress callback: the interrupted iteration adds nothing and is repeated by the
+    /// next call. [`Error::InvalidArgument`] for iterations with a `cosine` above -1. [`Error::Embree`] where Embree
+    /// cannot take the mesh.
     pub fn advance(&mut self, context: &Context, iterations: u32, progress: Option<&Progress>) -> Result<Report> {
         let stopwatch = Stopwatch::start();
         let mut report = Report::default();
@@ -86,7 +89,8 @@ impl Psp {
         Ok(self.finish(report, &stopwatch))
     }
 
-    /// Adds samples until the set is maximal. Every part of the mesh, however small, that no other sample covers gets one.
+    /// Adds samples until the set is maximal. Every part of the mesh, however small, that no other sample covers gets
+    /// one.
     ///
     /// # Errors
     /// [`Error::Cancelled`] by the progress callback: samples added until then stay.
@@ -112,7 +116,7 @@ impl Psp {
         self.len() == 0
     }
 
-    /// The directions in which the projectors of the last iteration looked: orthogonal unit vectors, by the number of the
+    /// The viewing directions of the projectors in the last iteration: orthogonal unit vectors, by the number of the
     /// projector. They depend on the seed and the iterations, not on the mesh. For measurements.
     #[doc(hidden)]
     pub fn directions(&self) -> Option<[[f64; 3]; 3]> {
@@ -187,20 +191,21 @@ impl Psp {
 
 /// A maximal set in one call, by filling.
 ///
-/// With [`Amount::Count`] the set has exactly so many samples, and the report says the radius and a bound of the covering
-/// radius. Takes about twice the time of a set of known radius.
+/// With [`Amount::Count`] the set has exactly so many samples, and the report has the radius and a bound of the
+/// covering radius. Takes about twice the time of a set of known radius.
 ///
-/// In [`Order::Progressive`] the samples are sorted coarse to fine, and have [ranks](Points::ranks). For every
-/// prefix, from the first sample on: no two samples of it are closer than the rank of its last one, and every place of
-/// the surface is within [`Options::quotient`] times this rank of a sample of it, up to [`TOLERANCE`](super::TOLERANCE).
-/// A set of fewer samples is a prefix of a set of more, on the same mesh with the same quotient and seed, to the bit. Sets
-/// of two radii share the levels above both: all samples with a rank of at least the quotient times the larger radius.
-/// Takes several times as long as a set in any order (docs/order.md), and more with many triangles for each sample, as each of some
-/// `log(diagonal / radius) / log(quotient)` levels visits all triangles.
+/// In [`Order::Progressive`] the samples are sorted coarse to fine, and have [ranks](Points::ranks). For every prefix,
+/// from the first sample on: no two samples of it are closer than the rank of its last one, and every place of the
+/// surface is within [`Options::quotient`] times this rank of a sample of it, up to [`TOLERANCE`](super::TOLERANCE). A
+/// set of fewer samples is a prefix of a set of more, on the same mesh with the same quotient and seed, to the bit.
+/// Sets of two radii share the levels above both: all samples with a rank of at least the quotient times the larger
+/// radius. Takes several times as long as a set in any order (docs/order.md), and more with many triangles for each
+/// sample, as each of some `log(diagonal / radius) / log(quotient)` levels visits all triangles.
 ///
 /// # Errors
-/// Those of [`Psp::new`] and [`Psp::fill`], and [`Error::InvalidArgument`] for a count of 0 or of more than floats can carry
-/// on the mesh, and for a `quotient` out of range in progressive order. Where the call is cancelled nothing is returned.
+/// Those of [`Psp::new`] and [`Psp::fill`], and [`Error::InvalidArgument`] for a count of 0 or of more than float
+/// precision allows on the mesh, and for a `quotient` out of range in progressive order. Where the call is cancelled
+/// nothing is returned.
 pub fn sample(
     context: &Context,
     mesh: &Arc<Mesh>,
@@ -217,7 +222,8 @@ pub fn sample(
     }
 }
 
-/// A set in one call: [`Psp::new`], [`Psp::advance`] by so many `iterations` and, if it is to be `maximal`, [`Psp::fill`].
+/// A set in one call: [`Psp::new`], [`Psp::advance`] by so many `iterations` and, if it is to be `maximal`,
+/// [`Psp::fill`].
 ///
 /// # Errors
 /// Those of the three. Where the call is cancelled nothing is returned.

@@ -7,14 +7,14 @@ use crate::mesh::Mesh;
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct Report {
-    /// Samples there are after the call.
+    /// The number of samples after the call.
     pub samples: u64,
-    /// Samples that the call added.
+    /// The number of samples that the call added.
     pub accepted: u64,
-    /// Iterations that the call made.
+    /// The number of iterations that the call made.
     pub iterations: u32,
-    /// Rays traced: those that meet the mesh's box. With the rasteriser, the points of its tiles (at most 48 radii wide)
-    /// that have triangles near them.
+    /// Rays traced: those that meet the mesh's box. With the rasteriser, the points of its tiles (at most 48 radii
+    /// wide) that have triangles near them.
     pub rays: u64,
     /// Hits on the rays.
     pub hits: u64,
@@ -26,33 +26,34 @@ pub struct Report {
     pub conflicts: u64,
     /// Wall time of the call.
     pub seconds: f64,
-    /// The part of it in which the pattern and, for Embree, the scene were made: in the first iteration only.
+    /// The part of `seconds` in which the pattern and, for Embree, the scene were made: in the first iteration only.
     pub prepare_seconds: f64,
-    /// The part of it in which the hits were found.
+    /// The part of `seconds` in which the hits were found.
     pub project_seconds: f64,
-    /// The part of it in which samples were chosen among the hits.
+    /// The part of `seconds` in which samples were chosen among the hits.
     pub merge_seconds: f64,
-    /// The part of it in which uncovered surface was searched and filled.
+    /// The part of `seconds` in which uncovered surface was searched and filled.
     pub fill_seconds: f64,
     /// The relative radius of the set after the call, `radius / d_max`: `d_max = sqrt(2 A / (sqrt(3) N))` would be the
-    /// distance of N neighbours in hexagonal order on the area A. 0.78 for darts until nothing fits (thesis §1.4); 0 for
-    /// no samples. The smallest distance is taken to be the radius; that of a large set is less than a millionth above.
-    /// Given samples do not count.
+    /// distance of N neighbours in hexagonal order on the area A. 0.78 for darts until nothing fits (thesis §1.4); 0
+    /// for no samples. The smallest distance is taken to be the radius; that of a large set is less than a millionth
+    /// above. Given samples do not count.
     pub rho: f64,
     /// For a fill, the share of the mesh's area that neither samples nor given ones covered before it, estimated with
-    /// random points on the parts of the surface that no single sample covers when the search comes to them: at least
+    /// random points on the parts of the surface that no single sample covers when the search reaches them: at least
     /// 1,024 points, or above about 25,000 samples 64 for each cube of 24 radii.
     pub uncovered_before: Option<f64>,
     /// For a fill, the share of the area that is uncovered after it: 0, up to [`TOLERANCE`](super::TOLERANCE).
     pub uncovered_after: Option<f64>,
-    /// No two samples are closer: the radius that was asked for or, for a count, the one that was found. 0 where radii
-    /// vary; in progressive order then what they are multiplied by: 1, or for a density the radius at density 1.
+    /// A lower bound of the distance of two samples: the radius that was requested or, for a count, the one that was
+    /// found. Where radii vary it is 0, or in progressive order their factor: 1, or for a density the radius at density
+    /// 1.
     pub radius: f64,
-    /// A bound of the covering radius, where one is known: every place of the surface is so near to a sample, up to
+    /// A bound of the covering radius, where one is known: every place of the surface is within it of a sample, up to
     /// [`TOLERANCE`](super::TOLERANCE). The radius itself after a fill; for a count a little more (mostly below 1.1
     /// times the radius), in progressive order at most [`Options::quotient`](super::Options::quotient) times the
-    /// radius, from [`Order::FIRST_COUNT`](crate::Order::FIRST_COUNT) samples on. Where radii vary, a bound of what they
-    /// are multiplied by.
+    /// radius, from [`Order::FIRST_COUNT`](crate::Order::FIRST_COUNT) samples on. Where radii vary, a bound of their
+    /// factor.
     pub coverage: Option<f64>,
 }
 

@@ -20,12 +20,12 @@ pub struct Sample {
 }
 
 impl Sample {
-    /// The sample at rounded barycentrics: whatever is tested later is tested on the position that is returned.
+    /// The sample at rounded barycentrics: all later tests use the position that is returned.
     pub fn new(mesh: &Mesh, triangle: u32, barycentrics: [f32; 2]) -> Self {
         Self::on(&mesh.corners(triangle), triangle, barycentrics)
     }
 
-    /// The same, where the corners of the triangle are at hand.
+    /// The sample, on a triangle whose corners are known to the caller.
     pub fn on(corners: &[[f32; 3]; 3], triangle: u32, barycentrics: [f32; 2]) -> Self {
         let position = exact_point(corners, barycentrics.map(f64::from)).as_vec3().to_array();
         Self { position, triangle, barycentrics, rank: f32::INFINITY, class: 0 }
@@ -64,7 +64,7 @@ impl Cubes for EvenCubes {
 pub type SampleSet = Growing<EvenCubes>;
 
 impl SampleSet {
-    /// An empty set. Two samples conflict when they are closer than `radius`, and [`RADIUS_SLACK`].
+    /// An empty set. Two samples conflict when they are closer than `radius`, enlarged by [`RADIUS_SLACK`].
     pub fn new(mesh: &Mesh, radius: f64) -> Self {
         Self::with(mesh, radius, Vec::new())
     }
@@ -86,12 +86,12 @@ impl SampleSet {
         set
     }
 
-    /// True if two points are too close to both be samples; equally, if a sample covers a point.
+    /// True if two points are too close to both be samples; equivalently, if a sample covers a point.
     pub fn conflict(&self, a: [f32; 3], b: [f32; 3]) -> bool {
         distance_squared(a, b) < self.radius() * self.radius()
     }
 
-    /// The radius in use, a little above the one asked for.
+    /// The radius in use, slightly above the requested one.
     pub fn radius(&self) -> f64 {
         self.cubes.radius
     }

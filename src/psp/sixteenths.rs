@@ -1,9 +1,10 @@
-//! The sixteen parts of a fragment: where they are, and which of them are covered when some of their corners are.
+//! The sixteen parts of a fragment: their positions, and the parts that are covered when some corners are.
 //!
-//! Lines in parallel to the three edges cut a fragment into four by four congruent parts of its own shape: ten that stand
-//! as it does, then six turned over. They have fifteen corners, counted along the rows of five, four, three, two and one.
+//! Lines parallel to the three edges cut a fragment into four by four congruent parts of its own shape: ten that stand
+//! as it does, then six turned over. They have fifteen corners, counted along the rows of five, four, three, two and
+//! one.
 
-/// So many sixteenths stand as the fragment does. They come first.
+/// The number of sixteenths that are oriented like the fragment. They come first.
 pub(super) const STANDING: usize = 10;
 
 /// The corners of the sixteenths in quarters of the fragment's edges.
@@ -45,8 +46,8 @@ pub(super) const CORNERS: [[f32; 16]; 2] = {
     corners
 };
 
-/// Corners in shares of the fragment's edges, of which each sixteenth has one or more: the three inside, and one for each of
-/// the sixteenths at the fragment's own corners.
+/// Corners in shares of the fragment's edges, of which each sixteenth has one or more: the three inside, and one for
+/// each of the sixteenths at the fragment's own corners.
 pub(super) const PIERCING: [[f64; 2]; 6] =
     [[0.25, 0.25], [0.5, 0.25], [0.25, 0.5], [0.25, 0.0], [0.75, 0.25], [0.0, 0.75]];
 
@@ -76,8 +77,8 @@ pub(super) const CORNERS_OF_SIXTEENTHS: [[i32; 16]; 3] = {
     numbers
 };
 
-/// Which sixteenths are covered, gathered ball by ball. Bit `5·row + column` is the sixteenth whose lowest corner, or for
-/// those turned over whose missing corner, is the one in this row and column.
+/// The covered sixteenths, gathered ball by ball. Bit `5·row + column` is the sixteenth whose lowest corner, or whose
+/// missing corner for those turned over, is the one in this row and column.
 #[derive(Default)]
 pub(super) struct Cover {
     standing: u32,

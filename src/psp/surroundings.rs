@@ -9,7 +9,8 @@ use crate::psp::lanes::{FAR, LANES, PointLanes, SLACK};
 use crate::psp::vectors;
 use crate::simd::Level;
 
-/// How far the grid reaches beyond the cube, in radii. Looked at is what is within one of points in the cube.
+/// The distance by which the grid extends beyond the cube, in radii. Searches extend to one radius from points in the
+/// cube.
 const HALO: u32 = 4;
 /// The side of a cell in radii: a page or two of a surface.
 const CELL: f32 = 4.0;
@@ -22,13 +23,13 @@ const MARGIN: f32 = 1e-4;
 
 const NONE: u16 = u16::MAX;
 
-/// Conflict-free points in and around a cube. There are at most sqrt(2) for each cube of a radius, the densest packing,
-/// and some along the boundary: a `u16` counts them.
+/// Conflict-free points in and around a cube. There are at most sqrt(2) for each cube of side one radius, the densest
+/// packing, and some along the boundary: a `u16` counts them.
 pub(super) struct Surroundings {
     radius: f64,
     centre: DVec3,
     per_radius: f64,
-    /// The lower and upper corner, and a rounding more.
+    /// The lower and upper corner, widened by a rounding.
     bounds: [Vec3A; 2],
     vectors: Level,
     /// The first page of each cell.
@@ -40,7 +41,7 @@ pub(super) struct Surroundings {
 /// Some of the points in a cell.
 #[repr(align(64))]
 struct Page {
-    /// As seen from the centre of the cube, in radii.
+    /// The places relative to the centre of the cube, in radii.
     places: PointLanes,
     points: [u16; LANES],
     count: u16,
@@ -65,18 +66,18 @@ impl Surroundings {
         }
     }
 
-    /// A point as seen from the centre of the cube, in radii.
+    /// The place of a point relative to the centre of the cube, in radii.
     pub fn place(&self, point: DVec3) -> [f32; 3] {
         ((point - self.centre) * self.per_radius).as_vec3().to_array()
     }
 
-    /// Whether a point may be inside: the quick test of the many that are not.
+    /// True if a point may be inside: a quick test that excludes the many that are not.
     pub fn may_hold(&self, point: [f32; 3]) -> bool {
         let ([low, high], point) = (self.bounds, Vec3A::from_array(point));
         (point.cmpge(low) & point.cmple(high)).all()
     }
 
-    /// Adds a point, or leaves it out if it is outside.
+    /// Adds a point, unless it is outside.
     pub fn add(&mut self, point: [f32; 3]) {
         let place = self.place(exact(point));
         if place.iter().any(|x| x.abs() >= HALF) {
@@ -97,7 +98,7 @@ impl Surroundings {
         self.points.push(point);
     }
 
-    /// Whether a point is closer to another one than the radius: in `f64` from the floats, without tolerance.
+    /// True if a point is closer to another one than the radius: in `f64` from the floats, without tolerance.
     pub fn rejects(&self, point: [f32; 3]) -> bool {
         let place = self.place(exact(point));
         let squared = self.radius * self.radius;
@@ -114,7 +115,7 @@ impl Surroundings {
         })
     }
 
-    /// Whether the test holds for a page of the cells that the ball around a place touches.
+    /// True if the test holds for a page of the cells that the ball around a place touches.
     #[inline(always)]
     fn any_page(&self, centre: [f32; 3], mut test: impl FnMut(&Page) -> bool) -> bool {
         let cell = |x: f32| ((x + HALF) / CELL).clamp(0.0, CELLS as f32) as usize;
@@ -164,7 +165,7 @@ mod tests {
                 let centre = point(1.05);
                 let close = |other: &&[f32; 3]| distance_squared(centre, **other) < radius * radius;
                 assert_eq!(surroundings.rejects(centre), points.iter().any(|other| close(&other)));
-                // What is near to a point in or at the cube is not left out at first sight.
+                // Points near a point in or at the cube are not excluded by the quick test.
                 assert!(!points.iter().any(|other| close(&other) && !surroundings.may_hold(*other)));
             }
         }

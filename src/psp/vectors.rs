@@ -20,7 +20,7 @@ pub(super) fn within(vectors: Level, places: &PointLanes, point: [f32; 3], reach
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2")]
 fn within_avx2([x, y, z]: &PointLanes, point: [f32; 3], reach2: f32) -> u8 {
-    // SAFETY: eight floats are read, from an array of eight; no alignment is asked for.
+    // SAFETY: eight floats are read, from an array of eight; no alignment is required.
     let load = |lanes: &[f32; lanes::LANES]| unsafe { _mm256_loadu_ps(lanes.as_ptr()) };
     let x = _mm256_sub_ps(load(x), _mm256_set1_ps(point[0]));
     let y = _mm256_sub_ps(load(y), _mm256_set1_ps(point[1]));

@@ -10,7 +10,7 @@ type Ints = [__m256i; 2];
 type Doubles = [__m256d; 2];
 
 // SAFETY of all intrinsics here: an `Avx2` proves that the processor has AVX2. References to sixteen floats are valid
-// for two loads or stores of 32 bytes, which ask for no alignment.
+// for two loads or stores of 32 bytes, which require no alignment.
 impl Lanes for Avx2 {
     type Floats = Floats;
     type Ints = Ints;
@@ -142,7 +142,7 @@ impl Lanes for Avx2 {
         let mut gathered = [self.splat(0.0); 3];
         let mut half = 0;
         while half < 2 {
-            // SAFETY: see above; positions are read as checked slices of four floats.
+            // SAFETY: see above; each position is read as an array of four floats, with its index checked.
             unsafe {
                 let one = |k: usize| _mm_loadu_ps(positions[named[8 * half + k] as usize].as_ptr());
                 // The positions k and k + 4.
@@ -311,7 +311,7 @@ impl Lanes for Avx2 {
     }
 }
 
-/// The numbers of the lanes where a mask of eight is, in order, and -1 after them; how many they are.
+/// The numbers of the lanes that are set in a mask of eight, in order, and -1 after them; and how many there are.
 #[inline(always)]
 fn to_front(mask: __m256) -> (__m256i, usize) {
     // SAFETY: called by the operations of [`Lanes`] only, as above.
@@ -322,8 +322,8 @@ fn to_front(mask: __m256) -> (__m256i, usize) {
     }
 }
 
-/// For each choice of lanes, one per bit: the numbers of these lanes, in order, in the bytes from the lowest on; -1 in
-/// the others.
+/// For each subset of the lanes, one per bit: the numbers of these lanes, in order, in the bytes from the lowest on; -1
+/// in the others.
 const LANES_TO_FRONT: [i64; 256] = {
     let mut table = [-1; 256];
     let mut choice = 0;

@@ -6,7 +6,7 @@ use crate::simd::Avx512;
 use crate::simd::lanes::{HALF, LANES, Lanes, Position};
 
 // SAFETY of all intrinsics here: an `Avx512` proves that the processor has AVX-512 F, VL, DQ and BW. References to
-// sixteen floats are valid for loads and stores of 64 bytes, which ask for no alignment.
+// sixteen floats are valid for loads and stores of 64 bytes, which require no alignment.
 impl Lanes for Avx512 {
     type Floats = __m512;
     type Ints = __m512i;
@@ -126,7 +126,7 @@ impl Lanes for Avx512 {
     }
     #[inline(always)]
     fn gather(self, positions: &[Position], named: &[u32; LANES]) -> [__m512; 3] {
-        // SAFETY: see above; that all positions are there is asserted before they are read.
+        // SAFETY: see above; all positions are asserted to exist before they are read.
         unsafe {
             let count = _mm512_set1_epi32(positions.len().min(u32::MAX as usize) as i32);
             let there = _mm512_cmplt_epu32_mask(_mm512_loadu_si512(named.as_ptr().cast()), count);

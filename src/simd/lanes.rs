@@ -1,15 +1,15 @@
-//! Sixteen floats or integers at a time, or eight of twice the size, whatever the processor has for it.
+//! Sixteen floats or integers at a time, or eight of twice the size, with whatever instructions the processor has.
 //!
 //! Code is written once, over a [`Lanes`], and compiled for each level. All operations are those of IEEE 754, none is
-//! contracted and sums have one order, so that every level computes the same bits.
+//! contracted and sums have a fixed order, so that every level computes the same bits.
 
 /// The number of lanes, of floats and integers of 32 bits.
 pub const LANES: usize = 16;
 
-/// Half of them: the number of doubles.
+/// The number of lanes of doubles and of integers of 64 bits.
 pub const HALF: usize = LANES / 2;
 
-/// A position in the floats in which samples are returned, and a fourth that is not used: one load in vectors.
+/// A position as the three floats that are returned for a sample, and a fourth that is not used: one vector load.
 pub type Position = [f32; 4];
 
 /// A level of vector instructions. Its value is the proof that the processor has them.
@@ -41,50 +41,50 @@ pub trait Lanes: Copy {
     /// `a` where it is more than `b`, else `b`.
     fn max(self, a: Self::Floats, b: Self::Floats) -> Self::Floats;
     fn abs(self, x: Self::Floats) -> Self::Floats;
-    /// Where `a` is less than `b`; nowhere for NaN.
+    /// The mask of the lanes where `a` is less than `b`; false for NaN.
     fn less(self, a: Self::Floats, b: Self::Floats) -> Self::Mask;
-    /// Where `a` is at most `b`; nowhere for NaN.
+    /// The mask of the lanes where `a` is at most `b`; false for NaN.
     fn at_most(self, a: Self::Floats, b: Self::Floats) -> Self::Mask;
-    /// `x` where the mask is, else 0.
+    /// `x` where the mask is set, else 0.
     fn only(self, mask: Self::Mask, x: Self::Floats) -> Self::Floats;
-    /// `a` where the mask is, else `b`.
+    /// `a` where the mask is set, else `b`.
     fn select(self, mask: Self::Mask, a: Self::Floats, b: Self::Floats) -> Self::Floats;
-    /// Where both masks are.
+    /// The lanes that are set in both masks.
     fn both(self, a: Self::Mask, b: Self::Mask) -> Self::Mask;
     /// The lanes of `x` with these numbers.
     fn permute(self, x: Self::Floats, numbers: &[i32; LANES]) -> Self::Floats;
     /// The mask as bits, lane 0 the lowest.
     fn bits(self, mask: Self::Mask) -> u32;
-    /// Lanes `k` and `k + 8` are added, of these `k` and `k + 4`, and so on.
+    /// The sum of all lanes: `k` and `k + 8` are added, of these `k` and `k + 4`, and so on.
     fn sum(self, x: Self::Floats) -> f32;
     /// The least of all, in the order of [`Lanes::sum`].
     fn least(self, x: Self::Floats) -> f32;
-    /// The coordinates of those of the positions that are named.
+    /// The coordinates of the positions with the indices `named`.
     ///
     /// # Panics
-    /// Where a position is named that there is not.
+    /// Panics if an index is out of range.
     fn gather(self, positions: &[Position], named: &[u32; LANES]) -> [Self::Floats; 3];
 
     fn splat_int(self, x: i32) -> Self::Ints;
     fn load_ints(self, from: &[i32; LANES]) -> Self::Ints;
-    /// Eight integers, and eight more.
+    /// Loads eight integers into each half.
     fn load_halves(self, from: [&[i32; HALF]; 2]) -> Self::Ints;
-    /// The integers are added, and wrap around.
+    /// The sums of integers, which wrap around.
     fn add_ints(self, a: Self::Ints, b: Self::Ints) -> Self::Ints;
     fn sub_ints(self, a: Self::Ints, b: Self::Ints) -> Self::Ints;
     fn mul_ints(self, a: Self::Ints, b: Self::Ints) -> Self::Ints;
     fn min_ints(self, a: Self::Ints, b: Self::Ints) -> Self::Ints;
-    /// The bits that both have.
+    /// The bits that are set in both.
     fn and_ints(self, a: Self::Ints, b: Self::Ints) -> Self::Ints;
-    /// Where `a` is less than `b`.
+    /// The mask of the lanes where `a` is less than `b`.
     fn less_ints(self, a: Self::Ints, b: Self::Ints) -> Self::Mask;
     /// The nearest floats.
     fn floats(self, x: Self::Ints) -> Self::Floats;
     /// The bits of floats.
     fn float_bits(self, x: Self::Floats) -> Self::Ints;
-    /// The integers where the mask is are stored side by side; what follows them is not specified.
+    /// Stores the integers where the mask is set side by side; the lanes after them are not specified.
     fn compress_ints(self, mask: Self::Mask, x: Self::Ints, to: &mut [i32; LANES]);
-    /// The floats where the mask is are stored side by side, and `rest` after them.
+    /// Stores the floats where the mask is set side by side, and `rest` after them.
     fn compress(self, mask: Self::Mask, x: Self::Floats, rest: f32, to: &mut [f32; LANES]);
 
     fn splat_double(self, x: f64) -> Self::Doubles;
@@ -94,10 +94,10 @@ pub trait Lanes: Copy {
     /// The nearest floats in the lower eight lanes; those in the others are not specified.
     fn narrow(self, x: Self::Doubles) -> Self::Floats;
 
-    /// The lower eight integers, without sign.
+    /// The lower eight integers, zero-extended.
     fn widen(self, x: Self::Ints) -> Self::Longs;
     fn store_longs(self, x: Self::Longs, to: &mut [u64; HALF]);
-    /// The bits that one of them has.
+    /// The bits that are set in either.
     fn or_longs(self, a: Self::Longs, b: Self::Longs) -> Self::Longs;
     /// The integers times 2 to the power of `by`, below 64.
     fn shift_longs(self, x: Self::Longs, by: u32) -> Self::Longs;

@@ -1,7 +1,8 @@
-//! Vector instructions: code is written once over [`Lanes`], as [`Work`], and [`run`] at a [`Level`] that the processor has.
+//! Vector instructions: code is written once over [`Lanes`], as [`Work`], and [`run`] at a [`Level`] that the processor
+//! has.
 //!
 //! A level other than the portable one holds a token that only detection makes: code that has the token may run the
-//! instructions, and no safe code can ask for instructions that the processor lacks. All levels compute the same bits.
+//! instructions, and no safe code can use instructions that the processor lacks. All levels compute the same bits.
 //! Plain loops that a compiler vectorizes by itself are work as well, which leaves the token unused: they are compiled
 //! once for each level.
 
@@ -20,7 +21,7 @@ pub use portable::Portable;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Avx2(());
 
-/// Proof that the processor has what [`Avx2`] says, and AVX-512 F, VL, DQ and BW.
+/// Proof that the processor has the features of [`Avx2`], and AVX-512 F, VL, DQ and BW.
 #[cfg(target_arch = "x86_64")]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Avx512(());
@@ -129,7 +130,7 @@ mod tests {
             for floats in of_two.into_iter().chain(chosen).chain(others) {
                 let mut stored = [0.0; LANES];
                 lanes.store(floats, &mut stored);
-                // A NaN is one, whatever its bits.
+                // All NaNs count as equal, whatever their bits.
                 bits.extend(stored.map(|x| if x.is_nan() { u32::MAX } else { x.to_bits() }));
             }
             let mut compressed = [0.0; LANES];
@@ -170,7 +171,7 @@ mod tests {
         }
     }
 
-    /// All operations on what has twice the size.
+    /// All operations on lanes of twice the size.
     struct OfDoubles([[f64; HALF]; 2], [f32; LANES]);
 
     impl Work for OfDoubles {
@@ -194,7 +195,7 @@ mod tests {
         }
     }
 
-    /// Calls `test` with random floats of some size, of which half of the times every other one is special.
+    /// Calls `test` with random floats of some size, half of the time with every other one special.
     fn with_floats(mut test: impl FnMut(&mut dyn FnMut() -> f32, &mut Rng)) {
         let (mut rng, mut others) = (Rng::at(9, Draw::Probe, &[]), Rng::at(10, Draw::Probe, &[]));
         let special = [0.0, -0.0, 1.0, f32::INFINITY, f32::MIN_POSITIVE, 1e-42, 3e38, -1.0];
@@ -245,7 +246,7 @@ mod tests {
             assert!((0..HALF).all(|k| of_doubles[4 * HALF + k] >> k & 1 == 1));
             for level in Level::available() {
                 assert_eq!(run(level, OfInts(ints)), portable, "{level:?}");
-                // Infinity times 0 is the one NaN, whatever its sign.
+                // Infinity times 0 is the only NaN, whatever its sign.
                 let bits = run(level, OfDoubles(doubles, floats));
                 let is_nan = |bits: u64| bits <= u64::from(u32::MAX) && f32::from_bits(bits as u32).is_nan();
                 let mut pairs = bits.iter().zip(&of_doubles);

@@ -31,12 +31,12 @@ fn folded(mut x: [f32; LANES], two: impl Fn(f32, f32) -> f32) -> f32 {
     x[0]
 }
 
-/// Stores the lanes where the mask is side by side, and returns their number.
+/// Stores the lanes that are set in the mask side by side, and returns their number.
 #[inline(always)]
 fn compressed<T: Copy>(mask: [u32; LANES], x: [T; LANES], to: &mut [T; LANES]) -> usize {
     let (mut count, mut k) = (0, 0);
     while k < LANES {
-        // Stored in any case and counted only if it is meant: which lanes are is not predictable.
+        // Stored always, and counted only if it is set in the mask: which lanes are is not predictable.
         to[count] = x[k];
         count += (mask[k] & 1) as usize;
         k += 1;

@@ -12,11 +12,11 @@ use crate::psp::pieces::slice;
 
 /// Triangles per task of the integral.
 const CHUNK: usize = 1 << 13;
-/// The number of pieces over which the surface is integrated, about.
+/// The approximate number of pieces over which the surface is integrated.
 const PIECES: f64 = 1e5;
 /// The share by which a function may exceed its largest value: places are rounded.
 const ROUNDING: f64 = 1e-9;
-/// Texture coordinates are no larger: pixels are told apart.
+/// The largest texture coordinate: up to it, pixels can be told apart.
 const FARTHEST: f32 = 1e6;
 
 /// A density that has been checked.
@@ -71,7 +71,7 @@ impl<'a> DensityField<'a> {
         Ok(Self { mesh, of, largest })
     }
 
-    /// The slope of a function; `None` for what is known without one.
+    /// The slope of a function; `None` for densities whose bounds are known without one.
     pub fn slope(&self) -> Option<f64> {
         match self.of {
             Of::Function { slope, .. } => Some(slope),
@@ -82,7 +82,7 @@ impl<'a> DensityField<'a> {
     /// The density at a place of a triangle.
     ///
     /// # Errors
-    /// The value of a function that is no density, or more than its largest.
+    /// The value of a function that is not a density or exceeds the stated largest.
     pub fn at(&self, triangle: u32, uv: [f64; 2], position: [f64; 3]) -> std::result::Result<f64, f64> {
         match &self.of {
             Of::Vertices(values) => {
@@ -121,7 +121,7 @@ impl<'a> DensityField<'a> {
         }
     }
 
-    /// The radius at density 1 that a scale asks for.
+    /// The radius at density 1 for a scale.
     pub fn unit(&self, job: &Job, scale: Scale) -> Result<f64> {
         match scale {
             Scale::Radius(radius) => Ok(radius),
@@ -136,7 +136,7 @@ impl<'a> DensityField<'a> {
         }
     }
 
-    /// The integral over the surface: by the values at the centres of about [`PIECES`] pieces.
+    /// The integral over the surface, from the values at the centres of about [`PIECES`] pieces.
     fn integral(&self, job: &Job) -> Result<f64> {
         let longest = (4.0 * self.mesh.area() / PIECES).sqrt();
         let chunks = chunks_of(self.mesh.triangles().len(), CHUNK);
@@ -236,17 +236,17 @@ fn check_texture(mesh: &Mesh, texture: Texture) -> Result<()> {
     }
 }
 
-/// Least and largest value.
+/// The least and the largest value.
 pub type Range = [f64; 2];
 
-/// Up to so many cells along an axis are looked at one by one.
+/// The number of cells along an axis up to which they are examined one by one.
 const FEW: f64 = 4.0;
 
-/// Values, and for squares of 2, 4, 8... of them their least and largest.
+/// Values, and the least and the largest of each square of side 2, 4, 8 and so on.
 pub struct Image<'a> {
     values: &'a [f32],
     size: [usize; 2],
-    /// Each half as wide and as high as the one before, rounded up; the last has one entry.
+    /// Each level is half as wide and as high as the one before, rounded up; the last has one entry.
     levels: Vec<Level>,
 }
 
@@ -277,7 +277,7 @@ impl<'a> Image<'a> {
         image
     }
 
-    /// The range of an entry of a level; level 0 are the values.
+    /// The range of an entry of a level; level 0 consists of the values.
     fn range(&self, level: usize, [x, y]: [usize; 2]) -> [f32; 2] {
         match level.checked_sub(1) {
             None => [self.values[y * self.size[0] + x]; 2],
@@ -285,7 +285,7 @@ impl<'a> Image<'a> {
         }
     }
 
-    /// The place of texture coordinates in pixels, where centres of pixels are whole numbers.
+    /// Texture coordinates in pixels, where centres of pixels are at whole numbers.
     fn place(&self, [u, v]: [f64; 2]) -> [f64; 2] {
         [u * self.size[0] as f64 - 0.5, v * self.size[1] as f64 - 0.5]
     }
@@ -303,12 +303,12 @@ impl<'a> Image<'a> {
         let value = |x: i64, y: i64| f64::from(self.values[wrapped(1, y) * self.size[0] + wrapped(0, x)]);
         let [a, b, c, d] = [value(0, 0), value(1, 0), value(0, 1), value(1, 1)];
         let mixed = (1.0 - t) * ((1.0 - s) * a + s * b) + t * ((1.0 - s) * c + s * d);
-        // Rounding does not bring it beyond those that it is mixed of.
+        // Rounding must not take it beyond the values that it is interpolated from.
         mixed.clamp(a.min(b).min(c.min(d)), a.max(b).max(c.max(d)))
     }
 
-    /// The least and the largest value at texture coordinates in a box: of few cells the values at the corners, which
-    /// come together as boxes shrink, and otherwise those of all pixels around.
+    /// The least and the largest value at texture coordinates in a box: if it lies in few cells, from the values at the
+    /// corners of its parts in them, which converge as boxes shrink; otherwise from all pixels around.
     pub fn bounds(&self, low: [f64; 2], high: [f64; 2]) -> Range {
         let [low, high] = [self.place(low), self.place(high)];
         let cells = |axis: usize| (low[axis].floor(), high[axis].floor());
@@ -326,8 +326,8 @@ impl<'a> Image<'a> {
         range.map(f64::from)
     }
 
-    /// The range of the values in a box that lies in some columns and rows of cells. In a cell the extremes of what is
-    /// linear along both axes are at corners.
+    /// The range of the values in a box that lies in some columns and rows of cells. In a cell the extremes of a
+    /// bilinear function are at corners.
     fn bounds_in_cells(&self, [columns, rows]: [(f64, f64); 2], low: [f64; 2], high: [f64; 2]) -> Range {
         let mut range = [f64::INFINITY, f64::NEG_INFINITY];
         for row in 0..=(rows.1 - rows.0) as i32 {
@@ -345,7 +345,7 @@ impl<'a> Image<'a> {
         range
     }
 
-    /// The range of the values in a rectangle, its last column and row included: or of some more around it.
+    /// The range of the values in a rectangle, its last column and row included, or of that and some around it.
     fn range_of(&self, first: [usize; 2], last: [usize; 2]) -> [f32; 2] {
         let longest = (last[0] - first[0]).max(last[1] - first[1]);
         // At most three entries along each axis.
@@ -362,7 +362,8 @@ fn joined(a: [f32; 2], b: [f32; 2]) -> [f32; 2] {
     [a[0].min(b[0]), a[1].max(b[1])]
 }
 
-/// The pixels whose centres matter between two places along an axis: first and last of one run, or of two where it wraps.
+/// The pixels whose centres matter between two places along an axis: the first and last of one run, or of two if it
+/// wraps.
 fn runs(low: f64, high: f64, size: usize) -> [Option<(usize, usize)>; 2] {
     let (first, last) = (low.floor() as i64, high.floor() as i64 + 1);
     if last - first + 1 >= size as i64 {
@@ -378,7 +379,7 @@ mod tests {
     use super::*;
     use crate::rng::{Draw, Rng};
 
-    /// Boxes of all sizes, across the seams of the image, too.
+    /// Boxes of all sizes, also across the seams of the image.
     #[test]
     fn bounds_hold_all_values_and_are_not_much_wider() {
         let mut rng = Rng::at(3, Draw::Probe, &[]);

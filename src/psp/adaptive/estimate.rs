@@ -1,4 +1,4 @@
-//! The estimate of the samples that varying radii ask for, before any work is done.
+//! The estimate of the samples that varying radii require, before any work is done.
 
 use crate::error::{Error, Result};
 use crate::job::{Job, chunks_of};
@@ -11,17 +11,18 @@ use crate::psp::pieces::slice;
 
 /// Triangles per task of the estimate.
 const CHUNK: usize = 1 << 13;
-/// On how many pieces of the surface the number of samples is estimated, about and at most.
+/// The approximate maximum of the number of pieces on which samples are counted.
 const ESTIMATES: f64 = 1e5;
-/// Memory per sample at the peak.
+/// Peak memory per sample.
 const BYTES_PER_SAMPLE: f64 = 800.0;
 
-/// Estimates the samples and refuses radii that ask for more than can be indexed or held. They are counted on pieces of the
-/// surface, each as if it had the radius of its centre: those of the area, and those along what is longer than the radius.
+/// Estimates the number of samples and refuses radii that require more than can be indexed or held. They are counted on
+/// pieces of the surface, each as if it had the radius of its centre: those of the area, and those along parts longer
+/// than the radius.
 pub(super) fn require(job: &Job, mesh: &Mesh, field: &RadiusField) -> Result<f64> {
-    // Needles have next to no area: their lengths bound the pieces as well.
+    // Needles have almost no area: their lengths bound the pieces as well.
     let lengths: f64 = mesh.sampled_triangles().map(|triangle| longest_edge(mesh, triangle)).sum();
-    // Nor is anything learned from pieces that are shorter than every radius.
+    // Pieces that are shorter than every radius add no information, either.
     let longest = (4.0 * mesh.area() / ESTIMATES).sqrt().max(lengths / ESTIMATES).max(field.all().least);
     let chunks = chunks_of(mesh.triangles().len(), CHUNK);
     let estimates = job.map(chunks.len(), |chunk| {

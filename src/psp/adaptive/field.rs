@@ -1,12 +1,13 @@
 //! The radius as a function on the surface: its value at a sample, and its bounds on a fragment.
 //!
-//! A sample is not exactly where its dart fell: its position and its barycentrics are rounded. This can bring its radius
-//! out of the bounds of its fragment, but by no more than a quarter of the least radius. Of a function the slope is
-//! limited for this. Of vertices, the barycentrics change the radius by 2^-24 of the difference of two corners, at most
-//! four diagonals; these are at most 14 float spacings, and no radius is below 64.
+//! A sample is not exactly where its dart fell: its position and its barycentrics are rounded. This can take its radius
+//! out of the bounds of its fragment, but by no more than a quarter of the least radius. For a function, the slope is
+//! limited to ensure this. For vertices, the barycentrics change the radius by 2^-24 of the difference of two corners,
+//! at most four diagonals; these are at most 14 float spacings, and no radius is below 64.
 //!
-//! Levels of an ordered set (`levels.rs`) multiply all radii with a *scale*. Radii without it are *relative*; those
-//! of a sample are. Whatever is compared with lengths has been multiplied: bounds, and what follows from them.
+//! Levels of an ordered set (`levels.rs`) multiply all radii by a *scale*. Radii without it are *relative*, as are
+//! those of samples. Everything that is compared with lengths has been multiplied: bounds, and all that follows from
+//! them.
 
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Mutex, PoisonError};
@@ -24,16 +25,16 @@ use crate::psp::fill::rounds::TOLERANCE;
 use crate::psp::fragment::{Fragment, Shape};
 use crate::psp::samples::Sample;
 
-/// Bounds that are no farther apart than this share of the longest edge of a fragment are good enough for it: what is
-/// proved covered falls short of what is by half of that.
+/// Bounds that differ by no more than this share of the longest edge of a fragment are good enough for it: the region
+/// proved covered falls short of the covered one by half of that.
 const FLAT: f64 = 0.1;
 
 /// The share of a radius that rounding can add.
 const ROUNDING: f64 = 1e-9;
 
-/// On a piece of the surface where a density falls to nothing radii are at most this many times the least one: it has
-/// one radius as far as lengths and octaves go. The few samples that this adds stand at less than a sixteenth of the
-/// piece's largest density.
+/// On a piece of the surface where a density falls to 0, radii are at most this many times the least one: the piece has
+/// one radius as far as lengths and octaves are concerned. The few samples that this adds lie where the density is
+/// below a sixteenth of the piece's largest.
 const STEEPEST: f64 = 4.0;
 
 /// The source of the radius.
@@ -57,16 +58,16 @@ enum Source<'a> {
 pub struct RadiusField<'a> {
     mesh: &'a Mesh,
     source: Source<'a>,
-    /// The factor of all radii: 1, but on levels.
+    /// The factor of all radii: 1, except on levels.
     scale: f64,
     /// Relative bounds for the whole surface.
     all: RadiusBounds,
-    /// A relative radius. At the finest scale a sample of twice this radius excludes all others, so larger radii are
-    /// taken as this. A density of this radius counts as 0: no samples.
+    /// The relative radius that replaces all larger ones: at the finest scale a sample of twice this radius excludes
+    /// all others. A density of this radius counts as 0: no samples.
     limit: f64,
     /// The largest distance by which rounding moves a sample.
     rounding: f64,
-    /// The error of the radii, if they have failed.
+    /// The first error of the radii, if there is one.
     first_error: FirstError,
 }
 
@@ -115,7 +116,7 @@ impl<'a> RadiusField<'a> {
         Ok(Self { mesh, source, scale, all, limit, rounding, first_error: FirstError::default() })
     }
 
-    /// The argument that asks for too many samples where there are too many.
+    /// The argument that is named in the error if there are too many samples.
     pub fn argument(&self) -> &'static str {
         match self.source {
             Source::Vertices(_) => "vertex_radii",
@@ -171,7 +172,7 @@ impl<'a> RadiusField<'a> {
         matches!(self.source, Source::Density { .. }) && radius >= self.scale * self.limit
     }
 
-    /// Bounds for a piece of the surface that the radius does not change much on: of density, no farther apart than
+    /// Bounds for a piece of the surface on which the radius changes little: for a density, no farther apart than
     /// [`STEEPEST`].
     pub fn settled(&self, bounds: RadiusBounds) -> RadiusBounds {
         match self.source {
@@ -204,8 +205,8 @@ impl<'a> RadiusField<'a> {
                 }
                 let [largest, least] =
                     density.bounds(fragment, shape, centre).map(|density| self.scale * self.radius_of(density));
-                // What asks for nothing is told from what asks for little. On a settled piece even the least radius of
-                // a part may be above what is taken for the largest.
+                // A density of 0 is distinguished from a low one. On a settled piece even the least radius of a part
+                // may exceed the radius taken as the largest.
                 if self.is_empty_radius(least) {
                     return RadiusBounds { least, largest: least };
                 }
@@ -215,7 +216,7 @@ impl<'a> RadiusField<'a> {
         }
     }
 
-    /// Bounds on a fragment that is part of one with bounds `within`: these, where they are good enough.
+    /// Bounds on a fragment that is part of one with bounds `within`: the latter, where they are good enough.
     pub fn narrowed(&self, fragment: &Fragment, shape: &Shape, within: RadiusBounds) -> RadiusBounds {
         if within.largest - within.least <= FLAT * shape.longest {
             within
@@ -224,8 +225,8 @@ impl<'a> RadiusField<'a> {
         }
     }
 
-    /// Radii for the corners of a fragment with these bounds, such that no point of it has a smaller one than these give
-    /// it when they change evenly.
+    /// Radii for the corners of a fragment with these bounds, such that no point of it has a smaller radius than their
+    /// linear interpolation.
     pub fn radii_from(&self, fragment: &Fragment, bounds: RadiusBounds) -> [f64; 3] {
         match self.source {
             Source::Vertices(radii) => {
@@ -235,7 +236,8 @@ impl<'a> RadiusField<'a> {
         }
     }
 
-    /// The radius at a sample of a fragment with these bounds; the bounds, where a function would be called for it.
+    /// The radius at a sample of a fragment with these bounds, or the bounds if a function would have to be called for
+    /// it.
     pub fn known_at(&self, sample: &Sample, bounds: RadiusBounds) -> RadiusBounds {
         if self.calls_functions() {
             return bounds;
@@ -247,7 +249,7 @@ impl<'a> RadiusField<'a> {
     /// An upper bound of the radius on a fragment, even where rounding has moved a sample.
     pub fn above(&self, bounds: RadiusBounds) -> f64 {
         let slack = match self.source {
-            // The barycentrics, with the difference of two corners.
+            // The rounding of barycentrics times the difference of two corners.
             Source::Vertices(_) => scalbn(1.0, -22) * self.all().largest,
             Source::Function { slope, .. } => self.scale * slope * self.rounding,
             Source::Density { .. } => 0.0,
@@ -271,7 +273,7 @@ impl<'a> RadiusField<'a> {
         Self { first_error: FirstError::default(), ..*self }
     }
 
-    /// Fails where the radii have failed.
+    /// Fails if the radii have failed.
     pub fn check(&self) -> Result<()> {
         self.first_error.check()
     }
@@ -311,7 +313,7 @@ impl<'a> RadiusField<'a> {
         }
     }
 
-    /// The relative radius that the caller's function gives, or the least it may give if that is nothing good.
+    /// The relative radius that the caller's function gives, or the least it may give if the value is invalid.
     fn call(&self, at: &RadiusFunction, position: [f64; 3]) -> f64 {
         let Source::Function { smallest, largest, .. } = self.source else { return self.all.least };
         let radius = at(position);
@@ -323,7 +325,7 @@ impl<'a> RadiusField<'a> {
         radius.min(self.limit)
     }
 
-    /// The density at a place of a triangle, or the largest if a function gives nothing good.
+    /// The density at a place of a triangle, or the largest if the value of a function is invalid.
     fn density(&self, triangle: u32, uv: [f64; 2], position: DVec3) -> f64 {
         let Source::Density { density, .. } = self.source else { return 0.0 };
         density.at(triangle, uv, position.to_array()).unwrap_or_else(|found| {
@@ -342,7 +344,8 @@ impl<'a> RadiusField<'a> {
         }
     }
 
-    /// Tests a radius at a place with the bounds that a slope gave for it. A density has to keep only the lower one.
+    /// Tests the radius at a place against the bounds that follow from the slope. A density has to keep only the lower
+    /// one.
     fn test_slope(&self, position: DVec3, radius: f64, RadiusBounds { least, largest }: RadiusBounds) {
         let (slope, lowest, highest) = match self.source {
             Source::Vertices(_) => return,
@@ -375,13 +378,13 @@ pub struct RadiusBounds {
 }
 
 impl RadiusBounds {
-    /// The unit of lengths: the radius as far as it is known. Where the bounds are far apart the least may
-    /// be due to a distant corner, or to a bad bound; fragments become smaller then, but not by so much.
+    /// The unit of lengths: the radius as far as it is known. If the bounds are far apart, the least may be due to a
+    /// distant corner or to a poor bound; fragments then become smaller, but not by so much.
     pub fn scale(&self) -> f64 {
         self.least.max(self.largest / 16.0)
     }
 
-    /// The unit of areas: the mean of 1 / radius² where the radius grows evenly.
+    /// The unit of areas: the mean of 1 / radius² where the radius changes linearly.
     pub fn density(&self) -> f64 {
         1.0 / (self.least * self.largest)
     }
@@ -416,8 +419,8 @@ pub fn of_function(smallest: f64, largest: f64, slope: f64) -> Result<RadiusBoun
     Ok(RadiusBounds { least: smallest, largest })
 }
 
-/// The first error of a radius function that breaks its stated bounds: of several the one at the first place, axis by axis,
-/// so that the order in which they are found does not matter.
+/// The first error of a radius function that breaks its stated bounds. Of several it is the one at the first place,
+/// axis by axis, so that it does not depend on the order in which they are found.
 #[derive(Default)]
 pub struct FirstError {
     first: Mutex<Option<([f64; 3], Error)>>,
@@ -439,7 +442,7 @@ impl FirstError {
         self.has_failed.load(Ordering::Relaxed)
     }
 
-    /// Fails where there is a failure.
+    /// Fails if there is a failure.
     pub fn check(&self) -> Result<()> {
         let first = self.first.lock().unwrap_or_else(PoisonError::into_inner).take();
         first.map_or(Ok(()), |(_, failure)| Err(failure))
@@ -448,20 +451,20 @@ impl FirstError {
 
 /// The least limit of pieces and samples.
 const FEWEST: f64 = 1e6;
-/// Pieces and samples per sample that was estimated and per triangle. Where radii are as steep as they can be there are about
-/// ten.
+/// The number of pieces and samples per estimated sample and per triangle. Where radii are as steep as possible there
+/// are about ten.
 const FACTOR: f64 = 64.0;
 /// Memory per piece or sample.
 const BYTES: f64 = 150.0;
 
-/// The limit of pieces of the surface and samples: by far more than was estimated, but what memory holds.
+/// The limit of pieces of the surface and samples: far more than estimated, but no more than memory holds.
 pub struct Quota {
     used: AtomicU64,
     limit: u64,
 }
 
 impl Quota {
-    /// The quota of about so many samples.
+    /// The quota for about so many samples.
     pub fn new(estimate: f64, mesh: &Mesh) -> Self {
         let limit = FEWEST + FACTOR * (estimate + mesh.triangles().len() as f64);
         let held = memory::available().map_or(f64::INFINITY, |bytes| bytes / BYTES);
@@ -476,7 +479,7 @@ impl Quota {
         self.used.load(Ordering::Relaxed) > self.limit
     }
 
-    /// Fails where it is exceeded, by what `argument` has asked for.
+    /// Fails if the quota is exceeded, because of `argument`.
     pub fn check(&self, argument: &'static str) -> Result<()> {
         if !self.is_exceeded() {
             return Ok(());

@@ -1,8 +1,9 @@
-//! The neighbour search in one cube where the radius varies: what `psp/fill/grid.rs` is for one radius.
+//! The neighbour search in one cube where the radius varies: the counterpart of `psp/fill/grid.rs`, which is for one
+//! radius.
 //!
 //! A cell lists every sample whose ball is near enough to overlap that of any place in the cell, so that a test reads
-//! the pages of one cell here, too. For that the largest radius on the surface of the cube is known beforehand; the
-//! cells are as large as is right for the usual one.
+//! the pages of one cell here, too. This requires that the largest radius on the surface of the cube is known
+//! beforehand; the size of the cells suits the usual one.
 
 use glam::DVec3;
 
@@ -17,42 +18,42 @@ use crate::psp::fill::space::{Place, Space, key};
 use crate::psp::fill::table::Table;
 use crate::simd::{Level, run};
 
-/// What rounding can add to the distance at which a sample matters, as a share, and some more.
+/// The share by which rounding can increase the distance at which a sample matters, and some more.
 const SLACK: f64 = 1e-4;
 
 /// Samples in and around a cube.
 pub(super) struct Grid {
     pub facing: Facing,
     space: Space,
-    /// Half of the largest radius of darts and of what they fall on, in the unit of the space.
+    /// Half of the largest radius of darts and of the surface that they fall on, in the unit of the space.
     half: f64,
-    /// How far samples are listed, as a multiple of what conflicts ask for.
+    /// The distance up to which samples are listed, as a multiple of the distance of conflicts.
     stretch: f64,
-    /// The box that these are in.
+    /// The box of the darts and of the surface that they fall on.
     low: Place,
     high: Place,
     level: Level,
     cells: Table<Cell>,
     /// The first page is empty: that of all cells without samples.
     pages: Vec<Page>,
-    /// For each page the samples on it, ...
+    /// For each page, the samples on it.
     numbers: Vec<[u32; LANES]>,
-    /// ... and the page of its cell that was full before.
+    /// For each page, the page of its cell that was filled before it.
     earlier: Vec<u32>,
     dots: Vec<Dot>,
 }
 
-/// The last page of a cell, and how many samples all of its pages list.
+/// The last page of a cell, and the number of samples that all of its pages list.
 #[derive(Clone, Copy, Default)]
 struct Cell {
     page: u32,
     count: u32,
 }
 
-/// A fragment as a grid sees it.
+/// The data of a fragment that a grid tests.
 pub(super) struct Shade {
     pub corners: [DVec3; 3],
-    /// No point has a smaller radius than the corners give it, if it changes evenly between them.
+    /// Radii of the corners, such that no point has a smaller radius than their linear interpolation.
     pub radii: [f64; 3],
     pub longest: f64,
     /// The normal of the triangle, where normals matter.
@@ -60,7 +61,7 @@ pub(super) struct Shade {
 }
 
 impl Grid {
-    /// A grid for the surface in a box, where no radius is above `largest`, and most are about `usual`. Ratios of samples
+    /// A grid for the surface in a box where no radius exceeds `largest` and most are about `usual`. Ratios of samples
     /// are known up to `stretch`, at least 1.
     pub fn new(mesh: &Mesh, facing: Facing, [low, high]: [DVec3; 2], [usual, largest]: [f64; 2], stretch: f64) -> Self {
         let space = Space::new(mesh, usual.max(0.5 * largest));
@@ -116,7 +117,7 @@ impl Grid {
         });
     }
 
-    /// Whether a dot conflicts with a sample: in `f64`, without tolerance.
+    /// True if a dot conflicts with a sample: in `f64`, without tolerance.
     pub fn rejects(&self, dot: &Dot) -> bool {
         let ball = self.ball(dot.position, dot.radius);
         self.any_page(self.cell_of(ball), |page| {
@@ -132,7 +133,7 @@ impl Grid {
         })
     }
 
-    /// The least ratio of a dot to the samples that it sees, or the stretch if that is less.
+    /// The least ratio of a dot to the samples that matter to it, or the stretch if that is less.
     pub fn ratio(&self, dot: &Dot) -> f64 {
         let mut least = self.stretch;
         let Cell { mut page, count } = self.cells.get(key(self.cell_of(self.ball(dot.position, dot.radius))));
@@ -149,15 +150,15 @@ impl Grid {
         least
     }
 
-    /// Which of some sixteenths of a fragment no single sample certainly covers.
+    /// Those of some sixteenths of a fragment that no single sample certainly covers.
     pub fn open_sixteenths(&self, shade: &Shade, mut open: u16) -> u16 {
         let corners = shade.corners.map(|corner| self.space.scaled(corner));
         let halves = shade.radii.map(|radius| 0.5 * radius * f64::from(self.space.scale()));
         let a = corners[0].as_vec3();
         let [corner, to_b, to_c] = [corners[0] - a.as_dvec3(), corners[1] - corners[0], corners[2] - corners[0]];
         let ball = |place: DVec3, half: f64| place.extend(half).as_vec4().to_array();
-        // What covers a sixteenth covers its centre. This is no farther from the centre of all than three quarters of
-        // the way to a corner, which is two thirds of the longest edge.
+        // A sample that covers a sixteenth covers its centre. This is no farther from the centre of the fragment than
+        // three quarters of the way to a corner, which is two thirds of the longest edge.
         let extent = 0.5 * f64::from(self.space.scale()) * shade.longest;
         let part = Part {
             origin: a.to_array(),
@@ -175,7 +176,7 @@ impl Grid {
         open
     }
 
-    /// Which triangles of a group no single sample certainly covers: a bit for each. Their pages are looked up here.
+    /// The triangles of a group that no single sample certainly covers: a bit for each. Their pages are looked up here.
     pub fn open_triangles(&self, group: &mut Group, normals: &[[f32; 3]]) -> u64 {
         let count = normals.len();
         let mut chained = 0;
@@ -203,7 +204,7 @@ impl Grid {
         open
     }
 
-    /// Whether one sample certainly covers a triangle.
+    /// True if one sample certainly covers a triangle.
     fn covers(&self, corners: &[Ball; 3], normal: [f32; 3]) -> bool {
         self.any_page(self.cell_of(corners[0]), |page| {
             run(self.level, Covering { page: &self.pages[page], corners }) & self.seen(page, normal) != 0
@@ -220,7 +221,7 @@ impl Grid {
         self.numbers[page].iter().rev().fold(0, |seen, &number| seen << 1 | u16::from(is_seen(number)))
     }
 
-    /// Whether the test holds for a page of a cell.
+    /// True if the test holds for a page of a cell.
     #[inline(always)]
     fn any_page(&self, cell: [u32; 3], mut test: impl FnMut(usize) -> bool) -> bool {
         let Cell { mut page, count } = self.cells.get(key(cell));
@@ -263,7 +264,7 @@ mod tests {
             let mut grid = Grid::new(&mesh, facing, bounds, [0.6 * largest, largest], stretch);
             let (mut dots, mut rejected) = (Vec::<Dot>::new(), 0);
             for step in 0..3000 {
-                // Samples stand outside, too, and can be large; darts are in the box and no larger than was said.
+                // Samples may also lie outside and be large; darts are in the box and no larger than stated.
                 let (new, probe) = (dot(1.0, if step % 10 == 0 { 4.0 } else { 1.0 }), dot(0.6, 1.0));
                 if dots.len() < 600 {
                     grid.add(new);

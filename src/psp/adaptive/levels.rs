@@ -1,8 +1,8 @@
 //! Levels where the radius varies: maximal sets at ever smaller scales, each around the samples of those before
 //! (`psp/levels.rs`).
 //!
-//! A level is filled with all radii multiplied by its scale, and former samples count with theirs at this scale. So
-//! distances are measured by the mean of two relative radii, and what is said of levels of one radius holds.
+//! A level is filled with all radii multiplied by its scale, and earlier samples count with theirs at this scale. So
+//! distances are measured by the mean of two relative radii, and the properties of levels of one radius hold.
 
 use crate::error::{Error, Result};
 use crate::job::Job;
@@ -26,7 +26,7 @@ struct ScaledSurface<'a> {
     field: RadiusField<'a>,
     facing: Facing,
     obstacles: &'a Obstacles,
-    /// The scale at which the set is expected to be done, and how many samples there are about.
+    /// The scale at which the set is expected to be complete, and the approximate number of samples.
     last: f64,
     estimate: f64,
 }
@@ -83,7 +83,7 @@ pub fn ordered(
         }
         _ => (1.0, 0),
     };
-    // What a level is does not depend on where the set ends. So neither does what a density asks nothing for.
+    // A level does not depend on where the set ends. So neither does the region where a density requires no samples.
     let finest = density.map_or(1.0, |density| (1.0 + 1e-12) * finest_radius(spacing) * density.largest.sqrt());
     let field = RadiusField::new(mesh, options.radius, density.map(|density| (density, 1.0)), finest)?;
     if count == 0 {
@@ -98,7 +98,7 @@ pub fn ordered(
     }
 }
 
-/// The count, if one is asked for; otherwise 0.
+/// The count, if one is requested; otherwise 0.
 fn whole_count(scale: Scale) -> Result<usize> {
     match scale {
         Scale::Radius(_) => Ok(0),

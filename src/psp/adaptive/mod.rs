@@ -4,12 +4,12 @@
 //! ([`Radius`]).
 //!
 //! * *Conflict-free*: two samples are no closer than the mean of their radii, in `f64` from the returned positions and
-//!   radii: disks of half the radius around the samples do not overlap. Where the radius changes evenly the mean is the
-//!   radius half-way between them, so that the set is locally what a set of one radius is.
+//!   radii: disks of half the radius around the samples do not overlap. Where the radius changes linearly the mean is
+//!   the radius half-way between them, so that locally the set is like one of constant radius.
 //! * *Maximal*: no point of the surface is farther from every sample than the mean of the radii of the two. Tolerance:
-//!   [`TOLERANCE`](super::TOLERANCE) float spacings at the largest coordinate of the mesh, and what the radius changes
-//!   on that distance; with radii of vertices also 2^-22 of the largest difference of two radii on a triangle, the rounding
-//!   of the barycentrics.
+//!   [`TOLERANCE`](super::TOLERANCE) float spacings at the largest coordinate of the mesh, and the change of the radius
+//!   over that distance; with radii of vertices also 2^-22 of the largest difference of two radii on a triangle, for
+//!   the rounding of the barycentrics.
 //! * *Around given samples* ([`Options::given`]), as [`psp`](super) is.
 //! * *Dense*: where the radius changes little from sample to sample there are 0.6966 / radius² samples on an area of 1.
 //! * *In progressive order* ([`Options::order`]): every prefix is such a set as well, of larger radii.

@@ -9,17 +9,17 @@ use crate::setters::setters;
 #[derive(Clone, Copy)]
 #[non_exhaustive]
 pub struct Options<'a> {
-    /// The radius on the surface. Radii larger than four times the diagonal of the mesh's box are taken as that, those of
-    /// vertices before they are interpolated.
+    /// The radius on the surface. Radii larger than four times the diagonal of the mesh's box are reduced to that,
+    /// those of vertices before they are interpolated.
     pub radius: Radius<'a>,
     /// Samples on triangles whose normals have a smaller cosine ignore each other, and so do samples and uncovered
     /// surface: the sides of a thin wall are sampled as if they were far apart. From -1, which is off, to 1, where only
-    /// samples with the same normal see each other. The triangles must be wound consistently.
+    /// samples with the same normal interact. The triangles must be wound consistently.
     pub cosine: f64,
     /// Selects one of 2^64 sets.
     pub seed: u64,
-    /// Samples that stand already, each with its clearance: there is no radius that could stand for it. They act on all
-    /// sides of a thin wall.
+    /// Existing samples, each with its clearance: there is no radius that could replace it. They act on all sides of a
+    /// thin wall.
     pub given: Given<'a, 3>,
     /// The order of the samples; by default any.
     pub order: Order,
@@ -44,24 +44,24 @@ pub type RadiusFunction<'a> = dyn Fn([f64; 3]) -> f64 + Sync + 'a;
 /// A density for every place of space, finite and 0 or above; called like a [`RadiusFunction`].
 pub type DensityFunction<'a> = dyn Fn([f64; 3]) -> f64 + Sync + 'a;
 
-/// The radius from place to place.
+/// The radius as it varies over the surface.
 #[derive(Clone, Copy)]
 pub enum Radius<'a> {
     /// A radius for each vertex of the mesh, positive and finite, interpolated on the triangles: at the barycentrics
-    /// `(u, v)` of a sample it is `(1 - u - v) * a + u * b + v * c` in `f64`. It may change as steeply as it likes.
+    /// `(u, v)` of a sample it is `(1 - u - v) * a + u * b + v * c` in `f64`. It may be arbitrarily steep.
     PerVertex(&'a [f32]),
     /// A radius for each position.
     Function {
         /// Gives the radius at a position; for a sample, at the floats that are returned.
         at: &'a RadiusFunction<'a>,
-        /// The least that it gives.
+        /// The least radius that it gives.
         smallest: f64,
-        /// The largest that it gives.
+        /// The largest radius that it gives.
         largest: f64,
-        /// How much the radius changes at most per unit of distance between two positions on a triangle: 0 and up. What
-        /// is covered is proved with it, so it must hold; where a violation is seen, the call fails. The work grows
-        /// with its square from about 1 on; from about 30 on it may be too much, which is refused. At most `smallest` /
-        /// 24 per float spacing at the largest coordinate of the mesh.
+        /// The largest change of the radius per unit of distance between two positions on a triangle: 0 or above.
+        /// Coverage is proved with it, so it must hold; if a violation is found, the call fails. The work grows with
+        /// its square from about 1 on; from about 30 on it may be too much, which is refused. At most `smallest` / 24
+        /// per float spacing at the largest coordinate of the mesh.
         slope: f64,
     },
     /// The radius that gives each place a density of samples.
@@ -73,37 +73,38 @@ pub enum Radius<'a> {
     },
 }
 
-/// The density of samples from place to place, per unit of area. Densities are finite, 0 or above, and not 0
-/// everywhere. Where they are 0 there are no samples, and those beside are none the fewer for it.
+/// The density of samples as it varies over the surface, per unit of area. Densities are finite, 0 or above, and not 0
+/// everywhere. Where they are 0 there are no samples, which does not reduce the number beside such places.
 #[derive(Clone, Copy)]
 pub enum Density<'a> {
     /// A density for each vertex of the mesh, interpolated on the triangles.
     PerVertex(&'a [f32]),
     /// The density at each vertex of the mesh, interpolated on the triangles: the function is called once for each
-    /// vertex, in their order, before any work. Nothing need be known of it, and what it does between vertices does not
+    /// vertex, in their order, before any work. No bounds of it are required, and its values between vertices do not
     /// matter.
     AtVertices(&'a DensityFunction<'a>),
     /// A density for each position.
     Function {
         /// Gives the density at a position.
         at: &'a DensityFunction<'a>,
-        /// The largest that it gives, above 0.
+        /// The largest density that it gives, above 0.
         largest: f64,
-        /// How much the density changes at most per unit of distance between two positions on a triangle: 0 and up. What
-        /// is covered is proved with it, so it must hold; where a violation is seen, the call fails. Where the density
-        /// is 0, or nearly so, over many times the radius beside it, that takes very many calls, which is refused: use
+        /// The largest change of the density per unit of distance between two positions on a triangle: 0 or above.
+        /// Coverage is proved with it, so it must hold; if a violation is found, the call fails. Where the density is
+        /// 0, or nearly so, over many times the radius beside it, that takes very many calls, which is refused: use
         /// [`Density::AtVertices`] there.
         slope: f64,
     },
-    /// An image that is laid on the mesh by texture coordinates, linear between the centres of its pixels, and repeated.
+    /// An image that is mapped onto the mesh by texture coordinates, linear between the centres of its pixels, and
+    /// repeated.
     Image {
         /// The pixels, row by row; the first row lies along v = 0.
         values: &'a [f32],
-        /// Pixels in a row, which is as long as u goes from 0 to 1; at least 1.
+        /// Pixels in a row, over which u goes from 0 to 1; at least 1.
         width: usize,
         /// Rows; at least 1.
         height: usize,
-        /// Where the vertices lie in the image.
+        /// The positions of the vertices in the image.
         texture: Texture<'a>,
     },
 }
@@ -113,7 +114,7 @@ pub enum Density<'a> {
 pub enum Texture<'a> {
     /// For each vertex of the mesh.
     PerVertex(&'a [[f32; 2]]),
-    /// For each corner of each triangle: those along seams differ.
+    /// For each corner of each triangle: they differ along seams.
     PerCorner(&'a [[[f32; 2]; 3]]),
 }
 
@@ -123,8 +124,8 @@ pub enum Scale {
     /// The radius at density 1: a maximal set of that radius has this density. The radius at a density d is this over
     /// the square root of d.
     Radius(f64),
-    /// About how many samples the whole set has; above 0. The radius follows from the integral of the density, for an even
-    /// surface: where parts of it are nearer to each other than the radius, there are fewer. In progressive order there
-    /// are exactly so many, and it is a whole number.
+    /// The approximate number of samples of the whole set; above 0. The radius follows from the integral of the
+    /// density, for a flat surface: where parts of it are nearer to each other than the radius, there are fewer. In
+    /// progressive order the number is exact, and must be whole.
     Count(f64),
 }

@@ -1,11 +1,11 @@
-//! Pages of sixteen samples with a radius each, and the tests on them, in `f32`: what `psp/fill/page.rs` is for one
-//! radius.
+//! Pages of sixteen samples with a radius each, and the tests on them, in `f32`: the counterpart of `psp/fill/page.rs`,
+//! which is for one radius.
 //!
-//! Everything has a ball of half its radius around it. Two samples conflict when their balls overlap, and a place is
-//! covered when its ball overlaps that of a sample. A triangle is covered by a sample when its three corners are: the
-//! distance to a sample, less a radius that changes evenly over the triangle, is convex.
+//! Every sample and every place has a ball of half its radius around it. Two samples conflict when their balls overlap,
+//! and a place is covered when its ball overlaps that of a sample. A triangle is covered by a sample when its three
+//! corners are: the distance to a sample, less a radius that changes linearly over the triangle, is convex.
 //!
-//! As there, the tests say what is certain, and all levels of vector instructions give the same bits.
+//! As there, the tests give only answers that are certain, and all levels of vector instructions give the same bits.
 
 use crate::psp::fill::page::GROUP;
 use crate::psp::fill::space::Place;
@@ -15,12 +15,14 @@ use crate::simd::{self, Lanes, Work};
 /// The samples on a page.
 pub(super) const LANES: usize = simd::LANES;
 
-/// Balls with a squared distance of up to this share of the square of their radii's sum certainly overlap, ...
+/// Balls certainly overlap if their squared distance is at most this share of the square of the sum of their radii.
+/// (Rounding amounts to 2e-6.)
 pub(super) const WITHIN: f32 = 1.0 - 1e-5;
-/// ... and from this on they certainly do not. (Rounding amounts to 2e-6.)
+/// Balls certainly do not overlap if their squared distance is at least this share of the square of the sum of their
+/// radii. (Rounding amounts to 2e-6.)
 pub(super) const BEYOND: f32 = 1.0 + 1e-4;
 
-/// A coordinate of no sample. Its square is a float.
+/// A coordinate for lanes without a sample. Its square is a float.
 const FAR: f32 = 1e18;
 
 /// A place, and half of the radius there.
@@ -37,12 +39,12 @@ pub(super) struct Group {
     pub pages: [u32; GROUP],
 }
 
-/// A fragment as seen from a place near it.
+/// A fragment relative to a place near it.
 pub(super) struct Part {
     pub origin: Place,
     /// The ball of a corner.
     pub corner: Ball,
-    /// From there to the balls of the other two.
+    /// The differences of the balls of the other two corners from that ball.
     pub edges: [Ball; 2],
     /// A ball that overlaps that of any sample which covers a sixteenth.
     pub whole: Ball,
@@ -79,14 +81,14 @@ fn squares<L: Lanes>(lanes: L, balls: [L::Floats; 4], ball: Ball, share: f32) ->
     [squares, lanes.mul(lanes.mul(sums, sums), lanes.splat(share))]
 }
 
-/// Where sixteen balls may overlap one.
+/// The lanes in which one of sixteen balls may overlap a given one.
 #[inline(always)]
 fn may_overlap<L: Lanes>(lanes: L, balls: [L::Floats; 4], ball: Ball) -> L::Mask {
     let [squares, limits] = squares(lanes, balls, ball, BEYOND);
     lanes.at_most(squares, limits)
 }
 
-/// Where sixteen balls certainly overlap one.
+/// The lanes in which one of sixteen balls certainly overlaps a given one.
 #[inline(always)]
 fn overlap<L: Lanes>(lanes: L, balls: [L::Floats; 4], ball: Ball) -> L::Mask {
     let [squares, limits] = squares(lanes, balls, ball, WITHIN);

@@ -1,4 +1,4 @@
-//! The surface in pieces that the radius does not change much on, by cubes: what is filled together.
+//! The surface in pieces on which the radius changes little, by cubes: the pieces of a cube are filled together.
 
 use crate::error::Result;
 use crate::index::Buckets;
@@ -31,7 +31,7 @@ impl Piece {
         }
     }
 
-    /// In local radii.
+    /// The area, in squares of the local radius.
     pub fn area(&self) -> f64 {
         match self {
             Self::Whole(whole) => whole.area.into(),
@@ -47,7 +47,7 @@ impl Piece {
     }
 }
 
-/// All of the surface.
+/// The pieces of the whole surface.
 pub fn pieces(
     job: &Job,
     mesh: &Mesh,
@@ -101,7 +101,7 @@ impl Cuts<'_> {
         (self.add)(self.cubes.cube_of_piece(shape.centre, bounds.largest), piece);
     }
 
-    /// Cuts a fragment of one with bounds `within` into quarters, until they are small enough.
+    /// Cuts a fragment that is part of one with bounds `within` into quarters, until they are small enough.
     fn cut(&mut self, fragment: &Fragment, within: RadiusBounds) {
         let shape = fragment.shape(self.mesh);
         let bounds = self.field.bounds(fragment, &shape, within);

@@ -21,36 +21,36 @@ use crate::psp::options::check_quotient;
 use crate::psp::report::Report;
 use crate::psp::samples::{Sample, surface_samples};
 
-/// A maximal set of samples, each with its own radius ([`Points::radii`]): in the order in which they were accepted, or in
-/// progressive order.
+/// A maximal set of samples, each with its own radius ([`Points::radii`]): in the order in which they were accepted, or
+/// in progressive order.
 ///
-/// Time grows with the samples and the triangles, and with the square of how much the radius changes along a radius.
-/// The report counts no iterations, rays and hits.
+/// Time grows with the samples and the triangles, and with the square of the change of the radius over one radius. The
+/// report counts no iterations, rays and hits.
 ///
-/// In [`Order::Progressive`] the samples are sorted coarse to fine, and have [ranks](Points::ranks). A rank is
-/// what all radii are multiplied by; for a [density](Radius::Density), the radius at density 1. For every prefix, from the
-/// first sample on: two samples are no closer than the mean of their radii times the rank of its last one, and no place is
-/// farther from all of its samples than the mean of the two radii times [`Options::quotient`] times this rank, up to the
-/// tolerance of a set of these radii. (With fewer than [`Order::FIRST_COUNT`] samples it is as
-/// [`psp::Options::quotient`](crate::psp::Options::quotient) says.) The radius of a place is that of the caller, and those
-/// of samples are the returned ones over [`Report::radius`]. These can be below what the density asks for where it falls by
-/// more than 16 within a few radii of the level that a sample came with.
+/// In [`Order::Progressive`] the samples are sorted coarse to fine, and have [ranks](Points::ranks). A rank is a factor
+/// of all radii; for a [density](Radius::Density), the radius at density 1. For every prefix, from the first sample on:
+/// two samples are no closer than the mean of their radii times the rank of its last one, and no place is farther from
+/// all of its samples than the mean of the two radii times [`Options::quotient`] times this rank, up to the tolerance
+/// of a set of these radii. (With fewer than [`Order::FIRST_COUNT`] samples it is as
+/// [`psp::Options::quotient`](crate::psp::Options::quotient) says.) The radius of a place is that of the caller; that
+/// of a sample is the returned one over [`Report::radius`]. Returned radii can be below those of the density where it
+/// falls by a factor of more than 16 within a few radii of the level that added the sample.
 ///
-/// The whole set is maximal at the caller's radii, or has exactly as many samples as [`Scale::Count`] asks for. Of a
-/// density, a set of fewer samples is a prefix of a set of more, to the bit but for the radii, which are those of the
-/// whole set; and sets of two radii at density 1 share the levels above both. Some
-/// `log(diagonal / smallest radius) / log(quotient)` levels visit all triangles and call the function, if there is one. Where
-/// the radius jumps, samples of the larger radius that came early leave fewer beside them than in any order.
+/// The whole set is maximal at the caller's radii, or has exactly as many samples as [`Scale::Count`] asks for. For a
+/// density, a set of fewer samples is a prefix of a set of more, equal to the bit except for the radii, which are those
+/// of the whole set; and sets of two radii at density 1 share the levels above both. Some
+/// `log(diagonal / smallest radius) / log(quotient)` levels visit all triangles and call the function, if there is one.
+/// At jumps of the radius, early samples of the larger radius leave fewer beside them than in a set in any order.
 ///
 /// # Errors
 /// [`Error::InvalidArgument`] for radii that are not positive and finite (`vertex_radii`), not one for each vertex
-/// (`vertex_count`), or below 64 float spacings at the largest coordinate of the mesh; for bad `smallest`, `largest` and
-/// `slope`; for a function that gives what is not in `smallest..=largest` or changes faster than `slope` (`radius`);
-/// for a `cosine` outside -1 to 1; in progressive order for a `quotient` out of range, and for a `count` that is not whole
-/// or more than floats can carry on the mesh; for [`given`](Options::given) samples out of range, by their index, or without
-/// clearances (`given_clearances`). [`Error::TooLarge`] where the radii would ask for more than 2^32 samples, or more than
-/// memory holds, and where they change so fast that it takes thousands of looks per sample to find out what is covered
-/// (`slope`, `vertex_radii`). [`Error::Cancelled`] by the progress callback.
+/// (`vertex_count`), or below 64 float spacings at the largest coordinate of the mesh; for bad `smallest`, `largest`
+/// and `slope`; for a function that returns a value outside `smallest..=largest` or changes faster than `slope`
+/// (`radius`); for a `cosine` outside -1 to 1; in progressive order for a `quotient` out of range, and for a `count`
+/// that is not whole or more than float precision allows on the mesh; for [`given`](Options::given) samples out of
+/// range, by their index, or without clearances (`given_clearances`). [`Error::TooLarge`] if the radii would require
+/// more than 2^32 samples, or more than memory holds, and if they change so fast that it takes thousands of tests per
+/// sample to determine coverage (`slope`, `vertex_radii`). [`Error::Cancelled`] by the progress callback.
 pub fn sample(
     context: &Context,
     mesh: &Mesh,

@@ -1,12 +1,13 @@
 //! Sets of samples whose radius varies, which grow octave by octave from small radii to large ones, and cube by cube in
 //! each.
 //!
-//! The cubes of an octave measure [`SIDE`] of its largest radius. What is accepted in a cube conflicts with nothing in
-//! another cube of its colour, as in `psp/cubes.rs`; what octaves of smaller radii have accepted is there before, and
-//! what those of larger radii will accept has to fit in. In this order a sample of a large radius takes no place from
-//! many of small ones where the radius jumps.
+//! The cubes of an octave measure [`SIDE`] of its largest radius. Samples accepted in a cube conflict with none in
+//! another cube of its colour, as in `psp/cubes.rs`; those of octaves of smaller radii precede them, and those of
+//! octaves of larger radii have to fit in. In this order a sample of a large radius does not displace many of small
+//! ones where the radius jumps.
 //!
-//! Samples that were there before the set grows are listed by their octaves and cubes as well, and are seen everywhere.
+//! Samples that precede the growth of the set are listed by their octaves and cubes as well, and are visible
+//! everywhere.
 
 use glam::DVec3;
 
@@ -19,12 +20,13 @@ use crate::psp::facing::Facing;
 use crate::psp::samples::Sample;
 use crate::rng::{Draw, Rng};
 
-/// The side of a cube, in the largest radius of its octave.
+/// The side of a cube, in units of the largest radius of its octave.
 const SIDE: f64 = 16.0;
-/// The largest distance of samples and of what they cover from their cube, in the same unit: two thirds of a piece.
+/// The largest distance from their cube of samples and of the surface that they cover, in the same unit: two thirds of
+/// a piece.
 const OVERHANG: f64 = 2.0 / 3.0 * LONGEST;
-/// Half of the radius of a sample, in the same unit, and some more: rounding can bring it above the radii of its piece by
-/// at most a quarter of these (see `field.rs`).
+/// Half of the radius of a sample, in the same unit, and some more: rounding can take it above the radii of its piece
+/// by at most a quarter of these (see `field.rs`).
 const HALF: f64 = 0.64;
 
 /// The octave of a radius: it is in `2^octave .. 2^(octave + 1)`.
@@ -40,7 +42,7 @@ fn end_of_octave(octave: i32) -> f64 {
 /// The cubes of a set whose radius varies.
 pub struct OctaveCubes {
     origin: DVec3,
-    /// The place where the cubes of each octave begin, in cubes: seams of many sets average out.
+    /// The origin of the cubes of each octave, in cubes: seams average out over many sets.
     shift: DVec3,
     seed: u64,
     /// The factor of relative radii.
@@ -54,8 +56,8 @@ impl OctaveCubes {
         Cube(place.floor().as_ivec3().to_array())
     }
 
-    /// The cube that a piece of the surface belongs to: of the octave of its radius or, where that is above a limit that
-    /// is random for each cube, of the one above. Thus no seam follows a line of one radius.
+    /// The cube of a piece of the surface: in the octave of its radius or, if that is above a limit that is random for
+    /// each cube, in the next larger one. Thus no seam follows a line of constant radius.
     pub fn cube_of_piece(&self, centre: DVec3, radius: f64) -> OctaveCube {
         let own = octave(radius);
         let above = OctaveCube { octave: own + 1, cube: self.cube(own + 1, centre) };
@@ -80,8 +82,8 @@ impl Cubes for OctaveCubes {
 
 /// A conflict-free set of samples whose radius varies.
 ///
-/// The task of [`Growing::grow`] returns samples whose radii are at most a quarter above the end of the octave, no farther
-/// than [`OVERHANG`] from the cube.
+/// The task of [`Growing::grow`] returns samples whose radii are at most a quarter above the end of the octave, no
+/// farther than [`OVERHANG`] from the cube.
 pub type AdaptiveSet = Growing<OctaveCubes>;
 
 impl AdaptiveSet {
@@ -100,7 +102,7 @@ impl AdaptiveSet {
         let OctaveCubes { origin, shift, scale, .. } = self.cubes;
         let (mut dots, end) = (Vec::new(), end_of_octave(cube.octave));
         let low = origin + SIDE * end * (DVec3::from_array(cube.cube.0.map(f64::from)) - shift);
-        // The points of the cube's pieces, and half of their radius around.
+        // The points of the cube's pieces, widened by half of their radius.
         let margin = DVec3::splat((OVERHANG + stretch * HALF) * end);
         let (low, high) = (low - margin, low + SIDE * end + margin);
         for octave in self.octaves() {

@@ -26,7 +26,7 @@ use crate::psp::obstacles::Obstacles;
 use crate::psp::samples::Sample;
 use crate::rng::{Draw, Rng};
 
-/// A surface to be filled where the radius varies, and what is given on it.
+/// A surface to be filled where the radius varies, and the samples given on it.
 #[derive(Clone, Copy)]
 pub struct GradedSurface<'a> {
     pub mesh: &'a Mesh,
@@ -67,7 +67,7 @@ impl GradedSurface<'_> {
         Ok((set, darts))
     }
 
-    /// The number of pieces that the work limit counts: those of a cube, and at a coarser scale than the finest as many as
+    /// The number of pieces for the work limit: those of a cube, and at a scale coarser than the finest as many as
     /// there will be samples on them. Radii are steeper there by as much as samples are fewer.
     fn limit(&self, pieces: &[&Piece]) -> u64 {
         let growth = square(self.field.scale() / self.finest);
@@ -76,10 +76,10 @@ impl GradedSurface<'_> {
     }
 }
 
-/// The samples around a cube in a grid that suits the radii on its pieces.
+/// The samples around a cube, in a grid that suits the radii on its pieces.
 fn grid(mesh: &Mesh, field: &RadiusField, facing: Facing, dots: Vec<Dot>, pieces: &[&Piece], stretch: f64) -> Grid {
     let largest = pieces.iter().map(|piece| field.above(piece.bounds())).fold(0.0, f64::max);
-    // The area by the number of samples that will stand on it gives their usual radius.
+    // The area over the number of samples that will lie on it gives their usual radius.
     let samples: f64 = pieces.iter().map(|piece| piece.area()).sum();
     let area: f64 = pieces.iter().map(|piece| piece.area() / piece.bounds().density()).sum();
     let usual = if samples > 0.0 { (area / samples).sqrt() } else { largest };
@@ -153,7 +153,7 @@ fn open_pieces(ground: &GradedGround, pieces: &[&Piece]) -> Open<RadiusBounds> {
     open
 }
 
-/// Adds those of a group of triangles that are not covered: whole, if they are small, or in parts.
+/// Adds the triangles of a group that are not covered: whole, if they are small, or in parts.
 fn open_wholes(ground: &GradedGround, wholes: &[Whole<RadiusBounds>], open: &mut Open<RadiusBounds>) {
     let mut uncovered = ground.open_wholes(wholes);
     while uncovered != 0 {
@@ -179,8 +179,8 @@ fn open_parts(
     open.patches.extend(fragment.parts(count).filter_map(|part| ground.patch(&part, bounds)));
 }
 
-/// The fragments that may be tested in a cube for each of its pieces and samples. Slopes of 1 take about forty, of 4 about
-/// a hundred: a far steeper one than 30 would take hours.
+/// The limit of fragments tested in a cube, per piece and sample. Slopes of 1 take about forty, of 4 about a hundred:
+/// one far steeper than 30 would take hours.
 const TESTS: u64 = 1 << 12;
 
 /// The surface in a cube.
@@ -192,7 +192,7 @@ pub struct GradedGround<'a> {
     grid: Grid,
     /// The number of fragments that may still be tested.
     tests: Cell<u64>,
-    /// The largest rank of the samples that the fill adds, if these get ranks (`psp/levels.rs`).
+    /// The largest rank of the samples that the fill adds, if they get ranks (`psp/levels.rs`).
     largest_rank: Option<f64>,
     /// The samples that the fill has added, with their relative radii.
     accepted: Vec<(Sample, f64)>,
@@ -214,12 +214,12 @@ impl<'a> GradedGround<'a> {
         Self { mesh, field, quota, obstacles, grid, tests, largest_rank: None, accepted: Vec::new(), darts: 0 }
     }
 
-    /// The ground, with ranks for the samples that the fill adds: up to the largest.
+    /// The ground with ranks, up to the largest, for the samples that the fill adds.
     pub fn ranked(self, largest: Option<f64>) -> Self {
         Self { largest_rank: largest, ..self }
     }
 
-    /// The rank of a sample that is added now. The distances that it stands for are kept in whatever order a caller
+    /// The rank of a sample that is added now. The distances that it guarantees are kept in whatever order a caller
     /// evaluates them.
     fn rank(&self, dot: &Dot) -> f32 {
         let Some(largest) = self.largest_rank else { return f32::INFINITY };
@@ -232,7 +232,7 @@ impl<'a> GradedGround<'a> {
         self.field.has_failed() || self.quota.is_exceeded()
     }
 
-    /// Counts the test of a fragment; the call fails where there are too many.
+    /// Counts the test of a fragment; the call fails if there are too many.
     fn count_test(&self, place: DVec3) {
         match self.tests.get().checked_sub(1) {
             Some(tests) => self.tests.set(tests),
@@ -253,7 +253,7 @@ impl<'a> GradedGround<'a> {
 
 impl Ground for GradedGround<'_> {
     type Local = RadiusBounds;
-    /// A sample, and what its radius is between.
+    /// A sample, and the bounds of its radius.
     type Dart = (Sample, RadiusBounds);
     type Sample = (Sample, f64);
 
@@ -323,7 +323,7 @@ impl Ground for GradedGround<'_> {
         }
         self.darts += 1;
         let mut dot = Dot { position: sample.position, radius: bounds.least, normal: self.normal(sample.triangle) };
-        // A function is not called where any radius that it may give conflicts.
+        // A function is not called if every radius that it may give conflicts.
         if self.grid.rejects(&dot) || self.obstacles.reject(dot.position) {
             return;
         }

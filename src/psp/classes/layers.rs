@@ -1,10 +1,10 @@
-//! Which balls keep the samples of a group of classes apart.
+//! The balls that keep the samples of a group of classes apart.
 //!
-//! A *layer* has the samples of some classes, all with balls of one radius: a grid of the fill. A dart of a class asks
-//! the layers of its class. There is one for each of its radii to others, but layers are shared where they can be: a
-//! ball that is smaller than the radius of two classes changes nothing. Classes of equal own radii with Wei's cross radii
-//! have a layer each, of their own samples, and one for all of them and all earlier classes. Two such classes have instead
-//! a layer each of the other's samples: not more balls for a sample, and half as many to be asked.
+//! A *layer* holds the samples of some classes, all with balls of one radius: a grid of the fill. A dart of a class is
+//! tested in the layers of its class. There is one for each of its radii to others, but layers are shared where
+//! possible: a ball that is smaller than the radius of two classes changes nothing. Classes of equal own radii with
+//! Wei's cross radii have a layer each, of their own samples, and one for all of them and all earlier classes. Two such
+//! classes have instead a layer each of the other's samples: no more balls for a sample, and half as many to test.
 
 use crate::classes::Classes;
 
@@ -22,13 +22,13 @@ pub struct Layer {
 #[derive(Debug)]
 pub struct Layers {
     pub all: Vec<Layer>,
-    /// The layers of each class of the group, by the number of the class. The first one has the own radius and is of this
-    /// class alone; the others follow by falling radius.
+    /// The layers of each class of the group, by the number of the class. The first one has the own radius and is of
+    /// this class alone; the others follow by decreasing radius.
     pub of_class: Vec<Vec<usize>>,
 }
 
 impl Layers {
-    /// Those that a group needs. Classes that come later have no samples yet.
+    /// The layers that a group needs. Classes that come later have no samples yet.
     pub fn new(classes: &Classes, group: &[usize]) -> Self {
         let own = classes.own(group[0]);
         let is_there = |&i: &usize| classes.own(i) >= own;
@@ -46,7 +46,8 @@ impl Layers {
             radii.dedup();
             for radius in radii {
                 let of = among(j, &|other| other == radius);
-                // What balls of the radius change nothing for, or what has them.
+                // The classes whose samples may have balls of the radius: they change nothing for these users, or are
+                // required.
                 let harmless = |users: u32| {
                     (0..classes.count())
                         .filter(|user| users >> user & 1 == 1)
@@ -67,7 +68,7 @@ impl Layers {
         Self { all, of_class }
     }
 
-    /// The largest radius of all.
+    /// The largest radius of all layers.
     pub fn largest(&self) -> f64 {
         self.all.iter().map(|layer| layer.radius).fold(0.0, f64::max)
     }
@@ -78,8 +79,8 @@ mod tests {
     use super::*;
     use crate::rng::{Draw, Rng};
 
-    /// Whatever the matrix: each class is kept out by each earlier class and its own group at their radius, and by nothing
-    /// at a larger one.
+    /// For any matrix, each class is kept out by each earlier class and its own group at their radius, and by none at a
+    /// larger one.
     #[test]
     fn layers_say_what_the_matrix_says() {
         let mut shared = 0;

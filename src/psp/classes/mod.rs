@@ -1,8 +1,8 @@
 //! Sets of several classes: trees, shrubs and grass, which keep clear of each other (Wei 2010; the thesis names them as
 //! future work, §3.4.6).
 //!
-//! Classes of larger own radii come first. Each group of equal radii is filled around the samples of all earlier groups,
-//! with the cross radii as clearances (`site.rs`, `layers.rs`). Within a group darts of all classes are thrown
+//! Classes of larger own radii come first. Each group of equal radii is filled around the samples of all earlier
+//! groups, with the cross radii as clearances (`site.rs`, `layers.rs`). Within a group darts of all classes are thrown
 //! at equal rates.
 
 mod layers;
@@ -31,32 +31,32 @@ use crate::rng::{Draw, hash};
 
 /// Samples a mesh with several classes at once.
 ///
-/// No two samples of classes i and j are closer than `classes.radius(i, j)`, in `f64` from the returned floats. And no class
-/// can take another sample: for each class i every place of the surface is within `radius(i, j)` of a sample of some
-/// class j, up to [`TOLERANCE`](super::TOLERANCE). The samples are sorted by class, which
-/// [`Points::classes`] says of each. They do not depend on the number of threads.
+/// No two samples of classes i and j are closer than `classes.radius(i, j)`, in `f64` from the returned floats. And no
+/// class admits another sample: for each class i every place of the surface is within `radius(i, j)` of a sample of
+/// some class j, up to [`TOLERANCE`](super::TOLERANCE). The samples are sorted by class, which [`Points::classes`]
+/// gives for each. They do not depend on the number of threads.
 ///
-/// *Shares.* Classes of larger own radii come first and take what they would have alone; those of smaller ones fill
-/// what is left. With [`Classes::of_radii`] and factor 1, own radii 1, 1/2, 1/4 give about 100, 82 and 82 per cent of
-/// the samples that each class would have alone. Classes of equal radii are filled together and have equal shares: two
-/// about 77 per cent each, eight 83; with factor 0.7 two have 95. So shares jump where radii become equal: 1.1 and 1
-/// give 100 and 68 per cent, 1 and 1 give 77 each. Cross radii above an own radius can starve the smaller class.
+/// *Shares.* Classes of larger own radii come first and have as many samples as alone; those of smaller ones fill the
+/// remaining surface. With [`Classes::of_radii`] and factor 1, own radii 1, 1/2, 1/4 give about 100, 82 and 82 per cent
+/// of the samples that each class would have alone. Classes of equal radii are filled together and have equal shares:
+/// two have about 77 per cent each, eight 83; with factor 0.7 two have 95. So shares jump where radii become equal: 1.1
+/// and 1 give 100 and 68 per cent, 1 and 1 give 77 each. Cross radii above an own radius can starve the smaller class.
 ///
-/// `masks` has a bit for each class, the lowest for class 0, for each triangle of the mesh: a class has no samples, and needs
-/// no cover, on triangles where its bit is 0. Other bits are ignored. Where the mesh has a
+/// `masks` has a bit for each class, the lowest for class 0, for each triangle of the mesh: a class has no samples, and
+/// needs no cover, on triangles where its bit is 0. Other bits are ignored. Where the mesh has a
 /// [mask](Mesh::with_mask) of its own, both must allow a sample. `None`: all classes may stand everywhere.
 ///
-/// A set of classes is in no order, and always maximal. In the [`Report`] the radius is the smallest own radius, and `rho`,
-/// which is of one class, is 0.
+/// A set of classes has no order, and is always maximal. In the [`Report`] the radius is the smallest own radius, and
+/// `rho`, which is for one class, is 0.
 ///
-/// Time: with Wei's radii and two classes about twice that of [`sample`](super::sample) for each sample, with eight four
-/// times; all triangles are visited once for each class.
+/// Time: with Wei's radii and two classes about twice that of [`sample`](super::sample) per sample, with eight classes
+/// four times; all triangles are visited once per class.
 ///
 /// # Errors
-/// [`Error::InvalidArgument`] for `radii` above 0 below 64 float spacings at the
-/// largest coordinate of the mesh, `masks` that are not one for each triangle (`mask_count`), a `cosine` outside -1 to 1,
-/// and `given` samples out of range. [`Error::TooLarge`] where the radii would ask for more than 2^32 samples, or more than
-/// memory holds. [`Error::Cancelled`] by the progress callback: nothing is returned.
+/// [`Error::InvalidArgument`] for `radii` above 0 below 64 float spacings at the largest coordinate of the mesh,
+/// `masks` that are not one for each triangle (`mask_count`), a `cosine` outside -1 to 1, and `given` samples out of
+/// range. [`Error::TooLarge`] if the radii would require more than 2^32 samples, or more than memory holds.
+/// [`Error::Cancelled`] by the progress callback: nothing is returned.
 pub fn sample_classes(
     context: &Context,
     mesh: &Arc<Mesh>,
@@ -94,7 +94,7 @@ pub fn sample_classes(
         }
         Ok((samples, darts))
     })?;
-    // Stable: within a class they stay in the order of the fill.
+    // Stable: within a class they keep the order of the fill.
     samples.sort_by_key(|sample| sample.class);
     let report = Report {
         uncovered_after: Some(0.0),
@@ -106,8 +106,8 @@ pub fn sample_classes(
     Ok((set, report))
 }
 
-/// For each class the given samples with their clearances from it, of which each sample has a row; without clearances
-/// they are the class's own radius.
+/// For each class, the given samples with their clearances from it, of which each sample has a row; without clearances,
+/// with the class's own radius.
 fn obstacles_of_classes(mesh: &Mesh, given: Given<3>, classes: &Classes) -> Result<Vec<Obstacles>> {
     given.check_classes(classes.count())?;
     let of_class = |class: usize| {
@@ -128,7 +128,7 @@ fn check_masks(mesh: &Mesh, masks: Option<&[u32]>) -> Result<()> {
     }
 }
 
-/// Refuses radii that floats cannot carry.
+/// Refuses radii too small for the precision of floats.
 fn check_radii(mesh: &Mesh, classes: &Classes) -> Result<()> {
     let least = classes.radii().iter().copied().filter(|&radius| radius > 0.0).fold(f64::INFINITY, f64::min);
     check_resolution("radii", least, mesh.float_spacing(), "the largest coordinate of the mesh")

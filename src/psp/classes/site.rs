@@ -1,10 +1,10 @@
 //! A surface on which the classes of a group grow together.
 //!
-//! It is the surface in as many copies as there are classes: a part of it is open to one class and not to another. Each
-//! layer is a surface of one radius by itself, and a dart or a part of the surface is tested in those of its class.
+//! There is a copy of the surface for each class: a part can be open to one class and covered for another. Each layer
+//! by itself is a surface of one radius, and a dart or a part of the surface is tested in the layers of its class.
 //!
 //! Darts for all classes of the group are thrown at one density and in random order, the first ones and those of each
-//! round. So none of them has an advantage.
+//! round, so that no class has an advantage.
 
 use crate::error::Result;
 use crate::job::Job;
@@ -24,11 +24,11 @@ use crate::psp::obstacles::Obstacles;
 use crate::psp::samples::{RADIUS_SLACK, Sample, SampleSet};
 use crate::rng::{Draw, Rng};
 
-/// Cubes are so large that no radius is above so many of their own: half of the twelve between what is accepted in one
-/// and in the next of its colour.
+/// Cubes are so large that no radius is above this multiple of their own: half of the twelve between the samples
+/// accepted in one cube and in the next of its colour.
 const LARGEST: f64 = 6.0;
 
-/// The surface, and which classes may stand where.
+/// The surface, and the classes allowed on each triangle.
 #[derive(Clone, Copy)]
 pub struct Places<'a> {
     pub mesh: &'a Mesh,
@@ -198,7 +198,7 @@ impl<'a> ClassGround<'a> {
         all
     }
 
-    /// The layers of a class but its own.
+    /// The layers of a class except its own.
     fn others(&self, class: u8) -> impl Iterator<Item = &UniformGround<'a>> {
         self.layers.of_class[usize::from(class)][1..].iter().map(|&layer| &self.grounds[layer])
     }
@@ -225,7 +225,7 @@ impl<'a> ClassGround<'a> {
         let own = self.own(class).radius();
         for ground in self.others(class) {
             let longest = (f64::from(patch.longest) * own / ground.radius()) as f32;
-            // No ball holds what is longer than its diameter, and the longest edge of a sixteenth is a quarter.
+            // No ball contains a part longer than its diameter, and the longest edge of a sixteenth is a quarter.
             if open != 0 && longest <= 8.01 {
                 open = ground.open_sixteenths(&Patch { open, longest, ..*patch });
             }
@@ -234,18 +234,18 @@ impl<'a> ClassGround<'a> {
     }
 }
 
-/// A whole as the layers know it.
+/// A whole without its class, as the layers take it.
 fn plain(&Whole { triangle, area, longest, .. }: &Whole<u8>) -> Whole {
     Whole { triangle, area, longest, local: () }
 }
 
-/// A patch as the layers know it.
+/// A patch without its class, as the layers take it.
 fn plain_patch(&Patch { fragment, open, area, longest, .. }: &Patch<u8>) -> Patch {
     Patch { fragment, open, area, longest, local: () }
 }
 
 impl Ground for ClassGround<'_> {
-    /// The class, all of which in a group have the same own radius.
+    /// The class; all classes of a group have the same own radius.
     type Local = u8;
     type Dart = Sample;
     type Sample = Sample;

@@ -1,11 +1,10 @@
-//! The surface in blocks, the cubes of `cubes.rs`: the triangles that each of them has to fill, and where darts fall on
-//! them.
+//! The surface in blocks, the cubes of `psp/cubes.rs`: the triangles that each has to fill, and random points on them.
 //!
-//! A triangle belongs to the cube of its first corner. Triangles longer than a quarter of a cube are cut into pieces
-//! before, which belong to the cubes of their first corners. So nothing reaches far out of its cube, and cubes of one
+//! A triangle belongs to the cube of its first corner. Triangles longer than a quarter of a cube are first cut into
+//! pieces, which belong to the cubes of their first corners. So nothing extends far out of its cube, and cubes of one
 //! colour are independent.
 //!
-//! Most triangles are not read: where the ball around a cluster lies in a cube, so does the cluster.
+//! Most triangles are not read: if the ball around a cluster lies in a cube, so does the cluster.
 
 use std::ops::Range;
 
@@ -26,10 +25,10 @@ use crate::rng::Rng;
 /// Clusters per task.
 const CHUNK: usize = 1 << 12;
 
-/// Triangles that are longer, in radii, are cut. A sample then lies no farther than this from its cube.
+/// The length in radii above which triangles are cut. A sample then lies no farther than this from its cube.
 const LONGEST: f64 = SIDE as f64 / 4.0;
 
-/// Of balls that are no larger than this, in radii, most lie in one cube.
+/// The size of balls, in radii, up to which most lie in one cube.
 const LARGEST_BALL: f64 = SIDE as f64 / 8.0;
 
 /// The surface by cubes.
@@ -76,7 +75,7 @@ impl<'a> Blocks<'a> {
                 parts.push((cube, (chunk, number)));
             }
         }
-        // Balls reach beyond what is in them, and maybe beyond what a float can be.
+        // Balls extend beyond their clusters, and may overflow to infinity.
         let bounds = Extent::of(mesh.bounds().into());
         extents.iter_mut().for_each(|extent| extent.clip(&bounds));
         let cubes = numbers.cubes;
@@ -134,13 +133,13 @@ impl Chunk {
             let is_in_one = low == high && 2.0 * f64::from(ball.radius) <= longest;
             is_in_one.then(|| (low, Extent::of(ends.map(|end| end.map(|x| x as f32)))))
         };
-        // Without area, no cube is needed.
+        // Clusters without area need no cube.
         for cluster in clusters.filter(|&cluster| measures.areas[cluster] > 0.0) {
             if let Some((cube, extent)) = balls.and_then(|balls| in_one_cube(&balls[cluster])) {
                 in_one.push((place(cube, &extent), cluster as u32));
                 continue;
             }
-            // Where nothing is cut no size is needed: triangles without area are left out later.
+            // If nothing is cut, no size is needed: triangles without area are dropped later.
             let (areas, lengths) =
                 if cuts { triangles.measure(mesh, cluster) } else { ([1.0; CLUSTER], [0.0; CLUSTER]) };
             for (lane, index) in triangles.cluster(cluster).enumerate().filter(|&(lane, _)| areas[lane] > 0.0) {
@@ -169,7 +168,7 @@ impl Chunk {
     }
 }
 
-/// Triangles, and fragments of others that are too long, whose numbers follow.
+/// Triangles, and fragments of others that are too long, which are numbered after them.
 #[derive(Default)]
 pub struct Items {
     pub triangles: Vec<u32>,
@@ -178,7 +177,7 @@ pub struct Items {
     pub pieces: Vec<Fragment>,
 }
 
-/// Triangles that follow each other and lie together.
+/// Consecutive triangles that lie close together.
 pub struct Cluster {
     /// Their indices.
     pub indices: Range<u32>,
@@ -187,7 +186,7 @@ pub struct Cluster {
 }
 
 impl Items {
-    /// The indices of the triangles, but for those of clusters whose ball is covered.
+    /// The indices of the triangles, except those of clusters whose ball is covered.
     pub fn indices_but(&self, is_covered: impl Fn(&Ball) -> bool) -> impl Iterator<Item = usize> {
         let (mut next, end) = (0, self.triangles.len() as u32);
         let covered = self
@@ -199,7 +198,7 @@ impl Items {
         covered.chain(std::iter::once(end..end)).flat_map(between).map(|index| index as usize)
     }
 
-    /// The areas of all.
+    /// The areas of all items.
     pub fn row<'a>(&'a self, mesh: &'a Mesh) -> ItemRow<'a> {
         let (mut areas, mut entries, mut next) = (Vec::new(), Vec::new(), 0);
         let mut add = |single: Range<u32>, cluster: Option<(u32, &Cluster)>| {
@@ -235,13 +234,14 @@ impl Items {
     }
 }
 
-/// The areas of items in a row. A cluster has one area until a dart falls on it: many stay dry where triangles are small.
+/// The areas of items in a row. A cluster has one area until a dart falls on it: where triangles are small, many
+/// clusters are never hit.
 pub struct ItemRow<'a> {
     items: &'a Items,
     mesh: &'a Mesh,
     row: Weights,
     entries: Vec<Entry>,
-    /// For each cluster on which a dart fell, the sums of its areas up to each of them.
+    /// For each cluster that a dart has hit, the running sums of its areas.
     ends: Vec<[f64; CLUSTER]>,
 }
 
@@ -257,7 +257,7 @@ impl ItemRow<'_> {
         self.row.total()
     }
 
-    /// A random point of any of it.
+    /// A random point of all items.
     pub fn point(&mut self, rng: &mut Rng) -> Point {
         let (number, place) = self.row.pick_within(rng);
         let item = match self.entries[number as usize] {
@@ -279,7 +279,7 @@ impl ItemRow<'_> {
                 total
             });
         }
-        // The place may be rounded beyond the last area.
+        // Rounding may take the place beyond the last area.
         let place = place.min(ends[CLUSTER - 1].next_down());
         first + ends.iter().take_while(|&&end| end <= place).count()
     }
@@ -305,8 +305,8 @@ pub mod tests {
         (positions.collect(), triangles.collect())
     }
 
-    /// In rows and in random order, some without area, masked and not. In rows most triangles come in clusters, in random
-    /// order none.
+    /// Triangles in rows and in random order, some without area, masked and not. In rows most triangles form clusters,
+    /// in random order none.
     #[test]
     fn cubes_have_the_triangles_that_begin_in_them() {
         let (positions, ordered) = rows();
@@ -356,7 +356,8 @@ pub mod tests {
         }
     }
 
-    /// Forty triangles in two clusters, one of them short, and single ones before, between and behind them; some have no area.
+    /// Forty triangles in two clusters, one of them short, and single ones before, between and after them; some have no
+    /// area.
     fn items() -> (Mesh, Items) {
         let size = |i: u32| [1.0, 0.0, 7.0, 1e-3][i as usize % 4];
         let corners = |i: u32| [[0.0, 0.0, i as f32], [size(i), 0.0, i as f32], [0.0, size(i), i as f32]];

@@ -1,4 +1,4 @@
-//! What a grid knows of its cells: in a table, where these may be anywhere, or in rows, where they are those of a box.
+//! The values of a grid's cells: in a table, where these may be anywhere, or in rows, where they are those of a box.
 //!
 //! A cell of a box is found without a search, and neighbours lie side by side. A box of few cells is smaller than the
 //! table.
@@ -7,14 +7,14 @@ use crate::psp::fill::extent::Extent;
 use crate::psp::fill::space::{KEY, Space};
 use crate::psp::fill::table::Table;
 
-/// A box has at most so many cells. That of a cube of `cubes.rs` has 16 along an axis, or 32 where triangles are long.
+/// The largest number of cells of a box. A cube of `psp/cubes.rs` has 16 along an axis, or 32 where triangles are long.
 const MOST: u32 = 1 << 15;
 
-/// Something for each cell.
+/// A value for each cell.
 pub struct Cells<T> {
     /// The first and the last cell along each axis.
     range: [[u32; 3]; 2],
-    /// How far the numbers of a cell along the second and the third axis are shifted in its number.
+    /// The shifts of a cell's numbers along the second and the third axis in its number.
     shifts: [u32; 2],
     slots: Slots<T>,
 }
@@ -25,12 +25,13 @@ enum Slots<T> {
 }
 
 impl<T: Copy + Default> Cells<T> {
-    /// Of all cells.
+    /// The values of all cells.
     pub fn anywhere() -> Self {
         Self { range: [[0; 3], [u32::MAX; 3]], shifts: KEY, slots: Slots::Anywhere(Table::new()) }
     }
 
-    /// Of those that something lies in, and one more on each side, where samples of different radii see it from.
+    /// The values of the cells in an extent, and of one more on each side, which searches for samples of different
+    /// radii reach.
     pub fn around(extent: &Extent, space: &Space) -> Self {
         let [low, high] = extent.corners().map(|corner| space.cell(space.place(corner)));
         let range = [low.map(|number| number - 1), high.map(|number| number + 1)];
@@ -43,20 +44,20 @@ impl<T: Copy + Default> Cells<T> {
         Self { range, shifts, slots: Slots::Box(vec![T::default(); 1 << all]) }
     }
 
-    /// The part of a range of cells that is known here.
+    /// The part of a range of cells that has values here.
     #[inline(always)]
     pub fn clip(&self, [low, high]: [[u32; 3]; 2]) -> [[u32; 3]; 2] {
         let [first, last] = self.range;
         [[0, 1, 2].map(|axis| low[axis].max(first[axis])), [0, 1, 2].map(|axis| high[axis].min(last[axis]))]
     }
 
-    /// The first cell along each axis, from which the numbers count, and their shifts.
+    /// The first cell along each axis, at which the numbers begin, and their shifts.
     #[inline(always)]
     pub fn numbering(&self) -> ([u32; 3], [u32; 2]) {
         (self.range[0], self.shifts)
     }
 
-    /// The number of a cell among those that are known.
+    /// The number of a cell among those with values.
     #[inline(always)]
     pub fn number(&self, [x, y, z]: [u32; 3]) -> u64 {
         let ([first, _], [row, layer]) = (self.range, self.shifts);
@@ -64,7 +65,7 @@ impl<T: Copy + Default> Cells<T> {
         u64::from(x) | u64::from(y) << row | u64::from(z) << layer
     }
 
-    /// What there is for the cell with a number.
+    /// The value of the cell with a number.
     #[inline(always)]
     pub fn get(&self, number: u64) -> T {
         match &self.slots {
@@ -73,7 +74,7 @@ impl<T: Copy + Default> Cells<T> {
         }
     }
 
-    /// What there is for a cell, to be changed.
+    /// The value of a cell, to be changed.
     #[inline(always)]
     pub fn entry(&mut self, cell: [u32; 3]) -> &mut T {
         let number = self.number(cell);

@@ -1,8 +1,8 @@
-//! Darts of even density on a row of areas, however the surface is cut into them.
+//! Darts of uniform density on a row of areas, however the surface is cut into them.
 //!
-//! A row that is known as a whole takes darts in any number, one by one
-//! ([`Weights`](crate::index::Weights)). Darts on areas that are passed once are
-//! a Poisson process ([`PoissonProcess`]): from one dart to the next the area passed is Exp(1) over the density.
+//! A row that is known as a whole receives any number of darts, one by one ([`Weights`](crate::index::Weights)). Darts
+//! on areas that are passed once are a Poisson process ([`PoissonProcess`]): from one dart to the next the area passed
+//! is Exp(1) over the density.
 
 use crate::math::log;
 use crate::rng::Rng;
@@ -11,7 +11,7 @@ use crate::rng::Rng;
 pub struct PoissonProcess<'a> {
     rng: &'a mut Rng,
     per_area: f64,
-    /// The area left before the next dart falls.
+    /// The remaining area before the next dart falls.
     left: f64,
 }
 

@@ -1,4 +1,4 @@
-//! The box that something lies in.
+//! The bounding box of points.
 
 /// The lowest and the highest coordinates of points.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -8,10 +8,10 @@ pub struct Extent {
 }
 
 impl Extent {
-    /// That of no point.
+    /// The extent of no points.
     pub const EMPTY: Self = Self { low: [f32::INFINITY; 3], high: [f32::NEG_INFINITY; 3] };
 
-    /// That of some points.
+    /// The extent of some points.
     #[inline(always)]
     pub fn of<const N: usize>(points: [[f32; 3]; N]) -> Self {
         let mut extent = Self::EMPTY;
@@ -25,17 +25,17 @@ impl Extent {
         self.join(&Self { low: point, high: point });
     }
 
-    /// Adds all that is in another one.
+    /// Extends it to include another extent.
     #[inline(always)]
     pub fn join(&mut self, other: &Self) {
         for axis in 0..3 {
-            // No coordinate is NaN, so that one instruction will do, unlike for `f32::min`.
+            // No coordinate is NaN, so that one instruction suffices, unlike for `f32::min`.
             self.low[axis] = if other.low[axis] < self.low[axis] { other.low[axis] } else { self.low[axis] };
             self.high[axis] = if other.high[axis] > self.high[axis] { other.high[axis] } else { self.high[axis] };
         }
     }
 
-    /// Leaves out what is beyond another one.
+    /// Cuts off the part beyond another extent.
     pub fn clip(&mut self, other: &Self) {
         for axis in 0..3 {
             self.low[axis] = self.low[axis].max(other.low[axis]);
@@ -48,8 +48,8 @@ impl Extent {
         [self.low, self.high]
     }
 
-    /// Whether a sample of this radius can reach anything in it: what cannot is left out, but for a margin that exceeds
-    /// the rounding of the coordinates and of the reach.
+    /// True if a sample of this radius may reach anything in it: false only beyond a margin that exceeds the rounding
+    /// of the coordinates and of the reach.
     #[inline]
     pub fn is_in_reach(&self, sample: [f32; 3], radius: f64) -> bool {
         let reach = (1.1 * radius) as f32;

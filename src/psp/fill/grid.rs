@@ -1,8 +1,8 @@
-//! The neighbour search of a fill: a hashed grid of cells of two radii, where each cell lists, on pages of sixteen,
-//! every sample whose ball touches it. So a test of a place, and of a part of the surface that lies in one cell, reads
+//! The neighbour search of a fill: a hash grid with cells of two radii, where each cell lists, on pages of sixteen,
+//! every sample whose ball touches it. So a test of a place, or of a part of the surface that lies in one cell, reads
 //! one page.
 //!
-//! Where normals matter they are kept beside the pages, and looked at once a sample is near enough to count.
+//! Normals, where they matter, are kept beside the pages and tested once a sample is near enough to count.
 
 use glam::DVec3;
 
@@ -14,7 +14,7 @@ use crate::psp::fill::space::{MASK, Place, ROUNDER, Space};
 use crate::psp::sixteenths::{CORNERS, CORNERS_OF_SIXTEENTHS, Cover, PIERCING, PIERCING_BY_EDGE};
 use crate::simd::{HALF, Lanes, Level, Work, run};
 
-/// Room for so many pages is made at first: a cube of `cubes.rs` hardly has more.
+/// The number of pages that memory is reserved for at first: a cube of `psp/cubes.rs` hardly has more.
 const PAGES: usize = 1 << 9;
 
 /// Samples by the cells that their balls touch.
@@ -24,14 +24,14 @@ pub struct Grid {
     pub cells: Cells<Cell>,
     /// The first page is empty: that of all cells without samples.
     pub pages: Vec<Page>,
-    /// For each page, the one of its cell that was full before.
+    /// For each page, the page of its cell that was filled before it.
     pub earlier: Vec<u32>,
     facing: Facing,
-    /// Where normals matter, those of the samples on each page.
+    /// The normals of the samples on each page, where normals matter.
     normals: Vec<[[f32; 3]; LANES]>,
 }
 
-/// The last page of a cell, and how many samples all of its pages list.
+/// The last page of a cell, and the number of samples that all of its pages list.
 #[derive(Clone, Copy, Default)]
 pub struct Cell {
     pub page: u32,
@@ -70,7 +70,8 @@ impl Grid {
         });
     }
 
-    /// Whether a place on a triangle with this normal is closer to a sample than the radius: in `f64`, without tolerance.
+    /// True if a place on a triangle with this normal is closer to a sample than the radius: in `f64`, without
+    /// tolerance.
     pub fn rejects(&self, place: Place, normal: [f32; 3]) -> bool {
         self.any_page(self.space.cell(place), |number| {
             let page = &self.pages[number];
@@ -86,21 +87,21 @@ impl Grid {
         })
     }
 
-    /// Whether a place is seen, on one page of its cell, to be no farther from a sample than the square root of `limit`.
+    /// True if one page of its cell shows that a place is no farther from a sample than the square root of `limit`.
     #[inline(always)]
     pub fn is_seen_within(&self, place: Place, limit: f32) -> bool {
         let Cell { page, .. } = self.cells.get(self.cells.number(self.space.cell(place)));
         run(self.level, Near { page: &self.pages[page as usize], place, limit }) != 0
     }
 
-    /// Whether a place is seen to be no farther from a sample than the square root of `limit`.
+    /// True if a place is found to be no farther from a sample than the square root of `limit`.
     pub fn is_within(&self, place: Place, limit: f32) -> bool {
         self.any_page(self.space.cell(place), |number| {
             run(self.level, Near { page: &self.pages[number], place, limit }) != 0
         })
     }
 
-    /// The distance of a place on a triangle with this normal to the nearest sample, or `reach` where none is nearer: at
+    /// The distance of a place on a triangle with this normal to the nearest sample, or `reach` if none is nearer: at
     /// most twice the radius, in the unit of places.
     pub fn distance(&self, place: Place, normal: [f32; 3], reach: f64) -> f64 {
         let mut least = reach * reach;
@@ -121,18 +122,19 @@ impl Grid {
         least.sqrt()
     }
 
-    /// Which of some sixteenths of a fragment, given by its corners in the unit of the space and the normal of its
-    /// triangle, no single sample certainly covers.
+    /// Those of some sixteenths of a fragment, given by its corners in the unit of the space and the normal of its
+    /// triangle, that no single sample certainly covers.
     #[inline(always)]
     pub fn open_sixteenths(&self, corners: &[DVec3; 3], longest: f64, normal: [f32; 3], open: u16) -> u16 {
-        // What covers a sixteenth is no farther from its centre than the radius, and this no farther from the centre of
-        // all than three quarters of the way to a corner, which is two thirds of the longest edge.
+        // A sample that covers a sixteenth is no farther from its centre than the radius, and this is no farther from
+        // the centre of the fragment than three quarters of the way to a corner, which is two thirds of the longest
+        // edge.
         let reach = (self.space.radius() + 0.5 * longest) as f32;
         run(self.level, OpenSixteenths { grid: self, corners, reach, normal: &normal, open })
     }
 
-    /// Which triangles of a group, with these normals, no single sample certainly covers: a bit for each. Their pages are
-    /// looked up here.
+    /// The triangles of a group, with these normals, that no single sample certainly covers: a bit for each. Their
+    /// pages are looked up here.
     pub fn open_triangles(&self, group: &mut Group, count: usize, normal: impl Fn(usize) -> [f32; 3]) -> u64 {
         let (mut numbers, mut chained) = ([0; GROUP], 0);
         for (lane, number) in numbers.iter_mut().enumerate() {
@@ -148,7 +150,7 @@ impl Grid {
             all & !run(self.level, CoveredTriangles { group, pages: &self.pages, limit: self.space.surely_within });
         let mut rest = open & chained;
         if self.facing.asks_normals() {
-            // What may be covered by a sample that faces another way.
+            // Triangles that may be covered by a sample that faces another way.
             rest |= all & !open;
             open = all;
         }
@@ -162,7 +164,7 @@ impl Grid {
         open
     }
 
-    /// Whether one sample certainly covers a triangle.
+    /// True if one sample certainly covers a triangle.
     fn covers(&self, corners: &[Place; 3], normal: [f32; 3]) -> bool {
         self.any_page(self.space.cell(corners[0]), |number| {
             let (page, limit) = (&self.pages[number], self.space.surely_within);
@@ -171,13 +173,13 @@ impl Grid {
         })
     }
 
-    /// Whether a sample matters to a normal.
+    /// True if a sample matters to a normal.
     #[inline(always)]
     fn sees(&self, page: usize, lane: usize, normal: [f32; 3]) -> bool {
         !self.facing.asks_normals() || self.facing.sees(self.normals[page][lane], normal)
     }
 
-    /// Which samples of a page matter to a normal: a bit for each.
+    /// The samples of a page that matter to a normal: a bit for each.
     #[inline(always)]
     pub fn seen(&self, page: usize, normal: &[f32; 3]) -> u16 {
         if self.facing.asks_normals() { self.seen_from(page, *normal) } else { u16::MAX }
@@ -188,7 +190,7 @@ impl Grid {
         (0..LANES).fold(0, |seen, lane| seen | u16::from(self.sees(page, lane, normal)) << lane)
     }
 
-    /// Whether the test holds for a page of a cell.
+    /// True if the test holds for a page of a cell.
     #[inline(always)]
     fn any_page(&self, cell: [u32; 3], mut test: impl FnMut(usize) -> bool) -> bool {
         let Cell { mut page, count } = self.cells.get(self.cells.number(cell));
@@ -202,11 +204,11 @@ impl Grid {
     }
 }
 
-/// The sixteenths of a fragment, of some `open` ones, that no single sample certainly covers. Samples beyond `reach` of its
-/// centre cover nothing.
+/// The sixteenths of a fragment, among the `open` ones, that no single sample certainly covers. Samples beyond `reach`
+/// of its centre cover none.
 ///
-/// The cells and the tests of their pages are one function, in which the corners stay in registers: a load across two fresh
-/// stores waits for both.
+/// The cells and the tests of their pages are one function, in which the corners stay in registers: a load across two
+/// fresh stores waits for both.
 struct OpenSixteenths<'a> {
     grid: &'a Grid,
     corners: &'a [DVec3; 3],
@@ -231,8 +233,9 @@ impl Work for OpenSixteenths<'_> {
             [along(lanes, [s, t], corners[0]), along(lanes, [s, t], corners[1]), along(lanes, [s, t], corners[2])];
         let origin = [lanes.splat(part.origin[0]), lanes.splat(part.origin[1]), lanes.splat(part.origin[2])];
         let (limit, reach2) = (lanes.splat(grid.space.surely_within), lanes.splat(part.reach2));
-        // What is covered: where lanes can be permuted by the squared distance of each sixteenth's farthest corner from a
-        // sample, least of all; elsewhere by bits of corners. By bits the whole fill takes 5 % longer in AVX-512.
+        // Coverage: if lanes can be permuted, by the squared distance of each sixteenth's farthest corner from a
+        // sample, the least over all samples; otherwise by bits of corners. By bits the whole fill takes 5 % longer in
+        // AVX-512.
         let mut least = lanes.splat(f32::INFINITY);
         let (mut cover, mut unseen) = (Cover::default(), u8::MAX >> (HALF - PIERCING.len()));
         while unseen != 0 {
@@ -274,7 +277,7 @@ impl Work for OpenSixteenths<'_> {
     }
 }
 
-/// The sixteenths that are covered, by either account.
+/// The sixteenths that are covered, by either method.
 #[inline(always)]
 fn covered<L: Lanes>(lanes: L, least: L::Floats, limit: L::Floats, cover: &Cover) -> u16 {
     if L::PERMUTES { lanes.bits(lanes.less(least, limit)) as u16 } else { cover.sixteenths() }
@@ -287,7 +290,7 @@ fn along<L: Lanes>(lanes: L, [s, t]: [L::Floats; 2], [corner, e, f]: [f32; 3]) -
     lanes.add(lanes.splat(corner), offset)
 }
 
-/// The numbers of the cells of a fragment's piercing corners: what [`Space::cell`] and [`Cells::number`] say.
+/// The numbers of the cells of a fragment's piercing corners: the same as by [`Space::cell`] and [`Cells::number`].
 #[inline(always)]
 fn piercing_cells<L: Lanes>(lanes: L, grid: &Grid, &[a, b, c]: &[DVec3; 3]) -> L::Longs {
     let (space, (first, shifts)) = (&grid.space, grid.cells.numbering());
@@ -309,7 +312,7 @@ fn piercing_cells<L: Lanes>(lanes: L, grid: &Grid, &[a, b, c]: &[DVec3; 3]) -> L
     lanes.or_longs(cells[0], lanes.or_longs(y, z))
 }
 
-/// Whether the test holds for a cell whose pages have to be read for the sixteenths of a fragment: samples that cover
+/// True if the test holds for a cell whose pages have to be read for the sixteenths of a fragment: samples that cover
 /// one are on the pages of each of its corners.
 #[inline(always)]
 pub fn any_cell(space: &Space, [a, b, c]: [DVec3; 3], mut test: impl FnMut([u32; 3]) -> bool) -> bool {
@@ -346,7 +349,7 @@ mod tests {
     use crate::psp::fragment::Fragment;
     use crate::rng::{Draw, Rng};
 
-    /// Where the tests look: near the origin, and where floats have hardly more than 64 spacings for a radius.
+    /// The places of the tests: near the origin, and where a radius has hardly more than 64 float spacings.
     const PLACES: [(f64, f64); 4] = [(8.0, 1.0), (8.0, 7.0), (8e30, 1e30), (2e5, 1.1)];
 
     fn random_point(rng: &mut Rng, centre: f64, size: f64) -> [f32; 3] {
@@ -393,7 +396,7 @@ mod tests {
             let cells = if round % 2 == 0 { Cells::anywhere() } else { Cells::around(&extent, &space) };
             let mut grid = Grid::new(space, cells, Facing::ANY);
             let samples: Vec<_> = (0..30).map(|_| random_point(&mut rng, centre, 1.4 * radius)).collect();
-            // A radius far beyond the mesh stands for less.
+            // A radius far larger than the mesh is replaced by a smaller one.
             let radius = grid.space.radius() / f64::from(grid.space.scale());
             samples.iter().for_each(|&sample| grid.add(grid.space.place(sample), NO_NORMAL));
             let (whole, mut group) = (Fragment::whole(0), Group::EMPTY);

@@ -1,11 +1,12 @@
-//! Measures of a mesh that a fill needs whatever the radius: areas, lengths, and balls around clusters of triangles.
+//! Measures of a mesh that a fill needs for any radius: areas, lengths, and balls around clusters of triangles.
 //!
-//! A *cluster* is a run of sixteen triangles that follow each other in the mesh. Where one sample covers the ball around
-//! a cluster, a pass need not read its triangles, and where the ball lies in a cube, all of them do.
+//! A *cluster* is a run of sixteen consecutive triangles of the mesh. If one sample covers the ball around a cluster, a
+//! pass need not read its triangles, and if the ball lies in a cube, all of them do.
 //!
-//! Balls are kept with the mesh, if triangles that follow each other lie together. Sorting triangles into cubes gains more
-//! by them than they cost, and so does the second pass over a mesh that is filled in one piece; the first pass alone would
-//! not. The result of a pass is the same with them and without; cubes use them by mesh and radius alone, whatever is kept.
+//! Balls are kept with the mesh, if consecutive triangles lie close together. Sorting triangles into cubes gains more
+//! by them than they cost, and so does the second pass over a mesh that is filled in one piece; the first pass alone
+//! would not. The result of a pass is the same with and without them; whether cubes use them depends on mesh and radius
+//! alone, not on those that are kept.
 
 use std::ops::Range;
 use std::sync::OnceLock;
@@ -20,12 +21,12 @@ use crate::mesh::{Mesh, exact};
 use crate::points::MAXIMAL_DENSITY;
 use crate::simd::{Lanes, Level, Work, run};
 
-/// Triangles in a cluster. Of smaller ones more are passed by the first darts; larger ones need less memory.
+/// Triangles in a cluster. The first darts pass more clusters if these are smaller; larger ones need less memory.
 pub const CLUSTER: usize = 16;
 
-/// The clusters for each expected sample that are worth balls around them.
+/// The number of clusters per expected sample from which balls around them pay off.
 const CLUSTERS_PER_SAMPLE: f64 = 2.0;
-/// Balls are made if most are no larger than this part of the radius.
+/// Balls are made if most are no larger than this share of the radius.
 const LARGEST: f64 = 0.5;
 
 /// The areas of a cluster of triangles, and the squares of their longest edges.
@@ -34,9 +35,9 @@ pub type Sizes = ([f64; CLUSTER], [f64; CLUSTER]);
 /// Some triangles of a mesh.
 #[derive(Clone, Copy)]
 pub enum Triangles<'a> {
-    /// The first so many: all of the mesh.
+    /// All triangles of the mesh, by their number.
     All(usize),
-    /// Those listed.
+    /// The listed triangles.
     Listed(&'a [u32]),
 }
 
@@ -72,13 +73,13 @@ impl Triangles<'_> {
         clusters.start * CLUSTER..(clusters.end * CLUSTER).min(self.len())
     }
 
-    /// The areas of a cluster, and the squares of the longest edges; zero behind its end.
+    /// The areas of a cluster, and the squares of the longest edges; zero after its end.
     pub fn measure(self, mesh: &Mesh, cluster: usize) -> Sizes {
         run(Level::widest(), Measure { triangles: self, mesh, cluster })
     }
 }
 
-/// [`Triangles::measure`]: loops over lanes, of which compilers make vectors.
+/// [`Triangles::measure`]: loops over lanes, which compilers vectorize.
 struct Measure<'a> {
     triangles: Triangles<'a>,
     mesh: &'a Mesh,
@@ -112,13 +113,13 @@ impl Work for Measure<'_> {
     }
 }
 
-/// The measures of a mesh, whatever the radius: one pass over the triangles.
+/// The measures of a mesh, for any radius: one pass over the triangles.
 pub struct Measures {
-    /// Those that the mask does not leave out, where there is a mask.
+    /// The triangles that the mask includes, if there is a mask.
     sampled: Option<Vec<u32>>,
     /// The number of triangles.
     count: usize,
-    /// The area of each cluster of them.
+    /// The area of each cluster of triangles.
     pub areas: Vec<f64>,
     /// The number of triangles with a longest edge up to a length, and above the length before it.
     lengths: Vec<(f64, u32)>,
@@ -131,7 +132,7 @@ impl Measures {
         let sampled = (count < mesh.triangles().len()).then(|| mesh.sampled_triangles().collect());
         let areas = Vec::with_capacity(count.div_ceil(CLUSTER));
         let mut measures = Self { sampled, count, areas, lengths: Vec::new(), balls: Balls::default() };
-        // By the exponents of their squares, half an octave each.
+        // Sorted by the exponents of their squares, half an octave each.
         let mut counts = vec![0u32; 1 << 11];
         for cluster in 0..measures.triangles().clusters() {
             let (areas, longest) = measures.triangles().measure(mesh, cluster);
@@ -149,12 +150,12 @@ impl Measures {
         self.sampled.as_deref().map_or(Triangles::All(self.count), Triangles::Listed)
     }
 
-    /// A length that no edge exceeds: at most sqrt(2) times too much.
+    /// An upper bound of all edge lengths: at most sqrt(2) times too large.
     pub fn longest(&self) -> f64 {
         self.lengths.last().map_or(0.0, |&(end, _)| end)
     }
 
-    /// A ball around each cluster, for a pass at a radius: where a few clusters fit into a sample's ball.
+    /// A ball around each cluster, for a pass at a radius, if a few clusters fit into a sample's ball.
     pub fn balls(&self, job: &Job, mesh: &Mesh, radius: f64) -> Result<Option<&[Ball]>> {
         let clusters_per_sample = self.areas.len() as f64 / self.expected_samples(mesh, radius);
         if clusters_per_sample < CLUSTERS_PER_SAMPLE {
@@ -163,7 +164,7 @@ impl Measures {
         self.balls.for_pass(job, mesh, self.triangles(), LARGEST * radius)
     }
 
-    /// A ball around each cluster, if most are no larger than this.
+    /// A ball around each cluster, if most are no larger than `largest`.
     pub fn balls_up_to(&self, job: &Job, mesh: &Mesh, largest: f64) -> Result<Option<&[Ball]>> {
         self.balls.get(job, mesh, self.triangles(), largest)
     }
@@ -173,18 +174,18 @@ impl Measures {
         DENSITY * mesh.area() / (radius * radius) + self.longer_than(radius) / radius
     }
 
-    /// The sum of the longest edges of all triangles that are longer than a length; at most sqrt(2) times too much.
+    /// The sum of the longest edges of all triangles that are longer than a length; at most sqrt(2) times too large.
     pub fn longer_than(&self, length: f64) -> f64 {
         self.lengths.iter().filter(|&&(end, _)| end > length).map(|&(end, count)| end * f64::from(count)).sum()
     }
 }
 
-/// Samples of a maximal set on an area of radius²: [`MAXIMAL_DENSITY`], rounded up.
+/// The number of samples of a maximal set on an area of radius²: [`MAXIMAL_DENSITY`], rounded up.
 pub const DENSITY: f64 = 0.7;
 const _: () = assert!(MAXIMAL_DENSITY < DENSITY && DENSITY < 1.01 * MAXIMAL_DENSITY);
 
-/// An upper estimate of the samples of a maximal set on a part of the surface: those of the area, and those along
-/// what is longer than the radius, since a needle has length and hardly any area.
+/// An upper estimate of the samples of a maximal set on a part of the surface: those of the area, and those along parts
+/// longer than the radius, since a needle has length and hardly any area.
 pub fn expected_samples_of(radius: f64, area: f64, longest: f64) -> f64 {
     DENSITY * area / (radius * radius) + if longest > radius { longest / radius } else { 0.0 }
 }
@@ -202,22 +203,22 @@ pub struct Ball {
     pub radius: f32,
 }
 
-/// The number of balls that decide if all are worth making.
+/// The number of balls that decide whether all are worth making.
 const PROBES: usize = 64;
 
 /// Clusters per task.
 const CHUNK: usize = 1 << 12;
 
-/// A ball around each cluster of the triangles of a mesh, once there are any.
+/// A ball around each cluster of the triangles of a mesh, once they have been made.
 #[derive(Default)]
 pub struct Balls {
-    /// True if there was a pass.
+    /// True if there has been a pass.
     is_second: AtomicBool,
     made: OnceLock<Vec<Ball>>,
 }
 
 impl Balls {
-    /// The balls, by clusters, for a pass over all triangles: none in the first one.
+    /// The balls, by cluster, for a pass over all triangles: none in the first one.
     pub fn for_pass(&self, job: &Job, mesh: &Mesh, triangles: Triangles, largest: f64) -> Result<Option<&[Ball]>> {
         match self.is_second.swap(true, Ordering::Relaxed) {
             true => self.get(job, mesh, triangles, largest),
@@ -225,8 +226,9 @@ impl Balls {
         }
     }
 
-    /// The balls, by clusters, if half of some, all over the mesh, have this radius at most. That depends on nothing else.
-    /// Threads that make them at the same time do not wait for each other, and those of the first one are kept.
+    /// The balls, by cluster, if half of a selection from all over the mesh have at most this radius. That depends on
+    /// nothing else. Threads that make them at the same time do not wait for each other, and those of the first one are
+    /// kept.
     pub fn get(&self, job: &Job, mesh: &Mesh, triangles: Triangles, largest: f64) -> Result<Option<&[Ball]>> {
         if !are_small(mesh, triangles, largest) {
             return Ok(None);
@@ -241,7 +243,7 @@ impl Balls {
     }
 }
 
-/// True if half of some balls, all over the mesh, have this radius at most.
+/// True if half of a selection of balls from all over the mesh have at most this radius.
 fn are_small(mesh: &Mesh, triangles: Triangles, largest: f64) -> bool {
     let probes = PROBES.min(triangles.clusters());
     let ball = |probe: usize| Ball::around(mesh, triangles, probe * triangles.clusters() / probes);
@@ -258,16 +260,16 @@ impl Ball {
             low = low.min(a.min(b.min(c)));
             high = high.max(a.max(b.max(c)));
         }
-        // Halved first: their sum may be no float.
+        // Halved first: their sum may overflow.
         let centre = (0.5 * low + 0.5 * high).to_array();
         let [from_low, from_high] = [low, high].map(|end| (exact(end.to_array()) - exact(centre)).abs());
-        // Beyond the roundings of squares, sums and root.
+        // Larger by more than the roundings of squares, sums and root.
         let radius = from_low.max(from_high).length() * (1.0 + 1e-15);
         Self { centre, radius: rounded_up(radius) }
     }
 
-    /// The lowest and the highest coordinates. What lies in the ball lies between them, however they are rounded, since
-    /// its coordinates are floats.
+    /// The lowest and the highest coordinates. All points of the ball that are floats lie between them, however they
+    /// are rounded.
     pub fn ends(&self) -> [[f64; 3]; 2] {
         [-1.0, 1.0].map(|side| self.centre.map(|x| f64::from(x) + side * f64::from(self.radius)))
     }
@@ -318,7 +320,7 @@ mod tests {
         }
     }
 
-    /// Of all sizes that floats have, and down to points.
+    /// Clusters of all sizes that floats have, down to points.
     #[test]
     fn each_ball_holds_its_cluster_and_not_much_more() {
         let mut rng = Rng::at(6, Draw::Probe, &[]);

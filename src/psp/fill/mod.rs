@@ -1,16 +1,16 @@
 //! Filling a surface until the set of samples on it is maximal (departs from the thesis, which has no such step).
 //!
-//! On an empty surface first darts are thrown, about six for each sample that will stand there. Then one pass over the
-//! triangles drops those that a single sample covers, which are nearly all of them, and rounds of darts close the parts
-//! that are open. A mesh thus costs two short passes, and all else is in proportion to the samples.
+//! On an empty surface first darts are thrown, about six for each sample that will lie there. Then one pass over the
+//! triangles drops those that a single sample covers, which are nearly all of them, and rounds of darts close the open
+//! parts. A mesh thus costs two short passes, and the rest is proportional to the samples.
 //!
-//! Where many samples are expected each cube of space does so for itself, in the colours of `cubes.rs`: its samples
+//! If many samples are expected, each cube of space is filled by itself, in the colours of `psp/cubes.rs`: its samples
 //! then stay in the cache, and threads share the cubes. Few samples are made in one piece, since sorting the triangles
 //! costs more.
 //!
-//! A [`Zone`] is filled by [`fill_zone`]: it is all of a surface or one cube of it. Surfaces whose radii are constant are
-//! [`Site`]s, filled in either way by [`fill`]: one radius (`uniform.rs`) or several classes (`psp/classes/`). Where the
-//! radius varies the zones are the cubes of octaves (`psp/adaptive/`).
+//! A [`Zone`] is filled by [`fill_zone`]: a whole surface or one cube of it. Surfaces whose radii are constant are
+//! [`Site`]s, filled in either way by [`fill`]: one radius (`uniform.rs`) or several classes (`psp/classes/`). Where
+//! the radius varies the zones are the cubes of octaves (`psp/adaptive/`).
 
 pub mod blocks;
 pub mod cells;
@@ -40,20 +40,20 @@ use crate::psp::fragment::Fragment;
 use crate::psp::samples::{Sample, SampleSet};
 use crate::rng::{Draw, Rng};
 
-/// Up to so many expected samples a surface is filled in one piece.
+/// The number of expected samples up to which a surface is filled in one piece.
 pub const ONE_PIECE: f64 = 25_000.0;
 
-/// Random points that tell how much of a surface is open; there are more where more is open.
+/// The number of random points that estimate the open share of a surface; more are used where more is open.
 const PROBES: usize = 1 << 10;
-/// Those that tell it of a cube.
+/// The number of random points that estimate the open share of a cube.
 pub const PROBES_IN_CUBE: usize = 1 << 6;
 
-/// Where samples are given, first darts are thrown if at least this share of a zone is open. If less is, most of them
+/// The least open share of a zone for which first darts are thrown if samples are given. If less is open, most of them
 /// would be wasted, and rounds on the open parts are faster.
 const FIRST_DARTS_FROM: f64 = 0.15;
 
-/// The first darts on an empty surface, for each squared radius: about six for each sample that will stand there. They
-/// are cheap, as nothing but the triangle that they fall on is known of them, and leave little of the surface open.
+/// The first darts on an empty surface, per squared radius: about six for each sample that will lie there. They are
+/// cheap, since only the triangle that they fall on is determined, and leave little of the surface open.
 pub const FIRST_DARTS: f64 = 4.2;
 
 /// Clusters of triangles per task.
@@ -84,7 +84,7 @@ pub struct FillOptions {
     pub measures: bool,
     /// The longest patches that darts are thrown on, in radii: at most [`PATCH`].
     pub patch: f32,
-    /// The largest rank of the samples that are added, if these get ranks (`levels.rs`).
+    /// The largest rank of the samples that are added, if they get ranks (`psp/levels.rs`).
     pub largest_rank: Option<f64>,
 }
 
@@ -94,7 +94,7 @@ impl FillOptions {
         Self { seed, throws_first: true, measures: true, patch: PATCH as f32, largest_rank: None }
     }
 
-    /// The options for a set with the samples that it has.
+    /// The options for a set that already has samples.
     pub fn around(samples: &SampleSet, seed: u64) -> Self {
         Self { throws_first: samples.len() == 0, ..Self::from_nothing(seed) }
     }
@@ -103,11 +103,11 @@ impl FillOptions {
 /// The bounds of the radius in a part of a zone, or the class of a dart.
 type Local<Z> = <<Z as Zone>::Ground as Ground>::Local;
 
-/// A part of a surface that is filled by itself: a cube, or all of it.
+/// A part of a surface that is filled by itself: a cube, or the whole surface.
 pub trait Zone {
     type Ground: Ground;
 
-    /// True if all of it is open, without a look at any point.
+    /// True if all of it is known to be open, without a test of any point.
     fn is_bare(&self) -> bool;
 
     /// The number of random points that measure its open share.
@@ -125,7 +125,7 @@ pub trait Zone {
     /// The parts that no single sample covers.
     fn open(&self, ground: &Self::Ground) -> Result<Open<Local<Self>>>;
 
-    /// The open area, where these parts may be open: by random points on them. 0 where it is never asked for.
+    /// The open area, given the parts that may be open: by random points on them. 0 if it is never needed.
     fn open_area(&self, _ground: &Self::Ground, _open: &Open<Local<Self>>, _rng: &mut Rng) -> f64 {
         0.0
     }
@@ -136,7 +136,8 @@ pub trait Zone {
     }
 }
 
-/// The share of a zone that is open before the fill, roughly: that of random points. 0 if no first darts are asked for.
+/// The approximate share of a zone that is open before the fill: that of random points. 0 if no first darts are
+/// requested.
 pub fn open_share<Z: Zone>(zone: &mut Z, ground: &Z::Ground, options: FillOptions, rng: &mut Rng) -> f64 {
     if !options.throws_first {
         return 0.0;
@@ -150,13 +151,13 @@ pub fn open_share<Z: Zone>(zone: &mut Z, ground: &Z::Ground, options: FillOption
     share_of(zone.probes(), || ground.is_open(zone.point(rng)))
 }
 
-/// The share of so many trials that succeed.
+/// The share of this many trials that succeed.
 fn share_of(trials: usize, mut succeeds: impl FnMut() -> bool) -> f64 {
     (0..trials).filter(|_| succeeds()).count() as f64 / trials as f64
 }
 
-/// Fills a zone of which this share is open: first darts, where that is much, and rounds on the parts that are open then.
-/// Returns the area that was open before, in the zone's unit, if it is measured.
+/// Fills a zone of which this share is open: by first darts, if that is much, and by rounds on the parts that are open
+/// then. Returns the area that was open before, in the zone's unit, if it is measured.
 pub fn fill_zone<Z: Zone>(
     zone: &mut Z,
     ground: &mut Z::Ground,
@@ -192,7 +193,7 @@ pub trait Site: Sync {
 
     fn measures(&self) -> &Measures;
 
-    /// True if all of it is open for certain.
+    /// True if all of it is certainly open.
     fn is_bare(&self) -> bool;
 
     /// The kinds that are filled together, with one radius.
@@ -215,10 +216,10 @@ pub trait Site: Sync {
     /// Adds a sample that is there already.
     fn add(ground: &mut Self::Ground<'_>, sample: &Sample);
 
-    /// The ground as samples of one kind and its radius see it.
+    /// The ground for the samples of one kind, with their radius.
     fn layer<'g>(ground: &'g Self::Ground<'_>, kind: Self::Kind) -> &'g UniformGround<'g>;
 
-    /// Those of the open parts of the layer of a kind that are open to it on the whole ground.
+    /// The open parts of a kind's layer that are open to the kind on the whole ground.
     fn narrowed(ground: &Self::Ground<'_>, kind: Self::Kind, open: Open) -> Open<Self::Kind>;
 }
 
@@ -242,13 +243,13 @@ pub fn fill<S: Site>(
         (Whole { site, job: *job, seed: options.seed, chunks, areas: None }, Rng::at(options.seed, Draw::Fill, &[]));
     let share = open_share(&mut zone, &ground, options, &mut rng);
     let open_area = fill_zone(&mut zone, &mut ground, share, options, &mut rng);
-    // Accepted samples stay, even where the job is cancelled.
+    // Accepted samples are kept, even if the job is cancelled.
     let (mut accepted, darts) = ground.into_accepted();
     samples.append(&mut accepted);
     Ok(Filled { darts, open_area: open_area? })
 }
 
-/// The samples that a cube needs to be covered, and the counts of its fill.
+/// The samples that cover the open parts of a cube, and the counts of its fill.
 fn fill_block<S: Site>(
     site: &S,
     block: &Block,
@@ -273,7 +274,7 @@ fn fill_block<S: Site>(
     Ok((accepted, Filled { darts, open_area }))
 }
 
-/// The radius of a site as a ground has it.
+/// The radius of a site, as its ground uses it.
 fn radius<S: Site>(site: &S, ground: &S::Ground<'_>) -> f64 {
     S::layer(ground, site.kinds()[0]).radius()
 }
@@ -293,7 +294,7 @@ fn open_to<S: Site>(
     S::narrowed(ground, kind, open)
 }
 
-/// The area of parts that are open, with this many random points and some more where these are many.
+/// The area of parts that are open, estimated with this many random points and more if there are many parts.
 fn open_area<S: Site>(site: &S, ground: &S::Ground<'_>, open: &Open<S::Kind>, probes: usize, rng: &mut Rng) -> f64 {
     let row = Weights::new(open.areas().collect());
     if row.total() == 0.0 {
@@ -303,13 +304,13 @@ fn open_area<S: Site>(site: &S, ground: &S::Ground<'_>, open: &Open<S::Kind>, pr
     row.total() * radius(site, ground) * radius(site, ground) * share
 }
 
-/// All of a surface.
+/// A whole surface.
 struct Whole<'a, S> {
     site: &'a S,
     job: Job<'a>,
     seed: u64,
     chunks: Chunks,
-    /// The areas of the clusters, where points have been asked for.
+    /// The areas of the clusters, once points have been requested.
     areas: Option<Weights>,
 }
 
@@ -348,7 +349,7 @@ impl<'a, S: Site> Zone for Whole<'a, S> {
                 let rng = &mut site.chunk_rng(self.seed, chunk, kind);
                 let mut process = PoissonProcess::new(rng, per_area);
                 for cluster in self.chunks.range(chunk) {
-                    // Of clusters without a dart only the area is needed.
+                    // For clusters without a dart only the area is needed.
                     if process.passes(areas[cluster]) {
                         continue;
                     }
@@ -378,7 +379,7 @@ impl<'a, S: Site> Zone for Whole<'a, S> {
         let (site, measures) = (self.site, self.site.measures());
         let (triangles, chunks) = (measures.triangles(), self.chunks);
         let balls = measures.balls(&self.job.part(0.2, 0.25), site.mesh(), radius(site, ground))?;
-        // Kind by kind: triangles that are tested together are mostly of one.
+        // Kind by kind: most triangles that are tested together are then of one kind.
         let mut open: Vec<Open<S::Kind>> = site.kinds().iter().map(|_| Open::default()).collect();
         let in_chunk = |chunk: usize| -> Vec<Open<S::Kind>> {
             let open_to_kind = |&kind: &S::Kind| {
@@ -474,7 +475,8 @@ mod tests {
     use crate::psp::fill::uniform::{Surface, Uniform};
     use crate::psp::given::GivenSamples;
 
-    /// Triangles of all sizes, and needles, crossing each other: a large one across many cubes, small ones in heaps.
+    /// Triangles of all sizes, and needles, crossing each other: a large one across many cubes, small ones close
+    /// together.
     fn soup(seed: u64) -> Mesh {
         let mut rng = Rng::at(seed, Draw::Probe, &[]);
         let mut positions: Vec<[f32; 3]> = Vec::new();
@@ -491,8 +493,8 @@ mod tests {
         Mesh::new(positions, (0..300).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect()).unwrap()
     }
 
-    /// Given samples near and on the mesh, every second of them with the radius of the set, the others with clearances
-    /// from a hundredth to ten times it.
+    /// Given samples near and on the mesh, every second one with the radius of the set, the others with clearances from
+    /// a hundredth to ten times it.
     fn obstacles(mesh: &Mesh, radius: f64, count: usize) -> (Vec<[f32; 3]>, Vec<f64>) {
         let mut rng = Rng::at(9, Draw::Probe, &[]);
         let mut given = |i: usize| {
@@ -505,14 +507,14 @@ mod tests {
         (0..count).map(&mut given).unzip()
     }
 
-    /// Does something with the surface of a mesh, around nothing that is given.
+    /// Calls `does` with the surface of a mesh without given samples.
     fn with_surface<T>(mesh: &Mesh, measures: &Measures, radius: f64, does: impl FnOnce(&Surface) -> T) -> T {
         let given =
             &GivenSamples::new(mesh, Given::default(), radius, &SampleSet::new(mesh, radius), Facing::ANY).unwrap();
         does(&Surface { mesh, measures, given, facing: Facing::ANY })
     }
 
-    /// The positions of a set that is made from nothing.
+    /// The positions of a set made from nothing.
     fn filled(mesh: &Mesh, measures: &Measures, radius: f64, in_blocks: bool) -> Vec<[f32; 3]> {
         let (mut samples, options) = (SampleSet::new(mesh, radius), FillOptions::from_nothing(5));
         with_surface(mesh, measures, radius, |surface| {
@@ -522,7 +524,7 @@ mod tests {
         samples.all().iter().map(|sample| sample.position).collect()
     }
 
-    /// For a few dozen samples the balls spare most looks, and nothing changes.
+    /// With a few dozen samples the balls save most tests of triangles, and nothing changes.
     #[test]
     fn the_passes_with_balls_find_what_the_first_one_finds() {
         let (positions, triangles) = rows();
@@ -542,8 +544,8 @@ mod tests {
         });
     }
 
-    /// Sets of many radii, one after the other, on what is kept from earlier ones: balls, which are too large for the last
-    /// radii. Each is what it is on a mesh that keeps nothing.
+    /// Sets of many radii, one after the other, with the balls kept from earlier ones, which are too large for the last
+    /// radii. Each equals the set on a mesh that keeps nothing.
     #[test]
     fn cubes_are_filled_alike_whatever_balls_are_kept() {
         let (positions, triangles) = rows();
@@ -556,7 +558,7 @@ mod tests {
         }
     }
 
-    /// Each way, on one thread and on three, with given samples and without; then the other way finds nothing left, and
+    /// Each way, on one thread and on three, with given samples and without; the other way then finds nothing open, and
     /// nothing conflicts.
     #[test]
     fn what_is_filled_in_one_piece_and_by_cubes_is_maximal_to_the_other_way() {

@@ -1,7 +1,7 @@
-//! Pages of sixteen samples, and the tests on them that nearly all work of a fill goes through, in `f32`.
+//! Pages of sixteen samples, and the tests on them that do nearly all work of a fill, in `f32`.
 //!
-//! The tests say what is certain; what they leave open is decided later, in smaller parts or in `f64` (`grid.rs`). All
-//! levels of vector instructions give the same bits.
+//! The tests give only answers that are certain; everything else is decided later, in smaller parts or in `f64`
+//! (`grid.rs`). All levels of vector instructions give the same bits.
 
 use glam::DVec3;
 
@@ -11,7 +11,7 @@ use crate::simd::{self, Lanes, Work};
 /// The samples on a page.
 pub const LANES: usize = simd::LANES;
 
-/// A coordinate of no sample. Its square is a float.
+/// A coordinate for lanes without a sample. Its square is a float.
 const FAR: f32 = 1e18;
 
 /// The places of up to sixteen samples, one axis after the other; lanes without a sample are far away.
@@ -20,7 +20,7 @@ const FAR: f32 = 1e18;
 pub struct Page(pub [[f32; LANES]; 3]);
 
 const THIRD: f64 = 1.0 / 3.0;
-/// What rounding adds to the square of a reach, and more.
+/// The factor by which rounding can increase the square of a reach, and more.
 const REACH_SLACK: f32 = 1.0001;
 
 /// Triangles that are tested together.
@@ -32,19 +32,19 @@ pub struct Group {
     pub pages: [u32; GROUP],
 }
 
-/// A fragment as seen from a place near it.
+/// A fragment relative to a place near it.
 pub struct Part {
     pub origin: Place,
     pub corner: [f32; 3],
-    /// From the corner to the other two.
+    /// The vectors from the corner to the other two.
     pub edges: [[f32; 3]; 2],
     pub centre: [f32; 3],
-    /// No sample whose squared distance from the centre is above this covers any of it.
+    /// The squared distance from the centre above which no sample covers any of it.
     pub reach2: f32,
 }
 
 impl Part {
-    /// A fragment by its corners, where `reach` is how far from its centre the samples are at most that cover any of it.
+    /// A fragment by its corners; `reach` is the largest distance from its centre of samples that cover any of it.
     #[inline(always)]
     pub fn new([a, b, c]: [DVec3; 3], reach: f32) -> Self {
         let origin = a.as_vec3();
@@ -130,8 +130,8 @@ impl Work for Covering<'_> {
     }
 }
 
-/// The triangles of a group that lie, with their three corners, nearer to one sample of their page than the square root of
-/// `limit`: a bit for each.
+/// The triangles of a group that lie, with their three corners, nearer to one sample of their page than the square root
+/// of `limit`: a bit for each.
 pub struct CoveredTriangles<'a> {
     pub group: &'a Group,
     pub pages: &'a [Page],

@@ -1,17 +1,19 @@
-//! Rounds of darts on what is not covered, until nothing is left: what makes a set maximal.
+//! Rounds of darts on uncovered parts, until none is left: they make a set maximal.
 //!
 //! As in the flat quadtree of Ebeida et al. 2012 ("A simple algorithm for maximal Poisson-disk sampling in high
-//! dimensions"), with triangles for squares: darts on all open parts, then those that are still open are cut up.
+//! dimensions"), with triangles for squares: darts on all open parts, then subdivision of those that are still open.
 //!
-//! *Even darts.* The darts of a round are a Poisson process of one density on the whole open area, thrown in random order. So each
-//! place is as likely to be hit as any other, however the surface is cut: a dart on what is left out would be rejected
-//! anyway. Only needles that are lines beside the radius take more darts than by their area.
+//! *Darts of uniform density.* The darts of a round are a Poisson process of one density on the whole open area, thrown
+//! in random order. So each place is as likely to be hit as any other, however the surface is cut: a dart on a dropped
+//! part would be rejected anyway. Only needles, which are lines compared with the radius, receive more darts than by
+//! their area.
 //!
-//! *The end.* Each round halves the length up to which open parts are kept whole. Floats cannot tell points apart that
-//! are closer than the float spacing at the mesh's largest coordinate. Where parts no longer than that are still open,
-//! one dart goes to their centre. If it is rejected the part is covered up to rounding: that of the position (0.9
-//! spacings), of the barycentrics (below 4.4, on a triangle that spans a mesh around the origin) and the size of the
-//! part (0.7). So no point of the surface is farther from all samples than the radius and [`TOLERANCE`] float spacings.
+//! *Termination.* Each round halves the length up to which open parts are kept whole. Floats cannot distinguish points
+//! that are closer than the float spacing at the mesh's largest coordinate. If parts no longer than that are still
+//! open, one dart is thrown at their centre. If it is rejected the part is covered up to rounding: that of the position
+//! (0.9 spacings), of the barycentrics (below 4.4, on a triangle that spans a mesh around the origin) and the size of
+//! the part (0.7). So no point of the surface is farther from all samples than the radius and [`TOLERANCE`] float
+//! spacings.
 
 use crate::error::Result;
 use crate::mesh::Mesh;
@@ -20,23 +22,23 @@ use crate::psp::fill::page::GROUP;
 use crate::psp::fragment::Fragment;
 use crate::rng::Rng;
 
-/// The largest excess over the radius of the distance of a point of the surface from a maximal set, in spacings of floats
+/// The largest excess over the radius of the distance of a point of the surface from a maximal set, in float spacings
 /// at the largest absolute coordinate of the mesh.
 pub const TOLERANCE: f64 = 6.0;
 
-/// Patches are no longer than this at first, in radii: their sixteenths can be covered.
+/// The largest length of patches at first, in radii: their sixteenths can be covered.
 pub const PATCH: f64 = 2.0;
-/// Triangles up to this length are kept whole at first.
+/// The length up to which triangles are kept whole at first.
 pub const WHOLE: f32 = 0.5;
 
-/// Darts of a round for each whole triangle.
+/// Darts of a round per whole triangle.
 const DARTS_PER_WHOLE: f64 = 0.2;
-/// Their limit, where whole triangles are tiny: darts for each squared radius of them.
+/// The limit of the darts of a round where whole triangles are tiny: darts per squared radius of their area.
 const DARTS_PER_AREA: f64 = 20.0;
-/// Darts of a round for each patch.
+/// Darts of a round per patch.
 const DARTS_PER_PATCH: f64 = 0.9;
 
-/// Darts whose triangles are looked up together: the processor waits for the memory of many at once.
+/// The number of darts whose triangles are looked up together: the processor waits for many memory reads at once.
 const TOGETHER: usize = 32;
 
 /// A whole triangle, small beside the radius, that may be uncovered.
@@ -53,7 +55,7 @@ pub struct Whole<L = ()> {
 #[derive(Clone, Copy, Debug)]
 pub struct Patch<L = ()> {
     pub fragment: Fragment,
-    /// A bit for each sixteenth that may be; at least one.
+    /// A bit for each sixteenth that may be uncovered; at least one.
     pub open: u16,
     pub area: f32,
     /// The longest edge.
@@ -71,9 +73,9 @@ pub struct Point<L = ()> {
     pub local: L,
 }
 
-/// A surface of which samples cover a part: the interface between the fill and whatever its samples cover.
+/// A surface of which samples cover a part: the interface between the fill and the way in which its samples cover.
 ///
-/// Lengths are in radii, areas in squared radii: those of the place, where the radius varies.
+/// Lengths are in radii and areas in squared radii: the local ones, where the radius varies.
 pub trait Ground {
     /// The values that differ from place to place: bounds of the radius, or the class that a dart is of.
     type Local: Copy;
@@ -82,7 +84,7 @@ pub trait Ground {
     /// A sample that the fill adds.
     type Sample;
 
-    /// The length up to which fragments are cut up no more.
+    /// The length up to which fragments are no longer cut.
     fn finest(&self, local: Self::Local) -> f32;
 
     /// A fragment as a patch, unless all of its sixteenths are covered, each by one sample. The bounds of the radius
@@ -101,28 +103,28 @@ pub trait Ground {
     /// Those of at most 64 triangles that no single sample certainly covers: a bit for each.
     fn open_wholes(&self, wholes: &[Whole<Self::Local>]) -> u64;
 
-    /// The mesh that it lies on.
+    /// The mesh that the surface belongs to.
     fn mesh(&self) -> &Mesh;
 
     /// The dart at a point of a triangle with these corners, which lies in a part of this radius.
     fn dart(&self, point: Point<Self::Local>, corners: &[[f32; 3]; 3]) -> Self::Dart;
 
-    /// The same, where the corners are not at hand.
+    /// The dart at a point of a triangle whose corners are not known to the caller.
     fn dart_at(&self, point: Point<Self::Local>) -> Self::Dart {
         self.dart(point, &self.mesh().corners(point.triangle))
     }
 
-    /// True if given samples, and others that the share of open surface is measured with, leave a point open.
+    /// True if given samples, and others with which the open share is measured, leave a point open.
     fn is_open(&self, point: Point<Self::Local>) -> bool;
 
-    /// Drops darts, given by points and the corners of their triangles, that certainly conflict with a sample: most
-    /// of them, at a fraction of the price of [`Ground::throw`].
+    /// Drops darts, given by points and the corners of their triangles, that certainly conflict with a sample: most of
+    /// those that conflict, at a fraction of the cost of [`Ground::throw`].
     fn drop_conflicting(&mut self, _points: &mut Vec<Point<Self::Local>>, _corners: &mut Vec<[[f32; 3]; 3]>) {}
 
     /// Makes a dart a sample, unless it conflicts with another one.
     fn throw(&mut self, dart: Self::Dart);
 
-    /// The samples that the fill has added, and how many darts it took.
+    /// The samples that the fill has added, and the number of darts thrown.
     fn into_accepted(self) -> (Vec<Self::Sample>, u64);
 }
 
@@ -138,18 +140,18 @@ impl<L> Default for Open<L> {
     }
 }
 
-/// Needles that are flatter take as many darts as if their area were this, times the square of their length. They are
-/// lines beside the radius, and by their area alone darts would never hit them where other surface is open, too: they
-/// would be cut up without end.
+/// Needles that are flatter receive as many darts as if their area were this times their squared length. They are lines
+/// compared with the radius, and by their area alone darts would never hit them where other surface is open, too: they
+/// would be cut without end.
 const FLAT: f64 = 2e-3;
 
-/// The weight of an area when a round throws darts: the area, but of needles.
+/// The weight of an area when a round throws darts: the area, except for needles.
 fn weight(area: f32, longest: f32) -> f64 {
     f64::from(area).max(FLAT * f64::from(longest) * f64::from(longest))
 }
 
 impl<L> Patch<L> {
-    /// The part of it that may be uncovered.
+    /// The share of it that may be uncovered.
     fn open_share(&self) -> f64 {
         f64::from(self.open.count_ones()) / 16.0
     }
@@ -167,7 +169,7 @@ impl<L: Copy> Open<L> {
         self.wholes.iter().map(|whole| weight(whole.area, whole.longest)).chain(self.patches.iter().map(of_patch))
     }
 
-    /// Takes up what is open elsewhere.
+    /// Adds the open parts of `other`.
     pub fn append(&mut self, other: &mut Self) {
         self.wholes.append(&mut other.wholes);
         self.patches.append(&mut other.patches);
@@ -204,7 +206,7 @@ impl<L: Copy> Open<L> {
         }
     }
 
-    /// Cuts up the patches that are longer than a limit, without any darts on them.
+    /// Cuts the patches that are longer than a limit, without throwing darts at them.
     pub fn cut<G: Ground<Local = L>>(&mut self, ground: &G, limit: f32) {
         let patches = std::mem::take(&mut self.patches);
         for patch in patches {
@@ -216,7 +218,7 @@ impl<L: Copy> Open<L> {
         }
     }
 
-    /// Drops all parts that are covered by now, and cuts up those that are longer than a limit.
+    /// Drops all parts that are covered by now, and cuts those that are longer than a limit.
     pub fn update<G: Ground<Local = L>>(&mut self, ground: &mut G, limit: f32) {
         let is_kept = |longest: f32, finest: f32| longest <= limit && finest <= limit;
         let (mut kept, mut grown, mut last) = (0, Vec::new(), Vec::new());
@@ -280,8 +282,8 @@ pub fn throw<G: Ground>(ground: &mut G, mut targets: impl Iterator<Item = Point<
     }
 }
 
-/// Throws darts at all open parts until they are covered; at first on patches up to a limit. After each round the number
-/// of rounds is reported.
+/// Throws darts at all open parts until they are covered; at first on patches up to a limit. After each round the
+/// number of rounds is reported.
 pub fn rounds<G: Ground>(
     ground: &mut G,
     mut open: Open<G::Local>,

@@ -1,18 +1,18 @@
-//! Space as the fill sees it, in floats: lengths in a unit near the radius, and cells of two radii.
+//! Space as the fill represents it, in floats: lengths in a unit near the radius, and cells of two radii.
 //!
-//! The unit is a power of two. So coordinates are exact in it, and neither the square of a distance nor its parts leave
-//! the range of `f32`, whatever the size of the mesh. Differences of two positions are then right to a rounding of
-//! their own size, wherever the mesh lies.
+//! The unit is a power of two. So coordinates are exact in it, and neither the square of a distance nor its terms leave
+//! the range of `f32`, for any size of the mesh. Differences of two positions then have rounding errors of their own
+//! size only, wherever the mesh lies.
 
 use glam::DVec3;
 
 use crate::mesh::{Mesh, exact};
 
-/// What rounding can add to a squared distance, as a share of the squared radius, and some more: places are off by a
-/// few roundings of lengths up to a few radii, which is 1.6e-6.
+/// The share of the squared radius that rounding can add to a squared distance, and some more: places are off by a few
+/// roundings of lengths up to a few radii, which is 1.6e-6.
 const SLACK: f64 = 1e-5;
 
-/// Sums with it, up to 2^22 more, are integers.
+/// A float whose sums with numbers up to 2^22 are integers.
 pub const ROUNDER: f32 = (1 << 23) as f32;
 /// The bits of the cell's number along an axis.
 pub const MASK: u32 = (1 << 21) - 1;
@@ -23,20 +23,20 @@ pub type Place = [f32; 3];
 /// The unit, the cells, and the radius in both.
 #[derive(Clone, Copy, Debug)]
 pub struct Space {
-    /// The coordinates of the mesh times this, a power of two, are places.
+    /// The factor, a power of two, from coordinates of the mesh to places.
     scale: f32,
     /// The radius in the unit.
     radius: f64,
     /// Squared distances up to here are certainly below the squared radius, and those above there certainly not.
     pub surely_within: f32,
     pub surely_beyond: f32,
-    /// Cells count from here.
+    /// The origin of the cells.
     pub origin: Place,
     pub per_cell: f32,
 }
 
 impl Space {
-    /// The space around a mesh. A radius far beyond the mesh's diagonal is as good as four diagonals.
+    /// The space around a mesh. A radius far larger than the mesh's diagonal is replaced by four diagonals.
     pub fn new(mesh: &Mesh, radius: f64) -> Self {
         let (low, high) = mesh.bounds();
         let radius = radius.min(4.0 * exact(low).distance(exact(high)));
@@ -59,7 +59,7 @@ impl Space {
         self.radius
     }
 
-    /// What coordinates of the mesh are multiplied by.
+    /// The factor from coordinates of the mesh to places.
     pub fn scale(&self) -> f32 {
         self.scale
     }
@@ -70,7 +70,7 @@ impl Space {
         [position[0] * self.scale, position[1] * self.scale, position[2] * self.scale]
     }
 
-    /// The places of the corners of a triangle. (Spelt out, since `map` on arrays is a call for each.)
+    /// The places of the corners of a triangle. (Written out, since `map` on arrays makes a call for each.)
     #[inline(always)]
     pub fn places(&self, [a, b, c]: [[f32; 3]; 3]) -> [Place; 3] {
         [self.place(a), self.place(b), self.place(c)]
@@ -82,25 +82,25 @@ impl Space {
         point * f64::from(self.scale)
     }
 
-    /// A limit for squared distances in floats, up to which all are within the root of `square`.
+    /// A limit in floats for squared distances: all that do not exceed it are within the root of `square`.
     pub fn within(square: f64) -> f32 {
         (square * (1.0 - SLACK)) as f32
     }
 
-    /// A limit for squared distances in floats, above which none is within the root of `square`.
+    /// A limit in floats for squared distances: none that exceeds it is within the root of `square`.
     pub fn beyond(square: f64) -> f32 {
         (square * (1.0 + SLACK)) as f32
     }
 
-    /// Whether two places are closer than the radius: in `f64`, without tolerance.
+    /// True if two places are closer than the radius: in `f64`, without tolerance.
     #[inline]
     pub fn conflict(&self, a: Place, b: Place) -> bool {
         exact(a).distance_squared(exact(b)) < self.radius * self.radius
     }
 
-    /// The cell of a place not farther from the mesh than two radii.
+    /// The cell of a place that is no farther from the mesh than two radii.
     ///
-    /// Rounded, since a sum with 2^23 has the integer in its last bits: a conversion is slower.
+    /// Computed by rounding, since a sum with 2^23 has the integer in its last bits: a conversion is slower.
     #[inline(always)]
     pub fn cell(&self, [x, y, z]: Place) -> [u32; 3] {
         let along = |x: f32, axis: usize| ((x - self.origin[axis]) * self.per_cell + ROUNDER).to_bits() & MASK;
@@ -115,8 +115,8 @@ impl Space {
 
     /// The lowest and the highest cell of a ball of another radius, up to twice that of the space.
     ///
-    /// Rounding is monotone. So the cells of all floats in the ball, and those of all points in it once they are
-    /// rounded, lie between these two.
+    /// Rounding is monotone. So the cells of all floats in the ball, and of all its points once they are rounded, lie
+    /// between these two.
     #[inline]
     pub fn cells_within(&self, place: Place, reach: f64) -> [[u32; 3]; 2] {
         let reach = (reach * (1.0 + SLACK)) as f32;

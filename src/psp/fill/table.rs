@@ -6,10 +6,10 @@ pub struct Table<T> {
     len: usize,
 }
 
-/// So many slots are made at first: enough for the cells of a cube of `cubes.rs`, as a rule.
+/// The initial number of slots: usually enough for the cells of a cube of `psp/cubes.rs`.
 const SLOTS: usize = 1 << 10;
 
-/// The key of no cell.
+/// A key that no cell has.
 const FREE: u64 = u64::MAX;
 
 impl<T: Copy + Default> Table<T> {
@@ -17,13 +17,13 @@ impl<T: Copy + Default> Table<T> {
         Self { slots: vec![(FREE, T::default()); SLOTS], len: 0 }
     }
 
-    /// Where the search for a key begins.
+    /// The slot at which the search for a key begins.
     #[inline(always)]
     fn start(&self, key: u64) -> usize {
         (key.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> (64 - self.slots.len().ilog2())) as usize
     }
 
-    /// The slot of a key, or the free one where it would be.
+    /// The slot of a key, or the free one where it would be inserted.
     #[inline(always)]
     fn slot(&self, key: u64) -> usize {
         let (mut slot, last) = (self.start(key), self.slots.len() - 1);
@@ -39,7 +39,7 @@ impl<T: Copy + Default> Table<T> {
         self.slots[self.slot(key)].1
     }
 
-    /// The entry of a key, which has one from now on.
+    /// The entry of a key, which is inserted if there is none.
     #[inline]
     pub fn entry(&mut self, key: u64) -> &mut T {
         let mut slot = self.slot(key);

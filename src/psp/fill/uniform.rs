@@ -59,7 +59,7 @@ impl Surface<'_> {
 pub struct Uniform<'a> {
     pub surface: Surface<'a>,
     pub radius: f64,
-    /// The largest rank of the samples that are added, if these get ranks.
+    /// The largest rank of the samples that are added, if they get ranks.
     pub largest_rank: Option<f64>,
 }
 
@@ -149,7 +149,7 @@ pub struct UniformGround<'a> {
     per_radius: f64,
     /// The spacing of floats at the mesh's largest coordinate, in radii.
     float_spacing: f32,
-    /// A dart whose place in floats has a squared distance from a sample up to here certainly conflicts with it.
+    /// The squared distance from a sample up to which a dart, at its place in floats, certainly conflicts with it.
     surely_conflicting: f32,
 }
 
@@ -158,7 +158,8 @@ pub struct UniformGround<'a> {
 const PLACE_ERROR: f64 = 80.0;
 
 impl<'a> UniformGround<'a> {
-    /// A ground without samples but those given with a clearance of their own: of the mesh, or of the part of it in a box.
+    /// A ground without samples except those given with a clearance of their own, of the mesh or of the part of it in a
+    /// box.
     pub fn new(
         mesh: &'a Mesh,
         space: Space,
@@ -184,14 +185,14 @@ impl<'a> UniformGround<'a> {
         }
     }
 
-    /// The ground, with ranks for the samples that the fill adds: up to the largest, which is between the radius and
-    /// twice as much.
+    /// The ground with ranks for the samples that the fill adds, up to the largest, which is between the radius and
+    /// twice that.
     pub fn ranked(self, largest: Option<f64>) -> Self {
         Self { largest_rank: largest.map(|rank| rank * f64::from(self.grid.space.scale())), ..self }
     }
 
-    /// The rank of a sample that is added now: its distance to the nearest one, but no more than the largest rank. It is
-    /// no longer than the distance in whatever order a caller evaluates that.
+    /// The rank of a sample that is added now: its distance to the nearest one, but no more than the largest rank. It
+    /// does not exceed the distance in whatever order a caller evaluates that.
     fn rank(&self, sample: &Sample) -> f32 {
         let Some(largest) = self.largest_rank else { return f32::INFINITY };
         let (place, normal) = (self.grid.space.place(sample.position), self.normal(sample.triangle));
@@ -220,7 +221,7 @@ impl<'a> UniformGround<'a> {
             || self.obstacles.reject(dart.position)
     }
 
-    /// True if one sample certainly covers a ball, whatever lies in it.
+    /// True if one sample certainly covers a ball, and so all that lies in it.
     pub fn covers(&self, ball: &Ball) -> bool {
         let within = self.grid.space.radius() - f64::from(ball.radius) * f64::from(self.grid.space.scale());
         let (place, limit) = (self.grid.space.place(ball.centre), Space::within(within * within));
@@ -252,7 +253,7 @@ impl<'a> UniformGround<'a> {
     pub fn whole(&self, triangle: u32) -> (Whole, bool) {
         let corners = self.mesh.exact_corners(triangle).map(|corner| self.grid.space.scaled(corner));
         let (area, longest) = self.size(&corners);
-        // Only of slivers it depends on the rounding of lengths in radii.
+        // Only for slivers this depends on the rounding of lengths in radii.
         let has_area = area > 1e-9 * longest * longest || self.mesh.triangle_area(triangle) > 0.0;
         (Whole { triangle, area: area as f32, longest: longest as f32, local: () }, has_area)
     }
@@ -328,7 +329,7 @@ impl<'a> UniformGround<'a> {
         if whole.longest <= WHOLE {
             open.wholes.push(whole);
         } else if f64::from(whole.longest) < 0.999 * PATCH {
-            // One patch, which nothing has to be cut for.
+            // One patch, for which nothing has to be cut.
             open.patches.extend(self.patch(&Fragment::whole(triangle), ()));
         } else {
             let (mut slices, radius) = (Vec::new(), self.radius());
@@ -448,7 +449,7 @@ mod tests {
     use crate::psp::samples::SampleSet;
     use crate::rng::{Draw, Rng};
 
-    /// Small and large triangles, at the origin and far from it, up to radii of 64 float spacings.
+    /// Small and large triangles, at the origin and far from it, down to radii of 64 float spacings.
     #[test]
     fn only_darts_that_conflict_are_left_out() {
         let mut rng = Rng::at(4, Draw::Probe, &[]);
@@ -470,7 +471,7 @@ mod tests {
             let space = Space::new(&mesh, radius);
             let mut ground = UniformGround::new(&mesh, space, None, Facing::ANY, &given.obstacles);
             for _ in 0..200 {
-                // Darts around one place, so that there are conflicts however small the radius is.
+                // Darts around one place, so that there are conflicts for any radius, however small.
                 let (triangle, [u, v]) = (rng.below(20) as u32, random_point(&mut rng));
                 let near = |x: f64, rng: &mut Rng| (x + 2.0 * radius / size * (rng.unit() - 0.5)).clamp(0.0, 0.5);
                 let point = |rng: &mut Rng| Point { triangle, barycentrics: [near(u, rng), near(v, rng)], local: () };

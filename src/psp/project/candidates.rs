@@ -2,11 +2,11 @@
 //!
 //! The conflicts among the hits of one ray keep the name of the thesis, *restart conflicts*.
 //!
-//! The candidates of a cube are taken in order of priority, each one unless a sample is too close that stood there
-//! before or was taken before. The thesis goes by the number of the projector, and tests the winners against the
-//! existing samples afterwards. Here existing samples come first: a candidate that is doomed anyway must not eliminate
-//! others. Among the candidates those come first that their projector faces most squarely: there its pattern, which is
-//! maximal in the plane, is stretched least. (Or, by option, those of the lower projector, as in the thesis.)
+//! The candidates of a cube are taken in order of priority, each one unless a sample is too close that existed before
+//! or was taken before. The thesis orders them by the number of the projector, and tests the winners against the
+//! existing samples afterwards. Here existing samples come first: a candidate that will be rejected anyway must not
+//! eliminate others. Among the candidates those come first that their projector faces most squarely: there its pattern,
+//! which is maximal in the plane, is stretched least. (Or, by option, those of the lower projector, as in the thesis.)
 
 use crate::error::Result;
 use crate::index::Buckets;
@@ -33,7 +33,7 @@ pub struct Projected {
 /// The candidates of three projectors by cubes, and the counts of rays and hits.
 pub type Candidates = (Buckets<Cube, Candidate>, Projected);
 
-/// Makes candidates of hits.
+/// Turns hits into candidates.
 pub struct Collector<'a> {
     pub mesh: &'a Mesh,
     pub samples: &'a SampleSet,
@@ -42,8 +42,8 @@ pub struct Collector<'a> {
 }
 
 impl Collector<'_> {
-    /// Runs tasks that hand over what they find: the number of a projector, of its rays, and their hits in the order of
-    /// [`Scene::all_hits`](crate::trace::Scene::all_hits), all those of a ray at once.
+    /// Runs tasks that pass on their results: the number of a projector, the number of its rays, and their hits in the
+    /// order of [`Scene::all_hits`](crate::trace::Scene::all_hits), all those of a ray at once.
     pub fn collect(
         &self,
         job: &Job,
@@ -96,11 +96,11 @@ impl Collector<'_> {
 #[derive(Clone, Copy, Debug)]
 pub struct Candidate {
     pub sample: Sample,
-    /// Low comes first; among equals, the one that was found first.
+    /// The rank: the lowest comes first; among equals, the one that was found first.
     pub rank: u32,
 }
 
-/// Adds the greedy choice among the candidates around given samples, and returns how many samples that are.
+/// Adds the greedy choice among the candidates around given samples, and returns the number of samples added.
 ///
 /// A failed or cancelled job adds nothing.
 pub fn merge(

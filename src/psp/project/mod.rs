@@ -1,5 +1,5 @@
-//! Progressive sample projection (thesis chapter 3): the pattern, the projectors, the engine that finds their hits, ready for a
-//! mesh and a radius, and the choice among the candidates.
+//! Progressive sample projection (thesis chapter 3): the pattern, the projectors, the engine that finds their hits,
+//! ready for a mesh and a radius, and the choice among the candidates.
 //!
 //! The engines are Embree's ray packets (`rays.rs`) and a rasteriser (`raster.rs`).
 
@@ -20,7 +20,7 @@ use crate::psp::project::projector::Projector;
 use crate::psp::project::raster::Rasteriser;
 use crate::psp::project::rays::Rays;
 
-/// A pattern, and what finds its hits on a mesh.
+/// A pattern, and the engine that finds its hits on a mesh.
 pub enum Projection {
     Embree(Rays),
     Rasteriser(Rasteriser),

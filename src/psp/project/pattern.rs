@@ -1,7 +1,7 @@
 //! The pattern on the projectors: a maximal periodic Poisson-disk set (thesis §3.3.1), made by KDRT as §3.4.5 suggests.
 //!
-//! The thesis fills a whole projector with one pattern. Here a pattern has a few million points at most and is repeated
-//! where the projector is larger: memory stays bounded, and the surface is curved and every iteration is turned, so that
+//! The thesis fills a whole projector with one pattern. Here a pattern has at most a few million points and is repeated
+//! if the projector is larger: memory stays bounded, and since the surface is curved and every iteration is rotated,
 //! the period leaves no trace.
 
 use std::ops::ControlFlow;
@@ -16,10 +16,10 @@ use crate::points::{Boundary, Domain};
 const CHUNK: usize = 4096;
 /// Side of the largest pattern, in radii: about four million points.
 const LARGEST_SIDE: f64 = 2390.0;
-/// Side of the smallest, in radii: no point is its own neighbour around the torus.
+/// Side of the smallest pattern, in radii: no point is its own neighbour around the torus.
 const SMALLEST_SIDE: f64 = 8.0;
 
-/// Points for a square of side `extent` that repeat with a side, which is returned with them; in radii.
+/// Points for a square of side `extent`, repeated with a period that is returned with them; in radii.
 pub fn torus(job: &Job, extent: f64, seed: u64) -> Result<(f64, Vec<[f32; 2]>)> {
     let side = extent.clamp(SMALLEST_SIDE, LARGEST_SIDE);
     let domain = Domain { min: [0.0; 2], max: [side; 2], boundary: Boundary::Periodic };

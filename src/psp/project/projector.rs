@@ -1,12 +1,12 @@
-//! Projectors: three orthogonal planes that carry the pattern, turned at random from iteration to iteration (thesis §3.3.1
-//! and §3.3.3).
+//! Projectors: three orthogonal planes that carry the pattern, rotated at random from iteration to iteration (thesis
+//! §3.3.1 and §3.3.3).
 
 use glam::{DMat3, DQuat, DVec3};
 
 use crate::math::sincos;
 use crate::rng::{Draw, Rng};
 
-/// Two axes of successive iterations are too near each other above this cosine: 20 degrees.
+/// The cosine above which two axes of successive iterations are too near each other: 20 degrees.
 const NEAREST_AXES: f64 = 0.94;
 
 /// A plane through the centre of the mesh that carries the pattern along its normal.
@@ -28,7 +28,7 @@ impl Projector {
         })
     }
 
-    /// Where the corner of the pattern lies that has this side.
+    /// The position of the corner of a pattern with this side.
     pub fn shift(&self, side: f64) -> [f64; 2] {
         self.shift.map(|share| share * side)
     }

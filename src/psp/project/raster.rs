@@ -1,9 +1,10 @@
-//! Projection by rasterisation, the equivalent of ray tracing that thesis §3.4.3 describes: each triangle is drawn over the
-//! projectors, and the points of the pattern that it covers are its hits.
+//! Projection by rasterisation, the equivalent of ray tracing that thesis §3.4.3 describes: each triangle is drawn over
+//! the projectors, and the points of the pattern that it covers are its hits.
 //!
-//! Corners and points are rounded to an integer lattice, 2^-30 of the projector's width, in which all is exact: adjacent
-//! triangles have no gap and no overlap, and a hit does not depend on the machine's vectors or on an Embree. All triangles
-//! of a tile of the projector are drawn by one task; so no counters are shared, which the thesis finds irregular.
+//! Corners and points are rounded to an integer lattice, 2^-30 of the projector's width, in which everything is exact:
+//! adjacent triangles have no gap and no overlap, and a hit depends neither on the machine's vector instructions nor on
+//! Embree. All triangles of a tile of the projector are drawn by one task; so no counters are shared, which the thesis
+//! finds irregular.
 
 use std::ops::Range;
 
@@ -21,16 +22,16 @@ use crate::trace::Hit;
 /// Triangles per task.
 const TRIANGLES: usize = 1024;
 
-/// The pattern, and how a mesh is seen on a projector.
+/// The pattern, and the map of a mesh to a projector.
 pub struct Rasteriser {
     tiles: PatternTiles,
     lattice: ProjectorLattice,
 }
 
-/// A tile on a projector: the number of the projector, the row, the column. Tiles repeat the pattern without end.
+/// A tile on a projector: the number of the projector, the row, the column. Tiles repeat the pattern indefinitely.
 type TileKey = [i32; 3];
 
-/// The triangles that are near each tile.
+/// The triangles near each tile.
 type TrianglesByTile = Buckets<TileKey, u32>;
 
 impl Rasteriser {
@@ -45,7 +46,7 @@ impl Rasteriser {
         Ok(Self { tiles, lattice: ProjectorLattice::new(mesh, radius, reach) })
     }
 
-    /// Draws the mesh over three projectors and collects all hits. As rays count the points of tiles near triangles.
+    /// Draws the mesh over three projectors and collects all hits. The points of tiles near triangles count as rays.
     pub fn project(&self, job: &Job, projectors: &[Projector; 3], collector: &Collector) -> Result<Candidates> {
         let bins = self.sort(&job.part(0.0, 0.2), collector.mesh, projectors)?;
         collector.collect(&job.part(0.2, 1.0), bins.len(), |bin, take| {
@@ -94,7 +95,7 @@ impl Rasteriser {
     }
 }
 
-/// The integer below; or one lower, for integers below zero, which `MARGIN` allows for.
+/// The largest integer not above a number; or one lower, for integers below zero, which `MARGIN` allows for.
 fn floor(x: f64) -> i32 {
     x as i32 - i32::from(x < 0.0)
 }
@@ -115,7 +116,7 @@ pub struct PatternTiles {
     pub count: i32,
     /// The number of cells of a tile along each axis, none of them wider than a radius.
     pub cells: usize,
-    /// Row by row.
+    /// The tiles, row by row.
     tiles: Vec<PatternTile>,
 }
 
@@ -159,15 +160,16 @@ impl PatternTiles {
     }
 }
 
-// The integer lattice of a projector, on which all is exact.
+// The integer lattice of a projector, on which everything is exact.
 
-/// No coordinate is this large: products of coordinates, and sums of a few of them, are `i64`.
+/// An exclusive bound of all coordinates: products of coordinates, and sums of a few of them, fit into `i64`.
 pub const END: i64 = 1 << 30;
 
 /// A point on a projector, in units of its lattice.
 pub type LatticePoint = [i64; 2];
 
-/// By how much rounding can move a point against the boundary of its cell or tile, in units of the lattice, and some more.
+/// The largest distance by which rounding can move a point against the boundary of its cell or tile, in units of the
+/// lattice, and some more.
 pub const MARGIN: f64 = 2.0;
 
 /// The map from the space of a mesh to the lattice of a projector.
@@ -193,7 +195,7 @@ impl ProjectorLattice {
         mesh.corners(triangle).map(|corner| (exact(corner) - self.centre) * self.per_radius)
     }
 
-    /// Corners on a projector.
+    /// The corners of a triangle on the lattice of a projector.
     pub fn see(&self, projector: &Projector, corners: &[DVec3; 3]) -> [LatticePoint; 3] {
         corners.map(|corner| self.round([projector.right.dot(corner), projector.up.dot(corner)]))
     }
@@ -211,7 +213,7 @@ pub fn extent(corners: &[LatticePoint; 3], axis: usize) -> [f64; 2] {
     [a.min(b).min(c), a.max(b).max(c)].map(|x| x as f64)
 }
 
-/// The least and the largest x of the part of a triangle between two heights, of which there is some.
+/// The least and the largest x of the part of a triangle between two heights, which is not empty.
 pub fn extent_between(corners: &[LatticePoint; 3], low: f64, high: f64) -> [f64; 2] {
     let corners = corners.map(|corner| corner.map(|x| x as f64));
     let mut extent = [f64::INFINITY, f64::NEG_INFINITY];
@@ -231,13 +233,14 @@ pub fn extent_between(corners: &[LatticePoint; 3], low: f64, high: f64) -> [f64;
     extent
 }
 
-// Triangles on a projector, in integers: which points are inside, and where (Pineda 1988, "A parallel algorithm for
-// polygon rasterization").
+// Triangles on a projector, in integers: the points inside, and their barycentrics (Pineda 1988, "A parallel algorithm
+// for polygon rasterization").
 //
-// A point on an edge counts as if it were moved to the right by next to nothing, and up by much less still. So of all
-// triangles that meet along an edge, or around a corner, and do not overlap there, exactly one has it.
+// A point on an edge counts as if it were moved to the right by an infinitesimal distance, and up by a much smaller
+// one. So of all triangles that meet along an edge, or around a corner, and do not overlap there, exactly one contains
+// it.
 
-/// An edge of a triangle: positive on its inner side, and where a point on it counts as inside.
+/// An edge of a triangle: positive on its inner side, with the rule for points on it.
 #[derive(Clone, Copy)]
 struct ProjectedEdge {
     slope: LatticePoint,
@@ -248,14 +251,14 @@ struct ProjectedEdge {
 
 /// A triangle on a projector.
 pub struct ProjectedTriangle {
-    /// Each opposite the corner of its number.
+    /// Each edge is opposite the corner of its number.
     edges: [ProjectedEdge; 3],
-    /// Twice the area; above zero.
+    /// Twice the area; positive.
     area: i64,
 }
 
 impl ProjectedTriangle {
-    /// None if the triangle is seen without area.
+    /// A triangle on a projector; `None` if its area there is 0.
     pub fn new(corners: [LatticePoint; 3]) -> Option<Self> {
         let [a, b, c] = corners;
         let area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
@@ -272,7 +275,7 @@ impl ProjectedTriangle {
     /// The shares of the second and third corner in a point; none for points outside.
     pub fn barycentrics(&self, [x, y]: LatticePoint) -> Option<[f64; 2]> {
         let [a, b, c] = self.edges.map(|edge| edge.slope[0] * x + edge.slope[1] * y + edge.constant - edge.bias);
-        // One of them is negative, and with it their union, for points outside.
+        // For points outside, one of them is negative, and with it their bitwise or.
         let weight = |value: i64, edge: usize| (value + self.edges[edge].bias) as f64 / self.area as f64;
         (a | b | c >= 0).then(|| [weight(b, 1), weight(c, 2)])
     }
@@ -293,7 +296,7 @@ pub struct Drawing<'a> {
     /// The corner of the tile, and cells per unit.
     corner: [f64; 2],
     per_unit: f64,
-    /// In the order in which they are found, each with the one before it on the same ray.
+    /// The hits in the order in which they are found, each with the one before it on the same ray.
     found: Vec<(Hit, u32)>,
     /// The last hit on each ray.
     last: Vec<u32>,
@@ -328,15 +331,15 @@ impl<'a> Drawing<'a> {
         }
     }
 
-    /// The cells along an axis from one coordinate to another, as far as there are some.
+    /// The cells along an axis from one coordinate to another, clipped to those of the tile.
     fn cells(&self, axis: usize, [from, to]: [f64; 2]) -> Range<usize> {
         let cell = |x: f64| (x - self.corner[axis]) * self.per_unit;
         let end = self.tiles.cells;
-        // Casts end at zero.
+        // Casts saturate at zero.
         cell(from - MARGIN) as usize..((cell(to + MARGIN) + 1.0) as usize).min(end)
     }
 
-    /// Notes the points that a triangle covers.
+    /// Records the points that a triangle covers.
     pub fn draw(&mut self, triangle: u32, mesh: &Mesh) {
         let corners = self.lattice.corners(mesh, triangle);
         let seen = self.lattice.see(self.projector, &corners);
@@ -402,7 +405,7 @@ mod tests {
         ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])).signum()
     }
 
-    /// A mesh of 5 by 5 quads whose inner corners are anywhere near their place; each is cut in two, some along an edge.
+    /// A mesh of 5 by 5 quads whose inner corners are displaced at random; each is cut in two, some along an edge.
     fn quads(rng: &mut Rng) -> Vec<[LatticePoint; 3]> {
         let inner = 1..5;
         let mut corner = |x: i64, y: i64| {

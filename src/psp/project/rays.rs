@@ -1,11 +1,11 @@
 //! Projection by ray packets: the pattern's points become rays, filtered by the bounding box (thesis §3.4.3) and traced
 //! through the whole mesh by Embree (§3.3.2).
 //!
-//! Departs from the thesis in how a ray goes on behind its first hit: one traversal that collects all hits, instead of
+//! Departs from the thesis in how a ray continues after its first hit: one traversal that collects all hits, instead of
 //! restarted rays. It finds the same hits, without an epsilon.
 //!
-//! Rays live in *trace space*, where the mesh's box is centred at the origin and has a diagonal of 1: Embree's precision
-//! depends on the size of the scene. Only triangle and barycentrics come back from there.
+//! Rays live in *trace space*, where the mesh's box is centred at the origin and has a diagonal of 1: Embree's
+//! precision depends on the size of the scene. Only triangle and barycentrics come back from there.
 
 use std::sync::Arc;
 
@@ -23,7 +23,7 @@ use crate::trace::{Hit, Ray, Scene};
 const BOX_MARGIN: f64 = 1e-6;
 /// Distance of the projectors from the centre (trace space), outside the mesh.
 const DISTANCE: f64 = 1.0;
-/// No more tasks than this, however many repetitions of the pattern a projector needs.
+/// The largest number of tasks, however many repetitions of the pattern a projector needs.
 const MAX_TASKS: u64 = 1 << 16;
 
 /// A mesh in trace space and the pattern that is projected onto it.
@@ -38,19 +38,19 @@ pub struct Rays {
 struct TraceSpace {
     /// The triangles that are to be sampled, and no others.
     scene: Scene,
-    /// Their numbers in the mesh, unless they are all of it.
+    /// The numbers in the mesh of the triangles of the scene, unless these are all.
     numbers: Option<Vec<u32>>,
-    /// Lengths of the mesh times this are those in trace space.
+    /// The factor from lengths of the mesh to those in trace space.
     scale: f64,
     /// Half the size of the mesh's box (trace space), widened.
     half_box: DVec3,
 }
 
-/// The repetitions of the pattern that meet the shadow of the box on a projector.
+/// The repetitions of the pattern that meet the projection of the box on a projector.
 struct Repetitions {
-    /// Half the size of the shadow, in radii.
+    /// Half the size of the projection, in radii.
     half: [f64; 2],
-    /// The lowest on each axis, and how many.
+    /// The lowest repetition on each axis, and the number of them.
     first: [i64; 2],
     count: [u64; 2],
 }
@@ -111,7 +111,7 @@ impl Rays {
         let points = self.pattern.chunk(chunk, offset, repetitions.half);
         let on_plane = points.map(|[x, y]| self.radius * (x * projector.right + y * projector.up));
         let meets_box = on_plane.filter(|&point| {
-            // Where the ray enters and leaves the three pairs of planes (Kay and Kajiya 1986).
+            // The distances at which the ray enters and leaves the three pairs of planes (Kay and Kajiya 1986).
             let (a, b) = ((-self.space.half_box - point) * inverse, (self.space.half_box - point) * inverse);
             a.min(b).max_element() <= a.max(b).min_element()
         });
@@ -129,7 +129,7 @@ impl TraceSpace {
         let (low, high) = mesh.bounds();
         let (low, high) = (exact(low), exact(high));
         let (centre, scale) = (0.5 * (low + high), (high - low).length().recip());
-        // Vertices that no triangle uses can be anywhere; a clamp keeps them from upsetting Embree.
+        // Vertices that no triangle uses can be anywhere; a clamp keeps them harmless to Embree.
         let normalise = |&position: &[f32; 3]| {
             ((exact(position) - centre) * scale).clamp(DVec3::NEG_ONE, DVec3::ONE).as_vec3().to_array()
         };

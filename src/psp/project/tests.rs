@@ -16,10 +16,10 @@ use crate::psp::samples::{Sample, SampleSet};
 #[allow(dead_code)]
 mod meshes;
 
-/// How far rounding may move a point against an edge, in diagonals of the mesh.
+/// The largest distance by which rounding may move a point against an edge, in diagonals of the mesh.
 const ROUNDING: f64 = 2e-7;
 
-/// All hits of an iteration with an engine, by projector and triangle; and the points that it looked at.
+/// All hits of an iteration with an engine, by projector and triangle.
 fn hits(
     engine: Engine,
     mesh: &Mesh,
@@ -58,7 +58,7 @@ fn size(mesh: &Mesh, projector: &Projector, triangle: u32) -> [f64; 2] {
     [longest, (b - a).perp_dot(c - a).abs() / longest]
 }
 
-/// How far a sample is from the boundary of its triangle, as its projector sees both.
+/// The distance of a sample from the boundary of its triangle, as its projector sees both.
 fn depth(mesh: &Mesh, projector: &Projector, sample: &Sample) -> f64 {
     let corners = mesh.corners(sample.triangle).map(|corner| flat(projector, exact(corner)));
     let place = seen(mesh, projector, sample);
@@ -70,15 +70,17 @@ fn depth(mesh: &Mesh, projector: &Projector, sample: &Sample) -> f64 {
     to_edge(0).min(to_edge(1)).min(to_edge(2))
 }
 
-/// What two engines found on a mesh.
+/// The results of two engines on a mesh.
 #[derive(Debug, Default)]
 struct Comparison {
     /// Hits that both have, and hits that only one has.
     common: usize,
     alone: usize,
-    /// By how much their barycentrics differ at most, times the least height of the triangle ...
+    /// The largest difference of their barycentrics, times the least height of the triangle; in diagonals, as the
+    /// projectors see them.
     apart: f64,
-    /// ... and how far inside its triangle a hit is at most that only one has; in diagonals, as the projector sees them.
+    /// The largest distance from the boundary of its triangle of a hit that only one has; in diagonals, as the
+    /// projectors see them.
     deep: f64,
 }
 
