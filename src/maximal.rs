@@ -1,10 +1,10 @@
 //! Maximal Poisson-disk sampling of a rectangle by a flat quadtree: unbiased, and the reference for everything else.
 //!
-//! Every accepted dart is uniform on the part of the domain that the samples before it leave uncovered, until nothing
-//! is left: the process of random sequential placement, run to its end. About 0.6966 samples per r² come out of it.
+//! Every accepted dart is uniform on the part of the domain that the samples before it leave uncovered, until none is
+//! left: random sequential placement, run to completion. It makes about 0.6966 samples per r².
 //!
-//! Source: Ebeida et al. 2012 (see `quadtree.rs`). Departures: all arithmetic is exact on the integer lattice of the
-//! floats (see `lattice.rs`), and a round throws its darts and prunes by them *before* it refines.
+//! Source: Ebeida et al. 2012 (see `plane/quadtree.rs`). Departures: all arithmetic is exact on the integer lattice of
+//! the floats (see `plane/lattice.rs`), and a round throws its darts and prunes by them *before* it refines.
 
 use crate::error::Result;
 use crate::job::{Context, Job, Progress};
@@ -15,18 +15,18 @@ use crate::points::{Boundary, Domain, Points};
 use crate::rng::{Draw, Rng};
 use crate::setters::setters;
 
-/// The most bytes that a cell takes while it is sampled: its sample, its voxels of two levels.
+/// The most bytes that a cell takes while it is sampled: its sample and its voxels of two levels.
 const BYTES_PER_CELL: f64 = 40.0;
 
-/// What to sample.
+/// The options of a maximal set.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Options {
     /// The smallest centre-to-centre distance, above 0 and at least 64 float spacings at the domain's largest
     /// coordinate. It may exceed the domain: one sample is the result.
     pub radius: f64,
-    /// Where to sample: any rectangle, also one thinner than the radius. On a torus whose period is below the radius
-    /// a sample does not conflict with its own image.
+    /// The domain to sample: any rectangle, even one thinner than the radius. On a torus whose period is below the
+    /// radius a sample does not conflict with its own image.
     pub domain: Domain,
     /// The same options and seed give the same samples.
     pub seed: u64,
@@ -61,7 +61,7 @@ pub fn sample(context: &Context, options: &Options, progress: Option<&Progress>)
     context.run(progress, |job| sample_lattice(job, &lattice, options.seed)).map(Points::from)
 }
 
-/// [`sample`] on a lattice that is at hand.
+/// [`sample`] on a given lattice.
 pub(crate) fn sample_lattice(job: &Job, lattice: &Lattice, seed: u64) -> Result<Vec<[f32; 2]>> {
     sample_lattice_around(job, lattice, seed, Vec::new())
 }
@@ -108,7 +108,7 @@ pub(crate) fn sample_points_around(job: &Job, lattice: &Lattice, seed: u64, disk
 mod tests {
     use super::*;
 
-    /// A domain of few floats, in which every lattice point can be asked.
+    /// A domain of few floats, in which every lattice point can be tested.
     #[test]
     fn every_lattice_point_is_covered_and_no_two_samples_conflict() {
         let spacing = f64::from(f32::EPSILON);

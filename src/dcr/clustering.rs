@@ -1,23 +1,24 @@
-//! Clustered sets: far denser in some places than they shall be, and thinner in others.
+//! Clustered sets: far denser in some places than wanted, and sparser in others.
 //!
-//! Where no Fourier transform can level a cluster (`torus/waves.rs`), on meshes and where the density varies, clustered
+//! On meshes and where the density varies, no Fourier transform can level a cluster (`torus/waves.rs`). There clustered
 //! sets are redistributed: random points that have the density wanted are thrown, and both are sorted along a Z-curve.
-//! The point of each rank goes to the random point of that rank. So points that were near each other mostly stay so. The
-//! same points tell clustered sets from others, in the cells of the quadtree or octree that the curve passes through.
+//! The point of each rank goes to the random point of that rank. So points that were near each other mostly stay so.
+//! The same points distinguish clustered sets from others, in the cells of the quadtree or octree that the curve passes
+//! through.
 
-/// A set is clustered if points and random points in a cell differ in number by more than this times the square root of the
-/// latter. If `n` points belong into a square of `√n` spacings, its points have to move by four spacings to get there.
-/// Random sets differ by 1.4 times the root, root mean square.
+/// A set is clustered if points and random points in a cell differ in number by more than this times the square root of
+/// the latter. If `n` points belong in a square of `√n` spacings, its points have to move by four spacings to get
+/// there. Random sets differ by 1.4 times the root, root mean square.
 const EXCESS: f64 = 16.0;
 
-/// The number also differs by more than this fraction: large sets may be a little denser here than there.
+/// The number also differs by more than this fraction: large sets may vary a little in density.
 const LEAST: f64 = 0.25;
 
-/// The least number of random points that are reckoned with in a cell.
+/// The least number of random points assumed in a cell.
 const FEWEST: usize = 16;
 
-/// True if points are clustered in a cell or in a part of it. Given are their sorted places along the curve and those of
-/// the random points; in this cell they differ only in the lowest `bits`, which are those of `AXES` coordinates.
+/// True if points are clustered in a cell or in a part of it. Given are their sorted places along the curve and those
+/// of the random points; in this cell they differ only in the lowest `bits`, which are those of `AXES` coordinates.
 pub fn is_clustered<const AXES: u32>(points: &[u64], random: &[u64], bits: u32) -> bool {
     let difference = points.len().abs_diff(random.len()) as f64;
     let expected = random.len().max(FEWEST) as f64;

@@ -28,7 +28,7 @@ const STRONGEST_PULL: f32 = 1.0;
 /// The steps over which constraints grow stiffer.
 pub const STIFFENING: u32 = 60;
 
-/// The constraints and how stiff they are, in spacings.
+/// The constraints and their stiffness, in spacings.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Constraints {
     pub conflict_radius: f32,
@@ -49,8 +49,8 @@ pub struct Force {
 }
 
 impl Force {
-    /// The displacement of a point in a step, and its velocity after it; `drift` is the part of the displacement that is
-    /// not repeated.
+    /// The displacement of a point in a step, and its velocity after it; `drift` is the part of the displacement that
+    /// is not repeated.
     #[inline(always)]
     pub fn moves(self, velocity: Vec2, drift: Vec2) -> (Vec2, Vec2) {
         let limit = SAFE_FRACTION * self.clearance;
@@ -68,8 +68,8 @@ fn limited(vector: Vec2, limit: f32) -> Vec2 {
 }
 
 impl Constraints {
-    /// The constraints of a step with Delaunay neighbours. Radii, stiffness and momentum were chosen on sets of 1,000 to
-    /// 65,536 points: with more momentum or stiffer pulls sets get more regular.
+    /// The constraints of a step with Delaunay neighbours. Radii, stiffness and momentum were chosen on sets of 1,000
+    /// to 65,536 points: with more momentum or stiffer pulls sets get more regular.
     pub fn of_step(iterations: u32) -> Self {
         let stiff = iterations.min(STIFFENING) as f32 / STIFFENING as f32;
         let (push, pull) = (0.1 + 0.3 * stiff, 0.1 + 0.1 * stiff);
@@ -137,7 +137,7 @@ impl Constraints {
     pub fn pull(&self, a: Vec2, b: Vec2, area: f32) -> Vec2 {
         let centre = scaled_circumcentre(a, b) * (2.0 * area).recip();
         let radius = centre.length();
-        // Infinite or NaN for triangles without area, and 0 by rounding where two neighbours all but coincide.
+        // Infinite or NaN for triangles without area, and 0 by rounding where two neighbours almost coincide.
         if !(radius.is_finite() && radius > 0.0) {
             return Vec2::ZERO;
         }
@@ -150,7 +150,7 @@ impl Constraints {
 // units of the point's own spacing.
 //
 // Holes are judged by the density itself because a spacing whose growth is limited is too small beside edges: with it,
-// holes would pull dots out of dark areas, and the error of tone is three to ten times as large.
+// holes would pull points out of dark areas, and the error of tone is three to ten times as large.
 
 /// A neighbour in the ring around a point: its offset and its local spacing.
 #[derive(Clone, Copy)]
@@ -208,7 +208,7 @@ mod tests {
 
     #[test]
     fn neighbours_that_all_but_coincide_push_and_do_not_tear() {
-        // Their circumcentre is computed as the point itself: a hole of radius 0, by which nothing may be divided.
+        // Their circumcentre is computed as the point itself: a hole of radius 0, which must not be a divisor.
         let ring = [
             Vec2::new(-0.57636416, 0.43213812),
             Vec2::new(-0.6563772, -1.291182),

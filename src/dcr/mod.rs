@@ -9,7 +9,7 @@
 //! * [`Method::Thesis`]: the algorithm of the thesis with all of its settings.
 //!
 //! [`fn@relax`] works on a constant density, [`relax_with_density`] on any other, [`fn@surface::relax`] on triangle
-//! meshes. `docs/dcr.md` has what each of them reaches, measured: distances, coverage, spectra and angles.
+//! meshes. `docs/dcr.md` has measurements of the results of each: distances, coverage, spectra and angles.
 //!
 //! Convergence is judged by motion ([`Report::motion`]), unless [`Convergence::Variance`] asks for the thesis's own
 //! test.

@@ -10,7 +10,7 @@ use crate::setters::setters;
 pub enum Neighbourhood {
     /// Its neighbours in the Delaunay triangulation: they keep their distance and close holes (§4.3.3).
     Delaunay,
-    /// Its nearest points: they only repel (§4.3.4). The smallest distance gets larger than with Delaunay neighbours,
+    /// Its nearest points: they only repel (§4.3.4). The smallest distance ends larger than with Delaunay neighbours,
     /// and so do the holes.
     Nearest,
 }
@@ -30,18 +30,18 @@ pub enum Method {
 pub struct Options {
     /// The rectangle in which the points lie and stay.
     pub domain: Domain,
-    /// The points that are neighbours.
+    /// The definition of neighbours.
     pub neighbourhood: Neighbourhood,
     /// The law by which points move.
     pub method: Method,
-    /// The largest number of steps. 0 returns the points as they are.
+    /// The largest number of steps. 0 returns the points unchanged.
     pub max_iterations: u32,
     /// The key of the moves of coincident points, and of those of a set that lies on one line; with a density, of the
     /// redistribution of clustered points. Used for nothing else.
     pub seed: u64,
-    /// The motion ([`Report::motion`](super::Report::motion)) at which the set has converged, if the constraints are met
-    /// ([`Stopped::Converged`](super::Stopped::Converged)); 0 makes all steps unless nothing moves at all. Not used with
-    /// [`Convergence::Variance`](super::Convergence::Variance).
+    /// The motion ([`Report::motion`](super::Report::motion)) at which the set has converged, if the constraints are
+    /// met ([`Stopped::Converged`](super::Stopped::Converged)); with 0 all steps are made unless nothing moves at all.
+    /// Not used with [`Convergence::Variance`](super::Convergence::Variance).
     pub tolerance: f64,
 }
 

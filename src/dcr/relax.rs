@@ -1,4 +1,4 @@
-//! Relaxation in the plane: the call at a constant density, and what all calls in the plane share.
+//! Relaxation in the plane: the call at a constant density, and the parts shared by all calls in the plane.
 
 use crate::dcr::options::{Method, Options};
 use crate::dcr::relaxation::{Limits, Relaxation, Steps, Stopped, run};
@@ -19,11 +19,11 @@ pub type Observer<'a> = dyn FnMut(&[[f32; 2]]) + 'a;
 pub struct Report {
     /// The number of steps made.
     pub iterations: u32,
-    /// The reason why there were no more.
+    /// The reason why the steps ended.
     pub stopped: Stopped,
     /// Half of the distance that points covered in the last span of steps, or since the start if that was shorter: root
-    /// mean square, in units of `d_max`. A span is 10 steps, or in the thesis's method the steps whose λ add up to 2, so
-    /// that the motion is per unit of λ: the same for small and large steps at the same state.
+    /// mean square, in units of `d_max`. A span is 10 steps, or in the thesis's method the steps whose λ add up to 2,
+    /// so that the motion is per unit of λ: the same for small and large steps at the same state.
     pub motion: f64,
     /// The smallest distance between two of the returned points, in the units of the domain, around the torus on a
     /// periodic domain; infinite for less than two points.
@@ -37,21 +37,22 @@ pub struct Report {
 
 /// Relaxes a set of points of the domain: returns as many points, in the same order, spread more evenly.
 ///
-/// The result is the same for every number of threads and every order of calls; the points stay in
-/// `min <= x < max`, around the torus or held back by the boundary. An empty set and a single point are returned as they
-/// are. Coincident points, and all points of a set on one line, are first moved by 0.001 to 0.002 `d_max` in
-/// directions keyed by `seed` and index: the forces alone would not separate them.
+/// The result is the same for every number of threads and every order of calls; the points stay in `min <= x < max`,
+/// wrapped around the torus or held back by the boundary. An empty set and a single point are returned unchanged.
+/// Coincident points, and all points of a set on one line, are first moved by 0.001 to 0.002 `d_max` in directions
+/// keyed by `seed` and index: the forces alone would not separate them.
 ///
 /// The momentum method levels a clustered set before the first step: one in which points are crowded in some places and
 /// missing in others, as in a corner, on a line, at a single place. It is spread by the long waves of its density, as
-/// smoothly as that goes, in up to 24 passes that take about the time of a step each. So any set ends with the figures
-/// of a random one, and after about its time. Uniform random sets are not clustered, except on domains that are very long
-/// for their width. A call that makes all of its steps succeeds whatever it has reached; the report says what that is.
+/// smoothly as possible, in up to 24 passes that take about the time of a step each. So any set ends with the figures
+/// of a random one, and in about the same time. Uniform random sets are not clustered, except on domains that are very
+/// long for their width. A call that makes all of its steps succeeds whatever the quality reached, which is in the
+/// report.
 ///
-/// The momentum method with Delaunay neighbours returns, of the set before the first step and the states after whole steps, the one
-/// in which the fewest points have a neighbour closer than 0.85 `d_max` or a triangle whose circumradius is above 0.67
-/// `d_max`; of several, the last. In all other cases the set after the last whole step is returned. A call that is
-/// cancelled returns the same, with [`Stopped::Cancelled`](super::Stopped::Cancelled).
+/// The momentum method with Delaunay neighbours returns, of the set before the first step and the states after whole
+/// steps, the one in which the fewest points have a neighbour closer than 0.85 `d_max` or a triangle whose circumradius
+/// is above 0.67 `d_max`; of several, the last. In all other cases the set after the last whole step is returned. A
+/// call that is cancelled returns the same, with [`Stopped::Cancelled`](super::Stopped::Cancelled).
 ///
 /// Each step is O(n) for sets without dense clusters, but O(n log n) where a Delaunay triangulation is built anew:
 /// always by the thesis's method, and by the momentum method in sets of a few points, with holes as wide as the domain,
@@ -60,8 +61,8 @@ pub struct Report {
 ///
 /// # Errors
 /// [`Error::InvalidArgument`](crate::Error::InvalidArgument) for options out of their range and for points outside the
-/// domain or not finite (`xy`, with index and value), [`Error::TooLarge`](crate::Error::TooLarge) for more than 2^32 - 1
-/// points.
+/// domain or not finite (`xy`, with index and value), [`Error::TooLarge`](crate::Error::TooLarge) for more than
+/// 2^32 - 1 points.
 pub fn relax(
     context: &Context,
     options: &Options,
@@ -98,7 +99,7 @@ pub fn relax_observed(
     }
 }
 
-/// A set in the plane, as it is reported.
+/// A set in the plane, for its report.
 pub trait PlaneRelaxation: Relaxation {
     /// The points in the user's order; `points` are those with which it began.
     fn points(&self, points: &[[f32; 2]]) -> Vec<[f32; 2]>;
@@ -131,7 +132,7 @@ pub fn relax_set<R: PlaneRelaxation>(
     run(context, limits, set, progress, observe, |job, set, steps| measure(job, &options.domain, points, set, steps))
 }
 
-/// The points as they are, and their report.
+/// The current points and their report.
 pub fn measure(
     job: &Job,
     domain: &Domain,
@@ -167,10 +168,10 @@ fn smallest_distance(job: &Job, domain: &Domain, points: &[[f32; 2]]) -> Result<
     Ok(nearest.into_iter().fold(f64::INFINITY, f64::min).sqrt())
 }
 
-/// Memory for a point or a sample and all that is known of it, at the peak.
+/// The peak memory for a point or a sample and all of its data.
 const BYTES_PER_POINT: f64 = 300.0;
 
-/// Refuses more points than memory holds.
+/// Refuses more points than fit in memory.
 pub fn require_memory(argument: &'static str, count: usize) -> Result<()> {
     memory::require(BYTES_PER_POINT * count as f64, argument, &format!("{count} points"))
 }

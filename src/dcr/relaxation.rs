@@ -1,18 +1,18 @@
 //! The frame of all relaxations, in the plane and on surfaces: one loop of steps, one test of convergence.
 //!
-//! A [`Relaxation`] is a set with its law of motion. All else is here: how many steps are made, how far points move,
-//! what is reported, and that a cancelled call succeeds.
+//! A [`Relaxation`] is a set with its law of motion. All else is here: the number of steps, the measure of motion, the
+//! report, and the success of cancelled calls.
 //!
-//! The thesis's test of convergence (`thesis/mod.rs`) depends on the step size and fires early: halving λ halves
-//! the change per step. Motion per step does not work either: activeness keeps points jittering for ever, the more per
-//! step the larger λ is. So the distance covered is measured: the root mean square distance from where the points were,
-//! over a span of steps whose step sizes add up to 2, divided by that sum. The jitter cancels out over longer spans, and
+//! The thesis's test of convergence (`thesis/mod.rs`) depends on the step size and fires early: halving λ halves the
+//! change per step. Motion per step does not work either: activeness keeps points jittering for ever, by more per step
+//! the larger λ is. So the distance covered is measured: the root mean square distance from where the points were, over
+//! a span of steps whose step sizes add up to 2, divided by that sum. The jitter cancels out over longer spans, and
 //! runs with λ = 0.025 to 0.2 have the same motion at the same sum of step sizes, within a third.
 
 use crate::error::{Error, Result};
 use crate::job::{Context, Job, Progress};
 
-/// The share of the steps' progress that is that of the preparation.
+/// The share of the progress of all steps that the preparation takes.
 const BEGIN: f64 = 0.01;
 
 /// The sum of the step sizes in one span.
@@ -31,7 +31,7 @@ pub trait Space<P> {
     fn distance_squared(&self, from: P, to: P) -> f64;
 }
 
-/// A point set that is being relaxed, in any space and by any law.
+/// A point set under relaxation, in any space and by any law.
 pub trait Relaxation {
     /// The position of a point.
     type Position: Copy;
@@ -44,7 +44,7 @@ pub trait Relaxation {
     /// The positions of all points, always in the same order after [`Relaxation::begin`].
     fn positions(&self) -> impl ExactSizeIterator<Item = Self::Position>;
 
-    /// Prepares the set for the first step: one that is clustered is spread. If it is cancelled, no point has moved.
+    /// Prepares the set for the first step: a clustered one is spread. If it is cancelled, no point has moved.
     fn begin(&mut self, _: &Job) -> Result<()> {
         Ok(())
     }
@@ -52,8 +52,8 @@ pub trait Relaxation {
     /// Moves all points; `iteration` is the number of steps made before. If it is cancelled, none has moved.
     fn step(&mut self, job: &Job, iteration: u32) -> Result<()>;
 
-    /// Lets what is kept of the points' neighbours follow a step, in the rest of its job. The step counts even if this is
-    /// cancelled.
+    /// Updates the data kept about the points' neighbours after a step, in the rest of its job. The step counts even if
+    /// this is cancelled.
     fn follow(&mut self, job: &Job) -> Result<()> {
         job.report(1.0)
     }
@@ -63,7 +63,7 @@ pub trait Relaxation {
         STEP
     }
 
-    /// True if the set has converged; given is whether its motion has ended.
+    /// True if the set has converged; `is_at_rest` is true if its motion has ended.
     fn has_converged(&self, is_at_rest: bool) -> bool {
         is_at_rest
     }
@@ -75,7 +75,7 @@ pub trait Relaxation {
     }
 }
 
-/// The reason why a relaxation made no more steps.
+/// The reason why a relaxation ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stopped {
     /// The set converged, or there was nothing to move. With the momentum method and Delaunay neighbours no points are
@@ -95,7 +95,7 @@ pub struct Limits {
     pub tolerance: f64,
 }
 
-/// The steps that were made: what the reports of all relaxations begin with.
+/// The steps that were made: the common part of the reports of all relaxations.
 #[derive(Clone, Copy)]
 pub struct Steps {
     pub iterations: u32,
@@ -105,7 +105,7 @@ pub struct Steps {
 }
 
 /// Makes the steps of a set, calls `observe` after each, and measures the result. If the call is cancelled, the set
-/// after its last whole step is measured, without asking the caller again.
+/// after its last whole step is measured, without another call to `observe`.
 pub fn run<R: Relaxation, T>(
     context: &Context,
     limits: Limits,
@@ -133,7 +133,7 @@ struct Course<P> {
 }
 
 impl<P: Copy> Course<P> {
-    /// Steps until the motion ends or the steps do.
+    /// Makes steps until the motion ends or the steps are used up.
     fn make_steps<R: Relaxation<Position = P>>(
         &mut self,
         job: &Job,
@@ -261,7 +261,7 @@ mod tests {
         }
     }
 
-    /// The steps of walkers until the progress is that share, and where they are then.
+    /// The steps of walkers until the progress is that share, and their positions then.
     fn walk(tolerance: f64, cancelled_at: f64) -> (Steps, f64) {
         let limits = Limits { max_iterations: 25, tolerance };
         let progress = |share| if share >= cancelled_at { ControlFlow::Break(()) } else { ControlFlow::Continue(()) };

@@ -12,15 +12,15 @@ use crate::plane::rect::Rect;
 use crate::points::Boundary;
 use crate::rng::{Draw, Rng, hash};
 
-/// The most that a block is wide, in radii, before jitter. With jitter it touches [`MOST_CELLS`](super::bitmap::MOST_CELLS)
-/// cells at most, since a domain worth tiling has cells of at least 0.67 radii.
+/// The largest width of a block, in radii, before jitter. With jitter it touches
+/// [`MOST_CELLS`](super::fill::MOST_CELLS) cells at most, since a domain worth tiling has cells of at least 0.67 radii.
 const WIDTH: f64 = 4.8;
 
-/// How far an edge is moved at most, as a share of the width.
+/// The largest displacement of an edge, as a share of the width.
 const JITTER: f64 = 0.25;
 
-/// The phases: the parity of their blocks' column and row, and how many columns and rows around a window of blocks
-/// must be filled in this phase, so that the window's own blocks come out right.
+/// The phases: the parity of their blocks' column and row, and the number of columns and rows around a window of blocks
+/// that must be filled in this phase for the window's own blocks to be right.
 ///
 /// A block depends on the blocks of earlier phases that touch it, at most one column and one row away (the narrowest
 /// block is wider than r). Parities change one at a time from phase to phase, so (0, 1) depends on (1, 1) in the next
@@ -34,19 +34,19 @@ pub struct Block {
     pub cells: Rect,
 }
 
-/// The blocks of a plane. Columns and rows count from 0; on a torus they go on beyond its edges.
+/// The blocks of a plane. Columns and rows count from 0; on a torus they continue beyond its edges.
 #[derive(Clone, Debug)]
 pub struct Blocks {
     size: [i32; 2],
     counts: [i32; 2],
-    /// Where the columns (axis 0) and rows (axis 1) of the domain begin, and where the last ends.
+    /// The starts of the columns (axis 0) and rows (axis 1) of the domain, and the end of the last.
     edges: [Vec<i32>; 2],
     boundary: Boundary,
     seed: u64,
 }
 
 impl Blocks {
-    /// Whether a lattice can be cut into blocks: a torus must be at least two of them wide and high.
+    /// True if a lattice can be cut into blocks: a torus must be at least two of them wide and high.
     pub fn fit(lattice: &Lattice) -> bool {
         let fits = |size: i32| f64::from(size) >= 2.0 * WIDTH * lattice.radius;
         lattice.boundary == Boundary::Bounded || lattice.size.into_iter().all(fits)
@@ -76,13 +76,13 @@ impl Blocks {
         self.counts
     }
 
-    /// No block is longer than this.
+    /// The longest sides of blocks.
     pub fn largest(&self) -> [i32; 2] {
         let longest = |axis: usize| self.edges[axis].windows(2).map(|edges| edges[1] - edges[0]).max().unwrap_or(0);
         [longest(0), longest(1)]
     }
 
-    /// Where a column (axis 0) or row (axis 1) begins.
+    /// The start of a column (axis 0) or row (axis 1).
     fn edge(&self, axis: usize, index: i32) -> i32 {
         let (turn, index) = (index.div_euclid(self.counts[axis]), index.rem_euclid(self.counts[axis]));
         turn * self.size[axis] + self.edges[axis][index as usize]
@@ -117,8 +117,8 @@ impl Blocks {
         index
     }
 
-    /// The columns (axis 0) or rows (axis 1) of a rectangle of blocks that have the given parity, from left to right, each
-    /// with its first lattice point and the one after its last.
+    /// The columns (axis 0) or rows (axis 1) of a rectangle of blocks that have the given parity, from left to right,
+    /// each with its first lattice point and the one after its last.
     pub fn of_parity(&self, blocks: &Rect, axis: usize, parity: i32) -> impl Iterator<Item = (i32, [i32; 2])> {
         let indices = (blocks.min[axis]..blocks.max[axis]).filter(move |index| index & 1 == parity);
         indices.map(move |index| (index, [self.edge(axis, index), self.edge(axis, index + 1)]))
@@ -293,7 +293,7 @@ mod tests {
         }
     }
 
-    /// Walks all dependencies from one block: what the margins of the phases promise is what is needed.
+    /// Walks all dependencies from one block: the margins of the phases are exactly those needed.
     #[test]
     fn the_margins_of_the_phases_are_exactly_what_a_block_depends_on() {
         let phase = |[x, y]: [i32; 2]| PHASES.iter().position(|&(parity, _)| parity == [x & 1, y & 1]).unwrap();

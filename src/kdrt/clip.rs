@@ -1,8 +1,9 @@
 //! Clip (thesis §2.3.1 and 2.3.2): the pattern and the parts of it that are laid into the leaves.
 //!
 //! Departures: the pattern is periodic, so every offset can be clipped; it lies on the lattice of the plane and has the
-//! plane's radius, so translations are exact and nothing is scaled; a clip is turned at random as well as shifted; and it
-//! is what lies *inside* the leaf, without the thesis's margin of 2r, because the gaps along its boundary are filled anyway.
+//! plane's radius, so translations are exact and nothing is scaled; a clip is turned at random as well as shifted; and
+//! it contains only the points *inside* the leaf, without the thesis's margin of 2r, because the gaps along its
+//! boundary are filled anyway.
 
 use crate::error::Result;
 use crate::index::Binned;
@@ -14,8 +15,8 @@ use crate::rng::{Draw, Rng};
 
 use crate::kdrt::divide::Leaf;
 
-/// The pattern's side in leaf sizes and its bounds in radii, if leaves are not very large: about 28,000 samples with the
-/// leaves of the default size.
+/// The pattern's side in leaf sizes and its bounds in radii, if leaves are not very large: about 28,000 samples with
+/// the leaves of the default size.
 ///
 /// A set shows its pattern: at every frequency the expected power is the pattern's own, smoothed over 1 / leaf size. So
 /// the periodogram varies more than that of an unbiased set, by about 0.35 (leaf size / side)² of its mean squared, and
@@ -40,7 +41,7 @@ pub struct Pattern {
     turned: Vec<Binned<[i32; 2]>>,
 }
 
-/// The pattern as it is, mirrored, transposed, and both. Sets of real numbers have the same power at opposite
+/// The pattern unchanged, mirrored, transposed, and both. Sets of real numbers have the same power at opposite
 /// frequencies, so the other four symmetries of the square would add nothing.
 const TURNS: usize = 4;
 
@@ -59,7 +60,7 @@ pub struct Row<'a> {
     shift: [i32; 2],
     /// The part of the plane that the run stands for.
     pub part: Rect,
-    /// Whether all points lie in `part`: some may lie below or above it otherwise.
+    /// True if all points lie in `part`: otherwise some may lie below or above it.
     pub is_whole: bool,
 }
 
@@ -106,7 +107,7 @@ impl Pattern {
         Ok(Self { side, height, turned })
     }
 
-    /// The point of the torus that is laid on a leaf's lower corner, and how the torus is turned before.
+    /// The point of the torus that is laid on a leaf's lower corner, and the turn of the torus before that.
     fn place(&self, leaf: &Leaf) -> ([i32; 2], usize) {
         let mut rng = Rng::at(leaf.key, Draw::Clip, &[]);
         (std::array::from_fn(|_| rng.below(self.side as u64) as i32), rng.below(TURNS as u64) as usize)
@@ -138,8 +139,8 @@ impl Pattern {
         }
     }
 
-    /// The first point of a row that does not lie left of `x`. Points of a row are so even that it is near where it would
-    /// be if they were equidistant: quicker found than by bisection.
+    /// The first point of a row that does not lie left of `x`. Points of a row are so even that it is near its index in
+    /// an equidistant row: found more quickly than by bisection.
     fn first_from(&self, row: &[[i32; 2]], x: i32) -> usize {
         let mut index = (x as u64 * row.len() as u64 / self.side as u64) as usize;
         while index > 0 && row[index - 1][0] >= x {
@@ -182,7 +183,7 @@ fn turned([x, y]: [i32; 2], side: i32, turn: usize) -> [i32; 2] {
 mod tests {
     use super::*;
 
-    /// Turns keep all distances on the torus, and no two are the same or each other's opposite.
+    /// Turns preserve all distances on the torus, and no two are the same or opposite.
     #[test]
     fn turns_are_symmetries_of_the_torus() {
         let (a, b, side) = ([3, 17], [95, 40], 100);

@@ -1,14 +1,14 @@
 //! Conquer, first half (thesis §2.3.3): where clips meet, conflicts are eliminated.
 //!
-//! Departure: which point of a conflict goes does not depend on the order of work. Leaves are ranked by hash, and a
+//! Departure: the point eliminated in a conflict does not depend on the order of work. Leaves are ranked by hash, and a
 //! point survives if and only if no *surviving* point of a leaf of higher rank conflicts with it. Going through the
-//! leaves by rank, a point that conflicts with nothing inserted before it survives and is never taken back.
+//! leaves by rank, a point that conflicts with nothing inserted before it survives and is never removed again.
 //!
-//! # How far away a decision can come from
-//! Whether p0 survives depends on the points p1 in conflict with it, of higher rank, whether these do on p2, and so
-//! on: a chain whose leaves rise in rank, so that all differ. A chain of five points lies in a square of side 4·reach,
-//! which is less than 6 radii, the shortest side of a leaf. On each axis a leaf that meets this square is longer than
-//! the square, so it holds one of the two ends of the square's side; it thus holds a corner of the square. Leaves are
+//! # The range of decisions
+//! The survival of p0 depends on the points p1 of higher rank in conflict with it, theirs on points p2, and so on: a
+//! chain whose leaves rise in rank, so that all differ. A chain of five points lies in a square of side 4·reach, which
+//! is less than 6 radii, the shortest side of a leaf. On each axis a leaf that meets this square is longer than the
+//! square, so it holds one of the two ends of the square's side; it thus holds a corner of the square. Leaves are
 //! disjoint, so there are at most four of them and no chain of five points. (A leaf as long as a bounded domain holds
 //! the square's side as far as there is one.) Chains end after three hops: knowing all points within 3·reach of p0 is
 //! enough.
@@ -19,17 +19,18 @@ use crate::kdrt::{
 };
 use crate::plane::{CellGrid, lattice::Lattice, rect::Rect};
 
-/// How many radii (in lattice units: reaches) around a region decide which points survive in it.
+/// The width in radii (in lattice units: reaches) of the surroundings of a region that decide which points survive in
+/// it.
 pub const LONGEST_CHAIN: i32 = 3;
 
-/// How far inside its leaf, per axis, a point has no part in any test: gaps lie within 2 reaches of a boundary (see
-/// [`SeamCells`]), in cells that may go a cell farther, and what conflicts with a point there is a reach away.
+/// The depth inside its leaf, per axis, from which on a point is in no test: gaps lie within 2 reaches of a boundary
+/// (see [`SeamCells`]), in cells that may extend a cell farther, and conflicts with a point there reach one more.
 pub fn seam_depth(grid: &CellGrid, reach: i32) -> i32 {
     3 * reach + grid.widest_cell()
 }
 
-/// Clips the leaves, which are sorted by falling rank. What survives in `window`, the grid's rectangle, goes to
-/// `output`, and into the grid if it is near a seam; what does not is returned.
+/// Clips the leaves, which are sorted by falling rank. Points that survive in `window`, the grid's rectangle, go to
+/// `output`, and into the grid if they are near a seam; those eliminated are returned.
 pub fn merge(
     grid: &mut CellGrid,
     pattern: &Pattern,
@@ -41,9 +42,9 @@ pub fn merge(
     let mut eliminated = Vec::new();
     let depth = seam_depth(grid, reach);
     for leaf in leaves {
-        // What disks take out leaves gaps anywhere.
+        // Points removed by disks leave gaps anywhere.
         let deep = if grid.has_obstacles() { Rect { min: [0; 2], max: [0; 2] } } else { leaf.rect.grown(-depth) };
-        // Deeper inside than this no other leaf's point conflicts.
+        // Deeper inside than this, no point of another leaf conflicts.
         let inside = leaf.rect.grown(-reach);
         let mut place = |row: &Row, output: &mut Output| {
             for point in row.points().filter(|&point| row.part.contains(point)) {
@@ -78,9 +79,9 @@ pub fn merge(
 ///
 /// In the pattern every point is covered, by a sample at most a reach away. If that is missing from the plane, it lay
 /// outside the leaf, so the point is within a reach of the leaf's boundary, or it was eliminated. Both are the same for
-/// all windows that know what survives around the cell, so they agree on it.
+/// all windows that know the survivors around the cell, so they agree on it.
 pub struct SeamCells {
-    /// Words of a row of cells, each with a bit per cell, and one more.
+    /// The number of words of a row of cells, each with a bit per cell, plus one.
     stride: usize,
     seam: Vec<u64>,
 }
@@ -92,7 +93,7 @@ impl SeamCells {
         let mut cells = Self { stride, seam: vec![0; stride * height as usize] };
         for leaf in leaves {
             let all = grid.cells_of(&leaf.rect);
-            // A cell that the boundary of the inner rectangle cuts is not inside of it.
+            // A cell cut by the boundary of the inner rectangle is not inside it.
             let inside = grid.cells_of(&leaf.rect.grown(-reach)).grown(-1);
             if inside.is_empty() {
                 cells.mark(&all);
@@ -111,7 +112,7 @@ impl SeamCells {
         cells
     }
 
-    /// All cells of a window, where nothing says what is covered.
+    /// All cells of a window, where nothing is known about coverage.
     pub fn all(grid: &CellGrid) -> Self {
         let [width, height] = grid.counts();
         let stride = width as usize / 64 + 2;
@@ -121,7 +122,7 @@ impl SeamCells {
         cells
     }
 
-    /// Takes out the cells that a disk covers.
+    /// Unmarks the cells that a disk covers.
     fn unmark_hidden(&mut self, grid: &CellGrid) {
         for [x, y] in grid.hidden_cells() {
             self.seam[y * self.stride + x / 64] &= !(1 << (x % 64));
@@ -141,7 +142,7 @@ impl SeamCells {
         }
     }
 
-    /// The marked cells of a rectangle, less than 64 cells wide, and what lies between them: a rectangle, if there are any.
+    /// The bounding rectangle of the marked cells of a rectangle less than 64 cells wide, if there are any.
     pub fn marked_in(&self, cells: &Rect) -> Option<Rect> {
         let (mut columns, mut rows) = (0, [i32::MAX, 0]);
         for row in cells.min[1]..cells.max[1] {
@@ -166,8 +167,8 @@ impl SeamCells {
 //
 // The samples of a window, as floats in the order in which they are found.
 
-/// For how many samples there should be memory where an unbiased set would have so many: seams make a set up to 2 %
-/// denser; that much again for chance.
+/// The number of samples to reserve memory for where an unbiased set would have `expected`: seams make a set up to 2 %
+/// denser; that much again is for chance.
 pub fn capacity(expected: f64) -> usize {
     (expected * 1.04) as usize
 }
@@ -202,7 +203,7 @@ impl<'a> Output<'a> {
         }
     }
 
-    /// How many samples there are so far.
+    /// The number of samples so far.
     #[cfg(feature = "stages")]
     pub fn len(&self) -> usize {
         self.samples.len()

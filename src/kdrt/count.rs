@@ -1,10 +1,9 @@
 //! Exactly N samples (thesis §2.5.3), and still a maximal set.
 //!
 //! Departure: the thesis makes about N samples and then inserts the rest into the largest triangles, which brings
-//! samples closer together than the radius, or eliminates the surplus, which leaves gaps. Here a set of
-//! about N samples is changed in small places only (see Tuning below): the samples of a place are taken out and it is filled
-//! again, as KDRT fills its gaps, until it holds as many more or fewer as wanted. The radius is kept, and so is the
-//! coverage.
+//! samples closer together than the radius, or eliminates the surplus, which leaves gaps. Here a set of about N samples
+//! is changed in small places only (see Tuning below): the samples of a small region are removed and it is refilled, as
+//! KDRT fills its gaps, until it holds as many more or fewer as wanted. Radius and coverage are kept.
 
 use std::cmp::Reverse;
 use std::sync::Arc;
@@ -23,36 +22,37 @@ use crate::points::{Boundary, Domain, MAXIMAL_DENSITY, Points};
 use crate::rng::{Draw, Rng, hash};
 use crate::setters::setters;
 
-/// Radii that are tried before a set is accepted that is not maximal. A maximal set of any number of samples exists:
-/// put each where the domain is farthest from those before it. More than a dozen attempts at one were never seen.
+/// The number of radii that are tried before a set that is not maximal is accepted. A maximal set of any number of
+/// samples exists: put each where the domain is farthest from those before it. More than a dozen attempts at one set
+/// were never observed.
 const ATTEMPTS: u64 = 64;
 
-/// The share of the remaining progress that the attempt at work takes.
+/// The share of the remaining progress that the current attempt takes.
 const ATTEMPT_SHARE: f64 = 0.9;
 
 /// The share of an attempt that making the set takes; the rest is for tuning it.
 const SAMPLING_SHARE: f64 = 0.7;
 
-/// What to sample, by number.
+/// The options of a set with a given number of samples.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct CountOptions {
-    /// How many samples: at least 1.
+    /// The number of samples: at least 1.
     pub count: u64,
-    /// Where to sample, as in [`Options`](super::Options).
+    /// The domain to sample, as in [`Options`](super::Options).
     pub domain: Domain,
     /// The shortest side of a leaf in radii, as in [`Options`](super::Options).
     pub leaf_size: f64,
     /// The same options and seed give the same samples.
     pub seed: u64,
-    /// The levels of a set in progressive order; none, the default, for any order. The sets of all counts with the same
-    /// levels are prefixes of each other. The coarsest must not have more samples than asked for; infinity, its default,
-    /// or any radius that is longer than the diagonal of the domain, stands for this diagonal.
+    /// The levels of a set in progressive order; none, the default, for an arbitrary order. The sets of all counts with
+    /// the same levels are prefixes of each other. The coarsest must not have more samples than asked for; infinity,
+    /// its default, or any radius that is longer than the diagonal of the domain, stands for this diagonal.
     pub levels: Option<Progressive>,
 }
 
 impl CountOptions {
-    /// So many samples on the unit torus, with leaves of [`DEFAULT_LEAF_SIZE`], seed 0 and in any order.
+    /// `count` samples on the unit torus, with leaves of [`DEFAULT_LEAF_SIZE`], seed 0 and in an arbitrary order.
     pub fn new(count: u64) -> Self {
         Self { count, domain: Domain::unit(Boundary::Periodic), leaf_size: DEFAULT_LEAF_SIZE, seed: 0, levels: None }
     }
@@ -66,41 +66,43 @@ setters!(CountOptions {
     levels: Option<Progressive>,
 });
 
-/// What [`sample_count`] achieved.
+/// The report of [`sample_count`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct CountReport {
     /// The radius: no two samples are closer.
     pub radius: f64,
-    /// Whether the set is maximal for this radius. True where a maximal set of so many samples was found; false in
-    /// progressive order, where the domain is covered within the quotient times the radius.
+    /// True if the set is maximal for this radius: where a maximal set of this size was found. False in progressive
+    /// order, where the domain is covered within the quotient times the radius.
     pub is_maximal: bool,
 }
 
 /// A maximal Poisson-disk set of exactly `count` samples, in parallel.
 ///
-/// The radius follows from the density of maximal sets and is corrected when the set made with it is off by more than
-/// chance. What still differs, mostly up to 0.3 % and with less than 10,000 samples up to about their square root, is
-/// set right by making small places anew. The result keeps what [`sample`](super::sample) promises, for the radius in
-/// the report: conflict-free, and maximal within the same tolerance. Many radii would do, the more different ones the
-/// fewer the samples; it is the first that is found. The radius of a single sample is one with which it covers the
-/// domain.
+/// The radius follows from the density of maximal sets and is corrected when the count of the set made with it is off
+/// by more than chance. The remaining difference, mostly up to 0.3 % and with fewer than 10,000 samples up to about
+/// their square root, is removed by remaking small regions. The result keeps what [`sample`](super::sample) promises,
+/// for the radius in the report: conflict-free, and maximal within the same tolerance. Many radii are possible, over a
+/// range that is the wider the fewer the samples; the first one found is taken. The radius of a single sample is one
+/// with which it covers the domain.
 ///
-/// If no maximal set is found, which has not been seen in 100,000 sets of few samples, the most crowded samples of a
-/// larger set are dropped and the report says that the set is not maximal. How far the domain is from the samples
-/// exactly says [`covering_radius_2d`](crate::analysis::coverage::covering_radius_2d).
+/// If no maximal set is found, which did not occur in 100,000 sets of few samples, the most crowded samples of a larger
+/// set are dropped and the report says that the set is not maximal.
+/// [`covering_radius_2d`](crate::analysis::coverage::covering_radius_2d) gives the exact largest distance of the domain
+/// from the samples.
 ///
 /// In progressive order the samples are the first ones of a set whose coarsest radius depends on the domain only
 /// ([`CountOptions::levels`]), so that sets of smaller counts are prefixes; the radius in the report is the last
 /// rank.
 ///
-/// In any order the samples are in that of [`sample`](super::sample), with those made anew in the places of others. The
-/// same for every number of threads. O(n) like [`sample`](super::sample), which is called once or a few times.
+/// Without levels the order is that of [`sample`](super::sample), with remade samples in the places of those removed.
+/// The result is the same for every number of threads. O(n) like [`sample`](super::sample), which is called once or a
+/// few times.
 ///
 /// # Errors
 /// [`Error::InvalidArgument`] for an argument out of range, and for `count` where floats are too coarse for the radius
 /// of so many samples; [`Error::TooLarge`] above 2^32 samples or the available memory; both before any work, unless the
-/// expected radius is hardly above the limit; [`Error::Cancelled`].
+/// expected radius is barely above the limit; [`Error::Cancelled`].
 pub fn sample_count(
     context: &Context,
     options: &CountOptions,
@@ -131,7 +133,7 @@ fn first_of_order(job: &Job, options: &CountOptions, levels: &Progressive) -> Re
     Ok((points, CountReport { radius, is_maximal: false }))
 }
 
-/// Makes sets of several radii until one can be tuned; after `limit` of them a larger one will do.
+/// Makes sets of several radii until one can be tuned; after `limit` of them a larger set is accepted.
 fn attempt(job: &Job, options: &CountOptions, mut search: Search, limit: u64) -> Result<(Points<2>, CountReport)> {
     let &CountOptions { count, leaf_size, seed, .. } = options;
     let mut remaining = 1.0;
@@ -172,7 +174,7 @@ fn lattice(options: &CountOptions, radius: f64) -> Result<Lattice> {
     Lattice::new(&options.domain, radius).map_err(|error| of_count(error, options.count))
 }
 
-/// An error about the radius as one about the count that it follows from.
+/// Turns an error about the radius into one about the count that it follows from.
 fn of_count(error: Error, count: u64) -> Error {
     let reason = |reason| format!("{count} asks for a radius that is refused: {reason}");
     match error {
@@ -184,19 +186,21 @@ fn of_count(error: Error, count: u64) -> Error {
 
 // # The radius
 //
-// The radius of a maximal set with a given number of samples, from the density of such sets and from what was made.
+// The radius of a maximal set with a given number of samples, from the density of such sets and from the sets made so
+// far.
 
 /// Samples per radius on a line: Rényi's parking constant.
 const LINE_DENSITY: f64 = 0.7475979;
 
-/// The share of additional samples at the seams, times the leaf size: 1.4 % for leaves of 6 radii, 0.5 % for 20. Small
-/// domains, which have no seams, get it too: there it is less than chance.
+/// The share of additional samples at the seams, times the leaf size: 1.4 % for leaves of 6 radii, 0.5 % for 20. It is
+/// also applied to small domains, which have no seams: there it is less than chance.
 const SEAM_DENSITY: f64 = 0.09;
 
-/// A set is near its count if it differs by less than this share of it, three times what patterns differ by.
+/// A set is near its count if it differs by less than this share of it, three times the variation among patterns.
 const NEAR: f64 = 0.01;
 
-/// Or by less than this many times the square root of it. Counts differ by a quarter of the root.
+/// A set is also near its count if it differs by less than this many times the square root of it. Counts vary by a
+/// quarter of the root.
 const NEAR_ROOTS: f64 = 1.5;
 
 /// Secant steps on the logarithms of radius and count.
@@ -229,12 +233,12 @@ impl Search {
         self.radius
     }
 
-    /// Whether a set can be expected to reach the count by small changes.
+    /// True if a set can be expected to reach the count by small changes.
     pub fn is_near(&self, made: u64) -> bool {
         (made as f64 - self.count).abs() <= (NEAR * self.count).max(NEAR_ROOTS * self.count.sqrt())
     }
 
-    /// Goes on to the radius that `made`, the number of samples made with the last one, lets expect.
+    /// Proceeds to the next radius, given `made`, the number of samples made with the last one.
     pub fn correct(&mut self, made: u64) {
         let here = [log(self.radius), log(made as f64)];
         // Counts fall with the square of the radius, on thin domains with the radius; anything else is chance.
@@ -247,7 +251,8 @@ impl Search {
     }
 }
 
-/// About how many samples a maximal set has: see [`crate::plane::lattice::Lattice::expected_samples`], which this refines.
+/// About how many samples a maximal set has: see [`crate::plane::lattice::Lattice::expected_samples`], which this
+/// refines.
 fn expected(domain: &Domain, leaf_size: f64, radius: f64) -> f64 {
     let beyond = if domain.boundary == Boundary::Bounded { 1.0 } else { 0.0 };
     // A domain thinner than the radius is a line.
@@ -259,27 +264,27 @@ fn expected(domain: &Domain, leaf_size: f64, radius: f64) -> f64 {
 //
 // Plots: the domain cut into rectangles of which each can be changed without regard to the others.
 //
-// The samples in the *hole* of a plot are taken out and others put in. What is uncovered then lies within r of the
-// hole, and what decides about it within 2r: the hole is that far from the edges of its plot, unless nothing lies
-// beyond.
+// The samples in the *hole* of a plot are removed and others inserted. All points uncovered by this lie within r of the
+// hole, and all samples that affect them within 2r: the hole is that far from the edges of its plot, unless nothing
+// lies beyond.
 
 /// The shortest side of a plot between two cuts in reaches: a hole of 2 and the 2 on each side of it.
 const SIDE: i32 = 6;
 
-/// How one axis is cut, from a random place on.
+/// The cuts of one axis, from a random offset on.
 struct Cuts {
     size: i32,
     reach: i32,
     /// Regular plots; a bounded axis has one more, cut in two by its edge.
     count: i32,
     offset: i32,
-    /// Whether the axis closes to a circle, of which plots are parts.
+    /// True if the axis closes to a circle, of which plots are parts.
     is_circle: bool,
-    /// Whether the axis is a circle too short to be cut: one plot that meets itself.
+    /// True if the axis is a circle too short to be cut: one plot that meets itself.
     is_uncut_circle: bool,
 }
 
-/// The part of an axis that a plot has.
+/// The interval of an axis that a plot covers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Span {
     /// The first lattice point; beyond the end of a circle its first points follow.
@@ -287,7 +292,7 @@ pub struct Span {
     pub length: i32,
     /// The first point of the hole and the one after the last, counted from `start`.
     pub hole: [i32; 2],
-    /// Whether the last point is next to the first.
+    /// True if the last point is next to the first.
     pub is_circle: bool,
 }
 
@@ -305,12 +310,12 @@ impl Cuts {
         }
     }
 
-    /// How many plots there are along the axis; some may be empty.
+    /// The number of plots along the axis; some may be empty.
     fn len(&self) -> i32 {
         if self.is_circle { self.count } else { self.count + 1 }
     }
 
-    /// Where a regular plot begins, counted from the offset.
+    /// The start of a regular plot, counted from the offset.
     fn edge(&self, index: i32) -> i32 {
         (i64::from(self.size) * i64::from(index) / i64::from(self.count)) as i32
     }
@@ -350,7 +355,7 @@ pub struct Plot {
 }
 
 impl Plots {
-    /// Cuts the domain at places of `rng`'s choice.
+    /// Cuts the domain at random offsets from `rng`.
     pub fn new(lattice: &Lattice, mut rng: Rng) -> Self {
         Self { axes: lattice.size.map(|size| Cuts::new(size, lattice.boundary, lattice.separation.reach, &mut rng)) }
     }
@@ -396,28 +401,28 @@ impl Plot {
 
 // # Tuning
 //
-// Tuning: small places of a maximal set are made anew until it has the wanted number of samples.
+// Tuning: small regions of a maximal set are remade until it has the wanted number of samples.
 //
-// After the idea of disk tuning (Ebeida et al. 2016), which the thesis leaves as future work: what is taken out and
-// put back keeps the set conflict-free and maximal, and changes its size by chance.
+// After the idea of disk tuning (Ebeida et al. 2016), which the thesis leaves as future work: removal and refilling
+// keep the set conflict-free and maximal, and change its size at random.
 //
-// A round cuts the domain into plots (see Plots above), makes some of them anew, each alone, and takes over what brings the
-// number of samples nearer to the wanted one.
+// A round cuts the domain into plots (see Plots above), remakes some of them, each independently, and accepts the
+// changes that bring the number of samples nearer to the wanted one.
 
-/// Rounds until a set is given up; three are mostly enough.
+/// The number of rounds until a set is given up; three are mostly enough.
 const ROUNDS: u64 = 24;
 
-/// How often a plot is made anew until its number of samples changes as wanted.
+/// The number of attempts at a plot until its number of samples changes as wanted.
 const TRIES: u64 = 6;
 
-/// Plots that are made anew for a sample that is missing or too many, and some more.
+/// The number of plots remade per missing or surplus sample, and a constant number more.
 const PLOTS_PER_SAMPLE: f64 = 2.0;
 const MORE_PLOTS: f64 = 16.0;
 
-/// Samples that one task asks for their plot.
+/// The number of samples that one task assigns to plots.
 const SAMPLES_PER_TASK: usize = 1 << 16;
 
-/// The change of a plot: of which samples, by their index, the places are replaced by which new ones.
+/// The change of a plot: the removed samples, by index, and the positions that replace them.
 struct Change {
     removed: Vec<usize>,
     added: Vec<[i32; 2]>,
@@ -428,14 +433,14 @@ impl Change {
         self.added.len() as i64 - self.removed.len() as i64
     }
 
-    /// Whether it brings the number of samples nearer to one that is `missing` away, and not beyond.
+    /// True if the change brings the number of samples nearer to one that is `missing` away, and not beyond.
     fn helps(&self, missing: i64) -> bool {
         let difference = self.difference();
         difference.signum() == missing.signum() && difference.abs() <= missing.abs()
     }
 }
 
-/// Brings a maximal set to `count` samples, or as near as it gets in [`ROUNDS`].
+/// Brings a maximal set to `count` samples, or as near as possible in [`ROUNDS`].
 pub fn tune(job: &Job, lattice: &Lattice, samples: &mut Vec<[f32; 2]>, count: u64, seed: u64) -> Result<()> {
     for round in 0..ROUNDS {
         let mut missing = count as i64 - samples.len() as i64;
@@ -458,8 +463,8 @@ pub fn tune(job: &Job, lattice: &Lattice, samples: &mut Vec<[f32; 2]>, count: u6
     Ok(())
 }
 
-/// Puts the new samples in the places of those removed, and at the end if they are more; what is left to be removed is
-/// `superfluous`.
+/// Puts the new samples in the places of those removed, and at the end if there are more; indices still to be removed
+/// go to `superfluous`.
 fn replace(lattice: &Lattice, samples: &mut Vec<[f32; 2]>, change: Change, superfluous: &mut Vec<usize>) {
     let common = change.removed.len().min(change.added.len());
     for (&index, &point) in change.removed.iter().zip(&change.added) {
@@ -511,7 +516,7 @@ fn members(
     Ok(members)
 }
 
-/// Takes the samples out of the hole of a plot, which has the given members, and fills it.
+/// Removes the samples from the hole of a plot, which has the given members, and fills it.
 fn resample(lattice: &Lattice, plot: &Plot, samples: &[[f32; 2]], members: &[usize], mut rng: Rng) -> Change {
     let &Lattice { radius, separation, .. } = lattice;
     let mut change = Change { removed: Vec::new(), added: Vec::new() };
@@ -519,7 +524,7 @@ fn resample(lattice: &Lattice, plot: &Plot, samples: &[[f32; 2]], members: &[usi
     if hole.is_empty() {
         return change;
     }
-    // A torus of its own for the plot, with a margin behind it so that nothing meets over the seam.
+    // A torus of its own for the plot, with a margin after it so that nothing conflicts across the seam.
     let length = plot.axes.map(|axis| if axis.is_circle { axis.length } else { axis.length + separation.reach + 1 });
     let mut grid = CellGrid::torus(&length.map(|length| CellAxis::new(length, radius)), separation);
     for &index in members {
@@ -544,10 +549,10 @@ fn resample(lattice: &Lattice, plot: &Plot, samples: &[[f32; 2]], members: &[usi
 
 // # Elimination
 //
-// Elimination of samples: where no maximal set has the wanted number.
+// Elimination of samples, where no maximal set with the wanted number is found.
 
-/// Drops those samples that have the nearest neighbours, one after the other, until `count` are left. For a handful of
-/// samples: O(n²) for each.
+/// Drops the samples with the nearest neighbours, one after the other, until `count` remain. For a handful of samples:
+/// O(n²) for each.
 pub fn thin(domain: &Domain, mut samples: Vec<[f32; 2]>, count: usize) -> Vec<[f32; 2]> {
     let distance = |a: [f32; 2], b: [f32; 2]| {
         let [dx, dy] = domain.offset(a.map(f64::from), b.map(f64::from));
@@ -566,8 +571,8 @@ pub fn thin(domain: &Domain, mut samples: Vec<[f32; 2]>, count: usize) -> Vec<[f
 mod tests {
     use super::*;
 
-    /// One attempt at few samples often fails. What then is returned keeps the radius, but has a gap where a sample
-    /// was.
+    /// A single attempt at few samples often fails. The set then returned keeps the radius, but has a gap where a
+    /// sample was.
     #[test]
     fn a_set_that_could_not_be_tuned_is_thinned_and_called_not_maximal() {
         let context = Context::new(1).unwrap();
@@ -624,7 +629,7 @@ mod tests {
         }
     }
 
-    /// Sets whose numbers follow other laws than the expected one.
+    /// Sets whose counts do not follow the expected law.
     #[test]
     fn corrections_end_near_the_count() {
         let laws: [fn(f64) -> f64; 3] = [|r| 0.7 / (r * r), |r| 3.0 / r, |r| 0.6 / (r * r) + 5.0 / r];
@@ -674,7 +679,7 @@ mod tests {
         }
     }
 
-    /// From the definition: whatever of the domain is within two reaches of the hole lies in the plot. On a circle that
+    /// From the definition: every point of the domain within two reaches of the hole lies in the plot. On a circle that
     /// is not cut the plot is everything.
     #[test]
     fn holes_are_two_reaches_away_from_other_plots() {
@@ -696,7 +701,7 @@ mod tests {
         }
     }
 
-    /// Places that no round could change would have to stay as they are.
+    /// Every point must be in a hole in some round; points that never are could not be changed.
     #[test]
     fn every_place_is_in_some_hole() {
         for lattice in lattices() {

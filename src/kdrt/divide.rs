@@ -1,8 +1,8 @@
 //! Divide (thesis §2.3.1): the random kd-tree that cuts the plane into leaves.
 //!
-//! Departures: a node's random numbers are keyed by its path from the root, so that whoever needs a part of the plane
-//! descends only the nodes that meet it and finds the same leaves; and a node is split across its longer side instead
-//! of in turns, so that leaves do not become slivers.
+//! Departures: a node's random numbers are keyed by its path from the root, so that any part of the plane is made from
+//! only the nodes that meet it, with the same leaves; and a node is split across its longer side instead of in turns,
+//! so that leaves do not become slivers.
 
 use crate::plane::rect::Rect;
 use crate::rng::{Draw, Rng, hash};
@@ -16,7 +16,8 @@ pub struct Leaf {
 }
 
 impl Leaf {
-    /// Where leaves meet, the one of higher rank keeps its points. No two leaves have the same rank.
+    /// The rank of the leaf: where leaves meet, the one of higher rank keeps its points. No two leaves have the same
+    /// rank.
     pub fn rank(&self) -> (u64, [i32; 2]) {
         (hash(self.key, Draw::Priority, &[]), self.rect.min)
     }
@@ -26,17 +27,18 @@ impl Leaf {
 #[derive(Clone, Debug)]
 pub struct Tree {
     root: Leaf,
-    /// The smallest side of a leaf, per axis: sides lie between it and its double.
+    /// The smallest side of a leaf, per axis: sides are between it and twice it.
     shortest: [i32; 2],
     #[cfg(feature = "stages")]
     pub fixed: Fixed,
 }
 
-/// What tests and studies take the randomness from, to see what it is good for (thesis §2.5.2).
+/// The part of the algorithm that tests and studies make deterministic, to measure the effect of its randomness (thesis
+/// §2.5.2).
 #[cfg(feature = "stages")]
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Fixed {
-    /// All is random, as the sampler has it.
+    /// Everything is random, as in the sampler.
     #[default]
     Nothing,
     /// Every node is split in its middle.
@@ -75,7 +77,7 @@ impl Tree {
         }
     }
 
-    /// The children of a node, none if it is a leaf: as long as both parts of a split are long enough it is not.
+    /// The children of a node; none if it is a leaf: a node is split as long as both parts are long enough.
     fn split(&self, node: Leaf) -> Option<[Leaf; 2]> {
         let axis = (0..2)
             .filter(|&axis| node.rect.length(axis) / 2 >= self.shortest[axis])

@@ -1,8 +1,8 @@
 //! Conquer, second half (thesis §2.3.3): the gaps that elimination leaves are filled.
 //!
 //! Departure: the thesis puts a sample at a circumcentre in each gap, again and again, and so prefers the middle of
-//! gaps; here a gap is filled by a flat quadtree, uniformly on what is uncovered and until nothing is. Its first level
-//! is a bitmap, in which nearly all gaps are found and closed.
+//! gaps; here a gap is filled by a flat quadtree, uniformly on the uncovered part and until none is left. Its first
+//! level is a bitmap, in which nearly all gaps are found and closed.
 
 use crate::kdrt::{blocks::Block, conquer::SeamCells};
 use crate::math::square;
@@ -16,9 +16,9 @@ pub struct Filling<'a> {
     /// The largest distance along an axis at which samples conflict.
     reach: i32,
     quadtree: Quadtree,
-    /// The memory of the samples around a block.
+    /// Working memory for the samples around a block.
     near: List,
-    /// The memory of its open voxels.
+    /// Working memory for its open voxels.
     open: Vec<VoxelIndex>,
 }
 
@@ -27,7 +27,7 @@ impl<'a> Filling<'a> {
         Self { footprints, seams, reach, quadtree: Quadtree::empty(), near: List::default(), open: Vec::new() }
     }
 
-    /// [`Filling::fill`] in any vectors.
+    /// [`Filling::fill`] for any vector instructions.
     #[inline(always)]
     pub fn fill_portable(
         &mut self,
@@ -90,11 +90,11 @@ impl<'a> Filling<'a> {
 
 // # The bitmap of a block
 //
-// Which parts of a fill block are covered, as a bitmap of voxels that footprints are taken out of: the first level of the
+// The uncovered parts of a fill block, as a bitmap of voxels that footprints are cleared from: the first level of the
 // quadtree of a fill.
 //
-// A row of a block is one word, and a sample clears, in a dozen words, the voxels that lie in its disk (see Footprints). The
-// bitmap may keep voxels that are covered, but never lacks one that is not.
+// A row of a block is one word, and a sample clears, in a dozen words, the voxels that lie in its disk (see
+// Footprints). The bitmap may keep voxels that are covered, but never lacks one that is not.
 
 /// Voxels of a block's bitmap before its first one, so that every footprint begins in the bitmap.
 const MARGIN: i32 = 2 * REACH;
@@ -105,10 +105,11 @@ const LONGEST: i32 = u64::BITS as i32 - MARGIN;
 /// The most cells along the side of a block.
 pub const MOST_CELLS: i32 = LONGEST / PER_CELL;
 
-/// OpenRows of a bitmap: those of the longest block with the margin before it, and a footprint that begins in the last one.
+/// The number of rows of a bitmap: those of the longest block with the margin before it, and a footprint that begins in
+/// the last one.
 const ROWS: usize = (MARGIN + LONGEST) as usize + FOOTPRINT_ROWS;
 
-/// A word per row of voxels.
+/// The voxels that may be uncovered, in a word per row.
 #[repr(align(64))]
 struct OpenRows([u64; ROWS]);
 
@@ -172,18 +173,18 @@ impl<'a> Bitmap<'a> {
         }
     }
 
-    /// Takes out what a sample covers; it may lie up to the radius outside of the block's cells.
+    /// Clears the voxels that a sample covers; it may lie up to the radius outside the block's cells.
     #[inline(always)]
     pub fn cover(&mut self, sample: [i32; 2]) {
         self.cover_at([0, 1].map(|axis: usize| self.place(sample[axis], axis) as u32));
     }
 
-    /// Lays a footprint from a place on.
+    /// Clears a footprint that begins at a column and row.
     #[inline(always)]
     fn cover_at(&mut self, place: [u32; 2]) {
         let (column, row) = (place[0] / PLACES, (place[1] / PLACES) as usize);
-        // By whole eights of rows: what one footprint has written is at once read by the next, which processors do quickly
-        // only if both are the same bytes.
+        // In aligned groups of eight rows: the next footprint reads at once what this one has written, and store
+        // forwarding is fast only if both access the same bytes.
         let (first, before) = (row & !7, row & 7);
         let footprint = &self.footprints.at(place)[8 - before..][..FOOTPRINT_ROWS];
         let rows = &mut self.rows.0[first..][..FOOTPRINT_ROWS];
@@ -192,23 +193,23 @@ impl<'a> Bitmap<'a> {
         }
     }
 
-    /// Where along an axis the footprint of a sample begins, in places.
+    /// The start of the footprint of a sample along an axis, in places.
     #[inline(always)]
     fn place(&self, x: i32, axis: usize) -> i32 {
         self.footprints.place(axis, x - self.origin[axis]) + (MARGIN - REACH) * PLACES as i32
     }
 
-    /// Whether a voxel may be uncovered.
+    /// True if a voxel may be uncovered.
     pub fn is_open(&self, [column, row]: VoxelIndex) -> bool {
         self.rows.0[usize::from(row)] >> column & 1 == 1
     }
 
-    /// Drops those of some voxels that are covered for certain.
+    /// Drops the voxels of a list that are certainly covered.
     #[inline(always)]
     pub fn keep_open(&self, places: &mut Vec<VoxelIndex>) {
         let mut left = 0;
         for i in 0..places.len() {
-            // Written in any case, kept only if it is open: which are is not predictable.
+            // Written unconditionally, kept only if it is open: a branch would not be predictable.
             places[left] = places[i];
             left += usize::from(self.is_open(places[left]));
         }
@@ -218,7 +219,7 @@ impl<'a> Bitmap<'a> {
     /// All voxels that may be uncovered; they lie in the given cells.
     #[inline(always)]
     pub fn list(&self, cells: &Rect, places: &mut Vec<VoxelIndex>) {
-        // As many of a row are listed whether they are there or not; seldom are there more.
+        // This many of a row are always written, whether they exist or not; rarely are there more.
         const ALWAYS: usize = 2;
         let row = |cell: i32| (MARGIN + PER_CELL * (cell - self.cells.min[1])) as usize;
         let rows = row(cells.min[1])..row(cells.max[1]);
@@ -259,7 +260,7 @@ impl<'a> Bitmap<'a> {
     }
 }
 
-/// Each of the lowest sixteen bits, four times.
+/// The lowest sixteen bits, each repeated four times.
 fn spread(bits: u64) -> u64 {
     let bits = (bits | bits << 24) & 0x0000_00ff_0000_00ff;
     let bits = (bits | bits << 12) & 0x000f_000f_000f_000f;
@@ -272,14 +273,14 @@ fn spread(bits: u64) -> u64 {
 //
 // Footprints: the voxels that the disk of a sample covers, for the filling of gaps (not in the thesis).
 //
-// A voxel is a quarter of a cell wide. Which of those around a sample lie in its disk depends only on where in its own
-// voxel the sample lies; to a sixteenth of a voxel that is looked up in a table. The table holds what is covered for
-// certain: it may leave out voxels that are covered, but never has one that is not.
+// A voxel is a quarter of a cell wide. The set of voxels around a sample that lie in its disk depends only on the
+// sample's position in its own voxel; to a sixteenth of a voxel it is looked up in a table. The table holds the voxels
+// that are certainly covered: it may leave out voxels that are covered, but never has one that is not.
 
 /// Voxels along a cell's side.
 pub const PER_CELL: i32 = 4;
 
-/// Positions in a voxel that the table distinguishes, per axis.
+/// The number of positions in a voxel that the table distinguishes, per axis.
 pub const PLACES: u32 = 16;
 
 /// Voxels on each side of a sample's own that its disk can cover: r is at most 6 voxels (see [`Footprints::new`]).
@@ -296,7 +297,7 @@ pub type Footprint = [u16; 8 + FOOTPRINT_ROWS];
 pub struct Footprints {
     /// Places per lattice point, per axis, in units of 2^-32.
     places: [i64; 2],
-    /// By the row and the column of the place in the voxel.
+    /// Indexed by the row and the column of the place in the voxel.
     table: Box<[Footprint; (PLACES * PLACES) as usize]>,
 }
 
@@ -318,7 +319,7 @@ impl Footprints {
     }
 
     /// For each place along an axis and each voxel: the squared distance to the voxel's farthest point, in units of the
-    /// squared radius, with all that rounding can add to it.
+    /// squared radius, with the largest rounding error added.
     fn squares(radius: f64, voxel: f64) -> Vec<Vec<f64>> {
         let places = f64::from(PLACES);
         // Edges are rounded to the lattice; the place is found with a rounded factor.
@@ -332,7 +333,7 @@ impl Footprints {
         (0..PLACES).map(|place| (-REACH..=REACH).map(|column| square(place, column)).collect()).collect()
     }
 
-    /// Where a sample lies after the edge of a voxel, along an axis, in places.
+    /// The distance of a sample from the edge of a voxel before it, along an axis, in places.
     #[inline(always)]
     pub fn place(&self, axis: usize, after: i32) -> i32 {
         ((i64::from(after) * self.places[axis]) >> 32) as i32
@@ -362,7 +363,7 @@ mod tests {
         (grid, seams, Footprints::new(radius, [0, 1].map(|axis: usize| axes[axis].side())))
     }
 
-    /// Every voxel of random blocks against the exact distances to one sample, anywhere around.
+    /// Every voxel of random blocks against the exact distances to one sample, at any position around them.
     #[test]
     fn a_footprint_takes_out_what_is_covered_and_nothing_else() {
         let mut rng = Rng::at(5, Draw::Probe, &[]);
@@ -400,7 +401,7 @@ mod tests {
                         .sum();
                     assert!(bitmap.is_open(place) || farthest < threshold);
                     covered += u32::from(!bitmap.is_open(place));
-                    // A voxel that the block cuts is judged by all of it.
+                    // A voxel that the block's edge cuts is judged as a whole.
                     let is_whole =
                         (0..2).all(|axis| block.min[axis] < rect.min[axis] && rect.max[axis] < block.max[axis]);
                     // Two sixteenths of a voxel, and a few lattice points.

@@ -1,26 +1,26 @@
 //! Merging (thesis §2.4.4, figure 2.14): sets that were made independently, on rectangles that do not overlap, become
 //! one maximal set by the elimination and insertion of KDRT. Only the seams change.
 //!
-//! Where two pieces meet, the sample of the piece of higher rank survives (see Elimination below), as between the leaves of
-//! `conquer.rs`; the gaps are filled by blocks (see Insertion below), as those of a plane. Samples that are given beforehand
-//! and must stay are a piece of the highest rank.
+//! Of two samples in conflict where pieces meet, that of the piece of higher rank survives (see Elimination below), as
+//! between the leaves of `conquer.rs`; the gaps are filled by blocks (see Insertion below), as those of a plane. Given
+//! samples that must stay are a piece of the highest rank.
 //!
 //! # Exactness
-//! What is given are any floats of the domain; they are returned as they are. The lattice of the domain cannot carry
-//! them all: a piece near the origin may be finer. So conflicts *between given points* are decided on their own
-//! coordinates, in `f64`, as the user's check does it. Conflicts *with new samples* are decided on the lattice, where a
-//! given point stands for itself as the nearest lattice point, and the radius is longer by [`WIDENING`].
+//! Given points may be any floats of the domain; they are returned unchanged. The lattice of the domain cannot
+//! represent them all: a piece near the origin may be finer. So conflicts *between given points* are decided on their
+//! own coordinates, in `f64`, as the user's check does it. Conflicts *with new samples* are decided on the lattice,
+//! where a given point stands for itself as the nearest lattice point, and the radius is longer by [`WIDENING`].
 //!
 //! Units are float spacings at the domain's largest coordinate, distances are those of the domain (on a torus wrapped
-//! with its own period). Two facts carry everything, each per axis: a given point is at most 1 from its lattice point
+//! with its own period). The proof rests on two facts, each per axis: a given point is at most 1 from its lattice point
 //! ([`Lattice::nearest`]), and the distance of two lattice points is their distance on the lattice or up to 1 more, on
 //! a torus only ([`Lattice::of_any_size`]).
 //!
 //! * A new sample is at least r + 1.5 on the lattice from a given point's lattice point, so more than r + 1.5 - √2 > r
 //!   from the given point. From other new samples it is r + 1.5 away.
 //! * Every lattice point is within r + 1.5 on the lattice of a sample's lattice point; so within r + 1.5 + 2√2 of the
-//!   sample. Every point of the domain is within 1 per axis of a lattice point. This adds up to r + 1.5 + 3√2, less than
-//!   **r + 6 float spacings**.
+//!   sample. Every point of the domain is within 1 per axis of a lattice point. This adds up to r + 1.5 + 3√2, less
+//!   than **r + 6 float spacings**.
 //! * Two given points without conflict are more than r - 2√2 apart on the lattice, so that cells for the radius r - 3
 //!   ([`NARROWING`]) hold one of them at most.
 //! * A piece that covers every lattice point of its rectangle within r covers it on the lattice of the domain within
@@ -41,10 +41,10 @@ use crate::points::{Boundary, Domain, Points};
 use crate::rng::{Draw, Rng, hash};
 use crate::setters::setters;
 
-/// How much longer the radius is for new samples, in float spacings.
+/// The excess of the radius for new samples, in float spacings.
 const WIDENING: f64 = 1.5;
 
-/// How much shorter the radius is of which cells hold one sample, in float spacings.
+/// The reduction of the radius for which cells hold one sample, in float spacings.
 const NARROWING: f64 = 3.0;
 
 /// The most bytes that a sample of the result takes, three cells among them, and those of a given point.
@@ -55,14 +55,14 @@ const BYTES_PER_GIVEN: f64 = 40.0;
 const SORT_SHARE: f64 = 0.15;
 const ELIMINATE_SHARE: f64 = 0.3;
 
-/// How to merge.
+/// The options of a merge.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct MergeOptions {
     /// The smallest centre-to-centre distance, above 0 and at least 64 float spacings at the domain's largest
     /// coordinate: that of the pieces.
     pub radius: f64,
-    /// What the result covers: any rectangle that holds the pieces and fixed points.
+    /// The domain that the result covers: any rectangle that contains the pieces and fixed points.
     pub domain: Domain,
     /// The same input and seed give the same samples.
     pub seed: u64,
@@ -77,7 +77,7 @@ impl MergeOptions {
 
 setters!(MergeOptions { radius: f64, domain: Domain, seed: u64 });
 
-/// A set of samples that was made by itself, such as by [`sample`](super::sample) on a bounded domain or by
+/// A set of samples that was made independently, such as by [`sample`](super::sample) on a bounded domain or by
 /// [`sample_window`](super::sample_window).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Piece<'a> {
@@ -89,7 +89,7 @@ pub struct Piece<'a> {
     pub max: [f64; 2],
 }
 
-/// What became of the samples of the pieces.
+/// The report of a merge.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct MergeReport {
@@ -101,33 +101,33 @@ pub struct MergeReport {
     pub inserted: usize,
 }
 
-/// Glues sets on rectangles that do not overlap, and points that must stay, into one maximal Poisson-disk set of the
+/// Merges sets on rectangles that do not overlap, and points that must stay, into one maximal Poisson-disk set of the
 /// domain.
 ///
-/// The result has first all of `fixed`, then the samples of the pieces that survive, piece by piece, then new ones; what
-/// is given is returned bit by bit and in its order.
+/// The result has first all of `fixed`, then the samples of the pieces that survive, piece by piece, then new ones;
+/// given points are returned bit for bit and in their order.
 ///
-/// * Conflict-free: all distances, computed in `f64` as `sqrt(dx² + dy²)`, are at least `radius`, without tolerance. On a
-///   torus they wrap with the period `domain.max - domain.min`.
+/// * Conflict-free: all distances, computed in `f64` as `sqrt(dx² + dy²)`, are at least `radius`, without tolerance. On
+///   a torus they wrap with the period `domain.max - domain.min`.
 /// * Maximal: no point of the domain is farther from all samples than `radius` + 6 float spacings at the domain's
 ///   largest coordinate, whatever the pieces covered: pieces that are thinned, holes between them, and no piece at all
 ///   are filled.
-/// * Only the seams change. A sample of a piece goes only if it is closer than `radius` to a fixed point, or to a sample
-///   that stays of another piece, or of its own over the seam of a torus. If the pieces are maximal as
-///   [`sample`](super::sample) makes them, new samples lie within `radius` of a sample that went or of the boundary of a
+/// * Only the seams change. A sample of a piece is removed only if it is closer than `radius` to a fixed point, or to a
+///   surviving sample of another piece, or of its own across the seam of a torus. If the pieces are maximal as
+///   [`sample`](super::sample) makes them, new samples lie within `radius` of a removed sample or of the boundary of a
 ///   piece's rectangle.
 /// * Which of two pieces loses samples to the other depends on `seed` and their places in `pieces`.
 /// * The same for every number of threads.
 ///
-/// O(n) for the n samples given and made, and O(p²) at most for p pieces. A torus narrower than about 10 radii is filled
-/// on one thread.
+/// O(n) for the n samples given and made, and O(p²) at most for p pieces. A torus narrower than about 10 radii is
+/// filled on one thread.
 ///
 /// # Errors
 /// [`Error::InvalidArgument`] for an option out of range; for `pieces`, by index, if a rectangle is empty, leaves the
 /// domain or overlaps another one, a sample lies outside its rectangle, or two samples of a piece are in conflict; for
 /// `fixed`, by index, if a point lies outside the domain or two of them are in conflict, because then no set that has
-/// both is conflict-free. [`Error::TooLarge`] for more than 2^32 samples or the available memory. All of them before any
-/// sample is made. [`Error::Cancelled`].
+/// both is conflict-free. [`Error::TooLarge`] for more than 2^32 samples or the available memory. All of them before
+/// any sample is made. [`Error::Cancelled`].
 ///
 /// ```
 /// use azulejo::{Boundary, Context, Domain, kdrt};
@@ -185,7 +185,7 @@ fn check_pieces(domain: &Domain, pieces: &[Piece]) -> Result<()> {
     for (i, piece) in pieces.iter().enumerate() {
         let Piece { samples, min, max } = *piece;
         for axis in 0..2 {
-            // Not the negation of an overlap: a NaN is inside of nothing.
+            // Not the negation of an overlap: NaN is inside nothing.
             let inside = domain.min[axis] <= min[axis] && min[axis] < max[axis] && max[axis] <= domain.max[axis];
             if !inside {
                 let (min, max, from, to) = (min[axis], max[axis], domain.min[axis], domain.max[axis]);
@@ -231,7 +231,7 @@ const POINTS: usize = 1 << 14;
 /// The set of the points that must stay.
 pub const FIXED: u32 = 0;
 
-/// A point of a set, and which one it is.
+/// A point of a set, and its index.
 #[derive(Clone, Copy, Default)]
 pub struct Site {
     pub position: [f32; 2],
@@ -245,7 +245,7 @@ pub struct Sites<'a> {
     domain: Domain,
     radius: f64,
     lattice: Lattice,
-    /// The cells of the domain's lattice points: small enough that two points of one conflict.
+    /// The cells of the domain's lattice points: so small that two points in one cell conflict.
     pub axes: [CellAxis; 2],
     /// For each column and row, the columns and rows that can hold a conflict with it, each once.
     near: [Vec<[Range<usize>; 2]>; 2],
@@ -258,8 +258,8 @@ impl<'a> Sites<'a> {
     /// Sorts the sets, whose points lie in the domain.
     ///
     /// # Errors
-    /// [`Error::InvalidArgument`] for two points of a set that fall in the same cell, unless they are there over the seam
-    /// of a torus: they conflict. (What comes later would find them too, but could be kept busy by very many.)
+    /// [`Error::InvalidArgument`] for two points of a set in the same cell, except across the seam of a torus: they
+    /// conflict. (Later steps would find them too, but very many could make these slow.)
     pub fn new(job: &Job, domain: Domain, lattice: &Lattice, radius: f64, sets: &'a [&'a [[f32; 2]]]) -> Result<Self> {
         let axes = lattice.size.map(|size| CellAxis::new(size, lattice.radius - NARROWING));
         // Distances of given points are at most two units shorter per axis than those of their lattice points.
@@ -271,7 +271,7 @@ impl<'a> Sites<'a> {
         Ok(sorted)
     }
 
-    /// Sorts the points. Which cells they lie in is most of the work, and is shared.
+    /// Sorts the points. Finding their cells is most of the work, and is shared by the threads.
     fn sort(&mut self, job: &Job) -> Result<()> {
         let chunks: Vec<&[[f32; 2]]> = self.sets.iter().flat_map(|set| set.chunks(POINTS)).collect();
         let cells = job.map(chunks.len(), |i| chunks[i].iter().map(|&point| self.cell(point)).collect::<Vec<_>>())?;
@@ -321,8 +321,8 @@ impl<'a> Sites<'a> {
         self.lattice.nearest(&self.domain, point)
     }
 
-    /// Whether two points are closer than the radius: as the user's own check in `f64` says, whether that takes the
-    /// root or not. (The root of a rounded square is the number itself, and rounding is monotone.)
+    /// True if two points are closer than the radius, by the user's own check in `f64`, with the root or without. (The
+    /// root of a rounded square is the number itself, and rounding is monotone.)
     fn conflict(&self, a: &Site, b: &Site) -> bool {
         self.squared_distance(a, b) < self.radius * self.radius
     }
@@ -337,8 +337,8 @@ impl<'a> Sites<'a> {
         dx * dx + dy * dy
     }
 
-    /// Whether a conflict must not be: neither of two fixed points can go, and a piece conflicts with itself over the
-    /// seam of a torus only.
+    /// True if a conflict is an error: neither of two fixed points can be removed, and a piece may conflict with itself
+    /// across the seam of a torus only.
     fn is_fault(&self, a: &Site, b: &Site) -> bool {
         let [dx, dy] = offset(a, b);
         a.set == b.set && (a.set == FIXED || dx * dx + dy * dy < self.radius * self.radius)
@@ -429,17 +429,17 @@ fn near_on_axis(axis: &CellAxis, reach: i32, boundary: Boundary) -> Vec<[Range<u
 
 // # Elimination
 //
-// Elimination: of two given points in conflict one goes.
+// Elimination: of two given points in conflict one is removed.
 //
-// The sets are ranked by hash, the fixed points before all; in a set, which can meet itself over the seam of a torus,
-// points are ranked as they come. A point survives if and only if no *surviving* point of higher rank conflicts with
-// it, as in `conquer.rs`. Rectangles may be thin, so chains of such decisions have no bound; they are followed through
-// all of the domain, but they have links only where sets meet.
+// The sets are ranked by hash, the fixed points before all; in a set, which can meet itself across the seam of a torus,
+// points are ranked in their given order. A point survives if and only if no *surviving* point of higher rank conflicts
+// with it, as in `conquer.rs`. Rectangles may be thin, so chains of such decisions have no bound; they are followed
+// through all of the domain, but they have links only where sets meet.
 
 /// Cells per task.
 const CELLS: usize = 1 << 14;
 
-/// For each of the given points, in the order of its sites, whether it survives.
+/// The survival of each of the given points, in the order of its sites.
 pub fn survivors(job: &Job, sites: &Sites, seed: u64) -> Result<Vec<bool>> {
     let ranks = ranks(sites.set_count(), seed);
     let rank = |site: usize| (ranks[sites.all()[site].set as usize], sites.all()[site].index);
@@ -455,7 +455,7 @@ pub fn survivors(job: &Job, sites: &Sites, seed: u64) -> Result<Vec<bool>> {
     })?;
     let mut links = links.into_iter().collect::<Result<Vec<_>>>()?.concat();
 
-    // When a point's turn comes, all that could eliminate it are decided.
+    // When a point is reached, all that could eliminate it are decided.
     links.sort_unstable_by_key(|&(site, _)| rank(site));
     let mut survives = vec![true; sites.all().len()];
     for (site, other) in links {
@@ -464,7 +464,7 @@ pub fn survivors(job: &Job, sites: &Sites, seed: u64) -> Result<Vec<bool>> {
     Ok(survives)
 }
 
-/// The place of each set in the order of falling rank.
+/// The position of each set in the order of falling rank.
 fn ranks(sets: usize, seed: u64) -> Vec<u32> {
     let mut order: Vec<usize> = (1..sets).collect();
     order.sort_by_key(|&set| hash(seed, Draw::Priority, &[set as u64]));
@@ -477,13 +477,13 @@ fn ranks(sets: usize, seed: u64) -> Vec<u32> {
 
 // # Insertion
 //
-// Insertion: what the survivors leave uncovered is filled, by the blocks and phases of KDRT (`blocks.rs`).
+// Insertion: the part that the survivors leave uncovered is filled, by the blocks and phases of KDRT (`blocks.rs`).
 //
-// As a plane, a domain is filled by windows of blocks that share nothing: each makes what it must know of its
-// surroundings itself. Which cells have gaps is not known beforehand, as pieces promise nothing but to be
-// conflict-free: all are tested.
+// As a plane, a domain is filled by windows of blocks that share nothing: each makes the surroundings that it depends
+// on itself. The cells with gaps are not known beforehand, as pieces guarantee nothing but freedom from conflict: all
+// are tested.
 
-/// The samples that make the survivors maximal.
+/// Returns the samples that make the survivors maximal.
 pub fn insert(job: &Job, sites: &Sites, survives: &[bool], lattice: &Lattice, seed: u64) -> Result<Vec<[f32; 2]>> {
     let lattice = lattice.widened(WIDENING);
     let gaps = Gaps { sites, survives, lattice: &lattice };
@@ -498,12 +498,12 @@ pub fn insert(job: &Job, sites: &Sites, survives: &[bool], lattice: &Lattice, se
 struct Gaps<'a> {
     sites: &'a Sites<'a>,
     survives: &'a [bool],
-    /// With the radius that new samples keep.
+    /// The lattice with the radius that new samples keep.
     lattice: &'a Lattice,
 }
 
 impl Gaps<'_> {
-    /// Fills a rectangle of blocks, and as much around it as is necessary to do this as any other window would.
+    /// Fills a rectangle of blocks, and as much around it as is necessary to agree with all other windows.
     fn fill_window(&self, blocks: &Blocks, window: &Rect) -> Vec<[f32; 2]> {
         let separation = self.lattice.separation;
         let known = blocks.rect(&blocks.grown(window, PHASES[0].1)).grown(separation.reach);

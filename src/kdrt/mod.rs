@@ -3,14 +3,14 @@
 //! Source: Wang 2019, *Techniques on Mining Effective Parallelism For High-Performance Blue-Noise Sampling*, chapter 2
 //! (Wang and Suda 2017). One small maximal set, the *pattern*, is made; the domain is cut by a random kd-tree
 //! (`divide.rs`); into every leaf a random part of the pattern is laid (`clip.rs`); at the seams conflicts are
-//! eliminated (`conquer.rs`) and gaps filled (`fill.rs`). Most samples are copies that nothing needs to look at.
+//! eliminated (`conquer.rs`) and gaps filled (`fill.rs`). Most samples are copies that need no test.
 //!
-//! The thesis goes through the seams in an order of work. Here every step is a function of the place alone, so that a
-//! window of the plane (`tiling.rs`) can be made without the rest; this is how threads share the work, and how any part
-//! of a plane can be had alone (`plane.rs`). An order whose prefixes are well spread (`progressive.rs`) and several classes
-//! (`classes/`) are layers, each filled around those before (`stack.rs`). A number of samples instead of a radius is
-//! `count.rs`; sets that were made apart are glued into one by the same two steps (`merge.rs`). Files say where they depart
-//! from the thesis.
+//! The thesis processes the seams sequentially. Here every step is a function of position alone, so that a window of
+//! the plane (`tiling.rs`) can be made without the rest; this is how threads share the work, and how any part of a
+//! plane can be made alone (`plane.rs`). An order whose prefixes are well spread (`progressive.rs`) and several classes
+//! (`classes/`) are layers, each filled around those before (`stack.rs`). `count.rs` takes a number of samples instead
+//! of a radius; sets that were made separately are merged into one by the same two steps (`merge.rs`). Each file states
+//! its departures from the thesis.
 
 mod blocks;
 mod classes;

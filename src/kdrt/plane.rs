@@ -1,4 +1,4 @@
-//! Planes: sets of which any part can be made at any time. What all parts need is made once.
+//! Planes: sets of which any part can be made at any time. Data shared by all parts are made once.
 
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -20,32 +20,32 @@ use crate::plane::{
 };
 use crate::points::{Boundary, Domain, Points, check_resolution};
 
-/// The fewest samples, of some 16 MB, that memory is asked for: to query it takes about 0.1 ms, as long as to make a
-/// small window.
+/// The number of samples, of some 16 MB, from which on the available memory is checked: the query takes about 0.1 ms,
+/// as long as making a small window.
 const FEWEST_REFUSED: f64 = 1e6;
 
-/// The most bytes that a sample takes: in the result, and a part of those windows at work.
+/// The most bytes that a sample takes: in the result and in the windows being made.
 const BYTES_PER_SAMPLE: f64 = 16.0;
 
 /// A maximal Poisson-disk set of a rectangle, in parallel: [`Plane::new`] and [`Plane::whole`] in one call.
 ///
-/// * Conflict-free: all distances of the returned floats are at least the radius, in `f64`, without tolerance. On a torus
-///   they wrap with the period `domain.max - domain.min`.
+/// * Conflict-free: all distances of the returned floats are at least the radius, in `f64`, without tolerance. On a
+///   torus they wrap with the period `domain.max - domain.min`.
 /// * Maximal: no point of the domain is farther from all samples than the radius + 3 float spacings at the domain's
 ///   largest coordinate.
-/// * `domain.min <= x < domain.max`; the samples come by windows of about 270 radii, in these by leaves; or in
-///   [progressive order](super::Progressive), with [ranks](Points::ranks); or by [classes](Kind::Classes).
+/// * `domain.min <= x < domain.max`; the samples are ordered by windows of about 270 radii, in these by leaves; or are
+///   in [progressive order](super::Progressive), with [ranks](Points::ranks); or by [classes](Kind::Classes).
 /// * The same for every number of threads.
-/// * Its only bias is at the seams: somewhat more samples than an unbiased set, the fewer the larger the leaves.
+/// * Its only bias is at the seams: slightly more samples than an unbiased set, the fewer the larger the leaves.
 ///
-/// O(n) for n samples, after the making of a pattern, whose side is 10 leaf sizes, but at least 108 radii and at most 200
-/// radii or 4 leaf sizes, whichever is longer: about 28,000 samples with leaves of the default size. A domain of
-/// less area than the pattern, or narrower than about two of the smallest leaves (13 radii), is not tiled: it is
-/// given to [`crate::maximal`]. In progressive order it takes about fifteen times as long.
+/// O(n) for n samples, after the making of a pattern, whose side is 10 leaf sizes, but at least 108 radii and at most
+/// 200 radii or 4 leaf sizes, whichever is longer: about 28,000 samples with leaves of the default size. A domain of
+/// less area than the pattern, or narrower than about two of the smallest leaves (13 radii), is not tiled: it is given
+/// to [`crate::maximal`]. In progressive order it takes about fifteen times as long.
 ///
 /// # Errors
-/// [`Error::InvalidArgument`] for an argument out of range or floats too coarse for the radius, [`Error::TooLarge`] above
-/// 2^32 samples or the available memory, both before any work; [`Error::Cancelled`].
+/// [`Error::InvalidArgument`] for an argument out of range or floats too coarse for the radius, [`Error::TooLarge`]
+/// above 2^32 samples or the available memory, both before any work; [`Error::Cancelled`].
 pub fn sample(context: &Context, options: &Options, progress: Option<&Progress>) -> Result<Points<2>> {
     let set = Set::new(options, true)?;
     set.require_whole()?;
@@ -85,18 +85,18 @@ pub fn sample_window(
     })
 }
 
-/// A set of [`sample`], of which all or any window can be made at any time. The pattern and all tables are made once, so
-/// that a window costs its samples and those around it.
+/// A set of [`sample`], of which all or any window can be made at any time. The pattern and all tables are made once,
+/// so that a window costs its samples and those around it.
 ///
-/// Windows may be made by any number of threads at once; nothing is changed by them, and no thread is kept.
+/// Windows may be made by any number of threads at once; they change nothing, and no thread is kept.
 ///
 /// Memory: 32 bytes per sample of the pattern, about 0.9 MB with leaves of the default size, and 1 byte per radius of
-/// the domain's sides, for each radius. The domain may have any number of samples that floats can carry: up to about 10^11
-/// around the origin. One that is not tiled (see [`sample`]) is made as a whole and kept, in 8 bytes per sample. Of a
-/// progressive order also 16 KB per level, and the levels that have up to 65,536 samples in the whole domain, in 16 bytes
-/// per sample. Given samples are copied for each class, in 40 bytes each, and a window costs those near it. Groups of
-/// classes that fill a torus of less than two blocks (see [`Kind::Classes`]) are kept with those before, in 12 bytes per
-/// sample.
+/// the domain's sides, for each radius. The domain may have any number of samples that floats can carry: up to about
+/// 10^11 around the origin. One that is not tiled (see [`sample`]) is made as a whole and kept, in 8 bytes per sample.
+/// A progressive order also takes 16 KB per level, and keeps the levels that have up to 65,536 samples in the whole
+/// domain, in 16 bytes per sample. Given samples are copied for each class, in 40 bytes each, and a window costs those
+/// near it. Groups of classes that fill a torus of less than two blocks (see [`Kind::Classes`]) are kept with those
+/// before, in 12 bytes per sample.
 pub struct Plane {
     set: Set,
     layers: Layers,
@@ -130,17 +130,18 @@ impl Plane {
     }
 
     /// The samples that lie in `window_min <= x < window_max`, on the calling thread: the same floats in the same order
-    /// as the whole set has them, with their ranks or classes.
+    /// as in the whole set, with their ranks or classes.
     ///
-    /// So windows that partition the domain hold each sample once, and a window is made without the others. It may be of
-    /// any size, also smaller than the radius, and may have no sample. On a torus it lies in one period, as samples do.
+    /// So windows that partition the domain hold each sample once, and a window is made without the others. It may be
+    /// of any size, even smaller than the radius, and may have no sample. On a torus it lies in one period, as samples
+    /// do.
     ///
     /// # The surroundings of a window
-    /// Beyond its options a window depends only on its surroundings, as tiled: whether and where a sample lies is decided
-    /// by the leaves' points within 22 radii along x and 18 along y. These are its fill block with two more along x and one
-    /// along y, for the phases of filling, and 5 radii for the chains of elimination. In progressive order every level adds
-    /// about 12 of its radii: see [`Progressive`](super::Progressive). Each group of classes of equal own radii adds about
-    /// 30 times the largest distance within it, and one to the groups before.
+    /// Beyond its options a window depends only on its surroundings, as tiled: the existence and position of a sample
+    /// are decided by the leaves' points within 22 radii along x and 18 along y. These are its fill block with two more
+    /// along x and one along y, for the phases of filling, and 5 radii for the chains of elimination. In progressive
+    /// order every level adds about 12 of its radii: see [`Progressive`](super::Progressive). Each group of classes of
+    /// equal own radii adds about 30 times the largest distance within it, and one to the groups before.
     ///
     /// O(n) in time and memory for the n samples of the window and its surroundings.
     ///
@@ -152,15 +153,15 @@ impl Plane {
         Context::new(1)?.run(None, |job| self.layers.window(job, &self.set, &window))
     }
 
-    /// Hands all samples of a set in any order to `visit`, in the order of [`Plane::whole`], part by part, for sets that
-    /// cannot or need not be held.
+    /// Passes all samples to `visit`, in the order of [`Plane::whole`], part by part, for sets that cannot or need not
+    /// be held.
     ///
-    /// The parts are windows of at most about 270 radii, 50,000 samples, and never empty. `visit` is called on the calling
-    /// thread and may use the library; meanwhile the threads of the context make the next parts. What the parts are, and
-    /// their order, depends on the options only. `Break` ends the call with [`Error::Cancelled`].
+    /// The parts are windows of at most about 270 radii, 50,000 samples, and never empty. `visit` is called on the
+    /// calling thread and may use the library; meanwhile the threads of the context make the next parts. The parts and
+    /// their order depend on the options only. `Break` ends the call with [`Error::Cancelled`].
     ///
-    /// Memory: at most 8 parts per thread, however many samples there are. A domain that is not tiled (see [`sample`]) is
-    /// one part.
+    /// Memory: at most 8 parts per thread, however many samples there are. A domain that is not tiled (see [`sample`])
+    /// is one part.
     ///
     /// # Errors
     /// [`Error::InvalidArgument`] for a progressive order and for several classes, which do not come place by place;
@@ -181,17 +182,17 @@ impl Plane {
     }
 }
 
-/// A set that is not made yet: options that are right, without given samples.
+/// A set that is not made yet: validated options, without given samples.
 struct Set {
     domain: Domain,
-    /// Of a set of several classes with any radius, else with that of the set.
+    /// The lattice; of a set of several classes with an arbitrary radius, else with that of the set.
     lattice: Lattice,
     radii: Radii,
 }
 
 /// The radii of a set.
 enum Radii {
-    /// In any order; `is_class` if it is the set of the only class of several.
+    /// One radius in an arbitrary order; `is_class` is true for the set of a single class.
     One {
         radius: f64,
         is_class: bool,
@@ -204,7 +205,7 @@ enum Radii {
 }
 
 impl Set {
-    /// Checks everything but the memory for the samples; their number if all are to be held.
+    /// Checks everything but the memory for the samples; their number too if all are to be held.
     fn new(options: &Options, is_held: bool) -> Result<Self> {
         let &Options { kind, domain, leaf_size, given, .. } = options;
         check_leaf_size(leaf_size)?;
@@ -216,7 +217,7 @@ impl Set {
             Kind::Classes(classes) => {
                 given.check_classes(classes.count())?;
                 let smallest = (0..classes.count()).map(|class| classes.own(class)).fold(f64::INFINITY, f64::min);
-                // Floats of any spacing carry the longest radius.
+                // Floats of any spacing can represent the longest radius.
                 let lattice = Lattice::of_any_size(&domain, f64::MAX)?;
                 check_resolution("radii", smallest, lattice.unit(), "the domain's largest coordinate")?;
                 match classes.count() {
@@ -274,7 +275,7 @@ impl Set {
     }
 }
 
-/// Refuses samples that memory does not hold. `argument` asks for them.
+/// Refuses samples that do not fit in memory. `argument` is the one that asks for them.
 fn require(samples: f64, bytes_per_sample: f64, argument: &'static str) -> Result<()> {
     if samples < FEWEST_REFUSED {
         return Ok(());
@@ -305,9 +306,9 @@ fn window_of(domain: &Domain, min: [f64; 2], max: [f64; 2]) -> Result<Domain> {
     Ok(Domain { min, max, boundary: Boundary::Bounded })
 }
 
-/// What the parts of a set are made of.
+/// The layers that the parts of a set are made of.
 enum Layers {
-    /// No layers: a set of one radius in any order.
+    /// No layers: a set of one radius in an arbitrary order.
     None(Base),
     /// The levels of a progressive order, and the rank of the samples of the coarsest one.
     Progressive(Stack<Level>, f64),
@@ -331,7 +332,7 @@ impl Layers {
         }
     }
 
-    /// Makes what all windows need.
+    /// Makes the data shared by all windows.
     fn keep(&mut self, job: &Job) -> Result<()> {
         match self {
             Self::None(_) => Ok(()),

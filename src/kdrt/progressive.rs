@@ -1,20 +1,20 @@
 //! Progressive order: nested maximal sets, coarse to fine, each filled around the one before.
 //!
-//! Not in the thesis. The radii of the levels fall by a quotient (see The ladder below); the coarsest level is a set of KDRT or
-//! [`maximal`](crate::maximal), every other one fills what those before leave uncovered (see Levels below). The *rank* of a
-//! sample is its distance to the nearest sample that was there when it was accepted, and a set is sorted by falling
-//! rank.
+//! Not in the thesis. The radii of the levels fall by a quotient (see The ladder below); the coarsest level is a set of
+//! KDRT or [`maximal`](crate::maximal), every other one fills the part that those before leave uncovered (see Levels
+//! below). The *rank* of a sample is its distance to the nearest sample that was there when it was accepted, and a set
+//! is sorted by falling rank.
 //!
-//! # What holds for every prefix
+//! # The guarantee for every prefix
 //! Of two samples of a prefix one was there before the other, which then has a rank of at most their distance: no two
 //! are closer than the last rank. A level covers the domain within its radius R, and all ranks of the next one are at
-//! least R / quotient: what lies in the middle of the next level, and has a last rank of at least that, covers within
+//! least R / quotient: a prefix that ends within the next level, and has a last rank of at least that, covers within
 //! the quotient times the last rank. The ranks of a level are below the radius of the one before, so they never rise.
 //! The first levels, up to [`Order::FIRST_COUNT`](crate::Order::FIRST_COUNT) samples, have a larger quotient.
 //!
 //! # Parts
-//! Each level is made by windows of blocks (`tiling/`): a part of a level depends on the levels before in a part that is
-//! larger by a margin of about 12 of its radii (`stack.rs`).
+//! Each level is made by windows of blocks (`tiling.rs`): a part of a level depends on the levels before in a part that
+//! is larger by a margin of about 12 of its radii (`stack.rs`).
 
 use std::sync::Arc;
 
@@ -41,19 +41,19 @@ pub const BYTES_PER_SAMPLE: f64 = 64.0;
 /// The share of the progress of a count that the coarsest level takes.
 const COARSEST_SHARE: f64 = 0.05;
 
-/// A plane that is kept keeps the whole of the levels that have no more samples than this: what a window needs of its
-/// surroundings in each level at a quotient of 2^(1/8).
+/// A retained plane stores the whole of the levels that have no more samples than this: the number that a window needs
+/// of its surroundings in each level at a quotient of 2^(1/8).
 const KEPT_SAMPLES: f64 = 65_536.0;
 
-/// A sample of the coarsest level, but for its place.
+/// A sample of the coarsest level, to be moved to its position.
 const COARSEST: Sample = Sample { point: [0; 2], square: i64::MAX };
 
 /// A sample of a level.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Sample {
     pub point: [i32; 2],
-    /// The squared distance to the nearest sample that was there when it was accepted, in lattice units. Those of the
-    /// coarsest level have the largest number.
+    /// The squared distance to the nearest sample that was there when it was accepted, in lattice units. The largest
+    /// number for those of the coarsest level.
     pub square: i64,
 }
 
@@ -118,7 +118,7 @@ impl Coarsest {
     fn new(job: &Job, options: &Options, radius: f64, around: Arc<GivenDisks>) -> Result<Self> {
         let &Options { domain, leaf_size, seed, .. } = options;
         let longest = longest(&domain);
-        // A radius that reaches over the domain gives one sample, which is the same for all of them.
+        // A radius that spans the domain gives one sample, the same for all such radii.
         let reach = if radius >= longest { f64::MAX } else { radius };
         let lattice = Lattice::of_any_size(&domain, reach)?;
         let base = Base::new(job, lattice.clone(), leaf_size, seed, around)?;
@@ -167,7 +167,7 @@ fn level_seed(seed: u64, step: u64) -> u64 {
     hash(seed, Draw::Level, &[step])
 }
 
-/// No two points of a domain are farther apart.
+/// The diagonal of a domain: no two points are farther apart.
 fn longest(domain: &Domain) -> f64 {
     let [width, height] = domain.extent();
     hypot(width, height)
@@ -180,7 +180,7 @@ fn longest(domain: &Domain) -> f64 {
 // The radii fall by the quotient, but not from the first sample on: as long as no level can have more than
 // [`Order::FIRST_COUNT`] samples, steps of the ladder are left out (see [`first_stride`]).
 
-/// How near a quotient must be to a root of two to be meant as one.
+/// The difference from a root of two below which a quotient is meant as one.
 const ROOT: f64 = 1e-9;
 
 /// A radius that is longer than another by no more than this share is the same radius, rounded.
@@ -189,13 +189,13 @@ const ROUNDING: f64 = 1e-9;
 /// The radii `coarsest / quotient^k`, without some of the first.
 ///
 /// If the quotient is a root of two, every octave has the same radii to the bit, halved: so a radius that is a power of
-/// two times another one stands in the ladder of the other as it is.
+/// two times another one is in the ladder of the other exactly.
 pub struct Ladder {
     coarsest: f64,
     quotient: f64,
     /// Levels per octave, if the quotient is a root of two.
     per_octave: Option<usize>,
-    /// Before the step `dense` only every `stride`-th is taken: no set of their radii has more than
+    /// Before the step `dense` only every `stride`-th step is taken: no set of their radii has more than
     /// [`Order::FIRST_COUNT`] samples.
     dense: usize,
     stride: usize,
@@ -209,11 +209,11 @@ impl Ladder {
         let per_octave = is_root.then_some(roots as usize);
         let stride = first_stride(quotient) as usize;
         let all = Self { coarsest, quotient, per_octave, dense: 0, stride };
-        // A multiple of the stride: a set of one of the first radii, too, stands in the ladder of a half of its radius.
+        // A multiple of the stride: one of the first radii, too, is in the ladder of half of it.
         Self { dense: all.step_above(crowded_radius(extent)) / stride * stride, ..all }
     }
 
-    /// A radius by the number of those before it, were none left out.
+    /// A radius, by the number of steps before it with none left out.
     pub fn radius(&self, step: usize) -> f64 {
         match self.per_octave {
             Some(steps) => {
@@ -262,10 +262,10 @@ pub fn octaves_above(radius: f64, length: f64) -> f64 {
 
 // # Levels
 //
-// A level: what the samples of the levels before leave farther than its radius is filled around them, by the blocks
-// and phases of KDRT (`blocks.rs`).
+// A level: the part that is farther than its radius from the samples of the levels before is filled around them, by the
+// blocks and phases of KDRT (`blocks.rs`).
 //
-// A new sample has the distance to the nearest sample that was there when it was accepted: one of the levels before,
+// A new sample stores the distance to the nearest sample that existed when it was accepted: one of the levels before,
 // of its own block, or of a block of an earlier phase. Some sample of the levels before is nearer than their radius,
 // which is at most 1.5 times that of this level, and blocks of one phase are farther apart than that; so the order in
 // which these are filled does not matter to the distance either. The radii of the first levels fall faster: they are
@@ -282,23 +282,23 @@ pub struct Level {
     sight: i32,
     /// The radius of the level before.
     before: f64,
-    /// A plane that is kept has all samples of the levels that have no more than this in the whole domain.
+    /// The largest number of samples in the whole domain of a level that a retained plane stores as a whole.
     most_kept: f64,
     /// None for one of the first levels, and on a torus on which blocks could see themselves: these are filled as a
     /// whole.
     blocks: Option<Blocks>,
-    /// Where cells are as wide as footprints need them.
+    /// Some where cells are as wide as footprints require.
     footprints: Option<Footprints>,
     seed: u64,
     around: Arc<GivenDisks>,
 }
 
 impl Level {
-    /// The level of a lattice's radius, after one of a longer radius in lattice units.
+    /// The level of a lattice's radius, after one of the longer radius `before`, in lattice units.
     pub fn new(lattice: Lattice, before: &Lattice, seed: u64, around: Arc<GivenDisks>, most_kept: f64) -> Self {
         let axes = lattice.size.map(|size| CellAxis::new(size, lattice.radius));
         let is_wide = is_wide(&lattice);
-        // With a reserve, as radii are rounded.
+        // With a margin, as radii are rounded.
         let is_first = lattice.radius > crowded_radius(lattice.size.map(f64::from)) * (1.0 - 1e-6);
         let is_cut = !is_first && (is_wide || lattice.boundary == Boundary::Bounded);
         let blocks = is_cut.then(|| Blocks::new(&lattice, seed));
@@ -375,7 +375,7 @@ impl Level {
         Quadtree::of_empty_cells(&grid, rect)
             .fill_domain(job, &mut grid, &mut rng, expected, |point| points.push(point))?;
 
-        // Once more in their order, for the distances.
+        // Inserted again in their order, for the distances.
         let mut grid = grid_before();
         let samples = points.into_iter().map(|point| {
             let square = self.nearest_square(&grid, point);
@@ -389,7 +389,7 @@ impl Level {
     fn nearest_square(&self, grid: &CellGrid, point: [i32; 2]) -> i64 {
         let [x, y] = point;
         let around = Rect { min: point, max: [x + 1, y + 1] }.grown(self.sight);
-        // What reaches around a torus has every sample once, and the nearest image of each is to be looked for.
+        // A part that spans a torus has every sample once, and the nearest image of each is to be found.
         let part = Part::new(&self.lattice, &around);
         let whole = Part::whole(&self.lattice);
         let square = |sample: [i32; 2]| -> i64 {
@@ -445,7 +445,7 @@ impl Layer for Level {
 mod tests {
     use super::*;
 
-    /// So large that the coarsest levels of the tests have many samples.
+    /// Larger than in practice, so that the coarsest levels of the tests have many samples.
     const LARGE: [f64; 2] = [1e4; 2];
 
     #[test]
@@ -461,7 +461,7 @@ mod tests {
         }
     }
 
-    /// Down to the radius at which there may be so many samples, and to no smaller one.
+    /// The ladder goes down to the radius at which there may be so many samples, and no further.
     #[test]
     fn the_first_radii_fall_by_about_two() {
         for extent in [[1.0, 1.0], [1.0, 0.01], [1e-9, 3.0], [70.0, 40.0]] {

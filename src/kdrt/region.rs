@@ -1,4 +1,4 @@
-//! Samples of a part of the plane, from which those of any smaller part can be had.
+//! Samples of a part of the plane, from which those of any smaller part can be extracted.
 
 use crate::index::Binned;
 use crate::plane::lattice::Lattice;
@@ -8,17 +8,17 @@ use crate::points::Boundary;
 /// The side of a tile in radii.
 const TILE: f64 = 16.0;
 
-/// A rectangle of lattice points, anywhere on the images of a torus. Along an axis of the torus it is at most all of
-/// it.
+/// A rectangle of lattice points, anywhere on the images of a torus. Along an axis of the torus it is at most one
+/// period long.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Part {
     pub rect: Rect,
-    /// The period along the axes of which it is all.
+    /// The period along those axes that the rectangle spans entirely.
     periods: [Option<i32>; 2],
 }
 
 impl Part {
-    /// What lies in a rectangle: of a bounded domain what there is, of a torus everything once if it reaches around.
+    /// The part of the domain in a rectangle: on a bounded domain clipped, on a torus at most one period per axis.
     pub fn new(lattice: &Lattice, rect: &Rect) -> Self {
         match lattice.boundary {
             Boundary::Bounded => Self { rect: rect.intersection(&lattice.rect()), periods: [None; 2] },
@@ -39,7 +39,7 @@ impl Part {
         Self::new(lattice, &lattice.rect())
     }
 
-    /// The pieces of this part of which `rect` is made, each with the way from it to its image in `rect`.
+    /// The pieces of this part that `rect` consists of, each with the translation from it to its image in `rect`.
     pub fn images(&self, rect: &Rect) -> impl Iterator<Item = (Rect, [i32; 2])> {
         let turns = |axis: usize| {
             let (period, turns) = match self.periods[axis] {
@@ -54,19 +54,19 @@ impl Part {
     }
 }
 
-/// A sample with what else is known of it.
+/// A sample with its attributes.
 pub trait Placed: Copy + Default {
-    /// Where it is.
+    /// The position of the sample.
     fn point(&self) -> [i32; 2];
 
-    /// The same somewhere else.
+    /// The same sample at another position.
     fn moved_to(self, point: [i32; 2]) -> Self;
 }
 
 /// The samples of a part, by tiles.
 pub struct Region<S> {
     part: Part,
-    /// The side of a tile in lattice points, and how many there are along each axis.
+    /// The side of a tile in lattice points, and the number of tiles along each axis.
     side: i32,
     counts: [i32; 2],
     tiles: Binned<S>,
@@ -128,7 +128,7 @@ mod tests {
     use crate::points::Domain;
     use crate::rng::{Draw, Rng};
 
-    /// All images of all samples, against what is visited.
+    /// All images of all samples, against those visited.
     #[test]
     fn a_rectangle_has_the_images_that_lie_in_it() {
         let mut rng = Rng::at(0, Draw::Probe, &[]);
@@ -155,7 +155,7 @@ mod tests {
                 visited.sort_unstable();
                 expected.sort_unstable();
                 assert_eq!(visited, expected);
-                // A part of it keeps each once, and gives what lies in it.
+                // A smaller part keeps each sample once, and returns those that lie in it.
                 let part = Part::new(&lattice, &rect);
                 if part.rect.is_empty() {
                     continue;

@@ -1,8 +1,9 @@
 //! Stacks of layers: sets that are made one after the other, each filled around those before.
 //!
-//! The levels of a progressive order (`progressive.rs`) are layers, and so are the groups of classes (`classes/`). All lie on
-//! one lattice. A part of a layer depends on the layers before in a part that is larger by a margin. So a part of the plane
-//! is made from the last layer back to the first, to find which part of each is needed, and then forth.
+//! The levels of a progressive order (`progressive.rs`) are layers, and so are the groups of classes (`classes/`). All
+//! lie on one lattice. A part of a layer depends on the layers before in a part that is larger by a margin. So a part
+//! of the plane is made in two passes: from the last layer to the first to find the part of each that is needed, then
+//! from the first to the last.
 
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -18,17 +19,17 @@ use crate::maximal;
 use crate::plane::{CellAxis, GivenDisks, lattice::Lattice, rect::Rect};
 use crate::points::Domain;
 
-/// The speed at which samples come by tiling, in samples of a layer.
+/// The speed of tiling relative to that of filling a layer.
 const TILING_SPEED: f64 = 10.0;
 
 /// A layer, which can be filled in any part of the plane.
 pub trait Layer {
     type Sample: Placed;
 
-    /// True if a plane that is kept has all samples of this layer and of those before.
+    /// True if a retained plane stores all samples of this layer and of those before.
     fn is_kept(&self) -> bool;
 
-    /// The number of samples that there are in a part after this layer, about and at most: the cost of making them.
+    /// An approximate upper bound of the number of samples in a part after this layer: the cost of making them.
     fn expected(&self, part: &Part) -> f64;
 
     /// The part of the layers before that decides which samples there are in a part.
@@ -44,7 +45,7 @@ pub trait Layer {
 /// The layers of a plane, of which any part can be made.
 pub struct Stack<L: Layer> {
     lattice: Lattice,
-    /// The samples that the first layer is filled around, if there are any, with what they have beside their places.
+    /// The samples that the first layer is filled around, if there are any, with their attributes.
     base: Option<(Base, L::Sample)>,
     layers: Vec<L>,
     /// The number of layers that are kept, and the samples up to the last of them.
@@ -52,7 +53,7 @@ pub struct Stack<L: Layer> {
 }
 
 impl<L: Layer> Stack<L> {
-    /// Layers around the samples of a base, which are all as the given one but for its place.
+    /// Layers around the samples of a base, all of which have the attributes of the given one.
     pub fn new(lattice: Lattice, base: Option<(Base, L::Sample)>, layers: Vec<L>) -> Self {
         Self { lattice, base, layers, kept: None }
     }
@@ -68,7 +69,7 @@ impl<L: Layer> Stack<L> {
         &mut self.layers
     }
 
-    /// Makes those layers for all windows that are kept as a whole.
+    /// Makes, for all windows, the layers that are stored as a whole.
     pub fn keep(&mut self, job: &Job) -> Result<()> {
         let Some(last) = self.layers.iter().rposition(Layer::is_kept) else { return Ok(()) };
         let whole = Part::whole(&self.lattice);
@@ -132,7 +133,7 @@ impl<L: Layer> Stack<L> {
     }
 }
 
-/// The samples of a base in a part; on a torus their images. They are all as the given one but for its place.
+/// The samples of a base in a part; on a torus their images. All have the attributes of the given one.
 pub fn images<S: Placed>(job: &Job, lattice: &Lattice, base: &Base, sample: S, part: &Part) -> Result<Vec<S>> {
     let mut samples = Vec::new();
     let pieces: Vec<_> = Part::whole(lattice).images(&part.rect).collect();
@@ -145,24 +146,24 @@ pub fn images<S: Placed>(job: &Job, lattice: &Lattice, base: &Base, sample: S, p
 
 // # The base
 //
-// A set of one radius in any order, and what the layers of others are filled around: a tiling or, where the domain is
-// too small for one, a set of [`maximal`](crate::maximal) that is made as a whole.
+// A set of one radius in an arbitrary order, which the layers of other kinds are filled around: a tiling or, where the
+// domain is too small for one, a set of [`maximal`](crate::maximal) that is made as a whole.
 
 /// The share of the progress that making a tiling's pattern takes.
 pub const PATTERN_SHARE: f64 = 0.05;
 
 /// A set of one radius.
 pub enum Base {
-    /// Any part of it is made when it is asked for.
+    /// Any part of it is made on demand.
     Tiled(Box<Tiling>),
-    /// All of it is made.
+    /// The whole set is stored.
     Whole(Whole),
 }
 
 /// A set that is made as a whole.
 pub struct Whole {
     lattice: Lattice,
-    /// The rows of cells that the samples come in, from left to right in each.
+    /// The rows of cells that the samples are ordered by, from left to right in each.
     rows: CellAxis,
     samples: Vec<[f32; 2]>,
 }
@@ -177,7 +178,7 @@ impl Base {
         Ok(Self::Whole(Whole { rows: CellAxis::new(lattice.size[1], lattice.radius), lattice, samples }))
     }
 
-    /// All samples of [`Base::new`], of which nothing is kept.
+    /// All samples of [`Base::new`], with nothing stored.
     pub fn sample(
         job: &Job,
         lattice: &Lattice,

@@ -1,4 +1,5 @@
-//! What each stage of KDRT does and takes (thesis table 2.2 and fig. 2.13), for benchmarks and studies: not a part of the API.
+//! The work and the time of each stage of KDRT (thesis table 2.2 and fig. 2.13), for benchmarks and studies: not a part
+//! of the API.
 
 use std::hint::black_box;
 use std::time::{Duration, Instant};
@@ -13,16 +14,16 @@ use crate::kdrt::tiling::{self, Tiling};
 
 pub use crate::kdrt::divide::Fixed;
 
-/// What each stage of KDRT did and took, on one thread.
+/// The work and the time of each stage of KDRT, on one thread.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Stages {
     /// Samples of the result.
     pub samples: u64,
     /// Points of the pattern laid in leaves.
     pub clipped: u64,
-    /// Of these, those near seams, which were tested.
+    /// Points laid near seams, which were tested.
     pub tested: u64,
-    /// Of these, those eliminated.
+    /// Points laid near seams that were eliminated.
     pub eliminated: u64,
     /// Samples that fill gaps.
     pub filled: u64,
@@ -40,10 +41,10 @@ pub struct Stages {
     pub output: Duration,
 }
 
-/// Measures the stages of [`sample`](super::sample) on one thread, with the set that it would make.
+/// Measures the stages of [`sample`](super::sample) on one thread, on the set that it would make.
 ///
-/// Clipping is interwoven with elimination; it is measured by clipping once more, and elimination as the rest. A domain
-/// that is not tiled is all pattern.
+/// Clipping is interleaved with elimination; it is measured by clipping a second time, and elimination as the
+/// difference. A domain that is not tiled is all pattern.
 ///
 /// # Errors
 /// Those of [`sample`](super::sample).
@@ -81,7 +82,7 @@ pub fn divide(options: &Options) -> Result<(usize, Duration)> {
     Ok((leaves, time))
 }
 
-/// A set in which something is other than in [`sample`](super::sample), and what it took.
+/// A set made otherwise than by [`sample`](super::sample), and the time that it took.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Varied {
     /// The samples.
@@ -96,8 +97,8 @@ pub struct Varied {
 /// the randomness of [`sample`](super::sample) it makes the same set.
 ///
 /// # Errors
-/// Those of [`sample`](super::sample); [`Error::InvalidArgument`] for a pattern with a side of less than two leaf sizes or
-/// more than the domain's.
+/// Those of [`sample`](super::sample); [`Error::InvalidArgument`] for a pattern with a side of less than two leaf sizes
+/// or more than the domain's.
 pub fn sample_varied(context: &Context, options: &Options, pattern_side: f64, fixed: Fixed) -> Result<Varied> {
     let (radius, &Options { domain, leaf_size, seed, .. }) = (radius(options)?, options);
     check_leaf_size(leaf_size)?;
@@ -204,9 +205,9 @@ mod tests {
         assert!((39..=156).contains(&leaves), "{leaves}");
     }
 
-    // Each randomness of KDRT has its use (thesis §2.5.2 and fig. 2.20). Without random splits the seams lie on a regular
-    // grid, whose harmonics peak in the spectrum. Without random clips all leaves show the same points, and the spectrum is
-    // speckled as that of a single leaf: its contrast is high.
+    // Each source of randomness in KDRT has its use (thesis §2.5.2 and fig. 2.20). Without random splits the seams lie
+    // on a regular grid, whose harmonics peak in the spectrum. Without random clips all leaves show the same points,
+    // and the spectrum is speckled as that of a single leaf: its contrast is high.
 
     /// Leaves along a side where every split is in the middle, and their side in radii.
     const LEAVES: i64 = 16;
@@ -220,8 +221,8 @@ mod tests {
     struct Figures {
         /// The mean contrast of the sets.
         contrast: f64,
-        /// The largest peak of their mean spectrum on the harmonics, along the axes, of the grid of leaves that are split in
-        /// the middle.
+        /// The largest peak of their mean spectrum on the harmonics, along the axes, of the grid of leaves that are
+        /// split in the middle.
         peak: f64,
     }
 
@@ -247,7 +248,7 @@ mod tests {
         Ok(maximal::sample(context, &options, None)?.positions)
     }
 
-    /// The figures of planes with leaves of at least 20 radii, in which something is not random.
+    /// The figures of planes with leaves of at least 20 radii, in which one part is not random.
     fn figures_of_planes(fixed: Fixed) -> Figures {
         figures(|context, radius, seed| {
             let varied = sample_varied(context, &Options::new(radius).seed(seed), pattern_side(20.0), fixed)?;
@@ -256,9 +257,9 @@ mod tests {
         })
     }
 
-    /// Powers are about exponentially distributed. The contrast of a set, of 320,000 of them, has therefore a standard error of 2 /
-    /// sqrt(320,000), which is 0.0036; the mean of six 0.0015, and the difference of two means 0.0021. The largest of the 58
-    /// harmonics' means of six exceeds 3.05 once in 67 times.
+    /// Powers are about exponentially distributed. The contrast of a set, of 320,000 of them, has therefore a standard
+    /// error of 2 / sqrt(320,000), which is 0.0036; the mean of six 0.0015, and the difference of two means 0.0021. The
+    /// largest of the 58 harmonics' means of six exceeds 3.05 once in 67 times.
     #[test]
     fn with_both_randomnesses_a_plane_is_like_the_unbiased_reference() {
         let (reference, tiling) = (figures(reference), figures_of_planes(Fixed::Nothing));

@@ -1,9 +1,9 @@
 //! A plane of tiles: everything that is needed to make any part of it, and the making of a window.
 //!
 //! A window is a rectangle of fill blocks. Its samples are a function of the plane's options and the window's place
-//! alone: it is made from the leaves that meet it and a margin around it, in memory of its own, whatever else is made
-//! or not. The margin is 2 blocks (at most 11 radii) to the left and right and 1 (6 radii) above and below for the
-//! phases of filling, and 5 radii for the chains of elimination around what the filling sees.
+//! alone: it is made from the leaves that meet it and a margin around it, in memory of its own, independently of all
+//! other windows. The margin is 2 blocks (at most 11 radii) to the left and right and 1 (6 radii) above and below for
+//! the phases of filling, and 5 radii for the chains of elimination around the region that filling reads.
 
 use std::sync::Arc;
 
@@ -21,7 +21,7 @@ use crate::math::square;
 use crate::plane::{CellAxis, CellGrid, GivenDisks, lattice::Lattice, rect::Rect};
 use crate::points::{Boundary, Domain};
 
-/// Fill blocks along the side of a window: about 50,000 samples, which fit a core's own cache.
+/// Fill blocks along the side of a window: about 50,000 samples, which fit in a core's own cache.
 pub const WINDOW_BLOCKS: i32 = 56;
 
 /// A window between elimination and filling.
@@ -29,7 +29,7 @@ pub struct Merged<'a> {
     /// Everything that survived near seams.
     pub grid: CellGrid,
     pub eliminated: Vec<[i32; 2]>,
-    /// What survived in the window.
+    /// The survivors in the window.
     pub output: Output<'a>,
 }
 
@@ -45,13 +45,13 @@ pub struct Tiling {
 }
 
 impl Tiling {
-    /// Whether a domain can be tiled and is larger than the pattern that it would be tiled with.
+    /// True if a domain can be tiled and is larger than the pattern that it would be tiled with.
     pub fn is_worthwhile(lattice: &Lattice, leaf_size: f64) -> bool {
         let [width, height] = lattice.size.map(|size| f64::from(size) / lattice.radius);
         is_wide(lattice) && width * height > square(pattern_side(leaf_size))
     }
 
-    /// Makes the pattern of the plane. The lattice must be worthwhile to tile.
+    /// Makes the pattern of the plane. The lattice must be worth tiling.
     pub fn new(job: &Job, lattice: Lattice, leaf_size: f64, seed: u64, around: Arc<GivenDisks>) -> Result<Self> {
         Self::with_pattern(job, lattice, leaf_size, pattern_side(leaf_size), seed, around)
     }
@@ -78,7 +78,7 @@ impl Tiling {
         })
     }
 
-    /// Takes the randomness from something.
+    /// Makes one part of the algorithm deterministic.
     #[cfg(feature = "stages")]
     pub fn fix(&mut self, fixed: crate::kdrt::divide::Fixed) {
         self.tree.fixed = fixed;
@@ -90,8 +90,8 @@ impl Tiling {
         self.blocks.rect(window)
     }
 
-    /// Lays the pattern in the leaves and does nothing with it, to measure what that takes. Returns how many points it has
-    /// in the rectangle.
+    /// Lays the pattern in the leaves and discards it, to measure the time. Returns the number of points in the
+    /// rectangle.
     #[cfg(feature = "stages")]
     pub fn clip(&self, rect: &Rect, leaves: &[Leaf]) -> usize {
         let mut points = 0;
@@ -117,7 +117,7 @@ impl Tiling {
         self.window_within(&self.surroundings(window), window)
     }
 
-    /// The samples in a part of the domain, in the order that all windows one after the other have them in.
+    /// The samples in a part of the domain, in the order of all windows one after the other.
     pub fn part(&self, job: &Job, part: &Domain) -> Result<Vec<[f32; 2]>> {
         let points = self.lattice.points_in(part);
         if points.is_empty() {
@@ -133,8 +133,8 @@ impl Tiling {
             let expected = capacity(self.lattice.samples_in(&points));
             return job.concat_about(expected, windows.len(), |i| inside(self.window(&windows[i])));
         }
-        // Less than one window, so at once also where it meets several: their surroundings would be made repeatedly. In
-        // each of them the samples come in the same order.
+        // Smaller than one window, so made at once even where it meets several: their surroundings would be made
+        // repeatedly. The order of samples is the same in each of them.
         let samples = inside(self.window(&blocks));
         if windows.len() == 1 {
             return Ok(samples);
@@ -169,7 +169,7 @@ impl Tiling {
         })
     }
 
-    /// A window, given what is to be known around it.
+    /// A window, given its surroundings.
     fn window_within(&self, known: &Rect, window: &Rect) -> Vec<[f32; 2]> {
         let leaves = self.leaves(known);
         let merged = self.merge(known, window, &leaves);
@@ -203,12 +203,12 @@ impl Tiling {
     /// The lattice points on whose leaves the samples of a window depend.
     pub fn surroundings(&self, window: &Rect) -> Rect {
         let filled = self.blocks.rect(&self.blocks.filled(window));
-        // The fill looks for samples within a reach, and for eliminated points within a reach of its cells, which
-        // go less than another beyond it.
+        // The fill searches samples within a reach, and eliminated points within a reach of its cells, which extend
+        // less than another reach beyond it.
         self.inside(&filled.grown((2 + LONGEST_CHAIN) * self.lattice.separation.reach))
     }
 
-    /// A rectangle without what lies beyond the boundary of a bounded domain.
+    /// A rectangle clipped to a bounded domain.
     fn inside(&self, rect: &Rect) -> Rect {
         match self.lattice.boundary {
             Boundary::Periodic => *rect,
@@ -244,7 +244,7 @@ pub fn tree(lattice: &Lattice, leaf_size: f64, seed: u64) -> Tree {
     Tree::new(lattice.rect(), shortest, seed)
 }
 
-/// Whether a lattice is so wide that leaves fit, and that its cells are no less than 0.67 radii wide.
+/// True if a lattice is so wide that leaves fit, and that its cells are no less than 0.67 radii wide.
 pub fn is_wide(lattice: &Lattice) -> bool {
     lattice.size.into_iter().all(|size| f64::from(size) / lattice.radius > 2.0 * MIN_LEAF_SIZE + 1.0)
 }
@@ -371,7 +371,7 @@ mod tests {
         }
     }
 
-    /// A sample may be anywhere in its block, and knows nothing of what is outside of the block's surroundings.
+    /// A sample may be anywhere in its block, and is independent of everything outside the block's surroundings.
     #[test]
     fn surroundings_reach_as_far_as_documented() {
         for boundary in [Boundary::Periodic, Boundary::Bounded] {

@@ -1,5 +1,6 @@
-//! The filling of a block (`fill.rs`) once more for each kind of vectors, the same to the bit: compiled for them, so that the
-//! small functions over `Lanes` (`plane/near.rs`) become a part of it, and its loops over bits and footprints use them.
+//! The filling of a block (`fill.rs`) compiled for each level of vector instructions, the same to the bit, so that the
+//! small functions over `Lanes` (`plane/near.rs`) are inlined, and its loops over bits and footprints use these
+//! instructions.
 
 use crate::plane::CellGrid;
 use crate::rng::Rng;

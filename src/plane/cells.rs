@@ -1,4 +1,4 @@
-//! Cells of one sample at most: the exact conflict and coverage tests of everything that happens in the plane.
+//! Cells of at most one sample: the exact conflict and coverage tests for all sampling of the plane.
 
 use crate::plane::lattice::Separation;
 use crate::plane::rect::Rect;
@@ -9,7 +9,7 @@ use crate::plane::obstacles::{Disk, Obstacles};
 use crate::plane::rows::{LANES, NOWHERE, Nearest, Rows};
 use crate::simd::{Level, run};
 
-/// The most cells away that a conflict can be: cells are narrower than r / sqrt(2) by half at most.
+/// The largest distance of a conflict, in cells: cells are narrower than r / sqrt(2) by at most half.
 const MAX_MARGIN: i32 = 3;
 
 /// A rectangle of cells with the samples in them, which never conflict.
@@ -17,18 +17,18 @@ const MAX_MARGIN: i32 = 3;
 /// Around the cells lies a margin as wide as conflicts reach, so that neighbours are at fixed offsets. It is empty,
 /// or on a whole torus holds the images of samples on the other side.
 pub(crate) struct CellGrid {
-    /// Edges of the cells of each axis, one more than cells.
+    /// The edges of the cells of each axis, one more than there are cells.
     edges: [Vec<i32>; 2],
     finders: [Finder; 2],
     /// The longest side of a cell of the plane.
     widest_cell: i32,
     margin: [i32; 2],
-    /// Cells of a row, with its margins.
+    /// The number of cells of a row, with its margins.
     stride: usize,
-    /// The coordinates of the samples by rows of cells, margins included, and as many cells more as a row is read over
-    /// its end.
+    /// The coordinates of the samples by rows of cells, margins included, and as many cells more as are read beyond the
+    /// end of a row.
     samples: [Vec<i32>; 2],
-    /// On a whole torus its cells and its size.
+    /// The numbers of cells and of lattice points of a torus that the grid covers as a whole.
     torus: Option<[[i32; 2]; 2]>,
     vectors: Level,
     separation: Separation,
@@ -42,12 +42,12 @@ impl CellGrid {
             let last = axes[axis].cell(rect.max[axis] - 1);
             (axes[axis].cell(rect.min[axis])..=last + 1).map(|cell| axes[axis].edge(cell)).collect()
         });
-        // The images in a torus of few cells fill at most one period on each side: the nearest image is nearer.
+        // On a torus of few cells the images fill at most one period on each side: the nearest image is nearer.
         let margin = [0, 1].map(|axis| axes[axis].cells_within(separation.reach));
         debug_assert!(margin.into_iter().all(|cells| cells <= MAX_MARGIN));
         let [width, height] = [0, 1].map(|axis| edges[axis].len() - 1 + 2 * margin[axis] as usize);
         Self {
-            // That of the plane, whether this grid has such a cell or not: what is thrown must not depend on the window.
+            // That of the plane, whether this grid has such a cell or not: darts must not depend on the window.
             widest_cell: axes[0].side().max(axes[1].side()).ceil() as i32,
             finders: [0, 1].map(|axis: usize| axes[axis].finder(rect.min[axis])),
             samples: [0, 1].map(|_| vec![NOWHERE; width * height + 2 * LANES]),
@@ -68,14 +68,14 @@ impl CellGrid {
         Self { torus, ..Self::new(axes, &Rect { min: [0; 2], max: size }, separation) }
     }
 
-    /// Puts disks in the way of samples, before there are any. Those that do not meet the cells do no harm.
+    /// Excludes samples from disks, before there are any samples. Those that do not meet the cells do no harm.
     pub fn set_obstacles(&mut self, disks: Vec<Disk>) {
         if !disks.is_empty() {
             self.obstacles = Obstacles::new(&self.edges, |axis, x| self.finders[axis].cell(x) as usize, disks);
         }
     }
 
-    /// Whether disks were put in the way of samples.
+    /// True if samples are excluded from some disks.
     pub fn has_obstacles(&self) -> bool {
         !self.obstacles.is_empty()
     }
@@ -85,13 +85,13 @@ impl CellGrid {
         self.obstacles.covered_cells()
     }
 
-    /// Whether one disk covers all of a rectangle of lattice points in a cell.
+    /// True if one disk covers all of a rectangle of lattice points in a cell.
     #[inline(always)]
     pub fn is_hidden(&self, cell: [i32; 2], rect: &Rect) -> bool {
         !self.obstacles.is_empty() && self.obstacles.cover(cell, rect)
     }
 
-    /// Whether a lattice point of a cell lies in a disk.
+    /// True if a lattice point of a cell lies in a disk.
     #[inline(always)]
     pub fn is_blocked(&self, cell: [i32; 2], point: [i32; 2]) -> bool {
         self.is_hidden(cell, &Rect { min: point, max: point.map(|x| x + 1) })
@@ -107,7 +107,7 @@ impl CellGrid {
         self.widest_cell
     }
 
-    /// Squared distances below this are below the threshold, also when they are computed in `f32`.
+    /// Squared distances below this are below the threshold, even when they are computed in `f32`.
     pub fn certain(&self) -> f32 {
         self.separation.threshold as f32 * (1.0 - SLACK)
     }
@@ -125,7 +125,7 @@ impl CellGrid {
         Rect { min: self.rect(cells.min).min, max: self.rect([cells.max[0] - 1, cells.max[1] - 1]).max }
     }
 
-    /// Where a part of a column (axis 0) or row (axis 1) of cells that is cut in `parts` begins and ends.
+    /// The start and the end of a part of a column (axis 0) or row (axis 1) of cells that is cut in `parts`.
     #[inline(always)]
     pub fn part(&self, axis: usize, cell: i32, part: i32, parts: i32) -> [i32; 2] {
         let (first, length) = self.span(axis, cell);
@@ -141,7 +141,7 @@ impl CellGrid {
         (((x - first + 1) * parts - 1) as u32 / length) as i32
     }
 
-    /// Where a column (axis 0) or row (axis 1) of cells begins, and how long it is.
+    /// The start and the length of a column (axis 0) or row (axis 1) of cells.
     #[inline(always)]
     fn span(&self, axis: usize, cell: i32) -> (i32, u32) {
         let edges = &self.edges[axis][cell as usize..][..2];
@@ -154,19 +154,19 @@ impl CellGrid {
         [self.finders[0].cell(x), self.finders[1].cell(y)]
     }
 
-    /// The columns (axis 0) or rows (axis 1) of cells that hold the coordinates between two, the first and the one after
-    /// the last.
+    /// The columns (axis 0) or rows (axis 1) of cells that hold the coordinates between two, the first and the one
+    /// after the last.
     pub fn cells_between(&self, axis: usize, [from, end]: [i32; 2]) -> [i32; 2] {
         [self.finders[axis].cell(from), self.finders[axis].cell(end - 1) + 1]
     }
 
-    /// Works with other vectors than the widest.
+    /// Uses other vectors than the widest.
     #[cfg(test)]
     pub fn set_vectors(&mut self, vectors: Level) {
         self.vectors = vectors;
     }
 
-    /// The vectors that the grid works with.
+    /// The vectors that the grid uses.
     pub fn vectors(&self) -> Level {
         self.vectors
     }
@@ -181,7 +181,7 @@ impl CellGrid {
         Rect { min: self.cell(rect.min), max: self.cell(rect.max.map(|x| x - 1)).map(|cell| cell + 1) }
     }
 
-    /// The place of a cell in `samples`; cells of the margin have one too.
+    /// The index of a cell in `samples`; cells of the margin have one too.
     #[inline(always)]
     fn index(&self, cell: [i32; 2]) -> usize {
         (cell[1] + self.margin[1]) as usize * self.stride + (cell[0] + self.margin[0]) as usize
@@ -206,7 +206,7 @@ impl CellGrid {
         }
     }
 
-    /// Gathers the samples that cover something of a cell, for the coarse tests.
+    /// Gathers the samples that cover a part of a cell, for the coarse tests.
     #[inline(always)]
     pub fn gather(&self, cell: [i32; 2], near: &mut Near) {
         near.limit = self.certain();
@@ -214,7 +214,7 @@ impl CellGrid {
         run(self.vectors, Gather { near, rows, cell: self.rect(cell), threshold });
     }
 
-    /// Gathers from a list the samples that cover something of a voxel.
+    /// Gathers from a list the samples that cover a part of a voxel.
     #[inline(always)]
     pub fn gather_among(&self, list: &List, voxel: Rect, near: &mut Near) {
         near.limit = self.certain();
@@ -228,13 +228,13 @@ impl CellGrid {
         run(self.vectors, Uncovered { near, voxel, width })
     }
 
-    /// Whether a sample conflicts with `point`, which lies in `cell`, or it lies in a disk.
+    /// True if a sample conflicts with `point`, which lies in `cell`, or if the point lies in a disk.
     #[inline(always)]
     pub fn conflicts(&self, cell: [i32; 2], point: [i32; 2]) -> bool {
         self.conflicts_among(&self.rows_near(cell), point) || self.is_blocked(cell, point)
     }
 
-    /// Whether one of the samples of some rows conflicts with `point`.
+    /// True if one of the samples of some rows conflicts with `point`.
     #[inline(always)]
     pub fn conflicts_among(&self, rows: &Rows, point: [i32; 2]) -> bool {
         let nearest = run(self.vectors, Nearest { rows, point });
@@ -244,7 +244,7 @@ impl CellGrid {
         nearest < self.certain() || self.conflicts_exactly(rows, point)
     }
 
-    /// [`CellGrid::conflicts_among`] where rounding could decide.
+    /// The exact form of [`CellGrid::conflicts_among`], where rounding could decide.
     #[cold]
     fn conflicts_exactly(&self, rows: &Rows, point: [i32; 2]) -> bool {
         rows.iter().any(|[xs, ys]| {
@@ -255,7 +255,7 @@ impl CellGrid {
         })
     }
 
-    /// The samples that can conflict with points of a cell, and perhaps some more. `near` is the memory for them.
+    /// The samples that can conflict with points of a cell, and perhaps some more. `near` is working memory for them.
     pub fn samples_near<'a>(&self, cell: [i32; 2], near: &'a mut Vec<[i32; 2]>) -> &'a [[i32; 2]] {
         near.clear();
         for [xs, ys] in self.rows_near(cell).iter() {
@@ -264,9 +264,9 @@ impl CellGrid {
         near
     }
 
-    /// Whether one sample of `near` alone conflicts with every lattice point of `rect`, or `rect` is empty.
+    /// True if one sample of `near` alone conflicts with every lattice point of `rect`, or if `rect` is empty.
     pub fn covers(&self, near: &[[i32; 2]], rect: &Rect) -> bool {
-        // Twice the distance to the farthest corner is twice the distance to the centre and the extent.
+        // Twice the distance to the farthest corner is twice the distance to the centre plus the extent.
         let centre: [i64; 2] = std::array::from_fn(|axis| i64::from(rect.min[axis]) + i64::from(rect.max[axis]) - 1);
         let extent: [i64; 2] = std::array::from_fn(|axis| i64::from(rect.length(axis)) - 1);
         rect.is_empty()
@@ -308,8 +308,8 @@ impl CellGrid {
         }
     }
 
-    /// Lists the samples in `rect`, which reaches no farther beyond the given cells than conflicts do; by rows of cells, the
-    /// margin included.
+    /// Lists the samples in `rect`, which reaches no farther beyond the given cells than conflicts do; by rows of
+    /// cells, the margin included.
     #[inline(always)]
     pub fn collect(&self, cells: &Rect, rect: &Rect, list: &mut List) {
         let [x, y] = self.margin;
@@ -333,8 +333,8 @@ impl CellGrid {
             .filter(move |&sample| rect.contains(sample))
     }
 
-    /// The squared distance from a sample to the nearest other one, if that is within a reach along both axes; else it
-    /// may be any larger number.
+    /// The squared distance from a sample to the nearest other one, if that is within `reach` along both axes; else any
+    /// larger number.
     #[inline(always)]
     pub fn nearest_square(&self, sample: [i32; 2], reach: i32) -> i64 {
         let around = Rect { min: sample, max: sample.map(|x| x + 1) }.grown(reach);
@@ -375,8 +375,8 @@ impl CellGrid {
 //
 // The cuts of an axis into cells.
 
-/// How one axis of a plane is cut into cells: at the multiples of size / count, rounded down to lattice points. Cell `i`
-/// holds the lattice points from `edge(i)` to before `edge(i + 1)`; on a torus `i` may be any integer.
+/// The cuts of one axis of a plane into cells: at the multiples of size / count, rounded down to lattice points. Cell
+/// `i` holds the lattice points from `edge(i)` to before `edge(i + 1)`; on a torus `i` may be any integer.
 #[derive(Clone, Debug)]
 pub(crate) struct CellAxis {
     pub size: i32,
@@ -384,7 +384,7 @@ pub(crate) struct CellAxis {
 }
 
 impl CellAxis {
-    /// Cells so small that any two points of one of them conflict at `radius`.
+    /// Cells so small that any two points in one of them conflict at `radius`.
     pub fn new(size: i32, radius: f64) -> Self {
         let widest = radius * std::f64::consts::FRAC_1_SQRT_2 * (1.0 - 1e-9);
         Self { size, count: (f64::from(size) / widest).ceil().max(1.0) as i32 }
@@ -411,7 +411,7 @@ impl CellAxis {
         ((i64::from(point) + 1) * i64::from(self.count) - 1).div_euclid(i64::from(self.size)) as i32
     }
 
-    /// Finds the cells of points from `first` on, for many of them.
+    /// Finds the cells of many points from `first` on.
     pub fn finder(&self, first: i32) -> Finder {
         let turns = i64::from(-first.div_euclid(self.size));
         // Twice each, so that the shift is never negative.
@@ -426,7 +426,7 @@ impl CellAxis {
         }
     }
 
-    /// How many cells away a conflict can be, when points conflict up to `reach` apart.
+    /// The largest distance of a conflict, in cells, when points conflict up to `reach` apart.
     pub fn cells_within(&self, reach: i32) -> i32 {
         (1..self.count).find(|&cells| self.gap(cells) > f64::from(reach)).map_or(self.count, |cells| cells - 1)
     }
@@ -442,8 +442,8 @@ impl CellAxis {
 pub struct Finder {
     points: i64,
     offset: i64,
-    /// 2^(64 + shift) / divisor, rounded up. As the divisor is below 2^(shift + 2), the quotients of numbers below 2^62 are
-    /// exact (Granlund and Montgomery 1994).
+    /// 2^(64 + shift) / divisor, rounded up. As the divisor is below 2^(shift + 2), the quotients of numbers below 2^62
+    /// are exact (Granlund and Montgomery 1994).
     reciprocal: u64,
     shift: u32,
     first: i32,
@@ -463,7 +463,7 @@ mod tests {
     use super::*;
     use crate::rng::{Draw, Rng};
 
-    /// Samples that do not conflict, thrown one after the other, and every test of the grid against a loop over them.
+    /// Samples without conflict, thrown one after the other, and every test of the grid against a loop over them.
     #[test]
     fn the_grid_says_what_a_loop_over_all_samples_says() {
         let mut rng = Rng::at(0, Draw::Probe, &[]);

@@ -1,28 +1,27 @@
 //! The exact integer lattice on which all sampling of the plane happens.
 //!
-//! Rounding is where Poisson-disk samplers lose their promise: a set that keeps its radius in `f64` does not keep it
-//! once its points are stored as `f32`. Here nothing is rounded. The lattice consists of the multiples of one power
-//! of two, `unit`, the float spacing at the domain's largest coordinate, so every lattice point *is* an `f32`, and
-//! squared distances between lattice points are integers.
+//! Rounding is where Poisson-disk samplers lose their guarantee: a set that keeps its radius in `f64` does not keep it
+//! once its points are stored as `f32`. Here nothing is rounded. The lattice consists of the multiples of one power of
+//! two, `unit`, the float spacing at the domain's largest coordinate, so every lattice point *is* an `f32`, and squared
+//! distances between lattice points are integers.
 //!
-//! # What is guaranteed
+//! # Guarantees
 //! Two points *conflict* when their squared distance is below `threshold` = ceil(r² / unit²), so points without
 //! conflict are at least r apart, in `f64`, computed from the returned floats by any formula that rounds each operation
 //! correctly. A set is *maximal* when every lattice point of the domain conflicts with one of its points. A point of
-//! the domain between lattice points is at most one unit per axis from one of them, and on a torus the distance
-//! over the seam is at most one unit per axis longer than on the lattice (see [`Lattice::new`]): no point of the
-//! domain is farther than r + 2·sqrt(2)·unit, below **r + 3 float spacings** at the largest coordinate, from all
-//! samples.
+//! the domain between lattice points is at most one unit per axis from one of them, and on a torus the distance across
+//! the seam is at most one unit per axis longer than on the lattice (see [`Lattice::new`]): no point of the domain is
+//! farther than r + 2·sqrt(2)·unit, below **r + 3 float spacings** at the largest coordinate, from all samples.
 
 use crate::error::{Error, Result};
 use crate::math::{hypot, scalbn};
 use crate::plane::rect::Rect;
 use crate::points::{Boundary, Domain, MAXIMAL_DENSITY, check_radius, check_resolution};
 
-/// More samples are never made in one call.
+/// The largest number of samples of one call.
 const MAX_SAMPLES: f64 = u32::MAX as f64;
 
-/// How far apart two lattice points must be for a radius.
+/// The least distance of two lattice points for a radius.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Separation {
     /// Points whose squared distance is below this conflict.
@@ -32,9 +31,9 @@ pub(crate) struct Separation {
 }
 
 impl Separation {
-    /// That of a radius in lattice units.
+    /// The separation for a radius in lattice units.
     pub fn new(radius: f64) -> Self {
-        // The guard covers the rounding of the squares here and in the user's own check.
+        // The factor covers the rounding of the squares here and in the user's own check.
         let threshold = (radius * radius * (1.0 + 1e-14)).ceil() as i64;
         Self { threshold, reach: (threshold - 1).max(0).isqrt() as i32 }
     }
@@ -51,7 +50,7 @@ pub(crate) struct Lattice {
     pub boundary: Boundary,
     /// The radius in lattice units.
     pub radius: f64,
-    /// What the radius asks of two lattice points.
+    /// The separation that the radius requires of two lattice points.
     pub separation: Separation,
 }
 
@@ -92,12 +91,13 @@ impl Lattice {
 
     /// The same lattice with another radius, in the units of the domain.
     pub fn with_radius(&self, radius: f64) -> Self {
-        // No two lattice points are as far apart as 2^26, so a longer radius means the same and only overflows.
+        // No two lattice points are as far apart as 2^26, so a longer radius has the same effect and would only
+        // overflow.
         let radius = (radius / self.unit).min((1 << 26) as f64);
         Self { radius, separation: Separation::new(radius), ..self.clone() }
     }
 
-    /// The same lattice with a radius that is longer by so many units.
+    /// The same lattice with a radius that is longer by a number of units.
     pub fn widened(&self, units: f64) -> Self {
         let radius = self.radius + units;
         Self { radius, separation: Separation::new(radius), ..self.clone() }
@@ -113,8 +113,8 @@ impl Lattice {
         Rect { min: [0; 2], max: self.size }
     }
 
-    /// About how many samples a maximal set has; at least one. On a bounded domain, part of whose disks lie outside,
-    /// this is what a domain wider by half a radius on each side would have.
+    /// The approximate number of samples of a maximal set; at least one. On a bounded domain, whose disks lie partly
+    /// outside, this is the number for a domain wider by half a radius on each side.
     pub fn expected_samples(&self) -> f64 {
         let beyond = if self.boundary == Boundary::Bounded { 1.0 } else { 0.0 };
         let [width, height] = self.size.map(|size| f64::from(size) / self.radius + beyond);
@@ -133,13 +133,13 @@ impl Lattice {
         rect.intersection(&self.rect())
     }
 
-    /// About how many samples of a maximal set lie in `rect`.
+    /// The approximate number of samples of a maximal set in `rect`.
     pub fn samples_in(&self, rect: &Rect) -> f64 {
         MAXIMAL_DENSITY * (f64::from(rect.length(0)) / self.radius) * (f64::from(rect.length(1)) / self.radius)
     }
 
     /// A lattice point at most one unit per axis away from any point of `domain`, which is this lattice's; on a torus
-    /// perhaps over the seam. Away from the domain's boundary it is half a unit.
+    /// perhaps across the seam. Away from the domain's boundary it is half a unit.
     pub fn nearest(&self, domain: &Domain, point: [f32; 2]) -> [i32; 2] {
         std::array::from_fn(|axis| {
             let place = (f64::from(point[axis]) - self.origin[axis]) / self.unit;
@@ -159,7 +159,7 @@ impl Lattice {
         self.unit
     }
 
-    /// Where a position is in lattice units, on a torus in its first turn.
+    /// The position in lattice units; on a torus wrapped into the first period.
     pub fn place(&self, domain: &Domain, position: [f32; 2]) -> [f64; 2] {
         std::array::from_fn(|axis| {
             let mut x = f64::from(position[axis]);
@@ -171,18 +171,18 @@ impl Lattice {
         })
     }
 
-    /// By how many units distances over the seam of a torus can be shorter than on the lattice.
+    /// The number of units by which distances across the seam of a torus can be shorter than on the lattice.
     pub fn short(&self, domain: &Domain) -> f64 {
         let short = |axis: usize| (domain.extent()[axis] / self.unit - f64::from(self.size[axis])).max(0.0);
         if self.boundary == Boundary::Periodic { hypot(short(0), short(1)) } else { 0.0 }
     }
 
-    /// The length whose square is given in lattice units: the distance in `f64` of two returned floats so far apart.
+    /// The length whose square is given in lattice units: the distance in `f64` of two returned floats.
     pub fn length(&self, square: i64) -> f64 {
         (square as f64).sqrt() * self.unit
     }
 
-    /// The lattice point with these coordinates, which are those of one: the inverse of [`Lattice::position`].
+    /// The lattice point with these coordinates, which must be those of one: the inverse of [`Lattice::position`].
     pub fn point(&self, position: [f32; 2]) -> [i32; 2] {
         std::array::from_fn(|axis| ((f64::from(position[axis]) - self.origin[axis]) / self.unit) as i32)
     }
@@ -202,7 +202,7 @@ fn nearest_on_axis(place: f64, size: i32, period: Option<f64>) -> i32 {
     }
 }
 
-/// About how many samples a part of a maximal set has, given its width and height.
+/// The approximate number of samples of a part of a maximal set, given its width and height.
 ///
 /// # Errors
 /// [`Error::InvalidArgument`] for a radius out of range, [`Error::TooLarge`] for more than about 2^32 samples.
@@ -227,7 +227,7 @@ fn float_spacing<'a>(coordinates: impl Iterator<Item = &'a f64>) -> f64 {
     scalbn(1.0, exponent - 24)
 }
 
-/// The coordinate of an axis's first lattice point, and how many points there are.
+/// The coordinate of an axis's first lattice point, and the number of points.
 fn axis_points(domain: &Domain, axis: usize, unit: f64) -> Result<(f64, i32)> {
     let (min, max) = (domain.min[axis], domain.max[axis]);
     if let (first, Some(inside)) = multiples(min, max, unit) {
@@ -250,7 +250,7 @@ fn axis_points(domain: &Domain, axis: usize, unit: f64) -> Result<(f64, i32)> {
 
 /// The first multiple of `unit` that is not below `min` and the number of them below `max`, if there are any.
 fn multiples(min: f64, max: f64, unit: f64) -> (f64, Option<f64>) {
-    // The quotients are exact, unless they underflow; then the comparison puts the first multiple right.
+    // The quotients are exact, unless they underflow; then the comparison corrects the first multiple.
     let mut first = (min / unit).ceil();
     if first * unit < min {
         first += 1.0;
@@ -268,7 +268,7 @@ mod tests {
         Lattice::new(&Domain { min, max, boundary }, radius)
     }
 
-    /// The corners of odd domains: every lattice point is a float of the domain and no lattice point is missing.
+    /// The corners of unusual domains: every lattice point is a float of the domain and no lattice point is missing.
     #[test]
     fn lattice_points_are_exactly_the_floats_of_the_domain_at_one_spacing() {
         let tiny = f64::from(f32::from_bits(1));
@@ -328,7 +328,7 @@ mod tests {
         assert!(lattice.separation.threshold > diagonal);
     }
 
-    /// A thin domain far from the long axis's multiples: its own floats count.
+    /// A thin domain far from the multiples of the long axis's unit: its own floats are used.
     #[test]
     fn an_axis_between_two_lattice_points_has_one_of_its_floats() {
         for boundary in [Boundary::Periodic, Boundary::Bounded] {
@@ -367,7 +367,7 @@ mod tests {
         }
     }
 
-    /// Any floats of odd domains, those next to the boundaries among them.
+    /// Any floats of unusual domains, including those next to the boundaries.
     #[test]
     fn the_nearest_lattice_point_is_at_most_a_unit_away_per_axis() {
         let mut rng = Rng::at(2, Draw::Probe, &[]);

@@ -1,4 +1,4 @@
-//! The samples around a place, one after the other: what many darts and voxels of it are compared with.
+//! The list of samples around a place, with which many darts and voxels are compared.
 
 use crate::plane::rect::Rect;
 use crate::plane::rows::{LANES, NOWHERE, Rows};
@@ -14,17 +14,17 @@ pub(crate) struct List {
 }
 
 impl List {
-    /// Empties the list for [`Collect`], with capacity for so many samples in all.
+    /// Empties the list for [`Collect`], with capacity for this number of samples.
     pub fn clear(&mut self, capacity: usize) {
         self.count = 0;
-        // Vectors of sixteen are written from any place on.
+        // Vectors of sixteen are written at any offset.
         if self.x.len() < capacity + 2 * LANES {
             self.x.resize(capacity + 2 * LANES, NOWHERE);
             self.y.resize(capacity + 2 * LANES, NOWHERE);
         }
     }
 
-    /// Ends what was collected.
+    /// Terminates the collected samples.
     pub fn end(&mut self) {
         self.x[self.count..self.count + LANES].fill(NOWHERE);
         self.y[self.count..self.count + LANES].fill(NOWHERE);
@@ -37,13 +37,13 @@ impl List {
         self.count += 1;
     }
 
-    /// The samples by eights, for the tests in `near.rs`.
+    /// The samples in groups of eight, for the tests in `near.rs`.
     pub fn rows(&self) -> Rows<'_> {
         let count = self.count.div_ceil(LANES).max(1);
         Rows { samples: [&self.x, &self.y], first: 0, stride: LANES, count }
     }
 
-    /// The samples by eights; the last ones are far below zero where there are none.
+    /// The samples in groups of eight; missing ones of the last group are far below zero.
     pub fn eights(&self) -> impl Iterator<Item = [&[i32; LANES]; 2]> {
         let (xs, ys) = (self.x.as_chunks().0, self.y.as_chunks().0);
         let eights = self.count.div_ceil(LANES);
@@ -51,8 +51,8 @@ impl List {
     }
 }
 
-/// Appends the samples in the first `width` cells of each row that lie in a rectangle to a list that has capacity for all.
-/// Behind the rows are sixteen cells that can be read.
+/// Appends the samples in the first `width` cells of each row that lie in a rectangle to a list that has capacity for
+/// all. After the rows sixteen more cells must be readable.
 pub struct Collect<'a> {
     pub rows: &'a Rows<'a>,
     pub width: usize,
@@ -60,7 +60,7 @@ pub struct Collect<'a> {
     pub list: &'a mut List,
 }
 
-/// The cells that are read at a time.
+/// The number of cells that are read at a time.
 const WIDE: usize = 2 * LANES;
 
 const NUMBERS: [i32; WIDE] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15];
@@ -71,7 +71,7 @@ impl Work for Collect<'_> {
     #[inline(always)]
     fn run<L: Lanes>(self, lanes: L) {
         let Self { rows, width, rect, list } = self;
-        // A sample is beyond the lattice points before the rectangle, and before its end.
+        // A sample lies beyond the lattice point before the rectangle, and before its end.
         let before = [lanes.splat_int(rect.min[0] - 1), lanes.splat_int(rect.min[1] - 1)];
         let end = [lanes.splat_int(rect.max[0]), lanes.splat_int(rect.max[1])];
         let numbers = lanes.load_ints(&NUMBERS);
@@ -111,7 +111,7 @@ mod tests {
         let mut list = List::default();
         for collected in [0, 3, 8, 20] {
             list.clear(40);
-            // Something is left of vectors that were written beyond the end.
+            // Remainders of vectors that were written beyond the end.
             list.x.fill(7);
             list.y.fill(7);
             for i in 0..collected {

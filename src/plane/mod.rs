@@ -1,5 +1,5 @@
-//! The plane in exact integers, shared by [`maximal`](crate::maximal) and [`kdrt`](crate::kdrt): a lattice of floats, cells
-//! that hold one sample at most, and the flat quadtree of voxels in which darts are thrown (Ebeida et al. 2012).
+//! The plane in exact integers, shared by [`maximal`](crate::maximal) and [`kdrt`](crate::kdrt): a lattice of floats,
+//! cells that hold one sample at most, and the flat quadtree of voxels in which darts are thrown (Ebeida et al. 2012).
 
 mod cells;
 pub(crate) mod lattice;

@@ -1,31 +1,32 @@
-//! What is near a place of the grid: the coarse tests, in `f32`, that nearly all work of the plane goes through.
+//! The samples near a cell of the grid: the coarse tests, in `f32`, that do nearly all work of the plane.
 //!
-//! They say what is certain; what they leave open is decided in integers by `cells.rs`. All levels of
+//! They decide the certain cases; those that they leave open are decided in integers by `cells.rs`. All levels of
 //! vector instructions give the same bits.
 
 use crate::plane::rect::Rect;
 use crate::plane::rows::{LANES, Rows};
 use crate::simd::{Lanes, Work};
 
-/// The share of the squared radius that rounding can add up to, and some more: coordinates are below 5 radii, and each
-/// of a handful of operations is off by at most 2^-24 of its result.
+/// An upper bound of the total rounding error, as a share of the squared radius: coordinates are below 5 radii, and
+/// each of a handful of operations is off by at most 2^-24 of its result.
 pub const SLACK: f32 = 1e-5;
 
-/// At most 13 samples cover something of a cell (Oler's inequality for points r apart that lie at most r from a square of
-/// side r / sqrt(2)), a few more where a torus is so narrow that images of one sample do. Any more are left out.
+/// The capacity for samples near a cell. At most 13 cover a part of it (Oler's inequality for points r apart that lie
+/// at most r from a square of side r / sqrt(2)), a few more where a torus is so narrow that images of one sample do.
+/// Any more are left out.
 pub const MOST_NEAR: usize = 16;
 
-/// As many samples near a cell are tested whether they are there or not; seldom are there more.
+/// The number of samples near a cell that are always tested, whether they exist or not; rarely are there more.
 const ALWAYS: usize = 4;
 
-/// A coordinate of no sample. Its square is a float.
+/// The coordinate of a missing sample. Its square is a finite float.
 pub const FAR: f32 = 1e18;
 
-/// The samples that cover something of a cell, as seen from its corner.
+/// The samples that cover a part of a cell, relative to its corner.
 pub struct Near {
     pub origin: [i32; 2],
-    /// The first `count` are samples; [`ALWAYS`] and more after them are [`FAR`], so that a few can be tested whether they
-    /// are there or not. How many there are is not predictable. (Vectors of sixteen are written from any place on.)
+    /// The first `count` are samples; at least [`ALWAYS`] after them are [`FAR`], so that a few can be tested whether
+    /// they exist or not: their number is not predictable. (Vectors of sixteen are written at any offset.)
     pub x: [f32; MOST_NEAR + 2 * LANES],
     pub y: [f32; MOST_NEAR + 2 * LANES],
     pub count: usize,
@@ -34,13 +35,13 @@ pub struct Near {
 }
 
 impl Near {
-    /// Memory for what is near a cell.
+    /// Memory for the samples near a cell.
     pub fn new() -> Self {
         Self { origin: [0; 2], x: [FAR; MOST_NEAR + 2 * LANES], y: [FAR; MOST_NEAR + 2 * LANES], count: 0, limit: 0.0 }
     }
 }
 
-/// Takes the samples of the rows that are closer than the square root of `threshold` to the lattice points of `cell`.
+/// Gathers the samples of the rows that are closer than the square root of `threshold` to the lattice points of `cell`.
 pub(super) struct Gather<'a> {
     pub near: &'a mut Near,
     pub rows: &'a Rows<'a>,
@@ -76,8 +77,8 @@ impl Work for Gather<'_> {
     }
 }
 
-/// The sixteenths of a voxel, four by four of the given width from its corner on: bit `4·row + column` of the result says
-/// that this one is not empty and no single sample certainly covers all of its lattice points.
+/// The sixteenths of a voxel, four by four of the given width from its corner on: bit `4·row + column` of the result
+/// says that this one is not empty and no single sample certainly covers all of its lattice points.
 pub(super) struct Uncovered<'a> {
     pub near: &'a Near,
     pub voxel: &'a Rect,
@@ -103,8 +104,8 @@ impl Uncovered<'_> {
     }
 }
 
-/// The squares of the distances along an axis from `x` to the farthest points of the sixteenths: the distance to the centre
-/// and half the extent.
+/// The squares of the distances along an axis from `x` to the farthest points of the sixteenths: the distance to the
+/// centre and half the extent.
 #[inline(always)]
 fn farthest<L: Lanes>(lanes: L, x: f32, [centres, extents]: [L::Floats; 2]) -> L::Floats {
     let farthest = lanes.add(lanes.abs(lanes.sub(lanes.splat(x), centres)), extents);
@@ -124,7 +125,7 @@ impl Work for Uncovered<'_> {
         }
         let zero = lanes.splat(0.0);
         let is_far = lanes.at_most(lanes.splat(self.near.limit), nearest);
-        // One beyond the end of the voxel has an extent below zero.
+        // A part beyond the end of the voxel has an extent below zero.
         let is_part = lanes.both(lanes.at_most(zero, columns[1]), lanes.at_most(zero, rows[1]));
         lanes.bits(lanes.both(is_far, is_part)) as u16
     }
@@ -142,7 +143,7 @@ mod tests {
 
     const RADII: [i32; 4] = [64, 1000, 1 << 16, 1 << 22];
 
-    /// Five rows of cells with a sample in every third, and somewhere beyond them.
+    /// Five rows of cells with a sample in every third, and positions beyond them.
     fn random_rows(rng: &mut Rng, radius: i32) -> [Vec<i32>; 2] {
         let mut rows = [vec![], vec![]];
         for _ in 0..5 * LANES {
@@ -170,7 +171,8 @@ mod tests {
         (Rect { min, max }, (width + 3) / 4)
     }
 
-    /// Against exact distances: what is certainly uncovered is kept, what is covered with some margin is dropped.
+    /// Against exact distances: parts that are certainly uncovered are kept, parts covered with some margin are
+    /// dropped.
     #[test]
     fn the_coarse_tests_say_what_exact_distances_say_except_at_the_very_border() {
         let mut rng = Rng::at(0, Draw::Probe, &[]);
@@ -225,7 +227,7 @@ mod tests {
         assert!(dropped > 10_000);
     }
 
-    /// Also not what was gathered before.
+    /// No voxel is covered without a sample, nor by samples gathered before.
     #[test]
     fn where_no_sample_is_nothing_is_covered() {
         let cell = Rect { min: [0; 2], max: [500; 2] };

@@ -1,9 +1,9 @@
-//! Disks that stand in the plane beside the samples of a grid, of any radii and anywhere: no sample may lie in one, and
-//! what lies in one is covered.
+//! Disks in the plane in addition to the samples of a grid, of any radii and at any positions: no sample may lie in
+//! one, and points in one are covered.
 //!
 //! Their centres need not lie on the lattice, so distances to them are numbers in `f64`. A lattice point lies in a disk
-//! if its distance says so, and a rectangle of them if its farthest corner does. Rounding is monotone, so then all of
-//! its points do: both questions have one answer, and a search for what is not covered ends.
+//! if its computed distance does, and a rectangle of them if its farthest corner does. Rounding is monotone, so then
+//! all of its points do: the two tests are consistent, and a search for uncovered points ends.
 
 use std::cmp::Ordering;
 
@@ -20,7 +20,7 @@ pub(crate) struct Disk {
 }
 
 impl Disk {
-    /// Whether all lattice points of a rectangle lie in it.
+    /// True if all lattice points of a rectangle lie in the disk.
     pub fn covers(&self, rect: &Rect) -> bool {
         let along = |axis: usize| {
             let ends = [f64::from(rect.min[axis]), f64::from(rect.max[axis] - 1)];
@@ -30,7 +30,7 @@ impl Disk {
         dx * dx + dy * dy < self.radius * self.radius
     }
 
-    /// Whether it may have points of a rectangle of lattice points.
+    /// True if the disk may have points of a rectangle of lattice points.
     pub fn meets(&self, rect: &Rect) -> bool {
         let along = |axis: usize| {
             let (first, last) = (f64::from(rect.min[axis]), f64::from(rect.max[axis] - 1));
@@ -45,7 +45,7 @@ impl Disk {
 #[derive(Default)]
 pub(crate) struct Obstacles {
     columns: usize,
-    /// Of each cell whether one disk covers it.
+    /// For each cell, true if one disk covers it.
     covered: Vec<bool>,
     /// For each other cell the disks that may have points of it.
     met: Binned<u32>,
@@ -53,8 +53,8 @@ pub(crate) struct Obstacles {
 }
 
 impl Obstacles {
-    /// Those of a grid whose columns and rows of cells begin at these lattice points, with the end of the last. `cell`
-    /// is the column (axis 0) or row (axis 1) of a lattice point of the grid.
+    /// The obstacles of a grid whose columns and rows of cells begin at these lattice points, with the end of the last.
+    /// `cell` is the column (axis 0) or row (axis 1) of a lattice point of the grid.
     pub fn new(edges: &[Vec<i32>; 2], cell: impl Fn(usize, i32) -> usize, mut disks: Vec<Disk>) -> Self {
         let [columns, rows] = [0, 1].map(|axis: usize| edges[axis].len() - 1);
         let span = |axis: usize, place: f64, reach: f64| {
@@ -63,11 +63,11 @@ impl Obstacles {
             if from > to { 0..0 } else { cell(axis, from as i32)..cell(axis, to as i32) + 1 }
         };
         let (mut covered, mut met) = (vec![false; columns * rows], Vec::new());
-        // What is covered by large ones is not looked at again.
+        // Large disks first: cells that they cover are not tested again.
         disks.sort_unstable_by(|a, b| b.radius.total_cmp(&a.radius));
         for (index, disk) in (0..).zip(&disks) {
             for y in span(1, disk.centre[1], disk.radius) {
-                // How wide the disk is where it is widest in this row.
+                // The half width of the disk where it is widest in this row.
                 let rows = [edges[1][y], edges[1][y + 1]];
                 let (low, high) = (f64::from(rows[0]), f64::from(rows[1] - 1));
                 let away = (low - disk.centre[1]).max(disk.centre[1] - high).max(0.0);
@@ -79,7 +79,7 @@ impl Obstacles {
                 }
                 let covers =
                     |x: &usize| disk.covers(&Rect { min: [edges[0][*x], rows[0]], max: [edges[0][x + 1], rows[1]] });
-                // What it covers of a row of cells is a run of them.
+                // The cells of a row that it covers form one run.
                 let start = columns_met.clone().find(covers).unwrap_or(columns_met.end);
                 let stop = (start..columns_met.end).rfind(covers).map_or(start, |x| x + 1);
                 row[start..stop].fill(true);
@@ -92,7 +92,7 @@ impl Obstacles {
         Self { columns, covered, met, disks }
     }
 
-    /// Whether there are none.
+    /// True if there are no disks.
     #[inline(always)]
     pub fn is_empty(&self) -> bool {
         self.covered.is_empty()
@@ -104,7 +104,7 @@ impl Obstacles {
         cells.map(|(cell, _)| [cell % self.columns, cell / self.columns])
     }
 
-    /// Whether one disk covers all of a rectangle of lattice points in a cell.
+    /// True if one disk covers all of a rectangle of lattice points in a cell.
     pub fn cover(&self, [x, y]: [i32; 2], rect: &Rect) -> bool {
         let cell = y as usize * self.columns + x as usize;
         self.covered[cell] || self.met.bin(cell).iter().any(|&disk| self.disks[disk as usize].covers(rect))
@@ -113,20 +113,20 @@ impl Obstacles {
 
 // # Given samples
 //
-// Given samples, around which sets are made: as disks on the lattice, found by place.
+// Given samples, around which sets are made: as disks on the lattice, found by position.
 //
 // # Exactness
 // The floats of given samples are not on the lattice, and no distance to them is an integer. So a disk is wider than
 // its clearance by more than rounding can be: relatively for the squares, and by a millionth of a unit for the
 // quotient by the unit. On a torus whose period is no multiple of the unit, the lattice's period is shorter by a part
-// of a unit; a distance over the seam may be shorter by that, per axis, than on the lattice, and disks are wider by as
-// much. What lies in a disk is thus covered within its clearance and 3 units, and with the place between lattice
-// points within 6 units.
+// of a unit; a distance across the seam may be shorter by that, per axis, than on the lattice, and disks are wider by
+// as much. Lattice points in a disk are thus covered within its clearance and 3 units, and points between them within 6
+// units.
 
-/// What a disk is wider by, relatively, for the rounding of squares and roots here and in the user's own check.
+/// The relative widening of a disk, for the rounding of squares and roots here and in the user's own check.
 const RELATIVE: f64 = 1e-13;
 
-/// And in lattice units, for the rounding of its place.
+/// The absolute widening of a disk, in lattice units, for the rounding of its position.
 const ABSOLUTE: f64 = 1e-6;
 
 /// The shortest side of a bin, in radii.
@@ -136,7 +136,7 @@ const BIN: f64 = 32.0;
 #[derive(Default)]
 pub struct GivenDisks {
     octaves: Vec<Octave>,
-    /// Of a torus the size.
+    /// The size of the torus.
     periods: Option<[i32; 2]>,
 }
 
@@ -146,7 +146,7 @@ struct Octave {
     radius: f64,
     /// The side of a bin.
     side: f64,
-    /// By rows and columns of bins, on a torus in its first turn.
+    /// The disks by rows and columns of bins, on a torus in its first period.
     disks: Vec<([i64; 2], Disk)>,
 }
 
@@ -175,11 +175,11 @@ impl GivenDisks {
             let turns = |axis: usize| match self.periods {
                 None => (0..=0, 1),
                 Some(size) => {
-                    // Of a disk that reaches around, the nearest image covers what any does.
+                    // Of a disk that reaches around the torus, the nearest image covers all that any image does.
                     let period = size[axis];
                     let reach = octave.radius.min(f64::from(period) / 2.0 + 2.0) as i32 + 1;
                     let [first, last] = [rect.min[axis] - reach, rect.max[axis] + reach];
-                    // A place may lie a part of a unit beyond the last turn's lattice points.
+                    // A position may lie a fraction of a unit beyond the lattice points of the last period.
                     ((first - 1).div_euclid(period)..=last.div_euclid(period), period)
                 }
             };
@@ -232,7 +232,7 @@ mod tests {
     use super::*;
     use crate::rng::{Draw, Rng};
 
-    /// Random disks of all sizes, and every question against a loop over them.
+    /// Random disks of all sizes, and every test against a loop over them.
     #[test]
     fn points_and_rectangles_are_covered_as_a_loop_over_all_disks_says() {
         let mut rng = Rng::at(1, Draw::Probe, &[]);

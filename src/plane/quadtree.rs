@@ -2,7 +2,7 @@
 //! Poisson-disk sampling in high dimensions", in the plane and on the lattice.
 //!
 //! The list of *voxels*, squares of one level, always holds every lattice point that no sample covers. Darts fall
-//! exactly uniformly on the voxels' lattice points, so an accepted dart is uniform on what is uncovered. Between
+//! exactly uniformly on the voxels' lattice points, so an accepted dart is uniform on the uncovered part. Between
 //! rounds of darts voxels are cut and the parts that one sample covers are dropped. Where the paper ends at the
 //! precision of floats, the voxels here end as single lattice points: an empty list *proves* maximality.
 //!
@@ -15,11 +15,11 @@ use crate::job::{Chunks, Job, chunks_of};
 use crate::plane::{cells::CellGrid, list::List, near::Near, rect::Rect};
 use crate::rng::Rng;
 
-/// Voxels wider than this are cut in sixteen by the coarse test, which has no slack to speak of at this size; others
-/// exactly in four.
+/// Voxels wider than this are cut in sixteen by the coarse test, whose slack is negligible at this size; others exactly
+/// in four.
 const NARROWEST: i32 = 8;
 
-/// The deepest voxels that are cut by the coarse test, as a share of the cell: much wider than its slack.
+/// The smallest voxels that are cut by the coarse test, as a share of the cell: much wider than its slack.
 const DEEPEST: i32 = 1 << 9;
 
 /// A rectangle of lattice points of a cell, some of which may be uncovered.
@@ -29,19 +29,19 @@ pub struct Voxel {
     pub cell: [i32; 2],
 }
 
-/// The voxels of a rectangle of lattice points that may be uncovered. Those of one cell follow each other.
+/// The voxels of a rectangle of lattice points that may be uncovered. Voxels of one cell are consecutive.
 pub(crate) struct Quadtree {
     /// The widest voxel of this level.
     pub width: i32,
     /// The narrowest voxel that the coarse test may cut.
     narrowest: i32,
     pub voxels: Vec<Voxel>,
-    /// The memory of the next level's voxels.
+    /// Working memory for the next level's voxels.
     next: Vec<Voxel>,
     cutter: Cutter,
 }
 
-/// What cuts voxels, with the memory of the samples near a cell.
+/// The working memory for cutting voxels: the samples near a cell.
 pub struct Cutter {
     /// For the coarse test.
     near: Box<Near>,
@@ -86,7 +86,7 @@ impl Quadtree {
         debug_assert!(width > self.narrowest);
     }
 
-    /// Takes the sixteenths of a voxel of a cell that no sample covers. All samples that could are listed.
+    /// Takes the sixteenths of a voxel of a cell that no sample covers. All samples that could cover them are listed.
     #[inline(always)]
     pub fn add_sixteenths(&mut self, grid: &CellGrid, list: &List, cell: [i32; 2], voxel: Rect) {
         grid.gather_among(list, voxel, &mut self.cutter.near);
@@ -94,12 +94,12 @@ impl Quadtree {
         add_parts(grid, &Voxel { rect: voxel, cell }, self.width, open, &mut self.voxels);
     }
 
-    /// How many voxels are left.
+    /// The number of voxels left.
     pub fn len(&self) -> usize {
         self.voxels.len()
     }
 
-    /// Whether every lattice point is covered.
+    /// True if every lattice point is covered.
     pub fn is_empty(&self) -> bool {
         self.voxels.is_empty()
     }
@@ -112,7 +112,7 @@ impl Quadtree {
         grid.throw(cell, &rect, self.width, rng)
     }
 
-    /// Drops the voxels that a new sample covers, as far as this is certain without a second look.
+    /// Drops the voxels that a new sample covers, as far as the coarse test is certain of it.
     #[inline(always)]
     fn prune(&mut self, grid: &CellGrid, sample: [i32; 2]) {
         let limit = grid.certain();
@@ -123,7 +123,7 @@ impl Quadtree {
                 let ends = [sample[axis] - voxel.rect.min[axis], voxel.rect.max[axis] - 1 - sample[axis]];
                 ends[0].max(ends[1]) as f32
             });
-            // Written in any case, kept only if it is open: which are is not predictable.
+            // Written unconditionally, kept only if it is open: a branch would not be predictable.
             self.voxels[left] = voxel;
             left += usize::from(dx * dx + dy * dy >= limit);
         }
@@ -131,8 +131,8 @@ impl Quadtree {
     }
 
     /// Throws darts and cuts voxels until every lattice point is covered, and shows each new sample to `accepted`, with
-    /// the grid as it is then. For few voxels: a new sample is compared with all of them. ([`Quadtree::fill_domain`] is for
-    /// whole domains.)
+    /// the grid as it is then. For few voxels: a new sample is compared with all of them. ([`Quadtree::fill_domain`] is
+    /// for whole domains.)
     #[inline(always)]
     pub fn fill(&mut self, grid: &mut CellGrid, rng: &mut Rng, mut accepted: impl FnMut(&CellGrid, [i32; 2])) {
         while !self.is_empty() {
@@ -159,7 +159,7 @@ impl Quadtree {
         std::mem::swap(&mut self.voxels, &mut self.next);
     }
 
-    /// Whether the voxels are cut next by the coarse test, and how wide their parts are.
+    /// The next cut of the voxels: true if it is by the coarse test, and the width of the parts.
     #[inline(always)]
     pub fn next_level(&self) -> (bool, i32) {
         let is_coarse = self.width > self.narrowest;
@@ -196,8 +196,8 @@ impl Cutter {
     }
 }
 
-/// How many darts are thrown at so many voxels before they are cut. Where voxels are pruned by every new sample: how many
-/// miss in a row; in a gap most darts become samples, and most samples close it.
+/// The number of darts that are thrown at so many voxels before they are cut. Where voxels are pruned by every new
+/// sample: the number of misses in a row; in a gap most darts become samples, and most samples close it.
 pub(crate) fn darts(voxels: usize) -> usize {
     voxels.div_ceil(2)
 }
@@ -221,7 +221,7 @@ fn add_parts(grid: &CellGrid, &Voxel { rect, cell }: &Voxel, width: i32, mut ope
     }
 }
 
-/// The quarters of a voxel, as wide as given; of one that is no wider, itself.
+/// The quarters of a voxel, as wide as given; the voxel itself if it is no wider.
 fn quarters(voxel: Rect, width: i32) -> impl Iterator<Item = Rect> {
     let corners = [[0, 0], [1, 0], [0, 1], [1, 1]].map(|[x, y]| [voxel.min[0] + x * width, voxel.min[1] + y * width]);
     let rects = corners.map(|min| Rect { min, max: min.map(|x| x + width) }.intersection(&voxel));
@@ -230,11 +230,11 @@ fn quarters(voxel: Rect, width: i32) -> impl Iterator<Item = Rect> {
 
 // # Darts
 //
-// Darts: points thrown at voxels, which become samples where nothing conflicts with them.
+// Darts: points thrown at voxels, which become samples if nothing conflicts with them.
 
 impl CellGrid {
-    /// Throws a dart at a voxel of a cell and adds it if it becomes a sample. Every voxel gets the share of darts of one
-    /// as wide as `width`; those beyond its own end are void.
+    /// Throws a dart at a voxel of a cell and adds it if it becomes a sample. Every voxel gets the share of darts of
+    /// one as wide as `width`; those beyond its own end are discarded.
     #[inline(always)]
     pub fn throw(&mut self, cell: [i32; 2], voxel: &Rect, width: i32, rng: &mut Rng) -> Option<[i32; 2]> {
         let point = self.aim(cell, voxel, width, rng)?;
@@ -242,7 +242,7 @@ impl CellGrid {
         Some(point)
     }
 
-    /// Where a dart of [`CellGrid::throw`] would become a sample, if it would.
+    /// The position at which a dart of [`CellGrid::throw`] would become a sample; none if it would not.
     #[inline(always)]
     pub fn aim(&self, cell: [i32; 2], voxel: &Rect, width: i32, rng: &mut Rng) -> Option<[i32; 2]> {
         dart(voxel, width, rng).filter(|&point| !self.conflicts(cell, point))
@@ -280,21 +280,22 @@ fn dart(voxel: &Rect, width: i32, rng: &mut Rng) -> Option<[i32; 2]> {
 //
 // The flat quadtree of a whole domain (`quadtree.rs`), by all threads.
 //
-// A round of darts is one stream of random numbers, whose place in it each dart knows. So many darts are aimed at
-// once, against the samples that were there before; those that hit nothing are then accepted one after the other, in
-// their order, if nothing accepted meanwhile is in their way. The samples are those of darts thrown one by one.
+// A round of darts is one stream of random numbers, in which each dart has a known position. So many darts are aimed at
+// once, against the samples that were there before; those without conflict are then accepted one after the other, in
+// their order, if they do not conflict with samples accepted meanwhile. The samples are those of darts thrown one by
+// one.
 
-/// Darts per cell of a whole domain, before any is cut. After that [`darts()`] says how many.
+/// The number of darts per cell of a whole domain, before any is cut. After that, [`darts()`] gives their number.
 const DARTS_PER_CELL: usize = 2;
 
-/// The darts of a whole domain that are aimed at once: an eighth as many as there are voxels, so that few of them hit
-/// the same place, within these bounds.
+/// The darts of a whole domain that are aimed at once: an eighth as many as there are voxels, so that few of them
+/// conflict with each other, within these bounds.
 const DARTS_AT_ONCE: [usize; 2] = [1 << 12, 1 << 16];
 
-/// The random numbers that a dart takes: one for the voxel, one for the place in it.
+/// The number of random numbers that a dart takes: one for the voxel, one for the position in it.
 const DRAWS_PER_DART: usize = 2;
 
-/// Darts that one task aims, and voxels that one task cuts.
+/// The number of darts that one task aims, and of voxels that one task cuts.
 const PER_TASK: usize = 1 << 10;
 
 impl Quadtree {
@@ -326,8 +327,8 @@ impl Quadtree {
     /// whole domains, of which about `expected` samples are the whole progress: a sample is not compared with the other
     /// voxels.
     ///
-    /// Threads share the aiming and the cutting. What they aim at once is accepted in the order of the darts, so that
-    /// the samples are those of one dart after the other.
+    /// Threads share the aiming and the cutting. Darts aimed at once are accepted in their order, so that the samples
+    /// are those of one dart after the other.
     pub fn fill_domain(
         &mut self,
         job: &Job,
@@ -362,7 +363,7 @@ impl Quadtree {
         Ok(())
     }
 
-    /// Where so many darts would become samples, with their cells.
+    /// The positions at which so many darts would become samples, with their cells.
     fn aim(&self, grid: &CellGrid, mut rng: Rng, darts: usize) -> Vec<([i32; 2], [i32; 2])> {
         let dart = |_| {
             let pick = rng.below(self.voxels.len() as u64) as usize;
@@ -375,7 +376,7 @@ impl Quadtree {
     /// [`Quadtree::refine`] by all threads.
     fn refine_shared(&mut self, job: &Job, grid: &CellGrid) -> Result<()> {
         let (is_coarse, width) = self.next_level();
-        // Where the voxels of a cell begin, from a place on.
+        // The index, from `place` on, at which the voxels of a cell begin.
         let cell_from = |place: usize| {
             let is_first = |&i: &usize| i == 0 || self.voxels[i].cell != self.voxels[i - 1].cell;
             (place..self.len()).find(is_first).unwrap_or(self.len())
@@ -393,7 +394,7 @@ impl Quadtree {
     }
 }
 
-/// [`Job::map`] over chunks; a single one is not worth waking threads for.
+/// [`Job::map`] over chunks; a single chunk is not worth waking threads for.
 fn shared<T: Send>(job: &Job, chunks: Chunks, task: impl Fn(Range<usize>) -> T + Sync) -> Result<Vec<T>> {
     match chunks.len() {
         0 | 1 => {
@@ -471,7 +472,7 @@ mod tests {
         }
     }
 
-    /// Enough cells for several tasks, on a torus and beside one.
+    /// Enough cells for several tasks, on a torus and on a bounded domain.
     #[test]
     fn filling_a_domain_is_one_dart_after_the_other() {
         let (axes, size) = ([5_000, 6_100].map(|size| CellAxis::new(size, 70.0)), [5_000, 6_100]);

@@ -1,4 +1,4 @@
-//! Rectangles of lattice points, and of whatever else is counted in two directions.
+//! Rectangles of lattice points, and of other things counted along two axes.
 
 /// A rectangle of lattice points, `min` inclusive, `max` exclusive.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

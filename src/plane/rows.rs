@@ -5,19 +5,20 @@ use crate::simd::{HALF, Lanes, Work};
 /// The coordinates of a cell without a sample: far beyond every threshold.
 pub const NOWHERE: i32 = -(1 << 29);
 
-/// The cells of a row that are read together: at least as many as conflicts can reach over.
+/// The number of cells of a row that are read together: at least as many as a conflict can span.
 pub const LANES: usize = HALF;
 
-/// The rows of cells around a place in which samples can conflict with its points. What lies in a row beyond the reach
-/// of conflicts is read too; it is what it is, and cannot conflict. The place of a cell without sample is far away.
+/// The rows of cells around a place in which samples can conflict with its points. Samples of a row beyond the reach of
+/// conflicts are read too; they keep their coordinates, and cannot conflict. A cell without a sample has coordinates
+/// far away.
 pub struct Rows<'a> {
     /// The x and the y of the samples of all cells.
     pub samples: [&'a [i32]; 2],
-    /// Where the first row begins.
+    /// The index at which the first row begins.
     pub first: usize,
-    /// From one row to the next.
+    /// The distance from one row to the next.
     pub stride: usize,
-    /// How many rows; there is one at least.
+    /// The number of rows; at least 1.
     pub count: usize,
 }
 

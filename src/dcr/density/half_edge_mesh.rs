@@ -1,12 +1,12 @@
 //! The Delaunay triangulation of a torus, kept while its points move and repaired by flips (`torus::must_flip`), in
 //! half-edges.
 //!
-//! The forces hold points back so that no triangle turns over; if one does all the same, the mesh says so and must be
-//! built anew.
+//! The forces hold points back so that no triangle turns over; if one does nevertheless, the mesh reports it and must
+//! be rebuilt.
 //!
-//! Where the spacing varies, points have few neighbours or hundreds, as anchors and points beside dark edges do:
-//! half-edges support both, rings of equally many slots (`uniform/flip_mesh.rs`) do not. Half-edges are numbered `4 t + k`:
-//! the edge from corner `k` to the next of triangle `t`, counter-clockwise.
+//! Points have few neighbours or hundreds where the spacing varies, as anchors and points beside dark edges do:
+//! half-edges support both, rings with a fixed number of slots (`uniform/flip_mesh.rs`) do not. Half-edges are numbered
+//! `4 t + k`: the edge from corner `k` to the next of triangle `t`, counter-clockwise.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -75,7 +75,7 @@ impl HalfEdgeMesh {
         let twin = |edge: u32| {
             let (from, to) = (self.origin(edge), self.origin(next(edge)) as usize);
             let mut back = outgoing.bin(to).iter().copied().filter(|&back| self.origin(next(back)) == from);
-            // Two edges between the same points cannot be told apart.
+            // Two edges between the same points cannot be distinguished.
             back.next().filter(|_| back.next().is_none())
         };
         let Some(twins) = edges().map(twin).collect::<Option<Vec<u32>>>() else { return false };
@@ -103,8 +103,8 @@ impl HalfEdgeMesh {
         self.triangles[(twin >> 2) as usize].twins[(twin & 3) as usize] = edge;
     }
 
-    /// The cotangents of the angles that face the edges of a triangle; none unless it is counter-clockwise and has short
-    /// edges.
+    /// The cotangents of the angles that face the edges of a triangle; none unless it is counter-clockwise and has
+    /// short edges.
     fn cotangents(&self, triangle: &HalfEdgeTriangle, places: &[TorusPoint]) -> Option<[f32; 3]> {
         let [p, q, r] = triangle.corners.map(|corner| places[corner as usize]);
         let is_short = |from: TorusPoint, to: TorusPoint| {
@@ -202,7 +202,7 @@ mod tests {
         Delaunay::new(job, &torus.frame, torus.nudged(places).into_iter()).unwrap()
     }
 
-    /// Corners of all triangles, each from its least corner on.
+    /// The corners of all triangles, each from its least corner on.
     fn triangles(mesh: &HalfEdgeMesh) -> Vec<[u32; 3]> {
         let turned = |triangle: &HalfEdgeTriangle| {
             let mut corners = triangle.corners;
@@ -224,7 +224,8 @@ mod tests {
         assert!((0..mesh.first.len()).all(|point| mesh.origin(mesh.first[point]) as usize == point));
     }
 
-    /// Points wander; after every repair the mesh is a torus, locally Delaunay, and what spade builds from nothing.
+    /// Points wander; after every repair the mesh is a torus, locally Delaunay, and the one that spade builds from
+    /// scratch.
     #[test]
     fn repaired_meshes_are_those_that_are_built_anew() {
         let context = Context::new(1).unwrap();

@@ -1,4 +1,4 @@
-//! Density: relaxation of sets that are denser here than there, as stippling needs them (thesis §4.2.3).
+//! Density: relaxation of sets whose density varies, as in stippling (thesis §4.2.3).
 //!
 //! The thesis says that its radii are to be multiplied by a map of the user's, without further detail. Here:
 //!
@@ -7,9 +7,9 @@
 //! * Constraints between neighbours only relax the points locally. The number of points that the density asks for in a
 //!   region is achieved by removing long waves of the excess, whose lengths scale with the local spacing (`raster.rs`).
 //!
-//! All else is that of the momentum method: momentum, constraints that grow stiffer, a boundary in which points do not
-//! see themselves, a mesh that is kept (`half_edge_mesh.rs`), also where wide areas have no points (see [`anchors`]). The
-//! boundary has no excess of points, which would show as a frame.
+//! All else is as in the momentum method: momentum, constraints that grow stiffer, a boundary in which points do not
+//! see themselves, a mesh that is kept (`half_edge_mesh.rs`), even where wide areas have no points (see [`anchors`]).
+//! The boundary has no excess of points, which would show as a frame.
 
 mod half_edge_mesh;
 mod raster;
@@ -35,8 +35,8 @@ pub type DensityFunction<'a> = dyn Fn([f64; 2]) -> f64 + Sync + 'a;
 
 /// The density that points shall have at each position, in any unit: twice the density gives the same set.
 ///
-/// Densities are 0 or above and finite, and not 0 everywhere. Where they are 0 no points are wanted, and points that
-/// start there leave.
+/// Densities are finite, at least 0, and not 0 everywhere. Where they are 0 no points are wanted, and points that start
+/// there leave.
 #[derive(Clone, Copy)]
 pub enum Density<'a> {
     /// An image that is stretched over the domain, linear between the centres of its pixels.
@@ -82,31 +82,31 @@ pub fn is_density(value: f64) -> bool {
     (0.0..=f32::MAX.into()).contains(&value)
 }
 
-/// Relaxes a set of points to a density: returns as many points, in the same order, with the local density that is asked
-/// for, and evenly spread. A start with about that density, such as [`scatter`] or
-/// [`psp::adaptive`](crate::psp::adaptive) make, needs no more than the usual 100 steps.
+/// Relaxes a set of points to a density: returns as many points, in the same order, with the requested local density,
+/// and evenly spread. A start with about that density, such as [`scatter`] or [`psp::adaptive`](crate::psp::adaptive)
+/// make, needs no more than the usual 100 steps.
 ///
-/// A start that is far from it is redistributed before the first step over the points that [`scatter`] makes from `seed`, in
-/// the order of a curve, so that points that were near each other mostly stay so. Far is a number of points that differs
-/// in some cell of a quadtree by more than 64, by a quarter and by 16 times the square root from that of the points of
-/// [`scatter`]. Starts in between may take more steps.
+/// A start that is far from it is redistributed before the first step over the points that [`scatter`] makes from
+/// `seed`, in the order of a curve, so that points that were near each other mostly stay so. A start is far if its
+/// number of points in some cell of a quadtree differs by more than 64, by more than a quarter and by more than 16
+/// times the square root from that of the points of [`scatter`]. Starts in between may take more steps.
 ///
-/// As [`relax`](fn@crate::dcr::relax), with these differences. In the report, lengths are in units of the *local
+/// Like [`relax`](fn@crate::dcr::relax), with these differences. In the report, lengths are in units of the *local
 /// spacing*: `d_max` for the mean density, as 1 / sqrt(density) elsewhere, but it grows by no more than half of the
 /// distance between positions, so that it is finite where the density is 0. [`Report::rho`] is the least of all
 /// distances over the mean of the spacings of the two points, [`Report::coverage`] the largest circumradius of a
-/// triangle over the spacing at its centre, there without the limit to its growth. [`Report::motion`] is in units of
-/// `d_max`. Details of the density that are finer than an eighth of `d_max` are lost. A call that is cancelled before
-/// the first step returns the points as they are.
+/// triangle over the spacing at its centre, without the limit to its growth. [`Report::motion`] is in units of `d_max`.
+/// Details of the density that are finer than an eighth of `d_max` are lost. A call that is cancelled before the first
+/// step returns the points unchanged.
 ///
 /// The density is sampled at 13 to 55 positions per point, and then each step is O(n), with a factor for densities that
 /// vary by octaves.
 ///
 /// # Errors
 /// [`Error::InvalidArgument`] for a density that is not 0 or above and finite, or is 0 everywhere (`density`; of
-/// several such positions the reported one does not depend on chance), for an image without pixels (`width`, `height`) or
-/// of another size than its values, and for all options but [`Method::Momentum`] (`method`) with Delaunay neighbours (`neighbourhood`); those of
-/// [`relax`](fn@crate::dcr::relax).
+/// several such positions the reported one does not depend on chance), for an image without pixels (`width`, `height`)
+/// or of another size than its values, and for all options but [`Method::Momentum`] (`method`) with Delaunay neighbours
+/// (`neighbourhood`); those of [`relax`](fn@crate::dcr::relax).
 pub fn relax_with_density(
     context: &Context,
     options: &Options,
@@ -131,12 +131,12 @@ pub fn relax_with_density(
     relax_set(context, options, points, &mut set, progress, None)
 }
 
-/// Random points of a domain, as dense as asked for: a start for [`relax_with_density`]. Point `i` depends on the
+/// Random points of a domain with the requested density: a start for [`relax_with_density`]. Point `i` depends on the
 /// arguments and on nothing else.
 ///
 /// # Errors
-/// [`Error::InvalidArgument`] for a domain or a density that is invalid, [`Error::TooLarge`] for more than 2^32 - 1 points,
-/// or than memory holds, [`Error::Cancelled`].
+/// [`Error::InvalidArgument`] for a domain or a density that is invalid, [`Error::TooLarge`] for more than 2^32 - 1
+/// points, or than fit in memory, [`Error::Cancelled`].
 pub fn scatter(
     context: &Context,
     domain: &Domain,
@@ -174,7 +174,7 @@ pub struct DensityRelaxation {
     /// The local spacing of each point, in spacings of the torus.
     spacings: Vec<f32>,
     velocities: Vec<Vec2>,
-    /// The mesh of the points, once there is one.
+    /// The mesh of the points, once it exists.
     mesh: Option<HalfEdgeMesh>,
 }
 
@@ -199,7 +199,7 @@ impl DensityRelaxation {
         })
     }
 
-    /// Puts the points on these places before the first step.
+    /// Moves the points to these places before the first step.
     fn restart(&mut self, places: &[TorusPoint]) {
         self.places = self.torus.with_images(places);
         self.spacings = places.iter().map(|&place| self.raster.spacing(place)).collect();
@@ -294,7 +294,7 @@ impl Relaxation for DensityRelaxation {
         self.places[..self.order.len()].iter().copied()
     }
 
-    /// Redistributes clustered points over random points of the density, which are in the order of the curve too.
+    /// Redistributes clustered points over random points with the density, which are in the order of the curve too.
     fn begin(&mut self, _: &Job) -> Result<()> {
         let scattered = self.raster.scatter(&self.torus, self.order.len(), self.seed);
         let random = CurveOrder::new(&self.torus, &scattered, self.seed);
@@ -343,9 +343,10 @@ impl PlaneRelaxation for DensityRelaxation {
         self.order.leave(&self.torus, &self.places, points)
     }
 
-    /// The smallest distance over the mean spacing of the two points. The spacing grows by no more than half of the distance,
-    /// so of two points whose ratio is at most 4/3 the one with the smaller spacing finds the other within twice that. Where
-    /// all are farther apart, as a few points in a strip, the largest of all spacings tells how far to search.
+    /// The smallest distance over the mean spacing of the two points. The spacing grows by no more than half of the
+    /// distance, so of two points whose ratio is at most 4/3 the one with the smaller spacing finds the other within
+    /// twice that. Where all are farther apart, as a few points in a strip, the largest of all spacings bounds the
+    /// search.
     fn relative_spacing(&self, job: &Job, points: &[[f32; 2]]) -> Result<Option<f64>> {
         if points.len() < 2 {
             return Ok(Some(f64::INFINITY));
@@ -379,7 +380,7 @@ impl PlaneRelaxation for DensityRelaxation {
         Ok(Some(least * self.torus.frame.in_d_max()))
     }
 
-    /// The largest circumradius in units of what the density at its centre asks for.
+    /// The largest circumradius in units of the spacing that the density at its centre asks for.
     fn coverage(&mut self, job: &Job) -> Result<f64> {
         let delaunay = self.triangulate(job, &self.places)?;
         let relative =
@@ -395,11 +396,11 @@ impl PlaneRelaxation for DensityRelaxation {
 // wide white areas. So a coarse lattice of anchors is placed there. They are corners of triangles and nothing else:
 // they do not move, push or count, and no hole is filled where the density is 0.
 
-/// Points of the lattice along each axis of the domain.
+/// The number of points of the lattice along each axis of the domain.
 const LATTICE: u32 = 8;
 
-/// The least local spacing at an anchor: as the spacing grows by half of the distance at most, anchors are at twice this
-/// distance from where points are wanted.
+/// The least local spacing at an anchor: as the spacing grows by half of the distance at most, anchors are at twice
+/// this distance from where points are wanted.
 const WIDE: f32 = 3.0;
 
 /// The anchors of a domain and, where it is mirrored, their images.

@@ -3,7 +3,7 @@
 //! The spacing at a position is 1 / sqrt(density) in units of that of the mean density, but no more than [`SLOPE`]
 //! times a distance above that at any other position (as sizes of mesh elements are graded: Persson 2006, "Mesh size
 //! functions for implicit geometries and PDE-based mesh generation"). So it is finite where no points are wanted, and a
-//! point that has strayed there yields to those at the edge instead of clearing its surroundings.
+//! point that has strayed there gives way to those at the edge instead of clearing its surroundings.
 
 use glam::Vec2;
 
@@ -17,17 +17,16 @@ use crate::memory;
 use crate::points::{Boundary, Domain};
 use crate::rng::{Draw, Rng};
 
-/// The largest growth of the spacing per distance; 1 leaves three times the error of tone beside edges, and so does
-/// 0.25.
+/// The largest growth of the spacing per distance; 1 leaves three times the error of tone beside edges, as does 0.25.
 const SLOPE: f32 = 0.5;
 
-/// Cells per distance of points, at least and at most; between them a cell is a pixel.
+/// The least and the largest number of cells per distance of points; in between a cell is a pixel.
 const FINENESS: [f64; 2] = [4.0, 8.0];
 
 /// Memory for a cell at the peak, when its density is in two arrays.
 const BYTES_PER_CELL: f64 = 12.0;
 
-/// Cells along an axis, at least: dark parts of an image must be found by a few points too.
+/// The least number of cells along an axis: even a few points must find the dark parts of an image.
 const FEWEST: usize = 64;
 
 /// A grid over the domain.
@@ -35,9 +34,9 @@ pub struct Raster {
     domain: Domain,
     /// Columns and rows.
     cells: [usize; 2],
-    /// In units of the mean, row by row.
+    /// The density in units of the mean, row by row.
     density: Vec<f32>,
-    /// In units of the torus, where its distance is the hexagonal one.
+    /// The spacing in units of the torus, where its distance is the hexagonal one.
     spacing: Vec<f32>,
 }
 
@@ -122,8 +121,8 @@ impl Raster {
         }
     }
 
-    /// Lowers every spacing to what its neighbours allow, which are a `step` away along each axis: two passes over the
-    /// grid, as in distance transforms (Rosenfeld and Pfaltz 1966), and two more across the seam of a torus.
+    /// Lowers every spacing to the value that its neighbours allow, which are a `step` away along each axis: two passes
+    /// over the grid, as in distance transforms (Rosenfeld and Pfaltz 1966), and two more across the seam of a torus.
     fn limit_slope(&mut self, step: Vec2) {
         let [columns, rows] = self.cells;
         let wraps = self.domain.boundary == Boundary::Periodic;

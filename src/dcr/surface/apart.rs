@@ -1,15 +1,15 @@
-//! Keeps samples apart by straight distances through space, on whatever parts of the surface they are.
+//! Keeps samples apart by straight distances through space, regardless of the parts of the surface that they are on.
 //!
 //! Forces see the surface laid into a plane. On a fin that is thinner than the distance of samples, and where it is
 //! sharply bent, they lead two samples closer to each other through space that move apart in the plane. So the
 //! displacements that forces ask for are corrected twice.
 //!
-//! * Samples are *held off*: a displacement is shortened in the direction of another sample to half of what is left
-//!   between them, and samples that are too close already move apart. Directions and distances are those of space,
+//! * Samples are *held off*: a displacement is shortened in the direction of another sample to half of the distance
+//!   left between them, and samples that are already too close move apart. Directions and distances are those of space,
 //!   projected into the triangle's plane.
 //! * Moves are *checked*: a move is made only if its end is no closer than the floor to the positions of all others and
 //!   to those to which they would move. If both of two samples move, the second test has held; if one moves, the first;
-//!   if none does, nothing has changed. So no two get closer than the floor, and no refusal requires another.
+//!   if neither does, nothing has changed. So no two get closer than the floor, and no refusal requires another.
 
 use glam::{DVec3, Vec2, Vec3};
 
@@ -19,8 +19,9 @@ use crate::dcr::law::STIFFENING;
 /// less than the conflict radius, at which forces stop.
 pub const NEAR: f32 = 0.855;
 
-/// The same for samples that are near through space only, over the floor: from that of a maximal set to that of a
-/// relaxed one, but no farther than parts of the surface allow that were sampled independently of each other.
+/// The distance, over the floor, up to which samples that are near through space only are held off: from that of a
+/// maximal set to that of a relaxed one, but no farther than parts of the surface allow that were sampled independently
+/// of each other.
 const FAR: f32 = 1.1;
 
 /// The number of times that a displacement is corrected by all close samples.
@@ -30,7 +31,7 @@ const ROUNDS: usize = 2;
 #[derive(Clone, Copy)]
 pub struct Floor {
     distance: f64,
-    /// A square that is above that of the distance, whatever the rounding.
+    /// A square that is above that of the distance, for any rounding.
     above: f64,
 }
 
@@ -53,9 +54,9 @@ impl Floor {
 /// The distances up to which samples are held off in a step, in spacings.
 #[derive(Clone, Copy)]
 pub struct Limits {
-    /// From samples near on the surface; it grows as constraints get stiffer.
+    /// The limit for samples near on the surface; it grows as constraints get stiffer.
     pub near: f32,
-    /// From all others.
+    /// The limit for all others.
     pub far: f32,
 }
 
@@ -74,7 +75,7 @@ pub struct Contacts(Vec<Contact>);
 
 struct Contact {
     squared: f32,
-    /// In the plane of the sample's triangle, of length 1.
+    /// The direction in the plane of the sample's triangle, of length 1.
     direction: Vec2,
     /// The distance that the sample may move in that direction, in spacings; less than 0 if it must move back.
     most: f32,
@@ -91,19 +92,19 @@ impl Contacts {
     pub fn add(&mut self, axes: [Vec3; 2], offset: Vec3, limit: f32) {
         let projected = Vec2::new(offset.dot(axes[0]), offset.dot(axes[1]));
         let (across_squared, squared) = (projected.length_squared(), offset.length_squared());
-        // A sample straight above or below is in no direction.
+        // A sample straight above or below has no direction.
         if across_squared > 0.0 {
             let (across, distance) = (across_squared.sqrt(), squared.sqrt());
             let left = distance - limit;
             // Along the plane the distance is longer, by the slope of the offset; but no sample moves back by more than
-            // what the distance is short of the limit.
+            // the distance falls short of the limit.
             let most = (0.5 * left * distance / across).max(left.min(0.0));
             self.0.push(Contact { squared, direction: projected / across, most });
         }
     }
 
-    /// The displacement, corrected. The nearest sample comes last: where not all can be held off, it is. (In the order
-    /// of their numbers, pairs stay stuck.)
+    /// The corrected displacement. The nearest sample comes last: where not all can be held off, it is. (In the order
+    /// of their numbers, pairs would stay stuck.)
     pub fn hold_off(&mut self, mut displacement: Vec2) -> Vec2 {
         let is_free = |contact: &Contact| displacement.dot(contact.direction) <= contact.most;
         if self.0.iter().all(is_free) {
@@ -138,9 +139,9 @@ mod tests {
         for free in [Vec2::new(0.09, 0.2), Vec2::new(-0.5, 0.0)] {
             assert_eq!(held_off(&ahead, free), free);
         }
-        // Two that are too close move apart by half of what is missing each.
+        // Two that are too close each move apart by half of the missing distance.
         assert!(is_near(held_off(&[Vec3::new(0.0, 0.8, 0.0)], Vec2::ZERO), Vec2::new(0.0, -0.1)));
-        // Where the plane leads away slowly the displacement is longer, but never longer than what is missing.
+        // If the offset is steep the displacement is longer, but never longer than the missing distance.
         assert!(is_near(held_off(&[Vec3::new(0.64, 0.0, 0.48)], Vec2::ZERO), Vec2::new(-0.125, 0.0)));
         let above = Vec3::new(1e-3, 0.0, 0.8);
         assert!(is_near(held_off(&[above], Vec2::ZERO), Vec2::new(above.length() - 1.0, 0.0)));

@@ -1,8 +1,8 @@
-//! The edges that triangles share: which part of a surface is connected to which.
+//! The edges that triangles share: the connectivity of a surface.
 //!
 //! Vertices at the same position are one ([`welded`]). Triangles without a common edge are not connected, however
 //! close they are: the two sides of a thin wall are far from each other on the surface, and a crack is a boundary.
-//! Triangles left out by the mesh's mask are ignored, as are those two of whose corners coincide.
+//! Triangles excluded by the mesh's mask are ignored, as are those with two coincident corners.
 //!
 //! Half-edges are numbered `3 t + k`: the edge from corner `k` to the next of triangle `t`.
 
@@ -22,7 +22,7 @@ pub struct ConnectedMesh<'a> {
 
 /// The edges of a mesh. They are kept with it for the next call.
 struct Edges {
-    /// For each vertex the first one of the same position.
+    /// For each vertex the first one at the same position.
     vertices: Vec<u32>,
     /// The half-edges of an edge are linked in a circle. One that is alone, at a boundary, is linked to itself.
     around: Vec<u32>,
@@ -37,7 +37,7 @@ impl<'a> ConnectedMesh<'a> {
     /// Finds the edges, unless an earlier call did. O(n log n).
     ///
     /// # Errors
-    /// [`Error::TooLarge`] for a mesh of more triangles than half-edges can be numbered for.
+    /// [`Error::TooLarge`] for a mesh of more triangles than half-edge numbers allow.
     pub fn new(mesh: &'a Mesh) -> Result<Self> {
         let count = mesh.triangles().len();
         if count > (u32::MAX / 3) as usize {
@@ -75,7 +75,7 @@ impl Edges {
     fn of(mesh: &Mesh) -> Self {
         let all: Vec<u32> = (0..3 * mesh.triangles().len() as u32).collect();
         let mut edges = Self { vertices: welded(mesh), around: all };
-        // The edges by their lower vertex, each with its higher one.
+        // The edges binned by their lower vertex, each with its higher one.
         let ends = edges.half_edges(mesh).map(|edge| {
             let [low, high] = edges.vertices_of(mesh, edge);
             (low as usize, (high, edge))
@@ -228,7 +228,7 @@ mod tests {
     fn vertices_are_welded_as_in_a_loop_over_all() {
         let mut rng = Rng::at(12, Draw::Probe, &[]);
         let tolerance = f64::from(f32::EPSILON);
-        // Places in many and in few cells, each several times, about as far apart as the tolerance.
+        // Positions in many and in few cells, each several times, about as far apart as the tolerance.
         for scale in [1.0, 1e-5] {
             let mut positions = vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
             for _ in 0..300 {

@@ -1,8 +1,8 @@
 //! The lists of all samples, kept up to date while these move.
 //!
-//! Lists hold what is within a radius of where a sample was *listed*. A sample that has strayed from there by half of
-//! the skin is listed anew where it is; the samples that it meets there get it into their lists. So two samples that do
-//! not have each other are no closer than the radius less the skin.
+//! A list holds the samples within a radius of the position in which its sample was *listed*. A sample that has strayed
+//! from there by half of the skin is listed anew at its position; it is added to the lists of the samples found there.
+//! So two samples that do not have each other are no closer than the radius less the skin.
 
 use glam::{DVec3, Vec3};
 
@@ -20,16 +20,16 @@ use crate::simd::{LANES, Lanes, Position};
 /// The distance up to which neighbours are needed, in spacings.
 const REACH: f64 = 1.7;
 
-/// The distance beyond that up to which they are listed.
+/// The distance beyond that up to which neighbours are listed.
 const SKIN: f64 = 0.3;
 
 /// The least stride for which samples in sight are listed, in spacings.
 const LEAST_STRIDE: f64 = 0.2;
 
-/// The samples of one task.
+/// The number of samples of one task.
 const CHUNK: usize = 128;
 
-/// The samples that are found before they are listed.
+/// The number of samples that are found before they are listed.
 const BATCH: usize = 1 << 16;
 
 /// The neighbours of all samples.
@@ -39,7 +39,7 @@ pub struct Neighbourhoods<'a> {
     spacing: f64,
     /// The distance up to which others are in sight, in spacings.
     sight: f64,
-    /// The farthest that samples may move in a step, in spacings: those out of sight are no closer than the floor then.
+    /// The farthest that samples may move in a step, in spacings: those out of sight then end no closer than the floor.
     farthest: f64,
     lists: Vec<List>,
     locals: Vec<Local>,
@@ -47,13 +47,13 @@ pub struct Neighbourhoods<'a> {
     cells: MovingGrid3,
     /// The samples that are to be listed.
     strayed: Vec<u32>,
-    /// The last search by which each was listed.
+    /// The last search by which each sample was listed.
     searches: Vec<u32>,
     search: u32,
 }
 
 impl<'a> Neighbourhoods<'a> {
-    /// Of samples that are never closer to each other than `floor` spacings.
+    /// Lists of samples that are never closer to each other than `floor` spacings.
     pub fn new(
         job: &Job,
         connected: &'a ConnectedMesh<'a>,
@@ -91,7 +91,7 @@ impl<'a> Neighbourhoods<'a> {
         self.farthest
     }
 
-    /// The lists, to be read, and what samples keep of their triangles, to be kept up to date.
+    /// The lists, to be read, and the samples' views of their triangles, to be kept up to date.
     pub fn lists_and_locals(&mut self) -> (&[List], &mut [Local]) {
         (&self.lists, &mut self.locals)
     }
@@ -143,7 +143,7 @@ impl<'a> Neighbourhoods<'a> {
         self.list(&job.part(0.8, 1.0), &met, movers)
     }
 
-    /// Lists samples, so many at a time that what is found takes little memory.
+    /// Lists samples, in batches so small that the results take little memory.
     fn list(&mut self, job: &Job, samples: &[u32], movers: &mut [Mover]) -> Result<()> {
         let share = |first: usize| first.min(samples.len()) as f64 / samples.len() as f64;
         for (first, part) in (0..).step_by(BATCH).zip(samples.chunks(BATCH)) {
@@ -180,13 +180,13 @@ impl<'a> Neighbourhoods<'a> {
         for (&sample, (list, local)) in samples.iter().zip(found.into_iter().flatten()) {
             self.lists[sample as usize] = list;
             self.locals[sample as usize] = local;
-            // Stars number the samples of the list.
+            // Stars refer to samples by their position in the list.
             (movers[sample as usize].star, movers[sample as usize].rest) = (Star::default(), 0);
         }
     }
 
-    /// Lets the samples that are not listed in this search, but have been met by one that is, know it. Those that must
-    /// be listed anew for that are added to `met`.
+    /// Adds the samples listed in this search to the lists of those that they have met and that are not listed in it.
+    /// Those of the latter that must be listed anew for this are added to `met`.
     fn meet(&mut self, sample: u32, met: &mut Vec<u32>) {
         let list = std::mem::take(&mut self.lists[sample as usize]);
         for other in list.reached() {
@@ -228,7 +228,7 @@ fn vec3([x, y, z, _]: Position) -> Vec3 {
 
 // The list of the samples around one, from one search to the next.
 
-/// The vectors of samples that are kept in place.
+/// The number of vectors of samples that are kept in place.
 const VECTORS: usize = 2;
 
 /// The samples around one sample.
@@ -237,7 +237,7 @@ pub struct List {
     /// Samples that are reached on the surface; the sample itself beyond the last.
     reached: [[u32; LANES]; VECTORS],
     count: usize,
-    /// The parts that most samples do not have.
+    /// The parts that most samples lack.
     more: Option<Box<More>>,
 }
 
@@ -269,12 +269,12 @@ impl List {
         self.reached.as_flattened()[..self.count].iter().chain(more).copied()
     }
 
-    /// The sample of a candidate that a view was shown; none for an image.
+    /// The sample of a candidate in a view; none for an image.
     pub fn sample(&self, candidate: usize) -> Option<u32> {
         self.reached().nth(candidate)
     }
 
-    /// The samples in sight that are not.
+    /// The samples in sight that are not reached on the surface.
     pub fn others(&self) -> &[u32] {
         self.more.as_ref().map_or(&[], |more| &more.others)
     }
@@ -286,12 +286,12 @@ impl List {
 
     /// True if a sample is reached on the surface.
     pub fn has(&self, sample: u32) -> bool {
-        // Beyond the last is the sample itself, which nobody asks for.
+        // Beyond the last is the sample itself, which is never queried.
         self.reached.as_flattened().contains(&sample)
             || self.more.as_ref().is_some_and(|more| more.reached.contains(&sample))
     }
 
-    /// Adds a sample that is reached, if there is room and the list has nothing that must be found anew with it.
+    /// Adds a sample that is reached, if there is space and the list has nothing that must be found again with it.
     pub fn add(&mut self, sample: u32) -> bool {
         let is_simple = self.more.is_none() && self.count < LANES * VECTORS;
         if is_simple {
@@ -301,7 +301,7 @@ impl List {
         is_simple
     }
 
-    /// Lets a view see all that is reached, and the images. Returns how many are no images: they come first.
+    /// Passes all samples that are reached, and the images, to a view. Returns the number of samples, which come first.
     #[inline(always)]
     pub fn show<L: Lanes>(
         &self,

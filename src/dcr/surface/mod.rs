@@ -1,20 +1,20 @@
-//! Relaxation on triangle meshes: what DCR does in the plane, done on a surface (the future work of thesis §4.5).
+//! Relaxation on triangle meshes: DCR of the plane on a surface (the future work of thesis §4.5).
 //!
 //! Samples push their neighbours away and are pulled into holes by the constraints of the momentum method in the plane,
-//! and with its momentum. What differs:
+//! and with its momentum. The differences:
 //!
 //! * neighbours are the samples that are reached on the surface without leaving a ball (`near.rs`), seen in
 //!   the tangent plane, each at its straight distance through space; the other side of a thin wall has no effect;
 //! * each sample finds its Delaunay star among them for itself (`view.rs`): there is no triangulation to be kept;
 //! * samples walk straight on, from triangle to triangle (`walk.rs`), so they are on the surface at all times;
 //! * at open boundaries neighbours are mirrored, so that samples neither leave nor crowd there;
-//! * no two samples get closer to each other through space than the closest two were (`apart.rs`), on whatever parts of
-//!   the surface they are;
+//! * no two samples get closer to each other through space than the closest two were (`apart.rs`), regardless of the
+//!   parts of the surface that they are on;
 //! * samples that are clustered on a part of the surface are redistributed before the first step (`spread.rs`);
 //! * long waves of the density stay: there is no Fourier transform on a mesh.
 //!
-//! What is near a sample is listed for several steps (`lists.rs`), and a step (`relaxation.rs`, `moves.rs`)
-//! works on sixteen neighbours at a time (`simd/`).
+//! The surroundings of a sample are listed for several steps (`lists.rs`), and a step (`relaxation.rs`, `moves.rs`)
+//! processes sixteen neighbours at a time (`simd/`).
 //!
 //! Triangles are connected by common edges (`connected.rs`). A crack is a boundary: samples on its two sides are not
 //! neighbours, but keep their distance through space.
@@ -52,12 +52,14 @@ use crate::setters::setters;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Options {
-    /// The largest number of steps. 0 returns the samples as they are, but moves those that rounding has put outside
-    /// their triangle to its edge.
+    /// The largest number of steps. 0 returns the samples unchanged, except that those outside their triangle by
+    /// rounding are moved to its edge.
     pub max_iterations: u32,
-    /// The motion ([`Report::motion`]) at which the set has converged; 0 makes all steps unless nothing moves at all.
+    /// The motion ([`Report::motion`]) at which the set has converged; with 0 all steps are made unless nothing moves
+    /// at all.
     pub tolerance: f64,
-    /// The key of the moves of samples that coincide, and of the redistribution of clustered ones; used for nothing else.
+    /// The key of the moves of samples that coincide, and of the redistribution of clustered ones; used for nothing
+    /// else.
     pub seed: u64,
 }
 
@@ -69,7 +71,7 @@ impl Default for Options {
 }
 
 impl Options {
-    /// Refuses what is out of its range.
+    /// Refuses values out of their range.
     pub fn check(&self) -> Result<()> {
         if !(0.0..).contains(&self.tolerance) {
             return Err(Error::invalid("tolerance", format!("{} is not at least 0", self.tolerance)));
@@ -80,40 +82,43 @@ impl Options {
 
 setters!(Options { max_iterations: u32, tolerance: f64, seed: u64 });
 
-/// The report of [`relax`](fn@super::relax). `d_max = sqrt(2 A / (sqrt(3) N))` is the distance of neighbours in the hexagonal
-/// arrangement of as many samples on a plane of the mesh's area A.
+/// The report of [`relax`](fn@super::relax). `d_max = sqrt(2 A / (sqrt(3) N))` is the distance of neighbours in the
+/// hexagonal arrangement of as many samples on a plane of the mesh's area A.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Report {
     /// The number of steps made.
     pub iterations: u32,
-    /// Why there were no more.
+    /// The reason why the steps ended.
     pub stopped: Stopped,
-    /// Half of the distance that samples covered in the last 10 steps, or since the start if there were fewer: root mean
-    /// square, in units of `d_max`.
+    /// Half of the distance that samples covered in the last 10 steps, or since the start if there were fewer: root
+    /// mean square, in units of `d_max`.
     pub motion: f64,
-    /// The smallest straight distance between two of the returned samples, in the units of the mesh, on whatever parts
-    /// of the surface they are; infinite for less than two.
+    /// The smallest straight distance between two of the returned samples, in the units of the mesh, regardless of the
+    /// parts of the surface that they are on; infinite for less than two.
     pub smallest_distance: f64,
     /// The smallest distance in units of `d_max`; infinite for less than two samples. It ends lower where parts of the
-    /// surface are closer to each other than samples, as on thin blades; `docs/dcr.md` has what meshes reach.
+    /// surface are closer to each other than samples, as on thin blades; `docs/dcr.md` has the values measured on
+    /// meshes.
     pub rho: f64,
 }
 
-/// Memory for a sample and all that is known of it, at the peak.
+/// The peak memory for a sample and all of its data.
 const BYTES_PER_SAMPLE: f64 = 600.0;
 
 /// Relaxes samples on a mesh: sample `i` is the point `barycentrics[i]` of `triangles[i]`, as in [`Points`], and
 /// of any density. The samples are returned in their order, each with the triangle that it is on.
 ///
-/// Samples that are clustered on a part of the surface are redistributed before the first step: random points are thrown on
-/// the surface, keyed by `seed`, both are sorted along a curve through space, and the sample of each rank is put on the
-/// point of that rank. So each connected part receives samples by its area, and samples that were near each other
-/// mostly stay so. Clustered are more than 64 samples whose number in a cube of space differs by more than a quarter and by
-/// more than 16 times the square root from what the area in it asks for, and whose smallest distance is below 0.6
-/// `d_max`. If there is no room for points as far apart as the nearest samples were, these stay where they are.
+/// Samples that are clustered on a part of the surface are redistributed before the first step: random points are
+/// thrown on the surface, keyed by `seed`, both are sorted along a curve through space, and the sample of each rank is
+/// put on the point of that rank. So each connected part receives samples by its area, and samples that were near each
+/// other mostly stay so. Samples are clustered if there are more than 64 whose number in a cube of space differs by
+/// more than a quarter and by more than 16 times the square root from that for the area in it, and if their smallest
+/// distance is below 0.6 `d_max`. If there is not enough space for points as far apart as the nearest samples were, the
+/// samples stay in place.
 ///
-/// A cancelled call succeeds: it returns the samples after the last whole step, and says so in its report.
+/// A cancelled call succeeds: it returns the samples after the last whole step, and its report says that it was
+/// cancelled.
 ///
 /// Takes O(triangles) and then, for each step, O(samples) for samples that are spread about evenly. Memory is
 /// O(triangles + samples). Progress is reported, and the call cancelled, between steps and while neighbours are
@@ -122,8 +127,8 @@ const BYTES_PER_SAMPLE: f64 = 600.0;
 /// # Errors
 /// [`Error::InvalidArgument`] for triangles that the mesh does not have, that its mask leaves out or that have no area
 /// (`triangles`), for barycentrics that are not as many, not finite or outside the triangle by more than rounding
-/// (`barycentrics`), and for a `tolerance` that is not at least 0; [`Error::TooLarge`] for more than 2^32 - 1 samples and
-/// for a mesh of more than 2^32 / 3 triangles.
+/// (`barycentrics`), and for a `tolerance` that is not at least 0; [`Error::TooLarge`] for more than 2^32 - 1 samples
+/// and for a mesh of more than 2^32 / 3 triangles.
 pub fn relax(
     context: &Context,
     mesh: &Mesh,
@@ -171,7 +176,7 @@ fn begin<'a>(
     options: &Options,
 ) -> Result<SurfaceRelaxation<'a>> {
     let mesh = connected.mesh;
-    // Along the curve what is near is found in the cache.
+    // Along the curve, data of near samples are in the cache.
     let ordered = along_curve(mesh, places).into_iter().map(|(_, i)| places[i as usize].position(mesh));
     let positions: Vec<_> = ordered.map(|position| position.as_vec3().to_array()).collect();
     let floor = Floor::new(smallest_distance(job, &positions)?);
@@ -190,7 +195,7 @@ pub fn hexagonal_distance(mesh: &Mesh, count: usize) -> f64 {
     (2.0 * mesh.area() / (3f64.sqrt() * count.max(1) as f64)).sqrt()
 }
 
-/// Refuses what is not a point of the mesh.
+/// Refuses points that are not on the mesh.
 pub fn check(mesh: &Mesh, triangles: &[u32], barycentrics: &[[f32; 2]]) -> Result<()> {
     let count = mesh.triangles().len();
     if triangles.len() > u32::MAX as usize {

@@ -1,4 +1,4 @@
-//! The moves that samples want to make in a step.
+//! The moves that forces ask samples to make in a step.
 
 use glam::{DQuat, DVec2, Vec2, Vec3};
 
@@ -20,18 +20,18 @@ const CALM: f32 = 1e-3;
 /// A sample that moves farther than this in a step, in spacings, wakes those around it.
 const STIRRING: f32 = 5e-3;
 
-/// A sample on the way.
+/// A moving sample.
 #[derive(Clone, Copy, Default)]
 pub struct Mover {
     pub place: SurfacePoint,
-    /// In the plane of its triangle and in spacings.
+    /// The velocity in the plane of its triangle and in spacings.
     pub velocity: Vec2,
     pub star: Star,
     /// The number of steps for which it stays at rest.
     pub rest: u8,
 }
 
-/// A move that may end too close to another sample, and what it began with.
+/// A move that may end too close to another sample, and its starting state.
 pub struct UncheckedMove {
     pub sample: u32,
     pub place: SurfacePoint,
@@ -39,7 +39,7 @@ pub struct UncheckedMove {
     pub left: Option<Box<Local>>,
 }
 
-/// The work that remains after moves.
+/// The work left after moves.
 #[derive(Default)]
 pub struct FollowUp {
     pub unchecked: Vec<UncheckedMove>,
@@ -61,7 +61,7 @@ pub struct StepState<'a> {
     pub limits: Limits,
     /// The largest displacement, in spacings.
     pub stride: f32,
-    /// The number of steps for which samples rest that come to rest.
+    /// The number of steps that samples rest once they come to rest.
     pub rest: u8,
 }
 
@@ -72,7 +72,7 @@ pub struct Moves<'a> {
     pub first: usize,
     pub movers: &'a mut [Mover],
     pub locals: &'a mut [Local],
-    /// The positions in which samples want to end.
+    /// The positions in which the samples would end.
     pub wanted: &'a mut [Position],
 }
 
@@ -124,8 +124,8 @@ impl Work for Moves<'_> {
             let to = local.position(mover.place.uv);
             self.wanted[k] = to;
             let length = state.length(from, to);
-            // Two samples of which each has moved by no more than half of what it was farther away from the nearest
-            // other one than the floor are no closer than the floor.
+            // Two samples are no closer than the floor if each has moved by no more than half of the excess, over the
+            // floor, of its distance to the nearest other one.
             if length > 0.0 && nearest.sqrt() < (state.floor + 2.0 * length) * ROUNDING {
                 after.unchecked.push(UncheckedMove { sample: sample as u32, place, left });
             }
@@ -153,7 +153,8 @@ impl StepState<'_> {
         (offset(from, to) * self.unit).length()
     }
 
-    /// Moves a sample by a displacement in the plane of its triangle. Returns what it kept of this if it has left it.
+    /// Moves a sample by a displacement in the plane of its triangle. Returns the state kept of the triangle if the
+    /// sample has left it.
     #[inline(always)]
     fn displace(&self, mover: &mut Mover, local: &mut Local, displacement: Vec2) -> Option<Box<Local>> {
         let Some(uv) = local.moved(mover.place.uv, displacement) else { return self.walk(mover, local, displacement) };
@@ -254,7 +255,7 @@ impl Ring {
             let centre_y = lanes.mul(lanes.sub(lanes.mul(squared, ax), lanes.mul(a_squared, bx)), half);
             let distance = lanes.sqrt(squared_of(centre_x, centre_y));
             let pulled = constraints.holes(lanes, distance);
-            // Triangles without area have no centre, and by rounding some have it in the sample.
+            // Triangles without area have no centre; by rounding, some have it at the sample.
             let is_there = lanes.less(distance, lanes.splat(f32::INFINITY));
             let is_apart = lanes.less(lanes.splat(0.0), distance);
             let pulled =
@@ -277,7 +278,7 @@ fn pushed(constraints: &Constraints, view: &View) -> Force {
     Force { sum: (0..view.count()).map(push).sum(), clearance: FREE_CLEARANCE }
 }
 
-/// The numbers of lanes.
+/// The lane numbers.
 const FIRST: [f32; LANES] = {
     let mut numbers = [0.0; LANES];
     let mut lane = 0;
@@ -294,7 +295,8 @@ pub struct Local {
     corners: [[f32; 3]; 3],
     /// The axes of the plane of the triangle.
     pub axes: [Vec3; 2],
-    /// Those of the mean plane of the sample's surroundings: rotated into each other, they are the same axes.
+    /// The axes of the mean plane of the sample's surroundings: the rotation of this plane into that of the triangle
+    /// takes them to `axes`.
     pub tangents: [Vec3; 2],
     /// The mean normal of the sample's surroundings, on the front side of the triangle; zero where there is none.
     normal: Vec3,
@@ -327,7 +329,7 @@ impl Local {
         self.axes[0].cross(self.axes[1])
     }
 
-    /// Barycentrics after a displacement, in spacings along the axes, if they are in the triangle still.
+    /// The barycentrics after a displacement, in spacings along the axes, if they are still in the triangle.
     #[inline(always)]
     pub fn moved(&self, uv: DVec2, displacement: Vec2) -> Option<DVec2> {
         let moved = uv + (displacement.x * self.steps[0] + displacement.y * self.steps[1]).as_dvec2();

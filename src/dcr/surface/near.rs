@@ -4,7 +4,7 @@
 //! near through space but not on the surface, as on the other side of a thin wall, are not found, and those behind a
 //! sharp fold are. Neither normals nor winding are trusted.
 //!
-//! Where the flood meets a boundary it mirrors the samples found, as the thesis does on bounded domains (Fig. 4.12 (b)).
+//! At a boundary the flood mirrors the samples found, as the thesis does on bounded domains (Fig. 4.12 (b)).
 
 use glam::{DVec2, DVec3, Vec3};
 
@@ -32,10 +32,10 @@ pub struct Image {
 /// The samples near one sample.
 #[derive(Clone, Debug, Default)]
 pub struct Surroundings {
-    /// The samples that are reached on the surface. With the images no more than [`MOST`], the nearest.
+    /// The samples that are reached on the surface: the nearest, with the images no more than [`MOST`].
     pub reached: Vec<u32>,
     pub images: Vec<Image>,
-    /// All other samples within sight through space, on whatever parts of the surface.
+    /// All other samples within sight through space, on any parts of the surface.
     pub others: Vec<u32>,
     /// The mean normal, on the front side of the sample's triangle; zero where there is none.
     pub normal: Vec3,
@@ -47,7 +47,7 @@ pub struct SampleSearch<'a> {
     pub patches: &'a Patches,
     pub cells: &'a MovingGrid3,
     pub spacing: f64,
-    /// The radius of the ball, and how far others are in sight; in spacings.
+    /// The radius of the ball, and the distance up to which others are in sight; in spacings.
     pub radius: f64,
     pub sight: f64,
 }
@@ -69,11 +69,11 @@ struct Near {
 impl SampleSearch<'_> {
     /// The side of the cells in which samples are found.
     pub fn cell_side(spacing: f64, radius: f64, sight: f64) -> f64 {
-        // A little more, for the rounding of positions in cells.
+        // Slightly larger, for the rounding of positions in cells.
         radius.max(sight) * spacing * (1.0 + 1e-6)
     }
 
-    /// The surroundings of a sample. `seen` has the triangle that each sample is on, and the normal of it.
+    /// The surroundings of a sample. `seen` has the triangle of each sample and its normal.
     pub fn around(&self, sample: u32, seen: impl Fn(u32) -> (u32, Vec3), finds: &mut Finds) -> Surroundings {
         let unit = (1.0 / self.spacing) as f32;
         let (position, triangle) = (self.cells.position(sample), seen(sample).0);
@@ -107,7 +107,7 @@ impl SampleSearch<'_> {
         around
     }
 
-    /// Takes what was found, and if that is too much the nearest of it.
+    /// Takes the samples found, or the nearest of them if there are too many.
     fn keep_nearest(
         &self,
         sample: u32,
@@ -197,7 +197,8 @@ pub fn mirrored(place: DVec3, [a, b]: [DVec3; 2]) -> DVec3 {
 
 /// The patches that the flood from one sample has reached.
 pub struct Flood {
-    /// By a hash of the patch: the flood that has reached it last, and its side. More than twice as many as patches.
+    /// The last flood that has reached each patch, and the patch's side, by a hash of the patch. There are more than
+    /// twice as many slots as patches.
     reached: Vec<(u32, Side)>,
     /// The number of this flood.
     flood: u32,
@@ -216,7 +217,7 @@ impl Flood {
     /// Floods the patches around a place on a triangle, within a radius in spacings; `unit` is 1 over a spacing.
     pub fn spread(&mut self, patches: &Patches, triangle: u32, place: Vec3, radius: f32, unit: f32) {
         self.clear();
-        // The sides of patches as seen from the front of this triangle.
+        // The sides of patches relative to the front of this triangle.
         self.enter(patches.side(triangle));
         let mut next = 0;
         while let Some(&here) = self.queue.get(next) {
@@ -230,8 +231,8 @@ impl Flood {
         }
     }
 
-    /// True if a triangle of a patch was reached, and if so whether its front is on the other side than that of the
-    /// triangle where the flood began.
+    /// Some if a triangle of a patch was reached: true if its front is on the other side than that of the triangle
+    /// where the flood began.
     pub fn is_turned(&self, triangle: Side) -> Option<bool> {
         self.find(triangle.patch()).ok().map(|side| side.is_turned() ^ triangle.is_turned())
     }
@@ -255,7 +256,7 @@ impl Flood {
     #[inline]
     fn find(&self, patch: u32) -> std::result::Result<Side, usize> {
         let mask = self.reached.len() - 1;
-        // One product (Knuth, TAOCP 3, §6.4).
+        // Multiplicative hashing (Knuth, TAOCP 3, §6.4).
         let mut slot = (patch.wrapping_mul(0x9e37_79b9) >> 8) as usize & mask;
         loop {
             let (flood, side) = self.reached[slot];
@@ -283,7 +284,7 @@ impl Flood {
     }
 }
 
-// A mesh in coarse: patches of connected triangles, and the portals through which one leads into another.
+// A coarse version of a mesh: patches of connected triangles, and the portals through which they connect.
 //
 // The triangles of a patch have their centres in one voxel, a little more than half a spacing wide, so that the number
 // of patches near a sample does not grow with the number of triangles. A triangle larger than a voxel is a patch.
@@ -291,13 +292,13 @@ impl Flood {
 /// The side of a voxel, in spacings.
 const VOXEL: f64 = 0.6;
 
-/// The voxel of triangles that are patches by themselves.
+/// The voxel of triangles that are patches on their own.
 const ALONE: u64 = u64::MAX;
 
 const NONE: u32 = u32::MAX;
 
-/// A patch, or a triangle's patch, and whether its front is on the other side: that of the patch is the side of its
-/// first triangle.
+/// A patch, or the patch of a triangle, and a bit that is set if its front is on the other side than that of the patch,
+/// which is the side of the patch's first triangle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Side(u32);
 
@@ -315,10 +316,10 @@ impl Side {
     }
 }
 
-/// The way out of a patch into another one.
+/// A portal from a patch into another one.
 #[derive(Clone, Copy)]
 pub struct Portal {
-    /// The other patch, and whether its front is on the other side than that of this one.
+    /// The other patch, and true if its front is on the other side than that of this one.
     pub to: Side,
     /// The ends of the common edge or, of several edges, the corners of the box around them.
     ends: [[f32; 3]; 2],
@@ -353,15 +354,15 @@ impl Portal {
 
 /// The patches of a mesh.
 pub struct Patches {
-    /// For each triangle its patch.
+    /// The patch of each triangle.
     sides: Vec<Side>,
     exits: Exits,
 }
 
-/// The ways out of all patches.
+/// The exits of all patches.
 #[derive(Default)]
 struct Exits {
-    /// The portals of each patch end, and the next one's begin, at this number of them; the same for `open`.
+    /// The index at which the portals of each patch end and those of the next begin; the same for `open`.
     ends: Vec<[u32; 2]>,
     portals: Vec<Portal>,
     /// The half-edges of boundaries.
@@ -407,7 +408,7 @@ impl Patches {
 }
 
 impl Exits {
-    /// Adds what leads out of the next patch.
+    /// Adds the exits of the next patch.
     fn add(&mut self, connected: &ConnectedMesh, sides: &[Side], patch: u32, triangles: &[u32]) {
         let first = self.portals.len();
         for edge in triangles.iter().flat_map(|&triangle| 3 * triangle..3 * triangle + 3) {
@@ -435,7 +436,7 @@ impl Exits {
         self.ends.push([self.portals.len() as u32, self.open.len() as u32]);
     }
 
-    /// Adds what leads out of the patches after these.
+    /// Adds the exits of the patches after these.
     fn append(&mut self, part: Self) {
         let [portals, open] = [self.portals.len() as u32, self.open.len() as u32];
         self.ends.extend(part.ends.iter().map(|end| [end[0] + portals, end[1] + open]));
@@ -453,7 +454,7 @@ impl Exits {
 
 /// The triangles of a mesh by patches.
 struct Division {
-    /// For each triangle its patch.
+    /// The patch of each triangle.
     sides: Vec<Side>,
     /// Patch `p` has the triangles `starts[p]..starts[p + 1]` of these.
     triangles: Vec<u32>,
@@ -517,7 +518,7 @@ impl Division {
     }
 }
 
-/// The voxels of a mesh, each a number. Voxels far from each other may have the same.
+/// The voxels of a mesh, each a number. Voxels far from each other may have the same number.
 struct Voxels {
     low: DVec3,
     side: f64,
@@ -570,7 +571,7 @@ mod tests {
         (0..count).map(|_| place()).collect()
     }
 
-    /// The neighbours of all samples: sample, and where it or its image is.
+    /// The neighbours of all samples: the sample, and the position of it or its image.
     fn found(mesh: &Mesh, places: &[SurfacePoint]) -> Vec<Vec<(u32, DVec3)>> {
         let connected = &ConnectedMesh::new(mesh).unwrap();
         let positions: Vec<DVec3> = places.iter().map(|place| place.position(mesh)).collect();
@@ -661,7 +662,7 @@ mod tests {
         all
     }
 
-    /// Of patches a flood reaches all that one of triangles does, and nothing far beyond, on whatever side it faces.
+    /// A flood of patches reaches all that a flood of triangles does, and nothing far beyond, whichever side it faces.
     #[test]
     fn patches_are_reached_as_their_triangles_are() {
         for (count, spacing) in [(10, 0.05), (200, 0.1), (1000, 0.2), (1000, 0.05)] {

@@ -1,4 +1,4 @@
-//! A set of samples that is being relaxed on a surface.
+//! A set of samples under relaxation on a surface.
 
 use glam::{DVec2, DVec3, Vec2};
 
@@ -18,7 +18,7 @@ use crate::mesh::exact;
 use crate::rng::{Draw, Rng};
 use crate::simd::{self, Level, Position};
 
-/// The distance by which samples are moved that coincide with others, or lie on an edge of their triangle, in spacings.
+/// The distance, in spacings, by which samples that coincide with others or lie on an edge of their triangle are moved.
 const PARTING: f64 = 1e-3;
 
 /// The number of attempts for samples that would get too close to others.
@@ -27,24 +27,26 @@ const ATTEMPTS: u64 = 16;
 /// The largest displacement of samples in a step, in spacings.
 const STRIDE: f32 = 0.4;
 
-/// The factor of that from step to step when constraints no longer grow stiffer. Where the curvature is high for the
-/// density of the samples, the forces of two of them on each other are not opposite, and they would never come to rest.
+/// The factor of the largest displacement from step to step when constraints no longer grow stiffer. Where the
+/// curvature is high for the density of the samples, the forces of two of them on each other are not opposite, and they
+/// would never come to rest.
 const CALMING: f64 = 0.9;
 
 /// The largest distance by which positions change in a step, in spacings: the stride, and rounding.
 pub const FARTHEST: f32 = 0.41;
 
-/// After so many steps samples come to rest where no force acts on them.
+/// The number of steps after which samples come to rest where no force acts on them.
 const FIRST_REST: u32 = 16;
 
-/// They rest for this fraction of the steps made, as motion dies down; never longer than that many.
+/// The number of steps made divided by this is that for which samples rest, as motion dies down, but it is at most
+/// `LONGEST_REST`.
 const REST_SHARE: u32 = 4;
 const LONGEST_REST: u32 = 12;
 
-/// The samples of one task: few, as each takes long.
+/// The number of samples of one task: few, as each takes long.
 const CHUNK: usize = 512;
 
-/// Samples on a surface, moving. They are in the order of a curve; the user's order is that of `order`.
+/// Moving samples on a surface. They are in the order of a curve; the user's order is that of `order`.
 pub struct SurfaceRelaxation<'a> {
     connected: &'a ConnectedMesh<'a>,
     level: Level,
@@ -53,7 +55,7 @@ pub struct SurfaceRelaxation<'a> {
     /// The user's number of each sample.
     order: Vec<u32>,
     movers: Vec<Mover>,
-    /// In space, in the floats in which they will be returned.
+    /// The positions in space, in the floats in which they will be returned.
     positions: Vec<Position>,
     /// The positions after the step, while it is made.
     wanted: Vec<Position>,
@@ -62,7 +64,7 @@ pub struct SurfaceRelaxation<'a> {
 }
 
 impl<'a> SurfaceRelaxation<'a> {
-    /// Samples no two of which are closer to each other than the floor, now and after each step.
+    /// A set of samples no two of which are closer than the floor, now and after each step.
     pub fn new(
         job: &Job,
         connected: &'a ConnectedMesh<'a>,
@@ -103,8 +105,8 @@ impl<'a> SurfaceRelaxation<'a> {
     }
 
     /// The points of the set, with those moved that coincide with another or lie on an edge: a sample on the boundary
-    /// would coincide with its mirror image. They move a little towards a random point of their triangle. None if none
-    /// must be moved.
+    /// would coincide with its mirror image. They move a little towards a random point of their triangle. None if no
+    /// sample must be moved.
     fn parted(&self, attempt: u64) -> Option<Vec<SurfacePoint>> {
         let (mesh, mut places) = (self.connected.mesh, self.places());
         let positions: Vec<_> = places.iter().map(|place| place.position(mesh)).collect();
@@ -131,7 +133,7 @@ impl<'a> SurfaceRelaxation<'a> {
         (!parted.is_empty()).then_some(places)
     }
 
-    /// Moves samples to these points close to theirs, where that is admitted. This does not count as a step.
+    /// Moves samples to these points close to theirs, where that is admissible. This does not count as a step.
     fn shift(&mut self, job: &Job, places: &[SurfacePoint]) -> Result<()> {
         self.near.search(job, &mut self.movers, &self.positions)?;
         job.context().run(None, |whole| {
@@ -182,7 +184,7 @@ impl<'a> SurfaceRelaxation<'a> {
         Ok(unchecked)
     }
 
-    /// Takes back those of the unchecked moves that are not admitted; all others are made.
+    /// Undoes those of the unchecked moves that are not admissible; all others are made.
     fn settle(&mut self, job: &Job, unchecked: Vec<UncheckedMove>) -> Result<()> {
         let parts = unchecked.chunks(CHUNK).collect();
         let refused = job.map_each(parts, |part: &[UncheckedMove]| -> Vec<bool> {
@@ -241,7 +243,7 @@ impl Relaxation for SurfaceRelaxation<'_> {
     }
 }
 
-/// The number of steps for which samples rest that come to rest in this one.
+/// The number of steps for which samples that come to rest in this step stay at rest.
 fn rest(iterations: u32) -> u8 {
     if iterations < FIRST_REST { 0 } else { (iterations / REST_SHARE).min(LONGEST_REST) as u8 }
 }
@@ -318,8 +320,8 @@ mod tests {
         assert!(sights > 10_000 && unknown > 1000, "{sights} in sight, {unknown} of them on another side");
     }
 
-    /// Most samples come to rest; no other one is closer to them than the conflict radius, but for what it may have
-    /// moved since they were looked at.
+    /// Most samples come to rest; no other one is closer to them than the conflict radius, except for its possible
+    /// motion since they were last processed.
     #[test]
     fn samples_that_rest_are_in_no_conflict() {
         let mesh = Mesh::new(vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]], vec![[0, 1, 2]]).unwrap();

@@ -1,10 +1,10 @@
 //! A mesh whose vertices are samples (thesis fig. 1.12).
 //!
-//! The triangles of the samples' Delaunay stars ([`triangulate`]) are the candidates. Where four samples are about on a
-//! circle their stars may choose different diagonals, so that not all of three corners agree. Candidates are therefore
-//! taken one after the other, those first that more corners have found, and of these the smallest circles first. One is
-//! refused if a side of it has its triangle already, or if a vertex would get a second fan beside a closed one. So no edge
-//! has more than two triangles, and these are wound alike.
+//! The triangles of the samples' Delaunay stars ([`triangulate`]) are the candidates. Where four samples are almost on
+//! a circle their stars may choose different diagonals, so that not all three corners agree. Candidates are therefore
+//! taken one after the other, those found by more corners first, and of these the smallest circles first. One is
+//! refused if a side of it already has its triangle, or if a vertex would get a second fan in addition to a closed one.
+//! So no edge has more than two triangles, and these are wound alike.
 
 use glam::Vec3;
 
@@ -28,21 +28,21 @@ pub struct RemeshReport {
     pub triangles: u64,
     /// The number of triangles that not all three of their corners have in their stars.
     pub disputed: u64,
-    /// The number of triangles of stars that were left out because they do not go with others.
+    /// The number of triangles of stars that were left out because they are incompatible with others.
     pub left_out: u64,
-    /// The numbers of faces at the edges and vertices of the mesh, and its angles. Samples without a triangle are its unused
-    /// vertices.
+    /// The numbers of faces at the edges and vertices of the mesh, and its angles. Samples without a triangle are its
+    /// unused vertices.
     pub quality: Quality,
 }
 
-/// Makes a mesh of samples that are spread about evenly on another mesh, as maximal and relaxed sets are. Its vertices are
-/// the samples, in their order, its triangles those of their Delaunay stars that go together, wound as the mesh's
-/// triangles under their corners. The arguments are those of [`relax`](fn@super::relax). O(n log n).
+/// Makes a mesh of samples that are spread about evenly on another mesh, as maximal and relaxed sets are. Its vertices
+/// are the samples, in their order, its triangles those of their Delaunay stars that are compatible, wound as the
+/// mesh's triangles under their corners. The arguments are those of [`relax`](fn@super::relax). O(n log n).
 ///
-/// No edge has more than two triangles, and two triangles at an edge are wound alike; the rest is in the report. Samples
-/// that resolve the features of a closed surface, wound alike everywhere, give a closed manifold of the same topology.
-/// Where they do not, as on thin blades and between faces that are wound against each other, there are holes.
-/// Triangles do not cross open boundaries: the new boundary is that of the outermost samples.
+/// No edge has more than two triangles, and two triangles at an edge are wound alike; the rest is in the report.
+/// Samples that resolve the features of a closed surface, wound alike everywhere, give a closed manifold of the same
+/// topology. Otherwise, as on thin blades and between faces of opposite winding, there are holes. Triangles do not
+/// cross open boundaries: the new boundary is that of the outermost samples.
 ///
 /// # Errors
 /// Those of [`relax`](fn@super::relax), [`Error::InvalidArgument`] for samples that form no triangle, and
@@ -78,7 +78,7 @@ pub fn remesh(
     Ok((made, report))
 }
 
-/// Infinite for a triangle without area.
+/// The squared circumradius; infinite for a triangle without area.
 fn squared_circumradius(positions: &[[f32; 3]], corners: [u32; 3]) -> f64 {
     let [a, b, c] = corners.map(|corner| exact(positions[corner as usize]));
     let lengths = a.distance_squared(b) * b.distance_squared(c) * c.distance_squared(a);
@@ -91,7 +91,7 @@ fn squared_circumradius(positions: &[[f32; 3]], corners: [u32; 3]) -> f64 {
 struct Fan {
     /// The sides opposite the vertex, each from one corner to the next.
     sides: Vec<[u32; 2]>,
-    /// True if they are one ring.
+    /// True if the sides form a ring.
     is_closed: bool,
 }
 
@@ -112,7 +112,7 @@ impl Fan {
     }
 }
 
-/// Takes a triangle if it fits at all of its corners; returns whether it does.
+/// Takes a triangle if it fits at all of its corners; returns true if it does.
 fn take(fans: &mut [Fan], [a, b, c]: [u32; 3]) -> bool {
     let places = [(a, [b, c]), (b, [c, a]), (c, [a, b])];
     let fits = places.map(|(corner, side)| fans[corner as usize].fits(side));
@@ -164,7 +164,7 @@ pub fn triangulate(
     Ok(Triangulation { triangles, agreement })
 }
 
-/// The triangles of all stars, each as often as it has corners that found it, one after the other.
+/// The triangles of all stars, each once for every corner that found it, sorted.
 pub fn found_corners(
     context: &Context,
     mesh: &Mesh,
@@ -218,7 +218,7 @@ pub fn found_corners(
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Corner {
     pub sorted: [u32; 3],
-    /// True if it was found by another corner than the first.
+    /// True if it was found by a corner other than the first.
     is_other: bool,
     /// The corners counter-clockwise, the lowest number first.
     pub turned: [u32; 3],

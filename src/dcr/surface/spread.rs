@@ -1,9 +1,9 @@
-//! Spreads samples that are clustered on one part of the surface and missing on others.
+//! Redistributes samples that are clustered on one part of the surface and missing on others.
 //!
 //! There is no Fourier transform on a mesh that would level a cluster, and forces move a sample by a fraction of the
-//! spacing in a step. So before the first step such samples are redistributed (`dcr/clustering.rs`): as many points are thrown
-//! on the surface at random, both are sorted along a Z-curve through space, and each sample is put on the point of its
-//! rank. Each part of the surface, connected with others or not, receives samples by its area.
+//! spacing in a step. So before the first step such samples are redistributed (`dcr/clustering.rs`): as many points are
+//! thrown on the surface at random, both are sorted along a Z-curve through space, and each sample is put on the point
+//! of its rank. Each part of the surface, connected with others or not, receives samples by its area.
 
 use crate::dcr::clustering::is_clustered;
 use crate::dcr::surface::apart::Floor;
@@ -15,14 +15,14 @@ use crate::job::{Job, chunks};
 use crate::mesh::{Mesh, exact};
 use crate::rng::{Draw, Rng};
 
-/// Samples that are all this far apart, in spacings, are left where they are: random points would be too close.
+/// The smallest distance, in spacings, from which on samples are left in place: random points would be too close.
 const APART: f64 = 0.6;
 
-/// The number of throws for a sample, each of which gets too close to samples that were placed before.
+/// The largest number of throws for a sample that get too close to samples placed before.
 const ATTEMPTS: u64 = 64;
 
-/// New places for samples that are clustered, no two closer to each other through space than the floor. None if they are
-/// not, or if there is no room for that.
+/// New places for samples that are clustered, no two closer to each other through space than the floor. None if they
+/// are not clustered, or if there is not enough space.
 pub fn spread(
     job: &Job,
     mesh: &Mesh,
@@ -56,7 +56,7 @@ struct Throws<'a> {
     mesh: &'a Mesh,
     seed: u64,
     triangles: Vec<u32>,
-    /// The areas of these triangles.
+    /// The areas of these triangles, as weights.
     areas: Weights,
 }
 
@@ -66,14 +66,14 @@ impl<'a> Throws<'a> {
         Self { mesh, seed, triangles, areas: Weights::new(areas) }
     }
 
-    /// The point of a sample in one of its attempts.
+    /// The point of a sample in one of its throws.
     fn at(&self, sample: usize, attempt: u64) -> SurfacePoint {
         let mut rng = Rng::at(self.seed, Draw::Spread, &[sample as u64, attempt]);
         let triangle = self.triangles[self.areas.pick(&mut rng) as usize];
         SurfacePoint { triangle, uv: rng.in_triangle().into() }
     }
 
-    /// The points of so many samples, each the first of its sample that is far enough from those before; none if a
+    /// The points of a number of samples, each the first of its sample that is far enough from those before; none if a
     /// sample has no such point.
     fn apart(&self, job: &Job, count: usize, floor: Floor, spacing: f64) -> Result<Option<Vec<SurfacePoint>>> {
         let (low, _) = self.mesh.bounds();
@@ -98,7 +98,7 @@ impl<'a> Throws<'a> {
     }
 }
 
-// A Z-curve through the bounds of a mesh: what is close on the surface is mostly close along it.
+// A Z-curve through the bounds of a mesh: points close on the surface are mostly close along it.
 
 /// The places of points along the curve, in order, with the points' numbers.
 pub fn along_curve(mesh: &Mesh, points: &[SurfacePoint]) -> Vec<(u64, u32)> {
@@ -190,7 +190,7 @@ mod tests {
         for i in 0..positions.len() {
             assert!((0..i).all(|j| positions[i].distance(positions[j]) >= floor));
         }
-        // Three sheets within the floor have room for a third of the samples.
+        // Three sheets within the floor have space for a third of the samples.
         let sheet = squares(4);
         let positions =
             (0..3).flat_map(|k| sheet.positions().iter().map(move |&[x, y, z]| [x, y, z + 1e-3 * k as f32]));

@@ -2,8 +2,8 @@
 //!
 //! Offsets are divided by the square of their length: of the points that this makes, those of the star are on the
 //! convex hull (the inversion that maps circles through the sample to straight lines). So a star that is kept from the
-//! step before is still right if no point is outside any edge of it, which takes a few products per edge. Only where it
-//! is not, the star is found anew, by gift wrapping (McLain 1976, "Two dimensional interpolation from random data").
+//! step before is still right if no point is outside any of its edges, which takes a few products per edge. Only
+//! otherwise is the star found again, by gift wrapping (McLain 1976, "Two dimensional interpolation from random data").
 
 use glam::{Vec2, Vec3};
 
@@ -12,7 +12,7 @@ use crate::simd::{LANES, Lanes};
 /// The largest number of candidates.
 pub const MOST: usize = 48;
 
-/// The vectors of them.
+/// The number of vectors of candidates.
 const VECTORS: usize = MOST / LANES;
 
 /// The largest number of neighbours of a star that is kept.
@@ -55,15 +55,16 @@ pub struct Star {
 pub struct View {
     /// The number of candidates.
     count: usize,
-    /// Their offsets in space, in spacings; 0 beyond the last candidate, for which it stands for none.
+    /// The offsets of the candidates in space, in spacings; 0, which stands for none, beyond the last.
     offsets: [PerCandidate; 3],
-    /// The squared lengths of these.
+    /// The squared lengths of the offsets in space.
     squared: PerCandidate,
     /// The offsets in the plane.
     plane: [PerCandidate; 2],
-    /// These over their squared lengths; 0 for a sample at the same position, which is in no direction.
+    /// The offsets in the plane over their squared lengths; 0 for a sample at the same position, which has no
+    /// direction.
     inverted: [PerCandidate; 2],
-    /// The star, and whether it surrounds the sample.
+    /// The star, and true if it surrounds the sample.
     ring: [u8; MOST],
     length: usize,
     is_closed: bool,
@@ -191,7 +192,7 @@ impl View {
         lanes.least(least)
     }
 
-    /// Those of the first `count` candidates whose squared distance is less than `limit`, as bits.
+    /// The candidates, of the first `count`, whose squared distance is less than `limit`, as bits.
     #[inline(always)]
     pub fn nearer<L: Lanes>(&self, lanes: L, count: usize, limit: f32) -> u64 {
         let mut near = 0;
@@ -204,7 +205,7 @@ impl View {
         near & ((1 << count) - 1)
     }
 
-    /// Finds the star: the one that is kept if it is still right, or another, which is kept.
+    /// Finds the star: the kept one if it is still right, or a new one, which is kept.
     #[inline(always)]
     pub fn find_star<L: Lanes>(&mut self, lanes: L, kept: &mut Star) {
         let count = usize::from(kept.count);
@@ -231,7 +232,7 @@ impl View {
         }
     }
 
-    /// [`View::is_star`] of so many vectors.
+    /// [`View::is_star`] for this number of vectors.
     #[inline(always)]
     fn is_star_of<L: Lanes, const N: usize>(&self, lanes: L, ring: &[u8]) -> bool {
         let mut points = [[lanes.splat(0.0); 2]; N];
@@ -251,7 +252,7 @@ impl View {
             let mut vector = 0;
             while vector < N {
                 let [u, v] = [lanes.sub(points[vector][0], x), lanes.sub(points[vector][1], y)];
-                // Of the ends of the edge it is 0 exactly, as nothing is contracted.
+                // For the ends of the edge it is exactly 0, as nothing is contracted.
                 let sine = lanes.sub(lanes.mul(along_x, v), lanes.mul(along_y, u));
                 least = lanes.min(sine, least);
                 vector += 1;
@@ -335,14 +336,14 @@ impl View {
         None
     }
 
-    /// The neighbours, counter-clockwise, and whether they surround the sample.
+    /// The neighbours, counter-clockwise, and true if they surround the sample.
     #[inline(always)]
     pub fn star(&self) -> (&[u8], bool) {
         (&self.ring[..self.length], self.is_closed)
     }
 }
 
-/// The numbers of candidates.
+/// The candidate numbers.
 const NUMBERS: [[f32; LANES]; VECTORS] = {
     let mut numbers = [[0.0; LANES]; VECTORS];
     let mut candidate = 0;

@@ -1,7 +1,7 @@
-//! Walking on the surface: straight on, from triangle to triangle, as if each were turned about the common edge into the
-//! plane of the one before (Polthier and Schmies 1998, "Straightest geodesics on polyhedral surfaces").
+//! Walking on the surface: straight on, from triangle to triangle, as if each were turned about the common edge into
+//! the plane of the one before (Polthier and Schmies 1998, "Straightest geodesics on polyhedral surfaces").
 //!
-//! Nothing but the shapes of triangles is used, each laid into the plane for itself. So neighbours may face opposite
+//! Nothing but the shapes of triangles is used, each laid into the plane separately. So neighbours may face opposite
 //! sides, and triangles without area are crossed like any other.
 
 use glam::{DVec2, DVec3};
@@ -16,7 +16,8 @@ const MOST_EDGES: u32 = 10_000;
 /// The fraction of the distance to a boundary that is walked: a sample on the boundary would be its own mirror image.
 const SHORT_OF_BORDER: f64 = 0.99;
 
-/// A triangle in the plane: the first corner at 0, the second on the x axis, the third above it. Lengths in spacings.
+/// A triangle in the plane: the first corner at 0, the second on the x axis, the third above it. Lengths are in
+/// spacings.
 #[derive(Clone, Copy)]
 pub struct FlatTriangle {
     corners: [DVec2; 3],
@@ -52,7 +53,7 @@ pub struct WalkEnd {
     /// The displacement in the plane of the last triangle: of the same length, or where a boundary was met its
     /// component along the boundary.
     pub displacement: DVec2,
-    /// True if the last triangle faces the other side than the first.
+    /// True if the last triangle faces the opposite side to the first.
     pub is_turned: bool,
 }
 
@@ -95,7 +96,7 @@ impl FlatTriangle {
         })
     }
 
-    /// Start and direction of an edge.
+    /// The start and the direction of an edge.
     fn edge(&self, k: u32) -> (DVec2, DVec2) {
         let (from, to) = (self.corners[k as usize], self.corners[(k as usize + 1) % 3]);
         (from, to - from)

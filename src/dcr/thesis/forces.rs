@@ -1,8 +1,8 @@
 //! Tensions, activeness and displacements of one step (thesis §4.2.4, §4.3.2, §4.3.5 and its algorithm "Enforcing
 //! Distance Constraints").
 //!
-//! The thesis scatters: a visit to an edge adds to the force on both of its ends. Here every point gathers what all
-//! visits would add to it, so that points share nothing; the sums are the same.
+//! The thesis scatters: a visit to an edge adds to the force on both of its ends. Here every point gathers the forces
+//! that all visits would add to it, so that points share nothing; the sums are the same.
 //!
 //! Activeness `α = Σ|F| / |ΣF|` (eq. 4.11) is 1 without tension and infinite in balance. It is held as its inverse,
 //! the *yield* `β = |ΣF| / Σ|F|` in `0..=1`: the readiness of a point to move. The algorithm's own share

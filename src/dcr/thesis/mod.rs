@@ -1,17 +1,17 @@
 //! The method of the thesis (§4.3): tensions shared by activeness, in a neighbourhood that is found anew in every step.
 //!
-//! Where the thesis contradicts itself, this module does what its algorithm (§4.3.3) says:
+//! This module follows the thesis's algorithm (§4.3.3) where the thesis contradicts itself:
 //!
 //! * Every edge is visited from both ends, so each end receives twice its share of the tension. The constant
-//!   distributions of Fig. 4.19 then coincide on the Delaunay neighbourhood, which is symmetric; with [`Visits::OneEnd`]
-//!   they differ.
+//!   distributions of Fig. 4.19 then coincide on the Delaunay neighbourhood, which is symmetric; with
+//!   [`Visits::OneEnd`] they differ.
 //! * High activeness moves a point *less*; the formulas of §4.3.2 state the opposite.
 //! * Activeness is computed from the tensions themselves, not from the forces that it has weighted.
 //! * The tension is divided by its radius; eq. 4.10 is not.
 //! * Radii are centre-to-centre distances in units of `d_max = sqrt(2 A / (sqrt(3) N))`; the formula for `r_max`
 //!   printed in §4.4.2 lacks a fraction bar.
-//! * A point oscillates if the cosine of its force and the reverse of the one before is above 0.95 (§4.4.2); §4.3.5 says
-//!   0.9, of the longer of the two. Its activeness is then infinite: its neighbours move instead.
+//! * A point oscillates if the cosine of its force and the reverse of the one before is above 0.95 (§4.4.2); §4.3.5
+//!   says 0.9, of the longer of the two. Its activeness is then infinite: its neighbours move instead.
 //! * λ is constant, as in the thesis's experiments, or decays by a factor per step, where the thesis gives no rule.
 //!
 //! Convergence is judged by motion: [`Report::motion`](crate::dcr::Report::motion) is the distance covered in the last
@@ -44,9 +44,9 @@ use crate::setters::setters;
 
 /// The division of a tension between the point that visits an edge and the neighbour at its other end (Fig. 4.19).
 ///
-/// Where edges are visited from both ends ([`Visits::BothEnds`]) all but [`Distribution::Activeness`] give the same
-/// displacements on the Delaunay neighbourhood. They differ on the nearest, where one end may be among the nearest of
-/// the other but not conversely, and with [`Visits::OneEnd`].
+/// If edges are visited from both ends ([`Visits::BothEnds`]), all but [`Distribution::Activeness`] give the same
+/// displacements on the Delaunay neighbourhood. They differ with nearest neighbours, where one end may be among the
+/// nearest of the other but not conversely, and with [`Visits::OneEnd`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Distribution {
     /// By activeness: a point whose tensions cancel out moves its neighbours, one whose tensions agree moves itself.
@@ -79,10 +79,10 @@ pub enum Convergence {
     /// The motion ([`Report::motion`](crate::dcr::Report::motion)) falls to the tolerance. It does not depend on the
     /// step size.
     Motion,
-    /// The thesis's test (§4.4.2): ten times in a row the variance of the distances to the nearest point changes by less
-    /// than 0.1 % in a step, while more than 99 % of the points are stable, which the thesis does not define: here those
-    /// that move by less than 0.01 `d_max` in the step. Both halve with the step size, so the smaller that is, the
-    /// earlier the test is met. In sets of a few hundred points the variance may never rest.
+    /// The thesis's test (§4.4.2): ten times in a row the variance of the distances to the nearest point changes by
+    /// less than 0.1 % in a step, while more than 99 % of the points are stable, which the thesis does not define: here
+    /// those that move by less than 0.01 `d_max` in the step. Both halve with the step size, so the smaller that is,
+    /// the earlier the test is met. In sets of a few hundred points the variance may never rest.
     Variance,
 }
 
@@ -141,7 +141,7 @@ setters!(Thesis {
 });
 
 impl Thesis {
-    /// Refuses what is out of its range.
+    /// Refuses values out of their range.
     ///
     /// # Errors
     /// [`Error::InvalidArgument`] with the name of the field.
@@ -177,7 +177,7 @@ pub struct ThesisRelaxation {
     /// The user's index of each particle.
     order: Vec<u32>,
     particles: Vec<Particle>,
-    /// The thesis's test, if that is what ends the steps.
+    /// The thesis's test, if it is the one that ends the steps.
     variance: Option<Variance>,
 }
 

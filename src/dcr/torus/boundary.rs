@@ -8,9 +8,9 @@
 //! * A point's own image pushes only to keep the two from meeting.
 //! * So points are nearer to the boundary, on disks that are partly outside. A density that is constant for the long
 //!   waves (`torus/waves.rs`) would leave them too sparse: the density wanted at the boundary is a little higher.
-//! * In the last steps only the constraints move the points along the boundary. A point too many there is one too many
-//!   in its image as well: waves push it and its neighbours apart by 0.05 to 0.1 spacings, constraints need five steps
-//!   to move them back, and this repeats. Two points were left in conflict in three of a hundred sets of 1,000.
+//! * In the last steps only the constraints move the points along the boundary. A surplus point there is a surplus in
+//!   its image as well: waves push it and its neighbours apart by 0.05 to 0.1 spacings, constraints need five steps to
+//!   move them back, and this repeats. Two points were left in conflict in three of a hundred sets of 1,000.
 
 use glam::Vec2;
 
@@ -32,7 +32,7 @@ const EXCESS_OF_NEAREST: f64 = 0.13;
 /// removed in the last steps.
 const STRIP: f32 = 4.0;
 
-/// The boundary of a domain that is on a torus beside its mirror images.
+/// The boundary of a domain that is on a torus together with its mirror images.
 #[derive(Clone, Copy)]
 pub struct MirrorBoundary {
     torus: Torus,
@@ -50,7 +50,7 @@ impl MirrorBoundary {
         Self::force_by_images(constraints, self.torus.own_images(place), sum)
     }
 
-    /// The same, given the offsets to its own images.
+    /// The force on a point, given the offsets to its own images.
     pub fn force_by_images(constraints: &Constraints, images: [Vec2; 2], sum: Vec2) -> Vec2 {
         let meeting = Constraints { conflict_radius: MEETING, ..*constraints };
         let mut force = sum;
@@ -79,14 +79,14 @@ impl MirrorBoundary {
         }
     }
 
-    /// The Fourier sum of the excess points for so many waves along the axes of the torus. They are spread evenly over
-    /// the boundary and those of the images: along each axis on two lines, at 0 and at half the period.
+    /// The Fourier sum of the excess points for these numbers of waves along the axes of the torus. They are spread
+    /// evenly over the boundary and those of the images: along each axis on two lines, at 0 and at half the period.
     pub fn wave(&self, turns: [i64; 2]) -> f64 {
         let size = self.torus.frame.size();
         let excess = self.excess();
         let lines = |axis: usize| {
             let is_constant_along = turns[1 - axis] == 0 && turns[axis] % 2 == 0;
-            // Two lines, and on each of them the excess of both of its sides.
+            // Two lines, each with the excess of both of its sides.
             if is_constant_along { 2.0 * 2.0 * excess * size[1 - axis] } else { 0.0 }
         };
         lines(0) + lines(1)

@@ -2,8 +2,8 @@
 //!
 //! A coordinate is a `u32` that counts 2^-32 of a period, so the difference of two points, taken as `i32`, is the
 //! shortest offset between them, and the seam of the torus needs no code. A bounded domain becomes a torus of twice its
-//! width and height, on which its three mirror images stand beside it (thesis Fig. 4.12 (b)): whatever treats a point
-//! and its images alike keeps the mirrors where they are, and with them the boundary.
+//! width and height, on which its three mirror images stand beside it (thesis Fig. 4.12 (b)): any operation that treats
+//! a point and its images alike preserves the mirrors, and with them the boundary.
 
 mod boundary;
 mod waves;
@@ -24,9 +24,9 @@ use crate::rng::{Draw, Rng};
 /// A point on the torus, in 2^-32 of the periods.
 pub type TorusPoint = [u32; 2];
 
-/// Half a period: the far boundary of a domain that is mirrored.
+/// Half a period: the far boundary of a mirrored domain.
 pub const HALF: u32 = 1 << 31;
-/// A whole one.
+/// A whole period.
 pub const TURN: f64 = (1u64 << 32) as f64;
 
 /// Points of a bounded domain keep this distance from its boundary, so that none meets its mirror image.
@@ -56,7 +56,7 @@ pub struct Torus {
     pub frame: Frame,
     /// The length of 2^-32 of each period.
     unit: DVec2,
-    /// The number of them in a spacing.
+    /// The number of these units in a spacing.
     per_spacing: Vec2,
 }
 
@@ -112,7 +112,7 @@ impl Torus {
 
     /// The point of the domain at a position of the torus, or the one that it is the image of.
     pub fn place(&self, position: DVec2) -> TorusPoint {
-        // What rounds up to a whole period wraps to 0.
+        // A position that rounds up to a whole period wraps to 0.
         let fractions = (position / self.unit).round().to_array().map(|x| x as i64 as u32);
         self.inside(fractions)
     }
@@ -167,13 +167,13 @@ impl Torus {
         [[x.wrapping_neg(), y], [x, y.wrapping_neg()]].map(|image| self.offset_f32(place, image))
     }
 
-    /// The positions of points, nudged by so little that it changes one thing only: where four are on one circle, as
-    /// points and their mirror images are, all copies of them agree on the diagonal that is an edge.
+    /// The positions of points, nudged so little that the only effect is this: where four are on one circle, as points
+    /// and their mirror images are, all copies of them agree on the diagonal that is an edge.
     pub fn nudged(&self, places: &[TorusPoint]) -> Vec<DVec2> {
         (0..).zip(places).map(|(point, &place)| self.position(place) + nudge(point)).collect()
     }
 
-    /// The length of 2^-32 of each period, and the longest edges whose double is unambiguous: a quarter of each.
+    /// The length of 2^-32 of each period, and the longest edges whose double is unambiguous: a quarter of each period.
     pub fn unit_and_longest(&self) -> (Vec2, [f32; 2]) {
         let unit = self.unit.as_vec2();
         (unit, (unit * LONGEST).to_array())
@@ -252,7 +252,7 @@ impl CurveOrder {
     }
 
     /// The points, which are now at `places`, in the user's order; `points` are those with which the set began. Points
-    /// that have not moved are returned as they came.
+    /// that have not moved are returned unchanged.
     pub fn leave(&self, torus: &Torus, places: &[TorusPoint], points: &[[f32; 2]]) -> Vec<[f32; 2]> {
         let mut relaxed = points.to_vec();
         for ((&point, &start), &place) in self.order.iter().zip(&self.start).zip(places) {
@@ -274,7 +274,7 @@ fn order_along_curve(places: &[TorusPoint]) -> Vec<u32> {
     sorted(places.iter().map(|&place| morton2(place))).into_iter().map(|(_, i)| i).collect()
 }
 
-// When an edge of a triangulation of the torus must be flipped.
+// The test for edges of a triangulation of the torus that must be flipped.
 //
 // As long as no triangle turns over, a triangulation of moving points stays one, and flipping the edges that are not
 // locally Delaunay, in any order, makes it the Delaunay triangulation again (Lawson 1977). No exact predicates are
@@ -284,8 +284,8 @@ fn order_along_curve(places: &[TorusPoint]) -> Vec<u32> {
 /// The sum of two cotangents that counts as negative: below the rounding of `f64`, flips could go on for ever.
 const NEGATIVE: f64 = -1e-7;
 
-/// True if the angles that face the edge from `p` to `q`, at `r` and at `s`, sum up to more than 180 degrees: the sum of
-/// their cotangents is negative.
+/// True if the angles that face the edge from `p` to `q`, at `r` and at `s`, sum up to more than 180 degrees: the sum
+/// of their cotangents is negative.
 pub fn must_flip(torus: &Torus, [p, q, r, s]: [TorusPoint; 4]) -> bool {
     let angle = |apex: TorusPoint, from: TorusPoint, to: TorusPoint| -> [f64; 2] {
         let (from, to): (DVec2, DVec2) = (torus.offset(apex, from), torus.offset(apex, to));
@@ -303,7 +303,8 @@ pub enum Neighbours<Mesh> {
     Built(Delaunay),
 }
 
-/// Sets for the tests of meshes that are kept: random ones, random moves as far as a mesh allows, and sets without a mesh.
+/// Sets for the tests of meshes that are kept: random ones, random moves as far as a mesh allows, and sets without a
+/// mesh.
 #[cfg(test)]
 pub mod random_sets {
     use glam::Vec2;
@@ -321,8 +322,8 @@ pub mod random_sets {
         (torus, places)
     }
 
-    /// Moves the first `count` points as far as their triangles allow, and their images with them. `offsets` gives those of
-    /// the neighbours of a point, counter-clockwise.
+    /// Moves the first `count` points as far as their triangles allow, and their images with them. `offsets` gives
+    /// those of the neighbours of a point, counter-clockwise.
     pub fn wander(
         torus: &Torus,
         places: &mut Vec<TorusPoint>,
@@ -343,7 +344,7 @@ pub mod random_sets {
         *places = torus.with_images(&points);
     }
 
-    /// Sets of the unit torus, and whether they have a mesh: a few points, a set with a large hole, and one without.
+    /// Sets of the unit torus, each with true if it has a mesh: a few points, a set with a large hole, and one without.
     pub fn with_and_without_mesh() -> [(Torus, Vec<TorusPoint>, bool); 3] {
         let mut rng = Rng::at(4, Draw::Probe, &[]);
         [(5, 1.0, false), (500, 0.5, false), (500, 1.0, true)].map(|(count, part, has_mesh)| {

@@ -1,7 +1,7 @@
 //! Removes long waves of the density.
 //!
-//! Constraints between neighbours do not see that a wide region is slightly denser than another, which is why no force
-//! that depends on distances alone clears the low frequencies. Here the density is drawn on a grid, and the
+//! Constraints between neighbours cannot detect that a wide region is slightly denser than another, which is why no
+//! force that depends on distances alone clears the low frequencies. Here the density is drawn on a grid, and the
 //! displacement `u` whose divergence is its relative excess `δ` is found by Fourier transform, `u = -i k δ / k²`, as
 //! particle-mesh codes find gravity (Hockney and Eastwood 1981). To first order, points that follow it have a constant
 //! density.
@@ -28,10 +28,10 @@ const CELL: f64 = 0.9;
 /// Waves above this frequency, in units of the highest, would be removed by less than rounding.
 const CUTOFF: f64 = 2.4;
 
-/// The number of grids on which points are drawn at the same time.
+/// The number of grids on which points are drawn concurrently.
 const LAYERS: usize = 4;
 
-/// Numbers at the nodes of the grid, row by row.
+/// The numbers at the nodes of the grid, row by row.
 pub type Field = Vec<Complex<f32>>;
 
 /// The grid of a torus.
@@ -41,7 +41,7 @@ pub struct WaveGrid {
     boundary: Option<MirrorBoundary>,
     /// Columns and rows.
     cells: [usize; 2],
-    /// Along rows and along columns, forward and back.
+    /// The transforms along rows and along columns, forward and back.
     forward: [Arc<dyn Fft<f32>>; 2],
     back: [Arc<dyn Fft<f32>>; 2],
 }
@@ -52,8 +52,8 @@ impl WaveGrid {
         Self { boundary, ..Self::of_spacing(torus, count, 1.0) }
     }
 
-    /// The grid for points at a distance of `spacing`, in spacings of the torus; on a strip that is thinner than that it
-    /// has no more columns than `count` points need.
+    /// The grid for points at a distance of `spacing`, in spacings of the torus; on a strip that is thinner than that
+    /// it has no more columns than `count` points need.
     pub fn of_spacing(torus: &Torus, count: usize, spacing: f64) -> Self {
         let limit = (count + 8) as f64 / spacing;
         let along = |length: f64| smooth((length / (CELL * spacing)).ceil().min(limit) as usize);
@@ -187,8 +187,8 @@ impl WaveGrid {
         Ok(())
     }
 
-    /// The highest wave number that the grid has in all directions: removing waves up to the corners of the square would
-    /// leave a square in the spectrum.
+    /// The highest wave number that the grid has in all directions: removing waves up to the corners of the square
+    /// would leave a square in the spectrum.
     fn finest(&self) -> f64 {
         let size = self.torus.frame.size().to_array();
         let along = |axis: usize| PI * self.cells[axis] as f64 / size[axis];
@@ -208,7 +208,7 @@ impl WaveGrid {
     }
 }
 
-/// Waves along an axis.
+/// A bin of waves along an axis.
 struct Bin {
     /// Waves per period.
     turns: i64,
@@ -218,8 +218,8 @@ struct Bin {
     spline: f64,
 }
 
-/// The remainder of numbers most of which are less than twice the divisor: a division would take longer than all else
-/// that is done for a node.
+/// The remainder of numbers most of which are less than twice the divisor: a division would take longer than all other
+/// work for a node.
 fn wrapped(number: usize, count: usize) -> usize {
     match number.checked_sub(count) {
         None => number,
@@ -265,13 +265,13 @@ fn transpose(job: &Job, field: &Field, transposed: &mut Field, width: usize) -> 
 // Levels sets that are clustered: crowded in some places and empty in others.
 //
 // In a step a point moves by half a spacing at most, less in a crowd, and where holes are as wide as the domain no
-// triangulation can be kept: from a corner, a line or a single place, forces lead nowhere in a hundred steps. So before
-// the first step such sets are spread by the displacement `u` that removes long waves, pass after pass.
-// That is of first order in the excess; `2 / (1 + √ρ)` times `u`, where the density is `ρ` times the mean, turns a disk
-// of whatever density into one of density 1 in one pass: its radius `r` becomes `r + u = (1 + ρ) r / 2` by `u` alone,
-// but it should be `√ρ r`. Clusters of other shapes become lower.
+// triangulation can be kept: from a corner, a line or a single place, forces do not spread a set in a hundred steps. So
+// before the first step such sets are spread by the displacement `u` that removes long waves, pass after pass. That is
+// of first order in the excess; `2 / (1 + √ρ)` times `u`, where the density is `ρ` times the mean, turns a disk of any
+// density into one of density 1 in one pass: its radius `r` becomes `r + u = (1 + ρ) r / 2` by `u` alone, but it should
+// be `√ρ r`. Clusters of other shapes become lower.
 
-/// The limits of what forces can even out.
+/// The limits up to which forces can even out a set.
 pub struct Bounds {
     /// The longest displacement of a point, in spacings, or in cells of the grid if these are wider.
     farthest: f32,
@@ -279,16 +279,16 @@ pub struct Bounds {
     densest: f32,
 }
 
-/// Sets beyond these bounds are clustered. A million uniform random points are moved by 3.3 and have a density of 3.6; only
-/// on domains that are very long for their width they may be moved farther.
+/// Sets beyond these bounds are clustered. A million uniform random points are moved by 3.3 and have a density of 3.6;
+/// only on domains that are very long for their width they may be moved farther.
 pub const CLUSTERED: Bounds = Bounds { farthest: 4.0, densest: 5.0 };
 
 /// Clustered sets are levelled until they are within these bounds: from there they need no more time than random sets.
 pub const LEVEL: Bounds = Bounds { farthest: 0.75, densest: 2.0 };
 
-/// A set is also clustered if so many points that follow each other on the curve are within [`CROWDED`] spacings: too small
-/// a cluster for the grid to show, but forces would not get such points apart. Coincident points, once they are parted, are
-/// that close. In a million random points there is no crowd, but for one set in a thousand.
+/// A set is also clustered if this many points that follow each other on the curve are within [`CROWDED`] spacings: too
+/// small a cluster for the grid to show, but forces would not separate such points. Coincident points, once they are
+/// parted, are that close. A million random points have no crowd, except for one set in a thousand.
 const CROWD: usize = 3;
 const CROWDED: f32 = 0.004;
 
@@ -399,7 +399,7 @@ mod tests {
         }
     }
 
-    /// The start of so many points, whose places are made from random numbers, and what levels them.
+    /// The start of so many points, whose places are made from random numbers, and the levelling of them.
     fn leveled_points(
         boundary: Boundary,
         max: [f64; 2],
@@ -428,7 +428,7 @@ mod tests {
         }
     }
 
-    /// Each cell of a coarse grid gets its share.
+    /// Each cell of a coarse grid gets its share of the points.
     #[test]
     fn clusters_are_levelled() {
         type Start = fn(usize, [f64; 2]) -> [f64; 2];

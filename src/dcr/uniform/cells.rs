@@ -22,7 +22,7 @@ const SKIN: f32 = 0.2;
 /// The number of points that are processed at a time.
 pub const LANES: usize = 8;
 
-/// The least square of a distance, so that even that of a point from itself has a finite inverse.
+/// The least square of a distance, so that even a point's distance from itself has a finite inverse.
 pub const LEAST: f32 = f32::MIN_POSITIVE;
 
 /// The number of cells along a row that the forces on a point reach on either side of its own.
@@ -36,7 +36,7 @@ const NEAR: usize = 3;
 pub struct VerletCells {
     torus: Torus,
     rows: usize,
-    /// Cells from one row to the next, and those of a run.
+    /// The number of cells from one row to the next, and of a run.
     stride: usize,
     width: usize,
     /// The reach of the forces, in spacings.
@@ -47,7 +47,7 @@ pub struct VerletCells {
     runs: Vec<u32>,
     /// The points by cells.
     points: Binned<u32>,
-    /// Their coordinates, and some more to fill the lanes.
+    /// The coordinates of the points, padded to fill the lanes.
     x: Vec<u32>,
     y: Vec<u32>,
 }
@@ -142,7 +142,7 @@ impl VerletCells {
                     let x = xs[i].wrapping_sub(here[0]).cast_signed() as f32 * unit.x;
                     let y = ys[i].wrapping_sub(here[1]).cast_signed() as f32 * unit.y;
                     let distance = (x * x + y * y).max(LEAST).sqrt();
-                    // Without conflict it is 0; and so is the offset of a point from itself.
+                    // Without conflict the factor is 0; the offset of a point from itself is 0 too.
                     let pushed = constraints.conflict(distance).min(0.0);
                     sum[0][i] += pushed * x;
                     sum[1][i] += pushed * y;

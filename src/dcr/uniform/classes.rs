@@ -28,8 +28,8 @@ use crate::job::{Context, Job, Progress, chunks};
 use crate::points::Domain;
 use crate::simd::Level;
 
-/// The shares of the forces and waves of the union and of the classes. With more for the classes they get better by as
-/// much as the union gets worse.
+/// The shares of the forces and waves of the union and of the classes. With larger shares for the classes, these
+/// improve by as much as the union gets worse.
 const OF_UNION: f32 = 0.65;
 const OF_CLASS: f32 = 1.0 - OF_UNION;
 
@@ -51,7 +51,7 @@ struct Subset {
     mesh: Option<FlipMesh>,
     /// The edges of the mesh that may have to be flipped after the last step.
     suspects: Vec<Edge>,
-    /// The spacing, in those of the union.
+    /// The spacing, in units of that of the union.
     spacing: f32,
     /// The share of its forces in the displacement of a point.
     weight: f32,
@@ -105,7 +105,7 @@ impl Subset {
         }
     }
 
-    /// Takes the places of the members from those of all points.
+    /// Updates the places of the members from those of all points.
     fn follow(&mut self, places: &[TorusPoint]) {
         let own: Vec<TorusPoint> = self.members.iter().map(|&point| places[point as usize]).collect();
         self.places = self.torus.with_images(&own);
@@ -160,7 +160,7 @@ impl Subset {
         Ok(all)
     }
 
-    /// The same by a triangulation for this step.
+    /// The same forces by a triangulation for this step.
     fn gather_anew(&self, job: &Job, constraints: &Constraints) -> Result<Gathering> {
         let delaunay = self.triangulate(job)?;
         let mut ring = Vec::new();
@@ -202,7 +202,7 @@ impl ClassRelaxation {
         }
     }
 
-    /// Levels some of the subsets, if they are clustered, one by one.
+    /// Levels those subsets that are clustered, one by one.
     fn level(&mut self, job: &Job, subsets: Range<usize>) -> Result<()> {
         let (mut places, mut is_clustered) = (self.places.clone(), false);
         for (part, i) in subsets.clone().enumerate() {
@@ -343,18 +343,19 @@ pub struct ClassReport {
     pub coverage: f64,
 }
 
-/// Relaxes points of several classes: spread more evenly are the union of all, and each class by itself. Returns as many
-/// points, in the same order, the report of the union, and one for each class up to the highest.
+/// Relaxes points of several classes: spread more evenly are the union of all, and each class by itself. Returns as
+/// many points, in the same order, the report of the union, and one for each class up to the highest.
 ///
-/// `classes` has the class of each point, below [`Classes::MOST`]; they may be of any number and density, as in sets of
-/// [`kdrt`](crate::kdrt::Options::classes). They cannot all be as even as the set of a single class: a good lattice does
-/// not divide into good lattices. From maximal sets of 2 to 7 classes of a periodic domain, rho ends
-/// above 0.7 and the coverage below 0.82, those of the union and those of each class; before, some classes cover 1 or
-/// more. Where the points of a class are crowded in some places and missing in others it is levelled before the first
-/// step. No distance between points of two classes is promised.
+/// `classes` has the class of each point, below [`Classes::MOST`]; they may be of any number and density, as in sets
+/// of [`kdrt`](crate::kdrt::Options::classes). They cannot all be as even as the set of a single class: a good
+/// lattice does not divide into good lattices. From maximal sets of 2 to 7 classes of a periodic domain, rho ends above
+/// 0.7 and the coverage below 0.82, those of the union and those of each class; before, some classes cover 1 or more.
+/// Where the points of a class are crowded in some places and missing in others it is levelled before the first step.
+/// No distance between points of two classes is promised.
 ///
-/// Always the momentum method with Delaunay neighbours. The set after the last whole step is returned; it converges if its
-/// motion ends, which it mostly does not within 100 steps. The points are the same for every number of threads.
+/// The method is always momentum with Delaunay neighbours. The set after the last whole step is returned; it converges
+/// if its motion ends, which mostly does not happen within 100 steps. The points are the same for every number of
+/// threads.
 ///
 /// About 2.5 times the time of [`relax`](fn@crate::dcr::relax) and its memory.
 ///

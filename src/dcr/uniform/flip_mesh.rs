@@ -1,8 +1,8 @@
 //! The Delaunay triangulation of a torus, kept while its points move and repaired by flips (`torus::must_flip`), in
 //! rings.
 //!
-//! The forces hold points back so that no triangle turns over; if one does all the same, the mesh says so and must be
-//! built anew. The edges that may have to be flipped are found while points gather, so that flips need no pass over the
+//! The forces hold points back so that no triangle turns over; if one does nevertheless, the mesh reports it and must
+//! be rebuilt. The edges that may have to be flipped are found while points gather, so that flips need no pass over the
 //! whole mesh: see [`FlipMesh::mend`].
 
 use std::ops::Range;
@@ -112,7 +112,7 @@ impl FlipMesh {
         Ok(!found.is_unsound && self.mend(&job.part(0.5, 1.0), places, found.suspects)?)
     }
 
-    /// The number of the first `count` points whose constraints are violated.
+    /// The number of points, of the first `count`, whose constraints are violated.
     pub fn violated(&self, job: &Job, places: &[TorusPoint], count: usize) -> Result<usize> {
         Ok(self.inspect(job, places, count)?.violated)
     }
@@ -136,11 +136,11 @@ impl FlipMesh {
         Ok(all)
     }
 
-    /// Flips edges that must be, and those around them, until all are locally Delaunay; false if one could not be
-    /// flipped.
+    /// Flips edges that must be flipped, and those around them, until all are locally Delaunay; false if one could not
+    /// be flipped.
     ///
-    /// `suspects` are those of before the points moved, ordered by the points at which they start. An edge that was not
-    /// suspect then and must be flipped now is left for the next step.
+    /// `suspects` are the edges suspect before the points moved, ordered by the points at which they start. An edge
+    /// that was not suspect then but must be flipped now is left for the next step.
     pub fn mend(&mut self, job: &Job, places: &[TorusPoint], suspects: Vec<Edge>) -> Result<bool> {
         let torus = self.torus;
         let mut rest = suspects.as_slice();
@@ -181,7 +181,7 @@ impl FlipMesh {
     }
 }
 
-/// Flips the edges that must be, and those around them, if their points are in the patch.
+/// Flips the edges that must be flipped, and those around them, if their points are in the patch.
 fn mend(patch: &mut Patch, torus: &Torus, places: &[TorusPoint], mut edges: Vec<Edge>) -> Mended {
     let mut left = Vec::new();
     while let Some(edge) = edges.pop() {
@@ -227,7 +227,7 @@ const MOST: usize = 64;
 /// Rings of some points, in no order: the form in which a mesh is built.
 #[derive(Default)]
 pub struct RingList {
-    /// The points, and where their rings end in `neighbours`.
+    /// The points, and the ends of their rings in `neighbours`.
     pub points: Vec<(u32, usize)>,
     pub neighbours: Vec<u32>,
 }
@@ -237,7 +237,7 @@ pub struct Rings {
     /// The number of neighbours that a point can have.
     slots: usize,
     degrees: Vec<u8>,
-    /// Those of point `p` from `slots · p` on. Slots after the last neighbour hold any point.
+    /// The neighbours of point `p` from `slots · p` on. Slots after the last neighbour hold an arbitrary point.
     neighbours: Vec<u32>,
 }
 
@@ -254,7 +254,7 @@ pub struct Patch<'a> {
 pub struct Impossible;
 
 impl Rings {
-    /// The rings of `count` points; none if a point has less than three neighbours, or more than there are slots.
+    /// The rings of `count` points; none if a point has fewer than three neighbours, or more than there are slots.
     pub fn new(count: usize, stars: &[RingList]) -> Option<Self> {
         let rings = || {
             stars.iter().flat_map(|stars| {
@@ -364,7 +364,7 @@ impl Patch<'_> {
         Ok(())
     }
 
-    /// Takes `other` out of a ring.
+    /// Removes `other` from a ring.
     fn remove(&mut self, point: u32, other: u32) {
         let index = (point - self.first) as usize;
         let degree = usize::from(self.degrees[index]);
@@ -374,7 +374,7 @@ impl Patch<'_> {
         self.degrees[index] -= 1;
     }
 
-    /// Puts `other` into a ring, after `before`.
+    /// Inserts `other` into a ring, after `before`.
     fn insert(&mut self, point: u32, other: u32, before: u32) {
         let index = (point - self.first) as usize;
         let degree = usize::from(self.degrees[index]);
@@ -389,8 +389,8 @@ impl Patch<'_> {
 // The first triangulation of large sets, tile by tile.
 //
 // Each tile of the torus is triangulated with the points in a margin around it. The star of a point is that of the
-// whole set if the circumcircles of its triangles lie where all points are known; if one does not, there is no result,
-// and the set must be triangulated as a whole.
+// whole set if the circumcircles of its triangles lie where all points are known; otherwise there is no result, and the
+// set must be triangulated as a whole.
 
 /// The least number of points of a tile on average; it can be four times as high.
 const POINTS: usize = 2000;
@@ -401,7 +401,7 @@ const MARGIN: f64 = 4.0;
 /// A point in a tile or its margin.
 #[derive(Clone, Copy)]
 struct Vertex {
-    /// From the lower corner of the tile, in spacings.
+    /// The offset from the lower corner of the tile, in spacings.
     position: DVec2,
     point: u32,
     is_inside: bool,
@@ -429,7 +429,7 @@ struct Tiles<'a> {
 pub fn triangulate_by_tiles(job: &Job, torus: &Torus, places: &[TorusPoint]) -> Result<Option<Vec<RingList>>> {
     let level = (places.len() / POINTS).max(1).ilog2() / 2;
     let narrow = torus.frame.size().min_element() / f64::from(1u32 << level) < 2.0 * MARGIN;
-    // With three tiles along an axis, those on both sides of one are different.
+    // With at least three tiles along an axis, those on both sides of one differ.
     if level < 2 || narrow {
         return Ok(None);
     }
@@ -594,7 +594,8 @@ mod tests {
             .collect()
     }
 
-    /// Points wander; after every repair the mesh is a torus, locally Delaunay, and what spade builds from nothing.
+    /// Points wander; after every repair the mesh is a torus, locally Delaunay, and the one that spade builds from
+    /// scratch.
     #[test]
     fn repaired_meshes_are_those_that_are_built_anew() {
         let context = Context::new(1).unwrap();
@@ -615,7 +616,8 @@ mod tests {
                         assert!((0..places.len()).all(|point| mesh.rings.agree(point)));
                         assert!(is_delaunay(&mut mesh, &places));
                         let (built, coverage) = anew(job, &torus, &places);
-                        // The corners of a mirrored rectangle lie on one circle: there spade may take the other diagonal.
+                        // The corners of a mirrored rectangle lie on one circle: there spade may take the other
+                        // diagonal.
                         if boundary == Boundary::Periodic {
                             assert!(rings(&mesh) == rings(&built));
                         }
@@ -646,7 +648,8 @@ mod tests {
         })
     }
 
-    /// Tile by tile, and with flips patch by patch, meshes are the same as those of all points at once, for any threads.
+    /// Tile by tile, and with flips patch by patch, meshes are the same as those of all points at once, for any number
+    /// of threads.
     #[test]
     fn meshes_are_the_same_by_tiles_and_by_threads() {
         let (torus, mut places) = random_places(Boundary::Periodic, 1.0, 50_000);
@@ -664,12 +667,12 @@ mod tests {
         assert!(before != rings(&whole) && mesh_slots(&alone) == mesh_slots(&together));
     }
 
-    /// The slots as they are: the threads must not even turn a ring.
+    /// The slots unchanged: the threads must not even rotate a ring.
     fn mesh_slots(mesh: &FlipMesh) -> Vec<Vec<u32>> {
         (0..mesh.rings.len()).map(|point| mesh.rings.ring(point).to_vec()).collect()
     }
 
-    /// Records what points gather.
+    /// Records the results of gathers.
     #[derive(Default)]
     struct Record {
         forces: Vec<(Vec2, f32)>,

@@ -1,7 +1,7 @@
 //! The momentum method at a constant density: push, pull, and long waves removed.
 //!
 //! It keeps from the thesis: neighbours in conflict repel each other, neighbourhoods are Delaunay stars or nearest
-//! points, all points move at once by the forces that they gather. What is newer, or measured here:
+//! points, all points move at once by the forces that they gather. Newer, or measured here:
 //!
 //! * holes attract, not long edges (`law.rs`);
 //! * points have momentum instead of activeness: alternating forces cancel out, steady ones add up;
@@ -53,8 +53,8 @@ pub const WAVES_EVERY: u32 = 5;
 /// waves than low frequencies: it fills holes that the constraints do not see, with nearest neighbours in all steps.
 const FINE_WAVES: f64 = 0.55;
 
-/// The steps during which that falls to [`LONG_WAVES`]: in the end fine waves are due to the constraints, which
-/// removing them would disturb.
+/// The number of steps during which this frequency falls to [`LONG_WAVES`]: in the end fine waves are due to the
+/// constraints, which removing them would disturb.
 const COARSENING: Range<u32> = 60..85;
 
 /// The number of steps from one kick to the next, and the step of the last. Points whose constraints are violated are
@@ -62,11 +62,11 @@ const COARSENING: Range<u32> = 60..85;
 pub const KICK_EVERY: u32 = 8;
 pub const LAST_KICK: u32 = 56;
 
-/// The first kick that frees jammed points, after which the mesh is made anew. Until then most get free by themselves.
+/// The first kick that frees jammed points, after which the mesh is rebuilt. Until then most become free by themselves.
 pub const FIRST_FREE: u32 = 24;
 
-/// The fraction of the points above which violations are not exceptions: only jammed points are kicked, and waves act at
-/// the boundary too.
+/// The fraction of the points above which violations are not exceptions: only jammed points are kicked, and waves act
+/// at the boundary too.
 const FEW: f64 = 0.04;
 
 /// The points, their velocities, and the search for their neighbours.
@@ -87,7 +87,7 @@ pub struct UniformRelaxation {
     fewest: usize,
     /// The number of points whose constraints were violated before the last step.
     violated: usize,
-    /// The mesh of the points, once there is one.
+    /// The mesh of the points, once it exists.
     mesh: Option<FlipMesh>,
     /// The edges of the mesh that may have to be flipped after the last step.
     suspects: Vec<Edge>,
@@ -151,7 +151,7 @@ impl UniformRelaxation {
         }
     }
 
-    /// Takes the next state, and keeps the one before if no other had fewer violated constraints.
+    /// Proceeds to the next state, and keeps the one before if no other had fewer violated constraints.
     fn keep(&mut self, next: State, violated: Option<usize>) {
         self.next = std::mem::replace(&mut self.state, next);
         self.violated = violated.unwrap_or(usize::MAX);
@@ -181,7 +181,7 @@ impl UniformRelaxation {
     }
 }
 
-/// The frequency up to which waves are removed after so many steps.
+/// The frequency up to which waves are removed after a number of steps.
 pub fn highest_wave(iterations: u32) -> f64 {
     let done = iterations.clamp(COARSENING.start, COARSENING.end) - COARSENING.start;
     let share = f64::from(done) / f64::from(COARSENING.end - COARSENING.start);
@@ -305,8 +305,8 @@ impl PlaneRelaxation for UniformRelaxation {
     }
 }
 
-/// The clearance, in spacings, below which a point in conflict is jammed: several such points all but on a line keep each
-/// other in flat triangles, in which none of them gets anywhere.
+/// The clearance, in spacings, below which a point in conflict is jammed: several such points almost on a line keep
+/// each other in flat triangles, in which none of them can move far.
 pub const JAMMED: f32 = 0.02;
 
 /// Finds the neighbours of each point.
@@ -340,7 +340,7 @@ pub struct Step<'a> {
     pub constraints: Constraints,
     /// The displacement of each point by the waves; empty if there is none.
     pub drift: &'a [Vec2],
-    /// None if this step has none.
+    /// None if this step has no kick.
     pub kick: Option<Kick>,
 }
 
@@ -365,14 +365,14 @@ pub fn kick(number: u32, point: usize) -> Vec2 {
     KICK * direction(std::f64::consts::TAU * rng.unit()).as_vec2()
 }
 
-/// The findings while points gathered.
+/// The results of a gather.
 #[derive(Default)]
 pub struct Findings {
     /// The edges that may have to be flipped, in the order of the points.
     pub suspects: Vec<Edge>,
     /// True if a triangle had turned over.
     pub is_unsound: bool,
-    /// The number of points whose constraints were violated before the step; of points in no mesh it is not known.
+    /// The number of points whose constraints were violated before the step; not known for points in no mesh.
     pub violated: usize,
     /// True if jammed points were moved, over which triangles may have turned over.
     pub is_torn: bool,
@@ -505,7 +505,7 @@ impl Visitor for Gathering<'_> {
     }
 }
 
-/// All points and images in parts.
+/// All points and images, in parts.
 fn parts(count: usize, next: &mut State) -> Vec<Part<'_>> {
     let (own, images) = (chunks(count), chunks(next.places.len() - count));
     let places = next.places[..count].chunks_mut(own.size());

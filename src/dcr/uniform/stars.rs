@@ -35,12 +35,11 @@ pub struct Gathered {
     is_sound: [u32; LANES],
     /// 1 if a neighbour, not counting own images, is too close or a triangle too wide, else 0.
     is_violated: [u32; LANES],
-    /// Bit `k` says whether the edge to the neighbour before the `k`-th is suspect, the last bit whether one of the
-    /// others is.
+    /// Bit `k` is set if the edge to the neighbour before the `k`-th is suspect, the last bit if one of the others is.
     suspects: [u32; LANES],
 }
 
-/// Receives what points gather.
+/// Receives the results of gathers.
 pub trait Visitor {
     /// Visits up to eight consecutive points, the first in the first lane.
     fn visit(&mut self, rings: &Rings, points: Range<usize>, gathered: &Gathered);
@@ -53,13 +52,13 @@ impl Gathered {
         self.is_sound[..count].iter().all(|&is| is != 0)
     }
 
-    /// Those of the first `count` lanes in which constraints are violated.
+    /// The lanes, of the first `count`, in which constraints are violated.
     #[inline(always)]
     pub fn violated(&self, count: usize) -> impl Iterator<Item = usize> {
         (0..count).filter(|&lane| self.is_violated[lane] != 0)
     }
 
-    /// Adds the suspect edges of `points` to others of higher index, so that each edge is named by one of its ends.
+    /// Adds the suspect edges of `points` to others of higher index, so that each edge is listed by one of its ends.
     #[inline(always)]
     pub fn suspects(&self, rings: &Rings, points: Range<usize>, suspects: &mut Vec<[u32; 2]>) {
         for (point, &mask) in points.zip(&self.suspects).filter(|&(_, &mask)| mask != 0) {
@@ -72,7 +71,7 @@ impl Gathered {
     }
 }
 
-/// The sums of eight points over the triangles up to the last one.
+/// The sums of eight points over the triangles so far.
 struct Accumulator<'a> {
     constraints: &'a Constraints,
     /// The longest edges along the axes, in spacings.
@@ -187,7 +186,7 @@ impl<'a> Accumulator<'a> {
         }
     }
 
-    /// Goes on to the next neighbours without gathering.
+    /// Proceeds to the next neighbours without gathering.
     #[inline(always)]
     fn skip(&mut self, [x, y]: [Lanes; 2]) {
         for i in 0..LANES {

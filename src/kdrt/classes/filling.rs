@@ -1,9 +1,9 @@
-//! The filling of a rectangle with samples of several classes at once: darts at what each class has left, and cuts of
-//! it until nothing is left, as in the flat quadtree (`plane/quadtree.rs`).
+//! The filling of a rectangle with samples of several classes at once: darts at the uncovered voxels of each class,
+//! which are cut until none is left, as in the flat quadtree (`plane/quadtree.rs`).
 //!
-//! A class has *exclusion disks*: what the samples of any class, and given samples, keep from its own samples. They have all
-//! radii, so no grid of cells of one sample each can find them. Instead the rectangle is cut into cells, and each cell
-//! knows for each class the disks that meet it, or that one covers it.
+//! A class has *exclusion disks*: those in which samples of any class, and given samples, allow none of its own. They
+//! have all radii, so no grid of cells of one sample each can find them. Instead the rectangle is cut into cells, and
+//! each cell knows for each class the disks that meet it, or that one covers it.
 //!
 //! # Exactness
 //! The centre of a sample's disk is a lattice point and its squared radius an integer below 2^53. Squared distances
@@ -16,7 +16,7 @@ use crate::plane::rect::Rect;
 use crate::plane::{Disk, darts};
 use crate::rng::Rng;
 
-/// Cells of a row that a word has a bit for.
+/// The number of cells of a row that a word has bits for.
 const BITS: usize = u64::BITS as usize;
 
 /// A disk in which a class has no sample: the points nearer to a place than a radius.
@@ -39,7 +39,7 @@ impl ExclusionDisk {
         Self { centre: disk.centre, square: disk.radius * disk.radius, radius: disk.radius }
     }
 
-    /// Whether a lattice point lies in it.
+    /// True if a lattice point lies in the disk.
     #[inline(always)]
     fn holds(&self, [x, y]: [f64; 2]) -> bool {
         let [dx, dy] = [x - self.centre[0], y - self.centre[1]];
@@ -50,38 +50,38 @@ impl ExclusionDisk {
 /// A cell for one class.
 #[derive(Default)]
 struct Slot {
-    /// Whether one disk covers the cell.
+    /// True if one disk covers the cell.
     is_covered: bool,
-    /// Else those that meet it.
+    /// The disks that meet the cell, if none covers it.
     disks: Vec<ExclusionDisk>,
 }
 
-/// A part of a cell that a class may have left.
+/// A part of a cell that may be uncovered for a class.
 #[derive(Clone, Copy)]
 struct Voxel {
     rect: Rect,
     slot: u32,
 }
 
-/// A rectangle that is being filled, and the memory for it and those after it.
+/// A rectangle that is being filled, and the memory, which is reused for the next.
 #[derive(Default)]
 pub struct ClassFilling {
-    /// Where the columns (axis 0) and rows (axis 1) of cells begin, and where the last ends.
+    /// The starts of the columns (axis 0) and rows (axis 1) of cells, and the end of the last.
     edges: [Vec<i32>; 2],
     /// The cells of the first class by rows, those of the next class, and so on.
     slots: Vec<Slot>,
-    /// Which of them are not covered: for each class and row of cells some words of a bit for each cell.
+    /// The slots that are not covered: for each class and row of cells, words with a bit for each cell.
     open: Vec<u64>,
-    /// How many are not covered.
+    /// The number of slots that are not covered.
     left: usize,
-    /// What the classes may have left, in squares no wider than `width`.
+    /// The parts that may be uncovered, in squares no wider than `width`.
     voxels: Vec<Voxel>,
     width: i32,
-    /// How many darts are thrown until it is cut again.
+    /// The number of darts until the voxels are cut again.
     darts: usize,
-    /// The memory of the next level's voxels.
+    /// Working memory for the next level's voxels.
     next: Vec<Voxel>,
-    /// The memory of the squared distances from a disk's centre to columns: the nearest and the farthest.
+    /// Working memory for the squared distances from a disk's centre to columns: the nearest and the farthest.
     squares: Vec<[f64; 2]>,
 }
 
@@ -111,13 +111,13 @@ impl ClassFilling {
         }
     }
 
-    /// Whether no class has anything left.
+    /// True if every class is covered.
     #[inline(always)]
     pub fn is_covered(&self) -> bool {
         self.left == 0
     }
 
-    /// About how many bytes a cell takes for each class.
+    /// The approximate number of bytes that a cell takes for each class.
     pub const BYTES_PER_CELL: f64 = 512.0;
 
     #[inline(always)]
@@ -176,12 +176,12 @@ impl ClassFilling {
         let per_point = count / (f64::from(edges[edges.len() - 1]) - first);
         let from = (disk.centre[axis] - disk.radius - first) * per_point;
         let to = (disk.centre[axis] + disk.radius - first + 1.0) * per_point;
-        // Where they are not negative a conversion rounds down; the function `floor` is a call.
+        // For numbers that are not negative a conversion rounds down; `floor` would be a function call.
         if from < count && to >= 0.0 { from as usize..to.min(count - 1.0) as usize + 1 } else { 0..0 }
     }
 
-    /// Starts to fill what the disks leave, with so many darts for each cell that is not covered before any is cut.
-    /// After that [`darts()`] says how many.
+    /// Starts to fill the part that the disks leave, with so many darts for each uncovered cell before any is cut.
+    /// After that, [`darts()`] gives their number.
     #[inline(always)]
     pub fn open(&mut self, darts: usize) {
         let [width, height] = self.counts();
@@ -197,10 +197,10 @@ impl ClassFilling {
         self.darts = darts * self.voxels.len();
     }
 
-    /// Throws darts until one lies in no disk of its class: a new sample, with the number of the class, whose disks
-    /// are to be put in before the next call. None when nothing is left.
+    /// Throws darts until one lies in no disk of its class: a new sample, with the number of the class, whose disks are
+    /// to be put in before the next call. None when everything is covered.
     ///
-    /// A dart falls on any class with the same probability for each of its lattice points that may be left.
+    /// A dart falls with the same probability on each lattice point that may be uncovered, of any class.
     #[inline(always)]
     pub fn next_sample(&mut self, rng: &mut Rng) -> Option<(usize, [i32; 2])> {
         loop {
@@ -213,7 +213,7 @@ impl ClassFilling {
         }
     }
 
-    /// [`ClassFilling::next_sample`], but also None when there are no darts left before something is cut.
+    /// [`ClassFilling::next_sample`], but also None when no darts are left before the next cut.
     #[inline(always)]
     pub fn next_before_cut(&mut self, rng: &mut Rng) -> Option<(usize, [i32; 2])> {
         while self.darts > 0 {
@@ -257,7 +257,8 @@ impl ClassFilling {
     }
 }
 
-/// The bits of a word, of those of a row, that stand for the cells from a first one to before an end. There are some.
+/// The bits of a word, of those of a row, that stand for the cells from a first one to before an end. At least one is
+/// set.
 #[inline(always)]
 fn between(first: usize, end: usize, word: usize) -> u64 {
     let [from, to] = [first, end].map(|cell| cell.saturating_sub(word * BITS).min(BITS));
@@ -282,7 +283,7 @@ fn open_parts(disks: &[ExclusionDisk], voxel: &Rect, width: i32) -> u16 {
             std::array::from_fn(|part| f64::from(last(axis, part))),
         ]
     });
-    // By how much the farthest corner of each part lies outside of the disk that it lies in the deepest.
+    // The distance by which the farthest corner of each part lies outside the disk that it is deepest in.
     let mut outside = [[f64::MAX; 4]; 4];
     for disk in disks {
         let squares: [[f64; 4]; 2] = std::array::from_fn(|axis| {
@@ -311,7 +312,7 @@ mod tests {
     use super::*;
     use crate::rng::Draw;
 
-    /// The farthest lattice point of a rectangle from a disk's centre, and the nearest, as a loop finds them.
+    /// The farthest lattice point of a rectangle from a disk's centre, and the nearest, by a loop over all.
     fn squares(disk: &ExclusionDisk, rect: &Rect) -> [f64; 2] {
         let mut found = [f64::MAX, 0.0];
         for (y, x) in (rect.min[1]..rect.max[1]).flat_map(|y| (rect.min[0]..rect.max[0]).map(move |x| (y, x))) {
@@ -333,7 +334,7 @@ mod tests {
         ExclusionDisk::of_given(&Disk { centre: point.map(|x| f64::from(x) + rng.unit()), radius })
     }
 
-    /// Rooms of more cells than a word has bits, and of one.
+    /// Rectangles of more cells than a word has bits, and of one.
     const RECTANGLES: [([i32; 2], f64); 4] = [([900, 60], 10.0), ([100, 130], 25.3), ([7, 300], 3.0), ([40, 30], 1e6)];
 
     #[test]
@@ -408,7 +409,7 @@ mod tests {
         for _ in 0..61_000 {
             filling.begin(&Rect { min: [0; 2], max: [61, 9] }, 2, 30.0);
             filling.open(2);
-            // Cut once or twice first: nothing may be preferred at any level.
+            // Cut once or twice first: no point may be preferred at any level.
             (0..rng.below(3)).for_each(|_| filling.cut());
             filling.darts = usize::MAX;
             let (class, [x, _]) = filling.next_sample(&mut rng).unwrap();

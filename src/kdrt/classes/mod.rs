@@ -1,11 +1,11 @@
 //! Several classes of samples in one plane (Wei 2010; future work in thesis §3.4.6 and ch. 5).
 //!
-//! Classes come by falling own radius; those of equal radii are a *group*, and are filled together at equal rates. Each
-//! group fills what the samples of the groups before, given samples and its own samples leave it (see Groups below), each of
-//! them a disk of the distance between the two classes (`filling.rs`). If the first group is one class, and the domain
-//! is worth tiling, it is a set of KDRT.
+//! Classes are processed by falling own radius; those of equal radii are a *group*, and are filled together at equal
+//! rates. Each group fills the part that the samples of the groups before, given samples and its own samples leave it
+//! (see Groups below), each of them a disk whose radius is the distance between the two classes (`filling.rs`). If the
+//! first group is one class, and the domain is worth tiling, it is a set of KDRT.
 //!
-//! # Why no class can take another sample
+//! # Maximality
 //! A group ends when for each of its classes every lattice point lies in a disk. Later groups only add disks.
 //!
 //! # Parts
@@ -76,21 +76,21 @@ pub fn ordered(lattice: &Lattice, mut samples: Vec<Sample>) -> Points<2> {
 //
 // By fill blocks and phases like the gaps of KDRT (`blocks.rs`), but blocks are so wide that the largest distance
 // between classes of the group does not reach over them, and in two passes (see below). Blocks of one phase share
-// nothing; each is filled with regard to the groups before and to what the blocks around it have so far. A torus that is
-// too narrow for blocks is filled as a whole.
+// nothing; each is filled with regard to the groups before and to the samples so far of the blocks around it. A torus
+// that is too narrow for blocks is filled as a whole.
 
 /// Blocks that one task fills, one after the other.
 const BLOCKS_PER_TASK: usize = 64;
 
-/// The radius by which the samples of the groups before are sorted in tiles ([`Region::new`]), as a share of the
-/// smallest of theirs: so that a tile has a few of them.
+/// The radius by which the samples of the groups before are sorted into tiles ([`Region::new`]), as a share of their
+/// smallest own radius: chosen so that a tile has a few of them.
 const TILE: f64 = 0.25;
 
 /// Darts of the first pass for each cell that is not covered. With half as many, sets have 0.1 % more samples; with
 /// twice as many it takes longer.
 const FIRST_DARTS: usize = 2;
 
-/// Memory is asked for fillings only where they take more than this: it takes long to ask.
+/// Available memory is checked for fillings only where they take more than this, as the query is slow.
 const FEWEST_BYTES: f64 = 1e7;
 
 /// A sample of a class.
@@ -112,17 +112,17 @@ impl Placed for Sample {
 
 /// A group of a plane.
 pub struct Group {
-    /// With the own radius of the classes.
+    /// The lattice with the own radius of the classes.
     lattice: Lattice,
     classes: Vec<usize>,
-    /// For each class of the group, and each class of the plane, what samples of the latter keep from those of the
-    /// former. None where they ignore each other and where there is no sample yet.
+    /// For each class of the group, and each class of the plane, the separation of samples of the latter from those of
+    /// the former. None where they ignore each other and where there is no sample yet.
     separations: Vec<Vec<Option<Separation>>>,
-    /// For each class of the group, what given samples keep from it.
+    /// For each class of the group, the disks of the given samples.
     around: Vec<GivenDisks>,
-    /// Along each axis the largest distance at which samples of the groups before matter.
+    /// The largest distance, along each axis, at which samples of the groups before matter.
     sight: [i32; 2],
-    /// Along an axis the largest distance at which samples of the group matter.
+    /// The largest distance, along an axis, at which samples of the group matter.
     reach: i32,
     /// The smallest own radius of the groups before, in lattice units.
     before: f64,
@@ -132,17 +132,17 @@ pub struct Group {
     pub level: Level,
 }
 
-/// What is known where a block is filled.
+/// The samples known when a block is filled.
 pub struct Known<'a> {
     blocks: &'a Blocks,
     /// The samples of the groups before.
     before: &'a Region<Sample>,
-    /// Those of the group that there are so far.
+    /// The samples of the group made so far.
     made: &'a Made,
 }
 
 impl Group {
-    /// The group with this number, of those by falling own radius. The lattice is that of the domain.
+    /// The group with this number, in the order of falling own radius. The lattice is that of the domain.
     pub fn new(
         domain: &Domain,
         lattice: &Lattice,
@@ -170,7 +170,7 @@ impl Group {
         };
         let sight = lattice.with_radius(longest(&before)).separation.reach;
         let sight = lattice.size.map(|size| match lattice.boundary {
-            // Of a sample that reaches around, the nearest image is in the way of what any is.
+            // Of a sample whose disk reaches around the torus, the nearest image excludes all that any image does.
             Boundary::Periodic => sight.min(size / 2 + 1),
             Boundary::Bounded => sight,
         });
@@ -203,7 +203,7 @@ impl Group {
         Rect { min: [rect.min[0] - x, rect.min[1] - y], max: [rect.max[0] + x, rect.max[1] + y] }
     }
 
-    /// The samples that a pass adds to a block.
+    /// Returns the samples that a pass adds to a block.
     #[inline(always)]
     pub fn fill_block_portable(
         &self,
@@ -216,7 +216,7 @@ impl Group {
         let block = Rect { min: place, max: place.map(|index| index + 1) };
         let rect = blocks.rect(&block);
         self.begin(filling, &rect);
-        // Loops, since a closure as large as this is not compiled for the vectors of `vectors.rs`.
+        // Loops, since a closure as large as this is not compiled for the vector instructions of `vectors.rs`.
         let mut seen = Vec::new();
         before.visit(&self.seen_from(&rect), |sample| seen.push(sample));
         for sample in &seen {
@@ -247,7 +247,7 @@ impl Group {
         Ok(samples)
     }
 
-    /// Refuses fillings of a size for a number of threads that are more than can be held.
+    /// Refuses fillings of a size, for a number of threads, that do not fit in memory.
     fn require_memory(&self, size: [i32; 2], threads: usize) -> Result<()> {
         let cells: f64 =
             size.into_iter().map(|size| f64::from(CellAxis::new(size, self.lattice.radius).count())).product();
@@ -310,7 +310,7 @@ impl Layer for Group {
         self.classes.len() as f64 * self.lattice.samples_in(&part.rect)
     }
 
-    /// True if no part of it can be made without the rest.
+    /// True if no part of the group can be made without the rest.
     fn is_kept(&self) -> bool {
         self.blocks.is_none()
     }
@@ -363,21 +363,21 @@ impl Layer for Group {
 
 // # The passes over the blocks of a group
 //
-// The passes over the blocks of a group, and what they have made.
+// The passes over the blocks of a group, and the samples that they have made.
 //
-// One dart after the other, anywhere, would give the density of random sequential placement. If each block was filled
-// at once, one next to a finished block would have its samples nearer to that edge than chance puts them: sets would have
-// 2 % more samples. So a first pass throws a few darts at each block, which bring most of the samples at
-// densities where edges matter little, and the last fills what is left. That leaves sets with up to 0.4 % more.
+// One dart after the other, anywhere, would give the density of random sequential placement. If each block were filled
+// completely, one next to a finished block would have its samples nearer to that edge than sequential placement puts
+// them: sets would have 2 % more samples. So a first pass throws a few darts at each block, which make most of the
+// samples at densities where edges matter little, and the last fills the rest. Sets still have up to 0.4 % more.
 
-/// What is thrown at a block.
+/// The darts that are thrown at a block.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Pass {
     /// A few darts for each cell.
     First,
-    /// Darts until nothing is left, after the first pass.
+    /// Darts until everything is covered, after the first pass.
     Last,
-    /// Both at once.
+    /// Both passes at once.
     Only,
 }
 
@@ -389,15 +389,15 @@ pub fn first_window(blocks: &Blocks, window: &Rect) -> Rect {
 
 /// The samples that a rectangle of blocks has so far.
 pub struct Made {
-    /// Along an axis on which the window has all blocks of a torus, each of them once.
+    /// The blocks held; along an axis on which the window has all blocks of a torus, each of them once.
     blocks: Rect,
-    /// How many blocks, and lattice points, such an axis has.
+    /// The numbers of blocks and of lattice points along such an axis.
     periods: [Option<[i32; 2]>; 2],
     samples: Vec<Vec<Sample>>,
 }
 
 impl Made {
-    /// Nothing yet in the blocks that are filled for a window.
+    /// No samples yet in the blocks that are filled for a window.
     pub fn new(lattice: &Lattice, blocks: &Blocks, window: &Rect, filled: &Rect) -> Self {
         let (mut held, mut periods) = (*filled, [None; 2]);
         for (axis, count) in blocks.counts().into_iter().enumerate() {
@@ -410,7 +410,7 @@ impl Made {
         Self { blocks: held, periods, samples: vec![Vec::new(); count] }
     }
 
-    /// Whether a block is held here, and is not an image of one that is.
+    /// True if a block is held here, and is not an image of one that is.
     pub fn holds(&self, place: [i32; 2]) -> bool {
         self.blocks.contains(place)
     }
@@ -429,7 +429,7 @@ impl Made {
         }
     }
 
-    /// The samples in a rectangle of blocks, row by row of them; images where it goes on beyond the edges of the torus.
+    /// The samples in a rectangle of blocks, row by row of them; images where it extends beyond the edges of the torus.
     #[inline(always)]
     pub fn of_blocks(&self, blocks: &Rect) -> impl Iterator<Item = Sample> {
         let Rect { min, max } = *blocks;

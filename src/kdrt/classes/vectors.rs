@@ -1,5 +1,5 @@
-//! The filling of a block with classes (`mod.rs`) once more for each kind of vectors, the same to the bit: the portable
-//! code, compiled for them.
+//! The filling of a block with classes (`mod.rs`) for each level of vector instructions, the same to the bit: the
+//! portable code, compiled for them.
 
 use crate::kdrt::classes::Pass;
 use crate::kdrt::classes::filling::ClassFilling;
@@ -7,7 +7,7 @@ use crate::kdrt::classes::{Group, Known, Sample};
 use crate::simd::Level;
 
 impl Group {
-    /// The samples that a pass adds to a block.
+    /// Returns the samples that a pass adds to a block.
     pub fn fill_block(&self, filling: &mut ClassFilling, known: &Known, place: [i32; 2], pass: Pass) -> Vec<Sample> {
         match self.level {
             // SAFETY: the variants say that the processor has the vectors.
