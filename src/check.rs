@@ -37,7 +37,7 @@ pub fn range<T: PartialOrd + Display>(argument: &'static str, value: T, range: R
     }
 }
 
-/// Refuses vectors that are not finite; `item` is what one of them is called, or "" where the argument says it.
+/// Refuses vectors that are not finite; `item` is the name of one of them, or "" where the argument says it.
 pub fn finite<const D: usize>(argument: &'static str, item: &str, vectors: &[[f32; D]]) -> Result<()> {
     match vectors.iter().position(|vector| !vector.iter().all(|x| x.is_finite())) {
         None => Ok(()),
@@ -48,8 +48,8 @@ pub fn finite<const D: usize>(argument: &'static str, item: &str, vectors: &[[f3
     }
 }
 
-/// Refuses triangles whose corners name none of `count` things, such as vertices; `item` and `items` are what one and
-/// several of them are called.
+/// Refuses triangles whose corners name none of `count` items, such as vertices; `item` and `items` are the names of
+/// one and of several of them.
 pub fn corners(argument: &'static str, item: &str, items: &str, triangles: &[[u32; 3]], count: usize) -> Result<()> {
     // The largest of all, first: that is a vector loop.
     let largest = triangles.as_flattened().iter().copied().max();

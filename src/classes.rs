@@ -1,4 +1,4 @@
-//! Classes of samples that stand in each other's way more or less: the matrix of their distances.
+//! Classes of samples that keep different distances from each other: the matrix of these distances.
 //!
 //! Wei 2010, "Multi-class blue noise sampling", §3; the thesis names them as future work (§3.4.6, ch. 5).
 
@@ -6,11 +6,11 @@ use crate::check;
 use crate::error::{Error, Result};
 use crate::math::square;
 
-/// How far apart samples of two classes are at least: a symmetric matrix r_ij. Where r_ij is 0 the two classes ignore
-/// each other; r_ii is a class's *own* radius, above 0.
+/// The smallest distances between samples of two classes: a symmetric matrix r_ij. Where r_ij is 0 the two classes
+/// ignore each other; r_ii is a class's *own* radius, above 0.
 ///
-/// A set of several classes has no two samples of classes i and j nearer than r_ij, and no class can take another sample:
-/// for each class i every place is within r_ij of some sample of some class j.
+/// A set of several classes has no two samples of classes i and j nearer than r_ij, and no class can take another
+/// sample: for each class i every place is within r_ij of some sample of some class j.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Classes {
     count: usize,
@@ -19,7 +19,7 @@ pub struct Classes {
 }
 
 impl Classes {
-    /// There are no more classes than this.
+    /// The largest number of classes.
     pub const MOST: usize = 16;
 
     /// The classes of a matrix, row by row.
@@ -51,8 +51,8 @@ impl Classes {
         Ok(Self { count, radii: radii.to_vec() })
     }
 
-    /// Classes of these own radii, with Wei's cross radii times a factor: two classes keep the distance that a set of all
-    /// samples of both, and of all classes of larger radii, would have. Smaller factors leave each class nearer to
+    /// Classes of these own radii, with Wei's cross radii times a factor: two classes keep the distance that a set of
+    /// all samples of both, and of all classes of larger radii, would have. Smaller factors leave each class nearer to
     /// the density that it has alone, and let samples of two classes come nearer.
     ///
     /// # Errors
@@ -85,12 +85,12 @@ impl Classes {
         self.count
     }
 
-    /// How far apart samples of two classes are at least; 0 if they ignore each other.
+    /// The smallest distance between samples of two classes; 0 if they ignore each other.
     pub fn radius(&self, i: usize, j: usize) -> f64 {
         self.radii[i * self.count + j]
     }
 
-    /// How far apart samples of one class are at least.
+    /// The smallest distance between samples of one class.
     pub fn own(&self, class: usize) -> f64 {
         self.radius(class, class)
     }
@@ -100,7 +100,7 @@ impl Classes {
         &self.radii
     }
 
-    /// The classes by falling own radius; those of equal radii in one group, in their order.
+    /// The classes by decreasing own radius; those of equal radii in one group, in their order.
     pub(crate) fn groups(&self) -> Vec<Vec<usize>> {
         let mut classes: Vec<usize> = (0..self.count).collect();
         classes.sort_by(|&a, &b| self.own(b).total_cmp(&self.own(a)));

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 /// The result of every fallible call of this crate.
 pub type Result<T> = std::result::Result<T, Error>;
 
-/// Why a call was refused or could not be finished.
+/// The reason why a call was refused or could not be finished.
 ///
 /// Every message names the argument (or the file) and its value, so that it can be shown to a user as it is.
 #[derive(Debug, thiserror::Error)]
@@ -32,7 +32,7 @@ pub enum Error {
     Io {
         /// The file.
         path: PathBuf,
-        /// What the operating system said.
+        /// The error of the operating system.
         source: std::io::Error,
     },
     /// A file was read, but is not what it should be.
@@ -40,7 +40,7 @@ pub enum Error {
     Format {
         /// The file.
         path: PathBuf,
-        /// What is wrong with it, with the line where the reader knows it.
+        /// The defect, with its line where the reader knows it.
         reason: String,
     },
     /// A callback of the caller asked to stop.
@@ -52,9 +52,9 @@ pub enum Error {
     /// Threads could not be started.
     #[error("cannot start {threads} threads: {reason}")]
     Threads {
-        /// How many were asked for.
+        /// The number of threads that were asked for.
         threads: usize,
-        /// What the thread pool said.
+        /// The message of the thread pool.
         reason: String,
     },
     /// The process was forked after the context was made: the threads are in another process.

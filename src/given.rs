@@ -3,14 +3,14 @@
 use crate::check;
 use crate::error::{Error, Result};
 
-/// Samples that stand already, each with a *clearance*. A set that is filled around them keeps its samples at least the
+/// Samples that exist already, each with a *clearance*. A set that is filled around them keeps its samples at least the
 /// clearance from each of them, and covers every place that is farther than the clearance from all of them.
 ///
-/// Given samples are never moved, dropped or compared with each other; they may lie anywhere, in any number, and are not
-/// among the samples that a call returns.
+/// Given samples are never moved, dropped or compared with each other; they may lie anywhere, in any number, and are
+/// not among the samples that a call returns.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Given<'a, const AXES: usize> {
-    /// Where they are: finite.
+    /// The positions, finite.
     pub positions: &'a [[f32; AXES]],
     /// The clearance of each, finite and 0 or more, in the units of the positions; `None`: all have the radius of the
     /// set. A sample whose clearance is 0 has no effect. In sets of several [`Classes`](crate::Classes) of the plane
@@ -41,8 +41,8 @@ impl<'a, const AXES: usize> Given<'a, AXES> {
         self.clearances.map_or(radius, |clearances| clearances[index])
     }
 
-    /// Of sets of several classes, whose clearances have a row for each sample and in it a number for each class: the
-    /// clearance that each sample keeps from a class.
+    /// The clearance of each sample from a class, in sets of several classes: their clearances have a row for each
+    /// sample and in it a number for each class.
     pub(crate) fn clearances_of_class(&self, class: usize, classes: usize) -> Option<Vec<f64>> {
         self.clearances.map(|clearances| clearances.iter().skip(class).step_by(classes).copied().collect())
     }
@@ -60,7 +60,7 @@ impl<'a, const AXES: usize> Given<'a, AXES> {
         Self::at(self.positions).check()
     }
 
-    /// Refuses what is out of its range, by its index.
+    /// Refuses values out of range, by their index.
     pub(crate) fn check(&self) -> Result<()> {
         if let Some(clearances) = self.clearances {
             if clearances.len() != self.positions.len() {

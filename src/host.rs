@@ -1,9 +1,9 @@
-//! What not every system can answer: WebAssembly without an interface to a system (`wasm32-unknown-unknown`) knows neither
-//! processes nor time, and the standard library panics if it is asked.
+//! Queries that not every system can answer: WebAssembly without an interface to a system (`wasm32-unknown-unknown`)
+//! knows neither processes nor time, and the standard library panics if it is asked.
 
 use std::time::Instant;
 
-/// The process, to notice that it was forked; 0 on WebAssembly, where none is.
+/// The number of the process, which tells that it was forked; 0 on WebAssembly, which has no processes.
 pub(crate) fn process_id() -> u32 {
     if cfg!(target_family = "wasm") { 0 } else { std::process::id() }
 }

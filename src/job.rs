@@ -19,7 +19,7 @@ use crate::host::process_id;
 /// The polling interval of progress, on the calling thread.
 const REPORT_INTERVAL: Duration = Duration::from_millis(20);
 
-/// How many results of [`Job::stream`] each thread makes while those before them are visited.
+/// The number of results of [`Job::stream`] that each thread makes while those before them are visited.
 const TASKS_AHEAD: usize = 4;
 
 /// Called on the thread that made the call, with the fraction that is done, which grows from 0 to 1; `Break` cancels.
@@ -27,7 +27,7 @@ pub type Progress<'a> = dyn Fn(f64) -> ControlFlow<()> + 'a;
 
 /// The threads of the library: a rayon pool of its own, never the global one.
 ///
-/// With one thread no thread is made and all work happens in the caller's. Can be shared freely between threads.
+/// With one thread no threads are started and all work happens in the caller's. Can be shared freely between threads.
 ///
 /// A process that is forked has none of the threads: a context with threads refuses to work there.
 #[derive(Debug)]
@@ -63,7 +63,7 @@ impl Context {
         Ok(Self { pool: Some(ManuallyDrop::new(pool)), process })
     }
 
-    /// How many threads work on a call.
+    /// The number of threads that work on a call.
     pub fn num_threads(&self) -> usize {
         self.pool.as_ref().map_or(1, |pool| pool.current_num_threads())
     }
@@ -80,7 +80,7 @@ impl Context {
         Ok(result)
     }
 
-    /// Whether the process was forked since, and the threads are in another one.
+    /// True if the process was forked since, and the threads are in another one.
     fn was_left_behind(&self) -> bool {
         self.process != process_id()
     }
@@ -88,7 +88,7 @@ impl Context {
 
 impl Drop for Context {
     fn drop(&mut self) {
-        // In a forked process a thread that is not there may hold a lock for ever; the pool's memory is left alone.
+        // A thread that does not exist in a forked process may hold a lock for ever; the pool's memory is left alone.
         if let Some(pool) = self.pool.take()
             && !self.was_left_behind()
         {
@@ -167,10 +167,10 @@ impl<'a> Job<'a> {
         self.map_each((0..count).collect(), task)
     }
 
-    /// [`Job::map`] over any items: what tasks write in place, each its own part of it, is handed to them so.
+    /// [`Job::map`] over any items, such as the parts of memory that the tasks write in place, one each.
     pub(crate) fn map_each<I: Send, T: Send>(&self, items: Vec<I>, task: impl Fn(I) -> T + Sync) -> Result<Vec<T>> {
-        // Each task finds its item and leaves its result in a slot of its own, so that what calls the pool is compiled
-        // once and not for each type.
+        // Each task finds its item and leaves its result in a slot of its own, so that the code that calls the pool is
+        // compiled once and not for each type.
         let slots: Vec<_> = items.into_iter().map(|item| Mutex::new((Some(item), None))).collect();
         self.run_all(slots.len(), &|i| {
             let mut slot = slots[i].lock().unwrap_or_else(PoisonError::into_inner);
@@ -234,8 +234,8 @@ impl<'a> Job<'a> {
         self.report(1.0)
     }
 
-    /// Hands `task(0), .., task(count - 1)` to `visit`, in this order and on the calling thread, while the pool makes the
-    /// next ones. Whatever the count, at most 2 · [`TASKS_AHEAD`] results per thread exist at a time.
+    /// Hands `task(0), .., task(count - 1)` to `visit`, in this order and on the calling thread, while the pool makes
+    /// the next ones. Whatever the count, at most 2 · [`TASKS_AHEAD`] results per thread exist at a time.
     pub(crate) fn stream<T: Send>(
         &self,
         count: usize,
@@ -273,8 +273,8 @@ impl<'a> Job<'a> {
         Ok(all)
     }
 
-    /// [`Job::flat_map`] where there are so many results that the copy counts, and the first use of memory as much: one
-    /// thread copies each part while it is in the cache, several share the copy.
+    /// [`Job::flat_map`] where there are so many results that the copy takes time, and the first use of memory as much:
+    /// one thread copies each part while it is in the cache, several share the copy.
     pub(crate) fn concat<T: Copy + Default + Send + Sync>(
         &self,
         count: usize,
@@ -312,7 +312,7 @@ impl<'a> Job<'a> {
         // Memory that is zero comes from the operating system page by page, when it is first used.
         let mut all = vec![T::default(); expected];
         let placing = Placing::new(&mut all);
-        // The pool goes through its items from many places at once; what is taken in turn comes about in order.
+        // The pool takes its items from many places at once; tasks that are numbered in turn end about in order.
         let turn = AtomicUsize::new(0);
         self.map(count, |_| {
             let i = turn.fetch_add(1, Ordering::Relaxed);
@@ -330,9 +330,9 @@ impl<'a> Job<'a> {
 struct Placing<'a, T>(Mutex<State<'a, T>>);
 
 struct State<'a, T> {
-    /// What is left of the vector's memory.
+    /// The unused rest of the vector's memory.
     free: &'a mut [T],
-    /// How many parts have a place.
+    /// The number of parts that have a place.
     placed: usize,
     /// Parts that were made before their turn.
     early: BTreeMap<usize, Vec<T>>,
@@ -347,9 +347,9 @@ impl<'a, T: Copy> Placing<'a, T> {
     }
 
     /// Puts a part in its place, or keeps it until those before it have one. The copy happens outside of the lock, by
-    /// the thread that has the part in its cache: so the page faults of memory that is new are shared as well.
+    /// the thread that has the part in its cache: so the page faults of new memory are shared as well.
     pub fn put(&self, index: usize, part: Vec<T>) {
-        // A panic in another thread ends the call; what is placed after it does not matter.
+        // A panic in another thread ends the call; parts that are placed after it do not matter.
         let mut state = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         state.early.insert(index, part);
         let mut ready = Vec::new();
@@ -360,7 +360,7 @@ impl<'a, T: Copy> Placing<'a, T> {
         ready.into_iter().for_each(|(place, part)| place.copy_from_slice(&part));
     }
 
-    /// How much of the memory is left, and the parts that found no place in it.
+    /// The length of the unused memory, and the parts that found no place in it.
     pub fn finish(self) -> (usize, Vec<Vec<T>>) {
         let state = self.0.into_inner().unwrap_or_else(PoisonError::into_inner);
         (state.free.len(), state.beyond)

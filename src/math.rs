@@ -1,7 +1,7 @@
 //! Elementary functions with the same bits on every processor and system: those of the crate `libm`, a port of musl's.
 //!
-//! The platform's own differ between libraries, their versions, and processors with and without fused multiplication; so
-//! do sets that are made with them. Clippy refuses these in the library (`clippy.toml`). Square roots and the four
+//! The platform's own differ between libraries, their versions, and processors with and without fused multiplication;
+//! so do sets that are made with them. Clippy refuses these in the library (`clippy.toml`). Square roots and the four
 //! operations are exact to the last bit everywhere.
 
 use std::ops::Mul;

@@ -1,15 +1,15 @@
-//! Refusing what cannot be held, before it is allocated.
+//! Refusal of requests that exceed the memory, before it is allocated.
 
 use std::path::Path;
 
 use crate::error::{Error, Result};
 
-/// Refuses with [`Error::TooLarge`] when `bytes` are more than the machine, the process's limit of address space and the
-/// control groups that it is in (those of a container, say) can give now. `argument` is the option
-/// that asks for them and `what` names what they are for: "3000000 samples".
+/// Refuses with [`Error::TooLarge`] when `bytes` are more than the machine, the process's limit of address space and
+/// its control groups (those of a container, say) can give now. `argument` is the option that asks for them and `what`
+/// names their use: "3000000 samples".
 ///
-/// Where the operating system does not say (only Linux is asked) nothing is refused, but on WebAssembly, where a request
-/// that cannot be met would end all, what cannot be reserved at once.
+/// Nothing is refused where the operating system does not tell the limit (only Linux is asked), except on WebAssembly,
+/// where a failed allocation would abort the program: there, memory that cannot be reserved at once is refused.
 pub(crate) fn require(bytes: f64, argument: &'static str, what: &str) -> Result<()> {
     if !can_be_reserved(bytes) {
         return Err(Error::too_large(
@@ -29,22 +29,22 @@ pub(crate) fn require(bytes: f64, argument: &'static str, what: &str) -> Result<
     }
 }
 
-/// Whether WebAssembly has, or can get, so much memory in one piece; true elsewhere.
+/// True if WebAssembly has, or can get, this much memory in one piece; always true elsewhere.
 fn can_be_reserved(bytes: f64) -> bool {
-    // A Vec that is not used would never be made.
+    // The optimiser would remove a Vec that is not used.
     !cfg!(target_family = "wasm")
         || (bytes < isize::MAX as f64
             && std::hint::black_box(&mut Vec::<u8>::new()).try_reserve_exact(bytes as usize).is_ok())
 }
 
-/// Bytes of memory that can be had without swapping, where the operating system says.
+/// The bytes of memory that are available without swapping, where the operating system tells.
 pub(crate) fn available() -> Option<f64> {
     let machine = read("/proc/meminfo").and_then(|table| entry(&table, "MemAvailable:"));
     [machine, address_space(), control_groups(Path::new("/sys/fs/cgroup"))].into_iter().flatten().reduce(f64::min)
 }
 
 fn read(path: impl AsRef<Path>) -> Option<String> {
-    // Miri opens no file of the machine's, and has a long warning for each that is in /proc.
+    // Miri opens no file of the machine, and prints a long warning for each one in /proc.
     if cfg!(miri) { None } else { std::fs::read_to_string(path).ok() }
 }
 
@@ -55,7 +55,7 @@ fn entry(table: &str, name: &str) -> Option<f64> {
     Some(kibibytes * 1024.0)
 }
 
-/// What the process's limit (`ulimit -v`) leaves, if it has one.
+/// The memory that the process's limit (`ulimit -v`) leaves, if it has one.
 fn address_space() -> Option<f64> {
     Some(soft_limit(&read("/proc/self/limits")?)? - entry(&read("/proc/self/status")?, "VmSize:")?)
 }
@@ -65,7 +65,7 @@ fn soft_limit(table: &str) -> Option<f64> {
     table.lines().find_map(|line| line.strip_prefix("Max address space"))?.split_whitespace().next()?.parse().ok()
 }
 
-/// What the process's control group (version 2) and its parents leave, if they have limits.
+/// The memory that the process's control group (version 2) and its parents leave, if they have limits.
 fn control_groups(root: &Path) -> Option<f64> {
     let groups = read("/proc/self/cgroup")?;
     let group = groups.lines().find_map(|line| line.strip_prefix("0::/"))?;
@@ -73,7 +73,7 @@ fn control_groups(root: &Path) -> Option<f64> {
     groups.filter_map(|group| left_in(&group)).reduce(f64::min)
 }
 
-/// What a control group leaves. Files that are cached count as used, though they are given up for others.
+/// The memory that a control group leaves. Cached files are part of it: they count as used, but are dropped on demand.
 fn left_in(group: &Path) -> Option<f64> {
     let number = |name: &str| read(group.join(name))?.trim().parse::<f64>().ok();
     let statistics = read(group.join("memory.stat")).unwrap_or_default();

@@ -14,12 +14,13 @@ pub enum Order {
 }
 
 impl Order {
-    /// Prefixes of a progressive set with at least so many samples cover within the quotient of its options times their
-    /// last rank; smaller ones within twice the last rank, or the square of the quotient times it if that is more.
+    /// Prefixes of a progressive set with at least this many samples cover within the quotient of its options times
+    /// their last rank; smaller ones within twice the last rank, or the square of the quotient times it if that is
+    /// more.
     pub const FIRST_COUNT: usize = 100;
 }
 
-/// How many steps of a quotient the first levels of a progressive order are apart: those down to a half, at least two.
+/// The number of steps of a quotient between the first levels of a progressive order: down to a half, at least two.
 ///
 /// One sample of a torus leaves the largest gap at the centre of its period, two leave them half way between each
 /// other, and so on. Levels that add a few samples each, or double them as those of √2 do, put them in such places,

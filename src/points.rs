@@ -5,23 +5,23 @@ use crate::error::{Error, Result};
 
 pub(crate) use crate::check::{finest_radius, radius as check_radius, resolution as check_resolution};
 
-/// N·r² of an unbiased maximal set of N samples on an area of 1, 0.69656: the jamming limit of random sequential placement,
-/// 0.5470735 (Zhang and Torquato 2013), is the share of the area that disks of *diameter* r cover.
+/// N·r² of an unbiased maximal set of N samples on an area of 1, 0.69656: the jamming limit of random sequential
+/// placement, 0.5470735 (Zhang and Torquato 2013), is the share of the area that disks of *diameter* r cover.
 pub const MAXIMAL_DENSITY: f64 = 0.5470735 * 4.0 / std::f64::consts::PI;
 
-/// What lies beyond the boundary of a domain.
+/// The behaviour of a domain at its boundary.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Boundary {
     /// The domain is a torus: distances wrap with the period `max - min`.
     Periodic,
-    /// Nothing: only points inside the domain count, and they alone cover it.
+    /// The domain ends there: only points inside it count, and they alone cover it.
     Bounded,
 }
 
-/// The sides of a domain are at least so long, far below the smallest float: its area must not be 0.
+/// The least length of the sides of a domain, far below the smallest float: its area must not be 0.
 const SHORTEST_SIDE: f64 = 1e-100;
 
-/// How many times as long as the other one side of a domain may be, 2^100: spade refuses larger coordinates than 2^201.
+/// The largest ratio of the sides of a domain, 2^100: spade refuses larger coordinates than 2^201.
 const LARGEST_ASPECT: f64 = (1u128 << 100) as f64;
 
 /// An axis-aligned rectangle of the plane; its samples lie in `min <= x < max`.
@@ -31,7 +31,7 @@ pub struct Domain {
     pub min: [f64; 2],
     /// The upper corner, above `min` on both axes.
     pub max: [f64; 2],
-    /// What lies beyond the boundary.
+    /// The behaviour at the boundary.
     pub boundary: Boundary,
 }
 
@@ -52,7 +52,7 @@ impl Domain {
         width * height
     }
 
-    /// Whether a sample lies in `min <= x < max`.
+    /// True if a sample lies in `min <= x < max`.
     pub(crate) fn contains(&self, sample: [f32; 2]) -> bool {
         (0..2).all(|axis| (self.min[axis]..self.max[axis]).contains(&f64::from(sample[axis])))
     }
@@ -66,7 +66,7 @@ impl Domain {
                 Boundary::Bounded => d,
                 Boundary::Periodic => {
                     let turns = d / extent[axis];
-                    // Most differences need no turn, and rounding is a call where processors are of all kinds.
+                    // Most differences need no turn, and rounding is a function call in builds for generic processors.
                     if turns.abs() < 0.5 { d } else { d - extent[axis] * turns.round() }
                 }
             }
@@ -79,7 +79,7 @@ impl Domain {
         (2.0 * self.area() / (3f64.sqrt() * count as f64)).sqrt()
     }
 
-    /// Refuses what is no domain, and points (`xy`) that are none of it.
+    /// Refuses an invalid domain, and points (`xy`) outside it.
     pub(crate) fn check_set(&self, points: &[[f32; 2]]) -> Result<()> {
         self.check()?;
         self.check_points(points)
@@ -97,7 +97,7 @@ impl Domain {
         }
     }
 
-    /// Refuses what is not a rectangle of finite `f32` coordinates, and what is thinner than their spacing.
+    /// Refuses a domain that is not a rectangle of finite `f32` coordinates, and one that is too thin.
     pub(crate) fn check(&self) -> Result<()> {
         for axis in 0..2 {
             let (min, max) = (self.min[axis], self.max[axis]);
@@ -133,18 +133,18 @@ pub struct Points<const D: usize> {
     pub normals: Vec<[f32; 3]>,
     /// On a mesh: the triangle that each sample lies on.
     pub triangles: Vec<u32>,
-    /// On a mesh: `(u, v)`: the position is `(1 - u - v) * a + u * b + v * c` of the triangle's vertices, as in Embree.
+    /// On a mesh: `(u, v)`; the position is `(1 - u - v) * a + u * b + v * c` of the triangle's vertices, as in Embree.
     pub barycentrics: Vec<[f32; 2]>,
-    /// On a mesh that carries normals of its own, given with it or read from its file: these, interpolated to the samples
-    /// ([`Mesh::interpolated_normal`](crate::mesh::Mesh::interpolated_normal)).
+    /// On a mesh that carries normals of its own, given with it or read from its file: these, interpolated to the
+    /// samples ([`Mesh::interpolated_normal`](crate::mesh::Mesh::interpolated_normal)).
     pub interpolated_normals: Vec<[f32; 3]>,
-    /// In progressive order ([`Order::Progressive`](crate::Order::Progressive)) the rank of each sample, a distance: the
-    /// samples up to this one are at least so far apart. Ranks never rise; the first is infinite. Where radii vary, ranks
-    /// are what these are multiplied by ([`adaptive::sample`](crate::psp::adaptive::sample)).
+    /// In progressive order ([`Order::Progressive`](crate::Order::Progressive)) the rank of each sample, a distance:
+    /// the samples up to this one are at least this far apart. Ranks never rise; the first is infinite. Where radii
+    /// vary, ranks are the factors of the radii ([`adaptive::sample`](crate::psp::adaptive::sample)).
     pub ranks: Vec<f32>,
-    /// In a set of several [`Classes`](crate::Classes) the class of each sample.
+    /// The class of each sample, in a set of several [`Classes`](crate::Classes).
     pub classes: Vec<u32>,
-    /// Where radii vary ([`adaptive::sample`](crate::psp::adaptive::sample)) the radius of each sample.
+    /// The radius of each sample, where radii vary ([`adaptive::sample`](crate::psp::adaptive::sample)).
     pub radii: Vec<f64>,
 }
 
@@ -176,7 +176,7 @@ impl<const D: usize> Points<D> {
         self.positions.len()
     }
 
-    /// Whether there is no sample.
+    /// True if there is no sample.
     pub fn is_empty(&self) -> bool {
         self.positions.is_empty()
     }

@@ -6,7 +6,7 @@
 
 const GOLDEN: u64 = 0x9e37_79b9_7f4a_7c15;
 
-/// What a stream is drawn for. It is part of the key, so that two uses of one place never share numbers.
+/// The use of a stream. It is part of the key, so that two uses of one place never share numbers.
 #[derive(Clone, Copy, Debug)]
 #[repr(u64)]
 pub(crate) enum Draw {
@@ -26,29 +26,29 @@ pub(crate) enum Draw {
     Shift,
     /// PSP: darts in uncovered surface.
     Fill,
-    /// DCR: directions that part coincident points.
+    /// DCR: directions that separate coincident points.
     Part,
     /// Random points on a surface (analysis).
     Probe,
     /// KDRT: another attempt at an exact count.
     Attempt,
-    /// KDRT: where and how a set is changed to have an exact count.
+    /// KDRT: the places and kinds of the changes that give a set an exact count.
     Tune,
     /// KDRT: the ranks and the filling of merged pieces.
     Merge,
     /// PSP: darts where the radius varies.
     Adaptive,
-    /// PSP: which pieces of the surface are filled with those of larger radii.
+    /// PSP: the pieces of the surface that are filled together with those of larger radii.
     Octave,
-    /// DCR: which end of an edge visits it.
+    /// DCR: the end of an edge that visits it.
     Visit,
-    /// DCR: random points, as dense as asked for.
+    /// DCR: random points of a given density.
     Scatter,
     /// DCR: directions in which points are kicked.
     Kick,
-    /// DCR: random points of a surface, on which heaped samples are dealt out.
+    /// DCR: random points of a surface, to which crowded samples are moved.
     Spread,
-    /// Thinning: which point is the first of the progressive order.
+    /// Thinning: the first point of the progressive order.
     Thin,
     /// The levels of a progressive order: KDRT and PSP.
     Level,
@@ -82,7 +82,7 @@ impl Rng {
         Self { key: hash(seed, draw, place), counter: 0 }
     }
 
-    /// The same stream after so many more draws.
+    /// The same stream after this many more draws.
     pub(crate) fn after(&self, draws: u64) -> Self {
         Self { key: self.key, counter: self.counter.wrapping_add(draws) }
     }
@@ -110,7 +110,7 @@ impl Rng {
         [along * (1.0 - across), along * across]
     }
 
-    /// Two numbers uniform in `0..bound`, at the price of one; the bias is below `bound` / 2^32.
+    /// Two numbers uniform in `0..bound`, from the bits of one; the bias is below `bound` / 2^32.
     pub(crate) fn pair_below(&mut self, bound: u32) -> [u32; 2] {
         let bits = self.bits();
         [bits >> 32, bits & 0xffff_ffff].map(|half| ((half * u64::from(bound)) >> 32) as u32)

@@ -1,5 +1,5 @@
-//! Options are `#[non_exhaustive]`, so that they can grow: other crates make them by `new` and change a field by the method of
-//! its name.
+//! Options are `#[non_exhaustive]`, so that they can grow: other crates create them with `new` and change a field with
+//! the method of its name.
 
 /// Gives an options struct a method for each of these fields, which returns the options with another value.
 macro_rules! setters {

@@ -22,8 +22,8 @@ use crate::output::{Output, print};
 #[derive(Args)]
 #[command(mut_arg("domain", |domain| domain.help(OF_OR_AROUND)))]
 pub struct Analyze {
-    /// The samples: .ply, .npy, .csv, .xyz or .raw files. Several files are sets of one kind, whose figures are averaged.
-    /// Where they have a column `class` each class is measured alone, too.
+    /// The samples: .ply, .npy, .csv, .xyz or .raw files. Several files are sets of one kind, whose figures are
+    /// averaged. Where they have a column `class` each class is measured alone, too.
     #[arg(value_name = "SAMPLES", required = true)]
     files: Vec<PathBuf>,
     #[command(flatten)]
@@ -63,7 +63,7 @@ impl Analyze {
         print(text.as_bytes())
     }
 
-    /// All sets; then there is a directory for their plots.
+    /// Reads all sets, and makes the directory of their plots.
     fn read<Points>(&self, read: impl Fn(&Path) -> Result<Points>) -> Result<Vec<Set<Points>>> {
         let read = |path: &PathBuf| Ok(Set { path: path.clone(), loaded: read(path)? });
         let sets = self.files.iter().map(read).collect::<Result<Vec<_>>>()?;

@@ -8,9 +8,9 @@
 //! | XYZ | lines `x y 0` | lines `x y z nx ny nz` | - |
 //! | raw | `x y` as little-endian floats | - | - |
 //!
-//! What is read may have more: integers and doubles, big-endian arrays, other columns, comments. A set knows whether its
-//! points have two or three dimensions; raw floats do not say it, and so the user has to. Ranks are not read: the order
-//! of the points says as much.
+//! Input may have more: integers and doubles, big-endian arrays, other columns, comments. The number of dimensions, two
+//! or three, follows from the file, except for raw floats, where the user states it. Ranks are not read: the order of
+//! the points holds the same information.
 
 pub mod columns;
 #[cfg(test)]
@@ -37,7 +37,7 @@ use records::Records;
 use set::{PlaneSet, PointSet, SampleSet};
 use surface::SurfaceTable;
 
-/// What can be done with samples of a mesh where a set of the plane is needed.
+/// The remedy for samples of a mesh where a set of the plane is needed.
 pub const ON_MESH: &str = "give the mesh that they lie on by --mesh";
 
 /// A format of points.
@@ -56,7 +56,7 @@ pub enum Format {
 }
 
 impl Format {
-    /// What the extension says; PLY if there is none.
+    /// The format that the extension names; PLY if there is none.
     fn of(path: &Path) -> Result<Self> {
         let Some(extension) = path.extension() else { return Ok(Self::Ply) };
         match extension.to_string_lossy().to_lowercase().as_str() {
@@ -86,7 +86,7 @@ pub fn blame(path: &Path, error: Error) -> Error {
     }
 }
 
-/// A word of a file as a message can show it: short and on one line, whatever it is.
+/// A word of a file as a message can show it: short and on one line.
 fn shortened(word: &str) -> String {
     word.chars().take(40).map(|letter| if letter.is_control() { ' ' } else { letter }).collect()
 }
@@ -103,7 +103,7 @@ pub struct Input {
 }
 
 impl Input {
-    /// Reads a set of the plane. The refusal of a set in space says what can be done `instead`.
+    /// Reads a set of the plane. The error for a set in space names the remedy, `instead`.
     pub fn read_plane(&self, path: &Path, instead: &str) -> Result<PlaneSet> {
         self.read(path)?.into_plane(instead).map_err(|reason| format_error(path, reason))
     }
@@ -225,14 +225,14 @@ pub struct Destination {
 }
 
 impl Destination {
-    /// Finds out before the work whether and how there can be a file of a set of the plane.
+    /// Checks before the work whether and how a file of a set of the plane can be written.
     pub fn open_plane(&self) -> Result<PointFile> {
         let output = Output::at(&self.output)?;
         let format = self.format.map_or_else(|| Format::of(&self.output), Ok)?;
         Ok(PointFile { output, format })
     }
 
-    /// Finds out before the work whether and how there can be a file of a set of the plane of several classes.
+    /// Checks before the work whether and how a file of a set of the plane of several classes can be written.
     pub fn open_classes(&self) -> Result<PointFile> {
         let file = self.open_plane()?;
         if matches!(file.format, Format::Raw | Format::Xyz) {
@@ -242,7 +242,7 @@ impl Destination {
         Ok(file)
     }
 
-    /// Finds out before the work whether and how there can be a file of samples of a surface.
+    /// Checks before the work whether and how a file of samples of a surface can be written.
     pub fn open_surface(&self) -> Result<PointFile> {
         let file = self.open_plane()?;
         if file.format == Format::Raw {

@@ -39,7 +39,7 @@ pub fn count<N: TryFrom<u64>>(text: &str) -> Result<N, String> {
     }
 }
 
-/// How near a count is to the one that was asked for; nothing where it is that.
+/// The deviation of a count from the one that was asked for; empty if they are equal.
 pub fn compared(count: usize, asked: u64) -> String {
     if count as u64 == asked {
         return String::new();
@@ -49,7 +49,7 @@ pub fn compared(count: usize, asked: u64) -> String {
     format!("{percent} % {how} than asked for, ")
 }
 
-/// Says how many samples were written, and how they were made.
+/// Reports the number of samples that were written, and how they were made.
 pub fn report(output: &Output, count: usize, about: &str, seconds: f64) {
     let samples = if count == 1 { "sample" } else { "samples" };
     output.report(&format!("{} {samples}, {about}, {seconds:.2} s", grouped(count)));

@@ -1,4 +1,4 @@
-//! What commands read: whole files, or the standard input.
+//! The input of commands: whole files, or the standard input.
 
 use std::fs;
 use std::io::{self, Read};
@@ -8,7 +8,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use azulejo::mesh::Mesh;
 use azulejo::{Error, Result};
 
-/// Whether the standard input has been read: a second reader would find nothing.
+/// True once the standard input has been read: a second reader would find nothing.
 static STDIN_IS_READ: AtomicBool = AtomicBool::new(false);
 
 /// The contents of a file, or of the standard input for `-`.
@@ -27,6 +27,6 @@ pub fn bytes(path: &Path) -> Result<Vec<u8>> {
 
 /// The mesh of a file, or of the standard input for `-`: by the extension, or by its contents if that names no format.
 pub fn mesh(path: &Path) -> Result<Mesh> {
-    // Of files, only regular ones: a device may have no end.
+    // Only regular files are loaded: a device may have no end.
     if path == Path::new("-") { Mesh::parse(path, &bytes(path)?) } else { Mesh::load(path) }
 }

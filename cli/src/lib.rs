@@ -1,7 +1,8 @@
 //! The command-line tool of azulejo as a library: [`main`] is the whole program.
 //!
 //! The public modules are what `azulejo-studies`, the program that writes the pages of `docs/`, uses as well: pictures,
-//! files that are written whole or not at all, meshes that are made, and figures of sets. They are no stable interface.
+//! files that are written whole or not at all, meshes that are made, and figures of sets. They are not a stable
+//! interface.
 
 mod analyze;
 mod domain;

@@ -14,13 +14,14 @@ use crate::generate::{Common, report};
 use crate::progress::watched;
 use crate::text::{grouped, rounded};
 
-/// What is said of sets that are not of the plane.
+/// The message about sets that are not of the plane.
 const INSTEAD: &str = "only sets of the plane can be merged";
 
 #[derive(Args)]
 #[command(mut_arg("domain", |domain| domain.help("The corners of the rectangle [default: the smallest around the pieces]")))]
 pub struct Merge {
-    /// The pieces: sets on rectangles that do not overlap. A PLY file names its rectangle, as `azulejo plane` writes it.
+    /// The pieces: sets on rectangles that do not overlap. A PLY file names its rectangle, as `azulejo plane` writes
+    /// it.
     #[arg(value_name = "PIECE", required_unless_present = "fixed")]
     pieces: Vec<PathBuf>,
     /// Points that must stay; may be given several times.

@@ -1,4 +1,4 @@
-//! What commands write: files, complete or not at all, and results on the standard output.
+//! The output of commands: files, complete or not at all, and results on the standard output.
 
 mod temporary;
 
@@ -11,7 +11,7 @@ use azulejo::{Error, Result};
 use temporary::Temporary;
 pub use temporary::remove_on_signals;
 
-/// A file to be written at the end of a command: as a temporary file in the same directory, renamed when it is complete.
+/// A file to be written at the end of a command: as a temporary file in the same directory, renamed once complete.
 pub struct Output {
     /// As the user gave it, for messages.
     path: PathBuf,
@@ -26,7 +26,7 @@ enum Target {
 }
 
 impl Output {
-    /// Finds out before the work whether there can be a file at `path`, and leaves no trace.
+    /// Checks before the work whether a file can be written at `path`, and leaves no trace.
     pub fn at(path: &Path) -> Result<Self> {
         let target = match path {
             _ if path == Path::new("-") => Target::Stdout,
@@ -37,7 +37,7 @@ impl Output {
         Ok(output)
     }
 
-    /// [`Output::at`] for what is written in one format alone: a path that ends in another extension is refused.
+    /// [`Output::at`] for output of one format alone: a path that ends in another extension is refused.
     pub fn of_format(extension: &str, path: &Path) -> Result<Self> {
         match path.extension() {
             Some(other) if !other.eq_ignore_ascii_case(extension) => {
@@ -52,7 +52,7 @@ impl Output {
         Error::Io { path: self.path.clone(), source }
     }
 
-    /// Writes the file; on an error nothing is there that was not there before.
+    /// Writes the file; an error leaves no new file behind.
     pub fn write(&self, content: impl FnOnce(&mut BufWriter<&File>) -> io::Result<()>) -> Result<()> {
         self.try_write(content).map_err(|error| self.error(error))
     }
@@ -70,8 +70,8 @@ impl Output {
         }
     }
 
-    /// Prints one line about what was written, unless that went to the standard output itself, a pipe or a device. It does
-    /// not matter if the line cannot be printed.
+    /// Prints one line about what was written, unless that went to the standard output itself, a pipe or a device. It
+    /// does not matter if the line cannot be printed.
     pub fn report(&self, what: &str) {
         if !self.target.is_stream() {
             _ = writeln!(io::stdout(), "{}: {what}", self.path.display());
@@ -80,7 +80,7 @@ impl Output {
 }
 
 impl Target {
-    /// Whether what is written goes to the standard output, a pipe or a device.
+    /// True if the output goes to the standard output, a pipe or a device.
     fn is_stream(&self) -> bool {
         match self {
             Self::Stdout => true,
@@ -103,7 +103,7 @@ fn directory(path: &Path) -> &Path {
     path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
 
-/// The standard output as a file, which is written from where it stands.
+/// The standard output as a file, written from its current position.
 fn stdout() -> io::Result<File> {
     #[cfg(unix)]
     let handle = std::os::fd::AsFd::as_fd(&io::stdout()).try_clone_to_owned()?;

@@ -33,8 +33,8 @@ pub fn parse(bytes: &[u8]) -> Result<PointSet, String> {
     Ok(points)
 }
 
-/// The positions of the vertices, in the plane z = 0 where there is no z. Floats are taken as they are; of coordinates that
-/// are no floats, such as those of a map in doubles, the differences from the first vertex are rounded.
+/// The positions of the vertices, in the plane z = 0 where there is no z. Floats are taken as they are; of coordinates
+/// that are not floats, such as those of a map in doubles, the differences from the first vertex are rounded.
 pub fn positions(bytes: &[u8]) -> Result<Vec<[f32; 3]>, String> {
     let ply = Ply::read(bytes, |element, property| element == "vertex" && ["x", "y", "z"].contains(&property))?;
     let vertices = ply.element("vertex").ok_or("has no vertices")?;

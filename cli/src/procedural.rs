@@ -34,13 +34,13 @@ enum Shape {
     Sphere,
     /// A torus of radii 1 and 0.4.
     Torus,
-    /// A closed hall with columns, arches and drapes, 4 long, 1 high, its walls facing inwards: many surfaces behind one
-    /// another. Draw it with --cutaway.
+    /// A closed hall with columns, arches and drapes, 4 long, 1 high, its walls facing inwards: many surfaces behind
+    /// one another. Draw it with --cutaway.
     Hall,
 }
 
 impl Shape {
-    /// The detail unless it is asked for, and the greatest: some 200 million triangles.
+    /// The default detail, and the greatest: some 200 million triangles.
     fn details(self) -> (u32, u32) {
         match self {
             Self::Knot => (1280, 20_000),

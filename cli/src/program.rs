@@ -1,4 +1,4 @@
-//! The commands of the program, and how it ends.
+//! The commands of the program, and its exit codes.
 
 use std::io::{self, Write};
 use std::process::ExitCode;
@@ -8,7 +8,7 @@ use clap::{CommandFactory, Parser, Subcommand};
 
 use crate::{analyze, draw, generate, merge, output, procedural, shell, stipple, thin};
 
-/// What the help of all commands ends with.
+/// The text at the end of the help of all commands.
 const AFTERWARDS: &str = "\
 Examples:
   azulejo plane --count 65536 -o points.npy
@@ -87,8 +87,8 @@ pub fn main() -> ExitCode {
     exit_code(|| run(&cli))
 }
 
-/// Does the work of a program: 0 if it is done, 1 with the reason on the standard error if it fails. Signals that end the
-/// process meanwhile remove the files that are not whole yet.
+/// Does the work of a program: 0 if it is done, 1 with the reason on the standard error if it fails. Signals that end
+/// the process meanwhile remove the files that are incomplete.
 pub fn exit_code(work: impl FnOnce() -> Result<()>) -> ExitCode {
     // Where signals cannot be caught, they end the process all the same.
     _ = output::remove_on_signals();

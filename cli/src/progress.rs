@@ -1,4 +1,4 @@
-//! Progress bars: on a terminal, and nowhere else.
+//! Progress bars, on terminals only.
 
 use std::borrow::Cow;
 use std::ops::ControlFlow;

@@ -1,4 +1,4 @@
-//! What a set of the plane is like, in a few figures.
+//! The quality of a set of the plane, in a few figures.
 
 use azulejo::analysis::figures::{Figures, figures_2d};
 use azulejo::analysis::spacing::spacing_2d;

@@ -3,8 +3,8 @@
 use azulejo::mesh::Mesh;
 use azulejo::{MAXIMAL_DENSITY, Result};
 
-/// A flat mesh with a vertex for each number of a table, and the radii that make about `dots` of them in all. What is lighter
-/// than the lightest is drawn as if it were that; where all corners of a triangle are white there is none.
+/// A flat mesh with a vertex for each number of a table, and the radii that make about `dots` samples in all. Numbers
+/// below `lightest` are drawn as if they were equal to it; triangles whose corners are all white are left out.
 pub fn sheet(darkness: &[f64], columns: usize, lightest: f64, dots: f64) -> Result<(Mesh, Vec<f32>)> {
     let rows = darkness.len() / columns;
     let place = |i: usize| [(i % columns) as f32, (i / columns) as f32, 0.0];

@@ -1,4 +1,4 @@
-//! `azulejo completions` and `man`: what shells and the manual know of the commands.
+//! `azulejo completions` and `man`: the commands as shells and the manual describe them.
 
 use azulejo::{Error, Result};
 use clap::Args;

@@ -35,19 +35,20 @@ pub(crate) struct Stipple {
     #[arg(long, value_name = "N", value_parser = count::<u32>)]
     count: u32,
     /// Do not relax: the dots are a maximal Poisson-disk set whose radius follows the image (PSP), and their number is
-    /// only about the one asked for. Without this flag random dots are relaxed (DCR): exactly as many, and closer to the
-    /// tones of the image.
+    /// only about the one asked for. Without this flag random dots are relaxed (DCR): exactly as many, and closer to
+    /// the tones of the image.
     #[arg(long)]
     no_relax: bool,
-    /// Dots of black, cyan, magenta and yellow, about as many as asked for: each a maximal Poisson-disk set whose density
-    /// follows its share of the image, around the dots of the inks before it, so that all are well spread together. PLY
-    /// files have the ink as `class`: 0 black, 1 cyan, 2 magenta, 3 yellow.
+    /// Dots of black, cyan, magenta and yellow, about as many as asked for: each a maximal Poisson-disk set whose
+    /// density follows its share of the image, around the dots of the inks before it, so that all are well spread
+    /// together. PLY files have the ink as `class`: 0 black, 1 cyan, 2 magenta, 3 yellow.
     #[arg(long, conflicts_with = "no_relax")]
     cmyk: bool,
     /// The largest number of steps of the relaxation.
     #[arg(long, value_name = "STEPS", default_value_t = 100, conflicts_with_all = ["no_relax", "cmyk"])]
     iterations: u32,
-    /// The light of a pixel is its grey value, of which 1 is white, to this power; the share 1 - light is covered with ink.
+    /// The light of a pixel is its grey value, of which 1 is white, to this power; the share 1 - light is covered with
+    /// ink.
     #[arg(long, value_name = "EXPONENT", default_value_t = 2.2, allow_negative_numbers = true)]
     gamma: f64,
     /// Width of a picture in pixels [default: twice that of the image].
@@ -85,7 +86,7 @@ impl Format {
     }
 }
 
-/// Dots, and what is to be said of how they were made.
+/// Dots, and a remark on how they were made.
 struct Stippled {
     /// The paper.
     domain: Domain,
@@ -135,7 +136,7 @@ impl Stipple {
         Ok(Stippled { domain: inks[0].domain(), centres: dots.centres, inks: dots.inks, radius, said })
     }
 
-    /// The dots, and what is to be said of how they were made.
+    /// The dots, and a remark on how they were made.
     fn dots(&self, context: &Context, darkness: &Darkness) -> Result<(Vec<[f32; 2]>, String)> {
         if self.no_relax {
             let set = watched("dots", |progress| {

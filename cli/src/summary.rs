@@ -1,6 +1,6 @@
 //! A quantity of several sets.
 
-/// What is known of a quantity from some measurements of it.
+/// The summary of some measurements of a quantity.
 pub struct Summary {
     /// The mean.
     pub mean: f64,

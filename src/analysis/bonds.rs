@@ -8,18 +8,19 @@ use crate::job::{Context, Job, Progress, chunks};
 use crate::math::{atan2, direction};
 use crate::points::Domain;
 
-/// The bond order ψ6 of a set (Nelson and Halperin 1979, "Dislocation-mediated melting in two dimensions"): the mean over
-/// all points of |Σ exp(6iθ)| / n, θ being the directions of the n edges of a point in the Delaunay triangulation.
+/// The bond order ψ6 of a set (Nelson and Halperin 1979, "Dislocation-mediated melting in two dimensions"): the mean
+/// over all points of |Σ exp(6iθ)| / n, θ being the directions of the n edges of a point in the Delaunay triangulation.
 ///
-/// 1 in a hexagonal lattice, turned as it may be, about 0.36 in a Poisson process. The mean is one of local orders: many
-/// small crystals are as regular as one. A bounded domain is mirrored by its boundary, and mirror images are neighbours.
-/// Points without neighbours, as all but one of coincident points are, do not count; 0 if there are no others. Lattices
-/// with more than three points on an empty circle have more than one triangulation, and the result is that of one.
+/// 1 in a hexagonal lattice of any orientation, about 0.36 in a Poisson process. The mean is one of local orders: many
+/// small crystals are as regular as one. A bounded domain is mirrored by its boundary, and mirror images are
+/// neighbours. Points without neighbours, as all but one of coincident points are, do not count; 0 if there are no
+/// others. Lattices with more than three points on an empty circle have more than one triangulation, and the result is
+/// that of one.
 ///
 /// Takes O(n log n).
 ///
 /// # Errors
-/// [`Error::InvalidArgument`](crate::Error::InvalidArgument) for a domain that is none and for points outside it (`xy`);
+/// [`Error::InvalidArgument`](crate::Error::InvalidArgument) for an invalid domain and for points outside it (`xy`);
 /// [`Error::Cancelled`](crate::Error::Cancelled).
 pub fn bond_order(context: &Context, domain: &Domain, points: &[[f32; 2]], progress: Option<&Progress>) -> Result<f64> {
     domain.check_set(points)?;

@@ -1,9 +1,9 @@
 //! Differential domain analysis: the distribution p(d) of the differences of all pairs of samples (Wei and Wang 2011,
 //! "Differential domain analysis for non-uniform sampling"; thesis §3.4.1).
 //!
-//! p(d) is the density of other samples at an offset d from a sample, over the mean density: 1 for a Poisson process. The
-//! power spectrum is its Fourier transform, P(f) = 1 + ∫ (p(d) - 1) exp(-2πi f·d) dd. Unlike the spectrum, differences
-//! can be taken where there is no plane.
+//! p(d) is the density of other samples at an offset d from a sample, over the mean density: 1 for a Poisson process.
+//! The power spectrum is its Fourier transform, P(f) = 1 + ∫ (p(d) - 1) exp(-2πi f·d) dd. Unlike the spectrum,
+//! differences can be taken where there is no plane.
 //!
 //! *On a surface* the offset of a pair is projected onto the tangent plane of its first sample and scaled to keep its
 //! length, which is straight through space, as the radius of [`psp`](crate::psp) is. (On a sphere the area within a
@@ -11,13 +11,14 @@
 //! projected likewise.
 //!
 //! *Normalisation.* The pairs on a surface are divided by the pairs of the samples with random points of the surface
-//! (Davis and Peebles 1983, "A survey of galaxy redshifts"): boundaries, curvature and other sheets near by
-//! cancel. In the plane the expectation is known; in a bounded domain a pair counts by one over the share of the domain that stays in it when
-//! it is moved by their difference (Ohser and Stoyan 1981, "On the second-order analysis of stationary point processes").
+//! (Davis and Peebles 1983, "A survey of galaxy redshifts"): boundaries, curvature and other sheets near by cancel. In
+//! the plane the expectation is known; in a bounded domain a pair counts by one over the share of the domain that stays
+//! in it when it is moved by their difference (Ohser and Stoyan 1981, "On the second-order analysis of stationary point
+//! processes").
 //!
 //! Lengths are in units of 1 / sqrt(density), the mean spacing, as the frequencies of the periodogram are in units of
-//! sqrt(density): sets of different size can be compared. Departs from Wei and Wang, who give each pair a unit of its own
-//! from a density that varies: here it is the mean of the whole set.
+//! sqrt(density): sets of different size can be compared. Departs from Wei and Wang, who give each pair a unit of its
+//! own from a density that varies: here it is the mean of the whole set.
 
 use std::f64::consts::{PI, SQRT_2};
 use std::ops::Range;
@@ -36,9 +37,9 @@ use crate::points::{Boundary, Domain};
 pub const REACH: f64 = 8.0;
 /// The width of a shell of the radial mean, in mean spacings.
 pub const SHELL_WIDTH: f64 = 1.0 / 64.0;
-/// The grid of p(d) has so many cells per side ...
+/// The number of cells per side of the grid of p(d).
 pub const GRID_SIZE: usize = 128;
-/// ... and reaches so far from 0 along both axes, in mean spacings.
+/// The distance to which the grid of p(d) extends from 0 along both axes, in mean spacings.
 pub const GRID_REACH: f64 = 4.0;
 
 /// Random points of the surface for each sample.
@@ -48,7 +49,7 @@ const PROBES: usize = 2;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Differences {
     found: Counts,
-    /// What a Poisson process would give.
+    /// The counts of a Poisson process.
     expected: Counts,
 }
 
@@ -70,7 +71,7 @@ struct LocalFrame {
 /// Takes O(points), about 200 pairs each.
 ///
 /// # Errors
-/// [`Error::InvalidArgument`] for a domain that is none, for points outside it and for fewer than two (`xy`), and for a
+/// [`Error::InvalidArgument`] for an invalid domain, for points outside it and for fewer than two (`xy`), and for a
 /// domain that is not at least twice the [`REACH`] wide and high (`domain`); [`Error::Cancelled`].
 pub fn plane_differences(
     context: &Context,
@@ -103,13 +104,13 @@ pub fn plane_differences(
 
 /// The differences of samples on a mesh, `normals` being those of their triangles; x points along `direction`.
 ///
-/// The random points of the normalisation, two for each sample, are keyed by `seed`. Takes O(samples) for samples that are
-/// spread about evenly, for about 600 pairs each.
+/// The random points of the normalisation, two for each sample, are keyed by `seed`. Takes O(samples) for samples that
+/// are spread about evenly, for about 600 pairs each.
 ///
 /// # Errors
 /// [`Error::InvalidArgument`] for positions that are not finite or fewer than two (`positions`), for another number of
-/// normals or such that are not finite (`normals`), for a `direction` that is zero or not finite, and for a `mesh` whose
-/// mask leaves no area; [`Error::Cancelled`].
+/// normals or normals that are not finite (`normals`), for a `direction` that is zero or not finite, and for a `mesh`
+/// whose mask leaves no area; [`Error::Cancelled`].
 pub fn surface_differences(
     context: &Context,
     mesh: &Mesh,
@@ -167,7 +168,7 @@ fn images(places: &[DVec3], extent: DVec2) -> Vec<DVec3> {
     moved.filter(|place| (place.truncate() - 0.5 * extent).abs().cmple(0.5 * extent + REACH).all()).collect()
 }
 
-/// Counts pairs of `firsts` and `others`. Where they are the `same`, the others begin with the firsts, and no point is a
+/// Counts pairs of `firsts` and `others`. If they are the `same`, the others begin with the firsts, and no point is a
 /// pair with itself.
 fn count(
     job: &Job,
@@ -214,8 +215,8 @@ struct Encounter {
     squared: f64,
 }
 
-/// The points within the reach of a place. All are written down, and the next takes the place of one that is no hit: no
-/// processor could guess which it will be.
+/// The points within the reach of a place. Every point is written, and the next one overwrites a point that is not a
+/// hit: a branch on this would be unpredictable.
 fn encounters_among<'a>(near: &[(u32, DVec3)], from: DVec3, hits: &'a mut Vec<Encounter>) -> &'a [Encounter] {
     hits.resize(hits.len().max(near.len()), Encounter::default());
     let mut count = 0;
@@ -249,7 +250,7 @@ impl Counts {
         Self { grid: vec![0.0; GRID_SIZE * GRID_SIZE], shells: vec![0.0; (REACH / SHELL_WIDTH) as usize] }
     }
 
-    /// What `count` points without any structure give.
+    /// The counts that `count` points without any structure give.
     fn of_poisson_process(count: usize) -> Self {
         let cell = square(2.0 * GRID_REACH / GRID_SIZE as f64);
         let mut counts = Self::none();
@@ -281,8 +282,8 @@ impl Counts {
 }
 
 impl Differences {
-    /// p(d) on a grid of [`GRID_SIZE`] cells per side around the difference 0, row by row, the lowest first; 0 where not
-    /// even a Poisson process would have a pair.
+    /// p(d) on a grid of [`GRID_SIZE`] cells per side around the difference 0, row by row, the lowest first; 0 where
+    /// not even a Poisson process would have a pair.
     pub fn density(&self) -> Vec<f64> {
         let cells = self.found.grid.iter().zip(&self.expected.grid);
         cells.map(|(&found, &expected)| ratio(found, expected)).collect()
@@ -347,7 +348,7 @@ impl Differences {
         let shells = self.radial();
         let excess = |(i, shell): (usize, &Shell)| {
             let fade = square(1.0 - square(shell.distance / REACH));
-            // Where not even a Poisson process has a pair nothing is known.
+            // Nothing is known where not even a Poisson process has a pair.
             let excess = if shell.expected > 0.0 { shell.density - 1.0 } else { 0.0 };
             [shell.distance, shell_area(i) * fade * excess]
         };
@@ -359,9 +360,9 @@ impl Differences {
         frequencies.iter().map(power).collect()
     }
 
-    /// How uneven p(d) is all around, over the lengths in `range` (mean spacings, within [`GRID_REACH`]): twice the mean
-    /// of cos 2φ, weighted by p, φ being the angle from x. 0 for a set that is the same in all directions, positive
-    /// where pairs of these lengths lie along x rather than across, 1 for p proportional to 1 + cos 2φ. 0 without pairs.
+    /// The anisotropy of p(d) over the lengths in `range` (mean spacings, within [`GRID_REACH`]): twice the mean of cos
+    /// 2φ, weighted by p, φ being the angle from x. 0 for a set that is the same in all directions, positive where
+    /// pairs of these lengths lie along x rather than across, 1 for p proportional to 1 + cos 2φ. 0 without pairs.
     pub fn elongation(&self, range: Range<f64>) -> f64 {
         let place = |i: usize| (i as f64 + 0.5) * (2.0 * GRID_REACH / GRID_SIZE as f64) - GRID_REACH;
         let (mut all, mut along) = (0.0, 0.0);
@@ -376,32 +377,33 @@ impl Differences {
     }
 }
 
-/// PairGrid are no narrower than this share of the box of all points, so that their numbers stay small.
+/// The least side of the cells, as a share of the box of all points, so that their numbers stay small.
 const NARROWEST: f64 = 1.0 / (1 << 20) as f64;
 /// The bits of a cell's number along an axis.
 const BITS: u32 = 21;
 
-/// PairGrid whose work is estimated by one task.
+/// The cells whose work is estimated by one task.
 const ESTIMATED: usize = 1 << 10;
-/// A task tests about so many pairs: it takes some hundredths of a second, however the points are spread.
+/// The approximate number of pairs that a task tests: it takes some hundredths of a second, however the points are
+/// spread.
 const TESTS: usize = 1 << 22;
 
-/// The side of the cubes for sets of points among which pairs within a reach are looked for: it must be the same for all
-/// of them, or a cube of one set would meet any number of another's. Smaller ones hold fewer points that are too far away,
-/// and take longer to be found.
+/// The side of the cubes for sets of points among which pairs within a reach are looked for: it must be the same for
+/// all of them, or a cube of one set would meet any number of another's. Smaller ones hold fewer points that are too
+/// far away, and take longer to be found.
 pub(super) fn side(sets: [&[DVec3]; 2], reach: f64) -> f64 {
     let all = || sets.into_iter().flatten().copied();
     let extent = all().reduce(DVec3::max).unwrap_or_default() - all().reduce(DVec3::min).unwrap_or_default();
     (0.5 * reach).max(NARROWEST * extent.max_element())
 }
 
-/// Points sorted into cubes.
+/// Points sorted into cubic cells.
 pub(super) struct PairGrid {
     origin: DVec3,
     side: f64,
     /// The points with their numbers, those of a cell together.
     points: Vec<(u32, DVec3)>,
-    /// The cells in order, and where the points of each are.
+    /// The cells in order, and the range of the points of each.
     cells: Vec<(u64, Range<usize>)>,
 }
 
@@ -546,7 +548,7 @@ mod tests {
         assert!(Context::new(1).unwrap().run(None, |job| none.tasks(job, &none, 1.0)).unwrap().is_empty());
     }
 
-    /// Where all points are in one cell its work is shared, too.
+    /// The work is shared even if all points are in one cell.
     #[test]
     fn tasks_test_about_as_many_pairs_however_points_are_spread() {
         let points = vec![DVec3::ONE; 10_000];

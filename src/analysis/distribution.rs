@@ -1,13 +1,13 @@
-//! Radial distribution function g(r) of a set in the plane, also called pair correlation: the density of other points at
-//! a distance r from a point, over the mean density (Illian et al. 2008, "Statistical Analysis and Modelling of Spatial
-//! Point Patterns", ch. 4; Heck et al. 2013, "Blue noise sampling with controlled aliasing").
+//! Radial distribution function g(r) of a set in the plane, also called pair correlation: the density of other points
+//! at a distance r from a point, over the mean density (Illian et al. 2008, "Statistical Analysis and Modelling of
+//! Spatial Point Patterns", ch. 4; Heck et al. 2013, "Blue noise sampling with controlled aliasing").
 //!
 //! 1 at every distance for a Poisson process. A hexagonal lattice has peaks at 1, sqrt(3), 2, ... in units of
 //! `d_max = sqrt(2 A / (sqrt(3) N))`, the distance of its neighbours, which is the unit of all distances here.
 //!
-//! *Boundaries.* On a torus the distances wrap. In a bounded domain a pair counts by one over the share of the domain that
-//! stays in it when it is moved by their difference (Ohser and Stoyan 1981, "On the second-order analysis of stationary
-//! point processes"), which is unbiased.
+//! *Boundaries.* On a torus the distances wrap. In a bounded domain a pair counts by one over the share of the domain
+//! that stays in it when it is moved by their difference (Ohser and Stoyan 1981, "On the second-order analysis of
+//! stationary point processes"), which is unbiased.
 
 use std::f64::consts::PI;
 
@@ -28,7 +28,7 @@ const CELL: f64 = 1.5;
 #[derive(Clone, Debug, PartialEq)]
 pub struct RadialDistribution {
     reach: f64,
-    /// Pairs in each bin, counted from both ends, and how many a Poisson process would have.
+    /// The pairs in each bin, counted from both ends, and the number that a Poisson process would have.
     found: Vec<f64>,
     expected: Vec<f64>,
 }
@@ -38,9 +38,9 @@ pub struct RadialDistribution {
 /// Takes O(points · (1 + reach²)) for points that are spread about evenly: there are 3.6 reach² pairs for each.
 ///
 /// # Errors
-/// [`Error::InvalidArgument`] for a domain that is none, for points outside it and for fewer than two (`xy`), for `bins`
-/// outside of 1 to [`MAX_BINS`], and for a `reach` that is not above 0, or above half the width or height of the domain;
-/// [`Error::Cancelled`].
+/// [`Error::InvalidArgument`] for an invalid domain, for points outside it and for fewer than two (`xy`), for `bins`
+/// outside of 1 to [`MAX_BINS`], and for a `reach` that is not above 0, or above half the width or height of the
+/// domain; [`Error::Cancelled`].
 pub fn radial_distribution(
     context: &Context,
     domain: &Domain,
@@ -95,7 +95,7 @@ pub fn radial_distribution(
     Ok(RadialDistribution { reach, found, expected })
 }
 
-/// Refuses bins that are none.
+/// Refuses invalid bins.
 pub(super) fn check_bins(reach: f64, bins: usize) -> Result<()> {
     check::range("bins", bins, 1..=MAX_BINS)?;
     check::positive("reach", reach)

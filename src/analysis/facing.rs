@@ -1,8 +1,8 @@
 //! Density by facing angle: whether samples are spread evenly however a surface is turned towards some directions.
 //!
 //! A pattern that is projected along a direction lands on a surface at an angle to it stretched by the angle's secant.
-//! What PSP's merging and filling leave of that is a bias, which shows as a density that depends on the angle between
-//! the normal and the nearest of the projectors' directions (thesis fig. 3.11 shows where it would).
+//! The part of it that PSP's merging and filling do not remove is a bias, which shows as a density that depends on the
+//! angle between the normal and the nearest of the projectors' directions (thesis fig. 3.11 shows where it would).
 
 use glam::DVec3;
 

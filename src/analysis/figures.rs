@@ -1,4 +1,4 @@
-//! What a set of the plane is like, in one go: its points are triangulated once for all figures that ask for it.
+//! The figures of a set of the plane, measured together: its points are triangulated once for all figures that need it.
 
 use crate::analysis::bonds::mean_order;
 use crate::analysis::coverage::covering_radius;
@@ -13,21 +13,22 @@ use crate::points::Domain;
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Figures {
-    /// The distance of each point to its nearest neighbour, as [`nearest_distances_2d`](super::spacing::nearest_distances_2d)
-    /// gives them; [`spacing_2d`](super::spacing::spacing_2d) sums them up.
+    /// The distance of each point to its nearest neighbour, as
+    /// [`nearest_distances_2d`](super::spacing::nearest_distances_2d) gives them;
+    /// [`spacing_2d`](super::spacing::spacing_2d) sums them up.
     pub nearest: Vec<f64>,
     /// The covering radius, as [`covering_radius_2d`](super::coverage::covering_radius_2d) finds it.
     pub covering_radius: f64,
     /// The [bond order](super::bonds::bond_order) ψ6.
     pub bond_order: f64,
-    /// What the Delaunay triangles are like, as [`triangle_statistics`](super::triangles::triangle_statistics) finds it.
+    /// The statistics of the Delaunay triangles, as of [`triangle_statistics`](super::triangles::triangle_statistics).
     pub triangles: TriangleStatistics,
 }
 
 /// Measures a set of the plane. Takes O(n log n) for sets without large clusters.
 ///
 /// # Errors
-/// [`Error::InvalidArgument`](crate::Error::InvalidArgument) for a domain that is none and for points outside it (`xy`);
+/// [`Error::InvalidArgument`](crate::Error::InvalidArgument) for an invalid domain and for points outside it (`xy`);
 /// [`Error::Cancelled`](crate::Error::Cancelled).
 pub fn figures_2d(
     context: &Context,

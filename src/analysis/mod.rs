@@ -1,4 +1,4 @@
-//! Analysis: what a set of samples is like, whoever made it.
+//! Analysis: the properties of a set of samples, whatever its source.
 //!
 //! Nothing else in the library depends on these modules; they are here so that every guarantee can be checked. They
 //! are written for clarity and tested against brute force.

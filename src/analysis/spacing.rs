@@ -15,7 +15,7 @@ const TASK: usize = 256;
 /// Takes O(n) for sets without large clusters.
 ///
 /// # Errors
-/// [`Error::InvalidArgument`](crate::Error::InvalidArgument) for a domain that is none and for points outside it (`xy`);
+/// [`Error::InvalidArgument`](crate::Error::InvalidArgument) for an invalid domain and for points outside it (`xy`);
 /// [`Error::Cancelled`](crate::Error::Cancelled).
 pub fn nearest_distances_2d(
     context: &Context,
@@ -39,7 +39,7 @@ pub(super) fn nearest_distances(job: &Job, domain: &Domain, points: &[[f32; 2]])
     })
 }
 
-/// The smallest distance between two points of the plane; infinite for less than two points.
+/// The smallest distance between two points of the plane; infinite for fewer than two points.
 ///
 /// # Errors
 /// As [`nearest_distances_2d`].
@@ -53,8 +53,8 @@ pub fn smallest_distance_2d(
 }
 
 /// The smallest distance in units of `d_max = sqrt(2 A / (sqrt(3) N))`, the distance of neighbours in the hexagonal
-/// arrangement of as many points: 1 at most on a torus, about 0.77 for maximal Poisson-disk sets, infinite for less than
-/// two points.
+/// arrangement of as many points: 1 at most on a torus, about 0.77 for maximal Poisson-disk sets, infinite for fewer
+/// than two points.
 ///
 /// # Errors
 /// As [`nearest_distances_2d`].
@@ -67,24 +67,25 @@ pub fn rho(context: &Context, domain: &Domain, points: &[[f32; 2]], progress: Op
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Spacing {
-    /// The smallest; infinite for less than two points.
+    /// The smallest; infinite for fewer than two points.
     pub smallest: f64,
-    /// The mean; infinite for less than two points.
+    /// The mean; infinite for fewer than two points.
     pub mean: f64,
     /// `d_max = sqrt(2 A / (sqrt(3) N))`, the distance of neighbours in the hexagonal arrangement of as many points:
     /// [`rho`] is `smallest / hexagonal`. Infinite for no point.
     pub hexagonal: f64,
 }
 
-/// Sums up the [`nearest_distances_2d`] of a set. A Poisson process has a mean of 0.465 `hexagonal`, a hexagonal lattice 1.
+/// Sums up the [`nearest_distances_2d`] of a set. The mean is 0.465 `hexagonal` for a Poisson process, 1 for a
+/// hexagonal lattice.
 pub fn spacing_2d(domain: &Domain, nearest: &[f64]) -> Spacing {
     let mean = if nearest.is_empty() { f64::INFINITY } else { nearest.iter().sum::<f64>() / nearest.len() as f64 };
     let smallest = nearest.iter().copied().fold(f64::INFINITY, f64::min);
     Spacing { smallest, mean, hexagonal: domain.hexagonal_distance(nearest.len()) }
 }
 
-/// The histogram of the [`nearest_distances_2d`] of a set: how many fall into each of `bins` bins of equal width from 0 to
-/// `reach`, in units of `d_max`. What is as far as that or farther is in no bin. Histograms of several sets add up.
+/// The histogram of the [`nearest_distances_2d`] of a set: the number in each of `bins` bins of equal width from 0 to
+/// `reach`, in units of `d_max`. Distances of that length and above are in no bin. Histograms of several sets add up.
 ///
 /// # Errors
 /// [`Error::InvalidArgument`](crate::Error::InvalidArgument) for `bins` outside of 1 to
@@ -102,7 +103,7 @@ pub fn nearest_histogram_2d(domain: &Domain, nearest: &[f64], reach: f64, bins: 
     Ok(histogram)
 }
 
-/// The smallest distance between two points of space; infinite for less than two points.
+/// The smallest distance between two points of space; infinite for fewer than two points.
 ///
 /// Takes O(n log n) for sets that are neither clustered in space nor lined up in planes across their longest extent.
 ///

@@ -30,7 +30,7 @@ impl Triangle {
         (b - a).perp_dot(c - a) / 2.0
     }
 
-    /// Whether an angle is above 90 degrees.
+    /// True if an angle is above 90 degrees.
     pub fn is_obtuse(&self) -> bool {
         self.cosines().iter().any(|&cosine| cosine < 0.0)
     }
@@ -53,15 +53,15 @@ impl Triangle {
 
 /// The Delaunay triangles of a set, each once. Takes O(n log n).
 ///
-/// On a torus there are twice as many as points, and those that lie across the boundary reach out of the domain on one of the
-/// sides. On a bounded domain triangles are left out that cross the boundary when the set is mirrored by it, so there are no
-/// slivers along the convex hull.
+/// On a torus there are twice as many triangles as points, and those that lie across the boundary reach out of the
+/// domain on one of the sides. On a bounded domain triangles are left out that cross the boundary when the set is
+/// mirrored by it, so there are no slivers along the convex hull.
 ///
-/// Lattices with more than three points on an empty circle have more than one triangulation, which need not be the same on
-/// both sides of the torus: there some triangles may be missing and others overlap.
+/// Lattices with more than three points on an empty circle have more than one triangulation, which need not be the same
+/// on both sides of the torus: there some triangles may be missing and others overlap.
 ///
 /// # Errors
-/// [`Error::InvalidArgument`](crate::Error::InvalidArgument) for a domain that is none and for points outside it (`xy`);
+/// [`Error::InvalidArgument`](crate::Error::InvalidArgument) for an invalid domain and for points outside it (`xy`);
 /// [`Error::Cancelled`](crate::Error::Cancelled).
 pub fn delaunay_triangles(
     context: &Context,
@@ -114,7 +114,7 @@ pub(super) fn triangles_of(
     })
 }
 
-/// What the triangles of a set are like, as [`delaunay_triangles`] gives them. Shares and variations of nothing are 0.
+/// Statistics of the triangles of a set ([`delaunay_triangles`]). Shares and variations of nothing are 0.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct TriangleStatistics {
@@ -187,15 +187,15 @@ impl TriangleStatistics {
     }
 }
 
-/// So many triangles are summed up at a time, by however many threads: that makes the order of the sums.
+/// The number of triangles summed up at a time by any number of threads: it fixes the order of the sums.
 const PART: usize = 1 << 13;
 
-/// What is summed up over triangles.
+/// The sums over triangles.
 #[derive(Clone, Copy, Default)]
 struct Sums {
     triangles: usize,
     areas: Moments,
-    /// Of inner edges twice, once with each of their triangles.
+    /// Inner edges count twice, once with each of their triangles.
     edges: Moments,
     obtuse: usize,
     sharp: usize,
@@ -235,7 +235,7 @@ impl Sums {
     }
 }
 
-/// From how many standard deviations on an area is outlying.
+/// The number of standard deviations from which on an area is outlying.
 const SIGMAS: f64 = 4.0;
 
 /// Sums of a quantity and of its square.

@@ -2,7 +2,7 @@
 //!
 //! The triangulation itself is spade's. It supports neither tori nor mirrors, so it is given the points and their
 //! copies in a margin around the domain (thesis §4.4.1 and Fig. 4.12 (b)), which the thesis assumes to be sufficient.
-//! Here it is verified: the star of a point is that of the endless pattern when the circumcircles of its triangles lie
+//! Here it is verified: the star of a point is that of the infinite pattern when the circumcircles of its triangles lie
 //! where all copies are known. If one does not, the margin is doubled.
 //!
 //! One whole ring of copies is always enough. Let an empty circle touch a point p of the domain and another site q.
@@ -83,7 +83,7 @@ impl Delaunay {
         self.vertices.len()
     }
 
-    /// Whether the circumcircles of all triangles at original vertices lie where all copies are known.
+    /// True if the circumcircles of all triangles at original vertices lie where all copies are known.
     fn is_enclosed(&self, job: &Job, frame: &Frame, margin: f64) -> Result<bool> {
         // Along an axis with a whole ring of copies nothing can be missing.
         let reach = frame.size().map(|length| if margin < length { margin } else { f64::INFINITY });
@@ -178,7 +178,7 @@ impl Delaunay {
 pub struct Dual {
     /// The ends of the edge.
     pub ends: [DVec2; 2],
-    /// The circumcircles, centre and radius, of the triangles on its sides: their centres are the ends of the dual edge.
+    /// The circumcircles, centre and radius, of the triangles on its sides: the centres end the dual edge.
     pub circles: [(DVec2, f64); 2],
 }
 

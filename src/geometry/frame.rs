@@ -13,7 +13,8 @@ const PARTING: f64 = 1e-3;
 /// The width, in spacings, of the strips along which points are ordered.
 const STRIP: f64 = 4.0;
 
-/// Points of a bounded domain keep this distance from its boundary, in spacings, so that none falls on its mirror image.
+/// Points of a bounded domain keep this distance from its boundary, in spacings, so that none falls on its mirror
+/// image.
 const INSET: f64 = 1e-6;
 
 /// A domain whose lower corner is the origin and whose unit of length is the reference spacing.
@@ -39,7 +40,7 @@ pub struct Site {
 }
 
 impl Site {
-    /// Whether this is a point of the domain and not a copy.
+    /// True if this is a point of the domain and not a copy.
     pub fn is_original(&self) -> bool {
         self.side == [0, 0]
     }
@@ -148,7 +149,7 @@ impl Frame {
             let x = (min + position[axis] * self.spacing) as f32;
             let (first, last) = (rounded_up(min), last_float_below(max));
             match self.domain.boundary {
-                // What rounds up to the upper side is, on the torus, at the lower one.
+                // A coordinate that rounds up to the upper side is, on the torus, at the lower one.
                 Boundary::Periodic if x > last => first,
                 _ => x.clamp(first, last),
             }
@@ -175,7 +176,7 @@ fn repeated(positions: &[DVec2]) -> Vec<u32> {
     order.windows(2).filter(|pair| at(pair[0]) == at(pair[1])).map(|pair| pair[1]).collect()
 }
 
-/// Whether no point is farther from some line than the distance by which points are parted.
+/// True if no point is farther from some line than the distance by which points are separated.
 fn lie_on_a_line(positions: &[DVec2]) -> bool {
     let offsets = || positions.iter().map(|&position| position - positions[0]);
     let Some(end) = offsets().max_by(|a, b| a.length_squared().total_cmp(&b.length_squared())) else { return true };

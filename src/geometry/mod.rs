@@ -1,4 +1,4 @@
-//! Geometry in floats, shared by relaxation and analysis: Delaunay triangulations, circumcircles, and the frame of a domain.
+//! Geometry in floats, shared by relaxation and analysis: Delaunay triangulations, circumcircles, frames of domains.
 
 mod delaunay;
 mod frame;

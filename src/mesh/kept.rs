@@ -1,6 +1,6 @@
-//! What is made of a mesh on first use, and kept with it for the calls that follow.
+//! Data made from a mesh on first use, and kept with it for the calls that follow.
 //!
-//! Each kind of thing is known by its type, so that a mesh need not know who keeps what: Embree's scene (psp), for example.
+//! Data are identified by their type, so that a mesh need not know who keeps them: Embree's scene (psp), for example.
 
 use std::any::{Any, TypeId};
 use std::collections::HashMap;
@@ -12,31 +12,31 @@ use std::time::Duration;
 use crate::error::Result;
 use crate::host::process_id;
 
-/// How often a thread that waits for another one's work asks whether to go on.
+/// The interval at which a thread that waits for another one's work asks whether to go on.
 const INTERVAL: Duration = Duration::from_millis(20);
 
-/// Things of different types, each made once.
+/// Values of different types, each made once.
 #[derive(Debug, Default)]
 pub(super) struct Kept {
     slots: Mutex<HashMap<TypeId, Slot>>,
-    /// Signalled where one of them was made, or was not.
+    /// Signalled when one of them was made, or failed to be.
     changed: Condvar,
 }
 
-// What panics while something is made leaves its slot empty.
+// A panic while something is made leaves its slot empty.
 impl UnwindSafe for Kept {}
 impl RefUnwindSafe for Kept {}
 
 #[derive(Debug)]
 enum Slot {
-    /// By a thread of a process: in a forked one it is not there.
+    /// The process and the thread that make it: in a forked process the thread does not exist.
     BeingMade(u32, ThreadId),
     Made(Arc<dyn Any + Send + Sync>),
 }
 
 impl Kept {
-    /// What was made before, or is made now. A thread that has to wait while another one makes it asks `wait` now and then
-    /// whether to go on.
+    /// The value that was made before, or is made now. A thread that has to wait while another one makes it asks `wait`
+    /// now and then whether to go on.
     ///
     /// # Errors
     /// Those of `make`, after which the next call makes it, and of `wait`.

@@ -10,15 +10,16 @@ use crate::mesh::surface::Mesh;
 use crate::mesh::{obj, ply, stl};
 
 impl Mesh {
-    /// Reads an OBJ, PLY or STL file: by the extension `.obj`, `.ply` or `.stl`, otherwise by what it begins with.
+    /// Reads an OBJ, PLY or STL file: by the extension `.obj`, `.ply` or `.stl`, otherwise by its first bytes.
     ///
-    /// Polygons are cut into fans, in the order of the faces. Normals of corners (OBJ `vn`) and vertices (PLY `nx ny nz`)
-    /// are read; where a file has some, a corner without, or with one that is not finite, has the normal zero. Points,
-    /// lines, materials, texture coordinates, colours and groups are ignored, as are the normals of STL facets, and STL
-    /// vertices are not merged. Memory stays proportional to the size of the file, whatever its header claims.
+    /// Polygons are cut into fans, in the order of the faces. Normals of corners (OBJ `vn`) and vertices (PLY `nx`,
+    /// `ny`, `nz`) are read; where a file has some, a corner without, or with one that is not finite, has the normal
+    /// zero. Points, lines, materials, texture coordinates, colours and groups are ignored, as are the normals of STL
+    /// facets, and STL vertices are not merged. Memory stays proportional to the size of the file, whatever its header
+    /// claims.
     ///
-    /// A file is read block by block, in one pass, and never in memory as a whole: O(size). The exception is an OBJ file
-    /// with what few have, such as lines that go on in the next one, or with an error; that takes longer as well.
+    /// A file is read block by block, in one pass, and never in memory as a whole: O(size). The exception is an OBJ
+    /// file with rare syntax, such as continued lines, or with an error; that takes longer as well.
     ///
     /// # Errors
     /// [`Error::Io`] where the file cannot be read (or is not a regular file), [`Error::Format`] where it is broken or
@@ -36,8 +37,8 @@ impl Mesh {
         read(path, &mut file, length)
     }
 
-    /// [`Mesh::load`] for the contents of a file that are in memory, such as those of a pipe or an archive. The extension
-    /// of `path` names the format, and messages name `path`; nothing is read from there.
+    /// [`Mesh::load`] for the contents of a file that are in memory, such as those of a pipe or an archive. The
+    /// extension of `path` names the format, and messages name `path`; nothing is read from there.
     ///
     /// # Errors
     /// [`Error::Format`] where the contents are broken or not what [`Mesh::new`] takes.
@@ -64,7 +65,7 @@ fn read(path: &Path, input: &mut dyn Input, length: u64) -> Result<Mesh> {
     soup.map_err(format_error).and_then(|soup| checked(soup).map_err(|error| format_error(error.to_string())))
 }
 
-/// Checks what a file holds. A normal that is not finite is none.
+/// Checks the contents of a file. A normal that is not finite counts as none.
 fn checked(mut soup: Soup) -> Result<Mesh> {
     let mesh = Mesh::new(soup.positions, soup.triangles)?;
     if soup.normals.is_empty() {
@@ -78,7 +79,7 @@ fn checked(mut soup: Soup) -> Result<Mesh> {
     mesh.with_normals(soup.normals, soup.normal_indices)
 }
 
-/// What a file holds, not yet checked.
+/// The contents of a file, not yet checked.
 #[derive(Default)]
 pub(super) struct Soup {
     pub positions: Vec<[f32; 3]>,

@@ -1,7 +1,7 @@
 //! A checked triangle soup, and the points on it.
 //!
-//! Nothing is asked of the topology: open, non-manifold, self-intersecting, duplicated and oppositely wound faces are
-//! all welcome. What is asked is checked once, here, so that no later stage meets a bad number or index.
+//! Any topology is accepted: open, non-manifold, self-intersecting, duplicated and oppositely wound faces are all
+//! welcome. The requirements are checked once, here, so that no later stage meets a bad number or index.
 
 mod kept;
 mod load;

@@ -1,15 +1,16 @@
-//! OBJ files: plain ones in one pass, that is lines of vertices, normals and faces whose indices are in range, lines of other
-//! kinds, which are passed over, and comments; all others by the crate tobj: lines that go on in the next one, numbers and
-//! comments in odd places, and what is wrong with a broken file.
+//! OBJ files: plain ones in one pass, that is lines of vertices, normals and faces whose indices are in range, lines of
+//! other kinds, which are skipped, and comments; all others by the crate tobj: continued lines, numbers and comments in
+//! odd places, and the defects of a broken file.
 //!
 //! tobj is shown nothing but vertices and faces: once those of the file, and once its normals in place of the vertices,
-//! with the faces by the numbers of their normals. That keeps the faces of all groups in their order, follows no `mtllib`
-//! to other files, admits comments in any encoding, distinguishes corners without a normal, and avoids tobj's
+//! with the faces by the numbers of their normals. That keeps the faces of all groups in their order, follows no
+//! `mtllib` to other files, admits comments in any encoding, distinguishes corners without a normal, and avoids tobj's
 //! handling of texture coordinates and normals, which panics on some broken files. As tobj numbers vertices by their
 //! first use, the first faces that it sees use all of them, in the order of the file.
 //!
-//! Both passes are needed: in one pass tobj 4 either merges the indices of positions and normals, so that vertices lose the
-//! numbers of the file, or gives a corner without a normal the normal of another. A file without normals is shown once.
+//! Both passes are needed: in one pass tobj 4 either merges the indices of positions and normals, so that vertices lose
+//! the numbers of the file, or gives a corner without a normal the normal of another. A file without normals is shown
+//! once.
 
 use std::borrow::Cow;
 
@@ -19,7 +20,7 @@ use crate::mesh::load::Soup;
 use crate::mesh::source::Source;
 use crate::mesh::text::{ends_word, integer, lines, next_vector, number, skip_blanks, split_line, words};
 
-/// Vertices, triangles and normals, or what is wrong with the file.
+/// Vertices, triangles and normals, or the defect of the file.
 pub(super) fn parse(source: &mut Source) -> Result<Soup, String> {
     let start = source.at_least(3);
     if start.starts_with(b"\xff\xfe") || start.starts_with(b"\xfe\xff") {
@@ -40,7 +41,7 @@ const NONE: u32 = u32::MAX;
 /// A corner of a face: its vertex and its normal.
 type Corner = [u32; 2];
 
-/// What has been read.
+/// The part of a file that has been read.
 #[derive(Default)]
 struct Reader {
     positions: Vec<[f32; 3]>,
@@ -48,7 +49,7 @@ struct Reader {
     triangles: Vec<[u32; 3]>,
     /// The normals of the triangles' corners, once a face has named one.
     normal_indices: Option<Vec<[u32; 3]>>,
-    /// How many vertices and normals there have to be: what a face names may follow it.
+    /// The numbers of vertices and of normals that there have to be: a face may precede the items that it names.
     needed_vertices: u32,
     needed_normals: u32,
 }
@@ -68,7 +69,7 @@ fn parse_plain(source: &mut Source) -> Option<Soup> {
 }
 
 impl Reader {
-    /// Reads the line that `text` begins with. What follows it; `None` if the line is not plain.
+    /// Reads the line that `text` begins with. Returns the text after it; `None` if the line is not plain.
     #[inline]
     fn line<'a>(&mut self, text: &'a [u8]) -> Option<&'a [u8]> {
         match skip_blanks(text) {
@@ -142,7 +143,7 @@ impl Reader {
         Some((normal, rest))
     }
 
-    /// All that was read; `None` if a face names what there is not.
+    /// All that was read; `None` if a face names an item that does not exist.
     fn finished(mut self) -> Option<Soup> {
         let has = |items: &[_], needed| items.len() >= needed as usize;
         if !has(&self.positions, self.needed_vertices) || !has(&self.normals, self.needed_normals) {
@@ -173,13 +174,13 @@ fn index(text: &[u8], so_far: usize) -> Option<(u32, &[u8])> {
     (index < u64::from(NONE)).then_some((index as u32, rest))
 }
 
-/// Whether a keyword ends here.
+/// True if a keyword ends here.
 #[inline]
 fn ends_keyword(rest: &[u8]) -> bool {
     ends_word(rest) || rest[0] == b'#'
 }
 
-/// Passes over the rest of a line. What follows it; `None` if the line goes on in the next one.
+/// Skips the rest of a line. Returns the text after it; `None` if the line is continued by the next one.
 #[inline]
 fn rest_passed(text: &[u8]) -> Option<&[u8]> {
     if let [b'\n', rest @ ..] = text {
@@ -190,14 +191,14 @@ fn rest_passed(text: &[u8]) -> Option<&[u8]> {
     (!content.trim_ascii_end().ends_with(b"\\")).then_some(rest)
 }
 
-/// What of a file is shown as vertices and faces.
+/// The part of a file that is shown as vertices and faces.
 struct View {
-    /// What the items are called, that faces name, and the keyword of their lines.
+    /// The name of the items that faces refer to, and the keyword of their lines.
     name: &'static str,
     keyword: &'static [u8],
-    /// Which part of a corner, `vertex/texture/normal`, names one.
+    /// The part of a corner, `vertex/texture/normal`, that names one.
     part: usize,
-    /// Whether corners may name none. One more item, of zeros and behind all others, stands for that.
+    /// True if corners may name none. An additional item, of zeros and after all others, stands for that.
     is_optional: bool,
 }
 
@@ -207,7 +208,7 @@ type Indexed = (Vec<[f32; 3]>, Vec<[u32; 3]>);
 const VERTICES: View = View { name: "vertex", keyword: b"v", part: 0, is_optional: false };
 const NORMALS: View = View { name: "normal", keyword: b"vn", part: 2, is_optional: true };
 
-/// Vertices, triangles and normals, or what is wrong with the file.
+/// Vertices, triangles and normals, or the defect of the file.
 fn parse_any(bytes: &[u8]) -> Result<Soup, String> {
     let (positions, triangles) = VERTICES.load(bytes)?;
     let mut soup = Soup { positions, triangles, ..Default::default() };
@@ -273,7 +274,7 @@ impl View {
         text
     }
 
-    /// The index in a corner of a face; none if there may be none, and is none.
+    /// The index in a corner of a face; `None` if it may be missing, and is.
     fn index<'a>(&self, corner: &'a [u8]) -> Option<&'a [u8]> {
         let mut parts = corner.split(|&byte| byte == b'/');
         match parts.clone().nth(self.part).unwrap_or_default() {
@@ -294,13 +295,13 @@ impl View {
         statements(bytes).filter(|(_, content)| words(content).next() == Some(self.keyword)).count()
     }
 
-    /// Whether a face names an item.
+    /// True if a face names an item.
     fn is_named_in(&self, bytes: &[u8]) -> bool {
         let mut faces = statements(bytes).filter(|(_, content)| words(content).next() == Some(b"f"));
         faces.any(|(_, content)| words(&content).skip(1).any(|corner| self.index(corner).is_some()))
     }
 
-    /// The first face that has no corners or names an item that there is not.
+    /// The first face that has no corners or names an item that does not exist.
     fn bad_face(&self, bytes: &[u8]) -> Option<String> {
         let (name, all) = (self.name, self.count(bytes));
         let mut so_far = 0;
@@ -322,8 +323,8 @@ impl View {
     }
 }
 
-/// What a file says, line by line, each with its number: without comments and empty lines. A line that ends with a
-/// backslash goes on in the next one.
+/// The statements of a file, line by line, each with its number: without comments and empty lines. A line that ends
+/// with a backslash is continued by the next one.
 fn statements(bytes: &[u8]) -> impl Iterator<Item = (usize, Cow<'_, [u8]>)> {
     let mut lines = lines(bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes));
     let all = std::iter::from_fn(move || {
@@ -363,7 +364,7 @@ mod tests {
         vectors.iter().map(|vector| vector.map(f32::to_bits)).collect()
     }
 
-    /// Whether a file is plain, and then that it is read as tobj reads it.
+    /// True if a file is plain; asserts that it is then read as tobj reads it.
     fn agrees(text: &str) -> bool {
         let Some(soup) = plain(text) else { return false };
         let other = parse_any(text.as_bytes()).unwrap_or_else(|error| panic!("{error} in:\n{text}"));

@@ -1,7 +1,8 @@
 //! PLY files, ASCII and binary: meshes, points, and the attributes that they carry.
 //!
-//! The crate ply-rs-bw reads the header. The body is read here, because the crate cannot keep attributes by name without
-//! an allocation for each element, and its text reader refuses numbers such as `.5`, `1.` and `nan`, and empty lines.
+//! The crate ply-rs-bw reads the header. The body is read here, because the crate cannot keep attributes by name
+//! without an allocation for each element, and its text reader refuses numbers such as `.5`, `1.` and `nan`, and empty
+//! lines.
 //!
 //! ```
 //! # use azulejo::mesh::ply::Ply;
@@ -51,7 +52,7 @@ enum Values {
 #[derive(Debug, Default)]
 pub struct Lists {
     items: Vec<f64>,
-    /// Where each list ends in `items`.
+    /// The end of each list in `items`.
     ends: Vec<usize>,
 }
 
@@ -61,7 +62,7 @@ impl Ply {
     /// Memory stays proportional to the size of the file, whatever its header claims.
     ///
     /// # Errors
-    /// What is wrong with the file, in one line.
+    /// The defect of the file, in one line.
     pub fn read(bytes: &[u8], wanted: impl Fn(&str, &str) -> bool) -> Result<Self, String> {
         let mut input = Cursor::new(bytes);
         let mut source = Source::new(&mut input, bytes.len() as u64);
@@ -102,7 +103,7 @@ impl Element {
         Self { name: name.clone(), count: *count, properties: definition.properties.iter().map(property).collect() }
     }
 
-    /// Takes what was asked for of one more element.
+    /// Takes the requested properties of one more element.
     fn take(&mut self, row: &Row) {
         for (index, property) in self.properties.iter_mut().enumerate() {
             match &mut property.values {
@@ -155,11 +156,11 @@ impl Lists {
     }
 }
 
-/// The number of triangles that [`Mesh::load`](super::Mesh::load) makes of each face of a PLY file: polygons are cut into
-/// fans. So an attribute of faces becomes one of triangles.
+/// The number of triangles that [`Mesh::load`](super::Mesh::load) makes of each face of a PLY file: polygons are cut
+/// into fans. So an attribute of faces becomes one of triangles.
 ///
 /// # Errors
-/// What is wrong with the file, in one line.
+/// The defect of the file, in one line.
 pub fn triangles_of_faces(bytes: &[u8]) -> Result<Vec<usize>, String> {
     let mut input = Cursor::new(bytes);
     let mut source = Source::new(&mut input, bytes.len() as u64);
@@ -175,7 +176,7 @@ pub fn triangles_of_faces(bytes: &[u8]) -> Result<Vec<usize>, String> {
     Ok(triangles)
 }
 
-/// Whether contents without a name look like PLY.
+/// True if contents without a name look like PLY.
 pub(super) fn is_likely(source: &mut Source) -> bool {
     source.at_least(3).starts_with(b"ply")
 }
@@ -206,7 +207,7 @@ const NORMAL: [&str; 3] = ["nx", "ny", "nz"];
 /// The two names in use for the list of a face's vertices.
 const FACE_LISTS: [&str; 2] = ["vertex_indices", "vertex_index"];
 
-/// Vertices, triangles and normals, or what is wrong with the file.
+/// Vertices, triangles and normals, or the defect of the file.
 pub(super) fn parse(source: &mut Source) -> Result<Soup, String> {
     let (header, mut body) = open(source)?;
     if header.elements.contains_key("tristrips") {
@@ -272,7 +273,7 @@ pub(super) fn corners(definition: &ElementDef) -> Result<usize, String> {
     FACE_LISTS.iter().find_map(list).ok_or_else(|| lacks(definition, &FACE_LISTS))
 }
 
-/// Whether a property lists integers.
+/// True if a property lists integers.
 fn has_integers(definition: &ElementDef, property: usize) -> bool {
     let items = match &definition.properties[property].data_type {
         PropertyType::Scalar(items) | PropertyType::List(_, items) => items,
@@ -284,7 +285,7 @@ fn lacks(definition: &ElementDef, names: &[&str]) -> String {
     format!("element {} lacks {}", definition.name, names.join(", "))
 }
 
-/// What is left of a body.
+/// The rest of a body.
 pub(super) struct Body<'a, 'b> {
     source: &'a mut Source<'b>,
     encoding: Encoding,
@@ -299,7 +300,7 @@ pub(super) struct Row {
 }
 
 impl<'a, 'b> Body<'a, 'b> {
-    /// The body behind a header of so many lines.
+    /// The body behind a header of `lines` lines.
     pub fn new(source: &'a mut Source<'b>, encoding: Encoding, lines: usize) -> Self {
         Self { source, encoding, lines }
     }
@@ -327,7 +328,7 @@ impl<'a, 'b> Body<'a, 'b> {
                 let line = self.next_line().ok_or_else(ends)?;
                 let mut rest = line;
                 let read = row.read(&types, |kind| text_number(&mut rest, kind));
-                // What follows the numbers is left aside.
+                // The text after the numbers is ignored.
                 let length = line.len() - split_line(rest).1.len();
                 self.source.skip(length);
                 self.lines += 1;
@@ -340,7 +341,7 @@ impl<'a, 'b> Body<'a, 'b> {
         Ok(())
     }
 
-    /// Goes to the next line of the text that is not empty. It, and lines behind it.
+    /// Goes to the next line of the text that is not empty. Returns it with the lines behind it.
     #[inline]
     fn next_line(&mut self) -> Option<&[u8]> {
         loop {

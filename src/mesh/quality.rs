@@ -1,4 +1,4 @@
-//! How well triangles form a surface: what meets at edges and vertices, and the angles of the triangles.
+//! The quality of triangles as a surface: their incidences at edges and vertices, and their angles.
 
 use std::collections::BTreeSet;
 
@@ -36,13 +36,13 @@ pub struct Quality {
 }
 
 impl Quality {
-    /// Whether the mesh is a closed surface of one orientation: each edge has two triangles, wound alike, and the
+    /// True if the mesh is a closed surface of one orientation: each edge has two triangles, wound alike, and the
     /// triangles of each vertex are one fan. Unused vertices do not matter.
     pub fn is_closed_manifold(&self) -> bool {
         self.is_manifold() && self.boundary_edges == 0
     }
 
-    /// Whether the mesh is a surface of one orientation, with or without a boundary.
+    /// True if the mesh is a surface of one orientation, with or without a boundary.
     pub fn is_manifold(&self) -> bool {
         self.non_manifold_edges == 0 && self.twisted_edges == 0 && self.non_manifold_vertices == 0
     }
@@ -117,7 +117,7 @@ impl Quality {
     }
 }
 
-/// Whether the edges opposite a vertex, the second and third of each, are connected.
+/// True if the edges opposite a vertex, the second and third of each, are connected.
 fn are_connected(opposite: &[(u32, u32, u32)]) -> bool {
     let mut ends: Vec<_> = opposite.iter().flat_map(|&(_, a, b)| [(a, b), (b, a)]).collect();
     ends.sort_unstable();
@@ -159,7 +159,7 @@ mod tests {
         let open = quality(&TETRAHEDRON[..3]);
         assert!(open.is_manifold() && !open.is_closed_manifold() && open.euler == 1, "{open:?}");
         assert_eq!((open.inner_edges, open.boundary_edges), (3, 3));
-        // A page more at an edge.
+        // One more page at an edge.
         let booklet = quality(&[&TETRAHEDRON[..], &[[0, 1, 4]]].concat());
         assert_eq!((booklet.non_manifold_edges, booklet.non_manifold_vertices, booklet.boundary_edges), (1, 2, 2));
         // Two tetrahedra that share a vertex.

@@ -2,7 +2,7 @@
 
 use std::io::{self, BufRead, Read, Seek};
 
-/// What contents are read from: a file, or bytes in memory.
+/// The source of contents: a file, or bytes in memory.
 pub(super) trait Input: Read + Seek {}
 
 impl<T: Read + Seek> Input for T {}
@@ -12,13 +12,13 @@ const BLOCK: usize = 1 << 17;
 
 /// An input, and the block of it that is being read.
 ///
-/// Where the input cannot be read, the contents end, and [`Source::failure`] says why.
+/// If the input cannot be read, the contents end, and [`Source::failure`] says why.
 pub(super) struct Source<'a> {
     input: &'a mut dyn Input,
     length: u64,
     /// The bytes that were read from the input.
     read: u64,
-    /// What has not been consumed of it is `buffer[start..end]`.
+    /// The buffer, of which `buffer[start..end]` has not been consumed.
     buffer: Vec<u8>,
     start: usize,
     end: usize,
@@ -28,7 +28,7 @@ pub(super) struct Source<'a> {
 }
 
 impl<'a> Source<'a> {
-    /// The contents of an input that has so many bytes.
+    /// The contents of an input of `length` bytes.
     pub fn new(input: &'a mut dyn Input, length: u64) -> Self {
         let buffer = vec![0; BLOCK];
         Self { input, length, read: 0, buffer, start: 0, end: 0, lines_end: 0, failure: None }
@@ -53,7 +53,7 @@ impl<'a> Source<'a> {
         &self.buffer[self.start..self.end]
     }
 
-    /// The next lines, some of them, whole ones: only the last of the contents may lack its end. `None` behind that.
+    /// Some of the next lines, whole ones: only the last of the contents may lack its end. `None` after that.
     #[inline]
     pub fn whole_lines(&mut self) -> Option<&[u8]> {
         if self.start >= self.lines_end {
@@ -62,7 +62,7 @@ impl<'a> Source<'a> {
         (self.start < self.lines_end).then(|| &self.buffer[self.start..self.lines_end])
     }
 
-    /// Goes on behind the next `count` bytes.
+    /// Consumes the next `count` bytes.
     #[inline]
     pub fn skip(&mut self, count: usize) {
         self.start += count;
@@ -77,7 +77,7 @@ impl<'a> Source<'a> {
         bytes
     }
 
-    /// Why the input could not be read to its end, if so.
+    /// The reason why the input could not be read to its end, if so.
     pub fn failure(self) -> Option<io::Error> {
         self.failure
     }
@@ -96,7 +96,7 @@ impl<'a> Source<'a> {
         }
     }
 
-    /// Reads until the buffer is full or the contents end. Whether there was anything.
+    /// Reads until the buffer is full or the contents end. Returns whether anything was read.
     fn refill(&mut self) -> bool {
         if self.end - self.start == self.buffer.len() {
             self.buffer.resize(2 * self.buffer.len(), 0);

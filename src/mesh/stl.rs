@@ -1,29 +1,29 @@
 //! STL files, binary and text.
 //!
-//! STL knows no shared vertices: facet `i` is triangle `i`, and its vertices are `3 i` to `3 i + 2`, not merged with those
-//! of others. The normals of facets are left aside: they repeat the winding, or contradict it.
+//! STL knows no shared vertices: facet `i` is triangle `i`, and its vertices are `3 i` to `3 i + 2`, not merged with
+//! those of others. The normals of facets are ignored: they repeat the winding, or contradict it.
 //!
-//! Not by a crate: stl_io 0.11 takes a binary file whose header begins with "solid" for text, reads the first of several
-//! solids only, and refuses text whose normals are "nan".
+//! Not by a crate: stl_io 0.11 takes a binary file whose header begins with "solid" for text, reads the first of
+//! several solids only, and refuses text whose normals are "nan".
 
 use crate::mesh::load::Soup;
 use crate::mesh::source::Source;
 use crate::mesh::text::{next_vector, shown, skip_blanks, split_line, split_word};
 
-/// A header that may say anything, and the number of facets.
+/// The size of a header of any content, which the number of facets follows.
 const HEADER: usize = 80;
 const PREAMBLE: usize = HEADER + 4;
-/// A normal, three vertices and two bytes more.
+/// The size of a normal, three vertices and two more bytes.
 const FACET: usize = 12 + 36 + 2;
 
-/// Whether a file without a name looks like STL.
+/// True if a file without a name looks like STL.
 pub(super) fn is_likely(source: &mut Source) -> bool {
     let size = source.length();
     let start = source.at_least(PREAMBLE);
     begins_as_text(start) || facet_count(start).is_some_and(|count| has_size(size, count))
 }
 
-/// Vertices and triangles, or what is wrong with the file.
+/// Vertices and triangles, or the defect of the file.
 pub(super) fn parse(source: &mut Source) -> Result<Soup, String> {
     let size = source.length();
     let start = source.at_least(PREAMBLE);
@@ -40,13 +40,13 @@ fn begins_as_text(start: &[u8]) -> bool {
     start.trim_ascii_start().get(..5).is_some_and(|word| word.eq_ignore_ascii_case(b"solid"))
 }
 
-/// How many facets a binary file announces.
+/// The number of facets that a binary file announces.
 fn facet_count(start: &[u8]) -> Option<u32> {
     let (count, _) = start.get(HEADER..)?.split_first_chunk()?;
     Some(u32::from_le_bytes(*count))
 }
 
-/// Whether a file of this size is a binary one with so many facets.
+/// True if a file of this size is a binary one with this many facets.
 fn has_size(size: u64, count: u32) -> bool {
     size == PREAMBLE as u64 + FACET as u64 * u64::from(count)
 }
@@ -92,7 +92,7 @@ fn text(source: &mut Source) -> Result<Vec<[f32; 3]>, String> {
     if positions.len().is_multiple_of(3) { Ok(positions) } else { Err("ends within a facet".to_owned()) }
 }
 
-/// What is wrong with a word that should be a coordinate.
+/// The defect of a word that should be a coordinate.
 fn problem(word: &[u8]) -> String {
     if word.is_empty() { "fewer than three numbers".to_owned() } else { format!("{} is not a number", shown(word)) }
 }

@@ -18,24 +18,25 @@ use crate::points::Points;
 ///
 /// Immutable. A clone shares vertices, triangles, normals and mask.
 ///
-/// What a call makes of a mesh whatever the radius and the seed is kept with it for the next call, on any thread, and
-/// freed with the last clone. For any set of samples that is a summary of areas and edges, half a byte per
-/// triangle, and one byte more from the second set of few samples or the first of many on (with a mask, 4 bytes more for
-/// each that it keeps). For relaxation and triangulation ([`dcr::surface`](crate::dcr::surface)) it is which edges are shared, 12 bytes per triangle and 4 per vertex. For
-/// [`Psp::advance`](crate::psp::Psp::advance) by ray packets it is Embree's scene, about 100 bytes per triangle, and a
-/// device with the threads of the context that builds it (see [`Scene::new`](crate::trace::Scene::new)). A mesh with
-/// other normals shares all that; one with another mask does not.
+/// Data that a call derives from a mesh, independent of the radius and the seed, are kept with it for the next call, on
+/// any thread, and freed with the last clone. For any set of samples this is a summary of areas and edges, half a byte
+/// per triangle, and one byte more from the second set of few samples or the first of many on (with a mask, 4 bytes
+/// more for each that it keeps). For relaxation and triangulation ([`dcr::surface`](crate::dcr::surface)) it is the
+/// table of shared edges, 12 bytes per triangle and 4 per vertex. For [`Psp::advance`](crate::psp::Psp::advance) by ray
+/// packets it is Embree's scene, about 100 bytes per triangle, and a device with the threads of the context that builds
+/// it (see [`Scene::new`](crate::trace::Scene::new)). A mesh with other normals shares all that; one with another mask
+/// does not.
 #[derive(Clone, Debug)]
 pub struct Mesh {
     // Vectors as they come: an `Arc` of a slice would copy them.
     positions: Arc<Vec<[f32; 3]>>,
     triangles: Arc<Vec<[u32; 3]>>,
     normals: Option<Arc<Normals>>,
-    /// Which triangles count; all of them without a mask.
+    /// The triangles that count; all of them without a mask.
     mask: Option<Arc<Vec<bool>>>,
     area: f64,
     bounds: ([f32; 3], [f32; 3]),
-    /// What depends on triangles and mask.
+    /// The data that depend on triangles and mask.
     kept: Arc<Kept>,
 }
 
@@ -67,11 +68,11 @@ impl Mesh {
         Ok(mesh)
     }
 
-    /// The mesh with normals of the caller's, in place of those that it may carry: of any length, one for each vertex, or
-    /// named by `indices`, three for each triangle, where corners that share a vertex differ in their normals. O(n).
+    /// The mesh with normals of the caller's, in place of those that it may carry: of any length, one for each vertex,
+    /// or named by `indices`, three for each triangle, where corners that share a vertex differ in their normals. O(n).
     ///
-    /// A zero vector stands for a corner without a normal; see [`Mesh::interpolated_normal`]. Sampling does not depend on
-    /// normals.
+    /// A zero vector stands for a corner without a normal; see [`Mesh::interpolated_normal`]. Sampling does not depend
+    /// on normals.
     ///
     /// # Errors
     /// [`Error::InvalidArgument`] for `normals` that are not finite, or are not one for each vertex where there are no
@@ -85,8 +86,8 @@ impl Mesh {
     /// The mesh with its vertices moved: triangles and mask stay, normals go. O(n).
     ///
     /// # Errors
-    /// [`Error::InvalidArgument`] for `positions` that are not as many as there are vertices, or not finite, and where the
-    /// total area is zero.
+    /// [`Error::InvalidArgument`] for `positions` that are of another number than the vertices, or not finite, and
+    /// where the total area is zero.
     pub fn deformed(&self, positions: Vec<[f32; 3]>) -> Result<Self> {
         let vertices = self.positions.len();
         if positions.len() != vertices {
@@ -104,12 +105,12 @@ impl Mesh {
         Ok(mesh)
     }
 
-    /// The mesh with a mask, in place of the one that it may have: triangles whose entry is false are left out. They keep
-    /// their number. O(n).
+    /// The mesh with a mask, in place of the one that it may have: triangles whose entry is false are left out. They
+    /// keep their number. O(n).
     ///
     /// The rest is sampled as if they were not there, to the bit: they get no samples, add nothing to area and bounds,
-    /// and need not be covered; nor do they hide or divide anything. So samples on both sides of a masked part keep their
-    /// distance through space. A mask may leave out everything: then a maximal set is empty.
+    /// and need not be covered; nor do they hide or divide anything. So samples on both sides of a masked part keep
+    /// their distance through space. A mask may leave out everything: then a maximal set is empty.
     ///
     /// # Errors
     /// [`Error::InvalidArgument`] for a `mask` that does not have one entry for each triangle.
@@ -176,12 +177,12 @@ impl Mesh {
         [self.positions[a as usize], self.positions[b as usize], self.positions[c as usize]]
     }
 
-    /// Whether a triangle is to be sampled: whether there is no mask, or it does not leave the triangle out.
+    /// True if a triangle is to be sampled: there is no mask, or it does not leave the triangle out.
     pub fn is_sampled(&self, triangle: u32) -> bool {
         self.mask.as_ref().is_none_or(|mask| mask[triangle as usize])
     }
 
-    /// Whether there is a mask.
+    /// True if there is a mask.
     pub(crate) fn is_masked(&self) -> bool {
         self.mask.is_some()
     }
@@ -207,13 +208,13 @@ impl Mesh {
         self.cross(triangle).normalize_or_zero().as_vec3().to_array()
     }
 
-    /// Whether the mesh carries normals besides those of its triangles: given by the caller, or read from its file.
+    /// True if the mesh carries normals besides those of its triangles: given by the caller, or read from its file.
     pub fn has_normals(&self) -> bool {
         self.normals.is_some()
     }
 
-    /// The mesh's normals at the corners of a triangle, interpolated to the point `(u, v)` of it in `f64` and normalised;
-    /// `None` if the mesh carries none. Where they add up to nothing, as zero and opposite normals do (less than a
+    /// The mesh's normals at the corners of a triangle, interpolated to the point `(u, v)` of it in `f64` and
+    /// normalised; `None` if the mesh carries none. Where they cancel, as zero and opposite normals do (less than a
     /// millionth of the longest of the three), it is the normal of the triangle.
     pub fn interpolated_normal(&self, triangle: u32, uv: [f32; 2]) -> Option<[f32; 3]> {
         let normals = self.normals.as_ref()?;
@@ -227,14 +228,14 @@ impl Mesh {
         self.point_exact(triangle, [u.into(), v.into()]).as_vec3().to_array()
     }
 
-    /// Samples at places of the caller's, evaluated with the rounding of every sampler: on the mesh that they were made on
-    /// the same floats come back, on a [deformed](Mesh::deformed) one each sample goes with its triangle. O(n).
+    /// Samples at places of the caller's, evaluated with the rounding of every sampler: on the mesh that they were made
+    /// on the same floats come back, on a [deformed](Mesh::deformed) one each sample goes with its triangle. O(n).
     ///
     /// Triangles may have no area, or be left out by a mask; barycentrics may lie outside of the triangle.
     ///
     /// # Errors
-    /// [`Error::InvalidArgument`] for `triangles` that do not exist, and for `barycentrics` that are not as many or not
-    /// finite.
+    /// [`Error::InvalidArgument`] for `triangles` that do not exist, and for `barycentrics` that are of another number
+    /// or not finite.
     pub fn samples_at(&self, triangles: &[u32], barycentrics: &[[f32; 2]]) -> Result<Points<3>> {
         if barycentrics.len() != triangles.len() {
             let reason = format!("there are {}, and {} triangles", barycentrics.len(), triangles.len());
@@ -266,9 +267,9 @@ impl Mesh {
         exact_point(&self.corners(triangle), barycentrics)
     }
 
-    /// What `make` makes of the triangles that are to be sampled, and of nothing else: made by the first call for its type,
-    /// kept for the next ones, shared with clones. A call that has to wait for another thread, which is making it, asks
-    /// `wait` now and then whether to go on.
+    /// The value that `make` derives from the triangles that are to be sampled, and from nothing else: made by the
+    /// first call for its type, kept for the next ones, shared with clones. A call that has to wait for another thread,
+    /// which is making it, asks `wait` now and then whether to go on.
     ///
     /// # Errors
     /// Those of `make`, after which nothing is kept, and of `wait`.
@@ -314,12 +315,12 @@ const SHORTEST: f64 = 1e-6;
 #[derive(Debug)]
 pub(super) struct Normals {
     vectors: Vec<[f32; 3]>,
-    /// The normals of each triangle's corners; those of its vertices, without.
+    /// The normals of each triangle's corners; `None`: those of its vertices.
     indices: Option<Vec<[u32; 3]>>,
 }
 
 impl Normals {
-    /// Checks and takes normals for a mesh of so many vertices and triangles.
+    /// Checks and takes normals for a mesh with these numbers of vertices and triangles.
     pub fn new(
         vertices: usize,
         triangles: usize,
@@ -369,7 +370,7 @@ pub(crate) fn exact_point(corners: &[[f32; 3]; 3], [u, v]: [f64; 2]) -> DVec3 {
     (1.0 - u - v) * exact(*a) + u * exact(*b) + v * exact(*c)
 }
 
-/// Barycentrics rounded to floats that name a point of the triangle: not negative, and their sum (in `f64`) not above 1.
+/// Barycentrics rounded to floats that name a point of the triangle: not negative, with a sum (in `f64`) of at most 1.
 pub(crate) fn round_barycentrics([u, v]: [f64; 2]) -> [f32; 2] {
     let [mut u, mut v] = [u, v].map(|x| x.clamp(0.0, 1.0) as f32);
     let (larger, smaller) = if u > v { (&mut u, v) } else { (&mut v, u) };

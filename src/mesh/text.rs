@@ -1,11 +1,11 @@
-//! Lines, words and numbers of text files, in whatever encoding their comments are.
+//! Lines, words and numbers of text files, whatever the encoding of their comments.
 
 /// The lines of a text, each with its number, counted from 1.
 pub(super) fn lines(bytes: &[u8]) -> impl Iterator<Item = (usize, &[u8])> {
     (1..).zip(bytes.split(|&byte| byte == b'\n'))
 }
 
-/// What stands between white space.
+/// The words of a line, between white space.
 pub(super) fn words(line: &[u8]) -> impl Iterator<Item = &[u8]> + Clone {
     line.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty())
 }
@@ -15,7 +15,7 @@ pub(super) fn number<T: std::str::FromStr>(word: &[u8]) -> Option<T> {
     std::str::from_utf8(word).ok()?.parse().ok()
 }
 
-/// Behind the white space that a text begins with, but for the end of a line.
+/// A text without its leading white space; the end of a line is kept.
 #[inline]
 pub(super) fn skip_blanks(mut text: &[u8]) -> &[u8] {
     while let [b' ' | b'\t' | b'\r' | b'\x0c', rest @ ..] = text {
@@ -24,19 +24,19 @@ pub(super) fn skip_blanks(mut text: &[u8]) -> &[u8] {
     text
 }
 
-/// The first word of a text and what follows it.
+/// The first word of a text, and the text after it.
 pub(super) fn split_word(text: &[u8]) -> (&[u8], &[u8]) {
     text.split_at(text.iter().position(u8::is_ascii_whitespace).unwrap_or(text.len()))
 }
 
-/// The line that a text begins with, its end included, and what follows it.
+/// The line that a text begins with, its end included, and the text after it.
 #[inline]
 pub(super) fn split_line(text: &[u8]) -> (&[u8], &[u8]) {
     text.split_at(text.iter().position(|&byte| byte == b'\n').map_or(text.len(), |end| end + 1))
 }
 
-/// The number on the rest of a line that is the next word, and what follows it; the word, where it is no number, which is
-/// empty where none is left.
+/// The next word on the rest of a line as a number, and the text after it; the word itself if it is not a number, empty
+/// if none is left.
 #[inline]
 pub(super) fn next_number<T: Float>(text: &[u8]) -> Result<(T, &[u8]), &[u8]> {
     let text = skip_blanks(text);
@@ -49,7 +49,7 @@ pub(super) fn next_number<T: Float>(text: &[u8]) -> Result<(T, &[u8]), &[u8]> {
     }
 }
 
-/// The next three words of a line as numbers, and what follows them.
+/// The next three words of a line as numbers, and the text after them.
 #[inline]
 pub(super) fn next_vector(mut text: &[u8]) -> Result<([f32; 3], &[u8]), &[u8]> {
     let mut vector = [0.0; 3];
@@ -59,7 +59,7 @@ pub(super) fn next_vector(mut text: &[u8]) -> Result<([f32; 3], &[u8]), &[u8]> {
     Ok((vector, text))
 }
 
-/// A word as it is shown in a message: on one line, and not too long for it.
+/// A word as it is shown in a message: on one line, and not too long.
 pub(super) fn shown(word: &[u8]) -> String {
     const LONGEST: usize = 40;
     let start = String::from_utf8_lossy(&word[..word.len().min(LONGEST)]);
@@ -71,7 +71,7 @@ const POWERS: [f64; 23] = [
     1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20,
     1e21, 1e22,
 ];
-/// So many digits always fit into 64 bits.
+/// The largest number of digits that always fit into 64 bits.
 const MOST_DIGITS: usize = 19;
 /// The powers of ten up to that.
 const TENS: [u64; MOST_DIGITS + 1] = {
@@ -100,15 +100,15 @@ impl Float for f64 {
 impl Float for f32 {
     #[inline]
     fn from_rounded(number: f64) -> Option<Self> {
-        // The bits that f32 does not have; and f32 has still fewer bits for what is below its normal numbers.
+        // The bits that f32 does not have; and f32 has still fewer bits below its normal numbers.
         let dropped = number.to_bits() & ((1 << 29) - 1);
         let is_normal = number.abs() >= f64::from(f32::MIN_POSITIVE) || number == 0.0;
         (is_normal && dropped != 1 << 28).then_some(number as f32)
     }
 }
 
-/// The number that `text` begins with, up to white space or the end of the text, and what follows it. `None` if this is
-/// no number, or has to be read with more care.
+/// The number that `text` begins with, up to white space or the end of the text, and the text after it. `None` if this
+/// is not a number, or has to be read with more care.
 #[inline]
 pub(super) fn float<T: Float>(text: &[u8]) -> Option<(T, &[u8])> {
     let (is_negative, unsigned) = match text {
@@ -157,7 +157,7 @@ fn signed(text: &[u8]) -> Option<(i32, &[u8])> {
     (1..=3).contains(&(unsigned.len() - rest.len())).then(|| (sign * value as i32, rest))
 }
 
-/// The digits that `text` begins with as a number, modulo 2^64, and what follows them.
+/// The digits that `text` begins with as a number, modulo 2^64, and the text after them.
 #[inline]
 pub(super) fn integer(mut text: &[u8]) -> (u64, &[u8]) {
     let mut value = 0u64;
@@ -194,7 +194,7 @@ fn up_to_eight(bytes: [u8; 8]) -> (u64, usize) {
     (eight, count)
 }
 
-/// Whether a word ends here.
+/// True if a word ends here.
 #[inline]
 pub(super) fn ends_word(rest: &[u8]) -> bool {
     rest.first().is_none_or(u8::is_ascii_whitespace)
@@ -206,7 +206,7 @@ mod tests {
 
     use super::*;
 
-    /// Whether a word was read, and that it then is what `parse` makes of it.
+    /// True if a word was read; asserts that it then gives the number of `parse`.
     fn check(word: &str) -> bool {
         fn bits<T: Float + Into<f64>>(word: &str, behind: &str) -> bool {
             let text = format!("{word}{behind}");

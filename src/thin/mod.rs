@@ -1,13 +1,13 @@
 //! Thinning: some points of a cloud are selected, far from each other and near to all the others.
 //!
-//! There are two rules, both exact. *By radius*: a point is selected if no selected one of lower index is nearer than the
-//! radius. *Farthest-first* (Gonzalez 1985): each next point is the farthest from those before. One loop makes both: the
-//! points know how far they are from the selected ones, and the farthest is selected next, the lowest index on ties.
-//! By radius all distances that are large enough count as equal (`selecting.rs`).
+//! There are two rules, both exact. *By radius*: a point is selected if no selected one of lower index is nearer than
+//! the radius. *Farthest-first* (Gonzalez 1985): each next point is the farthest from those before. One loop makes
+//! both: the points know how far they are from the selected ones, and the farthest is selected next, the lowest index
+//! on ties. By radius all distances that are large enough count as equal (`selecting.rs`).
 //!
 //! A tree of boxes, each with its farthest point, finds the next one and the few that it is nearer to (`tree.rs`). Its
-//! shape has no effect on the result. A tree that keeps these is that of Han et al. 2023, "QuickFPS"; its wide nodes, and
-//! the rule by radius, are ours.
+//! shape has no effect on the result. A tree that keeps these is that of Han et al. 2023, "QuickFPS"; its wide nodes,
+//! and the rule by radius, are ours.
 //!
 //! Distances are compared as squares, computed in `f64` from the given floats. That rounds, but monotonically: a box is
 //! never farther, as computed, than a point in it, and what the tree skips would not have changed.
@@ -27,12 +27,12 @@ use crate::simd::Level;
 
 use selecting::select;
 
-/// The most bytes that a point takes at the peak, and each of its coordinates: there are three copies of it while the tree
-/// is made, and leaves may be half empty.
+/// The most bytes that a point takes at the peak, and each of its coordinates: there are three copies of it while the
+/// tree is made, and leaves may be half empty.
 const BYTES_PER_POINT: f64 = 70.0;
 const BYTES_PER_COORDINATE: f64 = 24.0;
 
-/// How to thin, and when to stop.
+/// The rule of a selection, and its end.
 ///
 /// | `order` | `radius` | `count` | selected |
 /// |---|---|---|---|
@@ -50,11 +50,11 @@ pub struct Options {
     pub radius: f64,
     /// The number of points to select; a cloud that has fewer is selected whole. 0 sets none.
     pub count: usize,
-    /// The order of what is selected: any is that of the cloud, where indices ascend; progressive is farthest-first, where
-    /// each next point is the farthest from those before, the lowest index on ties.
+    /// The order of the selected points: any is that of the cloud, where indices ascend; progressive is farthest-first,
+    /// where each next point is the farthest from those before, the lowest index on ties.
     pub order: Order,
-    /// Which point is the first of the progressive order, and with it which others follow. Selection by a radius in any
-    /// order uses no random numbers.
+    /// The seed, which decides the first point of the progressive order, and so all others. Selection by a radius in
+    /// any order uses no random numbers.
     pub seed: u64,
 }
 
@@ -74,7 +74,7 @@ impl Options {
         Self { order: Order::Progressive, ..Self::default() }
     }
 
-    /// Refuses what is out of its range.
+    /// Refuses options out of range.
     fn check(&self) -> Result<()> {
         if self.radius != 0.0 {
             check::radius(self.radius)?;
@@ -93,8 +93,8 @@ setters!(Options { radius: f64, count: usize, order: Order, seed: u64 });
 pub struct Selection {
     /// Their indices in the cloud.
     pub indices: Vec<u32>,
-    /// In progressive order: the distance of each from the nearest of those before it, rounded down to a float. It never
-    /// rises. Infinite for the first point, 0 for points that coincide with one before. Empty in any order.
+    /// In progressive order: the distance of each from the nearest of those before it, rounded down to a float. It
+    /// never rises. Infinite for the first point, 0 for points that coincide with one before. Empty in any order.
     ///
     /// The points of ranks of at least r are at least r apart, and every point of the cloud is within the next rank of
     /// one of them, up to the rounding.
@@ -103,18 +103,18 @@ pub struct Selection {
 
 /// Selects points of a cloud, in the plane (`D` = 2), in space (3) or with any number of coordinates.
 ///
-/// * [`Options::radius`]: the selected points are at least the radius apart, and every other point is nearer than the radius
-///   to one of them. A distance is `sqrt(dx² + dy² + ..)` in `f64` from the given floats, without tolerance.
-/// * [`Options::count`]: as many points as that, by farthest-first selection. Every other point is no farther from one
-///   of them than any two of them are apart.
+/// * [`Options::radius`]: the selected points are at least the radius apart, and every other point is nearer than the
+///   radius to one of them. A distance is `sqrt(dx² + dy² + ..)` in `f64` from the given floats, without tolerance.
+/// * [`Options::count`]: this many points, by farthest-first selection. Every other point is no farther from one of
+///   them than any two of them are apart.
 /// * In progressive order all prefixes have these properties.
 ///
 /// Points that coincide are allowed: by radius one of them is selected, farthest-first they come last, with rank 0. The
-/// result is the same for every number of threads; these share the making of the tree, the selection itself runs on one
-/// thread.
+/// result is the same for every number of threads; the threads share the construction of the tree, the selection itself
+/// runs on one thread.
 ///
-/// O(n log n) for n points, whether or not their density varies; O(n · selected) at worst, in clouds made for it, such as a
-/// sphere of points around the first. Memory is O(n).
+/// O(n log n) for n points, whether or not their density varies; O(n · selected) at worst, in clouds made for it, such
+/// as a sphere of points around the first. Memory is O(n).
 ///
 /// # Errors
 /// [`Error::InvalidArgument`] for an option out of range, and for points that are not finite (`positions`, with the

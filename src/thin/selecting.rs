@@ -25,8 +25,8 @@ pub(super) fn select<const D: usize>(
 ) -> Result<Selection> {
     let count = if options.count == 0 { positions.len() } else { options.count.min(positions.len()) };
     let end = End { squared: least_square(options.radius), count };
-    // By radius, a point that is far enough from what is selected is as far as any other, and one that is not is out: so the
-    // farthest is the one of lowest index of those that can be selected.
+    // By radius, a point that is far enough from the selected ones is as far as any other, and one that is not is out:
+    // so the farthest is the one of lowest index of those that can be selected.
     let by_radius = options.order == Order::Any && options.count == 0;
     let (start, nearer) = if by_radius { (end.squared, Nearer::Zero) } else { (f64::INFINITY, Nearer::Distance) };
     let tree = Tree::new(&job.part(0.0, TREE_SHARE), positions, start, nearer)?;
@@ -51,7 +51,7 @@ pub(super) fn select<const D: usize>(
     }
 }
 
-/// When enough is selected.
+/// The end of a selection.
 pub(super) struct End {
     /// The least squared distance of a point that may be selected.
     squared: f64,
@@ -59,7 +59,7 @@ pub(super) struct End {
     count: usize,
 }
 
-/// What is selected, and the tree that knows how far the others are from it.
+/// The selected points, and the tree that knows the distances of the others from them.
 pub(super) struct Selecting<'a, const D: usize> {
     positions: &'a [[f32; D]],
     tree: Tree<D>,
@@ -76,8 +76,8 @@ impl<const D: usize> Selecting<'_, D> {
         self.tree.select(&self.positions[index as usize].map(f64::from));
     }
 
-    /// Selects up to `count` more points, the farthest each time; whether there may be more. Points that coincide with
-    /// selected ones are not selected.
+    /// Selects up to `count` more points, the farthest each time. Returns whether there may be more. Points that
+    /// coincide with selected ones are not selected.
     #[inline(always)]
     pub fn advance(&mut self, end: &End, count: usize) -> bool {
         for _ in 0..count {
@@ -90,7 +90,7 @@ impl<const D: usize> Selecting<'_, D> {
         true
     }
 
-    /// Selects points up to `count` of those left, which coincide with selected ones: the lowest indices first.
+    /// Selects points up to `count` of the remaining ones, which coincide with selected ones: the lowest indices first.
     fn select_coincident(&mut self, count: usize) {
         let mut is_selected = vec![false; self.positions.len()];
         self.indices.iter().for_each(|&index| is_selected[index as usize] = true);
@@ -99,20 +99,20 @@ impl<const D: usize> Selecting<'_, D> {
         self.squared.resize(self.indices.len(), 0.0);
     }
 
-    /// How far indices that ascend have come.
+    /// The progress of indices that ascend.
     fn share_of_indices(&self) -> f64 {
         self.indices.last().map_or(0.0, |&index| f64::from(index) / self.positions.len() as f64)
     }
 
-    /// How much of a progressive selection is done, by number or by distance: on a surface, and about in general, the
-    /// number grows as the square of the distance falls.
+    /// The share of a progressive selection that is done, by number or by distance: on a surface, and about in general,
+    /// the number grows as the square of the distance falls.
     fn share_of(&self, end: &End) -> f64 {
         let by_count = self.indices.len() as f64 / end.count as f64;
         self.squared.last().map_or(0.0, |&squared| by_count.max(end.squared / squared).min(1.0))
     }
 }
 
-/// The least number whose root is at least `radius`: squares are compared with it, and what is promised holds for roots.
+/// The least number whose root is at least `radius`: squares are compared with it, and the guarantee holds for roots.
 fn least_square(radius: f64) -> f64 {
     let mut square = radius * radius;
     while square > 0.0 && square.next_down().sqrt() >= radius {

@@ -1,5 +1,5 @@
-//! The tree of a cloud: leaves of up to 16 points, nodes of eight boxes, one above the other up to the root. Points of a leaf
-//! and boxes of a node are in lanes: loops of constant length, of which compilers make vectors.
+//! The tree of a cloud: leaves of up to 16 points, nodes of eight boxes, one above the other up to the root. Points of
+//! a leaf and boxes of a node are in lanes: loops of constant length, of which compilers make vectors.
 
 use crate::error::Result;
 use crate::job::Job;
@@ -7,21 +7,23 @@ use crate::job::Job;
 /// A point of the cloud and its index.
 type Point<const D: usize> = ([f32; D], u32);
 
-/// How many times the cloud is halved by all threads together, before each halves parts on its own.
+/// The number of times that all threads together halve the cloud, before each halves parts on its own.
 const SHARED_HALVINGS: u32 = 6;
 
 /// A kd-tree of points, halved across their longest extent, that knows the farthest of them.
 pub(super) struct Tree<const D: usize> {
     nearer: Nearer,
     leaves: Vec<Leaf<D>>,
-    /// From those of leaves up to the root. Child c of a level belongs to the node c / 8 of the next one.
+    /// The levels, from the nodes of leaves up to the root. Child c of a level belongs to the node c / 8 of the next
+    /// one.
     levels: Vec<Vec<Node<D>>>,
-    /// What the place that is being selected reaches: leaves, then nodes of each level.
+    /// The leaves, then the nodes of each level, that the place being selected reaches.
     reached: Vec<Vec<u32>>,
 }
 
 impl<const D: usize> Tree<D> {
-    /// The tree of a cloud of at least one point, all this far from what is selected: nothing yet.
+    /// The tree of a cloud of at least one point, all at this distance from the selected points, of which there are
+    /// none yet.
     pub fn new(job: &Job, positions: &[[f32; D]], squared: f64, nearer: Nearer) -> Result<Self> {
         let mut points: Vec<Point<D>> = positions.iter().copied().zip(0..).collect();
         let halvings = points.len().div_ceil(POINTS).next_power_of_two().ilog2();
@@ -59,7 +61,7 @@ impl<const D: usize> Tree<D> {
         Ok(Self { nearer, leaves, levels, reached })
     }
 
-    /// The point that is farthest from what is selected, the lowest index on ties.
+    /// The point that is farthest from the selected ones, the lowest index on ties.
     #[inline(always)]
     pub fn farthest(&self) -> Farthest {
         self.levels[self.levels.len() - 1][0].farthest()
@@ -105,7 +107,7 @@ fn halved<const D: usize>(points: &mut [Point<D>]) -> [&mut [Point<D>]; 2] {
     points.split_at_mut(middle).into()
 }
 
-/// Appends the leaves of these points, halved so many times more, each with its box and its farthest point.
+/// Appends the leaves of these points, halved this many times more, each with its box and its farthest point.
 fn make_leaves<const D: usize>(
     points: &mut [Point<D>],
     halvings: u32,
@@ -135,7 +137,7 @@ pub(super) struct Farthest {
     pub index: u32,
 }
 
-/// What `N` places know of their farthest point, each of its own.
+/// The farthest point of each of `N` places, as far as known.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(64))]
 struct Known<const N: usize> {
@@ -176,7 +178,7 @@ fn best_of<T: Copy, const N: usize>(mut lanes: [T; N], best: impl Fn(T, T) -> T)
     lanes[0]
 }
 
-/// What becomes of a point's distance when one is selected that is nearer than all before.
+/// The new distance of a point when one is selected that is nearer than all before.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Nearer {
     /// It is the distance from that one.
@@ -189,12 +191,12 @@ pub(super) enum Nearer {
 #[derive(Clone, Debug)]
 pub(super) struct Leaf<const D: usize> {
     known: Known<POINTS>,
-    /// Known without a point repeat one: they are in the box.
+    /// Lanes without a point repeat one, and so are in the box.
     places: [[f32; POINTS]; D],
 }
 
 impl<const D: usize> Leaf<D> {
-    /// A leaf of 1 to [`POINTS`] points, all this far from what is selected.
+    /// A leaf of 1 to [`POINTS`] points, all at this distance from the selected ones.
     pub fn new(points: &[([f32; D], u32)], squared: f64) -> Self {
         let mut leaf = Self { known: Known::EMPTY, places: points[0].0.map(|x| [x; POINTS]) };
         for (lane, &(place, index)) in points.iter().enumerate() {
@@ -286,8 +288,8 @@ impl<const D: usize> Node<D> {
         self.known.set(lane, farthest);
     }
 
-    /// The boxes that are nearer to a place than their farthest point to the selected ones, a bit each: in the others it is
-    /// nearer to none. Differences, squares and sums are those of [`Leaf::select`], so they are rounded alike.
+    /// The boxes that are nearer to a place than their farthest point to the selected ones, a bit each: in the others
+    /// it is nearer to none. Differences, squares and sums are those of [`Leaf::select`], so they are rounded alike.
     #[inline(always)]
     pub fn reached(&self, place: &[f64; D]) -> u32 {
         let mut squared = [0.0; BOXES];

@@ -1,5 +1,5 @@
-//! The loop that selects in each level of vector instructions: the portable code, compiled for AVX2, so that its loops over
-//! lanes become vectors. The same to the bit, since compilers contract nothing. AVX-512 gained nothing.
+//! The loop that selects in each level of vector instructions: the portable code, compiled for AVX2, so that its loops
+//! over lanes become vectors. The same to the bit, since compilers contract nothing. AVX-512 gained nothing.
 
 use super::selecting::{End, Selecting};
 use crate::simd::Level;

@@ -1,4 +1,4 @@
-//! What stands for Embree where the feature `embree` is off: calls that refuse, and a scene that cannot exist.
+//! The substitute for Embree where the feature `embree` is off: calls that refuse, and a scene that cannot exist.
 
 use std::convert::Infallible;
 use std::ffi::c_void;
@@ -33,7 +33,7 @@ impl Scene {
         Err(refusal())
     }
 
-    /// How many rays are traced at once.
+    /// The number of rays that are traced at once.
     pub fn packet_width(&self) -> usize {
         match self.never {}
     }

@@ -4,8 +4,8 @@
 //! hit; here a filter records every hit and rejects it, so that one traversal finds them all. That is 1.5 to 1.9 times
 //! faster, and a restart loses hits that lie within its epsilon of the last one.
 //!
-//! All that can go wrong in Embree is kept out here. Debian builds Embree 3.13 with assertions: a ray that is not finite
-//! ends the process. All versions drop triangles with bad vertices or indices without a word.
+//! Input that Embree does not tolerate is kept out here. Debian builds Embree 3.13 with assertions: a ray that is not
+//! finite ends the process. All versions silently drop triangles with bad vertices or indices.
 //!
 //! A build without the feature `embree` has the same items, and no scene can be made ([`HAS_EMBREE`]).
 
@@ -28,19 +28,19 @@ pub use absent::{HostBuffers, Scene, host_buffers};
 #[cfg(feature = "embree")]
 pub use scene::{HostBuffers, Scene, host_buffers};
 
-/// Whether this build has Embree, the feature `embree`.
+/// True if this build has Embree, the feature `embree`.
 pub const HAS_EMBREE: bool = cfg!(feature = "embree");
 
-/// Embree leaves out what is farther from the origin (its `FLT_LARGE` is 1.844e18).
+/// The largest coordinate: Embree ignores geometry that is farther from the origin (its `FLT_LARGE` is 1.844e18).
 #[cfg(feature = "embree")]
 pub(super) const LARGEST_COORDINATE: f32 = 1e18;
 
 /// A ray that starts at a point and has no end.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ray {
-    /// Where it starts.
+    /// The start of the ray.
     pub origin: [f32; 3],
-    /// Where it goes: of any length above zero.
+    /// The direction, of any length above zero.
     pub direction: [f32; 3],
 }
 

@@ -16,15 +16,15 @@ pub(super) struct Packet<P> {
     valid: Valid,
     /// The direction of all rays, as the caller gave it, if it is one that can be traced.
     common: Option<[f32; 3]>,
-    /// Which lanes have a direction that can be traced: -1 those, 0 the others.
+    /// The lanes that have a direction that can be traced: -1 for those, 0 for the others.
     aimed: [c_int; MAX_WIDTH],
-    /// What Embree's `t` is multiplied by to be the caller's, for each lane.
+    /// The factor from Embree's `t` to the caller's, for each lane.
     scales: [f64; MAX_WIDTH],
 }
 
 impl<P: RayHits> Packet<P> {
     fn words(&self) -> &[u32] {
-        // SAFETY: by the contract of `RayHits` there are as many words, and any bits are words.
+        // SAFETY: by the contract of `RayHits` there are this many words, and any bits are words.
         unsafe { slice::from_raw_parts(ptr::from_ref(&self.rays).cast(), field::COUNT * P::WIDTH) }
     }
 
@@ -102,7 +102,7 @@ impl<P: RayHits> Packet<P> {
         }
     }
 
-    /// Makes the idle lanes harmless: Embree 3.13 overlooks the mask where it emulates wider packets than the machine's
+    /// Makes the idle lanes harmless: Embree 3.13 ignores the mask where it emulates wider packets than the machine's
     /// own, so that an idle ray has to end before it begins.
     fn still(&mut self) {
         for lane in 0..P::WIDTH {
@@ -191,7 +191,7 @@ fn coherent() -> RTCIntersectArguments {
 /// The widest packet.
 pub(super) const MAX_WIDTH: usize = 16;
 
-/// Which array of a struct of N rays and their hits is which: word `field * N + lane`.
+/// The arrays of a struct of N rays and their hits, by number: word `field * N + lane`.
 pub(super) mod field {
     pub const ORIGIN: usize = 0;
     pub const DIRECTION: usize = 4;
@@ -215,14 +215,14 @@ pub(super) unsafe trait RayHits: Default {
     /// N.
     const WIDTH: usize;
 
-    /// Traces the rays of the lanes where `valid` is -1. A struct of one ray does not look at `valid`.
+    /// Traces the rays of the lanes where `valid` is -1. A struct of one ray ignores `valid`.
     ///
     /// # Safety
     /// The scene is committed, the valid rays are finite, the arguments and what they point to are initialised.
     unsafe fn intersect(&mut self, valid: &Valid, scene: RTCScene, arguments: &mut RTCIntersectArguments);
 }
 
-/// Which lanes of a packet are traced: -1 those, 0 the others. Embree faults on a mask that is not aligned.
+/// The lanes of a packet that are traced: -1 for those, 0 for the others. Embree faults on a mask that is not aligned.
 #[derive(Default)]
 #[repr(C, align(64))]
 pub(super) struct Valid(pub [c_int; MAX_WIDTH]);
@@ -249,7 +249,7 @@ ray_hits!(RTCRayHit4, 4, |valid, scene, rays, arguments| rtcIntersect4(valid.0.a
 ray_hits!(RTCRayHit8, 8, |valid, scene, rays, arguments| rtcIntersect8(valid.0.as_ptr(), scene, rays, arguments));
 ray_hits!(RTCRayHit16, 16, |valid, scene, rays, arguments| rtcIntersect16(valid.0.as_ptr(), scene, rays, arguments));
 
-/// A place for a hit.
+/// An unused slot for a hit.
 const NO_HIT: Hit = Hit { ray: 0, triangle: 0, uv: [0.0; 2], t: 0.0 };
 
 /// Appends what `finish` makes of the hits of one packet, ordered by lane, `t` and triangle and without repetitions: a

@@ -11,7 +11,7 @@ use crate::trace::packet::{MAX_WIDTH, field};
 #[cfg(target_arch = "x86_64")]
 use crate::trace::wide;
 
-/// What the filter of a query writes to: Embree hands it the context.
+/// The target of a query's filter: Embree hands it the context.
 #[repr(C)]
 pub(super) struct Recorder {
     context: RTCRayQueryContext,
@@ -52,7 +52,7 @@ pub(super) unsafe extern "C" fn record(arguments: *const RTCFilterFunctionNArgum
 /// Appends the hits of the valid lanes, and makes no lane valid.
 ///
 /// # Safety
-/// The pointers lead to `width` lanes, 16 at most, of masks, of the fields of rays and of those of hits.
+/// The pointers are valid for `width` lanes, 16 at most, of masks, of the fields of rays and of those of hits.
 unsafe fn note(valid: *mut c_int, ray: *const u32, hit: *const u32, width: usize, hits: &mut Vec<Hit>) {
     // SAFETY: by the contract.
     unsafe {

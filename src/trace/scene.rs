@@ -16,8 +16,8 @@ use crate::trace::recorder::Recorder;
 use crate::trace::watch::Watch;
 use crate::trace::{Hit, LARGEST_COORDINATE, Ray};
 
-/// How many packets are filled before they are traced: Embree reads whole vectors, and the processor makes it wait for
-/// what was stored lane by lane a moment ago.
+/// The number of packets that are filled before they are traced: Embree reads whole vectors, and the processor stalls
+/// on one whose lanes were stored one by one just before.
 const PACKETS_AHEAD: usize = 4;
 
 /// Triangles in Embree's bounding volume hierarchy, ready to be traced.
@@ -34,9 +34,9 @@ impl Scene {
     /// Copies the triangles into Embree and builds the hierarchy with `num_threads` threads (0: one per core; 1: none
     /// but the caller's), in O(n log n).
     ///
-    /// Embree knows one bound for the threads of a process, the largest that one of its devices has, and sets it for all
-    /// that uses TBB. A scene has a device of its own, with `num_threads`. So a build beside a device with more threads can
-    /// use as many, and a device with fewer can use `num_threads` while this scene lives, but not after it.
+    /// Embree knows one bound for the threads of a process, the largest that one of its devices has, and sets it for
+    /// all that uses TBB. A scene has a device of its own, with `num_threads`. So a build beside a device with more
+    /// threads can use as many, and a device with fewer can use `num_threads` while this scene lives, but not after it.
     ///
     /// Embree calculates in `f32` with fixed thresholds: scale a mesh to about the unit box before.
     ///
@@ -56,7 +56,7 @@ impl Scene {
         Ok(Self { built, packet_width })
     }
 
-    /// How many rays this machine traces at once: 16, 8 or 4.
+    /// The number of rays that this machine traces at once: 16, 8 or 4.
     ///
     /// Rays pay off when those of a packet, that is of each run of as many rays, stay close together.
     pub fn packet_width(&self) -> usize {
@@ -192,7 +192,7 @@ impl Built {
         self.scene.raw
     }
 
-    /// How many rays the device traces at once.
+    /// The number of rays that the device traces at once.
     pub(super) fn packet_width(&self) -> usize {
         let widths = [(16, RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED), (8, RTC_DEVICE_PROPERTY_NATIVE_RAY8_SUPPORTED)];
         // SAFETY: the device is alive.
@@ -214,7 +214,7 @@ impl<T: Copy> Drop for Handle<T> {
     }
 }
 
-/// What Embree had to say against the calls so far.
+/// The texts of Embree's errors in the calls so far.
 type Complaints = Mutex<Vec<String>>;
 
 /// A device that notes the text of each error.
@@ -265,7 +265,7 @@ impl Device {
         if complaints.is_empty() { Ok(()) } else { Err(Error::Embree(complaints.join("; "))) }
     }
 
-    /// Takes charge of a new object of this device, or says why there is none.
+    /// Takes ownership of a new object of this device, or says why there is none.
     fn own<T>(&self, raw: *mut T, release: unsafe extern "C" fn(*mut T)) -> Result<Handle<*mut T>> {
         self.verdict()?;
         Ok(Handle { raw, release })
@@ -297,7 +297,7 @@ impl Device {
         let data =
             unsafe { rtcSetNewGeometryBuffer(geometry.raw, buffer, 0, format, size_of::<T>(), items.len()) }.cast();
         self.verdict()?;
-        // SAFETY: Embree made the buffer, without complaint, for as many items of this size, aligned to 16 bytes.
+        // SAFETY: Embree made the buffer, without an error, for this many items of this size, aligned to 16 bytes.
         unsafe { ptr::copy_nonoverlapping(items.as_ptr(), data, items.len()) };
         Ok(())
     }
@@ -319,13 +319,13 @@ pub struct HostBuffers {
     pub indices: NonNull<u32>,
 }
 
-/// Finds the buffers of geometries in a scene that another part of the program made, an `RTCScene`. Nothing of the scene
-/// or of its device is changed.
+/// Finds the buffers of geometries in a scene that another part of the program made, an `RTCScene`. Nothing of the
+/// scene or of its device is changed.
 ///
 /// # Safety
-/// `scene` is a committed scene of the libembree that this crate is linked with, and stays so as long as the buffers are
-/// used; `geometries` are attached to it as triangles, of one time step. None of this can be asked of Embree, except for
-/// the version, which is compared.
+/// `scene` is a committed scene of the libembree that this crate is linked with, and stays so as long as the buffers
+/// are used; `geometries` are attached to it as triangles, of one time step. None of this can be asked of Embree,
+/// except for the version, which is compared.
 ///
 /// # Errors
 /// [`Error::InvalidArgument`] for a `scene` that is null and for geometries without buffers; [`Error::Embree`] if the

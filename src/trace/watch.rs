@@ -13,15 +13,15 @@ use embree4_sys::{RTCScene, rtcSetSceneProgressMonitorFunction};
 use crate::error::{Error, Result};
 use crate::job::Job;
 
-/// Embree calls its monitor on all threads of a build; a job reports on the thread that waits for it, which is usually one
-/// of them. (It is none while as many other threads build scenes as TBB takes. A cancelled build then ends late.)
+/// Embree calls its monitor on all threads of a build; a job reports on the thread that waits for it, which is usually
+/// one of them. (It is none while as many other threads build scenes as TBB takes. A cancelled build then ends late.)
 pub(super) struct Watch<'a> {
     cancelled: AtomicBool,
     caller: ThreadId,
-    // What follows is touched by the caller's thread only.
+    // The fields below are touched by the caller's thread only.
     job: &'a Job<'a>,
     done: Cell<f64>,
-    /// What a callback of the user's threw: it must not unwind through Embree.
+    /// The payload of a panic in the user's callback: it must not unwind through Embree.
     panic: RefCell<Option<Box<dyn Any + Send>>>,
 }
 
@@ -35,7 +35,7 @@ impl<'a> Watch<'a> {
     /// Commits a scene by `commit`, on the calling thread.
     ///
     /// # Errors
-    /// [`Error::Cancelled`] where the job was; the scene is then good for nothing but its release.
+    /// [`Error::Cancelled`] where the job was; the scene can then only be released.
     pub(super) fn during(&self, scene: RTCScene, commit: impl FnOnce()) -> Result<()> {
         let this = ptr::from_ref(self).cast_mut().cast();
         // SAFETY: the scene is alive; it forgets the watch before this function returns.
@@ -63,14 +63,14 @@ impl<'a> Watch<'a> {
     }
 }
 
-/// Embree's monitor: whether to go on.
+/// Embree's monitor: returns whether to go on.
 ///
 /// # Safety
-/// `watch` leads to a [`Watch`] during the build that it was made for.
+/// `watch` points to a [`Watch`] during the build that it was made for.
 unsafe extern "C" fn tell(watch: *mut c_void, done: f64) -> bool {
     let watch = watch.cast::<Watch>().cast_const();
-    // SAFETY: by the contract; of what is not `Sync`, nothing is touched but by the thread that it belongs to. The fields
-    // are reached one by one, since other threads have no right to a reference to all of them.
+    // SAFETY: by the contract; of what is not `Sync`, nothing is touched but by the thread that it belongs to. The
+    // fields are reached one by one, since other threads have no right to a reference to all of them.
     unsafe {
         if thread::current().id() == (*watch).caller && !(*watch).cancelled.load(Ordering::Relaxed) {
             (*watch).report(done);
@@ -110,7 +110,7 @@ mod tests {
             scene.unwrap().all_hits(&[Ray { origin: [0.3, 0.6, -1.0], direction: [0.0, 0.0, 1.0] }], &mut hits);
             assert_eq!(hits.len(), 100_000);
             let told = told.into_inner();
-            // How many there are between start and end is Embree's choice; `tests/embree_threads.rs` looks at that.
+            // The number of calls between start and end is Embree's choice; `tests/embree_threads.rs` examines it.
             assert!(told.len() > 1 && told.iter().all(|&(_, id)| id == thread::current().id()));
             assert!(told.windows(2).all(|pair| pair[0].0 <= pair[1].0));
             assert!(told[1..told.len() - 1].iter().all(|&(share, _)| (0.2..=0.7).contains(&share)));

@@ -1,4 +1,4 @@
-//! What the filter of `recorder.rs` does with sixteen rays, in AVX-512, the same to the bit.
+//! The filter of `recorder.rs` for sixteen rays, in AVX-512, the same to the bit.
 
 use std::arch::x86_64::*;
 use std::ffi::c_int;
@@ -10,13 +10,13 @@ use crate::trace::packet::field;
 /// Rays of a packet.
 pub(super) const WIDTH: usize = 16;
 
-/// What [`record`](super::recorder::record) does with 16 rays.
+/// [`record`](super::recorder::record) for 16 rays.
 ///
-/// The lanes with hits are moved together first. A loop over set bits would end at a place that the processor cannot
-/// foresee, once for nearly every ray.
+/// The lanes with hits are compressed first. The end of a loop over set bits would be mispredicted for nearly every
+/// ray.
 ///
 /// # Safety
-/// The pointers lead to 16 lanes of masks, of the fields of rays and of those of hits.
+/// The pointers are valid for 16 lanes of masks, of the fields of rays and of those of hits.
 pub(super) unsafe fn note(_: Avx512, valid: *mut c_int, ray: *const u32, hit: *const u32, hits: &mut Vec<Hit>) {
     // SAFETY: by the contract; the token is proof that the processor has the instructions.
     unsafe { note_lanes(valid, ray, hit, hits) }
@@ -45,7 +45,7 @@ unsafe fn note_lanes(valid: *mut c_int, ray: *const u32, hit: *const u32, hits: 
     let [rays, triangles, u, v, t] = packed;
     hits.reserve(WIDTH);
     let end = hits.spare_capacity_mut();
-    // Four at a time, over-reading up to three: the number of turns is nearly always the same.
+    // Four at a time, over-reading up to three: the number of iterations is nearly always the same.
     for start in (0..count).step_by(4) {
         for lane in start..start + 4 {
             let [u, v, t] = [u, v, t].map(|field: [u32; WIDTH]| f32::from_bits(field[lane]));

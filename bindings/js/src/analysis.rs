@@ -12,7 +12,7 @@ use crate::surface::Handle;
 /// The smallest distance and the covering radius of a set of the plane.
 ///
 /// # Safety
-/// `points` leads to `count` points.
+/// `points` is valid for reads of `count` points.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_plane_measure(
     min_x: f64,
@@ -35,7 +35,7 @@ pub unsafe extern "C" fn azulejo_plane_measure(
 /// The smallest straight distance and the covering radius of positions on a mesh.
 ///
 /// # Safety
-/// `positions` leads to `count` positions.
+/// `positions` is valid for reads of `count` positions.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_mesh_measure(mesh: &Handle, positions: *const [f32; 3], count: usize) -> i32 {
     // SAFETY: as the caller says.
@@ -46,10 +46,10 @@ pub unsafe extern "C" fn azulejo_mesh_measure(mesh: &Handle, positions: *const [
     })
 }
 
-/// The power of each frequency; and of each annulus its frequency, power, anisotropy and number of frequencies.
+/// The power of each frequency; the frequency, power, anisotropy and number of frequencies of each annulus.
 ///
 /// # Safety
-/// `points` leads to `count` points.
+/// `points` is valid for reads of `count` points.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_spectrum(
     min_x: f64,

@@ -1,4 +1,4 @@
-//! What the last call has returned, until the next one.
+//! The answer of the last call, kept until the next call.
 
 use std::cell::RefCell;
 
@@ -23,7 +23,7 @@ pub(crate) enum Array {
 }
 
 impl Array {
-    /// Where it is and how many bytes it has.
+    /// The address of the array and its length in bytes.
     fn place(&self) -> (*const u8, usize) {
         fn of<T>(numbers: &[T]) -> (*const u8, usize) {
             (numbers.as_ptr().cast(), size_of_val(numbers))
@@ -52,7 +52,7 @@ macro_rules! arrays {
 arrays!(F32 of f32, F32x2 of [f32; 2], F32x3 of [f32; 3], U32 of u32, F64 of f64);
 
 impl Answer {
-    /// This answer with one array more.
+    /// This answer with one more array.
     pub fn and<T>(mut self, numbers: Vec<T>) -> Self
     where
         Array: From<Vec<T>>,
@@ -62,7 +62,7 @@ impl Answer {
     }
 }
 
-/// Makes a call on one thread and keeps its answer, or the text of its error. Whether it has succeeded.
+/// Makes a call on one thread and keeps its answer, or the text of its error. Returns whether it succeeded.
 pub(crate) fn call(body: impl FnOnce(&Context) -> Result<Answer>) -> i32 {
     ANSWER.set(Answer::default());
     let answer = Context::new(1).and_then(|context| body(&context));
@@ -75,13 +75,13 @@ fn place(index: usize) -> (*const u8, usize) {
     ANSWER.with_borrow(|answer| answer.0.get(index).map_or((std::ptr::null(), 0), Array::place))
 }
 
-/// Where an array of the answer is.
+/// The address of an array of the answer.
 #[unsafe(no_mangle)]
 pub extern "C" fn azulejo_answer(index: usize) -> *const u8 {
     place(index).0
 }
 
-/// How many bytes it has.
+/// The length of an array of the answer in bytes.
 #[unsafe(no_mangle)]
 pub extern "C" fn azulejo_answer_bytes(index: usize) -> usize {
     place(index).1

@@ -1,7 +1,7 @@
 //! azulejo for JavaScript: the functions that `index.js` calls, on one thread.
 //!
-//! Arguments are numbers, and arrays in memory that [`memory::azulejo_take`] gave. Every call returns whether it has
-//! succeeded; what it returns, or the text of its error, is read from the arrays of its [`answer`].
+//! Arguments are numbers, and arrays in memory that [`memory::azulejo_take`] allocated. Every call returns whether it
+//! succeeded; its results, or the text of its error, are read from the arrays of its [`answer`].
 
 mod analysis;
 mod answer;
@@ -12,13 +12,13 @@ mod thin;
 
 use azulejo::{Boundary, Domain, Order};
 
-/// A rectangle of five numbers: its corners, and whether it is bounded.
+/// The domain of five numbers: the corners of a rectangle, and whether it is bounded.
 pub(crate) fn domain(min_x: f64, min_y: f64, max_x: f64, max_y: f64, bounded: i32) -> Domain {
     let boundary = if bounded == 0 { Boundary::Periodic } else { Boundary::Bounded };
     Domain { min: [min_x, min_y], max: [max_x, max_y], boundary }
 }
 
-/// The order of a flag.
+/// The order that a flag selects.
 pub(crate) fn order(progressive: i32) -> Order {
     if progressive == 0 { Order::Any } else { Order::Progressive }
 }

@@ -7,14 +7,14 @@ fn layout(bytes: usize) -> Option<Layout> {
     Layout::from_size_align(bytes.max(8), 8).ok()
 }
 
-/// So many bytes, to be given back; null if they cannot be had.
+/// Allocates this many bytes, which the caller has to free; null if the allocation fails.
 #[unsafe(no_mangle)]
 pub extern "C" fn azulejo_take(bytes: usize) -> *mut u8 {
     // SAFETY: the layout is not empty.
     layout(bytes).map_or(std::ptr::null_mut(), |layout| unsafe { alloc(layout) })
 }
 
-/// Frees what was taken.
+/// Frees allocated memory.
 ///
 /// # Safety
 /// `pointer` is from [`azulejo_take`] with as many bytes.
@@ -31,7 +31,7 @@ pub unsafe extern "C" fn azulejo_give_back(pointer: *mut u8, bytes: usize) {
 /// The rows of an argument.
 ///
 /// # Safety
-/// `pointer` leads to `count` rows, unless there are none, that stay as they are during `'a`.
+/// Unless `count` is 0, `pointer` is valid for reads of `count` rows, which do not change during `'a`.
 pub(crate) unsafe fn rows<'a, T>(pointer: *const T, count: usize) -> &'a [T] {
     // SAFETY: as the caller says.
     if count == 0 { &[] } else { unsafe { std::slice::from_raw_parts(pointer, count) } }

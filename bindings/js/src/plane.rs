@@ -8,7 +8,7 @@ use crate::answer::{Answer, call};
 use crate::domain;
 use crate::memory::rows;
 
-/// What to sample, as JavaScript writes it.
+/// The options of a set, as JavaScript lays them out.
 #[repr(C)]
 pub struct PlaneOptions {
     radius: f64,
@@ -51,7 +51,7 @@ impl PlaneOptions {
     }
 }
 
-/// Samples that stand already; without clearances all have the radius.
+/// Given samples; without clearances each keeps the radius.
 ///
 /// # Safety
 /// As [`rows`] of both.
@@ -66,7 +66,7 @@ unsafe fn given<'a>(
     if clearances.is_empty() { Given::at(positions) } else { Given::with_clearances(positions, clearances) }
 }
 
-/// Samples, their ranks, and the radius, whether the set is maximal.
+/// The samples, their ranks, the radius, and whether the set is maximal.
 ///
 /// # Safety
 /// The pointers are to arguments of these sizes.
@@ -92,7 +92,7 @@ pub unsafe extern "C" fn azulejo_kdrt_sample(
     })
 }
 
-/// Samples of several classes, and the class of each.
+/// The samples of several classes, and the class of each.
 ///
 /// # Safety
 /// The pointers are to arguments of these sizes.
@@ -112,7 +112,7 @@ pub unsafe extern "C" fn azulejo_kdrt_sample_classes(
     })
 }
 
-/// Keeps what all windows of a plane have in common; the answer is empty, the handle in `out`.
+/// Keeps the state that all windows of a plane share; the answer is empty, the handle is in `out`.
 ///
 /// # Safety
 /// The pointers are to arguments of these sizes.
@@ -149,10 +149,10 @@ pub extern "C" fn azulejo_plane_free(plane: Option<Box<Plane>>) {
     drop(plane);
 }
 
-/// The relaxed points; iterations, why it stopped, motion, smallest distance, rho and coverage.
+/// The relaxed points; the number of iterations, the reason for stopping, motion, smallest distance, rho and coverage.
 ///
 /// # Safety
-/// `points` leads to `count` points.
+/// `points` is valid for reads of `count` points.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_dcr_relax(
     min_x: f64,

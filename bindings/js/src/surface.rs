@@ -11,10 +11,10 @@ use crate::answer::{Answer, call};
 use crate::memory::rows;
 use crate::order;
 
-/// What JavaScript's `Mesh` refers to.
+/// The object behind JavaScript's `Mesh`.
 pub struct Handle(pub Arc<Mesh>);
 
-/// A mesh of triangles; the handle in `out`, the area in the answer.
+/// A mesh of triangles; the handle is in `out`, the area in the answer.
 ///
 /// # Safety
 /// The pointers are to arguments of these sizes.
@@ -42,7 +42,7 @@ pub extern "C" fn azulejo_mesh_free(mesh: Option<Box<Handle>>) {
     drop(mesh);
 }
 
-/// What to sample, as JavaScript writes it.
+/// The options of a set, as JavaScript lays them out.
 #[repr(C)]
 pub struct SurfaceOptions {
     radius: f64,
@@ -50,12 +50,12 @@ pub struct SurfaceOptions {
     progressive: f64,
     quotient: f64,
     cosine: f64,
-    /// Below 0: as many as the rule gives.
+    /// The number of iterations; below 0, as many as the rule gives.
     iterations: f64,
     maximal: f64,
 }
 
-/// Samples; and the radius and a bound of the covering radius, -1 where none is known.
+/// The samples; the radius and a bound of the covering radius, -1 where none is known.
 ///
 /// # Safety
 /// The pointers are to arguments of these sizes.
@@ -90,10 +90,10 @@ pub unsafe extern "C" fn azulejo_psp_sample(
     })
 }
 
-/// The relaxed samples; iterations, why it stopped, motion, smallest distance and rho.
+/// The relaxed samples; the number of iterations, the reason for stopping, motion, smallest distance and rho.
 ///
 /// # Safety
-/// The pointers lead to `count` rows.
+/// The pointers are valid for reads of `count` rows.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_dcr_surface_relax(
     mesh: &Handle,
@@ -114,7 +114,7 @@ pub unsafe extern "C" fn azulejo_dcr_surface_relax(
     })
 }
 
-/// All that is known of samples.
+/// The answer with every column of some samples.
 fn answer(samples: Points<3>) -> Answer {
     let Points { positions, normals, triangles, barycentrics, ranks, .. } = samples;
     Answer::default().and(positions).and(normals).and(triangles).and(barycentrics).and(ranks)

@@ -9,7 +9,7 @@ use crate::order;
 /// Indices of the selected points, and their ranks.
 ///
 /// # Safety
-/// `positions` leads to `count` points of 2 or 3 numbers each, as `dimensions` says.
+/// `positions` is valid for reads of `count` points of `dimensions` numbers each, 2 or 3.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_thin(
     positions: *const f32,

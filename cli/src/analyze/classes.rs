@@ -39,11 +39,11 @@ impl Classified for SampleSet {
     }
 }
 
-/// What is known of the classes of all sets.
+/// The figures of the classes of all sets.
 pub enum ByClass {
     /// No file has classes.
     None,
-    /// Why the classes are left out.
+    /// The reason why the classes are left out.
     Unread(String),
     /// Each class with its figures.
     Read(Vec<(u32, Vec<Row>)>),
@@ -87,7 +87,7 @@ impl ByClass {
         Ok(Self::Read(read))
     }
 
-    /// What is printed below the figures of the union.
+    /// The text that is printed below the figures of the union.
     pub fn text(&self, sets: usize) -> String {
         let mut text = String::new();
         match self {
@@ -114,7 +114,7 @@ impl ByClass {
     }
 }
 
-/// The classes of a set, or why they are left out.
+/// The classes of a set, or the reason why they are left out.
 fn classes_of<S: Classified>(set: &Set<S>) -> std::result::Result<&[u32], String> {
     let path = set.path.display();
     match set.loaded.classes() {

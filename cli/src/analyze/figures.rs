@@ -10,7 +10,7 @@ use crate::text::{grouped, rounded};
 /// Digits of a figure in a table.
 const DIGITS: usize = 6;
 
-/// A number that says something about a set.
+/// A number that describes a set.
 #[derive(Clone, Copy)]
 pub struct Figure {
     /// Its name in JSON.
@@ -32,7 +32,7 @@ pub struct Row {
     pub values: Vec<f64>,
 }
 
-/// A count or a measure, as people read it.
+/// A count or a measure in readable form.
 fn shown(value: f64) -> String {
     match value {
         _ if value.is_nan() => "-".to_owned(),
@@ -61,7 +61,7 @@ pub fn table(rows: &[Row], sets: usize) -> String {
     text.lines().map(|line| format!("{}\n", line.trim_end())).collect()
 }
 
-/// An object with an entry for each row. What is not known is null.
+/// An object with an entry for each row. Unknown values are null.
 pub fn object(rows: &[Row]) -> Value {
     let entry = |Row { figure, values }: &Row| {
         let Summary { mean, error, low, high } = Summary::of(values);

@@ -1,4 +1,4 @@
-//! What `analyze` prints.
+//! The output of `analyze`.
 
 use std::path::Path;
 
@@ -13,7 +13,7 @@ use super::surface;
 use crate::formats::set::{PlaneSet, SampleSet};
 use crate::text::{grouped, rounded};
 
-/// What the sets are, in a few words.
+/// A short description of the sets.
 fn title<Points>(sets: &[Set<Points>]) -> String {
     match sets {
         [set] => set.path.display().to_string(),

@@ -16,22 +16,23 @@ use crate::formats::set::PlaneSet;
 use crate::progress::{part, watched};
 use crate::quality::Quality;
 
-/// How far the spectrum is measured, in units of sqrt(density): the oscillation takes it to about 6.1 for most sets. The
-/// frequencies per side, at most, and the least width of an annulus.
+/// The frequency up to which the spectrum is measured, in units of sqrt(density): the oscillation needs about 6.1 for
+/// most sets. The largest number of frequencies per side, and the least width of an annulus.
 const FREQUENCY_REACH: f64 = 7.0;
 const GRID: usize = 1501;
 const ANNULUS: f64 = 0.02;
 
-/// Where the contrast is measured, in units of sqrt(density), as in docs/kdrt.md.
+/// The frequencies at which the contrast is measured, in units of sqrt(density), as in docs/kdrt.md.
 const CONTRAST_RANGE: std::ops::Range<f64> = 0.5..2.0;
 
-/// How far pairs are counted, and in how many bins; and nearest neighbours. In units of `d_max`.
+/// The distance up to which pairs are counted, and the number of bins; the same for nearest neighbours. In units of
+/// `d_max`.
 pub const PAIR_REACH: f64 = 5.0;
 const PAIR_BINS: usize = 250;
 pub const NEAREST_REACH: f64 = 1.5;
 pub const NEAREST_BINS: usize = 75;
 
-/// How far the sizes of sets of one kind may differ.
+/// The largest relative difference between the sizes of sets of one kind.
 const SAME: f64 = 0.1;
 
 /// The figures of a single set, and of all sets together.
@@ -50,7 +51,7 @@ const FIGURES: [Figure; 12] = [
     Figure::new("contrast", "contrast of the spectrum", ""),
 ];
 
-/// So many of them are measured of each class alone.
+/// The number of figures, the first ones, that are measured of each class alone.
 const OF_CLASSES: usize = 6;
 
 pub const RADIUS_FIGURES: [Figure; 3] = [
@@ -59,14 +60,14 @@ pub const RADIUS_FIGURES: [Figure; 3] = [
     Figure::new("gaps", "gaps", ""),
 ];
 
-/// A gap that is not deeper, in radii, is one of rounding: the library's maximal sets may have such.
+/// Gaps that are no deeper than this, in radii, are due to rounding: the library's maximal sets may have them.
 pub const SHALLOW: f64 = 1e-6;
 const SPECTRAL_FIGURES: [Figure; 2] = [
     Figure::new("effective_nyquist", "effective Nyquist frequency", "√density"),
     Figure::new("oscillation", "oscillation Ω", ""),
 ];
 
-/// What is known of all sets.
+/// The figures and curves of all sets.
 pub struct Measured {
     pub rows: Vec<Row>,
     /// The radial curves of the mean spectrum.
@@ -78,7 +79,7 @@ pub struct Measured {
     pub classes: ByClass,
 }
 
-/// What is known of one set.
+/// The measurements of one set.
 struct One {
     figures: Vec<f64>,
     spectrum: Periodogram,
@@ -177,7 +178,7 @@ impl One {
                 coverage_2d(context, domain, points, radius * (1.0 + SHALLOW), Some(&part(progress, 0.65, 0.8)))?.gaps;
             figures.extend([smallest / radius, covering / radius, gaps as f64]);
         }
-        // Larger distances than half the domain are not all there.
+        // Distances above half the domain are not all present.
         let reach = PAIR_REACH * unit <= 0.5 * domain.extent().into_iter().fold(f64::INFINITY, f64::min);
         let pairs =
             || radial_distribution(context, domain, points, PAIR_REACH, PAIR_BINS, Some(&part(progress, 0.8, 1.0)));

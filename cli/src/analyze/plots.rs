@@ -27,10 +27,10 @@ const SCALE: f32 = 1.5;
 /// Width of the picture of a mesh.
 const VIEW_PIXELS: u32 = 1000;
 
-/// Sets whose spectra are drawn as one.
+/// The largest number of sets whose spectra are drawn as one.
 const DRAWN_SPECTRA: usize = 16;
 
-/// Density of differences that gets all the ink.
+/// The density of differences that gets all the ink.
 const FULL_INK: f64 = 2.5;
 
 /// A square panel and a wide one, each on a page of its own; two wide ones above each other.

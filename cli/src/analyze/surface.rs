@@ -18,7 +18,7 @@ use crate::progress::{part, watched};
 const DIRECTION: [f64; 3] = [1.0, 0.0, 0.0];
 const SEED: u64 = 0;
 
-/// Where pairs are looked at for a direction, in mean spacings: around the first peak of their distances.
+/// The distances of the pairs whose direction is measured, in mean spacings: around the first peak of all distances.
 const NEIGHBOURS: std::ops::Range<f64> = 0.5..1.5;
 
 /// Frequencies of the power spectrum, in units of sqrt(density).
@@ -34,7 +34,7 @@ const FIGURES: [Figure; 5] = [
 ];
 const ELONGATION: Figure = Figure::new("elongation", "elongation of p(d) along x", "");
 
-/// What is known of all sets.
+/// The figures and curves of all sets.
 pub struct Measured {
     pub rows: Vec<Row>,
     /// The differences of all pairs; none if a file has no normals.

@@ -2,7 +2,7 @@
 
 use glam::{Vec2, Vec3};
 
-/// Where the camera stands: a little to the side, a little above, at this distance from the middle of a unit box.
+/// The position of the camera: a little to the side, a little above, at this distance from the middle of a unit box.
 const AZIMUTH: f32 = -0.32;
 const ELEVATION: f32 = 0.26;
 const DISTANCE: f32 = 3.6;
@@ -24,7 +24,7 @@ pub struct Window {
 }
 
 impl Camera {
-    /// In front (z) of an object of about unit size around the origin, y up.
+    /// A camera in front (z) of an object of about unit size around the origin, y up.
     pub fn in_front() -> Self {
         let (sin, cos) = AZIMUTH.sin_cos();
         let forward = -Vec3::new(sin * ELEVATION.cos(), ELEVATION.sin(), cos * ELEVATION.cos());
@@ -37,7 +37,7 @@ impl Camera {
         self.forward + place.x * self.right + place.y * self.up
     }
 
-    /// Where on the image plane a point is seen.
+    /// The place on the image plane at which a point is seen.
     pub fn project(&self, point: Vec3) -> Vec2 {
         let offset = point - self.eye;
         Vec2::new(offset.dot(self.right), offset.dot(self.up)) / offset.dot(self.forward)

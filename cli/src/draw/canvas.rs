@@ -18,9 +18,9 @@ pub struct Rect {
     pub x: f32,
     /// The upper edge.
     pub y: f32,
-    /// From the left to the right edge.
+    /// The length from the left to the right edge.
     pub width: f32,
-    /// From the upper to the lower edge.
+    /// The length from the upper to the lower edge.
     pub height: f32,
 }
 
@@ -46,7 +46,7 @@ impl Rect {
     }
 }
 
-/// Which part of a text stands at its place.
+/// The part of a text that is aligned with its place.
 #[derive(Clone, Copy)]
 pub enum Align {
     /// Its beginning.
@@ -57,16 +57,16 @@ pub enum Align {
     Right,
 }
 
-/// How a text is set.
+/// The style of a text.
 #[derive(Clone, Copy)]
 pub struct Style {
     /// The size of the em.
     pub size: f32,
     /// The colour of the letters.
     pub colour: Colour,
-    /// Which part of it stands at its place.
+    /// The part of it that is aligned with its place.
     pub align: Align,
-    /// Reads upwards, as beside a vertical axis.
+    /// True if it reads upwards, as beside a vertical axis.
     pub upwards: bool,
 }
 

@@ -1,4 +1,4 @@
-//! Finding what is worth a closer look.
+//! The search for parts that are worth a closer look.
 
 use azulejo::trace::Ray;
 use glam::{Vec2, Vec3};
@@ -9,7 +9,7 @@ use super::stage::{Seen, Stage};
 /// Places per side of the grid on which a window is searched.
 const GRID: usize = 96;
 
-/// How far from the edge of the outer window a detail stays, in parts of the outer window.
+/// The least distance of a detail from the edge of the outer window, in parts of the outer window.
 const MARGIN: f32 = 0.04;
 
 /// The square window of half side `half` inside `outer` that the surface fills best and where it turns most: where its

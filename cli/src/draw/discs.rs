@@ -11,9 +11,9 @@ use super::palette::Colour;
 pub struct Disc {
     /// The sample.
     pub centre: Vec3,
-    /// How far it reaches.
+    /// The radius.
     pub radius: f32,
-    /// Its paint.
+    /// The colour.
     pub colour: Colour,
 }
 

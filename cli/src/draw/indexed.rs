@@ -1,7 +1,8 @@
-//! PNG files with a palette: a fifth of the size of full colour, for pictures of dots and curves, which do not compress.
+//! PNG files with a palette: a fifth of the size of full colour, for pictures of dots and curves, which do not
+//! compress.
 //!
-//! A picture of at most 16 colours keeps them. In others the box of colours with the largest squared error is split until
-//! there are 16 boxes, or 64 where 16 would show, and k-means moves the centres (Wu 1991, "Efficient Statistical
+//! A picture of at most 16 colours keeps them. In others the box of colours with the largest squared error is split
+//! until there are 16 boxes, or 64 where 16 would show, and k-means moves the centres (Wu 1991, "Efficient Statistical
 //! Computations for Optimal Color Quantization").
 
 use std::io::{self, Write};
@@ -10,9 +11,10 @@ use png::{BitDepth, ColorType, Compression, Encoder, Filter};
 
 use super::palette::Colour;
 
-/// The sizes of a palette that are tried in turn: the most that 4 bits a pixel hold, and what any picture does with.
+/// The sizes of a palette that are tried in turn: the most that 4 bits a pixel hold, and a size that suffices for any
+/// picture.
 const SIZES: [usize; 2] = [16, 64];
-/// The error of the smaller palette, root mean square, that does not show: in steps of a channel.
+/// The error of the smaller palette, root mean square, that is still invisible, in steps of a channel.
 const UNSEEN: f64 = 6.0;
 /// Rounds of k-means; after these few the colours change by a step or less.
 const ROUNDS: usize = 4;
@@ -69,7 +71,7 @@ fn reduce(pixels: &[Colour]) -> (Vec<Colour>, Vec<u8>) {
     (palette, pixels.iter().map(|&pixel| of_colours[key(pixel)]).collect())
 }
 
-/// The palette for colours of so many pixels.
+/// The palette for colours of this many pixels.
 fn choose(entries: &[Entry], pixels: f64) -> Vec<Colour> {
     if entries.len() <= SIZES[0] {
         return entries.iter().map(|entry| entry.colour).collect();
@@ -118,8 +120,8 @@ fn spread(of: &[Entry], channel: usize) -> f64 {
     of.iter().map(|entry| entry.count * (f64::from(entry.colour[channel]) - middle).powi(2)).sum()
 }
 
-/// The palette after some rounds of k-means. A colour that most pixels of its cluster have stays exact, so that paper and
-/// flat areas do.
+/// The palette after some rounds of k-means. A colour that most pixels of its cluster have stays exact, so that paper
+/// and flat areas do.
 fn means(entries: &[Entry], mut palette: Vec<Colour>) -> Vec<Colour> {
     for _ in 0..ROUNDS {
         let mut clusters = vec![Vec::new(); palette.len()];

@@ -1,4 +1,4 @@
-//! What pictures of sets of the plane show: the points, their power spectrum, its radial mean and anisotropy.
+//! The panels of pictures of sets of the plane: the points, their power spectrum, its radial mean and anisotropy.
 
 use azulejo::analysis::spectrum::{Annulus, Periodogram};
 use azulejo::{Boundary, Domain};
@@ -9,10 +9,10 @@ use super::plot::{Axis, Panel};
 use super::spectra::{FREQUENCY_LIMIT, Windows, inside, mean_power};
 use crate::text::grouped;
 
-/// Power that gets all the ink.
+/// The power that gets all the ink.
 const FULL_INK: f64 = 4.0;
 
-/// Radius of the dots in units of the mean spacing, 1 / sqrt(density).
+/// The radius of the dots in units of the mean spacing, 1 / sqrt(density).
 const DOT: f64 = 0.26;
 
 /// The points of the first of the windows.
@@ -43,7 +43,7 @@ pub fn samples(canvas: &mut Canvas, square: Rect, windows: &Windows, points: &[[
     panel.title(canvas, "Samples", &remark);
 }
 
-/// How many ticks, with labels that do not touch, fit along a side of a panel of samples.
+/// The number of ticks, with labels that do not touch, that fit along a side of a panel of samples.
 fn ticks(length: f32) -> usize {
     const APART: f32 = 100.0;
     // The labels at both ends need the height of a line.
@@ -51,7 +51,7 @@ fn ticks(length: f32) -> usize {
     if length < LEAST { 0 } else { ((length / APART) as usize).clamp(1, 5) }
 }
 
-/// The points of a domain with so many of them per area, as dots in a panel that shows the domain.
+/// The points of a domain with this many of them per area, as dots in a panel that shows the domain.
 pub fn dots(canvas: &mut Canvas, panel: &Panel, shown: &Domain, points: &[[f32; 2]], density: f64) {
     let radius = DOT / density.sqrt();
     let places = images(shown, points, radius).map(|point| panel.place(point));
@@ -103,12 +103,12 @@ pub fn power(canvas: &mut Canvas, square: Rect, spectrum: &Periodogram) {
     canvas.image(&image, pixels, square);
 }
 
-/// What the ink of the spectrum means, from no power at the bottom.
+/// The meaning of the spectrum's ink, from no power at the bottom.
 pub fn power_scale(canvas: &mut Canvas, bar: Rect) {
     scale(canvas, bar, &[0.0, 0.25, 1.0, 2.0, FULL_INK], |power| (power / FULL_INK).sqrt());
 }
 
-/// What shares of ink mean, from none at the bottom, with labels at some values.
+/// The meaning of shares of ink, from none at the bottom, with labels at some values.
 pub fn scale(canvas: &mut Canvas, bar: Rect, values: &[f64], share: impl Fn(f64) -> f64) {
     const ROWS: usize = 256;
     let gradient: Vec<_> = (0..ROWS).rev().map(|i| glaze_to_cobalt(i as f64 / (ROWS - 1) as f64)).collect();
@@ -135,7 +135,7 @@ pub fn radial_mean(canvas: &mut Canvas, rect: Rect, annuli: &[Annulus]) {
     panel.title(canvas, "Radial mean", "white noise: 1");
 }
 
-/// How power varies around its mean in the mean of so many spectra.
+/// The variation of the power around its mean, in the mean of this many spectra.
 pub fn anisotropy(canvas: &mut Canvas, rect: Rect, annuli: &[Annulus], spectra: usize) {
     let isotropic = -10.0 * (spectra as f64).log10();
     let panel = Panel {

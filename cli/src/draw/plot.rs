@@ -11,17 +11,17 @@ const TITLE_SIZE: f32 = 27.0;
 
 /// One direction of a panel.
 pub struct Axis<'a> {
-    /// What it shows, and its unit.
+    /// The quantity along it, and its unit.
     pub label: &'a str,
     /// The values at its ends.
     pub range: [f64; 2],
-    /// How many ticks there are about, where the scale leaves it open; 0 for none.
+    /// The approximate number of ticks, where the scale leaves it open; 0 for none.
     pub ticks: usize,
-    /// How values lie along it.
+    /// The placement of values along it.
     pub scale: Scale,
 }
 
-/// How values lie along an axis.
+/// The placement of values along an axis.
 #[derive(Clone, Copy, PartialEq)]
 pub enum Scale {
     /// Equal steps at equal distances.
@@ -87,7 +87,7 @@ fn round_step(step: f64) -> f64 {
 
 /// A rectangle of the page with two axes.
 pub struct Panel<'a> {
-    /// Where the panel is on the page.
+    /// The rectangle of the panel on the page.
     pub rect: Rect,
     /// The axis from left to right.
     pub x: Axis<'a>,
@@ -96,7 +96,7 @@ pub struct Panel<'a> {
 }
 
 impl Panel<'_> {
-    /// Where a value is on the page.
+    /// The place of a value on the page.
     pub fn place(&self, [x, y]: [f64; 2]) -> [f32; 2] {
         [self.rect.x + self.x.share(x) * self.rect.width, self.rect.bottom() - self.y.share(y) * self.rect.height]
     }

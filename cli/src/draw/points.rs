@@ -46,7 +46,7 @@ impl Points {
     }
 }
 
-/// Draws the page of a set, so many pixels wide.
+/// Draws the page of a set, `pixels` wide.
 pub fn draw(context: &Context, domain: &Domain, points: &[[f32; 2]], pixels: u32, output: &Output) -> Result<()> {
     let windows = Windows::of(domain, points.len());
     let spectrum = watched("spectrum", |progress| windows.spectrum(context, points, progress))?;

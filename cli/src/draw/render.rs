@@ -18,14 +18,14 @@ use super::stage::{Seen, Stage};
 const GRID: usize = 4;
 const SKY_RAYS: usize = 4;
 
-/// Where the lamp is and how wide; how much of the light is its, and how much the sky's.
+/// The direction of the lamp and its width; its share of the light, and that of the sky.
 const LAMP: Vec3 = Vec3::new(-0.48, 0.74, 0.47);
 const LAMP_WIDTH: f32 = 0.22;
 const LAMP_SHARE: f32 = 0.66;
 const SKY_SHARE: f32 = 0.68;
 
-/// How dark the object makes the page that it stands on, within which distance of it, and in which outer part of the
-/// whole view the shadow fades out: the page has no edge.
+/// The strength of the shadow that the object casts on the page below it, the distance from the object within which it
+/// falls, and the outer part of the whole view in which it fades out: the page has no edge.
 const SHADOW: f32 = 0.5;
 const SHADOW_REACH: f32 = 1.1;
 const FADE: f32 = 0.3;
@@ -33,7 +33,7 @@ const FADE: f32 = 0.3;
 /// Secondary rays start this far from the surface.
 const OFFSET: f32 = 2e-4;
 
-/// The whole object in a square picture of so many pixels per side, row by row from the top.
+/// The whole object in a square picture of `side` pixels per side, row by row from the top.
 pub fn square(stage: &Stage, side: usize, num_threads: usize, progress: &Progress) -> Result<Vec<Colour>> {
     let window = stage.camera.window_on(stage.positions(), 1.0, 0.04);
     render(stage, &window, &window, [side; 2], num_threads, progress)
@@ -63,10 +63,10 @@ struct Row<'a> {
     floor: f32,
 }
 
-/// A place that is to be lit, and how.
+/// A place to be lit, and its material.
 struct Place {
     pixel: usize,
-    /// Which of the pixel's places it is: they share the directions of the sky among them.
+    /// The number of the place among those of its pixel, which share the directions of the sky.
     sample: usize,
     seen: Seen,
     ground: Ground,
@@ -95,7 +95,7 @@ impl Row<'_> {
         light.iter().map(|&light| encoded(light / (GRID * GRID) as f32)).collect()
     }
 
-    /// All that is to be lit in the row, and how many places of each pixel show nothing but the page.
+    /// All places of the row that are to be lit, and for each pixel the number of its places that show only the page.
     fn places(&self) -> (Vec<Place>, Vec<usize>) {
         let samples = GRID * GRID;
         let rays: Vec<_> = (0..self.size[0] * samples).map(|i| self.camera_ray(i / samples, i % samples)).collect();
@@ -128,7 +128,7 @@ impl Row<'_> {
         Ray { origin: camera.eye.to_array(), direction: camera.direction(self.window.at(x, y)).to_array() }
     }
 
-    /// Where a ray meets the floor near the object, and how strong the shadow may be there.
+    /// The point where a ray meets the floor near the object, and the largest strength of the shadow there.
     fn page(&self, ray: &Ray) -> Option<(Vec3, f32)> {
         let [origin, direction] = [ray.origin, ray.direction].map(Vec3::from);
         let t = (self.floor - origin.y) / direction.y;
@@ -139,7 +139,7 @@ impl Row<'_> {
         (t > 0.0 && fade > 0.0).then_some((point, SHADOW * fade * fade * (3.0 - 2.0 * fade)))
     }
 
-    /// The ray to the lamp, then those to the sky.
+    /// The ray to the lamp, then the rays to the sky.
     fn light_rays(&self, place: &Place) -> [Ray; 1 + SKY_RAYS] {
         let Seen { point, normal } = place.seen;
         let origin = (point + OFFSET * normal).to_array();
@@ -168,7 +168,7 @@ impl Row<'_> {
         };
         let view = (self.stage.camera.eye - point).normalize();
         let mirrored = 2.0 * normal.dot(view) * normal - view;
-        // Schlick's Fresnel term of a glaze, and the lamp's reflex on it.
+        // Schlick's Fresnel term of a glaze, and the lamp's reflection on it.
         let fresnel = 0.04 + 0.5 * (1.0 - normal.dot(view).max(0.0)).powi(5);
         let reflex = if met[0] { 0.0 } else { 0.35 * mirrored.dot(LAMP.normalize()).max(0.0).powi(48) };
         let gloss = fresnel * sky * sky_light(mirrored.y) + reflex;
@@ -176,7 +176,7 @@ impl Row<'_> {
     }
 }
 
-/// An even sky, brightest above; from below the page sends light back.
+/// An even sky, brightest above; from below the page reflects light.
 fn sky_light(height: f32) -> f32 {
     if height > 0.0 { 0.72 + 0.38 * height } else { 0.72 + 0.25 * height }
 }
@@ -219,7 +219,7 @@ fn linear(colour: Colour) -> Vec3 {
     Vec3::from(colour.map(|part| (part as f32 / 255.0).powf(2.2)))
 }
 
-/// The colour of the screen for a light; what is too bright is white.
+/// The colour of the screen for a light; light that is too bright is white.
 fn encoded(light: Vec3) -> Colour {
     light.to_array().map(|part| (part.clamp(0.0, 1.0).powf(1.0 / 2.2) * 255.0).round() as u8)
 }
@@ -245,7 +245,7 @@ mod tests {
         assert!(paint[2] > paint[0] + 60, "{paint:?}");
         assert!(glaze.iter().all(|&part| part > 150) && glaze[2] < glaze[0] + 12, "{glaze:?}");
         assert_eq!(picture[0], PAPER);
-        // The square throws a shadow on the page behind it.
+        // The square casts a shadow on the page behind it.
         assert!(picture.iter().any(|colour| colour[0] < PAPER[0] - 10 && colour[2] < colour[0]));
     }
 

@@ -1,4 +1,4 @@
-//! Which part of a set is shown, and the power spectrum of it or of many such parts.
+//! The part of a set that is shown, and the power spectrum of it or of many such parts.
 
 use std::ops::Range;
 
@@ -48,7 +48,7 @@ impl Windows {
         Self { domains: (0..windows).map(window).collect(), density }
     }
 
-    /// What is to be said of a spectrum of these windows.
+    /// The remark on a spectrum of these windows.
     pub fn remark(&self) -> String {
         let count = self.domains.len();
         if count > 1 { format!("mean of {count} windows") } else { String::new() }
@@ -67,8 +67,8 @@ impl Windows {
     }
 }
 
-/// The power of `points` up to `limit`, in units of sqrt(density), on a grid of no more than about `most` frequencies per
-/// side: of a large set only every so many of them are taken. Sets of `count` points have the same grid.
+/// The power of `points` up to `limit`, in units of sqrt(density), on a grid of no more than about `most` frequencies
+/// per side: of a large set only every n-th frequency is computed. Sets of `count` points have the same grid.
 pub fn spectrum_up_to(
     context: &Context,
     domain: &Domain,
@@ -94,7 +94,7 @@ pub fn inside(domain: &Domain, points: &[[f32; 2]]) -> Vec<[f32; 2]> {
     points.iter().copied().filter(within).collect()
 }
 
-/// The power at a frequency, in units of sqrt(density), between those of the grid; 0 outside of it.
+/// The power at a frequency, in units of sqrt(density), interpolated between those of the grid; 0 outside of it.
 pub fn power_at(spectrum: &Periodogram, frequency: [f64; 2]) -> f64 {
     let size = spectrum.size();
     let [x, y] = [0, 1].map(|axis| frequency[axis] / spectrum.frequency_step()[axis] + (size / 2) as f64);

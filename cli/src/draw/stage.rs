@@ -1,4 +1,4 @@
-//! What stands in front of the camera: the mesh with its samples, brought to unit size around the origin.
+//! The stage in front of the camera: the mesh with its samples, brought to unit size around the origin.
 
 use azulejo::mesh::Mesh;
 use azulejo::trace::{Hit, Ray, Scene};
@@ -33,7 +33,7 @@ pub struct Stage {
     /// The radius of a maximal set of as many samples.
     pub(super) radius: f32,
     pub(super) camera: Camera,
-    /// How many samples there are, and triangles, seen or not.
+    /// The numbers of samples and of triangles, seen or not.
     pub(super) counts: [usize; 2],
 }
 
@@ -46,8 +46,8 @@ pub(super) struct Seen {
 }
 
 impl Stage {
-    /// With `cutaway` the faces that are turned away from the camera are left out, which shows the inside of a building whose
-    /// walls face inwards.
+    /// With `cutaway` the faces that are turned away from the camera are left out, which shows the inside of a building
+    /// whose walls face inwards.
     pub fn new(context: &Context, mesh: &Mesh, samples: &[[f32; 3]], cutaway: bool) -> Result<Self> {
         let radius = (MAXIMAL_DENSITY * mesh.area() / samples.len() as f64).sqrt();
         Self::painted(context, mesh, &[Paint { samples, radius: DISC * radius, colour: COBALT }], cutaway)
@@ -100,7 +100,7 @@ impl Stage {
         rays.iter().zip(hits).map(|(ray, hit)| hit.map(|hit| self.seen(ray, &hit))).collect()
     }
 
-    /// Which rays meet the mesh.
+    /// Tells for each ray whether it meets the mesh.
     pub(super) fn meet(&self, rays: &[Ray]) -> Vec<bool> {
         self.scene.closest_hits(rays).iter().map(Option::is_some).collect()
     }
@@ -114,14 +114,14 @@ impl Stage {
         let direction = Vec3::from(ray.direction);
         let flat = flat.normalize_or(-direction) * -flat.dot(direction).signum();
         let smooth = mix(corners.map(|vertex| self.normals[vertex]));
-        // Where windings are mixed the mean of the normals says nothing, and the triangle's own is taken.
+        // The mean of the normals is meaningless where windings are mixed, and the triangle's own is taken.
         let normal = (smooth * smooth.dot(flat).signum()).normalize_or(flat);
         let normal = if normal.dot(flat) > 0.3 { normal } else { flat };
         Seen { point: mix([a, b, c]), normal }
     }
 }
 
-/// Whether a triangle is seen from its front.
+/// True if a triangle is seen from its front.
 fn faces(eye: Vec3, [a, b, c]: [Vec3; 3]) -> bool {
     (b - a).cross(c - a).dot(eye - a) > 0.0
 }

@@ -109,7 +109,7 @@ fn draw_views(
     Ok(())
 }
 
-/// Where a window of the image plane lies in the view of a larger one.
+/// The rectangle of a window of the image plane in the view of a larger one.
 fn place(window: &Window, outer: &Window, view: Rect) -> Rect {
     let size = Vec2::new(view.width, view.height);
     let corner = Vec2::new(window.centre.x - window.half.x, window.centre.y + window.half.y);

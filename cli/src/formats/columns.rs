@@ -7,7 +7,7 @@ use std::io::{self, Write};
 #[derive(Clone, Copy)]
 pub struct Column {
     pub name: &'static str,
-    /// Whether its numbers are unsigned integers; otherwise they are floats.
+    /// True if its numbers are unsigned integers; otherwise they are floats.
     is_whole: bool,
 }
 

@@ -1,5 +1,5 @@
-//! Files that are no files of points: good ones with some bytes changed, cut out, doubled, in every format. Each is read or
-//! refused in a line; a panic would be neither, and numbers of a header are not believed.
+//! Damaged files of points: valid ones with some bytes changed, cut out or doubled, in every format. Each is read or
+//! refused with a message of one line, without a panic, and the numbers of a header are not trusted.
 
 use super::columns::write_floats;
 use super::plane::PlaneTable;
@@ -9,7 +9,7 @@ use crate::ply;
 
 type Parse = fn(&[u8]) -> Result<PointSet, String>;
 
-/// What damage begins with: every parser, and files that it reads.
+/// The undamaged input: every parser, and files that it reads.
 fn good_files() -> Vec<(Parse, Vec<u8>)> {
     let (plane, space) = ([[0.5f32, -1.25], [3.0, 4e-3]], [[0.5f32, -1.25, 7.0], [3.0, 4e-3, 1e9]]);
     let mut array = Vec::new();
@@ -74,7 +74,7 @@ fn damage(file: &mut Vec<u8>, numbers: &mut Numbers) {
         2 => file[at..end].fill(numbers.below(256) as u8),
         3 => _ = file.splice(at..at, file[at..end].to_vec()),
         4 => _ = file.splice(at..end, PARTS[numbers.below(PARTS.len())].bytes()),
-        // A digit more than there was.
+        // One digit more than before.
         _ => _ = file.splice(at..at, [b'0' + numbers.below(10) as u8]),
     }
 }

@@ -1,9 +1,9 @@
-//! Arrays of NumPy. Sets of the plane are arrays of two floats to a row. Samples of a surface are structured arrays, with
-//! the fields `position` (3 floats), `normal` (3), `triangle` (an unsigned integer), `barycentrics` (2), `radius` where
-//! radii differ, `rank` in progressive order, and `class` where there are several. Sets of the plane in progressive order or
-//! of several classes are structured arrays of `x`, `y`, and `rank` or `class`.
+//! Arrays of NumPy. Sets of the plane are arrays of two floats to a row. Samples of a surface are structured arrays,
+//! with the fields `position` (3 floats), `normal` (3), `triangle` (an unsigned integer), `barycentrics` (2), `radius`
+//! where radii differ, `rank` in progressive order, and `class` where there are several. Sets of the plane in
+//! progressive order or of several classes are structured arrays of `x`, `y`, and `rank` or `class`.
 //!
-//! What is read may have floats and integers of any size and byte order: arrays of at least two columns, in C or Fortran
+//! Input may have floats and integers of any size and byte order: arrays of at least two columns, in C or Fortran
 //! order, of which 2, 3 or 6 are x, y, z, nx, ny and nz, and otherwise the first three; and structured arrays with the
 //! fields above or with fields named x, y, z, nx, ny, nz, triangle, u and v.
 //!
@@ -32,7 +32,7 @@ const VECTORS: [(&str, &[&str]); 3] =
 pub fn parse(bytes: &[u8]) -> Result<PointSet, String> {
     let (header, body) = split(bytes).ok_or("is no array of NumPy, or cut off in its header")?;
     let array = Array::of(header)?;
-    // The header is believed as far as the file goes: it may claim anything.
+    // The header is trusted only as far as the file goes: it may claim anything.
     if array.count.checked_mul(array.row_size).is_none_or(|size| size > body.len()) {
         let Array { count, row_size, .. } = array;
         let (rows, length) = (format!("{count} rows of {row_size} bytes"), body.len());
@@ -81,15 +81,15 @@ fn dictionary(header: &str) -> Result<Value, String> {
     serde_json::from_str(&json).map_err(|_| "has a header that is no dictionary of Python".to_owned())
 }
 
-/// How numbers lie in the body.
+/// The layout of the numbers in the body.
 struct Array {
     count: usize,
-    /// Bytes of all numbers of a row, wherever they lie.
+    /// The bytes of all numbers of a row, wherever they lie.
     row_size: usize,
     columns: Columns<Column>,
 }
 
-/// Where a column begins, and the distance between its numbers.
+/// The offset of a column, and the distance between its numbers.
 struct Column {
     offset: usize,
     stride: usize,
@@ -112,7 +112,7 @@ impl Array {
         }
     }
 
-    /// An array of rows of as many numbers.
+    /// An array of rows of `width` numbers.
     fn of_numbers(number: Number, count: usize, width: usize, is_by_columns: bool) -> Result<Self, String> {
         let known = if width == 6 { 6 } else { width.min(3) };
         let row_size = width.saturating_mul(number.size);

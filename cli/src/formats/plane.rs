@@ -4,7 +4,7 @@ use std::io::{self, Write};
 
 use super::columns::{CLASS, Column, Number, RANK, write_floats};
 
-/// Points of the plane with what is known of them.
+/// Points of the plane with their ranks and classes.
 #[derive(Clone, Copy, Default)]
 pub struct PlaneTable<'a> {
     pub points: &'a [[f32; 2]],

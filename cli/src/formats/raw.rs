@@ -2,7 +2,7 @@
 
 use super::set::{Columns, NAMES, PointSet};
 
-/// The points, each of so many floats: 2 or 3.
+/// The points, each of `dimensions` floats: 2 or 3.
 pub fn parse(bytes: &[u8], dimensions: u8) -> Result<PointSet, String> {
     let (dimensions, size) = (usize::from(dimensions), 4 * usize::from(dimensions));
     if !bytes.len().is_multiple_of(size) {

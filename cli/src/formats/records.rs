@@ -1,5 +1,5 @@
-//! The points of a file as they stand in it, to be copied: whatever a record holds besides its coordinates is kept, in the
-//! format of the file, byte for byte. Where columns have names a rank can be added to each record.
+//! The points of a file as they stand in it, to be copied: everything that a record holds besides its coordinates is
+//! kept, in the format of the file, byte for byte. Where columns have names a rank can be added to each record.
 
 use std::io::{self, Write};
 use std::ops::Range;
@@ -10,20 +10,20 @@ use super::table::is_comment;
 #[derive(Debug)]
 pub struct Records {
     bytes: Vec<u8>,
-    /// What stands before the records; the number of these belongs between the two parts.
+    /// The bytes before the records; the number of records belongs between the two parts.
     head: Vec<u8>,
     behind_count: Option<Vec<u8>>,
     records: Vec<Range<usize>>,
-    /// What follows each record.
+    /// The bytes after each record.
     separator: &'static [u8],
-    /// How ranks are added.
+    /// The form in which ranks are added.
     ranks: Ranks,
 }
 
-/// How ranks are added to records.
+/// The form in which ranks are added to records.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Ranks {
-    /// Not at all: the columns have no names.
+    /// No ranks can be added: the columns have no names.
     None,
     /// The records have some already.
     Taken,
@@ -68,7 +68,7 @@ impl Records {
         Ok(Self { bytes, head: before, behind_count: Some(behind), records, separator, ranks })
     }
 
-    /// The lines of a table of so many points, with its header if it has one. Comments are left out.
+    /// The lines of a table of `count` points, with its header if it has one. Comments are left out.
     pub fn of_table(bytes: Vec<u8>, count: usize) -> Result<Self, String> {
         let is_row = |line: &Range<usize>| {
             let text = String::from_utf8_lossy(&bytes[line.clone()]);
@@ -97,7 +97,7 @@ impl Records {
         Self { bytes, head: Vec::new(), behind_count: None, records, separator: b"", ranks: Ranks::None }
     }
 
-    /// Whether the points have a column of ranks already.
+    /// True if the points have a column of ranks already.
     pub fn has_ranks(&self) -> bool {
         self.ranks == Ranks::Taken
     }
@@ -146,22 +146,22 @@ fn lines(bytes: &[u8], start: usize) -> impl Iterator<Item = Range<usize>> {
     })
 }
 
-/// A header of PLY, cut where the number of vertices stands.
+/// A header of PLY, cut at the number of vertices.
 struct Header {
     is_text: bool,
     is_big: bool,
     elements: Vec<Element>,
-    /// Up to the number of vertices, and from there, both without other elements.
+    /// The bytes up to the number of vertices, and from there on, both without other elements.
     before: Vec<u8>,
     behind: Vec<u8>,
-    /// Where the body begins.
+    /// The offset of the body.
     length: usize,
 }
 
 struct Element {
     name: String,
     count: usize,
-    /// The bytes of each property, if it has as many in all elements.
+    /// The size of each property in bytes, if it is the same in all elements.
     sizes: Vec<Option<usize>>,
     has_ranks: bool,
 }
@@ -170,7 +170,7 @@ struct Element {
 const END: &[u8] = b"end_header\n";
 
 impl Element {
-    /// The bytes of an element.
+    /// The size of an element in bytes.
     fn size(&self) -> Result<usize, String> {
         let size = self.sizes.iter().copied().sum::<Option<usize>>();
         size.ok_or_else(|| format!("the elements {} have lists, and cannot be taken apart", self.name))
@@ -225,7 +225,7 @@ impl Header {
     }
 }
 
-/// The bytes of a number.
+/// The size of a number in bytes.
 fn size(kind: &str) -> Option<usize> {
     match kind {
         "char" | "uchar" | "int8" | "uint8" => Some(1),

@@ -7,14 +7,14 @@ use super::columns::CLASS;
 /// The columns of a file that are kept as floats.
 pub const NAMES: [&str; 11] = ["x", "y", "z", "nx", "ny", "nz", "u", "v", "clearance", "radius", CLASS.name];
 
-/// So many of them are coordinates, which are finite.
+/// The number of columns, the first ones, that are coordinates, which are finite.
 const COORDINATES: usize = 8;
 
-/// Where a file has what is kept of each point.
+/// The places in a file of the columns that are kept.
 pub struct Columns<T> {
-    /// Where the columns of [`NAMES`] are.
+    /// The places of the columns of [`NAMES`].
     pub floats: [Option<T>; NAMES.len()],
-    /// Where the number of the triangle is.
+    /// The place of the triangle's number.
     pub triangle: Option<T>,
 }
 
@@ -32,7 +32,7 @@ impl<T> Columns<T> {
         self.floats[range].iter().all(Option::is_some)
     }
 
-    /// Where the triangle is, if there are barycentrics as well.
+    /// The place of the triangle, if there are barycentrics as well.
     pub fn on_mesh(&self) -> Option<&T> {
         self.triangle.as_ref().filter(|_| self.has(6..8))
     }
@@ -51,7 +51,7 @@ impl<T> Columns<T> {
     }
 }
 
-/// The points of a file. It knows whether they have two or three dimensions.
+/// The points of a file, of two or three dimensions.
 #[derive(Debug)]
 pub struct PointSet {
     has_z: bool,
@@ -59,7 +59,7 @@ pub struct PointSet {
     positions: Vec<[f32; 3]>,
     normals: Option<Vec<[f32; 3]>>,
     on_mesh: Option<OnMesh>,
-    /// The numbers of the column of clearances or, without one, of radii; and which column it is.
+    /// The numbers of the column of clearances or, without one, of radii; and the number of this column.
     clearances: Option<(usize, Vec<f64>)>,
     /// The numbers of the column of classes.
     classes: Option<Vec<f32>>,
@@ -132,14 +132,14 @@ impl PointSet {
         self.positions.is_empty()
     }
 
-    /// Whether the points are in the plane: without z, or with a z that is 0 everywhere, as XYZ files have it. What has
-    /// normals or lies on triangles does not.
+    /// True if the points are in the plane: without z, or with a z that is 0 everywhere, as in XYZ files. Points with
+    /// normals or on triangles are not.
     fn is_plane(&self) -> bool {
         let is_flat = || self.positions.iter().all(|position| position[2] == 0.0);
         !self.has_z || self.normals.is_none() && self.on_mesh.is_none() && is_flat()
     }
 
-    /// Whether each point can be taken for one of so many coordinates.
+    /// True if each point can be taken for one of this many coordinates.
     pub fn has_dimensions(&self, dimensions: u8) -> bool {
         if dimensions == 2 { self.is_plane() } else { self.has_z }
     }

@@ -6,7 +6,7 @@ use azulejo::Points;
 
 use super::columns::{CLASS, Column, Number, RADIUS, RANK, write_floats};
 
-/// Samples with all that is known of them.
+/// Samples of a surface with all of their columns.
 pub struct SurfaceTable<'a> {
     pub samples: &'a Points<3>,
     /// The normals to write: geometric or interpolated.

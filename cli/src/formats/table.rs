@@ -1,9 +1,9 @@
 //! Points in text, one to a line: CSV and XYZ.
 //!
 //! Numbers stand between commas or semicolons, whichever the first line of data has, or else between white space. Empty
-//! lines and lines that begin with `#` or `//` are comments. The first other line may be a header, which says where x, y
-//! and z, nx, ny and nz, and triangle, u and v stand; without one the first six come in this order, if there are exactly
-//! two, three or six of them, and otherwise the first three numbers are x, y and z.
+//! lines and lines that begin with `#` or `//` are comments. The first other line may be a header, which says where x,
+//! y and z, nx, ny and nz, and triangle, u and v stand; without one the first six come in this order, if there are
+//! exactly two, three or six of them, and otherwise the first three numbers are x, y and z.
 
 use std::io::{self, Write};
 
@@ -62,16 +62,16 @@ fn read_separated(text: &str, separator: u8, table: &mut Table) -> Result<(), St
     Ok(())
 }
 
-/// What has been read of a table.
+/// The part of a table that has been read.
 #[derive(Default)]
 struct Table {
     layout: Option<Layout>,
     set: Option<PointSet>,
 }
 
-/// What is known after the first line that is no comment.
+/// The layout that follows from the first line that is not a comment.
 struct Layout {
-    /// How many columns there are, and the number of the line that says so.
+    /// The number of columns, and the number of the line that defines it.
     width: usize,
     line: usize,
     columns: Columns<usize>,

@@ -1,4 +1,4 @@
-//! Points that stand already, around which sets are made.
+//! Given points, around which sets are made.
 
 use azulejo::Given;
 
@@ -20,7 +20,7 @@ impl<const AXES: usize> Around<AXES> {
         Given { positions: &self.positions, clearances: self.clearances.as_deref() }
     }
 
-    /// The points for a set of so many classes.
+    /// The points for a set of `classes` classes.
     pub fn of_classes(&self, classes: usize) -> OfClasses<'_, AXES> {
         let repeated = |clearances: &Vec<f64>| {
             clearances.iter().flat_map(|&clearance| std::iter::repeat_n(clearance, classes)).collect()
@@ -29,7 +29,7 @@ impl<const AXES: usize> Around<AXES> {
     }
 }
 
-/// Points that keep as far from all classes.
+/// Points with the same clearance from all classes.
 pub struct OfClasses<'a, const AXES: usize> {
     positions: &'a [[f32; AXES]],
     clearances: Option<Vec<f64>>,

@@ -28,7 +28,7 @@ impl<'a> MeshFile<'a> {
         self.attribute("vertex", name)
     }
 
-    /// For each triangle of the mesh whether the number of its face is not 0.
+    /// The mask of the mesh: for each triangle, whether the number of its face is not 0.
     pub fn face_mask(&self, name: &str) -> Result<Vec<bool>> {
         let numbers = self.attribute("face", name)?;
         let triangles = triangles_of_faces(&self.bytes).map_err(|reason| self.format_error(reason))?;
@@ -36,7 +36,7 @@ impl<'a> MeshFile<'a> {
         Ok(numbers.into_iter().zip(triangles).flat_map(of_face).collect())
     }
 
-    /// What is wrong with an attribute.
+    /// An error about an attribute.
     pub fn error(&self, attribute: &str, reason: &str) -> Error {
         self.format_error(format!("attribute {attribute}: {reason}"))
     }

@@ -15,7 +15,7 @@ use crate::formats::{Input, blame};
 use crate::progress::watched;
 use crate::text::{grouped, rounded};
 
-/// What is said of sets that are not of the plane.
+/// The message about sets that are not of the plane.
 const INSTEAD: &str = "only sets of the plane can be sampled around";
 
 /// The density of a set of the plane.
@@ -59,7 +59,8 @@ pub struct Plane {
         long, num_args = 4, value_names = ["X0", "Y0", "X1", "Y1"], allow_negative_numbers = true, conflicts_with = "count"
     )]
     window: Option<Vec<f64>>,
-    /// The order of the samples. In progressive order the output has the rank of each sample, except in XYZ and raw floats.
+    /// The order of the samples. In progressive order the output has the rank of each sample, except in XYZ and raw
+    /// floats.
     #[arg(long, value_enum, default_value = "any")]
     order: Sequence,
     /// How many times longer the radius of each level of the progressive order is than that of the next, 1.02 to 1.5:
@@ -92,7 +93,7 @@ enum Sequence {
     Progressive,
 }
 
-/// A set, its domain, and what is said of it.
+/// A set, its domain, and the text that is reported about it.
 type Made = (Points<2>, Domain, String);
 
 impl Plane {
@@ -138,14 +139,14 @@ impl Plane {
         Ok((made, domain, about))
     }
 
-    /// The points that stand already.
+    /// The given points.
     fn around(&self) -> Result<Around<2>> {
         let Some(path) = &self.given else { return Ok(Around::default()) };
         let given = self.input.read_plane(path, INSTEAD)?;
         Ok(Around::new(given.points, given.clearances, self.clearance))
     }
 
-    /// An error about the points that stand already, with their file.
+    /// An error about the given points, with their file.
     fn blaming<T>(&self, made: Result<T>) -> Result<T> {
         made.map_err(|error| match &self.given {
             Some(path) => blame(path, error),
@@ -200,7 +201,7 @@ impl Plane {
     }
 }
 
-/// How many samples each class has.
+/// The number of samples of each class.
 fn shares(classes: &Classes, set: &Points<2>) -> String {
     let mut counts = vec![0; classes.count()];
     set.classes.iter().for_each(|&class| counts[class as usize] += 1);

@@ -22,7 +22,8 @@ use crate::text::{grouped, rounded};
 
 #[derive(Args)]
 pub struct Relax {
-    /// The set: a .ply, .npy, .csv, .xyz or .raw file; with --mesh, a .ply, .npy or .csv file that `azulejo surface` wrote.
+    /// The set: a .ply, .npy, .csv, .xyz or .raw file; with --mesh, a .ply, .npy or .csv file that `azulejo surface`
+    /// wrote.
     #[arg(value_name = "POINTS")]
     input: PathBuf,
     #[command(flatten)]
@@ -32,8 +33,8 @@ pub struct Relax {
     /// The mesh that the samples lie on and stay on: OBJ, PLY or STL.
     #[arg(long, value_name = "MESH", conflicts_with_all = ["domain", "bounded", "neighbourhood"])]
     mesh: Option<PathBuf>,
-    /// Also write the mesh whose vertices are the relaxed samples, as PLY, and say what it is: whether it is closed, its
-    /// Euler characteristic, its angles.
+    /// Also write the mesh whose vertices are the relaxed samples, as PLY, and say what it is: whether it is closed,
+    /// its Euler characteristic, its angles.
     #[arg(long, value_name = "FILE", requires = "mesh")]
     remesh: Option<PathBuf>,
     #[command(flatten)]
@@ -171,7 +172,7 @@ fn write_remeshed(context: &Context, mesh: &Mesh, samples: &Points<3>, output: &
     Ok(())
 }
 
-/// What is said of a relaxation.
+/// The text that is reported about a relaxation.
 fn about(steps: u32, smallest_distance: f64) -> String {
     format!("{steps} steps, smallest distance {}", rounded(smallest_distance, 4))
 }

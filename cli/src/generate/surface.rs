@@ -1,4 +1,5 @@
-//! `azulejo surface`: maximal Poisson-disk sets of meshes, of one radius, of a radius for each vertex, or of several classes.
+//! `azulejo surface`: maximal Poisson-disk sets of meshes, of one radius, of a radius for each vertex, or of several
+//! classes.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -27,12 +28,12 @@ struct Density {
     /// iterations.
     #[arg(long, value_name = "N", value_parser = count::<usize>, conflicts_with_all = ["iterations", "no_fill"])]
     count: Option<usize>,
-    /// Several classes at once by their own radii, such as 1,0.5,0.25: samples of each keep its radius, and those of two
-    /// the radius that Wei 2010 gives these. The output has the class of each sample, from 0 on, except in XYZ.
+    /// Several classes at once by their own radii, such as 1,0.5,0.25: samples of each keep its radius, and those of
+    /// two the radius that Wei 2010 gives these. The output has the class of each sample, from 0 on, except in XYZ.
     #[arg(long, value_name = "R,..", value_delimiter = ',', allow_negative_numbers = true, conflicts_with_all = NOT_OF_CLASSES)]
     classes: Option<Vec<f64>>,
-    /// The name of a vertex attribute of a PLY mesh that holds the radius there, for adaptive sampling. The distance of two
-    /// samples is at least the mean of their radii. The output has the radius of each sample, except in XYZ.
+    /// The name of a vertex attribute of a PLY mesh that holds the radius there, for adaptive sampling. The distance of
+    /// two samples is at least the mean of their radii. The output has the radius of each sample, except in XYZ.
     #[arg(long, value_name = "ATTRIBUTE")]
     radius_from: Option<String>,
 }
@@ -53,17 +54,17 @@ pub struct Surface {
     mesh: PathBuf,
     #[command(flatten)]
     density: Density,
-    /// What the radii between samples of different classes are multiplied by, 0 or above: 1 for those of Wei; the smaller,
-    /// the more samples each class has, and the nearer two classes come to each other.
+    /// What the radii between samples of different classes are multiplied by, 0 or above: 1 for those of Wei; the
+    /// smaller, the more samples each class has, and the nearer two classes come to each other.
     #[arg(long, value_name = "F", default_value_t = 1.0, allow_negative_numbers = true, conflicts_with_all = OF_ONE_CLASS)]
     class_factor: f64,
-    /// The names of face attributes of a PLY mesh, one for each class, such as is_wet,is_steep: faces where it is 0 get no
-    /// samples of the class.
+    /// The names of face attributes of a PLY mesh, one for each class, such as is_wet,is_steep: faces where it is 0 get
+    /// no samples of the class.
     #[arg(long, value_name = "ATTRIBUTE,..", value_delimiter = ',', conflicts_with_all = OF_ONE_CLASS)]
     class_masks: Option<Vec<String>>,
-    /// The name of a vertex attribute of a PLY mesh that holds the density there, in any unit, 0 or above; where it is 0
-    /// there are no samples. --radius is that at density 1; --count the number of samples: about, on an even surface, and
-    /// exactly in progressive order. The output has the radius of each sample, except in XYZ.
+    /// The name of a vertex attribute of a PLY mesh that holds the density there, in any unit, 0 or above; where it is
+    /// 0 there are no samples. --radius is that at density 1; --count the number of samples: about, on an even surface,
+    /// and exactly in progressive order. The output has the radius of each sample, except in XYZ.
     #[arg(long, value_name = "ATTRIBUTE", conflicts_with = "radius_from")]
     density_from: Option<String>,
     /// The name of a face attribute of a PLY mesh. Faces where it is 0 are not sampled.
@@ -73,21 +74,22 @@ pub struct Surface {
     /// polygon counts as the triangles of its fan.
     #[arg(long, value_name = "FILE", conflicts_with = "mask")]
     mask_file: Option<PathBuf>,
-    /// Points that stand already: a .ply, .npy, .csv, .xyz or .raw file, x y z each. Samples keep their clearances, cover
-    /// what is farther than that from all of them, and are alone written. The clearance of a point is in the column
-    /// `clearance` or, without one, `radius`; without either it is the radius of the set.
+    /// Points that stand already: a .ply, .npy, .csv, .xyz or .raw file, x y z each. Samples keep their clearances,
+    /// cover what is farther than that from all of them, and are alone written. The clearance of a point is in the
+    /// column `clearance` or, without one, `radius`; without either it is the radius of the set.
     #[arg(long, value_name = "FILE")]
     given: Option<PathBuf>,
     /// The clearance of all points of `--given`, whatever their file says.
     #[arg(long, value_name = "C", requires = "given", allow_negative_numbers = true)]
     clearance: Option<f64>,
-    /// Samples on triangles whose normals have a smaller cosine ignore each other: both sides of a thin wall are sampled.
-    /// From -1, which is off, to 1. Faces must be wound consistently.
+    /// Samples on triangles whose normals have a smaller cosine ignore each other: both sides of a thin wall are
+    /// sampled. From -1, which is off, to 1. Faces must be wound consistently.
     #[arg(long, value_name = "COSINE", default_value_t = -1.0, allow_negative_numbers = true)]
     cosine: f64,
     #[command(flatten)]
     common: Common,
-    /// How often to project patterns from three directions before the gaps are filled [default: 0, or 1 with --no-fill].
+    /// How often to project patterns from three directions before the gaps are filled [default: 0, or 1 with
+    /// --no-fill].
     #[arg(long, value_name = "N", conflicts_with_all = OF_ONE_RADIUS)]
     iterations: Option<u32>,
     /// Do not fill the gaps that the projections leave.
@@ -172,7 +174,7 @@ enum Normals {
     Interpolated,
 }
 
-/// Samples, their radii if they differ, and what is said of them.
+/// The samples, their radii if they differ, and the text that is reported about them.
 struct Made {
     samples: Points<3>,
     radii: Option<Vec<f64>>,
@@ -217,7 +219,7 @@ impl Surface {
         Ok(())
     }
 
-    /// The points that stand already.
+    /// The given points.
     fn around(&self) -> Result<Around<3>> {
         let Some(path) = &self.given else { return Ok(Around::default()) };
         let given = read_given(path)?;
@@ -261,7 +263,7 @@ impl Surface {
         Ok(Made { samples, radii: None, about, seconds: done.seconds })
     }
 
-    /// For each triangle the bits of the classes that it may have.
+    /// The bits of the classes that each triangle may have.
     fn class_masks(&self, file: &MeshFile, classes: usize) -> Result<Option<Vec<u32>>> {
         let Some(attributes) = &self.class_masks else { return Ok(None) };
         if attributes.len() != classes {

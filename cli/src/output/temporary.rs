@@ -7,8 +7,8 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use tempfile::NamedTempFile;
 
-/// The temporary files of this process. The lock is held while one is made, renamed or removed, so that the list is right
-/// whenever a signal comes.
+/// The temporary files of this process. The lock is held while one is made, renamed or removed, so that the list is
+/// correct whenever a signal comes.
 static FILES: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 
 fn files() -> MutexGuard<'static, Vec<PathBuf>> {
@@ -54,8 +54,8 @@ impl Drop for Temporary {
     }
 }
 
-/// From now on SIGINT, SIGTERM and SIGXFSZ (a file above the limit of the shell) remove the temporary files before they end
-/// the process as they do by default. SIGHUP is left alone, because nohup has it ignored.
+/// From now on SIGINT, SIGTERM and SIGXFSZ (a file above the limit of the shell) remove the temporary files before they
+/// end the process as they do by default. SIGHUP is left alone, because nohup has it ignored.
 #[cfg(unix)]
 pub fn remove_on_signals() -> io::Result<()> {
     use signal_hook::consts::{SIGINT, SIGTERM, SIGXFSZ};

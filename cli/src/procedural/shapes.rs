@@ -23,7 +23,7 @@ pub fn patch(columns: u32, rows: u32, place: impl Fn(f64, f64) -> [f64; 3]) -> S
     soup
 }
 
-/// A sphere of radius 1, of as many quads around it and half as many from pole to pole, where triangles have no area.
+/// A sphere of radius 1, of `around` quads around it and half as many from pole to pole, where triangles have no area.
 pub fn sphere(around: u32) -> Soup {
     patch(around, around / 2, |u, v| {
         let ((sin, cos), (height, width)) = ((TAU * u).sin_cos(), (TAU / 2.0 * (v - 0.5)).sin_cos());
@@ -31,7 +31,7 @@ pub fn sphere(around: u32) -> Soup {
     })
 }
 
-/// A torus of radii 1 and 0.4, of as many quads around the hole and around the tube.
+/// A torus of radii 1 and 0.4, of these numbers of quads around the hole and around the tube.
 pub fn torus(around_hole: u32, around_tube: u32) -> Soup {
     patch(around_hole, around_tube, |u, v| {
         let ((sin, cos), (height, width)) = ((TAU * u).sin_cos(), (TAU * v).sin_cos());

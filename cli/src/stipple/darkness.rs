@@ -20,20 +20,21 @@ pub struct Darkness {
 }
 
 impl Darkness {
-    /// That of rows of pixels.
+    /// The darkness of rows of pixels.
     pub fn new(values: Vec<f32>, width: usize) -> Self {
         Self { values, width }
     }
 
-    /// That of a PNG file. The light of a pixel is its grey value to the power of `gamma`.
+    /// The darkness of a PNG file. The light of a pixel is its grey value to the power of `gamma`.
     pub fn load(path: &Path, gamma: f64) -> Result<Self> {
         let darkness = Self::of(&load(path, gamma)?, gamma);
         check_ink(path, darkness.ink())?;
         Ok(darkness)
     }
 
-    /// Those of the inks of a PNG file ([`ABSORBS`](super::inks::ABSORBS)). Black is what red, green and blue all lack;
-    /// another ink takes the share of what is left by which its colour is darker than the lightest.
+    /// The darkness of a PNG file for each ink ([`ABSORBS`](super::inks::ABSORBS)). Black is the part that red, green
+    /// and blue all lack; another ink takes the share of the remaining light by which its colour is darker than the
+    /// lightest.
     pub fn load_inks(path: &Path, gamma: f64) -> Result<[Self; INKS]> {
         let inks = Self::inks_of(&load(path, gamma)?, gamma);
         check_ink(path, inks.iter().map(Self::ink).sum())?;
@@ -48,7 +49,7 @@ impl Darkness {
         Self::inks(&pixels.pixels().map(lights).collect::<Vec<_>>(), image.width() as usize)
     }
 
-    /// Those of the inks that leave rows of pixels these lights: red, green and blue, 0 to 1.
+    /// The darkness of rows of pixels for each ink, by their lights: red, green and blue, 0 to 1.
     pub fn inks(lights: &[[f64; 3]], width: usize) -> [Self; INKS] {
         std::array::from_fn(|ink| {
             let dark = |lights: &[f64; 3]| {
@@ -100,8 +101,8 @@ impl Darkness {
         self.values.iter().map(|&dark| f64::from(dark)).sum()
     }
 
-    /// The radius with which so many dots have the area of the ink. Dots that overlap cover less: of evenly spread ones
-    /// the nearest touch where two thirds are to be covered, and black is covered to nine tenths.
+    /// The radius with which this many dots have the area of the ink. Dots that overlap cover less: of evenly spread
+    /// ones the nearest touch where two thirds are to be covered, and black is covered to nine tenths.
     pub fn dot_radius(&self, count: usize) -> f64 {
         (self.ink() / (std::f64::consts::PI * count as f64)).sqrt()
     }

@@ -7,8 +7,8 @@ use azulejo::{Context, Given, Progress, Result};
 use super::darkness::Darkness;
 use crate::sheet::sheet;
 
-/// What is lighter than this, but not white, is sampled by PSP as if it were so dark: the step from white to the next
-/// grey value of a byte.
+/// The least darkness for PSP: lighter pixels, unless they are white, are sampled as if they were this dark, the step
+/// from white to the next grey value of a byte.
 pub(super) const LIGHTEST: f64 = 1.0 / 255.0;
 
 /// Dots at random.
@@ -28,7 +28,7 @@ pub fn relaxed(
     dcr::relax_with_density(context, &options, &darkness.density(), dots, Some(progress))
 }
 
-/// A maximal Poisson-disk set of about so many dots around given ones, on a mesh with a vertex at each corner of a pixel.
+/// A maximal Poisson-disk set of about this many dots around given ones, on a mesh with a vertex at each pixel corner.
 pub fn poisson(
     context: &Context,
     darkness: &Darkness,

@@ -23,7 +23,7 @@ pub struct Drawing<'a> {
     pub dots: &'a [[f32; 2]],
     /// The ink of each dot ([`ABSORBS`]); empty if all are black.
     pub inks: &'a [u32],
-    /// That of all dots.
+    /// The radius of all dots.
     pub radius: f64,
 }
 
@@ -55,8 +55,8 @@ impl Drawing<'_> {
         })
     }
 
-    /// A picture so many pixels wide, grey or in colours. A pixel that is covered in part has the light of the part that
-    /// is not, encoded as that of the image is.
+    /// A picture `columns` pixels wide, grey or in colours. A pixel that is covered in part has the light of the part
+    /// that is not, encoded as that of the image is.
     pub fn write_png(&self, columns: u32, gamma: f64, output: &Output) -> Result<()> {
         let [width, height] = self.size.map(|length| length as f32);
         let scale = columns as f32 / width;
@@ -79,7 +79,7 @@ impl Drawing<'_> {
         output.write(|writer| write_png(writer, &pixels, columns))
     }
 
-    /// How much of each pixel the dots of an ink cover, in 255ths.
+    /// The share of each pixel that the dots of an ink cover, in 255ths.
     fn covered(&self, ink: usize, columns: u32, rows: u32, scale: f32) -> Vec<u8> {
         let mut mask = Mask::new(columns, rows).expect("the size of a picture is checked by the command line");
         let mut builder = PathBuilder::new();
@@ -91,7 +91,7 @@ impl Drawing<'_> {
     }
 }
 
-/// The light of a pixel that is covered to so many 255ths.
+/// The light of a pixel of which this many 255ths are covered.
 fn light(ink: u8) -> f64 {
     1.0 - f64::from(ink) / 255.0
 }

@@ -1,7 +1,7 @@
 //! Dots in the four inks of a printer: several classes whose densities are those of an image, each around the others.
 //!
-//! The inks are laid down one after the other, black first: each is a maximal Poisson-disk set whose density is the ink's
-//! (PSP), with the dots of the inks before as given samples. What these keep clear is the cross radius of Wei 2010,
+//! The inks are laid down one after the other, black first: each is a maximal Poisson-disk set whose density is the
+//! ink's (PSP), with the dots of the inks before as given samples. Their clearance is the cross radius of Wei 2010,
 //! "Multi-class blue noise sampling" (§3), at the density of all inks there: dots of all inks are well spread together.
 
 use std::f64::consts::PI;
@@ -14,7 +14,7 @@ use super::dots::{LIGHTEST, poisson};
 /// The number of inks, in the order in which they are laid down: black, cyan, magenta, yellow.
 pub const INKS: usize = 4;
 
-/// Which of red, green and blue an ink takes from the light.
+/// The components of the light (red, green and blue) that an ink absorbs.
 pub const ABSORBS: [[bool; 3]; INKS] = [[true; 3], [true, false, false], [false, true, false], [false, false, true]];
 
 /// The factor on Wei's cross radii: with 1 the inks take a fifth of each other's dots where they are dense.
@@ -53,7 +53,7 @@ pub fn dots(
     for (ink, darkness) in inks.iter().enumerate() {
         let share = darkness.ink() / total;
         let wanted = share * count as f64;
-        // Less than one dot in the whole picture.
+        // Fewer than one dot in the whole picture.
         if wanted < 0.5 {
             continue;
         }

@@ -1,9 +1,10 @@
 //! The gaps of a set in the plane, counted by its Voronoi diagram.
 //!
-//! Away from its nearest point one gets, ever farther from all of them, to an edge of the Voronoi diagram, and along it to
-//! one of its vertices. So each connected part of the uncovered places has a vertex in it, a circumcentre of a Delaunay
-//! triangle, and two vertices are in one part when edges without a covered place lead from one to the other. An edge is
-//! nearest to its two points half-way between them, where it crosses their connection, or else at an end.
+//! A point that moves away from its nearest point, ever farther from all of them, reaches an edge of the Voronoi
+//! diagram, and along it one of its vertices. So each connected part of the uncovered places contains a vertex, a
+//! circumcentre of a Delaunay triangle, and two vertices are in one part when edges without a covered place lead from
+//! one to the other. An edge is nearest to its two points half-way between them, where it crosses the segment that
+//! connects them, or else at an end.
 //!
 //! In a bounded domain the mirror images of the points are never nearer than the points, so that the diagram of all of
 //! them, which the boundary divides, is the one inside.
@@ -46,7 +47,7 @@ pub(super) fn count(job: &Job, domain: &Domain, points: &[[f32; 2]], radius: f64
     Ok(gaps.count())
 }
 
-/// Links vertices that are one.
+/// Links vertices that coincide.
 fn link_same(job: &Job, frame: &Frame, vertices: &[[f64; 2]], gaps: &mut DisjointSets) -> Result<()> {
     let torus = Domain { min: [0.0; 2], max: frame.size().to_array(), boundary: frame.boundary() };
     job.report(0.0)?;
@@ -70,7 +71,7 @@ fn link_same(job: &Job, frame: &Frame, vertices: &[[f64; 2]], gaps: &mut Disjoin
 struct Edge {
     /// The ends that are not covered.
     vertices: [Option<[f64; 2]>; 2],
-    /// Whether no place of it is covered.
+    /// True if no place of it is covered.
     is_open: bool,
 }
 
@@ -89,22 +90,22 @@ impl Dual {
         0.5 * self.ends[0].distance(self.ends[1])
     }
 
-    /// Whether the Voronoi edge crosses the Delaunay edge: whether its ends are on different sides.
+    /// True if the Voronoi edge crosses the Delaunay edge: its ends are on different sides.
     fn crosses_its_edge(&self) -> bool {
         let side = |(centre, _): (DVec2, f64)| (self.ends[1] - self.ends[0]).perp_dot(centre - self.ends[0]);
         side(self.circles[0]) * side(self.circles[1]) <= 0.0
     }
 }
 
-/// Members that are linked, and how many groups they form: a forest with a tree for each group (Tarjan 1975, "Efficiency of a
-/// good but not linear set union algorithm").
+/// Linked members, and the number of groups that they form: a forest with a tree for each group (Tarjan 1975,
+/// "Efficiency of a good but not linear set union algorithm").
 pub(super) struct DisjointSets {
     parents: Vec<u32>,
     count: usize,
 }
 
 impl DisjointSets {
-    /// As many groups of one.
+    /// Groups of one member each.
     pub fn new(members: usize) -> Self {
         Self { parents: (0..members as u32).collect(), count: members }
     }
@@ -114,12 +115,12 @@ impl DisjointSets {
         self.count
     }
 
-    /// Whether two members are of one group.
+    /// True if two members are in one group.
     pub fn are_linked(&mut self, a: u32, b: u32) -> bool {
         self.root(a) == self.root(b)
     }
 
-    /// Makes one group of those of two members.
+    /// Merges the groups of two members.
     pub fn link(&mut self, a: u32, b: u32) {
         let [a, b] = [self.root(a), self.root(b)];
         if a != b {

@@ -19,10 +19,10 @@ pub use surface::{surface_coverage, surface_covering_radius};
 /// The relative precision of a covering radius.
 pub const PRECISION: f64 = 1e-9;
 
-/// The cells of a task, of which each may become many.
+/// The cells of a task, each of which may become many.
 const TASK: usize = 512;
 
-/// How a set covers a domain or a surface with disks of a radius.
+/// The coverage of a domain or a surface by disks of a radius around the points of a set.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Coverage {
@@ -32,11 +32,11 @@ pub struct Coverage {
     pub gaps: usize,
 }
 
-/// How a set in the plane covers its domain with disks of `radius`. A *gap* is a connected part of the domain, or of the
-/// torus, that is farther than `radius` from all points; the whole domain is one for an empty set.
+/// The coverage of the domain of a set in the plane by disks of `radius`. A *gap* is a connected part of the domain, or
+/// of the torus, that is farther than `radius` from all points; the whole domain is one for an empty set.
 ///
-/// Gaps are counted by the Voronoi diagram, however small they are; those shallower than 1e-6 of the mean spacing may be
-/// missed, unless they are all there is. Takes O(n log n).
+/// Gaps are counted by the Voronoi diagram, however small they are; those shallower than 1e-6 of the mean spacing may
+/// be missed, unless they are all there is. Takes O(n log n).
 ///
 /// # Errors
 /// As [`covering_radius_2d`]; and [`Error::InvalidArgument`](crate::Error::InvalidArgument) for a radius that is not
@@ -64,14 +64,14 @@ pub fn coverage_2d(
 /// The covering radius of a set in the plane: the distance from the samples of the point of the domain that is farthest
 /// from all of them. A set is maximal for a radius if this is not above it. Infinite for an empty set.
 ///
-/// Only the domain has to be covered, with the samples of the other side of a torus helping. Found by branch and bound:
-/// the sample nearest to a cell's centre bounds the distances of all of its points; cells that could hold more than the
+/// Only the domain has to be covered; on a torus the samples across its boundary count. Found by branch and bound: the
+/// sample nearest to a cell's centre bounds the distances of all of its points; cells that could hold more than the
 /// largest distance so far are divided. The result is too small by at most the factor 1 + [`PRECISION`].
 ///
 /// Takes O(n log n).
 ///
 /// # Errors
-/// [`Error::InvalidArgument`](crate::Error::InvalidArgument) for a domain that is none and for points outside it (`xy`);
+/// [`Error::InvalidArgument`](crate::Error::InvalidArgument) for an invalid domain and for points outside it (`xy`);
 /// [`Error::Cancelled`](crate::Error::Cancelled).
 pub fn covering_radius_2d(
     context: &Context,
@@ -154,14 +154,14 @@ fn farthest(nearest: &Nearest, mut cells: Vec<SearchCell>, known: f64) -> f64 {
 }
 
 impl SearchCell {
-    /// A bound for the distances of the cell's points, from the offset of the sample that is nearest to its centre: they
-    /// are no farther from this sample than the corner on the other side.
+    /// A bound for the distances of the cell's points, from the offset of the sample that is nearest to its centre:
+    /// they are no farther from this sample than the corner on the other side.
     fn bound(&self, offset: [f64; 2]) -> f64 {
         hypot(offset[0] + self.half[0], offset[1] + self.half[1])
     }
 
-    /// Halves or quarters: divided along each axis that has a large part in the bound. In a thin domain that is the long
-    /// axis alone, and cells do not become many more than are needed along the short one.
+    /// Halves or quarters: divided along each axis that has a large part in the bound. In a thin domain that is the
+    /// long axis alone, so that there are not many more cells than are needed along the short one.
     fn parts(&self, offset: [f64; 2]) -> impl Iterator<Item = SearchCell> + use<> {
         let Self { centre, half } = *self;
         let excess: [f64; 2] = std::array::from_fn(|axis| half[axis] * (2.0 * offset[axis] + half[axis]));
@@ -183,8 +183,8 @@ impl SearchCell {
 /// `f64`): an estimate of the uncovered part of its area, with a standard error of at most 0.5 / sqrt(`probes`).
 /// 0 without probes, and where the mesh's mask leaves no area.
 ///
-/// Probes are uniform by area and keyed by `seed` and their number. Small gaps escape them: this estimates a share,
-/// while [`surface_coverage`] proves that there is none.
+/// Probes are uniform by area and keyed by `seed` and their number. They miss small gaps: this estimates a share, while
+/// [`surface_coverage`] proves that there is none.
 ///
 /// # Errors
 /// [`Error::InvalidArgument`](crate::Error::InvalidArgument) for a radius that is not positive and finite and for
@@ -214,7 +214,7 @@ pub fn surface_uncovered_fraction(
             near.any(|sample| distance_squared(positions[sample as usize], probe) <= radius * radius)
         };
         let count = |chunk: usize| chunks.range(chunk).filter(|&index| !is_covered(index)).count();
-        // However many probes there are, the counts of few chunks are held at a time.
+        // The counts of only a few chunks are held at a time, however many probes there are.
         job.part(0.1, 1.0).stream(chunks.len(), count, |found| {
             uncovered += found;
             Ok(())
@@ -223,8 +223,8 @@ pub fn surface_uncovered_fraction(
     Ok(uncovered as f64 / probes.max(1) as f64)
 }
 
-/// The grid is asked within so many mean spacings, a bit farther than the largest hole of most sets; then the tree, whose
-/// answer takes longer, but hardly any longer where all points are far away.
+/// The grid is searched within this many mean spacings, slightly farther than the largest hole of most sets; then the
+/// tree, whose answer takes longer, but hardly any longer where all points are far away.
 const NEAR: f64 = 4.0;
 
 /// Points in a grid, and in a tree for places that are far from all of them.

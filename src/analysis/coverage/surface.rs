@@ -1,5 +1,5 @@
 //! Coverage of a surface, by cutting it into fragments: a place of a fragment is no farther from the samples than its
-//! centre is and a corner is from that.
+//! centre, plus the distance of the farthest corner from the centre.
 
 use std::collections::HashMap;
 
@@ -16,7 +16,7 @@ use crate::mesh::Mesh;
 
 /// Triangles are cut before work on them is shared, until none has more than this share of the area.
 const SHARE: f64 = 1.0 / 2048.0;
-/// The fragments of one task, and of one that gathers what of them is uncovered, which may be much.
+/// The fragments of a task, and of one that gathers their uncovered parts, which may be many.
 const TASK: usize = 64;
 const GATHERED: usize = 8;
 
@@ -26,7 +26,7 @@ const LINK: f64 = 0.5;
 const DEPTH: f64 = 1e-6;
 /// No more uncovered fragments than this are kept.
 const MAX_UNCOVERED: usize = 1 << 26;
-/// So many places, or cells of them, are grouped between two reports.
+/// The number of places, or cells of them, that are grouped between two reports.
 const PLACES: u32 = 2048;
 
 /// The covering radius of samples on a mesh: the straight distance from the samples of the place of the surface that is
@@ -53,18 +53,20 @@ pub fn surface_covering_radius(
     })
 }
 
-/// How samples on a mesh cover it with disks of `radius`, by straight distance.
+/// The coverage of a mesh by disks of `radius` around samples, by straight distance.
 ///
-/// A *gap* here is a group of uncovered places in which each is within half of the radius of another one, so that hardly
-/// more than a sample is missing in a small one: a connected part of what is uncovered, or several that are so near to
-/// each other. Surfaces may touch and cross, so that distances in space decide, not shared edges. Each gap
+/// A *gap* here is a group of uncovered places in which each is within half of the radius of another one, so that
+/// hardly more than a sample is missing in a small one: a connected part of the uncovered surface, or several that are
+/// this near to each other. Surfaces may touch and cross, so that distances in space decide, not shared edges. Each gap
 /// deeper than a millionth of the radius is found, however narrow.
 ///
-/// Takes what [`surface_covering_radius`] takes, and about 100 fragments for each square of the radius that is uncovered.
+/// Takes what [`surface_covering_radius`] takes, and about 100 fragments for each square of the radius that is
+/// uncovered.
 ///
 /// # Errors
 /// [`Error::InvalidArgument`] for a radius that is not positive and finite and for positions that are not finite;
-/// [`Error::TooLarge`] for a `radius` that leaves uncovered more than some 600,000 times its square; [`Error::Cancelled`].
+/// [`Error::TooLarge`] for a `radius` that leaves uncovered more than some 600,000 times its square;
+/// [`Error::Cancelled`].
 pub fn surface_coverage(
     context: &Context,
     mesh: &Mesh,
@@ -114,7 +116,8 @@ fn check_count(uncovered: usize) -> Result<()> {
 
 /// The groups of places of which each is within `reach` of another one.
 ///
-/// Places are put into cells in which any two are near, however many they are. Of two cells it takes a pair to link all.
+/// Places are sorted into cells in which any two are near, however many they are. One near pair links all places of two
+/// cells.
 fn count(job: &Job, places: &[[f32; 3]], reach: f64) -> Result<usize> {
     let side = reach / 3f64.sqrt() * (1.0 - 1e-9);
     // Whole numbers, of which 0 has one form.
@@ -200,10 +203,10 @@ impl TrianglePart {
         fragments
     }
 
-    /// Cuts it into parts of no larger area.
+    /// Cuts it into parts of an area of at most `limit`.
     fn cut(self, limit: f64, parts: &mut Vec<Self>) {
         let halves = self.halves();
-        // What rounding does not let become smaller is left as it is.
+        // A part that rounding does not let become smaller is left as it is.
         let area = self.area();
         if area > limit && halves.iter().all(|half| half.area() < area) {
             halves.into_iter().for_each(|half| half.cut(limit, parts));
@@ -227,7 +230,7 @@ impl TrianglePart {
         [Self::new([tip, a, middle]), Self::new([tip, middle, b])]
     }
 
-    /// Puts down a place of each uncovered part of it that is small enough to be of one gap.
+    /// Appends a place of each uncovered part of it that is small enough to be of one gap.
     fn gather(&self, tree: &PointTree, radius: f64, uncovered: &mut Vec<[f32; 3]>) -> Result<()> {
         check_count(uncovered.len())?;
         let Some(distance) = tree.nearest_beyond(self.centre, radius * (1.0 + DEPTH) - self.reach) else {
@@ -243,11 +246,11 @@ impl TrianglePart {
         }
     }
 
-    /// Puts down all of it, of which nothing is covered.
+    /// Appends places of all of it, none of which is covered.
     fn gather_all(&self, radius: f64, uncovered: &mut Vec<[f32; 3]>) -> Result<()> {
         let smallest = 0.25 * LINK * radius;
-        // Halves are not larger than a right triangle of that reach is, which has 0.9 of its square.
-        // A needle is as long as a chain of them.
+        // Halves are no larger than a right triangle of that reach, which has 0.9 of its square. A needle is as long as
+        // a chain of them.
         let least = (self.area() / (smallest * smallest)).max(self.reach / (2.0 * smallest));
         check_count(uncovered.len().saturating_add(least as usize))?;
         if self.reach <= smallest {

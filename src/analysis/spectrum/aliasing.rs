@@ -1,38 +1,39 @@
-//! Effective Nyquist frequency and oscillation of a spectrum: how much of an image survives being sampled, and how much
-//! structure its aliasing has (Heck, Schlömer and Deussen 2013, "Blue noise sampling with controlled aliasing").
+//! Effective Nyquist frequency and oscillation of a spectrum: the part of an image that survives sampling, and the
+//! structure of its aliasing (Heck, Schlömer and Deussen 2013, "Blue noise sampling with controlled aliasing").
 //!
-//! The thresholds and ranges are those of psa, the program of the paper's authors, from which the figures in the literature
-//! come. It finds the radial power from the radial distribution function; here it is that of the periodogram.
+//! The thresholds and ranges are those of psa, the program of the paper's authors, from which the figures in the
+//! literature come. It finds the radial power from the radial distribution function; here it is that of the
+//! periodogram.
 
 use crate::analysis::spectrum::Periodogram;
 use crate::error::{Error, Result};
 use crate::math::square;
 
-/// The mean power up to a frequency that an image of half that frequency can bear, and the one above which the spectrum
-/// is surely past its empty centre.
+/// The mean power that an image tolerates up to twice its highest frequency, and the mean power above which the
+/// spectrum is surely past its empty centre.
 const QUIET: f64 = 0.1;
 const LOUD: f64 = 0.5;
 
-/// Where the power is first that of a Poisson process, and the range behind it over which the oscillation is measured: ten
-/// times the Nyquist frequency of the square lattice, which is 1/2.
+/// The power at which a spectrum has first risen to that of a Poisson process, and the range behind it over which the
+/// oscillation is measured: ten times the Nyquist frequency of the square lattice, which is 1/2.
 const RISEN: f64 = 0.98;
 const RANGE: f64 = 5.0;
 
 impl Periodogram {
-    /// The effective Nyquist frequency ν_eff, in units of sqrt(density): half of the largest frequency below which the mean
-    /// power, over all frequencies but 0, is under 0.1. An image without frequencies above it is sampled almost without
-    /// aliasing.
+    /// The effective Nyquist frequency ν_eff, in units of sqrt(density): half of the largest frequency below which the
+    /// mean power, over all frequencies but 0, is under 0.1. An image without frequencies above it is sampled almost
+    /// without aliasing.
     ///
-    /// 0.5 for the square lattice and 0.537 for the hexagonal one; about 0.28 for a spectrum that steps from 0 to 1, 0 for a
-    /// Poisson process. (The tables of the literature divide it by the 0.5.) Where the mean power falls below 0.1 more
-    /// than once, the last time before it first exceeds 0.5 at frequencies above 0.5 counts.
+    /// 0.5 for the square lattice and 0.537 for the hexagonal one; about 0.28 for a spectrum that steps from 0 to 1, 0
+    /// for a Poisson process. (The tables of the literature divide it by the 0.5.) Where the mean power falls below 0.1
+    /// more than once, the last time before it first exceeds 0.5 at frequencies above 0.5 counts.
     ///
     /// Annuli of `width` sum up the power; it is interpolated in between. Found from several sets with
     /// [`Periodogram::mean`].
     ///
     /// # Errors
-    /// [`Error::InvalidArgument`] if `width` is not a positive finite number, and for a periodogram too small (`size`) to
-    /// show where the mean power exceeds 0.5: one out to a frequency of 1.5 is large enough for most sets.
+    /// [`Error::InvalidArgument`] if `width` is not a positive finite number, and for a periodogram too small (`size`)
+    /// to show where the mean power exceeds 0.5: one out to a frequency of 1.5 is large enough for most sets.
     pub fn effective_nyquist(&self, width: f64) -> Result<f64> {
         let annuli = self.annuli(width)?;
         let mut inside = [0.0; 2];
@@ -58,18 +59,18 @@ impl Periodogram {
         Ok(0.5 * frequency)
     }
 
-    /// The oscillation Ω, without unit: ten times the root mean square of the power's deviation from 1, by area, from the
-    /// frequency at which the radial mean first is 0.98 to 5 sqrt(density) above. Narrow peaks and rings behind the first
-    /// are what makes aliasing visible; 0 for a Poisson process and for the step of the paper.
+    /// The oscillation Ω, without unit: ten times the root mean square of the power's deviation from 1, by area, from
+    /// the frequency at which the radial mean first is 0.98 to 5 sqrt(density) above. Narrow peaks and rings behind the
+    /// first are what makes aliasing visible; 0 for a Poisson process and for the step of the paper.
     ///
-    /// Of the mean square over the annuli of `width` the part is taken off that their means of a finite number of
-    /// frequencies have by chance, so that the speckle of one periodogram is no oscillation. Found from several sets with
-    /// [`Periodogram::mean`].
+    /// The part of the mean square over the annuli of `width` that their means of a finite number of frequencies have
+    /// by chance is subtracted, so that the speckle of one periodogram does not count as oscillation. Found from
+    /// several sets with [`Periodogram::mean`].
     ///
     /// # Errors
-    /// [`Error::InvalidArgument`] if `width` is not a positive finite number, and for a periodogram (`size`) that does not
-    /// reach so far: out to a frequency of 6.5 for most sets, by a [`sparse_periodogram`](super::sparse_periodogram) for
-    /// large ones.
+    /// [`Error::InvalidArgument`] if `width` is not a positive finite number, and for a periodogram (`size`) that does
+    /// not reach so far: out to a frequency of 6.5 for most sets, by a
+    /// [`sparse_periodogram`](super::sparse_periodogram) for large ones.
     pub fn oscillation(&self, width: f64) -> Result<f64> {
         let curve = self.radial(width)?;
         let risen = curve.iter().position(|annulus| annulus.power >= RISEN);

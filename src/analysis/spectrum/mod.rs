@@ -4,10 +4,10 @@
 //! but 0 (Ulichney 1988, "Dithering with blue noise"; Lagae and Dutré 2008, "A comparison of methods for generating
 //! Poisson disk distributions"). The thesis's eq. 1.4 prints the amplitude; power is its square.
 //!
-//! A *periodic* domain has exact frequencies: whole numbers of waves per period. A *bounded* domain is taken for a window
-//! onto a larger set. Cut out sharply, it would show the cross of its four edges; so its points are weighted by the
-//! taper (1 - ρ²)², ρ being 0 at the centre and 1 on the inscribed ellipse, and the transform of the taper alone, which
-//! a set without any structure would leave around frequency 0, is subtracted.
+//! A *periodic* domain has exact frequencies: whole numbers of waves per period. A *bounded* domain is taken for a
+//! window onto a larger set. Cut out sharply, it would show the cross of its four edges; so its points are weighted by
+//! the taper (1 - ρ²)², ρ being 0 at the centre and 1 on the inscribed ellipse, and the transform of the taper alone,
+//! which a set without any structure would leave around frequency 0, is subtracted.
 
 mod aliasing;
 mod radial;
@@ -66,8 +66,8 @@ pub fn periodogram(
     sparse_periodogram(context, domain, points, size, 1, progress)
 }
 
-/// A periodogram that takes only every `stride`-th frequency along both axes, exactly: the Fourier sums at multiples of a
-/// frequency are those of the points laid over each other in a period of it. With it the radial curves of large sets
+/// A periodogram that takes only every `stride`-th frequency along both axes, exactly: the Fourier sums at multiples of
+/// a frequency are those of the points laid over each other in a period of it. With it the radial curves of large sets
 /// reach as far as those of small ones, in the same time.
 ///
 /// # Errors
@@ -132,7 +132,7 @@ fn weigh(domain: &Domain, points: &[[f32; 2]], stride: f64) -> Vec<Weighted> {
     weighted.filter(|point| point.weight > 0.0).collect()
 }
 
-/// What points without any structure would give: the transform of the taper, or of the whole torus.
+/// The expectation for points without any structure: the transform of the taper, or of the whole torus.
 struct Mean {
     weight: f64,
     boundary: Boundary,
@@ -211,7 +211,7 @@ mod tests {
         (0..count).map(|_| [x(rng.unit(), domain.min[0], width), x(rng.unit(), domain.min[1], height)]).collect()
     }
 
-    /// The definition, word for word. The weighted mean's transform is summed over a fine grid of the domain.
+    /// The definition, taken literally. The weighted mean's transform is summed over a fine grid of the domain.
     fn double_loop(domain: &Domain, points: &[[f32; 2]], column: f64, row: f64) -> f64 {
         let extent = domain.extent();
         let taper = |x: f64, y: f64| match domain.boundary {
@@ -235,7 +235,7 @@ mod tests {
         (0..2).map(|part| (sum[part] - weight / all * mean[part]).powi(2)).sum::<f64>() / energy
     }
 
-    /// Of a lattice it leaves its peaks, of a set twice over twice the power, and one point that is moved shows.
+    /// A lattice gives its peaks, a set repeated twice gives twice the power, and one point that is moved shows.
     #[test]
     fn the_double_loop_is_that_of_known_sets() {
         for boundary in [Boundary::Periodic, Boundary::Bounded] {

@@ -62,12 +62,12 @@ impl Periodogram {
         Ok(curve.collect())
     }
 
-    /// How much the power scatters about its radial mean: the mean of the anisotropy over all frequencies with a length
-    /// in `range`, in units of sqrt(density), found in annuli of `width`. 0 if there are none.
+    /// The scatter of the power about its radial mean: the mean of the anisotropy over all frequencies with a length in
+    /// `range`, in units of sqrt(density), found in annuli of `width`. 0 if there are none.
     ///
-    /// The power of a large set without order over long distances is exponentially distributed about its mean, as that of
-    /// a Poisson process is, so a single periodogram has a contrast of 1, up to sqrt(8 / frequencies) by chance. A set in
-    /// which parts are repeated has more, though its radial mean may show nothing.
+    /// The power of a large set without order over long distances is exponentially distributed about its mean, as that
+    /// of a Poisson process is, so a single periodogram has a contrast of 1, up to sqrt(8 / frequencies) by chance. A
+    /// set in which parts are repeated has more, though its radial mean may show nothing.
     ///
     /// # Errors
     /// As [`Periodogram::radial`].
@@ -83,8 +83,8 @@ impl Periodogram {
     /// The largest power at some frequencies, each over the mean power of its annulus of `width`, in units of
     /// sqrt(density). 0 if none of them is in the grid.
     ///
-    /// `waves` are counted in columns and rows from frequency 0; those beyond the largest circle of the grid are passed
-    /// over. By chance alone the largest of n frequencies of a single periodogram is about ln n.
+    /// `waves` are counted in columns and rows from frequency 0; those beyond the largest circle of the grid are
+    /// skipped. By chance alone the largest of n frequencies of a single periodogram is about ln n.
     ///
     /// # Errors
     /// As [`Periodogram::radial`].
@@ -98,8 +98,8 @@ impl Periodogram {
         Ok(waves.into_iter().filter_map(over_mean).fold(0.0, f64::max))
     }
 
-    /// Searches the frequencies with a length in `range`, in units of sqrt(density), for the one whose power exceeds the mean
-    /// of its annulus of `width` the most: repeated parts and lattices show there. None if all power there is 0.
+    /// Searches the frequencies with a length in `range`, in units of sqrt(density), for the one whose power exceeds
+    /// the mean of its annulus of `width` the most: repeated parts and lattices show there. None if it is all 0.
     ///
     /// # Errors
     /// As [`Periodogram::radial`].

@@ -1,10 +1,10 @@
 //! Fourier sums of points anywhere, for all frequencies of a grid at once.
 //!
 //! Σ w exp(-2πi k·x) is the transform of spikes at the points. Spread into bumps on a grid they can be transformed
-//! fast, and what the bumps do to the transform is divided out again (Dutt and Rokhlin 1993, "Fast Fourier transforms
-//! for nonequispaced data"). The bump is exp(β(√(1 - x²) - 1)) of Barnett, Magland and af Klinteberg 2019, "A parallel
-//! nonuniform fast Fourier transform library based on an exponential of semicircle kernel": on a grid of at least
-//! four points per period of the highest frequency the error is below 1e-10 of the sum of the weights.
+//! fast, and the transform of the bumps is divided out again (Dutt and Rokhlin 1993, "Fast Fourier transforms for
+//! nonequispaced data"). The bump is exp(β(√(1 - x²) - 1)) of Barnett, Magland and af Klinteberg 2019, "A parallel
+//! nonuniform fast Fourier transform library based on an exponential of semicircle kernel": on a grid of at least four
+//! points per period of the highest frequency the error is below 1e-10 of the sum of the weights.
 
 use std::f64::consts::PI;
 

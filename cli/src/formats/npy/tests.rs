@@ -66,7 +66,7 @@ fn a_structured_array_holds_all_that_is_known_of_samples() {
         assert_eq!((&read.positions, &read.normals), (&samples.positions, &samples.normals));
         assert_eq!(read.on_mesh, Some((samples.triangles.clone(), samples.barycentrics.clone())));
     }
-    // As plyfile and others have it, with what is not needed.
+    // Fields as plyfile and others write them, with some that are not needed.
     let fields = "[('red', '|u1'), ('y', '<f8'), ('more', '<i2', (2, 2)), ('x', '<f4')]";
     let text = format!("{{'descr': {fields}, 'fortran_order': False, 'shape': (1,), }}");
     let body = [&[255][..], &2.5f64.to_le_bytes(), &[1; 8], &(-1.0f32).to_le_bytes()].concat();
