@@ -16,7 +16,7 @@
 //! | index | why it is none of the above |
 //! |---|---|
 //! | `plane/cells`, `plane/quadtree` | integers, a cell holds at most one sample; exactness rests on both |
-//! | `kdrt/region`, `kdrt/bitmap`, `kdrt/classes` | rows of exact integers that are swept in order; bits of a block |
+//! | `kdrt/region`, `kdrt/fill`, `kdrt/classes` | rows of exact integers that are swept in order; bits of a block |
 //! | `psp/fill/grid`, `psp/adaptive/grid` | pages of coordinates for vector code, and their covered cells |
 //! | `psp/obstacles` | balls of very different sizes, a grid for each tier of sizes |
 //! | `dcr/uniform/cells` | moving points of a torus, coordinates for vector code; sorted anew, not re-linked |

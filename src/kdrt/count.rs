@@ -12,7 +12,7 @@ use crate::error::{Error, Result};
 use crate::job::{Context, Job, Progress, chunks_of};
 use crate::kdrt::{
     options::{DEFAULT_LEAF_SIZE, Options, Progressive, check_leaf_size},
-    progressive,
+    plane, progressive,
     stack::Base,
 };
 use crate::math::{exp, hypot, log, power};
@@ -121,6 +121,7 @@ pub fn sample_count(
         memory::require(count as f64 * progressive::BYTES_PER_SAMPLE, "count", &format!("{count} samples"))?;
         return context.run(progress, |job| first_of_order(job, options, levels));
     }
+    plane::require(count as f64, plane::BYTES_PER_SAMPLE, "count")?;
     context.run(progress, |job| attempt(job, options, search, ATTEMPTS))
 }
 

@@ -25,7 +25,7 @@ use crate::points::{Boundary, Domain, Points, check_resolution};
 const FEWEST_REFUSED: f64 = 1e6;
 
 /// The most bytes that a sample takes: in the result and in the windows being made.
-const BYTES_PER_SAMPLE: f64 = 16.0;
+pub const BYTES_PER_SAMPLE: f64 = 16.0;
 
 /// A maximal Poisson-disk set of a rectangle, in parallel: [`Plane::new`] and [`Plane::whole`] in one call.
 ///
@@ -276,7 +276,7 @@ impl Set {
 }
 
 /// Refuses samples that do not fit in memory. `argument` is the one that asks for them.
-fn require(samples: f64, bytes_per_sample: f64, argument: &'static str) -> Result<()> {
+pub fn require(samples: f64, bytes_per_sample: f64, argument: &'static str) -> Result<()> {
     if samples < FEWEST_REFUSED {
         return Ok(());
     }

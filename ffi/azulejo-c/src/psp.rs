@@ -173,7 +173,7 @@ impl azulejo_psp_options {
         check_unused("maximal", self.maximal, default.maximal, call)?;
         check_unused("count", self.count, default.count, call)?;
         check_unused("order", self.order, default.order, call)?;
-        check_unused("quotient", self.quotient, default.quotient, call)?;
+        check_unused("quotient", self.quotient, default.quotient, "in any order")?;
         // SAFETY: handed on from the caller.
         let given = unsafe { given(self.given_positions, self.given_clearances, self.given_count) }?;
         Ok(ProjectionOptions::new(self.radius)
