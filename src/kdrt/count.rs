@@ -12,8 +12,8 @@ use crate::error::{Error, Result};
 use crate::job::{Context, Job, Progress, chunks_of};
 use crate::kdrt::{
     options::{DEFAULT_LEAF_SIZE, Options, Progressive, check_leaf_size},
-    plane, progressive,
-    stack::Base,
+    progressive,
+    stack::{self, Base},
 };
 use crate::math::{exp, hypot, log, power};
 use crate::memory;
@@ -121,7 +121,7 @@ pub fn sample_count(
         memory::require(count as f64 * progressive::BYTES_PER_SAMPLE, "count", &format!("{count} samples"))?;
         return context.run(progress, |job| first_of_order(job, options, levels));
     }
-    plane::require(count as f64, plane::BYTES_PER_SAMPLE, "count")?;
+    stack::require(count as f64, stack::BYTES_PER_SAMPLE, "count")?;
     context.run(progress, |job| attempt(job, options, search, ATTEMPTS))
 }
 

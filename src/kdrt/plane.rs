@@ -10,22 +10,14 @@ use crate::kdrt::{
     classes::{self, Group},
     options::{Kind, Options, Progressive, check_leaf_size},
     progressive::{self, Level},
-    stack::{Base, PATTERN_SHARE, Stack},
+    stack::{BYTES_PER_SAMPLE, Base, PATTERN_SHARE, Stack, require},
     tiling::Tiling,
 };
-use crate::memory;
 use crate::plane::{
     GivenDisks,
     lattice::{Lattice, estimate},
 };
 use crate::points::{Boundary, Domain, Points, check_resolution};
-
-/// The number of samples, of some 16 MB, from which on the available memory is checked: the query takes about 0.1 ms,
-/// as long as making a small window.
-const FEWEST_REFUSED: f64 = 1e6;
-
-/// The most bytes that a sample takes: in the result and in the windows being made.
-pub const BYTES_PER_SAMPLE: f64 = 16.0;
 
 /// A maximal Poisson-disk set of a rectangle, in parallel: [`Plane::new`] and [`Plane::whole`] in one call.
 ///
@@ -273,14 +265,6 @@ impl Set {
         let classes = if has_classes { vec![0; samples.len()] } else { Vec::new() };
         Points { classes, ..samples.into() }
     }
-}
-
-/// Refuses samples that do not fit in memory. `argument` is the one that asks for them.
-pub fn require(samples: f64, bytes_per_sample: f64, argument: &'static str) -> Result<()> {
-    if samples < FEWEST_REFUSED {
-        return Ok(());
-    }
-    memory::require(samples * bytes_per_sample, argument, &format!("about {samples:.0} samples"))
 }
 
 /// Refuses more samples of several classes in a rectangle than can be held.

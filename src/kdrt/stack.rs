@@ -15,9 +15,24 @@ use crate::kdrt::{
     region::{Part, Placed, Region},
     tiling::Tiling,
 };
-use crate::maximal;
 use crate::plane::{CellAxis, GivenDisks, lattice::Lattice, rect::Rect};
 use crate::points::Domain;
+use crate::{maximal, memory};
+
+/// The number of samples, of some 16 MB, from which on the available memory is checked: the query takes about 0.1 ms,
+/// as long as making a small window.
+const FEWEST_REFUSED: f64 = 1e6;
+
+/// The most bytes that a sample takes: in the result and in the windows being made.
+pub const BYTES_PER_SAMPLE: f64 = 16.0;
+
+/// Refuses samples that do not fit in memory. `argument` is the one that asks for them.
+pub fn require(samples: f64, bytes_per_sample: f64, argument: &'static str) -> Result<()> {
+    if samples < FEWEST_REFUSED {
+        return Ok(());
+    }
+    memory::require(samples * bytes_per_sample, argument, &format!("about {samples:.0} samples"))
+}
 
 /// The speed of tiling relative to that of filling a layer.
 const TILING_SPEED: f64 = 10.0;

@@ -23,7 +23,6 @@ const IMPORTING: &[(&str, usize)] = &[
     ("kdrt/classes/mod.rs", 17),
     ("kdrt/count.rs", 14),
     ("kdrt/merge.rs", 13),
-    ("kdrt/plane.rs", 13),
     ("kdrt/progressive.rs", 17),
     ("kdrt/tiling.rs", 14),
     ("psp/adaptive/levels.rs", 15),
