@@ -1,15 +1,24 @@
-//! The order of a set.
+//! The order of a set, and the ratio of the levels of a progressive one.
 
+use std::ops::RangeInclusive;
+
+use crate::error::{Error, Result};
 use crate::math::log2;
+
+/// The quotient of the levels of a progressive order that balances speed and spread, 2^(1/8).
+pub const DEFAULT_QUOTIENT: f64 = 1.090_507_732_665_257_7;
+
+/// The quotients that a progressive order may have.
+pub const QUOTIENTS: RangeInclusive<f64> = 1.02..=1.5;
 
 /// The order of the points of a set.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Order {
-    /// Whatever is fastest.
+    /// The fastest order.
     #[default]
     Any,
-    /// Coarse to fine: the first points are a well-spread set as well, whatever their number. Each point has a rank, a
-    /// distance; ranks never rise, and the points up to any of them are at least its rank apart.
+    /// Coarse to fine: every prefix is a well-spread set, too. Each point has a rank, a distance; ranks never rise, and
+    /// the points up to any of them are at least its rank apart.
     Progressive,
 }
 
@@ -18,6 +27,15 @@ impl Order {
     /// their last rank; smaller ones within twice the last rank, or the square of the quotient times it if that is
     /// more.
     pub const FIRST_COUNT: usize = 100;
+}
+
+/// Refuses a quotient that is out of range.
+pub fn check_quotient(quotient: f64) -> Result<()> {
+    if QUOTIENTS.contains(&quotient) {
+        return Ok(());
+    }
+    let (least, most) = (QUOTIENTS.start(), QUOTIENTS.end());
+    Err(Error::invalid("quotient", format!("{quotient:?} is not in {least} to {most}")))
 }
 
 /// The number of steps of a quotient between the first levels of a progressive order: down to a half, at least two.

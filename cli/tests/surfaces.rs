@@ -88,7 +88,7 @@ fn progressive_sets_have_their_ranks_in_all_formats() {
         workshop.refuse(&[&["surface", "mesh.ply", "--radius", "0.1", "-o", "d.ply"], arguments].concat(), code)
     };
     let said = refuse(&["--order", "progressive", "--quotient", "2"], 1);
-    assert_eq!(said, "error: quotient: 2 is not between 1.02 and 1.5\n");
+    assert_eq!(said, "error: quotient: 2.0 is not in 1.02 to 1.5\n");
     refuse(&["--quotient", "1.2"], 2);
     refuse(&["--order", "progressive", "--iterations", "1"], 2);
 }
@@ -249,7 +249,7 @@ fn radii_come_from_an_attribute_of_the_vertices() {
     workshop.write("roof.obj", "v 0 0 0\nv 2 0 0\nv 0 2 0\nf 1 2 3\n");
     let said = refuse(&["roof.obj", "--radius-from", "size"], 1);
     assert_eq!(said, "error: roof.obj: attribute size: only PLY files have attributes\n");
-    // What has no effect is refused.
+    // Arguments without effect are refused.
     for vain in [&["--iterations", "3"][..], &["--no-fill"], &["--engine", "embree"], &["--radius", "0.1"]] {
         refuse(&[&["square.ply", "--radius-from", "size"], vain].concat(), 2);
     }
@@ -304,7 +304,7 @@ fn sets_of_varying_radii_have_ranks_in_progressive_order() {
         &["surface", "square.ply", "--radius-from", "size", "--order", "progressive", "--quotient", "2", "-o", "d.csv"],
         1,
     );
-    assert_eq!(said, "error: quotient: 2 is not between 1.02 and 1.5\n");
+    assert_eq!(said, "error: quotient: 2.0 is not in 1.02 to 1.5\n");
 }
 
 #[test]
@@ -392,7 +392,7 @@ fn samples_keep_clear_of_points_that_are_given() {
     sample(&[]);
     let said = workshop.succeed(&["surface", "square.obj", "--radius", "0.05", "--given", "a.ply", "-o", "b.ply"]);
     assert!(said.starts_with("b.ply: 0 samples"), "{said}");
-    // What is out of range is named by its index, with the file.
+    // A value out of range is named by its index, with the file.
     let refuse = |arguments: &[&str], status| {
         workshop.refuse(&[&["surface", "square.obj", "--radius", "0.05", "-o", "c.ply"], arguments].concat(), status)
     };

@@ -32,7 +32,8 @@ mod tiling;
 #[allow(unsafe_code)] // Vector instructions.
 mod vectors;
 
+pub use crate::order::{DEFAULT_QUOTIENT, QUOTIENTS};
 pub use count::{CountOptions, CountReport, sample_count};
 pub use merge::{MergeOptions, MergeReport, Piece, merge};
-pub use options::{DEFAULT_LEAF_SIZE, DEFAULT_QUOTIENT, Kind, MIN_LEAF_SIZE, Options, Progressive, QUOTIENTS};
+pub use options::{DEFAULT_LEAF_SIZE, Kind, MIN_LEAF_SIZE, Options, Progressive};
 pub use plane::{Plane, sample, sample_window};

@@ -1,10 +1,9 @@
 //! The options of sets of the plane.
 
-use std::ops::RangeInclusive;
-
 use crate::classes::Classes;
 use crate::error::{Error, Result};
 use crate::given::Given;
+use crate::order::{DEFAULT_QUOTIENT, check_quotient};
 use crate::points::{Boundary, Domain};
 use crate::setters::setters;
 
@@ -13,12 +12,6 @@ pub const DEFAULT_LEAF_SIZE: f64 = 20.0;
 
 /// The smallest leaf size, in radii: below it the seams of three leaves could act on each other.
 pub const MIN_LEAF_SIZE: f64 = 6.0;
-
-/// The quotient of the levels of a progressive order that balances speed and spread, 2^(1/8).
-pub const DEFAULT_QUOTIENT: f64 = 1.090_507_732_665_257_7;
-
-/// The quotients that a progressive order may have.
-pub const QUOTIENTS: RangeInclusive<f64> = 1.02..=1.5;
 
 /// The radii of a set, and with them its order.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -62,9 +55,9 @@ pub enum Kind<'a> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Progressive {
-    /// The factor by which the radius of each level is longer than that of the next, in [`QUOTIENTS`], usually
-    /// [`DEFAULT_QUOTIENT`]. A window needs a margin of about 145 radii of each level at 2^(1/8), 75 at 2^(1/4) and 41
-    /// at 2^(1/2).
+    /// The factor by which the radius of each level is longer than that of the next, in
+    /// [`QUOTIENTS`](super::QUOTIENTS), usually [`DEFAULT_QUOTIENT`]. A window needs a margin of about 145 radii of
+    /// each level at 2^(1/8), 75 at 2^(1/4) and 41 at 2^(1/2).
     pub quotient: f64,
     /// The radius of the coarsest level, at least that of the set; the guarantee on prefixes holds from its samples on.
     /// With infinity, the default, it is the smallest power of two times the radius of the set that reaches over the
@@ -85,10 +78,7 @@ impl Progressive {
     /// Refuses levels that do not lead to a radius.
     pub(crate) fn check(&self, radius: f64) -> Result<()> {
         let &Self { quotient, coarsest } = self;
-        if !QUOTIENTS.contains(&quotient) {
-            let (least, most) = (QUOTIENTS.start(), QUOTIENTS.end());
-            return Err(Error::invalid("quotient", format!("{quotient:?} is not in {least} to {most}")));
-        }
+        check_quotient(quotient)?;
         if !(coarsest > 0.0 && coarsest >= radius) {
             return Err(Error::invalid("coarsest", format!("{coarsest:?} is not at least the radius {radius:?}")));
         }

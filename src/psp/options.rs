@@ -1,9 +1,9 @@
 //! The options of the calls: a type for each, with the fields that the call reads. (`flat.rs` has those of flat
 //! interfaces, not all of which can be combined.)
 
-use crate::error::{Error, Result};
 use crate::given::Given;
 use crate::order::Order;
+pub use crate::order::{DEFAULT_QUOTIENT, check_quotient};
 use crate::setters::setters;
 use crate::trace::HAS_EMBREE;
 
@@ -42,9 +42,6 @@ impl Default for Engine {
         Self::AVAILABLE[0]
     }
 }
-
-/// The default of [`Options::quotient`]: 2^(1/8).
-pub const DEFAULT_QUOTIENT: f64 = 1.090_507_732_665_257_7;
 
 /// The number of samples: by their radius or directly.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -157,11 +154,3 @@ impl Default for ClassOptions<'_> {
 }
 
 setters!(ClassOptions<'a> { seed: u64, given: Given<'a, 3>, cosine: f64 });
-
-/// Refuses a quotient that is out of range.
-pub fn check_quotient(quotient: f64) -> Result<()> {
-    if (1.02..=1.5).contains(&quotient) {
-        return Ok(());
-    }
-    Err(Error::invalid("quotient", format!("{quotient} is not between 1.02 and 1.5")))
-}
