@@ -11,10 +11,12 @@
 //! assert_eq!(ply.element("vertex").unwrap().numbers("heat"), Some(&[0.5, 2.0][..]));
 //! ```
 
-use std::io::Cursor;
+use std::io::{self, Cursor, Write};
+use std::ops::Range;
 
 use ply_rs_bw::parser::{ParseError, Parser, Reader};
 use ply_rs_bw::ply::{DefaultElement, ElementDef, Encoding, Header, PropertyDef, PropertyType, ScalarType};
+use ply_rs_bw::writer::Writer;
 
 use crate::mesh::load::Soup;
 use crate::mesh::source::Source;
@@ -138,7 +140,7 @@ impl Element {
         }
     }
 
-    /// The names of all properties, in the order of the file, also of those that were not asked for.
+    /// The names of all properties, in the order of the file, also of the properties that were not asked for.
     pub fn properties(&self) -> impl Iterator<Item = &str> {
         self.properties.iter().map(|property| property.name.as_str())
     }
@@ -154,6 +156,97 @@ impl Lists {
         let starts = std::iter::once(0).chain(self.ends.iter().copied());
         starts.zip(&self.ends).map(|(start, &end)| &self.items[start..end])
     }
+}
+
+/// The bytes of all elements of one kind, as they stand in a file, from which another file can be made of some of them.
+#[derive(Debug)]
+pub struct Records {
+    /// The header of a file of these elements alone.
+    header: Header,
+    ranges: Vec<Range<usize>>,
+}
+
+/// The encoding of a file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Format {
+    /// Numbers as text, a line for each element.
+    Text,
+    /// Binary numbers, the lowest byte first.
+    LittleEndian,
+    /// Binary numbers, the highest byte first.
+    BigEndian,
+}
+
+impl Records {
+    /// The elements of this name. The file is checked up to their end.
+    ///
+    /// # Errors
+    /// The defect of the file, in one line.
+    pub fn read(bytes: &[u8], element: &str) -> Result<Self, String> {
+        let mut input = Cursor::new(bytes);
+        let mut source = Source::new(&mut input, bytes.len() as u64);
+        let (mut header, mut body) = open(&mut source)?;
+        let kind = header.elements.get_index_of(element).ok_or_else(|| format!("has no element {element}"))?;
+        let mut ranges = Vec::new();
+        body.reserve(&header.elements[kind], &mut ranges)?;
+        for definition in header.elements.values().take(kind) {
+            body.read(definition, |_| Ok(()))?;
+        }
+        let mut start = bytes.len() - body.source.remaining() as usize;
+        let is_text = header.encoding == Encoding::Ascii;
+        body.read(&header.elements[kind], |row| {
+            let end = bytes.len() - row.remaining as usize;
+            ranges.push(if is_text { last_line(bytes, start..end) } else { start..end });
+            start = end;
+            Ok(())
+        })?;
+        header.elements.retain(|name, _| name == element);
+        Ok(Self { header, ranges })
+    }
+
+    /// The bytes of each element; in a text without the end of its line.
+    pub fn ranges(&self) -> &[Range<usize>] {
+        &self.ranges
+    }
+
+    /// The encoding of the file.
+    pub fn format(&self) -> Format {
+        match self.header.encoding {
+            Encoding::Ascii => Format::Text,
+            Encoding::BinaryLittleEndian => Format::LittleEndian,
+            Encoding::BinaryBigEndian => Format::BigEndian,
+        }
+    }
+
+    /// True if the elements have a property of this name.
+    pub fn has(&self, property: &str) -> bool {
+        self.header.elements.values().any(|definition| definition.properties.contains_key(property))
+    }
+
+    /// Writes the header of a file of `count` of the elements, with further properties, which are floats. Comments are
+    /// kept.
+    ///
+    /// # Errors
+    /// Those of the writer.
+    pub fn write_header(&self, writer: &mut impl Write, count: usize, floats: &[&str]) -> io::Result<()> {
+        let mut header = self.header.clone();
+        for definition in header.elements.values_mut() {
+            definition.count = count;
+            for &name in floats {
+                let property = PropertyDef::new(name.to_owned(), PropertyType::Scalar(ScalarType::Float));
+                definition.properties.insert(name.to_owned(), property);
+            }
+        }
+        Writer::<DefaultElement>::new().write_header(writer, &header).map(drop)
+    }
+}
+
+/// The last line of a part of a text, without its end.
+fn last_line(bytes: &[u8], range: Range<usize>) -> Range<usize> {
+    let text = &bytes[range.clone()];
+    let text = text.strip_suffix(b"\n").unwrap_or(text);
+    let start = text.iter().rposition(|&byte| byte == b'\n').map_or(0, |end| end + 1);
+    range.start + start..range.start + text.len()
 }
 
 /// The number of triangles that [`Mesh::load`](super::Mesh::load) makes of each face of a PLY file: polygons are cut
@@ -297,6 +390,8 @@ pub(super) struct Body<'a, 'b> {
 pub(super) struct Row {
     pub numbers: Vec<f64>,
     pub lists: Vec<Vec<f64>>,
+    /// The number of bytes of the file after the element.
+    pub remaining: u64,
 }
 
 impl<'a, 'b> Body<'a, 'b> {
@@ -321,7 +416,7 @@ impl<'a, 'b> Body<'a, 'b> {
         self.check_count(definition)?;
         let ElementDef { name, count, properties } = definition;
         let types: Vec<_> = properties.values().map(|property| property.data_type.clone()).collect();
-        let mut row = Row { numbers: vec![0.0; types.len()], lists: vec![Vec::new(); types.len()] };
+        let mut row = Row { numbers: vec![0.0; types.len()], lists: vec![Vec::new(); types.len()], remaining: 0 };
         for element in 0..*count {
             let ends = || format!("ends after {element} of {count} of element {name}");
             if self.encoding == Encoding::Ascii {
@@ -336,6 +431,7 @@ impl<'a, 'b> Body<'a, 'b> {
             } else {
                 row.read(&types, |kind| self.binary_number(kind).ok_or_else(ends))?;
             }
+            row.remaining = self.source.remaining();
             take(&row)?;
         }
         Ok(())

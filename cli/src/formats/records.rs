@@ -4,21 +4,33 @@
 use std::io::{self, Write};
 use std::ops::Range;
 
+use azulejo::mesh::ply;
+
 use super::table::is_comment;
 
 /// A file as its records: a run of bytes for each point.
 #[derive(Debug)]
 pub struct Records {
     bytes: Vec<u8>,
-    /// The bytes before the records; the number of records belongs between the two parts.
-    head: Vec<u8>,
-    behind_count: Option<Vec<u8>>,
+    head: Head,
     records: Vec<Range<usize>>,
     /// The bytes after each record.
     separator: &'static [u8],
     /// The form in which ranks are added.
     ranks: Ranks,
 }
+
+/// The text before the records.
+#[derive(Debug)]
+enum Head {
+    /// The names of the columns; empty if they have none.
+    Names(Vec<u8>),
+    /// The header of a PLY file, which has their number.
+    Ply(ply::Records),
+}
+
+/// The name of the column of ranks.
+const RANK: &str = "rank";
 
 /// The form in which ranks are added to records.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -35,37 +47,17 @@ enum Ranks {
 }
 
 impl Records {
-    /// The vertices of a PLY file, whose header is in order. Other elements are left out.
+    /// The vertices of a PLY file. Other elements are left out.
     pub fn of_ply(bytes: Vec<u8>) -> Result<Self, String> {
-        let Header { is_text, is_big, elements, before, behind, length } = Header::of(&bytes)?;
-        let vertices = elements.iter().position(|element| element.name == "vertex").ok_or("has no vertices")?;
-        let (first, count) = (&elements[..vertices], elements[vertices].count);
-        let records: Vec<_> = if is_text {
-            let skipped = first.iter().map(|element| element.count).sum();
-            lines(&bytes, length)
-                .filter(|line| !bytes[line.clone()].trim_ascii().is_empty())
-                .skip(skipped)
-                .take(count)
-                .collect()
-        } else {
-            let mut start = length;
-            for element in first {
-                start += element.count * element.size()?;
-            }
-            let size = elements[vertices].size()?;
-            (0..count).map(|i| start + i * size..start + (i + 1) * size).collect()
+        let vertices = ply::Records::read(&bytes, "vertex")?;
+        let (separator, ranks): (&[u8], _) = match vertices.format() {
+            ply::Format::Text => (b"\n", Ranks::Text(' ')),
+            ply::Format::LittleEndian => (b"", Ranks::Little),
+            ply::Format::BigEndian => (b"", Ranks::Big),
         };
-        if records.len() < count || records.last().is_some_and(|last| last.end > bytes.len()) {
-            return Err(format!("ends before its {count} vertices do"));
-        }
-        let separator: &[u8] = if is_text { b"\n" } else { b"" };
-        let ranks = match (elements[vertices].has_ranks, is_text, is_big) {
-            (true, ..) => Ranks::Taken,
-            (_, true, _) => Ranks::Text(' '),
-            (.., true) => Ranks::Big,
-            _ => Ranks::Little,
-        };
-        Ok(Self { bytes, head: before, behind_count: Some(behind), records, separator, ranks })
+        let ranks = if vertices.has(RANK) { Ranks::Taken } else { ranks };
+        let records = vertices.ranges().to_vec();
+        Ok(Self { bytes, head: Head::Ply(vertices), records, separator, ranks })
     }
 
     /// The lines of a table of `count` points, with its header if it has one. Comments are left out.
@@ -74,27 +66,27 @@ impl Records {
             let text = String::from_utf8_lossy(&bytes[line.clone()]);
             !is_comment(text.trim_start_matches('\u{feff}').trim())
         };
-        let mut records: Vec<_> = lines(&bytes, 0).filter(is_row).collect();
+        let mut records: Vec<_> = lines(&bytes).filter(is_row).collect();
         let (mut head, mut ranks) = (Vec::new(), Ranks::None);
         if records.len() == count + 1 {
             head.extend_from_slice(&bytes[records.remove(0)]);
             head.push(b'\n');
             let names = String::from_utf8_lossy(&head);
             let separator = [',', ';'].into_iter().find(|&separator| names.contains(separator)).unwrap_or(' ');
-            let is_rank = |name: &str| name.trim().trim_matches('"') == "rank";
+            let is_rank = |name: &str| name.trim().trim_matches('"') == RANK;
             ranks = if names.split(separator).any(is_rank) { Ranks::Taken } else { Ranks::Text(separator) };
         }
         if records.len() != count {
             return Err(format!("has {} lines for {count} points", records.len()));
         }
-        Ok(Self { bytes, head, behind_count: None, records, separator: b"\n", ranks })
+        Ok(Self { bytes, head: Head::Names(head), records, separator: b"\n", ranks })
     }
 
     /// Raw floats.
     pub fn of_raw(bytes: Vec<u8>, count: usize) -> Self {
         let size = bytes.len() / count.max(1);
         let records = (0..count).map(|i| i * size..(i + 1) * size).collect();
-        Self { bytes, head: Vec::new(), behind_count: None, records, separator: b"", ranks: Ranks::None }
+        Self { bytes, head: Head::Names(Vec::new()), records, separator: b"", ranks: Ranks::None }
     }
 
     /// True if the points have a column of ranks already.
@@ -105,20 +97,16 @@ impl Records {
     /// Writes a file of some of the points, in this order, each with its rank if there are any and columns have names.
     pub fn write(&self, writer: &mut impl Write, indices: &[u32], ranks: &[f32]) -> io::Result<()> {
         let column = if ranks.is_empty() { Ranks::None } else { self.ranks };
-        match (&self.behind_count, column) {
-            (Some(behind), _) => {
-                writer.write_all(&self.head)?;
-                write!(writer, "{}", indices.len())?;
-                let (properties, end) = behind.split_at(behind.len() - END.len());
-                writer.write_all(properties)?;
-                writer.write_all(if column == Ranks::None { b"" } else { b"property float rank\n" })?;
-                writer.write_all(end)?;
+        match (&self.head, column) {
+            (Head::Ply(vertices), _) => {
+                let added: &[&str] = if matches!(column, Ranks::None | Ranks::Taken) { &[] } else { &[RANK] };
+                vertices.write_header(writer, indices.len(), added)?;
             }
-            (None, Ranks::Text(separator)) => {
-                writer.write_all(self.head.trim_ascii_end())?;
-                writeln!(writer, "{separator}rank")?;
+            (Head::Names(names), Ranks::Text(separator)) => {
+                writer.write_all(names.trim_ascii_end())?;
+                writeln!(writer, "{separator}{RANK}")?;
             }
-            _ => writer.write_all(&self.head)?,
+            (Head::Names(names), _) => writer.write_all(names)?,
         }
         (0..).zip(indices).try_for_each(|(i, &index): (usize, _)| {
             let record = &self.bytes[self.records[index as usize].clone()];
@@ -136,104 +124,14 @@ impl Records {
     }
 }
 
-/// The lines from an offset on, without their ends.
-fn lines(bytes: &[u8], start: usize) -> impl Iterator<Item = Range<usize>> {
-    let mut next = start;
-    bytes[start..].split_inclusive(|&byte| byte == b'\n').map(move |line| {
+/// The lines, without their ends.
+fn lines(bytes: &[u8]) -> impl Iterator<Item = Range<usize>> {
+    let mut next = 0;
+    bytes.split_inclusive(|&byte| byte == b'\n').map(move |line| {
         let begin = next;
         next += line.len();
         begin..begin + line.strip_suffix(b"\n").unwrap_or(line).len()
     })
-}
-
-/// A header of PLY, cut at the number of vertices.
-struct Header {
-    is_text: bool,
-    is_big: bool,
-    elements: Vec<Element>,
-    /// The bytes up to the number of vertices, and from there on, both without other elements.
-    before: Vec<u8>,
-    behind: Vec<u8>,
-    /// The offset of the body.
-    length: usize,
-}
-
-struct Element {
-    name: String,
-    count: usize,
-    /// The size of each property in bytes, if it is the same in all elements.
-    sizes: Vec<Option<usize>>,
-    has_ranks: bool,
-}
-
-/// The end of a header.
-const END: &[u8] = b"end_header\n";
-
-impl Element {
-    /// The size of an element in bytes.
-    fn size(&self) -> Result<usize, String> {
-        let size = self.sizes.iter().copied().sum::<Option<usize>>();
-        size.ok_or_else(|| format!("the elements {} have lists, and cannot be taken apart", self.name))
-    }
-}
-
-impl Header {
-    fn of(bytes: &[u8]) -> Result<Self, String> {
-        let mut header =
-            Self { is_text: false, is_big: false, elements: vec![], before: vec![], behind: vec![], length: 0 };
-        for line in lines(bytes, 0) {
-            let text = String::from_utf8_lossy(&bytes[line.clone()]).into_owned();
-            let words: Vec<_> = text.split_whitespace().collect();
-            header.length = (line.end + 1).min(bytes.len());
-            match words[..] {
-                ["format", format, ..] => {
-                    header.is_text = format == "ascii";
-                    header.is_big = format == "binary_big_endian";
-                }
-                ["element", name, count] => {
-                    let count = count.parse().map_err(|_| format!("{count:?} is no number of elements"))?;
-                    header.elements.push(Element { name: name.to_owned(), count, sizes: Vec::new(), has_ranks: false });
-                }
-                ["property", kind, ..] => {
-                    let element = header.elements.last_mut().ok_or("a property of no element")?;
-                    element.sizes.push(size(kind));
-                    element.has_ranks |= words.last() == Some(&"rank");
-                }
-                _ => {}
-            }
-            let is_of_vertices = header.elements.last().is_none_or(|element| element.name == "vertex");
-            match words[..] {
-                ["element", "vertex", _] => header.before.extend_from_slice(b"element vertex "),
-                ["element" | "property", ..] if !is_of_vertices => continue,
-                _ => {
-                    let part = if header.has_vertices() { &mut header.behind } else { &mut header.before };
-                    part.extend_from_slice(text.trim_ascii_end().as_bytes());
-                }
-            }
-            // The number of vertices ends its line.
-            let part = if header.has_vertices() { &mut header.behind } else { &mut header.before };
-            part.push(b'\n');
-            if words[..] == ["end_header"] {
-                return Ok(header);
-            }
-        }
-        Err("its header does not end".to_owned())
-    }
-
-    fn has_vertices(&self) -> bool {
-        self.elements.iter().any(|element| element.name == "vertex")
-    }
-}
-
-/// The size of a number in bytes.
-fn size(kind: &str) -> Option<usize> {
-    match kind {
-        "char" | "uchar" | "int8" | "uint8" => Some(1),
-        "short" | "ushort" | "int16" | "uint16" => Some(2),
-        "int" | "uint" | "int32" | "uint32" | "float" | "float32" => Some(4),
-        "double" | "float64" => Some(8),
-        _ => None,
-    }
 }
 
 #[cfg(test)]
@@ -294,9 +192,13 @@ mod tests {
             text.ends_with("element vertex 2\nproperty float x\nproperty uchar red\nend_header\nbbbbBccccC"),
             "{text}"
         );
-        assert_eq!(Records::of_ply(file[..file.len() - 5].to_vec()).unwrap_err(), "ends before its 3 vertices do");
+        assert_eq!(
+            Records::of_ply(file[..file.len() - 5].to_vec()).unwrap_err(),
+            "ends after 2 of 3 of element vertex"
+        );
         let lists = binary.replace("int id", "list uchar int ids");
-        assert!(Records::of_ply(lists.into_bytes()).unwrap_err().starts_with("the elements camera have lists"));
+        let file = [lists.as_bytes(), b"\x01idid", b"aaaaA", b"bbbbB", b"ccccC", b"rest"].concat();
+        assert_eq!(written(&Records::of_ply(file).unwrap(), &[1, 2]), text);
     }
 
     #[test]
