@@ -42,7 +42,7 @@ impl PictureArgs {
     }
 }
 
-/// What to draw.
+/// The subject of a picture.
 #[derive(Subcommand)]
 pub(crate) enum Draw {
     /// Draw a set of the plane, or a part of a large one, beside its power spectrum.

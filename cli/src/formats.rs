@@ -91,13 +91,13 @@ fn shortened(word: &str) -> String {
     word.chars().take(40).map(|letter| if letter.is_control() { ' ' } else { letter }).collect()
 }
 
-/// How points are read.
+/// The arguments that points are read by.
 #[derive(Args)]
 pub struct Input {
     /// The format of the input [default: by the extension; PLY without one].
     #[arg(long, value_enum, value_name = "FORMAT")]
     input_format: Option<Format>,
-    /// How many coordinates each point of the input has. Needed for .raw files, which do not say so.
+    /// The number of coordinates of each point of the input. Required for .raw files, which do not record it.
     #[arg(long, value_name = "2|3", value_parser = clap::value_parser!(u8).range(2..=3))]
     dimensions: Option<u8>,
 }
@@ -194,7 +194,7 @@ impl Cloud {
         &self.positions
     }
 
-    /// Refuses a name that says another format than that of the cloud, which is kept.
+    /// Refuses a name with the extension of another format than that of the cloud, which is kept.
     pub fn check_output(&self, path: &Path) -> Result<()> {
         if path.extension().is_none() || Format::of(path)? == self.format {
             return Ok(());

@@ -16,7 +16,7 @@ pub use plane::Plane;
 pub use relax::Relax;
 pub use surface::Surface;
 
-/// What all samplers have.
+/// The arguments that all samplers have.
 #[derive(Args)]
 pub struct Common {
     #[command(flatten)]

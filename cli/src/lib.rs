@@ -11,6 +11,8 @@ mod formats;
 mod generate;
 mod input;
 mod merge;
+#[cfg(test)]
+mod option_table;
 pub mod output;
 mod ply;
 pub mod procedural;

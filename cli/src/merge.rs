@@ -24,13 +24,14 @@ pub struct Merge {
     /// it.
     #[arg(value_name = "PIECE", required_unless_present = "fixed")]
     pieces: Vec<PathBuf>,
-    /// Points that must stay; may be given several times.
+    /// Points that are not moved or dropped: they are the first of the output. May be given several times.
     #[arg(long, value_name = "POINTS")]
     fixed: Vec<PathBuf>,
-    /// The smallest distance between samples, the same as in the pieces.
+    /// The smallest distance between samples, that of the pieces: above 0, and at least 64 float spacings at the
+    /// largest coordinate.
     #[arg(long, value_name = "R", allow_negative_numbers = true)]
     radius: f64,
-    /// The rectangles of the pieces, where their files do not name them: once for each piece, in their order.
+    /// The rectangle of a piece whose file does not name it: once for each piece, in their order.
     #[arg(long, num_args = 4, action = ArgAction::Append, value_names = ["X0", "Y0", "X1", "Y1"], allow_negative_numbers = true)]
     rectangle: Vec<f64>,
     #[command(flatten)]
@@ -103,7 +104,7 @@ impl Merge {
     }
 }
 
-/// A piece as it is in its file.
+/// A piece and its rectangle.
 struct Loaded {
     rectangle: Domain,
     samples: Vec<[f32; 2]>,

@@ -14,14 +14,14 @@ use shapes::Soup;
 
 #[derive(Args)]
 pub(crate) struct Procedural {
-    /// Which mesh.
+    /// The shape.
     #[arg(value_enum)]
     shape: Shape,
     /// The mesh: a binary PLY file.
     #[arg(short, long, value_name = "FILE.ply")]
     output: PathBuf,
-    /// How fine: the number of quads along the knot, around the sphere, around the hole of the torus and around each
-    /// column of the hall [default: 1280, 256, 256 and 40].
+    /// The level of detail: the number of quads along the knot, around the sphere, around the hole of the torus and
+    /// around each column of the hall [default: 1280, 256, 256 and 40].
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(16..=20_000))]
     detail: Option<u32>,
 }

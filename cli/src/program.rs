@@ -28,7 +28,7 @@ not at all.";
 /// Blue-noise samples in the plane and on meshes: make them, relax them, measure them, draw them.
 #[derive(Parser)]
 #[command(name = "azulejo", version, arg_required_else_help = true, after_help = AFTERWARDS)]
-struct Cli {
+pub struct Cli {
     /// Number of threads; 0 takes one per core. Results do not depend on it.
     #[arg(long, global = true, value_name = "N", default_value_t = 0, display_order = 900)]
     threads: usize,
@@ -90,7 +90,7 @@ pub fn main() -> ExitCode {
 /// Does the work of a program: 0 if it is done, 1 with the reason on the standard error if it fails. Signals that end
 /// the process meanwhile remove the files that are incomplete.
 pub fn exit_code(work: impl FnOnce() -> Result<()>) -> ExitCode {
-    // Where signals cannot be caught, they end the process all the same.
+    // Signals that cannot be caught end the process as by default.
     _ = output::remove_on_signals();
     match work() {
         Ok(()) => ExitCode::SUCCESS,

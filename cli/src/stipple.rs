@@ -34,9 +34,8 @@ pub(crate) struct Stipple {
     /// The number of dots, such as 20000 or 2e4.
     #[arg(long, value_name = "N", value_parser = count::<u32>)]
     count: u32,
-    /// Do not relax: the dots are a maximal Poisson-disk set whose radius follows the image (PSP), and their number is
-    /// only about the one asked for. Without this flag random dots are relaxed (DCR): exactly as many, and closer to
-    /// the tones of the image.
+    /// Dots of a maximal Poisson-disk set whose radius follows the image (PSP); their number is approximate. Without
+    /// this flag random dots are relaxed (DCR): their number is exact, and tones are closer to those of the image.
     #[arg(long)]
     no_relax: bool,
     /// Dots of black, cyan, magenta and yellow, about as many as asked for: each a maximal Poisson-disk set whose
@@ -59,7 +58,7 @@ pub(crate) struct Stipple {
     seed: u64,
 }
 
-/// What the dots are written as.
+/// The format of the dots.
 #[derive(Clone, Copy, ValueEnum)]
 enum Format {
     /// A drawing.

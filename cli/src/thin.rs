@@ -20,21 +20,21 @@ pub struct Thin {
     input: PathBuf,
     #[command(flatten)]
     format: Input,
-    /// The selected points, in the format of the cloud and with all that it has of them.
+    /// The file of the selected points, in the format of the cloud, with all its columns.
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
-    /// How many points to select, by taking the farthest from those before: `1000000` or `1e6`. A smaller cloud is
+    /// The number of points to select, each the farthest from those before: `1000000` or `1e6`. A smaller cloud is
     /// selected whole.
     #[arg(long, value_name = "N", value_parser = count::<u64>, required_unless_present_any = ["radius", "order"])]
     count: Option<u64>,
-    /// The smallest distance between selected points.
+    /// The smallest distance between selected points, above 0.
     #[arg(long, value_name = "R", allow_negative_numbers = true)]
     radius: Option<f64>,
     /// The order of the selected points. In progressive order they get a column `rank`, the distance of each from the
     /// nearest of those before it, where the columns of the file have names: not in .xyz and .raw files.
     #[arg(long, value_enum, default_value = "any")]
     order: Sequence,
-    /// Which point is the first of the progressive order, and of a count.
+    /// Another seed begins the progressive order, or the selection of a count, with another point.
     #[arg(long, value_name = "SEED", default_value_t = 0)]
     seed: u64,
 }

@@ -40,7 +40,7 @@ fn pieces_become_one_set_that_keeps_its_distance_around_the_torus() {
             assert!(offset[0].hypot(offset[1]) >= 0.05, "{a:?} {b:?}");
         }
     }
-    // What the line says adds up: fixed points, kept and inserted ones.
+    // The numbers of the message add up: fixed points, kept and inserted ones.
     let words: Vec<_> = said.split([' ', ',']).collect();
     let before = |word: &str| words[words.iter().position(|w| *w == word).unwrap() - 1].parse::<usize>().unwrap();
     assert_eq!(2 + before("kept") + before("inserted"), merged.len());

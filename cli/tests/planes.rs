@@ -68,6 +68,9 @@ fn plane_sets_in_progressive_order_are_nested() {
     let said =
         workshop.refuse(&["plane", "--radius", "0.1", "--order", "progressive", "--quotient", "3", "-o", "f.ply"], 1);
     assert!(said.starts_with("error: quotient: 3.0 is not in 1.02 to 1.5"), "{said}");
+    for levels in [["--quotient", "1.2"], ["--coarsest", "0.5"]] {
+        workshop.refuse(&[&["plane", "--radius", "0.1", "-o", "f.ply"][..], &levels].concat(), 2);
+    }
 }
 
 /// x, y and rank of each sample of a file in progressive order.

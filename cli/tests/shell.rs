@@ -91,7 +91,7 @@ mod streams {
         let output = twice.stdin(File::open(workshop.path("mesh.ply")).unwrap()).output().unwrap();
         let said = String::from_utf8(output.stderr).unwrap();
         assert_eq!(said, "error: -: the standard input can be read only once\n");
-        // What comes after other output goes behind it.
+        // A file that is appended to keeps its contents.
         let log = File::options().append(true).create(true).open(workshop.path("log.csv")).unwrap();
         let plane = ["plane", "--count", "50", "--format", "csv", "-o", "-"];
         for _ in 0..2 {

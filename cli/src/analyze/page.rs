@@ -52,7 +52,7 @@ fn files<Points>(sets: &[Set<Points>]) -> Vec<String> {
     sets.iter().map(|set| set.path.display().to_string()).collect()
 }
 
-/// JSON as it is printed, on one line.
+/// JSON on one line.
 fn printed(value: &Value) -> String {
     format!("{value}\n")
 }

@@ -17,7 +17,7 @@ pub struct Disc {
     pub colour: Colour,
 }
 
-/// Discs in cells four times as wide as the radius of the largest, so that a question rarely asks more than one.
+/// Discs in cells four times as wide as the radius of the largest, so that a query rarely reads more than one.
 pub struct Discs {
     largest: f32,
     cells: HashMap<IVec3, Vec<Disc>>,

@@ -22,14 +22,14 @@ const INSTEAD: &str = "only sets of the plane can be sampled around";
 #[derive(Args)]
 #[group(required = true, multiple = false)]
 struct Density {
-    /// The smallest distance between samples.
+    /// The smallest distance between samples: above 0, and at least 64 float spacings at the largest coordinate.
     #[arg(long, value_name = "R", allow_negative_numbers = true)]
     radius: Option<f64>,
     /// The exact number of samples, such as 65536 or 1e6.
     #[arg(long, value_name = "N", value_parser = count::<u64>)]
     count: Option<u64>,
-    /// Several classes of samples that keep from each other, too: the smallest distance within each of them, such as
-    /// 0.04,0.02,0.01. The file has a column class, .ply, .npy and .csv.
+    /// Several classes of samples with their own radii, such as 0.04,0.02,0.01. The distance of samples of two classes
+    /// follows from their radii (Wei 2010). The output, .ply, .npy or .csv, has a column `class`.
     #[arg(
         long, value_name = "R,R,..", value_delimiter = ',', allow_negative_numbers = true,
         conflicts_with_all = ["order", "quotient", "coarsest"]
@@ -42,8 +42,8 @@ struct Density {
 pub struct Plane {
     #[command(flatten)]
     density: Density,
-    /// What the smallest distances between samples of two classes are multiplied by: less than 1 leaves each class
-    /// nearer to the density that it has alone, and lets samples of two classes come nearer.
+    /// The factor of the smallest distances between samples of two classes: less than 1 leaves each class nearer to the
+    /// density that it has alone, and lets samples of two classes come nearer.
     #[arg(
         long, value_name = "F", default_value_t = 1.0, conflicts_with_all = ["radius", "count"],
         allow_negative_numbers = true
@@ -53,8 +53,8 @@ pub struct Plane {
     common: Common,
     #[command(flatten)]
     domain: DomainArgs,
-    /// Make only the samples within this part of the rectangle: the same ones that the whole set has there. The file
-    /// names the window as its domain, bounded.
+    /// A part of the rectangle: only its samples are made, the same as those of the whole set. The file names the
+    /// window as its domain, bounded.
     #[arg(
         long, num_args = 4, value_names = ["X0", "Y0", "X1", "Y1"], allow_negative_numbers = true, conflicts_with = "count"
     )]
@@ -63,37 +63,38 @@ pub struct Plane {
     /// floats.
     #[arg(long, value_enum, default_value = "any")]
     order: Sequence,
-    /// How many times longer the radius of each level of the progressive order is than that of the next, 1.02 to 1.5:
-    /// every prefix covers the rectangle within this times its smallest distance.
-    #[arg(long, value_name = "Q", default_value_t = kdrt::DEFAULT_QUOTIENT, allow_negative_numbers = true)]
-    quotient: f64,
-    /// The radius of the first level of the progressive order [default: one that has a single sample].
-    #[arg(long, value_name = "R", allow_negative_numbers = true)]
+    /// The ratio of the radii of two levels of the progressive order, 1.02 to 1.5: every prefix of 100 samples and more
+    /// covers the rectangle within this times its last rank [default: 2^(1/8)].
+    #[arg(long, value_name = "Q", requires = "order", allow_negative_numbers = true)]
+    quotient: Option<f64>,
+    /// The radius of the first level of the progressive order, at least that of the set [default: as coarse as the
+    /// rectangle].
+    #[arg(long, value_name = "R", requires = "order", allow_negative_numbers = true)]
     coarsest: Option<f64>,
-    /// Points that stand already: a .ply, .npy, .csv, .xyz or .raw file. Samples keep their clearances, cover what is
-    /// farther than that from all of them, and are alone written. The clearance of a point is in the column `clearance`
-    /// or, without one, `radius`; without either it is the radius of the set.
+    /// Existing points: a .ply, .npy, .csv, .xyz or .raw file. They stay, cover the area within their clearance, and
+    /// are not written. The clearance of a point is in the column `clearance` or, without one, `radius`; without either
+    /// it is the radius of the set.
     #[arg(long, visible_alias = "around", value_name = "FILE", conflicts_with = "count")]
     given: Option<PathBuf>,
-    /// The clearance of all points of `--given`, whatever their file says.
+    /// The clearance of all points of `--given`, in place of the columns of their file.
     #[arg(long, value_name = "C", requires = "given", allow_negative_numbers = true)]
     clearance: Option<f64>,
     #[command(flatten)]
     input: Input,
-    /// The size of the tiles of which the plane is made, in radii.
+    /// The shortest side of the leaves that tile the rectangle, in radii, at least 6.
     #[arg(long, value_name = "RADII", default_value_t = kdrt::DEFAULT_LEAF_SIZE, allow_negative_numbers = true)]
     leaf_size: f64,
 }
 
 #[derive(Clone, Copy, ValueEnum)]
 enum Sequence {
-    /// By places.
+    /// By position.
     Any,
-    /// Coarse to fine: the first samples, any number of them, are a well-spread set, too.
+    /// Coarse to fine: every prefix is blue noise.
     Progressive,
 }
 
-/// A set, its domain, and the text that is reported about it.
+/// A set, its domain, and the text of the report.
 type Made = (Points<2>, Domain, String);
 
 impl Plane {
@@ -115,10 +116,13 @@ impl Plane {
 
     /// The levels of a progressive order.
     fn levels(&self) -> Option<Progressive> {
-        let levels = Progressive::new().quotient(self.quotient);
         match self.order {
             Sequence::Any => None,
-            Sequence::Progressive => Some(self.coarsest.map_or(levels, |coarsest| levels.coarsest(coarsest))),
+            Sequence::Progressive => {
+                let usual = Progressive::new();
+                let (quotient, coarsest) = (self.quotient.unwrap_or(usual.quotient), self.coarsest);
+                Some(usual.quotient(quotient).coarsest(coarsest.unwrap_or(usual.coarsest)))
+            }
         }
     }
 
@@ -154,7 +158,7 @@ impl Plane {
         })
     }
 
-    /// The part of the rectangle that is to be made, if not all of it.
+    /// The window, if there is one.
     fn window(&self) -> Option<Domain> {
         match self.window.as_deref() {
             Some(&[x0, y0, x1, y1]) => Some(Domain { min: [x0, y0], max: [x1, y1], boundary: Boundary::Bounded }),

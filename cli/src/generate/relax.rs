@@ -33,29 +33,29 @@ pub struct Relax {
     /// The mesh that the samples lie on and stay on: OBJ, PLY or STL.
     #[arg(long, value_name = "MESH", conflicts_with_all = ["domain", "bounded", "neighbourhood"])]
     mesh: Option<PathBuf>,
-    /// Also write the mesh whose vertices are the relaxed samples, as PLY, and say what it is: whether it is closed,
-    /// its Euler characteristic, its angles.
+    /// Also writes the mesh whose vertices are the relaxed samples, as PLY, and reports if it is closed, its Euler
+    /// characteristic and its angles.
     #[arg(long, value_name = "FILE", requires = "mesh")]
     remesh: Option<PathBuf>,
     #[command(flatten)]
     domain: DomainArgs,
-    /// Which points keep each other at a distance.
+    /// The neighbours that act on a point.
     #[arg(long, value_enum, default_value = "delaunay")]
     neighbourhood: Neighbours,
-    /// Take the points for one set, whatever classes the file has, and write none. Otherwise each class of a set of the
-    /// plane is spread evenly as well as all points together.
+    /// Ignores the classes of the file: the points are relaxed as one set. Otherwise each class of a set of the plane
+    /// is relaxed together with the union.
     #[arg(long)]
     no_classes: bool,
-    /// The largest number of steps [default: as many as the library takes].
+    /// The largest number of steps [default: 100].
     #[arg(long, value_name = "STEPS")]
     iterations: Option<u32>,
 }
 
 #[derive(Clone, Copy, ValueEnum)]
 enum Neighbours {
-    /// The neighbours in the Delaunay triangulation.
+    /// The neighbours in the Delaunay triangulation; they keep their distance and close holes.
     Delaunay,
-    /// The nearest few points.
+    /// The nearest points; they only repel.
     Nearest,
 }
 
@@ -172,7 +172,7 @@ fn write_remeshed(context: &Context, mesh: &Mesh, samples: &Points<3>, output: &
     Ok(())
 }
 
-/// The text that is reported about a relaxation.
+/// The report of a relaxation.
 fn about(steps: u32, smallest_distance: f64) -> String {
     format!("{steps} steps, smallest distance {}", rounded(smallest_distance, 4))
 }

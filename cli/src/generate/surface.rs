@@ -21,15 +21,15 @@ use crate::text::rounded;
 #[derive(Args)]
 #[group(required = true, multiple = false)]
 struct Density {
-    /// The smallest distance between samples.
+    /// The smallest distance between samples: above 0, and at least 64 float spacings at the largest coordinate.
     #[arg(long, value_name = "R", allow_negative_numbers = true)]
     radius: Option<f64>,
     /// The exact number of samples, such as 65536 or 1e6: the radius is found. The gaps are always filled, without
     /// iterations.
     #[arg(long, value_name = "N", value_parser = count::<usize>, conflicts_with_all = ["iterations", "no_fill"])]
     count: Option<usize>,
-    /// Several classes at once by their own radii, such as 1,0.5,0.25: samples of each keep its radius, and those of
-    /// two the radius that Wei 2010 gives these. The output has the class of each sample, from 0 on, except in XYZ.
+    /// Several classes of samples with their own radii, such as 1,0.5,0.25. The distance of samples of two classes
+    /// follows from their radii (Wei 2010). The output has the class of each sample, from 0 on, except in XYZ.
     #[arg(long, value_name = "R,..", value_delimiter = ',', allow_negative_numbers = true, conflicts_with_all = NOT_OF_CLASSES)]
     classes: Option<Vec<f64>>,
     /// The name of a vertex attribute of a PLY mesh that holds the radius there, for adaptive sampling. The distance of
@@ -38,13 +38,13 @@ struct Density {
     radius_from: Option<String>,
 }
 
-/// The arguments that adaptive sampling has no use for.
+/// The arguments that adaptive sampling refuses.
 const OF_ONE_RADIUS: [&str; 2] = ["radius_from", "density_from"];
 
-/// The arguments that say the density of one class.
+/// The arguments that give the density of a single class.
 const OF_ONE_CLASS: [&str; 3] = ["radius", "count", "radius_from"];
 
-/// The arguments that sets of several classes have no use for.
+/// The arguments that sets of several classes refuse.
 const NOT_OF_CLASSES: [&str; 6] = ["density_from", "iterations", "no_fill", "order", "priority", "engine"];
 
 #[derive(Args)]
@@ -54,17 +54,17 @@ pub struct Surface {
     mesh: PathBuf,
     #[command(flatten)]
     density: Density,
-    /// What the radii between samples of different classes are multiplied by, 0 or above: 1 for those of Wei; the
-    /// smaller, the more samples each class has, and the nearer two classes come to each other.
+    /// The factor of the radii between samples of different classes, 0 or more; 1 gives those of Wei 2010. A smaller
+    /// factor gives each class more samples, and lets two classes come nearer to each other.
     #[arg(long, value_name = "F", default_value_t = 1.0, allow_negative_numbers = true, conflicts_with_all = OF_ONE_CLASS)]
     class_factor: f64,
     /// The names of face attributes of a PLY mesh, one for each class, such as is_wet,is_steep: faces where it is 0 get
     /// no samples of the class.
     #[arg(long, value_name = "ATTRIBUTE,..", value_delimiter = ',', conflicts_with_all = OF_ONE_CLASS)]
     class_masks: Option<Vec<String>>,
-    /// The name of a vertex attribute of a PLY mesh that holds the density there, in any unit, 0 or above; where it is
-    /// 0 there are no samples. --radius is that at density 1; --count the number of samples: about, on an even surface,
-    /// and exactly in progressive order. The output has the radius of each sample, except in XYZ.
+    /// The name of a vertex attribute of a PLY mesh that holds the density there, in any unit, 0 or more; where it is 0
+    /// there are no samples. --radius is the radius at density 1; --count the number of samples, which is exact in
+    /// progressive order and approximate otherwise. The output has the radius of each sample, except in XYZ.
     #[arg(long, value_name = "ATTRIBUTE", conflicts_with = "radius_from")]
     density_from: Option<String>,
     /// The name of a face attribute of a PLY mesh. Faces where it is 0 are not sampled.
@@ -74,12 +74,12 @@ pub struct Surface {
     /// polygon counts as the triangles of its fan.
     #[arg(long, value_name = "FILE", conflicts_with = "mask")]
     mask_file: Option<PathBuf>,
-    /// Points that stand already: a .ply, .npy, .csv, .xyz or .raw file, x y z each. Samples keep their clearances,
-    /// cover what is farther than that from all of them, and are alone written. The clearance of a point is in the
-    /// column `clearance` or, without one, `radius`; without either it is the radius of the set.
+    /// Existing points, x y z each: a .ply, .npy, .csv, .xyz or .raw file. They stay, cover the area within their
+    /// clearance, and are not written. The clearance of a point is in the column `clearance` or, without one, `radius`;
+    /// without either it is the radius of the set.
     #[arg(long, value_name = "FILE")]
     given: Option<PathBuf>,
-    /// The clearance of all points of `--given`, whatever their file says.
+    /// The clearance of all points of `--given`, in place of the columns of their file.
     #[arg(long, value_name = "C", requires = "given", allow_negative_numbers = true)]
     clearance: Option<f64>,
     /// Samples on triangles whose normals have a smaller cosine ignore each other: both sides of a thin wall are
@@ -88,38 +88,38 @@ pub struct Surface {
     cosine: f64,
     #[command(flatten)]
     common: Common,
-    /// How often to project patterns from three directions before the gaps are filled [default: 0, or 1 with
+    /// The number of projections of patterns, in 3 directions each, before gaps are filled [default: 0, or 1 with
     /// --no-fill].
     #[arg(long, value_name = "N", conflicts_with_all = OF_ONE_RADIUS)]
     iterations: Option<u32>,
-    /// Do not fill the gaps that the projections leave.
+    /// Leaves the gaps that remain after the iterations.
     #[arg(long, conflicts_with_all = OF_ONE_RADIUS)]
     no_fill: bool,
     /// The order of the samples. In progressive order the output has the rank of each sample, except in XYZ: with
-    /// --radius-from what the radii of a prefix are multiplied by, with --density-from the radius at density 1.
+    /// --radius-from the factor of the radii of a prefix, with --density-from the radius at density 1.
     #[arg(long, value_enum, default_value = "any", conflicts_with_all = ["iterations", "no_fill"])]
     order: Sequence,
-    /// The largest ratio of the covering radius of the first samples to the rank of the last of them, in progressive
-    /// order: 1.02 to 1.5 [default: 1.0905].
-    #[arg(long, value_name = "Q", requires = "order")]
+    /// Progressive order: every prefix of 100 samples and more covers the mesh within this times its last rank, 1.02 to
+    /// 1.5 [default: 2^(1/8)].
+    #[arg(long, value_name = "Q", requires = "order", allow_negative_numbers = true)]
     quotient: Option<f64>,
-    /// Which normals the samples get.
+    /// The normals of the samples.
     #[arg(long, value_enum, default_value = "geometric")]
     normals: Normals,
-    /// Which candidates come first where two are too close.
+    /// The candidate that is kept of two that conflict.
     #[arg(long, value_enum, default_value = "squareness", conflicts_with_all = OF_ONE_RADIUS)]
     priority: Priority,
-    /// What finds the points of the mesh that the patterns are projected to [default: embree, or the rasteriser in a
-    /// build without it].
+    /// The engine that finds the points of the mesh to which patterns are projected [default: embree, or the rasteriser
+    /// in a build without it].
     #[arg(long, value_enum, conflicts_with_all = OF_ONE_RADIUS)]
     engine: Option<Engine>,
 }
 
 #[derive(Clone, Copy, ValueEnum)]
 enum Sequence {
-    /// Whatever is fastest.
+    /// The fastest order.
     Any,
-    /// Coarse to fine: the first samples, any number of them, are well spread as well.
+    /// Coarse to fine: every prefix is blue noise.
     Progressive,
 }
 
