@@ -19,7 +19,7 @@ const SAMPLES: f64 = 1e5;
 /// Half the height of the torus.
 const HEIGHT: f64 = 0.4;
 
-/// How the radius grows from the bottom to the top.
+/// The growth of the radius from the bottom to the top.
 fn growth(ratio: f64, height: f64) -> f64 {
     ratio.powf((0.5 * (height / HEIGHT + 1.0)).clamp(0.0, 1.0))
 }

@@ -32,7 +32,7 @@ fn maximal(context: &Context, count: u32) -> usize {
     maximal::sample(context, &options, None).expect("a good domain").len()
 }
 
-/// What a call takes per sample at least, in ns, in a few attempts: noise only adds.
+/// The least time of a call per sample in ns, of a few attempts: noise only adds.
 fn least_time_per_sample(mut call: impl FnMut() -> usize) -> f64 {
     let attempt = |_| {
         let start = Instant::now();
@@ -110,7 +110,7 @@ fn print_stages(counts: &[u32]) {
     }
 }
 
-/// What a sample in progressive order takes, and a window of 2,000 samples of such a plane of 10^9 that is kept.
+/// Prints the time per sample in progressive order, and that of a window of 2,000 samples of a kept plane of 10^9.
 fn print_order(contexts: &[Context; 2]) {
     println!(
         "{:>10} {:>10} {:>10} {:>10} {:>10} {:>14}",
@@ -141,8 +141,8 @@ fn print_order(contexts: &[Context; 2]) {
     }
 }
 
-/// What windows of a plane of 10^9 samples take on one thread, kept and not, and what a sample of them takes beside one
-/// of a whole set.
+/// Prints the times of windows of a plane of 10^9 samples on one thread, kept and not, and those per sample beside a
+/// whole set.
 fn print_windows(context: &Context) {
     const PLANE: u32 = 1_000_000_000;
     let whole = least_time_per_sample(|| kdrt(context, 1_000_000, kdrt::DEFAULT_LEAF_SIZE));
@@ -176,7 +176,7 @@ fn print_windows(context: &Context) {
     }
 }
 
-/// What a call takes in the middle of many, in seconds.
+/// The median time of a call among many, in seconds.
 fn median_time(calls: i32, mut call: impl FnMut(i32) -> usize) -> f64 {
     let timed = |i| {
         let start = Instant::now();

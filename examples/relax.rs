@@ -1,4 +1,4 @@
-//! Dots as dense as a function of the position says, relaxed, as an SVG drawing: a sphere in stipples.
+//! Relaxed dots whose density is a function of the position, as an SVG drawing: a sphere in stipples.
 //!
 //! ```sh
 //! cargo run --release --example relax -- 20000 > sphere.svg      # exactly so many dots
@@ -11,7 +11,7 @@ use std::io::{self, BufWriter, Write};
 use azulejo::dcr::{self, Density, Neighbourhood};
 use azulejo::{Boundary, Context, Domain};
 
-/// How dark the drawing is at a position: a sphere that is lit from the upper left, on white.
+/// The darkness of the drawing at a position: a sphere that is lit from the upper left, on white.
 fn darkness([x, y]: [f64; 2]) -> f64 {
     let (x, y) = (2.2 * x - 1.1, 1.1 - 2.2 * y);
     let depth = 1.0 - x * x - y * y;

@@ -13,8 +13,8 @@ use std::{env, io};
 use azulejo::analysis::{coverage::coverage_2d, spacing::smallest_distance_2d};
 use azulejo::{Boundary, Context, Domain};
 
-/// How much farther than the radius a point of the domain may be from all samples of a maximal set: their coordinates are
-/// floats, and the largest coordinate is 1.
+/// The largest distance beyond the radius of a point of the domain from a maximal set: coordinates are floats, the
+/// largest of which is 1.
 const TOLERANCE: f64 = 3.0 * f32::EPSILON as f64;
 
 /// The points of a text, one `x y` per line.

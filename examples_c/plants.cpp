@@ -84,7 +84,7 @@ int main(int argc, char **argv) {
         const azulejo::Context context;
         const azulejo::Mesh ground = hills();
         Standing standing;
-        // Painted by hand: nobody minds that two of the trees stand close together.
+        // Painted by hand: given samples may be closer to each other than their clearance.
         for (const auto &[x, y, crown] : {std::array{20.f, 30.f, 6.f}, {24.f, 33.f, 5.f}, {70.f, 75.f, 8.f}}) {
             standing.add(x, y, crown);
         }

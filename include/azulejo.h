@@ -557,7 +557,7 @@ typedef struct azulejo_embree_geometry {
 typedef struct azulejo_psp_options {
     /// The size of the struct in bytes; set by the _init function.
     uint32_t struct_size;
-    /// How often azulejo_psp_sample projects its patterns, in 3 directions each time, before it
+    /// The number of projections of patterns by azulejo_psp_sample, in 3 directions each, before it
     /// fills the gaps. AZULEJO_ITERATIONS_DEFAULT, the default: 0 if `maximal` is 1, on every mesh
     /// and with every radius, since a set that is only filled is made sooner and prefers no
     /// direction; 1 if `maximal` is 0. Where no more than 25,000 samples are expected, on the area
@@ -762,10 +762,10 @@ typedef struct azulejo_psp_adaptive_options {
 /// Returns the density, finite and at least 0.
 typedef double (*azulejo_mesh_density_fn)(void *user, const double *position);
 
-/// How many samples a set of a mesh has from place to place, per unit of area. Densities are
-/// finite, at least 0, and not 0 everywhere; where they are 0 there are no samples, and those
-/// beside are none the fewer for it. One of `vertex_values`, `function` and `image` must be set,
-/// and one of `radius` and `count`.
+/// The number of samples of a mesh per unit of area, from place to place. Densities are
+/// finite, at least 0, and not 0 everywhere; where they are 0 there are no samples, which
+/// does not affect the density beside it. One of `vertex_values`, `function` and `image` must be
+/// set, and one of `radius` and `count`.
 typedef struct azulejo_mesh_density {
     /// The size of the struct in bytes; set by the _init function.
     uint32_t struct_size;
@@ -847,7 +847,7 @@ typedef struct azulejo_dcr_options {
     /// Must be 0.
     uint32_t reserved;
     /// Directions in which coincident points are separated, for azulejo_dcr_scatter the points, for
-    /// azulejo_dcr_relax_density those on which a heaped set is dealt out; any number, default 0.
+    /// azulejo_dcr_relax_density those of a clustered set's redistribution; any number, default 0.
     uint64_t seed;
     /// The motion (see the report) at which the set has converged, at least 0; 0 makes all steps.
     /// Any negative number, such as the default -1, selects the tolerance of the method: 0.001, or
@@ -951,7 +951,7 @@ typedef struct azulejo_dcr_surface_options {
     /// Any negative number, such as the default -1, selects 0.0005.
     double tolerance;
     /// Directions in which samples are separated that coincide or lie on edges of triangles, and
-    /// the points on which heaped samples are dealt out; any number, default 0.
+    /// the points onto which clustered samples are redistributed; any number, default 0.
     uint64_t seed;
     /// Called during the call; default NULL: the callback of the context, if it has one.
     azulejo_progress_fn progress;
@@ -1775,7 +1775,7 @@ azulejo_status azulejo_mesh_deform(const struct azulejo_mesh *mesh,
 /// azulejo_mesh_deform each sample goes with its triangle.
 ///
 /// triangles: the triangle of each place, below azulejo_mesh_triangle_count; `count` of them.
-/// Triangles without area, and those that a mask leaves out, are allowed.
+/// Triangles without area and masked triangles are allowed.
 ///
 /// barycentrics: u v of each place, finite; `count` of them.
 ///
@@ -1797,7 +1797,7 @@ int32_t azulejo_mesh_has_normals(const struct azulejo_mesh *mesh);
 /// The number of vertices; 0 for NULL.
 size_t azulejo_mesh_vertex_count(const struct azulejo_mesh *mesh);
 
-/// The number of triangles, including those that a mask leaves out; 0 for NULL.
+/// The number of triangles, including masked ones; 0 for NULL.
 size_t azulejo_mesh_triangle_count(const struct azulejo_mesh *mesh);
 
 /// The vertices, x y z each, packed; valid until azulejo_mesh_free. NULL for NULL.
@@ -2055,10 +2055,10 @@ azulejo_status azulejo_dcr_report_init(struct azulejo_dcr_report *report, size_t
 /// Relaxes a set of points: neighbours that are too close repel each other and holes close, until
 /// the set has converged or all steps are made (thesis chapter 4).
 ///
-/// AZULEJO_METHOD_MOMENTUM levels a heaped set before the first step, one in which points are
+/// AZULEJO_METHOD_MOMENTUM levels a clustered set before the first step, one in which points are
 /// crowded in some places and missing in others: any set ends as a random one does, and after about
-/// the same time. A call that makes all steps succeeds whatever it has reached; the report has the
-/// figures.
+/// the same time. A call that makes all steps succeeds whether or not it has converged; the report
+/// has the figures.
 ///
 /// With AZULEJO_METHOD_MOMENTUM and Delaunay neighbours the result is, of the set before the first
 /// step and the states after whole steps, the one in which the fewest points have a neighbour
@@ -2158,7 +2158,7 @@ azulejo_status azulejo_dcr_scatter(const struct azulejo_context *context,
 /// place to place as the density says, and evenly spaced relative to it (thesis section 4.2.3).
 /// Points whose density is about right, such as those of azulejo_dcr_scatter and
 /// azulejo_psp_adaptive_sample, need no more than the default 100 steps. A set of more than 64
-/// points that is far from it is dealt out before the first step, onto points as
+/// points that is far from it is redistributed before the first step, onto points as
 /// azulejo_dcr_scatter makes them from the seed; those in between may need more steps.
 ///
 /// The unit of length is the local spacing: d_max for the mean density and proportional to 1 /
@@ -2218,8 +2218,8 @@ azulejo_status azulejo_dcr_surface_report_init(struct azulejo_dcr_surface_report
 /// tolerance, after any number of steps. A call that its progress callback cancels succeeds: it
 /// returns the samples after the last whole step, and AZULEJO_STOPPED_CANCELLED in the report.
 ///
-/// More than 64 samples that are heaped on a part of the surface are dealt out over all of it
-/// before the first step, onto random points that are no nearer to each other than the nearest
+/// More than 64 samples that are clustered on a part of the surface are redistributed over all of
+/// it before the first step, onto random points that are no nearer to each other than the nearest
 /// samples were: each connected part receives samples by its area. Without room for that they stay.
 ///
 /// triangles, barycentrics: the triangle and the barycentrics u v of each of `count` samples, as
@@ -2586,7 +2586,7 @@ const float *azulejo_spectrum_power(const struct azulejo_spectrum *spectrum);
 /// annuli: receives at most `capacity` of them, from the lowest frequency; may be NULL if
 /// `capacity` is 0.
 ///
-/// out_count: their number, whatever the capacity.
+/// out_count: their number, which may exceed the capacity.
 ///
 /// O(size^2) time on the calling thread.
 ///

@@ -28,7 +28,7 @@ cache_of() { # SOURCE RELEASE
     echo "${!setting:-$1/target/debian$2}"
 }
 
-# NAME=value for each of these variables that is set: what sudo and the root are told of the environment.
+# NAME=value for each of these variables that is set: the environment of sudo and of the root.
 settings() {
     local name
     for name in TERM http_proxy https_proxy CARGO_BUILD_JOBS CARGO_INCREMENTAL PROPTEST_RNG_SEED RUST_BACKTRACE "$@"; do

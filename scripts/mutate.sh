@@ -3,7 +3,8 @@
 #
 #   scripts/mutate.sh [NAME...]
 #
-# Each file of tests/mutations is a patch. Its first line says what it breaks, the second which test must notice:
+# Each file of tests/mutations is a patch. Its first line names the guarantee that it breaks, the second the
+# test that must notice:
 # `Must fail: --test all FILE::TEST`. What it breaks is broken only where `crate::broken("NAME")` says so: thus all patches are
 # applied and compiled once, and the environment picks one of them for each run. The same tests must pass with none.
 # Assertions in the sources are left out, so that it is the test that notices. A patch that no longer applies is an error:

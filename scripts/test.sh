@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Tests the project, from a fresh machine.
 #
-#   scripts/test.sh          what a change must pass on the machine of whoever makes it: format, lints, all Rust tests, the C
+#   scripts/test.sh          what a change must pass on its author's machine: format, lints, all Rust tests, the C
 #                            package, C and C++ programs, the code in README and guides
 #   scripts/test.sh --all    what a change must pass to land (.ci/run): also documentation, sanitizers, valgrind, Miri, fuzzing,
 #                            Python, JavaScript, other processors and systems, Embree 4.3, packages in clean roots

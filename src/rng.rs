@@ -1,7 +1,7 @@
 //! Counter-based random numbers, keyed by place.
 //!
-//! A stream belongs to a *place* (seed, kind of draw, cell, round, ...), never to a thread: whoever needs the numbers
-//! of a place makes the same ones, in any order of calls and for any number of threads (Salmon et al. 2011,
+//! A stream belongs to a *place* (seed, kind of draw, cell, round, ...), never to a thread: any task that needs the
+//! numbers of a place makes the same ones, in any order of calls and for any number of threads (Salmon et al. 2011,
 //! "Parallel random numbers: as easy as 1, 2, 3"). The mixer is SplitMix64 (Steele, Lea and Flood 2014).
 
 const GOLDEN: u64 = 0x9e37_79b9_7f4a_7c15;

@@ -1,4 +1,5 @@
-//! Embree alone: the same rays in packets that are filled beforehand, and a filter that rejects all hits and counts them.
+//! Embree alone: the same rays in packets that are filled beforehand, and a filter that rejects all hits and counts
+//! them.
 
 use std::ptr;
 
@@ -14,7 +15,7 @@ const PACKETS: usize = 256;
 struct Valid([i32; 16]);
 static ALL: Valid = Valid([-1; 16]);
 
-/// What the filter is handed as its context.
+/// The context that is passed to the filter.
 #[repr(C)]
 struct Counter {
     context: RTCRayQueryContext,

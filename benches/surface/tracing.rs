@@ -1,4 +1,4 @@
-//! How fast rays like those of an iteration are traced, by `azulejo::trace` and by Embree alone.
+//! The speed of tracing rays like those of an iteration, by `azulejo::trace` and by Embree alone.
 
 use std::time::Instant;
 

@@ -3,7 +3,7 @@
  *
  * A radius is the smallest distance between two samples, centre to centre. Positions are packed: x y or x y z of each
  * sample. The same options and seed give the same bytes, everywhere. Calls run to their end on the calling thread; use
- * a worker for long ones. What is refused is thrown as an Error whose message begins with the name of the argument.
+ * a worker for long ones. Refusals are thrown as an Error whose message begins with the name of the argument.
  */
 
 /** Numbers, packed: a typed array or an ordinary one. They are copied. */
@@ -29,7 +29,7 @@ export interface Domain {
 }
 
 export interface Given {
-    /** Samples that stand already, packed; new ones keep their clearance from them. They are not returned. */
+    /** Existing samples, packed: they stay, are not returned, and cover the area within their clearance. */
     givenPositions?: Numbers | null;
     /** The clearance of each, 0 or more; by default the radius of the set. */
     givenClearances?: Numbers | null;

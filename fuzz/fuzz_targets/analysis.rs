@@ -1,4 +1,4 @@
-//! What the analysis of the core makes of points of all kinds.
+//! The analysis of the core, on points of all kinds.
 
 #![no_main]
 

@@ -130,7 +130,7 @@ unsafe extern "C-unwind" fn density_at(user: *mut c_void, position: *const f64) 
 /// Where the density is the same everywhere, the figures are those of sets without one.
 fn relax(options: &azulejo_dcr_options, density: &azulejo_density, points: &[[f32; 2]], is_constant: bool) {
     let (xy, count) = (points.as_ptr().cast(), points.len());
-    // SAFETY: options and density are of the sizes that they say, and their arrays too.
+    // SAFETY: options and density have the sizes in their `struct_size`, and their arrays too.
     let call = |out: Out<_>| unsafe { azulejo_dcr_scatter(context(), options, density, count, out) };
     let scattered = create(call).map(|points| Arrays::of(&points).positions.as_chunks::<2>().0.to_vec());
     if let Some(scattered) = &scattered {

@@ -1,4 +1,4 @@
-//! What the C ABI measures of points of all kinds: figures, histograms, spectra, coverage, differences.
+//! The measurements of the C ABI, on points of all kinds: figures, histograms, spectra, coverage, differences.
 
 #![no_main]
 
@@ -58,7 +58,7 @@ impl Set {
 
     fn figures(&self, radius: f64) {
         let set = self.of_c();
-        // SAFETY: the array is as long as told.
+        // SAFETY: the array has the given length.
         let measure = |out| unsafe { azulejo_plane_measure(context(), &set, out) };
         if let Some(report) = reported(azulejo_plane_report_init, measure) {
             assert_eq!(report.count, set.count as u64);
@@ -79,7 +79,7 @@ impl Set {
         let bins = if input.one_in(8) { input.any::<u32>() as usize } else { input.below(100) as usize };
         // Where there are too many bins nothing is written.
         let (mut nearest, mut density) = (vec![u64::MAX; bins.min(65536)], vec![-1.0f64; bins.min(65536)]);
-        // SAFETY: the arrays are as long as told, or longer than what is accepted.
+        // SAFETY: the arrays have the given lengths, or are longer than the calls accept.
         unsafe {
             let out = nearest.as_mut_ptr();
             if accepted(azulejo_plane_nearest_histogram(context(), &set, reach, bins, out)) {
@@ -96,7 +96,7 @@ impl Set {
         let set = self.of_c();
         let size = if input.one_in(16) { 4097 + input.below(5000) } else { input.below(64) };
         let stride = if input.one_in(4) { input.below(5000) } else { 1 };
-        // SAFETY: the array is as long as told.
+        // SAFETY: the array has the given length.
         let make = |out: Out<_>| unsafe { azulejo_spectrum_create(context(), &set, size, stride, out) };
         let Some(one) = create(make) else { return };
         let both: [&azulejo_spectrum; 2] = [&one, &one];
@@ -131,7 +131,7 @@ fn surface(input: &mut Input) {
     let vertex = |input: &mut Input| u32::from(input.any::<u8>()) % positions.len().max(1) as u32;
     let indices: Vec<u32> = (0..3 * count).map(|_| vertex(input)).collect();
     let (start, vertices) = (positions.as_ptr().cast(), positions.len());
-    // SAFETY: the arrays are as long as told.
+    // SAFETY: the arrays have the given lengths.
     let made = create(|out| unsafe { azulejo_mesh_create(start, vertices, 12, indices.as_ptr(), count, out) });
     let Some(mesh) = made else { return };
     let samples = input.rows::<3>(60);
@@ -152,7 +152,7 @@ fn covered(mesh: &azulejo_mesh, length: f64, samples: &[[f32; 3]], input: &mut I
         return; // refused or found, but not in the time that a fuzz target has
     }
     let (start, count) = (samples.as_ptr().cast(), samples.len());
-    // SAFETY: the array is as long as told.
+    // SAFETY: the array has the given length.
     let covers = |out| unsafe { azulejo_mesh_coverage(context(), Some(mesh), start, count, radius, out) };
     if let Some(coverage) = reported(azulejo_coverage_report_init, covers) {
         assert!(coverage.covering_radius >= 0.0, "{}", coverage.covering_radius);
@@ -164,7 +164,7 @@ fn differ(mesh: &azulejo_mesh, samples: &[[f32; 3]], input: &mut Input) {
     let normals: Vec<[f32; 3]> = samples.iter().map(|_| std::array::from_fn(|_| input.coordinate())).collect();
     let direction: [f64; 3] = std::array::from_fn(|_| input.coordinate().into());
     let (start, normals, count, seed) = (samples.as_ptr().cast(), normals.as_ptr().cast(), samples.len(), input.any());
-    // SAFETY: the arrays are as long as told.
+    // SAFETY: the arrays have the given lengths.
     let make = |out: Out<_>| unsafe {
         azulejo_differences_create(context(), Some(mesh), start, normals, count, direction.as_ptr(), seed, out)
     };
@@ -185,7 +185,7 @@ fn differ(mesh: &azulejo_mesh, samples: &[[f32; 3]], input: &mut Input) {
     let frequencies: Vec<f64> = (0..input.below(9)).map(|_| input.number()).collect();
     let mut power = vec![f64::NAN; frequencies.len()];
     let (from, count, out) = (frequencies.as_ptr(), frequencies.len(), power.as_mut_ptr());
-    // SAFETY: both arrays are as long as told.
+    // SAFETY: both arrays have the given lengths.
     if accepted(unsafe { azulejo_differences_power(Some(&mean), from, count, out) }) {
         assert!(power.iter().all(|power| power.is_finite()), "{power:?}");
     }

@@ -20,8 +20,8 @@ use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|bytes: &[u8]| {
     let mut input = Input::new(bytes);
-    // Every call ends with its first report of progress, but streams: sizes do not matter here, and a set may be as large
-    // as it likes.
+    // Every call ends with its first report of progress, but streams: sizes do not matter here, and a set may be as
+    // large as it likes.
     let patience = Patience::new(0);
     match input.below(6) {
         0 => kdrt(&mut input, &patience),
@@ -125,7 +125,7 @@ fn kdrt(input: &mut Input, patience: &Patience) {
     put_given!(memory, azulejo_kdrt_options, given, clearances, input);
     let options = memory.start.cast();
     let corners = [[0.25, 0.25], [0.5f64, 0.5]];
-    // SAFETY: the options are of the size that they say.
+    // SAFETY: the options have the size in their `struct_size`.
     unsafe {
         create(|out| azulejo_kdrt_sample(context(), options, out, null_mut()));
         patience.again(0);
@@ -148,7 +148,7 @@ const PATIENCE: u32 = 1000;
 /// The coordinates that a visitor takes.
 const MOST: usize = 4000;
 
-/// What takes the parts of a set.
+/// The receiver of the parts of a set.
 #[derive(Default)]
 struct Visitor {
     xy: Vec<f32>,
@@ -167,7 +167,7 @@ fn maximal(input: &mut Input, patience: &Patience) {
     if !watched!(memory, azulejo_maximal_options, patience) {
         quick(&mut memory, std::mem::offset_of!(azulejo_maximal_options, radius));
     }
-    // SAFETY: the options are of the size that they say.
+    // SAFETY: the options have the size in their `struct_size`.
     create(|out| unsafe { azulejo_maximal_sample(context(), memory.start.cast(), out) });
 }
 
@@ -179,7 +179,7 @@ fn merge(input: &mut Input, patience: &Patience) {
     let xy = [0.5f32, 0.5];
     let piece = azulejo_kdrt_merge_piece { xy: xy.as_ptr(), count: 1, min: [0.0; 2], max: [1.0; 2] };
     let null = std::ptr::null();
-    // SAFETY: the options are of the size that they say, the piece has one sample.
+    // SAFETY: the options have the size in their `struct_size`, the piece has one sample.
     create(|out| unsafe { azulejo_kdrt_merge(context(), memory.start.cast(), &piece, 1, null, 0, out, null_mut()) });
 }
 
@@ -199,7 +199,7 @@ fn psp(input: &mut Input, patience: &Patience) {
     let clearances = [0.1f64, 0.3];
     put_given!(memory, azulejo_psp_options, given, clearances, input);
     let (mesh, options) = (triangle(), memory.start.cast());
-    // SAFETY: the options are of the size that they say.
+    // SAFETY: the options have the size in their `struct_size`.
     unsafe {
         create(|out| azulejo_psp_create(context(), Some(&mesh), options, out));
         create(|out| azulejo_psp_sample(context(), Some(&mesh), options, out, null_mut()));
@@ -228,7 +228,7 @@ fn adaptive(input: &mut Input, patience: &Patience) {
     let clearances = [0.1f64, 0.3];
     put_given!(memory, azulejo_psp_adaptive_options, given, clearances, input);
     let mesh = triangle();
-    // SAFETY: the options are of the size that they say.
+    // SAFETY: the options have the size in their `struct_size`.
     create(|out| unsafe { azulejo_psp_adaptive_sample(context(), Some(&mesh), memory.start.cast(), out, null_mut()) });
 }
 
@@ -242,6 +242,6 @@ fn dcr(input: &mut Input, patience: &Patience) {
         memory.put(std::mem::offset_of!(azulejo_dcr_options, max_iterations), 5u32);
     }
     let xy = [0.1f32, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.1];
-    // SAFETY: the options are of the size that they say, and there are four points.
+    // SAFETY: the options have the size in their `struct_size`, and there are four points.
     create(|out| unsafe { azulejo_dcr_relax(context(), memory.start.cast(), xy.as_ptr(), 4, out, null_mut()) });
 }

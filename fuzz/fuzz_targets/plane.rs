@@ -79,12 +79,12 @@ fn in_order(options: &azulejo_kdrt_options, input: &mut Input) -> azulejo_kdrt_o
 }
 
 fn create_set(options: &azulejo_kdrt_options) -> Option<Set> {
-    // SAFETY: the options are of the size that they say, and the arrays of given samples live.
+    // SAFETY: the options have the size in their `struct_size`, and the arrays of given samples live.
     create(|out| unsafe { azulejo_kdrt_sample(context(), options, out, null_mut()) }).map(Set::of)
 }
 
 fn sample(options: &azulejo_kdrt_options) -> Option<Vec<[f32; 2]>> {
-    // SAFETY: the options are of the size that they say.
+    // SAFETY: the options have the size in their `struct_size`.
     create(|out| unsafe { azulejo_kdrt_sample(context(), options, out, null_mut()) }).map(owned)
 }
 
@@ -101,7 +101,7 @@ fn maximal(options: &azulejo_kdrt_options) {
         progress,
         progress_user,
     };
-    // SAFETY: the options are of the size that they say.
+    // SAFETY: the options have the size in their `struct_size`.
     let Some(set) = create(|out| unsafe { azulejo_maximal_sample(context(), &request, out) }).map(Set::of) else {
         return;
     };
@@ -112,7 +112,7 @@ fn maximal(options: &azulejo_kdrt_options) {
 fn counted(options: &azulejo_kdrt_options, count: u32) {
     let request = azulejo_kdrt_options { radius: 0.0, count: count as usize, measure_coverage: 1, ..*options };
     let mut report = report(azulejo_kdrt_report_init);
-    // SAFETY: the structs are of the sizes that they say.
+    // SAFETY: the structs have the sizes in their `struct_size`.
     let call = |out: Out<_>| unsafe { azulejo_kdrt_sample(context(), &request, out, &raw mut report) };
     let Some(set) = create(call).map(Set::of) else { return };
     assert_eq!(set.positions.len(), count as usize);
@@ -124,13 +124,13 @@ fn counted(options: &azulejo_kdrt_options, count: u32) {
 fn window(options: &azulejo_kdrt_options, given: &Given, patience: &Patience, input: &mut Input) {
     let [low, high] = [0, 1]
         .map(|_| -> [f64; 2] { std::array::from_fn(|axis| options.domain_min[axis] + f64::from(input.coordinate())) });
-    // SAFETY: the options are of the size that they say, and the corners two numbers each.
+    // SAFETY: the options have the size in their `struct_size`, and the corners two numbers each.
     let call =
         |out: Out<_>| unsafe { azulejo_kdrt_sample_window(context(), options, low.as_ptr(), high.as_ptr(), out) };
     let Some(part) = create(call).map(Set::of) else { return };
     check_set(options, given, &part);
     patience.again(u32::MAX);
-    // SAFETY: the options are of the size that they say.
+    // SAFETY: the options have the size in their `struct_size`.
     let plane = create(|out: Out<_>| unsafe { azulejo_kdrt_create(context(), options, out) });
     // SAFETY: the corners are two numbers each.
     let call = |out: Out<_>| unsafe { azulejo_kdrt_window(plane.as_deref(), low.as_ptr(), high.as_ptr(), out) };
@@ -162,7 +162,7 @@ unsafe extern "C-unwind" fn visit(user: *mut c_void, xy: *const f32, count: usiz
 
 fn stream(options: &azulejo_kdrt_options, given: &Given, visits: u32) {
     let mut visitor = Visitor { left: visits, samples: Vec::new() };
-    // SAFETY: the options are of the size that they say, and the visitor lives.
+    // SAFETY: the options have the size in their `struct_size`, and the visitor lives.
     let status = unsafe { azulejo_kdrt_stream(context(), options, Some(visit), (&raw mut visitor).cast()) };
     let is_whole = accepted(status);
     // Without the callback that may have lost its patience.
@@ -204,7 +204,7 @@ fn merge(options: &azulejo_kdrt_options, input: &mut Input) {
         azulejo_kdrt_merge_piece { xy: samples.as_ptr().cast(), count: samples.len(), min, max }
     };
     let pieces = [piece(0), piece(1)];
-    // SAFETY: all arrays are as long as told.
+    // SAFETY: all arrays have the given lengths.
     let call = |out: Out<_>| unsafe {
         azulejo_kdrt_merge(context(), &request, pieces.as_ptr(), 2, fixed.as_ptr().cast(), fixed.len(), out, null_mut())
     };

@@ -18,7 +18,7 @@ fuzz_target!(|bytes: &[u8]| {
     let points = relaxation::points(&mut input, &options);
     let (xy, count) = (points.as_ptr().cast(), points.len());
     let mut report = report(azulejo_dcr_report_init);
-    // SAFETY: the options are of the size that they say, and there are so many points.
+    // SAFETY: the options have the size in their `struct_size`, and there are so many points.
     let call = |out: Out<_>| unsafe { azulejo_dcr_relax(context(), &options, xy, count, out, &raw mut report) };
     if let Some(relaxed) = create(call) {
         let (relaxed, _) = Arrays::of(&relaxed).positions.as_chunks::<2>();
@@ -43,7 +43,7 @@ fn in_classes(options: &azulejo_dcr_options, points: &[[f32; 2]], input: &mut In
     let mut report = report(azulejo_dcr_report_init);
     let (mut rho, mut coverage) = ([-1.0; 20], [-1.0; 20]);
     let (rho_of, coverage_of) = (rho.as_mut_ptr(), coverage.as_mut_ptr());
-    // SAFETY: the options are of the size that they say; the arrays are as long as told, or longer.
+    // SAFETY: the options have the size in their `struct_size`; the arrays are as long as told, or longer.
     let call = |out: Out<_>| unsafe {
         azulejo_dcr_relax_classes(
             context(),
@@ -101,14 +101,14 @@ fn measure(options: &azulejo_dcr_options, points: &[[f32; 2]]) {
         domain_max: options.domain_max,
     };
     for function in [azulejo_plane_smallest_distance, azulejo_plane_covering_radius] {
-        // SAFETY: the array is as long as told.
+        // SAFETY: the array has the given length.
         let call = |out: Out<_>| unsafe { function(context(), &set, out) };
         if let Some(distance) = value(call) {
             assert!(distance >= 0.0 && (count < 2 || distance.is_finite()), "{distance} for {count} points");
         }
     }
     let cut = &points.as_flattened()[..2 * count / 3 * 3];
-    // SAFETY: the array is as long as told.
+    // SAFETY: the array has the given length.
     let space = |out: Out<_>| unsafe { azulejo_space_smallest_distance(context(), cut.as_ptr(), cut.len() / 3, out) };
     assert!(value(space).is_none_or(|distance| distance >= 0.0));
 }

@@ -25,10 +25,10 @@ fn thinned<const D: usize>(input: &mut Input) {
     };
     let dimensions = if input.one_in(64) { input.any() } else { D as u32 };
     let cloud = input.rows::<D>(60);
-    // Coordinates for points of as many of them as are told, if that is accepted.
+    // Coordinates of points of the given dimensions, if these are accepted.
     let count = if dimensions == 3 && D == 2 { cloud.len() / 2 } else { cloud.len() };
     let (start, options) = (cloud.as_ptr().cast(), &options);
-    // SAFETY: the options are of the size that they say, and there are so many points.
+    // SAFETY: the options have the size in their `struct_size`, and there are so many points.
     let call = |out: Out<_>| unsafe { azulejo_thin(context(), options, start, count, dimensions, out) };
     let Some(selection) = create(call) else { return };
     if dimensions == D as u32 {

@@ -1,4 +1,5 @@
-//! The C ABI with owners: outputs that exist on success only, refusals that say why, callbacks that run out of patience.
+//! The C ABI with owners: outputs that exist on success only, refusals that say why, callbacks that run out of
+//! patience.
 
 use std::cell::Cell;
 use std::ffi::{c_char, c_void};
@@ -50,7 +51,7 @@ pub fn reported<T>(
     accepted(call(&raw mut report)).then_some(report)
 }
 
-/// Whether a call succeeded; if it did not, it has a known reason and says it in one line.
+/// True if a call succeeded; if it did not, checks that it has a known reason, in one line.
 pub fn accepted(status: azulejo_status) -> bool {
     if status == AZULEJO_OK {
         return true;
@@ -69,7 +70,7 @@ fn last_error() -> String {
     String::from_utf8(buffer).expect("messages are UTF-8")
 }
 
-/// How often a progress callback lets a call go on, and what it was told last.
+/// The number of times that a progress callback lets a call continue, and the last fraction that it received.
 pub struct Patience {
     left: Cell<u32>,
     last: Cell<f64>,
@@ -81,7 +82,7 @@ impl Patience {
         Self { left: Cell::new(left), last: Cell::new(0.0) }
     }
 
-    /// What goes into the options as progress_user.
+    /// The value of the option progress_user.
     pub fn user(&self) -> *mut c_void {
         (&raw const *self).cast_mut().cast()
     }

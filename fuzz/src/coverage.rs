@@ -1,4 +1,4 @@
-//! Whether sets cover a mesh, also where radii vary: by bisection, as plainly as can be.
+//! The coverage of a mesh, also where radii vary: by plain bisection.
 
 use azulejo_c::mesh::*;
 
@@ -7,7 +7,7 @@ use crate::surface::{Corners, Given};
 
 type Place = [f64; 3];
 
-/// What covers a place of radius `r` up to `own + share * r` from the centre.
+/// A ball that covers positions of radius `r` up to `own + share * r` from its centre.
 #[derive(Clone, Copy)]
 pub(crate) struct Ball {
     centre: Place,
@@ -81,8 +81,8 @@ impl Field<'_> {
         [radii.into_iter().fold(f64::INFINITY, f64::min) - change, radii.into_iter().fold(0.0, f64::max) + change]
     }
 
-    /// What the header allows on a triangle: six float spacings and what the radius changes over them, and 2^-22 of the
-    /// largest difference of radii on a triangle.
+    /// The tolerance of the header on a triangle: six float spacings, the change of the radius over them, and 2^-22 of
+    /// the largest difference of radii on the triangle.
     fn tolerance(&self, part: &Part, height: f64, spacing: f64) -> f64 {
         match self {
             Self::Function { slope, .. } => spacing * (1.0 + slope),
@@ -94,8 +94,8 @@ impl Field<'_> {
     }
 }
 
-/// A place that is not covered, of those triangles that are to be. Meshes with a mask of their own are left out, since it is
-/// not known here.
+/// A place that is not covered, of those triangles that are to be. Meshes with a mask of their own are left out, since
+/// it is not known here.
 pub(crate) fn uncovered(
     mesh: &azulejo_mesh,
     corners: &Corners,

@@ -30,7 +30,7 @@ fn places(mesh: &azulejo_mesh, triangles: usize, input: &mut Input) {
     let triangle = |input: &mut Input| if input.one_in(64) { input.any() } else { input.below(triangles as u32) };
     let of: Vec<u32> = (0..places).map(|_| triangle(input)).collect();
     let at: Vec<[f32; 2]> = (0..places).map(|_| [input.coordinate(), input.coordinate()]).collect();
-    // SAFETY: both arrays are as long as told.
+    // SAFETY: both arrays have the given lengths.
     let make = |out: Out<_>| unsafe { azulejo_mesh_points(Some(mesh), of.as_ptr(), at.as_ptr().cast(), places, out) };
     let Some(points) = create(make) else { return };
     let (corners, set) = (Corners::of(mesh), Arrays::of(&points));

@@ -2,7 +2,7 @@
 
 use libfuzzer_sys::arbitrary::{Arbitrary, Unstructured};
 
-/// What is left of the bytes. Once they are used up everything is 0.
+/// The bytes that are left. Once they are used up everything is 0.
 pub struct Input<'a> {
     bytes: Unstructured<'a>,
 }
@@ -22,13 +22,13 @@ impl<'a> Input<'a> {
         self.any::<u32>() % end
     }
 
-    /// Whether one of `n` cases is there.
+    /// True in one of `n` cases.
     pub fn one_in(&mut self, n: u8) -> bool {
         self.any::<u8>() % n == n - 1
     }
 
-    /// A coordinate: mostly one of a coarse lattice, so that points coincide and stand in lines and on circles; some times
-    /// a float of any value.
+    /// A coordinate: mostly one of a coarse lattice, so that points coincide and stand in lines and on circles; some
+    /// times a float of any value.
     pub fn coordinate(&mut self) -> f32 {
         const NAMED: [f32; 8] =
             [0.0, -0.0, f32::NAN, f32::INFINITY, f32::NEG_INFINITY, f32::MAX, f32::MIN_POSITIVE, 1e-45];

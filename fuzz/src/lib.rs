@@ -1,5 +1,6 @@
-//! What the fuzz targets share. They call the C ABI as a hostile C program does, check what the header promises for a
-//! success, and ask every refusal for its message. A panic ends the target, also where the library would catch it.
+//! The common part of the fuzz targets. They call the C ABI as a hostile C program does, check what the header promises
+//! for a success, and ask every refusal for its message. A panic ends the target, also where the library would catch
+//! it.
 
 pub mod arrays;
 pub mod calls;

@@ -105,7 +105,7 @@ pub(crate) fn sample(mesh: &azulejo_mesh, corners: &Corners, radius: f64, input:
     // SAFETY: the struct has the size that is said.
     let _ = unsafe { azulejo_c::adaptive::azulejo_psp_adaptive_options_init(&raw mut options, size_of_val(&options)) };
     options.seed = input.any();
-    // SAFETY: the structs are of the sizes that they say, and the arrays as long.
+    // SAFETY: the structs have the sizes in their `struct_size`, and the arrays as long.
     let call = |out: Out<_>| unsafe {
         azulejo_psp_adaptive_with_density(context(), Some(mesh), &options, &density, out, null_mut())
     };

@@ -1,4 +1,4 @@
-//! What sets of the plane owe: distances, ranks, and coverage by cutting the domain into pieces.
+//! The guarantees of sets of the plane: distances, ranks, and coverage by cutting the domain into pieces.
 
 use azulejo_c::kdrt::azulejo_kdrt_options;
 use azulejo_c::points::azulejo_points;
@@ -53,7 +53,7 @@ impl Given {
         }
     }
 
-    /// Whether it can be told here where they are: far from a torus, its turns are only counted to rounding.
+    /// True if their positions can be decided here: far from a torus, its turns are only counted to rounding.
     fn are_near(&self, options: &azulejo_kdrt_options) -> bool {
         let sides = [0, 1].map(|axis| options.domain_max[axis] - options.domain_min[axis]);
         let is_near = |position: &[f32; 2]| (0..2).all(|axis| f64::from(position[axis]).abs() < 1e3 * sides[axis]);
@@ -64,7 +64,7 @@ impl Given {
         self.clearances.as_ref().map_or(options.radius, |clearances| clearances[index])
     }
 
-    /// Whether `is` holds for all of them, of the distance of a place and the clearance.
+    /// True if `is` holds for all of them, of the distance of a position and the clearance.
     fn all(&self, options: &azulejo_kdrt_options, place: [f64; 2], is: impl Fn(f64, f64) -> bool) -> bool {
         self.positions.iter().enumerate().all(|(i, position)| {
             is(length(wrapped_offset(options, position.map(f64::from), place)), self.clearance(options, i))

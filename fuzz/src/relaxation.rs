@@ -60,7 +60,7 @@ fn inside(options: &azulejo_dcr_options, point: [f32; 2]) -> [f32; 2] {
     })
 }
 
-/// What is returned lies in the domain.
+/// Checks that the points lie in the domain.
 pub fn check(options: &azulejo_dcr_options, points: &[[f32; 2]]) {
     for &point in points {
         let is_inside =
@@ -75,8 +75,8 @@ pub fn unit(options: &azulejo_dcr_options, count: usize) -> f64 {
     (2.0 / 3f64.sqrt() * width * height / count as f64).sqrt()
 }
 
-/// The figures of a report are those of the points that are returned, where all of the domain is alike: the smallest distance
-/// by all pairs, the covering radius by cutting the domain into pieces.
+/// The figures of a report are those of the points that are returned, where all of the domain is alike: the smallest
+/// distance by all pairs, the covering radius by cutting the domain into pieces.
 pub fn check_report(options: &azulejo_dcr_options, points: &[[f32; 2]], report: &azulejo_dcr_report) {
     if let Some(fault) = fault(options, points, report) {
         panic!("{fault}: rho {}, coverage {}, {points:?}", report.rho, report.coverage);

@@ -1,4 +1,4 @@
-//! What is done with every mesh, whatever it was made of: sampled by both engines, in steps, with radii that vary.
+//! All calls on a mesh, whatever its triangles: both engines, in steps, with radii that vary.
 
 use std::ptr::{NonNull, null_mut};
 
@@ -79,7 +79,7 @@ impl Corners {
     }
 }
 
-/// What a mesh is asked for.
+/// The options of the calls on a mesh.
 struct Request {
     corners: Corners,
     radius: f64,
@@ -89,8 +89,8 @@ struct Request {
 }
 
 impl Request {
-    /// A radius that gives few samples, around some that are given. None if there would be too many for the time that a fuzz
-    /// target has.
+    /// A radius that gives few samples, around some that are given. None if there would be too many for the time that a
+    /// fuzz target has.
     fn any(mesh: &azulejo_mesh, input: &mut Input) -> Option<Self> {
         let corners = Corners::of(mesh);
         let samples = 1.0 + f64::from(input.any::<u8>() / 2);
@@ -195,7 +195,7 @@ fn check_uniform(corners: &Corners, points: &azulejo_points, radius: f64) {
 
 fn at_once(mesh: &azulejo_mesh, corners: &Corners, options: &azulejo_psp_options, given: &Given) {
     let mut report = report(azulejo_psp_report_init);
-    // SAFETY: the structs are of the sizes that they say.
+    // SAFETY: the structs have the sizes in their `struct_size`.
     let call = |out: Out<_>| unsafe { azulejo_psp_sample(context(), Some(mesh), options, out, &raw mut report) };
     let Some(points) = create(call) else { return };
     assert_eq!(report.samples, azulejo_points_count(Some(&points)) as u64);
@@ -235,7 +235,7 @@ fn ordered(mesh: &azulejo_mesh, corners: &Corners, options: &azulejo_psp_options
         ..*options
     };
     let mut report = report(azulejo_psp_report_init);
-    // SAFETY: the structs are of the sizes that they say.
+    // SAFETY: the structs have the sizes in their `struct_size`.
     let call = |out: Out<_>| unsafe { azulejo_psp_sample(context(), Some(mesh), options, out, &raw mut report) };
     let Some(points) = create(call) else { return };
     let set = Arrays::of(&points);
@@ -282,7 +282,7 @@ fn of_classes(mesh: &azulejo_mesh, corners: &Corners, options: &azulejo_psp_opti
         given_count: 0,
         ..*options
     };
-    // SAFETY: the structs are of the sizes that they say, and the arrays as long.
+    // SAFETY: the structs have the sizes in their `struct_size`, and the arrays as long.
     let call = |out: Out<_>| unsafe { azulejo_psp_sample_classes(context(), Some(mesh), options, &classes, out) };
     let Some(points) = create(call) else { return };
     let set = Arrays::of(&points);
@@ -315,7 +315,7 @@ fn in_steps(
     input: &mut Input,
 ) {
     let options = &azulejo_psp_options { iterations: 1, maximal: 1, cosine: -1.0, ..*options };
-    // SAFETY: the options are of the size that they say.
+    // SAFETY: the options have the size in their `struct_size`.
     let create_set = |out: Out<_>| unsafe { azulejo_psp_create(context(), Some(mesh), options, out) };
     let Some(mut set) = create(create_set) else { return };
     let mut is_filled = false;

@@ -38,7 +38,7 @@ pub(crate) fn relax(mesh: &azulejo_mesh, corners: &Corners, input: &mut Input) {
     };
     let barycentrics: Vec<[f32; 2]> = (0..count).map(|_| sides(input)).collect();
     let (start, uv) = (triangles.as_ptr(), barycentrics.as_ptr().cast());
-    // SAFETY: the options are of the size that they say, and so are the arrays.
+    // SAFETY: the options have the size in their `struct_size`, and so are the arrays.
     let call = |out: Out<_>| unsafe {
         azulejo_dcr_surface_relax(context(), Some(mesh), &options, start, uv, count, out, null_mut())
     };
@@ -46,7 +46,7 @@ pub(crate) fn relax(mesh: &azulejo_mesh, corners: &Corners, input: &mut Input) {
     let set = Arrays::of(&points);
     assert_eq!(set.triangles.len(), count);
     corners.check(&set);
-    // What is hostile may be moved onto its triangle first.
+    // Hostile samples may be moved onto their triangles first.
     if !hostile {
         let start: Vec<[f32; 3]> = triangles.iter().zip(&barycentrics).map(|(&t, &at)| corners.place(t, at)).collect();
         let (before, after) = (smallest(&start), smallest(set.positions.as_chunks::<3>().0));
@@ -55,7 +55,7 @@ pub(crate) fn relax(mesh: &azulejo_mesh, corners: &Corners, input: &mut Input) {
     remesh(mesh, &set);
 }
 
-/// The triangles of samples are a mesh of which no edge has two triangles on one side, and the report says what it is.
+/// The triangles of samples are a mesh of which no edge has two triangles on one side, as the report states.
 fn remesh(mesh: &azulejo_mesh, set: &Arrays) {
     let count = set.triangles.len();
     let mut told = report(azulejo_dcr_remesh_report_init);

@@ -22,7 +22,7 @@ struct Guest {
 }
 
 impl Guest {
-    /// Whether it changes no faster than its slope.
+    /// True if it changes no faster than its slope.
     fn is_as_told(&self) -> bool {
         self.kind > 4
     }
@@ -81,7 +81,7 @@ pub(crate) fn adaptive(mesh: &azulejo_mesh, corners: &Corners, radius: f64, give
         order: if input.one_in(4) { input.below(3) } else { AZULEJO_ORDER_ANY },
         quotient: if input.one_in(4) { [1.5, 1.3, input.number()][input.below(3) as usize] } else { 0.0 },
     };
-    // SAFETY: the options are of the size that they say, and so is the array.
+    // SAFETY: the options have the size in their `struct_size`, and so is the array.
     let call = |out: Out<_>| unsafe { azulejo_psp_adaptive_sample(context(), Some(mesh), &options, out, null_mut()) };
     let Some(points) = create(call) else { return };
     let set = Arrays::of(&points);

@@ -491,7 +491,7 @@ impl PairGrid {
     }
 }
 
-/// The cell of a point. Those that hold points of the set are not negative.
+/// The cell of a point. Cells with points of the set are not negative.
 fn place(point: DVec3, origin: DVec3, side: f64) -> [i64; 3] {
     ((point - origin) / side).floor().as_i64vec3().to_array()
 }

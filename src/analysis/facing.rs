@@ -28,7 +28,7 @@ impl Facing {
 }
 
 /// The area of a mesh and the samples on it by the angle between the normal and the nearest of `directions`, or its
-/// opposite: `bins` equal parts of 0 to 90 degrees, from faces that are met squarely to those that are only grazed.
+/// opposite: `bins` equal parts of 0 to 90 degrees, from faces that are met squarely to faces that are only grazed.
 ///
 /// `triangles` are those of the samples, as in [`Points`](crate::Points); `directions` have any length.
 /// Takes O(triangles · directions + samples).

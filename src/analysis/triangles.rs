@@ -53,7 +53,7 @@ impl Triangle {
 
 /// The Delaunay triangles of a set, each once. Takes O(n log n).
 ///
-/// On a torus there are twice as many triangles as points, and those that lie across the boundary reach out of the
+/// On a torus there are twice as many triangles as points, and triangles across the boundary reach out of the
 /// domain on one of the sides. On a bounded domain triangles are left out that cross the boundary when the set is
 /// mirrored by it, so there are no slivers along the convex hull.
 ///

@@ -68,7 +68,7 @@ impl Mesh {
         Ok(mesh)
     }
 
-    /// The mesh with normals of the caller's, in place of those that it may carry: of any length, one for each vertex,
+    /// The mesh with normals of the caller's, in place of its own: of any length, one for each vertex,
     /// or named by `indices`, three for each triangle, where corners that share a vertex differ in their normals. O(n).
     ///
     /// A zero vector stands for a corner without a normal; see [`Mesh::interpolated_normal`]. Sampling does not depend

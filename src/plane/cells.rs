@@ -68,7 +68,7 @@ impl CellGrid {
         Self { torus, ..Self::new(axes, &Rect { min: [0; 2], max: size }, separation) }
     }
 
-    /// Excludes samples from disks, before there are any samples. Those that do not meet the cells do no harm.
+    /// Excludes samples from disks, before there are any samples. Disks that do not meet the cells have no effect.
     pub fn set_obstacles(&mut self, disks: Vec<Disk>) {
         if !disks.is_empty() {
             self.obstacles = Obstacles::new(&self.edges, |axis, x| self.finders[axis].cell(x) as usize, disks);

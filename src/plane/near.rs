@@ -1,6 +1,6 @@
 //! The samples near a cell of the grid: the coarse tests, in `f32`, that do nearly all work of the plane.
 //!
-//! They decide the certain cases; those that they leave open are decided in integers by `cells.rs`. All levels of
+//! They decide the certain cases; the others are decided in integers by `cells.rs`. All levels of
 //! vector instructions give the same bits.
 
 use crate::plane::rect::Rect;

@@ -149,7 +149,7 @@ impl Quadtree {
         }
     }
 
-    /// Cuts the voxels in parts and drops those that one sample covers. Single lattice points are not cut.
+    /// Cuts the voxels in parts and drops the parts that one sample covers. Single lattice points are not cut.
     #[inline(always)]
     pub fn refine(&mut self, grid: &CellGrid) {
         let (is_coarse, width) = self.next_level();
@@ -172,7 +172,7 @@ impl Cutter {
         Self { near: Box::new(Near::new()), exactly_near: Vec::new() }
     }
 
-    /// Cuts voxels by the coarse or the exact test in parts of the given width, and appends those that no sample
+    /// Cuts voxels by the coarse or the exact test in parts of the given width, and appends the parts that no sample
     /// covers.
     #[inline(always)]
     pub fn cut(&mut self, grid: &CellGrid, voxels: &[Voxel], is_coarse: bool, width: i32, open: &mut Vec<Voxel>) {

@@ -47,7 +47,7 @@ pub struct Ray {
 /// A point where a ray meets a triangle, on either side of it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hit {
-    /// The index of the ray among those that were traced.
+    /// The index of the ray in the call.
     pub ray: u32,
     /// The index of the triangle in the scene.
     pub triangle: u32,

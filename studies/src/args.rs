@@ -1,4 +1,4 @@
-//! What the commands have in common.
+//! The arguments that the commands have in common.
 
 use std::path::PathBuf;
 

@@ -1,4 +1,4 @@
-//! What is measured of the spectra of sets of one kind, all on the unit torus.
+//! Spectra of sets of one kind, all on the unit torus.
 
 use azulejo::analysis::spacing;
 use azulejo::analysis::spectrum::{Annulus, Periodogram};
@@ -16,7 +16,7 @@ const GRID: usize = 1201;
 const ANNULUS: f64 = 0.02;
 const ANISOTROPY_RANGE: std::ops::Range<f64> = 0.5..2.0;
 
-/// How blue sets are.
+/// Spectral figures of sets.
 pub struct Blue {
     /// The number of samples of each set.
     pub counts: Vec<usize>,

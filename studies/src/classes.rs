@@ -30,7 +30,7 @@ pub struct Study {
     meshes: MeshArgs,
 }
 
-/// How much is measured.
+/// The size of the study.
 pub struct Effort {
     /// Samples that the class of the smallest radius would have alone, and sets of each kind.
     pub count: f64,

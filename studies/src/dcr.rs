@@ -33,9 +33,10 @@ pub struct Dcr {
     meshes: MeshArgs,
 }
 
-/// How much is measured.
+/// The size of the study.
 pub struct Effort {
-    /// Points of a set, and sets of that size from each start: by the momentum method, and by the thesis's, which is slow.
+    /// Points of a set, and sets of that size from each start: by the momentum method, and by the thesis's, which is
+    /// slow.
     pub momentum: &'static [(usize, u64)],
     pub thesis: &'static [(usize, u64)],
     /// The same by the momentum method on a bounded square.

@@ -31,7 +31,7 @@ impl Files {
         Output::at(&self.pictures.join(format!("{name}.png")))
     }
 
-    /// Writes the page: a head that says when, by which command and on which machine it was made, and the text.
+    /// Writes the page: a head with date, command and machine, and the text.
     pub fn write(&self, title: &str, threads: usize, text: &str) -> Result<()> {
         let (name, quick) = (self.name, if self.quick { " --quick" } else { "" });
         let (date, processor) = (Timestamp::now().to_zoned(TimeZone::UTC).date(), processor());

@@ -1,4 +1,5 @@
-//! `azulejo-studies gallery`: samplers side by side, as in the thesis's fig. 4.16 and 4.17 and the third row of fig. 2.12.
+//! `azulejo-studies gallery`: samplers side by side, as in the thesis's fig. 4.16 and 4.17 and the third row of fig.
+//! 2.12.
 
 mod measured;
 mod page;
@@ -20,11 +21,11 @@ pub struct Gallery {
     page: PageArgs,
 }
 
-/// How much is measured.
+/// The size of the study.
 pub struct Effort {
     /// Points of a set: those of `side` by `side` cells.
     pub side: usize,
-    /// Sets of each sampler, and of those that are slow.
+    /// The numbers of sets of each sampler, and of a slow one.
     pub sets: u64,
     pub slow_sets: u64,
 }

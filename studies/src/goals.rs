@@ -1,4 +1,4 @@
-//! `azulejo-studies goals`: what was asked of version 0.2 in figures that are on no other page, and whether it is met.
+//! `azulejo-studies goals`: the performance targets of version 0.2 whose figures are on no other page.
 
 mod clouds;
 mod files;
@@ -28,16 +28,16 @@ pub struct Goals {
     page: PageArgs,
     #[command(flatten)]
     meshes: MeshArgs,
-    /// Fill the dragon with about so many samples on one thread, say how many MB it took, and write no page: what the study
-    /// asks of another process, whose memory is its own.
+    /// Fill the dragon with about so many samples on one thread, print the MB that it took, and write no page: the
+    /// study runs this in a process of its own, to measure its memory.
     #[arg(long, hide = true, value_name = "N", requires = "dragon")]
     memory: Option<f64>,
 }
 
-/// How much is measured.
+/// The size of the study.
 #[derive(Clone, Copy)]
 pub struct Effort {
-    /// How often each call is made, in turns with those that it is held against.
+    /// The number of calls of each kind, in turns with those that it is compared with.
     pub rounds: usize,
     /// The part of the samples, points and triangles of each goal.
     pub part: f64,
@@ -53,7 +53,7 @@ impl Effort {
     }
 }
 
-/// What the parts of the study have to work with.
+/// The context of the parts of the study.
 pub struct Study {
     pub effort: Effort,
     pub one: Context,

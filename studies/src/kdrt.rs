@@ -22,7 +22,7 @@ pub struct Kdrt {
     page: PageArgs,
 }
 
-/// How much is measured.
+/// The size of the study.
 pub struct Effort {
     /// Samples of a set whose statistics are measured.
     pub count: f64,
@@ -38,7 +38,7 @@ pub struct Effort {
 const FULL: Effort = Effort { count: 1e5, groups: 20, sets_per_group: 5, timed: 1e6, largest: 1e7, rounds: 5 };
 const QUICK: Effort = Effort { count: 2e4, groups: 5, sets_per_group: 1, timed: 1e4, largest: 3e4, rounds: 2 };
 
-/// What makes a set.
+/// A sampler.
 #[derive(Clone, Copy, PartialEq)]
 pub enum Sampler {
     /// The unbiased reference.

@@ -38,7 +38,7 @@ struct Cli {
     study: Study,
 }
 
-/// What to measure.
+/// The study that is run.
 #[derive(Subcommand)]
 enum Study {
     /// Measure bias, spectra and times of KDRT against the thesis and the unbiased reference; takes some minutes.
@@ -51,11 +51,13 @@ enum Study {
     Classes(classes::Study),
     /// Measure prefixes of progressive sets beside sets of their number, and what the order costs; takes some minutes.
     Order(order::Study),
-    /// Measure what else the thesis discusses of randomized tiling: seams, counts, patterns, merging; takes some minutes.
+    /// Measure what else the thesis discusses of randomized tiling: seams, counts, patterns, merging; takes some
+    /// minutes.
     Tiling(tiling::Tiling),
-    /// Measure figures of the thesis that are on no other page: pair correlation, a rasteriser, two million dots, lights.
+    /// Measure figures of the thesis that are on no other page: pair correlation, a rasteriser, two million dots,
+    /// lights.
     Figures(figures::Figures),
-    /// Measure what was asked of version 0.2 and is on no other page; takes some minutes.
+    /// Measure the performance targets of version 0.2 that are on no other page; takes some minutes.
     Goals(goals::Goals),
     /// Show samplers side by side: points, spectra and a zone plate; takes some minutes.
     Gallery(gallery::Gallery),

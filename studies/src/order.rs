@@ -42,7 +42,7 @@ pub struct Study {
     meshes: MeshArgs,
 }
 
-/// How much is measured.
+/// The size of the study.
 pub struct Effort {
     /// Samples of the sets whose prefixes are measured, and sets of each kind.
     pub count: f64,

@@ -37,7 +37,7 @@ pub struct Psp {
     further: Vec<PathBuf>,
 }
 
-/// How much is measured.
+/// The size of the study.
 pub struct Effort {
     /// Samples on the sphere and on the planes where bias is measured, and sets of each kind.
     pub bias: f64,
@@ -50,7 +50,7 @@ pub struct Effort {
     /// Samples of the sets that are timed, and of others for the rate by radius.
     pub samples: f64,
     pub counts: &'static [f64],
-    /// How often sets are made that verdicts and sentences are about, and others.
+    /// The rounds of sets that verdicts and sentences are about, and those of others.
     pub judged_rounds: usize,
     pub rounds: usize,
     /// Samples of the sets whose growth is watched, and after which iterations.
@@ -105,7 +105,7 @@ const QUICK: Effort = Effort {
     pixels: 400,
 };
 
-/// What was measured on a scene.
+/// The measurements on a scene.
 pub struct Measured {
     pub scene: Scene,
     pub rates: Rates,

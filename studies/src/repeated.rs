@@ -1,9 +1,9 @@
-//! What rounds of a measurement gave, and what they decide. In a round all that is compared takes its turn, so that what
-//! else the machine does comes to all alike.
+//! The results of rounds of a measurement, and the decision by them. In a round all calls that are compared take turns,
+//! so that other work of the machine affects them alike.
 //!
 //! A goal is met where every round meets it and not met where none does; between that the rounds do not tell. Of
-//! [`ROUNDS`] rounds all on the wrong side of a median come by chance in one of 128 cases (the sign test), which is below
-//! [`LEVEL`]; fewer rounds decide nothing.
+//! [`ROUNDS`] rounds all on the wrong side of a median come by chance in one of 128 cases (the sign test), which is
+//! below [`LEVEL`]; fewer rounds decide nothing.
 
 use azulejo_cli::text::rounded;
 
@@ -63,8 +63,8 @@ impl Repeated {
         })
     }
 
-    /// Whether all values are below all of another quantity's, and there are enough to say so: without a difference each
-    /// order of the values is as likely as any other (the rank-sum test).
+    /// True if all values are below all of another quantity's, and there are enough to say so: without a difference
+    /// each order of the values is as likely as any other (the rank-sum test).
     pub fn is_below(&self, other: &Self) -> bool {
         let (own, others) = (self.0.len(), other.0.len());
         let chance: f64 = (1..=own).map(|i| i as f64 / (others + i) as f64).product();

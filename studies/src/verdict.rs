@@ -1,8 +1,8 @@
-//! What pages say of a goal, and by which test.
+//! The verdicts of pages on goals, and the tests behind them.
 //!
-//! A goal that a quantity be no larger than the reference's, or the same, is tested by Welch's t: the difference of the two
-//! means over its standard error, both from independent sets. All tests of a page that are judged together share one level
-//! by Holm's method, so that the chance of even one false "not met" is at most that level.
+//! A goal that a quantity be no larger than the reference's, or the same, is tested by Welch's t: the difference of the
+//! two means over its standard error, both from independent sets. All tests of a page that are judged together share
+//! one level by Holm's method, so that the chance of even one false "not met" is at most that level.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -11,18 +11,18 @@ use azulejo_cli::text::rounded;
 /// The chance of any false verdict among goals that are judged together.
 pub const LEVEL: f64 = 0.01;
 
-/// The verdict of a goal that is missed where a difference is shown, by the chance of one as large. A test that shows none
-/// does not prove that there is none.
+/// The verdict of a goal that is missed where a difference is shown, by the chance of one as large. A test that shows
+/// none does not prove that there is none.
 pub fn unless_different(p: f64) -> &'static str {
     if p <= LEVEL { verdict(false) } else { "no difference shown" }
 }
 
-/// Whether a goal is met.
+/// The words for a goal that is met or not.
 pub fn verdict(is_met: bool) -> &'static str {
     if is_met { "met" } else { "**not met**" }
 }
 
-/// Whether a goal is met, if that is known.
+/// The words for a goal that is met or not, or not judged.
 pub fn judged(is_met: Option<bool>) -> &'static str {
     is_met.map_or("not decided", verdict)
 }
@@ -55,7 +55,8 @@ impl Mean {
         Self { mean, error, count: self.count.min(other.count) }
     }
 
-    /// How far this is above another (Welch 1947). None of fewer than two values each: they have no standard error.
+    /// The excess of this mean over another (Welch 1947). `None` for fewer than two values each: they have no standard
+    /// error.
     pub fn above(&self, other: &Self) -> Option<Difference> {
         let [own, others] = [self, other].map(|one| one.error.powi(2));
         let squares = own + others;
@@ -64,7 +65,7 @@ impl Mean {
         (self.count > 1 && other.count > 1).then(|| Difference::new(self.mean - other.mean, squares.sqrt(), freedom))
     }
 
-    /// How far this is above a number that is known.
+    /// The excess of this mean over a number that is known.
     pub fn above_number(&self, number: f64) -> Option<Difference> {
         (self.count > 1).then(|| Difference::new(self.mean - number, self.error, self.count as f64 - 1.0))
     }
@@ -76,7 +77,8 @@ impl Mean {
     }
 }
 
-/// A difference over its standard error, and the degrees of freedom of Student's distribution that it follows by chance.
+/// A difference over its standard error, and the degrees of freedom of Student's distribution that it follows by
+/// chance.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Difference {
     pub t: f64,
@@ -119,8 +121,8 @@ fn simpson(from: f64, to: f64, function: impl Fn(f64) -> f64) -> f64 {
     (0..=PARTS).map(|i| weight(i) * function(from + f64::from(i) * step)).sum::<f64>() * step / 3.0
 }
 
-/// Chances corrected for the number of tests (Holm 1979): those at most [`LEVEL`] are rejected, and the chance that any of
-/// them is so falsely is at most that level.
+/// Chances corrected for the number of tests (Holm 1979): those at most [`LEVEL`] are rejected, and the chance that any
+/// of them is so falsely is at most that level.
 pub fn holm(chances: &[f64]) -> Vec<f64> {
     let mut order: Vec<_> = (0..chances.len()).collect();
     order.sort_by(|&a, &b| chances[a].total_cmp(&chances[b]));
@@ -132,8 +134,8 @@ pub fn holm(chances: &[f64]) -> Vec<f64> {
     corrected
 }
 
-/// The verdicts on claims that differences are above zero, each after its corrected chance. A claim is met where its chance
-/// is at most [`LEVEL`], not met where that of the opposite is, and otherwise not decided.
+/// The verdicts on claims that differences are above zero, each after its corrected chance. A claim is met where its
+/// chance is at most [`LEVEL`], not met where that of the opposite is, and otherwise not decided.
 pub fn claims(differences: &[Option<Difference>]) -> Vec<(f64, &'static str)> {
     let corrected = |chance: fn(&Difference) -> f64| {
         holm(&differences.iter().map(|it| it.as_ref().map_or(1.0, chance)).collect::<Vec<_>>())
@@ -147,7 +149,7 @@ pub fn claims(differences: &[Option<Difference>]) -> Vec<(f64, &'static str)> {
     own.into_iter().zip(opposite).map(verdict).collect()
 }
 
-/// How pages write a chance.
+/// A chance as pages write it.
 pub fn chance(chance: f64) -> String {
     match chance {
         ..1e-6 => "< 1e-6".to_owned(),

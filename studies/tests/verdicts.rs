@@ -83,7 +83,7 @@ fn sentences_name_the_fastest_where_ranges_do() {
     let text = page("psp.md");
     for table in tables(&text).iter().filter(|table| table.head[0] == "directions") {
         for (column, scene) in table.head.iter().enumerate().skip(1) {
-            // Pages without ranges say nothing that could be checked.
+            // Pages without ranges state nothing that could be checked.
             let Some(lowest) = lowest(table, column) else { continue };
             let sentence = match lowest {
                 Some(row) => format!("The {scene} took the least time with {} directions.", table.rows[row][0]),

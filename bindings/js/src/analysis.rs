@@ -23,7 +23,7 @@ pub unsafe extern "C" fn azulejo_plane_measure(
     points: *const [f32; 2],
     count: usize,
 ) -> i32 {
-    // SAFETY: as the caller says.
+    // SAFETY: guaranteed by the caller.
     let points = unsafe { rows(points, count) };
     call(|context| {
         let domain = domain(min_x, min_y, max_x, max_y, bounded);
@@ -38,7 +38,7 @@ pub unsafe extern "C" fn azulejo_plane_measure(
 /// `positions` is valid for reads of `count` positions.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_mesh_measure(mesh: &Handle, positions: *const [f32; 3], count: usize) -> i32 {
-    // SAFETY: as the caller says.
+    // SAFETY: guaranteed by the caller.
     let positions = unsafe { rows(positions, count) };
     call(|context| {
         let smallest = smallest_distance_3d(context, positions, None)?;
@@ -62,7 +62,7 @@ pub unsafe extern "C" fn azulejo_spectrum(
     size: usize,
     width: f64,
 ) -> i32 {
-    // SAFETY: as the caller says.
+    // SAFETY: guaranteed by the caller.
     let points = unsafe { rows(points, count) };
     call(|context| {
         let domain = domain(min_x, min_y, max_x, max_y, bounded);

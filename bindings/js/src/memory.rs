@@ -23,7 +23,7 @@ pub unsafe extern "C" fn azulejo_give_back(pointer: *mut u8, bytes: usize) {
     if let Some(layout) = layout(bytes)
         && !pointer.is_null()
     {
-        // SAFETY: allocated with this layout, as the caller says.
+        // SAFETY: allocated with this layout, which the caller guarantees.
         unsafe { dealloc(pointer, layout) }
     }
 }
@@ -33,6 +33,6 @@ pub unsafe extern "C" fn azulejo_give_back(pointer: *mut u8, bytes: usize) {
 /// # Safety
 /// Unless `count` is 0, `pointer` is valid for reads of `count` rows, which do not change during `'a`.
 pub(crate) unsafe fn rows<'a, T>(pointer: *const T, count: usize) -> &'a [T] {
-    // SAFETY: as the caller says.
+    // SAFETY: guaranteed by the caller.
     if count == 0 { &[] } else { unsafe { std::slice::from_raw_parts(pointer, count) } }
 }

@@ -61,7 +61,7 @@ unsafe fn given<'a>(
     clearances: *const f64,
     clearance_count: usize,
 ) -> Given<'a, 2> {
-    // SAFETY: as the caller says.
+    // SAFETY: guaranteed by the caller.
     let (positions, clearances) = unsafe { (rows(positions, count), rows(clearances, clearance_count)) };
     if clearances.is_empty() { Given::at(positions) } else { Given::with_clearances(positions, clearances) }
 }
@@ -79,7 +79,7 @@ pub unsafe extern "C" fn azulejo_kdrt_sample(
     clearances: *const f64,
     clearance_count: usize,
 ) -> i32 {
-    // SAFETY: as the caller says.
+    // SAFETY: guaranteed by the caller.
     let given = unsafe { given(positions, count, clearances, clearance_count) };
     call(|context| {
         if options.count > 0.0 {
@@ -103,7 +103,7 @@ pub unsafe extern "C" fn azulejo_kdrt_sample_classes(
     radii: *const f64,
     radius_count: usize,
 ) -> i32 {
-    // SAFETY: as the caller says.
+    // SAFETY: guaranteed by the caller.
     let radii = unsafe { rows(radii, radius_count) };
     call(|context| {
         let classes = Classes::new(radii.len().isqrt(), radii)?;
@@ -126,7 +126,7 @@ pub unsafe extern "C" fn azulejo_plane_create(
     clearance_count: usize,
     out: &mut Option<Box<Plane>>,
 ) -> i32 {
-    // SAFETY: as the caller says.
+    // SAFETY: guaranteed by the caller.
     let given = unsafe { given(positions, count, clearances, clearance_count) };
     call(|context| {
         *out = Some(Box::new(Plane::new(context, &options.by_radius(seed, given), None)?));
@@ -167,7 +167,7 @@ pub unsafe extern "C" fn azulejo_dcr_relax(
     points: *const [f32; 2],
     count: usize,
 ) -> i32 {
-    // SAFETY: as the caller says.
+    // SAFETY: guaranteed by the caller.
     let points = unsafe { rows(points, count) };
     call(|context| {
         let neighbourhood = if nearest == 0 { Neighbourhood::Delaunay } else { Neighbourhood::Nearest };

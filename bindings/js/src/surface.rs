@@ -26,7 +26,7 @@ pub unsafe extern "C" fn azulejo_mesh_create(
     triangle_count: usize,
     out: &mut Option<Box<Handle>>,
 ) -> i32 {
-    // SAFETY: as the caller says.
+    // SAFETY: guaranteed by the caller.
     let (positions, triangles) = unsafe { (rows(positions, vertex_count), rows(indices, triangle_count)) };
     call(|_| {
         let mesh = Mesh::new(positions.to_vec(), triangles.to_vec())?;
@@ -69,7 +69,7 @@ pub unsafe extern "C" fn azulejo_psp_sample(
     clearances: *const f64,
     clearance_count: usize,
 ) -> i32 {
-    // SAFETY: as the caller says.
+    // SAFETY: guaranteed by the caller.
     let (positions, clearances) = unsafe { (rows(positions, count), rows(clearances, clearance_count)) };
     let given =
         if clearances.is_empty() { Given::at(positions) } else { Given::with_clearances(positions, clearances) };
@@ -104,7 +104,7 @@ pub unsafe extern "C" fn azulejo_dcr_surface_relax(
     barycentrics: *const [f32; 2],
     count: usize,
 ) -> i32 {
-    // SAFETY: as the caller says.
+    // SAFETY: guaranteed by the caller.
     let (triangles, barycentrics) = unsafe { (rows(triangles, count), rows(barycentrics, count)) };
     call(|context| {
         let options = surface::Options::default().max_iterations(max_iterations).tolerance(tolerance).seed(seed);

@@ -20,7 +20,7 @@ pub unsafe extern "C" fn azulejo_thin(
     progressive: i32,
     seed: u64,
 ) -> i32 {
-    // SAFETY: as the caller says.
+    // SAFETY: guaranteed by the caller.
     let positions = unsafe { rows(positions, count * dimensions as usize) };
     call(|context| {
         let options = Options::by_radius(radius).count(most as usize).order(order(progressive)).seed(seed);

@@ -5,7 +5,8 @@ use pyo3::prelude::*;
 
 use crate::error::invalid;
 
-/// A whole number of the range that the library takes. Python's have no bounds; what exceeds 128 bits is Python's error.
+/// A whole number of the range that the library takes. Python's have no bounds; what exceeds 128 bits is Python's
+/// error.
 pub(crate) fn natural<T: TryFrom<i128>>(argument: &str, value: i128) -> PyResult<T> {
     value.try_into().map_err(|_| {
         let bits = 8 * size_of::<T>();
@@ -13,7 +14,7 @@ pub(crate) fn natural<T: TryFrom<i128>>(argument: &str, value: i128) -> PyResult
     })
 }
 
-/// What one of several names stands for.
+/// The value that one of several names stands for.
 pub(crate) fn choice<T: Copy>(argument: &str, name: &str, choices: &[(&str, T)]) -> PyResult<T> {
     match choices.iter().find(|&&(choice, _)| choice == name) {
         Some(&(_, value)) => Ok(value),

@@ -13,7 +13,8 @@ use crate::error::invalid;
 /// Imports numpy. Left to the first array, its absence or Ctrl-C during the import would be a panic.
 pub(crate) fn load(py: Python<'_>) -> PyResult<()> {
     py.import("numpy")?;
-    // The crate looks up numpy's functions at the first array, and its own book of borrowed arrays at the first one read.
+    // The crate looks up numpy's functions at the first array, and its own book of borrowed arrays at the first one
+    // read.
     PyArray1::<f32>::zeros(py, 0, false).try_readonly()?;
     Ok(())
 }
@@ -22,7 +23,7 @@ pub(crate) fn load(py: Python<'_>) -> PyResult<()> {
 pub(crate) trait Entry: Element + Copy {
     /// The kinds of numpy's types.
     const KINDS: &str;
-    /// What they are.
+    /// The name of the elements in messages.
     const WHAT: &str;
     /// The largest entry, where whole numbers are converted; the smallest is 0.
     const MOST: Option<u32> = None;

@@ -81,14 +81,12 @@ impl<'py> Request<'py> {
 /// A maximal Poisson-disk set of a rectangle or torus: no two samples are closer than a radius, and no place is farther
 /// from all of them. Time grows in proportion to the samples.
 ///
-/// radius: the smallest distance of two samples, above 0, in the units of the domain. Or:
-/// count: the number of samples, which is met exactly; the radius is found. Twice the work.
-/// domain_min, domain_max: the corners of the domain, two numbers each; samples lie in min <= x < max.
-/// boundary: "periodic" (distances wrap around) or "bounded".
-/// leaf_size: in radii, at least 6. Larger is faster and less biased.
-/// seed: 0 to 2**64 - 1. The same arguments and seed give the same bytes.
-/// order: "any", or "progressive": every prefix is well spread, and the points have ranks.
-/// quotient, coarsest: of a progressive order, the ratio of the radii of its levels (1.02 to 1.5, default 2**(1/8)) and the
+/// radius: the smallest distance of two samples, above 0, in the units of the domain. Or: count: the number of samples,
+/// which is met exactly; the radius is found. Twice the work. domain_min, domain_max: the corners of the domain, two
+/// numbers each; samples lie in min <= x < max. boundary: "periodic" (distances wrap around) or "bounded". leaf_size:
+/// in radii, at least 6. Larger is faster and less biased. seed: 0 to 2**64 - 1. The same arguments and seed give the
+/// same bytes. order: "any", or "progressive": every prefix is well spread, and the points have ranks. quotient,
+/// coarsest: of a progressive order, the ratio of the radii of its levels (1.02 to 1.5, default 2**(1/8)) and the
 ///     radius of the coarsest level (default: so large that it reaches over the domain).
 /// given_positions: float32, shape (m, 2): samples that stay and are not returned.
 /// given_clearances: float64, shape (m,): how far new samples are from each at least; default: the radius.
@@ -174,8 +172,8 @@ pub(crate) fn kdrt_sample_window(
     Points::plane(py, set)
 }
 
-/// A maximal set of several classes: samples of the classes i and j are at least radii[i][j] apart, and for each class i
-/// every place is within radii[i][j] of some sample of some class j.
+/// A maximal set of several classes: samples of the classes i and j are at least radii[i][j] apart, and for each class
+/// i every place is within radii[i][j] of some sample of some class j.
 ///
 /// radii: symmetric, float64, shape (k, k) with k from 1 to 16; classes_radii() makes such matrices.
 /// given_clearances: float64, shape (m, k). The others are those of kdrt_sample.
@@ -254,7 +252,7 @@ impl KdrtPlane {
         Ok(Self { plane, has_classes: classes.is_some() })
     }
 
-    /// The samples in a window, on the calling thread: those that kdrt_sample has there, to the byte.
+    /// The samples in a window, on the calling thread: the same as in the set of kdrt_sample, to the byte.
     ///
     /// window_min, window_max: the corners, two numbers each, inside the domain. Several threads may make windows at
     /// once.

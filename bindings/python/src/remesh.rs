@@ -7,12 +7,13 @@ use crate::array::Array;
 use crate::mesh::Mesh;
 use crate::watch::Watch;
 
-/// The mesh that dcr_remesh returns: a surface if non_manifold_vertices is 0, and a closed one if boundary_edges is 0 too.
+/// The mesh that dcr_remesh returns: a surface if non_manifold_vertices is 0, and a closed one if boundary_edges is 0
+/// too.
 #[pyclass(frozen, get_all, module = "azulejo")]
 pub(crate) struct DcrRemeshReport {
     /// Triangles of the mesh.
     triangles: u64,
-    /// Those that not all three of their corners have in their Delaunay stars.
+    /// The number of triangles that are not in the Delaunay stars of all three corners.
     disputed: u64,
     /// Triangles of stars that are not in the mesh, because they do not go with others.
     left_out: u64,
@@ -55,8 +56,9 @@ impl From<RemeshReport> for DcrRemeshReport {
     }
 }
 
-/// Makes a mesh whose vertices are samples of another mesh, spread about evenly as those of maximal and relaxed sets are:
-/// remeshing, to more triangles or to fewer. No edge has more than two triangles, and two at an edge are wound alike.
+/// Makes a mesh whose vertices are samples of another mesh, spread about evenly as those of maximal and relaxed sets
+/// are: remeshing, to more triangles or to fewer. No edge has more than two triangles, and two at an edge are wound
+/// alike.
 ///
 /// Samples that resolve the features of a closed surface, wound alike everywhere, give a closed surface of the same
 /// topology. Where they do not, as on thin blades, there are holes. Relaxed samples give the better angles.

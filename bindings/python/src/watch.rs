@@ -46,7 +46,7 @@ const INTERVAL: Duration = Duration::from_millis(20);
 struct Looking {
     progress: Option<Py<PyAny>>,
     last: Cell<Instant>,
-    /// What a signal handler or the callable raised.
+    /// The exception of a signal handler or of the callable.
     failed: RefCell<Option<PyErr>>,
 }
 
@@ -65,8 +65,8 @@ impl Looking {
     }
 }
 
-/// Asks a callable, after Python's signal handlers, whether to go on. Anything but False does, so that it need not return
-/// anything.
+/// Asks a callable, after Python's signal handlers, whether to go on. Anything but False does, so that it need not
+/// return anything.
 pub(crate) fn ask<'py>(py: Python<'py>, callable: &Py<PyAny>, argument: impl IntoPyObject<'py>) -> PyResult<bool> {
     py.check_signals()?;
     let answer = callable.bind(py).call1((argument,))?;

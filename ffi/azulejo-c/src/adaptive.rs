@@ -112,13 +112,14 @@ growing!(azulejo_psp_adaptive_options requires slope {
     quotient: 0.0,
 });
 
-/// The caller's function with what it is given, where the core can call it.
+/// The caller's function and its user pointer, as the core calls it.
 struct Callback {
     function: unsafe extern "C-unwind" fn(*mut c_void, *const f64) -> f64,
     user: *mut c_void,
 }
 
-// SAFETY: the caller's word, as the type of the function says: it may be called from several threads at once.
+// SAFETY: guaranteed by the caller, as the type of the function requires: it may be called from several threads at
+// once.
 unsafe impl Sync for Callback {}
 
 impl Callback {

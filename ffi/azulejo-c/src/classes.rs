@@ -56,7 +56,7 @@ pub unsafe extern "C" fn azulejo_classes_init(classes: *mut azulejo_classes, str
 }
 
 impl azulejo_classes {
-    /// The classes that the struct says.
+    /// The classes of the struct.
     ///
     /// # Safety
     /// Unless the checks fail, `radii` leads to `count * count` numbers.

@@ -81,7 +81,7 @@ pub struct azulejo_dcr_options {
     /// Must be 0.
     pub reserved: u32,
     /// Directions in which coincident points are separated, for azulejo_dcr_scatter the points, for
-    /// azulejo_dcr_relax_density those on which a heaped set is dealt out; any number, default 0.
+    /// azulejo_dcr_relax_density those of a clustered set's redistribution; any number, default 0.
     pub seed: u64,
     /// The motion (see the report) at which the set has converged, at least 0; 0 makes all steps.
     /// Any negative number, such as the default -1, selects the tolerance of the method: 0.001, or
@@ -303,10 +303,10 @@ pub(crate) fn reason(stopped: Stopped) -> i32 {
 /// Relaxes a set of points: neighbours that are too close repel each other and holes close, until
 /// the set has converged or all steps are made (thesis chapter 4).
 ///
-/// AZULEJO_METHOD_MOMENTUM levels a heaped set before the first step, one in which points are
+/// AZULEJO_METHOD_MOMENTUM levels a clustered set before the first step, one in which points are
 /// crowded in some places and missing in others: any set ends as a random one does, and after about
-/// the same time. A call that makes all steps succeeds whatever it has reached; the report has the
-/// figures.
+/// the same time. A call that makes all steps succeeds whether or not it has converged; the report
+/// has the figures.
 ///
 /// With AZULEJO_METHOD_MOMENTUM and Delaunay neighbours the result is, of the set before the first
 /// step and the states after whole steps, the one in which the fewest points have a neighbour

@@ -60,13 +60,14 @@ growing!(azulejo_density requires user {
     user: std::ptr::null_mut(),
 });
 
-/// The caller's function with what it is given, where the core can call it.
+/// The caller's function and its user pointer, as the core calls it.
 struct Callback {
     function: unsafe extern "C-unwind" fn(*mut c_void, *const f64) -> f64,
     user: *mut c_void,
 }
 
-// SAFETY: the caller's word, as the type of the function says: it may be called from several threads at once.
+// SAFETY: guaranteed by the caller, as the type of the function requires: it may be called from several threads at
+// once.
 unsafe impl Sync for Callback {}
 
 impl Callback {
@@ -158,7 +159,7 @@ pub unsafe extern "C" fn azulejo_dcr_scatter(
 /// place to place as the density says, and evenly spaced relative to it (thesis section 4.2.3).
 /// Points whose density is about right, such as those of azulejo_dcr_scatter and
 /// azulejo_psp_adaptive_sample, need no more than the default 100 steps. A set of more than 64
-/// points that is far from it is dealt out before the first step, onto points as
+/// points that is far from it is redistributed before the first step, onto points as
 /// azulejo_dcr_scatter makes them from the seed; those in between may need more steps.
 ///
 /// The unit of length is the local spacing: d_max for the mean density and proportional to 1 /

@@ -95,7 +95,7 @@ pub unsafe extern "C" fn azulejo_mesh_create_from_embree(
 }
 
 impl azulejo_embree_geometry {
-    /// What of it can be checked; `number` is its place in the caller's array.
+    /// Checks all that can be checked; `number` is the index in the caller's array.
     fn check(&self, number: usize) -> Result<(), Failure> {
         let refuse = |reason: String| Err(Failure::invalid("geometries", format!("[{number}]: {reason}")));
         for (name, stride) in [("vertex_stride", self.vertex_stride), ("index_stride", self.index_stride)] {

@@ -1,8 +1,8 @@
 //! Structs of the header that can grow: options, which the library reads, and reports, which it writes.
 //!
 //! The rules are those of the kernel's extensible system calls (openat2, clone3): the size travels with the struct.
-//! Fields that the caller's struct lacks take their defaults when it is read and are left out when it is written; a longer
-//! struct is welcome as long as the part that is unknown here is zero when it is read. It is never written.
+//! Fields that the caller's struct lacks take their defaults when it is read and are left out when it is written; a
+//! longer struct is welcome as long as the part that is unknown here is zero when it is read. It is never written.
 
 use std::slice;
 
@@ -20,11 +20,11 @@ const MAX_STRUCT_SIZE: usize = 4096;
 pub(crate) unsafe trait Growing: Copy {
     /// The name of the C type.
     const NAME: &str;
-    /// What the init function writes.
+    /// The struct that the init function writes.
     const DEFAULT: Self;
     /// Where each field ends, in order.
     const FIELD_ENDS: &[usize];
-    /// How much no caller may leave out.
+    /// The least `struct_size` that is accepted.
     const REQUIRED_END: usize;
 }
 
@@ -81,7 +81,7 @@ pub(crate) unsafe fn init<T: Growing>(argument: &str, pointer: *mut T, struct_si
     })
 }
 
-/// What the caller's struct says, with defaults for the fields that it does not have.
+/// The caller's struct, with defaults for the fields that it does not have.
 ///
 /// # Safety
 /// Unless the checks fail, `pointer` leads to as many bytes as its `struct_size` says.

@@ -235,7 +235,7 @@ pub unsafe extern "C" fn azulejo_kdrt_sample(
     })
 }
 
-/// What fraction of a call is the sampling where coverage is measured, which takes longer.
+/// The fraction of a call that is sampling, if coverage is measured, which takes longer.
 const SAMPLING_SHARE: f64 = 0.05;
 
 /// The share of the progress of a stream that its plane takes.

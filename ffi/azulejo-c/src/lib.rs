@@ -113,7 +113,7 @@
 //! High-Performance Blue-Noise Sampling, University of Tokyo, 2019 ("thesis" below).
 
 #![allow(non_camel_case_types)]
-// What a caller must guarantee is said once, at the top, and not repeated for each function.
+// The duties of a caller stand once, at the top, and are not repeated for each function.
 #![allow(clippy::missing_safety_doc)]
 
 mod boundary;
@@ -165,7 +165,7 @@ pub mod spectrum;
 
 pub mod differences;
 
-// What the conventions let several threads use at once.
+// Types that the conventions let several threads use at once.
 const _: () = {
     const fn shared<T: Send + Sync>() {}
     shared::<context::azulejo_context>();

@@ -250,7 +250,7 @@ pub unsafe extern "C" fn azulejo_mesh_deform(
 /// azulejo_mesh_deform each sample goes with its triangle.
 ///
 /// triangles: the triangle of each place, below azulejo_mesh_triangle_count; `count` of them.
-/// Triangles without area, and those that a mask leaves out, are allowed.
+/// Triangles without area and masked triangles are allowed.
 ///
 /// barycentrics: u v of each place, finite; `count` of them.
 ///
@@ -293,7 +293,7 @@ pub extern "C" fn azulejo_mesh_vertex_count(mesh: Option<&azulejo_mesh>) -> usiz
     mesh.map_or(0, |mesh| mesh.shared.positions().len())
 }
 
-/// The number of triangles, including those that a mask leaves out; 0 for NULL.
+/// The number of triangles, including masked ones; 0 for NULL.
 #[unsafe(no_mangle)]
 pub extern "C" fn azulejo_mesh_triangle_count(mesh: Option<&azulejo_mesh>) -> usize {
     mesh.map_or(0, |mesh| mesh.shared.triangles().len())

@@ -28,10 +28,10 @@ use crate::status::{Failure, azulejo_status};
 /// Returns the density, finite and at least 0.
 pub type azulejo_mesh_density_fn = Option<unsafe extern "C-unwind" fn(user: *mut c_void, position: *const f64) -> f64>;
 
-/// How many samples a set of a mesh has from place to place, per unit of area. Densities are
-/// finite, at least 0, and not 0 everywhere; where they are 0 there are no samples, and those
-/// beside are none the fewer for it. One of `vertex_values`, `function` and `image` must be set,
-/// and one of `radius` and `count`.
+/// The number of samples of a mesh per unit of area, from place to place. Densities are
+/// finite, at least 0, and not 0 everywhere; where they are 0 there are no samples, which
+/// does not affect the density beside it. One of `vertex_values`, `function` and `image` must be
+/// set, and one of `radius` and `count`.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct azulejo_mesh_density {
@@ -107,13 +107,14 @@ growing!(azulejo_mesh_density requires count {
     count: 0.0,
 });
 
-/// The caller's function with what it is given, where the core can call it.
+/// The caller's function and its user pointer, as the core calls it.
 struct Callback {
     function: unsafe extern "C-unwind" fn(*mut c_void, *const f64) -> f64,
     user: *mut c_void,
 }
 
-// SAFETY: the caller's word, as the type of the function says: it may be called from several threads at once.
+// SAFETY: guaranteed by the caller, as the type of the function requires: it may be called from several threads at
+// once.
 unsafe impl Sync for Callback {}
 
 impl Callback {

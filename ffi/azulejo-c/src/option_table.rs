@@ -64,7 +64,7 @@ fn sections() -> Vec<Section> {
         }
         let Some(section) = sections.last_mut() else { continue };
         if let Some((of, names)) = line.strip_prefix("* ").and_then(|line| line.split_once(": ")) {
-            // Behind the names may stand what they are.
+            // An explanation may follow the names.
             let names = names.split(": ").next().unwrap_or(names);
             section.names.insert(of.into(), quoted(names));
         }

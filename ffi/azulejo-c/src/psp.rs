@@ -57,7 +57,7 @@ pub const AZULEJO_ITERATIONS_DEFAULT: u32 = 0xffff_ffff;
 pub struct azulejo_psp_options {
     /// The size of the struct in bytes; set by the _init function.
     pub struct_size: u32,
-    /// How often azulejo_psp_sample projects its patterns, in 3 directions each time, before it
+    /// The number of projections of patterns by azulejo_psp_sample, in 3 directions each, before it
     /// fills the gaps. AZULEJO_ITERATIONS_DEFAULT, the default: 0 if `maximal` is 1, on every mesh
     /// and with every radius, since a set that is only filled is made sooner and prefers no
     /// direction; 1 if `maximal` is 0. Where no more than 25,000 samples are expected, on the area
@@ -163,7 +163,7 @@ impl azulejo_psp_options {
             .cosine(self.cosine))
     }
 
-    /// The request of a handle, whose calls say how often, and whether gaps are filled.
+    /// The request of a handle, whose calls determine the iterations and the filling.
     ///
     /// # Safety
     /// As [`given`] for the given samples.

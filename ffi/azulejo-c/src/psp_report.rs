@@ -1,4 +1,4 @@
-//! What calls that sample meshes report.
+//! The report of calls that sample meshes.
 
 use azulejo_core::psp::Report;
 

@@ -178,7 +178,7 @@ pub extern "C" fn azulejo_spectrum_power(spectrum: Option<&azulejo_spectrum>) ->
 /// annuli: receives at most `capacity` of them, from the lowest frequency; may be NULL if
 /// `capacity` is 0.
 ///
-/// out_count: their number, whatever the capacity.
+/// out_count: their number, which may exceed the capacity.
 ///
 /// O(size^2) time on the calling thread.
 ///

@@ -1,4 +1,4 @@
-//! What sets of the plane are like: their spacing, order, triangles and distances.
+//! Statistics of sets of the plane: spacing, order, triangles and distances.
 
 use azulejo_core::Domain;
 use azulejo_core::analysis::distribution::radial_distribution;

@@ -28,7 +28,7 @@ pub struct azulejo_dcr_surface_options {
     /// Any negative number, such as the default -1, selects 0.0005.
     pub tolerance: f64,
     /// Directions in which samples are separated that coincide or lie on edges of triangles, and
-    /// the points on which heaped samples are dealt out; any number, default 0.
+    /// the points onto which clustered samples are redistributed; any number, default 0.
     pub seed: u64,
     /// Called during the call; default NULL: the callback of the context, if it has one.
     pub progress: azulejo_progress_fn,
@@ -127,8 +127,8 @@ pub unsafe extern "C" fn azulejo_dcr_surface_report_init(
 /// tolerance, after any number of steps. A call that its progress callback cancels succeeds: it
 /// returns the samples after the last whole step, and AZULEJO_STOPPED_CANCELLED in the report.
 ///
-/// More than 64 samples that are heaped on a part of the surface are dealt out over all of it
-/// before the first step, onto random points that are no nearer to each other than the nearest
+/// More than 64 samples that are clustered on a part of the surface are redistributed over all of
+/// it before the first step, onto random points that are no nearer to each other than the nearest
 /// samples were: each connected part receives samples by its area. Without room for that they stay.
 ///
 /// triangles, barycentrics: the triangle and the barycentrics u v of each of `count` samples, as

@@ -118,7 +118,7 @@ pub unsafe fn loaded_version(device: RTCDevice) -> Version {
     }
 }
 
-/// Whether the loaded library is the one that this crate was built for: its version, and the sizes of the structs.
+/// Compares the loaded library with the one that this crate was built for: its version, and the sizes of the structs.
 ///
 /// # Errors
 /// The first [`Mismatch`]. Tracing would then read and write outside the structs.

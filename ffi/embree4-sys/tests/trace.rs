@@ -67,7 +67,7 @@ fn rounded(x: f32) -> f32 {
     (x * 1024.0).round() / 1024.0
 }
 
-/// What a filter sees of a query: the context that the query was given, with more behind it.
+/// A query as a filter sees it: the context that the query was given, with more behind it.
 #[repr(C)]
 struct Seen {
     context: RTCRayQueryContext,

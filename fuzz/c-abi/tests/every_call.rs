@@ -1,5 +1,5 @@
-//! Every call of the C ABI that needs no Embree and one thread only: small enough for Miri, which sees undefined behaviour
-//! at the FFI boundary that nothing else sees (scripts/miri.sh).
+//! Every call of the C ABI that needs no Embree and one thread only: small enough for Miri, which sees undefined
+//! behaviour at the FFI boundary that nothing else sees (scripts/miri.sh).
 
 use std::ffi::c_void;
 use std::mem::MaybeUninit;
@@ -27,7 +27,7 @@ use azulejo_c::version::{azulejo_has_embree, azulejo_version};
 
 type Out<'a, T> = Option<&'a mut MaybeUninit<T>>;
 
-/// What a call writes, which has to succeed.
+/// The output of a call, which has to succeed.
 fn made<T>(call: impl FnOnce(Out<T>) -> azulejo_status) -> T {
     let mut out = MaybeUninit::uninit();
     assert_eq!(call(Some(&mut out)), AZULEJO_OK, "{}", last_error());
@@ -122,7 +122,7 @@ fn planes() {
     options.radius = 0.45;
     options.progress = Some(count);
     options.progress_user = (&raw mut calls).cast();
-    // SAFETY: the options are of the size that they say, here and below.
+    // SAFETY: the options have the size in their `struct_size`, here and below.
     unsafe {
         assert!(read_and_free(made(|out| azulejo_kdrt_sample(Some(&context), &options, out, null_mut()))) > 2);
         let corners = [[0.0, 0.0], [0.5, 1.0f64]];
@@ -195,7 +195,7 @@ fn clouds() {
 fn surfaces() {
     let (context, mesh) = (context(), mesh());
     let normals = [0.0f32, 0.0, 1.0];
-    // SAFETY: the arrays are as long as told.
+    // SAFETY: the arrays have the given lengths.
     let (normal, masked) = unsafe {
         (
             made(|out| azulejo_mesh_with_normals(Some(&mesh), normals.as_ptr(), 1, 12, [0u32; 6].as_ptr(), 2, out)),
@@ -222,7 +222,7 @@ fn surfaces() {
     }
     let mut options = defaults(azulejo_psp_options_init);
     (options.radius, options.engine) = (0.9, AZULEJO_ENGINE_RASTERISER);
-    // SAFETY: the options are of the size that they say; the handle lives.
+    // SAFETY: the options have the size in their `struct_size`; the handle lives.
     unsafe {
         if !cfg!(miri) {
             read_and_free(made(|out| azulejo_psp_sample(Some(&context), Some(&normal), &options, out, null_mut())));
@@ -255,7 +255,7 @@ fn adaptive_surfaces() {
     let (context, mesh) = (context(), mesh());
     let mut options = defaults(azulejo_psp_adaptive_options_init);
     let mut out = MaybeUninit::uninit();
-    // SAFETY: the options are of the size that they say, and the array has four radii.
+    // SAFETY: the options have the size in their `struct_size`, and the array has four radii.
     unsafe {
         options.cosine = f64::NAN;
         let radii = [0.8f32, 0.9, 1.0, 1.1];
@@ -285,7 +285,7 @@ fn points() {
     let xy = [0.1f32, 0.2, 0.8, 0.3, 0.5, 0.9];
     let mut options = defaults(azulejo_dcr_options_init);
     options.max_iterations = 2;
-    // SAFETY: all arrays are as long as told.
+    // SAFETY: all arrays have the given lengths.
     unsafe {
         for method in [AZULEJO_METHOD_MOMENTUM, AZULEJO_METHOD_THESIS] {
             options.method = method;

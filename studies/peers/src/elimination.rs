@@ -1,18 +1,19 @@
-//! Sample elimination (Yuksel 2015, "Sample Elimination for Generating Poisson Disk Sample Sets"), written here from the
-//! paper: no registry has the author's own code as a package. Points on a surface; parameters are those of the paper.
+//! Sample elimination (Yuksel 2015, "Sample Elimination for Generating Poisson Disk Sample Sets"), written here from
+//! the paper: no registry has the author's own code as a package. Points on a surface; parameters are those of the
+//! paper.
 
 use std::collections::{BinaryHeap, HashMap};
 
 /// The exponent of weights.
 const ALPHA: i32 = 8;
-/// How far weights are limited (section 3.3), and how that depends on the share that is left.
+/// The limit of weights (section 3.3), and its dependence on the remaining share.
 const BETA: f64 = 0.65;
 const GAMMA: f64 = 1.5;
 
 type Point = [f32; 3];
 
-/// The numbers of so many of the points, which lie on a surface of this area: those that are left when the one with the
-/// largest weight has been eliminated again and again.
+/// The indices of so many of the points, which lie on a surface of this area: the points that are left when the one
+/// with the largest weight has been eliminated again and again.
 pub fn eliminate(points: &[Point], area: f64, count: usize) -> Vec<u32> {
     let mut left: Vec<u32> = (0..points.len() as u32).collect();
     eliminated(points, area, count, &mut left);

@@ -1,4 +1,5 @@
-//! What a set is worth: judged in `f64` from what the peer returned, by counting pairs, and by azulejo's exact coverage.
+//! The quality of a set: judged in `f64` from the points that the peer returned, by counting pairs, and by azulejo's
+//! exact coverage.
 
 use std::collections::HashMap;
 use std::error::Error;
@@ -9,11 +10,11 @@ use azulejo::analysis::{bonds, coverage};
 use azulejo::mesh::Mesh;
 use azulejo::{Boundary, Context, Domain};
 
-/// A set whose samples are floats, or are made such for azulejo's coverage, is taken to cover with disks that are larger by
-/// so many spacings of floats at the largest coordinate: azulejo promises no more.
+/// A set whose samples are floats, or are made such for azulejo's coverage, is taken to cover with disks that are
+/// larger by so many spacings of floats at the largest coordinate: azulejo promises no more.
 const ROUNDING: f64 = 6.0;
 
-/// What a set is worth.
+/// The quality of a set.
 #[derive(Clone, Copy)]
 pub struct Verdict {
     pub samples: usize,
@@ -26,7 +27,8 @@ pub struct Verdict {
     pub hexagonal: f64,
     /// Of sets in the plane.
     pub bond_order: Option<f64>,
-    /// Of thinned clouds that have an order, for the first tenth of the points: the farthest point of the cloud over the smallest distance.
+    /// Of thinned clouds that have an order, for the first tenth of the points: the farthest point of the cloud over
+    /// the smallest distance.
     pub of_first_tenth: Option<f64>,
 }
 
@@ -117,7 +119,7 @@ fn farthest(cloud: &[[f64; 3]], points: &[[f64; 3]], side: f64) -> f64 {
     let nearest = |point: &[f64; 3]| {
         let (home, mut least) = (cell(point), f64::INFINITY);
         for ring in 0i64.. {
-            // What is nearer than the rings that have been searched is known.
+            // A distance below that of the rings that have been searched is final.
             if least.sqrt() <= (ring - 1) as f64 * side {
                 break;
             }

@@ -1,7 +1,7 @@
 //! azulejo beside its peers: one run, one machine, one page.
 //!
-//! Each peer runs in a process of its own, which says how long its call took, how busy its threads were and how much memory it
-//! took on top; all that is judged here, from the samples that it wrote.
+//! Each peer runs in a process of its own, which says how long its call took, how busy its threads were and how much
+//! memory it took on top; all that is judged here, from the samples that it wrote.
 
 // Figures on a page need not be the same bytes on every processor.
 #![allow(clippy::disallowed_methods)]
@@ -36,7 +36,7 @@ enum Command {
         mesh: PathBuf,
         #[arg(long)]
         page: PathBuf,
-        /// What the page says of the packages' versions.
+        /// The packages' versions, as the page gives them.
         #[arg(long)]
         packages: String,
     },

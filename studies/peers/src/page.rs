@@ -82,7 +82,7 @@ fn absent(table: &Table, tables: &[Table]) -> Option<String> {
     Some(format!(" For {count} {what}, to save time, also these were not: {names}."))
 }
 
-/// What a count counts.
+/// The unit of a count.
 fn kind(kind: Kind) -> &'static str {
     match kind {
         Kind::Surface => "samples on the mesh",
@@ -198,7 +198,7 @@ fn won(table: &Table) -> Vec<String> {
             .filter_map(|(title, value)| {
                 let (value, ours) = (significant(value.abs()), significant(ours.abs()));
                 let (count, what) = (grouped(table.count), kind(table.kind));
-                // What is better by less than is printed is no better.
+                // A difference below the printed digits is no advantage.
                 (value != ours).then(|| format!("{title}: {name} {value}{unit}, not {ours}{unit} ({count} {what})"))
             })
             .collect::<Vec<_>>()

@@ -25,7 +25,7 @@ enum Language {
     Blender,
 }
 
-/// What a peer is asked for.
+/// The task of a peer.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Asked {
     /// A smallest distance, which is then a promise.
@@ -102,14 +102,14 @@ const CLOUDS: [Peer; 9] = [
     peer("point-cloud-utils downsample_point_cloud_poisson_disk", "cloud_thinned", Python, Radius, usize::MAX),
 ];
 
-/// What a peer made of a task, or why it did not.
+/// The outcome of a task, or the reason why there is none.
 pub struct Row {
     pub title: &'static str,
     pub asked: Asked,
     pub result: Result<Outcome, String>,
 }
 
-/// What a peer made of a task.
+/// The outcome of a task.
 pub struct Outcome {
     /// The least of all rounds, of each quantity.
     pub cost: Cost,

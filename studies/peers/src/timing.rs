@@ -1,9 +1,9 @@
-//! What a call takes, by what Linux knows of this process.
+//! The time and memory of a call, as Linux records them for this process.
 
 use std::fs;
 use std::time::Instant;
 
-/// What a call took.
+/// The cost of a call.
 #[derive(Clone, Copy, Debug)]
 pub struct Cost {
     pub seconds: f64,
@@ -32,7 +32,8 @@ fn memory(field: &str) -> f64 {
 
 fn processor_time() -> f64 {
     let stat = fs::read_to_string("/proc/self/stat").expect("Linux has it");
-    // After the name, which may hold anything, come the fields from the third on; 14 and 15 are user's and system's ticks.
+    // After the name, which may hold anything, come the fields from the third on; 14 and 15 are user's and system's
+    // ticks.
     let fields = stat.rsplit(')').next().expect("a name").split_whitespace();
     fields.skip(11).take(2).map(|ticks| ticks.parse::<f64>().expect("ticks")).sum::<f64>() / TICKS
 }

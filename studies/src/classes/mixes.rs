@@ -43,7 +43,7 @@ impl Mix {
     }
 }
 
-/// How much samples per area a maximal set of a radius has.
+/// The number of samples per area of a maximal set of a radius.
 pub fn density(radius: f64) -> f64 {
     MAXIMAL_DENSITY / (radius * radius)
 }

@@ -9,7 +9,7 @@ use super::mixes::{FACTORS, MIXES, Mix};
 use super::{Effort, wei};
 use crate::blue::Blue;
 
-/// What makes sets.
+/// A sampler of several classes.
 #[derive(Clone, Copy, PartialEq)]
 pub enum Maker {
     /// The library, with a factor on Wei's cross radii.
@@ -30,9 +30,9 @@ pub struct Measured {
     pub classes: Classes,
     /// Of each class, how many samples it has in parts of what it has alone.
     pub shares: Vec<f64>,
-    /// How blue each class is.
+    /// The spectral figures of each class.
     pub members: Vec<Blue>,
-    /// How blue all samples together are.
+    /// The spectral figures of the union.
     pub union: Blue,
     /// The first set, by class.
     pub first: Vec<Vec<[f32; 2]>>,
@@ -95,7 +95,7 @@ fn sampled(context: &Context, classes: &Classes, seed: u64) -> Result<Vec<Vec<[f
     Ok(by_class)
 }
 
-/// How many samples a class has alone, in the mean of the sets.
+/// The number of samples of a class that is alone, in the mean of the sets.
 fn count_alone(context: &Context, radius: f64, effort: &Effort) -> Result<f64> {
     let count = |seed| Ok(kdrt::sample(context, &Options::new(radius).seed(seed), None)?.len() as f64);
     Ok((0..effort.sets).map(count).sum::<Result<f64>>()? / effort.sets as f64)

@@ -1,4 +1,4 @@
-//! How long several classes take, against one class in the same run.
+//! The time of several classes, against one class in the same run.
 
 use std::sync::Arc;
 
@@ -11,7 +11,7 @@ use super::mixes::{MIXES, Mix, PICTURED, density};
 use crate::repeated::Repeated;
 use crate::timing::{Rounds, in_turns};
 
-/// What is timed, and how many times as long as one class a sample may take.
+/// The mixes that are timed, and the largest time of a sample as a multiple of that with one class.
 pub const TIMED: [(Mix, f64); 6] = [
     (MIXES[0], 2.0),
     (MIXES[1], 2.0),

@@ -1,10 +1,10 @@
-//! Multi-class dart throwing after Wei 2010, "Multi-class blue noise sampling", §4: what the library's sets are compared
-//! with. Written from the paper's description, on the unit torus and on one thread.
+//! Multi-class dart throwing after Wei 2010, "Multi-class blue noise sampling", §4: what the library's sets are
+//! compared with. Written from the paper's description, on the unit torus and on one thread.
 //!
 //! Each dart is of the class that has the smallest share of the samples that it should have. A dart that conflicts may
-//! take the place of the samples in its way, if its class could not be served otherwise for long, and all of them are of
-//! classes of smaller own radii. Wei also asks that these have no smaller share; none has, as the dart's class has the
-//! smallest. It ends after a number of darts, so its sets are not maximal.
+//! take the place of the samples in its way, if its class could not be served otherwise for long, and all of them are
+//! of classes of smaller own radii. Wei also asks that these have no smaller share; none has, as the dart's class has
+//! the smallest. It ends after a number of darts, so its sets are not maximal.
 
 use azulejo::Classes;
 
@@ -20,7 +20,7 @@ const DARTS: f64 = 100.0;
 pub fn sample(classes: &Classes, seed: u64) -> Vec<Vec<[f32; 2]>> {
     let count = classes.count();
     let mut grids: Vec<Grid> = (0..count).map(|class| Grid::new(widest(classes, class))).collect();
-    // How many samples a class should have, up to a factor that is the same for all: as many as it would have alone.
+    // The wanted share of each class, up to a common factor: its number of samples when it is alone.
     let wanted: Vec<f64> = (0..count).map(|class| density(classes.own(class))).collect();
     let mut failed = vec![0.0; count];
     let mut random = Random(seed);

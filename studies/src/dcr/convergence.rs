@@ -30,12 +30,12 @@ pub fn section(study: &Study) -> Result<String> {
     Ok(by_start(study, count, sets)? + "\n" + &by_step(study, by_size.0, by_size.1)?)
 }
 
-/// How a relaxation ended.
+/// The end of a relaxation.
 #[derive(Clone, Copy)]
 struct End {
     steps: f64,
     rho: f64,
-    /// Whether the test was met before the steps were made.
+    /// True if the test was met before all steps were made.
     is_met: bool,
 }
 

@@ -18,7 +18,7 @@ use azulejo_cli::stipple::dots;
 use azulejo_cli::text::{grouped, rounded};
 use tone::{Tone, WIDTHS};
 
-/// How dots are made, in the order of the table.
+/// The methods that make dots, in the order of the table.
 const METHODS: [&str; 4] = ["random", "PSP", "PSP, relaxed", "random, relaxed"];
 
 /// The methods that are compared with PSP alone, and their names in the table of the goal.

@@ -1,4 +1,4 @@
-//! How the variance of distances falls, by how tensions are divided (thesis fig. 4.19 and 4.20).
+//! The fall of the variance of distances for each division of tensions (thesis fig. 4.19 and 4.20).
 
 use std::fmt::Write;
 

@@ -1,5 +1,5 @@
-//! Other methods on the same starts (thesis fig. 4.16 to 4.18): push-pull, centroidal Voronoi tessellations, farthest point
-//! optimisation, capacity-constrained tessellations.
+//! Other methods on the same starts (thesis fig. 4.16 to 4.18): push-pull, centroidal Voronoi tessellations, farthest
+//! point optimisation, capacity-constrained tessellations.
 
 mod capacity;
 mod farthest;
@@ -27,7 +27,7 @@ use push_pull::Aims;
 /// d_max where the mean area of a cell is 1: √(2 / √3).
 const HEXAGONAL: f64 = 1.074_569_931_823_542;
 
-/// What is aimed at by push-pull: the defaults of published code for it, areas relative to their mean.
+/// The aims of push-pull: the defaults of its published code, areas relative to their mean.
 const AIMS: Aims = Aims { distance: 0.87, cover: 0.65, area: 0.0386 };
 const PUSH_PULL_ROUNDS: u32 = 300;
 
@@ -35,7 +35,7 @@ const PUSH_PULL_ROUNDS: u32 = 300;
 const STILL: f64 = 1e-3;
 const LLOYD_STEPS: u32 = 1000;
 
-/// What the mean distance to the nearest point grows by in the last round of farthest point optimisation, in units of d_max.
+/// The growth of the mean nearest distance in the last round of farthest point optimisation, in units of d_max.
 const GROWTH: f64 = 1e-4;
 const FARTHEST_ROUNDS: u32 = 100;
 
@@ -43,11 +43,11 @@ const FARTHEST_ROUNDS: u32 = 100;
 pub const CAPACITY: usize = 256;
 const CAPACITY_ROUNDS: u32 = 300;
 
-/// What a method made.
+/// The outcome of a method.
 pub struct Outcome {
     pub points: Vec<[f32; 2]>,
     pub steps: u32,
-    /// Whether it came to its end before all steps were made.
+    /// True if it converged before all steps were made.
     pub is_met: bool,
 }
 
@@ -72,7 +72,7 @@ impl Method {
         }
     }
 
-    /// Points and sets: those that a method can make in some minutes.
+    /// The numbers of points and of sets, which a method makes in some minutes.
     fn sizes(self, quick: bool) -> &'static [(usize, u64)] {
         match (self, quick) {
             (Self::PushPull, true) => &[(300, 2)],
@@ -245,7 +245,8 @@ mod tests {
         // Lloyd's are the most regular.
         let [regular, others] = [&lloyd, &capacity].map(|outcome| quality(&outcome.points).order);
         assert!(regular > 0.6 && regular > others && regular > found.order, "{regular} {others}");
-        // Equal capacities: areas of triangles vary less than in a random set, power at low frequencies all but vanishes.
+        // Equal capacities: areas of triangles vary less than in a random set, power at low frequencies all but
+        // vanishes.
         let domain = Domain::unit(Boundary::Periodic);
         let areas = |points: &[[f32; 2]]| {
             triangle_statistics(&Context::new(1).unwrap(), &domain, points, None).unwrap().area_variation

@@ -173,7 +173,7 @@ fn section(name: &str, effort: &Effort, measured: &[Measured]) -> String {
     text
 }
 
-/// What sets are like along a boundary.
+/// The section on sets along a boundary.
 fn boundaries(effort: &Effort, measured: &[bounded::Measured]) -> String {
     let mut text = format!(
         "## Bounded\n\n\

@@ -1,4 +1,4 @@
-//! What the radii do to the thesis's sets (thesis fig. 4.13 to 4.15).
+//! The effect of the radii on the thesis's sets (thesis fig. 4.13 to 4.15).
 
 use std::fmt::Write;
 
@@ -22,7 +22,7 @@ const DELAUNAY: [[f64; 2]; 4] = [[0.8, 1.2], [0.9, 1.1], [0.95, 1.05], [0.99, 1.
 /// Nearest neighbours: conflict radii, as in fig. 4.15, and K. The last ones are not drawn.
 const NEAREST: [(f64, u32); 7] = [(0.8, 6), (0.9, 6), (0.95, 6), (0.99, 6), (0.95, 1), (0.95, 3), (0.95, 12)];
 
-/// How many settings of each neighbourhood are drawn.
+/// The number of settings of each neighbourhood that are drawn.
 const DRAWN: usize = 4;
 
 /// One setting of the algorithm, and what to call it.

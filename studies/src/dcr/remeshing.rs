@@ -17,7 +17,7 @@ use azulejo_cli::draw::plot::{Axis, Panel};
 use azulejo_cli::summary::Summary;
 use azulejo_cli::text::grouped;
 
-/// What is made of KDRT's sets.
+/// The treatments of KDRT's sets.
 #[derive(Clone, Copy, PartialEq)]
 enum Treatment {
     None,
@@ -112,10 +112,10 @@ fn text(by_treatment: &[&[TriangleStatistics]], count: usize, drawn: usize) -> S
     text + &claims(by_treatment)
 }
 
-/// What the thesis says of CCVT and its own algorithm: by [`FIGURES`], which of the two has less.
+/// The thesis's claims about CCVT and its own algorithm: by [`FIGURES`], which of the two has less.
 const CLAIMS: [(usize, Treatment); 3] = [(0, Treatment::Thesis), (3, Treatment::Thesis), (4, Treatment::Capacity)];
 
-/// Whether they are as the thesis says, of the thesis's algorithm and of the momentum method.
+/// The claims and whether they hold, for the thesis's algorithm and for the momentum method.
 fn claims(by_treatment: &[&[TriangleStatistics]]) -> String {
     let sets = |treatment: Treatment| by_treatment[TREATMENTS.iter().position(|one| one.1 == treatment).unwrap_or(0)];
     let cases = [Treatment::Thesis, Treatment::Momentum].into_iter().flat_map(|own| CLAIMS.map(|claim| (own, claim)));
@@ -143,8 +143,8 @@ fn claims(by_treatment: &[&[TriangleStatistics]]) -> String {
     text
 }
 
-/// A column for each set: obtuse triangles, triangles the darker the farther their area is from the mean and in ochre beyond
-/// 4σ, and edges that are much longer or shorter than the mean.
+/// A column for each set: obtuse triangles, triangles the darker the farther their area is from the mean and in ochre
+/// beyond 4σ, and edges that are much longer or shorter than the mean.
 fn draw(sets: &[(Vec<Triangle>, TriangleStatistics)], study: &Study) -> Result<()> {
     let mut canvas = Canvas::new(1705.0, 1320.0, 1322);
     let style = Style { size: 21.0, colour: SLATE, align: Align::Centre, upwards: true };

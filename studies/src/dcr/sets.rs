@@ -1,4 +1,4 @@
-//! What is relaxed, and by which methods.
+//! The sets that are relaxed, and the methods.
 
 use azulejo::dcr::{Neighbourhood, Options};
 use azulejo::kdrt::{self, CountOptions};
@@ -8,8 +8,8 @@ use azulejo::{Context, Domain, Result, psp};
 use crate::kdrt::radius;
 use crate::reference;
 
-/// The seed of the first set of each kind. No setting of a method was chosen by what sets of these seeds gave; take other
-/// seeds to tune one.
+/// The seed of the first set of each kind. No setting of a method was chosen by what sets of these seeds gave; take
+/// other seeds to tune one.
 pub const FIRST_SEED: u64 = 31_000;
 
 /// A method, with its default options.
@@ -39,13 +39,13 @@ impl Method {
     }
 }
 
-/// What a set is before it is relaxed.
+/// A set before relaxation.
 #[derive(Clone, Copy, PartialEq)]
 pub enum Start {
     Random,
     /// A maximal Poisson-disk set.
     Kdrt,
-    /// What the thesis's projections leave on a square, which is not filled. It knows no torus.
+    /// The thesis's projections onto a square, without filling. They have no torus.
     Psp,
 }
 

@@ -1,4 +1,4 @@
-//! What spacing relaxed sets on meshes reach, over several seeds, against the goal.
+//! The spacing of relaxed sets on meshes over several seeds, against the goal.
 
 use std::fmt::Write;
 use std::sync::Arc;

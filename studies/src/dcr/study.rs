@@ -1,4 +1,4 @@
-//! What the sections that follow the tables of the methods work with.
+//! The context of the sections that follow the tables of the methods.
 
 use std::path::Path;
 
@@ -10,12 +10,12 @@ use azulejo_cli::draw::rows::in_parallel;
 use azulejo_cli::output::Output;
 use azulejo_cli::progress::watched;
 
-/// What a section has to work with.
+/// The context of a section.
 pub struct Study<'a> {
     pub context: &'a Context,
     /// The files of the page.
     pub files: &'a Files,
-    /// Whether few and small sets are enough.
+    /// True if few and small sets suffice.
     pub quick: bool,
     /// The files of meshes, where they were given.
     pub bunny: Option<&'a Path>,
@@ -28,8 +28,8 @@ impl Study<'_> {
         self.files.picture(name)
     }
 
-    /// `[work(0), .., work(count - 1)]`, each on one thread, as many at a time as there are threads: one relaxation by the
-    /// thesis's algorithm has little to share.
+    /// `[work(0), .., work(count - 1)]`, each on one thread, as many at a time as there are threads: one relaxation by
+    /// the thesis's algorithm has little to share.
     pub fn each<T: Send>(
         &self,
         what: &'static str,

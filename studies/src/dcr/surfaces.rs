@@ -29,14 +29,14 @@ struct Remeshed {
     triangles: Vec<[u32; 3]>,
     report: RemeshReport,
     statistics: TriangleStatistics,
-    /// In units of d_max the smallest distance of two samples through space, and of two that are joined by a triangle; the
-    /// mean distance to the nearest sample.
+    /// In units of d_max the smallest distance of two samples through space, and of two that are joined by a triangle;
+    /// the mean distance to the nearest sample.
     rho: f64,
     joined: f64,
     nearest: f64,
 }
 
-/// What relaxation makes of a set.
+/// A set before and after relaxation.
 struct Case {
     mesh: &'static str,
     triangles: usize,
@@ -176,7 +176,7 @@ fn text(study: &Study, cases: &[Case], spacings: &[Spacing], pictured: &Case) ->
     text
 }
 
-/// How much of the surface is drawn, in nearest distances from the middle.
+/// The extent of the surface that is drawn, in nearest distances from the middle.
 const REACH: f64 = 13.0;
 
 /// The triangles around the foremost place, seen along its normal, before and after.

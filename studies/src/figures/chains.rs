@@ -1,4 +1,5 @@
-//! How many projectors at once: chains of validity checks by the number of priorities (thesis §3.4.3, fig. 3.16).
+//! The number of projectors that are processed at once: chains of validity checks by the number of priorities (thesis
+//! §3.4.3, fig. 3.16).
 
 use std::fmt::Write;
 use std::ops::ControlFlow;
@@ -19,12 +20,12 @@ use crate::repeated::{Repeated, cell, lowest};
 
 /// Projectors of a set, a multiple of all [`SIZES`]: the same for each, so that all sets get the same candidates.
 const PROJECTORS: usize = 12;
-/// How many of them are processed at once, each with a priority of its own.
+/// The numbers of projectors that are processed at once, each with a priority of its own.
 const SIZES: [usize; 6] = [1, 2, 3, 4, 6, 12];
 /// Candidates of a parallel task.
 const TASK: usize = 1024;
 
-/// What checks of validity found, and their time.
+/// The results of checks of validity, and their time.
 #[derive(Clone, Copy, Default)]
 struct Checks {
     samples: usize,
@@ -34,8 +35,8 @@ struct Checks {
     seconds: f64,
 }
 
-/// Whether no valid candidate of higher priority is too close (algorithm 6, `IsValid`), and the length of the chain. Like
-/// the thesis's threads it remembers nothing.
+/// True if no valid candidate of higher priority is too close (algorithm 6, `IsValid`), and the length of the chain. As
+/// in the thesis's threads, no result is stored.
 fn is_valid(candidates: &Near<usize>, (point, projector): (Vec3, usize), checks: &mut u64) -> (bool, u32) {
     *checks += 1;
     let mut longest = 0;
@@ -81,8 +82,8 @@ fn merged(context: &Context, batches: &[Vec<Vec3>], size: usize, radius: f32) ->
     Ok(Checks { seconds: start.elapsed().as_secs_f64(), ..total })
 }
 
-/// The candidates of projectors in random directions: hits on the rays of a planar pattern, no two of one projector closer
-/// than the radius. Lengths are in units of the diagonal of the mesh's box.
+/// The candidates of projectors in random directions: hits on the rays of a planar pattern, no two of one projector
+/// closer than the radius. Lengths are in units of the diagonal of the mesh's box.
 fn batches(context: &Context, tracer: &Tracer, radius: f64, seed: u64) -> Result<Vec<Vec<Vec3>>> {
     let mut unit = stream(seed);
     let domain = Domain { min: [-0.5; 2], max: [0.5; 2], boundary: Boundary::Bounded };

@@ -12,7 +12,7 @@ use crate::timing::in_turns;
 use azulejo_cli::progress::watched;
 use azulejo_cli::text::grouped;
 
-/// What "similar" allows, a limit set here: one takes at most so many times as long as the other.
+/// The largest ratio of two times that counts as "similar", a limit set here.
 const SIMILAR: f64 = 1.5;
 
 /// The section.

@@ -1,5 +1,5 @@
-//! Virtual point lights (thesis fig. 3.22): the errors that the example program prints, of blue-noise lights and of as many
-//! random ones.
+//! Virtual point lights (thesis fig. 3.22): the errors that the example program prints, of blue-noise lights and of as
+//! many random ones.
 
 use std::fmt::Write;
 use std::path::Path;
@@ -75,7 +75,7 @@ fn measured(program: &Path, count: usize) -> Result<[Mean; 2]> {
     }
 }
 
-/// What the program prints of lights of one kind: "40 sets", then "random: error 0.1234 +- 0.0012".
+/// The line that the program prints of lights of one kind: "40 sets", then "random: error 0.1234 +- 0.0012".
 fn printed(said: &str, kind: &str) -> Option<Mean> {
     let (before, _) = said.split_once(" sets")?;
     let (_, errors) = said.split_once(kind)?;

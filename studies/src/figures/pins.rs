@@ -16,16 +16,17 @@ use azulejo_cli::progress::watched;
 use azulejo_cli::summary::Summary;
 use azulejo_cli::text::rounded;
 
-/// How far the pins are from the centre of the domain, in its sides.
+/// The distance of the pins from the centre of the domain, in its sides.
 const FAR: f64 = 20.0;
-/// How far from the boundary points are mirrored, in units of d_max: farther than a triangle that reaches over it.
+/// The distance from the boundary up to which points are mirrored, in units of d_max: more than a triangle that crosses
+/// it.
 const MIRRORED: f64 = 4.0;
 /// A force within this cosine of the reverse of the one before: the point oscillates (thesis §4.4.2).
 const OSCILLATION_COSINE: f64 = 0.95;
 /// Pixels per unit of the picture.
 const PIXELS: u32 = 2;
 
-/// What is beyond the domain.
+/// The points beyond the domain.
 #[derive(Clone, Copy)]
 enum Beyond {
     /// Four points far away: the hull is convex, and nothing else. They exert no force.

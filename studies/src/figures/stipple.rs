@@ -25,7 +25,7 @@ const LIGHTEST: f64 = 0.01;
 /// Of so many parts along each edge of the picture one is drawn.
 const PARTS: usize = 10;
 
-/// What was made.
+/// A stippled image.
 struct Stippled {
     dots: usize,
     seconds: Repeated,

@@ -10,8 +10,8 @@ use crate::verdict::Mean;
 use azulejo_cli::draw::spectra::{FREQUENCY_LIMIT, spectrum_up_to};
 use azulejo_cli::quality::Quality;
 
-/// How far the spectrum goes that effective Nyquist frequency and oscillation are found by, in units of sqrt(density), and
-/// the width of its annuli.
+/// The extent of the spectrum from which the effective Nyquist frequency and the oscillation are computed, in units of
+/// sqrt(density), and the width of its annuli.
 const FREQUENCY_REACH: f64 = 7.0;
 const ANNULUS: f64 = 0.02;
 

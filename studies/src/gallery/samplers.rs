@@ -9,7 +9,7 @@ use crate::dcr::sets::{METHODS, Method};
 use crate::kdrt;
 use crate::reference;
 
-/// What makes a set.
+/// A sampler.
 #[derive(Clone, Copy)]
 pub enum Sampler {
     Random,
@@ -42,7 +42,7 @@ impl Sampler {
         }
     }
 
-    /// How many sets of it are made.
+    /// The number of its sets.
     pub fn sets(self, effort: &Effort) -> u64 {
         match self {
             Self::Relaxed(method) if method.is_thesis => effort.slow_sets,

@@ -68,7 +68,8 @@ fn near(x: f64, side: usize) -> std::ops::Range<usize> {
     clamp((x - REACH - 0.5).ceil())..clamp((x + REACH + 0.5).floor())
 }
 
-/// How far a picture is from the [`reference()`]: root mean squares over pixels, in units of the plate's amplitude.
+/// The difference of a picture from the [`reference()`]: root mean squares over pixels, in units of the plate's
+/// amplitude.
 #[derive(Clone, Copy)]
 pub struct Errors {
     /// Where the plate has frequencies that a picture can show, along both axes together.

@@ -49,7 +49,7 @@ pub fn section(study: &Study) -> Result<String> {
     Ok(rows_in("Files of meshes", about, &rows))
 }
 
-/// Writes a mesh as an OBJ file, and says how many bytes it has.
+/// Writes a mesh as an OBJ file; returns its size in bytes.
 fn write_obj(mesh: &Mesh, path: &Path) -> Result<usize> {
     let mut text = String::new();
     mesh.positions().iter().for_each(|[x, y, z]| _ = writeln!(text, "v {x} {y} {z}"));

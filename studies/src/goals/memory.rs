@@ -17,7 +17,7 @@ const RESET: &str = "/proc/self/clear_refs";
 /// Blocks above 64 KiB come from the system and go back to it: what was freed before a call does not serve it unseen.
 const ALLOCATOR: [(&str, &str); 2] = [("MALLOC_MMAP_THRESHOLD_", "65536"), ("MALLOC_TRIM_THRESHOLD_", "0")];
 
-/// The MB that a fill of the dragon takes, as another process says.
+/// The MB that a fill of the dragon takes in a process of its own.
 pub fn in_a_process_of_its_own(dragon: &Dragon, count: f64) -> Result<f64> {
     let program = std::env::current_exe().map_err(|source| Error::Io { path: PathBuf::new(), source })?;
     let mut command = Command::new(&program);

@@ -1,4 +1,4 @@
-//! The rows of the page: what is asked, what was measured, and whether it is enough.
+//! The rows of the page: target, measurement and verdict.
 
 use azulejo_cli::text::rounded;
 
@@ -14,7 +14,7 @@ pub struct Figure {
     of: Of,
 }
 
-/// What a figure is of.
+/// The quantity of a figure.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Of {
     /// The median of so many rounds.
@@ -36,7 +36,7 @@ impl Figure {
         Self::of_rounds(rounds.seconds.iter().map(|seconds| scale * seconds))
     }
 
-    /// How many times as long one call takes as another that it took turns with.
+    /// The ratio of the times of two calls that took turns.
     pub fn ratio(one: &Rounds, other: &Rounds) -> Self {
         Self::of_rounds(one.seconds.iter().zip(&other.seconds).map(|(one, other)| one / other))
     }
@@ -53,7 +53,7 @@ impl Figure {
         Self { value: range[1], range, of: Of::All }
     }
 
-    /// Whether a goal is met: by every round or by none, or by the worst of all.
+    /// True if a goal is met: by every round, or by the worst of all; `None` if rounds disagree.
     fn meets(&self, goal: Goal) -> Option<bool> {
         let [low, high] = self.range.map(|end| goal.is_met(end));
         match self.of {
@@ -69,7 +69,7 @@ fn range(values: impl IntoIterator<Item = f64>) -> [f64; 2] {
         .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| [f64::min(low, value), f64::max(high, value)])
 }
 
-/// What a figure has to be.
+/// The condition on a figure.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Goal {
     AtMost(f64),

@@ -14,7 +14,8 @@ use crate::timing::{Rounds, in_turns};
 use azulejo_cli::text::{grouped, rounded};
 
 const POINTS: f64 = 8000.0;
-/// The time over that of a uniform start, the smallest distance and the covering radius in units of the hexagonal distance.
+/// The time over that of a uniform start, the smallest distance and the covering radius in units of the hexagonal
+/// distance.
 const TIME: f64 = 1.5;
 const RHO: f64 = 0.855;
 const COVER: f64 = 0.67;
@@ -53,7 +54,7 @@ fn points(start: &str, count: usize) -> Vec<[f32; 2]> {
     (0..count).map(&mut point).collect()
 }
 
-/// What a start ends as.
+/// The end of a relaxation from a start.
 struct Ended {
     start: &'static str,
     boundary: Boundary,

@@ -21,7 +21,7 @@ const THESIS: [[f64; 3]; 4] = [[63.0, 1.84, 10.56], [21.0, 3.37, 13.15], [9.0, 5
 /// The values of a quantity, one of each set or group of sets.
 type Figure = fn(&Peak) -> &[f64];
 
-/// What stands out is measured by.
+/// The figures of peaks of the spectrum.
 const PEAKS: [(&str, Figure); 3] = [
     ("largest power", |peak| &peak.power),
     ("largest power over its annulus", |peak| &peak.over_mean),
@@ -31,8 +31,8 @@ const PEAKS: [(&str, Figure); 3] = [
 /// Where [`Statistics::peaks`] are.
 const PLACES: [&str; 3] = ["axes", "fill blocks", "cells"];
 
-/// How far the density of the default leaf size may be from that of an unbiased set, in percent: what was asked of the first
-/// version, and of 0.2.
+/// The largest difference of the density at the default leaf size from that of an unbiased set, in percent: the goals
+/// of the first version, and of 0.2.
 const DENSITY_GOALS: [f64; 2] = [0.5, 0.2];
 
 /// The nanoseconds per sample that its fill may take.

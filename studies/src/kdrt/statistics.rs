@@ -1,4 +1,4 @@
-//! How unbiased the sets of a sampler are: their density, and contrast and peaks of their spectra.
+//! The bias of the sets of a sampler: density, and contrast and peaks of their spectra.
 
 use std::collections::BTreeMap;
 
@@ -16,7 +16,7 @@ pub const CONTRAST_RANGE: std::ops::Range<f64> = 0.5..2.0;
 const BLOCK: f64 = 4.8;
 const CELL: f64 = std::f64::consts::FRAC_1_SQRT_2;
 
-/// What stands out at some frequencies.
+/// The peak of the spectrum over some frequencies.
 #[derive(Default)]
 pub struct Peak {
     /// The largest power in the mean spectrum of each group.
@@ -49,21 +49,21 @@ impl Peak {
     }
 }
 
-/// What the sets of one sampler are like.
+/// The statistics of the sets of one sampler.
 pub struct Statistics {
     pub sampler: Sampler,
-    /// Whether the sets are made of tiles: small ones are not.
+    /// True if the sets are tiled: small ones are not.
     pub is_tiled: bool,
     /// N·r² per area, of each set.
     pub density: Vec<f64>,
     /// The contrast of the periodogram, of each set.
     pub contrast: Vec<f64>,
-    /// What stands out on the axes, the harmonics of the fill blocks and of the cells.
+    /// The peaks on the axes, at the harmonics of the fill blocks and of the cells.
     pub peaks: [Peak; 3],
     /// The mean periodogram of all sets, and its anisotropy.
     pub spectrum: Periodogram,
     pub anisotropy: f64,
-    /// How far the radial mean is from that of the reference at most, in units of power.
+    /// The largest difference of the radial mean from that of the reference, in units of power.
     pub difference: f64,
     pub sets: u64,
 }
@@ -105,7 +105,7 @@ impl Statistics {
         let spectrum = Periodogram::mean(&means)?;
         Ok(Self {
             sampler,
-            // What is not tiled is given to the reference as it is.
+            // A set that is not tiled is that of the reference.
             is_tiled: sampler.sample(context, effort.count, 0)? != Sampler::Maximal.sample(context, effort.count, 0)?,
             density,
             contrast,
@@ -118,7 +118,7 @@ impl Statistics {
     }
 }
 
-/// How far two radial means are apart at most.
+/// The largest difference of two radial means.
 fn difference(a: &Periodogram, b: &Periodogram) -> Result<f64> {
     let [a, b] = [a.radial(ANNULUS)?, b.radial(ANNULUS)?];
     Ok(a.iter().zip(&b).map(|(a, b)| (a.power - b.power).abs()).fold(0.0, f64::max))

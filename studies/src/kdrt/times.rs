@@ -1,4 +1,4 @@
-//! How long KDRT takes: against the number of samples, by stage, on one thread and on all.
+//! The times of KDRT: against the number of samples, by stage, on one thread and on all.
 
 use azulejo::kdrt;
 use azulejo::kdrt::stages::Stages;

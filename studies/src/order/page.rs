@@ -11,7 +11,7 @@ use crate::verdict::verdict;
 use azulejo_cli::summary::Summary;
 use azulejo_cli::text::{grouped, rounded};
 
-/// How much longer than promised the covering radius may be: float spacings.
+/// The excess of the covering radius over its bound that is rounding: float spacings.
 const ROUNDING: f64 = 1e-4;
 
 /// Samples per second in the plane, and times as long as a plain set on a mesh: both of the default quotient and the

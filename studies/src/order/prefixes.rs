@@ -25,7 +25,7 @@ pub struct Prefixes {
     pub ratio: Summary,
     /// The smallest distance in units of the hexagonal one, of the same prefixes.
     pub rho: Summary,
-    /// How blue the prefixes of [`PARTS`] are.
+    /// The spectral figures of the prefixes of [`PARTS`].
     pub blue: Vec<Blue>,
     /// One of the sets.
     pub first: Vec<[f32; 2]>,
@@ -102,7 +102,7 @@ impl Direct {
     }
 }
 
-/// How far apart the samples of a set are, and how far places are from them.
+/// The smallest distance of a set, and its covering radius.
 struct Distances {
     ratio: f64,
     rho: f64,

@@ -16,7 +16,7 @@ use azulejo_cli::summary::Summary;
 /// The numbers of prefixes of a set whose distances are measured.
 pub const PREFIXES: u32 = 20;
 
-/// What was measured on a mesh.
+/// The measurements on a mesh.
 pub struct Surface {
     /// The mesh's name.
     pub mesh: &'static str,
@@ -38,7 +38,7 @@ pub struct Prefixes {
 /// Sets of one exact number of samples.
 pub struct Exact {
     pub count: usize,
-    /// How many sets have it, and how many there are.
+    /// The number of sets that have it, and the number of all.
     pub right: usize,
     pub sets: usize,
     /// The smallest distance in units of the hexagonal one.
@@ -47,7 +47,7 @@ pub struct Exact {
     pub ratio: Summary,
     /// The bound of the covering radius in the report over the radius in it.
     pub bound: Summary,
-    /// How much larger the covering radius is than its bound at most, as a part of it.
+    /// The largest excess of the covering radius over its bound, relative to it.
     pub beyond: f64,
 }
 

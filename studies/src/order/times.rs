@@ -1,4 +1,4 @@
-//! What progressive order costs, on one thread.
+//! The cost of progressive order, on one thread.
 
 use std::sync::Arc;
 
@@ -17,14 +17,14 @@ pub const PLANE: f64 = 1e8;
 
 /// The times of a plain set, and of one for each quotient.
 pub struct Times {
-    /// Samples that were asked for, about.
+    /// The wanted number of samples, approximately.
     pub count: f64,
     pub plain: Timed,
     pub ordered: Vec<Timed>,
 }
 
 impl Times {
-    /// How many times as long a sample takes in progressive order.
+    /// The time of a sample in progressive order over that in any order.
     pub fn ratio(&self, quotient: usize) -> f64 {
         self.ordered[quotient].per_sample() / self.plain.per_sample()
     }

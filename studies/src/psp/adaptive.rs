@@ -1,5 +1,5 @@
-//! What the page of `azulejo-studies psp` says of adaptive sampling: thesis §3.4.4 (fig. 3.19 to 3.21), measured and drawn:
-//! a fading radius on a surface, an image in dots, and dots against a ramp of density.
+//! The section of `azulejo-studies psp` on adaptive sampling: thesis §3.4.4 (fig. 3.19 to 3.21), measured and drawn: a
+//! fading radius on a surface, an image in dots, and dots against a ramp of density.
 
 use std::fmt::Write as _;
 
@@ -20,7 +20,7 @@ use azulejo_cli::progress::watched;
 use azulejo_cli::sheet::sheet;
 use azulejo_cli::text::grouped;
 
-/// How much is drawn and measured.
+/// The size of the section.
 struct Effort {
     /// Samples of the surface and dots of the stippled image, about.
     samples: f64,
@@ -84,10 +84,10 @@ fn draw_fading(context: &Context, effort: &Effort, output: &Output, progress: &P
     Ok(set.radii.len())
 }
 
-/// What is less dark than this is white paper; it is cut off from all.
+/// The darkness up to which a pixel is white paper; it is subtracted from all.
 const PAPER_DARKNESS: f64 = 0.04;
 
-/// How dark each pixel of a rendered knot is, from 0 to 1, in a square of so many pixels.
+/// The darkness of each pixel of a rendered knot, from 0 to 1, in a square of so many pixels.
 pub fn knot_in_grey(context: &Context, detail: u32, size: usize, progress: &Progress) -> Result<Vec<f64>> {
     let (positions, triangles) = knot(detail);
     let stage = Stage::new(context, &Mesh::new(positions, triangles)?, &[], false)?;
@@ -112,14 +112,14 @@ fn draw_stipple(context: &Context, effort: &Effort, output: &Output, progress: &
     Ok(set.radii.len())
 }
 
-/// Bands along the ramp, and columns of the sheet in each. The sheet goes on beyond the ramp on all sides: samples stand
-/// closer along a boundary.
+/// Bands along the ramp, and columns of the sheet in each. The sheet goes on beyond the ramp on all sides: samples
+/// stand closer along a boundary.
 const BANDS: usize = 16;
 const COLUMNS: usize = 32;
 const MARGIN: usize = 48;
 /// The lightest that is drawn, in the darkest.
 const LIGHTEST: f64 = 1.0 / 64.0;
-/// How many columns the ramp is long and how many rows high.
+/// The numbers of columns and of rows of the ramp.
 const LENGTH: usize = BANDS * COLUMNS;
 const HEIGHT: usize = LENGTH / 4;
 

@@ -1,4 +1,4 @@
-//! How biased the sets of each variant are: by the angle to the projectors, in their differences, along the projection.
+//! The bias of the sets of each variant: by the angle to the projectors, in their differences, along the projection.
 
 use std::sync::Arc;
 
@@ -15,8 +15,8 @@ use super::scenes::{in_one_piece, radius, sphere};
 use super::variants::Variant;
 use crate::verdict::Mean;
 
-/// The bins of the density by facing angle, in degrees. No normal is farther than 54.7 degrees from the nearest of three
-/// orthogonal directions, and hardly any as far.
+/// The bins of the density by facing angle, in degrees. No normal is farther than 54.7 degrees from the nearest of
+/// three orthogonal directions, and hardly any as far.
 pub const FACING_BIN: f64 = 5.0;
 const FACING_BINS: usize = 11;
 
@@ -31,7 +31,7 @@ pub fn frequencies() -> Vec<f64> {
     (4..=125).map(|i| 0.02 * f64::from(i)).collect()
 }
 
-/// What the sets of one variant are like.
+/// The figures of the sets of one variant.
 pub struct Bias {
     pub variant: Variant,
     /// Samples on a sphere, over those of the jamming limit.
@@ -55,7 +55,7 @@ pub struct Tilted {
 }
 
 impl Bias {
-    /// How far the spectrum is from another at most.
+    /// The largest difference of the spectrum from another.
     pub fn difference(&self, other: &Self) -> f64 {
         self.power.iter().zip(&other.power).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
     }
@@ -76,7 +76,7 @@ impl Bias {
     }
 }
 
-/// What all measurements share.
+/// The context of all measurements.
 struct Measure<'a> {
     context: &'a Context,
     effort: &'a Effort,

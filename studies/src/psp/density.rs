@@ -1,4 +1,4 @@
-//! How dense maximal sets are, by the way in which they are made, against the jamming limit.
+//! The density of maximal sets by the method of their filling, against the jamming limit.
 
 use std::sync::Arc;
 
@@ -18,9 +18,9 @@ use azulejo_cli::text::grouped;
 struct Way {
     name: &'static str,
     iterations: u32,
-    /// Whether sets are so small that they are filled in one piece.
+    /// True if sets are so small that they are filled in one piece.
     is_one_piece: bool,
-    /// How many times as many samples as the effort says.
+    /// The number of samples over that of the effort.
     times: f64,
 }
 
@@ -42,10 +42,10 @@ const WAYS: [Way; 4] = [
 /// The sets of one way on one surface.
 pub struct Density {
     surface: &'static str,
-    /// Whether the surface has no boundary and no sharp folds, so that the jamming limit is that of its unbiased sets.
+    /// True if the surface has no boundary and no sharp folds, so that the jamming limit is that of its unbiased sets.
     is_smooth: bool,
     way: Way,
-    /// Samples that were asked for, about.
+    /// The wanted number of samples, approximately.
     count: f64,
     /// N·r² per area.
     density: Mean,
@@ -82,8 +82,8 @@ pub fn measure(context: &Context, scenes: &[Scene], effort: &Effort, progress: &
 }
 
 impl Density {
-    /// What it is held against: the jamming limit where that is the surface's, and else the sets that were filled in one
-    /// piece. Nothing for these themselves.
+    /// The difference from the jamming limit if that is the surface's, and otherwise from the sets that were filled in
+    /// one piece. `None` for these themselves.
     fn difference(&self, one_piece: &Self) -> Option<Difference> {
         match self.is_smooth {
             true => self.density.above_number(MAXIMAL_DENSITY),
@@ -135,7 +135,7 @@ pub fn section(densities: &[Density]) -> String {
     text + "\n" + &found(densities)
 }
 
-/// What the table says of each way.
+/// The sentence on each method.
 fn found(densities: &[Density]) -> String {
     let excess = |iterations: u32| {
         let percent = densities.chunks(WAYS.len()).flat_map(|of_surface| {

@@ -1,4 +1,4 @@
-//! How a set grows with time: its density, and what it leaves uncovered (thesis fig. 3.8, 3.12 and 3.13).
+//! The growth of a set with time: its density, and the area that it leaves uncovered (thesis fig. 3.8, 3.12 and 3.13).
 
 use azulejo::analysis::coverage::surface_uncovered_fraction;
 use azulejo::psp::{Priority, ProjectionOptions, Psp};

@@ -1,5 +1,5 @@
-//! Methods of others at equal quality (thesis §3.4.2, fig. 3.15): the seconds until a set is as dense as asked for, each
-//! method's parameter tuned for that. Written from the papers, for the same surface and radius as ours.
+//! Methods of others at equal quality (thesis §3.4.2, fig. 3.15): the seconds until a set is as dense as asked for,
+//! each method's parameter tuned for that. Written from the papers, for the same surface and radius as ours.
 
 use std::collections::HashMap;
 use std::fmt::Write;
@@ -23,7 +23,7 @@ use crate::timing::in_turns;
 
 /// The relative radii asked for, the thesis's marks (§3.4.1) and one between them.
 const RHO: [f64; 3] = [0.9, 0.95, 0.98];
-/// What the thesis claims: others' parallel methods take this many times as long, and serial ones "orders of magnitude".
+/// The thesis's claim: others' parallel methods take this many times as long, and serial ones "orders of magnitude".
 const PARALLEL_CLAIM: f64 = 1.5;
 const SERIAL_CLAIM: f64 = 10.0;
 /// At most so many darts for each sample of the reference, and iterations.
@@ -38,7 +38,8 @@ const TASK: usize = 2048;
 /// A surface from which uniform random points are drawn.
 struct Surface<'a> {
     mesh: &'a Mesh,
-    /// The area of all triangles up to each, and for each of as many equal parts of the whole the triangle it begins in.
+    /// The area of all triangles up to each, and for each of as many equal parts of the whole the triangle it begins
+    /// in.
     sums: Vec<f64>,
     first: Vec<usize>,
 }
@@ -113,8 +114,8 @@ fn eliminated(surface: &Surface, radius: f32, size: usize) -> Vec<Vec3> {
     samples
 }
 
-/// Parallel sampling of surfaces by phase groups (Bowers et al. 2010): a pool in cells as wide as the radius, those of a
-/// group too far apart for conflicts; in each trial, group after group, each cell tries its next point.
+/// Parallel sampling of surfaces by phase groups (Bowers et al. 2010): a pool in cells as wide as the radius, those of
+/// a group too far apart for conflicts; in each trial, group after group, each cell tries its next point.
 fn by_phase_groups(context: &Context, surface: &Surface, radius: f32, size: usize) -> Result<Vec<Vec3>> {
     const WIDTH: i32 = 3;
     let mut cells: HashMap<IVec3, Vec<Vec3>, BuildHasherDefault<FxHasher>> = HashMap::default();

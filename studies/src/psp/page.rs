@@ -13,8 +13,8 @@ use crate::repeated::{ROUNDS, Repeated, cell, lowest};
 use crate::verdict::{Mean, verdict};
 use azulejo_cli::text::{grouped, rounded};
 
-/// Goals: million samples per second on the bunny, after one iteration and maximal; all threads over one, for each of them,
-/// which is 1.7 for two; the time of the fill over that of the iteration.
+/// Goals: million samples per second on the bunny, after one iteration and maximal; all threads over one, for each of
+/// them, which is 1.7 for two; the time of the fill over that of the iteration.
 const ITERATED_GOAL: f64 = 5.0;
 const MAXIMAL_GOAL: f64 = 1.5;
 const SPEED_UP_GOAL: f64 = 0.85;
@@ -59,7 +59,7 @@ pub fn text(
     parts.join("\n")
 }
 
-/// What a cell of a table says of a scene.
+/// The text of a cell of a table for a scene.
 type Cell<'a> = &'a dyn Fn(&Measured) -> String;
 
 /// A table with a column for each scene.

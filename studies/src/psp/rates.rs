@@ -1,4 +1,4 @@
-//! How fast sets are made: by radius, by iterations before filling, on one thread and on all.
+//! The speed of sampling: by radius, by iterations before filling, on one thread and on all.
 
 use std::ops::RangeInclusive;
 
@@ -10,7 +10,7 @@ use super::Effort;
 use super::scenes::{Scene, radius};
 use crate::repeated::Repeated;
 
-/// How many iterations before filling are tried, of three directions each.
+/// The numbers of iterations before filling that are tried, of three directions each.
 pub const ITERATIONS: RangeInclusive<u32> = 0..=4;
 
 /// A maximal set that is made in some rounds: after the iterations, and filled.
@@ -95,9 +95,10 @@ impl Rates {
     pub fn measure(context: &Context, scene: &Scene, effort: &Effort, progress: &Progress) -> Result<Self> {
         let (single, count) = (Context::new(1)?, effort.samples);
         let usual = |iterations| Way { context, count, priority: Priority::Squareness, iterations };
-        // What is kept with the mesh is made by no round: it would be that of one way, on one thread or on all.
+        // The first call makes the data that are kept with the mesh. It is made before the rounds, which compare later
+        // calls.
         let first_call = usual(1).make(scene)?.iter().map(|report| report.seconds).sum();
-        // What verdicts and sentences are about.
+        // The calls that verdicts and sentences are about.
         let judged = [
             usual(0),
             usual(1),
@@ -129,8 +130,8 @@ impl Rates {
     }
 }
 
-/// What is left to find in a set that is maximal: to [`TOLERANCE`](azulejo::psp::TOLERANCE) float spacings at the largest
-/// coordinate of the mesh a surface may be uncovered.
+/// The samples that are still found in a set that is maximal: up to [`TOLERANCE`](azulejo::psp::TOLERANCE) float
+/// spacings at the largest coordinate of the mesh a surface may be uncovered.
 pub struct Again {
     /// Samples that a second fill adds.
     pub samples: usize,

@@ -14,7 +14,7 @@ const TILE: f64 = 4.0;
 /// Rays of a task.
 const TASK: usize = 4096;
 
-/// What tracing some rays gave.
+/// The result of tracing some rays.
 pub struct Rays {
     pub rays: usize,
     /// All hits on the rays.

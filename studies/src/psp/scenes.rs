@@ -1,4 +1,4 @@
-//! What is sampled: meshes from files, and some that are made.
+//! The meshes that are sampled: from files, and procedural ones.
 
 use std::collections::HashMap;
 use std::hash::BuildHasherDefault;
@@ -17,10 +17,10 @@ use rustc_hash::FxHasher;
 pub struct Scene {
     pub name: String,
     pub mesh: Arc<Mesh>,
-    /// Million rays per second of Embree and of OptiX in table 3.1 of the thesis, if it has the scene; of its Sponza for the
-    /// hall.
+    /// Million rays per second of Embree and of OptiX in table 3.1 of the thesis, if it has the scene; of its Sponza
+    /// for the hall.
     pub thesis: Option<[f64; 2]>,
-    /// Whether a picture looks into it, through the faces that are turned away.
+    /// True if a picture looks into it, through the faces that are turned away.
     pub is_room: bool,
 }
 
@@ -67,8 +67,8 @@ pub fn in_parts(scene: &Scene) -> Result<Scene> {
 /// Up to so many expected samples the library fills a set in one piece.
 const ONE_PIECE: f64 = 25_000.0;
 
-/// A mesh, its triangles in parts if need be, on which the library fills sets of a radius in one piece: it expects samples
-/// on the area, and along what is longer than the radius.
+/// A mesh, its triangles in parts if need be, on which the library fills sets of a radius in one piece: it expects
+/// samples on the area, and along what is longer than the radius.
 pub fn in_one_piece(mesh: &Arc<Mesh>, radius: f64) -> Result<Arc<Mesh>> {
     let on_area = 0.7 * mesh.area() / (radius * radius);
     let mut mesh = mesh.clone();
@@ -79,7 +79,7 @@ pub fn in_one_piece(mesh: &Arc<Mesh>, radius: f64) -> Result<Arc<Mesh>> {
     Ok(mesh)
 }
 
-/// How many samples the library expects along what is longer than the radius, which is rather too many.
+/// An upper estimate of the number of samples along edges longer than the radius, as the library expects it.
 fn along_edges(mesh: &Mesh, radius: f64) -> f64 {
     let longest = |triangle: u32| {
         let [a, b, c] = mesh.corners(triangle).map(Vec3::from);
@@ -89,7 +89,8 @@ fn along_edges(mesh: &Mesh, radius: f64) -> f64 {
     long.map(|length| length / radius).sum()
 }
 
-/// A mesh in about so many triangles: all of its triangles in four parts, again and again, and at last as many as it takes.
+/// A mesh in about so many triangles: all of its triangles in four parts, again and again, and at last as many as it
+/// takes.
 pub fn divided(mesh: &Mesh, count: usize) -> Result<Arc<Mesh>> {
     let (mut positions, mut triangles) = (mesh.positions().to_vec(), mesh.triangles().to_vec());
     while triangles.len() < count {

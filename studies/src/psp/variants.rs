@@ -7,17 +7,17 @@ use azulejo::mesh::Mesh;
 use azulejo::psp::{self, Priority, ProjectionOptions};
 use azulejo::{Context, Points, Result};
 
-/// Up to about so many samples a set can be filled in one piece, also on a square: what the library expects, which is rather
-/// too many, is just below its limit (`scenes::in_one_piece`).
+/// Up to about so many samples a set can be filled in one piece, also on a square: what the library expects, which is
+/// rather too many, is just below its limit (`scenes::in_one_piece`).
 pub const ONE_PIECE: f64 = 24_200.0;
 
-/// How a set is made.
+/// A variant of the sampler.
 #[derive(Clone, Copy, PartialEq)]
 pub struct Variant {
     pub priority: Priority,
     pub iterations: u32,
     pub maximal: bool,
-    /// Whether sets are so small that they are filled in one piece.
+    /// True if sets are so small that they are filled in one piece.
     pub is_one_piece: bool,
 }
 

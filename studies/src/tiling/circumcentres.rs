@@ -21,10 +21,10 @@ use azulejo_cli::text::grouped;
 /// R_leaf and the side of the pattern in radii: those with which azulejo tiles.
 const LEAVES: [(f64, f64); 2] = [(6.0, 108.0), (20.0, 200.0)];
 
-/// How far a place may be from all samples, beyond the radius and relative to it: rounding to floats.
+/// The largest distance of a position from all samples beyond the radius, relative to it, that is rounding to floats.
 const ROUNDING: f64 = 1e-4;
 
-/// How the seams are repaired.
+/// The methods that repair seams.
 #[derive(Clone, Copy, PartialEq)]
 enum Repair {
     /// Nothing to repair: the unbiased reference.
@@ -37,7 +37,7 @@ enum Repair {
     Kdrt,
 }
 
-/// What was made and how it is.
+/// A set and its figures.
 struct Set {
     excess: f64,
     contrast: f64,
@@ -73,7 +73,7 @@ impl Row {
     }
 }
 
-/// What a repair did.
+/// The statistics of a repair.
 #[derive(Clone, Copy)]
 struct Changes {
     /// Samples that went, and new ones: the last of the set.

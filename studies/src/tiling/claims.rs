@@ -1,4 +1,4 @@
-//! What a section says, what the thesis claims there, and whether the run shows it.
+//! The statements of a section, the thesis's claims, and whether the run shows them.
 
 use std::fmt::Write;
 
@@ -25,7 +25,7 @@ impl Claim {
         Self { what: what.into(), low, high }
     }
 
-    /// How far the higher mean is above the lower one.
+    /// The difference of the higher mean from the lower one.
     fn difference(&self) -> Option<Difference> {
         if self.high.count == 0 {
             let above = self.low.above_number(self.high.mean);
@@ -38,7 +38,7 @@ impl Claim {
     }
 }
 
-/// What holds or does not, exactly.
+/// A statement that holds exactly or not.
 pub struct Fact {
     pub what: String,
     pub found: String,

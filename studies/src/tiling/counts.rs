@@ -20,10 +20,10 @@ use azulejo_cli::text::grouped;
 /// By how many percent the first set has too few samples, or too many.
 const OFF: [f64; 3] = [0.5, 2.0, 10.0];
 
-/// How far a place may be from all samples, beyond the radius and relative to it: rounding to floats.
+/// The largest distance of a position from all samples beyond the radius, relative to it, that is rounding to floats.
 const ROUNDING: f64 = 1e-4;
 
-/// How the number is reached.
+/// The methods that reach the number.
 #[derive(Clone, Copy, PartialEq)]
 enum Way {
     /// From a set with so many percent fewer, with new samples in the largest empty circles.
@@ -72,7 +72,7 @@ struct Set {
 }
 
 impl Set {
-    /// How much farther some place is from all samples than these are from each other.
+    /// The covering radius over the smallest distance.
     fn looseness(&self) -> f64 {
         self.covering / self.smallest
     }

@@ -16,7 +16,7 @@ use azulejo_cli::text::grouped;
 /// The sides of patterns, in radii. The second has about the 8192 samples that the thesis would hardcode (§2.5.1).
 const SIDES: [f64; 4] = [54.0, 108.0, 200.0, 320.0];
 
-/// What a set is like, and its seconds.
+/// The figures of a set, and its seconds.
 struct Set {
     excess: f64,
     contrast: f64,

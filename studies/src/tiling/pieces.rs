@@ -23,7 +23,7 @@ const SIDE: usize = 3;
 /// The most that merging may take of the time of making the pieces, in percent: "only very small overhead".
 const OVERHEAD: f64 = 10.0;
 
-/// How far a place may be from all samples, beyond the radius and relative to it: rounding to floats.
+/// The largest distance of a position from all samples beyond the radius, relative to it, that is rounding to floats.
 const ROUNDING: f64 = 1e-3;
 
 /// One round: nine sets and one, each by the unbiased sampler.
@@ -52,7 +52,7 @@ fn domains() -> (Domain, Vec<Domain>) {
     (Domain::unit(Boundary::Bounded), (0..SIDE * SIDE).map(part).collect())
 }
 
-/// What was given and what came out.
+/// The pieces and the result of a merge.
 struct Merged {
     sets: Vec<Vec<[f32; 2]>>,
     samples: Vec<[f32; 2]>,

@@ -1,4 +1,4 @@
-//! What each of the two randomnesses is needed for (thesis §2.5.2 and fig. 2.20).
+//! The use of each of the two randomnesses (thesis §2.5.2 and fig. 2.20).
 
 use std::fmt::Write;
 
@@ -18,7 +18,7 @@ use azulejo_cli::draw::spectra::FREQUENCY_LIMIT;
 use azulejo_cli::progress::watched;
 use azulejo_cli::text::grouped;
 
-/// How many times as large as the pattern the plane is, in area.
+/// The ratios of the areas of plane and pattern.
 const RATIOS: [f64; 2] = [16.0, 64.0];
 
 const LEAF_SIZE: f64 = kdrt::DEFAULT_LEAF_SIZE;
@@ -73,7 +73,7 @@ pub fn section(study: &Study) -> Result<Part> {
     Ok(Part { text: text(count, &rows), claims: claims(&rows), facts: Vec::new() })
 }
 
-/// What is taken away, what that shows in, and the figure of a set.
+/// The randomness that is removed, the name of its effect, and the figure of a set.
 type Kind = (Fixed, &'static str, Figure<Set>);
 
 fn claims(rows: &[Row]) -> Vec<Claim> {

@@ -25,7 +25,8 @@ use hall::Hall;
 /// Frequencies per side of a spectrum, at most.
 const GRID: usize = 1001;
 
-/// How far the errors of KDRT may be from those of the unbiased sampler, in percent: "similar".
+/// The largest difference of the errors of KDRT from those of the unbiased sampler that counts as "similar", in
+/// percent.
 const SIMILAR: f64 = 5.0;
 
 /// The columns, as in the thesis, but for the second.
@@ -84,7 +85,7 @@ pub struct Measured {
     hall: Vec<f64>,
 }
 
-/// How much is made of each.
+/// The size of each part.
 struct Effort {
     count: usize,
     /// Pixels along the side of a picture.
@@ -137,7 +138,7 @@ impl Measured {
     }
 }
 
-/// What the errors are of, and the error of a set.
+/// The names of the errors, and the error of a set.
 const ERRORS: [(&str, Figure<Set>); 3] = [
     ("zone plate, low frequencies", |set| set.plate.low),
     ("zone plate, high frequencies", |set| set.plate.high),

@@ -1,4 +1,4 @@
-//! How much of a set the seams touch, beside the bound of thesis eq. 2.4.
+//! The share of a set that the seams touch, beside the bound of thesis eq. 2.4.
 
 use std::fmt::Write;
 

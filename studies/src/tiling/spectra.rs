@@ -38,7 +38,8 @@ impl Reference {
         Ok(Self { curve: Periodogram::mean(&spectra)?.radial(CURVE_ANNULUS)? })
     }
 
-    /// How far the radial mean of a spectrum is from this one, root mean square over the annuli, in units of power.
+    /// The difference of the radial mean of a spectrum from this one, root mean square over the annuli, in units of
+    /// power.
     pub fn deviation(&self, spectrum: &Periodogram) -> Result<f64> {
         let own = spectrum.radial(CURVE_ANNULUS)?;
         let pairs = own.iter().zip(&self.curve).filter(|(own, _)| own.frequency < RANGE.end);

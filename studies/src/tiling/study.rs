@@ -1,4 +1,4 @@
-//! What the sections work with.
+//! The context of the sections.
 
 use std::time::Instant;
 
@@ -13,7 +13,7 @@ pub struct Study<'a> {
     pub context: &'a Context,
     /// The files of the page.
     pub files: &'a Files,
-    /// Whether few and small sets are enough.
+    /// True if few and small sets suffice.
     pub quick: bool,
 }
 
@@ -27,7 +27,7 @@ impl Study<'_> {
 /// A figure of a set or of something else that is measured.
 pub type Figure<T> = fn(&T) -> f64;
 
-/// What a call returns, and its seconds.
+/// The result of a call, and its seconds.
 pub fn timed<T>(call: impl FnOnce() -> Result<T>) -> Result<(T, f64)> {
     let start = Instant::now();
     let result = call()?;
@@ -45,7 +45,7 @@ pub fn excess(samples: usize, radius: f64) -> f64 {
     100.0 * (samples as f64 * radius * radius / MAXIMAL_DENSITY - 1.0)
 }
 
-/// The mean of a figure of each of some things.
+/// The mean of a figure over some items.
 pub fn mean_of<T>(of: &[T], figure: impl Fn(&T) -> f64) -> Mean {
     Mean::of(&of.iter().map(figure).collect::<Vec<_>>())
 }

@@ -11,7 +11,7 @@ fn a_quick_page_of_goals_says_what_follows_from_its_figures() {
     let page = Page::of(directory, "goals", &["--dragon", "knot.obj"]).text;
     assert!(page.contains("**The bunny was not given") && !page.contains("The dragon was not given"), "{page}");
     assert!(!page.contains("NaN") && !page.contains("inf"), "{page}");
-    // What is asked, what was measured, the range, the goal, the verdict.
+    // Figure, result, range, goal, verdict.
     let rows = page.lines().map(|line| line.trim_matches('|').split('|').map(str::trim).collect::<Vec<_>>());
     let rows: Vec<_> =
         rows.filter(|row| row.len() == 5 && (row[4].contains("met") || row[4] == "not decided")).collect();

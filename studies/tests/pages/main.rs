@@ -28,7 +28,7 @@ struct Page {
 }
 
 impl Page {
-    /// What a study writes into `directory`, quickly. It says nothing: nothing is a terminal here.
+    /// The pages that a study writes into `directory`, quickly. It prints no progress, as it has no terminal.
     fn of(directory: TempDir, study: &str, arguments: &[&str]) -> Self {
         let common = [study, "--quick", "--out", "pages/docs", "--threads", "2"];
         let output = studies(&directory, &[&common, arguments].concat());
@@ -51,7 +51,7 @@ impl Page {
         names.map(|name| (name.to_owned(), open(name))).collect()
     }
 
-    /// Checks that there are verdicts, and that those that can be computed anew follow from the tables.
+    /// Checks that there are verdicts, and that the verdicts that can be recomputed follow from the tables.
     fn check_verdicts(&self, least: usize) -> Recomputed {
         let all = Recomputed::of(&self.text);
         assert!(all.right >= least && all.wrong.is_empty(), "{all:#?}");

@@ -1,4 +1,4 @@
-//! The pages of the plane: KDRT, and what else the thesis says of tiling.
+//! The pages of the plane: KDRT, and the thesis's further claims about tiling.
 
 use crate::{Page, check_verdict, mean, rows_with};
 
@@ -51,7 +51,7 @@ fn a_quick_page_of_tiling_has_every_item_of_the_thesis_with_verdicts_that_follow
             p <= 0.01
         });
     }
-    // What must hold exactly.
+    // The facts that must hold exactly.
     let facts: Vec<_> = page.lines().filter(|line| line.contains("conflict-free, and maximal up to")).collect();
     assert!(facts.len() == 5 && facts.iter().all(|line| line.ends_with("| met |")), "{facts:?}");
     // R_leaf, bound, processed, tested, eliminated, inserted, excess: seams touch less the larger the leaves are.

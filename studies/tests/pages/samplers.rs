@@ -34,7 +34,7 @@ fn a_quick_gallery_shows_every_sampler_with_its_spectrum_and_zone_plate() {
     assert!(!page.contains("NaN"));
 }
 
-/// What stands for the example program of this name.
+/// A replacement for the example program of this name.
 const LIGHTS: &str = "#!/bin/sh
 echo \"$2 lights, 240 places, 40 sets each, reference of 100000 lights\"
 echo 'blue noise: error 0.0512 +- 0.0004'
@@ -65,7 +65,8 @@ fn a_quick_page_of_other_figures_has_plausible_ones() {
     let engines: Vec<_> = page.lines().filter(|line| line.starts_with("| hall |")).collect();
     assert!(engines.len() == 1 && engines[0].ends_with("), not decided |"), "{engines:?}");
     check_chains(&page);
-    // What is beyond, rho, cover, that on the boundary, density, spacing: mirrored points keep the boundary covered.
+    // Pins beyond the domain, rho, cover, that on the boundary, density, spacing: mirrored points keep the boundary
+    // covered.
     let means = |row: &String| -> Vec<f64> {
         row.split(" | ").skip(1).map(|cell| cell.split(' ').next().unwrap().parse().unwrap()).collect()
     };

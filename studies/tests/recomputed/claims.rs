@@ -145,7 +145,7 @@ mod tests {
         assert!(chances.iter().zip(known).all(|(own, known)| (own - known).abs() < 1e-12), "{chances:?}");
     }
 
-    /// Whether the verdicts of some rows are all right, of a table with this text before it.
+    /// True if the verdicts of some rows are all right, of a table with this text before it.
     fn is_right(text: &str, rows: &[&str]) -> bool {
         let head = "| claim | below | n | above | n | t | p | |\n|---|---|---|---|---|---|---|---|";
         let all = Recomputed::of(&format!("## Claims\n\n{text}\n\n{head}\n{}\n", rows.join("\n")));

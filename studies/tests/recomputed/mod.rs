@@ -1,16 +1,17 @@
-//! Computes the verdicts of a page anew, from what the page prints beside them. Of its own, without code of the studies.
+//! Computes the verdicts of a page anew, from what the page prints beside them. Of its own, without code of the
+//! studies.
 
 mod claims;
 mod table;
 
 pub use table::{Table, numbers, tables};
 
-/// What came of the verdicts of a page.
+/// The result of recomputing the verdicts of a page.
 #[derive(Debug, Default)]
 pub struct Recomputed {
-    /// How many follow from the page.
+    /// The number of verdicts that follow from the page.
     pub right: usize,
-    /// Those that do not, and why.
+    /// The verdicts that do not, and why.
     pub wrong: Vec<String>,
     /// Rows with verdicts that are in no known form.
     pub unknown: Vec<String>,
@@ -66,7 +67,7 @@ impl Recomputed {
     }
 }
 
-/// What a figure has to be.
+/// The condition on a figure.
 #[derive(Clone, Copy)]
 enum Goal {
     AtMost(f64),
@@ -88,7 +89,7 @@ fn goal(head: &str) -> Option<Goal> {
 }
 
 impl Goal {
-    /// Whether a number may meet the goal, and whether it may miss it: both where it was rounded to the limit.
+    /// The possibility that a number meets the goal, and that it misses it: both where it was rounded to the limit.
     fn may(self, number: table::Number) -> [bool; 2] {
         let [low, high] = [number.value - number.rounding, number.value + number.rounding];
         match self {
@@ -142,7 +143,7 @@ fn of_whole_row(table: &Table, row: &[String]) -> Option<Vec<&'static str>> {
     if let Some((_, times)) = what.split_once(": ends after ") {
         return one(found.iter().all(|found| found.value == numbers(times)[0].value));
     }
-    // How many times smaller errors are, at each width.
+    // The ratios of the errors, at each width.
     if table.head.iter().any(|head| head.starts_with("width ")) {
         let gains = table.head.iter().zip(row).filter(|(head, _)| head.starts_with("width "));
         let gains: Vec<_> = gains.map(|(_, cell)| Goal::AtLeast(1.0).may(numbers(cell)[0])).collect();
@@ -170,8 +171,8 @@ fn of_whole_row(table: &Table, row: &[String]) -> Option<Vec<&'static str>> {
     Some(allowed([may_meet, may_miss, false]))
 }
 
-/// The verdicts that a figure allows whose range has a column of its own: of a median, which all rounds or none decide, or
-/// of the worst of all, which decides by itself.
+/// The verdicts that a figure allows whose range has a column of its own: of a median, which all rounds or none decide,
+/// or of the worst of all, which decides by itself.
 fn of_range(goal: Goal, figure: table::Number, range: &[table::Number]) -> Vec<&'static str> {
     let [low, high] = [range[0], range[1]].map(|end| goal.may(end));
     let worst = if matches!(goal, Goal::AtLeast(_)) { range[0] } else { range[1] };

@@ -9,7 +9,7 @@ pub struct Table {
 }
 
 impl Table {
-    /// How many rounds the section speaks of first: "medians of 7 rounds".
+    /// The number of rounds that the section names first: "medians of 7 rounds".
     pub fn rounds(&self) -> Option<f64> {
         let (before, _) = self.text.split_once(" rounds")?;
         Some(numbers(before).last()?.value)

@@ -45,7 +45,7 @@ pub extern "C" fn sums_text() -> *const u8 {
     text().as_ptr()
 }
 
-/// How many bytes it has.
+/// The number of its bytes.
 #[unsafe(no_mangle)]
 pub extern "C" fn sums_bytes() -> usize {
     text().len()

@@ -1,4 +1,4 @@
-//! What is drawn in dots: images that are made here.
+//! The images that are drawn in dots; they are computed here.
 
 use azulejo::{Context, Result};
 

@@ -1,4 +1,4 @@
-//! How well dots agree with an image once both are blurred.
+//! The agreement of dots with an image once both are blurred.
 
 use azulejo_cli::stipple::darkness::Darkness;
 
@@ -112,7 +112,8 @@ mod tests {
         let tone = Tone::new(&grey, 256);
         let lattice: Vec<_> = (0..256).map(|i| [i % 16, i / 16].map(|x| 4.0 * x as f32 + 2.0)).collect();
         let (even, heap) = (tone.errors(&lattice), tone.errors(&[[32.0; 2]; 256]));
-        // A filter of half the spacing leaves 2 exp(-π² / 2) of each of the two waves of a lattice: 0.0036 of a quarter's grey.
+        // A filter of half the spacing leaves 2 exp(-π² / 2) of each of the two waves of a lattice: 0.0036 of a
+        // quarter's grey.
         assert!((0.003..0.006).contains(&even[0]), "{even:?}");
         assert!(even[1..].iter().all(|&error| error < 0.0015), "{even:?}");
         assert!(heap.iter().zip(&even).all(|(heap, even)| *heap > 100.0 * even), "{heap:?}");

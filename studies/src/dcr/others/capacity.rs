@@ -1,12 +1,13 @@
-//! Capacity-constrained Voronoi tessellation (Balzer, Schlömer and Deussen 2009): the plane is many points, of which every site
-//! has as many; two sites exchange points as long as that brings these nearer to them, and then move to their centroids.
+//! Capacity-constrained Voronoi tessellation (Balzer, Schlömer and Deussen 2009): the plane is many points, of which
+//! every site has as many; two sites exchange points as long as that brings these nearer to them, and then move to
+//! their centroids.
 
 use glam::DVec2;
 
 use super::Outcome;
 use crate::reference::random;
 
-/// What an exchange has to gain: rounding must not let two points change hands for ever.
+/// The least gain of an exchange: rounding must not let two points be exchanged for ever.
 const ROUNDING: f64 = 1e-9;
 
 /// Rounds until no point changes hands. `capacity` is the points of a site.
@@ -36,8 +37,8 @@ struct State {
 }
 
 impl State {
-    /// Gives every site as many points: halves both across the wider side of where they are, over and over. That is nearer to
-    /// the end than the random start of the paper.
+    /// Gives every site as many points: halves both across the wider side of where they are, over and over. That is
+    /// nearer to the end than the random start of the paper.
     fn divide(&mut self, mut sites: Vec<usize>, mut points: Vec<DVec2>) {
         if let [site] = sites[..] {
             self.owned[site] = points;
@@ -60,8 +61,8 @@ impl State {
         direct - self.side * (direct / self.side).round()
     }
 
-    /// Lets all pairs of sites exchange points, and says whether any did. Sites that are farther apart than their points reach
-    /// have none to exchange.
+    /// Lets all pairs of sites exchange points, and returns whether any did. Sites that are farther apart than their
+    /// points reach have none to exchange.
     fn exchange(&mut self) -> bool {
         let reach = |state: &Self, site: usize| {
             let lengths = state.owned[site].iter().map(|&point| state.apart(state.sites[site], point).length());
@@ -81,7 +82,7 @@ impl State {
         is_changed
     }
 
-    /// Exchanges the points of two sites from those that gain most on, while that lessens the sum of squared distances.
+    /// Exchanges the points of two sites in the order of their gain, while that lessens the sum of squared distances.
     fn exchange_between(&mut self, a: usize, b: usize) -> bool {
         let loss = |point: &DVec2, own: usize, other: usize| {
             let [own, other] = [own, other].map(|site| self.apart(self.sites[site], *point).length_squared());

@@ -1,5 +1,5 @@
-//! Push-pull optimisation (Ahmed, Guo, Yan, Franceschi, Zhang and Deussen 2016): one point after another, in random order,
-//! moves its Voronoi neighbours, until a round moves none.
+//! Push-pull optimisation (Ahmed, Guo, Yan, Franceschi, Zhang and Deussen 2016): one point after another, in random
+//! order, moves its Voronoi neighbours, until a round moves none.
 
 use glam::DVec2;
 
@@ -15,10 +15,10 @@ pub struct Aims {
     pub area: f64,
 }
 
-/// What a neighbour is pushed beyond the smallest distance, so that it is not found too near again.
+/// The distance to which a neighbour is pushed, over the smallest distance, so that it is not found too near again.
 const EXCESS: f64 = 1.001;
 
-/// What a circle may be too large by: pulled points are as far as they shall be but for rounding.
+/// The excess of a circle that is left as it is: pulled points reach their distance up to rounding.
 const ROUNDING: f64 = 1e-6;
 
 /// Rounds until one moves no point.
@@ -43,8 +43,8 @@ pub fn relax(points: &[[f32; 2]], seed: u64, aims: Aims, rounds: u32) -> Outcome
 
 type Shifts = Vec<(u32, DVec2)>;
 
-/// Pulls the neighbours of large empty circles nearer, so that these have the radius that is aimed at. Circles of obtuse
-/// triangles are left alone: another one covers their middle.
+/// Pulls the neighbours of large empty circles nearer, so that these have the radius that is aimed at. Circles of
+/// obtuse triangles are left alone: another one covers their middle.
 fn coverage(torus: &Torus, i: usize, aims: Aims) -> Shifts {
     let cell = torus.cell(i).0;
     let scale = |k: usize| {
@@ -56,7 +56,7 @@ fn coverage(torus: &Torus, i: usize, aims: Aims) -> Shifts {
     pulled.map(|(side, scale)| (side.neighbour, (scale - 1.0) * side.towards)).collect()
 }
 
-/// Whether the triangle of a point and two neighbours has an angle above 90 degrees.
+/// True if the triangle of a point and two neighbours has an angle above 90 degrees.
 fn is_obtuse(a: Side, b: Side) -> bool {
     let (a, b) = (a.towards, b.towards);
     [a.dot(b), a.dot(a - b), b.dot(b - a)].into_iter().any(|product| product < 0.0)

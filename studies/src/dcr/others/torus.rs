@@ -42,7 +42,7 @@ impl Torus {
 
     /// The points, on the unit torus.
     pub fn to_unit(&self) -> Vec<[f32; 2]> {
-        // What rounds to 1 lies on the other side.
+        // A coordinate that rounds to 1 is 0 on the torus.
         let place = |x: f64| Some((x / self.side) as f32).filter(|&x| x < 1.0).unwrap_or(0.0);
         self.points.iter().map(|point| point.to_array().map(place)).collect()
     }
@@ -114,14 +114,14 @@ impl Torus {
 }
 
 impl Cell {
-    /// What the images of a lone point leave of the torus.
+    /// The cell of a lone point, between its own images.
     fn of_images(index: u32, side: f64) -> Self {
         let turns = [DVec2::X, DVec2::Y, DVec2::NEG_X, DVec2::NEG_Y];
         let from = |turn: DVec2| 0.5 * side * (turn + turn.perp() * -1.0);
         Self(turns.map(|turn| Side { neighbour: index, towards: side * turn, from: from(turn) }).to_vec())
     }
 
-    /// Cuts off what is nearer to another point, and says whether that was anything.
+    /// Cuts off the part that is nearer to another point; returns true if there is one.
     fn clip(&mut self, neighbour: u32, towards: DVec2) -> bool {
         let beyond = |corner: DVec2| corner.dot(towards) - 0.5 * towards.length_squared();
         if towards == DVec2::ZERO || self.0.iter().all(|side| beyond(side.from) <= 0.0) {

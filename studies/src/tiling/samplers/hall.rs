@@ -63,7 +63,7 @@ impl Hall {
         Ok(sums.iter().zip(&weights).map(|(sum, &weight)| if weight > 0.0 { sum / weight } else { 0.0 }).collect())
     }
 
-    /// What is seen through each sample: from 0 to 1.
+    /// The brightness that is seen through each sample, from 0 to 1.
     fn values(&self, samples: &[[f32; 2]]) -> Vec<f64> {
         let ray = |&[x, y]: &[f32; 2]| Ray {
             origin: (SCALE * EYE).to_array(),
@@ -85,7 +85,7 @@ impl Hall {
     }
 }
 
-/// How far a picture is from another: the root mean square over pixels.
+/// The difference of a picture from another: the root mean square over pixels.
 pub fn error(picture: &[f64], reference: &[f64]) -> f64 {
     let squares: f64 = picture.iter().zip(reference).map(|(value, other)| (value - other).powi(2)).sum();
     (squares / picture.len() as f64).sqrt()

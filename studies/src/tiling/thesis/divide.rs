@@ -14,7 +14,7 @@ impl Block {
         self.max[axis] - self.min[axis]
     }
 
-    /// How far inside of it a place is, along the axis where that is least; negative outside.
+    /// The depth of a position inside of it, along the axis where that is least; negative outside.
     pub fn depth(&self, place: [f64; 2]) -> f64 {
         (0..2)
             .map(|axis| (place[axis] - self.min[axis]).min(self.max[axis] - place[axis]))

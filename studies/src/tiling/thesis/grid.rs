@@ -74,7 +74,7 @@ impl Grid {
         found.filter(move |&(index, [x, y])| self.is_valid[index] && (x * x + y * y).sqrt() < limit)
     }
 
-    /// Whether no valid sample is nearer to a place than the radius.
+    /// True if no valid sample is nearer to a position than the radius.
     pub fn is_gap(&self, place: [f32; 2]) -> bool {
         self.near(place, 1).next().is_none()
     }

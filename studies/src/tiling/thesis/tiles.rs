@@ -5,8 +5,8 @@ use azulejo::{Boundary, Context, Domain, Result, maximal};
 use super::divide::Block;
 use crate::reference::stream;
 
-/// How much longer the radius of the pattern is than that of the set, so that translated samples, which are rounded to
-/// floats, keep theirs.
+/// The excess of the radius of the pattern over that of the set, relative to it, so that translated samples, which are
+/// rounded to floats, keep theirs.
 const GUARD: f64 = 1e-5;
 
 /// A maximal set of a square torus.
@@ -20,7 +20,7 @@ pub struct Pattern {
 pub struct Laid {
     /// On the unit torus.
     pub place: [f32; 2],
-    /// How far inside its block it is; negative in the margin.
+    /// The depth of the position in its block; negative in the margin.
     pub depth: f64,
 }
 
