@@ -59,6 +59,7 @@ mod order;
 mod plane;
 mod points;
 pub mod psp;
+mod region;
 mod rng;
 mod setters;
 #[allow(unsafe_code)] // Vector instructions.
@@ -73,6 +74,7 @@ pub use given::Given;
 pub use job::{Context, Progress};
 pub use order::Order;
 pub use points::{Boundary, Domain, MAXIMAL_DENSITY, Points};
+pub use region::Region;
 
 /// The code blocks of the README are compiled with the documentation tests.
 #[cfg(doctest)]

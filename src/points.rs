@@ -146,6 +146,8 @@ pub struct Points<const D: usize> {
     pub classes: Vec<u32>,
     /// The radius of each sample, where radii vary ([`adaptive::sample`](crate::psp::adaptive::sample)).
     pub radii: Vec<f64>,
+    /// The id of each sample, in an [`EditableSet`](crate::psp::EditableSet).
+    pub ids: Vec<u64>,
 }
 
 impl<const D: usize> Default for Points<D> {
@@ -159,6 +161,7 @@ impl<const D: usize> Default for Points<D> {
             ranks: Vec::new(),
             classes: Vec::new(),
             radii: Vec::new(),
+            ids: Vec::new(),
         }
     }
 }

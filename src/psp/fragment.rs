@@ -3,6 +3,7 @@
 use glam::{DVec2, DVec3};
 
 use crate::mesh::Mesh;
+use crate::psp::fill::extent::Extent;
 use crate::psp::sixteenths::SIXTEENTHS;
 
 /// A part of a triangle.
@@ -41,6 +42,11 @@ impl Fragment {
     pub fn at(&self, [s, t]: [f64; 2]) -> [f64; 2] {
         let [a, b, c] = self.corners;
         std::array::from_fn(|axis| (1.0 - s - t) * a[axis] + s * b[axis] + t * c[axis])
+    }
+
+    /// The box around it, rounded to floats.
+    pub fn extent(&self, mesh: &Mesh) -> Extent {
+        Extent::of(self.corners.map(|corner| mesh.point_exact(self.triangle, corner).as_vec3().to_array()))
     }
 
     pub fn shape(&self, mesh: &Mesh) -> Shape {

@@ -131,7 +131,7 @@ pub(super) fn obstacles_of(mesh: &Mesh, given: Given<3>) -> Result<Obstacles> {
 }
 
 /// The position and the clearance of each.
-fn balls<'a>(given: Given<'a, 3>, radius: f64) -> impl Iterator<Item = ([f32; 3], f64)> + 'a {
+pub(super) fn balls<'a>(given: Given<'a, 3>, radius: f64) -> impl Iterator<Item = ([f32; 3], f64)> + 'a {
     (0..).zip(given.positions).map(move |(index, &position)| (position, given.clearance(index, radius)))
 }
 

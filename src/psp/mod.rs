@@ -22,6 +22,7 @@
 pub mod adaptive;
 mod classes;
 mod cubes;
+mod editable;
 mod estimate;
 mod facing;
 mod fill;
@@ -44,6 +45,7 @@ mod surroundings;
 mod vectors;
 
 pub use classes::sample_classes;
+pub use editable::EditableSet;
 pub use fill::rounds::TOLERANCE;
 pub use flat::FlatOptions;
 pub use options::{Amount, ClassOptions, DEFAULT_QUOTIENT, Engine, Options, Priority, ProjectionOptions};

@@ -10,12 +10,13 @@ use crate::job::{Context, Job, Progress};
 use crate::mesh::Mesh;
 use crate::order::Order;
 use crate::points::Points;
+use crate::psp::editable::EditableSet;
 use crate::psp::estimate::{checked_estimate, is_worth_projecting};
 use crate::psp::facing::Facing;
 use crate::psp::fill::FillOptions;
 use crate::psp::fill::measures::Measures;
 use crate::psp::fill::uniform::Surface;
-use crate::psp::given::GivenSamples;
+use crate::psp::given::{GivenSamples, balls};
 use crate::psp::options::{Amount, Options, ProjectionOptions};
 use crate::psp::ordered;
 use crate::psp::project::Projection;
@@ -32,8 +33,12 @@ pub struct Psp {
     mesh: Arc<Mesh>,
     options: ProjectionOptions<'static>,
     given: GivenSamples,
+    /// The position and the clearance of each given sample.
+    obstacles: Vec<([f32; 3], f64)>,
     facing: Facing,
     samples: SampleSet,
+    /// True if the set is known to be maximal.
+    is_maximal: bool,
     measures: Arc<Measures>,
     /// True if iterations are worth their rays.
     projects: bool,
@@ -61,8 +66,10 @@ impl Psp {
             mesh: mesh.clone(),
             options: options.without_given(),
             given: GivenSamples::new(mesh, options.given, radius, &samples, facing)?,
+            obstacles: balls(options.given, radius).collect(),
             facing,
             samples,
+            is_maximal: false,
             measures,
             projects: is_worth_projecting(mesh, radius, estimate),
             projection: None,
@@ -99,6 +106,15 @@ impl Psp {
         let mut report = Report::default();
         context.run(progress, |job| self.complete(job, &mut report))?;
         Ok(self.finish(report, &stopwatch))
+    }
+
+    /// The set as one that can be edited: its samples have the ids 0, 1, 2 and so on, and so have its given samples. No
+    /// more iterations can be made. O(samples).
+    pub fn into_editable(self) -> EditableSet {
+        let Self { mesh, options, obstacles, facing, samples, is_maximal, measures, .. } = self;
+        let mut set = EditableSet::new(mesh, measures, options.radius, facing, options.seed);
+        set.begin(samples.into_samples(), obstacles, is_maximal);
+        set
     }
 
     /// A copy of the samples, in the order in which they were accepted.
@@ -174,6 +190,7 @@ impl Psp {
         let area = self.mesh.area();
         report.uncovered_before = Some(if area > 0.0 { filled.open_area / area } else { 0.0 });
         report.uncovered_after = Some(0.0);
+        self.is_maximal = true;
         Ok(())
     }
 

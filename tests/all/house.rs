@@ -30,12 +30,13 @@ const IMPORTING: &[(&str, usize)] = &[
     ("psp/adaptive/site.rs", 23),
     ("psp/classes/mod.rs", 19),
     ("psp/classes/site.rs", 17),
+    ("psp/editable.rs", 20),
     ("psp/fill/blocks.rs", 15),
-    ("psp/fill/mod.rs", 14),
+    ("psp/fill/mod.rs", 15),
     ("psp/fill/uniform.rs", 22),
     ("psp/given.rs", 13),
     ("psp/ordered.rs", 16),
-    ("psp/progressive.rs", 21),
+    ("psp/progressive.rs", 22),
 ];
 
 /// Groups of files in more than one folder that import each other, by their first one.
@@ -43,7 +44,7 @@ const IN_CIRCLES: &[&str] = &["dcr/options.rs", "dcr/uniform/flip_mesh.rs"];
 
 /// The modules of the crate: each imports only from those before it.
 const ORDER: &[&str] = &[
-    "error", "host", "setters", "math", "check", "rng", "simd", "memory", "job", "points", "order", "given", "classes",
+    "error", "host", "setters", "math", "check", "rng", "simd", "memory", "job", "points", "order", "given", "region", "classes",
     "mesh", "index", "geometry", "plane", "maximal", "kdrt", "trace", "psp", "thin", "dcr", "analysis",
 ];
 

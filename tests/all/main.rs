@@ -21,6 +21,7 @@ mod dcr_density_report;
 mod dcr_starts;
 mod dcr_thesis;
 mod differential;
+mod editable;
 #[cfg(feature = "embree")]
 mod embree_traces;
 mod given;

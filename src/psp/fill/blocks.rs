@@ -32,13 +32,11 @@ const LONGEST: f64 = SIDE as f64 / 4.0;
 const LARGEST_BALL: f64 = SIDE as f64 / 8.0;
 
 /// The surface by cubes.
-pub struct Blocks<'a> {
-    measures: &'a Measures,
-    balls: Option<&'a [Ball]>,
+pub struct Blocks {
     chunks: Vec<Chunk>,
     pub cubes: Vec<Cube>,
     /// The box of the surface in each cube.
-    extents: Vec<Extent>,
+    pub extents: Vec<Extent>,
     /// The chunks with triangles in each cube, and the cube's number in them.
     parts: Binned<(u32, u32)>,
 }
@@ -60,8 +58,8 @@ struct Chunk {
     pieces: Binned<Fragment>,
 }
 
-impl<'a> Blocks<'a> {
-    pub fn new(job: &Job, mesh: &Mesh, measures: &'a Measures, samples: &SampleSet) -> Result<Self> {
+impl Blocks {
+    pub fn new(job: &Job, mesh: &Mesh, measures: &Measures, samples: &SampleSet) -> Result<Self> {
         let balls = measures.balls_up_to(&job.part(0.0, 0.2), mesh, LARGEST_BALL * samples.radius())?;
         let chunks = chunks_of(measures.triangles().clusters(), CHUNK);
         let chunk = |chunk: usize| Chunk::new(mesh, measures, balls, chunks.range(chunk), samples);
@@ -80,17 +78,17 @@ impl<'a> Blocks<'a> {
         extents.iter_mut().for_each(|extent| extent.clip(&bounds));
         let cubes = numbers.cubes;
         let parts = Binned::new(cubes.len(), parts.iter().copied());
-        Ok(Self { measures, balls, chunks, cubes, extents, parts })
+        Ok(Self { chunks, cubes, extents, parts })
     }
 
-    /// The triangles of one of the cubes, in the order of the mesh.
-    pub fn block(&self, number: usize) -> Block {
-        let (measured, mut items) = (self.measures.triangles(), Items::default());
+    /// The triangles of one of the cubes, in the order of the mesh, whose measures are those that the blocks are of.
+    pub fn block(&self, measures: &Measures, number: usize) -> Block {
+        let (measured, balls, mut items) = (measures.triangles(), measures.known_balls(), Items::default());
         for &(chunk, part) in self.parts.bin(number) {
             let (chunk, part) = (&self.chunks[chunk as usize], part as usize);
             let mut single = chunk.indices.bin(part).iter().map(|&index| index as usize).peekable();
             let clusters = chunk.clusters.bin(part).iter().map(|&cluster| cluster as usize);
-            for (cluster, ball) in clusters.flat_map(|cluster| self.balls.map(|balls| (cluster, balls[cluster]))) {
+            for (cluster, ball) in clusters.map(|cluster| (cluster, balls[cluster])) {
                 let indices = measured.cluster(cluster);
                 while let Some(index) = single.next_if(|&index| index < indices.start) {
                     items.triangles.push(measured.at(index));
@@ -98,12 +96,31 @@ impl<'a> Blocks<'a> {
                 let start = items.triangles.len() as u32;
                 items.triangles.extend(indices.map(|index| measured.at(index)));
                 let indices = start..items.triangles.len() as u32;
-                items.clusters.push(Cluster { indices, area: self.measures.areas[cluster], ball });
+                items.clusters.push(Cluster { indices, area: measures.areas[cluster], ball });
             }
             items.triangles.extend(single.map(|index| measured.at(index)));
             items.pieces.extend_from_slice(chunk.pieces.bin(part));
         }
         Block { cube: self.cubes[number], extent: self.extents[number], items }
+    }
+}
+
+impl Block {
+    /// The part of the block whose boxes a test holds for: whole triangles and pieces.
+    pub fn part(&self, mesh: &Mesh, is_in: impl Fn(&Extent) -> bool) -> Self {
+        let (mut extent, mut items) = (Extent::EMPTY, Items::default());
+        let mut join = |of: &Extent| {
+            let is_in = is_in(of);
+            if is_in {
+                extent.join(of);
+            }
+            is_in
+        };
+        let of_ball = |ball: &Ball| Extent::of(ball.ends().map(|end| end.map(|x| x as f32)));
+        let left = self.items.indices_but(|ball| !is_in(&of_ball(ball))).map(|index| self.items.triangles[index]);
+        items.triangles.extend(left.filter(|&triangle| join(&Extent::of(mesh.corners(triangle)))));
+        items.pieces.extend(self.items.pieces.iter().filter(|piece| join(&piece.extent(mesh))));
+        Self { cube: self.cube, extent, items }
     }
 }
 
@@ -153,9 +170,8 @@ impl Chunk {
                 slices.clear();
                 slice(mesh, triangle, PATCH * samples.radius(), &mut slices);
                 for piece in slices.iter().flat_map(|slice| slice.parts_up_to(mesh, longest)) {
-                    let corners = piece.corners.map(|corner| mesh.point_exact(triangle, corner));
-                    let extent = Extent::of(corners.map(|corner| corner.as_vec3().to_array()));
-                    pieces.push((place(samples.cube(corners[0].to_array()), &extent), piece));
+                    let first = mesh.point_exact(triangle, piece.corners[0]).to_array();
+                    pieces.push((place(samples.cube(first), &piece.extent(mesh)), piece));
                 }
             }
         }
@@ -186,6 +202,11 @@ pub struct Cluster {
 }
 
 impl Items {
+    /// True if there is no triangle.
+    pub fn is_empty(&self) -> bool {
+        self.triangles.is_empty() && self.pieces.is_empty()
+    }
+
     /// The indices of the triangles, except those of clusters whose ball is covered.
     pub fn indices_but(&self, is_covered: impl Fn(&Ball) -> bool) -> impl Iterator<Item = usize> {
         let (mut next, end) = (0, self.triangles.len() as u32);
@@ -331,7 +352,7 @@ pub mod tests {
                 };
                 let mut in_clusters = 0;
                 for (number, cube) in blocks.cubes.iter().enumerate() {
-                    let Block { extent, items, .. } = blocks.block(number);
+                    let Block { extent, items, .. } = blocks.block(&measures, number);
                     assert_eq!(with_area(&items.triangles), with_area(&expected.remove(cube).unwrap()));
                     let is_inside = |point: [f32; 3]| extent.is_in_reach(point, 1e-6);
                     let mut corners = items.triangles.iter().flat_map(|&triangle| mesh.corners(triangle));

@@ -169,6 +169,11 @@ impl Measures {
         self.balls.get(job, mesh, self.triangles(), largest)
     }
 
+    /// The balls around clusters, by cluster, if they have been made; otherwise none.
+    pub fn known_balls(&self) -> &[Ball] {
+        self.balls.made.get().map_or(&[], Vec::as_slice)
+    }
+
     /// An upper estimate of the samples of a maximal set.
     pub fn expected_samples(&self, mesh: &Mesh, radius: f64) -> f64 {
         DENSITY * mesh.area() / (radius * radius) + self.longer_than(radius) / radius

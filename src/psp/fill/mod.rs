@@ -31,6 +31,7 @@ use crate::index::Weights;
 use crate::job::{Chunks, Job, chunks_of};
 use crate::math::power;
 use crate::mesh::Mesh;
+use crate::psp::cubes::Cube;
 use crate::psp::fill::blocks::{Block, Blocks, ItemRow};
 use crate::psp::fill::darts::{PoissonProcess, random_point, shuffle};
 use crate::psp::fill::measures::{Measures, Triangles};
@@ -233,8 +234,8 @@ pub fn fill<S: Site>(
 ) -> Result<Filled> {
     if in_blocks {
         let blocks = Blocks::new(&job.part(0.0, 0.1), site.mesh(), site.measures(), samples)?;
-        let fill_block = |number: usize, samples: &SampleSet| fill_block(site, &blocks.block(number), samples, options);
-        return samples.grow(&job.part(0.1, 1.0), &blocks.cubes, fill_block);
+        let block = |number| blocks.block(site.measures(), number);
+        return fill_parts(&job.part(0.1, 1.0), site, samples, &blocks.cubes, block, options);
     }
     let mut ground = site.ground(None);
     samples.all().iter().for_each(|sample| S::add(&mut ground, sample));
@@ -249,6 +250,18 @@ pub fn fill<S: Site>(
     Ok(Filled { darts, open_area: open_area? })
 }
 
+/// Adds samples until the surface in some cubes is covered, or the part of it that is given for each.
+pub fn fill_parts<S: Site>(
+    job: &Job,
+    site: &S,
+    samples: &mut SampleSet,
+    cubes: &[Cube],
+    block: impl Fn(usize) -> Block + Sync,
+    options: FillOptions,
+) -> Result<Filled> {
+    samples.grow(job, cubes, |number, samples| fill_block(site, &block(number), samples, options))
+}
+
 /// The samples that cover the open parts of a cube, and the counts of its fill.
 fn fill_block<S: Site>(
     site: &S,
@@ -256,6 +269,9 @@ fn fill_block<S: Site>(
     samples: &SampleSet,
     options: FillOptions,
 ) -> Result<(Vec<Sample>, Filled)> {
+    if block.items.is_empty() {
+        return Ok((Vec::new(), Filled::default()));
+    }
     let (mut ground, mut rng) = (site.ground(Some(block)), Rng::at(options.seed, Draw::Fill, &block.cube.key()));
     let add_neighbours = |ground: &mut S::Ground<'_>| {
         let is_near = |sample: &&Sample| block.extent.is_in_reach(sample.position, site.reach());
