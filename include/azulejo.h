@@ -675,6 +675,23 @@ typedef struct azulejo_psp_report {
     double coverage;
 } azulejo_psp_report;
 
+/// A part of space: the points that lie in a box and within a distance of a centre, the boundary
+/// included. Both are without end by default: set `centre` and `radius` for a ball, `min` and `max`
+/// for a box, or all four for what they have in common.
+typedef struct azulejo_region {
+    /// The size of the struct in bytes; set by the _init function.
+    uint32_t struct_size;
+    uint32_t reserved;
+    /// The lowest coordinates of the box; default minus infinity.
+    double min[3];
+    /// The highest coordinates of the box, not below `min`; default infinity.
+    double max[3];
+    /// The centre of the ball, finite; default 0.
+    double centre[3];
+    /// The radius of the ball, 0 or more; default infinity.
+    double radius;
+} azulejo_region;
+
 /// Gives the radius at a position.
 ///
 /// It is called on other threads than the one that made the call, by several at once, unless the
@@ -1276,6 +1293,11 @@ const float *azulejo_points_ranks(const struct azulejo_points *points);
 /// NULL for NULL, an empty set and sets made without classes.
 const uint32_t *azulejo_points_classes(const struct azulejo_points *points);
 
+/// The ids of the samples of a psp handle that has been edited (azulejo_psp_erase): a sample keeps
+/// its id as long as it stands, and no other one ever gets it. NULL for NULL, an empty set and all
+/// other sets.
+const uint64_t *azulejo_points_ids(const struct azulejo_points *points);
+
 /// Frees the set with all its arrays. NULL is allowed.
 void azulejo_points_free(struct azulejo_points *points);
 
@@ -1851,7 +1873,7 @@ azulejo_status azulejo_psp_create(const struct azulejo_context *context,
 /// With AZULEJO_ENGINE_EMBREE the bytes depend on the version of Embree and on the instruction set:
 /// the last bits of a hit may differ, and with them which of two candidates is taken.
 ///
-/// iterations: how often; 0 does nothing.
+/// iterations: how often; 0 does nothing. A set that has been edited makes none.
 ///
 /// report: what this call did, or NULL.
 ///
@@ -1868,6 +1890,8 @@ azulejo_status azulejo_psp_advance(struct azulejo_psp *psp,
 /// Makes the set maximal: finds the parts of the surface that are farther than the radius from
 /// every sample and throws darts into them until there is none.
 ///
+/// A set that has been edited is filled as by azulejo_psp_refill, with the seed of its options.
+///
 /// report: what this call did, or NULL.
 ///
 /// O(samples + triangles) time, more for parts that darts hit rarely.
@@ -1876,7 +1900,8 @@ azulejo_status azulejo_psp_advance(struct azulejo_psp *psp,
 /// AZULEJO_ERROR_CANCELLED: the set then holds what was finished, and can still grow.
 azulejo_status azulejo_psp_fill(struct azulejo_psp *psp, struct azulejo_psp_report *report);
 
-/// Copies the set in its present state. Several threads may do so at once.
+/// Copies the set in its present state; one that has been edited by rising ids. Several threads may
+/// do so at once.
 ///
 /// out: the samples with normals, triangles and barycentrics, to be freed with azulejo_points_free.
 ///
@@ -1949,6 +1974,110 @@ azulejo_status azulejo_psp_sample_classes(const struct azulejo_context *context,
                                           const struct azulejo_psp_options *options,
                                           const struct azulejo_classes *classes,
                                           struct azulejo_points **out);
+
+/// Writes the defaults: all of space. `struct_size` is sizeof *region.
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
+azulejo_status azulejo_region_init(struct azulejo_region *region, size_t struct_size);
+
+/// Erases the samples of a set in a region. From the first edit on the set can be filled again
+/// (azulejo_psp_refill, azulejo_psp_fill) but makes no more iterations, and every sample has an id
+/// (azulejo_points_ids): 0, 1, 2 and so on for those that stand then, in their order. A sample
+/// keeps its id and all its bytes until it is erased, and no other sample ever gets that id.
+///
+/// To undo a stroke of a brush, erase what azulejo_psp_refill added, by azulejo_psp_erase_ids, and
+/// give back what this call erased, by azulejo_psp_restore: the set is then as before, bit for bit.
+/// To redo it, erase the same region again and refill with the same seed.
+///
+/// erased: the erased samples with their ids, by rising ids, to be freed with azulejo_points_free;
+/// NULL if they are not wanted.
+///
+/// O(samples in the cubes of 24 radii that the region touches); the first edit O(samples).
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for a region with a bound that is NaN, and while
+/// another call uses the handle.
+azulejo_status azulejo_psp_erase(struct azulejo_psp *psp,
+                                 const struct azulejo_region *region,
+                                 struct azulejo_points **erased);
+
+/// Erases samples by their ids.
+///
+/// ids: `count` ids, each of a sample of the set, none twice; NULL if `count` is 0.
+///
+/// erased: as in azulejo_psp_erase.
+///
+/// O(samples in the cubes of 24 radii that they are in).
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for an id that no sample of the set has, and while
+/// another call uses the handle; nothing is erased then.
+azulejo_status azulejo_psp_erase_ids(struct azulejo_psp *psp,
+                                     const uint64_t *ids,
+                                     size_t count,
+                                     struct azulejo_points **erased);
+
+/// Puts samples back that were erased from the set, with their ids and all their bytes.
+///
+/// points: from an edit of this handle; not changed, and still to be freed.
+///
+/// O(points + samples in the cubes of 24 radii around them).
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for samples that are not this set's, that stand
+/// already, or that are too close to a sample or a given sample by now, and while another call uses
+/// the handle; nothing is put back then.
+azulejo_status azulejo_psp_restore(struct azulejo_psp *psp, const struct azulejo_points *points);
+
+/// Adds given samples to those of the options. Samples of the set that are closer to one than its
+/// clearance are erased.
+///
+/// positions: x y z each. clearances: one for each, finite and 0 or more; NULL: the radius of the
+/// set.
+///
+/// first_id: the id of the first of them, which the others follow; NULL if it is not wanted. Those
+/// of the options have the ids from 0 on. Ids of given samples and of samples are independent.
+///
+/// erased: as in azulejo_psp_erase.
+///
+/// O(samples in the cubes of 24 radii that the clearances touch), for each.
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also while another call uses the handle; nothing is
+/// changed then.
+azulejo_status azulejo_psp_add_given(struct azulejo_psp *psp,
+                                     const float *positions,
+                                     const double *clearances,
+                                     size_t count,
+                                     uint64_t *first_id,
+                                     struct azulejo_points **erased);
+
+/// Removes given samples by their ids: the surface that they covered is filled by the next
+/// azulejo_psp_refill.
+///
+/// O(given samples).
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for an id that no given sample has, and while
+/// another call uses the handle; nothing is removed then.
+azulejo_status azulejo_psp_remove_given(struct azulejo_psp *psp, const uint64_t *ids, size_t count);
+
+/// Makes the set maximal again after edits: as azulejo_psp_fill, but only where samples were erased
+/// or given samples removed since the last refill. All samples that stand stay as they are.
+///
+/// The new samples depend on `seed`, on the edits and on what stands around them. They can lie up
+/// to a radius outside a region that was erased, since that is how far the erased samples covered
+/// the surface.
+///
+/// added: the new samples with their ids, by rising ids, to be freed with azulejo_points_free; NULL
+/// if they are not wanted.
+///
+/// report: what this call did, or NULL.
+///
+/// O(surface in and around the edited regions + given samples); the first call on a handle also
+/// O(triangles).
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also while another call uses the handle;
+/// AZULEJO_ERROR_CANCELLED: nothing is added then, and the call can be repeated.
+azulejo_status azulejo_psp_refill(struct azulejo_psp *psp,
+                                  uint64_t seed,
+                                  struct azulejo_points **added,
+                                  struct azulejo_psp_report *report);
 
 /// Writes zeros and the size. `struct_size` is sizeof *report.
 ///

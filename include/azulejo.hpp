@@ -230,6 +230,9 @@ public:
     Span<const std::uint32_t> classes() const noexcept {
         return array(azulejo_points_classes(get()), 1);
     }
+    /// The id of each sample of a Psp that has been edited; empty for other sets. See
+    /// azulejo_points_ids.
+    Span<const std::uint64_t> ids() const noexcept { return array(azulejo_points_ids(get()), 1); }
 
 private:
     template <class T>
@@ -1110,8 +1113,28 @@ public:
 
 // ---- Psp ---------------------------------------------------------------------------------------
 
-/// A set of samples on a mesh that grows; see azulejo_psp. It keeps what it needs of the context,
-/// the mesh and the options, with their progress functions.
+/// A part of space, at first all of it; see azulejo_region.
+struct Region : azulejo_region {
+    // Cannot fail: the struct has the size that this header gives it.
+    Region() noexcept : azulejo_region() { (void)azulejo_region_init(this, sizeof *this); }
+
+    static Region ball(const std::array<double, 3> &centre, double radius) noexcept {
+        Region region;
+        std::copy_n(centre.data(), 3, region.centre);
+        region.radius = radius;
+        return region;
+    }
+
+    static Region box(const std::array<double, 3> &min, const std::array<double, 3> &max) noexcept {
+        Region region;
+        std::copy_n(min.data(), 3, region.min);
+        std::copy_n(max.data(), 3, region.max);
+        return region;
+    }
+};
+
+/// A set of samples on a mesh that grows and can be edited; see azulejo_psp. It keeps what it needs
+/// of the context, the mesh and the options, with their progress functions.
 class Psp : public Owner<azulejo_psp, azulejo_psp_free> {
 public:
     using Owner::Owner;
@@ -1140,6 +1163,53 @@ public:
         return detail::run([&] { return azulejo_psp_fill(get(), report); });
     }
 
+    /// Erases the samples in a region; see azulejo_psp_erase.
+    Status try_erase(const Region &region, Points &erased) {
+        return detail::make(erased, [&](auto **p) { return azulejo_psp_erase(get(), &region, p); });
+    }
+
+    /// Erases samples by their ids; see azulejo_psp_erase_ids.
+    Status try_erase(Span<const std::uint64_t> ids, Points &erased) {
+        return detail::make(erased, [&](auto **points) {
+            return azulejo_psp_erase_ids(get(), ids.data(), ids.size(), points);
+        });
+    }
+
+    /// Puts erased samples back; see azulejo_psp_restore.
+    Status try_restore(const Points &points) {
+        return detail::run([&] { return azulejo_psp_restore(get(), points.get()); });
+    }
+
+    /// Adds given samples; see azulejo_psp_add_given. `clearances`, one for each, may be empty: all
+    /// have the radius of the set.
+    Status try_add_given(const SpacePoints &positions, Span<const double> clearances,
+                         std::uint64_t &first_id, Points &erased) {
+        if (Status s = positions.check("positions"); !s.ok()) return s;
+        if (clearances.size() != 0 && clearances.size() != positions.size()) {
+            return Status(AZULEJO_ERROR_INVALID_ARGUMENT,
+                          "clearances: there are " + std::to_string(clearances.size()) + ", and " +
+                              std::to_string(positions.size()) + " positions");
+        }
+        return detail::make(erased, [&](auto **points) {
+            return azulejo_psp_add_given(get(), positions.data(),
+                                         clearances.size() == 0 ? nullptr : clearances.data(),
+                                         positions.size(), &first_id, points);
+        });
+    }
+
+    /// Removes given samples by their ids; see azulejo_psp_remove_given.
+    Status try_remove_given(Span<const std::uint64_t> ids) {
+        return detail::run(
+            [&] { return azulejo_psp_remove_given(get(), ids.data(), ids.size()); });
+    }
+
+    /// Fills the gaps that edits have left; see azulejo_psp_refill. `report` may be null.
+    Status try_refill(std::uint64_t seed, Points &added, PspReport *report = nullptr) {
+        return detail::make(added, [&](auto **points) {
+            return azulejo_psp_refill(get(), seed, points, report);
+        });
+    }
+
     /// A copy of the set as it is now; see azulejo_psp_points.
     Status try_points(Points &out) const {
         return detail::make(out, [&](auto **points) { return azulejo_psp_points(get(), points); });
@@ -1160,6 +1230,39 @@ public:
         PspReport report;
         check(try_fill(&report));
         return report;
+    }
+
+    Points erase(const Region &region) {
+        Points erased;
+        check(try_erase(region, erased));
+        return erased;
+    }
+
+    Points erase(Span<const std::uint64_t> ids) {
+        Points erased;
+        check(try_erase(ids, erased));
+        return erased;
+    }
+
+    void restore(const Points &points) { check(try_restore(points)); }
+
+    /// The id of the first given sample, which the others follow. The samples that gave way are
+    /// put into `erased`, if it is not null.
+    std::uint64_t add_given(const SpacePoints &positions, Span<const double> clearances = {},
+                            Points *erased = nullptr) {
+        Points points;
+        std::uint64_t first_id = 0;
+        check(try_add_given(positions, clearances, first_id, points));
+        if (erased != nullptr) *erased = std::move(points);
+        return first_id;
+    }
+
+    void remove_given(Span<const std::uint64_t> ids) { check(try_remove_given(ids)); }
+
+    Points refill(std::uint64_t seed, PspReport *report = nullptr) {
+        Points added;
+        check(try_refill(seed, added, report));
+        return added;
     }
 
     Points points() const {

@@ -36,7 +36,10 @@ impl Region {
         for axis in 0..3 {
             let (min, max) = (self.min[axis], self.max[axis]);
             if min.is_nan() || max.is_nan() || min > max {
-                return Err(Error::invalid("region", format!("max[{axis}] is {max:?}, not from min[{axis}] {min:?} on")));
+                return Err(Error::invalid(
+                    "region",
+                    format!("max[{axis}] is {max:?}, not from min[{axis}] {min:?} on"),
+                ));
             }
         }
         if !self.centre.iter().all(|x| x.is_finite()) {

@@ -17,6 +17,7 @@ use crate::check;
 use crate::error::{Error, Result};
 use crate::given::Given;
 use crate::host::Stopwatch;
+use crate::index::Grid3;
 use crate::job::{Context, Job, Progress};
 use crate::math::distance_squared;
 use crate::mesh::Mesh;
@@ -147,12 +148,10 @@ impl EditableSet {
         }
         let mut by_cube: HashMap<Cube, Vec<u64>> = HashMap::new();
         for (index, &id) in ids.iter().enumerate() {
-            let cube = usize::try_from(id).ok().and_then(|id| self.cube_of.get(id));
-            let has = |cube: &&Cube| self.samples.get(cube).is_some_and(|own| own.iter().any(|own| own.id == id));
-            let Some(cube) = cube.filter(has) else {
+            let Some(cube) = self.cube_with(id) else {
                 return Err(Error::invalid("ids", format!("[{index}] is {id}, which no sample of the set has")));
             };
-            by_cube.entry(*cube).or_default().push(id);
+            by_cube.entry(cube).or_default().push(id);
         }
         let mut erased = Vec::new();
         for (cube, mut ids) in by_cube {
@@ -177,30 +176,38 @@ impl EditableSet {
             return Err(Error::invalid("points", "are not samples of a set that is edited"));
         }
         check::triangles(&points.triangles, triangles)?;
-        let mut restored: HashMap<Cube, Vec<Numbered>> = HashMap::new();
-        for (index, &id) in points.ids.iter().enumerate() {
-            let sample = Sample::new(&self.mesh, points.triangles[index], points.barycentrics[index]);
-            let known = usize::try_from(id).ok().and_then(|id| self.cube_of.get(id));
-            if sample.position != points.positions[index] || known.is_none() {
-                return refused(index, format!("is not a sample of this set, which has given no id {id} to it"));
+        let restored: Vec<Numbered> = (0..count)
+            .map(|i| Sample::new(&self.mesh, points.triangles[i], points.barycentrics[i]))
+            .zip(&points.ids)
+            .map(|(sample, &id)| Numbered { id, sample })
+            .collect();
+        let mut cubes: Vec<Cube> = restored.iter().map(|own| self.cube(&own.sample)).collect();
+        cubes.dedup();
+        let mut standing: Vec<Numbered> = self.standing_around(&cubes).copied().collect();
+        let mut grid = Grid3::new([0.0; 3], self.radius);
+        standing.iter().for_each(|own| _ = grid.insert(own.sample.position));
+        for (index, own @ Numbered { id, sample }) in restored.iter().enumerate() {
+            let is_known = usize::try_from(*id).is_ok_and(|id| id < self.cube_of.len());
+            if !is_known || sample.position != points.positions[index] {
+                return refused(index, format!("is not a sample of this set, in which the id {id} is another's"));
             }
-            let cube = self.empty.cube(sample.position.map(f64::from));
-            let mut near = cube.around().flat_map(|cube| {
-                let [own, new] = [&self.samples, &restored].map(|set| set.get(&cube).into_iter().flatten());
-                own.chain(new)
-            });
-            if let Some(other) = near.find(|other| other.id == id || self.conflict(&sample, &other.sample)) {
-                return refused(index, format!("conflicts with sample {}", other.id));
+            if self.cube_with(*id).is_some() {
+                return refused(index, format!("stands already, with the id {id}"));
+            }
+            let conflicts = |&other: &u32| self.conflict(sample, &standing[other as usize].sample);
+            let near = grid.candidates(sample.position.map(f64::from), self.empty.radius()).find(conflicts);
+            if let Some(other) = near {
+                return refused(index, format!("conflicts with sample {}", standing[other as usize].id));
             }
             if let Some(given) = self.given.iter().find(|given| given.covers(sample.position)) {
                 return refused(index, format!("conflicts with given sample {}", given.id));
             }
-            restored.entry(cube).or_default().push(Numbered { id, sample });
+            grid.insert(sample.position);
+            standing.push(*own);
         }
-        self.len += count;
-        for (cube, samples) in restored {
-            samples.iter().for_each(|sample| self.cube_of[sample.id as usize] = cube);
-            self.samples.entry(cube).or_default().extend(samples);
+        for own in restored {
+            self.cube_of[own.id as usize] = self.cube(&own.sample);
+            self.put(own);
         }
         Ok(())
     }
@@ -260,12 +267,7 @@ impl EditableSet {
     ///
     /// # Errors
     /// [`Error::Cancelled`] by the progress callback: nothing is added then.
-    pub fn refill(
-        &mut self,
-        context: &Context,
-        seed: u64,
-        progress: Option<&Progress>,
-    ) -> Result<(Points<3>, Report)> {
+    pub fn refill(&mut self, context: &Context, seed: u64, progress: Option<&Progress>) -> Result<(Points<3>, Report)> {
         let (stopwatch, first) = (Stopwatch::start(), self.cube_of.len());
         let filled = context.run(progress, |job| self.fill(job, seed));
         let darts = filled.inspect_err(|_| self.forget(first))?;
@@ -313,11 +315,8 @@ impl EditableSet {
             .collect();
         let cubes: Vec<Cube> = parts.iter().map(|&(number, _)| blocks.cubes[number]).collect();
 
-        let mut around: Vec<Cube> = cubes.iter().flat_map(|cube| cube.around()).collect();
-        around.sort_unstable();
-        around.dedup();
-        let standing = around.iter().filter_map(|cube| self.samples.get(cube)).flatten().map(|own| own.sample);
-        let mut samples = SampleSet::with(&self.mesh, self.radius, standing.collect());
+        let standing = self.standing_around(&cubes).map(|own| own.sample).collect();
+        let mut samples = SampleSet::with(&self.mesh, self.radius, standing);
         let given = self.given_near(parts.iter().map(|&(number, _)| &blocks.extents[number]), &samples)?;
 
         let surface = Surface { mesh: &self.mesh, measures: &self.measures, given: &given, facing: self.facing };
@@ -333,12 +332,16 @@ impl EditableSet {
         Ok((samples.into_samples().split_off(before), filled.darts))
     }
 
+    /// The samples in and around some cubes.
+    fn standing_around(&self, cubes: &[Cube]) -> impl Iterator<Item = &Numbered> {
+        let mut around: Vec<Cube> = cubes.iter().flat_map(|cube| cube.around()).collect();
+        around.sort_unstable();
+        around.dedup();
+        around.into_iter().filter_map(|cube| self.samples.get(&cube)).flatten()
+    }
+
     /// The given samples that can matter in some boxes.
-    fn given_near<'a>(
-        &self,
-        extents: impl Iterator<Item = &'a Extent>,
-        samples: &SampleSet,
-    ) -> Result<GivenSamples> {
+    fn given_near<'a>(&self, extents: impl Iterator<Item = &'a Extent>, samples: &SampleSet) -> Result<GivenSamples> {
         let mut extent = Extent::EMPTY;
         extents.for_each(|other| extent.join(other));
         let near = self.given.iter().filter(|given| extent.is_in_reach(given.position, given.clearance));
@@ -381,10 +384,26 @@ impl EditableSet {
 
     /// Adds a sample with the next id.
     fn add(&mut self, sample: Sample) {
-        let cube = self.empty.cube(sample.position.map(f64::from));
-        self.samples.entry(cube).or_default().push(Numbered { id: self.cube_of.len() as u64, sample });
-        self.cube_of.push(cube);
+        let id = self.cube_of.len() as u64;
+        self.cube_of.push(self.cube(&sample));
+        self.put(Numbered { id, sample });
+    }
+
+    /// Puts a sample into its cube.
+    fn put(&mut self, own: Numbered) {
+        self.samples.entry(self.cube_of[own.id as usize]).or_default().push(own);
         self.len += 1;
+    }
+
+    /// The cube of a sample.
+    fn cube(&self, sample: &Sample) -> Cube {
+        self.empty.cube(sample.position.map(f64::from))
+    }
+
+    /// The cube that has the sample of an id, if one stands.
+    fn cube_with(&self, id: u64) -> Option<Cube> {
+        let cube = *self.cube_of.get(usize::try_from(id).ok()?)?;
+        self.samples.get(&cube)?.iter().any(|own| own.id == id).then_some(cube)
     }
 
     /// Removes the samples in the cubes that a region touches for which a test holds, and returns them.

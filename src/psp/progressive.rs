@@ -108,8 +108,8 @@ impl Psp {
         Ok(self.finish(report, &stopwatch))
     }
 
-    /// The set as one that can be edited: its samples have the ids 0, 1, 2 and so on, and so have its given samples. No
-    /// more iterations can be made. O(samples).
+    /// The set as one that can be edited, in which its samples, in their order, have the ids 0, 1, 2 and so on, and so
+    /// have its given samples. No more iterations can be made. O(samples).
     pub fn into_editable(self) -> EditableSet {
         let Self { mesh, options, obstacles, facing, samples, is_maximal, measures, .. } = self;
         let mut set = EditableSet::new(mesh, measures, options.radius, facing, options.seed);

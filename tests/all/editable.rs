@@ -97,7 +97,8 @@ fn session(mesh: &Arc<Mesh>, options: &ProjectionOptions, seed: u64, steps: usiz
                 2 => {
                     let position = current.positions[pick(&mut random)].map(|x| x + 0.3 * radius as f32);
                     let clearance = radius * f64::from(3.0 * random.unit());
-                    let added = Given::with_clearances(std::slice::from_ref(&position), std::slice::from_ref(&clearance));
+                    let added =
+                        Given::with_clearances(std::slice::from_ref(&position), std::slice::from_ref(&clearance));
                     let results = sets.each_mut().map(|set| set.add_given(added).unwrap());
                     assert_eq!(results[0].0, results[1].0);
                     assert!(given.insert(results[0].0, (position.map(f64::from), clearance)).is_none());
@@ -221,7 +222,7 @@ fn what_cannot_be_done_is_refused_and_changes_nothing() {
     assert_eq!(set.samples(), before);
 
     // What stands is not put back a second time; nor is what a sample or a given one keeps out.
-    assert_eq!(said(set.restore(&before).unwrap_err()), "points: [0] conflicts with sample 0");
+    assert_eq!(said(set.restore(&before).unwrap_err()), "points: [0] stands already, with the id 0");
     let erased = set.erase_ids(&[3]).unwrap();
     let mut moved = erased.clone();
     moved.positions[0][0] += 0.5;
@@ -233,5 +234,17 @@ fn what_cannot_be_done_is_refused_and_changes_nothing() {
     set.remove_given(&[given]).unwrap();
     set.restore(&erased).unwrap();
     assert_eq!(set.samples(), before);
-    assert_eq!(said(set.restore(&erased).unwrap_err()), "points: [0] conflicts with sample 3");
+    assert_eq!(said(set.restore(&erased).unwrap_err()), "points: [0] stands already, with the id 3");
+    let fourth = set.erase_ids(&[4]).unwrap();
+    let other = Points { ids: vec![3], ..fourth.clone() };
+    assert_eq!(said(set.restore(&other).unwrap_err()), "points: [0] stands already, with the id 3");
+    let twice = [0, 0];
+    let double = Points {
+        positions: twice.map(|i| fourth.positions[i]).to_vec(),
+        triangles: twice.map(|i| fourth.triangles[i]).to_vec(),
+        barycentrics: twice.map(|i| fourth.barycentrics[i]).to_vec(),
+        ids: vec![4, 4],
+        ..Points::default()
+    };
+    assert_eq!(said(set.restore(&double).unwrap_err()), "points: [1] conflicts with sample 4");
 }

@@ -14,6 +14,8 @@ pub struct azulejo_points {
     ranks: Vec<f32>,
     /// The class of each sample of a set of several.
     classes: Vec<u32>,
+    /// The id of each sample of a set that is edited.
+    pub(crate) ids: Vec<u64>,
 }
 
 pub(crate) enum Samples {
@@ -23,7 +25,7 @@ pub(crate) enum Samples {
 
 impl azulejo_points {
     fn of(samples: Samples) -> Self {
-        Self { samples, radii: Vec::new(), ranks: Vec::new(), classes: Vec::new() }
+        Self { samples, radii: Vec::new(), ranks: Vec::new(), classes: Vec::new(), ids: Vec::new() }
     }
 
     /// Samples of the plane, with their ranks or classes if they have any.
@@ -34,8 +36,8 @@ impl azulejo_points {
 
     pub(crate) fn surface(mut samples: Points<3>) -> Self {
         let (ranks, classes) = (std::mem::take(&mut samples.ranks), std::mem::take(&mut samples.classes));
-        let radii = std::mem::take(&mut samples.radii);
-        Self { ranks, classes, radii, ..Self::of(Samples::Surface(samples)) }
+        let (radii, ids) = (std::mem::take(&mut samples.radii), std::mem::take(&mut samples.ids));
+        Self { ranks, classes, radii, ids, ..Self::of(Samples::Surface(samples)) }
     }
 }
 
@@ -141,6 +143,14 @@ pub extern "C" fn azulejo_points_ranks(points: Option<&azulejo_points>) -> *cons
 #[unsafe(no_mangle)]
 pub extern "C" fn azulejo_points_classes(points: Option<&azulejo_points>) -> *const u32 {
     points.map_or(std::ptr::null(), |points| array(&points.classes))
+}
+
+/// The ids of the samples of a psp handle that has been edited (azulejo_psp_erase): a sample keeps
+/// its id as long as it stands, and no other one ever gets it. NULL for NULL, an empty set and all
+/// other sets.
+#[unsafe(no_mangle)]
+pub extern "C" fn azulejo_points_ids(points: Option<&azulejo_points>) -> *const u64 {
+    points.map_or(std::ptr::null(), |points| array(&points.ids))
 }
 
 /// Frees the set with all its arrays. NULL is allowed.

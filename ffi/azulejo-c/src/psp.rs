@@ -3,13 +3,13 @@
 use std::ffi::c_void;
 use std::mem::MaybeUninit;
 use std::ptr::NonNull;
-use std::sync::{RwLock, TryLockError};
+use std::sync::{RwLock, RwLockWriteGuard, TryLockError};
 
 use azulejo_core::psp::{
-    ClassOptions, DEFAULT_QUOTIENT, Engine, FlatOptions, Priority, ProjectionOptions, Psp, Report,
+    ClassOptions, DEFAULT_QUOTIENT, EditableSet, Engine, FlatOptions, Priority, ProjectionOptions, Psp, Report,
 };
 use azulejo_core::trace::HAS_EMBREE;
-use azulejo_core::{Context, Given, Order, Progress};
+use azulejo_core::{Context, Given, Order, Points, Progress};
 
 use crate::boundary::{self, check_unused, flag, required};
 use crate::context::azulejo_context;
@@ -30,7 +30,52 @@ use crate::thin::{AZULEJO_ORDER_ANY, order};
 pub struct azulejo_psp {
     context: azulejo_context,
     watch: Watch,
-    state: RwLock<Psp>,
+    state: RwLock<State>,
+}
+
+/// The set of a handle: one that grows, until its first edit.
+pub(crate) enum State {
+    Growing(Psp),
+    Edited(EditableSet),
+    /// While one becomes the other.
+    Between,
+}
+
+impl State {
+    /// The set, to be edited.
+    pub(crate) fn editable(&mut self) -> &mut EditableSet {
+        *self = match std::mem::replace(self, Self::Between) {
+            Self::Growing(psp) => Self::Edited(psp.into_editable()),
+            other => other,
+        };
+        match self {
+            Self::Edited(set) => set,
+            _ => unreachable!("a panic between the two poisons the lock"),
+        }
+    }
+
+    fn samples(&self) -> Points<3> {
+        match self {
+            Self::Growing(psp) => psp.samples(),
+            Self::Edited(set) => set.samples(),
+            Self::Between => unreachable!("a panic between the two poisons the lock"),
+        }
+    }
+}
+
+impl azulejo_psp {
+    /// The set, for a call that changes it.
+    pub(crate) fn lock(&self) -> Result<RwLockWriteGuard<'_, State>, Failure> {
+        self.state.try_write().map_err(|error| locked(&error))
+    }
+
+    /// Runs work on the threads of the handle's context, under its watch.
+    pub(crate) fn run<T>(
+        &self,
+        work: impl FnOnce(&Context, Option<&Progress>) -> azulejo_core::Result<T>,
+    ) -> Result<T, Failure> {
+        self.context.run(self.watch, work)
+    }
 }
 
 /// If two candidates of an iteration are too close, the one that its projector faces more squarely
@@ -261,7 +306,7 @@ pub unsafe extern "C" fn azulejo_psp_create(
         let options = unsafe { growing::read("options", options) }?;
         // SAFETY: handed on from the caller.
         let request = unsafe { options.request_of_handle() }?;
-        let state = RwLock::new(Psp::new(mesh, &request)?);
+        let state = RwLock::new(State::Growing(Psp::new(mesh, &request)?));
         Ok(azulejo_psp { context, watch: options.watch(), state })
     })
 }
@@ -278,7 +323,7 @@ pub unsafe extern "C" fn azulejo_psp_create(
 /// With AZULEJO_ENGINE_EMBREE the bytes depend on the version of Embree and on the instruction set:
 /// the last bits of a hit may differ, and with them which of two candidates is taken.
 ///
-/// iterations: how often; 0 does nothing.
+/// iterations: how often; 0 does nothing. A set that has been edited makes none.
 ///
 /// report: what this call did, or NULL.
 ///
@@ -294,12 +339,18 @@ pub unsafe extern "C" fn azulejo_psp_advance(
     iterations: u32,
     report: *mut azulejo_psp_report,
 ) -> azulejo_status {
+    let advance = |state: &mut State, psp: &azulejo_psp| match state {
+        State::Growing(growing) => psp.run(|context, progress| growing.advance(context, iterations, progress)),
+        _ => Err(Failure::invalid("psp", "has been edited, and makes no more iterations")),
+    };
     // SAFETY: handed on from the caller.
-    unsafe { change(psp, report, |state, context, progress| state.advance(context, iterations, progress)) }
+    unsafe { change(psp, report, advance) }
 }
 
 /// Makes the set maximal: finds the parts of the surface that are farther than the radius from
 /// every sample and throws darts into them until there is none.
+///
+/// A set that has been edited is filled as by azulejo_psp_refill, with the seed of its options.
 ///
 /// report: what this call did, or NULL.
 ///
@@ -313,10 +364,19 @@ pub unsafe extern "C" fn azulejo_psp_fill(
     report: *mut azulejo_psp_report,
 ) -> azulejo_status {
     // SAFETY: handed on from the caller.
-    unsafe { change(psp, report, Psp::fill) }
+    let fill = |state: &mut State, psp: &azulejo_psp| match state {
+        State::Growing(growing) => psp.run(|context, progress| growing.fill(context, progress)),
+        _ => {
+            let set = state.editable();
+            psp.run(|context, progress| set.refill(context, set.seed(), progress)).map(|(_, report)| report)
+        }
+    };
+    // SAFETY: handed on from the caller.
+    unsafe { change(psp, report, fill) }
 }
 
-/// Copies the set in its present state. Several threads may do so at once.
+/// Copies the set in its present state; one that has been edited by rising ids. Several threads may
+/// do so at once.
 ///
 /// out: the samples with normals, triangles and barycentrics, to be freed with azulejo_points_free.
 ///
@@ -395,13 +455,12 @@ pub unsafe extern "C" fn azulejo_psp_sample(
 unsafe fn change(
     psp: Option<NonNull<azulejo_psp>>,
     report: *mut azulejo_psp_report,
-    step: impl FnOnce(&mut Psp, &Context, Option<&Progress>) -> azulejo_core::Result<Report>,
+    step: impl FnOnce(&mut State, &azulejo_psp) -> Result<Report, Failure>,
 ) -> azulejo_status {
     boundary::call(|| {
         // SAFETY: the caller's word. A shared reference, because two calls may meet; the lock parts them.
         let (psp, report) = unsafe { (required("psp", psp)?.as_ref(), Output::optional("report", report)?) };
-        let mut state = psp.state.try_write().map_err(|error| locked(&error))?;
-        let done = psp.context.run(psp.watch, |context, progress| step(&mut state, context, progress))?;
+        let done = step(&mut *psp.lock()?, psp)?;
         if let Some(report) = report {
             report.write(done);
         }

@@ -1,0 +1,260 @@
+//! PSP: sets on meshes that are edited.
+
+use std::mem::MaybeUninit;
+use std::ptr::NonNull;
+
+use azulejo_core::psp::EditableSet;
+use azulejo_core::{Points, Region};
+
+use crate::boundary::{self, check_pointer, check_reserved, required, rows};
+use crate::given::given;
+use crate::growing::{self, Output, growing};
+use crate::points::{Samples, azulejo_points};
+use crate::psp::{State, azulejo_psp};
+use crate::psp_report::azulejo_psp_report;
+use crate::status::{Failure, azulejo_status};
+
+/// A part of space: the points that lie in a box and within a distance of a centre, the boundary
+/// included. Both are without end by default: set `centre` and `radius` for a ball, `min` and `max`
+/// for a box, or all four for what they have in common.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct azulejo_region {
+    /// The size of the struct in bytes; set by the _init function.
+    pub struct_size: u32,
+    pub reserved: u32,
+    /// The lowest coordinates of the box; default minus infinity.
+    pub min: [f64; 3],
+    /// The highest coordinates of the box, not below `min`; default infinity.
+    pub max: [f64; 3],
+    /// The centre of the ball, finite; default 0.
+    pub centre: [f64; 3],
+    /// The radius of the ball, 0 or more; default infinity.
+    pub radius: f64,
+}
+
+growing!(azulejo_region requires radius {
+    reserved: 0,
+    min: Region::EVERYWHERE.min,
+    max: Region::EVERYWHERE.max,
+    centre: Region::EVERYWHERE.centre,
+    radius: Region::EVERYWHERE.radius,
+});
+
+impl azulejo_region {
+    fn region(&self) -> Result<Region, Failure> {
+        check_reserved(self.reserved)?;
+        let &Self { min, max, centre, radius, .. } = self;
+        Ok(Region { min, max, centre, radius })
+    }
+}
+
+/// Writes the defaults: all of space. `struct_size` is sizeof *region.
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_region_init(region: *mut azulejo_region, struct_size: usize) -> azulejo_status {
+    // SAFETY: handed on from the caller.
+    unsafe { growing::init("region", region, struct_size) }
+}
+
+/// Erases the samples of a set in a region. From the first edit on the set can be filled again
+/// (azulejo_psp_refill, azulejo_psp_fill) but makes no more iterations, and every sample has an id
+/// (azulejo_points_ids): 0, 1, 2 and so on for those that stand then, in their order. A sample
+/// keeps its id and all its bytes until it is erased, and no other sample ever gets that id.
+///
+/// To undo a stroke of a brush, erase what azulejo_psp_refill added, by azulejo_psp_erase_ids, and
+/// give back what this call erased, by azulejo_psp_restore: the set is then as before, bit for bit.
+/// To redo it, erase the same region again and refill with the same seed.
+///
+/// erased: the erased samples with their ids, by rising ids, to be freed with azulejo_points_free;
+/// NULL if they are not wanted.
+///
+/// O(samples in the cubes of 24 radii that the region touches); the first edit O(samples).
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for a region with a bound that is NaN, and while
+/// another call uses the handle.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_psp_erase(
+    psp: Option<NonNull<azulejo_psp>>,
+    region: *const azulejo_region,
+    erased: Option<&mut MaybeUninit<Box<azulejo_points>>>,
+) -> azulejo_status {
+    boundary::call(|| {
+        // SAFETY: handed on from the caller.
+        let region = unsafe { growing::read("region", region) }?.region()?;
+        // SAFETY: handed on from the caller.
+        unsafe { edit(psp, |set| Ok((set.erase(&region)?, ()))) }.map(|(points, ())| put(erased, points))
+    })
+}
+
+/// Erases samples by their ids.
+///
+/// ids: `count` ids, each of a sample of the set, none twice; NULL if `count` is 0.
+///
+/// erased: as in azulejo_psp_erase.
+///
+/// O(samples in the cubes of 24 radii that they are in).
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for an id that no sample of the set has, and while
+/// another call uses the handle; nothing is erased then.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_psp_erase_ids(
+    psp: Option<NonNull<azulejo_psp>>,
+    ids: *const u64,
+    count: usize,
+    erased: Option<&mut MaybeUninit<Box<azulejo_points>>>,
+) -> azulejo_status {
+    boundary::call(|| {
+        // SAFETY: handed on from the caller.
+        let ids = unsafe { rows::<u64, 1>("ids", ids, "count", count) }?.as_flattened();
+        // SAFETY: handed on from the caller.
+        unsafe { edit(psp, |set| Ok((set.erase_ids(ids)?, ()))) }.map(|(points, ())| put(erased, points))
+    })
+}
+
+/// Puts samples back that were erased from the set, with their ids and all their bytes.
+///
+/// points: from an edit of this handle; not changed, and still to be freed.
+///
+/// O(points + samples in the cubes of 24 radii around them).
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for samples that are not this set's, that stand
+/// already, or that are too close to a sample or a given sample by now, and while another call uses
+/// the handle; nothing is put back then.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_psp_restore(
+    psp: Option<NonNull<azulejo_psp>>,
+    points: Option<&azulejo_points>,
+) -> azulejo_status {
+    boundary::call(|| {
+        let points = required("points", points)?;
+        let Samples::Surface(samples) = &points.samples else {
+            return Err(Failure::invalid("points", "are samples of the plane"));
+        };
+        // The fields that are kept apart from the others.
+        let samples = Points { ids: points.ids.clone(), ..samples.clone() };
+        // SAFETY: handed on from the caller.
+        unsafe { edit(psp, |set| Ok(set.restore(&samples)?)) }
+    })
+}
+
+/// Adds given samples to those of the options. Samples of the set that are closer to one than its
+/// clearance are erased.
+///
+/// positions: x y z each. clearances: one for each, finite and 0 or more; NULL: the radius of the
+/// set.
+///
+/// first_id: the id of the first of them, which the others follow; NULL if it is not wanted. Those
+/// of the options have the ids from 0 on. Ids of given samples and of samples are independent.
+///
+/// erased: as in azulejo_psp_erase.
+///
+/// O(samples in the cubes of 24 radii that the clearances touch), for each.
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also while another call uses the handle; nothing is
+/// changed then.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_psp_add_given(
+    psp: Option<NonNull<azulejo_psp>>,
+    positions: *const f32,
+    clearances: *const f64,
+    count: usize,
+    first_id: *mut u64,
+    erased: Option<&mut MaybeUninit<Box<azulejo_points>>>,
+) -> azulejo_status {
+    boundary::call(|| {
+        if !first_id.is_null() {
+            check_pointer("first_id", first_id)?;
+        }
+        // SAFETY: handed on from the caller.
+        let given = unsafe { given(positions, clearances, count) }?;
+        // SAFETY: handed on from the caller.
+        let (points, first) = unsafe { edit(psp, |set| Ok(set.add_given(given).map(|(id, points)| (points, id))?)) }?;
+        if !first_id.is_null() {
+            // SAFETY: the caller's word, and it was checked before work began.
+            unsafe { boundary::write(first_id, &[first]) };
+        }
+        put(erased, points);
+        Ok(())
+    })
+}
+
+/// Removes given samples by their ids: the surface that they covered is filled by the next
+/// azulejo_psp_refill.
+///
+/// O(given samples).
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for an id that no given sample has, and while
+/// another call uses the handle; nothing is removed then.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_psp_remove_given(
+    psp: Option<NonNull<azulejo_psp>>,
+    ids: *const u64,
+    count: usize,
+) -> azulejo_status {
+    boundary::call(|| {
+        // SAFETY: handed on from the caller.
+        let ids = unsafe { rows::<u64, 1>("ids", ids, "count", count) }?.as_flattened();
+        // SAFETY: handed on from the caller.
+        unsafe { edit(psp, |set| Ok(set.remove_given(ids)?)) }
+    })
+}
+
+/// Makes the set maximal again after edits: as azulejo_psp_fill, but only where samples were erased
+/// or given samples removed since the last refill. All samples that stand stay as they are.
+///
+/// The new samples depend on `seed`, on the edits and on what stands around them. They can lie up
+/// to a radius outside a region that was erased, since that is how far the erased samples covered
+/// the surface.
+///
+/// added: the new samples with their ids, by rising ids, to be freed with azulejo_points_free; NULL
+/// if they are not wanted.
+///
+/// report: what this call did, or NULL.
+///
+/// O(surface in and around the edited regions + given samples); the first call on a handle also
+/// O(triangles).
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also while another call uses the handle;
+/// AZULEJO_ERROR_CANCELLED: nothing is added then, and the call can be repeated.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_psp_refill(
+    psp: Option<NonNull<azulejo_psp>>,
+    seed: u64,
+    added: Option<&mut MaybeUninit<Box<azulejo_points>>>,
+    report: *mut azulejo_psp_report,
+) -> azulejo_status {
+    boundary::call(|| {
+        // SAFETY: handed on from the caller. A shared reference, because two calls may meet; the lock parts them.
+        let (psp, report) = unsafe { (required("psp", psp)?.as_ref(), Output::optional("report", report)?) };
+        let mut state = psp.lock()?;
+        let set = State::editable(&mut state);
+        let (points, done) = psp.run(|context, progress| set.refill(context, seed, progress))?;
+        if let Some(report) = report {
+            report.write(done);
+        }
+        put(added, points);
+        Ok(())
+    })
+}
+
+/// Changes the set of a handle, which is one that is edited from then on.
+///
+/// # Safety `psp` is NULL or a handle that lives as long as the call.
+unsafe fn edit<T>(
+    psp: Option<NonNull<azulejo_psp>>,
+    change: impl FnOnce(&mut EditableSet) -> Result<T, Failure>,
+) -> Result<T, Failure> {
+    // SAFETY: the caller's word. A shared reference, because two calls may meet; the lock parts them.
+    let psp = unsafe { required("psp", psp)?.as_ref() };
+    let mut state = psp.lock()?;
+    change(State::editable(&mut state))
+}
+
+/// Hands samples to the caller, if they are wanted.
+fn put(out: Option<&mut MaybeUninit<Box<azulejo_points>>>, points: Points<3>) {
+    if let Some(out) = out {
+        out.write(Box::new(azulejo_points::surface(points)));
+    }
+}
