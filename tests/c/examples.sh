@@ -108,6 +108,11 @@ run_plants() { # BUILD: shrubs and grass, none too close to what stood before
         grep -q '^0 too close$' "$work/plants.txt" && fails "$1/plants" none
 }
 
+run_paint() { # BUILD: strokes on a roof, after which the set is what the host has noted, and maximal
+    "$1/paint" "$work/roof.obj" 5000 20 >"$work/paint.txt" && cat "$work/paint.txt" &&
+        grep -q '^20 strokes' "$work/paint.txt" && fails "$1/paint" && fails "$1/paint" "$work/missing.obj"
+}
+
 run_ranks() { # BUILD: four processes, or three, make the plane that one makes, without communication
     export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
     mpirun --oversubscribe -n 4 "$1/ranks" --check 0.002 "$work/plane.xy" >"$work/ranks.txt" &&

@@ -144,7 +144,7 @@ pub mod embree;
 pub mod mesh;
 pub mod psp;
 pub mod psp_classes;
-mod psp_edit;
+pub mod psp_edit;
 pub mod psp_report;
 
 pub mod adaptive;

@@ -128,7 +128,7 @@ pub unsafe extern "C" fn azulejo_psp_restore(
     points: Option<&azulejo_points>,
 ) -> azulejo_status {
     boundary::call(|| {
-        let points = required("points", points)?;
+        let (psp, points) = (Some(required("psp", psp)?), required("points", points)?);
         let Samples::Surface(samples) = &points.samples else {
             return Err(Failure::invalid("points", "are samples of the plane"));
         };

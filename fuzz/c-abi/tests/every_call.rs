@@ -20,6 +20,7 @@ use azulejo_c::mesh::*;
 use azulejo_c::points::*;
 use azulejo_c::psp::*;
 use azulejo_c::psp_classes::*;
+use azulejo_c::psp_edit::*;
 use azulejo_c::statistics::*;
 use azulejo_c::status::*;
 use azulejo_c::thin::*;
@@ -241,12 +242,38 @@ fn surfaces() {
         let iterations = if cfg!(miri) { 0 } else { 1 };
         assert_eq!(azulejo_psp_advance(Some(handle), iterations, null_mut()), AZULEJO_OK);
         assert!(cfg!(miri) || azulejo_psp_fill(Some(handle), null_mut()) == AZULEJO_OK);
+        edit(handle);
         assert!(read_and_free(made(|out| azulejo_psp_points(Some(&set), out))) > 0 || cfg!(miri));
         azulejo_psp_free(Some(set));
     }
     azulejo_mesh_free(Some(normal));
     azulejo_mesh_free(Some(mesh));
     azulejo_context_free(Some(context));
+}
+
+/// Edits of a set, which has no samples yet under Miri.
+///
+/// # Safety
+/// The handle lives.
+unsafe fn edit(set: NonNull<azulejo_psp>) {
+    let mut all = defaults(azulejo_region_init);
+    let (place, clearance, mut id) = ([0.5f32, 0.5, 0.0], 0.1f64, 7u64);
+    // SAFETY: the handle lives, and the arrays are as long as the calls are told.
+    unsafe {
+        let add = |out: Out<_>| azulejo_psp_add_given(Some(set), place.as_ptr(), &clearance, 1, &mut id, out);
+        read_and_free(made(add));
+        assert_eq!(azulejo_psp_remove_given(Some(set), &id, 1), AZULEJO_OK);
+        assert_eq!(azulejo_psp_remove_given(Some(set), &id, 1), AZULEJO_ERROR_INVALID_ARGUMENT);
+        let erased = made(|out| azulejo_psp_erase(Some(set), &all, out));
+        let ids = azulejo_points_ids(Some(&erased));
+        assert_eq!(azulejo_psp_restore(Some(set), Some(&erased)), AZULEJO_OK);
+        assert_eq!(azulejo_psp_erase_ids(Some(set), ids, azulejo_points_count(Some(&erased)), None), AZULEJO_OK);
+        assert_eq!(azulejo_psp_erase_ids(Some(set), &id, 1, None), AZULEJO_ERROR_INVALID_ARGUMENT);
+        azulejo_points_free(Some(erased));
+        all.radius = f64::NAN;
+        assert_eq!(azulejo_psp_erase(Some(set), &all, None), AZULEJO_ERROR_INVALID_ARGUMENT);
+        assert!(cfg!(miri) || azulejo_psp_refill(Some(set), 3, None, null_mut()) == AZULEJO_OK);
+    }
 }
 
 /// Its options are read by Miri, its samples are not: they are estimated on 100,000 pieces.
