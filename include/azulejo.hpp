@@ -1279,6 +1279,16 @@ private:
 
 // ---- Samplers: `report` may be null ------------------------------------------------------------
 
+/// The samples that the surface of a mesh in a region needs; see azulejo_psp_sample_region.
+inline Status try_psp_sample_region(const Context &context, const Mesh &mesh,
+                                    const PspOptions &options, const Region &region, Points &out,
+                                    PspReport *report = nullptr) {
+    return detail::make(out, [&](auto **points) {
+        return azulejo_psp_sample_region(context.get(), mesh.get(), &options, &region, points,
+                                         report);
+    });
+}
+
 /// A maximal set of samples of a rectangle; see azulejo_kdrt_sample.
 inline Status try_kdrt_sample(const Context &context, const KdrtOptions &options, Points &out,
                               KdrtReport *report = nullptr) {
@@ -1924,6 +1934,14 @@ inline Selection space_thin(const Context &context, const ThinOptions &options,
 inline Points maximal_sample(const Context &context, const MaximalOptions &options) {
     Points points;
     check(try_maximal_sample(context, options, points));
+    return points;
+}
+
+inline Points psp_sample_region(const Context &context, const Mesh &mesh,
+                                const PspOptions &options, const Region &region,
+                                PspReport *report = nullptr) {
+    Points points;
+    check(try_psp_sample_region(context, mesh, options, region, points, report));
     return points;
 }
 

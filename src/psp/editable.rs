@@ -23,13 +23,15 @@ use crate::math::distance_squared;
 use crate::mesh::Mesh;
 use crate::points::Points;
 use crate::psp::cubes::Cube;
+use crate::psp::estimate::{check_radius_on, checked_estimate, require_memory};
 use crate::psp::facing::Facing;
 use crate::psp::fill::blocks::Blocks;
 use crate::psp::fill::extent::Extent;
-use crate::psp::fill::measures::Measures;
+use crate::psp::fill::measures::{DENSITY, Measures};
 use crate::psp::fill::uniform::{Surface, Uniform};
 use crate::psp::fill::{FillOptions, fill_parts};
-use crate::psp::given::GivenSamples;
+use crate::psp::given::{GivenSamples, balls};
+use crate::psp::options::RegionOptions;
 use crate::psp::report::{Report, rho};
 use crate::psp::samples::{Sample, SampleSet, surface_samples};
 use crate::region::Region;
@@ -166,9 +168,8 @@ impl EditableSet {
     /// Puts samples back that were erased, with their ids.
     ///
     /// # Errors
-    /// [`Error::InvalidArgument`] if `points` are not samples of this set that are erased now (`points: …`), or one of
-    /// them is closer than the radius to a sample of the set, or than its clearance to a given one; nothing is put back
-    /// then.
+    /// [`Error::InvalidArgument`] for `points` that are not samples of this set or stand already, and for one that is
+    /// closer than the radius to a sample of the set, or than its clearance to a given one; nothing is put back then.
     pub fn restore(&mut self, points: &Points<3>) -> Result<()> {
         let (count, triangles) = (points.len(), self.mesh.triangles().len());
         let refused = |index: usize, reason: String| Err(Error::invalid("points", format!("[{index}] {reason}")));
@@ -288,7 +289,7 @@ impl EditableSet {
     fn fill(&mut self, job: &Job, seed: u64) -> Result<u64> {
         let blocks = match self.blocks.take() {
             Some(blocks) => blocks,
-            None => Blocks::new(&job.part(0.0, 0.2), &self.mesh, &self.measures, &self.empty)?,
+            None => Blocks::new(&job.part(0.0, 0.2), &self.mesh, &self.measures, &self.empty, None)?,
         };
         let (count, mut darts) = (self.edits.len(), 0);
         let filled = (0..count).try_for_each(|step| {
@@ -454,6 +455,45 @@ impl EditableSet {
         let ids = numbered.iter().map(|own| own.id).collect();
         Points { ids, ..surface_samples(&self.mesh, &samples) }
     }
+}
+
+/// The part of a maximal set that a region needs: samples such that no place of the surface in the region is farther than
+/// the radius from all of them or than its clearance from all given samples. What lies outside counts as covered, and is
+/// not looked at. Samples stand in the region, or at most 6 radii outside it on a triangle that it touches.
+///
+/// Takes time in proportion to the surface in the region, and reads the list of given samples and the balls around
+/// clusters of triangles once; the first call on a mesh makes these, in O(triangles). For many edits of one set use
+/// [`EditableSet`].
+///
+/// # Errors
+/// Those of [`Psp::new`](super::Psp::new), and [`Error::InvalidArgument`] for a `region` with bounds that are NaN or in
+/// the wrong order. Where the call is cancelled nothing is returned.
+pub fn sample_region(
+    context: &Context,
+    mesh: &Arc<Mesh>,
+    region: &Region,
+    options: &RegionOptions,
+    progress: Option<&Progress>,
+) -> Result<(Points<3>, Report)> {
+    region.check()?;
+    let &RegionOptions { radius, seed, given, cosine } = options;
+    let measures = mesh.kept(|| Ok(()), || Ok(Measures::of(mesh)))?;
+    check_radius_on(mesh, radius)?;
+    given.check()?;
+    let mut set = EditableSet::new(mesh.clone(), measures, radius, Facing::new(cosine)?, seed);
+    set.begin(Vec::new(), balls(given, radius).collect(), true);
+    set.edits.push(vec![*region]);
+    let blocks = |job: &Job| Blocks::new(job, mesh, &set.measures, &set.empty, Some(region));
+    let blocks = context.run(None, blocks)?;
+    // Only if the whole mesh would have too many samples, those of the region are counted.
+    if checked_estimate(mesh, &set.measures, radius).is_err() {
+        let area = |number| blocks.block(&set.measures, number).items.row(mesh).total();
+        let samples = DENSITY * (0..blocks.cubes.len()).map(area).sum::<f64>() / (radius * radius);
+        require_memory(samples, "radius", &format!("about {samples:.3e} samples"))?;
+    }
+    set.blocks = Some(blocks);
+    let (points, report) = set.refill(context, seed, progress)?;
+    Ok((Points { ids: Vec::new(), ..points }, Report { rho: 0.0, coverage: None, uncovered_after: None, ..report }))
 }
 
 impl GivenSample {

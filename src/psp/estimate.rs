@@ -21,6 +21,12 @@ pub(super) fn require_memory(samples: f64, argument: &'static str, what: &str) -
     crate::memory::require(samples * BYTES_PER_SAMPLE, argument, what)
 }
 
+/// Refuses a radius that is out of range on a mesh.
+pub(super) fn check_radius_on(mesh: &Mesh, radius: f64) -> Result<()> {
+    check_radius(radius)?;
+    check_resolution("radius", radius, mesh.float_spacing(), "the largest coordinate of the mesh")
+}
+
 /// An upper estimate of the number of samples of a radius. Refuses a radius that is out of range or requires too many.
 pub(super) fn checked_estimate(mesh: &Mesh, measures: &Measures, radius: f64) -> Result<f64> {
     check_radius(radius)?;

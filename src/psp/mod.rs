@@ -45,9 +45,11 @@ mod surroundings;
 mod vectors;
 
 pub use classes::sample_classes;
-pub use editable::EditableSet;
+pub use editable::{EditableSet, sample_region};
 pub use fill::rounds::TOLERANCE;
 pub use flat::FlatOptions;
-pub use options::{Amount, ClassOptions, DEFAULT_QUOTIENT, Engine, Options, Priority, ProjectionOptions};
+pub use options::{
+    Amount, ClassOptions, DEFAULT_QUOTIENT, Engine, Options, Priority, ProjectionOptions, RegionOptions,
+};
 pub use progressive::{Psp, project, sample};
 pub use report::Report;

@@ -134,6 +134,29 @@ impl ProjectionOptions<'_> {
 
 setters!(ProjectionOptions<'a> { seed: u64, priority: Priority, engine: Engine, given: Given<'a, 3>, cosine: f64 });
 
+/// The options of [`sample_region`](super::sample_region).
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct RegionOptions<'a> {
+    /// The smallest distance of two samples, in the units of the mesh; positive and finite.
+    pub radius: f64,
+    /// Selects one of 2^64 sets.
+    pub seed: u64,
+    /// As in [`Options::given`].
+    pub given: Given<'a, 3>,
+    /// As in [`Options::cosine`].
+    pub cosine: f64,
+}
+
+impl RegionOptions<'_> {
+    /// Sets of this radius.
+    pub fn new(radius: f64) -> Self {
+        Self { radius, seed: 0, given: Given::default(), cosine: -1.0 }
+    }
+}
+
+setters!(RegionOptions<'a> { seed: u64, given: Given<'a, 3>, cosine: f64 });
+
 /// The options of [`sample_classes`](super::sample_classes).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]

@@ -6,7 +6,7 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use azulejo::mesh::Mesh;
-use azulejo::psp::{EditableSet, ProjectionOptions, Psp};
+use azulejo::psp::{self, EditableSet, ProjectionOptions, Psp, RegionOptions};
 use azulejo::{Context, Error, Given, Points, Region};
 
 use crate::common::adaptive_oracle::{self as oracle, Ball, Field};
@@ -247,4 +247,53 @@ fn what_cannot_be_done_is_refused_and_changes_nothing() {
         ..Points::default()
     };
     assert_eq!(said(set.restore(&double).unwrap_err()), "points: [1] conflicts with sample 4");
+}
+
+/// Each place in the region is covered, nothing far outside is touched, and the result is the same for any threads.
+#[test]
+fn a_region_is_sampled_alone() {
+    let around: Vec<[f32; 3]> = (0..40).map(|i| [0.9 + 0.02 * i as f32, 0.1, 0.35]).collect();
+    let clearances: Vec<f64> = (0..40).map(|i| 0.003 * f64::from(i)).collect();
+    let given = Given::with_clearances(&around, &clearances);
+    let balls: Vec<Ball> = std::iter::zip(&around, &clearances).map(|(p, &c)| (p.map(f64::from), c)).collect();
+    for (soup, radius) in [(meshes::fine_torus(200, 100), 0.02), (meshes::torus(), 0.05), (meshes::plane(), 0.03)] {
+        let mesh = mesh(soup);
+        let region = Region { min: [f64::NEG_INFINITY, 0.0, f64::NEG_INFINITY], ..Region::ball([1.0, 0.1, 0.3], 0.5) };
+        let options = RegionOptions::new(radius).seed(3).given(given);
+        let [(samples, report), (again, _)] = [1, 3].map(|threads| {
+            psp::sample_region(&Context::new(threads).unwrap(), &mesh, &region, &options, None).unwrap()
+        });
+        assert_eq!(samples, again, "depends on the number of threads");
+        assert!(samples.len() > 50 && samples.ids.is_empty() && report.samples == samples.len() as u64);
+        let radii = vec![radius; samples.len()];
+        assert_eq!(oracle::conflict(&samples, &radii, -1.0), None);
+        assert_eq!(oracle::too_near(&samples, &balls), None);
+        let near = Region { min: region.min.map(|x| x - 6.0 * radius), radius: 0.5 + 6.0 * radius, ..region };
+        assert!(samples.positions.iter().all(|&position| near.contains(position)));
+        // Places of the region, held against all samples and given ones.
+        let (mut random, mut inside) = (Random::new(9), 0);
+        for _ in 0..20_000 {
+            let triangle = (random.unit() * mesh.triangles().len() as f32) as u32;
+            let (u, v) = (random.unit(), random.unit());
+            let place = mesh.point(triangle, if u + v > 1.0 { [1.0 - u, 1.0 - v] } else { [u, v] });
+            if region.contains(place) {
+                let within = |position: &[f32; 3], reach: f64| {
+                    (0..3).map(|i| (f64::from(position[i]) - f64::from(place[i])).powi(2)).sum::<f64>().sqrt() <= reach
+                };
+                let tolerance = tolerance(&mesh);
+                let own = samples.positions.iter().any(|position| within(position, radius + tolerance));
+                let given = std::iter::zip(&around, &clearances).any(|(position, &reach)| within(position, reach));
+                assert!(own || given, "{place:?}");
+                inside += 1;
+            }
+        }
+        assert!(inside > 300, "{inside}");
+    }
+    let mesh = mesh(meshes::torus());
+    let refused = |region: Region, options: RegionOptions| {
+        psp::sample_region(&Context::new(1).unwrap(), &mesh, &region, &options, None).unwrap_err().to_string()
+    };
+    assert!(refused(Region::ball([0.0; 3], -1.0), RegionOptions::new(0.1)).starts_with("region: radius is -1.0"));
+    assert!(refused(Region::EVERYWHERE, RegionOptions::new(0.0)).starts_with("radius: 0"));
+    assert!(refused(Region::EVERYWHERE, RegionOptions::new(0.1).cosine(2.0)).starts_with("cosine: 2"));
 }

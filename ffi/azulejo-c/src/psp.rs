@@ -6,7 +6,8 @@ use std::ptr::NonNull;
 use std::sync::{RwLock, RwLockWriteGuard, TryLockError};
 
 use azulejo_core::psp::{
-    ClassOptions, DEFAULT_QUOTIENT, EditableSet, Engine, FlatOptions, Priority, ProjectionOptions, Psp, Report,
+    ClassOptions, DEFAULT_QUOTIENT, EditableSet, Engine, FlatOptions, Priority, ProjectionOptions, Psp, RegionOptions,
+    Report,
 };
 use azulejo_core::trace::HAS_EMBREE;
 use azulejo_core::{Context, Given, Order, Points, Progress};
@@ -229,10 +230,20 @@ impl azulejo_psp_options {
             .cosine(self.cosine))
     }
 
-    /// The request of azulejo_psp_sample_classes, with given samples that have a clearance for each class.
-    pub(crate) fn request_of_classes<'a>(&self, given: Given<'a, 3>) -> Result<ClassOptions<'a>, Failure> {
-        let (default, call) = (Self::DEFAULT, "with classes");
-        check_unused("radius", self.radius, 0.0, "beside those of the classes")?;
+    /// The request of azulejo_psp_sample_region.
+    ///
+    /// # Safety
+    /// As [`given`] for the given samples.
+    pub(crate) unsafe fn request_of_region<'a>(&self) -> Result<RegionOptions<'a>, Failure> {
+        self.check_filled_only("in a region")?;
+        // SAFETY: handed on from the caller.
+        let given = unsafe { given(self.given_positions, self.given_clearances, self.given_count) }?;
+        Ok(RegionOptions::new(self.radius).seed(self.seed).given(given).cosine(self.cosine))
+    }
+
+    /// Refuses what has no effect in calls that fill, by radius and in any order.
+    fn check_filled_only(&self, call: &str) -> Result<(), Failure> {
+        let default = Self::DEFAULT;
         check_unused("count", self.count, default.count, call)?;
         check_unused("order", self.order, default.order, call)?;
         check_unused("quotient", self.quotient, default.quotient, call)?;
@@ -241,7 +252,13 @@ impl azulejo_psp_options {
         }
         check_unused("maximal", self.maximal, default.maximal, call)?;
         check_unused("priority", self.priority, default.priority, call)?;
-        check_unused("engine", self.engine, default.engine, call)?;
+        check_unused("engine", self.engine, default.engine, call)
+    }
+
+    /// The request of azulejo_psp_sample_classes, with given samples that have a clearance for each class.
+    pub(crate) fn request_of_classes<'a>(&self, given: Given<'a, 3>) -> Result<ClassOptions<'a>, Failure> {
+        check_unused("radius", self.radius, 0.0, "beside those of the classes")?;
+        self.check_filled_only("with classes")?;
         Ok(ClassOptions::default().seed(self.seed).given(given).cosine(self.cosine))
     }
 

@@ -3,14 +3,16 @@
 use std::mem::MaybeUninit;
 use std::ptr::NonNull;
 
-use azulejo_core::psp::EditableSet;
+use azulejo_core::psp::{EditableSet, sample_region};
 use azulejo_core::{Points, Region};
 
 use crate::boundary::{self, check_pointer, check_reserved, required, rows};
+use crate::context::azulejo_context;
 use crate::given::given;
 use crate::growing::{self, Output, growing};
+use crate::mesh::azulejo_mesh;
 use crate::points::{Samples, azulejo_points};
-use crate::psp::{State, azulejo_psp};
+use crate::psp::{State, azulejo_psp, azulejo_psp_options};
 use crate::psp_report::azulejo_psp_report;
 use crate::status::{Failure, azulejo_status};
 
@@ -22,6 +24,7 @@ use crate::status::{Failure, azulejo_status};
 pub struct azulejo_region {
     /// The size of the struct in bytes; set by the _init function.
     pub struct_size: u32,
+    /// Must be 0.
     pub reserved: u32,
     /// The lowest coordinates of the box; default minus infinity.
     pub min: [f64; 3],
@@ -236,6 +239,48 @@ pub unsafe extern "C" fn azulejo_psp_refill(
         }
         put(added, points);
         Ok(())
+    })
+}
+
+/// Samples the part of a mesh in a region, once: no place of the surface in the region is farther
+/// than the radius from all samples or than its clearance from all given ones, up to the tolerance
+/// of azulejo_psp_fill. What lies outside counts as covered. Samples stand in the region, or at
+/// most 6 radii outside it on a triangle that it touches. For many edits of one set see
+/// azulejo_psp_erase.
+///
+/// options: `iterations`, `maximal`, `count`, `order`, `priority` and `engine` must have their
+/// defaults.
+///
+/// out: the samples with normals, triangles and barycentrics, to be freed with azulejo_points_free.
+///
+/// report: what the call did, or NULL; `rho` is 0, and `coverage` and `uncovered_after` are -1.
+///
+/// O(surface in the region + given samples + triangles / 16); the first call on a mesh
+/// O(triangles).
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT; AZULEJO_ERROR_TOO_LARGE; AZULEJO_ERROR_CANCELLED.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_psp_sample_region(
+    context: Option<&azulejo_context>,
+    mesh: Option<&azulejo_mesh>,
+    options: *const azulejo_psp_options,
+    region: *const azulejo_region,
+    out: Option<&mut MaybeUninit<Box<azulejo_points>>>,
+    report: *mut azulejo_psp_report,
+) -> azulejo_status {
+    boundary::create(out, || {
+        let context = required("context", context)?;
+        let mesh = required("mesh", mesh)?.shared.clone();
+        // SAFETY: handed on from the caller.
+        let (options, report) = unsafe { (growing::read("options", options)?, Output::optional("report", report)?) };
+        // SAFETY: handed on from the caller.
+        let (request, region) = unsafe { (options.request_of_region()?, growing::read("region", region)?.region()?) };
+        let (samples, done) = context
+            .run(options.watch(), |context, progress| sample_region(context, &mesh, &region, &request, progress))?;
+        if let Some(report) = report {
+            report.write(done);
+        }
+        Ok(azulejo_points::surface(samples))
     })
 }
 

@@ -20,6 +20,7 @@ use crate::psp::fill::rounds::{PATCH, Point};
 use crate::psp::fragment::Fragment;
 use crate::psp::pieces::slice;
 use crate::psp::samples::SampleSet;
+use crate::region::Region;
 use crate::rng::Rng;
 
 /// Clusters per task.
@@ -59,10 +60,17 @@ struct Chunk {
 }
 
 impl Blocks {
-    pub fn new(job: &Job, mesh: &Mesh, measures: &Measures, samples: &SampleSet) -> Result<Self> {
+    /// The whole surface, or only the triangles and pieces whose boxes touch a region.
+    pub fn new(
+        job: &Job,
+        mesh: &Mesh,
+        measures: &Measures,
+        samples: &SampleSet,
+        region: Option<&Region>,
+    ) -> Result<Self> {
         let balls = measures.balls_up_to(&job.part(0.0, 0.2), mesh, LARGEST_BALL * samples.radius())?;
         let chunks = chunks_of(measures.triangles().clusters(), CHUNK);
-        let chunk = |chunk: usize| Chunk::new(mesh, measures, balls, chunks.range(chunk), samples);
+        let chunk = |chunk: usize| Chunk::new(mesh, measures, balls, chunks.range(chunk), samples, region);
         let chunks = job.part(0.2, 1.0).map(chunks.len(), chunk)?;
         let (mut numbers, mut extents, mut parts) = (Numbers::new(), Vec::new(), Vec::new());
         for (chunk, part) in (0..).zip(&chunks) {
@@ -116,8 +124,7 @@ impl Block {
             }
             is_in
         };
-        let of_ball = |ball: &Ball| Extent::of(ball.ends().map(|end| end.map(|x| x as f32)));
-        let left = self.items.indices_but(|ball| !is_in(&of_ball(ball))).map(|index| self.items.triangles[index]);
+        let left = self.items.indices_but(|ball| !is_in(&ball.extent())).map(|index| self.items.triangles[index]);
         items.triangles.extend(left.filter(|&triangle| join(&Extent::of(mesh.corners(triangle)))));
         items.pieces.extend(self.items.pieces.iter().filter(|piece| join(&piece.extent(mesh))));
         Self { cube: self.cube, extent, items }
@@ -131,7 +138,9 @@ impl Chunk {
         balls: Option<&[Ball]>,
         clusters: std::ops::Range<usize>,
         samples: &SampleSet,
+        region: Option<&Region>,
     ) -> Self {
+        let touches = |extent: &Extent| region.is_none_or(|region| region.touches(extent.corners()));
         let (mut numbers, mut extents) = (Numbers::new(), Vec::new());
         let (mut in_one, mut whole, mut pieces, mut slices) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
         let mut place = |cube: Cube, extent: &Extent| {
@@ -148,10 +157,13 @@ impl Chunk {
             let ends = ball.ends();
             let [low, high] = ends.map(|end| samples.cube(end));
             let is_in_one = low == high && 2.0 * f64::from(ball.radius) <= longest;
-            is_in_one.then(|| (low, Extent::of(ends.map(|end| end.map(|x| x as f32)))))
+            is_in_one.then(|| (low, ball.extent()))
         };
         // Clusters without area need no cube.
         for cluster in clusters.filter(|&cluster| measures.areas[cluster] > 0.0) {
+            if region.is_some() && balls.is_some_and(|balls| !touches(&balls[cluster].extent())) {
+                continue;
+            }
             if let Some((cube, extent)) = balls.and_then(|balls| in_one_cube(&balls[cluster])) {
                 in_one.push((place(cube, &extent), cluster as u32));
                 continue;
@@ -163,15 +175,19 @@ impl Chunk {
                 let triangle = triangles.at(index);
                 if lengths[lane] <= longest * longest {
                     let corners = mesh.corners(triangle);
-                    let cube = samples.cube(exact(corners[0]).to_array());
-                    whole.push((place(cube, &Extent::of(corners)), index as u32));
+                    let (cube, extent) = (samples.cube(exact(corners[0]).to_array()), Extent::of(corners));
+                    if touches(&extent) {
+                        whole.push((place(cube, &extent), index as u32));
+                    }
                     continue;
                 }
                 slices.clear();
                 slice(mesh, triangle, PATCH * samples.radius(), &mut slices);
                 for piece in slices.iter().flat_map(|slice| slice.parts_up_to(mesh, longest)) {
-                    let first = mesh.point_exact(triangle, piece.corners[0]).to_array();
-                    pieces.push((place(samples.cube(first), &piece.extent(mesh)), piece));
+                    let (first, extent) = (mesh.point_exact(triangle, piece.corners[0]), piece.extent(mesh));
+                    if touches(&extent) {
+                        pieces.push((place(samples.cube(first.to_array()), &extent), piece));
+                    }
                 }
             }
         }
@@ -339,7 +355,7 @@ pub mod tests {
             let mask = (0..whole.triangles().len()).map(|i| i % 100 != 7).collect();
             for mesh in [whole.clone(), whole.with_mask(mask).unwrap()] {
                 let (measures, samples) = (Measures::of(&mesh), SampleSet::new(&mesh, 2.0));
-                let blocks = |job: &Job| Blocks::new(job, &mesh, &measures, &samples);
+                let blocks = |job: &Job| Blocks::new(job, &mesh, &measures, &samples, None);
                 let blocks = Context::new(2).unwrap().run(None, blocks).unwrap();
                 let mut expected: HashMap<Cube, Vec<u32>> = HashMap::new();
                 for triangle in mesh.sampled_triangles() {

@@ -19,6 +19,7 @@ use crate::job::{Job, chunks_of};
 use crate::math::rounded_up;
 use crate::mesh::{Mesh, exact};
 use crate::points::MAXIMAL_DENSITY;
+use crate::psp::fill::extent::Extent;
 use crate::simd::{Lanes, Level, Work, run};
 
 /// Triangles in a cluster. The first darts pass more clusters if these are smaller; larger ones need less memory.
@@ -277,6 +278,11 @@ impl Ball {
     /// are rounded.
     pub fn ends(&self) -> [[f64; 3]; 2] {
         [-1.0, 1.0].map(|side| self.centre.map(|x| f64::from(x) + side * f64::from(self.radius)))
+    }
+
+    /// The box around it, rounded to floats.
+    pub fn extent(&self) -> Extent {
+        Extent::of(self.ends().map(|end| end.map(|x| x as f32)))
     }
 }
 

@@ -233,7 +233,7 @@ pub fn fill<S: Site>(
     options: FillOptions,
 ) -> Result<Filled> {
     if in_blocks {
-        let blocks = Blocks::new(&job.part(0.0, 0.1), site.mesh(), site.measures(), samples)?;
+        let blocks = Blocks::new(&job.part(0.0, 0.1), site.mesh(), site.measures(), samples, None)?;
         let block = |number| blocks.block(site.measures(), number);
         return fill_parts(&job.part(0.1, 1.0), site, samples, &blocks.cubes, block, options);
     }
