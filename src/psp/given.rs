@@ -11,10 +11,10 @@ use crate::index::Binned;
 use crate::memory;
 use crate::mesh::{Mesh, exact};
 use crate::psp::cubes::Cube;
-use crate::psp::facing::{Facing, NO_NORMAL};
 use crate::psp::fill::cells::Cells;
 use crate::psp::fill::grid::Grid;
 use crate::psp::fill::space::Space;
+use crate::psp::fragment::{Facing, NO_NORMAL};
 use crate::psp::obstacles::{Obstacles, touches};
 use crate::psp::samples::SampleSet;
 

@@ -442,8 +442,8 @@ pub fn none_finer(count: usize, len: usize, finest: f64) -> Error {
 mod tests {
     use super::*;
     use crate::job::Context;
-    use crate::psp::facing::Facing;
     use crate::psp::fill::measures::Measures;
+    use crate::psp::fragment::Facing;
     use crate::psp::given::GivenSamples;
 
     /// A triangle of this area.

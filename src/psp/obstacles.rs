@@ -16,7 +16,7 @@ use crate::mesh::{Mesh, exact};
 use crate::psp::fill::grid::{any_cell, each_cell};
 use crate::psp::fill::space::{Place, Space, key};
 use crate::psp::fill::table::Table;
-use crate::psp::sixteenths::{CORNERS, Cover};
+use crate::psp::fragment::{CORNERS, Cover};
 
 /// The exponent of the power of two by which the cells of successive tiers differ; clearances of one tier differ by
 /// less.

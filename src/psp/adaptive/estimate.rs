@@ -6,8 +6,7 @@ use crate::memory;
 use crate::mesh::Mesh;
 use crate::psp::adaptive::field::RadiusField;
 use crate::psp::fill::measures::{expected_samples_of, longest_edge};
-use crate::psp::fragment::{Fragment, Shape};
-use crate::psp::pieces::slice;
+use crate::psp::fragment::{Fragment, Shape, slice};
 
 /// Triangles per task of the estimate.
 const CHUNK: usize = 1 << 13;

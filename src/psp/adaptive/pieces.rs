@@ -8,8 +8,7 @@ use crate::psp::adaptive::field::{Quota, RadiusBounds, RadiusField};
 use crate::psp::adaptive::set::OctaveCubes;
 use crate::psp::cubes::OctaveCube;
 use crate::psp::fill::rounds::{Patch, Whole};
-use crate::psp::fragment::{Fragment, Shape};
-use crate::psp::pieces::slice;
+use crate::psp::fragment::{Fragment, Shape, slice};
 
 /// Triangles per task.
 const CHUNK: usize = 1024;

@@ -17,8 +17,7 @@ use crate::psp::fill::darts::random_point;
 use crate::psp::fill::extent::Extent;
 use crate::psp::fill::measures::{Ball, CLUSTER, Measures, Triangles};
 use crate::psp::fill::rounds::{PATCH, Point};
-use crate::psp::fragment::Fragment;
-use crate::psp::pieces::slice;
+use crate::psp::fragment::{Fragment, slice};
 use crate::psp::samples::SampleSet;
 use crate::rng::Rng;
 
