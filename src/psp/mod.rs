@@ -29,7 +29,6 @@ mod fragment;
 mod given;
 mod lanes;
 mod levels;
-mod obstacles;
 mod options;
 mod ordered;
 mod progressive;

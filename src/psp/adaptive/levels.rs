@@ -16,8 +16,8 @@ use crate::psp::adaptive::options::{Options, Radius, Scale};
 use crate::psp::adaptive::site::GradedSurface;
 use crate::psp::fill::FillOptions;
 use crate::psp::fragment::Facing;
+use crate::psp::given::Obstacles;
 use crate::psp::levels::{self, Levelled, LevelledSet, Levels, Ranked, top};
-use crate::psp::obstacles::Obstacles;
 use crate::psp::samples::Sample;
 
 /// A surface whose radius varies, at any scale.

@@ -14,9 +14,8 @@ use crate::psp::adaptive::options::{Options, Radius, Scale};
 use crate::psp::adaptive::site::GradedSurface;
 use crate::psp::fill::FillOptions;
 use crate::psp::fragment::Facing;
-use crate::psp::given::obstacles;
+use crate::psp::given::{Obstacles, require_clearances};
 use crate::psp::levels::LevelledSet;
-use crate::psp::obstacles::Obstacles;
 use crate::psp::options::check_quotient;
 use crate::psp::report::Report;
 use crate::psp::samples::{Sample, surface_samples};
@@ -69,7 +68,8 @@ pub fn sample(
         }
         _ => None,
     };
-    let obstacles = obstacles(mesh, options.given)?;
+    require_clearances(options.given, "are required where the radius varies")?;
+    let obstacles = Obstacles::of(mesh, options.given)?;
     let make = match options.order {
         Order::Any => filled,
         Order::Progressive => ordered,

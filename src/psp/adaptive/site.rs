@@ -21,7 +21,7 @@ use crate::psp::fill::page::GROUP;
 use crate::psp::fill::rounds::{Ground, Open, PATCH, Patch, Point, WHOLE, Whole, throw};
 use crate::psp::fill::{FIRST_DARTS, FillOptions, PROBES_IN_CUBE, Zone, fill_zone, open_share};
 use crate::psp::fragment::{Facing, Fragment};
-use crate::psp::obstacles::Obstacles;
+use crate::psp::given::Obstacles;
 use crate::psp::samples::Sample;
 use crate::rng::{Draw, Rng};
 

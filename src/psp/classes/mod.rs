@@ -22,8 +22,7 @@ use crate::psp::classes::site::{Group, Places};
 use crate::psp::estimate::require_memory;
 use crate::psp::fill::measures::Measures;
 use crate::psp::fragment::Facing;
-use crate::psp::given::obstacles_of;
-use crate::psp::obstacles::Obstacles;
+use crate::psp::given::Obstacles;
 use crate::psp::options::ClassOptions;
 use crate::psp::report::Report;
 use crate::psp::samples::surface_samples;
@@ -71,7 +70,7 @@ pub fn sample_classes(
     let facing = Facing::new(options.cosine)?;
     let given = obstacles_of_classes(mesh, options.given, classes)?;
     let measures = &*mesh.kept(|| Ok(()), || Ok(Measures::of(mesh)))?;
-    let none = &Obstacles::new(mesh, std::iter::empty());
+    let none = &Obstacles::default();
     let places = Places { mesh, measures, masks, given: &given, none, facing };
     let group = |(number, group): (u64, &Vec<usize>)| Group {
         places,
@@ -113,7 +112,7 @@ fn obstacles_of_classes(mesh: &Mesh, given: Given<3>, classes: &Classes) -> Resu
     let of_class = |class: usize| {
         let clearances = given.clearances_of_class(class, classes.count());
         let clearances = clearances.unwrap_or_else(|| vec![classes.own(class); given.positions.len()]);
-        obstacles_of(mesh, Given::with_clearances(given.positions, &clearances))
+        Obstacles::of(mesh, Given::with_clearances(given.positions, &clearances))
     };
     (0..classes.count()).map(of_class).collect()
 }

@@ -19,7 +19,7 @@ use crate::psp::fill::space::Space;
 use crate::psp::fill::uniform::UniformGround;
 use crate::psp::fill::{FillOptions, ONE_PIECE, Site, fill};
 use crate::psp::fragment::{Facing, Fragment};
-use crate::psp::obstacles::Obstacles;
+use crate::psp::given::Obstacles;
 use crate::psp::samples::{RADIUS_SLACK, Sample, SampleSet};
 use crate::rng::{Draw, Rng};
 

@@ -16,8 +16,7 @@ use crate::psp::fill::rounds::{Ground, Open, PATCH, Patch, Point, WHOLE, Whole};
 use crate::psp::fill::space::Space;
 use crate::psp::fill::{FillOptions, Filled, ONE_PIECE, Site, fill};
 use crate::psp::fragment::{Facing, Fragment, NO_NORMAL, SIXTEENTHS, slice};
-use crate::psp::given::GivenSamples;
-use crate::psp::obstacles::Obstacles;
+use crate::psp::given::{GivenSamples, Obstacles};
 use crate::psp::samples::{Sample, SampleSet};
 use crate::rng::{Draw, Rng};
 
