@@ -34,8 +34,8 @@ use crate::job::Job;
 use crate::math::{exp, log, power, rounded_down, square};
 use crate::mesh::{Mesh, exact};
 use crate::order::{Order, first_stride};
-use crate::psp::estimate::require_memory;
 use crate::psp::fill::FillOptions;
+use crate::psp::fill::measures::{BYTES_PER_SAMPLE, require_samples};
 use crate::psp::fill::rounds::PATCH;
 use crate::psp::fill::uniform::Surface;
 use crate::psp::samples::{Sample, SampleSet};
@@ -419,12 +419,8 @@ pub fn check_work(surface: &impl Levelled, radius: f64, count: usize) -> Result<
     if !surface.has_given() {
         return Ok(());
     }
-    let estimate = surface.expected(radius);
-    let what = format!("{count} samples beside the given ones: on the whole surface about {estimate:.3e}");
-    if estimate > f64::from(u32::MAX) {
-        return Err(Error::too_large("count", format!("{what}; the limit is {}", u32::MAX)));
-    }
-    require_memory(estimate, "count", &what)
+    let asking = format!("{count} samples beside the given ones: on the whole surface");
+    require_samples(surface.expected(radius), BYTES_PER_SAMPLE, "count", &asking)
 }
 
 /// The refusal of any count where given samples cover all of the surface.

@@ -22,7 +22,6 @@
 pub mod adaptive;
 mod classes;
 mod cubes;
-mod estimate;
 mod fill;
 mod flat;
 mod fragment;

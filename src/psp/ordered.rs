@@ -5,11 +5,11 @@ use std::sync::Arc;
 use crate::error::{Error, Result};
 use crate::host::Stopwatch;
 use crate::job::{Context, Progress};
+use crate::memory;
 use crate::mesh::Mesh;
 use crate::order::Order;
 use crate::points::{Points, finest_radius};
-use crate::psp::estimate::{checked_estimate, require_memory};
-use crate::psp::fill::measures::Measures;
+use crate::psp::fill::measures::{BYTES_PER_SAMPLE, Measures};
 use crate::psp::fill::uniform::Surface;
 use crate::psp::fragment::Facing;
 use crate::psp::given::GivenSamples;
@@ -41,7 +41,7 @@ pub fn sample(
     let given = match amount {
         Amount::Radius(radius) => {
             let given = GivenSamples::of_levels(mesh, given, Some(radius))?;
-            checked_estimate(mesh, &measures, radius)?;
+            measures.checked_samples(mesh, radius)?;
             given
         }
         Amount::Count(count) => {
@@ -49,7 +49,7 @@ pub fn sample(
             if mesh.area() == 0.0 {
                 return Err(Error::invalid("count", format!("{count}, but the mesh's mask leaves no surface")));
             }
-            require_memory(count as f64, "count", &format!("{count} samples"))?;
+            memory::require(BYTES_PER_SAMPLE * count as f64, "count", &format!("{count} samples"))?;
             given
         }
     };

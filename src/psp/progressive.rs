@@ -10,7 +10,6 @@ use crate::job::{Context, Job, Progress};
 use crate::mesh::Mesh;
 use crate::order::Order;
 use crate::points::Points;
-use crate::psp::estimate::{checked_estimate, is_worth_projecting};
 use crate::psp::fill::FillOptions;
 use crate::psp::fill::measures::Measures;
 use crate::psp::fill::uniform::Surface;
@@ -18,9 +17,9 @@ use crate::psp::fragment::Facing;
 use crate::psp::given::GivenSamples;
 use crate::psp::options::{Amount, Options, ProjectionOptions};
 use crate::psp::ordered;
-use crate::psp::project::Projection;
 use crate::psp::project::candidates::{Collector, merge};
 use crate::psp::project::projector::{self, Projector};
+use crate::psp::project::{Projection, is_worth_projecting};
 use crate::psp::report::{Report, rho};
 use crate::psp::samples::SampleSet;
 
@@ -55,7 +54,7 @@ impl Psp {
     pub fn new(mesh: &Arc<Mesh>, options: &ProjectionOptions) -> Result<Self> {
         let radius = options.radius;
         let measures = mesh.kept(|| Ok(()), || Ok(Measures::of(mesh)))?;
-        let estimate = checked_estimate(mesh, &measures, radius)?;
+        let estimate = measures.checked_samples(mesh, radius)?;
         let (facing, samples) = (Facing::new(options.cosine)?, SampleSet::new(mesh, radius));
         Ok(Self {
             mesh: mesh.clone(),

@@ -28,14 +28,14 @@ const IMPORTING: &[(&str, usize)] = &[
     ("psp/adaptive/levels.rs", 15),
     ("psp/adaptive/sample.rs", 19),
     ("psp/adaptive/site.rs", 22),
-    ("psp/classes/mod.rs", 18),
+    ("psp/classes/mod.rs", 17),
     ("psp/classes/site.rs", 16),
     ("psp/fill/blocks.rs", 14),
     ("psp/fill/mod.rs", 14),
     ("psp/fill/uniform.rs", 18),
     ("psp/given.rs", 15),
     ("psp/ordered.rs", 16),
-    ("psp/progressive.rs", 21),
+    ("psp/progressive.rs", 20),
 ];
 
 /// Groups of files in more than one folder that import each other, by their first one.

@@ -10,9 +10,9 @@ use crate::math::square;
 use crate::mesh::Mesh;
 use crate::points::{check_resolution, finest_radius};
 use crate::psp::adaptive::density::DensityField;
-use crate::psp::adaptive::estimate::require;
 use crate::psp::adaptive::field::{Quota, RadiusField};
 use crate::psp::adaptive::options::{Options, Radius, Scale};
+use crate::psp::adaptive::pieces::checked_samples;
 use crate::psp::adaptive::site::GradedSurface;
 use crate::psp::fill::FillOptions;
 use crate::psp::fragment::Facing;
@@ -89,7 +89,7 @@ pub fn ordered(
     if count == 0 {
         check_resolution("density", last * field.least(), spacing, "the largest coordinate of the mesh")?;
     }
-    let estimate = require(&job.part(0.02, 0.05), mesh, &field.at_scale(last))?;
+    let estimate = checked_samples(&job.part(0.02, 0.05), mesh, &field.at_scale(last))?;
     let surface = ScaledSurface { mesh, field, facing, obstacles, last, estimate };
     let (job, start) = (&job.part(0.05, 1.0), Levels::new(surface, options.seed));
     match count {

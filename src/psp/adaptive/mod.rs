@@ -20,7 +20,6 @@
 
 mod density;
 mod dot;
-mod estimate;
 mod field;
 mod grid;
 mod levels;

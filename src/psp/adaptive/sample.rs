@@ -7,10 +7,10 @@ use crate::mesh::Mesh;
 use crate::order::Order;
 use crate::points::{Points, check_radius};
 use crate::psp::adaptive::density::DensityField;
-use crate::psp::adaptive::estimate::require;
 use crate::psp::adaptive::field::{Quota, RadiusField};
 use crate::psp::adaptive::levels::ordered;
 use crate::psp::adaptive::options::{Options, Radius, Scale};
+use crate::psp::adaptive::pieces::checked_samples;
 use crate::psp::adaptive::site::GradedSurface;
 use crate::psp::fill::FillOptions;
 use crate::psp::fragment::Facing;
@@ -100,7 +100,7 @@ fn filled(
         _ => None,
     };
     let field = &RadiusField::new(mesh, options.radius, density, 1.0)?;
-    let quota = &Quota::new(require(&job.part(0.02, 0.05), mesh, field)?, mesh);
+    let quota = &Quota::new(checked_samples(&job.part(0.02, 0.05), mesh, field)?, mesh);
     let surface = GradedSurface { mesh, field, quota, facing, obstacles, finest: 1.0 };
     let (set, darts) = surface.fill(job, FillOptions::from_nothing(options.seed), &[])?;
     Ok(LevelledSet { samples: set.into_samples(), radius: 1.0, coverage: 1.0, darts })

@@ -19,8 +19,7 @@ use crate::mesh::Mesh;
 use crate::points::{Points, check_resolution};
 use crate::psp::classes::layers::Layers;
 use crate::psp::classes::site::{Group, Places};
-use crate::psp::estimate::require_memory;
-use crate::psp::fill::measures::Measures;
+use crate::psp::fill::measures::{BYTES_PER_SAMPLE, Measures, require_samples};
 use crate::psp::fragment::Facing;
 use crate::psp::given::Obstacles;
 use crate::psp::options::ClassOptions;
@@ -81,7 +80,7 @@ pub fn sample_classes(
     };
     let groups: Vec<Group> = (0..).zip(&classes.groups()).map(group).collect();
     let expected: f64 = groups.iter().map(Group::expected_samples).sum();
-    check_count(expected)?;
+    require_samples(expected, BYTES_PER_SAMPLE, "radii", "they ask for")?;
     let (mut samples, darts) = context.run(progress, |job| {
         let (mut samples, mut darts, mut done) = (Vec::new(), 0, 0.0);
         for group in &groups {
@@ -131,12 +130,4 @@ fn check_masks(mesh: &Mesh, masks: Option<&[u32]>) -> Result<()> {
 fn check_radii(mesh: &Mesh, classes: &Classes) -> Result<()> {
     let least = classes.radii().iter().copied().filter(|&radius| radius > 0.0).fold(f64::INFINITY, f64::min);
     check_resolution("radii", least, mesh.float_spacing(), "the largest coordinate of the mesh")
-}
-
-fn check_count(expected: f64) -> Result<()> {
-    if expected > f64::from(u32::MAX) {
-        let reason = format!("they ask for about {expected:.3e} samples; the limit is {}", u32::MAX);
-        return Err(Error::too_large("radii", reason));
-    }
-    require_memory(expected, "radii", &format!("about {expected:.3e} samples"))
 }
