@@ -25,7 +25,6 @@ const IMPORTING: &[(&str, usize)] = &[
     ("kdrt/merge.rs", 13),
     ("kdrt/progressive.rs", 17),
     ("kdrt/tiling.rs", 14),
-    ("psp/adaptive/levels.rs", 15),
     ("psp/adaptive/sample.rs", 19),
     ("psp/adaptive/site.rs", 22),
     ("psp/classes/mod.rs", 17),
@@ -34,8 +33,7 @@ const IMPORTING: &[(&str, usize)] = &[
     ("psp/fill/mod.rs", 14),
     ("psp/fill/uniform.rs", 18),
     ("psp/given.rs", 15),
-    ("psp/ordered.rs", 16),
-    ("psp/progressive.rs", 20),
+    ("psp/progressive.rs", 21),
 ];
 
 /// Groups of files in more than one folder that import each other, by their first one.

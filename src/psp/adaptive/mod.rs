@@ -22,7 +22,6 @@ mod density;
 mod dot;
 mod field;
 mod grid;
-mod levels;
 mod options;
 mod page;
 mod pieces;

@@ -99,7 +99,7 @@ pub fn sample_classes(
         radius: (0..classes.count()).map(|class| classes.own(class)).fold(f64::INFINITY, f64::min),
         ..Report::of_fill(samples.len(), darts, &stopwatch)
     };
-    let mut set = surface_samples(mesh, &samples);
+    let mut set = surface_samples(mesh, samples.iter());
     set.classes = samples.iter().map(|sample| sample.class.into()).collect();
     Ok((set, report))
 }
