@@ -17,7 +17,8 @@ use crate::dcr::options::{Method, Neighbourhood, Options};
 use crate::dcr::relax::{PlaneRelaxation, Report, measure, relax_set, require_memory};
 use crate::dcr::relaxation::{Relaxation, Steps, Stopped};
 use crate::dcr::torus::{CurveOrder, LEVEL, MirrorBoundary, Torus, TorusPoint, WaveGrid, leveled};
-use crate::dcr::uniform::flip_mesh::{Edge, FlipMesh, Rings};
+use crate::dcr::uniform::flip_mesh::FlipMesh;
+use crate::dcr::uniform::rings::{Edge, Rings};
 use crate::dcr::uniform::stars::{Gathered, Visitor};
 use crate::dcr::uniform::{
     FIRST_FREE, JAMMED, KICK_EVERY, LAST_KICK, UniformRelaxation, WAVES_EVERY, highest_wave, kick,

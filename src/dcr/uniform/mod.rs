@@ -16,6 +16,7 @@
 mod cells;
 mod classes;
 mod flip_mesh;
+mod rings;
 mod stars;
 #[allow(unsafe_code)] // Vector instructions.
 mod vectors;
@@ -35,7 +36,8 @@ use crate::dcr::torus::{
     CLUSTERED, CurveOrder, LONG_WAVES, MirrorBoundary, Neighbours, Torus, TorusPoint, WaveGrid, leveled,
 };
 use crate::dcr::uniform::cells::VerletCells;
-use crate::dcr::uniform::flip_mesh::{Edge, FlipMesh, Rings};
+use crate::dcr::uniform::flip_mesh::FlipMesh;
+use crate::dcr::uniform::rings::{Edge, Rings};
 use crate::dcr::uniform::stars::{Gathered, LANES, Visitor};
 use crate::dcr::uniform::vectors::gather_in_cells;
 use crate::error::Result;
