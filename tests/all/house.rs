@@ -14,13 +14,12 @@ const MOST_IMPORTS: usize = 12;
 
 /// Files that import from more modules than they should, and from how many.
 const IMPORTING: &[(&str, usize)] = &[
-    ("dcr/density/mod.rs", 14),
+    ("dcr/density/mod.rs", 13),
     ("dcr/surface/mod.rs", 15),
     ("dcr/surface/relaxation.rs", 16),
-    ("dcr/thesis/mod.rs", 13),
-    ("dcr/uniform/classes.rs", 17),
+    ("dcr/uniform/classes.rs", 16),
     ("dcr/uniform/flip_mesh.rs", 13),
-    ("dcr/uniform/mod.rs", 20),
+    ("dcr/uniform/mod.rs", 18),
     ("kdrt/classes/mod.rs", 17),
     ("kdrt/count.rs", 14),
     ("kdrt/merge.rs", 13),
@@ -38,7 +37,7 @@ const IMPORTING: &[(&str, usize)] = &[
 ];
 
 /// Groups of files in more than one folder that import each other, by their first one.
-const IN_CIRCLES: &[&str] = &["dcr/options.rs"];
+const IN_CIRCLES: &[&str] = &["dcr/relax.rs"];
 
 /// The modules of the crate: each imports only from those before it.
 const ORDER: &[&str] = &[

@@ -19,10 +19,11 @@ use glam::{DVec2, Vec2};
 use crate::dcr::clustering::is_clustered;
 use crate::dcr::density::half_edge_mesh::HalfEdgeMesh;
 use crate::dcr::density::raster::{OctaveGrids, Raster};
-use crate::dcr::law::{Constraints, FREE_CLEARANCE, Force, MOMENTUM, RingPoint, SAFE_FRACTION, graded_force};
-use crate::dcr::options::{Method, Neighbourhood, Options};
-use crate::dcr::relax::{PlaneRelaxation, Report, relax_set, require_memory};
-use crate::dcr::relaxation::Relaxation;
+use crate::dcr::law::{
+    Constraints, FREE_CLEARANCE, Force, MOMENTUM, Neighbourhood, RingPoint, SAFE_FRACTION, graded_force,
+};
+use crate::dcr::relax::{Method, Options};
+use crate::dcr::relaxation::{PlaneRelaxation, Relaxation, Report, relax_set, require_memory};
 use crate::dcr::torus::{CurveOrder, MirrorBoundary, Neighbours, Torus, TorusPoint, along_curve};
 use crate::error::{Error, Result};
 use crate::geometry::Delaunay;
@@ -128,7 +129,7 @@ pub fn relax_with_density(
         let raster = Raster::new(&job.part(0.0, 0.5), &options.domain, density, points.len())?;
         DensityRelaxation::new(&job.part(0.5, 1.0), options.domain, options.seed, raster, points)
     })?;
-    relax_set(context, options, points, &mut set, progress, None)
+    relax_set(context, &options.domain, options.limits(), points, &mut set, progress, None)
 }
 
 /// Random points of a domain with the requested density: a start for [`relax_with_density`]. Point `i` depends on the

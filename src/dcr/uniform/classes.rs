@@ -12,10 +12,9 @@ use std::ops::Range;
 use glam::Vec2;
 
 use crate::classes::Classes;
-use crate::dcr::law::{Constraints, FREE_CLEARANCE, Force};
-use crate::dcr::options::{Method, Neighbourhood, Options};
-use crate::dcr::relax::{PlaneRelaxation, Report, measure, relax_set, require_memory};
-use crate::dcr::relaxation::{Relaxation, Steps, Stopped};
+use crate::dcr::law::{Constraints, FREE_CLEARANCE, Force, Neighbourhood};
+use crate::dcr::relax::{Method, Options};
+use crate::dcr::relaxation::{PlaneRelaxation, Relaxation, Report, Steps, Stopped, measure, relax_set, require_memory};
 use crate::dcr::torus::{CurveOrder, LEVEL, MirrorBoundary, Torus, TorusPoint, WaveGrid, leveled};
 use crate::dcr::uniform::flip_mesh::FlipMesh;
 use crate::dcr::uniform::rings::{Edge, Rings};
@@ -388,7 +387,7 @@ pub fn relax_classes(
     }
     require_memory("xy", points.len())?;
     let mut set = ClassRelaxation::new(options.domain, options.seed, points, classes);
-    let (relaxed, report) = relax_set(context, options, points, &mut set, progress, None)?;
+    let (relaxed, report) = relax_set(context, &options.domain, options.limits(), points, &mut set, progress, None)?;
     let count = classes.iter().max().map_or(0, |&last| last + 1);
     let reports =
         (0..count).map(|class| of_class(context, options, &relaxed, classes, class)).collect::<Result<_>>()?;

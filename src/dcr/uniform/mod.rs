@@ -28,10 +28,8 @@ use std::ops::Range;
 
 use glam::Vec2;
 
-use crate::dcr::law::{Constraints, FREE_CLEARANCE, Force};
-use crate::dcr::options::Neighbourhood;
-use crate::dcr::relax::PlaneRelaxation;
-use crate::dcr::relaxation::Relaxation;
+use crate::dcr::law::{Constraints, FREE_CLEARANCE, Force, Neighbourhood};
+use crate::dcr::relaxation::{PlaneRelaxation, Relaxation};
 use crate::dcr::torus::{
     CLUSTERED, CurveOrder, LONG_WAVES, MirrorBoundary, Neighbours, Torus, TorusPoint, WaveGrid, leveled,
 };
