@@ -27,6 +27,6 @@ mod uniform;
 pub use density::{Density, DensityFunction, relax_with_density, scatter};
 pub use law::Neighbourhood;
 pub use relax::{Method, Options, relax, relax_observed};
-pub use relaxation::{Observer, Report, Stopped};
+pub use relaxation::{DelaunayOptions, Observer, Report, Stopped};
 pub use thesis::{Convergence, Distribution, Thesis, Visits};
 pub use uniform::{ClassReport, relax_classes};

@@ -1,10 +1,10 @@
 //! Relaxation in the plane at a constant density: its options, and the call.
 
 use crate::dcr::law::Neighbourhood;
-use crate::dcr::relaxation::{Limits, Observer, Report, relax_set, require_memory};
+use crate::dcr::relaxation::{DelaunayOptions, Limits, Observer, Report, relax_set, require_memory};
 use crate::dcr::thesis::{Thesis, ThesisRelaxation};
 use crate::dcr::uniform::UniformRelaxation;
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::job::{Context, Progress};
 use crate::points::Domain;
 use crate::setters::setters;
@@ -42,7 +42,7 @@ pub struct Options {
 impl Options {
     /// The momentum method: at most 100 steps, tolerance 0.001.
     pub fn new(domain: Domain, neighbourhood: Neighbourhood) -> Self {
-        Self { domain, neighbourhood, method: Method::Momentum, max_iterations: 100, seed: 0, tolerance: 0.001 }
+        Self { neighbourhood, ..DelaunayOptions::new(domain).into() }
     }
 
     /// The thesis's algorithm with its settings: at most 1000 steps. The tolerance is 0.02 for Delaunay and 0.005 for
@@ -66,8 +66,28 @@ impl Options {
         self.limits().check()
     }
 
+    /// These options for a call without a choice of method and neighbourhood, for interfaces whose calls have one list of
+    /// options; `what` it relaxes.
+    ///
+    /// # Errors
+    /// [`Error::InvalidArgument`] for another `method` or `neighbourhood` than momentum and Delaunay.
+    pub fn to_delaunay(&self, what: &str) -> Result<DelaunayOptions> {
+        let &Self { domain, neighbourhood, method, max_iterations, seed, tolerance } = self;
+        match (method, neighbourhood) {
+            (Method::Thesis(_), _) => {
+                Err(Error::invalid("method", format!("{what} are relaxed by the momentum method only")))
+            }
+            (_, Neighbourhood::Nearest) => {
+                Err(Error::invalid("neighbourhood", format!("{what} are relaxed with Delaunay neighbours only")))
+            }
+            (Method::Momentum, Neighbourhood::Delaunay) => {
+                Ok(DelaunayOptions { domain, max_iterations, seed, tolerance })
+            }
+        }
+    }
+
     /// The conditions that end the steps.
-    pub(super) fn limits(&self) -> Limits {
+    fn limits(&self) -> Limits {
         Limits { max_iterations: self.max_iterations, tolerance: self.tolerance }
     }
 }
@@ -80,6 +100,14 @@ setters!(Options {
     seed: u64,
     tolerance: f64,
 });
+
+impl From<DelaunayOptions> for Options {
+    fn from(options: DelaunayOptions) -> Self {
+        let DelaunayOptions { domain, max_iterations, seed, tolerance } = options;
+        let (neighbourhood, method) = (Neighbourhood::Delaunay, Method::Momentum);
+        Self { domain, neighbourhood, method, max_iterations, seed, tolerance }
+    }
+}
 
 /// Relaxes a set of points of the domain: returns as many points, in the same order, spread more evenly.
 ///
@@ -106,8 +134,8 @@ setters!(Options {
 /// periodic one, as the momentum method works on it and its mirror images. Memory is O(n).
 ///
 /// # Errors
-/// [`Error::InvalidArgument`](crate::Error::InvalidArgument) for options out of their range and for points outside the
-/// domain or not finite (`xy`, with index and value), [`Error::TooLarge`](crate::Error::TooLarge) for more than
+/// [`Error::InvalidArgument`] for options out of their range and for points outside the
+/// domain or not finite (`xy`, with index and value), [`Error::TooLarge`] for more than
 /// 2^32 - 1 points.
 pub fn relax(
     context: &Context,

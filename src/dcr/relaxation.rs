@@ -14,6 +14,7 @@ use crate::index::Grid2;
 use crate::job::{Context, Job, Progress, chunks};
 use crate::memory;
 use crate::points::Domain;
+use crate::setters::setters;
 
 /// The share of the progress of all steps that the preparation takes.
 const BEGIN: f64 = 0.01;
@@ -239,6 +240,41 @@ impl<P: Copy> Motion<P> {
 }
 
 // The common part of the calls in the plane.
+
+/// The options of [`relax_with_density`](super::relax_with_density) and [`relax_classes`](super::relax_classes), which
+/// are those of [`Options`](super::Options): the method is momentum with Delaunay neighbours.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct DelaunayOptions {
+    /// As [`Options::domain`](super::Options::domain).
+    pub domain: Domain,
+    /// As [`Options::max_iterations`](super::Options::max_iterations).
+    pub max_iterations: u32,
+    /// As [`Options::seed`](super::Options::seed).
+    pub seed: u64,
+    /// As [`Options::tolerance`](super::Options::tolerance).
+    pub tolerance: f64,
+}
+
+impl DelaunayOptions {
+    /// At most 100 steps, tolerance 0.001.
+    pub fn new(domain: Domain) -> Self {
+        Self { domain, max_iterations: 100, seed: 0, tolerance: 0.001 }
+    }
+
+    /// Refuses values out of their range.
+    pub fn check(&self) -> Result<()> {
+        self.domain.check()?;
+        self.limits().check()
+    }
+
+    /// The conditions that end the steps.
+    pub(super) fn limits(&self) -> Limits {
+        Limits { max_iterations: self.max_iterations, tolerance: self.tolerance }
+    }
+}
+
+setters!(DelaunayOptions { domain: Domain, max_iterations: u32, seed: u64, tolerance: f64 });
 
 /// Receives the points after a step, in the user's order.
 pub type Observer<'a> = dyn FnMut(&[[f32; 2]]) + 'a;

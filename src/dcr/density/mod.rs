@@ -19,11 +19,8 @@ use glam::{DVec2, Vec2};
 use crate::dcr::clustering::is_clustered;
 use crate::dcr::density::half_edge_mesh::HalfEdgeMesh;
 use crate::dcr::density::raster::{OctaveGrids, Raster};
-use crate::dcr::law::{
-    Constraints, FREE_CLEARANCE, Force, MOMENTUM, Neighbourhood, RingPoint, SAFE_FRACTION, graded_force,
-};
-use crate::dcr::relax::{Method, Options};
-use crate::dcr::relaxation::{PlaneRelaxation, Relaxation, Report, relax_set, require_memory};
+use crate::dcr::law::{Constraints, FREE_CLEARANCE, Force, MOMENTUM, RingPoint, SAFE_FRACTION, graded_force};
+use crate::dcr::relaxation::{DelaunayOptions, PlaneRelaxation, Relaxation, Report, relax_set, require_memory};
 use crate::dcr::torus::{CurveOrder, MirrorBoundary, Neighbours, Torus, TorusPoint, along_curve};
 use crate::error::{Error, Result};
 use crate::geometry::Delaunay;
@@ -106,23 +103,16 @@ pub fn is_density(value: f64) -> bool {
 /// # Errors
 /// [`Error::InvalidArgument`] for a density that is not 0 or above and finite, or is 0 everywhere (`density`; of
 /// several such positions the reported one does not depend on chance), for an image without pixels (`width`, `height`)
-/// or of another size than its values, and for all options but [`Method::Momentum`] (`method`) with Delaunay neighbours
-/// (`neighbourhood`); those of [`relax`](fn@crate::dcr::relax).
+/// or of another size than its values; those of [`relax`](fn@crate::dcr::relax).
 pub fn relax_with_density(
     context: &Context,
-    options: &Options,
+    options: &DelaunayOptions,
     density: &Density,
     points: &[[f32; 2]],
     progress: Option<&Progress>,
 ) -> Result<(Vec<[f32; 2]>, Report)> {
     options.check()?;
     density.check()?;
-    if options.method != Method::Momentum {
-        return Err(Error::invalid("method", "only the momentum method supports densities"));
-    }
-    if options.neighbourhood != Neighbourhood::Delaunay {
-        return Err(Error::invalid("neighbourhood", "densities need Delaunay neighbours"));
-    }
     options.domain.check_points(points)?;
     require_memory("xy", points.len())?;
     let mut set = context.run(None, |job| {
