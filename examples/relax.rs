@@ -8,7 +8,7 @@ use std::env;
 use std::error::Error;
 use std::io::{self, BufWriter, Write};
 
-use azulejo::dcr::{self, Density, Neighbourhood};
+use azulejo::dcr::{self, Density};
 use azulejo::{Boundary, Context, Domain};
 
 /// The darkness of the drawing at a position: a sphere that is lit from the upper left, on white.
@@ -28,7 +28,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let density = Density::Function(&darkness);
 
     let start = dcr::scatter(&context, &domain, &density, count, 7, None)?;
-    let options = dcr::Options::new(domain, Neighbourhood::Delaunay);
+    let options = dcr::DelaunayOptions::new(domain);
     let (dots, report) = dcr::relax_with_density(&context, &options, &density, &start, None)?;
     eprintln!("{count} dots after {} steps; the closest two are {:.2} spacings apart", report.iterations, report.rho);
 

@@ -28,6 +28,16 @@ const STRONGEST_PULL: f32 = 1.0;
 /// The steps over which constraints grow stiffer.
 pub const STIFFENING: u32 = 60;
 
+/// The points that are the neighbours of a point.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Neighbourhood {
+    /// Its neighbours in the Delaunay triangulation: they keep their distance and close holes (§4.3.3).
+    Delaunay,
+    /// Its nearest points: they only repel (§4.3.4). The smallest distance ends larger than with Delaunay neighbours,
+    /// and so do the holes.
+    Nearest,
+}
+
 /// The constraints and their stiffness, in spacings.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Constraints {

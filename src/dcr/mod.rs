@@ -17,7 +17,6 @@
 mod clustering;
 mod density;
 mod law;
-mod options;
 mod relax;
 mod relaxation;
 pub mod surface;
@@ -26,8 +25,8 @@ mod torus;
 mod uniform;
 
 pub use density::{Density, DensityFunction, relax_with_density, scatter};
-pub use options::{Method, Neighbourhood, Options};
-pub use relax::{Observer, Report, relax, relax_observed};
-pub use relaxation::Stopped;
+pub use law::Neighbourhood;
+pub use relax::{Method, Options, relax, relax_observed};
+pub use relaxation::{DelaunayOptions, Observer, Report, Stopped};
 pub use thesis::{Convergence, Distribution, Thesis, Visits};
 pub use uniform::{ClassReport, relax_classes};

@@ -1,38 +1,112 @@
-//! Relaxation in the plane: the call at a constant density, and the parts shared by all calls in the plane.
+//! Relaxation in the plane at a constant density: its options, and the call.
 
-use crate::dcr::options::{Method, Options};
-use crate::dcr::relaxation::{Limits, Relaxation, Steps, Stopped, run};
-use crate::dcr::thesis::ThesisRelaxation;
+use crate::dcr::law::Neighbourhood;
+use crate::dcr::relaxation::{DelaunayOptions, Limits, Observer, Report, relax_set, require_memory};
+use crate::dcr::thesis::{Thesis, ThesisRelaxation};
 use crate::dcr::uniform::UniformRelaxation;
-use crate::error::Result;
-use crate::index::Grid2;
-use crate::job::{Context, Job, Progress, chunks};
-use crate::memory;
+use crate::error::{Error, Result};
+use crate::job::{Context, Progress};
 use crate::points::Domain;
+use crate::setters::setters;
 
-/// Receives the points after a step, in the user's order.
-pub type Observer<'a> = dyn FnMut(&[[f32; 2]]) + 'a;
+/// The law by which points move.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Method {
+    /// Push, pull, momentum and waves; see the page of this module.
+    Momentum,
+    /// The algorithm of the thesis.
+    Thesis(Thesis),
+}
 
-/// The report of [`relax`](fn@super::relax). `d_max` is [`Domain::hexagonal_distance`].
+/// The options of [`relax`](fn@super::relax).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
-pub struct Report {
-    /// The number of steps made.
-    pub iterations: u32,
-    /// The reason why the steps ended.
-    pub stopped: Stopped,
-    /// Half of the distance that points covered in the last span of steps, or since the start if that was shorter: root
-    /// mean square, in units of `d_max`. A span is 10 steps, or in the thesis's method the steps whose λ add up to 2,
-    /// so that the motion is per unit of λ: the same for small and large steps at the same state.
-    pub motion: f64,
-    /// The smallest distance between two of the returned points, in the units of the domain, around the torus on a
-    /// periodic domain; infinite for less than two points.
-    pub smallest_distance: f64,
-    /// The smallest distance in units of `d_max`; at most 1 on a torus; infinite for less than two points.
-    pub rho: f64,
-    /// The largest distance of a position in the domain from the set, in units of `d_max`, up to the rounding of the
-    /// returned floats; infinite for no point.
-    pub coverage: f64,
+pub struct Options {
+    /// The rectangle in which the points lie and stay.
+    pub domain: Domain,
+    /// The definition of neighbours.
+    pub neighbourhood: Neighbourhood,
+    /// The law by which points move.
+    pub method: Method,
+    /// The largest number of steps. 0 returns the points unchanged.
+    pub max_iterations: u32,
+    /// The key of the moves of coincident points, and of those of a set that lies on one line; with a density, of the
+    /// redistribution of clustered points. Used for nothing else.
+    pub seed: u64,
+    /// The motion ([`Report::motion`](super::Report::motion)) at which the set has converged, if the constraints are
+    /// met ([`Stopped::Converged`](super::Stopped::Converged)); with 0 all steps are made unless nothing moves at all.
+    /// Not used with [`Convergence::Variance`](super::Convergence::Variance).
+    pub tolerance: f64,
+}
+
+impl Options {
+    /// The momentum method: at most 100 steps, tolerance 0.001.
+    pub fn new(domain: Domain, neighbourhood: Neighbourhood) -> Self {
+        Self { neighbourhood, ..DelaunayOptions::new(domain).into() }
+    }
+
+    /// The thesis's algorithm with its settings: at most 1000 steps. The tolerance is 0.02 for Delaunay and 0.005 for
+    /// nearest neighbours, which spread more slowly and do not jitter. Activeness keeps Delaunay neighbourhoods moving
+    /// by 0.01 for ever, so lower values are reached only by constant distributions.
+    pub fn thesis(domain: Domain, neighbourhood: Neighbourhood) -> Self {
+        let tolerance = match neighbourhood {
+            Neighbourhood::Delaunay => 0.02,
+            Neighbourhood::Nearest => 0.005,
+        };
+        let method = Method::Thesis(Thesis::default());
+        Self { domain, neighbourhood, method, max_iterations: 1000, seed: 0, tolerance }
+    }
+
+    /// Refuses values out of their range.
+    pub fn check(&self) -> Result<()> {
+        self.domain.check()?;
+        if let Method::Thesis(thesis) = &self.method {
+            thesis.check()?;
+        }
+        self.limits().check()
+    }
+
+    /// These options for a call without a choice of method and neighbourhood, for interfaces whose calls have one list of
+    /// options; `what` it relaxes.
+    ///
+    /// # Errors
+    /// [`Error::InvalidArgument`] for another `method` or `neighbourhood` than momentum and Delaunay.
+    pub fn to_delaunay(&self, what: &str) -> Result<DelaunayOptions> {
+        let &Self { domain, neighbourhood, method, max_iterations, seed, tolerance } = self;
+        match (method, neighbourhood) {
+            (Method::Thesis(_), _) => {
+                Err(Error::invalid("method", format!("{what} are relaxed by the momentum method only")))
+            }
+            (_, Neighbourhood::Nearest) => {
+                Err(Error::invalid("neighbourhood", format!("{what} are relaxed with Delaunay neighbours only")))
+            }
+            (Method::Momentum, Neighbourhood::Delaunay) => {
+                Ok(DelaunayOptions { domain, max_iterations, seed, tolerance })
+            }
+        }
+    }
+
+    /// The conditions that end the steps.
+    fn limits(&self) -> Limits {
+        Limits { max_iterations: self.max_iterations, tolerance: self.tolerance }
+    }
+}
+
+setters!(Options {
+    domain: Domain,
+    neighbourhood: Neighbourhood,
+    method: Method,
+    max_iterations: u32,
+    seed: u64,
+    tolerance: f64,
+});
+
+impl From<DelaunayOptions> for Options {
+    fn from(options: DelaunayOptions) -> Self {
+        let DelaunayOptions { domain, max_iterations, seed, tolerance } = options;
+        let (neighbourhood, method) = (Neighbourhood::Delaunay, Method::Momentum);
+        Self { domain, neighbourhood, method, max_iterations, seed, tolerance }
+    }
 }
 
 /// Relaxes a set of points of the domain: returns as many points, in the same order, spread more evenly.
@@ -60,8 +134,8 @@ pub struct Report {
 /// periodic one, as the momentum method works on it and its mirror images. Memory is O(n).
 ///
 /// # Errors
-/// [`Error::InvalidArgument`](crate::Error::InvalidArgument) for options out of their range and for points outside the
-/// domain or not finite (`xy`, with index and value), [`Error::TooLarge`](crate::Error::TooLarge) for more than
+/// [`Error::InvalidArgument`] for options out of their range and for points outside the
+/// domain or not finite (`xy`, with index and value), [`Error::TooLarge`] for more than
 /// 2^32 - 1 points.
 pub fn relax(
     context: &Context,
@@ -90,88 +164,11 @@ pub fn relax_observed(
     match &options.method {
         Method::Momentum => {
             let mut set = UniformRelaxation::new(domain, neighbourhood, seed, points);
-            relax_set(context, options, points, &mut set, progress, observe)
+            relax_set(context, &domain, options.limits(), points, &mut set, progress, observe)
         }
         Method::Thesis(thesis) => {
             let mut set = ThesisRelaxation::new(domain, neighbourhood, thesis, seed, points);
-            relax_set(context, options, points, &mut set, progress, observe)
+            relax_set(context, &domain, options.limits(), points, &mut set, progress, observe)
         }
     }
-}
-
-/// A set in the plane, for its report.
-pub trait PlaneRelaxation: Relaxation {
-    /// The points in the user's order; `points` are those with which it began.
-    fn points(&self, points: &[[f32; 2]]) -> Vec<[f32; 2]>;
-
-    /// [`Report::rho`] of these points, if it is not simply the smallest distance in units of `d_max`.
-    fn relative_spacing(&self, _job: &Job, _points: &[[f32; 2]]) -> Result<Option<f64>> {
-        Ok(None)
-    }
-
-    /// The largest distance from the set, in units of the domain; if the spacing varies, as large as it would be at the
-    /// mean spacing.
-    fn coverage(&mut self, job: &Job) -> Result<f64>;
-}
-
-/// Makes the steps of a set of the plane and measures the result.
-pub fn relax_set<R: PlaneRelaxation>(
-    context: &Context,
-    options: &Options,
-    points: &[[f32; 2]],
-    set: &mut R,
-    progress: Option<&Progress>,
-    mut observe: Option<&mut Observer>,
-) -> Result<(Vec<[f32; 2]>, Report)> {
-    let limits = Limits { max_iterations: options.max_iterations, tolerance: options.tolerance };
-    let observe = |set: &R| {
-        if let Some(observe) = &mut observe {
-            observe(&set.points(points));
-        }
-    };
-    run(context, limits, set, progress, observe, |job, set, steps| measure(job, &options.domain, points, set, steps))
-}
-
-/// The current points and their report.
-pub fn measure(
-    job: &Job,
-    domain: &Domain,
-    points: &[[f32; 2]],
-    set: &mut impl PlaneRelaxation,
-    Steps { iterations, stopped, motion }: Steps,
-) -> Result<(Vec<[f32; 2]>, Report)> {
-    let relaxed = if iterations > 0 { set.points(points) } else { points.to_vec() };
-    let smallest_distance = smallest_distance(&job.part(0.0, 0.25), domain, &relaxed)?;
-    let relative_spacing = set.relative_spacing(&job.part(0.25, 0.5), &relaxed)?;
-    let coverage = if points.is_empty() { f64::INFINITY } else { set.coverage(&job.part(0.5, 1.0))? };
-    let unit = domain.hexagonal_distance(points.len().max(1));
-    let report = Report {
-        iterations,
-        stopped,
-        motion,
-        smallest_distance,
-        rho: relative_spacing.unwrap_or(smallest_distance / unit),
-        coverage: coverage / unit,
-    };
-    Ok((relaxed, report))
-}
-
-/// The smallest distance between two points, in `f64` from the floats.
-fn smallest_distance(job: &Job, domain: &Domain, points: &[[f32; 2]]) -> Result<f64> {
-    let position = |point: &[f32; 2]| point.map(f64::from);
-    let grid = Grid2::new(*domain, points.iter().map(position), domain.hexagonal_distance(points.len()));
-    let chunks = chunks(points.len());
-    let nearest = job.map(chunks.len(), |chunk| {
-        let squared = |i: usize| grid.nearest_squared(position(&points[i]), Some(i as u32));
-        chunks.range(chunk).map(squared).fold(f64::INFINITY, f64::min)
-    })?;
-    Ok(nearest.into_iter().fold(f64::INFINITY, f64::min).sqrt())
-}
-
-/// The peak memory for a point or a sample and all of its data.
-const BYTES_PER_POINT: f64 = 300.0;
-
-/// Refuses more points than fit in memory.
-pub fn require_memory(argument: &'static str, count: usize) -> Result<()> {
-    memory::require(BYTES_PER_POINT * count as f64, argument, &format!("{count} points"))
 }

@@ -10,7 +10,11 @@
 //! runs with λ = 0.025 to 0.2 have the same motion at the same sum of step sizes, within a third.
 
 use crate::error::{Error, Result};
-use crate::job::{Context, Job, Progress};
+use crate::index::Grid2;
+use crate::job::{Context, Job, Progress, chunks};
+use crate::memory;
+use crate::points::Domain;
+use crate::setters::setters;
 
 /// The share of the progress of all steps that the preparation takes.
 const BEGIN: f64 = 0.01;
@@ -58,7 +62,7 @@ pub trait Relaxation {
         job.report(1.0)
     }
 
-    /// The size of the next step, in the units of [`Report::motion`](super::Report::motion).
+    /// The size of the next step, in the units of [`Report::motion`](Report::motion).
     fn step_size(&self) -> f64 {
         STEP
     }
@@ -93,6 +97,16 @@ pub struct Limits {
     pub max_iterations: u32,
     /// The motion at which the set is at rest.
     pub tolerance: f64,
+}
+
+impl Limits {
+    /// Refuses a tolerance that is out of range.
+    pub fn check(&self) -> Result<()> {
+        if (0.0..).contains(&self.tolerance) {
+            return Ok(());
+        }
+        Err(Error::invalid("tolerance", format!("{} is not at least 0", self.tolerance)))
+    }
 }
 
 /// The steps that were made: the common part of the reports of all relaxations.
@@ -223,6 +237,145 @@ impl<P: Copy> Motion<P> {
         let squares: f64 = pairs.map(|(&from, to)| space.distance_squared(from, to)).sum();
         (squares / self.start.len() as f64).sqrt() / self.steps
     }
+}
+
+// The common part of the calls in the plane.
+
+/// The options of [`relax_with_density`](super::relax_with_density) and [`relax_classes`](super::relax_classes), which
+/// are those of [`Options`](super::Options): the method is momentum with Delaunay neighbours.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct DelaunayOptions {
+    /// As [`Options::domain`](super::Options::domain).
+    pub domain: Domain,
+    /// As [`Options::max_iterations`](super::Options::max_iterations).
+    pub max_iterations: u32,
+    /// As [`Options::seed`](super::Options::seed).
+    pub seed: u64,
+    /// As [`Options::tolerance`](super::Options::tolerance).
+    pub tolerance: f64,
+}
+
+impl DelaunayOptions {
+    /// At most 100 steps, tolerance 0.001.
+    pub fn new(domain: Domain) -> Self {
+        Self { domain, max_iterations: 100, seed: 0, tolerance: 0.001 }
+    }
+
+    /// Refuses values out of their range.
+    pub fn check(&self) -> Result<()> {
+        self.domain.check()?;
+        self.limits().check()
+    }
+
+    /// The conditions that end the steps.
+    pub(super) fn limits(&self) -> Limits {
+        Limits { max_iterations: self.max_iterations, tolerance: self.tolerance }
+    }
+}
+
+setters!(DelaunayOptions { domain: Domain, max_iterations: u32, seed: u64, tolerance: f64 });
+
+/// Receives the points after a step, in the user's order.
+pub type Observer<'a> = dyn FnMut(&[[f32; 2]]) + 'a;
+
+/// The report of [`relax`](fn@super::relax). `d_max` is [`Domain::hexagonal_distance`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Report {
+    /// The number of steps made.
+    pub iterations: u32,
+    /// The reason why the steps ended.
+    pub stopped: Stopped,
+    /// Half of the distance that points covered in the last span of steps, or since the start if that was shorter: root
+    /// mean square, in units of `d_max`. A span is 10 steps, or in the thesis's method the steps whose λ add up to 2,
+    /// so that the motion is per unit of λ: the same for small and large steps at the same state.
+    pub motion: f64,
+    /// The smallest distance between two of the returned points, in the units of the domain, around the torus on a
+    /// periodic domain; infinite for less than two points.
+    pub smallest_distance: f64,
+    /// The smallest distance in units of `d_max`; at most 1 on a torus; infinite for less than two points.
+    pub rho: f64,
+    /// The largest distance of a position in the domain from the set, in units of `d_max`, up to the rounding of the
+    /// returned floats; infinite for no point.
+    pub coverage: f64,
+}
+
+/// A set in the plane, for its report.
+pub trait PlaneRelaxation: Relaxation {
+    /// The points in the user's order; `points` are those with which it began.
+    fn points(&self, points: &[[f32; 2]]) -> Vec<[f32; 2]>;
+
+    /// [`Report::rho`] of these points, if it is not simply the smallest distance in units of `d_max`.
+    fn relative_spacing(&self, _job: &Job, _points: &[[f32; 2]]) -> Result<Option<f64>> {
+        Ok(None)
+    }
+
+    /// The largest distance from the set, in units of the domain; if the spacing varies, as large as it would be at the
+    /// mean spacing.
+    fn coverage(&mut self, job: &Job) -> Result<f64>;
+}
+
+/// Makes the steps of a set of the plane and measures the result.
+pub fn relax_set<R: PlaneRelaxation>(
+    context: &Context,
+    domain: &Domain,
+    limits: Limits,
+    points: &[[f32; 2]],
+    set: &mut R,
+    progress: Option<&Progress>,
+    mut observe: Option<&mut Observer>,
+) -> Result<(Vec<[f32; 2]>, Report)> {
+    let observe = |set: &R| {
+        if let Some(observe) = &mut observe {
+            observe(&set.points(points));
+        }
+    };
+    run(context, limits, set, progress, observe, |job, set, steps| measure(job, domain, points, set, steps))
+}
+
+/// The current points and their report.
+pub fn measure(
+    job: &Job,
+    domain: &Domain,
+    points: &[[f32; 2]],
+    set: &mut impl PlaneRelaxation,
+    Steps { iterations, stopped, motion }: Steps,
+) -> Result<(Vec<[f32; 2]>, Report)> {
+    let relaxed = if iterations > 0 { set.points(points) } else { points.to_vec() };
+    let smallest_distance = smallest_distance(&job.part(0.0, 0.25), domain, &relaxed)?;
+    let relative_spacing = set.relative_spacing(&job.part(0.25, 0.5), &relaxed)?;
+    let coverage = if points.is_empty() { f64::INFINITY } else { set.coverage(&job.part(0.5, 1.0))? };
+    let unit = domain.hexagonal_distance(points.len().max(1));
+    let report = Report {
+        iterations,
+        stopped,
+        motion,
+        smallest_distance,
+        rho: relative_spacing.unwrap_or(smallest_distance / unit),
+        coverage: coverage / unit,
+    };
+    Ok((relaxed, report))
+}
+
+/// The smallest distance between two points, in `f64` from the floats.
+fn smallest_distance(job: &Job, domain: &Domain, points: &[[f32; 2]]) -> Result<f64> {
+    let position = |point: &[f32; 2]| point.map(f64::from);
+    let grid = Grid2::new(*domain, points.iter().map(position), domain.hexagonal_distance(points.len()));
+    let chunks = chunks(points.len());
+    let nearest = job.map(chunks.len(), |chunk| {
+        let squared = |i: usize| grid.nearest_squared(position(&points[i]), Some(i as u32));
+        chunks.range(chunk).map(squared).fold(f64::INFINITY, f64::min)
+    })?;
+    Ok(nearest.into_iter().fold(f64::INFINITY, f64::min).sqrt())
+}
+
+/// The peak memory for a point or a sample and all of its data.
+const BYTES_PER_POINT: f64 = 300.0;
+
+/// Refuses more points than fit in memory.
+pub fn require_memory(argument: &'static str, count: usize) -> Result<()> {
+    memory::require(BYTES_PER_POINT * count as f64, argument, &format!("{count} points"))
 }
 
 #[cfg(test)]

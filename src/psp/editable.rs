@@ -23,13 +23,12 @@ use crate::math::distance_squared;
 use crate::mesh::Mesh;
 use crate::points::Points;
 use crate::psp::cubes::Cube;
-use crate::psp::estimate::{check_radius_on, checked_estimate, require_memory};
-use crate::psp::facing::Facing;
 use crate::psp::fill::blocks::Blocks;
 use crate::psp::fill::extent::Extent;
-use crate::psp::fill::measures::{DENSITY, Measures};
+use crate::psp::fill::measures::{BYTES_PER_SAMPLE, DENSITY, Measures, check_radius_on, require_samples};
 use crate::psp::fill::uniform::{Surface, Uniform};
 use crate::psp::fill::{FillOptions, fill_parts};
+use crate::psp::fragment::Facing;
 use crate::psp::given::{GivenSamples, balls};
 use crate::psp::options::RegionOptions;
 use crate::psp::report::{Report, rho};
@@ -451,9 +450,8 @@ impl EditableSet {
     /// Samples by rising ids, with their normals.
     fn points(&self, mut numbered: Vec<Numbered>) -> Points<3> {
         numbered.sort_unstable_by_key(|own| own.id);
-        let samples: Vec<Sample> = numbered.iter().map(|own| own.sample).collect();
         let ids = numbered.iter().map(|own| own.id).collect();
-        Points { ids, ..surface_samples(&self.mesh, &samples) }
+        Points { ids, ..surface_samples(&self.mesh, numbered.iter().map(|own| &own.sample)) }
     }
 }
 
@@ -486,10 +484,10 @@ pub fn sample_region(
     let blocks = |job: &Job| Blocks::new(job, mesh, &set.measures, &set.empty, Some(region));
     let blocks = context.run(None, blocks)?;
     // Only if the whole mesh would have too many samples, those of the region are counted.
-    if checked_estimate(mesh, &set.measures, radius).is_err() {
+    if set.measures.checked_samples(mesh, radius).is_err() {
         let area = |number| blocks.block(&set.measures, number).items.row(mesh).total();
         let samples = DENSITY * (0..blocks.cubes.len()).map(area).sum::<f64>() / (radius * radius);
-        require_memory(samples, "radius", &format!("about {samples:.3e} samples"))?;
+        require_samples(samples, BYTES_PER_SAMPLE, "radius", &format!("{radius:?} asks for"))?;
     }
     set.blocks = Some(blocks);
     let (points, report) = set.refill(context, seed, progress)?;

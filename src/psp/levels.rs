@@ -11,7 +11,7 @@
 //! Given samples keep their clearances on all levels and do not affect ranks; nor do samples that a sample ignores
 //! because they face another way.
 //!
-//! If the radius varies (`adaptive/levels.rs`), distances are measured by the mean of two local radii, and the radius
+//! If the radius varies (`adaptive/sample.rs`), distances are measured by the mean of two local radii, and the radius
 //! of a level is the factor of these.
 //!
 //! *Progressive order* is a ladder of levels, each a quotient below the one before. It begins where one sample covers
@@ -34,11 +34,12 @@ use crate::job::Job;
 use crate::math::{exp, log, power, rounded_down, square};
 use crate::mesh::{Mesh, exact};
 use crate::order::{Order, first_stride};
-use crate::psp::estimate::require_memory;
+use crate::points::Points;
 use crate::psp::fill::FillOptions;
+use crate::psp::fill::measures::{BYTES_PER_SAMPLE, require_samples};
 use crate::psp::fill::rounds::PATCH;
 use crate::psp::fill::uniform::Surface;
-use crate::psp::samples::{Sample, SampleSet};
+use crate::psp::samples::{Sample, SampleSet, surface_samples};
 use crate::rng::{Draw, hash};
 
 /// The quotient of two radii from which a level begins with first darts, as on an empty surface: the level before
@@ -306,6 +307,16 @@ pub struct LevelledSet<S> {
 }
 
 impl<S: Ranked> LevelledSet<S> {
+    /// The samples; in progressive order with their ranks.
+    pub fn to_points(&self, mesh: &Mesh, order: Order) -> Points<3> {
+        let samples = self.samples.iter().map(Ranked::sample);
+        let mut points = surface_samples(mesh, samples.clone());
+        if order == Order::Progressive {
+            points.ranks = samples.map(|sample| sample.rank).collect();
+        }
+        points
+    }
+
     /// The best samples of some levels, which have enough; all levels but the last cover the surface within `former`.
     pub fn cut(levels: Levels<impl Levelled<Sample = S>>, count: usize, former: f64) -> Self {
         let (len, last, darts) = (levels.len(), levels.radius(), levels.darts);
@@ -419,12 +430,8 @@ pub fn check_work(surface: &impl Levelled, radius: f64, count: usize) -> Result<
     if !surface.has_given() {
         return Ok(());
     }
-    let estimate = surface.expected(radius);
-    let what = format!("{count} samples beside the given ones: on the whole surface about {estimate:.3e}");
-    if estimate > f64::from(u32::MAX) {
-        return Err(Error::too_large("count", format!("{what}; the limit is {}", u32::MAX)));
-    }
-    require_memory(estimate, "count", &what)
+    let asking = format!("{count} samples beside the given ones: on the whole surface");
+    require_samples(surface.expected(radius), BYTES_PER_SAMPLE, "count", &asking)
 }
 
 /// The refusal of any count where given samples cover all of the surface.
@@ -442,8 +449,8 @@ pub fn none_finer(count: usize, len: usize, finest: f64) -> Error {
 mod tests {
     use super::*;
     use crate::job::Context;
-    use crate::psp::facing::Facing;
     use crate::psp::fill::measures::Measures;
+    use crate::psp::fragment::Facing;
     use crate::psp::given::GivenSamples;
 
     /// A triangle of this area.

@@ -23,23 +23,16 @@ pub mod adaptive;
 mod classes;
 mod cubes;
 mod editable;
-mod estimate;
-mod facing;
 mod fill;
-mod flat;
 mod fragment;
 mod given;
 mod lanes;
 mod levels;
-mod obstacles;
 mod options;
-mod ordered;
-mod pieces;
 mod progressive;
 mod project;
 mod report;
 mod samples;
-mod sixteenths;
 mod surroundings;
 #[allow(unsafe_code)] // Vector instructions.
 mod vectors;
@@ -47,9 +40,8 @@ mod vectors;
 pub use classes::sample_classes;
 pub use editable::{EditableSet, sample_region};
 pub use fill::rounds::TOLERANCE;
-pub use flat::FlatOptions;
 pub use options::{
-    Amount, ClassOptions, DEFAULT_QUOTIENT, Engine, Options, Priority, ProjectionOptions, RegionOptions,
+    Amount, ClassOptions, DEFAULT_QUOTIENT, Engine, FlatOptions, Options, Priority, ProjectionOptions, RegionOptions,
 };
 pub use progressive::{Psp, project, sample};
 pub use report::Report;

@@ -1,6 +1,7 @@
-//! The options of the calls: a type for each, with the fields that the call reads. (`flat.rs` has those of flat
-//! interfaces, not all of which can be combined.)
+//! The options of the calls: a type for each, with the fields that the call reads. Flat interfaces have one list of
+//! options for several calls ([`FlatOptions`]), not all of which can be combined: that is refused here, and only here.
 
+use crate::error::{Error, Result};
 use crate::given::Given;
 use crate::order::Order;
 pub use crate::order::{DEFAULT_QUOTIENT, check_quotient};
@@ -156,6 +157,111 @@ impl RegionOptions<'_> {
 }
 
 setters!(RegionOptions<'a> { seed: u64, given: Given<'a, 3>, cosine: f64 });
+
+/// All options of sets of one radius or count, for interfaces without types: C, Python, JavaScript and the command line.
+/// In Rust, [`Options`] and [`ProjectionOptions`] say the same, and cannot be combined wrongly.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct FlatOptions<'a> {
+    /// The radius; 0 where there is a count.
+    pub radius: f64,
+    /// The number of samples; 0, the default: as many as the radius gives.
+    pub count: usize,
+    /// The order; by default any. Progressive order, like a count, requires a set that is only filled.
+    pub order: Order,
+    /// As [`Options::quotient`].
+    pub quotient: f64,
+    /// The number of iterations. `None`, the default: 0 for a maximal set, which takes less time to fill than to
+    /// project and fill, on every mesh and with every radius, and prefers no direction; 1 for a set that is not
+    /// maximal.
+    pub iterations: Option<u32>,
+    /// True, the default, if the surface that the projectors leave uncovered is filled.
+    pub maximal: bool,
+    /// Selects one of 2^64 sets.
+    pub seed: u64,
+    /// As [`ProjectionOptions::priority`].
+    pub priority: Priority,
+    /// As [`ProjectionOptions::engine`].
+    pub engine: Engine,
+    /// As [`Options::given`].
+    pub given: Given<'a, 3>,
+    /// As [`Options::cosine`].
+    pub cosine: f64,
+}
+
+impl<'a> FlatOptions<'a> {
+    /// A maximal set of this radius.
+    pub fn new(radius: f64) -> Self {
+        Self {
+            radius,
+            count: 0,
+            order: Order::Any,
+            quotient: DEFAULT_QUOTIENT,
+            iterations: None,
+            maximal: true,
+            seed: 0,
+            priority: Priority::default(),
+            engine: Engine::default(),
+            given: Given::default(),
+            cosine: -1.0,
+        }
+    }
+
+    /// The call that these options ask for. Refuses those that cannot be combined.
+    pub(super) fn request(&self) -> Result<Request<'a>> {
+        let &Self { radius, count, order, quotient, seed, given, cosine, maximal, .. } = self;
+        let iterations = self.iterations.unwrap_or(if maximal { 0 } else { 1 });
+        if count > 0 || order == Order::Progressive {
+            self.check_filled(iterations)?;
+        } else if iterations > 0 || !maximal {
+            return Ok(Request::Project { options: self.projection(), iterations, maximal });
+        }
+        let options = if count > 0 { Options::by_count(count) } else { Options::new(radius) };
+        Ok(Request::Fill(options.order(order).quotient(quotient).seed(seed).given(given).cosine(cosine)))
+    }
+
+    fn projection(&self) -> ProjectionOptions<'a> {
+        let &Self { radius, seed, priority, engine, given, cosine, .. } = self;
+        ProjectionOptions { radius, seed, priority, engine, given, cosine }
+    }
+
+    /// Refuses options that cannot be combined with a count or progressive order.
+    fn check_filled(&self, iterations: u32) -> Result<()> {
+        let asked = if self.count > 0 { "count" } else { "progressive order" };
+        if iterations != 0 {
+            return Err(Error::invalid("iterations", format!("{iterations}; {asked} requires iterations = 0")));
+        }
+        if !self.maximal {
+            return Err(Error::invalid("maximal", format!("is off; {asked} requires a maximal set")));
+        }
+        if self.count > 0 && self.radius != 0.0 {
+            let (count, radius) = (self.count, self.radius);
+            return Err(Error::invalid("count", format!("{count} with radius {radius}; give one of the two")));
+        }
+        Ok(())
+    }
+}
+
+setters!(FlatOptions<'a> {
+    count: usize,
+    order: Order,
+    quotient: f64,
+    iterations: Option<u32>,
+    maximal: bool,
+    seed: u64,
+    priority: Priority,
+    engine: Engine,
+    given: Given<'a, 3>,
+    cosine: f64,
+});
+
+/// The calls of flat options.
+pub(super) enum Request<'a> {
+    /// [`sample`](super::sample).
+    Fill(Options<'a>),
+    /// [`project`](super::project).
+    Project { options: ProjectionOptions<'a>, iterations: u32, maximal: bool },
+}
 
 /// The options of [`sample_classes`](super::sample_classes).
 #[derive(Clone, Copy, Debug, PartialEq)]

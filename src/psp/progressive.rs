@@ -1,4 +1,5 @@
-//! A set that grows, call by call: iterations of three projectors, and filling.
+//! Sets of one radius or count: in one call, by filling or level by level ([`sample`]), by projection ([`project`]), or
+//! growing call by call ([`Psp`]).
 
 use std::sync::Arc;
 
@@ -7,21 +8,21 @@ use glam::DMat3;
 use crate::error::{Error, Result};
 use crate::host::Stopwatch;
 use crate::job::{Context, Job, Progress};
+use crate::memory;
 use crate::mesh::Mesh;
 use crate::order::Order;
-use crate::points::Points;
+use crate::points::{Points, finest_radius};
 use crate::psp::editable::EditableSet;
-use crate::psp::estimate::{checked_estimate, is_worth_projecting};
-use crate::psp::facing::Facing;
 use crate::psp::fill::FillOptions;
-use crate::psp::fill::measures::Measures;
+use crate::psp::fill::measures::{BYTES_PER_SAMPLE, Measures};
 use crate::psp::fill::uniform::Surface;
+use crate::psp::fragment::Facing;
 use crate::psp::given::{GivenSamples, balls};
-use crate::psp::options::{Amount, Options, ProjectionOptions};
-use crate::psp::ordered;
-use crate::psp::project::Projection;
+use crate::psp::levels::{self, Levels};
+use crate::psp::options::{Amount, FlatOptions, Options, ProjectionOptions, Request, check_quotient};
 use crate::psp::project::candidates::{Collector, merge};
 use crate::psp::project::projector::{self, Projector};
+use crate::psp::project::{Projection, is_worth_projecting};
 use crate::psp::report::{Report, rho};
 use crate::psp::samples::SampleSet;
 
@@ -60,7 +61,7 @@ impl Psp {
     pub fn new(mesh: &Arc<Mesh>, options: &ProjectionOptions) -> Result<Self> {
         let radius = options.radius;
         let measures = mesh.kept(|| Ok(()), || Ok(Measures::of(mesh)))?;
-        let estimate = checked_estimate(mesh, &measures, radius)?;
+        let estimate = measures.checked_samples(mesh, radius)?;
         let (facing, samples) = (Facing::new(options.cosine)?, SampleSet::new(mesh, radius));
         Ok(Self {
             mesh: mesh.clone(),
@@ -235,7 +236,7 @@ pub fn sample(
             let filled = ProjectionOptions::new(radius).seed(seed).given(given).cosine(cosine);
             project(context, mesh, &filled, 0, true, progress)
         }
-        _ => ordered::sample(context, mesh, options, progress),
+        _ => sample_levels(context, mesh, options, progress),
     }
 }
 
@@ -268,4 +269,89 @@ pub fn project(
         Ok(())
     })?;
     Ok((psp.samples(), psp.finish(report, &stopwatch)))
+}
+
+impl FlatOptions<'_> {
+    /// Samples a mesh: by [`sample`], or by [`project`] where there are iterations or the set is not maximal.
+    ///
+    /// # Errors
+    /// Those of the two calls, and [`Error::InvalidArgument`] for `iterations`, sets that are not `maximal` and a
+    /// `radius` beside a `count`, and for the first two in progressive order.
+    pub fn sample(
+        &self,
+        context: &Context,
+        mesh: &Arc<Mesh>,
+        progress: Option<&Progress>,
+    ) -> Result<(Points<3>, Report)> {
+        match self.request()? {
+            Request::Fill(options) => sample(context, mesh, &options, progress),
+            Request::Project { options, iterations, maximal } => {
+                project(context, mesh, &options, iterations, maximal, progress)
+            }
+        }
+    }
+}
+
+/// The largest number of samples that can be indexed.
+const INDEXABLE: usize = u32::MAX as usize;
+
+/// A set that is made level by level: of a count, or in progressive order.
+fn sample_levels(
+    context: &Context,
+    mesh: &Arc<Mesh>,
+    options: &Options,
+    progress: Option<&Progress>,
+) -> Result<(Points<3>, Report)> {
+    let stopwatch = Stopwatch::start();
+    let &Options { amount, order, quotient, seed, given, cosine } = options;
+    if let Amount::Count(count) = amount {
+        check_count(count)?;
+    }
+    if order == Order::Progressive {
+        check_quotient(quotient)?;
+    }
+    let facing = Facing::new(cosine)?;
+    let measures = mesh.kept(|| Ok(()), || Ok(Measures::of(mesh)))?;
+    let given = match amount {
+        Amount::Radius(radius) => {
+            let given = GivenSamples::of_levels(mesh, given, Some(radius))?;
+            measures.checked_samples(mesh, radius)?;
+            given
+        }
+        Amount::Count(count) => {
+            let given = GivenSamples::of_levels(mesh, given, None)?;
+            if mesh.area() == 0.0 {
+                return Err(Error::invalid("count", format!("{count}, but the mesh's mask leaves no surface")));
+            }
+            memory::require(BYTES_PER_SAMPLE * count as f64, "count", &format!("{count} samples"))?;
+            given
+        }
+    };
+    let surface = Surface { mesh, measures: &measures, given: &given, facing };
+    let (levels, finest) = (Levels::new(surface, seed), finest_radius(mesh.float_spacing()));
+    let found = context.run(progress, |job| match (amount, order) {
+        (Amount::Radius(radius), _) => levels::by_radius(job, levels, quotient, radius),
+        (Amount::Count(count), Order::Progressive) => levels::by_count(job, levels, quotient, count, finest),
+        (Amount::Count(count), Order::Any) => levels::exactly(job, levels, count, finest),
+    })?;
+    let samples = found.to_points(mesh, order);
+    let len = samples.len();
+    let report = Report {
+        rho: rho(mesh, len, found.radius),
+        uncovered_before: given.is_empty().then_some(if mesh.area() > 0.0 { 1.0 } else { 0.0 }),
+        uncovered_after: matches!(amount, Amount::Radius(_)).then_some(0.0),
+        radius: found.radius,
+        coverage: Some(found.coverage),
+        ..Report::of_fill(len, found.darts, &stopwatch)
+    };
+    Ok((samples, report))
+}
+
+/// Refuses a count that is 0 or cannot be indexed.
+fn check_count(count: usize) -> Result<()> {
+    match count {
+        0 => Err(Error::invalid("count", "0 is not at least 1")),
+        1..=INDEXABLE => Ok(()),
+        _ => Err(Error::too_large("count", format!("{count}; the limit is {INDEXABLE}"))),
+    }
 }

@@ -115,12 +115,12 @@ impl SampleSet {
 
     /// The samples in the order in which they were accepted, with their normals.
     pub fn to_surface_samples(&self, mesh: &Mesh) -> Points<3> {
-        surface_samples(mesh, self.all())
+        surface_samples(mesh, self.all().iter())
     }
 }
 
 /// Samples with their normals.
-pub fn surface_samples(mesh: &Mesh, samples: &[Sample]) -> Points<3> {
-    let triangles = samples.iter().map(|sample| sample.triangle).collect();
-    mesh.samples(triangles, samples.iter().map(|sample| sample.barycentrics).collect())
+pub fn surface_samples<'a>(mesh: &Mesh, samples: impl Iterator<Item = &'a Sample> + Clone) -> Points<3> {
+    let triangles = samples.clone().map(|sample| sample.triangle).collect();
+    mesh.samples(triangles, samples.map(|sample| sample.barycentrics).collect())
 }

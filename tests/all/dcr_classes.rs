@@ -3,7 +3,7 @@
 use std::cell::Cell;
 use std::ops::ControlFlow;
 
-use azulejo::dcr::{ClassReport, Method, Neighbourhood, Options, Report, Stopped, Thesis, relax_classes};
+use azulejo::dcr::{ClassReport, DelaunayOptions, Report, Stopped, relax_classes};
 use azulejo::{Boundary, Classes, Context, Domain, Error, kdrt};
 
 use crate::common::sets::{distance, nearest_distances, random_points, unit_square};
@@ -12,11 +12,11 @@ const BOUNDARIES: [Boundary; 2] = [Boundary::Periodic, Boundary::Bounded];
 
 type Relaxed = (Vec<[f32; 2]>, Report, Vec<ClassReport>);
 
-fn options(boundary: Boundary) -> Options {
-    Options::new(unit_square(boundary), Neighbourhood::Delaunay)
+fn options(boundary: Boundary) -> DelaunayOptions {
+    DelaunayOptions::new(unit_square(boundary))
 }
 
-fn run(options: &Options, points: &[[f32; 2]], classes: &[u32]) -> Relaxed {
+fn run(options: &DelaunayOptions, points: &[[f32; 2]], classes: &[u32]) -> Relaxed {
     relax_classes(&Context::new(1).unwrap(), options, points, classes, None).unwrap()
 }
 
@@ -134,7 +134,7 @@ fn threads_make_no_difference_and_points_stay_in_the_domain() {
     let points: Vec<_> = random_points(9000, 8).into_iter().map(|[x, y]| [8.0 * x - 3.0, 1.0 + 1.5 * y]).collect();
     let classes: Vec<u32> = (0..9000).map(|i| [0, 1, 1, 2, 2, 2, 2][i % 7]).collect();
     for boundary in BOUNDARIES {
-        let options = Options::new(Domain { boundary, ..domain }, Neighbourhood::Delaunay);
+        let options = DelaunayOptions::new(Domain { boundary, ..domain });
         let on = |threads| relax_classes(&Context::new(threads).unwrap(), &options, &points, &classes, None).unwrap();
         let (one, three) = (on(1), on(3));
         assert_eq!(one, three);
@@ -180,17 +180,15 @@ fn progress_grows_and_a_cancelled_call_returns_what_there_is() {
 }
 
 #[test]
-fn refuses_other_methods_and_classes_that_are_none() {
-    let refuses = |options: Options, classes: &[u32], argument: &str, reason: &str| {
-        let error = relax_classes(&Context::new(1).unwrap(), &options, &[[0.5; 2]; 3], classes, None).unwrap_err();
+fn refuses_classes_that_are_none() {
+    let fine = options(Boundary::Periodic);
+    let refuses = |classes: &[u32], argument: &str, reason: &str| {
+        let error = relax_classes(&Context::new(1).unwrap(), &fine, &[[0.5; 2]; 3], classes, None).unwrap_err();
         assert!(
             matches!(&error, Error::InvalidArgument { argument: a, reason: r } if *a == argument && r.contains(reason)),
             "{error}"
         );
     };
-    let fine = options(Boundary::Periodic);
-    refuses(fine.method(Method::Thesis(Thesis::default())), &[0; 3], "method", "momentum");
-    refuses(fine.neighbourhood(Neighbourhood::Nearest), &[0; 3], "neighbourhood", "Delaunay");
-    refuses(fine, &[0; 2], "classes", "2 for 3 points");
-    refuses(fine, &[0, 16, 0], "classes", "[1] is 16");
+    refuses(&[0; 2], "classes", "2 for 3 points");
+    refuses(&[0, 16, 0], "classes", "[1] is 16");
 }

@@ -5,18 +5,20 @@ use std::ops::ControlFlow;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use azulejo::dcr::{Density, Neighbourhood, Options, Report, Stopped, relax, relax_with_density, scatter};
+use azulejo::dcr::{
+    DelaunayOptions, Density, Neighbourhood, Options, Report, Stopped, relax, relax_with_density, scatter,
+};
 use azulejo::{Boundary, Context, Domain, Error};
 
 use crate::common::sets::{darts, distance, nearest_distances, random_points, unit_square};
 
 const BOUNDARIES: [Boundary; 2] = [Boundary::Periodic, Boundary::Bounded];
 
-fn options(domain: Domain) -> Options {
-    Options::new(domain, Neighbourhood::Delaunay)
+fn options(domain: Domain) -> DelaunayOptions {
+    DelaunayOptions::new(domain)
 }
 
-fn run(options: &Options, density: &Density, points: &[[f32; 2]]) -> (Vec<[f32; 2]>, Report) {
+fn run(options: &DelaunayOptions, density: &Density, points: &[[f32; 2]]) -> (Vec<[f32; 2]>, Report) {
     let (relaxed, report) = relax_with_density(&Context::new(1).unwrap(), options, density, points, None).unwrap();
     assert_eq!(relaxed.len(), points.len());
     let Domain { min, max, .. } = options.domain;
@@ -46,7 +48,7 @@ fn a_constant_density_is_as_good_as_none() {
         let domain = unit_square(boundary);
         for density in [Density::Function(&|_| 7.0), Density::Image { values: &image, width: 4, height: 3 }] {
             for start in [random_points(2000, 50), darts(2000, 51)] {
-                let (_, plain) = relax(&Context::new(1).unwrap(), &options(domain), &start, None).unwrap();
+                let (_, plain) = relax(&Context::new(1).unwrap(), &options(domain).into(), &start, None).unwrap();
                 let (relaxed, report) = run(&options(domain), &density, &start);
                 let smallest = nearest_distances(&domain, &relaxed).into_iter().fold(f64::INFINITY, f64::min);
                 assert!((report.smallest_distance / smallest - 1.0).abs() < 1e-12);
@@ -235,14 +237,13 @@ fn a_cancelled_call_returns_what_it_has() {
 fn what_is_no_density_is_refused_by_name() {
     let domain = unit_square(Boundary::Bounded);
     let points = random_points(20, 13);
-    let refused = |options: Options, density: Density| {
+    let refused = |options: DelaunayOptions, density: Density| {
         let context = Context::new(2).unwrap();
         match relax_with_density(&context, &options, &density, &points, None).unwrap_err() {
             Error::InvalidArgument { argument, .. } => argument,
             other => panic!("{other}"),
         }
     };
-    let good = Density::Function(&ramp);
     for bad in [-1.0, f32::NAN, f32::INFINITY] {
         let image = [1.0, 1.0, bad, 1.0];
         assert_eq!(refused(options(domain), Density::Image { values: &image, width: 2, height: 2 }), "density");
@@ -257,9 +258,18 @@ fn what_is_no_density_is_refused_by_name() {
     assert_eq!(refused(options(domain), Density::Image { values: &zeros, width: usize::MAX, height: 4 }), "density");
     assert_eq!(refused(options(domain), Density::Image { values: &[], width: 0, height: 4 }), "width");
     assert_eq!(refused(options(domain), Density::Image { values: &[], width: 4, height: 0 }), "height");
-    let nearest = Options::new(domain, Neighbourhood::Nearest);
-    assert_eq!(refused(nearest, good), "neighbourhood");
-    assert_eq!(refused(Options::thesis(domain, Neighbourhood::Delaunay), good), "method");
+}
+
+#[test]
+fn a_call_without_a_choice_of_method_takes_the_options_that_it_has_and_refuses_others() {
+    let refused = |options: Options| match options.to_delaunay("densities").unwrap_err() {
+        Error::InvalidArgument { argument, .. } => argument,
+        other => panic!("{other}"),
+    };
+    let all = options(unit_square(Boundary::Bounded)).max_iterations(7).seed(8).tolerance(0.5);
+    assert_eq!(Options::from(all).to_delaunay("densities").unwrap(), all);
+    assert_eq!(refused(Options::new(all.domain, Neighbourhood::Nearest)), "neighbourhood");
+    assert_eq!(refused(Options::thesis(all.domain, Neighbourhood::Delaunay)), "method");
 }
 
 #[test]

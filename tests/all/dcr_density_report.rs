@@ -1,6 +1,6 @@
 //! What a report says of points that were relaxed to a density: held against its definitions, evaluated plainly.
 
-use azulejo::dcr::{Density, Neighbourhood, Options, Report, relax, relax_with_density, scatter};
+use azulejo::dcr::{DelaunayOptions, Density, Report, relax, relax_with_density, scatter};
 use azulejo::{Boundary, Context, Domain};
 
 use crate::common::sets::{distance, unit_square};
@@ -125,7 +125,7 @@ const DENSITIES: [NamedDensity; 4] = [
 fn relaxed(domain: Domain, density: &Density, count: usize, steps: u32) -> (Vec<[f32; 2]>, Report) {
     let context = Context::new(1).unwrap();
     let start = scatter(&context, &domain, density, count, 5, None).unwrap();
-    let options = Options::new(domain, Neighbourhood::Delaunay).max_iterations(steps);
+    let options = DelaunayOptions::new(domain).max_iterations(steps);
     relax_with_density(&context, &options, density, &start, None).unwrap()
 }
 
@@ -159,10 +159,10 @@ fn the_figures_of_points_in_a_row_are_those_of_the_definitions() {
     for (height, points) in [4.0, 2.5].into_iter().flat_map(|height| rows.each_ref().map(|row| (height, row))) {
         for boundary in [Boundary::Periodic, Boundary::Bounded] {
             let domain = Domain { min: [0.0; 2], max: [24.0, height], boundary };
-            let options = Options::new(domain, Neighbourhood::Delaunay).max_iterations(0);
+            let options = DelaunayOptions::new(domain).max_iterations(0);
             let (_, report) =
                 relax_with_density(&context, &options, &Density::Function(&density), points, None).unwrap();
-            let (_, plain) = relax(&context, &options, points, None).unwrap();
+            let (_, plain) = relax(&context, &options.into(), points, None).unwrap();
             let rho = Scene::new(domain, &density, points.len()).rho(points);
             assert!((report.rho / rho - 1.0).abs() < 1e-5, "{domain:?}: {rho}, {report:?}");
             assert!((report.coverage / plain.coverage - 1.0).abs() < 1e-5, "{domain:?}: {plain:?}, {report:?}");

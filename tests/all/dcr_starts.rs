@@ -3,7 +3,9 @@
 use std::f64::consts::TAU;
 use std::ops::ControlFlow;
 
-use azulejo::dcr::{Density, Neighbourhood, Options, Report, Stopped, relax, relax_with_density, scatter, surface};
+use azulejo::dcr::{
+    DelaunayOptions, Density, Neighbourhood, Options, Report, Stopped, relax, relax_with_density, scatter, surface,
+};
 use azulejo::mesh::Mesh;
 use azulejo::{Boundary, Context, Domain, Points};
 
@@ -192,19 +194,19 @@ fn the_threads_do_not_matter() {
 #[test]
 fn a_heap_that_is_cancelled_at_once_stays() {
     for boundary in BOUNDARIES {
-        let options = Options::new(unit_square(boundary), Neighbourhood::Delaunay);
+        let options = DelaunayOptions::new(unit_square(boundary));
         let set = points(STARTS[0].1, &options.domain, 500);
         let density = Density::Function(&|_| 1.0);
         let context = Context::new(1).unwrap();
         let still = options.max_iterations(0);
         let expected = [
-            relax(&context, &still, &set, None).unwrap(),
+            relax(&context, &still.into(), &set, None).unwrap(),
             relax_with_density(&context, &still, &density, &set, None).unwrap(),
         ];
         for limit in [0.0, 0.001, 0.005, 0.0098, 0.01] {
             let cancel = |done: f64| if done >= limit { ControlFlow::Break(()) } else { ControlFlow::Continue(()) };
             let found = [
-                relax(&context, &options, &set, Some(&cancel)).unwrap(),
+                relax(&context, &options.into(), &set, Some(&cancel)).unwrap(),
                 relax_with_density(&context, &options, &density, &set, Some(&cancel)).unwrap(),
             ];
             for ((relaxed, report), (points, still)) in found.iter().zip(&expected) {
@@ -227,7 +229,7 @@ fn any_start_takes_on_a_density() {
     let disk = |[x, y]: [f64; 2]| if (x - 0.5).hypot(y - 0.4) < 0.3 { 1.0 } else { 0.0 };
     let context = Context::new(1).unwrap();
     for boundary in BOUNDARIES {
-        let options = Options::new(unit_square(boundary), Neighbourhood::Delaunay);
+        let options = DelaunayOptions::new(unit_square(boundary));
         for (number, function) in [&ramp as &(dyn Fn([f64; 2]) -> f64 + Sync), &disk].into_iter().enumerate() {
             let density = Density::Function(function);
             let scattered = scatter(&context, &options.domain, &density, 1500, 4, None).unwrap();

@@ -145,7 +145,7 @@ fn relaxed_and_measured(context: &Context, place: &str, domain: Domain, size: &S
         list.points(&format!("{place} relax {name}, thesis"), &dcr::relax(context, &thesis, &start, None)?.0);
         relaxed = positions;
     }
-    let options = dcr::Options::new(domain, Neighbourhood::Delaunay).seed(69).max_iterations(ITERATIONS);
+    let options = dcr::DelaunayOptions::new(domain).seed(69).max_iterations(ITERATIONS);
     list.points(&format!("{place} relax classes"), &dcr::relax_classes(context, &options, &start, &of, None)?.0);
     let density = |[x, y]: [f64; 2]| 0.1 + x * y;
     let density = Density::Function(&density);

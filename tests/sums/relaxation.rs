@@ -1,6 +1,8 @@
 //! Relaxation of sets of the plane.
 
-use azulejo::dcr::{self, Convergence, Density, Distribution, Method, Neighbourhood, Options, Thesis, Visits};
+use azulejo::dcr::{
+    self, Convergence, DelaunayOptions, Density, Distribution, Method, Neighbourhood, Options, Thesis, Visits,
+};
 use azulejo::{Context, Result};
 
 use crate::list::List;
@@ -46,7 +48,7 @@ fn in_classes(context: &Context, sets: &Sets, list: &mut List) -> Result<()> {
         ("relax classes bounded", SQUARE, &sets.random, &[0, 3, 0, 0, 1]),
     ] {
         let of: Vec<u32> = classes.iter().copied().cycle().take(points.len()).collect();
-        let options = Options::new(domain, DELAUNAY).seed(28);
+        let options = DelaunayOptions::new(domain).seed(28);
         let (relaxed, report, each) = dcr::relax_classes(context, &options, points, &of, None)?;
         list.points(name, &relaxed);
         let each = each.iter().flat_map(|class| [class.rho, class.coverage]);
@@ -63,7 +65,7 @@ fn by_density(context: &Context, list: &mut List) -> Result<()> {
     let disc = |place: [f64; 2]| if inside(place) { 1.0 } else { 0.1 * place[0] };
     let disc = Density::Function(&disc);
     let start = dcr::scatter(context, &SQUARE, &disc, 4000, 26, None)?;
-    let options = Options::new(SQUARE, DELAUNAY).seed(26);
+    let options = DelaunayOptions::new(SQUARE).seed(26);
     let (relaxed, report) = dcr::relax_with_density(context, &options, &disc, &start, None)?;
     list.points("density function", &relaxed);
     list.numbers("density function: report", &[report.rho, report.coverage]);
@@ -72,7 +74,7 @@ fn by_density(context: &Context, list: &mut List) -> Result<()> {
     let values: Vec<f32> = (0..64 * 48).map(value).collect();
     let image = Density::Image { values: &values, width: 64, height: 48 };
     let start = dcr::scatter(context, &TORUS, &image, 2000, 27, None)?;
-    let options = Options::new(TORUS, DELAUNAY).seed(27);
+    let options = DelaunayOptions::new(TORUS).seed(27);
     list.points("density image", &dcr::relax_with_density(context, &options, &image, &start, None)?.0);
     Ok(())
 }

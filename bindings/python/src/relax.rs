@@ -1,7 +1,8 @@
 //! Relaxation of point sets.
 
+use azulejo_core::Domain;
 use azulejo_core::dcr::{
-    self, Convergence, Density, Distribution, Method, Neighbourhood, Stopped, Thesis, Visits, surface,
+    self, Convergence, DelaunayOptions, Density, Distribution, Method, Neighbourhood, Stopped, Thesis, Visits, surface,
 };
 use numpy::PyArray1;
 use pyo3::prelude::*;
@@ -84,13 +85,9 @@ const DISTRIBUTIONS: &[(&str, Distribution)] = &[
 ];
 
 /// Options with the arguments that every relaxation in the plane has.
-fn with_steps(
-    request: dcr::Options,
-    max_iterations: i128,
-    tolerance: Option<f64>,
-    seed: i128,
-) -> PyResult<dcr::Options> {
-    let request = request.max_iterations(natural("max_iterations", max_iterations)?).seed(natural("seed", seed)?);
+fn with_steps(domain: Domain, max_iterations: i128, tolerance: Option<f64>, seed: i128) -> PyResult<DelaunayOptions> {
+    let request = DelaunayOptions::new(domain).max_iterations(natural("max_iterations", max_iterations)?);
+    let request = request.seed(natural("seed", seed)?);
     Ok(request.tolerance(tolerance.unwrap_or(request.tolerance)))
 }
 
@@ -180,7 +177,8 @@ pub(crate) fn dcr_relax(
         }
         dcr::Options::new(domain, neighbourhood)
     };
-    let request = with_steps(request, max_iterations, tolerance, seed)?;
+    let request = request.max_iterations(natural("max_iterations", max_iterations)?).seed(natural("seed", seed)?);
+    let request = request.tolerance(tolerance.unwrap_or(request.tolerance));
     let (relaxed, report) =
         Watch::new(py, threads, progress)?.run(|context, progress| dcr::relax(context, &request, points, progress))?;
     Points::plane(py, relaxed)?.with_report(py, DcrReport::from(report))
@@ -216,8 +214,7 @@ pub(crate) fn dcr_relax_classes(
 ) -> PyResult<Points> {
     let (xy, classes) = (Array::read("xy", xy)?, Array::read("classes", classes)?);
     let (points, classes) = (xy.rows()?, classes.line()?);
-    let request = dcr::Options::new(domain(domain_min, domain_max, boundary)?, Neighbourhood::Delaunay);
-    let request = with_steps(request, max_iterations, tolerance, seed)?;
+    let request = with_steps(domain(domain_min, domain_max, boundary)?, max_iterations, tolerance, seed)?;
     let (samples, report, each) = Watch::new(py, threads, progress)?
         .run(|context, progress| dcr::relax_classes(context, &request, points, classes, progress))?;
     let report = DcrReport {
@@ -255,8 +252,7 @@ pub(crate) fn dcr_relax_density(
 ) -> PyResult<Points> {
     let (xy, density) = (Array::read("xy", xy)?, Array::read("density", density)?);
     let (points, (values, [width, height])) = (xy.rows()?, density.image()?);
-    let request = dcr::Options::new(domain(domain_min, domain_max, boundary)?, Neighbourhood::Delaunay);
-    let request = with_steps(request, max_iterations, tolerance, seed)?;
+    let request = with_steps(domain(domain_min, domain_max, boundary)?, max_iterations, tolerance, seed)?;
     let (relaxed, report) = Watch::new(py, threads, progress)?.run(|context, progress| {
         dcr::relax_with_density(context, &request, &Density::Image { values, width, height }, points, progress)
     })?;

@@ -86,7 +86,9 @@ impl Relax {
         options.max_iterations = self.iterations.unwrap_or(options.max_iterations);
         let start = Instant::now();
         let relax = |progress: &Progress| match classes {
-            Some(classes) => dcr::relax_classes(context, &options, &set.points, classes, Some(progress)),
+            Some(classes) => {
+                dcr::relax_classes(context, &options.to_delaunay("classes")?, &set.points, classes, Some(progress))
+            }
             None => {
                 let (relaxed, done) = dcr::relax(context, &options, &set.points, Some(progress))?;
                 Ok((relaxed, done, Vec::new()))

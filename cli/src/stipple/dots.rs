@@ -1,6 +1,6 @@
 //! Dots, as dense as an image is dark.
 
-use azulejo::dcr::{self, Neighbourhood, Options, Report};
+use azulejo::dcr::{self, DelaunayOptions, Report};
 use azulejo::psp::adaptive::{self, Radius};
 use azulejo::{Context, Given, Progress, Result};
 
@@ -24,7 +24,7 @@ pub fn relaxed(
     max_iterations: u32,
     progress: &Progress,
 ) -> Result<(Vec<[f32; 2]>, Report)> {
-    let options = Options::new(darkness.domain(), Neighbourhood::Delaunay).max_iterations(max_iterations);
+    let options = DelaunayOptions::new(darkness.domain()).max_iterations(max_iterations);
     dcr::relax_with_density(context, &options, &darkness.density(), dots, Some(progress))
 }
 

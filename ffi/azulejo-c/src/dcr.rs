@@ -407,7 +407,7 @@ pub unsafe extern "C" fn azulejo_dcr_relax_classes(
         // SAFETY: handed on from the caller.
         let classes = unsafe { rows::<u32, 1>("classes", classes, "count", count) }?.as_flattened();
         check_classes(classes, class_count)?;
-        let request = options.request()?;
+        let request = options.request()?.to_delaunay("classes")?;
         let (relaxed, done, each) = context.run(options.watch(), |context, progress| {
             dcr::relax_classes(context, &request, points, classes, progress)
         })?;

@@ -206,7 +206,7 @@ pub unsafe extern "C" fn azulejo_dcr_relax_density(
         // SAFETY: likewise.
         let (points, report) =
             unsafe { (rows::<f32, 2>("xy", xy, "count", count)?, Output::optional("report", report)?) };
-        let request = options.request()?;
+        let request = options.request()?.to_delaunay("densities")?;
         let relax = |density: &Density| {
             context.run(options.watch(), |context, progress| {
                 dcr::relax_with_density(context, &request, density, points, progress)

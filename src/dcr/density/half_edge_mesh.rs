@@ -5,7 +5,7 @@
 //! be rebuilt.
 //!
 //! Points have few neighbours or hundreds where the spacing varies, as anchors and points beside dark edges do:
-//! half-edges support both, rings with a fixed number of slots (`uniform/flip_mesh.rs`) do not. Half-edges are numbered
+//! half-edges support both, rings with a fixed number of slots (`uniform/rings.rs`) do not. Half-edges are numbered
 //! `4 t + k`: the edge from corner `k` to the next of triangle `t`, counter-clockwise.
 
 use std::sync::atomic::{AtomicBool, Ordering};

@@ -20,9 +20,7 @@ use crate::dcr::clustering::is_clustered;
 use crate::dcr::density::half_edge_mesh::HalfEdgeMesh;
 use crate::dcr::density::raster::{OctaveGrids, Raster};
 use crate::dcr::law::{Constraints, FREE_CLEARANCE, Force, MOMENTUM, RingPoint, SAFE_FRACTION, graded_force};
-use crate::dcr::options::{Method, Neighbourhood, Options};
-use crate::dcr::relax::{PlaneRelaxation, Report, relax_set, require_memory};
-use crate::dcr::relaxation::Relaxation;
+use crate::dcr::relaxation::{DelaunayOptions, PlaneRelaxation, Relaxation, Report, relax_set, require_memory};
 use crate::dcr::torus::{CurveOrder, MirrorBoundary, Neighbours, Torus, TorusPoint, along_curve};
 use crate::error::{Error, Result};
 use crate::geometry::Delaunay;
@@ -105,30 +103,23 @@ pub fn is_density(value: f64) -> bool {
 /// # Errors
 /// [`Error::InvalidArgument`] for a density that is not 0 or above and finite, or is 0 everywhere (`density`; of
 /// several such positions the reported one does not depend on chance), for an image without pixels (`width`, `height`)
-/// or of another size than its values, and for all options but [`Method::Momentum`] (`method`) with Delaunay neighbours
-/// (`neighbourhood`); those of [`relax`](fn@crate::dcr::relax).
+/// or of another size than its values; those of [`relax`](fn@crate::dcr::relax).
 pub fn relax_with_density(
     context: &Context,
-    options: &Options,
+    options: &DelaunayOptions,
     density: &Density,
     points: &[[f32; 2]],
     progress: Option<&Progress>,
 ) -> Result<(Vec<[f32; 2]>, Report)> {
     options.check()?;
     density.check()?;
-    if options.method != Method::Momentum {
-        return Err(Error::invalid("method", "only the momentum method supports densities"));
-    }
-    if options.neighbourhood != Neighbourhood::Delaunay {
-        return Err(Error::invalid("neighbourhood", "densities need Delaunay neighbours"));
-    }
     options.domain.check_points(points)?;
     require_memory("xy", points.len())?;
     let mut set = context.run(None, |job| {
         let raster = Raster::new(&job.part(0.0, 0.5), &options.domain, density, points.len())?;
         DensityRelaxation::new(&job.part(0.5, 1.0), options.domain, options.seed, raster, points)
     })?;
-    relax_set(context, options, points, &mut set, progress, None)
+    relax_set(context, &options.domain, options.limits(), points, &mut set, progress, None)
 }
 
 /// Random points of a domain with the requested density: a start for [`relax_with_density`]. Point `i` depends on the

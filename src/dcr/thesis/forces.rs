@@ -10,7 +10,7 @@
 
 use glam::DVec2;
 
-use crate::dcr::options::Neighbourhood;
+use crate::dcr::law::Neighbourhood;
 use crate::dcr::thesis::links::{Link, Links};
 use crate::dcr::thesis::{Distribution, Thesis, Visits};
 use crate::rng::{Draw, hash};

@@ -27,9 +27,8 @@ mod links;
 
 use glam::DVec2;
 
-use crate::dcr::options::Neighbourhood;
-use crate::dcr::relax::PlaneRelaxation;
-use crate::dcr::relaxation::{Relaxation, Space};
+use crate::dcr::law::Neighbourhood;
+use crate::dcr::relaxation::{PlaneRelaxation, Relaxation, Space};
 use crate::dcr::thesis::forces::{Forces, Particle};
 use crate::dcr::thesis::links::{DelaunayLinks, Links, NearestLinks};
 use crate::error::{Error, Result};

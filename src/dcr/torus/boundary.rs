@@ -14,8 +14,7 @@
 
 use glam::Vec2;
 
-use crate::dcr::law::{Constraints, STIFFENING};
-use crate::dcr::options::Neighbourhood;
+use crate::dcr::law::{Constraints, Neighbourhood, STIFFENING};
 use crate::dcr::torus::{Torus, TorusPoint};
 
 /// The distance, in spacings, below which a point and its own image push each other: enough to keep triangles between

@@ -12,12 +12,13 @@ use std::ops::Range;
 use glam::Vec2;
 
 use crate::classes::Classes;
-use crate::dcr::law::{Constraints, FREE_CLEARANCE, Force};
-use crate::dcr::options::{Method, Neighbourhood, Options};
-use crate::dcr::relax::{PlaneRelaxation, Report, measure, relax_set, require_memory};
-use crate::dcr::relaxation::{Relaxation, Steps, Stopped};
+use crate::dcr::law::{Constraints, FREE_CLEARANCE, Force, Neighbourhood};
+use crate::dcr::relaxation::{
+    DelaunayOptions, PlaneRelaxation, Relaxation, Report, Steps, Stopped, measure, relax_set, require_memory,
+};
 use crate::dcr::torus::{CurveOrder, LEVEL, MirrorBoundary, Torus, TorusPoint, WaveGrid, leveled};
-use crate::dcr::uniform::flip_mesh::{Edge, FlipMesh, Rings};
+use crate::dcr::uniform::flip_mesh::FlipMesh;
+use crate::dcr::uniform::rings::{Edge, Rings};
 use crate::dcr::uniform::stars::{Gathered, Visitor};
 use crate::dcr::uniform::{
     FIRST_FREE, JAMMED, KICK_EVERY, LAST_KICK, UniformRelaxation, WAVES_EVERY, highest_wave, kick,
@@ -360,23 +361,17 @@ pub struct ClassReport {
 /// About 2.5 times the time of [`relax`](fn@crate::dcr::relax) and its memory.
 ///
 /// # Errors
-/// [`Error::InvalidArgument`] as [`relax`](fn@crate::dcr::relax), and for another method or other neighbours, for classes of
+/// [`Error::InvalidArgument`] as [`relax`](fn@crate::dcr::relax), and for classes of
 /// another number than that of the points, and for one that is too high (`classes`, with its index);
 /// [`Error::TooLarge`](crate::Error::TooLarge).
 pub fn relax_classes(
     context: &Context,
-    options: &Options,
+    options: &DelaunayOptions,
     points: &[[f32; 2]],
     classes: &[u32],
     progress: Option<&Progress>,
 ) -> Result<(Vec<[f32; 2]>, Report, Vec<ClassReport>)> {
     options.check()?;
-    if options.method != Method::Momentum {
-        return Err(Error::invalid("method", "classes are relaxed by the momentum method only".to_owned()));
-    }
-    if options.neighbourhood != Neighbourhood::Delaunay {
-        return Err(Error::invalid("neighbourhood", "classes are relaxed with Delaunay neighbours only".to_owned()));
-    }
     options.domain.check_points(points)?;
     if classes.len() != points.len() {
         return Err(Error::invalid("classes", format!("{} for {} points", classes.len(), points.len())));
@@ -387,7 +382,7 @@ pub fn relax_classes(
     }
     require_memory("xy", points.len())?;
     let mut set = ClassRelaxation::new(options.domain, options.seed, points, classes);
-    let (relaxed, report) = relax_set(context, options, points, &mut set, progress, None)?;
+    let (relaxed, report) = relax_set(context, &options.domain, options.limits(), points, &mut set, progress, None)?;
     let count = classes.iter().max().map_or(0, |&last| last + 1);
     let reports =
         (0..count).map(|class| of_class(context, options, &relaxed, classes, class)).collect::<Result<_>>()?;
@@ -397,7 +392,7 @@ pub fn relax_classes(
 /// The figures of one class.
 fn of_class(
     context: &Context,
-    options: &Options,
+    options: &DelaunayOptions,
     points: &[[f32; 2]],
     classes: &[u32],
     class: u32,

@@ -16,6 +16,7 @@
 mod cells;
 mod classes;
 mod flip_mesh;
+mod rings;
 mod stars;
 #[allow(unsafe_code)] // Vector instructions.
 mod vectors;
@@ -27,15 +28,14 @@ use std::ops::Range;
 
 use glam::Vec2;
 
-use crate::dcr::law::{Constraints, FREE_CLEARANCE, Force};
-use crate::dcr::options::Neighbourhood;
-use crate::dcr::relax::PlaneRelaxation;
-use crate::dcr::relaxation::Relaxation;
+use crate::dcr::law::{Constraints, FREE_CLEARANCE, Force, Neighbourhood};
+use crate::dcr::relaxation::{PlaneRelaxation, Relaxation};
 use crate::dcr::torus::{
     CLUSTERED, CurveOrder, LONG_WAVES, MirrorBoundary, Neighbours, Torus, TorusPoint, WaveGrid, leveled,
 };
 use crate::dcr::uniform::cells::VerletCells;
-use crate::dcr::uniform::flip_mesh::{Edge, FlipMesh, Rings};
+use crate::dcr::uniform::flip_mesh::FlipMesh;
+use crate::dcr::uniform::rings::{Edge, Rings};
 use crate::dcr::uniform::stars::{Gathered, LANES, Visitor};
 use crate::dcr::uniform::vectors::gather_in_cells;
 use crate::error::Result;

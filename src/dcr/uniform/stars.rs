@@ -7,7 +7,7 @@ use std::ops::Range;
 
 use crate::dcr::law::Constraints;
 use crate::dcr::torus::{Torus, TorusPoint};
-use crate::dcr::uniform::flip_mesh::Rings;
+use crate::dcr::uniform::rings::Rings;
 
 /// The number of points that are processed at a time.
 pub const LANES: usize = 8;

@@ -7,8 +7,7 @@ use crate::job::{Job, chunks_of};
 use crate::mesh::Mesh;
 use crate::points::MAXIMAL_DENSITY;
 use crate::psp::adaptive::options::{Density, DensityFunction, Scale, Texture};
-use crate::psp::fragment::{Fragment, Shape};
-use crate::psp::pieces::slice;
+use crate::psp::fragment::{Fragment, Shape, slice};
 
 /// Triangles per task of the integral.
 const CHUNK: usize = 1 << 13;

@@ -1,7 +1,7 @@
 //! The data of samples on which their conflicts depend.
 
 use crate::math::distance_squared;
-use crate::psp::facing::Facing;
+use crate::psp::fragment::Facing;
 
 /// A sample as other samples are tested against it.
 #[derive(Clone, Copy, Debug)]

@@ -5,7 +5,7 @@
 //! limited to ensure this. For vertices, the barycentrics change the radius by 2^-24 of the difference of two corners,
 //! at most four diagonals; these are at most 14 float spacings, and no radius is below 64.
 //!
-//! Levels of an ordered set (`levels.rs`) multiply all radii by a *scale*. Radii without it are *relative*, as are
+//! Levels of an ordered set (`psp/levels.rs`) multiply all radii by a *scale*. Radii without it are *relative*, as are
 //! those of samples. Everything that is compared with lengths has been multiplied: bounds, and all that follows from
 //! them.
 

@@ -11,11 +11,11 @@ use crate::math::square;
 use crate::mesh::Mesh;
 use crate::psp::adaptive::dot::Dot;
 use crate::psp::adaptive::page::{Ball, CoveredSixteenths, CoveredTriangles, Covering, Group, LANES, Near, Page, Part};
-use crate::psp::facing::Facing;
 use crate::psp::fill::grid::{any_cell, each_cell};
 use crate::psp::fill::page::GROUP;
 use crate::psp::fill::space::{Place, Space, key};
 use crate::psp::fill::table::Table;
+use crate::psp::fragment::Facing;
 use crate::simd::{Level, run};
 
 /// The share by which rounding can increase the distance at which a sample matters, and some more.

@@ -20,10 +20,8 @@
 
 mod density;
 mod dot;
-mod estimate;
 mod field;
 mod grid;
-mod levels;
 mod options;
 mod page;
 mod pieces;

@@ -9,7 +9,7 @@
 
 use crate::psp::fill::page::GROUP;
 use crate::psp::fill::space::Place;
-use crate::psp::sixteenths::{CORNERS, Cover};
+use crate::psp::fragment::{CORNERS, Cover};
 use crate::simd::{self, Lanes, Work};
 
 /// The samples on a page.

@@ -1,25 +1,28 @@
-//! Adaptive sampling in one call.
+//! Adaptive sampling in one call: a set that is filled at once, or level by level.
+//!
+//! Levels are maximal sets at ever smaller scales, each around the samples of those before (`psp/levels.rs`). A level is
+//! filled with all radii multiplied by its scale, and earlier samples count with theirs at this scale. So distances are
+//! measured by the mean of two relative radii, and the properties of levels of one radius hold.
 
 use crate::error::{Error, Result};
 use crate::host::Stopwatch;
 use crate::job::{Context, Job, Progress};
+use crate::math::square;
 use crate::mesh::Mesh;
 use crate::order::Order;
-use crate::points::{Points, check_radius};
+use crate::points::{Points, check_radius, check_resolution, finest_radius};
 use crate::psp::adaptive::density::DensityField;
-use crate::psp::adaptive::estimate::require;
 use crate::psp::adaptive::field::{Quota, RadiusField};
-use crate::psp::adaptive::levels::ordered;
 use crate::psp::adaptive::options::{Options, Radius, Scale};
+use crate::psp::adaptive::pieces::checked_samples;
 use crate::psp::adaptive::site::GradedSurface;
-use crate::psp::facing::Facing;
 use crate::psp::fill::FillOptions;
-use crate::psp::given::obstacles;
-use crate::psp::levels::LevelledSet;
-use crate::psp::obstacles::Obstacles;
+use crate::psp::fragment::Facing;
+use crate::psp::given::{Obstacles, require_clearances};
+use crate::psp::levels::{self, Levelled, LevelledSet, Levels, Ranked, top};
 use crate::psp::options::check_quotient;
 use crate::psp::report::Report;
-use crate::psp::samples::{Sample, surface_samples};
+use crate::psp::samples::Sample;
 
 /// A maximal set of samples, each with its own radius ([`Points::radii`]): in the order in which they were accepted, or
 /// in progressive order.
@@ -59,57 +62,115 @@ pub fn sample(
 ) -> Result<(Points<3>, Report)> {
     let stopwatch = Stopwatch::start();
     let facing = Facing::new(options.cosine)?;
-    if options.order == Order::Progressive {
+    let is_ordered = options.order == Order::Progressive;
+    if is_ordered {
         check_quotient(options.quotient)?;
     }
-    let density = match options.radius {
-        Radius::Density { density, scale } => {
-            check_scale(scale)?;
-            Some(DensityField::new(mesh, density)?)
+    let (mut density, mut count) = (None, None);
+    if let Radius::Density { density: source, scale } = options.radius {
+        count = checked_count(scale, options.order)?;
+        density = Some((DensityField::new(mesh, source)?, scale));
+    }
+    require_clearances(options.given, "are required where the radius varies")?;
+    let obstacles = &Obstacles::of(mesh, options.given)?;
+    let found = context.run(progress, |job| {
+        let (density, unit) = match &density {
+            Some((density, scale)) => (Some(density), density.unit(&job.part(0.0, 0.02), *scale)?),
+            None => (None, 1.0),
+        };
+        // Levels multiply all radii, at density 1 as well. A level does not depend on where the set ends. So neither
+        // does the region where a density requires no samples.
+        let (unit, last, finest) = match (density, options.order) {
+            (_, Order::Any) => (unit, 1.0, 1.0),
+            (None, Order::Progressive) => (1.0, 1.0, 1.0),
+            (Some(density), Order::Progressive) => {
+                (1.0, unit, (1.0 + 1e-12) * finest_radius(mesh.float_spacing()) * density.largest.sqrt())
+            }
+        };
+        let field = RadiusField::new(mesh, options.radius, density.map(|density| (density, unit)), finest)?;
+        if is_ordered && count.is_none() {
+            let least = last * field.least();
+            check_resolution("density", least, mesh.float_spacing(), "the largest coordinate of the mesh")?;
         }
-        _ => None,
-    };
-    let obstacles = obstacles(mesh, options.given)?;
-    let make = match options.order {
-        Order::Any => filled,
-        Order::Progressive => ordered,
-    };
-    let found = context.run(progress, |job| make(job, mesh, options, density.as_ref(), facing, &obstacles))?;
+        let estimate = checked_samples(&job.part(0.02, 0.05), mesh, &field.at_scale(last))?;
+        let surface = ScaledSurface { mesh, field, facing, obstacles, last, estimate };
+        if !is_ordered {
+            let (samples, darts) = surface.fill(job, FillOptions::from_nothing(options.seed), last, &[])?;
+            return Ok(LevelledSet { samples, radius: last, coverage: last, darts });
+        }
+        let (job, levels) = (&job.part(0.05, 1.0), Levels::new(surface, options.seed));
+        match count {
+            None => levels::by_radius(job, levels, options.quotient, last),
+            Some(count) => levels::by_count(job, levels, options.quotient, count, finest),
+        }
+    })?;
     let radii = found.samples.iter().map(|(_, relative)| found.radius * relative).collect();
-    let samples: Vec<Sample> = found.samples.iter().map(|&(sample, _)| sample).collect();
-    let mut report = Report::of_fill(samples.len(), found.darts, &stopwatch);
-    let mut set = Points { radii, ..surface_samples(mesh, &samples) };
-    if options.order == Order::Progressive {
-        set.ranks = samples.iter().map(|sample| sample.rank).collect();
+    let mut report = Report::of_fill(found.samples.len(), found.darts, &stopwatch);
+    if is_ordered {
         (report.radius, report.coverage) = (found.radius, Some(found.coverage));
     }
-    Ok((set, report))
+    Ok((Points { radii, ..found.to_points(mesh, options.order) }, report))
 }
 
-/// A set that is filled at once.
-fn filled(
-    job: &Job,
-    mesh: &Mesh,
-    options: &Options,
-    density: Option<&DensityField>,
-    facing: Facing,
-    obstacles: &Obstacles,
-) -> Result<LevelledSet<(Sample, f64)>> {
-    let density = match (density, options.radius) {
-        (Some(density), Radius::Density { scale, .. }) => Some((density, density.unit(&job.part(0.0, 0.02), scale)?)),
-        _ => None,
-    };
-    let field = &RadiusField::new(mesh, options.radius, density, 1.0)?;
-    let quota = &Quota::new(require(&job.part(0.02, 0.05), mesh, field)?, mesh);
-    let surface = GradedSurface { mesh, field, quota, facing, obstacles, finest: 1.0 };
-    let (set, darts) = surface.fill(job, FillOptions::from_nothing(options.seed), &[])?;
-    Ok(LevelledSet { samples: set.into_samples(), radius: 1.0, coverage: 1.0, darts })
-}
-
-fn check_scale(scale: Scale) -> Result<()> {
+/// The count that is requested in progressive order, which must be whole. Refuses a scale out of its range.
+fn checked_count(scale: Scale, order: Order) -> Result<Option<usize>> {
     match scale {
-        Scale::Radius(radius) => check_radius(radius),
-        Scale::Count(count) if count > 0.0 && count.is_finite() => Ok(()),
-        Scale::Count(count) => Err(Error::invalid("count", format!("{count:?} is not a positive finite number"))),
+        Scale::Radius(radius) => check_radius(radius).map(|()| None),
+        Scale::Count(count) if !(count > 0.0 && count.is_finite()) => {
+            Err(Error::invalid("count", format!("{count:?} is not a positive finite number")))
+        }
+        Scale::Count(_) if order == Order::Any => Ok(None),
+        Scale::Count(count) if count.fract() == 0.0 && count <= f64::from(u32::MAX) => Ok(Some(count as usize)),
+        Scale::Count(count) => {
+            let reason = format!("{count:?} is not a whole number up to {}, which progressive order needs", u32::MAX);
+            Err(Error::invalid("count", reason))
+        }
+    }
+}
+
+/// A surface whose radius varies, at any scale.
+struct ScaledSurface<'a> {
+    mesh: &'a Mesh,
+    field: RadiusField<'a>,
+    facing: Facing,
+    obstacles: &'a Obstacles,
+    /// The scale at which the set is expected to be complete, and the approximate number of samples.
+    last: f64,
+    estimate: f64,
+}
+
+impl Ranked for (Sample, f64) {
+    fn sample(&self) -> &Sample {
+        &self.0
+    }
+}
+
+impl Levelled for ScaledSurface<'_> {
+    type Sample = (Sample, f64);
+
+    fn top(&self) -> f64 {
+        top(self.mesh) / self.field.least()
+    }
+
+    fn expected(&self, scale: f64) -> f64 {
+        self.estimate * square(self.last / scale)
+    }
+
+    fn has_given(&self) -> bool {
+        !self.obstacles.is_empty()
+    }
+
+    fn fill(
+        &self,
+        job: &Job,
+        options: FillOptions,
+        scale: f64,
+        samples: &[Self::Sample],
+    ) -> Result<(Vec<Self::Sample>, u64)> {
+        let &Self { mesh, facing, obstacles, last, estimate, .. } = self;
+        let (field, quota) = (&self.field.at_scale(scale), &Quota::new(self.expected(scale).max(estimate), mesh));
+        let surface = GradedSurface { mesh, field, quota, facing, obstacles, finest: last };
+        let (set, darts) = surface.fill(job, options, samples)?;
+        Ok((set.into_samples(), darts))
     }
 }

@@ -16,7 +16,7 @@ use crate::mesh::{Mesh, exact};
 use crate::psp::adaptive::dot::Dot;
 use crate::psp::adaptive::pieces::LONGEST;
 use crate::psp::cubes::{Cube, Cubes, Growing, OctaveCube};
-use crate::psp::facing::Facing;
+use crate::psp::fragment::Facing;
 use crate::psp::samples::Sample;
 use crate::rng::{Draw, Rng};
 

@@ -16,13 +16,12 @@ use crate::psp::adaptive::page::Group;
 use crate::psp::adaptive::pieces::{Piece, pieces};
 use crate::psp::adaptive::set::AdaptiveSet;
 use crate::psp::cubes::OctaveCube;
-use crate::psp::facing::Facing;
 use crate::psp::fill::darts::random_point;
 use crate::psp::fill::page::GROUP;
 use crate::psp::fill::rounds::{Ground, Open, PATCH, Patch, Point, WHOLE, Whole, throw};
 use crate::psp::fill::{FIRST_DARTS, FillOptions, PROBES_IN_CUBE, Zone, fill_zone, open_share};
-use crate::psp::fragment::Fragment;
-use crate::psp::obstacles::Obstacles;
+use crate::psp::fragment::{Facing, Fragment};
+use crate::psp::given::Obstacles;
 use crate::psp::samples::Sample;
 use crate::rng::{Draw, Rng};
 

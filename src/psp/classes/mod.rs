@@ -19,11 +19,9 @@ use crate::mesh::Mesh;
 use crate::points::{Points, check_resolution};
 use crate::psp::classes::layers::Layers;
 use crate::psp::classes::site::{Group, Places};
-use crate::psp::estimate::require_memory;
-use crate::psp::facing::Facing;
-use crate::psp::fill::measures::Measures;
-use crate::psp::given::obstacles_of;
-use crate::psp::obstacles::Obstacles;
+use crate::psp::fill::measures::{BYTES_PER_SAMPLE, Measures, require_samples};
+use crate::psp::fragment::Facing;
+use crate::psp::given::Obstacles;
 use crate::psp::options::ClassOptions;
 use crate::psp::report::Report;
 use crate::psp::samples::surface_samples;
@@ -71,7 +69,7 @@ pub fn sample_classes(
     let facing = Facing::new(options.cosine)?;
     let given = obstacles_of_classes(mesh, options.given, classes)?;
     let measures = &*mesh.kept(|| Ok(()), || Ok(Measures::of(mesh)))?;
-    let none = &Obstacles::new(mesh, std::iter::empty());
+    let none = &Obstacles::default();
     let places = Places { mesh, measures, masks, given: &given, none, facing };
     let group = |(number, group): (u64, &Vec<usize>)| Group {
         places,
@@ -82,7 +80,7 @@ pub fn sample_classes(
     };
     let groups: Vec<Group> = (0..).zip(&classes.groups()).map(group).collect();
     let expected: f64 = groups.iter().map(Group::expected_samples).sum();
-    check_count(expected)?;
+    require_samples(expected, BYTES_PER_SAMPLE, "radii", "they ask for")?;
     let (mut samples, darts) = context.run(progress, |job| {
         let (mut samples, mut darts, mut done) = (Vec::new(), 0, 0.0);
         for group in &groups {
@@ -101,7 +99,7 @@ pub fn sample_classes(
         radius: (0..classes.count()).map(|class| classes.own(class)).fold(f64::INFINITY, f64::min),
         ..Report::of_fill(samples.len(), darts, &stopwatch)
     };
-    let mut set = surface_samples(mesh, &samples);
+    let mut set = surface_samples(mesh, samples.iter());
     set.classes = samples.iter().map(|sample| sample.class.into()).collect();
     Ok((set, report))
 }
@@ -113,7 +111,7 @@ fn obstacles_of_classes(mesh: &Mesh, given: Given<3>, classes: &Classes) -> Resu
     let of_class = |class: usize| {
         let clearances = given.clearances_of_class(class, classes.count());
         let clearances = clearances.unwrap_or_else(|| vec![classes.own(class); given.positions.len()]);
-        obstacles_of(mesh, Given::with_clearances(given.positions, &clearances))
+        Obstacles::of(mesh, Given::with_clearances(given.positions, &clearances))
     };
     (0..classes.count()).map(of_class).collect()
 }
@@ -132,12 +130,4 @@ fn check_masks(mesh: &Mesh, masks: Option<&[u32]>) -> Result<()> {
 fn check_radii(mesh: &Mesh, classes: &Classes) -> Result<()> {
     let least = classes.radii().iter().copied().filter(|&radius| radius > 0.0).fold(f64::INFINITY, f64::min);
     check_resolution("radii", least, mesh.float_spacing(), "the largest coordinate of the mesh")
-}
-
-fn check_count(expected: f64) -> Result<()> {
-    if expected > f64::from(u32::MAX) {
-        let reason = format!("they ask for about {expected:.3e} samples; the limit is {}", u32::MAX);
-        return Err(Error::too_large("radii", reason));
-    }
-    require_memory(expected, "radii", &format!("about {expected:.3e} samples"))
 }

@@ -10,7 +10,6 @@ use crate::error::Result;
 use crate::job::Job;
 use crate::mesh::{Mesh, round_barycentrics};
 use crate::psp::classes::layers::Layers;
-use crate::psp::facing::Facing;
 use crate::psp::fill::blocks::Block;
 use crate::psp::fill::extent::Extent;
 use crate::psp::fill::measures::Measures;
@@ -19,8 +18,8 @@ use crate::psp::fill::rounds::{Ground, Open, Patch, Point, Whole};
 use crate::psp::fill::space::Space;
 use crate::psp::fill::uniform::UniformGround;
 use crate::psp::fill::{FillOptions, ONE_PIECE, Site, fill};
-use crate::psp::fragment::Fragment;
-use crate::psp::obstacles::Obstacles;
+use crate::psp::fragment::{Facing, Fragment};
+use crate::psp::given::Obstacles;
 use crate::psp::samples::{RADIUS_SLACK, Sample, SampleSet};
 use crate::rng::{Draw, Rng};
 

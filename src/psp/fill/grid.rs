@@ -7,11 +7,10 @@
 use glam::DVec3;
 
 use crate::mesh::exact;
-use crate::psp::facing::{Facing, NO_NORMAL};
 use crate::psp::fill::cells::Cells;
 use crate::psp::fill::page::{CoveredTriangles, Covering, GROUP, Group, LANES, Near, Page, Part, samples, squares};
 use crate::psp::fill::space::{MASK, Place, ROUNDER, Space};
-use crate::psp::sixteenths::{CORNERS, CORNERS_OF_SIXTEENTHS, Cover, PIERCING, PIERCING_BY_EDGE};
+use crate::psp::fragment::{CORNERS, CORNERS_OF_SIXTEENTHS, Cover, Facing, NO_NORMAL, PIERCING, PIERCING_BY_EDGE};
 use crate::simd::{HALF, Lanes, Level, Work, run};
 
 /// The number of pages that memory is reserved for at first: a cube of `psp/cubes.rs` hardly has more.

@@ -1,4 +1,5 @@
-//! Measures of a mesh that a fill needs for any radius: areas, lengths, and balls around clusters of triangles.
+//! Measures of a mesh that a fill needs for any radius: areas, lengths, and balls around clusters of triangles; and the
+//! number of samples that follows from them before any work is done.
 //!
 //! A *cluster* is a run of sixteen consecutive triangles of the mesh. If one sample covers the ball around a cluster, a
 //! pass need not read its triangles, and if the ball lies in a cube, all of them do.
@@ -14,11 +15,12 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use glam::Vec3A;
 
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::job::{Job, chunks_of};
 use crate::math::rounded_up;
+use crate::memory;
 use crate::mesh::{Mesh, exact};
-use crate::points::MAXIMAL_DENSITY;
+use crate::points::{MAXIMAL_DENSITY, check_radius, check_resolution};
 use crate::psp::fill::extent::Extent;
 use crate::simd::{Lanes, Level, Work, run};
 
@@ -180,6 +182,15 @@ impl Measures {
         DENSITY * mesh.area() / (radius * radius) + self.longer_than(radius) / radius
     }
 
+    /// The same. Refuses a radius that is out of range or requires too many.
+    pub fn checked_samples(&self, mesh: &Mesh, radius: f64) -> Result<f64> {
+        check_radius(radius)?;
+        let estimate = self.expected_samples(mesh, radius);
+        require_samples(estimate, BYTES_PER_SAMPLE, "radius", &format!("{radius:?} asks for"))?;
+        check_radius_on(mesh, radius)?;
+        Ok(estimate)
+    }
+
     /// The sum of the longest edges of all triangles that are longer than a length; at most sqrt(2) times too large.
     pub fn longer_than(&self, length: f64) -> f64 {
         self.lengths.iter().filter(|&&(end, _)| end > length).map(|&(end, count)| end * f64::from(count)).sum()
@@ -194,6 +205,25 @@ const _: () = assert!(MAXIMAL_DENSITY < DENSITY && DENSITY < 1.01 * MAXIMAL_DENS
 /// longer than the radius, since a needle has length and hardly any area.
 pub fn expected_samples_of(radius: f64, area: f64, longest: f64) -> f64 {
     DENSITY * area / (radius * radius) + if longest > radius { longest / radius } else { 0.0 }
+}
+
+/// Refuses a radius that is out of range on a mesh.
+pub fn check_radius_on(mesh: &Mesh, radius: f64) -> Result<()> {
+    check_radius(radius)?;
+    check_resolution("radius", radius, mesh.float_spacing(), "the largest coordinate of the mesh")
+}
+
+/// Peak memory per sample, twice the measured amount (bunny with three million samples: 110 bytes when a fill starts
+/// from nothing, 145 with an iteration, the returned samples included): scattered samples take more.
+pub const BYTES_PER_SAMPLE: f64 = 300.0;
+
+/// Refuses an argument that is `asking` for more samples than can be indexed, or than memory holds.
+pub fn require_samples(estimate: f64, bytes: f64, argument: &'static str, asking: &str) -> Result<()> {
+    let samples = format!("about {estimate:.3e} samples");
+    if estimate > f64::from(u32::MAX) {
+        return Err(Error::too_large(argument, format!("{asking} {samples}; the limit is {}", u32::MAX)));
+    }
+    memory::require(estimate * bytes, argument, &samples)
 }
 
 /// The length of the longest edge of a triangle.

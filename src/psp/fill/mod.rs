@@ -486,9 +486,9 @@ mod tests {
     use crate::given::Given;
     use crate::job::Context;
     use crate::mesh::exact;
-    use crate::psp::facing::Facing;
     use crate::psp::fill::blocks::tests::rows;
     use crate::psp::fill::uniform::{Surface, Uniform};
+    use crate::psp::fragment::Facing;
     use crate::psp::given::GivenSamples;
 
     /// Triangles of all sizes, and needles, crossing each other: a large one across many cubes, small ones close

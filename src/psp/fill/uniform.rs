@@ -6,7 +6,6 @@ use crate::error::Result;
 use crate::job::Job;
 use crate::math::rounded_down;
 use crate::mesh::{Mesh, round_barycentrics};
-use crate::psp::facing::{Facing, NO_NORMAL};
 use crate::psp::fill::blocks::Block;
 use crate::psp::fill::cells::Cells;
 use crate::psp::fill::extent::Extent;
@@ -16,12 +15,9 @@ use crate::psp::fill::page::{GROUP, Group};
 use crate::psp::fill::rounds::{Ground, Open, PATCH, Patch, Point, WHOLE, Whole};
 use crate::psp::fill::space::Space;
 use crate::psp::fill::{FillOptions, Filled, ONE_PIECE, Site, fill};
-use crate::psp::fragment::Fragment;
-use crate::psp::given::GivenSamples;
-use crate::psp::obstacles::Obstacles;
-use crate::psp::pieces::slice;
+use crate::psp::fragment::{Facing, Fragment, NO_NORMAL, SIXTEENTHS, slice};
+use crate::psp::given::{GivenSamples, Obstacles};
 use crate::psp::samples::{Sample, SampleSet};
-use crate::psp::sixteenths::SIXTEENTHS;
 use crate::rng::{Draw, Rng};
 
 /// A surface to be filled with samples of one radius, and the given samples around which it is filled.

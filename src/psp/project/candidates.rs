@@ -142,7 +142,7 @@ mod tests {
     use crate::given::Given;
     use crate::job::Context;
     use crate::mesh::Mesh;
-    use crate::psp::facing::Facing;
+    use crate::psp::fragment::Facing;
     use crate::rng::{Draw, Rng};
 
     /// A hundred sheets above each other: candidates everywhere in space.

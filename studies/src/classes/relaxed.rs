@@ -1,6 +1,6 @@
 //! Maximal sets of several classes after relaxation: the union and each class.
 
-use azulejo::dcr::{self, Neighbourhood, Options};
+use azulejo::dcr::{self, DelaunayOptions};
 use azulejo::{Boundary, Context, Domain, Progress, Result, kdrt};
 
 use super::Effort;
@@ -49,14 +49,14 @@ impl Relaxed {
     fn of(context: &Context, mix: Mix, effort: &Effort) -> Result<Self> {
         let set = kdrt::sample(context, &kdrt::Options::classes(&mix.classes(effort.count, 1.0)?), None)?;
         let domain = Domain { min: [0.0; 2], max: [1.0; 2], boundary: Boundary::Periodic };
-        let options = Options::new(domain, Neighbourhood::Delaunay);
+        let options = DelaunayOptions::new(domain);
         let relaxed = |steps: u32| -> Result<Set> {
             let options = options.max_iterations(steps);
             let (_, union, each) = dcr::relax_classes(context, &options, &set.positions, &set.classes, None)?;
             let classes = each.iter().map(|of| Figures { rho: of.rho, coverage: of.coverage });
             Ok(Set { union: Figures { rho: union.rho, coverage: union.coverage }, classes: classes.collect() })
         };
-        let (_, alone) = dcr::relax(context, &options, &set.positions, None)?;
+        let (_, alone) = dcr::relax(context, &options.into(), &set.positions, None)?;
         let alone = Figures { rho: alone.rho, coverage: alone.coverage };
         Ok(Self { mix, before: relaxed(0)?, after: relaxed(options.max_iterations)?, alone })
     }
