@@ -27,7 +27,7 @@ const IMPORTING: &[(&str, usize)] = &[
     ("kdrt/tiling.rs", 14),
     ("psp/adaptive/levels.rs", 15),
     ("psp/adaptive/sample.rs", 20),
-    ("psp/adaptive/site.rs", 23),
+    ("psp/adaptive/site.rs", 21),
     ("psp/classes/mod.rs", 19),
     ("psp/classes/site.rs", 17),
     ("psp/fill/blocks.rs", 15),

@@ -19,13 +19,11 @@
 //! the set is only filled (see `psp/fill/mod.rs`), octave by octave, without Embree.
 
 mod density;
-mod dot;
 mod estimate;
 mod field;
 mod grid;
 mod levels;
 mod options;
-mod page;
 mod pieces;
 mod sample;
 mod set;
