@@ -17,7 +17,7 @@
 //! |---|---|
 //! | `plane/cells`, `plane/quadtree` | integers, a cell holds at most one sample; exactness rests on both |
 //! | `kdrt/region`, `kdrt/fill`, `kdrt/classes` | rows of exact integers that are swept in order; bits of a block |
-//! | `psp/fill/grid`, `psp/adaptive/grid` | pages of coordinates for vector code, and their covered cells |
+//! | `psp/fill/pages` | pages of coordinates and radii for vector code, each sample in all cells that it touches |
 //! | `psp/given` | balls of very different sizes, a grid for each tier of sizes |
 //! | `dcr/uniform/cells` | moving points of a torus, coordinates for vector code; sorted anew, not re-linked |
 //! | `thin/tree` | each node knows the point of it that is farthest from all selected ones, and loses it |

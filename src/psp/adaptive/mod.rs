@@ -19,11 +19,9 @@
 //! the set is only filled (see `psp/fill/mod.rs`), octave by octave, without Embree.
 
 mod density;
-mod dot;
 mod field;
 mod grid;
 mod options;
-mod page;
 mod pieces;
 mod sample;
 mod set;

@@ -13,7 +13,7 @@ use glam::DVec3;
 
 use crate::math::{exp2, scalbn};
 use crate::mesh::{Mesh, exact};
-use crate::psp::adaptive::dot::Dot;
+use crate::psp::adaptive::grid::GradedSample;
 use crate::psp::adaptive::pieces::LONGEST;
 use crate::psp::cubes::{Cube, Cubes, Growing, OctaveCube};
 use crate::psp::fragment::Facing;
@@ -98,9 +98,9 @@ impl AdaptiveSet {
     }
 
     /// The samples that can matter in a cube: those whose ratio to one in the cube is below `stretch`, from 1 to 2.
-    pub fn dots_around(&self, mesh: &Mesh, facing: Facing, cube: OctaveCube, stretch: f64) -> Vec<Dot> {
+    pub fn samples_around(&self, mesh: &Mesh, facing: Facing, cube: OctaveCube, stretch: f64) -> Vec<GradedSample> {
         let OctaveCubes { origin, shift, scale, .. } = self.cubes;
-        let (mut dots, end) = (Vec::new(), end_of_octave(cube.octave));
+        let (mut near, end) = (Vec::new(), end_of_octave(cube.octave));
         let low = origin + SIDE * end * (DVec3::from_array(cube.cube.0.map(f64::from)) - shift);
         // The points of the cube's pieces, widened by half of their radius.
         let margin = DVec3::splat((OVERHANG + stretch * HALF) * end);
@@ -112,11 +112,11 @@ impl AdaptiveSet {
                 let (point, radius) = (exact(sample.position), scale * radius);
                 if (point - point.clamp(low, high)).length() <= stretch * 0.51 * radius {
                     let normal = facing.normal(mesh, sample.triangle);
-                    dots.push(Dot { position: sample.position, radius, normal });
+                    near.push(GradedSample { position: sample.position, radius, normal });
                 }
             }
         }
-        dots
+        near
     }
 }
 

@@ -9,15 +9,13 @@ use crate::index::Weights;
 use crate::job::Job;
 use crate::math::{rounded_down, square};
 use crate::mesh::{Mesh, round_barycentrics};
-use crate::psp::adaptive::dot::Dot;
 use crate::psp::adaptive::field::{Quota, RadiusBounds, RadiusField};
-use crate::psp::adaptive::grid::{Grid, Shade};
-use crate::psp::adaptive::page::Group;
+use crate::psp::adaptive::grid::{GradedSample, Grid};
 use crate::psp::adaptive::pieces::{Piece, pieces};
 use crate::psp::adaptive::set::AdaptiveSet;
 use crate::psp::cubes::OctaveCube;
 use crate::psp::fill::darts::random_point;
-use crate::psp::fill::page::GROUP;
+use crate::psp::fill::page::{GROUP, Group};
 use crate::psp::fill::rounds::{Ground, Open, PATCH, Patch, Point, WHOLE, Whole, throw};
 use crate::psp::fill::{FIRST_DARTS, FillOptions, PROBES_IN_CUBE, Zone, fill_zone, open_share};
 use crate::psp::fragment::{Facing, Fragment};
@@ -50,7 +48,8 @@ impl GradedSurface<'_> {
         let darts = set.grow(&job.part(0.2, 1.0), &cubes, |number, set| {
             let (cube, field) = (cubes[number], field.apart());
             let pieces: Vec<&Piece> = pieces.items(number).collect();
-            let grid = grid(mesh, &field, facing, set.dots_around(mesh, facing, cube, stretch), &pieces, stretch);
+            let near = set.samples_around(mesh, facing, cube, stretch);
+            let grid = grid(mesh, &field, facing, near, &pieces, stretch);
             let mut ground = GradedGround::new(mesh, &field, quota, obstacles, grid, self.limit(&pieces));
             ground = ground.ranked(options.largest_rank);
             let (areas, mut rng) = (
@@ -76,7 +75,14 @@ impl GradedSurface<'_> {
 }
 
 /// The samples around a cube, in a grid that suits the radii on its pieces.
-fn grid(mesh: &Mesh, field: &RadiusField, facing: Facing, dots: Vec<Dot>, pieces: &[&Piece], stretch: f64) -> Grid {
+fn grid(
+    mesh: &Mesh,
+    field: &RadiusField,
+    facing: Facing,
+    near: Vec<GradedSample>,
+    pieces: &[&Piece],
+    stretch: f64,
+) -> Grid {
     let largest = pieces.iter().map(|piece| field.above(piece.bounds())).fold(0.0, f64::max);
     // The area over the number of samples that will lie on it gives their usual radius.
     let samples: f64 = pieces.iter().map(|piece| piece.area()).sum();
@@ -89,7 +95,7 @@ fn grid(mesh: &Mesh, field: &RadiusField, facing: Facing, dots: Vec<Dot>, pieces
     let none = [DVec3::INFINITY, DVec3::NEG_INFINITY];
     let bounds = corners.fold(none, |[low, high], corner| [low.min(corner), high.max(corner)]);
     let mut grid = Grid::new(mesh, facing, bounds, [usual, largest], stretch);
-    dots.into_iter().for_each(|dot| grid.add(dot));
+    near.into_iter().for_each(|sample| grid.add(sample));
     grid
 }
 
@@ -220,10 +226,10 @@ impl<'a> GradedGround<'a> {
 
     /// The rank of a sample that is added now. The distances that it guarantees are kept in whatever order a caller
     /// evaluates them.
-    fn rank(&self, dot: &Dot) -> f32 {
+    fn rank(&self, sample: &GradedSample) -> f32 {
         let Some(largest) = self.largest_rank else { return f32::INFINITY };
         let scale = self.field.scale();
-        rounded_down((scale * self.grid.ratio(dot) * (1.0 - 1e-14)).min(largest).max(scale))
+        rounded_down((scale * self.grid.ratio(sample) * (1.0 - 1e-14)).min(largest).max(scale))
     }
 
     /// True if the call has failed already.
@@ -241,12 +247,20 @@ impl<'a> GradedGround<'a> {
 
     /// The normal of a triangle, where normals matter.
     fn normal(&self, triangle: u32) -> [f32; 3] {
-        self.grid.facing.normal(self.mesh, triangle)
+        self.grid.pages.facing.normal(self.mesh, triangle)
     }
 
-    fn shade(&self, fragment: &Fragment, bounds: RadiusBounds, corners: [DVec3; 3], longest: f64) -> Shade {
-        let radii = self.field.radii_from(fragment, bounds);
-        Shade { corners, radii, longest, normal: self.normal(fragment.triangle) }
+    /// Those of some sixteenths of a fragment, given with its corners, that nothing certainly covers.
+    fn uncovered(
+        &self,
+        fragment: &Fragment,
+        bounds: RadiusBounds,
+        corners: [DVec3; 3],
+        longest: f64,
+        open: u16,
+    ) -> u16 {
+        let (radii, normal) = (self.field.radii_from(fragment, bounds), self.normal(fragment.triangle));
+        self.obstacles.open_sixteenths(corners, self.grid.open_sixteenths(&corners, radii, longest, normal, open))
     }
 }
 
@@ -270,8 +284,7 @@ impl Ground for GradedGround<'_> {
         if self.field.is_empty_radius(bounds.least) {
             return None;
         }
-        let open = self.grid.open_sixteenths(&self.shade(fragment, bounds, shape.corners, shape.longest), u16::MAX);
-        let open = self.obstacles.open_sixteenths(shape.corners, open);
+        let open = self.uncovered(fragment, bounds, shape.corners, shape.longest, u16::MAX);
         (open != 0).then(|| Patch {
             fragment: *fragment,
             open,
@@ -288,22 +301,20 @@ impl Ground for GradedGround<'_> {
         let [a, b, c] = self.mesh.exact_corners(patch.fragment.triangle);
         let corners = patch.fragment.corners.map(|[u, v]| (1.0 - u - v) * a + u * b + v * c);
         let longest = f64::from(patch.longest) * patch.local.scale();
-        let shade = self.shade(&patch.fragment, patch.local, corners, longest);
-        self.obstacles.open_sixteenths(corners, self.grid.open_sixteenths(&shade, patch.open))
+        self.uncovered(&patch.fragment, patch.local, corners, longest, patch.open)
     }
 
     fn open_wholes(&self, wholes: &[Whole<RadiusBounds>]) -> u64 {
         if self.has_failed() {
             return 0;
         }
-        let (mut group, mut normals) = (Group::EMPTY, Vec::with_capacity(wholes.len()));
+        let mut group = Group::EMPTY;
         for (lane, whole) in wholes.iter().enumerate() {
             let positions = self.mesh.corners(whole.triangle);
             let radii = self.field.radii_from(&Fragment::whole(whole.triangle), whole.local);
             group.triangles[lane] = std::array::from_fn(|corner| self.grid.ball(positions[corner], radii[corner]));
-            normals.push(self.normal(whole.triangle));
         }
-        let open = self.grid.open_triangles(&mut group, &normals);
+        let open = self.grid.pages.open_triangles(&mut group, wholes.len(), |lane| self.normal(wholes[lane].triangle));
         self.obstacles.open_triangles(open, |lane| self.mesh.corners(wholes[lane].triangle))
     }
 
@@ -321,18 +332,19 @@ impl Ground for GradedGround<'_> {
             return;
         }
         self.darts += 1;
-        let mut dot = Dot { position: sample.position, radius: bounds.least, normal: self.normal(sample.triangle) };
+        let (position, normal) = (sample.position, self.normal(sample.triangle));
+        let mut graded = GradedSample { position, radius: bounds.least, normal };
         // A function is not called if every radius that it may give conflicts.
-        if self.grid.rejects(&dot) || self.obstacles.reject(dot.position) {
+        if self.grid.rejects(&graded) || self.obstacles.reject(graded.position) {
             return;
         }
         let relative = self.field.at_within(&sample, bounds);
-        dot.radius = self.field.scale() * relative;
-        if self.field.is_empty_radius(dot.radius) || dot.radius > bounds.least && self.grid.rejects(&dot) {
+        graded.radius = self.field.scale() * relative;
+        if self.field.is_empty_radius(graded.radius) || graded.radius > bounds.least && self.grid.rejects(&graded) {
             return;
         }
-        let rank = self.rank(&dot);
-        self.grid.add(dot);
+        let rank = self.rank(&graded);
+        self.grid.add(graded);
         self.accepted.push((Sample { rank, ..sample }, relative));
         self.quota.take(1);
         self.tests.set(self.tests.get() + TESTS);

@@ -85,11 +85,22 @@ impl<T: Copy + Default> Cells<T> {
     }
 }
 
+/// Calls `visit` with all cells from the lowest to the highest.
+#[inline(always)]
+pub fn each_cell([low, high]: [[u32; 3]; 2], mut visit: impl FnMut([u32; 3])) {
+    for z in low[2]..=high[2] {
+        for y in low[1]..=high[1] {
+            for x in low[0]..=high[0] {
+                visit([x, y, z]);
+            }
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::mesh::Mesh;
-    use crate::psp::fill::grid::each_cell;
 
     /// Each cell has its own number, and so its own entry; what lies outside is clipped.
     #[test]

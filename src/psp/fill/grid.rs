@@ -1,88 +1,27 @@
-//! The neighbour search of a fill: a hash grid with cells of two radii, where each cell lists, on pages of sixteen,
-//! every sample whose ball touches it. So a test of a place, or of a part of the surface that lies in one cell, reads
-//! one page.
-//!
-//! Normals, where they matter, are kept beside the pages and tested once a sample is near enough to count.
+//! The neighbour search of a fill with one radius: exact tests on the pages of a grid with cells of two radii.
 
 use glam::DVec3;
 
 use crate::mesh::exact;
-use crate::psp::fill::cells::Cells;
-use crate::psp::fill::page::{CoveredTriangles, Covering, GROUP, Group, LANES, Near, Page, Part, samples, squares};
-use crate::psp::fill::space::{MASK, Place, ROUNDER, Space};
-use crate::psp::fragment::{CORNERS, CORNERS_OF_SIXTEENTHS, Cover, Facing, NO_NORMAL, PIERCING, PIERCING_BY_EDGE};
-use crate::simd::{HALF, Lanes, Level, Work, run};
+use crate::psp::fill::cells::each_cell;
+use crate::psp::fill::pages::{Cell, Pages};
+use crate::psp::fill::space::{Place, Space};
+use crate::psp::fragment::PIERCING;
 
-/// The number of pages that memory is reserved for at first: a cube of `psp/cubes.rs` hardly has more.
-const PAGES: usize = 1 << 9;
-
-/// Samples by the cells that their balls touch.
-pub struct Grid {
-    pub space: Space,
-    level: Level,
-    pub cells: Cells<Cell>,
-    /// The first page is empty: that of all cells without samples.
-    pub pages: Vec<Page>,
-    /// For each page, the page of its cell that was filled before it.
-    pub earlier: Vec<u32>,
-    facing: Facing,
-    /// The normals of the samples on each page, where normals matter.
-    normals: Vec<[[f32; 3]; LANES]>,
-}
-
-/// The last page of a cell, and the number of samples that all of its pages list.
-#[derive(Clone, Copy, Default)]
-pub struct Cell {
-    pub page: u32,
-    pub count: u32,
-}
+/// Samples of one radius.
+pub type Grid = Pages<3>;
 
 impl Grid {
-    pub fn new(space: Space, cells: Cells<Cell>, facing: Facing) -> Self {
-        let (mut pages, mut earlier, mut normals) = (Vec::with_capacity(PAGES), Vec::with_capacity(PAGES), Vec::new());
-        pages.push(Page::EMPTY);
-        earlier.push(0);
-        if facing.asks_normals() {
-            normals.push([NO_NORMAL; LANES]);
-        }
-        Self { space, level: Level::widest(), cells, pages, earlier, facing, normals }
-    }
-
     /// Adds a sample on a triangle with this normal.
     pub fn add(&mut self, place: Place, normal: [f32; 3]) {
-        each_cell(self.cells.clip(self.space.cells_around(place)), |cell| {
-            let cell = self.cells.entry(cell);
-            let lane = cell.count as usize % LANES;
-            if lane == 0 {
-                self.earlier.push(cell.page);
-                cell.page = self.pages.len() as u32;
-                self.pages.push(Page::EMPTY);
-                if self.facing.asks_normals() {
-                    self.normals.push([NO_NORMAL; LANES]);
-                }
-            }
-            cell.count += 1;
-            self.pages[cell.page as usize].put(lane, place);
-            if self.facing.asks_normals() {
-                self.normals[cell.page as usize][lane] = normal;
-            }
-        });
+        self.list(self.cells.clip(self.space.cells_around(place)), place, normal, |_, _| ());
     }
 
     /// True if a place on a triangle with this normal is closer to a sample than the radius: in `f64`, without
     /// tolerance.
     pub fn rejects(&self, place: Place, normal: [f32; 3]) -> bool {
-        self.any_page(self.space.cell(place), |number| {
-            let page = &self.pages[number];
-            let mut near = run(self.level, Near { page, place, limit: self.space.surely_beyond });
-            while near != 0 {
-                let lane = near.trailing_zeros() as usize;
-                if self.space.conflict(place, page.place(lane)) && self.sees(number, lane, normal) {
-                    return true;
-                }
-                near &= near - 1;
-            }
-            false
+        self.any_near(self.space.cell(place), place, normal, self.beyond, |page, lane| {
+            self.space.conflict(place, self.place(page, lane))
         })
     }
 
@@ -90,14 +29,12 @@ impl Grid {
     #[inline(always)]
     pub fn is_seen_within(&self, place: Place, limit: f32) -> bool {
         let Cell { page, .. } = self.cells.get(self.cells.number(self.space.cell(place)));
-        run(self.level, Near { page: &self.pages[page as usize], place, limit }) != 0
+        self.near(page as usize, place, limit) != 0
     }
 
     /// True if a place is found to be no farther from a sample than the square root of `limit`.
     pub fn is_within(&self, place: Place, limit: f32) -> bool {
-        self.any_page(self.space.cell(place), |number| {
-            run(self.level, Near { page: &self.pages[number], place, limit }) != 0
-        })
+        self.any_page(self.space.cell(place), |page| self.near(page, place, limit) != 0)
     }
 
     /// The distance of a place on a triangle with this normal to the nearest sample, or `reach` if none is nearer: at
@@ -106,12 +43,11 @@ impl Grid {
         let mut least = reach * reach;
         each_cell(self.cells.clip(self.space.cells_within(place, reach - self.space.radius())), |cell| {
             self.any_page(cell, |number| {
-                let page = &self.pages[number];
-                let mut near = run(self.level, Near { page, place, limit: Space::beyond(least) });
+                let mut near = self.near(number, place, Space::beyond(least));
                 while near != 0 {
                     let lane = near.trailing_zeros() as usize;
                     if self.sees(number, lane, normal) {
-                        least = least.min(exact(place).distance_squared(exact(page.place(lane))));
+                        least = least.min(exact(place).distance_squared(exact(self.place(number, lane))));
                     }
                     near &= near - 1;
                 }
@@ -129,186 +65,8 @@ impl Grid {
         // the centre of the fragment than three quarters of the way to a corner, which is two thirds of the longest
         // edge.
         let reach = (self.space.radius() + 0.5 * longest) as f32;
-        run(self.level, OpenSixteenths { grid: self, corners, reach, normal: &normal, open })
+        self.open_parts(corners, &[0.0; 3], reach, normal, open)
     }
-
-    /// The triangles of a group, with these normals, that no single sample certainly covers: a bit for each. Their
-    /// pages are looked up here.
-    pub fn open_triangles(&self, group: &mut Group, count: usize, normal: impl Fn(usize) -> [f32; 3]) -> u64 {
-        let (mut numbers, mut chained) = ([0; GROUP], 0);
-        for (lane, number) in numbers.iter_mut().enumerate() {
-            *number = self.cells.number(self.space.cell(group.triangles[lane][0]));
-        }
-        for (lane, &number) in numbers.iter().enumerate() {
-            let cell = self.cells.get(number);
-            group.pages[lane] = cell.page;
-            chained |= u64::from(cell.count as usize > LANES) << lane;
-        }
-        let all = u64::MAX >> (64 - count);
-        let mut open =
-            all & !run(self.level, CoveredTriangles { group, pages: &self.pages, limit: self.space.surely_within });
-        let mut rest = open & chained;
-        if self.facing.asks_normals() {
-            // Triangles that may be covered by a sample that faces another way.
-            rest |= all & !open;
-            open = all;
-        }
-        while rest != 0 {
-            let lane = rest.trailing_zeros() as usize;
-            if self.covers(&group.triangles[lane], normal(lane)) {
-                open &= !(1 << lane);
-            }
-            rest &= rest - 1;
-        }
-        open
-    }
-
-    /// True if one sample certainly covers a triangle.
-    fn covers(&self, corners: &[Place; 3], normal: [f32; 3]) -> bool {
-        self.any_page(self.space.cell(corners[0]), |number| {
-            let (page, limit) = (&self.pages[number], self.space.surely_within);
-            let covering = run(self.level, Covering { page, corners, limit });
-            (0..LANES).any(|lane| covering >> lane & 1 == 1 && self.sees(number, lane, normal))
-        })
-    }
-
-    /// True if a sample matters to a normal.
-    #[inline(always)]
-    fn sees(&self, page: usize, lane: usize, normal: [f32; 3]) -> bool {
-        !self.facing.asks_normals() || self.facing.sees(self.normals[page][lane], normal)
-    }
-
-    /// The samples of a page that matter to a normal: a bit for each.
-    #[inline(always)]
-    pub fn seen(&self, page: usize, normal: &[f32; 3]) -> u16 {
-        if self.facing.asks_normals() { self.seen_from(page, *normal) } else { u16::MAX }
-    }
-
-    #[inline(never)]
-    fn seen_from(&self, page: usize, normal: [f32; 3]) -> u16 {
-        (0..LANES).fold(0, |seen, lane| seen | u16::from(self.sees(page, lane, normal)) << lane)
-    }
-
-    /// True if the test holds for a page of a cell.
-    #[inline(always)]
-    fn any_page(&self, cell: [u32; 3], mut test: impl FnMut(usize) -> bool) -> bool {
-        let Cell { mut page, count } = self.cells.get(self.cells.number(cell));
-        for _ in 0..count.div_ceil(LANES as u32) {
-            if test(page as usize) {
-                return true;
-            }
-            page = self.earlier[page as usize];
-        }
-        false
-    }
-}
-
-/// The sixteenths of a fragment, among the `open` ones, that no single sample certainly covers. Samples beyond `reach`
-/// of its centre cover none.
-///
-/// The cells and the tests of their pages are one function, in which the corners stay in registers: a load across two
-/// fresh stores waits for both.
-struct OpenSixteenths<'a> {
-    grid: &'a Grid,
-    corners: &'a [DVec3; 3],
-    reach: f32,
-    normal: &'a [f32; 3],
-    open: u16,
-}
-
-impl Work for OpenSixteenths<'_> {
-    type Out = u16;
-
-    #[inline(always)]
-    fn run<L: Lanes>(self, lanes: L) -> u16 {
-        let Self { grid, corners, reach, normal, open } = self;
-        let cells = piercing_cells(lanes, grid, corners);
-        let mut numbers = [0; HALF];
-        lanes.store_longs(cells, &mut numbers);
-        let part = Part::new(*corners, reach);
-        let (s, t) = (lanes.load(&CORNERS[0]), lanes.load(&CORNERS[1]));
-        let corners = [0, 1, 2].map(|axis| [part.corner[axis], part.edges[0][axis], part.edges[1][axis]]);
-        let corners =
-            [along(lanes, [s, t], corners[0]), along(lanes, [s, t], corners[1]), along(lanes, [s, t], corners[2])];
-        let origin = [lanes.splat(part.origin[0]), lanes.splat(part.origin[1]), lanes.splat(part.origin[2])];
-        let (limit, reach2) = (lanes.splat(grid.space.surely_within), lanes.splat(part.reach2));
-        // Coverage: if lanes can be permuted, by the squared distance of each sixteenth's farthest corner from a
-        // sample, the least over all samples; otherwise by bits of corners. By bits the whole fill takes 5 % longer in
-        // AVX-512.
-        let mut least = lanes.splat(f32::INFINITY);
-        let (mut cover, mut unseen) = (Cover::default(), u8::MAX >> (HALF - PIERCING.len()));
-        while unseen != 0 {
-            let number = numbers[unseen.trailing_zeros() as usize % HALF];
-            unseen &= !lanes.equal_longs(cells, number);
-            let Cell { mut page, count } = grid.cells.get(number);
-            for _ in 0..count.div_ceil(LANES as u32) {
-                let [x, y, z] = samples(lanes, &grid.pages[page as usize]);
-                let seen = [lanes.sub(x, origin[0]), lanes.sub(y, origin[1]), lanes.sub(z, origin[2])];
-                let near = lanes.bits(lanes.at_most(squares(lanes, seen, part.centre), reach2)) as u16;
-                let mut reaching = near & grid.seen(page as usize, normal);
-                page = grid.earlier[page as usize];
-                if reaching == 0 {
-                    continue;
-                }
-                let mut places = [[0.0; LANES]; 3];
-                lanes.store(seen[0], &mut places[0]);
-                lanes.store(seen[1], &mut places[1]);
-                lanes.store(seen[2], &mut places[2]);
-                while reaching != 0 {
-                    let lane = reaching.trailing_zeros() as usize % LANES;
-                    let squares = squares(lanes, corners, [places[0][lane], places[1][lane], places[2][lane]]);
-                    if L::PERMUTES {
-                        let first = lanes.permute(squares, &CORNERS_OF_SIXTEENTHS[0]);
-                        let two = lanes.max(first, lanes.permute(squares, &CORNERS_OF_SIXTEENTHS[1]));
-                        let farthest = lanes.max(two, lanes.permute(squares, &CORNERS_OF_SIXTEENTHS[2]));
-                        least = lanes.min(least, farthest);
-                    } else {
-                        cover.add(lanes.bits(lanes.less(squares, limit)) as u16);
-                    }
-                    reaching &= reaching - 1;
-                }
-                if open & !covered(lanes, least, limit, &cover) == 0 {
-                    return 0;
-                }
-            }
-        }
-        open & !covered(lanes, least, limit, &cover)
-    }
-}
-
-/// The sixteenths that are covered, by either method.
-#[inline(always)]
-fn covered<L: Lanes>(lanes: L, least: L::Floats, limit: L::Floats, cover: &Cover) -> u16 {
-    if L::PERMUTES { lanes.bits(lanes.less(least, limit)) as u16 } else { cover.sixteenths() }
-}
-
-/// A corner and shares of the edges from there, along one axis.
-#[inline(always)]
-fn along<L: Lanes>(lanes: L, [s, t]: [L::Floats; 2], [corner, e, f]: [f32; 3]) -> L::Floats {
-    let offset = lanes.add(lanes.mul(s, lanes.splat(e)), lanes.mul(t, lanes.splat(f)));
-    lanes.add(lanes.splat(corner), offset)
-}
-
-/// The numbers of the cells of a fragment's piercing corners: the same as by [`Space::cell`] and [`Cells::number`].
-#[inline(always)]
-fn piercing_cells<L: Lanes>(lanes: L, grid: &Grid, &[a, b, c]: &[DVec3; 3]) -> L::Longs {
-    let (space, (first, shifts)) = (&grid.space, grid.cells.numbering());
-    let (a, e, f) = (a.to_array(), (b - a).to_array(), (c - a).to_array());
-    let [s, t] = [lanes.load_doubles(&PIERCING_BY_EDGE[0]), lanes.load_doubles(&PIERCING_BY_EDGE[1])];
-    let mut cells = [lanes.widen(lanes.splat_int(0)); 3];
-    let mut axis = 0;
-    while axis < 3 {
-        let (e, f) = (lanes.splat_double(e[axis]), lanes.splat_double(f[axis]));
-        let offset = lanes.add_doubles(lanes.mul_doubles(s, e), lanes.mul_doubles(t, f));
-        let place = lanes.narrow(lanes.add_doubles(lanes.splat_double(a[axis]), offset));
-        let scaled = lanes.mul(lanes.sub(place, lanes.splat(space.origin[axis])), lanes.splat(space.per_cell));
-        let rounded = lanes.float_bits(lanes.add(scaled, lanes.splat(ROUNDER)));
-        let cell = lanes.and_ints(rounded, lanes.splat_int(MASK.cast_signed()));
-        cells[axis] = lanes.widen(lanes.sub_ints(cell, lanes.splat_int(first[axis].cast_signed())));
-        axis += 1;
-    }
-    let (y, z) = (lanes.shift_longs(cells[1], shifts[0]), lanes.shift_longs(cells[2], shifts[1]));
-    lanes.or_longs(cells[0], lanes.or_longs(y, z))
 }
 
 /// True if the test holds for a cell whose pages have to be read for the sixteenths of a fragment: samples that cover
@@ -328,25 +86,17 @@ pub fn any_cell(space: &Space, [a, b, c]: [DVec3; 3], mut test: impl FnMut([u32;
     false
 }
 
-/// Calls `visit` with all cells from the lowest to the highest.
-#[inline(always)]
-pub fn each_cell([low, high]: [[u32; 3]; 2], mut visit: impl FnMut([u32; 3])) {
-    for z in low[2]..=high[2] {
-        for y in low[1]..=high[1] {
-            for x in low[0]..=high[0] {
-                visit([x, y, z]);
-            }
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::mesh::Mesh;
+    use crate::psp::fill::cells::Cells;
     use crate::psp::fill::extent::Extent;
+    use crate::psp::fill::page::Group;
     use crate::psp::fragment::Fragment;
+    use crate::psp::fragment::{Facing, NO_NORMAL};
     use crate::rng::{Draw, Rng};
+    use crate::simd::Level;
 
     /// The places of the tests: near the origin, and where a radius has hardly more than 64 float spacings.
     const PLACES: [(f64, f64); 4] = [(8.0, 1.0), (8.0, 7.0), (8e30, 1e30), (2e5, 1.1)];

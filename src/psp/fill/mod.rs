@@ -19,6 +19,7 @@ pub mod extent;
 pub mod grid;
 pub mod measures;
 pub mod page;
+pub mod pages;
 pub mod rounds;
 pub mod space;
 pub mod table;
