@@ -1,9 +1,9 @@
 # The targets of azulejo, for this tree and for the installed package: azulejo::azulejo, the shared library, and
-# azulejo::azulejo_static, which brings its link line along and is defined only where Embree's library is found, if it needs that.
+# azulejo::azulejo_static, which brings its link line along.
 #
 # In: azulejo_INCLUDE_DIR, azulejo_LIBRARY_DIR, azulejo_RUNTIME_DIR, which has the shared library, the names of the files
-# azulejo_SHARED and azulejo_STATIC, azulejo_IMPORT, a DLL's import library, and azulejo_SONAME where there is one,
-# azulejo_EMBREE, the name of Embree's library if azulejo was built with it, and the azulejo_SYSTEM_LIBRARIES.
+# azulejo_SHARED and azulejo_STATIC, azulejo_IMPORT, a DLL's import library, and azulejo_SONAME where there is one, and
+# the azulejo_SYSTEM_LIBRARIES.
 if(TARGET azulejo::azulejo)
   return()
 endif()
@@ -19,18 +19,10 @@ if(azulejo_IMPORT)
   set_target_properties(azulejo::azulejo PROPERTIES IMPORTED_IMPLIB ${azulejo_LIBRARY_DIR}/${azulejo_IMPORT})
 endif()
 
-set(azulejo_link ${azulejo_SYSTEM_LIBRARIES})
-if(azulejo_EMBREE)
-  find_library(azulejo_EMBREE_LIBRARY ${azulejo_EMBREE} HINTS ENV EMBREE_DIR PATH_SUFFIXES lib lib64)
-  mark_as_advanced(azulejo_EMBREE_LIBRARY)
-  list(PREPEND azulejo_link ${azulejo_EMBREE_LIBRARY})
-endif()
-if(azulejo_EMBREE_LIBRARY OR NOT azulejo_EMBREE)
-  set(THREADS_PREFER_PTHREAD_FLAG ON)
-  find_package(Threads REQUIRED)
-  add_library(azulejo::azulejo_static STATIC IMPORTED GLOBAL)
-  set_target_properties(azulejo::azulejo_static PROPERTIES
-    IMPORTED_LOCATION ${azulejo_LIBRARY_DIR}/${azulejo_STATIC}
-    INTERFACE_INCLUDE_DIRECTORIES ${azulejo_INCLUDE_DIR}
-    INTERFACE_LINK_LIBRARIES "${azulejo_link};Threads::Threads")
-endif()
+set(THREADS_PREFER_PTHREAD_FLAG ON)
+find_package(Threads REQUIRED)
+add_library(azulejo::azulejo_static STATIC IMPORTED GLOBAL)
+set_target_properties(azulejo::azulejo_static PROPERTIES
+  IMPORTED_LOCATION ${azulejo_LIBRARY_DIR}/${azulejo_STATIC}
+  INTERFACE_INCLUDE_DIRECTORIES ${azulejo_INCLUDE_DIR}
+  INTERFACE_LINK_LIBRARIES "${azulejo_SYSTEM_LIBRARIES};Threads::Threads")

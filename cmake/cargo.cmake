@@ -1,5 +1,6 @@
 # The target azulejo_cargo: runs cargo, which finds out what is out of date, and places its libraries in
-# AZULEJO_OUTPUT_DIR as they are installed: AZULEJO_RUNTIME_LIBRARIES and AZULEJO_DEVELOPMENT_LIBRARIES. Cargo reads
+# AZULEJO_OUTPUT_DIR as they are installed: AZULEJO_RUNTIME_LIBRARIES and AZULEJO_DEVELOPMENT_LIBRARIES. On Linux their
+# debugging information is in AZULEJO_DEBUG_FILE. Cargo reads
 # its own variables: RUSTFLAGS, CARGO_BUILD_JOBS and so on; CARGO names another cargo. With a toolchain file for another
 # processor or system cargo builds for that, and links with the compiler of the file.
 if(DEFINED ENV{CARGO})
@@ -73,12 +74,13 @@ add_custom_target(azulejo_cargo ALL
   COMMAND ${cargo} build --package azulejo-c --profile ${AZULEJO_CARGO_PROFILE} ${cargo_features} ${cargo_target}
           --target-dir ${cargo_target_dir} ${AZULEJO_CARGO_FLAGS}
   ${layout}
-  BYPRODUCTS ${AZULEJO_RUNTIME_LIBRARIES} ${AZULEJO_DEVELOPMENT_LIBRARIES}
+  BYPRODUCTS ${AZULEJO_RUNTIME_LIBRARIES} ${AZULEJO_DEVELOPMENT_LIBRARIES} ${AZULEJO_DEBUG_FILE}
   WORKING_DIRECTORY ${PROJECT_SOURCE_DIR}
   COMMENT "Building libazulejo with cargo"
   USES_TERMINAL VERBATIM)
 
-# The Embree that a static libazulejo has to be linked with, the one that ffi/embree4-sys/build.rs finds; none without.
+# The Embree that is loaded where rays are traced, the one whose headers ffi/embree4-sys/build.rs finds, and its version;
+# none without.
 set(azulejo_EMBREE "")
 if(NOT AZULEJO_EMBREE)
   return()
@@ -92,10 +94,15 @@ foreach(major 4 3)
   foreach(prefix ${embree_prefixes})
     if(NOT azulejo_EMBREE AND EXISTS ${prefix}/include/embree${major}/rtcore.h)
       set(azulejo_EMBREE embree${major})
+      set(embree_headers ${prefix}/include/embree${major})
     endif()
   endforeach()
 endforeach()
 if(NOT azulejo_EMBREE)
   message(FATAL_ERROR "azulejo needs Embree, 4 or 3.13: install libembree-dev, "
-                      "set EMBREE_DIR to a folder that has it in include/ and lib/, or build with -D AZULEJO_EMBREE=OFF")
+                      "set EMBREE_DIR to a folder that has it in include/, or build with -D AZULEJO_EMBREE=OFF")
 endif()
+foreach(part MAJOR MINOR)
+  file(STRINGS ${embree_headers}/rtcore_config.h line REGEX "#define RTC_VERSION_${part} ")
+  string(REGEX MATCH "[0-9]+" azulejo_EMBREE_${part} "${line}")
+endforeach()

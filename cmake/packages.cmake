@@ -1,18 +1,21 @@
-# Debian packages: libazulejo0.2 (of version 0.2), the shared library, and libazulejo-dev, what programs are built with.
+# Debian packages: libazulejo0.2 (of version 0.2), the shared library, libazulejo0.2-dbgsym, its debugging information,
+# and libazulejo-dev, what programs are built with.
 #
 #   cmake -S . -B build -DCMAKE_INSTALL_PREFIX=/usr && cmake --build build && (cd build && cpack -G DEB)
 #
-# The packages belong to the release of Debian that they are made on, whose Embree they depend on. They are named
-# after the SONAME, so that libraries of two ABIs can be installed side by side.
+# The packages belong to the release of Debian that they are made on, whose Embree they depend on: it is loaded only where
+# rays are traced, but that is what iterations do by default. They are named after the SONAME, so that libraries of two
+# ABIs can be installed side by side.
 set(CPACK_PACKAGE_NAME azulejo)
 set(CPACK_PACKAGE_VENDOR azulejo)
 set(CPACK_PACKAGE_CONTACT "azulejo developers <developers@azulejo.invalid>" CACHE STRING "The packages' maintainer")
 set(CPACK_PACKAGING_INSTALL_PREFIX ${CMAKE_INSTALL_PREFIX})
-set(CPACK_STRIP_FILES ON)
-set(CPACK_COMPONENTS_ALL runtime development)
+set(CPACK_COMPONENTS_ALL runtime debug development)
+set(CPACK_COMPONENT_DEBUG_DEPENDS runtime)
 set(CPACK_COMPONENT_DEVELOPMENT_DEPENDS runtime)
 
 set(runtime_package libazulejo${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
+set(debug_package ${runtime_package}-dbgsym)
 set(development_package libazulejo-dev)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
@@ -27,9 +30,14 @@ set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
 set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS_POLICY ">=")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME ${development_package})
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
-# For the static library, which has to be linked with the very Embree that it was compiled for.
+set(CPACK_DEBIAN_DEBUG_PACKAGE_NAME ${debug_package})
+set(CPACK_DEBIAN_DEBUG_PACKAGE_SECTION debug)
+# The version is that of the headers, down to the minor one: src/trace refuses another.
 if(azulejo_EMBREE)
-  set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS libembree-dev)
+  math(EXPR next "${azulejo_EMBREE_MINOR} + 1")
+  set(embree_package lib${azulejo_EMBREE}-${azulejo_EMBREE_MAJOR})
+  set(CPACK_DEBIAN_RUNTIME_PACKAGE_DEPENDS
+      "${embree_package} (>= ${azulejo_EMBREE_MAJOR}.${azulejo_EMBREE_MINOR}), ${embree_package} (<< ${azulejo_EMBREE_MAJOR}.${next}~)")
 endif()
 
 # Without a summary the first line of each description is the summary.
@@ -39,6 +47,9 @@ set(description
 relaxation by distance constraints: deterministic, free of conflicts, for
 renderers and geometry programs.")
 set(CPACK_DEBIAN_RUNTIME_DESCRIPTION "blue-noise sampling of planes and meshes\n${description}")
+set(CPACK_DEBIAN_DEBUG_DESCRIPTION "blue-noise sampling of planes and meshes (debugging information)\n${description}
+.
+This package has the debugging information of the shared library.")
 set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION "blue-noise sampling of planes and meshes (development files)\n${description}
 .
 This package has the C and C++ headers, the static library, the CMake package
@@ -59,7 +70,7 @@ add_custom_target(azulejo_copyright ALL DEPENDS debian/copyright)
 add_dependencies(azulejo_copyright azulejo_notices)
 string(TIMESTAMP DATE "%a, %d %b %Y %H:%M:%S +0000" UTC)
 
-foreach(component runtime development)
+foreach(component runtime debug development)
   set(PACKAGE ${${component}_package})
   configure_file(cmake/changelog.in debian/${PACKAGE}/changelog.Debian @ONLY)
   execute_process(COMMAND gzip --force --best --no-name ${PROJECT_BINARY_DIR}/debian/${PACKAGE}/changelog.Debian

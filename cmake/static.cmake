@@ -1,6 +1,7 @@
 # Makes rustc's static library fit to be linked with others: one object that exports what the shared library exports.
 # rustc leaves every symbol of the crates and of Rust's std visible, so that two Rust libraries in one program may
-# collide. The bitcode that std brings along goes, too: binutils with a plugin of LLVM's choke on it.
+# collide. The bitcode that std brings along goes, too: binutils with a plugin of LLVM's choke on it. So does debugging
+# information, which would make every program that links the library ten times as large.
 #
 #   cmake -D FROM=rustc's.a -D EXPORTS_OF=libazulejo.so -D TO=libazulejo.a
 #         -D LINKER=ld -D NM=nm -D OBJCOPY=objcopy -D AR=ar -P static.cmake
@@ -40,7 +41,7 @@ symbols(listed --undefined-only ${TO}.o)
 symbols(needed --undefined-only ${TO}.bare.o)
 list(REMOVE_ITEM listed ${needed})
 write_lines(${TO}.symbols ${listed})
-run(${OBJCOPY} --strip-symbols=${TO}.symbols ${TO}.o)
+run(${OBJCOPY} --strip-debug --strip-symbols=${TO}.symbols ${TO}.o)
 
 file(REMOVE ${TO}.new)
 run(${AR} rcsD ${TO}.new ${TO}.o)

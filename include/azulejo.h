@@ -142,7 +142,7 @@
 /// There is no memory for a copy of the caller's arrays.
 #define AZULEJO_ERROR_OUT_OF_MEMORY -6
 
-/// Embree failed: no device, no memory, or a scene that it cannot build.
+/// Embree failed: it is not there, has no memory, or cannot build a scene.
 #define AZULEJO_ERROR_EMBREE -7
 
 /// Threads could not be started, or the context's threads are in the process from which this one
@@ -1187,6 +1187,9 @@ uint32_t azulejo_version(void);
 /// 1 if the library was built with Embree, 0 otherwise. Without it AZULEJO_ENGINE_EMBREE and
 /// azulejo_mesh_create_from_embree are refused with AZULEJO_ERROR_EMBREE, and everything else is
 /// there: sets on meshes are filled, as by default, or projected by the rasteriser.
+///
+/// Embree is loaded by the first call that uses it. If the machine has none, such calls are refused
+/// in the same way, and the message names the file that was not found.
 int32_t azulejo_has_embree(void);
 
 /// Makes a context and starts its threads.
@@ -1196,12 +1199,11 @@ int32_t azulejo_has_embree(void);
 ///
 /// out: the context, to be freed with azulejo_context_free.
 ///
-/// The number also bounds Embree's threads, with two limits of Embree. It has one bound for the
-/// whole process, the largest of its devices, and sets it for all users of TBB: if the program has
-/// a device with more threads, the building of scenes may use as many; if it has one with fewer,
-/// that device may use `num_threads` while a mesh exists on which a set has made iterations (or a
-/// handle of such a set). TBB may leave idle threads behind, also with 1. AZULEJO_ENGINE_RASTERISER
-/// uses neither Embree nor TBB.
+/// Embree's scenes are built by as many threads, but not more than there are cores, and by none of
+/// TBB's. Bounds that the program sets for TBB stay as they are. Embree, however, has one bound for
+/// the whole process, the largest of its devices, and a scene of the library has none: where a
+/// device of the program has one (threads=), it is suspended while a mesh exists on which a set has
+/// made iterations with AZULEJO_ENGINE_EMBREE (or a handle of such a set).
 ///
 /// Errors: AZULEJO_ERROR_INVALID_ARGUMENT; AZULEJO_ERROR_THREADS if the threads cannot be started.
 azulejo_status azulejo_context_create(uint32_t num_threads, struct azulejo_context **out);
@@ -1624,16 +1626,18 @@ azulejo_status azulejo_kdrt_merge(const struct azulejo_context *context,
                                   struct azulejo_kdrt_merge_report *report);
 
 /// Makes a mesh from a copy of the triangles of a scene that the program has made with Embree. The
-/// scene and its device are not changed: neither flags nor error function nor thread count (as far
-/// as that belongs to the device alone: see azulejo_context_create). The mesh does not need them
-/// after the call; its samples are traced in a scene and on a device of the library's.
+/// scene and its device are not changed: neither flags nor error function nor thread count (but see
+/// azulejo_context_create). The mesh does not need them after the call; its samples are traced in a
+/// scene and on a device of the library's.
 ///
 /// Triangles are numbered in the order of `geometries`: triangle i of the mesh is primitive i of
 /// the first geometry, those of the second follow, and so on. The same holds for vertices.
 ///
-/// scene: a committed RTCScene that no thread changes during the call. It must come from the same
-/// libembree that libazulejo has loaded: otherwise the behaviour is undefined, though another
-/// version is refused in most cases. Instances in it are not followed.
+/// scene: a committed RTCScene that no thread changes during the call. It must come from the
+/// libembree that the program has linked or, where it has linked none that all its libraries see,
+/// from the one that libazulejo loads by its SONAME: otherwise, as for an Embree that is linked
+/// statically, the behaviour is undefined. Another version of a linked one is refused. Instances in
+/// it are not followed.
 ///
 /// geometries: `geometry_count` of them, at least one, each attached to the scene as
 /// RTC_GEOMETRY_TYPE_TRIANGLE. If an id, a size or a type is not that of the scene, the behaviour
@@ -1644,7 +1648,7 @@ azulejo_status azulejo_kdrt_merge(const struct azulejo_context *context,
 /// O(vertices + triangles).
 ///
 /// Errors: those of azulejo_mesh_create; AZULEJO_ERROR_EMBREE for a scene of another version of
-/// Embree.
+/// Embree, and where no Embree is found.
 azulejo_status azulejo_mesh_create_from_embree(void *scene,
                                                const struct azulejo_embree_geometry *geometries,
                                                size_t geometry_count,
@@ -1670,10 +1674,8 @@ azulejo_status azulejo_mesh_create_from_embree(void *scene,
 /// triangle, and one byte more from the second set of few samples or the first of many on (with a
 /// mask, 4 bytes more for each that it keeps); for relaxation and triangulation, which edges are
 /// shared, 12 bytes per triangle and 4 per vertex; for iterations of AZULEJO_ENGINE_EMBREE,
-/// Embree's scene, about 100 bytes per triangle. A scene keeps an Embree device with as many
-/// threads as the context that built it has, which is for so long a bound for TBB in this process,
-/// unless another device has more. A mesh with other normals made from this one shares all that;
-/// one with another mask does not.
+/// Embree's scene, about 100 bytes per triangle, and its device (see azulejo_context_create). A
+/// mesh with other normals made from this one shares all that; one with another mask does not.
 ///
 /// Errors: AZULEJO_ERROR_INVALID_ARGUMENT for positions that are not finite, indices out of range,
 /// no triangles, and triangles without any area; AZULEJO_ERROR_TOO_LARGE for 2^32 - 1 vertices or

@@ -46,7 +46,7 @@ pub enum Error {
     /// A callback of the caller asked to stop.
     #[error("cancelled by the callback")]
     Cancelled,
-    /// Embree refused: no device, no memory, or a scene that it cannot build.
+    /// Embree refused: its library is not there, it has no memory, or it cannot build a scene.
     #[error("Embree: {0}")]
     Embree(String),
     /// Threads could not be started.

@@ -39,6 +39,7 @@ unsafe extern "C" fn count(arguments: *const RTCFilterFunctionNArguments) {
 
 /// A committed scene.
 pub struct Bare {
+    embree: &'static Embree,
     device: RTCDevice,
     scene: RTCScene,
 }
@@ -50,8 +51,8 @@ impl Drop for Bare {
     fn drop(&mut self) {
         // SAFETY: both references are owned, and given back once.
         unsafe {
-            rtcReleaseScene(self.scene);
-            rtcReleaseDevice(self.device);
+            self.embree.rtcReleaseScene(self.scene);
+            self.embree.rtcReleaseDevice(self.device);
         }
     }
 }
@@ -59,23 +60,31 @@ impl Drop for Bare {
 impl Bare {
     /// Built as `azulejo::trace` builds it.
     pub fn new(positions: &[[f32; 3]], triangles: &[[u32; 3]]) -> Self {
+        let embree = Embree::load().expect("Embree");
         // SAFETY: the objects live until `Drop`; the buffers are as long as what is copied into them.
         unsafe {
-            let device = rtcNewDevice(ptr::null());
-            let scene = rtcNewScene(device);
-            rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_FILTER_FUNCTION_IN_ARGUMENTS);
-            let geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-            let buffer = |kind, format, count| rtcSetNewGeometryBuffer(geometry, kind, 0, format, 12, count).cast();
+            let device = embree.rtcNewDevice(ptr::null());
+            let scene = embree.rtcNewScene(device);
+            embree.rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_FILTER_FUNCTION_IN_ARGUMENTS);
+            let geometry = embree.rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+            let buffer =
+                |kind, format, count| embree.rtcSetNewGeometryBuffer(geometry, kind, 0, format, 12, count).cast();
             let vertices = buffer(RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, positions.len());
             ptr::copy_nonoverlapping(positions.as_ptr(), vertices, positions.len());
-            let indices =
-                rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, triangles.len());
+            let indices = embree.rtcSetNewGeometryBuffer(
+                geometry,
+                RTC_BUFFER_TYPE_INDEX,
+                0,
+                RTC_FORMAT_UINT3,
+                12,
+                triangles.len(),
+            );
             ptr::copy_nonoverlapping(triangles.as_ptr(), indices.cast(), triangles.len());
-            rtcCommitGeometry(geometry);
-            rtcAttachGeometry(scene, geometry);
-            rtcReleaseGeometry(geometry);
-            rtcCommitScene(scene);
-            Self { device, scene }
+            embree.rtcCommitGeometry(geometry);
+            embree.rtcAttachGeometry(scene, geometry);
+            embree.rtcReleaseGeometry(geometry);
+            embree.rtcCommitScene(scene);
+            Self { embree, device, scene }
         }
     }
 
@@ -84,15 +93,15 @@ impl Bare {
         match packets {
             Packets::Four(packets) => self.count(packets, |rays, scene, arguments| {
                 // SAFETY: the scene is committed, the rays are finite, the arguments initialised.
-                unsafe { rtcIntersect4(ALL.0.as_ptr(), scene, rays, arguments) }
+                unsafe { self.embree.intersect4(ALL.0.as_ptr(), scene, rays, arguments) }
             }),
             Packets::Eight(packets) => self.count(packets, |rays, scene, arguments| {
                 // SAFETY: the same.
-                unsafe { rtcIntersect8(ALL.0.as_ptr(), scene, rays, arguments) }
+                unsafe { self.embree.intersect8(ALL.0.as_ptr(), scene, rays, arguments) }
             }),
             Packets::Sixteen(packets) => self.count(packets, |rays, scene, arguments| {
                 // SAFETY: the same.
-                unsafe { rtcIntersect16(ALL.0.as_ptr(), scene, rays, arguments) }
+                unsafe { self.embree.intersect16(ALL.0.as_ptr(), scene, rays, arguments) }
             }),
         }
     }

@@ -23,9 +23,8 @@ use crate::points::Points;
 /// per triangle, and one byte more from the second set of few samples or the first of many on (with a mask, 4 bytes
 /// more for each that it keeps). For relaxation and triangulation ([`dcr::surface`](crate::dcr::surface)) it is the
 /// table of shared edges, 12 bytes per triangle and 4 per vertex. For [`Psp::advance`](crate::psp::Psp::advance) by ray
-/// packets it is Embree's scene, about 100 bytes per triangle, and a device with the threads of the context that builds
-/// it (see [`Scene::new`](crate::trace::Scene::new)). A mesh with other normals shares all that; one with another mask
-/// does not.
+/// packets it is Embree's scene, about 100 bytes per triangle, and its device (see
+/// [`Scene::new`](crate::trace::Scene::new)). A mesh with other normals shares all that; one with another mask does not.
 #[derive(Clone, Debug)]
 pub struct Mesh {
     // Vectors as they come: an `Arc` of a slice would copy them.

@@ -150,9 +150,9 @@ impl<P: RayHits> Packet<P> {
     fn intersect(&mut self, scene: &Built, mut arguments: RTCIntersectArguments) {
         // A packet of one ray has no mask for it.
         if self.valid.0.contains(&-1) {
-            // SAFETY: what is `Built` is committed; `load` lets no ray pass that is not finite; the arguments come
-            // from `coherent`, and a context is that of a `Recorder`, which is initialised.
-            unsafe { self.rays.intersect(&self.valid, scene.scene(), &mut arguments) };
+            // SAFETY: `load` lets no ray pass that is not finite; the arguments come from `coherent`, and a context is that
+            // of a `Recorder`, which is initialised.
+            unsafe { self.rays.intersect(&self.valid, scene, &mut arguments) };
         }
     }
 }
@@ -218,8 +218,8 @@ pub(super) unsafe trait RayHits: Default {
     /// Traces the rays of the lanes where `valid` is -1. A struct of one ray ignores `valid`.
     ///
     /// # Safety
-    /// The scene is committed, the valid rays are finite, the arguments and what they point to are initialised.
-    unsafe fn intersect(&mut self, valid: &Valid, scene: RTCScene, arguments: &mut RTCIntersectArguments);
+    /// The valid rays are finite, the arguments and what they point to are initialised.
+    unsafe fn intersect(&mut self, valid: &Valid, built: &Built, arguments: &mut RTCIntersectArguments);
 }
 
 /// The lanes of a packet that are traced: -1 for those, 0 for the others. Embree faults on a mask that is not aligned.
@@ -228,26 +228,41 @@ pub(super) unsafe trait RayHits: Default {
 pub(super) struct Valid(pub [c_int; MAX_WIDTH]);
 
 macro_rules! ray_hits {
-    ($struct:ty, $width:literal, |$valid:pat_param, $scene:ident, $rays:ident, $arguments:ident| $intersect:expr) => {
+    ($struct:ty, $width:literal, |$valid:pat_param, $built:ident, $rays:ident, $arguments:ident| $intersect:expr) => {
         const _: () = assert!(offset_of!($struct, hit) == 4 * field::HIT * $width);
 
         // SAFETY: by the layout of Embree's own accessors (RTCRayN_org_x and so on), and the assertion above.
         unsafe impl RayHits for $struct {
             const WIDTH: usize = $width;
 
-            unsafe fn intersect(&mut self, $valid: &Valid, $scene: RTCScene, $arguments: &mut RTCIntersectArguments) {
+            unsafe fn intersect(&mut self, $valid: &Valid, $built: &Built, $arguments: &mut RTCIntersectArguments) {
                 let $rays = self;
-                // SAFETY: by the contract; mask and struct are aligned by their types.
+                // SAFETY: by the contract; what is `Built` is committed; mask and struct are aligned by their types.
                 unsafe { $intersect }
             }
         }
     };
 }
 
-ray_hits!(RTCRayHit, 1, |_, scene, ray, arguments| rtcIntersect1(scene, ray, arguments));
-ray_hits!(RTCRayHit4, 4, |valid, scene, rays, arguments| rtcIntersect4(valid.0.as_ptr(), scene, rays, arguments));
-ray_hits!(RTCRayHit8, 8, |valid, scene, rays, arguments| rtcIntersect8(valid.0.as_ptr(), scene, rays, arguments));
-ray_hits!(RTCRayHit16, 16, |valid, scene, rays, arguments| rtcIntersect16(valid.0.as_ptr(), scene, rays, arguments));
+ray_hits!(RTCRayHit, 1, |_, built, ray, arguments| built.embree().intersect1(built.scene(), ray, arguments));
+ray_hits!(RTCRayHit4, 4, |valid, built, rays, arguments| built.embree().intersect4(
+    valid.0.as_ptr(),
+    built.scene(),
+    rays,
+    arguments
+));
+ray_hits!(RTCRayHit8, 8, |valid, built, rays, arguments| built.embree().intersect8(
+    valid.0.as_ptr(),
+    built.scene(),
+    rays,
+    arguments
+));
+ray_hits!(RTCRayHit16, 16, |valid, built, rays, arguments| built.embree().intersect16(
+    valid.0.as_ptr(),
+    built.scene(),
+    rays,
+    arguments
+));
 
 /// An unused slot for a hit.
 const NO_HIT: Hit = Hit { ray: 0, triangle: 0, uv: [0.0; 2], t: 0.0 };

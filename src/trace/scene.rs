@@ -1,10 +1,11 @@
 //! A scene of triangles, and every hit on every ray that is sent through it.
 
-use std::ffi::{CStr, CString, c_char, c_void};
+use std::ffi::{CStr, c_char, c_void};
 use std::mem::size_of;
 use std::ptr;
 use std::ptr::NonNull;
 use std::sync::{Arc, Mutex, PoisonError};
+use std::thread;
 
 use embree4_sys::{RTCRayHit, RTCRayHit4, RTCRayHit8, RTCRayHit16, *};
 use glam::DVec3;
@@ -32,18 +33,20 @@ pub struct Scene {
 
 impl Scene {
     /// Copies the triangles into Embree and builds the hierarchy with `num_threads` threads (0: one per core; 1: none
-    /// but the caller's), in O(n log n).
+    /// but the caller's), but not more than there are cores, in O(n log n). None of TBB's threads takes part.
     ///
-    /// Embree knows one bound for the threads of a process, the largest that one of its devices has, and sets it for
-    /// all that uses TBB. A scene has a device of its own, with `num_threads`. So a build beside a device with more
-    /// threads can use as many, and a device with fewer can use `num_threads` while this scene lives, but not after it.
+    /// Embree is loaded by the first scene of a process.
+    ///
+    /// A bound that the program sets for TBB is left alone. Embree, however, knows one bound for all its devices, the
+    /// largest, and this scene's device has none: one that another device of the program has set (`threads=`) is
+    /// suspended while this scene lives.
     ///
     /// Embree calculates in `f32` with fixed thresholds: scale a mesh to about the unit box before.
     ///
     /// # Errors
     /// [`Error::InvalidArgument`] for `positions` that are not finite or above 1e18, and for `triangles` with an index
-    /// beyond the positions; [`Error::Embree`] if the library that was loaded is not the version that this crate was
-    /// built for, or if Embree refuses, for want of memory or another reason that it gives.
+    /// beyond the positions; [`Error::Embree`] if the library cannot be loaded or is not the version that this crate
+    /// was built for, or if Embree refuses, for want of memory or another reason that it gives.
     pub fn new(positions: &[[f32; 3]], triangles: &[[u32; 3]], num_threads: usize) -> Result<Self> {
         Context::new(1)?.run(None, |job| Self::build(job, positions, triangles, num_threads))
     }
@@ -167,24 +170,30 @@ unsafe impl Sync for Built {}
 impl Built {
     /// A scene of triangles that have been checked, built with `num_threads` threads (0: one per core).
     pub(super) fn new(positions: &[[f32; 3]], triangles: &[[u32; 3]], num_threads: usize, job: &Job) -> Result<Self> {
-        let device = Device::new(num_threads)?;
+        let device = Device::new()?;
+        let embree = device.embree;
         // SAFETY: the device is alive.
-        let scene = device.own(unsafe { rtcNewScene(device.raw) }, rtcReleaseScene)?;
+        let scene = device.own(unsafe { embree.rtcNewScene(device.raw) }, embree.rtcReleaseScene)?;
         // SAFETY: the scene is alive.
         unsafe {
-            rtcSetSceneFlags(scene.raw, RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_FILTER_FUNCTION_IN_ARGUMENTS);
+            embree.rtcSetSceneFlags(scene.raw, RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_FILTER_FUNCTION_IN_ARGUMENTS);
             // HIGH would split triangles, and report some of them twice; LOW is slower to trace.
-            rtcSetSceneBuildQuality(scene.raw, RTC_BUILD_QUALITY_MEDIUM);
+            embree.rtcSetSceneBuildQuality(scene.raw, RTC_BUILD_QUALITY_MEDIUM);
         }
         if !triangles.is_empty() {
             let geometry = device.geometry(positions, triangles)?;
             // SAFETY: both are alive; the scene keeps a reference of its own to the geometry.
-            unsafe { rtcAttachGeometry(scene.raw, geometry.raw) };
+            unsafe { embree.rtcAttachGeometry(scene.raw, geometry.raw) };
         }
-        // SAFETY: the scene is alive, and no other thread knows it yet.
-        Watch::new(job).during(scene.raw, || unsafe { rtcCommitScene(scene.raw) })?;
+        let joining = joining_threads(num_threads, triangles.len());
+        Watch::new(job).during(embree, scene.raw, || device.commit(&scene, joining))?;
         device.verdict()?;
         Ok(Self { scene, device })
+    }
+
+    /// The library that the scene belongs to.
+    pub(super) fn embree(&self) -> &'static Embree {
+        self.device.embree
     }
 
     /// The scene, for as long as `self` lives.
@@ -196,7 +205,7 @@ impl Built {
     pub(super) fn packet_width(&self) -> usize {
         let widths = [(16, RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED), (8, RTC_DEVICE_PROPERTY_NATIVE_RAY8_SUPPORTED)];
         // SAFETY: the device is alive.
-        let native = |property| unsafe { rtcGetDeviceProperty(self.device.raw, property) } != 0;
+        let native = |property| unsafe { self.embree().rtcGetDeviceProperty(self.device.raw, property) } != 0;
         widths.into_iter().find(|&(_, property)| native(property)).map_or(4, |(width, _)| width)
     }
 }
@@ -214,11 +223,22 @@ impl<T: Copy> Drop for Handle<T> {
     }
 }
 
+/// The number of threads that help the calling one to build a scene, where `num_threads` (0: one per core) may work.
+fn joining_threads(num_threads: usize, triangles: usize) -> usize {
+    /// For fewer a thread takes longer to start than to build.
+    const TRIANGLES_PER_THREAD: usize = 4096;
+    // Embree has a place for each core; others would only wait for one.
+    let cores = thread::available_parallelism().map_or(1, usize::from);
+    let threads = if num_threads == 0 { cores } else { num_threads.min(cores) };
+    (threads - 1).min(triangles / TRIANGLES_PER_THREAD)
+}
+
 /// The texts of Embree's errors in the calls so far.
 type Complaints = Mutex<Vec<String>>;
 
 /// A device that notes the text of each error.
 struct Device {
+    embree: &'static Embree,
     raw: RTCDevice,
     complaints: Arc<Complaints>,
 }
@@ -226,7 +246,7 @@ struct Device {
 impl Drop for Device {
     fn drop(&mut self) {
         // SAFETY: the reference was owned, and is given back once. The complaints are dropped after it.
-        unsafe { rtcReleaseDevice(self.raw) };
+        unsafe { self.embree.rtcReleaseDevice(self.raw) };
     }
 }
 
@@ -241,22 +261,50 @@ unsafe extern "C" fn complain(complaints: *mut c_void, _code: RTCError, text: *c
 }
 
 impl Device {
-    fn new(num_threads: usize) -> Result<Self> {
-        let config = CString::new(format!("threads={num_threads}")).expect("a number has no NUL");
+    /// A device without a bound of threads, which Embree would set for all that uses TBB in the process; all places in
+    /// its builds are for threads that join them, so that none of TBB's takes part (see [`Device::commit`]).
+    fn new() -> Result<Self> {
+        let embree = Embree::load().map_err(|missing| Error::Embree(missing.to_string()))?;
         // SAFETY: the string ends with a NUL and is copied.
-        let raw = unsafe { rtcNewDevice(config.as_ptr()) };
+        let raw = unsafe { embree.rtcNewDevice(c"threads=0,user_threads=1000000".as_ptr()) };
         if raw.is_null() {
             // SAFETY: without a device, this is the code of the calling thread's last error.
-            let code = unsafe { rtcGetDeviceError(ptr::null_mut()) };
-            return Err(Error::Embree(format!("cannot make a device with {num_threads} threads (RTCError {code})")));
+            let code = unsafe { embree.rtcGetDeviceError(ptr::null_mut()) };
+            return Err(Error::Embree(format!("cannot make a device (RTCError {code})")));
         }
-        let device = Self { raw, complaints: Arc::default() };
+        let device = Self { embree, raw, complaints: Arc::default() };
         // SAFETY: the device is alive.
-        unsafe { check(raw) }.map_err(|mismatch| Error::Embree(mismatch.to_string()))?;
+        unsafe { embree.check(raw) }.map_err(|mismatch| Error::Embree(mismatch.to_string()))?;
         let complaints = Arc::as_ptr(&device.complaints).cast_mut().cast();
         // SAFETY: the device is released before the complaints.
-        unsafe { rtcSetDeviceErrorFunction(raw, Some(complain), complaints) };
+        unsafe { embree.rtcSetDeviceErrorFunction(raw, Some(complain), complaints) };
         Ok(device)
+    }
+
+    /// Commits a scene on the calling thread and on `joining` threads that are started for it; fewer if the system has no
+    /// more.
+    fn commit(&self, scene: &Handle<RTCScene>, joining: usize) {
+        /// A pointer that threads may share.
+        struct Shared(RTCScene);
+        // SAFETY: any number of threads may commit one scene by `rtcJoinCommitScene` at once.
+        unsafe impl Sync for Shared {}
+        impl Shared {
+            fn commit(&self, embree: &Embree) {
+                // SAFETY: the scene is alive, and nothing but the threads that build it uses it yet.
+                unsafe { embree.rtcJoinCommitScene(self.0) };
+            }
+        }
+        let (embree, shared) = (self.embree, Shared(scene.raw));
+        thread::scope(|scope| {
+            let join = |_: usize| {
+                let builder = thread::Builder::new().name("azulejo-scene".to_owned());
+                builder.spawn_scoped(scope, || shared.commit(embree)).ok()
+            };
+            let joining: Vec<_> = (0..joining).map_while(join).collect();
+            shared.commit(embree);
+            // A scope waits for the closures alone; a caller that counts threads is to find none.
+            joining.into_iter().for_each(|thread| drop(thread.join()));
+        });
     }
 
     /// An error if Embree has complained.
@@ -273,13 +321,15 @@ impl Device {
 
     /// A geometry of triangles that have been checked.
     fn geometry(&self, positions: &[[f32; 3]], triangles: &[[u32; 3]]) -> Result<Handle<RTCGeometry>> {
+        let embree = self.embree;
         // SAFETY: the device is alive.
-        let geometry = self.own(unsafe { rtcNewGeometry(self.raw, RTC_GEOMETRY_TYPE_TRIANGLE) }, rtcReleaseGeometry)?;
+        let geometry = self
+            .own(unsafe { embree.rtcNewGeometry(self.raw, RTC_GEOMETRY_TYPE_TRIANGLE) }, embree.rtcReleaseGeometry)?;
         self.fill(&geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, positions)?;
         let triangles: Vec<_> = triangles.iter().map(|&triangle| collapse_without_area(positions, triangle)).collect();
         self.fill(&geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, &triangles)?;
         // SAFETY: the geometry is alive, and no other thread knows it.
-        unsafe { rtcCommitGeometry(geometry.raw) };
+        unsafe { embree.rtcCommitGeometry(geometry.raw) };
         self.verdict()?;
         Ok(geometry)
     }
@@ -294,8 +344,10 @@ impl Device {
         items: &[T],
     ) -> Result<()> {
         // SAFETY: the geometry is alive.
-        let data =
-            unsafe { rtcSetNewGeometryBuffer(geometry.raw, buffer, 0, format, size_of::<T>(), items.len()) }.cast();
+        let data = unsafe {
+            self.embree.rtcSetNewGeometryBuffer(geometry.raw, buffer, 0, format, size_of::<T>(), items.len())
+        }
+        .cast();
         self.verdict()?;
         // SAFETY: Embree made the buffer, without an error, for this many items of this size, aligned to 16 bytes.
         unsafe { ptr::copy_nonoverlapping(items.as_ptr(), data, items.len()) };
@@ -323,30 +375,37 @@ pub struct HostBuffers {
 /// scene or of its device is changed.
 ///
 /// # Safety
-/// `scene` is a committed scene of the libembree that this crate is linked with, and stays so as long as the buffers
+/// `scene` is a committed scene of the libembree that the program has linked or, if it has none in its global scope, of
+/// the one that this crate loads ([`FILE`]), and stays so as long as the buffers
 /// are used; `geometries` are attached to it as triangles, of one time step. None of this can be asked of Embree,
 /// except for the version, which is compared.
 ///
 /// # Errors
 /// [`Error::InvalidArgument`] for a `scene` that is null and for geometries without buffers; [`Error::Embree`] if the
-/// scene's library is of another version than the one that this crate was built for.
+/// scene's library cannot be found or is of another version than the one that this crate was built for.
 pub unsafe fn host_buffers(scene: *mut c_void, geometries: &[u32]) -> Result<Vec<HostBuffers>> {
     let scene: RTCScene = scene.cast();
     if scene.is_null() {
         return Err(Error::invalid("scene", "is NULL"));
     }
+    // A scene of another version can only be asked for it by its own library.
+    let linked = Embree::of_program();
+    let embree = match &linked {
+        Some(embree) => embree,
+        None => Embree::load().map_err(|missing| Error::Embree(missing.to_string()))?,
+    };
     // SAFETY: by the contract; the reference to the device that Embree hands out is given back.
     unsafe {
-        let device = rtcGetSceneDevice(scene);
-        let verdict = check(device);
-        rtcReleaseDevice(device);
+        let device = embree.rtcGetSceneDevice(scene);
+        let verdict = embree.check(device);
+        embree.rtcReleaseDevice(device);
         verdict.map_err(|mismatch| Error::Embree(mismatch.to_string()))?;
     }
     let buffers = |&id: &u32| {
         // SAFETY: by the contract there is such a geometry, which stays the scene's.
         let (vertices, indices) = unsafe {
-            let geometry = rtcGetGeometry(scene, id);
-            let buffer = |kind| rtcGetGeometryBufferData(geometry, kind, 0);
+            let geometry = embree.rtcGetGeometry(scene, id);
+            let buffer = |kind| embree.rtcGetGeometryBufferData(geometry, kind, 0);
             (buffer(RTC_BUFFER_TYPE_VERTEX), buffer(RTC_BUFFER_TYPE_INDEX))
         };
         match (NonNull::new(vertices.cast()), NonNull::new(indices.cast())) {
@@ -363,21 +422,33 @@ mod tests {
 
     #[test]
     fn a_complaint_of_embree_becomes_an_error_with_its_text() {
-        let device = Device::new(1).unwrap();
+        let device = Device::new().unwrap();
         // SAFETY: the device is alive; Embree refuses a geometry of a type that does not exist.
-        let raw = unsafe { rtcNewGeometry(device.raw, RTCGeometryType::MAX) };
-        let Err(Error::Embree(text)) = device.own(raw, rtcReleaseGeometry) else { panic!("no complaint") };
+        let raw = unsafe { device.embree.rtcNewGeometry(device.raw, RTCGeometryType::MAX) };
+        let Err(Error::Embree(text)) = device.own(raw, device.embree.rtcReleaseGeometry) else {
+            panic!("no complaint")
+        };
         assert!(!text.is_empty());
     }
 
     #[test]
     fn a_buffer_that_embree_refuses_is_an_error() {
-        let device = Device::new(1).unwrap();
+        let device = Device::new().unwrap();
         // SAFETY: the device is alive.
-        let raw = unsafe { rtcNewGeometry(device.raw, RTC_GEOMETRY_TYPE_TRIANGLE) };
-        let geometry = device.own(raw, rtcReleaseGeometry).unwrap();
+        let raw = unsafe { device.embree.rtcNewGeometry(device.raw, RTC_GEOMETRY_TYPE_TRIANGLE) };
+        let geometry = device.own(raw, device.embree.rtcReleaseGeometry).unwrap();
         let items_of_three_bytes = [[0u8; 3]; 4];
         let refused = device.fill(&geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, &items_of_three_bytes);
         assert!(matches!(refused, Err(Error::Embree(_))));
+    }
+
+    #[test]
+    fn no_more_threads_build_than_were_asked_for_or_there_are_cores() {
+        let cores = thread::available_parallelism().unwrap().get();
+        assert_eq!(joining_threads(1, 1_000_000), 0);
+        assert_eq!(joining_threads(2, 1_000_000), 1.min(cores - 1));
+        assert_eq!(joining_threads(0, 1_000_000_000), cores - 1);
+        assert_eq!(joining_threads(4096, 1_000_000_000), cores - 1);
+        assert_eq!(joining_threads(0, 4095), 0);
     }
 }

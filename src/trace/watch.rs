@@ -8,13 +8,12 @@ use std::ptr;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread::{self, ThreadId};
 
-use embree4_sys::{RTCScene, rtcSetSceneProgressMonitorFunction};
+use embree4_sys::{Embree, RTCScene};
 
 use crate::error::{Error, Result};
 use crate::job::Job;
 
-/// Embree calls its monitor on all threads of a build; a job reports on the thread that waits for it, which is usually
-/// one of them. (It is none while as many other threads build scenes as TBB takes. A cancelled build then ends late.)
+/// Embree calls its monitor on all threads of a build; a job reports on the thread that waits for it, which is one of them.
 pub(super) struct Watch<'a> {
     cancelled: AtomicBool,
     caller: ThreadId,
@@ -36,13 +35,13 @@ impl<'a> Watch<'a> {
     ///
     /// # Errors
     /// [`Error::Cancelled`] where the job was; the scene can then only be released.
-    pub(super) fn during(&self, scene: RTCScene, commit: impl FnOnce()) -> Result<()> {
+    pub(super) fn during(&self, embree: &Embree, scene: RTCScene, commit: impl FnOnce()) -> Result<()> {
         let this = ptr::from_ref(self).cast_mut().cast();
         // SAFETY: the scene is alive; it forgets the watch before this function returns.
-        unsafe { rtcSetSceneProgressMonitorFunction(scene, Some(tell), this) };
+        unsafe { embree.rtcSetSceneProgressMonitorFunction(scene, Some(tell), this) };
         commit();
         // SAFETY: as above.
-        unsafe { rtcSetSceneProgressMonitorFunction(scene, None, ptr::null_mut()) };
+        unsafe { embree.rtcSetSceneProgressMonitorFunction(scene, None, ptr::null_mut()) };
         if let Some(panic) = self.panic.take() {
             resume_unwind(panic);
         }

@@ -22,22 +22,29 @@ make_packages() {
         -DAZULEJO_CARGO_FLAGS="${AZULEJO_CARGO_FLAGS:---locked}" && cmake --build "$base/debs-build" &&
         cpack -G DEB --config "$base/debs-build/CPackConfig.cmake" -B "$base/debs" && rm -r "$base/debs/_CPack_Packages" &&
         runtime=$(ls "$base"/debs/libazulejo"$abi"_*.deb) && development=$(ls "$base"/debs/libazulejo-dev_*.deb) &&
-        [ "$(ls "$base/debs" | wc -l)" = 2 ]
+        debug=$(ls "$base"/debs/libazulejo"$abi"-dbgsym_*.deb) && [ "$(ls "$base/debs" | wc -l)" = 3 ]
 }
 
-depend() { # the library on the Embree it is linked with, at run time; programs on that very library
+depend() { # the library on the Embree that it loads; programs and debugging information on that very library
     local package
     package=$(dpkg-deb --field "$runtime" Version)
     dpkg-deb --field "$runtime" Depends
     dpkg-deb --field "$runtime" Depends | grep -qE '(^|, )libembree(3-3|4-4) ' &&
         dpkg-deb --field "$runtime" Depends | grep -qE '(^|, )libc6 ' &&
-        [ "$(dpkg-deb --field "$development" Depends)" = "libazulejo$abi (= $package), libembree-dev" ]
+        [ "$(dpkg-deb --field "$development" Depends)" = "libazulejo$abi (= $package)" ] &&
+        [ "$(dpkg-deb --field "$debug" Depends)" = "libazulejo$abi (= $package)" ]
 }
 
 hold() { # each file is in the package that it belongs to
     local libraries
     libraries=usr/lib/$(dpkg-architecture -qDEB_HOST_MULTIARCH)
     dpkg-deb --extract "$runtime" "$work/runtime" && dpkg-deb --extract "$development" "$work/development" &&
+        dpkg-deb --extract "$debug" "$work/debug" &&
+        diff - <(cd "$work/debug" && find . ! -type d | LC_ALL=C sort) <<END &&
+./usr/lib/debug/$libraries/libazulejo.so.$version.debug
+./usr/share/doc/libazulejo$abi-dbgsym/changelog.Debian.gz
+./usr/share/doc/libazulejo$abi-dbgsym/copyright
+END
         diff - <(cd "$work/runtime" && find . ! -type d | LC_ALL=C sort) <<END &&
 ./$libraries/libazulejo.so.$abi
 ./$libraries/libazulejo.so.$version

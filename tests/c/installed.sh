@@ -28,6 +28,7 @@ remove_debs() {
 step "installed: the root is clean" is_clean
 step "installed: the library alone" install_debs "/debs/libazulejo$abi"_*.deb
 step "installed: both packages" install_debs "/debs/libazulejo$abi"_*.deb /debs/libazulejo-dev_*.deb
+step "installed: Embree's headers, for the renderers" apt install --no-install-recommends libembree-dev
 make_mesh
 step "installed: examples, shared" examples "$work/shared" ""
 step "installed: they run" run_examples "$work/shared"

@@ -5,8 +5,8 @@
 #
 # With --quick the library is that of cargo's profile dev, which the Rust tests have compiled, and it is used in one place only.
 # examples_c outside the tree, shared and static, through find_package; plane.c through pkg-config; as a guest in other
-# programs (guest.sh); all again from a prefix that was moved; through add_subdirectory; licences are installed; and a
-# version that is not there is refused.
+# programs (guest.sh); all again from a prefix that was moved; through add_subdirectory; Embree is loaded on use (lazy.sh);
+# debugging information is beside the library; licences are installed; and a version that is not there is refused.
 set -euo pipefail
 
 root=$(cd "$(dirname "$0")/../.." && pwd)
@@ -66,6 +66,28 @@ has_licences() {
         grep -q '^--- rayon-[0-9.]*' "$folder/THIRD-PARTY.txt"
 }
 
+# The library is small, and the file beside it is found by the name and the checksum in it. (The profile dev has no
+# debugging information, but symbols.)
+has_debug_file() {
+    local library debug
+    library=$(readlink -f "$(find "$prefix" -name libazulejo.so)") debug=$(dirname "$library")/.debug/$(basename "$library").debug
+    [ "$(stat -c %s "$library")" -lt 8000000 ] && fails has_section .symtab "$library" &&
+        fails has_section .debug_info "$library" && has_section .symtab "$debug" &&
+        { [ $quick = yes ] || has_section .debug_info "$debug"; } && [ "$(build_id "$library")" = "$(build_id "$debug")" ] &&
+        readelf --debug-dump=links --debug-dump=follow-links "$library" >"$work/links" 2>&1 && head -n 20 "$work/links" &&
+        grep -qF "Found separate debug info file: $(dirname "$debug")" "$work/links"
+}
+
+has_section() { readelf --section-headers --wide "$2" | grep -qwF -- "$1"; }
+
+build_id() { readelf --notes "$1" | grep -o 'Build ID: [0-9a-f]*'; }
+
+static_has_no_debug_info() {
+    local library
+    library=$(find "$prefix" -name libazulejo.a)
+    [ "$(stat -c %s "$library")" -lt 20000000 ] && fails has_section .debug_info "$library"
+}
+
 make_mesh
 step "build and install" install_library
 step "examples, shared" examples "$work/shared" "$prefix"
@@ -84,6 +106,9 @@ step "pkg-config" pkg_config "$prefix"
 step "pkg-config --static" pkg_config "$prefix" --static
 step "it does not need libazulejo.so" is_static "$work/plane"
 step "licences" has_licences
+step "debugging information beside the library" has_debug_file
+step "static: without debugging information" static_has_no_debug_info
+"$root/tests/c/lazy.sh" "$prefix"
 step "version $abi is found" find_version "$abi"
 [ $quick = no ] || exit 0
 step "examples, static" examples "$work/static" "$prefix" -DAZULEJO_EXAMPLES_STATIC=ON

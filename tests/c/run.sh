@@ -41,8 +41,8 @@ warnings=(-Wall -Wextra -Wpedantic -Werror)
 bare=(-fno-exceptions -fno-rtti)
 include=(-I "$prefix/include")
 link=(-L "$(dirname "$library")" -Wl,-rpath,"$(dirname "$library")" -lazulejo -lpthread -lm)
-# The Embree that the library was built for, for programs that have a scene of their own; empty if it was built without.
-embree=$(readelf --dynamic "$library" | sed -n 's/.*\[libembree\([34]\)\.so.*/\1/p')
+# The Embree that the library loads, for programs that have a scene of their own; empty if it was built without.
+embree=$(sed -n 's/^set(azulejo_EMBREE embree\([34]\))$/\1/p' "$(find "$prefix" -name azulejo-config.cmake)")
 [ -z "$embree" ] || link+=(-Wl,--as-needed "-lembree$embree")
 include+=("-DEMBREE_MAJOR=${embree:-0}")
 if [ -n "${EMBREE_DIR:-}" ]; then
@@ -76,10 +76,10 @@ exports() { nm --dynamic --defined-only --format=posix "$library" | awk '{ print
 
 has_soname() { readelf --dynamic "$library" | grep -F "Library soname: [libazulejo.so.$abi]"; }
 
-needs_nothing_else() { # libraries that are neither the C runtime nor Embree
+needs_nothing_else() { # libraries that are not the C runtime's
     local others
     others=$(readelf --dynamic "$library" | sed -n 's/.*(NEEDED).*\[\(.*\)\]/\1/p' |
-        grep -vE '^(libc|libm|libgcc_s|libpthread|libdl|ld-linux.*|libembree[34])\.so\.[0-9]+$' || true)
+        grep -vE '^(libc|libm|libgcc_s|libpthread|libdl|ld-linux.*)\.so\.[0-9]+$' || true)
     [ -z "$others" ] || { echo "$others"; return 1; }
 }
 

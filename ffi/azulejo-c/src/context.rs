@@ -39,12 +39,11 @@ impl azulejo_context {
 ///
 /// out: the context, to be freed with azulejo_context_free.
 ///
-/// The number also bounds Embree's threads, with two limits of Embree. It has one bound for the
-/// whole process, the largest of its devices, and sets it for all users of TBB: if the program has
-/// a device with more threads, the building of scenes may use as many; if it has one with fewer,
-/// that device may use `num_threads` while a mesh exists on which a set has made iterations (or a
-/// handle of such a set). TBB may leave idle threads behind, also with 1. AZULEJO_ENGINE_RASTERISER
-/// uses neither Embree nor TBB.
+/// Embree's scenes are built by as many threads, but not more than there are cores, and by none of
+/// TBB's. Bounds that the program sets for TBB stay as they are. Embree, however, has one bound for
+/// the whole process, the largest of its devices, and a scene of the library has none: where a
+/// device of the program has one (threads=), it is suspended while a mesh exists on which a set has
+/// made iterations with AZULEJO_ENGINE_EMBREE (or a handle of such a set).
 ///
 /// Errors: AZULEJO_ERROR_INVALID_ARGUMENT; AZULEJO_ERROR_THREADS if the threads cannot be started.
 #[unsafe(no_mangle)]

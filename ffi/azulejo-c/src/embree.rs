@@ -33,16 +33,18 @@ pub struct azulejo_embree_geometry {
 }
 
 /// Makes a mesh from a copy of the triangles of a scene that the program has made with Embree. The
-/// scene and its device are not changed: neither flags nor error function nor thread count (as far
-/// as that belongs to the device alone: see azulejo_context_create). The mesh does not need them
-/// after the call; its samples are traced in a scene and on a device of the library's.
+/// scene and its device are not changed: neither flags nor error function nor thread count (but see
+/// azulejo_context_create). The mesh does not need them after the call; its samples are traced in a
+/// scene and on a device of the library's.
 ///
 /// Triangles are numbered in the order of `geometries`: triangle i of the mesh is primitive i of
 /// the first geometry, those of the second follow, and so on. The same holds for vertices.
 ///
-/// scene: a committed RTCScene that no thread changes during the call. It must come from the same
-/// libembree that libazulejo has loaded: otherwise the behaviour is undefined, though another
-/// version is refused in most cases. Instances in it are not followed.
+/// scene: a committed RTCScene that no thread changes during the call. It must come from the
+/// libembree that the program has linked or, where it has linked none that all its libraries see,
+/// from the one that libazulejo loads by its SONAME: otherwise, as for an Embree that is linked
+/// statically, the behaviour is undefined. Another version of a linked one is refused. Instances in
+/// it are not followed.
 ///
 /// geometries: `geometry_count` of them, at least one, each attached to the scene as
 /// RTC_GEOMETRY_TYPE_TRIANGLE. If an id, a size or a type is not that of the scene, the behaviour
@@ -53,7 +55,7 @@ pub struct azulejo_embree_geometry {
 /// O(vertices + triangles).
 ///
 /// Errors: those of azulejo_mesh_create; AZULEJO_ERROR_EMBREE for a scene of another version of
-/// Embree.
+/// Embree, and where no Embree is found.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_mesh_create_from_embree(
     scene: *mut c_void,

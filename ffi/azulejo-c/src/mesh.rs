@@ -43,10 +43,8 @@ const VECTOR_SIZE: usize = size_of::<[f32; 3]>();
 /// triangle, and one byte more from the second set of few samples or the first of many on (with a
 /// mask, 4 bytes more for each that it keeps); for relaxation and triangulation, which edges are
 /// shared, 12 bytes per triangle and 4 per vertex; for iterations of AZULEJO_ENGINE_EMBREE,
-/// Embree's scene, about 100 bytes per triangle. A scene keeps an Embree device with as many
-/// threads as the context that built it has, which is for so long a bound for TBB in this process,
-/// unless another device has more. A mesh with other normals made from this one shares all that;
-/// one with another mask does not.
+/// Embree's scene, about 100 bytes per triangle, and its device (see azulejo_context_create). A
+/// mesh with other normals made from this one shares all that; one with another mask does not.
 ///
 /// Errors: AZULEJO_ERROR_INVALID_ARGUMENT for positions that are not finite, indices out of range,
 /// no triangles, and triangles without any area; AZULEJO_ERROR_TOO_LARGE for 2^32 - 1 vertices or

@@ -24,7 +24,7 @@ pub const AZULEJO_ERROR_FORMAT: i32 = -4;
 pub const AZULEJO_ERROR_CANCELLED: i32 = -5;
 /// There is no memory for a copy of the caller's arrays.
 pub const AZULEJO_ERROR_OUT_OF_MEMORY: i32 = -6;
-/// Embree failed: no device, no memory, or a scene that it cannot build.
+/// Embree failed: it is not there, has no memory, or cannot build a scene.
 pub const AZULEJO_ERROR_EMBREE: i32 = -7;
 /// Threads could not be started, or the context's threads are in the process from which this one
 /// was forked.

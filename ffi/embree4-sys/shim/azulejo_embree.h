@@ -1,11 +1,13 @@
 /* The Embree 4 API over the installed Embree, 4 or 3.13: what bindgen reads, and what cc compiles.
  *
  * AZULEJO_EMBREE_MAJOR, from build.rs, says which headers there are. A function `azulejo_rtcX` is the `rtcX` of
- * Embree 4, where 3.13 has another one of that name or either has it inline only; Rust drops the prefix. */
+ * Embree 4, where 3.13 has another one of that name or either has it inline only. None of them calls the library by
+ * name, which would link it: a query is given the library's function. */
 #pragma once
 
 #if AZULEJO_EMBREE_MAJOR == 4
 #include <embree4/rtcore.h>
+#define AZULEJO_PARAMETERS(type) struct type *rayhit, struct RTCIntersectArguments *arguments
 #define AZULEJO_QUERY(rayhit, arguments) rayhit, arguments
 #else
 #include <embree3/rtcore.h>
@@ -61,28 +63,35 @@ static inline struct RTCIntersectContext *azulejo_context(const struct RTCInters
   return context;
 }
 
-/* What follows `valid, scene` in a call of rtcIntersectN. */
+/* What follows `valid, scene` in a declaration and in a call of rtcIntersectN. */
+#define AZULEJO_PARAMETERS(type) struct RTCIntersectContext *context, struct type *rayhit
 #define AZULEJO_QUERY(rayhit, arguments) azulejo_context(arguments, &(struct RTCRayQueryContext){0}), rayhit
 #endif
 
-static inline void azulejo_rtcIntersect1(RTCScene scene, struct RTCRayHit *rayhit,
+/* The library's rtcIntersectN. */
+typedef void AzulejoIntersect1(RTCScene scene, AZULEJO_PARAMETERS(RTCRayHit));
+typedef void AzulejoIntersect4(const int *valid, RTCScene scene, AZULEJO_PARAMETERS(RTCRayHit4));
+typedef void AzulejoIntersect8(const int *valid, RTCScene scene, AZULEJO_PARAMETERS(RTCRayHit8));
+typedef void AzulejoIntersect16(const int *valid, RTCScene scene, AZULEJO_PARAMETERS(RTCRayHit16));
+
+static inline void azulejo_rtcIntersect1(AzulejoIntersect1 *intersect, RTCScene scene, struct RTCRayHit *rayhit,
                                          struct RTCIntersectArguments *arguments) {
-  rtcIntersect1(scene, AZULEJO_QUERY(rayhit, arguments));
+  intersect(scene, AZULEJO_QUERY(rayhit, arguments));
 }
 
-static inline void azulejo_rtcIntersect4(const int *valid, RTCScene scene, struct RTCRayHit4 *rayhit,
-                                         struct RTCIntersectArguments *arguments) {
-  rtcIntersect4(valid, scene, AZULEJO_QUERY(rayhit, arguments));
+static inline void azulejo_rtcIntersect4(AzulejoIntersect4 *intersect, const int *valid, RTCScene scene,
+                                         struct RTCRayHit4 *rayhit, struct RTCIntersectArguments *arguments) {
+  intersect(valid, scene, AZULEJO_QUERY(rayhit, arguments));
 }
 
-static inline void azulejo_rtcIntersect8(const int *valid, RTCScene scene, struct RTCRayHit8 *rayhit,
-                                         struct RTCIntersectArguments *arguments) {
-  rtcIntersect8(valid, scene, AZULEJO_QUERY(rayhit, arguments));
+static inline void azulejo_rtcIntersect8(AzulejoIntersect8 *intersect, const int *valid, RTCScene scene,
+                                         struct RTCRayHit8 *rayhit, struct RTCIntersectArguments *arguments) {
+  intersect(valid, scene, AZULEJO_QUERY(rayhit, arguments));
 }
 
-static inline void azulejo_rtcIntersect16(const int *valid, RTCScene scene, struct RTCRayHit16 *rayhit,
-                                          struct RTCIntersectArguments *arguments) {
-  rtcIntersect16(valid, scene, AZULEJO_QUERY(rayhit, arguments));
+static inline void azulejo_rtcIntersect16(AzulejoIntersect16 *intersect, const int *valid, RTCScene scene,
+                                          struct RTCRayHit16 *rayhit, struct RTCIntersectArguments *arguments) {
+  intersect(valid, scene, AZULEJO_QUERY(rayhit, arguments));
 }
 
 static inline void azulejo_rtcInitRayQueryContext(struct RTCRayQueryContext *context) {

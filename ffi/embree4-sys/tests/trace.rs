@@ -9,36 +9,39 @@ const VERTICES: [[f32; 3]; 3] = [[0.0, 0.0, 2.0], [1.0, 0.0, 2.0], [0.0, 1.0, 2.
 
 /// A device with a scene of two triangles, one behind the other, that may be traced with a filter.
 struct World {
+    embree: &'static Embree,
     device: RTCDevice,
     scene: RTCScene,
 }
 
 impl World {
     fn new() -> Self {
+        let embree = Embree::load().unwrap();
         // SAFETY: the handles are used in the order of the manual, the buffers are filled up to their sizes, and no
         // call fails: the caller asserts that no error was left behind.
         unsafe {
-            let device = rtcNewDevice(c"threads=1".as_ptr());
+            let device = embree.rtcNewDevice(c"threads=1".as_ptr());
             assert!(!device.is_null());
-            let scene = rtcNewScene(device);
-            rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_FILTER_FUNCTION_IN_ARGUMENTS);
+            let scene = embree.rtcNewScene(device);
+            embree.rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_FILTER_FUNCTION_IN_ARGUMENTS);
             for depth in [0.0, 1.0] {
-                let geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-                let vertices: *mut [f32; 3] =
-                    rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 12, 3).cast();
+                let geometry = embree.rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+                let vertices: *mut [f32; 3] = embree
+                    .rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 12, 3)
+                    .cast();
                 for (i, [x, y, z]) in VERTICES.into_iter().enumerate() {
                     vertices.add(i).write([x, y, z + depth]);
                 }
                 let indices: *mut [u32; 3] =
-                    rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, 1).cast();
+                    embree.rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, 1).cast();
                 indices.write([0, 1, 2]);
-                rtcCommitGeometry(geometry);
-                rtcAttachGeometry(scene, geometry);
-                rtcReleaseGeometry(geometry);
+                embree.rtcCommitGeometry(geometry);
+                embree.rtcAttachGeometry(scene, geometry);
+                embree.rtcReleaseGeometry(geometry);
             }
-            rtcCommitScene(scene);
-            assert_eq!(rtcGetDeviceError(device), RTC_ERROR_NONE);
-            Self { device, scene }
+            embree.rtcCommitScene(scene);
+            assert_eq!(embree.rtcGetDeviceError(device), RTC_ERROR_NONE);
+            Self { embree, device, scene }
         }
     }
 }
@@ -47,8 +50,8 @@ impl Drop for World {
     fn drop(&mut self) {
         // SAFETY: both are owned and released once.
         unsafe {
-            rtcReleaseScene(self.scene);
-            rtcReleaseDevice(self.device);
+            self.embree.rtcReleaseScene(self.scene);
+            self.embree.rtcReleaseDevice(self.device);
         }
     }
 }
@@ -57,7 +60,7 @@ impl Drop for World {
 fn the_loaded_library_is_the_bound_one() {
     let world = World::new();
     // SAFETY: the device is alive.
-    let (version, verdict) = unsafe { (loaded_version(world.device), check(world.device)) };
+    let (version, verdict) = unsafe { (world.embree.version(world.device), world.embree.check(world.device)) };
     assert_eq!((version.major, version.minor), (BOUND_VERSION.major, BOUND_VERSION.minor));
     assert_eq!(verdict, Ok(()));
 }
@@ -124,7 +127,7 @@ fn a_single_ray_meets_both_triangles() {
         (rayhit.ray.tfar, rayhit.ray.mask, rayhit.ray.id) = (f32::INFINITY, !0, 7);
         rayhit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
         // SAFETY: the scene is committed; the structs are valid for the call.
-        unsafe { rtcIntersect1(world.scene, &mut rayhit, arguments) };
+        unsafe { world.embree.intersect1(world.scene, &mut rayhit, arguments) };
         let [t, u, v] = [rayhit.ray.tfar, rayhit.hit.u, rayhit.hit.v].map(rounded);
         closest.push((rayhit.hit.geomID, t, u, v));
     };
@@ -158,7 +161,7 @@ macro_rules! packet_test {
                 packet.ray.id = std::array::from_fn(|lane| lane as u32);
                 packet.hit.geomID = [RTC_INVALID_GEOMETRY_ID; $width];
                 // SAFETY: the scene is committed; the structs are valid and aligned for the call.
-                unsafe { $intersect(valid.0.as_ptr(), world.scene, &mut packet, arguments) };
+                unsafe { world.embree.$intersect(valid.0.as_ptr(), world.scene, &mut packet, arguments) };
                 let [t, u, v] = [packet.ray.tfar[0], packet.hit.u[0], packet.hit.v[0]].map(rounded);
                 closest.push((packet.hit.geomID[0], t, u, v));
                 assert_eq!(packet.hit.geomID[$width - 1], RTC_INVALID_GEOMETRY_ID);
@@ -173,9 +176,9 @@ macro_rules! packet_test {
     };
 }
 
-packet_test!(four_rays_meet_both_triangles, RTCRayHit4, rtcIntersect4, 4);
-packet_test!(eight_rays_meet_both_triangles, RTCRayHit8, rtcIntersect8, 8);
-packet_test!(sixteen_rays_meet_both_triangles, RTCRayHit16, rtcIntersect16, 16);
+packet_test!(four_rays_meet_both_triangles, RTCRayHit4, intersect4, 4);
+packet_test!(eight_rays_meet_both_triangles, RTCRayHit8, intersect8, 8);
+packet_test!(sixteen_rays_meet_both_triangles, RTCRayHit16, intersect16, 16);
 
 /// The device's error function gets the text of an error, and the device its code.
 #[test]
@@ -188,10 +191,10 @@ fn errors_come_with_their_text() {
     let mut text = String::new();
     // SAFETY: the string outlives the device's use of it; Embree refuses a type of geometry that does not exist.
     let code = unsafe {
-        rtcSetDeviceErrorFunction(world.device, Some(note), ptr::from_mut(&mut text).cast());
-        rtcNewGeometry(world.device, RTCGeometryType::MAX);
-        rtcSetDeviceErrorFunction(world.device, None, ptr::null_mut());
-        rtcGetDeviceError(world.device)
+        world.embree.rtcSetDeviceErrorFunction(world.device, Some(note), ptr::from_mut(&mut text).cast());
+        world.embree.rtcNewGeometry(world.device, RTCGeometryType::MAX);
+        world.embree.rtcSetDeviceErrorFunction(world.device, None, ptr::null_mut());
+        world.embree.rtcGetDeviceError(world.device)
     };
     assert_ne!(code, RTC_ERROR_NONE);
     assert!(!text.is_empty());
