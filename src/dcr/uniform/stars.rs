@@ -201,7 +201,9 @@ impl<'a> Accumulator<'a> {
     /// Gathers in the triangles between the last neighbours and the `k`-th.
     #[inline(always)]
     fn add_triangles(&mut self, [xs, ys]: [Lanes; 2], k: u32) {
-        let &Constraints { conflict_radius, coverage_radius, .. } = self.constraints;
+        // A copy: loads of its numbers under a condition would keep the loop from becoming vectors.
+        let constraints = *self.constraints;
+        let Constraints { conflict_radius, coverage_radius, .. } = constraints;
         for i in 0..LANES {
             let is = k < self.degrees[i];
             let (x, y) = (xs[i], ys[i]);
@@ -220,7 +222,7 @@ impl<'a> Accumulator<'a> {
 
             let distance = squared.sqrt();
             let is_close = is & (squared < conflict_radius * conflict_radius) & (squared != 0.0);
-            let pushed = if is_close { self.constraints.conflict(distance) } else { 0.0 };
+            let pushed = if is_close { constraints.conflict(distance) } else { 0.0 };
 
             let product = before_squared * squared * opposite;
             let is_wide = |radius: f32| product > (2.0 * radius * area) * (2.0 * radius * area);
@@ -229,7 +231,7 @@ impl<'a> Accumulator<'a> {
             let centre_y = (squared * before_x - before_squared * x) * share;
             let radius = (centre_x * centre_x + centre_y * centre_y).sqrt();
             let is_pulled = is & is_wide(coverage_radius) & (radius > 0.0) & (radius < f32::INFINITY);
-            let pulled = self.constraints.hole(radius);
+            let pulled = constraints.hole(radius);
             self.force[0][i] += pushed * x;
             self.force[1][i] += pushed * y;
             self.force[0][i] += if is_pulled { pulled * centre_x } else { 0.0 };
