@@ -19,7 +19,7 @@ const IMPORTING: &[(&str, usize)] = &[
     ("dcr/surface/relaxation.rs", 16),
     ("dcr/thesis/mod.rs", 13),
     ("dcr/uniform/classes.rs", 16),
-    ("dcr/uniform/mod.rs", 19),
+    ("dcr/uniform/mod.rs", 18),
     ("kdrt/classes/mod.rs", 17),
     ("kdrt/count.rs", 14),
     ("kdrt/merge.rs", 13),

@@ -14,7 +14,6 @@ use spade::{DelaunayTriangulation, HasPosition, Point2, Triangulation};
 use crate::dcr::law::Constraints;
 use crate::dcr::torus::{Torus, TorusPoint, must_flip, nudge};
 use crate::dcr::uniform::stars::{Gathered, Stars, Visitor};
-use crate::dcr::uniform::vectors::gather_in_stars;
 use crate::error::Result;
 use crate::geometry::{Delaunay, circumradius_squared};
 use crate::index::Binned;
@@ -103,7 +102,7 @@ impl FlipMesh {
         visitor: &mut impl Visitor,
     ) {
         let stars = Stars { rings: &self.rings, torus: &self.torus, places, constraints };
-        gather_in_stars(level, &stars, points, visitor);
+        stars.gather(level, points, visitor);
     }
 
     /// Makes the mesh the Delaunay triangulation of these points; false if a triangle has turned over.
