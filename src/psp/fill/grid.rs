@@ -130,6 +130,7 @@ impl Grid {
         // the centre of the fragment than three quarters of the way to a corner, which is two thirds of the longest
         // edge.
         let reach = (self.space.radius() + 0.5 * longest) as f32;
+        let corners = corners.map(|corner| corner.to_array().map(Apart));
         run(self.level, OpenSixteenths { grid: self, corners, reach, normal: &normal, open })
     }
 
@@ -207,15 +208,20 @@ impl Grid {
 /// The sixteenths of a fragment, among the `open` ones, that no single sample certainly covers. Samples beyond `reach`
 /// of its centre cover none.
 ///
-/// The cells and the tests of their pages are one function, in which the corners stay in registers: a load across two
-/// fresh stores waits for both.
+/// The cells and the tests of their pages are one function, in which the corners stay in registers.
 struct OpenSixteenths<'a> {
     grid: &'a Grid,
-    corners: &'a [DVec3; 3],
+    corners: [[Apart; 3]; 3],
     reach: f32,
     normal: &'a [f32; 3],
     open: u16,
 }
+
+/// A number with a gap before the next. Without gaps compilers load several numbers at once, and a load across fresh
+/// stores waits until all of them are in the cache.
+#[derive(Clone, Copy)]
+#[repr(align(16))]
+struct Apart(f64);
 
 impl Work for OpenSixteenths<'_> {
     type Out = u16;
@@ -223,10 +229,11 @@ impl Work for OpenSixteenths<'_> {
     #[inline(always)]
     fn run<L: Lanes>(self, lanes: L) -> u16 {
         let Self { grid, corners, reach, normal, open } = self;
-        let cells = piercing_cells(lanes, grid, corners);
+        let corners = corners.map(|[x, y, z]| DVec3::new(x.0, y.0, z.0));
+        let cells = piercing_cells(lanes, grid, &corners);
         let mut numbers = [0; HALF];
         lanes.store_longs(cells, &mut numbers);
-        let part = Part::new(*corners, reach);
+        let part = Part::new(corners, reach);
         let (s, t) = (lanes.load(&CORNERS[0]), lanes.load(&CORNERS[1]));
         let corners = [0, 1, 2].map(|axis| [part.corner[axis], part.edges[0][axis], part.edges[1][axis]]);
         let corners =
